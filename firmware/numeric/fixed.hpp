@@ -1,0 +1,188 @@
+/// Binary fixed-point numbers in two's complement.
+///
+/// Rounding, everywhere alike (multiplication, division, conversion): to nearest, ties toward
+/// +infinity. Overflow, everywhere alike: the nearest end of the range, reported to the policy.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <type_traits>
+
+#include "firmware/numeric/overflow.hpp"
+
+namespace sonoglide::numeric {
+
+static_assert((-1 >> 1) == -1, "right shift of a negative number must be arithmetic");
+
+/// value / 2^shift, rounded to nearest, ties toward +infinity; value + 2^(shift-1) must not
+/// overflow.
+template <class Integer>
+constexpr Integer shift_right_rounded(Integer value, int shift) {
+  if (shift == 0) {
+    return value;
+  }
+  return static_cast<Integer>((value + (Integer{1} << (shift - 1))) >> shift);
+}
+
+/// Integer nearest to x, ties toward +infinity; |x| must lie within the range of Integer.
+template <class Integer, class Float>
+constexpr Integer round_half_up(Float x) {
+  const auto truncated = static_cast<Integer>(x);
+  const Float rest = x - static_cast<Float>(truncated);
+  if (rest >= static_cast<Float>(0.5)) {
+    return truncated + 1;
+  }
+  return rest < static_cast<Float>(-0.5) ? truncated - 1 : truncated;
+}
+
+/// A number raw * 2^-FractionBits.
+///
+/// @tparam Storage       std::int16_t or std::int32_t; results are exact before the one rounding,
+/// in
+///                       a type of twice that width.
+/// @tparam FractionBits  0 to 15 or 31; with the largest the range is [-1, 1).
+/// @tparam Policy        see overflow.hpp.
+/// Conversions are explicit only. Division by zero is an overflow: the end of the range on the side
+/// of the dividend's sign, and 0 for 0/0.
+template <class Storage, int FractionBits, class Policy>
+class Fixed {
+  static_assert(std::is_same_v<Storage, std::int16_t> || std::is_same_v<Storage, std::int32_t>);
+  static_assert(FractionBits >= 0 && FractionBits <= std::numeric_limits<Storage>::digits);
+
+ public:
+  using Raw = Storage;
+  using Overflow = Policy;
+  using Wide =
+      std::conditional_t<std::is_same_v<Storage, std::int16_t>, std::int32_t, std::int64_t>;
+  static constexpr int fraction_bits = FractionBits;
+
+  constexpr Fixed() = default;
+
+  static constexpr Fixed from_raw(Storage raw) {
+    Fixed result;
+    result.raw_ = raw;
+    return result;
+  }
+
+  /// Raw value of a wider type, brought into range by the policy.
+  template <class Integer>
+  static constexpr Fixed from_wide(Integer raw) {
+    static_assert(sizeof(Integer) >= sizeof(Wide));
+    if (raw > Integer{std::numeric_limits<Storage>::max()}) {
+      Overflow::on_overflow();
+      return largest();
+    }
+    if (raw < Integer{std::numeric_limits<Storage>::min()}) {
+      Overflow::on_overflow();
+      return lowest();
+    }
+    return from_raw(static_cast<Storage>(raw));
+  }
+
+  /// For constants and for the host; NaN is an overflow and gives 0.
+  static constexpr Fixed from_real(double value) {
+    const double scaled = value * unit;
+    if (!(scaled >= static_cast<double>(std::numeric_limits<Storage>::min()) - 0.5)) {
+      Overflow::on_overflow();
+      return scaled < 0.0 ? lowest() : Fixed();
+    }
+    if (scaled >= static_cast<double>(std::numeric_limits<Storage>::max()) + 0.5) {
+      Overflow::on_overflow();
+      return largest();
+    }
+    return from_raw(static_cast<Storage>(round_half_up<std::int64_t>(scaled)));
+  }
+
+  static constexpr Fixed largest() { return from_raw(std::numeric_limits<Storage>::max()); }
+  static constexpr Fixed lowest() { return from_raw(std::numeric_limits<Storage>::min()); }
+
+  constexpr Storage raw() const { return raw_; }
+  /// Exact. For the host.
+  constexpr double to_real() const { return static_cast<double>(raw_) / unit; }
+
+  friend constexpr Fixed operator+(Fixed a, Fixed b) { return from_wide(Wide{a.raw_} + b.raw_); }
+  friend constexpr Fixed operator-(Fixed a, Fixed b) { return from_wide(Wide{a.raw_} - b.raw_); }
+  friend constexpr Fixed operator-(Fixed a) { return from_wide(-Wide{a.raw_}); }
+  friend constexpr Fixed operator*(Fixed a, Fixed b) { return from_wide(rounded_product(a, b)); }
+  friend constexpr Fixed operator/(Fixed a, Fixed b) {
+    return b.raw_ == 0 ? divided_by_zero(a) : from_wide(rounded_quotient(a, b));
+  }
+
+  constexpr Fixed& operator+=(Fixed other) { return *this = *this + other; }
+  constexpr Fixed& operator-=(Fixed other) { return *this = *this - other; }
+  constexpr Fixed& operator*=(Fixed other) { return *this = *this * other; }
+  constexpr Fixed& operator/=(Fixed other) { return *this = *this / other; }
+
+  friend constexpr bool operator==(Fixed a, Fixed b) { return a.raw_ == b.raw_; }
+  friend constexpr bool operator!=(Fixed a, Fixed b) { return a.raw_ != b.raw_; }
+  friend constexpr bool operator<(Fixed a, Fixed b) { return a.raw_ < b.raw_; }
+  friend constexpr bool operator<=(Fixed a, Fixed b) { return a.raw_ <= b.raw_; }
+  friend constexpr bool operator>(Fixed a, Fixed b) { return a.raw_ > b.raw_; }
+  friend constexpr bool operator>=(Fixed a, Fixed b) { return a.raw_ >= b.raw_; }
+
+  /// a * b as a raw value, rounded but not yet brought into range.
+  static constexpr Wide rounded_product(Fixed a, Fixed b) {
+    return shift_right_rounded<Wide>(Wide{a.raw_} * Wide{b.raw_}, FractionBits);
+  }
+
+ private:
+  static constexpr double unit = static_cast<double>(std::int64_t{1} << FractionBits);
+
+  static constexpr Wide rounded_quotient(Fixed a, Fixed b) {
+    const Wide sign = b.raw_ < 0 ? -1 : 1;
+    const Wide divisor = sign * b.raw_;
+    const Wide dividend = sign * a.raw_ * (Wide{1} << FractionBits);
+    const Wide quotient = dividend / divisor;
+    const Wide rest = dividend % divisor;
+    const Wide up = rest >= divisor - rest ? 1 : 0;
+    const Wide down = -rest > divisor + rest ? 1 : 0;
+    return quotient + up - down;
+  }
+
+  static constexpr Fixed divided_by_zero(Fixed dividend) {
+    Overflow::on_overflow();
+    if (dividend.raw_ == 0) {
+      return Fixed();
+    }
+    return dividend.raw_ < 0 ? lowest() : largest();
+  }
+
+  Storage raw_ = 0;
+};
+
+/// Range [-1, 1), steps of 2^-31.
+template <class Overflow>
+using Q31 = Fixed<std::int32_t, 31, Overflow>;
+/// Range [-1, 1), steps of 2^-15.
+template <class Overflow>
+using Q15 = Fixed<std::int16_t, 15, Overflow>;
+
+/// The same number in another format or under another policy; overflow is the target's.
+template <class Target, class Storage, int FractionBits, class Overflow>
+constexpr Target fixed_cast(Fixed<Storage, FractionBits, Overflow> x) {
+  constexpr int shift = Target::fraction_bits - FractionBits;
+  std::int64_t raw = x.raw();
+  if constexpr (shift >= 0) {
+    raw *= std::int64_t{1} << shift;
+  } else {
+    raw = shift_right_rounded(raw, -shift);
+  }
+  return Target::from_wide(raw);
+}
+
+/// Sum of a[i] * b[i], i < n <= 2^31: each product rounded as by operator*, none brought into
+/// range, one saturation at the end.
+template <class Storage, int FractionBits, class Overflow>
+constexpr Fixed<Storage, FractionBits, Overflow> dot(
+    const Fixed<Storage, FractionBits, Overflow>* a,
+    const Fixed<Storage, FractionBits, Overflow>* b, std::size_t n) {
+  using Number = Fixed<Storage, FractionBits, Overflow>;
+  std::int64_t sum = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    sum += Number::rounded_product(a[i], b[i]);
+  }
+  return Number::from_wide(sum);
+}
+
+}  // namespace sonoglide::numeric

@@ -1,0 +1,177 @@
+/// Elementary functions of Q31 and Q15 in integer arithmetic alone.
+///
+/// Error bounds are in units of the last place (LSB) of the result's format, over every argument. A
+/// result of +1, which the format lacks, is given as the largest value: that is within the bound
+/// and not an overflow.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+
+#include "firmware/numeric/binary_constant.hpp"
+#include "firmware/numeric/fixed.hpp"
+#include "firmware/numeric/fixed_polynomial.hpp"
+#include "firmware/numeric/float_exponential.hpp"
+#include "firmware/numeric/float_series.hpp"
+#include "firmware/numeric/integer_root.hpp"
+
+namespace sonoglide::numeric {
+
+namespace detail {
+
+/// (pi/4)^(first + 2k) (-1)^k / (first + 2k)!: the series of sin(pi/4 t) / t and cos(pi/4 t) in
+/// t^2.
+template <std::size_t Terms>
+constexpr std::array<double, Terms> eighth_turn_series(int first) {
+  constexpr double angle = pi<double>.value / 4.0;
+  std::array<double, Terms> result{};
+  double term = first == 0 ? 1.0 : angle;
+  for (std::size_t k = 0; k < Terms; ++k) {
+    result[k] = term;
+    const int next = first + 2 * static_cast<int>(k) + 1;
+    term *= -angle * angle / (static_cast<double>(next) * (next + 1));
+  }
+  return result;
+}
+
+/// exp(-1/2) / (2^k k!): the series of exp((w - 1) / 2) in w.
+template <std::size_t Terms>
+constexpr std::array<double, Terms> centred_exponential_series() {
+  std::array<double, Terms> result{};
+  double term = exp(-0.5);
+  for (std::size_t k = 0; k < Terms; ++k) {
+    result[k] = term;
+    term /= 2.0 * static_cast<double>(k + 1);
+  }
+  return result;
+}
+
+/// The series of asin(t / 2) / (pi t) in t^2.
+template <std::size_t Terms>
+constexpr std::array<double, Terms> half_arcsine_series() {
+  constexpr auto arcsine = arcsine_series<double, Terms - 1>();
+  std::array<double, Terms> result{};
+  double scale = 1.0 / (2.0 * pi<double>.value);
+  result[0] = scale;
+  for (std::size_t k = 1; k < Terms; ++k) {
+    scale /= 4.0;
+    result[k] = scale * arcsine[k - 1];
+  }
+  return result;
+}
+
+// Terms: the first one left out is below a tenth of a Q31 LSB.
+inline constexpr FixedPolynomial<6> eighth_turn_sine{eighth_turn_series<6>(1), 32};
+inline constexpr FixedPolynomial<7> eighth_turn_cosine{eighth_turn_series<7>(0), 40};
+inline constexpr FixedPolynomial<11> centred_exponential{centred_exponential_series<11>(), 40};
+inline constexpr FixedPolynomial<14> half_arcsine{half_arcsine_series<14>(), 34};
+
+constexpr std::int64_t q31_square(std::int64_t x) {
+  return shift_right_rounded(x * x, 31);
+}
+
+/// sin(pi x + quarter_turns pi/2); x and the result, in [-1, 1], with 31 fraction bits.
+constexpr std::int64_t q31_sine(std::int64_t x, unsigned quarter_turns) {
+  const auto angle = static_cast<std::uint32_t>(x);
+  const std::uint32_t nearest = (angle + (1U << 29)) >> 30;
+  const auto rest = static_cast<std::int32_t>(angle - (nearest << 30));
+  const std::int64_t t = (rest < 0 ? -std::int64_t{rest} : std::int64_t{rest}) * 4;
+  const unsigned quadrant = nearest + quarter_turns;
+  const bool flipped = (quadrant & 2U) != 0U;
+  if ((quadrant & 1U) != 0U) {
+    const std::int64_t cosine = shift_right_rounded(eighth_turn_cosine(q31_square(t)), 9);
+    return flipped ? -cosine : cosine;
+  }
+  const std::int64_t sine = shift_right_rounded(t * eighth_turn_sine(q31_square(t)), 32);
+  return flipped != (rest < 0) ? -sine : sine;
+}
+
+/// asin(x) / pi, x in [-1, 1), both with 31 fraction bits.
+constexpr std::int64_t q31_arcsine(std::int64_t x) {
+  constexpr std::int64_t one_half = std::int64_t{1} << 30;
+  const std::int64_t magnitude = x < 0 ? -x : x;
+  std::int64_t result = 0;
+  if (magnitude <= one_half) {
+    const std::int64_t t = 2 * magnitude;
+    result = shift_right_rounded(t * half_arcsine(q31_square(t)), 34);
+  } else {
+    // asin x = pi/2 - 2 asin s, s = sqrt((1 - x) / 2); s with 32 fraction bits is 2 s with 31.
+    const auto complement = static_cast<std::uint64_t>(2 * one_half - magnitude);
+    const auto t = static_cast<std::int64_t>(nearest_root(complement << 32));
+    result = one_half - shift_right_rounded(t * half_arcsine(q31_square(t)), 33);
+  }
+  return x < 0 ? -result : result;
+}
+
+/// exp(x), x in [-1, 0], both with 31 fraction bits.
+constexpr std::int64_t q31_exponential(std::int64_t x) {
+  constexpr std::int64_t one = std::int64_t{1} << 31;
+  return shift_right_rounded(centred_exponential(2 * x + one), 9);
+}
+
+/// A number in [-1, 1) as an integer with 31 fraction bits.
+template <class Number>
+constexpr std::int64_t to_q31(Number x) {
+  static_assert(Number::fraction_bits == std::numeric_limits<typename Number::Raw>::digits,
+                "the range must be [-1, 1)");
+  return std::int64_t{x.raw()} * (std::int64_t{1} << (31 - Number::fraction_bits));
+}
+
+/// A result in [-1, 1] with 31 fraction bits as a number; +1 becomes the largest value.
+template <class Number>
+constexpr Number from_q31(std::int64_t result) {
+  const std::int64_t raw = shift_right_rounded(result, 31 - Number::fraction_bits);
+  constexpr std::int64_t largest = std::numeric_limits<typename Number::Raw>::max();
+  return Number::from_raw(static_cast<typename Number::Raw>(raw < largest ? raw : largest));
+}
+
+}  // namespace detail
+
+/// sin(pi x): the raw value is the angle, its full range the full circle. Never overflows.
+/// Error <= 1 LSB in Q31 and in Q15.
+template <class Storage, int FractionBits, class Overflow>
+constexpr Fixed<Storage, FractionBits, Overflow> sin_pi(Fixed<Storage, FractionBits, Overflow> x) {
+  return detail::from_q31<decltype(x)>(detail::q31_sine(detail::to_q31(x), 0));
+}
+
+/// cos(pi x): as sin_pi.
+/// Error <= 1 LSB in Q31 and in Q15.
+template <class Storage, int FractionBits, class Overflow>
+constexpr Fixed<Storage, FractionBits, Overflow> cos_pi(Fixed<Storage, FractionBits, Overflow> x) {
+  return detail::from_q31<decltype(x)>(detail::q31_sine(detail::to_q31(x), 1));
+}
+
+/// asin(x) / pi in [-1/2, 1/2]: the inverse of sin_pi. Never overflows.
+/// Error <= 1 LSB in Q31 and in Q15.
+template <class Storage, int FractionBits, class Overflow>
+constexpr Fixed<Storage, FractionBits, Overflow> asin_per_pi(
+    Fixed<Storage, FractionBits, Overflow> x) {
+  return detail::from_q31<decltype(x)>(detail::q31_arcsine(detail::to_q31(x)));
+}
+
+/// exp(x) for x in [-1, 0], in (0.367, 1]; x > 0 overflows.
+/// Error <= 1 LSB in Q31 and in Q15.
+template <class Storage, int FractionBits, class Overflow>
+constexpr Fixed<Storage, FractionBits, Overflow> exp(Fixed<Storage, FractionBits, Overflow> x) {
+  if (x.raw() > 0) {
+    Overflow::on_overflow();
+    return decltype(x)::largest();
+  }
+  return detail::from_q31<decltype(x)>(detail::q31_exponential(detail::to_q31(x)));
+}
+
+/// sqrt(x) in [0, 1); x < 0 overflows and gives 0.
+/// Error <= 1/2 LSB in Q31, 0.501 LSB in Q15.
+template <class Storage, int FractionBits, class Overflow>
+constexpr Fixed<Storage, FractionBits, Overflow> sqrt(Fixed<Storage, FractionBits, Overflow> x) {
+  if (x.raw() < 0) {
+    Overflow::on_overflow();
+    return {};
+  }
+  const auto square = static_cast<std::uint64_t>(detail::to_q31(x)) << 31;
+  return detail::from_q31<decltype(x)>(static_cast<std::int64_t>(nearest_root(square)));
+}
+
+}  // namespace sonoglide::numeric

@@ -1,0 +1,57 @@
+/// Polynomials in integer arithmetic, every coefficient in the finest format that its size allows.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "firmware/numeric/fixed.hpp"
+#include "firmware/numeric/float_format.hpp"
+
+namespace sonoglide::numeric {
+
+/// Sum of c[k] z^k for |z| <= 1, z with 31 fraction bits, by Horner's rule.
+///
+/// The partial sum from term k on is kept with as many fraction bits as fit 31 bits and a sign, so
+/// the small sums at the far end are rounded finely; what counts is the rounding of the last sum.
+template <std::size_t Terms>
+class FixedPolynomial {
+ public:
+  /// @param fraction_bits  of the result, which may use all of 63 bits.
+  constexpr FixedPolynomial(const std::array<double, Terms>& coefficients, int fraction_bits) {
+    double bound = 0.0;
+    int bits_after = 0;
+    for (std::size_t k = Terms; k-- > 0;) {
+      bound += abs_of(coefficients[k]);
+      const int bits = k == 0 ? fraction_bits : finest_format(bound);
+      coefficients_[k] = round_half_up<std::int64_t>(coefficients[k] * power_of_two<double>(bits));
+      shifts_[k] = 31 + bits_after - bits;
+      bits_after = bits;
+    }
+  }
+
+  constexpr std::int64_t operator()(std::int64_t z) const {
+    std::int64_t sum = coefficients_[Terms - 1];
+    for (std::size_t k = Terms - 1; k-- > 0;) {
+      sum = coefficients_[k] + shift_right_rounded(z * sum, shifts_[k]);
+    }
+    return sum;
+  }
+
+ private:
+  static constexpr double abs_of(double x) { return x < 0.0 ? -x : x; }
+
+  /// Fraction bits that leave a magnitude of up to `bound` below 2^31.
+  static constexpr int finest_format(double bound) {
+    int bits = 0;
+    while (bound * power_of_two<double>(bits + 1) < 0x1p31) {
+      ++bits;
+    }
+    return bits;
+  }
+
+  std::array<std::int64_t, Terms> coefficients_{};
+  std::array<int, Terms> shifts_{};
+};
+
+}  // namespace sonoglide::numeric

@@ -1,0 +1,85 @@
+/// Taylor coefficients of the elementary functions, generated at compile time by their recurrences.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <type_traits>
+
+namespace sonoglide::numeric {
+
+namespace detail {
+
+template <class Float>
+inline constexpr bool is_double = std::is_same_v<Float, double>;
+
+/// (-1)^j / (first + 2 j)!, the Taylor series of sine (first = 3) and cosine (first = 4) after
+/// their leading terms, both in x^2. Every factorial in reach is exact in double.
+template <class Float, std::size_t Terms>
+constexpr std::array<Float, Terms> alternating_factorials(int first, double sign) {
+  std::array<Float, Terms> result{};
+  double factorial = 1.0;
+  for (int k = 2; k <= first; ++k) {
+    factorial *= k;
+  }
+  for (std::size_t j = 0; j < Terms; ++j) {
+    result[j] = static_cast<Float>(sign / factorial);
+    const int next = first + 2 * static_cast<int>(j) + 1;
+    factorial *= static_cast<double>(next) * (next + 1);
+    sign = -sign;
+  }
+  return result;
+}
+
+/// 1 / (j + 2)!, the Taylor series of the exponential after 1 + x.
+template <class Float, std::size_t Terms>
+constexpr std::array<Float, Terms> exponential_series() {
+  std::array<Float, Terms> result{};
+  double factorial = 2.0;
+  for (std::size_t j = 0; j < Terms; ++j) {
+    result[j] = static_cast<Float>(1.0 / factorial);
+    factorial *= static_cast<double>(j + 3);
+  }
+  return result;
+}
+
+/// 2 / (2 j + 3), the series of log((1 + s) / (1 - s)) = 2 s + s^3 (...) in s^2.
+template <class Float, std::size_t Terms>
+constexpr std::array<Float, Terms> logarithm_series() {
+  std::array<Float, Terms> result{};
+  for (std::size_t j = 0; j < Terms; ++j) {
+    result[j] = static_cast<Float>(2.0 / static_cast<double>(2 * j + 3));
+  }
+  return result;
+}
+
+/// (2k)! / (4^k k!^2 (2k + 1)), k = j + 1, the Taylor series of the arcsine after x, in x^2.
+template <class Float, std::size_t Terms>
+constexpr std::array<Float, Terms> arcsine_series() {
+  std::array<Float, Terms> result{};
+  double central = 1.0;
+  for (std::size_t j = 0; j < Terms; ++j) {
+    const double k = static_cast<double>(j + 1);
+    central *= (2.0 * k - 1.0) / (2.0 * k);
+    result[j] = static_cast<Float>(central / (2.0 * k + 1.0));
+  }
+  return result;
+}
+
+// Terms: the first one left out is below a quarter ulp at the end of the reduced range.
+template <class Float>
+inline constexpr auto sine_coefficients =
+    alternating_factorials<Float, is_double<Float> ? 8 : 4>(3, -1.0);
+template <class Float>
+inline constexpr auto cosine_coefficients =
+    alternating_factorials<Float, is_double<Float> ? 8 : 4>(4, 1.0);
+template <class Float>
+inline constexpr auto exponential_coefficients =
+    exponential_series<Float, is_double<Float> ? 12 : 6>();
+template <class Float>
+inline constexpr auto logarithm_coefficients = logarithm_series<Float, is_double<Float> ? 10 : 4>();
+template <class Float>
+inline constexpr auto arcsine_coefficients = arcsine_series<Float, is_double<Float> ? 24 : 10>();
+
+}  // namespace detail
+
+}  // namespace sonoglide::numeric

@@ -1,0 +1,201 @@
+/// What generic code may ask of its scalar, be it double, float or Fixed.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <type_traits>
+
+#include "firmware/numeric/fixed.hpp"
+#include "firmware/numeric/float_format.hpp"
+
+namespace sonoglide::numeric {
+
+template <class Scalar>
+struct IsFixedPoint : std::false_type {};
+template <class Storage, int FractionBits, class Overflow>
+struct IsFixedPoint<Fixed<Storage, FractionBits, Overflow>> : std::true_type {};
+
+template <class Scalar>
+inline constexpr bool is_fixed_point_v = IsFixedPoint<Scalar>::value;
+
+/// Nearest value of the scalar; fixed point rounds ties toward +infinity and overflows by policy.
+/// For constants and the host: a board without a double unit should meet it at compile time only.
+template <class Scalar>
+constexpr Scalar from_real(double value) {
+  if constexpr (is_fixed_point_v<Scalar>) {
+    return Scalar::from_real(value);
+  } else {
+    return static_cast<Scalar>(value);
+  }
+}
+
+/// Exact. For the host.
+template <class Scalar>
+constexpr double to_real(Scalar x) {
+  if constexpr (is_fixed_point_v<Scalar>) {
+    return x.to_real();
+  } else {
+    return static_cast<double>(x);
+  }
+}
+
+/// |x|; the lowest fixed-point value overflows.
+template <class Scalar>
+constexpr Scalar abs(Scalar x) {
+  return x < Scalar{} ? -x : x;
+}
+
+template <class Scalar>
+constexpr Scalar min(Scalar a, Scalar b) {
+  return b < a ? b : a;
+}
+
+template <class Scalar>
+constexpr Scalar max(Scalar a, Scalar b) {
+  return a < b ? b : a;
+}
+
+/// x limited to [low, high], low <= high; NaN stays NaN.
+template <class Scalar>
+constexpr Scalar clamp(Scalar x, Scalar low, Scalar high) {
+  if (x < low) {
+    return low;
+  }
+  return high < x ? high : x;
+}
+
+/// False for NaN and the infinities; a fixed-point number is always finite.
+template <class Scalar>
+constexpr bool is_finite(Scalar x) {
+  if constexpr (is_fixed_point_v<Scalar>) {
+    return true;
+  } else {
+    return abs(x) <= std::numeric_limits<Scalar>::max();
+  }
+}
+
+/// 2 x; overflow by policy or by IEEE-754.
+template <class Scalar>
+constexpr Scalar twice(Scalar x) {
+  return x + x;
+}
+
+/// x / 2; fixed point rounds ties toward +infinity.
+template <class Scalar>
+constexpr Scalar half(Scalar x) {
+  if constexpr (is_fixed_point_v<Scalar>) {
+    using Raw = typename Scalar::Raw;
+    using Wide = typename Scalar::Wide;
+    return Scalar::from_raw(static_cast<Raw>(shift_right_rounded<Wide>(x.raw(), 1)));
+  } else {
+    return x * static_cast<Scalar>(0.5);
+  }
+}
+
+/// x * 2^n, rounded once; overflow by policy or by IEEE-754.
+template <class Scalar>
+constexpr Scalar scale_by_power_of_two(Scalar x, int n) {
+  if constexpr (is_fixed_point_v<Scalar>) {
+    constexpr int width = std::numeric_limits<typename Scalar::Raw>::digits + 1;
+    if (n >= 0) {
+      const int shift = n < width ? n : width;  // further shifts overflow as well
+      return Scalar::from_wide(std::int64_t{x.raw()} * (std::int64_t{1} << shift));
+    }
+    const int shift = n > -width ? -n : width;  // further shifts give 0 as well
+    return Scalar::from_wide(shift_right_rounded(std::int64_t{x.raw()}, shift));
+  } else {
+    constexpr int highest = std::numeric_limits<Scalar>::max_exponent - 1;
+    constexpr int lowest = std::numeric_limits<Scalar>::min_exponent - 1;
+    // A step down stops short of the subnormals, so that only the last one can round.
+    constexpr int down = lowest + std::numeric_limits<Scalar>::digits;
+    for (int step = 0; step < 2 && n > highest; ++step, n -= highest) {
+      x *= power_of_two<Scalar>(highest);
+    }
+    for (int step = 0; step < 2 && n < lowest; ++step, n -= down) {
+      x *= power_of_two<Scalar>(down);
+    }
+    return x * power_of_two<Scalar>(clamp(n, lowest, highest));
+  }
+}
+
+/// x = mantissa * 2^exponent.
+template <class Scalar>
+struct Split {
+  Scalar mantissa;
+  int exponent;
+};
+
+/// Splits x > 0 into a mantissa in [0.5, 1) and a power of two; 0, negative numbers, infinity and
+/// NaN come back whole, with exponent 0.
+///
+/// Exact, subnormals included; only a fixed-point value above 1 that has more digits than the
+/// mantissa's fraction holds is rounded. A fixed-point format needs at least one fraction bit.
+template <class Scalar>
+constexpr Split<Scalar> split(Scalar x) {
+  if (!(x > Scalar{}) || !is_finite(x)) {
+    return {x, 0};
+  }
+  if constexpr (is_fixed_point_v<Scalar>) {
+    static_assert(Scalar::fraction_bits > 0);
+    const int width = 32 - __builtin_clz(static_cast<unsigned>(x.raw()));
+    const int exponent = width - Scalar::fraction_bits;
+    const Scalar mantissa = scale_by_power_of_two(x, -exponent);
+    constexpr std::int64_t one = std::int64_t{1} << Scalar::fraction_bits;
+    if (mantissa.raw() == one) {
+      return {half(mantissa), exponent + 1};
+    }
+    return {mantissa, exponent};
+  } else {
+    using Format = FloatFormat<Scalar>;
+    const bool subnormal = x < std::numeric_limits<Scalar>::min();
+    const int lift = subnormal ? std::numeric_limits<Scalar>::digits : 0;
+    const Scalar normal = x * power_of_two<Scalar>(lift);
+    const FloatBits<Scalar> bits = to_bits(normal);
+    const int exponent =
+        static_cast<int>(bits >> Format::fraction_bits) - Format::exponent_bias + 1;
+    const auto shift = static_cast<FloatBits<Scalar>>(exponent) << Format::fraction_bits;
+    return {from_bits<Scalar>(bits - shift), exponent - lift};
+  }
+}
+
+/// A left-justified converter code as a number: code * 2^-31, rounded to the scalar.
+template <class Scalar>
+constexpr Scalar from_code(std::int32_t code) {
+  if constexpr (is_fixed_point_v<Scalar>) {
+    return fixed_cast<Scalar>(Q31<typename Scalar::Overflow>::from_raw(code));
+  } else {
+    return static_cast<Scalar>(code) * power_of_two<Scalar>(-31);
+  }
+}
+
+/// The converter code nearest to x * 2^31, ties toward +infinity, limited to [-2^31, 2^31 - 1].
+/// NaN gives 0. In fixed point the limiting is an overflow of the scalar's policy.
+template <class Scalar>
+constexpr std::int32_t to_code(Scalar x) {
+  if constexpr (is_fixed_point_v<Scalar>) {
+    return fixed_cast<Q31<typename Scalar::Overflow>>(x).raw();
+  } else {
+    using Code = std::numeric_limits<std::int32_t>;
+    const Scalar scaled = x * power_of_two<Scalar>(31);
+    if (scaled >= static_cast<Scalar>(2147483647.5)) {
+      return Code::max();
+    }
+    if (scaled > static_cast<Scalar>(-2147483648.0)) {
+      return round_half_up<std::int32_t>(scaled);
+    }
+    return scaled < Scalar{0} ? Code::min() : 0;
+  }
+}
+
+/// Sum of a[i] * b[i], i < n, from left to right.
+template <class Float, std::enable_if_t<std::is_floating_point_v<Float>, int> = 0>
+constexpr Float dot(const Float* a, const Float* b, std::size_t n) {
+  Float sum = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    sum += a[i] * b[i];
+  }
+  return sum;
+}
+
+}  // namespace sonoglide::numeric

@@ -1,0 +1,54 @@
+# A room is one folder with one purpose. Its target sees, under the include
+# root, its own folder and those of the rooms it links, and nothing else: an
+# include against the arrows does not find its file.
+
+# sonoglide_room(<target> <folder> [USES <rooms>...] [LIBRARIES <libraries>...])
+function(sonoglide_room target folder)
+  cmake_parse_arguments(ROOM "" "" "USES;LIBRARIES" ${ARGN})
+  set(root "${PROJECT_BINARY_DIR}/rooms/${target}")
+  get_filename_component(parent "${root}/${folder}" DIRECTORY)
+  file(MAKE_DIRECTORY "${parent}")
+  file(CREATE_LINK "${PROJECT_SOURCE_DIR}/${folder}" "${root}/${folder}" SYMBOLIC)
+
+  file(GLOB sources CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/${folder}/*.cpp")
+  file(GLOB headers CONFIGURE_DEPENDS "${root}/${folder}/*.hpp")
+  if(sources)
+    add_library(${target} STATIC ${sources})
+    set(scope PUBLIC)
+    target_link_libraries(${target} PRIVATE sonoglide_warnings)
+  else()
+    add_library(${target} INTERFACE)
+    set(scope INTERFACE)
+  endif()
+  target_sources(${target} ${scope} FILE_SET HEADERS BASE_DIRS "${root}" FILES ${headers})
+  target_link_libraries(${target} ${scope} sonoglide_language ${ROOM_USES} ${ROOM_LIBRARIES})
+  sonoglide_check_headers(${target} "${folder}" "${headers}")
+endfunction()
+
+# Compiles every header of a room alone, with nothing in sight but the room's
+# own arrows: a header-only room is held to them too.
+function(sonoglide_check_headers target folder headers)
+  set(checks "")
+  foreach(header IN LISTS headers)
+    get_filename_component(name "${header}" NAME_WE)
+    set(check "${PROJECT_BINARY_DIR}/header_checks/${target}/${name}.cpp")
+    set(text "#include \"${folder}/${name}.hpp\"\n")
+    file(CONFIGURE OUTPUT "${check}" CONTENT "${text}" @ONLY)
+    list(APPEND checks "${check}")
+  endforeach()
+  if(checks)
+    add_library(${target}_headers OBJECT ${checks})
+    target_link_libraries(${target}_headers PRIVATE ${target} sonoglide_warnings)
+    if(folder MATCHES "^(firmware|hal)/" OR folder STREQUAL "hal")
+      target_link_libraries(${target}_headers PRIVATE sonoglide_freestanding)
+    endif()
+  endif()
+endfunction()
+
+# sonoglide_test(<name> SOURCES <files>... USES <targets>...): one GoogleTest program.
+function(sonoglide_test name)
+  cmake_parse_arguments(TEST "" "" "SOURCES;USES" ${ARGN})
+  add_executable(${name} ${TEST_SOURCES})
+  target_link_libraries(${name} PRIVATE ${TEST_USES} sonoglide_warnings GTest::gtest_main)
+  gtest_discover_tests(${name} TEST_PREFIX "${name}." DISCOVERY_TIMEOUT 60)
+endfunction()
