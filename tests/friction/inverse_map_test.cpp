@@ -1,0 +1,86 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstddef>
+
+#include "firmware/friction/dahl_friction_ratio.hpp"
+#include "firmware/friction/dahl_inverse_map.hpp"
+#include "firmware/numeric/fixed.hpp"
+
+namespace sonoglide::friction {
+namespace {
+
+static_assert(sizeof(dahl_inverse_table) <= 4096, "the inverse map's constants fit 4 KiB");
+
+template <class Scalar>
+double velocity_ratio(double ratio, double lambda) {
+  const numeric::Split<double> parts = numeric::split(lambda);
+  return numeric::to_real(dahl_velocity_ratio(
+      numeric::from_real<Scalar>(0.5 * ratio),
+      numeric::Split<Scalar>{numeric::from_real<Scalar>(parts.mantissa), parts.exponent}));
+}
+
+template <class Scalar>
+class DahlInverseMap : public testing::Test {};
+using Scalars = testing::Types<double, float, numeric::Q31<numeric::Saturating>,
+                               numeric::Q31<numeric::Trapping>>;
+TYPED_TEST_SUITE(DahlInverseMap, Scalars);
+
+TYPED_TEST(DahlInverseMap, ReturnsToTheRatioWithin0002) {
+  double worst = 0.0;
+  for (int i = 0; i <= 250; ++i) {
+    const double dahl_number = std::pow(10.0, -2.0 + 5.0 * i / 250);
+    for (int j = 1; j <= 400; ++j) {
+      const double r = 2.0 * j / 400;
+      const double ratio = dahl_friction_ratio(r, dahl_number);
+      const double lambda = dahl_number * r;
+      const double back = velocity_ratio<TypeParam>(ratio, lambda);
+      ASSERT_GT(back, 0.0);
+      const double error = std::abs(dahl_friction_ratio(back, lambda / back) - ratio);
+      ASSERT_LE(error, 0.002) << "r " << r << " Dahl number " << dahl_number;
+      worst = std::max(worst, error);
+    }
+  }
+  this->RecordProperty("worst_error_millionths", static_cast<int>(worst * 1e6));
+}
+
+TYPED_TEST(DahlInverseMap, RisesWithTheRatio) {
+  for (double lambda = 1e-4; lambda < 1e4; lambda *= 1.9) {
+    double previous = 0.0;
+    for (int j = 0; j <= 1000; ++j) {
+      const double r = velocity_ratio<TypeParam>(j / 1000.0, lambda);
+      ASSERT_GE(r, previous) << "ratio " << j / 1000.0 << " lambda " << lambda;
+      ASSERT_LE(r, 1.0);
+      previous = r;
+    }
+    EXPECT_GT(previous, 0.999999);
+  }
+}
+
+TYPED_TEST(DahlInverseMap, GivesNoVelocityForNoFriction) {
+  EXPECT_EQ(velocity_ratio<TypeParam>(0.0, 1.0), 0.0);
+}
+
+// Drive amplitudes at which Table 1 of the paper reaches a ratio, sliding at 26.72 mm/s and at
+// 0.1 m/s: v = Vt / v̂(1920 N), λ = Kt Vt/(ω Fc).
+TYPED_TEST(DahlInverseMap, GivesTheDriveAmplitudesOfTable1) {
+  const double omega = 2.0 * 3.14159265358979323846 * 60e3;
+  const double peak_m_per_s_per_N = omega / (0.02 * omega * omega - 133e6);
+  const double friction_N = 0.1 * 0.02 * 9.81;
+  struct Point {
+    double velocity_m_per_s;
+    double ratio;
+    double force_N;
+  };
+  for (const Point& point :
+       {Point{0.02672, 0.3, 818.6}, Point{0.02672, 0.5, 526.3}, Point{0.02672, 0.7, 367.9},
+        Point{0.1, 0.5, 1512.0}, Point{0.1, 0.2, 2814.0}}) {
+    const double lambda = 0.056e6 * point.velocity_m_per_s / (omega * friction_N);
+    const double r = velocity_ratio<TypeParam>(point.ratio, lambda);
+    EXPECT_NEAR(point.velocity_m_per_s / (r * peak_m_per_s_per_N), point.force_N,
+                0.01 * point.force_N);
+  }
+}
+
+}  // namespace
+}  // namespace sonoglide::friction
