@@ -1,0 +1,43 @@
+/// Dry friction of constant magnitude.
+#pragma once
+
+#include <cstddef>
+
+namespace sonoglide::friction {
+
+/// Coulomb friction: phi = sgn V while sliding; at V = 0 whatever holds the contact, |phi| <= 1.
+///
+/// No parameter and no state. What the members mean is listed at friction::None.
+/// A fixed-step method sees sgn 0 = 0 and chatters about a stick; an event solver resolves it.
+template <class Number>
+struct Coulomb {
+  using Scalar = Number;
+  static constexpr bool reverses = true;
+  static constexpr bool sticks = true;
+
+  Scalar friction(Scalar velocity, Scalar /*last_friction*/) const {
+    return static_cast<Scalar>(static_cast<int>(velocity > Scalar(0)) -
+                               static_cast<int>(velocity < Scalar(0)));
+  }
+  Scalar rate(Scalar /*velocity*/, Scalar /*friction*/) const { return Scalar(0); }
+  Scalar series_unit(Scalar /*velocity*/, Scalar /*friction*/) const { return Scalar(1); }
+
+  template <std::size_t Order>
+  class Arc {
+   public:
+    Arc(const Coulomb& /*law*/, Scalar direction, Scalar /*friction*/) : direction_(direction) {}
+
+    template <class Coefficients>
+    Scalar coefficient(std::size_t n, Scalar /*unit_over_n*/, const Coefficients& /*velocity*/) {
+      return n == 0 ? direction_ : Scalar(0);
+    }
+    Scalar magnitude(std::size_t /*n*/) const { return Scalar(0); }
+    Scalar friction_after(Scalar /*displacement*/) const { return direction_; }
+    Scalar work(Scalar displacement) const { return displacement; }
+
+   private:
+    Scalar direction_;
+  };
+};
+
+}  // namespace sonoglide::friction

@@ -1,0 +1,48 @@
+/// A contact without friction, and the list of what every friction law offers.
+#pragma once
+
+#include <cstddef>
+
+namespace sonoglide::friction {
+
+/// No friction: phi = 0.
+///
+/// A law gives phi = F/Fc [-] in [-1, 1] in terms of the sliding velocity V = du/d tau. It offers:
+///   reverses             phi depends on sgn V, so that an event solver stops where V changes sign
+///   sticks               V may stay zero while a friction force below Fc holds it there
+///   friction(V, phi)     the friction that acts now, phi being its last value
+///   rate(V, phi)         d phi / d tau, for step-by-step methods; 0 where V alone sets phi
+///   series_unit(V, phi)  time in which the power series is written, so that it cannot overflow
+///   Arc<Order>           the law between two reversals, where sgn V = direction is constant:
+///     coefficient(n, t, V) n-th Taylor coefficient of phi, from those of V below n; called in the
+///     order
+///                          n = 0, 1, …, with t = series unit / n
+///     magnitude(n)         size of that coefficient, for the step size
+///     friction_after(du)   phi exactly, after the displacement du >= 0 along the direction
+///     work(du)             integral of phi V d tau exactly, over the same displacement
+template <class Number>
+struct None {
+  using Scalar = Number;
+  static constexpr bool reverses = false;
+  static constexpr bool sticks = false;
+
+  Scalar friction(Scalar /*velocity*/, Scalar /*last_friction*/) const { return Scalar(0); }
+  Scalar rate(Scalar /*velocity*/, Scalar /*friction*/) const { return Scalar(0); }
+  Scalar series_unit(Scalar /*velocity*/, Scalar /*friction*/) const { return Scalar(1); }
+
+  template <std::size_t Order>
+  struct Arc {
+    Arc(const None& /*law*/, Scalar /*direction*/, Scalar /*friction*/) {}
+
+    template <class Coefficients>
+    Scalar coefficient(std::size_t /*n*/, Scalar /*unit_over_n*/,
+                       const Coefficients& /*velocity*/) {
+      return Scalar(0);
+    }
+    Scalar magnitude(std::size_t /*n*/) const { return Scalar(0); }
+    Scalar friction_after(Scalar /*displacement*/) const { return Scalar(0); }
+    Scalar work(Scalar /*displacement*/) const { return Scalar(0); }
+  };
+};
+
+}  // namespace sonoglide::friction

@@ -1,0 +1,74 @@
+/// Integrals taken along a motion. A solver adds each accepted step to the account it is given.
+#pragma once
+
+#include <initializer_list>
+
+#include "firmware/numeric/scalar.hpp"
+#include "firmware/plant/state.hpp"
+
+namespace sonoglide::plant {
+
+struct NoAccount {
+  template <class Step>
+  void add(const Step& /*step*/) {}
+};
+
+/// For the friction ratio: mean phi = friction_integral / elapsed tau.
+template <class Scalar>
+struct MeanFriction {
+  Scalar friction_integral = Scalar(0);  ///< integral of phi
+
+  template <class Step>
+  void add(const Step& step) {
+    friction_integral += step.friction_integral();
+  }
+};
+
+/// Where the energy goes; all integrals over tau.
+template <class Scalar>
+struct EnergyAccount {
+  Scalar friction_integral = Scalar(0);  ///< integral of phi
+  Scalar friction_work = Scalar(0);      ///< of phi V: into the contact, times beta
+  Scalar sliding_work = Scalar(0);       ///< of phi r: from whatever pulls, times beta
+  Scalar drive_work = Scalar(0);         ///< of a cos(tau) v: from the drive
+  Scalar damping_work = Scalar(0);       ///< of d v^2: into the damper
+
+  template <class Step>
+  void add(const Step& step) {
+    friction_integral += step.friction_integral();
+    friction_work += step.friction_work();
+    sliding_work += step.sliding_work();
+    drive_work += step.drive_work();
+    damping_work += step.damping_work();
+  }
+
+  /// Residual of the identity
+  ///   stored(after) - stored(before) = drive_work - damping_work
+  ///                                    - sigma beta (friction_work - sliding_work),
+  /// relative to the largest of its terms; 0 where all of them are 0. The works are net ones: over
+  /// whole periods of a light contact they may be far smaller than the energy that came and went.
+  template <class Model>
+  Scalar balance_residual(const Model& model, const State<Scalar>& before,
+                          const State<Scalar>& after) const {
+    const Scalar largest = largest_term(model, before, after);
+    const Scalar gain = model.stored_energy(after) - model.stored_energy(before);
+    const Scalar loss =
+        model.contact_work(friction_work) - model.contact_work(sliding_work) + damping_work;
+    return largest > Scalar(0) ? (gain - drive_work + loss) / largest : Scalar(0);
+  }
+
+  /// The largest term of that identity, in magnitude.
+  template <class Model>
+  Scalar largest_term(const Model& model, const State<Scalar>& before,
+                      const State<Scalar>& after) const {
+    Scalar largest = Scalar(0);
+    for (const Scalar term :
+         {model.stored_energy(before), model.stored_energy(after), drive_work, damping_work,
+          model.contact_work(friction_work), model.contact_work(sliding_work)}) {
+      largest = numeric::max(largest, numeric::abs(term));
+    }
+    return largest;
+  }
+};
+
+}  // namespace sonoglide::plant

@@ -1,0 +1,107 @@
+/// The first root of a polynomial, certified: no root and no pair of roots before it is passed
+/// over.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <limits>
+
+#include "firmware/numeric/float_elementary.hpp"
+#include "firmware/numeric/scalar.hpp"
+#include "firmware/plant/polynomial.hpp"
+
+namespace sonoglide::plant {
+
+namespace detail {
+
+/// A lower bound of p'' on [0, end]: the coefficients of t^3 and above count only where negative.
+template <class Scalar, std::size_t Count>
+Scalar lowest_curvature(const std::array<Scalar, Count>& p, Scalar end) {
+  Scalar bound = Scalar(0);
+  for (std::size_t n = Count; n-- > 3;) {
+    bound = bound * end + static_cast<Scalar>(n * (n - 1)) * numeric::min(p[n], Scalar(0));
+  }
+  return Scalar(2) * p[2] + bound * end;
+}
+
+/// A lower bound of the smallest positive root of value + slope t + curvature t^2 / 2, value > 0;
+/// `none` if there is no root before it. Close to the root where slope^2 > 2 value |curvature|.
+template <class Scalar>
+Scalar parabola_root(Scalar value, Scalar slope, Scalar curvature, Scalar none) {
+  const bool positive_at_end = value + none * (slope + numeric::half(none * curvature)) > Scalar(0);
+  if (positive_at_end && (curvature <= Scalar(0) || slope >= Scalar(0))) {
+    return none;
+  }
+  const Scalar square = slope * slope;
+  const Scalar bend = Scalar(2) * value * curvature;
+  if (bend > square) {
+    return none;
+  }
+  // sqrt(1 - q) <= 1 - q / 2 saves the square root where the answer is nearly a Newton step.
+  const bool nearly_straight = slope < Scalar(0) && numeric::abs(bend) < square;
+  const Scalar root =
+      nearly_straight ? numeric::half(bend / slope) - slope : numeric::sqrt(square - bend);
+  return numeric::min(none, Scalar(2) * value / (root - slope));
+}
+
+/// A bound of the rounding error of p(t), t >= 0.
+template <class Scalar, std::size_t Count>
+Scalar rounding_bound(const std::array<Scalar, Count>& p, Scalar t) {
+  Scalar sum = Scalar(0);
+  for (std::size_t n = Count; n-- > 0;) {
+    sum = sum * t + numeric::abs(p[n]);
+  }
+  return Scalar(4) * std::numeric_limits<Scalar>::epsilon() * sum;
+}
+
+}  // namespace detail
+
+/// The first t in (0, end) with p(t) = 0, or `end` if there is none; p(0) > 0.
+///
+/// From each point the search moves to the root of a parabola that lies below p up to the end of a
+/// window (same value and slope, the lowest curvature in it), which cannot lie beyond a root of p.
+/// The steps shrink quadratically towards a simple root. Towards a double root they shrink by a
+/// constant factor, until p is within its rounding error of zero: that counts as a root. Where the
+/// curvature keeps the steps short the window narrows, and so does the bound of the curvature.
+template <class Scalar, std::size_t Count>
+Scalar first_root(const std::array<Scalar, Count>& p, Scalar end) {
+  static_assert(Count >= 4, "the curvature bound needs a cubic");
+  const Scalar quarter = numeric::from_real<Scalar>(0.25);
+  Scalar window = end;
+  Scalar curvature = detail::lowest_curvature(p, window);
+  Scalar t = Scalar(0);
+  Scalar value = p[0];
+  Scalar slope = p[1];
+  for (;;) {
+    const Scalar rest = window - t;
+    const Scalar step = detail::parabola_root(value, slope, curvature, rest);
+    if (step >= rest) {
+      if (window >= end) {
+        return end;
+      }
+      t = window;
+      window = numeric::min(end, numeric::twice(window));
+      curvature = detail::lowest_curvature(p, window);
+    } else {
+      if (t + step == t) {
+        return t;
+      }
+      t += step;
+      if (step < quarter * rest && value * numeric::abs(curvature) > slope * slope) {
+        window = numeric::min(window, t + numeric::twice(t));
+        curvature = detail::lowest_curvature(p, window);
+      }
+    }
+    value = p[Count - 1];
+    slope = Scalar(0);
+    for (std::size_t n = Count - 1; n-- > 0;) {
+      slope = slope * t + value;
+      value = value * t + p[n];
+    }
+    if (value <= detail::rounding_bound(p, t)) {
+      return t;
+    }
+  }
+}
+
+}  // namespace sonoglide::plant

@@ -1,0 +1,36 @@
+/// The oscillator with its friction contact, composed of types.
+#pragma once
+
+#include "firmware/plant/contact.hpp"
+#include "firmware/plant/state.hpp"
+
+namespace sonoglide::plant {
+
+/// y'' = a cos(tau) - d y' - k y - beta phi, in units of length L, time 1 / omega and force Fc.
+///
+/// Law      friction::None, Coulomb or Dahl
+/// Damping  Undamped or Damped
+/// DriveOf  NoDrive or CosineDrive
+/// What is not named has no member: the parameters of a law and of the damping are its own.
+/// Aggregate: Model{{law, friction_force, vibration_sign}, {damping}, stiffness}.
+template <class Law, class Damping, class DriveOf>
+struct Model : Contact<Law>, Damping {
+  using Scalar = typename Law::Scalar;
+  using FrictionLaw = Law;
+  using Drive = DriveOf;
+
+  Scalar stiffness = Scalar(0);  ///< k = Ks / (m omega^2) [-], any sign, 0 allowed
+
+  Scalar acceleration(Scalar drive, const State<Scalar>& state) const {
+    return drive - this->damping_force(state.velocity) - stiffness * state.displacement -
+           this->contact_force(state.friction);
+  }
+
+  /// Kinetic energy and that of the spring, (v^2 + k y^2) / 2.
+  Scalar stored_energy(const State<Scalar>& state) const {
+    return (state.velocity * state.velocity + stiffness * state.displacement * state.displacement) /
+           Scalar(2);
+  }
+};
+
+}  // namespace sonoglide::plant

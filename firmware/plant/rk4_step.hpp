@@ -1,0 +1,94 @@
+/// One step of the classical Runge–Kutta method: the motion inside it, and its integrals.
+#pragma once
+
+#include <array>
+
+#include "firmware/plant/state.hpp"
+
+namespace sonoglide::plant {
+
+/// The plant at one of the four stages of a step.
+template <class Scalar>
+struct Rk4Stage {
+  Scalar drive = Scalar(0);             ///< a cos(tau)
+  Scalar sliding_velocity = Scalar(0);  ///< r
+  State<Scalar> state;                  ///< friction as the law gives it at this velocity
+  State<Scalar> slope;                  ///< d state / d tau
+};
+
+/// Integrals as the method gives them for extra states. Between the ends the state is the cubic
+/// that has their values and slopes.
+template <class Model>
+class Rk4Step {
+ public:
+  using Scalar = typename Model::Scalar;
+  using Stage = Rk4Stage<Scalar>;
+
+  /// end_stage: the plant at the end of the step.
+  Rk4Step(const Model& model, const std::array<Stage, 4>& stages, const Stage& end_stage,
+          Scalar begin, Scalar length)
+      : model_(model), stages_(stages), end_(end_stage), begin_(begin), length_(length) {}
+
+  Scalar begin() const { return begin_; }
+  Scalar length() const { return length_; }
+
+  State<Scalar> at(Scalar offset) const {
+    const Scalar x = offset / length_;
+    const State<Scalar>& from = stages_[0].state;
+    const State<Scalar>& from_slope = stages_[0].slope;
+    const Scalar velocity =
+        cubic(from.velocity, from_slope.velocity, end_.state.velocity, end_.slope.velocity, x);
+    const Scalar friction =
+        cubic(from.friction, from_slope.friction, end_.state.friction, end_.slope.friction, x);
+    const Scalar sliding_velocity =
+        stages_[0].sliding_velocity + (end_.sliding_velocity - stages_[0].sliding_velocity) * x;
+    return {cubic(from.displacement, from_slope.displacement, end_.state.displacement,
+                  end_.slope.displacement, x),
+            velocity,
+            model_.law.friction(model_.contact_velocity(sliding_velocity, velocity), friction)};
+  }
+
+  Scalar friction_integral() const {
+    return sum([](const Stage& stage) { return stage.state.friction; });
+  }
+  Scalar friction_work() const {
+    return sum([this](const Stage& stage) {
+      return stage.state.friction *
+             model_.contact_velocity(stage.sliding_velocity, stage.state.velocity);
+    });
+  }
+  Scalar sliding_work() const {
+    return sum([](const Stage& stage) { return stage.state.friction * stage.sliding_velocity; });
+  }
+  Scalar drive_work() const {
+    return sum([](const Stage& stage) { return stage.drive * stage.state.velocity; });
+  }
+  Scalar damping_work() const {
+    return sum([this](const Stage& stage) {
+      return model_.damping_force(stage.state.velocity) * stage.state.velocity;
+    });
+  }
+
+ private:
+  template <class Integrand>
+  Scalar sum(const Integrand& f) const {
+    return length_ / Scalar(6) *
+           (f(stages_[0]) + Scalar(2) * (f(stages_[1]) + f(stages_[2])) + f(stages_[3]));
+  }
+
+  Scalar cubic(Scalar from, Scalar from_slope, Scalar to, Scalar to_slope, Scalar x) const {
+    const Scalar rise = to - from;
+    const Scalar bend_from = length_ * from_slope - rise;
+    const Scalar bend_to = length_ * to_slope - rise;
+    const Scalar rest = Scalar(1) - x;
+    return from + x * (rise + rest * (rest * bend_from - x * bend_to));
+  }
+
+  const Model& model_;
+  const std::array<Stage, 4>& stages_;
+  const Stage& end_;
+  Scalar begin_;
+  Scalar length_;
+};
+
+}  // namespace sonoglide::plant

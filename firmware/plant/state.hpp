@@ -1,0 +1,35 @@
+/// State of the plant, and the interval over which a solver advances it. All dimensionless.
+#pragma once
+
+#include "firmware/numeric/scalar.hpp"
+
+namespace sonoglide::plant {
+
+/// Scales are the host's: length L, angular frequency omega, friction limit Fc.
+template <class Scalar>
+struct State {
+  Scalar displacement = Scalar(0);  ///< y = x / L
+  Scalar velocity = Scalar(0);      ///< dy / d tau, tau = omega t
+  Scalar friction = Scalar(0);      ///< phi = F / Fc, in [-1, 1]
+};
+
+/// False if any of the three is infinite or not a number.
+template <class Scalar>
+bool is_finite(const State<Scalar>& state) {
+  return numeric::is_finite(state.displacement) && numeric::is_finite(state.velocity) &&
+         numeric::is_finite(state.friction);
+}
+
+/// A stretch of time with one drive amplitude and a sliding velocity that is linear in time:
+/// drive force a cos(phase_begin + t), r = sliding_velocity + sliding_acceleration t, t in
+/// [0, duration].
+template <class Scalar>
+struct Interval {
+  Scalar phase_begin = Scalar(0);       ///< [0, 2 pi): the caller reduces it, or accuracy is lost
+  Scalar duration = Scalar(0);          ///< >= 0, in units of 1 / omega
+  Scalar drive_amplitude = Scalar(0);   ///< a = A / (m L omega^2)
+  Scalar sliding_velocity = Scalar(0);  ///< r = Vt / (omega L) at the beginning
+  Scalar sliding_acceleration = Scalar(0);  ///< dr / d tau
+};
+
+}  // namespace sonoglide::plant

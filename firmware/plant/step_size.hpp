@@ -1,0 +1,20 @@
+/// The quick root that step-size control needs.
+#pragma once
+
+#include "firmware/numeric/float_format.hpp"
+
+namespace sonoglide::plant {
+
+/// x^(1/Degree) within 7 %, x > 0 and normal; something large for infinity.
+///
+/// The bits of a floating-point number, read as an integer, are nearly its logarithm: those of the
+/// root lie as much closer to those of 1. The same bits on every machine, and no logarithm.
+template <int Degree, class Float>
+constexpr Float quick_root(Float x) {
+  using Bits = numeric::FloatBits<Float>;
+  constexpr Bits one = numeric::to_bits(Float(1));
+  constexpr Bits kept = one - one / Degree;
+  return numeric::from_bits<Float>(static_cast<Bits>(kept + numeric::to_bits(x) / Degree));
+}
+
+}  // namespace sonoglide::plant

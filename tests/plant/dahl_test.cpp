@@ -1,0 +1,121 @@
+/// Dahl contact against the exact solution in displacement and the steady friction ratios.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "motion.hpp"
+
+namespace sonoglide::plant {
+namespace {
+
+using Contact = DahlModel<double>;
+using Taylor = EventTaylor<Contact, 16>;
+
+TEST(DahlArc, IsExactInTheDisplacement) {
+  for (const double kappa : {1e-9, 0.1, 3.0, 400.0}) {
+    for (const double direction : {1.0, -1.0}) {
+      for (const double sign : {1.0, -1.0}) {
+        auto solver = configured<Taylor>({{{kappa}, 0.02, sign}, {}, 0.7}, 1e-13);
+        const double friction = 0.2;
+        const State<double> end = advanced(
+            solver, {0.4, 2.0, 0.5, 5.0 * direction, 0.3 * direction}, {0.1, 0.2, friction});
+        const double travel =
+            direction * (5.0 * 2.0 + 0.5 * 0.3 * 4.0) + sign * (end.displacement - 0.1);
+        const double deficit = (1.0 - direction * friction) * std::exp(-kappa * direction * travel);
+        EXPECT_NEAR(direction * end.friction, 1.0 - deficit, 2e-14 * (1.0 + kappa * deficit));
+        EXPECT_EQ(solver.cost().events, 0U);
+      }
+    }
+  }
+}
+
+TEST(DahlArc, SmallChangesKeepTheirDigits) {
+  auto solver = configured<Taylor>({{{1e-12}, 0.0, 1.0}, {}, 0.0}, 1e-13);
+  const State<double> end = advanced(solver, {0.0, 1.0, 0.0, 2.0, 0.0}, {});
+  EXPECT_NEAR(end.friction / 2e-12, 1.0, 1e-11);
+}
+
+/// phi = kappa u to first order, and the work is kappa u^2 / 2.
+TEST(DahlArc, SmallWorkKeepsItsDigits) {
+  for (const double kappa : {1e-12, 1e-6}) {
+    auto solver = configured<Taylor>({{{kappa}, 0.0, 1.0}, {}, 0.0}, 1e-13);
+    State<double> state;
+    EnergyAccount<double> account;
+    EXPECT_EQ(advance(solver, {0.0, 1.0, 0.0, 2.0, 0.0}, state, account).error, Error::none);
+    EXPECT_NEAR(account.friction_work / (2.0 * kappa), 1.0 - 2.0 * kappa / 3.0, 1e-11);
+  }
+}
+
+/// Mean friction under prescribed sinusoidal motion, once it is periodic.
+double prescribed_ratio(double velocity_ratio, double dahl_number) {
+  const double k = 0.3;
+  const double amplitude = 1.0 / (1.0 - k);
+  auto solver = configured<Taylor>({{{dahl_number / amplitude}, 0.0, 1.0}, {}, k}, 1e-14);
+  State<double> state = {-amplitude, 0.0, 0.0};
+  MeanFriction<double> settling;
+  MeanFriction<double> account;
+  EXPECT_EQ(run_periods(solver, 100, 1.0, velocity_ratio * amplitude, state, settling),
+            Error::none);
+  EXPECT_EQ(run_periods(solver, 1, 1.0, velocity_ratio * amplitude, state, account), Error::none);
+  return account.friction_integral / (2.0 * pi);
+}
+
+TEST(DahlPrescribedMotion, FrictionRatio) {
+  EXPECT_NEAR(prescribed_ratio(0.5, 0.404519756998724), 0.674948666956629, 1e-13);
+  EXPECT_NEAR(prescribed_ratio(0.1, 0.4046), 0.14875, 1e-5);
+  EXPECT_NEAR(prescribed_ratio(0.1, 2.023), 0.08814, 1e-5);
+  EXPECT_NEAR(prescribed_ratio(0.1, 10.0), 0.0661, 1e-4);
+  EXPECT_NEAR(prescribed_ratio(0.1, 100.0), 0.0640, 1e-4);
+  EXPECT_NEAR(prescribed_ratio(0.5, 2.023), 0.48927, 1e-5);
+  EXPECT_NEAR(prescribed_ratio(0.5, 10.0), 0.3502, 1e-4);
+  EXPECT_NEAR(prescribed_ratio(0.9, 0.4046), 0.97585, 1e-5);
+  EXPECT_NEAR(prescribed_ratio(0.9, 2.023), 0.94541, 1e-5);
+  EXPECT_NEAR(prescribed_ratio(0.9, 100.0), 0.7246, 1e-4);
+}
+
+TEST(DahlPrescribedMotion, StiffContactTendsToCoulomb) {
+  EXPECT_NEAR(prescribed_ratio(0.5, 1e6), 1.0 / 3.0, 1e-5);
+}
+
+/// Table 1 started on its steady orbit: mean over the last of 20 ms.
+double table1_ratio(double force_amplitude_N, double velocity_ratio) {
+  const double inertia_N_per_m = 0.02 * (2.0 * pi * 60e3) * (2.0 * pi * 60e3);
+  const double length_m = force_amplitude_N / inertia_N_per_m;
+  const double friction_limit_N = 0.1 * 0.02 * 9.81;
+  const double k = 133e6 / inertia_N_per_m;
+  const double amplitude = 1.0 / (1.0 - k);
+  const Contact model = {
+      {{0.056e6 * length_m / friction_limit_N}, friction_limit_N / force_amplitude_N, 1.0}, {}, k};
+  auto solver = configured<EventTaylor<Contact, 12>>(model, 1e-8);
+  State<double> state = {-amplitude, 0.0, 0.0};
+  MeanFriction<double> settling;
+  MeanFriction<double> account;
+  EXPECT_EQ(run_periods(solver, 1140, 1.0, velocity_ratio * amplitude, state, settling),
+            Error::none);
+  EXPECT_EQ(run_periods(solver, 60, 1.0, velocity_ratio * amplitude, state, account), Error::none);
+  return account.friction_integral / (120.0 * pi);
+}
+
+TEST(DahlOscillator, SteadyFrictionRatioOfTable1) {
+  EXPECT_NEAR(table1_ratio(384.0, 0.5), 0.6749, 0.002);
+  EXPECT_NEAR(table1_ratio(1920.0, 0.5), 0.4893, 0.002);
+  EXPECT_NEAR(table1_ratio(1920.0, 0.1), 0.0881, 0.002);
+}
+
+/// A stuck contact is a spring: small vibration about it has the frequency sqrt(k + beta kappa).
+TEST(DahlStuck, RingsAsASpring) {
+  const double kappa = 1e4;
+  const double beta = 0.5;
+  const double w = std::sqrt(beta * kappa + 0.3);
+  auto solver = configured<Taylor>({{{kappa}, beta, 1.0}, {}, 0.3}, 1e-24);
+  const double swing = 1e-11;
+  const double duration = 200.2 * pi / w;
+  const State<double> end =
+      advanced(solver, {0.0, duration, 0.0, 0.0, 0.0}, {swing, 0.0, kappa * swing});
+  EXPECT_NEAR(end.displacement / swing, std::cos(w * duration), 1e-4);
+  EXPECT_GE(solver.cost().events, 199U);
+}
+
+}  // namespace
+}  // namespace sonoglide::plant

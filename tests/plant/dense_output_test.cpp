@@ -1,0 +1,142 @@
+/// What an observer sees inside the steps, and that seeing changes nothing.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "motion.hpp"
+
+namespace sonoglide::plant {
+namespace {
+
+template <class LawModel>
+LawModel model();
+template <>
+DampedDahlModel<double> model() {
+  return {{{8.0}, 0.2, 1.0}, {0.1}, 0.4};
+}
+template <>
+DampedCoulombModel<double> model() {
+  return {{{}, 0.4, 1.0}, {0.1}, 0.4};
+}
+
+struct Sample {
+  double time;
+  State<double> state;
+};
+
+/// Samples each step at its ends and inside it.
+struct Recorder {
+  std::vector<Sample> samples;
+  double covered = 0.0;
+  bool gapless = true;
+
+  template <class Step>
+  void operator()(const Step& step) {
+    gapless = gapless && std::abs(step.begin() - covered) < 1e-13;
+    covered = step.begin() + step.length();
+    for (const double part : {0.0, 0.21, 0.5, 0.83, 1.0}) {
+      const double offset = part * step.length();
+      samples.push_back({step.begin() + offset, step.at(offset)});
+    }
+  }
+};
+
+template <class Solver>
+class DenseOutput : public testing::Test {
+ protected:
+  using Contact = typename Solver::Model;
+  static constexpr bool fixed_step = std::is_same_v<Solver, Rk4<Contact>>;
+  static constexpr double setting = fixed_step ? 1e-3 : 1e-13;
+  // Where a fixed step chatters about a stick, its state is known to a step only.
+  static constexpr double tolerance = fixed_step ? 2e-3 : 1e-10;
+
+  const Interval<double> interval = {0.7, 6.0, 1.0, 0.3, 0.02};
+  const State<double> start = {0.1, 0.2, 0.05};
+};
+
+using Solvers =
+    testing::Types<EventTaylor<DampedDahlModel<double>, 12>, Rk4<DampedDahlModel<double>>,
+                   EventTaylor<DampedCoulombModel<double>, 12>, Rk4<DampedCoulombModel<double>>>;
+struct SolverName {
+  template <class Solver>
+  static std::string GetName(int /*index*/) {
+    using Contact = typename Solver::Model;
+    const std::string law = Contact::FrictionLaw::sticks ? "Coulomb" : "Dahl";
+    return law + (std::is_same_v<Solver, Rk4<Contact>> ? "Rk4" : "Taylor");
+  }
+};
+TYPED_TEST_SUITE(DenseOutput, Solvers, SolverName);
+
+TYPED_TEST(DenseOutput, AgreesWithAnAdvanceThatEndsThere) {
+  using Solver = TypeParam;
+  auto solver = configured<Solver>(model<typename Solver::Model>(), this->setting);
+  Recorder recorder;
+  NoAccount account;
+  State<double> state = this->start;
+  ASSERT_EQ(solver.advance(this->interval, state, account, recorder).error, Error::none);
+  EXPECT_TRUE(recorder.gapless);
+  EXPECT_NEAR(recorder.covered, this->interval.duration, 1e-12);
+  const std::size_t stride = 1 + recorder.samples.size() / 200;
+  for (std::size_t i = 0; i < recorder.samples.size(); i += stride) {
+    const Sample& sample = recorder.samples[i];
+    Interval<double> part = this->interval;
+    part.duration = sample.time;
+    const State<double> stopped = advanced(solver, part, this->start);
+    EXPECT_NEAR(sample.state.displacement, stopped.displacement, this->tolerance);
+    EXPECT_NEAR(sample.state.velocity, stopped.velocity, this->tolerance);
+    EXPECT_LE(std::abs(sample.state.friction), 1.0);
+  }
+}
+
+TYPED_TEST(DenseOutput, ObservingChangesNoBit) {
+  using Solver = TypeParam;
+  auto watched = configured<Solver>(model<typename Solver::Model>(), this->setting);
+  auto unwatched = configured<Solver>(model<typename Solver::Model>(), this->setting);
+  State<double> watched_state = this->start;
+  State<double> unwatched_state = this->start;
+  EnergyAccount<double> watched_account;
+  EnergyAccount<double> unwatched_account;
+  Recorder recorder;
+  NoObserver none;
+  watched.advance(this->interval, watched_state, watched_account, recorder);
+  unwatched.advance(this->interval, unwatched_state, unwatched_account, none);
+  EXPECT_EQ(watched_state.displacement, unwatched_state.displacement);
+  EXPECT_EQ(watched_state.velocity, unwatched_state.velocity);
+  EXPECT_EQ(watched_state.friction, unwatched_state.friction);
+  EXPECT_EQ(watched_account.friction_integral, unwatched_account.friction_integral);
+  EXPECT_EQ(watched_account.drive_work, unwatched_account.drive_work);
+  EXPECT_EQ(watched.cost().steps, unwatched.cost().steps);
+  EXPECT_EQ(watched.cost().events, unwatched.cost().events);
+}
+
+TYPED_TEST(DenseOutput, TheAccountChangesNoBit) {
+  using Solver = TypeParam;
+  auto solver = configured<Solver>(model<typename Solver::Model>(), this->setting);
+  State<double> accounted = this->start;
+  EnergyAccount<double> account;
+  advance(solver, this->interval, accounted, account);
+  const State<double> plain = advanced(solver, this->interval, this->start);
+  EXPECT_EQ(accounted.displacement, plain.displacement);
+  EXPECT_EQ(accounted.velocity, plain.velocity);
+  EXPECT_EQ(accounted.friction, plain.friction);
+}
+
+TEST(DenseOutputOfFriction, FollowsTheExactArcInsideAStep) {
+  auto solver =
+      configured<EventTaylor<DampedDahlModel<double>, 12>>(model<DampedDahlModel<double>>(), 1e-13);
+  Recorder recorder;
+  NoAccount account;
+  State<double> state = {0.0, 0.0, -0.9};
+  ASSERT_EQ(solver.advance({0.0, 5.0, 0.5, 3.0, 0.0}, state, account, recorder).error, Error::none);
+  for (const Sample& sample : recorder.samples) {
+    const double travel = 3.0 * sample.time + sample.state.displacement;
+    EXPECT_NEAR(sample.state.friction, 1.0 - 1.9 * std::exp(-8.0 * travel), 1e-13);
+  }
+}
+
+}  // namespace
+}  // namespace sonoglide::plant

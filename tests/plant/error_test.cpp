@@ -1,0 +1,59 @@
+/// Errors are named, placed in time, and never an endless loop.
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "motion.hpp"
+
+namespace sonoglide::plant {
+namespace {
+
+using Contact = DahlModel<double>;
+using Taylor = EventTaylor<Contact, 12>;
+
+template <class Solver>
+Outcome<double> outcome(const typename Solver::Model& model, double setting,
+                        const Interval<double>& interval, State<double> state) {
+  auto solver = configured<Solver>(model, setting);
+  NoAccount account;
+  return advance(solver, interval, state, account);
+}
+
+const Contact ordinary = {{{1.0}, 0.1, 1.0}, {}, 0.5};
+const Interval<double> period = {0.0, 2.0 * pi, 1.0, 0.5, 0.0};
+
+TEST(SolverError, NoneReachesTheEndOfTheInterval) {
+  EXPECT_EQ(outcome<Taylor>(ordinary, 1e-8, period, {}).offset, period.duration);
+  EXPECT_EQ(outcome<Rk4<Contact>>(ordinary, 1e-2, period, {}).offset, period.duration);
+}
+
+TEST(SolverError, NotFinite) {
+  const State<double> broken = {std::numeric_limits<double>::quiet_NaN(), 0.0, 0.0};
+  EXPECT_EQ(outcome<Taylor>(ordinary, 1e-8, period, broken).error, Error::not_finite);
+  EXPECT_EQ(outcome<Rk4<Contact>>(ordinary, 1e-2, period, broken).error, Error::not_finite);
+  const Contact unstable = {{{1.0}, 0.1, 1.0}, {}, -1e6};
+  const Outcome<double> grown = outcome<Taylor>(unstable, 1e-8, period, {1.0, 0.0, 0.0});
+  EXPECT_EQ(grown.error, Error::not_finite);
+  EXPECT_GT(grown.offset, 0.6);
+  EXPECT_LT(grown.offset, 0.8);
+}
+
+TEST(SolverError, FrictionBoundBrokenByRk4InAStiffContact) {
+  const Contact stiff = {{{1e4}, 0.1, 1.0}, {}, 0.5};
+  const Outcome<double> broken = outcome<Rk4<Contact>>(stiff, 1e-2, period, {});
+  EXPECT_EQ(broken.error, Error::friction_bound_broken);
+  EXPECT_GT(broken.offset, 0.0);
+  EXPECT_LT(broken.offset, 0.1);
+}
+
+TEST(SolverError, TooManySteps) {
+  const Contact ringing = {{{1e16}, 10.0, 1.0}, {}, 0.5};
+  const Outcome<double> stuck = outcome<Taylor>(ringing, 1e-8, {0.0, 2.0 * pi, 1.0, 0.0, 0.0}, {});
+  EXPECT_EQ(stuck.error, Error::too_many_steps);
+  EXPECT_LT(stuck.offset, period.duration);
+  EXPECT_EQ(outcome<Rk4<Contact>>(ordinary, 1e-9, period, {}).error, Error::too_many_steps);
+}
+
+}  // namespace
+}  // namespace sonoglide::plant
