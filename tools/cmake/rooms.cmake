@@ -5,13 +5,18 @@
 # sonoglide_room(<target> <folder> [USES <rooms>...] [LIBRARIES <libraries>...])
 function(sonoglide_room target folder)
   cmake_parse_arguments(ROOM "" "" "USES;LIBRARIES" ${ARGN})
-  set(root "${PROJECT_BINARY_DIR}/rooms/${target}")
-  get_filename_component(parent "${root}/${folder}" DIRECTORY)
-  file(MAKE_DIRECTORY "${parent}")
-  file(CREATE_LINK "${PROJECT_SOURCE_DIR}/${folder}" "${root}/${folder}" SYMBOLIC)
-
+  set(root "${PROJECT_BINARY_DIR}/sight/${target}")
   file(GLOB sources CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/${folder}/*.cpp")
-  file(GLOB headers CONFIGURE_DEPENDS "${root}/${folder}/*.hpp")
+  file(GLOB names CONFIGURE_DEPENDS RELATIVE "${PROJECT_SOURCE_DIR}/${folder}"
+    "${PROJECT_SOURCE_DIR}/${folder}/*.hpp")
+  # Header by header: a folder inside this one is another room.
+  file(MAKE_DIRECTORY "${root}/${folder}")
+  set(headers "")
+  foreach(name IN LISTS names)
+    file(CREATE_LINK "${PROJECT_SOURCE_DIR}/${folder}/${name}" "${root}/${folder}/${name}" SYMBOLIC)
+    list(APPEND headers "${root}/${folder}/${name}")
+  endforeach()
+
   if(sources)
     add_library(${target} STATIC ${sources})
     set(scope PUBLIC)

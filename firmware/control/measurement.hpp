@@ -1,0 +1,22 @@
+/// What the controller is told once per carrier period.
+#pragma once
+
+#include <cstdint>
+
+namespace sonoglide::control {
+
+enum class Quality : std::uint8_t {
+  good,
+  saturated,  ///< the force converter stood at a rail
+  missing,    ///< no new sample since the last step
+};
+
+/// One sample, per unit.
+template <class Scalar>
+struct Measurement {
+  Scalar friction_force;    ///< mean over the last carrier period; base: the force full scale
+  Scalar sliding_velocity;  ///< base: peak vibration velocity at full drive
+  Quality quality = Quality::good;
+};
+
+}  // namespace sonoglide::control

@@ -1,0 +1,17 @@
+/// No command shaping: for plants without a natural mode, and to show what it is for.
+#pragma once
+
+namespace sonoglide::control {
+
+template <class ScalarT>
+class NoShaping {
+ public:
+  using Scalar = ScalarT;
+  struct Parameters {};
+
+  explicit NoShaping(const Parameters&) {}
+  void restart() {}
+  Scalar shape(Scalar amplitude) { return amplitude; }
+};
+
+}  // namespace sonoglide::control

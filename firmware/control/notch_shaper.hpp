@@ -1,0 +1,57 @@
+/// Command shaping that leaves the plant's natural mode unexcited.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "firmware/numeric/scalar.hpp"
+
+namespace sonoglide::control {
+
+/// Three taps on the drive amplitude, with zeros on the natural mode:
+///   N(z) = h0 + h1 z^-M + h2 z^-2M,
+///   h = (1, −2 e^(−σMT) cos(ωd M T), e^(−2σMT)) / sum,   σ ± iωd the natural mode, T the carrier
+///   period.
+///
+/// The amplitude changes at drive phase 0 only, so that the free response is linear in its steps
+/// and vanishes 2M periods after the last one. M is the smallest spacing for which every tap is
+/// within ±1.
+///
+/// @tparam MaxSpacing  largest M; the delay line holds 2·MaxSpacing amplitudes.
+template <class ScalarT, int MaxSpacing>
+class NotchShaper {
+ public:
+  using Scalar = ScalarT;
+  static constexpr int max_spacing = MaxSpacing;
+
+  struct Parameters {
+    std::array<Scalar, 3> taps;
+    std::uint8_t spacing;  ///< M, 1 … MaxSpacing
+  };
+
+  explicit NotchShaper(const Parameters& parameters) : parameters_(parameters) {}
+
+  void restart() {
+    past_ = {};
+    oldest_ = 0;
+  }
+
+  /// Shaped amplitude; may leave [0, 1] where the input varies within 2M periods.
+  Scalar shape(Scalar amplitude) {
+    const std::size_t depth = 2 * std::size_t{parameters_.spacing};
+    const std::size_t middle = oldest_ + parameters_.spacing;
+    const std::array<Scalar, 3> inputs{amplitude, past_[middle < depth ? middle : middle - depth],
+                                       past_[oldest_]};
+    past_[oldest_] = amplitude;
+    oldest_ = oldest_ + 1 < depth ? oldest_ + 1 : 0;
+    return numeric::dot(parameters_.taps.data(), inputs.data(), 3);
+  }
+
+ private:
+  Parameters parameters_;
+  std::array<Scalar, 2 * MaxSpacing> past_{};
+  std::size_t oldest_ = 0;
+};
+
+}  // namespace sonoglide::control

@@ -1,0 +1,32 @@
+/// Limit on how fast the requested drive amplitude may change.
+#pragma once
+
+#include "firmware/numeric/scalar.hpp"
+
+namespace sonoglide::control {
+
+template <class Scalar>
+class SlewLimit {
+ public:
+  struct Parameters {
+    Scalar per_period;  ///< largest change of the amplitude in one carrier period, > 0
+  };
+
+  explicit SlewLimit(const Parameters& parameters) : parameters_(parameters) {}
+
+  /// The nearest amplitude to `wanted` that may follow `previous`; both in [0, 1].
+  Scalar limit(Scalar wanted, Scalar previous) const {
+    if (parameters_.per_period < wanted - previous) {
+      return numeric::min(previous + parameters_.per_period, wanted);
+    }
+    if (parameters_.per_period < previous - wanted) {
+      return numeric::max(previous - parameters_.per_period, wanted);
+    }
+    return wanted;
+  }
+
+ private:
+  Parameters parameters_;
+};
+
+}  // namespace sonoglide::control

@@ -1,0 +1,18 @@
+/// No calibration: the configured friction force is trusted.
+#pragma once
+
+namespace sonoglide::control {
+
+template <class Scalar>
+class TrustedFriction {
+ public:
+  struct Parameters {};
+
+  explicit TrustedFriction(const Parameters&) {}
+  void restart() {}
+  static constexpr bool learning() { return false; }
+  void learn(Scalar) {}
+  Scalar friction_force(Scalar configured) const { return configured; }
+};
+
+}  // namespace sonoglide::control

@@ -1,0 +1,158 @@
+/// States of the controller: what leads from one to the next, and what each commands.
+
+#include <gtest/gtest.h>
+
+#include "closed_loop.hpp"
+#include "scalars.hpp"
+
+namespace sonoglide::control {
+namespace {
+
+template <class Scalar>
+class ControllerStates : public testing::Test {
+ protected:
+  using Command = DriveCommand<Scalar>;
+
+  static void expect_undriven(const Command& command, State state, Limit limit, Fault fault) {
+    EXPECT_EQ(command.amplitude, Scalar{});
+    EXPECT_EQ(command.state, state);
+    EXPECT_EQ(command.limit, limit);
+    EXPECT_EQ(command.fault, fault);
+  }
+  static Measurement<Scalar> sample(double force, double velocity) {
+    return {scaled<Scalar>(force), scaled<Scalar>(velocity), Quality::good};
+  }
+};
+TYPED_TEST_SUITE(ControllerStates, Scalars);
+
+TYPED_TEST(ControllerStates, IsOffUntilStarted) {
+  Controller<ShapedParts<TypeParam>> controller(parameters<ShapedParts<TypeParam>>(Design{}));
+  controller.set_target(scaled<TypeParam>(0.2));
+  for (int i = 0; i < 5; ++i) {
+    this->expect_undriven(controller.step(this->sample(0.5, 0.1)), State::off, Limit::none,
+                          Fault::none);
+  }
+}
+
+TYPED_TEST(ControllerStates, RunsAtOnceWhereTheFrictionForceIsTrusted) {
+  ClosedLoop<ShapedParts<TypeParam>> loop({});
+  loop.set_target(0.4);
+  const auto& command = loop.step();
+  EXPECT_EQ(command.state, State::running);
+  EXPECT_EQ(command.limit, Limit::none);
+  EXPECT_GT(loop.amplitude(), 0.0);
+}
+
+TYPED_TEST(ControllerStates, HasNoTargetBeforeOneIsSet) {
+  ClosedLoop<ShapedParts<TypeParam>> loop({});
+  for (int i = 0; i < 50; ++i) {
+    this->expect_undriven(loop.step(), State::running, Limit::none, Fault::none);
+  }
+}
+
+TYPED_TEST(ControllerStates, CalibratesUndrivenForTheStatedSamples) {
+  const Design design;
+  ClosedLoop<LearningParts<TypeParam>> loop(design);
+  loop.set_target(0.4);
+  for (unsigned i = 1; i < design.settle_periods + design.average_periods; ++i) {
+    this->expect_undriven(loop.step(), State::calibrating, Limit::none, Fault::none);
+  }
+  EXPECT_EQ(loop.step().state, State::running);
+  EXPECT_GT(loop.amplitude(), 0.0);
+}
+
+TYPED_TEST(ControllerStates, CalibrationWaitsWhileTheSlidingIsTooSlow) {
+  const Design design;
+  ClosedLoop<LearningParts<TypeParam>> loop(design);
+  loop.set_target(0.4);
+  loop.run(10);
+  loop.run(2, 0.01);  // the fall itself is foreseen as a sliding the other way
+  for (int i = 0; i < 100; ++i) {
+    this->expect_undriven(loop.step(0.01), State::calibrating, Limit::speed_floor, Fault::none);
+  }
+  int learning = 0;
+  while (loop.step().state == State::calibrating && learning < 1000) {
+    ++learning;
+  }
+  EXPECT_GE(learning, static_cast<int>(design.settle_periods + design.average_periods) - 13);
+  EXPECT_LE(learning, static_cast<int>(design.settle_periods + design.average_periods) - 10);
+}
+
+TYPED_TEST(ControllerStates, CalibrationMakesUpForAWrongFrictionForce) {
+  for (const double error : {0.7, 1.3}) {
+    Design design;
+    design.friction_force = 0.5 * error;
+    ClosedLoop<LearningParts<TypeParam>> learning(design);
+    learning.set_target(0.4);
+    learning.run(400);
+    EXPECT_NEAR(learning.ratio(), 0.4, 1e-4) << "believed Fc times " << error;
+
+    ClosedLoop<ShapedParts<TypeParam>> trusting(design);
+    trusting.set_target(0.4);
+    trusting.run(400);
+    EXPECT_NEAR(trusting.ratio(), 0.4 * error, 1e-4) << "believed Fc times " << error;
+  }
+}
+
+TYPED_TEST(ControllerStates, CalibrationFeedsTheFeedforwardToo) {
+  Design design;
+  design.friction_force = 0.35;
+  design.gain = 0.0;
+  ClosedLoop<LearningParts<TypeParam>> loop(design);
+  loop.set_target(0.4);
+  loop.run(200);
+  EXPECT_NEAR(loop.ratio(), 0.4, 0.002);
+}
+
+TYPED_TEST(ControllerStates, TooSmallAFrictionForceIsAFault) {
+  const Design design;
+  ClosedLoop<LearningParts<TypeParam>> loop(design);
+  loop.set_target(0.4);
+  const auto faint = this->sample(0.9 / 1024.0, 0.1);
+  for (unsigned i = 1; i < design.settle_periods + design.average_periods; ++i) {
+    ASSERT_EQ(loop.answer(faint).state, State::calibrating);
+  }
+  for (int i = 0; i < 100; ++i) {
+    this->expect_undriven(loop.answer(faint), State::fault, Limit::none,
+                          Fault::friction_not_learnt);
+  }
+  loop.controller.start();
+  loop.run(static_cast<int>(design.settle_periods + design.average_periods));
+  EXPECT_EQ(loop.step().state, State::running);
+}
+
+TYPED_TEST(ControllerStates, TooSmallABelievedFrictionForceNeverDrives) {
+  Design design;
+  design.friction_force = 0.9 / 1024.0;
+  ClosedLoop<UnshapedParts<TypeParam>> loop(design);
+  loop.set_target(0.4);
+  for (int i = 0; i < 20; ++i) {
+    const auto command = loop.answer(this->sample(0.5 / 1024.0 + 1e-5 * i, 0.01 + 0.02));
+    EXPECT_EQ(command.amplitude, TypeParam{});
+    EXPECT_EQ(command.state, State::fault);
+  }
+}
+
+TYPED_TEST(ControllerStates, StopTakesTheDriveAway) {
+  ClosedLoop<ShapedParts<TypeParam>> loop({});
+  loop.set_target(0.4);
+  loop.run(50);
+  ASSERT_GT(loop.amplitude(), 0.0);
+  loop.controller.stop();
+  for (int i = 0; i < 20; ++i) {
+    this->expect_undriven(loop.step(), State::off, Limit::none, Fault::none);
+  }
+}
+
+TYPED_TEST(ControllerStates, StopForgetsAFault) {
+  ClosedLoop<ShapedParts<TypeParam>> loop({});
+  loop.set_target(0.4);
+  auto missing = loop.measurement(0.1);
+  missing.quality = Quality::missing;
+  ASSERT_EQ(loop.answer(missing).state, State::fault);
+  loop.controller.stop();
+  this->expect_undriven(loop.step(), State::off, Limit::none, Fault::none);
+}
+
+}  // namespace
+}  // namespace sonoglide::control

@@ -1,0 +1,108 @@
+/// Controllers for the tests: compositions of parts, and numbers for them.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <type_traits>
+
+#include "firmware/control/controller.hpp"
+#include "firmware/control/coulomb_feedforward.hpp"
+#include "firmware/control/dahl_feedforward.hpp"
+#include "firmware/control/integral_regulator.hpp"
+#include "firmware/control/learnt_friction.hpp"
+#include "firmware/control/no_shaping.hpp"
+#include "firmware/control/no_slew_limit.hpp"
+#include "firmware/control/notch_shaper.hpp"
+#include "firmware/control/slew_limit.hpp"
+#include "firmware/control/trusted_friction.hpp"
+#include "firmware/numeric/scalar.hpp"
+
+namespace sonoglide::control {
+
+inline constexpr int longest_spacing = 8;
+
+/// Everything in use.
+template <class S>
+using FullParts = Parts<S, LearntFriction<S>, DahlFeedforward<S>, SlewLimit<S>,
+                        NotchShaper<S, longest_spacing>, IntegralRegulator<S>>;
+/// What a scene at Table 1 without calibration gets.
+template <class S>
+using ShapedParts = Parts<S, TrustedFriction<S>, DahlFeedforward<S>, NoSlewLimit<S>,
+                          NotchShaper<S, longest_spacing>, IntegralRegulator<S>>;
+template <class S>
+using LearningParts = Parts<S, LearntFriction<S>, DahlFeedforward<S>, NoSlewLimit<S>,
+                            NotchShaper<S, longest_spacing>, IntegralRegulator<S>>;
+template <class S>
+using SlewingParts = Parts<S, TrustedFriction<S>, DahlFeedforward<S>, SlewLimit<S>, NoShaping<S>,
+                           IntegralRegulator<S>>;
+template <class S>
+using UnshapedParts = Parts<S, TrustedFriction<S>, DahlFeedforward<S>, NoSlewLimit<S>, NoShaping<S>,
+                            IntegralRegulator<S>>;
+/// Nothing that can be left out.
+template <class S>
+using BareParts = Parts<S, TrustedFriction<S>, CoulombFeedforward<S>, NoSlewLimit<S>, NoShaping<S>,
+                        IntegralRegulator<S>>;
+
+/// Parameters as real numbers. As preset: Table 1 of the paper at 60 kHz and a drive limit of
+/// 1920 N, the sensor's full scale being 2 Fc; a speed of 0.1 is 26.7 mm/s.
+struct Design {
+  double friction_force = 0.5;
+  double contact_force = 1.0108;
+  double speed_floor = 0.026;
+  double lead_periods = 1.5;
+  double gain = 0.148;
+  std::uint16_t hold_periods = 5;
+  std::uint16_t stuck_periods = 11;
+  std::array<double, 3> taps = {0.6323, -0.2646, 0.6323};
+  std::uint8_t spacing = 1;
+  double slew_per_period = 0.02;
+  std::uint32_t settle_periods = 20;
+  std::uint32_t average_periods = 40;
+};
+
+/// A part without parameters has nothing to fill in.
+template <class S, class Empty>
+std::enable_if_t<std::is_empty_v<Empty>> fill(const Design& /*design*/, Empty& /*parameters*/) {}
+
+template <class S>
+void fill(const Design& design, typename LearntFriction<S>::Parameters& parameters) {
+  parameters = {design.settle_periods, design.average_periods,
+                numeric::from_real<S>(1.0 / design.average_periods)};
+}
+
+template <class S>
+void fill(const Design& design, typename DahlFeedforward<S>::Parameters& parameters) {
+  const numeric::Split<double> force = numeric::split(design.contact_force);
+  parameters = {{numeric::from_real<S>(force.mantissa), force.exponent}};
+}
+
+template <class S>
+void fill(const Design& design, typename SlewLimit<S>::Parameters& parameters) {
+  parameters = {numeric::from_real<S>(design.slew_per_period)};
+}
+
+template <class S>
+void fill(const Design& design, typename NotchShaper<S, longest_spacing>::Parameters& parameters) {
+  for (std::size_t i = 0; i < design.taps.size(); ++i) {
+    parameters.taps[i] = numeric::from_real<S>(design.taps[i]);
+  }
+  parameters.spacing = design.spacing;
+}
+
+template <class PartsT>
+typename Controller<PartsT>::Parameters parameters(const Design& design) {
+  using S = typename PartsT::Scalar;
+  typename Controller<PartsT>::Parameters result{};
+  result.friction_force = numeric::from_real<S>(design.friction_force);
+  result.speed_floor = numeric::from_real<S>(design.speed_floor);
+  result.lead = numeric::from_real<S>(design.lead_periods / 64.0);
+  fill<S>(design, result.friction);
+  fill<S>(design, result.feedforward);
+  fill<S>(design, result.slew);
+  fill<S>(design, result.shaper);
+  result.regulator = {numeric::from_real<S>(design.gain), design.hold_periods};
+  result.stuck = {design.stuck_periods};
+  return result;
+}
+
+}  // namespace sonoglide::control

@@ -1,0 +1,123 @@
+#include "firmware/control/integral_regulator.hpp"
+
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+
+#include <cstdint>
+
+#include "scalars.hpp"
+
+namespace sonoglide::control {
+namespace {
+
+template <class Scalar>
+class IntegralRegulatorTest : public testing::Test {
+ protected:
+  static constexpr double gain = 0.125;
+
+  static IntegralRegulator<Scalar> regulator(std::uint16_t hold_periods) {
+    IntegralRegulator<Scalar> result({scaled<Scalar>(gain), hold_periods});
+    result.restart();
+    return result;
+  }
+  static double propose(IntegralRegulator<Scalar>& regulator, double target, double measured) {
+    return numeric::to_real(regulator.propose(scaled<Scalar>(target), scaled<Scalar>(measured)));
+  }
+  /// One period without a bound in the way.
+  static double step(IntegralRegulator<Scalar>& regulator, double target, double measured) {
+    const double commanded = propose(regulator, target, measured);
+    regulator.accept(false, false);
+    return commanded;
+  }
+};
+TYPED_TEST_SUITE(IntegralRegulatorTest, Scalars);
+
+TYPED_TEST(IntegralRegulatorTest, CommandsTheTargetWhereThereIsNoError) {
+  auto regulator = this->regulator(0);
+  for (int i = 0; i < 10; ++i) {
+    EXPECT_EQ(this->step(regulator, 0.25, 0.25), 0.25);
+  }
+}
+
+TYPED_TEST(IntegralRegulatorTest, IntegratesTheError) {
+  auto regulator = this->regulator(0);
+  for (int i = 1; i <= 8; ++i) {
+    EXPECT_EQ(this->step(regulator, 0.25, 0.3125), 0.25 - i * this->gain * 0.0625);
+  }
+}
+
+TYPED_TEST(IntegralRegulatorTest, HoldsForExactlyTheStatedPeriods) {
+  auto regulator = this->regulator(3);
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_EQ(this->step(regulator, 0.25, 0.125), 0.25) << "period " << i;
+  }
+  EXPECT_EQ(this->step(regulator, 0.25, 0.125), 0.25 + this->gain * 0.125);
+}
+
+TYPED_TEST(IntegralRegulatorTest, AHoldKeepsWhatWasIntegrated) {
+  auto regulator = this->regulator(2);
+  for (int i = 0; i < 4; ++i) {
+    this->step(regulator, 0.25, 0.125);
+  }
+  regulator.hold();
+  const double held = 0.25 + 2 * this->gain * 0.125;
+  EXPECT_EQ(this->step(regulator, 0.25, 0.5), held);
+  EXPECT_EQ(this->step(regulator, 0.25, -0.5), held);
+  EXPECT_EQ(this->step(regulator, 0.25, 0.125), held + this->gain * 0.125);
+}
+
+TYPED_TEST(IntegralRegulatorTest, DoesNotWindUpAtTheMostDrive) {
+  auto regulator = this->regulator(0);
+  for (int i = 0; i < 1000; ++i) {
+    this->propose(regulator, 0.125, 0.25);  // too much friction, and no drive left against it
+    regulator.accept(true, false);
+  }
+  EXPECT_EQ(this->step(regulator, 0.125, 0.125), 0.125);
+}
+
+TYPED_TEST(IntegralRegulatorTest, DoesNotWindUpAtTheLeastDrive) {
+  auto regulator = this->regulator(0);
+  for (int i = 0; i < 1000; ++i) {
+    this->propose(regulator, 0.375, 0.25);  // too little friction, and no drive left to take away
+    regulator.accept(false, true);
+  }
+  EXPECT_EQ(this->step(regulator, 0.375, 0.375), 0.375);
+}
+
+TYPED_TEST(IntegralRegulatorTest, ComesBackFromEitherBoundAtOnce) {
+  auto most = this->regulator(0);
+  this->propose(most, 0.125, 0.0625);
+  most.accept(true, false);
+  EXPECT_EQ(this->step(most, 0.125, 0.125), 0.125 + this->gain * 0.0625);
+  auto least = this->regulator(0);
+  this->propose(least, 0.375, 0.4375);
+  least.accept(false, true);
+  EXPECT_EQ(this->step(least, 0.375, 0.375), 0.375 - this->gain * 0.0625);
+}
+
+TYPED_TEST(IntegralRegulatorTest, ARestartForgetsAndHolds) {
+  auto regulator = this->regulator(1);
+  for (int i = 0; i < 6; ++i) {
+    this->step(regulator, 0.25, 0.125);
+  }
+  regulator.restart();
+  EXPECT_EQ(this->step(regulator, 0.25, 0.125), 0.25);
+  EXPECT_EQ(this->step(regulator, 0.25, 0.125), 0.25 + this->gain * 0.125);
+}
+
+// Bounds reported as the controller reports them; a friction within ±0.9 of a sensor at 2 Fc.
+TYPED_TEST(IntegralRegulatorTest, CommandsARatioBetweenNothingAndAllOfIt) {
+  EXPECT_TRUE(rc::check([this] {
+    auto regulator = this->regulator(*rc::gen::inRange<std::uint16_t>(0, 9));
+    const double target = *rc::gen::inRange(5, 46) * 0.01;
+    for (int i = 0; i < 300; ++i) {
+      const double measured = *rc::gen::inRange(-45, 91) * 0.01;
+      const double commanded = this->propose(regulator, target, measured);
+      RC_ASSERT(commanded >= 0.0 && commanded <= 0.5);
+      regulator.accept(commanded <= 0.01, commanded >= 0.5);
+    }
+  }));
+}
+
+}  // namespace
+}  // namespace sonoglide::control

@@ -1,0 +1,141 @@
+#include "firmware/control/notch_shaper.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <complex>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "firmware/control/no_shaping.hpp"
+#include "scalars.hpp"
+
+namespace sonoglide::control {
+namespace {
+
+constexpr int max_spacing = 32;
+
+/// A natural mode over one carrier period.
+struct Mode {
+  double decay;     ///< exp(−σT)
+  double rotation;  ///< ωd T
+};
+
+std::array<double, 3> notch(const Mode& mode, int spacing) {
+  const double decay = std::pow(mode.decay, spacing);
+  const double middle = -2.0 * decay * std::cos(mode.rotation * spacing);
+  const double sum = 1.0 + middle + decay * decay;
+  return {1.0 / sum, middle / sum, decay * decay / sum};
+}
+
+/// A mode whose notch at this spacing has every tap within ±1.
+Mode mode_for(int spacing, double decay) {
+  constexpr double one_notch_rotation = 1.8;
+  return {std::pow(decay, 1.0 / spacing), one_notch_rotation / spacing};
+}
+
+template <class Scalar>
+NotchShaper<Scalar, max_spacing> shaper(const std::array<double, 3>& taps, int spacing) {
+  return NotchShaper<Scalar, max_spacing>(
+      {{scaled<Scalar>(taps[0]), scaled<Scalar>(taps[1]), scaled<Scalar>(taps[2])},
+       static_cast<std::uint8_t>(spacing)});
+}
+
+/// Free response of the mode, of unit size for a unit step, after these amplitudes.
+std::complex<double> free_response(const std::vector<double>& amplitudes, const Mode& mode) {
+  const std::complex<double> turn = std::polar(mode.decay, mode.rotation);
+  std::complex<double> state = 0.0;
+  double previous = 0.0;
+  for (const double amplitude : amplitudes) {
+    state = turn * state + (amplitude - previous);
+    previous = amplitude;
+  }
+  return state;
+}
+
+template <class Scalar>
+class NotchShaperTest : public testing::Test {};
+TYPED_TEST_SUITE(NotchShaperTest, Scalars);
+
+TYPED_TEST(NotchShaperTest, AnswersAnImpulseByItsTapsAtEverySpacing) {
+  for (int spacing = 1; spacing <= max_spacing; ++spacing) {
+    const auto taps = notch(mode_for(spacing, 0.9), spacing);
+    auto notching = shaper<TypeParam>(taps, spacing);
+    for (int k = 0; k <= 3 * spacing; ++k) {
+      const auto shaped = notching.shape(scaled<TypeParam>(k == 0 ? 0.5 : 0.0));
+      const bool on_tap = k % spacing == 0 && k <= 2 * spacing;
+      const double tap = on_tap ? taps[static_cast<std::size_t>(k / spacing)] : 0.0;
+      ASSERT_NEAR(numeric::to_real(shaped), 0.5 * tap, on_tap ? resolution<TypeParam>() : 0.0)
+          << "spacing " << spacing << " period " << k;
+    }
+  }
+}
+
+TYPED_TEST(NotchShaperTest, PassesAConstantUnchanged) {
+  for (int spacing = 1; spacing <= max_spacing; ++spacing) {
+    auto notching = shaper<TypeParam>(notch(mode_for(spacing, 1.0), spacing), spacing);
+    for (int k = 0; k < 2 * spacing; ++k) {
+      notching.shape(scaled<TypeParam>(0.7));
+    }
+    ASSERT_NEAR(numeric::to_real(notching.shape(scaled<TypeParam>(0.7))), 0.7,
+                3.0 * resolution<TypeParam>());
+  }
+}
+
+// Rounding of taps and sums excites the mode by some units; without the notch it is by the steps.
+TYPED_TEST(NotchShaperTest, LeavesTheModeAtRestAfterTheLastStep) {
+  for (const double decay : {1.0, 0.8, 0.4}) {
+    for (int spacing = 1; spacing <= max_spacing; ++spacing) {
+      const Mode mode = mode_for(spacing, decay);
+      auto notching = shaper<TypeParam>(notch(mode, spacing), spacing);
+      std::vector<double> unshaped;
+      std::vector<double> shaped;
+      for (int k = 0; k <= 5 * spacing + 7; ++k) {
+        const double amplitude = k < 3 ? 0.3 : k < 2 * spacing + 5 ? 0.55 : 0.4;
+        unshaped.push_back(amplitude);
+        shaped.push_back(numeric::to_real(notching.shape(scaled<TypeParam>(amplitude))));
+      }
+      const double allowed =
+          std::is_same_v<TypeParam, double> ? 1e-12 : 60 * resolution<TypeParam>();
+      ASSERT_LT(std::abs(free_response(shaped, mode)), allowed)
+          << "decay " << decay << " spacing " << spacing;
+      if (decay == 1.0) {
+        ASSERT_GT(std::abs(free_response(unshaped, mode)), 0.05);
+      }
+    }
+  }
+}
+
+TYPED_TEST(NotchShaperTest, LeavesTheModeOfTable1AtRestAfterFiveCarrierPeriods) {
+  const Mode mode{1.0, std::sqrt(133e6 / 0.02) / 60e3};
+  auto notching = shaper<TypeParam>(notch(mode, 1), 1);
+  std::vector<double> shaped;
+  for (int k = 0; k < 5; ++k) {
+    shaped.push_back(numeric::to_real(notching.shape(scaled<TypeParam>(0.8))));
+  }
+  EXPECT_LT(std::abs(free_response(shaped, mode)), 10.0 * resolution<TypeParam>());
+}
+
+TYPED_TEST(NotchShaperTest, ARestartForgets) {
+  const auto taps = notch(mode_for(3, 0.9), 3);
+  auto used = shaper<TypeParam>(taps, 3);
+  for (int k = 0; k < 17; ++k) {
+    used.shape(scaled<TypeParam>(0.05 * k));
+  }
+  used.restart();
+  auto fresh = shaper<TypeParam>(taps, 3);
+  for (int k = 0; k < 17; ++k) {
+    const auto amplitude = scaled<TypeParam>(0.8 - 0.04 * k);
+    ASSERT_EQ(used.shape(amplitude), fresh.shape(amplitude));
+  }
+}
+
+TYPED_TEST(NotchShaperTest, NoShapingIsTheIdentity) {
+  NoShaping<TypeParam> none({});
+  EXPECT_EQ(numeric::to_real(none.shape(scaled<TypeParam>(0.625))), 0.625);
+}
+
+}  // namespace
+}  // namespace sonoglide::control
