@@ -1,0 +1,13 @@
+/// What the program tells the shell.
+#pragma once
+
+namespace sonoglide::cli {
+
+enum ExitCode : int {
+  done = 0,
+  system_failed = 1,       ///< the file system or a tool
+  bad_input = 2,           ///< usage or scene; nothing was written
+  computation_failed = 3,  ///< time, state and reason are on stderr
+};
+
+}  // namespace sonoglide::cli

@@ -1,0 +1,5 @@
+#include "host_sim/cli/program.hpp"
+
+int main(int argument_count, char** arguments) {
+  return sonoglide::cli::run_program(argument_count, arguments);
+}

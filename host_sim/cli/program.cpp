@@ -1,0 +1,69 @@
+#include "host_sim/cli/program.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
+
+#include "host_sim/cli/exit_code.hpp"
+#include "host_sim/cli/ratio_command.hpp"
+#include "host_sim/cli/run_command.hpp"
+#include "host_sim/loop/run.hpp"
+#include "host_sim/report/output_folder.hpp"
+#include "host_sim/scene/scene_error.hpp"
+
+namespace sonoglide::cli {
+namespace {
+
+/// A full disk or a closed pipe shows only when the buffer goes out.
+void flush_output() {
+  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
+    throw report::OutputError("standard output: cannot be written");
+  }
+}
+
+void parse_and_run(int argument_count, const char* const* arguments) {
+  CLI::App program("Ultrasonic friction control: simulation of plant and controller", "sonoglide");
+  program.set_version_flag("--version", "sonoglide " SONOGLIDE_VERSION);
+  program.require_subcommand(0, 1);
+  RunOptions run_options;
+  RatioOptions ratio_options;
+  add_run_command(program, run_options)->callback([&run_options] { run(run_options); });
+  add_ratio_command(program, ratio_options)->callback([&ratio_options] { ratio(ratio_options); });
+  try {
+    program.parse(argument_count, arguments);
+    if (program.get_subcommands().empty()) {
+      throw CLI::RequiredError("a command");
+    }
+  } catch (const CLI::Success& request) {
+    program.exit(request);
+  }
+  flush_output();
+}
+
+int fail(ExitCode code, const char* message) {
+  fmt::print(stderr, "{}\n", message);
+  return code;
+}
+
+}  // namespace
+
+int run_program(int argument_count, const char* const* arguments) {
+  try {
+    parse_and_run(argument_count, arguments);
+    return done;
+  } catch (const CLI::ParseError& error) {
+    fmt::print(stderr, "sonoglide: {}\nsonoglide --help lists the commands and their options\n",
+               error.what());
+    return bad_input;
+  } catch (const scene::SceneError& error) {
+    return fail(bad_input, error.what());
+  } catch (const loop::ComputationError& error) {
+    return fail(computation_failed, error.what());
+  } catch (const std::exception& error) {
+    return fail(system_failed, error.what());
+  }
+}
+
+}  // namespace sonoglide::cli

@@ -1,0 +1,39 @@
+/// How far a long computation is, on a terminal.
+#pragma once
+
+#include <chrono>
+#include <cstdio>
+#include <string>
+
+namespace sonoglide::cli {
+
+/// One line without its end: `[########------------]  40 %, 3 s left`.
+///
+/// @param fraction   done, clamped to [0, 1]
+/// @param elapsed_s  time taken for it
+std::string progress_line(double fraction, double elapsed_s);
+
+/// Redraws its line at most ten times a second and clears it when destroyed. Silent unless the
+/// stream is a terminal.
+class ProgressBar {
+ public:
+  /// @param stream  outlives the bar
+  /// @param wanted  false keeps it silent on a terminal too
+  ProgressBar(std::FILE* stream, bool wanted);
+  ~ProgressBar();
+  ProgressBar(const ProgressBar&) = delete;
+  ProgressBar& operator=(const ProgressBar&) = delete;
+
+  void update(double fraction);
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  std::FILE* stream_;
+  bool shown_;
+  bool drawn_ = false;
+  Clock::time_point start_ = Clock::now();
+  Clock::time_point last_drawn_ = start_;
+};
+
+}  // namespace sonoglide::cli

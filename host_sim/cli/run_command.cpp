@@ -1,0 +1,65 @@
+#include "host_sim/cli/run_command.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <filesystem>
+
+#include "host_sim/cli/progress_bar.hpp"
+#include "host_sim/loop/run.hpp"
+#include "host_sim/report/output_folder.hpp"
+#include "host_sim/report/run_report.hpp"
+#include "host_sim/scene/reader.hpp"
+
+namespace sonoglide::cli {
+namespace {
+
+/// Stages and removes an empty folder: an output that cannot be written is found out before the
+/// results are computed.
+void require_writable(const std::filesystem::path& out) {
+  const report::OutputFolder probe(out);
+}
+
+loop::RunResult compute(const scene::Scene& scene, const RunOptions& options) {
+  ProgressBar bar(stderr, !options.quiet);
+  return loop::run(scene, [&bar](double fraction) { bar.update(fraction); });
+}
+
+}  // namespace
+
+CLI::App* add_run_command(CLI::App& program, RunOptions& options) {
+  CLI::App* command =
+      program.add_subcommand("run", "Run a scene: closed loop if it has a [controller] table");
+  command->add_option("scene", options.scene, "The scene, a TOML file")
+      ->required()
+      ->type_name("SCENE.toml");
+  command
+      ->add_option("--out", options.out,
+                   "Folder for summary.json, trace.csv and report.html [out/<scene name>]")
+      ->type_name("DIR")
+      ->check([](const std::string& folder) {
+        return folder.empty() ? std::string("is empty; allowed: a folder") : std::string();
+      });
+  command
+      ->add_option("--set", options.overrides,
+                   "Replace or add one value of the scene, e.g. drive.force_amplitude_N=1920; "
+                   "repeatable")
+      ->type_name("TABLE.KEY=VALUE")
+      ->allow_extra_args(false);
+  command->add_flag("--quiet", options.quiet, "No progress bar and no printed summary");
+  return command;
+}
+
+void run(const RunOptions& options) {
+  const scene::Scene scene = scene::read_file(options.scene, options.overrides);
+  const std::filesystem::path out = options.out.empty() ? std::filesystem::path("out") / scene.name
+                                                        : std::filesystem::path(options.out);
+  require_writable(out);
+  const loop::RunResult result = compute(scene, options);
+  report::write_run(out, scene, result);
+  if (!options.quiet) {
+    fmt::print("{}", report::run_text(scene, result, out));
+  }
+}
+
+}  // namespace sonoglide::cli

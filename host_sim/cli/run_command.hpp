@@ -1,0 +1,25 @@
+/// `sonoglide run`: one scene, computed and reported.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+#include <string>
+#include <vector>
+
+namespace sonoglide::cli {
+
+struct RunOptions {
+  std::string scene;
+  std::string out;  ///< empty: out/<scene name>
+  std::vector<std::string> overrides;
+  bool quiet = false;
+};
+
+/// Adds the command to the program; `options` outlives it and is filled in by parsing.
+CLI::App* add_run_command(CLI::App& program, RunOptions& options);
+
+/// Throws scene::SceneError, loop::ComputationError, report::OutputError; in each case nothing was
+/// written.
+void run(const RunOptions& options);
+
+}  // namespace sonoglide::cli

@@ -1,0 +1,30 @@
+/// Where a controller meets the simulation: one exchange per carrier period.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "firmware/numeric/signal_ledger.hpp"
+#include "hal/board.hpp"
+#include "host_sim/scene/control_design.hpp"
+#include "host_sim/scene/scene.hpp"
+
+namespace sonoglide::loop {
+
+/// A controller seen from outside, wherever it runs.
+class ControlPort {
+ public:
+  virtual ~ControlPort() = default;
+  /// Sets the target friction ratio, in (0, 1].
+  virtual void set_target(double friction_ratio) = 0;
+  /// One control step.
+  virtual hal::Drive exchange(const hal::Sample& sample) = 0;
+  /// What the fixed-point signals did so far; empty for floating point.
+  virtual std::vector<numeric::SignalRecord> signals() const = 0;
+};
+
+/// The controller of a scene, in this process: the image's control loop on a simulated board.
+std::unique_ptr<ControlPort> make_control_port(const scene::Scene& scene,
+                                               const scene::ControlDesign& design);
+
+}  // namespace sonoglide::loop

@@ -1,0 +1,54 @@
+#include "host_sim/loop/control_run.hpp"
+
+#include "host_sim/loop/time_rounding.hpp"
+
+namespace sonoglide::loop {
+
+ControlRun::ControlRun(const scene::Scene& scene, ControlRecord& record)
+    : scene_(scene),
+      record_(record),
+      sensor_(scene.sensor, record.design.scales),
+      port_(make_control_port(scene, record.design)) {}
+
+void ControlRun::label(Period& period) const {
+  period.target = target_;
+  period.state = state_;
+  period.limit = limit_;
+}
+
+void ControlRun::step(double time_s, double mean_force_N, double sliding_velocity_m_per_s) {
+  constexpr double unit = 1.0 / 2147483648.0;  // of an amplitude code, 2^-31
+  follow_target(time_s);
+  const hal::Drive drive = port_->exchange(sensor_.sample(mean_force_N, sliding_velocity_m_per_s));
+  amplitude_N_ = drive.amplitude * unit * record_.design.scales.drive_amplitude_N;
+  account_for(drive, time_s);
+}
+
+void ControlRun::finish() {
+  record_.trace_hash = hash_.value();
+  record_.signals = port_->signals();
+}
+
+void ControlRun::follow_target(double time_s) {
+  const auto& steps = scene_.controller->target_friction_ratio;
+  const double now_s = time_s + time_rounding * record_.design.scales.carrier_period_s;
+  while (next_step_ < steps.size() && steps[next_step_].time_s <= now_s) {
+    target_ = steps[next_step_++].friction_ratio;
+    port_->set_target(target_);
+  }
+}
+
+void ControlRun::account_for(const hal::Drive& drive, double time_s) {
+  state_ = static_cast<control::State>(drive.state);
+  limit_ = static_cast<control::Limit>(drive.limit);
+  const auto fault = static_cast<control::Fault>(drive.fault);
+  if (fault != control::Fault::none && fault != fault_) {
+    record_.faults.push_back({time_s, fault});
+  }
+  fault_ = fault;
+  hash_.add(drive);
+  ++record_.commands;
+  record_.saturated_commands += limit_ == control::Limit::actuator ? 1 : 0;
+}
+
+}  // namespace sonoglide::loop

@@ -1,0 +1,52 @@
+/// The controller's side of a closed loop: what drives the next carrier period, and the account of
+/// it.
+#pragma once
+
+#include <cstddef>
+#include <limits>
+#include <memory>
+
+#include "firmware/control/drive_command.hpp"
+#include "host_sim/loop/control_port.hpp"
+#include "host_sim/loop/run_result.hpp"
+#include "host_sim/loop/sensor.hpp"
+#include "host_sim/loop/trace_hash.hpp"
+#include "host_sim/scene/scene.hpp"
+
+namespace sonoglide::loop {
+
+class ControlRun {
+ public:
+  /// @param record  its design is used, the rest filled in; both must outlive this
+  ControlRun(const scene::Scene& scene, ControlRecord& record);
+
+  /// In force during the next carrier period.
+  double amplitude_N() const { return amplitude_N_; }
+
+  /// Notes in the period that has just passed what drove it.
+  void label(Period& period) const;
+
+  /// One control step, at the end of a carrier period.
+  void step(double time_s, double mean_force_N, double sliding_velocity_m_per_s);
+
+  /// Fills in what the run ends with.
+  void finish();
+
+ private:
+  void follow_target(double time_s);
+  void account_for(const hal::Drive& drive, double time_s);
+
+  const scene::Scene& scene_;
+  ControlRecord& record_;
+  Sensor sensor_;
+  std::unique_ptr<ControlPort> port_;
+  TraceHash hash_;
+  std::size_t next_step_ = 0;
+  double target_ = std::numeric_limits<double>::quiet_NaN();
+  double amplitude_N_ = 0.0;
+  control::State state_ = control::State::off;
+  control::Limit limit_ = control::Limit::none;
+  control::Fault fault_ = control::Fault::none;
+};
+
+}  // namespace sonoglide::loop

@@ -1,0 +1,55 @@
+#include "host_sim/loop/energy.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace sonoglide::loop {
+namespace {
+
+double quotient(double numerator, double denominator) {
+  return denominator > 0.0 ? numerator / denominator : std::numeric_limits<double>::quiet_NaN();
+}
+
+double balance_residual(const EnergyBalance& energy, double sign) {
+  const double change = energy.stored_end_J - energy.stored_begin_J;
+  const double residual = energy.friction_work_J - energy.pull_work_J -
+                          sign * (energy.drive_work_J - energy.damping_work_J - change);
+  const double largest = std::max({std::abs(energy.friction_work_J), std::abs(energy.pull_work_J),
+                                   std::abs(energy.drive_work_J), std::abs(energy.damping_work_J),
+                                   energy.stored_begin_J, energy.stored_end_J});
+  return largest > 0.0 ? std::abs(residual) / largest : 0.0;
+}
+
+}  // namespace
+
+void EnergyBalance::append(const EnergyBalance& next) {
+  if (duration_s == 0.0) {
+    stored_begin_J = next.stored_begin_J;
+  }
+  duration_s += next.duration_s;
+  sliding_distance_m += next.sliding_distance_m;
+  friction_impulse_N_s += next.friction_impulse_N_s;
+  resistance_impulse_N_s += next.resistance_impulse_N_s;
+  friction_work_J += next.friction_work_J;
+  pull_work_J += next.pull_work_J;
+  drive_work_J += next.drive_work_J;
+  damping_work_J += next.damping_work_J;
+  stored_end_J = next.stored_end_J;
+  stored_integral_J_s += next.stored_integral_J_s;
+  momentum_integral_J_s += next.momentum_integral_J_s;
+}
+
+PowerRatios power_ratios(const EnergyBalance& energy, double friction_N,
+                         scene::SignConvention convention, double period_s) {
+  const double sign = convention == scene::SignConvention::dissipative ? 1.0 : -1.0;
+  const double undriven_J = friction_N * energy.sliding_distance_m;
+  const double drive_input = quotient(energy.drive_work_J, undriven_J);
+  const double stored_as_printed =
+      quotient(energy.stored_integral_J_s + energy.momentum_integral_J_s, undriven_J * period_s);
+  return {quotient(energy.resistance_impulse_N_s, friction_N * energy.duration_s),
+          quotient(energy.friction_work_J, undriven_J), drive_input, balance_residual(energy, sign),
+          1.0 + drive_input - stored_as_printed};
+}
+
+}  // namespace sonoglide::loop

@@ -1,0 +1,43 @@
+/// Where the energy of a stretch of motion went, in SI units.
+#pragma once
+
+#include "host_sim/scene/scene.hpp"
+
+namespace sonoglide::loop {
+
+/// Integrals over a stretch of motion; stretches add up.
+///
+/// Identity, σ = +1 dissipative, −1 as printed:
+///   friction_work = pull_work + σ (drive_work − damping_work − (stored_end − stored_begin)).
+struct EnergyBalance {
+  double duration_s = 0.0;
+  double sliding_distance_m = 0.0;      ///< ∫|Vt| dt
+  double friction_impulse_N_s = 0.0;    ///< ∫F dt
+  double resistance_impulse_N_s = 0.0;  ///< ∫F·sgn(Vt) dt
+  double friction_work_J = 0.0;         ///< ∫F V dt, into the contact
+  double pull_work_J = 0.0;             ///< ∫F Vt dt, from whatever slides
+  double drive_work_J = 0.0;            ///< ∫Fe x' dt
+  double damping_work_J = 0.0;          ///< ∫c x'² dt
+  double stored_begin_J = 0.0;          ///< m x'²/2 + Ks x²/2
+  double stored_end_J = 0.0;
+  double stored_integral_J_s = 0.0;    ///< ∫(m x'²/2 + Ks x²/2) dt
+  double momentum_integral_J_s = 0.0;  ///< ∫m Vt x' dt
+
+  /// Appends the stretch that follows.
+  void append(const EnergyBalance& next);
+};
+
+/// Ratios to the undriven friction Fc; NaN where Fc or the sliding distance is zero.
+struct PowerRatios {
+  double friction_ratio;          ///< ρ = mean F·sgn(Vt) / Fc
+  double dissipation_ratio;       ///< φ_fu
+  double drive_input_ratio;       ///< φ_iu
+  double balance_residual;        ///< of the identity, relative to its largest term
+  double dissipation_as_printed;  ///< 1 + φ_iu − φ_su, φ_su from the average stored energy
+};
+
+/// @param period_s  carrier period: the paper divides stored energy by the work of one.
+PowerRatios power_ratios(const EnergyBalance& energy, double friction_N,
+                         scene::SignConvention convention, double period_s);
+
+}  // namespace sonoglide::loop

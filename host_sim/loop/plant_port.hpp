@@ -1,0 +1,51 @@
+/// The plant seen from the simulation, in SI units, whatever it is composed of.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "firmware/plant/outcome.hpp"
+#include "host_sim/loop/energy.hpp"
+#include "host_sim/scene/scene.hpp"
+
+namespace sonoglide::loop {
+
+struct PlantState {
+  double displacement_m;
+  double velocity_m_per_s;
+  double friction_force_N;
+};
+
+/// A stretch of time with one drive amplitude and a linear sliding velocity that keeps its sign.
+struct Stretch {
+  double duration_s;
+  double drive_phase_rad;       ///< at its beginning, in [0, 2π)
+  double drive_rate_rad_per_s;  ///< 2π f; 0 without a drive
+  double drive_amplitude_N;
+  double sliding_velocity_m_per_s;  ///< at its beginning
+  double sliding_acceleration_m_per_s2;
+};
+
+/// What to watch during a stretch; watching never changes the motion.
+struct Watch {
+  bool stored_energy = false;     ///< fill EnergyBalance's two integrals of the state
+  std::vector<double> offsets_s;  ///< rising, inside the stretch: where states are wanted
+};
+
+class PlantPort {
+ public:
+  virtual ~PlantPort() = default;
+
+  /// Advances over one stretch. `seen` gets one state for each offset of the watch.
+  /// An error leaves the state where it happened, `outcome.offset` seconds into the stretch.
+  virtual plant::Outcome<double> advance(const Stretch& stretch, const Watch& watch,
+                                         EnergyBalance& energy, std::vector<PlantState>& seen) = 0;
+  virtual PlantState state() const = 0;
+  virtual plant::Cost cost() const = 0;
+};
+
+/// The plant of a scene, composed of exactly what the scene names.
+std::unique_ptr<PlantPort> make_plant_port(const scene::Scene& scene);
+
+}  // namespace sonoglide::loop

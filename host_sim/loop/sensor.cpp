@@ -1,0 +1,83 @@
+#include "host_sim/loop/sensor.hpp"
+
+#include "firmware/numeric/float_elementary.hpp"
+#include "firmware/numeric/scalar.hpp"
+
+namespace sonoglide::loop {
+namespace {
+
+struct Conversion {
+  std::int32_t code;  ///< left-justified
+  bool at_rail;
+};
+
+/// A two's-complement converter of the given width that spans ± full scale, rounding to nearest.
+Conversion convert(double value, double full_scale, int bits) {
+  const double levels = numeric::scale_by_power_of_two(1.0, bits - 1);
+  const double scaled = value / full_scale * levels;
+  const bool high = !(scaled < levels - 1.5);
+  const bool low = !high && scaled < -levels + 0.5;
+  const std::int64_t top = (std::int64_t{1} << (bits - 1)) - 1;
+  std::int64_t code = 0;
+  if (high || low) {
+    code = high ? top : -top - 1;
+  } else {
+    code = static_cast<std::int64_t>(scaled + levels + 0.5) - (top + 1);
+  }
+  return {static_cast<std::int32_t>(code * (std::int64_t{1} << (32 - bits))), high || low};
+}
+
+constexpr int ideal_bits = 32;
+
+}  // namespace
+
+Sensor::Sensor(const scene::Sensor& sensor, const scene::ControlScales& scales)
+    : sensor_(sensor),
+      scales_(scales),
+      pipeline_N_(static_cast<std::size_t>(sensor.delay_periods), 0.0),
+      generator_(sensor.seed) {
+  if (sensor.force_bandwidth_Hz) {
+    constexpr double two_pi = 6.28318530717958647693;
+    const double periods = two_pi * *sensor.force_bandwidth_Hz * scales.carrier_period_s;
+    filter_decay_ = numeric::exp(-periods);
+    filter_new_weight_ = 1.0 + numeric::expm1(-periods) / periods;
+  }
+}
+
+hal::Sample Sensor::sample(double mean_force_N, double sliding_velocity_m_per_s) {
+  const double force_N = delayed(filtered(mean_force_N)) + noise();
+  const Conversion force = convert(force_N, scales_.force_N, sensor_.adc_bits.value_or(ideal_bits));
+  const Conversion velocity =
+      convert(sliding_velocity_m_per_s, scales_.velocity_m_per_s, ideal_bits);
+  return {force.code, velocity.code, force.at_rail, true};
+}
+
+/// First-order lag, exact for an input that runs linearly from the last sample to this one.
+double Sensor::filtered(double force_N) {
+  const double old_weight = 1.0 - filter_decay_ - filter_new_weight_;
+  filter_state_N_ =
+      filter_decay_ * filter_state_N_ + old_weight * filter_input_N_ + filter_new_weight_ * force_N;
+  filter_input_N_ = force_N;
+  return filter_state_N_;
+}
+
+double Sensor::delayed(double force_N) {
+  pipeline_N_.push_back(force_N);
+  const double out = pipeline_N_.front();
+  pipeline_N_.pop_front();
+  return out;
+}
+
+double Sensor::noise() {
+  if (sensor_.force_noise_N == 0.0) {
+    return 0.0;
+  }
+  constexpr double ln_2 = 0.69314718055994530942;
+  constexpr double unit = 1.0 / 9007199254740992.0;  // 2^-53
+  const double radius_draw = (static_cast<double>(generator_() >> 11) + 1.0) * unit;
+  const double angle_draw = static_cast<double>(generator_() >> 11) * unit;
+  const double radius = numeric::sqrt(-2.0 * ln_2 * numeric::log2(radius_draw));
+  return sensor_.force_noise_N * radius * numeric::sin_pi(2.0 * angle_draw - 1.0);
+}
+
+}  // namespace sonoglide::loop

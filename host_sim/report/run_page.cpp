@@ -1,0 +1,326 @@
+#include "host_sim/report/run_page.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "host_sim/analysis/hysteresis.hpp"
+#include "host_sim/analysis/spectrum.hpp"
+#include "host_sim/analysis/step_metrics.hpp"
+#include "host_sim/report/control_names.hpp"
+#include "host_sim/scene/names.hpp"
+#include "host_sim/scene/plant_scales.hpp"
+
+namespace sonoglide::report {
+namespace {
+
+constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
+constexpr const char* time_label = "Time [s]";
+
+std::string percent(double part) {
+  return fmt::format("{:.3g} %", 100.0 * part);
+}
+
+std::string lead(const scene::Scene& scene, const loop::RunResult& result) {
+  std::string text =
+      scene.controller
+          ? fmt::format("Closed loop, controller in {}",
+                        scene::name_of(scene::arithmetics, scene.controller->arithmetic))
+          : std::string("Open loop");
+  text += fmt::format(". Friction law: {}. Solver: {}. {:.6g} ms simulated in {:.3g} ms.",
+                      scene::name_of(scene::friction_laws, scene.friction.law),
+                      scene::name_of(scene::solver_methods, scene.solver.method),
+                      result.final_time_s * 1e3, result.wall_s * 1e3);
+  return text;
+}
+
+std::vector<std::string> warnings(const scene::Scene& scene, const loop::RunResult& result) {
+  std::vector<std::string> all;
+  if (scene.friction.sign_convention == scene::SignConvention::as_printed) {
+    all.emplace_back(
+        "Sign convention as printed in the paper (V = Vt - x'): friction pumps energy into the "
+        "vibration. The dissipative convention is V = Vt + x'.");
+  }
+  if (!result.control) {
+    return all;
+  }
+  for (const loop::FaultEvent& event : result.control->faults) {
+    all.push_back(fmt::format("Fault at {:.6g} ms: {}. The drive is off from there on.",
+                              event.time_s * 1e3, fault_name(event.fault)));
+  }
+  if (result.control->saturated_commands > 0) {
+    all.push_back(
+        fmt::format("The drive stood at the actuator's limit of {:.6g} N for {} of the "
+                    "control steps.",
+                    scene.drive->max_force_amplitude_N,
+                    percent(static_cast<double>(result.control->saturated_commands) /
+                            static_cast<double>(result.control->commands))));
+  }
+  const bool held = std::any_of(
+      result.periods.begin(), result.periods.end(),
+      [](const loop::Period& period) { return period.limit == control::Limit::speed_floor; });
+  if (held) {
+    const scene::ControlDesign& design = result.control->design;
+    all.push_back(
+        fmt::format("The drive was held while sliding was slower than {:.3g} mm/s, where "
+                    "the friction ratio is undefined.",
+                    1e3 * design.speed_floor * design.scales.velocity_m_per_s));
+  }
+  return all;
+}
+
+Table step_table(const scene::Scene& scene, const loop::RunResult& result) {
+  Table table{"Target steps",
+              {"From [ms]", "Target", "Settles in [µs]", "Overshoot", "Steady error", "Ripple",
+               "Drive [N]", "Limit"},
+              {}};
+  for (const analysis::StepMetrics& step : analysis::step_metrics(scene, result)) {
+    table.rows.push_back(
+        {fmt::format("{:.3f}", step.time_s * 1e3), fmt::format("{:.3f}", step.target),
+         step.settling_time_s ? fmt::format("{:.1f}", *step.settling_time_s * 1e6) : "never",
+         fmt::format("{:.5f}", step.overshoot), fmt::format("{:+.5f}", step.steady_error),
+         fmt::format("{:.5f}", step.ripple), fmt::format("{:.1f}", step.drive_amplitude_N),
+         limit_name(step.limit)});
+  }
+  return table;
+}
+
+Table run_table(const scene::Scene& scene, const loop::RunResult& result) {
+  const double friction_N = scene::friction_limit_N(scene.friction);
+  const double period_s = scene.drive ? 1.0 / scene.drive->frequency_Hz : result.final_time_s;
+  const auto ratios = [&](const loop::EnergyBalance& energy) {
+    return loop::power_ratios(energy, friction_N, scene.friction.sign_convention, period_s);
+  };
+  const loop::PowerRatios window = ratios(result.window);
+  Table table{"Run", {}, {}};
+  const auto row = [&table](const char* name, std::string value) {
+    table.rows.push_back({name, std::move(value)});
+  };
+  row("Undriven friction force [N]", fmt::format("{:.6g}", friction_N));
+  if (friction_N > 0.0) {
+    row("Friction ratio, whole run", fmt::format("{:.9f}", ratios(result.whole).friction_ratio));
+    row("Friction ratio, window", fmt::format("{:.9f}", window.friction_ratio));
+    row("Power dissipation ratio, window", fmt::format("{:.6f}", window.dissipation_ratio));
+    row("Drive input ratio, window", fmt::format("{:.6f}", window.drive_input_ratio));
+    row("Power dissipation ratio as the paper prints it",
+        fmt::format("{:.6g}", window.dissipation_as_printed));
+  }
+  row("Energy balance residual, window", fmt::format("{:.2g}", window.balance_residual));
+  row("Solver steps and reversals",
+      fmt::format("{} and {}", result.solver_steps, result.solver_events));
+  row("Simulated time over wall time", fmt::format("{:.3g}", result.final_time_s / result.wall_s));
+  return table;
+}
+
+Table signal_table(const loop::ControlRecord& control) {
+  Table table{
+      "Fixed-point signals, per unit", {"Signal", "Smallest", "Largest", "Saturations"}, {}};
+  for (const numeric::SignalRecord& signal : control.signals) {
+    table.rows.push_back({signal.name, fmt::format("{:.6f}", signal.smallest),
+                          fmt::format("{:.6f}", signal.largest),
+                          fmt::format("{}", signal.saturations)});
+  }
+  return table;
+}
+
+/// Every stride-th carrier period, so that a long run's page stays light.
+template <class Value>
+std::vector<double> per_period(const std::vector<loop::Period>& periods, Value value) {
+  constexpr std::size_t most_points = 20000;
+  const std::size_t stride = periods.size() / most_points + 1;
+  std::vector<double> values;
+  for (std::size_t i = 0; i < periods.size(); i += stride) {
+    values.push_back(value(periods[i]));
+  }
+  return values;
+}
+
+Section course(const scene::Scene& scene, const std::vector<loop::Period>& periods) {
+  const std::vector<double> time =
+      per_period(periods, [](const loop::Period& period) { return period.begin_s; });
+  const auto series = [&periods](const char* label, auto value) {
+    return Series{label, per_period(periods, value), true, false};
+  };
+  const auto ratio = [](const loop::Period& period) { return period.friction_ratio; };
+  const auto target = [](const loop::Period& period) { return period.target; };
+  const auto amplitude = [](const loop::Period& period) { return period.drive_amplitude_N; };
+  const auto velocity = [](const loop::Period& period) { return period.begin_velocity_m_per_s; };
+
+  Section section{"Course of the run", "One value for each carrier period.", {}};
+  if (scene::friction_limit_N(scene.friction) > 0.0) {
+    Panel panel{"Friction ratio",
+                "Mean friction force over a carrier period, divided by the "
+                "undriven one.",
+                time_label,
+                "Friction ratio [-]",
+                time,
+                {},
+                false,
+                "course"};
+    if (scene.controller) {
+      panel.series.push_back(series("target", target));
+    }
+    panel.series.push_back(series("reached", ratio));
+    section.panels.push_back(std::move(panel));
+  }
+  if (scene.drive) {
+    section.panels.push_back({"Drive amplitude",
+                              "",
+                              time_label,
+                              "Drive force amplitude [N]",
+                              time,
+                              {series("amplitude", amplitude)},
+                              false,
+                              "course"});
+  }
+  if (scene.sliding.profile.size() > 1) {
+    section.panels.push_back({"Sliding velocity",
+                              "",
+                              time_label,
+                              "Sliding velocity [m/s]",
+                              time,
+                              {series("sliding", velocity)},
+                              false,
+                              "course"});
+  }
+  return section;
+}
+
+Section close_up(const scene::Scene& scene, const loop::Recording& recording, std::size_t index) {
+  const auto column = [&recording](auto value) {
+    std::vector<double> values;
+    for (const loop::PlantState& state : recording.state) {
+      values.push_back(value(state));
+    }
+    return values;
+  };
+  const auto displacement = [](const loop::PlantState& state) { return state.displacement_m; };
+  const auto velocity = [](const loop::PlantState& state) { return state.velocity_m_per_s; };
+  const auto friction = [](const loop::PlantState& state) { return state.friction_force_N; };
+
+  Section section{"Start", "The first carrier periods.", {}};
+  if (scene.controller) {
+    const scene::TargetStep& step = scene.controller->target_friction_ratio[index];
+    section.title =
+        fmt::format("Step to {:.3g} at {:.6g} ms", step.friction_ratio, step.time_s * 1e3);
+    section.text = "The carrier periods around the step.";
+  }
+  const std::string group = fmt::format("close_up_{}", index);
+  const auto panel = [&](const char* title, const char* label, std::vector<double> values) {
+    section.panels.push_back({title,
+                              "",
+                              time_label,
+                              label,
+                              recording.time_s,
+                              {{title, std::move(values), false, false}},
+                              false,
+                              group});
+  };
+  panel("Displacement", "Displacement [m]", column(displacement));
+  panel("Velocity", "Vibration velocity [m/s]", column(velocity));
+  if (scene::friction_limit_N(scene.friction) > 0.0) {
+    panel("Friction force", "Friction force [N]", column(friction));
+  }
+  return section;
+}
+
+Panel hysteresis_panel(const analysis::HysteresisLoop& cycle) {
+  Panel panel{"Friction force against displacement",
+              "One cycle of the contact, at the end of the run.",
+              "Displacement travelled [m]",
+              "Friction force [N]",
+              {},
+              {{"sliding forward", {}, false, true}, {"sliding back", {}, false, true}},
+              false,
+              ""};
+  struct Point {
+    double displacement_m;
+    double force_N;
+    std::size_t branch;
+  };
+  std::vector<Point> points;
+  const auto collect = [&points](const analysis::Branch& branch, std::size_t index) {
+    for (std::size_t i = 0; i < branch.force_N.size(); ++i) {
+      points.push_back({branch.displacement_m[i], branch.force_N[i], index});
+    }
+  };
+  collect(cycle.forward, 0);
+  collect(cycle.backward, 1);
+  std::stable_sort(points.begin(), points.end(), [](const Point& a, const Point& b) {
+    return a.displacement_m < b.displacement_m;
+  });
+  for (const Point& point : points) {
+    panel.x.push_back(point.displacement_m);
+    panel.series[point.branch].y.push_back(point.force_N);
+    panel.series[1 - point.branch].y.push_back(undefined);
+  }
+  if (cycle.backward.force_N.empty()) {
+    panel.series.pop_back();
+  }
+  return panel;
+}
+
+Panel spectrum_panel(const scene::Scene& scene, const loop::Recording& ending) {
+  std::vector<double> velocity;
+  for (const loop::PlantState& state : ending.state) {
+    velocity.push_back(state.velocity_m_per_s);
+  }
+  if (!velocity.empty()) {
+    velocity.pop_back();  // the sample that begins the next carrier period
+  }
+  const double interval_s = ending.time_s.size() > 1 ? ending.time_s[1] - ending.time_s[0] : 1.0;
+  analysis::Spectrum spectrum = analysis::amplitude_spectrum(velocity, interval_s);
+  if (scene.drive) {
+    constexpr double harmonics_shown = 5.0;
+    const double highest_Hz = harmonics_shown * scene.drive->frequency_Hz;
+    const auto end =
+        std::upper_bound(spectrum.frequency_Hz.begin(), spectrum.frequency_Hz.end(), highest_Hz);
+    spectrum.amplitude.resize(static_cast<std::size_t>(end - spectrum.frequency_Hz.begin()));
+    spectrum.frequency_Hz.resize(spectrum.amplitude.size());
+  }
+  return {
+      "Velocity spectrum",
+      fmt::format("Amplitude, Hann window, {} samples from the end of the run.", velocity.size()),
+      "Frequency [Hz]",
+      "Velocity amplitude [m/s]",
+      std::move(spectrum.frequency_Hz),
+      {{"velocity", std::move(spectrum.amplitude), false, false}},
+      true,
+      ""};
+}
+
+Section ending(const scene::Scene& scene, const loop::RunResult& result) {
+  constexpr std::size_t samples_per_period = 64;
+  Section section{"End of the run", "", {}};
+  if (scene::friction_limit_N(scene.friction) > 0.0) {
+    section.panels.push_back(hysteresis_panel(
+        analysis::last_cycle(result.ending, scene.friction.sign_convention, samples_per_period)));
+  }
+  section.panels.push_back(spectrum_panel(scene, result.ending));
+  return section;
+}
+
+}  // namespace
+
+Page run_page(const scene::Scene& scene, const loop::RunResult& result) {
+  Page page{scene.name, lead(scene, result), warnings(scene, result), {}, {}};
+  if (scene.controller) {
+    page.tables.push_back(step_table(scene, result));
+  }
+  page.tables.push_back(run_table(scene, result));
+  if (result.control && !result.control->signals.empty()) {
+    page.tables.push_back(signal_table(*result.control));
+  }
+  page.sections.push_back(course(scene, result.periods));
+  for (std::size_t i = 0; i < result.close_ups.size(); ++i) {
+    page.sections.push_back(close_up(scene, result.close_ups[i], i));
+  }
+  page.sections.push_back(ending(scene, result));
+  return page;
+}
+
+}  // namespace sonoglide::report

@@ -1,0 +1,12 @@
+/// The report page of a run.
+#pragma once
+
+#include "host_sim/loop/run.hpp"
+#include "host_sim/report/page.hpp"
+#include "host_sim/scene/scene.hpp"
+
+namespace sonoglide::report {
+
+Page run_page(const scene::Scene& scene, const loop::RunResult& result);
+
+}  // namespace sonoglide::report

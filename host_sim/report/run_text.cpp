@@ -1,0 +1,56 @@
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "host_sim/analysis/step_metrics.hpp"
+#include "host_sim/report/control_names.hpp"
+#include "host_sim/report/run_report.hpp"
+#include "host_sim/scene/plant_scales.hpp"
+
+namespace sonoglide::report {
+namespace {
+
+std::string settling(const std::optional<double>& time_s) {
+  return time_s ? fmt::format("{:.1f} us", *time_s * 1e6) : std::string("never");
+}
+
+std::string step_lines(const scene::Scene& scene, const loop::RunResult& result) {
+  std::string text = fmt::format("{:>11} {:>7} {:>11} {:>10} {:>8} {:>10}  {}\n", "from", "target",
+                                 "settles in", "error", "ripple", "drive", "limit");
+  for (const analysis::StepMetrics& step : analysis::step_metrics(scene, result)) {
+    text +=
+        fmt::format("{:>8.3f} ms {:>7.3f} {:>11} {:>+10.5f} {:>8.5f} {:>8.1f} N  {}\n",
+                    step.time_s * 1e3, step.target, settling(step.settling_time_s),
+                    step.steady_error, step.ripple, step.drive_amplitude_N, limit_name(step.limit));
+  }
+  for (const loop::FaultEvent& event : result.control->faults) {
+    text += fmt::format("FAULT at {:.3f} ms: {}; the drive is off from there on\n",
+                        event.time_s * 1e3, fault_name(event.fault));
+  }
+  return text;
+}
+
+std::string ratio_line(const scene::Scene& scene, const loop::RunResult& result) {
+  const double friction_N = scene::friction_limit_N(scene.friction);
+  if (friction_N == 0.0) {
+    return "no friction, so no friction ratio\n";
+  }
+  const auto ratio = [&](const loop::EnergyBalance& energy) {
+    return energy.resistance_impulse_N_s / (friction_N * energy.duration_s);
+  };
+  return fmt::format("friction ratio {:.6f} over the whole run, {:.6f} from {:.6g} s on\n",
+                     ratio(result.whole), ratio(result.window), scene.run.window_start_s);
+}
+
+}  // namespace
+
+std::string run_text(const scene::Scene& scene, const loop::RunResult& result,
+                     const std::filesystem::path& out) {
+  const std::string findings =
+      scene.controller ? step_lines(scene, result) : ratio_line(scene, result);
+  return fmt::format("{}{:.6g} ms simulated in {:.3g} ms, {:.3g} times real time\nreport: {}\n",
+                     findings, result.final_time_s * 1e3, result.wall_s * 1e3,
+                     result.final_time_s / result.wall_s, (out / "report.html").string());
+}
+
+}  // namespace sonoglide::report

@@ -1,0 +1,111 @@
+#include "host_sim/report/summary.hpp"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "host_sim/analysis/step_metrics.hpp"
+#include "host_sim/report/control_names.hpp"
+#include "host_sim/scene/names.hpp"
+#include "host_sim/scene/plant_scales.hpp"
+#include "host_sim/scene/to_json.hpp"
+
+namespace sonoglide::report {
+namespace {
+
+using nlohmann::ordered_json;
+
+ordered_json number(double value) {
+  return std::isfinite(value) ? ordered_json(value) : ordered_json(nullptr);
+}
+
+ordered_json number(const std::optional<double>& value) {
+  return value ? number(*value) : ordered_json(nullptr);
+}
+
+loop::PowerRatios ratios(const scene::Scene& scene, const loop::EnergyBalance& energy) {
+  const double period_s = scene.drive ? 1.0 / scene.drive->frequency_Hz : energy.duration_s;
+  return loop::power_ratios(energy, scene::friction_limit_N(scene.friction),
+                            scene.friction.sign_convention, period_s);
+}
+
+ordered_json power(const loop::PowerRatios& window) {
+  return {{"dissipation_ratio", number(window.dissipation_ratio)},
+          {"drive_input_ratio", number(window.drive_input_ratio)},
+          {"balance_residual", number(window.balance_residual)},
+          {"as_printed", {{"dissipation_ratio", number(window.dissipation_as_printed)}}}};
+}
+
+ordered_json step(const analysis::StepMetrics& metrics) {
+  return {{"time_s", metrics.time_s},
+          {"target", metrics.target},
+          {"settling_time_s", number(metrics.settling_time_s)},
+          {"overshoot", number(metrics.overshoot)},
+          {"steady_error", number(metrics.steady_error)},
+          {"ripple", number(metrics.ripple)},
+          {"drive_amplitude_N", number(metrics.drive_amplitude_N)},
+          {"limit", limit_name(metrics.limit)}};
+}
+
+ordered_json signal(const numeric::SignalRecord& record) {
+  return {{"name", record.name},
+          {"smallest", record.smallest},
+          {"largest", record.largest},
+          {"saturations", record.saturations}};
+}
+
+ordered_json control(const scene::Scene& scene, const loop::RunResult& result) {
+  const loop::ControlRecord& record = *result.control;
+  const scene::ControlDesign& design = record.design;
+  ordered_json steps = ordered_json::array();
+  for (const analysis::StepMetrics& metrics : analysis::step_metrics(scene, result)) {
+    steps.push_back(step(metrics));
+  }
+  ordered_json faults = ordered_json::array();
+  for (const loop::FaultEvent& event : record.faults) {
+    faults.push_back({{"time_s", event.time_s}, {"cause", fault_name(event.fault)}});
+  }
+  ordered_json signals = ordered_json::array();
+  for (const numeric::SignalRecord& entry : record.signals) {
+    signals.push_back(signal(entry));
+  }
+  return {
+      {"arithmetic", scene::name_of(scene::arithmetics, scene.controller->arithmetic)},
+      {"trace_hash", fmt::format("{:016x}", record.trace_hash)},
+      {"saturated_fraction", record.commands == 0 ? 0.0
+                                                  : static_cast<double>(record.saturated_commands) /
+                                                        static_cast<double>(record.commands)},
+      {"faults", faults},
+      {"steps", steps},
+      {"largest_tracking_error", number(analysis::largest_tracking_error(scene, result))},
+      {"speed_floor_m_per_s", design.speed_floor * design.scales.velocity_m_per_s},
+      {"integral_gain", design.integral_gain},
+      {"signals", signals}};
+}
+
+}  // namespace
+
+ordered_json summary(const scene::Scene& scene, const loop::RunResult& result) {
+  const loop::PowerRatios window = ratios(scene, result.window);
+  ordered_json json;
+  json["scene"] = scene::to_json(scene);
+  json["solver"] = {{"method", scene::name_of(scene::solver_methods, scene.solver.method)},
+                    {"steps", result.solver_steps},
+                    {"events", result.solver_events}};
+  json["run"] = {{"simulated_s", result.final_time_s},
+                 {"wall_s", result.wall_s},
+                 {"real_time_factor", result.final_time_s / result.wall_s}};
+  json["final"] = {{"time_s", result.final_time_s},
+                   {"displacement_m", result.final_state.displacement_m},
+                   {"velocity_m_per_s", result.final_state.velocity_m_per_s},
+                   {"friction_force_N", result.final_state.friction_force_N}};
+  json["friction_ratio"] = {{"whole_run", number(ratios(scene, result.whole).friction_ratio)},
+                            {"window", number(window.friction_ratio)}};
+  json["power"] = power(window);
+  if (result.control) {
+    json["control"] = control(scene, result);
+  }
+  return json;
+}
+
+}  // namespace sonoglide::report

@@ -1,0 +1,247 @@
+#include "host_sim/scene/control_design.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "firmware/control/friction_level.hpp"
+#include "firmware/numeric/float_elementary.hpp"
+#include "host_sim/scene/configuration_error.hpp"
+
+namespace sonoglide::scene {
+namespace {
+
+// The elementary functions are the core's own, so that a scene gives the same parameters, bit for
+// bit, on every machine.
+constexpr double pi = 3.14159265358979323846;
+
+/// The controller's resolution ends here, per unit.
+constexpr double smallest_friction = control::FrictionLevel<double>::smallest();
+constexpr double smallest_speed_floor = 1e-4;
+
+/// What the controller takes the plant to be.
+struct BelievedPlant {
+  double mass_kg;
+  double stiffness_N_per_m;
+  double damping_N_s_per_m;
+  double friction_N;
+  double contact_stiffness_N_per_m;
+};
+
+BelievedPlant believed_plant(const Scene& scene) {
+  const ModelError& error = scene.model_error;
+  return {scene.plant.mass_kg * error.mass, scene.plant.stiffness_N_per_m * error.stiffness,
+          scene.plant.damping_N_s_per_m,
+          scene.friction.coefficient * scene.friction.normal_force_N * error.coefficient,
+          scene.friction.contact_stiffness_N_per_m * error.contact_stiffness};
+}
+
+/// Displacement amplitude per unit of drive force, steady state.
+double compliance_m_per_N(const BelievedPlant& plant, double omega) {
+  const double reactive = plant.stiffness_N_per_m - plant.mass_kg * omega * omega;
+  const double resistive = plant.damping_N_s_per_m * omega;
+  return 1.0 / numeric::sqrt(reactive * reactive + resistive * resistive);
+}
+
+/// The natural mode over one carrier period: decay and rotation of its free motion.
+struct Mode {
+  double decay;     ///< exp(−σT)
+  double rotation;  ///< ωd T, 0 where overdamped
+};
+
+Mode natural_mode(const BelievedPlant& plant, double period_s) {
+  const double sigma = 0.5 * plant.damping_N_s_per_m / plant.mass_kg;
+  const double natural_squared = plant.stiffness_N_per_m / plant.mass_kg;
+  const double damped_squared = std::max(0.0, natural_squared - sigma * sigma);
+  return {numeric::exp(-sigma * period_s), numeric::sqrt(damped_squared) * period_s};
+}
+
+/// Taps of the notch at a spacing; false where one of them would leave ±1.
+bool place_notch(const Mode& mode, int spacing, ControlDesign& design) {
+  double decay = 1.0;
+  for (int i = 0; i < spacing; ++i) {
+    decay *= mode.decay;
+  }
+  const double middle = -2.0 * decay * numeric::cos(mode.rotation * spacing);
+  const double sum = 1.0 + middle + decay * decay;
+  if (sum <= 1.0 || std::abs(middle) >= sum) {
+    return false;
+  }
+  design.notch_taps = {1.0 / sum, middle / sum, decay * decay / sum};
+  design.notch_spacing = static_cast<std::uint8_t>(spacing);
+  return true;
+}
+
+void design_shaper(const Scene& scene, const Mode& mode, ControlDesign& design) {
+  if (scene.controller->shaping == Shaping::none || mode.rotation == 0.0) {
+    return;
+  }
+  for (int spacing = 1; spacing <= max_notch_spacing && !design.shaped; ++spacing) {
+    design.shaped = place_notch(mode, spacing, design);
+  }
+}
+
+/// Time constant of the sensor's low-pass, in carrier periods.
+double filter_periods(const Scene& scene, const ControlScales& scales) {
+  return scene.sensor.force_bandwidth_Hz
+             ? 1.0 / (2.0 * pi * *scene.sensor.force_bandwidth_Hz * scales.carrier_period_s)
+             : 0.0;
+}
+
+std::uint16_t whole_periods(double periods) {
+  constexpr double most = 60000.0;
+  return static_cast<std::uint16_t>(std::min(most, std::ceil(periods)));
+}
+
+/// A natural mode that nothing notches out answers every change of the command, and feedback drives
+/// it further: by less than its own damping takes away, if the gain is small against that. Without
+/// damping there is no such gain, and feedforward is left alone. A scene that leaves the notch out
+/// on purpose gets slow feedback all the same, to show what becomes of it.
+double gain_beside_free_mode(const Scene& scene, const Mode& mode) {
+  constexpr double slow = 0.005;
+  constexpr double part_of_decay = 0.2;
+  return scene.controller->shaping == Shaping::none
+             ? slow
+             : std::min(slow, part_of_decay * (1.0 - mode.decay));
+}
+
+void design_regulator(const Scene& scene, const Mode& mode, ControlDesign& design) {
+  const double filter = filter_periods(scene, design.scales);
+  const double shaping = 2.0 * design.notch_spacing;
+  // From a command to the reading that shows it.
+  const double delay = 1.0 + shaping + scene.sensor.delay_periods + filter;
+  // An integrator behind a delay of D periods oscillates at a gain of 2 sin(π/(4D+2)); a third of
+  // it leaves room for a contact twice as steep as believed.
+  const double behind_delay = std::min(0.25, 2.0 / 3.0 * numeric::sin(pi / (4.0 * delay + 2.0)));
+  design.integral_gain = mode.rotation > 0.0 && !design.shaped
+                             ? std::min(behind_delay, gain_beside_free_mode(scene, mode))
+                             : behind_delay;
+
+  constexpr double contact_settling = 2.0;  // carrier periods until the contact has forgotten
+  constexpr double filter_settling = 4.0;   // time constants more: 0.7 % of a step is left
+  design.hold_periods = whole_periods(delay + contact_settling + filter_settling * filter);
+  constexpr double stuck_margin = 8.0;
+  design.stuck_periods = whole_periods(delay + stuck_margin);
+  design.lead_periods = 0.5 + design.notch_spacing;
+}
+
+double presliding_m(const BelievedPlant& plant) {
+  return plant.contact_stiffness_N_per_m > 0.0 ? plant.friction_N / plant.contact_stiffness_N_per_m
+                                               : 0.0;
+}
+
+double fastest_m_per_s(const Sliding& sliding) {
+  double fastest = 0.0;
+  for (const SpeedPoint& point : sliding.profile) {
+    fastest = std::max(fastest, std::abs(point.velocity_m_per_s));
+  }
+  return fastest;
+}
+
+/// Slowest sliding at which the friction ratio is taken as defined by its steady map: the contact's
+/// presliding travel takes at most three carrier periods, so that it forgets faster than a speed is
+/// likely to change. Never more than half of the fastest speed to come, nor of what can be reached.
+double default_speed_floor(const Scene& scene, const BelievedPlant& plant,
+                           const ControlScales& scales) {
+  constexpr double presliding_periods = 3.0;
+  const double forgets_m_per_s =
+      presliding_m(plant) / (presliding_periods * scales.carrier_period_s);
+  const double highest = 0.5 * std::min(fastest_m_per_s(scene.sliding), scales.velocity_m_per_s);
+  return std::max(smallest_speed_floor * scales.velocity_m_per_s,
+                  std::min(forgets_m_per_s, highest));
+}
+
+/// The contact must slide through its presliding travel, and the sensor settle, before the friction
+/// force can be learnt.
+void design_calibration(const Scene& scene, const BelievedPlant& plant, ControlDesign& design) {
+  if (scene.controller->calibration_s <= 0.0) {
+    return;
+  }
+  constexpr double presliding_travels = 7.0;  // 0.1 % of the force is left
+  constexpr double filter_settling = 5.0;     // 0.7 % of it
+  const ControlScales& scales = design.scales;
+  const double speed_m_per_s = std::max(std::abs(scene.sliding.profile.front().velocity_m_per_s),
+                                        design.speed_floor * scales.velocity_m_per_s);
+  const double settling = std::ceil(
+      presliding_travels * presliding_m(plant) / (speed_m_per_s * scales.carrier_period_s) +
+      filter_settling * filter_periods(scene, scales) + scene.sensor.delay_periods);
+  const double total = std::round(scene.controller->calibration_s / scales.carrier_period_s);
+  if (total < settling + 1.0) {
+    throw ConfigurationError(
+        "controller.calibration_s",
+        fmt::format(
+            "is too short for contact and sensor to settle; allowed: 0 (no calibration), or "
+            "at least {:.3g} s",
+            (settling + 1.0) * scales.carrier_period_s));
+  }
+  design.calibrated = true;
+  design.calibration_settle_periods =
+      static_cast<std::uint32_t>(std::max(settling, std::floor(0.5 * total)));
+  design.calibration_average_periods =
+      static_cast<std::uint32_t>(total) - design.calibration_settle_periods;
+}
+
+/// value/scale, or an error in the name of the key that one should change.
+/// @param finding  what is wrong, with a place for the ratio
+double per_unit(double value, double scale, double smallest, const char* key, const char* finding) {
+  const double ratio = value / scale;
+  if (!(ratio >= smallest && ratio < 1.0)) {
+    throw ConfigurationError(key, fmt::format(fmt::runtime(finding), ratio) +
+                                      fmt::format("; allowed: {:.3g} to below 1", smallest));
+  }
+  return ratio;
+}
+
+/// The slew limit holds behind the shaper, whose taps may add up.
+void design_slew(const Drive& drive, ControlDesign& design) {
+  if (!drive.max_force_slew_N_per_s) {
+    return;
+  }
+  double gain = 0.0;
+  for (const double tap : design.notch_taps) {
+    gain += std::abs(tap);
+  }
+  gain = design.shaped ? gain : 1.0;
+  const double per_period = *drive.max_force_slew_N_per_s * design.scales.carrier_period_s /
+                            design.scales.drive_amplitude_N;
+  design.slew_limited = per_period < gain;
+  design.slew_per_period = per_period / gain;
+}
+
+}  // namespace
+
+ControlDesign design_control(const Scene& scene) {
+  const BelievedPlant plant = believed_plant(scene);
+  const double omega = 2.0 * pi * scene.drive->frequency_Hz;
+  const double compliance = compliance_m_per_N(plant, omega);
+  // At resonance the vibration takes about as many radians to build up as it is amplified.
+  constexpr double largest_amplification = 1000.0;
+  if (!(compliance * plant.mass_kg * omega * omega <= largest_amplification)) {
+    throw ConfigurationError(
+        "drive.frequency_Hz",
+        "is the plant's natural frequency, and with so little damping the vibration never settles; "
+        "allowed: another frequency, or more plant.damping_N_s_per_m");
+  }
+  ControlDesign design;
+  const double displacement_m = scene.drive->max_force_amplitude_N * compliance;
+  design.scales = {1.0 / scene.drive->frequency_Hz, scene.sensor.force_full_scale_N,
+                   displacement_m * omega, scene.drive->max_force_amplitude_N};
+  design.friction_force = per_unit(plant.friction_N, design.scales.force_N, smallest_friction,
+                                   "sensor.force_full_scale_N",
+                                   "makes the believed friction force {:.3g} of full scale");
+  design.contact_force = plant.contact_stiffness_N_per_m * displacement_m / design.scales.force_N;
+  const double speed_floor_m_per_s = scene.controller->speed_floor_m_per_s.value_or(
+      default_speed_floor(scene, plant, design.scales));
+  design.speed_floor = per_unit(speed_floor_m_per_s, design.scales.velocity_m_per_s,
+                                smallest_speed_floor, "controller.speed_floor_m_per_s",
+                                "is {:.3g} of the peak vibration velocity at full drive");
+  const Mode mode = natural_mode(plant, design.scales.carrier_period_s);
+  design_shaper(scene, mode, design);
+  design_regulator(scene, mode, design);
+  design_calibration(scene, plant, design);
+  design_slew(*scene.drive, design);
+  return design;
+}
+
+}  // namespace sonoglide::scene

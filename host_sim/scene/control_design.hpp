@@ -1,0 +1,50 @@
+/// From a scene to the controller's per-unit numbers: the only place where the controller's units
+/// become scaled numbers.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "host_sim/scene/scene.hpp"
+
+namespace sonoglide::scene {
+
+/// What the controller's per-unit numbers are multiples of.
+struct ControlScales {
+  double carrier_period_s;
+  double force_N;            ///< the sensor's full scale
+  double velocity_m_per_s;   ///< believed peak vibration velocity at full drive
+  double drive_amplitude_N;  ///< the actuator's limit
+};
+
+/// The largest tap spacing that a designed shaper may have, in carrier periods.
+inline constexpr int max_notch_spacing = 32;
+
+/// A controller's parameters as real numbers, per unit of ControlScales; friction ratios on base 2.
+struct ControlDesign {
+  ControlScales scales{};
+  double friction_force = 0.0;  ///< believed Fc
+  double contact_force = 0.0;   ///< believed Kt times the vibration amplitude at full drive
+  double speed_floor = 0.0;
+  double lead_periods = 0.0;   ///< from a sample to the middle of its effect
+  double integral_gain = 0.0;  ///< per carrier period
+  std::uint16_t hold_periods = 0;
+  std::uint16_t stuck_periods = 0;
+
+  bool shaped = false;  ///< the members below hold where the flag is set
+  std::array<double, 3> notch_taps{};
+  std::uint8_t notch_spacing = 0;
+  bool slew_limited = false;
+  double slew_per_period = 0.0;
+  bool calibrated = false;
+  std::uint32_t calibration_settle_periods = 0;
+  std::uint32_t calibration_average_periods = 0;
+};
+
+/// Designs the controller of a closed-loop scene from what it believes (the scene through
+/// [model_error]).
+/// @throws ConfigurationError where no controller exists: resonance with next to no damping, speeds
+///         or forces outside the per-unit range.
+ControlDesign design_control(const Scene& scene);
+
+}  // namespace sonoglide::scene

@@ -1,0 +1,99 @@
+#include "host_sim/scene/document.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "host_sim/scene/override.hpp"
+#include "host_sim/scene/schema.hpp"
+#include "host_sim/scene/toml_text.hpp"
+
+namespace sonoglide::scene {
+namespace {
+
+Location located(const std::string& file, const toml::source_region& source) {
+  return {file, source.begin.line, source.begin.column};
+}
+
+using Item = std::pair<const toml::key*, const toml::node*>;
+
+/// The parser sorts by name; errors come in file order.
+std::vector<Item> in_file_order(const toml::table& table) {
+  std::vector<Item> items;
+  for (const auto& [key, value] : table) {
+    items.emplace_back(&key, &value);
+  }
+  std::stable_sort(items.begin(), items.end(), [](const Item& a, const Item& b) {
+    return a.first->source().begin < b.first->source().begin;
+  });
+  return items;
+}
+
+}  // namespace
+
+Location Entry::place_of(const toml::node& element) const {
+  return overridden ? value_place : located(value_place.file, element.source());
+}
+
+Document::Document(std::string_view text, const std::string& file,
+                   const std::vector<std::string>& overrides)
+    : file_(file) {
+  if (text.size() > max_bytes) {
+    throw SceneError(start(), "scene",
+                     fmt::format("larger than {0} bytes; allowed: at most {0} bytes", max_bytes));
+  }
+  root_ = parse_toml(text, file_);
+  collect();
+  for (std::size_t i = 0; i < overrides.size(); ++i) {
+    apply_override(overrides[i], i + 1);
+  }
+}
+
+const Table* Document::find(std::string_view name) const {
+  const auto found = tables_.find(name);
+  return found == tables_.end() ? nullptr : &found->second;
+}
+
+void Document::collect() {
+  for (const auto& [key, value] : in_file_order(root_)) {
+    const std::string name(key->str());
+    const Location place = located(file_, key->source());
+    if (find_table(name) == nullptr) {
+      throw SceneError(place, name, unknown_table(name));
+    }
+    const toml::table* table = value->as_table();
+    if (table == nullptr) {
+      throw SceneError(place, name,
+                       fmt::format("is {}; allowed: one table, [{}]", kind_of(*value), name));
+    }
+    collect_table(name, place, *table);
+  }
+}
+
+void Document::collect_table(const std::string& name, const Location& place,
+                             const toml::table& table) {
+  const std::vector<std::string_view>& known = find_table(name)->keys;
+  Table collected{name, place, {}};
+  for (const auto& [key, value] : in_file_order(table)) {
+    const Location key_place = located(file_, key->source());
+    if (std::find(known.begin(), known.end(), key->str()) == known.end()) {
+      throw SceneError(key_place, fmt::format("{}.{}", name, key->str()),
+                       unknown_key(*find_table(name), key->str()));
+    }
+    collected.entries[std::string(key->str())] = {value, key_place, located(file_, value->source()),
+                                                  false};
+  }
+  tables_[name] = std::move(collected);
+}
+
+void Document::apply_override(const std::string& text, std::size_t ordinal) {
+  Override override = parse_override(text, ordinal);
+  override_values_.push_back(std::move(override.holder));
+  const toml::node* value = override_values_.back().get("value");
+  const auto table =
+      tables_.try_emplace(override.table, Table{override.table, override.place, {}}).first;
+  table->second.entries[override.key] = {value, override.place, override.place, true};
+}
+
+}  // namespace sonoglide::scene

@@ -1,0 +1,69 @@
+/// A scene file as tables of located values: parsed, overridden, every name known.
+#pragma once
+
+#include <toml++/toml.h>
+
+#include <cstddef>
+#include <deque>
+#include <functional>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "host_sim/scene/scene_error.hpp"
+
+namespace sonoglide::scene {
+
+/// One value. An overridden one has a single place, its `--set` option.
+struct Entry {
+  const toml::node* value = nullptr;
+  Location key_place;
+  Location value_place;
+  bool overridden = false;
+
+  /// Where an element of this value stands.
+  Location place_of(const toml::node& element) const;
+};
+
+struct Table {
+  std::string name;
+  Location place;
+  std::map<std::string, Entry, std::less<>> entries;
+};
+
+/// Values live as long as the document.
+class Document {
+ public:
+  /// Text larger than this is no scene; the bound keeps a wrong file from filling the memory.
+  static constexpr std::size_t max_bytes = 1U << 20U;
+
+  /// @param text       TOML
+  /// @param file       the name that errors show
+  /// @param overrides  `TABLE.KEY=VALUE` each, in the order given; a later one wins
+  /// @throws SceneError  not TOML, too large, too deeply nested, a name that no scene has, an
+  ///                     override that is not of that form
+  Document(std::string_view text, const std::string& file,
+           const std::vector<std::string>& overrides);
+
+  Document(const Document&) = delete;
+  Document& operator=(const Document&) = delete;
+
+  /// The table of this name; null where the scene has none.
+  const Table* find(std::string_view name) const;
+
+  /// The beginning of the file: the place of what is missing as a whole.
+  Location start() const { return {file_, 1, 1}; }
+
+ private:
+  void collect();
+  void collect_table(const std::string& name, const Location& place, const toml::table& table);
+  void apply_override(const std::string& text, std::size_t ordinal);
+
+  std::string file_;
+  toml::table root_;
+  std::deque<toml::table> override_values_;  ///< never moved once in
+  std::map<std::string, Table, std::less<>> tables_;
+};
+
+}  // namespace sonoglide::scene

@@ -1,0 +1,66 @@
+/// The words by which a scene chooses, and what each stands for; read and echoed from these lists.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <string_view>
+
+#include "host_sim/scene/scene.hpp"
+
+namespace sonoglide::scene {
+
+template <class Value>
+struct Named {
+  std::string_view name;
+  Value value;
+};
+
+inline constexpr std::array<Named<FrictionLaw>, 3> friction_laws = {{
+    {"dahl", FrictionLaw::dahl},
+    {"coulomb", FrictionLaw::coulomb},
+    {"none", FrictionLaw::none},
+}};
+
+inline constexpr std::array<Named<SignConvention>, 2> sign_conventions = {{
+    {"dissipative", SignConvention::dissipative},
+    {"as_printed", SignConvention::as_printed},
+}};
+
+inline constexpr std::array<Named<SolverMethod>, 2> solver_methods = {{
+    {"event_taylor", SolverMethod::event_taylor},
+    {"rk4", SolverMethod::rk4},
+}};
+
+inline constexpr std::array<Named<Channel>, 5> channels = {{
+    {"displacement_m", Channel::displacement},
+    {"velocity_m_per_s", Channel::velocity},
+    {"friction_force_N", Channel::friction_force},
+    {"drive_force_N", Channel::drive_force},
+    {"sliding_velocity_m_per_s", Channel::sliding_velocity},
+}};
+
+inline constexpr std::array<Named<Arithmetic>, 3> arithmetics = {{
+    {"float32", Arithmetic::float32},
+    {"q31", Arithmetic::q31},
+    {"float64", Arithmetic::float64},
+}};
+
+inline constexpr std::array<Named<Shaping>, 2> shapings = {{
+    {"notch", Shaping::notch},
+    {"none", Shaping::none},
+}};
+
+inline constexpr std::array<Named<Waveform>, 1> waveforms = {{{"cosine", Waveform::cosine}}};
+
+/// The word for a value; every value of these enumerations has one.
+template <class Value, std::size_t Count>
+constexpr std::string_view name_of(const std::array<Named<Value>, Count>& names, Value value) {
+  for (const Named<Value>& each : names) {
+    if (each.value == value) {
+      return each.name;
+    }
+  }
+  return {};
+}
+
+}  // namespace sonoglide::scene

@@ -1,0 +1,69 @@
+#include "host_sim/scene/plant_scales.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sonoglide::scene {
+namespace {
+
+constexpr double two_pi = 6.28318530717958647693;
+
+/// Without a drive the clock is the fastest of the plant's own rates; one run where it has none.
+double own_rate_rad_per_s(const Scene& scene) {
+  const Plant& plant = scene.plant;
+  const double contact = scene.friction.contact_stiffness_N_per_m;
+  const double rate =
+      std::max(std::sqrt(std::max(plant.stiffness_N_per_m, contact) / plant.mass_kg),
+               plant.damping_N_s_per_m / plant.mass_kg);
+  return rate > 0.0 ? rate : two_pi / scene.run.duration_s;
+}
+
+double fastest_sliding_m_per_s(const Sliding& sliding) {
+  double fastest = 0.0;
+  for (const SpeedPoint& point : sliding.profile) {
+    fastest = std::max(fastest, std::abs(point.velocity_m_per_s));
+  }
+  return fastest;
+}
+
+/// Size of the motion to come: the largest that the drive, the sliding, the friction or the initial
+/// state can cause away from resonance.
+double motion_m(const Scene& scene, double omega) {
+  const Plant& plant = scene.plant;
+  const double resistance_N_per_m =
+      plant.stiffness_N_per_m + omega * (plant.mass_kg * omega + plant.damping_N_s_per_m);
+  const double drive_N =
+      scene.drive ? std::max(scene.drive->force_amplitude_N, scene.drive->max_force_amplitude_N)
+                  : 0.0;
+  const double force_N = std::max(drive_N, friction_limit_N(scene.friction));
+  const double speed_m_per_s =
+      std::max(fastest_sliding_m_per_s(scene.sliding), std::abs(plant.initial_velocity_m_per_s));
+  const double motion = std::max({force_N / resistance_N_per_m, speed_m_per_s / omega,
+                                  std::abs(plant.initial_displacement_m)});
+  return motion > 0.0 ? motion : 1.0;  // nothing moves: any length will do
+}
+
+}  // namespace
+
+double friction_limit_N(const Friction& friction) {
+  return friction.coefficient * friction.normal_force_N;
+}
+
+PlantScales plant_scales(const Scene& scene) {
+  const double omega = scene.drive ? two_pi * scene.drive->frequency_Hz : own_rate_rad_per_s(scene);
+  const double length_m = motion_m(scene, omega);
+  return {omega, length_m, scene.plant.mass_kg * length_m * omega * omega,
+          friction_limit_N(scene.friction)};
+}
+
+PlantNumbers plant_numbers(const Scene& scene, const PlantScales& scales) {
+  const double omega = scales.angular_frequency_rad_per_s;
+  const double inertia = scene.plant.mass_kg * omega;
+  const bool dahl = scene.friction.law == FrictionLaw::dahl && scales.friction_N > 0.0;
+  return {
+      scene.plant.stiffness_N_per_m / (inertia * omega), scene.plant.damping_N_s_per_m / inertia,
+      scales.friction_N / scales.force_N,
+      dahl ? scene.friction.contact_stiffness_N_per_m * scales.length_m / scales.friction_N : 0.0};
+}
+
+}  // namespace sonoglide::scene

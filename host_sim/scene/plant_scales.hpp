@@ -1,0 +1,34 @@
+/// From a scene to the plant's dimensionless numbers: the only place where the plant's units become
+/// scaled numbers.
+#pragma once
+
+#include "host_sim/scene/scene.hpp"
+
+namespace sonoglide::scene {
+
+/// What the plant's dimensionless quantities are multiples of. Time is in 1/ω, displacement in L,
+/// force in m L ω², friction in Fc.
+struct PlantScales {
+  double angular_frequency_rad_per_s;  ///< ω: the drive's, or the plant's own where there is none
+  double length_m;                     ///< L, of the size of the motion to come
+  double force_N;                      ///< m L ω²
+  double friction_N;                   ///< Fc, 0 without friction
+
+  double velocity_m_per_s() const { return length_m * angular_frequency_rad_per_s; }
+};
+
+/// The plant's dimensionless parameters (see plant::Model).
+struct PlantNumbers {
+  double stiffness;          ///< k = Ks/(m ω²)
+  double damping;            ///< d = c/(m ω)
+  double friction_force;     ///< β = Fc/(m L ω²)
+  double contact_stiffness;  ///< κ = Kt L/Fc, 0 where the law has none
+};
+
+PlantScales plant_scales(const Scene& scene);
+PlantNumbers plant_numbers(const Scene& scene, const PlantScales& scales);
+
+/// Fc = μ N.
+double friction_limit_N(const Friction& friction);
+
+}  // namespace sonoglide::scene

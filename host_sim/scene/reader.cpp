@@ -1,0 +1,88 @@
+#include "host_sim/scene/reader.hpp"
+
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <fstream>
+#include <system_error>
+
+#include "host_sim/scene/configuration_error.hpp"
+#include "host_sim/scene/control_design.hpp"
+#include "host_sim/scene/document.hpp"
+#include "host_sim/scene/sections.hpp"
+
+namespace sonoglide::scene {
+namespace {
+
+constexpr std::string_view allowed_file = "allowed: a readable TOML file";
+
+/// One byte more than a scene may have is enough to tell.
+std::string read_bytes(const std::filesystem::path& path) {
+  const auto fail = [&path](std::string_view why) {
+    throw SceneError({path.string(), 1, 1}, "scene", fmt::format("{}; {}", why, allowed_file));
+  };
+  std::error_code error;
+  if (std::filesystem::is_directory(path, error)) {
+    fail("is a directory");
+  }
+  errno = 0;
+  std::ifstream file(path, std::ios::binary);
+  if (!file) {
+    fail(std::generic_category().message(errno));
+  }
+  std::string bytes(Document::max_bytes + 1, '\0');
+  file.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  if (file.bad()) {
+    fail("cannot be read");
+  }
+  bytes.resize(static_cast<std::size_t>(file.gcount()));
+  return bytes;
+}
+
+/// Where a key stands; where it is left to its default, where its table does.
+Location place_of(const Document& document, const std::string& dotted_key) {
+  const std::size_t dot = dotted_key.find('.');
+  const Table* table = document.find(dotted_key.substr(0, dot));
+  if (table == nullptr) {
+    return document.start();
+  }
+  const auto entry = table->entries.find(dotted_key.substr(dot + 1));
+  return entry == table->entries.end() ? table->place : entry->second.value_place;
+}
+
+/// A closed loop needs a controller that can be designed.
+void require_controller(const Scene& scene, const Document& document) {
+  try {
+    design_control(scene);
+  } catch (const ConfigurationError& error) {
+    throw SceneError(place_of(document, error.key()), error.key(), error.what());
+  }
+}
+
+}  // namespace
+
+Scene read_text(std::string_view text, const std::string& file,
+                const std::vector<std::string>& overrides) {
+  const Document document(text, file, overrides);
+  Scene scene;
+  scene.name = std::filesystem::path(file).stem().string();
+  scene.plant = read_plant(document);
+  scene.friction = read_friction(document, scene.plant);
+  scene.sliding = read_sliding(document);
+  scene.drive = read_drive(document);
+  scene.solver = read_solver(document);
+  scene.run = read_run(document, scene);
+  scene.controller = read_controller(document, scene);
+  scene.sensor = read_sensor(document, scene.friction);
+  scene.model_error = read_model_error(document, scene.friction);
+  if (scene.controller) {
+    require_controller(scene, document);
+  }
+  return scene;
+}
+
+Scene read_file(const std::filesystem::path& path, const std::vector<std::string>& overrides) {
+  return read_text(read_bytes(path), path.string(), overrides);
+}
+
+}  // namespace sonoglide::scene

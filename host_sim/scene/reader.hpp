@@ -1,0 +1,30 @@
+/// A scene file to a validated scene.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "host_sim/scene/scene.hpp"
+#include "host_sim/scene/scene_error.hpp"
+
+namespace sonoglide::scene {
+
+/// Reads, overrides, checks and completes a scene.
+///
+/// Errors come one at a time, in a fixed order: TOML, names that no scene has (in file order),
+/// overrides (in their order), then the values, table by table in the order of schema().
+///
+/// @param overrides  `TABLE.KEY=VALUE` each, VALUE in TOML or a bare word; applied before anything
+///                   is checked, a later one wins
+/// @throws SceneError  and nothing else, short of memory running out
+Scene read_file(const std::filesystem::path& path, const std::vector<std::string>& overrides = {});
+
+/// The same from text.
+///
+/// @param file  what errors show as the file; the scene's name is this without folder and ending
+Scene read_text(std::string_view text, const std::string& file,
+                const std::vector<std::string>& overrides = {});
+
+}  // namespace sonoglide::scene

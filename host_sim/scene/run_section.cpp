@@ -1,0 +1,122 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "host_sim/scene/names.hpp"
+#include "host_sim/scene/sections.hpp"
+#include "host_sim/scene/table_cursor.hpp"
+
+namespace sonoglide::scene {
+namespace {
+
+constexpr double most_periods = 1e9;
+constexpr double most_fixed_steps = 1e11;
+constexpr double most_recorded_rows = 1e7;
+constexpr Range interval_range{1e-15, 1e9, "s"};
+constexpr double pi = 3.141592653589793238462643383279502884;
+
+/// A time given in seconds under one key or in carrier periods under another.
+double time_under(TableCursor& cursor, std::string_view key, const std::optional<Drive>& drive,
+                  double low_s, double low_periods) {
+  if (key.substr(key.size() - 2) == "_s") {
+    return cursor.real(key, {low_s, 1e9, "s"});
+  }
+  if (!drive) {
+    cursor.fail(key, "there is no period without a [drive] table; allowed: the time in s");
+  }
+  return cursor.real(key, {low_periods, most_periods, "periods"}) / drive->frequency_Hz;
+}
+
+/// Bounds what a mistyped unit can cost.
+void check_work(const TableCursor& cursor, std::string_view key, const Run& run,
+                const Scene& so_far) {
+  const double drive_Hz = so_far.drive ? so_far.drive->frequency_Hz : 0.0;
+  const double natural_Hz =
+      std::sqrt(so_far.plant.stiffness_N_per_m / so_far.plant.mass_kg) / (2.0 * pi);
+  const double periods = run.duration_s * std::max(drive_Hz, natural_Hz);
+  // The conversion of periods to seconds and back may round up.
+  if (periods > most_periods * (1.0 + 1e-12)) {
+    cursor.fail(key, fmt::format("{:g} s is {:g} periods of the {}; allowed: at most {:g} periods",
+                                 run.duration_s, periods,
+                                 drive_Hz >= natural_Hz ? "drive" : "natural mode", most_periods));
+  }
+  if (so_far.solver.method != SolverMethod::rk4) {
+    return;
+  }
+  const double steps = run.duration_s / so_far.solver.step_s;
+  if (steps > most_fixed_steps) {
+    cursor.fail(key, fmt::format("{:g} s is {:g} steps of solver.step_s; allowed: at most {:g}",
+                                 run.duration_s, steps, most_fixed_steps));
+  }
+}
+
+void check_whole_period(const TableCursor& cursor, std::string_view key, const Run& run,
+                        const Drive& drive) {
+  if (run.duration_s * drive.frequency_Hz < 1.0 - 1e-12) {
+    cursor.fail(key, fmt::format("{:g} s is less than a carrier period, in which the controller "
+                                 "acts once; allowed: at least {:g} s",
+                                 run.duration_s, 1.0 / drive.frequency_Hz));
+  }
+}
+
+double read_window_start(TableCursor& cursor, const std::optional<Drive>& drive,
+                         double duration_s) {
+  const auto key = cursor.at_most_one_of("window_start_s", "window_start_periods");
+  if (!key) {
+    return 0.0;
+  }
+  const double start_s = time_under(cursor, *key, drive, 0.0, 0.0);
+  if (!(start_s < duration_s)) {
+    cursor.fail(*key, fmt::format("{:g} s is not before the end of the run; allowed: less than "
+                                  "{:g} s",
+                                  start_s, duration_s));
+  }
+  return start_s;
+}
+
+void read_record(TableCursor& cursor, Run& run) {
+  if (!cursor.has("record")) {
+    if (cursor.has("record_interval_s")) {
+      cursor.fail("record_interval_s", "not used without run.record; remove it");
+    }
+    return;
+  }
+  // An empty list switches the recording off in place: the interval may stay.
+  run.record = cursor.choices("record", channels);
+  if (run.record.empty()) {
+    cursor.optional_real("record_interval_s", interval_range);
+    return;
+  }
+  run.record_interval_s = cursor.real("record_interval_s", interval_range);
+  const double rows = run.duration_s / run.record_interval_s;
+  if (rows > most_recorded_rows) {
+    cursor.fail("record_interval_s",
+                fmt::format("gives {:g} rows; allowed: at most {:g}, so at least {:g} s", rows,
+                            most_recorded_rows, run.duration_s / most_recorded_rows));
+  }
+}
+
+}  // namespace
+
+Run read_run(const Document& document, const Scene& so_far) {
+  TableCursor cursor(document, "run");
+  if (!cursor.present()) {
+    cursor.fail("missing; required: a table [run]");
+  }
+  const bool closed = document.find("controller") != nullptr;
+  Run run;
+  const std::string_view key = cursor.one_of("duration_s", "duration_periods");
+  run.duration_s = time_under(cursor, key, so_far.drive, 1e-12, 1e-3);
+  check_work(cursor, key, run, so_far);
+  run.window_start_s = read_window_start(cursor, so_far.drive, run.duration_s);
+  if (closed) {
+    check_whole_period(cursor, key, run, *so_far.drive);
+    run.settling_band = cursor.real("settling_band", {0.0, 1.0, "", true}, run.settling_band);
+  }
+  read_record(cursor, run);
+  cursor.reject_unread("in open loop, without a [controller] table");
+  return run;
+}
+
+}  // namespace sonoglide::scene

@@ -1,0 +1,120 @@
+/// A validated scene: plain values in SI units, the unit in the name, every default filled in.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace sonoglide::scene {
+
+struct Plant {
+  double mass_kg = 0.0;
+  double stiffness_N_per_m = 0.0;
+  double damping_N_s_per_m = 0.0;
+  double initial_displacement_m = 0.0;
+  double initial_velocity_m_per_s = 0.0;
+};
+
+enum class FrictionLaw { none, coulomb, dahl };
+
+/// dissipative: V = Vt + x'. as_printed: V = Vt - x', as the paper's equations (1) and (2) have it;
+/// friction then pumps energy into the vibration.
+enum class SignConvention { dissipative, as_printed };
+
+struct Friction {
+  FrictionLaw law = FrictionLaw::none;
+  double coefficient = 0.0;
+  double normal_force_N = 0.0;
+  double contact_stiffness_N_per_m = 0.0;  ///< Dahl only
+  double initial_force_N = 0.0;            ///< Dahl only
+  SignConvention sign_convention = SignConvention::dissipative;
+};
+
+struct SpeedPoint {
+  double time_s = 0.0;
+  double velocity_m_per_s = 0.0;
+};
+
+/// Sliding velocity, linear between the points and constant outside them; one point is a constant.
+struct Sliding {
+  std::vector<SpeedPoint> profile;
+};
+
+enum class Waveform { cosine };
+
+/// Piezo force A(t) cos(2 pi f t); A is fixed in open loop, the controller's in closed loop.
+struct Drive {
+  double frequency_Hz = 0.0;
+  double force_amplitude_N = 0.0;                ///< open loop
+  double max_force_amplitude_N = 0.0;            ///< closed loop: the actuator's limit
+  std::optional<double> max_force_slew_N_per_s;  ///< closed loop: absent, no slew limit
+  Waveform waveform = Waveform::cosine;
+};
+
+enum class SolverMethod { event_taylor, rk4 };
+
+struct Solver {
+  SolverMethod method = SolverMethod::event_taylor;
+  double tolerance = 1e-10;  ///< event_taylor
+  double step_s = 0.0;       ///< rk4; shortened so that a whole number fits a carrier period
+};
+
+enum class Channel { displacement, velocity, friction_force, drive_force, sliding_velocity };
+
+struct Run {
+  double duration_s = 0.0;
+  double window_start_s = 0.0;
+  double settling_band = 0.01;
+  std::vector<Channel> record;
+  double record_interval_s = 0.0;  ///< 0 where nothing is recorded
+};
+
+enum class Arithmetic { float64, float32, q31 };
+enum class Shaping { notch, none };
+
+struct TargetStep {
+  double time_s = 0.0;
+  double friction_ratio = 0.0;
+};
+
+struct Controller {
+  Arithmetic arithmetic = Arithmetic::float64;
+  std::vector<TargetStep> target_friction_ratio;
+  double calibration_s = 0.0;
+  Shaping shaping = Shaping::notch;
+  std::optional<double> speed_floor_m_per_s;  ///< absent: the controller's own default
+};
+
+/// Absent members leave that part of the sensor ideal.
+struct Sensor {
+  std::optional<int> adc_bits;
+  double force_full_scale_N = 0.0;  ///< the converter spans ± this
+  double force_noise_N = 0.0;       ///< rms, each sample
+  std::optional<double> force_bandwidth_Hz;
+  int delay_periods = 0;
+  std::uint64_t seed = 1;
+};
+
+/// What the controller believes divided by what is true.
+struct ModelError {
+  double mass = 1.0;
+  double stiffness = 1.0;
+  double coefficient = 1.0;
+  double contact_stiffness = 1.0;
+};
+
+struct Scene {
+  std::string name;  ///< the file's name without its ending
+  Plant plant;
+  Friction friction;
+  Sliding sliding;
+  std::optional<Drive> drive;
+  Solver solver;
+  Run run;
+  std::optional<Controller> controller;  ///< absent: open loop
+  Sensor sensor;
+  ModelError model_error;
+};
+
+}  // namespace sonoglide::scene

@@ -1,0 +1,202 @@
+#include "host_sim/scene/sections.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+
+#include "host_sim/scene/names.hpp"
+#include "host_sim/scene/table_cursor.hpp"
+
+namespace sonoglide::scene {
+namespace {
+
+constexpr double standard_gravity_m_per_s2 = 9.81;
+constexpr double largest_force_N = 1e12;
+constexpr double largest_time_s = 1e9;
+constexpr double largest_speed_m_per_s = 1e6;
+constexpr std::string_view in_open_loop = "in open loop, without a [controller] table";
+
+constexpr Range time_range{0.0, largest_time_s, "s"};
+constexpr Range speed_range{-largest_speed_m_per_s, largest_speed_m_per_s, "m/s"};
+
+bool closed_loop(const Document& document) {
+  return document.find("controller") != nullptr;
+}
+
+double friction_limit_N(const Friction& friction) {
+  return friction.coefficient * friction.normal_force_N;
+}
+
+std::string with_law(const Friction& friction) {
+  return fmt::format("with friction.law = \"{}\"", name_of(friction_laws, friction.law));
+}
+
+/// A cursor on a table that every scene has.
+TableCursor required_table(const Document& document, std::string_view name) {
+  TableCursor cursor(document, name);
+  if (!cursor.present()) {
+    cursor.fail(fmt::format("missing; required: a table [{}]", name));
+  }
+  return cursor;
+}
+
+/// A cursor on a table that only closed loop uses.
+TableCursor closed_loop_table(const Document& document, std::string_view name) {
+  TableCursor cursor(document, name);
+  if (cursor.present() && !closed_loop(document)) {
+    cursor.fail(fmt::format("not used {}; remove it", in_open_loop));
+  }
+  return cursor;
+}
+
+}  // namespace
+
+Plant read_plant(const Document& document) {
+  TableCursor cursor = required_table(document, "plant");
+  Plant plant;
+  plant.mass_kg = cursor.real("mass_kg", {1e-12, 1e6, "kg"});
+  plant.stiffness_N_per_m = cursor.real("stiffness_N_per_m", {0.0, 1e18, "N/m"});
+  plant.damping_N_s_per_m = cursor.real("damping_N_s_per_m", {0.0, 1e12, "N s/m"}, 0.0);
+  plant.initial_displacement_m = cursor.real("initial_displacement_m", {-1e3, 1e3, "m"}, 0.0);
+  plant.initial_velocity_m_per_s = cursor.real("initial_velocity_m_per_s", speed_range, 0.0);
+  return plant;
+}
+
+Friction read_friction(const Document& document, const Plant& plant) {
+  TableCursor cursor = required_table(document, "friction");
+  Friction friction;
+  friction.law = cursor.choice("law", friction_laws);
+  if (friction.law != FrictionLaw::none) {
+    friction.coefficient = cursor.real("coefficient", {0.0, 100.0});
+    friction.normal_force_N =
+        cursor.real("normal_force_N", {0.0, 1e9, "N"}, plant.mass_kg * standard_gravity_m_per_s2);
+    friction.sign_convention =
+        cursor.choice("sign_convention", sign_conventions, SignConvention::dissipative);
+  }
+  if (friction.law == FrictionLaw::dahl) {
+    friction.contact_stiffness_N_per_m =
+        cursor.real("contact_stiffness_N_per_m", {1e-6, 1e18, "N/m"});
+    const double limit_N = friction_limit_N(friction);
+    friction.initial_force_N = cursor.real("initial_force_N", {-limit_N, limit_N, "N"}, 0.0);
+  }
+  cursor.reject_unread(with_law(friction));
+  return friction;
+}
+
+Sliding read_sliding(const Document& document) {
+  TableCursor cursor = required_table(document, "sliding");
+  Sliding sliding;
+  if (cursor.one_of("velocity_m_per_s", "profile") == "velocity_m_per_s") {
+    sliding.profile.push_back({0.0, cursor.real("velocity_m_per_s", speed_range)});
+    return sliding;
+  }
+  for (const auto& [time_s, velocity_m_per_s] :
+       cursor.timed_values("profile", time_range, speed_range)) {
+    sliding.profile.push_back({time_s, velocity_m_per_s});
+  }
+  return sliding;
+}
+
+std::optional<Drive> read_drive(const Document& document) {
+  TableCursor cursor(document, "drive");
+  const bool closed = closed_loop(document);
+  if (!cursor.present()) {
+    if (closed) {
+      cursor.fail("missing; required: a table [drive] for the [controller] to act by");
+    }
+    return std::nullopt;
+  }
+  Drive drive;
+  drive.frequency_Hz = cursor.real("frequency_Hz", {1e-3, 1e9, "Hz"});
+  if (closed) {
+    drive.max_force_amplitude_N =
+        cursor.real("max_force_amplitude_N", {1e-12, largest_force_N, "N"});
+    drive.max_force_slew_N_per_s =
+        cursor.optional_real("max_force_slew_N_per_s", {1e-12, 1e21, "N/s"});
+  } else {
+    drive.force_amplitude_N = cursor.real("force_amplitude_N", {0.0, largest_force_N, "N"});
+  }
+  drive.waveform = cursor.choice("waveform", waveforms, Waveform::cosine);
+  cursor.reject_unread(closed ? "in closed loop: the controller sets the amplitude" : in_open_loop);
+  return drive;
+}
+
+Solver read_solver(const Document& document) {
+  TableCursor cursor(document, "solver");
+  Solver solver;
+  solver.method = cursor.choice("method", solver_methods, SolverMethod::event_taylor);
+  if (solver.method == SolverMethod::rk4) {
+    solver.step_s = cursor.real("step_s", {1e-15, 1.0, "s"});
+  } else {
+    solver.tolerance = cursor.real("tolerance", {1e-15, 1e-2}, solver.tolerance);
+  }
+  cursor.reject_unread(
+      fmt::format("with solver.method = \"{}\"", name_of(solver_methods, solver.method)));
+  return solver;
+}
+
+std::optional<Controller> read_controller(const Document& document, const Scene& so_far) {
+  TableCursor cursor(document, "controller");
+  if (!cursor.present()) {
+    return std::nullopt;
+  }
+  if (!(friction_limit_N(so_far.friction) > 0.0)) {
+    cursor.fail(
+        "there is no friction to control; allowed: friction.law \"dahl\" or \"coulomb\" "
+        "with coefficient and normal_force_N above 0");
+  }
+  Controller controller;
+  controller.arithmetic = cursor.choice("arithmetic", arithmetics);
+  const auto targets =
+      cursor.timed_values("target_friction_ratio", time_range, {0.0, 1.0, "", true});
+  if (targets.front()[0] != 0.0) {
+    cursor.fail("target_friction_ratio",
+                fmt::format("begins at {} s; allowed: a first time of 0 s", targets.front()[0]));
+  }
+  for (const auto& [time_s, friction_ratio] : targets) {
+    controller.target_friction_ratio.push_back({time_s, friction_ratio});
+  }
+  controller.calibration_s = cursor.real("calibration_s", time_range, 0.0);
+  if (!(controller.calibration_s < so_far.run.duration_s)) {
+    cursor.fail("calibration_s",
+                fmt::format("{} s is not before the end of the run; allowed: less than {} s",
+                            controller.calibration_s, so_far.run.duration_s));
+  }
+  controller.shaping = cursor.choice("shaping", shapings, Shaping::notch);
+  controller.speed_floor_m_per_s =
+      cursor.optional_real("speed_floor_m_per_s", {1e-12, largest_speed_m_per_s, "m/s"});
+  return controller;
+}
+
+Sensor read_sensor(const Document& document, const Friction& friction) {
+  TableCursor cursor = closed_loop_table(document, "sensor");
+  Sensor sensor;
+  if (const auto bits = cursor.optional_integer("adc_bits", 4, 32)) {
+    sensor.adc_bits = static_cast<int>(*bits);
+  }
+  sensor.force_full_scale_N = cursor.real("force_full_scale_N", {1e-15, largest_force_N, "N"},
+                                          2.0 * friction_limit_N(friction));
+  sensor.force_noise_N = cursor.real("force_noise_N", {0.0, largest_force_N, "N"}, 0.0);
+  sensor.force_bandwidth_Hz = cursor.optional_real("force_bandwidth_Hz", {1e-3, 1e12, "Hz"});
+  sensor.delay_periods = static_cast<int>(cursor.integer("delay_periods", 0, 64, 0));
+  sensor.seed = static_cast<std::uint64_t>(
+      cursor.integer("seed", 0, std::numeric_limits<std::int64_t>::max(), 1));
+  return sensor;
+}
+
+ModelError read_model_error(const Document& document, const Friction& friction) {
+  TableCursor cursor = closed_loop_table(document, "model_error");
+  const Range quotient{0.01, 100.0};
+  ModelError model_error;
+  model_error.mass = cursor.real("mass", quotient, 1.0);
+  model_error.stiffness = cursor.real("stiffness", quotient, 1.0);
+  model_error.coefficient = cursor.real("coefficient", quotient, 1.0);
+  if (friction.law == FrictionLaw::dahl) {
+    model_error.contact_stiffness = cursor.real("contact_stiffness", quotient, 1.0);
+  }
+  cursor.reject_unread(with_law(friction));
+  return model_error;
+}
+
+}  // namespace sonoglide::scene

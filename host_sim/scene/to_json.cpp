@@ -1,0 +1,147 @@
+#include "host_sim/scene/to_json.hpp"
+
+#include "host_sim/scene/names.hpp"
+
+namespace sonoglide::scene {
+namespace {
+
+using nlohmann::ordered_json;
+
+template <class Value>
+void add_if_set(ordered_json& table, const char* key, const std::optional<Value>& value) {
+  if (value) {
+    table[key] = *value;
+  }
+}
+
+ordered_json echo(const Plant& plant) {
+  return {{"mass_kg", plant.mass_kg},
+          {"stiffness_N_per_m", plant.stiffness_N_per_m},
+          {"damping_N_s_per_m", plant.damping_N_s_per_m},
+          {"initial_displacement_m", plant.initial_displacement_m},
+          {"initial_velocity_m_per_s", plant.initial_velocity_m_per_s}};
+}
+
+ordered_json echo(const Friction& friction) {
+  ordered_json table{{"law", name_of(friction_laws, friction.law)}};
+  if (friction.law == FrictionLaw::none) {
+    return table;
+  }
+  table["coefficient"] = friction.coefficient;
+  table["normal_force_N"] = friction.normal_force_N;
+  if (friction.law == FrictionLaw::dahl) {
+    table["contact_stiffness_N_per_m"] = friction.contact_stiffness_N_per_m;
+    table["initial_force_N"] = friction.initial_force_N;
+  }
+  table["sign_convention"] = name_of(sign_conventions, friction.sign_convention);
+  return table;
+}
+
+ordered_json echo(const Sliding& sliding) {
+  if (sliding.profile.size() == 1 && sliding.profile.front().time_s == 0.0) {
+    return {{"velocity_m_per_s", sliding.profile.front().velocity_m_per_s}};
+  }
+  ordered_json profile = ordered_json::array();
+  for (const SpeedPoint& point : sliding.profile) {
+    profile.push_back(ordered_json::array({point.time_s, point.velocity_m_per_s}));
+  }
+  ordered_json table;
+  table["profile"] = profile;
+  return table;
+}
+
+ordered_json echo(const Drive& drive, bool closed_loop) {
+  ordered_json table{{"frequency_Hz", drive.frequency_Hz}};
+  if (!closed_loop) {
+    table["force_amplitude_N"] = drive.force_amplitude_N;
+  }
+  table["waveform"] = name_of(waveforms, drive.waveform);
+  if (closed_loop) {
+    table["max_force_amplitude_N"] = drive.max_force_amplitude_N;
+    add_if_set(table, "max_force_slew_N_per_s", drive.max_force_slew_N_per_s);
+  }
+  return table;
+}
+
+ordered_json echo(const Solver& solver) {
+  ordered_json table{{"method", name_of(solver_methods, solver.method)}};
+  if (solver.method == SolverMethod::rk4) {
+    table["step_s"] = solver.step_s;
+  } else {
+    table["tolerance"] = solver.tolerance;
+  }
+  return table;
+}
+
+ordered_json echo(const Run& run, bool closed_loop) {
+  ordered_json table{{"duration_s", run.duration_s}, {"window_start_s", run.window_start_s}};
+  if (closed_loop) {
+    table["settling_band"] = run.settling_band;
+  }
+  if (!run.record.empty()) {
+    ordered_json record = ordered_json::array();
+    for (const Channel channel : run.record) {
+      record.push_back(name_of(channels, channel));
+    }
+    table["record"] = record;
+    table["record_interval_s"] = run.record_interval_s;
+  }
+  return table;
+}
+
+ordered_json echo(const Controller& controller) {
+  ordered_json targets = ordered_json::array();
+  for (const TargetStep& step : controller.target_friction_ratio) {
+    targets.push_back(ordered_json::array({step.time_s, step.friction_ratio}));
+  }
+  ordered_json table{{"arithmetic", name_of(arithmetics, controller.arithmetic)}};
+  table["target_friction_ratio"] = targets;
+  table["calibration_s"] = controller.calibration_s;
+  table["shaping"] = name_of(shapings, controller.shaping);
+  add_if_set(table, "speed_floor_m_per_s", controller.speed_floor_m_per_s);
+  return table;
+}
+
+ordered_json echo(const Sensor& sensor) {
+  ordered_json table = ordered_json::object();
+  add_if_set(table, "adc_bits", sensor.adc_bits);
+  table["force_full_scale_N"] = sensor.force_full_scale_N;
+  table["force_noise_N"] = sensor.force_noise_N;
+  add_if_set(table, "force_bandwidth_Hz", sensor.force_bandwidth_Hz);
+  table["delay_periods"] = sensor.delay_periods;
+  table["seed"] = sensor.seed;
+  return table;
+}
+
+ordered_json echo(const ModelError& model_error, FrictionLaw law) {
+  ordered_json table{{"mass", model_error.mass},
+                     {"stiffness", model_error.stiffness},
+                     {"coefficient", model_error.coefficient}};
+  if (law == FrictionLaw::dahl) {
+    table["contact_stiffness"] = model_error.contact_stiffness;
+  }
+  return table;
+}
+
+}  // namespace
+
+ordered_json to_json(const Scene& scene) {
+  const bool closed_loop = scene.controller.has_value();
+  ordered_json root;
+  root["plant"] = echo(scene.plant);
+  root["friction"] = echo(scene.friction);
+  root["sliding"] = echo(scene.sliding);
+  if (scene.drive) {
+    root["drive"] = echo(*scene.drive, closed_loop);
+  }
+  root["solver"] = echo(scene.solver);
+  root["run"] = echo(scene.run, closed_loop);
+  if (closed_loop) {
+    root["controller"] = echo(*scene.controller);
+    root["sensor"] = echo(scene.sensor);
+    root["model_error"] = echo(scene.model_error, scene.friction.law);
+  }
+  return root;
+}
+
+}  // namespace sonoglide::scene

@@ -1,0 +1,72 @@
+/// Three good scenes, from which the broken ones differ by one edit.
+#pragma once
+
+namespace sonoglide::acceptance {
+
+inline constexpr const char* open_loop = R"([plant]
+mass_kg = 0.02
+stiffness_N_per_m = 133e6
+[friction]
+law = "dahl"
+coefficient = 0.1
+normal_force_N = 0.1962
+contact_stiffness_N_per_m = 0.056e6
+[sliding]
+velocity_m_per_s = 0.0267
+[drive]
+frequency_Hz = 60e3
+force_amplitude_N = 384.0
+[solver]
+method = "event_taylor"
+tolerance = 1e-10
+[run]
+duration_periods = 20
+record = ["displacement_m"]
+record_interval_s = 1e-6
+)";
+
+inline constexpr const char* closed_loop = R"([plant]
+mass_kg = 0.02
+stiffness_N_per_m = 133e6
+[friction]
+law = "dahl"
+coefficient = 0.1
+contact_stiffness_N_per_m = 0.056e6
+[sliding]
+velocity_m_per_s = 0.0267
+[drive]
+frequency_Hz = 60e3
+max_force_amplitude_N = 1920.0
+[run]
+duration_s = 1e-3
+[controller]
+arithmetic = "float32"
+target_friction_ratio = [[0.0, 0.4], [0.5e-3, 0.6]]
+[sensor]
+adc_bits = 12
+[model_error]
+stiffness = 1.04
+)";
+inline constexpr const char* coulomb_closed_loop = R"([plant]
+mass_kg = 0.02
+stiffness_N_per_m = 133e6
+[friction]
+law = "coulomb"
+coefficient = 0.1
+[sliding]
+velocity_m_per_s = 0.0267
+[drive]
+frequency_Hz = 60e3
+max_force_amplitude_N = 1920.0
+[run]
+duration_s = 1e-3
+[controller]
+arithmetic = "float32"
+target_friction_ratio = [[0.0, 0.4], [0.5e-3, 0.6]]
+[sensor]
+adc_bits = 12
+[model_error]
+stiffness = 1.04
+)";
+
+}  // namespace sonoglide::acceptance

@@ -1,0 +1,323 @@
+#include <gtest/gtest.h>
+
+#include <ostream>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "base_scenes.hpp"
+#include "tests/acceptance/program/program.hpp"
+
+namespace sonoglide::acceptance {
+namespace {
+
+/// A good scene, the text to replace in it, what stands there instead, and all of stderr after the
+/// file's name.
+struct BrokenScene {
+  const char* name;
+  const char* base;
+  const char* old_text;
+  const char* new_text;
+  const char* error;
+};
+
+void PrintTo(const BrokenScene& scene, std::ostream* out) {
+  *out << scene.name;
+}
+
+std::string edited(const BrokenScene& scene) {
+  std::string text = scene.base;
+  const std::string old_text = scene.old_text;
+  const std::size_t at = text.find(old_text);
+  if (at == std::string::npos) {
+    throw std::logic_error("the edit does not apply");
+  }
+  return text.replace(at, old_text.size(), scene.new_text);
+}
+
+const std::vector<BrokenScene> broken_scenes = {
+    // No controller can be designed
+    {"undamped_resonance", closed_loop, "frequency_Hz = 60e3", "frequency_Hz = 13235.7",
+     "11:16: drive.frequency_Hz: is the plant's natural frequency, and with so little damping the "
+     "vibration never settles; allowed: another frequency, or more plant.damping_N_s_per_m"},
+    {"full_scale_far_above_friction", closed_loop, "adc_bits = 12",
+     "adc_bits = 12\nforce_full_scale_N = 100",
+     "20:22: sensor.force_full_scale_N: makes the believed friction force 0.000196 of full scale; "
+     "allowed: 0.000977 to below 1"},
+    {"full_scale_below_friction", closed_loop, "adc_bits = 12",
+     "adc_bits = 12\nforce_full_scale_N = 0.01",
+     "20:22: sensor.force_full_scale_N: makes the believed friction force 1.96 of full scale; "
+     "allowed: 0.000977 to below 1"},
+    {"speed_floor_too_high", closed_loop, "arithmetic = \"float32\"",
+     "arithmetic = \"float32\"\nspeed_floor_m_per_s = 0.5",
+     "17:23: controller.speed_floor_m_per_s: is 1.87 of the peak vibration velocity at full drive; "
+     "allowed: 0.0001 to below 1"},
+    {"calibration_too_short", closed_loop, "arithmetic = \"float32\"",
+     "arithmetic = \"float32\"\ncalibration_s = 20e-6",
+     "17:17: controller.calibration_s: is too short for contact and sensor to settle; allowed: 0 "
+     "(no "
+     "calibration), or at least 0.000117 s"},
+    // Names
+    {"unknown_key_near", open_loop, "mass_kg = 0.02", "mas_kg = 0.02",
+     "2:1: plant.mas_kg: unknown key; did you mean mass_kg?"},
+    {"unknown_key_unit_left_out", open_loop, "stiffness_N_per_m = 133e6", "stiffness = 133e6",
+     "3:1: plant.stiffness: unknown key; did you mean stiffness_N_per_m?"},
+    {"unknown_key_unit_wrong", open_loop, "frequency_Hz = 60e3", "frequency_kHz = 60",
+     "12:1: drive.frequency_kHz: unknown key; did you mean frequency_Hz?"},
+    {"unknown_key_far", open_loop, "tolerance = 1e-10", "tolerance = 1e-10\nzeal = 3",
+     "17:1: solver.zeal: unknown key; allowed: method, tolerance, step_s"},
+    {"key_of_another_table", open_loop, "[run]", "[run]\nmass_kg = 3",
+     "18:1: run.mass_kg: unknown key; did you mean plant.mass_kg?"},
+    {"key_without_table", open_loop, "[plant]", "coefficient = 0.1\n[plant]",
+     "1:1: coefficient: unknown table; did you mean friction.coefficient?"},
+    {"unknown_table_near", open_loop, "[friction]", "[fricton]",
+     "4:2: fricton: unknown table; did you mean friction?"},
+    {"unknown_table_far", open_loop, "[friction]", "[weather]",
+     "4:2: weather: unknown table; allowed: plant, friction, sliding, drive, solver, run, "
+     "controller, sensor, model_error"},
+    {"first_unknown_key_in_file_order", open_loop, "coefficient = 0.1",
+     "zeta = 1\nalpha = 2\ncoefficient = 0.1",
+     "6:1: friction.zeta: unknown key; allowed: law, coefficient, normal_force_N, "
+     "contact_stiffness_N_per_m, initial_force_N, sign_convention"},
+    {"control_character_in_key", open_loop, "mass_kg = 0.02", "\"mass\\nkg\" = 0.02",
+     "2:1: plant.mass\\x0akg: unknown key; did you mean mass_kg?"},
+    {"sub_table", open_loop, "[friction]", "[plant.mount]\nx = 1\n[friction]",
+     "4:8: plant.mount: unknown key; allowed: mass_kg, stiffness_N_per_m, damping_N_s_per_m, "
+     "initial_displacement_m, initial_velocity_m_per_s"},
+    // Types
+    {"string_for_number", open_loop, "mass_kg = 0.02", "mass_kg = \"0.02\"",
+     "2:11: plant.mass_kg: is a string; allowed: a number, 1e-12 to 1e+06 kg"},
+    {"boolean_for_number", open_loop, "coefficient = 0.1", "coefficient = true",
+     "6:15: friction.coefficient: is a boolean; allowed: a number, 0 to 100"},
+    {"date_for_number", open_loop, "frequency_Hz = 60e3", "frequency_Hz = 2013-01-01",
+     "12:16: drive.frequency_Hz: is a date; allowed: a number, 0.001 to 1e+09 Hz"},
+    {"table_for_number", open_loop, "tolerance = 1e-10", "tolerance = {}",
+     "16:13: solver.tolerance: is a table; allowed: a number, 1e-15 to 0.01"},
+    {"number_for_word", open_loop, "law = \"dahl\"", "law = 1",
+     "5:7: friction.law: is an integer; allowed: \"dahl\", \"coulomb\", \"none\""},
+    {"real_for_integer", closed_loop, "adc_bits = 12", "adc_bits = 12.0",
+     "19:12: sensor.adc_bits: is a real number; allowed: an integer, 4 to 32"},
+    {"number_for_table", open_loop, "[plant]\nmass_kg = 0.02\nstiffness_N_per_m = 133e6",
+     "plant = 3", "1:1: plant: is an integer; allowed: one table, [plant]"},
+    {"array_of_tables", open_loop, "[plant]", "[[plant]]",
+     "1:3: plant: is an array; allowed: one table, [plant]"},
+    {"word_for_list", open_loop, "[\"displacement_m\"]", "\"displacement_m\"",
+     "19:10: run.record: is a string; allowed: a list of \"displacement_m\", \"velocity_m_per_s\", "
+     "\"friction_force_N\", \"drive_force_N\", \"sliding_velocity_m_per_s\""},
+    {"number_for_targets", closed_loop, "[[0.0, 0.4], [0.5e-3, 0.6]]", "0.4",
+     "17:25: controller.target_friction_ratio: is a real number; allowed: a list of pairs "
+     "[[time in s, number], …]"},
+    // Values
+    {"not_a_number", open_loop, "mass_kg = 0.02", "mass_kg = nan",
+     "2:11: plant.mass_kg: is not finite; allowed: a number, 1e-12 to 1e+06 kg"},
+    {"infinite", open_loop, "force_amplitude_N = 384.0", "force_amplitude_N = inf",
+     "13:21: drive.force_amplitude_N: is not finite; allowed: a number, 0 to 1e+12 N"},
+    {"infinite_negative", open_loop, "velocity_m_per_s = 0.0267", "velocity_m_per_s = -inf",
+     "10:20: sliding.velocity_m_per_s: is not finite; allowed: a number, -1e+06 to 1e+06 m/s"},
+    {"zero_mass", open_loop, "mass_kg = 0.02", "mass_kg = 0",
+     "2:11: plant.mass_kg: 0 is out of range; allowed: 1e-12 to 1e+06 kg"},
+    {"negative_stiffness", open_loop, "133e6", "-133e6",
+     "3:21: plant.stiffness_N_per_m: -133000000 is out of range; allowed: 0 to 1e+18 N/m"},
+    {"negative_damping", open_loop, "[friction]", "damping_N_s_per_m = -1\n[friction]",
+     "4:21: plant.damping_N_s_per_m: -1 is out of range; allowed: 0 to 1e+12 N s/m"},
+    {"zero_contact_stiffness", open_loop, "0.056e6", "0.0",
+     "8:29: friction.contact_stiffness_N_per_m: 0 is out of range; allowed: 1e-06 to 1e+18 N/m"},
+    {"initial_force_above_limit", open_loop, "[sliding]", "initial_force_N = 0.02\n[sliding]",
+     "9:19: friction.initial_force_N: 0.02 is out of range; allowed: -0.01962 to 0.01962 N"},
+    {"loose_tolerance", open_loop, "1e-10", "0.1",
+     "16:13: solver.tolerance: 0.1 is out of range; allowed: 1e-15 to 0.01"},
+    {"adc_bits_out_of_range", closed_loop, "adc_bits = 12", "adc_bits = 64",
+     "19:12: sensor.adc_bits: 64 is out of range; allowed: 4 to 32"},
+    {"model_error_out_of_range", closed_loop, "stiffness = 1.04", "stiffness = 0",
+     "21:13: model_error.stiffness: 0 is out of range; allowed: 0.01 to 100"},
+    {"number_too_large_for_a_double", open_loop, "133e6", "1e400",
+     "3:26: toml: Error while parsing floating-point: '1e400' could not be interpreted as a "
+     "value"},
+    {"unknown_word_near", open_loop, "\"dahl\"", "\"dhal\"",
+     "5:7: friction.law: \"dhal\" is unknown; did you mean \"dahl\"? allowed: \"dahl\", "
+     "\"coulomb\", \"none\""},
+    {"unknown_word_far", open_loop, "\"event_taylor\"", "\"magic\"",
+     "15:10: solver.method: \"magic\" is unknown; allowed: \"event_taylor\", \"rk4\""},
+    {"unknown_waveform", open_loop, "[solver]", "waveform = \"sawtooth\"\n[solver]",
+     "14:12: drive.waveform: \"sawtooth\" is unknown; allowed: \"cosine\""},
+    {"unknown_channel", open_loop, "[\"displacement_m\"]", "[\"displacment_m\"]",
+     "19:11: run.record[0]: \"displacment_m\" is unknown; did you mean \"displacement_m\"? "
+     "allowed: \"displacement_m\", \"velocity_m_per_s\", \"friction_force_N\", "
+     "\"drive_force_N\", \"sliding_velocity_m_per_s\""},
+    {"channel_twice", open_loop, "[\"displacement_m\"]", "[\"displacement_m\", \"displacement_m\"]",
+     "19:29: run.record[1]: \"displacement_m\" is there twice; allowed: each once"},
+    // Missing
+    {"missing_key", open_loop, "mass_kg = 0.02\n", "",
+     "1:2: plant.mass_kg: missing; required: a number, 1e-12 to 1e+06 kg"},
+    {"missing_word", open_loop, "law = \"dahl\"\n", "",
+     "4:2: friction.law: missing; required: \"dahl\" or \"coulomb\" or \"none\""},
+    {"missing_table", open_loop, "[sliding]\nvelocity_m_per_s = 0.0267\n", "",
+     "1:1: sliding: missing; required: a table [sliding]"},
+    {"missing_velocity", open_loop, "velocity_m_per_s = 0.0267\n", "",
+     "9:2: sliding.velocity_m_per_s: missing; required: velocity_m_per_s or profile"},
+    {"missing_duration", open_loop, "duration_periods = 20\n", "",
+     "17:2: run.duration_s: missing; required: duration_s or duration_periods"},
+    {"missing_interval", open_loop, "record_interval_s = 1e-6\n", "",
+     "17:2: run.record_interval_s: missing; required: a number, 1e-15 to 1e+09 s"},
+    {"missing_amplitude", open_loop, "force_amplitude_N = 384.0\n", "",
+     "11:2: drive.force_amplitude_N: missing; required: a number, 0 to 1e+12 N"},
+    {"missing_actuator_limit", closed_loop, "max_force_amplitude_N = 1920.0\n", "",
+     "10:2: drive.max_force_amplitude_N: missing; required: a number, 1e-12 to 1e+12 N"},
+    {"missing_drive_in_closed_loop", closed_loop,
+     "[drive]\nfrequency_Hz = 60e3\nmax_force_amplitude_N = 1920.0\n", "",
+     "1:1: drive: missing; required: a table [drive] for the [controller] to act by"},
+    {"missing_target", closed_loop, "target_friction_ratio = [[0.0, 0.4], [0.5e-3, 0.6]]\n", "",
+     "15:2: controller.target_friction_ratio: missing; required: a list of pairs [[time in s, "
+     "number], …]"},
+    {"missing_step", open_loop, "method = \"event_taylor\"\ntolerance = 1e-10", "method = \"rk4\"",
+     "14:2: solver.step_s: missing; required: a number, 1e-15 to 1 s"},
+    // Keys that the scene cannot use
+    {"law_none_uses_nothing", open_loop, "\"dahl\"", "\"none\"",
+     "6:1: friction.coefficient: not used with friction.law = \"none\"; remove it"},
+    {"coulomb_has_no_contact_stiffness", open_loop, "\"dahl\"", "\"coulomb\"",
+     "8:1: friction.contact_stiffness_N_per_m: not used with friction.law = \"coulomb\"; remove "
+     "it"},
+    {"coulomb_has_no_initial_force", open_loop,
+     "law = \"dahl\"\ncoefficient = 0.1\nnormal_force_N = 0.1962\n"
+     "contact_stiffness_N_per_m = 0.056e6",
+     "law = \"coulomb\"\ncoefficient = 0.1\ninitial_force_N = 0",
+     "7:1: friction.initial_force_N: not used with friction.law = \"coulomb\"; remove it"},
+    {"taylor_has_no_step", open_loop, "tolerance = 1e-10", "step_s = 1e-8",
+     "16:1: solver.step_s: not used with solver.method = \"event_taylor\"; remove it"},
+    {"rk4_has_no_tolerance", open_loop, "\"event_taylor\"", "\"rk4\"\nstep_s = 1e-8",
+     "17:1: solver.tolerance: not used with solver.method = \"rk4\"; remove it"},
+    {"open_loop_has_no_actuator_limit", open_loop, "[solver]",
+     "max_force_amplitude_N = 1920\n[solver]",
+     "14:1: drive.max_force_amplitude_N: not used in open loop, without a [controller] table; "
+     "remove it"},
+    {"open_loop_has_no_slew_limit", open_loop, "[solver]", "max_force_slew_N_per_s = 1e6\n[solver]",
+     "14:1: drive.max_force_slew_N_per_s: not used in open loop, without a [controller] table; "
+     "remove it"},
+    {"open_loop_has_no_settling", open_loop, "duration_periods = 20",
+     "duration_periods = 20\nsettling_band = 0.01",
+     "19:1: run.settling_band: not used in open loop, without a [controller] table; remove it"},
+    {"open_loop_has_no_sensor", open_loop, "[run]", "[sensor]\nadc_bits = 12\n[run]",
+     "17:2: sensor: not used in open loop, without a [controller] table; remove it"},
+    {"open_loop_has_no_model_error", open_loop, "[run]", "[model_error]\n[run]",
+     "17:2: model_error: not used in open loop, without a [controller] table; remove it"},
+    {"closed_loop_has_no_amplitude", closed_loop, "[run]", "force_amplitude_N = 384\n[run]",
+     "13:1: drive.force_amplitude_N: not used in closed loop: the controller sets the amplitude; "
+     "remove it"},
+    {"coulomb_has_no_contact_stiffness_error", coulomb_closed_loop, "[model_error]",
+     "[model_error]\ncontact_stiffness = 1.5",
+     "20:1: model_error.contact_stiffness: not used with friction.law = \"coulomb\"; remove it"},
+    {"controller_without_friction", closed_loop,
+     "law = \"dahl\"\ncoefficient = 0.1\ncontact_stiffness_N_per_m = 0.056e6", "law = \"none\"",
+     "13:2: controller: there is no friction to control; allowed: friction.law \"dahl\" or "
+     "\"coulomb\" with coefficient and normal_force_N above 0"},
+    {"controller_with_zero_friction", closed_loop, "coefficient = 0.1", "coefficient = 0",
+     "15:2: controller: there is no friction to control; allowed: friction.law \"dahl\" or "
+     "\"coulomb\" with coefficient and normal_force_N above 0"},
+    {"interval_without_record", open_loop, "record = [\"displacement_m\"]\n", "",
+     "19:21: run.record_interval_s: not used without run.record; remove it"},
+    // Keys that exclude each other
+    {"velocity_and_profile", open_loop, "[drive]", "profile = [[0, 1]]\n[drive]",
+     "11:1: sliding.profile: excludes velocity_m_per_s; allowed: one of the two"},
+    {"two_durations", open_loop, "duration_periods = 20", "duration_periods = 20\nduration_s = 1",
+     "19:1: run.duration_s: excludes duration_periods; allowed: one of the two"},
+    {"two_window_starts", open_loop, "duration_periods = 20",
+     "duration_periods = 20\nwindow_start_s = 0\nwindow_start_periods = 0",
+     "20:1: run.window_start_periods: excludes window_start_s; allowed: one of the two"},
+    // Times
+    {"periods_without_drive", open_loop,
+     "[drive]\nfrequency_Hz = 60e3\nforce_amplitude_N = 384.0\n", "",
+     "15:20: run.duration_periods: there is no period without a [drive] table; allowed: the time "
+     "in s"},
+    {"window_after_end", open_loop, "duration_periods = 20",
+     "duration_periods = 20\nwindow_start_periods = 30",
+     "19:24: run.window_start_periods: 0.0005 s is not before the end of the run; allowed: less "
+     "than 0.000333333 s"},
+    {"zero_duration", closed_loop, "duration_s = 1e-3", "duration_s = 0.0",
+     "14:14: run.duration_s: 0 is out of range; allowed: 1e-12 to 1e+09 s"},
+    {"shorter_than_a_period", closed_loop, "duration_s = 1e-3", "duration_s = 1e-5",
+     "14:14: run.duration_s: 1e-05 s is less than a carrier period, in which the controller acts "
+     "once; allowed: at least 1.66667e-05 s"},
+    {"too_long", closed_loop, "duration_s = 1e-3", "duration_s = 1e6",
+     "14:14: run.duration_s: 1e+06 s is 6e+10 periods of the drive; allowed: at most 1e+09 "
+     "periods"},
+    {"too_long_for_the_natural_mode", open_loop,
+     "[drive]\nfrequency_Hz = 60e3\nforce_amplitude_N = 384.0\n[solver]\nmethod = "
+     "\"event_taylor\"\ntolerance = 1e-10\n[run]\nduration_periods = 20",
+     "[run]\nduration_s = 1e6",
+     "12:14: run.duration_s: 1e+06 s is 1.29787e+10 periods of the natural mode; allowed: at most "
+     "1e+09 periods"},
+    {"too_many_fixed_steps", open_loop, "\"event_taylor\"\ntolerance = 1e-10",
+     "\"rk4\"\nstep_s = 1e-15",
+     "18:20: run.duration_periods: 0.000333333 s is 3.33333e+11 steps of solver.step_s; allowed: "
+     "at most 1e+11"},
+    {"too_many_rows", open_loop, "record_interval_s = 1e-6", "record_interval_s = 1e-12",
+     "20:21: run.record_interval_s: gives 3.33333e+08 rows; allowed: at most 1e+07, so at least "
+     "3.33333e-11 s"},
+    {"unordered_profile", open_loop, "velocity_m_per_s = 0.0267",
+     "profile = [[0, 0.1], [2e-3, 0.2], [1e-3, 0.3]]",
+     "10:35: sliding.profile[2]: time 0.001 s is not after 0.002 s; allowed: times that increase"},
+    {"empty_profile", open_loop, "velocity_m_per_s = 0.0267", "profile = []",
+     "10:11: sliding.profile: is empty; allowed: at least one pair [time in s, number]"},
+    {"triple_in_profile", open_loop, "velocity_m_per_s = 0.0267", "profile = [[0, 1, 2]]",
+     "10:12: sliding.profile[0]: is an array of 3; allowed: a pair [time in s, number]"},
+    {"bare_number_in_profile", open_loop, "velocity_m_per_s = 0.0267", "profile = [0, 1]",
+     "10:12: sliding.profile[0]: is an integer; allowed: a pair [time in s, number]"},
+    {"infinite_in_profile", open_loop, "velocity_m_per_s = 0.0267", "profile = [[0, 1], [1, inf]]",
+     "10:24: sliding.profile[1][1]: is not finite; allowed: a number, -1e+06 to 1e+06 m/s"},
+    {"first_target_late", closed_loop, "[[0.0, 0.4], ", "[[1e-4, 0.4], ",
+     "17:25: controller.target_friction_ratio: begins at 0.0001 s; allowed: a first time of 0 s"},
+    {"repeated_target_time", closed_loop, "[0.5e-3, 0.6]", "[0.0, 0.6]",
+     "17:38: controller.target_friction_ratio[1]: time 0 s is not after 0 s; allowed: times that "
+     "increase"},
+    {"target_zero", closed_loop, "[0.5e-3, 0.6]", "[0.5e-3, 0]",
+     "17:47: controller.target_friction_ratio[1][1]: 0 is out of range; allowed: above 0, at most "
+     "1"},
+    {"target_above_one", closed_loop, "[[0.0, 0.4]", "[[0.0, 1.1]",
+     "17:32: controller.target_friction_ratio[0][1]: 1.1 is out of range; allowed: above 0, at "
+     "most 1"},
+    {"calibration_past_the_end", closed_loop, "arithmetic", "calibration_s = 1e-3\narithmetic",
+     "16:17: controller.calibration_s: 0.001 s is not before the end of the run; allowed: less "
+     "than 0.001 s"},
+    // Text that is not TOML
+    {"duplicate_key", open_loop, "mass_kg = 0.02", "mass_kg = 0.02\nmass_kg = 0.03",
+     "3:11: toml: Error while parsing key-value pair: cannot redefine existing floating-point "
+     "'mass_kg'"},
+    {"duplicate_table", open_loop, "[friction]", "[plant]",
+     "4:1: toml: Error while parsing table header: cannot redefine existing table 'plant'"},
+    {"decimal_comma", open_loop, "0.02", "0,02",
+     "2:12: toml: Error while parsing key-value pair: expected a comment or whitespace, saw ','"},
+    {"not_utf_8", open_loop, "\"dahl\"", "\"dahl\xff\"",
+     "5:11: toml: Encountered invalid utf-8 sequence"},
+    {"truncated", open_loop, "record_interval_s = 1e-6\n", "record_interval_s = ",
+     "20:21: toml: Error while parsing key-value pair: encountered end-of-file"},
+    {"unclosed_header", open_loop, "[plant]", "[plant",
+     "1:7: toml: Error while parsing table header: expected ']', saw '\\n'"},
+};
+
+class BrokenSceneTest : public testing::TestWithParam<BrokenScene> {};
+
+TEST_P(BrokenSceneTest, IsRejectedInOneLineAndLeavesNothing) {
+  const ScratchFolder folder;
+  folder.write("broken.toml", edited(GetParam()));
+  const Outcome outcome = folder.run("run broken.toml");
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_EQ(outcome.err, std::string("broken.toml:") + GetParam().error + "\n");
+  EXPECT_EQ(outcome.out, "");
+  EXPECT_EQ(folder.entries(), std::vector<std::string>{"broken.toml"});
+}
+
+INSTANTIATE_TEST_SUITE_P(Table, BrokenSceneTest, testing::ValuesIn(broken_scenes),
+                         [](const auto& scene) { return std::string(scene.param.name); });
+
+TEST(UneditedSceneTest, IsAccepted) {
+  for (const char* text : {open_loop, closed_loop}) {
+    const ScratchFolder folder;
+    folder.write("good.toml", text);
+    const Outcome outcome = folder.run("run good.toml --quiet");
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_EQ(outcome.err, "");
+  }
+}
+
+}  // namespace
+}  // namespace sonoglide::acceptance

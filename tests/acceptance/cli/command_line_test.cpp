@@ -1,0 +1,133 @@
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <string>
+
+#include "tests/acceptance/program/program.hpp"
+
+namespace sonoglide::acceptance {
+namespace {
+
+constexpr const char* hint = "sonoglide --help lists the commands and their options\n";
+
+Outcome run(const std::string& arguments) {
+  const ScratchFolder folder;
+  const Outcome outcome = folder.run(arguments);
+  EXPECT_TRUE(folder.entries().empty());
+  return outcome;
+}
+
+void expect_usage_error(const std::string& arguments, const std::string& error) {
+  const Outcome outcome = run(arguments);
+  EXPECT_EQ(outcome.exit_code, 2) << arguments;
+  EXPECT_EQ(outcome.out, "") << arguments;
+  EXPECT_EQ(outcome.err, "sonoglide: " + error + "\n" + hint);
+}
+
+TEST(CommandLineTest, VersionIsPrintedAlone) {
+  const Outcome outcome = run("--version");
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_EQ(outcome.out, "sonoglide " SONOGLIDE_VERSION "\n");
+  EXPECT_EQ(outcome.err, "");
+}
+
+TEST(CommandLineTest, HelpNamesEveryCommand) {
+  const Outcome outcome = run("--help");
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_NE(outcome.out.find("run "), std::string::npos);
+  EXPECT_NE(outcome.out.find("ratio "), std::string::npos);
+  EXPECT_EQ(outcome.err, "");
+}
+
+TEST(CommandLineTest, HelpOfACommandNamesItsOptions) {
+  const Outcome run_help = run("run --help");
+  EXPECT_EQ(run_help.exit_code, 0);
+  for (const char* option : {"SCENE.toml", "--out", "--set", "--quiet"}) {
+    EXPECT_NE(run_help.out.find(option), std::string::npos) << option;
+  }
+  const Outcome ratio_help = run("ratio --help");
+  EXPECT_EQ(ratio_help.exit_code, 0);
+  for (const char* option : {"--velocity-ratio", "--dahl-number"}) {
+    EXPECT_NE(ratio_help.out.find(option), std::string::npos) << option;
+  }
+}
+
+TEST(CommandLineTest, BadUsageIsRejected) {
+  expect_usage_error("", "a command is required");
+  expect_usage_error("fly", "The following argument was not expected: fly");
+  expect_usage_error("--fast", "The following argument was not expected: --fast");
+  expect_usage_error("run", "scene is required");
+  expect_usage_error("run scene.toml --fast", "The following argument was not expected: --fast");
+  expect_usage_error("run a.toml b.toml", "The following argument was not expected: b.toml");
+  expect_usage_error("run scene.toml --out", "--out: 1 required DIR missing");
+  expect_usage_error("run scene.toml --out ''", "--out: is empty; allowed: a folder");
+  expect_usage_error("run scene.toml --set", "--set: 1 required TABLE.KEY=VALUE missing");
+}
+
+double ratio_of(const std::string& velocity_ratio, const std::string& dahl_number) {
+  const Outcome outcome =
+      run("ratio --velocity-ratio " + velocity_ratio + " --dahl-number " + dahl_number);
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_EQ(outcome.err, "");
+  char* end = nullptr;
+  const double ratio = std::strtod(outcome.out.c_str(), &end);
+  EXPECT_STREQ(end, "\n") << "the number stands alone";
+  return ratio;
+}
+
+TEST(RatioCommandTest, PrintsTheClosedForm) {
+  EXPECT_NEAR(ratio_of("0.5", "0.404519756998724"), 0.674948666956629, 1e-14);
+}
+
+TEST(RatioCommandTest, AgreesWithTheTableOfPrescribedMotion) {
+  EXPECT_NEAR(ratio_of("0.1", "2.023"), 0.08814, 1e-5);
+  EXPECT_NEAR(ratio_of("0.5", "10"), 0.3502, 5e-5);
+  EXPECT_NEAR(ratio_of("0.9", "100"), 0.7246, 5e-5);
+}
+
+TEST(RatioCommandTest, IgnoresTheSignOfTheVelocityRatio) {
+  EXPECT_EQ(ratio_of("-0.5", "10"), ratio_of("0.5", "10"));
+}
+
+TEST(RatioCommandTest, IsOneWithoutReversalAndZeroWithoutSliding) {
+  EXPECT_EQ(ratio_of("1", "10"), 1.0);
+  EXPECT_EQ(ratio_of("1e6", "1e-3"), 1.0);
+  EXPECT_NEAR(ratio_of("0", "10"), 0.0, 1e-15);
+}
+
+TEST(RatioCommandTest, HoldsItsLimitsAtTheEndsOfTheRange) {
+  // Coulomb, (2/pi) asin r, and the limit of small amplitude, pi r / (2 (sqrt(1 - r²) + r asin r)).
+  EXPECT_NEAR(ratio_of("0.5", "1e12"), 0.33333333333333333, 1e-5);
+  EXPECT_NEAR(ratio_of("0.5", "1e-12"), 0.69637987, 1e-4);
+}
+
+TEST(RatioCommandTest, RejectsBadNumbers) {
+  expect_usage_error("ratio --velocity-ratio 0.5", "--dahl-number is required");
+  expect_usage_error("ratio --velocity-ratio nan --dahl-number 1",
+                     "--velocity-ratio: nan is out of range; allowed: -1e+12 to 1e+12");
+  expect_usage_error("ratio --velocity-ratio inf --dahl-number 1",
+                     "--velocity-ratio: inf is out of range; allowed: -1e+12 to 1e+12");
+  expect_usage_error("ratio --velocity-ratio 0.5 --dahl-number 0",
+                     "--dahl-number: 0 is out of range; allowed: 1e-12 to 1e+12");
+  expect_usage_error("ratio --velocity-ratio 0.5 --dahl-number -1",
+                     "--dahl-number: -1 is out of range; allowed: 1e-12 to 1e+12");
+  expect_usage_error("ratio --velocity-ratio 0.5 --dahl-number 1e400",
+                     "--dahl-number: 1e400 is out of range; allowed: 1e-12 to 1e+12");
+  expect_usage_error("ratio --velocity-ratio half --dahl-number 1",
+                     "--velocity-ratio: \"half\" is not a number; allowed: a number, -1e+12 to "
+                     "1e+12");
+  expect_usage_error("ratio --velocity-ratio 0.5x --dahl-number 1",
+                     "--velocity-ratio: \"0.5x\" is not a number; allowed: a number, -1e+12 to "
+                     "1e+12");
+}
+
+TEST(RatioCommandTest, ReportsOutputThatCannotBeWritten) {
+  const ScratchFolder folder;
+  const Outcome outcome =
+      folder.run("ratio --velocity-ratio 0.5 --dahl-number 1 >/dev/full 2>err #");
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_EQ(folder.read("err"), "standard output: cannot be written\n");
+}
+
+}  // namespace
+}  // namespace sonoglide::acceptance

@@ -1,0 +1,139 @@
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "tests/acceptance/program/program.hpp"
+
+namespace sonoglide::acceptance {
+namespace {
+
+using Entries = std::vector<std::string>;
+
+constexpr const char* open_loop = R"([plant]
+mass_kg = 0.02
+stiffness_N_per_m = 133e6
+[friction]
+law = "dahl"
+coefficient = 0.1
+contact_stiffness_N_per_m = 0.056e6
+[sliding]
+velocity_m_per_s = 0.0267
+[drive]
+frequency_Hz = 60e3
+force_amplitude_N = 384.0
+[run]
+duration_periods = 20
+record = ["displacement_m"]
+record_interval_s = 1e-6
+)";
+
+class RunOutputTest : public testing::Test {
+ protected:
+  void SetUp() override { folder_.write("scene.toml", open_loop); }
+
+  std::string folder_name() const { return folder_.path().string(); }
+  nlohmann::json echo(const std::string& summary) const {
+    return nlohmann::json::parse(folder_.read(summary)).at("scene");
+  }
+  void expect_no_output(const std::string& arguments, const std::string& error) const {
+    const Entries before = folder_.entries();
+    const Outcome outcome = folder_.run(arguments);
+    EXPECT_EQ(outcome.exit_code, 1);
+    EXPECT_EQ(outcome.err, error + "\n");
+    EXPECT_EQ(outcome.out, "");
+    EXPECT_EQ(folder_.entries(), before);
+  }
+
+  ScratchFolder folder_;
+};
+
+TEST_F(RunOutputTest, GoesByDefaultToAFolderNamedAfterTheScene) {
+  const Outcome outcome = folder_.run("run scene.toml");
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_EQ(outcome.err, "") << "no progress bar on a pipe";
+  EXPECT_NE(outcome.out.find("report.html"), std::string::npos);
+  EXPECT_EQ(folder_.entries(),
+            (Entries{"out", "out/scene", "out/scene/periods.csv", "out/scene/report.html",
+                     "out/scene/summary.json", "out/scene/trace.csv", "scene.toml"}));
+}
+
+TEST_F(RunOutputTest, GoesWhereTheUserWantsIt) {
+  EXPECT_EQ(folder_.run("run scene.toml --out a/b").exit_code, 0);
+  EXPECT_EQ(folder_.entries(), (Entries{"a", "a/b", "a/b/periods.csv", "a/b/report.html",
+                                        "a/b/summary.json", "a/b/trace.csv", "scene.toml"}));
+}
+
+TEST_F(RunOutputTest, QuietPrintsNothing) {
+  const Outcome outcome = folder_.run("run scene.toml --quiet");
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_EQ(outcome.out, "");
+  EXPECT_EQ(outcome.err, "");
+}
+
+TEST_F(RunOutputTest, ASecondRunReplacesTheFirst) {
+  EXPECT_EQ(folder_.run("run scene.toml --quiet").exit_code, 0);
+  const Entries first = folder_.entries();
+  EXPECT_EQ(folder_.run("run scene.toml --quiet --set friction.coefficient=0.2").exit_code, 0);
+  EXPECT_EQ(folder_.entries(), first);
+  EXPECT_EQ(echo("out/scene/summary.json").at("friction").at("coefficient"), 0.2);
+}
+
+TEST_F(RunOutputTest, OverridesReplaceAndAddAndTheLastOneWins) {
+  const Outcome outcome = folder_.run(
+      "run --quiet --set plant.mass_kg=1 --set plant.mass_kg=0.04 "
+      "--set friction.sign_convention=as_printed --set solver.tolerance=1e-8 scene.toml");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  const nlohmann::json scene = echo("out/scene/summary.json");
+  EXPECT_EQ(scene.at("plant").at("mass_kg"), 0.04);
+  EXPECT_EQ(scene.at("friction").at("sign_convention"), "as_printed");
+  EXPECT_EQ(scene.at("friction").at("normal_force_N"), 0.04 * 9.81) << "defaults follow overrides";
+  EXPECT_EQ(scene.at("solver").at("tolerance"), 1e-8);
+}
+
+TEST_F(RunOutputTest, AFileInTheWayIsFoundBeforeTheRun) {
+  folder_.write("taken", "");
+  expect_no_output("run scene.toml --out taken", folder_name() + "/taken: is a file, not a folder");
+}
+
+TEST_F(RunOutputTest, AFileAmongTheParentsIsFoundBeforeTheRun) {
+  folder_.write("taken", "");
+  expect_no_output("run scene.toml --out taken/deep/results",
+                   folder_name() + "/taken: is a file, not a folder");
+}
+
+TEST_F(RunOutputTest, ALinkToNothingIsFoundBeforeTheRun) {
+  std::filesystem::create_symlink("nowhere", folder_.path() / "link");
+  expect_no_output("run scene.toml --out link",
+                   folder_name() + "/link: is a symbolic link to nothing");
+}
+
+TEST_F(RunOutputTest, AFolderThatNobodyMayWriteToIsFoundBeforeTheRun) {
+  const Outcome outcome = folder_.run("run scene.toml --out /proc/results");
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_EQ(outcome.err, "/proc/results: cannot be written: No such file or directory\n");
+  EXPECT_EQ(folder_.entries(), Entries{"scene.toml"});
+}
+
+TEST_F(RunOutputTest, ABadSceneIsReportedBeforeABadFolder) {
+  folder_.write("taken", "");
+  EXPECT_EQ(folder_.run("run scene.toml --out taken --set plant.mass_kg=0").exit_code, 2);
+}
+
+TEST_F(RunOutputTest, AFailedComputationLeavesNothing) {
+  // Far beyond the stability limit of the fixed step, 2.785 Fc / (Kt |V|).
+  const Outcome outcome = folder_.run(
+      "run scene.toml --set solver.method=rk4 --set solver.step_s=1.667e-8 "
+      "--set friction.contact_stiffness_N_per_m=1e12");
+  EXPECT_EQ(outcome.exit_code, 3);
+  for (const char* part : {" s, ", "displacement", "velocity", "friction force"}) {
+    EXPECT_NE(outcome.err.find(part), std::string::npos) << outcome.err;
+  }
+  EXPECT_EQ(outcome.out, "");
+  EXPECT_EQ(folder_.entries(), Entries{"scene.toml"});
+}
+
+}  // namespace
+}  // namespace sonoglide::acceptance

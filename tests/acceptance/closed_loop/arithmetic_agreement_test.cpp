@@ -1,0 +1,63 @@
+/// Fixed point against double precision, carrier period by carrier period.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "host_sim/loop/run.hpp"
+#include "host_sim/scene/reader.hpp"
+
+namespace sonoglide {
+namespace {
+
+/// Largest difference of the friction ratio in any carrier period.
+double difference(const std::string& name, const std::string& arithmetic) {
+  const auto run = [&name](const std::string& chosen) {
+    return loop::run(scene::read_file(SONOGLIDE_SCENES "/" + name + ".toml",
+                                      {"controller.arithmetic=" + chosen}),
+                     nullptr);
+  };
+  const loop::RunResult exact = run("float64");
+  const loop::RunResult rounded = run(arithmetic);
+  EXPECT_EQ(rounded.periods.size(), exact.periods.size());
+  double largest = 0.0;
+  for (std::size_t i = 0; i < exact.periods.size(); ++i) {
+    largest = std::max(
+        largest, std::abs(rounded.periods[i].friction_ratio - exact.periods[i].friction_ratio));
+  }
+  return largest;
+}
+
+class ArithmeticAgreementTest : public testing::TestWithParam<std::string> {};
+
+TEST_P(ArithmeticAgreementTest, FixedPointIsWithinTwoThousandthsOfDouble) {
+  EXPECT_LE(difference(GetParam(), "q31"), 0.002);
+}
+
+TEST_P(ArithmeticAgreementTest, SinglePrecisionIsWithinTwoThousandthsOfDouble) {
+  EXPECT_LE(difference(GetParam(), "float32"), 0.002);
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, ArithmeticAgreementTest,
+                         testing::Values("target_step", "model_error", "noisy_sensor",
+                                         "unreachable_target", "speed_ramp", "speed_reversal",
+                                         "stop_and_start"),
+                         [](const auto& scene) { return scene.param; });
+
+TEST(ArithmeticAgreementTest, FixedPointSaturatesNowhereInside) {
+  for (const char* name : {"target_step", "model_error", "noisy_sensor", "unreachable_target",
+                           "speed_ramp", "speed_reversal", "stop_and_start"}) {
+    const loop::RunResult result =
+        loop::run(scene::read_file(SONOGLIDE_SCENES "/" + std::string(name) + ".toml",
+                                   {"controller.arithmetic=q31"}),
+                  nullptr);
+    ASSERT_FALSE(result.control->signals.empty());
+    for (const numeric::SignalRecord& signal : result.control->signals) {
+      EXPECT_EQ(signal.saturations, 0U) << name << ' ' << signal.name;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace sonoglide

@@ -1,0 +1,36 @@
+/// The built program, run from outside.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace sonoglide::acceptance {
+
+struct Outcome {
+  int exit_code = -1;
+  std::string out;
+  std::string err;
+};
+
+/// An empty folder of its own, gone with its owner.
+class ScratchFolder {
+ public:
+  ScratchFolder();
+  ~ScratchFolder();
+  ScratchFolder(const ScratchFolder&) = delete;
+  ScratchFolder& operator=(const ScratchFolder&) = delete;
+
+  const std::filesystem::path& path() const { return path_; }
+  void write(const std::string& name, const std::string& content) const;
+  std::string read(const std::string& name) const;
+  /// Everything in it, at any depth, sorted.
+  std::vector<std::string> entries() const;
+  /// Runs the program in this folder; `arguments` are shell words.
+  Outcome run(const std::string& arguments) const;
+
+ private:
+  std::filesystem::path path_;
+};
+
+}  // namespace sonoglide::acceptance

@@ -1,0 +1,160 @@
+/// Whole runs against values known to more than 20 digits and against closed forms.
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <fstream>
+#include <sstream>
+#include <string>
+
+#include "host_sim/loop/run.hpp"
+#include "host_sim/scene/plant_scales.hpp"
+#include "table_1.hpp"
+
+namespace sonoglide::loop {
+namespace {
+
+using scene::Scene;
+
+/// In the order of the file's columns.
+struct Values {
+  double displacement_m;
+  double velocity_m_per_s;
+  double friction_N;
+  double friction_ratio;
+  double friction_ratio_second_half;
+  double dissipation_ratio;
+  double dissipation_ratio_second_half;
+};
+
+Values reference(const std::string& name) {
+  std::ifstream file(REFERENCE_OPEN_LOOP);
+  for (std::string line; std::getline(file, line);) {
+    std::istringstream fields(line);
+    std::string text;
+    std::getline(fields, text, ',');
+    if (text == name) {
+      std::array<double, 7> numbers{};
+      for (double& number : numbers) {
+        std::getline(fields, text, ',');
+        number = std::stod(text);
+      }
+      return {numbers[0], numbers[1], numbers[2], numbers[3], numbers[4], numbers[5], numbers[6]};
+    }
+  }
+  ADD_FAILURE() << name << " is not in " << REFERENCE_OPEN_LOOP;
+  return {};
+}
+
+PowerRatios ratios(const Scene& scene, const EnergyBalance& energy) {
+  return power_ratios(energy, scene::friction_limit_N(scene.friction),
+                      scene.friction.sign_convention, period_s);
+}
+
+Values values(const Scene& scene) {
+  const RunResult result = run(scene, nullptr);
+  const PowerRatios whole = ratios(scene, result.whole);
+  const PowerRatios window = ratios(scene, result.window);
+  return {result.final_state.displacement_m,
+          result.final_state.velocity_m_per_s,
+          result.final_state.friction_force_N,
+          whole.friction_ratio,
+          window.friction_ratio,
+          whole.dissipation_ratio,
+          window.dissipation_ratio};
+}
+
+Scene reference_scene(const std::string& name) {
+  Scene scene = table_1();
+  if (name != "table1" && name != "table1_as_printed") {
+    scene.friction.contact_stiffness_N_per_m = 1e9;
+  }
+  if (name == "heavy_friction") {
+    scene.friction.normal_force_N = 2000.0;
+  }
+  if (name == "table1_as_printed") {
+    scene.friction.sign_convention = scene::SignConvention::as_printed;
+  }
+  return scene;
+}
+
+void expect_near(const Values& actual, const Values& expected, double relative) {
+  const auto close = [relative](double a, double b) { EXPECT_NEAR(a, b, relative * std::abs(b)); };
+  close(actual.displacement_m, expected.displacement_m);
+  close(actual.velocity_m_per_s, expected.velocity_m_per_s);
+  close(actual.friction_N, expected.friction_N);
+  close(actual.friction_ratio, expected.friction_ratio);
+  close(actual.friction_ratio_second_half, expected.friction_ratio_second_half);
+  close(actual.dissipation_ratio, expected.dissipation_ratio);
+  close(actual.dissipation_ratio_second_half, expected.dissipation_ratio_second_half);
+}
+
+class OpenLoopReferenceTest : public testing::TestWithParam<std::string> {};
+
+TEST_P(OpenLoopReferenceTest, HoldsToNineDigitsAtATightTolerance) {
+  Scene scene = reference_scene(GetParam());
+  scene.solver.tolerance = 1e-12;
+  expect_near(values(scene), reference(GetParam()), 1e-9);
+}
+
+TEST_P(OpenLoopReferenceTest, HoldsToSevenDigitsAtTheDefaultTolerance) {
+  expect_near(values(reference_scene(GetParam())), reference(GetParam()), 1e-7);
+}
+
+TEST_P(OpenLoopReferenceTest, HoldsToFourDigitsAtALooseTolerance) {
+  Scene scene = reference_scene(GetParam());
+  scene.solver.tolerance = 1e-6;
+  const Values actual = values(scene);
+  const Values expected = reference(GetParam());
+  EXPECT_NEAR(actual.friction_ratio, expected.friction_ratio, 1e-4);
+  EXPECT_NEAR(actual.dissipation_ratio, expected.dissipation_ratio, 1e-4);
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, OpenLoopReferenceTest,
+                         testing::Values("table1", "stiff_contact", "heavy_friction",
+                                         "table1_as_printed"),
+                         [](const auto& name) { return name.param; });
+
+TEST(OpenLoopRk4Test, ThePapersStepHoldsToSixDigits) {
+  for (const char* name : {"table1", "table1_as_printed"}) {
+    Scene scene = reference_scene(name);
+    scene.solver.method = scene::SolverMethod::rk4;
+    scene.solver.step_s = 1.667e-8;
+    const Values actual = values(scene);
+    const Values expected = reference(name);
+    const auto close = [](double a, double b) { EXPECT_NEAR(a / b, 1.0, 1e-6); };
+    close(actual.displacement_m, expected.displacement_m);
+    close(actual.friction_ratio, expected.friction_ratio);
+    close(actual.friction_ratio_second_half, expected.friction_ratio_second_half);
+    close(actual.dissipation_ratio, expected.dissipation_ratio);
+    close(actual.dissipation_ratio_second_half, expected.dissipation_ratio_second_half);
+  }
+}
+
+TEST(OpenLoopRk4Test, ThePapersStepIsAThousandthOfTheCarrierPeriod) {
+  Scene scene = table_1();
+  scene.solver.method = scene::SolverMethod::rk4;
+  scene.solver.step_s = 1.667e-8;
+  EXPECT_EQ(run(scene, nullptr).solver_steps, 100000U);
+}
+
+/// A run from the steady orbit; the mean of its last part.
+double steady_friction_ratio(double force_N, double velocity_ratio) {
+  Scene scene = on_steady_orbit(table_1(force_N));
+  scene.sliding.profile[0].velocity_m_per_s =
+      velocity_ratio * vibration_velocity_m_per_s(scene.plant, force_N);
+  scene.run.duration_s = 20e-3;
+  scene.run.window_start_s = 19e-3;
+  return ratios(scene, run(scene, nullptr).window).friction_ratio;
+}
+
+TEST(SteadyOrbitTest, GivesTheClosedFormMapOfTheDahlContact) {
+  // The map at the Dahl numbers 0.4046 and 2.023; friction shifts the orbit by less than 0.001.
+  EXPECT_NEAR(steady_friction_ratio(384.0, 0.5), 0.67494, 0.002);
+  EXPECT_NEAR(steady_friction_ratio(1920.0, 0.5), 0.48927, 0.002);
+  EXPECT_NEAR(steady_friction_ratio(1920.0, 0.1), 0.08814, 0.002);
+}
+
+}  // namespace
+}  // namespace sonoglide::loop

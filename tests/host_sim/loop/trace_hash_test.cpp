@@ -1,0 +1,82 @@
+#include "host_sim/loop/trace_hash.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <string>
+
+namespace sonoglide::loop {
+namespace {
+
+__extension__ using Wide = unsigned __int128;
+
+/// FNV-1a as its definition has it, with a wide product reduced modulo 2^64.
+std::uint64_t fnv_1a(const std::string& bytes) {
+  std::uint64_t hash = 14695981039346656037U;
+  for (const char byte : bytes) {
+    hash ^= static_cast<unsigned char>(byte);
+    hash = static_cast<std::uint64_t>(Wide{hash} * Wide{1099511628211U} % (Wide{1} << 64));
+  }
+  return hash;
+}
+
+/// The seven bytes of a command, as the hash is documented to take them.
+std::string bytes_of(const hal::Drive& drive) {
+  std::string bytes;
+  auto amplitude = static_cast<std::int64_t>(drive.amplitude);
+  amplitude = amplitude < 0 ? amplitude + (std::int64_t{1} << 32) : amplitude;
+  for (int i = 0; i < 4; ++i, amplitude /= 256) {
+    bytes.push_back(static_cast<char>(amplitude % 256));
+  }
+  bytes.push_back(static_cast<char>(drive.state));
+  bytes.push_back(static_cast<char>(drive.limit));
+  bytes.push_back(static_cast<char>(drive.fault));
+  return bytes;
+}
+
+// Published vectors of FNV-1a, 64 bits.
+TEST(TraceHashTest, OfNothingIsTheOffsetBasis) {
+  EXPECT_EQ(TraceHash().value(), 0xcbf29ce484222325U);
+}
+
+TEST(TraceHashTest, OfACommandThatReadsFoobarIsThePublishedVector) {
+  TraceHash hash;
+  hash.add({0x626f6f66, 'a', 'r', 0});  // "foobar" and its final zero
+  EXPECT_EQ(hash.value(), 0x34531ca7168b8f38U);
+}
+
+TEST(TraceHashTest, OracleGivesThePublishedVectors) {
+  EXPECT_EQ(fnv_1a(""), 0xcbf29ce484222325U);
+  EXPECT_EQ(fnv_1a("a"), 0xaf63dc4c8601ec8cU);
+  EXPECT_EQ(fnv_1a("foobar"), 0x85944171f73967e8U);
+}
+
+TEST(TraceHashTest, GoesThroughACourseOfCommandsInOrder) {
+  TraceHash hash;
+  std::string bytes;
+  std::int32_t amplitude = INT32_MIN;
+  for (int i = 0; i < 1000; ++i) {
+    const hal::Drive drive{amplitude, static_cast<std::uint8_t>(i),
+                           static_cast<std::uint8_t>(3 * i), static_cast<std::uint8_t>(255 - i)};
+    hash.add(drive);
+    bytes += bytes_of(drive);
+    ASSERT_EQ(hash.value(), fnv_1a(bytes)) << i;
+    amplitude += 4294967;
+  }
+}
+
+TEST(TraceHashTest, SeesEveryFieldAndTheLastBit) {
+  const hal::Drive drive{1000, 2, 1, 0};
+  const auto hash_of = [](const hal::Drive& command) {
+    TraceHash hash;
+    hash.add(command);
+    return hash.value();
+  };
+  EXPECT_NE(hash_of(drive), hash_of({1001, 2, 1, 0}));
+  EXPECT_NE(hash_of(drive), hash_of({1000, 3, 1, 0}));
+  EXPECT_NE(hash_of(drive), hash_of({1000, 2, 0, 0}));
+  EXPECT_NE(hash_of(drive), hash_of({1000, 2, 1, 16}));
+}
+
+}  // namespace
+}  // namespace sonoglide::loop

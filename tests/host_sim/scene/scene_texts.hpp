@@ -1,0 +1,110 @@
+/// Scenes that use every key a scene can have.
+#pragma once
+
+namespace sonoglide::scene {
+
+/// Nothing that has a default.
+inline constexpr const char* shortest_open_loop = R"([plant]
+mass_kg = 0.02
+stiffness_N_per_m = 133e6
+[friction]
+law = "dahl"
+coefficient = 0.1
+contact_stiffness_N_per_m = 0.056e6
+[sliding]
+velocity_m_per_s = 0.0267
+[run]
+duration_s = 2e-3
+)";
+
+inline constexpr const char* fullest_open_loop = R"([plant]
+mass_kg = 0.02
+stiffness_N_per_m = 133e6
+damping_N_s_per_m = 1.5
+initial_displacement_m = -1e-7
+initial_velocity_m_per_s = 2e-3
+[friction]
+law = "dahl"
+coefficient = 0.2
+normal_force_N = 3
+contact_stiffness_N_per_m = 0.056e6
+initial_force_N = -0.25
+sign_convention = "as_printed"
+[sliding]
+profile = [[1e-3, 0.02], [2e-3, -0.02]]
+[drive]
+frequency_Hz = 40e3
+force_amplitude_N = 384
+waveform = "cosine"
+[solver]
+method = "rk4"
+step_s = 1e-8
+[run]
+duration_periods = 100
+window_start_periods = 50
+record = ["sliding_velocity_m_per_s", "displacement_m", "velocity_m_per_s", "friction_force_N",
+          "drive_force_N"]
+record_interval_s = 1e-6
+)";
+
+/// Nothing that has a default.
+inline constexpr const char* shortest_closed_loop = R"([plant]
+mass_kg = 0.02
+stiffness_N_per_m = 133e6
+[friction]
+law = "coulomb"
+coefficient = 0.1
+[sliding]
+velocity_m_per_s = 0.0267
+[drive]
+frequency_Hz = 60e3
+max_force_amplitude_N = 1920
+[run]
+duration_s = 2e-3
+[controller]
+arithmetic = "q31"
+target_friction_ratio = [[0, 1]]
+)";
+
+inline constexpr const char* fullest_closed_loop = R"([plant]
+mass_kg = 0.02
+stiffness_N_per_m = 133e6
+[friction]
+law = "dahl"
+coefficient = 0.1
+normal_force_N = 0.1962
+contact_stiffness_N_per_m = 0.056e6
+[sliding]
+velocity_m_per_s = -0.0267
+[drive]
+frequency_Hz = 60e3
+max_force_amplitude_N = 1920
+max_force_slew_N_per_s = 1e8
+[solver]
+method = "event_taylor"
+tolerance = 1e-12
+[run]
+duration_s = 4e-3
+window_start_s = 1e-3
+settling_band = 0.02
+[controller]
+arithmetic = "float32"
+target_friction_ratio = [[0.0, 0.4], [2e-3, 0.6]]
+calibration_s = 0.5e-3
+shaping = "none"
+speed_floor_m_per_s = 1e-4
+[sensor]
+adc_bits = 12
+force_full_scale_N = 0.04
+force_noise_N = 1e-4
+force_bandwidth_Hz = 5e3
+delay_periods = 2
+seed = 9223372036854775807
+[model_error]
+mass = 0.9
+stiffness = 1.04
+coefficient = 1.3
+contact_stiffness = 1.5
+)";
+
+}  // namespace sonoglide::scene
