@@ -1,0 +1,36 @@
+/// The target of an image, compiled in.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace sonoglide::app {
+
+template <class Scalar>
+struct TargetStep {
+  std::uint32_t period;  ///< in force from the sample of this carrier period on, counted from 0
+  Scalar half_ratio;     ///< target friction ratio on base 2
+};
+
+/// Walks through steps of rising period, one call for each carrier period.
+template <class Scalar, std::size_t Count>
+class TargetSchedule {
+ public:
+  explicit TargetSchedule(const TargetStep<Scalar> (&steps)[Count]) : steps_(steps) {}
+
+  /// Sets the target of the next carrier period.
+  template <class Controller>
+  void advance(Controller& controller) {
+    while (next_ < Count && steps_[next_].period <= period_) {
+      controller.set_target(steps_[next_++].half_ratio);
+    }
+    ++period_;
+  }
+
+ private:
+  const TargetStep<Scalar> (&steps_)[Count];
+  std::size_t next_ = 0;
+  std::uint32_t period_ = 0;
+};
+
+}  // namespace sonoglide::app

@@ -1,0 +1,78 @@
+/// What a board in lockstep and its host say to each other: one frame each way for every carrier
+/// period, the host first. No byte order of a machine shows: little-endian, two's complement.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "hal/board.hpp"
+
+namespace sonoglide::hal::lockstep {
+
+/// | byte | sample frame                | drive frame            |
+/// |------|-----------------------------|------------------------|
+/// | 0    | period, u32, from 0         | period of the sample   |
+/// | 4    | friction_force, i32         | amplitude, i32         |
+/// | 8    | sliding_velocity, i32       | state, limit, fault, 0 |
+/// | 12   | force_at_rail, fresh, 0, 0  |                        |
+inline constexpr std::size_t sample_frame_size = 16;
+inline constexpr std::size_t drive_frame_size = 12;
+
+using SampleFrame = std::array<std::uint8_t, sample_frame_size>;
+using DriveFrame = std::array<std::uint8_t, drive_frame_size>;
+
+namespace detail {
+
+inline void put(std::uint32_t word, std::uint8_t* bytes) {
+  for (std::size_t i = 0; i < 4; ++i) {
+    bytes[i] = static_cast<std::uint8_t>(word >> (8 * i));
+  }
+}
+
+inline std::uint32_t get(const std::uint8_t* bytes) {
+  std::uint32_t word = 0;
+  for (std::size_t i = 4; i > 0; --i) {
+    word = word << 8 | bytes[i - 1];
+  }
+  return word;
+}
+
+}  // namespace detail
+
+/// Period that a frame of either kind belongs to.
+template <class Frame>
+std::uint32_t period(const Frame& frame) {
+  return detail::get(frame.data());
+}
+
+inline SampleFrame encode(std::uint32_t period, const Sample& sample) {
+  SampleFrame frame{};
+  detail::put(period, frame.data());
+  detail::put(static_cast<std::uint32_t>(sample.friction_force), frame.data() + 4);
+  detail::put(static_cast<std::uint32_t>(sample.sliding_velocity), frame.data() + 8);
+  frame[12] = sample.force_at_rail ? 1 : 0;
+  frame[13] = sample.fresh ? 1 : 0;
+  return frame;
+}
+
+inline DriveFrame encode(std::uint32_t period, const Drive& drive) {
+  DriveFrame frame{};
+  detail::put(period, frame.data());
+  detail::put(static_cast<std::uint32_t>(drive.amplitude), frame.data() + 4);
+  frame[8] = drive.state;
+  frame[9] = drive.limit;
+  frame[10] = drive.fault;
+  return frame;
+}
+
+inline Sample decode(const SampleFrame& frame) {
+  return {static_cast<std::int32_t>(detail::get(frame.data() + 4)),
+          static_cast<std::int32_t>(detail::get(frame.data() + 8)), frame[12] != 0, frame[13] != 0};
+}
+
+inline Drive decode(const DriveFrame& frame) {
+  return {static_cast<std::int32_t>(detail::get(frame.data() + 4)), frame[8], frame[9], frame[10]};
+}
+
+}  // namespace sonoglide::hal::lockstep

@@ -1,0 +1,216 @@
+// The same controller source on the host and as an image on an emulated board: the same commands.
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <csignal>
+#include <cstdint>
+#include <memory>
+#include <random>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "emulated_board.hpp"
+#include "firmware/control/drive_command.hpp"
+#include "hal/mps2/lockstep/frame.hpp"
+#include "host_sim/loop/control_port.hpp"
+#include "host_sim/loop/plant_port.hpp"
+#include "host_sim/loop/run.hpp"
+#include "host_sim/loop/sensor.hpp"
+#include "host_sim/loop/trace_hash.hpp"
+#include "host_sim/scene/control_design.hpp"
+#include "host_sim/scene/reader.hpp"
+
+namespace sonoglide::boards {
+namespace {
+
+using std::chrono_literals::operator""s;
+using std::chrono_literals::operator""ms;
+
+// Exit codes of an image: hal/mps2/semihosting.hpp.
+constexpr int shut_down = 0;
+constexpr int link_broken = 1;
+constexpr int processor_fault = 2;
+
+constexpr double two_pi = 6.28318530717958647693;
+
+std::string image(const std::string& board, const std::string& controller) {
+  return SONOGLIDE_IMAGES "/" + board + "/bin/" + controller + ".elf";
+}
+
+std::vector<std::string> emulate(const std::string& board, const std::string& image) {
+  return {SONOGLIDE_QEMU,
+          "-nodefaults",
+          "-display",
+          "none",
+          "-semihosting-config",
+          "enable=on,target=native",
+          "-machine",
+          board,
+          "-kernel",
+          image};
+}
+
+/// The plant of a scene and its sensor, fed period by period.
+class SensedPlant {
+ public:
+  SensedPlant(const scene::Scene& scene, const scene::ControlDesign& design)
+      : rate_(two_pi * scene.drive->frequency_Hz),
+        plant_(loop::make_plant_port(scene)),
+        sensor_(scene.sensor, design.scales) {}
+
+  /// Lives through a carrier period under a drive amplitude; the sample that ends it.
+  hal::Sample advance(const loop::Period& period, double amplitude_N) {
+    const double duration_s = period.end_s - period.begin_s;
+    const double gain = period.end_velocity_m_per_s - period.begin_velocity_m_per_s;
+    const loop::Stretch stretch{
+        duration_s, 0.0, rate_, amplitude_N, period.begin_velocity_m_per_s, gain / duration_s};
+    loop::EnergyBalance energy;
+    std::vector<loop::PlantState> seen;
+    const auto outcome = plant_->advance(stretch, {}, energy, seen);
+    EXPECT_EQ(outcome.error, plant::Error::none);
+    return sensor_.sample(energy.friction_impulse_N_s / duration_s, period.end_velocity_m_per_s);
+  }
+
+ private:
+  double rate_;
+  std::unique_ptr<loop::PlantPort> plant_;
+  loop::Sensor sensor_;
+};
+
+/// An image on a board: (board, controller).
+class Image : public testing::TestWithParam<std::tuple<std::string, std::string>> {
+ protected:
+  Image() : Image(std::get<0>(GetParam()), std::get<1>(GetParam())) {}
+  Image(const std::string& board, const std::string& controller)
+      : scene_(scene::read_file(SONOGLIDE_CONTROLLERS "/" + controller + "/scene.toml")),
+        board_(emulate(board, image(board, controller)), 60s) {}
+
+  scene::Scene scene_;
+  EmulatedBoard board_;
+};
+
+TEST_P(Image, DrivesThePlantWithTheHostsCommandsBitForBit) {
+  const loop::RunResult host = loop::run(scene_, {});
+  const scene::ControlDesign& design = host.control->design;
+  SensedPlant plant(scene_, design);
+  loop::TraceHash hash;
+  double amplitude_N = 0.0;
+  for (std::size_t k = 0; k < host.periods.size(); ++k) {
+    const hal::Drive drive = board_.exchange(plant.advance(host.periods[k], amplitude_N));
+    hash.add(drive);
+    amplitude_N = drive.amplitude * 0x1p-31 * design.scales.drive_amplitude_N;
+    if (k + 1 < host.periods.size()) {
+      const loop::Period& answered = host.periods[k + 1];
+      ASSERT_EQ(amplitude_N, answered.drive_amplitude_N) << "carrier period " << k;
+      ASSERT_EQ(drive.state, static_cast<std::uint8_t>(answered.state)) << "carrier period " << k;
+      ASSERT_EQ(drive.limit, static_cast<std::uint8_t>(answered.limit)) << "carrier period " << k;
+    }
+  }
+  EXPECT_EQ(host.control->commands, host.periods.size());
+  EXPECT_EQ(hash.value(), host.control->trace_hash);
+  EXPECT_EQ(board_.shut_down(), shut_down);
+}
+
+TEST_P(Image, AnswersAnyConverterCodeAsTheHostDoes) {
+  const auto host = loop::make_control_port(scene_, scene::design_control(scene_));
+  const scene::TargetStep& target = scene_.controller->target_friction_ratio[0];
+  const scene::TargetStep& next_target = scene_.controller->target_friction_ratio[1];
+  host->set_target(target.friction_ratio);
+  std::mt19937 generator(1);
+  const auto code = [&] { return static_cast<std::int32_t>(generator()); };
+  const auto periods = static_cast<int>(next_target.time_s * scene_.drive->frequency_Hz) - 1;
+  for (int k = 0; k < periods; ++k) {
+    const std::int32_t force = code();
+    const hal::Sample sample{force, code() >> (k % 12), k + 1 == periods, true};
+    const hal::Drive expected = host->exchange(sample);
+    const hal::Drive drive = board_.exchange(sample);
+    ASSERT_EQ(drive.amplitude, expected.amplitude) << "carrier period " << k;
+    ASSERT_EQ(drive.state, expected.state) << "carrier period " << k;
+    ASSERT_EQ(drive.limit, expected.limit) << "carrier period " << k;
+    ASSERT_EQ(drive.fault, expected.fault) << "carrier period " << k;
+  }
+}
+
+TEST_P(Image, FaultsOnASampleThatDidNotArrive) {
+  const hal::Drive drive = board_.exchange({1, 1, false, false});
+  EXPECT_EQ(drive.amplitude, 0);
+  EXPECT_EQ(drive.state, static_cast<std::uint8_t>(control::State::fault));
+  EXPECT_EQ(drive.fault, static_cast<std::uint8_t>(control::Fault::measurement_missing));
+}
+
+TEST_P(Image, LeavesWhenAFrameIsCutShort) {
+  const std::uint8_t half[hal::lockstep::sample_frame_size / 2]{};
+  board_.send(half, sizeof half);
+  EXPECT_EQ(board_.shut_down(), link_broken);
+}
+
+TEST_P(Image, LeavesWhenAFrameIsOutOfTurn) {
+  const hal::lockstep::SampleFrame frame = hal::lockstep::encode(7, hal::Sample{});
+  board_.send(frame.data(), frame.size());
+  EXPECT_EQ(board_.shut_down(), link_broken);
+}
+
+std::string test_name(const testing::TestParamInfo<Image::ParamType>& parameters) {
+  const auto& [board, controller] = parameters.param;
+  return (board == "mps2-an386" ? "CortexM4F_" : "CortexM3_") + controller;
+}
+
+INSTANTIATE_TEST_SUITE_P(Boards, Image,
+                         testing::Combine(testing::Values("mps2-an386", "mps2-an385"),
+                                          testing::Values("target_step", "target_step_q31",
+                                                          "other_parts")),
+                         test_name);
+
+std::string failure(EmulatedBoard& board) {
+  try {
+    board.exchange({});
+  } catch (const EmulatorError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+bool alive(pid_t process) {
+  return kill(process, 0) == 0;
+}
+
+TEST(ImageTest, LeavesOnAProcessorFault) {
+  // A Cortex-M3 has no floating-point unit to enable.
+  EmulatedBoard board(emulate("mps2-an385", image("mps2-an386", "target_step")), 60s);
+  EXPECT_EQ(board.shut_down(), processor_fault);
+}
+
+TEST(EmulatedBoardTest, ReportsAnEmulatorThatCannotStart) {
+  EmulatedBoard board(emulate("mps2-an386", "no_such_image"), 60s);
+  EXPECT_NE(failure(board).find("exit code 1"), std::string::npos);
+}
+
+TEST(EmulatedBoardTest, ReportsAnEmulatorThatIsKilled) {
+  EmulatedBoard board(emulate("mps2-an386", image("mps2-an386", "target_step")), 60s);
+  kill(board.process(), SIGKILL);
+  EXPECT_NE(failure(board).find("signal 9"), std::string::npos);
+}
+
+TEST(EmulatedBoardTest, KillsAnEmulatorThatHangs) {
+  std::vector<std::string> frozen = emulate("mps2-an386", image("mps2-an386", "target_step"));
+  frozen.emplace_back("-S");
+  EmulatedBoard board(frozen, 500ms);
+  const pid_t process = board.process();
+  EXPECT_NE(failure(board).find("hung"), std::string::npos);
+  EXPECT_FALSE(alive(process));
+}
+
+TEST(EmulatedBoardTest, LeavesNoProcessBehind) {
+  pid_t process = 0;
+  {
+    EmulatedBoard board(emulate("mps2-an386", image("mps2-an386", "target_step")), 60s);
+    board.exchange({});
+    process = board.process();
+    EXPECT_TRUE(alive(process));
+  }
+  EXPECT_FALSE(alive(process));
+}
+
+}  // namespace
+}  // namespace sonoglide::boards

@@ -1,0 +1,199 @@
+// Writes the controller of a scene to the standard output as a header: its parts, its parameters
+// and its targets, every number in the controller's own scalar. An image includes it as
+// controller_configuration.hpp.
+// Usage: controller_header SCENE.toml
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <exception>
+#include <string>
+#include <vector>
+
+#include "firmware/numeric/scalar.hpp"
+#include "host_sim/scene/configuration_error.hpp"
+#include "host_sim/scene/control_design.hpp"
+#include "host_sim/scene/reader.hpp"
+#include "host_sim/scene/scene.hpp"
+
+namespace sonoglide {
+namespace {
+
+/// How the scalar is written: its type, and a number of it, bit for bit.
+struct ScalarText {
+  const char* type;
+  const char* header;
+  std::string (*number)(double value);
+};
+
+std::string float_number(double value) {
+  return fmt::format("{:a}F", static_cast<double>(numeric::from_real<float>(value)));
+}
+
+std::string q31_number(double value) {
+  return fmt::format("Scalar::from_raw({})",
+                     numeric::from_real<numeric::Q31<numeric::Saturating>>(value).raw());
+}
+
+ScalarText scalar_text(scene::Arithmetic arithmetic) {
+  switch (arithmetic) {
+    case scene::Arithmetic::float32:
+      return {"float", nullptr, float_number};
+    case scene::Arithmetic::q31:
+      return {"numeric::Q31<numeric::Saturating>", "firmware/numeric/fixed.hpp", q31_number};
+    case scene::Arithmetic::float64:
+      break;
+  }
+  throw scene::ConfigurationError("controller.arithmetic",
+                                  "float64 is for the workstation; an image needs float32 or q31");
+}
+
+/// One part of the controller: its header, its type, and the initialiser of its parameters.
+struct PartText {
+  const char* header;
+  std::string type;
+  std::string parameters;
+};
+
+PartText friction_part(const scene::ControlDesign& design, const ScalarText& scalar) {
+  if (!design.calibrated) {
+    return {"trusted_friction", "TrustedFriction<Scalar>", "{}"};
+  }
+  return {"learnt_friction", "LearntFriction<Scalar>",
+          fmt::format("{{{}, {}, {}}}", design.calibration_settle_periods,
+                      design.calibration_average_periods,
+                      scalar.number(1.0 / design.calibration_average_periods))};
+}
+
+PartText feedforward_part(const scene::Scene& scene, const scene::ControlDesign& design,
+                          const ScalarText& scalar) {
+  if (scene.friction.law != scene::FrictionLaw::dahl) {
+    return {"coulomb_feedforward", "CoulombFeedforward<Scalar>", "{}"};
+  }
+  const numeric::Split<double> force = numeric::split(design.contact_force);
+  return {"dahl_feedforward", "DahlFeedforward<Scalar>",
+          fmt::format("{{{{{}, {}}}}}", scalar.number(force.mantissa), force.exponent)};
+}
+
+PartText slew_part(const scene::ControlDesign& design, const ScalarText& scalar) {
+  if (!design.slew_limited) {
+    return {"no_slew_limit", "NoSlewLimit<Scalar>", "{}"};
+  }
+  return {"slew_limit", "SlewLimit<Scalar>",
+          fmt::format("{{{}}}", scalar.number(design.slew_per_period))};
+}
+
+PartText shaper_part(const scene::ControlDesign& design, const ScalarText& scalar) {
+  if (!design.shaped) {
+    return {"no_shaping", "NoShaping<Scalar>", "{}"};
+  }
+  const auto& taps = design.notch_taps;
+  return {"notch_shaper", fmt::format("NotchShaper<Scalar, {}>", design.notch_spacing),
+          fmt::format("{{{{{}, {}, {}}}, {}}}", scalar.number(taps[0]), scalar.number(taps[1]),
+                      scalar.number(taps[2]), design.notch_spacing)};
+}
+
+PartText regulator_part(const scene::ControlDesign& design, const ScalarText& scalar) {
+  return {"integral_regulator", "IntegralRegulator<Scalar>",
+          fmt::format("{{{}, {}}}", scalar.number(design.integral_gain), design.hold_periods)};
+}
+
+/// The carrier period, counted from 0, whose sample a target step is in force for: the sample is
+/// taken at the period's end.
+std::uint32_t first_period(double time_s, double carrier_period_s) {
+  constexpr double rounding = 1e-9;  // of a period: times closer than this are one
+  return static_cast<std::uint32_t>(
+      std::max(0.0, std::ceil(time_s / carrier_period_s - rounding) - 1.0));
+}
+
+std::string target_steps(const scene::Scene& scene, const scene::ControlDesign& design,
+                         const ScalarText& scalar) {
+  std::string text;
+  for (const scene::TargetStep& step : scene.controller->target_friction_ratio) {
+    text += fmt::format("    {{{}, {}}},  // {}\n",
+                        first_period(step.time_s, design.scales.carrier_period_s),
+                        scalar.number(0.5 * step.friction_ratio), step.friction_ratio);
+  }
+  return text;
+}
+
+std::string includes(const std::vector<PartText>& parts, const ScalarText& scalar) {
+  std::vector<std::string> headers{"firmware/app/target_schedule.hpp",
+                                   "firmware/control/controller.hpp"};
+  for (const PartText& part : parts) {
+    headers.push_back(fmt::format("firmware/control/{}.hpp", part.header));
+  }
+  if (scalar.header != nullptr) {
+    headers.emplace_back(scalar.header);
+  }
+  std::sort(headers.begin(), headers.end());
+  std::string text;
+  for (const std::string& header : headers) {
+    text += fmt::format("#include \"{}\"\n", header);
+  }
+  return text;
+}
+
+std::string controller_header(const scene::Scene& scene) {
+  if (!scene.controller) {
+    throw scene::ConfigurationError("controller", "missing; only a closed-loop scene has an image");
+  }
+  const scene::ControlDesign design = scene::design_control(scene);
+  const ScalarText scalar = scalar_text(scene.controller->arithmetic);
+  const std::vector<PartText> parts{
+      friction_part(design, scalar), feedforward_part(scene, design, scalar),
+      slew_part(design, scalar), shaper_part(design, scalar), regulator_part(design, scalar)};
+  std::string types;
+  std::string parameters;
+  for (const PartText& part : parts) {
+    types += fmt::format(",\n                             control::{}", part.type);
+    parameters += fmt::format("    {},  // {}\n", part.parameters, part.type);
+  }
+  return fmt::format(
+      R"(/// The controller of the scene {}. Written by controller_header: edit the scene.
+#pragma once
+
+{}
+namespace sonoglide::app::configuration {{
+
+using Scalar = {};
+using Parts = control::Parts<Scalar{}>;
+
+inline constexpr control::Controller<Parts>::Parameters parameters{{
+    {},  // friction_force, of {} N
+    {},  // speed_floor, of {} m/s
+    {},  // lead
+{}    {{{}}},  // stuck
+}};
+
+inline constexpr TargetStep<Scalar> target_steps[] = {{
+{}}};
+
+}}  // namespace sonoglide::app::configuration
+)",
+      scene.name, includes(parts, scalar), scalar.type, types, scalar.number(design.friction_force),
+      design.scales.force_N, scalar.number(design.speed_floor), design.scales.velocity_m_per_s,
+      scalar.number(design.lead_periods / 64.0), parameters, design.stuck_periods,
+      target_steps(scene, design, scalar));
+}
+
+}  // namespace
+}  // namespace sonoglide
+
+int main(int argument_count, char** arguments) {
+  if (argument_count != 2) {
+    std::fputs("usage: controller_header SCENE.toml\n", stderr);
+    return 2;
+  }
+  try {
+    fmt::print("{}", sonoglide::controller_header(sonoglide::scene::read_file(arguments[1])));
+    return std::fflush(stdout) == 0 ? 0 : 1;
+  } catch (const sonoglide::scene::ConfigurationError& error) {
+    fmt::print(stderr, "{}: {}: {}\n", arguments[1], error.key(), error.what());
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "{}\n", error.what());
+  }
+  return 2;
+}
