@@ -27,11 +27,13 @@ function(sonoglide_room target folder)
   endif()
   target_sources(${target} ${scope} FILE_SET HEADERS BASE_DIRS "${root}" FILES ${headers})
   target_link_libraries(${target} ${scope} sonoglide_language ${ROOM_USES} ${ROOM_LIBRARIES})
-  sonoglide_check_headers(${target} "${folder}" "${headers}")
+  if(NOT sources AND NOT SONOGLIDE_SANITIZE)
+    sonoglide_check_headers(${target} "${folder}" "${headers}")
+  endif()
 endfunction()
 
-# Compiles every header of a room alone, with nothing in sight but the room's
-# own arrows: a header-only room is held to them too.
+# Compiles every header of a room without sources alone, with nothing in sight
+# but the room's own arrows: it is held to them too.
 function(sonoglide_check_headers target folder headers)
   set(checks "")
   foreach(header IN LISTS headers)
@@ -43,10 +45,8 @@ function(sonoglide_check_headers target folder headers)
   endforeach()
   if(checks)
     add_library(${target}_headers OBJECT ${checks})
-    target_link_libraries(${target}_headers PRIVATE ${target} sonoglide_warnings)
-    if(folder MATCHES "^(firmware|hal)/" OR folder STREQUAL "hal")
-      target_link_libraries(${target}_headers PRIVATE sonoglide_freestanding)
-    endif()
+    target_link_libraries(${target}_headers PRIVATE
+      ${target} sonoglide_warnings sonoglide_freestanding)
   endif()
 endfunction()
 
