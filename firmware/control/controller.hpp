@@ -74,7 +74,7 @@ class Controller {
     }
   }
 
-  /// Drive to zero; a fault's cause is forgotten.
+  /// Drive to zero until the next start(); a fault's cause is forgotten.
   void stop() {
     state_ = State::off;
     fault_ = Fault::none;
@@ -102,24 +102,16 @@ class Controller {
     if (fault != Fault::none) {
       return trip(fault);
     }
-    if ((measurement.sliding_velocity < Scalar{}) != (last_velocity_ < Scalar{})) {
+    const bool reversed = (measurement.sliding_velocity < Scalar{}) != (last_velocity_ < Scalar{});
+    const Scalar speed = numeric::abs(foresee(measurement.sliding_velocity));
+    if (friction_.learning()) {
+      return calibrate(measurement, reversed, speed);
+    }
+    if (reversed) {
       regulator_.hold();  // readings still on their way belong to the sliding before
     }
-    const Scalar speed = numeric::abs(foresee(measurement.sliding_velocity));
     const bool below_floor = speed < speed_floor_;
-    if (friction_.learning()) {
-      if (below_floor) {
-        return undriven(Limit::speed_floor);
-      }
-      friction_.learn(measurement.friction_force);
-      if (friction_.learning()) {
-        return undriven(Limit::none);
-      }
-      if (!take_friction_level()) {
-        return trip(Fault::friction_not_learnt);
-      }
-    }
-    return below_floor ? hold() : regulate(measurement, speed);
+    return below_floor && target_ < whole_ratio() ? hold() : regulate(measurement, speed);
   }
 
  private:
@@ -164,6 +156,24 @@ class Controller {
   }
 
   DriveCommand<Scalar> undriven(Limit limit) const { return {Scalar{}, state_, limit, fault_}; }
+
+  /// Learns one sample of the undriven friction; an interrupted sliding begins anew.
+  DriveCommand<Scalar> calibrate(const Measurement<Scalar>& measurement, bool reversed,
+                                 Scalar foreseen_speed) {
+    const bool too_slow = numeric::abs(measurement.sliding_velocity) < speed_floor_;
+    if (reversed || too_slow) {
+      friction_.restart();
+    }
+    if (too_slow) {
+      return undriven(Limit::speed_floor);
+    }
+    friction_.learn(measurement.friction_force);
+    if (friction_.learning()) {
+      return undriven(Limit::none);
+    }
+    return take_friction_level() ? regulate(measurement, foreseen_speed)
+                                 : trip(Fault::friction_not_learnt);
+  }
 
   bool take_friction_level() {
     const Scalar force = friction_.friction_force(configured_friction_);

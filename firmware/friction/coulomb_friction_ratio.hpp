@@ -1,4 +1,4 @@
-/// Friction-ratio map of a Coulomb contact and its inverse.
+/// Friction-ratio map of a Coulomb contact.
 #pragma once
 
 #include "firmware/numeric/float_elementary.hpp"

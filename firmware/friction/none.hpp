@@ -14,9 +14,8 @@ namespace sonoglide::friction {
 ///   rate(V, phi)         d phi / d tau, for step-by-step methods; 0 where V alone sets phi
 ///   series_unit(V, phi)  time in which the power series is written, so that it cannot overflow
 ///   Arc<Order>           the law between two reversals, where sgn V = direction is constant:
-///     coefficient(n, t, V) n-th Taylor coefficient of phi, from those of V below n; called in the
-///     order
-///                          n = 0, 1, …, with t = series unit / n
+///     coefficient(n, t, V) n-th Taylor coefficient of phi, from those of V below n; called
+///                          with n = 0, 1, … in order and t = series unit / n
 ///     magnitude(n)         size of that coefficient, for the step size
 ///     friction_after(du)   phi exactly, after the displacement du >= 0 along the direction
 ///     work(du)             integral of phi V d tau exactly, over the same displacement

@@ -38,9 +38,8 @@ constexpr Integer round_half_up(Float x) {
 
 /// A number raw * 2^-FractionBits.
 ///
-/// @tparam Storage       std::int16_t or std::int32_t; results are exact before the one rounding,
-/// in
-///                       a type of twice that width.
+/// @tparam Storage       std::int16_t or std::int32_t; results are exact, in a type of twice that
+///                       width, before the one rounding.
 /// @tparam FractionBits  0 to 15 or 31; with the largest the range is [-1, 1).
 /// @tparam Policy        see overflow.hpp.
 /// Conversions are explicit only. Division by zero is an overflow: the end of the range on the side

@@ -6,7 +6,8 @@
 
 namespace sonoglide::plant {
 
-/// y'' = a cos(tau) - d y' - k y - beta phi, in units of length L, time 1 / omega and force Fc.
+/// y'' = a cos(tau) - d y' - k y - beta phi, in units of length L, time 1 / omega and force m L
+/// omega^2; phi = F / Fc.
 ///
 /// Law      friction::None, Coulomb or Dahl
 /// Damping  Undamped or Damped

@@ -28,10 +28,12 @@ std::vector<Span> spans(const scene::Scene& scene) {
   for (std::size_t i = 0; i < steps.size() && steps[i].time_s < scene.run.duration_s; ++i) {
     const double next_s = i + 1 < steps.size() ? steps[i + 1].time_s : scene.run.duration_s;
     const double end_s = std::min(next_s, scene.run.duration_s);
-    result.push_back({std::max(steps[i].time_s, controller.calibration_s),
-                      end_s - 0.25 * (end_s - steps[i].time_s), end_s, steps[i].friction_ratio,
-                      previous});
-    if (result.back().begin_s < end_s) {  // else calibration has swallowed the step
+    const double begin_s = std::max(steps[i].time_s, controller.calibration_s);
+    const double quarter_s = end_s - 0.25 * (end_s - steps[i].time_s);
+    // A calibration that reaches into the last quarter leaves less than one.
+    result.push_back({begin_s, begin_s <= quarter_s ? quarter_s : end_s - 0.25 * (end_s - begin_s),
+                      end_s, steps[i].friction_ratio, previous});
+    if (begin_s < end_s) {  // else calibration has swallowed the step
       previous = steps[i].friction_ratio;
     }
   }
@@ -69,7 +71,7 @@ std::optional<double> settling_time(const std::vector<Period>& periods, const Sp
 
 double overshoot(const std::vector<Period>& periods, const Span& span) {
   const double direction = span.target < span.previous ? -1.0 : 1.0;
-  double farthest = 0.0;
+  double farthest = periods.empty() ? std::numeric_limits<double>::quiet_NaN() : 0.0;
   for (const Period& period : periods) {
     if (period.target == span.target) {  // else still driven for the target before
       farthest = std::max(farthest, direction * (period.friction_ratio - span.target));

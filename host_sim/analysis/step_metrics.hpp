@@ -10,7 +10,8 @@
 
 namespace sonoglide::analysis {
 
-/// One target step. "Steady" means the last quarter of the step.
+/// One target step. "Steady" means the last quarter of the step, or of what calibration leaves of
+/// it. A figure for which there is no carrier period is NaN.
 struct StepMetrics {
   double time_s;
   double target;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "host_sim/scene/plant_scales.hpp"
+
 namespace sonoglide::loop {
 namespace {
 
@@ -15,9 +17,9 @@ double balance_residual(const EnergyBalance& energy, double sign) {
   const double change = energy.stored_end_J - energy.stored_begin_J;
   const double residual = energy.friction_work_J - energy.pull_work_J -
                           sign * (energy.drive_work_J - energy.damping_work_J - change);
-  const double largest = std::max({std::abs(energy.friction_work_J), std::abs(energy.pull_work_J),
-                                   std::abs(energy.drive_work_J), std::abs(energy.damping_work_J),
-                                   energy.stored_begin_J, energy.stored_end_J});
+  const double largest =
+      std::max({std::abs(energy.friction_work_J), std::abs(energy.pull_work_J),
+                std::abs(energy.drive_work_J), std::abs(energy.damping_work_J), std::abs(change)});
   return largest > 0.0 ? std::abs(residual) / largest : 0.0;
 }
 
@@ -47,9 +49,21 @@ PowerRatios power_ratios(const EnergyBalance& energy, double friction_N,
   const double drive_input = quotient(energy.drive_work_J, undriven_J);
   const double stored_as_printed =
       quotient(energy.stored_integral_J_s + energy.momentum_integral_J_s, undriven_J * period_s);
+  const double change_J = energy.stored_end_J - energy.stored_begin_J;
   return {quotient(energy.resistance_impulse_N_s, friction_N * energy.duration_s),
-          quotient(energy.friction_work_J, undriven_J), drive_input, balance_residual(energy, sign),
+          quotient(energy.friction_work_J, undriven_J),
+          drive_input,
+          quotient(change_J, undriven_J),
+          quotient(energy.damping_work_J, undriven_J),
+          balance_residual(energy, sign),
           1.0 + drive_input - stored_as_printed};
+}
+
+PowerRatios power_ratios(const scene::Scene& scene, const EnergyBalance& energy) {
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  return power_ratios(energy, scene::friction_limit_N(scene.friction),
+                      scene.friction.sign_convention,
+                      scene.drive ? 1.0 / scene.drive->frequency_Hz : none);
 }
 
 }  // namespace sonoglide::loop

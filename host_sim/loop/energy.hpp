@@ -27,17 +27,25 @@ struct EnergyBalance {
   void append(const EnergyBalance& next);
 };
 
-/// Ratios to the undriven friction Fc; NaN where Fc or the sliding distance is zero.
+/// Energies relative to Fc times the sliding distance, what friction would dissipate undriven; NaN
+/// where that is zero. For constant Vt: φ_fu = ρ + σ (φ_iu − stored change − damping).
 struct PowerRatios {
-  double friction_ratio;          ///< ρ = mean F·sgn(Vt) / Fc
+  double friction_ratio;          ///< ρ = mean F·sgn(Vt) / Fc, sgn(0) = 1; NaN without friction
   double dissipation_ratio;       ///< φ_fu
   double drive_input_ratio;       ///< φ_iu
+  double stored_change_ratio;     ///< change of the oscillator's energy
+  double damping_ratio;           ///< taken by the damper
   double balance_residual;        ///< of the identity, relative to its largest term
   double dissipation_as_printed;  ///< 1 + φ_iu − φ_su, φ_su from the average stored energy
 };
 
-/// @param period_s  carrier period: the paper divides stored energy by the work of one.
+/// @param period_s  carrier period: the paper divides stored energy by the work of one. NaN without
+/// a
+///                  drive, and there is no printed value then.
 PowerRatios power_ratios(const EnergyBalance& energy, double friction_N,
                          scene::SignConvention convention, double period_s);
+
+/// The same for a stretch of a scene.
+PowerRatios power_ratios(const scene::Scene& scene, const EnergyBalance& energy);
 
 }  // namespace sonoglide::loop

@@ -18,6 +18,7 @@ constexpr double undriven_pieces = 1000.0;
 constexpr double samples_per_period = 64.0;
 constexpr double close_up_before_periods = 2.0;
 constexpr double close_up_after_periods = 10.0;
+constexpr std::size_t most_close_ups = 12;
 constexpr double ending_periods = 256.0;
 
 double piece_duration_s(const scene::Scene& scene) {
@@ -79,8 +80,8 @@ void PlantRun::request_recordings() {
     recorder_.want(0.0, scene_.run.duration_s, scene_.run.record_interval_s, result_.trace);
   }
   const std::vector<double> steps_s = target_steps_s();
-  result_.close_ups.resize(steps_s.size());
-  for (std::size_t i = 0; i < steps_s.size(); ++i) {
+  result_.close_ups.resize(std::min(steps_s.size(), most_close_ups));
+  for (std::size_t i = 0; i < result_.close_ups.size(); ++i) {
     request_close_up(steps_s[i], result_.close_ups[i]);
   }
   request_ending(steps_s.back());

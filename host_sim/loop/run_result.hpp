@@ -18,7 +18,7 @@ namespace sonoglide::loop {
 struct Period {
   double begin_s;
   double end_s;
-  double friction_ratio;          ///< mean F·sgn(Vt) over Fc; NaN without friction
+  double friction_ratio;          ///< mean F·sgn(Vt) over Fc, sgn(0) = 1; NaN without friction
   double begin_velocity_m_per_s;  ///< sliding
   double end_velocity_m_per_s;
   double drive_amplitude_N;  ///< in force during it
@@ -52,7 +52,7 @@ struct RunResult {
   EnergyBalance window;
   std::vector<Period> periods;
   Recording trace;                   ///< as the scene asks
-  std::vector<Recording> close_ups;  ///< a few carrier periods at each target step
+  std::vector<Recording> close_ups;  ///< a few carrier periods at each of the first target steps
   Recording ending;                  ///< the last carrier periods, for loops and spectra
   std::optional<ControlRecord> control;
 };

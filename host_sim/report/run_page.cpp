@@ -54,11 +54,22 @@ std::vector<std::string> warnings(const scene::Scene& scene, const loop::RunResu
   }
   if (result.control->saturated_commands > 0) {
     all.push_back(
-        fmt::format("The drive stood at the actuator's limit of {:.6g} N for {} of the "
+        fmt::format("The actuator's range of 0 to {:.6g} N limited the drive in {} of the "
                     "control steps.",
                     scene.drive->max_force_amplitude_N,
                     percent(static_cast<double>(result.control->saturated_commands) /
                             static_cast<double>(result.control->commands))));
+  }
+  if (result.control->design.free_mode) {
+    all.push_back(
+        fmt::format("No notch is on the natural mode: each change of the drive makes it ring. The "
+                    "feedback gain "
+                    "is {:.3g} per carrier period.",
+                    result.control->design.integral_gain));
+  }
+  if (scene.controller->target_friction_ratio.size() > result.close_ups.size()) {
+    all.push_back(
+        fmt::format("Close-ups are shown of the first {} target steps.", result.close_ups.size()));
   }
   const bool held = std::any_of(
       result.periods.begin(), result.periods.end(),
@@ -90,28 +101,31 @@ Table step_table(const scene::Scene& scene, const loop::RunResult& result) {
 }
 
 Table run_table(const scene::Scene& scene, const loop::RunResult& result) {
-  const double friction_N = scene::friction_limit_N(scene.friction);
-  const double period_s = scene.drive ? 1.0 / scene.drive->frequency_Hz : result.final_time_s;
-  const auto ratios = [&](const loop::EnergyBalance& energy) {
-    return loop::power_ratios(energy, friction_N, scene.friction.sign_convention, period_s);
-  };
-  const loop::PowerRatios window = ratios(result.window);
+  const loop::PowerRatios window = loop::power_ratios(scene, result.window);
   Table table{"Run", {}, {}};
   const auto row = [&table](const char* name, std::string value) {
     table.rows.push_back({name, std::move(value)});
   };
-  row("Undriven friction force [N]", fmt::format("{:.6g}", friction_N));
-  if (friction_N > 0.0) {
-    row("Friction ratio, whole run", fmt::format("{:.9f}", ratios(result.whole).friction_ratio));
+  row("Undriven friction force [N]",
+      fmt::format("{:.6g}", scene::friction_limit_N(scene.friction)));
+  if (scene::friction_limit_N(scene.friction) > 0.0) {
+    row("Friction ratio, whole run",
+        fmt::format("{:.9f}", loop::power_ratios(scene, result.whole).friction_ratio));
     row("Friction ratio, window", fmt::format("{:.9f}", window.friction_ratio));
     row("Power dissipation ratio, window", fmt::format("{:.6f}", window.dissipation_ratio));
     row("Drive input ratio, window", fmt::format("{:.6f}", window.drive_input_ratio));
+    row("Change of stored energy, window", fmt::format("{:.6f}", window.stored_change_ratio));
+    row("Damping, window", fmt::format("{:.6f}", window.damping_ratio));
+  }
+  row("Residual of the energy balance, window", fmt::format("{:.2g}", window.balance_residual));
+  if (std::isfinite(window.dissipation_as_printed)) {
     row("Power dissipation ratio as the paper prints it",
         fmt::format("{:.6g}", window.dissipation_as_printed));
   }
-  row("Energy balance residual, window", fmt::format("{:.2g}", window.balance_residual));
-  row("Solver steps and reversals",
-      fmt::format("{} and {}", result.solver_steps, result.solver_events));
+  row("Solver steps", fmt::format("{}", result.solver_steps));
+  if (scene.solver.method != scene::SolverMethod::rk4) {
+    row("Reversals, sticks and releases", fmt::format("{}", result.solver_events));
+  }
   row("Simulated time over wall time", fmt::format("{:.3g}", result.final_time_s / result.wall_s));
   return table;
 }
@@ -127,30 +141,43 @@ Table signal_table(const loop::ControlRecord& control) {
   return table;
 }
 
-/// Every stride-th carrier period, so that a long run's page stays light.
-template <class Value>
-std::vector<double> per_period(const std::vector<loop::Period>& periods, Value value) {
+/// So many carrier periods go to one point of a chart: a long run's page stays light.
+std::size_t periods_per_point(const std::vector<loop::Period>& periods) {
   constexpr std::size_t most_points = 20000;
-  const std::size_t stride = periods.size() / most_points + 1;
+  return periods.size() / most_points + 1;
+}
+
+template <class Value>
+std::vector<double> per_point(const std::vector<loop::Period>& periods, Value value) {
   std::vector<double> values;
-  for (std::size_t i = 0; i < periods.size(); i += stride) {
+  for (std::size_t i = 0; i < periods.size(); i += periods_per_point(periods)) {
     values.push_back(value(periods[i]));
   }
   return values;
 }
 
+std::string course_text(const scene::Scene& scene, const std::vector<loop::Period>& periods) {
+  const std::size_t stride = periods_per_point(periods);
+  if (!scene.drive) {
+    return "One value for each thousandth of the run.";
+  }
+  return stride == 1
+             ? "One value for each carrier period."
+             : fmt::format("One carrier period in {}; all of them are in periods.csv.", stride);
+}
+
 Section course(const scene::Scene& scene, const std::vector<loop::Period>& periods) {
   const std::vector<double> time =
-      per_period(periods, [](const loop::Period& period) { return period.begin_s; });
+      per_point(periods, [](const loop::Period& period) { return period.begin_s; });
   const auto series = [&periods](const char* label, auto value) {
-    return Series{label, per_period(periods, value), true, false};
+    return Series{label, per_point(periods, value), true, false};
   };
   const auto ratio = [](const loop::Period& period) { return period.friction_ratio; };
   const auto target = [](const loop::Period& period) { return period.target; };
   const auto amplitude = [](const loop::Period& period) { return period.drive_amplitude_N; };
   const auto velocity = [](const loop::Period& period) { return period.begin_velocity_m_per_s; };
 
-  Section section{"Course of the run", "One value for each carrier period.", {}};
+  Section section{"Course of the run", course_text(scene, periods), {}};
   if (scene::friction_limit_N(scene.friction) > 0.0) {
     Panel panel{"Friction ratio",
                 "Mean friction force over a carrier period, divided by the "

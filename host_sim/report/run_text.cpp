@@ -31,15 +31,13 @@ std::string step_lines(const scene::Scene& scene, const loop::RunResult& result)
 }
 
 std::string ratio_line(const scene::Scene& scene, const loop::RunResult& result) {
-  const double friction_N = scene::friction_limit_N(scene.friction);
-  if (friction_N == 0.0) {
+  if (scene::friction_limit_N(scene.friction) == 0.0) {
     return "no friction, so no friction ratio\n";
   }
-  const auto ratio = [&](const loop::EnergyBalance& energy) {
-    return energy.resistance_impulse_N_s / (friction_N * energy.duration_s);
-  };
   return fmt::format("friction ratio {:.6f} over the whole run, {:.6f} from {:.6g} s on\n",
-                     ratio(result.whole), ratio(result.window), scene.run.window_start_s);
+                     loop::power_ratios(scene, result.whole).friction_ratio,
+                     loop::power_ratios(scene, result.window).friction_ratio,
+                     scene.run.window_start_s);
 }
 
 }  // namespace

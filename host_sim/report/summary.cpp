@@ -23,15 +23,16 @@ ordered_json number(const std::optional<double>& value) {
   return value ? number(*value) : ordered_json(nullptr);
 }
 
-loop::PowerRatios ratios(const scene::Scene& scene, const loop::EnergyBalance& energy) {
-  const double period_s = scene.drive ? 1.0 / scene.drive->frequency_Hz : energy.duration_s;
-  return loop::power_ratios(energy, scene::friction_limit_N(scene.friction),
-                            scene.friction.sign_convention, period_s);
+/// A fixed-step method passes over events without noticing.
+bool counts_events(const scene::Scene& scene) {
+  return scene.solver.method != scene::SolverMethod::rk4;
 }
 
 ordered_json power(const loop::PowerRatios& window) {
   return {{"dissipation_ratio", number(window.dissipation_ratio)},
           {"drive_input_ratio", number(window.drive_input_ratio)},
+          {"stored_change_ratio", number(window.stored_change_ratio)},
+          {"damping_ratio", number(window.damping_ratio)},
           {"balance_residual", number(window.balance_residual)},
           {"as_printed", {{"dissipation_ratio", number(window.dissipation_as_printed)}}}};
 }
@@ -86,12 +87,13 @@ ordered_json control(const scene::Scene& scene, const loop::RunResult& result) {
 }  // namespace
 
 ordered_json summary(const scene::Scene& scene, const loop::RunResult& result) {
-  const loop::PowerRatios window = ratios(scene, result.window);
+  const loop::PowerRatios window = loop::power_ratios(scene, result.window);
   ordered_json json;
   json["scene"] = scene::to_json(scene);
   json["solver"] = {{"method", scene::name_of(scene::solver_methods, scene.solver.method)},
                     {"steps", result.solver_steps},
-                    {"events", result.solver_events}};
+                    {"events", counts_events(scene) ? ordered_json(result.solver_events)
+                                                    : ordered_json(nullptr)}};
   json["run"] = {{"simulated_s", result.final_time_s},
                  {"wall_s", result.wall_s},
                  {"real_time_factor", result.final_time_s / result.wall_s}};
@@ -99,8 +101,9 @@ ordered_json summary(const scene::Scene& scene, const loop::RunResult& result) {
                    {"displacement_m", result.final_state.displacement_m},
                    {"velocity_m_per_s", result.final_state.velocity_m_per_s},
                    {"friction_force_N", result.final_state.friction_force_N}};
-  json["friction_ratio"] = {{"whole_run", number(ratios(scene, result.whole).friction_ratio)},
-                            {"window", number(window.friction_ratio)}};
+  json["friction_ratio"] = {
+      {"whole_run", number(loop::power_ratios(scene, result.whole).friction_ratio)},
+      {"window", number(window.friction_ratio)}};
   json["power"] = power(window);
   if (result.control) {
     json["control"] = control(scene, result);

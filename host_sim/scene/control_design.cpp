@@ -114,15 +114,15 @@ void design_regulator(const Scene& scene, const Mode& mode, ControlDesign& desig
   // An integrator behind a delay of D periods oscillates at a gain of 2 sin(π/(4D+2)); a third of
   // it leaves room for a contact twice as steep as believed.
   const double behind_delay = std::min(0.25, 2.0 / 3.0 * numeric::sin(pi / (4.0 * delay + 2.0)));
-  design.integral_gain = mode.rotation > 0.0 && !design.shaped
-                             ? std::min(behind_delay, gain_beside_free_mode(scene, mode))
-                             : behind_delay;
+  design.free_mode = mode.rotation > 0.0 && !design.shaped;
+  design.integral_gain =
+      design.free_mode ? std::min(behind_delay, gain_beside_free_mode(scene, mode)) : behind_delay;
 
   constexpr double contact_settling = 2.0;  // carrier periods until the contact has forgotten
   constexpr double filter_settling = 4.0;   // time constants more: 0.7 % of a step is left
   design.hold_periods = whole_periods(delay + contact_settling + filter_settling * filter);
   constexpr double stuck_margin = 8.0;
-  design.stuck_periods = whole_periods(delay + stuck_margin);
+  design.stuck_periods = whole_periods(delay + filter_settling * filter + stuck_margin);
   design.lead_periods = 0.5 + design.notch_spacing;
 }
 
@@ -176,10 +176,10 @@ void design_calibration(const Scene& scene, const BelievedPlant& plant, ControlD
             (settling + 1.0) * scales.carrier_period_s));
   }
   design.calibrated = true;
-  design.calibration_settle_periods =
-      static_cast<std::uint32_t>(std::max(settling, std::floor(0.5 * total)));
-  design.calibration_average_periods =
-      static_cast<std::uint32_t>(total) - design.calibration_settle_periods;
+  constexpr double most_averaged = 65536.0;  // more would only add up roundings in float32
+  const double averaged = std::min({total - settling, std::ceil(0.5 * total), most_averaged});
+  design.calibration_average_periods = static_cast<std::uint32_t>(averaged);
+  design.calibration_settle_periods = static_cast<std::uint32_t>(total - averaged);
 }
 
 /// value/scale, or an error in the name of the key that one should change.
@@ -191,6 +191,24 @@ double per_unit(double value, double scale, double smallest, const char* key, co
                                       fmt::format("; allowed: {:.3g} to below 1", smallest));
   }
   return ratio;
+}
+
+/// A quarter of the undriven friction must move the reading by a code at least, or a healthy sensor
+/// would pass for a stuck one.
+void check_converter(const Scene& scene, const BelievedPlant& plant) {
+  if (!scene.sensor.adc_bits) {
+    return;
+  }
+  constexpr double largest_code = 0.25;
+  const double code_N = 2.0 * scene.sensor.force_full_scale_N * std::exp2(-*scene.sensor.adc_bits);
+  if (code_N > largest_code * plant.friction_N) {
+    throw ConfigurationError(
+        "sensor.adc_bits",
+        fmt::format(
+            "one code is {:.3g} of the believed friction force; allowed: at most {}, by more "
+            "bits or a smaller sensor.force_full_scale_N",
+            code_N / plant.friction_N, largest_code));
+  }
 }
 
 /// The slew limit holds behind the shaper, whose taps may add up.
@@ -236,6 +254,7 @@ ControlDesign design_control(const Scene& scene) {
   design.speed_floor = per_unit(speed_floor_m_per_s, design.scales.velocity_m_per_s,
                                 smallest_speed_floor, "controller.speed_floor_m_per_s",
                                 "is {:.3g} of the peak vibration velocity at full drive");
+  check_converter(scene, plant);
   const Mode mode = natural_mode(plant, design.scales.carrier_period_s);
   design_shaper(scene, mode, design);
   design_regulator(scene, mode, design);

@@ -31,6 +31,8 @@ struct ControlDesign {
   std::uint16_t hold_periods = 0;
   std::uint16_t stuck_periods = 0;
 
+  bool free_mode = false;  ///< the plant has a natural mode that no notch takes care of
+
   bool shaped = false;  ///< the members below hold where the flag is set
   std::array<double, 3> notch_taps{};
   std::uint8_t notch_spacing = 0;

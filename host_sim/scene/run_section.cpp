@@ -10,7 +10,8 @@
 namespace sonoglide::scene {
 namespace {
 
-constexpr double most_periods = 1e9;
+/// The result keeps a few dozen bytes of each.
+constexpr double most_periods = 1e7;
 constexpr double most_fixed_steps = 1e11;
 constexpr double most_recorded_rows = 1e7;
 constexpr Range interval_range{1e-15, 1e9, "s"};

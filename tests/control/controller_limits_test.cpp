@@ -165,6 +165,18 @@ TYPED_TEST(ControllerLimits, BelowTheSpeedFloorTheDriveIsHeldAndThenGoesOn) {
   EXPECT_NEAR(loop.ratio(), 0.5, 1e-4);
 }
 
+TYPED_TEST(ControllerLimits, AWholeTargetTakesTheDriveAwayAtRestToo) {
+  ClosedLoop<ShapedParts<TypeParam>> loop({});
+  loop.set_target(0.4);
+  loop.run(100);
+  loop.run(100, 0.0);
+  EXPECT_EQ(loop.command().limit, Limit::speed_floor);
+  EXPECT_GT(loop.amplitude(), 0.1);
+  loop.set_target(1.0);
+  loop.run(2 * Design{}.spacing + 1, 0.0);
+  EXPECT_EQ(loop.command().amplitude, TypeParam{});
+}
+
 TYPED_TEST(ControllerLimits, TheDriveNeverStartsBelowTheSpeedFloor) {
   ClosedLoop<ShapedParts<TypeParam>> loop({});
   loop.set_target(0.5);

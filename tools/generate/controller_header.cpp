@@ -104,8 +104,15 @@ PartText regulator_part(const scene::ControlDesign& design, const ScalarText& sc
 /// taken at the period's end.
 std::uint32_t first_period(double time_s, double carrier_period_s) {
   constexpr double rounding = 1e-9;  // of a period: times closer than this are one
-  return static_cast<std::uint32_t>(
-      std::max(0.0, std::ceil(time_s / carrier_period_s - rounding) - 1.0));
+  constexpr double most_periods = 4294967295.0;
+  const double period = std::max(0.0, std::ceil(time_s / carrier_period_s - rounding) - 1.0);
+  if (period > most_periods) {
+    throw scene::ConfigurationError(
+        "controller.target_friction_ratio",
+        fmt::format("a step at {:g} s is out of an image's reach; allowed: up to {:g} s", time_s,
+                    most_periods * carrier_period_s));
+  }
+  return static_cast<std::uint32_t>(period);
 }
 
 std::string target_steps(const scene::Scene& scene, const scene::ControlDesign& design,

@@ -52,6 +52,10 @@ const std::vector<BrokenScene> broken_scenes = {
      "arithmetic = \"float32\"\nspeed_floor_m_per_s = 0.5",
      "17:23: controller.speed_floor_m_per_s: is 1.87 of the peak vibration velocity at full drive; "
      "allowed: 0.0001 to below 1"},
+    {"converter_too_coarse", closed_loop, "adc_bits = 12", "adc_bits = 8\nforce_full_scale_N = 2",
+     "19:12: sensor.adc_bits: one code is 0.796 of the believed friction force; allowed: at most "
+     "0.25, "
+     "by more bits or a smaller sensor.force_full_scale_N"},
     {"calibration_too_short", closed_loop, "arithmetic = \"float32\"",
      "arithmetic = \"float32\"\ncalibration_s = 20e-6",
      "17:17: controller.calibration_s: is too short for contact and sensor to settle; allowed: 0 "
@@ -238,14 +242,14 @@ const std::vector<BrokenScene> broken_scenes = {
      "14:14: run.duration_s: 1e-05 s is less than a carrier period, in which the controller acts "
      "once; allowed: at least 1.66667e-05 s"},
     {"too_long", closed_loop, "duration_s = 1e-3", "duration_s = 1e6",
-     "14:14: run.duration_s: 1e+06 s is 6e+10 periods of the drive; allowed: at most 1e+09 "
+     "14:14: run.duration_s: 1e+06 s is 6e+10 periods of the drive; allowed: at most 1e+07 "
      "periods"},
     {"too_long_for_the_natural_mode", open_loop,
      "[drive]\nfrequency_Hz = 60e3\nforce_amplitude_N = 384.0\n[solver]\nmethod = "
      "\"event_taylor\"\ntolerance = 1e-10\n[run]\nduration_periods = 20",
      "[run]\nduration_s = 1e6",
      "12:14: run.duration_s: 1e+06 s is 1.29787e+10 periods of the natural mode; allowed: at most "
-     "1e+09 periods"},
+     "1e+07 periods"},
     {"too_many_fixed_steps", open_loop, "\"event_taylor\"\ntolerance = 1e-10",
      "\"rk4\"\nstep_s = 1e-15",
      "18:20: run.duration_periods: 0.000333333 s is 3.33333e+11 steps of solver.step_s; allowed: "
