@@ -26,7 +26,7 @@ double resolution() {
   if constexpr (numeric::is_fixed_point_v<Scalar>) {
     return 0x1p-31;
   } else {
-    return std::numeric_limits<Scalar>::epsilon();
+    return static_cast<double>(std::numeric_limits<Scalar>::epsilon());
   }
 }
 
