@@ -13,16 +13,18 @@ namespace sonoglide::analysis {
 /// One target step. "Steady" means the last quarter of the step, or of what calibration leaves of
 /// it. A figure for which there is no carrier period is NaN.
 struct StepMetrics {
-  double time_s;
-  double target;
+  double time_s = 0.0;
+  double target = 0.0;
   /// From the later of the step's time and the end of calibration until the per-period ratio is
   /// inside target ± band for the rest of the step; absent if it never is.
   std::optional<double> settling_time_s;
-  double overshoot;     ///< farthest beyond the target, seen from where the ratio came from; >= 0
-  double steady_error;  ///< mean ratio − target
-  double ripple;        ///< half peak-to-peak of the per-period ratio
-  double drive_amplitude_N;  ///< mean
-  control::Limit limit;      ///< the most frequent one of the steady part; none if none was
+  double overshoot =
+      0.0;  ///< farthest beyond the target, seen from where the ratio came from; >= 0
+  double steady_error = 0.0;       ///< mean ratio − target
+  double ripple = 0.0;             ///< half peak-to-peak of the per-period ratio
+  double drive_amplitude_N = 0.0;  ///< mean
+  control::Limit limit =
+      control::Limit::none;  ///< the most frequent one of the steady part; none if none was
 };
 
 /// Metrics of every target step that begins before the run ends.

@@ -32,18 +32,18 @@ class Recorder {
 
  private:
   struct Request {
-    double begin_s;
-    double interval_s;
-    std::size_t count;
-    Recording* into;
+    double begin_s = 0.0;
+    double interval_s = 0.0;
+    std::size_t count = 0;
+    Recording* into = nullptr;
     std::size_t next = 0;
 
     double next_time_s() const { return begin_s + static_cast<double>(next) * interval_s; }
   };
 
   struct Planned {
-    double offset_s;
-    Recording* into;
+    double offset_s = 0.0;
+    Recording* into = nullptr;
   };
 
   std::vector<Request> requests_;

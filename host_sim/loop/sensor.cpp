@@ -1,5 +1,7 @@
 #include "host_sim/loop/sensor.hpp"
 
+#include <cmath>
+
 #include "firmware/numeric/float_elementary.hpp"
 #include "firmware/numeric/scalar.hpp"
 
@@ -22,7 +24,7 @@ Conversion convert(double value, double full_scale, int bits) {
   if (high || low) {
     code = high ? top : -top - 1;
   } else {
-    code = static_cast<std::int64_t>(scaled + levels + 0.5) - (top + 1);
+    code = static_cast<std::int64_t>(std::floor(scaled + 0.5));
   }
   return {static_cast<std::int32_t>(code * (std::int64_t{1} << (32 - bits))), high || low};
 }
