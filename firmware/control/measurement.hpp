@@ -8,7 +8,7 @@ namespace sonoglide::control {
 enum class Quality : std::uint8_t {
   good,
   saturated,  ///< the force converter stood at a rail
-  missing,    ///< no new sample since the last step
+  missing,    ///< no fresh sample since the last step
 };
 
 /// One sample, per unit.
