@@ -34,8 +34,9 @@ CLI::App* add_run_command(CLI::App& program, RunOptions& options) {
       ->required()
       ->type_name("SCENE.toml");
   command
-      ->add_option("--out", options.out,
-                   "Folder for summary.json, trace.csv and report.html [out/<scene name>]")
+      ->add_option(
+          "--out", options.out,
+          "Folder for report.html, summary.json, periods.csv and trace.csv [out/<scene name>]")
       ->type_name("DIR")
       ->check([](const std::string& folder) {
         return folder.empty() ? std::string("is empty; allowed: a folder") : std::string();
