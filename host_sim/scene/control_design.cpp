@@ -8,6 +8,7 @@
 #include "firmware/control/friction_level.hpp"
 #include "firmware/numeric/float_elementary.hpp"
 #include "host_sim/scene/configuration_error.hpp"
+#include "host_sim/scene/plant_scales.hpp"
 
 namespace sonoglide::scene {
 namespace {
@@ -32,8 +33,7 @@ struct BelievedPlant {
 BelievedPlant believed_plant(const Scene& scene) {
   const ModelError& error = scene.model_error;
   return {scene.plant.mass_kg * error.mass, scene.plant.stiffness_N_per_m * error.stiffness,
-          scene.plant.damping_N_s_per_m,
-          scene.friction.coefficient * scene.friction.normal_force_N * error.coefficient,
+          scene.plant.damping_N_s_per_m, friction_limit_N(scene.friction) * error.coefficient,
           scene.friction.contact_stiffness_N_per_m * error.contact_stiffness};
 }
 
@@ -131,14 +131,6 @@ double presliding_m(const BelievedPlant& plant) {
                                                : 0.0;
 }
 
-double fastest_m_per_s(const Sliding& sliding) {
-  double fastest = 0.0;
-  for (const SpeedPoint& point : sliding.profile) {
-    fastest = std::max(fastest, std::abs(point.velocity_m_per_s));
-  }
-  return fastest;
-}
-
 /// Slowest sliding at which the friction ratio is taken as defined by its steady map: the contact's
 /// presliding travel takes at most three carrier periods, so that it forgets faster than a speed is
 /// likely to change. Never more than half of the fastest speed to come, nor of what can be reached.
@@ -147,7 +139,8 @@ double default_speed_floor(const Scene& scene, const BelievedPlant& plant,
   constexpr double presliding_periods = 3.0;
   const double forgets_m_per_s =
       presliding_m(plant) / (presliding_periods * scales.carrier_period_s);
-  const double highest = 0.5 * std::min(fastest_m_per_s(scene.sliding), scales.velocity_m_per_s);
+  const double highest =
+      0.5 * std::min(fastest_sliding_m_per_s(scene.sliding), scales.velocity_m_per_s);
   return std::max(smallest_speed_floor * scales.velocity_m_per_s,
                   std::min(forgets_m_per_s, highest));
 }

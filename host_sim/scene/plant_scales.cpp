@@ -18,14 +18,6 @@ double own_rate_rad_per_s(const Scene& scene) {
   return rate > 0.0 ? rate : two_pi / scene.run.duration_s;
 }
 
-double fastest_sliding_m_per_s(const Sliding& sliding) {
-  double fastest = 0.0;
-  for (const SpeedPoint& point : sliding.profile) {
-    fastest = std::max(fastest, std::abs(point.velocity_m_per_s));
-  }
-  return fastest;
-}
-
 /// Size of the motion to come: the largest that the drive, the sliding, the friction or the initial
 /// state can cause away from resonance.
 double motion_m(const Scene& scene, double omega) {
@@ -44,6 +36,14 @@ double motion_m(const Scene& scene, double omega) {
 }
 
 }  // namespace
+
+double fastest_sliding_m_per_s(const Sliding& sliding) {
+  double fastest = 0.0;
+  for (const SpeedPoint& point : sliding.profile) {
+    fastest = std::max(fastest, std::abs(point.velocity_m_per_s));
+  }
+  return fastest;
+}
 
 double friction_limit_N(const Friction& friction) {
   return friction.coefficient * friction.normal_force_N;

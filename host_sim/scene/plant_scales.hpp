@@ -31,4 +31,7 @@ PlantNumbers plant_numbers(const Scene& scene, const PlantScales& scales);
 /// Fc = μ N.
 double friction_limit_N(const Friction& friction);
 
+/// Largest |Vt| of the profile.
+double fastest_sliding_m_per_s(const Sliding& sliding);
+
 }  // namespace sonoglide::scene

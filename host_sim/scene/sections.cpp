@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "host_sim/scene/names.hpp"
+#include "host_sim/scene/plant_scales.hpp"
 #include "host_sim/scene/table_cursor.hpp"
 
 namespace sonoglide::scene {
@@ -22,10 +23,6 @@ constexpr Range speed_range{-largest_speed_m_per_s, largest_speed_m_per_s, "m/s"
 
 bool closed_loop(const Document& document) {
   return document.find("controller") != nullptr;
-}
-
-double friction_limit_N(const Friction& friction) {
-  return friction.coefficient * friction.normal_force_N;
 }
 
 std::string with_law(const Friction& friction) {
