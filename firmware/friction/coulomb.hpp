@@ -13,6 +13,7 @@ template <class Number>
 struct Coulomb {
   using Scalar = Number;
   static constexpr bool reverses = true;
+  static constexpr bool varies = false;
   static constexpr bool sticks = true;
 
   Scalar friction(Scalar velocity, Scalar /*last_friction*/) const {
@@ -20,18 +21,18 @@ struct Coulomb {
                                static_cast<int>(velocity < Scalar(0)));
   }
   Scalar rate(Scalar /*velocity*/, Scalar /*friction*/) const { return Scalar(0); }
-  Scalar series_unit(Scalar /*velocity*/, Scalar /*friction*/) const { return Scalar(1); }
+  Scalar series_unit(Scalar /*velocity*/, Scalar /*friction*/, Scalar longest) const {
+    return longest;
+  }
 
-  template <std::size_t Order>
   class Arc {
    public:
     Arc(const Coulomb& /*law*/, Scalar direction, Scalar /*friction*/) : direction_(direction) {}
 
-    template <class Coefficients>
-    Scalar coefficient(std::size_t n, Scalar /*unit_over_n*/, const Coefficients& /*velocity*/) {
-      return n == 0 ? direction_ : Scalar(0);
+    template <std::size_t N, class Coefficients>
+    Scalar coefficient(const Coefficients& /*travel*/, const Coefficients& /*earlier*/) const {
+      return N == 0 ? direction_ : Scalar(0);
     }
-    Scalar magnitude(std::size_t /*n*/) const { return Scalar(0); }
     Scalar friction_after(Scalar /*displacement*/) const { return direction_; }
     Scalar work(Scalar displacement) const { return displacement; }
 

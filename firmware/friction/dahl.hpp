@@ -19,6 +19,7 @@ template <class Number>
 struct Dahl {
   using Scalar = Number;
   static constexpr bool reverses = true;
+  static constexpr bool varies = true;
   static constexpr bool sticks = false;
 
   Scalar contact_stiffness = Scalar(1);  ///< kappa = Kt L / Fc [-], > 0
@@ -27,14 +28,17 @@ struct Dahl {
   Scalar rate(Scalar velocity, Scalar friction) const {
     return contact_stiffness * (velocity - numeric::abs(velocity) * friction);
   }
-  Scalar series_unit(Scalar velocity, Scalar friction) const {
-    if (numeric::abs(friction) == Scalar(1) && velocity * friction > Scalar(0)) {
-      return Scalar(1);
+  Scalar series_unit(Scalar velocity, Scalar friction, Scalar longest) const {
+    const Scalar moderate = Scalar(16);
+    const Scalar rate = contact_stiffness * numeric::abs(velocity);
+    const bool slips = numeric::abs(friction) == Scalar(1) && velocity * friction > Scalar(0);
+    if (longest * (rate + contact_stiffness * longest) <= moderate || slips) {
+      return longest;
     }
-    return Scalar(1) / (Scalar(1) + contact_stiffness * numeric::abs(velocity));
+    return numeric::min(longest, moderate / (Scalar(1) + rate));
   }
 
-  template <std::size_t Order>
+  /// Coefficients of phi for n >= 1 are those of g = phi - s, which decays: g' = -kappa s V g.
   class Arc {
    public:
     /// direction 0 holds the friction where it is.
@@ -42,57 +46,84 @@ struct Dahl {
         : contact_stiffness_(law.contact_stiffness),
           direction_(direction),
           friction_(friction),
-          decay_(-law.contact_stiffness * direction) {
-      deficit_[0] = Scalar(1) - direction * friction;
-    }
+          decay_(-law.contact_stiffness * direction),
+          gap_(friction - direction) {}
 
-    template <class Coefficients>
-    Scalar coefficient(std::size_t n, Scalar unit_over_n, const Coefficients& velocity) {
-      if (n == 0) {
+    template <std::size_t N, class Coefficients>
+    Scalar coefficient(const Coefficients& travel, const Coefficients& earlier) const {
+      if constexpr (N == 0) {
         return friction_;
+      } else {
+        const Scalar factor = decay_ * numeric::from_real<Scalar>(1.0 / static_cast<double>(N));
+        if constexpr (N == 1) {
+          return factor * gap_ * travel[0];
+        } else {
+          // From the middle outwards, and the newest factors by one product each: what is known
+          // early does not wait for them.
+          constexpr std::size_t middle = N / 2;
+          Scalar sum = N % 2 == 0 ? Scalar(0) : travel[middle] * earlier[middle];
+          for (std::size_t j = middle; j-- > 1;) {
+            const std::size_t mirrored = N - 1 - j;
+            sum += travel[j] * earlier[mirrored] + travel[mirrored] * earlier[j];
+          }
+          return (factor * sum + (factor * gap_) * travel[N - 1]) +
+                 (factor * travel[0]) * earlier[N - 1];
+        }
       }
-      // From the middle outwards: the newest factors enter last, the rest need not wait for them.
-      const std::size_t middle = n / 2;
-      Scalar sum = n % 2 == 0 ? Scalar(0) : velocity[middle] * deficit_[middle];
-      for (std::size_t j = middle; j-- > 0;) {
-        const std::size_t mirrored = n - 1 - j;
-        sum += velocity[j] * deficit_[mirrored] + velocity[mirrored] * deficit_[j];
-      }
-      deficit_[n] = (decay_ * unit_over_n) * sum;
-      return -direction_ * deficit_[n];
     }
-    Scalar magnitude(std::size_t n) const { return numeric::abs(deficit_[n]); }
-    Scalar friction_after(Scalar displacement) const {
-      return numeric::clamp(friction_ - direction_ * deficit_change(displacement), Scalar(-1),
-                            Scalar(1));
+    [[gnu::always_inline]] Scalar friction_after(Scalar displacement) const {
+      return numeric::clamp(friction_ + gap_ * minus_decayed(contact_stiffness_ * displacement),
+                            Scalar(-1), Scalar(1));
     }
     Scalar work(Scalar displacement) const {
-      return direction_ * friction_ * displacement +
-             deficit_[0] * decay_remainder(contact_stiffness_ * displacement) / contact_stiffness_;
+      const Scalar z = contact_stiffness_ * displacement;
+      return direction_ * (displacement * (friction_ - gap_ * (z * decay_remainder(z))));
     }
 
    private:
-    Scalar deficit_change(Scalar displacement) const {
-      return deficit_[0] * numeric::expm1(-contact_stiffness_ * displacement);
+    /// Most steps are so short that they need not wait for exp to reduce its argument: below this a
+    /// series serves.
+    static constexpr Scalar series_end = Scalar(1);
+
+    /// exp(-z) - 1, z >= 0.
+    [[gnu::always_inline]] static Scalar minus_decayed(Scalar z) {
+      return z < series_end ? z * (z * decay_remainder_series(z) - Scalar(1)) : numeric::expm1(-z);
     }
 
-    /// exp(-z) - 1 + z, z >= 0, to full relative accuracy.
+    /// (exp(-z) - 1 + z) / z^2, z >= 0, to full relative accuracy.
     static Scalar decay_remainder(Scalar z) {
-      if (z > numeric::from_real<Scalar>(0.5)) {
-        return numeric::expm1(-z) + z;
+      return z < series_end ? decay_remainder_series(z) : (numeric::expm1(-z) + z) / (z * z);
+    }
+
+    /// The same, z <= 1. Each level doubles the powers of z.
+    [[gnu::always_inline]] static Scalar decay_remainder_series(Scalar z) {
+      constexpr std::array<Scalar, 16> term = decay_remainder_terms();
+      const Scalar second = z * z;
+      const Scalar fourth = second * second;
+      std::array<Scalar, 4> part{};
+      for (std::size_t n = 0; n < part.size(); ++n) {
+        part[n] =
+            (term[4 * n] + term[4 * n + 1] * z) + (term[4 * n + 2] + term[4 * n + 3] * z) * second;
       }
-      Scalar sum = Scalar(1);
-      for (int n = 15; n > 2; --n) {
-        sum = Scalar(1) - z * sum / static_cast<Scalar>(n);
+      return (part[0] + part[1] * fourth) + (part[2] + part[3] * fourth) * (fourth * fourth);
+    }
+
+    /// (-1)^n / (n + 2)!
+    static constexpr std::array<Scalar, 16> decay_remainder_terms() {
+      std::array<Scalar, 16> terms{};
+      double term = 0.5;
+      for (std::size_t n = 0; n < terms.size(); ++n) {
+        terms[n] = numeric::from_real<Scalar>(term);
+        term /= -static_cast<double>(n + 3);
       }
-      return numeric::half(z * z) * sum;
+      return terms;
     }
 
     Scalar contact_stiffness_;
     Scalar direction_;
     Scalar friction_;
-    Scalar decay_;                           ///< -kappa s
-    std::array<Scalar, Order + 1> deficit_;  ///< e = 1 - s phi
+    Scalar decay_;  ///< -kappa s
+    Scalar gap_;    ///< g = phi - s at the beginning
   };
 };
 

@@ -9,10 +9,12 @@ namespace sonoglide::friction {
 ///
 /// A law gives phi = F/Fc [-] in [-1, 1] in terms of the sliding velocity V = du/d tau. It offers:
 ///   reverses             phi depends on sgn V, so that an event solver stops where V changes sign
+///   varies               phi changes between two reversals
 ///   sticks               V may stay zero while a friction force below Fc holds it there
 ///   friction(V, phi)     the friction that acts now, phi being its last value
 ///   rate(V, phi)         d phi / d tau, for step-by-step methods; 0 where V alone sets phi
-///   series_unit(V, phi)  time in which the power series is written, so that it cannot overflow
+///   series_unit(V, phi, tau)  time, at most tau, in which the power series is written: its
+///                        coefficients stay moderate
 ///   Arc<Order>           the law between two reversals, where sgn V = direction is constant:
 ///     coefficient(n, t, V) n-th Taylor coefficient of phi, from those of V below n; called
 ///                          with n = 0, 1, … in order and t = series unit / n
@@ -23,22 +25,22 @@ template <class Number>
 struct None {
   using Scalar = Number;
   static constexpr bool reverses = false;
+  static constexpr bool varies = false;
   static constexpr bool sticks = false;
 
   Scalar friction(Scalar /*velocity*/, Scalar /*last_friction*/) const { return Scalar(0); }
   Scalar rate(Scalar /*velocity*/, Scalar /*friction*/) const { return Scalar(0); }
-  Scalar series_unit(Scalar /*velocity*/, Scalar /*friction*/) const { return Scalar(1); }
+  Scalar series_unit(Scalar /*velocity*/, Scalar /*friction*/, Scalar longest) const {
+    return longest;
+  }
 
-  template <std::size_t Order>
   struct Arc {
     Arc(const None& /*law*/, Scalar /*direction*/, Scalar /*friction*/) {}
 
-    template <class Coefficients>
-    Scalar coefficient(std::size_t /*n*/, Scalar /*unit_over_n*/,
-                       const Coefficients& /*velocity*/) {
+    template <std::size_t N, class Coefficients>
+    Scalar coefficient(const Coefficients& /*travel*/, const Coefficients& /*earlier*/) const {
       return Scalar(0);
     }
-    Scalar magnitude(std::size_t /*n*/) const { return Scalar(0); }
     Scalar friction_after(Scalar /*displacement*/) const { return Scalar(0); }
     Scalar work(Scalar /*displacement*/) const { return Scalar(0); }
   };

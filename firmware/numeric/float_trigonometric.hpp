@@ -32,13 +32,17 @@ constexpr Float cosine_near_zero(Float r) {
   return head + (lost + square * square * polynomial(cosine_coefficients<Float>, square));
 }
 
-/// sin(r + quarter_turns * pi/2). Both series and a choice: quicker than a branch that mispredicts.
+/// sin(r + quarter_turns * pi/2) from the sine and cosine of r.
 template <class Float>
-constexpr Float sine_of_quadrant(Float r, std::uint32_t quarter_turns) {
-  const Float sine = sine_near_zero(r);
-  const Float cosine = cosine_near_zero(r);
+constexpr Float in_quadrant(Float sine, Float cosine, std::uint32_t quarter_turns) {
   const Float magnitude = (quarter_turns & 1U) != 0U ? cosine : sine;
   return (quarter_turns & 2U) != 0U ? -magnitude : magnitude;
+}
+
+/// The same from r. Both series and a choice: quicker than a branch that mispredicts.
+template <class Float>
+constexpr Float sine_of_quadrant(Float r, std::uint32_t quarter_turns) {
+  return in_quadrant(sine_near_zero(r), cosine_near_zero(r), quarter_turns);
 }
 
 /// x - n pi/2 by Cody and Waite: pi/2 in chunks so short that their products with n are exact.
@@ -59,9 +63,14 @@ constexpr Float minus_quarter_turns(Float x, Float n) {
 }
 
 template <class Float>
-constexpr Float sine_of_shifted(Float x, std::uint32_t quarter_turns) {
+constexpr NearestInteger<Float> nearest_quarter_turn(Float x) {
   constexpr Float quarter_turns_per_radian = static_cast<Float>(2.0 / 3.14159265358979323846);
-  const auto n = nearest_integer(x * quarter_turns_per_radian);
+  return nearest_integer(x * quarter_turns_per_radian);
+}
+
+template <class Float>
+constexpr Float sine_of_shifted(Float x, std::uint32_t quarter_turns) {
+  const auto n = nearest_quarter_turn(x);
   const auto quadrant = static_cast<std::uint32_t>(n.integer) + quarter_turns;
   return sine_of_quadrant(minus_quarter_turns(x, n.value), quadrant);
 }
@@ -105,6 +114,24 @@ constexpr Float sin(Float x) {
 template <class Float, std::enable_if_t<std::is_floating_point_v<Float>, int> = 0>
 constexpr Float cos(Float x) {
   return detail::sine_of_shifted(x, 1);
+}
+
+template <class Float>
+struct SineAndCosine {
+  Float sine;
+  Float cosine;
+};
+
+/// Both at once, bit for bit what sin and cos give.
+template <class Float, std::enable_if_t<std::is_floating_point_v<Float>, int> = 0>
+[[gnu::always_inline]] constexpr SineAndCosine<Float> sine_and_cosine(Float x) {
+  const auto n = detail::nearest_quarter_turn(x);
+  const Float rest = detail::minus_quarter_turns(x, n.value);
+  const auto quadrant = static_cast<std::uint32_t>(n.integer);
+  const Float sine = detail::sine_near_zero(rest);
+  const Float cosine = detail::cosine_near_zero(rest);
+  return {detail::in_quadrant(sine, cosine, quadrant),
+          detail::in_quadrant(sine, cosine, quadrant + 1U)};
 }
 
 /// sin(pi x), |x| <= 2^30 (double) or 2^21 (float); exact where the result is 0 or +-1.

@@ -43,7 +43,13 @@ constexpr double to_real(Scalar x) {
 /// |x|; the lowest fixed-point value overflows.
 template <class Scalar>
 constexpr Scalar abs(Scalar x) {
-  return x < Scalar{} ? -x : x;
+  if constexpr (std::is_same_v<Scalar, double>) {
+    return __builtin_fabs(x);
+  } else if constexpr (std::is_same_v<Scalar, float>) {
+    return __builtin_fabsf(x);
+  } else {
+    return x < Scalar{} ? -x : x;
+  }
 }
 
 template <class Scalar>

@@ -24,22 +24,43 @@ struct MeanFriction {
   }
 };
 
+/// Integrals of the motion alone over a step or more.
+template <class Scalar>
+struct MotionIntegrals {
+  Scalar drive_work = Scalar(0);           ///< of a cos(tau) v
+  Scalar velocity_square = Scalar(0);      ///< of v^2
+  Scalar displacement_square = Scalar(0);  ///< of y^2
+  Scalar damping_work = Scalar(0);         ///< of d v^2
+
+  /// Adds one node of a quadrature; the damping work follows from the rest.
+  void add(Scalar weight, Scalar drive, Scalar displacement, Scalar velocity) {
+    drive_work += weight * (drive * velocity);
+    velocity_square += weight * (velocity * velocity);
+    displacement_square += weight * (displacement * displacement);
+  }
+};
+
 /// Where the energy goes; all integrals over tau.
 template <class Scalar>
 struct EnergyAccount {
-  Scalar friction_integral = Scalar(0);  ///< integral of phi
-  Scalar friction_work = Scalar(0);      ///< of phi V: into the contact, times beta
-  Scalar sliding_work = Scalar(0);       ///< of phi r: from whatever pulls, times beta
-  Scalar drive_work = Scalar(0);         ///< of a cos(tau) v: from the drive
-  Scalar damping_work = Scalar(0);       ///< of d v^2: into the damper
+  Scalar friction_integral = Scalar(0);    ///< integral of phi
+  Scalar friction_work = Scalar(0);        ///< of phi V: into the contact, times beta
+  Scalar sliding_work = Scalar(0);         ///< of phi r: from whatever pulls, times beta
+  Scalar drive_work = Scalar(0);           ///< of a cos(tau) v: from the drive
+  Scalar damping_work = Scalar(0);         ///< of d v^2: into the damper
+  Scalar velocity_square = Scalar(0);      ///< of v^2
+  Scalar displacement_square = Scalar(0);  ///< of y^2
 
   template <class Step>
   void add(const Step& step) {
     friction_integral += step.friction_integral();
     friction_work += step.friction_work();
     sliding_work += step.sliding_work();
-    drive_work += step.drive_work();
-    damping_work += step.damping_work();
+    const MotionIntegrals<Scalar> motion = step.motion_integrals();
+    drive_work += motion.drive_work;
+    damping_work += motion.damping_work;
+    velocity_square += motion.velocity_square;
+    displacement_square += motion.displacement_square;
   }
 
   /// Residual of the identity

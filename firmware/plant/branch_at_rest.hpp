@@ -49,7 +49,7 @@ class BranchAtRest {
 
  private:
   using Series = TaylorSeries<Model, Order>;
-  using Arc = typename Model::FrictionLaw::template Arc<Order>;
+  using Arc = typename Model::FrictionLaw::Arc;
 
   static Scalar sign(Scalar x) {
     return static_cast<Scalar>(static_cast<int>(x > Scalar(0)) - static_cast<int>(x < Scalar(0)));
@@ -94,25 +94,25 @@ class BranchAtRest {
   };
 
   /// The first coefficient of V, x^0 apart, beyond a running bound of the rounding errors.
-  Leading leading_coefficient(Scalar direction) const {
-    Series series(instant_, Scalar(1));
+  [[gnu::noinline]] Leading leading_coefficient(Scalar direction) const {
+    Series series(model_, instant_, Scalar(1));
     Arc arc(model_.law, direction, instant_.state.friction);
     series.slide(model_, arc);
     Scalar drive = instant_.drive.bound();
-    Scalar displacement_error = instant_.relative_error * numeric::abs(series.displacement[0]);
+    Scalar displacement_error = instant_.relative_error * numeric::abs(series.displacement);
     Scalar velocity_error = instant_.rest_error;
     Scalar pull_error = instant_.relative_error * numeric::abs(instant_.sliding_acceleration);
     for (std::size_t n = 0; n < Order; ++n) {
       const Scalar inherited = model_.damping_force(velocity_error) +
                                numeric::abs(model_.stiffness) * displacement_error;
       const Scalar factor = reciprocal<Scalar>(n + 1);
-      const State<Scalar> terms = {series.displacement[n], series.velocity[n], series.friction[n]};
+      const State<Scalar> terms = series.state_coefficients(n);
       displacement_error = factor * velocity_error;
       velocity_error = factor * (inherited + noise(drive, terms) + pull_error);
       pull_error = Scalar(0);
       drive *= factor;
-      if (numeric::abs(series.contact_velocity[n + 1]) > velocity_error) {
-        return {n + 1, series.contact_velocity[n + 1]};
+      if (numeric::abs(series.travel[n + 1]) > velocity_error) {
+        return {n + 1, series.travel[n + 1]};
       }
     }
     return {Order + 1, Scalar(0)};

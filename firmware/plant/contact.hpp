@@ -14,6 +14,7 @@ struct Contact {
   Scalar friction_force = Scalar(0);  ///< beta = Fc / (m L omega^2) [-], >= 0
   Scalar vibration_sign = Scalar(1);  ///< sigma: +1 dissipative, -1 as the paper prints it
 
+  Scalar side() const { return vibration_sign; }
   Scalar contact_velocity(Scalar sliding_velocity, Scalar velocity) const {
     return sliding_velocity + vibration_sign * velocity;
   }
@@ -32,6 +33,7 @@ struct Contact<friction::None<Number>> {
   using Scalar = Number;
   static constexpr friction::None<Number> law{};
 
+  Scalar side() const { return Scalar(1); }
   Scalar contact_velocity(Scalar /*sliding_velocity*/, Scalar /*velocity*/) const {
     return Scalar(0);
   }

@@ -12,24 +12,29 @@
 namespace sonoglide::plant {
 
 struct NoDrive {
+  /// The zero to subtract from at no cost: -0 - x is -x to a compiler, 0 - x is not.
+  template <class Scalar>
+  static constexpr Scalar nothing = numeric::from_real<Scalar>(-0.0);
+
   template <class Scalar>
   struct Phasor {
     Phasor(Scalar /*amplitude*/, Scalar /*phase*/) {}
-    Scalar value() const { return Scalar(0); }
+    Scalar value() const { return nothing<Scalar>; }
     Scalar bound() const { return Scalar(0); }
   };
 
   template <class Scalar, std::size_t Order>
   struct Series {
     Series(const Phasor<Scalar>& /*phasor*/, Scalar /*unit*/) {}
-    Scalar operator[](std::size_t /*n*/) const { return Scalar(0); }
-    static constexpr std::size_t size() { return 1; }
+    Scalar operator[](std::size_t /*n*/) const { return nothing<Scalar>; }
+    Scalar term(std::size_t /*n*/, Scalar /*factor*/) const { return nothing<Scalar>; }
+    Scalar at(Scalar /*x*/) const { return Scalar(0); }
   };
 
   template <class Scalar>
   struct Samples {
     Samples(Scalar /*amplitude*/, Scalar /*phase*/, Scalar /*spacing*/) {}
-    Scalar value() const { return Scalar(0); }
+    Scalar value() const { return nothing<Scalar>; }
     void next() {}
   };
 };
@@ -42,8 +47,11 @@ struct CosineDrive {
     Scalar in_phase;    ///< a cos(phase)
     Scalar quadrature;  ///< a sin(phase)
 
-    Phasor(Scalar amplitude, Scalar phase)
-        : in_phase(amplitude * numeric::cos(phase)), quadrature(amplitude * numeric::sin(phase)) {}
+    Phasor(Scalar amplitude, Scalar phase) {
+      const auto angle = numeric::sine_and_cosine(phase);
+      in_phase = amplitude * angle.cosine;
+      quadrature = amplitude * angle.sine;
+    }
     Scalar value() const { return in_phase; }
     /// No smaller than the amplitude.
     Scalar bound() const { return numeric::abs(in_phase) + numeric::abs(quadrature); }
@@ -63,7 +71,9 @@ struct CosineDrive {
       }
     }
     Scalar operator[](std::size_t n) const { return coefficients_[n]; }
-    static constexpr std::size_t size() { return Order + 1; }
+    /// The n-th coefficient, times a factor.
+    Scalar term(std::size_t n, Scalar factor) const { return factor * coefficients_[n]; }
+    Scalar at(Scalar x) const { return evaluate(coefficients_, x); }
 
    private:
     std::array<Scalar, Order + 1> coefficients_;

@@ -8,6 +8,7 @@
 
 #include "firmware/numeric/scalar.hpp"
 #include "firmware/plant/branch_at_rest.hpp"
+#include "firmware/plant/first_reversal.hpp"
 #include "firmware/plant/first_root.hpp"
 #include "firmware/plant/outcome.hpp"
 #include "firmware/plant/state.hpp"
@@ -19,13 +20,14 @@ namespace sonoglide::plant {
 
 /// Taylor method of fixed order whose steps end at the reversals of the sliding velocity.
 ///
-/// Inside a step sgn V is constant and the motion analytic. The step is the longest, up to 1.5 rad,
-/// whose last two terms of the velocity (and of 1 - |phi|, or of phi in a stick) stay below the
-/// tolerance. The first root of V is found with certainty; the step ends there, V is set to zero
-/// and the contact slides on, turns or sticks. Friction follows from the displacement exactly, so
-/// |phi| <= 1 for any step.
+/// Inside a step sgn V is constant and the motion analytic. The step is the longest, up to 3 rad,
+/// whose last two terms stay below what the tolerance allows: those of V, and those of phi as far
+/// as they change its mean. The first root of V is found with certainty; the step ends there, V is
+/// set to zero and the contact slides on, turns or sticks. Friction follows from the displacement
+/// exactly, so |phi| <= 1 for any step.
 ///
-/// Order 8 suits a relative error of 1e-4 and float, 12 suits 1e-8, 16 anything below 1e-10.
+/// Quickest at tolerances above 1e-5 is order 8, down to 1e-8 order 12, below that 16, from 1e-11
+/// on 20; float has no use for more than 8.
 /// The cost of a contact stuck without end grows as sqrt(beta kappa): its ringing is resolved.
 template <class ModelType, std::size_t Order>
 class EventTaylor {
@@ -35,22 +37,31 @@ class EventTaylor {
   using Model = ModelType;
   using Scalar = typename Model::Scalar;
 
-  /// tolerance: of each step, absolute, in units of the velocity scale; > 0.
-  void configure(const Model& model, Scalar tolerance) {
+  /// Friction laws that it can solve.
+  template <class Law>
+  static constexpr bool solves = true;
+
+  /// tolerance: of the mean friction, relative to Fc, and of the velocity, in units of its scale;
+  /// > 0. Not a bound: over a hundred periods of the contacts tested the error was below it.
+  /// step_limit: the most steps that one advance may take.
+  void configure(const Model& model, Scalar tolerance,
+                 std::uint32_t step_limit = max_steps_per_advance) {
     model_ = model;
-    tolerance_ = tolerance;
+    allowed_ = last_term_per_error * tolerance;
+    longest_step_ = usual_step();
+    step_limit_ = step_limit;
     cost_ = Cost();
   }
 
   /// Advances the state over the interval, adding every step to the account and showing it to the
   /// observer.
   template <class Account, class Observer>
-  Outcome<Scalar> advance(const Interval<Scalar>& interval, State<Scalar>& state, Account& account,
-                          Observer& observer) {
+  [[gnu::flatten]] Outcome<Scalar> advance(const Interval<Scalar>& interval, State<Scalar>& state,
+                                           Account& account, Observer& observer) {
     snap_to_rest(interval, state);
     Position position = {Scalar(0), Scalar(0)};
     for (std::uint32_t steps = 0; position.offset < interval.duration; ++steps) {
-      if (steps == max_steps_per_advance) {
+      if (steps == step_limit_) {
         return {Error::too_many_steps, position.offset};
       }
       step(interval, position, state, account, observer);
@@ -67,7 +78,7 @@ class EventTaylor {
   using Law = typename Model::FrictionLaw;
   using At = Instant<Model>;
   using Drive = typename Model::Drive::template Phasor<Scalar>;
-  using Arc = typename Law::template Arc<Order>;
+  using Arc = typename Law::Arc;
   using Series = TaylorSeries<Model, Order>;
   using Coefficients = typename Series::Coefficients;
 
@@ -76,7 +87,21 @@ class EventTaylor {
     Scalar released;  ///< direction in which a stick has just ended, else 0
   };
 
-  static constexpr Scalar longest_step = numeric::from_real<Scalar>(1.5);
+  /// The last term that a step takes in is about so many times the first one that it leaves out.
+  static constexpr Scalar last_term_per_error = Scalar(8);
+  /// What a term of phi adds to the mean over a step is less than the term by its order.
+  static constexpr Scalar mean_per_term = numeric::from_real<Scalar>(0.125);
+  static constexpr Scalar longest_step = Scalar(3);
+
+  /// What a vibration of unit amplitude allows, with something to spare; 3 rad at most.
+  Scalar usual_step() const {
+    Scalar product = allowed_;
+    for (std::size_t n = 2; n <= Order; ++n) {
+      product *= static_cast<Scalar>(n);
+    }
+    return numeric::min(longest_step, numeric::from_real<Scalar>(0.85) *
+                                          quick_root<static_cast<int>(Order)>(product));
+  }
 
   /// Where the previous interval ended at V = 0, V is zero here but for rounding.
   void snap_to_rest(const Interval<Scalar>& interval, State<Scalar>& state) const {
@@ -130,24 +155,21 @@ class EventTaylor {
   template <class Account, class Observer>
   bool slide(const Interval<Scalar>& interval, const At& instant, const Branch<Scalar>& branch,
              Position& position, State<Scalar>& state, Account& account, Observer& observer) {
-    const Scalar velocity =
-        model_.contact_velocity(instant.sliding_velocity, instant.state.velocity);
-    Series series(instant, model_.law.series_unit(velocity, state.friction));
-    Arc arc(model_.law, branch.direction, state.friction);
+    const Arc arc(model_.law, branch.direction, state.friction);
+    const Scalar rest_of_time = interval.duration - position.offset;
+    Series series(model_, instant, sliding_unit(instant, rest_of_time));
     series.slide(model_, arc);
-
-    const Scalar remaining = (interval.duration - position.offset) / series.unit;
-    const Scalar longest = step_extent(
-        numeric::max(numeric::abs(series.velocity[Order]), arc.magnitude(Order)),
-        numeric::max(numeric::abs(series.velocity[Order - 1]), arc.magnitude(Order - 1)), series,
-        remaining);
-    Scalar extent = longest;
-    if constexpr (Law::reverses) {
-      if (branch.zero_order <= Order) {
-        extent = first_root(
-            without_zero(series.contact_velocity, branch.direction, branch.zero_order), longest);
+    if (!series.is_finite()) {
+      shrink(series, instant, arc);
+      if (!series.is_finite()) {
+        state.velocity = std::numeric_limits<Scalar>::quiet_NaN();
+        return true;
       }
     }
+    const Scalar remaining = rest_of_time / series.unit;
+    const Scalar longest = step_extent(last_term(series, Order), last_term(series, Order - 1),
+                                       speed(series), series, remaining);
+    const Scalar extent = up_to_reversal(series, branch, longest);
     const bool stands_still =
         extent < longest && position.offset + extent * series.unit == position.offset;
     if (stands_still && can_slide_beyond(branch)) {
@@ -164,6 +186,56 @@ class EventTaylor {
     return true;
   }
 
+  /// The step to come, as far as can be told.
+  Scalar sliding_unit(const At& instant, Scalar rest_of_time) const {
+    const Scalar velocity =
+        model_.contact_velocity(instant.sliding_velocity, instant.state.velocity);
+    return model_.law.series_unit(velocity, instant.state.friction,
+                                  numeric::min(longest_step_, rest_of_time));
+  }
+
+  /// Writes the series in smaller units until no coefficient overflows. Out of line: it is rare.
+  [[gnu::noinline]] void shrink(Series& series, const At& instant, const Arc& arc) const {
+    Scalar unit = series.unit;
+    while (!series.is_finite() && unit > std::numeric_limits<Scalar>::min()) {
+      unit *= numeric::from_real<Scalar>(1.0 / 1024.0);
+      series = Series(model_, instant, unit);
+      series.slide(model_, arc);
+    }
+  }
+
+  /// What the error of the velocity is measured against: the velocity scale, or the vibration
+  /// itself where that is smaller, but not without end.
+  static Scalar speed(const Series& series) {
+    constexpr bool is_short = std::numeric_limits<Scalar>::digits <= 24;
+    constexpr Scalar slowest = numeric::from_real<Scalar>(is_short ? 1e-6 : 1e-12);
+    const Scalar change = numeric::abs(series.vibration[1]) + numeric::abs(series.travel[2]);
+    return numeric::clamp(numeric::abs(series.velocity) + numeric::abs(series.rate) * change,
+                          slowest, Scalar(1));
+  }
+
+  /// The n-th terms of V and phi, as much as they matter.
+  static Scalar last_term(const Series& series, std::size_t n) {
+    return numeric::max(numeric::abs(series.rate * series.travel[n]),
+                        speed(series) * mean_per_term * numeric::abs(series.friction[n]));
+  }
+
+  /// The extent of the step, cut at the first reversal.
+  static Scalar up_to_reversal(const Series& series, const Branch<Scalar>& branch, Scalar longest) {
+    if constexpr (Law::reverses) {
+      if (branch.zero_order > Order) {
+        return longest;
+      }
+      const Scalar end = series.travel_rate(longest);
+      if (longest <= Scalar(1) &&
+          certainly_keeps_sign(series.travel, branch.direction, branch.zero_order, longest, end)) {
+        return longest;
+      }
+      return first_reversal(series.travel, branch.direction, branch.zero_order, longest);
+    }
+    return longest;
+  }
+
   /// Two reversals closer than time can tell are none: the contact slides on beyond them.
   static bool can_slide_beyond(const Branch<Scalar>& branch) {
     return Law::reverses && !Law::sticks && 0 < branch.zero_order && branch.zero_order < Order;
@@ -172,12 +244,14 @@ class EventTaylor {
   template <class Account, class Observer>
   void stick(const Interval<Scalar>& interval, const At& instant, const Branch<Scalar>& branch,
              Position& position, State<Scalar>& state, Account& account, Observer& observer) {
-    Series series(instant, Scalar(1));
+    const Scalar rest_of_time = interval.duration - position.offset;
+    Series series(model_, instant, numeric::min(longest_step_, rest_of_time));
     series.stick(model_);
 
-    const Scalar remaining = interval.duration - position.offset;
-    const Scalar longest = step_extent(numeric::abs(series.friction[Order]),
-                                       numeric::abs(series.friction[Order - 1]), series, remaining);
+    const Scalar remaining = rest_of_time / series.unit;
+    const Scalar longest =
+        step_extent(numeric::abs(series.friction[Order]), numeric::abs(series.friction[Order - 1]),
+                    Scalar(1), series, remaining);
     Scalar extent = longest;
     for (const Scalar side : {Scalar(1), Scalar(-1)}) {
       const std::size_t zero_order = side == branch.direction ? branch.zero_order : 0;
@@ -205,18 +279,26 @@ class EventTaylor {
     return quotient;
   }
 
-  /// The extent, within 7 %, at which the last two terms reach the tolerance, or the rounding error
-  /// of the velocity if that is larger.
-  Scalar step_extent(Scalar last, Scalar last_but_one, const Series& series,
+  /// The extent at which the last two terms reach what is allowed, or the rounding error of the
+  /// velocity if that is larger. A unit that was well chosen is it.
+  Scalar step_extent(Scalar last, Scalar last_but_one, Scalar speed, const Series& series,
                      Scalar remaining) const {
+    const Scalar rounding = std::numeric_limits<Scalar>::epsilon() * numeric::abs(series.velocity);
+    const Scalar allowed = numeric::max(allowed_ * speed, rounding);
+    const bool is_longest = series.unit == longest_step_ || remaining <= Scalar(1);
+    if (is_longest && last <= allowed && last_but_one <= allowed) {
+      return numeric::min(Scalar(1), remaining);
+    }
+    return numeric::min(reach(last, last_but_one, allowed),
+                        numeric::min(longest_step_ / series.unit, remaining));
+  }
+
+  /// The extent, within 7 %, at which terms of the two highest orders reach what is allowed.
+  [[gnu::noinline]] static Scalar reach(Scalar last, Scalar last_but_one, Scalar allowed) {
     constexpr int degree = static_cast<int>(Order);
     const Scalar smallest = std::numeric_limits<Scalar>::min();
-    const Scalar allowed = numeric::max(
-        tolerance_, std::numeric_limits<Scalar>::epsilon() * numeric::abs(series.velocity[0]));
-    const Scalar extent =
-        numeric::min(quick_root<degree>(allowed / numeric::max(last, smallest)),
-                     quick_root<degree - 1>(allowed / numeric::max(last_but_one, smallest)));
-    return numeric::min(extent, numeric::min(longest_step / series.unit, remaining));
+    return numeric::min(quick_root<degree>(allowed / numeric::max(last, smallest)),
+                        quick_root<degree - 1>(allowed / numeric::max(last_but_one, smallest)));
   }
 
   template <class Friction, class Account, class Observer>
@@ -239,7 +321,9 @@ class EventTaylor {
   }
 
   Model model_;
-  Scalar tolerance_ = Scalar(0);
+  Scalar allowed_ = Scalar(0);  ///< of the last two terms of a step
+  Scalar longest_step_ = Scalar(0);
+  std::uint32_t step_limit_ = max_steps_per_advance;
   Cost cost_;
 };
 

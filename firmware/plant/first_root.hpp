@@ -44,6 +44,24 @@ Scalar parabola_root(Scalar value, Scalar slope, Scalar curvature, Scalar none) 
   return numeric::min(none, Scalar(2) * value / (root - slope));
 }
 
+/// p times a positive factor, such that the squares of its coefficients neither vanish nor
+/// overflow.
+template <class Scalar, std::size_t Count>
+std::array<Scalar, Count> of_moderate_size(std::array<Scalar, Count> p) {
+  using Limits = std::numeric_limits<Scalar>;
+  Scalar largest = Limits::min();
+  for (const Scalar coefficient : p) {
+    largest = numeric::max(largest, numeric::abs(coefficient));
+  }
+  const Scalar small = numeric::sqrt(Limits::min()) / Limits::epsilon();
+  if (largest < small || largest > Scalar(1) / small) {
+    for (Scalar& coefficient : p) {
+      coefficient /= largest;
+    }
+  }
+  return p;
+}
+
 /// A bound of the rounding error of p(t), t >= 0.
 template <class Scalar, std::size_t Count>
 Scalar rounding_bound(const std::array<Scalar, Count>& p, Scalar t) {
@@ -64,8 +82,9 @@ Scalar rounding_bound(const std::array<Scalar, Count>& p, Scalar t) {
 /// constant factor, until p is within its rounding error of zero: that counts as a root. Where the
 /// curvature keeps the steps short the window narrows, and so does the bound of the curvature.
 template <class Scalar, std::size_t Count>
-Scalar first_root(const std::array<Scalar, Count>& p, Scalar end) {
+[[gnu::noinline]] Scalar first_root(const std::array<Scalar, Count>& polynomial, Scalar end) {
   static_assert(Count >= 4, "the curvature bound needs a cubic");
+  const std::array<Scalar, Count> p = detail::of_moderate_size(polynomial);
   const Scalar quarter = numeric::from_real<Scalar>(0.25);
   Scalar window = end;
   Scalar curvature = detail::lowest_curvature(p, window);
@@ -87,7 +106,7 @@ Scalar first_root(const std::array<Scalar, Count>& p, Scalar end) {
         return t;
       }
       t += step;
-      if (step < quarter * rest && value * numeric::abs(curvature) > slope * slope) {
+      if (step < quarter * rest) {
         window = numeric::min(window, t + numeric::twice(t));
         curvature = detail::lowest_curvature(p, window);
       }
@@ -98,7 +117,8 @@ Scalar first_root(const std::array<Scalar, Count>& p, Scalar end) {
       slope = slope * t + value;
       value = value * t + p[n];
     }
-    if (value <= detail::rounding_bound(p, t)) {
+    // Not <=: a value that is no number ends the search too.
+    if (!(value > detail::rounding_bound(p, t))) {
       return t;
     }
   }

@@ -9,11 +9,12 @@ enum class Error {
   none,
   not_finite,             ///< displacement, velocity or friction is no longer a number
   friction_bound_broken,  ///< |phi| > 1: the step is too long for the contact
-  too_many_steps,         ///< max_steps_per_advance was reached
+  too_many_steps,         ///< the step limit of an advance was reached
+  step_too_long,          ///< for the contact or the oscillator, seen before the state shows it
 };
 
-/// After an error the state is that of `offset`: for too_many_steps the last one reached, otherwise
-/// the first one that is wrong.
+/// After an error the state is that of `offset`: for too_many_steps and step_too_long the last
+/// one reached, otherwise the first one that is wrong.
 template <class Scalar>
 struct Outcome {
   Error error = Error::none;

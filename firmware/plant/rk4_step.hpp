@@ -2,7 +2,10 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 
+#include "firmware/numeric/scalar.hpp"
+#include "firmware/plant/account.hpp"
 #include "firmware/plant/state.hpp"
 
 namespace sonoglide::plant {
@@ -17,7 +20,7 @@ struct Rk4Stage {
 };
 
 /// Integrals as the method gives them for extra states. Between the ends the state is the cubic
-/// that has their values and slopes.
+/// that has their values and slopes; where that passes |phi| = 1 it is cut off.
 template <class Model>
 class Rk4Step {
  public:
@@ -45,7 +48,9 @@ class Rk4Step {
     return {cubic(from.displacement, from_slope.displacement, end_.state.displacement,
                   end_.slope.displacement, x),
             velocity,
-            model_.law.friction(model_.contact_velocity(sliding_velocity, velocity), friction)};
+            numeric::clamp(
+                model_.law.friction(model_.contact_velocity(sliding_velocity, velocity), friction),
+                Scalar(-1), Scalar(1))};
   }
 
   Scalar friction_integral() const {
@@ -60,13 +65,16 @@ class Rk4Step {
   Scalar sliding_work() const {
     return sum([](const Stage& stage) { return stage.state.friction * stage.sliding_velocity; });
   }
-  Scalar drive_work() const {
-    return sum([](const Stage& stage) { return stage.drive * stage.state.velocity; });
-  }
-  Scalar damping_work() const {
-    return sum([this](const Stage& stage) {
-      return model_.damping_force(stage.state.velocity) * stage.state.velocity;
-    });
+  MotionIntegrals<Scalar> motion_integrals() const {
+    MotionIntegrals<Scalar> sum;
+    const Scalar sixth = length_ / Scalar(6);
+    for (std::size_t i = 0; i < stages_.size(); ++i) {
+      const Stage& stage = stages_[i];
+      sum.add(i % 3 == 0 ? sixth : numeric::twice(sixth), stage.drive, stage.state.displacement,
+              stage.state.velocity);
+    }
+    sum.damping_work = model_.damping_force(sum.velocity_square);
+    return sum;
   }
 
  private:

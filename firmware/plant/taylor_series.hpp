@@ -23,70 +23,130 @@ struct Instant {
   State<Scalar> state;
 };
 
-/// Taylor coefficients in x = (tau - tau0) / unit, up to x^Order.
+/// Taylor coefficients in x = (tau - tau0) / unit, up to x^Order, seen from the contact.
+///
+/// Travel u = integral of V: du/dx = unit (r + sigma v). The vibration's share of it obeys
+///   w' = sigma unit^2 (a cos - k y - beta phi) - d unit w,   w = sigma unit v,
+/// so that above x^1, where the sliding ends, one set of coefficients serves contact and
+/// oscillator.
 template <class Model, std::size_t Order>
 struct TaylorSeries {
   using Scalar = typename Model::Scalar;
+  static constexpr std::size_t order = Order;
   using Coefficients = std::array<Scalar, Order + 1>;
   using DriveSeries = typename Model::Drive::template Series<Scalar, Order>;
 
   Scalar unit;
+  Scalar side;  ///< sigma
+  Scalar rate;  ///< sigma / unit: from w to v
   DriveSeries drive;
   std::array<Scalar, 2> sliding_velocity;  ///< r
-  Coefficients displacement;
-  Coefficients velocity;
-  Coefficients contact_velocity;  ///< V
-  Coefficients friction;
+  Scalar displacement;                     ///< y at x = 0
+  Scalar velocity;                         ///< v there
+  std::array<Scalar, 2> vibration;         ///< w; beyond x^1 it is travel
+  Coefficients travel;                     ///< du/dx
+  Coefficients shift;                      ///< w / (n + 1): of the displacement, x apart
+  Coefficients friction;                   ///< phi
 
-  TaylorSeries(const Instant<Model>& instant, Scalar series_unit)
+  TaylorSeries(const Model& model, const Instant<Model>& instant, Scalar series_unit)
       : unit(series_unit),
+        side(model.side()),
+        rate(side / unit),
         drive(instant.drive, series_unit),
-        sliding_velocity{instant.sliding_velocity, instant.sliding_acceleration * series_unit} {
-    displacement[0] = instant.state.displacement;
-    velocity[0] = instant.state.velocity;
+        sliding_velocity{instant.sliding_velocity, instant.sliding_acceleration * series_unit},
+        displacement(instant.state.displacement),
+        velocity(instant.state.velocity) {
+    vibration[0] = side * unit * velocity;
+    travel[0] = unit * model.contact_velocity(sliding_velocity[0], velocity);
   }
 
   /// The contact slides along an arc of its friction law.
   template <class Arc>
-  void slide(const Model& model, Arc& arc) {
+  [[gnu::always_inline]] void slide(const Model& model, const Arc& arc) {
     slide(model, arc, std::make_index_sequence<Order>());
-    solve_contact(model, arc, Order);
   }
 
   /// The contact holds, V = 0, by whatever friction that takes.
   void stick(const Model& model) {
-    displacement = {displacement[0]};
-    velocity = {velocity[0], model.resting_velocity(sliding_velocity[1])};
-    contact_velocity = {};
-    displacement[1] = unit * velocity[0];
-    displacement[2] = unit * velocity[1] / Scalar(2);
+    vibration = {-unit * sliding_velocity[0], -unit * sliding_velocity[1]};
+    travel = {};
+    shift = {vibration[0], numeric::half(vibration[1])};
     for (std::size_t n = 0; n <= Order; ++n) {
-      const Scalar free = model.acceleration(drive[n], {displacement[n], velocity[n], Scalar(0)});
-      const Scalar followed = n == 0 ? velocity[1] / unit : Scalar(0);
+      const State<Scalar> state = state_coefficients(n);
+      const Scalar followed =
+          n == 0 ? model.resting_velocity(sliding_velocity[1]) / unit : Scalar(0);
+      const Scalar free =
+          model.acceleration(drive[n], {state.displacement, state.velocity, Scalar(0)});
       friction[n] = (free - followed) / model.friction_force;
     }
   }
 
+  /// The n-th coefficients of y, v and phi.
+  State<Scalar> state_coefficients(std::size_t n) const {
+    const Scalar position = n == 0 ? displacement : side * shift[n - 1];
+    return {position, rate * motion(n), friction[n]};
+  }
+
+  /// y and v at x, from 0 to where the series serves.
+  Scalar displacement_at(Scalar x) const {
+    return displacement + side * (x * (shift[0] + x * (shift[1] + x * evaluate_from<2>(shift, x))));
+  }
+  Scalar velocity_at(Scalar x) const {
+    return velocity + rate * (x * (vibration[1] + x * evaluate_from<2>(travel, x)));
+  }
+
+  /// du/dx at x.
+  Scalar travel_rate(Scalar x) const {
+    return travel[0] + x * (travel[1] + x * evaluate_from<2>(travel, x));
+  }
+
+  /// u(x) - u(0). The sliding and the vibration are added before they are multiplied: they may
+  /// cancel.
+  Scalar travelled(Scalar x) const {
+    return x * (travel[0] + x * (numeric::half(travel[1]) + x * evaluate_from<2>(shift, x)));
+  }
+
+  /// False if a coefficient has overflowed.
+  bool is_finite() const {
+    return numeric::is_finite(travel[Order]) && numeric::is_finite(friction[Order]);
+  }
+
+  Scalar motion(std::size_t n) const { return n < 2 ? vibration[n] : travel[n]; }
+
  private:
   /// Unrolled: the sums over earlier terms are short, of known length, and overlap.
   template <class Arc, std::size_t... Terms>
-  void slide(const Model& model, Arc& arc, std::index_sequence<Terms...> /*terms*/) {
-    (add_term(model, arc, Terms), ...);
+  [[gnu::always_inline]] void slide(const Model& model, const Arc& arc,
+                                    std::index_sequence<Terms...> /*terms*/) {
+    (add_term<Terms>(model, arc), ...);
+    friction[Order] = arc.template coefficient<Order>(travel, friction);
+    shift[Order - 1] = reciprocal<Scalar>(Order) * travel[Order - 1];
+    shift[Order] = reciprocal<Scalar>(Order + 1) * travel[Order];
   }
 
-  template <class Arc>
-  void add_term(const Model& model, Arc& arc, std::size_t n) {
-    solve_contact(model, arc, n);
-    const Scalar factor = unit * reciprocal<Scalar>(n + 1);
-    velocity[n + 1] =
-        factor * model.acceleration(drive[n], {displacement[n], velocity[n], friction[n]});
-    displacement[n + 1] = factor * velocity[n];
-  }
-  template <class Arc>
-  void solve_contact(const Model& model, Arc& arc, std::size_t n) {
-    contact_velocity[n] =
-        model.contact_velocity(n < 2 ? sliding_velocity[n] : Scalar(0), velocity[n]);
-    friction[n] = arc.coefficient(n, unit * reciprocal<Scalar>(n), contact_velocity);
+  template <std::size_t N, class Arc>
+  [[gnu::always_inline]] void add_term(const Model& model, const Arc& arc) {
+    friction[N] = arc.template coefficient<N>(travel, friction);
+    const Scalar factor = unit * reciprocal<Scalar>(N + 1);
+    const Scalar force_factor = side * unit * factor;
+    Scalar spring = force_factor * model.stiffness * displacement;
+    if constexpr (N > 0) {
+      shift[N - 1] = reciprocal<Scalar>(N) * motion(N - 1);
+      spring = (unit * factor * model.stiffness) * shift[N - 1];
+    }
+    const Scalar free =
+        drive.term(N, force_factor) - spring - model.damping_force(factor * motion(N));
+    // Friction, the newest, enters last.
+    Scalar next = free;
+    if constexpr (N == 0 || Model::FrictionLaw::varies) {
+      next -= model.contact_force(force_factor) * friction[N];
+    }
+    if constexpr (N == 0) {
+      vibration[1] = next;
+      travel[1] = next + unit * sliding_velocity[1];
+    } else {
+      travel[N + 1] = next;
+    }
   }
 };
 

@@ -1,7 +1,12 @@
 /// One step of the Taylor solver: the motion inside it, and its integrals.
 #pragma once
 
+#include <array>
+#include <cstddef>
+
+#include "firmware/friction/gauss_legendre.hpp"
 #include "firmware/numeric/scalar.hpp"
+#include "firmware/plant/account.hpp"
 #include "firmware/plant/polynomial.hpp"
 #include "firmware/plant/state.hpp"
 
@@ -22,8 +27,7 @@ class SlidingFriction {
  private:
   /// An increment, and never backwards: a difference of two displacements would cancel.
   Scalar travelled(Scalar x) const {
-    return numeric::max(Scalar(0),
-                        direction_ * series_.unit * integrate(series_.contact_velocity, x));
+    return numeric::max(Scalar(0), direction_ * series_.travelled(x));
   }
 
   const Series& series_;
@@ -67,19 +71,31 @@ class TaylorStep {
   Scalar friction_integral() const { return series_.unit * integrate(series_.friction, extent_); }
   Scalar friction_work() const { return friction_.work(extent_); }
   Scalar sliding_work() const {
-    return series_.unit * integrate_product(series_.sliding_velocity, series_.friction, extent_);
+    const Scalar steady = series_.sliding_velocity[0] * integrate(series_.friction, extent_);
+    const Scalar slope = series_.sliding_velocity[1];
+    // Most scenes slide at a constant speed.
+    return series_.unit *
+           (slope == Scalar(0) ? steady : steady + slope * first_moment(series_.friction, extent_));
   }
-  Scalar drive_work() const {
-    return series_.unit * integrate_product(series_.velocity, series_.drive, extent_);
-  }
-  Scalar damping_work() const {
-    return model_.damping_force(series_.unit *
-                                integrate_product(series_.velocity, series_.velocity, extent_));
+
+  /// By Gauss and Legendre, exact for the product of two series up to their order less 3.
+  MotionIntegrals<Scalar> motion_integrals() const {
+    static constexpr auto rule = friction::gauss_legendre<node_count>();
+    MotionIntegrals<Scalar> sum;
+    for (std::size_t i = 0; i < rule.node.size(); ++i) {
+      const Scalar x = extent_ * numeric::from_real<Scalar>(rule.node[i]);
+      const Scalar weight = length() * numeric::from_real<Scalar>(rule.weight[i]);
+      sum.add(weight, series_.drive.at(x), series_.displacement_at(x), series_.velocity_at(x));
+    }
+    sum.damping_work = model_.damping_force(sum.velocity_square);
+    return sum;
   }
 
  private:
+  static constexpr int node_count = static_cast<int>(Series::order) / 2 - 1;
+
   State<Scalar> state(Scalar x) const {
-    return {evaluate(series_.displacement, x), evaluate(series_.velocity, x), friction_.at(x)};
+    return {series_.displacement_at(x), series_.velocity_at(x), friction_.at(x)};
   }
 
   const Model& model_;

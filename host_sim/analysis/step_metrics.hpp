@@ -1,11 +1,15 @@
-/// How well a closed loop followed its target.
+/// How well a closed loop followed each step of its target.
 #pragma once
 
+#include <array>
+#include <cstdint>
+#include <limits>
 #include <optional>
 #include <vector>
 
 #include "firmware/control/drive_command.hpp"
-#include "host_sim/loop/run.hpp"
+#include "host_sim/analysis/target_spans.hpp"
+#include "host_sim/loop/period.hpp"
 #include "host_sim/scene/scene.hpp"
 
 namespace sonoglide::analysis {
@@ -27,14 +31,42 @@ struct StepMetrics {
       control::Limit::none;  ///< the most frequent one of the steady part; none if none was
 };
 
-/// Metrics of every target step that begins before the run ends.
-std::vector<StepMetrics> step_metrics(const scene::Scene& scene, const loop::RunResult& result);
+/// Measures every target step that begins before the run ends, from its carrier periods as they
+/// come.
+class StepMeter final : public loop::PeriodSink {
+ public:
+  /// @param scene  in closed loop
+  explicit StepMeter(const scene::Scene& scene);
 
-/// Largest |ratio − target| over the carrier periods in which the target can be expected to be met:
-/// sliding at or above the speed floor from end to end, and more than ten periods after the target
-/// step, the end of calibration or the last period at the actuator's or the slew limit. Absent
-/// where there is no such period.
-std::optional<double> largest_tracking_error(const scene::Scene& scene,
-                                             const loop::RunResult& result);
+  void take(const loop::Period& period) override;
+
+  /// One entry for each step; to be asked after the run.
+  std::vector<StepMetrics> steps() const;
+
+ private:
+  static constexpr std::size_t limits = 4;
+
+  struct Tally {
+    double settled_s = 0.0;   ///< end of the last period outside the band
+    double last_end_s = 0.0;  ///< of the last period
+    double overshoot = 0.0;
+    std::uint64_t periods = 0;
+    // Of the steady part:
+    std::uint64_t steady_periods = 0;
+    double ratio_sum = 0.0;
+    double drive_sum_N = 0.0;
+    double lowest = std::numeric_limits<double>::infinity();
+    double highest = -std::numeric_limits<double>::infinity();
+    std::array<std::uint64_t, limits> limit_count{};
+  };
+
+  void take_any(const loop::Period& period, const TargetSpan& span, Tally& tally) const;
+  static void take_steady(const loop::Period& period, Tally& tally);
+  static StepMetrics metrics(const TargetSpan& span, const Tally& tally);
+
+  SpanCursor cursor_;
+  double band_;
+  std::vector<Tally> tallies_;
+};
 
 }  // namespace sonoglide::analysis

@@ -9,6 +9,9 @@
 #include "host_sim/cli/exit_code.hpp"
 #include "host_sim/cli/ratio_command.hpp"
 #include "host_sim/cli/run_command.hpp"
+#include "host_sim/cli/stability_command.hpp"
+#include "host_sim/cli/sweep_command.hpp"
+#include "host_sim/cli/work_precision_command.hpp"
 #include "host_sim/loop/run.hpp"
 #include "host_sim/report/output_folder.hpp"
 #include "host_sim/scene/scene_error.hpp"
@@ -29,8 +32,18 @@ void parse_and_run(int argument_count, const char* const* arguments) {
   program.require_subcommand(0, 1);
   RunOptions run_options;
   RatioOptions ratio_options;
-  add_run_command(program, run_options)->callback([&run_options] { run(run_options); });
-  add_ratio_command(program, ratio_options)->callback([&ratio_options] { ratio(ratio_options); });
+  SweepOptions sweep_options;
+  WorkPrecisionOptions work_precision_options;
+  StabilityOptions stability_options;
+  add_run_command(program, run_options)->callback([&] { run(run_options); });
+  add_ratio_command(program, ratio_options)->callback([&] { ratio(ratio_options); });
+  add_sweep_command(program, sweep_options)->callback([&] { sweep(sweep_options); });
+  add_work_precision_command(program, work_precision_options)->callback([&] {
+    work_precision(work_precision_options);
+  });
+  add_stability_command(program, stability_options)->callback([&] {
+    stability(stability_options);
+  });
   try {
     program.parse(argument_count, arguments);
     if (program.get_subcommands().empty()) {

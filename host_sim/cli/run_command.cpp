@@ -5,24 +5,25 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "host_sim/cli/interruption.hpp"
 #include "host_sim/cli/progress_bar.hpp"
 #include "host_sim/loop/run.hpp"
-#include "host_sim/report/output_folder.hpp"
 #include "host_sim/report/run_report.hpp"
 #include "host_sim/scene/reader.hpp"
 
 namespace sonoglide::cli {
 namespace {
 
-/// Stages and removes an empty folder: an output that cannot be written is found out before the
-/// results are computed.
-void require_writable(const std::filesystem::path& out) {
-  const report::OutputFolder probe(out);
-}
-
-loop::RunResult compute(const scene::Scene& scene, const RunOptions& options) {
-  ProgressBar bar(stderr, !options.quiet);
-  return loop::run(scene, [&bar](double fraction) { bar.update(fraction); });
+loop::RunResult compute(const scene::Scene& scene, report::RunReport& report, bool quiet,
+                        const Interruption& interruption) {
+  ProgressBar bar(stderr, !quiet);
+  loop::Watch watch;
+  report.join(watch);
+  watch.progress = [&](double fraction) {
+    interruption.check();
+    bar.update(fraction);
+  };
+  return loop::run(scene, watch);
 }
 
 }  // namespace
@@ -34,9 +35,9 @@ CLI::App* add_run_command(CLI::App& program, RunOptions& options) {
       ->required()
       ->type_name("SCENE.toml");
   command
-      ->add_option(
-          "--out", options.out,
-          "Folder for report.html, summary.json, periods.csv and trace.csv [out/<scene name>]")
+      ->add_option("--out", options.out,
+                   "Folder for report.html and summary.json and, where the scene records anything, "
+                   "periods.csv and trace.csv [out/<scene name>]")
       ->type_name("DIR")
       ->check([](const std::string& folder) {
         return folder.empty() ? std::string("is empty; allowed: a folder") : std::string();
@@ -55,11 +56,12 @@ void run(const RunOptions& options) {
   const scene::Scene scene = scene::read_file(options.scene, options.overrides);
   const std::filesystem::path out = options.out.empty() ? std::filesystem::path("out") / scene.name
                                                         : std::filesystem::path(options.out);
-  require_writable(out);
-  const loop::RunResult result = compute(scene, options);
-  report::write_run(out, scene, result);
+  const Interruption interruption;
+  report::RunReport report(out, scene);
+  const loop::RunResult result = compute(scene, report, options.quiet, interruption);
+  report.finish(result);
   if (!options.quiet) {
-    fmt::print("{}", report::run_text(scene, result, out));
+    fmt::print("{}", report::run_text(scene, result, report.findings(), out));
   }
 }
 

@@ -18,8 +18,8 @@ struct RunOptions {
 /// Adds the command to the program; `options` outlives it and is filled in by parsing.
 CLI::App* add_run_command(CLI::App& program, RunOptions& options);
 
-/// Throws scene::SceneError, loop::ComputationError, report::OutputError; in each case nothing was
-/// written.
+/// Throws scene::SceneError, loop::ComputationError, report::OutputError, or ends by the signal
+/// that interrupts it; in each case nothing was written.
 void run(const RunOptions& options);
 
 }  // namespace sonoglide::cli

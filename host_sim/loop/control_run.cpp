@@ -1,11 +1,10 @@
 #include "host_sim/loop/control_run.hpp"
 
-#include "host_sim/loop/time_rounding.hpp"
-
 namespace sonoglide::loop {
 
-ControlRun::ControlRun(const scene::Scene& scene, ControlRecord& record)
+ControlRun::ControlRun(const scene::Scene& scene, const CarrierGrid& grid, ControlRecord& record)
     : scene_(scene),
+      grid_(grid),
       record_(record),
       sensor_(scene.sensor, record.design.scales),
       port_(make_control_port(scene, record.design)) {}
@@ -31,7 +30,7 @@ void ControlRun::finish() {
 
 void ControlRun::follow_target(double time_s) {
   const auto& steps = scene_.controller->target_friction_ratio;
-  const double now_s = time_s + time_rounding * record_.design.scales.carrier_period_s;
+  const double now_s = time_s + grid_.rounding_s(time_s);
   while (next_step_ < steps.size() && steps[next_step_].time_s <= now_s) {
     target_ = steps[next_step_++].friction_ratio;
     port_->set_target(target_);

@@ -7,7 +7,9 @@
 #include <memory>
 
 #include "firmware/control/drive_command.hpp"
+#include "host_sim/loop/carrier_grid.hpp"
 #include "host_sim/loop/control_port.hpp"
+#include "host_sim/loop/period.hpp"
 #include "host_sim/loop/run_result.hpp"
 #include "host_sim/loop/sensor.hpp"
 #include "host_sim/loop/trace_hash.hpp"
@@ -17,8 +19,8 @@ namespace sonoglide::loop {
 
 class ControlRun {
  public:
-  /// @param record  its design is used, the rest filled in; both must outlive this
-  ControlRun(const scene::Scene& scene, ControlRecord& record);
+  /// @param record  its design is used, the rest filled in; all must outlive this
+  ControlRun(const scene::Scene& scene, const CarrierGrid& grid, ControlRecord& record);
 
   /// In force during the next carrier period.
   double amplitude_N() const { return amplitude_N_; }
@@ -37,6 +39,7 @@ class ControlRun {
   void account_for(const hal::Drive& drive, double time_s);
 
   const scene::Scene& scene_;
+  const CarrierGrid& grid_;
   ControlRecord& record_;
   Sensor sensor_;
   std::unique_ptr<ControlPort> port_;

@@ -1,7 +1,6 @@
 /// The plant seen from the simulation, in SI units, whatever it is composed of.
 #pragma once
 
-#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -27,20 +26,21 @@ struct Stretch {
   double sliding_acceleration_m_per_s2;
 };
 
-/// What to watch during a stretch; watching never changes the motion.
-struct Watch {
-  bool stored_energy = false;     ///< fill EnergyBalance's two integrals of the state
-  std::vector<double> offsets_s;  ///< rising, inside the stretch: where states are wanted
-};
-
 class PlantPort {
  public:
   virtual ~PlantPort() = default;
 
-  /// Advances over one stretch. `seen` gets one state for each offset of the watch.
-  /// An error leaves the state where it happened, `outcome.offset` seconds into the stretch.
-  virtual plant::Outcome<double> advance(const Stretch& stretch, const Watch& watch,
-                                         EnergyBalance& energy, std::vector<PlantState>& seen) = 0;
+  /// Advances over one stretch. An error leaves the state where it happened, `outcome.offset`
+  /// seconds into the stretch.
+  virtual plant::Outcome<double> advance(const Stretch& stretch, EnergyBalance& energy) = 0;
+
+  /// The same motion, bit for bit. `seen` gets one state for each of the offsets, which rise and
+  /// lie inside the stretch.
+  virtual plant::Outcome<double> advance_sampled(const Stretch& stretch,
+                                                 const std::vector<double>& offsets_s,
+                                                 EnergyBalance& energy,
+                                                 std::vector<PlantState>& seen) = 0;
+
   virtual PlantState state() const = 0;
   virtual plant::Cost cost() const = 0;
 };

@@ -1,13 +1,16 @@
-/// The plant along the time axis of a run, with what is measured on the way.
+/// The plant along the time axis of a run.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <vector>
 
+#include "host_sim/loop/carrier_grid.hpp"
 #include "host_sim/loop/energy.hpp"
 #include "host_sim/loop/plant_port.hpp"
-#include "host_sim/loop/recorder.hpp"
 #include "host_sim/loop/run_result.hpp"
+#include "host_sim/loop/sampler.hpp"
 #include "host_sim/loop/sliding_profile.hpp"
 #include "host_sim/scene/scene.hpp"
 
@@ -15,37 +18,38 @@ namespace sonoglide::loop {
 
 class PlantRun {
  public:
-  /// Both must outlive it; recordings, energies and final values go into the result.
-  PlantRun(const scene::Scene& scene, RunResult& result);
+  /// Energies and final values go into the result. All must outlive it.
+  PlantRun(const scene::Scene& scene, const CarrierGrid& grid, const Watch& watch,
+           RunResult& result);
 
-  /// The carrier period; where there is no drive, one thousandth of the run.
-  double period_s() const { return period_s_; }
-  const SlidingProfile& sliding() const { return sliding_; }
+  /// Where the last call of advance() ended.
+  double sliding_velocity_m_per_s() const { return sliding_velocity_m_per_s_; }
 
-  /// Advances to end_s, at most one carrier period on, under one drive amplitude.
-  /// @param begin_s  where the last call ended, at drive phase 0
+  /// Advances over the next carrier period, under one drive amplitude.
   /// @throws ComputationError
-  EnergyBalance advance(double begin_s, double end_s, double amplitude_N);
+  EnergyBalance advance(std::uint64_t period, double amplitude_N);
 
   /// Fills in what the run ends with.
   void finish();
 
  private:
-  void request_recordings();
-  std::vector<double> target_steps_s() const;
-  void request_close_up(double step_s, Recording& into);
-  void request_ending(double last_step_s);
-  void stretch(double period_begin_s, double begin_s, double end_s, double amplitude_N,
-               EnergyBalance& total);
+  EnergyBalance stretch(double begin_s, double duration_s, double drive_phase_rad, double end_s,
+                        double amplitude_N);
+  plant::Outcome<double> solve(double begin_s, double end_s, const Stretch& stretch,
+                               EnergyBalance& energy);
   [[noreturn]] void fail(plant::Error error, double time_s) const;
 
   const scene::Scene& scene_;
+  const CarrierGrid& grid_;
   RunResult& result_;
   std::unique_ptr<PlantPort> plant_;
   SlidingProfile sliding_;
-  double period_s_;
+  double drive_rate_rad_per_s_;
+  double sliding_velocity_m_per_s_;
   std::vector<double> cuts_s_;  ///< times inside carrier periods at which a stretch must end
-  Recorder recorder_;
+  std::size_t next_cut_ = 0;
+  Sampler sampler_;
+  std::vector<PlantState> seen_;
 };
 
 }  // namespace sonoglide::loop

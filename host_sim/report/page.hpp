@@ -37,11 +37,19 @@ struct Table {
   std::vector<std::vector<std::string>> rows;
 };
 
-/// Panels under one heading.
+/// A finished picture, shown as it is.
+struct Picture {
+  std::string title;
+  std::string note;  ///< one or two sentences under the title; may be empty
+  std::string svg;   ///< a whole SVG document
+};
+
+/// Panels and pictures under one heading.
 struct Section {
   std::string title;
   std::string text;
   std::vector<Panel> panels;
+  std::vector<Picture> pictures = {};
 };
 
 struct Page {

@@ -154,12 +154,38 @@ void append_panel(std::string& html, const Panel& panel) {
   html += "</figure>\n";
 }
 
+/// An SVG document as the address of an image: its names cannot clash with those of another.
+std::string data_address(std::string_view svg) {
+  std::string address = "data:image/svg+xml,";
+  for (const char c : svg) {
+    const bool plain =
+        c > ' ' && c < 127 && std::string_view("\"#%&<>").find(c) == std::string::npos;
+    if (plain) {
+      address += c;
+    } else {
+      address += fmt::format("%{:02X}", static_cast<unsigned char>(c));
+    }
+  }
+  return address;
+}
+
+void append_picture(std::string& html, const Picture& picture) {
+  html +=
+      fmt::format("<figure class=\"picture\">\n<figcaption><h3>{}</h3>\n", escaped(picture.title));
+  append_paragraph(html, "note", picture.note);
+  html += fmt::format("</figcaption>\n<img alt=\"{}\" src=\"{}\">\n</figure>\n",
+                      escaped(picture.title), data_address(picture.svg));
+}
+
 void append_sections(std::string& html, const std::vector<Section>& sections) {
   for (const Section& section : sections) {
     html += fmt::format("<section class=\"charts\">\n<h2>{}</h2>\n", escaped(section.title));
     append_paragraph(html, "text", section.text);
     for (const Panel& panel : section.panels) {
       append_panel(html, panel);
+    }
+    for (const Picture& picture : section.pictures) {
+      append_picture(html, picture);
     }
     html += "</section>\n";
   }

@@ -10,7 +10,6 @@
 
 #include "host_sim/analysis/hysteresis.hpp"
 #include "host_sim/analysis/spectrum.hpp"
-#include "host_sim/analysis/step_metrics.hpp"
 #include "host_sim/report/control_names.hpp"
 #include "host_sim/scene/names.hpp"
 #include "host_sim/scene/plant_scales.hpp"
@@ -38,7 +37,8 @@ std::string lead(const scene::Scene& scene, const loop::RunResult& result) {
   return text;
 }
 
-std::vector<std::string> warnings(const scene::Scene& scene, const loop::RunResult& result) {
+std::vector<std::string> warnings(const scene::Scene& scene, const loop::RunResult& result,
+                                  const RunFindings& findings) {
   std::vector<std::string> all;
   if (scene.friction.sign_convention == scene::SignConvention::as_printed) {
     all.emplace_back(
@@ -67,14 +67,11 @@ std::vector<std::string> warnings(const scene::Scene& scene, const loop::RunResu
                     "is {:.3g} per carrier period.",
                     result.control->design.integral_gain));
   }
-  if (scene.controller->target_friction_ratio.size() > result.close_ups.size()) {
-    all.push_back(
-        fmt::format("Close-ups are shown of the first {} target steps.", result.close_ups.size()));
+  if (scene.controller->target_friction_ratio.size() > findings.close_ups().size()) {
+    all.push_back(fmt::format("Close-ups are shown of the first {} target steps.",
+                              findings.close_ups().size()));
   }
-  const bool held = std::any_of(
-      result.periods.begin(), result.periods.end(),
-      [](const loop::Period& period) { return period.limit == control::Limit::speed_floor; });
-  if (held) {
+  if (findings.course().held_at_speed_floor()) {
     const scene::ControlDesign& design = result.control->design;
     all.push_back(
         fmt::format("The drive was held while sliding was slower than {:.3g} mm/s, where "
@@ -84,12 +81,12 @@ std::vector<std::string> warnings(const scene::Scene& scene, const loop::RunResu
   return all;
 }
 
-Table step_table(const scene::Scene& scene, const loop::RunResult& result) {
+Table step_table(const RunFindings& findings) {
   Table table{"Target steps",
               {"From [ms]", "Target", "Settles in [µs]", "Overshoot", "Steady error", "Ripple",
                "Drive [N]", "Limit"},
               {}};
-  for (const analysis::StepMetrics& step : analysis::step_metrics(scene, result)) {
+  for (const analysis::StepMetrics& step : findings.steps()) {
     table.rows.push_back(
         {fmt::format("{:.3f}", step.time_s * 1e3), fmt::format("{:.3f}", step.target),
          step.settling_time_s ? fmt::format("{:.1f}", *step.settling_time_s * 1e6) : "never",
@@ -141,43 +138,25 @@ Table signal_table(const loop::ControlRecord& control) {
   return table;
 }
 
-/// So many carrier periods go to one point of a chart: a long run's page stays light.
-std::size_t periods_per_point(const std::vector<loop::Period>& periods) {
-  constexpr std::size_t most_points = 20000;
-  return periods.size() / most_points + 1;
-}
-
-template <class Value>
-std::vector<double> per_point(const std::vector<loop::Period>& periods, Value value) {
-  std::vector<double> values;
-  for (std::size_t i = 0; i < periods.size(); i += periods_per_point(periods)) {
-    values.push_back(value(periods[i]));
-  }
-  return values;
-}
-
-std::string course_text(const scene::Scene& scene, const std::vector<loop::Period>& periods) {
-  const std::size_t stride = periods_per_point(periods);
+std::string course_text(const scene::Scene& scene, const Course::Curve& curve) {
   if (!scene.drive) {
     return "One value for each thousandth of the run.";
   }
-  return stride == 1
-             ? "One value for each carrier period."
-             : fmt::format("One carrier period in {}; all of them are in periods.csv.", stride);
+  if (curve.piece_size() == 1) {
+    return "One value for each carrier period.";
+  }
+  return fmt::format("Smallest and largest value of every {} carrier periods.{}",
+                     curve.piece_size(),
+                     scene.run.record.empty() ? "" : " All of them are in periods.csv.");
 }
 
-Section course(const scene::Scene& scene, const std::vector<loop::Period>& periods) {
-  const std::vector<double> time =
-      per_point(periods, [](const loop::Period& period) { return period.begin_s; });
-  const auto series = [&periods](const char* label, auto value) {
-    return Series{label, per_point(periods, value), true, false};
+Section course(const scene::Scene& scene, const Course::Curve& curve) {
+  const std::vector<double> time = curve.x();
+  const auto series = [&curve](const char* label, Course::Ordinate ordinate) {
+    return Series{label, curve.y(ordinate), true, false};
   };
-  const auto ratio = [](const loop::Period& period) { return period.friction_ratio; };
-  const auto target = [](const loop::Period& period) { return period.target; };
-  const auto amplitude = [](const loop::Period& period) { return period.drive_amplitude_N; };
-  const auto velocity = [](const loop::Period& period) { return period.begin_velocity_m_per_s; };
 
-  Section section{"Course of the run", course_text(scene, periods), {}};
+  Section section{"Course of the run", course_text(scene, curve), {}};
   if (scene::friction_limit_N(scene.friction) > 0.0) {
     Panel panel{"Friction ratio",
                 "Mean friction force over a carrier period, divided by the "
@@ -189,9 +168,9 @@ Section course(const scene::Scene& scene, const std::vector<loop::Period>& perio
                 false,
                 "course"};
     if (scene.controller) {
-      panel.series.push_back(series("target", target));
+      panel.series.push_back(series("target", Course::target));
     }
-    panel.series.push_back(series("reached", ratio));
+    panel.series.push_back(series("reached", Course::friction_ratio));
     section.panels.push_back(std::move(panel));
   }
   if (scene.drive) {
@@ -200,7 +179,7 @@ Section course(const scene::Scene& scene, const std::vector<loop::Period>& perio
                               time_label,
                               "Drive force amplitude [N]",
                               time,
-                              {series("amplitude", amplitude)},
+                              {series("amplitude", Course::drive_amplitude_N)},
                               false,
                               "course"});
   }
@@ -210,7 +189,7 @@ Section course(const scene::Scene& scene, const std::vector<loop::Period>& perio
                               time_label,
                               "Sliding velocity [m/s]",
                               time,
-                              {series("sliding", velocity)},
+                              {series("sliding", Course::sliding_velocity_m_per_s)},
                               false,
                               "course"});
   }
@@ -320,33 +299,34 @@ Panel spectrum_panel(const scene::Scene& scene, const loop::Recording& ending) {
       ""};
 }
 
-Section ending(const scene::Scene& scene, const loop::RunResult& result) {
+Section ending(const scene::Scene& scene, const loop::Recording& recording) {
   constexpr std::size_t samples_per_period = 64;
   Section section{"End of the run", "", {}};
   if (scene::friction_limit_N(scene.friction) > 0.0) {
     section.panels.push_back(hysteresis_panel(
-        analysis::last_cycle(result.ending, scene.friction.sign_convention, samples_per_period)));
+        analysis::last_cycle(recording, scene.friction.sign_convention, samples_per_period)));
   }
-  section.panels.push_back(spectrum_panel(scene, result.ending));
+  section.panels.push_back(spectrum_panel(scene, recording));
   return section;
 }
 
 }  // namespace
 
-Page run_page(const scene::Scene& scene, const loop::RunResult& result) {
-  Page page{scene.name, lead(scene, result), warnings(scene, result), {}, {}};
+Page run_page(const scene::Scene& scene, const loop::RunResult& result,
+              const RunFindings& findings) {
+  Page page{scene.name, lead(scene, result), warnings(scene, result, findings), {}, {}};
   if (scene.controller) {
-    page.tables.push_back(step_table(scene, result));
+    page.tables.push_back(step_table(findings));
   }
   page.tables.push_back(run_table(scene, result));
   if (result.control && !result.control->signals.empty()) {
     page.tables.push_back(signal_table(*result.control));
   }
-  page.sections.push_back(course(scene, result.periods));
-  for (std::size_t i = 0; i < result.close_ups.size(); ++i) {
-    page.sections.push_back(close_up(scene, result.close_ups[i], i));
+  page.sections.push_back(course(scene, findings.course().curve()));
+  for (std::size_t i = 0; i < findings.close_ups().size(); ++i) {
+    page.sections.push_back(close_up(scene, findings.close_ups()[i], i));
   }
-  page.sections.push_back(ending(scene, result));
+  page.sections.push_back(ending(scene, findings.ending()));
   return page;
 }
 

@@ -2,21 +2,44 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include "host_sim/loop/run.hpp"
+#include "host_sim/report/output_folder.hpp"
+#include "host_sim/report/run_csv.hpp"
+#include "host_sim/report/run_findings.hpp"
 #include "host_sim/scene/scene.hpp"
 
 namespace sonoglide::report {
 
-/// Writes summary.json, report.html, periods.csv (one row for each carrier period) and, where the
-/// scene records anything, trace.csv; all or none.
-/// @throws OutputError  the file system refused
-void write_run(const std::filesystem::path& out, const scene::Scene& scene,
-               const loop::RunResult& result);
+/// The output of one run: summary.json, report.html and, where the scene records anything,
+/// trace.csv and periods.csv (one row for each carrier period); all or none.
+class RunReport {
+ public:
+  /// @param scene  outlives this
+  /// @throws OutputError  nothing can be written there; found out before anything is computed
+  RunReport(const std::filesystem::path& out, const scene::Scene& scene);
+
+  /// Watches the run: the tables are written as it goes. This outlives the run.
+  void join(loop::Watch& watch);
+
+  /// Writes the rest and puts everything in place; to be called once, after the run.
+  /// @throws OutputError  the file system refused; nothing has been changed then
+  void finish(const loop::RunResult& result);
+
+  const RunFindings& findings() const { return findings_; }
+
+ private:
+  const scene::Scene& scene_;
+  OutputFolder folder_;
+  RunFindings findings_;
+  std::optional<PeriodsCsv> periods_;
+  std::optional<TraceCsv> trace_;
+};
 
 /// The result in a few lines, and where the report is.
 std::string run_text(const scene::Scene& scene, const loop::RunResult& result,
-                     const std::filesystem::path& out);
+                     const RunFindings& findings, const std::filesystem::path& out);
 
 }  // namespace sonoglide::report

@@ -14,10 +14,10 @@ std::string settling(const std::optional<double>& time_s) {
   return time_s ? fmt::format("{:.1f} us", *time_s * 1e6) : std::string("never");
 }
 
-std::string step_lines(const scene::Scene& scene, const loop::RunResult& result) {
+std::string step_lines(const loop::RunResult& result, const RunFindings& findings) {
   std::string text = fmt::format("{:>11} {:>7} {:>11} {:>10} {:>8} {:>10}  {}\n", "from", "target",
                                  "settles in", "error", "ripple", "drive", "limit");
-  for (const analysis::StepMetrics& step : analysis::step_metrics(scene, result)) {
+  for (const analysis::StepMetrics& step : findings.steps()) {
     text +=
         fmt::format("{:>8.3f} ms {:>7.3f} {:>11} {:>+10.5f} {:>8.5f} {:>8.1f} N  {}\n",
                     step.time_s * 1e3, step.target, settling(step.settling_time_s),
@@ -43,11 +43,11 @@ std::string ratio_line(const scene::Scene& scene, const loop::RunResult& result)
 }  // namespace
 
 std::string run_text(const scene::Scene& scene, const loop::RunResult& result,
-                     const std::filesystem::path& out) {
-  const std::string findings =
-      scene.controller ? step_lines(scene, result) : ratio_line(scene, result);
+                     const RunFindings& findings, const std::filesystem::path& out) {
+  const std::string lines =
+      scene.controller ? step_lines(result, findings) : ratio_line(scene, result);
   return fmt::format("{}{:.6g} ms simulated in {:.3g} ms, {:.3g} times real time\nreport: {}\n",
-                     findings, result.final_time_s * 1e3, result.wall_s * 1e3,
+                     lines, result.final_time_s * 1e3, result.wall_s * 1e3,
                      result.final_time_s / result.wall_s, (out / "report.html").string());
 }
 

@@ -4,7 +4,6 @@
 
 #include <fmt/format.h>
 
-#include "host_sim/analysis/step_metrics.hpp"
 #include "host_sim/report/control_names.hpp"
 #include "host_sim/scene/names.hpp"
 #include "host_sim/scene/plant_scales.hpp"
@@ -55,11 +54,12 @@ ordered_json signal(const numeric::SignalRecord& record) {
           {"saturations", record.saturations}};
 }
 
-ordered_json control(const scene::Scene& scene, const loop::RunResult& result) {
+ordered_json control(const scene::Scene& scene, const loop::RunResult& result,
+                     const RunFindings& findings) {
   const loop::ControlRecord& record = *result.control;
   const scene::ControlDesign& design = record.design;
   ordered_json steps = ordered_json::array();
-  for (const analysis::StepMetrics& metrics : analysis::step_metrics(scene, result)) {
+  for (const analysis::StepMetrics& metrics : findings.steps()) {
     steps.push_back(step(metrics));
   }
   ordered_json faults = ordered_json::array();
@@ -78,7 +78,7 @@ ordered_json control(const scene::Scene& scene, const loop::RunResult& result) {
                                                         static_cast<double>(record.commands)},
       {"faults", faults},
       {"steps", steps},
-      {"largest_tracking_error", number(analysis::largest_tracking_error(scene, result))},
+      {"largest_tracking_error", number(findings.largest_tracking_error())},
       {"speed_floor_m_per_s", design.speed_floor * design.scales.velocity_m_per_s},
       {"integral_gain", design.integral_gain},
       {"signals", signals}};
@@ -86,7 +86,8 @@ ordered_json control(const scene::Scene& scene, const loop::RunResult& result) {
 
 }  // namespace
 
-ordered_json summary(const scene::Scene& scene, const loop::RunResult& result) {
+ordered_json summary(const scene::Scene& scene, const loop::RunResult& result,
+                     const RunFindings& findings) {
   const loop::PowerRatios window = loop::power_ratios(scene, result.window);
   ordered_json json;
   json["scene"] = scene::to_json(scene);
@@ -106,7 +107,7 @@ ordered_json summary(const scene::Scene& scene, const loop::RunResult& result) {
       {"window", number(window.friction_ratio)}};
   json["power"] = power(window);
   if (result.control) {
-    json["control"] = control(scene, result);
+    json["control"] = control(scene, result, findings);
   }
   return json;
 }

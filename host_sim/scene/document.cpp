@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <utility>
 
-#include "host_sim/scene/override.hpp"
 #include "host_sim/scene/schema.hpp"
 #include "host_sim/scene/toml_text.hpp"
 
@@ -30,6 +30,12 @@ std::vector<Item> in_file_order(const toml::table& table) {
   return items;
 }
 
+/// The number of its keys if the table has none of this name.
+std::size_t position_of(const TableSchema& table, std::string_view key) {
+  return static_cast<std::size_t>(std::find(table.keys.begin(), table.keys.end(), key) -
+                                  table.keys.begin());
+}
+
 }  // namespace
 
 Location Entry::place_of(const toml::node& element) const {
@@ -37,8 +43,9 @@ Location Entry::place_of(const toml::node& element) const {
 }
 
 Document::Document(std::string_view text, const std::string& file,
-                   const std::vector<std::string>& overrides)
-    : file_(file) {
+                   const std::vector<std::string>& overrides,
+                   const std::vector<std::string>& varied)
+    : file_(file), name_(std::filesystem::path(file).stem().string()) {
   if (text.size() > max_bytes) {
     throw SceneError(start(), "scene",
                      fmt::format("larger than {0} bytes; allowed: at most {0} bytes", max_bytes));
@@ -47,6 +54,9 @@ Document::Document(std::string_view text, const std::string& file,
   collect();
   for (std::size_t i = 0; i < overrides.size(); ++i) {
     apply_override(overrides[i], i + 1);
+  }
+  for (std::size_t i = 0; i < varied.size(); ++i) {
+    vary(varied[i], overrides.size() + i + 1, i);
   }
 }
 
@@ -73,16 +83,17 @@ void Document::collect() {
 
 void Document::collect_table(const std::string& name, const Location& place,
                              const toml::table& table) {
-  const std::vector<std::string_view>& known = find_table(name)->keys;
+  const TableSchema& schema = *find_table(name);
   Table collected{name, place, {}};
   for (const auto& [key, value] : in_file_order(table)) {
     const Location key_place = located(file_, key->source());
-    if (std::find(known.begin(), known.end(), key->str()) == known.end()) {
+    const std::size_t position = position_of(schema, key->str());
+    if (position == schema.keys.size()) {
       throw SceneError(key_place, fmt::format("{}.{}", name, key->str()),
-                       unknown_key(*find_table(name), key->str()));
+                       unknown_key(schema, key->str()));
     }
     collected.entries[std::string(key->str())] = {value, key_place, located(file_, value->source()),
-                                                  false};
+                                                  false, position};
   }
   tables_[name] = std::move(collected);
 }
@@ -90,10 +101,21 @@ void Document::collect_table(const std::string& name, const Location& place,
 void Document::apply_override(const std::string& text, std::size_t ordinal) {
   Override override = parse_override(text, ordinal);
   override_values_.push_back(std::move(override.holder));
-  const toml::node* value = override_values_.back().get("value");
-  const auto table =
-      tables_.try_emplace(override.table, Table{override.table, override.place, {}}).first;
-  table->second.entries[override.key] = {value, override.place, override.place, true};
+  overridden_entry(override.target).value = override_values_.back().get("value");
+}
+
+void Document::vary(const std::string& path, std::size_t ordinal, std::size_t index) {
+  overridden_entry(parse_overridden_key(path, ordinal)).varied = index;
+}
+
+/// The entry, without a value yet.
+Entry& Document::overridden_entry(const OverriddenKey& target) {
+  Table& table =
+      tables_.try_emplace(target.table, Table{target.table, target.place, {}}).first->second;
+  Entry& entry = table.entries[target.key];
+  entry = {nullptr, target.place, target.place, true,
+           position_of(*find_table(target.table), target.key)};
+  return entry;
 }
 
 }  // namespace sonoglide::scene

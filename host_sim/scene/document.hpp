@@ -11,16 +11,19 @@
 #include <string_view>
 #include <vector>
 
+#include "host_sim/scene/override.hpp"
 #include "host_sim/scene/scene_error.hpp"
 
 namespace sonoglide::scene {
 
 /// One value. An overridden one has a single place, its `--set` option.
 struct Entry {
-  const toml::node* value = nullptr;
+  const toml::node* value = nullptr;  ///< null for a varied key
   Location key_place;
   Location value_place;
   bool overridden = false;
+  std::size_t position = 0;  ///< of the key among those that its table may hold
+  std::size_t varied = 0;    ///< which of the varied keys, where it is one
 
   /// Where an element of this value stands.
   Location place_of(const toml::node& element) const;
@@ -32,7 +35,7 @@ struct Table {
   std::map<std::string, Entry, std::less<>> entries;
 };
 
-/// Values live as long as the document.
+/// Values live as long as the document. It does not change: any number of threads may read it.
 class Document {
  public:
   /// Text larger than this is no scene; the bound keeps a wrong file from filling the memory.
@@ -41,16 +44,21 @@ class Document {
   /// @param text       TOML
   /// @param file       the name that errors show
   /// @param overrides  `TABLE.KEY=VALUE` each, in the order given; a later one wins
+  /// @param varied     `TABLE.KEY` each: keys whose numbers come with every reading. They count as
+  ///                   overrides after the others, in errors too
   /// @throws SceneError  not TOML, too large, too deeply nested, a name that no scene has, an
-  ///                     override that is not of that form
+  ///                     override or a varied key that is not of that form
   Document(std::string_view text, const std::string& file,
-           const std::vector<std::string>& overrides);
+           const std::vector<std::string>& overrides, const std::vector<std::string>& varied = {});
 
   Document(const Document&) = delete;
   Document& operator=(const Document&) = delete;
 
   /// The table of this name; null where the scene has none.
   const Table* find(std::string_view name) const;
+
+  /// The file without folder and ending.
+  const std::string& name() const { return name_; }
 
   /// The beginning of the file: the place of what is missing as a whole.
   Location start() const { return {file_, 1, 1}; }
@@ -59,8 +67,11 @@ class Document {
   void collect();
   void collect_table(const std::string& name, const Location& place, const toml::table& table);
   void apply_override(const std::string& text, std::size_t ordinal);
+  void vary(const std::string& path, std::size_t ordinal, std::size_t index);
+  Entry& overridden_entry(const OverriddenKey& target);
 
   std::string file_;
+  std::string name_;
   toml::table root_;
   std::deque<toml::table> override_values_;  ///< never moved once in
   std::map<std::string, Table, std::less<>> tables_;

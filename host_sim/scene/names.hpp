@@ -26,9 +26,11 @@ inline constexpr std::array<Named<SignConvention>, 2> sign_conventions = {{
     {"as_printed", SignConvention::as_printed},
 }};
 
-inline constexpr std::array<Named<SolverMethod>, 2> solver_methods = {{
+inline constexpr std::array<Named<SolverMethod>, 4> solver_methods = {{
     {"event_taylor", SolverMethod::event_taylor},
+    {"strang", SolverMethod::strang},
     {"rk4", SolverMethod::rk4},
+    {"rk4_event", SolverMethod::rk4_event},
 }};
 
 inline constexpr std::array<Named<Channel>, 5> channels = {{

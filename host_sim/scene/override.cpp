@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <string_view>
+#include <utility>
 
 #include "host_sim/scene/schema.hpp"
 #include "host_sim/scene/toml_text.hpp"
@@ -41,54 +42,58 @@ toml::table parse_value(const std::string& value, const std::string& key, const 
   return holder;
 }
 
-void check_names(const Override& override, const std::string& path) {
-  const TableSchema* table = find_table(override.table);
+void check_names(const OverriddenKey& target, const std::string& path) {
+  const TableSchema* table = find_table(target.table);
   if (table == nullptr) {
-    throw SceneError(override.place, path, unknown_table(override.table));
+    throw SceneError(target.place, path, unknown_table(target.table));
   }
-  if (std::find(table->keys.begin(), table->keys.end(), override.key) == table->keys.end()) {
-    throw SceneError(override.place, path, unknown_key(*table, override.key));
+  if (std::find(table->keys.begin(), table->keys.end(), target.key) == table->keys.end()) {
+    throw SceneError(target.place, path, unknown_key(*table, target.key));
   }
 }
 
 /// Fills in table and key.
-void split_path(Override& override, const std::string& path) {
+void split_path(OverriddenKey& target, const std::string& path) {
   if (path.find('[') != std::string::npos || std::count(path.begin(), path.end(), '.') > 1) {
-    throw SceneError(override.place, path,
-                     fmt::format("a part of a value cannot be set; {}", form));
+    throw SceneError(target.place, path, fmt::format("a part of a value cannot be set; {}", form));
   }
   const std::size_t dot = path.find('.');
-  override.table = path.substr(0, dot);
+  target.table = path.substr(0, dot);
   if (dot == std::string::npos) {
-    throw SceneError(override.place, path,
+    throw SceneError(target.place, path,
                      find_table(path) != nullptr
                          ? fmt::format("a whole table cannot be set; {}", form)
                          : unknown_table(path));
   }
-  override.key = path.substr(dot + 1);
+  target.key = path.substr(dot + 1);
 }
 
 }  // namespace
 
+OverriddenKey parse_overridden_key(const std::string& path, std::size_t ordinal) {
+  OverriddenKey target;
+  target.place = {"--set", ordinal, 1};
+  if (path.empty()) {
+    throw SceneError(target.place, "--set", fmt::format("no key; {}", form));
+  }
+  split_path(target, path);
+  check_names(target, path);
+  return target;
+}
+
 Override parse_override(const std::string& text, std::size_t ordinal) {
-  Override override;
-  override.place = {"--set", ordinal, 1};
   const std::size_t equals = text.find('=');
   const std::string path = text.substr(0, equals);
-  if (path.empty()) {
-    throw SceneError(override.place, "--set", fmt::format("no key; {}", form));
+  if (equals == std::string::npos && !path.empty()) {
+    throw SceneError({"--set", ordinal, 1}, path, fmt::format("no value; {}", form));
   }
-  if (equals == std::string::npos) {
-    throw SceneError(override.place, path, fmt::format("no value; {}", form));
-  }
-  split_path(override, path);
-  check_names(override, path);
+  OverriddenKey target = parse_overridden_key(path, ordinal);
   const std::string value = text.substr(equals + 1);
   if (value.empty()) {
-    throw SceneError(override.place, path, fmt::format("no value; {}", form));
+    throw SceneError(target.place, path, fmt::format("no value; {}", form));
   }
-  override.holder = parse_value(value, path, override.place);
-  return override;
+  toml::table holder = parse_value(value, path, target.place);
+  return {std::move(target), std::move(holder)};
 }
 
 }  // namespace sonoglide::scene

@@ -18,8 +18,9 @@ double own_rate_rad_per_s(const Scene& scene) {
   return rate > 0.0 ? rate : two_pi / scene.run.duration_s;
 }
 
-/// Size of the motion to come: the largest that the drive, the sliding, the friction or the initial
-/// state can cause away from resonance.
+/// Size of the motion to come: the largest that the drive, the friction or the initial state can
+/// cause away from resonance. Sliding alone moves nothing; its speed serves where nothing else
+/// does.
 double motion_m(const Scene& scene, double omega) {
   const Plant& plant = scene.plant;
   const double resistance_N_per_m =
@@ -28,11 +29,14 @@ double motion_m(const Scene& scene, double omega) {
       scene.drive ? std::max(scene.drive->force_amplitude_N, scene.drive->max_force_amplitude_N)
                   : 0.0;
   const double force_N = std::max(drive_N, friction_limit_N(scene.friction));
-  const double speed_m_per_s =
-      std::max(fastest_sliding_m_per_s(scene.sliding), std::abs(plant.initial_velocity_m_per_s));
-  const double motion = std::max({force_N / resistance_N_per_m, speed_m_per_s / omega,
-                                  std::abs(plant.initial_displacement_m)});
-  return motion > 0.0 ? motion : 1.0;  // nothing moves: any length will do
+  const double motion =
+      std::max({force_N / resistance_N_per_m, std::abs(plant.initial_velocity_m_per_s) / omega,
+                std::abs(plant.initial_displacement_m)});
+  const double sliding_m_per_s = fastest_sliding_m_per_s(scene.sliding);
+  if (motion > 0.0) {
+    return motion;
+  }
+  return sliding_m_per_s > 0.0 ? sliding_m_per_s / omega : 1.0;  // nothing moves: any will do
 }
 
 }  // namespace

@@ -8,8 +8,10 @@
 
 #include "host_sim/scene/configuration_error.hpp"
 #include "host_sim/scene/control_design.hpp"
-#include "host_sim/scene/document.hpp"
+#include "host_sim/scene/names.hpp"
 #include "host_sim/scene/sections.hpp"
+#include "host_sim/scene/solver_laws.hpp"
+#include "host_sim/scene/variant.hpp"
 
 namespace sonoglide::scene {
 namespace {
@@ -50,6 +52,24 @@ Location place_of(const Document& document, const std::string& dotted_key) {
   return entry == table->entries.end() ? table->place : entry->second.value_place;
 }
 
+void require_solvable(const Scene& scene, const Document& document) {
+  const SolverMethod method = scene.solver.method;
+  if (solves(method, scene.friction.law)) {
+    return;
+  }
+  std::string allowed;
+  for (const Named<SolverMethod>& each : solver_methods) {
+    if (solves(each.value, scene.friction.law)) {
+      allowed += fmt::format("{}\"{}\"", allowed.empty() ? "" : ", ", each.name);
+    }
+  }
+  const char* key = "solver.method";
+  throw SceneError(place_of(document, key), key,
+                   fmt::format("\"{}\" does not solve the friction law \"{}\"; allowed: {}",
+                               name_of(solver_methods, method),
+                               name_of(friction_laws, scene.friction.law), allowed));
+}
+
 /// A closed loop needs a controller that can be designed.
 void require_controller(const Scene& scene, const Document& document) {
   try {
@@ -61,24 +81,29 @@ void require_controller(const Scene& scene, const Document& document) {
 
 }  // namespace
 
-Scene read_text(std::string_view text, const std::string& file,
-                const std::vector<std::string>& overrides) {
-  const Document document(text, file, overrides);
+Scene read(const Document& document, const std::vector<double>& numbers) {
+  const Variant variant(document, numbers);
   Scene scene;
-  scene.name = std::filesystem::path(file).stem().string();
-  scene.plant = read_plant(document);
-  scene.friction = read_friction(document, scene.plant);
-  scene.sliding = read_sliding(document);
-  scene.drive = read_drive(document);
-  scene.solver = read_solver(document);
-  scene.run = read_run(document, scene);
-  scene.controller = read_controller(document, scene);
-  scene.sensor = read_sensor(document, scene.friction);
-  scene.model_error = read_model_error(document, scene.friction);
+  scene.name = document.name();
+  scene.plant = read_plant(variant);
+  scene.friction = read_friction(variant, scene.plant);
+  scene.sliding = read_sliding(variant);
+  scene.drive = read_drive(variant);
+  scene.solver = read_solver(variant);
+  require_solvable(scene, document);
+  scene.run = read_run(variant, scene);
+  scene.controller = read_controller(variant, scene);
+  scene.sensor = read_sensor(variant, scene.friction);
+  scene.model_error = read_model_error(variant, scene.friction);
   if (scene.controller) {
     require_controller(scene, document);
   }
   return scene;
+}
+
+Scene read_text(std::string_view text, const std::string& file,
+                const std::vector<std::string>& overrides) {
+  return read(Document(text, file, overrides));
 }
 
 Scene read_file(const std::filesystem::path& path, const std::vector<std::string>& overrides) {

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "host_sim/scene/document.hpp"
 #include "host_sim/scene/scene.hpp"
 #include "host_sim/scene/scene_error.hpp"
 
@@ -26,5 +27,13 @@ Scene read_file(const std::filesystem::path& path, const std::vector<std::string
 /// @param file  what errors show as the file; the scene's name is this without folder and ending
 Scene read_text(std::string_view text, const std::string& file,
                 const std::vector<std::string>& overrides = {});
+
+/// The scene of a parsed document, with all checks of values, for the same errors as by text: a
+/// number stands where `--set KEY=NUMBER` would, after the document's own overrides. Open loop
+/// takes about a microsecond. Safe to call from several threads.
+///
+/// @param numbers  of the document's varied keys, in their order, not fewer
+/// @throws SceneError
+Scene read(const Document& document, const std::vector<double>& numbers = {});
 
 }  // namespace sonoglide::scene

@@ -10,10 +10,10 @@
 namespace sonoglide::scene {
 namespace {
 
-/// The result keeps a few dozen bytes of each.
-constexpr double most_periods = 1e7;
+// Hours of a carrier, and days of writing: more is a mistyped unit.
+constexpr double most_periods = 1e10;
 constexpr double most_fixed_steps = 1e11;
-constexpr double most_recorded_rows = 1e7;
+constexpr double most_recorded_rows = 1e9;
 constexpr Range interval_range{1e-15, 1e9, "s"};
 constexpr double pi = 3.141592653589793238462643383279502884;
 
@@ -42,7 +42,7 @@ void check_work(const TableCursor& cursor, std::string_view key, const Run& run,
                                  run.duration_s, periods,
                                  drive_Hz >= natural_Hz ? "drive" : "natural mode", most_periods));
   }
-  if (so_far.solver.method != SolverMethod::rk4) {
+  if (is_adaptive(so_far.solver.method)) {
     return;
   }
   const double steps = run.duration_s / so_far.solver.step_s;
@@ -100,12 +100,12 @@ void read_record(TableCursor& cursor, Run& run) {
 
 }  // namespace
 
-Run read_run(const Document& document, const Scene& so_far) {
-  TableCursor cursor(document, "run");
+Run read_run(const Variant& variant, const Scene& so_far) {
+  TableCursor cursor(variant, "run");
   if (!cursor.present()) {
     cursor.fail("missing; required: a table [run]");
   }
-  const bool closed = document.find("controller") != nullptr;
+  const bool closed = variant.find("controller") != nullptr;
   Run run;
   const std::string_view key = cursor.one_of("duration_s", "duration_periods");
   run.duration_s = time_under(cursor, key, so_far.drive, 1e-12, 1e-3);

@@ -1,6 +1,7 @@
 /// A validated scene: plain values in SI units, the unit in the name, every default filled in.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -52,12 +53,21 @@ struct Drive {
   Waveform waveform = Waveform::cosine;
 };
 
-enum class SolverMethod { event_taylor, rk4 };
+enum class SolverMethod { event_taylor, strang, rk4, rk4_event };
+
+/// Whether a method picks its own steps by a tolerance; the others take steps of a fixed length.
+constexpr bool is_adaptive(SolverMethod method) {
+  return method == SolverMethod::event_taylor;
+}
+
+/// The orders of event_taylor that are built.
+inline constexpr std::array<int, 3> taylor_orders = {8, 12, 16};
 
 struct Solver {
   SolverMethod method = SolverMethod::event_taylor;
-  double tolerance = 1e-10;  ///< event_taylor
-  double step_s = 0.0;       ///< rk4; shortened so that a whole number fits a carrier period
+  double tolerance = 1e-10;  ///< adaptive methods
+  std::optional<int> order;  ///< event_taylor: absent, the one that suits the tolerance
+  double step_s = 0.0;  ///< fixed steps; shortened so that a whole number fits a carrier period
 };
 
 enum class Channel { displacement, velocity, friction_force, drive_force, sliding_velocity };

@@ -42,7 +42,7 @@ const std::vector<TableSchema>& schema() {
       {"drive",
        {"frequency_Hz", "force_amplitude_N", "waveform", "max_force_amplitude_N",
         "max_force_slew_N_per_s"}},
-      {"solver", {"method", "tolerance", "step_s"}},
+      {"solver", {"method", "tolerance", "order", "step_s"}},
       {"run",
        {"duration_s", "duration_periods", "window_start_s", "window_start_periods", "settling_band",
         "record", "record_interval_s"}},

@@ -1,11 +1,15 @@
 /// The tables and keys that a scene may hold.
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace sonoglide::scene {
+
+/// A table has fewer keys than this.
+inline constexpr std::size_t most_keys = 16;
 
 struct TableSchema {
   std::string_view name;

@@ -1,7 +1,9 @@
 #include "host_sim/scene/sections.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -21,17 +23,13 @@ constexpr std::string_view in_open_loop = "in open loop, without a [controller] 
 constexpr Range time_range{0.0, largest_time_s, "s"};
 constexpr Range speed_range{-largest_speed_m_per_s, largest_speed_m_per_s, "m/s"};
 
-bool closed_loop(const Document& document) {
-  return document.find("controller") != nullptr;
-}
-
-std::string with_law(const Friction& friction) {
-  return fmt::format("with friction.law = \"{}\"", name_of(friction_laws, friction.law));
+bool closed_loop(const Variant& variant) {
+  return variant.find("controller") != nullptr;
 }
 
 /// A cursor on a table that every scene has.
-TableCursor required_table(const Document& document, std::string_view name) {
-  TableCursor cursor(document, name);
+TableCursor required_table(const Variant& variant, std::string_view name) {
+  TableCursor cursor(variant, name);
   if (!cursor.present()) {
     cursor.fail(fmt::format("missing; required: a table [{}]", name));
   }
@@ -39,9 +37,9 @@ TableCursor required_table(const Document& document, std::string_view name) {
 }
 
 /// A cursor on a table that only closed loop uses.
-TableCursor closed_loop_table(const Document& document, std::string_view name) {
-  TableCursor cursor(document, name);
-  if (cursor.present() && !closed_loop(document)) {
+TableCursor closed_loop_table(const Variant& variant, std::string_view name) {
+  TableCursor cursor(variant, name);
+  if (cursor.present() && !closed_loop(variant)) {
     cursor.fail(fmt::format("not used {}; remove it", in_open_loop));
   }
   return cursor;
@@ -49,8 +47,8 @@ TableCursor closed_loop_table(const Document& document, std::string_view name) {
 
 }  // namespace
 
-Plant read_plant(const Document& document) {
-  TableCursor cursor = required_table(document, "plant");
+Plant read_plant(const Variant& variant) {
+  TableCursor cursor = required_table(variant, "plant");
   Plant plant;
   plant.mass_kg = cursor.real("mass_kg", {1e-12, 1e6, "kg"});
   plant.stiffness_N_per_m = cursor.real("stiffness_N_per_m", {0.0, 1e18, "N/m"});
@@ -60,8 +58,8 @@ Plant read_plant(const Document& document) {
   return plant;
 }
 
-Friction read_friction(const Document& document, const Plant& plant) {
-  TableCursor cursor = required_table(document, "friction");
+Friction read_friction(const Variant& variant, const Plant& plant) {
+  TableCursor cursor = required_table(variant, "friction");
   Friction friction;
   friction.law = cursor.choice("law", friction_laws);
   if (friction.law != FrictionLaw::none) {
@@ -77,12 +75,12 @@ Friction read_friction(const Document& document, const Plant& plant) {
     const double limit_N = friction_limit_N(friction);
     friction.initial_force_N = cursor.real("initial_force_N", {-limit_N, limit_N, "N"}, 0.0);
   }
-  cursor.reject_unread(with_law(friction));
+  cursor.reject_unread_with("friction.law", name_of(friction_laws, friction.law));
   return friction;
 }
 
-Sliding read_sliding(const Document& document) {
-  TableCursor cursor = required_table(document, "sliding");
+Sliding read_sliding(const Variant& variant) {
+  TableCursor cursor = required_table(variant, "sliding");
   Sliding sliding;
   if (cursor.one_of("velocity_m_per_s", "profile") == "velocity_m_per_s") {
     sliding.profile.push_back({0.0, cursor.real("velocity_m_per_s", speed_range)});
@@ -95,9 +93,9 @@ Sliding read_sliding(const Document& document) {
   return sliding;
 }
 
-std::optional<Drive> read_drive(const Document& document) {
-  TableCursor cursor(document, "drive");
-  const bool closed = closed_loop(document);
+std::optional<Drive> read_drive(const Variant& variant) {
+  TableCursor cursor(variant, "drive");
+  const bool closed = closed_loop(variant);
   if (!cursor.present()) {
     if (closed) {
       cursor.fail("missing; required: a table [drive] for the [controller] to act by");
@@ -119,22 +117,34 @@ std::optional<Drive> read_drive(const Document& document) {
   return drive;
 }
 
-Solver read_solver(const Document& document) {
-  TableCursor cursor(document, "solver");
+std::optional<int> read_order(TableCursor& cursor) {
+  const std::optional<std::int64_t> order = cursor.optional_integer("order", 1, 99);
+  if (!order) {
+    return std::nullopt;
+  }
+  if (std::find(taylor_orders.begin(), taylor_orders.end(), *order) == taylor_orders.end()) {
+    cursor.fail("order", fmt::format("{} is not built; allowed: {}", *order,
+                                     fmt::join(taylor_orders, ", ")));
+  }
+  return static_cast<int>(*order);
+}
+
+Solver read_solver(const Variant& variant) {
+  TableCursor cursor(variant, "solver");
   Solver solver;
   solver.method = cursor.choice("method", solver_methods, SolverMethod::event_taylor);
-  if (solver.method == SolverMethod::rk4) {
-    solver.step_s = cursor.real("step_s", {1e-15, 1.0, "s"});
-  } else {
+  if (is_adaptive(solver.method)) {
     solver.tolerance = cursor.real("tolerance", {1e-15, 1e-2}, solver.tolerance);
+    solver.order = read_order(cursor);
+  } else {
+    solver.step_s = cursor.real("step_s", {1e-15, 1.0, "s"});
   }
-  cursor.reject_unread(
-      fmt::format("with solver.method = \"{}\"", name_of(solver_methods, solver.method)));
+  cursor.reject_unread_with("solver.method", name_of(solver_methods, solver.method));
   return solver;
 }
 
-std::optional<Controller> read_controller(const Document& document, const Scene& so_far) {
-  TableCursor cursor(document, "controller");
+std::optional<Controller> read_controller(const Variant& variant, const Scene& so_far) {
+  TableCursor cursor(variant, "controller");
   if (!cursor.present()) {
     return std::nullopt;
   }
@@ -166,8 +176,8 @@ std::optional<Controller> read_controller(const Document& document, const Scene&
   return controller;
 }
 
-Sensor read_sensor(const Document& document, const Friction& friction) {
-  TableCursor cursor = closed_loop_table(document, "sensor");
+Sensor read_sensor(const Variant& variant, const Friction& friction) {
+  TableCursor cursor = closed_loop_table(variant, "sensor");
   Sensor sensor;
   if (const auto bits = cursor.optional_integer("adc_bits", 4, 32)) {
     sensor.adc_bits = static_cast<int>(*bits);
@@ -182,8 +192,8 @@ Sensor read_sensor(const Document& document, const Friction& friction) {
   return sensor;
 }
 
-ModelError read_model_error(const Document& document, const Friction& friction) {
-  TableCursor cursor = closed_loop_table(document, "model_error");
+ModelError read_model_error(const Variant& variant, const Friction& friction) {
+  TableCursor cursor = closed_loop_table(variant, "model_error");
   const Range quotient{0.01, 100.0};
   ModelError model_error;
   model_error.mass = cursor.real("mass", quotient, 1.0);
@@ -192,7 +202,7 @@ ModelError read_model_error(const Document& document, const Friction& friction) 
   if (friction.law == FrictionLaw::dahl) {
     model_error.contact_stiffness = cursor.real("contact_stiffness", quotient, 1.0);
   }
-  cursor.reject_unread(with_law(friction));
+  cursor.reject_unread_with("friction.law", name_of(friction_laws, friction.law));
   return model_error;
 }
 

@@ -28,6 +28,12 @@ std::string quoted(const std::string& text) {
                                 : fmt::format("\"{}\"…", text.substr(0, longest));
 }
 
+/// An integer too large for every bit of it to fit is rounded.
+double number_in(const toml::node& node) {
+  const toml::value<std::int64_t>* whole = node.as_integer();
+  return whole != nullptr ? static_cast<double>(whole->get()) : node.as_floating_point()->get();
+}
+
 /// Overrides follow the file.
 bool earlier(const Entry& a, const Entry& b) {
   return std::tuple(a.overridden, a.key_place.line, a.key_place.column) <
@@ -36,8 +42,8 @@ bool earlier(const Entry& a, const Entry& b) {
 
 }  // namespace
 
-TableCursor::TableCursor(const Document& document, std::string_view name)
-    : name_(name), table_(document.find(name)), start_(document.start()) {}
+TableCursor::TableCursor(const Variant& variant, std::string_view name)
+    : variant_(variant), name_(name), table_(variant.find(name)) {}
 
 const Entry* TableCursor::find(std::string_view key) const {
   if (table_ == nullptr) {
@@ -48,74 +54,96 @@ const Entry* TableCursor::find(std::string_view key) const {
 }
 
 const Entry* TableCursor::take(std::string_view key) {
-  read_.emplace(key);
-  return find(key);
-}
-
-const Entry& TableCursor::require(std::string_view key, const std::string& allowed) {
-  const Entry* entry = take(key);
-  if (entry == nullptr) {
-    fail(key, fmt::format("missing; required: {}", allowed));
+  const Entry* entry = find(key);
+  if (entry != nullptr) {
+    read_.set(entry->position);
   }
-  return *entry;
+  return entry;
 }
 
-std::string TableCursor::path_of(std::string_view key) const {
-  return fmt::format("{}.{}", name_, key);
+std::string TableCursor::path_of(const Part& part) const {
+  std::string path = fmt::format("{}.{}", name_, part.key);
+  for (const std::optional<std::size_t>& index : {part.element, part.member}) {
+    path += index ? fmt::format("[{}]", *index) : "";
+  }
+  return path;
+}
+
+Location TableCursor::place() const {
+  return table_ != nullptr ? table_->place : variant_.document().start();
 }
 
 Location TableCursor::place_of(std::string_view key) const {
-  if (const Entry* entry = find(key)) {
-    return entry->value_place;
-  }
-  return table_ != nullptr ? table_->place : start_;
+  const Entry* entry = find(key);
+  return entry != nullptr ? entry->value_place : place();
 }
 
 void TableCursor::fail(std::string_view key, const std::string& message) const {
-  throw SceneError(place_of(key), path_of(key), message);
+  throw SceneError(place_of(key), path_of({key}), message);
 }
 
 void TableCursor::fail(const std::string& message) const {
-  throw SceneError(table_ != nullptr ? table_->place : start_, name_, message);
+  throw SceneError(place(), std::string(name_), message);
 }
 
-void TableCursor::reject_unread(std::string_view reason) const {
-  if (table_ == nullptr) {
-    return;
-  }
+void TableCursor::fail_missing(std::string_view key, const std::string& allowed) const {
+  fail(key, fmt::format("missing; required: {}", allowed));
+}
+
+void TableCursor::fail_part(const Entry& entry, const toml::node& node, const Part& part,
+                            const std::string& message) const {
+  throw SceneError(entry.place_of(node), path_of(part), message);
+}
+
+const std::pair<const std::string, Entry>* TableCursor::first_unread() const {
   const std::pair<const std::string, Entry>* first = nullptr;
+  if (table_ == nullptr) {
+    return first;
+  }
   for (const auto& item : table_->entries) {
-    if (read_.count(item.first) == 0 && (first == nullptr || earlier(item.second, first->second))) {
+    if (!read_[item.second.position] && (first == nullptr || earlier(item.second, first->second))) {
       first = &item;
     }
   }
-  if (first != nullptr) {
-    throw SceneError(first->second.key_place, path_of(first->first),
+  return first;
+}
+
+void TableCursor::reject_unread(std::string_view reason) const {
+  if (const auto* unread = first_unread()) {
+    throw SceneError(unread->second.key_place, path_of({unread->first}),
                      fmt::format("not used {}; remove it", reason));
   }
 }
 
-double TableCursor::real_in(const Entry& entry, const toml::node& node, const std::string& path,
+void TableCursor::reject_unread_with(std::string_view key, std::string_view word) const {
+  if (first_unread() != nullptr) {
+    reject_unread(fmt::format("with {} = \"{}\"", key, word));
+  }
+}
+
+double TableCursor::real_in(const Entry& entry, const toml::node& node, const Part& part,
                             const Range& range) const {
   if (!node.is_number()) {
-    throw SceneError(entry.place_of(node), path,
-                     fmt::format("is {}; allowed: {}", kind_of(node), allowed_number(range)));
+    fail_part(entry, node, part,
+              fmt::format("is {}; allowed: {}", kind_of(node), allowed_number(range)));
   }
-  const double value = *node.value<double>();
+  const double value = number_in(node);
   if (!std::isfinite(value)) {
-    throw SceneError(entry.place_of(node), path,
-                     fmt::format("is not finite; allowed: {}", allowed_number(range)));
+    fail_part(entry, node, part, fmt::format("is not finite; allowed: {}", allowed_number(range)));
   }
   if (!range.contains(value)) {
-    throw SceneError(entry.place_of(node), path,
-                     fmt::format("{} is out of range; allowed: {}", value, range.text()));
+    fail_part(entry, node, part,
+              fmt::format("{} is out of range; allowed: {}", value, range.text()));
   }
   return value;
 }
 
 double TableCursor::real(std::string_view key, const Range& range) {
-  const Entry& entry = require(key, allowed_number(range));
-  return real_in(entry, *entry.value, path_of(key), range);
+  const std::optional<double> value = optional_real(key, range);
+  if (!value) {
+    fail_missing(key, allowed_number(range));
+  }
+  return *value;
 }
 
 std::optional<double> TableCursor::optional_real(std::string_view key, const Range& range) {
@@ -123,7 +151,7 @@ std::optional<double> TableCursor::optional_real(std::string_view key, const Ran
   if (entry == nullptr) {
     return std::nullopt;
   }
-  return real_in(*entry, *entry->value, path_of(key), range);
+  return real_in(*entry, variant_.value(*entry), {key}, range);
 }
 
 double TableCursor::real(std::string_view key, const Range& range, double absent) {
@@ -136,10 +164,10 @@ std::optional<std::int64_t> TableCursor::optional_integer(std::string_view key, 
   if (entry == nullptr) {
     return std::nullopt;
   }
-  const toml::value<std::int64_t>* value = entry->value->as_integer();
+  const toml::node& node = variant_.value(*entry);
+  const toml::value<std::int64_t>* value = node.as_integer();
   if (value == nullptr) {
-    fail(key,
-         fmt::format("is {}; allowed: {}", kind_of(*entry->value), allowed_integer(low, high)));
+    fail(key, fmt::format("is {}; allowed: {}", kind_of(node), allowed_integer(low, high)));
   }
   if (value->get() < low || value->get() > high) {
     fail(key, fmt::format("{} is out of range; allowed: {} to {}", value->get(), low, high));
@@ -152,90 +180,94 @@ std::int64_t TableCursor::integer(std::string_view key, std::int64_t low, std::i
   return optional_integer(key, low, high).value_or(absent);
 }
 
-std::size_t TableCursor::word_in(const Entry& entry, const toml::node& node,
-                                 const std::string& path,
-                                 const std::vector<std::string_view>& allowed) const {
-  const std::string list = fmt::format("\"{}\"", fmt::join(allowed, "\", \""));
+std::size_t TableCursor::word_in(const Entry& entry, const toml::node& node, const Part& part,
+                                 const Words& allowed) const {
   const toml::value<std::string>* text = node.as_string();
+  if (text != nullptr) {
+    const auto* found = std::find(allowed.begin(), allowed.end(), text->get());
+    if (found != allowed.end()) {
+      return static_cast<std::size_t>(found - allowed.begin());
+    }
+  }
+  const std::string list =
+      fmt::format("\"{}\"", fmt::join(allowed.begin(), allowed.end(), "\", \""));
   if (text == nullptr) {
-    throw SceneError(entry.place_of(node), path,
-                     fmt::format("is {}; allowed: {}", kind_of(node), list));
+    fail_part(entry, node, part, fmt::format("is {}; allowed: {}", kind_of(node), list));
   }
-  const auto found = std::find(allowed.begin(), allowed.end(), text->get());
-  if (found != allowed.end()) {
-    return static_cast<std::size_t>(found - allowed.begin());
-  }
-  const auto nearest = nearest_name(text->get(), allowed);
-  throw SceneError(
-      entry.place_of(node), path,
-      fmt::format("{} is unknown; {}allowed: {}", quoted(text->get()),
-                  nearest ? fmt::format("did you mean \"{}\"? ", *nearest) : "", list));
+  const auto nearest = nearest_name(text->get(), {allowed.begin(), allowed.end()});
+  fail_part(entry, node, part,
+            fmt::format("{} is unknown; {}allowed: {}", quoted(text->get()),
+                        nearest ? fmt::format("did you mean \"{}\"? ", *nearest) : "", list));
 }
 
-std::size_t TableCursor::word(std::string_view key, const std::vector<std::string_view>& allowed) {
-  const Entry& entry = require(key, fmt::format("\"{}\"", fmt::join(allowed, "\" or \"")));
-  return word_in(entry, *entry.value, path_of(key), allowed);
+std::size_t TableCursor::word(std::string_view key, const Words& allowed) {
+  const Entry* entry = take(key);
+  if (entry == nullptr) {
+    fail_missing(key, fmt::format("\"{}\"", fmt::join(allowed.begin(), allowed.end(), "\" or \"")));
+  }
+  return word_in(*entry, variant_.value(*entry), {key}, allowed);
 }
 
-std::vector<std::size_t> TableCursor::words(std::string_view key,
-                                            const std::vector<std::string_view>& allowed) {
+std::vector<std::size_t> TableCursor::words(std::string_view key, const Words& allowed) {
   std::vector<std::size_t> indices;
   const Entry* entry = take(key);
   if (entry == nullptr) {
     return indices;
   }
-  const toml::array* list = entry->value->as_array();
+  const toml::node& value = variant_.value(*entry);
+  const toml::array* list = value.as_array();
   if (list == nullptr) {
-    fail(key, fmt::format("is {}; allowed: a list of \"{}\"", kind_of(*entry->value),
-                          fmt::join(allowed, "\", \"")));
+    fail(key, fmt::format("is {}; allowed: a list of \"{}\"", kind_of(value),
+                          fmt::join(allowed.begin(), allowed.end(), "\", \"")));
   }
   for (std::size_t i = 0; i < list->size(); ++i) {
     const toml::node& node = (*list)[i];
-    const std::string path = fmt::format("{}[{}]", path_of(key), i);
-    const std::size_t index = word_in(*entry, node, path, allowed);
+    const Part part{key, i};
+    const std::size_t index = word_in(*entry, node, part, allowed);
     if (std::find(indices.begin(), indices.end(), index) != indices.end()) {
-      throw SceneError(entry->place_of(node), path,
-                       fmt::format("\"{}\" is there twice; allowed: each once", allowed[index]));
+      fail_part(*entry, node, part,
+                fmt::format("\"{}\" is there twice; allowed: each once", allowed.first[index]));
     }
     indices.push_back(index);
   }
   return indices;
 }
 
-TableCursor::Pair TableCursor::pair_in(const Entry& entry, const toml::node& node,
-                                       const std::string& path, const Range& time,
-                                       const Range& value) const {
+TableCursor::Pair TableCursor::pair_in(const Entry& entry, const toml::node& node, const Part& part,
+                                       const Range& time, const Range& value) const {
   const toml::array* pair = node.as_array();
   if (pair == nullptr || pair->size() != 2) {
     const std::string found =
         pair == nullptr ? std::string(kind_of(node)) : fmt::format("an array of {}", pair->size());
-    throw SceneError(entry.place_of(node), path,
-                     fmt::format("is {}; allowed: a pair [time in s, number]", found));
+    fail_part(entry, node, part, fmt::format("is {}; allowed: a pair [time in s, number]", found));
   }
-  return {real_in(entry, (*pair)[0], path + "[0]", time),
-          real_in(entry, (*pair)[1], path + "[1]", value)};
+  return {real_in(entry, (*pair)[0], {part.key, part.element, 0}, time),
+          real_in(entry, (*pair)[1], {part.key, part.element, 1}, value)};
 }
 
 std::vector<TableCursor::Pair> TableCursor::timed_values(std::string_view key, const Range& time,
                                                          const Range& value) {
-  constexpr std::string_view allowed = "a list of pairs [[time in s, number], …]";
-  const Entry& entry = require(key, std::string(allowed));
-  const toml::array* list = entry.value->as_array();
+  constexpr const char* allowed = "a list of pairs [[time in s, number], …]";
+  const Entry* entry = take(key);
+  if (entry == nullptr) {
+    fail_missing(key, allowed);
+  }
+  const toml::node& node = variant_.value(*entry);
+  const toml::array* list = node.as_array();
   if (list == nullptr) {
-    fail(key, fmt::format("is {}; allowed: {}", kind_of(*entry.value), allowed));
+    fail(key, fmt::format("is {}; allowed: {}", kind_of(node), allowed));
   }
   if (list->empty()) {
     fail(key, "is empty; allowed: at least one pair [time in s, number]");
   }
   std::vector<Pair> pairs;
   for (std::size_t i = 0; i < list->size(); ++i) {
-    const toml::node& node = (*list)[i];
-    const std::string path = fmt::format("{}[{}]", path_of(key), i);
-    const Pair pair = pair_in(entry, node, path, time, value);
+    const toml::node& element = (*list)[i];
+    const Pair pair = pair_in(*entry, element, {key, i}, time, value);
     if (!pairs.empty() && pair[0] <= pairs.back()[0]) {
-      throw SceneError(entry.place_of(node), path,
-                       fmt::format("time {} s is not after {} s; allowed: times that increase",
-                                   pair[0], pairs.back()[0]));
+      fail_part(*entry, element, {key, i},
+                fmt::format("time {} s is not after {} s; allowed: times that increase", pair[0],
+                            pairs.back()[0]));
     }
     pairs.push_back(pair);
   }
@@ -248,7 +280,7 @@ std::optional<std::string_view> TableCursor::at_most_one_of(std::string_view fir
     const bool first_is_later = earlier(*find(second), *find(first));
     const std::string_view later = first_is_later ? first : second;
     const std::string_view other = first_is_later ? second : first;
-    throw SceneError(find(later)->key_place, path_of(later),
+    throw SceneError(find(later)->key_place, path_of({later}),
                      fmt::format("excludes {}; allowed: one of the two", other));
   }
   if (has(first)) {

@@ -2,18 +2,19 @@
 #pragma once
 
 #include <array>
+#include <bitset>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
-#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
-#include "host_sim/scene/document.hpp"
 #include "host_sim/scene/names.hpp"
 #include "host_sim/scene/range.hpp"
+#include "host_sim/scene/schema.hpp"
+#include "host_sim/scene/variant.hpp"
 
 namespace sonoglide::scene {
 
@@ -21,8 +22,8 @@ namespace sonoglide::scene {
 /// a default also where the value is missing.
 class TableCursor {
  public:
-  /// @param table  must outlive the cursor; null for an absent table, whose values are all missing
-  TableCursor(const Document& document, std::string_view name);
+  /// @param variant, name  outlive the cursor; the values of an absent table are all missing
+  TableCursor(const Variant& variant, std::string_view name);
 
   bool present() const { return table_ != nullptr; }
   bool has(std::string_view key) const { return find(key) != nullptr; }
@@ -39,7 +40,8 @@ class TableCursor {
 
   template <class Value, std::size_t Count>
   Value choice(std::string_view key, const std::array<Named<Value>, Count>& names) {
-    return names[word(key, words_of(names))].value;
+    const auto list = list_of(names);
+    return names[word(key, {list.data(), Count})].value;
   }
   template <class Value, std::size_t Count>
   Value choice(std::string_view key, const std::array<Named<Value>, Count>& names, Value absent) {
@@ -48,8 +50,9 @@ class TableCursor {
   /// A list of different words; empty where absent.
   template <class Value, std::size_t Count>
   std::vector<Value> choices(std::string_view key, const std::array<Named<Value>, Count>& names) {
+    const auto list = list_of(names);
     std::vector<Value> values;
-    for (const std::size_t index : words(key, words_of(names))) {
+    for (const std::size_t index : words(key, {list.data(), Count})) {
       values.push_back(names[index].value);
     }
     return values;
@@ -72,39 +75,59 @@ class TableCursor {
   /// Throws for the first value in the file that nothing has asked for: a scene may hold nothing
   /// that is silently ignored.
   void reject_unread(std::string_view reason) const;
+  /// The same, the reason being the word that another key has.
+  void reject_unread_with(std::string_view key, std::string_view word) const;
 
  private:
+  /// What a choice allows.
+  struct Words {
+    const std::string_view* first;
+    std::size_t count;
+
+    const std::string_view* begin() const { return first; }
+    const std::string_view* end() const { return first + count; }
+  };
   template <class Value, std::size_t Count>
-  static std::vector<std::string_view> words_of(const std::array<Named<Value>, Count>& names) {
-    std::vector<std::string_view> words;
-    words.reserve(Count);
-    for (const Named<Value>& each : names) {
-      words.push_back(each.name);
+  static std::array<std::string_view, Count> list_of(const std::array<Named<Value>, Count>& names) {
+    std::array<std::string_view, Count> list;
+    for (std::size_t i = 0; i < Count; ++i) {
+      list[i] = names[i].name;
     }
-    return words;
+    return list;
   }
+
+  /// A value, or a part of one: spelt out only where an error needs it.
+  struct Part {
+    std::string_view key;
+    std::optional<std::size_t> element = std::nullopt;
+    std::optional<std::size_t> member = std::nullopt;  ///< of the element
+  };
 
   const Entry* find(std::string_view key) const;
   /// Marks the key as read; null where absent.
   const Entry* take(std::string_view key);
-  const Entry& require(std::string_view key, const std::string& allowed);
+  /// The first value that nothing has asked for, options after the file; null if there is none.
+  const std::pair<const std::string, Entry>* first_unread() const;
+  Location place() const;
   Location place_of(std::string_view key) const;
-  std::string path_of(std::string_view key) const;
+  std::string path_of(const Part& part) const;
+  [[noreturn]] void fail_missing(std::string_view key, const std::string& allowed) const;
+  [[noreturn]] void fail_part(const Entry& entry, const toml::node& node, const Part& part,
+                              const std::string& message) const;
 
-  double real_in(const Entry& entry, const toml::node& node, const std::string& path,
+  double real_in(const Entry& entry, const toml::node& node, const Part& part,
                  const Range& range) const;
-  std::size_t word_in(const Entry& entry, const toml::node& node, const std::string& path,
-                      const std::vector<std::string_view>& allowed) const;
-  std::size_t word(std::string_view key, const std::vector<std::string_view>& allowed);
-  std::vector<std::size_t> words(std::string_view key,
-                                 const std::vector<std::string_view>& allowed);
-  Pair pair_in(const Entry& entry, const toml::node& node, const std::string& path,
-               const Range& time, const Range& value) const;
+  std::size_t word_in(const Entry& entry, const toml::node& node, const Part& part,
+                      const Words& allowed) const;
+  std::size_t word(std::string_view key, const Words& allowed);
+  std::vector<std::size_t> words(std::string_view key, const Words& allowed);
+  Pair pair_in(const Entry& entry, const toml::node& node, const Part& part, const Range& time,
+               const Range& value) const;
 
-  std::string name_;
+  const Variant& variant_;
+  std::string_view name_;
   const Table* table_;
-  Location start_;
-  std::set<std::string, std::less<>> read_;
+  std::bitset<most_keys> read_;  ///< by Entry::position
 };
 
 }  // namespace sonoglide::scene

@@ -65,10 +65,13 @@ ordered_json echo(const Drive& drive, bool closed_loop) {
 
 ordered_json echo(const Solver& solver) {
   ordered_json table{{"method", name_of(solver_methods, solver.method)}};
-  if (solver.method == SolverMethod::rk4) {
-    table["step_s"] = solver.step_s;
-  } else {
+  if (is_adaptive(solver.method)) {
     table["tolerance"] = solver.tolerance;
+    if (solver.order) {
+      table["order"] = *solver.order;
+    }
+  } else {
+    table["step_s"] = solver.step_s;
   }
   return table;
 }

@@ -20,6 +20,7 @@
 #include "host_sim/loop/trace_hash.hpp"
 #include "host_sim/scene/control_design.hpp"
 #include "host_sim/scene/reader.hpp"
+#include "tests/host_sim/loop/logs/logged_run.hpp"
 
 namespace sonoglide::boards {
 namespace {
@@ -55,24 +56,25 @@ std::vector<std::string> emulate(const std::string& board, const std::string& im
 class SensedPlant {
  public:
   SensedPlant(const scene::Scene& scene, const scene::ControlDesign& design)
-      : rate_(two_pi * scene.drive->frequency_Hz),
+      : period_s_(1.0 / scene.drive->frequency_Hz),
+        rate_(two_pi * scene.drive->frequency_Hz),
         plant_(loop::make_plant_port(scene)),
         sensor_(scene.sensor, design.scales) {}
 
   /// Lives through a carrier period under a drive amplitude; the sample that ends it.
   hal::Sample advance(const loop::Period& period, double amplitude_N) {
-    const double duration_s = period.end_s - period.begin_s;
+    const double duration_s = period_s_;
     const double gain = period.end_velocity_m_per_s - period.begin_velocity_m_per_s;
     const loop::Stretch stretch{
         duration_s, 0.0, rate_, amplitude_N, period.begin_velocity_m_per_s, gain / duration_s};
     loop::EnergyBalance energy;
-    std::vector<loop::PlantState> seen;
-    const auto outcome = plant_->advance(stretch, {}, energy, seen);
+    const auto outcome = plant_->advance(stretch, energy);
     EXPECT_EQ(outcome.error, plant::Error::none);
     return sensor_.sample(energy.friction_impulse_N_s / duration_s, period.end_velocity_m_per_s);
   }
 
  private:
+  double period_s_;
   double rate_;
   std::unique_ptr<loop::PlantPort> plant_;
   loop::Sensor sensor_;
@@ -91,8 +93,9 @@ class Image : public testing::TestWithParam<std::tuple<std::string, std::string>
 };
 
 TEST_P(Image, DrivesThePlantWithTheHostsCommandsBitForBit) {
-  const loop::RunResult host = loop::run(scene_, {});
-  const scene::ControlDesign& design = host.control->design;
+  const loop::LoggedRun host = loop::run_logged(scene_);
+  const loop::ControlRecord& record = *host.result.control;
+  const scene::ControlDesign& design = record.design;
   SensedPlant plant(scene_, design);
   loop::TraceHash hash;
   double amplitude_N = 0.0;
@@ -107,8 +110,8 @@ TEST_P(Image, DrivesThePlantWithTheHostsCommandsBitForBit) {
       ASSERT_EQ(drive.limit, static_cast<std::uint8_t>(answered.limit)) << "carrier period " << k;
     }
   }
-  EXPECT_EQ(host.control->commands, host.periods.size());
-  EXPECT_EQ(hash.value(), host.control->trace_hash);
+  EXPECT_EQ(record.commands, host.periods.size());
+  EXPECT_EQ(hash.value(), record.trace_hash);
   EXPECT_EQ(board_.shut_down(), shut_down);
 }
 

@@ -128,7 +128,7 @@ TEST(AnyPlant, SplittingAnIntervalChangesNothingBeyondTheTolerance) {
 
 TEST(EnergyAccount, BalancesOverManyPeriodsOfTable1) {
   const DahlModel<double> model = {{{0.385592}, 5.109e-5, 1.0}, {}, 0.0467907};
-  auto solver = configured<EventTaylor<DahlModel<double>, 16>>(model, 1e-14);
+  auto solver = configured<EventTaylor<DahlModel<double>, 16>>(model, 1e-15);
   const State<double> before;
   State<double> state = before;
   EnergyAccount<double> account;

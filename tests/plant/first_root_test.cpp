@@ -48,6 +48,16 @@ TEST(FirstRoot, OfADoubleRoot) {
   EXPECT_NEAR(first_root(with_roots<4>({0.5, 0.5, 5.0, -7.0}), 1.0), 0.5, 1e-7);
 }
 
+TEST(FirstRoot, DoesNotDependOnTheSizeOfThePolynomial) {
+  for (const double size : {1e-300, 1e-200, 1e-100, 1e100, 1e200, 1e300}) {
+    auto p = with_roots<4>({0.5, 0.8, 5.0, -7.0});
+    for (double& coefficient : p) {
+      coefficient *= size;
+    }
+    EXPECT_NEAR(first_root(p, 1.0), 0.5, 1e-14) << size;
+  }
+}
+
 TEST(FirstRoot, CloseToTheBeginning) {
   EXPECT_NEAR(first_root(with_roots<3>({1e-12, 0.5, 2.0}), 1.0) / 1e-12, 1.0, 1e-3);
 }

@@ -68,8 +68,10 @@ const std::vector<BrokenScene> broken_scenes = {
      "3:1: plant.stiffness: unknown key; did you mean stiffness_N_per_m?"},
     {"unknown_key_unit_wrong", open_loop, "frequency_Hz = 60e3", "frequency_kHz = 60",
      "12:1: drive.frequency_kHz: unknown key; did you mean frequency_Hz?"},
+    {"order_that_is_not_built", open_loop, "tolerance = 1e-10", "tolerance = 1e-10\norder = 9",
+     "17:9: solver.order: 9 is not built; allowed: 8, 12, 16"},
     {"unknown_key_far", open_loop, "tolerance = 1e-10", "tolerance = 1e-10\nzeal = 3",
-     "17:1: solver.zeal: unknown key; allowed: method, tolerance, step_s"},
+     "17:1: solver.zeal: unknown key; allowed: method, tolerance, order, step_s"},
     {"key_of_another_table", open_loop, "[run]", "[run]\nmass_kg = 3",
      "18:1: run.mass_kg: unknown key; did you mean plant.mass_kg?"},
     {"key_without_table", open_loop, "[plant]", "coefficient = 0.1\n[plant]",
@@ -141,7 +143,18 @@ const std::vector<BrokenScene> broken_scenes = {
      "5:7: friction.law: \"dhal\" is unknown; did you mean \"dahl\"? allowed: \"dahl\", "
      "\"coulomb\", \"none\""},
     {"unknown_word_far", open_loop, "\"event_taylor\"", "\"magic\"",
-     "15:10: solver.method: \"magic\" is unknown; allowed: \"event_taylor\", \"rk4\""},
+     "15:10: solver.method: \"magic\" is unknown; allowed: \"event_taylor\", \"strang\", "
+     "\"rk4\", \"rk4_event\""},
+    {"method_for_another_law", open_loop,
+     "law = \"dahl\"\ncoefficient = 0.1\nnormal_force_N = 0.1962\n"
+     "contact_stiffness_N_per_m = 0.056e6\n[sliding]\nvelocity_m_per_s = 0.0267\n[drive]\n"
+     "frequency_Hz = 60e3\nforce_amplitude_N = 384.0\n[solver]\nmethod = \"event_taylor\"\n"
+     "tolerance = 1e-10",
+     "law = \"coulomb\"\ncoefficient = 0.1\n[sliding]\nvelocity_m_per_s = 0.0267\n"
+     "[solver]\nmethod = \"strang\"\nstep_s = 1e-7\n[drive]\nfrequency_Hz = 60e3\n"
+     "force_amplitude_N = 384.0",
+     "10:10: solver.method: \"strang\" does not solve the friction law \"coulomb\"; allowed: "
+     "\"event_taylor\", \"rk4\""},
     {"unknown_waveform", open_loop, "[solver]", "waveform = \"sawtooth\"\n[solver]",
      "14:12: drive.waveform: \"sawtooth\" is unknown; allowed: \"cosine\""},
     {"unknown_channel", open_loop, "[\"displacement_m\"]", "[\"displacment_m\"]",
@@ -242,21 +255,21 @@ const std::vector<BrokenScene> broken_scenes = {
      "14:14: run.duration_s: 1e-05 s is less than a carrier period, in which the controller acts "
      "once; allowed: at least 1.66667e-05 s"},
     {"too_long", closed_loop, "duration_s = 1e-3", "duration_s = 1e6",
-     "14:14: run.duration_s: 1e+06 s is 6e+10 periods of the drive; allowed: at most 1e+07 "
+     "14:14: run.duration_s: 1e+06 s is 6e+10 periods of the drive; allowed: at most 1e+10 "
      "periods"},
     {"too_long_for_the_natural_mode", open_loop,
      "[drive]\nfrequency_Hz = 60e3\nforce_amplitude_N = 384.0\n[solver]\nmethod = "
      "\"event_taylor\"\ntolerance = 1e-10\n[run]\nduration_periods = 20",
      "[run]\nduration_s = 1e6",
      "12:14: run.duration_s: 1e+06 s is 1.29787e+10 periods of the natural mode; allowed: at most "
-     "1e+07 periods"},
+     "1e+10 periods"},
     {"too_many_fixed_steps", open_loop, "\"event_taylor\"\ntolerance = 1e-10",
      "\"rk4\"\nstep_s = 1e-15",
      "18:20: run.duration_periods: 0.000333333 s is 3.33333e+11 steps of solver.step_s; allowed: "
      "at most 1e+11"},
-    {"too_many_rows", open_loop, "record_interval_s = 1e-6", "record_interval_s = 1e-12",
-     "20:21: run.record_interval_s: gives 3.33333e+08 rows; allowed: at most 1e+07, so at least "
-     "3.33333e-11 s"},
+    {"too_many_rows", open_loop, "record_interval_s = 1e-6", "record_interval_s = 1e-13",
+     "20:21: run.record_interval_s: gives 3.33333e+09 rows; allowed: at most 1e+09, so at least "
+     "3.33333e-13 s"},
     {"unordered_profile", open_loop, "velocity_m_per_s = 0.0267",
      "profile = [[0, 0.1], [2e-3, 0.2], [1e-3, 0.3]]",
      "10:35: sliding.profile[2]: time 0.001 s is not after 0.002 s; allowed: times that increase"},

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -81,6 +82,29 @@ TEST_F(RunOutputTest, ASecondRunReplacesTheFirst) {
   EXPECT_EQ(echo("out/scene/summary.json").at("friction").at("coefficient"), 0.2);
 }
 
+TEST_F(RunOutputTest, NothingIsRecordedUnlessTheSceneAsks) {
+  const Entries unrecorded{"out", "out/scene", "out/scene/report.html", "out/scene/summary.json",
+                           "scene.toml"};
+  EXPECT_EQ(folder_.run("run scene.toml --quiet --set 'run.record=[]'").exit_code, 0);
+  EXPECT_EQ(folder_.entries(), unrecorded);
+  EXPECT_EQ(folder_.run("run scene.toml --quiet").exit_code, 0);
+  EXPECT_EQ(folder_.run("run scene.toml --quiet --set 'run.record=[]'").exit_code, 0);
+  EXPECT_EQ(folder_.entries(), unrecorded) << "the tables of an earlier run";
+}
+
+TEST_F(RunOutputTest, TablesHaveARowForEachSampleAndEachPeriod) {
+  EXPECT_EQ(folder_.run("run scene.toml --quiet").exit_code, 0);
+  const std::string trace = folder_.read("out/scene/trace.csv");
+  const std::string periods = folder_.read("out/scene/periods.csv");
+  EXPECT_EQ(trace.rfind("time_s,displacement_m\n0,0\n1e-06,", 0), 0U) << trace.substr(0, 60);
+  EXPECT_EQ(std::count(trace.begin(), trace.end(), '\n'), 1 + 334);
+  EXPECT_EQ(periods.rfind("time_s,friction_ratio,target,drive_amplitude_N,"
+                          "sliding_velocity_m_per_s,limit\n0,",
+                          0),
+            0U);
+  EXPECT_EQ(std::count(periods.begin(), periods.end(), '\n'), 1 + 20);
+}
+
 TEST_F(RunOutputTest, OverridesReplaceAndAddAndTheLastOneWins) {
   const Outcome outcome = folder_.run(
       "run --quiet --set plant.mass_kg=1 --set plant.mass_kg=0.04 "
@@ -120,6 +144,19 @@ TEST_F(RunOutputTest, AFolderThatNobodyMayWriteToIsFoundBeforeTheRun) {
 TEST_F(RunOutputTest, ABadSceneIsReportedBeforeABadFolder) {
   folder_.write("taken", "");
   EXPECT_EQ(folder_.run("run scene.toml --out taken --set plant.mass_kg=0").exit_code, 2);
+}
+
+TEST_F(RunOutputTest, AnInterruptedRunLeavesNothing) {
+  // Hours of work, in the background of a shell; the signal comes once its hidden folder is there.
+  const Outcome outcome = folder_.run(
+      "run scene.toml --quiet --set run.duration_periods=1e9 --set run.record_interval_s=1e-4 & "
+      "until ls -A '" +
+      folder_name() +
+      "' | grep -q '^[.]scene[.]'; do sleep 0.01; done; "
+      "kill -TERM $(cat /proc/$!/task/$!/children) $!; wait $!");
+  constexpr int ended_by_term = 128 + 15;
+  EXPECT_EQ(outcome.exit_code, ended_by_term);
+  EXPECT_EQ(folder_.entries(), Entries{"scene.toml"});
 }
 
 TEST_F(RunOutputTest, AFailedComputationLeavesNothing) {

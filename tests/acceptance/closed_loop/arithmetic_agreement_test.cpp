@@ -7,6 +7,7 @@
 
 #include "host_sim/loop/run.hpp"
 #include "host_sim/scene/reader.hpp"
+#include "tests/host_sim/loop/logs/logged_run.hpp"
 
 namespace sonoglide {
 namespace {
@@ -14,12 +15,11 @@ namespace {
 /// Largest difference of the friction ratio in any carrier period.
 double difference(const std::string& name, const std::string& arithmetic) {
   const auto run = [&name](const std::string& chosen) {
-    return loop::run(scene::read_file(SONOGLIDE_SCENES "/" + name + ".toml",
-                                      {"controller.arithmetic=" + chosen}),
-                     nullptr);
+    return loop::run_logged(scene::read_file(SONOGLIDE_SCENES "/" + name + ".toml",
+                                             {"controller.arithmetic=" + chosen}));
   };
-  const loop::RunResult exact = run("float64");
-  const loop::RunResult rounded = run(arithmetic);
+  const loop::LoggedRun exact = run("float64");
+  const loop::LoggedRun rounded = run(arithmetic);
   EXPECT_EQ(rounded.periods.size(), exact.periods.size());
   double largest = 0.0;
   for (std::size_t i = 0; i < exact.periods.size(); ++i) {
@@ -48,10 +48,8 @@ INSTANTIATE_TEST_SUITE_P(Scenes, ArithmeticAgreementTest,
 TEST(ArithmeticAgreementTest, FixedPointSaturatesNowhereInside) {
   for (const char* name : {"target_step", "model_error", "noisy_sensor", "unreachable_target",
                            "speed_ramp", "speed_reversal", "stop_and_start"}) {
-    const loop::RunResult result =
-        loop::run(scene::read_file(SONOGLIDE_SCENES "/" + std::string(name) + ".toml",
-                                   {"controller.arithmetic=q31"}),
-                  nullptr);
+    const loop::RunResult result = loop::run(scene::read_file(
+        SONOGLIDE_SCENES "/" + std::string(name) + ".toml", {"controller.arithmetic=q31"}));
     ASSERT_FALSE(result.control->signals.empty());
     for (const numeric::SignalRecord& signal : result.control->signals) {
       EXPECT_EQ(signal.saturations, 0U) << name << ' ' << signal.name;

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "host_sim/loop/run.hpp"
+#include "host_sim/loop/period.hpp"
 #include "host_sim/scene/scene.hpp"
 
 namespace sonoglide::analysis {
@@ -27,14 +27,11 @@ inline scene::Scene made_up_scene(std::vector<scene::TargetStep> targets, double
   return scene;
 }
 
-/// A run whose friction ratio in carrier period k is ratio(k); sliding at a constant 1 m/s, the
-/// target of each period that of the scene, drive amplitude 100 N, no limit.
-inline loop::RunResult made_up_run(const scene::Scene& scene,
-                                   const std::function<double(int)>& ratio) {
-  loop::RunResult result;
-  result.control.emplace();
-  result.control->design.scales = {made_up_period_s, 1.0, 2.0, 1.0};
-  result.control->design.speed_floor = 0.1;  // of 2 m/s
+/// The carrier periods of a run whose friction ratio in period k is ratio(k); sliding at a constant
+/// 1 m/s, the target of each period that of the scene, drive amplitude 100 N, no limit.
+inline std::vector<loop::Period> made_up_run(const scene::Scene& scene,
+                                             const std::function<double(int)>& ratio) {
+  std::vector<loop::Period> periods;
   const double end_s = scene.run.duration_s;
   for (int k = 0; k * made_up_period_s < end_s - 1e-9; ++k) {
     loop::Period period{};
@@ -50,9 +47,9 @@ inline loop::RunResult made_up_run(const scene::Scene& scene,
       }
     }
     period.state = control::State::running;
-    result.periods.push_back(period);
+    periods.push_back(period);
   }
-  return result;
+  return periods;
 }
 
 }  // namespace sonoglide::analysis

@@ -11,11 +11,19 @@
 namespace sonoglide::analysis {
 namespace {
 
-using loop::RunResult;
 using scene::Scene;
 
-StepMetrics only_step(const Scene& scene, const RunResult& result) {
-  const std::vector<StepMetrics> all = step_metrics(scene, result);
+std::vector<StepMetrics> step_metrics(const Scene& scene,
+                                      const std::vector<loop::Period>& periods) {
+  StepMeter meter(scene);
+  for (const loop::Period& period : periods) {
+    meter.take(period);
+  }
+  return meter.steps();
+}
+
+StepMetrics only_step(const Scene& scene, const std::vector<loop::Period>& periods) {
+  const std::vector<StepMetrics> all = step_metrics(scene, periods);
   EXPECT_EQ(all.size(), 1U);
   return all.at(0);
 }
@@ -77,10 +85,12 @@ TEST(StepMetricsTest, OvershootIsBeyondTheTargetOnTheWayUp) {
 
 TEST(StepMetricsTest, OvershootLeavesOutPeriodsDrivenForTheTargetBefore) {
   const Scene scene = made_up_scene({{0.0, 0.6}, {0.05, 0.4}}, 0.1);
-  RunResult result = made_up_run(scene, [](int k) { return k < 50 ? 0.6 : k == 50 ? 0.3 : 0.4; });
-  EXPECT_NEAR(step_metrics(scene, result)[1].overshoot, 0.1, 1e-12);
-  result.periods[50].target = 0.6;
-  EXPECT_EQ(step_metrics(scene, result)[1].overshoot, 0.0);
+  std::vector<loop::Period> periods = made_up_run(scene, [](int k) {
+    return k < 50 ? 0.6 : k == 50 ? 0.3 : 0.4;
+  });
+  EXPECT_NEAR(step_metrics(scene, periods)[1].overshoot, 0.1, 1e-12);
+  periods[50].target = 0.6;
+  EXPECT_EQ(step_metrics(scene, periods)[1].overshoot, 0.0);
 }
 
 TEST(StepMetricsTest, SteadyErrorAndRippleAreThoseOfTheLastQuarter) {
@@ -94,28 +104,28 @@ TEST(StepMetricsTest, SteadyErrorAndRippleAreThoseOfTheLastQuarter) {
 
 TEST(StepMetricsTest, DriveAmplitudeIsTheMeanOverTheLastQuarter) {
   const Scene scene = made_up_scene({{0.0, 0.5}}, 0.1);
-  RunResult result = made_up_run(scene, [](int) { return 0.5; });
+  std::vector<loop::Period> periods = made_up_run(scene, [](int) { return 0.5; });
   for (std::size_t k = 0; k < 100; ++k) {
-    result.periods[k].drive_amplitude_N = static_cast<double>(k);
+    periods[k].drive_amplitude_N = static_cast<double>(k);
   }
-  EXPECT_NEAR(only_step(scene, result).drive_amplitude_N, 87.0, 1e-12);
+  EXPECT_NEAR(only_step(scene, periods).drive_amplitude_N, 87.0, 1e-12);
 }
 
 TEST(StepMetricsTest, NamesTheLimitOfTheLastQuarter) {
   const Scene scene = made_up_scene({{0.0, 0.5}}, 0.1);
-  RunResult result = made_up_run(scene, [](int) { return 0.5; });
+  std::vector<loop::Period> periods = made_up_run(scene, [](int) { return 0.5; });
   for (std::size_t k = 0; k < 75; ++k) {
-    result.periods[k].limit = control::Limit::slew;
+    periods[k].limit = control::Limit::slew;
   }
-  EXPECT_EQ(only_step(scene, result).limit, control::Limit::none);
+  EXPECT_EQ(only_step(scene, periods).limit, control::Limit::none);
   for (std::size_t k = 75; k < 100; ++k) {
-    result.periods[k].limit = k < 80 ? control::Limit::slew : control::Limit::actuator;
+    periods[k].limit = k < 80 ? control::Limit::slew : control::Limit::actuator;
   }
-  EXPECT_EQ(only_step(scene, result).limit, control::Limit::actuator);
+  EXPECT_EQ(only_step(scene, periods).limit, control::Limit::actuator);
   for (std::size_t k = 75; k < 100; ++k) {
-    result.periods[k].limit = control::Limit::speed_floor;
+    periods[k].limit = control::Limit::speed_floor;
   }
-  EXPECT_EQ(only_step(scene, result).limit, control::Limit::speed_floor);
+  EXPECT_EQ(only_step(scene, periods).limit, control::Limit::speed_floor);
 }
 
 TEST(StepMetricsTest, TheClockStartsWhenCalibrationEnds) {

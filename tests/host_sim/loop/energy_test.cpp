@@ -16,7 +16,7 @@ namespace {
 using scene::Scene;
 
 PowerRatios window_ratios(const Scene& scene) {
-  return power_ratios(run(scene, nullptr).window, scene::friction_limit_N(scene.friction),
+  return power_ratios(run(scene).window, scene::friction_limit_N(scene.friction),
                       scene.friction.sign_convention, period_s);
 }
 
@@ -115,7 +115,7 @@ TEST(EnergyTest, CoulombDissipatesByItsClosedForm) {
 
 TEST(EnergyTest, DissipationIsPullPlusDriveInTheSteadyState) {
   const Scene scene = on_steady_orbit(table_1());
-  const RunResult result = run(scene, nullptr);
+  const RunResult result = run(scene);
   const PowerRatios ratios = window_ratios(scene);
   const double stored =
       (result.window.stored_end_J - result.window.stored_begin_J) /

@@ -10,7 +10,7 @@ namespace {
 
 std::string failure(const scene::Scene& scene) {
   try {
-    run(scene, nullptr);
+    run(scene);
   } catch (const ComputationError& error) {
     return error.what();
   }
@@ -56,6 +56,19 @@ TEST(FailureTest, TimeIsThatOfTheRunNotOfTheStretch) {
   const double time_s = std::stod(message.substr(std::string("solver: at ").size()));
   EXPECT_GT(time_s, 10.0 * period_s) << message;
   EXPECT_LT(time_s, 12.0 * period_s) << message;
+}
+
+TEST(FailureTest, StepsThatRunOutAreNamedWithTheirCost) {
+  scene::Scene scene = with_rk4(1e9);
+  scene.solver.step_s = 1e-12;
+  const std::string message = failure(scene);
+  expect_time_and_state(message);
+  // sqrt((1e9 + 133e6) / 0.02) / 2π = 37.88 kHz.
+  for (const char* part : {"more than 1000000 steps in one carrier period, 0 since the run began",
+                           "a stuck contact rings at sqrt((Kt + Ks)/m)/2π = 3.788e+04 Hz",
+                           "under a drive of 6e+04 Hz"}) {
+    EXPECT_NE(message.find(part), std::string::npos) << part << " in " << message;
+  }
 }
 
 TEST(FailureTest, AContactThatIsSoftEnoughRuns) {

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <fstream>
+#include <optional>
 #include <sstream>
 #include <string>
 
@@ -53,7 +54,7 @@ PowerRatios ratios(const Scene& scene, const EnergyBalance& energy) {
 }
 
 Values values(const Scene& scene) {
-  const RunResult result = run(scene, nullptr);
+  const RunResult result = run(scene);
   const PowerRatios whole = ratios(scene, result.whole);
   const PowerRatios window = ratios(scene, result.window);
   return {result.final_state.displacement_m,
@@ -136,8 +137,46 @@ TEST(OpenLoopRk4Test, ThePapersStepIsAThousandthOfTheCarrierPeriod) {
   Scene scene = table_1();
   scene.solver.method = scene::SolverMethod::rk4;
   scene.solver.step_s = 1.667e-8;
-  EXPECT_EQ(run(scene, nullptr).solver_steps, 100000U);
+  EXPECT_EQ(run(scene).solver_steps, 100000U);
 }
+
+/// A solver setting and the relative error of the friction ratio that it keeps on Table 1.
+struct Setting {
+  std::string name;
+  scene::Solver solver;
+  double error;
+};
+
+scene::Solver taylor(int order, double tolerance) {
+  return {scene::SolverMethod::event_taylor, tolerance, order, 0.0};
+}
+
+scene::Solver fixed_step(scene::SolverMethod method, double steps_per_period) {
+  return {method, 0.0, std::nullopt, period_s / steps_per_period};
+}
+
+const Setting settings[] = {
+    {"taylor_8", taylor(8, 1e-6), 1e-5},
+    {"taylor_12", taylor(12, 1e-10), 1e-8},
+    {"taylor_16", taylor(16, 1e-12), 1e-9},
+    {"strang", fixed_step(scene::SolverMethod::strang, 400.0), 1e-4},
+    {"rk4", fixed_step(scene::SolverMethod::rk4, 1000.0), 1e-6},
+    {"rk4_event", fixed_step(scene::SolverMethod::rk4_event, 100.0), 1e-6},
+};
+
+class SolverTest : public testing::TestWithParam<Setting> {};
+
+TEST_P(SolverTest, IsTheOneThatTheSceneNames) {
+  Scene scene = reference_scene("table1");
+  scene.solver = GetParam().solver;
+  const Values actual = values(scene);
+  const Values expected = reference("table1");
+  EXPECT_NEAR(actual.friction_ratio / expected.friction_ratio, 1.0, GetParam().error);
+  EXPECT_NEAR(actual.dissipation_ratio / expected.dissipation_ratio, 1.0, GetParam().error);
+}
+
+INSTANTIATE_TEST_SUITE_P(Settings, SolverTest, testing::ValuesIn(settings),
+                         [](const auto& setting) { return setting.param.name; });
 
 /// A run from the steady orbit; the mean of its last part.
 double steady_friction_ratio(double force_N, double velocity_ratio) {
@@ -146,7 +185,7 @@ double steady_friction_ratio(double force_N, double velocity_ratio) {
       velocity_ratio * vibration_velocity_m_per_s(scene.plant, force_N);
   scene.run.duration_s = 20e-3;
   scene.run.window_start_s = 19e-3;
-  return ratios(scene, run(scene, nullptr).window).friction_ratio;
+  return ratios(scene, run(scene).window).friction_ratio;
 }
 
 TEST(SteadyOrbitTest, GivesTheClosedFormMapOfTheDahlContact) {

@@ -6,9 +6,11 @@
 #include <cmath>
 #include <cstddef>
 #include <cstring>
+#include <stdexcept>
 #include <vector>
 
 #include "table_1.hpp"
+#include "tests/host_sim/loop/logs/logged_run.hpp"
 
 namespace sonoglide::loop {
 namespace {
@@ -19,15 +21,18 @@ bool same_bits(double a, double b) {
   return std::memcmp(&a, &b, sizeof a) == 0;
 }
 
-void expect_same_motion(const RunResult& a, const RunResult& b) {
+void expect_same_motion(const LoggedRun& logged_a, const LoggedRun& logged_b) {
+  const RunResult& a = logged_a.result;
+  const RunResult& b = logged_b.result;
   EXPECT_TRUE(same_bits(a.final_state.displacement_m, b.final_state.displacement_m));
   EXPECT_TRUE(same_bits(a.final_state.velocity_m_per_s, b.final_state.velocity_m_per_s));
   EXPECT_TRUE(same_bits(a.final_state.friction_force_N, b.final_state.friction_force_N));
   EXPECT_EQ(a.solver_steps, b.solver_steps);
   EXPECT_EQ(a.solver_events, b.solver_events);
-  ASSERT_EQ(a.periods.size(), b.periods.size());
-  for (std::size_t i = 0; i < a.periods.size(); ++i) {
-    ASSERT_TRUE(same_bits(a.periods[i].friction_ratio, b.periods[i].friction_ratio)) << i;
+  ASSERT_EQ(logged_a.periods.size(), logged_b.periods.size());
+  for (std::size_t i = 0; i < logged_a.periods.size(); ++i) {
+    ASSERT_TRUE(same_bits(logged_a.periods[i].friction_ratio, logged_b.periods[i].friction_ratio))
+        << i;
   }
 }
 
@@ -41,9 +46,9 @@ TEST(RecordingTest, DoesNotChangeABitOfAnOpenLoop) {
   for (const double tolerance : {1e-4, 1e-10, 1e-13}) {
     Scene scene = table_1();
     scene.solver.tolerance = tolerance;
-    const RunResult silent = run(scene, nullptr);
+    const LoggedRun silent = run_logged(scene);
     for (const double interval_s : {1e-3, 1e-6, 7.3e-8}) {
-      expect_same_motion(run(recording(scene, interval_s), nullptr), silent);
+      expect_same_motion(run_logged(recording(scene, interval_s)), silent);
     }
   }
 }
@@ -52,29 +57,48 @@ TEST(RecordingTest, DoesNotChangeABitOfAClosedLoop) {
   for (const scene::Arithmetic arithmetic :
        {scene::Arithmetic::float64, scene::Arithmetic::float32, scene::Arithmetic::q31}) {
     const Scene scene = table_1_closed_loop(arithmetic);
-    const RunResult silent = run(scene, nullptr);
+    const LoggedRun silent = run_logged(scene);
     for (const double interval_s : {1e-3, 1e-6, 7.3e-8}) {
-      const RunResult recorded = run(recording(scene, interval_s), nullptr);
+      const LoggedRun recorded = run_logged(recording(scene, interval_s));
       expect_same_motion(recorded, silent);
-      EXPECT_EQ(recorded.control->trace_hash, silent.control->trace_hash);
+      EXPECT_EQ(recorded.result.control->trace_hash, silent.result.control->trace_hash);
     }
   }
 }
 
+TEST(RecordingTest, NobodyWatchingChangesNothing) {
+  const Scene scene = recording(table_1_closed_loop(), 1e-6);
+  const RunResult unwatched = run(scene);
+  const LoggedRun watched = run_logged(scene);
+  EXPECT_TRUE(
+      same_bits(unwatched.final_state.displacement_m, watched.result.final_state.displacement_m));
+  EXPECT_TRUE(same_bits(unwatched.whole.drive_work_J, watched.result.whole.drive_work_J));
+  EXPECT_TRUE(
+      same_bits(unwatched.window.stored_integral_J_s, watched.result.window.stored_integral_J_s));
+  EXPECT_EQ(unwatched.control->trace_hash, watched.result.control->trace_hash);
+}
+
 TEST(RecordingTest, OfTheWholeRunHasBothEnds) {
-  const RunResult result = run(recording(table_1_closed_loop(), 1e-6), nullptr);
-  ASSERT_EQ(result.trace.time_s.size(), 2001U);
-  EXPECT_EQ(result.trace.time_s.front(), 0.0);
-  EXPECT_NEAR(result.trace.time_s.back(), 2e-3, 1e-15);
-  EXPECT_EQ(result.trace.state.front().displacement_m, 0.0);
-  EXPECT_DOUBLE_EQ(result.trace.state.back().displacement_m, result.final_state.displacement_m);
-  EXPECT_DOUBLE_EQ(result.trace.state.back().friction_force_N, result.final_state.friction_force_N);
+  const LoggedRun logged = run_logged(recording(table_1_closed_loop(), 1e-6));
+  const RunResult& result = logged.result;
+  const Recording& trace = logged.trace;
+  ASSERT_EQ(trace.time_s.size(), 2001U);
+  EXPECT_EQ(trace.time_s.front(), 0.0);
+  EXPECT_NEAR(trace.time_s.back(), 2e-3, 1e-15);
+  EXPECT_EQ(trace.state.front().displacement_m, 0.0);
+  const auto same_but_for_the_times_rounding = [](double a, double b) {
+    EXPECT_NEAR(a, b, 1e-12 * std::abs(b));
+  };
+  same_but_for_the_times_rounding(trace.state.back().displacement_m,
+                                  result.final_state.displacement_m);
+  same_but_for_the_times_rounding(trace.state.back().friction_force_N,
+                                  result.final_state.friction_force_N);
 }
 
 TEST(RecordingTest, HasTheSameStatesHoweverDense) {
   const Scene scene = table_1();
-  const RunResult coarse = run(recording(scene, 4e-6), nullptr);
-  const RunResult fine = run(recording(scene, 1e-6), nullptr);
+  const LoggedRun coarse = run_logged(recording(scene, 4e-6));
+  const LoggedRun fine = run_logged(recording(scene, 1e-6));
   ASSERT_GT(coarse.trace.state.size(), 400U);
   for (std::size_t i = 0; i < coarse.trace.state.size(); ++i) {
     EXPECT_NEAR(coarse.trace.state[i].displacement_m, fine.trace.state[4 * i].displacement_m,
@@ -85,21 +109,21 @@ TEST(RecordingTest, HasTheSameStatesHoweverDense) {
 TEST(RecordingTest, ShowsDriveForceAndSlidingVelocity) {
   Scene scene = recording(table_1(), 1e-6);
   scene.sliding.profile = {{0.0, 0.01}, {1e-3, 0.03}};
-  const RunResult result = run(scene, nullptr);
-  for (std::size_t i = 0; i < result.trace.time_s.size(); ++i) {
-    const double t = result.trace.time_s[i];
-    EXPECT_NEAR(result.trace.drive_force_N[i], 384.0 * std::cos(2.0 * pi * carrier_Hz * t), 1e-8);
-    EXPECT_NEAR(result.trace.sliding_velocity_m_per_s[i], t < 1e-3 ? 0.01 + 20.0 * t : 0.03, 1e-15);
+  const Recording trace = run_logged(scene).trace;
+  for (std::size_t i = 0; i < trace.time_s.size(); ++i) {
+    const double t = trace.time_s[i];
+    EXPECT_NEAR(trace.drive_force_N[i], 384.0 * std::cos(2.0 * pi * carrier_Hz * t), 1e-8);
+    EXPECT_NEAR(trace.sliding_velocity_m_per_s[i], t < 1e-3 ? 0.01 + 20.0 * t : 0.03, 1e-15);
   }
 }
 
 TEST(RunTest, TheWindowIsTheRunFromItsStart) {
   Scene scene = table_1();
   scene.run.window_start_s = 0.0;
-  const RunResult all = run(scene, nullptr);
+  const RunResult all = run(scene);
   EXPECT_EQ(all.window.friction_work_J, all.whole.friction_work_J);
   scene.run.window_start_s = 33.3e-6;  // inside a carrier period
-  const RunResult part = run(scene, nullptr);
+  const RunResult part = run(scene);
   EXPECT_NEAR(part.window.duration_s, scene.run.duration_s - 33.3e-6, 1e-15);
   EXPECT_NEAR(part.whole.duration_s, scene.run.duration_s, 1e-15);
 }
@@ -107,40 +131,61 @@ TEST(RunTest, TheWindowIsTheRunFromItsStart) {
 TEST(RunTest, PeriodsTileTheRun) {
   Scene scene = table_1_closed_loop();
   scene.run.duration_s = 77.4 * period_s;
-  const RunResult result = run(scene, nullptr);
-  ASSERT_EQ(result.periods.size(), 78U);
-  EXPECT_EQ(result.periods.front().begin_s, 0.0);
-  for (std::size_t i = 1; i < result.periods.size(); ++i) {
-    EXPECT_EQ(result.periods[i].begin_s, result.periods[i - 1].end_s);
+  const LoggedRun logged = run_logged(scene);
+  ASSERT_EQ(logged.periods.size(), 78U);
+  EXPECT_EQ(logged.periods.front().begin_s, 0.0);
+  for (std::size_t i = 1; i < logged.periods.size(); ++i) {
+    EXPECT_EQ(logged.periods[i].begin_s, logged.periods[i - 1].end_s);
   }
-  EXPECT_EQ(result.periods.back().end_s, scene.run.duration_s);
-  EXPECT_EQ(result.control->commands, 77U) << "one command for each whole carrier period";
+  EXPECT_EQ(logged.periods.back().end_s, scene.run.duration_s);
+  EXPECT_EQ(logged.result.control->commands, 77U) << "one command for each whole carrier period";
 }
 
 TEST(RunTest, TheMeanOfThePeriodsIsThatOfTheRun) {
   const Scene scene = table_1();
-  const RunResult result = run(scene, nullptr);
+  const LoggedRun logged = run_logged(scene);
   double sum = 0.0;
-  for (const Period& period : result.periods) {
+  for (const Period& period : logged.periods) {
     sum += period.friction_ratio;
   }
-  const double whole = result.whole.resistance_impulse_N_s / (0.01962 * result.whole.duration_s);
-  EXPECT_NEAR(sum / static_cast<double>(result.periods.size()), whole, 1e-12);
+  const double whole =
+      logged.result.whole.resistance_impulse_N_s / (0.01962 * logged.result.whole.duration_s);
+  EXPECT_NEAR(sum / static_cast<double>(logged.periods.size()), whole, 1e-12);
 }
 
 TEST(RunTest, ACommandActsInTheNextPeriodAndATargetFromItsTimeOn) {
-  const RunResult result = run(table_1_closed_loop(), nullptr);
-  EXPECT_EQ(result.periods[0].drive_amplitude_N, 0.0);
-  EXPECT_TRUE(std::isnan(result.periods[0].target));
-  for (std::size_t i = 1; i < result.periods.size(); ++i) {
-    EXPECT_EQ(result.periods[i].target, result.periods[i].begin_s < 1e-3 - 1e-9 ? 0.4 : 0.6) << i;
+  const LoggedRun logged = run_logged(table_1_closed_loop());
+  EXPECT_EQ(logged.periods[0].drive_amplitude_N, 0.0);
+  EXPECT_TRUE(std::isnan(logged.periods[0].target));
+  for (std::size_t i = 1; i < logged.periods.size(); ++i) {
+    EXPECT_EQ(logged.periods[i].target, logged.periods[i].begin_s < 1e-3 - 1e-9 ? 0.4 : 0.6) << i;
   }
-  EXPECT_NE(result.periods[60].drive_amplitude_N, result.periods[59].drive_amplitude_N);
+  EXPECT_NE(logged.periods[60].drive_amplitude_N, logged.periods[59].drive_amplitude_N);
+}
+
+/// Ends a run in its hundredth carrier period.
+struct Quitter final : PeriodSink {
+  int seen = 0;
+  void take(const Period& /*period*/) override {
+    if (++seen == 100) {
+      throw std::runtime_error("enough");
+    }
+  }
+};
+
+TEST(RunTest, WhatASinkThrowsEndsIt) {
+  Quitter quitter;
+  Watch watch;
+  watch.periods = {&quitter};
+  EXPECT_THROW(run(table_1_closed_loop(), watch), std::runtime_error);
+  EXPECT_EQ(quitter.seen, 100);
 }
 
 TEST(RunTest, SaysHowFarItIs) {
   std::vector<double> seen;
-  run(table_1(), [&seen](double fraction) { seen.push_back(fraction); });
+  Watch watch;
+  watch.progress = [&seen](double fraction) { seen.push_back(fraction); };
+  run(table_1(), watch);
   ASSERT_GT(seen.size(), 10U);
   for (std::size_t i = 1; i < seen.size(); ++i) {
     EXPECT_GT(seen[i], seen[i - 1]);
@@ -153,21 +198,21 @@ TEST(RunTest, SlewLimitHoldsForTheShapedDrive) {
   for (const double slew_N_per_s : {1e6, 5e6, 2e7}) {
     Scene scene = table_1_closed_loop();
     scene.drive->max_force_slew_N_per_s = slew_N_per_s;
-    const RunResult result = run(scene, nullptr);
+    const LoggedRun logged = run_logged(scene);
     double fastest_N = 0.0;
-    for (std::size_t i = 1; i < result.periods.size(); ++i) {
-      fastest_N = std::max(fastest_N, std::abs(result.periods[i].drive_amplitude_N -
-                                               result.periods[i - 1].drive_amplitude_N));
+    for (std::size_t i = 1; i < logged.periods.size(); ++i) {
+      fastest_N = std::max(fastest_N, std::abs(logged.periods[i].drive_amplitude_N -
+                                               logged.periods[i - 1].drive_amplitude_N));
     }
     EXPECT_LE(fastest_N, slew_N_per_s * period_s * (1.0 + 1e-6));
     EXPECT_GE(fastest_N, 0.3 * slew_N_per_s * period_s);
-    EXPECT_EQ(result.periods[2].limit, control::Limit::slew);
+    EXPECT_EQ(logged.periods[2].limit, control::Limit::slew);
   }
 }
 
 TEST(RunTest, OnlyFixedPointHasSignals) {
-  EXPECT_TRUE(run(table_1_closed_loop(), nullptr).control->signals.empty());
-  const RunResult fixed = run(table_1_closed_loop(scene::Arithmetic::q31), nullptr);
+  EXPECT_TRUE(run(table_1_closed_loop()).control->signals.empty());
+  const RunResult fixed = run(table_1_closed_loop(scene::Arithmetic::q31));
   ASSERT_FALSE(fixed.control->signals.empty());
   for (const numeric::SignalRecord& signal : fixed.control->signals) {
     EXPECT_EQ(signal.saturations, 0U) << signal.name;

@@ -198,5 +198,14 @@ TEST(PageHtml, PutsWarningsBeforeEverythingButTheTitle) {
   EXPECT_LT(html.find("Mind the gap"), html.find("<table>"));
 }
 
+TEST(PageHtml, APictureIsAnImageThatNeedsNothingElse) {
+  Page page;
+  page.sections = {{"Section", "", {}, {{"A & B", "Note.", "<svg id=\"a\">50 %</svg>"}}}};
+  const std::string html = to_html(page);
+  EXPECT_EQ(count(html, "<figure class=\"picture\">"), 1U);
+  EXPECT_EQ(count(html, "alt=\"A &amp; B\""), 1U);
+  EXPECT_EQ(count(html, "src=\"data:image/svg+xml,%3Csvg%20id=%22a%22%3E50%20%25%3C/svg%3E\""), 1U);
+}
+
 }  // namespace
 }  // namespace sonoglide::report

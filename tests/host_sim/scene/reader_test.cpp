@@ -87,6 +87,7 @@ TEST(ReaderTest, EveryKeyOfClosedLoop) {
   EXPECT_EQ(scene.drive->max_force_amplitude_N, 1920.0);
   EXPECT_EQ(scene.drive->max_force_slew_N_per_s, 1e8);
   EXPECT_EQ(scene.solver.tolerance, 1e-12);
+  EXPECT_EQ(scene.solver.order, 16);
   EXPECT_EQ(scene.run.duration_s, 4e-3);
   EXPECT_EQ(scene.run.window_start_s, 1e-3);
   EXPECT_EQ(scene.run.settling_band, 0.02);
@@ -133,6 +134,12 @@ TEST(ReaderTest, OverridesTakeTomlAndBareWords) {
   const Scene scene = read_text(shortest_closed_loop, "s",
                                 {"controller.target_friction_ratio=[[0, 0.3], [1e-3, 0.5]]"});
   EXPECT_EQ(scene.controller->target_friction_ratio[1].friction_ratio, 0.5);
+}
+
+TEST(ReaderTest, AnIntegerBeyondTheDigitsOfARealNumberIsRounded) {
+  EXPECT_EQ(read_text(shortest_open_loop, "s", {"plant.stiffness_N_per_m=9007199254740993"})
+                .plant.stiffness_N_per_m,
+            9007199254740992.0);
 }
 
 TEST(ReaderTest, AnOverrideMakesTheTableItNeeds) {

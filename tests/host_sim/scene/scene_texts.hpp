@@ -83,6 +83,7 @@ max_force_slew_N_per_s = 1e8
 [solver]
 method = "event_taylor"
 tolerance = 1e-12
+order = 16
 [run]
 duration_s = 4e-3
 window_start_s = 1e-3

@@ -1,0 +1,109 @@
+/// The classical Runge–Kutta formula of fourth order for the plant.
+#pragma once
+
+#include <array>
+
+#include "firmware/numeric/scalar.hpp"
+#include "firmware/plant/rk4_step.hpp"
+#include "firmware/plant/state.hpp"
+
+namespace sonoglide::plant {
+
+/// The law as it stands: its rate turns with sgn V wherever that happens.
+struct TurningContact {
+  template <class Law, class Scalar>
+  Scalar friction(const Law& law, Scalar velocity, Scalar friction) const {
+    return law.friction(velocity, friction);
+  }
+  template <class Law, class Scalar>
+  Scalar rate(const Law& law, Scalar velocity, Scalar friction) const {
+    return law.rate(velocity, friction);
+  }
+};
+
+/// The law with sgn V frozen: smooth, and its own continuation a little beyond a reversal.
+template <class Scalar>
+struct FrozenContact {
+  Scalar direction;  ///< sgn V; 0 holds the friction where it is
+
+  template <class Law>
+  Scalar friction(const Law& /*law*/, Scalar /*velocity*/, Scalar friction) const {
+    return friction;
+  }
+  /// d phi / d tau is proportional to V.
+  template <class Law>
+  Scalar rate(const Law& law, Scalar velocity, Scalar friction) const {
+    return direction * velocity * law.rate(direction, friction);
+  }
+};
+
+/// The drive force where the formula needs it.
+template <class Scalar>
+struct Rk4Drive {
+  Scalar begin;
+  Scalar middle;
+  Scalar end;
+};
+
+/// The four stages of a step, and the plant at its end.
+template <class Scalar>
+struct Rk4Stages {
+  std::array<Rk4Stage<Scalar>, 4> inside;
+  Rk4Stage<Scalar> end;
+};
+
+/// One interval as the formula sees it; ContactSense is TurningContact or FrozenContact.
+template <class Model, class ContactSense>
+class Rk4Formula {
+ public:
+  using Scalar = typename Model::Scalar;
+  using Stage = Rk4Stage<Scalar>;
+
+  Rk4Formula(const Model& model, const Interval<Scalar>& interval, ContactSense contact)
+      : model_(model), interval_(interval), contact_(contact) {}
+
+  /// The plant at one instant.
+  Stage stage(Scalar drive, Scalar offset, State<Scalar> state) const {
+    const Scalar sliding = interval_.sliding_velocity + interval_.sliding_acceleration * offset;
+    const Scalar velocity = model_.contact_velocity(sliding, state.velocity);
+    state.friction = contact_.friction(model_.law, velocity, state.friction);
+    return {drive, sliding, state,
+            State<Scalar>{state.velocity, model_.acceleration(drive, state),
+                          contact_.rate(model_.law, velocity, state.friction)}};
+  }
+
+  /// A step from the stage at its beginning.
+  Rk4Stages<Scalar> stages(const Stage& begin, const Rk4Drive<Scalar>& drive, Scalar offset,
+                           Scalar length) const {
+    const State<Scalar>& from = begin.state;
+    const Scalar half = length / Scalar(2);
+    const Stage second = stage(drive.middle, offset + half, moved(from, begin.slope, half));
+    const Stage third = stage(drive.middle, offset + half, moved(from, second.slope, half));
+    const Stage fourth = stage(drive.end, offset + length, moved(from, third.slope, length));
+    const std::array<Stage, 4> k = {begin, second, third, fourth};
+    const State<Scalar> slope = {mean(k, &State<Scalar>::displacement),
+                                 mean(k, &State<Scalar>::velocity),
+                                 mean(k, &State<Scalar>::friction)};
+    return {k, stage(drive.end, offset + length, moved(from, slope, length))};
+  }
+
+ private:
+  static State<Scalar> moved(const State<Scalar>& from, const State<Scalar>& slope, Scalar time) {
+    return {from.displacement + time * slope.displacement, from.velocity + time * slope.velocity,
+            from.friction + time * slope.friction};
+  }
+
+  /// The method's mean of one component of the slopes.
+  static Scalar mean(const std::array<Stage, 4>& k, Scalar State<Scalar>::*component) {
+    constexpr Scalar sixth = numeric::from_real<Scalar>(1.0 / 6.0);
+    return sixth *
+           (k[0].slope.*component + Scalar(2) * (k[1].slope.*component + k[2].slope.*component) +
+            k[3].slope.*component);
+  }
+
+  const Model& model_;
+  const Interval<Scalar>& interval_;
+  ContactSense contact_;
+};
+
+}  // namespace sonoglide::plant

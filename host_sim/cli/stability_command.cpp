@@ -1,0 +1,60 @@
+#include "host_sim/cli/stability_command.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdint>
+#include <cstdio>
+#include <filesystem>
+
+#include "host_sim/cli/progress_bar.hpp"
+#include "host_sim/plot/gnuplot.hpp"
+#include "host_sim/report/output_folder.hpp"
+#include "host_sim/stability/study.hpp"
+#include "host_sim/stability/study_text.hpp"
+
+namespace sonoglide::cli {
+namespace {
+
+constexpr std::uint64_t random_scenes = 100000;
+
+/// What would stop the report at the end stops it here.
+void require_output(const std::filesystem::path& out) {
+  plot::require_gnuplot();
+  const report::OutputFolder probe(out);
+}
+
+stability::Study compute(bool quiet) {
+  ProgressBar bar(stderr, !quiet);
+  return stability::study(stability::full_grid(), random_scenes,
+                          [&bar](double fraction) { bar.update(fraction); });
+}
+
+}  // namespace
+
+CLI::App* add_stability_command(CLI::App& program, StabilityOptions& options) {
+  CLI::App* command = program.add_subcommand(
+      "stability", "Where each solver can be trusted: maps over step and stiffness, extreme cases");
+  command
+      ->add_option("--out", options.out,
+                   "Folder for report.html, stability_map.csv and .svg, the same for float32, "
+                   "extremes.csv and extremes_worst.csv [out/stability]")
+      ->type_name("DIR")
+      ->check([](const std::string& folder) {
+        return folder.empty() ? std::string("is empty; allowed: a folder") : std::string();
+      });
+  command->add_flag("--quiet", options.quiet, "No progress bar and no printed summary");
+  return command;
+}
+
+void stability(const StabilityOptions& options) {
+  const std::filesystem::path out = options.out;
+  require_output(out);
+  const stability::Study study = compute(options.quiet);
+  stability::write_study(out, study);
+  if (!options.quiet) {
+    fmt::print("{}report: {}\n", stability::study_text(study.extremes),
+               (out / "report.html").string());
+  }
+}
+
+}  // namespace sonoglide::cli

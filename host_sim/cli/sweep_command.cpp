@@ -1,0 +1,100 @@
+#include "host_sim/cli/sweep_command.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <filesystem>
+
+#include "host_sim/cli/progress_bar.hpp"
+#include "host_sim/sweep/sweep.hpp"
+
+namespace sonoglide::cli {
+namespace {
+
+constexpr unsigned most_threads = 1024;
+
+sweep::Summary compute(const sweep::Plan& plan, const std::filesystem::path& out,
+                       const SweepOptions& options) {
+  ProgressBar bar(stderr, !options.quiet);
+  try {
+    return sweep::run_sweep(plan, out, "sonoglide " SONOGLIDE_VERSION, options.threads,
+                            [&bar](double fraction) { bar.update(fraction); });
+  } catch (const sweep::ForeignJournal& error) {
+    throw CLI::ValidationError("--out", error.what());
+  }
+}
+
+std::string text(const sweep::Summary& summary, const std::filesystem::path& out) {
+  const std::size_t computed = summary.points - summary.found_finished;
+  std::string lines = fmt::format("{} points", summary.points);
+  if (summary.found_finished > 0) {
+    lines += fmt::format(", {} of them finished before", summary.found_finished);
+  }
+  lines += fmt::format("; {} computed in {:.3g} s, {:.3g} points/s\n", computed, summary.wall_s,
+                       static_cast<double>(computed) / summary.wall_s);
+  if (summary.failed > 0) {
+    lines += fmt::format("{} points failed: see the column status\n", summary.failed);
+  }
+  return lines + fmt::format("rows: {}\nreport: {}\n", (out / "sweep.csv").string(),
+                             (out / "report.html").string());
+}
+
+}  // namespace
+
+CLI::App* add_sweep_command(CLI::App& program, SweepOptions& options) {
+  CLI::App* command = program.add_subcommand(
+      "sweep",
+      "Run a scene for every combination of the values of some keys, on all cores; "
+      "interrupted, the same command goes on from there");
+  command->add_option("scene", options.scene, "The scene, a TOML file")
+      ->required()
+      ->type_name("SCENE.toml");
+  command
+      ->add_option(
+          "--vary", options.vary,
+          "A key and its values, evenly spaced or, with :log, by equal factors, e.g. "
+          "friction.contact_stiffness_N_per_m=1e4:1e6:32:log; repeatable, the first key "
+          "changes slowest. velocity_ratio stands for sliding velocity over peak vibration "
+          "velocity of the steady state without friction, Fe w / |Ks - m w^2 + i c w|")
+      ->required()
+      ->type_name("KEY=FROM:TO:COUNT[:log]")
+      ->allow_extra_args(false);
+  command
+      ->add_option("--out", options.out,
+                   "Folder for sweep.csv, sweep.svg (one or two keys) and report.html "
+                   "[out/<scene name>_sweep]")
+      ->type_name("DIR")
+      ->check([](const std::string& folder) {
+        return folder.empty() ? std::string("is empty; allowed: a folder") : std::string();
+      });
+  command
+      ->add_option("--set", options.overrides,
+                   "Replace or add one value of the scene at every point; repeatable")
+      ->type_name("TABLE.KEY=VALUE")
+      ->allow_extra_args(false);
+  command->add_option("--threads", options.threads, "At most so many threads [one for each core]")
+      ->type_name("N")
+      ->check([](const std::string& number) {
+        const bool whole = !number.empty() && number.size() <= 4 &&
+                           number.find_first_not_of("0123456789") == std::string::npos;
+        const unsigned long value = whole ? std::stoul(number) : 0;
+        return value >= 1 && value <= most_threads
+                   ? std::string()
+                   : fmt::format("\"{}\"; allowed: a whole number, 1 to {}", number, most_threads);
+      });
+  command->add_flag("--quiet", options.quiet, "No progress bar and no printed summary");
+  return command;
+}
+
+void sweep(const SweepOptions& options) {
+  const sweep::Plan plan(options.scene, options.overrides, options.vary);
+  const std::filesystem::path out =
+      options.out.empty() ? std::filesystem::path("out") / (plan.first().name + "_sweep")
+                          : std::filesystem::path(options.out);
+  const sweep::Summary summary = compute(plan, out, options);
+  if (!options.quiet) {
+    fmt::print("{}", text(summary, out));
+  }
+}
+
+}  // namespace sonoglide::cli

@@ -1,0 +1,27 @@
+/// `sonoglide sweep`: many scenes at once.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+#include <string>
+#include <vector>
+
+namespace sonoglide::cli {
+
+struct SweepOptions {
+  std::string scene;
+  std::string out;  ///< empty: out/<scene name>_sweep
+  std::vector<std::string> vary;
+  std::vector<std::string> overrides;
+  unsigned threads = 0;  ///< 0: one for each core
+  bool quiet = false;
+};
+
+/// Adds the command to the program; `options` outlives it and is filled in by parsing.
+CLI::App* add_sweep_command(CLI::App& program, SweepOptions& options);
+
+/// Throws scene::SceneError and CLI::ValidationError, nothing was written then;
+/// report::OutputError, plot::PlotError.
+void sweep(const SweepOptions& options);
+
+}  // namespace sonoglide::cli

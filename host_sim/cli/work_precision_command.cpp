@@ -1,0 +1,94 @@
+#include "host_sim/cli/work_precision_command.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "host_sim/cli/progress_bar.hpp"
+#include "host_sim/plot/gnuplot.hpp"
+#include "host_sim/report/output_folder.hpp"
+#include "host_sim/scene/configuration_error.hpp"
+#include "host_sim/scene/document.hpp"
+#include "host_sim/scene/reader.hpp"
+#include "host_sim/work_precision/comparison.hpp"
+#include "host_sim/work_precision/problem.hpp"
+#include "host_sim/work_precision/report.hpp"
+
+namespace sonoglide::cli {
+namespace {
+
+/// Where a key stands in a scene that was read without complaint; its table or the beginning of the
+/// file where it is left to its default.
+scene::Location place_of(const std::string& path, const std::string& dotted_key) {
+  std::ifstream file(path, std::ios::binary);
+  const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  const scene::Document document(text, path, {});
+  const std::size_t dot = dotted_key.find('.');
+  const scene::Table* table = document.find(dotted_key.substr(0, dot));
+  if (table == nullptr) {
+    return document.start();
+  }
+  const auto entry = dot == std::string::npos ? table->entries.end()
+                                              : table->entries.find(dotted_key.substr(dot + 1));
+  return entry == table->entries.end() ? table->place : entry->second.value_place;
+}
+
+/// Stages and removes an empty folder: an output that cannot be written is found out before the
+/// comparison.
+void require_writable(const std::filesystem::path& out) {
+  const report::OutputFolder probe(out);
+}
+
+peers::Problem read_problem(const scene::Scene& scene, const std::string& path) {
+  try {
+    return work_precision::problem_of(scene);
+  } catch (const scene::ConfigurationError& error) {
+    throw scene::SceneError(place_of(path, error.key()), error.key(), error.what());
+  }
+}
+
+work_precision::Comparison compute(const peers::Problem& problem, bool quiet) {
+  ProgressBar bar(stderr, !quiet);
+  return work_precision::compare(problem, work_precision::solvers(), {},
+                                 [&bar](double fraction) { bar.update(fraction); });
+}
+
+}  // namespace
+
+CLI::App* add_work_precision_command(CLI::App& program, WorkPrecisionOptions& options) {
+  CLI::App* command = program.add_subcommand(
+      "work-precision", "Error against run time on an open-loop scene, every solver and peer");
+  command->add_option("scene", options.scene, "The scene, a TOML file; its [solver] plays no part")
+      ->required()
+      ->type_name("SCENE.toml");
+  command
+      ->add_option("--out", options.out,
+                   "Folder for report.html, work_precision.csv and work_precision.svg "
+                   "[out/<scene name>_work_precision]")
+      ->type_name("DIR")
+      ->check([](const std::string& folder) {
+        return folder.empty() ? std::string("is empty; allowed: a folder") : std::string();
+      });
+  command->add_flag("--quiet", options.quiet, "No progress bar and no printed summary");
+  return command;
+}
+
+void work_precision(const WorkPrecisionOptions& options) {
+  const scene::Scene scene = scene::read_file(options.scene);
+  const peers::Problem problem = read_problem(scene, options.scene);
+  const std::filesystem::path out =
+      options.out.empty() ? std::filesystem::path("out") / (scene.name + "_work_precision")
+                          : std::filesystem::path(options.out);
+  plot::require_gnuplot();
+  require_writable(out);
+  const work_precision::Comparison comparison = compute(problem, options.quiet);
+  work_precision::write(out, scene, comparison);
+  if (!options.quiet) {
+    fmt::print("{}", work_precision::text(comparison, out));
+  }
+}
+
+}  // namespace sonoglide::cli

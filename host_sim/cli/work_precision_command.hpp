@@ -1,0 +1,23 @@
+/// `sonoglide work-precision`: error against run time, every solver and every peer built in.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+#include <string>
+
+namespace sonoglide::cli {
+
+struct WorkPrecisionOptions {
+  std::string scene;
+  std::string out;  ///< empty: out/<scene name>_work_precision
+  bool quiet = false;
+};
+
+/// Adds the command to the program; `options` outlives it and is filled in by parsing.
+CLI::App* add_work_precision_command(CLI::App& program, WorkPrecisionOptions& options);
+
+/// Throws scene::SceneError, loop::ComputationError, report::OutputError, plot::PlotError; in each
+/// case nothing was written.
+void work_precision(const WorkPrecisionOptions& options);
+
+}  // namespace sonoglide::cli

@@ -1,0 +1,59 @@
+/// How a run is cut into carrier periods, and when two of its times are one.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+#include "host_sim/scene/scene.hpp"
+
+namespace sonoglide::loop {
+
+/// Carrier periods from the beginning of a run on; the last one may be cut short. Without a drive a
+/// "period" is one thousandth of the run.
+class CarrierGrid {
+ public:
+  explicit CarrierGrid(const scene::Scene& scene)
+      : period_s_(scene.drive ? 1.0 / scene.drive->frequency_Hz : scene.run.duration_s / 1000.0),
+        end_s_(scene.run.duration_s),
+        count_(std::max<std::uint64_t>(1, at_or_after(end_s_))) {}
+
+  double period_s() const { return period_s_; }
+  std::uint64_t count() const { return count_; }
+
+  double begin_s(std::uint64_t index) const { return static_cast<double>(index) * period_s_; }
+  double end_s(std::uint64_t index) const {
+    return index + 1 < count_ ? begin_s(index + 1) : end_s_;
+  }
+  bool is_whole(std::uint64_t index) const {
+    return index + 1 < count_ || end_s_ - begin_s(index) >= period_s_ - rounding_s(end_s_);
+  }
+  /// Of a whole period exactly one period: the difference of two late times would not be.
+  double duration_s(std::uint64_t index) const {
+    return is_whole(index) ? period_s_ : end_s_ - begin_s(index);
+  }
+
+  /// Periods that are over at a time.
+  std::uint64_t over_at(double time_s) const {
+    return static_cast<std::uint64_t>(std::floor((time_s + rounding_s(time_s)) / period_s_));
+  }
+  /// Index of the first period that begins at a time or after it.
+  std::uint64_t at_or_after(double time_s) const {
+    return static_cast<std::uint64_t>(
+        std::ceil(std::max(0.0, time_s - rounding_s(time_s)) / period_s_));
+  }
+
+  /// Times closer than this are one: a step that is meant to fall on a carrier period misses it by
+  /// the rounding of its decimal figure, and by that of a late time.
+  double rounding_s(double time_s) const {
+    return 1e-9 * period_s_ + 4.0 * std::numeric_limits<double>::epsilon() * time_s;
+  }
+
+ private:
+  double period_s_;
+  double end_s_;
+  std::uint64_t count_;
+};
+
+}  // namespace sonoglide::loop

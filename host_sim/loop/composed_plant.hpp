@@ -1,0 +1,143 @@
+/// A solver of the core behind the plant's port: SI units outside, dimensionless numbers inside.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include "firmware/plant/account.hpp"
+#include "firmware/plant/observer.hpp"
+#include "firmware/plant/outcome.hpp"
+#include "firmware/plant/state.hpp"
+#include "host_sim/loop/plant_port.hpp"
+#include "host_sim/scene/plant_scales.hpp"
+
+namespace sonoglide::loop {
+
+/// Reads states off the steps as they are taken.
+class StateReader {
+ public:
+  StateReader(const std::vector<double>& offsets_s, double angular_frequency_rad_per_s,
+              std::vector<plant::State<double>>& seen)
+      : offsets_s_(offsets_s),
+        angular_frequency_rad_per_s_(angular_frequency_rad_per_s),
+        seen_(seen) {}
+
+  template <class Step>
+  void operator()(const Step& step) {
+    const double end = step.begin() + step.length();
+    for (; next_ < offsets_s_.size(); ++next_) {
+      const double offset = offsets_s_[next_] * angular_frequency_rad_per_s_;
+      if (offset > end) {
+        return;
+      }
+      seen_.push_back(step.at(std::max(0.0, offset - step.begin())));
+    }
+  }
+
+  /// Offsets that rounding has put past the last step.
+  void finish(const plant::State<double>& last) { seen_.resize(offsets_s_.size(), last); }
+
+ private:
+  const std::vector<double>& offsets_s_;
+  double angular_frequency_rad_per_s_;
+  std::vector<plant::State<double>>& seen_;
+  std::size_t next_ = 0;
+};
+
+template <class Solver>
+class ComposedPlant final : public PlantPort {
+ public:
+  using Model = typename Solver::Model;
+
+  /// @param precision  the tolerance of an adaptive method, the step of another, dimensionless
+  ComposedPlant(const scene::PlantScales& scales, const Model& model, double precision,
+                const plant::State<double>& initial)
+      : scales_(scales), model_(model), state_(initial) {
+    solver_.configure(model, precision);
+  }
+
+  plant::Outcome<double> advance(const Stretch& stretch, EnergyBalance& energy) override {
+    plant::NoObserver nobody;
+    return advance(stretch, nobody, energy);
+  }
+
+  plant::Outcome<double> advance_sampled(const Stretch& stretch,
+                                         const std::vector<double>& offsets_s,
+                                         EnergyBalance& energy,
+                                         std::vector<PlantState>& seen) override {
+    seen_.clear();
+    StateReader reader(offsets_s, scales_.angular_frequency_rad_per_s, seen_);
+    const plant::Outcome<double> outcome = advance(stretch, reader, energy);
+    reader.finish(state_);
+    for (const plant::State<double>& state : seen_) {
+      seen.push_back(in_si_units(state));
+    }
+    return outcome;
+  }
+
+  PlantState state() const override { return in_si_units(state_); }
+  plant::Cost cost() const override { return solver_.cost(); }
+
+ private:
+  template <class Observer>
+  plant::Outcome<double> advance(const Stretch& stretch, Observer& observer,
+                                 EnergyBalance& energy) {
+    const double omega = scales_.angular_frequency_rad_per_s;
+    const plant::Interval<double> interval{
+        stretch.drive_phase_rad, stretch.duration_s * omega,
+        stretch.drive_amplitude_N / scales_.force_N,
+        stretch.sliding_velocity_m_per_s / scales_.velocity_m_per_s(),
+        stretch.sliding_acceleration_m_per_s2 / (scales_.velocity_m_per_s() * omega)};
+    const plant::State<double> before = state_;
+    plant::EnergyAccount<double> account;
+    plant::Outcome<double> outcome = solver_.advance(interval, state_, account, observer);
+    energy = balance(stretch, account, before);
+    outcome.offset /= omega;
+    return outcome;
+  }
+
+  PlantState in_si_units(const plant::State<double>& state) const {
+    return {state.displacement * scales_.length_m, state.velocity * scales_.velocity_m_per_s(),
+            state.friction * scales_.friction_N};
+  }
+
+  EnergyBalance balance(const Stretch& stretch, const plant::EnergyAccount<double>& account,
+                        const plant::State<double>& before) const {
+    const double duration = stretch.duration_s;
+    const double first = stretch.sliding_velocity_m_per_s;
+    const double last = first + stretch.sliding_acceleration_m_per_s2 * duration;
+    const double sign = first + last < 0.0 ? -1.0 : 1.0;
+    const double omega = scales_.angular_frequency_rad_per_s;
+    const double energy_J = scales_.force_N * scales_.length_m;
+    const double friction_J = scales_.friction_N * scales_.length_m;
+    const double inertia_kg = scales_.force_N / (scales_.length_m * omega * omega);
+    const double travel_m = (state_.displacement - before.displacement) * scales_.length_m;
+    const double stored_integral =
+        0.5 * (account.velocity_square + model_.stiffness * account.displacement_square);
+
+    EnergyBalance energy;
+    energy.duration_s = duration;
+    energy.sliding_distance_m = 0.5 * std::abs(first + last) * duration;
+    energy.friction_impulse_N_s = account.friction_integral * scales_.friction_N / omega;
+    energy.resistance_impulse_N_s = sign * energy.friction_impulse_N_s;
+    energy.friction_work_J = account.friction_work * friction_J;
+    energy.pull_work_J = account.sliding_work * friction_J;
+    energy.drive_work_J = account.drive_work * energy_J;
+    energy.damping_work_J = account.damping_work * energy_J;
+    energy.stored_begin_J = model_.stored_energy(before) * energy_J;
+    energy.stored_end_J = model_.stored_energy(state_) * energy_J;
+    energy.stored_integral_J_s = stored_integral * energy_J / omega;
+    energy.momentum_integral_J_s = inertia_kg * 0.5 * (first + last) * travel_m;
+    return energy;
+  }
+
+  scene::PlantScales scales_;
+  Model model_;
+  Solver solver_;
+  plant::State<double> state_;
+  std::vector<plant::State<double>> seen_;
+};
+
+}  // namespace sonoglide::loop

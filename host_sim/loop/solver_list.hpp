@@ -1,0 +1,90 @@
+/// The solvers that a scene chooses among.
+#pragma once
+
+#include <memory>
+#include <stdexcept>
+
+#include "firmware/friction/none.hpp"
+#include "firmware/plant/damping.hpp"
+#include "firmware/plant/drive.hpp"
+#include "firmware/plant/event_taylor.hpp"
+#include "firmware/plant/model.hpp"
+#include "firmware/plant/rk4.hpp"
+#include "firmware/plant/rk4_event.hpp"
+#include "firmware/plant/strang.hpp"
+#include "host_sim/loop/composed_plant.hpp"
+#include "host_sim/loop/plant_description.hpp"
+#include "host_sim/loop/plant_port.hpp"
+
+namespace sonoglide::loop {
+
+template <class Model>
+using PlantMaker = std::unique_ptr<PlantPort> (*)(const PlantDescription&, const Model&);
+
+template <class Solver>
+std::unique_ptr<PlantPort> make_composed_plant(const PlantDescription& description,
+                                               const typename Solver::Model& model) {
+  const scene::Scene& scene = description.scene;
+  const scene::PlantScales& scales = description.scales;
+  const double precision = scene::is_adaptive(scene.solver.method)
+                               ? scene.solver.tolerance
+                               : scene.solver.step_s * scales.angular_frequency_rad_per_s;
+  const plant::State<double> initial{
+      scene.plant.initial_displacement_m / scales.length_m,
+      scene.plant.initial_velocity_m_per_s / scales.velocity_m_per_s(),
+      scales.friction_N > 0.0 ? scene.friction.initial_force_N / scales.friction_N : 0.0};
+  return std::make_unique<ComposedPlant<Solver>>(scales, model, precision, initial);
+}
+
+/// Null where the solver is not made for the model's friction law.
+template <template <class> class Solver, class Model>
+constexpr PlantMaker<Model> maker_if_solved() {
+  // The solver is no type for a law that it does not solve, but answers for every law elsewhere.
+  using AnyModel = plant::Model<friction::None<double>, plant::Undamped<double>, plant::NoDrive>;
+  if constexpr (Solver<AnyModel>::template solves<typename Model::FrictionLaw>) {
+    return make_composed_plant<Solver<Model>>;
+  } else {
+    return nullptr;
+  }
+}
+
+template <class Model>
+struct ListedSolver {
+  scene::SolverMethod method;
+  int order;               ///< 0 where the method has but one
+  PlantMaker<Model> make;  ///< null where the law is not solved
+};
+
+template <class Model>
+inline constexpr ListedSolver<Model> solver_list[] = {
+    {scene::SolverMethod::event_taylor, 8, make_composed_plant<plant::EventTaylor<Model, 8>>},
+    {scene::SolverMethod::event_taylor, 12, make_composed_plant<plant::EventTaylor<Model, 12>>},
+    {scene::SolverMethod::event_taylor, 16, make_composed_plant<plant::EventTaylor<Model, 16>>},
+    {scene::SolverMethod::strang, 0, maker_if_solved<plant::Strang, Model>()},
+    {scene::SolverMethod::rk4, 0, maker_if_solved<plant::Rk4, Model>()},
+    {scene::SolverMethod::rk4_event, 0, maker_if_solved<plant::Rk4Event, Model>()},
+};
+
+/// The order that the scene asks for, or the one that takes the least time at its tolerance.
+inline int order_of(const scene::Solver& solver) {
+  if (solver.method != scene::SolverMethod::event_taylor) {
+    return 0;
+  }
+  const int cheapest = solver.tolerance >= 1e-5 ? 8 : solver.tolerance >= 1e-8 ? 12 : 16;
+  return solver.order.value_or(cheapest);
+}
+
+/// @throws std::logic_error  the solver is not in the list, which a scene that was read from a file
+///         has been checked for
+template <class Model>
+PlantMaker<Model> find_solver(const scene::Solver& solver) {
+  const int order = order_of(solver);
+  for (const ListedSolver<Model>& listed : solver_list<Model>) {
+    if (listed.method == solver.method && listed.order == order && listed.make != nullptr) {
+      return listed.make;
+    }
+  }
+  throw std::logic_error("no such solver for this friction law");
+}
+
+}  // namespace sonoglide::loop

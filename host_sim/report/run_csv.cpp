@@ -1,0 +1,101 @@
+#include "host_sim/report/run_csv.hpp"
+
+#include <iterator>
+#include <utility>
+
+#include <fmt/compile.h>
+
+#include "firmware/numeric/float_format.hpp"
+#include "host_sim/report/control_names.hpp"
+#include "host_sim/report/output_folder.hpp"
+#include "host_sim/scene/names.hpp"
+
+namespace sonoglide::report {
+namespace {
+
+void append(fmt::memory_buffer& row, double value) {
+  fmt::format_to(std::back_inserter(row), FMT_COMPILE("{}"), value);
+}
+
+void append_time(fmt::memory_buffer& row, double time_s) {
+  fmt::format_to(std::back_inserter(row), FMT_COMPILE("{:.12g}"), time_s);
+}
+
+double value_of(const loop::Sample& sample, scene::Channel channel) {
+  switch (channel) {
+    case scene::Channel::displacement:
+      return sample.state.displacement_m;
+    case scene::Channel::velocity:
+      return sample.state.velocity_m_per_s;
+    case scene::Channel::friction_force:
+      return sample.state.friction_force_N;
+    case scene::Channel::drive_force:
+      return sample.drive_force_N;
+    case scene::Channel::sliding_velocity:
+      break;
+  }
+  return sample.sliding_velocity_m_per_s;
+}
+
+}  // namespace
+
+void CsvFile::finish_row() {
+  row_.push_back('\n');
+  stream_.write(row_.data(), static_cast<std::streamsize>(row_.size()));
+  row_.clear();
+  if (!stream_) {
+    throw OutputError(path_ + ": could not be written in full");
+  }
+}
+
+void RepeatingNumber::append_to(fmt::memory_buffer& row, double value) {
+  if (text_.size() == 0 || numeric::to_bits(value) != numeric::to_bits(value_)) {
+    value_ = value;
+    text_.clear();
+    append(text_, value);
+  }
+  row.append(text_.begin(), text_.end());
+}
+
+PeriodsCsv::PeriodsCsv(CsvFile file) : file_(std::move(file)) {
+  file_.row().append(std::string_view(
+      "time_s,friction_ratio,target,drive_amplitude_N,sliding_velocity_m_per_s,limit"));
+  file_.finish_row();
+}
+
+void PeriodsCsv::take(const loop::Period& period) {
+  fmt::memory_buffer& row = file_.row();
+  append_time(row, period.begin_s);
+  row.push_back(',');
+  append(row, period.friction_ratio);
+  row.push_back(',');
+  target_.append_to(row, period.target);
+  row.push_back(',');
+  drive_amplitude_N_.append_to(row, period.drive_amplitude_N);
+  row.push_back(',');
+  sliding_velocity_m_per_s_.append_to(row, period.begin_velocity_m_per_s);
+  row.push_back(',');
+  row.append(std::string_view(limit_name(period.limit)));
+  file_.finish_row();
+}
+
+TraceCsv::TraceCsv(CsvFile file, std::vector<scene::Channel> channels)
+    : file_(std::move(file)), channels_(std::move(channels)) {
+  file_.row().append(std::string_view("time_s"));
+  for (const scene::Channel channel : channels_) {
+    file_.row().push_back(',');
+    file_.row().append(scene::name_of(scene::channels, channel));
+  }
+  file_.finish_row();
+}
+
+void TraceCsv::take(const loop::Sample& sample) {
+  append_time(file_.row(), sample.time_s);
+  for (const scene::Channel channel : channels_) {
+    file_.row().push_back(',');
+    append(file_.row(), value_of(sample, channel));
+  }
+  file_.finish_row();
+}
+
+}  // namespace sonoglide::report

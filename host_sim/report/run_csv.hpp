@@ -1,0 +1,68 @@
+/// The tables of a run, written while it goes.
+#pragma once
+
+#include <ostream>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "host_sim/loop/period.hpp"
+#include "host_sim/loop/sample.hpp"
+#include "host_sim/scene/scene.hpp"
+
+namespace sonoglide::report {
+
+/// A stream that takes whole rows.
+class CsvFile {
+ public:
+  /// @param path  what an error shows; @param stream  outlives this
+  CsvFile(std::string path, std::ostream& stream) : path_(std::move(path)), stream_(stream) {}
+
+  /// The row being written; cleared by finish_row().
+  fmt::memory_buffer& row() { return row_; }
+
+  /// @throws OutputError as soon as the stream has failed, not when the run is over
+  void finish_row();
+
+ private:
+  std::string path_;
+  std::ostream& stream_;
+  fmt::memory_buffer row_;
+};
+
+/// A column whose value often stays as it was: its text is kept.
+class RepeatingNumber {
+ public:
+  void append_to(fmt::memory_buffer& row, double value);
+
+ private:
+  double value_ = 0.0;
+  fmt::memory_buffer text_;
+};
+
+/// periods.csv: one row for each carrier period; numbers as short as they can be read back.
+class PeriodsCsv final : public loop::PeriodSink {
+ public:
+  explicit PeriodsCsv(CsvFile file);
+  void take(const loop::Period& period) override;
+
+ private:
+  CsvFile file_;
+  RepeatingNumber target_;
+  RepeatingNumber drive_amplitude_N_;
+  RepeatingNumber sliding_velocity_m_per_s_;
+};
+
+/// trace.csv: one column for each recorded channel after that of time.
+class TraceCsv final : public loop::SampleSink {
+ public:
+  TraceCsv(CsvFile file, std::vector<scene::Channel> channels);
+  void take(const loop::Sample& sample) override;
+
+ private:
+  CsvFile file_;
+  std::vector<scene::Channel> channels_;
+};
+
+}  // namespace sonoglide::report

@@ -1,0 +1,92 @@
+#include "host_sim/report/run_findings.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+
+#include "host_sim/scene/control_design.hpp"
+
+namespace sonoglide::report {
+namespace {
+
+constexpr double samples_per_period = 64.0;
+constexpr std::uint64_t close_up_before_periods = 2;
+constexpr std::uint64_t close_up_after_periods = 10;
+constexpr std::size_t most_close_ups = 12;
+constexpr std::uint64_t ending_periods = 256;
+
+double speed_floor_m_per_s(const scene::Scene& scene) {
+  const scene::ControlDesign design = scene::design_control(scene);
+  return design.speed_floor * design.scales.velocity_m_per_s;
+}
+
+}  // namespace
+
+void Course::take(const loop::Period& period) {
+  curve_.add(period.begin_s, {period.friction_ratio, period.target, period.drive_amplitude_N,
+                              period.begin_velocity_m_per_s});
+  held_at_speed_floor_ = held_at_speed_floor_ || period.limit == control::Limit::speed_floor;
+}
+
+RunFindings::RunFindings(const scene::Scene& scene) : scene_(scene), grid_(scene) {
+  if (scene.controller) {
+    step_meter_.emplace(scene);
+    tracking_meter_.emplace(scene, speed_floor_m_per_s(scene));
+  }
+  close_ups_.resize(std::min(target_steps_s().size(), most_close_ups));
+}
+
+void RunFindings::join(loop::Watch& watch) {
+  watch.periods.push_back(&course_);
+  if (step_meter_) {
+    watch.periods.push_back(&*step_meter_);
+    watch.periods.push_back(&*tracking_meter_);
+  }
+  const std::vector<double> steps_s = target_steps_s();
+  for (std::size_t i = 0; i < close_ups_.size(); ++i) {
+    watch.samples.push_back({close_up_grid(steps_s[i]), &close_ups_[i]});
+  }
+  watch.samples.push_back({ending_grid(steps_s.back()), &ending_});
+}
+
+std::vector<analysis::StepMetrics> RunFindings::steps() const {
+  return step_meter_ ? step_meter_->steps() : std::vector<analysis::StepMetrics>();
+}
+
+std::optional<double> RunFindings::largest_tracking_error() const {
+  return tracking_meter_ ? tracking_meter_->largest_error() : std::nullopt;
+}
+
+/// Those inside the run; in open loop its beginning.
+std::vector<double> RunFindings::target_steps_s() const {
+  std::vector<double> steps_s{0.0};
+  if (scene_.controller) {
+    for (const scene::TargetStep& step : scene_.controller->target_friction_ratio) {
+      if (step.time_s > 0.0 && step.time_s < scene_.run.duration_s) {
+        steps_s.push_back(step.time_s);
+      }
+    }
+  }
+  return steps_s;
+}
+
+loop::SampleGrid RunFindings::close_up_grid(double step_s) const {
+  // On the grid of carrier periods, so that the drive phase is 0 at the left.
+  const std::uint64_t step = grid_.at_or_after(step_s);
+  const std::uint64_t first = step - std::min(step, close_up_before_periods);
+  return {grid_.begin_s(first),
+          std::min(scene_.run.duration_s, grid_.begin_s(step + close_up_after_periods)),
+          grid_.period_s() / samples_per_period};
+}
+
+/// The last whole carrier periods, within three quarters of the last step's time.
+loop::SampleGrid RunFindings::ending_grid(double last_step_s) const {
+  const double end_s = scene_.run.duration_s;
+  const std::uint64_t settled = grid_.over_at(0.75 * (end_s - last_step_s));
+  const std::uint64_t last = grid_.over_at(end_s);
+  const std::uint64_t kept = std::min({ending_periods, std::max<std::uint64_t>(1, settled), last});
+  return {grid_.begin_s(last - kept), grid_.begin_s(last), grid_.period_s() / samples_per_period};
+}
+
+}  // namespace sonoglide::report

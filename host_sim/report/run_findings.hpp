@@ -1,0 +1,68 @@
+/// What a run's report shows beside the result: gathered while the run goes, in bounded memory.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "host_sim/analysis/extremes_curve.hpp"
+#include "host_sim/analysis/step_metrics.hpp"
+#include "host_sim/analysis/tracking_error.hpp"
+#include "host_sim/loop/carrier_grid.hpp"
+#include "host_sim/loop/recording.hpp"
+#include "host_sim/loop/watch.hpp"
+#include "host_sim/scene/scene.hpp"
+
+namespace sonoglide::report {
+
+/// The course of a run, carrier period by carrier period, for charts.
+class Course final : public loop::PeriodSink {
+ public:
+  enum Ordinate { friction_ratio, target, drive_amplitude_N, sliding_velocity_m_per_s, ordinates };
+  using Curve = analysis::ExtremesCurve<ordinates>;
+
+  void take(const loop::Period& period) override;
+
+  const Curve& curve() const { return curve_; }
+  /// Whether slow sliding has ever held the drive.
+  bool held_at_speed_floor() const { return held_at_speed_floor_; }
+
+ private:
+  static constexpr std::size_t most_points = 20000;
+
+  Curve curve_{most_points};
+  bool held_at_speed_floor_ = false;
+};
+
+class RunFindings {
+ public:
+  explicit RunFindings(const scene::Scene& scene);
+  RunFindings(const RunFindings&) = delete;
+  RunFindings& operator=(const RunFindings&) = delete;
+
+  /// Asks for what is to be gathered. This outlives the run.
+  void join(loop::Watch& watch);
+
+  /// In open loop empty.
+  std::vector<analysis::StepMetrics> steps() const;
+  std::optional<double> largest_tracking_error() const;
+  const Course& course() const { return course_; }
+  /// A few carrier periods at each of the first target steps; in open loop at the beginning.
+  const std::vector<loop::Recording>& close_ups() const { return close_ups_; }
+  /// The last carrier periods, for loops and spectra.
+  const loop::Recording& ending() const { return ending_; }
+
+ private:
+  std::vector<double> target_steps_s() const;
+  loop::SampleGrid close_up_grid(double step_s) const;
+  loop::SampleGrid ending_grid(double last_step_s) const;
+
+  const scene::Scene& scene_;
+  loop::CarrierGrid grid_;
+  std::optional<analysis::StepMeter> step_meter_;
+  std::optional<analysis::TrackingMeter> tracking_meter_;
+  Course course_;
+  std::vector<loop::Recording> close_ups_;
+  loop::Recording ending_;
+};
+
+}  // namespace sonoglide::report

@@ -1,0 +1,48 @@
+#include "host_sim/scene/solver_laws.hpp"
+
+#include "firmware/friction/coulomb.hpp"
+#include "firmware/friction/dahl.hpp"
+#include "firmware/friction/none.hpp"
+#include "firmware/plant/damping.hpp"
+#include "firmware/plant/drive.hpp"
+#include "firmware/plant/model.hpp"
+#include "firmware/plant/rk4.hpp"
+#include "firmware/plant/rk4_event.hpp"
+#include "firmware/plant/strang.hpp"
+
+namespace sonoglide::scene {
+namespace {
+
+/// A solver answers for every law, but is no type for a law that it does not solve.
+using AnyModel = plant::Model<friction::None<double>, plant::Undamped<double>, plant::NoDrive>;
+
+template <class Solver>
+bool solver_solves(FrictionLaw law) {
+  switch (law) {
+    case FrictionLaw::coulomb:
+      return Solver::template solves<friction::Coulomb<double>>;
+    case FrictionLaw::dahl:
+      return Solver::template solves<friction::Dahl<double>>;
+    case FrictionLaw::none:
+      break;
+  }
+  return Solver::template solves<friction::None<double>>;
+}
+
+}  // namespace
+
+bool solves(SolverMethod method, FrictionLaw law) {
+  switch (method) {
+    case SolverMethod::strang:
+      return solver_solves<plant::Strang<AnyModel>>(law);
+    case SolverMethod::rk4:
+      return solver_solves<plant::Rk4<AnyModel>>(law);
+    case SolverMethod::rk4_event:
+      return solver_solves<plant::Rk4Event<AnyModel>>(law);
+    case SolverMethod::event_taylor:
+      break;
+  }
+  return true;
+}
+
+}  // namespace sonoglide::scene

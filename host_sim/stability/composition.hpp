@@ -1,0 +1,97 @@
+/// The plant that a scene names, composed of exactly its parts, in either precision.
+#pragma once
+
+#include <variant>
+
+#include "firmware/friction/coulomb.hpp"
+#include "firmware/friction/dahl.hpp"
+#include "firmware/friction/none.hpp"
+#include "firmware/plant/damping.hpp"
+#include "firmware/plant/drive.hpp"
+#include "firmware/plant/model.hpp"
+#include "host_sim/scene/plant_scales.hpp"
+#include "host_sim/scene/scene.hpp"
+
+namespace sonoglide::stability {
+namespace detail {
+
+template <class Scalar>
+plant::Contact<friction::None<Scalar>> contact(friction::None<Scalar> /*law*/,
+                                               const scene::PlantNumbers& /*numbers*/,
+                                               Scalar /*sign*/) {
+  return {};
+}
+template <class Scalar>
+plant::Contact<friction::Coulomb<Scalar>> contact(friction::Coulomb<Scalar> /*law*/,
+                                                  const scene::PlantNumbers& numbers, Scalar sign) {
+  return {{}, static_cast<Scalar>(numbers.friction_force), sign};
+}
+template <class Scalar>
+plant::Contact<friction::Dahl<Scalar>> contact(friction::Dahl<Scalar> /*law*/,
+                                               const scene::PlantNumbers& numbers, Scalar sign) {
+  return {{static_cast<Scalar>(numbers.contact_stiffness)},
+          static_cast<Scalar>(numbers.friction_force),
+          sign};
+}
+
+template <class Scalar>
+plant::Undamped<Scalar> damper(plant::Undamped<Scalar> /*damping*/,
+                               const scene::PlantNumbers& /*numbers*/) {
+  return {};
+}
+template <class Scalar>
+plant::Damped<Scalar> damper(plant::Damped<Scalar> /*damping*/,
+                             const scene::PlantNumbers& numbers) {
+  return {static_cast<Scalar>(numbers.damping)};
+}
+
+template <class Scalar>
+std::variant<friction::None<Scalar>, friction::Coulomb<Scalar>, friction::Dahl<Scalar>> law_of(
+    const scene::Friction& friction) {
+  // Without a friction force there is no friction, whatever the law.
+  if (scene::friction_limit_N(friction) > 0.0) {
+    if (friction.law == scene::FrictionLaw::dahl) {
+      return friction::Dahl<Scalar>{};
+    }
+    if (friction.law == scene::FrictionLaw::coulomb) {
+      return friction::Coulomb<Scalar>{};
+    }
+  }
+  return friction::None<Scalar>{};
+}
+
+template <class Scalar>
+std::variant<plant::Undamped<Scalar>, plant::Damped<Scalar>> damping_of(const scene::Plant& plant) {
+  if (plant.damping_N_s_per_m > 0.0) {
+    return plant::Damped<Scalar>{};
+  }
+  return plant::Undamped<Scalar>{};
+}
+
+inline std::variant<plant::NoDrive, plant::CosineDrive> drive_of(const scene::Scene& scene) {
+  if (scene.drive && scene.drive->force_amplitude_N > 0.0) {
+    return plant::CosineDrive{};
+  }
+  return plant::NoDrive{};
+}
+
+}  // namespace detail
+
+/// Calls visitor(model) with the plant::Model of an open-loop scene.
+template <class Scalar, class Visitor>
+auto with_model(const scene::Scene& scene, const scene::PlantScales& scales,
+                const Visitor& visitor) {
+  const scene::PlantNumbers numbers = scene::plant_numbers(scene, scales);
+  const bool dissipative = scene.friction.sign_convention == scene::SignConvention::dissipative;
+  return std::visit(
+      [&](auto law, auto damping, auto drive) {
+        using Model = plant::Model<decltype(law), decltype(damping), decltype(drive)>;
+        return visitor(Model{detail::contact(law, numbers, Scalar(dissipative ? 1 : -1)),
+                             detail::damper(damping, numbers),
+                             static_cast<Scalar>(numbers.stiffness)});
+      },
+      detail::law_of<Scalar>(scene.friction), detail::damping_of<Scalar>(scene.plant),
+      detail::drive_of(scene));
+}
+
+}  // namespace sonoglide::stability

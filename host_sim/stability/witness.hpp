@@ -1,0 +1,86 @@
+/// What a solver's steps show: how far |phi| goes, and whether the energy adds up.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "firmware/plant/state.hpp"
+
+namespace sonoglide::stability {
+
+/// An account that sums in binary64, so that it measures the solver and not itself.
+class Witness {
+ public:
+  template <class Step>
+  void add(const Step& step) {
+    const auto end = step.at(step.length());
+    // Not std::max: it would pass over a NaN.
+    const double friction = std::abs(static_cast<double>(end.friction));
+    largest_friction_ = friction <= largest_friction_ ? largest_friction_ : friction;
+    friction_integral_ += static_cast<double>(step.friction_integral());
+    const auto motion = step.motion_integrals();
+    drive_.add(static_cast<double>(motion.drive_work));
+    damping_.add(static_cast<double>(motion.damping_work));
+    contact_.add(static_cast<double>(step.friction_work()));
+    pull_.add(static_cast<double>(step.sliding_work()));
+    highest_velocity_ = std::max(highest_velocity_, std::abs(static_cast<double>(end.velocity)));
+    highest_displacement_ =
+        std::max(highest_displacement_, std::abs(static_cast<double>(end.displacement)));
+  }
+
+  double largest_friction() const { return largest_friction_; }
+  double friction_integral() const { return friction_integral_; }
+
+  /// Residual of
+  ///   stored(after) - stored(before) = drive - damping - sigma beta (friction - sliding work)
+  /// relative to the largest energy that passed: the sum over all steps of the magnitude of one of
+  /// the works, or the largest energy stored. The net works would not do: where they cancel over a
+  /// period, the rounding of what came and went would look like a fault.
+  template <class Model, class Scalar>
+  double balance_residual(const Model& model, const plant::State<Scalar>& before,
+                          const plant::State<Scalar>& after) const {
+    const auto stiffness = static_cast<double>(model.stiffness);
+    const auto contact = static_cast<double>(model.contact_work(Scalar(1)));
+    const double gain = stored(stiffness, after) - stored(stiffness, before);
+    const double given = drive_.net - damping_.net - contact * (contact_.net - pull_.net);
+    const double passed =
+        std::max({drive_.gross, damping_.gross, std::abs(contact) * contact_.gross,
+                  std::abs(contact) * pull_.gross, stored(stiffness, before),
+                  0.5 * highest_velocity_ * highest_velocity_,
+                  0.5 * stiffness * highest_displacement_ * highest_displacement_});
+    // What comes near the smallest number of the arithmetic cannot be added up in it.
+    constexpr double least = static_cast<double>(std::numeric_limits<Scalar>::min()) /
+                             static_cast<double>(std::numeric_limits<Scalar>::epsilon());
+    return std::abs(gain - given) / std::max(passed, least);
+  }
+
+ private:
+  struct Work {
+    double net = 0.0;
+    double gross = 0.0;
+
+    void add(double work) {
+      net += work;
+      gross += std::abs(work);
+    }
+  };
+
+  template <class Scalar>
+  static double stored(double stiffness, const plant::State<Scalar>& state) {
+    const auto velocity = static_cast<double>(state.velocity);
+    const auto displacement = static_cast<double>(state.displacement);
+    return 0.5 * (velocity * velocity + stiffness * displacement * displacement);
+  }
+
+  double largest_friction_ = 0.0;
+  double friction_integral_ = 0.0;
+  double highest_velocity_ = 0.0;
+  double highest_displacement_ = 0.0;
+  Work drive_;
+  Work damping_;
+  Work contact_;
+  Work pull_;
+};
+
+}  // namespace sonoglide::stability

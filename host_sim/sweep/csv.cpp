@@ -1,0 +1,65 @@
+#include "host_sim/sweep/csv.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstddef>
+#include <iterator>
+#include <string>
+
+#include "host_sim/report/control_names.hpp"
+
+namespace sonoglide::sweep {
+namespace {
+
+std::string number(double value) {
+  return std::isnan(value) ? "nan" : fmt::format("{:.17g}", value);
+}
+
+std::string quoted(const std::string& text) {
+  if (text.find_first_of(",\"") == std::string::npos) {
+    return text;
+  }
+  std::string inner;
+  for (const char c : text) {
+    inner += c == '"' ? "\"\"" : std::string(1, c);
+  }
+  return fmt::format("\"{}\"", inner);
+}
+
+std::string heading(const Plan& plan) {
+  std::string text;
+  for (const Axis& axis : plan.grid().axes()) {
+    text += axis.key + ',';
+  }
+  text += "friction_ratio_whole_run,friction_ratio_window,dissipation_ratio_window,";
+  if (plan.closed_loop()) {
+    text += "settling_time_s,steady_error,ripple,limit,";
+  }
+  return text + "status\n";
+}
+
+std::string line(const Plan& plan, std::size_t point, const Row& row) {
+  std::string text;
+  for (std::size_t axis = 0; axis < plan.grid().axes().size(); ++axis) {
+    text += value_text(plan.grid().value(point, axis)) + ',';
+  }
+  text += fmt::format("{},{},{},", number(row.friction_ratio_whole_run),
+                      number(row.friction_ratio_window), number(row.dissipation_ratio_window));
+  if (plan.closed_loop()) {
+    text += fmt::format("{},{},{},{},", number(row.settling_time_s), number(row.steady_error),
+                        number(row.ripple), report::limit_name(row.limit));
+  }
+  return text + quoted(row.status) + '\n';
+}
+
+}  // namespace
+
+void write_csv(std::ostream& out, const Plan& plan, const std::vector<Row>& rows) {
+  out << heading(plan);
+  for (std::size_t point = 0; point < rows.size(); ++point) {
+    out << line(plan, point, rows[point]);
+  }
+}
+
+}  // namespace sonoglide::sweep

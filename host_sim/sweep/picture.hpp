@@ -1,0 +1,22 @@
+/// A sweep as a picture.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "host_sim/sweep/plan.hpp"
+#include "host_sim/sweep/row.hpp"
+
+namespace sonoglide::sweep {
+
+/// The axes with more than one value.
+std::vector<std::size_t> drawn_axes(const Grid& grid);
+
+/// One axis drawn: a curve; two: a heat map, the first one upwards. SVG. Absent for any other
+/// number of axes, and where no point has a value.
+/// @throws plot::PlotError
+std::optional<std::string> draw(const Plan& plan, const std::vector<Row>& rows);
+
+}  // namespace sonoglide::sweep

@@ -1,0 +1,198 @@
+#include "host_sim/sweep/plan.hpp"
+
+#include <fmt/format.h>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <tbb/partitioner.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <utility>
+
+#include "host_sim/scene/reader.hpp"
+#include "host_sim/sweep/velocity_ratio.hpp"
+
+namespace sonoglide::sweep {
+namespace {
+
+constexpr std::string_view velocity_key = "sliding.velocity_m_per_s";
+
+/// The key of the scene that an axis sets.
+std::string_view scene_key(const Axis& axis) {
+  return axis.key == velocity_ratio_key ? velocity_key : std::string_view(axis.key);
+}
+
+std::vector<Axis> parse_axes(const std::vector<std::string>& vary) {
+  std::vector<Axis> axes;
+  axes.reserve(vary.size());
+  for (const std::string& text : vary) {
+    axes.push_back(parse_axis(text, axes.size() + 1));
+  }
+  return axes;
+}
+
+/// A scene that cannot be read gets the reader's own message.
+std::string text_of(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  if (!file || text.empty()) {
+    scene::read_file(path);
+  }
+  return text;
+}
+
+[[noreturn]] void fail_at_option(std::size_t axis, const std::string& key,
+                                 const std::string& message) {
+  throw scene::SceneError({"--vary", axis + 1, 1}, key, message);
+}
+
+}  // namespace
+
+Plan::Plan(const std::filesystem::path& file, const std::vector<std::string>& overrides,
+           const std::vector<std::string>& vary)
+    : file_(file.string()), overrides_(overrides), grid_(parse_axes(vary)), text_(text_of(file_)) {
+  require_varied_once();
+  try {
+    document_.emplace(text_, file_, overrides_, varied_keys());
+  } catch (const scene::SceneError& error) {
+    fail_at_point(error, 0);
+  }
+  first_ = scene(0);
+}
+
+scene::Scene Plan::scene(std::size_t point) const {
+  try {
+    return read(point);
+  } catch (const scene::SceneError& error) {
+    fail_at_point(error, point);
+  }
+}
+
+void Plan::visit_all(const Visit& visit, Pace* pace) const {
+  constexpr std::size_t points_per_task = 1024;  // milliseconds
+  std::atomic<std::size_t> lowest{grid_.size()};
+  const auto visit_range = [&](const tbb::blocked_range<std::size_t>& range) {
+    for (std::size_t point = range.begin(); point < std::min(range.end(), lowest.load()); ++point) {
+      try {
+        visit(point, read(point));
+      } catch (const scene::SceneError&) {
+        std::size_t seen = lowest.load();
+        while (point < seen && !lowest.compare_exchange_weak(seen, point)) {
+        }
+      }
+    }
+    if (pace != nullptr) {
+      pace->add(range.size());
+    }
+  };
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, grid_.size(), points_per_task), visit_range,
+                    tbb::simple_partitioner());
+  if (lowest < grid_.size()) {
+    scene(lowest);
+  }
+}
+
+std::string Plan::describe(std::size_t point) const {
+  std::string text;
+  for (std::size_t axis = 0; axis < grid_.axes().size(); ++axis) {
+    text += fmt::format("{}{}={}", axis == 0 ? "" : ", ", grid_.axes()[axis].key,
+                        value_text(grid_.value(point, axis)));
+  }
+  return text;
+}
+
+std::vector<std::string> Plan::varied_keys() const {
+  std::vector<std::string> keys;
+  for (const Axis& axis : grid_.axes()) {
+    keys.emplace_back(scene_key(axis));
+  }
+  return keys;
+}
+
+std::vector<double> Plan::numbers_of(std::size_t point) const {
+  std::vector<double> numbers(grid_.axes().size());
+  for (std::size_t axis = 0; axis < numbers.size(); ++axis) {
+    // The velocity follows from the rest of the scene, once that is read.
+    numbers[axis] = grid_.axes()[axis].key == velocity_ratio_key ? 0.0 : grid_.value(point, axis);
+  }
+  return numbers;
+}
+
+scene::Scene Plan::read(std::size_t point) const {
+  scene::Scene scene = scene::read(*document_, numbers_of(point));
+  for (std::size_t axis = 0; axis < grid_.axes().size(); ++axis) {
+    if (grid_.axes()[axis].key == velocity_ratio_key) {
+      set_velocity(scene, point, axis);
+    }
+  }
+  scene.run.record.clear();
+  scene.run.record_interval_s = 0.0;
+  return scene;
+}
+
+void Plan::set_velocity(scene::Scene& scene, std::size_t point, std::size_t axis) const {
+  constexpr double largest_speed_m_per_s = 1e6;
+  const std::string key(velocity_ratio_key);
+  if (scene.controller) {
+    fail_at_option(axis, key,
+                   "in closed loop the controller sets the vibration; allowed: "
+                   "sliding.velocity_m_per_s");
+  }
+  const double peak_m_per_s = peak_vibration_velocity_m_per_s(scene);
+  if (!(peak_m_per_s > 0.0)) {
+    fail_at_option(axis, key,
+                   "there is no vibration to relate to; allowed: a scene with a [drive] whose "
+                   "force_amplitude_N is above 0");
+  }
+  const double velocity_m_per_s = grid_.value(point, axis) * peak_m_per_s;
+  if (!(std::abs(velocity_m_per_s) <= largest_speed_m_per_s)) {
+    fail_at_option(axis, key,
+                   fmt::format("the peak vibration velocity is {:g} m/s, at or near an undamped "
+                               "resonance; allowed: sliding velocities up to {:g} m/s",
+                               peak_m_per_s, largest_speed_m_per_s));
+  }
+  scene.sliding.profile = {{0.0, velocity_m_per_s}};
+}
+
+/// One key takes its value from one place.
+void Plan::require_varied_once() const {
+  const std::vector<Axis>& axes = grid_.axes();
+  for (std::size_t i = 0; i < axes.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      if (scene_key(axes[i]) == scene_key(axes[j])) {
+        fail_at_option(i, axes[i].key,
+                       fmt::format("sets what {} sets; allowed: one of them", axes[j].key));
+      }
+    }
+    for (std::size_t k = 0; k < overrides_.size(); ++k) {
+      if (overrides_[k].substr(0, overrides_[k].find('=')) == scene_key(axes[i])) {
+        throw scene::SceneError(
+            {"--set", k + 1, 1}, std::string(scene_key(axes[i])),
+            fmt::format("is varied by --vary {}; allowed: one of the two", axes[i].key));
+      }
+    }
+  }
+}
+
+void Plan::fail_at_point(const scene::SceneError& error, std::size_t point) const {
+  const bool of_axis = error.file() == "--set" && error.line() > overrides_.size();
+  if (!of_axis && error.file() != "--vary") {
+    try {
+      scene::read_text(text_, file_, overrides_);
+    } catch (const scene::SceneError& own) {
+      if (std::string_view(own.what()) == error.what()) {
+        throw;  // the point has nothing to do with it
+      }
+    }
+  }
+  const scene::Location place = of_axis
+                                    ? scene::Location{"--vary", error.line() - overrides_.size(), 1}
+                                    : scene::Location{error.file(), error.line(), error.column()};
+  throw scene::SceneError(place, error.key(),
+                          fmt::format("{} (at {})", error.message(), describe(point)));
+}
+
+}  // namespace sonoglide::sweep

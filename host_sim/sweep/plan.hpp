@@ -1,0 +1,66 @@
+/// What a sweep computes: a scene, and how each of its points differs from it.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "host_sim/scene/document.hpp"
+#include "host_sim/scene/scene.hpp"
+#include "host_sim/scene/scene_error.hpp"
+#include "host_sim/sweep/grid.hpp"
+#include "host_sim/sweep/pace.hpp"
+
+namespace sonoglide::sweep {
+
+/// The scene file is read once: a later edit of it does not reach into a sweep under way.
+class Plan {
+ public:
+  /// @param overrides  `TABLE.KEY=VALUE` each, for every point
+  /// @param vary       `KEY=FROM:TO:COUNT[:log]` each, see parse_axis()
+  /// @throws scene::SceneError  a bad option, a key both varied and set, an unusable first point
+  Plan(const std::filesystem::path& file, const std::vector<std::string>& overrides,
+       const std::vector<std::string>& vary);
+
+  const Grid& grid() const { return grid_; }
+  /// The scene of the first point.
+  const scene::Scene& first() const { return first_; }
+  bool closed_loop() const { return first_.controller.has_value(); }
+
+  /// The scene of a point, the same as `run` takes it with a --set for each varied key; nothing is
+  /// recorded. Safe to call from several threads.
+  /// @throws scene::SceneError  at the place of the --vary option or in the scene; the message ends
+  ///         with the point
+  scene::Scene scene(std::size_t point) const;
+
+  /// Takes the scene of a point; called by several threads.
+  using Visit = std::function<void(std::size_t point, const scene::Scene& scene)>;
+
+  /// Reads the scenes of all points, on all threads.
+  /// @param pace  its stage is the reading; may be null
+  /// @throws scene::SceneError  the error of the first unusable point
+  void visit_all(const Visit& visit, Pace* pace = nullptr) const;
+
+  /// `KEY=VALUE, KEY=VALUE`, in the order of the axes.
+  std::string describe(std::size_t point) const;
+
+ private:
+  std::vector<std::string> varied_keys() const;
+  std::vector<double> numbers_of(std::size_t point) const;
+  scene::Scene read(std::size_t point) const;
+  void set_velocity(scene::Scene& scene, std::size_t point, std::size_t axis) const;
+  void require_varied_once() const;
+  [[noreturn]] void fail_at_point(const scene::SceneError& error, std::size_t point) const;
+
+  std::string file_;
+  std::vector<std::string> overrides_;
+  Grid grid_;
+  std::string text_;
+  std::optional<scene::Document> document_;  ///< from the constructor on
+  scene::Scene first_;
+};
+
+}  // namespace sonoglide::sweep

@@ -1,0 +1,27 @@
+#include "host_sim/sweep/subject.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace sonoglide::sweep {
+
+Subject subject(const Plan& plan) {
+  return plan.closed_loop() ? Subject{&Row::steady_error, "Steady error of the friction ratio [-]"}
+                            : Subject{&Row::friction_ratio_window, "Friction ratio, window [-]"};
+}
+
+std::string axis_commands(const Axis& axis, char letter) {
+  std::string commands = fmt::format("set {}label '{}' noenhanced\n", letter, axis.key);
+  // A logarithmic axis of negative values is drawn on a linear scale.
+  if (axis.logarithmic && axis.from > 0.0) {
+    commands += fmt::format("set logscale {}\n", letter);
+    // Within one decade the ticks are no powers of ten.
+    if (std::abs(std::log10(axis.to / axis.from)) >= 1.0) {
+      commands += fmt::format("set format {} '10^{{%L}}'\n", letter);
+    }
+  }
+  return commands;
+}
+
+}  // namespace sonoglide::sweep

@@ -1,0 +1,90 @@
+#include "host_sim/sweep/sweep.hpp"
+
+#include <fmt/format.h>
+#include <tbb/global_control.h>
+#include <tbb/info.h>
+
+#include <algorithm>
+#include <chrono>
+#include <optional>
+#include <system_error>
+
+#include "host_sim/plot/gnuplot.hpp"
+#include "host_sim/report/output_folder.hpp"
+#include "host_sim/report/page.hpp"
+#include "host_sim/scene/to_json.hpp"
+#include "host_sim/sweep/compute.hpp"
+#include "host_sim/sweep/csv.hpp"
+#include "host_sim/sweep/journal.hpp"
+#include "host_sim/sweep/picture.hpp"
+#include "host_sim/sweep/sweep_page.hpp"
+
+namespace sonoglide::sweep {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* picture_file = "sweep.svg";
+
+Identity identity_of(const Plan& plan, const std::string& program) {
+  std::string vary;
+  for (const Axis& axis : plan.grid().axes()) {
+    vary += fmt::format("{}={}:{}:{}{} ", axis.key, axis.from, axis.to, axis.count,
+                        axis.logarithmic ? ":log" : "");
+  }
+  return {program, scene::to_json(plan.first()).dump(), vary};
+}
+
+/// Creates the folder once it is known that it can be written to.
+void create_folder(const fs::path& out) {
+  { const report::OutputFolder probe(out); }
+  std::error_code error;
+  fs::create_directories(out, error);
+  if (error) {
+    throw report::OutputError(out.string() + ": " + error.message());
+  }
+}
+
+void write_files(const Plan& plan, const std::vector<Row>& rows, const fs::path& out) {
+  const std::optional<std::string> picture = draw(plan, rows);
+  const std::string page = report::to_html(sweep_page(plan, rows, picture));
+  report::OutputFolder folder(out);
+  write_csv(folder.open("sweep.csv"), plan, rows);
+  folder.write("report.html", page);
+  if (picture) {
+    folder.write(picture_file, *picture);
+  }
+  folder.commit();
+  if (!picture) {
+    // That of an earlier sweep would pass for this one's.
+    std::error_code ignored;
+    fs::remove(folder.target() / picture_file, ignored);
+  }
+}
+
+}  // namespace
+
+Summary run_sweep(const Plan& plan, const fs::path& out, const std::string& program,
+                  unsigned threads, const Progress& progress) {
+  const tbb::global_control limit(
+      tbb::global_control::max_allowed_parallelism,
+      threads > 0 ? threads : static_cast<std::size_t>(tbb::info::default_concurrency()));
+  const auto begin = std::chrono::steady_clock::now();
+  Pace pace(progress);
+  const Solve solve(plan, pace);
+  if (!drawn_axes(plan.grid()).empty() && drawn_axes(plan.grid()).size() <= 2) {
+    plot::require_gnuplot();
+  }
+  create_folder(out);
+  Journal journal(out, identity_of(plan, program), plan.grid().size());
+  const std::size_t found = journal.finished().size();
+  const std::vector<Row> rows = compute(solve, plan.grid().size(), journal, pace);
+  const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - begin;
+  write_files(plan, rows, out);
+  journal.remove();
+  const auto failed =
+      std::count_if(rows.begin(), rows.end(), [](const Row& row) { return !row.ok(); });
+  return {rows.size(), static_cast<std::size_t>(failed), found, wall.count()};
+}
+
+}  // namespace sonoglide::sweep

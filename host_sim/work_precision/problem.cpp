@@ -1,0 +1,77 @@
+#include "host_sim/work_precision/problem.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "host_sim/scene/configuration_error.hpp"
+#include "host_sim/scene/names.hpp"
+#include "host_sim/scene/plant_scales.hpp"
+
+namespace sonoglide::work_precision {
+namespace {
+
+using scene::ConfigurationError;
+
+void require_comparable(const scene::Scene& scene) {
+  if (scene.controller) {
+    throw ConfigurationError(
+        "controller", "solvers are compared in open loop; allowed: a scene without [controller]");
+  }
+  if (!scene.drive) {
+    throw ConfigurationError(
+        "drive", "missing; required: a table [drive], whose period is the unit of work");
+  }
+  if (scene.friction.law != scene::FrictionLaw::dahl) {
+    throw ConfigurationError(
+        "friction.law", fmt::format("\"{}\" is not solved by every method here; allowed: \"dahl\"",
+                                    scene::name_of(scene::friction_laws, scene.friction.law)));
+  }
+  if (!(scene::friction_limit_N(scene.friction) > 0.0)) {
+    throw ConfigurationError("friction.coefficient",
+                             "without a friction force there is no friction ratio to compare; "
+                             "allowed: coefficient and normal_force_N above 0");
+  }
+  if (scene.sliding.profile.size() != 1) {
+    throw ConfigurationError("sliding.profile",
+                             "solvers are compared at a constant sliding velocity; allowed: "
+                             "velocity_m_per_s");
+  }
+}
+
+int whole_periods(const scene::Scene& scene) {
+  const double periods = scene.run.duration_s * scene.drive->frequency_Hz;
+  const double whole = std::round(periods);
+  if (std::abs(periods - whole) > 1e-9 * periods || whole < 1.0 || whole > most_periods) {
+    throw ConfigurationError(
+        "run",
+        fmt::format("lasts {:.12g} carrier periods; allowed: a whole number of them, 1 to {}",
+                    periods, most_periods));
+  }
+  return static_cast<int>(whole);
+}
+
+}  // namespace
+
+peers::Problem problem_of(const scene::Scene& scene) {
+  require_comparable(scene);
+  const scene::PlantScales scales = scene::plant_scales(scene);
+  const scene::PlantNumbers numbers = scene::plant_numbers(scene, scales);
+  const double velocity_scale = scales.velocity_m_per_s();
+  peers::Problem problem{};
+  problem.stiffness = numbers.stiffness;
+  problem.damping = numbers.damping;
+  problem.friction_force = numbers.friction_force;
+  problem.contact_stiffness = numbers.contact_stiffness;
+  problem.vibration_sign =
+      scene.friction.sign_convention == scene::SignConvention::dissipative ? 1.0 : -1.0;
+  problem.drive_amplitude = scene.drive->force_amplitude_N / scales.force_N;
+  problem.sliding_velocity = scene.sliding.profile[0].velocity_m_per_s / velocity_scale;
+  problem.displacement = scene.plant.initial_displacement_m / scales.length_m;
+  problem.velocity = scene.plant.initial_velocity_m_per_s / velocity_scale;
+  problem.friction = scene.friction.initial_force_N / scales.friction_N;
+  problem.periods = whole_periods(scene);
+  return problem;
+}
+
+}  // namespace sonoglide::work_precision

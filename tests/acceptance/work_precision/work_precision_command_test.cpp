@@ -1,0 +1,166 @@
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <map>
+#include <memory>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "tests/acceptance/program/program.hpp"
+
+namespace sonoglide::acceptance {
+namespace {
+
+using Entries = std::vector<std::string>;
+
+const std::string table_1 = R"([plant]
+mass_kg = 0.02
+stiffness_N_per_m = 133e6
+[friction]
+law = "dahl"
+coefficient = 0.1
+contact_stiffness_N_per_m = 0.056e6
+[sliding]
+velocity_m_per_s = 0.0267
+[drive]
+frequency_Hz = 60e3
+force_amplitude_N = 384.0
+[run]
+duration_periods = 2
+)";
+
+std::vector<std::string> fields(const std::string& line) {
+  std::vector<std::string> all;
+  std::istringstream stream(line + ",");
+  for (std::string field; std::getline(stream, field, ',');) {
+    all.push_back(field);
+  }
+  return all;
+}
+
+/// One comparison, looked at from all sides.
+class WorkPrecisionTest : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    folder_ = std::make_unique<ScratchFolder>();
+    folder_->write("short.toml", table_1);
+    outcome_ = folder_->run("work-precision short.toml --out results");
+  }
+  static void TearDownTestSuite() { folder_.reset(); }
+
+  static std::unique_ptr<ScratchFolder> folder_;
+  static Outcome outcome_;
+};
+
+std::unique_ptr<ScratchFolder> WorkPrecisionTest::folder_;
+Outcome WorkPrecisionTest::outcome_;
+
+TEST_F(WorkPrecisionTest, WritesItsThreeFiles) {
+  EXPECT_EQ(outcome_.exit_code, 0) << outcome_.err;
+  EXPECT_EQ(outcome_.err, "") << "no progress bar on a pipe";
+  EXPECT_NE(outcome_.out.find("results/report.html"), std::string::npos);
+  EXPECT_EQ(folder_->entries(),
+            (Entries{"results", "results/report.html", "results/work_precision.csv",
+                     "results/work_precision.svg", "short.toml"}));
+}
+
+TEST_F(WorkPrecisionTest, TheTableHasEverySolverAndItsSchema) {
+  std::istringstream csv(folder_->read("results/work_precision.csv"));
+  std::string line;
+  std::getline(csv, line);
+  EXPECT_EQ(line, "solver,setting,relative_error,wall_us_per_period,steps_per_period,status");
+  std::map<std::string, int> rows;
+  while (std::getline(csv, line)) {
+    const std::vector<std::string> cells = fields(line);
+    ASSERT_EQ(cells.size(), 6U) << line;
+    ++rows[cells[0]];
+    if (cells[5] == "ok") {
+      EXPECT_GE(std::strtod(cells[2].c_str(), nullptr), 0.0) << line;
+      EXPECT_GT(std::strtod(cells[3].c_str(), nullptr), 0.0) << line;
+      EXPECT_GT(std::strtod(cells[4].c_str(), nullptr), 0.0) << line;
+    }
+  }
+  for (const char* solver :
+       {"event_taylor_8", "event_taylor_12", "event_taylor_16", "event_taylor_20", "strang", "rk4",
+        "rk4_event", "event_taylor_8_float32", "strang_float32", "rk4_float32", "rk4_event_float32",
+        "rk4_table", "rk4_naive"}) {
+    EXPECT_GT(rows[solver], 2) << solver;
+  }
+}
+
+TEST_F(WorkPrecisionTest, ThePictureNamesItsLinesAndAxes) {
+  const std::string svg = folder_->read("results/work_precision.svg");
+  for (const char* text :
+       {"event_taylor_12", "rk4_table", "Relative error", "Time for one carrier"}) {
+    EXPECT_NE(svg.find(text), std::string::npos) << text;
+  }
+}
+
+TEST_F(WorkPrecisionTest, ThePageHasTheRankingThePictureAndTheMachine) {
+  const std::string page = folder_->read("results/report.html");
+  for (const char* text : {"Cheapest setting", "Times the fastest", "Machine and compiler",
+                           "data:image/svg+xml", "The paper"}) {
+    EXPECT_NE(page.find(text), std::string::npos) << text;
+  }
+}
+
+TEST_F(WorkPrecisionTest, WithoutAFolderTheSceneNamesIt) {
+  const ScratchFolder folder;
+  folder.write("short.toml", table_1);
+  const Outcome outcome = folder.run("work-precision short.toml --quiet");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_EQ(outcome.out, "");
+  EXPECT_EQ(folder.entries(),
+            (Entries{"out", "out/short_work_precision", "out/short_work_precision/report.html",
+                     "out/short_work_precision/work_precision.csv",
+                     "out/short_work_precision/work_precision.svg", "short.toml"}));
+}
+
+void expect_refused(const std::string& scene, const std::string& place_and_key) {
+  const ScratchFolder folder;
+  folder.write("scene.toml", scene);
+  const Outcome outcome = folder.run("work-precision scene.toml");
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_EQ(outcome.err.rfind(place_and_key, 0), 0U) << outcome.err;
+  EXPECT_EQ(folder.entries(), Entries{"scene.toml"});
+}
+
+std::string replaced(const std::string& text, const std::string& by) {
+  std::string scene = table_1;
+  return scene.replace(scene.find(text), text.size(), by);
+}
+
+TEST(WorkPrecisionUsageTest, WhatCannotBeComparedIsRefusedByName) {
+  expect_refused(
+      replaced("force_amplitude_N", "max_force_amplitude_N") +
+          "[controller]\narithmetic = \"float64\"\ntarget_friction_ratio = [[0.0, 0.5]]\n",
+      "scene.toml:15:2: controller: ");
+  expect_refused(replaced("velocity_m_per_s = 0.0267", "profile = [[0.0, 0.02], [1e-3, 0.03]]"),
+                 "scene.toml:9:11: sliding.profile: ");
+  expect_refused(replaced("duration_periods = 2", "duration_periods = 2.5"),
+                 "scene.toml:13:2: run: ");
+  expect_refused(replaced("coefficient = 0.1", "coefficient = 0"),
+                 "scene.toml:6:15: friction.coefficient: ");
+}
+
+TEST(WorkPrecisionUsageTest, BadUsage) {
+  const ScratchFolder folder;
+  EXPECT_EQ(folder.run("work-precision").exit_code, 2);
+  EXPECT_EQ(folder.run("work-precision none.toml").exit_code, 2);
+  EXPECT_EQ(folder.run("work-precision scene.toml --fast").exit_code, 2);
+  EXPECT_EQ(folder.run("work-precision scene.toml --out ''").exit_code, 2);
+  EXPECT_TRUE(folder.entries().empty());
+}
+
+TEST(WorkPrecisionUsageTest, AFileInTheWayIsFoundBeforeTheComparison) {
+  const ScratchFolder folder;
+  folder.write("short.toml", table_1);
+  folder.write("taken", "");
+  const Outcome outcome = folder.run("work-precision short.toml --out taken");
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_EQ(folder.entries(), (Entries{"short.toml", "taken"}));
+}
+
+}  // namespace
+}  // namespace sonoglide::acceptance

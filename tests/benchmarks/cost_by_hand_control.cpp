@@ -1,0 +1,145 @@
+/// The closed loop at Table 1: plant and controller written out. Only the number type is a
+/// parameter of the controller, so that one text serves both arithmetics.
+
+#include <cstdint>
+
+#include "cost_by_hand.hpp"
+#include "cost_by_hand_series.hpp"
+#include "firmware/friction/dahl_inverse_map.hpp"
+#include "firmware/numeric/fixed.hpp"
+#include "firmware/numeric/scalar.hpp"
+
+namespace sonoglide::cost::by_hand {
+namespace {
+
+/// Inverse Dahl map, notch and integral; no calibration and no slew limit.
+template <class Number>
+struct Control {
+  Number target;
+  Number speed_floor;
+  Number lead;
+  Number gain;
+  Number quarter_inverse;  ///< 1 / (4 mantissa) of the believed friction force
+  int exponent;            ///< of that force
+  numeric::Split<Number> full_speed_travel;
+  Number outer_tap;
+  Number middle_tap;
+
+  Number integral = Number{};
+  Number last_velocity = Number{};
+  Number last_amplitude = Number{};
+  Number last_but_one = Number{};
+  Number last_reading = Number{};
+  Number ratio_at_reading = numeric::from_real<Number>(0.5);
+  Number commanded = numeric::from_real<Number>(0.5);
+  std::uint16_t held = control_numbers.hold_periods;
+  std::uint16_t still = 0;
+  bool limited = false;
+  bool begun = false;
+  bool failed = false;
+};
+
+template <class Number>
+Control<Number> control_of(const ControlNumbers& numbers) {
+  const auto number = [](double value) { return numeric::from_real<Number>(value); };
+  const numeric::Split<Number> force = numeric::split(number(numbers.friction_force));
+  const numeric::Split<double> contact = numeric::split(numbers.contact_force);
+  Control<Number> c = {};
+  c.target = number(0.5 * numbers.target_friction_ratio);
+  c.speed_floor = number(numbers.speed_floor);
+  c.lead = number(numbers.lead_periods / 64.0);
+  c.gain = number(numbers.gain);
+  c.quarter_inverse = number(0.25) / force.mantissa;
+  c.exponent = force.exponent;
+  c.full_speed_travel =
+      friction::quotient<Number>({number(contact.mantissa), contact.exponent}, force);
+  c.outer_tap = number(numbers.outer_tap);
+  c.middle_tap = number(numbers.middle_tap);
+  return c;
+}
+
+/// A reading that stands still although the command has moved far.
+template <class Number>
+bool is_stuck(Control<Number>& c, Number reading) {
+  if (!c.begun || reading != c.last_reading) {
+    c.begun = true;
+    c.last_reading = reading;
+    c.ratio_at_reading = c.commanded;
+    c.still = 0;
+    return false;
+  }
+  const bool told = c.still > 0 || numeric::from_real<Number>(0.125) <=
+                                       numeric::abs(c.commanded - c.ratio_at_reading);
+  if (told && !c.limited) {
+    ++c.still;
+  }
+  return c.still >= control_numbers.stuck_periods;
+}
+
+/// The drive amplitude, as a code, that answers one carrier period.
+template <class Number>
+std::int32_t answer(Control<Number>& c, std::int32_t force_code, std::int32_t velocity_code) {
+  const Number half = numeric::from_real<Number>(0.5);
+  const Number full = numeric::from_code<Number>(INT32_MAX);
+  const Number force = numeric::from_code<Number>(force_code);
+  const Number velocity = numeric::from_code<Number>(velocity_code);
+  const Number change = c.last_velocity == Number{} ? Number{} : velocity - c.last_velocity;
+  c.last_velocity = velocity;
+  const Number speed = velocity + numeric::scale_by_power_of_two(change * c.lead, 6);
+  if (is_stuck(c, force) || velocity < Number{} || speed < c.speed_floor) {
+    c.failed = true;
+    return 0;
+  }
+
+  const Number measured = numeric::scale_by_power_of_two(force * c.quarter_inverse, 1 - c.exponent);
+  const Number error = c.target - measured;
+  const Number proposed = c.held == 0 ? c.integral + c.gain * error : c.integral;
+  const Number ratio = numeric::clamp(c.target + proposed, Number{}, half);
+  const Number velocity_ratio = friction::dahl_velocity_ratio(
+      ratio, friction::product(c.full_speed_travel, numeric::split(speed)));
+  const bool full_drive = velocity_ratio <= speed;
+  const Number amplitude = full_drive ? full : speed / velocity_ratio;
+  const bool winding_up = (full_drive && error < Number{}) || (half <= ratio && Number{} < error);
+  c.integral = winding_up ? c.integral : proposed;
+  c.held = static_cast<std::uint16_t>(c.held > 0 ? c.held - 1 : 0);
+  c.commanded = ratio;
+
+  const Number taps[] = {c.outer_tap, c.middle_tap, c.outer_tap};
+  const Number inputs[] = {amplitude, c.last_amplitude, c.last_but_one};
+  const Number shaped = numeric::dot(taps, inputs, 3);
+  c.last_but_one = c.last_amplitude;
+  c.last_amplitude = amplitude;
+  c.limited = full_drive || shaped < Number{} || (full <= shaped && amplitude < full);
+  return numeric::to_code(numeric::clamp(shaped, Number{}, full));
+}
+
+template <class Number>
+Result run(Scene scene) {
+  Control<Number> control = control_of<Number>(control_numbers);
+  const std::int32_t velocity_code = numeric::to_code(control_numbers.speed);
+  const double longest = longest_step();
+  Result state;
+  double integral = 0.0;
+  for (int i = 0; i < periods; ++i) {
+    if (!advance_dahl(state, scene, longest) || control.failed) {
+      return {};
+    }
+    const double mean = (state.friction_integral - integral) / two_pi;
+    integral = state.friction_integral;
+    const std::int32_t code = answer(control, numeric::to_code(0.5 * mean), velocity_code);
+    scene.drive_amplitude = control_numbers.full_drive_amplitude * numeric::from_code<double>(code);
+  }
+  state.drive_amplitude = scene.drive_amplitude;
+  return state;
+}
+
+}  // namespace
+
+Result controlled_float32(const Scene& scene) {
+  return run<float>(scene);
+}
+Result controlled_q31(const Scene& scene) {
+  return run<numeric::Q31<numeric::Saturating>>(scene);
+}
+
+}  // namespace sonoglide::cost::by_hand

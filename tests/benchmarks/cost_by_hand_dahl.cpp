@@ -1,0 +1,288 @@
+/// An oscillator on a Dahl contact, by Taylor series; with the accounts that a scene may ask for.
+
+#include "cost_by_hand.hpp"
+#include "cost_by_hand_reversals.hpp"
+#include "firmware/friction/gauss_legendre.hpp"
+
+namespace sonoglide::cost::by_hand {
+namespace {
+
+/// What a rung names beyond the contact.
+struct Named {
+  bool driven;
+  bool damped;
+  bool mean_friction;
+  bool energy;
+  bool recorded;
+};
+
+/// An arc between two reversals: phi moves away from where it is by gap (exp(-kappa |u|) - 1).
+struct Arc {
+  double direction;
+  double friction;
+  double decay;
+  double gap;
+};
+
+/// (exp(-z) - 1 + z) / z^2, z <= 1.
+[[gnu::always_inline]] inline double decay_remainder_series(double z) {
+  constexpr std::array<double, 16> c = [] {
+    std::array<double, 16> terms{};
+    double term = 0.5;
+    for (std::size_t n = 0; n < terms.size(); ++n) {
+      terms[n] = term;
+      term /= -static_cast<double>(n + 3);
+    }
+    return terms;
+  }();
+  const double second = z * z;
+  const double fourth = second * second;
+  const double a = (c[0] + c[1] * z) + (c[2] + c[3] * z) * second;
+  const double b = (c[4] + c[5] * z) + (c[6] + c[7] * z) * second;
+  const double d = (c[8] + c[9] * z) + (c[10] + c[11] * z) * second;
+  const double e = (c[12] + c[13] * z) + (c[14] + c[15] * z) * second;
+  return (a + b * fourth) + (d + e * fourth) * (fourth * fourth);
+}
+inline double decay_remainder(double z) {
+  return z < 1.0 ? decay_remainder_series(z) : (numeric::expm1(-z) + z) / (z * z);
+}
+inline double minus_decayed(double z) {
+  return z < 1.0 ? z * (z * decay_remainder_series(z) - 1.0) : numeric::expm1(-z);
+}
+
+/// phi[n] from the terms of travel and phi below n.
+[[gnu::always_inline]] inline void add_friction(Series& s, const Arc& arc, std::size_t n) {
+  const double factor = arc.decay * (1.0 / static_cast<double>(n));
+  if (n == 1) {
+    s.friction[1] = factor * arc.gap * s.travel[0];
+    return;
+  }
+  const std::size_t middle = n / 2;
+  double sum = n % 2 == 0 ? 0.0 : s.travel[middle] * s.friction[middle];
+  for (std::size_t j = middle; j-- > 1;) {
+    sum += s.travel[j] * s.friction[n - 1 - j] + s.travel[n - 1 - j] * s.friction[j];
+  }
+  s.friction[n] = (factor * sum + (factor * arc.gap) * s.travel[n - 1]) +
+                  (factor * s.travel[0]) * s.friction[n - 1];
+}
+
+[[gnu::always_inline]] inline void add_travel(Series& s, const Scene& scene, std::size_t n,
+                                              const Named& named) {
+  const double force_factor = s.unit * (s.unit * (1.0 / static_cast<double>(n + 1)));
+  s.travel[n + 1] = free_term(s, scene, n, named.driven, named.damped) -
+                    scene.friction_force * force_factor * s.friction[n];
+}
+
+[[gnu::always_inline]] inline void expand(Series& s, const Scene& scene, const Arc& arc,
+                                          const Named& named) {
+  s.friction[0] = arc.friction;
+  add_travel(s, scene, 0, named);
+  add_friction(s, arc, 1);
+  add_travel(s, scene, 1, named);
+  add_friction(s, arc, 2);
+  add_travel(s, scene, 2, named);
+  add_friction(s, arc, 3);
+  add_travel(s, scene, 3, named);
+  add_friction(s, arc, 4);
+  add_travel(s, scene, 4, named);
+  add_friction(s, arc, 5);
+  add_travel(s, scene, 5, named);
+  add_friction(s, arc, 6);
+  add_travel(s, scene, 6, named);
+  add_friction(s, arc, 7);
+  add_travel(s, scene, 7, named);
+  add_friction(s, arc, 8);
+  add_travel(s, scene, 8, named);
+  add_friction(s, arc, 9);
+  add_travel(s, scene, 9, named);
+  add_friction(s, arc, 10);
+  add_travel(s, scene, 10, named);
+  add_friction(s, arc, 11);
+  add_travel(s, scene, 11, named);
+  add_friction(s, arc, 12);
+  add_travel(s, scene, 12, named);
+  add_friction(s, arc, 13);
+  add_travel(s, scene, 13, named);
+  add_friction(s, arc, 14);
+  add_travel(s, scene, 14, named);
+  add_friction(s, arc, 15);
+  add_travel(s, scene, 15, named);
+  add_friction(s, arc, order);
+  close_shift(s);
+}
+
+/// A unit in which the coefficients stay moderate.
+inline double series_unit(const Scene& scene, double velocity, double friction, double longest) {
+  const double rate = scene.contact_stiffness * numeric::abs(velocity);
+  const bool slips = numeric::abs(friction) == 1.0 && velocity * friction > 0.0;
+  if (longest * (rate + scene.contact_stiffness * longest) <= 16.0 || slips) {
+    return longest;
+  }
+  return numeric::min(longest, 16.0 / (1.0 + rate));
+}
+
+[[gnu::always_inline]] inline double travelled(const Series& s, const Arc& arc, double x) {
+  const double travel = x * (s.travel[0] + x * (0.5 * s.travel[1] + x * beyond_linear(s.shift, x)));
+  return numeric::max(0.0, arc.direction * travel);
+}
+
+[[gnu::always_inline]] inline double friction_integral(const Series& s, double extent) {
+  Coefficients mean;
+  for (std::size_t n = 0; n <= order; ++n) {
+    mean[n] = s.friction[n] * (1.0 / static_cast<double>(n + 1));
+  }
+  return whole(mean, extent) * extent;
+}
+
+[[gnu::always_inline]] inline void add_motion(Result& state, const Series& s, const Scene& scene,
+                                              double extent, const Named& named) {
+  static constexpr auto rule = friction::gauss_legendre<order / 2 - 1>();
+  double drive_work = 0.0;
+  double velocity_square = 0.0;
+  double displacement_square = 0.0;
+  for (std::size_t i = 0; i < rule.node.size(); ++i) {
+    const double x = extent * rule.node[i];
+    const double weight = s.unit * extent * rule.weight[i];
+    const double velocity = velocity_at(s, x);
+    const double displacement = displacement_at(s, x);
+    if (named.driven) {
+      drive_work += weight * (whole(s.drive, x) * velocity);
+    }
+    velocity_square += weight * (velocity * velocity);
+    displacement_square += weight * (displacement * displacement);
+  }
+  state.drive_work += drive_work;
+  state.velocity_square += velocity_square;
+  state.displacement_square += displacement_square;
+  if (named.damped) {
+    state.damping_work += scene.damping * velocity_square;
+  }
+}
+
+[[gnu::always_inline]] inline void add_energy(Result& state, const Series& s, const Scene& scene,
+                                              const Arc& arc, double extent, double travel,
+                                              const Named& named) {
+  const double integral = friction_integral(s, extent);
+  const double z = scene.contact_stiffness * travel;
+  state.friction_integral += s.unit * integral;
+  state.friction_work +=
+      arc.direction * (travel * (arc.friction - arc.gap * (z * decay_remainder(z))));
+  state.sliding_work += s.unit * (scene.sliding_velocity * integral);
+  add_motion(state, s, scene, extent, named);
+}
+
+/// One carrier period; false where it fails.
+[[gnu::always_inline]] inline bool advance(Result& state, const Scene& scene, double longest,
+                                           double* record, const Named& named) {
+  snap_to_rest(state, scene);
+  int sample = 0;
+  double offset = 0.0;
+  for (std::uint32_t steps = 0; offset < two_pi; ++steps) {
+    const double rest = two_pi - offset;
+    const double velocity = scene.sliding_velocity + state.velocity;
+    Phasor drive = {};
+    if (named.driven) {
+      drive = drive_at(scene.drive_amplitude, offset);
+    }
+    Direction direction = {velocity > 0.0 ? 1.0 : -1.0, 0};
+    if (velocity == 0.0) {
+      direction = direction_from_rest(state, scene, drive, offset, state.friction, 0.0,
+                                      named.driven, named.damped);
+    }
+    const Arc arc = {direction.sign, state.friction, -scene.contact_stiffness * direction.sign,
+                     state.friction - direction.sign};
+    Series s;
+    s.unit = series_unit(scene, velocity, state.friction, numeric::min(longest, rest));
+    s.rate = 1.0 / s.unit;
+    s.displacement = state.displacement;
+    s.velocity = state.velocity;
+    s.vibration = s.unit * s.velocity;
+    s.travel[0] = s.unit * velocity;
+    if (named.driven) {
+      set_drive(s, drive);
+    }
+    expand(s, scene, arc, named);
+
+    const double remaining = rest / s.unit;
+    const double rounding = epsilon * numeric::abs(s.rate * s.travel[0]);
+    const double allowed = numeric::max(allowed_term, rounding);
+    const double last = numeric::max(numeric::abs(s.rate * s.travel[order]),
+                                     0.125 * numeric::abs(s.friction[order]));
+    const double last_but_one = numeric::max(numeric::abs(s.rate * s.travel[order - 1]),
+                                             0.125 * numeric::abs(s.friction[order - 1]));
+    const double end = step_extent(last, last_but_one, allowed, s.unit, longest, remaining);
+    const double extent = up_to_reversal(s, direction, end);
+    const double travel = travelled(s, arc, extent);
+    state.displacement = displacement_at(s, extent);
+    state.velocity = velocity_at(s, extent);
+    state.friction = numeric::clamp(
+        arc.friction + arc.gap * minus_decayed(scene.contact_stiffness * travel), -1.0, 1.0);
+    if (named.mean_friction) {
+      state.friction_integral += s.unit * friction_integral(s, extent);
+    }
+    if (named.energy) {
+      add_energy(state, s, scene, arc, extent, travel, named);
+    }
+    if (named.recorded) {
+      for (; sample < samples_per_period && sample * sample_spacing <= offset + s.unit * extent;
+           ++sample) {
+        record[sample] = displacement_at(s, (sample * sample_spacing - offset) / s.unit);
+      }
+    }
+    ++state.steps;
+    const double next = extent == remaining ? two_pi : offset + s.unit * extent;
+    if (steps == step_limit || next == offset || direction.sign == 0.0 ||
+        !numeric::is_finite(state.displacement) || !numeric::is_finite(state.velocity) ||
+        !numeric::is_finite(state.friction)) {
+      return false;
+    }
+    offset = next;
+    if (extent < end) {
+      state.velocity = -scene.sliding_velocity;
+    }
+  }
+  return true;
+}
+
+[[gnu::always_inline]] inline Result run(const Scene& scene, double* record, const Named& named) {
+  const double longest = longest_step();
+  Result state;
+  for (int i = 0; i < periods; ++i) {
+    if (!advance(state, scene, longest, record, named)) {
+      return {};
+    }
+    if (named.recorded) {
+      record += samples_per_period;
+    }
+  }
+  return state;
+}
+
+}  // namespace
+
+Result undriven_dahl(const Scene& scene) {
+  return run(scene, nullptr, {false, false, false, false, false});
+}
+Result dahl(const Scene& scene) {
+  return run(scene, nullptr, {true, false, false, false, false});
+}
+Result damped_dahl(const Scene& scene) {
+  return run(scene, nullptr, {true, true, false, false, false});
+}
+Result dahl_mean_friction(const Scene& scene) {
+  return run(scene, nullptr, {true, false, true, false, false});
+}
+bool advance_dahl(Result& state, const Scene& scene, double longest) {
+  return advance(state, scene, longest, nullptr, {true, false, true, false, false});
+}
+Result dahl_energy(const Scene& scene) {
+  return run(scene, nullptr, {true, false, false, true, false});
+}
+Result dahl_recorded(const Scene& scene, double* record) {
+  return run(scene, record, {true, false, false, false, true});
+}
+Result everything(const Scene& scene, double* record) {
+  return run(scene, record, {true, true, false, true, true});
+}
+
+}  // namespace sonoglide::cost::by_hand

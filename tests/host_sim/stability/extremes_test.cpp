@@ -1,0 +1,85 @@
+/// A small set of the extreme cases: the solvers that promise to be safe are.
+
+#include "host_sim/stability/extremes.hpp"
+
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include <cmath>
+#include <numeric>
+#include <string_view>
+
+#include "host_sim/stability/solver_list.hpp"
+#include "host_sim/stability/tables.hpp"
+
+namespace sonoglide::stability {
+namespace {
+
+constexpr std::uint64_t scenes = 300;
+
+const Extremes& small() {
+  static const Extremes result = extremes(scenes, [](double) {});
+  return result;
+}
+
+std::uint64_t count(const ExtremeRow& row, Verdict verdict) {
+  return row.count[static_cast<std::size_t>(verdict)];
+}
+
+bool begins_with(std::string_view text, std::string_view beginning) {
+  return text.substr(0, beginning.size()) == beginning;
+}
+
+TEST(Extremes, EverySolverMeetsEverySceneInBothPrecisions) {
+  EXPECT_EQ(small().rows.size(), 2 * solvers().size());
+  for (const ExtremeRow& row : small().rows) {
+    EXPECT_EQ(std::accumulate(row.count.begin(), row.count.end(), std::uint64_t{0}), scenes)
+        << row.solver;
+    EXPECT_GT(count(row, Verdict::good), 0U) << row.solver;
+  }
+}
+
+TEST(Extremes, NoSolverReturnsAStateThatIsNoNumberOrAFrictionAboveItsLimit) {
+  for (const ExtremeRow& row : small().rows) {
+    EXPECT_EQ(count(row, Verdict::silent_not_finite), 0U) << row.solver << " " << row.precision;
+    EXPECT_EQ(count(row, Verdict::silent_friction_bound), 0U) << row.solver << " " << row.precision;
+  }
+}
+
+TEST(Extremes, TheTaylorSolverKeepsTheEnergyAtTheOrdersThatSuitTheArithmetic) {
+  for (const ExtremeRow& row : small().rows) {
+    const bool suits = row.precision == "float64" || row.solver == "event_taylor_8";
+    if (begins_with(row.solver, "event_taylor") && suits) {
+      EXPECT_EQ(count(row, Verdict::wrong), 0U) << row.solver << " " << row.precision;
+    }
+  }
+}
+
+TEST(Extremes, QuantilesRise) {
+  for (const ExtremeRow& row : small().rows) {
+    for (std::size_t i = 1; i < row.residual.size(); ++i) {
+      EXPECT_GE(row.residual[i], row.residual[i - 1]) << row.solver;
+    }
+    ASSERT_FALSE(row.worst.empty());
+    EXPECT_LE(row.worst.front().result.balance_residual, row.residual.back()) << row.solver;
+  }
+}
+
+TEST(Extremes, DoNotDependOnTheNumberOfThreads) {
+  const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
+  const Extremes alone = extremes(scenes, [](double) {});
+  EXPECT_EQ(extremes_csv(alone), extremes_csv(small()));
+  EXPECT_EQ(worst_csv(alone), worst_csv(small()));
+}
+
+TEST(Extremes, ProgressEndsAtOneAndNeverFalls) {
+  double last = 0.0;
+  extremes(20, [&last](double fraction) {
+    EXPECT_GE(fraction, last);
+    last = fraction;
+  });
+  EXPECT_EQ(last, 1.0);
+}
+
+}  // namespace
+}  // namespace sonoglide::stability

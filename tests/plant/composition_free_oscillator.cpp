@@ -1,0 +1,14 @@
+/// The smallest scene there is; what its loop refers to is read from the object file.
+
+#include "motion.hpp"
+
+namespace sonoglide::plant {
+
+using FreeOscillator = Model<friction::None<double>, Undamped<double>, NoDrive>;
+
+State<double> free_oscillator_period(EventTaylor<FreeOscillator, 16>& solver,
+                                     const State<double>& state) {
+  return advanced(solver, {0.0, 2.0 * pi, 0.0, 0.0, 0.0}, state);
+}
+
+}  // namespace sonoglide::plant
