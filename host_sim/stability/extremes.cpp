@@ -65,6 +65,7 @@ void summarise(std::vector<WorstCase> runs, ExtremeRow& row) {
   row.worst.assign(runs.begin(),
                    runs.begin() + static_cast<std::ptrdiff_t>(std::min(worst_kept, runs.size())));
   std::vector<double> residuals;
+  residuals.reserve(runs.size());
   for (const WorstCase& run : runs) {
     residuals.push_back(run.result.balance_residual);
   }

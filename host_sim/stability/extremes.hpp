@@ -22,8 +22,8 @@ inline constexpr double allowed_residual_float32 = 1e-2;
 inline constexpr std::array<double, 5> residual_quantiles = {0.5, 0.9, 0.99, 0.999, 1.0};
 
 struct WorstCase {
-  std::uint64_t scene;
-  Verdict verdict;
+  std::uint64_t scene = 0;
+  Verdict verdict = Verdict::good;
   TrialResult result;
 };
 
@@ -31,14 +31,14 @@ struct WorstCase {
 struct ExtremeRow {
   std::string_view solver;
   std::string_view precision;
-  double setting;
+  double setting = 0.0;
   std::array<std::uint64_t, verdict_count> count{};
   std::array<double, residual_quantiles.size()> residual{};  ///< of the runs handed over as good
   std::vector<WorstCase> worst;  ///< silent faults first, then by residual; at most five
 };
 
 struct Extremes {
-  std::uint64_t scenes;
+  std::uint64_t scenes = 0;
   std::vector<ExtremeRow> rows;
 };
 

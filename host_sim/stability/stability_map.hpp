@@ -17,7 +17,7 @@ struct MapGrid {
   std::vector<double> contact_stiffness_N_per_m;
   std::vector<double> tolerance;         ///< for adaptive solvers
   std::vector<double> steps_per_period;  ///< for the others
-  int periods;                           ///< carrier periods, from rest
+  int periods = 0;                       ///< carrier periods, from rest
 };
 
 /// Stiffness 1e2..1e13 N/m, tolerance 1e-2..1e-14, 8..32768 steps per period; 10 periods.
