@@ -16,7 +16,7 @@ namespace detail {
 /// Coefficients of the derivative of p of the given degree, over its factorial.
 template <std::size_t Degree, class Scalar, std::size_t Count>
 std::array<Scalar, Count - Degree> derivative(const std::array<Scalar, Count>& p) {
-  std::array<Scalar, Count - Degree> result;
+  std::array<Scalar, Count - Degree> result{};
   for (std::size_t n = Degree; n < Count; ++n) {
     std::size_t binomial = 1;
     for (std::size_t k = 0; k < Degree; ++k) {
@@ -118,7 +118,7 @@ Scalar hermite_remainder(const std::array<Scalar, Count>& p, Scalar end, Scalar 
     const double derived = static_cast<double>(n * (n - 1) * (n - 2) * (n - 3));
     bend[n - 4] = numeric::from_real<Scalar>(derived / 384.0) * numeric::abs(p[n]);
   }
-  std::array<Scalar, Count> moduli;
+  std::array<Scalar, Count> moduli{};
   for (std::size_t n = 0; n < Count; ++n) {
     moduli[n] = numeric::abs(p[n]);
   }

@@ -35,11 +35,10 @@ constexpr bool takes = Method<
     plant::Model<friction::None<typename Model::Scalar>, plant::Undamped<typename Model::Scalar>,
                  plant::NoDrive>>::template solves<typename Model::FrictionLaw>;
 
-template <template <class> class Method, class Scalar, Control control>
+template <template <class> class Method, class Scalar, Control Knob>
 TrialResult trial(const scene::Scene& scene, const TrialPlan& plan) {
   const scene::PlantScales scales = scene::plant_scales(scene);
-  const double setting =
-      control == Control::tolerance ? plan.setting : detail::two_pi / plan.setting;
+  const double setting = Knob == Control::tolerance ? plan.setting : detail::two_pi / plan.setting;
   return with_model<Scalar>(scene, scales, [&](const auto& model) {
     using Model = std::decay_t<decltype(model)>;
     if constexpr (takes<Method, Model>) {
@@ -59,15 +58,15 @@ constexpr double friction_bound(Bound bound) {
   return bound == Bound::exact ? 1.0 : 1.0 + rounding;
 }
 
-template <template <class> class Method, Control control>
+template <template <class> class Method, Control Knob>
 Solver solver(std::string_view name, Bound bound) {
-  constexpr bool adaptive = control == Control::tolerance;
+  constexpr bool adaptive = Knob == Control::tolerance;
   return {name,
           adaptive,
-          {{{"float64", trial<Method, double, control>,
+          {{{"float64", trial<Method, double, Knob>,
              adaptive ? tolerance_float64 : steps_per_period, friction_bound<double>(bound)},
-            {"float32", trial<Method, float, control>,
-             adaptive ? tolerance_float32 : steps_per_period, friction_bound<float>(bound)}}}};
+            {"float32", trial<Method, float, Knob>, adaptive ? tolerance_float32 : steps_per_period,
+             friction_bound<float>(bound)}}}};
 }
 
 }  // namespace
