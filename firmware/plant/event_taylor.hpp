@@ -269,16 +269,6 @@ class EventTaylor {
     rest(interval, position, state);
   }
 
-  /// direction p(x) / x^zero_order.
-  static Coefficients without_zero(const Coefficients& p, Scalar direction,
-                                   std::size_t zero_order) {
-    Coefficients quotient{};
-    for (std::size_t n = zero_order; n <= Order; ++n) {
-      quotient[n - zero_order] = direction * p[n];
-    }
-    return quotient;
-  }
-
   /// The extent at which the last two terms reach what is allowed, or the rounding error of the
   /// velocity if that is larger. A unit that was well chosen is it.
   Scalar step_extent(Scalar last, Scalar last_but_one, Scalar speed, const Series& series,

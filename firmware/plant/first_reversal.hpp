@@ -186,11 +186,7 @@ template <class Scalar, std::size_t Count>
       }
     }
   }
-  std::array<Scalar, Count> quotient{};
-  for (std::size_t n = zero_order; n < Count; ++n) {
-    quotient[n - zero_order] = direction * p[n];
-  }
-  return first_root(quotient, end);
+  return first_root(without_zero(p, direction, zero_order), end);
 }
 
 }  // namespace sonoglide::plant

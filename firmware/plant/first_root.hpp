@@ -74,6 +74,17 @@ Scalar rounding_bound(const std::array<Scalar, Count>& p, Scalar t) {
 
 }  // namespace detail
 
+/// direction p(t) / t^zero_order, for a p whose terms below that order vanish.
+template <class Scalar, std::size_t Count>
+std::array<Scalar, Count> without_zero(const std::array<Scalar, Count>& p, Scalar direction,
+                                       std::size_t zero_order) {
+  std::array<Scalar, Count> quotient{};
+  for (std::size_t n = zero_order; n < Count; ++n) {
+    quotient[n - zero_order] = direction * p[n];
+  }
+  return quotient;
+}
+
 /// The first t in (0, end) with p(t) = 0, or `end` if there is none; p(0) > 0.
 ///
 /// From each point the search moves to the root of a parabola that lies below p up to the end of a

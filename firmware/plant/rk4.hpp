@@ -45,6 +45,9 @@ class Rk4 {
     if (count > step_limit_) {
       return {Error::too_many_steps, Scalar(0)};
     }
+    if (count == 0) {
+      return {Error::none, interval.duration};
+    }
     const Scalar length = interval.duration / static_cast<Scalar>(count);
     if (!oscillator_is_stable(model_, length)) {
       return {Error::step_too_long, Scalar(0)};

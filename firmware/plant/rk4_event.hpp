@@ -55,6 +55,9 @@ class Rk4Event {
     if (count > step_limit_) {
       return {Error::too_many_steps, Scalar(0)};
     }
+    if (count == 0) {
+      return {Error::none, interval.duration};
+    }
     const Scalar length = interval.duration / static_cast<Scalar>(count);
     if (!oscillator_is_stable(model_, length) ||
         model_.contact_force(law_stiffness()) * length * length > Scalar(1)) {

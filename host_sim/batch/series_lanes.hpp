@@ -105,19 +105,19 @@ struct SeriesLanes {
     (add_term<Terms + 1>(d, recurrence, drive), ...);
   }
 
-  /// Terms of x^(n + 1) from those before. The drive's terms alternate between two places.
-  template <int n>
+  /// Terms of x^(N + 1) from those before. The drive's terms alternate between two places.
+  template <int N>
   HWY_INLINE void add_term(D d, const Recurrence& recurrence, V* drive) {
-    const V factor = reciprocal(d, n + 1);
-    relaxation_[n] = recurrence.vibration * velocity[n];
-    displacement[n + 1] = factor * velocity[n];
-    V force = NegMulAdd(recurrence.stiffness, displacement[n], drive[n % 2]);
-    force = NegMulAdd(recurrence.damping, velocity[n], force);
-    force = MulAdd(recurrence.friction, deficit[n], force);
-    velocity[n + 1] = factor * force;
-    deficit[n + 1] = factor * convolution(std::make_integer_sequence<int, (n + 1) / 2>(), n);
-    const V next_drive = drive[(n + 1) % 2] * recurrence.unit_squared;
-    drive[(n + 1) % 2] = Neg(next_drive * (factor * reciprocal(d, n)));
+    const V factor = reciprocal(d, N + 1);
+    relaxation_[N] = recurrence.vibration * velocity[N];
+    displacement[N + 1] = factor * velocity[N];
+    V force = NegMulAdd(recurrence.stiffness, displacement[N], drive[N % 2]);
+    force = NegMulAdd(recurrence.damping, velocity[N], force);
+    force = MulAdd(recurrence.friction, deficit[N], force);
+    velocity[N + 1] = factor * force;
+    deficit[N + 1] = factor * convolution(std::make_integer_sequence<int, (N + 1) / 2>(), N);
+    const V next_drive = drive[(N + 1) % 2] * recurrence.unit_squared;
+    drive[(N + 1) % 2] = Neg(next_drive * (factor * reciprocal(d, N)));
   }
 
   /// Sum of relaxation[j] deficit[n - j], from the middle outwards: the newest factors enter last,

@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "host_sim/cli/interruption.hpp"
+#include "host_sim/cli/output_option.hpp"
 #include "host_sim/cli/progress_bar.hpp"
 #include "host_sim/loop/run.hpp"
 #include "host_sim/report/run_report.hpp"
@@ -34,14 +35,9 @@ CLI::App* add_run_command(CLI::App& program, RunOptions& options) {
   command->add_option("scene", options.scene, "The scene, a TOML file")
       ->required()
       ->type_name("SCENE.toml");
-  command
-      ->add_option("--out", options.out,
-                   "Folder for report.html and summary.json and, where the scene records anything, "
-                   "periods.csv and trace.csv [out/<scene name>]")
-      ->type_name("DIR")
-      ->check([](const std::string& folder) {
-        return folder.empty() ? std::string("is empty; allowed: a folder") : std::string();
-      });
+  add_output_option(*command, options.out,
+                    "report.html and summary.json and, where the scene records anything, "
+                    "periods.csv and trace.csv [out/<scene name>]");
   command
       ->add_option("--set", options.overrides,
                    "Replace or add one value of the scene, e.g. drive.force_amplitude_N=1920; "

@@ -6,9 +6,9 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "host_sim/cli/output_option.hpp"
 #include "host_sim/cli/progress_bar.hpp"
 #include "host_sim/plot/gnuplot.hpp"
-#include "host_sim/report/output_folder.hpp"
 #include "host_sim/stability/study.hpp"
 #include "host_sim/stability/study_text.hpp"
 
@@ -20,7 +20,7 @@ constexpr std::uint64_t random_scenes = 100000;
 /// What would stop the report at the end stops it here.
 void require_output(const std::filesystem::path& out) {
   plot::require_gnuplot();
-  const report::OutputFolder probe(out);
+  require_writable(out);
 }
 
 stability::Study compute(bool quiet) {
@@ -34,14 +34,9 @@ stability::Study compute(bool quiet) {
 CLI::App* add_stability_command(CLI::App& program, StabilityOptions& options) {
   CLI::App* command = program.add_subcommand(
       "stability", "Where each solver can be trusted: maps over step and stiffness, extreme cases");
-  command
-      ->add_option("--out", options.out,
-                   "Folder for report.html, stability_map.csv and .svg, the same for float32, "
-                   "extremes.csv and extremes_worst.csv [out/stability]")
-      ->type_name("DIR")
-      ->check([](const std::string& folder) {
-        return folder.empty() ? std::string("is empty; allowed: a folder") : std::string();
-      });
+  add_output_option(*command, options.out,
+                    "report.html, stability_map.csv and .svg, the same for float32, extremes.csv "
+                    "and extremes_worst.csv [out/stability]");
   command->add_flag("--quiet", options.quiet, "No progress bar and no printed summary");
   return command;
 }

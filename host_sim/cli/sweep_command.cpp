@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "host_sim/cli/output_option.hpp"
 #include "host_sim/cli/progress_bar.hpp"
 #include "host_sim/sweep/sweep.hpp"
 
@@ -59,14 +60,9 @@ CLI::App* add_sweep_command(CLI::App& program, SweepOptions& options) {
       ->required()
       ->type_name("KEY=FROM:TO:COUNT[:log]")
       ->allow_extra_args(false);
-  command
-      ->add_option("--out", options.out,
-                   "Folder for sweep.csv, sweep.svg (one or two keys) and report.html "
-                   "[out/<scene name>_sweep]")
-      ->type_name("DIR")
-      ->check([](const std::string& folder) {
-        return folder.empty() ? std::string("is empty; allowed: a folder") : std::string();
-      });
+  add_output_option(*command, options.out,
+                    "sweep.csv, sweep.svg (one or two keys) and report.html [out/<scene "
+                    "name>_sweep]");
   command
       ->add_option("--set", options.overrides,
                    "Replace or add one value of the scene at every point; repeatable")

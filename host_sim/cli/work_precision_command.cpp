@@ -7,9 +7,9 @@
 #include <fstream>
 #include <iterator>
 
+#include "host_sim/cli/output_option.hpp"
 #include "host_sim/cli/progress_bar.hpp"
 #include "host_sim/plot/gnuplot.hpp"
-#include "host_sim/report/output_folder.hpp"
 #include "host_sim/scene/configuration_error.hpp"
 #include "host_sim/scene/document.hpp"
 #include "host_sim/scene/reader.hpp"
@@ -20,26 +20,11 @@
 namespace sonoglide::cli {
 namespace {
 
-/// Where a key stands in a scene that was read without complaint; its table or the beginning of the
-/// file where it is left to its default.
+/// Where a key stands in a scene that was read without complaint.
 scene::Location place_of(const std::string& path, const std::string& dotted_key) {
   std::ifstream file(path, std::ios::binary);
   const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-  const scene::Document document(text, path, {});
-  const std::size_t dot = dotted_key.find('.');
-  const scene::Table* table = document.find(dotted_key.substr(0, dot));
-  if (table == nullptr) {
-    return document.start();
-  }
-  const auto entry = dot == std::string::npos ? table->entries.end()
-                                              : table->entries.find(dotted_key.substr(dot + 1));
-  return entry == table->entries.end() ? table->place : entry->second.value_place;
-}
-
-/// Stages and removes an empty folder: an output that cannot be written is found out before the
-/// comparison.
-void require_writable(const std::filesystem::path& out) {
-  const report::OutputFolder probe(out);
+  return scene::Document(text, path, {}).place_of(dotted_key);
 }
 
 peers::Problem read_problem(const scene::Scene& scene, const std::string& path) {
@@ -64,14 +49,9 @@ CLI::App* add_work_precision_command(CLI::App& program, WorkPrecisionOptions& op
   command->add_option("scene", options.scene, "The scene, a TOML file; its [solver] plays no part")
       ->required()
       ->type_name("SCENE.toml");
-  command
-      ->add_option("--out", options.out,
-                   "Folder for report.html, work_precision.csv and work_precision.svg "
-                   "[out/<scene name>_work_precision]")
-      ->type_name("DIR")
-      ->check([](const std::string& folder) {
-        return folder.empty() ? std::string("is empty; allowed: a folder") : std::string();
-      });
+  add_output_option(*command, options.out,
+                    "report.html, work_precision.csv and work_precision.svg [out/<scene "
+                    "name>_work_precision]");
   command->add_flag("--quiet", options.quiet, "No progress bar and no printed summary");
   return command;
 }

@@ -65,6 +65,18 @@ const Table* Document::find(std::string_view name) const {
   return found == tables_.end() ? nullptr : &found->second;
 }
 
+Location Document::place_of(std::string_view dotted_key) const {
+  const std::size_t dot = dotted_key.find('.');
+  const Table* table = find(dotted_key.substr(0, dot));
+  if (table == nullptr) {
+    return start();
+  }
+  const auto entry = dot == std::string_view::npos
+                         ? table->entries.end()
+                         : table->entries.find(dotted_key.substr(dot + 1));
+  return entry == table->entries.end() ? table->place : entry->second.value_place;
+}
+
 void Document::collect() {
   for (const auto& [key, value] : in_file_order(root_)) {
     const std::string name(key->str());

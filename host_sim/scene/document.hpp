@@ -57,6 +57,10 @@ class Document {
   /// The table of this name; null where the scene has none.
   const Table* find(std::string_view name) const;
 
+  /// Where the value of `TABLE.KEY` stands, or a whole table; what is left to its default stands
+  /// where its table does, or at the beginning of the file.
+  Location place_of(std::string_view dotted_key) const;
+
   /// The file without folder and ending.
   const std::string& name() const { return name_; }
 

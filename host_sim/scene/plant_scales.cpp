@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "firmware/numeric/float_elementary.hpp"
+
 namespace sonoglide::scene {
 namespace {
 
@@ -47,6 +49,13 @@ double fastest_sliding_m_per_s(const Sliding& sliding) {
     fastest = std::max(fastest, std::abs(point.velocity_m_per_s));
   }
   return fastest;
+}
+
+double dynamic_stiffness_N_per_m(const Plant& plant, double omega_rad_per_s) {
+  const double reactive =
+      plant.stiffness_N_per_m - plant.mass_kg * omega_rad_per_s * omega_rad_per_s;
+  const double resistive = plant.damping_N_s_per_m * omega_rad_per_s;
+  return numeric::sqrt(reactive * reactive + resistive * resistive);
 }
 
 double friction_limit_N(const Friction& friction) {

@@ -41,17 +41,6 @@ std::string read_bytes(const std::filesystem::path& path) {
   return bytes;
 }
 
-/// Where a key stands; where it is left to its default, where its table does.
-Location place_of(const Document& document, const std::string& dotted_key) {
-  const std::size_t dot = dotted_key.find('.');
-  const Table* table = document.find(dotted_key.substr(0, dot));
-  if (table == nullptr) {
-    return document.start();
-  }
-  const auto entry = table->entries.find(dotted_key.substr(dot + 1));
-  return entry == table->entries.end() ? table->place : entry->second.value_place;
-}
-
 void require_solvable(const Scene& scene, const Document& document) {
   const SolverMethod method = scene.solver.method;
   if (solves(method, scene.friction.law)) {
@@ -64,7 +53,7 @@ void require_solvable(const Scene& scene, const Document& document) {
     }
   }
   const char* key = "solver.method";
-  throw SceneError(place_of(document, key), key,
+  throw SceneError(document.place_of(key), key,
                    fmt::format("\"{}\" does not solve the friction law \"{}\"; allowed: {}",
                                name_of(solver_methods, method),
                                name_of(friction_laws, scene.friction.law), allowed));
@@ -75,7 +64,7 @@ void require_controller(const Scene& scene, const Document& document) {
   try {
     design_control(scene);
   } catch (const ConfigurationError& error) {
-    throw SceneError(place_of(document, error.key()), error.key(), error.what());
+    throw SceneError(document.place_of(error.key()), error.key(), error.what());
   }
 }
 

@@ -1,4 +1,5 @@
-/// The plant that a scene names, composed of exactly its parts, in either precision.
+/// The plant of a scene in either precision: its friction law, with damping and drive whether they
+/// are zero or not.
 #pragma once
 
 #include <variant>
@@ -35,17 +36,6 @@ plant::Contact<friction::Dahl<Scalar>> contact(friction::Dahl<Scalar> /*law*/,
 }
 
 template <class Scalar>
-plant::Undamped<Scalar> damper(plant::Undamped<Scalar> /*damping*/,
-                               const scene::PlantNumbers& /*numbers*/) {
-  return {};
-}
-template <class Scalar>
-plant::Damped<Scalar> damper(plant::Damped<Scalar> /*damping*/,
-                             const scene::PlantNumbers& numbers) {
-  return {static_cast<Scalar>(numbers.damping)};
-}
-
-template <class Scalar>
 std::variant<friction::None<Scalar>, friction::Coulomb<Scalar>, friction::Dahl<Scalar>> law_of(
     const scene::Friction& friction) {
   // Without a friction force there is no friction, whatever the law.
@@ -60,21 +50,6 @@ std::variant<friction::None<Scalar>, friction::Coulomb<Scalar>, friction::Dahl<S
   return friction::None<Scalar>{};
 }
 
-template <class Scalar>
-std::variant<plant::Undamped<Scalar>, plant::Damped<Scalar>> damping_of(const scene::Plant& plant) {
-  if (plant.damping_N_s_per_m > 0.0) {
-    return plant::Damped<Scalar>{};
-  }
-  return plant::Undamped<Scalar>{};
-}
-
-inline std::variant<plant::NoDrive, plant::CosineDrive> drive_of(const scene::Scene& scene) {
-  if (scene.drive && scene.drive->force_amplitude_N > 0.0) {
-    return plant::CosineDrive{};
-  }
-  return plant::NoDrive{};
-}
-
 }  // namespace detail
 
 /// Calls visitor(model) with the plant::Model of an open-loop scene.
@@ -84,14 +59,13 @@ auto with_model(const scene::Scene& scene, const scene::PlantScales& scales,
   const scene::PlantNumbers numbers = scene::plant_numbers(scene, scales);
   const bool dissipative = scene.friction.sign_convention == scene::SignConvention::dissipative;
   return std::visit(
-      [&](auto law, auto damping, auto drive) {
-        using Model = plant::Model<decltype(law), decltype(damping), decltype(drive)>;
+      [&](auto law) {
+        using Model = plant::Model<decltype(law), plant::Damped<Scalar>, plant::CosineDrive>;
         return visitor(Model{detail::contact(law, numbers, Scalar(dissipative ? 1 : -1)),
-                             detail::damper(damping, numbers),
+                             {static_cast<Scalar>(numbers.damping)},
                              static_cast<Scalar>(numbers.stiffness)});
       },
-      detail::law_of<Scalar>(scene.friction), detail::damping_of<Scalar>(scene.plant),
-      detail::drive_of(scene));
+      detail::law_of<Scalar>(scene.friction));
 }
 
 }  // namespace sonoglide::stability

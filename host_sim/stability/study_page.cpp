@@ -41,7 +41,7 @@ report::Table verdicts() {
            {"|F| > Fc, not reported; not finite, not reported",
             "The result breaks the friction law, or holds no number, and was handed over as good.",
             "A fault of the solver: please report the scene."},
-           {"declined: |F| > Fc, step too long for the contact",
+           {"declined: |F| > Fc, step too long for the contact or the oscillator",
             "The solver found the friction force beyond its limit, or saw that it was about to "
             "pass it, and stopped.",
             "Shorten the step to 2.785 Fc/(Kt |V|) or below, or use event_taylor."},

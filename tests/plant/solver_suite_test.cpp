@@ -175,6 +175,13 @@ TYPED_TEST(SolverSuite, AtRestWithoutAnyForceNothingMoves) {
   expect_near(run.state, {0.0, 0.0, 0.0}, 0.0);
 }
 
+TYPED_TEST(SolverSuite, NoTimeIsNoStep) {
+  const State<double> start = {0.3, -0.2, 0.1};
+  const Advanced run = this->dahl({0.7, 0.2, 1.0, 0.1, 0.4}, {0.0, 1.0, 0.5}, start);
+  expect_near(run.state, start, 1e-7);
+  EXPECT_EQ(run.cost.steps, 0U);
+}
+
 TYPED_TEST(SolverSuite, NoDriveAndNoSpring) {
   const Advanced run = this->dahl({0.8}, {duration, 0.0, 0.25});
   EXPECT_NEAR(run.state.friction, after_travel(0.0, 0.8, 0.25 * duration), TypeParam::smooth);
