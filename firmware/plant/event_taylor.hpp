@@ -167,8 +167,7 @@ class EventTaylor {
       }
     }
     const Scalar remaining = rest_of_time / series.unit;
-    const Scalar longest = step_extent(last_term(series, Order), last_term(series, Order - 1),
-                                       speed(series), series, remaining);
+    const Scalar longest = sliding_extent(series, remaining);
     const Scalar extent = up_to_reversal(series, branch, longest);
     const bool stands_still =
         extent < longest && position.offset + extent * series.unit == position.offset;
@@ -204,20 +203,35 @@ class EventTaylor {
     }
   }
 
-  /// What the error of the velocity is measured against: the velocity scale, or the vibration
-  /// itself where that is smaller, but not without end.
-  static Scalar speed(const Series& series) {
+  /// How far a step may slide. What the vibration reaches in it is known once the step is: where
+  /// that falls far short of a unit, as in a contact that rings, a second pass.
+  Scalar sliding_extent(const Series& series, Scalar remaining) const {
+    const Scalar extent = extent_at(speed(series, Scalar(1)), series, remaining);
+    return extent < numeric::half(numeric::min(Scalar(1), remaining))
+               ? extent_at(speed(series, extent), series, remaining)
+               : extent;
+  }
+
+  Scalar extent_at(Scalar speed, const Series& series, Scalar remaining) const {
+    return step_extent(last_term(series, Order, speed), last_term(series, Order - 1, speed), speed,
+                       series, remaining);
+  }
+
+  /// What the error of the velocity is measured against: the velocity scale, or where that is
+  /// smaller, but not without end, the vibration itself on the way to x.
+  static Scalar speed(const Series& series, Scalar x) {
     constexpr bool is_short = std::numeric_limits<Scalar>::digits <= 24;
     constexpr Scalar slowest = numeric::from_real<Scalar>(is_short ? 1e-6 : 1e-12);
-    const Scalar change = numeric::abs(series.vibration[1]) + numeric::abs(series.travel[2]);
+    const Scalar change =
+        x * (numeric::abs(series.vibration[1]) + x * numeric::abs(series.travel[2]));
     return numeric::clamp(numeric::abs(series.velocity) + numeric::abs(series.rate) * change,
                           slowest, Scalar(1));
   }
 
   /// The n-th terms of V and phi, as much as they matter.
-  static Scalar last_term(const Series& series, std::size_t n) {
+  static Scalar last_term(const Series& series, std::size_t n, Scalar speed) {
     return numeric::max(numeric::abs(series.rate * series.travel[n]),
-                        speed(series) * mean_per_term * numeric::abs(series.friction[n]));
+                        speed * mean_per_term * numeric::abs(series.friction[n]));
   }
 
   /// The extent of the step, cut at the first reversal.

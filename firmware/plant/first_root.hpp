@@ -37,29 +37,51 @@ Scalar parabola_root(Scalar value, Scalar slope, Scalar curvature, Scalar none) 
   if (bend > square) {
     return none;
   }
+  // Neither form subtracts what is nearly equal.
+  if (slope >= Scalar(0)) {
+    return numeric::min(none, (slope + numeric::sqrt(square - bend)) / -curvature);
+  }
   // sqrt(1 - q) <= 1 - q / 2 saves the square root where the answer is nearly a Newton step.
-  const bool nearly_straight = slope < Scalar(0) && numeric::abs(bend) < square;
-  const Scalar root =
-      nearly_straight ? numeric::half(bend / slope) - slope : numeric::sqrt(square - bend);
+  const Scalar root = numeric::abs(bend) < square ? numeric::half(bend / slope) - slope
+                                                  : numeric::sqrt(square - bend);
   return numeric::min(none, Scalar(2) * value / (root - slope));
 }
 
-/// p times a positive factor, such that the squares of its coefficients neither vanish nor
-/// overflow.
+/// A search for the first root of a polynomial in t / unit.
 template <class Scalar, std::size_t Count>
-std::array<Scalar, Count> of_moderate_size(std::array<Scalar, Count> p) {
+struct RootSearch {
+  std::array<Scalar, Count> polynomial;
+  Scalar end;
+  Scalar unit;
+};
+
+/// The search for a root of p before `end` in units in which the squares of what it meets neither
+/// vanish nor overflow: mostly as it is given, else in units of `end` and of the largest term.
+template <class Scalar, std::size_t Count>
+RootSearch<Scalar, Count> of_moderate_size(const std::array<Scalar, Count>& p, Scalar end) {
   using Limits = std::numeric_limits<Scalar>;
+  const Scalar root_of_min = numeric::sqrt(Limits::min());
+  const Scalar small = root_of_min / Limits::epsilon();
   Scalar largest = Limits::min();
   for (const Scalar coefficient : p) {
     largest = numeric::max(largest, numeric::abs(coefficient));
   }
-  const Scalar small = numeric::sqrt(Limits::min()) / Limits::epsilon();
-  if (largest < small || largest > Scalar(1) / small) {
-    for (Scalar& coefficient : p) {
-      coefficient /= largest;
-    }
+  if (p[0] >= small && largest <= Scalar(1) / small) {
+    return {p, end, Scalar(1)};
   }
-  return p;
+  // Half of the range for the small ones among p, half for the powers of a small end.
+  RootSearch<Scalar, Count> search = {{}, Scalar(1), end};
+  Scalar power = Scalar(1) / root_of_min;
+  Scalar largest_term = Limits::min();
+  for (std::size_t n = 0; n < Count; ++n) {
+    search.polynomial[n] = p[n] / largest * power;
+    largest_term = numeric::max(largest_term, numeric::abs(search.polynomial[n]));
+    power *= end;
+  }
+  for (Scalar& term : search.polynomial) {
+    term /= largest_term;
+  }
+  return search;
 }
 
 /// A bound of the rounding error of p(t), t >= 0.
@@ -85,7 +107,7 @@ std::array<Scalar, Count> without_zero(const std::array<Scalar, Count>& p, Scala
   return quotient;
 }
 
-/// The first t in (0, end) with p(t) = 0, or `end` if there is none; p(0) > 0.
+/// The first t in (0, none) with p(t) = 0, or `none`; p(0) > 0.
 ///
 /// From each point the search moves to the root of a parabola that lies below p up to the end of a
 /// window (same value and slope, the lowest curvature in it), which cannot lie beyond a root of p.
@@ -93,9 +115,9 @@ std::array<Scalar, Count> without_zero(const std::array<Scalar, Count>& p, Scala
 /// constant factor, until p is within its rounding error of zero: that counts as a root. Where the
 /// curvature keeps the steps short the window narrows, and so does the bound of the curvature.
 template <class Scalar, std::size_t Count>
-[[gnu::noinline]] Scalar first_root(const std::array<Scalar, Count>& polynomial, Scalar end) {
+[[gnu::noinline]] Scalar first_root(const std::array<Scalar, Count>& polynomial, Scalar none) {
   static_assert(Count >= 4, "the curvature bound needs a cubic");
-  const std::array<Scalar, Count> p = detail::of_moderate_size(polynomial);
+  const auto [p, end, unit] = detail::of_moderate_size(polynomial, none);
   const Scalar quarter = numeric::from_real<Scalar>(0.25);
   Scalar window = end;
   Scalar curvature = detail::lowest_curvature(p, window);
@@ -107,14 +129,14 @@ template <class Scalar, std::size_t Count>
     const Scalar step = detail::parabola_root(value, slope, curvature, rest);
     if (step >= rest) {
       if (window >= end) {
-        return end;
+        return none;
       }
       t = window;
       window = numeric::min(end, numeric::twice(window));
       curvature = detail::lowest_curvature(p, window);
     } else {
       if (t + step == t) {
-        return t;
+        return unit * t;
       }
       t += step;
       if (step < quarter * rest) {
@@ -130,7 +152,7 @@ template <class Scalar, std::size_t Count>
     }
     // Not <=: a value that is no number ends the search too.
     if (!(value > detail::rounding_bound(p, t))) {
-      return t;
+      return unit * t;
     }
   }
 }

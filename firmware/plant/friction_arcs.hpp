@@ -56,6 +56,8 @@ class FrictionArcs {
   ///
   /// Hermite's rule of fourth order, over parts in which 1 - |phi| falls by less than a factor of
   /// e^(1/2): an arc that a stiff contact saturates in a moment costs more, and loses nothing.
+  /// Parts too short to matter are taken as they are: near a reversal the displacement is known to
+  /// half of its digits only, and friction may not follow from it.
   Scalar integral(Scalar weight, Scalar slope) const {
     Scalar sum = Scalar(0);
     for (std::size_t i = 0; i < arcs_; ++i) {
@@ -128,9 +130,9 @@ class FrictionArcs {
       const bool to_end = x + width >= end;
       const Scalar next = to_end ? end : x + width;
       const Sample to = to_end ? last : sample(i, next, path_.velocity(next), friction(i, next));
-      const bool finest = x + numeric::half(width) == x;
-      if (finest || is_saturated(direction(i), from.friction) || is_gentle(from, to)) {
-        sum += hermite(from, to, weight, slope);
+      const bool gentle = is_saturated(direction(i), from.friction) || is_gentle(from, to);
+      if (gentle || width <= negligible) {
+        sum += gentle ? hermite(from, to, weight, slope) : trapezium(from, to, weight, slope);
         x = next;
         from = to;
         width = numeric::twice(width);
@@ -143,11 +145,21 @@ class FrictionArcs {
 
   bool is_gentle(const Sample& from, const Sample& to) const {
     const Scalar travel_bound = (to.time - from.time) * (from.speed + to.speed);
-    return law_.rate(Scalar(1), Scalar(0)) * travel_bound <= Scalar(1);
+    // Not <=: what is no number is not worth parts.
+    return !(law_.rate(Scalar(1), Scalar(0)) * travel_bound > Scalar(1));
   }
   static bool is_saturated(Scalar direction, Scalar friction) {
-    constexpr int digits = std::numeric_limits<Scalar>::digits;
-    return Scalar(1) - direction * friction <= numeric::power_of_two<Scalar>(-2 * digits / 3);
+    return Scalar(1) - direction * friction <= negligible;
+  }
+
+  /// What is the same as nothing beside 1, with something to spare.
+  static constexpr Scalar negligible =
+      numeric::power_of_two<Scalar>(-2 * std::numeric_limits<Scalar>::digits / 3);
+
+  static Scalar trapezium(const Sample& from, const Sample& to, Scalar weight, Scalar slope) {
+    const Scalar ends =
+        from.friction * (weight + slope * from.time) + to.friction * (weight + slope * to.time);
+    return numeric::half(to.time - from.time) * ends;
   }
 
   static Scalar hermite(const Sample& from, const Sample& to, Scalar weight, Scalar slope) {

@@ -48,6 +48,34 @@ TEST(FirstRoot, OfADoubleRoot) {
   EXPECT_NEAR(first_root(with_roots<4>({0.5, 0.5, 5.0, -7.0}), 1.0), 0.5, 1e-7);
 }
 
+/// Met in float: the terms are small only because time is. Without units of its own the search went
+/// round for ever, the squares of its slopes being zero.
+TEST(FirstRoot, OfTinyTermsInTinyTime) {
+  const std::array<float, 9> p = {8.59829637e-31F, -1.22033408e-26F, -5.87206475e-23F,
+                                  1.26621375e-18F, -6.6012671e-16F,  -3.18585713e-11F,
+                                  6.56613537e-08F, 0.000302217028F,  -1.0F};
+  const float end = 2.31482802e-4F;
+  std::array<double, 9> exact{};
+  std::copy(p.begin(), p.end(), exact.begin());
+  EXPECT_NEAR(first_root(p, end), first_root(exact, static_cast<double>(end)), 1e-6F * end);
+}
+
+/// Units of time and of p change nothing.
+TEST(FirstRoot, DoesNotDependOnTheUnitOfTime) {
+  for (const float size : {1e-25F, 1e-12F, 1.0F}) {
+    for (const float unit : {1e-4F, 1e-2F, 1.0F, 1e2F}) {
+      std::array<float, 6> p{};
+      const auto exact = with_roots<5>({0.5, 0.52, 3.0, -0.7, 4.0});
+      float power = size;
+      for (std::size_t n = 0; n < p.size(); ++n) {
+        p[n] = static_cast<float>(exact[n]) * power;
+        power /= unit;
+      }
+      EXPECT_NEAR(first_root(p, unit) / unit, 0.5F, 2e-4F) << size << ' ' << unit;
+    }
+  }
+}
+
 TEST(FirstRoot, DoesNotDependOnTheSizeOfThePolynomial) {
   for (const double size : {1e-300, 1e-200, 1e-100, 1e100, 1e200, 1e300}) {
     auto p = with_roots<4>({0.5, 0.8, 5.0, -7.0});

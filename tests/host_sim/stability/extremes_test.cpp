@@ -9,6 +9,7 @@
 #include <numeric>
 #include <string_view>
 
+#include "host_sim/stability/random_scene.hpp"
 #include "host_sim/stability/solver_list.hpp"
 #include "host_sim/stability/tables.hpp"
 
@@ -51,6 +52,22 @@ TEST(Extremes, TheTaylorSolverKeepsTheEnergyAtTheOrdersThatSuitTheArithmetic) {
     const bool suits = row.precision == "float64" || row.solver == "event_taylor_8";
     if (begins_with(row.solver, "event_taylor") && suits) {
       EXPECT_EQ(count(row, Verdict::wrong), 0U) << row.solver << " " << row.precision;
+    }
+  }
+}
+
+/// Searches inside a step once went round without end in these: squares that vanish, reversals
+/// whose displacement is below its rounding, a velocity that is no number.
+TEST(Extremes, EveryTrialEnds) {
+  for (const std::uint64_t scene : {670, 1591, 3039, 10886, 15183}) {
+    for (const Solver& solver : solvers()) {
+      for (const Precision& precision : solver.precisions) {
+        const TrialResult result =
+            precision.trial(random_scene(scene),
+                            {random_scene_periods, precision.extreme_setting, extreme_step_limit});
+        EXPECT_TRUE(result.finite || result.error != plant::Error::none)
+            << scene << " " << solver.name << " " << precision.name;
+      }
     }
   }
 }
