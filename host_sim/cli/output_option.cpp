@@ -12,6 +12,8 @@ void add_output_option(CLI::App& command, std::string& out, const std::string& c
       });
 }
 
-void require_writable(const std::filesystem::path& out) { const report::OutputFolder probe(out); }
+void require_writable(const std::filesystem::path& out) {
+  const report::OutputFolder probe(out);
+}
 
 }  // namespace sonoglide::cli

@@ -28,8 +28,8 @@ struct PlantNumbers {
 PlantScales plant_scales(const Scene& scene);
 PlantNumbers plant_numbers(const Scene& scene, const PlantScales& scales);
 
-/// |Ks − m ω² + i c ω| [N/m]: force amplitude over displacement amplitude of the steady vibration at
-/// ω [rad/s], without a contact; 0 at the resonance of an undamped plant.
+/// |Ks − m ω² + i c ω| [N/m]: force amplitude over displacement amplitude of the steady vibration
+/// at ω [rad/s], without a contact; 0 at the resonance of an undamped plant.
 double dynamic_stiffness_N_per_m(const Plant& plant, double omega_rad_per_s);
 
 /// Fc = μ N.
