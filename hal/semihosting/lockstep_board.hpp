@@ -1,13 +1,13 @@
-/// An MPS2 board whose carrier periods come from the host, one frame at a time.
+/// A board whose carrier periods come from the host, one frame at a time.
 #pragma once
 
 #include <cstdint>
 
 #include "hal/board.hpp"
-#include "hal/mps2/lockstep/frame.hpp"
-#include "hal/mps2/semihosting.hpp"
+#include "hal/lockstep/frame.hpp"
+#include "hal/semihosting/semihosting.hpp"
 
-namespace sonoglide::hal::mps2 {
+namespace sonoglide::hal::semihosting {
 
 /// Samples come from the emulator's standard input, drives go to its standard output. The end of
 /// the input shuts the board down; a broken link ends the image (ExitCode::link_broken).
@@ -46,4 +46,4 @@ class LockstepBoard {
   std::uint32_t period_ = 0;
 };
 
-}  // namespace sonoglide::hal::mps2
+}  // namespace sonoglide::hal::semihosting

@@ -1,10 +1,10 @@
-/// System calls of an Arm board to the emulator or debugger that it runs under.
+/// System calls of a board to the emulator or debugger that it runs under.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 
-namespace sonoglide::hal::mps2 {
+namespace sonoglide::hal::semihosting {
 
 /// How an image ends; what the emulator's process returns.
 enum class ExitCode : std::uint32_t {
@@ -27,4 +27,4 @@ bool write_all(std::int32_t handle, const void* bytes, std::size_t size);
 
 [[noreturn]] void leave(ExitCode code);
 
-}  // namespace sonoglide::hal::mps2
+}  // namespace sonoglide::hal::semihosting
