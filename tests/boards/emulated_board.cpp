@@ -13,7 +13,7 @@
 #include <csignal>
 #include <cstring>
 
-#include "hal/mps2/lockstep/frame.hpp"
+#include "hal/lockstep/frame.hpp"
 
 namespace sonoglide::boards {
 namespace {

@@ -1,6 +1,7 @@
 // The same controller source on the host and as an image on an emulated board: the same commands.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <cstdint>
@@ -12,7 +13,8 @@
 
 #include "emulated_board.hpp"
 #include "firmware/control/drive_command.hpp"
-#include "hal/mps2/lockstep/frame.hpp"
+#include "hal/lockstep/frame.hpp"
+#include "host_sim/emulator/board_list.hpp"
 #include "host_sim/loop/control_port.hpp"
 #include "host_sim/loop/plant_port.hpp"
 #include "host_sim/loop/run.hpp"
@@ -28,7 +30,7 @@ namespace {
 using std::chrono_literals::operator""s;
 using std::chrono_literals::operator""ms;
 
-// Exit codes of an image: hal/mps2/semihosting.hpp.
+// Exit codes of an image: hal/semihosting/semihosting.hpp.
 constexpr int shut_down = 0;
 constexpr int link_broken = 1;
 constexpr int processor_fault = 2;
@@ -40,16 +42,7 @@ std::string image(const std::string& board, const std::string& controller) {
 }
 
 std::vector<std::string> emulate(const std::string& board, const std::string& image) {
-  return {SONOGLIDE_QEMU,
-          "-nodefaults",
-          "-display",
-          "none",
-          "-semihosting-config",
-          "enable=on,target=native",
-          "-machine",
-          board,
-          "-kernel",
-          image};
+  return emulator::emulator_command(*emulator::find_board(board), image);
 }
 
 /// The plant of a scene and its sensor, fed period by period.
@@ -155,12 +148,21 @@ TEST_P(Image, LeavesWhenAFrameIsOutOfTurn) {
 }
 
 std::string test_name(const testing::TestParamInfo<Image::ParamType>& parameters) {
-  const auto& [board, controller] = parameters.param;
-  return (board == "mps2-an386" ? "CortexM4F_" : "CortexM3_") + controller;
+  auto [board, controller] = parameters.param;
+  std::replace(board.begin(), board.end(), '-', '_');
+  return board + "_" + controller;
+}
+
+std::vector<std::string> board_names() {
+  std::vector<std::string> names;
+  for (const emulator::EmulatedBoard& board : emulator::emulated_boards()) {
+    names.emplace_back(board.name);
+  }
+  return names;
 }
 
 INSTANTIATE_TEST_SUITE_P(Boards, Image,
-                         testing::Combine(testing::Values("mps2-an386", "mps2-an385"),
+                         testing::Combine(testing::ValuesIn(board_names()),
                                           testing::Values("target_step", "target_step_q31",
                                                           "other_parts")),
                          test_name);
