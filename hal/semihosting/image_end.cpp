@@ -1,17 +1,18 @@
 #include "hal/start/image_end.hpp"
 
+#include "hal/lockstep/exit_code.hpp"
 #include "hal/semihosting/semihosting.hpp"
 
-namespace semihosting = sonoglide::hal::semihosting;
+using sonoglide::hal::lockstep::ExitCode;
 
 extern "C" {
 
 void leave_image(int code) {
-  semihosting::leave(static_cast<semihosting::ExitCode>(code));
+  sonoglide::hal::semihosting::leave(code);
 }
 
 void take_exception() {
-  semihosting::leave(semihosting::ExitCode::processor_fault);
+  leave_image(static_cast<int>(ExitCode::processor_fault));
 }
 
 }  // extern "C"

@@ -61,8 +61,8 @@ bool write_all(std::int32_t handle, const void* bytes, std::size_t size) {
   return trap(sys_write, block) == 0;
 }
 
-void leave(ExitCode code) {
-  const std::uintptr_t block[] = {application_exit, static_cast<std::uintptr_t>(code)};
+void leave(int code) {
+  const std::uintptr_t block[] = {application_exit, word(code)};
   trap(sys_exit, block);
   for (;;) {
   }

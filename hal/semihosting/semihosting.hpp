@@ -6,13 +6,6 @@
 
 namespace sonoglide::hal::semihosting {
 
-/// How an image ends; what the emulator's process returns.
-enum class ExitCode : std::uint32_t {
-  shut_down = 0,        ///< the host closed the link between two frames
-  link_broken = 1,      ///< a frame was cut short, out of turn, or could not be sent
-  processor_fault = 2,  ///< an exception was taken; none is expected
-};
-
 /// Opens the emulator's standard input or output.
 /// @return a handle, negative on failure
 std::int32_t open_standard_input();
@@ -25,6 +18,8 @@ std::size_t read_all(std::int32_t handle, void* bytes, std::size_t size);
 /// @return whether every byte was taken
 bool write_all(std::int32_t handle, const void* bytes, std::size_t size);
 
-[[noreturn]] void leave(ExitCode code);
+/// Ends the emulator's process, or stops at the debugger.
+/// @param code  the exit code of the process
+[[noreturn]] void leave(int code);
 
 }  // namespace sonoglide::hal::semihosting

@@ -68,6 +68,14 @@ EmulatedBoard::~EmulatedBoard() {
   close(link_);
 }
 
+void EmulatedBoard::await_greeting() {
+  std::uint8_t byte = 0;
+  receive(&byte, 1);
+  if (byte != lockstep::greeting) {
+    throw EmulatorError("the board greets with " + std::to_string(byte));
+  }
+}
+
 hal::Drive EmulatedBoard::exchange(const hal::Sample& sample) {
   const lockstep::SampleFrame question = lockstep::encode(period_, sample);
   send(question.data(), question.size());
