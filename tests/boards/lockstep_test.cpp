@@ -181,16 +181,14 @@ INSTANTIATE_TEST_SUITE_P(Boards, Image,
 /// A board whose image speaks over its serial line.
 class SerialImage : public testing::TestWithParam<std::string> {
  protected:
-  SerialImage() : board_(command(), 60s) { board_.await_greeting(); }
+  SerialImage()
+      : board_(emulator::serial_emulator_command(*emulator::find_board(GetParam()),
+                                                 image(GetParam(), "target_step_serial")),
+               60s) {
+    board_.await_greeting();
+  }
 
   EmulatedBoard board_;
-
- private:
-  static std::vector<std::string> command() {
-    auto command = emulate(GetParam(), image(GetParam(), "target_step_serial"));
-    command.insert(command.end(), {"-serial", "stdio"});
-    return command;
-  }
 };
 
 TEST_P(SerialImage, DrivesThePlantWithTheHostsCommandsBitForBit) {
