@@ -217,9 +217,19 @@ bool alive(pid_t process) {
   return kill(process, 0) == 0;
 }
 
-TEST(ImageTest, LeavesOnAProcessorFault) {
+TEST(ImageTest, LeavesOnAFaultOfACortexM) {
   // A Cortex-M3 has no floating-point unit to enable.
   EmulatedBoard board(emulate("mps2-an385", image("mps2-an386", "target_step")), 60s);
+  EXPECT_EQ(board.shut_down(), processor_fault);
+}
+
+TEST(ImageTest, LeavesOnATrapOfARiscV) {
+  std::vector<std::string> command =
+      emulate("riscv32-virt", image("riscv32-virt", "target_step_q31"));
+  command.insert(command.end(), {"-cpu", "rv32,m=false"});  // cannot multiply
+  EmulatedBoard board(command, 60s);
+  const hal::lockstep::SampleFrame frame = hal::lockstep::encode(0, hal::Sample{});
+  board.send(frame.data(), frame.size());
   EXPECT_EQ(board.shut_down(), processor_fault);
 }
 
