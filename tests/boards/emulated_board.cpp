@@ -13,7 +13,7 @@
 #include <csignal>
 #include <cstring>
 
-#include "hal/mps2/lockstep/frame.hpp"
+#include "hal/lockstep/frame.hpp"
 
 namespace sonoglide::boards {
 namespace {
@@ -66,6 +66,14 @@ EmulatedBoard::EmulatedBoard(const std::vector<std::string>& command,
 EmulatedBoard::~EmulatedBoard() {
   kill();
   close(link_);
+}
+
+void EmulatedBoard::await_greeting() {
+  std::uint8_t byte = 0;
+  receive(&byte, 1);
+  if (byte != lockstep::greeting) {
+    throw EmulatorError("the board greets with " + std::to_string(byte));
+  }
 }
 
 hal::Drive EmulatedBoard::exchange(const hal::Sample& sample) {

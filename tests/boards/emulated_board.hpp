@@ -31,6 +31,10 @@ class EmulatedBoard {
   EmulatedBoard(const EmulatedBoard&) = delete;
   EmulatedBoard& operator=(const EmulatedBoard&) = delete;
 
+  /// Waits for the greeting of a board on a serial line.
+  /// @throws EmulatorError
+  void await_greeting();
+
   /// One carrier period.
   /// @throws EmulatorError
   hal::Drive exchange(const hal::Sample& sample);

@@ -1,6 +1,7 @@
 // The same controller source on the host and as an image on an emulated board: the same commands.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <cstdint>
@@ -12,7 +13,9 @@
 
 #include "emulated_board.hpp"
 #include "firmware/control/drive_command.hpp"
-#include "hal/mps2/lockstep/frame.hpp"
+#include "hal/lockstep/exit_code.hpp"
+#include "hal/lockstep/frame.hpp"
+#include "host_sim/emulator/board_list.hpp"
 #include "host_sim/loop/control_port.hpp"
 #include "host_sim/loop/plant_port.hpp"
 #include "host_sim/loop/run.hpp"
@@ -28,10 +31,9 @@ namespace {
 using std::chrono_literals::operator""s;
 using std::chrono_literals::operator""ms;
 
-// Exit codes of an image: hal/mps2/semihosting.hpp.
-constexpr int shut_down = 0;
-constexpr int link_broken = 1;
-constexpr int processor_fault = 2;
+constexpr int shut_down = static_cast<int>(hal::lockstep::ExitCode::shut_down);
+constexpr int link_broken = static_cast<int>(hal::lockstep::ExitCode::link_broken);
+constexpr int processor_fault = static_cast<int>(hal::lockstep::ExitCode::processor_fault);
 
 constexpr double two_pi = 6.28318530717958647693;
 
@@ -40,16 +42,7 @@ std::string image(const std::string& board, const std::string& controller) {
 }
 
 std::vector<std::string> emulate(const std::string& board, const std::string& image) {
-  return {SONOGLIDE_QEMU,
-          "-nodefaults",
-          "-display",
-          "none",
-          "-semihosting-config",
-          "enable=on,target=native",
-          "-machine",
-          board,
-          "-kernel",
-          image};
+  return emulator::emulator_command(*emulator::find_board(board), image);
 }
 
 /// The plant of a scene and its sensor, fed period by period.
@@ -80,27 +73,32 @@ class SensedPlant {
   loop::Sensor sensor_;
 };
 
+scene::Scene scene_of(const std::string& controller) {
+  return scene::read_file(SONOGLIDE_CONTROLLERS "/" + controller + "/scene.toml");
+}
+
 /// An image on a board: (board, controller).
 class Image : public testing::TestWithParam<std::tuple<std::string, std::string>> {
  protected:
   Image() : Image(std::get<0>(GetParam()), std::get<1>(GetParam())) {}
   Image(const std::string& board, const std::string& controller)
-      : scene_(scene::read_file(SONOGLIDE_CONTROLLERS "/" + controller + "/scene.toml")),
-        board_(emulate(board, image(board, controller)), 60s) {}
+      : scene_(scene_of(controller)), board_(emulate(board, image(board, controller)), 60s) {}
 
   scene::Scene scene_;
   EmulatedBoard board_;
 };
 
-TEST_P(Image, DrivesThePlantWithTheHostsCommandsBitForBit) {
-  const loop::LoggedRun host = loop::run_logged(scene_);
+/// Closes the loop of a scene between the host's plant and a board, and compares every command with
+/// the host's.
+void expect_the_hosts_commands(const scene::Scene& scene, EmulatedBoard& board) {
+  const loop::LoggedRun host = loop::run_logged(scene);
   const loop::ControlRecord& record = *host.result.control;
   const scene::ControlDesign& design = record.design;
-  SensedPlant plant(scene_, design);
+  SensedPlant plant(scene, design);
   loop::TraceHash hash;
   double amplitude_N = 0.0;
   for (std::size_t k = 0; k < host.periods.size(); ++k) {
-    const hal::Drive drive = board_.exchange(plant.advance(host.periods[k], amplitude_N));
+    const hal::Drive drive = board.exchange(plant.advance(host.periods[k], amplitude_N));
     hash.add(drive);
     amplitude_N = drive.amplitude * 0x1p-31 * design.scales.drive_amplitude_N;
     if (k + 1 < host.periods.size()) {
@@ -112,6 +110,10 @@ TEST_P(Image, DrivesThePlantWithTheHostsCommandsBitForBit) {
   }
   EXPECT_EQ(record.commands, host.periods.size());
   EXPECT_EQ(hash.value(), record.trace_hash);
+}
+
+TEST_P(Image, DrivesThePlantWithTheHostsCommandsBitForBit) {
+  expect_the_hosts_commands(scene_, board_);
   EXPECT_EQ(board_.shut_down(), shut_down);
 }
 
@@ -154,16 +156,53 @@ TEST_P(Image, LeavesWhenAFrameIsOutOfTurn) {
   EXPECT_EQ(board_.shut_down(), link_broken);
 }
 
-std::string test_name(const testing::TestParamInfo<Image::ParamType>& parameters) {
-  const auto& [board, controller] = parameters.param;
-  return (board == "mps2-an386" ? "CortexM4F_" : "CortexM3_") + controller;
+std::string test_name_of(std::string board) {
+  std::replace(board.begin(), board.end(), '-', '_');
+  return board;
+}
+
+std::vector<std::string> board_names() {
+  std::vector<std::string> names;
+  for (const emulator::EmulatedBoard& board : emulator::emulated_boards()) {
+    names.emplace_back(board.name);
+  }
+  return names;
 }
 
 INSTANTIATE_TEST_SUITE_P(Boards, Image,
-                         testing::Combine(testing::Values("mps2-an386", "mps2-an385"),
+                         testing::Combine(testing::ValuesIn(board_names()),
                                           testing::Values("target_step", "target_step_q31",
                                                           "other_parts")),
-                         test_name);
+                         [](const auto& parameter) {
+                           return test_name_of(std::get<0>(parameter.param)) + "_" +
+                                  std::get<1>(parameter.param);
+                         });
+
+/// A board whose image speaks over its serial line.
+class SerialImage : public testing::TestWithParam<std::string> {
+ protected:
+  SerialImage()
+      : board_(emulator::serial_emulator_command(*emulator::find_board(GetParam()),
+                                                 image(GetParam(), "target_step_serial")),
+               60s) {
+    board_.await_greeting();
+  }
+
+  EmulatedBoard board_;
+};
+
+TEST_P(SerialImage, DrivesThePlantWithTheHostsCommandsBitForBit) {
+  expect_the_hosts_commands(scene_of("target_step"), board_);
+}
+
+TEST_P(SerialImage, LeavesWhenAFrameIsOutOfTurn) {
+  const hal::lockstep::SampleFrame frame = hal::lockstep::encode(7, hal::Sample{});
+  board_.send(frame.data(), frame.size());
+  EXPECT_EQ(board_.shut_down(), link_broken);
+}
+
+INSTANTIATE_TEST_SUITE_P(Boards, SerialImage, testing::ValuesIn(board_names()),
+                         [](const auto& parameter) { return test_name_of(parameter.param); });
 
 std::string failure(EmulatedBoard& board) {
   try {
@@ -178,9 +217,19 @@ bool alive(pid_t process) {
   return kill(process, 0) == 0;
 }
 
-TEST(ImageTest, LeavesOnAProcessorFault) {
+TEST(ImageTest, LeavesOnAFaultOfACortexM) {
   // A Cortex-M3 has no floating-point unit to enable.
   EmulatedBoard board(emulate("mps2-an385", image("mps2-an386", "target_step")), 60s);
+  EXPECT_EQ(board.shut_down(), processor_fault);
+}
+
+TEST(ImageTest, LeavesOnATrapOfARiscV) {
+  std::vector<std::string> command =
+      emulate("riscv32-virt", image("riscv32-virt", "target_step_q31"));
+  command.insert(command.end(), {"-cpu", "rv32,m=false"});  // cannot multiply
+  EmulatedBoard board(command, 60s);
+  const hal::lockstep::SampleFrame frame = hal::lockstep::encode(0, hal::Sample{});
+  board.send(frame.data(), frame.size());
   EXPECT_EQ(board.shut_down(), processor_fault);
 }
 

@@ -1,33 +1,103 @@
 # Controller images for boards. On the workstation:
 #
 #   controller_header SCENE.toml > FOLDER/controller_configuration.hpp
-#   cmake --toolchain tools/toolchains/arm-cortex-m4f.cmake -S . -B BUILD \
-#     -DSONOGLIDE_CONTROLLERS=FOLDER
-#   cmake --build BUILD
+#   cmake --preset BOARD -DSONOGLIDE_CONTROLLERS=FOLDER
+#   cmake --build --preset BOARD
 #
-# leaves BUILD/bin/<name of FOLDER>.elf.
+# leaves build/BOARD/bin/<name of FOLDER>.elf, in lockstep with its host over semihosting, and
+# <name of FOLDER>_serial.elf, over a serial line. A toolchain file without a board compiles the core
+# alone.
 
-sonoglide_room(sonoglide_lockstep hal/mps2/lockstep USES sonoglide_hal)
+sonoglide_room(sonoglide_lockstep hal/lockstep USES sonoglide_hal)
+sonoglide_room(sonoglide_start hal/start)
 
-# sonoglide_image(<folder>): the image of one configured controller.
-function(sonoglide_image folder)
-  get_filename_component(name "${folder}" NAME)
-  set(memory "${PROJECT_SOURCE_DIR}/hal/mps2/memory.ld")
-  add_executable(${name} "${PROJECT_SOURCE_DIR}/firmware/app/image/main.cpp")
-  target_include_directories(${name} PRIVATE "${folder}")
-  target_link_libraries(${name} PRIVATE
-    sonoglide_app sonoglide_hal_mps2 sonoglide_freestanding sonoglide_warnings)
-  target_link_options(${name} PRIVATE "-T${memory}")
-  set_target_properties(${name} PROPERTIES LINK_DEPENDS "${memory}")
+# sonoglide_images(<suffix> CLASS <board> HEADER <its header> MEMORY <linker script> USES <rooms>...):
+# an image of every configured controller on a class that has the seam's shape.
+function(sonoglide_images suffix)
+  cmake_parse_arguments(IMAGE "" "CLASS;HEADER;MEMORY" "USES" ${ARGN})
+  set(script "${PROJECT_SOURCE_DIR}/${IMAGE_MEMORY}")
+  set(sections "${PROJECT_SOURCE_DIR}/hal/start/sections.ld")
+  foreach(folder IN LISTS SONOGLIDE_CONTROLLERS)
+    get_filename_component(name "${folder}" NAME)
+    set(image "${name}${suffix}")
+    add_executable(${image} "${PROJECT_SOURCE_DIR}/firmware/app/image/main.cpp")
+    target_compile_definitions(${image} PRIVATE
+      "SONOGLIDE_BOARD_CLASS=sonoglide::hal::${IMAGE_CLASS}"
+      "SONOGLIDE_BOARD_HEADER=\"${IMAGE_HEADER}\"")
+    target_include_directories(${image} PRIVATE "${folder}")
+    target_link_libraries(${image} PRIVATE
+      sonoglide_app ${IMAGE_USES} sonoglide_freestanding sonoglide_warnings)
+    target_link_options(${image} PRIVATE "-L${PROJECT_SOURCE_DIR}" "-T${script}")
+    set_target_properties(${image} PROPERTIES LINK_DEPENDS "${script};${sections}")
+  endforeach()
+endfunction()
+
+# sonoglide_board(<name> FOLDER <f> CLASS <c>): a board that keeps its own carrier periods. Its class
+# is in <f>/board.hpp, its memory map in <f>/memory.ld.
+function(sonoglide_board name)
+  set_property(GLOBAL APPEND PROPERTY SONOGLIDE_BOARDS ${name})
+  if(NOT name STREQUAL SONOGLIDE_BOARD)
+    return()
+  endif()
+  cmake_parse_arguments(BOARD "" "FOLDER;CLASS" "" ${ARGN})
+  sonoglide_room(sonoglide_board ${BOARD_FOLDER} USES sonoglide_hal sonoglide_start)
+  sonoglide_images("" MEMORY ${BOARD_FOLDER}/memory.ld
+    CLASS ${BOARD_CLASS} HEADER ${BOARD_FOLDER}/board.hpp
+    USES sonoglide_board sonoglide_processor)
+endfunction()
+
+# sonoglide_emulated_board(<name> FOLDER <f> [MEMORY <its linker script>] SERIAL_BOARD <class>): a
+# board in lockstep with its host, over semihosting and over a serial line.
+function(sonoglide_emulated_board name)
+  set_property(GLOBAL APPEND PROPERTY SONOGLIDE_BOARDS ${name})
+  if(NOT name STREQUAL SONOGLIDE_BOARD)
+    return()
+  endif()
+  cmake_parse_arguments(BOARD "" "FOLDER;MEMORY;SERIAL_BOARD" "" ${ARGN})
+  if(NOT BOARD_MEMORY)
+    set(BOARD_MEMORY memory.ld)
+  endif()
+  sonoglide_room(sonoglide_serial_board ${BOARD_FOLDER} USES sonoglide_lockstep_board)
+  sonoglide_images("" MEMORY ${BOARD_FOLDER}/${BOARD_MEMORY}
+    CLASS semihosting::SemihostingBoard HEADER hal/semihosting/semihosting_board.hpp
+    USES sonoglide_processor sonoglide_semihosting)
+  sonoglide_images(_serial MEMORY ${BOARD_FOLDER}/${BOARD_MEMORY}
+    CLASS ${BOARD_SERIAL_BOARD} HEADER ${BOARD_FOLDER}/serial_board.hpp
+    USES sonoglide_serial_board sonoglide_processor sonoglide_semihosting)
 endfunction()
 
 if(CMAKE_CROSSCOMPILING)
+  set(SONOGLIDE_BOARD "" CACHE STRING "Board that images are linked for")
   set(SONOGLIDE_CONTROLLERS "" CACHE STRING
-    "Folders with a controller_configuration.hpp; each gives an image of its name")
-  sonoglide_room(sonoglide_hal_mps2 hal/mps2 USES sonoglide_lockstep)
-  foreach(folder IN LISTS SONOGLIDE_CONTROLLERS)
-    sonoglide_image("${folder}")
-  endforeach()
+    "Folders with a controller_configuration.hpp; each gives images of its name")
+
+  sonoglide_room(sonoglide_lockstep_board hal/lockstep/board
+    USES sonoglide_lockstep sonoglide_start)
+  sonoglide_room(sonoglide_semihosting hal/semihosting USES sonoglide_lockstep_board)
+  if(CMAKE_SYSTEM_PROCESSOR STREQUAL arm)
+    sonoglide_room(sonoglide_processor hal/cortex_m USES sonoglide_start)
+  else()
+    sonoglide_room(sonoglide_processor hal/riscv USES sonoglide_start)
+  endif()
+
+  sonoglide_board(template FOLDER hal/template CLASS template_board::Board)
+  sonoglide_emulated_board(microbit FOLDER hal/microbit SERIAL_BOARD microbit::SerialBoard)
+  sonoglide_emulated_board(mps2-an385 FOLDER hal/mps2 SERIAL_BOARD mps2::An385SerialBoard)
+  sonoglide_emulated_board(mps2-an386 FOLDER hal/mps2 SERIAL_BOARD mps2::An385SerialBoard)
+  sonoglide_emulated_board(mps2-an500 FOLDER hal/mps2 SERIAL_BOARD mps2::An385SerialBoard)
+  sonoglide_emulated_board(mps2-an505
+    FOLDER hal/mps2 MEMORY an505_memory.ld SERIAL_BOARD mps2::An505SerialBoard)
+  sonoglide_emulated_board(netduinoplus2
+    FOLDER hal/netduinoplus2 SERIAL_BOARD netduinoplus2::SerialBoard)
+  sonoglide_emulated_board(riscv32-virt FOLDER hal/riscv_virt SERIAL_BOARD riscv_virt::SerialBoard)
+
+  get_property(boards GLOBAL PROPERTY SONOGLIDE_BOARDS)
+  if(SONOGLIDE_BOARD AND NOT SONOGLIDE_BOARD IN_LIST boards)
+    list(JOIN boards ", " boards)
+    message(FATAL_ERROR "No board is called ${SONOGLIDE_BOARD}; there are ${boards}")
+  elseif(SONOGLIDE_CONTROLLERS AND NOT SONOGLIDE_BOARD)
+    message(FATAL_ERROR "An image is for a board: set SONOGLIDE_BOARD, or use the board's preset")
+  endif()
 elseif(SONOGLIDE_HOST)
   add_executable(controller_header "${PROJECT_SOURCE_DIR}/tools/generate/controller_header.cpp")
   target_link_libraries(controller_header PRIVATE sonoglide_scene sonoglide_warnings)

@@ -1,0 +1,61 @@
+#include "host_sim/emulator/board_list.hpp"
+
+#include <algorithm>
+
+namespace sonoglide::emulator {
+
+namespace {
+
+/// An MPS2 board has a network chip, which the emulator wants connected; this one leads nowhere.
+std::vector<std::string_view> mps2(std::string_view machine) {
+  return {"-machine", machine, "-nic", "user,restrict=on"};
+}
+
+}  // namespace
+
+const std::vector<EmulatedBoard>& emulated_boards() {
+  constexpr std::string_view arm = "qemu-system-arm";
+  constexpr std::string_view riscv = "qemu-system-riscv32";
+  static const std::vector<EmulatedBoard> boards = {
+      {"microbit", "Cortex-M0", "arm-cortex-m0", arm, {"-machine", "microbit"}},
+      {"mps2-an385", "Cortex-M3", "arm-cortex-m3", arm, mps2("mps2-an385")},
+      {"mps2-an386", "Cortex-M4F", "arm-cortex-m4f", arm, mps2("mps2-an386")},
+      {"netduinoplus2", "Cortex-M4F", "arm-cortex-m4f", arm, {"-machine", "netduinoplus2"}},
+      {"mps2-an500", "Cortex-M7", "arm-cortex-m7", arm, mps2("mps2-an500")},
+      {"mps2-an505", "Cortex-M33", "arm-cortex-m33", arm, mps2("mps2-an505")},
+      {"riscv32-virt", "RV32IMAC", "riscv-rv32imac", riscv, {"-machine", "virt", "-bios", "none"}},
+  };
+  return boards;
+}
+
+const EmulatedBoard* find_board(std::string_view name) {
+  const auto& boards = emulated_boards();
+  const auto found = std::find_if(boards.begin(), boards.end(),
+                                  [&](const EmulatedBoard& board) { return board.name == name; });
+  return found == boards.end() ? nullptr : &*found;
+}
+
+std::vector<std::string> emulator_command(const EmulatedBoard& board, const std::string& image) {
+  std::vector<std::string> command{std::string(board.emulator)};
+  command.insert(command.end(), board.machine_arguments.begin(), board.machine_arguments.end());
+  for (const char* argument : {"-nodefaults", "-display", "none", "-semihosting-config",
+                               "enable=on,target=native", "-kernel"}) {
+    command.emplace_back(argument);
+  }
+  command.push_back(image);
+  return command;
+}
+
+std::vector<std::string> serial_emulator_command(const EmulatedBoard& board,
+                                                 const std::string& image) {
+  std::vector<std::string> command = emulator_command(board, image);
+  // The multiplexer's buffer takes the bytes that come before the emulator notices that the board
+  // hears. It has an escape byte; 256 is none.
+  for (const char* argument :
+       {"-chardev", "stdio,id=line,mux=on,signal=off", "-serial", "chardev:line", "-echr", "256"}) {
+    command.emplace_back(argument);
+  }
+  return command;
+}
+
+}  // namespace sonoglide::emulator
