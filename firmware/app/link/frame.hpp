@@ -1,0 +1,149 @@
+/// How a message travels on a byte link.
+///
+/// | offset | bytes  | field                                                       |
+/// |--------|--------|-------------------------------------------------------------|
+/// | 0      | 1      | version of this table                                       |
+/// | 1      | 1      | kind of message                                             |
+/// | 2      | 2      | sequence number: an answer bears that of its request        |
+/// | 4      | 0 … 28 | payload, as the kind says                                   |
+/// | end    | 4      | CRC-32 (IEEE 802.3) of all before it                        |
+///
+/// Numbers are little-endian. On the wire the frame is stuffed (COBS) and stands between two zero
+/// bytes: the first one parts it from whatever noise came before.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "firmware/encoding/cobs.hpp"
+#include "firmware/encoding/crc32.hpp"
+#include "firmware/encoding/little_endian.hpp"
+
+namespace sonoglide::app::link {
+
+inline constexpr std::uint8_t version = 1;
+inline constexpr std::size_t most_payload_bytes = 28;
+inline constexpr std::size_t header_bytes = 4;
+inline constexpr std::size_t checksum_bytes = 4;
+inline constexpr std::size_t most_frame_bytes = header_bytes + most_payload_bytes + checksum_bytes;
+inline constexpr std::size_t most_wire_bytes = 1 + encoding::cobs_size(most_frame_bytes) + 1;
+
+struct Frame {
+  std::uint8_t kind = 0;
+  std::uint16_t sequence = 0;
+  std::uint8_t payload_bytes = 0;
+  std::array<std::uint8_t, most_payload_bytes> payload{};
+};
+
+struct WireFrame {
+  std::size_t size = 0;
+  std::array<std::uint8_t, most_wire_bytes> bytes{};
+};
+
+/// @param frame  its payload_bytes at most most_payload_bytes.
+inline WireFrame encode(const Frame& frame) {
+  std::array<std::uint8_t, most_frame_bytes> bytes{};
+  bytes[0] = version;
+  bytes[1] = frame.kind;
+  encoding::put_little_endian(frame.sequence, &bytes[2]);
+  std::size_t size = header_bytes;
+  for (std::size_t i = 0; i < frame.payload_bytes; ++i) {
+    bytes[size++] = frame.payload[i];
+  }
+  encoding::put_little_endian(encoding::crc32(bytes.data(), size), &bytes[size]);
+  size += checksum_bytes;
+
+  WireFrame wire;
+  wire.bytes[0] = encoding::cobs_delimiter;
+  wire.size = 1 + encoding::cobs_encode(bytes.data(), size, &wire.bytes[1]);
+  wire.bytes[wire.size++] = encoding::cobs_delimiter;
+  return wire;
+}
+
+/// What a received byte brought about. All but `nothing` come with the zero byte that ends a frame,
+/// and the next byte begins a new one.
+enum class Reception : std::uint8_t {
+  nothing,
+  frame,          ///< a whole one, in frame()
+  truncated,      ///< too short for a frame, or cut in a block of the stuffing
+  oversized,      ///< longer than any frame
+  corrupted,      ///< its checksum is wrong
+  wrong_version,  ///< whole, but of another version of the protocol
+};
+
+/// Finds frames in a stream of bytes. Work and memory are bounded for each byte, whatever comes.
+class FrameDecoder {
+ public:
+  Reception take(std::uint8_t received) {
+    std::uint8_t byte = 0;
+    switch (stuffing_.take(received, byte)) {
+      case encoding::CobsDecoder::Event::byte:
+        keep(byte);
+        return Reception::nothing;
+      case encoding::CobsDecoder::Event::end:
+        return finish(true);
+      case encoding::CobsDecoder::Event::cut:
+        return finish(false);
+      case encoding::CobsDecoder::Event::nothing:
+      case encoding::CobsDecoder::Event::idle:
+        break;
+    }
+    return Reception::nothing;
+  }
+
+  /// Good until the next byte is taken.
+  const Frame& frame() const { return frame_; }
+  /// Of that frame: what tells two frames of one sequence number apart.
+  std::uint32_t checksum() const { return frame_checksum_; }
+
+ private:
+  void keep(std::uint8_t byte) {
+    if (size_ < bytes_.size()) {
+      bytes_[size_] = byte;
+      checksum_.add(byte);
+    }
+    size_ += size_ <= bytes_.size() ? 1U : 0U;
+  }
+
+  Reception finish(bool whole_blocks) {
+    const std::size_t size = size_;
+    const bool intact = checksum_.closed();
+    size_ = 0;
+    checksum_ = {};
+    if (size > bytes_.size()) {
+      return Reception::oversized;
+    }
+    if (!whole_blocks || size < header_bytes + checksum_bytes) {
+      return Reception::truncated;
+    }
+    if (!intact) {
+      return Reception::corrupted;
+    }
+    if (bytes_[0] != version) {
+      return Reception::wrong_version;
+    }
+    read_frame(size - header_bytes - checksum_bytes);
+    return Reception::frame;
+  }
+
+  void read_frame(std::size_t payload_bytes) {
+    frame_.kind = bytes_[1];
+    frame_.sequence = encoding::get_little_endian<std::uint16_t>(&bytes_[2]);
+    frame_.payload_bytes = static_cast<std::uint8_t>(payload_bytes);
+    for (std::size_t i = 0; i < payload_bytes; ++i) {
+      frame_.payload[i] = bytes_[header_bytes + i];
+    }
+    frame_checksum_ =
+        encoding::get_little_endian<std::uint32_t>(&bytes_[header_bytes + payload_bytes]);
+  }
+
+  encoding::CobsDecoder stuffing_;
+  encoding::Crc32 checksum_;
+  std::size_t size_ = 0;  ///< bytes_.size() + 1: too long
+  std::array<std::uint8_t, most_frame_bytes> bytes_{};
+  Frame frame_;
+  std::uint32_t frame_checksum_ = 0;
+};
+
+}  // namespace sonoglide::app::link
