@@ -187,8 +187,8 @@ class LinkService {
     refuse(kind, link::Reason::unknown_parameter, 0, parameter_count - 1);
   }
 
-  void refuse(std::uint8_t kind, link::Reason reason, std::uint32_t lowest = 0,
-              std::uint32_t highest = 0) {
+  [[gnu::noinline]] void refuse(std::uint8_t kind, link::Reason reason, std::uint32_t lowest = 0,
+                                std::uint32_t highest = 0) {
     answer(refusal(kind, reason, lowest, highest));
   }
 
@@ -204,7 +204,7 @@ class LinkService {
     send(answer_);
   }
 
-  void send(const link::Frame& frame) {
+  [[gnu::noinline]] void send(const link::Frame& frame) {
     wire_ = link::encode(frame);
     sent_ = 0;
   }

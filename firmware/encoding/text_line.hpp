@@ -35,7 +35,7 @@ class TextLine {
       text_[size_++] = character;
     }
   }
-  void add(const char* text) {
+  [[gnu::noinline]] void add(const char* text) {
     for (; *text != '\0'; ++text) {
       add(*text);
     }
@@ -46,7 +46,7 @@ class TextLine {
     }
   }
   /// value * 10^-places.
-  void add_number(std::uint32_t value, int places = 0) {
+  [[gnu::noinline]] void add_number(std::uint32_t value, int places = 0) {
     char digits[most_decimal_characters] = {};
     const std::size_t size = write_decimal(value, places, digits);
     add(Characters{digits, size});

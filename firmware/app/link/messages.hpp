@@ -10,7 +10,6 @@
 #include <type_traits>
 
 #include "firmware/app/link/frame.hpp"
-#include "firmware/encoding/little_endian.hpp"
 
 namespace sonoglide::app::link {
 
@@ -200,6 +199,27 @@ constexpr std::size_t payload_bytes() {
   return size;
 }
 
+namespace detail {
+
+// Out of line: every field of every message would bring its own copy.
+
+[[gnu::noinline]] inline void append(std::uint32_t value, std::size_t size, Frame& frame) {
+  for (std::size_t i = 0; i < size; ++i, value >>= 8) {
+    frame.payload[frame.payload_bytes++] = static_cast<std::uint8_t>(value);
+  }
+}
+
+[[gnu::noinline]] inline std::uint32_t field_at(std::size_t begin, std::size_t size,
+                                                const Frame& frame) {
+  std::uint32_t value = 0;
+  for (std::size_t i = begin + size; i > begin; --i) {
+    value = value << 8 | frame.payload[i - 1];
+  }
+  return value;
+}
+
+}  // namespace detail
+
 template <class Message>
 Frame frame_of(const Message& message, std::uint16_t sequence) {
   static_assert(payload_bytes<Message>() <= most_payload_bytes);
@@ -207,8 +227,7 @@ Frame frame_of(const Message& message, std::uint16_t sequence) {
   frame.kind = Message::kind;
   frame.sequence = sequence;
   Message::fields(message, [&frame](auto field) {
-    encoding::put_little_endian(field, &frame.payload[frame.payload_bytes]);
-    frame.payload_bytes = static_cast<std::uint8_t>(frame.payload_bytes + sizeof field);
+    detail::append(static_cast<std::uint32_t>(field), sizeof field, frame);
   });
   return frame;
 }
@@ -222,7 +241,7 @@ bool read(const Frame& frame, Message& message) {
   std::size_t at = 0;
   Message::fields(message, [&frame, &at](auto& field) {
     using Field = std::remove_reference_t<decltype(field)>;
-    field = encoding::get_little_endian<Field>(&frame.payload[at]);
+    field = static_cast<Field>(detail::field_at(at, sizeof field, frame));
     at += sizeof field;
   });
   return true;
