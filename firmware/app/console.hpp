@@ -153,7 +153,7 @@ class Console {
     const ParameterInfo& info = unit_.info(Parameter::target);
     std::uint32_t ratio = 0;
     if (encoding::read_decimal(text.begin, text.size, info.decimal_places, ratio) &&
-        unit_.set_target(ratio) == Answer::done) {
+        unit_.set_target(ratio) == Answer::taken) {
       status();
     } else {
       refuse_value(info);
@@ -174,8 +174,7 @@ class Console {
       return;
     }
     switch (unit_.write(parameter, value)) {
-      case Answer::done:
-      case Answer::begun:
+      case Answer::taken:
         setting_ = parameter;
         saving_ = true;
         break;

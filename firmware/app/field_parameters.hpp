@@ -145,7 +145,7 @@ class FieldDesign {
   static constexpr std::uint32_t layout_version = 1;
 
   static constexpr std::uint32_t millionths(double value) {
-    return static_cast<std::uint32_t>(value * one_in_millionths + 0.5);
+    return numeric::round_half_up<std::uint32_t>(value * one_in_millionths);
   }
 
   /// The first millionth above the least that control::FrictionLevel accepts.

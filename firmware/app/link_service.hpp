@@ -104,7 +104,7 @@ class LinkService {
   }
 
   void carry_out(const link::SetTarget& request) {
-    if (unit_.set_target(request.ratio) == Answer::done) {
+    if (unit_.set_target(request.ratio) == Answer::taken) {
       link::TargetSet set{};
       set.ratio = request.ratio;
       answer(set);
@@ -126,8 +126,7 @@ class LinkService {
 
   void carry_out(const link::WriteParameter& request) {
     switch (unit_.write(request.parameter, request.value)) {
-      case Answer::done:
-      case Answer::begun:
+      case Answer::taken:
         writing_ = request;
         saving_ = true;
         break;

@@ -12,8 +12,7 @@ namespace sonoglide::app {
 
 /// How a request was taken.
 enum class Answer : std::uint8_t {
-  done,
-  begun,  ///< being saved: see Unit::proceed()
+  taken,  ///< done; a parameter: being saved, see Unit::proceed()
   out_of_range,
   unknown_parameter,
   drive_not_stopped,
@@ -51,7 +50,7 @@ class Unit {
     }
     target_ = ratio;
     supervisor_.set_target(design_.half_target(ratio));
-    return Answer::done;
+    return Answer::taken;
   }
 
   /// Friction ratio, millionths.
@@ -82,7 +81,7 @@ class Unit {
     pending_[parameter] = value;
     pending_parameter_ = parameter;
     store_.save(pending_);
-    return Answer::begun;
+    return Answer::taken;
   }
 
   /// The next step of a save; of the flash, at most one operation.

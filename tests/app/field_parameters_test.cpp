@@ -1,11 +1,13 @@
 #include "firmware/app/field_parameters.hpp"
 
 #include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
 
 #include <cstdint>
 #include <set>
 
 #include "firmware/control/coulomb_feedforward.hpp"
+#include "firmware/control/dahl_feedforward.hpp"
 #include "firmware/control/integral_regulator.hpp"
 #include "firmware/control/no_shaping.hpp"
 #include "firmware/control/no_slew_limit.hpp"
@@ -54,10 +56,9 @@ TYPED_TEST(FieldParametersTest, UnchangedItIsTheDesignBitForBit) {
 }
 
 TYPED_TEST(FieldParametersTest, EachParameterGoesWhereItSays) {
-  const auto& tested = TestFixture::design;
   const auto half = this->real(0.5);
-  const auto parameters = [&tested](Parameter parameter, std::uint32_t value) {
-    return tested.controller_parameters(TestFixture::with(parameter, value));
+  const auto parameters = [](Parameter parameter, std::uint32_t value) {
+    return TestFixture::design.controller_parameters(TestFixture::with(parameter, value));
   };
   EXPECT_TRUE(parameters(Parameter::drive_limit, 500000).ceiling.highest == half);
   EXPECT_TRUE(parameters(Parameter::friction_force, 500000).friction_force == half);
@@ -66,8 +67,8 @@ TYPED_TEST(FieldParametersTest, EachParameterGoesWhereItSays) {
               1.0 / 18.0, 1e-8);
   EXPECT_TRUE(parameters(Parameter::gain_scale, 0).regulator.gain == TypeParam{});
   EXPECT_EQ(parameters(Parameter::stuck_periods, 65535).stuck.periods, 65535);
-  EXPECT_TRUE(tested.half_target(500000) == this->real(0.25));
-  EXPECT_TRUE(tested.half_target(1000000) == half);
+  EXPECT_TRUE(TestFixture::design.half_target(500000) == this->real(0.25));
+  EXPECT_TRUE(TestFixture::design.half_target(1000000) == half);
 }
 
 // Every millionth, as if it had been written in a scene.
@@ -110,6 +111,52 @@ TYPED_TEST(FieldParametersTest, AnotherDesignIsAnotherLayout) {
       Other(TestFixture::designed, this->real(0.2), 1).layout(), Other(other, target, 1).layout()};
   EXPECT_EQ(layouts.size(), 4U);
   EXPECT_EQ(layouts.count(0xFFFFFFFFU), 0U);
+}
+
+template <class S>
+void expect_drive_within_its_limit() {
+  using Parts =
+      control::Parts<S, control::TrustedFriction<S>, control::DahlFeedforward<S>,
+                     control::NoSlewLimit<S>, control::NoShaping<S>, control::IntegralRegulator<S>>;
+  static constexpr numeric::Split<double> force = numeric::split(1.0108);
+  static constexpr typename control::Controller<Parts>::Parameters designed{
+      numeric::from_real<S>(0.5),
+      numeric::from_real<S>(0.026),
+      numeric::from_real<S>(0.02),
+      {},
+      {{numeric::from_real<S>(force.mantissa), force.exponent}},
+      {},
+      {},
+      {numeric::from_real<S>(0.148), 5},
+      {11},
+      {}};
+  static constexpr FieldDesign<Parts> design(designed, numeric::from_real<S>(0.2), 1);
+
+  ParameterValues values{};
+  for (std::size_t i = 0; i < parameter_count; ++i) {
+    const ParameterInfo& info = design.info(i);
+    values[i] = *rc::gen::oneOf(rc::gen::just(info.lowest), rc::gen::just(info.highest),
+                                rc::gen::inRange(info.lowest, info.highest));
+  }
+  const auto parameters = design.controller_parameters(values);
+  typename FieldDesign<Parts>::Controller controller(parameters);
+  controller.set_target(design.half_target(values[0]));
+  controller.start();
+  const auto code = rc::gen::arbitrary<std::int32_t>();
+  for (int i = 0; i < 50; ++i) {
+    const auto command =
+        controller.step({numeric::from_code<S>(*code), numeric::from_code<S>(*code >> (i % 12)),
+                         control::Quality::good});
+    RC_ASSERT(S{} <= command.amplitude);
+    RC_ASSERT(command.amplitude <= parameters.ceiling.highest);
+    RC_ASSERT(command.state != control::State::fault ||
+              command.fault == control::Fault::measurement_stuck);
+  }
+}
+
+RC_GTEST_PROP(FieldValues, AnyThatAreAllowedKeepTheDriveWithinItsLimit, ()) {
+  expect_drive_within_its_limit<float>();
+  expect_drive_within_its_limit<numeric::Q31<numeric::Saturating>>();
 }
 
 }  // namespace

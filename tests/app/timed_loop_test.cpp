@@ -2,10 +2,12 @@
 #include "firmware/app/timed_loop.hpp"
 
 #include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
 
 #include <cstdint>
 #include <type_traits>
 
+#include "firmware/app/control_loop.hpp"
 #include "tests/app/unit/simulated_unit.hpp"
 
 namespace sonoglide::app {
@@ -186,6 +188,54 @@ TEST_F(TimedLoopTest, RunsWithoutWatchdogAndService) {
   }
   EXPECT_NEAR(board.ratio(), 0.4, 1e-3);
   EXPECT_TRUE((std::is_empty_v<NoWatchdog> && std::is_empty_v<NoService>));
+}
+
+/// Shows any codes, and keeps what it is driven with.
+class ShowingBoard {
+ public:
+  bool sample(hal::Sample& sample) {
+    ++period_;
+    sample = shown;
+    return true;
+  }
+  void drive(const hal::Drive& drive) { driven = drive; }
+  std::uint32_t period() const { return period_; }
+
+  hal::Sample shown{};
+  hal::Drive driven{};
+
+ private:
+  std::uint32_t period_ = 0;
+};
+
+// What a simulation or a lockstep board computes with the designed controller.
+RC_GTEST_PROP(TimedLoopCommands, AreThoseOfTheLockstepLoopBitForBit, ()) {
+  control::Controller<Parts> controller(designed);
+  controller.set_target(0.2F);
+  controller.start();
+  ShowingBoard lockstep_board;
+  ControlLoop lockstep(controller, lockstep_board);
+
+  SimulatedFlash flash;
+  TestedUnit unit(field_design, flash);
+  ShowingBoard timed_board;
+  NoWatchdog watchdog;
+  NoService service;
+  TimedLoop timed(unit.supervisor(), timed_board, watchdog, service);
+
+  const auto code = rc::gen::arbitrary<std::int32_t>();
+  const int periods = *rc::gen::inRange(1, 200);
+  const int missing = *rc::gen::inRange(0, 400);
+  for (int i = 0; i < periods; ++i) {
+    const hal::Sample sample{*code / 2, *code / (1 + i % 12), false, i != missing};
+    lockstep_board.shown = sample;
+    timed_board.shown = sample;
+    RC_ASSERT(lockstep.serve() && timed.serve());
+    RC_ASSERT(timed_board.driven.amplitude == lockstep_board.driven.amplitude);
+    RC_ASSERT(timed_board.driven.state == lockstep_board.driven.state);
+    RC_ASSERT(timed_board.driven.limit == lockstep_board.driven.limit);
+    RC_ASSERT(timed_board.driven.fault == lockstep_board.driven.fault);
+  }
 }
 
 }  // namespace
