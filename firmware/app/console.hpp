@@ -1,13 +1,14 @@
 /// A console for a terminal: one command a line, answers in words.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 
 #include "firmware/app/unit.hpp"
 #include "firmware/app/unit_names.hpp"
+#include "firmware/encoding/characters.hpp"
 #include "firmware/encoding/decimal.hpp"
-#include "firmware/encoding/text_line.hpp"
 
 namespace sonoglide::app {
 
@@ -21,23 +22,31 @@ namespace sonoglide::app {
 /// | params         | each with what is allowed, and as compiled in              |
 /// | set NAME VALUE | saved; needs a stop first                                  |
 ///
+/// Answers are made in pieces, a word and a number at most, so that a carrier period has little to
+/// do; nothing is received meanwhile.
+///
 /// @tparam ByteLink  see hal/board.hpp.
 template <class UnitT, class ByteLink>
 class Console {
  public:
-  static constexpr std::size_t most_line_characters = 48;
-  static constexpr std::size_t most_answer_characters = 160;
+  static constexpr std::size_t most_line_characters = 32;
 
   Console(UnitT& unit, ByteLink& bytes) : unit_(unit), bytes_(bytes) {}
 
-  /// One character sent or received, one line of an answer made, or one step of a save.
+  /// One character received or sent, one piece of an answer made, one command carried out, or one
+  /// step of a save.
   void serve() {
-    if (sent_ < answer_.size()) {
-      sent_ += bytes_.send(static_cast<std::uint8_t>(answer_[sent_])) ? 1U : 0U;
+    if (*text_ != '\0') {
+      text_ += send(*text_) ? 1 : 0;
+    } else if (digits_sent_ < digits_count_) {
+      digits_sent_ += send(digits_[digits_sent_]) ? 1U : 0U;
     } else if (saving_) {
       finish_set(unit_.proceed());
-    } else if (listing_ != Listing::none) {
-      list();
+    } else if (reply_ != Reply::none) {
+      say_next();
+    } else if (line_ended_) {
+      carry_out();
+      begin_line();
     } else {
       receive();
     }
@@ -46,101 +55,228 @@ class Console {
  private:
   using Word = encoding::Characters;
   static constexpr std::size_t most_words = 3;
-  enum class Listing : std::uint8_t { none, faults, parameters };
+
+  enum class Reply : std::uint8_t {
+    none,
+    status,
+    faults,
+    parameters,
+    range,
+    saved,
+    not_saved,
+    drive_not_stopped,
+    unknown_parameter,
+    unknown_command,
+    too_long,
+  };
+
+  bool send(char character) { return bytes_.send(static_cast<std::uint8_t>(character)); }
+
+  // The line that is typed; its words are found as they come.
 
   void receive() {
     std::uint8_t byte = 0;
     if (!bytes_.receive(byte)) {
       return;
     }
-    const auto character = static_cast<char>(byte);
-    if (character != '\r' && character != '\n') {
-      too_long_ = too_long_ || line_.size() == most_line_characters;
-      line_.add(character < ' ' || character > '~' ? '?' : character);
-      return;
-    }
-    if (too_long_) {
-      begin_answer();
-      answer_.add("too long; a line has at most ");
-      answer_.add_number(most_line_characters);
-      answer_.add(" characters");
-      end_answer();
+    if (byte == '\r' || byte == '\n') {
+      line_ended_ = true;
+    } else if (size_ == most_line_characters) {
+      too_long_ = true;
     } else {
-      carry_out();
+      take(static_cast<char>(byte));
     }
-    line_.clear();
+  }
+
+  void take(char character) {
+    line_[size_] = character;
+    const bool begins = character != ' ' && !in_word_;
+    in_word_ = character != ' ';
+    if (begins) {
+      word_count_ += word_count_ <= most_words ? 1U : 0U;
+      words_[word_count_ - 1] = {&line_[size_], 0};
+    }
+    words_[word_count_ > 0 ? word_count_ - 1 : 0].size += in_word_ ? 1U : 0U;
+    ++size_;
+  }
+
+  void begin_line() {
+    size_ = 0;
+    word_count_ = 0;
+    in_word_ = false;
+    line_ended_ = false;
     too_long_ = false;
   }
 
+  // Commands.
+
   void carry_out() {
-    Word words[most_words + 1];
-    const std::size_t count = split(words);
-    if (count == 0) {
-      return;
-    }
-    if (count == 1 && words[0].are("faults")) {
-      begin_listing(Listing::faults);
-    } else if (count == 1 && words[0].are("params")) {
-      begin_listing(Listing::parameters);
-    } else {
-      begin_answer();
-      answer(words, count);
-      end_answer();
+    if (too_long_) {
+      begin(Reply::too_long);
+    } else if (word_count_ == 1) {
+      begin(carry_out(words_[0]));
+    } else if (word_count_ == 2 && words_[0].are("target")) {
+      begin(set_target(words_[1]));
+    } else if (word_count_ == 3 && words_[0].are("set")) {
+      begin(set(words_[1], words_[2]));
+    } else if (word_count_ > 0) {
+      begin(Reply::unknown_command);
     }
   }
 
-  /// Words of the line, most_words + 1 at most.
-  std::size_t split(Word* words) const {
-    std::size_t count = 0;
-    bool in_word = false;
-    for (std::size_t i = 0; i < line_.size() && count <= most_words; ++i) {
-      const bool blank = line_[i] == ' ';
-      if (!blank && !in_word) {
-        words[count++] = {line_.data() + i, 0};
-      }
-      in_word = !blank;
-      words[count > 0 ? count - 1 : 0].size += in_word ? 1U : 0U;
+  Reply carry_out(const Word& command) {
+    if (command.are("faults")) {
+      return Reply::faults;
     }
-    return count;
-  }
-
-  void answer(const Word* words, std::size_t count) {
-    if (count == 1 && words[0].are("status")) {
-      status();
-    } else if (count == 2 && words[0].are("target")) {
-      set_target(words[1]);
-    } else if (count == 1 && words[0].are("stop")) {
+    if (command.are("params")) {
+      return Reply::parameters;
+    }
+    if (command.are("stop")) {
       unit_.supervisor().stop();
-      status();
-    } else if (count == 1 && words[0].are("restart")) {
+    } else if (command.are("restart")) {
       unit_.supervisor().restart();
-      status();
-    } else if (count == 3 && words[0].are("set")) {
-      set(words[1], words[2]);
-    } else {
-      answer_.add(
-          "unknown; there are: status, target RATIO, stop, restart, faults, params, set NAME "
-          "VALUE");
+    } else if (!command.are("status")) {
+      return Reply::unknown_command;
+    }
+    return Reply::status;
+  }
+
+  Reply set_target(const Word& text) {
+    parameter_ = static_cast<std::size_t>(Parameter::target);
+    std::uint32_t ratio = 0;
+    return read(text, ratio) && unit_.set_target(ratio) == Answer::taken ? Reply::status
+                                                                         : Reply::range;
+  }
+
+  Reply set(const Word& name, const Word& text) {
+    parameter_ = 0;
+    while (parameter_ < parameter_count && !name.are(info().name)) {
+      ++parameter_;
+    }
+    if (parameter_ == parameter_count) {
+      return Reply::unknown_parameter;
+    }
+    std::uint32_t value = 0;
+    if (!read(text, value)) {
+      return Reply::range;
+    }
+    switch (unit_.write(parameter_, value)) {
+      case Answer::taken:
+        saving_ = true;
+        return Reply::none;
+      case Answer::drive_not_stopped:
+        return Reply::drive_not_stopped;
+      case Answer::unknown_parameter:
+      case Answer::out_of_range:
+        break;
+    }
+    return Reply::range;
+  }
+
+  void finish_set(store::Saving saving) {
+    if (saving != store::Saving::busy) {
+      saving_ = false;
+      begin(saving == store::Saving::saved ? Reply::saved : Reply::not_saved);
     }
   }
 
-  void status() {
-    const auto& supervisor = unit_.supervisor();
-    const hal::Drive& drive = supervisor.drive();
-    answer_.add("state ");
-    answer_.add(control::name(static_cast<control::State>(drive.state)));
-    answer_.add(", target ");
-    answer_.add_number(unit_.target(), 6);
-    answer_.add(", drive ");
-    answer_.add_number(millionths(drive.amplitude), 6);
-    answer_.add(", limit ");
-    answer_.add(control::name(static_cast<control::Limit>(drive.limit)));
-    answer_.add(", fault ");
-    answer_.add(fault_name(drive.fault));
-    answer_.add(", parameters ");
-    answer_.add(name(unit_.origin()));
-    answer_.add(", period ");
-    answer_.add_number(supervisor.periods());
+  /// A value of the parameter at hand.
+  bool read(const Word& text, std::uint32_t& value) const {
+    return encoding::read_decimal(text.begin, text.size, info().decimal_places, value);
+  }
+
+  const ParameterInfo& info() const { return unit_.info(parameter_); }
+
+  // Answers.
+
+  void begin(Reply reply) {
+    reply_ = reply;
+    piece_ = 0;
+    listed_ = 0;
+    drive_ = unit_.supervisor().drive();
+    period_ = unit_.supervisor().periods();
+  }
+
+  void say(const char* text) { text_ = text; }
+
+  [[gnu::noinline]] void say(const char* text, std::uint32_t number, int places = 0) {
+    text_ = text;
+    digits_count_ = encoding::write_decimal(number, places, digits_.data());
+    digits_sent_ = 0;
+  }
+
+  void say_last(const char* text) {
+    text_ = text;
+    reply_ = Reply::none;
+  }
+
+  /// The next piece of the answer.
+  void say_next() {
+    switch (reply_) {
+      case Reply::status:
+        say_status(piece_++);
+        break;
+      case Reply::faults:
+        say_faults(piece_++);
+        break;
+      case Reply::parameters:
+        say_parameters(piece_++);
+        break;
+      case Reply::range:
+        say_range(piece_++);
+        break;
+      case Reply::saved:
+        say_value(piece_++, ", saved\r\n");
+        break;
+      case Reply::not_saved:
+        say_value(piece_++, " stands; not saved\r\n");
+        break;
+      case Reply::drive_not_stopped:
+        say_last("stop the drive first\r\n");
+        break;
+      case Reply::unknown_parameter:
+        say_last("unknown; params lists what there is\r\n");
+        break;
+      case Reply::unknown_command:
+        say_last(
+            "unknown; there are: status, target RATIO, stop, restart, faults, params, set NAME "
+            "VALUE\r\n");
+        break;
+      case Reply::too_long:
+        say_last("the line is too long\r\n");
+        break;
+      case Reply::none:
+        break;
+    }
+  }
+
+  void say_status(int piece) {
+    switch (piece) {
+      case 0:
+        return say("state ");
+      case 1:
+        return say(control::name(static_cast<control::State>(drive_.state)));
+      case 2:
+        return say(", target ", unit_.target(), 6);
+      case 3:
+        return say(", drive ", millionths(drive_.amplitude), 6);
+      case 4:
+        return say(", limit ");
+      case 5:
+        return say(control::name(static_cast<control::Limit>(drive_.limit)));
+      case 6:
+        return say(", fault ");
+      case 7:
+        return say(fault_name(drive_.fault));
+      case 8:
+        return say(", parameters ");
+      case 9:
+        return say(name(unit_.origin()));
+      case 10:
+        return say(", period ", period_);
+      default:
+        return say_last("\r\n");
+    }
   }
 
   /// @param amplitude  code, 0 … 2^31 − 1.
@@ -149,139 +285,93 @@ class Console {
     return static_cast<std::uint32_t>((scaled + (1U << 30)) >> 31);
   }
 
-  void set_target(const Word& text) {
-    const ParameterInfo& info = unit_.info(Parameter::target);
-    std::uint32_t ratio = 0;
-    if (encoding::read_decimal(text.begin, text.size, info.decimal_places, ratio) &&
-        unit_.set_target(ratio) == Answer::taken) {
-      status();
-    } else {
-      refuse_value(info);
-    }
-  }
-
-  void set(const Word& name, const Word& text) {
-    const std::size_t parameter = find(name);
-    if (parameter == parameter_count) {
-      answer_.add(name);
-      answer_.add(": unknown; params lists what there is");
-      return;
-    }
-    const ParameterInfo& info = unit_.info(parameter);
-    std::uint32_t value = 0;
-    if (!encoding::read_decimal(text.begin, text.size, info.decimal_places, value)) {
-      refuse_value(info);
-      return;
-    }
-    switch (unit_.write(parameter, value)) {
-      case Answer::taken:
-        setting_ = parameter;
-        saving_ = true;
-        break;
-      case Answer::out_of_range:
-      case Answer::unknown_parameter:
-        refuse_value(info);
-        break;
-      case Answer::drive_not_stopped:
-        answer_.add(info.name);
-        answer_.add(": stop the drive first");
-        break;
-    }
-  }
-
-  std::size_t find(const Word& name) const {
-    std::size_t parameter = 0;
-    while (parameter < parameter_count && !name.are(unit_.info(parameter).name)) {
-      ++parameter;
-    }
-    return parameter;
-  }
-
-  void finish_set(store::Saving saving) {
-    if (saving == store::Saving::busy) {
-      return;
-    }
-    saving_ = false;
-    begin_answer();
-    name_value(setting_);
-    answer_.add(saving == store::Saving::saved ? ", saved" : " stands; not saved");
-    end_answer();
-  }
-
-  void name_value(std::size_t parameter) {
-    const ParameterInfo& info = unit_.info(parameter);
-    answer_.add(info.name);
-    answer_.add(' ');
-    answer_.add_number(unit_.value(parameter), info.decimal_places);
-  }
-
-  void refuse_value(const ParameterInfo& info) {
-    answer_.add(info.name);
-    answer_.add(": ");
-    name_range(info);
-  }
-
-  void name_range(const ParameterInfo& info) {
-    answer_.add("allowed is ");
-    answer_.add_number(info.lowest, info.decimal_places);
-    answer_.add(" to ");
-    answer_.add_number(info.highest, info.decimal_places);
-  }
-
-  void begin_listing(Listing listing) {
-    listing_ = listing;
-    listed_ = 0;
-  }
-
-  /// The next line of a listing.
-  void list() {
+  void say_faults(int piece) {
     const auto& faults = unit_.supervisor().faults();
-    const bool of_faults = listing_ == Listing::faults;
-    if (listed_ == (of_faults ? faults.kept() : parameter_count)) {
-      listing_ = Listing::none;
+    if (listed_ >= faults.kept()) {
+      return piece == 0 ? say("faults since reset: ", faults.count()) : say_last("\r\n");
     }
-    begin_answer();
-    if (listing_ == Listing::none) {
-      answer_.add(of_faults ? "faults since reset: " : "parameters: ");
-      answer_.add_number(of_faults ? faults.count() : parameter_count);
-    } else if (of_faults) {
-      const FaultEntry& entry = faults.entry(listed_);
-      answer_.add("period ");
-      answer_.add_number(entry.period);
-      answer_.add(": ");
-      answer_.add(fault_name(entry.fault));
-    } else {
-      const ParameterInfo& info = unit_.info(listed_);
-      name_value(listed_);
-      answer_.add(", compiled in ");
-      answer_.add_number(info.preset, info.decimal_places);
-      answer_.add("; ");
-      name_range(info);
+    const FaultEntry& entry = faults.entry(listed_);
+    switch (piece) {
+      case 0:
+        return say("period ", entry.period);
+      case 1:
+        return say(": ");
+      case 2:
+        return say(fault_name(entry.fault));
+      default:
+        return say_next_line();
     }
-    end_answer();
-    ++listed_;
   }
 
-  void begin_answer() {
-    answer_.clear();
-    sent_ = 0;
-  }
-  void end_answer() {
-    if (answer_.size() > 0) {
-      answer_.add("\r\n");
+  void say_parameters(int piece) {
+    parameter_ = listed_;
+    switch (piece) {
+      case 0:
+      case 1:
+        return say_value(piece, "");
+      case 2:
+        return say(", compiled in ", info().preset, info().decimal_places);
+      case 3:
+        return say("; allowed is ", info().lowest, info().decimal_places);
+      case 4:
+        return say(" to ", info().highest, info().decimal_places);
+      default:
+        return listed_ + 1 < parameter_count ? say_next_line() : say_last("\r\n");
     }
+  }
+
+  void say_range(int piece) {
+    switch (piece) {
+      case 0:
+        return say(info().name);
+      case 1:
+        return say(": allowed is ", info().lowest, info().decimal_places);
+      case 2:
+        return say(" to ", info().highest, info().decimal_places);
+      default:
+        return say_last("\r\n");
+    }
+  }
+
+  void say_value(int piece, const char* end) {
+    switch (piece) {
+      case 0:
+        return say(info().name);
+      case 1:
+        return say(" ", unit_.value(parameter_), info().decimal_places);
+      default:
+        return say_last(end);
+    }
+  }
+
+  void say_next_line() {
+    say("\r\n");
+    ++listed_;
+    piece_ = 0;
   }
 
   UnitT& unit_;
   ByteLink& bytes_;
-  encoding::TextLine<most_line_characters> line_;
-  encoding::TextLine<most_answer_characters> answer_;
-  std::size_t sent_ = 0;
-  std::size_t listed_ = 0;
-  std::size_t setting_ = 0;
-  Listing listing_ = Listing::none;
+
+  std::array<char, most_line_characters> line_{};
+  std::size_t size_ = 0;
+  std::array<Word, most_words + 1> words_{};  ///< one more than a command has
+  std::size_t word_count_ = 0;
+  bool in_word_ = false;
+  bool line_ended_ = false;
   bool too_long_ = false;
   bool saving_ = false;
+
+  Reply reply_ = Reply::none;
+  int piece_ = 0;
+  hal::Drive drive_{};  ///< of the period that the answer tells of
+  std::uint32_t period_ = 0;
+  std::size_t listed_ = 0;     ///< line of a list
+  std::size_t parameter_ = 0;  ///< that is spoken of
+  const char* text_ = "";      ///< still to be sent, and after it the digits
+  std::array<char, encoding::most_decimal_characters> digits_{};
+  std::size_t digits_count_ = 0;
+  std::size_t digits_sent_ = 0;
 };
 
 }  // namespace sonoglide::app

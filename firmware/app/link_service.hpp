@@ -24,12 +24,17 @@ class LinkService {
  public:
   LinkService(UnitT& unit, ByteLink& bytes) : unit_(unit), bytes_(bytes) {}
 
-  /// One byte sent or received, or one step of a save.
+  /// One byte received, encoded or sent; one request carried out; or one step of a save.
   void serve() {
-    if (sent_ < wire_.size) {
-      sent_ += bytes_.send(wire_.bytes[sent_]) ? 1U : 0U;
+    if (requested_) {
+      requested_ = false;
+      take(decoder_.frame());
     } else if (saving_) {
       finish_write(unit_.proceed());
+    } else if (encoder_.busy()) {
+      encoder_.proceed();
+    } else if (sent_ < encoder_.wire().size) {
+      sent_ += bytes_.send(encoder_.wire().bytes[sent_]) ? 1U : 0U;
     } else {
       receive();
     }
@@ -45,7 +50,7 @@ class LinkService {
       case link::Reception::nothing:
         break;
       case link::Reception::frame:
-        take(decoder_.frame());
+        requested_ = true;
         break;
       case link::Reception::truncated:
       case link::Reception::oversized:
@@ -204,7 +209,7 @@ class LinkService {
   }
 
   [[gnu::noinline]] void send(const link::Frame& frame) {
-    wire_ = link::encode(frame);
+    encoder_.begin(frame);
     sent_ = 0;
   }
 
@@ -214,9 +219,10 @@ class LinkService {
   link::SequenceWatch turns_;
   std::uint32_t checksum_ = 0;  ///< of the last request
   link::Frame answer_;          ///< to the last request
-  link::WireFrame wire_;
-  std::size_t sent_ = 0;
+  link::FrameEncoder encoder_;
+  std::size_t sent_ = 0;  ///< of the encoder's wire
   link::WriteParameter writing_{};
+  bool requested_ = false;
   bool saving_ = false;
   std::uint16_t damaged_frames_ = 0;
 };

@@ -14,29 +14,43 @@ constexpr std::size_t cobs_size(std::size_t size) {
   return size + size / 254 + 1;
 }
 
-/// Writes the stuffed record, without a delimiter.
-/// @param stuffed  room for cobs_size(size) bytes; must not overlap the record.
-/// @return bytes written.
-constexpr std::size_t cobs_encode(const std::uint8_t* bytes, std::size_t size,
-                                  std::uint8_t* stuffed) {
-  std::size_t code_at = 0;
-  std::size_t end = 1;
-  std::uint8_t code = 1;
-  for (std::size_t i = 0; i < size; ++i) {
-    if (bytes[i] != 0) {
-      stuffed[end++] = bytes[i];
-      ++code;
+/// Stuffs a record one byte at a time.
+class CobsEncoder {
+ public:
+  /// @param stuffed  room for cobs_size() of the whole record.
+  explicit constexpr CobsEncoder(std::uint8_t* stuffed) : stuffed_(stuffed) {}
+
+  constexpr void add(std::uint8_t byte) {
+    if (code_ == 0xFF) {  // a full block; only now is it known not to be the last
+      begin_block();
     }
-    const bool full = code == 0xFF;
-    if (bytes[i] == 0 || (full && i + 1 < size)) {
-      stuffed[code_at] = code;
-      code_at = end++;
-      code = 1;
+    if (byte == 0) {
+      begin_block();
+    } else {
+      stuffed_[end_++] = byte;
+      ++code_;
     }
   }
-  stuffed[code_at] = code;
-  return end;
-}
+
+  /// Ends the record, without a delimiter.
+  /// @return bytes written.
+  constexpr std::size_t finish() {
+    stuffed_[code_at_] = code_;
+    return end_;
+  }
+
+ private:
+  constexpr void begin_block() {
+    stuffed_[code_at_] = code_;
+    code_at_ = end_++;
+    code_ = 1;
+  }
+
+  std::uint8_t* stuffed_;
+  std::size_t code_at_ = 0;
+  std::size_t end_ = 1;
+  std::uint8_t code_ = 1;
+};
 
 /// Takes a stuffed record apart, one byte at a time and without a buffer.
 class CobsDecoder {

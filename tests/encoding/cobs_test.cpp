@@ -16,7 +16,11 @@ using Event = CobsDecoder::Event;
 
 Bytes stuffed(const Bytes& bytes) {
   Bytes result(cobs_size(bytes.size()));
-  result.resize(cobs_encode(bytes.data(), bytes.size(), result.data()));
+  CobsEncoder encoder(result.data());
+  for (const std::uint8_t byte : bytes) {
+    encoder.add(byte);
+  }
+  result.resize(encoder.finish());
   return result;
 }
 

@@ -41,24 +41,80 @@ struct WireFrame {
   std::array<std::uint8_t, most_wire_bytes> bytes{};
 };
 
-/// @param frame  its payload_bytes at most most_payload_bytes.
-inline WireFrame encode(const Frame& frame) {
-  std::array<std::uint8_t, most_frame_bytes> bytes{};
-  bytes[0] = version;
-  bytes[1] = frame.kind;
-  encoding::put_little_endian(frame.sequence, &bytes[2]);
-  std::size_t size = header_bytes;
-  for (std::size_t i = 0; i < frame.payload_bytes; ++i) {
-    bytes[size++] = frame.payload[i];
-  }
-  encoding::put_little_endian(encoding::crc32(bytes.data(), size), &bytes[size]);
-  size += checksum_bytes;
+/// Puts a frame on the wire, one byte at a time.
+class FrameEncoder {
+ public:
+  FrameEncoder() = default;
+  // Its stuffing points into its own wire.
+  FrameEncoder(const FrameEncoder&) = delete;
+  FrameEncoder& operator=(const FrameEncoder&) = delete;
 
-  WireFrame wire;
-  wire.bytes[0] = encoding::cobs_delimiter;
-  wire.size = 1 + encoding::cobs_encode(bytes.data(), size, &wire.bytes[1]);
-  wire.bytes[wire.size++] = encoding::cobs_delimiter;
-  return wire;
+  /// @param frame  its payload_bytes at most most_payload_bytes.
+  void begin(const Frame& frame) {
+    frame_ = frame;
+    checksum_ = {};
+    stuffing_ = encoding::CobsEncoder(&wire_.bytes[1]);
+    wire_.bytes[0] = encoding::cobs_delimiter;
+    wire_.size = 0;
+    at_ = 0;
+    busy_ = true;
+  }
+
+  /// A frame was begun that is not yet whole.
+  bool busy() const { return busy_; }
+
+  /// Encodes the next byte.
+  void proceed() {
+    const std::size_t checksum_at = header_bytes + frame_.payload_bytes;
+    if (at_ < checksum_at) {
+      const std::uint8_t next = byte(at_);
+      checksum_.add(next);
+      stuffing_.add(next);
+    } else {
+      stuffing_.add(static_cast<std::uint8_t>(checksum_.value() >> (8 * (at_ - checksum_at))));
+    }
+    if (++at_ == checksum_at + checksum_bytes) {
+      wire_.size = 1 + stuffing_.finish();
+      wire_.bytes[wire_.size++] = encoding::cobs_delimiter;
+      busy_ = false;
+    }
+  }
+
+  /// The frame as it goes out; of no size while busy.
+  const WireFrame& wire() const { return wire_; }
+
+ private:
+  std::uint8_t byte(std::size_t at) const {
+    switch (at) {
+      case 0:
+        return version;
+      case 1:
+        return frame_.kind;
+      case 2:
+        return static_cast<std::uint8_t>(frame_.sequence);
+      case 3:
+        return static_cast<std::uint8_t>(frame_.sequence >> 8);
+      default:
+        return frame_.payload[at - header_bytes];
+    }
+  }
+
+  Frame frame_;
+  WireFrame wire_;
+  encoding::Crc32 checksum_;
+  encoding::CobsEncoder stuffing_{wire_.bytes.data()};
+  std::size_t at_ = 0;
+  bool busy_ = false;
+};
+
+/// A whole frame at once.
+inline WireFrame encode(const Frame& frame) {
+  FrameEncoder encoder;
+  encoder.begin(frame);
+  while (encoder.busy()) {
+    encoder.proceed();
+  }
+  return encoder.wire();
 }
 
 /// What a received byte brought about. All but `nothing` come with the zero byte that ends a frame,

@@ -78,14 +78,8 @@ class TwoPageStore {
     if (step_ != idle) {
       return;
     }
-    words_[0] = layout_;
-    words_[1] = sequence_;
-    encoding::Crc32 checksum;
-    for (std::size_t i = 0; i < checksum_at; ++i) {
-      words_[i] = i < record_begin ? words_[i] : record[i - record_begin];
-      checksum.add_word(words_[i]);
-    }
-    words_[checksum_at] = checksum.value();
+    record_ = record;
+    checksum_ = {};
     step_ = erase;
   }
 
@@ -104,8 +98,12 @@ class TwoPageStore {
     if (step_ == erase) {
       flash_.erase(stale_page_);
     } else {
-      const std::size_t word = step_ - first_word;
-      flash_.program(stale_page_, word, words_[word]);
+      const std::size_t at = step_ - first_word;
+      const std::uint32_t value = word(at);
+      flash_.program(stale_page_, at, value);
+      if (at < checksum_at) {
+        checksum_.add_word(value);
+      }
     }
     ++step_;
     return Saving::busy;
@@ -140,10 +138,18 @@ class TwoPageStore {
     return ahead - 1 < 0x7FFFFFFFU ? 1 : 0;
   }
 
+  /// What the save at hand writes; the checksum once all before it is.
+  std::uint32_t word(std::size_t at) const {
+    if (at < record_begin) {
+      return at == 0 ? layout_ : sequence_;
+    }
+    return at < checksum_at ? record_[at - record_begin] : checksum_.value();
+  }
+
   Saving conclude() {
     step_ = idle;
     for (std::size_t i = 0; i < words_used; ++i) {
-      if (flash_.read(stale_page_, i) != words_[i]) {
+      if (flash_.read(stale_page_, i) != word(i)) {
         return Saving::failed;
       }
     }
@@ -157,7 +163,8 @@ class TwoPageStore {
   std::size_t stale_page_ = 0;
   std::uint32_t sequence_ = 0;  ///< of the next record
   std::size_t step_ = idle;
-  std::array<std::uint32_t, words_used> words_{};
+  Record record_{};  ///< being saved
+  encoding::Crc32 checksum_;
 };
 
 }  // namespace sonoglide::app::store

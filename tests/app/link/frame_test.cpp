@@ -27,6 +27,18 @@ Bytes wire_of(const Frame& frame) {
   return {wire.bytes.begin(), wire.bytes.begin() + static_cast<std::ptrdiff_t>(wire.size)};
 }
 
+/// Any record as it would travel, with its delimiter.
+Bytes stuffed(const Bytes& record) {
+  Bytes stream(encoding::cobs_size(record.size()));
+  encoding::CobsEncoder encoder(stream.data());
+  for (const std::uint8_t byte : record) {
+    encoder.add(byte);
+  }
+  stream.resize(encoder.finish());
+  stream.push_back(encoding::cobs_delimiter);
+  return stream;
+}
+
 struct Received {
   std::vector<Frame> frames;
   std::vector<Reception> faults;
@@ -179,9 +191,7 @@ TEST(FrameTest, ATruncationAtAnyByteIsReportedAndTheNextFrameArrives) {
 TEST(FrameTest, AnOversizedFrameIsReportedOnce) {
   for (const std::size_t size : {most_frame_bytes + 1, most_frame_bytes + 2, std::size_t{5000}}) {
     const Bytes record(size, 0x55);
-    Bytes stream(encoding::cobs_size(size));
-    stream.resize(encoding::cobs_encode(record.data(), size, stream.data()));
-    stream.push_back(0);
+    Bytes stream = stuffed(record);
     const Bytes wire = wire_of(frame_of(ReadTelemetry{}, 5));
     stream.insert(stream.end(), wire.begin(), wire.end());
     const Received arrived = received(stream);
@@ -196,9 +206,7 @@ TEST(FrameTest, AnotherVersionIsReported) {
   for (int i = 0; i < 4; ++i) {
     record.push_back(static_cast<std::uint8_t>(checksum >> (8 * i)));
   }
-  Bytes stream(encoding::cobs_size(record.size()));
-  stream.resize(encoding::cobs_encode(record.data(), record.size(), stream.data()));
-  stream.push_back(0);
+  const Bytes stream = stuffed(record);
   const Received arrived = received(stream);
   EXPECT_EQ(arrived.faults, (std::vector<Reception>{Reception::wrong_version}));
   EXPECT_TRUE(arrived.frames.empty());
