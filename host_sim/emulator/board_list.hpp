@@ -13,6 +13,7 @@ struct EmulatedBoard {
   std::string_view toolchain;  ///< file in tools/toolchains, without its ending
   std::string_view emulator;   ///< program, to be found in PATH
   std::vector<std::string_view> machine_arguments;  ///< what makes the emulator this board
+  bool computes_double = false;  ///< its floating-point unit does, so that float64 can be built
 };
 
 /// Every board, from the smallest core to the largest, the other instruction set last.

@@ -1,6 +1,6 @@
 # Controller images for boards. On the workstation:
 #
-#   controller_header SCENE.toml > FOLDER/controller_configuration.hpp
+#   sonoglide configure SCENE.toml --out FOLDER
 #   cmake --toolchain tools/toolchains/arm-cortex-m4f.cmake -S . -B BUILD \
 #     -DSONOGLIDE_CONTROLLERS=FOLDER
 #   cmake --build BUILD
@@ -28,7 +28,4 @@ if(CMAKE_CROSSCOMPILING)
   foreach(folder IN LISTS SONOGLIDE_CONTROLLERS)
     sonoglide_image("${folder}")
   endforeach()
-elseif(SONOGLIDE_HOST)
-  add_executable(controller_header "${PROJECT_SOURCE_DIR}/tools/generate/controller_header.cpp")
-  target_link_libraries(controller_header PRIVATE sonoglide_scene sonoglide_warnings)
 endif()
