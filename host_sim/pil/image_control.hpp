@@ -3,11 +3,13 @@
 
 #include <chrono>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "host_sim/loop/control_port.hpp"
 #include "host_sim/pil/image_process.hpp"
+#include "host_sim/pil/one_core.hpp"
 
 namespace sonoglide::pil {
 
@@ -36,6 +38,7 @@ class ImageControl final : public loop::ControlPort {
  private:
   using Clock = std::chrono::steady_clock;
 
+  OneCore core_;
   ImageProcess image_;
   Clock::time_point first_answer_;
   std::uint64_t exchanges_ = 0;

@@ -11,7 +11,7 @@
 #include <cstring>
 #include <utility>
 
-#include "hal/mps2/lockstep/frame.hpp"
+#include "hal/lockstep/frame.hpp"
 
 namespace sonoglide::pil {
 
@@ -30,6 +30,14 @@ ImageProcess::ImageProcess(const std::vector<std::string>& command,
   // The reading end of the samples stays open here: writing to an emulator that has died is then no
   // broken pipe, and its death shows where its answer is read.
   drives_.write_end.close();
+}
+
+void ImageProcess::await_greeting() {
+  std::uint8_t byte = 0;
+  receive(&byte, 1);
+  if (byte != lockstep::greeting) {
+    fail(fmt::format("greets with {}", byte));
+  }
 }
 
 hal::Drive ImageProcess::exchange(const hal::Sample& sample) {

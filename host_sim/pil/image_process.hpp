@@ -10,7 +10,6 @@
 
 #include "hal/board.hpp"
 #include "host_sim/pil/emulator_error.hpp"
-#include "host_sim/pil/one_core.hpp"
 #include "host_sim/process/child_process.hpp"
 #include "host_sim/process/pipe.hpp"
 #include "host_sim/process/wait_for_input.hpp"
@@ -27,6 +26,10 @@ class ImageProcess {
   /// @throws process::ProcessError  the emulator cannot be started
   ImageProcess(const std::vector<std::string>& command, std::chrono::milliseconds patience,
                process::Attention attention = {});
+
+  /// Waits for the greeting of a board on a serial line.
+  /// @throws EmulatorError
+  void await_greeting();
 
   /// One carrier period.
   /// @throws EmulatorError
@@ -54,7 +57,6 @@ class ImageProcess {
   process::Pipe samples_;
   process::Pipe drives_;
   process::Descriptor complaints_;
-  OneCore core_;
   std::optional<process::ChildProcess> child_;
   std::uint32_t period_ = 0;
 };

@@ -6,8 +6,9 @@
 namespace sonoglide::pil {
 
 /// Keeps the calling thread, and every process that it starts meanwhile, on the core that it is on.
-/// In lockstep one side always waits for the other: waking it on the same core takes a quarter of
-/// the time. Where the system does not allow it, nothing changes.
+/// In lockstep one side always sleeps until the other has spoken: waking it on the same core takes
+/// a quarter of the time. Not for a side that looks again and again instead of sleeping. Where the
+/// system does not allow it, nothing changes.
 class OneCore {
  public:
   OneCore();

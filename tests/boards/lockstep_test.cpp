@@ -1,8 +1,8 @@
 // The same controller source on the host and as an image on an emulated board: the same commands.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
-#include <csignal>
 #include <cstdint>
 #include <memory>
 #include <random>
@@ -10,28 +10,28 @@
 #include <tuple>
 #include <vector>
 
-#include "emulated_board.hpp"
 #include "firmware/control/drive_command.hpp"
-#include "hal/mps2/lockstep/frame.hpp"
+#include "hal/lockstep/exit_code.hpp"
+#include "hal/lockstep/frame.hpp"
+#include "host_sim/emulator/board_list.hpp"
 #include "host_sim/loop/control_port.hpp"
 #include "host_sim/loop/plant_port.hpp"
 #include "host_sim/loop/run.hpp"
 #include "host_sim/loop/sensor.hpp"
 #include "host_sim/loop/trace_hash.hpp"
+#include "host_sim/pil/image_process.hpp"
 #include "host_sim/scene/control_design.hpp"
 #include "host_sim/scene/reader.hpp"
 #include "tests/host_sim/loop/logs/logged_run.hpp"
 
-namespace sonoglide::boards {
+namespace sonoglide::pil {
 namespace {
 
 using std::chrono_literals::operator""s;
-using std::chrono_literals::operator""ms;
 
-// Exit codes of an image: hal/mps2/semihosting.hpp.
-constexpr int shut_down = 0;
-constexpr int link_broken = 1;
-constexpr int processor_fault = 2;
+constexpr int shut_down = static_cast<int>(hal::lockstep::ExitCode::shut_down);
+constexpr int link_broken = static_cast<int>(hal::lockstep::ExitCode::link_broken);
+constexpr int processor_fault = static_cast<int>(hal::lockstep::ExitCode::processor_fault);
 
 constexpr double two_pi = 6.28318530717958647693;
 
@@ -40,16 +40,7 @@ std::string image(const std::string& board, const std::string& controller) {
 }
 
 std::vector<std::string> emulate(const std::string& board, const std::string& image) {
-  return {SONOGLIDE_QEMU,
-          "-nodefaults",
-          "-display",
-          "none",
-          "-semihosting-config",
-          "enable=on,target=native",
-          "-machine",
-          board,
-          "-kernel",
-          image};
+  return emulator::emulator_command(*emulator::find_board(board), image);
 }
 
 /// The plant of a scene and its sensor, fed period by period.
@@ -80,27 +71,32 @@ class SensedPlant {
   loop::Sensor sensor_;
 };
 
+scene::Scene scene_of(const std::string& controller) {
+  return scene::read_file(SONOGLIDE_CONTROLLERS "/" + controller + "/scene.toml");
+}
+
 /// An image on a board: (board, controller).
 class Image : public testing::TestWithParam<std::tuple<std::string, std::string>> {
  protected:
   Image() : Image(std::get<0>(GetParam()), std::get<1>(GetParam())) {}
   Image(const std::string& board, const std::string& controller)
-      : scene_(scene::read_file(SONOGLIDE_CONTROLLERS "/" + controller + "/scene.toml")),
-        board_(emulate(board, image(board, controller)), 60s) {}
+      : scene_(scene_of(controller)), board_(emulate(board, image(board, controller)), 60s) {}
 
   scene::Scene scene_;
-  EmulatedBoard board_;
+  ImageProcess board_;
 };
 
-TEST_P(Image, DrivesThePlantWithTheHostsCommandsBitForBit) {
-  const loop::LoggedRun host = loop::run_logged(scene_);
+/// Closes the loop of a scene between the host's plant and a board, and compares every command with
+/// the host's.
+void expect_the_hosts_commands(const scene::Scene& scene, ImageProcess& board) {
+  const loop::LoggedRun host = loop::run_logged(scene);
   const loop::ControlRecord& record = *host.result.control;
   const scene::ControlDesign& design = record.design;
-  SensedPlant plant(scene_, design);
+  SensedPlant plant(scene, design);
   loop::TraceHash hash;
   double amplitude_N = 0.0;
   for (std::size_t k = 0; k < host.periods.size(); ++k) {
-    const hal::Drive drive = board_.exchange(plant.advance(host.periods[k], amplitude_N));
+    const hal::Drive drive = board.exchange(plant.advance(host.periods[k], amplitude_N));
     hash.add(drive);
     amplitude_N = drive.amplitude * 0x1p-31 * design.scales.drive_amplitude_N;
     if (k + 1 < host.periods.size()) {
@@ -112,6 +108,10 @@ TEST_P(Image, DrivesThePlantWithTheHostsCommandsBitForBit) {
   }
   EXPECT_EQ(record.commands, host.periods.size());
   EXPECT_EQ(hash.value(), record.trace_hash);
+}
+
+TEST_P(Image, DrivesThePlantWithTheHostsCommandsBitForBit) {
+  expect_the_hosts_commands(scene_, board_);
   EXPECT_EQ(board_.shut_down(), shut_down);
 }
 
@@ -154,66 +154,47 @@ TEST_P(Image, LeavesWhenAFrameIsOutOfTurn) {
   EXPECT_EQ(board_.shut_down(), link_broken);
 }
 
-std::string test_name(const testing::TestParamInfo<Image::ParamType>& parameters) {
-  const auto& [board, controller] = parameters.param;
-  return (board == "mps2-an386" ? "CortexM4F_" : "CortexM3_") + controller;
+std::string test_name_of(std::string board) {
+  std::replace(board.begin(), board.end(), '-', '_');
+  return board;
+}
+
+std::vector<std::string> board_names() {
+  std::vector<std::string> names;
+  for (const emulator::EmulatedBoard& board : emulator::emulated_boards()) {
+    names.emplace_back(board.name);
+  }
+  return names;
 }
 
 INSTANTIATE_TEST_SUITE_P(Boards, Image,
-                         testing::Combine(testing::Values("mps2-an386", "mps2-an385"),
+                         testing::Combine(testing::ValuesIn(board_names()),
                                           testing::Values("target_step", "target_step_q31",
                                                           "other_parts")),
-                         test_name);
+                         [](const auto& parameter) {
+                           return test_name_of(std::get<0>(parameter.param)) + "_" +
+                                  std::get<1>(parameter.param);
+                         });
 
-std::string failure(EmulatedBoard& board) {
-  try {
-    board.exchange({});
-  } catch (const EmulatorError& error) {
-    return error.what();
-  }
-  return "";
+/// A board whose image speaks over its serial line.
+class SerialImage : public testing::TestWithParam<std::string> {};
+
+TEST_P(SerialImage, DrivesThePlantWithTheHostsCommandsBitForBit) {
+  std::vector<std::string> command = emulate(GetParam(), image(GetParam(), "target_step_serial"));
+  command.insert(command.end(), {"-serial", "stdio"});
+  ImageProcess board(command, 60s);
+  board.await_greeting();
+  expect_the_hosts_commands(scene_of("target_step"), board);
 }
 
-bool alive(pid_t process) {
-  return kill(process, 0) == 0;
-}
+INSTANTIATE_TEST_SUITE_P(Boards, SerialImage, testing::ValuesIn(board_names()),
+                         [](const auto& parameter) { return test_name_of(parameter.param); });
 
 TEST(ImageTest, LeavesOnAProcessorFault) {
   // A Cortex-M3 has no floating-point unit to enable.
-  EmulatedBoard board(emulate("mps2-an385", image("mps2-an386", "target_step")), 60s);
+  ImageProcess board(emulate("mps2-an385", image("mps2-an386", "target_step")), 60s);
   EXPECT_EQ(board.shut_down(), processor_fault);
 }
 
-TEST(EmulatedBoardTest, ReportsAnEmulatorThatCannotStart) {
-  EmulatedBoard board(emulate("mps2-an386", "no_such_image"), 60s);
-  EXPECT_NE(failure(board).find("exit code 1"), std::string::npos);
-}
-
-TEST(EmulatedBoardTest, ReportsAnEmulatorThatIsKilled) {
-  EmulatedBoard board(emulate("mps2-an386", image("mps2-an386", "target_step")), 60s);
-  kill(board.process(), SIGKILL);
-  EXPECT_NE(failure(board).find("signal 9"), std::string::npos);
-}
-
-TEST(EmulatedBoardTest, KillsAnEmulatorThatHangs) {
-  std::vector<std::string> frozen = emulate("mps2-an386", image("mps2-an386", "target_step"));
-  frozen.emplace_back("-S");
-  EmulatedBoard board(frozen, 500ms);
-  const pid_t process = board.process();
-  EXPECT_NE(failure(board).find("hung"), std::string::npos);
-  EXPECT_FALSE(alive(process));
-}
-
-TEST(EmulatedBoardTest, LeavesNoProcessBehind) {
-  pid_t process = 0;
-  {
-    EmulatedBoard board(emulate("mps2-an386", image("mps2-an386", "target_step")), 60s);
-    board.exchange({});
-    process = board.process();
-    EXPECT_TRUE(alive(process));
-  }
-  EXPECT_FALSE(alive(process));
-}
-
 }  // namespace
-}  // namespace sonoglide::boards
+}  // namespace sonoglide::pil

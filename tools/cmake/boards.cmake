@@ -1,31 +1,86 @@
 # Controller images for boards. On the workstation:
 #
 #   sonoglide configure SCENE.toml --out FOLDER
-#   cmake --toolchain tools/toolchains/arm-cortex-m4f.cmake -S . -B BUILD \
-#     -DSONOGLIDE_CONTROLLERS=FOLDER
-#   cmake --build BUILD
+#   cmake --preset BOARD -DSONOGLIDE_CONTROLLERS=FOLDER
+#   cmake --build --preset BOARD
 #
-# leaves BUILD/bin/<name of FOLDER>.elf.
+# leaves build/BOARD/bin/<name of FOLDER>.elf, in lockstep with its host over semihosting, and
+# <name of FOLDER>_serial.elf, over a serial line. A toolchain file without a board compiles the core
+# alone.
 
-sonoglide_room(sonoglide_lockstep hal/mps2/lockstep USES sonoglide_hal)
+sonoglide_room(sonoglide_lockstep hal/lockstep USES sonoglide_hal)
 
-# sonoglide_image(<folder>): the image of one configured controller.
-function(sonoglide_image folder)
-  get_filename_component(name "${folder}" NAME)
-  set(memory "${PROJECT_SOURCE_DIR}/hal/mps2/memory.ld")
-  add_executable(${name} "${PROJECT_SOURCE_DIR}/firmware/app/image/main.cpp")
-  target_include_directories(${name} PRIVATE "${folder}")
-  target_link_libraries(${name} PRIVATE
-    sonoglide_app sonoglide_hal_mps2 sonoglide_freestanding sonoglide_warnings)
-  target_link_options(${name} PRIVATE "-T${memory}")
-  set_target_properties(${name} PROPERTIES LINK_DEPENDS "${memory}")
+# sonoglide_images(<suffix> CLASS <board> HEADER <its header> MEMORY <linker script> USES <rooms>...):
+# an image of every configured controller on a board's class.
+function(sonoglide_images suffix)
+  cmake_parse_arguments(IMAGE "" "CLASS;HEADER;MEMORY" "USES" ${ARGN})
+  set(script "${PROJECT_SOURCE_DIR}/${IMAGE_MEMORY}")
+  set(sections "${PROJECT_SOURCE_DIR}/hal/start/sections.ld")
+  foreach(folder IN LISTS SONOGLIDE_CONTROLLERS)
+    get_filename_component(name "${folder}" NAME)
+    set(image "${name}${suffix}")
+    add_executable(${image} "${PROJECT_SOURCE_DIR}/firmware/app/image/main.cpp")
+    target_compile_definitions(${image} PRIVATE
+      "SONOGLIDE_BOARD_CLASS=sonoglide::hal::${IMAGE_CLASS}"
+      "SONOGLIDE_BOARD_HEADER=\"${IMAGE_HEADER}\"")
+    target_include_directories(${image} PRIVATE "${folder}")
+    target_link_libraries(${image} PRIVATE
+      sonoglide_app ${IMAGE_USES} sonoglide_freestanding sonoglide_warnings)
+    target_link_options(${image} PRIVATE "-L${PROJECT_SOURCE_DIR}" "-T${script}")
+    set_target_properties(${image} PROPERTIES LINK_DEPENDS "${script};${sections}")
+  endforeach()
+endfunction()
+
+# sonoglide_emulated_board(<name> PROCESSOR <room> FOLDER <f> MEMORY <script> SERIAL_BOARD <class>):
+# if the board is the one chosen, its images in lockstep over semihosting and over a serial line.
+function(sonoglide_emulated_board name)
+  set_property(GLOBAL APPEND PROPERTY SONOGLIDE_BOARDS ${name})
+  if(NOT name STREQUAL SONOGLIDE_BOARD)
+    return()
+  endif()
+  cmake_parse_arguments(BOARD "" "PROCESSOR;FOLDER;MEMORY;SERIAL_BOARD" "" ${ARGN})
+  sonoglide_room(sonoglide_serial_board ${BOARD_FOLDER} USES sonoglide_lockstep_board)
+  sonoglide_images("" MEMORY ${BOARD_FOLDER}/${BOARD_MEMORY}
+    CLASS semihosting::SemihostingBoard HEADER hal/semihosting/semihosting_board.hpp
+    USES ${BOARD_PROCESSOR} sonoglide_semihosting)
+  sonoglide_images(_serial MEMORY ${BOARD_FOLDER}/${BOARD_MEMORY}
+    CLASS ${BOARD_SERIAL_BOARD} HEADER ${BOARD_FOLDER}/serial_board.hpp
+    USES sonoglide_serial_board ${BOARD_PROCESSOR} sonoglide_semihosting)
 endfunction()
 
 if(CMAKE_CROSSCOMPILING)
+  set(SONOGLIDE_BOARD "" CACHE STRING "Board that images are linked for")
   set(SONOGLIDE_CONTROLLERS "" CACHE STRING
-    "Folders with a controller_configuration.hpp; each gives an image of its name")
-  sonoglide_room(sonoglide_hal_mps2 hal/mps2 USES sonoglide_lockstep)
-  foreach(folder IN LISTS SONOGLIDE_CONTROLLERS)
-    sonoglide_image("${folder}")
+    "Folders with a controller_configuration.hpp; each gives images of its name")
+
+  sonoglide_room(sonoglide_start hal/start)
+  sonoglide_room(sonoglide_lockstep_board hal/lockstep/board
+    USES sonoglide_lockstep sonoglide_start)
+  sonoglide_room(sonoglide_semihosting hal/semihosting USES sonoglide_lockstep_board)
+  if(CMAKE_SYSTEM_PROCESSOR STREQUAL arm)
+    sonoglide_room(sonoglide_cortex_m hal/cortex_m USES sonoglide_start)
+  else()
+    sonoglide_room(sonoglide_riscv hal/riscv USES sonoglide_start)
+  endif()
+
+  sonoglide_emulated_board(microbit PROCESSOR sonoglide_cortex_m
+    FOLDER hal/microbit MEMORY memory.ld SERIAL_BOARD microbit::SerialBoard)
+  sonoglide_emulated_board(netduinoplus2 PROCESSOR sonoglide_cortex_m
+    FOLDER hal/netduinoplus2 MEMORY memory.ld SERIAL_BOARD netduinoplus2::SerialBoard)
+  foreach(board mps2-an385 mps2-an386 mps2-an500)
+    sonoglide_emulated_board(${board} PROCESSOR sonoglide_cortex_m
+      FOLDER hal/mps2 MEMORY memory.ld SERIAL_BOARD mps2::An385SerialBoard)
   endforeach()
+  sonoglide_emulated_board(mps2-an505 PROCESSOR sonoglide_cortex_m
+    FOLDER hal/mps2 MEMORY an505_memory.ld SERIAL_BOARD mps2::An505SerialBoard)
+  sonoglide_emulated_board(riscv32-virt PROCESSOR sonoglide_riscv
+    FOLDER hal/riscv_virt MEMORY memory.ld SERIAL_BOARD riscv_virt::SerialBoard)
+
+  get_property(boards GLOBAL PROPERTY SONOGLIDE_BOARDS)
+  if(SONOGLIDE_BOARD AND NOT SONOGLIDE_BOARD IN_LIST boards)
+    list(JOIN boards ", " boards)
+    message(FATAL_ERROR "No board is called ${SONOGLIDE_BOARD}; there are ${boards}")
+  elseif(SONOGLIDE_CONTROLLERS AND NOT SONOGLIDE_BOARD)
+    message(FATAL_ERROR "An image is for a board: set SONOGLIDE_BOARD, or use the board's preset")
+  endif()
 endif()

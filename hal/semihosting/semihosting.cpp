@@ -1,7 +1,9 @@
-#include "hal/mps2/semihosting.hpp"
+#include "hal/semihosting/semihosting.hpp"
+
+#include "hal/semihosting/trap.hpp"
 
 // Source: Arm, Semihosting for AArch32 and AArch64, release 2.0.
-namespace sonoglide::hal::mps2 {
+namespace sonoglide::hal::semihosting {
 namespace {
 
 static_assert(sizeof(std::uintptr_t) == 4, "a parameter block is made of 32-bit words");
@@ -17,13 +19,6 @@ constexpr std::uintptr_t open_mode_read = 0;
 constexpr std::uintptr_t open_mode_write = 4;
 constexpr std::uintptr_t application_exit = 0x20026;
 
-std::int32_t call(Operation operation, const std::uintptr_t* block) {
-  register std::int32_t result asm("r0") = operation;
-  register const std::uintptr_t* parameters asm("r1") = block;
-  asm volatile("bkpt 0xab" : "+r"(result) : "r"(parameters) : "memory");
-  return result;
-}
-
 std::uintptr_t word(std::int32_t handle) {
   return static_cast<std::uintptr_t>(handle);
 }
@@ -35,7 +30,7 @@ std::uintptr_t word(const void* address) {
 std::int32_t open_console(std::uintptr_t mode) {
   constexpr char name[] = ":tt";
   const std::uintptr_t block[] = {word(name), mode, sizeof name - 1};
-  return call(sys_open, block);
+  return trap(sys_open, block);
 }
 
 }  // namespace
@@ -52,7 +47,7 @@ std::size_t read_all(std::int32_t handle, void* bytes, std::size_t size) {
   std::size_t missing = size;
   while (missing > 0) {
     const std::uintptr_t block[] = {word(handle), word(bytes) + (size - missing), missing};
-    const auto left = static_cast<std::size_t>(call(sys_read, block));
+    const auto left = static_cast<std::size_t>(trap(sys_read, block));
     if (left >= missing) {
       break;
     }
@@ -63,14 +58,14 @@ std::size_t read_all(std::int32_t handle, void* bytes, std::size_t size) {
 
 bool write_all(std::int32_t handle, const void* bytes, std::size_t size) {
   const std::uintptr_t block[] = {word(handle), word(bytes), size};
-  return call(sys_write, block) == 0;
+  return trap(sys_write, block) == 0;
 }
 
-void leave(ExitCode code) {
-  const std::uintptr_t block[] = {application_exit, static_cast<std::uintptr_t>(code)};
-  call(sys_exit, block);
+void leave(int code) {
+  const std::uintptr_t block[] = {application_exit, word(code)};
+  trap(sys_exit, block);
   for (;;) {
   }
 }
 
-}  // namespace sonoglide::hal::mps2
+}  // namespace sonoglide::hal::semihosting

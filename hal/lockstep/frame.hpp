@@ -19,6 +19,9 @@ namespace sonoglide::hal::lockstep {
 inline constexpr std::size_t sample_frame_size = 16;
 inline constexpr std::size_t drive_frame_size = 12;
 
+/// Over a serial line the board speaks first: this byte says that it hears.
+inline constexpr std::uint8_t greeting = 0xa5;
+
 using SampleFrame = std::array<std::uint8_t, sample_frame_size>;
 using DriveFrame = std::array<std::uint8_t, drive_frame_size>;
 

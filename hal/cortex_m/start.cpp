@@ -1,35 +1,12 @@
-// From reset to main, and what every exception ends in.
+// Cortex-M, with or without a floating-point unit: from reset to main, and the vector table.
 #include <cstdint>
 
-#include "hal/mps2/semihosting.hpp"
+#include "hal/start/fill_memory.hpp"
+#include "hal/start/image_end.hpp"
 
 extern "C" {
 
-// Addresses from memory.ld.
-extern std::uint32_t stack_top[];
-extern const std::uint32_t data_image[];
-extern std::uint32_t data_begin[];
-extern std::uint32_t data_end[];
-extern std::uint32_t bss_begin[];
-extern std::uint32_t bss_end[];
-
-void fill_memory() {
-  const std::uint32_t* from = data_image;
-  for (std::uint32_t* to = data_begin; to != data_end; ++to) {
-    *to = *from++;
-  }
-  for (std::uint32_t* to = bss_begin; to != bss_end; ++to) {
-    *to = 0;
-  }
-}
-
-[[noreturn]] void leave_image(int code) {
-  sonoglide::hal::mps2::leave(static_cast<sonoglide::hal::mps2::ExitCode>(code));
-}
-
-[[noreturn]] void take_exception() {
-  sonoglide::hal::mps2::leave(sonoglide::hal::mps2::ExitCode::processor_fault);
-}
+extern std::uint32_t stack_top[];  // address from sections.ld
 
 // Naked: the compiler may put no floating-point instruction before the unit is enabled.
 [[gnu::naked, noreturn]] void reset() {
@@ -47,7 +24,7 @@ void fill_memory() {
   asm volatile(
       "bl fill_memory \n"
       "bl main \n"
-      "b leave_image \n");
+      "bl leave_image \n");
 }
 
 }  // extern "C"
@@ -60,7 +37,7 @@ struct VectorTable {
   void (*exceptions[14])();  ///< NMI to SysTick; every interrupt of the board stays off
 };
 
-[[gnu::section(".vectors"), gnu::used]] const VectorTable vectors = {
+[[gnu::section(".entry"), gnu::used]] const VectorTable vectors = {
     stack_top,
     reset,
     {take_exception, take_exception, take_exception, take_exception, take_exception, take_exception,

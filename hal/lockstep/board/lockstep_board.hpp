@@ -1,0 +1,51 @@
+/// A board whose carrier periods come from a host, one frame at a time.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "hal/board.hpp"
+#include "hal/lockstep/exit_code.hpp"
+#include "hal/lockstep/frame.hpp"
+#include "hal/start/image_end.hpp"
+
+namespace sonoglide::hal::lockstep {
+
+/// Samples come from a link to the host, drives go back on it. The end of the input shuts the board
+/// down; a broken link ends the image (ExitCode::link_broken).
+///
+/// @tparam Link  offers
+///   std::size_t read(std::uint8_t* bytes, std::size_t size);  // waits; how many came until the
+///   end bool write(const std::uint8_t* bytes, std::size_t size);  // whether every byte was taken
+template <class Link>
+class LockstepBoard {
+ public:
+  bool sample(Sample& sample) {
+    SampleFrame frame{};
+    const std::size_t received = link_.read(frame.data(), frame.size());
+    if (received == 0) {
+      return false;
+    }
+    require(received == frame.size() && period(frame) == period_);
+    sample = decode(frame);
+    return true;
+  }
+
+  void drive(const Drive& drive) {
+    const DriveFrame frame = encode(period_, drive);
+    require(link_.write(frame.data(), frame.size()));
+    ++period_;
+  }
+
+ private:
+  static void require(bool intact) {
+    if (!intact) {
+      leave_image(static_cast<int>(ExitCode::link_broken));
+    }
+  }
+
+  Link link_{};
+  std::uint32_t period_ = 0;
+};
+
+}  // namespace sonoglide::hal::lockstep

@@ -1,0 +1,23 @@
+// RISC-V in machine mode, one hart, interrupts off: from reset to main.
+#include "hal/start/fill_memory.hpp"
+#include "hal/start/image_end.hpp"
+
+extern "C" {
+
+// Naked: there is no stack yet. First in the image, where the processor starts.
+[[gnu::naked, gnu::section(".entry"), noreturn]] void reset() {
+  asm volatile(
+      "la sp, stack_top \n"
+      "la t0, take_trap \n"
+      "csrw mtvec, t0 \n"
+      "call fill_memory \n"
+      "call main \n"
+      "call leave_image \n");
+}
+
+// The trap vector has to stand on a multiple of four.
+[[gnu::naked, gnu::aligned(4), gnu::used, noreturn]] void take_trap() {
+  asm volatile("call take_exception \n");
+}
+
+}  // extern "C"

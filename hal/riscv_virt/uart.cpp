@@ -1,0 +1,51 @@
+#include "hal/riscv_virt/uart.hpp"
+
+#include <cstddef>
+
+// Source: Texas Instruments, PC16550D data sheet. The divisor latch shares its addresses
+// with data and interrupts.
+namespace sonoglide::hal::riscv_virt {
+namespace {
+
+struct UartRegisters {
+  volatile std::uint8_t data;        // or divisor, low
+  volatile std::uint8_t interrupts;  // or divisor, high
+  volatile std::uint8_t fifo_control;
+  volatile std::uint8_t line_control;
+  volatile std::uint8_t modem_control;
+  volatile std::uint8_t line_status;
+};
+static_assert(offsetof(UartRegisters, line_status) == 5);
+
+extern "C" UartRegisters uart0;  // address from memory.ld
+
+constexpr std::uint8_t eight_bits = 0x03;
+constexpr std::uint8_t divisor_latch = 0x80;
+constexpr std::uint8_t fifo_enabled = 0x01;
+constexpr std::uint8_t received = 0x01;
+constexpr std::uint8_t transmit_empty = 0x20;
+constexpr std::uint8_t divisor = 3686400 / (16 * 115200);  // of the clock in hertz
+
+}  // namespace
+
+Uart::Uart() {
+  uart0.line_control = divisor_latch | eight_bits;
+  uart0.data = divisor;
+  uart0.interrupts = 0;
+  uart0.line_control = eight_bits;
+  uart0.fifo_control = fifo_enabled;
+}
+
+std::uint8_t Uart::receive() {
+  while ((uart0.line_status & received) == 0) {
+  }
+  return uart0.data;
+}
+
+void Uart::send(std::uint8_t byte) {
+  while ((uart0.line_status & transmit_empty) == 0) {
+  }
+  uart0.data = byte;
+}
+
+}  // namespace sonoglide::hal::riscv_virt

@@ -1,0 +1,16 @@
+/// Serial line of QEMU's RISC-V virt: an NS16550A.
+#pragma once
+
+#include <cstdint>
+
+namespace sonoglide::hal::riscv_virt {
+
+/// 115200 baud, 8 data bits, no parity, one stop bit.
+class Uart {
+ public:
+  Uart();
+  std::uint8_t receive();
+  void send(std::uint8_t byte);
+};
+
+}  // namespace sonoglide::hal::riscv_virt

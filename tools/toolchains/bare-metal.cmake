@@ -1,0 +1,16 @@
+# What all microcontrollers share. The file that includes this has set the compiler and
+# processor_flags.
+set(CMAKE_SYSTEM_NAME Generic)
+set(CMAKE_EXECUTABLE_SUFFIX_CXX .elf)
+# What CMake tries out cannot be linked without a board.
+set(CMAKE_TRY_COMPILE_TARGET_TYPE STATIC_LIBRARY)
+
+string(JOIN " " CMAKE_CXX_FLAGS_INIT
+  ${processor_flags} -O2 -ffp-contract=off -fno-exceptions -fno-rtti -fno-threadsafe-statics
+  -ffunction-sections -fdata-sections)
+# No start files and no system calls: what needs a heap or an operating system does not link.
+set(CMAKE_EXE_LINKER_FLAGS_INIT "-nostartfiles -Wl,--gc-sections -Wl,--fatal-warnings")
+
+# The workstation program and GoogleTest are not for a microcontroller.
+set(SONOGLIDE_HOST OFF)
+set(SONOGLIDE_TESTS OFF)
