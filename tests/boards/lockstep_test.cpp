@@ -177,14 +177,28 @@ INSTANTIATE_TEST_SUITE_P(Boards, Image,
                          });
 
 /// A board whose image speaks over its serial line.
-class SerialImage : public testing::TestWithParam<std::string> {};
+class SerialImage : public testing::TestWithParam<std::string> {
+ protected:
+  SerialImage() : board_(command(), 60s) { board_.await_greeting(); }
+
+  ImageProcess board_;
+
+ private:
+  static std::vector<std::string> command() {
+    auto command = emulate(GetParam(), image(GetParam(), "target_step_serial"));
+    command.insert(command.end(), {"-serial", "stdio"});
+    return command;
+  }
+};
 
 TEST_P(SerialImage, DrivesThePlantWithTheHostsCommandsBitForBit) {
-  std::vector<std::string> command = emulate(GetParam(), image(GetParam(), "target_step_serial"));
-  command.insert(command.end(), {"-serial", "stdio"});
-  ImageProcess board(command, 60s);
-  board.await_greeting();
-  expect_the_hosts_commands(scene_of("target_step"), board);
+  expect_the_hosts_commands(scene_of("target_step"), board_);
+}
+
+TEST_P(SerialImage, LeavesWhenAFrameIsOutOfTurn) {
+  const hal::lockstep::SampleFrame frame = hal::lockstep::encode(7, hal::Sample{});
+  board_.send(frame.data(), frame.size());
+  EXPECT_EQ(board_.shut_down(), link_broken);
 }
 
 INSTANTIATE_TEST_SUITE_P(Boards, SerialImage, testing::ValuesIn(board_names()),

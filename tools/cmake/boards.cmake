@@ -9,9 +9,10 @@
 # alone.
 
 sonoglide_room(sonoglide_lockstep hal/lockstep USES sonoglide_hal)
+sonoglide_room(sonoglide_start hal/start)
 
 # sonoglide_images(<suffix> CLASS <board> HEADER <its header> MEMORY <linker script> USES <rooms>...):
-# an image of every configured controller on a board's class.
+# an image of every configured controller on a class that has the seam's shape.
 function(sonoglide_images suffix)
   cmake_parse_arguments(IMAGE "" "CLASS;HEADER;MEMORY" "USES" ${ARGN})
   set(script "${PROJECT_SOURCE_DIR}/${IMAGE_MEMORY}")
@@ -31,21 +32,38 @@ function(sonoglide_images suffix)
   endforeach()
 endfunction()
 
-# sonoglide_emulated_board(<name> PROCESSOR <room> FOLDER <f> MEMORY <script> SERIAL_BOARD <class>):
-# if the board is the one chosen, its images in lockstep over semihosting and over a serial line.
+# sonoglide_board(<name> FOLDER <f> CLASS <c>): a board that keeps its own carrier periods. Its class
+# is in <f>/board.hpp, its memory map in <f>/memory.ld.
+function(sonoglide_board name)
+  set_property(GLOBAL APPEND PROPERTY SONOGLIDE_BOARDS ${name})
+  if(NOT name STREQUAL SONOGLIDE_BOARD)
+    return()
+  endif()
+  cmake_parse_arguments(BOARD "" "FOLDER;CLASS" "" ${ARGN})
+  sonoglide_room(sonoglide_board ${BOARD_FOLDER} USES sonoglide_hal sonoglide_start)
+  sonoglide_images("" MEMORY ${BOARD_FOLDER}/memory.ld
+    CLASS ${BOARD_CLASS} HEADER ${BOARD_FOLDER}/board.hpp
+    USES sonoglide_board sonoglide_processor)
+endfunction()
+
+# sonoglide_emulated_board(<name> FOLDER <f> [MEMORY <its linker script>] SERIAL_BOARD <class>): a
+# board in lockstep with its host, over semihosting and over a serial line.
 function(sonoglide_emulated_board name)
   set_property(GLOBAL APPEND PROPERTY SONOGLIDE_BOARDS ${name})
   if(NOT name STREQUAL SONOGLIDE_BOARD)
     return()
   endif()
-  cmake_parse_arguments(BOARD "" "PROCESSOR;FOLDER;MEMORY;SERIAL_BOARD" "" ${ARGN})
+  cmake_parse_arguments(BOARD "" "FOLDER;MEMORY;SERIAL_BOARD" "" ${ARGN})
+  if(NOT BOARD_MEMORY)
+    set(BOARD_MEMORY memory.ld)
+  endif()
   sonoglide_room(sonoglide_serial_board ${BOARD_FOLDER} USES sonoglide_lockstep_board)
   sonoglide_images("" MEMORY ${BOARD_FOLDER}/${BOARD_MEMORY}
     CLASS semihosting::SemihostingBoard HEADER hal/semihosting/semihosting_board.hpp
-    USES ${BOARD_PROCESSOR} sonoglide_semihosting)
+    USES sonoglide_processor sonoglide_semihosting)
   sonoglide_images(_serial MEMORY ${BOARD_FOLDER}/${BOARD_MEMORY}
     CLASS ${BOARD_SERIAL_BOARD} HEADER ${BOARD_FOLDER}/serial_board.hpp
-    USES sonoglide_serial_board ${BOARD_PROCESSOR} sonoglide_semihosting)
+    USES sonoglide_serial_board sonoglide_processor sonoglide_semihosting)
 endfunction()
 
 if(CMAKE_CROSSCOMPILING)
@@ -53,28 +71,25 @@ if(CMAKE_CROSSCOMPILING)
   set(SONOGLIDE_CONTROLLERS "" CACHE STRING
     "Folders with a controller_configuration.hpp; each gives images of its name")
 
-  sonoglide_room(sonoglide_start hal/start)
   sonoglide_room(sonoglide_lockstep_board hal/lockstep/board
     USES sonoglide_lockstep sonoglide_start)
   sonoglide_room(sonoglide_semihosting hal/semihosting USES sonoglide_lockstep_board)
   if(CMAKE_SYSTEM_PROCESSOR STREQUAL arm)
-    sonoglide_room(sonoglide_cortex_m hal/cortex_m USES sonoglide_start)
+    sonoglide_room(sonoglide_processor hal/cortex_m USES sonoglide_start)
   else()
-    sonoglide_room(sonoglide_riscv hal/riscv USES sonoglide_start)
+    sonoglide_room(sonoglide_processor hal/riscv USES sonoglide_start)
   endif()
 
-  sonoglide_emulated_board(microbit PROCESSOR sonoglide_cortex_m
-    FOLDER hal/microbit MEMORY memory.ld SERIAL_BOARD microbit::SerialBoard)
-  sonoglide_emulated_board(netduinoplus2 PROCESSOR sonoglide_cortex_m
-    FOLDER hal/netduinoplus2 MEMORY memory.ld SERIAL_BOARD netduinoplus2::SerialBoard)
-  foreach(board mps2-an385 mps2-an386 mps2-an500)
-    sonoglide_emulated_board(${board} PROCESSOR sonoglide_cortex_m
-      FOLDER hal/mps2 MEMORY memory.ld SERIAL_BOARD mps2::An385SerialBoard)
-  endforeach()
-  sonoglide_emulated_board(mps2-an505 PROCESSOR sonoglide_cortex_m
+  sonoglide_board(template FOLDER hal/template CLASS template_board::Board)
+  sonoglide_emulated_board(microbit FOLDER hal/microbit SERIAL_BOARD microbit::SerialBoard)
+  sonoglide_emulated_board(mps2-an385 FOLDER hal/mps2 SERIAL_BOARD mps2::An385SerialBoard)
+  sonoglide_emulated_board(mps2-an386 FOLDER hal/mps2 SERIAL_BOARD mps2::An385SerialBoard)
+  sonoglide_emulated_board(mps2-an500 FOLDER hal/mps2 SERIAL_BOARD mps2::An385SerialBoard)
+  sonoglide_emulated_board(mps2-an505
     FOLDER hal/mps2 MEMORY an505_memory.ld SERIAL_BOARD mps2::An505SerialBoard)
-  sonoglide_emulated_board(riscv32-virt PROCESSOR sonoglide_riscv
-    FOLDER hal/riscv_virt MEMORY memory.ld SERIAL_BOARD riscv_virt::SerialBoard)
+  sonoglide_emulated_board(netduinoplus2
+    FOLDER hal/netduinoplus2 SERIAL_BOARD netduinoplus2::SerialBoard)
+  sonoglide_emulated_board(riscv32-virt FOLDER hal/riscv_virt SERIAL_BOARD riscv_virt::SerialBoard)
 
   get_property(boards GLOBAL PROPERTY SONOGLIDE_BOARDS)
   if(SONOGLIDE_BOARD AND NOT SONOGLIDE_BOARD IN_LIST boards)
