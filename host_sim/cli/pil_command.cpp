@@ -48,12 +48,9 @@ loop::RunResult compute(const scene::Scene& scene, const emulator::EmulatedBoard
     interruption.check();
     bar.update(fraction);
   };
-  pil::ImageControl controller(emulator::emulator_command(board, image.string()),
-                               [&] { interruption.check(); });
+  pil::ImageControl controller(board, image, [&] { interruption.check(); });
   loop::RunResult result = loop::run(scene, controller, watch);
-  result.image.emplace();
-  result.image->board = board.name;
-  result.image->exchanges_per_second = controller.shut_down();
+  result.image = controller.shut_down();
   return result;
 }
 

@@ -3,11 +3,13 @@
 
 #include <chrono>
 #include <cstdint>
-#include <optional>
-#include <string>
+#include <filesystem>
+#include <limits>
 #include <vector>
 
+#include "host_sim/emulator/board_list.hpp"
 #include "host_sim/loop/control_port.hpp"
+#include "host_sim/loop/image_record.hpp"
 #include "host_sim/pil/image_process.hpp"
 #include "host_sim/pil/one_core.hpp"
 
@@ -15,10 +17,12 @@ namespace sonoglide::pil {
 
 class ImageControl final : public loop::ControlPort {
  public:
-  /// @param command    the emulator with the image
+  /// @param board      outlives this
+  /// @param image      built for it, in lockstep over semihosting
   /// @param attention  called now and then while waiting; what it throws ends the wait
   /// @throws process::ProcessError  the emulator cannot be started
-  ImageControl(const std::vector<std::string>& command, const process::Attention& attention);
+  ImageControl(const emulator::EmulatedBoard& board, const std::filesystem::path& image,
+               const process::Attention& attention);
 
   /// Nothing to do: the image has its targets compiled in, by carrier period.
   void set_target(double friction_ratio) override;
@@ -30,18 +34,24 @@ class ImageControl final : public loop::ControlPort {
   std::vector<numeric::SignalRecord> signals() const override;
 
   /// Ends the image.
-  /// @return carrier periods in a second, the plant's time included, that of starting up not; null
-  ///         after less than two
+  /// @return what the run showed of it: how many exchanges a second, the plant's time included and
+  ///         that of starting up not, and the cost of its steps
   /// @throws EmulatorError  it does not leave as it should
-  std::optional<double> shut_down();
+  loop::ImageRecord shut_down();
 
  private:
   using Clock = std::chrono::steady_clock;
 
+  void account_for(std::uint32_t count);
+
+  const emulator::EmulatedBoard& board_;
   OneCore core_;
   ImageProcess image_;
   Clock::time_point first_answer_;
   std::uint64_t exchanges_ = 0;
+  std::uint32_t fewest_instructions_ = std::numeric_limits<std::uint32_t>::max();
+  std::uint32_t most_instructions_ = 0;
+  std::uint64_t all_instructions_ = 0;
 };
 
 }  // namespace sonoglide::pil

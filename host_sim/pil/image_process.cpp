@@ -49,7 +49,8 @@ hal::Drive ImageProcess::exchange(const hal::Sample& sample) {
     fail(fmt::format("answered as for carrier period {}", lockstep::period(answer)));
   }
   ++period_;
-  return lockstep::decode(answer);
+  count_ = lockstep::count(answer);
+  return lockstep::drive_of(answer);
 }
 
 void ImageProcess::send(const std::uint8_t* bytes, std::size_t size) {

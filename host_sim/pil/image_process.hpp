@@ -35,6 +35,9 @@ class ImageProcess {
   /// @throws EmulatorError
   hal::Drive exchange(const hal::Sample& sample);
 
+  /// What the latest answer cost, in the unit of the board's counter.
+  std::uint32_t latest_count() const { return count_; }
+
   /// Sends bytes as they are.
   void send(const std::uint8_t* bytes, std::size_t size);
 
@@ -59,6 +62,7 @@ class ImageProcess {
   process::Descriptor complaints_;
   std::optional<process::ChildProcess> child_;
   std::uint32_t period_ = 0;
+  std::uint32_t count_ = 0;
 };
 
 }  // namespace sonoglide::pil
