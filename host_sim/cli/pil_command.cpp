@@ -14,6 +14,7 @@
 #include "host_sim/image/board_arithmetic.hpp"
 #include "host_sim/image/controller_header.hpp"
 #include "host_sim/image/image_builder.hpp"
+#include "host_sim/image/measure_image.hpp"
 #include "host_sim/loop/run.hpp"
 #include "host_sim/pil/image_control.hpp"
 #include "host_sim/process/find_program.hpp"
@@ -52,6 +53,15 @@ loop::RunResult compute(const scene::Scene& scene, const emulator::EmulatedBoard
   loop::RunResult result = loop::run(scene, controller, watch);
   result.image = controller.shut_down();
   return result;
+}
+
+void add_cost(const image::ImageCost& cost, loop::ImageRecord& record) {
+  record.flash_bytes = cost.size.flash_bytes;
+  record.ram_bytes = cost.size.ram_bytes;
+  record.stack_unbounded_by = cost.stack.unbounded_by;
+  if (cost.stack.unbounded_by.empty()) {
+    record.stack_bytes_bound = cost.stack.bytes;
+  }
 }
 
 std::string check_board(const std::string& name) {
@@ -95,9 +105,11 @@ void pil(const PilOptions& options) {
   require_emulator(board);
   const Interruption interruption;
   report::RunReport report(out, scene);
-  const std::filesystem::path image =
-      image::build_image(board, header, [&] { interruption.check(); });
-  const loop::RunResult result = compute(scene, board, image, report, options.quiet, interruption);
+  const process::Attention attention = [&] { interruption.check(); };
+  const std::filesystem::path image = image::build_image(board, header, attention);
+  const image::ImageCost cost = image::measure_image(image, board, attention);
+  loop::RunResult result = compute(scene, board, image, report, options.quiet, interruption);
+  add_cost(cost, *result.image);
   report.finish(result);
   if (!options.quiet) {
     fmt::print("{}", report::run_text(scene, result, report.findings(), out));

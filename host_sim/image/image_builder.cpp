@@ -12,6 +12,7 @@
 
 #include "host_sim/image/content_hash.hpp"
 #include "host_sim/image/controller_header.hpp"
+#include "host_sim/image/cross_tools.hpp"
 #include "host_sim/process/find_program.hpp"
 #include "host_sim/process/process_error.hpp"
 #include "host_sim/process/run_tool.hpp"
@@ -52,11 +53,6 @@ fs::path cache_folder() {
     return fs::path(home) / ".cache/sonoglide";
   }
   fail("the image cache", "has no place; allowed: XDG_CACHE_HOME or HOME in the environment");
-}
-
-/// A compiler's program name begins with what its toolchain is for.
-std::string compiler_of(const emulator::EmulatedBoard& board) {
-  return board.toolchain.substr(0, 4) == "arm-" ? "arm-none-eabi-g++" : "riscv64-unknown-elf-g++";
 }
 
 std::string content(const fs::path& path) {
@@ -139,13 +135,12 @@ void compile(const emulator::EmulatedBoard& board, const std::string& header, co
 fs::path build_image(const emulator::EmulatedBoard& board, const std::string& header,
                      const process::Attention& attention) try {
   const fs::path tree = source_tree();
-  const std::string compiler = compiler_of(board);
+  const CrossTools tools = cross_tools(board);
   process::require_program("cmake", "cmake");
   process::require_program("ninja", "ninja-build");
-  const fs::path compiler_path = process::require_program(
-      compiler, compiler.substr(0, 3) == "arm" ? "gcc-arm-none-eabi" : "gcc-riscv64-unknown-elf");
+  const fs::path compiler = process::require_program(tools.prefix + "g++", tools.package);
   const fs::path cache = cache_folder();
-  const fs::path image = cache / (key_of(board, header, tree, compiler_path) + ".elf");
+  const fs::path image = cache / (key_of(board, header, tree, compiler) + ".elf");
   if (!fs::exists(image)) {
     const BuildFolder folder(cache);
     compile(board, header, tree, folder.path(), attention);

@@ -16,11 +16,12 @@ struct StepInstructions {
 
 struct ImageRecord {
   std::string board;
-  std::optional<double> exchanges_per_second;    ///< absent after fewer than two exchanges
-  std::optional<StepInstructions> instructions;  ///< absent without a single step
-  std::uint64_t flash_bytes = 0;                 ///< code, constants, initial values
-  std::uint64_t ram_bytes = 0;                   ///< static; the stack comes on top
-  std::uint64_t stack_bytes_bound = 0;           ///< worst case over all calls
+  std::optional<double> exchanges_per_second;      ///< absent after fewer than two exchanges
+  std::optional<StepInstructions> instructions;    ///< absent without a single step
+  std::uint64_t flash_bytes = 0;                   ///< code, constants, initial values
+  std::uint64_t ram_bytes = 0;                     ///< static; the stack comes on top
+  std::optional<std::uint64_t> stack_bytes_bound;  ///< worst case over all calls
+  std::string stack_unbounded_by;                  ///< why there is no bound, if there is none
 };
 
 }  // namespace sonoglide::loop

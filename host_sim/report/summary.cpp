@@ -90,12 +90,14 @@ ordered_json instructions(const std::optional<loop::StepInstructions>& step) {
 }
 
 ordered_json image(const loop::ImageRecord& record) {
-  return {{"board", record.board},
-          {"exchanges_per_second", number(record.exchanges_per_second)},
-          {"instructions_per_step", instructions(record.instructions)},
-          {"flash_bytes", record.flash_bytes},
-          {"ram_bytes", record.ram_bytes},
-          {"stack_bytes_bound", record.stack_bytes_bound}};
+  return {
+      {"board", record.board},
+      {"exchanges_per_second", number(record.exchanges_per_second)},
+      {"instructions_per_step", instructions(record.instructions)},
+      {"flash_bytes", record.flash_bytes},
+      {"ram_bytes", record.ram_bytes},
+      {"stack_bytes_bound", record.stack_bytes_bound ? ordered_json(*record.stack_bytes_bound)
+                                                     : ordered_json(record.stack_unbounded_by)}};
 }
 
 }  // namespace
