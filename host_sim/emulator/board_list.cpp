@@ -68,4 +68,16 @@ std::vector<std::string> emulator_command(const EmulatedBoard& board, const std:
   return command;
 }
 
+std::vector<std::string> serial_emulator_command(const EmulatedBoard& board,
+                                                 const std::string& image) {
+  std::vector<std::string> command = emulator_command(board, image);
+  // The multiplexer's buffer takes the bytes that come before the emulator notices that the board
+  // hears. It has an escape byte; 256 is none.
+  for (const char* argument :
+       {"-chardev", "stdio,id=line,mux=on,signal=off", "-serial", "chardev:line", "-echr", "256"}) {
+    command.emplace_back(argument);
+  }
+  return command;
+}
+
 }  // namespace sonoglide::emulator

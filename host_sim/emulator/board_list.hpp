@@ -28,4 +28,9 @@ const EmulatedBoard* find_board(std::string_view name);
 /// the instructions: the same run counts the same.
 std::vector<std::string> emulator_command(const EmulatedBoard& board, const std::string& image);
 
+/// The same with the board's first serial line joined to standard input and output instead, every
+/// byte as it is; semihosting still carries the exit code.
+std::vector<std::string> serial_emulator_command(const EmulatedBoard& board,
+                                                 const std::string& image);
+
 }  // namespace sonoglide::emulator

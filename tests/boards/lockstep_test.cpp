@@ -179,16 +179,14 @@ INSTANTIATE_TEST_SUITE_P(Boards, Image,
 /// A board whose image speaks over its serial line.
 class SerialImage : public testing::TestWithParam<std::string> {
  protected:
-  SerialImage() : board_(command(), 60s) { board_.await_greeting(); }
+  SerialImage()
+      : board_(emulator::serial_emulator_command(*emulator::find_board(GetParam()),
+                                                 image(GetParam(), "target_step_serial")),
+               60s) {
+    board_.await_greeting();
+  }
 
   ImageProcess board_;
-
- private:
-  static std::vector<std::string> command() {
-    auto command = emulate(GetParam(), image(GetParam(), "target_step_serial"));
-    command.insert(command.end(), {"-serial", "stdio"});
-    return command;
-  }
 };
 
 TEST_P(SerialImage, DrivesThePlantWithTheHostsCommandsBitForBit) {
@@ -204,9 +202,19 @@ TEST_P(SerialImage, LeavesWhenAFrameIsOutOfTurn) {
 INSTANTIATE_TEST_SUITE_P(Boards, SerialImage, testing::ValuesIn(board_names()),
                          [](const auto& parameter) { return test_name_of(parameter.param); });
 
-TEST(ImageTest, LeavesOnAProcessorFault) {
+TEST(ImageTest, LeavesOnAFaultOfACortexM) {
   // A Cortex-M3 has no floating-point unit to enable.
   ImageProcess board(emulate("mps2-an385", image("mps2-an386", "target_step")), 60s);
+  EXPECT_EQ(board.shut_down(), processor_fault);
+}
+
+TEST(ImageTest, LeavesOnATrapOfARiscV) {
+  std::vector<std::string> command =
+      emulate("riscv32-virt", image("riscv32-virt", "target_step_q31"));
+  command.insert(command.end(), {"-cpu", "rv32,m=false"});  // cannot multiply
+  ImageProcess board(command, 60s);
+  const hal::lockstep::SampleFrame frame = hal::lockstep::encode(0, hal::Sample{});
+  board.send(frame.data(), frame.size());
   EXPECT_EQ(board.shut_down(), processor_fault);
 }
 
