@@ -1,6 +1,5 @@
 #include "host_sim/image/stack_bound.hpp"
 
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <cstdlib>
