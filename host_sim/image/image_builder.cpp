@@ -36,7 +36,7 @@ const char* environment(const char* name) {
 
 fs::path source_tree() {
   const char* named = environment("SONOGLIDE_SOURCE");
-  const fs::path tree = fs::absolute(named != nullptr ? named : SONOGLIDE_SOURCE);
+  fs::path tree = fs::absolute(named != nullptr ? named : SONOGLIDE_SOURCE);
   if (!fs::exists(tree / "firmware/app/image/main.cpp")) {
     fail(tree,
          "has no Sonoglide sources to build an image from; allowed: SONOGLIDE_SOURCE=FOLDER in "
@@ -140,7 +140,7 @@ fs::path build_image(const emulator::EmulatedBoard& board, const std::string& he
   process::require_program("ninja", "ninja-build");
   const fs::path compiler = process::require_program(tools.prefix + "g++", tools.package);
   const fs::path cache = cache_folder();
-  const fs::path image = cache / (key_of(board, header, tree, compiler) + ".elf");
+  fs::path image = cache / (key_of(board, header, tree, compiler) + ".elf");
   if (!fs::exists(image)) {
     const BuildFolder folder(cache);
     compile(board, header, tree, folder.path(), attention);

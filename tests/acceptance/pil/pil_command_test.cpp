@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -153,8 +154,10 @@ TEST_F(PilCommandTest, NeedsABoardThatComputesTheScenesArithmetic) {
 }
 
 TEST_F(PilCommandTest, SaysWhatToInstall) {
+  const std::string path = std::getenv("PATH");
   setenv("PATH", folder_.path().c_str(), 1);
   const Outcome outcome = folder_.run("pil " + scene_file("target_step") + " --board riscv32-virt");
+  setenv("PATH", path.c_str(), 1);
   EXPECT_EQ(outcome.exit_code, 1);
   EXPECT_EQ(outcome.err,
             "qemu-system-riscv32: is not installed; on Debian: apt-get install qemu-system-misc\n");

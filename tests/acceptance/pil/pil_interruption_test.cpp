@@ -4,13 +4,16 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <sstream>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "image_cache.hpp"
 #include "tests/acceptance/program/program.hpp"
@@ -88,16 +91,38 @@ bool comes_true(const Condition& condition) {
   return false;
 }
 
+/// Processes whose command line has a text in it.
+std::vector<std::string> processes_with(const std::string& text) {
+  std::vector<std::string> found;
+  for (const auto& entry : std::filesystem::directory_iterator("/proc")) {
+    std::ifstream file(entry.path() / "cmdline", std::ios::binary);
+    const std::string line{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+    if (line.find(text) != std::string::npos) {
+      found.push_back(line);
+    }
+  }
+  return found;
+}
+
+bool compiles(const std::vector<std::string>& processes) {
+  return std::any_of(processes.begin(), processes.end(), [](const std::string& line) {
+    return line.find("cc1plus") != std::string::npos;
+  });
+}
+
 /// The program in the middle of a long run.
 class PilInterruptionTest : public testing::Test {
  protected:
-  void SetUp() override {
-    use_image_cache();
+  PilInterruptionTest() { use_image_cache(); }
+  void start() {
     folder_.write("scene.toml", long_scene);
     program_ = fork();
     if (program_ == 0) {
       become_the_program();
     }
+  }
+  void start_to_run() {
+    start();
     ASSERT_TRUE(comes_true([this] { return (emulator_ = emulator_of(program_)) != 0; }));
   }
   ~PilInterruptionTest() override {
@@ -136,7 +161,21 @@ class PilInterruptionTest : public testing::Test {
   }
 };
 
+TEST_F(PilInterruptionTest, EndsInOrderOnCtrlCWhileTheImageIsBuilt) {
+  const ScratchFolder cache;
+  setenv("XDG_CACHE_HOME", cache.path().c_str(), 1);
+  start();
+  const auto builders = [&] { return processes_with(cache.path().string()); };
+  ASSERT_TRUE(comes_true([&] { return compiles(builders()); }));
+  kill(program_, SIGINT);
+  EXPECT_TRUE(WIFSIGNALED(end_of_the_program()));
+  EXPECT_TRUE(comes_true([&] { return builders().empty(); }));
+  EXPECT_EQ(cache.entries(), std::vector<std::string>{"sonoglide"});
+  expect_no_output();
+}
+
 TEST_F(PilInterruptionTest, EndsInOrderOnCtrlC) {
+  start_to_run();
   kill(program_, SIGINT);
   const int status = end_of_the_program();
   EXPECT_TRUE(WIFSIGNALED(status));
@@ -146,6 +185,7 @@ TEST_F(PilInterruptionTest, EndsInOrderOnCtrlC) {
 }
 
 TEST_F(PilInterruptionTest, EndsInOrderOnCtrlCWhileTheEmulatorHangs) {
+  start_to_run();
   kill(emulator_, SIGSTOP);
   kill(program_, SIGINT);
   EXPECT_TRUE(WIFSIGNALED(end_of_the_program()));
@@ -154,12 +194,14 @@ TEST_F(PilInterruptionTest, EndsInOrderOnCtrlCWhileTheEmulatorHangs) {
 }
 
 TEST_F(PilInterruptionTest, LeavesNoEmulatorWhenKilled) {
+  start_to_run();
   kill(program_, SIGKILL);
   end_of_the_program();
   EXPECT_TRUE(emulator_is_gone());
 }
 
 TEST_F(PilInterruptionTest, ReportsAnEmulatorThatDies) {
+  start_to_run();
   kill(emulator_, SIGKILL);
   const int status = end_of_the_program();
   ASSERT_TRUE(WIFEXITED(status));
