@@ -59,7 +59,7 @@ TEST(Extremes, TheTaylorSolverKeepsTheEnergyAtTheOrdersThatSuitTheArithmetic) {
 /// Searches inside a step once went round without end in these: squares that vanish, reversals
 /// whose displacement is below its rounding, a velocity that is no number.
 TEST(Extremes, EveryTrialEnds) {
-  for (const std::uint64_t scene : {670, 1591, 3039, 10886, 15183}) {
+  for (const std::uint64_t scene : {670U, 1591U, 3039U, 10886U, 15183U}) {
     for (const Solver& solver : solvers()) {
       for (const Precision& precision : solver.precisions) {
         const TrialResult result =
