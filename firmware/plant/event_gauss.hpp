@@ -33,9 +33,9 @@ class EventGauss {
   using Model = ModelType;
   using Scalar = typename Model::Scalar;
 
-  /// Friction laws that it can solve: exact in the displacement, without stick.
+  /// Friction laws that it can solve: those that vary with the displacement alone, without stick.
   template <class Law>
-  static constexpr bool solves = Law::reverses&& Law::varies && !Law::sticks;
+  static constexpr bool solves = !Law::sticks && Law::varies;
 
   /// tolerance: of the mean friction, relative to Fc, and of the velocity, in units of its scale;
   /// > 0. Not a bound: over a hundred periods of the contacts tested the error was below it.
@@ -57,14 +57,13 @@ class EventGauss {
                           Observer& observer) {
     const Scalar beyond = interval.duration - numeric::twice(half_period);
     if (is_weak_ && numeric::abs(beyond) <= rounding_) {
-      Panel panel;
-      if (panel.solve(model_, motions_, limits_, interval, state)) {
-        const GaussStep<Model, Panel> taken(model_, motions_, panel, interval, state);
-        state = panel.end();
+      if (panel_.solve(model_, motions_, limits_, interval, state)) {
+        const GaussStep<Model, Panel> taken(model_, motions_, panel_, interval, state);
+        state = panel_.end();
         account.add(taken);
         observer(taken);
         ++cost_.steps;
-        cost_.events += panel.reversals();
+        cost_.events += panel_.reversals();
         return {Error::none, interval.duration};
       }
     }
@@ -135,6 +134,7 @@ class EventGauss {
   PanelLimits<Scalar> limits_;
   Scalar rounding_ = Scalar(0);  ///< by which the length of a panel may be wrong
   bool is_weak_ = false;
+  Panel panel_;  ///< the last one, and where the next is written
   EventTaylor<Model, taylor_order> taylor_;
   Cost cost_;
 };

@@ -79,6 +79,36 @@ class GaussPanel {
     return time * (sliding_[0] + numeric::half(sliding_[1]) * time);
   }
 
+  /// The linear motion at cuts.
+  struct Turns {
+    Lanes travel{};
+    Lanes rate{};   ///< V; almost 0 at a reversal
+    Lanes slope{};  ///< V'
+    Lanes bend{};   ///< V"
+    Lanes c{};
+    Lanes s{};
+  };
+
+  [[gnu::always_inline]] void prepare(Piece& piece, const Motions& motions, bool is_short) const {
+    if constexpr (Piece::fewer_nodes < Nodes) {
+      if (is_short) {
+        piece.template prepare<Piece::fewer_nodes>(motions, path_, contact_.contact_stiffness);
+        return;
+      }
+    }
+    piece.template prepare<Nodes>(motions, path_, contact_.contact_stiffness);
+  }
+
+  [[gnu::always_inline]] Reaction<Scalar> follow(Piece& piece, const Motions& motions,
+                                                 int sweeps) const {
+    if constexpr (Piece::fewer_nodes < Nodes) {
+      if (piece.is_short) {
+        return piece.template follow<Piece::fewer_nodes>(motions, contact_, sweeps);
+      }
+    }
+    return piece.template follow<Nodes>(motions, contact_, sweeps);
+  }
+
   struct Cuts {
     std::array<Scalar, padded> at{};
     std::array<bool, padded> reverses{};
@@ -190,17 +220,13 @@ class GaussPanel {
       if (!(exponent[i] <= longest_exponent)) {
         return false;
       }
-      if (piece.length < short_length && exponent[i] < limits.short_exponent) {
-        piece.template prepare<Piece::fewer_nodes>(motions, path_, contact_.contact_stiffness);
-      } else {
-        piece.template prepare<Nodes>(motions, path_, contact_.contact_stiffness);
-      }
+      prepare(piece, motions, piece.length < short_length && exponent[i] < limits.short_exponent);
       begin = end;
       travel = end_travel;
       direction = cuts_.reverses[i] ? -direction : direction;
     }
     for (std::size_t i = 0; i < pieces_; i += width) {
-      const Lanes e = numeric::decay<Scalar>(numeric::load(&exponent[i]));
+      const Lanes e = numeric::moderate_decay<Scalar>(numeric::load(&exponent[i]));
       for (std::size_t lane = 0; lane < width; ++lane) {
         piece_[i + lane].end_decay = e[lane];
       }
@@ -222,12 +248,9 @@ class GaussPanel {
       const int sweeps = static_cast<int>(square > limits.sweep_length[0]) +
                          static_cast<int>(square > limits.sweep_length[1]);
       is_good = is_good && square <= limits.sweep_length[2];
-      if (piece.is_short) {
-        reaction = piece.template follow<Piece::fewer_nodes>(motions, contact_, sweeps);
-      } else {
-        reaction = piece.template follow<Nodes>(motions, contact_, sweeps);
-        is_good = is_good && piece.highest * piece.highest * piece.length <= limits.unresolved;
-      }
+      reaction = follow(piece, motions, sweeps);
+      is_good = is_good && (piece.is_short ||
+                            piece.highest * piece.highest * piece.length <= limits.unresolved);
       Scalar shift = reaction.c * motions.end[0].value + reaction.s * motions.end[1].value;
       if (i + 1 < pieces_) {
         const Turn turn = this->turn(motions, i, reaction);
@@ -248,16 +271,6 @@ class GaussPanel {
             numeric::clamp(friction, Scalar(-1), Scalar(1))};
     return is_good && is_finite(end_);
   }
-
-  /// The linear motion at cuts.
-  struct Turns {
-    Lanes travel;
-    Lanes rate;   ///< V; almost 0 at a reversal
-    Lanes slope;  ///< V'
-    Lanes bend;   ///< V"
-    Lanes c;
-    Lanes s;
-  };
 
   [[gnu::always_inline]] void prepare_turns(const Motions& motions, Lanes x, Turns& turns) const {
     turns.travel = value_at<Scalar>(path_, x);
@@ -307,18 +320,18 @@ class GaussPanel {
             square * square * fourth_ + cube * numeric::abs(slope)};
   }
 
-  Scalar side_;
-  Scalar fourth_;  ///< bound of |V"'|
-  PanelContact<Scalar> contact_;
-  Each share_;
-  std::array<Scalar, 2> sliding_;  ///< h r at the beginning, h^2 dr / d tau
-  LanePolynomial<Scalar, Degree> path_;
-  Scalar direction_;  ///< sgn V at the beginning
+  Scalar side_ = Scalar(1);
+  Scalar fourth_ = Scalar(0);  ///< bound of |V"'|
+  PanelContact<Scalar> contact_{};
+  Each share_{};
+  std::array<Scalar, 2> sliding_{};  ///< h r at the beginning, h^2 dr / d tau
+  LanePolynomial<Scalar, Degree> path_{};
+  Scalar direction_ = Scalar(0);  ///< sgn V at the beginning
   std::size_t reversals_ = 0;
   Cuts cuts_;
-  std::array<Turns, cut_vectors> turns_;
-  typename Motions::End linear_end_;
-  std::array<Piece, padded> piece_;
+  std::array<Turns, cut_vectors> turns_{};
+  typename Motions::End linear_end_{};
+  std::array<Piece, padded> piece_{};
   std::size_t pieces_ = 0;
   State<Scalar> end_;
 };

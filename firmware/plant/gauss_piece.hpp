@@ -43,27 +43,28 @@ struct GaussPiece {
   static constexpr std::size_t width = numeric::lane_count<Scalar>;
   using Values = std::array<Lanes, Nodes / width>;
 
-  Scalar begin;  ///< x
-  Scalar length;
-  Scalar direction;     ///< s
-  Scalar begin_travel;  ///< of the linear motion, sliding included
-  Scalar end_decay;     ///< exp(-kappa |travel|) over the piece, of the linear motion
-  bool is_short;        ///< with fewer nodes
-  Values place;         ///< x at the nodes
-  Values travel;        ///< of the linear motion there
-  Values c;             ///< C there
-  Values s;             ///< S there
-  Values decay;         ///< exp(-kappa |travel since the beginning|), of the linear motion
+  Scalar begin = Scalar(0);  ///< x
+  Scalar length = Scalar(0);
+  Scalar direction = Scalar(0);     ///< s
+  Scalar begin_travel = Scalar(0);  ///< of the linear motion, sliding included
+  Scalar end_decay = Scalar(0);     ///< exp(-kappa |travel|) over the piece, of the linear motion
+  bool is_short = false;            ///< with fewer nodes
+  Values place{};                   ///< x at the nodes
+  Values travel{};                  ///< of the linear motion there
+  Values c{};                       ///< C there
+  Values s{};                       ///< S there
+  Values decay{};                   ///< exp(-kappa |travel since the beginning|), likewise
 
   // What the sweeps find.
-  Scalar friction;  ///< phi at the beginning
-  Scalar turned;    ///< c C + s S there; at a reversal, at the very reversal
+  Scalar friction = Scalar(0);  ///< phi at the beginning
+  Scalar turned = Scalar(0);    ///< c C + s S at the beginning, where V = 0 if it is a turn
   Reaction<Scalar> before;
-  Values shift;              ///< c C + s S at the nodes
-  Values phi;                ///< at the nodes
-  Scalar friction_integral;  ///< over x
-  Scalar travelled;          ///< |u| over the piece
-  Scalar highest;            ///< of the Legendre coefficients of phi, the last or the last but one
+  Values shift{};                        ///< c C + s S at the nodes
+  Values phi{};                          ///< at the nodes
+  Scalar friction_integral = Scalar(0);  ///< over x
+  Scalar travelled = Scalar(0);          ///< |u| over the piece
+  Scalar highest =
+      Scalar(0);  ///< of the Legendre coefficients of phi, the last or the last but one
 
   /// Everything that does not depend on friction, at `Count` nodes.
   template <std::size_t Count, class Motions, class Path>
@@ -77,7 +78,7 @@ struct GaussPiece {
       travel[v] = value_at<Scalar>(path, place[v]);
       c[v] = motions.slow_c(place[v]);
       s[v] = motions.slow_s(place[v]);
-      decay[v] = numeric::decay<Scalar>(rate * (travel[v] - begin_travel));
+      decay[v] = numeric::moderate_decay<Scalar>(rate * (travel[v] - begin_travel));
     }
   }
 
@@ -93,22 +94,24 @@ struct GaussPiece {
     const Scalar rate = contact.contact_stiffness * direction;
     const Scalar scale = contact.force * length;
     const Lanes held = numeric::broadcast(numeric::half(scale * length * friction));
-    std::array<Lanes, vectors> base;
+    std::array<Lanes, vectors> base{};
+    std::array<Lanes, vectors> left{};
     for (std::size_t v = 0; v < vectors; ++v) {
+      left[v] = gap * decay[v];
       const Lanes t = numeric::load(&gauss.node[v * width]);
       base[v] = before.c * c[v] + before.s * s[v];
       shift[v] = base[v] + held * (t * t);
     }
     const auto find_friction = [&](std::size_t v) {
       const Lanes z = rate * (shift[v] - turned);
-      phi[v] = direction + gap * (decay[v] * small_decay<Lanes>(z));
+      phi[v] = direction + left[v] * small_decay<Lanes>(z);
     };
     for (std::size_t v = 0; v < vectors; ++v) {
       find_friction(v);
     }
     for (int sweep = 0; sweep < sweeps; ++sweep) {
-      std::array<Lanes, vectors> to_c;
-      std::array<Lanes, vectors> to_s;
+      std::array<Lanes, vectors> to_c{};
+      std::array<Lanes, vectors> to_s{};
       for (std::size_t v = 0; v < vectors; ++v) {
         const Lanes f = motions.unwound(scale * phi[v], c[v], s[v]);
         to_s[v] = f * c[v];
@@ -178,7 +181,7 @@ struct GaussPiece {
     const Scalar end = numeric::twice((x - begin) / length) - Scalar(1);
     const std::size_t count = is_short ? fewer_nodes : Nodes;
     Values earlier{};
-    Values legendre;
+    Values legendre{};
     legendre.fill(numeric::broadcast(Scalar(1)));
     Scalar end_earlier = Scalar(-1);
     Scalar end_legendre = Scalar(1);
@@ -221,8 +224,8 @@ struct GaussPiece {
   [[gnu::always_inline]] static void integrate(std::array<Lanes, Count / width>& values) {
     constexpr auto& gauss = gauss_nodes<Scalar, Count>;
     constexpr std::size_t half = Count / width / 2;
-    std::array<Lanes, half> sums;
-    std::array<Lanes, half> differences;
+    std::array<Lanes, half> sums{};
+    std::array<Lanes, half> differences{};
     Lanes whole{};
     for (std::size_t v = 0; v < half; ++v) {
       sums[v] = values[v] + values[half + v];

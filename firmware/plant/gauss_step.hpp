@@ -165,7 +165,7 @@ class GaussStep {
     const Scalar stiffness = panel_.contact().contact_stiffness;
     const Scalar exponent =
         stiffness * numeric::max(Scalar(0), piece.direction * (travel - piece.begin_travel));
-    const Scalar decay = numeric::decay<Scalar>(numeric::broadcast(exponent))[0];
+    const Scalar decay = numeric::moderate_decay<Scalar>(numeric::broadcast(exponent))[0];
     return numeric::clamp(piece.friction_after(stiffness, decay, shift - piece.turned), Scalar(-1),
                           Scalar(1));
   }

@@ -141,7 +141,7 @@ struct PanelMotions {
 
   /// The sum of the motions, with these shares of each.
   [[gnu::always_inline]] LanePolynomial<Scalar, Degree> sum(const Each& share) const {
-    LanePolynomial<Scalar, Degree> path;
+    LanePolynomial<Scalar, Degree> path{};
     for (std::size_t n = 0; n <= Degree; ++n) {
       path[n] = is_split ? share[n % 2] * motion[n % 2][n]
                          : share[0] * motion[0][n] + share[1] * motion[1][n];
@@ -170,7 +170,7 @@ struct PanelMotions {
   /// Returns a bound of what that loses.
   template <std::size_t Count>
   static Scalar shorten(const Series& series, std::array<numeric::Lanes<Scalar>, Count>& lanes) {
-    std::array<Scalar, Count> shortened;
+    std::array<Scalar, Count> shortened{};
     const Scalar lost = economise(series, shortened);
     for (std::size_t n = 0; n < Count; ++n) {
       lanes[n] = numeric::broadcast(shortened[n]);

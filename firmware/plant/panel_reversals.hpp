@@ -32,7 +32,7 @@ class GridVelocity {
   static constexpr std::size_t width = numeric::lane_count<Scalar>;
   static constexpr std::size_t vectors = (PanelGrid::points + width - 1) / width;
 
-  std::array<Lanes, vectors> velocity;
+  std::array<Lanes, vectors> velocity{};
 
   /// False where it cannot be told which way V goes, and how often it turns.
   /// slope(g): V' on the grid. velocity_margin, slope_margin: what V and V' on the grid may differ
@@ -70,30 +70,27 @@ class GridVelocity {
 
  private:
   struct Marks {
-    std::uint32_t small;     ///< bit g: |V| <= margin at point g
+    std::uint32_t small;     ///< bit g: |V| < margin at point g
     std::uint32_t negative;  ///< bit g: V < 0
   };
 
+  /// A vector at a time: each lane collects the bits of its own points.
   Marks marks(Scalar margin) const {
+    const Scalar square = margin * margin;
     Bits small{};
     Bits negative{};
-    const Lanes upper = numeric::broadcast(margin);
     for (std::size_t v = 0; v < vectors; ++v) {
-      Bits place;
-      for (std::size_t lane = 0; lane < width; ++lane) {
-        place[lane] = 1 << (v * width + lane);
-      }
-      small |= (velocity[v] <= upper) & (velocity[v] >= -upper) & place;
-      negative |= (velocity[v] < Lanes{}) & place;
+      small |= numeric::is_negative<Scalar>(velocity[v] * velocity[v] - square) << (v * width);
+      negative |= numeric::is_negative<Scalar>(velocity[v]) << (v * width);
     }
-    return {all_of(small), all_of(negative)};
+    return {in_order(small), in_order(negative)};
   }
-  static std::uint32_t all_of(Bits bits) {
-    auto together = bits[0];
-    for (std::size_t lane = 1; lane < width; ++lane) {
-      together |= bits[lane];
+  static std::uint32_t in_order(Bits bits) {
+    std::uint32_t together = 0;
+    for (std::size_t lane = 0; lane < width; ++lane) {
+      together |= static_cast<std::uint32_t>(bits[lane]) << lane;
     }
-    return static_cast<std::uint32_t>(together);
+    return together;
   }
 
   Scalar at(std::size_t g) const { return velocity[g / width][g % width]; }
