@@ -7,6 +7,7 @@
 #include "firmware/friction/none.hpp"
 #include "firmware/plant/damping.hpp"
 #include "firmware/plant/drive.hpp"
+#include "firmware/plant/event_gauss.hpp"
 #include "firmware/plant/event_taylor.hpp"
 #include "firmware/plant/model.hpp"
 #include "firmware/plant/rk4.hpp"
@@ -51,15 +52,22 @@ constexpr PlantMaker<Model> maker_if_solved() {
 template <class Model>
 struct ListedSolver {
   scene::SolverMethod method;
-  int order;               ///< 0 where the method has but one
+  int order;               ///< of event_gauss its nodes; 0 where the method has but one
   PlantMaker<Model> make;  ///< null where the law is not solved
 };
+
+template <class Model>
+using EventGauss8 = plant::EventGauss<Model, 8>;
+template <class Model>
+using EventGauss12 = plant::EventGauss<Model, 12>;
 
 template <class Model>
 inline constexpr ListedSolver<Model> solver_list[] = {
     {scene::SolverMethod::event_taylor, 8, make_composed_plant<plant::EventTaylor<Model, 8>>},
     {scene::SolverMethod::event_taylor, 12, make_composed_plant<plant::EventTaylor<Model, 12>>},
     {scene::SolverMethod::event_taylor, 16, make_composed_plant<plant::EventTaylor<Model, 16>>},
+    {scene::SolverMethod::event_gauss, 8, maker_if_solved<EventGauss8, Model>()},
+    {scene::SolverMethod::event_gauss, 12, maker_if_solved<EventGauss12, Model>()},
     {scene::SolverMethod::strang, 0, maker_if_solved<plant::Strang, Model>()},
     {scene::SolverMethod::rk4, 0, maker_if_solved<plant::Rk4, Model>()},
     {scene::SolverMethod::rk4_event, 0, maker_if_solved<plant::Rk4Event, Model>()},
@@ -67,6 +75,9 @@ inline constexpr ListedSolver<Model> solver_list[] = {
 
 /// The order that the scene asks for, or the one that takes the least time at its tolerance.
 inline int order_of(const scene::Solver& solver) {
+  if (solver.method == scene::SolverMethod::event_gauss) {
+    return solver.tolerance >= 1e-8 ? 8 : 12;
+  }
   if (solver.method != scene::SolverMethod::event_taylor) {
     return 0;
   }

@@ -53,11 +53,11 @@ struct Drive {
   Waveform waveform = Waveform::cosine;
 };
 
-enum class SolverMethod { event_taylor, strang, rk4, rk4_event };
+enum class SolverMethod { event_taylor, event_gauss, strang, rk4, rk4_event };
 
 /// Whether a method picks its own steps by a tolerance; the others take steps of a fixed length.
 constexpr bool is_adaptive(SolverMethod method) {
-  return method == SolverMethod::event_taylor;
+  return method == SolverMethod::event_taylor || method == SolverMethod::event_gauss;
 }
 
 /// The orders of event_taylor that are built.

@@ -135,7 +135,9 @@ Solver read_solver(const Variant& variant) {
   solver.method = cursor.choice("method", solver_methods, SolverMethod::event_taylor);
   if (is_adaptive(solver.method)) {
     solver.tolerance = cursor.real("tolerance", {1e-15, 1e-2}, solver.tolerance);
-    solver.order = read_order(cursor);
+    if (solver.method == SolverMethod::event_taylor) {
+      solver.order = read_order(cursor);
+    }
   } else {
     solver.step_s = cursor.real("step_s", {1e-15, 1.0, "s"});
   }

@@ -5,6 +5,7 @@
 #include "firmware/friction/none.hpp"
 #include "firmware/plant/damping.hpp"
 #include "firmware/plant/drive.hpp"
+#include "firmware/plant/event_gauss.hpp"
 #include "firmware/plant/model.hpp"
 #include "firmware/plant/rk4.hpp"
 #include "firmware/plant/rk4_event.hpp"
@@ -33,6 +34,8 @@ bool solver_solves(FrictionLaw law) {
 
 bool solves(SolverMethod method, FrictionLaw law) {
   switch (method) {
+    case SolverMethod::event_gauss:
+      return solver_solves<plant::EventGauss<AnyModel, 8>>(law);
     case SolverMethod::strang:
       return solver_solves<plant::Strang<AnyModel>>(law);
     case SolverMethod::rk4:

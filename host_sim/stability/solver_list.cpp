@@ -3,6 +3,7 @@
 #include <limits>
 #include <type_traits>
 
+#include "firmware/plant/event_gauss.hpp"
 #include "firmware/plant/event_taylor.hpp"
 #include "firmware/plant/rk4.hpp"
 #include "firmware/plant/rk4_event.hpp"
@@ -25,6 +26,10 @@ template <class Model>
 using EventTaylor12 = plant::EventTaylor<Model, 12>;
 template <class Model>
 using EventTaylor16 = plant::EventTaylor<Model, 16>;
+
+/// With the nodes that suit the tolerances above.
+template <class Model>
+using EventGauss = plant::EventGauss<Model, std::is_same_v<typename Model::Scalar, float> ? 8 : 12>;
 
 enum class Control { tolerance, step };
 enum class Bound { exact, rounded };
@@ -76,6 +81,7 @@ const std::vector<Solver>& solvers() {
       solver<EventTaylor8, Control::tolerance>("event_taylor_8", Bound::exact),
       solver<EventTaylor12, Control::tolerance>("event_taylor_12", Bound::exact),
       solver<EventTaylor16, Control::tolerance>("event_taylor_16", Bound::exact),
+      solver<EventGauss, Control::tolerance>("event_gauss", Bound::exact),
       solver<plant::Strang, Control::step>("strang", Bound::exact),
       solver<plant::Rk4, Control::step>("rk4", Bound::rounded),
       solver<plant::Rk4Event, Control::step>("rk4_event", Bound::rounded),

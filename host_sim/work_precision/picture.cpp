@@ -26,6 +26,7 @@ struct Style {
 /// Colours of one hue for a family, a marker of its own for each member.
 Style style_of(Family family, std::size_t member) {
   static constexpr const char* blues[] = {"#7fb2e5", "#3f87cf", "#1f5fa8", "#0b3a70"};
+  static constexpr const char* oranges[] = {"#e6a817", "#b8570f"};
   static constexpr const char* greens[] = {"#1b9e5a", "#66a61e", "#a6761d"};
   static constexpr const char* greys[] = {"#111111", "#808080"};
   static constexpr const char* reds[] = {"#d62728", "#e377c2", "#9467bd", "#ff7f0e"};
@@ -36,6 +37,8 @@ Style style_of(Family family, std::size_t member) {
   switch (family) {
     case Family::event_taylor:
       return {blues[member % 4], "1", 2.4, marker};
+    case Family::event_gauss:
+      return {oranges[member % 2], "1", 2.4, marker};
     case Family::fixed_step:
       return {greens[member % 3], "1", 2.0, marker};
     case Family::single:

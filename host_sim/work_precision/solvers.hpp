@@ -12,6 +12,7 @@ namespace sonoglide::work_precision {
 
 enum class Family {
   event_taylor,
+  event_gauss,
   fixed_step,    ///< the product's other solvers
   single,        ///< the product's solvers in float32
   paper,         ///< the paper's own method

@@ -8,6 +8,7 @@
 #include <sstream>
 #include <string>
 
+#include "firmware/plant/event_gauss.hpp"
 #include "motion.hpp"
 
 namespace sonoglide::plant {
@@ -106,6 +107,11 @@ using Taylor12 = EventTaylor<Model, 12>;
 template <class Model>
 using Taylor8 = EventTaylor<Model, 8>;
 
+template <class Model>
+using Gauss8 = EventGauss<Model, 8>;
+template <class Model>
+using Gauss12 = EventGauss<Model, 12>;
+
 void expect_near(const Values& actual, const Values& expected, double relative) {
   const auto close = [relative](double a, double b) { EXPECT_NEAR(a, b, relative * std::abs(b)); };
   close(actual.displacement_m, expected.displacement_m);
@@ -133,6 +139,19 @@ TEST_P(ReferenceOpenLoop, TheToleranceIsThatOfTheFrictionRatio) {
     EXPECT_EQ(error, Error::none);
     EXPECT_NEAR(values.friction_ratio, reference(GetParam().name).friction_ratio, tolerance);
   }
+}
+
+/// Two of the scenes are weakly coupled: there a period is a panel.
+TEST_P(ReferenceOpenLoop, TheToleranceOfGaussIsThatOfTheFrictionRatio) {
+  const double expected = reference(GetParam().name).friction_ratio;
+  Error error = Error::none;
+  for (const double tolerance : {1e-6, 1e-8}) {
+    EXPECT_NEAR((run<Gauss8, double>(GetParam(), tolerance, error).friction_ratio), expected,
+                tolerance);
+    EXPECT_EQ(error, Error::none);
+  }
+  EXPECT_NEAR((run<Gauss12, double>(GetParam(), 1e-10, error).friction_ratio), expected, 1e-10);
+  EXPECT_EQ(error, Error::none);
 }
 
 TEST_P(ReferenceOpenLoop, TaylorAtAnOrdinaryTolerance) {

@@ -8,6 +8,7 @@
 #include <string>
 #include <type_traits>
 
+#include "firmware/plant/event_gauss.hpp"
 #include "firmware/plant/rk4_event.hpp"
 #include "firmware/plant/strang.hpp"
 #include "motion.hpp"
@@ -66,11 +67,25 @@ struct StrangMethod {
   static constexpr double across = smooth;
 };
 
+/// Without friction it has nothing to solve.
+template <class Number, std::size_t Nodes>
+struct GaussMethod {
+  using Scalar = Number;
+  template <class Model>
+  using Solver = std::conditional_t<Model::FrictionLaw::reverses, EventGauss<Model, Nodes>,
+                                    EventTaylor<Model, 12>>;
+  static std::string name() { return "Gauss" + std::to_string(Nodes); }
+  static constexpr double setting = is_single<Number> ? 1e-7 : 1e-12;
+  static constexpr double coarse_setting = 1e-3;
+  static constexpr double smooth = is_single<Number> ? 3e-5 : 1e-10;
+  static constexpr double across = smooth;
+};
+
 using SolverMethods =
     testing::Types<TaylorMethod<double, 8>, TaylorMethod<double, 12>, TaylorMethod<double, 16>,
                    Rk4Method<double>, Rk4EventMethod<double>, StrangMethod<double>,
-                   TaylorMethod<float, 8>, Rk4Method<float>, Rk4EventMethod<float>,
-                   StrangMethod<float>>;
+                   GaussMethod<double, 8>, GaussMethod<float, 8>, TaylorMethod<float, 8>,
+                   Rk4Method<float>, Rk4EventMethod<float>, StrangMethod<float>>;
 
 struct SolverMethodName {
   template <class Method>

@@ -88,6 +88,12 @@ TEST(SolverReference, Taylor) {
   }
 }
 
+TEST(SolverReference, Gauss) {
+  for (const ReferenceScene& scene : {table1, stiff_contact, heavy_friction, table1_as_printed}) {
+    expect_ratio<GaussMethod<float, 8>>(scene, 1e-7, 2e-5);
+  }
+}
+
 TEST(SolverReference, Rk4) {
   for (const ReferenceScene& scene : {table1, table1_as_printed}) {
     expect_ratio<Rk4Method<double>>(scene, 1000.0, 1e-7);

@@ -143,8 +143,8 @@ const std::vector<BrokenScene> broken_scenes = {
      "5:7: friction.law: \"dhal\" is unknown; did you mean \"dahl\"? allowed: \"dahl\", "
      "\"coulomb\", \"none\""},
     {"unknown_word_far", open_loop, "\"event_taylor\"", "\"magic\"",
-     "15:10: solver.method: \"magic\" is unknown; allowed: \"event_taylor\", \"strang\", "
-     "\"rk4\", \"rk4_event\""},
+     "15:10: solver.method: \"magic\" is unknown; allowed: \"event_taylor\", "
+     "\"event_gauss\", \"strang\", \"rk4\", \"rk4_event\""},
     {"method_for_another_law", open_loop,
      "law = \"dahl\"\ncoefficient = 0.1\nnormal_force_N = 0.1962\n"
      "contact_stiffness_N_per_m = 0.056e6\n[sliding]\nvelocity_m_per_s = 0.0267\n[drive]\n"

@@ -82,9 +82,9 @@ TEST_F(WorkPrecisionTest, TheTableHasEverySolverAndItsSchema) {
     }
   }
   for (const char* solver :
-       {"event_taylor_8", "event_taylor_12", "event_taylor_16", "event_taylor_20", "strang", "rk4",
-        "rk4_event", "event_taylor_8_float32", "strang_float32", "rk4_float32", "rk4_event_float32",
-        "rk4_table", "rk4_naive"}) {
+       {"event_taylor_8", "event_taylor_12", "event_taylor_16", "event_taylor_20", "event_gauss_8",
+        "event_gauss_12", "strang", "rk4", "rk4_event", "event_taylor_8_float32", "strang_float32",
+        "rk4_float32", "rk4_event_float32", "rk4_table", "rk4_naive"}) {
     EXPECT_GT(rows[solver], 2) << solver;
   }
 }

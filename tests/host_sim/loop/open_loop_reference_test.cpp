@@ -151,6 +151,10 @@ scene::Solver taylor(int order, double tolerance) {
   return {scene::SolverMethod::event_taylor, tolerance, order, 0.0};
 }
 
+scene::Solver gauss(double tolerance) {
+  return {scene::SolverMethod::event_gauss, tolerance, std::nullopt, 0.0};
+}
+
 scene::Solver fixed_step(scene::SolverMethod method, double steps_per_period) {
   return {method, 0.0, std::nullopt, period_s / steps_per_period};
 }
@@ -159,6 +163,8 @@ const Setting settings[] = {
     {"taylor_8", taylor(8, 1e-6), 1e-5},
     {"taylor_12", taylor(12, 1e-10), 1e-8},
     {"taylor_16", taylor(16, 1e-12), 1e-9},
+    {"gauss_8", gauss(1e-8), 1e-8},
+    {"gauss_12", gauss(1e-10), 1e-10},
     {"strang", fixed_step(scene::SolverMethod::strang, 400.0), 1e-4},
     {"rk4", fixed_step(scene::SolverMethod::rk4, 1000.0), 1e-6},
     {"rk4_event", fixed_step(scene::SolverMethod::rk4_event, 100.0), 1e-6},

@@ -39,8 +39,9 @@ TEST(StabilityMap, TwoOrdersAgreeOnTheReference) {
   EXPECT_LT(coarse().reference_difference, 1e-10);
 }
 
-TEST(StabilityMap, TheTaylorSolverIsAccurateAtAnyStiffness) {
-  for (const char* solver : {"event_taylor_8", "event_taylor_12", "event_taylor_16"}) {
+TEST(StabilityMap, TheEventSolversAreAccurateAtAnyStiffness) {
+  for (const char* solver :
+       {"event_taylor_8", "event_taylor_12", "event_taylor_16", "event_gauss"}) {
     for (const MapCell& cell : map_of(solver).cells) {
       EXPECT_EQ(cell.verdict, Verdict::good) << solver << " at " << cell.contact_stiffness_N_per_m;
     }

@@ -68,7 +68,9 @@ TEST(ComparisonTest, TheTaylorSolversReachTheReferenceEverywhere) {
     expect_errors(short_problem(name), {{"event_taylor_8", 1e-10, 1e-8},
                                         {"event_taylor_12", 1e-12, 1e-11},
                                         {"event_taylor_16", 1e-12, 1e-11},
-                                        {"event_taylor_20", 1e-12, 1e-11}});
+                                        {"event_taylor_20", 1e-12, 1e-11},
+                                        {"event_gauss_8", 1e-8, 1e-8},
+                                        {"event_gauss_12", 1e-10, 1e-10}});
   }
 }
 
@@ -78,6 +80,7 @@ TEST(ComparisonTest, TheOtherSolversReachTheReferenceWhereTheContactIsSoft) {
                                           {"rk4_event", 100, 1e-5},
                                           {"event_taylor_8_float32", 1e-6, 1e-5},
                                           {"event_taylor_12_float32", 1e-6, 1e-5},
+                                          {"event_gauss_8_float32", 1e-6, 1e-5},
                                           {"strang_float32", 320, 1e-3},
                                           {"rk4_float32", 320, 1e-4},
                                           {"rk4_event_float32", 100, 1e-4}});
@@ -87,6 +90,8 @@ TEST(ComparisonTest, DampingIsSeenByAll) {
   peers::Problem problem = short_problem("table1");
   problem.damping = 0.02;
   expect_errors(problem, {{"event_taylor_12", 1e-11, 1e-10},
+                          {"event_gauss_8", 1e-8, 1e-8},
+                          {"event_gauss_12", 1e-10, 1e-10},
                           {"event_taylor_8_float32", 1e-6, 1e-5},
                           {"rk4", 1000, 1e-5},
                           {"rk4_table", 1000, 1e-5}});
