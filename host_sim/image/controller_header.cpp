@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "firmware/numeric/scalar.hpp"
+#include "host_sim/image/float_number.hpp"
 #include "host_sim/loop/carrier_grid.hpp"
 #include "host_sim/scene/configuration_error.hpp"
 #include "host_sim/scene/control_design.hpp"
@@ -20,10 +21,6 @@ struct ScalarText {
   const char* header;
   std::string (*number)(double value);
 };
-
-std::string float_number(double value) {
-  return fmt::format("{:a}F", static_cast<double>(numeric::from_real<float>(value)));
-}
 
 std::string double_number(double value) {
   return fmt::format("{:a}", value);

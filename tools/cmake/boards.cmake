@@ -5,30 +5,51 @@
 #   cmake --build --preset BOARD
 #
 # leaves build/BOARD/bin/<name of FOLDER>.elf, in lockstep with its host over semihosting, and
-# <name of FOLDER>_serial.elf, over a serial line. A toolchain file without a board compiles the core
+# <name of FOLDER>_serial.elf, over a serial line. After configure --plant there is also
+# <name of FOLDER>_plant.elf, which needs no host. A toolchain file without a board compiles the core
 # alone.
 
 sonoglide_room(sonoglide_lockstep hal/lockstep USES sonoglide_hal)
 sonoglide_room(sonoglide_start hal/start)
+sonoglide_room(sonoglide_simulated hal/simulated
+  USES sonoglide_plant sonoglide_hal sonoglide_start)
+
+# sonoglide_image(<target> FOLDER <configuration> MAIN <file> MEMORY <linker script> USES <rooms>...)
+function(sonoglide_image target)
+  cmake_parse_arguments(IMAGE "" "FOLDER;MAIN;MEMORY" "USES" ${ARGN})
+  set(script "${PROJECT_SOURCE_DIR}/${IMAGE_MEMORY}")
+  add_executable(${target} "${PROJECT_SOURCE_DIR}/firmware/app/image/${IMAGE_MAIN}")
+  target_include_directories(${target} PRIVATE "${IMAGE_FOLDER}")
+  target_link_libraries(${target} PRIVATE
+    sonoglide_app ${IMAGE_USES} sonoglide_freestanding sonoglide_warnings)
+  target_link_options(${target} PRIVATE "-L${PROJECT_SOURCE_DIR}" "-T${script}")
+  set_target_properties(${target} PROPERTIES
+    LINK_DEPENDS "${script};${PROJECT_SOURCE_DIR}/hal/start/sections.ld")
+endfunction()
 
 # sonoglide_images(<suffix> CLASS <board> HEADER <its header> MEMORY <linker script> USES <rooms>...):
 # an image of every configured controller on a class that has the seam's shape.
 function(sonoglide_images suffix)
   cmake_parse_arguments(IMAGE "" "CLASS;HEADER;MEMORY" "USES" ${ARGN})
-  set(script "${PROJECT_SOURCE_DIR}/${IMAGE_MEMORY}")
-  set(sections "${PROJECT_SOURCE_DIR}/hal/start/sections.ld")
   foreach(folder IN LISTS SONOGLIDE_CONTROLLERS)
     get_filename_component(name "${folder}" NAME)
-    set(image "${name}${suffix}")
-    add_executable(${image} "${PROJECT_SOURCE_DIR}/firmware/app/image/main.cpp")
-    target_compile_definitions(${image} PRIVATE
+    sonoglide_image(${name}${suffix} FOLDER "${folder}" MAIN main.cpp MEMORY ${IMAGE_MEMORY}
+      USES ${IMAGE_USES})
+    target_compile_definitions(${name}${suffix} PRIVATE
       "SONOGLIDE_BOARD_CLASS=sonoglide::hal::${IMAGE_CLASS}"
       "SONOGLIDE_BOARD_HEADER=\"${IMAGE_HEADER}\"")
-    target_include_directories(${image} PRIVATE "${folder}")
-    target_link_libraries(${image} PRIVATE
-      sonoglide_app ${IMAGE_USES} sonoglide_freestanding sonoglide_warnings)
-    target_link_options(${image} PRIVATE "-L${PROJECT_SOURCE_DIR}" "-T${script}")
-    set_target_properties(${image} PROPERTIES LINK_DEPENDS "${script};${sections}")
+  endforeach()
+endfunction()
+
+# sonoglide_plant_images(<linker script>): an image of every controller that was configured with its
+# plant, the two of them in one processor.
+function(sonoglide_plant_images memory)
+  foreach(folder IN LISTS SONOGLIDE_CONTROLLERS)
+    if(EXISTS "${folder}/plant_configuration.hpp")
+      get_filename_component(name "${folder}" NAME)
+      sonoglide_image(${name}_plant FOLDER "${folder}" MAIN plant_main.cpp MEMORY ${memory}
+        USES sonoglide_simulated sonoglide_processor sonoglide_semihosting)
+    endif()
   endforeach()
 endfunction()
 
@@ -64,6 +85,7 @@ function(sonoglide_emulated_board name)
   sonoglide_images(_serial MEMORY ${BOARD_FOLDER}/${BOARD_MEMORY}
     CLASS ${BOARD_SERIAL_BOARD} HEADER ${BOARD_FOLDER}/serial_board.hpp
     USES sonoglide_serial_board sonoglide_processor sonoglide_semihosting)
+  sonoglide_plant_images(${BOARD_FOLDER}/${BOARD_MEMORY})
 endfunction()
 
 if(CMAKE_CROSSCOMPILING)
