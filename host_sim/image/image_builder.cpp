@@ -36,7 +36,7 @@ const char* environment(const char* name) {
 
 fs::path source_tree() {
   const char* named = environment("SONOGLIDE_SOURCE");
-  const fs::path tree = named != nullptr ? named : SONOGLIDE_SOURCE;
+  fs::path tree = fs::absolute(named != nullptr ? named : SONOGLIDE_SOURCE);
   if (!fs::exists(tree / "firmware/app/image/main.cpp")) {
     fail(tree,
          "has no Sonoglide sources to build an image from; allowed: SONOGLIDE_SOURCE=FOLDER in "
@@ -47,10 +47,10 @@ fs::path source_tree() {
 
 fs::path cache_folder() {
   if (const char* cache = environment("XDG_CACHE_HOME")) {
-    return fs::path(cache) / "sonoglide";
+    return fs::absolute(cache) / "sonoglide";
   }
   if (const char* home = environment("HOME")) {
-    return fs::path(home) / ".cache/sonoglide";
+    return fs::absolute(home) / ".cache/sonoglide";
   }
   fail("the image cache", "has no place; allowed: XDG_CACHE_HOME or HOME in the environment");
 }
@@ -140,7 +140,7 @@ fs::path build_image(const emulator::EmulatedBoard& board, const std::string& he
   process::require_program("ninja", "ninja-build");
   const fs::path compiler = process::require_program(tools.prefix + "g++", tools.package);
   const fs::path cache = cache_folder();
-  const fs::path image = cache / (key_of(board, header, tree, compiler) + ".elf");
+  fs::path image = cache / (key_of(board, header, tree, compiler) + ".elf");
   if (!fs::exists(image)) {
     const BuildFolder folder(cache);
     compile(board, header, tree, folder.path(), attention);

@@ -12,7 +12,7 @@ namespace {
 /// A structure of the file, copied out: nothing in it need be aligned.
 template <class Structure>
 Structure at(std::string_view elf, std::size_t offset) {
-  Structure structure;
+  Structure structure{};
   if (offset > elf.size() || elf.size() - offset < sizeof structure) {
     throw process::ProcessError("the image is cut short");
   }

@@ -1,7 +1,5 @@
 #include "host_sim/image/stack_bound.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cstdlib>
 #include <map>
@@ -223,7 +221,7 @@ class DeepestPath {
     if (!open_.insert(name).second) {
       return {0, name + " calls itself"};
     }
-    const StackBound bound = below(name);
+    StackBound bound = below(name);
     open_.erase(name);
     bounds_[name] = bound;
     return bound;

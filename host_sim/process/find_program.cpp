@@ -14,7 +14,7 @@ std::filesystem::path require_program(const std::string& program, const std::str
   const char* path = std::getenv("PATH");
   std::istringstream folders(path != nullptr ? path : "");
   for (std::string folder; std::getline(folders, folder, ':');) {
-    const std::filesystem::path candidate = std::filesystem::path(folder) / program;
+    std::filesystem::path candidate = std::filesystem::path(folder) / program;
     if (access(candidate.c_str(), X_OK) == 0) {
       return candidate;
     }

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <csignal>
 
 #include "host_sim/process/child_process.hpp"
 #include "host_sim/process/pipe.hpp"
@@ -32,6 +33,16 @@ std::string read_to_the_end(const std::string& tool, int descriptor, const Atten
   return text;
 }
 
+/// A build tool ends what it has started when it is asked to, not when it is killed. The pipe
+/// closes when the last of them is gone.
+void ask_to_end(const ChildProcess& tool, int descriptor) {
+  constexpr std::chrono::seconds grace{2};
+  std::array<char, 4096> rest{};
+  kill(-tool.id(), SIGTERM);
+  while (wait_for_input(descriptor, grace, {}) && read(descriptor, rest.data(), rest.size()) > 0) {
+  }
+}
+
 }  // namespace
 
 std::string run_tool(const std::vector<std::string>& command, const Attention& attention) {
@@ -39,7 +50,13 @@ std::string run_tool(const std::vector<std::string>& command, const Attention& a
   Pipe said = make_pipe();
   ChildProcess tool(command, {nothing.number(), said.write_end.number(), said.write_end.number()});
   said.write_end.close();
-  std::string text = read_to_the_end(command.front(), said.read_end.number(), attention);
+  std::string text;
+  try {
+    text = read_to_the_end(command.front(), said.read_end.number(), attention);
+  } catch (...) {
+    ask_to_end(tool, said.read_end.number());
+    throw;
+  }
   const int status = tool.wait();
   if (status != 0) {
     throw ProcessError(

@@ -90,14 +90,18 @@ ordered_json instructions(const std::optional<loop::StepInstructions>& step) {
 }
 
 ordered_json image(const loop::ImageRecord& record) {
-  return {
-      {"board", record.board},
-      {"exchanges_per_second", number(record.exchanges_per_second)},
-      {"instructions_per_step", instructions(record.instructions)},
-      {"flash_bytes", record.flash_bytes},
-      {"ram_bytes", record.ram_bytes},
-      {"stack_bytes_bound", record.stack_bytes_bound ? ordered_json(*record.stack_bytes_bound)
-                                                     : ordered_json(record.stack_unbounded_by)}};
+  ordered_json json = {{"board", record.board},
+                       {"exchanges_per_second", number(record.exchanges_per_second)},
+                       {"instructions_per_step", instructions(record.instructions)},
+                       {"flash_bytes", record.flash_bytes},
+                       {"ram_bytes", record.ram_bytes},
+                       {"stack_bytes_bound", nullptr}};
+  if (record.stack_bytes_bound) {
+    json["stack_bytes_bound"] = *record.stack_bytes_bound;
+  } else {
+    json["stack_unbounded_by"] = record.stack_unbounded_by;
+  }
+  return json;
 }
 
 }  // namespace
