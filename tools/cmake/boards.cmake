@@ -100,5 +100,6 @@ if(CMAKE_CROSSCOMPILING)
   endif()
 elseif(SONOGLIDE_HOST)
   add_executable(controller_header "${PROJECT_SOURCE_DIR}/tools/generate/controller_header.cpp")
-  target_link_libraries(controller_header PRIVATE sonoglide_scene sonoglide_warnings)
+  target_link_libraries(controller_header PRIVATE
+    sonoglide_scene sonoglide_encoding sonoglide_warnings)
 endif()
