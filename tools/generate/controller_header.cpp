@@ -188,6 +188,9 @@ inline constexpr control::Controller<Parts>::Parameters parameters{{
 inline constexpr TargetStep<Scalar> target_steps[] = {{
 {}}};
 
+/// Of the drive; a step answers each.
+inline constexpr double carrier_period_s = {:a};
+
 /// Of the controller and its units; FieldDesign keeps stored parameters to it.
 inline constexpr std::uint32_t design = {:#010x};
 
@@ -196,7 +199,8 @@ inline constexpr std::uint32_t design = {:#010x};
       scene.name, includes(parts, scalar), scalar.type, types, scalar.number(design.friction_force),
       design.scales.force_N, scalar.number(design.speed_floor), design.scales.velocity_m_per_s,
       scalar.number(design.lead_periods / 64.0), parameters, design.stuck_periods,
-      target_steps(scene, design, scalar), design_number(types, parameters, design.scales));
+      target_steps(scene, design, scalar), design.scales.carrier_period_s,
+      design_number(types, parameters, design.scales));
 }
 
 }  // namespace
