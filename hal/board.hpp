@@ -54,12 +54,13 @@ struct Drive {
 ///    public:
 ///     static constexpr std::size_t page_words;  // words of 32 bits in a page
 ///     std::uint32_t read(std::size_t page, std::size_t word) const;
-///     void erase(std::size_t page);             // begins to set every bit
-///     void program(std::size_t page, std::size_t word, std::uint32_t value);  // begins to clear
-///     bits bool busy() const;
+///     void erase(std::size_t page);  // begins to set every bit
+///     void program(std::size_t page, std::size_t word, std::uint32_t value);  // to clear bits
+///     bool busy() const;
 ///   };
 ///
 /// A flash may stall the processor instead of being busy: it is written with the drive at zero
-/// only. The watchdog must then be slower than an erase.
+/// only. The watchdog must then be slower than an erase. A word that a power cut spoilt may read as
+/// anything, but read() returns; a flash of wider words shows each as one of 32 bits.
 
 }  // namespace sonoglide::hal

@@ -26,7 +26,8 @@ class Unit {
   using Supervisor = app::Supervisor<typename Design::Controller>;
 
   /// Takes the parameters from the store, or as compiled in where it holds none for this design.
-  Unit(const Design& design, Flash& flash)
+  /// @param design  outlives the unit, as the flash does.
+  Unit(const FieldDesign<PartsT>& design, Flash& flash)
       : design_(design),
         store_(flash, design.layout()),
         values_(design.presets()),
