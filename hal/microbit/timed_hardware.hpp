@@ -10,8 +10,8 @@
 namespace sonoglide::hal::microbit {
 
 struct TimedHardware {
-  /// A step in software floating point takes longer than a carrier period has.
-  static constexpr unsigned carriers_per_period = 64;
+  /// 16 MHz leave 266 clocks for each carrier period; software floating point takes thousands.
+  static constexpr unsigned carriers_per_period = 128;
   using ByteLink = Uart;  ///< first: it starts the crystal
   using Board = timed::Board<Timer>;
   using Watchdog = microbit::Watchdog;

@@ -20,15 +20,15 @@ extern volatile std::uint32_t watchdog_lock;
 extern volatile std::uint32_t reset_information;  ///< CMSDK system controller, RSTINFO
 }
 
-/// Unfed for half a second, it raises the NMI, by which the image ends; half a second later it
-/// resets the board.
+/// Unfed for a tenth of a second, it raises the NMI, by which the image ends; another tenth later
+/// it resets the board.
 template <std::uint32_t clock_hz>
 class Watchdog {
  public:
   Watchdog() : caused_reset_((reset_information & by_watchdog) != 0) {
     reset_information = by_watchdog;  // a set bit clears it
     watchdog_lock = unlock_word;
-    watchdog.load = clock_hz / 2;
+    watchdog.load = clock_hz / 10;
     watchdog.control = counting | resetting;
   }
 

@@ -20,8 +20,9 @@ template <class Clock>
 class Board {
  public:
   static constexpr std::uint32_t clock_hz = Clock::hz;
+  static constexpr std::uint32_t most_period_ticks = Clock::largest;
 
-  /// @param period_ticks  of a carrier period, > 0.
+  /// @param period_ticks  of a carrier period, 1 ... most_period_ticks.
   explicit Board(std::uint32_t period_ticks)
       : period_ticks_(period_ticks), begin_(clock_.ticks()) {}
 

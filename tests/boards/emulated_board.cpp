@@ -20,15 +20,33 @@ namespace {
 
 namespace lockstep = hal::lockstep;
 
-[[noreturn]] void become(const std::vector<std::string>& command, int link, pid_t parent) {
+/// Both ends of a connection.
+std::array<int, 2> connection() {
+  std::array<int, 2> ends{};
+  if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0) {
+    throw EmulatorError("no socket pair: " + std::string(std::strerror(errno)));
+  }
+  return ends;
+}
+
+constexpr int monitor_descriptor = 3;
+
+[[noreturn]] void become(std::vector<std::string> command, int link, int monitor, pid_t parent) {
+  command.insert(command.end(),
+                 {"-chardev", "socket,id=monitor,fd=" + std::to_string(monitor_descriptor), "-mon",
+                  "chardev=monitor,mode=readline"});
   std::vector<char*> arguments;
   arguments.reserve(command.size() + 1);
-  for (const std::string& argument : command) {
-    arguments.push_back(const_cast<char*>(argument.c_str()));
+  for (std::string& argument : command) {
+    arguments.push_back(argument.data());
   }
   arguments.push_back(nullptr);
   prctl(PR_SET_PDEATHSIG, SIGKILL);
-  if (getppid() == parent && dup2(link, STDIN_FILENO) >= 0 && dup2(link, STDOUT_FILENO) >= 0) {
+  // Copies, since either may stand where the other is to go.
+  const int link_copy = fcntl(link, F_DUPFD_CLOEXEC, monitor_descriptor + 1);
+  const int monitor_copy = fcntl(monitor, F_DUPFD_CLOEXEC, monitor_descriptor + 1);
+  if (getppid() == parent && dup2(link_copy, STDIN_FILENO) >= 0 &&
+      dup2(link_copy, STDOUT_FILENO) >= 0 && dup2(monitor_copy, monitor_descriptor) >= 0) {
     execvp(arguments.front(), arguments.data());
   }
   _exit(127);
@@ -46,19 +64,20 @@ std::string describe_end(int status) {
 EmulatedBoard::EmulatedBoard(const std::vector<std::string>& command,
                              std::chrono::milliseconds time_limit)
     : deadline_(std::chrono::steady_clock::now() + time_limit) {
-  std::array<int, 2> ends{};
-  if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0) {
-    throw EmulatorError("no socket pair: " + std::string(std::strerror(errno)));
-  }
-  link_ = ends[0];
+  const std::array<int, 2> link = connection();
+  const std::array<int, 2> monitor = connection();
+  link_ = link[0];
+  monitor_ = monitor[0];
   const pid_t self = getpid();
   process_ = fork();
   if (process_ == 0) {
-    become(command, ends[1], self);
+    become(command, link[1], monitor[1], self);
   }
-  close(ends[1]);
+  close(link[1]);
+  close(monitor[1]);
   if (process_ < 0) {
     close(link_);
+    close(monitor_);
     throw EmulatorError("no process: " + std::string(std::strerror(errno)));
   }
 }
@@ -66,6 +85,7 @@ EmulatedBoard::EmulatedBoard(const std::vector<std::string>& command,
 EmulatedBoard::~EmulatedBoard() {
   kill();
   close(link_);
+  close(monitor_);
 }
 
 void EmulatedBoard::await_greeting() {
@@ -96,11 +116,36 @@ void EmulatedBoard::send(const std::uint8_t* bytes, std::size_t size) {
   }
 }
 
+std::string EmulatedBoard::receive_line() {
+  std::string line;
+  for (;;) {
+    std::uint8_t byte = 0;
+    receive(&byte, 1);
+    if (byte == '\n') {
+      return line;
+    }
+    if (byte != '\r') {
+      line += static_cast<char>(byte);
+    }
+  }
+}
+
+void EmulatedBoard::request_reset() {
+  const std::string command = "system_reset\n";
+  if (::send(monitor_, command.data(), command.size(), MSG_NOSIGNAL) < 0) {
+    throw EmulatorError("the emulator's monitor takes no command");
+  }
+}
+
 int EmulatedBoard::shut_down() {
+  shutdown(link_, SHUT_WR);
+  return await_end();
+}
+
+int EmulatedBoard::await_end() {
   if (process_ < 0) {
     throw EmulatorError("the emulator has ended before");
   }
-  shutdown(link_, SHUT_WR);
   // The output ends when the emulator does.
   std::array<std::uint8_t, lockstep::drive_frame_size> rest{};
   do {

@@ -1,4 +1,4 @@
-/// A controller image on an emulated board, in lockstep.
+/// An image on an emulated board: in lockstep, or on its own with a console.
 #pragma once
 
 #include <sys/types.h>
@@ -20,8 +20,8 @@ class EmulatorError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Runs an emulator with its standard input and output connected to this object. The process ends
-/// with its owner, or with the owner's process.
+/// Runs an emulator with its standard input and output, and its monitor, connected to this object.
+/// The process ends with its owner, or with the owner's process.
 class EmulatedBoard {
  public:
   /// @param command     the emulator and its arguments
@@ -42,6 +42,18 @@ class EmulatedBoard {
   /// Sends bytes as they are.
   void send(const std::uint8_t* bytes, std::size_t size);
 
+  /// The next line that the board sends, without its end.
+  /// @throws EmulatorError
+  std::string receive_line();
+
+  /// Asks the emulator for a reset of the board, which comes soon.
+  void request_reset();
+
+  /// Waits for the emulator to end by itself.
+  /// @return its exit code
+  /// @throws EmulatorError when it does not end in time, or was ended by a signal
+  int await_end();
+
   /// Ends the input and waits for the image to leave.
   /// @return its exit code
   /// @throws EmulatorError when it does not leave in time, or was ended by a signal
@@ -57,6 +69,7 @@ class EmulatedBoard {
   std::chrono::steady_clock::time_point deadline_;
   pid_t process_ = -1;
   int link_ = -1;
+  int monitor_ = -1;
   std::uint32_t period_ = 0;
 };
 

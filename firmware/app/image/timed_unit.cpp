@@ -21,9 +21,10 @@ constexpr app::FieldDesign<configuration::Parts> design(configuration::parameter
                                                         configuration::design);
 
 /// To the nearest tick; the carrier is derived from the same clock.
-constexpr auto period_ticks = static_cast<std::uint32_t>(
+constexpr double period_ticks =
     Hardware::carriers_per_period * configuration::carrier_period_s * Hardware::Board::clock_hz +
-    0.5);
+    0.5;
+static_assert(1.0 <= period_ticks && period_ticks <= Hardware::Board::most_period_ticks);
 
 }  // namespace
 
@@ -33,7 +34,7 @@ int main() {
   app::Unit unit(design, flash);
   app::Console console(unit, bytes);
   Hardware::Watchdog watchdog;
-  Hardware::Board board(period_ticks);
+  Hardware::Board board(static_cast<std::uint32_t>(period_ticks));
   app::TimedLoop loop(unit.supervisor(), board, watchdog, console);
   while (loop.serve()) {
   }
