@@ -1,36 +1,46 @@
-/// The Cortex-M's own timer as a free-running counter.
+/// The Cortex-M's own timer, as a counter without an interrupt.
 #pragma once
 
 #include <cstdint>
 
 namespace sonoglide::hal::cortex_m {
 
-/// Source: Arm, ARMv7-M Architecture Reference Manual, SysTick; ARMv6-M and ARMv8-M have the same.
-struct SysTickRegisters {
-  volatile std::uint32_t control;
-  volatile std::uint32_t reload;
-  volatile std::uint32_t value;  ///< counts down
-};
-
-extern "C" SysTickRegisters sys_tick;  ///< address from the linker script
-
-/// Counts processor clocks, 24 bits, without an interrupt.
-template <std::uint32_t clock_hz>
+/// Counts processor clocks up to 2^24, and from 0 again. Every user of it starts it alike.
+///
+/// Source: Arm, ARMv6-M and ARMv7-M Architecture Reference Manuals, system timer.
 class SysTick {
  public:
-  static constexpr std::uint32_t hz = clock_hz;
-  static constexpr std::uint32_t largest = 0xffffff;
+  static constexpr std::uint32_t largest = 0x00ffffff;
 
-  SysTick() {
-    sys_tick.reload = largest;
-    sys_tick.value = 0;
-    sys_tick.control = enabled | processor_clock;
+  static void start() {
+    registers().reload = largest;
+    registers().current = 0;  // any write clears it
+    registers().control = enabled_on_processor_clock;
   }
 
-  std::uint32_t ticks() const { return largest - sys_tick.value; }
+  static std::uint32_t ticks() { return largest - registers().current; }
 
  private:
-  enum Control : std::uint32_t { enabled = 1, processor_clock = 4 };
+  struct Registers {
+    volatile std::uint32_t control;
+    volatile std::uint32_t reload;
+    volatile std::uint32_t current;  ///< falls
+  };
+
+  static constexpr std::uint32_t enabled_on_processor_clock = 5;  // bits 0 and 2
+
+  static Registers& registers() { return *reinterpret_cast<Registers*>(0xE000E010); }
+};
+
+/// The same as the clock of a board.
+template <std::uint32_t clock_hz>
+class ProcessorClock {
+ public:
+  static constexpr std::uint32_t hz = clock_hz;
+  static constexpr std::uint32_t largest = SysTick::largest;
+
+  ProcessorClock() { SysTick::start(); }
+  std::uint32_t ticks() const { return SysTick::ticks(); }
 };
 
 }  // namespace sonoglide::hal::cortex_m

@@ -10,14 +10,17 @@
 
 namespace sonoglide::hal::lockstep {
 
-/// | byte | sample frame                | drive frame            |
-/// |------|-----------------------------|------------------------|
-/// | 0    | period, u32, from 0         | period of the sample   |
-/// | 4    | friction_force, i32         | amplitude, i32         |
-/// | 8    | sliding_velocity, i32       | state, limit, fault, 0 |
-/// | 12   | force_at_rail, fresh, 0, 0  |                        |
+/// | byte | sample frame                | drive frame                                |
+/// |------|-----------------------------|--------------------------------------------|
+/// | 0    | period, u32, from 0         | period of the sample                       |
+/// | 4    | friction_force, i32         | amplitude, i32                             |
+/// | 8    | sliding_velocity, i32       | state, limit, fault, 0                     |
+/// | 12   | force_at_rail, fresh, 0, 0  | count, u32: what the answer cost the board |
+///
+/// The count is in the unit of the board's counter, from the arrival of the sample frame to the
+/// drive frame being made up; 0 from a board without a counter.
 inline constexpr std::size_t sample_frame_size = 16;
-inline constexpr std::size_t drive_frame_size = 12;
+inline constexpr std::size_t drive_frame_size = 16;
 
 /// Over a serial line the board speaks first: this byte says that it hears.
 inline constexpr std::uint8_t greeting = 0xa5;
@@ -69,12 +72,20 @@ inline DriveFrame encode(std::uint32_t period, const Drive& drive) {
   return frame;
 }
 
-inline Sample decode(const SampleFrame& frame) {
+inline void put_count(std::uint32_t count, DriveFrame& frame) {
+  detail::put(count, frame.data() + 12);
+}
+
+inline std::uint32_t count(const DriveFrame& frame) {
+  return detail::get(frame.data() + 12);
+}
+
+inline Sample sample_of(const SampleFrame& frame) {
   return {static_cast<std::int32_t>(detail::get(frame.data() + 4)),
           static_cast<std::int32_t>(detail::get(frame.data() + 8)), frame[12] != 0, frame[13] != 0};
 }
 
-inline Drive decode(const DriveFrame& frame) {
+inline Drive drive_of(const DriveFrame& frame) {
   return {static_cast<std::int32_t>(detail::get(frame.data() + 4)), frame[8], frame[9], frame[10]};
 }
 

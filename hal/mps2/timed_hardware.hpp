@@ -16,7 +16,7 @@ struct TimedHardware {
   /// 25 MHz leave 416 clocks for each carrier period.
   static constexpr unsigned carriers_per_period = 16;
   using ByteLink = Uart<clock_hz>;
-  using Board = timed::Board<cortex_m::SysTick<clock_hz>>;
+  using Board = timed::Board<cortex_m::ProcessorClock<clock_hz>>;
   using Watchdog = mps2::Watchdog<clock_hz>;
   using Flash = timed::VolatilePages;
 };

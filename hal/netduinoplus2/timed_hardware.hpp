@@ -13,7 +13,7 @@ struct TimedHardware {
   /// The internal oscillator's 16 MHz leave 266 clocks for each carrier period.
   static constexpr unsigned carriers_per_period = 16;
   using ByteLink = Uart;
-  using Board = timed::Board<cortex_m::SysTick<16000000>>;
+  using Board = timed::Board<cortex_m::ProcessorClock<16000000>>;
   using Watchdog = netduinoplus2::Watchdog;
   using Flash = netduinoplus2::Flash;
 };

@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "hal/lockstep/board/lockstep_board.hpp"
+#include "hal/lockstep/board/processor_counter.hpp"
 #include "hal/lockstep/exit_code.hpp"
 #include "hal/semihosting/semihosting.hpp"
 #include "hal/start/image_end.hpp"
@@ -31,6 +32,6 @@ class Link {
   std::int32_t output_ = open_standard_output();
 };
 
-using SemihostingBoard = lockstep::LockstepBoard<Link>;
+using SemihostingBoard = lockstep::LockstepBoard<Link, lockstep::ProcessorCounter>;
 
 }  // namespace sonoglide::hal::semihosting

@@ -6,7 +6,9 @@
 #include <cstdio>
 #include <exception>
 
+#include "host_sim/cli/configure_command.hpp"
 #include "host_sim/cli/exit_code.hpp"
+#include "host_sim/cli/pil_command.hpp"
 #include "host_sim/cli/ratio_command.hpp"
 #include "host_sim/cli/run_command.hpp"
 #include "host_sim/cli/stability_command.hpp"
@@ -31,11 +33,17 @@ void parse_and_run(int argument_count, const char* const* arguments) {
   program.set_version_flag("--version", "sonoglide " SONOGLIDE_VERSION);
   program.require_subcommand(0, 1);
   RunOptions run_options;
+  PilOptions pil_options;
+  ConfigureOptions configure_options;
   RatioOptions ratio_options;
   SweepOptions sweep_options;
   WorkPrecisionOptions work_precision_options;
   StabilityOptions stability_options;
   add_run_command(program, run_options)->callback([&] { run(run_options); });
+  add_pil_command(program, pil_options)->callback([&] { pil(pil_options); });
+  add_configure_command(program, configure_options)->callback([&] {
+    configure(configure_options);
+  });
   add_ratio_command(program, ratio_options)->callback([&] { ratio(ratio_options); });
   add_sweep_command(program, sweep_options)->callback([&] { sweep(sweep_options); });
   add_work_precision_command(program, work_precision_options)->callback([&] {

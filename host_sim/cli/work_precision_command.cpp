@@ -4,14 +4,11 @@
 
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 
 #include "host_sim/cli/output_option.hpp"
+#include "host_sim/cli/placed_error.hpp"
 #include "host_sim/cli/progress_bar.hpp"
 #include "host_sim/plot/gnuplot.hpp"
-#include "host_sim/scene/configuration_error.hpp"
-#include "host_sim/scene/document.hpp"
 #include "host_sim/scene/reader.hpp"
 #include "host_sim/work_precision/comparison.hpp"
 #include "host_sim/work_precision/problem.hpp"
@@ -19,21 +16,6 @@
 
 namespace sonoglide::cli {
 namespace {
-
-/// Where a key stands in a scene that was read without complaint.
-scene::Location place_of(const std::string& path, const std::string& dotted_key) {
-  std::ifstream file(path, std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-  return scene::Document(text, path, {}).place_of(dotted_key);
-}
-
-peers::Problem read_problem(const scene::Scene& scene, const std::string& path) {
-  try {
-    return work_precision::problem_of(scene);
-  } catch (const scene::ConfigurationError& error) {
-    throw scene::SceneError(place_of(path, error.key()), error.key(), error.what());
-  }
-}
 
 work_precision::Comparison compute(const peers::Problem& problem, bool quiet) {
   ProgressBar bar(stderr, !quiet);
@@ -58,7 +40,8 @@ CLI::App* add_work_precision_command(CLI::App& program, WorkPrecisionOptions& op
 
 void work_precision(const WorkPrecisionOptions& options) {
   const scene::Scene scene = scene::read_file(options.scene);
-  const peers::Problem problem = read_problem(scene, options.scene);
+  const peers::Problem problem =
+      with_places(options.scene, [&] { return work_precision::problem_of(scene); });
   const std::filesystem::path out =
       options.out.empty() ? std::filesystem::path("out") / (scene.name + "_work_precision")
                           : std::filesystem::path(options.out);

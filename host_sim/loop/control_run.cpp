@@ -2,12 +2,13 @@
 
 namespace sonoglide::loop {
 
-ControlRun::ControlRun(const scene::Scene& scene, const CarrierGrid& grid, ControlRecord& record)
+ControlRun::ControlRun(const scene::Scene& scene, const CarrierGrid& grid, ControlPort& port,
+                       ControlRecord& record)
     : scene_(scene),
       grid_(grid),
+      port_(port),
       record_(record),
-      sensor_(scene.sensor, record.design.scales),
-      port_(make_control_port(scene, record.design)) {}
+      sensor_(scene.sensor, record.design.scales) {}
 
 void ControlRun::label(Period& period) const {
   period.target = target_;
@@ -18,14 +19,14 @@ void ControlRun::label(Period& period) const {
 void ControlRun::step(double time_s, double mean_force_N, double sliding_velocity_m_per_s) {
   constexpr double unit = 1.0 / 2147483648.0;  // of an amplitude code, 2^-31
   follow_target(time_s);
-  const hal::Drive drive = port_->exchange(sensor_.sample(mean_force_N, sliding_velocity_m_per_s));
+  const hal::Drive drive = port_.exchange(sensor_.sample(mean_force_N, sliding_velocity_m_per_s));
   amplitude_N_ = drive.amplitude * unit * record_.design.scales.drive_amplitude_N;
   account_for(drive, time_s);
 }
 
 void ControlRun::finish() {
   record_.trace_hash = hash_.value();
-  record_.signals = port_->signals();
+  record_.signals = port_.signals();
 }
 
 void ControlRun::follow_target(double time_s) {
@@ -33,7 +34,7 @@ void ControlRun::follow_target(double time_s) {
   const double now_s = time_s + grid_.rounding_s(time_s);
   while (next_step_ < steps.size() && steps[next_step_].time_s <= now_s) {
     target_ = steps[next_step_++].friction_ratio;
-    port_->set_target(target_);
+    port_.set_target(target_);
   }
 }
 

@@ -4,7 +4,6 @@
 
 #include <cstddef>
 #include <limits>
-#include <memory>
 
 #include "firmware/control/drive_command.hpp"
 #include "host_sim/loop/carrier_grid.hpp"
@@ -20,7 +19,8 @@ namespace sonoglide::loop {
 class ControlRun {
  public:
   /// @param record  its design is used, the rest filled in; all must outlive this
-  ControlRun(const scene::Scene& scene, const CarrierGrid& grid, ControlRecord& record);
+  ControlRun(const scene::Scene& scene, const CarrierGrid& grid, ControlPort& port,
+             ControlRecord& record);
 
   /// In force during the next carrier period.
   double amplitude_N() const { return amplitude_N_; }
@@ -40,9 +40,9 @@ class ControlRun {
 
   const scene::Scene& scene_;
   const CarrierGrid& grid_;
+  ControlPort& port_;
   ControlRecord& record_;
   Sensor sensor_;
-  std::unique_ptr<ControlPort> port_;
   TraceHash hash_;
   std::size_t next_step_ = 0;
   double target_ = std::numeric_limits<double>::quiet_NaN();

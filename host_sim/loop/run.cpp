@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <optional>
+#include <utility>
 
 #include "host_sim/loop/carrier_grid.hpp"
 #include "host_sim/loop/control_run.hpp"
@@ -19,23 +21,25 @@ namespace {
 constexpr std::uint64_t progress_calls = 500;
 constexpr std::uint64_t most_periods_untold = 10000;
 
-std::unique_ptr<ControlRun> make_control(const scene::Scene& scene, const CarrierGrid& grid,
-                                         RunResult& result) {
-  if (!scene.controller) {
-    return nullptr;
+std::optional<ControlRun> make_control(const scene::Scene& scene, const CarrierGrid& grid,
+                                       ControlPort* controller, RunResult& result) {
+  if (controller == nullptr) {
+    return std::nullopt;
   }
   result.control.emplace();
   result.control->design = scene::design_control(scene);
-  return std::make_unique<ControlRun>(scene, grid, *result.control);
+  return std::optional<ControlRun>(std::in_place, scene, grid, *controller, *result.control);
 }
 
 class Simulation {
  public:
-  Simulation(const scene::Scene& scene, const Watch& watch, RunResult& result)
+  /// @param controller  null in open loop
+  Simulation(const scene::Scene& scene, ControlPort* controller, const Watch& watch,
+             RunResult& result)
       : watch_(watch),
         grid_(scene),
         plant_(scene, grid_, watch, result),
-        control_(make_control(scene, grid_, result)),
+        control_(make_control(scene, grid_, controller, result)),
         friction_N_(scene::friction_limit_N(scene.friction)),
         open_loop_amplitude_N_(scene.drive ? scene.drive->force_amplitude_N : 0.0) {}
 
@@ -90,20 +94,32 @@ class Simulation {
   const Watch& watch_;
   CarrierGrid grid_;
   PlantRun plant_;
-  std::unique_ptr<ControlRun> control_;
+  std::optional<ControlRun> control_;
   double friction_N_;
   double open_loop_amplitude_N_;
 };
 
-}  // namespace
-
-RunResult run(const scene::Scene& scene, const Watch& watch) {
+RunResult simulate(const scene::Scene& scene, ControlPort* controller, const Watch& watch) {
   RunResult result;
   const auto begin = std::chrono::steady_clock::now();
-  Simulation(scene, watch, result).carry_out();
+  Simulation(scene, controller, watch, result).carry_out();
   const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - begin;
   result.wall_s = wall.count();
   return result;
+}
+
+}  // namespace
+
+RunResult run(const scene::Scene& scene, const Watch& watch) {
+  if (!scene.controller) {
+    return simulate(scene, nullptr, watch);
+  }
+  const auto controller = make_control_port(scene, scene::design_control(scene));
+  return simulate(scene, controller.get(), watch);
+}
+
+RunResult run(const scene::Scene& scene, ControlPort& controller, const Watch& watch) {
+  return simulate(scene, &controller, watch);
 }
 
 }  // namespace sonoglide::loop

@@ -2,16 +2,22 @@
 #pragma once
 
 #include "host_sim/loop/computation_error.hpp"
+#include "host_sim/loop/control_port.hpp"
 #include "host_sim/loop/run_result.hpp"
 #include "host_sim/loop/watch.hpp"
 #include "host_sim/scene/scene.hpp"
 
 namespace sonoglide::loop {
 
-/// Runs a scene, in memory that does not grow with its duration.
+/// Runs a scene, its controller in this process, in memory that does not grow with its duration.
 /// @throws ComputationError  the solver failed
 /// @throws scene::ConfigurationError  no controller can be designed for the scene; a scene that was
 ///         read from a file has been checked for that
 RunResult run(const scene::Scene& scene, const Watch& watch = {});
+
+/// The same for a closed-loop scene whose controller is elsewhere.
+/// @param controller  as it is before its first step
+/// @throws what the controller throws, besides
+RunResult run(const scene::Scene& scene, ControlPort& controller, const Watch& watch = {});
 
 }  // namespace sonoglide::loop

@@ -8,6 +8,7 @@
 #include "firmware/control/drive_command.hpp"
 #include "firmware/numeric/signal_ledger.hpp"
 #include "host_sim/loop/energy.hpp"
+#include "host_sim/loop/image_record.hpp"
 #include "host_sim/loop/plant_port.hpp"
 #include "host_sim/scene/control_design.hpp"
 
@@ -38,6 +39,7 @@ struct RunResult {
   EnergyBalance whole;
   EnergyBalance window;
   std::optional<ControlRecord> control;
+  std::optional<ImageRecord> image;  ///< whoever made the image fills it in
 };
 
 }  // namespace sonoglide::loop

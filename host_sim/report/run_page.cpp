@@ -11,6 +11,7 @@
 #include "host_sim/analysis/hysteresis.hpp"
 #include "host_sim/analysis/spectrum.hpp"
 #include "host_sim/report/control_names.hpp"
+#include "host_sim/report/image_text.hpp"
 #include "host_sim/scene/names.hpp"
 #include "host_sim/scene/plant_scales.hpp"
 
@@ -321,6 +322,9 @@ Page run_page(const scene::Scene& scene, const loop::RunResult& result,
   page.tables.push_back(run_table(scene, result));
   if (result.control && !result.control->signals.empty()) {
     page.tables.push_back(signal_table(*result.control));
+  }
+  if (result.image) {
+    page.tables.push_back(image_table(*result.image));
   }
   page.sections.push_back(course(scene, findings.course().curve()));
   for (std::size_t i = 0; i < findings.close_ups().size(); ++i) {

@@ -4,6 +4,7 @@
 
 #include "host_sim/analysis/step_metrics.hpp"
 #include "host_sim/report/control_names.hpp"
+#include "host_sim/report/image_text.hpp"
 #include "host_sim/report/run_report.hpp"
 #include "host_sim/scene/plant_scales.hpp"
 
@@ -46,8 +47,9 @@ std::string run_text(const scene::Scene& scene, const loop::RunResult& result,
                      const RunFindings& findings, const std::filesystem::path& out) {
   const std::string lines =
       scene.controller ? step_lines(result, findings) : ratio_line(scene, result);
-  return fmt::format("{}{:.6g} ms simulated in {:.3g} ms, {:.3g} times real time\nreport: {}\n",
-                     lines, result.final_time_s * 1e3, result.wall_s * 1e3,
+  return fmt::format("{}{}{:.6g} ms simulated in {:.3g} ms, {:.3g} times real time\nreport: {}\n",
+                     lines, result.image ? image_lines(*result.image) : "",
+                     result.final_time_s * 1e3, result.wall_s * 1e3,
                      result.final_time_s / result.wall_s, (out / "report.html").string());
 }
 

@@ -84,6 +84,26 @@ ordered_json control(const scene::Scene& scene, const loop::RunResult& result,
       {"signals", signals}};
 }
 
+ordered_json instructions(const std::optional<loop::StepInstructions>& step) {
+  return step ? ordered_json{{"min", step->min}, {"mean", step->mean}, {"max", step->max}}
+              : ordered_json(nullptr);
+}
+
+ordered_json image(const loop::ImageRecord& record) {
+  ordered_json json = {{"board", record.board},
+                       {"exchanges_per_second", number(record.exchanges_per_second)},
+                       {"instructions_per_step", instructions(record.instructions)},
+                       {"flash_bytes", record.flash_bytes},
+                       {"ram_bytes", record.ram_bytes},
+                       {"stack_bytes_bound", nullptr}};
+  if (record.stack_bytes_bound) {
+    json["stack_bytes_bound"] = *record.stack_bytes_bound;
+  } else {
+    json["stack_unbounded_by"] = record.stack_unbounded_by;
+  }
+  return json;
+}
+
 }  // namespace
 
 ordered_json summary(const scene::Scene& scene, const loop::RunResult& result,
@@ -108,6 +128,9 @@ ordered_json summary(const scene::Scene& scene, const loop::RunResult& result,
   json["power"] = power(window);
   if (result.control) {
     json["control"] = control(scene, result, findings);
+  }
+  if (result.image) {
+    json["pil"] = image(*result.image);
   }
   return json;
 }

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <csignal>
 #include <cstdint>
 #include <memory>
 #include <random>
@@ -11,7 +10,6 @@
 #include <tuple>
 #include <vector>
 
-#include "emulated_board.hpp"
 #include "firmware/control/drive_command.hpp"
 #include "hal/lockstep/exit_code.hpp"
 #include "hal/lockstep/frame.hpp"
@@ -21,15 +19,15 @@
 #include "host_sim/loop/run.hpp"
 #include "host_sim/loop/sensor.hpp"
 #include "host_sim/loop/trace_hash.hpp"
+#include "host_sim/pil/image_process.hpp"
 #include "host_sim/scene/control_design.hpp"
 #include "host_sim/scene/reader.hpp"
 #include "tests/host_sim/loop/logs/logged_run.hpp"
 
-namespace sonoglide::boards {
+namespace sonoglide::pil {
 namespace {
 
 using std::chrono_literals::operator""s;
-using std::chrono_literals::operator""ms;
 
 constexpr int shut_down = static_cast<int>(hal::lockstep::ExitCode::shut_down);
 constexpr int link_broken = static_cast<int>(hal::lockstep::ExitCode::link_broken);
@@ -85,12 +83,12 @@ class Image : public testing::TestWithParam<std::tuple<std::string, std::string>
       : scene_(scene_of(controller)), board_(emulate(board, image(board, controller)), 60s) {}
 
   scene::Scene scene_;
-  EmulatedBoard board_;
+  ImageProcess board_;
 };
 
 /// Closes the loop of a scene between the host's plant and a board, and compares every command with
 /// the host's.
-void expect_the_hosts_commands(const scene::Scene& scene, EmulatedBoard& board) {
+void expect_the_hosts_commands(const scene::Scene& scene, ImageProcess& board) {
   const loop::LoggedRun host = loop::run_logged(scene);
   const loop::ControlRecord& record = *host.result.control;
   const scene::ControlDesign& design = record.design;
@@ -188,7 +186,7 @@ class SerialImage : public testing::TestWithParam<std::string> {
     board_.await_greeting();
   }
 
-  EmulatedBoard board_;
+  ImageProcess board_;
 };
 
 TEST_P(SerialImage, DrivesThePlantWithTheHostsCommandsBitForBit) {
@@ -204,22 +202,9 @@ TEST_P(SerialImage, LeavesWhenAFrameIsOutOfTurn) {
 INSTANTIATE_TEST_SUITE_P(Boards, SerialImage, testing::ValuesIn(board_names()),
                          [](const auto& parameter) { return test_name_of(parameter.param); });
 
-std::string failure(EmulatedBoard& board) {
-  try {
-    board.exchange({});
-  } catch (const EmulatorError& error) {
-    return error.what();
-  }
-  return "";
-}
-
-bool alive(pid_t process) {
-  return kill(process, 0) == 0;
-}
-
 TEST(ImageTest, LeavesOnAFaultOfACortexM) {
   // A Cortex-M3 has no floating-point unit to enable.
-  EmulatedBoard board(emulate("mps2-an385", image("mps2-an386", "target_step")), 60s);
+  ImageProcess board(emulate("mps2-an385", image("mps2-an386", "target_step")), 60s);
   EXPECT_EQ(board.shut_down(), processor_fault);
 }
 
@@ -227,42 +212,11 @@ TEST(ImageTest, LeavesOnATrapOfARiscV) {
   std::vector<std::string> command =
       emulate("riscv32-virt", image("riscv32-virt", "target_step_q31"));
   command.insert(command.end(), {"-cpu", "rv32,m=false"});  // cannot multiply
-  EmulatedBoard board(command, 60s);
+  ImageProcess board(command, 60s);
   const hal::lockstep::SampleFrame frame = hal::lockstep::encode(0, hal::Sample{});
   board.send(frame.data(), frame.size());
   EXPECT_EQ(board.shut_down(), processor_fault);
 }
 
-TEST(EmulatedBoardTest, ReportsAnEmulatorThatCannotStart) {
-  EmulatedBoard board(emulate("mps2-an386", "no_such_image"), 60s);
-  EXPECT_NE(failure(board).find("exit code 1"), std::string::npos);
-}
-
-TEST(EmulatedBoardTest, ReportsAnEmulatorThatIsKilled) {
-  EmulatedBoard board(emulate("mps2-an386", image("mps2-an386", "target_step")), 60s);
-  kill(board.process(), SIGKILL);
-  EXPECT_NE(failure(board).find("signal 9"), std::string::npos);
-}
-
-TEST(EmulatedBoardTest, KillsAnEmulatorThatHangs) {
-  std::vector<std::string> frozen = emulate("mps2-an386", image("mps2-an386", "target_step"));
-  frozen.emplace_back("-S");
-  EmulatedBoard board(frozen, 500ms);
-  const pid_t process = board.process();
-  EXPECT_NE(failure(board).find("hung"), std::string::npos);
-  EXPECT_FALSE(alive(process));
-}
-
-TEST(EmulatedBoardTest, LeavesNoProcessBehind) {
-  pid_t process = 0;
-  {
-    EmulatedBoard board(emulate("mps2-an386", image("mps2-an386", "target_step")), 60s);
-    board.exchange({});
-    process = board.process();
-    EXPECT_TRUE(alive(process));
-  }
-  EXPECT_FALSE(alive(process));
-}
-
 }  // namespace
-}  // namespace sonoglide::boards
+}  // namespace sonoglide::pil

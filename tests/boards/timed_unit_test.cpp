@@ -1,18 +1,24 @@
 // Units on their board's own timer, talked to on their console. The emulator's time is that of its
 // instructions, so that whether a step is done in time does not depend on the machine.
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
-#include "emulated_board.hpp"
 #include "host_sim/emulator/board_list.hpp"
+#include "host_sim/process/child_process.hpp"
+#include "host_sim/process/pipe.hpp"
+#include "host_sim/process/wait_for_input.hpp"
+#include "monitor.hpp"
 
-namespace sonoglide::boards {
+namespace sonoglide::pil {
 namespace {
 
 using std::chrono_literals::operator""s;
@@ -40,11 +46,15 @@ std::vector<std::string> emulate(const std::string& board, const std::string& im
   return command;
 }
 
-/// A terminal on a unit's console.
+/// A terminal on a unit's console. What goes wrong is thrown.
 class Terminal {
  public:
-  explicit Terminal(const std::vector<std::string>& command) : board_(command, 60s) {
-    await_greeting();
+  explicit Terminal(std::vector<std::string> command)
+      : typed_(process::make_pipe()),
+        shown_(process::make_pipe()),
+        emulator_(with_monitor(std::move(command)),
+                  {typed_.read_end.number(), shown_.write_end.number(), STDERR_FILENO}) {
+    shown_.write_end.close();
   }
 
   void await_greeting() {
@@ -55,18 +65,57 @@ class Terminal {
   /// @return the first line of the answer
   std::string type(const std::string& line) {
     const std::string typed = line + "\r";
-    board_.send(reinterpret_cast<const std::uint8_t*>(typed.data()), typed.size());
+    if (write(typed_.write_end.number(), typed.data(), typed.size()) < 0) {
+      throw std::runtime_error("the board cannot be written to");
+    }
     return next_line();
   }
-  std::string next_line() { return board_.receive_line(); }
+
+  std::string next_line() {
+    std::string line;
+    for (char character = '\0'; character != '\n';) {
+      if (!receive(character)) {
+        throw std::runtime_error("the emulator has ended");
+      }
+      if (' ' <= character) {
+        line += character;
+      }
+    }
+    return line;
+  }
 
   void reset() {
-    board_.request_reset();
+    monitor_.request_reset();
     await_greeting();
   }
 
+  /// Waits for the emulator to end by itself.
+  /// @return its status as of waitpid
+  int await_end() {
+    for (char character = '\0'; receive(character);) {
+    }
+    return emulator_.wait();
+  }
+
  private:
-  EmulatedBoard board_;
+  std::vector<std::string> with_monitor(std::vector<std::string> command) const {
+    const std::vector<std::string> more = monitor_.arguments();
+    command.insert(command.end(), more.begin(), more.end());
+    return command;
+  }
+
+  /// @return false at the end
+  bool receive(char& character) {
+    if (!process::wait_for_input(shown_.read_end.number(), 60s, {})) {
+      throw std::runtime_error("the emulator hangs");
+    }
+    return read(shown_.read_end.number(), &character, 1) == 1;
+  }
+
+  Monitor monitor_;
+  process::Pipe typed_;
+  process::Pipe shown_;
+  process::ChildProcess emulator_;
 };
 
 /// What an answer says after a word: of "drive" in "..., drive 0.25, ...", "0.25".
@@ -99,13 +148,14 @@ void expect_settled(Terminal& terminal, double target) {
 
 class TimedUnit : public testing::TestWithParam<TimedBoard> {
  protected:
-  static Terminal start(int speed) {
-    return Terminal(emulate(GetParam().name, "target_step_timed", speed));
+  static std::vector<std::string> at_speed(int speed) {
+    return emulate(GetParam().name, "target_step_timed", speed);
   }
 };
 
 TEST_P(TimedUnit, HoldsTheTargetThatIsTyped) {
-  Terminal terminal = start(GetParam().speed);
+  Terminal terminal(at_speed(GetParam().speed));
+  terminal.await_greeting();
   expect_settled(terminal, 0.4);
   const std::string status = terminal.type("target 0.7");
   EXPECT_EQ(said(status, "target"), "0.7");
@@ -115,7 +165,8 @@ TEST_P(TimedUnit, HoldsTheTargetThatIsTyped) {
 }
 
 TEST_P(TimedUnit, RefusesWhatIsOutOfRangeAndRunsOn) {
-  Terminal terminal = start(GetParam().speed);
+  Terminal terminal(at_speed(GetParam().speed));
+  terminal.await_greeting();
   EXPECT_EQ(terminal.type("target 1.5"), "target: allowed is 0 to 1");
   EXPECT_EQ(terminal.type("target -0.1"), "target: allowed is 0 to 1");
   EXPECT_EQ(terminal.type("set gain_scale 2"), "gain_scale: allowed is 0 to 1");
@@ -129,7 +180,8 @@ TEST_P(TimedUnit, RefusesWhatIsOutOfRangeAndRunsOn) {
 }
 
 TEST_P(TimedUnit, StopsAndRestartsOnRequestAlone) {
-  Terminal terminal = start(GetParam().speed);
+  Terminal terminal(at_speed(GetParam().speed));
+  terminal.await_greeting();
   terminal.type("status");
   const std::string stopped = terminal.type("stop");
   EXPECT_EQ(said(stopped, "state"), "off");
@@ -140,7 +192,8 @@ TEST_P(TimedUnit, StopsAndRestartsOnRequestAlone) {
 }
 
 TEST_P(TimedUnit, KeepsASavedParameterAsFarAsItsBoardCan) {
-  Terminal terminal = start(GetParam().speed);
+  Terminal terminal(at_speed(GetParam().speed));
+  terminal.await_greeting();
   terminal.type("stop");
   const bool saves = GetParam().saved_parameters != nullptr;
   EXPECT_EQ(terminal.type("set gain_scale 0.5"),
@@ -153,7 +206,8 @@ TEST_P(TimedUnit, KeepsASavedParameterAsFarAsItsBoardCan) {
 }
 
 TEST_P(TimedUnit, AnOverrunTakesTheDriveAwayUntilARestart) {
-  Terminal terminal = start(GetParam().slow_speed);
+  Terminal terminal(at_speed(GetParam().slow_speed));
+  terminal.await_greeting();
   for (std::uint32_t faults = 1; faults < 4; ++faults) {
     const std::string status = terminal.type("status");
     EXPECT_EQ(said(status, "state"), "fault") << status;
@@ -184,15 +238,16 @@ std::vector<std::string> ended_by_watchdog(std::vector<std::string> command) {
 
 TEST(TimedUnitWatchdog, IsFedByAUnitInTime) {
   Terminal terminal(ended_by_watchdog(emulate("mps2-an386", "target_step_timed", 5)));
+  terminal.await_greeting();
   for (int i = 0; i < 5; ++i) {
     expect_settled(terminal, 0.4);  // 60 ms each, of the board's time
   }
 }
 
 TEST(TimedUnitWatchdog, ResetsABoardWhoseLoopStandsStill) {
-  EmulatedBoard board(ended_by_watchdog(emulate("mps2-an386", "slow_carrier_timed", 10)), 60s);
-  EXPECT_EQ(board.await_end(), 0);
+  Terminal terminal(ended_by_watchdog(emulate("mps2-an386", "slow_carrier_timed", 10)));
+  EXPECT_EQ(terminal.await_end(), 0);
 }
 
 }  // namespace
-}  // namespace sonoglide::boards
+}  // namespace sonoglide::pil

@@ -1,6 +1,6 @@
 # Controller images for boards. On the workstation:
 #
-#   controller_header SCENE.toml > FOLDER/controller_configuration.hpp
+#   sonoglide configure SCENE.toml --out FOLDER
 #   cmake --preset BOARD -DSONOGLIDE_CONTROLLERS=FOLDER
 #   cmake --build --preset BOARD
 #
@@ -111,8 +111,4 @@ if(CMAKE_CROSSCOMPILING)
   elseif(SONOGLIDE_CONTROLLERS AND NOT SONOGLIDE_BOARD)
     message(FATAL_ERROR "An image is for a board: set SONOGLIDE_BOARD, or use the board's preset")
   endif()
-elseif(SONOGLIDE_HOST)
-  add_executable(controller_header "${PROJECT_SOURCE_DIR}/tools/generate/controller_header.cpp")
-  target_link_libraries(controller_header PRIVATE
-    sonoglide_scene sonoglide_encoding sonoglide_warnings)
 endif()

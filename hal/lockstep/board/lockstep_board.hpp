@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "hal/board.hpp"
+#include "hal/lockstep/board/no_counter.hpp"
 #include "hal/lockstep/exit_code.hpp"
 #include "hal/lockstep/frame.hpp"
 #include "hal/start/image_end.hpp"
@@ -17,22 +18,25 @@ namespace sonoglide::hal::lockstep {
 /// @tparam Link  offers
 ///   std::size_t read(std::uint8_t* bytes, std::size_t size);  // waits; how many came until the
 ///   end bool write(const std::uint8_t* bytes, std::size_t size);  // whether every byte was taken
-template <class Link>
+/// @tparam Counter  offers std::uint32_t read() const, as read_counter() does
+template <class Link, class Counter = NoCounter>
 class LockstepBoard {
  public:
   bool sample(Sample& sample) {
     SampleFrame frame{};
     const std::size_t received = link_.read(frame.data(), frame.size());
+    arrival_ = counter_.read();
     if (received == 0) {
       return false;
     }
     require(received == frame.size() && period(frame) == period_);
-    sample = decode(frame);
+    sample = sample_of(frame);
     return true;
   }
 
   void drive(const Drive& drive) {
-    const DriveFrame frame = encode(period_, drive);
+    DriveFrame frame = encode(period_, drive);
+    put_count(counter_.read() - arrival_, frame);
     require(link_.write(frame.data(), frame.size()));
     ++period_;
   }
@@ -45,6 +49,8 @@ class LockstepBoard {
   }
 
   Link link_{};
+  Counter counter_{};
+  std::uint32_t arrival_ = 0;
   std::uint32_t period_ = 0;
 };
 

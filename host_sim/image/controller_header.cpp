@@ -1,25 +1,18 @@
-// Writes the controller of a scene to the standard output as a header: its parts, its parameters
-// and its targets, every number in the controller's own scalar. An image includes it as
-// controller_configuration.hpp.
-// Usage: controller_header SCENE.toml
+#include "host_sim/image/controller_header.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
-#include <cstdio>
-#include <exception>
-#include <string>
 #include <vector>
 
 #include "firmware/encoding/crc32.hpp"
 #include "firmware/numeric/scalar.hpp"
+#include "host_sim/loop/carrier_grid.hpp"
 #include "host_sim/scene/configuration_error.hpp"
 #include "host_sim/scene/control_design.hpp"
-#include "host_sim/scene/reader.hpp"
-#include "host_sim/scene/scene.hpp"
 
-namespace sonoglide {
+namespace sonoglide::image {
 namespace {
 
 /// How the scalar is written: its type, and a number of it, bit for bit.
@@ -31,6 +24,10 @@ struct ScalarText {
 
 std::string float_number(double value) {
   return fmt::format("{:a}F", static_cast<double>(numeric::from_real<float>(value)));
+}
+
+std::string double_number(double value) {
+  return fmt::format("{:a}", value);
 }
 
 std::string q31_number(double value) {
@@ -47,8 +44,7 @@ ScalarText scalar_text(scene::Arithmetic arithmetic) {
     case scene::Arithmetic::float64:
       break;
   }
-  throw scene::ConfigurationError("controller.arithmetic",
-                                  "float64 is for the workstation; an image needs float32 or q31");
+  return {"double", nullptr, double_number};
 }
 
 /// One part of the controller: its header, its type, and the initialiser of its parameters.
@@ -103,25 +99,23 @@ PartText regulator_part(const scene::ControlDesign& design, const ScalarText& sc
 
 /// The carrier period, counted from 0, whose sample a target step is in force for: the sample is
 /// taken at the period's end.
-std::uint32_t first_period(double time_s, double carrier_period_s) {
-  constexpr double rounding = 1e-9;  // of a period: times closer than this are one
-  constexpr double most_periods = 4294967295.0;
-  const double period = std::max(0.0, std::ceil(time_s / carrier_period_s - rounding) - 1.0);
+std::uint32_t first_period(const loop::CarrierGrid& grid, double time_s) {
+  constexpr std::uint64_t most_periods = 0xffffffff;
+  const std::uint64_t period = std::max<std::uint64_t>(1, grid.at_or_after(time_s)) - 1;
   if (period > most_periods) {
     throw scene::ConfigurationError(
         "controller.target_friction_ratio",
         fmt::format("a step at {:g} s is out of an image's reach; allowed: up to {:g} s", time_s,
-                    most_periods * carrier_period_s));
+                    static_cast<double>(most_periods) * grid.period_s()));
   }
   return static_cast<std::uint32_t>(period);
 }
 
-std::string target_steps(const scene::Scene& scene, const scene::ControlDesign& design,
-                         const ScalarText& scalar) {
+std::string target_steps(const scene::Scene& scene, const ScalarText& scalar) {
+  const loop::CarrierGrid grid(scene);
   std::string text;
   for (const scene::TargetStep& step : scene.controller->target_friction_ratio) {
-    text += fmt::format("    {{{}, {}}},  // {}\n",
-                        first_period(step.time_s, design.scales.carrier_period_s),
+    text += fmt::format("    {{{}, {}}},  // {}\n", first_period(grid, step.time_s),
                         scalar.number(0.5 * step.friction_ratio), step.friction_ratio);
   }
   return text;
@@ -153,6 +147,8 @@ std::uint32_t design_number(const std::string& types, const std::string& paramet
   return encoding::crc32(reinterpret_cast<const std::uint8_t*>(text.data()), text.size());
 }
 
+}  // namespace
+
 std::string controller_header(const scene::Scene& scene) {
   if (!scene.controller) {
     throw scene::ConfigurationError("controller", "missing; only a closed-loop scene has an image");
@@ -169,7 +165,7 @@ std::string controller_header(const scene::Scene& scene) {
     parameters += fmt::format("    {},  // {}\n", part.parameters, part.type);
   }
   return fmt::format(
-      R"(/// The controller of the scene {}. Written by controller_header: edit the scene.
+      R"(/// The controller of the scene {}. Written by sonoglide configure: edit the scene.
 #pragma once
 
 {}
@@ -199,25 +195,8 @@ inline constexpr std::uint32_t design = {:#010x};
       scene.name, includes(parts, scalar), scalar.type, types, scalar.number(design.friction_force),
       design.scales.force_N, scalar.number(design.speed_floor), design.scales.velocity_m_per_s,
       scalar.number(design.lead_periods / 64.0), parameters, design.stuck_periods,
-      target_steps(scene, design, scalar), design.scales.carrier_period_s,
+      target_steps(scene, scalar), design.scales.carrier_period_s,
       design_number(types, parameters, design.scales));
 }
 
-}  // namespace
-}  // namespace sonoglide
-
-int main(int argument_count, char** arguments) {
-  if (argument_count != 2) {
-    std::fputs("usage: controller_header SCENE.toml\n", stderr);
-    return 2;
-  }
-  try {
-    fmt::print("{}", sonoglide::controller_header(sonoglide::scene::read_file(arguments[1])));
-    return std::fflush(stdout) == 0 ? 0 : 1;
-  } catch (const sonoglide::scene::ConfigurationError& error) {
-    fmt::print(stderr, "{}: {}: {}\n", arguments[1], error.key(), error.what());
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "{}\n", error.what());
-  }
-  return 2;
-}
+}  // namespace sonoglide::image

@@ -1,0 +1,39 @@
+#include "host_sim/cli/configure_command.hpp"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "host_sim/cli/output_option.hpp"
+#include "host_sim/cli/placed_error.hpp"
+#include "host_sim/image/controller_header.hpp"
+#include "host_sim/report/output_folder.hpp"
+#include "host_sim/scene/reader.hpp"
+
+namespace sonoglide::cli {
+CLI::App* add_configure_command(CLI::App& program, ConfigureOptions& options) {
+  CLI::App* command = program.add_subcommand(
+      "configure", "Write the controller of a closed-loop scene as a header for its image");
+  command->add_option("scene", options.scene, "The scene, a TOML file")
+      ->required()
+      ->type_name("SCENE.toml");
+  add_output_option(*command, options.out,
+                    fmt::format("{} [out/<scene name>]", image::controller_header_name));
+  command->add_flag("--quiet", options.quiet, "No word on where the header is");
+  return command;
+}
+
+void configure(const ConfigureOptions& options) {
+  const scene::Scene scene = scene::read_file(options.scene);
+  const std::filesystem::path out = options.out.empty() ? std::filesystem::path("out") / scene.name
+                                                        : std::filesystem::path(options.out);
+  report::OutputFolder folder(out);
+  folder.write(image::controller_header_name,
+               with_places(options.scene, [&] { return image::controller_header(scene); }));
+  folder.commit();
+  if (!options.quiet) {
+    fmt::print("header: {}\n", (out / image::controller_header_name).string());
+  }
+}
+
+}  // namespace sonoglide::cli

@@ -1,0 +1,22 @@
+/// `sonoglide configure`: the controller of a scene as the header that an image is built with.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+#include <string>
+
+namespace sonoglide::cli {
+
+struct ConfigureOptions {
+  std::string scene;
+  std::string out;  ///< empty: out/<scene name>
+  bool quiet = false;
+};
+
+/// Adds the command to the program; `options` outlives it and is filled in by parsing.
+CLI::App* add_configure_command(CLI::App& program, ConfigureOptions& options);
+
+/// Throws scene::SceneError, report::OutputError; in each case nothing was written.
+void configure(const ConfigureOptions& options);
+
+}  // namespace sonoglide::cli

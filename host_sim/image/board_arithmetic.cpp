@@ -1,0 +1,30 @@
+#include "host_sim/image/board_arithmetic.hpp"
+
+#include <fmt/format.h>
+
+#include <string>
+
+#include "host_sim/scene/configuration_error.hpp"
+
+namespace sonoglide::image {
+
+void require_arithmetic(const scene::Scene& scene, const emulator::EmulatedBoard& board) {
+  const bool wanted =
+      scene.controller && scene.controller->arithmetic == scene::Arithmetic::float64;
+  if (!wanted || board.computes_double) {
+    return;
+  }
+  std::string capable;
+  for (const emulator::EmulatedBoard& each : emulator::emulated_boards()) {
+    if (each.computes_double) {
+      capable += fmt::format("{}{}", capable.empty() ? "" : ", ", each.name);
+    }
+  }
+  throw scene::ConfigurationError(
+      "controller.arithmetic",
+      fmt::format("float64 has no hardware on {} ({}); allowed: \"float32\", \"q31\", or a board "
+                  "that has it: {}",
+                  board.name, board.core, capable));
+}
+
+}  // namespace sonoglide::image

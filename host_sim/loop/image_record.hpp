@@ -1,0 +1,27 @@
+/// What only a controller in an image has to tell.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+namespace sonoglide::loop {
+
+/// Instructions from the arrival of a sample to the command that answers it. Not cycles.
+struct StepInstructions {
+  std::uint32_t min;
+  double mean;
+  std::uint32_t max;
+};
+
+struct ImageRecord {
+  std::string board;
+  std::optional<double> exchanges_per_second;      ///< absent after fewer than two exchanges
+  std::optional<StepInstructions> instructions;    ///< absent without a single step
+  std::uint64_t flash_bytes = 0;                   ///< code, constants, initial values
+  std::uint64_t ram_bytes = 0;                     ///< static; the stack comes on top
+  std::optional<std::uint64_t> stack_bytes_bound;  ///< worst case over all calls
+  std::string stack_unbounded_by;                  ///< why there is no bound, if there is none
+};
+
+}  // namespace sonoglide::loop

@@ -1,0 +1,68 @@
+#include "host_sim/process/run_tool.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <csignal>
+
+#include "host_sim/process/child_process.hpp"
+#include "host_sim/process/pipe.hpp"
+#include "host_sim/process/process_error.hpp"
+
+namespace sonoglide::process {
+namespace {
+
+/// A tool that has nothing to say for so long has hung.
+constexpr std::chrono::minutes patience{10};
+
+std::string read_to_the_end(const std::string& tool, int descriptor, const Attention& attention) {
+  std::string text;
+  std::array<char, 4096> part{};
+  ssize_t count = 0;
+  do {
+    if (!wait_for_input(descriptor, patience, attention)) {
+      throw ProcessError(fmt::format("{} hung:\n{}", tool, text));
+    }
+    count = read(descriptor, part.data(), part.size());
+    text.append(part.data(), static_cast<std::size_t>(std::max<ssize_t>(0, count)));
+  } while (count > 0);
+  return text;
+}
+
+/// A build tool ends what it has started when it is asked to, not when it is killed. The pipe
+/// closes when the last of them is gone.
+void ask_to_end(const ChildProcess& tool, int descriptor) {
+  constexpr std::chrono::seconds grace{2};
+  std::array<char, 4096> rest{};
+  kill(-tool.id(), SIGTERM);
+  while (wait_for_input(descriptor, grace, {}) && read(descriptor, rest.data(), rest.size()) > 0) {
+  }
+}
+
+}  // namespace
+
+std::string run_tool(const std::vector<std::string>& command, const Attention& attention) {
+  const Descriptor nothing(open("/dev/null", O_RDONLY | O_CLOEXEC));
+  Pipe said = make_pipe();
+  ChildProcess tool(command, {nothing.number(), said.write_end.number(), said.write_end.number()});
+  said.write_end.close();
+  std::string text;
+  try {
+    text = read_to_the_end(command.front(), said.read_end.number(), attention);
+  } catch (...) {
+    ask_to_end(tool, said.read_end.number());
+    throw;
+  }
+  const int status = tool.wait();
+  if (status != 0) {
+    throw ProcessError(
+        fmt::format("{} failed with {}:\n{}", command.front(), describe_end(status), text));
+  }
+  return text;
+}
+
+}  // namespace sonoglide::process

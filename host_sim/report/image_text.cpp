@@ -1,0 +1,49 @@
+#include "host_sim/report/image_text.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+namespace sonoglide::report {
+namespace {
+
+std::string stack_text(const loop::ImageRecord& record) {
+  return record.stack_bytes_bound ? fmt::format("{}", *record.stack_bytes_bound)
+                                  : "no bound: " + record.stack_unbounded_by;
+}
+
+}  // namespace
+
+Table image_table(const loop::ImageRecord& record) {
+  Table table{"Image on " + record.board, {}, {}};
+  const auto row = [&table](const char* name, std::string value) {
+    table.rows.push_back({name, std::move(value)});
+  };
+  if (record.instructions) {
+    row("Instructions of a control step (not cycles), smallest",
+        fmt::format("{}", record.instructions->min));
+    row("Mean", fmt::format("{:.1f}", record.instructions->mean));
+    row("Largest", fmt::format("{}", record.instructions->max));
+  }
+  row("Flash [B]", fmt::format("{}", record.flash_bytes));
+  row("Static RAM [B]", fmt::format("{}", record.ram_bytes));
+  row("Deepest stack [B]", stack_text(record));
+  if (record.exchanges_per_second) {
+    row("Exchanges per second", fmt::format("{:.0f}", *record.exchanges_per_second));
+  }
+  return table;
+}
+
+std::string image_lines(const loop::ImageRecord& record) {
+  std::string text =
+      fmt::format("image on {}: {} B flash, {} B static RAM, deepest stack [B] {}\n", record.board,
+                  record.flash_bytes, record.ram_bytes, stack_text(record));
+  if (record.instructions && record.exchanges_per_second) {
+    text += fmt::format("a step takes {} to {} instructions (not cycles); {:.0f} exchanges/s\n",
+                        record.instructions->min, record.instructions->max,
+                        *record.exchanges_per_second);
+  }
+  return text;
+}
+
+}  // namespace sonoglide::report
