@@ -29,5 +29,38 @@ struct Drive {
 ///     bool sample(Sample& sample);     // waits for the next carrier period; false: shut down
 ///     void drive(const Drive& drive);  // in force from the next drive phase 0 on
 ///   };
+///
+/// One whose own timer makes the carrier periods (app::TimedLoop) has the drive at zero from reset
+/// until the first drive(), and offers besides:
+///
+///     std::uint32_t period() const;  // carrier periods begun since reset; wraps
+///
+/// sample() then gives the sample that came with the latest period, and waits where it has been
+/// given before. The rest is optional; what an image does not name is not in it.
+///
+///   class Watchdog {  // resets the board unless it is fed in time
+///    public:
+///     void feed();
+///     bool caused_reset() const;
+///   };
+///
+///   class ByteLink {  // neither call waits
+///    public:
+///     bool receive(std::uint8_t& byte);  // false: nothing there
+///     bool send(std::uint8_t byte);      // false: no room yet
+///   };
+///
+///   class Flash {  // two pages, 0 and 1, that are erased one by one; asked only while not busy
+///    public:
+///     static constexpr std::size_t page_words;  // words of 32 bits in a page
+///     std::uint32_t read(std::size_t page, std::size_t word) const;
+///     void erase(std::size_t page);  // begins to set every bit
+///     void program(std::size_t page, std::size_t word, std::uint32_t value);  // to clear bits
+///     bool busy() const;
+///   };
+///
+/// A flash may stall the processor instead of being busy: it is written with the drive at zero
+/// only. The watchdog must then be slower than an erase. A word that a power cut spoilt may read as
+/// anything, but read() returns; a flash of wider words shows each as one of 32 bits.
 
 }  // namespace sonoglide::hal

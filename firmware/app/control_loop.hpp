@@ -1,8 +1,7 @@
 /// The loop that an image runs: sample, step, drive.
 #pragma once
 
-#include "firmware/control/measurement.hpp"
-#include "firmware/numeric/scalar.hpp"
+#include "firmware/app/exchange.hpp"
 #include "hal/board.hpp"
 
 namespace sonoglide::app {
@@ -21,25 +20,11 @@ class ControlLoop {
     if (!board_.sample(sample)) {
       return false;
     }
-    const auto command = controller_.step(measurement(sample));
-    board_.drive({numeric::to_code(command.amplitude), static_cast<std::uint8_t>(command.state),
-                  static_cast<std::uint8_t>(command.limit),
-                  static_cast<std::uint8_t>(command.fault)});
+    board_.drive(drive_of(controller_.step(measurement_of<Scalar>(sample))));
     return true;
   }
 
  private:
-  static control::Measurement<Scalar> measurement(const hal::Sample& sample) {
-    control::Quality quality = control::Quality::good;
-    if (!sample.fresh) {
-      quality = control::Quality::missing;
-    } else if (sample.force_at_rail) {
-      quality = control::Quality::saturated;
-    }
-    return {numeric::from_code<Scalar>(sample.friction_force),
-            numeric::from_code<Scalar>(sample.sliding_velocity), quality};
-  }
-
   ControllerT& controller_;
   BoardT& board_;
 };

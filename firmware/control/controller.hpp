@@ -5,6 +5,7 @@
 
 #include "firmware/control/drive_command.hpp"
 #include "firmware/control/friction_level.hpp"
+#include "firmware/control/full_drive.hpp"
 #include "firmware/control/measurement.hpp"
 #include "firmware/control/signals.hpp"
 #include "firmware/control/stuck_detector.hpp"
@@ -14,7 +15,7 @@ namespace sonoglide::control {
 
 /// What a controller is made of; each part is a type, and what a part does not do costs nothing.
 template <class ScalarT, class FrictionT, class FeedforwardT, class SlewT, class ShaperT,
-          class RegulatorT>
+          class RegulatorT, class CeilingT = FullDrive<ScalarT>>
 struct Parts {
   using Scalar = ScalarT;
   using Friction = FrictionT;        ///< TrustedFriction | LearntFriction
@@ -22,6 +23,7 @@ struct Parts {
   using Slew = SlewT;                ///< NoSlewLimit | SlewLimit
   using Shaper = ShaperT;            ///< NoShaping | NotchShaper
   using Regulator = RegulatorT;      ///< IntegralRegulator
+  using Ceiling = CeilingT;          ///< FullDrive | DriveLimit
 };
 
 /// Picks the drive amplitude so that the friction ratio reaches a target; one step per carrier
@@ -44,6 +46,7 @@ class Controller {
     [[no_unique_address]] typename PartsT::Shaper::Parameters shaper;
     [[no_unique_address]] typename PartsT::Regulator::Parameters regulator;
     typename StuckDetector<Scalar>::Parameters stuck;
+    [[no_unique_address]] typename PartsT::Ceiling::Parameters ceiling{};
   };
 
   explicit Controller(const Parameters& parameters)
@@ -56,6 +59,7 @@ class Controller {
         shaper_(parameters.shaper),
         regulator_(parameters.regulator),
         stuck_(parameters.stuck),
+        ceiling_(parameters.ceiling),
         level_(parameters.friction_force) {}
 
   /// From off or from a fault: begins afresh, with calibration where there is one.
@@ -121,7 +125,6 @@ class Controller {
   };
 
   static constexpr Scalar whole_ratio() { return numeric::from_real<Scalar>(0.5); }
-  static constexpr Scalar full_drive() { return numeric::from_code<Scalar>(INT32_MAX); }
 
   Fault inspect(const Measurement<Scalar>& measurement) {
     if (measurement.quality == Quality::missing) {
@@ -216,16 +219,21 @@ class Controller {
     }
     const Scalar velocity_ratio = feedforward_.velocity_ratio(half_ratio, speed);
     if (velocity_ratio <= speed) {
-      return {full_drive(), Limit::actuator};
+      return {ceiling_.highest(), Limit::actuator};
     }
-    return {speed / velocity_ratio, Limit::none};
+    const Scalar amplitude = speed / velocity_ratio;
+    if (ceiling_.exceeded_by(amplitude)) {
+      return {ceiling_.highest(), Limit::actuator};
+    }
+    return {amplitude, Limit::none};
   }
 
   DriveCommand<Scalar> apply(const Request& request) {
     requested_ = numeric::observe<signal::RequestedAmplitude>(request.amplitude);
     const Scalar shaped = numeric::observe<signal::ShapedAmplitude>(shaper_.shape(requested_));
-    const Scalar amplitude = numeric::clamp(shaped, Scalar{}, full_drive());
-    const bool clipped = shaped < Scalar{} || (full_drive() <= shaped && requested_ < full_drive());
+    const Scalar highest = ceiling_.highest();
+    const Scalar amplitude = numeric::clamp(shaped, Scalar{}, highest);
+    const bool clipped = shaped < Scalar{} || (highest <= shaped && requested_ < highest);
     const Limit limit = clipped && request.limit == Limit::none ? Limit::actuator : request.limit;
     state_ = limit == Limit::none ? State::running : State::limited;
     return {amplitude, state_, limit, fault_};
@@ -240,6 +248,7 @@ class Controller {
   [[no_unique_address]] typename PartsT::Shaper shaper_;
   [[no_unique_address]] typename PartsT::Regulator regulator_;
   StuckDetector<Scalar> stuck_;
+  [[no_unique_address]] typename PartsT::Ceiling ceiling_;
   FrictionLevel<Scalar> level_;
   Scalar target_ = whole_ratio();
   Scalar commanded_ = whole_ratio();  ///< friction ratio, target and feedback together, on base 2

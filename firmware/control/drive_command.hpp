@@ -16,7 +16,7 @@ enum class State : std::uint8_t {
 /// What keeps the command from following the target; the controller runs on.
 enum class Limit : std::uint8_t {
   none = 0,
-  actuator,     ///< the drive would have to leave [0, its limit]
+  actuator,     ///< the drive would have to leave [0, its limit], or a lower ceiling set to it
   slew,         ///< the drive amplitude may not change faster
   speed_floor,  ///< sliding slower than the stated floor: the ratio is undefined, the drive is held
 };

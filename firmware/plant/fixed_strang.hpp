@@ -49,7 +49,7 @@ class FixedStrang {
         displacement_(parameters.initial[0]),
         velocity_(parameters.initial[1]),
         friction_(parameters.initial[2]) {
-    kick(velocity_, numeric::shift_right_rounded(friction_, 1));
+    kick(numeric::shift_right_rounded(friction_, 1));
   }
 
   /// Lives through one carrier period.
@@ -128,7 +128,7 @@ class FixedStrang {
     const std::int64_t travel = parameters_.sliding_travel + parameters_.side * change;
 
     const std::int64_t ends = slide(begin, end, travel);
-    kick(velocity_, friction_);
+    kick(friction_);
     return ends;
   }
 
@@ -279,16 +279,16 @@ class FixedStrang {
     std::array<std::int32_t, 8> result{};
     double term = 1.0;
     for (std::size_t n = 0; n < result.size(); ++n) {
-      result[n] = static_cast<std::int32_t>(term * static_cast<double>(one) + 0.5);
+      result[n] = numeric::round_half_up<std::int32_t>(term * static_cast<double>(one));
       term /= static_cast<double>(n + 2);
     }
     return result;
   }();
 
-  void kick(std::int32_t& velocity, std::int32_t friction) {
+  void kick(std::int32_t friction) {
     constexpr int kick_bits = 40;
-    velocity = in_range(velocity - numeric::shift_right_rounded(
-                                       std::int64_t{parameters_.kick} * friction, kick_bits));
+    velocity_ = in_range(velocity_ - numeric::shift_right_rounded(
+                                         std::int64_t{parameters_.kick} * friction, kick_bits));
   }
 
   std::int32_t in_range(std::int64_t value) {

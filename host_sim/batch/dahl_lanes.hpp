@@ -40,6 +40,10 @@ struct FineSetting {
   static constexpr double longest_step = 3.0;
 };
 
+inline const char* target_name() {
+  return hwy::TargetName(HWY_TARGET);
+}
+
 inline void run_map(RunQueue& queue) {
   LaneSchedule<MapSetting>(queue).run();
 }

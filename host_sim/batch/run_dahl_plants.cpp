@@ -9,8 +9,13 @@
 
 namespace sonoglide::batch {
 
+HWY_EXPORT(target_name);
 HWY_EXPORT(run_map);
 HWY_EXPORT(run_fine);
+
+std::string instruction_set() {
+  return HWY_DYNAMIC_DISPATCH(target_name)();
+}
 
 void run_dahl_plants(const DahlPlant* plants, std::size_t count, const RunLength& length,
                      Accuracy accuracy, DahlRun* runs) {

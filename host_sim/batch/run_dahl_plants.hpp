@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
 #include <vector>
 
 #include "host_sim/batch/dahl_run.hpp"
@@ -16,6 +17,9 @@ enum class Accuracy {
   map,   ///< 1e-4: float32 lanes
   fine,  ///< 1e-8: float64 lanes
 };
+
+/// The instruction set of this machine that the lanes use: it decides the last bit.
+std::string instruction_set();
 
 /// Runs `count` plants by the event-located Taylor method; runs[i] is that of plants[i].
 ///

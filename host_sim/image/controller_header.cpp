@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "firmware/encoding/crc32.hpp"
 #include "firmware/numeric/scalar.hpp"
 #include "host_sim/image/float_number.hpp"
 #include "host_sim/loop/carrier_grid.hpp"
@@ -134,6 +135,15 @@ std::string includes(const std::vector<PartText>& parts, const ScalarText& scala
   return text;
 }
 
+/// Number of a design: of its parts, its parameters and what they are multiples of.
+std::uint32_t design_number(const std::string& types, const std::string& parameters,
+                            const scene::ControlScales& scales) {
+  const std::string text =
+      fmt::format("{}{}{} {} {} {}", types, parameters, scales.carrier_period_s, scales.force_N,
+                  scales.velocity_m_per_s, scales.drive_amplitude_N);
+  return encoding::crc32(reinterpret_cast<const std::uint8_t*>(text.data()), text.size());
+}
+
 }  // namespace
 
 std::string controller_header(const scene::Scene& scene) {
@@ -171,12 +181,19 @@ inline constexpr control::Controller<Parts>::Parameters parameters{{
 inline constexpr TargetStep<Scalar> target_steps[] = {{
 {}}};
 
+/// Of the drive; a step answers each.
+inline constexpr double carrier_period_s = {:a};
+
+/// Of the controller and its units; FieldDesign keeps stored parameters to it.
+inline constexpr std::uint32_t design = {:#010x};
+
 }}  // namespace sonoglide::app::configuration
 )",
       scene.name, includes(parts, scalar), scalar.type, types, scalar.number(design.friction_force),
       design.scales.force_N, scalar.number(design.speed_floor), design.scales.velocity_m_per_s,
       scalar.number(design.lead_periods / 64.0), parameters, design.stuck_periods,
-      target_steps(scene, scalar));
+      target_steps(scene, scalar), design.scales.carrier_period_s,
+      design_number(types, parameters, design.scales));
 }
 
 }  // namespace sonoglide::image

@@ -9,6 +9,7 @@
 #include <optional>
 #include <system_error>
 
+#include "host_sim/batch/run_dahl_plants.hpp"
 #include "host_sim/plot/gnuplot.hpp"
 #include "host_sim/report/output_folder.hpp"
 #include "host_sim/report/page.hpp"
@@ -76,7 +77,9 @@ Summary run_sweep(const Plan& plan, const fs::path& out, const std::string& prog
     plot::require_gnuplot();
   }
   create_folder(out);
-  Journal journal(out, identity_of(plan, program), plan.grid().size());
+  // The lanes of another instruction set differ in the last bit: rows of both do not mix.
+  const std::string decisive = fmt::format("{}, {}", program, batch::instruction_set());
+  Journal journal(out, identity_of(plan, decisive), plan.grid().size());
   const std::size_t found = journal.finished().size();
   const std::vector<Row> rows = compute(solve, plan.grid().size(), journal, pace);
   const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - begin;

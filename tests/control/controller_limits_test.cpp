@@ -52,6 +52,56 @@ TYPED_TEST(ControllerLimits, AnUnreachableTargetLeavesNothingBehind) {
   EXPECT_NEAR(used.ratio(), 0.7, 1e-4);
 }
 
+template <class S>
+using LimitedDriveParts =
+    Parts<S, TrustedFriction<S>, DahlFeedforward<S>, NoSlewLimit<S>,
+          NotchShaper<S, longest_spacing>, IntegralRegulator<S>, DriveLimit<S>>;
+
+TYPED_TEST(ControllerLimits, ADriveLimitIsNeverPassedAndNamedWhereItActs) {
+  Design design;
+  design.drive_limit = 0.25;
+  ClosedLoop<LimitedDriveParts<TypeParam>> loop(design);
+  loop.set_target(0.1);
+  for (int i = 0; i < 500; ++i) {
+    const auto& command = loop.step(0.1);
+    ASSERT_LE(loop.amplitude(), 0.25);
+    ASSERT_EQ(command.limit, Limit::actuator);
+  }
+  EXPECT_EQ(loop.amplitude(), 0.25);
+}
+
+// Shaping may overshoot its input; the limit holds behind it.
+TYPED_TEST(ControllerLimits, ADriveLimitHoldsWhileTargetsChange) {
+  Design design;
+  design.drive_limit = 0.25;
+  ClosedLoop<LimitedDriveParts<TypeParam>> loop(design);
+  for (int i = 0; i < 2000; ++i) {
+    if (i % 7 == 0) {
+      loop.set_target(i % 2 == 0 ? 0.3 : 0.95);
+    }
+    loop.step(0.1 + 0.05 * (i % 13) / 13.0);
+    ASSERT_LE(loop.amplitude(), 0.25) << i;
+  }
+}
+
+TYPED_TEST(ControllerLimits, ADriveLimitLeavesNothingBehindAndDoesNothingBelow) {
+  Design design;
+  design.drive_limit = 0.25;
+  ClosedLoop<LimitedDriveParts<TypeParam>> limited(design);
+  limited.set_target(0.1);
+  limited.run(1000);
+  limited.set_target(0.7);
+  limited.run(300);
+  EXPECT_NEAR(limited.ratio(), 0.7, 1e-4);
+  ClosedLoop<LimitedDriveParts<TypeParam>> below(design);
+  ClosedLoop<ShapedParts<TypeParam>> free(design);
+  below.set_target(0.7);
+  free.set_target(0.7);
+  for (int i = 0; i < 300; ++i) {
+    ASSERT_EQ(below.step().amplitude, free.step().amplitude) << i;
+  }
+}
+
 TYPED_TEST(ControllerLimits, AWholeTargetIsNoDriveAtAll) {
   ClosedLoop<ShapedParts<TypeParam>> loop({});
   loop.set_target(0.4);

@@ -8,6 +8,7 @@
 #include "firmware/control/controller.hpp"
 #include "firmware/control/coulomb_feedforward.hpp"
 #include "firmware/control/dahl_feedforward.hpp"
+#include "firmware/control/drive_limit.hpp"
 #include "firmware/control/integral_regulator.hpp"
 #include "firmware/control/learnt_friction.hpp"
 #include "firmware/control/no_shaping.hpp"
@@ -58,6 +59,7 @@ struct Design {
   double slew_per_period = 0.02;
   std::uint32_t settle_periods = 20;
   std::uint32_t average_periods = 40;
+  double drive_limit = 1.0;
 };
 
 /// A part without parameters has nothing to fill in.
@@ -89,6 +91,11 @@ void fill(const Design& design, typename NotchShaper<S, longest_spacing>::Parame
   parameters.spacing = design.spacing;
 }
 
+template <class S>
+void fill(const Design& design, typename DriveLimit<S>::Parameters& parameters) {
+  parameters = {numeric::from_real<S>(design.drive_limit)};
+}
+
 template <class PartsT>
 typename Controller<PartsT>::Parameters parameters(const Design& design) {
   using S = typename PartsT::Scalar;
@@ -102,6 +109,7 @@ typename Controller<PartsT>::Parameters parameters(const Design& design) {
   fill<S>(design, result.shaper);
   result.regulator = {numeric::from_real<S>(design.gain), design.hold_periods};
   result.stuck = {design.stuck_periods};
+  fill<S>(design, result.ceiling);
   return result;
 }
 

@@ -27,6 +27,7 @@ TYPED_TEST(ControllerSize, PartsThatDoNothingAreEmpty) {
   EXPECT_TRUE(std::is_empty_v<CoulombFeedforward<TypeParam>>);
   EXPECT_TRUE(std::is_empty_v<NoSlewLimit<TypeParam>>);
   EXPECT_TRUE(std::is_empty_v<NoShaping<TypeParam>>);
+  EXPECT_TRUE(std::is_empty_v<FullDrive<TypeParam>>);
 }
 
 // Three configured numbers, five of state, three bytes of flags; the rest are the parts at work.

@@ -1,0 +1,377 @@
+/// A console for a terminal: one command a line, answers in words.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "firmware/app/unit.hpp"
+#include "firmware/app/unit_names.hpp"
+#include "firmware/encoding/characters.hpp"
+#include "firmware/encoding/decimal.hpp"
+
+namespace sonoglide::app {
+
+/// | command        | does                                                       |
+/// |----------------|------------------------------------------------------------|
+/// | status         | state, target, drive, limit, fault                         |
+/// | target RATIO   | until reset                                                |
+/// | stop           | drive to zero                                              |
+/// | restart        | from a stop or a fault                                     |
+/// | faults         | the latest first                                           |
+/// | params         | each with what is allowed, and as compiled in              |
+/// | set NAME VALUE | saved; needs a stop first                                  |
+///
+/// After a reset it greets, so that none goes unseen. Answers are made in pieces, a word and a
+/// number at most, so that a carrier period has little to do; nothing is received meanwhile.
+///
+/// @tparam ByteLink  see hal/board.hpp.
+template <class UnitT, class ByteLink>
+class Console {
+ public:
+  static constexpr std::size_t most_line_characters = 32;
+
+  Console(UnitT& unit, ByteLink& bytes) : unit_(unit), bytes_(bytes) {}
+
+  /// One character received or sent, one piece of an answer made, one command carried out, or one
+  /// step of a save.
+  void serve() {
+    if (*text_ != '\0') {
+      text_ += send(*text_) ? 1 : 0;
+    } else if (digits_sent_ < digits_count_) {
+      digits_sent_ += send(digits_[digits_sent_]) ? 1U : 0U;
+    } else if (saving_) {
+      finish_set(unit_.proceed());
+    } else if (reply_ != Reply::none) {
+      say_next();
+    } else if (line_ended_) {
+      carry_out();
+      begin_line();
+    } else {
+      receive();
+    }
+  }
+
+ private:
+  using Word = encoding::Characters;
+  static constexpr std::size_t most_words = 3;
+
+  enum class Reply : std::uint8_t {
+    none,
+    status,
+    faults,
+    parameters,
+    range,
+    saved,
+    not_saved,
+    drive_not_stopped,
+    unknown_parameter,
+    unknown_command,
+    too_long,
+  };
+
+  bool send(char character) { return bytes_.send(static_cast<std::uint8_t>(character)); }
+
+  // The line that is typed; its words are found as they come.
+
+  void receive() {
+    std::uint8_t byte = 0;
+    if (!bytes_.receive(byte)) {
+      return;
+    }
+    if (byte == '\r' || byte == '\n') {
+      line_ended_ = true;
+    } else if (size_ == most_line_characters) {
+      too_long_ = true;
+    } else {
+      take(static_cast<char>(byte));
+    }
+  }
+
+  void take(char character) {
+    line_[size_] = character;
+    const bool begins = character != ' ' && !in_word_;
+    in_word_ = character != ' ';
+    if (begins) {
+      word_count_ += word_count_ <= most_words ? 1U : 0U;
+      words_[word_count_ - 1] = {&line_[size_], 0};
+    }
+    words_[word_count_ > 0 ? word_count_ - 1 : 0].size += in_word_ ? 1U : 0U;
+    ++size_;
+  }
+
+  void begin_line() {
+    size_ = 0;
+    word_count_ = 0;
+    in_word_ = false;
+    line_ended_ = false;
+    too_long_ = false;
+  }
+
+  // Commands.
+
+  void carry_out() {
+    if (too_long_) {
+      begin(Reply::too_long);
+    } else if (word_count_ == 1) {
+      begin(carry_out(words_[0]));
+    } else if (word_count_ == 2 && words_[0].are("target")) {
+      begin(set_target(words_[1]));
+    } else if (word_count_ == 3 && words_[0].are("set")) {
+      begin(set(words_[1], words_[2]));
+    } else if (word_count_ > 0) {
+      begin(Reply::unknown_command);
+    }
+  }
+
+  Reply carry_out(const Word& command) {
+    if (command.are("faults")) {
+      return Reply::faults;
+    }
+    if (command.are("params")) {
+      return Reply::parameters;
+    }
+    if (command.are("stop")) {
+      unit_.supervisor().stop();
+    } else if (command.are("restart")) {
+      unit_.supervisor().restart();
+    } else if (!command.are("status")) {
+      return Reply::unknown_command;
+    }
+    return Reply::status;
+  }
+
+  Reply set_target(const Word& text) {
+    parameter_ = static_cast<std::size_t>(Parameter::target);
+    std::uint32_t ratio = 0;
+    return read(text, ratio) && unit_.set_target(ratio) == Answer::taken ? Reply::status
+                                                                         : Reply::range;
+  }
+
+  Reply set(const Word& name, const Word& text) {
+    parameter_ = 0;
+    while (parameter_ < parameter_count && !name.are(info().name)) {
+      ++parameter_;
+    }
+    if (parameter_ == parameter_count) {
+      return Reply::unknown_parameter;
+    }
+    std::uint32_t value = 0;
+    if (!read(text, value)) {
+      return Reply::range;
+    }
+    switch (unit_.write(parameter_, value)) {
+      case Answer::taken:
+        saving_ = true;
+        return Reply::none;
+      case Answer::drive_not_stopped:
+        return Reply::drive_not_stopped;
+      case Answer::unknown_parameter:
+      case Answer::out_of_range:
+        break;
+    }
+    return Reply::range;
+  }
+
+  void finish_set(store::Saving saving) {
+    if (saving != store::Saving::busy) {
+      saving_ = false;
+      begin(saving == store::Saving::saved ? Reply::saved : Reply::not_saved);
+    }
+  }
+
+  /// A value of the parameter at hand.
+  bool read(const Word& text, std::uint32_t& value) const {
+    return encoding::read_decimal(text.begin, text.size, info().decimal_places, value);
+  }
+
+  const ParameterInfo& info() const { return unit_.info(parameter_); }
+
+  // Answers.
+
+  void begin(Reply reply) {
+    reply_ = reply;
+    piece_ = 0;
+    listed_ = 0;
+    drive_ = unit_.supervisor().drive();
+    period_ = unit_.supervisor().periods();
+  }
+
+  void say(const char* text) { text_ = text; }
+
+  [[gnu::noinline]] void say(const char* text, std::uint32_t number, int places = 0) {
+    text_ = text;
+    digits_count_ = encoding::write_decimal(number, places, digits_.data());
+    digits_sent_ = 0;
+  }
+
+  void say_last(const char* text) {
+    text_ = text;
+    reply_ = Reply::none;
+  }
+
+  /// The next piece of the answer.
+  void say_next() {
+    switch (reply_) {
+      case Reply::status:
+        say_status(piece_++);
+        break;
+      case Reply::faults:
+        say_faults(piece_++);
+        break;
+      case Reply::parameters:
+        say_parameters(piece_++);
+        break;
+      case Reply::range:
+        say_range(piece_++);
+        break;
+      case Reply::saved:
+        say_value(piece_++, ", saved\r\n");
+        break;
+      case Reply::not_saved:
+        say_value(piece_++, " stands; not saved\r\n");
+        break;
+      case Reply::drive_not_stopped:
+        say_last("stop the drive first\r\n");
+        break;
+      case Reply::unknown_parameter:
+        say_last("unknown; params lists what there is\r\n");
+        break;
+      case Reply::unknown_command:
+        say_last(
+            "unknown; there are: status, target RATIO, stop, restart, faults, params, set NAME "
+            "VALUE\r\n");
+        break;
+      case Reply::too_long:
+        say_last("the line is too long\r\n");
+        break;
+      case Reply::none:
+        break;
+    }
+  }
+
+  void say_status(int piece) {
+    switch (piece) {
+      case 0:
+        return say("state ");
+      case 1:
+        return say(control::name(static_cast<control::State>(drive_.state)));
+      case 2:
+        return say(", target ", unit_.target(), 6);
+      case 3:
+        return say(", drive ", millionths(drive_.amplitude), 6);
+      case 4:
+        return say(", limit ");
+      case 5:
+        return say(control::name(static_cast<control::Limit>(drive_.limit)));
+      case 6:
+        return say(", fault ");
+      case 7:
+        return say(fault_name(drive_.fault));
+      case 8:
+        return say(", parameters ");
+      case 9:
+        return say(name(unit_.origin()));
+      case 10:
+        return say(", period ", period_);
+      default:
+        return say_last("\r\n");
+    }
+  }
+
+  /// @param amplitude  code, 0 … 2^31 − 1.
+  static std::uint32_t millionths(std::int32_t amplitude) {
+    const auto scaled = static_cast<std::uint64_t>(amplitude) * one_in_millionths;
+    return static_cast<std::uint32_t>((scaled + (1U << 30)) >> 31);
+  }
+
+  void say_faults(int piece) {
+    const auto& faults = unit_.supervisor().faults();
+    if (listed_ >= faults.kept()) {
+      return piece == 0 ? say("faults since reset: ", faults.count()) : say_last("\r\n");
+    }
+    const FaultEntry& entry = faults.entry(listed_);
+    switch (piece) {
+      case 0:
+        return say("period ", entry.period);
+      case 1:
+        return say(": ");
+      case 2:
+        return say(fault_name(entry.fault));
+      default:
+        return say_next_line();
+    }
+  }
+
+  void say_parameters(int piece) {
+    parameter_ = listed_;
+    switch (piece) {
+      case 0:
+      case 1:
+        return say_value(piece, "");
+      case 2:
+        return say(", compiled in ", info().preset, info().decimal_places);
+      case 3:
+        return say("; allowed is ", info().lowest, info().decimal_places);
+      case 4:
+        return say(" to ", info().highest, info().decimal_places);
+      default:
+        return listed_ + 1 < parameter_count ? say_next_line() : say_last("\r\n");
+    }
+  }
+
+  void say_range(int piece) {
+    switch (piece) {
+      case 0:
+        return say(info().name);
+      case 1:
+        return say(": allowed is ", info().lowest, info().decimal_places);
+      case 2:
+        return say(" to ", info().highest, info().decimal_places);
+      default:
+        return say_last("\r\n");
+    }
+  }
+
+  void say_value(int piece, const char* end) {
+    switch (piece) {
+      case 0:
+        return say(info().name);
+      case 1:
+        return say(" ", unit_.value(parameter_), info().decimal_places);
+      default:
+        return say_last(end);
+    }
+  }
+
+  void say_next_line() {
+    say("\r\n");
+    ++listed_;
+    piece_ = 0;
+  }
+
+  UnitT& unit_;
+  ByteLink& bytes_;
+
+  std::array<char, most_line_characters> line_{};
+  std::size_t size_ = 0;
+  std::array<Word, most_words + 1> words_{};  ///< one more than a command has
+  std::size_t word_count_ = 0;
+  bool in_word_ = false;
+  bool line_ended_ = false;
+  bool too_long_ = false;
+  bool saving_ = false;
+
+  Reply reply_ = Reply::none;
+  int piece_ = 0;
+  hal::Drive drive_{};  ///< of the period that the answer tells of
+  std::uint32_t period_ = 0;
+  std::size_t listed_ = 0;                  ///< line of a list
+  std::size_t parameter_ = 0;               ///< that is spoken of
+  const char* text_ = "\r\nsonoglide\r\n";  ///< still to be sent, and after it the digits
+  std::array<char, encoding::most_decimal_characters> digits_{};
+  std::size_t digits_count_ = 0;
+  std::size_t digits_sent_ = 0;
+};
+
+}  // namespace sonoglide::app

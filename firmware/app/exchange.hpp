@@ -1,0 +1,31 @@
+/// Between the board's codes and the controller's numbers.
+#pragma once
+
+#include <cstdint>
+
+#include "firmware/control/drive_command.hpp"
+#include "firmware/control/measurement.hpp"
+#include "firmware/numeric/scalar.hpp"
+#include "hal/board.hpp"
+
+namespace sonoglide::app {
+
+template <class Scalar>
+control::Measurement<Scalar> measurement_of(const hal::Sample& sample) {
+  control::Quality quality = control::Quality::good;
+  if (!sample.fresh) {
+    quality = control::Quality::missing;
+  } else if (sample.force_at_rail) {
+    quality = control::Quality::saturated;
+  }
+  return {numeric::from_code<Scalar>(sample.friction_force),
+          numeric::from_code<Scalar>(sample.sliding_velocity), quality};
+}
+
+template <class Scalar>
+hal::Drive drive_of(const control::DriveCommand<Scalar>& command) {
+  return {numeric::to_code(command.amplitude), static_cast<std::uint8_t>(command.state),
+          static_cast<std::uint8_t>(command.limit), static_cast<std::uint8_t>(command.fault)};
+}
+
+}  // namespace sonoglide::app

@@ -1,0 +1,91 @@
+/// Faults of a running unit: kept, logged, and left by an explicit restart alone.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "firmware/app/exchange.hpp"
+#include "firmware/app/fault_log.hpp"
+#include "firmware/control/drive_command.hpp"
+#include "hal/board.hpp"
+
+namespace sonoglide::app {
+
+/// What the loop finds, beside the controller's own faults (control::Fault, 16 … 31).
+enum class UnitFault : std::uint8_t {
+  overrun = 32,    ///< a step was not done when the next carrier period began
+  watchdog_reset,  ///< the watchdog reset the board
+};
+
+/// A controller, and what becomes of it: off, running or in a fault. Drive is zero unless it runs.
+template <class ControllerT, std::size_t LogLength = 16>
+class Supervisor {
+ public:
+  using Controller = ControllerT;
+  using Scalar = typename Controller::Scalar;
+
+  explicit Supervisor(const typename Controller::Parameters& parameters)
+      : controller_(parameters) {}
+
+  /// From any state: the drive begins afresh. The log is kept.
+  void restart() {
+    controller_.start();
+    drive_ = {0, static_cast<std::uint8_t>(control::State::calibrating), 0, 0};
+  }
+
+  /// Drive to zero until a restart; a fault's cause is left to the log.
+  void stop() { end(control::State::off, 0); }
+
+  void trip(UnitFault fault) {
+    end(control::State::fault, static_cast<std::uint8_t>(fault));
+    log_.add({drive_.fault, periods_});
+  }
+
+  /// One carrier period.
+  const hal::Drive& step(const hal::Sample& sample) {
+    ++periods_;
+    sample_ = sample;
+    if (driving()) {
+      drive_ = drive_of(controller_.step(measurement_of<Scalar>(sample)));
+      if (!driving()) {
+        log_.add({drive_.fault, periods_});
+      }
+    }
+    return drive_;
+  }
+
+  /// Neither off nor in a fault.
+  bool driving() const {
+    return drive_.state != static_cast<std::uint8_t>(control::State::off) &&
+           drive_.state != static_cast<std::uint8_t>(control::State::fault);
+  }
+
+  /// @param half_ratio  see Controller::set_target.
+  void set_target(Scalar half_ratio) { controller_.set_target(half_ratio); }
+
+  /// Another controller in its place, for the next restart; not while driving.
+  void reconfigure(const typename Controller::Parameters& parameters) {
+    controller_ = Controller(parameters);
+  }
+
+  /// The last sample and the answer to it.
+  const hal::Sample& sample() const { return sample_; }
+  const hal::Drive& drive() const { return drive_; }
+  /// Served since reset; wraps.
+  std::uint32_t periods() const { return periods_; }
+  const FaultLog<LogLength>& faults() const { return log_; }
+
+ private:
+  void end(control::State state, std::uint8_t fault) {
+    controller_.stop();
+    drive_ = {0, static_cast<std::uint8_t>(state), 0, fault};
+  }
+
+  Controller controller_;
+  hal::Sample sample_{};
+  hal::Drive drive_{};
+  std::uint32_t periods_ = 0;
+  FaultLog<LogLength> log_;
+};
+
+}  // namespace sonoglide::app

@@ -1,0 +1,78 @@
+/// The loop of a unit whose carrier periods come from its board's own timer.
+#pragma once
+
+#include <cstdint>
+
+#include "firmware/app/supervisor.hpp"
+#include "hal/board.hpp"
+
+namespace sonoglide::app {
+
+/// A board without a watchdog.
+struct NoWatchdog {
+  static void feed() {}
+  static constexpr bool caused_reset() { return false; }
+};
+
+/// Nothing to do beside control.
+struct NoService {
+  static void serve() {}
+};
+
+/// Each carrier period: sample, step, drive, feed the watchdog, and one piece of service.
+///
+/// - A step that is not done when the next period begins, or a period that passed without a sample,
+///   is an overrun while the unit drives: the amplitude, which would come into force late, is
+///   replaced by zero, and the fault stays until a restart.
+/// - The watchdog is fed when a period's step was done in time, and then only; in a fault too, or
+///   the reset would be a restart that nobody asked for.
+/// - After a reset by the watchdog the unit waits in a fault; after any other it runs.
+///
+/// @tparam Board     see hal/board.hpp: sample, drive and period.
+/// @tparam Watchdog  see there; NoWatchdog is none.
+/// @tparam Service   a class with serve(), which does a bounded piece of work without waiting:
+///                   LinkService, Console; NoService is none.
+template <class SupervisorT, class Board, class Watchdog, class Service>
+class TimedLoop {
+ public:
+  TimedLoop(SupervisorT& supervisor, Board& board, Watchdog& watchdog, Service& service)
+      : supervisor_(supervisor), board_(board), watchdog_(watchdog), service_(service) {
+    if (watchdog_.caused_reset()) {
+      supervisor_.trip(UnitFault::watchdog_reset);
+    } else {
+      supervisor_.restart();
+    }
+  }
+
+  /// Serves one carrier period; false when the board shuts down.
+  bool serve() {
+    hal::Sample sample{};
+    if (!board_.sample(sample)) {
+      return false;
+    }
+    const std::uint32_t period = board_.period();
+    const bool first = supervisor_.periods() == 0;
+    const bool none_lost = first || period == period_ + 1;
+    period_ = period;
+    // After drive(), so that a command which came just too late is replaced before it acts.
+    board_.drive(supervisor_.step(sample));
+    const bool in_time = none_lost && board_.period() == period;
+    if (in_time) {
+      watchdog_.feed();
+    } else if (supervisor_.driving()) {
+      supervisor_.trip(UnitFault::overrun);
+      board_.drive(supervisor_.drive());
+    }
+    service_.serve();
+    return true;
+  }
+
+ private:
+  SupervisorT& supervisor_;
+  Board& board_;
+  Watchdog& watchdog_;
+  Service& service_;
+  std::uint32_t period_ = 0;  ///< of the last sample
+};
+
+}  // namespace sonoglide::app

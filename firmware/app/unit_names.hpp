@@ -1,0 +1,37 @@
+/// The words by which a unit names its faults and its store to people.
+#pragma once
+
+#include <cstdint>
+
+#include "firmware/app/store/two_page_store.hpp"
+#include "firmware/app/supervisor.hpp"
+#include "firmware/control/names.hpp"
+
+namespace sonoglide::app {
+
+/// @param fault  control::Fault or UnitFault.
+constexpr const char* fault_name(std::uint8_t fault) {
+  switch (static_cast<UnitFault>(fault)) {
+    case UnitFault::overrun:
+      return "overrun";
+    case UnitFault::watchdog_reset:
+      return "watchdog_reset";
+  }
+  return control::name(static_cast<control::Fault>(fault));
+}
+
+constexpr const char* name(store::Origin origin) {
+  switch (origin) {
+    case store::Origin::stored:
+      return "stored";
+    case store::Origin::blank:
+      return "blank";
+    case store::Origin::other_layout:
+      return "other_layout";
+    case store::Origin::damaged:
+      break;
+  }
+  return "damaged";
+}
+
+}  // namespace sonoglide::app

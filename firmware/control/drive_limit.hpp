@@ -1,0 +1,24 @@
+/// A drive that is held below what the actuator can do.
+#pragma once
+
+#include "firmware/numeric/scalar.hpp"
+
+namespace sonoglide::control {
+
+template <class Scalar>
+class DriveLimit {
+ public:
+  struct Parameters {
+    Scalar highest;  ///< amplitude, base: the actuator's limit; in [0, 1]
+  };
+
+  explicit DriveLimit(const Parameters& parameters) : parameters_(parameters) {}
+
+  Scalar highest() const { return parameters_.highest; }
+  bool exceeded_by(Scalar amplitude) const { return parameters_.highest < amplitude; }
+
+ private:
+  Parameters parameters_;
+};
+
+}  // namespace sonoglide::control

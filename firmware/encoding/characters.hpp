@@ -1,0 +1,22 @@
+/// A piece of text that lives elsewhere.
+#pragma once
+
+#include <cstddef>
+
+namespace sonoglide::encoding {
+
+struct Characters {
+  const char* begin = nullptr;
+  std::size_t size = 0;
+
+  bool are(const char* word) const {
+    for (std::size_t i = 0; i < size; ++i) {
+      if (word[i] == '\0' || word[i] != begin[i]) {
+        return false;
+      }
+    }
+    return word[size] == '\0';
+  }
+};
+
+}  // namespace sonoglide::encoding

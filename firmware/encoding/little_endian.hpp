@@ -1,0 +1,29 @@
+/// Whole numbers as bytes, the lowest first; no byte order of a machine shows.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <type_traits>
+
+namespace sonoglide::encoding {
+
+template <class Integer>
+constexpr void put_little_endian(Integer value, std::uint8_t* bytes) {
+  auto rest = static_cast<std::uint32_t>(value);
+  static_assert(sizeof(Integer) <= sizeof rest);
+  for (std::size_t i = 0; i < sizeof(Integer); ++i, rest >>= 8) {
+    bytes[i] = static_cast<std::uint8_t>(rest);
+  }
+}
+
+template <class Integer>
+constexpr Integer get_little_endian(const std::uint8_t* bytes) {
+  std::uint32_t value = 0;
+  static_assert(sizeof(Integer) <= sizeof value);
+  for (std::size_t i = sizeof(Integer); i > 0; --i) {
+    value = value << 8 | bytes[i - 1];
+  }
+  return static_cast<Integer>(value);
+}
+
+}  // namespace sonoglide::encoding

@@ -1,0 +1,163 @@
+#include "firmware/app/field_parameters.hpp"
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <cstdint>
+#include <set>
+
+#include "firmware/control/coulomb_feedforward.hpp"
+#include "firmware/control/dahl_feedforward.hpp"
+#include "firmware/control/integral_regulator.hpp"
+#include "firmware/control/no_shaping.hpp"
+#include "firmware/control/no_slew_limit.hpp"
+#include "firmware/control/trusted_friction.hpp"
+#include "firmware/numeric/fixed.hpp"
+
+namespace sonoglide::app {
+namespace {
+
+template <class S>
+class FieldParametersTest : public testing::Test {
+ protected:
+  using Parts =
+      control::Parts<S, control::TrustedFriction<S>, control::CoulombFeedforward<S>,
+                     control::NoSlewLimit<S>, control::NoShaping<S>, control::IntegralRegulator<S>>;
+  using Designed = typename control::Controller<Parts>::Parameters;
+  using Design = FieldDesign<Parts>;
+
+  static constexpr S real(double value) { return numeric::from_real<S>(value); }
+  /// Numbers that no millionth equals.
+  static constexpr Designed designed{
+      real(1.0 / 3.0), real(0.01 / 7.0), real(0.1), {}, {}, {}, {}, {real(1.0 / 9.0), 3}, {10}, {}};
+  static constexpr Design design{designed, real(1.0 / 6.0), 1};
+
+  static ParameterValues with(Parameter parameter, std::uint32_t value) {
+    ParameterValues values = design.presets();
+    values[static_cast<std::size_t>(parameter)] = value;
+    return values;
+  }
+};
+using Arithmetics =
+    testing::Types<float, numeric::Q31<numeric::Saturating>, numeric::Q31<numeric::Trapping>>;
+TYPED_TEST_SUITE(FieldParametersTest, Arithmetics);
+
+TYPED_TEST(FieldParametersTest, UnchangedItIsTheDesignBitForBit) {
+  const auto& tested = TestFixture::design;
+  const auto parameters = tested.controller_parameters(tested.presets());
+  EXPECT_TRUE(parameters.friction_force == TestFixture::designed.friction_force);
+  EXPECT_TRUE(parameters.speed_floor == TestFixture::designed.speed_floor);
+  EXPECT_TRUE(parameters.lead == TestFixture::designed.lead);
+  EXPECT_TRUE(parameters.regulator.gain == TestFixture::designed.regulator.gain);
+  EXPECT_EQ(parameters.regulator.hold_periods, TestFixture::designed.regulator.hold_periods);
+  EXPECT_EQ(parameters.stuck.periods, TestFixture::designed.stuck.periods);
+  EXPECT_TRUE(parameters.ceiling.highest == control::FullDrive<TypeParam>::highest());
+  EXPECT_TRUE(tested.half_target(333333) == this->real(1.0 / 6.0));
+}
+
+TYPED_TEST(FieldParametersTest, EachParameterGoesWhereItSays) {
+  const auto half = this->real(0.5);
+  const auto parameters = [](Parameter parameter, std::uint32_t value) {
+    return TestFixture::design.controller_parameters(TestFixture::with(parameter, value));
+  };
+  EXPECT_TRUE(parameters(Parameter::drive_limit, 500000).ceiling.highest == half);
+  EXPECT_TRUE(parameters(Parameter::friction_force, 500000).friction_force == half);
+  EXPECT_TRUE(parameters(Parameter::speed_floor, 500000).speed_floor == half);
+  EXPECT_NEAR(numeric::to_real(parameters(Parameter::gain_scale, 500000).regulator.gain),
+              1.0 / 18.0, 1e-8);
+  EXPECT_TRUE(parameters(Parameter::gain_scale, 0).regulator.gain == TypeParam{});
+  EXPECT_EQ(parameters(Parameter::stuck_periods, 65535).stuck.periods, 65535);
+  EXPECT_TRUE(TestFixture::design.half_target(500000) == this->real(0.25));
+  EXPECT_TRUE(TestFixture::design.half_target(1000000) == half);
+}
+
+// Every millionth, as if it had been written in a scene.
+TYPED_TEST(FieldParametersTest, MillionthsAreRoundedOnce) {
+  for (std::uint32_t i = 0; i < one_in_millionths; ++i) {
+    ASSERT_TRUE(fraction<TypeParam>(i, one_in_millionths) == this->real(i / 1e6)) << i;
+    ASSERT_TRUE(fraction<TypeParam>(i, 2 * one_in_millionths) == this->real(i / 2e6)) << i;
+  }
+  EXPECT_TRUE(fraction<TypeParam>(1, 1) == control::FullDrive<TypeParam>::highest());
+}
+
+TYPED_TEST(FieldParametersTest, PresetsAndTheEndsOfRangesAreAllowed) {
+  const auto& tested = TestFixture::design;
+  EXPECT_TRUE(tested.allows(tested.presets()));
+  for (std::size_t i = 0; i < parameter_count; ++i) {
+    const ParameterInfo& info = tested.info(i);
+    EXPECT_LE(info.lowest, info.preset) << info.name;
+    EXPECT_LE(info.preset, info.highest) << info.name;
+    const auto parameter = static_cast<Parameter>(i);
+    EXPECT_TRUE(tested.allows(this->with(parameter, info.lowest))) << info.name;
+    EXPECT_TRUE(tested.allows(this->with(parameter, info.highest))) << info.name;
+    EXPECT_FALSE(tested.allows(this->with(parameter, info.highest + 1))) << info.name;
+    if (info.lowest > 0) {
+      EXPECT_FALSE(tested.allows(this->with(parameter, info.lowest - 1))) << info.name;
+    }
+  }
+  // No allowed friction force is too small for the controller.
+  const auto smallest =
+      tested.controller_parameters(this->with(Parameter::friction_force, tested.info(3).lowest));
+  EXPECT_FALSE(smallest.friction_force < control::FrictionLevel<TypeParam>::smallest());
+}
+
+TYPED_TEST(FieldParametersTest, AnotherDesignIsAnotherLayout) {
+  using Other = typename TestFixture::Design;
+  auto other = TestFixture::designed;
+  other.speed_floor = this->real(0.02);
+  const auto target = this->real(1.0 / 6.0);
+  const std::set<std::uint32_t> layouts{
+      TestFixture::design.layout(), Other(TestFixture::designed, target, 2).layout(),
+      Other(TestFixture::designed, this->real(0.2), 1).layout(), Other(other, target, 1).layout()};
+  EXPECT_EQ(layouts.size(), 4U);
+  EXPECT_EQ(layouts.count(0xFFFFFFFFU), 0U);
+}
+
+template <class S>
+void expect_drive_within_its_limit() {
+  using Parts =
+      control::Parts<S, control::TrustedFriction<S>, control::DahlFeedforward<S>,
+                     control::NoSlewLimit<S>, control::NoShaping<S>, control::IntegralRegulator<S>>;
+  static constexpr numeric::Split<double> force = numeric::split(1.0108);
+  static constexpr typename control::Controller<Parts>::Parameters designed{
+      numeric::from_real<S>(0.5),
+      numeric::from_real<S>(0.026),
+      numeric::from_real<S>(0.02),
+      {},
+      {{numeric::from_real<S>(force.mantissa), force.exponent}},
+      {},
+      {},
+      {numeric::from_real<S>(0.148), 5},
+      {11},
+      {}};
+  static constexpr FieldDesign<Parts> design(designed, numeric::from_real<S>(0.2), 1);
+
+  ParameterValues values{};
+  for (std::size_t i = 0; i < parameter_count; ++i) {
+    const ParameterInfo& info = design.info(i);
+    values[i] = *rc::gen::oneOf(rc::gen::just(info.lowest), rc::gen::just(info.highest),
+                                rc::gen::inRange(info.lowest, info.highest));
+  }
+  const auto parameters = design.controller_parameters(values);
+  typename FieldDesign<Parts>::Controller controller(parameters);
+  controller.set_target(design.half_target(values[0]));
+  controller.start();
+  const auto code = rc::gen::arbitrary<std::int32_t>();
+  for (int i = 0; i < 50; ++i) {
+    const auto command =
+        controller.step({numeric::from_code<S>(*code), numeric::from_code<S>(*code >> (i % 12)),
+                         control::Quality::good});
+    RC_ASSERT(S{} <= command.amplitude);
+    RC_ASSERT(command.amplitude <= parameters.ceiling.highest);
+    RC_ASSERT(command.state != control::State::fault ||
+              command.fault == control::Fault::measurement_stuck);
+  }
+}
+
+RC_GTEST_PROP(FieldValues, AnyThatAreAllowedKeepTheDriveWithinItsLimit, ()) {
+  expect_drive_within_its_limit<float>();
+  expect_drive_within_its_limit<numeric::Q31<numeric::Saturating>>();
+}
+
+}  // namespace
+}  // namespace sonoglide::app
