@@ -25,6 +25,8 @@ struct TurnedClock {
   }
 };
 
+static_assert(Board<TurnedClock>::clock_hz == TurnedClock::hz);
+
 class TimedBoard : public testing::Test {
  protected:
   static constexpr std::uint32_t period_ticks = 1000;
