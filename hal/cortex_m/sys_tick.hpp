@@ -33,10 +33,10 @@ class SysTick {
 };
 
 /// The same as the clock of a board.
-template <std::uint32_t clock_hz>
+template <std::uint32_t ClockHz>
 class ProcessorClock {
  public:
-  static constexpr std::uint32_t hz = clock_hz;
+  static constexpr std::uint32_t hz = ClockHz;
   static constexpr std::uint32_t largest = SysTick::largest;
 
   ProcessorClock() { SysTick::start(); }

@@ -17,11 +17,11 @@ struct UartRegisters {
 extern "C" UartRegisters uart0;  ///< address from the linker script
 
 /// A byte link, see hal/board.hpp: 115200 baud, 8 data bits, no parity, one stop bit.
-template <std::uint32_t clock_hz>
+template <std::uint32_t ClockHz>
 class Uart {
  public:
   Uart() {
-    uart0.baud_divider = clock_hz / 115200;
+    uart0.baud_divider = ClockHz / 115200;
     uart0.control = transmit_enabled | receive_enabled;
   }
 

@@ -22,13 +22,13 @@ extern volatile std::uint32_t reset_information;  ///< CMSDK system controller, 
 
 /// Unfed for a tenth of a second, it raises the NMI, by which the image ends; another tenth later
 /// it resets the board.
-template <std::uint32_t clock_hz>
+template <std::uint32_t ClockHz>
 class Watchdog {
  public:
   Watchdog() : caused_reset_((reset_information & by_watchdog) != 0) {
     reset_information = by_watchdog;  // a set bit clears it
     watchdog_lock = unlock_word;
-    watchdog.load = clock_hz / 10;
+    watchdog.load = ClockHz / 10;
     watchdog.control = counting | resetting;
   }
 

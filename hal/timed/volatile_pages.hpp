@@ -25,7 +25,7 @@ class VolatilePages {
   bool busy() const { return false; }
 
  private:
-  std::array<std::array<std::uint32_t, page_words>, 2> pages_;
+  std::array<std::array<std::uint32_t, page_words>, 2> pages_{};
 };
 
 }  // namespace sonoglide::hal::timed

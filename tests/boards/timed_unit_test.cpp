@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <ostream>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -30,6 +31,10 @@ struct TimedBoard {
   const char* parameters;        ///< where they come from after the first reset
   const char* saved_parameters;  ///< and when one has been saved; null: none can be
 };
+
+void PrintTo(const TimedBoard& board, std::ostream* stream) {
+  *stream << board.name;
+}
 
 // The emulator's micro:bit starts with zeros in its flash, which are no erased pages; the flash of
 // its Netduino cannot be written.
