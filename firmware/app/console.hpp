@@ -22,8 +22,8 @@ namespace sonoglide::app {
 /// | params         | each with what is allowed, and as compiled in              |
 /// | set NAME VALUE | saved; needs a stop first                                  |
 ///
-/// Answers are made in pieces, a word and a number at most, so that a carrier period has little to
-/// do; nothing is received meanwhile.
+/// After a reset it greets, so that none goes unseen. Answers are made in pieces, a word and a
+/// number at most, so that a carrier period has little to do; nothing is received meanwhile.
 ///
 /// @tparam ByteLink  see hal/board.hpp.
 template <class UnitT, class ByteLink>
@@ -366,9 +366,9 @@ class Console {
   int piece_ = 0;
   hal::Drive drive_{};  ///< of the period that the answer tells of
   std::uint32_t period_ = 0;
-  std::size_t listed_ = 0;     ///< line of a list
-  std::size_t parameter_ = 0;  ///< that is spoken of
-  const char* text_ = "";      ///< still to be sent, and after it the digits
+  std::size_t listed_ = 0;                  ///< line of a list
+  std::size_t parameter_ = 0;               ///< that is spoken of
+  const char* text_ = "\r\nsonoglide\r\n";  ///< still to be sent, and after it the digits
   std::array<char, encoding::most_decimal_characters> digits_{};
   std::size_t digits_count_ = 0;
   std::size_t digits_sent_ = 0;

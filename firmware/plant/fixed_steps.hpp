@@ -12,12 +12,12 @@ namespace sonoglide::plant {
 /// A step that fits a whole number of times but for rounding, 1e-5 of it, counts as fitting.
 template <class Scalar>
 std::uint32_t fixed_step_count(Scalar duration, Scalar longest_step, std::uint32_t limit) {
-  const double steps = numeric::to_real(duration) / numeric::to_real(longest_step) * (1.0 - 1e-5);
-  if (!(steps <= static_cast<double>(limit))) {
+  const Scalar steps = duration / longest_step * numeric::from_real<Scalar>(1.0 - 1e-5);
+  if (!(steps <= static_cast<Scalar>(limit))) {
     return limit + 1;
   }
   const auto whole = static_cast<std::uint32_t>(steps);
-  return steps > static_cast<double>(whole) ? whole + 1 : whole;
+  return steps > static_cast<Scalar>(whole) ? whole + 1 : whole;
 }
 
 }  // namespace sonoglide::plant

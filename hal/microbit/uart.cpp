@@ -81,18 +81,23 @@ Uart::Uart() {
   uart0.start_transmitter = 1;
 }
 
-std::uint8_t Uart::receive() {
-  while (uart0.received == 0) {
+bool Uart::receive(std::uint8_t& byte) {
+  if (uart0.received == 0) {
+    return false;
   }
   uart0.received = 0;  // before the byte is read: the next one may be there at once
-  return static_cast<std::uint8_t>(uart0.received_byte);
+  byte = static_cast<std::uint8_t>(uart0.received_byte);
+  return true;
 }
 
-void Uart::send(std::uint8_t byte) {
+bool Uart::send(std::uint8_t byte) {
+  if (sending_ && uart0.sent == 0) {
+    return false;
+  }
   uart0.sent = 0;
   uart0.sent_byte = byte;
-  while (uart0.sent == 0) {
-  }
+  sending_ = true;
+  return true;
 }
 
 }  // namespace sonoglide::hal::microbit

@@ -9,8 +9,8 @@
 
 namespace sonoglide::hal::mps2 {
 
-template <std::uint32_t clock_hz>
-using SerialBoard = lockstep::LockstepBoard<lockstep::SerialLink<Uart<clock_hz>>>;
+template <std::uint32_t ClockHz>
+using SerialBoard = lockstep::LockstepBoard<lockstep::SerialLink<Uart<ClockHz>>>;
 
 using An385SerialBoard = SerialBoard<25000000>;  ///< AN386 and AN500 as well
 using An505SerialBoard = SerialBoard<20000000>;

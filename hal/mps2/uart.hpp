@@ -16,25 +16,29 @@ struct UartRegisters {
 
 extern "C" UartRegisters uart0;  ///< address from the linker script
 
-/// 115200 baud, 8 data bits, no parity, one stop bit.
-template <std::uint32_t clock_hz>
+/// A byte link, see hal/board.hpp: 115200 baud, 8 data bits, no parity, one stop bit.
+template <std::uint32_t ClockHz>
 class Uart {
  public:
   Uart() {
-    uart0.baud_divider = clock_hz / 115200;
+    uart0.baud_divider = ClockHz / 115200;
     uart0.control = transmit_enabled | receive_enabled;
   }
 
-  std::uint8_t receive() {
-    while ((uart0.state & receive_full) == 0) {
+  bool receive(std::uint8_t& byte) {
+    const bool there = (uart0.state & receive_full) != 0;
+    if (there) {
+      byte = static_cast<std::uint8_t>(uart0.data);
     }
-    return static_cast<std::uint8_t>(uart0.data);
+    return there;
   }
 
-  void send(std::uint8_t byte) {
-    while ((uart0.state & transmit_full) != 0) {
+  bool send(std::uint8_t byte) {
+    const bool room = (uart0.state & transmit_full) == 0;
+    if (room) {
+      uart0.data = byte;
     }
-    uart0.data = byte;
+    return room;
   }
 
  private:

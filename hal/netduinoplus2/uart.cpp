@@ -58,16 +58,20 @@ Uart::Uart() {
   usart1.control_1 = usart_enabled | transmit_enabled | receive_enabled;
 }
 
-std::uint8_t Uart::receive() {
-  while ((usart1.status & receive_full) == 0) {
+bool Uart::receive(std::uint8_t& byte) {
+  const bool there = (usart1.status & receive_full) != 0;
+  if (there) {
+    byte = static_cast<std::uint8_t>(usart1.data);
   }
-  return static_cast<std::uint8_t>(usart1.data);
+  return there;
 }
 
-void Uart::send(std::uint8_t byte) {
-  while ((usart1.status & transmit_empty) == 0) {
+bool Uart::send(std::uint8_t byte) {
+  const bool room = (usart1.status & transmit_empty) != 0;
+  if (room) {
+    usart1.data = byte;
   }
-  usart1.data = byte;
+  return room;
 }
 
 }  // namespace sonoglide::hal::netduinoplus2

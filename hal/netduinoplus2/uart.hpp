@@ -5,12 +5,12 @@
 
 namespace sonoglide::hal::netduinoplus2 {
 
-/// 115200 baud, 8 data bits, no parity, one stop bit.
+/// A byte link, see hal/board.hpp: 115200 baud, 8 data bits, no parity, one stop bit.
 class Uart {
  public:
   Uart();
-  std::uint8_t receive();
-  void send(std::uint8_t byte);
+  bool receive(std::uint8_t& byte);
+  bool send(std::uint8_t byte);
 };
 
 }  // namespace sonoglide::hal::netduinoplus2

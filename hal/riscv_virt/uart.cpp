@@ -36,16 +36,20 @@ Uart::Uart() {
   uart0.fifo_control = fifo_enabled;
 }
 
-std::uint8_t Uart::receive() {
-  while ((uart0.line_status & received) == 0) {
+bool Uart::receive(std::uint8_t& byte) {
+  const bool there = (uart0.line_status & received) != 0;
+  if (there) {
+    byte = uart0.data;
   }
-  return uart0.data;
+  return there;
 }
 
-void Uart::send(std::uint8_t byte) {
-  while ((uart0.line_status & transmit_empty) == 0) {
+bool Uart::send(std::uint8_t byte) {
+  const bool room = (uart0.line_status & transmit_empty) != 0;
+  if (room) {
+    uart0.data = byte;
   }
-  uart0.data = byte;
+  return room;
 }
 
 }  // namespace sonoglide::hal::riscv_virt

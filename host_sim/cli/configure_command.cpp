@@ -7,6 +7,7 @@
 #include "host_sim/cli/output_option.hpp"
 #include "host_sim/cli/placed_error.hpp"
 #include "host_sim/image/controller_header.hpp"
+#include "host_sim/image/plant_header.hpp"
 #include "host_sim/report/output_folder.hpp"
 #include "host_sim/scene/reader.hpp"
 
@@ -19,6 +20,13 @@ CLI::App* add_configure_command(CLI::App& program, ConfigureOptions& options) {
       ->type_name("SCENE.toml");
   add_output_option(*command, options.out,
                     fmt::format("{} [out/<scene name>]", image::controller_header_name));
+  command
+      ->add_option("--plant", options.plant,
+                   fmt::format("Write the plant as well, in this arithmetic, as {}: for an image "
+                               "that holds both",
+                               image::plant_header_name))
+      ->type_name("float32|q31")
+      ->check(CLI::IsMember({"float32", "q31"}));
   command->add_flag("--quiet", options.quiet, "No word on where the header is");
   return command;
 }
@@ -30,9 +38,19 @@ void configure(const ConfigureOptions& options) {
   report::OutputFolder folder(out);
   folder.write(image::controller_header_name,
                with_places(options.scene, [&] { return image::controller_header(scene); }));
+  if (!options.plant.empty()) {
+    const scene::Arithmetic arithmetic =
+        options.plant == "q31" ? scene::Arithmetic::q31 : scene::Arithmetic::float32;
+    folder.write(image::plant_header_name, with_places(options.scene, [&] {
+                   return image::plant_header(scene, arithmetic);
+                 }));
+  }
   folder.commit();
   if (!options.quiet) {
     fmt::print("header: {}\n", (out / image::controller_header_name).string());
+    if (!options.plant.empty()) {
+      fmt::print("plant:  {}\n", (out / image::plant_header_name).string());
+    }
   }
 }
 

@@ -9,7 +9,8 @@ namespace sonoglide::cli {
 
 struct ConfigureOptions {
   std::string scene;
-  std::string out;  ///< empty: out/<scene name>
+  std::string out;    ///< empty: out/<scene name>
+  std::string plant;  ///< its arithmetic; empty: no plant
   bool quiet = false;
 };
 

@@ -8,6 +8,7 @@
 
 #include "firmware/encoding/crc32.hpp"
 #include "firmware/numeric/scalar.hpp"
+#include "host_sim/image/float_number.hpp"
 #include "host_sim/loop/carrier_grid.hpp"
 #include "host_sim/scene/configuration_error.hpp"
 #include "host_sim/scene/control_design.hpp"
@@ -21,10 +22,6 @@ struct ScalarText {
   const char* header;
   std::string (*number)(double value);
 };
-
-std::string float_number(double value) {
-  return fmt::format("{:a}F", static_cast<double>(numeric::from_real<float>(value)));
-}
 
 std::string double_number(double value) {
   return fmt::format("{:a}", value);
@@ -184,6 +181,9 @@ inline constexpr control::Controller<Parts>::Parameters parameters{{
 inline constexpr TargetStep<Scalar> target_steps[] = {{
 {}}};
 
+/// Of the drive; a step answers each.
+inline constexpr double carrier_period_s = {:a};
+
 /// Of the controller and its units; FieldDesign keeps stored parameters to it.
 inline constexpr std::uint32_t design = {:#010x};
 
@@ -192,7 +192,8 @@ inline constexpr std::uint32_t design = {:#010x};
       scene.name, includes(parts, scalar), scalar.type, types, scalar.number(design.friction_force),
       design.scales.force_N, scalar.number(design.speed_floor), design.scales.velocity_m_per_s,
       scalar.number(design.lead_periods / 64.0), parameters, design.stuck_periods,
-      target_steps(scene, scalar), design_number(types, parameters, design.scales));
+      target_steps(scene, scalar), design.scales.carrier_period_s,
+      design_number(types, parameters, design.scales));
 }
 
 }  // namespace sonoglide::image

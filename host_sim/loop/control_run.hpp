@@ -6,12 +6,12 @@
 #include <limits>
 
 #include "firmware/control/drive_command.hpp"
+#include "hal/trace_hash.hpp"
 #include "host_sim/loop/carrier_grid.hpp"
 #include "host_sim/loop/control_port.hpp"
 #include "host_sim/loop/period.hpp"
 #include "host_sim/loop/run_result.hpp"
 #include "host_sim/loop/sensor.hpp"
-#include "host_sim/loop/trace_hash.hpp"
 #include "host_sim/scene/scene.hpp"
 
 namespace sonoglide::loop {
@@ -43,7 +43,7 @@ class ControlRun {
   ControlPort& port_;
   ControlRecord& record_;
   Sensor sensor_;
-  TraceHash hash_;
+  hal::TraceHash hash_;
   std::size_t next_step_ = 0;
   double target_ = std::numeric_limits<double>::quiet_NaN();
   double amplitude_N_ = 0.0;

@@ -18,7 +18,7 @@ namespace {
 /// From reset to the next reset; the flash outlives it.
 class Terminal {
  public:
-  explicit Terminal(SimulatedFlash& flash) : unit(field_design, flash) {}
+  explicit Terminal(SimulatedFlash& flash) : unit(field_design, flash) { greeting = type(""); }
 
   void serve(int periods) {
     for (int i = 0; i < periods; ++i) {
@@ -39,6 +39,7 @@ class Terminal {
   }
   std::string line(const std::string& text) { return type(text + "\r\n"); }
 
+  std::string greeting;
   TestedUnit unit;
   TimedBoard board;
   CountingWatchdog watchdog;
@@ -61,6 +62,10 @@ class ConsoleTest : public testing::Test {
 /// An answer without what changes from period to period.
 std::string steady(const std::string& answer) {
   return answer.substr(0, answer.find(", period"));
+}
+
+TEST_F(ConsoleTest, GreetsAfterAReset) {
+  EXPECT_EQ(terminal.greeting, "\r\nsonoglide\r\n");
 }
 
 TEST_F(ConsoleTest, StatusNamesWhatTheUnitDoes) {

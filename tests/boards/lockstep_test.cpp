@@ -13,12 +13,12 @@
 #include "firmware/control/drive_command.hpp"
 #include "hal/lockstep/exit_code.hpp"
 #include "hal/lockstep/frame.hpp"
+#include "hal/trace_hash.hpp"
 #include "host_sim/emulator/board_list.hpp"
 #include "host_sim/loop/control_port.hpp"
 #include "host_sim/loop/plant_port.hpp"
 #include "host_sim/loop/run.hpp"
 #include "host_sim/loop/sensor.hpp"
-#include "host_sim/loop/trace_hash.hpp"
 #include "host_sim/pil/image_process.hpp"
 #include "host_sim/scene/control_design.hpp"
 #include "host_sim/scene/reader.hpp"
@@ -93,7 +93,7 @@ void expect_the_hosts_commands(const scene::Scene& scene, ImageProcess& board) {
   const loop::ControlRecord& record = *host.result.control;
   const scene::ControlDesign& design = record.design;
   SensedPlant plant(scene, design);
-  loop::TraceHash hash;
+  hal::TraceHash hash;
   double amplitude_N = 0.0;
   for (std::size_t k = 0; k < host.periods.size(); ++k) {
     const hal::Drive drive = board.exchange(plant.advance(host.periods[k], amplitude_N));

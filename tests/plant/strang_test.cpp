@@ -197,5 +197,40 @@ TEST(StrangFlow, IntervalsOfAnyLengthJoin) {
   EXPECT_NEAR(state.displacement, (std::cos(phase) - std::cos(w * phase)) / (0.7 - 1.0), 1e-14);
 }
 
+/// Mean friction of one period of Table 1, whose drive changes every 200.
+template <class Scalar>
+class Table1Plant {
+ public:
+  explicit Table1Plant(double steps_per_period) {
+    const DahlModel<Scalar> model{
+        {{number(1.8417)}, number(1.0696e-5), Scalar(1)}, {}, number(0.04679)};
+    solver_.configure(model, number(2.0 * pi / steps_per_period));
+  }
+
+  double mean_friction(int period, double full_drive) {
+    const double amplitude = full_drive * (period / 200 % 2 == 0 ? 0.4 : 0.6) * 1.04679;
+    MeanFriction<Scalar> account;
+    run_periods(solver_, 1, number(amplitude), number(0.10984), state_, account);
+    return static_cast<double>(account.friction_integral) / (2.0 * pi);
+  }
+
+ private:
+  static Scalar number(double value) { return static_cast<Scalar>(value); }
+
+  Strang<DahlModel<Scalar>> solver_;
+  State<Scalar> state_;
+};
+
+TEST(StrangFloat, EightStepsKeepTheFrictionRatioOfTable1) {
+  for (const double full_drive : {0.1, 0.25, 0.5, 0.75, 1.0}) {
+    Table1Plant<float> plant(8.0);
+    Table1Plant<double> exact(24.0);
+    for (int k = 0; k < 1600; ++k) {
+      ASSERT_NEAR(plant.mean_friction(k, full_drive), exact.mean_friction(k, full_drive), 6e-4)
+          << full_drive << ", carrier period " << k;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace sonoglide::plant

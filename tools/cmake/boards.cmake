@@ -5,30 +5,54 @@
 #   cmake --build --preset BOARD
 #
 # leaves build/BOARD/bin/<name of FOLDER>.elf, in lockstep with its host over semihosting, and
-# <name of FOLDER>_serial.elf, over a serial line. A toolchain file without a board compiles the core
-# alone.
+# <name of FOLDER>_serial.elf, over a serial line; and <name of FOLDER>_timed.elf, on the board's own
+# timer, with a console. After configure --plant there is also <name of FOLDER>_plant.elf, which needs
+# neither host nor hardware. A toolchain file without a board compiles the core alone.
 
 sonoglide_room(sonoglide_lockstep hal/lockstep USES sonoglide_hal)
 sonoglide_room(sonoglide_start hal/start)
+sonoglide_room(sonoglide_timed hal/timed USES sonoglide_hal)
+sonoglide_room(sonoglide_simulated hal/simulated
+  USES sonoglide_plant sonoglide_hal sonoglide_start)
 
-# sonoglide_images(<suffix> CLASS <board> HEADER <its header> MEMORY <linker script> USES <rooms>...):
-# an image of every configured controller on a class that has the seam's shape.
-function(sonoglide_images suffix)
-  cmake_parse_arguments(IMAGE "" "CLASS;HEADER;MEMORY" "USES" ${ARGN})
+# sonoglide_image(<target> SOURCE <main> FOLDER <configuration> MEMORY <linker script>
+#   USES <rooms>...): an image of one configured controller; <main> is in firmware/app/image.
+function(sonoglide_image target)
+  cmake_parse_arguments(IMAGE "" "SOURCE;FOLDER;MEMORY" "USES" ${ARGN})
   set(script "${PROJECT_SOURCE_DIR}/${IMAGE_MEMORY}")
-  set(sections "${PROJECT_SOURCE_DIR}/hal/start/sections.ld")
+  add_executable(${target} "${PROJECT_SOURCE_DIR}/firmware/app/image/${IMAGE_SOURCE}")
+  target_include_directories(${target} PRIVATE "${IMAGE_FOLDER}")
+  target_link_libraries(${target} PRIVATE
+    sonoglide_app ${IMAGE_USES} sonoglide_freestanding sonoglide_warnings)
+  target_link_options(${target} PRIVATE "-L${PROJECT_SOURCE_DIR}" "-T${script}")
+  set_target_properties(${target} PROPERTIES
+    LINK_DEPENDS "${script};${PROJECT_SOURCE_DIR}/hal/start/sections.ld")
+endfunction()
+
+# sonoglide_images(<suffix> SOURCE <main> CLASS <board> HEADER <its header> MEMORY <linker script>
+#   USES <rooms>...): an image of every configured controller on a class that has the shape which
+# <main>, in firmware/app/image, asks for.
+function(sonoglide_images suffix)
+  cmake_parse_arguments(IMAGE "" "SOURCE;CLASS;HEADER;MEMORY" "USES" ${ARGN})
   foreach(folder IN LISTS SONOGLIDE_CONTROLLERS)
     get_filename_component(name "${folder}" NAME)
-    set(image "${name}${suffix}")
-    add_executable(${image} "${PROJECT_SOURCE_DIR}/firmware/app/image/main.cpp")
-    target_compile_definitions(${image} PRIVATE
+    sonoglide_image(${name}${suffix} SOURCE ${IMAGE_SOURCE} FOLDER "${folder}"
+      MEMORY ${IMAGE_MEMORY} USES ${IMAGE_USES})
+    target_compile_definitions(${name}${suffix} PRIVATE
       "SONOGLIDE_BOARD_CLASS=sonoglide::hal::${IMAGE_CLASS}"
       "SONOGLIDE_BOARD_HEADER=\"${IMAGE_HEADER}\"")
-    target_include_directories(${image} PRIVATE "${folder}")
-    target_link_libraries(${image} PRIVATE
-      sonoglide_app ${IMAGE_USES} sonoglide_freestanding sonoglide_warnings)
-    target_link_options(${image} PRIVATE "-L${PROJECT_SOURCE_DIR}" "-T${script}")
-    set_target_properties(${image} PROPERTIES LINK_DEPENDS "${script};${sections}")
+  endforeach()
+endfunction()
+
+# sonoglide_plant_images(<linker script>): an image of every controller that was configured with its
+# plant, the two of them in one processor.
+function(sonoglide_plant_images memory)
+  foreach(folder IN LISTS SONOGLIDE_CONTROLLERS)
+    if(EXISTS "${folder}/plant_configuration.hpp")
+      get_filename_component(name "${folder}" NAME)
+      sonoglide_image(${name}_plant SOURCE plant_main.cpp FOLDER "${folder}" MEMORY ${memory}
+        USES sonoglide_simulated sonoglide_processor sonoglide_semihosting)
+    endif()
   endforeach()
 endfunction()
 
@@ -41,29 +65,37 @@ function(sonoglide_board name)
   endif()
   cmake_parse_arguments(BOARD "" "FOLDER;CLASS" "" ${ARGN})
   sonoglide_room(sonoglide_board ${BOARD_FOLDER} USES sonoglide_hal sonoglide_start)
-  sonoglide_images("" MEMORY ${BOARD_FOLDER}/memory.ld
+  sonoglide_images("" SOURCE main.cpp MEMORY ${BOARD_FOLDER}/memory.ld
     CLASS ${BOARD_CLASS} HEADER ${BOARD_FOLDER}/board.hpp
     USES sonoglide_board sonoglide_processor)
 endfunction()
 
-# sonoglide_emulated_board(<name> FOLDER <f> [MEMORY <its linker script>] SERIAL_BOARD <class>): a
-# board in lockstep with its host, over semihosting and over a serial line.
+# sonoglide_emulated_board(<name> FOLDER <f> [MEMORY <its linker script>] SERIAL_BOARD <class>
+#   [TIMED_HARDWARE <class>]): a board in lockstep with its host, over semihosting and over a serial
+# line, and on its own timer. The classes are in <f>/serial_board.hpp and <f>/timed_hardware.hpp.
 function(sonoglide_emulated_board name)
   set_property(GLOBAL APPEND PROPERTY SONOGLIDE_BOARDS ${name})
   if(NOT name STREQUAL SONOGLIDE_BOARD)
     return()
   endif()
-  cmake_parse_arguments(BOARD "" "FOLDER;MEMORY;SERIAL_BOARD" "" ${ARGN})
+  cmake_parse_arguments(BOARD "" "FOLDER;MEMORY;SERIAL_BOARD;TIMED_HARDWARE" "" ${ARGN})
   if(NOT BOARD_MEMORY)
     set(BOARD_MEMORY memory.ld)
   endif()
-  sonoglide_room(sonoglide_serial_board ${BOARD_FOLDER} USES sonoglide_lockstep_board)
-  sonoglide_images("" MEMORY ${BOARD_FOLDER}/${BOARD_MEMORY}
+  sonoglide_room(sonoglide_emulated_board ${BOARD_FOLDER}
+    USES sonoglide_lockstep_board sonoglide_timed sonoglide_processor)
+  sonoglide_images("" SOURCE main.cpp MEMORY ${BOARD_FOLDER}/${BOARD_MEMORY}
     CLASS semihosting::SemihostingBoard HEADER hal/semihosting/semihosting_board.hpp
     USES sonoglide_processor sonoglide_semihosting)
-  sonoglide_images(_serial MEMORY ${BOARD_FOLDER}/${BOARD_MEMORY}
+  sonoglide_images(_serial SOURCE main.cpp MEMORY ${BOARD_FOLDER}/${BOARD_MEMORY}
     CLASS ${BOARD_SERIAL_BOARD} HEADER ${BOARD_FOLDER}/serial_board.hpp
-    USES sonoglide_serial_board sonoglide_processor sonoglide_semihosting)
+    USES sonoglide_emulated_board sonoglide_semihosting)
+  if(BOARD_TIMED_HARDWARE)
+    sonoglide_images(_timed SOURCE timed_unit.cpp MEMORY ${BOARD_FOLDER}/${BOARD_MEMORY}
+      CLASS ${BOARD_TIMED_HARDWARE} HEADER ${BOARD_FOLDER}/timed_hardware.hpp
+      USES sonoglide_emulated_board sonoglide_halt)
+  endif()
+  sonoglide_plant_images(${BOARD_FOLDER}/${BOARD_MEMORY})
 endfunction()
 
 if(CMAKE_CROSSCOMPILING)
@@ -74,6 +106,7 @@ if(CMAKE_CROSSCOMPILING)
   sonoglide_room(sonoglide_lockstep_board hal/lockstep/board
     USES sonoglide_lockstep sonoglide_start)
   sonoglide_room(sonoglide_semihosting hal/semihosting USES sonoglide_lockstep_board)
+  sonoglide_room(sonoglide_halt hal/halt USES sonoglide_start)
   if(CMAKE_SYSTEM_PROCESSOR STREQUAL arm)
     sonoglide_room(sonoglide_processor hal/cortex_m USES sonoglide_start)
   else()
@@ -81,15 +114,18 @@ if(CMAKE_CROSSCOMPILING)
   endif()
 
   sonoglide_board(template FOLDER hal/template CLASS template_board::Board)
-  sonoglide_emulated_board(microbit FOLDER hal/microbit SERIAL_BOARD microbit::SerialBoard)
-  sonoglide_emulated_board(mps2-an385 FOLDER hal/mps2 SERIAL_BOARD mps2::An385SerialBoard)
-  sonoglide_emulated_board(mps2-an386 FOLDER hal/mps2 SERIAL_BOARD mps2::An385SerialBoard)
-  sonoglide_emulated_board(mps2-an500 FOLDER hal/mps2 SERIAL_BOARD mps2::An385SerialBoard)
+  sonoglide_emulated_board(microbit FOLDER hal/microbit
+    SERIAL_BOARD microbit::SerialBoard TIMED_HARDWARE microbit::TimedHardware)
+  foreach(board mps2-an385 mps2-an386 mps2-an500)
+    sonoglide_emulated_board(${board} FOLDER hal/mps2
+      SERIAL_BOARD mps2::An385SerialBoard TIMED_HARDWARE mps2::TimedHardware)
+  endforeach()
   sonoglide_emulated_board(mps2-an505
     FOLDER hal/mps2 MEMORY an505_memory.ld SERIAL_BOARD mps2::An505SerialBoard)
-  sonoglide_emulated_board(netduinoplus2
-    FOLDER hal/netduinoplus2 SERIAL_BOARD netduinoplus2::SerialBoard)
-  sonoglide_emulated_board(riscv32-virt FOLDER hal/riscv_virt SERIAL_BOARD riscv_virt::SerialBoard)
+  sonoglide_emulated_board(netduinoplus2 FOLDER hal/netduinoplus2
+    SERIAL_BOARD netduinoplus2::SerialBoard TIMED_HARDWARE netduinoplus2::TimedHardware)
+  sonoglide_emulated_board(riscv32-virt FOLDER hal/riscv_virt
+    SERIAL_BOARD riscv_virt::SerialBoard TIMED_HARDWARE riscv_virt::TimedHardware)
 
   get_property(boards GLOBAL PROPERTY SONOGLIDE_BOARDS)
   if(SONOGLIDE_BOARD AND NOT SONOGLIDE_BOARD IN_LIST boards)

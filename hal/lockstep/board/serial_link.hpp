@@ -10,30 +10,30 @@ namespace sonoglide::hal::lockstep {
 
 /// The line carries frames back to back, after one greeting from the board. It has no end.
 ///
-/// @tparam Uart  once constructed, it hears; it offers
-///   std::uint8_t receive();        // waits for a byte
-///   void send(std::uint8_t byte);  // waits until the line takes it
-template <class Uart>
+/// @tparam ByteLink  see hal/board.hpp; once constructed, it hears.
+template <class ByteLink>
 class SerialLink {
  public:
-  SerialLink() { uart_.send(greeting); }
+  SerialLink() { write(&greeting, 1); }
 
   std::size_t read(std::uint8_t* bytes, std::size_t size) {
     for (std::size_t i = 0; i < size; ++i) {
-      bytes[i] = uart_.receive();
+      while (!line_.receive(bytes[i])) {
+      }
     }
     return size;
   }
 
   bool write(const std::uint8_t* bytes, std::size_t size) {
     for (std::size_t i = 0; i < size; ++i) {
-      uart_.send(bytes[i]);
+      while (!line_.send(bytes[i])) {
+      }
     }
     return true;
   }
 
  private:
-  Uart uart_{};
+  ByteLink line_{};
 };
 
 }  // namespace sonoglide::hal::lockstep

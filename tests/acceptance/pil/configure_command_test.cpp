@@ -3,6 +3,7 @@
 #include <string>
 
 #include "host_sim/image/controller_header.hpp"
+#include "host_sim/image/plant_header.hpp"
 #include "tests/acceptance/program/program.hpp"
 
 namespace sonoglide::acceptance {
@@ -28,6 +29,29 @@ TEST(ConfigureCommandTest, SaysWhereASceneHasNoController) {
   EXPECT_EQ(outcome.exit_code, 2);
   EXPECT_NE(outcome.err.find("table_1_open_loop.toml:1:1: controller: missing"), std::string::npos)
       << outcome.err;
+  EXPECT_TRUE(folder.entries().empty());
+}
+
+TEST(ConfigureCommandTest, WritesThePlantAsWellWhereItIsAskedTo) {
+  const std::string plant_name = std::string("/") + image::plant_header_name;
+  const ScratchFolder folder;
+  const std::string scene = "'" SONOGLIDE_SCENES "/target_step.toml'";
+  EXPECT_EQ(folder.run("configure " + scene + " --plant float32").out,
+            "header: out/target_step" + name + "\nplant:  out/target_step" + plant_name + "\n");
+  const std::string header = folder.read("out/target_step" + plant_name);
+  EXPECT_NE(header.find("plant::Strang<PlantModel>"), std::string::npos) << header;
+  EXPECT_NE(header.find("plant_periods = 360;"), std::string::npos) << header;
+  EXPECT_EQ(folder.run("configure " + scene + " --plant q31 --out q31").exit_code, 0);
+  EXPECT_NE(folder.read("q31" + plant_name).find("FixedPlantBoard"), std::string::npos);
+  EXPECT_EQ(folder.run("configure " + scene + " --plant float64 --out other").exit_code, 2);
+}
+
+TEST(ConfigureCommandTest, SaysWhatThePlantOfAnImageCannotFollow) {
+  const ScratchFolder folder;
+  const Outcome outcome =
+      folder.run("configure '" SONOGLIDE_SCENES "/speed_ramp.toml' --plant float32");
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_NE(outcome.err.find("sliding.profile: changes"), std::string::npos) << outcome.err;
   EXPECT_TRUE(folder.entries().empty());
 }
 

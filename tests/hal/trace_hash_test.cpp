@@ -1,11 +1,11 @@
-#include "host_sim/loop/trace_hash.hpp"
+#include "hal/trace_hash.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cstdint>
 #include <string>
 
-namespace sonoglide::loop {
+namespace sonoglide::hal {
 namespace {
 
 __extension__ using Wide = unsigned __int128;
@@ -21,7 +21,7 @@ std::uint64_t fnv_1a(const std::string& bytes) {
 }
 
 /// The seven bytes of a command, as the hash is documented to take them.
-std::string bytes_of(const hal::Drive& drive) {
+std::string bytes_of(const Drive& drive) {
   std::string bytes;
   auto amplitude = static_cast<std::int64_t>(drive.amplitude);
   amplitude = amplitude < 0 ? amplitude + (std::int64_t{1} << 32) : amplitude;
@@ -41,7 +41,7 @@ TEST(TraceHashTest, OfNothingIsTheOffsetBasis) {
 
 TEST(TraceHashTest, OfACommandThatReadsFoobarIsThePublishedVector) {
   TraceHash hash;
-  hash.add({0x626f6f66, 'a', 'r', 0});  // "foobar" and its final zero
+  hash.add(Drive{0x626f6f66, 'a', 'r', 0});  // "foobar" and its final zero
   EXPECT_EQ(hash.value(), 0x34531ca7168b8f38U);
 }
 
@@ -56,8 +56,8 @@ TEST(TraceHashTest, GoesThroughACourseOfCommandsInOrder) {
   std::string bytes;
   std::int32_t amplitude = INT32_MIN;
   for (int i = 0; i < 1000; ++i) {
-    const hal::Drive drive{amplitude, static_cast<std::uint8_t>(i),
-                           static_cast<std::uint8_t>(3 * i), static_cast<std::uint8_t>(255 - i)};
+    const Drive drive{amplitude, static_cast<std::uint8_t>(i), static_cast<std::uint8_t>(3 * i),
+                      static_cast<std::uint8_t>(255 - i)};
     hash.add(drive);
     bytes += bytes_of(drive);
     ASSERT_EQ(hash.value(), fnv_1a(bytes)) << i;
@@ -66,8 +66,8 @@ TEST(TraceHashTest, GoesThroughACourseOfCommandsInOrder) {
 }
 
 TEST(TraceHashTest, SeesEveryFieldAndTheLastBit) {
-  const hal::Drive drive{1000, 2, 1, 0};
-  const auto hash_of = [](const hal::Drive& command) {
+  const Drive drive{1000, 2, 1, 0};
+  const auto hash_of = [](const Drive& command) {
     TraceHash hash;
     hash.add(command);
     return hash.value();
@@ -79,4 +79,4 @@ TEST(TraceHashTest, SeesEveryFieldAndTheLastBit) {
 }
 
 }  // namespace
-}  // namespace sonoglide::loop
+}  // namespace sonoglide::hal

@@ -1,0 +1,42 @@
+// The image of one scene's controller on a board that keeps its own time, with a console on its
+// serial line; both are chosen when the image is built.
+#include SONOGLIDE_BOARD_HEADER
+
+#include <cstdint>
+
+#include "controller_configuration.hpp"
+#include "firmware/app/console.hpp"
+#include "firmware/app/field_parameters.hpp"
+#include "firmware/app/timed_loop.hpp"
+#include "firmware/app/unit.hpp"
+
+namespace {
+
+using Hardware = SONOGLIDE_BOARD_CLASS;
+namespace app = sonoglide::app;
+namespace configuration = app::configuration;
+
+constexpr app::FieldDesign<configuration::Parts> design(configuration::parameters,
+                                                        configuration::target_steps[0].half_ratio,
+                                                        configuration::design);
+
+/// To the nearest tick; the carrier is derived from the same clock.
+constexpr double period_ticks =
+    Hardware::carriers_per_period * configuration::carrier_period_s * Hardware::Board::clock_hz +
+    0.5;
+static_assert(1.0 <= period_ticks && period_ticks <= Hardware::Board::most_period_ticks);
+
+}  // namespace
+
+int main() {
+  Hardware::ByteLink bytes;
+  Hardware::Flash flash;
+  app::Unit unit(design, flash);
+  app::Console console(unit, bytes);
+  Hardware::Watchdog watchdog;
+  Hardware::Board board(static_cast<std::uint32_t>(period_ticks));
+  app::TimedLoop loop(unit.supervisor(), board, watchdog, console);
+  while (loop.serve()) {
+  }
+  return 0;
+}

@@ -1,0 +1,73 @@
+/// A board that is the plant itself: no host, no converter, no vibration.
+#pragma once
+
+#include <cstdint>
+
+#include "firmware/numeric/scalar.hpp"
+#include "firmware/plant/account.hpp"
+#include "firmware/plant/observer.hpp"
+#include "firmware/plant/outcome.hpp"
+#include "firmware/plant/state.hpp"
+#include "hal/board.hpp"
+
+namespace sonoglide::hal::simulated {
+
+/// Lives through one carrier period for every sample, from drive phase 0 to 2 pi, under the latest
+/// drive amplitude. The sensor is ideal: the code nearest to the mean friction force of the period,
+/// ties toward +infinity, at the rail where the force has left the range of codes.
+///
+/// @tparam Solver  one of firmware/plant, in float or double
+template <class Solver>
+class PlantBoard {
+ public:
+  using Scalar = typename Solver::Scalar;
+  using Model = typename Solver::Model;
+
+  struct Parameters {
+    Model model;
+    Scalar precision;  ///< the tolerance of an adaptive solver, the step of another
+    plant::State<Scalar> initial;
+    Scalar full_drive;          ///< drive force at amplitude code 2^31, in units of m L omega^2
+    Scalar force_per_friction;  ///< Fc / (2 pi force full scale): of an integral of phi over tau
+    Scalar sliding_velocity;    ///< constant, in units of L omega
+    std::int32_t sliding_code;  ///< the same as a sample has it
+  };
+
+  explicit PlantBoard(const Parameters& parameters)
+      : full_drive_(parameters.full_drive),
+        force_per_friction_(parameters.force_per_friction),
+        sliding_velocity_(parameters.sliding_velocity),
+        sliding_code_(parameters.sliding_code),
+        state_(parameters.initial) {
+    solver_.configure(parameters.model, parameters.precision);
+  }
+
+  /// False where the solver cannot go on.
+  bool sample(Sample& sample) {
+    constexpr Scalar two_pi = numeric::from_real<Scalar>(6.28318530717958647693);
+    plant::MeanFriction<Scalar> account;
+    plant::NoObserver nobody;
+    const plant::Outcome<Scalar> outcome =
+        solver_.advance({Scalar(0), two_pi, drive_amplitude_, sliding_velocity_, Scalar(0)}, state_,
+                        account, nobody);
+    const Scalar force = force_per_friction_ * account.friction_integral;
+    const bool in_range = force > Scalar(-1) && force < Scalar(1);
+    sample = {numeric::to_code(force), sliding_code_, !in_range, true};
+    return outcome.error == plant::Error::none;
+  }
+
+  void drive(const Drive& drive) {
+    drive_amplitude_ = full_drive_ * numeric::from_code<Scalar>(drive.amplitude);
+  }
+
+ private:
+  Scalar full_drive_;
+  Scalar force_per_friction_;
+  Scalar sliding_velocity_;
+  std::int32_t sliding_code_;
+  plant::State<Scalar> state_;
+  Scalar drive_amplitude_ = Scalar(0);
+  Solver solver_;
+};
+
+}  // namespace sonoglide::hal::simulated

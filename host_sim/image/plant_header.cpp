@@ -1,0 +1,245 @@
+#include "host_sim/image/plant_header.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include "firmware/friction/dahl.hpp"
+#include "firmware/plant/damping.hpp"
+#include "firmware/plant/drive.hpp"
+#include "firmware/plant/fixed_strang_design.hpp"
+#include "firmware/plant/model.hpp"
+#include "firmware/plant/state.hpp"
+#include "host_sim/image/float_number.hpp"
+#include "host_sim/loop/carrier_grid.hpp"
+#include "host_sim/loop/plant_description.hpp"
+#include "host_sim/loop/sensor.hpp"
+#include "host_sim/scene/configuration_error.hpp"
+#include "host_sim/scene/control_design.hpp"
+
+namespace sonoglide::image {
+namespace {
+
+constexpr double two_pi = 6.28318530717958647693;
+constexpr int steps_per_period = 8;
+
+void require(bool allowed, const char* key, const char* finding) {
+  if (!allowed) {
+    throw scene::ConfigurationError(key, finding);
+  }
+}
+
+double constant_sliding_m_per_s(const scene::Sliding& sliding) {
+  const double velocity = sliding.profile.front().velocity_m_per_s;
+  require(std::all_of(sliding.profile.begin(), sliding.profile.end(),
+                      [&](const auto& point) { return point.velocity_m_per_s == velocity; }),
+          "sliding.profile", "changes; the plant of an image slides at one velocity");
+  return velocity;
+}
+
+void require_ideal(const scene::Sensor& sensor) {
+  require(!sensor.adc_bits, "sensor.adc_bits", "the sensor of a plant in an image is ideal");
+  require(sensor.force_noise_N == 0.0, "sensor.force_noise_N",
+          "the sensor of a plant in an image is ideal");
+  require(!sensor.force_bandwidth_Hz, "sensor.force_bandwidth_Hz",
+          "the sensor of a plant in an image is ideal");
+  require(sensor.delay_periods == 0, "sensor.delay_periods",
+          "the sensor of a plant in an image is ideal");
+}
+
+std::uint64_t whole_periods(const scene::Scene& scene) {
+  const loop::CarrierGrid grid(scene);
+  const std::uint64_t periods = grid.is_whole(grid.count() - 1) ? grid.count() : grid.count() - 1;
+  require(periods <= 0xffffffff, "run.duration_s", "has more carrier periods than an image counts");
+  return periods;
+}
+
+/// What a header is made of: where the plant is joined to the codes of the seam.
+struct PlantText {
+  std::string includes;
+  std::string definitions;
+};
+
+struct SceneNumbers {
+  loop::PlantDescription plant;
+  scene::ControlScales codes;
+  double sliding_velocity;  ///< in units of L ω
+  double full_drive;        ///< in units of m L ω²
+  std::int32_t sliding_code;
+  plant::State<double> initial;
+
+  explicit SceneNumbers(const scene::Scene& scene)
+      : plant(scene), codes(scene::design_control(scene).scales) {
+    const double sliding_m_per_s = constant_sliding_m_per_s(scene.sliding);
+    const scene::PlantScales& scales = plant.scales;
+    sliding_velocity = sliding_m_per_s / scales.velocity_m_per_s();
+    full_drive = codes.drive_amplitude_N / scales.force_N;
+    sliding_code = loop::Sensor(scene.sensor, codes).sample(0.0, sliding_m_per_s).sliding_velocity;
+    initial = {scene.plant.initial_displacement_m / scales.length_m,
+               scene.plant.initial_velocity_m_per_s / scales.velocity_m_per_s(),
+               scene.friction.initial_force_N / scales.friction_N};
+  }
+};
+
+PlantText float_plant(const SceneNumbers& scene) {
+  const scene::PlantNumbers& numbers = scene.plant.numbers;
+  const bool damped = numbers.damping > 0.0;
+  return {
+      R"(#include "firmware/friction/dahl.hpp"
+#include "firmware/plant/contact.hpp"
+#include "firmware/plant/damping.hpp"
+#include "firmware/plant/drive.hpp"
+#include "firmware/plant/model.hpp"
+#include "firmware/plant/strang.hpp"
+#include "hal/simulated/plant_board.hpp"
+)",
+      fmt::format(
+          R"(using PlantModel = plant::Model<friction::Dahl<float>, plant::{}<float>, plant::CosineDrive>;
+using PlantBoard = hal::simulated::PlantBoard<plant::Strang<PlantModel>>;
+
+inline constexpr PlantBoard::Parameters plant_parameters{{
+    {{{{{{{}}}, {}, {}}}, {{{}}}, {}}},  // contact, damping, stiffness
+    {},  // step, {} to a carrier period
+    {{{}, {}, {}}},  // initial
+    {},  // full_drive
+    {},  // force_per_friction
+    {},  // sliding_velocity
+    {},  // sliding_code
+}};
+)",
+          damped ? "Damped" : "Undamped", float_number(numbers.contact_stiffness),
+          float_number(numbers.friction_force), float_number(scene.plant.vibration_sign),
+          damped ? float_number(numbers.damping) : "", float_number(numbers.stiffness),
+          float_number(two_pi / steps_per_period), steps_per_period,
+          float_number(scene.initial.displacement), float_number(scene.initial.velocity),
+          float_number(scene.initial.friction), float_number(scene.full_drive),
+          float_number(scene.plant.scales.friction_N / (two_pi * scene.codes.force_N)),
+          float_number(scene.sliding_velocity), scene.sliding_code)};
+}
+
+[[noreturn]] void refuse(plant::FixedStrangRefusal refusal) {
+  using plant::FixedStrangRefusal;
+  switch (refusal) {
+    case FixedStrangRefusal::oscillator:
+      throw scene::ConfigurationError(
+          "plant.stiffness_N_per_m",
+          "has a natural frequency or a damping that 32 steps in a carrier period do not "
+          "follow in q31; allowed: the plant in float32");
+    case FixedStrangRefusal::contact:
+      throw scene::ConfigurationError(
+          "friction.contact_stiffness_N_per_m",
+          "is too stiff against the vibration for q31; allowed: the plant in float32");
+    case FixedStrangRefusal::friction:
+      throw scene::ConfigurationError(
+          "friction.coefficient",
+          "is too large against the inertia for q31; allowed: the plant in float32");
+    case FixedStrangRefusal::range:
+    case FixedStrangRefusal::none:
+      break;
+  }
+  throw scene::ConfigurationError("sliding.velocity_m_per_s",
+                                  "or the initial state is out of the range of the vibration in "
+                                  "q31; allowed: the plant in float32");
+}
+
+template <class Damping>
+plant::FixedStrangParameters designed(const SceneNumbers& scene, const Damping& damping) {
+  using Model = plant::Model<friction::Dahl<double>, Damping, plant::CosineDrive>;
+  const scene::PlantNumbers& numbers = scene.plant.numbers;
+  const Model model{
+      {{numbers.contact_stiffness}, numbers.friction_force, scene.plant.vibration_sign},
+      damping,
+      numbers.stiffness};
+  const plant::FixedStrangDesign design =
+      plant::design_fixed_strang(model, scene.full_drive, scene.sliding_velocity, scene.initial);
+  if (design.refusal != plant::FixedStrangRefusal::none) {
+    refuse(design.refusal);
+  }
+  return design.parameters;
+}
+
+std::string driven_rows(const plant::FixedStrangParameters& plant) {
+  std::string rows;
+  for (const auto& [displacement, velocity] : plant.driven) {
+    rows += fmt::format("         {{{}, {}}},\n", displacement, velocity);
+  }
+  return rows;
+}
+
+PlantText fixed_plant(const SceneNumbers& scene) {
+  const double damping = scene.plant.numbers.damping;
+  const double force_per_friction = scene.plant.scales.friction_N / scene.codes.force_N;
+  require(force_per_friction < 1.0, "sensor.force_full_scale_N",
+          "is below the friction force; allowed: more");
+  const plant::FixedStrangParameters p = damping > 0.0
+                                             ? designed(scene, plant::Damped<double>{damping})
+                                             : designed(scene, plant::Undamped<double>{});
+  const auto& g = p.growth;
+  return {
+      R"(#include "hal/simulated/fixed_plant_board.hpp"
+)",
+      fmt::format(R"(using PlantBoard = hal::simulated::FixedPlantBoard;
+
+inline constexpr PlantBoard::Parameters plant_parameters{{
+    {{
+        {{{{{{{}, {}}}, {{{}, {}}}}}}},  // growth
+        {{{{
+{}        }}}},  // driven
+        {},  // kick
+        {},  // contact_stiffness
+        {},  // step
+        {},  // sliding_velocity
+        {},  // sliding_travel
+        {},  // side
+        {{{}, {}, {}}},  // initial
+    }},
+    {},  // force_per_friction
+    {},  // sliding_code
+}};
+)",
+                  g[0][0], g[0][1], g[1][0], g[1][1], driven_rows(p), p.kick, p.contact_stiffness,
+                  p.step, p.sliding_velocity, p.sliding_travel, p.side, p.initial[0], p.initial[1],
+                  p.initial[2], std::lround(std::ldexp(force_per_friction, 26)),
+                  scene.sliding_code)};
+}
+
+PlantText plant_text(const SceneNumbers& scene, scene::Arithmetic arithmetic) {
+  switch (arithmetic) {
+    case scene::Arithmetic::float32:
+      return float_plant(scene);
+    case scene::Arithmetic::q31:
+      return fixed_plant(scene);
+    case scene::Arithmetic::float64:
+      break;
+  }
+  throw scene::ConfigurationError("plant", "an image holds it in float32 or q31");
+}
+
+}  // namespace
+
+std::string plant_header(const scene::Scene& scene, scene::Arithmetic arithmetic) {
+  require(scene.controller.has_value(), "controller",
+          "missing; only a closed-loop scene has an image");
+  require(scene.friction.law == scene::FrictionLaw::dahl, "friction.law",
+          "the plant of an image has Dahl friction; allowed: \"dahl\"");
+  require_ideal(scene.sensor);
+  const PlantText text = plant_text(SceneNumbers(scene), arithmetic);
+  return fmt::format(
+      R"(/// The plant of the scene {}. Written by sonoglide configure: edit the scene.
+#pragma once
+
+#include <cstdint>
+
+{}
+namespace sonoglide::app::configuration {{
+
+{}inline constexpr std::uint32_t plant_periods = {};
+
+}}  // namespace sonoglide::app::configuration
+)",
+      scene.name, text.includes, text.definitions, whole_periods(scene));
+}
+
+}  // namespace sonoglide::image

@@ -1,0 +1,258 @@
+// Units on their board's own timer, talked to on their console. The emulator's time is that of its
+// instructions, so that whether a step is done in time does not depend on the machine.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <ostream>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "host_sim/emulator/board_list.hpp"
+#include "host_sim/process/child_process.hpp"
+#include "host_sim/process/pipe.hpp"
+#include "host_sim/process/wait_for_input.hpp"
+#include "monitor.hpp"
+
+namespace sonoglide::pil {
+namespace {
+
+using std::chrono_literals::operator""s;
+
+struct TimedBoard {
+  const char* name;
+  int speed;                     ///< an instruction takes 2^speed ns: a step is done in time
+  int slow_speed;                ///< a step is not
+  const char* parameters;        ///< where they come from after the first reset
+  const char* saved_parameters;  ///< and when one has been saved; null: none can be
+};
+
+void PrintTo(const TimedBoard& board, std::ostream* stream) {
+  *stream << board.name;
+}
+
+// The emulator's micro:bit starts with zeros in its flash, which are no erased pages; the flash of
+// its Netduino cannot be written.
+constexpr TimedBoard timed_boards[] = {
+    {"microbit", 6, 9, "damaged", "stored"},     {"mps2-an385", 5, 9, "blank", "blank"},
+    {"mps2-an386", 5, 10, "blank", "blank"},     {"mps2-an500", 5, 10, "blank", "blank"},
+    {"netduinoplus2", 3, 7, "damaged", nullptr}, {"riscv32-virt", 5, 9, "blank", "blank"},
+};
+
+std::vector<std::string> emulate(const std::string& board, const std::string& image, int speed) {
+  std::vector<std::string> command = emulator::serial_emulator_command(
+      *emulator::find_board(board), SONOGLIDE_IMAGES "/" + board + "/bin/" + image + ".elf");
+  command.insert(command.end(), {"-icount", "shift=" + std::to_string(speed)});
+  return command;
+}
+
+/// A terminal on a unit's console. What goes wrong is thrown.
+class Terminal {
+ public:
+  explicit Terminal(std::vector<std::string> command)
+      : typed_(process::make_pipe()),
+        shown_(process::make_pipe()),
+        emulator_(with_monitor(std::move(command)),
+                  {typed_.read_end.number(), shown_.write_end.number(), STDERR_FILENO}) {
+    shown_.write_end.close();
+  }
+
+  void await_greeting() {
+    while (next_line() != "sonoglide") {
+    }
+  }
+
+  /// @return the first line of the answer
+  std::string type(const std::string& line) {
+    const std::string typed = line + "\r";
+    if (write(typed_.write_end.number(), typed.data(), typed.size()) < 0) {
+      throw std::runtime_error("the board cannot be written to");
+    }
+    return next_line();
+  }
+
+  std::string next_line() {
+    std::string line;
+    for (char character = '\0'; character != '\n';) {
+      if (!receive(character)) {
+        throw std::runtime_error("the emulator has ended");
+      }
+      if (' ' <= character) {
+        line += character;
+      }
+    }
+    return line;
+  }
+
+  void reset() {
+    monitor_.request_reset();
+    await_greeting();
+  }
+
+  /// Waits for the emulator to end by itself.
+  /// @return its status as of waitpid
+  int await_end() {
+    for (char character = '\0'; receive(character);) {
+    }
+    return emulator_.wait();
+  }
+
+ private:
+  std::vector<std::string> with_monitor(std::vector<std::string> command) const {
+    const std::vector<std::string> more = monitor_.arguments();
+    command.insert(command.end(), more.begin(), more.end());
+    return command;
+  }
+
+  /// @return false at the end
+  bool receive(char& character) {
+    if (!process::wait_for_input(shown_.read_end.number(), 60s, {})) {
+      throw std::runtime_error("the emulator hangs");
+    }
+    return read(shown_.read_end.number(), &character, 1) == 1;
+  }
+
+  Monitor monitor_;
+  process::Pipe typed_;
+  process::Pipe shown_;
+  process::ChildProcess emulator_;
+};
+
+/// What an answer says after a word: of "drive" in "..., drive 0.25, ...", "0.25".
+std::string said(const std::string& answer, const std::string& word) {
+  const std::size_t at = answer.find(word + " ");
+  if (at == std::string::npos) {
+    return "nothing of " + word + " in: " + answer;
+  }
+  const std::size_t begin = at + word.size() + 1;
+  return answer.substr(begin, answer.find(',', begin) - begin);
+}
+
+/// The parameters' lines; the last one is that of stuck_periods.
+std::vector<std::string> parameters(Terminal& terminal) {
+  std::vector<std::string> lines{terminal.type("params")};
+  while (lines.back().rfind("stuck_periods", 0) != 0) {
+    lines.push_back(terminal.next_line());
+  }
+  return lines;
+}
+
+void expect_settled(Terminal& terminal, double target) {
+  terminal.type("status");  // an answer takes a hundred periods
+  const std::string status = terminal.type("status");
+  EXPECT_EQ(said(status, "state"), "running") << status;
+  EXPECT_EQ(said(status, "limit"), "none") << status;
+  // The contact that stands in has the ratio v / a, with v a tenth of full drive.
+  EXPECT_NEAR(std::stod(said(status, "drive")), 0.1 / target, 1e-3) << status;
+}
+
+class TimedUnit : public testing::TestWithParam<TimedBoard> {
+ protected:
+  static std::vector<std::string> at_speed(int speed) {
+    return emulate(GetParam().name, "target_step_timed", speed);
+  }
+};
+
+TEST_P(TimedUnit, HoldsTheTargetThatIsTyped) {
+  Terminal terminal(at_speed(GetParam().speed));
+  terminal.await_greeting();
+  expect_settled(terminal, 0.4);
+  const std::string status = terminal.type("target 0.7");
+  EXPECT_EQ(said(status, "target"), "0.7");
+  EXPECT_EQ(said(status, "parameters"), GetParam().parameters);
+  expect_settled(terminal, 0.7);
+  EXPECT_EQ(terminal.type("faults"), "faults since reset: 0");
+}
+
+TEST_P(TimedUnit, RefusesWhatIsOutOfRangeAndRunsOn) {
+  Terminal terminal(at_speed(GetParam().speed));
+  terminal.await_greeting();
+  EXPECT_EQ(terminal.type("target 1.5"), "target: allowed is 0 to 1");
+  EXPECT_EQ(terminal.type("target -0.1"), "target: allowed is 0 to 1");
+  EXPECT_EQ(terminal.type("set gain_scale 2"), "gain_scale: allowed is 0 to 1");
+  EXPECT_EQ(terminal.type("set gain_scale 0.5"), "stop the drive first");
+  EXPECT_EQ(terminal.type("set gain 0.5"), "unknown; params lists what there is");
+  const std::vector<std::string> lines = parameters(terminal);
+  ASSERT_EQ(lines.size(), 6U);
+  EXPECT_EQ(lines[0], "target 0.4, compiled in 0.4; allowed is 0 to 1");
+  EXPECT_EQ(lines[2], "gain_scale 1, compiled in 1; allowed is 0 to 1");
+  expect_settled(terminal, 0.4);
+}
+
+TEST_P(TimedUnit, StopsAndRestartsOnRequestAlone) {
+  Terminal terminal(at_speed(GetParam().speed));
+  terminal.await_greeting();
+  terminal.type("status");
+  const std::string stopped = terminal.type("stop");
+  EXPECT_EQ(said(stopped, "state"), "off");
+  EXPECT_EQ(said(stopped, "drive"), "0");
+  EXPECT_EQ(said(terminal.type("status"), "state"), "off");
+  terminal.type("restart");
+  expect_settled(terminal, 0.4);
+}
+
+TEST_P(TimedUnit, KeepsASavedParameterAsFarAsItsBoardCan) {
+  Terminal terminal(at_speed(GetParam().speed));
+  terminal.await_greeting();
+  terminal.type("stop");
+  const bool saves = GetParam().saved_parameters != nullptr;
+  EXPECT_EQ(terminal.type("set gain_scale 0.5"),
+            saves ? "gain_scale 0.5, saved" : "gain_scale 1 stands; not saved");
+  terminal.reset();
+  const std::string origin = saves ? GetParam().saved_parameters : GetParam().parameters;
+  EXPECT_EQ(said(terminal.type("status"), "parameters"), origin);
+  EXPECT_EQ(said(parameters(terminal)[2], "gain_scale"), origin == "stored" ? "0.5" : "1");
+  expect_settled(terminal, 0.4);
+}
+
+TEST_P(TimedUnit, AnOverrunTakesTheDriveAwayUntilARestart) {
+  Terminal terminal(at_speed(GetParam().slow_speed));
+  terminal.await_greeting();
+  for (std::uint32_t faults = 1; faults < 4; ++faults) {
+    const std::string status = terminal.type("status");
+    EXPECT_EQ(said(status, "state"), "fault") << status;
+    EXPECT_EQ(said(status, "drive"), "0") << status;
+    EXPECT_EQ(said(status, "fault"), "overrun") << status;
+    std::string entry = terminal.type("faults");
+    for (std::uint32_t listed = 0; listed < faults; ++listed) {
+      EXPECT_NE(entry.find(": overrun"), std::string::npos) << entry;
+      entry = terminal.next_line();
+    }
+    EXPECT_EQ(entry, "faults since reset: " + std::to_string(faults));
+    terminal.type("restart");
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Boards, TimedUnit, testing::ValuesIn(timed_boards),
+                         [](const auto& parameter) {
+                           std::string name = parameter.param.name;
+                           std::replace(name.begin(), name.end(), '-', '_');
+                           return name;
+                         });
+
+/// The emulator is to end instead of resetting its board.
+std::vector<std::string> ended_by_watchdog(std::vector<std::string> command) {
+  command.insert(command.end(), {"-action", "watchdog=poweroff"});
+  return command;
+}
+
+TEST(TimedUnitWatchdog, IsFedByAUnitInTime) {
+  Terminal terminal(ended_by_watchdog(emulate("mps2-an386", "target_step_timed", 5)));
+  terminal.await_greeting();
+  for (int i = 0; i < 5; ++i) {
+    expect_settled(terminal, 0.4);  // 60 ms each, of the board's time
+  }
+}
+
+TEST(TimedUnitWatchdog, ResetsABoardWhoseLoopStandsStill) {
+  Terminal terminal(ended_by_watchdog(emulate("mps2-an386", "slow_carrier_timed", 10)));
+  EXPECT_EQ(terminal.await_end(), 0);
+}
+
+}  // namespace
+}  // namespace sonoglide::pil
