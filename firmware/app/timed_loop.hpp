@@ -8,12 +8,6 @@
 
 namespace sonoglide::app {
 
-/// A board without a watchdog.
-struct NoWatchdog {
-  static void feed() {}
-  static constexpr bool caused_reset() { return false; }
-};
-
 /// Nothing to do beside control.
 struct NoService {
   static void serve() {}
@@ -29,7 +23,7 @@ struct NoService {
 /// - After a reset by the watchdog the unit waits in a fault; after any other it runs.
 ///
 /// @tparam Board     see hal/board.hpp: sample, drive and period.
-/// @tparam Watchdog  see there; NoWatchdog is none.
+/// @tparam Watchdog  see there; hal::NoWatchdog is none.
 /// @tparam Service   a class with serve(), which does a bounded piece of work without waiting:
 ///                   LinkService, Console; NoService is none.
 template <class SupervisorT, class Board, class Watchdog, class Service>

@@ -8,6 +8,7 @@
 #include <type_traits>
 
 #include "firmware/app/control_loop.hpp"
+#include "hal/no_watchdog.hpp"
 #include "tests/app/unit/simulated_unit.hpp"
 
 namespace sonoglide::app {
@@ -180,14 +181,14 @@ TEST_F(TimedLoopTest, EndsWhenTheBoardShutsDown) {
 }
 
 TEST_F(TimedLoopTest, RunsWithoutWatchdogAndService) {
-  NoWatchdog no_watchdog;
+  hal::NoWatchdog no_watchdog;
   NoService no_service;
   TimedLoop loop(supervisor, board, no_watchdog, no_service);
   for (int i = 0; i < 200; ++i) {
     ASSERT_TRUE(loop.serve());
   }
   EXPECT_NEAR(board.ratio(), 0.4, 1e-3);
-  EXPECT_TRUE((std::is_empty_v<NoWatchdog> && std::is_empty_v<NoService>));
+  EXPECT_TRUE((std::is_empty_v<hal::NoWatchdog> && std::is_empty_v<NoService>));
 }
 
 /// Shows any codes, and keeps what it is driven with.
@@ -219,7 +220,7 @@ RC_GTEST_PROP(TimedLoopCommands, AreThoseOfTheLockstepLoopBitForBit, ()) {
   SimulatedFlash flash;
   TestedUnit unit(field_design, flash);
   ShowingBoard timed_board;
-  NoWatchdog watchdog;
+  hal::NoWatchdog watchdog;
   NoService service;
   TimedLoop timed(unit.supervisor(), timed_board, watchdog, service);
 

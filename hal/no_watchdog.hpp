@@ -1,11 +1,11 @@
 /// A board without a watchdog.
 #pragma once
 
-namespace sonoglide::hal::timed {
+namespace sonoglide::hal {
 
 struct NoWatchdog {
   static void feed() {}
   static constexpr bool caused_reset() { return false; }
 };
 
-}  // namespace sonoglide::hal::timed
+}  // namespace sonoglide::hal
