@@ -121,6 +121,22 @@ inline double series_unit(const Scene& scene, double velocity, double friction, 
   return numeric::min(longest, 16.0 / (1.0 + rate));
 }
 
+/// What a step of extent x reaches; 1 at most.
+[[gnu::always_inline]] inline double speed_within(const Series& s, double x) {
+  const double change = x * (numeric::abs(s.travel[1]) + x * numeric::abs(s.travel[2]));
+  return numeric::clamp(numeric::abs(s.velocity) + numeric::abs(s.rate) * change, 1e-12, 1.0);
+}
+
+[[gnu::always_inline]] inline double extent_at(const Series& s, double speed, double rounding,
+                                               double longest, double remaining) {
+  const double allowed = numeric::max(allowed_term * speed, rounding);
+  const double last = numeric::max(numeric::abs(s.rate * s.travel[order]),
+                                   speed * 0.125 * numeric::abs(s.friction[order]));
+  const double last_but_one = numeric::max(numeric::abs(s.rate * s.travel[order - 1]),
+                                           speed * 0.125 * numeric::abs(s.friction[order - 1]));
+  return step_extent(last, last_but_one, allowed, s.unit, longest, remaining);
+}
+
 [[gnu::always_inline]] inline double travelled(const Series& s, const Arc& arc, double x) {
   const double travel = x * (s.travel[0] + x * (0.5 * s.travel[1] + x * beyond_linear(s.shift, x)));
   return numeric::max(0.0, arc.direction * travel);
@@ -205,12 +221,10 @@ inline double series_unit(const Scene& scene, double velocity, double friction, 
 
     const double remaining = rest / s.unit;
     const double rounding = epsilon * numeric::abs(s.rate * s.travel[0]);
-    const double allowed = numeric::max(allowed_term, rounding);
-    const double last = numeric::max(numeric::abs(s.rate * s.travel[order]),
-                                     0.125 * numeric::abs(s.friction[order]));
-    const double last_but_one = numeric::max(numeric::abs(s.rate * s.travel[order - 1]),
-                                             0.125 * numeric::abs(s.friction[order - 1]));
-    const double end = step_extent(last, last_but_one, allowed, s.unit, longest, remaining);
+    const double first = extent_at(s, 1.0, rounding, longest, remaining);
+    const double end = first < 0.5 * numeric::min(1.0, remaining)
+                           ? extent_at(s, speed_within(s, first), rounding, longest, remaining)
+                           : first;
     const double extent = up_to_reversal(s, direction, end);
     const double travel = travelled(s, arc, extent);
     state.displacement = displacement_at(s, extent);
