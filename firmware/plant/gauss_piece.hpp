@@ -166,11 +166,13 @@ struct GaussPiece {
   /// Shows each vector of nodes, and what it weighs in an integral over x.
   template <class Show>
   [[gnu::always_inline]] void for_each(const Show& show) const {
-    if (is_short) {
-      for_each_of<fewer_nodes>(show);
-    } else {
-      for_each_of<Nodes>(show);
+    if constexpr (Nodes > fewer_nodes) {
+      if (!is_short) {
+        for_each_of<Nodes>(show);
+        return;
+      }
     }
+    for_each_of<fewer_nodes>(show);
   }
 
   /// The reaction at any x of the piece, by the same polynomials, written in Legendre's:
