@@ -12,14 +12,13 @@ struct GaussLegendreRule {
   std::array<double, Count> weight{};
 };
 
-namespace gauss_legendre_detail {
-
+/// A Legendre polynomial and its derivative at one point.
 struct Legendre {
   double value;
   double slope;
 };
 
-/// P_n(x) and its derivative by the three-term recurrence, |x| < 1.
+/// Of the given degree, >= 1, by the three-term recurrence; |x| < 1. Error: some rounding per degree.
 constexpr Legendre legendre(int degree, double x) {
   double previous = 1.0;
   double value = x;
@@ -30,6 +29,8 @@ constexpr Legendre legendre(int degree, double x) {
   }
   return {value, degree * (x * value - previous) / (x * x - 1.0)};
 }
+
+namespace gauss_legendre_detail {
 
 /// Largest root of P_degree below `bound`: Newton from the right descends monotonically once the
 /// roots already found are divided out.
@@ -64,7 +65,7 @@ constexpr GaussLegendreRule<Count> gauss_legendre() {
     const auto at = static_cast<std::size_t>(i);
     root[at] = gauss_legendre_detail::next_root<Count>(root, i, start);
     start = root[at] - 1e-6;
-    const double slope = gauss_legendre_detail::legendre(Count, root[at]).slope;
+    const double slope = legendre(Count, root[at]).slope;
     rule.node[at] = 0.5 * (1.0 - root[at]);
     rule.weight[at] = 1.0 / ((1.0 - root[at] * root[at]) * slope * slope);
   }

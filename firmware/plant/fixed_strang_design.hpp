@@ -6,6 +6,7 @@
 
 #include "firmware/numeric/float_elementary.hpp"
 #include "firmware/numeric/scalar.hpp"
+#include "firmware/numeric/turn.hpp"
 #include "firmware/plant/fixed_strang.hpp"
 #include "firmware/plant/growth_matrix.hpp"
 #include "firmware/plant/state.hpp"
@@ -34,8 +35,7 @@ struct FixedStrangDesign {
 template <class Model>
 FixedStrangDesign design_fixed_strang(const Model& model, double full_drive,
                                       double sliding_velocity, const State<double>& initial) {
-  constexpr double two_pi = 6.28318530717958647693;
-  constexpr double h = two_pi / static_cast<double>(FixedStrangParameters::steps);
+  constexpr double h = numeric::two_pi / static_cast<double>(FixedStrangParameters::steps);
   const double reactive = 1.0 - model.stiffness;
   const double damping = model.damping_force(1.0);
   const double vibration = full_drive / numeric::sqrt(reactive * reactive + damping * damping);

@@ -35,14 +35,7 @@ struct GaussTables {
 
   /// What a value at node j adds to the coefficient of the Legendre polynomial of that degree.
   constexpr double coefficient(int degree, std::size_t j) const {
-    const double x = 2.0 * rule.node[j] - 1.0;
-    double previous = 1.0;
-    double value = x;
-    for (int n = 2; n <= degree; ++n) {
-      const double next = ((2 * n - 1) * x * value - (n - 1) * previous) / n;
-      previous = value;
-      value = next;
-    }
+    const double value = friction::legendre(degree, 2.0 * rule.node[j] - 1.0).value;
     return (2 * degree + 1) * rule.weight[j] * value;
   }
 };

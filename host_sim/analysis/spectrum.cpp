@@ -7,18 +7,19 @@
 
 #include <unsupported/Eigen/FFT>
 
+#include "firmware/numeric/turn.hpp"
+
 namespace sonoglide::analysis {
 
 Spectrum amplitude_spectrum(const std::vector<double>& samples, double interval_s) {
   if (samples.size() < 2) {
     return {};
   }
-  constexpr double two_pi = 6.28318530717958647693;
   const auto count = static_cast<double>(samples.size());
   const double mean = std::accumulate(samples.begin(), samples.end(), 0.0) / count;
   std::vector<double> windowed(samples.size());
   for (std::size_t i = 0; i < samples.size(); ++i) {
-    const double hann = 0.5 * (1.0 - std::cos(two_pi * static_cast<double>(i) / count));
+    const double hann = 0.5 * (1.0 - std::cos(numeric::two_pi * static_cast<double>(i) / count));
     windowed[i] = hann * (samples[i] - mean);
   }
   std::vector<std::complex<double>> transform;

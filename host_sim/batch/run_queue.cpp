@@ -4,11 +4,11 @@
 #include <cmath>
 
 #include "firmware/numeric/scalar.hpp"
+#include "firmware/numeric/turn.hpp"
 
 namespace sonoglide::batch {
 namespace {
 
-constexpr double two_pi = 6.28318530717958647693;
 constexpr std::uint32_t longest_stretch_periods = 64;
 constexpr double softest_contact = 1e-9;
 constexpr double stiffest_contact = 1e9;
@@ -95,8 +95,8 @@ void RunQueue::end(Lane& lane, RunStatus status) {
 }
 
 void RunQueue::finish(Lane& lane, const plant::State<double>& state) {
-  const double duration = two_pi * length_.periods;
-  const double window = two_pi * (length_.periods - length_.window_start_periods);
+  const double duration = numeric::two_pi * length_.periods;
+  const double window = numeric::two_pi * (length_.periods - length_.window_start_periods);
   DahlRun& run = runs_[lane.point];
   run.final_state = state;
   run.whole = {(lane.before_window.friction_ratio + lane.window.friction_ratio) / duration,

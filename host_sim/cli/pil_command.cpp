@@ -10,6 +10,7 @@
 #include "host_sim/cli/output_option.hpp"
 #include "host_sim/cli/placed_error.hpp"
 #include "host_sim/cli/progress_bar.hpp"
+#include "host_sim/cli/run_watch.hpp"
 #include "host_sim/emulator/board_list.hpp"
 #include "host_sim/image/board_arithmetic.hpp"
 #include "host_sim/image/controller_header.hpp"
@@ -43,14 +44,8 @@ loop::RunResult compute(const scene::Scene& scene, const emulator::EmulatedBoard
                         const std::filesystem::path& image, report::RunReport& report, bool quiet,
                         const Interruption& interruption) {
   ProgressBar bar(stderr, !quiet);
-  loop::Watch watch;
-  report.join(watch);
-  watch.progress = [&](double fraction) {
-    interruption.check();
-    bar.update(fraction);
-  };
   pil::ImageControl controller(board, image, [&] { interruption.check(); });
-  loop::RunResult result = loop::run(scene, controller, watch);
+  loop::RunResult result = loop::run(scene, controller, run_watch(report, bar, interruption));
   result.image = controller.shut_down();
   return result;
 }

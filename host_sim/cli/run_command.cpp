@@ -8,6 +8,7 @@
 #include "host_sim/cli/interruption.hpp"
 #include "host_sim/cli/output_option.hpp"
 #include "host_sim/cli/progress_bar.hpp"
+#include "host_sim/cli/run_watch.hpp"
 #include "host_sim/loop/run.hpp"
 #include "host_sim/report/run_report.hpp"
 #include "host_sim/scene/reader.hpp"
@@ -18,13 +19,7 @@ namespace {
 loop::RunResult compute(const scene::Scene& scene, report::RunReport& report, bool quiet,
                         const Interruption& interruption) {
   ProgressBar bar(stderr, !quiet);
-  loop::Watch watch;
-  report.join(watch);
-  watch.progress = [&](double fraction) {
-    interruption.check();
-    bar.update(fraction);
-  };
-  return loop::run(scene, watch);
+  return loop::run(scene, run_watch(report, bar, interruption));
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "firmware/friction/dahl.hpp"
+#include "firmware/numeric/turn.hpp"
 #include "firmware/plant/damping.hpp"
 #include "firmware/plant/drive.hpp"
 #include "firmware/plant/fixed_strang_design.hpp"
@@ -22,7 +23,6 @@
 namespace sonoglide::image {
 namespace {
 
-constexpr double two_pi = 6.28318530717958647693;
 constexpr int steps_per_period = 8;
 
 void require(bool allowed, const char* key, const char* finding) {
@@ -112,10 +112,10 @@ inline constexpr PlantBoard::Parameters plant_parameters{{
           damped ? "Damped" : "Undamped", float_number(numbers.contact_stiffness),
           float_number(numbers.friction_force), float_number(scene.plant.vibration_sign),
           damped ? float_number(numbers.damping) : "", float_number(numbers.stiffness),
-          float_number(two_pi / steps_per_period), steps_per_period,
+          float_number(numeric::two_pi / steps_per_period), steps_per_period,
           float_number(scene.initial.displacement), float_number(scene.initial.velocity),
           float_number(scene.initial.friction), float_number(scene.full_drive),
-          float_number(scene.plant.scales.friction_N / (two_pi * scene.codes.force_N)),
+          float_number(scene.plant.scales.friction_N / (numeric::two_pi * scene.codes.force_N)),
           float_number(scene.sliding_velocity), scene.sliding_code)};
 }
 

@@ -4,17 +4,16 @@
 
 #include <cmath>
 
+#include "firmware/numeric/turn.hpp"
 #include "host_sim/scene/plant_scales.hpp"
 
 namespace sonoglide::loop {
 namespace {
 
-constexpr double two_pi = 6.28318530717958647693;
-
 /// A contact that sticks is a spring beside the plant's own.
 double stuck_frequency_Hz(const scene::Scene& scene) {
   const double stiffness = scene.plant.stiffness_N_per_m + scene.friction.contact_stiffness_N_per_m;
-  return std::sqrt(stiffness / scene.plant.mass_kg) / two_pi;
+  return std::sqrt(stiffness / scene.plant.mass_kg) / numeric::two_pi;
 }
 
 /// What the steps were spent on, where that may be the contact; else nothing.

@@ -2,15 +2,11 @@
 
 #include <algorithm>
 
+#include "firmware/numeric/turn.hpp"
 #include "host_sim/loop/computation_error.hpp"
 #include "host_sim/loop/failure_reason.hpp"
 
 namespace sonoglide::loop {
-namespace {
-
-constexpr double two_pi = 6.28318530717958647693;
-}  // namespace
-
 PlantRun::PlantRun(const scene::Scene& scene, const CarrierGrid& grid, const Watch& watch,
                    RunResult& result)
     : scene_(scene),
@@ -18,7 +14,7 @@ PlantRun::PlantRun(const scene::Scene& scene, const CarrierGrid& grid, const Wat
       result_(result),
       plant_(make_plant_port(scene)),
       sliding_(scene.sliding),
-      drive_rate_rad_per_s_(scene.drive ? two_pi * scene.drive->frequency_Hz : 0.0),
+      drive_rate_rad_per_s_(scene.drive ? numeric::two_pi * scene.drive->frequency_Hz : 0.0),
       sliding_velocity_m_per_s_(sliding_.velocity_m_per_s(0.0)),
       cuts_s_(sliding_.cuts_s()),
       sampler_(watch.samples) {

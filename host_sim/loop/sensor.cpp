@@ -4,6 +4,7 @@
 
 #include "firmware/numeric/float_elementary.hpp"
 #include "firmware/numeric/scalar.hpp"
+#include "firmware/numeric/turn.hpp"
 
 namespace sonoglide::loop {
 namespace {
@@ -39,8 +40,7 @@ Sensor::Sensor(const scene::Sensor& sensor, const scene::ControlScales& scales)
       pipeline_N_(static_cast<std::size_t>(sensor.delay_periods), 0.0),
       generator_(sensor.seed) {
   if (sensor.force_bandwidth_Hz) {
-    constexpr double two_pi = 6.28318530717958647693;
-    const double periods = two_pi * *sensor.force_bandwidth_Hz * scales.carrier_period_s;
+    const double periods = numeric::two_pi * *sensor.force_bandwidth_Hz * scales.carrier_period_s;
     filter_decay_ = numeric::exp(-periods);
     filter_new_weight_ = 1.0 + numeric::expm1(-periods) / periods;
   }

@@ -4,11 +4,10 @@
 #include <cmath>
 
 #include "firmware/numeric/float_elementary.hpp"
+#include "firmware/numeric/turn.hpp"
 
 namespace sonoglide::scene {
 namespace {
-
-constexpr double two_pi = 6.28318530717958647693;
 
 /// Without a drive the clock is the fastest of the plant's own rates; one run where it has none.
 double own_rate_rad_per_s(const Scene& scene) {
@@ -17,7 +16,7 @@ double own_rate_rad_per_s(const Scene& scene) {
   const double rate =
       std::max(std::sqrt(std::max(plant.stiffness_N_per_m, contact) / plant.mass_kg),
                plant.damping_N_s_per_m / plant.mass_kg);
-  return rate > 0.0 ? rate : two_pi / scene.run.duration_s;
+  return rate > 0.0 ? rate : numeric::two_pi / scene.run.duration_s;
 }
 
 /// Size of the motion to come: the largest that the drive, the friction or the initial state can
@@ -63,7 +62,8 @@ double friction_limit_N(const Friction& friction) {
 }
 
 PlantScales plant_scales(const Scene& scene) {
-  const double omega = scene.drive ? two_pi * scene.drive->frequency_Hz : own_rate_rad_per_s(scene);
+  const double omega =
+      scene.drive ? numeric::two_pi * scene.drive->frequency_Hz : own_rate_rad_per_s(scene);
   const double length_m = motion_m(scene, omega);
   return {omega, length_m, scene.plant.mass_kg * length_m * omega * omega,
           friction_limit_N(scene.friction)};

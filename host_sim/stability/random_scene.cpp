@@ -4,13 +4,13 @@
 #include <string>
 
 #include "firmware/numeric/float_elementary.hpp"
+#include "firmware/numeric/turn.hpp"
 #include "host_sim/scene/plant_scales.hpp"
 
 namespace sonoglide::stability {
 namespace {
 
 constexpr double ln_10 = 2.302585092994045684018;
-constexpr double two_pi = 6.28318530717958647693;
 
 /// SplitMix64 of Steele, Lea and Flood (2014), a stream for each number.
 class Dice {
@@ -44,7 +44,7 @@ class Dice {
 };
 
 void draw_plant(Dice& dice, double frequency_Hz, scene::Plant& plant) {
-  const double omega = two_pi * frequency_Hz;
+  const double omega = numeric::two_pi * frequency_Hz;
   plant.mass_kg = dice.decades(-9.0, 3.0);
   plant.stiffness_N_per_m = dice.decades_or_zero(0.1, -6.0, 15.0);
   if (dice.chance(0.05)) {
@@ -102,7 +102,7 @@ scene::Scene random_scene(std::uint64_t number) {
   } else {
     // The clock is then the plant's own.
     const double omega = scene::plant_scales(scene).angular_frequency_rad_per_s;
-    scene.run.duration_s = random_scene_periods * two_pi / omega;
+    scene.run.duration_s = random_scene_periods * numeric::two_pi / omega;
   }
   draw_sliding(dice, scene.run.duration_s, scene.sliding);
   return scene;

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "firmware/numeric/turn.hpp"
 #include "firmware/plant/observer.hpp"
 #include "firmware/plant/state.hpp"
 #include "host_sim/scene/plant_scales.hpp"
@@ -13,8 +14,6 @@
 
 namespace sonoglide::stability {
 namespace detail {
-
-inline constexpr double two_pi = 6.28318530717958647693;
 
 /// Sliding velocity in units of the velocity scale: its start, and its rise in one period.
 struct Ramp {
@@ -42,9 +41,9 @@ template <class Scalar>
 plant::Interval<Scalar> period(const scene::Scene& scene, const scene::PlantScales& scales,
                                const Ramp& ramp, int number) {
   const double amplitude = scene.drive ? scene.drive->force_amplitude_N / scales.force_N : 0.0;
-  return {Scalar(0), static_cast<Scalar>(two_pi), static_cast<Scalar>(amplitude),
+  return {Scalar(0), static_cast<Scalar>(numeric::two_pi), static_cast<Scalar>(amplitude),
           static_cast<Scalar>(ramp.begin + ramp.rise * number),
-          static_cast<Scalar>(ramp.rise / two_pi)};
+          static_cast<Scalar>(ramp.rise / numeric::two_pi)};
 }
 
 }  // namespace detail
@@ -69,7 +68,7 @@ TrialResult run_trial(const scene::Scene& scene, const scene::PlantScales& scale
     const auto interval = detail::period<Scalar>(scene, scales, ramp, n);
     result.error = solver.advance(interval, state, witness, nobody).error;
   }
-  const double tau = detail::two_pi * plan.periods;
+  const double tau = numeric::two_pi * plan.periods;
   result.finite = plant::is_finite(state) && std::isfinite(witness.friction_integral());
   result.largest_friction = witness.largest_friction();
   result.friction_ratio = std::copysign(1.0, ramp.begin) * witness.friction_integral() / tau;

@@ -3,6 +3,7 @@
 #include <limits>
 #include <type_traits>
 
+#include "firmware/numeric/turn.hpp"
 #include "firmware/plant/event_gauss.hpp"
 #include "firmware/plant/event_taylor.hpp"
 #include "firmware/plant/rk4.hpp"
@@ -43,7 +44,7 @@ constexpr bool takes = Method<
 template <template <class> class Method, class Scalar, Control Knob>
 TrialResult trial(const scene::Scene& scene, const TrialPlan& plan) {
   const scene::PlantScales scales = scene::plant_scales(scene);
-  const double setting = Knob == Control::tolerance ? plan.setting : detail::two_pi / plan.setting;
+  const double setting = Knob == Control::tolerance ? plan.setting : numeric::two_pi / plan.setting;
   return with_model<Scalar>(scene, scales, [&](const auto& model) {
     using Model = std::decay_t<decltype(model)>;
     if constexpr (takes<Method, Model>) {

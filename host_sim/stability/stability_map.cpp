@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "firmware/numeric/turn.hpp"
 #include "host_sim/scene/plant_scales.hpp"
 #include "host_sim/scene/scene.hpp"
 #include "host_sim/stability/solver_list.hpp"
@@ -12,7 +13,6 @@
 namespace sonoglide::stability {
 namespace {
 
-constexpr double two_pi = 6.28318530717958647693;
 constexpr double reference_tolerance = 1e-12;
 constexpr double check_tolerance = 1e-13;
 
@@ -27,7 +27,7 @@ constexpr double velocity_ratio = 0.5;
 
 /// Peak velocity of the steady vibration.
 double vibration_m_per_s(const scene::Plant& plant) {
-  const double omega = two_pi * frequency_Hz;
+  const double omega = numeric::two_pi * frequency_Hz;
   return omega * force_amplitude_N / scene::dynamic_stiffness_N_per_m(plant, omega);
 }
 
@@ -142,7 +142,8 @@ StabilityMaps stability_maps(const MapGrid& grid, const Progress& progress) {
 
 double rk4_limit_steps_per_period(double contact_stiffness_N_per_m) {
   // From rest the natural mode adds its part to the steady vibration.
-  const double free_part = std::sqrt(stiffness_N_per_m / mass_kg) / (two_pi * frequency_Hz);
+  const double free_part =
+      std::sqrt(stiffness_N_per_m / mass_kg) / (numeric::two_pi * frequency_Hz);
   const double fastest_m_per_s =
       vibration_m_per_s(table_1_plant()) * (velocity_ratio + 1.0 + free_part);
   const double longest_s =

@@ -3,12 +3,12 @@
 #include <cmath>
 #include <cstdint>
 
+#include "firmware/numeric/turn.hpp"
 #include "host_sim/scene/plant_scales.hpp"
 
 namespace sonoglide::sweep {
 namespace {
 
-constexpr double two_pi = 6.28318530717958647693;
 constexpr double map_tolerance = 1e-4;
 constexpr double fine_tolerance = 1e-8;
 
@@ -72,7 +72,8 @@ std::optional<BatchPoint> batch_point(const scene::Scene& scene) {
 Row row_of(const BatchPoint& point, const batch::DahlRun& run) {
   const double sliding = point.plant.sliding_velocity;
   const double direction = sliding < 0.0 ? -1.0 : 1.0;
-  const double window = two_pi * (point.length.periods - point.length.window_start_periods);
+  const double window =
+      numeric::two_pi * (point.length.periods - point.length.window_start_periods);
   Row row;
   row.friction_ratio_whole_run = direction * run.whole.friction_ratio;
   row.friction_ratio_window = direction * run.window.friction_ratio;

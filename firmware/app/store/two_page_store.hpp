@@ -20,7 +20,7 @@ enum class Origin : std::uint8_t {
 enum class Saving : std::uint8_t {
   idle,
   busy,
-  saved,   ///< the new record is in force from the next load() on
+  saved,   ///< what was written is in force from the next load() on
   failed,  ///< the flash did not keep what was programmed; the old record stands
 };
 
