@@ -8,7 +8,7 @@
 namespace sonoglide::pil {
 namespace {
 
-constexpr std::chrono::seconds patience{10};
+constexpr std::chrono::seconds longest_silence{10};
 
 std::uint32_t instructions(std::uint32_t count, const emulator::EmulatedBoard& board) {
   return static_cast<std::uint32_t>(std::lround(count / board.counts_per_instruction));
@@ -29,7 +29,7 @@ loop::InstructionRange InstructionCount::over(std::uint64_t periods) const {
 ImageControl::ImageControl(const emulator::EmulatedBoard& board, const std::filesystem::path& image,
                            const process::Attention& attention)
     : board_(board),
-      image_(emulator::emulator_command(board, image.string()), patience, attention) {}
+      image_(emulator::emulator_command(board, image.string()), longest_silence, attention) {}
 
 void ImageControl::set_target(double /*friction_ratio*/) {}
 
