@@ -114,6 +114,13 @@ TEST_P(FeatureTest, CostsWhatIsRecorded) {
   }
 }
 
+TEST(ServiceTest, CostsWhatIsRecorded) {
+  const std::vector<Row> recorded = recorded_features();
+  for (const Row& row : measure_services()) {
+    expect_recorded(row, recorded, {"feature", "board", "arithmetic"});
+  }
+}
+
 /// Of the bytes of an image: those of a part of the controller, and whether a symbol names it.
 struct Trace {
   std::uint64_t bytes;

@@ -25,6 +25,7 @@ void write_tables() {
   for (const auto& board : budget::feature_boards) {
     append(features, budget::measure_features(board));
   }
+  append(features, budget::measure_services());
   budget::record_budget(scenes);
   budget::record_features(features);
 }

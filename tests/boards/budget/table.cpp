@@ -3,8 +3,14 @@
 #include <fmt/format.h>
 
 #include <fstream>
+#include <iterator>
 #include <map>
 #include <sstream>
+
+#include "host_sim/image/cross_tools.hpp"
+#include "host_sim/image/image_size.hpp"
+#include "host_sim/image/stack_bound.hpp"
+#include "host_sim/process/run_tool.hpp"
 
 namespace sonoglide::budget {
 namespace {
@@ -23,17 +29,37 @@ Row feature_row(const FeatureBoard& board, const std::string& compiler, const Fe
   const auto flash = [](const ImageBudget& budget) {
     return static_cast<std::int64_t>(budget.cost.size.flash_bytes);
   };
+  const auto stack = [](const ImageBudget& budget) {
+    return static_cast<std::int64_t>(budget.cost.stack.bytes);
+  };
   return {{"feature", feature.name},
           {"board", board.board},
           {"arithmetic", board.arithmetic},
           {"compiler", compiler},
           {"flash_bytes", fmt::format("{}", flash(with) - flash(without))},
+          {"stack_bytes", fmt::format("{}", stack(with) - stack(without))},
           {"state_bytes", fmt::format("{}", state_bytes(with) - state_bytes(without))},
           {"step_instructions_mean",
            fmt::format("{:.3f}", with.instructions.step.mean - without.instructions.step.mean)},
           {"step_instructions_max",
            fmt::format("{}", std::int64_t{with.instructions.step.max} -
                                  std::int64_t{without.instructions.step.max})}};
+}
+
+struct UnitCost {
+  std::int64_t flash_bytes;
+  std::int64_t stack_bytes;
+};
+
+/// Of a unit without a board, which begins with main.
+UnitCost unit_cost(const emulator::EmulatedBoard& board, const std::string& unit) {
+  const std::string path = fmt::format("{}/{}/{}.elf", SONOGLIDE_UNITS, unit, unit);
+  std::ifstream file(path, std::ios::binary);
+  const std::string elf{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  const std::string disassembly =
+      process::run_tool({image::cross_tools(board).prefix + "objdump", "--disassemble", path}, {});
+  return {static_cast<std::int64_t>(image::image_size(elf).flash_bytes),
+          static_cast<std::int64_t>(image::stack_bound(disassembly, "main").bytes)};
 }
 
 void record(const char* path, const std::vector<Row>& rows) {
@@ -92,6 +118,26 @@ std::vector<Row> measure_features(const FeatureBoard& board) {
   for (const Feature& feature : features()) {
     rows.push_back(
         feature_row(board, compiler, feature, image(feature.with), image(feature.without)));
+  }
+  return rows;
+}
+
+std::vector<Row> measure_services() {
+  const emulator::EmulatedBoard& board = *emulator::find_board("mps2-an386");
+  const std::string compiler = compiler_version(board);
+  const UnitCost alone = unit_cost(board, "unit_m4f");
+  std::vector<Row> rows;
+  for (const std::string service : {"link", "console"}) {
+    const UnitCost unit = unit_cost(board, "unit_m4f_" + service);
+    rows.push_back({{"feature", service},
+                    {"board", "Cortex-M4F unit"},
+                    {"arithmetic", "float32"},
+                    {"compiler", compiler},
+                    {"flash_bytes", fmt::format("{}", unit.flash_bytes - alone.flash_bytes)},
+                    {"stack_bytes", fmt::format("{}", unit.stack_bytes - alone.stack_bytes)},
+                    {"state_bytes", "-"},
+                    {"step_instructions_mean", "-"},
+                    {"step_instructions_max", "-"}});
   }
   return rows;
 }

@@ -41,8 +41,13 @@ inline const std::vector<FeatureBoard> feature_boards = {{"mps2-an386", "float32
 /// An image of one of the features' scenes.
 ImageBudget measure_feature_scene(const FeatureBoard& board, const std::string& scene);
 
-/// One row for each feature: what the image with it costs more.
+/// One row for each feature: what the image with it costs more. State and calls are on the stack.
 std::vector<Row> measure_features(const FeatureBoard& board);
+
+/// One row for each service that a unit may have: what it costs more than a unit with the
+/// controller alone, in flash and on the stack, where its state is. A service does its work between
+/// steps.
+std::vector<Row> measure_services();
 
 /// The repository's tables.
 std::vector<Row> recorded_budget();
