@@ -41,8 +41,8 @@ class OutputFolder {
   /// failure to write later is found by commit().
   std::ostream& open(const std::string& name);
 
-  /// A file that is not written this time: commit() takes an older one of this name away, which
-  /// would pass for one of these. @param name  as in write()
+  /// Says that a file is not written this time: commit() takes away an older one of this name,
+  /// which would pass for a new one. @param name  as in write()
   void withdraw(const std::string& name);
 
   /// Moves the staged files into place, creating missing parents; to be called once, last. An old

@@ -30,8 +30,9 @@ class Solve {
   /// hundreds that have their length and accuracy in common, the others alone.
   std::vector<Points> calls(const Points& points) const;
 
-  /// Solves one of the calls above: over SIMD lanes or, as what the lanes give up, one by one as
-  /// `run` does. A row depends on its point alone, to the bit. Safe to call from several threads.
+  /// Solves one of the calls above: over SIMD lanes, or one by one as `run` does, which is also
+  /// what becomes of points that the lanes give up. A row depends on its point alone, to the bit.
+  /// Safe to call from several threads.
   void operator()(const Points& call, const Sink& sink) const;
 
  private:
