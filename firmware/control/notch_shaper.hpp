@@ -2,7 +2,6 @@
 #pragma once
 
 #include <array>
-#include <cstddef>
 #include <cstdint>
 
 #include "firmware/numeric/scalar.hpp"
@@ -39,19 +38,23 @@ class NotchShaper {
 
   /// Shaped amplitude; may leave [0, 1] where the input varies within 2M periods.
   Scalar shape(Scalar amplitude) {
-    const std::size_t depth = 2 * std::size_t{parameters_.spacing};
-    const std::size_t middle = oldest_ + parameters_.spacing;
+    const std::uint32_t depth = 2 * spacing();
+    const std::uint32_t oldest = oldest_;
+    const std::uint32_t middle = oldest + spacing();
     const std::array<Scalar, 3> inputs{amplitude, past_[middle < depth ? middle : middle - depth],
-                                       past_[oldest_]};
-    past_[oldest_] = amplitude;
-    oldest_ = oldest_ + 1 < depth ? oldest_ + 1 : 0;
-    return numeric::dot(parameters_.taps.data(), inputs.data(), 3);
+                                       past_[oldest]};
+    past_[oldest] = amplitude;
+    oldest_ = oldest + 1 < depth ? oldest + 1 : 0;
+    return numeric::dot(parameters_.taps, inputs);
   }
 
  private:
+  /// A constant where the delay line leaves no choice.
+  std::uint32_t spacing() const { return MaxSpacing == 1 ? 1 : parameters_.spacing; }
+
   Parameters parameters_;
   std::array<Scalar, 2 * MaxSpacing> past_{};
-  std::size_t oldest_ = 0;
+  std::uint32_t oldest_ = 0;
 };
 
 }  // namespace sonoglide::control
