@@ -2,6 +2,7 @@
 #pragma once
 
 #include "firmware/control/signals.hpp"
+#include "firmware/numeric/accumulator.hpp"
 #include "firmware/numeric/scalar.hpp"
 
 namespace sonoglide::control {
@@ -22,7 +23,8 @@ class FrictionLevel {
   /// F/Fc on base 2; saturates outside ±2 in fixed point.
   Scalar half_ratio(Scalar force) const {
     return numeric::observe<signal::MeasuredRatio>(
-        numeric::scale_by_power_of_two(force * quarter_inverse_, 1 - level_.exponent));
+        numeric::rounded<Scalar>(numeric::scale_by_power_of_two(
+            numeric::accumulated_product(force, quarter_inverse_), 1 - level_.exponent)));
   }
 
   const numeric::Split<Scalar>& level() const { return level_; }

@@ -165,11 +165,14 @@ constexpr Split<Scalar> split(Scalar x) {
   }
 }
 
-/// A left-justified converter code as a number: code * 2^-31, rounded to the scalar.
+/// A left-justified converter code as a number: code * 2^-31, rounded to the scalar. What rounds to
+/// +1 where the scalar ends below it becomes the largest value, and that is not an overflow.
 template <class Scalar>
 constexpr Scalar from_code(std::int32_t code) {
   if constexpr (is_fixed_point_v<Scalar>) {
-    return fixed_cast<Scalar>(Q31<typename Scalar::Overflow>::from_raw(code));
+    const std::int64_t raw = shift_right_rounded(std::int64_t{code}, 31 - Scalar::fraction_bits);
+    constexpr std::int64_t largest = Scalar::largest().raw();
+    return Scalar::from_raw(static_cast<typename Scalar::Raw>(raw < largest ? raw : largest));
   } else {
     return static_cast<Scalar>(code) * power_of_two<Scalar>(-31);
   }
