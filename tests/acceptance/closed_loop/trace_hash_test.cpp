@@ -16,6 +16,7 @@ TEST(TraceHashTest, IsTheGoldenOneOfEachArithmetic) {
   EXPECT_EQ(hash_of("target_step"), "24a67dc7e80858f2");
   EXPECT_EQ(hash_of("target_step_float64"), "a0ba17153d10b3f5");
   EXPECT_EQ(hash_of("target_step_q31"), "4f5c6407b657d689");
+  EXPECT_EQ(hash_of("target_step_q15"), "cf7dd0706eff969d");
 }
 
 TEST(TraceHashTest, IsTheSameEachTime) {
