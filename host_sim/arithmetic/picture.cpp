@@ -104,7 +104,7 @@ std::string images_panel(const Comparison& comparison) {
              "set ylabel 'Friction ratio, rms difference from float64 [-]'\n"
              "set yrange [{:g}:1]\nset ytics add ('0' {:g})\n"
              "set offsets graph 0.08, graph 0.08, graph 0, graph 0\n"
-             "set key top right Left reverse maxrows 4\n",
+             "set key top right Left reverse samplen 2\n",
              0.3 * smallest_difference, smallest_difference) +
          plots + "\n";
 }
