@@ -21,20 +21,20 @@ inline constexpr std::array<scene::Arithmetic, 4> all_arithmetics = {
 
 /// What an image did and cost.
 struct ImageRow {
-  const emulator::EmulatedBoard* board;
-  scene::Arithmetic arithmetic;
+  const emulator::EmulatedBoard* board = nullptr;
+  scene::Arithmetic arithmetic = scene::Arithmetic::float64;
   Precision precision;
-  control::Fault fault;  ///< the first one
+  control::Fault fault = control::Fault::none;  ///< the first one
   loop::ImageRecord image;
 };
 
 /// The scene with one target from beginning to end, on the workstation, whose bits are the boards'.
 struct TargetRow {
-  double target;
-  scene::Arithmetic arithmetic;
+  double target = 0.0;
+  scene::Arithmetic arithmetic = scene::Arithmetic::float64;
   Precision precision;
-  control::Limit limit;  ///< of the steady part
-  control::Fault fault;
+  control::Limit limit = control::Limit::none;  ///< of the steady part
+  control::Fault fault = control::Fault::none;
 };
 
 struct Comparison {
