@@ -19,8 +19,8 @@ class NotchRounding {
   explicit NotchRounding(const std::array<Scalar, 3>&) {}
   void restart() {}
   Scalar sum(const std::array<Scalar, 3>& taps, const std::array<Scalar, 3>& inputs,
-             std::size_t /*middle*/, std::size_t /*oldest*/) {
-    return numeric::dot(taps.data(), inputs.data(), 3);
+             std::uint32_t /*middle*/, std::uint32_t /*oldest*/) {
+    return numeric::dot(taps, inputs);
   }
 };
 
@@ -44,7 +44,7 @@ class NotchRounding<numeric::Q15<Overflow>, Depth> {
   /// @param middle  place in the delay line of what is M periods old
   /// @param oldest  of what is 2M periods old
   Scalar sum(const std::array<Scalar, 3>& taps, const std::array<Scalar, 3>& inputs,
-             std::size_t middle, std::size_t oldest) {
+             std::uint32_t middle, std::uint32_t oldest) {
     const std::int32_t echoes = numeric::shift_right_rounded(
         middle_echo_ * errors_[middle] + last_echo_ * errors_[oldest], echo_bits);
     const std::int32_t exact = product(taps[0], inputs[0]) + product(taps[1], inputs[1]) +

@@ -1,6 +1,7 @@
 /// Where a scalar's products and sums are kept before they are rounded to it.
 #pragma once
 
+#include <cstdint>
 #include <type_traits>
 
 #include "firmware/numeric/fixed.hpp"
@@ -33,7 +34,13 @@ constexpr Accumulator<Scalar> accumulate(Scalar x) {
 /// a·b in the accumulator; exact for a 16-bit number.
 template <class Scalar>
 constexpr Accumulator<Scalar> accumulated_product(Scalar a, Scalar b) {
-  return accumulate(a) * accumulate(b);
+  using Sum = Accumulator<Scalar>;
+  if constexpr (std::is_same_v<Sum, Scalar>) {
+    return a * b;
+  } else {
+    const std::int32_t product = std::int32_t{a.raw()} * b.raw();
+    return product == 1 << 30 ? Sum::beyond(false) : Sum::from_raw(2 * product);
+  }
 }
 
 /// A scalar from its accumulator, rounded once.
@@ -42,7 +49,7 @@ constexpr Scalar rounded(Accumulator<Scalar> sum) {
   if constexpr (std::is_same_v<Accumulator<Scalar>, Scalar>) {
     return sum;
   } else {
-    return fixed_cast<Scalar>(sum);
+    return Scalar::from_wide(((sum.raw() >> 15) + 1) >> 1);
   }
 }
 

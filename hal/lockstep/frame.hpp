@@ -25,8 +25,9 @@ inline constexpr std::size_t drive_frame_size = 16;
 /// Over a serial line the board speaks first: this byte says that it hears.
 inline constexpr std::uint8_t greeting = 0xa5;
 
-using SampleFrame = std::array<std::uint8_t, sample_frame_size>;
-using DriveFrame = std::array<std::uint8_t, drive_frame_size>;
+/// Aligned, so that a processor without unaligned access takes it by words.
+struct alignas(std::uint32_t) SampleFrame : std::array<std::uint8_t, sample_frame_size> {};
+struct alignas(std::uint32_t) DriveFrame : std::array<std::uint8_t, drive_frame_size> {};
 
 namespace detail {
 
@@ -37,11 +38,9 @@ inline void put(std::uint32_t word, std::uint8_t* bytes) {
 }
 
 inline std::uint32_t get(const std::uint8_t* bytes) {
-  std::uint32_t word = 0;
-  for (std::size_t i = 4; i > 0; --i) {
-    word = word << 8 | bytes[i - 1];
-  }
-  return word;
+  // Written out, it is seen to be one load where the processor has such a load.
+  return bytes[0] | std::uint32_t{bytes[1]} << 8 | std::uint32_t{bytes[2]} << 16 |
+         std::uint32_t{bytes[3]} << 24;
 }
 
 }  // namespace detail

@@ -46,7 +46,7 @@ TYPED_TEST(EveryScalar, AnswersTheSame) {
   EXPECT_EQ(to_code(x), 3 << 28);
   EXPECT_EQ(from_code<TypeParam>(-(1 << 30)), y);
   const std::array<TypeParam, 2> vector{x, y};
-  EXPECT_EQ(to_real(dot(vector.data(), vector.data(), 2)), 0.390625);
+  EXPECT_EQ(to_real(dot(vector, vector)), 0.390625);
 }
 
 TYPED_TEST(EveryScalar, SplitLeavesZeroAndNegativeNumbersWhole) {

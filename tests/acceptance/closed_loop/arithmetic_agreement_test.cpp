@@ -38,8 +38,8 @@ TEST_P(ArithmeticAgreementTest, FixedPointIsWithinTwoThousandthsOfDouble) {
   EXPECT_LE(difference(GetParam(), "q31"), 0.002);
 }
 
-TEST_P(ArithmeticAgreementTest, SixteenBitsAreWithinAThousandthOfDouble) {
-  EXPECT_LE(difference(GetParam(), "q15"), 0.001);
+TEST_P(ArithmeticAgreementTest, SixteenBitsAreWithinTwoThousandthsOfDouble) {
+  EXPECT_LE(difference(GetParam(), "q15"), 0.002);
 }
 
 TEST_P(ArithmeticAgreementTest, SinglePrecisionIsWithinTwoThousandthsOfDouble) {
