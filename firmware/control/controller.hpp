@@ -9,6 +9,7 @@
 #include "firmware/control/measurement.hpp"
 #include "firmware/control/signals.hpp"
 #include "firmware/control/stuck_detector.hpp"
+#include "firmware/numeric/accumulator.hpp"
 #include "firmware/numeric/scalar.hpp"
 
 namespace sonoglide::control {
@@ -152,7 +153,8 @@ class Controller {
     last_velocity_ = velocity;
     last_velocity_known_ = true;
     return numeric::observe<signal::ForeseenVelocity>(
-        velocity + numeric::scale_by_power_of_two(change * lead_, 6));
+        velocity + numeric::rounded<Scalar>(numeric::scale_by_power_of_two(
+                       numeric::accumulated_product(change, lead_), 6)));
   }
 
   DriveCommand<Scalar> trip(Fault fault) {

@@ -80,7 +80,7 @@ struct Run {
   double record_interval_s = 0.0;  ///< 0 where nothing is recorded
 };
 
-enum class Arithmetic { float64, float32, q31 };
+enum class Arithmetic { float64, float32, q31, q15 };
 enum class Shaping { notch, none };
 
 struct TargetStep {
