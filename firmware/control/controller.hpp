@@ -23,7 +23,7 @@ struct Parts {
   using Feedforward = FeedforwardT;  ///< CoulombFeedforward | DahlFeedforward
   using Slew = SlewT;                ///< NoSlewLimit | SlewLimit
   using Shaper = ShaperT;            ///< NoShaping | NotchShaper
-  using Regulator = RegulatorT;      ///< IntegralRegulator
+  using Regulator = RegulatorT;      ///< NoFeedback | IntegralRegulator
   using Ceiling = CeilingT;          ///< FullDrive | DriveLimit
 };
 

@@ -104,6 +104,9 @@ PartText shaper_part(const scene::ControlDesign& design, const ScalarText& scala
 }
 
 PartText regulator_part(const scene::ControlDesign& design, const ScalarText& scalar) {
+  if (design.integral_gain == 0.0) {
+    return {"no_feedback", "NoFeedback<Scalar>", "{}"};
+  }
   return {"integral_regulator", "IntegralRegulator<Scalar>",
           fmt::format("{{{}, {}}}", scalar.number(design.integral_gain), design.hold_periods)};
 }
