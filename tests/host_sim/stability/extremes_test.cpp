@@ -7,7 +7,6 @@
 
 #include <cmath>
 #include <numeric>
-#include <string_view>
 
 #include "host_sim/stability/random_scene.hpp"
 #include "host_sim/stability/solver_list.hpp"
@@ -27,10 +26,6 @@ std::uint64_t count(const ExtremeRow& row, Verdict verdict) {
   return row.count[static_cast<std::size_t>(verdict)];
 }
 
-bool begins_with(std::string_view text, std::string_view beginning) {
-  return text.substr(0, beginning.size()) == beginning;
-}
-
 TEST(Extremes, EverySolverMeetsEverySceneInBothPrecisions) {
   EXPECT_EQ(small().rows.size(), 2 * solvers().size());
   for (const ExtremeRow& row : small().rows) {
@@ -47,11 +42,38 @@ TEST(Extremes, NoSolverReturnsAStateThatIsNoNumberOrAFrictionAboveItsLimit) {
   }
 }
 
-TEST(Extremes, TheTaylorSolverKeepsTheEnergyAtTheOrdersThatSuitTheArithmetic) {
-  for (const ExtremeRow& row : small().rows) {
-    const bool suits = row.precision == "float64" || row.solver == "event_taylor_8";
-    if (begins_with(row.solver, "event_taylor") && suits) {
-      EXPECT_EQ(count(row, Verdict::wrong), 0U) << row.solver << " " << row.precision;
+/// Whoever takes a tolerance keeps the energy or declines; of Taylor's orders, those that suit the
+/// arithmetic.
+TEST(Extremes, WhoeverTakesAToleranceKeepsTheEnergy) {
+  for (const Solver& solver : solvers()) {
+    for (const ExtremeRow& row : small().rows) {
+      const bool too_high = row.precision == "float32" &&
+                            (row.solver == "event_taylor_12" || row.solver == "event_taylor_16");
+      if (solver.adaptive && row.solver == solver.name && !too_high) {
+        EXPECT_EQ(count(row, Verdict::wrong), 0U) << row.solver << " " << row.precision;
+      }
+    }
+  }
+}
+
+/// Each was once handed over with an energy or a friction ratio that was off: a saturated contact
+/// of enormous stiffness, a motion lost in the rounding of a displacement or of the sliding, works
+/// that cancel over a period.
+TEST(Extremes, ScenesThatOnceWentWrong) {
+  for (const std::uint64_t scene :
+       {54U, 321U, 534U, 639U, 2669U, 3376U, 4924U, 7090U, 9938U, 72461U}) {
+    for (const Solver& solver : solvers()) {
+      if (!solver.adaptive) {
+        continue;
+      }
+      const Precision& precision = solver.precisions.front();
+      const TrialResult result =
+          precision.trial(random_scene(scene),
+                          {random_scene_periods, precision.extreme_setting, extreme_step_limit});
+      if (result.supported && result.error == plant::Error::none) {
+        EXPECT_LE(result.balance_residual, allowed_residual_float64) << scene << solver.name;
+        EXPECT_LE(std::abs(result.friction_ratio), 1.0 + 1e-9) << scene << solver.name;
+      }
     }
   }
 }
