@@ -220,8 +220,7 @@ class EventTaylor {
   /// What the error of the velocity is measured against: the velocity scale, or where that is
   /// smaller, but not without end, the vibration itself on the way to x.
   static Scalar speed(const Series& series, Scalar x) {
-    constexpr bool is_short = std::numeric_limits<Scalar>::digits <= 24;
-    constexpr Scalar slowest = numeric::from_real<Scalar>(is_short ? 1e-6 : 1e-12);
+    constexpr Scalar slowest = numeric::from_real<Scalar>(1e-12);
     const Scalar change =
         x * (numeric::abs(series.vibration[1]) + x * numeric::abs(series.travel[2]));
     return numeric::clamp(numeric::abs(series.velocity) + numeric::abs(series.rate) * change,
