@@ -39,9 +39,9 @@ class AdaptiveStrang {
   template <class Law>
   static constexpr bool solves = Strang<Model>::template solves<Law>;
 
-  /// tolerance: of velocity and energy, as above; > 0. Not a bound of the friction ratio: over
-  /// 1800 random contacts that event_taylor solves too its error was below 100 tolerance, and below
-  /// 10 tolerance in 99 of 100.
+  /// tolerance: of velocity and energy, as above; > 0. Not a bound of the friction ratio: of random
+  /// contacts over three periods 99 in 100 erred by less than 3e-5 at 1e-4 and by less than 6e-6 at
+  /// 1.6e-7, the worst by 6e-3 and 5e-5.
   /// step_limit: the most steps of one advance, those taken again included.
   /// longest_step: in tau; > 0. Drive and damper work exactly enough up to about 2.5
   /// tolerance^(1/6), which is never exceeded.

@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <numeric>
+#include <string_view>
 
 #include "host_sim/stability/random_scene.hpp"
 #include "host_sim/stability/solver_list.hpp"
@@ -42,14 +43,16 @@ TEST(Extremes, NoSolverReturnsAStateThatIsNoNumberOrAFrictionAboveItsLimit) {
   }
 }
 
-/// Whoever takes a tolerance keeps the energy or declines; of Taylor's orders, those that suit the
-/// arithmetic.
-TEST(Extremes, WhoeverTakesAToleranceKeepsTheEnergy) {
+/// Taylor's higher orders have no use for float32: their terms underflow.
+bool suits(const Solver& solver, std::string_view precision) {
+  return solver.adaptive && (precision == "float64" || (solver.name != "event_taylor_12" &&
+                                                        solver.name != "event_taylor_16"));
+}
+
+TEST(Extremes, WhoeverTakesAToleranceKeepsTheEnergyOrDeclines) {
   for (const Solver& solver : solvers()) {
     for (const ExtremeRow& row : small().rows) {
-      const bool too_high = row.precision == "float32" &&
-                            (row.solver == "event_taylor_12" || row.solver == "event_taylor_16");
-      if (solver.adaptive && row.solver == solver.name && !too_high) {
+      if (row.solver == solver.name && suits(solver, row.precision)) {
         EXPECT_EQ(count(row, Verdict::wrong), 0U) << row.solver << " " << row.precision;
       }
     }
@@ -58,21 +61,26 @@ TEST(Extremes, WhoeverTakesAToleranceKeepsTheEnergy) {
 
 /// Each was once handed over with an energy or a friction ratio that was off: a saturated contact
 /// of enormous stiffness, a motion lost in the rounding of a displacement or of the sliding, works
-/// that cancel over a period.
+/// that cancel over a period, a vibration far below its scale, terms near the largest number.
 TEST(Extremes, ScenesThatOnceWentWrong) {
-  for (const std::uint64_t scene :
-       {54U, 321U, 534U, 639U, 2669U, 3376U, 4924U, 7090U, 9938U, 72461U}) {
+  for (const std::uint64_t scene : {54U, 321U, 534U, 639U, 2669U, 3376U, 4924U, 7090U, 9938U, 9968U,
+                                    16202U, 37999U, 62157U, 66241U, 72461U, 76026U, 94419U}) {
     for (const Solver& solver : solvers()) {
-      if (!solver.adaptive) {
-        continue;
-      }
-      const Precision& precision = solver.precisions.front();
-      const TrialResult result =
-          precision.trial(random_scene(scene),
-                          {random_scene_periods, precision.extreme_setting, extreme_step_limit});
-      if (result.supported && result.error == plant::Error::none) {
-        EXPECT_LE(result.balance_residual, allowed_residual_float64) << scene << solver.name;
-        EXPECT_LE(std::abs(result.friction_ratio), 1.0 + 1e-9) << scene << solver.name;
+      for (const Precision& precision : solver.precisions) {
+        if (!suits(solver, precision.name)) {
+          continue;
+        }
+        const TrialResult result =
+            precision.trial(random_scene(scene),
+                            {random_scene_periods, precision.extreme_setting, extreme_step_limit});
+        if (result.supported && result.error == plant::Error::none) {
+          const bool is_single = precision.name == "float32";
+          EXPECT_LE(result.balance_residual,
+                    is_single ? allowed_residual_float32 : allowed_residual_float64)
+              << scene << " " << solver.name << " " << precision.name;
+          EXPECT_LE(std::abs(result.friction_ratio), is_single ? 1.0 + 1e-4 : 1.0 + 1e-9)
+              << scene << " " << solver.name << " " << precision.name;
+        }
       }
     }
   }
