@@ -9,6 +9,7 @@
 #include "firmware/control/measurement.hpp"
 #include "firmware/control/signals.hpp"
 #include "firmware/control/stuck_detector.hpp"
+#include "firmware/numeric/accumulator.hpp"
 #include "firmware/numeric/scalar.hpp"
 
 namespace sonoglide::control {
@@ -25,6 +26,9 @@ struct Parts {
   using Regulator = RegulatorT;      ///< NoFeedback | IntegralRegulator
   using Ceiling = CeilingT;          ///< FullDrive | DriveLimit
 };
+
+/// Smallest usable speed floor, per unit: where the controller's resolution ends.
+inline constexpr double smallest_speed_floor = 1e-4;
 
 /// Picks the drive amplitude so that the friction ratio reaches a target; one step per carrier
 /// period. A pure function of its state and the measurement: no clock, no I/O, no heap.
@@ -149,7 +153,8 @@ class Controller {
     last_velocity_ = velocity;
     last_velocity_known_ = true;
     return numeric::observe<signal::ForeseenVelocity>(
-        velocity + numeric::scale_by_power_of_two(change * lead_, 6));
+        velocity + numeric::rounded<Scalar>(numeric::scale_by_power_of_two(
+                       numeric::accumulated_product(change, lead_), 6)));
   }
 
   DriveCommand<Scalar> trip(Fault fault) {

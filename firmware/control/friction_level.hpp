@@ -2,6 +2,7 @@
 #pragma once
 
 #include "firmware/control/signals.hpp"
+#include "firmware/numeric/accumulator.hpp"
 #include "firmware/numeric/floating.hpp"
 #include "firmware/numeric/scalar.hpp"
 
@@ -22,11 +23,13 @@ class FrictionLevel {
 
   /// F/Fc on base 2; saturates outside ±2 in fixed point.
   Scalar half_ratio(Scalar force) const {
-    Scalar ratio = force * inverse_;
     if constexpr (numeric::is_fixed_point_v<Scalar>) {
-      ratio = numeric::scale_by_power_of_two(ratio, 1 - level_.exponent);
+      return numeric::observe<signal::MeasuredRatio>(
+          numeric::rounded<Scalar>(numeric::scale_by_power_of_two(
+              numeric::accumulated_product(force, inverse_), 1 - level_.exponent)));
+    } else {
+      return force * inverse_;
     }
-    return numeric::observe<signal::MeasuredRatio>(ratio);
   }
 
   const numeric::Floating<Scalar>& level() const { return level_; }

@@ -4,7 +4,7 @@
 #include <array>
 #include <cstdint>
 
-#include "firmware/numeric/scalar.hpp"
+#include "firmware/control/notch_rounding.hpp"
 
 namespace sonoglide::control {
 
@@ -29,10 +29,12 @@ class NotchShaper {
     std::uint8_t spacing;  ///< M, 1 … MaxSpacing
   };
 
-  explicit NotchShaper(const Parameters& parameters) : parameters_(parameters) {}
+  explicit NotchShaper(const Parameters& parameters)
+      : parameters_(parameters), rounding_(parameters.taps) {}
 
   void restart() {
     past_ = {};
+    rounding_.restart();
     oldest_ = 0;
   }
 
@@ -40,12 +42,13 @@ class NotchShaper {
   Scalar shape(Scalar amplitude) {
     const std::uint32_t depth = 2 * spacing();
     const std::uint32_t oldest = oldest_;
-    const std::uint32_t middle = oldest + spacing();
-    const std::array<Scalar, 3> inputs{amplitude, past_[middle < depth ? middle : middle - depth],
-                                       past_[oldest]};
+    const std::uint32_t ahead = oldest + spacing();
+    const std::uint32_t middle = ahead < depth ? ahead : ahead - depth;
+    const std::array<Scalar, 3> inputs{amplitude, past_[middle], past_[oldest]};
+    const Scalar shaped = rounding_.sum(parameters_.taps, inputs, middle, oldest);
     past_[oldest] = amplitude;
     oldest_ = oldest + 1 < depth ? oldest + 1 : 0;
-    return numeric::dot(parameters_.taps, inputs);
+    return shaped;
   }
 
  private:
@@ -53,6 +56,7 @@ class NotchShaper {
   std::uint32_t spacing() const { return MaxSpacing == 1 ? 1 : parameters_.spacing; }
 
   Parameters parameters_;
+  [[no_unique_address]] NotchRounding<Scalar, 2 * MaxSpacing> rounding_;
   std::array<Scalar, 2 * MaxSpacing> past_{};
   std::uint32_t oldest_ = 0;
 };

@@ -2,14 +2,15 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
 #include <type_traits>
 
 #include "firmware/friction/dahl_inverse_grid.hpp"
 #include "firmware/friction/dahl_inverse_table.hpp"
+#include "firmware/numeric/fixed.hpp"
 #include "firmware/numeric/float_format.hpp"
 #include "firmware/numeric/floating.hpp"
 #include "firmware/numeric/scalar.hpp"
+#include "firmware/numeric/word.hpp"
 
 namespace sonoglide::friction {
 
@@ -45,14 +46,15 @@ GridPosition<Float> position(Float x) {
           numeric::from_bits<Float>(numeric::to_bits(Float{1}) | rest << 2) - Float{1}};
 }
 
-template <class Axis, class Overflow>
-GridPosition<numeric::Q31<Overflow>> position(const numeric::Split<numeric::Q31<Overflow>>& x) {
-  using Scalar = numeric::Q31<Overflow>;
-  constexpr int quarter_bits = 28;
+template <class Axis, class Storage, int Bits, class Overflow>
+GridPosition<numeric::Fixed<Storage, Bits, Overflow>> position(
+    const numeric::Split<numeric::Fixed<Storage, Bits, Overflow>>& x) {
+  using Scalar = numeric::Fixed<Storage, Bits, Overflow>;
+  constexpr int quarter_bits = Bits - 3;
   const std::int32_t raw = x.mantissa.raw();
   const int octave = x.exponent - 1 - Axis::first_octave;
   if (octave < 0) {
-    return {0, Scalar::from_raw(octave > -32 ? raw >> (-1 - octave) : 0)};
+    return {0, Scalar::from_raw(static_cast<Storage>(octave > -32 ? raw >> (-1 - octave) : 0))};
   }
   if (x.exponent > Axis::end_octave) {
     return {Axis::lines - 2, Scalar::largest()};
@@ -60,23 +62,26 @@ GridPosition<numeric::Q31<Overflow>> position(const numeric::Split<numeric::Q31<
   const std::int32_t rest = raw & ((1 << quarter_bits) - 1);
   // The leading bit of the mantissa stands for one octave.
   return {1 + (octave - 1) * Axis::cells_per_octave + (raw >> quarter_bits),
-          Scalar::from_raw(rest * 8)};
+          Scalar::from_raw(static_cast<Storage>(rest * 8))};
 }
 
 /// Half of z between two entries.
 template <class Scalar>
 Scalar between(std::uint16_t begin, std::uint16_t end, Scalar fraction) {
   const std::int32_t rise = std::int32_t{end} - begin;
-  if constexpr (numeric::is_fixed_point_v<Scalar>) {
+  if constexpr (std::is_floating_point_v<Scalar>) {
+    constexpr Scalar unit = numeric::power_of_two<Scalar>(-Grid::entry_bits - 1);
+    return (static_cast<Scalar>(begin) + fraction * static_cast<Scalar>(rise)) * unit;
+  } else if constexpr (Scalar::fraction_bits == Grid::entry_bits) {
+    const std::int32_t more = (rise * fraction.raw()) >> Grid::entry_bits;
+    return Scalar::from_raw(static_cast<std::int16_t>((begin + more) >> 1));
+  } else {
     // Two products that fit a word, of the upper and the lower half of the fraction.
     constexpr int bits = Grid::entry_bits;
     const std::int32_t upper = fraction.raw() >> (bits + 1);
     const std::int32_t lower = (fraction.raw() >> 1) & ((1 << bits) - 1);
     return Scalar::from_raw((std::int32_t{begin} << bits) + rise * upper +
                             ((rise * lower) >> bits));
-  } else {
-    constexpr Scalar unit = numeric::power_of_two<Scalar>(-Grid::entry_bits - 1);
-    return (static_cast<Scalar>(begin) + fraction * static_cast<Scalar>(rise)) * unit;
   }
 }
 
@@ -106,7 +111,7 @@ GridPosition<Scalar> column(Scalar half_ratio) {
   }
 }
 
-/// x + 2 a b, no more than the largest value; none below 0.
+/// x + 2 a b, no more than the largest value; all of them at least 0.
 template <class Float, std::enable_if_t<std::is_floating_point_v<Float>, int> = 0>
 Float limited_sum(Float x, Float a, Float b) {
   const Float sum = x + (a + a) * b;
@@ -131,6 +136,21 @@ numeric::Q31<Overflow> limited_sum(numeric::Q31<Overflow> x,
   return Scalar::from_raw(x.raw() + numeric::min(more, room));
 }
 
+template <class Overflow>
+numeric::Q15<Overflow> limited_sum(numeric::Q15<Overflow> x,
+                                   const numeric::Split<numeric::Q15<Overflow>>& a,
+                                   numeric::Q15<Overflow> b) {
+  const std::int32_t room = INT16_MAX - x.raw();
+  const std::int32_t product = std::int32_t{a.mantissa.raw()} * b.raw();
+  const int down = 14 - a.exponent;
+  std::int32_t more = product > 0 ? room : 0;
+  if (down >= 0) {
+    more = down < 31 ? product >> down : 0;
+  }
+  return numeric::Q15<Overflow>::from_raw(
+      static_cast<std::int16_t>(x.raw() + numeric::min(more, room)));
+}
+
 }  // namespace dahl_inverse_map_detail
 
 /// Peak vibration velocity v̂ at which a Dahl contact that slides at Vt has the given friction
@@ -147,7 +167,8 @@ numeric::Q31<Overflow> limited_sum(numeric::Q31<Overflow> x,
 /// @return v̂ from Vt to 1 (fixed point: the largest value), where it ends; falls as ρ rises; 1 for
 /// ρ <= 0.
 /// Error: the map at r = Vt/v̂ differs from ρ by at most 0.002 for Dahl numbers λ/r in [0.01, 1000],
-/// in float64, float32 and Q31 alike (tested over velocity ratios 0 to 2).
+/// in float64, float32 and Q31 alike (tested over velocity ratios 0 to 2); in Q15, for which Vt is
+/// coarser, 0.002 for Vt from 0.1 and 0.008 for Vt from 0.0125 on.
 template <class Scalar>
 Scalar dahl_vibration_velocity(Scalar half_ratio, Scalar speed,
                                const numeric::Floating<Scalar>& half_travel) {

@@ -4,7 +4,9 @@
 #include <cstdint>
 #include <type_traits>
 
+#include "firmware/numeric/fixed.hpp"
 #include "firmware/numeric/scalar.hpp"
+#include "firmware/numeric/word.hpp"
 
 namespace sonoglide::numeric {
 
@@ -54,6 +56,17 @@ constexpr Split<Q31<Overflow>> product(const Split<Q31<Overflow>>& a,
              : Split<Q31<Overflow>>{Q31<Overflow>::from_raw(mantissa), exponent};
 }
 
+/// At most 2^-14 of it too small.
+template <class Overflow>
+constexpr Split<Q15<Overflow>> product(const Split<Q15<Overflow>>& a,
+                                       const Split<Q15<Overflow>>& b) {
+  const std::int32_t mantissa = std::int32_t{a.mantissa.raw()} * b.mantissa.raw();
+  const bool below_half = mantissa < 1 << 29;
+  const auto raw = static_cast<std::int16_t>(mantissa >> (below_half ? 14 : 15));
+  const int exponent = a.exponent + b.exponent;
+  return {Q15<Overflow>::from_raw(raw), below_half ? exponent - 1 : exponent};
+}
+
 namespace detail {
 
 /// n/d, 2^30 <= n, d < 2^31, with 28 fraction bits; too small by at most 2^-24.
@@ -85,6 +98,19 @@ constexpr Split<Q31<Overflow>> quotient(const Split<Q31<Overflow>>& a,
   const int exponent = a.exponent - b.exponent;
   const bool below_one = mantissa < 1U << 28;
   return {Q31<Overflow>::from_raw(static_cast<std::int32_t>(mantissa << (below_one ? 3 : 2))),
+          below_one ? exponent : exponent + 1};
+}
+
+/// a/b, at most 2^-13 of it too small.
+template <class Overflow>
+constexpr Split<Q15<Overflow>> quotient(const Split<Q15<Overflow>>& a,
+                                        const Split<Q15<Overflow>>& b) {
+  const std::uint32_t mantissa =
+      detail::mantissa_quotient(static_cast<std::uint32_t>(a.mantissa.raw()) << 16,
+                                static_cast<std::uint32_t>(b.mantissa.raw()) << 16);
+  const int exponent = a.exponent - b.exponent;
+  const bool below_one = mantissa < 1U << 28;
+  return {Q15<Overflow>::from_raw(static_cast<std::int16_t>(mantissa >> (below_one ? 13 : 14))),
           below_one ? exponent : exponent + 1};
 }
 

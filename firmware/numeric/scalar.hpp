@@ -54,6 +54,12 @@ constexpr Scalar abs(Scalar x) {
   }
 }
 
+/// -1, 0 or 1, of either zero 0; floating point.
+template <class Scalar>
+constexpr Scalar sign(Scalar x) {
+  return static_cast<Scalar>(static_cast<int>(x > Scalar(0)) - static_cast<int>(x < Scalar(0)));
+}
+
 template <class Scalar>
 constexpr Scalar min(Scalar a, Scalar b) {
   return b < a ? b : a;
@@ -177,11 +183,19 @@ constexpr Split<Scalar> split(Scalar x) {
   }
 }
 
-/// A left-justified converter code as a number: code * 2^-31, rounded to the scalar.
+/// A left-justified converter code as a number: code * 2^-31, rounded to the scalar. What rounds to
+/// +1 where the scalar ends below it becomes the largest value, and that is not an overflow.
 template <class Scalar>
 constexpr Scalar from_code(std::int32_t code) {
   if constexpr (is_fixed_point_v<Scalar>) {
-    return fixed_cast<Scalar>(Q31<typename Scalar::Overflow>::from_raw(code));
+    constexpr int surplus = 31 - Scalar::fraction_bits;
+    if constexpr (surplus == 0) {
+      return Scalar::from_raw(code);
+    } else {
+      const std::int32_t raw = ((code >> (surplus - 1)) + 1) >> 1;
+      constexpr std::int32_t largest = Scalar::largest().raw();
+      return Scalar::from_raw(static_cast<typename Scalar::Raw>(raw < largest ? raw : largest));
+    }
   } else {
     return static_cast<Scalar>(code) * power_of_two<Scalar>(-31);
   }

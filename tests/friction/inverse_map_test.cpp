@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 
@@ -12,10 +13,10 @@ namespace {
 
 static_assert(sizeof(dahl_inverse_table) <= 4096, "the inverse map's constants fit 4 KiB");
 
-constexpr double speed = 0x1p-11;
+constexpr double slow = 0x1p-11;
 
 template <class Scalar>
-double vibration_velocity(double ratio, double lambda) {
+double vibration_velocity(double ratio, double lambda, double speed = slow) {
   const numeric::Split<double> parts = numeric::split(lambda / (2.0 * speed));
   const numeric::Split<Scalar> half_travel{numeric::from_real<Scalar>(parts.mantissa),
                                            parts.exponent};
@@ -25,8 +26,8 @@ double vibration_velocity(double ratio, double lambda) {
 }
 
 template <class Scalar>
-double velocity_ratio(double ratio, double lambda) {
-  return speed / vibration_velocity<Scalar>(ratio, lambda);
+double velocity_ratio(double ratio, double lambda, double speed = slow) {
+  return speed / vibration_velocity<Scalar>(ratio, lambda, speed);
 }
 
 template <class Scalar>
@@ -53,6 +54,27 @@ TYPED_TEST(DahlInverseMap, ReturnsToTheRatioWithin0002) {
   this->RecordProperty("worst_error_millionths", static_cast<int>(worst * 1e6));
 }
 
+/// Largest error of the ratio in 16 bits.
+double largest_short_error(double speed) {
+  double largest = 0.0;
+  for (int i = 0; i <= 250; ++i) {
+    const double dahl_number = std::pow(10.0, -2.0 + 5.0 * i / 250);
+    for (double r = speed; r <= 1.0; r += 0.005) {
+      const double ratio = dahl_friction_ratio(r, dahl_number);
+      const double lambda = dahl_number * r;
+      const double back = velocity_ratio<numeric::Q15<numeric::Saturating>>(ratio, lambda, speed);
+      largest = std::max(largest, std::abs(dahl_friction_ratio(back, lambda / back) - ratio));
+    }
+  }
+  return largest;
+}
+
+TEST(ShortDahlInverseMap, ReturnsToTheRatioAsCloselyAsTheSpeedIsFine) {
+  EXPECT_LE(largest_short_error(0.4), 0.002);
+  EXPECT_LE(largest_short_error(0.1), 0.002);
+  EXPECT_LE(largest_short_error(0.0125), 0.008);
+}
+
 TYPED_TEST(DahlInverseMap, RisesWithTheRatio) {
   for (double lambda = 1e-4; lambda < 1e4; lambda *= 1.9) {
     double previous = 0.0;
@@ -71,9 +93,9 @@ TYPED_TEST(DahlInverseMap, EndsAtTheLargestValue) {
   EXPECT_EQ(vibration_velocity<TypeParam>(0.0, 1.0), largest);
   for (const double lambda : {1e-6, 1e-3, 1.0, 1e3, 1e6}) {
     // A small friction ratio is between 2/pi and pi/2 of the velocity ratio.
-    EXPECT_EQ(vibration_velocity<TypeParam>(0.6 * speed, lambda), largest);
+    EXPECT_EQ(vibration_velocity<TypeParam>(0.6 * slow, lambda), largest);
     EXPECT_EQ(vibration_velocity<TypeParam>(0x1p-30, lambda), largest);
-    EXPECT_LT(vibration_velocity<TypeParam>(4.0 * speed, lambda), largest);
+    EXPECT_LT(vibration_velocity<TypeParam>(4.0 * slow, lambda), largest);
   }
 }
 

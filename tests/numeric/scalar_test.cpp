@@ -57,6 +57,12 @@ TYPED_TEST(EveryScalar, SplitLeavesZeroAndNegativeNumbersWhole) {
   }
 }
 
+TEST(FixedScalar, TheLargestCodeIsTheLargestNumberAndNoOverflow) {
+  EXPECT_EQ(from_code<Q15<Trapping>>(INT32_MAX), Q15<Trapping>::largest());
+  EXPECT_EQ(from_code<Q31<Trapping>>(INT32_MAX), Q31<Trapping>::largest());
+  EXPECT_EQ(from_code<Q15<Trapping>>(INT32_MIN), Q15<Trapping>::lowest());
+}
+
 TEST(FixedScalar, HalfRoundsTiesUpward) {
   EXPECT_EQ(half(Long::from_raw(3)).raw(), 2);
   EXPECT_EQ(half(Long::from_raw(-3)).raw(), -1);

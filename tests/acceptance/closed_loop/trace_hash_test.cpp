@@ -16,6 +16,7 @@ TEST(TraceHashTest, IsTheGoldenOneOfEachArithmetic) {
   EXPECT_EQ(hash_of("target_step"), "80f83b7dd1f9f3c1");
   EXPECT_EQ(hash_of("target_step_float64"), "13bd3c11dd5865b6");
   EXPECT_EQ(hash_of("target_step_q31"), "f200bde8f22b975b");
+  EXPECT_EQ(hash_of("target_step_q15"), "bca94e2eb70f03f9");
 }
 
 TEST(TraceHashTest, IsTheSameEachTime) {
