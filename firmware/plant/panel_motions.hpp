@@ -107,14 +107,16 @@ struct PanelMotions {
   }
 
   /// C(x) and S(x), to the lower degree.
-  [[gnu::always_inline]] Lanes slow_c(Lanes x) const {
+  template <class Numbers>
+  [[gnu::always_inline]] Numbers slow_c(Numbers x) const {
     if constexpr (is_split) {
       return half_value<Scalar, Parity::even>(slow[0], x * x);
     } else {
       return value_at<Scalar>(slow[0], x);
     }
   }
-  [[gnu::always_inline]] Lanes slow_s(Lanes x) const {
+  template <class Numbers>
+  [[gnu::always_inline]] Numbers slow_s(Numbers x) const {
     if constexpr (is_split) {
       return x * half_value<Scalar, Parity::odd>(slow[1], x * x);
     } else {
