@@ -76,7 +76,7 @@ struct GaussPiece {
     is_short = Count < Nodes;
     constexpr std::size_t vectors = Count / width;
     const auto x = begin + length * numeric::load_group<vectors>(gauss.node.data());
-    const auto path_there = value_at<Scalar>(path, x);
+    const auto path_there = value_at(path, x);
     set<Count>(place, x);
     set<Count>(travel, path_there);
     set<Count>(c, motions.slow_c(x));

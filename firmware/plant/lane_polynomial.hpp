@@ -16,8 +16,8 @@ enum class Parity : std::size_t { even, odd };
 
 /// The even powers of p, or the odd ones: its values at x are even + x odd. At lanes, or at a group
 /// of them.
-template <class Scalar, Parity Which, std::size_t Count, class Numbers>
-[[gnu::always_inline]] inline Numbers half_value(const std::array<numeric::Lanes<Scalar>, Count>& p,
+template <Parity Which, class Coefficient, std::size_t Count, class Numbers>
+[[gnu::always_inline]] inline Numbers half_value(const std::array<Coefficient, Count>& p,
                                                  Numbers square) {
   constexpr auto lowest = static_cast<std::size_t>(Which);
   constexpr std::size_t highest = Count - 1 - (Count - 1 - lowest) % 2;
@@ -30,12 +30,10 @@ template <class Scalar, Parity Which, std::size_t Count, class Numbers>
 }
 
 /// p(x). Its two halves do not wait for each other.
-template <class Scalar, std::size_t Count, class Numbers>
-[[gnu::always_inline]] inline Numbers value_at(const std::array<numeric::Lanes<Scalar>, Count>& p,
-                                               Numbers x) {
+template <class Coefficient, std::size_t Count, class Numbers>
+[[gnu::always_inline]] inline Numbers value_at(const std::array<Coefficient, Count>& p, Numbers x) {
   const Numbers square = x * x;
-  return half_value<Scalar, Parity::even>(p, square) +
-         x * half_value<Scalar, Parity::odd>(p, square);
+  return half_value<Parity::even>(p, square) + x * half_value<Parity::odd>(p, square);
 }
 
 /// p'(x).
