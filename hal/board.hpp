@@ -19,7 +19,7 @@ struct Drive {
   std::int32_t amplitude;  ///< 0 … 2^31 − 1, full scale: the actuator's limit
   std::uint8_t state;      ///< control::State
   std::uint8_t limit;      ///< control::Limit
-  std::uint8_t fault;      ///< control::Fault
+  std::uint8_t fault;      ///< control::Fault, or from 32 on what the unit's own loop found
 };
 
 /// A board is a class of this shape; none derives from it, the app is compiled for one:
@@ -33,7 +33,7 @@ struct Drive {
 /// One whose own timer makes the carrier periods (app::TimedLoop) has the drive at zero from reset
 /// until the first drive(), and offers besides:
 ///
-///     std::uint32_t period() const;  // carrier periods begun since reset; wraps
+///     std::uint32_t period();  // carrier periods begun since reset; wraps
 ///
 /// sample() then gives the sample that came with the latest period, and waits where it has been
 /// given before. The rest is optional; what an image does not name is not in it.

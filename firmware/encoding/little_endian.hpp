@@ -1,4 +1,4 @@
-/// Whole numbers as bytes, the lowest first; no byte order of a machine shows.
+/// Whole numbers from bytes, the lowest first; no byte order of a machine shows.
 #pragma once
 
 #include <cstddef>
@@ -7,15 +7,7 @@
 
 namespace sonoglide::encoding {
 
-template <class Integer>
-constexpr void put_little_endian(Integer value, std::uint8_t* bytes) {
-  auto rest = static_cast<std::uint32_t>(value);
-  static_assert(sizeof(Integer) <= sizeof rest);
-  for (std::size_t i = 0; i < sizeof(Integer); ++i, rest >>= 8) {
-    bytes[i] = static_cast<std::uint8_t>(rest);
-  }
-}
-
+/// The number in the first sizeof(Integer) bytes.
 template <class Integer>
 constexpr Integer get_little_endian(const std::uint8_t* bytes) {
   std::uint32_t value = 0;

@@ -18,7 +18,8 @@ struct Legendre {
   double slope;
 };
 
-/// Of the given degree, >= 1, by the three-term recurrence; |x| < 1. Error: some rounding per degree.
+/// Of the given degree, >= 1, by the three-term recurrence; |x| < 1. Error: some rounding per
+/// degree.
 constexpr Legendre legendre(int degree, double x) {
   double previous = 1.0;
   double value = x;

@@ -15,10 +15,9 @@ namespace sonoglide::friction {
 ///   rate(V, phi)         d phi / d tau, for step-by-step methods; 0 where V alone sets phi
 ///   series_unit(V, phi, tau)  time, at most tau, in which the power series is written: its
 ///                        coefficients stay moderate
-///   Arc<Order>           the law between two reversals, where sgn V = direction is constant:
-///     coefficient(n, t, V) n-th Taylor coefficient of phi, from those of V below n; called
-///                          with n = 0, 1, … in order and t = series unit / n
-///     magnitude(n)         size of that coefficient, for the step size
+///   Arc                  the law between two reversals, where sgn V = direction is constant:
+///     coefficient<N>(travel, earlier)  N-th Taylor coefficient of phi in x = time / unit, from
+///                          those of travel, du/dx, and of phi itself, below N
 ///     friction_after(du)   phi exactly, after the displacement du >= 0 along the direction
 ///     friction_along(du)   where it varies: the same at a group of lanes, for du from a rounding
 ///                          error below 0; absolute error 1e-13 (double), 5e-6 (float)

@@ -1,7 +1,6 @@
 /// The default solver: Taylor series between the reversals of the sliding velocity.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <limits>

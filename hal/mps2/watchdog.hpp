@@ -1,4 +1,4 @@
-/// Watchdog of the MPS2 boards with the Cortex-M3, M4 or M7.
+/// Watchdog of the MPS2 boards.
 #pragma once
 
 #include <cstdint>
@@ -17,16 +17,16 @@ struct WatchdogRegisters {
 extern "C" {
 extern WatchdogRegisters watchdog;
 extern volatile std::uint32_t watchdog_lock;
-extern volatile std::uint32_t reset_information;  ///< CMSDK system controller, RSTINFO
 }
 
 /// Unfed for a tenth of a second, it raises the NMI, by which the image ends; another tenth later
 /// it resets the board.
-template <std::uint32_t ClockHz>
+///
+/// @tparam ResetCause  offers bool take_watchdog(), whether the watchdog caused the last reset
+template <std::uint32_t ClockHz, class ResetCause>
 class Watchdog {
  public:
-  Watchdog() : caused_reset_((reset_information & by_watchdog) != 0) {
-    reset_information = by_watchdog;  // a set bit clears it
+  Watchdog() : caused_reset_(ResetCause::take_watchdog()) {
     watchdog_lock = unlock_word;
     watchdog.load = ClockHz / 10;
     watchdog.control = counting | resetting;
@@ -37,7 +37,6 @@ class Watchdog {
 
  private:
   enum Control : std::uint32_t { counting = 1, resetting = 2 };
-  static constexpr std::uint32_t by_watchdog = 1U << 1;
   static constexpr std::uint32_t unlock_word = 0x1acce551;
 
   bool caused_reset_;

@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "firmware/numeric/scalar.hpp"
+#include "firmware/numeric/turn.hpp"
 #include "firmware/plant/account.hpp"
 #include "firmware/plant/observer.hpp"
 #include "firmware/plant/outcome.hpp"
@@ -44,7 +45,7 @@ class PlantBoard {
 
   /// False where the solver cannot go on.
   bool sample(Sample& sample) {
-    constexpr Scalar two_pi = numeric::from_real<Scalar>(6.28318530717958647693);
+    constexpr Scalar two_pi = numeric::from_real<Scalar>(numeric::two_pi);
     plant::MeanFriction<Scalar> account;
     plant::NoObserver nobody;
     const plant::Outcome<Scalar> outcome =

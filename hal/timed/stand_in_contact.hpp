@@ -10,7 +10,7 @@ namespace sonoglide::hal::timed {
 /// A contact of one state: friction follows the drive by half of the way in each carrier period,
 /// towards Fc v / a where the drive's peak velocity a exceeds the sliding velocity v, else towards
 /// Fc. It is no model of friction. The ratio lies above the Coulomb contact's (2/pi) asin(v / a) by
-/// up to pi/2, which is left to the controller's feedback.
+/// a factor of up to pi/2, which is left to the controller's feedback.
 ///
 /// Fc is half of the sensor's full scale and v a tenth of the peak velocity at full drive, as in
 /// scenes that say nothing else and in the Table 1 contact.

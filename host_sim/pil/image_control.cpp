@@ -8,14 +8,14 @@
 namespace sonoglide::pil {
 namespace {
 
-constexpr std::chrono::seconds patience{10};
+constexpr std::chrono::seconds longest_silence{10};
 
 }  // namespace
 
 ImageControl::ImageControl(const emulator::EmulatedBoard& board, const std::filesystem::path& image,
                            const process::Attention& attention)
     : board_(board),
-      image_(emulator::emulator_command(board, image.string()), patience, attention) {}
+      image_(emulator::emulator_command(board, image.string()), longest_silence, attention) {}
 
 void ImageControl::set_target(double /*friction_ratio*/) {}
 

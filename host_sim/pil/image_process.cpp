@@ -67,10 +67,11 @@ int ImageProcess::shut_down() {
   samples_.write_end.close();
   samples_.read_end.close();
   // The output ends when the emulator does.
-  std::array<std::uint8_t, lockstep::drive_frame_size> rest{};
-  do {
-    wait_for_answer();
-  } while (read(drives_.read_end.number(), rest.data(), rest.size()) > 0);
+  std::uint8_t unasked = 0;
+  wait_for_answer();
+  if (read(drives_.read_end.number(), &unasked, 1) > 0) {
+    fail("sent what nobody asked for");
+  }
   const int status = child_->wait();
   if (!WIFEXITED(status)) {
     fail("ended with " + process::describe_end(status));

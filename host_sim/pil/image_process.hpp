@@ -43,7 +43,8 @@ class ImageProcess {
 
   /// Ends the input and waits for the image to leave; to be called once, last.
   /// @return its exit code
-  /// @throws EmulatorError  it does not leave in time, or was ended by a signal
+  /// @throws EmulatorError  it does not leave in time, still sends something, or was ended by a
+  /// signal
   int shut_down();
 
   /// Of the emulator.

@@ -301,11 +301,11 @@ Panel spectrum_panel(const scene::Scene& scene, const loop::Recording& ending) {
 }
 
 Section ending(const scene::Scene& scene, const loop::Recording& recording) {
-  constexpr std::size_t samples_per_period = 64;
+  constexpr std::size_t samples = 64;
   Section section{"End of the run", "", {}};
   if (scene::friction_limit_N(scene.friction) > 0.0) {
-    section.panels.push_back(hysteresis_panel(
-        analysis::last_cycle(recording, scene.friction.sign_convention, samples_per_period)));
+    section.panels.push_back(
+        hysteresis_panel(analysis::last_cycle(recording, scene.friction.sign_convention, samples)));
   }
   section.panels.push_back(spectrum_panel(scene, recording));
   return section;

@@ -7,6 +7,7 @@
 
 #include "firmware/control/friction_level.hpp"
 #include "firmware/numeric/float_elementary.hpp"
+#include "firmware/numeric/turn.hpp"
 #include "host_sim/scene/configuration_error.hpp"
 #include "host_sim/scene/plant_scales.hpp"
 
@@ -15,7 +16,6 @@ namespace {
 
 // The elementary functions are the core's own, so that a scene gives the same parameters, bit for
 // bit, on every machine.
-constexpr double pi = 3.14159265358979323846;
 
 /// The controller's resolution ends here, per unit.
 constexpr double smallest_friction = control::FrictionLevel<double>::smallest();
@@ -85,7 +85,7 @@ void design_shaper(const Scene& scene, const Mode& mode, ControlDesign& design) 
 /// Time constant of the sensor's low-pass, in carrier periods.
 double filter_periods(const Scene& scene, const ControlScales& scales) {
   return scene.sensor.force_bandwidth_Hz
-             ? 1.0 / (2.0 * pi * *scene.sensor.force_bandwidth_Hz * scales.carrier_period_s)
+             ? 1.0 / (numeric::two_pi * *scene.sensor.force_bandwidth_Hz * scales.carrier_period_s)
              : 0.0;
 }
 
@@ -113,7 +113,8 @@ void design_regulator(const Scene& scene, const Mode& mode, ControlDesign& desig
   const double delay = 1.0 + shaping + scene.sensor.delay_periods + filter;
   // An integrator behind a delay of D periods oscillates at a gain of 2 sin(π/(4D+2)); a third of
   // it leaves room for a contact twice as steep as believed.
-  const double behind_delay = std::min(0.25, 2.0 / 3.0 * numeric::sin(pi / (4.0 * delay + 2.0)));
+  const double behind_delay =
+      std::min(0.25, 2.0 / 3.0 * numeric::sin(numeric::two_pi / (8.0 * delay + 4.0)));
   design.free_mode = mode.rotation > 0.0 && !design.shaped;
   design.integral_gain =
       design.free_mode ? std::min(behind_delay, gain_beside_free_mode(scene, mode)) : behind_delay;
@@ -224,7 +225,7 @@ void design_slew(const Drive& drive, ControlDesign& design) {
 
 ControlDesign design_control(const Scene& scene) {
   const BelievedPlant plant = believed_plant(scene);
-  const double omega = 2.0 * pi * scene.drive->frequency_Hz;
+  const double omega = numeric::two_pi * scene.drive->frequency_Hz;
   const double compliance = compliance_m_per_N(plant, omega);
   // At resonance the vibration takes about as many radians to build up as it is amplified.
   constexpr double largest_amplification = 1000.0;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "firmware/numeric/turn.hpp"
 #include "host_sim/scene/names.hpp"
 #include "host_sim/scene/sections.hpp"
 #include "host_sim/scene/table_cursor.hpp"
@@ -15,7 +16,6 @@ constexpr double most_periods = 1e10;
 constexpr double most_fixed_steps = 1e11;
 constexpr double most_recorded_rows = 1e9;
 constexpr Range interval_range{1e-15, 1e9, "s"};
-constexpr double pi = 3.141592653589793238462643383279502884;
 
 /// A time given in seconds under one key or in carrier periods under another.
 double time_under(TableCursor& cursor, std::string_view key, const std::optional<Drive>& drive,
@@ -34,7 +34,7 @@ void check_work(const TableCursor& cursor, std::string_view key, const Run& run,
                 const Scene& so_far) {
   const double drive_Hz = so_far.drive ? so_far.drive->frequency_Hz : 0.0;
   const double natural_Hz =
-      std::sqrt(so_far.plant.stiffness_N_per_m / so_far.plant.mass_kg) / (2.0 * pi);
+      std::sqrt(so_far.plant.stiffness_N_per_m / so_far.plant.mass_kg) / numeric::two_pi;
   const double periods = run.duration_s * std::max(drive_Hz, natural_Hz);
   // The conversion of periods to seconds and back may round up.
   if (periods > most_periods * (1.0 + 1e-12)) {

@@ -13,7 +13,7 @@ namespace sonoglide::sweep {
 namespace {
 
 constexpr std::size_t checksum_digits = 16;
-constexpr std::array<double Row::*, 6> figures = {
+constexpr std::array<double Row::*, 6> figure_members = {
     &Row::friction_ratio_whole_run, &Row::friction_ratio_window, &Row::dissipation_ratio_window,
     &Row::settling_time_s,          &Row::steady_error,          &Row::ripple};
 
@@ -72,7 +72,7 @@ std::optional<std::string_view> unsealed(std::string_view line) {
 
 std::string record_text(const Record& record) {
   std::string text = fmt::format("{} ", record.point);
-  for (const auto figure : figures) {
+  for (const auto figure : figure_members) {
     text += fmt::format("{:x} ", bits_of(record.row.*figure));
   }
   return text + fmt::format("{} {}", static_cast<unsigned>(record.row.limit), record.row.status);
@@ -83,7 +83,7 @@ std::optional<Record> parse_record(std::string_view text) {
   constexpr int hexadecimal = 16;
   Numbers numbers(text);
   Record record{static_cast<std::size_t>(numbers.next(decimal)), {}};
-  for (const auto figure : figures) {
+  for (const auto figure : figure_members) {
     record.row.*figure = from_bits(numbers.next(hexadecimal));
   }
   const std::uint64_t limit = numbers.next(decimal);

@@ -7,7 +7,7 @@
 namespace sonoglide::work_precision {
 namespace {
 
-std::string number(double value) {
+std::string cell(double value) {
   return std::isfinite(value) ? fmt::format("{:.6g}", value) : std::string();
 }
 
@@ -17,8 +17,8 @@ std::string to_csv(const Comparison& comparison) {
   std::string csv = "solver,setting,relative_error,wall_us_per_period,steps_per_period,status\n";
   for (const Row& row : comparison.rows) {
     csv += fmt::format("{},{},{},{},{},{}\n", row.solver->name,
-                       setting_text(row.solver->knob, row.setting), number(row.error),
-                       number(row.wall_us_per_period), number(row.steps_per_period), row.status);
+                       setting_text(row.solver->knob, row.setting), cell(row.error),
+                       cell(row.wall_us_per_period), cell(row.steps_per_period), row.status);
   }
   return csv;
 }

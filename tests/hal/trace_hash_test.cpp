@@ -65,6 +65,15 @@ TEST(TraceHashTest, GoesThroughACourseOfCommandsInOrder) {
   }
 }
 
+TEST(TraceHashTest, OfASampleTakesItsTenBytesInOrder) {
+  TraceHash hash;
+  hash.add(Sample{0x04030201, 0x08070605, true, false});
+  EXPECT_EQ(hash.value(), fnv_1a(std::string("\1\2\3\4\5\6\7\10\1\0", 10)));
+  TraceHash other;
+  other.add(Sample{-2, INT32_MIN, false, true});
+  EXPECT_EQ(other.value(), fnv_1a(std::string("\xfe\xff\xff\xff\0\0\0\x80\0\1", 10)));
+}
+
 TEST(TraceHashTest, SeesEveryFieldAndTheLastBit) {
   const Drive drive{1000, 2, 1, 0};
   const auto hash_of = [](const Drive& command) {

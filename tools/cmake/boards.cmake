@@ -118,10 +118,10 @@ if(CMAKE_CROSSCOMPILING)
     SERIAL_BOARD microbit::SerialBoard TIMED_HARDWARE microbit::TimedHardware)
   foreach(board mps2-an385 mps2-an386 mps2-an500)
     sonoglide_emulated_board(${board} FOLDER hal/mps2
-      SERIAL_BOARD mps2::An385SerialBoard TIMED_HARDWARE mps2::TimedHardware)
+      SERIAL_BOARD mps2::An385SerialBoard TIMED_HARDWARE mps2::An385TimedHardware)
   endforeach()
-  sonoglide_emulated_board(mps2-an505
-    FOLDER hal/mps2 MEMORY an505_memory.ld SERIAL_BOARD mps2::An505SerialBoard)
+  sonoglide_emulated_board(mps2-an505 FOLDER hal/mps2 MEMORY an505_memory.ld
+    SERIAL_BOARD mps2::An505SerialBoard TIMED_HARDWARE mps2::An505TimedHardware)
   sonoglide_emulated_board(netduinoplus2 FOLDER hal/netduinoplus2
     SERIAL_BOARD netduinoplus2::SerialBoard TIMED_HARDWARE netduinoplus2::TimedHardware)
   sonoglide_emulated_board(riscv32-virt FOLDER hal/riscv_virt

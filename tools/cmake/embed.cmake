@@ -35,4 +35,6 @@ function(sonoglide_embed target)
     COMMENT "Embedding ${EMBED_FILE}"
     VERBATIM)
   target_sources(${target} PRIVATE "${source}")
+  # Each such file names its bytes alike.
+  set_source_files_properties("${source}" PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 endfunction()

@@ -19,6 +19,7 @@ function(sonoglide_room target folder)
 
   if(sources)
     add_library(${target} STATIC ${sources})
+    sonoglide_unite(${target})
     set(scope PUBLIC)
     target_link_libraries(${target} PRIVATE sonoglide_warnings)
   else()
@@ -30,6 +31,14 @@ function(sonoglide_room target folder)
   if(NOT sources AND NOT SONOGLIDE_SANITIZE)
     sonoglide_check_headers(${target} "${folder}" "${headers}")
   endif()
+endfunction()
+
+# Where SONOGLIDE_UNITE asks for it, a room is one translation unit: what it includes is then
+# compiled, and looked through by clang-tidy, once.
+function(sonoglide_unite target)
+  set_target_properties(${target} PROPERTIES
+    UNITY_BUILD ${SONOGLIDE_UNITE} UNITY_BUILD_BATCH_SIZE 0
+    UNITY_BUILD_CODE_BEFORE_INCLUDE "// NOLINTNEXTLINE(bugprone-suspicious-include)")
 endfunction()
 
 # Compiles every header of a room without sources alone, with nothing in sight
@@ -55,5 +64,6 @@ function(sonoglide_test name)
   cmake_parse_arguments(TEST "" "" "SOURCES;USES" ${ARGN})
   add_executable(${name} ${TEST_SOURCES})
   target_link_libraries(${name} PRIVATE ${TEST_USES} sonoglide_warnings GTest::gtest_main)
+  target_precompile_headers(${name} REUSE_FROM sonoglide_test_headers)
   gtest_discover_tests(${name} TEST_PREFIX "${name}." DISCOVERY_TIMEOUT 60)
 endfunction()

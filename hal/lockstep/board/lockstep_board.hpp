@@ -16,8 +16,10 @@ namespace sonoglide::hal::lockstep {
 /// down; a broken link ends the image (ExitCode::link_broken).
 ///
 /// @tparam Link  offers
-///   std::size_t read(std::uint8_t* bytes, std::size_t size);  // waits; how many came until the
-///   end bool write(const std::uint8_t* bytes, std::size_t size);  // whether every byte was taken
+///   // waits; how many came until the end
+///   std::size_t read(std::uint8_t* bytes, std::size_t size);
+///   // whether every byte was taken
+///   bool write(const std::uint8_t* bytes, std::size_t size);
 /// @tparam Counter  offers std::uint32_t read() const, as read_counter() does
 template <class Link, class Counter = NoCounter>
 class LockstepBoard {

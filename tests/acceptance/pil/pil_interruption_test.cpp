@@ -9,7 +9,6 @@
 #include <csignal>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <sstream>
 #include <string>
 #include <thread>
@@ -96,7 +95,9 @@ std::vector<std::string> processes_with(const std::string& text) {
   std::vector<std::string> found;
   for (const auto& entry : std::filesystem::directory_iterator("/proc")) {
     std::ifstream file(entry.path() / "cmdline", std::ios::binary);
-    const std::string line{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+    std::ostringstream read;
+    read << file.rdbuf();  // nothing of a process that ends meanwhile
+    const std::string line = read.str();
     if (line.find(text) != std::string::npos) {
       found.push_back(line);
     }
