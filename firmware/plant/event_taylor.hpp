@@ -89,12 +89,15 @@ class EventTaylor {
 
   /// The last term that a step takes in is about so many times the first one that it leaves out.
   static constexpr Scalar last_term_per_error = Scalar(8);
-  /// Friction follows from the displacement, on which the last terms of phi have little effect.
-  static constexpr Scalar friction_weight = numeric::from_real<Scalar>(1e-3);
+  /// Friction follows from the displacement, on which its last terms act by the force alone.
+  static constexpr Scalar least_weight = numeric::from_real<Scalar>(1e-3);
+  static constexpr Scalar most_weight = numeric::from_real<Scalar>(0.125);
   /// What a term of phi adds to the mean over a period is less than the term by so much.
   static constexpr Scalar term_per_mean = Scalar(64);
-  /// Of the last terms allowed: what phi is short of its limit where that is negligible.
+  /// What phi is short of its limit where that is negligible: of the last terms allowed, and at
+  /// most.
   static constexpr Scalar unsettled = numeric::from_real<Scalar>(0.125);
+  static constexpr Scalar most_unsettled = numeric::from_real<Scalar>(1e-6);
   static constexpr Scalar longest_step = Scalar(3);
 
   /// What a vibration of unit amplitude allows, with something to spare; 3 rad at most.
@@ -126,7 +129,8 @@ class EventTaylor {
           interval.sliding_velocity + interval.sliding_acceleration * position.offset,
           state.velocity);
       const Scalar limit = velocity > Scalar(0) ? Scalar(1) : Scalar(-1);
-      if (velocity != Scalar(0) && Scalar(1) - limit * state.friction <= unsettled * allowed_) {
+      const Scalar negligible = numeric::min(unsettled * allowed_, most_unsettled);
+      if (velocity != Scalar(0) && Scalar(1) - limit * state.friction <= negligible) {
         state.friction = limit;
       }
     }
@@ -248,9 +252,11 @@ class EventTaylor {
   }
 
   /// The n-th terms of V and phi, as much as they matter.
-  static Scalar last_term(const Series& series, std::size_t n, Scalar speed) {
+  Scalar last_term(const Series& series, std::size_t n, Scalar speed) const {
+    const Scalar weight =
+        numeric::clamp(model_.contact_force(Scalar(1)), least_weight, most_weight);
     return numeric::max(numeric::abs(series.rate * series.travel[n]),
-                        speed * friction_weight * numeric::abs(series.friction[n]));
+                        speed * weight * numeric::abs(series.friction[n]));
   }
 
   /// The extent of the step, cut at the first reversal.

@@ -130,13 +130,14 @@ inline double series_unit(const Scene& scene, double velocity, double friction, 
   return numeric::clamp(numeric::abs(s.velocity) + numeric::abs(s.rate) * change, 1e-12, 1.0);
 }
 
-[[gnu::always_inline]] inline double extent_at(const Series& s, double speed, double rounding,
-                                               double longest, double remaining) {
+[[gnu::always_inline]] inline double extent_at(const Series& s, const Scene& scene, double speed,
+                                               double rounding, double longest, double remaining) {
+  const double weight = numeric::clamp(scene.friction_force, 1e-3, 0.125);
   const double allowed = numeric::max(allowed_term * speed, rounding);
   const double last = numeric::max(numeric::abs(s.rate * s.travel[order]),
-                                   speed * 1e-3 * numeric::abs(s.friction[order]));
+                                   speed * weight * numeric::abs(s.friction[order]));
   const double last_but_one = numeric::max(numeric::abs(s.rate * s.travel[order - 1]),
-                                           speed * 1e-3 * numeric::abs(s.friction[order - 1]));
+                                           speed * weight * numeric::abs(s.friction[order - 1]));
   return step_extent(last, last_but_one, allowed, s.unit, longest, remaining);
 }
 
@@ -222,7 +223,7 @@ inline double series_unit(const Scene& scene, double velocity, double friction, 
 /// Friction at its limit but for a negligible rest.
 [[gnu::always_inline]] inline void settle(Result& state, double velocity) {
   const double limit = velocity > 0.0 ? 1.0 : -1.0;
-  if (velocity != 0.0 && 1.0 - limit * state.friction <= 0.125 * allowed_term) {
+  if (velocity != 0.0 && 1.0 - limit * state.friction <= numeric::min(0.125 * allowed_term, 1e-6)) {
     state.friction = limit;
   }
 }
@@ -263,10 +264,10 @@ inline double series_unit(const Scene& scene, double velocity, double friction, 
     const double remaining = rest / s.unit;
     const double rounding = epsilon * numeric::abs(s.rate * s.travel[0]);
     const double fastest = speed_within(s, 1.0);
-    const double first = extent_at(s, fastest, rounding, longest, remaining);
+    const double first = extent_at(s, scene, fastest, rounding, longest, remaining);
     const double within = speed_within(s, first);
     const double end =
-        within < 0.5 * fastest ? extent_at(s, within, rounding, longest, remaining) : first;
+        within < 0.5 * fastest ? extent_at(s, scene, within, rounding, longest, remaining) : first;
     const double extent = up_to_reversal(s, direction, end);
     const double travel = travelled(s, arc, extent);
     state.displacement = displacement_at(s, extent);
