@@ -71,7 +71,7 @@ struct LaneGroup {
 /// `Count` vectors whose numbers lie one after the other, aligned or not.
 template <std::size_t Count, class Float>
 [[gnu::always_inline]] inline LaneGroup<Float, Count> load_group(const Float* from) {
-  LaneGroup<Float, Count> group;
+  LaneGroup<Float, Count> group{};
   for (std::size_t i = 0; i < Count; ++i) {
     group.part[i] = load(from + i * lane_count<Float>);
   }
