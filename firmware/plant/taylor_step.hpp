@@ -16,13 +16,6 @@
 
 namespace sonoglide::plant {
 
-/// Integrals of phi and of x phi over x, from 0 to the end of a step.
-template <class Scalar>
-struct FrictionIntegrals {
-  Scalar whole;
-  Scalar moment;
-};
-
 /// Friction of a sliding contact: exact in the displacement, which the series gives.
 template <class Model, class Series>
 class SlidingFriction {
@@ -38,13 +31,22 @@ class SlidingFriction {
   Scalar at(Scalar x) const { return arc_.friction_after(travelled(x)); }
   Scalar work(Scalar x) const { return arc_.work(travelled(x)); }
 
-  FrictionIntegrals<Scalar> integrals(Scalar extent) const {
+  /// Of phi and of x phi over x, from 0 to the extent.
+  Scalar integral(Scalar extent) const {
     if constexpr (Law::varies) {
-      if (last_terms(extent) > tolerated_) {
-        return quadrature(extent);
+      if (is_beyond_series(extent)) {
+        return quadrature<0>(extent);
       }
     }
-    return {integrate(series_.friction, extent), first_moment(series_.friction, extent)};
+    return integrate(series_.friction, extent);
+  }
+  Scalar moment(Scalar extent) const {
+    if constexpr (Law::varies) {
+      if (is_beyond_series(extent)) {
+        return quadrature<1>(extent);
+      }
+    }
+    return first_moment(series_.friction, extent);
   }
 
  private:
@@ -55,26 +57,30 @@ class SlidingFriction {
     return numeric::max(Scalar(0), direction_ * series_.travelled(x));
   }
 
-  /// Of phi at x, times the length of a long step.
-  Scalar last_terms(Scalar x) const {
+  /// Where the last terms of phi, times the length of a long step, are more than tolerated.
+  bool is_beyond_series(Scalar x) const {
     const Scalar last = numeric::max(x * numeric::abs(series_.friction[order]),
                                      numeric::abs(series_.friction[order - 1]));
-    return numeric::max(Scalar(1), series_.unit * x) * power<order - 1>(x) * last;
+    return numeric::max(Scalar(1), series_.unit * x) * power<order - 1>(x) * last > tolerated_;
   }
 
-  /// By Gauss and Legendre, from the displacement: good long after the series of phi has ceased to
-  /// converge. Out of line: a step that is told by the series does without.
-  [[gnu::noinline, gnu::pure]] FrictionIntegrals<Scalar> quadrature(Scalar extent) const {
+  /// Of x^Power phi by Gauss and Legendre, from the displacement: good long after the series of phi
+  /// has ceased to converge. Out of line: a step that is told by the series does without. Pure: two
+  /// accounts of one step need it once.
+  template <int Power>
+  [[gnu::noinline, gnu::pure]] Scalar quadrature(Scalar extent) const {
     constexpr std::size_t width = numeric::lane_count<Scalar>;
     constexpr auto& rule = gauss_rule<Scalar, (order / 2 + width - 1) / width * width>;
     const auto x = extent * numeric::load_group<rule.vectors>(rule.node.data());
     auto travel = series_.shift;
     travel[0] = series_.travel[0];
     travel[1] = numeric::half(series_.travel[1]);
-    const auto weighted = numeric::load_group<rule.vectors>(rule.weight.data()) *
-                          arc_.friction_along(direction_ * (x * value_at(travel, x)));
-    return {extent * numeric::sum_of_lanes<Scalar>(weighted),
-            extent * numeric::sum_of_lanes<Scalar>(weighted * x)};
+    auto weighted = numeric::load_group<rule.vectors>(rule.weight.data()) *
+                    arc_.friction_along(direction_ * (x * value_at(travel, x)));
+    if constexpr (Power == 1) {
+      weighted *= x;
+    }
+    return extent * numeric::sum_of_lanes(weighted);
   }
 
   const Series& series_;
@@ -95,9 +101,8 @@ class HoldingFriction {
     return numeric::clamp(evaluate(series_.friction, x), Scalar(-1), Scalar(1));
   }
   Scalar work(Scalar /*x*/) const { return Scalar(0); }
-  FrictionIntegrals<Scalar> integrals(Scalar extent) const {
-    return {integrate(series_.friction, extent), first_moment(series_.friction, extent)};
-  }
+  Scalar integral(Scalar extent) const { return integrate(series_.friction, extent); }
+  Scalar moment(Scalar extent) const { return first_moment(series_.friction, extent); }
 
  private:
   const Series& series_;
@@ -119,14 +124,14 @@ class TaylorStep {
   State<Scalar> at(Scalar offset) const { return state(offset / series_.unit); }
   State<Scalar> end() const { return state(extent_); }
 
-  Scalar friction_integral() const { return series_.unit * friction_.integrals(extent_).whole; }
+  Scalar friction_integral() const { return series_.unit * friction_.integral(extent_); }
   Scalar friction_work() const { return friction_.work(extent_); }
   Scalar sliding_work() const {
-    const FrictionIntegrals<Scalar> friction = friction_.integrals(extent_);
-    const Scalar steady = series_.sliding_velocity[0] * friction.whole;
+    const Scalar steady = series_.sliding_velocity[0] * friction_.integral(extent_);
     const Scalar slope = series_.sliding_velocity[1];
     // Most scenes slide at a constant speed.
-    return series_.unit * (slope == Scalar(0) ? steady : steady + slope * friction.moment);
+    return series_.unit *
+           (slope == Scalar(0) ? steady : steady + slope * friction_.moment(extent_));
   }
 
   /// By Gauss and Legendre, exact for the product of two series up to their order less 3.
