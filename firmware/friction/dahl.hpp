@@ -78,10 +78,8 @@ struct Dahl {
     }
     template <class Numbers>
     [[gnu::always_inline]] Numbers friction_along(Numbers displacement) const {
-      // Nothing is left there, and far beyond the short series would not do.
-      constexpr Scalar longest_exponent = Scalar(64);
-      const Numbers exponent =
-          numeric::at_most<Scalar>(longest_exponent, contact_stiffness_ * displacement);
+      const Numbers exponent = numeric::at_most<Scalar>(numeric::longest_decay<Scalar>,
+                                                        contact_stiffness_ * displacement);
       return direction_ + gap_ * numeric::moderate_decay<Scalar>(exponent);
     }
     Scalar work(Scalar displacement) const {

@@ -75,10 +75,15 @@ template <class Float>
   return reinterpret_cast<LaneBits<Float>>(x) >> (8 * sizeof(Float) - 1);
 }
 
-/// exp(-z), z in [-0.5, 6]. Error <= 1e-13 in double, 5e-6 in float.
+/// As far as moderate_decay has sense; what is left there is less than its error.
+template <class Float>
+inline constexpr Float longest_decay = sizeof(Float) == sizeof(double) ? Float(64) : Float(20);
+
+/// exp(-z), z in [-0.5, 6]. Error <= 1e-13 in double, 5e-6 in float; up to longest_decay 1e-9 and
+/// 5e-6.
 ///
-/// A power of exp at a fraction of z, which is small enough for a short series.
-/// Of lanes, or of a group of them.
+/// A power of exp at a fraction of z, which is small enough for a short series. Of lanes, or of a
+/// group of them.
 template <class Float, class Numbers>
 [[gnu::always_inline]] inline Numbers moderate_decay(Numbers z) {
   constexpr int halvings = sizeof(Float) == sizeof(double) ? 6 : 3;
