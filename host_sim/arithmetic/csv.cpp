@@ -20,9 +20,9 @@ std::string fields(const Precision& precision) {
                      number(precision.ripple));
 }
 
-std::string fields(const std::optional<loop::StepInstructions>& instructions) {
-  return instructions ? fmt::format("{},{},{}", instructions->min, number(instructions->mean),
-                                    instructions->max)
+std::string fields(const std::optional<loop::ImageInstructions>& instructions) {
+  return instructions ? fmt::format("{},{},{}", instructions->step.min,
+                                    number(instructions->step.mean), instructions->step.max)
                       : std::string(",,");
 }
 
