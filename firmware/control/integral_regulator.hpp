@@ -22,6 +22,10 @@ class IntegralRegulator {
     std::uint16_t hold_periods;
   };
 
+  static constexpr void scale_gain(Parameters& parameters, Scalar factor) {
+    parameters.gain *= factor;
+  }
+
   explicit IntegralRegulator(const Parameters& parameters) : parameters_(parameters) {}
 
   void restart() {

@@ -14,7 +14,8 @@ struct DyadicAxis {
 };
 
 /// Axes of the table of z = √(ρ/r − ρ) against reduced Dahl number κ' = λ/ρ, λ = κ r, (rows) and
-/// 1 − ρ (columns).
+/// 1 − ρ (columns). z bends as little along them as asin r does, and r = ρ/(ρ + z²) stays below 1
+/// without a sine.
 struct DahlInverseGrid {
   using Row = DyadicAxis<-4, 10>;
   using Column = DyadicAxis<-8, 0>;

@@ -2,14 +2,15 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
 #include <type_traits>
 
 #include "firmware/friction/dahl_inverse_grid.hpp"
 #include "firmware/friction/dahl_inverse_table.hpp"
+#include "firmware/numeric/fixed.hpp"
 #include "firmware/numeric/float_format.hpp"
 #include "firmware/numeric/floating.hpp"
 #include "firmware/numeric/scalar.hpp"
+#include "firmware/numeric/word.hpp"
 
 namespace sonoglide::friction {
 
@@ -110,7 +111,7 @@ GridPosition<Scalar> column(Scalar half_ratio) {
   }
 }
 
-/// x + 2 a b, no more than the largest value; none below 0.
+/// x + 2 a b, no more than the largest value; all of them at least 0.
 template <class Float, std::enable_if_t<std::is_floating_point_v<Float>, int> = 0>
 Float limited_sum(Float x, Float a, Float b) {
   const Float sum = x + (a + a) * b;

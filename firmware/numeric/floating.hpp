@@ -4,7 +4,9 @@
 #include <cstdint>
 #include <type_traits>
 
+#include "firmware/numeric/fixed.hpp"
 #include "firmware/numeric/scalar.hpp"
+#include "firmware/numeric/word.hpp"
 
 namespace sonoglide::numeric {
 

@@ -31,7 +31,10 @@ constexpr std::int32_t product_of_halves(std::int32_t a, std::int32_t b) {
   const std::uint32_t low = static_cast<std::uint32_t>(a_low) * static_cast<std::uint32_t>(b_low);
   const std::int32_t middle = a_high * b_low + static_cast<std::int32_t>(low >> 16);
   const std::int32_t rest = a_low * b_high + (middle & 0xffff);
-  return 2 * (a_high * b_high + (middle >> 16)) + ((rest + (1 << 14)) >> 15);
+  // The first part alone may be 2^31: unsigned, it wraps and comes back.
+  const auto whole = static_cast<std::uint32_t>(a_high * b_high + (middle >> 16));
+  return static_cast<std::int32_t>(2 * whole +
+                                   static_cast<std::uint32_t>((rest + (1 << 14)) >> 15));
 }
 
 /// The same, however the processor does it best.

@@ -104,6 +104,9 @@ PartText shaper_part(const scene::ControlDesign& design, const ScalarText& scala
 }
 
 PartText regulator_part(const scene::ControlDesign& design, const ScalarText& scalar) {
+  if (design.integral_gain == 0.0) {
+    return {"no_feedback", "NoFeedback<Scalar>", "{}"};
+  }
   return {"integral_regulator", "IntegralRegulator<Scalar>",
           fmt::format("{{{}, {}}}", scalar.number(design.integral_gain), design.hold_periods)};
 }
@@ -162,7 +165,8 @@ std::uint32_t design_number(const std::string& types, const std::string& paramet
 
 std::string controller_header(const scene::Scene& scene) {
   if (!scene.controller) {
-    throw scene::ConfigurationError("controller", "missing; only a closed-loop scene has an image");
+    throw scene::ConfigurationError(
+        "controller", "missing; required: a table [controller], of which an image is made");
   }
   const scene::ControlDesign design = scene::design_control(scene);
   const ScalarText scalar = scalar_text(scene.controller->arithmetic);
