@@ -20,10 +20,9 @@ std::string fields(const Precision& precision) {
                      number(precision.ripple));
 }
 
-std::string fields(const std::optional<loop::StepInstructions>& instructions) {
-  return instructions ? fmt::format("{},{},{}", instructions->min, number(instructions->mean),
-                                    instructions->max)
-                      : std::string(",,");
+std::string fields(const std::optional<loop::ImageInstructions>& count) {
+  return count ? fmt::format("{},{},{}", count->step.min, number(count->step.mean), count->step.max)
+               : std::string(",,");
 }
 
 }  // namespace
