@@ -196,6 +196,12 @@ std::optional<std::int32_t> literal_of(const Instruction& instruction, const Lit
   return literal == literals.end() ? std::nullopt : std::optional(literal->second);
 }
 
+/// Of `r2, r2, #4`, but not of `r2, r3, #4`.
+bool shifts_itself(const std::string& operands) {
+  const std::size_t end = operands.find(',');
+  return operands.compare(end + 1, end + 2, " " + operands.substr(0, end + 1)) == 0;
+}
+
 /// What a register holds after an instruction that names it first: a literal, a small constant, or
 /// that constant shifted.
 std::optional<std::int32_t> constant_left(const Instruction& instruction, const Literals& literals,
@@ -204,8 +210,8 @@ std::optional<std::int32_t> constant_left(const Instruction& instruction, const 
   if (instruction.mnemonic == "movs" && operand) {
     return static_cast<std::int32_t>(*operand);
   }
-  if (instruction.mnemonic == "lsls" && operand && before) {
-    return *before << *operand;
+  if (instruction.mnemonic == "lsls" && operand && before && shifts_itself(instruction.operands)) {
+    return static_cast<std::int32_t>(static_cast<std::uint32_t>(*before) << (*operand % 32));
   }
   return literal_of(instruction, literals);
 }
