@@ -19,6 +19,22 @@ Error check_state(const State<Scalar>& state) {
   return numeric::abs(state.friction) <= bound ? Error::none : Error::friction_bound_broken;
 }
 
+/// The same of a plant with this law; where it remembers, |Memory| keeps its bound, not phi.
+template <class Law>
+Error check_state(const Law& /*law*/, const State<typename Law::Scalar>& state) {
+  return check_state(state);
+}
+template <class Law>
+Error check_state(const Law& law, const RememberingState<Law>& state) {
+  using Scalar = typename Law::Scalar;
+  const Scalar rounding = Scalar(64) * std::numeric_limits<Scalar>::epsilon();
+  const Scalar bound = law.largest_memory() * (Scalar(1) + rounding);
+  if (!is_finite(state)) {
+    return Error::not_finite;
+  }
+  return numeric::abs(state.memory) <= bound ? Error::none : Error::friction_bound_broken;
+}
+
 /// Whether a step keeps the classical Runge–Kutta formula stable on the oscillator alone:
 /// |h| sqrt(|k|) <= 2 sqrt(2) and h d <= 2.785.
 template <class Model, class Scalar>
