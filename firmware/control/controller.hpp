@@ -26,6 +26,9 @@ struct Parts {
   using Ceiling = CeilingT;          ///< FullDrive | DriveLimit
 };
 
+/// Smallest usable speed floor, per unit: where the controller's resolution ends.
+inline constexpr double smallest_speed_floor = 1e-4;
+
 /// Picks the drive amplitude so that the friction ratio reaches a target; one step per carrier
 /// period. A pure function of its state and the measurement: no clock, no I/O, no heap.
 ///

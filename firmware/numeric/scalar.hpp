@@ -52,6 +52,12 @@ constexpr Scalar abs(Scalar x) {
   }
 }
 
+/// -1, 0 or 1, of either zero 0; floating point.
+template <class Scalar>
+constexpr Scalar sign(Scalar x) {
+  return static_cast<Scalar>(static_cast<int>(x > Scalar(0)) - static_cast<int>(x < Scalar(0)));
+}
+
 template <class Scalar>
 constexpr Scalar min(Scalar a, Scalar b) {
   return b < a ? b : a;

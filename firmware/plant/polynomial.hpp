@@ -56,6 +56,20 @@ Scalar evaluate(const std::array<Scalar, Count>& p, Scalar x) {
   return evaluate_from<0>(p, x);
 }
 
+/// Coefficients of the derivative of p of the given degree, over its factorial.
+template <std::size_t Degree, class Scalar, std::size_t Count>
+std::array<Scalar, Count - Degree> derivative(const std::array<Scalar, Count>& p) {
+  std::array<Scalar, Count - Degree> result{};
+  for (std::size_t n = Degree; n < Count; ++n) {
+    std::size_t binomial = 1;
+    for (std::size_t k = 0; k < Degree; ++k) {
+      binomial = binomial * (n - k) / (k + 1);
+    }
+    result[n - Degree] = static_cast<Scalar>(binomial) * p[n];
+  }
+  return result;
+}
+
 /// Integral of p from 0 to x.
 template <class Scalar, std::size_t Count>
 Scalar integrate(const std::array<Scalar, Count>& p, Scalar x) {

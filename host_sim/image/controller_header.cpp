@@ -148,7 +148,8 @@ std::uint32_t design_number(const std::string& types, const std::string& paramet
 
 std::string controller_header(const scene::Scene& scene) {
   if (!scene.controller) {
-    throw scene::ConfigurationError("controller", "missing; only a closed-loop scene has an image");
+    throw scene::ConfigurationError(
+        "controller", "missing; required: a table [controller], of which an image is made");
   }
   const scene::ControlDesign design = scene::design_control(scene);
   const ScalarText scalar = scalar_text(scene.controller->arithmetic);

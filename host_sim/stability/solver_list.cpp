@@ -1,6 +1,5 @@
 #include "host_sim/stability/solver_list.hpp"
 
-#include <limits>
 #include <type_traits>
 
 #include "firmware/numeric/turn.hpp"
@@ -8,6 +7,7 @@
 #include "firmware/plant/event_taylor.hpp"
 #include "firmware/plant/rk4.hpp"
 #include "firmware/plant/rk4_event.hpp"
+#include "firmware/plant/state_check.hpp"
 #include "firmware/plant/strang.hpp"
 #include "host_sim/scene/plant_scales.hpp"
 #include "host_sim/stability/composition.hpp"
@@ -60,8 +60,7 @@ TrialResult trial(const scene::Scene& scene, const TrialPlan& plan) {
 /// rounded: as far past 1 as Rk4 calls rounding.
 template <class Scalar>
 constexpr double friction_bound(Bound bound) {
-  const double rounding = 64.0 * static_cast<double>(std::numeric_limits<Scalar>::epsilon());
-  return bound == Bound::exact ? 1.0 : 1.0 + rounding;
+  return bound == Bound::exact ? 1.0 : static_cast<double>(plant::largest_friction<Scalar>);
 }
 
 template <template <class> class Method, Control Knob>
