@@ -73,8 +73,8 @@ struct LuGre {
       bristles_[0] = bristles;
     }
 
-    template <std::size_t N, class Coefficients>
-    Scalar coefficient(const Coefficients& travel, Scalar unit) {
+    template <std::size_t N, class Travel>
+    Scalar coefficient(const Travel& travel, Scalar unit) {
       velocity_[N] = travel[N] / unit;
       add_curve(N);
       share_[N] = bristles_[N];

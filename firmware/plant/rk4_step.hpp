@@ -21,7 +21,7 @@ struct Rk4Stage {
 
 /// Integrals as the method gives them for extra states. Between the ends the state is the cubic
 /// that has their values and slopes; where that passes |phi| = 1 it is cut off, unless the law
-/// remembers and phi follows from what it remembers.
+/// depends on the speed.
 template <class Model>
 class Rk4Step {
  public:
@@ -51,7 +51,8 @@ class Rk4Step {
         model_.law.friction(model_.contact_velocity(sliding_velocity, velocity), memory);
     return {cubic(from.displacement, from_slope.displacement, end_.state.displacement,
                   end_.slope.displacement, x),
-            velocity, Law::remembers ? friction : numeric::clamp(friction, Scalar(-1), Scalar(1))};
+            velocity,
+            Law::rate_independent ? numeric::clamp(friction, Scalar(-1), Scalar(1)) : friction};
   }
 
   Scalar friction_integral() const {

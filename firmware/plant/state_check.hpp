@@ -24,10 +24,14 @@ Error check_state(const State<Scalar>& state) {
                                                                   : Error::friction_bound_broken;
 }
 
-/// The same of a plant with this law; where it remembers, |Memory| keeps its bound, not phi.
+/// The same of a plant with this law: of a force that depends on the speed there is no bound, but
+/// of what the law remembers.
 template <class Law>
 Error check_state(const Law& /*law*/, const State<typename Law::Scalar>& state) {
-  return check_state(state);
+  if constexpr (Law::rate_independent) {
+    return check_state(state);
+  }
+  return is_finite(state) ? Error::none : Error::not_finite;
 }
 template <class Law>
 Error check_state(const Law& law, const RememberingState<Law>& state) {

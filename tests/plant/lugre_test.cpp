@@ -77,6 +77,17 @@ TEST(LuGreLimits, Dahl) {
               1e-6);
 }
 
+TEST(LuGreLimits, DahlInSinglePrecision) {
+  using Single = Model<friction::LuGre<float>, Damped<float>, CosineDrive>;
+  auto solver = configured<EventTaylor<Single, 8>>({{{0.40452F}, 0.0F, 1.0F}, {0.0F}, 0.0F}, 1e-7F);
+  RememberingState<friction::LuGre<float>> state = {{-1.0F, 0.0F, 0.0F}, 0.0F};
+  MeanFriction<float> settling;
+  MeanFriction<float> account;
+  EXPECT_EQ(run_periods(solver, 30, 1.0F, 0.5F, state, settling), Error::none);
+  EXPECT_EQ(run_periods(solver, 1, 1.0F, 0.5F, state, account), Error::none);
+  EXPECT_NEAR(static_cast<double>(account.friction_integral) / (2.0 * pi), 0.674948666956629, 1e-5);
+}
+
 TEST(LuGreLimits, Coulomb) {
   EXPECT_NEAR(prescribed_ratio({3e3}, 0.5, 1e-8, 2), 1.0 / 3.0, 1e-3);
 }
