@@ -120,7 +120,7 @@ class FieldDesign {
       result.ceiling.highest = millionths_of(values, Parameter::drive_limit);
     }
     if (changed(values, Parameter::gain_scale)) {
-      result.regulator.gain *= millionths_of(values, Parameter::gain_scale);
+      PartsT::Regulator::scale_gain(result.regulator, millionths_of(values, Parameter::gain_scale));
     }
     if (changed(values, Parameter::friction_force)) {
       result.friction_force = millionths_of(values, Parameter::friction_force);

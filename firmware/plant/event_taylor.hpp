@@ -237,8 +237,7 @@ class EventTaylor {
   /// What the error of the velocity is measured against: the velocity scale, or where that is
   /// smaller, but not without end, the vibration itself on the way to x.
   static Scalar speed(const Series& series, Scalar x) {
-    constexpr bool is_short = std::numeric_limits<Scalar>::digits <= 24;
-    constexpr Scalar slowest = numeric::from_real<Scalar>(is_short ? 1e-6 : 1e-12);
+    constexpr Scalar slowest = numeric::from_real<Scalar>(1e-12);
     const Scalar change =
         x * (numeric::abs(series.vibration[1]) + x * numeric::abs(series.travel[2]));
     return numeric::clamp(numeric::abs(series.velocity) + numeric::abs(series.rate) * change,
@@ -317,9 +316,19 @@ class EventTaylor {
   /// The extent, within 7 %, at which terms of the two highest orders reach what is allowed.
   [[gnu::noinline]] static Scalar reach(Scalar last, Scalar last_but_one, Scalar allowed) {
     constexpr int degree = static_cast<int>(Order);
-    const Scalar smallest = std::numeric_limits<Scalar>::min();
-    return numeric::min(quick_root<degree>(allowed / numeric::max(last, smallest)),
-                        quick_root<degree - 1>(allowed / numeric::max(last_but_one, smallest)));
+    return numeric::min(root_of_quotient<degree>(allowed, last),
+                        root_of_quotient<degree - 1>(allowed, last_but_one));
+  }
+
+  /// (allowed / term)^(1/Degree). Terms near the largest number leave a quotient without digits:
+  /// the step is then taken shorter than any such would make it.
+  template <int Degree>
+  static Scalar root_of_quotient(Scalar allowed, Scalar term) {
+    constexpr Scalar smallest = std::numeric_limits<Scalar>::min();
+    const Scalar quotient = allowed / numeric::max(term, smallest);
+    return quotient >= smallest
+               ? quick_root<Degree>(quotient)
+               : numeric::from_real<Scalar>(1.0 / 128.0) * quick_root<Degree>(smallest);
   }
 
   template <class Friction, class Account, class Observer>

@@ -57,6 +57,16 @@ class VelocityPath {
     return path;
   }
 
+  /// Second derivatives at the ends, times length^2.
+  struct Bends {
+    Scalar begin;
+    Scalar end;
+  };
+  Bends end_bends() const {
+    return {Scalar(12) * ((c_[0] - c_[1]) + (c_[2] - c_[1])),
+            Scalar(12) * ((c_[4] - c_[3]) + (c_[2] - c_[3]))};
+  }
+
   Scalar begin_velocity() const { return c_[0]; }
   Scalar end_velocity() const { return c_[4]; }
   Scalar velocity(Scalar x) const {

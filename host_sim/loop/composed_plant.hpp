@@ -52,13 +52,12 @@ class ComposedPlant final : public PlantPort {
  public:
   using Model = typename Solver::Model;
 
-  /// @param precision  the tolerance of an adaptive method, the step of another, dimensionless
-  ComposedPlant(const scene::PlantScales& scales, const Model& model, double precision,
+  /// @param solver  configured for the model
+  ComposedPlant(const scene::PlantScales& scales, const Model& model, const Solver& solver,
                 const plant::State<double>& initial)
-      : scales_(scales), model_(model) {
+      : scales_(scales), model_(model), solver_(solver) {
     static_cast<plant::State<double>&>(state_) = initial;
     plant::contact_memory(state_) = initial.friction;
-    solver_.configure(model, precision);
   }
 
   plant::Outcome<double> advance(const Stretch& stretch, EnergyBalance& energy) override {

@@ -34,7 +34,15 @@ TEST(ControllerHeader, NamesTheSceneAndItsScalar) {
   EXPECT_TRUE(has(controller_header(read("target_step")), "of the scene target_step."));
   EXPECT_TRUE(has(controller_header(read("target_step")), "using Scalar = float;"));
   EXPECT_TRUE(has(controller_header(read("target_step_q31")), "using Scalar = numeric::Q31"));
+  EXPECT_TRUE(has(controller_header(read("target_step_q15")), "using Scalar = numeric::Q15"));
   EXPECT_TRUE(has(controller_header(read("target_step_float64")), "using Scalar = double;"));
+}
+
+// 1/30 of 2^31: a share of the mean that 16 bits could not hold for long calibrations.
+TEST(ControllerHeader, KeepsTheWeightsOfCalibrationIn32Bits) {
+  const std::string header =
+      controller_header(read("target_step_q15", {"controller.calibration_s=1e-3"}));
+  EXPECT_TRUE(has(header, "{30, 30, numeric::Accumulator<Scalar>::from_raw(71582788)}")) << header;
 }
 
 TEST(ControllerHeader, HoldsNoPartThatTheSceneDoesNotName) {
