@@ -22,10 +22,11 @@ namespace sonoglide::plant {
 /// Taylor method of fixed order whose steps end at the reversals of the sliding velocity.
 ///
 /// Inside a step sgn V is constant and the motion analytic. The step is the longest, up to 3 rad,
-/// whose last two terms stay below what the tolerance allows: those of V, and those of phi as far
-/// as they change its mean. The first root of V is found with certainty; the step ends there, V is
-/// set to zero and the contact slides on, turns or sticks. Friction follows from the displacement
-/// exactly, so |phi| <= 1 for any step.
+/// whose last two terms stay below what the tolerance allows: those of V, and more loosely those of
+/// phi, whose mean is taken from the displacement where its series does not give it. The first root
+/// of V is found with certainty; the step ends there, V is set to zero and the contact slides on,
+/// turns or sticks. Friction that does not depend on the speed follows from the displacement
+/// exactly, so that |phi| <= 1 for any step.
 ///
 /// Quickest at tolerances above 1e-5 is order 8, down to 1e-8 order 12, below that 16, from 1e-11
 /// on 20; float has no use for more than 8.
@@ -66,6 +67,7 @@ class EventTaylor {
       if (steps == step_limit_) {
         return {Error::too_many_steps, position.offset};
       }
+      settle(interval, position, state);
       step(interval, position, state, account, observer);
       if (!is_finite(state)) {
         return {Error::not_finite, position.offset};
@@ -83,7 +85,7 @@ class EventTaylor {
   using Arc = typename SlidingLaw<Law, Order>::Type;
   using Series = TaylorSeries<Model, Order>;
   using Coefficients = typename Series::Coefficients;
-  using Sliding = std::conditional_t<Law::rate_independent, SlidingFriction<Series, Arc>,
+  using Sliding = std::conditional_t<Law::rate_independent, SlidingFriction<Model, Series>,
                                      RatedFriction<Series, Arc>>;
 
   struct Position {
@@ -93,8 +95,15 @@ class EventTaylor {
 
   /// The last term that a step takes in is about so many times the first one that it leaves out.
   static constexpr Scalar last_term_per_error = Scalar(8);
-  /// What a term of phi adds to the mean over a step is less than the term by its order.
-  static constexpr Scalar mean_per_term = numeric::from_real<Scalar>(0.125);
+  /// Friction follows from the displacement, on which its last terms act by the force alone.
+  static constexpr Scalar least_weight = numeric::from_real<Scalar>(1e-3);
+  static constexpr Scalar most_weight = numeric::from_real<Scalar>(0.125);
+  /// What a term of phi adds to the mean over a period is less than the term by so much.
+  static constexpr Scalar term_per_mean = Scalar(64);
+  /// What phi is short of its limit where that is negligible: of the last terms allowed, and at
+  /// most.
+  static constexpr Scalar unsettled = numeric::from_real<Scalar>(0.125);
+  static constexpr Scalar most_unsettled = numeric::from_real<Scalar>(1e-6);
   static constexpr Scalar longest_step = Scalar(3);
 
   /// What a vibration of unit amplitude allows, with something to spare; 3 rad at most.
@@ -114,6 +123,21 @@ class EventTaylor {
       const Scalar rounding = Scalar(4) * std::numeric_limits<Scalar>::epsilon();
       if (numeric::abs(velocity) <= rounding * numeric::abs(interval.sliding_velocity)) {
         state.velocity = model_.resting_velocity(interval.sliding_velocity);
+      }
+    }
+  }
+
+  /// Friction that is at its limit but for a negligible rest stays there while the contact slips.
+  void settle(const Interval<Scalar>& interval, const Position& position,
+              State<Scalar>& state) const {
+    if constexpr (Law::varies && Law::rate_independent) {
+      const Scalar velocity = model_.contact_velocity(
+          interval.sliding_velocity + interval.sliding_acceleration * position.offset,
+          state.velocity);
+      const Scalar limit = velocity > Scalar(0) ? Scalar(1) : Scalar(-1);
+      const Scalar negligible = numeric::min(unsettled * allowed_, most_unsettled);
+      if (velocity != Scalar(0) && Scalar(1) - limit * state.friction <= negligible) {
+        state.friction = limit;
       }
     }
   }
@@ -178,7 +202,7 @@ class EventTaylor {
     if (stands_still && can_slide_beyond(branch)) {
       return false;
     }
-    const Sliding friction(series, arc, branch.direction);
+    const Sliding friction(series, arc, branch.direction, term_per_mean * allowed_);
     accept(interval, series, friction, extent, extent == remaining, position, state, account,
            observer);
     if constexpr (Law::reverses) {
@@ -208,12 +232,12 @@ class EventTaylor {
   }
 
   /// How far a step may slide. What the vibration reaches in it is known once the step is: where
-  /// that falls far short of a unit, as in a contact that rings, a second pass.
+  /// that is far less than in a unit, as in a contact that rings, a second pass.
   Scalar sliding_extent(const Series& series, Scalar remaining) const {
-    const Scalar extent = extent_at(speed(series, Scalar(1)), series, remaining);
-    return extent < numeric::half(numeric::min(Scalar(1), remaining))
-               ? extent_at(speed(series, extent), series, remaining)
-               : extent;
+    const Scalar fastest = speed(series, Scalar(1));
+    const Scalar extent = extent_at(fastest, series, remaining);
+    const Scalar within = speed(series, extent);
+    return within < numeric::half(fastest) ? extent_at(within, series, remaining) : extent;
   }
 
   /// As much of an extent as the series of the law serves for.
@@ -245,9 +269,13 @@ class EventTaylor {
   }
 
   /// The n-th terms of V and phi, as much as they matter.
-  static Scalar last_term(const Series& series, std::size_t n, Scalar speed) {
+  Scalar last_term(const Series& series, std::size_t n, Scalar speed) const {
+    // What depends on the speed follows from the series alone.
+    const Scalar weight = Law::rate_independent ? numeric::clamp(model_.contact_force(Scalar(1)),
+                                                                 least_weight, most_weight)
+                                                : most_weight;
     return numeric::max(numeric::abs(series.rate * series.travel[n]),
-                        speed * mean_per_term * numeric::abs(series.friction[n]));
+                        speed * weight * numeric::abs(series.friction[n]));
   }
 
   /// The extent of the step, cut at the first reversal.

@@ -65,7 +65,7 @@ class GaussPanel {
   Scalar slid(Scalar x) const { return slid_over(x + Scalar(1)); }
   Lanes slid(Lanes x) const { return slid_over(x + Scalar(1)); }
   Scalar sliding_rate(Scalar x) const { return sliding_[0] + sliding_[1] * (x + Scalar(1)); }
-  Scalar travel(Scalar x) const { return value_at<Scalar>(path_, numeric::broadcast(x))[0]; }
+  Scalar travel(Scalar x) const { return value_at(path_, numeric::broadcast(x))[0]; }
   Scalar travel_rate(Scalar x) const { return rate_at<Scalar>(path_, numeric::broadcast(x))[0]; }
 
  private:
@@ -294,7 +294,7 @@ class GaussPanel {
   }
 
   [[gnu::always_inline]] void prepare_turns(const Motions& motions, Lanes x, Turns& turns) const {
-    turns.travel = value_at<Scalar>(path_, x);
+    turns.travel = value_at(path_, x);
     turns.rate = rate_at<Scalar>(path_, x);
     turns.c = motions.slow_c(x);
     turns.s = motions.slow_s(x);

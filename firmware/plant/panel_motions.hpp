@@ -107,26 +107,28 @@ struct PanelMotions {
   }
 
   /// C(x) and S(x), to the lower degree.
-  [[gnu::always_inline]] Lanes slow_c(Lanes x) const {
+  template <class Numbers>
+  [[gnu::always_inline]] Numbers slow_c(Numbers x) const {
     if constexpr (is_split) {
-      return half_value<Scalar, Parity::even>(slow[0], x * x);
+      return half_value<Parity::even>(slow[0], x * x);
     } else {
-      return value_at<Scalar>(slow[0], x);
+      return value_at(slow[0], x);
     }
   }
-  [[gnu::always_inline]] Lanes slow_s(Lanes x) const {
+  template <class Numbers>
+  [[gnu::always_inline]] Numbers slow_s(Numbers x) const {
     if constexpr (is_split) {
-      return x * half_value<Scalar, Parity::odd>(slow[1], x * x);
+      return x * half_value<Parity::odd>(slow[1], x * x);
     } else {
-      return value_at<Scalar>(slow[1], x);
+      return value_at(slow[1], x);
     }
   }
 
   [[gnu::always_inline]] Lanes cosine(Lanes x) const {
-    return half_value<Scalar, Parity::even>(harmonic[0], x * x);
+    return half_value<Parity::even>(harmonic[0], x * x);
   }
   [[gnu::always_inline]] Lanes sine(Lanes x) const {
-    return x * half_value<Scalar, Parity::odd>(harmonic[1], x * x);
+    return x * half_value<Parity::odd>(harmonic[1], x * x);
   }
 
   /// f over the Wronskian C S' - C' S = exp(-D x), where C and S are known.

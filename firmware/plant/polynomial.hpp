@@ -32,6 +32,18 @@ constexpr Scalar reciprocal(std::size_t n) {
   return detail::reciprocals<Scalar>[n];
 }
 
+/// x^N.
+template <std::size_t N, class Scalar>
+constexpr Scalar power(Scalar x) {
+  if constexpr (N == 0) {
+    return Scalar(1);
+  } else if constexpr (N % 2 == 1) {
+    return x * power<N - 1>(x);
+  } else {
+    return power<N / 2>(x * x);
+  }
+}
+
 /// Sum of p[n] x^(n - First), n >= First: four chains, one for each power modulo 4, do not wait for
 /// each other. Inlined by order: a call for each polynomial cost the solver a fifth of its time.
 template <std::size_t First, class Scalar, std::size_t Count>

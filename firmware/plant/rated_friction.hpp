@@ -26,7 +26,8 @@ class RatedFriction {
  public:
   using Scalar = typename Series::Scalar;
 
-  RatedFriction(const Series& series, const LawSeries& law, Scalar /*direction*/)
+  RatedFriction(const Series& series, const LawSeries& law, Scalar /*direction*/,
+                Scalar /*tolerated*/)
       : series_(series), law_(law) {}
 
   Scalar at(Scalar x) const { return evaluate(series_.friction, x); }
@@ -40,6 +41,8 @@ class RatedFriction {
     }
     return x * sum;
   }
+  Scalar integral(Scalar extent) const { return integrate(series_.friction, extent); }
+  Scalar moment(Scalar extent) const { return first_moment(series_.friction, extent); }
   auto memory(Scalar x) const { return law_.memory(x); }
 
  private:

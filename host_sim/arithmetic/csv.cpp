@@ -2,28 +2,28 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-
 #include "firmware/control/names.hpp"
+#include "host_sim/report/csv_number.hpp"
 #include "host_sim/scene/names.hpp"
 
 namespace sonoglide::arithmetic {
 namespace {
 
-std::string number(double value) {
-  return std::isfinite(value) ? fmt::format("{:.6g}", value) : std::string();
+std::string cell(double value) {
+  constexpr int digits = 6;
+  return report::csv_number(value, digits);
 }
 
 std::string fields(const Precision& precision) {
-  return fmt::format("{},{},{},{}", number(precision.rms_difference),
-                     number(precision.largest_difference), number(precision.steady_error),
-                     number(precision.ripple));
+  return fmt::format("{},{},{},{}", cell(precision.rms_difference),
+                     cell(precision.largest_difference), cell(precision.steady_error),
+                     cell(precision.ripple));
 }
 
-std::string fields(const std::optional<loop::StepInstructions>& instructions) {
-  return instructions ? fmt::format("{},{},{}", instructions->min, number(instructions->mean),
-                                    instructions->max)
-                      : std::string(",,");
+std::string fields(const std::optional<loop::ImageInstructions>& instructions) {
+  return instructions ? fmt::format("{},{},{}", instructions->step.min,
+                                    cell(instructions->step.mean), instructions->step.max)
+                      : std::string("nan,nan,nan");
 }
 
 }  // namespace

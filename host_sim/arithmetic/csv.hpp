@@ -7,7 +7,7 @@
 
 namespace sonoglide::arithmetic {
 
-/// One line for each image under a heading line; what there is not is left empty.
+/// One line for each image under a heading line; what is not defined is nan.
 std::string images_csv(const Comparison& comparison);
 
 /// One line for each target and arithmetic.

@@ -64,7 +64,7 @@ std::string image_block(const Comparison& comparison, scene::Arithmetic arithmet
   for (std::size_t i = 0; i < boards.size(); ++i) {
     for (const ImageRow& row : comparison.images) {
       if (row.board == boards[i] && row.arithmetic == arithmetic && row.image.instructions) {
-        block += fmt::format("{:.6g} {:.6g} {}\n", row.image.instructions->mean,
+        block += fmt::format("{:.6g} {:.6g} {}\n", row.image.instructions->step.mean,
                              drawn(row.precision.rms_difference), marker_of(i));
       }
     }

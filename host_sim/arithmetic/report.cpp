@@ -17,8 +17,8 @@ std::string number(double value) {
   return std::isfinite(value) ? fmt::format("{:.1e}", value) : std::string("-");
 }
 
-std::string instructions(const std::optional<loop::StepInstructions>& count) {
-  return count ? fmt::format("{}/{:.0f}/{}", count->min, count->mean, count->max)
+std::string instructions(const std::optional<loop::ImageInstructions>& count) {
+  return count ? fmt::format("{}/{:.0f}/{}", count->step.min, count->step.mean, count->step.max)
                : std::string("-");
 }
 

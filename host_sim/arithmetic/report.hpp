@@ -9,7 +9,7 @@
 namespace sonoglide::arithmetic {
 
 /// Writes arithmetic.csv, targets.csv and arithmetic.svg; all or none.
-/// @throws report::OutputError, plot::PlotError
+/// @throws report::OutputError, process::ProcessError
 void write(const std::filesystem::path& out, const scene::Scene& scene,
            const Comparison& comparison);
 

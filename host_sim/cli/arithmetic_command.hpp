@@ -18,8 +18,8 @@ struct ArithmeticOptions {
 /// Adds the command to the program; `options` outlives it and is filled in by parsing.
 CLI::App* add_arithmetic_command(CLI::App& program, ArithmeticOptions& options);
 
-/// Throws what pil() throws, and plot::PlotError; in each case nothing was written and no other
-/// program is left behind.
+/// Throws what pil() throws, and process::ProcessError; in each case nothing was written and no
+/// other program is left behind.
 void arithmetic(const ArithmeticOptions& options);
 
 }  // namespace sonoglide::cli

@@ -19,6 +19,7 @@
 #include "host_sim/loop/sensor.hpp"
 #include "host_sim/scene/configuration_error.hpp"
 #include "host_sim/scene/control_design.hpp"
+#include "host_sim/scene/names.hpp"
 
 namespace sonoglide::image {
 namespace {
@@ -213,9 +214,12 @@ PlantText plant_text(const SceneNumbers& scene, scene::Arithmetic arithmetic) {
     case scene::Arithmetic::q31:
       return fixed_plant(scene);
     case scene::Arithmetic::float64:
+    case scene::Arithmetic::q15:
       break;
   }
-  throw scene::ConfigurationError("plant", "float64 is not for an image; allowed: float32, q31");
+  throw scene::ConfigurationError(
+      "plant", fmt::format("{} is not for the plant of an image; allowed: float32, q31",
+                           scene::name_of(scene::arithmetics, arithmetic)));
 }
 
 }  // namespace

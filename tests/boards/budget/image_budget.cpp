@@ -4,6 +4,7 @@
 
 #include <fstream>
 #include <sstream>
+#include <stdexcept>
 
 #include "host_sim/image/cross_tools.hpp"
 #include "host_sim/loop/run.hpp"
@@ -40,7 +41,10 @@ ImageBudget measure(const Folders& folders, const emulator::EmulatedBoard& board
   const scene::Scene scene = scene::read_file(folders.controllers / image / "scene.toml");
   const image::ImageCost cost = image::measure_image(path, board, {});
   pil::ImageControl controller(board, path, {});
-  loop::run(scene, controller);
+  const std::uint64_t hash = loop::run(scene, controller).control->trace_hash;
+  if (hash != loop::run(scene).control->trace_hash) {
+    throw std::runtime_error(path.string() + ": its commands are not the workstation's");
+  }
   return {cost, image_parts(board, path, cost.size.flash_bytes),
           controller.shut_down().instructions.value()};
 }

@@ -27,6 +27,7 @@ struct ImageBudget {
 
 /// Takes an image apart and runs its scene with it, in closed loop.
 /// @throws process::ProcessError, pil::EmulatorError
+/// @throws std::runtime_error  a command differs from the workstation's: the cost of something else
 ImageBudget measure(const Folders& folders, const emulator::EmulatedBoard& board,
                     const std::string& image);
 

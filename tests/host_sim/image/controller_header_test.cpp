@@ -51,6 +51,11 @@ TEST(ControllerHeader, HoldsNoPartThatTheSceneDoesNotName) {
   EXPECT_TRUE(has(shaped, "notch_shaper.hpp"));
   EXPECT_FALSE(has(unshaped, "notch_shaper.hpp"));
   EXPECT_FALSE(has(shaped, "/slew_limit.hpp"));
+  // A mode at twice the carrier can neither be notched out nor fed back to.
+  const std::string fed_forward =
+      controller_header(read("target_step", {"drive.frequency_Hz=6489"}));
+  EXPECT_TRUE(has(shaped, "integral_regulator.hpp"));
+  EXPECT_FALSE(has(fed_forward, "integral_regulator.hpp"));
 }
 
 // The step at 2 ms is answered by the sample that ends the carrier period 119, counted from 0.

@@ -27,7 +27,7 @@ std::string refusal(const std::string& name, const Texts& overrides,
 TEST(PlantHeader, NamesWhatIsAllowed) {
   EXPECT_EQ(refusal("target_step", {}), "");
   EXPECT_EQ(refusal("target_step", {}, scene::Arithmetic::float64),
-            "plant: float64 is not for an image; allowed: float32, q31");
+            "plant: float64 is not for the plant of an image; allowed: float32, q31");
   EXPECT_EQ(refusal("table_1_open_loop", {}),
             "controller: missing; required: a table [controller], of which an image is made");
   EXPECT_EQ(refusal("speed_ramp", {}),
