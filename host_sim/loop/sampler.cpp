@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "host_sim/loop/drive_piece.hpp"
+
 namespace sonoglide::loop {
 namespace {
 
