@@ -17,6 +17,8 @@ struct Coulomb {
   static constexpr bool reverses = true;
   static constexpr bool varies = false;
   static constexpr bool sticks = true;
+  static constexpr bool rate_independent = true;
+  static constexpr bool remembers = false;
 
   Scalar friction(Scalar velocity, Scalar /*last_friction*/) const {
     return numeric::sign(velocity);

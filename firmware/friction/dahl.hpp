@@ -22,6 +22,8 @@ struct Dahl {
   static constexpr bool reverses = true;
   static constexpr bool varies = true;
   static constexpr bool sticks = false;
+  static constexpr bool rate_independent = true;
+  static constexpr bool remembers = false;
 
   Scalar contact_stiffness = Scalar(1);  ///< kappa = Kt L / Fc [-], > 0
 

@@ -11,10 +11,13 @@ namespace sonoglide::friction {
 ///   reverses             phi depends on sgn V, so that an event solver stops where V changes sign
 ///   varies               phi changes between two reversals
 ///   sticks               V may stay zero while a friction force below Fc holds it there
+///   rate_independent     between two reversals phi depends on the displacement alone
+///   remembers            phi is not all that the contact knows of its past
 ///   friction(V, phi)     the friction that acts now, phi being its last value
 ///   rate(V, phi)         d phi / d tau, for step-by-step methods; 0 where V alone sets phi
 ///   series_unit(V, phi, tau)  time, at most tau, in which the power series is written: its
 ///                        coefficients stay moderate
+/// A law that is rate independent:
 ///   Arc                  the law between two reversals, where sgn V = direction is constant:
 ///     coefficient<N>(travel, earlier)  N-th Taylor coefficient of phi in x = time / unit, from
 ///                          those of travel, du/dx, and of phi itself, below N
@@ -23,12 +26,23 @@ namespace sonoglide::friction {
 ///                          error below 0; absolute error 1e-9 (double), 5e-6 (float), where it has
 ///                          relaxed by less than a factor of e^6 1e-13 in double
 ///     work(du)             integral of phi V d tau exactly, over the same displacement
+/// Another, in its place:
+///   reach(V)             change of V over which a power series tells what is to come
+///   Series<Order>        such a series, sgn V = direction being constant:
+///     coefficient<N>(travel, unit)  N-th Taylor coefficient of phi in x = time / unit, from those
+///                          of travel up to N
+/// A law that remembers has a Memory, which takes the place of phi as an argument of friction, rate
+/// and series_unit and is what rate gives the derivative of. It also offers:
+///   largest_memory()     no motion takes |Memory| beyond it
+///   Series<Order>::memory(x)  the Memory at x
 template <class Number>
 struct None {
   using Scalar = Number;
   static constexpr bool reverses = false;
   static constexpr bool varies = false;
   static constexpr bool sticks = false;
+  static constexpr bool rate_independent = true;
+  static constexpr bool remembers = false;
 
   Scalar friction(Scalar /*velocity*/, Scalar /*last_friction*/) const { return Scalar(0); }
   Scalar rate(Scalar /*velocity*/, Scalar /*friction*/) const { return Scalar(0); }

@@ -5,6 +5,7 @@
 
 #include "firmware/numeric/scalar.hpp"
 #include "firmware/plant/polynomial.hpp"
+#include "firmware/plant/rated_friction.hpp"
 #include "firmware/plant/taylor_series.hpp"
 
 namespace sonoglide::plant {
@@ -30,7 +31,7 @@ class BranchAtRest {
   /// released: the direction in which friction has just reached its limit, 0 if it has not.
   Branch<Scalar> choose(Scalar released) const {
     State<Scalar> at_rest = instant_.state;
-    at_rest.friction = model_.law.friction(Scalar(0), at_rest.friction);
+    at_rest.friction = model_.law.friction(Scalar(0), contact_memory(instant_.state));
     const Scalar acceleration = model_.contact_velocity(
         instant_.sliding_acceleration, model_.acceleration(instant_.drive.value(), at_rest));
     const Scalar error = noise(instant_.drive.bound(), at_rest) +
@@ -49,7 +50,7 @@ class BranchAtRest {
 
  private:
   using Series = TaylorSeries<Model, Order>;
-  using Arc = typename Model::FrictionLaw::Arc;
+  using Arc = typename SlidingLaw<typename Model::FrictionLaw, Order>::Type;
 
   Scalar noise(Scalar drive, const State<Scalar>& state) const {
     return instant_.relative_error * (drive + numeric::abs(model_.damping_force(state.velocity)) +
@@ -92,7 +93,7 @@ class BranchAtRest {
   /// The first coefficient of V, x^0 apart, beyond a running bound of the rounding errors.
   [[gnu::noinline]] Leading leading_coefficient(Scalar direction) const {
     Series series(model_, instant_, Scalar(1));
-    Arc arc(model_.law, direction, instant_.state.friction);
+    Arc arc(model_.law, direction, contact_memory(instant_.state));
     series.slide(model_, arc);
     Scalar drive = instant_.drive.bound();
     Scalar displacement_error = instant_.relative_error * numeric::abs(series.displacement);

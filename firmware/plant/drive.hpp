@@ -1,5 +1,6 @@
 /// Drive waveforms. Each offers itself in two forms: as a power series about one phase, and sampled
-/// at equal steps of phase.
+/// at equal steps of phase. One with corners or jumps is put together of straight pieces: an
+/// interval lies within one piece.
 #pragma once
 
 #include <array>
@@ -99,5 +100,80 @@ struct CosineDrive {
     Phasor<Scalar> step_;
   };
 };
+
+/// A force that is linear in time. Straight::at(amplitude, phase) is the force at a phase,
+/// Straight::slope(amplitude) what it grows by in a radian.
+template <class Straight>
+struct StraightDrive {
+  /// The drive at one phase.
+  template <class Scalar>
+  struct Phasor {
+    Scalar force;
+    Scalar slope;
+
+    Phasor(Scalar amplitude, Scalar phase)
+        : force(Straight::at(amplitude, phase)), slope(Straight::slope(amplitude)) {}
+    Scalar value() const { return force; }
+    Scalar bound() const { return numeric::abs(force) + numeric::abs(slope); }
+  };
+
+  /// Coefficients in t / unit about the phase.
+  template <class Scalar, std::size_t Order>
+  class Series {
+   public:
+    Series(const Phasor<Scalar>& phasor, Scalar unit)
+        : coefficients_{phasor.force, phasor.slope * unit} {}
+    Scalar operator[](std::size_t n) const { return n < 2 ? coefficients_[n] : Scalar(0); }
+    /// The n-th coefficient, times a factor.
+    Scalar term(std::size_t n, Scalar factor) const {
+      return n < 2 ? factor * coefficients_[n] : NoDrive::nothing<Scalar>;
+    }
+    Scalar at(Scalar x) const { return coefficients_[0] + x * coefficients_[1]; }
+
+   private:
+    std::array<Scalar, 2> coefficients_;
+  };
+
+  template <class Scalar>
+  class Samples {
+   public:
+    Samples(Scalar amplitude, Scalar phase, Scalar spacing)
+        : amplitude_(amplitude), phase_(phase), spacing_(spacing) {}
+    Scalar value() const { return Straight::at(amplitude_, phase_ + count_ * spacing_); }
+    void next() { count_ += Scalar(1); }
+
+   private:
+    Scalar amplitude_;
+    Scalar phase_;
+    Scalar spacing_;
+    Scalar count_ = Scalar(0);
+  };
+};
+
+/// a phase: a piece of a triangle or a sawtooth, the phase counted from where the force is zero.
+struct Ramp {
+  template <class Scalar>
+  static Scalar at(Scalar amplitude, Scalar phase) {
+    return amplitude * phase;
+  }
+  template <class Scalar>
+  static Scalar slope(Scalar amplitude) {
+    return amplitude;
+  }
+};
+using RampDrive = StraightDrive<Ramp>;
+
+/// a: half a square wave.
+struct Level {
+  template <class Scalar>
+  static Scalar at(Scalar amplitude, Scalar /*phase*/) {
+    return amplitude;
+  }
+  template <class Scalar>
+  static Scalar slope(Scalar /*amplitude*/) {
+    return Scalar(0);
+  }
+};
+using LevelDrive = StraightDrive<Level>;
 
 }  // namespace sonoglide::plant

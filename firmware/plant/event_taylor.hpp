@@ -4,12 +4,14 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <type_traits>
 
 #include "firmware/numeric/scalar.hpp"
 #include "firmware/plant/branch_at_rest.hpp"
 #include "firmware/plant/first_reversal.hpp"
 #include "firmware/plant/first_root.hpp"
 #include "firmware/plant/outcome.hpp"
+#include "firmware/plant/rated_friction.hpp"
 #include "firmware/plant/state.hpp"
 #include "firmware/plant/step_size.hpp"
 #include "firmware/plant/taylor_series.hpp"
@@ -23,7 +25,8 @@ namespace sonoglide::plant {
 /// whose last two terms stay below what the tolerance allows: those of V, and more loosely those of
 /// phi, whose mean is taken from the displacement where its series does not give it. The first root
 /// of V is found with certainty; the step ends there, V is set to zero and the contact slides on,
-/// turns or sticks. Friction follows from the displacement exactly, so |phi| <= 1 for any step.
+/// turns or sticks. Friction that does not depend on the speed follows from the displacement
+/// exactly, so that |phi| <= 1 for any step.
 ///
 /// Quickest at tolerances above 1e-5 is order 8, down to 1e-8 order 12, below that 16, from 1e-11
 /// on 20; float has no use for more than 8.
@@ -55,7 +58,8 @@ class EventTaylor {
   /// Advances the state over the interval, adding every step to the account and showing it to the
   /// observer.
   template <class Account, class Observer>
-  [[gnu::flatten]] Outcome<Scalar> advance(const Interval<Scalar>& interval, State<Scalar>& state,
+  [[gnu::flatten]] Outcome<Scalar> advance(const Interval<Scalar>& interval,
+                                           StateOf<typename Model::FrictionLaw>& state,
                                            Account& account, Observer& observer) {
     snap_to_rest(interval, state);
     Position position = {Scalar(0), Scalar(0)};
@@ -78,9 +82,11 @@ class EventTaylor {
   using Law = typename Model::FrictionLaw;
   using At = Instant<Model>;
   using Drive = typename Model::Drive::template Phasor<Scalar>;
-  using Arc = typename Law::Arc;
+  using Arc = typename SlidingLaw<Law, Order>::Type;
   using Series = TaylorSeries<Model, Order>;
   using Coefficients = typename Series::Coefficients;
+  using Sliding = std::conditional_t<Law::rate_independent, SlidingFriction<Model, Series>,
+                                     RatedFriction<Series, Arc>>;
 
   struct Position {
     Scalar offset;
@@ -124,7 +130,7 @@ class EventTaylor {
   /// Friction that is at its limit but for a negligible rest stays there while the contact slips.
   void settle(const Interval<Scalar>& interval, const Position& position,
               State<Scalar>& state) const {
-    if constexpr (Law::varies) {
+    if constexpr (Law::varies && Law::rate_independent) {
       const Scalar velocity = model_.contact_velocity(
           interval.sliding_velocity + interval.sliding_acceleration * position.offset,
           state.velocity);
@@ -137,7 +143,7 @@ class EventTaylor {
   }
 
   template <class Account, class Observer>
-  void step(const Interval<Scalar>& interval, Position& position, State<Scalar>& state,
+  void step(const Interval<Scalar>& interval, Position& position, StateOf<Law>& state,
             Account& account, Observer& observer) {
     const Scalar epsilon = std::numeric_limits<Scalar>::epsilon();
     const Scalar change = interval.sliding_acceleration * position.offset;
@@ -176,8 +182,8 @@ class EventTaylor {
   /// False, with nothing done, where the next reversal is too close for time to move.
   template <class Account, class Observer>
   bool slide(const Interval<Scalar>& interval, const At& instant, const Branch<Scalar>& branch,
-             Position& position, State<Scalar>& state, Account& account, Observer& observer) {
-    const Arc arc(model_.law, branch.direction, state.friction);
+             Position& position, StateOf<Law>& state, Account& account, Observer& observer) {
+    Arc arc(model_.law, branch.direction, contact_memory(state));
     const Scalar rest_of_time = interval.duration - position.offset;
     Series series(model_, instant, sliding_unit(instant, rest_of_time));
     series.slide(model_, arc);
@@ -189,15 +195,14 @@ class EventTaylor {
       }
     }
     const Scalar remaining = rest_of_time / series.unit;
-    const Scalar longest = sliding_extent(series, remaining);
+    const Scalar longest = within_reach(series, sliding_extent(series, remaining));
     const Scalar extent = up_to_reversal(series, branch, longest);
     const bool stands_still =
         extent < longest && position.offset + extent * series.unit == position.offset;
     if (stands_still && can_slide_beyond(branch)) {
       return false;
     }
-    const SlidingFriction<Model, Series> friction(series, arc, branch.direction,
-                                                  term_per_mean * allowed_);
+    const Sliding friction(series, arc, branch.direction, term_per_mean * allowed_);
     accept(interval, series, friction, extent, extent == remaining, position, state, account,
            observer);
     if constexpr (Law::reverses) {
@@ -212,12 +217,12 @@ class EventTaylor {
   Scalar sliding_unit(const At& instant, Scalar rest_of_time) const {
     const Scalar velocity =
         model_.contact_velocity(instant.sliding_velocity, instant.state.velocity);
-    return model_.law.series_unit(velocity, instant.state.friction,
+    return model_.law.series_unit(velocity, contact_memory(instant.state),
                                   numeric::min(longest_step_, rest_of_time));
   }
 
   /// Writes the series in smaller units until no coefficient overflows. Out of line: it is rare.
-  [[gnu::noinline]] void shrink(Series& series, const At& instant, const Arc& arc) const {
+  [[gnu::noinline]] void shrink(Series& series, const At& instant, Arc& arc) const {
     Scalar unit = series.unit;
     while (!series.is_finite() && unit > std::numeric_limits<Scalar>::min()) {
       unit *= numeric::from_real<Scalar>(1.0 / 1024.0);
@@ -233,6 +238,19 @@ class EventTaylor {
     const Scalar extent = extent_at(fastest, series, remaining);
     const Scalar within = speed(series, extent);
     return within < numeric::half(fastest) ? extent_at(within, series, remaining) : extent;
+  }
+
+  /// As much of an extent as the series of the law serves for.
+  Scalar within_reach(const Series& series, Scalar extent) const {
+    if constexpr (!Law::rate_independent) {
+      Scalar change = Scalar(0);
+      for (std::size_t n = Order; n > 0; --n) {
+        change = extent * (change + numeric::abs(series.travel[n]));
+      }
+      const Scalar reach = series.unit * model_.law.reach(series.travel[0] / series.unit);
+      return change > reach ? extent * (reach / change) : extent;
+    }
+    return extent;
   }
 
   Scalar extent_at(Scalar speed, const Series& series, Scalar remaining) const {
@@ -252,8 +270,10 @@ class EventTaylor {
 
   /// The n-th terms of V and phi, as much as they matter.
   Scalar last_term(const Series& series, std::size_t n, Scalar speed) const {
-    const Scalar weight =
-        numeric::clamp(model_.contact_force(Scalar(1)), least_weight, most_weight);
+    // What depends on the speed follows from the series alone.
+    const Scalar weight = Law::rate_independent ? numeric::clamp(model_.contact_force(Scalar(1)),
+                                                                 least_weight, most_weight)
+                                                : most_weight;
     return numeric::max(numeric::abs(series.rate * series.travel[n]),
                         speed * weight * numeric::abs(series.friction[n]));
   }
@@ -281,7 +301,7 @@ class EventTaylor {
 
   template <class Account, class Observer>
   void stick(const Interval<Scalar>& interval, const At& instant, const Branch<Scalar>& branch,
-             Position& position, State<Scalar>& state, Account& account, Observer& observer) {
+             Position& position, StateOf<Law>& state, Account& account, Observer& observer) {
     const Scalar rest_of_time = interval.duration - position.offset;
     Series series(model_, instant, numeric::min(longest_step_, rest_of_time));
     series.stick(model_);
@@ -341,11 +361,14 @@ class EventTaylor {
 
   template <class Friction, class Account, class Observer>
   void accept(const Interval<Scalar>& interval, const Series& series, const Friction& friction,
-              Scalar extent, bool last, Position& position, State<Scalar>& state, Account& account,
+              Scalar extent, bool last, Position& position, StateOf<Law>& state, Account& account,
               Observer& observer) {
     const TaylorStep<Model, Series, Friction> taken(model_, series, friction, position.offset,
                                                     extent);
-    state = taken.end();
+    static_cast<State<Scalar>&>(state) = taken.end();
+    if constexpr (Law::remembers) {
+      state.memory = friction.memory(extent);
+    }
     account.add(taken);
     observer(taken);
     position.offset = last ? interval.duration : position.offset + taken.length();

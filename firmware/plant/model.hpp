@@ -9,9 +9,9 @@ namespace sonoglide::plant {
 /// y'' = a cos(tau) - d y' - k y - beta phi, in units of length L, time 1 / omega and force m L
 /// omega^2; phi = F / Fc.
 ///
-/// Law      friction::None, Coulomb or Dahl
+/// Law      friction::None, Coulomb, Stribeck, Dahl or LuGre
 /// Damping  Undamped or Damped
-/// DriveOf  NoDrive or CosineDrive
+/// DriveOf  NoDrive, CosineDrive, RampDrive or LevelDrive
 /// What is not named has no member: the parameters of a law and of the damping are its own.
 /// Aggregate: Model{{law, friction_force, vibration_sign}, {damping}, stiffness}.
 template <class Law, class Damping, class DriveOf>

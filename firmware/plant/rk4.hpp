@@ -39,7 +39,8 @@ class Rk4 {
   /// Advances the state over the interval, adding every step to the account and showing it to the
   /// observer.
   template <class Account, class Observer>
-  Outcome<Scalar> advance(const Interval<Scalar>& interval, State<Scalar>& state, Account& account,
+  Outcome<Scalar> advance(const Interval<Scalar>& interval,
+                          StateOf<typename Model::FrictionLaw>& state, Account& account,
                           Observer& observer) {
     const std::uint32_t count = fixed_step_count(interval.duration, step_, step_limit_);
     if (count > step_limit_) {
@@ -59,7 +60,7 @@ class Rk4 {
       begin =
           step(formula, drive, begin, length * static_cast<Scalar>(i), length, account, observer);
       state = begin.state;
-      const Error error = check_state(state);
+      const Error error = check_state(model_.law, state);
       if (error != Error::none) {
         return {error, length * static_cast<Scalar>(i + 1)};
       }
@@ -72,7 +73,7 @@ class Rk4 {
  private:
   using Formula = Rk4Formula<Model, TurningContact>;
   using Samples = typename Model::Drive::template Samples<Scalar>;
-  using Stage = Rk4Stage<Scalar>;
+  using Stage = typename Formula::Stage;
 
   /// The stage at the end of a step from the stage at its beginning.
   template <class Account, class Observer>
@@ -81,7 +82,7 @@ class Rk4 {
     drive.next();
     const Scalar middle = drive.value();
     drive.next();
-    const Rk4Stages<Scalar> stages =
+    const typename Formula::Stages stages =
         formula.stages(begin, {begin.drive, middle, drive.value()}, offset, length);
     const Rk4Step<Model> taken(model_, stages.inside, stages.end, offset, length);
     account.add(taken);

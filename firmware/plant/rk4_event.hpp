@@ -33,8 +33,10 @@ class Rk4Event {
   using Model = ModelType;
   using Scalar = typename Model::Scalar;
   template <class Law>
-  static constexpr bool solves = !Law::sticks;
-  static_assert(solves<typename Model::FrictionLaw>, "a stick is no motion with a frozen sgn V");
+  static constexpr bool solves = !Law::sticks && Law::rate_independent;
+  static_assert(
+      solves<typename Model::FrictionLaw>,
+      "with sgn V frozen d phi / d tau is to be in proportion to V, and no stick is a motion");
 
   /// step: the longest allowed, in tau; > 0. An interval is cut into equal steps.
   /// step_limit: the most steps of one advance, the parts of those that are cut included.

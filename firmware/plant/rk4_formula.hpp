@@ -46,10 +46,10 @@ struct Rk4Drive {
 };
 
 /// The four stages of a step, and the plant at its end.
-template <class Scalar>
+template <class Scalar, class StateType = State<Scalar>>
 struct Rk4Stages {
-  std::array<Rk4Stage<Scalar>, 4> inside;
-  Rk4Stage<Scalar> end;
+  std::array<Rk4Stage<Scalar, StateType>, 4> inside;
+  Rk4Stage<Scalar, StateType> end;
 };
 
 /// One interval as the formula sees it; ContactSense is TurningContact or FrozenContact.
@@ -57,48 +57,55 @@ template <class Model, class ContactSense>
 class Rk4Formula {
  public:
   using Scalar = typename Model::Scalar;
-  using Stage = Rk4Stage<Scalar>;
+  using PlantState = StateOf<typename Model::FrictionLaw>;
+  using Stage = Rk4Stage<Scalar, PlantState>;
+  using Stages = Rk4Stages<Scalar, PlantState>;
 
   Rk4Formula(const Model& model, const Interval<Scalar>& interval, ContactSense contact)
       : model_(model), interval_(interval), contact_(contact) {}
 
   /// The plant at one instant.
-  Stage stage(Scalar drive, Scalar offset, State<Scalar> state) const {
+  Stage stage(Scalar drive, Scalar offset, PlantState state) const {
     const Scalar sliding = interval_.sliding_velocity + interval_.sliding_acceleration * offset;
     const Scalar velocity = model_.contact_velocity(sliding, state.velocity);
-    state.friction = contact_.friction(model_.law, velocity, state.friction);
-    return {drive, sliding, state,
-            State<Scalar>{state.velocity, model_.acceleration(drive, state),
-                          contact_.rate(model_.law, velocity, state.friction)}};
+    state.friction = contact_.friction(model_.law, velocity, contact_memory(state));
+    PlantState slope;
+    slope.displacement = state.velocity;
+    slope.velocity = model_.acceleration(drive, state);
+    contact_memory(slope) = contact_.rate(model_.law, velocity, contact_memory(state));
+    return {drive, sliding, state, slope};
   }
 
   /// A step from the stage at its beginning.
-  Rk4Stages<Scalar> stages(const Stage& begin, const Rk4Drive<Scalar>& drive, Scalar offset,
-                           Scalar length) const {
-    const State<Scalar>& from = begin.state;
+  Stages stages(const Stage& begin, const Rk4Drive<Scalar>& drive, Scalar offset,
+                Scalar length) const {
+    const PlantState& from = begin.state;
     const Scalar half = length / Scalar(2);
     const Stage second = stage(drive.middle, offset + half, moved(from, begin.slope, half));
     const Stage third = stage(drive.middle, offset + half, moved(from, second.slope, half));
     const Stage fourth = stage(drive.end, offset + length, moved(from, third.slope, length));
     const std::array<Stage, 4> k = {begin, second, third, fourth};
-    const State<Scalar> slope = {mean(k, &State<Scalar>::displacement),
-                                 mean(k, &State<Scalar>::velocity),
-                                 mean(k, &State<Scalar>::friction)};
+    PlantState slope;
+    slope.displacement = mean(k, [](const PlantState& rate) { return rate.displacement; });
+    slope.velocity = mean(k, [](const PlantState& rate) { return rate.velocity; });
+    contact_memory(slope) = mean(k, [](const PlantState& rate) { return contact_memory(rate); });
     return {k, stage(drive.end, offset + length, moved(from, slope, length))};
   }
 
  private:
-  static State<Scalar> moved(const State<Scalar>& from, const State<Scalar>& slope, Scalar time) {
-    return {from.displacement + time * slope.displacement, from.velocity + time * slope.velocity,
-            from.friction + time * slope.friction};
+  static PlantState moved(PlantState from, const PlantState& slope, Scalar time) {
+    from.displacement += time * slope.displacement;
+    from.velocity += time * slope.velocity;
+    contact_memory(from) += time * contact_memory(slope);
+    return from;
   }
 
   /// The method's mean of one component of the slopes.
-  static Scalar mean(const std::array<Stage, 4>& k, Scalar State<Scalar>::*component) {
+  template <class Component>
+  static Scalar mean(const std::array<Stage, 4>& k, const Component& of) {
     constexpr Scalar sixth = numeric::from_real<Scalar>(1.0 / 6.0);
     return sixth *
-           (k[0].slope.*component + Scalar(2) * (k[1].slope.*component + k[2].slope.*component) +
-            k[3].slope.*component);
+           (of(k[0].slope) + Scalar(2) * (of(k[1].slope) + of(k[2].slope)) + of(k[3].slope));
   }
 
   const Model& model_;

@@ -11,21 +11,23 @@
 namespace sonoglide::plant {
 
 /// The plant at one of the four stages of a step.
-template <class Scalar>
+template <class Scalar, class StateType = State<Scalar>>
 struct Rk4Stage {
   Scalar drive = Scalar(0);             ///< a cos(tau)
   Scalar sliding_velocity = Scalar(0);  ///< r
-  State<Scalar> state;                  ///< friction as the law gives it at this velocity
-  State<Scalar> slope;                  ///< d state / d tau
+  StateType state;                      ///< friction as the law gives it at this velocity
+  StateType slope;                      ///< d state / d tau, of phi where the law goes on from it
 };
 
 /// Integrals as the method gives them for extra states. Between the ends the state is the cubic
-/// that has their values and slopes; where that passes |phi| = 1 it is cut off.
+/// that has their values and slopes; where that passes |phi| = 1 it is cut off, unless the law
+/// depends on the speed.
 template <class Model>
 class Rk4Step {
  public:
   using Scalar = typename Model::Scalar;
-  using Stage = Rk4Stage<Scalar>;
+  using Law = typename Model::FrictionLaw;
+  using Stage = Rk4Stage<Scalar, StateOf<Law>>;
 
   /// end_stage: the plant at the end of the step.
   Rk4Step(const Model& model, const std::array<Stage, 4>& stages, const Stage& end_stage,
@@ -37,20 +39,20 @@ class Rk4Step {
 
   State<Scalar> at(Scalar offset) const {
     const Scalar x = offset / length_;
-    const State<Scalar>& from = stages_[0].state;
-    const State<Scalar>& from_slope = stages_[0].slope;
+    const StateOf<Law>& from = stages_[0].state;
+    const StateOf<Law>& from_slope = stages_[0].slope;
     const Scalar velocity =
         cubic(from.velocity, from_slope.velocity, end_.state.velocity, end_.slope.velocity, x);
-    const Scalar friction =
-        cubic(from.friction, from_slope.friction, end_.state.friction, end_.slope.friction, x);
+    const Scalar memory = cubic(contact_memory(from), contact_memory(from_slope),
+                                contact_memory(end_.state), contact_memory(end_.slope), x);
     const Scalar sliding_velocity =
         stages_[0].sliding_velocity + (end_.sliding_velocity - stages_[0].sliding_velocity) * x;
+    const Scalar friction =
+        model_.law.friction(model_.contact_velocity(sliding_velocity, velocity), memory);
     return {cubic(from.displacement, from_slope.displacement, end_.state.displacement,
                   end_.slope.displacement, x),
             velocity,
-            numeric::clamp(
-                model_.law.friction(model_.contact_velocity(sliding_velocity, velocity), friction),
-                Scalar(-1), Scalar(1))};
+            Law::rate_independent ? numeric::clamp(friction, Scalar(-1), Scalar(1)) : friction};
   }
 
   Scalar friction_integral() const {

@@ -1,6 +1,8 @@
 /// State of the plant, and the interval over which a solver advances it. All dimensionless.
 #pragma once
 
+#include <type_traits>
+
 #include "firmware/numeric/scalar.hpp"
 
 namespace sonoglide::plant {
@@ -12,6 +14,35 @@ struct State {
   Scalar velocity = Scalar(0);      ///< dy / d tau, tau = omega t
   Scalar friction = Scalar(0);      ///< phi = F / Fc, in [-1, 1]
 };
+
+/// State of a plant whose contact remembers more than its force.
+template <class Law>
+struct RememberingState : State<typename Law::Scalar> {
+  typename Law::Memory memory{};
+};
+
+/// State of a plant with this friction law.
+template <class Law>
+using StateOf =
+    std::conditional_t<Law::remembers, RememberingState<Law>, State<typename Law::Scalar>>;
+
+/// What the law goes on from: phi, or its Memory.
+template <class Scalar>
+Scalar& contact_memory(State<Scalar>& state) {
+  return state.friction;
+}
+template <class Scalar>
+const Scalar& contact_memory(const State<Scalar>& state) {
+  return state.friction;
+}
+template <class Law>
+typename Law::Memory& contact_memory(RememberingState<Law>& state) {
+  return state.memory;
+}
+template <class Law>
+const typename Law::Memory& contact_memory(const RememberingState<Law>& state) {
+  return state.memory;
+}
 
 /// False if any of the three is infinite or not a number.
 template <class Scalar>

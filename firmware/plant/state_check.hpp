@@ -24,6 +24,26 @@ Error check_state(const State<Scalar>& state) {
                                                                   : Error::friction_bound_broken;
 }
 
+/// The same of a plant with this law: of a force that depends on the speed there is no bound, but
+/// of what the law remembers.
+template <class Law>
+Error check_state(const Law& /*law*/, const State<typename Law::Scalar>& state) {
+  if constexpr (Law::rate_independent) {
+    return check_state(state);
+  }
+  return is_finite(state) ? Error::none : Error::not_finite;
+}
+template <class Law>
+Error check_state(const Law& law, const RememberingState<Law>& state) {
+  using Scalar = typename Law::Scalar;
+  const Scalar rounding = Scalar(64) * std::numeric_limits<Scalar>::epsilon();
+  const Scalar bound = law.largest_memory() * (Scalar(1) + rounding);
+  if (!is_finite(state)) {
+    return Error::not_finite;
+  }
+  return numeric::abs(state.memory) <= bound ? Error::none : Error::friction_bound_broken;
+}
+
 /// Whether a step keeps the classical Runge–Kutta formula stable on the oscillator alone:
 /// |h| sqrt(|k|) <= 2 sqrt(2) and h d <= 2.785.
 template <class Model, class Scalar>

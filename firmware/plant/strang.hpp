@@ -29,9 +29,10 @@ class Strang {
   using Model = ModelType;
   using Scalar = typename Model::Scalar;
   template <class Law>
-  static constexpr bool solves = !Law::sticks;
-  static_assert(solves<typename Model::FrictionLaw>,
-                "a force that jumps at V = 0 makes the kicks chatter about a stick");
+  static constexpr bool solves = !Law::sticks && Law::rate_independent;
+  static_assert(
+      solves<typename Model::FrictionLaw>,
+      "the contact follows its law in displacement; one that sticks makes the kicks chatter");
 
   /// step: the longest allowed, in tau; > 0. An interval is cut into equal steps.
   /// step_limit: the most steps of one advance.

@@ -20,7 +20,7 @@ struct Instant {
   Scalar sliding_acceleration;
   Scalar relative_error;  ///< rounding of the terms of the motion, that of time included
   Scalar rest_error;      ///< rounding of the velocity at which V = 0
-  State<Scalar> state;
+  StateOf<typename Model::FrictionLaw> state;
 };
 
 /// Taylor coefficients in x = (tau - tau0) / unit, up to x^Order, seen from the contact.
@@ -62,7 +62,7 @@ struct TaylorSeries {
 
   /// The contact slides along an arc of its friction law.
   template <class Arc>
-  [[gnu::always_inline]] void slide(const Model& model, const Arc& arc) {
+  [[gnu::always_inline]] void slide(const Model& model, Arc& arc) {
     slide(model, arc, std::make_index_sequence<Order>());
   }
 
@@ -116,17 +116,26 @@ struct TaylorSeries {
  private:
   /// Unrolled: the sums over earlier terms are short, of known length, and overlap.
   template <class Arc, std::size_t... Terms>
-  [[gnu::always_inline]] void slide(const Model& model, const Arc& arc,
+  [[gnu::always_inline]] void slide(const Model& model, Arc& arc,
                                     std::index_sequence<Terms...> /*terms*/) {
     (add_term<Terms>(model, arc), ...);
-    friction[Order] = arc.template coefficient<Order>(travel, friction);
+    friction[Order] = friction_coefficient<Order>(arc);
     shift[Order - 1] = reciprocal<Scalar>(Order) * travel[Order - 1];
     shift[Order] = reciprocal<Scalar>(Order + 1) * travel[Order];
   }
 
   template <std::size_t N, class Arc>
-  [[gnu::always_inline]] void add_term(const Model& model, const Arc& arc) {
-    friction[N] = arc.template coefficient<N>(travel, friction);
+  [[gnu::always_inline]] Scalar friction_coefficient(Arc& arc) const {
+    if constexpr (Model::FrictionLaw::rate_independent) {
+      return arc.template coefficient<N>(travel, friction);
+    } else {
+      return arc.template coefficient<N>(travel, unit);
+    }
+  }
+
+  template <std::size_t N, class Arc>
+  [[gnu::always_inline]] void add_term(const Model& model, Arc& arc) {
+    friction[N] = friction_coefficient<N>(arc);
     const Scalar factor = unit * reciprocal<Scalar>(N + 1);
     const Scalar force_factor = side * unit * factor;
     Scalar spring = force_factor * model.stiffness * displacement;

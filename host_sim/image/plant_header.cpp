@@ -229,6 +229,8 @@ std::string plant_header(const scene::Scene& scene, scene::Arithmetic arithmetic
           "missing; required: a table [controller], of which an image is made");
   require(scene.friction.law == scene::FrictionLaw::dahl, "friction.law",
           "the plant of an image has Dahl friction; allowed: \"dahl\"");
+  require(scene.drive->waveform == scene::Waveform::cosine, "drive.waveform",
+          "the plant of an image is driven by a cosine; allowed: \"cosine\"");
   require_ideal(scene.sensor);
   const PlantText text = plant_text(SceneNumbers(scene), arithmetic);
   return fmt::format(

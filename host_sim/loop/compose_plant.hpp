@@ -26,8 +26,13 @@ template <class Drive, class Law>
 std::unique_ptr<PlantPort> with_damping(const PlantDescription& description,
                                         const plant::Contact<Law>& contact) {
   const double damping = description.numbers.damping;
-  return damping > 0.0 ? with_solver<Drive>(description, contact, plant::Damped<double>{damping})
-                       : with_solver<Drive>(description, contact, plant::Undamped<double>{});
+  // A force that depends on the speed damps anyhow: no composition of it without damping.
+  if constexpr (Law::rate_independent) {
+    if (!(damping > 0.0)) {
+      return with_solver<Drive>(description, contact, plant::Undamped<double>{});
+    }
+  }
+  return with_solver<Drive>(description, contact, plant::Damped<double>{damping});
 }
 
 template <class Law>
@@ -35,8 +40,21 @@ std::unique_ptr<PlantPort> compose_plant(const PlantDescription& description,
                                          const plant::Contact<Law>& contact) {
   const scene::Scene& scene = description.scene;
   const bool driven = scene.drive && (scene.drive->force_amplitude_N > 0.0 || scene.controller);
-  return driven ? with_damping<plant::CosineDrive>(description, contact)
-                : with_damping<plant::NoDrive>(description, contact);
+  if (!driven) {
+    return with_damping<plant::NoDrive>(description, contact);
+  }
+  // Straight drives are compositions that few scenes name: damped, be it by nothing.
+  const plant::Damped<double> damping{description.numbers.damping};
+  switch (scene.drive->waveform) {
+    case scene::Waveform::square:
+      return with_solver<plant::LevelDrive>(description, contact, damping);
+    case scene::Waveform::triangle:
+    case scene::Waveform::sawtooth:
+      return with_solver<plant::RampDrive>(description, contact, damping);
+    case scene::Waveform::cosine:
+      break;
+  }
+  return with_damping<plant::CosineDrive>(description, contact);
 }
 
 }  // namespace sonoglide::loop

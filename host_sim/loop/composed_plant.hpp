@@ -10,6 +10,7 @@
 #include "firmware/plant/observer.hpp"
 #include "firmware/plant/outcome.hpp"
 #include "firmware/plant/state.hpp"
+#include "host_sim/loop/drive_piece.hpp"
 #include "host_sim/loop/plant_port.hpp"
 #include "host_sim/scene/plant_scales.hpp"
 
@@ -54,7 +55,10 @@ class ComposedPlant final : public PlantPort {
   /// @param solver  configured for the model
   ComposedPlant(const scene::PlantScales& scales, const Model& model, const Solver& solver,
                 const plant::State<double>& initial)
-      : scales_(scales), model_(model), solver_(solver), state_(initial) {}
+      : scales_(scales), model_(model), solver_(solver) {
+    static_cast<plant::State<double>&>(state_) = initial;
+    plant::contact_memory(state_) = initial.friction;
+  }
 
   plant::Outcome<double> advance(const Stretch& stretch, EnergyBalance& energy) override {
     plant::NoObserver nobody;
@@ -83,9 +87,9 @@ class ComposedPlant final : public PlantPort {
   plant::Outcome<double> advance(const Stretch& stretch, Observer& observer,
                                  EnergyBalance& energy) {
     const double omega = scales_.angular_frequency_rad_per_s;
+    const DrivePiece drive = drive_piece(stretch);
     const plant::Interval<double> interval{
-        stretch.drive_phase_rad, stretch.duration_s * omega,
-        stretch.drive_amplitude_N / scales_.force_N,
+        drive.phase_rad, stretch.duration_s * omega, drive.amplitude_N / scales_.force_N,
         stretch.sliding_velocity_m_per_s / scales_.velocity_m_per_s(),
         stretch.sliding_acceleration_m_per_s2 / (scales_.velocity_m_per_s() * omega)};
     const plant::State<double> before = state_;
@@ -134,7 +138,7 @@ class ComposedPlant final : public PlantPort {
   scene::PlantScales scales_;
   Model model_;
   Solver solver_;
-  plant::State<double> state_;
+  plant::StateOf<typename Model::FrictionLaw> state_;
   std::vector<plant::State<double>> seen_;
 };
 

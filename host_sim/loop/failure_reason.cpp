@@ -18,8 +18,7 @@ double stuck_frequency_Hz(const scene::Scene& scene) {
 
 /// What the steps were spent on, where that may be the contact; else nothing.
 std::string ringing(const scene::Scene& scene) {
-  if (scene.friction.law != scene::FrictionLaw::dahl ||
-      scene::friction_limit_N(scene.friction) <= 0.0) {
+  if (!scene::is_elastic(scene.friction.law) || scene::friction_limit_N(scene.friction) <= 0.0) {
     return "";
   }
   const std::string drive =
@@ -32,7 +31,9 @@ std::string ringing(const scene::Scene& scene) {
 std::string reason(const scene::Scene& scene, plant::Error error, const plant::Cost& cost) {
   switch (error) {
     case plant::Error::friction_bound_broken:
-      return "|F| > Fc, the step is too long for the contact stiffness";
+      return scene.friction.bristles
+                 ? "the bristles' force > Fs, the step is too long for the contact stiffness"
+                 : "|F| > Fc, the step is too long for the contact stiffness";
     case plant::Error::step_too_long:
       return "the step is too long for the contact or for the oscillator" + ringing(scene);
     case plant::Error::too_many_steps:

@@ -11,6 +11,8 @@ namespace sonoglide::loop {
 
 std::unique_ptr<PlantPort> make_frictionless_plant(const PlantDescription& description);
 std::unique_ptr<PlantPort> make_coulomb_plant(const PlantDescription& description);
+std::unique_ptr<PlantPort> make_stribeck_plant(const PlantDescription& description);
 std::unique_ptr<PlantPort> make_dahl_plant(const PlantDescription& description);
+std::unique_ptr<PlantPort> make_lugre_plant(const PlantDescription& description);
 
 }  // namespace sonoglide::loop

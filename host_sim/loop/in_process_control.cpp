@@ -164,7 +164,7 @@ std::unique_ptr<ControlPort> make(const scene::Scene& scene, const ControlDesign
         return std::make_unique<InProcessControl<Parts>>(design);
       },
       choose<FrictionChoice<Scalar>>(design.calibrated),
-      choose<FeedforwardChoice<Scalar>>(scene.friction.law == scene::FrictionLaw::dahl),
+      choose<FeedforwardChoice<Scalar>>(scene::is_elastic(scene.friction.law)),
       choose<SlewChoice<Scalar>>(design.slew_limited), choose<ShaperChoice<Scalar>>(design.shaped));
 }
 

@@ -11,6 +11,10 @@ std::unique_ptr<PlantPort> make_plant_port(const scene::Scene& scene) {
     switch (scene.friction.law) {
       case scene::FrictionLaw::dahl:
         return make_dahl_plant(description);
+      case scene::FrictionLaw::lugre:
+        return make_lugre_plant(description);
+      case scene::FrictionLaw::stribeck:
+        return make_stribeck_plant(description);
       case scene::FrictionLaw::coulomb:
         return make_coulomb_plant(description);
       case scene::FrictionLaw::none:

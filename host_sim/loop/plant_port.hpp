@@ -24,6 +24,8 @@ struct Stretch {
   double drive_amplitude_N;
   double sliding_velocity_m_per_s;  ///< at its beginning
   double sliding_acceleration_m_per_s2;
+  /// The stretch lies within one straight piece of it.
+  scene::Waveform drive_waveform = scene::Waveform::cosine;
 };
 
 class PlantPort {

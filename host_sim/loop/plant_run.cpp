@@ -15,6 +15,7 @@ PlantRun::PlantRun(const scene::Scene& scene, const CarrierGrid& grid, const Wat
       plant_(make_plant_port(scene)),
       sliding_(scene.sliding),
       drive_rate_rad_per_s_(scene.drive ? numeric::two_pi * scene.drive->frequency_Hz : 0.0),
+      waveform_(scene.drive ? scene.drive->waveform : scene::Waveform::cosine),
       sliding_velocity_m_per_s_(sliding_.velocity_m_per_s(0.0)),
       cuts_s_(sliding_.cuts_s()),
       sampler_(watch.samples) {
@@ -26,9 +27,26 @@ EnergyBalance PlantRun::advance(std::uint64_t period, double amplitude_N) {
   const double begin_s = grid_.begin_s(period);
   const double end_s = grid_.end_s(period);
   const double duration_s = grid_.duration_s(period);
+  const double corner_s = 0.5 * grid_.period_s();
+  const bool has_corner =
+      waveform_ == scene::Waveform::square || waveform_ == scene::Waveform::triangle;
+  EnergyBalance total;
+  if (has_corner && corner_s < duration_s - grid_.rounding_s(end_s)) {
+    total = piece(begin_s, 0.0, corner_s, begin_s + corner_s, amplitude_N);
+    total.append(piece(begin_s, corner_s, duration_s, end_s, amplitude_N));
+  } else {
+    total = piece(begin_s, 0.0, duration_s, end_s, amplitude_N);
+  }
+  result_.whole.append(total);
+  return total;
+}
+
+/// One piece of the waveform, which ends until_s after its period began, at end_s.
+EnergyBalance PlantRun::piece(double begin_s, double from_s, double until_s, double end_s,
+                              double amplitude_N) {
   const double rounding_s = grid_.rounding_s(end_s);
   EnergyBalance total;
-  double done_s = 0.0;  // of the period
+  double done_s = from_s;
   for (; next_cut_ < cuts_s_.size() && cuts_s_[next_cut_] < end_s - rounding_s; ++next_cut_) {
     const double cut_s = cuts_s_[next_cut_];
     const double part_s = cut_s - begin_s;
@@ -38,9 +56,8 @@ EnergyBalance PlantRun::advance(std::uint64_t period, double amplitude_N) {
       done_s = part_s;
     }
   }
-  total.append(stretch(begin_s + done_s, duration_s - done_s, drive_rate_rad_per_s_ * done_s, end_s,
+  total.append(stretch(begin_s + done_s, until_s - done_s, drive_rate_rad_per_s_ * done_s, end_s,
                        amplitude_N));
-  result_.whole.append(total);
   return total;
 }
 
@@ -56,7 +73,8 @@ EnergyBalance PlantRun::stretch(double begin_s, double duration_s, double drive_
   const double first = sliding_velocity_m_per_s_;
   const double last = sliding_.velocity_m_per_s(end_s);
   const Stretch stretch{duration_s,  drive_phase_rad, drive_rate_rad_per_s_,
-                        amplitude_N, first,           (last - first) / duration_s};
+                        amplitude_N, first,           (last - first) / duration_s,
+                        waveform_};
   EnergyBalance energy;
   const plant::Outcome<double> outcome = solve(begin_s, end_s, stretch, energy);
   if (outcome.error != plant::Error::none) {

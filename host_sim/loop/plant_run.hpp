@@ -33,6 +33,8 @@ class PlantRun {
   void finish();
 
  private:
+  EnergyBalance piece(double begin_s, double from_s, double until_s, double end_s,
+                      double amplitude_N);
   EnergyBalance stretch(double begin_s, double duration_s, double drive_phase_rad, double end_s,
                         double amplitude_N);
   plant::Outcome<double> solve(double begin_s, double end_s, const Stretch& stretch,
@@ -45,6 +47,7 @@ class PlantRun {
   std::unique_ptr<PlantPort> plant_;
   SlidingProfile sliding_;
   double drive_rate_rad_per_s_;
+  scene::Waveform waveform_;
   double sliding_velocity_m_per_s_;
   std::vector<double> cuts_s_;  ///< times inside carrier periods at which a stretch must end
   std::size_t next_cut_ = 0;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "host_sim/loop/drive_piece.hpp"
+
 namespace sonoglide::loop {
 namespace {
 
@@ -47,9 +49,8 @@ void Sampler::deliver(double begin_s, const Stretch& stretch,
                       const std::vector<PlantState>& seen) const {
   for (std::size_t i = 0; i < planned_.size(); ++i) {
     const double offset_s = planned_[i].offset_s;
-    const double phase_rad = stretch.drive_phase_rad + stretch.drive_rate_rad_per_s * offset_s;
     planned_[i].sink->take(
-        {begin_s + offset_s, seen[i], stretch.drive_amplitude_N * std::cos(phase_rad),
+        {begin_s + offset_s, seen[i], drive_force_N(stretch, offset_s),
          stretch.sliding_velocity_m_per_s + stretch.sliding_acceleration_m_per_s2 * offset_s});
   }
 }

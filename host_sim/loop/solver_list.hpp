@@ -85,6 +85,18 @@ inline constexpr ListedSolver<Model> solver_list[] = {
     {scene::SolverMethod::rk4_event, 0, maker_if_solved<plant::Rk4Event, Model>()},
 };
 
+/// A drive of straight pieces: what is exact with it, and what the paper uses.
+template <class Law, class Damping, class Straight>
+inline constexpr ListedSolver<plant::Model<Law, Damping, plant::StraightDrive<Straight>>>
+    solver_list<plant::Model<Law, Damping, plant::StraightDrive<Straight>>>[] = {
+        {scene::SolverMethod::event_taylor, 16,
+         make_composed_plant<
+             plant::EventTaylor<plant::Model<Law, Damping, plant::StraightDrive<Straight>>, 16>>},
+        {scene::SolverMethod::rk4, 0,
+         make_composed_plant<
+             plant::Rk4<plant::Model<Law, Damping, plant::StraightDrive<Straight>>>>},
+};
+
 /// The order that the scene asks for, or the one that takes the least time at its tolerance.
 inline int order_of(const scene::Solver& solver) {
   if (solver.method == scene::SolverMethod::event_gauss) {

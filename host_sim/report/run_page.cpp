@@ -49,6 +49,14 @@ std::vector<std::string> warnings(const scene::Scene& scene, const loop::RunResu
   if (!result.control) {
     return all;
   }
+  const bool cosine = scene.drive->waveform == scene::Waveform::cosine;
+  if (scene.friction.bristles || scene.friction.curve || !cosine) {
+    all.push_back(
+        fmt::format("The feedforward's map is that of a {} contact under a cosine; what "
+                    "{} changes is left to feedback.",
+                    scene::is_elastic(scene.friction.law) ? "Dahl" : "Coulomb",
+                    cosine ? "the law" : "the waveform"));
+  }
   for (const loop::FaultEvent& event : result.control->faults) {
     all.push_back(fmt::format("Fault at {:.6g} ms: {}. The drive is off from there on.",
                               event.time_s * 1e3, fault_name(event.fault)));

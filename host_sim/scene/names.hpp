@@ -15,9 +15,11 @@ struct Named {
   Value value;
 };
 
-inline constexpr std::array<Named<FrictionLaw>, 3> friction_laws = {{
+inline constexpr std::array<Named<FrictionLaw>, 5> friction_laws = {{
     {"dahl", FrictionLaw::dahl},
+    {"lugre", FrictionLaw::lugre},
     {"coulomb", FrictionLaw::coulomb},
+    {"stribeck", FrictionLaw::stribeck},
     {"none", FrictionLaw::none},
 }};
 
@@ -54,7 +56,12 @@ inline constexpr std::array<Named<Shaping>, 2> shapings = {{
     {"none", Shaping::none},
 }};
 
-inline constexpr std::array<Named<Waveform>, 1> waveforms = {{{"cosine", Waveform::cosine}}};
+inline constexpr std::array<Named<Waveform>, 4> waveforms = {{
+    {"cosine", Waveform::cosine},
+    {"square", Waveform::square},
+    {"triangle", Waveform::triangle},
+    {"sawtooth", Waveform::sawtooth},
+}};
 
 /// The word for a value; every value of these enumerations has one.
 template <class Value, std::size_t Count>

@@ -77,11 +77,27 @@ PlantScales plant_scales(const Scene& scene) {
 PlantNumbers plant_numbers(const Scene& scene, const PlantScales& scales) {
   const double omega = scales.angular_frequency_rad_per_s;
   const double inertia = scene.plant.mass_kg * omega;
-  const bool dahl = scene.friction.law == FrictionLaw::dahl && scales.friction_N > 0.0;
-  return {
-      scene.plant.stiffness_N_per_m / (inertia * omega), scene.plant.damping_N_s_per_m / inertia,
-      scales.friction_N / scales.force_N,
-      dahl ? scene.friction.contact_stiffness_N_per_m * scales.length_m / scales.friction_N : 0.0};
+  const bool elastic = is_elastic(scene.friction.law) && scales.friction_N > 0.0;
+  return {scene.plant.stiffness_N_per_m / (inertia * omega),
+          scene.plant.damping_N_s_per_m / inertia, scales.friction_N / scales.force_N,
+          elastic ? scene.friction.contact_stiffness_N_per_m * scales.length_m / scales.friction_N
+                  : 0.0};
+}
+
+friction::Stribeck<double> stribeck_numbers(const Friction& friction, const PlantScales& scales) {
+  const double velocity = scales.velocity_m_per_s();
+  return {friction.curve->fall_s_per_m * velocity / friction.coefficient,
+          friction.curve->rise_s3_per_m3 * velocity * velocity * velocity / friction.coefficient};
+}
+
+friction::LuGre<double> lugre_numbers(const Friction& friction, const PlantScales& scales) {
+  const Bristles& bristles = *friction.bristles;
+  const double force_per_velocity = scales.velocity_m_per_s() / scales.friction_N;
+  return {friction.contact_stiffness_N_per_m * scales.length_m / scales.friction_N,
+          bristles.static_coefficient / friction.coefficient,
+          bristles.stribeck_velocity_m_per_s / scales.velocity_m_per_s(),
+          bristles.bristle_damping_N_s_per_m * force_per_velocity,
+          bristles.viscous_friction_N_s_per_m * force_per_velocity};
 }
 
 plant::State<double> initial_state(const Scene& scene, const PlantScales& scales) {

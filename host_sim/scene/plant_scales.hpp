@@ -2,6 +2,8 @@
 /// scaled numbers.
 #pragma once
 
+#include "firmware/friction/lugre.hpp"
+#include "firmware/friction/stribeck.hpp"
 #include "firmware/plant/state.hpp"
 #include "host_sim/scene/scene.hpp"
 
@@ -28,6 +30,10 @@ struct PlantNumbers {
 
 PlantScales plant_scales(const Scene& scene);
 PlantNumbers plant_numbers(const Scene& scene, const PlantScales& scales);
+
+/// A Stribeck curve, and a contact of bristles, in the same units; there is friction.
+friction::Stribeck<double> stribeck_numbers(const Friction& friction, const PlantScales& scales);
+friction::LuGre<double> lugre_numbers(const Friction& friction, const PlantScales& scales);
 
 /// Where the run begins, in the same units.
 plant::State<double> initial_state(const Scene& scene, const PlantScales& scales);

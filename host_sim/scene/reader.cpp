@@ -59,6 +59,30 @@ void require_solvable(const Scene& scene, const Document& document) {
                                name_of(friction_laws, scene.friction.law), allowed));
 }
 
+/// A drive of straight pieces is solved by fewer methods, and in one order.
+void settle_waveform(Scene& scene, const Document& document) {
+  if (!scene.drive || scene.drive->waveform == Waveform::cosine) {
+    return;
+  }
+  constexpr int order = 16;
+  const auto fail = [&](const char* key, std::string_view value, std::string_view allowed) {
+    throw SceneError(document.place_of(key), key,
+                     fmt::format("{} does not follow the waveform \"{}\"; allowed: {}", value,
+                                 name_of(waveforms, scene.drive->waveform), allowed));
+  };
+  Solver& solver = scene.solver;
+  if (solver.method == SolverMethod::rk4) {
+    return;
+  }
+  if (solver.method != SolverMethod::event_taylor) {
+    fail("solver.method", name_of(solver_methods, solver.method), "\"event_taylor\", \"rk4\"");
+  }
+  if (solver.order.value_or(order) != order) {
+    fail("solver.order", std::to_string(*solver.order), std::to_string(order));
+  }
+  solver.order = order;
+}
+
 /// A closed loop needs a controller that can be designed.
 void require_controller(const Scene& scene, const Document& document) {
   try {
@@ -80,6 +104,7 @@ Scene read(const Document& document, const std::vector<double>& numbers) {
   scene.drive = read_drive(variant);
   scene.solver = read_solver(variant);
   require_solvable(scene, document);
+  settle_waveform(scene, document);
   scene.run = read_run(variant, scene);
   scene.controller = read_controller(variant, scene);
   scene.sensor = read_sensor(variant, scene.friction);

@@ -17,18 +17,40 @@ struct Plant {
   double initial_velocity_m_per_s = 0.0;
 };
 
-enum class FrictionLaw { none, coulomb, dahl };
+enum class FrictionLaw { none, coulomb, stribeck, dahl, lugre };
+
+/// Whether the contact yields like a spring before it slides: it has a contact stiffness, and may
+/// begin under a force.
+constexpr bool is_elastic(FrictionLaw law) {
+  return law == FrictionLaw::dahl || law == FrictionLaw::lugre;
+}
 
 /// dissipative: V = Vt + x'. as_printed: V = Vt - x', as the paper's equations (1) and (2) have it;
 /// friction then pumps energy into the vibration.
 enum class SignConvention { dissipative, as_printed };
 
+/// What friction::LuGre has beyond the Dahl law.
+struct Bristles {
+  double static_coefficient = 0.0;
+  double stribeck_velocity_m_per_s = 0.0;
+  double bristle_damping_N_s_per_m = 0.0;
+  double viscous_friction_N_s_per_m = 0.0;
+};
+
+/// What friction::Stribeck has beyond the Coulomb law: mu(v) = mu_s sgn v - alpha v + beta v^3.
+struct StribeckCurve {
+  double fall_s_per_m = 0.0;    ///< alpha
+  double rise_s3_per_m3 = 0.0;  ///< beta
+};
+
 struct Friction {
   FrictionLaw law = FrictionLaw::none;
   double coefficient = 0.0;
   double normal_force_N = 0.0;
-  double contact_stiffness_N_per_m = 0.0;  ///< Dahl only
-  double initial_force_N = 0.0;            ///< Dahl only
+  double contact_stiffness_N_per_m = 0.0;  ///< elastic laws only
+  double initial_force_N = 0.0;            ///< elastic laws only
+  std::optional<Bristles> bristles;        ///< LuGre only
+  std::optional<StribeckCurve> curve;      ///< Stribeck only
   SignConvention sign_convention = SignConvention::dissipative;
 };
 
@@ -42,9 +64,11 @@ struct Sliding {
   std::vector<SpeedPoint> profile;
 };
 
-enum class Waveform { cosine };
+/// Of the force, with its peak A at phase 0: the square is A up to half a period and -A beyond, the
+/// triangle falls to -A at half a period and rises again, the sawtooth falls over the whole period.
+enum class Waveform { cosine, square, triangle, sawtooth };
 
-/// Piezo force A(t) cos(2 pi f t); A is fixed in open loop, the controller's in closed loop.
+/// Piezo force of amplitude A; A is fixed in open loop, the controller's in closed loop.
 struct Drive {
   double frequency_Hz = 0.0;
   double force_amplitude_N = 0.0;                ///< open loop

@@ -58,6 +58,34 @@ Plant read_plant(const Variant& variant) {
   return plant;
 }
 
+Bristles read_bristles(TableCursor& cursor, double coefficient) {
+  const Range rate{0.0, 1e12, "N s/m"};
+  Bristles bristles;
+  bristles.static_coefficient = cursor.real("static_coefficient", {coefficient, 100.0});
+  bristles.stribeck_velocity_m_per_s =
+      cursor.real("stribeck_velocity_m_per_s", {1e-9, largest_speed_m_per_s, "m/s"});
+  bristles.bristle_damping_N_s_per_m = cursor.real("bristle_damping_N_s_per_m", rate, 0.0);
+  bristles.viscous_friction_N_s_per_m = cursor.real("viscous_friction_N_s_per_m", rate, 0.0);
+  return bristles;
+}
+
+/// Friction below zero would drive the contact.
+StribeckCurve read_curve(TableCursor& cursor, double coefficient) {
+  StribeckCurve curve;
+  curve.fall_s_per_m = cursor.real("fall_s_per_m", {0.0, 1e9, "s/m"});
+  curve.rise_s3_per_m3 = cursor.real("rise_s3_per_m3", {0.0, 1e27, "s^3/m^3"});
+  const double fall_cubed = curve.fall_s_per_m * curve.fall_s_per_m * curve.fall_s_per_m;
+  const double square = 27.0 * coefficient * coefficient;
+  if (coefficient > 0.0 && curve.rise_s3_per_m3 * square < 4.0 * fall_cubed) {
+    cursor.fail(
+        "rise_s3_per_m3",
+        fmt::format("{} lets the friction fall below zero; allowed: at least {:.6g} s^3/m^3 "
+                    "with this fall_s_per_m",
+                    curve.rise_s3_per_m3, 4.0 * fall_cubed / square));
+  }
+  return curve;
+}
+
 Friction read_friction(const Variant& variant, const Plant& plant) {
   TableCursor cursor = required_table(variant, "friction");
   Friction friction;
@@ -69,11 +97,17 @@ Friction read_friction(const Variant& variant, const Plant& plant) {
     friction.sign_convention =
         cursor.choice("sign_convention", sign_conventions, SignConvention::dissipative);
   }
-  if (friction.law == FrictionLaw::dahl) {
+  if (is_elastic(friction.law)) {
     friction.contact_stiffness_N_per_m =
         cursor.real("contact_stiffness_N_per_m", {1e-6, 1e18, "N/m"});
     const double limit_N = friction_limit_N(friction);
     friction.initial_force_N = cursor.real("initial_force_N", {-limit_N, limit_N, "N"}, 0.0);
+  }
+  if (friction.law == FrictionLaw::lugre) {
+    friction.bristles = read_bristles(cursor, friction.coefficient);
+  }
+  if (friction.law == FrictionLaw::stribeck) {
+    friction.curve = read_curve(cursor, friction.coefficient);
   }
   cursor.reject_unread_with("friction.law", name_of(friction_laws, friction.law));
   return friction;
@@ -156,7 +190,7 @@ std::optional<Controller> read_controller(const Variant& variant, const Scene& s
   }
   if (!(friction_limit_N(so_far.friction) > 0.0)) {
     cursor.fail(
-        "there is no friction to control; allowed: friction.law \"dahl\" or \"coulomb\" "
+        "there is no friction to control; allowed: a friction.law other than \"none\", "
         "with coefficient and normal_force_N above 0");
   }
   Controller controller;
@@ -205,7 +239,7 @@ ModelError read_model_error(const Variant& variant, const Friction& friction) {
   model_error.mass = cursor.real("mass", quotient, 1.0);
   model_error.stiffness = cursor.real("stiffness", quotient, 1.0);
   model_error.coefficient = cursor.real("coefficient", quotient, 1.0);
-  if (friction.law == FrictionLaw::dahl) {
+  if (is_elastic(friction.law)) {
     model_error.contact_stiffness = cursor.real("contact_stiffness", quotient, 1.0);
   }
   cursor.reject_unread_with("friction.law", name_of(friction_laws, friction.law));

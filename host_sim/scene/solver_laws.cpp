@@ -2,7 +2,9 @@
 
 #include "firmware/friction/coulomb.hpp"
 #include "firmware/friction/dahl.hpp"
+#include "firmware/friction/lugre.hpp"
 #include "firmware/friction/none.hpp"
+#include "firmware/friction/stribeck.hpp"
 #include "firmware/plant/adaptive_strang.hpp"
 #include "firmware/plant/damping.hpp"
 #include "firmware/plant/drive.hpp"
@@ -22,8 +24,12 @@ bool solver_solves(FrictionLaw law) {
   switch (law) {
     case FrictionLaw::coulomb:
       return Solver::template solves<friction::Coulomb<double>>;
+    case FrictionLaw::stribeck:
+      return Solver::template solves<friction::Stribeck<double>>;
     case FrictionLaw::dahl:
       return Solver::template solves<friction::Dahl<double>>;
+    case FrictionLaw::lugre:
+      return Solver::template solves<friction::LuGre<double>>;
     case FrictionLaw::none:
       break;
   }

@@ -29,9 +29,19 @@ ordered_json echo(const Friction& friction) {
   }
   table["coefficient"] = friction.coefficient;
   table["normal_force_N"] = friction.normal_force_N;
-  if (friction.law == FrictionLaw::dahl) {
+  if (is_elastic(friction.law)) {
     table["contact_stiffness_N_per_m"] = friction.contact_stiffness_N_per_m;
     table["initial_force_N"] = friction.initial_force_N;
+  }
+  if (friction.curve) {
+    table["fall_s_per_m"] = friction.curve->fall_s_per_m;
+    table["rise_s3_per_m3"] = friction.curve->rise_s3_per_m3;
+  }
+  if (friction.bristles) {
+    table["static_coefficient"] = friction.bristles->static_coefficient;
+    table["stribeck_velocity_m_per_s"] = friction.bristles->stribeck_velocity_m_per_s;
+    table["bristle_damping_N_s_per_m"] = friction.bristles->bristle_damping_N_s_per_m;
+    table["viscous_friction_N_s_per_m"] = friction.bristles->viscous_friction_N_s_per_m;
   }
   table["sign_convention"] = name_of(sign_conventions, friction.sign_convention);
   return table;
@@ -121,7 +131,7 @@ ordered_json echo(const ModelError& model_error, FrictionLaw law) {
   ordered_json table{{"mass", model_error.mass},
                      {"stiffness", model_error.stiffness},
                      {"coefficient", model_error.coefficient}};
-  if (law == FrictionLaw::dahl) {
+  if (is_elastic(law)) {
     table["contact_stiffness"] = model_error.contact_stiffness;
   }
   return table;

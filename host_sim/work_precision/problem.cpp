@@ -21,6 +21,10 @@ void require_comparable(const scene::Scene& scene) {
     throw ConfigurationError(
         "drive", "missing; required: a table [drive], whose period is the unit of work");
   }
+  if (scene.drive->waveform != scene::Waveform::cosine) {
+    throw ConfigurationError("drive.waveform",
+                             "solvers are compared under a cosine; allowed: \"cosine\"");
+  }
   if (scene.friction.law != scene::FrictionLaw::dahl) {
     throw ConfigurationError(
         "friction.law", fmt::format("\"{}\" is not solved by every method here; allowed: \"dahl\"",

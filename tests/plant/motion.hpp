@@ -32,18 +32,20 @@ Solver configured(const typename Solver::Model& model, typename Solver::Scalar s
   return solver;
 }
 
+template <class Solver>
+using StateFor = StateOf<typename Solver::Model::FrictionLaw>;
+
 template <class Solver, class Account>
 Outcome<typename Solver::Scalar> advance(Solver& solver,
                                          const Interval<typename Solver::Scalar>& interval,
-                                         State<typename Solver::Scalar>& state, Account& account) {
+                                         StateFor<Solver>& state, Account& account) {
   NoObserver observer;
   return solver.advance(interval, state, account, observer);
 }
 
 template <class Solver>
-State<typename Solver::Scalar> advanced(Solver& solver,
-                                        const Interval<typename Solver::Scalar>& interval,
-                                        State<typename Solver::Scalar> state) {
+StateFor<Solver> advanced(Solver& solver, const Interval<typename Solver::Scalar>& interval,
+                          StateFor<Solver> state) {
   NoAccount account;
   advance(solver, interval, state, account);
   return state;
@@ -52,7 +54,7 @@ State<typename Solver::Scalar> advanced(Solver& solver,
 /// Whole carrier periods from drive phase 0; stops at the first error.
 template <class Solver, class Account>
 Error run_periods(Solver& solver, int periods, typename Solver::Scalar drive_amplitude,
-                  typename Solver::Scalar sliding_velocity, State<typename Solver::Scalar>& state,
+                  typename Solver::Scalar sliding_velocity, StateFor<Solver>& state,
                   Account& account) {
   using Scalar = typename Solver::Scalar;
   const Interval<Scalar> period = {Scalar(0), static_cast<Scalar>(2.0 * pi), drive_amplitude,

@@ -100,7 +100,8 @@ const std::vector<BrokenScene> broken_scenes = {
     {"table_for_number", open_loop, "tolerance = 1e-10", "tolerance = {}",
      "16:13: solver.tolerance: is a table; allowed: a number, 1e-15 to 0.01"},
     {"number_for_word", open_loop, "law = \"dahl\"", "law = 1",
-     "5:7: friction.law: is an integer; allowed: \"dahl\", \"coulomb\", \"none\""},
+     "5:7: friction.law: is an integer; allowed: \"dahl\", \"lugre\", \"coulomb\", \"stribeck\", "
+     "\"none\""},
     {"real_for_integer", closed_loop, "adc_bits = 12", "adc_bits = 12.0",
      "19:12: sensor.adc_bits: is a real number; allowed: an integer, 4 to 32"},
     {"number_for_table", open_loop, "[plant]\nmass_kg = 0.02\nstiffness_N_per_m = 133e6",
@@ -141,7 +142,7 @@ const std::vector<BrokenScene> broken_scenes = {
      "value"},
     {"unknown_word_near", open_loop, "\"dahl\"", "\"dhal\"",
      "5:7: friction.law: \"dhal\" is unknown; did you mean \"dahl\"? allowed: \"dahl\", "
-     "\"coulomb\", \"none\""},
+     "\"lugre\", \"coulomb\", \"stribeck\", \"none\""},
     {"unknown_word_far", open_loop, "\"event_taylor\"", "\"magic\"",
      "15:10: solver.method: \"magic\" is unknown; allowed: \"event_taylor\", "
      "\"event_gauss\", \"strang\", \"rk4\", \"rk4_event\""},
@@ -155,8 +156,26 @@ const std::vector<BrokenScene> broken_scenes = {
      "force_amplitude_N = 384.0",
      "10:10: solver.method: \"strang\" does not solve the friction law \"coulomb\"; allowed: "
      "\"event_taylor\", \"rk4\""},
-    {"unknown_waveform", open_loop, "[solver]", "waveform = \"sawtooth\"\n[solver]",
-     "14:12: drive.waveform: \"sawtooth\" is unknown; allowed: \"cosine\""},
+    {"unknown_waveform", open_loop, "[solver]", "waveform = \"pulse\"\n[solver]",
+     "14:12: drive.waveform: \"pulse\" is unknown; allowed: \"cosine\", \"square\", \"triangle\", "
+     "\"sawtooth\""},
+    {"method_for_another_waveform", open_loop,
+     "[solver]\nmethod = \"event_taylor\"\ntolerance = 1e-10",
+     "waveform = \"square\"\n[solver]\nmethod = \"strang\"\nstep_s = 1e-7",
+     "16:10: solver.method: strang does not follow the waveform \"square\"; allowed: "
+     "\"event_taylor\", \"rk4\""},
+    {"order_for_another_waveform", open_loop, "[solver]",
+     "waveform = \"square\"\n[solver]\norder = 8",
+     "16:9: solver.order: 8 does not follow the waveform \"square\"; allowed: 16"},
+    {"static_friction_below_that_of_sliding", open_loop, "\"dahl\"",
+     "\"lugre\"\nstatic_coefficient = 0.05",
+     "6:22: friction.static_coefficient: 0.05 is out of range; allowed: 0.1 to 100"},
+    {"curve_that_falls_below_zero", open_loop, "\"dahl\"\ncoefficient = 0.1",
+     "\"stribeck\"\nfall_s_per_m = 3\nrise_s3_per_m3 = 399\ncoefficient = 0.1",
+     "7:18: friction.rise_s3_per_m3: 399 lets the friction fall below zero; allowed: at least 400 "
+     "s^3/m^3 with this fall_s_per_m"},
+    {"dahl_has_no_bristles", open_loop, "[sliding]", "static_coefficient = 0.2\n[sliding]",
+     "9:1: friction.static_coefficient: not used with friction.law = \"dahl\"; remove it"},
     {"unknown_channel", open_loop, "[\"displacement_m\"]", "[\"displacment_m\"]",
      "19:11: run.record[0]: \"displacment_m\" is unknown; did you mean \"displacement_m\"? "
      "allowed: \"displacement_m\", \"velocity_m_per_s\", \"friction_force_N\", "
@@ -167,7 +186,8 @@ const std::vector<BrokenScene> broken_scenes = {
     {"missing_key", open_loop, "mass_kg = 0.02\n", "",
      "1:2: plant.mass_kg: missing; required: a number, 1e-12 to 1e+06 kg"},
     {"missing_word", open_loop, "law = \"dahl\"\n", "",
-     "4:2: friction.law: missing; required: \"dahl\" or \"coulomb\" or \"none\""},
+     "4:2: friction.law: missing; required: \"dahl\" or \"lugre\" or \"coulomb\" or \"stribeck\" "
+     "or \"none\""},
     {"missing_table", open_loop, "[sliding]\nvelocity_m_per_s = 0.0267\n", "",
      "1:1: sliding: missing; required: a table [sliding]"},
     {"missing_velocity", open_loop, "velocity_m_per_s = 0.0267\n", "",
@@ -225,11 +245,11 @@ const std::vector<BrokenScene> broken_scenes = {
      "20:1: model_error.contact_stiffness: not used with friction.law = \"coulomb\"; remove it"},
     {"controller_without_friction", closed_loop,
      "law = \"dahl\"\ncoefficient = 0.1\ncontact_stiffness_N_per_m = 0.056e6", "law = \"none\"",
-     "13:2: controller: there is no friction to control; allowed: friction.law \"dahl\" or "
-     "\"coulomb\" with coefficient and normal_force_N above 0"},
+     "13:2: controller: there is no friction to control; allowed: a friction.law other than "
+     "\"none\", with coefficient and normal_force_N above 0"},
     {"controller_with_zero_friction", closed_loop, "coefficient = 0.1", "coefficient = 0",
-     "15:2: controller: there is no friction to control; allowed: friction.law \"dahl\" or "
-     "\"coulomb\" with coefficient and normal_force_N above 0"},
+     "15:2: controller: there is no friction to control; allowed: a friction.law other than "
+     "\"none\", with coefficient and normal_force_N above 0"},
     {"interval_without_record", open_loop, "record = [\"displacement_m\"]\n", "",
      "19:21: run.record_interval_s: not used without run.record; remove it"},
     // Keys that exclude each other

@@ -47,6 +47,43 @@ record = ["sliding_velocity_m_per_s", "displacement_m", "velocity_m_per_s", "fri
 record_interval_s = 1e-6
 )";
 
+/// A Stribeck curve.
+inline constexpr const char* curve_open_loop = R"([plant]
+mass_kg = 0.02
+stiffness_N_per_m = 8e3
+[friction]
+law = "stribeck"
+coefficient = 0.2
+fall_s_per_m = 1.5
+rise_s3_per_m3 = 50
+[sliding]
+velocity_m_per_s = 0.01
+[run]
+duration_s = 1e-2
+)";
+
+/// A contact of bristles under a wave of straight pieces.
+inline constexpr const char* bristles_open_loop = R"([plant]
+mass_kg = 0.02
+stiffness_N_per_m = 133e6
+[friction]
+law = "lugre"
+coefficient = 0.2
+contact_stiffness_N_per_m = 0.056e6
+static_coefficient = 0.3
+stribeck_velocity_m_per_s = 0.01
+bristle_damping_N_s_per_m = 0.02
+viscous_friction_N_s_per_m = 0.03
+[sliding]
+velocity_m_per_s = 0.0267
+[drive]
+frequency_Hz = 40e3
+force_amplitude_N = 384
+waveform = "triangle"
+[run]
+duration_periods = 100
+)";
+
 /// Nothing that has a default.
 inline constexpr const char* shortest_closed_loop = R"([plant]
 mass_kg = 0.02

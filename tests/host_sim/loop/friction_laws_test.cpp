@@ -1,0 +1,157 @@
+/// Friction laws and waveforms in SI units, in open and in closed loop.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include "firmware/friction/stribeck_friction_ratio.hpp"
+#include "host_sim/loop/run.hpp"
+#include "table_1.hpp"
+#include "tests/host_sim/loop/logs/logged_run.hpp"
+
+namespace sonoglide::loop {
+namespace {
+
+scene::Scene lugre(scene::Scene scene, const scene::Bristles& bristles) {
+  scene.friction.law = scene::FrictionLaw::lugre;
+  scene.friction.bristles = bristles;
+  return scene;
+}
+
+PowerRatios window_ratios(const scene::Scene& scene) {
+  const double friction_N = scene.friction.coefficient * scene.friction.normal_force_N;
+  return power_ratios(run_logged(scene).result.window, friction_N, scene.friction.sign_convention,
+                      period_s);
+}
+
+double window_ratio(const scene::Scene& scene) {
+  return window_ratios(scene).friction_ratio;
+}
+
+TEST(LuGreSceneTest, EnergyIdentity) {
+  scene::Scene scene = lugre(table_1(), {0.13, 0.02, 0.01, 0.02});
+  scene.solver.tolerance = 1e-12;
+  EXPECT_LE(std::abs(window_ratios(scene).balance_residual), 1e-9);
+}
+
+TEST(LuGreSceneTest, WithoutItsOwnPartsIsDahl) {
+  EXPECT_NEAR(window_ratio(lugre(table_1(), {0.1, 1.0, 0.0, 0.0})), window_ratio(table_1()), 1e-9);
+}
+
+/// Damped bristles add nothing to the mean, viscous friction adds sigma2 Vt / Fc.
+TEST(LuGreSceneTest, ViscousFrictionAddsItsShare) {
+  const scene::Scene dahl = on_steady_orbit(table_1());
+  const double viscous_N_s_per_m = 0.1;
+  const double share =
+      viscous_N_s_per_m * dahl.sliding.profile.front().velocity_m_per_s / (0.1 * 0.02 * 9.81);
+  EXPECT_NEAR(window_ratio(lugre(dahl, {0.1, 1.0, 0.05, viscous_N_s_per_m})),
+              window_ratio(dahl) + share, 2e-5);
+}
+
+TEST(LuGreSceneTest, ClosedLoopReachesItsTargets) {
+  const scene::Scene scene = lugre(table_1_closed_loop(), {0.13, 0.02, 0.01, 0.02});
+  const LoggedRun logged = run_logged(scene);
+  ASSERT_TRUE(logged.result.control.has_value());
+  EXPECT_TRUE(logged.result.control->faults.empty());
+  EXPECT_NEAR(logged.periods[58].friction_ratio, 0.4, 0.01);
+  EXPECT_NEAR(logged.periods.back().friction_ratio, 0.6, 0.01);
+}
+
+/// A slow resonator that sticks and slips on the falling curve at 10 mm/s.
+scene::Scene stick_slip(double dither_N) {
+  scene::Scene scene = table_1(dither_N);
+  scene.plant.stiffness_N_per_m = 8e3;
+  scene.friction.law = scene::FrictionLaw::stribeck;
+  scene.friction.coefficient = 0.2;
+  scene.friction.normal_force_N = 10.0;
+  scene.friction.curve = scene::StribeckCurve{1.5, 50.0};
+  scene.sliding.profile = {{0.0, 0.01}};
+  scene.solver.tolerance = 1e-6;
+  scene.run.duration_s = 0.1;
+  scene.run.window_start_s = 0.08;
+  scene.run.record = {scene::Channel::displacement};
+  scene.run.record_interval_s = 1e-4;
+  return scene;
+}
+
+/// Of the last fifth of the run: the natural mode goes round twice.
+double swing_m(const scene::Scene& scene) {
+  const Recording trace = run_logged(scene).trace;
+  double lowest = trace.state.back().displacement_m;
+  double highest = lowest;
+  for (std::size_t i = 0; i < trace.state.size(); ++i) {
+    if (trace.time_s[i] >= 0.08) {
+      lowest = std::min(lowest, trace.state[i].displacement_m);
+      highest = std::max(highest, trace.state[i].displacement_m);
+    }
+  }
+  return highest - lowest;
+}
+
+TEST(StribeckSceneTest, DitherQuenchesStickSlip) {
+  EXPECT_GT(swing_m(stick_slip(0.0)), 1e-5);
+  EXPECT_LT(swing_m(stick_slip(384.0)), 1e-6);
+}
+
+/// At zeta = 1/2, of a vibration that friction hardly bends.
+TEST(StribeckSceneTest, FrictionRatioIsThatOfTheAveragedCurve) {
+  scene::Scene scene = on_steady_orbit(table_1());
+  scene.friction.law = scene::FrictionLaw::stribeck;
+  scene.friction.curve = scene::StribeckCurve{1.5, 200.0};
+  const double speed = 2.0 * scene.sliding.profile.front().velocity_m_per_s;
+  EXPECT_NEAR(window_ratio(scene),
+              friction::stribeck_friction_ratio(0.5, 15.0 * speed, 2000.0 * speed * speed * speed),
+              1e-3);
+}
+
+/// A mass without a spring, and next to no friction: A / (m f) is 320 mm/s.
+scene::Scene free_mass(scene::Waveform waveform, double first_m_per_s, double sliding_m_per_s) {
+  scene::Scene scene = table_1();
+  scene.plant.stiffness_N_per_m = 0.0;
+  scene.plant.initial_velocity_m_per_s = first_m_per_s;
+  scene.friction.law = scene::FrictionLaw::coulomb;
+  scene.friction.coefficient = 1e-6;
+  scene.sliding.profile = {{0.0, sliding_m_per_s}};
+  scene.drive->waveform = waveform;
+  scene.solver.order = 16;
+  return scene;
+}
+
+/// The friction ratio of two whole periods, from inside one of them on.
+double ratio_of_periods(scene::Scene scene) {
+  scene.run.window_start_s = period_s / 3.0;
+  scene.run.duration_s = period_s * (2.0 + 1.0 / 3.0);
+  return window_ratio(scene);
+}
+
+TEST(WaveformSceneTest, SquareWave) {
+  EXPECT_NEAR(ratio_of_periods(free_mass(scene::Waveform::square, -0.08, 0.04)), 0.5, 1e-6);
+}
+
+TEST(WaveformSceneTest, TriangleWave) {
+  EXPECT_NEAR(ratio_of_periods(free_mass(scene::Waveform::triangle, 0.0, 0.02)),
+              1.0 - std::sqrt(0.5), 1e-6);
+}
+
+TEST(WaveformSceneTest, SawtoothWave) {
+  const double sliding_m_per_s = 0.01;
+  EXPECT_NEAR(ratio_of_periods(free_mass(scene::Waveform::sawtooth, -0.32 / 6.0, sliding_m_per_s)),
+              2.0 * std::sqrt(1.0 / 3.0 + 4.0 * sliding_m_per_s / 0.32) - 1.0, 1e-6);
+}
+
+TEST(WaveformSceneTest, TheTraceShowsTheWave) {
+  scene::Scene scene = free_mass(scene::Waveform::triangle, 0.0, 0.02);
+  scene.run.record = {scene::Channel::drive_force};
+  scene.run.record_interval_s = 0.05 * period_s;
+  const Recording trace = run_logged(scene).trace;
+  ASSERT_GT(trace.time_s.size(), 1000U);
+  for (std::size_t i = 0; i < trace.time_s.size(); ++i) {
+    const double phase = std::fmod(trace.time_s[i] / period_s, 1.0);
+    EXPECT_NEAR(trace.drive_force_N[i], 384.0 * (std::abs(4.0 * phase - 2.0) - 1.0), 1e-6);
+  }
+}
+
+}  // namespace
+}  // namespace sonoglide::loop
