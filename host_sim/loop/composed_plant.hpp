@@ -52,9 +52,8 @@ class ComposedPlant final : public PlantPort {
   using Model = typename Solver::Model;
 
   /// @param precision  the tolerance of an adaptive method, the step of another, dimensionless
-  ComposedPlant(const scene::PlantScales& scales, const Model& model, double precision,
-                const plant::State<double>& initial)
-      : scales_(scales), model_(model), state_(initial) {
+  ComposedPlant(const scene::PlantScales& scales, const Model& model, double precision)
+      : scales_(scales), model_(model) {
     solver_.configure(model, precision);
   }
 
@@ -75,6 +74,12 @@ class ComposedPlant final : public PlantPort {
       seen.push_back(in_si_units(state));
     }
     return outcome;
+  }
+
+  void begin_at(const PlantState& state) override {
+    state_ = {state.displacement_m / scales_.length_m,
+              state.velocity_m_per_s / scales_.velocity_m_per_s(),
+              scales_.friction_N > 0.0 ? state.friction_force_N / scales_.friction_N : 0.0};
   }
 
   PlantState state() const override { return in_si_units(state_); }

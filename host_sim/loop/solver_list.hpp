@@ -30,11 +30,7 @@ std::unique_ptr<PlantPort> make_composed_plant(const PlantDescription& descripti
   const double precision = scene::is_adaptive(scene.solver.method)
                                ? scene.solver.tolerance
                                : scene.solver.step_s * scales.angular_frequency_rad_per_s;
-  const plant::State<double> initial{
-      scene.plant.initial_displacement_m / scales.length_m,
-      scene.plant.initial_velocity_m_per_s / scales.velocity_m_per_s(),
-      scales.friction_N > 0.0 ? scene.friction.initial_force_N / scales.friction_N : 0.0};
-  return std::make_unique<ComposedPlant<Solver>>(scales, model, precision, initial);
+  return std::make_unique<ComposedPlant<Solver>>(scales, model, precision);
 }
 
 /// Null where the solver is not made for the model's friction law.
