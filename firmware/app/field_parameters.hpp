@@ -78,7 +78,7 @@ class FieldDesign {
             {"gain_scale", 6, 0, one_in_millionths, one_in_millionths},
             {"friction_force", 6, smallest_friction(), one_in_millionths,
              millionths(numeric::to_real(designed.friction_force))},
-            {"speed_floor", 6, smallest_speed_floor, one_in_millionths,
+            {"speed_floor", 6, millionths(control::smallest_speed_floor), one_in_millionths,
              millionths(numeric::to_real(designed.speed_floor))},
             {"stuck_periods", 0, designed.stuck.periods, UINT16_MAX, designed.stuck.periods},
         }},
@@ -120,7 +120,7 @@ class FieldDesign {
       result.ceiling.highest = millionths_of(values, Parameter::drive_limit);
     }
     if (changed(values, Parameter::gain_scale)) {
-      result.regulator.gain *= millionths_of(values, Parameter::gain_scale);
+      PartsT::Regulator::scale_gain(result.regulator, millionths_of(values, Parameter::gain_scale));
     }
     if (changed(values, Parameter::friction_force)) {
       result.friction_force = millionths_of(values, Parameter::friction_force);
@@ -140,8 +140,6 @@ class FieldDesign {
   }
 
  private:
-  /// The controller's resolution ends here, per unit.
-  static constexpr std::uint32_t smallest_speed_floor = 100;
   static constexpr std::uint32_t layout_version = 1;
 
   static constexpr std::uint32_t millionths(double value) {

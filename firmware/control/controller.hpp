@@ -9,6 +9,7 @@
 #include "firmware/control/measurement.hpp"
 #include "firmware/control/signals.hpp"
 #include "firmware/control/stuck_detector.hpp"
+#include "firmware/numeric/accumulator.hpp"
 #include "firmware/numeric/scalar.hpp"
 
 namespace sonoglide::control {
@@ -22,9 +23,12 @@ struct Parts {
   using Feedforward = FeedforwardT;  ///< CoulombFeedforward | DahlFeedforward
   using Slew = SlewT;                ///< NoSlewLimit | SlewLimit
   using Shaper = ShaperT;            ///< NoShaping | NotchShaper
-  using Regulator = RegulatorT;      ///< IntegralRegulator
+  using Regulator = RegulatorT;      ///< NoFeedback | IntegralRegulator
   using Ceiling = CeilingT;          ///< FullDrive | DriveLimit
 };
+
+/// Smallest usable speed floor, per unit: where the controller's resolution ends.
+inline constexpr double smallest_speed_floor = 1e-4;
 
 /// Picks the drive amplitude so that the friction ratio reaches a target; one step per carrier
 /// period. A pure function of its state and the measurement: no clock, no I/O, no heap.
@@ -149,7 +153,8 @@ class Controller {
     last_velocity_ = velocity;
     last_velocity_known_ = true;
     return numeric::observe<signal::ForeseenVelocity>(
-        velocity + numeric::scale_by_power_of_two(change * lead_, 6));
+        velocity + numeric::rounded<Scalar>(numeric::scale_by_power_of_two(
+                       numeric::accumulated_product(change, lead_), 6)));
   }
 
   DriveCommand<Scalar> trip(Fault fault) {
@@ -204,12 +209,14 @@ class Controller {
     const Scalar ratio = regulator_.propose(target_, level_.half_ratio(along));
     const Request wanted = feedforward(ratio, speed);
     const Scalar slewed = slew_.limit(wanted.amplitude, requested_);
-    const bool at_most = wanted.limit == Limit::actuator || slewed < wanted.amplitude;
-    const bool at_least = whole_ratio() <= ratio || wanted.amplitude < slewed;
+    const bool held_below = slewed < wanted.amplitude;
+    const bool held_above = wanted.amplitude < slewed;
+    const bool at_most = wanted.limit == Limit::actuator || held_below;
+    const bool at_least = whole_ratio() <= ratio || held_above;
     regulator_.accept(at_most, at_least);
 
     commanded_ = ratio;
-    return apply({slewed, slewed != wanted.amplitude ? Limit::slew : wanted.limit});
+    return apply({slewed, held_below || held_above ? Limit::slew : wanted.limit});
   }
 
   /// Amplitude for a commanded ratio, from the inverse map.
@@ -217,15 +224,10 @@ class Controller {
     if (whole_ratio() <= target_) {
       return {Scalar{}, Limit::none};
     }
-    const Scalar velocity_ratio = feedforward_.velocity_ratio(half_ratio, speed);
-    if (velocity_ratio <= speed) {
-      return {ceiling_.highest(), Limit::actuator};
-    }
-    const Scalar amplitude = speed / velocity_ratio;
-    if (ceiling_.exceeded_by(amplitude)) {
-      return {ceiling_.highest(), Limit::actuator};
-    }
-    return {amplitude, Limit::none};
+    const Scalar amplitude = feedforward_.amplitude(half_ratio, speed);
+    const Scalar highest = ceiling_.highest();
+    return amplitude < highest ? Request{amplitude, Limit::none}
+                               : Request{highest, Limit::actuator};
   }
 
   DriveCommand<Scalar> apply(const Request& request) {

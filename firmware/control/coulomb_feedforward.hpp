@@ -1,6 +1,8 @@
 /// Feedforward for a Coulomb contact.
 #pragma once
 
+#include <cstdint>
+
 #include "firmware/control/friction_level.hpp"
 #include "firmware/numeric/fixed_elementary.hpp"
 #include "firmware/numeric/float_elementary.hpp"
@@ -17,9 +19,12 @@ class CoulombFeedforward {
   explicit CoulombFeedforward(const Parameters&) {}
   void set_friction(const FrictionLevel<Scalar>&) {}
 
-  /// Velocity ratio at which the friction ratio (base 2, in [0, 1/2]) is reached.
-  Scalar velocity_ratio(Scalar half_ratio, Scalar /*speed*/) const {
-    return numeric::sin_pi(half_ratio);
+  /// Drive amplitude in [0, 1] at which the friction ratio (base 2, in [0, 1/2]) is reached; the
+  /// largest value where none does.
+  /// @param speed  |Vt|, base the peak vibration velocity at full drive; > 0.
+  Scalar amplitude(Scalar half_ratio, Scalar speed) const {
+    const Scalar velocity_ratio = numeric::sin_pi(half_ratio);
+    return speed < velocity_ratio ? speed / velocity_ratio : numeric::from_code<Scalar>(INT32_MAX);
   }
 };
 

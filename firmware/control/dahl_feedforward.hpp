@@ -3,6 +3,7 @@
 
 #include "firmware/control/friction_level.hpp"
 #include "firmware/friction/dahl_inverse_map.hpp"
+#include "firmware/numeric/floating.hpp"
 #include "firmware/numeric/scalar.hpp"
 
 namespace sonoglide::control {
@@ -20,19 +21,22 @@ class DahlFeedforward {
   explicit DahlFeedforward(const Parameters& parameters) : parameters_(parameters) {}
 
   void set_friction(const FrictionLevel<Scalar>& friction) {
-    full_speed_travel_ = friction::quotient(parameters_.contact_force, friction.level());
+    const numeric::Split<Scalar>& force = parameters_.contact_force;
+    half_travel_ = numeric::quotient(
+        numeric::floating(numeric::Split<Scalar>{force.mantissa, force.exponent - 1}),
+        friction.level());
   }
 
-  /// Velocity ratio at which the friction ratio (base 2, in [0, 1/2]) is reached.
+  /// Drive amplitude in [0, 1] at which the friction ratio (base 2, in [0, 1/2]) is reached; the
+  /// largest value where none does.
   /// @param speed  |Vt|, base the peak vibration velocity at full drive; > 0.
-  Scalar velocity_ratio(Scalar half_ratio, Scalar speed) const {
-    return friction::dahl_velocity_ratio(
-        half_ratio, friction::product(full_speed_travel_, numeric::split(speed)));
+  Scalar amplitude(Scalar half_ratio, Scalar speed) const {
+    return friction::dahl_vibration_velocity(half_ratio, speed, half_travel_);
   }
 
  private:
   Parameters parameters_;
-  numeric::Split<Scalar> full_speed_travel_{};  ///< λ at a speed of 1
+  numeric::Floating<Scalar> half_travel_{};  ///< λ/2 at a speed of 1
 };
 
 }  // namespace sonoglide::control

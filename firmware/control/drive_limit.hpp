@@ -15,7 +15,6 @@ class DriveLimit {
   explicit DriveLimit(const Parameters& parameters) : parameters_(parameters) {}
 
   Scalar highest() const { return parameters_.highest; }
-  bool exceeded_by(Scalar amplitude) const { return parameters_.highest < amplitude; }
 
  private:
   Parameters parameters_;

@@ -15,8 +15,6 @@ class FullDrive {
   explicit FullDrive(const Parameters&) {}
 
   static constexpr Scalar highest() { return numeric::from_code<Scalar>(INT32_MAX); }
-  /// No amplitude in [0, 1] does.
-  static constexpr bool exceeded_by(Scalar /*amplitude*/) { return false; }
 };
 
 }  // namespace sonoglide::control

@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "firmware/control/signals.hpp"
+#include "firmware/numeric/accumulator.hpp"
 #include "firmware/numeric/scalar.hpp"
 
 namespace sonoglide::control {
@@ -21,10 +22,14 @@ class IntegralRegulator {
     std::uint16_t hold_periods;
   };
 
+  static constexpr void scale_gain(Parameters& parameters, Scalar factor) {
+    parameters.gain *= factor;
+  }
+
   explicit IntegralRegulator(const Parameters& parameters) : parameters_(parameters) {}
 
   void restart() {
-    integral_ = Scalar{};
+    integral_ = {};
     hold();
   }
 
@@ -34,9 +39,10 @@ class IntegralRegulator {
   /// Commanded ratio, with the new error counted in; nothing is kept before accept().
   Scalar propose(Scalar target, Scalar measured) {
     error_ = numeric::observe<signal::RatioError>(target - measured);
-    proposed_ = held_ == 0 ? integral_ + parameters_.gain * error_ : integral_;
-    return numeric::observe<signal::CommandedRatio>(
-        numeric::clamp(target + proposed_, Scalar{}, numeric::from_real<Scalar>(0.5)));
+    proposed_ =
+        held_ == 0 ? integral_ + numeric::accumulated_product(parameters_.gain, error_) : integral_;
+    return numeric::observe<signal::CommandedRatio>(numeric::clamp(
+        target + numeric::rounded<Scalar>(proposed_), Scalar{}, numeric::from_real<Scalar>(0.5)));
   }
 
   /// Keeps the proposed integral, unless the command stood at a bound and the error pushes further.
@@ -55,8 +61,8 @@ class IntegralRegulator {
 
  private:
   Parameters parameters_;
-  Scalar integral_{};
-  Scalar proposed_{};
+  numeric::Accumulator<Scalar> integral_{};
+  numeric::Accumulator<Scalar> proposed_{};
   Scalar error_{};
   std::uint16_t held_ = 0;
 };

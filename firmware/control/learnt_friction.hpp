@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "firmware/numeric/accumulator.hpp"
 #include "firmware/numeric/scalar.hpp"
 
 namespace sonoglide::control {
@@ -13,36 +14,37 @@ template <class Scalar>
 class LearntFriction {
  public:
   struct Parameters {
-    std::uint32_t settle_periods;   ///< samples passed over
-    std::uint32_t average_periods;  ///< samples averaged, at least 1
-    Scalar weight;                  ///< 1 / average_periods
+    std::uint32_t settle_periods;         ///< samples passed over
+    std::uint32_t average_periods;        ///< samples averaged, at least 1
+    numeric::Accumulator<Scalar> weight;  ///< 1 / average_periods
   };
 
   explicit LearntFriction(const Parameters& parameters) : parameters_(parameters) {}
 
   void restart() {
     samples_ = 0;
-    mean_ = Scalar{};
+    mean_ = {};
   }
 
   bool learning() const {
     return samples_ < parameters_.settle_periods + parameters_.average_periods;
   }
 
-  /// Takes one undriven sample. Rounding of the mean: half a unit for each sample.
+  /// Takes one undriven sample. Rounding of the mean: half a unit of the accumulator for each
+  /// sample.
   void learn(Scalar force) {
     if (samples_ >= parameters_.settle_periods) {
-      mean_ += numeric::abs(force) * parameters_.weight;
+      mean_ += numeric::accumulate(numeric::abs(force)) * parameters_.weight;
     }
     ++samples_;
   }
 
-  Scalar friction_force(Scalar /*configured*/) const { return mean_; }
+  Scalar friction_force(Scalar /*configured*/) const { return numeric::rounded<Scalar>(mean_); }
 
  private:
   Parameters parameters_;
   std::uint32_t samples_ = 0;
-  Scalar mean_{};
+  numeric::Accumulator<Scalar> mean_{};
 };
 
 }  // namespace sonoglide::control

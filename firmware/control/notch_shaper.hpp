@@ -2,10 +2,9 @@
 #pragma once
 
 #include <array>
-#include <cstddef>
 #include <cstdint>
 
-#include "firmware/numeric/scalar.hpp"
+#include "firmware/control/notch_rounding.hpp"
 
 namespace sonoglide::control {
 
@@ -30,28 +29,36 @@ class NotchShaper {
     std::uint8_t spacing;  ///< M, 1 … MaxSpacing
   };
 
-  explicit NotchShaper(const Parameters& parameters) : parameters_(parameters) {}
+  explicit NotchShaper(const Parameters& parameters)
+      : parameters_(parameters), rounding_(parameters.taps) {}
 
   void restart() {
     past_ = {};
+    rounding_.restart();
     oldest_ = 0;
   }
 
   /// Shaped amplitude; may leave [0, 1] where the input varies within 2M periods.
   Scalar shape(Scalar amplitude) {
-    const std::size_t depth = 2 * std::size_t{parameters_.spacing};
-    const std::size_t middle = oldest_ + parameters_.spacing;
-    const std::array<Scalar, 3> inputs{amplitude, past_[middle < depth ? middle : middle - depth],
-                                       past_[oldest_]};
-    past_[oldest_] = amplitude;
-    oldest_ = oldest_ + 1 < depth ? oldest_ + 1 : 0;
-    return numeric::dot(parameters_.taps.data(), inputs.data(), 3);
+    const std::uint32_t depth = 2 * spacing();
+    const std::uint32_t oldest = oldest_;
+    const std::uint32_t ahead = oldest + spacing();
+    const std::uint32_t middle = ahead < depth ? ahead : ahead - depth;
+    const std::array<Scalar, 3> inputs{amplitude, past_[middle], past_[oldest]};
+    const Scalar shaped = rounding_.sum(parameters_.taps, inputs, middle, oldest);
+    past_[oldest] = amplitude;
+    oldest_ = oldest + 1 < depth ? oldest + 1 : 0;
+    return shaped;
   }
 
  private:
+  /// A constant where the delay line leaves no choice.
+  std::uint32_t spacing() const { return MaxSpacing == 1 ? 1 : parameters_.spacing; }
+
   Parameters parameters_;
+  [[no_unique_address]] NotchRounding<Scalar, 2 * MaxSpacing> rounding_;
   std::array<Scalar, 2 * MaxSpacing> past_{};
-  std::size_t oldest_ = 0;
+  std::uint32_t oldest_ = 0;
 };
 
 }  // namespace sonoglide::control

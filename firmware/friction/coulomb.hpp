@@ -3,6 +3,8 @@
 
 #include <cstddef>
 
+#include "firmware/numeric/scalar.hpp"
+
 namespace sonoglide::friction {
 
 /// Coulomb friction: phi = sgn V while sliding; at V = 0 whatever holds the contact, |phi| <= 1.
@@ -17,8 +19,7 @@ struct Coulomb {
   static constexpr bool sticks = true;
 
   Scalar friction(Scalar velocity, Scalar /*last_friction*/) const {
-    return static_cast<Scalar>(static_cast<int>(velocity > Scalar(0)) -
-                               static_cast<int>(velocity < Scalar(0)));
+    return numeric::sign(velocity);
   }
   Scalar rate(Scalar /*velocity*/, Scalar /*friction*/) const { return Scalar(0); }
   Scalar series_unit(Scalar /*velocity*/, Scalar /*friction*/, Scalar longest) const {

@@ -5,6 +5,7 @@
 #include <cstddef>
 
 #include "firmware/numeric/float_elementary.hpp"
+#include "firmware/numeric/lane_group.hpp"
 #include "firmware/numeric/scalar.hpp"
 
 namespace sonoglide::friction {
@@ -74,6 +75,12 @@ struct Dahl {
     [[gnu::always_inline]] Scalar friction_after(Scalar displacement) const {
       return numeric::clamp(friction_ + gap_ * minus_decayed(contact_stiffness_ * displacement),
                             Scalar(-1), Scalar(1));
+    }
+    template <class Numbers>
+    [[gnu::always_inline]] Numbers friction_along(Numbers displacement) const {
+      const Numbers exponent = numeric::at_most<Scalar>(numeric::longest_decay<Scalar>,
+                                                        contact_stiffness_ * displacement);
+      return direction_ + gap_ * numeric::moderate_decay<Scalar>(exponent);
     }
     Scalar work(Scalar displacement) const {
       const Scalar z = contact_stiffness_ * displacement;

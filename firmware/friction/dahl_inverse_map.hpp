@@ -2,30 +2,17 @@
 #pragma once
 
 #include <cstdint>
+#include <type_traits>
 
 #include "firmware/friction/dahl_inverse_grid.hpp"
 #include "firmware/friction/dahl_inverse_table.hpp"
-#include "firmware/numeric/fixed_elementary.hpp"
-#include "firmware/numeric/float_elementary.hpp"
+#include "firmware/numeric/fixed.hpp"
+#include "firmware/numeric/float_format.hpp"
+#include "firmware/numeric/floating.hpp"
 #include "firmware/numeric/scalar.hpp"
+#include "firmware/numeric/word.hpp"
 
 namespace sonoglide::friction {
-
-/// a·b of two split positive numbers.
-template <class Scalar>
-numeric::Split<Scalar> product(const numeric::Split<Scalar>& a, const numeric::Split<Scalar>& b) {
-  const numeric::Split<Scalar> mantissas = numeric::split(a.mantissa * b.mantissa);
-  return {mantissas.mantissa, mantissas.exponent + a.exponent + b.exponent};
-}
-
-/// a/b of two split positive numbers.
-template <class Scalar>
-numeric::Split<Scalar> quotient(const numeric::Split<Scalar>& a, const numeric::Split<Scalar>& b) {
-  // A quarter of the quotient of two mantissas in [1/2, 1) lies in (1/8, 1/2).
-  const Scalar quarter = a.mantissa * numeric::from_real<Scalar>(0.25);
-  const numeric::Split<Scalar> mantissas = numeric::split(quarter / b.mantissa);
-  return {mantissas.mantissa, mantissas.exponent + 2 + a.exponent - b.exponent};
-}
 
 namespace dahl_inverse_map_detail {
 
@@ -38,56 +25,67 @@ struct GridPosition {
   Scalar fraction;  ///< in [0, 1]
 };
 
-/// Eighths of x in [0, 1/2]: how many are full, and how far into the next.
-template <class Scalar>
-GridPosition<Scalar> eighths(Scalar x) {
-  constexpr int fraction_bits = 28;  // 2^31 / 8
-  const std::int32_t code = numeric::to_code(x);
-  const std::int32_t remainder = code & ((std::int32_t{1} << fraction_bits) - 1);
-  return {code >> fraction_bits, numeric::from_code<Scalar>(remainder * 8)};
+/// Of x >= 0 on an axis; clamped at the upper end. Numbers of one sign are in the order of their
+/// bits, and integers are compared faster.
+template <class Axis, class Float, std::enable_if_t<std::is_floating_point_v<Float>, int> = 0>
+GridPosition<Float> position(Float x) {
+  using Format = numeric::FloatFormat<Float>;
+  using Bits = numeric::FloatBits<Float>;
+  constexpr int quarter_bits = Format::fraction_bits - 2;
+  constexpr Bits begin = numeric::to_bits(numeric::power_of_two<Float>(Axis::first_octave));
+  constexpr Bits end = numeric::to_bits(numeric::power_of_two<Float>(Axis::end_octave));
+  const Bits bits = numeric::to_bits(x);
+  if (bits < begin) {
+    return {0, x * numeric::power_of_two<Float>(-Axis::first_octave)};
+  }
+  if (bits >= end) {
+    return {Axis::lines - 2, Float{1}};
+  }
+  const Bits rest = bits & ((Bits{1} << quarter_bits) - 1);
+  return {1 + static_cast<int>((bits - begin) >> quarter_bits),
+          numeric::from_bits<Float>(numeric::to_bits(Float{1}) | rest << 2) - Float{1}};
 }
 
-/// Column of a friction ratio on base 2, in [0, 1/2].
-template <class Scalar>
-GridPosition<Scalar> column(Scalar half_ratio) {
-  constexpr Scalar half = numeric::from_real<Scalar>(0.5);
-  constexpr Scalar last_octave = numeric::from_real<Scalar>(0.5 / (1 << Grid::column_octaves));
-  const Scalar half_gap = half - half_ratio;  // (1 − ρ)/2
-  if (half_gap < last_octave) {
-    const Scalar gap = numeric::scale_by_power_of_two(half_gap, Grid::column_octaves + 1);
-    return {Grid::columns - 2, numeric::from_code<Scalar>(INT32_MAX) - gap};
+template <class Axis, class Storage, int Bits, class Overflow>
+GridPosition<numeric::Fixed<Storage, Bits, Overflow>> position(
+    const numeric::Split<numeric::Fixed<Storage, Bits, Overflow>>& x) {
+  using Scalar = numeric::Fixed<Storage, Bits, Overflow>;
+  constexpr int quarter_bits = Bits - 3;
+  const std::int32_t raw = x.mantissa.raw();
+  const int octave = x.exponent - 1 - Axis::first_octave;
+  if (octave < 0) {
+    return {0, Scalar::from_raw(static_cast<Storage>(octave > -32 ? raw >> (-1 - octave) : 0))};
   }
-  const numeric::Split<Scalar> gap = numeric::split(half_gap);
-  GridPosition<Scalar> position = eighths(half + (half - gap.mantissa));
-  position.index -= Grid::cells_per_octave * (gap.exponent + 1);  // (1 − ρ)/2 below 1/2: −1
-  return position;
+  if (x.exponent > Axis::end_octave) {
+    return {Axis::lines - 2, Scalar::largest()};
+  }
+  const std::int32_t rest = raw & ((1 << quarter_bits) - 1);
+  // The leading bit of the mantissa stands for one octave.
+  return {1 + (octave - 1) * Axis::cells_per_octave + (raw >> quarter_bits),
+          Scalar::from_raw(static_cast<Storage>(rest * 8))};
 }
 
-/// Row of a reduced Dahl number; clamped at the upper end, where the map is Coulomb's.
-template <class Scalar>
-GridPosition<Scalar> row(const numeric::Split<Scalar>& dahl_number) {
-  const int octave = dahl_number.exponent - 1;
-  if (octave < Grid::first_octave) {
-    return {0, numeric::scale_by_power_of_two(dahl_number.mantissa,
-                                              dahl_number.exponent - Grid::first_octave)};
-  }
-  if (octave >= Grid::end_octave) {
-    return {Grid::rows - 2, numeric::from_code<Scalar>(INT32_MAX)};
-  }
-  GridPosition<Scalar> position = eighths(dahl_number.mantissa - numeric::from_real<Scalar>(0.5));
-  position.index += 1 + (octave - Grid::first_octave) * Grid::cells_per_octave;
-  return position;
-}
-
+/// Half of z between two entries.
 template <class Scalar>
 Scalar between(std::uint16_t begin, std::uint16_t end, Scalar fraction) {
-  constexpr int to_q31 = 15;  // entries are in 2^-16
-  const Scalar value = numeric::from_code<Scalar>(std::int32_t{begin} << to_q31);
-  const std::int32_t rise = (std::int32_t{end} - std::int32_t{begin}) * (1 << to_q31);
-  return value + fraction * numeric::from_code<Scalar>(rise);
+  const std::int32_t rise = std::int32_t{end} - begin;
+  if constexpr (std::is_floating_point_v<Scalar>) {
+    constexpr Scalar unit = numeric::power_of_two<Scalar>(-Grid::entry_bits - 1);
+    return (static_cast<Scalar>(begin) + fraction * static_cast<Scalar>(rise)) * unit;
+  } else if constexpr (Scalar::fraction_bits == Grid::entry_bits) {
+    const std::int32_t more = (rise * fraction.raw()) >> Grid::entry_bits;
+    return Scalar::from_raw(static_cast<std::int16_t>((begin + more) >> 1));
+  } else {
+    // Two products that fit a word, of the upper and the lower half of the fraction.
+    constexpr int bits = Grid::entry_bits;
+    const std::int32_t upper = fraction.raw() >> (bits + 1);
+    const std::int32_t lower = (fraction.raw() >> 1) & ((1 << bits) - 1);
+    return Scalar::from_raw((std::int32_t{begin} << bits) + rise * upper +
+                            ((rise * lower) >> bits));
+  }
 }
 
-/// g = u/ρ by bilinear interpolation.
+/// Half of z by bilinear interpolation.
 template <class Scalar>
 Scalar interpolate(const GridPosition<Scalar>& row, const GridPosition<Scalar>& column) {
   const std::uint16_t* const lower = &dahl_inverse_table[row.index][column.index];
@@ -97,30 +95,92 @@ Scalar interpolate(const GridPosition<Scalar>& row, const GridPosition<Scalar>& 
   return at_lower + row.fraction * (at_upper - at_lower);
 }
 
+/// Column of 1 - ρ, for ρ on base 2 in (0, 1/2].
+template <class Scalar>
+GridPosition<Scalar> column(Scalar half_ratio) {
+  const Scalar half_gap = numeric::from_real<Scalar>(0.5) - half_ratio;
+  if constexpr (numeric::is_fixed_point_v<Scalar>) {
+    if (half_gap == Scalar{}) {
+      return {0, Scalar{}};
+    }
+    numeric::Split<Scalar> gap = numeric::split(half_gap);
+    ++gap.exponent;
+    return position<Grid::Column>(gap);
+  } else {
+    return position<Grid::Column>(half_gap + half_gap);
+  }
+}
+
+/// x + 2 a b, no more than the largest value; all of them at least 0.
+template <class Float, std::enable_if_t<std::is_floating_point_v<Float>, int> = 0>
+Float limited_sum(Float x, Float a, Float b) {
+  const Float sum = x + (a + a) * b;
+  constexpr auto largest = numeric::from_code<Float>(INT32_MAX);
+  return sum < largest ? sum : largest;
+}
+
+template <class Overflow>
+numeric::Q31<Overflow> limited_sum(numeric::Q31<Overflow> x,
+                                   const numeric::Split<numeric::Q31<Overflow>>& a,
+                                   numeric::Q31<Overflow> b) {
+  using Scalar = numeric::Q31<Overflow>;
+  const std::int32_t room = INT32_MAX - x.raw();
+  const std::int32_t product = numeric::rounded_q31_product(a.mantissa.raw(), b.raw());
+  const int up = a.exponent + 1;
+  std::int32_t more = room;
+  if (up < 0) {
+    more = up > -32 ? product >> -up : 0;
+  } else if (up < 32 && product <= room >> up) {
+    more = product << up;
+  }
+  return Scalar::from_raw(x.raw() + numeric::min(more, room));
+}
+
+template <class Overflow>
+numeric::Q15<Overflow> limited_sum(numeric::Q15<Overflow> x,
+                                   const numeric::Split<numeric::Q15<Overflow>>& a,
+                                   numeric::Q15<Overflow> b) {
+  const std::int32_t room = INT16_MAX - x.raw();
+  const std::int32_t product = std::int32_t{a.mantissa.raw()} * b.raw();
+  const int down = 14 - a.exponent;
+  std::int32_t more = product > 0 ? room : 0;
+  if (down >= 0) {
+    more = down < 31 ? product >> down : 0;
+  }
+  return numeric::Q15<Overflow>::from_raw(
+      static_cast<std::int16_t>(x.raw() + numeric::min(more, room)));
+}
+
 }  // namespace dahl_inverse_map_detail
 
-/// Velocity ratio r = Vt/v̂ at which a Dahl contact under sinusoidal vibration has the given
-/// friction ratio.
+/// Peak vibration velocity v̂ at which a Dahl contact that slides at Vt has the given friction
+/// ratio.
 ///
 /// The vibration amplitude being what is looked for, the contact is given by λ = Kt·Vt/(ω·Fc),
-/// the Dahl number times r, which does not depend on it. r = sin(π u/2), u = ρ·g(ρ, λ/ρ), g from a
-/// table (DahlInverseGrid, 3944 bytes).
+/// the Dahl number times r = Vt/v̂, which does not depend on it. v̂ = Vt/r = Vt + (Vt/ρ)·z², z from a
+/// table against λ/ρ and ρ (DahlInverseGrid, 3944 bytes): one division, of which λ/ρ is a multiple,
+/// and no sine.
 ///
-/// @param half_ratio  ρ on base 2, in [0, 1/2].
-/// @param lambda      λ as mantissa and exponent, > 0.
-/// @return r in [0, 1]; rises with ρ; 0 for ρ = 0.
-/// Error: the map at the returned r differs from ρ by at most 0.002 for Dahl numbers λ/r in
-/// [0.01, 1000], in float64, float32 and Q31 alike (tested over velocity ratios 0 to 2).
+/// @param half_ratio   ρ on base 2, at most 1/2.
+/// @param speed        Vt, > 0, on the base of the result.
+/// @param half_travel  λ/(2 Vt), > 0.
+/// @return v̂ from Vt to 1 (fixed point: the largest value), where it ends; falls as ρ rises; 1 for
+/// ρ <= 0.
+/// Error: the map at r = Vt/v̂ differs from ρ by at most 0.002 for Dahl numbers λ/r in [0.01, 1000],
+/// in float64, float32 and Q31 alike (tested over velocity ratios 0 to 2); in Q15, for which Vt is
+/// coarser, 0.002 for Vt from 0.1 and 0.008 for Vt from 0.0125 on.
 template <class Scalar>
-Scalar dahl_velocity_ratio(Scalar half_ratio, const numeric::Split<Scalar>& lambda) {
+Scalar dahl_vibration_velocity(Scalar half_ratio, Scalar speed,
+                               const numeric::Floating<Scalar>& half_travel) {
   using namespace dahl_inverse_map_detail;
   if (!(Scalar{} < half_ratio)) {
-    return Scalar{};
+    return numeric::from_code<Scalar>(INT32_MAX);
   }
-  numeric::Split<Scalar> reduced = quotient(lambda, numeric::split(half_ratio));
-  --reduced.exponent;  // ρ is twice half_ratio
-  const Scalar g = interpolate(row(reduced), column(half_ratio));
-  return numeric::sin_pi(half_ratio * g);
+  const numeric::Floating<Scalar> stretched =
+      numeric::quotient(numeric::floating(speed), numeric::floating(half_ratio));
+  const GridPosition<Scalar> row = position<Grid::Row>(numeric::product(half_travel, stretched));
+  const Scalar half_z = interpolate(row, column(half_ratio));
+  return limited_sum(speed, stretched, half_z * half_z);
 }
 
 }  // namespace sonoglide::friction

@@ -19,6 +19,9 @@ namespace sonoglide::friction {
 ///     coefficient<N>(travel, earlier)  N-th Taylor coefficient of phi in x = time / unit, from
 ///                          those of travel, du/dx, and of phi itself, below N
 ///     friction_after(du)   phi exactly, after the displacement du >= 0 along the direction
+///     friction_along(du)   where it varies: the same at a group of lanes, for du from a rounding
+///                          error below 0; absolute error 1e-9 (double), 5e-6 (float), where it has
+///                          relaxed by less than a factor of e^6 1e-13 in double
 ///     work(du)             integral of phi V d tau exactly, over the same displacement
 template <class Number>
 struct None {

@@ -4,12 +4,15 @@
 /// +infinity. Overflow, everywhere alike: the nearest end of the range, reported to the policy.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <type_traits>
+#include <utility>
 
 #include "firmware/numeric/overflow.hpp"
+#include "firmware/numeric/word.hpp"
 
 namespace sonoglide::numeric {
 
@@ -68,15 +71,14 @@ class Fixed {
   template <class Integer>
   static constexpr Fixed from_wide(Integer raw) {
     static_assert(sizeof(Integer) >= sizeof(Wide));
-    if (raw > Integer{std::numeric_limits<Storage>::max()}) {
-      Overflow::on_overflow();
-      return largest();
-    }
-    if (raw < Integer{std::numeric_limits<Storage>::min()}) {
-      Overflow::on_overflow();
-      return lowest();
-    }
-    return from_raw(static_cast<Storage>(raw));
+    const auto narrow = static_cast<Storage>(raw);
+    return narrow == raw ? from_raw(narrow) : beyond(raw < 0);
+  }
+
+  /// What an overflow past either end gives, brought about by the policy.
+  static constexpr Fixed beyond(bool lower_end) {
+    Overflow::on_overflow();
+    return lower_end ? lowest() : largest();
   }
 
   /// For constants and for the host; NaN is an overflow and gives 0.
@@ -100,10 +102,25 @@ class Fixed {
   /// Exact. For the host.
   constexpr double to_real() const { return static_cast<double>(raw_) / unit; }
 
-  friend constexpr Fixed operator+(Fixed a, Fixed b) { return from_wide(Wide{a.raw_} + b.raw_); }
-  friend constexpr Fixed operator-(Fixed a, Fixed b) { return from_wide(Wide{a.raw_} - b.raw_); }
-  friend constexpr Fixed operator-(Fixed a) { return from_wide(-Wide{a.raw_}); }
-  friend constexpr Fixed operator*(Fixed a, Fixed b) { return from_wide(rounded_product(a, b)); }
+  friend constexpr Fixed operator+(Fixed a, Fixed b) {
+    Storage sum = 0;
+    return __builtin_add_overflow(a.raw_, b.raw_, &sum) ? beyond(a.raw_ < 0) : from_raw(sum);
+  }
+  friend constexpr Fixed operator-(Fixed a, Fixed b) {
+    Storage difference = 0;
+    return __builtin_sub_overflow(a.raw_, b.raw_, &difference) ? beyond(a.raw_ < 0)
+                                                               : from_raw(difference);
+  }
+  friend constexpr Fixed operator-(Fixed a) { return Fixed() - a; }
+  friend constexpr Fixed operator*(Fixed a, Fixed b) {
+    if constexpr (is_q31 && !has_wide_product) {
+      // Of all products only this one leaves the range.
+      return a == lowest() && b == lowest() ? beyond(false)
+                                            : from_raw(product_of_halves(a.raw_, b.raw_));
+    } else {
+      return from_wide(rounded_product(a, b));
+    }
+  }
   friend constexpr Fixed operator/(Fixed a, Fixed b) {
     return b.raw_ == 0 ? divided_by_zero(a) : from_wide(rounded_quotient(a, b));
   }
@@ -122,11 +139,17 @@ class Fixed {
 
   /// a * b as a raw value, rounded but not yet brought into range.
   static constexpr Wide rounded_product(Fixed a, Fixed b) {
-    return shift_right_rounded<Wide>(Wide{a.raw_} * Wide{b.raw_}, FractionBits);
+    if constexpr (is_q31 && !has_wide_product) {
+      return a == lowest() && b == lowest() ? Wide{1} << FractionBits
+                                            : Wide{product_of_halves(a.raw_, b.raw_)};
+    } else {
+      return shift_right_rounded<Wide>(Wide{a.raw_} * Wide{b.raw_}, FractionBits);
+    }
   }
 
  private:
   static constexpr double unit = static_cast<double>(std::int64_t{1} << FractionBits);
+  static constexpr bool is_q31 = FractionBits == 31;
 
   static constexpr Wide rounded_quotient(Fixed a, Fixed b) {
     const Wide sign = b.raw_ < 0 ? -1 : 1;
@@ -170,18 +193,23 @@ constexpr Target fixed_cast(Fixed<Storage, FractionBits, Overflow> x) {
   return Target::from_wide(raw);
 }
 
-/// Sum of a[i] * b[i], i < n <= 2^31: each product rounded as by operator*, none brought into
-/// range, one saturation at the end.
-template <class Storage, int FractionBits, class Overflow>
+namespace detail {
+
+template <class Number, std::size_t N, std::size_t... I>
+constexpr Number fixed_dot(const std::array<Number, N>& a, const std::array<Number, N>& b,
+                           std::index_sequence<I...> /*indices*/) {
+  return Number::from_wide((std::int64_t{Number::rounded_product(a[I], b[I])} + ...));
+}
+
+}  // namespace detail
+
+/// Sum of a[i] * b[i]: each product rounded as by operator*, none brought into range, one
+/// saturation at the end.
+template <class Storage, int FractionBits, class Overflow, std::size_t N>
 constexpr Fixed<Storage, FractionBits, Overflow> dot(
-    const Fixed<Storage, FractionBits, Overflow>* a,
-    const Fixed<Storage, FractionBits, Overflow>* b, std::size_t n) {
-  using Number = Fixed<Storage, FractionBits, Overflow>;
-  std::int64_t sum = 0;
-  for (std::size_t i = 0; i < n; ++i) {
-    sum += Number::rounded_product(a[i], b[i]);
-  }
-  return Number::from_wide(sum);
+    const std::array<Fixed<Storage, FractionBits, Overflow>, N>& a,
+    const std::array<Fixed<Storage, FractionBits, Overflow>, N>& b) {
+  return detail::fixed_dot(a, b, std::make_index_sequence<N>{});
 }
 
 }  // namespace sonoglide::numeric

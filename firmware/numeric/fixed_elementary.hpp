@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <type_traits>
 
 #include "firmware/numeric/binary_constant.hpp"
 #include "firmware/numeric/fixed.hpp"
@@ -65,6 +66,10 @@ constexpr std::array<double, Terms> half_arcsine_series() {
 // Terms: the first one left out is below a tenth of a Q31 LSB.
 inline constexpr FixedPolynomial<6> eighth_turn_sine{eighth_turn_series<6>(1), 32};
 inline constexpr FixedPolynomial<7> eighth_turn_cosine{eighth_turn_series<7>(0), 40};
+inline constexpr FixedPolynomial<4, std::int32_t> short_eighth_turn_sine{eighth_turn_series<4>(1),
+                                                                         16};
+inline constexpr FixedPolynomial<5, std::int32_t> short_eighth_turn_cosine{eighth_turn_series<5>(0),
+                                                                           24};
 inline constexpr FixedPolynomial<11> centred_exponential{centred_exponential_series<11>(), 40};
 inline constexpr FixedPolynomial<14> half_arcsine{half_arcsine_series<14>(), 34};
 
@@ -85,6 +90,23 @@ constexpr std::int64_t q31_sine(std::int64_t x, unsigned quarter_turns) {
     return flipped ? -cosine : cosine;
   }
   const std::int64_t sine = shift_right_rounded(t * eighth_turn_sine(q31_square(t)), 32);
+  return flipped != (rest < 0) ? -sine : sine;
+}
+
+/// The same with 15 fraction bits: products of 32 bits do.
+constexpr std::int32_t q15_sine(std::int32_t x, unsigned quarter_turns) {
+  const auto angle = static_cast<std::uint16_t>(x);
+  const unsigned nearest = (angle + (1U << 13)) >> 14;
+  const auto rest = static_cast<std::int16_t>(angle - (nearest << 14));
+  const std::int32_t t = (rest < 0 ? -rest : rest) * 4;
+  const std::int32_t z = shift_right_rounded(t * t, 15);
+  const unsigned quadrant = nearest + quarter_turns;
+  const bool flipped = (quadrant & 2U) != 0U;
+  if ((quadrant & 1U) != 0U) {
+    const std::int32_t cosine = shift_right_rounded(short_eighth_turn_cosine(z), 9);
+    return flipped ? -cosine : cosine;
+  }
+  const std::int32_t sine = shift_right_rounded(t * short_eighth_turn_sine(z), 16);
   return flipped != (rest < 0) ? -sine : sine;
 }
 
@@ -119,12 +141,28 @@ constexpr std::int64_t to_q31(Number x) {
   return std::int64_t{x.raw()} * (std::int64_t{1} << (31 - Number::fraction_bits));
 }
 
-/// A result in [-1, 1] with 31 fraction bits as a number; +1 becomes the largest value.
+/// A raw result in [-1, 1] as a number; +1 becomes the largest value.
+template <class Number, class Integer>
+constexpr Number from_result(Integer raw) {
+  constexpr Integer largest = std::numeric_limits<typename Number::Raw>::max();
+  return Number::from_raw(static_cast<typename Number::Raw>(raw < largest ? raw : largest));
+}
+
+/// A result in [-1, 1] with 31 fraction bits as a number.
 template <class Number>
 constexpr Number from_q31(std::int64_t result) {
-  const std::int64_t raw = shift_right_rounded(result, 31 - Number::fraction_bits);
-  constexpr std::int64_t largest = std::numeric_limits<typename Number::Raw>::max();
-  return Number::from_raw(static_cast<typename Number::Raw>(raw < largest ? raw : largest));
+  return from_result<Number>(shift_right_rounded(result, 31 - Number::fraction_bits));
+}
+
+/// sin(pi x + quarter_turns pi/2).
+template <class Number>
+constexpr Number sine(Number x, unsigned quarter_turns) {
+  if constexpr (std::is_same_v<typename Number::Raw, std::int16_t>) {
+    static_assert(Number::fraction_bits == 15, "the range must be [-1, 1)");
+    return from_result<Number>(q15_sine(x.raw(), quarter_turns));
+  } else {
+    return from_q31<Number>(q31_sine(to_q31(x), quarter_turns));
+  }
 }
 
 }  // namespace detail
@@ -133,14 +171,14 @@ constexpr Number from_q31(std::int64_t result) {
 /// Error <= 1 LSB in Q31 and in Q15.
 template <class Storage, int FractionBits, class Overflow>
 constexpr Fixed<Storage, FractionBits, Overflow> sin_pi(Fixed<Storage, FractionBits, Overflow> x) {
-  return detail::from_q31<decltype(x)>(detail::q31_sine(detail::to_q31(x), 0));
+  return detail::sine(x, 0);
 }
 
 /// cos(pi x): as sin_pi.
 /// Error <= 1 LSB in Q31 and in Q15.
 template <class Storage, int FractionBits, class Overflow>
 constexpr Fixed<Storage, FractionBits, Overflow> cos_pi(Fixed<Storage, FractionBits, Overflow> x) {
-  return detail::from_q31<decltype(x)>(detail::q31_sine(detail::to_q31(x), 1));
+  return detail::sine(x, 1);
 }
 
 /// asin(x) / pi in [-1/2, 1/2]: the inverse of sin_pi. Never overflows.

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 
 #include "firmware/numeric/fixed.hpp"
 #include "firmware/numeric/float_format.hpp"
@@ -14,24 +15,25 @@ namespace sonoglide::numeric {
 ///
 /// The partial sum from term k on is kept with as many fraction bits as fit 31 bits and a sign, so
 /// the small sums at the far end are rounded finely; what counts is the rounding of the last sum.
-template <std::size_t Terms>
+/// @tparam Wide  of the products; with std::int32_t, z and the partial sums have 15 bits for 31.
+template <std::size_t Terms, class Wide = std::int64_t>
 class FixedPolynomial {
  public:
-  /// @param fraction_bits  of the result, which may use all of 63 bits.
+  /// @param fraction_bits  of the result, which may use all of Wide.
   constexpr FixedPolynomial(const std::array<double, Terms>& coefficients, int fraction_bits) {
     double bound = 0.0;
     int bits_after = 0;
     for (std::size_t k = Terms; k-- > 0;) {
       bound += abs_of(coefficients[k]);
       const int bits = k == 0 ? fraction_bits : finest_format(bound);
-      coefficients_[k] = round_half_up<std::int64_t>(coefficients[k] * power_of_two<double>(bits));
-      shifts_[k] = 31 + bits_after - bits;
+      coefficients_[k] = round_half_up<Wide>(coefficients[k] * power_of_two<double>(bits));
+      shifts_[k] = digits + bits_after - bits;
       bits_after = bits;
     }
   }
 
-  constexpr std::int64_t operator()(std::int64_t z) const {
-    std::int64_t sum = coefficients_[Terms - 1];
+  constexpr Wide operator()(Wide z) const {
+    Wide sum = coefficients_[Terms - 1];
     for (std::size_t k = Terms - 1; k-- > 0;) {
       sum = coefficients_[k] + shift_right_rounded(z * sum, shifts_[k]);
     }
@@ -39,18 +41,20 @@ class FixedPolynomial {
   }
 
  private:
+  static constexpr int digits = std::numeric_limits<Wide>::digits / 2;
+
   static constexpr double abs_of(double x) { return x < 0.0 ? -x : x; }
 
-  /// Fraction bits that leave a magnitude of up to `bound` below 2^31.
+  /// Fraction bits that leave a magnitude of up to `bound` below 2^digits.
   static constexpr int finest_format(double bound) {
     int bits = 0;
-    while (bound * power_of_two<double>(bits + 1) < 0x1p31) {
+    while (bound * power_of_two<double>(bits + 1) < power_of_two<double>(digits)) {
       ++bits;
     }
     return bits;
   }
 
-  std::array<std::int64_t, Terms> coefficients_{};
+  std::array<Wide, Terms> coefficients_{};
   std::array<int, Terms> shifts_{};
 };
 

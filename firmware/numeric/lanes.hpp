@@ -62,17 +62,30 @@ template <class Float>
   }
 }
 
+/// x or the limit, whichever is less, lane by lane; the limit where x is no number.
+template <class Float>
+[[gnu::always_inline]] inline Lanes<Float> at_most(Float limit, Lanes<Float> x) {
+  const Lanes<Float> limits = broadcast(limit);
+  return x < limits ? x : limits;
+}
+
 /// 1 in the lanes that are negative, by their sign bit.
 template <class Float>
 [[gnu::always_inline]] inline LaneBits<Float> is_negative(Lanes<Float> x) {
   return reinterpret_cast<LaneBits<Float>>(x) >> (8 * sizeof(Float) - 1);
 }
 
-/// exp(-z), z in [-0.5, 6]. Error <= 1e-13 in double, 5e-6 in float.
-///
-/// A power of exp at a fraction of z, which is small enough for a short series.
+/// As far as moderate_decay has sense; what is left there is less than its error.
 template <class Float>
-[[gnu::always_inline]] inline Lanes<Float> moderate_decay(Lanes<Float> z) {
+inline constexpr Float longest_decay = sizeof(Float) == sizeof(double) ? Float(64) : Float(20);
+
+/// exp(-z), z in [-0.5, 6]. Error <= 1e-13 in double, 5e-6 in float; up to longest_decay 1e-9 and
+/// 5e-6.
+///
+/// A power of exp at a fraction of z, which is small enough for a short series. Of lanes, or of a
+/// group of them.
+template <class Float, class Numbers>
+[[gnu::always_inline]] inline Numbers moderate_decay(Numbers z) {
   constexpr int halvings = sizeof(Float) == sizeof(double) ? 6 : 3;
   const auto term = [](int n) {
     double coefficient = 1.0;
@@ -81,11 +94,10 @@ template <class Float>
     }
     return static_cast<Float>(coefficient);
   };
-  const Lanes<Float> x = z * power_of_two<Float>(-halvings);
-  const Lanes<Float> square = x * x;
-  Lanes<Float> power =
-      ((Float(1) - x) + square * (term(2) + term(3) * x)) +
-      (square * square) * ((term(4) + term(5) * x) + square * (term(6) + term(7) * x));
+  const Numbers x = z * power_of_two<Float>(-halvings);
+  const Numbers square = x * x;
+  Numbers power = ((Float(1) - x) + square * (term(2) + term(3) * x)) +
+                  (square * square) * ((term(4) + term(5) * x) + square * (term(6) + term(7) * x));
   for (int i = 0; i < halvings; ++i) {
     power *= power;
   }

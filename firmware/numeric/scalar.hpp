@@ -1,10 +1,12 @@
 /// What generic code may ask of its scalar, be it double, float or Fixed.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <type_traits>
+#include <utility>
 
 #include "firmware/numeric/fixed.hpp"
 #include "firmware/numeric/float_format.hpp"
@@ -50,6 +52,12 @@ constexpr Scalar abs(Scalar x) {
   } else {
     return x < Scalar{} ? -x : x;
   }
+}
+
+/// -1, 0 or 1, of either zero 0; floating point.
+template <class Scalar>
+constexpr Scalar sign(Scalar x) {
+  return static_cast<Scalar>(static_cast<int>(x > Scalar(0)) - static_cast<int>(x < Scalar(0)));
 }
 
 template <class Scalar>
@@ -103,13 +111,21 @@ constexpr Scalar half(Scalar x) {
 template <class Scalar>
 constexpr Scalar scale_by_power_of_two(Scalar x, int n) {
   if constexpr (is_fixed_point_v<Scalar>) {
-    constexpr int width = std::numeric_limits<typename Scalar::Raw>::digits + 1;
-    if (n >= 0) {
-      const int shift = n < width ? n : width;  // further shifts overflow as well
-      return Scalar::from_wide(std::int64_t{x.raw()} * (std::int64_t{1} << shift));
+    using Raw = typename Scalar::Raw;
+    constexpr int digits = std::numeric_limits<Raw>::digits;
+    const Raw raw = x.raw();
+    if (n < 0) {
+      // A half of the last digit is the digit that is shifted out last.
+      return n < -digits ? Scalar{}
+                         : Scalar::from_raw(static_cast<Raw>((raw >> -n) + (raw >> (-n - 1) & 1)));
     }
-    const int shift = n > -width ? -n : width;  // further shifts give 0 as well
-    return Scalar::from_wide(shift_right_rounded(std::int64_t{x.raw()}, shift));
+    if (n <= digits) {
+      const auto shifted = static_cast<Raw>(static_cast<std::uint32_t>(raw) << n);
+      if (shifted >> n == raw) {
+        return Scalar::from_raw(shifted);
+      }
+    }
+    return raw == 0 ? Scalar{} : Scalar::beyond(raw < 0);
   } else {
     constexpr int highest = std::numeric_limits<Scalar>::max_exponent - 1;
     constexpr int lowest = std::numeric_limits<Scalar>::min_exponent - 1;
@@ -144,8 +160,10 @@ constexpr Split<Scalar> split(Scalar x) {
   }
   if constexpr (is_fixed_point_v<Scalar>) {
     static_assert(Scalar::fraction_bits > 0);
-    const int width = 32 - __builtin_clz(static_cast<unsigned>(x.raw()));
-    const int exponent = width - Scalar::fraction_bits;
+    const int exponent = bit_width(static_cast<std::uint32_t>(x.raw())) - Scalar::fraction_bits;
+    if constexpr (Scalar::fraction_bits == std::numeric_limits<typename Scalar::Raw>::digits) {
+      return {Scalar::from_raw(static_cast<typename Scalar::Raw>(x.raw() << -exponent)), exponent};
+    }
     const Scalar mantissa = scale_by_power_of_two(x, -exponent);
     constexpr std::int64_t one = std::int64_t{1} << Scalar::fraction_bits;
     if (mantissa.raw() == one) {
@@ -165,11 +183,19 @@ constexpr Split<Scalar> split(Scalar x) {
   }
 }
 
-/// A left-justified converter code as a number: code * 2^-31, rounded to the scalar.
+/// A left-justified converter code as a number: code * 2^-31, rounded to the scalar. What rounds to
+/// +1 where the scalar ends below it becomes the largest value, and that is not an overflow.
 template <class Scalar>
 constexpr Scalar from_code(std::int32_t code) {
   if constexpr (is_fixed_point_v<Scalar>) {
-    return fixed_cast<Scalar>(Q31<typename Scalar::Overflow>::from_raw(code));
+    constexpr int surplus = 31 - Scalar::fraction_bits;
+    if constexpr (surplus == 0) {
+      return Scalar::from_raw(code);
+    } else {
+      const std::int32_t raw = ((code >> (surplus - 1)) + 1) >> 1;
+      constexpr std::int32_t largest = Scalar::largest().raw();
+      return Scalar::from_raw(static_cast<typename Scalar::Raw>(raw < largest ? raw : largest));
+    }
   } else {
     return static_cast<Scalar>(code) * power_of_two<Scalar>(-31);
   }
@@ -194,14 +220,20 @@ constexpr std::int32_t to_code(Scalar x) {
   }
 }
 
-/// Sum of a[i] * b[i], i < n, from left to right.
-template <class Float, std::enable_if_t<std::is_floating_point_v<Float>, int> = 0>
-constexpr Float dot(const Float* a, const Float* b, std::size_t n) {
-  Float sum = 0;
-  for (std::size_t i = 0; i < n; ++i) {
-    sum += a[i] * b[i];
-  }
-  return sum;
+namespace detail {
+
+template <class Float, std::size_t N, std::size_t... I>
+constexpr Float float_dot(const std::array<Float, N>& a, const std::array<Float, N>& b,
+                          std::index_sequence<I...> /*indices*/) {
+  return (... + (a[I] * b[I]));
+}
+
+}  // namespace detail
+
+/// Sum of a[i] * b[i], from left to right.
+template <class Float, std::size_t N, std::enable_if_t<std::is_floating_point_v<Float>, int> = 0>
+constexpr Float dot(const std::array<Float, N>& a, const std::array<Float, N>& b) {
+  return detail::float_dot(a, b, std::make_index_sequence<N>{});
 }
 
 }  // namespace sonoglide::numeric

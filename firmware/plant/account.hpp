@@ -53,9 +53,12 @@ struct EnergyAccount {
 
   template <class Step>
   void add(const Step& step) {
-    friction_integral += step.friction_integral();
+    // Both before anything is written: they have the integral in common.
+    const Scalar integral = step.friction_integral();
+    const Scalar sliding = step.sliding_work();
+    friction_integral += integral;
     friction_work += step.friction_work();
-    sliding_work += step.sliding_work();
+    sliding_work += sliding;
     const MotionIntegrals<Scalar> motion = step.motion_integrals();
     drive_work += motion.drive_work;
     damping_work += motion.damping_work;

@@ -42,7 +42,7 @@ class BranchAtRest {
       }
     }
     if (numeric::abs(acceleration) > error) {
-      return {false, sign(acceleration), 1};
+      return {false, numeric::sign(acceleration), 1};
     }
     return by_higher_derivatives();
   }
@@ -50,10 +50,6 @@ class BranchAtRest {
  private:
   using Series = TaylorSeries<Model, Order>;
   using Arc = typename Model::FrictionLaw::Arc;
-
-  static Scalar sign(Scalar x) {
-    return static_cast<Scalar>(static_cast<int>(x > Scalar(0)) - static_cast<int>(x < Scalar(0)));
-  }
 
   Scalar noise(Scalar drive, const State<Scalar>& state) const {
     return instant_.relative_error * (drive + numeric::abs(model_.damping_force(state.velocity)) +
@@ -68,9 +64,9 @@ class BranchAtRest {
       return {true, Scalar(0), 0};
     }
     if (released == Scalar(0) && excess > limit) {
-      return {false, sign(acceleration), 1};
+      return {false, numeric::sign(acceleration), 1};
     }
-    const Scalar direction = released == Scalar(0) ? sign(acceleration) : released;
+    const Scalar direction = released == Scalar(0) ? numeric::sign(acceleration) : released;
     const Leading leading = leading_coefficient(direction);
     if (leading.order <= Order && direction * leading.value > Scalar(0)) {
       return {false, direction, leading.order};
@@ -81,7 +77,7 @@ class BranchAtRest {
   /// The first derivative of V that is not zero does not depend on the direction of sliding.
   Branch<Scalar> by_higher_derivatives() const {
     const Leading leading = leading_coefficient(Scalar(0));
-    const Scalar direction = leading.order <= Order ? sign(leading.value) : Scalar(0);
+    const Scalar direction = leading.order <= Order ? numeric::sign(leading.value) : Scalar(0);
     if constexpr (Model::FrictionLaw::sticks) {
       return {false, direction, leading_coefficient(direction).order};
     }

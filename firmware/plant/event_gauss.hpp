@@ -21,8 +21,9 @@ namespace sonoglide::plant {
 /// An interval of one carrier period is one panel: without friction its motion is a sum of known
 /// ones, whose reversals a table shows; friction, exact in the displacement, acts on it by
 /// variation of constants at `Nodes` nodes between two reversals. A panel whose friction is not
-/// weak, whose reversals are not certain, or whose error seems to exceed the tolerance, and an
-/// interval of any other length, are the Taylor method's from beginning to end. |phi| <= 1 always.
+/// weak, whose reversals are not certain, whose motion is lost in the rounding of its displacement,
+/// or whose error seems to exceed the tolerance, and an interval of any other length, are the
+/// Taylor method's from beginning to end. |phi| <= 1 always.
 ///
 /// Quickest at tolerances down to 1e-8 are 8 nodes, below that 12; float needs 8.
 template <class ModelType, std::size_t Nodes>
@@ -102,6 +103,7 @@ class EventGauss {
     limits_.slope_share = force + numeric::abs(motions_.stiffness) * shift +
                           numeric::abs(motions_.damping) * limits_.velocity_share;
     limits_.path_error = share / reach;
+    limits_.largest_offset = rounding_ / std::numeric_limits<Scalar>::epsilon();
     limits_.turn_error = share / reach;
     // At 4 nodes the error of exp(-E x^2) is about E^4 / 10^6, and they are used where it is less.
     limits_.short_exponent = numeric::min(numeric::from_real<Scalar>(0.25),
@@ -132,7 +134,7 @@ class EventGauss {
   Model model_;
   Motions motions_;
   PanelLimits<Scalar> limits_;
-  Scalar rounding_ = Scalar(0);  ///< by which the length of a panel may be wrong
+  Scalar rounding_ = Scalar(0);  ///< by which the length of a panel, or its motion, may be wrong
   bool is_weak_ = false;
   Panel panel_;  ///< the last one, and where the next is written
   EventTaylor<Model, taylor_order> taylor_;

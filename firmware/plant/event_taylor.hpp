@@ -20,10 +20,10 @@ namespace sonoglide::plant {
 /// Taylor method of fixed order whose steps end at the reversals of the sliding velocity.
 ///
 /// Inside a step sgn V is constant and the motion analytic. The step is the longest, up to 3 rad,
-/// whose last two terms stay below what the tolerance allows: those of V, and those of phi as far
-/// as they change its mean. The first root of V is found with certainty; the step ends there, V is
-/// set to zero and the contact slides on, turns or sticks. Friction follows from the displacement
-/// exactly, so |phi| <= 1 for any step.
+/// whose last two terms stay below what the tolerance allows: those of V, and more loosely those of
+/// phi, whose mean is taken from the displacement where its series does not give it. The first root
+/// of V is found with certainty; the step ends there, V is set to zero and the contact slides on,
+/// turns or sticks. Friction follows from the displacement exactly, so |phi| <= 1 for any step.
 ///
 /// Quickest at tolerances above 1e-5 is order 8, down to 1e-8 order 12, below that 16, from 1e-11
 /// on 20; float has no use for more than 8.
@@ -63,6 +63,7 @@ class EventTaylor {
       if (steps == step_limit_) {
         return {Error::too_many_steps, position.offset};
       }
+      settle(interval, position, state);
       step(interval, position, state, account, observer);
       if (!is_finite(state)) {
         return {Error::not_finite, position.offset};
@@ -88,8 +89,15 @@ class EventTaylor {
 
   /// The last term that a step takes in is about so many times the first one that it leaves out.
   static constexpr Scalar last_term_per_error = Scalar(8);
-  /// What a term of phi adds to the mean over a step is less than the term by its order.
-  static constexpr Scalar mean_per_term = numeric::from_real<Scalar>(0.125);
+  /// Friction follows from the displacement, on which its last terms act by the force alone.
+  static constexpr Scalar least_weight = numeric::from_real<Scalar>(1e-3);
+  static constexpr Scalar most_weight = numeric::from_real<Scalar>(0.125);
+  /// What a term of phi adds to the mean over a period is less than the term by so much.
+  static constexpr Scalar term_per_mean = Scalar(64);
+  /// What phi is short of its limit where that is negligible: of the last terms allowed, and at
+  /// most.
+  static constexpr Scalar unsettled = numeric::from_real<Scalar>(0.125);
+  static constexpr Scalar most_unsettled = numeric::from_real<Scalar>(1e-6);
   static constexpr Scalar longest_step = Scalar(3);
 
   /// What a vibration of unit amplitude allows, with something to spare; 3 rad at most.
@@ -109,6 +117,21 @@ class EventTaylor {
       const Scalar rounding = Scalar(4) * std::numeric_limits<Scalar>::epsilon();
       if (numeric::abs(velocity) <= rounding * numeric::abs(interval.sliding_velocity)) {
         state.velocity = model_.resting_velocity(interval.sliding_velocity);
+      }
+    }
+  }
+
+  /// Friction that is at its limit but for a negligible rest stays there while the contact slips.
+  void settle(const Interval<Scalar>& interval, const Position& position,
+              State<Scalar>& state) const {
+    if constexpr (Law::varies) {
+      const Scalar velocity = model_.contact_velocity(
+          interval.sliding_velocity + interval.sliding_acceleration * position.offset,
+          state.velocity);
+      const Scalar limit = velocity > Scalar(0) ? Scalar(1) : Scalar(-1);
+      const Scalar negligible = numeric::min(unsettled * allowed_, most_unsettled);
+      if (velocity != Scalar(0) && Scalar(1) - limit * state.friction <= negligible) {
+        state.friction = limit;
       }
     }
   }
@@ -173,7 +196,8 @@ class EventTaylor {
     if (stands_still && can_slide_beyond(branch)) {
       return false;
     }
-    const SlidingFriction<Series, Arc> friction(series, arc, branch.direction);
+    const SlidingFriction<Model, Series> friction(series, arc, branch.direction,
+                                                  term_per_mean * allowed_);
     accept(interval, series, friction, extent, extent == remaining, position, state, account,
            observer);
     if constexpr (Law::reverses) {
@@ -203,12 +227,12 @@ class EventTaylor {
   }
 
   /// How far a step may slide. What the vibration reaches in it is known once the step is: where
-  /// that falls far short of a unit, as in a contact that rings, a second pass.
+  /// that is far less than in a unit, as in a contact that rings, a second pass.
   Scalar sliding_extent(const Series& series, Scalar remaining) const {
-    const Scalar extent = extent_at(speed(series, Scalar(1)), series, remaining);
-    return extent < numeric::half(numeric::min(Scalar(1), remaining))
-               ? extent_at(speed(series, extent), series, remaining)
-               : extent;
+    const Scalar fastest = speed(series, Scalar(1));
+    const Scalar extent = extent_at(fastest, series, remaining);
+    const Scalar within = speed(series, extent);
+    return within < numeric::half(fastest) ? extent_at(within, series, remaining) : extent;
   }
 
   Scalar extent_at(Scalar speed, const Series& series, Scalar remaining) const {
@@ -219,8 +243,7 @@ class EventTaylor {
   /// What the error of the velocity is measured against: the velocity scale, or where that is
   /// smaller, but not without end, the vibration itself on the way to x.
   static Scalar speed(const Series& series, Scalar x) {
-    constexpr bool is_short = std::numeric_limits<Scalar>::digits <= 24;
-    constexpr Scalar slowest = numeric::from_real<Scalar>(is_short ? 1e-6 : 1e-12);
+    constexpr Scalar slowest = numeric::from_real<Scalar>(1e-12);
     const Scalar change =
         x * (numeric::abs(series.vibration[1]) + x * numeric::abs(series.travel[2]));
     return numeric::clamp(numeric::abs(series.velocity) + numeric::abs(series.rate) * change,
@@ -228,9 +251,11 @@ class EventTaylor {
   }
 
   /// The n-th terms of V and phi, as much as they matter.
-  static Scalar last_term(const Series& series, std::size_t n, Scalar speed) {
+  Scalar last_term(const Series& series, std::size_t n, Scalar speed) const {
+    const Scalar weight =
+        numeric::clamp(model_.contact_force(Scalar(1)), least_weight, most_weight);
     return numeric::max(numeric::abs(series.rate * series.travel[n]),
-                        speed * mean_per_term * numeric::abs(series.friction[n]));
+                        speed * weight * numeric::abs(series.friction[n]));
   }
 
   /// The extent of the step, cut at the first reversal.
@@ -299,9 +324,19 @@ class EventTaylor {
   /// The extent, within 7 %, at which terms of the two highest orders reach what is allowed.
   [[gnu::noinline]] static Scalar reach(Scalar last, Scalar last_but_one, Scalar allowed) {
     constexpr int degree = static_cast<int>(Order);
-    const Scalar smallest = std::numeric_limits<Scalar>::min();
-    return numeric::min(quick_root<degree>(allowed / numeric::max(last, smallest)),
-                        quick_root<degree - 1>(allowed / numeric::max(last_but_one, smallest)));
+    return numeric::min(root_of_quotient<degree>(allowed, last),
+                        root_of_quotient<degree - 1>(allowed, last_but_one));
+  }
+
+  /// (allowed / term)^(1/Degree). Terms near the largest number leave a quotient without digits:
+  /// the step is then taken shorter than any such would make it.
+  template <int Degree>
+  static Scalar root_of_quotient(Scalar allowed, Scalar term) {
+    constexpr Scalar smallest = std::numeric_limits<Scalar>::min();
+    const Scalar quotient = allowed / numeric::max(term, smallest);
+    return quotient >= smallest
+               ? quick_root<Degree>(quotient)
+               : numeric::from_real<Scalar>(1.0 / 128.0) * quick_root<Degree>(smallest);
   }
 
   template <class Friction, class Account, class Observer>

@@ -13,20 +13,6 @@ namespace sonoglide::plant {
 
 namespace detail {
 
-/// Coefficients of the derivative of p of the given degree, over its factorial.
-template <std::size_t Degree, class Scalar, std::size_t Count>
-std::array<Scalar, Count - Degree> derivative(const std::array<Scalar, Count>& p) {
-  std::array<Scalar, Count - Degree> result{};
-  for (std::size_t n = Degree; n < Count; ++n) {
-    std::size_t binomial = 1;
-    for (std::size_t k = 0; k < Degree; ++k) {
-      binomial = binomial * (n - k) / (k + 1);
-    }
-    result[n - Degree] = static_cast<Scalar>(binomial) * p[n];
-  }
-  return result;
-}
-
 /// A cubic by its Bernstein coefficients on [0, 1]: it lies between the least and the greatest.
 template <class Scalar>
 struct Cubic {
@@ -156,7 +142,7 @@ template <class Scalar, std::size_t Count>
 [[gnu::noinline]] Scalar first_reversal(const std::array<Scalar, Count>& p, Scalar direction,
                                         std::size_t zero_order, Scalar end) {
   if (zero_order < 2) {
-    const auto slopes = detail::derivative<1>(p);
+    const auto slopes = derivative<1>(p);
     const Scalar middle = numeric::half(end);
     const Scalar third = middle * direction * numeric::from_real<Scalar>(1.0 / 3.0);
     const Scalar first = direction * p[0];

@@ -130,8 +130,8 @@ class FrictionArcs {
       const bool to_end = x + width >= end;
       const Scalar next = to_end ? end : x + width;
       const Sample to = to_end ? last : sample(i, next, path_.velocity(next), friction(i, next));
-      const bool gentle = is_saturated(direction(i), from.friction) || is_gentle(from, to);
-      if (gentle || width <= negligible) {
+      const bool gentle = is_gentle(from, to);
+      if (gentle || is_saturated(direction(i), from.friction) || width <= negligible) {
         sum += gentle ? hermite(from, to, weight, slope) : trapezium(from, to, weight, slope);
         x = next;
         from = to;

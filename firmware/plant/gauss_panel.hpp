@@ -20,6 +20,7 @@ struct PanelLimits {
   Scalar velocity_share = Scalar(0);  ///< the most that friction can add to |V|
   Scalar slope_share = Scalar(0);     ///< and to |V'|
   Scalar path_error = Scalar(0);      ///< of the displacement of the linear motion
+  Scalar largest_offset = Scalar(0);  ///< of displacement and sliding, over the rate of the motion
   Scalar turn_error = Scalar(0);      ///< of the displacement at a reversal
   Scalar short_exponent = Scalar(0);  ///< kappa |travel| of a piece that fewer nodes resolve
   Scalar unresolved = Scalar(0);      ///< square of the highest Legendre coefficient, times length
@@ -48,7 +49,8 @@ class GaussPanel {
     }
     contact_ = {model.law.contact_stiffness,
                 -side_ * model.contact_force(motions.half_length * motions.half_length)};
-    return prepare(motions, limits, state) && follow(motions, limits, state.friction);
+    return moves_enough(motions, limits) && prepare(motions, limits, state) &&
+           follow(motions, limits, state.friction);
   }
 
   const State<Scalar>& end() const { return end_; }
@@ -63,7 +65,7 @@ class GaussPanel {
   Scalar slid(Scalar x) const { return slid_over(x + Scalar(1)); }
   Lanes slid(Lanes x) const { return slid_over(x + Scalar(1)); }
   Scalar sliding_rate(Scalar x) const { return sliding_[0] + sliding_[1] * (x + Scalar(1)); }
-  Scalar travel(Scalar x) const { return value_at<Scalar>(path_, numeric::broadcast(x))[0]; }
+  Scalar travel(Scalar x) const { return value_at(path_, numeric::broadcast(x))[0]; }
   Scalar travel_rate(Scalar x) const { return rate_at<Scalar>(path_, numeric::broadcast(x))[0]; }
 
  private:
@@ -187,6 +189,25 @@ class GaussPanel {
     return true;
   }
 
+  /// Where the oscillator hardly moves beside its own displacement or the sliding, the rounding of
+  /// those is an error of its motion; and where it stores little beside what the sliding spends,
+  /// that of phi is an error of its energy.
+  [[gnu::always_inline]] bool moves_enough(const Motions& motions,
+                                           const PanelLimits<Scalar>& limits) const {
+    Scalar offset = numeric::abs(sliding_[0]) + numeric::twice(numeric::abs(sliding_[1]));
+    Scalar rate = Scalar(0);
+    for (std::size_t m = 0; m < 2; ++m) {
+      const Scalar size = numeric::abs(share_[m]);
+      offset += size * motions.largest[m];
+      rate += size * motions.largest_rate[m];
+    }
+    if constexpr (Motions::is_driven) {
+      rate += numeric::abs(share_[2]) + numeric::abs(share_[3]);
+    }
+    return offset * numeric::max(rate, numeric::abs(contact_.force)) <=
+           limits.largest_offset * (rate * rate);
+  }
+
   /// Everything that does not depend on friction.
   [[gnu::always_inline]] bool prepare(const Motions& motions, const PanelLimits<Scalar>& limits,
                                       const State<Scalar>& state) {
@@ -273,7 +294,7 @@ class GaussPanel {
   }
 
   [[gnu::always_inline]] void prepare_turns(const Motions& motions, Lanes x, Turns& turns) const {
-    turns.travel = value_at<Scalar>(path_, x);
+    turns.travel = value_at(path_, x);
     turns.rate = rate_at<Scalar>(path_, x);
     turns.c = motions.slow_c(x);
     turns.s = motions.slow_s(x);

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 
+#include "firmware/numeric/lane_group.hpp"
 #include "firmware/numeric/lanes.hpp"
 #include "firmware/numeric/scalar.hpp"
 #include "firmware/plant/gauss_nodes.hpp"
@@ -73,13 +74,14 @@ struct GaussPiece {
     constexpr auto& gauss = gauss_nodes<Scalar, Count>;
     const Scalar rate = contact_stiffness * direction;
     is_short = Count < Nodes;
-    for (std::size_t v = 0; v < Count / width; ++v) {
-      place[v] = begin + length * numeric::load(&gauss.node[v * width]);
-      travel[v] = value_at<Scalar>(path, place[v]);
-      c[v] = motions.slow_c(place[v]);
-      s[v] = motions.slow_s(place[v]);
-      decay[v] = numeric::moderate_decay<Scalar>(rate * (travel[v] - begin_travel));
-    }
+    constexpr std::size_t vectors = Count / width;
+    const auto x = begin + length * numeric::load_group<vectors>(gauss.node.data());
+    const auto path_there = value_at(path, x);
+    set<Count>(place, x);
+    set<Count>(travel, path_there);
+    set<Count>(c, motions.slow_c(x));
+    set<Count>(s, motions.slow_s(x));
+    set<Count>(decay, numeric::moderate_decay<Scalar>(rate * (path_there - begin_travel)));
   }
 
   /// Finds phi with `sweeps` sweeps, friction, turned and before being set. Returns the reaction at
@@ -213,6 +215,14 @@ struct GaussPiece {
   }
 
  private:
+  template <std::size_t Count>
+  [[gnu::always_inline]] static void set(Values& values,
+                                         const numeric::LaneGroup<Scalar, Count / width>& group) {
+    for (std::size_t v = 0; v < Count / width; ++v) {
+      values[v] = group.part[v];
+    }
+  }
+
   template <std::size_t Count, class Show>
   [[gnu::always_inline]] void for_each_of(const Show& show) const {
     constexpr std::size_t half = Count / width / 2;

@@ -99,7 +99,7 @@ struct PanelMotions {
     }
     for (std::size_t m = 0; m < 2; ++m) {
       largest[m] = bound(series[m]);
-      largest_rate[m] = bound(derivative(series[m]));
+      largest_rate[m] = bound(derivative<1>(series[m]));
       slow_error += shorten(series[m], slow[m]);
       shorten(waves[m], harmonic[m]);
       harmonic_end[m] = evaluate(waves[m], Scalar(1));
@@ -107,26 +107,28 @@ struct PanelMotions {
   }
 
   /// C(x) and S(x), to the lower degree.
-  [[gnu::always_inline]] Lanes slow_c(Lanes x) const {
+  template <class Numbers>
+  [[gnu::always_inline]] Numbers slow_c(Numbers x) const {
     if constexpr (is_split) {
-      return half_value<Scalar, Parity::even>(slow[0], x * x);
+      return half_value<Parity::even>(slow[0], x * x);
     } else {
-      return value_at<Scalar>(slow[0], x);
+      return value_at(slow[0], x);
     }
   }
-  [[gnu::always_inline]] Lanes slow_s(Lanes x) const {
+  template <class Numbers>
+  [[gnu::always_inline]] Numbers slow_s(Numbers x) const {
     if constexpr (is_split) {
-      return x * half_value<Scalar, Parity::odd>(slow[1], x * x);
+      return x * half_value<Parity::odd>(slow[1], x * x);
     } else {
-      return value_at<Scalar>(slow[1], x);
+      return value_at(slow[1], x);
     }
   }
 
   [[gnu::always_inline]] Lanes cosine(Lanes x) const {
-    return half_value<Scalar, Parity::even>(harmonic[0], x * x);
+    return half_value<Parity::even>(harmonic[0], x * x);
   }
   [[gnu::always_inline]] Lanes sine(Lanes x) const {
-    return x * half_value<Scalar, Parity::odd>(harmonic[1], x * x);
+    return x * half_value<Parity::odd>(harmonic[1], x * x);
   }
 
   /// f over the Wronskian C S' - C' S = exp(-D x), where C and S are known.
@@ -202,19 +204,11 @@ struct PanelMotions {
     return y;
   }
 
-  static Series derivative(const Series& p) {
-    Series d{};
-    for (std::size_t n = 1; n < terms; ++n) {
-      d[n - 1] = static_cast<Scalar>(n) * p[n];
-    }
-    return d;
-  }
-
   void tabulate(std::size_t m, const Series& y) {
-    const Series first = derivative(y);
-    const Series second = derivative(first);
-    const Series third_derivative = derivative(second);
-    const Series fourth_derivative = derivative(third_derivative);
+    const auto first = derivative<1>(y);
+    const auto second = derivative<1>(first);
+    const auto third_derivative = derivative<1>(second);
+    const auto fourth_derivative = derivative<1>(third_derivative);
     for (std::size_t g = 0; g < PanelGrid::points; ++g) {
       rate[m][g] = evaluate(first, grid(g));
       bend[m][g] = evaluate(second, grid(g));
@@ -231,8 +225,9 @@ struct PanelMotions {
   }
 
   /// Of |p| on the panel: the largest value on the grid, and what a parabola can hide between.
-  static Scalar bound(const Series& p) {
-    const Series second = derivative(derivative(p));
+  template <std::size_t Count>
+  static Scalar bound(const std::array<Scalar, Count>& p) {
+    const auto second = derivative<1>(derivative<1>(p));
     Scalar largest = Scalar(0);
     Scalar bend_bound = Scalar(0);
     for (std::size_t g = 0; g < PanelGrid::points; ++g) {

@@ -32,6 +32,18 @@ constexpr Scalar reciprocal(std::size_t n) {
   return detail::reciprocals<Scalar>[n];
 }
 
+/// x^N.
+template <std::size_t N, class Scalar>
+constexpr Scalar power(Scalar x) {
+  if constexpr (N == 0) {
+    return Scalar(1);
+  } else if constexpr (N % 2 == 1) {
+    return x * power<N - 1>(x);
+  } else {
+    return power<N / 2>(x * x);
+  }
+}
+
 /// Sum of p[n] x^(n - First), n >= First: four chains, one for each power modulo 4, do not wait for
 /// each other. Inlined by order: a call for each polynomial cost the solver a fifth of its time.
 template <std::size_t First, class Scalar, std::size_t Count>
@@ -54,6 +66,20 @@ template <std::size_t First, class Scalar, std::size_t Count>
 template <class Scalar, std::size_t Count>
 Scalar evaluate(const std::array<Scalar, Count>& p, Scalar x) {
   return evaluate_from<0>(p, x);
+}
+
+/// Coefficients of the derivative of p of the given degree, over its factorial.
+template <std::size_t Degree, class Scalar, std::size_t Count>
+std::array<Scalar, Count - Degree> derivative(const std::array<Scalar, Count>& p) {
+  std::array<Scalar, Count - Degree> result{};
+  for (std::size_t n = Degree; n < Count; ++n) {
+    std::size_t binomial = 1;
+    for (std::size_t k = 0; k < Degree; ++k) {
+      binomial = binomial * (n - k) / (k + 1);
+    }
+    result[n - Degree] = static_cast<Scalar>(binomial) * p[n];
+  }
+  return result;
 }
 
 /// Integral of p from 0 to x.

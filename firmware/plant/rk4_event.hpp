@@ -169,7 +169,7 @@ class Rk4Event {
   Scalar direction_of(const Interval<Scalar>& interval, Scalar offset,
                       const State<Scalar>& state) const {
     const Scalar sliding = interval.sliding_velocity + interval.sliding_acceleration * offset;
-    return sign(model_.contact_velocity(sliding, state.velocity));
+    return numeric::sign(model_.contact_velocity(sliding, state.velocity));
   }
 
   /// Takes a step again that slides the other way from its beginning, or that reverses.
@@ -183,10 +183,6 @@ class Rk4Event {
     if (course.reverses) {
       trial = part_before_reversal(interval, drive.begin, walk, state, trial, course.reversal);
     }
-  }
-
-  static Scalar sign(Scalar x) {
-    return static_cast<Scalar>(static_cast<int>(x > Scalar(0)) - static_cast<int>(x < Scalar(0)));
   }
 
   /// Which way a step slides, and when it turns.

@@ -9,14 +9,19 @@
 
 namespace sonoglide::plant {
 
-/// A finite state with |phi| <= 1 but for rounding.
+/// |phi| <= 1 but for rounding.
+template <class Scalar>
+inline constexpr Scalar largest_friction = Scalar(1) +
+                                           Scalar(64) * std::numeric_limits<Scalar>::epsilon();
+
+/// A finite state within that bound.
 template <class Scalar>
 Error check_state(const State<Scalar>& state) {
   if (!is_finite(state)) {
     return Error::not_finite;
   }
-  const Scalar bound = Scalar(1) + Scalar(64) * std::numeric_limits<Scalar>::epsilon();
-  return numeric::abs(state.friction) <= bound ? Error::none : Error::friction_bound_broken;
+  return numeric::abs(state.friction) <= largest_friction<Scalar> ? Error::none
+                                                                  : Error::friction_bound_broken;
 }
 
 /// Whether a step keeps the classical Runge–Kutta formula stable on the oscillator alone:

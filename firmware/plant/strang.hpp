@@ -7,13 +7,11 @@
 #include "firmware/numeric/float_elementary.hpp"
 #include "firmware/numeric/scalar.hpp"
 #include "firmware/plant/fixed_steps.hpp"
-#include "firmware/plant/friction_arcs.hpp"
 #include "firmware/plant/oscillator_flow.hpp"
 #include "firmware/plant/outcome.hpp"
 #include "firmware/plant/state.hpp"
 #include "firmware/plant/state_check.hpp"
 #include "firmware/plant/strang_step.hpp"
-#include "firmware/plant/velocity_path.hpp"
 
 namespace sonoglide::plant {
 
@@ -64,7 +62,13 @@ class Strang {
     typename Flow::Follower drive(interval);
     state.friction = model_.law.friction(Scalar(0), state.friction);
     for (std::uint32_t i = 0; i < count; ++i) {
-      step(interval, drive, length * static_cast<Scalar>(i), state, account, observer);
+      const StrangStep<Model> taken(model_, flow_, interval, drive, length * static_cast<Scalar>(i),
+                                    state);
+      state = taken.end();
+      account.add(taken);
+      observer(taken);
+      ++cost_.steps;
+      cost_.events += taken.reversals();
       const Error error = check_state(state);
       if (error != Error::none) {
         return {error, length * static_cast<Scalar>(i + 1)};
@@ -78,47 +82,6 @@ class Strang {
  private:
   using Law = typename Model::FrictionLaw;
   using Flow = OscillatorFlow<Model>;
-  using End = FlowEnd<Scalar>;
-  using Path = VelocityPath<Scalar>;
-
-  template <class Account, class Observer>
-  void step(const Interval<Scalar>& interval, typename Flow::Follower& drive, Scalar offset,
-            State<Scalar>& state, Account& account, Observer& observer) {
-    const Scalar length = flow_.length();
-    End from = flow_end(kicked(state), drive);
-    const Motion<Scalar> change = flow_.advance(from.state, drive);
-    End to = flow_end({from.state.displacement + change.displacement,
-                       from.state.velocity + change.velocity, state.friction},
-                      drive);
-
-    const Path velocity({from.state.velocity, from.acceleration},
-                        {to.state.velocity, to.acceleration}, change.displacement * flow_.rate(),
-                        length);
-    const Path sliding =
-        velocity.sliding(model_, interval.sliding_velocity + interval.sliding_acceleration * offset,
-                         interval.sliding_acceleration);
-    const FrictionArcs<Law> friction(model_.law, sliding, length, state.friction);
-    to.state.friction = friction.end_friction();
-    state = kicked(to.state);
-
-    const StrangStep<Model> taken(model_, interval, from, to, velocity, friction, offset, length);
-    account.add(taken);
-    observer(taken);
-    ++cost_.steps;
-    cost_.events += friction.reversals();
-  }
-
-  /// Friction for half a step.
-  State<Scalar> kicked(State<Scalar> state) const {
-    state.velocity -= numeric::half(flow_.length()) * model_.contact_force(state.friction);
-    return state;
-  }
-
-  End flow_end(const State<Scalar>& state, const typename Flow::Follower& drive) const {
-    const DriveForce<Scalar> force = drive.force();
-    const State<Scalar> free = {state.displacement, state.velocity, Scalar(0)};
-    return {state, force, model_.acceleration(force.value, free)};
-  }
 
   Model model_;
   Scalar step_ = Scalar(0);

@@ -57,6 +57,16 @@ class VelocityPath {
     return path;
   }
 
+  /// Second derivatives at the ends, times length^2.
+  struct Bends {
+    Scalar begin;
+    Scalar end;
+  };
+  Bends end_bends() const {
+    return {Scalar(12) * ((c_[0] - c_[1]) + (c_[2] - c_[1])),
+            Scalar(12) * ((c_[4] - c_[3]) + (c_[2] - c_[3]))};
+  }
+
   Scalar begin_velocity() const { return c_[0]; }
   Scalar end_velocity() const { return c_[4]; }
   Scalar velocity(Scalar x) const {
@@ -123,9 +133,6 @@ class VelocityPath {
   static constexpr Scalar quarter_ = numeric::from_real<Scalar>(1.0 / 4.0);
   static constexpr Scalar fifth_ = numeric::from_real<Scalar>(1.0 / 5.0);
 
-  static Scalar sign(Scalar c) {
-    return static_cast<Scalar>(static_cast<int>(c > Scalar(0)) - static_cast<int>(c < Scalar(0)));
-  }
   static Scalar fraction(std::uint32_t position) {
     return static_cast<Scalar>(position) * numeric::power_of_two<Scalar>(-10);
   }
@@ -162,7 +169,7 @@ class VelocityPath {
   static int sign_changes(const Coefficients& c, Scalar before) {
     int changes = 0;
     for (const Scalar value : c) {
-      const Scalar here = sign(value);
+      const Scalar here = numeric::sign(value);
       changes += here * before < Scalar(0) ? 1 : 0;
       before = here != Scalar(0) ? here : before;
     }
@@ -170,7 +177,7 @@ class VelocityPath {
   }
   static Scalar last_sign(const Coefficients& c, Scalar before) {
     for (const Scalar value : c) {
-      before = value != Scalar(0) ? sign(value) : before;
+      before = value != Scalar(0) ? numeric::sign(value) : before;
     }
     return before;
   }

@@ -10,23 +10,29 @@
 
 namespace sonoglide::hal::lockstep {
 
-/// | byte | sample frame                | drive frame                                |
-/// |------|-----------------------------|--------------------------------------------|
-/// | 0    | period, u32, from 0         | period of the sample                       |
-/// | 4    | friction_force, i32         | amplitude, i32                             |
-/// | 8    | sliding_velocity, i32       | state, limit, fault, 0                     |
-/// | 12   | force_at_rail, fresh, 0, 0  | count, u32: what the answer cost the board |
-///
-/// The count is in the unit of the board's counter, from the arrival of the sample frame to the
-/// drive frame being made up; 0 from a board without a counter.
+/// | byte | sample frame                | drive frame             |
+/// |------|-----------------------------|-------------------------|
+/// | 0    | period, u32, from 0         | period of the sample    |
+/// | 4    | friction_force, i32         | amplitude, i32          |
+/// | 8    | sliding_velocity, i32       | state, limit, fault, 0  |
+/// | 12   | force_at_rail, fresh, 0, 0  | cost of the step, u32   |
+/// | 16   |                             | cost of the answer, u32 |
 inline constexpr std::size_t sample_frame_size = 16;
-inline constexpr std::size_t drive_frame_size = 16;
+inline constexpr std::size_t drive_frame_size = 20;
+
+/// What an answer cost the board, in the unit of its counter and without reading it; 0 from a board
+/// that has none.
+struct Cost {
+  std::uint32_t step;    ///< from the sample handed over to the drive taken
+  std::uint32_t answer;  ///< from the arrival of the sample frame to the drive frame being made up
+};
 
 /// Over a serial line the board speaks first: this byte says that it hears.
 inline constexpr std::uint8_t greeting = 0xa5;
 
-using SampleFrame = std::array<std::uint8_t, sample_frame_size>;
-using DriveFrame = std::array<std::uint8_t, drive_frame_size>;
+/// Aligned, so that a processor without unaligned access takes it by words.
+struct alignas(std::uint32_t) SampleFrame : std::array<std::uint8_t, sample_frame_size> {};
+struct alignas(std::uint32_t) DriveFrame : std::array<std::uint8_t, drive_frame_size> {};
 
 namespace detail {
 
@@ -37,11 +43,9 @@ inline void put(std::uint32_t word, std::uint8_t* bytes) {
 }
 
 inline std::uint32_t get(const std::uint8_t* bytes) {
-  std::uint32_t word = 0;
-  for (std::size_t i = 4; i > 0; --i) {
-    word = word << 8 | bytes[i - 1];
-  }
-  return word;
+  // Written out, it is seen to be one load where the processor has such a load.
+  return bytes[0] | std::uint32_t{bytes[1]} << 8 | std::uint32_t{bytes[2]} << 16 |
+         std::uint32_t{bytes[3]} << 24;
 }
 
 }  // namespace detail
@@ -72,12 +76,13 @@ inline DriveFrame encode(std::uint32_t period, const Drive& drive) {
   return frame;
 }
 
-inline void put_count(std::uint32_t count, DriveFrame& frame) {
-  detail::put(count, frame.data() + 12);
+inline void put_cost(const Cost& cost, DriveFrame& frame) {
+  detail::put(cost.step, frame.data() + 12);
+  detail::put(cost.answer, frame.data() + 16);
 }
 
-inline std::uint32_t count(const DriveFrame& frame) {
-  return detail::get(frame.data() + 12);
+inline Cost cost_of(const DriveFrame& frame) {
+  return {detail::get(frame.data() + 12), detail::get(frame.data() + 16)};
 }
 
 inline Sample sample_of(const SampleFrame& frame) {

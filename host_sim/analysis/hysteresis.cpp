@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "host_sim/scene/plant_scales.hpp"
+
 namespace sonoglide::analysis {
 namespace {
 
@@ -31,7 +33,7 @@ std::vector<std::size_t> last_upward_crossings(const std::vector<double>& veloci
 
 HysteresisLoop last_cycle(const loop::Recording& recording, scene::SignConvention convention,
                           std::size_t samples_per_cycle) {
-  const double sign = convention == scene::SignConvention::dissipative ? 1.0 : -1.0;
+  const double sign = scene::vibration_sign(convention);
   const std::vector<double> velocity = contact_velocity(recording, sign);
   const std::vector<std::size_t> crossings = last_upward_crossings(velocity);
   const bool reverses = crossings.size() == 2;

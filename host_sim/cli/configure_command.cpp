@@ -38,7 +38,9 @@ void configure(const ConfigureOptions& options) {
   report::OutputFolder folder(out);
   folder.write(image::controller_header_name,
                with_places(options.scene, [&] { return image::controller_header(scene); }));
-  if (!options.plant.empty()) {
+  if (options.plant.empty()) {
+    folder.withdraw(image::plant_header_name);
+  } else {
     const scene::Arithmetic arithmetic =
         options.plant == "q31" ? scene::Arithmetic::q31 : scene::Arithmetic::float32;
     folder.write(image::plant_header_name, with_places(options.scene, [&] {

@@ -17,8 +17,8 @@ struct PaperOptions {
 /// Adds the command to the program; `options` outlives it and is filled in by parsing.
 CLI::App* add_paper_command(CLI::App& program, PaperOptions& options);
 
-/// Throws report::OutputError, plot::PlotError, loop::ComputationError; in each case nothing was
-/// written.
+/// Throws report::OutputError, process::ProcessError, loop::ComputationError; in each case nothing
+/// was written.
 void paper(const PaperOptions& options);
 
 }  // namespace sonoglide::cli

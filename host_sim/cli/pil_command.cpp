@@ -4,8 +4,9 @@
 
 #include <cstdio>
 #include <filesystem>
-#include <vector>
+#include <string>
 
+#include "host_sim/cli/board_option.hpp"
 #include "host_sim/cli/interruption.hpp"
 #include "host_sim/cli/output_option.hpp"
 #include "host_sim/cli/placed_error.hpp"
@@ -14,16 +15,21 @@
 #include "host_sim/emulator/board_list.hpp"
 #include "host_sim/image/board_arithmetic.hpp"
 #include "host_sim/image/controller_header.hpp"
-#include "host_sim/image/image_builder.hpp"
-#include "host_sim/image/measure_image.hpp"
 #include "host_sim/loop/run.hpp"
-#include "host_sim/pil/image_control.hpp"
-#include "host_sim/process/find_program.hpp"
+#include "host_sim/pil/run_image.hpp"
 #include "host_sim/report/run_report.hpp"
 #include "host_sim/scene/reader.hpp"
 
 namespace sonoglide::cli {
 namespace {
+
+loop::RunResult compute(const scene::Scene& scene, const emulator::EmulatedBoard& board,
+                        const std::string& header, report::RunReport& report, bool quiet,
+                        const Interruption& interruption) {
+  ProgressBar bar(stderr, !quiet);
+  return pil::run_image(scene, board, header, run_watch(report, bar, interruption),
+                        [&] { interruption.check(); });
+}
 
 std::string header_for(const scene::Scene& scene, const emulator::EmulatedBoard& board,
                        const std::string& path) {
@@ -31,43 +37,6 @@ std::string header_for(const scene::Scene& scene, const emulator::EmulatedBoard&
     image::require_arithmetic(scene, board);
     return image::controller_header(scene);
   });
-}
-
-/// What would stop the run later stops it before anything is built.
-void require_emulator(const emulator::EmulatedBoard& board) {
-  const std::string program(board.emulator);
-  process::require_program(program,
-                           program == "qemu-system-arm" ? "qemu-system-arm" : "qemu-system-misc");
-}
-
-loop::RunResult compute(const scene::Scene& scene, const emulator::EmulatedBoard& board,
-                        const std::filesystem::path& image, report::RunReport& report, bool quiet,
-                        const Interruption& interruption) {
-  ProgressBar bar(stderr, !quiet);
-  pil::ImageControl controller(board, image, [&] { interruption.check(); });
-  loop::RunResult result = loop::run(scene, controller, run_watch(report, bar, interruption));
-  result.image = controller.shut_down();
-  return result;
-}
-
-void add_cost(const image::ImageCost& cost, loop::ImageRecord& record) {
-  record.flash_bytes = cost.size.flash_bytes;
-  record.ram_bytes = cost.size.ram_bytes;
-  record.stack_unbounded_by = cost.stack.unbounded_by;
-  if (cost.stack.unbounded_by.empty()) {
-    record.stack_bytes_bound = cost.stack.bytes;
-  }
-}
-
-std::string check_board(const std::string& name) {
-  if (emulator::find_board(name) != nullptr) {
-    return {};
-  }
-  std::string allowed;
-  for (const emulator::EmulatedBoard& board : emulator::emulated_boards()) {
-    allowed += fmt::format("{}{}", allowed.empty() ? "" : ", ", board.name);
-  }
-  return fmt::format("\"{}\" is no board; allowed: {}", name, allowed);
 }
 
 }  // namespace
@@ -100,11 +69,7 @@ void pil(const PilOptions& options) {
   require_emulator(board);
   const Interruption interruption;
   report::RunReport report(out, scene);
-  const process::Attention attention = [&] { interruption.check(); };
-  const std::filesystem::path image = image::build_image(board, header, attention);
-  const image::ImageCost cost = image::measure_image(image, board, attention);
-  loop::RunResult result = compute(scene, board, image, report, options.quiet, interruption);
-  add_cost(cost, *result.image);
+  const loop::RunResult result = compute(scene, board, header, report, options.quiet, interruption);
   report.finish(result);
   if (!options.quiet) {
     fmt::print("{}", report::run_text(scene, result, report.findings(), out));

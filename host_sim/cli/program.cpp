@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <exception>
 
+#include "host_sim/cli/arithmetic_command.hpp"
 #include "host_sim/cli/configure_command.hpp"
 #include "host_sim/cli/exit_code.hpp"
 #include "host_sim/cli/paper_command.hpp"
@@ -41,6 +42,7 @@ void parse_and_run(int argument_count, const char* const* arguments) {
   PaperOptions paper_options;
   WorkPrecisionOptions work_precision_options;
   StabilityOptions stability_options;
+  ArithmeticOptions arithmetic_options;
   add_run_command(program, run_options)->callback([&] { run(run_options); });
   add_pil_command(program, pil_options)->callback([&] { pil(pil_options); });
   add_configure_command(program, configure_options)->callback([&] {
@@ -54,6 +56,9 @@ void parse_and_run(int argument_count, const char* const* arguments) {
   });
   add_stability_command(program, stability_options)->callback([&] {
     stability(stability_options);
+  });
+  add_arithmetic_command(program, arithmetic_options)->callback([&] {
+    arithmetic(arithmetic_options);
   });
   try {
     program.parse(argument_count, arguments);

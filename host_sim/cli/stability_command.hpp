@@ -15,7 +15,7 @@ struct StabilityOptions {
 /// Adds the command to the program; `options` outlives it and is filled in by parsing.
 CLI::App* add_stability_command(CLI::App& program, StabilityOptions& options);
 
-/// Throws report::OutputError, plot::PlotError; in each case nothing was written.
+/// Throws report::OutputError, process::ProcessError; in each case nothing was written.
 void stability(const StabilityOptions& options);
 
 }  // namespace sonoglide::cli

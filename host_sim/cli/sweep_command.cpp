@@ -54,8 +54,9 @@ CLI::App* add_sweep_command(CLI::App& program, SweepOptions& options) {
       ->add_option(
           "--vary", options.vary,
           "A key and its values, evenly spaced or, with :log, by equal factors, e.g. "
-          "friction.contact_stiffness_N_per_m=1e4:1e6:32:log; repeatable, the first key "
-          "changes slowest. velocity_ratio stands for sliding velocity over peak vibration "
+          "friction.contact_stiffness_N_per_m=1e4:1e6:32:log; of one value FROM is TO; repeatable, "
+          "the first key changes slowest. velocity_ratio stands for sliding velocity over peak "
+          "vibration "
           "velocity of the steady state without friction, Fe w / |Ks - m w^2 + i c w|")
       ->required()
       ->type_name("KEY=FROM:TO:COUNT[:log]")

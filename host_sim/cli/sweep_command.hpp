@@ -21,7 +21,7 @@ struct SweepOptions {
 CLI::App* add_sweep_command(CLI::App& program, SweepOptions& options);
 
 /// Throws scene::SceneError and CLI::ValidationError, nothing was written then;
-/// report::OutputError, plot::PlotError.
+/// report::OutputError, process::ProcessError.
 void sweep(const SweepOptions& options);
 
 }  // namespace sonoglide::cli

@@ -16,8 +16,8 @@ struct WorkPrecisionOptions {
 /// Adds the command to the program; `options` outlives it and is filled in by parsing.
 CLI::App* add_work_precision_command(CLI::App& program, WorkPrecisionOptions& options);
 
-/// Throws scene::SceneError, loop::ComputationError, report::OutputError, plot::PlotError; in each
-/// case nothing was written.
+/// Throws scene::SceneError, loop::ComputationError, report::OutputError, process::ProcessError; in
+/// each case nothing was written.
 void work_precision(const WorkPrecisionOptions& options);
 
 }  // namespace sonoglide::cli

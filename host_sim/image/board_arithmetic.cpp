@@ -22,9 +22,10 @@ void require_arithmetic(const scene::Scene& scene, const emulator::EmulatedBoard
   }
   throw scene::ConfigurationError(
       "controller.arithmetic",
-      fmt::format("float64 has no hardware on {} ({}); allowed: \"float32\", \"q31\", or a board "
-                  "that has it: {}",
-                  board.name, board.core, capable));
+      fmt::format(
+          "float64 has no hardware on {} ({}); allowed: \"float32\", \"q31\", \"q15\", or a "
+          "board that has it: {}",
+          board.name, board.core, capable));
 }
 
 }  // namespace sonoglide::image

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "firmware/encoding/crc32.hpp"
+#include "firmware/numeric/accumulator.hpp"
 #include "firmware/numeric/scalar.hpp"
 #include "host_sim/image/float_number.hpp"
 #include "host_sim/loop/carrier_grid.hpp"
@@ -16,32 +17,45 @@
 namespace sonoglide::image {
 namespace {
 
-/// How the scalar is written: its type, and a number of it, bit for bit.
+/// How the scalar is written: its type, and a number of it or of its accumulator, bit for bit.
 struct ScalarText {
   const char* type;
   const char* header;
   std::string (*number)(double value);
+  std::string (*accumulated)(double value);
 };
 
 std::string double_number(double value) {
   return fmt::format("{:a}", value);
 }
 
-std::string q31_number(double value) {
-  return fmt::format("Scalar::from_raw({})",
-                     numeric::from_real<numeric::Q31<numeric::Saturating>>(value).raw());
+using Q31 = numeric::Q31<numeric::Saturating>;
+using Q15 = numeric::Q15<numeric::Saturating>;
+
+template <class Fixed>
+std::string fixed_number(double value) {
+  return fmt::format("Scalar::from_raw({})", numeric::from_real<Fixed>(value).raw());
+}
+
+std::string q15_accumulated(double value) {
+  return fmt::format("numeric::Accumulator<Scalar>::from_raw({})",
+                     numeric::from_real<numeric::Accumulator<Q15>>(value).raw());
 }
 
 ScalarText scalar_text(scene::Arithmetic arithmetic) {
   switch (arithmetic) {
     case scene::Arithmetic::float32:
-      return {"float", nullptr, float_number};
+      return {"float", nullptr, float_number, float_number};
     case scene::Arithmetic::q31:
-      return {"numeric::Q31<numeric::Saturating>", "firmware/numeric/fixed.hpp", q31_number};
+      return {"numeric::Q31<numeric::Saturating>", "firmware/numeric/fixed.hpp", fixed_number<Q31>,
+              fixed_number<Q31>};
+    case scene::Arithmetic::q15:
+      return {"numeric::Q15<numeric::Saturating>", "firmware/numeric/fixed.hpp", fixed_number<Q15>,
+              q15_accumulated};
     case scene::Arithmetic::float64:
       break;
   }
-  return {"double", nullptr, double_number};
+  return {"double", nullptr, double_number, double_number};
 }
 
 /// One part of the controller: its header, its type, and the initialiser of its parameters.
@@ -58,7 +72,7 @@ PartText friction_part(const scene::ControlDesign& design, const ScalarText& sca
   return {"learnt_friction", "LearntFriction<Scalar>",
           fmt::format("{{{}, {}, {}}}", design.calibration_settle_periods,
                       design.calibration_average_periods,
-                      scalar.number(1.0 / design.calibration_average_periods))};
+                      scalar.accumulated(1.0 / design.calibration_average_periods))};
 }
 
 PartText feedforward_part(const scene::Scene& scene, const scene::ControlDesign& design,
@@ -90,6 +104,9 @@ PartText shaper_part(const scene::ControlDesign& design, const ScalarText& scala
 }
 
 PartText regulator_part(const scene::ControlDesign& design, const ScalarText& scalar) {
+  if (design.integral_gain == 0.0) {
+    return {"no_feedback", "NoFeedback<Scalar>", "{}"};
+  }
   return {"integral_regulator", "IntegralRegulator<Scalar>",
           fmt::format("{{{}, {}}}", scalar.number(design.integral_gain), design.hold_periods)};
 }
@@ -148,7 +165,8 @@ std::uint32_t design_number(const std::string& types, const std::string& paramet
 
 std::string controller_header(const scene::Scene& scene) {
   if (!scene.controller) {
-    throw scene::ConfigurationError("controller", "missing; only a closed-loop scene has an image");
+    throw scene::ConfigurationError(
+        "controller", "missing; required: a table [controller], of which an image is made");
   }
   const scene::ControlDesign design = scene::design_control(scene);
   const ScalarText scalar = scalar_text(scene.controller->arithmetic);

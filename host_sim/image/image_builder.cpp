@@ -1,13 +1,11 @@
 #include "host_sim/image/image_builder.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
-#include <system_error>
 #include <vector>
 
 #include "host_sim/image/content_hash.hpp"
@@ -16,6 +14,7 @@
 #include "host_sim/process/find_program.hpp"
 #include "host_sim/process/process_error.hpp"
 #include "host_sim/process/run_tool.hpp"
+#include "host_sim/process/scratch_folder.hpp"
 
 namespace sonoglide::image {
 namespace {
@@ -91,30 +90,6 @@ std::string key_of(const emulator::EmulatedBoard& board, const std::string& head
   return fmt::format("{}-{:016x}", board.name, hash.value());
 }
 
-/// A folder of its own beside its target, gone with its owner unless it was moved there.
-class BuildFolder {
- public:
-  explicit BuildFolder(const fs::path& parent) {
-    fs::create_directories(parent);
-    std::string name = (parent / ".build-XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr) {
-      fail(name, "cannot be created");
-    }
-    path_ = name;
-  }
-  ~BuildFolder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  BuildFolder(const BuildFolder&) = delete;
-  BuildFolder& operator=(const BuildFolder&) = delete;
-
-  const fs::path& path() const { return path_; }
-
- private:
-  fs::path path_;
-};
-
 void compile(const emulator::EmulatedBoard& board, const std::string& header, const fs::path& tree,
              const fs::path& folder, const process::Attention& attention) {
   const fs::path controller = folder / controller_name;
@@ -142,7 +117,8 @@ fs::path build_image(const emulator::EmulatedBoard& board, const std::string& he
   const fs::path cache = cache_folder();
   fs::path image = cache / (key_of(board, header, tree, compiler) + ".elf");
   if (!fs::exists(image)) {
-    const BuildFolder folder(cache);
+    fs::create_directories(cache);
+    const process::ScratchFolder folder(cache);  // beside its target: the move there is a renaming
     compile(board, header, tree, folder.path(), attention);
     // Somebody else may have put the same image there meanwhile: that one serves as well.
     fs::rename(folder.path() / "build/bin" / fmt::format("{}.elf", controller_name), image);

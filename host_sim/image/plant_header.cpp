@@ -19,13 +19,14 @@
 #include "host_sim/loop/sensor.hpp"
 #include "host_sim/scene/configuration_error.hpp"
 #include "host_sim/scene/control_design.hpp"
+#include "host_sim/scene/names.hpp"
 
 namespace sonoglide::image {
 namespace {
 
 constexpr int steps_per_period = 8;
 
-void require(bool allowed, const char* key, const char* finding) {
+void require(bool allowed, const char* key, const std::string& finding) {
   if (!allowed) {
     throw scene::ConfigurationError(key, finding);
   }
@@ -35,24 +36,26 @@ double constant_sliding_m_per_s(const scene::Sliding& sliding) {
   const double velocity = sliding.profile.front().velocity_m_per_s;
   require(std::all_of(sliding.profile.begin(), sliding.profile.end(),
                       [&](const auto& point) { return point.velocity_m_per_s == velocity; }),
-          "sliding.profile", "changes; the plant of an image slides at one velocity");
+          "sliding.profile",
+          "changes, but the plant of an image slides at one velocity; allowed: velocity_m_per_s");
   return velocity;
 }
 
 void require_ideal(const scene::Sensor& sensor) {
-  require(!sensor.adc_bits, "sensor.adc_bits", "the sensor of a plant in an image is ideal");
-  require(sensor.force_noise_N == 0.0, "sensor.force_noise_N",
-          "the sensor of a plant in an image is ideal");
-  require(!sensor.force_bandwidth_Hz, "sensor.force_bandwidth_Hz",
-          "the sensor of a plant in an image is ideal");
-  require(sensor.delay_periods == 0, "sensor.delay_periods",
-          "the sensor of a plant in an image is ideal");
+  const std::string ideal = "the sensor of a plant in an image is ideal; ";
+  require(!sensor.adc_bits, "sensor.adc_bits", ideal + "remove it");
+  require(sensor.force_noise_N == 0.0, "sensor.force_noise_N", ideal + "allowed: 0");
+  require(!sensor.force_bandwidth_Hz, "sensor.force_bandwidth_Hz", ideal + "remove it");
+  require(sensor.delay_periods == 0, "sensor.delay_periods", ideal + "allowed: 0");
 }
 
 std::uint64_t whole_periods(const scene::Scene& scene) {
   const loop::CarrierGrid grid(scene);
   const std::uint64_t periods = grid.is_whole(grid.count() - 1) ? grid.count() : grid.count() - 1;
-  require(periods <= 0xffffffff, "run.duration_s", "has more carrier periods than an image counts");
+  constexpr std::uint32_t most = 0xffffffff;
+  require(periods <= most, "run.duration_s",
+          fmt::format("has more carrier periods than an image counts; allowed: up to {:g} s",
+                      most * grid.period_s()));
   return periods;
 }
 
@@ -77,9 +80,7 @@ struct SceneNumbers {
     sliding_velocity = sliding_m_per_s / scales.velocity_m_per_s();
     full_drive = codes.drive_amplitude_N / scales.force_N;
     sliding_code = loop::Sensor(scene.sensor, codes).sample(0.0, sliding_m_per_s).sliding_velocity;
-    initial = {scene.plant.initial_displacement_m / scales.length_m,
-               scene.plant.initial_velocity_m_per_s / scales.velocity_m_per_s(),
-               scene.friction.initial_force_N / scales.friction_N};
+    initial = scene::initial_state(scene, scales);
   }
 };
 
@@ -172,7 +173,8 @@ PlantText fixed_plant(const SceneNumbers& scene) {
   const double damping = scene.plant.numbers.damping;
   const double force_per_friction = scene.plant.scales.friction_N / scene.codes.force_N;
   require(force_per_friction < 1.0, "sensor.force_full_scale_N",
-          "is below the friction force; allowed: more");
+          fmt::format("is not above the friction force; allowed: more than {:g} N",
+                      scene.plant.scales.friction_N));
   const plant::FixedStrangParameters p = damping > 0.0
                                              ? designed(scene, plant::Damped<double>{damping})
                                              : designed(scene, plant::Undamped<double>{});
@@ -212,16 +214,19 @@ PlantText plant_text(const SceneNumbers& scene, scene::Arithmetic arithmetic) {
     case scene::Arithmetic::q31:
       return fixed_plant(scene);
     case scene::Arithmetic::float64:
+    case scene::Arithmetic::q15:
       break;
   }
-  throw scene::ConfigurationError("plant", "an image holds it in float32 or q31");
+  throw scene::ConfigurationError(
+      "plant", fmt::format("{} is not for the plant of an image; allowed: float32, q31",
+                           scene::name_of(scene::arithmetics, arithmetic)));
 }
 
 }  // namespace
 
 std::string plant_header(const scene::Scene& scene, scene::Arithmetic arithmetic) {
   require(scene.controller.has_value(), "controller",
-          "missing; only a closed-loop scene has an image");
+          "missing; required: a table [controller], of which an image is made");
   require(scene.friction.law == scene::FrictionLaw::dahl, "friction.law",
           "the plant of an image has Dahl friction; allowed: \"dahl\"");
   require_ideal(scene.sensor);

@@ -12,11 +12,16 @@ namespace {
 
 constexpr int never = 1000;
 
+/// Words of constants among the code, by address.
+using Literals = std::map<std::uint64_t, std::int32_t>;
+
 struct Function {
   std::uint64_t frame_bytes = 0;
+  std::map<std::string, std::int32_t> constants;  ///< in registers, as far as known
   std::set<std::string> calls;
   std::string doubt;              ///< why its depth is not known; empty where it is
   int since_scaled_by_4 = never;  ///< instructions since an index was
+  std::string popped;             ///< the register that has just been taken from the stack, alone
 };
 
 using Functions = std::map<std::string, Function>;
@@ -119,9 +124,19 @@ bool is_indirect(const Instruction& instruction) {
          into_counter || from_memory;
 }
 
-/// What a sum with the stack pointer as its result puts there.
-std::optional<std::uint64_t> added_bytes(const std::string& mnemonic, const std::string& operands) {
-  const auto constant = last_constant(operands);
+std::string last_operand(const std::string& operands) {
+  return operands.substr(operands.find_last_of(", ") + 1);
+}
+
+/// What a sum with the stack pointer as its result puts there. A small core takes a large frame
+/// from a register.
+std::optional<std::uint64_t> added_bytes(const std::string& mnemonic, const std::string& operands,
+                                         const Function& function) {
+  std::optional<std::int64_t> constant = last_constant(operands);
+  if (const auto known = function.constants.find(last_operand(operands));
+      known != function.constants.end()) {
+    constant = known->second;
+  }
   if (!constant) {
     return std::nullopt;
   }
@@ -130,7 +145,8 @@ std::optional<std::uint64_t> added_bytes(const std::string& mnemonic, const std:
 }
 
 /// What an instruction puts on the stack; nothing where that is not known beforehand.
-std::optional<std::uint64_t> pushed_bytes(const Instruction& instruction) {
+std::optional<std::uint64_t> pushed_bytes(const Instruction& instruction,
+                                          const Function& function) {
   const std::string& mnemonic = instruction.mnemonic;
   const std::string operands = without_comment(instruction.operands);
   const bool stores_list = mnemonic.find("stmdb") != std::string::npos;
@@ -147,7 +163,7 @@ std::optional<std::uint64_t> pushed_bytes(const Instruction& instruction) {
     return 0;
   }
   if (starts_with(mnemonic, "sub") || starts_with(mnemonic, "add")) {
-    return added_bytes(mnemonic, operands);
+    return added_bytes(mnemonic, operands, function);
   }
   const bool moved = starts_with(mnemonic, "mov") || (mnemonic == "mv" && operands != "sp,sp");
   return moved ? std::nullopt : std::optional<std::uint64_t>(0);
@@ -168,16 +184,74 @@ bool scales_by_4(const Instruction& instruction) {
          (ending == " #2" || ending == "0x2");
 }
 
-void take(const Instruction& instruction, const std::string& name, Function& function) {
-  const std::optional<std::uint64_t> pushed = pushed_bytes(instruction);
+/// The literal that `ldr r4, [pc, #16]  @ (18e8 <f+0x39c>)` loads.
+std::optional<std::int32_t> literal_of(const Instruction& instruction, const Literals& literals) {
+  const std::string& operands = instruction.operands;
+  const std::size_t place = operands.find("@ (");
+  if (!starts_with(instruction.mnemonic, "ldr") || operands.find("[pc,") == std::string::npos ||
+      place == std::string::npos) {
+    return std::nullopt;
+  }
+  const auto literal = literals.find(std::strtoul(operands.c_str() + place + 3, nullptr, 16));
+  return literal == literals.end() ? std::nullopt : std::optional(literal->second);
+}
+
+/// What a register holds after an instruction that names it first: a literal, a small constant, or
+/// that constant shifted.
+std::optional<std::int32_t> constant_left(const Instruction& instruction, const Literals& literals,
+                                          const std::optional<std::int32_t>& before) {
+  const auto operand = last_constant(without_comment(instruction.operands));
+  if (instruction.mnemonic == "movs" && operand) {
+    return static_cast<std::int32_t>(*operand);
+  }
+  if (instruction.mnemonic == "lsls" && operand && before) {
+    return *before << *operand;
+  }
+  return literal_of(instruction, literals);
+}
+
+/// Whatever is written to a register replaces what was known of it.
+void keep_constant(const Instruction& instruction, const Literals& literals, Function& function) {
+  const std::string written = instruction.operands.substr(0, instruction.operands.find(','));
+  const auto known = function.constants.find(written);
+  const auto left = constant_left(
+      instruction, literals,
+      known == function.constants.end() ? std::nullopt : std::optional(known->second));
+  if (left) {
+    function.constants[written] = *left;
+  } else {
+    function.constants.erase(written);
+  }
+}
+
+/// A small core whose return address lies under a caller's registers takes it to another register.
+bool is_return(const Instruction& jump, const Function& function) {
+  return jump.mnemonic == "bx" && jump.operands == function.popped;
+}
+
+void keep_popped(const Instruction& instruction, Function& function) {
+  const std::string& operands = instruction.operands;
+  if (instruction.mnemonic == "pop") {
+    function.popped = operands.substr(1, operands.size() - 2);
+  } else if (!starts_with(operands, "sp,")) {
+    function.popped.clear();
+  }
+}
+
+void take(const Instruction& instruction, const Literals& literals, const std::string& name,
+          Function& function) {
+  const std::optional<std::uint64_t> pushed = pushed_bytes(instruction, function);
+  keep_constant(instruction, literals, function);
   function.frame_bytes += pushed.value_or(0);
   if (!pushed) {
     function.doubt = name + " takes a variable amount of stack";
   }
   function.since_scaled_by_4 = scales_by_4(instruction) ? 0 : function.since_scaled_by_4 + 1;
-  if (is_indirect(instruction) && !is_switch(instruction, function)) {
+  if (is_indirect(instruction) && !is_switch(instruction, function) &&
+      !is_return(instruction, function)) {
     function.doubt = name + " jumps through a pointer";
   }
+  keep_popped(instruction, function);
   const std::optional<Target> target = target_of(instruction.operands);
   if (is_branch(instruction.mnemonic) && target &&
       (target->name != name || (links(instruction.mnemonic) && target->beginning))) {
@@ -194,7 +268,21 @@ std::optional<std::string> function_begun(const std::string& line) {
   return line.substr(bracket + 2, line.size() - bracket - 4);
 }
 
+/// Lines of the form `18e8: fffffbbc <tab> .word <tab> 0xfffffbbc`.
+Literals literals_in(const std::string& disassembly) {
+  Literals literals;
+  std::istringstream lines(disassembly);
+  for (std::string line; std::getline(lines, line);) {
+    if (const auto word = parse_instruction(line); word && word->mnemonic == ".word") {
+      literals[std::strtoul(line.c_str(), nullptr, 16)] =
+          static_cast<std::int32_t>(std::strtoul(word->operands.c_str(), nullptr, 16));
+    }
+  }
+  return literals;
+}
+
 Functions functions_in(const std::string& disassembly) {
+  const Literals literals = literals_in(disassembly);
   Functions functions;
   Functions::value_type* current = nullptr;
   std::istringstream lines(disassembly);
@@ -202,7 +290,7 @@ Functions functions_in(const std::string& disassembly) {
     if (const auto name = function_begun(line)) {
       current = &*functions.try_emplace(*name).first;
     } else if (const auto instruction = parse_instruction(line); instruction && current) {
-      take(*instruction, current->first, current->second);
+      take(*instruction, literals, current->first, current->second);
     }
   }
   return functions;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <optional>
 
 #include "host_sim/scene/scene.hpp"
 
@@ -42,6 +43,12 @@ class CarrierGrid {
   std::uint64_t at_or_after(double time_s) const {
     return static_cast<std::uint64_t>(
         std::ceil(std::max(0.0, time_s - rounding_s(time_s)) / period_s_));
+  }
+
+  /// The number of periods that a time is, where that is a whole one.
+  std::optional<std::uint64_t> whole_periods(double time_s) const {
+    const std::uint64_t over = over_at(time_s);
+    return over == at_or_after(time_s) ? std::optional(over) : std::nullopt;
   }
 
   /// Times closer than this are one: a step that is meant to fall on a carrier period misses it by

@@ -51,11 +51,10 @@ class ComposedPlant final : public PlantPort {
  public:
   using Model = typename Solver::Model;
 
-  /// @param precision  the tolerance of an adaptive method, the step of another, dimensionless
-  ComposedPlant(const scene::PlantScales& scales, const Model& model, double precision)
-      : scales_(scales), model_(model) {
-    solver_.configure(model, precision);
-  }
+  /// @param solver  configured for the model
+  ComposedPlant(const scene::PlantScales& scales, const Model& model, const Solver& solver,
+                const plant::State<double>& initial)
+      : scales_(scales), model_(model), solver_(solver), state_(initial) {}
 
   plant::Outcome<double> advance(const Stretch& stretch, EnergyBalance& energy) override {
     plant::NoObserver nobody;

@@ -44,7 +44,7 @@ void EnergyBalance::append(const EnergyBalance& next) {
 
 PowerRatios power_ratios(const EnergyBalance& energy, double friction_N,
                          scene::SignConvention convention, double period_s) {
-  const double sign = convention == scene::SignConvention::dissipative ? 1.0 : -1.0;
+  const double sign = scene::vibration_sign(convention);
   const double undriven_J = friction_N * energy.sliding_distance_m;
   const double drive_input = quotient(energy.drive_work_J, undriven_J);
   const double stored_as_printed =

@@ -7,17 +7,22 @@
 
 namespace sonoglide::loop {
 
-/// Instructions from the arrival of a sample to the command that answers it. Not cycles.
-struct StepInstructions {
+/// Over the carrier periods of a run. Instructions, not cycles.
+struct InstructionRange {
   std::uint32_t min;
   double mean;
   std::uint32_t max;
 };
 
+struct ImageInstructions {
+  InstructionRange step;    ///< from a sample's codes to the drive's
+  InstructionRange answer;  ///< the same, with the frames of lockstep decoded and made up
+};
+
 struct ImageRecord {
   std::string board;
   std::optional<double> exchanges_per_second;      ///< absent after fewer than two exchanges
-  std::optional<StepInstructions> instructions;    ///< absent without a single step
+  std::optional<ImageInstructions> instructions;   ///< absent without a single step
   std::uint64_t flash_bytes = 0;                   ///< code, constants, initial values
   std::uint64_t ram_bytes = 0;                     ///< static; the stack comes on top
   std::optional<std::uint64_t> stack_bytes_bound;  ///< worst case over all calls

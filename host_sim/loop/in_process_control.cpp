@@ -39,7 +39,7 @@ template <class Scalar>
 typename control::LearntFriction<Scalar>::Parameters parameters(
     const ControlDesign& design, Type<control::LearntFriction<Scalar>> /*part*/) {
   return {design.calibration_settle_periods, design.calibration_average_periods,
-          scaled<Scalar>(1.0 / design.calibration_average_periods)};
+          scaled<numeric::Accumulator<Scalar>>(1.0 / design.calibration_average_periods)};
 }
 
 template <class Scalar>
@@ -177,6 +177,8 @@ std::unique_ptr<ControlPort> make_control_port(const scene::Scene& scene,
       return make<float>(scene, design);
     case scene::Arithmetic::q31:
       return make<numeric::Q31<numeric::Counting>>(scene, design);
+    case scene::Arithmetic::q15:
+      return make<numeric::Q15<numeric::Counting>>(scene, design);
     case scene::Arithmetic::float64:
       break;
   }

@@ -16,9 +16,7 @@ struct PlantDescription {
       : scene(described),
         scales(scene::plant_scales(described)),
         numbers(scene::plant_numbers(described, scales)),
-        vibration_sign(
-            described.friction.sign_convention == scene::SignConvention::dissipative ? 1.0 : -1.0) {
-  }
+        vibration_sign(scene::vibration_sign(described.friction.sign_convention)) {}
 };
 
 }  // namespace sonoglide::loop

@@ -3,8 +3,10 @@
 
 #include <memory>
 #include <stdexcept>
+#include <type_traits>
 
 #include "firmware/friction/none.hpp"
+#include "firmware/plant/adaptive_strang.hpp"
 #include "firmware/plant/damping.hpp"
 #include "firmware/plant/drive.hpp"
 #include "firmware/plant/event_gauss.hpp"
@@ -12,7 +14,6 @@
 #include "firmware/plant/model.hpp"
 #include "firmware/plant/rk4.hpp"
 #include "firmware/plant/rk4_event.hpp"
-#include "firmware/plant/strang.hpp"
 #include "host_sim/loop/composed_plant.hpp"
 #include "host_sim/loop/plant_description.hpp"
 #include "host_sim/loop/plant_port.hpp"
@@ -22,15 +23,30 @@ namespace sonoglide::loop {
 template <class Model>
 using PlantMaker = std::unique_ptr<PlantPort> (*)(const PlantDescription&, const Model&);
 
+/// As the scene sets it.
+template <class Solver>
+Solver configured_solver(const PlantDescription& description, const typename Solver::Model& model) {
+  const scene::Solver& chosen = description.scene.solver;
+  const double step = chosen.step_s * description.scales.angular_frequency_rad_per_s;
+  Solver solver;
+  if constexpr (std::is_same_v<Solver, plant::AdaptiveStrang<typename Solver::Model>>) {
+    if (step > 0.0) {
+      solver.configure(model, chosen.tolerance, plant::max_steps_per_advance, step);
+      return solver;
+    }
+  }
+  solver.configure(model, scene::is_adaptive(chosen.method) ? chosen.tolerance : step);
+  return solver;
+}
+
 template <class Solver>
 std::unique_ptr<PlantPort> make_composed_plant(const PlantDescription& description,
                                                const typename Solver::Model& model) {
   const scene::Scene& scene = description.scene;
   const scene::PlantScales& scales = description.scales;
-  const double precision = scene::is_adaptive(scene.solver.method)
-                               ? scene.solver.tolerance
-                               : scene.solver.step_s * scales.angular_frequency_rad_per_s;
-  return std::make_unique<ComposedPlant<Solver>>(scales, model, precision);
+  return std::make_unique<ComposedPlant<Solver>>(scales, model,
+                                                 configured_solver<Solver>(description, model),
+                                                 scene::initial_state(scene, scales));
 }
 
 /// Null where the solver is not made for the model's friction law.
@@ -64,7 +80,7 @@ inline constexpr ListedSolver<Model> solver_list[] = {
     {scene::SolverMethod::event_taylor, 16, make_composed_plant<plant::EventTaylor<Model, 16>>},
     {scene::SolverMethod::event_gauss, 8, maker_if_solved<EventGauss8, Model>()},
     {scene::SolverMethod::event_gauss, 12, maker_if_solved<EventGauss12, Model>()},
-    {scene::SolverMethod::strang, 0, maker_if_solved<plant::Strang, Model>()},
+    {scene::SolverMethod::strang, 0, maker_if_solved<plant::AdaptiveStrang, Model>()},
     {scene::SolverMethod::rk4, 0, maker_if_solved<plant::Rk4, Model>()},
     {scene::SolverMethod::rk4_event, 0, maker_if_solved<plant::Rk4Event, Model>()},
 };

@@ -4,11 +4,11 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <complex>
 #include <memory>
 #include <optional>
+#include <string>
 
 #include "firmware/numeric/turn.hpp"
 #include "host_sim/loop/computation_error.hpp"

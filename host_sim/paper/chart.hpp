@@ -40,7 +40,7 @@ struct Chart {
 };
 
 /// One SVG picture, `columns` charts in a row.
-/// @throws plot::PlotError
+/// @throws process::ProcessError
 std::string draw(const std::vector<Chart>& charts, int columns = 2);
 
 }  // namespace sonoglide::paper

@@ -1,11 +1,10 @@
 #include "host_sim/paper/columns.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
-#include <iterator>
+#include <limits>
+
+#include "host_sim/report/csv_number.hpp"
 
 namespace sonoglide::paper {
 
@@ -19,13 +18,13 @@ std::string to_csv(const std::vector<Column>& columns) {
   for (const Column& column : columns) {
     rows = std::max(rows, column.values.size());
   }
+  constexpr int digits = 17;
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
   for (std::size_t row = 0; row < rows; ++row) {
     const char* separator = "";
     for (const Column& column : columns) {
-      text += separator;
-      if (row < column.values.size() && !std::isnan(column.values[row])) {
-        fmt::format_to(std::back_inserter(text), "{:.17g}", column.values[row]);
-      }
+      const double value = row < column.values.size() ? column.values[row] : none;
+      text += separator + report::csv_number(value, digits);
       separator = ",";
     }
     text += '\n';

@@ -11,7 +11,7 @@ struct Column {
   std::vector<double> values;
 };
 
-/// Numbers with 17 digits; an empty cell for NaN and below the end of a shorter column.
+/// Numbers with 17 digits; `nan` below the end of a shorter column.
 std::string to_csv(const std::vector<Column>& columns);
 
 }  // namespace sonoglide::paper

@@ -7,7 +7,7 @@
 
 namespace sonoglide::paper {
 
-/// Each computes what it shows. @throws plot::PlotError, loop::ComputationError
+/// Each computes what it shows. @throws process::ProcessError, loop::ComputationError
 Figure figure_2();   ///< friction ratio over velocity ratio, Coulomb and Dahl
 Figure figure_3();   ///< friction force over time, Coulomb and Dahl
 Figure figure_4();   ///< displacement and velocity over time

@@ -8,7 +8,6 @@
 
 #include "host_sim/loop/run.hpp"
 #include "host_sim/paper/table_1.hpp"
-#include "host_sim/sweep/velocity_ratio.hpp"
 
 namespace sonoglide::paper {
 namespace {
@@ -60,7 +59,7 @@ RatioCurve ratio_curve(const scene::Scene& scene, const std::vector<double>& sli
 }
 
 std::vector<double> sliding_velocities_m_per_s(const scene::Scene& scene) {
-  const double peak_m_per_s = sweep::peak_vibration_velocity_m_per_s(scene);
+  const double peak_m_per_s = peak_vibration_m_per_s(scene);
   std::vector<double> velocities;
   for (const double ratio : velocity_ratios()) {
     velocities.push_back(ratio * peak_m_per_s);

@@ -3,7 +3,6 @@
 #include "firmware/numeric/turn.hpp"
 #include "host_sim/scene/plant_scales.hpp"
 #include "host_sim/scene/reader.hpp"
-#include "host_sim/sweep/velocity_ratio.hpp"
 
 namespace sonoglide::paper {
 
@@ -38,8 +37,13 @@ scene::Scene table_1() {
 }
 
 scene::Scene at_velocity_ratio(scene::Scene scene, double velocity_ratio) {
-  scene.sliding.profile = {{0.0, velocity_ratio * sweep::peak_vibration_velocity_m_per_s(scene)}};
+  scene.sliding.profile = {{0.0, velocity_ratio * peak_vibration_m_per_s(scene)}};
   return scene;
+}
+
+double peak_vibration_m_per_s(const scene::Scene& scene) {
+  return scene::peak_vibration_m_per_s(scene.plant, scene.drive->frequency_Hz,
+                                       scene.drive->force_amplitude_N);
 }
 
 scene::Scene steady(scene::Scene scene) {

@@ -16,6 +16,9 @@ scene::Scene table_1();
 /// The scene with the sliding velocity that belongs to a velocity ratio.
 scene::Scene at_velocity_ratio(scene::Scene scene, double velocity_ratio);
 
+/// Of the vibration without a contact.
+double peak_vibration_m_per_s(const scene::Scene& scene);
+
 /// The scene for one carrier period on its steady orbit.
 scene::Scene steady(scene::Scene scene);
 

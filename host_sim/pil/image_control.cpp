@@ -10,7 +10,21 @@ namespace {
 
 constexpr std::chrono::seconds longest_silence{10};
 
+std::uint32_t instructions(std::uint32_t count, const emulator::EmulatedBoard& board) {
+  return static_cast<std::uint32_t>(std::lround(count / board.counts_per_instruction));
+}
+
 }  // namespace
+
+void InstructionCount::add(std::uint32_t instructions) {
+  least_ = std::min(least_, instructions);
+  most_ = std::max(most_, instructions);
+  sum_ += instructions;
+}
+
+loop::InstructionRange InstructionCount::over(std::uint64_t periods) const {
+  return {least_, static_cast<double>(sum_) / static_cast<double>(periods), most_};
+}
 
 ImageControl::ImageControl(const emulator::EmulatedBoard& board, const std::filesystem::path& image,
                            const process::Attention& attention)
@@ -25,7 +39,9 @@ hal::Drive ImageControl::exchange(const hal::Sample& sample) {
     first_answer_ = Clock::now();
   }
   ++exchanges_;
-  account_for(image_.latest_count());
+  const hal::lockstep::Cost cost = image_.latest_cost();
+  step_.add(instructions(cost.step, board_));
+  answer_.add(instructions(cost.answer, board_));
   return drive;
 }
 
@@ -45,19 +61,9 @@ loop::ImageRecord ImageControl::shut_down() {
     record.exchanges_per_second = static_cast<double>(exchanges_ - 1) / time.count();
   }
   if (exchanges_ > 0) {
-    record.instructions = {fewest_instructions_,
-                           static_cast<double>(all_instructions_) / static_cast<double>(exchanges_),
-                           most_instructions_};
+    record.instructions = {step_.over(exchanges_), answer_.over(exchanges_)};
   }
   return record;
-}
-
-void ImageControl::account_for(std::uint32_t count) {
-  const auto instructions =
-      static_cast<std::uint32_t>(std::lround(count / board_.counts_per_instruction));
-  fewest_instructions_ = std::min(fewest_instructions_, instructions);
-  most_instructions_ = std::max(most_instructions_, instructions);
-  all_instructions_ += instructions;
 }
 
 }  // namespace sonoglide::pil

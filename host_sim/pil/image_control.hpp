@@ -15,6 +15,19 @@
 
 namespace sonoglide::pil {
 
+/// What a stretch of an image takes, period by period.
+class InstructionCount {
+ public:
+  void add(std::uint32_t instructions);
+  /// @param periods  that were added
+  loop::InstructionRange over(std::uint64_t periods) const;
+
+ private:
+  std::uint32_t least_ = std::numeric_limits<std::uint32_t>::max();
+  std::uint32_t most_ = 0;
+  std::uint64_t sum_ = 0;
+};
+
 class ImageControl final : public loop::ControlPort {
  public:
   /// @param board      outlives this
@@ -42,16 +55,13 @@ class ImageControl final : public loop::ControlPort {
  private:
   using Clock = std::chrono::steady_clock;
 
-  void account_for(std::uint32_t count);
-
   const emulator::EmulatedBoard& board_;
   OneCore core_;
   ImageProcess image_;
   Clock::time_point first_answer_;
   std::uint64_t exchanges_ = 0;
-  std::uint32_t fewest_instructions_ = std::numeric_limits<std::uint32_t>::max();
-  std::uint32_t most_instructions_ = 0;
-  std::uint64_t all_instructions_ = 0;
+  InstructionCount step_;
+  InstructionCount answer_;
 };
 
 }  // namespace sonoglide::pil

@@ -49,7 +49,7 @@ hal::Drive ImageProcess::exchange(const hal::Sample& sample) {
     fail(fmt::format("answered as for carrier period {}", lockstep::period(answer)));
   }
   ++period_;
-  count_ = lockstep::count(answer);
+  cost_ = lockstep::cost_of(answer);
   return lockstep::drive_of(answer);
 }
 

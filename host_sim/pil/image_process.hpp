@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "hal/board.hpp"
+#include "hal/lockstep/frame.hpp"
 #include "host_sim/pil/emulator_error.hpp"
 #include "host_sim/process/child_process.hpp"
 #include "host_sim/process/pipe.hpp"
@@ -36,7 +37,7 @@ class ImageProcess {
   hal::Drive exchange(const hal::Sample& sample);
 
   /// What the latest answer cost, in the unit of the board's counter.
-  std::uint32_t latest_count() const { return count_; }
+  hal::lockstep::Cost latest_cost() const { return cost_; }
 
   /// Sends bytes as they are.
   void send(const std::uint8_t* bytes, std::size_t size);
@@ -63,7 +64,7 @@ class ImageProcess {
   process::Descriptor complaints_;
   std::optional<process::ChildProcess> child_;
   std::uint32_t period_ = 0;
-  std::uint32_t count_ = 0;
+  hal::lockstep::Cost cost_{};
 };
 
 }  // namespace sonoglide::pil

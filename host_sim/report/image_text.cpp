@@ -20,10 +20,12 @@ Table image_table(const loop::ImageRecord& record) {
     table.rows.push_back({name, std::move(value)});
   };
   if (record.instructions) {
-    row("Instructions of a control step (not cycles), smallest",
-        fmt::format("{}", record.instructions->min));
-    row("Mean", fmt::format("{:.1f}", record.instructions->mean));
-    row("Largest", fmt::format("{}", record.instructions->max));
+    const loop::InstructionRange& step = record.instructions->step;
+    row("Instructions of a control step (not cycles), smallest", fmt::format("{}", step.min));
+    row("Mean", fmt::format("{:.1f}", step.mean));
+    row("Largest", fmt::format("{}", step.max));
+    row("Mean with the frames of lockstep",
+        fmt::format("{:.1f}", record.instructions->answer.mean));
   }
   row("Flash [B]", fmt::format("{}", record.flash_bytes));
   row("Static RAM [B]", fmt::format("{}", record.ram_bytes));
@@ -40,7 +42,7 @@ std::string image_lines(const loop::ImageRecord& record) {
                   record.flash_bytes, record.ram_bytes, stack_text(record));
   if (record.instructions && record.exchanges_per_second) {
     text += fmt::format("a step takes {} to {} instructions (not cycles); {:.0f} exchanges/s\n",
-                        record.instructions->min, record.instructions->max,
+                        record.instructions->step.min, record.instructions->step.max,
                         *record.exchanges_per_second);
   }
   return text;

@@ -131,19 +131,14 @@ class Moves {
   std::vector<std::pair<fs::path, fs::path>> moves_;  // from, to
 };
 
-/// Puts a file in place and its predecessor, if there is one, aside.
-std::error_code replace(Moves& moves, const fs::path& file, const fs::path& place,
-                        const fs::path& aside) {
+/// Puts the file of this name, if there is one, aside.
+std::error_code clear(Moves& moves, const fs::path& place, const fs::path& aside) {
   std::error_code absent;
   if (fs::is_directory(place, absent)) {
     return std::make_error_code(std::errc::is_a_directory);
   }
-  if (fs::exists(fs::symlink_status(place, absent))) {
-    if (const std::error_code error = moves.move(place, aside)) {
-      return error;
-    }
-  }
-  return moves.move(file, place);
+  return fs::exists(fs::symlink_status(place, absent)) ? moves.move(place, aside)
+                                                       : std::error_code();
 }
 
 /// What the last failed system call said.
@@ -184,21 +179,30 @@ std::ostream& OutputFolder::open(const std::string& name) {
   return stage(name);
 }
 
-std::ofstream& OutputFolder::stage(const std::string& name) {
+void OutputFolder::withdraw(const std::string& name) {
+  require_unused(name);
+  withdrawn_.insert(name);
+}
+
+void OutputFolder::require_unused(const std::string& name) const {
   const fs::path path(name);
   if (name.empty() || path != path.filename() || name == "." || name == "..") {
     throw std::invalid_argument("'" + name + "' is not a plain file name");
   }
-  const auto [entry, is_new] = files_.try_emplace(name);
-  if (!is_new) {
-    throw std::invalid_argument("'" + name + "' is written twice");
+  if (files_.count(name) + withdrawn_.count(name) > 0) {
+    throw std::invalid_argument("'" + name + "' is named twice");
   }
+}
+
+std::ofstream& OutputFolder::stage(const std::string& name) {
+  require_unused(name);
+  std::ofstream& file = files_[name];
   errno = 0;
-  entry->second.open(staging_ / kNewFiles / name, std::ios::binary);
-  if (!entry->second) {
+  file.open(staging_ / kNewFiles / name, std::ios::binary);
+  if (!file) {
     fail(target_ / name, last_reason());
   }
-  return entry->second;
+  return file;
 }
 
 void OutputFolder::commit() {
@@ -237,12 +241,18 @@ void OutputFolder::place_new_folder() {
 
 void OutputFolder::replace_files() {
   Moves moves;
+  const auto clear_place = [&](const std::string& name) {
+    if (const std::error_code error = clear(moves, target_ / name, staging_ / kOldFiles / name)) {
+      fail(target_ / name, error);
+    }
+  };
+  for (const std::string& name : withdrawn_) {
+    clear_place(name);
+  }
   for (const auto& [name, file] : files_) {
-    const fs::path place = target_ / name;
-    const std::error_code error =
-        replace(moves, staging_ / kNewFiles / name, place, staging_ / kOldFiles / name);
-    if (error) {
-      fail(place, error);
+    clear_place(name);
+    if (const std::error_code error = moves.move(staging_ / kNewFiles / name, target_ / name)) {
+      fail(target_ / name, error);
     }
   }
   moves.keep();

@@ -5,6 +5,7 @@
 #include <fstream>
 #include <map>
 #include <ostream>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -22,8 +23,8 @@ class OutputError : public std::runtime_error {
 /// destructor removes every trace of them.
 ///
 /// The staging folder stands where the target will, so that moving is renaming: inside the target
-/// if that exists, else in its nearest parent that does. Files of the target that are not written
-/// again stay as they are.
+/// if that exists, else in its nearest parent that does. Files of the target that are neither
+/// written again nor withdrawn stay as they are.
 class OutputFolder {
  public:
   /// @throws OutputError if nothing can be written there; nothing has been changed then.
@@ -40,6 +41,10 @@ class OutputFolder {
   /// failure to write later is found by commit().
   std::ostream& open(const std::string& name);
 
+  /// Says that a file is not written this time: commit() takes away an older one of this name,
+  /// which would pass for a new one. @param name  as in write()
+  void withdraw(const std::string& name);
+
   /// Moves the staged files into place, creating missing parents; to be called once, last. An old
   /// file of the same name is replaced.
   /// @throws OutputError if a file could not be written or moved; the target is then as before.
@@ -48,6 +53,7 @@ class OutputFolder {
   const std::filesystem::path& target() const { return target_; }
 
  private:
+  void require_unused(const std::string& name) const;
   std::ofstream& stage(const std::string& name);
   void close_files();
   void place_new_folder();
@@ -56,6 +62,7 @@ class OutputFolder {
   std::filesystem::path target_;
   std::filesystem::path staging_;
   std::map<std::string, std::ofstream> files_;
+  std::set<std::string> withdrawn_;
 };
 
 }  // namespace sonoglide::report

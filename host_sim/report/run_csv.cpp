@@ -1,5 +1,6 @@
 #include "host_sim/report/run_csv.hpp"
 
+#include <cmath>
 #include <iterator>
 #include <utility>
 
@@ -14,6 +15,10 @@ namespace sonoglide::report {
 namespace {
 
 void append(fmt::memory_buffer& row, double value) {
+  if (std::isnan(value)) {
+    row.append(std::string_view("nan"));  // without the sign that a NaN may have
+    return;
+  }
   fmt::format_to(std::back_inserter(row), FMT_COMPILE("{}"), value);
 }
 

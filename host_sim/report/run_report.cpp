@@ -1,7 +1,5 @@
 #include "host_sim/report/run_report.hpp"
 
-#include <system_error>
-
 #include "host_sim/report/run_page.hpp"
 #include "host_sim/report/summary.hpp"
 
@@ -28,6 +26,9 @@ RunReport::RunReport(const std::filesystem::path& out, const scene::Scene& scene
   if (!scene.run.record.empty()) {
     periods_.emplace(open(folder_, periods_file));
     trace_.emplace(open(folder_, trace_file), scene.run.record);
+  } else {
+    folder_.withdraw(periods_file);
+    folder_.withdraw(trace_file);
   }
 }
 
@@ -43,13 +44,6 @@ void RunReport::finish(const loop::RunResult& result) {
   folder_.write("summary.json", text(summary(scene_, result, findings_)));
   folder_.write("report.html", to_html(run_page(scene_, result, findings_)));
   folder_.commit();
-  if (!trace_) {
-    // Those of an earlier run would pass for this one's.
-    for (const char* name : {periods_file, trace_file}) {
-      std::error_code ignored;
-      std::filesystem::remove(folder_.target() / name, ignored);
-    }
-  }
 }
 
 }  // namespace sonoglide::report

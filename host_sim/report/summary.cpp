@@ -92,18 +92,22 @@ ordered_json control(const scene::Scene& scene, const loop::RunResult& result,
       {"signals", signals}};
 }
 
-ordered_json instructions(const std::optional<loop::StepInstructions>& step) {
-  return step ? ordered_json{{"min", step->min}, {"mean", step->mean}, {"max", step->max}}
-              : ordered_json(nullptr);
+ordered_json instructions(const loop::InstructionRange& range) {
+  return {{"min", range.min}, {"mean", range.mean}, {"max", range.max}};
 }
 
 ordered_json image(const loop::ImageRecord& record) {
   ordered_json json = {{"board", record.board},
                        {"exchanges_per_second", number(record.exchanges_per_second)},
-                       {"instructions_per_step", instructions(record.instructions)},
+                       {"instructions_per_step", nullptr},
+                       {"instructions_per_answer", nullptr},
                        {"flash_bytes", record.flash_bytes},
                        {"ram_bytes", record.ram_bytes},
                        {"stack_bytes_bound", nullptr}};
+  if (record.instructions) {
+    json["instructions_per_step"] = instructions(record.instructions->step);
+    json["instructions_per_answer"] = instructions(record.instructions->answer);
+  }
   if (record.stack_bytes_bound) {
     json["stack_bytes_bound"] = *record.stack_bytes_bound;
   } else {

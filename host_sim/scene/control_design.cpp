@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "firmware/control/controller.hpp"
 #include "firmware/control/friction_level.hpp"
 #include "firmware/numeric/float_elementary.hpp"
 #include "firmware/numeric/turn.hpp"
@@ -19,7 +20,6 @@ namespace {
 
 /// The controller's resolution ends here, per unit.
 constexpr double smallest_friction = control::FrictionLevel<double>::smallest();
-constexpr double smallest_speed_floor = 1e-4;
 
 /// What the controller takes the plant to be.
 struct BelievedPlant {
@@ -142,7 +142,7 @@ double default_speed_floor(const Scene& scene, const BelievedPlant& plant,
       presliding_m(plant) / (presliding_periods * scales.carrier_period_s);
   const double highest =
       0.5 * std::min(fastest_sliding_m_per_s(scene.sliding), scales.velocity_m_per_s);
-  return std::max(smallest_speed_floor * scales.velocity_m_per_s,
+  return std::max(control::smallest_speed_floor * scales.velocity_m_per_s,
                   std::min(forgets_m_per_s, highest));
 }
 
@@ -246,7 +246,7 @@ ControlDesign design_control(const Scene& scene) {
   const double speed_floor_m_per_s = scene.controller->speed_floor_m_per_s.value_or(
       default_speed_floor(scene, plant, design.scales));
   design.speed_floor = per_unit(speed_floor_m_per_s, design.scales.velocity_m_per_s,
-                                smallest_speed_floor, "controller.speed_floor_m_per_s",
+                                control::smallest_speed_floor, "controller.speed_floor_m_per_s",
                                 "is {:.3g} of the peak vibration velocity at full drive");
   check_converter(scene, plant);
   const Mode mode = natural_mode(plant, design.scales.carrier_period_s);

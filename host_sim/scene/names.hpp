@@ -47,9 +47,10 @@ inline constexpr std::array<Named<Channel>, 5> channels = {{
     {"sliding_velocity_m_per_s", Channel::sliding_velocity},
 }};
 
-inline constexpr std::array<Named<Arithmetic>, 3> arithmetics = {{
+inline constexpr std::array<Named<Arithmetic>, 4> arithmetics = {{
     {"float32", Arithmetic::float32},
     {"q31", Arithmetic::q31},
+    {"q15", Arithmetic::q15},
     {"float64", Arithmetic::float64},
 }};
 

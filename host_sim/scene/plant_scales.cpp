@@ -57,6 +57,11 @@ double dynamic_stiffness_N_per_m(const Plant& plant, double omega_rad_per_s) {
   return numeric::sqrt(reactive * reactive + resistive * resistive);
 }
 
+double peak_vibration_m_per_s(const Plant& plant, double frequency_Hz, double force_amplitude_N) {
+  const double omega = numeric::two_pi * frequency_Hz;
+  return force_amplitude_N * omega / dynamic_stiffness_N_per_m(plant, omega);
+}
+
 double friction_limit_N(const Friction& friction) {
   return friction.coefficient * friction.normal_force_N;
 }
@@ -77,6 +82,12 @@ PlantNumbers plant_numbers(const Scene& scene, const PlantScales& scales) {
       scene.plant.stiffness_N_per_m / (inertia * omega), scene.plant.damping_N_s_per_m / inertia,
       scales.friction_N / scales.force_N,
       dahl ? scene.friction.contact_stiffness_N_per_m * scales.length_m / scales.friction_N : 0.0};
+}
+
+plant::State<double> initial_state(const Scene& scene, const PlantScales& scales) {
+  return {scene.plant.initial_displacement_m / scales.length_m,
+          scene.plant.initial_velocity_m_per_s / scales.velocity_m_per_s(),
+          scales.friction_N > 0.0 ? scene.friction.initial_force_N / scales.friction_N : 0.0};
 }
 
 }  // namespace sonoglide::scene

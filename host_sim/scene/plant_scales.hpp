@@ -2,6 +2,7 @@
 /// scaled numbers.
 #pragma once
 
+#include "firmware/plant/state.hpp"
 #include "host_sim/scene/scene.hpp"
 
 namespace sonoglide::scene {
@@ -28,9 +29,22 @@ struct PlantNumbers {
 PlantScales plant_scales(const Scene& scene);
 PlantNumbers plant_numbers(const Scene& scene, const PlantScales& scales);
 
+/// Where the run begins, in the same units.
+plant::State<double> initial_state(const Scene& scene, const PlantScales& scales);
+
+/// σ in V = Vt + σ x': +1 dissipative, −1 as printed.
+constexpr double vibration_sign(SignConvention convention) {
+  return convention == SignConvention::dissipative ? 1.0 : -1.0;
+}
+
 /// |Ks − m ω² + i c ω| [N/m]: force amplitude over displacement amplitude of the steady vibration
 /// at ω [rad/s], without a contact; 0 at the resonance of an undamped plant.
 double dynamic_stiffness_N_per_m(const Plant& plant, double omega_rad_per_s);
+
+/// Peak vibration velocity v̂ = Fe ω / |Ks − m ω² + i c ω| [m/s] of the steady vibration under a
+/// drive of this frequency and force amplitude, without a contact; infinite or not a number at an
+/// undamped resonance.
+double peak_vibration_m_per_s(const Plant& plant, double frequency_Hz, double force_amplitude_N);
 
 /// Fc = μ N.
 double friction_limit_N(const Friction& friction);

@@ -43,10 +43,7 @@ void check_work(const TableCursor& cursor, std::string_view key, const Run& run,
                                  run.duration_s, periods,
                                  drive_Hz >= natural_Hz ? "drive" : "natural mode", most_periods));
   }
-  if (is_adaptive(so_far.solver.method)) {
-    return;
-  }
-  const double steps = run.duration_s / so_far.solver.step_s;
+  const double steps = so_far.solver.step_s > 0.0 ? run.duration_s / so_far.solver.step_s : 0.0;
   if (steps > most_fixed_steps) {
     cursor.fail(key, fmt::format("{:g} s is {:g} steps of solver.step_s; allowed: at most {:g}",
                                  run.duration_s, steps, most_fixed_steps));

@@ -57,7 +57,12 @@ enum class SolverMethod { event_taylor, event_gauss, strang, rk4, rk4_event };
 
 /// Whether a method picks its own steps by a tolerance; the others take steps of a fixed length.
 constexpr bool is_adaptive(SolverMethod method) {
-  return method == SolverMethod::event_taylor || method == SolverMethod::event_gauss;
+  return method != SolverMethod::rk4 && method != SolverMethod::rk4_event;
+}
+
+/// Of an adaptive method.
+constexpr double default_tolerance(SolverMethod method) {
+  return method == SolverMethod::strang ? 1e-4 : 1e-10;
 }
 
 /// The orders of event_taylor that are built.
@@ -67,7 +72,9 @@ struct Solver {
   SolverMethod method = SolverMethod::event_taylor;
   double tolerance = 1e-10;  ///< adaptive methods
   std::optional<int> order;  ///< event_taylor: absent, the one that suits the tolerance
-  double step_s = 0.0;  ///< fixed steps; shortened so that a whole number fits a carrier period
+  /// Fixed steps, shortened so that a whole number fits a carrier period. Of strang the longest; 0
+  /// leaves that to the tolerance.
+  double step_s = 0.0;
 };
 
 enum class Channel { displacement, velocity, friction_force, drive_force, sliding_velocity };
@@ -84,7 +91,7 @@ struct Run {
   double record_interval_s = 0.0;  ///< 0 where nothing is recorded
 };
 
-enum class Arithmetic { float64, float32, q31 };
+enum class Arithmetic { float64, float32, q31, q15 };
 enum class Shaping { notch, none };
 
 struct TargetStep {

@@ -130,16 +130,20 @@ std::optional<int> read_order(TableCursor& cursor) {
 }
 
 Solver read_solver(const Variant& variant) {
+  constexpr Range step_range = {1e-15, 1.0, "s"};
   TableCursor cursor(variant, "solver");
   Solver solver;
   solver.method = cursor.choice("method", solver_methods, SolverMethod::event_taylor);
   if (is_adaptive(solver.method)) {
-    solver.tolerance = cursor.real("tolerance", {1e-15, 1e-2}, solver.tolerance);
+    solver.tolerance = cursor.real("tolerance", {1e-15, 1e-2}, default_tolerance(solver.method));
     if (solver.method == SolverMethod::event_taylor) {
       solver.order = read_order(cursor);
     }
+    if (solver.method == SolverMethod::strang) {
+      solver.step_s = cursor.optional_real("step_s", step_range).value_or(0.0);
+    }
   } else {
-    solver.step_s = cursor.real("step_s", {1e-15, 1.0, "s"});
+    solver.step_s = cursor.real("step_s", step_range);
   }
   cursor.reject_unread_with("solver.method", name_of(solver_methods, solver.method));
   return solver;

@@ -3,13 +3,13 @@
 #include "firmware/friction/coulomb.hpp"
 #include "firmware/friction/dahl.hpp"
 #include "firmware/friction/none.hpp"
+#include "firmware/plant/adaptive_strang.hpp"
 #include "firmware/plant/damping.hpp"
 #include "firmware/plant/drive.hpp"
 #include "firmware/plant/event_gauss.hpp"
 #include "firmware/plant/model.hpp"
 #include "firmware/plant/rk4.hpp"
 #include "firmware/plant/rk4_event.hpp"
-#include "firmware/plant/strang.hpp"
 
 namespace sonoglide::scene {
 namespace {
@@ -37,7 +37,7 @@ bool solves(SolverMethod method, FrictionLaw law) {
     case SolverMethod::event_gauss:
       return solver_solves<plant::EventGauss<AnyModel, 8>>(law);
     case SolverMethod::strang:
-      return solver_solves<plant::Strang<AnyModel>>(law);
+      return solver_solves<plant::AdaptiveStrang<AnyModel>>(law);
     case SolverMethod::rk4:
       return solver_solves<plant::Rk4<AnyModel>>(law);
     case SolverMethod::rk4_event:

@@ -75,7 +75,8 @@ ordered_json echo(const Solver& solver) {
     if (solver.order) {
       table["order"] = *solver.order;
     }
-  } else {
+  }
+  if (solver.step_s > 0.0) {
     table["step_s"] = solver.step_s;
   }
   return table;

@@ -57,11 +57,11 @@ template <class Scalar, class Visitor>
 auto with_model(const scene::Scene& scene, const scene::PlantScales& scales,
                 const Visitor& visitor) {
   const scene::PlantNumbers numbers = scene::plant_numbers(scene, scales);
-  const bool dissipative = scene.friction.sign_convention == scene::SignConvention::dissipative;
+  const auto sign = static_cast<Scalar>(scene::vibration_sign(scene.friction.sign_convention));
   return std::visit(
       [&](auto law) {
         using Model = plant::Model<decltype(law), plant::Damped<Scalar>, plant::CosineDrive>;
-        return visitor(Model{detail::contact(law, numbers, Scalar(dissipative ? 1 : -1)),
+        return visitor(Model{detail::contact(law, numbers, sign),
                              {static_cast<Scalar>(numbers.damping)},
                              static_cast<Scalar>(numbers.stiffness)});
       },

@@ -10,7 +10,7 @@ namespace sonoglide::stability {
 
 /// One SVG document: a panel for each solver, colours by verdict, and in the panels of rk4 and
 /// rk4_event the theoretical limit of the method.
-/// @throws plot::PlotError if gnuplot fails
+/// @throws process::ProcessError if gnuplot fails
 std::string map_picture(const StabilityMaps& maps, std::string_view precision);
 
 }  // namespace sonoglide::stability

@@ -30,11 +30,9 @@ inline Ramp ramp(const scene::Scene& scene, const scene::PlantScales& scales, in
 
 template <class Scalar>
 plant::State<Scalar> initial_state(const scene::Scene& scene, const scene::PlantScales& scales) {
-  const double friction_N = scales.friction_N;
-  return {static_cast<Scalar>(scene.plant.initial_displacement_m / scales.length_m),
-          static_cast<Scalar>(scene.plant.initial_velocity_m_per_s / scales.velocity_m_per_s()),
-          friction_N > 0.0 ? static_cast<Scalar>(scene.friction.initial_force_N / friction_N)
-                           : Scalar(0)};
+  const plant::State<double> initial = scene::initial_state(scene, scales);
+  return {static_cast<Scalar>(initial.displacement), static_cast<Scalar>(initial.velocity),
+          static_cast<Scalar>(initial.friction)};
 }
 
 template <class Scalar>
@@ -73,7 +71,6 @@ TrialResult run_trial(const scene::Scene& scene, const scene::PlantScales& scale
   result.largest_friction = witness.largest_friction();
   result.friction_ratio = std::copysign(1.0, ramp.begin) * witness.friction_integral() / tau;
   result.balance_residual = witness.balance_residual(model, initial, state);
-  result.steps = solver.cost().steps;
   return result;
 }
 

@@ -25,17 +25,15 @@ constexpr double coefficient = 0.1;
 constexpr double normal_force_N = 0.1962;
 constexpr double velocity_ratio = 0.5;
 
-/// Peak velocity of the steady vibration.
-double vibration_m_per_s(const scene::Plant& plant) {
-  const double omega = numeric::two_pi * frequency_Hz;
-  return omega * force_amplitude_N / scene::dynamic_stiffness_N_per_m(plant, omega);
-}
-
 scene::Plant table_1_plant() {
   scene::Plant plant;
   plant.mass_kg = mass_kg;
   plant.stiffness_N_per_m = stiffness_N_per_m;
   return plant;
+}
+
+double vibration_m_per_s() {
+  return scene::peak_vibration_m_per_s(table_1_plant(), frequency_Hz, force_amplitude_N);
 }
 
 scene::Scene table_1(double contact_stiffness_N_per_m, int periods) {
@@ -45,7 +43,7 @@ scene::Scene table_1(double contact_stiffness_N_per_m, int periods) {
   scene.friction.coefficient = coefficient;
   scene.friction.normal_force_N = normal_force_N;
   scene.friction.contact_stiffness_N_per_m = contact_stiffness_N_per_m;
-  scene.sliding.profile = {{0.0, velocity_ratio * vibration_m_per_s(scene.plant)}};
+  scene.sliding.profile = {{0.0, velocity_ratio * vibration_m_per_s()}};
   scene.drive = scene::Drive{};
   scene.drive->frequency_Hz = frequency_Hz;
   scene.drive->force_amplitude_N = force_amplitude_N;
@@ -144,8 +142,7 @@ double rk4_limit_steps_per_period(double contact_stiffness_N_per_m) {
   // From rest the natural mode adds its part to the steady vibration.
   const double free_part =
       std::sqrt(stiffness_N_per_m / mass_kg) / (numeric::two_pi * frequency_Hz);
-  const double fastest_m_per_s =
-      vibration_m_per_s(table_1_plant()) * (velocity_ratio + 1.0 + free_part);
+  const double fastest_m_per_s = vibration_m_per_s() * (velocity_ratio + 1.0 + free_part);
   const double longest_s =
       2.785 * coefficient * normal_force_N / (contact_stiffness_N_per_m * fastest_m_per_s);
   return 1.0 / (frequency_Hz * longest_s);

@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 
+#include "host_sim/report/csv_number.hpp"
 #include "host_sim/scene/names.hpp"
 #include "host_sim/stability/random_scene.hpp"
 
@@ -19,9 +19,8 @@ constexpr const char* worst_header =
     "law,coefficient,normal_force_N,contact_stiffness_N_per_m,initial_force_N,sign_convention,"
     "sliding_begin_m_per_s,sliding_end_m_per_s,frequency_Hz,force_amplitude_N,duration_s\n";
 
-/// A cell is empty where there is no number.
-std::string number(double value) {
-  return std::isnan(value) ? std::string() : fmt::format("{:.6g}", value);
+std::string number(double value, int digits = 6) {
+  return report::csv_number(value, digits);
 }
 
 std::string scene_cells(const scene::Scene& scene) {
@@ -29,7 +28,7 @@ std::string scene_cells(const scene::Scene& scene) {
   const scene::Friction& friction = scene.friction;
   const std::string drive =
       scene.drive ? fmt::format("{},{}", scene.drive->frequency_Hz, scene.drive->force_amplitude_N)
-                  : std::string(",");
+                  : std::string("nan,nan");
   return fmt::format(
       "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}", plant.mass_kg, plant.stiffness_N_per_m,
       plant.damping_N_s_per_m, plant.initial_displacement_m, plant.initial_velocity_m_per_s,
@@ -70,7 +69,7 @@ std::string extremes_csv(const Extremes& extremes) {
       text += fmt::format(",{}", count);
     }
     for (const double residual : row.residual) {
-      text += fmt::format(",{:.3g}", residual);
+      text += "," + number(residual, 3);
     }
     text += "\n";
   }
@@ -82,9 +81,10 @@ std::string worst_csv(const Extremes& extremes) {
   std::string text = worst_header;
   for (const ExtremeRow& row : extremes.rows) {
     for (const WorstCase& worst : row.worst) {
-      text += fmt::format("{},{},{:g},{},{:.6g},{:.17g},{},{}\n", row.solver, row.precision,
-                          row.setting, names[static_cast<std::size_t>(worst.verdict)],
-                          worst.result.balance_residual, worst.result.largest_friction, worst.scene,
+      text += fmt::format("{},{},{:g},{},{},{},{},{}\n", row.solver, row.precision, row.setting,
+                          names[static_cast<std::size_t>(worst.verdict)],
+                          number(worst.result.balance_residual),
+                          number(worst.result.largest_friction, 17), worst.scene,
                           scene_cells(random_scene(worst.scene)));
     }
   }

@@ -20,7 +20,6 @@ struct TrialResult {
   double largest_friction = 0.0;  ///< max |F|/Fc over the ends of its steps
   double friction_ratio = 0.0;    ///< mean(F)/Fc over all periods, positive along the sliding
   double balance_residual = 0.0;  ///< see witness.hpp
-  std::uint64_t steps = 0;
   plant::Error error = plant::Error::none;  ///< what the solver itself said
 };
 

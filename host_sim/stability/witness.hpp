@@ -24,9 +24,9 @@ class Witness {
     damping_.add(static_cast<double>(motion.damping_work));
     contact_.add(static_cast<double>(step.friction_work()));
     pull_.add(static_cast<double>(step.sliding_work()));
-    highest_velocity_ = std::max(highest_velocity_, std::abs(static_cast<double>(end.velocity)));
-    highest_displacement_ =
-        std::max(highest_displacement_, std::abs(static_cast<double>(end.displacement)));
+    const double length = static_cast<double>(step.length());
+    raise(highest_velocity_square_, end.velocity, motion.velocity_square, length);
+    raise(highest_displacement_square_, end.displacement, motion.displacement_square, length);
   }
 
   double largest_friction() const { return largest_friction_; }
@@ -36,7 +36,9 @@ class Witness {
   ///   stored(after) - stored(before) = drive - damping - sigma beta (friction - sliding work)
   /// relative to the largest energy that passed: the sum over all steps of the magnitude of one of
   /// the works, or the largest energy stored. The net works would not do: where they cancel over a
-  /// period, the rounding of what came and went would look like a fault.
+  /// period, the rounding of what came and went would look like a fault. Nor would the ends of the
+  /// steps alone: a step of a whole period hides between them all that was stored, but not its
+  /// mean.
   template <class Model, class Scalar>
   double balance_residual(const Model& model, const plant::State<Scalar>& before,
                           const plant::State<Scalar>& after) const {
@@ -47,8 +49,7 @@ class Witness {
     const double passed =
         std::max({drive_.gross, damping_.gross, std::abs(contact) * contact_.gross,
                   std::abs(contact) * pull_.gross, stored(stiffness, before),
-                  0.5 * highest_velocity_ * highest_velocity_,
-                  0.5 * stiffness * highest_displacement_ * highest_displacement_});
+                  0.5 * highest_velocity_square_, 0.5 * stiffness * highest_displacement_square_});
     // What comes near the smallest number of the arithmetic cannot be added up in it.
     constexpr double least = static_cast<double>(std::numeric_limits<Scalar>::min()) /
                              static_cast<double>(std::numeric_limits<Scalar>::epsilon());
@@ -66,6 +67,14 @@ class Witness {
     }
   };
 
+  /// A square cannot stay below its mean over a step.
+  template <class Scalar>
+  static void raise(double& highest, Scalar end, Scalar integral, double length) {
+    const auto value = static_cast<double>(end);
+    const double mean = length > 0.0 ? static_cast<double>(integral) / length : 0.0;
+    highest = std::max({highest, value * value, mean});
+  }
+
   template <class Scalar>
   static double stored(double stiffness, const plant::State<Scalar>& state) {
     const auto velocity = static_cast<double>(state.velocity);
@@ -75,8 +84,8 @@ class Witness {
 
   double largest_friction_ = 0.0;
   double friction_integral_ = 0.0;
-  double highest_velocity_ = 0.0;
-  double highest_displacement_ = 0.0;
+  double highest_velocity_square_ = 0.0;
+  double highest_displacement_square_ = 0.0;
   Work drive_;
   Work damping_;
   Work contact_;

@@ -109,6 +109,10 @@ Axis parse_axis(const std::string& text, std::size_t ordinal) {
     place.fail(fmt::format("{} to {} has no logarithm; allowed: FROM and TO of one sign, not zero",
                            parts[0], parts[1]));
   }
+  if (axis.count == 1 && axis.from != axis.to) {
+    place.fail(fmt::format("one value from {} to {}; allowed: FROM equal to TO, or a COUNT above 1",
+                           parts[0], parts[1]));
+  }
   return axis;
 }
 

@@ -17,7 +17,7 @@ struct Axis {
   std::string key;  ///< TABLE.KEY of a scene, or velocity_ratio_key
   double from = 0.0;
   double to = 0.0;
-  std::size_t count = 1;     ///< >= 1; one value is `from`
+  std::size_t count = 1;     ///< >= 1; of one value `from` is `to`
   bool logarithmic = false;  ///< equal quotients instead of equal differences
 
   /// The value of this index, in [0, count); the ends are `from` and `to` to the bit.
@@ -28,8 +28,8 @@ struct Axis {
 ///
 /// @param ordinal  1 for the first --vary option: the line of the errors' place
 /// @throws scene::SceneError  not of that form, COUNT not in [1, most_points], a bound that is not
-///         finite, a logarithmic axis whose bounds are zero or differ in sign. Whether a scene has
-///         the key is not looked at here.
+///         finite, a logarithmic axis whose bounds are zero or differ in sign, one value of a range
+///         with two ends. Whether a scene has the key is not looked at here.
 Axis parse_axis(const std::string& text, std::size_t ordinal);
 
 /// A value as scenes and tables write it: the shortest text that reads back the same; a whole

@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "firmware/numeric/turn.hpp"
+#include "host_sim/loop/carrier_grid.hpp"
 #include "host_sim/scene/plant_scales.hpp"
 
 namespace sonoglide::sweep {
@@ -22,17 +23,6 @@ bool suits_lanes(const scene::Scene& scene) {
          solver.tolerance >= fine_tolerance;
 }
 
-/// A time as a number of carrier periods; absent if it is not a whole one.
-std::optional<std::uint32_t> whole_periods(double time_s, double frequency_Hz) {
-  constexpr double rounding = 1e-9;
-  const double periods = time_s * frequency_Hz;
-  const double whole = std::round(periods);
-  if (std::abs(periods - whole) > rounding * std::max(1.0, whole) || whole > 4e9) {
-    return std::nullopt;
-  }
-  return static_cast<std::uint32_t>(whole);
-}
-
 batch::DahlPlant plant_of(const scene::Scene& scene) {
   const scene::PlantScales scales = scene::plant_scales(scene);
   const scene::PlantNumbers numbers = scene::plant_numbers(scene, scales);
@@ -44,11 +34,8 @@ batch::DahlPlant plant_of(const scene::Scene& scene) {
   plant.contact_stiffness = numbers.contact_stiffness;
   plant.sliding_velocity =
       scene.sliding.profile.front().velocity_m_per_s / scales.velocity_m_per_s();
-  plant.vibration_sign =
-      scene.friction.sign_convention == scene::SignConvention::dissipative ? 1.0 : -1.0;
-  plant.initial.displacement = scene.plant.initial_displacement_m / scales.length_m;
-  plant.initial.velocity = scene.plant.initial_velocity_m_per_s / scales.velocity_m_per_s();
-  plant.initial.friction = scene.friction.initial_force_N / scales.friction_N;
+  plant.vibration_sign = scene::vibration_sign(scene.friction.sign_convention);
+  plant.initial = scene::initial_state(scene, scales);
   return plant;
 }
 
@@ -58,15 +45,16 @@ std::optional<BatchPoint> batch_point(const scene::Scene& scene) {
   if (!suits_lanes(scene)) {
     return std::nullopt;
   }
-  const double frequency_Hz = scene.drive->frequency_Hz;
-  const auto periods = whole_periods(scene.run.duration_s, frequency_Hz);
-  const auto window_start = whole_periods(scene.run.window_start_s, frequency_Hz);
-  if (!periods || !window_start || *window_start >= *periods) {
+  const loop::CarrierGrid grid(scene);
+  const auto periods = grid.whole_periods(scene.run.duration_s);
+  const auto window_start = grid.whole_periods(scene.run.window_start_s);
+  constexpr std::uint64_t most_periods = 0xffffffff;
+  if (!periods || !window_start || *window_start >= *periods || *periods > most_periods) {
     return std::nullopt;
   }
   return BatchPoint{
       plant_of(scene),
-      {*periods, *window_start},
+      {static_cast<std::uint32_t>(*periods), static_cast<std::uint32_t>(*window_start)},
       scene.solver.tolerance >= map_tolerance ? batch::Accuracy::map : batch::Accuracy::fine};
 }
 

@@ -4,7 +4,6 @@
 #include <tbb/parallel_for.h>
 #include <tbb/partitioner.h>
 
-#include <algorithm>
 #include <mutex>
 #include <string>
 #include <utility>
@@ -35,8 +34,8 @@ class Collection {
     pace_.add(records.size());
   }
 
-  std::vector<std::size_t> open_points() const {
-    std::vector<std::size_t> open;
+  Points open_points() const {
+    Points open;
     for (std::size_t point = 0; point < known_.size(); ++point) {
       if (!known_[point]) {
         open.push_back(point);
@@ -64,22 +63,16 @@ class Collection {
 
 std::vector<Row> compute(const Solve& solve, std::size_t points, Journal& journal, Pace& pace) {
   Collection collection(points, journal, pace);
-  const std::vector<std::size_t> open = collection.open_points();
+  const Points open = collection.open_points();
   pace.begin(open.size(), 0.0);
-  const std::size_t length = solve.points_per_call();
-  const std::size_t calls = (open.size() + length - 1) / length;
-  const auto call = [&](std::size_t index) {
-    const auto begin = open.begin() + static_cast<std::ptrdiff_t>(index * length);
-    const auto count = std::min(length, open.size() - index * length);
-    solve({begin, begin + static_cast<std::ptrdiff_t>(count)},
-          [&](std::vector<Record> records) { collection.hand_in(std::move(records)); });
-  };
+  const std::vector<Points> calls = solve.calls(open);
   // One call to a task: those that take long leave the rest to others.
   tbb::parallel_for(
-      tbb::blocked_range<std::size_t>(0, calls, 1),
+      tbb::blocked_range<std::size_t>(0, calls.size(), 1),
       [&](const tbb::blocked_range<std::size_t>& range) {
         for (std::size_t index = range.begin(); index < range.end(); ++index) {
-          call(index);
+          solve(calls[index],
+                [&](std::vector<Record> records) { collection.hand_in(std::move(records)); });
         }
       },
       tbb::simple_partitioner());

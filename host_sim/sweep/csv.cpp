@@ -2,18 +2,19 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
 #include <cstddef>
 #include <iterator>
 #include <string>
 
 #include "host_sim/report/control_names.hpp"
+#include "host_sim/report/csv_number.hpp"
 
 namespace sonoglide::sweep {
 namespace {
 
 std::string number(double value) {
-  return std::isnan(value) ? "nan" : fmt::format("{:.17g}", value);
+  constexpr int every_bit = 17;
+  return report::csv_number(value, every_bit);
 }
 
 std::string quoted(const std::string& text) {

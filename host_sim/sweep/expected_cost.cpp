@@ -1,5 +1,9 @@
 #include "host_sim/sweep/expected_cost.hpp"
 
+#include <cmath>
+#include <cstddef>
+
+#include "host_sim/scene/scene_error.hpp"
 #include "host_sim/sweep/batch_point.hpp"
 
 namespace sonoglide::sweep {
@@ -30,6 +34,21 @@ double expected_solving_cost(const scene::Scene& scene) {
            (batch->accuracy == batch::Accuracy::map ? map_period : fine_period);
   }
   return plant_cost(scene) + (scene.controller ? control_period * periods_of(scene) : 0.0);
+}
+
+double expected_solving_cost(const Plan& plan) try {
+  constexpr int samples = 32;
+  // Multiples of the golden section fall into step with no axis.
+  constexpr double golden = 0.61803398874989485;
+  double sum = 0.0;
+  for (int i = 0; i < samples; ++i) {
+    const double part = std::fmod(golden * i, 1.0);
+    sum += expected_solving_cost(
+        plan.scene(static_cast<std::size_t>(part * static_cast<double>(plan.grid().size()))));
+  }
+  return sum / samples;
+} catch (const scene::SceneError&) {
+  return 0.0;  // reading all points will say which is the first that is unusable
 }
 
 }  // namespace sonoglide::sweep

@@ -6,13 +6,13 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <chrono>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <system_error>
 #include <utility>
 
 #include "host_sim/report/output_folder.hpp"
+#include "host_sim/sweep/steady_time.hpp"
 
 namespace sonoglide::sweep {
 namespace {
@@ -20,10 +20,6 @@ namespace {
 constexpr const char* file_name = "sweep.journal";
 constexpr const char* format_name = "sonoglide sweep journal, format 1";
 constexpr double sync_interval_s = 1.0;
-
-double now_s() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
 
 std::string last_reason() {
   return std::generic_category().message(errno);
@@ -55,7 +51,7 @@ std::string difference(std::string_view header, const Identity& identity) {
 }  // namespace
 
 Journal::Journal(const std::filesystem::path& folder, const Identity& identity, std::size_t points)
-    : path_(folder / file_name), last_sync_s_(now_s()) {
+    : path_(folder / file_name), last_sync_s_(steady_time_s()) {
   constexpr mode_t mode = 0666;
   file_ = open(path_.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, mode);
   if (file_ < 0) {
@@ -147,13 +143,13 @@ void Journal::write(const std::string& text) {
 
 /// As often as a point that costs nothing can bear.
 void Journal::sync_now_and_then() {
-  if (now_s() - last_sync_s_ < sync_interval_s) {
+  if (steady_time_s() - last_sync_s_ < sync_interval_s) {
     return;
   }
   if (fdatasync(file_) != 0) {
     fail(last_reason());
   }
-  last_sync_s_ = now_s();
+  last_sync_s_ = steady_time_s();
 }
 
 void Journal::fail(const std::string& reason) const {

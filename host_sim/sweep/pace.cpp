@@ -1,13 +1,8 @@
 #include "host_sim/sweep/pace.hpp"
 
-#include <chrono>
 #include <utility>
 
 namespace sonoglide::sweep {
-
-double steady_time_s() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
 
 Pace::Pace(const Progress& progress, std::function<double()> now_s)
     : progress_(progress), now_s_(std::move(now_s)), start_s_(now_s_()), stage_start_s_(start_s_) {}

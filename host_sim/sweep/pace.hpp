@@ -6,11 +6,9 @@
 #include <mutex>
 
 #include "host_sim/sweep/progress.hpp"
+#include "host_sim/sweep/steady_time.hpp"
 
 namespace sonoglide::sweep {
-
-/// Time of a steady clock in s.
-double steady_time_s();
 
 /// Follows work done in stages. Within a stage every point is taken to cost the same; points that
 /// were finished before do not count, so that a sweep that goes on is not thought a fast one.

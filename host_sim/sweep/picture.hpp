@@ -16,7 +16,7 @@ std::vector<std::size_t> drawn_axes(const Grid& grid);
 
 /// One axis drawn: a curve; two: a heat map, the first one upwards. SVG. Absent for any other
 /// number of axes, and where no point has a value.
-/// @throws plot::PlotError
+/// @throws process::ProcessError
 std::optional<std::string> draw(const Plan& plan, const std::vector<Row>& rows);
 
 }  // namespace sonoglide::sweep

@@ -12,8 +12,8 @@
 #include <iterator>
 #include <utility>
 
+#include "host_sim/scene/plant_scales.hpp"
 #include "host_sim/scene/reader.hpp"
-#include "host_sim/sweep/velocity_ratio.hpp"
 
 namespace sonoglide::sweep {
 namespace {
@@ -141,7 +141,10 @@ void Plan::set_velocity(scene::Scene& scene, std::size_t point, std::size_t axis
                    "in closed loop the controller sets the vibration; allowed: "
                    "sliding.velocity_m_per_s");
   }
-  const double peak_m_per_s = peak_vibration_velocity_m_per_s(scene);
+  const double peak_m_per_s =
+      scene.drive ? scene::peak_vibration_m_per_s(scene.plant, scene.drive->frequency_Hz,
+                                                  scene.drive->force_amplitude_N)
+                  : 0.0;
   if (!(peak_m_per_s > 0.0)) {
     fail_at_option(axis, key,
                    "there is no vibration to relate to; allowed: a scene with a [drive] whose "

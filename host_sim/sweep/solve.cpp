@@ -13,69 +13,68 @@
 namespace sonoglide::sweep {
 namespace {
 
-/// Points that can be run together.
-struct Group {
-  std::vector<std::size_t> points;
-  std::vector<BatchPoint> batch_points;
-};
-
+/// What points that can be run together have in common.
 using GroupKey = std::tuple<std::uint32_t, std::uint32_t, batch::Accuracy>;
 
 GroupKey key_of(const BatchPoint& point) {
   return {point.length.periods, point.length.window_start_periods, point.accuracy};
 }
 
-/// Adds to `singles` what the lanes give up.
-std::vector<Record> solve_group(const Group& group, std::vector<std::size_t>& singles) {
-  std::vector<batch::DahlPlant> plants;
-  for (const BatchPoint& point : group.batch_points) {
-    plants.push_back(point.plant);
-  }
-  const BatchPoint& any = group.batch_points.front();
-  const std::vector<batch::DahlRun> runs = batch::run_dahl_plants(plants, any.length, any.accuracy);
-  std::vector<Record> records;
-  for (std::size_t i = 0; i < runs.size(); ++i) {
-    if (runs[i].status == batch::RunStatus::solved) {
-      records.push_back({group.points[i], row_of(group.batch_points[i], runs[i])});
-    } else {
-      singles.push_back(group.points[i]);
-    }
-  }
-  return records;
-}
-
 }  // namespace
 
 Solve::Solve(const Plan& plan, Pace& pace) : plan_(plan), batch_points_(plan.grid().size()) {
-  pace.begin(plan.grid().size(), expected_solving_cost(plan.first()));
+  pace.begin(plan.grid().size(), expected_solving_cost(plan));
   plan.visit_all([this](std::size_t point,
                         const scene::Scene& scene) { batch_points_[point] = batch_point(scene); },
                  &pace);
 }
 
-std::size_t Solve::points_per_call() const {
+std::vector<Points> Solve::calls(const Points& points) const {
   constexpr std::size_t lanes_many_times_over = 256;
-  return batch_points_.front() ? lanes_many_times_over : 1;
-}
-
-void Solve::operator()(const std::vector<std::size_t>& points, const Sink& sink) const {
-  std::map<GroupKey, Group> groups;
-  std::vector<std::size_t> singles;
+  std::vector<Points> calls;
+  std::map<GroupKey, Points> groups;
   for (const std::size_t point : points) {
-    if (const auto& batch = batch_points_[point]) {
-      Group& group = groups[key_of(*batch)];
-      group.points.push_back(point);
-      group.batch_points.push_back(*batch);
-    } else {
-      singles.push_back(point);
+    const auto& batch = batch_points_[point];
+    Points& group = batch ? groups[key_of(*batch)] : calls.emplace_back();
+    group.push_back(point);
+    if (group.size() == lanes_many_times_over) {
+      calls.push_back(std::exchange(group, {}));
     }
   }
-  for (const auto& [key, group] : groups) {
-    sink(solve_group(group, singles));
+  for (auto& [key, group] : groups) {
+    if (!group.empty()) {
+      calls.push_back(std::move(group));
+    }
   }
+  return calls;
+}
+
+void Solve::operator()(const Points& call, const Sink& sink) const {
+  const Points singles = batch_points_[call.front()] ? over_lanes(call, sink) : call;
   tbb::parallel_for_each(singles, [&](std::size_t point) {
     sink({{point, solve_scalar_point(plan_.scene(point))}});
   });
+}
+
+/// @return what the lanes give up
+Points Solve::over_lanes(const Points& call, const Sink& sink) const {
+  std::vector<batch::DahlPlant> plants;
+  for (const std::size_t point : call) {
+    plants.push_back(batch_points_[point]->plant);
+  }
+  const BatchPoint& any = *batch_points_[call.front()];
+  const std::vector<batch::DahlRun> runs = batch::run_dahl_plants(plants, any.length, any.accuracy);
+  std::vector<Record> records;
+  Points given_up;
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    if (runs[i].status == batch::RunStatus::solved) {
+      records.push_back({call[i], row_of(*batch_points_[call[i]], runs[i])});
+    } else {
+      given_up.push_back(call[i]);
+    }
+  }
+  sink(std::move(records));
+  return given_up;
 }
 
 }  // namespace sonoglide::sweep

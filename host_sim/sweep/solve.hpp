@@ -12,6 +12,9 @@
 
 namespace sonoglide::sweep {
 
+/// Points that are solved in one go.
+using Points = std::vector<std::size_t>;
+
 /// Takes finished points, from any thread.
 using Sink = std::function<void(std::vector<Record>)>;
 
@@ -23,15 +26,18 @@ class Solve {
   /// @throws scene::SceneError  a point is unusable
   Solve(const Plan& plan, Pace& pace);
 
-  /// How many points are worth solving in one call.
-  std::size_t points_per_call() const;
+  /// These points as calls that are worth making: those that suit SIMD lanes together, up to some
+  /// hundreds that have their length and accuracy in common, the others alone.
+  std::vector<Points> calls(const Points& points) const;
 
-  /// Solves these points: those that suit them over SIMD lanes, the others, and those that the
-  /// lanes give up, one by one as `run` does. A row depends on its point alone, to the bit. Safe to
-  /// call from several threads.
-  void operator()(const std::vector<std::size_t>& points, const Sink& sink) const;
+  /// Solves one of the calls above: over SIMD lanes, or one by one as `run` does, which is also
+  /// what becomes of points that the lanes give up. A row depends on its point alone, to the bit.
+  /// Safe to call from several threads.
+  void operator()(const Points& call, const Sink& sink) const;
 
  private:
+  Points over_lanes(const Points& call, const Sink& sink) const;
+
   const Plan& plan_;
   std::vector<std::optional<BatchPoint>> batch_points_;  ///< of each point; absent: no lanes
 };

@@ -54,13 +54,10 @@ void write_files(const Plan& plan, const std::vector<Row>& rows, const fs::path&
   folder.write("report.html", page);
   if (picture) {
     folder.write(picture_file, *picture);
+  } else {
+    folder.withdraw(picture_file);
   }
   folder.commit();
-  if (!picture) {
-    // That of an earlier sweep would pass for this one's.
-    std::error_code ignored;
-    fs::remove(folder.target() / picture_file, ignored);
-  }
 }
 
 }  // namespace

@@ -27,7 +27,7 @@ struct Summary {
 /// @param program  name and version: a journal of another program is refused
 /// @param threads  0: one for each core
 /// @throws scene::SceneError  nothing was written
-/// @throws ForeignJournal, report::OutputError, plot::PlotError
+/// @throws ForeignJournal, report::OutputError, process::ProcessError
 Summary run_sweep(const Plan& plan, const std::filesystem::path& out, const std::string& program,
                   unsigned threads, const Progress& progress);
 

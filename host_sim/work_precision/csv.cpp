@@ -2,13 +2,14 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
+#include "host_sim/report/csv_number.hpp"
 
 namespace sonoglide::work_precision {
 namespace {
 
 std::string cell(double value) {
-  return std::isfinite(value) ? fmt::format("{:.6g}", value) : std::string();
+  constexpr int digits = 6;
+  return report::csv_number(value, digits);
 }
 
 }  // namespace

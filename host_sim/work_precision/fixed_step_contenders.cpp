@@ -2,7 +2,6 @@
 
 #include "firmware/plant/rk4.hpp"
 #include "firmware/plant/rk4_event.hpp"
-#include "firmware/plant/strang.hpp"
 #include "host_sim/work_precision/composed.hpp"
 
 namespace sonoglide::work_precision {
@@ -17,11 +16,6 @@ double step(double steps_per_period) {
 using Made = std::unique_ptr<peers::Contender>;
 
 template <class Scalar>
-Made strang(const peers::Problem& problem, double steps_per_period) {
-  return compose<plant::Strang, Scalar>(problem, step(steps_per_period));
-}
-
-template <class Scalar>
 Made rk4(const peers::Problem& problem, double steps_per_period) {
   return compose<plant::Rk4, Scalar>(problem, step(steps_per_period));
 }
@@ -31,8 +25,6 @@ Made rk4_event(const peers::Problem& problem, double steps_per_period) {
   return compose<plant::Rk4Event, Scalar>(problem, step(steps_per_period));
 }
 
-template Made strang<double>(const peers::Problem& problem, double steps_per_period);
-template Made strang<float>(const peers::Problem& problem, double steps_per_period);
 template Made rk4<double>(const peers::Problem& problem, double steps_per_period);
 template Made rk4<float>(const peers::Problem& problem, double steps_per_period);
 template Made rk4_event<double>(const peers::Problem& problem, double steps_per_period);

@@ -10,8 +10,6 @@ namespace sonoglide::work_precision {
 
 /// Built in double and in float.
 template <class Scalar>
-std::unique_ptr<peers::Contender> strang(const peers::Problem& problem, double steps_per_period);
-template <class Scalar>
 std::unique_ptr<peers::Contender> rk4(const peers::Problem& problem, double steps_per_period);
 template <class Scalar>
 std::unique_ptr<peers::Contender> rk4_event(const peers::Problem& problem, double steps_per_period);

@@ -2,8 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-
+#include "host_sim/loop/carrier_grid.hpp"
 #include "host_sim/scene/configuration_error.hpp"
 #include "host_sim/scene/names.hpp"
 #include "host_sim/scene/plant_scales.hpp"
@@ -44,15 +43,14 @@ void require_comparable(const scene::Scene& scene) {
 }
 
 int whole_periods(const scene::Scene& scene) {
-  const double periods = scene.run.duration_s * scene.drive->frequency_Hz;
-  const double whole = std::round(periods);
-  if (std::abs(periods - whole) > 1e-9 * periods || whole < 1.0 || whole > most_periods) {
+  const auto whole = loop::CarrierGrid(scene).whole_periods(scene.run.duration_s);
+  if (!whole || *whole < 1 || *whole > most_periods) {
     throw ConfigurationError(
         "run",
         fmt::format("lasts {:.12g} carrier periods; allowed: a whole number of them, 1 to {}",
-                    periods, most_periods));
+                    scene.run.duration_s * scene.drive->frequency_Hz, most_periods));
   }
-  return static_cast<int>(whole);
+  return static_cast<int>(*whole);
 }
 
 }  // namespace
@@ -61,19 +59,18 @@ peers::Problem problem_of(const scene::Scene& scene) {
   require_comparable(scene);
   const scene::PlantScales scales = scene::plant_scales(scene);
   const scene::PlantNumbers numbers = scene::plant_numbers(scene, scales);
-  const double velocity_scale = scales.velocity_m_per_s();
+  const plant::State<double> initial = scene::initial_state(scene, scales);
   peers::Problem problem{};
   problem.stiffness = numbers.stiffness;
   problem.damping = numbers.damping;
   problem.friction_force = numbers.friction_force;
   problem.contact_stiffness = numbers.contact_stiffness;
-  problem.vibration_sign =
-      scene.friction.sign_convention == scene::SignConvention::dissipative ? 1.0 : -1.0;
+  problem.vibration_sign = scene::vibration_sign(scene.friction.sign_convention);
   problem.drive_amplitude = scene.drive->force_amplitude_N / scales.force_N;
-  problem.sliding_velocity = scene.sliding.profile[0].velocity_m_per_s / velocity_scale;
-  problem.displacement = scene.plant.initial_displacement_m / scales.length_m;
-  problem.velocity = scene.plant.initial_velocity_m_per_s / velocity_scale;
-  problem.friction = scene.friction.initial_force_N / scales.friction_N;
+  problem.sliding_velocity = scene.sliding.profile[0].velocity_m_per_s / scales.velocity_m_per_s();
+  problem.displacement = initial.displacement;
+  problem.velocity = initial.velocity;
+  problem.friction = initial.friction;
   problem.periods = whole_periods(scene);
   return problem;
 }

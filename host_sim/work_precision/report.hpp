@@ -10,7 +10,7 @@
 namespace sonoglide::work_precision {
 
 /// Writes work_precision.csv, work_precision.svg and report.html; all or none.
-/// @throws report::OutputError, plot::PlotError
+/// @throws report::OutputError, process::ProcessError
 void write(const std::filesystem::path& out, const scene::Scene& scene,
            const Comparison& comparison);
 

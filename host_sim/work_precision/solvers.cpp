@@ -7,6 +7,7 @@
 #include "host_sim/peers/paper_rk4.hpp"
 #include "host_sim/work_precision/fixed_step_contenders.hpp"
 #include "host_sim/work_precision/gauss_contenders.hpp"
+#include "host_sim/work_precision/strang_contenders.hpp"
 #include "host_sim/work_precision/taylor_contenders.hpp"
 #ifdef SONOGLIDE_WITH_ODEINT
 #include "host_sim/peers/odeint/dopri5.hpp"
@@ -59,7 +60,7 @@ const std::vector<Solver>& solvers() {
       {"event_gauss_8", Family::event_gauss, tolerance, tolerances(1, 12), event_gauss<double, 8>},
       {"event_gauss_12", Family::event_gauss, tolerance, tolerances(6, 14),
        event_gauss<double, 12>},
-      {"strang", Family::fixed_step, steps, step_counts(0, 5), strang<double>},
+      {"strang", Family::fixed_step, tolerance, tolerances(1, 9), strang<double>},
       {"rk4", Family::fixed_step, steps, step_counts(1, 5), rk4<double>},
       {"rk4_event", Family::fixed_step, steps, step_counts(1, 4), rk4_event<double>},
       {"event_taylor_8_float32", Family::single, tolerance, tolerances(1, 7),
@@ -67,7 +68,7 @@ const std::vector<Solver>& solvers() {
       {"event_taylor_12_float32", Family::single, tolerance, tolerances(1, 7),
        event_taylor<float, 12>},
       {"event_gauss_8_float32", Family::single, tolerance, tolerances(1, 7), event_gauss<float, 8>},
-      {"strang_float32", Family::single, steps, step_counts(0, 4), strang<float>},
+      {"strang_float32", Family::single, tolerance, tolerances(1, 5), strang<float>},
       {"rk4_float32", Family::single, steps, step_counts(1, 4), rk4<float>},
       {"rk4_event_float32", Family::single, steps, step_counts(1, 4), rk4_event<float>},
       {"rk4_table", Family::paper, steps, step_counts(1, 5), peers::rk4_table},

@@ -1,12 +1,14 @@
 /// The closed loop at Table 1: plant and controller written out. Only the number type is a
 /// parameter of the controller, so that one text serves both arithmetics.
 
+#include <array>
 #include <cstdint>
 
 #include "cost_by_hand.hpp"
 #include "cost_by_hand_series.hpp"
 #include "firmware/friction/dahl_inverse_map.hpp"
 #include "firmware/numeric/fixed.hpp"
+#include "firmware/numeric/floating.hpp"
 #include "firmware/numeric/scalar.hpp"
 
 namespace sonoglide::cost::by_hand {
@@ -19,9 +21,9 @@ struct Control {
   Number speed_floor;
   Number lead;
   Number gain;
-  Number quarter_inverse;  ///< 1 / (4 mantissa) of the believed friction force
-  int exponent;            ///< of that force
-  numeric::Split<Number> full_speed_travel;
+  Number inverse;  ///< 1 / (2 Fc), Fc the believed friction force; in fixed point 1 / (4 mantissa)
+  int exponent;    ///< of that force
+  numeric::Floating<Number> half_travel;
   Number outer_tap;
   Number middle_tap;
 
@@ -49,10 +51,12 @@ Control<Number> control_of(const ControlNumbers& numbers) {
   c.speed_floor = number(numbers.speed_floor);
   c.lead = number(numbers.lead_periods / 64.0);
   c.gain = number(numbers.gain);
-  c.quarter_inverse = number(0.25) / force.mantissa;
+  c.inverse = numeric::is_fixed_point_v<Number> ? number(0.25) / force.mantissa
+                                                : number(0.5) / number(numbers.friction_force);
   c.exponent = force.exponent;
-  c.full_speed_travel =
-      friction::quotient<Number>({number(contact.mantissa), contact.exponent}, force);
+  c.half_travel = numeric::quotient(
+      numeric::floating(numeric::Split<Number>{number(contact.mantissa), contact.exponent - 1}),
+      numeric::floating(force));
   c.outer_tap = number(numbers.outer_tap);
   c.middle_tap = number(numbers.middle_tap);
   return c;
@@ -91,22 +95,23 @@ std::int32_t answer(Control<Number>& c, std::int32_t force_code, std::int32_t ve
     return 0;
   }
 
-  const Number measured = numeric::scale_by_power_of_two(force * c.quarter_inverse, 1 - c.exponent);
+  Number measured = force * c.inverse;
+  if constexpr (numeric::is_fixed_point_v<Number>) {
+    measured = numeric::scale_by_power_of_two(measured, 1 - c.exponent);
+  }
   const Number error = c.target - measured;
   const Number proposed = c.held == 0 ? c.integral + c.gain * error : c.integral;
   const Number ratio = numeric::clamp(c.target + proposed, Number{}, half);
-  const Number velocity_ratio = friction::dahl_velocity_ratio(
-      ratio, friction::product(c.full_speed_travel, numeric::split(speed)));
-  const bool full_drive = velocity_ratio <= speed;
-  const Number amplitude = full_drive ? full : speed / velocity_ratio;
+  const Number amplitude = friction::dahl_vibration_velocity(ratio, speed, c.half_travel);
+  const bool full_drive = full <= amplitude;
   const bool winding_up = (full_drive && error < Number{}) || (half <= ratio && Number{} < error);
   c.integral = winding_up ? c.integral : proposed;
   c.held = static_cast<std::uint16_t>(c.held > 0 ? c.held - 1 : 0);
   c.commanded = ratio;
 
-  const Number taps[] = {c.outer_tap, c.middle_tap, c.outer_tap};
-  const Number inputs[] = {amplitude, c.last_amplitude, c.last_but_one};
-  const Number shaped = numeric::dot(taps, inputs, 3);
+  const std::array<Number, 3> taps{c.outer_tap, c.middle_tap, c.outer_tap};
+  const std::array<Number, 3> inputs{amplitude, c.last_amplitude, c.last_but_one};
+  const Number shaped = numeric::dot(taps, inputs);
   c.last_but_one = c.last_amplitude;
   c.last_amplitude = amplitude;
   c.limited = full_drive || shaped < Number{} || (full <= shaped && amplitude < full);

@@ -3,6 +3,9 @@
 #include "cost_by_hand.hpp"
 #include "cost_by_hand_reversals.hpp"
 #include "firmware/friction/gauss_legendre.hpp"
+#include "firmware/numeric/lane_group.hpp"
+#include "firmware/plant/gauss_rule.hpp"
+#include "firmware/plant/polynomial.hpp"
 
 namespace sonoglide::cost::by_hand {
 namespace {
@@ -127,13 +130,14 @@ inline double series_unit(const Scene& scene, double velocity, double friction, 
   return numeric::clamp(numeric::abs(s.velocity) + numeric::abs(s.rate) * change, 1e-12, 1.0);
 }
 
-[[gnu::always_inline]] inline double extent_at(const Series& s, double speed, double rounding,
-                                               double longest, double remaining) {
+[[gnu::always_inline]] inline double extent_at(const Series& s, const Scene& scene, double speed,
+                                               double rounding, double longest, double remaining) {
+  const double weight = numeric::clamp(scene.friction_force, 1e-3, 0.125);
   const double allowed = numeric::max(allowed_term * speed, rounding);
   const double last = numeric::max(numeric::abs(s.rate * s.travel[order]),
-                                   speed * 0.125 * numeric::abs(s.friction[order]));
+                                   speed * weight * numeric::abs(s.friction[order]));
   const double last_but_one = numeric::max(numeric::abs(s.rate * s.travel[order - 1]),
-                                           speed * 0.125 * numeric::abs(s.friction[order - 1]));
+                                           speed * weight * numeric::abs(s.friction[order - 1]));
   return step_extent(last, last_but_one, allowed, s.unit, longest, remaining);
 }
 
@@ -142,7 +146,36 @@ inline double series_unit(const Scene& scene, double velocity, double friction, 
   return numeric::max(0.0, arc.direction * travel);
 }
 
-[[gnu::always_inline]] inline double friction_integral(const Series& s, double extent) {
+/// Integral of phi over x, by eight nodes on the way that the contact slides.
+[[gnu::noinline, gnu::pure]] double friction_by_nodes(const Series& s, const Scene& scene,
+                                                      const Arc& arc, double extent) {
+  constexpr auto& rule = plant::gauss_rule<double, 8>;
+  const auto& p = s.shift;
+  const auto x = extent * numeric::load_group<4>(rule.node.data());
+  const auto square = x * x;
+  auto even = square * p[16] + p[14];
+  auto odd = square * p[15] + p[13];
+  for (std::size_t n = 12; n > 2; n -= 2) {
+    even = even * square + p[n];
+    odd = odd * square + p[n - 1];
+  }
+  even = (even * square + p[2]) * square + s.travel[0];
+  odd = odd * square + 0.5 * s.travel[1];
+  const auto travel = x * (even + x * odd);
+  const auto z = numeric::at_most(64.0, scene.contact_stiffness * (arc.direction * travel));
+  const auto friction = arc.direction + arc.gap * numeric::moderate_decay<double>(z);
+  return extent * numeric::sum_of_lanes(numeric::load_group<4>(rule.weight.data()) * friction);
+}
+
+/// The same by its series, where that has converged.
+[[gnu::always_inline]] inline double friction_integral(const Series& s, const Scene& scene,
+                                                       const Arc& arc, double extent) {
+  const double last =
+      numeric::max(extent * numeric::abs(s.friction[order]), numeric::abs(s.friction[order - 1]));
+  const double length = numeric::max(1.0, s.unit * extent);
+  if (length * plant::power<order - 1>(extent) * last > 64.0 * allowed_term) {
+    return friction_by_nodes(s, scene, arc, extent);
+  }
   Coefficients mean;
   for (std::size_t n = 0; n <= order; ++n) {
     mean[n] = s.friction[n] * (1.0 / static_cast<double>(n + 1));
@@ -178,13 +211,21 @@ inline double series_unit(const Scene& scene, double velocity, double friction, 
 [[gnu::always_inline]] inline void add_energy(Result& state, const Series& s, const Scene& scene,
                                               const Arc& arc, double extent, double travel,
                                               const Named& named) {
-  const double integral = friction_integral(s, extent);
+  const double integral = friction_integral(s, scene, arc, extent);
   const double z = scene.contact_stiffness * travel;
   state.friction_integral += s.unit * integral;
   state.friction_work +=
       arc.direction * (travel * (arc.friction - arc.gap * (z * decay_remainder(z))));
   state.sliding_work += s.unit * (scene.sliding_velocity * integral);
   add_motion(state, s, scene, extent, named);
+}
+
+/// Friction at its limit but for a negligible rest.
+[[gnu::always_inline]] inline void settle(Result& state, double velocity) {
+  const double limit = velocity > 0.0 ? 1.0 : -1.0;
+  if (velocity != 0.0 && 1.0 - limit * state.friction <= numeric::min(0.125 * allowed_term, 1e-6)) {
+    state.friction = limit;
+  }
 }
 
 /// One carrier period; false where it fails.
@@ -196,6 +237,7 @@ inline double series_unit(const Scene& scene, double velocity, double friction, 
   for (std::uint32_t steps = 0; offset < two_pi; ++steps) {
     const double rest = two_pi - offset;
     const double velocity = scene.sliding_velocity + state.velocity;
+    settle(state, velocity);
     Phasor drive = {};
     if (named.driven) {
       drive = drive_at(scene.drive_amplitude, offset);
@@ -221,10 +263,11 @@ inline double series_unit(const Scene& scene, double velocity, double friction, 
 
     const double remaining = rest / s.unit;
     const double rounding = epsilon * numeric::abs(s.rate * s.travel[0]);
-    const double first = extent_at(s, 1.0, rounding, longest, remaining);
-    const double end = first < 0.5 * numeric::min(1.0, remaining)
-                           ? extent_at(s, speed_within(s, first), rounding, longest, remaining)
-                           : first;
+    const double fastest = speed_within(s, 1.0);
+    const double first = extent_at(s, scene, fastest, rounding, longest, remaining);
+    const double within = speed_within(s, first);
+    const double end =
+        within < 0.5 * fastest ? extent_at(s, scene, within, rounding, longest, remaining) : first;
     const double extent = up_to_reversal(s, direction, end);
     const double travel = travelled(s, arc, extent);
     state.displacement = displacement_at(s, extent);
@@ -232,7 +275,7 @@ inline double series_unit(const Scene& scene, double velocity, double friction, 
     state.friction = numeric::clamp(
         arc.friction + arc.gap * minus_decayed(scene.contact_stiffness * travel), -1.0, 1.0);
     if (named.mean_friction) {
-      state.friction_integral += s.unit * friction_integral(s, extent);
+      state.friction_integral += s.unit * friction_integral(s, scene, arc, extent);
     }
     if (named.energy) {
       add_energy(state, s, scene, arc, extent, travel, named);

@@ -170,7 +170,7 @@ std::vector<std::string> board_names() {
 INSTANTIATE_TEST_SUITE_P(Boards, Image,
                          testing::Combine(testing::ValuesIn(board_names()),
                                           testing::Values("target_step", "target_step_q31",
-                                                          "other_parts")),
+                                                          "target_step_q15", "other_parts")),
                          [](const auto& parameter) {
                            return test_name_of(std::get<0>(parameter.param)) + "_" +
                                   std::get<1>(parameter.param);

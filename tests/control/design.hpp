@@ -69,7 +69,7 @@ std::enable_if_t<std::is_empty_v<Empty>> fill(const Design& /*design*/, Empty& /
 template <class S>
 void fill(const Design& design, typename LearntFriction<S>::Parameters& parameters) {
   parameters = {design.settle_periods, design.average_periods,
-                numeric::from_real<S>(1.0 / design.average_periods)};
+                numeric::from_real<numeric::Accumulator<S>>(1.0 / design.average_periods)};
 }
 
 template <class S>

@@ -42,15 +42,17 @@ std::uint64_t hash_of_commands() {
 }
 
 TEST(SameBits, ShapedController) {
-  EXPECT_EQ(hash_of_commands<ShapedParts<double>>(), 0xBE9DE500ED8D8901U);
-  EXPECT_EQ(hash_of_commands<ShapedParts<float>>(), 0x16AF3135A055E09FU);
-  EXPECT_EQ(hash_of_commands<ShapedParts<Saturated>>(), 0x18FBA398FCEC89E2U);
+  EXPECT_EQ(hash_of_commands<ShapedParts<double>>(), 0x5C6CB45B6B123885U);
+  EXPECT_EQ(hash_of_commands<ShapedParts<float>>(), 0xFF5D184D714CE463U);
+  EXPECT_EQ(hash_of_commands<ShapedParts<Saturated>>(), 0x967045F6DD6F74ACU);
+  EXPECT_EQ(hash_of_commands<ShapedParts<ShortTrapped>>(), 0x6DCE78D16F4C6CCBU);
 }
 
 TEST(SameBits, FullController) {
-  EXPECT_EQ(hash_of_commands<FullParts<double>>(), 0xE3F967FBBF3CC0B1U);
-  EXPECT_EQ(hash_of_commands<FullParts<float>>(), 0x241739DF1AE01280U);
-  EXPECT_EQ(hash_of_commands<FullParts<Saturated>>(), 0xC19A515710C32AF3U);
+  EXPECT_EQ(hash_of_commands<FullParts<double>>(), 0xCDEB4D34D0DC6E42U);
+  EXPECT_EQ(hash_of_commands<FullParts<float>>(), 0x9AA1493FBF8F388DU);
+  EXPECT_EQ(hash_of_commands<FullParts<Saturated>>(), 0xCD07F9DC19A1B686U);
+  EXPECT_EQ(hash_of_commands<FullParts<ShortTrapped>>(), 0x316697D550F4B1D6U);
 }
 
 TEST(SameBits, BareController) {

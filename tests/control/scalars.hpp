@@ -12,6 +12,9 @@ using Saturated = numeric::Q31<numeric::Saturating>;
 /// Stops the program at the first overflow: what runs in it has none.
 using Trapped = numeric::Q31<numeric::Trapping>;
 
+/// The same in 16 bits.
+using ShortTrapped = numeric::Q15<numeric::Trapping>;
+
 using Scalars = testing::Types<double, float, Saturated, Trapped>;
 using FloatingScalars = testing::Types<double, float>;
 

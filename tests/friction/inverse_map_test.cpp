@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 
@@ -12,12 +13,21 @@ namespace {
 
 static_assert(sizeof(dahl_inverse_table) <= 4096, "the inverse map's constants fit 4 KiB");
 
+constexpr double slow = 0x1p-11;
+
 template <class Scalar>
-double velocity_ratio(double ratio, double lambda) {
-  const numeric::Split<double> parts = numeric::split(lambda);
-  return numeric::to_real(dahl_velocity_ratio(
-      numeric::from_real<Scalar>(0.5 * ratio),
-      numeric::Split<Scalar>{numeric::from_real<Scalar>(parts.mantissa), parts.exponent}));
+double vibration_velocity(double ratio, double lambda, double speed = slow) {
+  const numeric::Split<double> parts = numeric::split(lambda / (2.0 * speed));
+  const numeric::Split<Scalar> half_travel{numeric::from_real<Scalar>(parts.mantissa),
+                                           parts.exponent};
+  return numeric::to_real(dahl_vibration_velocity(numeric::from_real<Scalar>(0.5 * ratio),
+                                                  numeric::from_real<Scalar>(speed),
+                                                  numeric::floating(half_travel)));
+}
+
+template <class Scalar>
+double velocity_ratio(double ratio, double lambda, double speed = slow) {
+  return speed / vibration_velocity<Scalar>(ratio, lambda, speed);
 }
 
 template <class Scalar>
@@ -44,10 +54,31 @@ TYPED_TEST(DahlInverseMap, ReturnsToTheRatioWithin0002) {
   this->RecordProperty("worst_error_millionths", static_cast<int>(worst * 1e6));
 }
 
+/// Largest error of the ratio in 16 bits.
+double largest_short_error(double speed) {
+  double largest = 0.0;
+  for (int i = 0; i <= 250; ++i) {
+    const double dahl_number = std::pow(10.0, -2.0 + 5.0 * i / 250);
+    for (double r = speed; r <= 1.0; r += 0.005) {
+      const double ratio = dahl_friction_ratio(r, dahl_number);
+      const double lambda = dahl_number * r;
+      const double back = velocity_ratio<numeric::Q15<numeric::Saturating>>(ratio, lambda, speed);
+      largest = std::max(largest, std::abs(dahl_friction_ratio(back, lambda / back) - ratio));
+    }
+  }
+  return largest;
+}
+
+TEST(ShortDahlInverseMap, ReturnsToTheRatioAsCloselyAsTheSpeedIsFine) {
+  EXPECT_LE(largest_short_error(0.4), 0.002);
+  EXPECT_LE(largest_short_error(0.1), 0.002);
+  EXPECT_LE(largest_short_error(0.0125), 0.008);
+}
+
 TYPED_TEST(DahlInverseMap, RisesWithTheRatio) {
   for (double lambda = 1e-4; lambda < 1e4; lambda *= 1.9) {
     double previous = 0.0;
-    for (int j = 0; j <= 1000; ++j) {
+    for (int j = 1; j <= 1000; ++j) {
       const double r = velocity_ratio<TypeParam>(j / 1000.0, lambda);
       ASSERT_GE(r, previous) << "ratio " << j / 1000.0 << " lambda " << lambda;
       ASSERT_LE(r, 1.0);
@@ -57,8 +88,15 @@ TYPED_TEST(DahlInverseMap, RisesWithTheRatio) {
   }
 }
 
-TYPED_TEST(DahlInverseMap, GivesNoVelocityForNoFriction) {
-  EXPECT_EQ(velocity_ratio<TypeParam>(0.0, 1.0), 0.0);
+TYPED_TEST(DahlInverseMap, EndsAtTheLargestValue) {
+  const double largest = numeric::to_real(numeric::from_code<TypeParam>(INT32_MAX));
+  EXPECT_EQ(vibration_velocity<TypeParam>(0.0, 1.0), largest);
+  for (const double lambda : {1e-6, 1e-3, 1.0, 1e3, 1e6}) {
+    // A small friction ratio is between 2/pi and pi/2 of the velocity ratio.
+    EXPECT_EQ(vibration_velocity<TypeParam>(0.6 * slow, lambda), largest);
+    EXPECT_EQ(vibration_velocity<TypeParam>(0x1p-30, lambda), largest);
+    EXPECT_LT(vibration_velocity<TypeParam>(4.0 * slow, lambda), largest);
+  }
 }
 
 // Drive amplitudes at which Table 1 of the paper reaches a ratio, sliding at 26.72 mm/s and at

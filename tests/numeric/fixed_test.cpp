@@ -169,7 +169,7 @@ TEST(FixedPolicies, CountingCountsEveryKindOfOverflowOnce) {
   one_more(fixed_cast<CountedShort>(Long::largest()));
   const std::array<CountedShort, 3> ones{CountedShort::lowest(), CountedShort::lowest(),
                                          CountedShort::lowest()};
-  one_more(dot(ones.data(), ones.data(), ones.size()));
+  one_more(dot(ones, ones));
   EXPECT_EQ(fixed_cast<Counted>(Counted::from_raw(7)), Counted::from_raw(7));
   EXPECT_EQ(ledger.total_saturations(), expected);
 }
@@ -192,14 +192,14 @@ TEST(FixedDotProduct, RoundsEachProductAndSaturatesOnce) {
   const auto half = Short::from_raw(1 << 14);
   const std::array<Short, 4> a{Short::from_raw(1), Short::from_raw(1), Short::from_raw(-1), half};
   const std::array<Short, 4> b{half, half, half, half};
-  EXPECT_EQ(dot(a.data(), b.data(), 4).raw(), 1 + 1 + 0 + (1 << 13));
-  EXPECT_EQ(dot(a.data(), b.data(), 0), Short());
+  EXPECT_EQ(dot(a, b).raw(), 1 + 1 + 0 + (1 << 13));
 
   // The first two products leave the range, the third brings the sum back.
   const std::array<Long, 3> c{Long::lowest(), Long::lowest(), Long::lowest()};
   const std::array<Long, 3> d{Long::lowest(), Long::from_real(-0.5), Long::from_real(0.75)};
-  EXPECT_EQ(dot(c.data(), d.data(), 3), Long::from_real(0.75));
-  EXPECT_EQ(dot(c.data(), d.data(), 2), Long::largest());
+  EXPECT_EQ(dot(c, d), Long::from_real(0.75));
+  const std::array<Long, 2> lowest{Long::lowest(), Long::lowest()};
+  EXPECT_EQ(dot(lowest, lowest), Long::largest());
 }
 
 }  // namespace

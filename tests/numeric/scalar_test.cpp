@@ -46,7 +46,7 @@ TYPED_TEST(EveryScalar, AnswersTheSame) {
   EXPECT_EQ(to_code(x), 3 << 28);
   EXPECT_EQ(from_code<TypeParam>(-(1 << 30)), y);
   const std::array<TypeParam, 2> vector{x, y};
-  EXPECT_EQ(to_real(dot(vector.data(), vector.data(), 2)), 0.390625);
+  EXPECT_EQ(to_real(dot(vector, vector)), 0.390625);
 }
 
 TYPED_TEST(EveryScalar, SplitLeavesZeroAndNegativeNumbersWhole) {
@@ -55,6 +55,12 @@ TYPED_TEST(EveryScalar, SplitLeavesZeroAndNegativeNumbersWhole) {
     EXPECT_EQ(to_real(parts.mantissa), value);
     EXPECT_EQ(parts.exponent, 0);
   }
+}
+
+TEST(FixedScalar, TheLargestCodeIsTheLargestNumberAndNoOverflow) {
+  EXPECT_EQ(from_code<Q15<Trapping>>(INT32_MAX), Q15<Trapping>::largest());
+  EXPECT_EQ(from_code<Q31<Trapping>>(INT32_MAX), Q31<Trapping>::largest());
+  EXPECT_EQ(from_code<Q15<Trapping>>(INT32_MIN), Q15<Trapping>::lowest());
 }
 
 TEST(FixedScalar, HalfRoundsTiesUpward) {

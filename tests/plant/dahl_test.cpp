@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 
+#include "firmware/numeric/lane_group.hpp"
 #include "motion.hpp"
 
 namespace sonoglide::plant {
@@ -44,6 +46,37 @@ TEST(DahlArc, SmallWorkKeepsItsDigits) {
     EnergyAccount<double> account;
     EXPECT_EQ(advance(solver, {0.0, 1.0, 0.0, 2.0, 0.0}, state, account).error, Error::none);
     EXPECT_NEAR(account.friction_work / (2.0 * kappa), 1.0 - 2.0 * kappa / 3.0, 1e-11);
+  }
+}
+
+TEST(DahlArc, IsTheSameInLanes) {
+  for (const double kappa : {1e-3, 0.4, 50.0}) {
+    const friction::Dahl<double>::Arc arc({kappa}, -1.0, 0.3);
+    for (double z = 0.0; z < 80.0; z += 0.37) {
+      const std::array<double, 2> travel = {z / kappa, 0.5 * z / kappa};
+      const auto found = arc.friction_along(numeric::load_group<1>(travel.data()));
+      const double allowed = z < 6.0 ? 2e-13 : 1e-9;
+      EXPECT_NEAR(found.part[0][0], arc.friction_after(travel[0]), allowed) << z;
+      EXPECT_NEAR(found.part[0][1], arc.friction_after(travel[1]), allowed) << z;
+    }
+  }
+}
+
+/// Nothing but the pull moves the contact: what the pull does, friction takes.
+TEST(DahlArc, MeanFrictionAgreesWithTheWorkAtAnyStiffness) {
+  constexpr double tolerance = 1e-7;
+  for (const double kappa : {0.1, 1.0, 7.0, 50.0, 400.0, 1e4, 1e6}) {
+    auto solver = configured<EventTaylor<Contact, 12>>({{{kappa}, 0.0, 1.0}, {}, 0.0}, tolerance);
+    for (const double acceleration : {0.0, 0.4, -0.2}) {
+      State<double> state = {0.0, 0.0, -0.8};
+      EnergyAccount<double> account;
+      const Interval<double> slide = {0.0, 2.0, 0.0, 0.5, acceleration};
+      EXPECT_EQ(advance(solver, slide, state, account).error, Error::none);
+      EXPECT_NEAR(account.sliding_work, account.friction_work, tolerance) << kappa;
+      if (acceleration == 0.0) {
+        EXPECT_NEAR(0.5 * account.friction_integral, account.friction_work, tolerance) << kappa;
+      }
+    }
   }
 }
 

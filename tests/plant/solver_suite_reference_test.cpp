@@ -7,10 +7,17 @@
 #include <sstream>
 #include <string>
 
+#include "firmware/plant/adaptive_strang.hpp"
 #include "solver_suite.hpp"
 
 namespace sonoglide::plant {
 namespace {
+
+struct AdaptiveStrangMethod {
+  using Scalar = double;
+  template <class Model>
+  using Solver = AdaptiveStrang<Model>;
+};
 
 struct ReferenceScene {
   std::string name;
@@ -125,6 +132,13 @@ TEST(SolverReference, Strang) {
   expect_ratio<StrangMethod<double>>(stiff_contact, 512.0, 1e-6);
   expect_ratio<StrangMethod<double>>(heavy_friction, 32.0, 1e-3);
   expect_ratio<StrangMethod<double>>(heavy_friction, 512.0, 2e-6);
+}
+
+TEST(SolverReference, AdaptiveStrang) {
+  for (const ReferenceScene& scene : {table1, stiff_contact, heavy_friction, table1_as_printed}) {
+    expect_ratio<AdaptiveStrangMethod>(scene, 1e-3, 1e-3);
+    expect_ratio<AdaptiveStrangMethod>(scene, 1e-5, 1e-5);
+  }
 }
 
 }  // namespace

@@ -173,6 +173,18 @@ TEST(FrictionArcs, IntegralOfASaturatingArc) {
   }
 }
 
+/// What is missing from saturation is small, its rate in a very stiff contact is not.
+TEST(FrictionArcs, IntegralOfAnArcThatIsAllButSaturated) {
+  const VelocityPath<double> path = path_through({1.0, 0.0, 0.0, 0.0, 0.0}, 1.0);
+  for (const double kappa : {1e3, 1e12, 1e30}) {
+    for (const double missing : {1e-5, 1e-12, 0.0}) {
+      const friction::Dahl<double> law = {kappa};
+      const FrictionArcs<friction::Dahl<double>> arcs(law, path, 1.0, 1.0 - missing);
+      EXPECT_NEAR(arcs.integral(1.0, 0.0), 1.0, missing / kappa + 3e-11);
+    }
+  }
+}
+
 /// A step far too long for the ringing is cut to one that is stable.
 TEST(StrangStuck, RingsAsASpringHoweverLongTheStep) {
   const double kappa = 1e4;

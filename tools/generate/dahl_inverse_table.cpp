@@ -15,29 +15,22 @@ using Grid = sonoglide::friction::DahlInverseGrid;
 constexpr double pi = 3.14159265358979323846;
 constexpr int bisections = 60;
 
-double column_ratio(int column) {
-  if (column == Grid::columns - 1) {
-    return 1.0;
-  }
-  const int octave = column / Grid::cells_per_octave;
-  const int cell = column % Grid::cells_per_octave;
-  return 1.0 - std::ldexp(1.0 - 0.5 * cell / Grid::cells_per_octave, -octave);
-}
-
-double row_dahl_number(int row) {
-  if (row == 0) {
+template <class Axis>
+double line(int index) {
+  constexpr int cells = Axis::cells_per_octave;
+  if (index == 0) {
     return 0.0;
   }
-  const int octave = (row - 1) / Grid::cells_per_octave;
-  const int cell = (row - 1) % Grid::cells_per_octave;
-  return std::ldexp(1.0 + static_cast<double>(cell) / Grid::cells_per_octave,
-                    octave + Grid::first_octave);
+  const int octave = (index - 1) / cells;
+  const int cell = (index - 1) % cells;
+  return std::ldexp(1.0 + static_cast<double>(cell) / cells, octave + Axis::first_octave);
 }
 
-// u/ρ for which the map returns ρ at λ = κ'·ρ; the limits ρ → 0 and κ' → 0 are taken just inside.
+// z = sqrt(ρ/r − ρ) for which the map returns ρ at λ = κ'·ρ; the limits ρ → 0 and κ' → 0 are taken
+// just inside.
 double tabulated(double ratio, double reduced_dahl_number) {
   if (ratio >= 1.0) {
-    return 1.0;
+    return 0.0;
   }
   const double rho = std::max(ratio, 1e-6);
   const double lambda = std::max(reduced_dahl_number, 1e-6) * rho;
@@ -48,14 +41,14 @@ double tabulated(double ratio, double reduced_dahl_number) {
     const double r = std::sin(0.5 * pi * u);
     (dahl_friction_ratio(r, lambda / r) < rho ? low : high) = u;
   }
-  return low / rho;
+  return std::sqrt(rho / std::sin(0.5 * pi * low) - rho);
 }
 
 }  // namespace
 
 int main() {
   std::puts(
-      "/// Inverse Dahl map, g = u/rho in units of 2^-16, a row for each reduced Dahl number.");
+      "/// Inverse Dahl map, sqrt(rho/r - rho) in 2^-15, a row for each reduced Dahl number.");
   std::puts("/// Written by tools/generate/dahl_inverse_table.cpp; a test compares the two.");
   std::puts("#pragma once\n");
   std::puts("#include <cstdint>\n");
@@ -67,8 +60,8 @@ int main() {
   for (int row = 0; row < Grid::rows; ++row) {
     std::fputs("  {", stdout);
     for (int column = 0; column < Grid::columns; ++column) {
-      const double g = tabulated(column_ratio(column), row_dahl_number(row));
-      const int entry = static_cast<int>(std::min(65535.0, std::floor(g * 65536.0 + 0.5)));
+      const double z = tabulated(1.0 - line<Grid::Column>(column), line<Grid::Row>(row));
+      const int entry = static_cast<int>(std::floor(std::ldexp(z, Grid::entry_bits) + 0.5));
       std::printf("%d%s", entry, column + 1 < Grid::columns ? "," : "");
     }
     std::puts("},");

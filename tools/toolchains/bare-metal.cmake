@@ -6,7 +6,7 @@ set(CMAKE_EXECUTABLE_SUFFIX_CXX .elf)
 set(CMAKE_TRY_COMPILE_TARGET_TYPE STATIC_LIBRARY)
 
 string(JOIN " " CMAKE_CXX_FLAGS_INIT
-  ${processor_flags} -O2 -ffp-contract=off -fno-exceptions -fno-rtti -fno-threadsafe-statics
+  ${processor_flags} -O2 -g -ffp-contract=off -fno-exceptions -fno-rtti -fno-threadsafe-statics
   -ffunction-sections -fdata-sections)
 # No start files and no system calls: what needs a heap or an operating system does not link.
 set(CMAKE_EXE_LINKER_FLAGS_INIT "-nostartfiles -Wl,--gc-sections -Wl,--fatal-warnings")

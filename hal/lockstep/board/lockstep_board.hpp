@@ -24,7 +24,9 @@ namespace sonoglide::hal::lockstep {
 template <class Link, class Counter = NoCounter>
 class LockstepBoard {
  public:
-  bool sample(Sample& sample) {
+  // Neither call is inlined: the compiler would move work across the readings of the counter.
+
+  [[gnu::noinline]] bool sample(Sample& sample) {
     SampleFrame frame{};
     const std::size_t received = link_.read(frame.data(), frame.size());
     arrival_ = counter_.read();
@@ -33,17 +35,24 @@ class LockstepBoard {
     }
     require(received == frame.size() && period(frame) == period_);
     sample = sample_of(frame);
+    handed_over_ = counter_.read();
     return true;
   }
 
-  void drive(const Drive& drive) {
+  [[gnu::noinline]] void drive(const Drive& drive) {
+    const std::uint32_t taken = counter_.read();
     DriveFrame frame = encode(period_, drive);
-    put_count(counter_.read() - arrival_, frame);
+    put_cost({taken - handed_over_ - reading_, counter_.read() - arrival_ - 3 * reading_}, frame);
     require(link_.write(frame.data(), frame.size()));
     ++period_;
   }
 
  private:
+  static std::uint32_t reading_cost(const Counter& counter) {
+    const std::uint32_t begin = counter.read();
+    return counter.read() - begin;
+  }
+
   static void require(bool intact) {
     if (!intact) {
       leave_image(static_cast<int>(ExitCode::link_broken));
@@ -52,7 +61,9 @@ class LockstepBoard {
 
   Link link_{};
   Counter counter_{};
-  std::uint32_t arrival_ = 0;
+  std::uint32_t reading_ = reading_cost(counter_);
+  std::uint32_t arrival_ = 0;      ///< of the sample frame
+  std::uint32_t handed_over_ = 0;  ///< the sample was
   std::uint32_t period_ = 0;
 };
 

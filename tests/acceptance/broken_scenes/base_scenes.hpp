@@ -1,9 +1,13 @@
 /// Three good scenes, from which the broken ones differ by one edit.
 #pragma once
 
+#include <string>
+
+#include "tests/acceptance/program/table_1.hpp"
+
 namespace sonoglide::acceptance {
 
-inline constexpr const char* open_loop = R"([plant]
+inline const std::string open_loop = R"([plant]
 mass_kg = 0.02
 stiffness_N_per_m = 133e6
 [friction]
@@ -25,19 +29,7 @@ record = ["displacement_m"]
 record_interval_s = 1e-6
 )";
 
-inline constexpr const char* closed_loop = R"([plant]
-mass_kg = 0.02
-stiffness_N_per_m = 133e6
-[friction]
-law = "dahl"
-coefficient = 0.1
-contact_stiffness_N_per_m = 0.056e6
-[sliding]
-velocity_m_per_s = 0.0267
-[drive]
-frequency_Hz = 60e3
-max_force_amplitude_N = 1920.0
-[run]
+inline const std::string control_of_1_ms = R"([run]
 duration_s = 1e-3
 [controller]
 arithmetic = "float32"
@@ -47,7 +39,10 @@ adc_bits = 12
 [model_error]
 stiffness = 1.04
 )";
-inline constexpr const char* coulomb_closed_loop = R"([plant]
+
+inline const std::string closed_loop = table_1_closed_loop + control_of_1_ms;
+
+inline const std::string coulomb_closed_loop = R"([plant]
 mass_kg = 0.02
 stiffness_N_per_m = 133e6
 [friction]
@@ -58,15 +53,6 @@ velocity_m_per_s = 0.0267
 [drive]
 frequency_Hz = 60e3
 max_force_amplitude_N = 1920.0
-[run]
-duration_s = 1e-3
-[controller]
-arithmetic = "float32"
-target_friction_ratio = [[0.0, 0.4], [0.5e-3, 0.6]]
-[sensor]
-adc_bits = 12
-[model_error]
-stiffness = 1.04
-)";
+)" + control_of_1_ms;
 
 }  // namespace sonoglide::acceptance

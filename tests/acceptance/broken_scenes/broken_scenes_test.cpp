@@ -15,7 +15,7 @@ namespace {
 /// file's name.
 struct BrokenScene {
   const char* name;
-  const char* base;
+  std::string base;
   const char* old_text;
   const char* new_text;
   const char* error;
@@ -330,7 +330,7 @@ INSTANTIATE_TEST_SUITE_P(Table, BrokenSceneTest, testing::ValuesIn(broken_scenes
                          [](const auto& scene) { return std::string(scene.param.name); });
 
 TEST(UneditedSceneTest, IsAccepted) {
-  for (const char* text : {open_loop, closed_loop}) {
+  for (const std::string& text : {open_loop, closed_loop}) {
     const ScratchFolder folder;
     folder.write("good.toml", text);
     const Outcome outcome = folder.run("run good.toml --quiet");

@@ -7,25 +7,14 @@
 #include <vector>
 
 #include "tests/acceptance/program/program.hpp"
+#include "tests/acceptance/program/table_1.hpp"
 
 namespace sonoglide::acceptance {
 namespace {
 
 using Entries = std::vector<std::string>;
 
-constexpr const char* open_loop = R"([plant]
-mass_kg = 0.02
-stiffness_N_per_m = 133e6
-[friction]
-law = "dahl"
-coefficient = 0.1
-contact_stiffness_N_per_m = 0.056e6
-[sliding]
-velocity_m_per_s = 0.0267
-[drive]
-frequency_Hz = 60e3
-force_amplitude_N = 384.0
-[run]
+const std::string open_loop = table_1_open_loop + R"([run]
 duration_periods = 20
 record = ["displacement_m"]
 record_interval_s = 1e-6

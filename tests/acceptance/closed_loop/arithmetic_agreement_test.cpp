@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <vector>
 
 #include "host_sim/loop/run.hpp"
 #include "host_sim/scene/reader.hpp"
@@ -13,10 +14,12 @@ namespace sonoglide {
 namespace {
 
 /// Largest difference of the friction ratio in any carrier period.
-double difference(const std::string& name, const std::string& arithmetic) {
-  const auto run = [&name](const std::string& chosen) {
-    return loop::run_logged(scene::read_file(SONOGLIDE_SCENES "/" + name + ".toml",
-                                             {"controller.arithmetic=" + chosen}));
+double difference(const std::string& name, const std::string& arithmetic,
+                  std::vector<std::string> settings = {}) {
+  settings.emplace_back();
+  const auto run = [&](const std::string& chosen) {
+    settings.back() = "controller.arithmetic=" + chosen;
+    return loop::run_logged(scene::read_file(SONOGLIDE_SCENES "/" + name + ".toml", settings));
   };
   const loop::LoggedRun exact = run("float64");
   const loop::LoggedRun rounded = run(arithmetic);
@@ -35,6 +38,10 @@ TEST_P(ArithmeticAgreementTest, FixedPointIsWithinTwoThousandthsOfDouble) {
   EXPECT_LE(difference(GetParam(), "q31"), 0.002);
 }
 
+TEST_P(ArithmeticAgreementTest, SixteenBitsAreWithinTwoThousandthsOfDouble) {
+  EXPECT_LE(difference(GetParam(), "q15"), 0.002);
+}
+
 TEST_P(ArithmeticAgreementTest, SinglePrecisionIsWithinTwoThousandthsOfDouble) {
   EXPECT_LE(difference(GetParam(), "float32"), 0.002);
 }
@@ -44,6 +51,14 @@ INSTANTIATE_TEST_SUITE_P(Scenes, ArithmeticAgreementTest,
                                          "unreachable_target", "speed_ramp", "speed_reversal",
                                          "stop_and_start"),
                          [](const auto& scene) { return scene.param; });
+
+// Undamped, the natural mode keeps whatever the rounding of 16 bits stirs up in it.
+TEST(ArithmeticAgreementTest, SixteenBitsStayThereOverALongRun) {
+  EXPECT_LE(difference("target_step", "q15",
+                       {"run.duration_s=0.3", "run.record=[]", "solver.method=event_gauss",
+                        "solver.tolerance=1e-8"}),
+            0.0005);
+}
 
 TEST(ArithmeticAgreementTest, FixedPointSaturatesNowhereInside) {
   for (const char* name : {"target_step", "model_error", "noisy_sensor", "unreachable_target",

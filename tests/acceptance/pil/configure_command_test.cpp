@@ -44,6 +44,8 @@ TEST(ConfigureCommandTest, WritesThePlantAsWellWhereItIsAskedTo) {
   EXPECT_EQ(folder.run("configure " + scene + " --plant q31 --out q31").exit_code, 0);
   EXPECT_NE(folder.read("q31" + plant_name).find("FixedPlantBoard"), std::string::npos);
   EXPECT_EQ(folder.run("configure " + scene + " --plant float64 --out other").exit_code, 2);
+  EXPECT_EQ(folder.run("configure " + scene + " --quiet").exit_code, 0);
+  EXPECT_EQ(folder.read("out/target_step" + plant_name), "") << "that of an earlier call is gone";
 }
 
 TEST(ConfigureCommandTest, SaysWhatThePlantOfAnImageCannotFollow) {

@@ -16,25 +16,13 @@
 
 #include "image_cache.hpp"
 #include "tests/acceptance/program/program.hpp"
+#include "tests/acceptance/program/table_1.hpp"
 
 namespace sonoglide::acceptance {
 namespace {
 
 /// The target step of Table 1 over minutes.
-constexpr const char* long_scene = R"(
-[plant]
-mass_kg = 0.02
-stiffness_N_per_m = 133e6
-[friction]
-law = "dahl"
-coefficient = 0.1
-contact_stiffness_N_per_m = 0.056e6
-[sliding]
-velocity_m_per_s = 0.02672
-[drive]
-frequency_Hz = 60e3
-max_force_amplitude_N = 1920.0
-[run]
+const std::string long_scene = table_1_closed_loop + R"([run]
 duration_s = 1000.0
 [controller]
 arithmetic = "float32"

@@ -8,27 +8,14 @@
 #include <vector>
 
 #include "tests/acceptance/program/program.hpp"
+#include "tests/acceptance/program/table_1.hpp"
 
 namespace sonoglide::acceptance {
 namespace {
 
 using Entries = std::vector<std::string>;
 
-const std::string table_1 = R"([plant]
-mass_kg = 0.02
-stiffness_N_per_m = 133e6
-[friction]
-law = "dahl"
-coefficient = 0.1
-contact_stiffness_N_per_m = 0.056e6
-[sliding]
-velocity_m_per_s = 0.0267
-[drive]
-frequency_Hz = 60e3
-force_amplitude_N = 384.0
-[run]
-duration_periods = 2
-)";
+const std::string table_1 = table_1_open_loop + "[run]\nduration_periods = 2\n";
 
 std::vector<std::string> fields(const std::string& line) {
   std::vector<std::string> all;

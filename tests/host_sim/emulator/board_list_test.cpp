@@ -1,11 +1,13 @@
-// The list of boards against what the boards are built with: presets and toolchain files.
+// The list of boards against what the boards are built with: presets, toolchain files, folders.
 #include "host_sim/emulator/board_list.hpp"
 
 #include <gtest/gtest.h>
 
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <nlohmann/json.hpp>
+#include <regex>
 #include <set>
 #include <string>
 #include <vector>
@@ -28,14 +30,26 @@ nlohmann::json toolchains() {
   return found;
 }
 
-TEST(BoardList, HasEveryBoardThatAPresetBuildsFor) {
+TEST(BoardList, EachBoardHasItsPresetWithItsToolchain) {
   const nlohmann::json presets = toolchains();
-  EXPECT_EQ(presets.size(), emulated_boards().size());
   for (const EmulatedBoard& board : emulated_boards()) {
     const std::string file = "tools/toolchains/" + std::string(board.toolchain) + ".cmake";
     ASSERT_TRUE(presets.contains(std::string(board.name))) << board.name;
     EXPECT_EQ(presets.at(std::string(board.name)), file);
     EXPECT_TRUE(std::filesystem::exists(source_folder + "/" + file)) << file;
+  }
+}
+
+TEST(BoardList, EachBoardHasItsLineAmongTheBoardsAndEachLineItsFolder) {
+  std::ifstream file(source_folder + "/tools/cmake/boards.cmake");
+  const std::string lines{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  for (const EmulatedBoard& board : emulated_boards()) {
+    EXPECT_TRUE(std::regex_search(lines, std::regex("[( ]" + std::string(board.name) + "[ )\n]")))
+        << board.name;
+  }
+  const std::regex folder("FOLDER (hal/[a-z0-9_]+)");
+  for (std::sregex_iterator each(lines.begin(), lines.end(), folder), end; each != end; ++each) {
+    EXPECT_TRUE(std::filesystem::is_directory(source_folder + "/" + each->str(1))) << each->str(1);
   }
 }
 

@@ -34,7 +34,15 @@ TEST(ControllerHeader, NamesTheSceneAndItsScalar) {
   EXPECT_TRUE(has(controller_header(read("target_step")), "of the scene target_step."));
   EXPECT_TRUE(has(controller_header(read("target_step")), "using Scalar = float;"));
   EXPECT_TRUE(has(controller_header(read("target_step_q31")), "using Scalar = numeric::Q31"));
+  EXPECT_TRUE(has(controller_header(read("target_step_q15")), "using Scalar = numeric::Q15"));
   EXPECT_TRUE(has(controller_header(read("target_step_float64")), "using Scalar = double;"));
+}
+
+// 1/30 of 2^31: a share of the mean that 16 bits could not hold for long calibrations.
+TEST(ControllerHeader, KeepsTheWeightsOfCalibrationIn32Bits) {
+  const std::string header =
+      controller_header(read("target_step_q15", {"controller.calibration_s=1e-3"}));
+  EXPECT_TRUE(has(header, "{30, 30, numeric::Accumulator<Scalar>::from_raw(71582788)}")) << header;
 }
 
 TEST(ControllerHeader, HoldsNoPartThatTheSceneDoesNotName) {
@@ -43,6 +51,11 @@ TEST(ControllerHeader, HoldsNoPartThatTheSceneDoesNotName) {
   EXPECT_TRUE(has(shaped, "notch_shaper.hpp"));
   EXPECT_FALSE(has(unshaped, "notch_shaper.hpp"));
   EXPECT_FALSE(has(shaped, "/slew_limit.hpp"));
+  // A mode at twice the carrier can neither be notched out nor fed back to.
+  const std::string fed_forward =
+      controller_header(read("target_step", {"drive.frequency_Hz=6489"}));
+  EXPECT_TRUE(has(shaped, "integral_regulator.hpp"));
+  EXPECT_FALSE(has(fed_forward, "integral_regulator.hpp"));
 }
 
 // The step at 2 ms is answered by the sample that ends the carrier period 119, counted from 0.

@@ -64,6 +64,40 @@ volatile int x;
   EXPECT_GE(bound.bytes, compiled.frame_bytes("other"));
 }
 
+TEST_P(StackBoundTest, KnowsAFrameThatNoInstructionsConstantReaches) {
+  for (const char* room : {"600", "1024"}) {
+    const Compiled compiled(GetParam(), std::string(R"(
+extern "C" {
+volatile int x;
+[[gnu::noinline]] void reset() { volatile char room[)") +
+                                            room + R"(]; room[x] = 1; x = room[x + 1]; }
+}
+)");
+    const StackBound bound = stack_bound(compiled.disassembly(), "reset");
+    EXPECT_EQ(bound.unbounded_by, "");
+    EXPECT_EQ(bound.bytes, compiled.frame_bytes("reset"));
+  }
+}
+
+TEST_P(StackBoundTest, PassesAReturnFromUnderSpilledArguments) {
+  const Compiled compiled(GetParam(), R"(
+extern "C" {
+struct Many { int of[8]; };
+volatile int x;
+[[gnu::noinline]] int sum(int first, Many many) {
+  volatile char room[100];
+  room[x] = 1;
+  const Many* volatile all = &many;
+  return first + all->of[x] + room[x];
+}
+[[gnu::noinline]] void reset() { x = sum(1, Many{{1, 2, 3, 4, 5, 6, 7, 8}}) + 1; }
+}
+)");
+  const StackBound bound = stack_bound(compiled.disassembly(), "reset");
+  EXPECT_EQ(bound.unbounded_by, "");
+  EXPECT_GE(bound.bytes, compiled.frame_bytes("reset") + compiled.frame_bytes("sum"));
+}
+
 TEST_P(StackBoundTest, IsNoneForACallThroughAPointer) {
   const Compiled compiled(GetParam(), R"(
 extern "C" {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cstdint>
+#include <optional>
 
 namespace sonoglide::loop {
 namespace {
@@ -54,6 +55,15 @@ TEST(CarrierGridTest, FindsThePeriodsAboutATime) {
   EXPECT_EQ(grid.over_at(2e-3), 120U);
   EXPECT_EQ(grid.at_or_after(2.001e-3), 121U);
   EXPECT_EQ(grid.over_at(2.001e-3), 120U);
+}
+
+TEST(CarrierGridTest, KnowsAWholeNumberOfPeriods) {
+  const CarrierGrid grid = grid_of(60e3, 1.0);
+  EXPECT_EQ(grid.whole_periods(0.0), 0U);
+  EXPECT_EQ(grid.whole_periods(2e-3), 120U);
+  EXPECT_EQ(grid.whole_periods(1.0), 60000U);
+  EXPECT_EQ(grid.whole_periods(2.001e-3), std::nullopt);
+  EXPECT_EQ(grid.whole_periods(0.5 / 60e3), std::nullopt);
 }
 
 TEST(CarrierGridTest, WithoutADriveHasAThousandPieces) {

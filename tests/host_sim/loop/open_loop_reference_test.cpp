@@ -165,7 +165,8 @@ const Setting settings[] = {
     {"taylor_16", taylor(16, 1e-12), 1e-9},
     {"gauss_8", gauss(1e-8), 1e-8},
     {"gauss_12", gauss(1e-10), 1e-10},
-    {"strang", fixed_step(scene::SolverMethod::strang, 400.0), 1e-4},
+    {"strang", {scene::SolverMethod::strang, 1e-5, std::nullopt, 0.0}, 1e-5},
+    {"strang_400_steps", {scene::SolverMethod::strang, 1e-2, std::nullopt, period_s / 400.0}, 1e-4},
     {"rk4", fixed_step(scene::SolverMethod::rk4, 1000.0), 1e-6},
     {"rk4_event", fixed_step(scene::SolverMethod::rk4_event, 100.0), 1e-6},
 };

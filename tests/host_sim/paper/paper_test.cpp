@@ -38,9 +38,7 @@ Columns columns(const std::string& csv) {
     const std::vector<std::string> values = cells(line);
     EXPECT_EQ(values.size(), names.size()) << line;
     for (std::size_t i = 0; i < names.size(); ++i) {
-      if (!values[i].empty()) {
-        columns[names[i]].push_back(std::stod(values[i]));
-      }
+      columns[names[i]].push_back(std::stod(values[i]));
     }
   }
   return columns;

@@ -4,6 +4,13 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+
+#include "host_sim/process/process_error.hpp"
+#include "host_sim/process/scratch_folder.hpp"
+
 namespace sonoglide::plot {
 namespace {
 
@@ -19,9 +26,33 @@ TEST(Gnuplot, SaysWhatItDidNotUnderstand) {
   try {
     draw_svg("plott 1\n", 640, 480);
     FAIL() << "a bad script was drawn";
-  } catch (const PlotError& error) {
+  } catch (const process::ProcessError& error) {
     EXPECT_NE(std::string(error.what()).find("plott"), std::string::npos) << error.what();
   }
+}
+
+TEST(Gnuplot, DrawsWhereverTemporaryFilesAre) {
+  const process::ScratchFolder home(std::filesystem::temp_directory_path());
+  const std::filesystem::path odd = home.path() / "it's a $(false) \"folder\"";
+  std::filesystem::create_directory(odd);
+  setenv("TMPDIR", odd.c_str(), 1);
+  const std::string svg = draw_svg("plot x\n", 640, 480);
+  unsetenv("TMPDIR");
+  EXPECT_NE(svg.find("</svg>"), std::string::npos);
+  EXPECT_TRUE(std::filesystem::is_empty(odd));
+}
+
+TEST(Gnuplot, SaysWhatToInstall) {
+  const std::string path = std::getenv("PATH");
+  setenv("PATH", "/nowhere", 1);
+  std::string what;
+  try {
+    require_gnuplot();
+  } catch (const process::ProcessError& error) {
+    what = error.what();
+  }
+  setenv("PATH", path.c_str(), 1);
+  EXPECT_EQ(what, "gnuplot: is not installed; on Debian: apt-get install gnuplot-nox");
 }
 
 }  // namespace

@@ -115,19 +115,36 @@ TEST_F(OutputFolderTest, ExistingFolderKeepsItsOtherFiles) {
   EXPECT_EQ(text_of(root_ / "other"), "kept");
 }
 
+TEST_F(OutputFolderTest, WithdrawnFilesGoWithTheCommit) {
+  put(root_ / "file", "before");
+  put(root_ / "stale", "before");
+  put(root_ / "other", "kept");
+  {
+    OutputFolder output(root_);
+    output.write("file", "after");
+    output.withdraw("stale");
+    output.withdraw("never there");
+    EXPECT_EQ(text_of(root_ / "stale"), "before");
+    output.commit();
+  }
+  EXPECT_EQ(names_in(root_), (Names{"file", "other"}));
+}
+
 TEST_F(OutputFolderTest, AFileThatCannotBeReplacedUndoesTheOthers) {
   put(root_ / "a", "before");
+  put(root_ / "stale", "before");
   fs::create_directory(root_ / "c");
   {
     OutputFolder output(root_);
     output.write("a", "after");
     output.write("b", "new");
     output.write("c", "in the way");
+    output.withdraw("stale");
     const std::string message = message_of([&] { output.commit(); });
     EXPECT_NE(message.find((root_ / "c").string() + ": Is a directory"), std::string::npos)
         << message;
   }
-  EXPECT_EQ(names_in(root_), (Names{"a", "c"}));
+  EXPECT_EQ(names_in(root_), (Names{"a", "c", "stale"}));
   EXPECT_EQ(text_of(root_ / "a"), "before");
 }
 
@@ -226,6 +243,7 @@ TEST_F(OutputFolderTest, NamesArePlainAndUsedOnce) {
   }
   output.write("file", "text");
   EXPECT_THROW(output.open("file"), std::invalid_argument);
+  EXPECT_THROW(output.withdraw("file"), std::invalid_argument);
 }
 
 }  // namespace

@@ -54,6 +54,8 @@ class StudyTest : public testing::Test {
       EXPECT_EQ(std::count(line.begin(), line.end(), ','),
                 std::count(header.begin(), header.end(), ','))
           << line;
+      EXPECT_EQ(line.find(",,"), std::string::npos) << "an empty cell: " << line;
+      EXPECT_NE(line.back(), ',') << line;
     }
   }
 

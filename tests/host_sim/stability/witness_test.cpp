@@ -23,13 +23,16 @@ using FreeModel = plant::Model<friction::None<double>, plant::Undamped<double>, 
 struct ToldStep {
   State last;
   double drive = 0.0;
+  double velocity_square = 0.0;
 
   double length() const { return 1.0; }
   State at(double /*offset*/) const { return last; }
   double friction_integral() const { return last.friction; }
   double friction_work() const { return 0.0; }
   double sliding_work() const { return 0.0; }
-  plant::MotionIntegrals<double> motion_integrals() const { return {drive, 0.0, 0.0, 0.0}; }
+  plant::MotionIntegrals<double> motion_integrals() const {
+    return {drive, velocity_square, 0.0, 0.0};
+  }
 };
 
 constexpr State rest{};
@@ -52,6 +55,13 @@ TEST(Witness, WorksThatCancelStillCountAsPassed) {
   witness.add(ToldStep{rest, 1e3});
   witness.add(ToldStep{rest, -1e3 + 1e-10});
   EXPECT_LT(witness.balance_residual(FreeModel{}, rest, rest), 1e-12);
+}
+
+/// A free mass that the drive has set in motion and stopped again within one step.
+TEST(Witness, WhatAStepStoredBetweenItsEndsCounts) {
+  Witness witness;
+  witness.add(ToldStep{rest, 1e-10, 1.0});
+  EXPECT_DOUBLE_EQ(witness.balance_residual(FreeModel{}, rest, rest), 2e-10);
 }
 
 TEST(Witness, NothingPassedNothingMissing) {

@@ -35,7 +35,7 @@ std::string error_of(const std::string& text) {
 TEST(AxisTest, IsEvenlySpacedInEitherDirection) {
   EXPECT_EQ(values("a.b=1:3:5"), (std::vector<double>{1.0, 1.5, 2.0, 2.5, 3.0}));
   EXPECT_EQ(values("a.b=3:-3:3"), (std::vector<double>{3.0, 0.0, -3.0}));
-  EXPECT_EQ(values("a.b=7:9:1"), std::vector<double>{7.0});
+  EXPECT_EQ(values("a.b=7:7:1"), std::vector<double>{7.0});
 }
 
 TEST(AxisTest, KeepsWholeNumbersWhole) {
@@ -91,6 +91,9 @@ TEST(AxisTest, SaysWhatIsWrong) {
     EXPECT_NE(error_of("a.b=" + std::string(range) + ":3:log").find("has no logarithm"),
               std::string::npos);
   }
+  EXPECT_EQ(
+      error_of("a.b=7:9:1"),
+      "--vary:3:1: a.b: one value from 7 to 9; allowed: FROM equal to TO, or a COUNT above 1");
 }
 
 TEST(AxisTest, WritesValuesThatReadBackTheSame) {

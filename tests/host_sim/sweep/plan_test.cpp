@@ -8,7 +8,6 @@
 
 #include "host_sim/scene/reader.hpp"
 #include "host_sim/scene/to_json.hpp"
-#include "host_sim/sweep/velocity_ratio.hpp"
 #include "tests/host_sim/sweep/scenes/base_scenes.hpp"
 #include "tests/host_sim/sweep/scenes/scratch_scene.hpp"
 

@@ -1,38 +1,18 @@
 /// Scenes that sweeps are run on.
 #pragma once
 
+#include <string>
+
+#include "tests/acceptance/program/table_1.hpp"
+
 namespace sonoglide::acceptance {
 
-constexpr const char* open_loop_scene = R"([plant]
-mass_kg = 0.02
-stiffness_N_per_m = 133e6
-[friction]
-law = "dahl"
-coefficient = 0.1
-contact_stiffness_N_per_m = 0.056e6
-[sliding]
-velocity_m_per_s = 0.0267
-[drive]
-frequency_Hz = 60e3
-force_amplitude_N = 384.0
-[run]
+inline const std::string open_loop_scene = table_1_open_loop + R"([run]
 duration_periods = 20
 window_start_periods = 10
 )";
 
-constexpr const char* closed_loop_scene = R"([plant]
-mass_kg = 0.02
-stiffness_N_per_m = 133e6
-[friction]
-law = "dahl"
-coefficient = 0.1
-contact_stiffness_N_per_m = 0.056e6
-[sliding]
-velocity_m_per_s = 0.0267
-[drive]
-frequency_Hz = 60e3
-max_force_amplitude_N = 1920.0
-[run]
+inline const std::string closed_loop_scene = table_1_closed_loop + R"([run]
 duration_periods = 60
 [controller]
 arithmetic = "float32"

@@ -1,0 +1,117 @@
+/// Positive numbers of any magnitude, in every scalar.
+#pragma once
+
+#include <cstdint>
+#include <type_traits>
+
+#include "firmware/numeric/fixed.hpp"
+#include "firmware/numeric/scalar.hpp"
+#include "firmware/numeric/word.hpp"
+
+namespace sonoglide::numeric {
+
+/// A positive number whatever its size: itself in floating point, a mantissa in [1/2, 1) and an
+/// exponent in fixed point.
+template <class Scalar>
+using Floating = std::conditional_t<is_fixed_point_v<Scalar>, Split<Scalar>, Scalar>;
+
+/// @param x  > 0.
+template <class Scalar>
+constexpr Floating<Scalar> floating(Scalar x) {
+  if constexpr (is_fixed_point_v<Scalar>) {
+    return split(x);
+  } else {
+    return x;
+  }
+}
+
+template <class Scalar>
+constexpr Floating<Scalar> floating(const Split<Scalar>& x) {
+  if constexpr (is_fixed_point_v<Scalar>) {
+    return x;
+  } else {
+    return scale_by_power_of_two(x.mantissa, x.exponent);
+  }
+}
+
+template <class Float, std::enable_if_t<std::is_floating_point_v<Float>, int> = 0>
+constexpr Float product(Float a, Float b) {
+  return a * b;
+}
+
+template <class Float, std::enable_if_t<std::is_floating_point_v<Float>, int> = 0>
+constexpr Float quotient(Float a, Float b) {
+  return a / b;
+}
+
+/// Rounded once.
+template <class Overflow>
+constexpr Split<Q31<Overflow>> product(const Split<Q31<Overflow>>& a,
+                                       const Split<Q31<Overflow>>& b) {
+  constexpr std::int32_t one_half = 1 << 30;
+  const std::int32_t mantissa = rounded_q31_product(a.mantissa.raw(), b.mantissa.raw());
+  const int exponent = a.exponent + b.exponent;
+  return mantissa < one_half
+             ? Split<Q31<Overflow>>{Q31<Overflow>::from_raw(2 * mantissa), exponent - 1}
+             : Split<Q31<Overflow>>{Q31<Overflow>::from_raw(mantissa), exponent};
+}
+
+/// At most 2^-14 of it too small.
+template <class Overflow>
+constexpr Split<Q15<Overflow>> product(const Split<Q15<Overflow>>& a,
+                                       const Split<Q15<Overflow>>& b) {
+  const std::int32_t mantissa = std::int32_t{a.mantissa.raw()} * b.mantissa.raw();
+  const bool below_half = mantissa < 1 << 29;
+  const auto raw = static_cast<std::int16_t>(mantissa >> (below_half ? 14 : 15));
+  const int exponent = a.exponent + b.exponent;
+  return {Q15<Overflow>::from_raw(raw), below_half ? exponent - 1 : exponent};
+}
+
+namespace detail {
+
+/// n/d, 2^30 <= n, d < 2^31, with 28 fraction bits; too small by at most 2^-24.
+///
+/// Long division by two digits of 12 and 16 bits, each from a reciprocal of 15: every product fits
+/// a word, which counts where a wide one or a division is a call.
+constexpr std::uint32_t mantissa_quotient(std::uint32_t n, std::uint32_t d) {
+  const std::uint32_t leading = (d >> 15) + 1;  // 1/2 to 1 with 16 bits, and not too small
+  // 48/17 - 32/17 m is within 1/17 of 1/m; two steps of Newton's iteration square that twice.
+  std::uint32_t inverse = 92521 - ((leading * 61681) >> 16);  // 15 fraction bits
+  for (int i = 0; i < 2; ++i) {
+    const auto rest = static_cast<std::int32_t>((1U << 31) - leading * inverse);
+    inverse +=
+        static_cast<std::uint32_t>((static_cast<std::int32_t>(inverse) * (rest >> 16)) >> 15);
+  }
+  const std::uint32_t first = ((n >> 16) * inverse) >> 18;
+  const std::uint32_t rest = (n << 12) - first * d;  // below 2 d, though n << 12 wraps
+  return (first << 16) + (((rest >> 16) * inverse) >> 14);
+}
+
+}  // namespace detail
+
+/// a/b, at most 2^-23 of it too small.
+template <class Overflow>
+constexpr Split<Q31<Overflow>> quotient(const Split<Q31<Overflow>>& a,
+                                        const Split<Q31<Overflow>>& b) {
+  const std::uint32_t mantissa = detail::mantissa_quotient(
+      static_cast<std::uint32_t>(a.mantissa.raw()), static_cast<std::uint32_t>(b.mantissa.raw()));
+  const int exponent = a.exponent - b.exponent;
+  const bool below_one = mantissa < 1U << 28;
+  return {Q31<Overflow>::from_raw(static_cast<std::int32_t>(mantissa << (below_one ? 3 : 2))),
+          below_one ? exponent : exponent + 1};
+}
+
+/// a/b, at most 2^-13 of it too small.
+template <class Overflow>
+constexpr Split<Q15<Overflow>> quotient(const Split<Q15<Overflow>>& a,
+                                        const Split<Q15<Overflow>>& b) {
+  const std::uint32_t mantissa =
+      detail::mantissa_quotient(static_cast<std::uint32_t>(a.mantissa.raw()) << 16,
+                                static_cast<std::uint32_t>(b.mantissa.raw()) << 16);
+  const int exponent = a.exponent - b.exponent;
+  const bool below_one = mantissa < 1U << 28;
+  return {Q15<Overflow>::from_raw(static_cast<std::int16_t>(mantissa >> (below_one ? 13 : 14))),
+          below_one ? exponent : exponent + 1};
+}
+
+}  // namespace sonoglide::numeric

@@ -1,0 +1,71 @@
+/// Words of 32 bits on processors that have no wide product and count no leading zeros.
+#pragma once
+
+#include <cstdint>
+
+namespace sonoglide::numeric {
+
+/// Whether a product of 64 bits is an instruction.
+#if defined(__thumb__) && !defined(__thumb2__)
+inline constexpr bool has_wide_product = false;
+#else
+inline constexpr bool has_wide_product = true;
+#endif
+
+/// Whether the number of leading zeros is an instruction.
+#if (defined(__thumb__) && !defined(__thumb2__)) || (defined(__riscv) && !defined(__riscv_zbb))
+inline constexpr bool has_leading_zeros = false;
+#else
+inline constexpr bool has_leading_zeros = true;
+#endif
+
+/// (a b + 2^30) / 2^31, rounded down: the product of two numbers with 31 fraction bits, to nearest,
+/// ties toward +infinity. a and b are not both -2^31.
+///
+/// From four products of halves; every sum fits a word.
+constexpr std::int32_t product_of_halves(std::int32_t a, std::int32_t b) {
+  const std::int32_t a_low = a & 0xffff;
+  const std::int32_t b_low = b & 0xffff;
+  const std::int32_t a_high = a >> 16;
+  const std::int32_t b_high = b >> 16;
+  const std::uint32_t low = static_cast<std::uint32_t>(a_low) * static_cast<std::uint32_t>(b_low);
+  const std::int32_t middle = a_high * b_low + static_cast<std::int32_t>(low >> 16);
+  const std::int32_t rest = a_low * b_high + (middle & 0xffff);
+  // The first part alone may be 2^31: unsigned, it wraps and comes back.
+  const auto whole = static_cast<std::uint32_t>(a_high * b_high + (middle >> 16));
+  return static_cast<std::int32_t>(2 * whole +
+                                   static_cast<std::uint32_t>((rest + (1 << 14)) >> 15));
+}
+
+/// The same, however the processor does it best.
+constexpr std::int32_t rounded_q31_product(std::int32_t a, std::int32_t b) {
+  if constexpr (has_wide_product) {
+    return static_cast<std::int32_t>((std::int64_t{a} * b + (1 << 30)) >> 31);
+  } else {
+    return product_of_halves(a, b);
+  }
+}
+
+/// Bits up to the leading one of x > 0, by halving.
+constexpr int width_by_halving(std::uint32_t x) {
+  int width = 1;
+  const auto halve = [&width, &x](int step) {
+    if ((x >> step) != 0) {
+      x >>= step;
+      width += step;
+    }
+  };
+  halve(16);
+  halve(8);
+  halve(4);
+  halve(2);
+  halve(1);
+  return width;
+}
+
+/// The same, however the processor does it best.
+constexpr int bit_width(std::uint32_t x) {
+  return has_leading_zeros ? 32 - __builtin_clz(x) : width_by_halving(x);
+}
+
+}  // namespace sonoglide::numeric

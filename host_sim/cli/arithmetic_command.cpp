@@ -1,0 +1,80 @@
+#include "host_sim/cli/arithmetic_command.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <filesystem>
+
+#include "host_sim/arithmetic/comparison.hpp"
+#include "host_sim/arithmetic/report.hpp"
+#include "host_sim/cli/board_option.hpp"
+#include "host_sim/cli/interruption.hpp"
+#include "host_sim/cli/output_option.hpp"
+#include "host_sim/cli/placed_error.hpp"
+#include "host_sim/cli/progress_bar.hpp"
+#include "host_sim/image/controller_header.hpp"
+#include "host_sim/plot/gnuplot.hpp"
+#include "host_sim/scene/reader.hpp"
+
+namespace sonoglide::cli {
+namespace {
+
+using Boards = std::vector<const emulator::EmulatedBoard*>;
+
+Boards chosen(const std::vector<std::string>& names) {
+  Boards boards;
+  for (const std::string& name : names) {
+    boards.push_back(emulator::find_board(name));
+    require_emulator(*boards.back());
+  }
+  return boards;
+}
+
+arithmetic::Comparison compute(const scene::Scene& scene, const Boards& boards, bool quiet) {
+  const Interruption interruption;
+  ProgressBar bar(stderr, !quiet);
+  return arithmetic::compare(
+      scene, boards, [&] { interruption.check(); }, [&](double fraction) { bar.update(fraction); });
+}
+
+}  // namespace
+
+CLI::App* add_arithmetic_command(CLI::App& program, ArithmeticOptions& options) {
+  CLI::App* command = program.add_subcommand(
+      "arithmetic",
+      "Error against run time of a closed-loop scene's controller on microcontrollers, "
+      "in q15, q31, float32 and, where a board computes it, float64");
+  command
+      ->add_option("scene", options.scene,
+                   "The scene, a TOML file; its controller.arithmetic plays no part")
+      ->required()
+      ->type_name("SCENE.toml");
+  command
+      ->add_option("--board", options.boards,
+                   "A board; may be repeated [microbit, mps2-an385, mps2-an386, mps2-an500]")
+      ->type_name("NAME")
+      ->allow_extra_args(false)
+      ->check(check_board);
+  add_output_option(*command, options.out,
+                    "arithmetic.csv, targets.csv and arithmetic.svg [out/<scene name>_arithmetic]");
+  command->add_flag("--quiet", options.quiet, "No progress bar and no printed table");
+  return command;
+}
+
+void arithmetic(const ArithmeticOptions& options) {
+  const scene::Scene scene = scene::read_file(options.scene);
+  with_places(options.scene, [&] { return image::controller_header(scene); });
+  const Boards boards = chosen(options.boards);
+  const std::filesystem::path out =
+      options.out.empty() ? std::filesystem::path("out") / (scene.name + "_arithmetic")
+                          : std::filesystem::path(options.out);
+  plot::require_gnuplot();
+  require_writable(out);
+  const arithmetic::Comparison comparison = compute(scene, boards, options.quiet);
+  arithmetic::write(out, scene, comparison);
+  if (!options.quiet) {
+    fmt::print("{}", arithmetic::text(comparison, out));
+  }
+}
+
+}  // namespace sonoglide::cli

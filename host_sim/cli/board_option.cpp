@@ -1,0 +1,26 @@
+#include "host_sim/cli/board_option.hpp"
+
+#include <fmt/format.h>
+
+#include "host_sim/process/find_program.hpp"
+
+namespace sonoglide::cli {
+
+std::string check_board(const std::string& name) {
+  if (emulator::find_board(name) != nullptr) {
+    return {};
+  }
+  std::string allowed;
+  for (const emulator::EmulatedBoard& board : emulator::emulated_boards()) {
+    allowed += fmt::format("{}{}", allowed.empty() ? "" : ", ", board.name);
+  }
+  return fmt::format("\"{}\" is no board; allowed: {}", name, allowed);
+}
+
+void require_emulator(const emulator::EmulatedBoard& board) {
+  const std::string program(board.emulator);
+  process::require_program(program,
+                           program == "qemu-system-arm" ? "qemu-system-arm" : "qemu-system-misc");
+}
+
+}  // namespace sonoglide::cli

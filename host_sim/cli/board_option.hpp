@@ -1,0 +1,17 @@
+/// What the commands that run images ask of a board.
+#pragma once
+
+#include <string>
+
+#include "host_sim/emulator/board_list.hpp"
+
+namespace sonoglide::cli {
+
+/// @return empty for the name of a board, else what is wrong with it
+std::string check_board(const std::string& name);
+
+/// What would stop the run later stops it before anything is built.
+/// @throws process::ProcessError  the board's emulator is not installed
+void require_emulator(const emulator::EmulatedBoard& board);
+
+}  // namespace sonoglide::cli

@@ -1,0 +1,116 @@
+#include "tests/boards/budget/image_budget.hpp"
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+
+#include "host_sim/image/cross_tools.hpp"
+#include "host_sim/loop/run.hpp"
+#include "host_sim/pil/image_control.hpp"
+#include "host_sim/process/run_tool.hpp"
+#include "host_sim/scene/reader.hpp"
+
+namespace sonoglide::budget {
+namespace {
+
+std::vector<std::string> split(const std::string& line) {
+  std::vector<std::string> fields;
+  std::istringstream stream(line);
+  for (std::string field; std::getline(stream, field, ',');) {
+    fields.push_back(field);
+  }
+  return fields;
+}
+
+std::string joined(const Row& row, std::string Figure::*member) {
+  std::string line;
+  for (const Figure& figure : row) {
+    line += (line.empty() ? "" : ",") + figure.*member;
+  }
+  return line + "\n";
+}
+
+}  // namespace
+
+ImageBudget measure(const Folders& folders, const emulator::EmulatedBoard& board,
+                    const std::string& image) {
+  const std::filesystem::path path =
+      folders.images / std::string(board.name) / "bin" / (image + ".elf");
+  const scene::Scene scene = scene::read_file(folders.controllers / image / "scene.toml");
+  const image::ImageCost cost = image::measure_image(path, board, {});
+  pil::ImageControl controller(board, path, {});
+  const std::uint64_t hash = loop::run(scene, controller).control->trace_hash;
+  if (hash != loop::run(scene).control->trace_hash) {
+    throw std::runtime_error(path.string() + ": its commands are not the workstation's");
+  }
+  return {cost, image_parts(board, path, cost.size.flash_bytes),
+          controller.shut_down().instructions.value()};
+}
+
+Row budget_row(const emulator::EmulatedBoard& board, const std::string& arithmetic,
+               const std::string& scene, const std::string& compiler, const ImageBudget& budget) {
+  const auto& [step, answer] = budget.instructions;
+  const Parts& flash = budget.parts.flash;
+  const StateBytes& state = budget.parts.state;
+  const auto text = [](auto value) { return fmt::format("{}", value); };
+  return {{"board", std::string(board.name)},
+          {"arithmetic", arithmetic},
+          {"scene", scene},
+          {"compiler", compiler},
+          {"step_instructions_min", text(step.min)},
+          {"step_instructions_mean", fmt::format("{:.3f}", step.mean)},
+          {"step_instructions_max", text(step.max)},
+          {"answer_instructions_mean", fmt::format("{:.3f}", answer.mean)},
+          {"flash_bytes", text(budget.cost.size.flash_bytes)},
+          {"flash_controller", text(flash.controller)},
+          {"flash_application", text(flash.application)},
+          {"flash_board", text(flash.board)},
+          {"flash_library", text(flash.library)},
+          {"static_ram_bytes", text(budget.cost.size.ram_bytes)},
+          {"state_controller", text(state.controller)},
+          {"state_application", text(state.application)},
+          {"state_board", text(state.board)},
+          {"stack_bytes_bound", budget.cost.stack.unbounded_by.empty()
+                                    ? text(budget.cost.stack.bytes)
+                                    : budget.cost.stack.unbounded_by}};
+}
+
+std::string compiler_version(const emulator::EmulatedBoard& board) {
+  std::string version =
+      process::run_tool({image::cross_tools(board).prefix + "g++", "-dumpfullversion"}, {});
+  version.erase(version.find_last_not_of('\n') + 1);
+  return version;
+}
+
+std::string image_name(const std::string& scene, const std::string& arithmetic) {
+  return arithmetic == "float32" ? scene : scene + "_" + arithmetic;
+}
+
+std::string csv(const std::vector<Row>& rows) {
+  std::string text = rows.empty() ? "" : joined(rows.front(), &Figure::column);
+  for (const Row& row : rows) {
+    text += joined(row, &Figure::value);
+  }
+  return text;
+}
+
+std::vector<Row> read_csv(const std::filesystem::path& path) {
+  std::ifstream file(path);
+  std::string line;
+  std::getline(file, line);
+  const std::vector<std::string> columns = split(line);
+  std::vector<Row> rows;
+  while (std::getline(file, line)) {
+    const std::vector<std::string> values = split(line);
+    Row row;
+    for (std::size_t i = 0; i < columns.size() && i < values.size(); ++i) {
+      row.push_back({columns[i], values[i]});
+    }
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+}  // namespace sonoglide::budget

@@ -1,0 +1,58 @@
+/// What the image of a controller costs on its board, as rows of a table.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "host_sim/emulator/board_list.hpp"
+#include "host_sim/image/measure_image.hpp"
+#include "host_sim/loop/image_record.hpp"
+#include "tests/boards/budget/image_parts.hpp"
+
+namespace sonoglide::budget {
+
+/// Where images and the scenes that they were configured from are.
+struct Folders {
+  std::filesystem::path images;       ///< <board>/bin/<image>.elf
+  std::filesystem::path controllers;  ///< <image>/scene.toml
+};
+
+struct ImageBudget {
+  image::ImageCost cost;
+  ImageParts parts;
+  loop::ImageInstructions instructions;  ///< over the whole scene
+};
+
+/// Takes an image apart and runs its scene with it, in closed loop.
+/// @throws process::ProcessError, pil::EmulatorError
+/// @throws std::runtime_error  a command differs from the workstation's: the cost of something else
+ImageBudget measure(const Folders& folders, const emulator::EmulatedBoard& board,
+                    const std::string& image);
+
+/// A column of a table and what stands in it.
+struct Figure {
+  std::string column;
+  std::string value;
+};
+using Row = std::vector<Figure>;
+
+/// The row of a board's image of an example scene.
+/// @param compiler  its version
+Row budget_row(const emulator::EmulatedBoard& board, const std::string& arithmetic,
+               const std::string& scene, const std::string& compiler, const ImageBudget& budget);
+
+/// The version of a board's compiler. Figures of two versions cannot be compared.
+std::string compiler_version(const emulator::EmulatedBoard& board);
+
+/// The image of an example scene in an arithmetic.
+std::string image_name(const std::string& scene, const std::string& arithmetic);
+
+/// The table as CSV, with its header.
+std::string csv(const std::vector<Row>& rows);
+
+/// The rows of a CSV file; none where there is no such file.
+std::vector<Row> read_csv(const std::filesystem::path& path);
+
+}  // namespace sonoglide::budget

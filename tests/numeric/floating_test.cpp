@@ -1,0 +1,104 @@
+/// Products, widths and quotients in words, against 64-bit and long double arithmetic.
+
+#include "firmware/numeric/floating.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdint>
+#include <random>
+
+#include "firmware/numeric/word.hpp"
+
+namespace sonoglide::numeric {
+namespace {
+
+using Number = Q31<Trapping>;
+
+/// Words that are random, or next to an end or to a half of the range.
+class Words {
+ public:
+  std::int32_t next() {
+    const auto word = static_cast<std::uint32_t>(random_());
+    const std::uint32_t near = (word & 0xffU) - 128U;
+    switch (word >> 30) {
+      case 0:
+        return static_cast<std::int32_t>((1U << 31) + near);
+      case 1:
+        return static_cast<std::int32_t>((word & 0xc0000000U) + near * 0x8000U);
+      default:
+        return static_cast<std::int32_t>(static_cast<std::uint32_t>(random_()));
+    }
+  }
+
+  /// A mantissa in [1/2, 1).
+  Number mantissa() {
+    const auto word = static_cast<std::uint32_t>(next()) >> 2;
+    return Number::from_raw(static_cast<std::int32_t>((1U << 30) + word));
+  }
+
+ private:
+  std::mt19937_64 random_{15};
+};
+
+TEST(WordProduct, OfHalvesIsTheRoundedWideProduct) {
+  Words words;
+  for (int i = 0; i < 1'000'000; ++i) {
+    const std::int32_t a = words.next();
+    const std::int32_t b = words.next();
+    if (a != INT32_MIN || b != INT32_MIN) {
+      const std::int64_t wide = shift_right_rounded(std::int64_t{a} * b, 31);
+      ASSERT_EQ(product_of_halves(a, b), wide) << a << " * " << b;
+      ASSERT_EQ(rounded_q31_product(a, b), wide) << a << " * " << b;
+    }
+  }
+}
+
+TEST(WordWidth, ByHalvingIsThatOfTheLeadingOne) {
+  for (int width = 1; width <= 32; ++width) {
+    const std::uint32_t leading = 1U << (width - 1);
+    for (const std::uint32_t x : {leading, leading + leading / 3U, leading + (leading - 1U)}) {
+      EXPECT_EQ(width_by_halving(x), width);
+      EXPECT_EQ(bit_width(x), width);
+    }
+  }
+}
+
+long double value(const Split<Number>& x) {
+  return std::ldexp(static_cast<long double>(x.mantissa.to_real()), x.exponent);
+}
+
+TEST(FloatingFixed, ProductsAreRoundedOnce) {
+  Words words;
+  for (int i = 0; i < 300'000; ++i) {
+    const Split<Number> a{words.mantissa(), 3};
+    const Split<Number> b{words.mantissa(), -7};
+    const Split<Number> result = product(a, b);
+    ASSERT_GE(result.mantissa.raw(), 1 << 30);
+    const long double exact = value(a) * value(b);
+    ASSERT_LE(std::abs(value(result) - exact), 0x1p-32L * 0x1p-4L);
+  }
+}
+
+TEST(FloatingFixed, QuotientsAreTooSmallByAtMostTheStatedPart) {
+  Words words;
+  for (int i = 0; i < 1'000'000; ++i) {
+    const Split<Number> a{words.mantissa(), 5};
+    const Split<Number> b{words.mantissa(), 9};
+    const Split<Number> result = quotient(a, b);
+    ASSERT_GE(result.mantissa.raw(), 1 << 30);
+    const long double short_by = 1.0L - value(result) * value(b) / value(a);
+    ASSERT_GE(short_by, 0.0L) << a.mantissa.raw() << " / " << b.mantissa.raw();
+    ASSERT_LE(short_by, 0x1p-23L) << a.mantissa.raw() << " / " << b.mantissa.raw();
+  }
+}
+
+TEST(FloatingFloat, IsTheNumberItself) {
+  EXPECT_EQ(floating(0.375F), 0.375F);
+  EXPECT_EQ(floating(Split<double>{0.75, 4}), 12.0);
+  EXPECT_EQ(product(3.0, 0.5), 1.5);
+  EXPECT_EQ(quotient(3.0F, 2.0F), 1.5F);
+}
+
+}  // namespace
+}  // namespace sonoglide::numeric
