@@ -106,6 +106,7 @@ Lines lines(std::vector<double> values, double interval_s, const scene::Scene& s
 std::vector<double> decibels(const std::vector<double>& amplitude) {
   const double highest = *std::max_element(amplitude.begin(), amplitude.end());
   std::vector<double> levels;
+  levels.reserve(amplitude.size());
   for (const double each : amplitude) {
     levels.push_back(std::max(20.0 * std::log10(each / highest), lowest_dB));
   }
@@ -126,6 +127,7 @@ std::vector<Mark> marks(const Lines& lines, bool in_decibels) {
 
 std::vector<double> kilohertz(const std::vector<double>& hertz) {
   std::vector<double> values;
+  values.reserve(hertz.size());
   for (const double each : hertz) {
     values.push_back(1e-3 * each);
   }

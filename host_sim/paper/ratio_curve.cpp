@@ -29,6 +29,7 @@ loop::PowerRatios ratios(const scene::Scene& scene) {
 const std::vector<double>& velocity_ratios() {
   static const std::vector<double> ratios = [] {
     std::vector<double> values;
+    values.reserve(ratio_count);
     for (int i = 1; i <= ratio_count; ++i) {
       values.push_back(i * ratio_step);
     }
@@ -61,6 +62,7 @@ RatioCurve ratio_curve(const scene::Scene& scene, const std::vector<double>& sli
 std::vector<double> sliding_velocities_m_per_s(const scene::Scene& scene) {
   const double peak_m_per_s = peak_vibration_m_per_s(scene);
   std::vector<double> velocities;
+  velocities.reserve(velocity_ratios().size());
   for (const double ratio : velocity_ratios()) {
     velocities.push_back(ratio * peak_m_per_s);
   }

@@ -8,6 +8,7 @@ namespace {
 template <class Of>
 std::vector<double> column(const loop::Recording& recording, Of of) {
   std::vector<double> values;
+  values.reserve(recording.state.size());
   for (const loop::PlantState& state : recording.state) {
     values.push_back(of(state));
   }
@@ -38,6 +39,7 @@ std::vector<double> friction_forces_N(const loop::Recording& recording) {
 
 std::vector<double> dissipated_powers_W(const loop::Recording& recording) {
   std::vector<double> powers;
+  powers.reserve(recording.state.size());
   for (std::size_t i = 0; i < recording.state.size(); ++i) {
     powers.push_back(recording.state[i].friction_force_N *
                      (recording.sliding_velocity_m_per_s[i] + recording.state[i].velocity_m_per_s));
