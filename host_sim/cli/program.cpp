@@ -9,6 +9,7 @@
 #include "host_sim/cli/arithmetic_command.hpp"
 #include "host_sim/cli/configure_command.hpp"
 #include "host_sim/cli/exit_code.hpp"
+#include "host_sim/cli/paper_command.hpp"
 #include "host_sim/cli/pil_command.hpp"
 #include "host_sim/cli/ratio_command.hpp"
 #include "host_sim/cli/run_command.hpp"
@@ -38,6 +39,7 @@ void parse_and_run(int argument_count, const char* const* arguments) {
   ConfigureOptions configure_options;
   RatioOptions ratio_options;
   SweepOptions sweep_options;
+  PaperOptions paper_options;
   WorkPrecisionOptions work_precision_options;
   StabilityOptions stability_options;
   ArithmeticOptions arithmetic_options;
@@ -48,6 +50,7 @@ void parse_and_run(int argument_count, const char* const* arguments) {
   });
   add_ratio_command(program, ratio_options)->callback([&] { ratio(ratio_options); });
   add_sweep_command(program, sweep_options)->callback([&] { sweep(sweep_options); });
+  add_paper_command(program, paper_options)->callback([&] { paper(paper_options); });
   add_work_precision_command(program, work_precision_options)->callback([&] {
     work_precision(work_precision_options);
   });

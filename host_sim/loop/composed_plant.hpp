@@ -79,6 +79,12 @@ class ComposedPlant final : public PlantPort {
     return outcome;
   }
 
+  void begin_at(const PlantState& state) override {
+    state_ = {state.displacement_m / scales_.length_m,
+              state.velocity_m_per_s / scales_.velocity_m_per_s(),
+              scales_.friction_N > 0.0 ? state.friction_force_N / scales_.friction_N : 0.0};
+  }
+
   PlantState state() const override { return in_si_units(state_); }
   plant::Cost cost() const override { return solver_.cost(); }
 

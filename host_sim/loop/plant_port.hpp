@@ -43,11 +43,14 @@ class PlantPort {
                                                  EnergyBalance& energy,
                                                  std::vector<PlantState>& seen) = 0;
 
+  /// Puts the plant into a state; |F| at most Fc.
+  virtual void begin_at(const PlantState& state) = 0;
+
   virtual PlantState state() const = 0;
   virtual plant::Cost cost() const = 0;
 };
 
-/// The plant of a scene, composed of exactly what the scene names.
+/// The plant of a scene, composed of exactly what the scene names, in its initial state.
 std::unique_ptr<PlantPort> make_plant_port(const scene::Scene& scene);
 
 }  // namespace sonoglide::loop

@@ -21,6 +21,10 @@ PlantRun::PlantRun(const scene::Scene& scene, const CarrierGrid& grid, const Wat
       sampler_(watch.samples) {
   cuts_s_.push_back(scene.run.window_start_s);
   std::sort(cuts_s_.begin(), cuts_s_.end());
+  if (scene.run.start == scene::Start::steady) {
+    result.steady_orbit = find_steady_orbit(scene);
+    plant_->begin_at(result.steady_orbit->state);
+  }
 }
 
 EnergyBalance PlantRun::advance(std::uint64_t period, double amplitude_N) {

@@ -19,6 +19,7 @@ namespace sonoglide::loop {
 class PlantRun {
  public:
   /// Energies and final values go into the result. All must outlive it.
+  /// @throws ComputationError  the steady orbit that the run is to begin on cannot be found
   PlantRun(const scene::Scene& scene, const CarrierGrid& grid, const Watch& watch,
            RunResult& result);
 

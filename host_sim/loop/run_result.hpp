@@ -10,6 +10,7 @@
 #include "host_sim/loop/energy.hpp"
 #include "host_sim/loop/image_record.hpp"
 #include "host_sim/loop/plant_port.hpp"
+#include "host_sim/loop/steady_orbit.hpp"
 #include "host_sim/scene/control_design.hpp"
 
 namespace sonoglide::loop {
@@ -38,6 +39,7 @@ struct RunResult {
   double wall_s = 0.0;
   EnergyBalance whole;
   EnergyBalance window;
+  std::optional<SteadyOrbit> steady_orbit;  ///< where the run began on it
   std::optional<ControlRecord> control;
   std::optional<ImageRecord> image;  ///< whoever made the image fills it in
 };

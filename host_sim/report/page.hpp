@@ -32,7 +32,7 @@ struct Panel {
 
 /// A column of which at least half the cells are numbers is set flush right.
 struct Table {
-  std::string title;
+  std::string title;                ///< empty: none
   std::vector<std::string> header;  ///< empty: no heading row
   std::vector<std::vector<std::string>> rows;
 };
@@ -44,12 +44,13 @@ struct Picture {
   std::string svg;   ///< a whole SVG document
 };
 
-/// Panels and pictures under one heading.
+/// Tables, panels and pictures under one heading.
 struct Section {
   std::string title;
   std::string text;
   std::vector<Panel> panels;
   std::vector<Picture> pictures = {};
+  std::vector<Table> tables = {};
 };
 
 struct Page {

@@ -181,6 +181,9 @@ void append_sections(std::string& html, const std::vector<Section>& sections) {
   for (const Section& section : sections) {
     html += fmt::format("<section class=\"charts\">\n<h2>{}</h2>\n", escaped(section.title));
     append_paragraph(html, "text", section.text);
+    for (const Table& table : section.tables) {
+      append_table(html, table);
+    }
     for (const Panel& panel : section.panels) {
       append_panel(html, panel);
     }

@@ -128,6 +128,12 @@ Table run_table(const scene::Scene& scene, const loop::RunResult& result) {
     row("Power dissipation ratio as the paper prints it",
         fmt::format("{:.6g}", window.dissipation_as_printed));
   }
+  if (result.steady_orbit) {
+    row("Steady orbit: carrier periods solved to find it",
+        fmt::format("{}", result.steady_orbit->periods));
+    row("Steady orbit: part of a deviation that is left after a carrier period",
+        fmt::format("{:.6f}", result.steady_orbit->multiplier));
+  }
   row("Solver steps", fmt::format("{}", result.solver_steps));
   if (scene.solver.method != scene::SolverMethod::rk4) {
     row("Reversals, sticks and releases", fmt::format("{}", result.solver_events));

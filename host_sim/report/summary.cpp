@@ -36,6 +36,14 @@ ordered_json power(const loop::PowerRatios& window) {
           {"as_printed", {{"dissipation_ratio", number(window.dissipation_as_printed)}}}};
 }
 
+ordered_json steady_orbit(const loop::SteadyOrbit& orbit) {
+  return {{"displacement_m", orbit.state.displacement_m},
+          {"velocity_m_per_s", orbit.state.velocity_m_per_s},
+          {"friction_force_N", orbit.state.friction_force_N},
+          {"multiplier", orbit.multiplier},
+          {"carrier_periods_solved", orbit.periods}};
+}
+
 ordered_json step(const analysis::StepMetrics& metrics) {
   return {{"time_s", metrics.time_s},
           {"target", metrics.target},
@@ -130,6 +138,9 @@ ordered_json summary(const scene::Scene& scene, const loop::RunResult& result,
       {"whole_run", number(loop::power_ratios(scene, result.whole).friction_ratio)},
       {"window", number(window.friction_ratio)}};
   json["power"] = power(window);
+  if (result.steady_orbit) {
+    json["steady_orbit"] = steady_orbit(*result.steady_orbit);
+  }
   if (result.control) {
     json["control"] = control(scene, result, findings);
   }

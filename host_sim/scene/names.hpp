@@ -36,6 +36,11 @@ inline constexpr std::array<Named<SolverMethod>, 5> solver_methods = {{
     {"rk4_event", SolverMethod::rk4_event},
 }};
 
+inline constexpr std::array<Named<Start>, 2> starts = {{
+    {"given", Start::given},
+    {"steady", Start::steady},
+}};
+
 inline constexpr std::array<Named<Channel>, 5> channels = {{
     {"displacement_m", Channel::displacement},
     {"velocity_m_per_s", Channel::velocity},

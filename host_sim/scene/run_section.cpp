@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 
 #include "firmware/numeric/turn.hpp"
 #include "host_sim/scene/names.hpp"
@@ -95,6 +96,37 @@ void read_record(TableCursor& cursor, Run& run) {
   }
 }
 
+void reject_initial_state(const Variant& variant, std::string_view table,
+                          std::initializer_list<std::string_view> keys) {
+  const TableCursor cursor(variant, table);
+  for (const std::string_view key : keys) {
+    if (cursor.has(key)) {
+      cursor.fail(key, "not used with run.start = \"steady\"; remove it");
+    }
+  }
+}
+
+/// A steady orbit has the period of the drive, and nothing that changes from one to the next.
+void require_steady_conditions(const TableCursor& cursor, const Variant& variant,
+                               const Scene& so_far) {
+  if (!so_far.drive) {
+    cursor.fail("start", "there is no period without a [drive] table; allowed: \"given\"");
+  }
+  if (so_far.sliding.profile.size() != 1) {
+    cursor.fail("start", "nothing is steady under a sliding.profile; allowed: \"given\"");
+  }
+  reject_initial_state(variant, "plant", {"initial_displacement_m", "initial_velocity_m_per_s"});
+  reject_initial_state(variant, "friction", {"initial_force_N"});
+}
+
+Start read_start(TableCursor& cursor, const Variant& variant, const Scene& so_far) {
+  const Start start = cursor.choice("start", starts, Start::given);
+  if (start == Start::steady) {
+    require_steady_conditions(cursor, variant, so_far);
+  }
+  return start;
+}
+
 }  // namespace
 
 Run read_run(const Variant& variant, const Scene& so_far) {
@@ -111,9 +143,12 @@ Run read_run(const Variant& variant, const Scene& so_far) {
   if (closed) {
     check_whole_period(cursor, key, run, *so_far.drive);
     run.settling_band = cursor.real("settling_band", {0.0, 1.0, "", true}, run.settling_band);
+  } else {
+    run.start = read_start(cursor, variant, so_far);
   }
   read_record(cursor, run);
-  cursor.reject_unread("in open loop, without a [controller] table");
+  cursor.reject_unread(closed ? "in closed loop, which begins with the drive off"
+                              : "in open loop, without a [controller] table");
   return run;
 }
 

@@ -103,7 +103,11 @@ struct Solver {
 
 enum class Channel { displacement, velocity, friction_force, drive_force, sliding_velocity };
 
+/// given: the initial state that the scene gives. steady: on the periodic steady orbit.
+enum class Start { given, steady };
+
 struct Run {
+  Start start = Start::given;
   double duration_s = 0.0;
   double window_start_s = 0.0;
   double settling_band = 0.01;

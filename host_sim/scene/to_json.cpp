@@ -14,15 +14,18 @@ void add_if_set(ordered_json& table, const char* key, const std::optional<Value>
   }
 }
 
-ordered_json echo(const Plant& plant) {
-  return {{"mass_kg", plant.mass_kg},
-          {"stiffness_N_per_m", plant.stiffness_N_per_m},
-          {"damping_N_s_per_m", plant.damping_N_s_per_m},
-          {"initial_displacement_m", plant.initial_displacement_m},
-          {"initial_velocity_m_per_s", plant.initial_velocity_m_per_s}};
+ordered_json echo(const Plant& plant, Start start) {
+  ordered_json table{{"mass_kg", plant.mass_kg},
+                     {"stiffness_N_per_m", plant.stiffness_N_per_m},
+                     {"damping_N_s_per_m", plant.damping_N_s_per_m}};
+  if (start == Start::given) {
+    table["initial_displacement_m"] = plant.initial_displacement_m;
+    table["initial_velocity_m_per_s"] = plant.initial_velocity_m_per_s;
+  }
+  return table;
 }
 
-ordered_json echo(const Friction& friction) {
+ordered_json echo(const Friction& friction, Start start) {
   ordered_json table{{"law", name_of(friction_laws, friction.law)}};
   if (friction.law == FrictionLaw::none) {
     return table;
@@ -31,7 +34,9 @@ ordered_json echo(const Friction& friction) {
   table["normal_force_N"] = friction.normal_force_N;
   if (is_elastic(friction.law)) {
     table["contact_stiffness_N_per_m"] = friction.contact_stiffness_N_per_m;
-    table["initial_force_N"] = friction.initial_force_N;
+    if (start == Start::given) {
+      table["initial_force_N"] = friction.initial_force_N;
+    }
   }
   if (friction.curve) {
     table["fall_s_per_m"] = friction.curve->fall_s_per_m;
@@ -91,6 +96,8 @@ ordered_json echo(const Run& run, bool closed_loop) {
   ordered_json table{{"duration_s", run.duration_s}, {"window_start_s", run.window_start_s}};
   if (closed_loop) {
     table["settling_band"] = run.settling_band;
+  } else {
+    table["start"] = name_of(starts, run.start);
   }
   if (!run.record.empty()) {
     ordered_json record = ordered_json::array();
@@ -142,8 +149,8 @@ ordered_json echo(const ModelError& model_error, FrictionLaw law) {
 ordered_json to_json(const Scene& scene) {
   const bool closed_loop = scene.controller.has_value();
   ordered_json root;
-  root["plant"] = echo(scene.plant);
-  root["friction"] = echo(scene.friction);
+  root["plant"] = echo(scene.plant, scene.run.start);
+  root["friction"] = echo(scene.friction, scene.run.start);
   root["sliding"] = echo(scene.sliding);
   if (scene.drive) {
     root["drive"] = echo(*scene.drive, closed_loop);

@@ -17,6 +17,10 @@ void require_comparable(const scene::Scene& scene) {
     throw ConfigurationError(
         "controller", "solvers are compared in open loop; allowed: a scene without [controller]");
   }
+  if (scene.run.start != scene::Start::given) {
+    throw ConfigurationError("run.start",
+                             "the solvers set out from one initial state; allowed: \"given\"");
+  }
   if (!scene.drive) {
     throw ConfigurationError(
         "drive", "missing; required: a table [drive], whose period is the unit of work");

@@ -41,6 +41,9 @@ TEST(EchoTest, IsTheSameSceneAgain) {
   }
   expect_same_scene_again(read_text(fullest_open_loop, "s", {"sliding.profile=[[1, 2]]"}));
   expect_same_scene_again(
+      read_text(shortest_open_loop, "s",
+                {"drive.frequency_Hz=60e3", "drive.force_amplitude_N=384", "run.start='steady'"}));
+  expect_same_scene_again(
       read_text("friction.law = 'none'\n"
                 "plant = {mass_kg = 1, stiffness_N_per_m = 2}\n"
                 "sliding.profile = [[0, 2]]\nrun.duration_s = 1\n",

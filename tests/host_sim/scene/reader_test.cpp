@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <string>
+#include <vector>
 
 #include "scene_texts.hpp"
 
@@ -24,6 +25,7 @@ TEST(ReaderTest, DefaultsOfOpenLoop) {
   EXPECT_FALSE(scene.drive.has_value());
   EXPECT_EQ(scene.solver.method, SolverMethod::event_taylor);
   EXPECT_EQ(scene.solver.tolerance, 1e-10);
+  EXPECT_EQ(scene.run.start, Start::given);
   EXPECT_EQ(scene.run.window_start_s, 0.0);
   EXPECT_TRUE(scene.run.record.empty());
   EXPECT_EQ(scene.run.record_interval_s, 0.0);
@@ -172,6 +174,28 @@ TEST(ReaderTest, DottedKeysAndInlineTablesAreTheSameScene) {
       "s");
   EXPECT_EQ(scene.plant.stiffness_N_per_m, 2.0);
   EXPECT_EQ(scene.friction.law, FrictionLaw::none);
+}
+
+std::string refused_key(std::vector<std::string> overrides) {
+  overrides.emplace_back("run.start='steady'");
+  try {
+    read_text(shortest_open_loop, "s", overrides);
+  } catch (const SceneError& error) {
+    return error.key();
+  }
+  return {};
+}
+
+TEST(ReaderTest, ASteadyOrbitHasAPeriodAndNoOtherBeginning) {
+  EXPECT_EQ(refused_key({}), "run.start") << "no drive";
+  const std::string hertz = "drive.frequency_Hz=60e3";
+  const std::string newton = "drive.force_amplitude_N=384";
+  EXPECT_EQ(refused_key({hertz, newton}), "");
+  EXPECT_EQ(refused_key({hertz, newton, "plant.initial_displacement_m=0"}),
+            "plant.initial_displacement_m");
+  EXPECT_EQ(refused_key({hertz, newton, "plant.initial_velocity_m_per_s=0"}),
+            "plant.initial_velocity_m_per_s");
+  EXPECT_EQ(refused_key({hertz, newton, "friction.initial_force_N=0"}), "friction.initial_force_N");
 }
 
 TEST(ReaderTest, TheErrorCarriesItsParts) {

@@ -1,0 +1,32 @@
+/// A figure of the paper as this program gives it.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace sonoglide::paper {
+
+enum class Verdict { holds, does_not_hold, depends };
+
+/// What the paper says, and what the numbers say of it.
+struct Claim {
+  std::string statement;
+  Verdict verdict;
+  std::string numbers;
+};
+
+struct Figure {
+  int number;
+  std::string title;
+  std::string conditions;  ///< parameters, initial state and averaging window
+  std::string command;     ///< that computes the same with table_1.toml
+  std::string csv;
+  std::string svg;
+  std::vector<Claim> claims;
+};
+
+inline Verdict verdict(bool holds) {
+  return holds ? Verdict::holds : Verdict::does_not_hold;
+}
+
+}  // namespace sonoglide::paper

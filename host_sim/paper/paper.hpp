@@ -1,0 +1,20 @@
+/// The paper's figures and balance as data, pictures and one page.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+
+namespace sonoglide::paper {
+
+using Progress = std::function<void(double fraction)>;
+
+/// Writes figure_NN.csv, figure_NN.svg, balance.csv, table_1.toml and index.html; of one figure
+/// alone its own two files, the scene and the page.
+/// @param figure  one of figure_list(); absent: all of them, and the balance
+/// @throws report::OutputError, process::ProcessError, loop::ComputationError; nothing is written
+/// then
+void write_paper(const std::filesystem::path& out, std::optional<int> figure,
+                 const Progress& progress);
+
+}  // namespace sonoglide::paper

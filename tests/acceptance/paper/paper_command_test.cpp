@@ -1,0 +1,50 @@
+/// `sonoglide paper` from outside.
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "tests/acceptance/program/program.hpp"
+
+namespace sonoglide::acceptance {
+namespace {
+
+using Entries = std::vector<std::string>;
+
+TEST(PaperCommand, OneFigureIsItsDataItsPictureAndThePage) {
+  const ScratchFolder folder;
+  const Outcome outcome = folder.run("paper --figure 3 --out out");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_EQ(outcome.out, "page: out/index.html\n");
+  EXPECT_EQ(outcome.err, "") << "no progress bar on a pipe";
+  EXPECT_EQ(folder.read("out/figure_03.csv").substr(0, 53),
+            "time_s,coulomb_friction_force_N,dahl_friction_force_N");
+  EXPECT_NE(folder.read("out/figure_03.svg").find("</svg>"), std::string::npos);
+  EXPECT_NE(folder.read("out/index.html").find("Figure 3"), std::string::npos);
+  EXPECT_EQ(folder.run("run out/table_1.toml --quiet").exit_code, 0);
+}
+
+TEST(PaperCommand, BadUsageIsRejected) {
+  const ScratchFolder folder;
+  for (const char* arguments : {"paper scene.toml", "paper --figure 1", "paper --figure 12",
+                                "paper --figure two", "paper --out ''"}) {
+    const Outcome outcome = folder.run(arguments);
+    EXPECT_EQ(outcome.exit_code, 2) << arguments;
+    EXPECT_EQ(outcome.out, "") << arguments;
+    EXPECT_NE(outcome.err.find("sonoglide --help"), std::string::npos) << arguments;
+  }
+  EXPECT_TRUE(folder.entries().empty());
+}
+
+TEST(PaperCommand, AFileInTheWayIsFoundBeforeTheComputation) {
+  const ScratchFolder folder;
+  folder.write("taken", "");
+  const Outcome outcome = folder.run("paper --out taken");
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_EQ(outcome.err, folder.path().string() + "/taken: is a file, not a folder\n");
+  EXPECT_EQ(folder.entries(), Entries{"taken"});
+}
+
+}  // namespace
+}  // namespace sonoglide::acceptance
