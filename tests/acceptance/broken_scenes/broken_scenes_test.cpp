@@ -84,7 +84,9 @@ const std::vector<BrokenScene> broken_scenes = {
     {"first_unknown_key_in_file_order", open_loop, "coefficient = 0.1",
      "zeta = 1\nalpha = 2\ncoefficient = 0.1",
      "6:1: friction.zeta: unknown key; allowed: law, coefficient, normal_force_N, "
-     "contact_stiffness_N_per_m, initial_force_N, sign_convention"},
+     "contact_stiffness_N_per_m, initial_force_N, sign_convention, static_coefficient, "
+     "stribeck_velocity_m_per_s, bristle_damping_N_s_per_m, viscous_friction_N_s_per_m, "
+     "fall_s_per_m, rise_s3_per_m3"},
     {"control_character_in_key", open_loop, "mass_kg = 0.02", "\"mass\\nkg\" = 0.02",
      "2:1: plant.mass\\x0akg: unknown key; did you mean mass_kg?"},
     {"sub_table", open_loop, "[friction]", "[plant.mount]\nx = 1\n[friction]",
