@@ -56,8 +56,7 @@ class ComposedPlant final : public PlantPort {
   ComposedPlant(const scene::PlantScales& scales, const Model& model, const Solver& solver,
                 const plant::State<double>& initial)
       : scales_(scales), model_(model), solver_(solver) {
-    static_cast<plant::State<double>&>(state_) = initial;
-    plant::contact_memory(state_) = initial.friction;
+    set_state(initial);
   }
 
   plant::Outcome<double> advance(const Stretch& stretch, EnergyBalance& energy) override {
@@ -80,15 +79,21 @@ class ComposedPlant final : public PlantPort {
   }
 
   void begin_at(const PlantState& state) override {
-    state_ = {state.displacement_m / scales_.length_m,
-              state.velocity_m_per_s / scales_.velocity_m_per_s(),
-              scales_.friction_N > 0.0 ? state.friction_force_N / scales_.friction_N : 0.0};
+    set_state({state.displacement_m / scales_.length_m,
+               state.velocity_m_per_s / scales_.velocity_m_per_s(),
+               scales_.friction_N > 0.0 ? state.friction_force_N / scales_.friction_N : 0.0});
   }
 
   PlantState state() const override { return in_si_units(state_); }
   plant::Cost cost() const override { return solver_.cost(); }
 
  private:
+  /// The contact's memory begins at the force.
+  void set_state(const plant::State<double>& state) {
+    static_cast<plant::State<double>&>(state_) = state;
+    plant::contact_memory(state_) = state.friction;
+  }
+
   template <class Observer>
   plant::Outcome<double> advance(const Stretch& stretch, Observer& observer,
                                  EnergyBalance& energy) {
