@@ -18,12 +18,12 @@ struct PlantState {
 
 /// A stretch of time with one drive amplitude and a linear sliding velocity that keeps its sign.
 struct Stretch {
-  double duration_s;
-  double drive_phase_rad;       ///< at its beginning, in [0, 2π)
-  double drive_rate_rad_per_s;  ///< 2π f; 0 without a drive
-  double drive_amplitude_N;
-  double sliding_velocity_m_per_s;  ///< at its beginning
-  double sliding_acceleration_m_per_s2;
+  double duration_s = 0.0;
+  double drive_phase_rad = 0.0;       ///< at its beginning, in [0, 2π)
+  double drive_rate_rad_per_s = 0.0;  ///< 2π f; 0 without a drive
+  double drive_amplitude_N = 0.0;
+  double sliding_velocity_m_per_s = 0.0;  ///< at its beginning
+  double sliding_acceleration_m_per_s2 = 0.0;
   /// The stretch lies within one straight piece of it.
   scene::Waveform drive_waveform = scene::Waveform::cosine;
 };

@@ -178,7 +178,7 @@ class Shooting {
   std::optional<Vector> step(const Vector& correction, double gap) {
     for (const double part : {1.0, 0.5, 0.25, 0.125, 0.0625, 0.03125}) {
       const Vector trial = possible(at_ + part * correction);
-      const auto after = map_(trial);
+      auto after = map_(trial);
       if (after && (*after - trial).norm() < gap) {
         at_ = trial;
         return after;
@@ -199,7 +199,7 @@ class Shooting {
 std::optional<Vector> closed_orbit(PeriodMap& map, Shooting& shooting, const scene::Scene& scene) {
   for (const PlantState& start :
        {vibration_without_contact(scene), PlantState{0.0, 2.0 * sliding_m_per_s(scene), 0.0}}) {
-    if (const auto orbit = shooting(map.scaled(start))) {
+    if (auto orbit = shooting(map.scaled(start))) {
       return orbit;
     }
   }
@@ -213,7 +213,7 @@ std::optional<Vector> closed_orbit(PeriodMap& map, Shooting& shooting, const sce
     if (!passing) {
       return std::nullopt;
     }
-    if (const auto orbit = shooting(*passing)) {
+    if (auto orbit = shooting(*passing)) {
       return orbit;
     }
   }
