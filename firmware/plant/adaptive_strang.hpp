@@ -6,6 +6,7 @@
 
 #include "firmware/numeric/float_format.hpp"
 #include "firmware/numeric/scalar.hpp"
+#include "firmware/numeric/turn.hpp"
 #include "firmware/plant/fixed_steps.hpp"
 #include "firmware/plant/measured_strang_step.hpp"
 #include "firmware/plant/oscillator_flow.hpp"
@@ -142,7 +143,7 @@ class AdaptiveStrang {
   /// is none.
   Scalar relative_defect(const MeasuredStrangStep<Model>& step, Scalar velocity) const {
     constexpr Scalar rounding = Scalar(4) * std::numeric_limits<Scalar>::epsilon();
-    constexpr Scalar share = numeric::from_real<Scalar>(0.25 / 3.14159265358979323846);
+    constexpr Scalar share = numeric::from_real<Scalar>(0.5 / numeric::two_pi);
     const Scalar kick = step.length() * model_.contact_force(Scalar(1));
     const Scalar energy = share * step.length() * velocity * velocity + step.passed_energy();
     return step.velocity_defect() / numeric::max(tolerance_ * velocity, rounding * kick) +

@@ -7,6 +7,7 @@
 
 #include "firmware/numeric/float_elementary.hpp"
 #include "firmware/numeric/scalar.hpp"
+#include "firmware/numeric/turn.hpp"
 #include "firmware/plant/event_taylor.hpp"
 #include "firmware/plant/gauss_panel.hpp"
 #include "firmware/plant/gauss_step.hpp"
@@ -83,7 +84,7 @@ class EventGauss {
   /// The quadrature misses the coefficient of degree 2 Nodes or so, which in exp(-E x^2) is the
   /// square of the last one over the middle binomial coefficient of Nodes; 10 was found by trial.
   static constexpr Scalar middle_binomial = Nodes == 8 ? Scalar(70) : Scalar(924);
-  static constexpr Scalar half_period = numeric::from_real<Scalar>(3.14159265358979323846);
+  static constexpr Scalar half_period = numeric::from_real<Scalar>(0.5 * numeric::two_pi);
 
   using Panel = GaussPanel<Model, Nodes, degree, slow_degree>;
   using Motions = typename Panel::Motions;

@@ -167,6 +167,19 @@ bool has_sum_or_difference(const std::vector<Peak>& peaks) {
                      [](const Peak& peak) { return peak.name.find(' ') != std::string::npos; });
 }
 
+std::vector<Claim> claims(const Lines& velocity, const Lines& steady_velocity, const Lines& force) {
+  return {{"The velocity has two components, at the drive's and at the natural frequency.",
+           Verdict::depends,
+           fmt::format("From rest: {}. On the steady orbit: {}. The second component is the free "
+                       "vibration of the start.",
+                       listed(velocity.peaks, "m/s"), listed(steady_velocity.peaks, "m/s"))},
+          {"The friction force has harmonics of both, and of their sums and differences.",
+           verdict(has_sum_or_difference(force.peaks)),
+           fmt::format("{}. As for the velocity: on the steady orbit only the drive and its "
+                       "harmonics are left.",
+                       listed(force.peaks, "N"))}};
+}
+
 }  // namespace
 
 Figure figure_6() {
@@ -199,16 +212,7 @@ Figure figure_6() {
               {"friction_force_N", force.spectrum.amplitude},
               {"friction_force_dB", decibels(force.spectrum.amplitude)}}),
       draw(all),
-      {{"The velocity has two components, at the drive's and at the natural frequency.",
-        Verdict::depends,
-        fmt::format("From rest: {}. On the steady orbit: {}. The second component is the free "
-                    "vibration of the start.",
-                    listed(velocity.peaks, "m/s"), listed(steady_velocity.peaks, "m/s"))},
-       {"The friction force has harmonics of both, and of their sums and differences.",
-        verdict(has_sum_or_difference(force.peaks)),
-        fmt::format("{}. As for the velocity: on the steady orbit only the drive and its harmonics "
-                    "are left.",
-                    listed(force.peaks, "N"))}}};
+      claims(velocity, steady_velocity, force)};
 }
 
 }  // namespace sonoglide::paper

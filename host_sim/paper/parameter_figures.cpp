@@ -17,8 +17,7 @@ namespace sonoglide::paper {
 namespace {
 
 constexpr const char* windows =
-    "From rest (x = x' = F = 0): mean over the first 100 carrier periods. Steady orbit: "
-    "mean "
+    "From rest (x = x' = F = 0): mean over the first 100 carrier periods. Steady orbit: mean "
     "over one carrier period, which is the mean of ever after.";
 constexpr const char* friction_label = "friction ratio [-]";
 constexpr const char* dissipation_label = "power dissipation ratio [-]";
@@ -164,6 +163,67 @@ std::vector<Claim> claims(const Resonance& resonance) {
        "stiffness, and a free vibration takes the longer to fade the larger the drive's is."}};
 }
 
+std::vector<Chart> charts(const Resonance& resonance) {
+  const char* part_label = "Ks / m ω² [-]";
+  return {{"(c) Friction ratio at V_t = 26.7 mm/s",
+           part_label,
+           friction_label,
+           {{"steady orbit", resonance.parts, resonance.friction, 0, Line::points}}},
+          {"(d) Power dissipation ratio at V_t = 26.7 mm/s",
+           part_label,
+           dissipation_label,
+           {{"steady orbit", resonance.parts, resonance.dissipation, 0, Line::points}},
+           {},
+           std::nullopt,
+           true}};
+}
+
+/// The same scenes at the same sliding velocities, without their drive.
+std::vector<Variation> without_excitation(const std::vector<Variation>& driven) {
+  std::vector<Variation> undriven;
+  for (const Variation& each : driven) {
+    scene::Scene scene = each.scene;
+    scene.drive->force_amplitude_N = 0.0;
+    undriven.push_back({each.label, "un" + each.name, scene,
+                        ratio_curve(scene, sliding_velocities_m_per_s(table_1()))});
+  }
+  return undriven;
+}
+
+double lowest_steady_friction(const std::vector<Variation>& variations) {
+  double lowest = 1.0;
+  for (const Variation& each : variations) {
+    for (const double ratio : each.curve.friction_steady) {
+      lowest = std::fmin(lowest, ratio);
+    }
+  }
+  return lowest;
+}
+
+std::vector<Claim> claims_on_contact_stiffness(const std::vector<Variation>& undriven,
+                                               const std::vector<Variation>& driven) {
+  const double lowest = lowest_steady_friction(undriven);
+  return {
+      {"Without excitation friction falls, the more the stiffer the contact.",
+       verdict(lowest < 0.999),
+       fmt::format("On the steady orbit no ratio is below {:.6f}: sliding at a constant speed "
+                   "takes the full force. From rest, with F = 0, the force has to build up over "
+                   "Fc/Kt of travel first, which is the shorter the stiffer the contact: the "
+                   "opposite of the claim. {}",
+                   lowest, listed(undriven, 0.1, &RatioCurve::friction_from_rest))},
+      {"Without excitation the power dissipation is always below unity.", Verdict::does_not_hold,
+       listed(undriven, 0.5, &RatioCurve::dissipation_steady) +
+           "Below it only from rest, while the force builds up."},
+      trend("A stiffer contact makes friction reduction more effective.", driven, 0.5,
+            &RatioCurve::friction_steady, Trend::falling, "Under excitation.")};
+}
+
+template <class Item>
+std::vector<Item> joined(std::vector<Item> first, const std::vector<Item>& second) {
+  first.insert(first.end(), second.begin(), second.end());
+  return first;
+}
+
 std::string sweep_command(const char* setting) {
   return fmt::format(
       "sonoglide sweep table_1.toml --vary velocity_ratio=0.05:1.2:24 {} (and once more with --set "
@@ -236,53 +296,21 @@ Figure figure_9() {
 }
 
 Figure figure_10() {
-  const std::vector<double> stiffnesses = {5.6e3, 56e3, 560e3};
-  const Edit edit = [](scene::Scene& scene, double value) {
-    scene.friction.contact_stiffness_N_per_m = value;
-  };
-  const std::vector<Variation> driven =
-      vary(table_1(), stiffnesses, "Kt = {:g} N/m", "driven_{:g}_N_per_m", edit);
-  std::vector<Variation> undriven;
-  for (const Variation& each : driven) {
-    scene::Scene scene = each.scene;
-    scene.drive->force_amplitude_N = 0.0;
-    undriven.push_back({each.label, "un" + each.name, scene,
-                        ratio_curve(scene, sliding_velocities_m_per_s(table_1()))});
-  }
-  std::vector<Column> table = columns(undriven);
-  const std::vector<Column> more = columns(driven);
-  table.insert(table.end(), more.begin() + 1, more.end());
-  std::vector<Chart> all = charts(undriven, ", no excitation");
-  for (Chart& chart : charts(driven, ", 384 N")) {
-    all.push_back(std::move(chart));
-  }
-  double lowest = 1.0;
-  for (const Variation& each : undriven) {
-    for (const double ratio : each.curve.friction_steady) {
-      lowest = std::fmin(lowest, ratio);
-    }
-  }
-  return {
-      10,
-      "Effect of the contact stiffness",
-      conditions("Table 1, without excitation as the paper has it, and at 384 N; without "
-                 "excitation the abscissa is the sliding velocity over the vibration velocity "
-                 "at 384 N."),
-      sweep_command("--set friction.contact_stiffness_N_per_m=560e3"),
-      to_csv(table),
-      draw(all),
-      {{"Without excitation friction falls, the more the stiffer the contact.",
-        verdict(lowest < 0.999),
-        fmt::format("On the steady orbit no ratio is below {:.6f}: sliding at a constant speed "
-                    "takes the full force. From rest, with F = 0, the force has to build up over "
-                    "Fc/Kt of travel first, which is the shorter the stiffer the contact: the "
-                    "opposite of the claim. {}",
-                    lowest, listed(undriven, 0.1, &RatioCurve::friction_from_rest))},
-       {"Without excitation the power dissipation is always below unity.", Verdict::does_not_hold,
-        listed(undriven, 0.5, &RatioCurve::dissipation_steady) +
-            "Below it only from rest, while the force builds up."},
-       trend("A stiffer contact makes friction reduction more effective.", driven, 0.5,
-             &RatioCurve::friction_steady, Trend::falling, "Under excitation.")}};
+  const std::vector<Variation> driven = vary(
+      table_1(), {5.6e3, 56e3, 560e3}, "Kt = {:g} N/m", "driven_{:g}_N_per_m",
+      [](scene::Scene& scene, double value) { scene.friction.contact_stiffness_N_per_m = value; });
+  const std::vector<Variation> undriven = without_excitation(driven);
+  std::vector<Column> of_driven = columns(driven);
+  of_driven.erase(of_driven.begin());  // the velocity ratios stand before the others already
+  return {10,
+          "Effect of the contact stiffness",
+          conditions("Table 1, without excitation as the paper has it, and at 384 N; without "
+                     "excitation the abscissa is the sliding velocity over the vibration velocity "
+                     "at 384 N."),
+          sweep_command("--set friction.contact_stiffness_N_per_m=560e3"),
+          to_csv(joined(columns(undriven), of_driven)),
+          draw(joined(charts(undriven, ", no excitation"), charts(driven, ", 384 N"))),
+          claims_on_contact_stiffness(undriven, driven)};
 }
 
 Figure figure_11() {
@@ -294,28 +322,15 @@ Figure figure_11() {
   const std::vector<Variation> all = vary(table_1(), {0.0468, 0.5, 0.9, 0.99, 1.2},
                                           "Ks = {:g} m ω²", "stiffness_{:g}_of_resonance", edit);
   const Resonance resonance = through_resonance(edit);
-  std::vector<Column> table = columns(all);
-  table.push_back({"stiffness_of_resonance", resonance.parts});
-  table.push_back({"friction_ratio_at_26.7_mm_per_s_steady", resonance.friction});
-  table.push_back({"dissipation_ratio_at_26.7_mm_per_s_steady", resonance.dissipation});
-  std::vector<Chart> pictures = charts(all);
-  pictures.push_back({"(c) Friction ratio at V_t = 26.7 mm/s",
-                      "Ks / m ω² [-]",
-                      friction_label,
-                      {{"steady orbit", resonance.parts, resonance.friction, 0, Line::points}}});
-  pictures.push_back({"(d) Power dissipation ratio at V_t = 26.7 mm/s",
-                      "Ks / m ω² [-]",
-                      dissipation_label,
-                      {{"steady orbit", resonance.parts, resonance.dissipation, 0, Line::points}},
-                      {},
-                      std::nullopt,
-                      true});
   return {11,
           "Effect of the system stiffness",
           conditions("Table 1 at 384 N; 0.0468 is its own stiffness."),
           sweep_command("--set plant.stiffness_N_per_m=2.56e9"),
-          to_csv(table),
-          draw(pictures),
+          to_csv(joined(columns(all),
+                        {{"stiffness_of_resonance", resonance.parts},
+                         {"friction_ratio_at_26.7_mm_per_s_steady", resonance.friction},
+                         {"dissipation_ratio_at_26.7_mm_per_s_steady", resonance.dissipation}})),
+          draw(joined(charts(all), charts(resonance))),
           claims(resonance)};
 }
 

@@ -83,6 +83,26 @@ Claim not_sinusoidal(const char* quantity, const std::vector<double>& from_rest,
           100.0 * part_beside_fundamental(from_rest), 100.0 * part_beside_fundamental(on_orbit))};
 }
 
+Claim within_limit(const std::vector<double>& forces_N, double limit_N) {
+  const double largest_N = *std::max_element(forces_N.begin(), forces_N.end());
+  return {"The force stays within its limit (the paper does not say so; a solver may break it).",
+          verdict(largest_N <= limit_N),
+          fmt::format("Largest {:.6f} N, limit {:.6f} N.", largest_N, limit_N)};
+}
+
+Claim dissipates(const std::vector<double>& steady_powers_W, double limit_N) {
+  const scene::Scene scene = steady(table_1());
+  const loop::PowerRatios ratios = loop::power_ratios(scene, loop::run(scene).whole);
+  const double undriven_W = limit_N * scene.sliding.profile.front().velocity_m_per_s;
+  return {"What (b) shows is the power that friction dissipates.", Verdict::depends,
+          fmt::format(
+              "In the mean, yes. A Dahl contact is a spring as well: for part of each period it "
+              "gives power back, at most {:.2g} mW on the steady orbit. In the mean of that "
+              "it takes {:.4f} of the {:.4f} mW that it would take undriven.",
+              -1e3 * *std::min_element(steady_powers_W.begin(), steady_powers_W.end()),
+              ratios.dissipation_ratio, 1e3 * undriven_W)};
+}
+
 }  // namespace
 
 Figure figure_4() {
@@ -114,11 +134,7 @@ Figure figure_5() {
   const std::vector<double> power = dissipated_powers_W(motions.from_rest);
   const std::vector<double> steady_force = friction_forces_N(motions.on_orbit);
   const std::vector<double> steady_power = dissipated_powers_W(motions.on_orbit);
-  const scene::Scene scene = steady(table_1());
-  const loop::PowerRatios ratios = loop::power_ratios(scene, loop::run(scene).whole);
-  const double limit_N = scene::friction_limit_N(scene.friction);
-  const double undriven_W = limit_N * scene.sliding.profile.front().velocity_m_per_s;
-  const double largest_N = *std::max_element(force.begin(), force.end());
+  const double limit_N = scene::friction_limit_N(table_1().friction);
   return {
       5,
       "Friction force and dissipated power over time",
@@ -131,16 +147,7 @@ Figure figure_5() {
               {"dissipated_power_steady_W", steady_power}}),
       draw({over_time("(a) Friction force", "friction force [N]", motions, force, steady_force),
             over_time("(b) Dissipated power", "F (V_t + x') [W]", motions, power, steady_power)}),
-      {{"The force stays within its limit (the paper does not say so; a solver may break it).",
-        verdict(largest_N <= limit_N),
-        fmt::format("Largest {:.6f} N, limit {:.6f} N.", largest_N, limit_N)},
-       {"What (b) shows is the power that friction dissipates.", Verdict::depends,
-        fmt::format(
-            "In the mean, yes. A Dahl contact is a spring as well: for part of each period it "
-            "gives power back, at most {:.2g} mW on the steady orbit. In the mean of that "
-            "it takes {:.4f} of the {:.4f} mW that it would take undriven.",
-            -1e3 * *std::min_element(steady_power.begin(), steady_power.end()),
-            ratios.dissipation_ratio, 1e3 * undriven_W)}}};
+      {within_limit(force, limit_N), dissipates(steady_power, limit_N)}};
 }
 
 }  // namespace sonoglide::paper

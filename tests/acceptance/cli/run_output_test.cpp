@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "tests/acceptance/program/program.hpp"
-#include "tests/acceptance/program/table_1.hpp"
+#include "tests/table_1/scenes.hpp"
 
 namespace sonoglide::acceptance {
 namespace {

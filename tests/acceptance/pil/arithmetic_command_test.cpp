@@ -5,11 +5,11 @@
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <sstream>
 #include <string>
 #include <vector>
 
 #include "image_cache.hpp"
+#include "tests/acceptance/program/csv.hpp"
 #include "tests/acceptance/program/program.hpp"
 
 namespace sonoglide::acceptance {
@@ -19,27 +19,14 @@ using Entries = std::vector<std::string>;
 /// A line of a table by its headings.
 using Line = std::map<std::string, std::string>;
 
-std::vector<std::string> fields(const std::string& line) {
-  std::vector<std::string> all;
-  std::istringstream stream(line + ",");
-  for (std::string field; std::getline(stream, field, ',');) {
-    all.push_back(field);
-  }
-  return all;
-}
-
 std::vector<Line> lines_of(const std::string& csv) {
-  std::istringstream stream(csv);
-  std::string text;
-  std::getline(stream, text);
-  const std::vector<std::string> headings = fields(text);
+  const std::vector<Cells> rows = csv_rows(csv);
   std::vector<Line> lines;
-  while (std::getline(stream, text)) {
-    const std::vector<std::string> cells = fields(text);
-    EXPECT_EQ(cells.size(), headings.size()) << text;
+  for (std::size_t row = 1; row < rows.size(); ++row) {
+    EXPECT_EQ(rows[row].size(), rows[0].size()) << row;
     Line& line = lines.emplace_back();
-    for (std::size_t i = 0; i < cells.size(); ++i) {
-      line[headings[i]] = cells[i];
+    for (std::size_t i = 0; i < rows[row].size(); ++i) {
+      line[rows[0].at(i)] = rows[row][i];
     }
   }
   return lines;

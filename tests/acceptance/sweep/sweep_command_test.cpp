@@ -5,10 +5,10 @@
 #include <cmath>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
-#include <sstream>
 #include <string>
 #include <vector>
 
+#include "tests/acceptance/program/csv.hpp"
 #include "tests/acceptance/program/program.hpp"
 #include "tests/acceptance/sweep/scenes/base_scenes.hpp"
 
@@ -16,7 +16,6 @@ namespace sonoglide::acceptance {
 namespace {
 
 using Entries = std::vector<std::string>;
-using Cells = std::vector<std::string>;
 
 class SweepCommandTest : public testing::Test {
  protected:
@@ -31,16 +30,7 @@ class SweepCommandTest : public testing::Test {
     EXPECT_EQ(outcome.out + outcome.err, "");
   }
   std::vector<Cells> rows(const std::string& folder) const {
-    std::vector<Cells> all;
-    std::istringstream lines(folder_.read(folder + "/sweep.csv"));
-    for (std::string line; std::getline(lines, line);) {
-      std::istringstream cells(line);
-      all.emplace_back();
-      for (std::string cell; std::getline(cells, cell, ',');) {
-        all.back().push_back(cell);
-      }
-    }
-    return all;
+    return csv_rows(folder_.read(folder + "/sweep.csv"));
   }
   nlohmann::json summary(const std::string& arguments) const {
     EXPECT_EQ(folder_.run("run --quiet --out single " + arguments).exit_code, 0);

@@ -3,12 +3,12 @@
 #include <cstdlib>
 #include <map>
 #include <memory>
-#include <sstream>
 #include <string>
 #include <vector>
 
+#include "tests/acceptance/program/csv.hpp"
 #include "tests/acceptance/program/program.hpp"
-#include "tests/acceptance/program/table_1.hpp"
+#include "tests/table_1/scenes.hpp"
 
 namespace sonoglide::acceptance {
 namespace {
@@ -16,15 +16,6 @@ namespace {
 using Entries = std::vector<std::string>;
 
 const std::string table_1 = table_1_open_loop + "[run]\nduration_periods = 2\n";
-
-std::vector<std::string> fields(const std::string& line) {
-  std::vector<std::string> all;
-  std::istringstream stream(line + ",");
-  for (std::string field; std::getline(stream, field, ',');) {
-    all.push_back(field);
-  }
-  return all;
-}
 
 /// One comparison, looked at from all sides.
 class WorkPrecisionTest : public testing::Test {
@@ -53,19 +44,19 @@ TEST_F(WorkPrecisionTest, WritesItsThreeFiles) {
 }
 
 TEST_F(WorkPrecisionTest, TheTableHasEverySolverAndItsSchema) {
-  std::istringstream csv(folder_->read("results/work_precision.csv"));
-  std::string line;
-  std::getline(csv, line);
-  EXPECT_EQ(line, "solver,setting,relative_error,wall_us_per_period,steps_per_period,status");
+  std::vector<Cells> table = csv_rows(folder_->read("results/work_precision.csv"));
+  ASSERT_FALSE(table.empty());
+  EXPECT_EQ(table.front(), (Cells{"solver", "setting", "relative_error", "wall_us_per_period",
+                                  "steps_per_period", "status"}));
+  table.erase(table.begin());
   std::map<std::string, int> rows;
-  while (std::getline(csv, line)) {
-    const std::vector<std::string> cells = fields(line);
-    ASSERT_EQ(cells.size(), 6U) << line;
+  for (const Cells& cells : table) {
+    ASSERT_EQ(cells.size(), 6U);
     ++rows[cells[0]];
     if (cells[5] == "ok") {
-      EXPECT_GE(std::strtod(cells[2].c_str(), nullptr), 0.0) << line;
-      EXPECT_GT(std::strtod(cells[3].c_str(), nullptr), 0.0) << line;
-      EXPECT_GT(std::strtod(cells[4].c_str(), nullptr), 0.0) << line;
+      EXPECT_GE(std::strtod(cells[2].c_str(), nullptr), 0.0) << cells[0];
+      EXPECT_GT(std::strtod(cells[3].c_str(), nullptr), 0.0) << cells[0];
+      EXPECT_GT(std::strtod(cells[4].c_str(), nullptr), 0.0) << cells[0];
     }
   }
   for (const char* solver :

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "tests/acceptance/program/table_1.hpp"
+#include "tests/table_1/scenes.hpp"
 
 namespace sonoglide::acceptance {
 

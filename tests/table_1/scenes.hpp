@@ -3,7 +3,7 @@
 
 #include <string>
 
-namespace sonoglide::acceptance {
+namespace sonoglide {
 
 inline const std::string table_1_plant = R"([plant]
 mass_kg = 0.02
@@ -28,4 +28,4 @@ frequency_Hz = 60e3
 max_force_amplitude_N = 1920.0
 )";
 
-}  // namespace sonoglide::acceptance
+}  // namespace sonoglide
