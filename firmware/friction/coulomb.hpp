@@ -19,6 +19,7 @@ struct Coulomb {
   static constexpr bool sticks = true;
   static constexpr bool rate_independent = true;
   static constexpr bool remembers = false;
+  static constexpr bool has_corners = false;
 
   Scalar friction(Scalar velocity, Scalar /*last_friction*/) const {
     return numeric::sign(velocity);

@@ -24,6 +24,7 @@ struct Dahl {
   static constexpr bool sticks = false;
   static constexpr bool rate_independent = true;
   static constexpr bool remembers = false;
+  static constexpr bool has_corners = false;
 
   Scalar contact_stiffness = Scalar(1);  ///< kappa = Kt L / Fc [-], > 0
 

@@ -37,6 +37,7 @@ struct LuGre {
   static constexpr bool sticks = false;
   static constexpr bool rate_independent = false;
   static constexpr bool remembers = true;
+  static constexpr bool has_corners = false;
 
   Scalar contact_stiffness = Scalar(1);  ///< kappa = sigma0 L / Fc [-], > 0
   Scalar static_friction = Scalar(1);    ///< gamma = Fs / Fc [-], >= 1

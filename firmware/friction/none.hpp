@@ -13,6 +13,7 @@ namespace sonoglide::friction {
 ///   sticks               V may stay zero while a friction force below Fc holds it there
 ///   rate_independent     between two reversals phi depends on the displacement alone
 ///   remembers            phi is not all that the contact knows of its past
+///   has_corners          the slope d phi / du may jump between two reversals
 ///   friction(V, phi)     the friction that acts now, phi being its last value
 ///   rate(V, phi)         d phi / d tau, for step-by-step methods; 0 where V alone sets phi
 ///   series_unit(V, phi, tau)  time, at most tau, in which the power series is written: its
@@ -34,7 +35,11 @@ namespace sonoglide::friction {
 /// A law that remembers has a Memory, which takes the place of phi as an argument of friction, rate
 /// and series_unit and is what rate gives the derivative of. It also offers:
 ///   largest_memory()     no motion takes |Memory| beyond it
-///   Series<Order>::memory(x)  the Memory at x
+///   Series<Order>::memory(x)  the Memory at x; where rate independent,
+///   Arc::memory_after(du)     the Memory after the displacement du
+/// A law that has corners is rate independent and remembers; no rate or largest_memory is asked of it.
+/// It also offers:
+///   Arc::to_corner()     the displacement, along the direction, to the first of them, or infinity
 template <class Number>
 struct None {
   using Scalar = Number;
@@ -43,6 +48,7 @@ struct None {
   static constexpr bool sticks = false;
   static constexpr bool rate_independent = true;
   static constexpr bool remembers = false;
+  static constexpr bool has_corners = false;
 
   Scalar friction(Scalar /*velocity*/, Scalar /*last_friction*/) const { return Scalar(0); }
   Scalar rate(Scalar /*velocity*/, Scalar /*friction*/) const { return Scalar(0); }

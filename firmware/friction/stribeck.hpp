@@ -29,6 +29,7 @@ struct Stribeck {
   static constexpr bool sticks = true;
   static constexpr bool rate_independent = false;
   static constexpr bool remembers = false;
+  static constexpr bool has_corners = false;
 
   Scalar fall = Scalar(0);  ///< a = alpha omega L / mu_s [-], >= 0
   Scalar rise = Scalar(0);  ///< b = beta (omega L)^3 / mu_s [-], >= 0

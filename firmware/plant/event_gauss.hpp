@@ -37,7 +37,8 @@ class EventGauss {
 
   /// Friction laws that it can solve: those that vary with the displacement alone, without stick.
   template <class Law>
-  static constexpr bool solves = !Law::sticks && Law::varies && Law::rate_independent;
+  static constexpr bool solves =
+      !Law::sticks && Law::varies && Law::rate_independent && !Law::remembers;
 
   /// tolerance: of the mean friction, relative to Fc, and of the velocity, in units of its scale;
   /// > 0. Not a bound: over a hundred periods of the contacts tested the error was below it.

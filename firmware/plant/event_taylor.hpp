@@ -8,6 +8,7 @@
 
 #include "firmware/numeric/scalar.hpp"
 #include "firmware/plant/branch_at_rest.hpp"
+#include "firmware/plant/corner.hpp"
 #include "firmware/plant/first_reversal.hpp"
 #include "firmware/plant/first_root.hpp"
 #include "firmware/plant/outcome.hpp"
@@ -130,7 +131,7 @@ class EventTaylor {
   /// Friction that is at its limit but for a negligible rest stays there while the contact slips.
   void settle(const Interval<Scalar>& interval, const Position& position,
               State<Scalar>& state) const {
-    if constexpr (Law::varies && Law::rate_independent) {
+    if constexpr (Law::varies && Law::rate_independent && !Law::remembers) {
       const Scalar velocity = model_.contact_velocity(
           interval.sliding_velocity + interval.sliding_acceleration * position.offset,
           state.velocity);
@@ -196,17 +197,18 @@ class EventTaylor {
     }
     const Scalar remaining = rest_of_time / series.unit;
     const Scalar longest = within_reach(series, sliding_extent(series, remaining));
-    const Scalar extent = up_to_reversal(series, branch, longest);
+    const Scalar reversal = up_to_reversal(series, branch, longest);
     const bool stands_still =
-        extent < longest && position.offset + extent * series.unit == position.offset;
+        reversal < longest && position.offset + reversal * series.unit == position.offset;
     if (stands_still && can_slide_beyond(branch)) {
       return false;
     }
+    const Scalar extent = up_to_corner(series, arc, branch.direction, reversal);
     const Sliding friction(series, arc, branch.direction, term_per_mean * allowed_);
     accept(interval, series, friction, extent, extent == remaining, position, state, account,
            observer);
     if constexpr (Law::reverses) {
-      if (extent < longest) {
+      if (extent < longest && extent == reversal) {
         rest(interval, position, state);
       }
     }
@@ -290,6 +292,15 @@ class EventTaylor {
         return longest;
       }
       return first_reversal(series.travel, branch.direction, branch.zero_order, longest);
+    }
+    return longest;
+  }
+
+  /// The extent of the step, cut at the first corner of the law.
+  static Scalar up_to_corner(const Series& series, const Arc& arc, Scalar direction,
+                             Scalar longest) {
+    if constexpr (Law::has_corners) {
+      return corner(series, direction, arc.to_corner(), longest);
     }
     return longest;
   }

@@ -9,7 +9,7 @@ namespace sonoglide::plant {
 /// y'' = a cos(tau) - d y' - k y - beta phi, in units of length L, time 1 / omega and force m L
 /// omega^2; phi = F / Fc.
 ///
-/// Law      friction::None, Coulomb, Stribeck, Dahl or LuGre
+/// Law      friction::None, Coulomb, Stribeck, Dahl, Iwan or LuGre
 /// Damping  Undamped or Damped
 /// DriveOf  NoDrive, CosineDrive, RampDrive or LevelDrive
 /// What is not named has no member: the parameters of a law and of the damping are its own.

@@ -24,7 +24,7 @@ class Rk4 {
   using Model = ModelType;
   using Scalar = typename Model::Scalar;
   template <class Law>
-  static constexpr bool solves = true;
+  static constexpr bool solves = !Law::has_corners;
 
   /// step: the longest allowed, in tau; > 0. An interval is cut into equal steps.
   /// step_limit: the most steps of one advance.

@@ -33,7 +33,7 @@ class Rk4Event {
   using Model = ModelType;
   using Scalar = typename Model::Scalar;
   template <class Law>
-  static constexpr bool solves = !Law::sticks && Law::rate_independent;
+  static constexpr bool solves = !Law::sticks && Law::rate_independent && !Law::has_corners;
   static_assert(
       solves<typename Model::FrictionLaw>,
       "with sgn V frozen d phi / d tau is to be in proportion to V, and no stick is a motion");

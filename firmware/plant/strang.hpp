@@ -29,7 +29,7 @@ class Strang {
   using Model = ModelType;
   using Scalar = typename Model::Scalar;
   template <class Law>
-  static constexpr bool solves = !Law::sticks && Law::rate_independent;
+  static constexpr bool solves = !Law::sticks && Law::rate_independent && !Law::remembers;
   static_assert(
       solves<typename Model::FrictionLaw>,
       "the contact follows its law in displacement; one that sticks makes the kicks chatter");

@@ -30,6 +30,7 @@ class SlidingFriction {
 
   Scalar at(Scalar x) const { return arc_.friction_after(travelled(x)); }
   Scalar work(Scalar x) const { return arc_.work(travelled(x)); }
+  auto memory(Scalar x) const { return arc_.memory_after(travelled(x)); }
 
   /// Of phi and of x phi over x, from 0 to the extent.
   Scalar integral(Scalar extent) const {
