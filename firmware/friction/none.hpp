@@ -35,10 +35,11 @@ namespace sonoglide::friction {
 /// A law that remembers has a Memory, which takes the place of phi as an argument of friction, rate
 /// and series_unit and is what rate gives the derivative of. It also offers:
 ///   largest_memory()     no motion takes |Memory| beyond it
+///   memory_at(phi)       the Memory of a contact that has been loaded to phi for the first time
 ///   Series<Order>::memory(x)  the Memory at x; where rate independent,
 ///   Arc::memory_after(du)     the Memory after the displacement du
-/// A law that has corners is rate independent and remembers; no rate or largest_memory is asked of it.
-/// It also offers:
+/// A law that has corners is rate independent and remembers; no rate is asked of it. It also
+/// offers:
 ///   Arc::to_corner()     the displacement, along the direction, to the first of them, or infinity
 template <class Number>
 struct None {

@@ -56,6 +56,9 @@ class KeyReader {
   void optional(std::string_view key, double& parameter, const Range& range) {
     parameter = cursor_.real(key, range, parameter);
   }
+  void optional(std::string_view key, int& count, int least, int most) {
+    count = static_cast<int>(cursor_.integer(key, least, most, count));
+  }
   void refuse(std::string_view key, double parameter, std::string_view finding, double least,
               std::string_view rest) {
     cursor_.fail(

@@ -37,6 +37,9 @@ class KeyEcho {
   void optional(std::string_view key, double parameter, const Range& range) {
     required(key, parameter, range);
   }
+  void optional(std::string_view key, int count, int /*least*/, int /*most*/) {
+    table_[std::string(key)] = count;
+  }
   void refuse(std::string_view /*key*/, double /*parameter*/, std::string_view /*finding*/,
               double /*least*/, std::string_view /*rest*/) {}
 

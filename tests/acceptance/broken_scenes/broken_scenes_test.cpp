@@ -85,7 +85,7 @@ const std::vector<BrokenScene> broken_scenes = {
      "zeta = 1\nalpha = 2\ncoefficient = 0.1",
      "6:1: friction.zeta: unknown key; allowed: law, coefficient, normal_force_N, "
      "contact_stiffness_N_per_m, initial_force_N, sign_convention, static_coefficient, "
-     "stribeck_velocity_m_per_s, bristle_damping_N_s_per_m, viscous_friction_N_s_per_m, "
+     "stribeck_velocity_m_per_s, bristle_damping_N_s_per_m, viscous_friction_N_s_per_m, elements, "
      "fall_s_per_m, rise_s3_per_m3"},
     {"control_character_in_key", open_loop, "mass_kg = 0.02", "\"mass\\nkg\" = 0.02",
      "2:1: plant.mass\\x0akg: unknown key; did you mean mass_kg?"},
@@ -102,7 +102,8 @@ const std::vector<BrokenScene> broken_scenes = {
     {"table_for_number", open_loop, "tolerance = 1e-10", "tolerance = {}",
      "16:13: solver.tolerance: is a table; allowed: a number, 1e-15 to 0.01"},
     {"number_for_word", open_loop, "law = \"dahl\"", "law = 1",
-     "5:7: friction.law: is an integer; allowed: \"dahl\", \"lugre\", \"coulomb\", \"stribeck\", "
+     "5:7: friction.law: is an integer; allowed: \"dahl\", \"lugre\", \"iwan\", \"coulomb\", "
+     "\"stribeck\", "
      "\"none\""},
     {"real_for_integer", closed_loop, "adc_bits = 12", "adc_bits = 12.0",
      "19:12: sensor.adc_bits: is a real number; allowed: an integer, 4 to 32"},
@@ -144,7 +145,7 @@ const std::vector<BrokenScene> broken_scenes = {
      "value"},
     {"unknown_word_near", open_loop, "\"dahl\"", "\"dhal\"",
      "5:7: friction.law: \"dhal\" is unknown; did you mean \"dahl\"? allowed: \"dahl\", "
-     "\"lugre\", \"coulomb\", \"stribeck\", \"none\""},
+     "\"lugre\", \"iwan\", \"coulomb\", \"stribeck\", \"none\""},
     {"unknown_word_far", open_loop, "\"event_taylor\"", "\"magic\"",
      "15:10: solver.method: \"magic\" is unknown; allowed: \"event_taylor\", "
      "\"event_gauss\", \"strang\", \"rk4\", \"rk4_event\""},
@@ -176,6 +177,10 @@ const std::vector<BrokenScene> broken_scenes = {
      "\"stribeck\"\nfall_s_per_m = 3\nrise_s3_per_m3 = 399\ncoefficient = 0.1",
      "7:18: friction.rise_s3_per_m3: 399 lets the friction fall below zero; allowed: at least 400 "
      "s^3/m^3 with this fall_s_per_m"},
+    {"more_elements_than_there_are", open_loop, "\"dahl\"", "\"iwan\"\nelements = 9",
+     "6:12: friction.elements: 9 is out of range; allowed: 1 to 8"},
+    {"part_of_an_element", open_loop, "\"dahl\"", "\"iwan\"\nelements = 1.5",
+     "6:12: friction.elements: is a real number; allowed: an integer, 1 to 8"},
     {"dahl_has_no_bristles", open_loop, "[sliding]", "static_coefficient = 0.2\n[sliding]",
      "9:1: friction.static_coefficient: not used with friction.law = \"dahl\"; remove it"},
     {"unknown_channel", open_loop, "[\"displacement_m\"]", "[\"displacment_m\"]",
@@ -188,7 +193,8 @@ const std::vector<BrokenScene> broken_scenes = {
     {"missing_key", open_loop, "mass_kg = 0.02\n", "",
      "1:2: plant.mass_kg: missing; required: a number, 1e-12 to 1e+06 kg"},
     {"missing_word", open_loop, "law = \"dahl\"\n", "",
-     "4:2: friction.law: missing; required: \"dahl\" or \"lugre\" or \"coulomb\" or \"stribeck\" "
+     "4:2: friction.law: missing; required: \"dahl\" or \"lugre\" or \"iwan\" or \"coulomb\" or "
+     "\"stribeck\" "
      "or \"none\""},
     {"missing_table", open_loop, "[sliding]\nvelocity_m_per_s = 0.0267\n", "",
      "1:1: sliding: missing; required: a table [sliding]"},

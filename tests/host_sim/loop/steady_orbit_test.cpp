@@ -81,6 +81,36 @@ TEST(FindSteadyOrbitTest, IsWhereStiffAndStickingContactsSettle) {
   EXPECT_NEAR(friction_ratio_of_steady_orbit(scene), friction_ratio_after(scene, 300), 1e-6);
 }
 
+// Bristles and springs remember more than their force.
+TEST(FindSteadyOrbitTest, IsWhereContactsWithMoreMemorySettle) {
+  Scene scene = table_1();
+  scene.plant.damping_N_s_per_m = 200.0;
+  scene.friction.law = scene::laws::LuGre{0.15, 0.02, 0.01, 0.02};
+  EXPECT_NEAR(friction_ratio_of_steady_orbit(scene), friction_ratio_after(scene, 600), 1e-6);
+  for (const int elements : {1, 3, 8}) {
+    scene.friction.law = scene::laws::Iwan{elements};
+    EXPECT_NEAR(friction_ratio_of_steady_orbit(scene), friction_ratio_after(scene, 600), 1e-6);
+  }
+}
+
+TEST(FindSteadyOrbitTest, IsWhereAContactThatIsMostlyStuckSettles) {
+  Scene scene = at_velocity_ratio(384.0, 0.01);
+  scene.plant.damping_N_s_per_m = 200.0;
+  scene.friction.law = scene::laws::Iwan{1};
+  EXPECT_EQ(find_steady_orbit(scene).memory.size(), 1U);
+  EXPECT_NEAR(friction_ratio_of_steady_orbit(scene), friction_ratio_after(scene, 1000), 1e-6);
+}
+
+TEST(FindSteadyOrbitTest, IsWhereOtherWaveformsSettle) {
+  for (const scene::Waveform waveform :
+       {scene::Waveform::square, scene::Waveform::triangle, scene::Waveform::sawtooth}) {
+    Scene scene = table_1();
+    scene.plant.damping_N_s_per_m = 200.0;
+    scene.drive->waveform = waveform;
+    EXPECT_NEAR(friction_ratio_of_steady_orbit(scene), friction_ratio_after(scene, 600), 1e-6);
+  }
+}
+
 // Only friction limits the vibration: over a period it takes what the drive puts in, and both take
 // hundreds of thousands of periods to come to terms.
 TEST(FindSteadyOrbitTest, BalancesDriveAndFrictionAtResonance) {

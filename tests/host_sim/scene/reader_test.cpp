@@ -196,10 +196,6 @@ TEST(ReaderTest, ASteadyOrbitHasAPeriodAndNoOtherBeginning) {
   EXPECT_EQ(refused_key({hertz, newton, "plant.initial_velocity_m_per_s=0"}),
             "plant.initial_velocity_m_per_s");
   EXPECT_EQ(refused_key({hertz, newton, "friction.initial_force_N=0"}), "friction.initial_force_N");
-  EXPECT_EQ(refused_key({hertz, newton, "friction.law='lugre'", "friction.static_coefficient=0.15",
-                         "friction.stribeck_velocity_m_per_s=0.01"}),
-            "run.start")
-      << "bristles";
 }
 
 TEST(ReaderTest, TheErrorCarriesItsParts) {
