@@ -41,7 +41,7 @@ std::string style(const Curve& curve) {
     case Line::area:
       break;
   }
-  return "with filledcurves closed fs transparent solid 0.15 noborder";
+  return "with filledcurves closed fs transparent solid 0.3 noborder";
 }
 
 /// A block of data; a blank line is a gap.
@@ -86,6 +86,9 @@ std::string key_place(Key key) {
       break;
     case Key::upper_right:
       place = "inside top right vertical";
+      break;
+    case Key::upper_left:
+      place = "inside top left vertical";
       break;
     case Key::above:
       break;

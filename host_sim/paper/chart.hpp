@@ -35,7 +35,7 @@ struct Span {
 };
 
 /// Where the curves leave room for it; none where the chart beside it has the same.
-enum class Key { above, lower_right, upper_right, none };
+enum class Key { above, lower_right, upper_right, upper_left, none };
 
 struct Chart {
   std::string title;

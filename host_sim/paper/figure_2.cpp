@@ -52,7 +52,9 @@ std::string csv(const Laws& laws) {
                  {"coulomb_steady", laws.simulated_coulomb.friction_steady},
                  {"dahl_closed_form", laws.dahl},
                  {"dahl_from_rest", laws.simulated_dahl.friction_from_rest},
-                 {"dahl_steady", laws.simulated_dahl.friction_steady}});
+                 {"dahl_steady", laws.simulated_dahl.friction_steady},
+                 {"coulomb_dissipation_steady", laws.simulated_coulomb.dissipation_steady},
+                 {"dahl_dissipation_steady", laws.simulated_dahl.dissipation_steady}});
 }
 
 std::string svg(const Laws& laws) {
