@@ -261,13 +261,25 @@ class EventTaylor {
   }
 
   /// What the error of the velocity is measured against: the velocity scale, or where that is
-  /// smaller, but not without end, the vibration itself on the way to x.
-  static Scalar speed(const Series& series, Scalar x) {
-    constexpr Scalar slowest = numeric::from_real<Scalar>(1e-12);
+  /// smaller the vibration itself on the way to x, but not without end.
+  Scalar speed(const Series& series, Scalar x) const {
+    constexpr Scalar slow = numeric::from_real<Scalar>(1e-12);
     const Scalar change =
         x * (numeric::abs(series.vibration[1]) + x * numeric::abs(series.travel[2]));
-    return numeric::clamp(numeric::abs(series.velocity) + numeric::abs(series.rate) * change,
-                          slowest, Scalar(1));
+    const Scalar fastest = numeric::abs(series.velocity) + numeric::abs(series.rate) * change;
+    return fastest < slow ? numeric::max(fastest, numeric::min(slow, slowest(series, x)))
+                          : numeric::min(fastest, Scalar(1));
+  }
+
+  /// The vibration below which the rounding of the forces, on the way to x, is more than is
+  /// allowed. Out of line: it is rare.
+  [[gnu::noinline]] Scalar slowest(const Series& series, Scalar x) const {
+    using Limits = std::numeric_limits<Scalar>;
+    const Scalar forces =
+        model_.force_moduli(numeric::abs(series.drive[0]) + numeric::abs(series.drive[1]),
+                            {series.displacement, series.velocity, series.friction[0]});
+    return numeric::max(Limits::epsilon() * (x * series.unit) * forces / allowed_,
+                        Limits::min() / Limits::epsilon());
   }
 
   /// The n-th terms of V and phi, as much as they matter.

@@ -82,7 +82,7 @@ class FloatPlant {
     const scene::PlantNumbers& numbers = described.numbers;
     solver_.configure({{{number(numbers.contact_stiffness)},
                         number(numbers.friction_force),
-                        number(described.vibration_sign)},
+                        number(scene::vibration_sign(scene.friction.sign_convention))},
                        {},
                        number(numbers.stiffness)},
                       number(two_pi / 8.0));
