@@ -1,15 +1,14 @@
 #include "host_sim/design/closed_form.hpp"
 
 #include <boost/math/tools/minima.hpp>
-#include <boost/math/tools/toms748_solve.hpp>
 
 #include <cmath>
-#include <cstdint>
 
 #include "firmware/friction/coulomb_friction_ratio.hpp"
 #include "firmware/friction/dahl_friction_ratio.hpp"
 #include "firmware/friction/stribeck_friction_ratio.hpp"
 #include "firmware/numeric/turn.hpp"
+#include "host_sim/design/root.hpp"
 #include "host_sim/scene/plant_scales.hpp"
 
 namespace sonoglide::design {
@@ -44,10 +43,7 @@ Vibration closed_form_vibration(const scene::Scene& scene, double sliding_m_per_
   if (least >= 0.0) {
     return {ratio + least, sliding_m_per_s * std::exp(place)};
   }
-  std::uintmax_t evaluations = 100;
-  const auto [low, high] = boost::math::tools::toms748_solve(
-      excess, 0.0, place, boost::math::tools::eps_tolerance<double>(), evaluations);
-  return {ratio, sliding_m_per_s * std::exp(0.5 * (low + high))};
+  return {ratio, sliding_m_per_s * std::exp(root_between(excess, 0.0, place))};
 }
 
 double force_N(const scene::Scene& scene, double vibration_m_per_s) {

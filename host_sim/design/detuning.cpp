@@ -12,23 +12,23 @@
 namespace sonoglide::design {
 namespace {
 
-constexpr double nearest_to_resonance = 1e-3;
 constexpr int points_a_side = 30;
+/// A tolerance of 1 % must not reach the other side of resonance.
+constexpr double nearest = 0.011;
 
 double inertia_N_per_m(const scene::Scene& scene) {
   const double omega = numeric::two_pi * scene.drive->frequency_Hz;
   return scene.plant.mass_kg * omega * omega;
 }
 
-/// Distances from resonance by equal factors, on either side of it.
+/// Distances from resonance by the squares of equal steps, on either side of it.
 std::vector<double> tunings(double own) {
   const double most_above = std::max(1.0, 1.25 * (own - 1.0));
   std::vector<double> all;
   for (const double most : {smallest_tuning - 1.0, most_above}) {
-    const double factor =
-        std::pow(nearest_to_resonance / std::abs(most), 1.0 / (points_a_side - 1));
-    for (int i = 0; i < points_a_side; ++i) {
-      all.push_back(1.0 + most * std::pow(factor, i));
+    for (int i = 1; i <= points_a_side; ++i) {
+      const double part = static_cast<double>(i) / points_a_side;
+      all.push_back(1.0 + most * part * part);
     }
   }
   std::sort(all.begin(), all.end());
@@ -39,7 +39,7 @@ std::vector<double> tunings(double own) {
 class Retuning {
  public:
   Retuning(const scene::Scene& scene, const Requirement& requirement)
-      : scene_(scene), requirement_(requirement), own_(tuning(scene)) {}
+      : scene_(scene), requirement_(requirement) {}
 
   /// NaN where none is found.
   double force_N(double tuning) const {
@@ -47,10 +47,14 @@ class Retuning {
         .motion.drive_force_N;
   }
 
-  /// Of the ratio under a force, by 1 % of the spring.
+  /// Of the ratio under the force that gives it, by 1 % of the spring.
   double change(double tuning, double force_N) const {
     try {
-      return sensitivity(under(tuning, force_N), stiffness()).largest_change();
+      const scene::Scene steady = under(tuning, force_N);
+      const auto by = [&](double part) {
+        return std::abs(ratio_with(steady, stiffness(), 1.0 + part) - requirement_.ratio);
+      };
+      return std::max(by(parameter_change), by(-parameter_change));
     } catch (const loop::ComputationError&) {
       return undefined;
     }
@@ -70,20 +74,18 @@ class Retuning {
             ratio(tuning, requirement_.motion.drive_force_N)};
   }
 
-  /// Distance from resonance up to which the drive has the force; away from resonance the force is
-  /// as this distance.
+  /// Farthest from resonance where the drive has the force.
   /// @param side  -1 below resonance, 1 above
   std::optional<double> reach(double side) const {
     const double most_N = scene_.drive->max_force_amplitude_N;
-    const double guess = std::abs(1.0 - own_) * most_N / requirement_.motion.drive_force_N;
-    return edge([&](double tuning) { return force_N(tuning) / most_N - 1.0; }, side, guess, true);
+    return outermost(side, [&](double tuning) { return 1.0 - force_N(tuning) / most_N; });
   }
 
-  /// Distance from resonance up to which the spring counts for too much.
+  /// Farthest from resonance where the spring counts for too much.
   std::optional<double> sensitive(double side) const {
     const double allowed = scene_.run.settling_band;
-    return edge([&](double tuning) { return change(tuning, force_N(tuning)) / allowed - 1.0; },
-                side, 0.5, false);
+    return outermost(
+        side, [&](double tuning) { return change(tuning, force_N(tuning)) / allowed - 1.0; });
   }
 
  private:
@@ -91,47 +93,44 @@ class Retuning {
     return steady_scene(retuned(scene_, tuning), requirement_.sliding_m_per_s, force_N);
   }
 
-  /// Where a figure passes zero on one side of resonance; nothing where it does not between the
-  /// smallest or largest tuning and its neighbourhood.
+  /// The tuning farthest from resonance at which a figure is positive, looked for at distances
+  /// that shrink by equal factors: the far end where it is so there, nothing where it nowhere is.
   template <class Figure>
-  std::optional<double> edge(const Figure& figure, double side, double guess, bool rising) const {
-    const double most = side < 0.0 ? 1.0 - smallest_tuning : largest_tuning - 1.0;
-    // A tolerance of 1 % must not reach the other side.
-    constexpr double least = 0.011;
-    const auto within = [&](double distance) {
-      return figure(1.0 + side * std::clamp(distance, least, most));
-    };
-    const double far = within(most);
-    const double near = within(least);
-    if (!(far * near < 0.0)) {
-      return std::nullopt;
+  static std::optional<double> outermost(double side, const Figure& figure) {
+    constexpr int steps = 24;
+    const double far_end = side < 0.0 ? smallest_tuning : largest_tuning;
+    const double factor = std::pow(nearest / std::abs(far_end - 1.0), 1.0 / steps);
+    double last = far_end;
+    double last_figure = undefined;
+    for (int i = 0; i <= steps; ++i) {
+      const double tuning = i == 0 ? far_end : 1.0 + (far_end - 1.0) * std::pow(factor, i);
+      const double here = figure(tuning);
+      if (here > 0.0) {
+        return last_figure < 0.0
+                   ? root_between(figure, std::min(tuning, last), std::max(tuning, last))
+                   : tuning;
+      }
+      last = tuning;
+      last_figure = here;
     }
-    return root_near(within, std::clamp(guess, least, most), rising);
+    return std::nullopt;
   }
 
   const scene::Scene& scene_;
   const Requirement& requirement_;
-  double own_;
 };
 
-std::optional<TuningBand> reachable_band(const Retuning& retuning, double most_N) {
+std::optional<TuningBand> reachable_band(const Retuning& retuning) {
   const auto below = retuning.reach(-1.0);
   const auto above = retuning.reach(1.0);
-  const bool below_throughout = !below && retuning.force_N(smallest_tuning) <= most_N;
-  const bool above_throughout = !above && retuning.force_N(largest_tuning) <= most_N;
-  if (!(below || below_throughout) || !(above || above_throughout)) {
-    return std::nullopt;
-  }
-  return TuningBand{below ? 1.0 - *below : smallest_tuning, above ? 1.0 + *above : largest_tuning};
+  return below && above ? std::optional(TuningBand{*below, *above}) : std::nullopt;
 }
 
 std::optional<TuningBand> sensitive_band(const Retuning& retuning) {
   const auto below = retuning.sensitive(-1.0);
-  if (!below) {
-    return std::nullopt;
-  }
   const auto above = retuning.sensitive(1.0);
-  return TuningBand{1.0 - *below, above ? 1.0 + *above : std::numeric_limits<double>::infinity()};
+  return below || above ? std::optional(TuningBand{below.value_or(1.0), above.value_or(1.0)})
+                        : std::nullopt;
 }
 
 }  // namespace
@@ -150,8 +149,9 @@ Detuning detune(const scene::Scene& scene, const Requirement& requirement) {
   Detuning detuning{requirement.sliding_m_per_s,
                     requirement.ratio,
                     {},
-                    reachable_band(retuning, scene.drive->max_force_amplitude_N),
+                    reachable_band(retuning),
                     sensitive_band(retuning),
+                    retuning.change(tuning(scene), requirement.motion.drive_force_N),
                     undefined};
   if (detuning.sensitive) {
     detuning.force_at_sensitive_low_N = retuning.force_N(detuning.sensitive->low);

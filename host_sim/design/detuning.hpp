@@ -36,9 +36,10 @@ struct Detuning {
   std::vector<DetunedPoint> points;  ///< tuning rises
   /// Where the drive has the force; smallest_tuning or largest_tuning where that goes on beyond.
   std::optional<TuningBand> reachable;
-  /// About resonance: where 1 % of Ks changes the ratio by more than the scene's settling band.
-  /// Its upper end is infinite where springs above resonance all are too sensitive.
+  /// About resonance: outside it 1 % of Ks changes the ratio by no more than the scene's settling
+  /// band; largest_tuning where springs above resonance all are too sensitive.
   std::optional<TuningBand> sensitive;
+  double change_by_stiffness;       ///< as a point's, at the scene's own tuning
   double force_at_sensitive_low_N;  ///< the least force below resonance outside that band
 };
 

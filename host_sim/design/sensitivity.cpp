@@ -8,23 +8,29 @@
 namespace sonoglide::design {
 namespace {
 
-double ratio_at(scene::Scene scene, const Parameter& parameter, double factor) {
-  parameter.in(scene) *= factor;
-  scene.run.duration_s = 1.0 / scene.drive->frequency_Hz;
-  return friction_ratio(scene);
-}
-
 /// d rho/d ln p by central differences of fourth order: beside a resonance the ratio bends within
 /// a hundredth of a parameter.
 double derivative(const scene::Scene& scene, const Parameter& parameter) {
   constexpr double h = 2e-4;
   const auto rise = [&](double part) {
-    return ratio_at(scene, parameter, 1.0 + part) - ratio_at(scene, parameter, 1.0 - part);
+    return ratio_with(scene, parameter, 1.0 + part) - ratio_with(scene, parameter, 1.0 - part);
   };
   return (8.0 * rise(h) - rise(2.0 * h)) / (12.0 * h);
 }
 
+Sensitivity sensitivity(const scene::Scene& scene, const Parameter& parameter, double ratio) {
+  return {parameter, derivative(scene, parameter) / ratio,
+          ratio_with(scene, parameter, 1.0 + parameter_change) - ratio,
+          ratio_with(scene, parameter, 1.0 - parameter_change) - ratio};
+}
+
 }  // namespace
+
+double ratio_with(scene::Scene steady_scene, const Parameter& parameter, double factor) {
+  parameter.in(steady_scene) *= factor;
+  steady_scene.run.duration_s = 1.0 / steady_scene.drive->frequency_Hz;
+  return friction_ratio(steady_scene);
+}
 
 double Sensitivity::largest_change() const {
   return std::max(std::abs(change_by_more), std::abs(change_by_less));
@@ -62,18 +68,11 @@ std::vector<Parameter> parameters_of(const scene::Scene& steady_scene) {
   return all;
 }
 
-Sensitivity sensitivity(const scene::Scene& steady_scene, const Parameter& parameter) {
-  constexpr double tolerance = 0.01;
-  const double ratio = friction_ratio(steady_scene);
-  return {parameter, derivative(steady_scene, parameter) / ratio,
-          ratio_at(steady_scene, parameter, 1.0 + tolerance) - ratio,
-          ratio_at(steady_scene, parameter, 1.0 - tolerance) - ratio};
-}
-
 std::vector<Sensitivity> sensitivities(const scene::Scene& steady_scene) {
+  const double ratio = friction_ratio(steady_scene);
   std::vector<Sensitivity> all;
   for (const Parameter& parameter : parameters_of(steady_scene)) {
-    all.push_back(sensitivity(steady_scene, parameter));
+    all.push_back(sensitivity(steady_scene, parameter, ratio));
   }
   return all;
 }

@@ -28,14 +28,18 @@ struct Sensitivity {
   double largest_change() const;  ///< magnitude
 };
 
-/// By central differences of the ratio on the steady orbit.
+/// Of every parameter, by differences of the ratio on the steady orbit.
 /// Error: of the derivative 1e-5, of the changes 1e-9.
 /// @throws loop::ComputationError  no steady orbit, or none beside it
-Sensitivity sensitivity(const scene::Scene& steady_scene, const Parameter& parameter);
-
 std::vector<Sensitivity> sensitivities(const scene::Scene& steady_scene);
 
-/// Mass on spring: the parameter that moves the resonance.
+/// The changes that a Sensitivity holds: relative.
+inline constexpr double parameter_change = 0.01;
+
+/// Ratio with the parameter taken times a factor. @throws loop::ComputationError
+double ratio_with(scene::Scene steady_scene, const Parameter& parameter, double factor);
+
+/// Of the spring, on which resonance hangs.
 Parameter stiffness();
 
 }  // namespace sonoglide::design

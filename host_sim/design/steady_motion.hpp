@@ -12,7 +12,7 @@ struct SteadyMotion {
   double displacement_amplitude_m;    ///< half of peak to peak
   double velocity_amplitude_m_per_s;  ///< likewise
   double drive_power_W;               ///< mean Fe x': what the drive puts in
-  double apparent_power_W;            ///< Fe v̂/2: what an amplifier has to pass to and fro
+  double apparent_power_W;            ///< Fe v̂/2: what drive and mass pass to and fro
   double friction_power_W;            ///< mean F V: dissipated in the contact
   double undriven_friction_power_W;   ///< the same at this speed without vibration
   double damping_power_W;             ///< mean c x'²

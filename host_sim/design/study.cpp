@@ -102,6 +102,16 @@ void require_an_orbit(const std::vector<DesignPoint>& points) {
 
 }  // namespace
 
+std::vector<DesignPoint> moving_points(const Study& study) {
+  std::vector<DesignPoint> points;
+  for (const DesignPoint& point : study.points) {
+    if (has_motion(point.requirement)) {
+      points.push_back(point);
+    }
+  }
+  return points;
+}
+
 Study study(const Task& task, const Progress& progress) {
   const std::vector<double> speeds_m_per_s = curve_speeds_m_per_s(task.speeds);
   Study study{task, tuning(task.scene), {}, {}, {}};

@@ -34,6 +34,9 @@ struct Study {
   std::vector<Detuning> detunings;  ///< each ratio at the fastest speed, where it has a motion
 };
 
+/// The design points that have a motion.
+std::vector<DesignPoint> moving_points(const Study& study);
+
 /// On every core. Of a single speed the curves go from a tenth to ten times it.
 /// @throws loop::ComputationError  no ratio has a steady vibration at any of the task's speeds
 Study study(const Task& task, const Progress& progress);

@@ -35,6 +35,18 @@ TEST(DetuneTest, ReachEndsWhereTheDriveDoes) {
   EXPECT_NEAR(detuning.reachable->high, 1.0 + most, 0.02 * most);
 }
 
+// The same motion rubs the same.
+TEST(DetuneTest, PowerIsTheSameOnAnySpring) {
+  const SteadyMotion own = require_ratio(table_1(), 0.02672, 0.5).motion;
+  for (const double other : {0.01, 0.5, 0.9, 2.0}) {
+    const SteadyMotion motion = require_ratio(retuned(table_1(), other), 0.02672, 0.5).motion;
+    EXPECT_NEAR(motion.drive_power_W, own.drive_power_W, 1e-3 * own.drive_power_W);
+    EXPECT_NEAR(motion.apparent_power_W,
+                own.apparent_power_W * std::abs(1.0 - other) / (1.0 - tuning(table_1())),
+                2e-3 * own.apparent_power_W);
+  }
+}
+
 // 1 % of Ks is 1 % s/|1 - s| of the vibration at a tuning of s.
 TEST(DetuneTest, SensitivityToTheSpringGrowsTowardsResonance) {
   scene::Scene scene = coulomb();
@@ -49,8 +61,9 @@ TEST(DetuneTest, SensitivityToTheSpringGrowsTowardsResonance) {
   for (const double edge : {detuning.sensitive->low, detuning.sensitive->high}) {
     const scene::Scene there = retuned(scene, edge);
     const double force_N = require_ratio(there, 0.02672, ratio).motion.drive_force_N;
-    const Sensitivity found = sensitivity(steady_scene(there, 0.02672, force_N), stiffness());
-    EXPECT_NEAR(found.largest_change(), scene.run.settling_band, 1e-6);
+    const Sensitivity spring = sensitivities(steady_scene(there, 0.02672, force_N))[1];
+    ASSERT_STREQ(spring.parameter.symbol, "Ks");
+    EXPECT_NEAR(spring.largest_change(), scene.run.settling_band, 1e-6);
   }
   EXPECT_LT(detuning.force_at_sensitive_low_N,
             require_ratio(scene, 0.02672, ratio).motion.drive_force_N);
@@ -61,6 +74,18 @@ TEST(DetuneTest, AWideBandLeavesNothingTooSensitive) {
   scene.run.settling_band = 1.0;
   const Detuning detuning = detuning_at(scene, 0.5);
   EXPECT_FALSE(detuning.sensitive);
+}
+
+// With a quality of 5 the ratio hardly moves at the top, and most beside it.
+TEST(DetuneTest, ADampedResonanceIsFlatAtItsTopAndSteepBesideIt) {
+  scene::Scene scene = resonant();
+  scene.plant.damping_N_s_per_m = 1500.0;
+  scene.drive->max_force_amplitude_N = 500.0;
+  const Detuning detuning = detuning_at(scene, 0.5);
+  EXPECT_LT(detuning.change_by_stiffness, scene.run.settling_band);
+  ASSERT_TRUE(detuning.sensitive);
+  EXPECT_LT(detuning.sensitive->low, 0.9);
+  EXPECT_GT(detuning.sensitive->high, 1.1);
 }
 
 TEST(DetuneTest, ATargetBeyondTheDriveIsReachedNearerToResonance) {
