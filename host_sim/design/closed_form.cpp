@@ -17,17 +17,17 @@ double closed_form_ratio(const scene::Scene& scene, double sliding_m_per_s,
                          double vibration_m_per_s) {
   const scene::Friction& friction = scene.friction;
   const double velocity_ratio = sliding_m_per_s / vibration_m_per_s;
-  if (friction.law == scene::FrictionLaw::dahl) {
+  if (scene::is<scene::laws::Dahl>(friction.law)) {
     const double amplitude_m = vibration_m_per_s / (numeric::two_pi * scene.drive->frequency_Hz);
     return friction::dahl_friction_ratio(
         velocity_ratio,
         friction.contact_stiffness_N_per_m * amplitude_m / scene::friction_limit_N(friction));
   }
-  if (friction.curve) {
+  if (const auto* curve = std::get_if<scene::laws::Stribeck>(&friction.law)) {
     const double v = vibration_m_per_s;
     return friction::stribeck_friction_ratio(
-        velocity_ratio, friction.curve->fall_s_per_m * v / friction.coefficient,
-        friction.curve->rise_s3_per_m3 * v * v * v / friction.coefficient);
+        velocity_ratio, curve->fall_s_per_m * v / friction.coefficient,
+        curve->rise_s3_per_m3 * v * v * v / friction.coefficient);
   }
   return friction::coulomb_friction_ratio(velocity_ratio);
 }

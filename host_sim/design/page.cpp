@@ -24,8 +24,7 @@ std::string lead(const Study& study) {
   return fmt::format(
       "What the drive of {} must do to hold a friction ratio: {} contact, drive of {} with up to "
       "{}, sliding at {}. Figures are those of the simulated plant on its steady orbit.",
-      scene.name, scene::name_of(scene::friction_laws, scene.friction.law),
-      quantity(scene.drive->frequency_Hz, "Hz"),
+      scene.name, scene::name_of(scene.friction.law), quantity(scene.drive->frequency_Hz, "Hz"),
       fmt::format("{:.4g} N", scene.drive->max_force_amplitude_N), speeds_text(study.task.speeds));
 }
 

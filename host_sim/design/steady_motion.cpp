@@ -24,13 +24,13 @@ double amplitude(const std::vector<loop::PlantState>& states, double loop::Plant
 }  // namespace
 
 double undriven_friction_ratio(const scene::Friction& friction, double sliding_m_per_s) {
-  if (!friction.curve) {
+  const auto* curve = std::get_if<scene::laws::Stribeck>(&friction.law);
+  if (curve == nullptr) {
     return 1.0;
   }
   const double speed = std::abs(sliding_m_per_s);
-  const scene::StribeckCurve& curve = *friction.curve;
-  return 1.0 -
-         speed * (curve.fall_s_per_m - curve.rise_s3_per_m3 * speed * speed) / friction.coefficient;
+  return 1.0 - speed * (curve->fall_s_per_m - curve->rise_s3_per_m3 * speed * speed) /
+                   friction.coefficient;
 }
 
 scene::Scene steady_scene(const scene::Scene& scene, double sliding_m_per_s, double drive_force_N) {

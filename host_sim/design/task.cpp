@@ -1,5 +1,7 @@
 #include "host_sim/design/task.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -17,11 +19,13 @@ void require_steady_vibration(const scene::Scene& scene) {
         "missing: a design takes its ratios and the drive's limit from a closed "
         "loop; required: a table [controller], and drive.max_force_amplitude_N");
   }
-  if (scene.friction.law == scene::FrictionLaw::lugre) {
+  if (!scene::has_own_map(scene.friction.law) &&
+      !scene::is<scene::laws::Stribeck>(scene.friction.law)) {
     throw scene::ConfigurationError(
         "friction.law",
-        "is \"lugre\", whose bristles have no closed form and remember more than the force, so "
-        "that no steady orbit is found; allowed: \"dahl\", \"coulomb\", \"stribeck\"");
+        fmt::format("is \"{}\", which has no closed form of the friction ratio to design by; "
+                    "allowed: \"dahl\", \"coulomb\", \"stribeck\"",
+                    scene::name_of(scene.friction.law)));
   }
   if (scene.friction.sign_convention == scene::SignConvention::as_printed) {
     throw scene::ConfigurationError(

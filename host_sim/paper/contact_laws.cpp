@@ -68,15 +68,14 @@ const std::vector<ContactLaw>& contact_laws() {
 double sliding_force_N(const scene::Friction& friction, double velocity_m_per_s) {
   double coefficient = friction.coefficient;
   double viscous_N = 0.0;
-  if (friction.bristles) {
-    const double part = velocity_m_per_s / friction.bristles->stribeck_velocity_m_per_s;
-    coefficient += (friction.bristles->static_coefficient - coefficient) * std::exp(-part * part);
-    viscous_N = friction.bristles->viscous_friction_N_s_per_m * velocity_m_per_s;
+  if (const auto* lugre = std::get_if<scene::laws::LuGre>(&friction.law)) {
+    const double part = velocity_m_per_s / lugre->stribeck_velocity_m_per_s;
+    coefficient += (lugre->static_coefficient - coefficient) * std::exp(-part * part);
+    viscous_N = lugre->viscous_friction_N_s_per_m * velocity_m_per_s;
   }
-  if (friction.curve) {
+  if (const auto* curve = std::get_if<scene::laws::Stribeck>(&friction.law)) {
     const double square = velocity_m_per_s * velocity_m_per_s;
-    coefficient +=
-        velocity_m_per_s * (friction.curve->rise_s3_per_m3 * square - friction.curve->fall_s_per_m);
+    coefficient += velocity_m_per_s * (curve->rise_s3_per_m3 * square - curve->fall_s_per_m);
   }
   return coefficient * friction.normal_force_N + viscous_N;
 }

@@ -26,10 +26,9 @@ scene::Scene luo() {
 scene::Scene luo_with_bristles(double velocity_m_per_s, double dahl_number,
                                double stribeck_velocity_m_per_s) {
   scene::Scene scene = luo();
-  scene.friction.law = scene::FrictionLaw::lugre;
+  scene.friction.law =
+      scene::laws::LuGre{2.0 * scene.friction.coefficient, stribeck_velocity_m_per_s, 0.0, 0.0};
   scene.friction.contact_stiffness_N_per_m *= dahl_number;
-  scene.friction.bristles =
-      scene::Bristles{2.0 * scene.friction.coefficient, stribeck_velocity_m_per_s, 0.0, 0.0};
   scene.sliding.profile = {{0.0, velocity_m_per_s}};
   return scene;
 }

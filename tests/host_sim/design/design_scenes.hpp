@@ -10,7 +10,7 @@ inline scene::Scene table_1() {
   scene::Scene scene;
   scene.plant.mass_kg = 0.02;
   scene.plant.stiffness_N_per_m = 133e6;
-  scene.friction.law = scene::FrictionLaw::dahl;
+  scene.friction.law = scene::laws::Dahl{};
   scene.friction.coefficient = 0.1;
   scene.friction.normal_force_N = 0.02 * 9.81;
   scene.friction.contact_stiffness_N_per_m = 0.056e6;
@@ -29,7 +29,7 @@ inline scene::Scene table_1() {
 /// The same with a Coulomb contact.
 inline scene::Scene coulomb() {
   scene::Scene scene = table_1();
-  scene.friction.law = scene::FrictionLaw::coulomb;
+  scene.friction.law = scene::laws::Coulomb{};
   scene.friction.contact_stiffness_N_per_m = 0.0;
   return scene;
 }
@@ -37,8 +37,7 @@ inline scene::Scene coulomb() {
 /// A friction curve that falls and rises again, on a damped plant.
 inline scene::Scene stribeck() {
   scene::Scene scene = coulomb();
-  scene.friction.law = scene::FrictionLaw::stribeck;
-  scene.friction.curve = {0.1, 0.5};
+  scene.friction.law = scene::laws::Stribeck{0.1, 0.5};
   scene.plant.damping_N_s_per_m = 10.0;
   return scene;
 }

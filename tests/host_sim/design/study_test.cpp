@@ -45,7 +45,7 @@ TEST(MakeTaskTest, DeniesWhatHasNoSteadyVibration) {
   scene.controller.reset();
   expect_denied(scene, "controller");
   scene = table_1();
-  scene.friction.law = scene::FrictionLaw::lugre;
+  scene.friction.law = scene::laws::LuGre{};
   expect_denied(scene, "friction.law");
   scene = table_1();
   scene.friction.sign_convention = scene::SignConvention::as_printed;
