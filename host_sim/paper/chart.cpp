@@ -14,6 +14,9 @@ namespace {
 // Two in a row fill a printed page of 178 mm: letters of 13 px are then 7.5 points high.
 constexpr int chart_width_px = 440;
 constexpr int chart_height_px = 350;
+// One alone stands on three quarters of that width.
+constexpr int single_width_px = 660;
+constexpr int single_height_px = 480;
 
 struct Look {
   const char* colour;
@@ -128,7 +131,8 @@ std::vector<double> scaled(std::vector<double> values, double factor) {
   return values;
 }
 
-std::string draw(const std::vector<Chart>& charts, int columns) {
+std::string draw(const std::vector<Chart>& charts) {
+  const int columns = charts.size() == 1 ? 1 : 2;
   const int rows = (static_cast<int>(charts.size()) + columns - 1) / columns;
   std::string text = fmt::format(
       "set multiplot layout {},{}\nset autoscale xfixmax\nset grid lc rgb '#d8d8d8'\nset tics out "
@@ -139,8 +143,10 @@ std::string draw(const std::vector<Chart>& charts, int columns) {
   for (const Chart& chart : charts) {
     text += script(chart);
   }
-  return plot::draw_svg(text + "unset multiplot\n", columns * chart_width_px,
-                        rows * chart_height_px);
+  text += "unset multiplot\n";
+  return charts.size() == 1
+             ? plot::draw_svg(text, single_width_px, single_height_px)
+             : plot::draw_svg(text, columns * chart_width_px, rows * chart_height_px);
 }
 
 }  // namespace sonoglide::paper

@@ -63,8 +63,8 @@ Curve line_of(const Map& map, double furthest, int colour) {
 /// The values in another unit.
 std::vector<double> scaled(std::vector<double> values, double factor);
 
-/// One SVG picture, `columns` charts in a row.
+/// One SVG picture, two charts in a row.
 /// @throws process::ProcessError
-std::string draw(const std::vector<Chart>& charts, int columns = 2);
+std::string draw(const std::vector<Chart>& charts);
 
 }  // namespace sonoglide::paper

@@ -78,8 +78,7 @@ std::string svg(const Laws& laws) {
         {},
         Span{0.0, 1.05},
         false,
-        Key::lower_right}},
-      1);
+        Key::lower_right}});
 }
 
 std::vector<Claim> claims(const Laws& laws) {

@@ -71,8 +71,9 @@ Comparison compare(const Measurement& measurement) {
   Comparison comparison{measurement, {}};
   for (const Law& law : laws) {
     const bool own = law.direction == measurement.direction;
-    comparison.predictions.push_back(
-        {law.name, own ? law.over : "vibration in another direction", predicted(law, measurement)});
+    comparison.predictions.push_back({law.name, law.direction,
+                                      own ? law.over : "vibration in another direction",
+                                      predicted(law, measurement)});
   }
   return comparison;
 }
@@ -123,16 +124,18 @@ std::vector<Comparison> compare_measurements() {
 }
 
 report::Table measurement_table(const std::vector<Comparison>& comparisons) {
-  report::Table table{"Published measurements against the laws",
-                      {"Measurement", "Speed, mm/s", "Measured, %", "Law", "The law says, %",
-                       "Difference, points", "Taken over"},
-                      {}};
+  report::Table table{
+      "Published measurements and the laws for their direction of vibration",
+      {"Measurement", "Speed, mm/s", "Reduction, %", "Law", "It says, %", "Difference, points"},
+      {}};
   for (const Comparison& each : comparisons) {
     for (const Prediction& prediction : each.predictions) {
-      table.rows.push_back({each.measurement.source, speed(each.measurement.velocity_m_per_s),
-                            percent(each.measurement.reduction), prediction.law,
-                            percent(prediction.reduction),
-                            points(prediction.difference(each.measurement)), prediction.over});
+      if (prediction.direction == each.measurement.direction) {
+        table.rows.push_back({each.measurement.source, speed(each.measurement.velocity_m_per_s),
+                              percent(each.measurement.reduction), prediction.law,
+                              percent(prediction.reduction),
+                              points(prediction.difference(each.measurement))});
+      }
     }
   }
   return table;

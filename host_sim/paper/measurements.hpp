@@ -24,7 +24,8 @@ struct Measurement {
 /// A law's word on a measurement. Where something it needs is not published, a range.
 struct Prediction {
   std::string law;
-  std::string over;  ///< what the range goes over; empty where nothing is open
+  Direction direction;  ///< that the law is for
+  std::string over;     ///< what the range goes over; empty where nothing is open
   Range reduction;
 
   /// From the measured range: 0 where they meet; positive where the law promises more.
@@ -40,7 +41,7 @@ struct Comparison {
 /// @throws loop::ComputationError
 std::vector<Comparison> compare_measurements();
 
-/// One row for each measurement and law.
+/// One row for each measurement and law for its direction.
 report::Table measurement_table(const std::vector<Comparison>& comparisons);
 std::string measurements_csv(const std::vector<Comparison>& comparisons);
 

@@ -292,12 +292,14 @@ Figure figure_9() {
                                                 mass_kg / scene.plant.mass_kg;
                                             scene.plant.mass_kg = mass_kg;
                                           });
+  std::vector<Chart> of_all = charts(all);
+  of_all[1].y_span = Span{0.0, 2.1};  // room for the key
   return {9,
           "Effect of the mass",
           conditions("Table 1 at 384 N, the normal force being the weight."),
           sweep_command("--set plant.mass_kg=0.04"),
           to_csv(columns(all)),
-          draw(charts(all)),
+          draw(of_all),
           {trend("More mass makes the reduction less effective; the curve flattens.", all, 0.5,
                  &RatioCurve::friction_steady, Trend::rising,
                  "At one velocity ratio there is a bound to that, the limit of a soft contact."),
