@@ -30,16 +30,16 @@ std::string row(const Requirement& point) {
   return fmt::format("{},{}\n", text, name(point.limit));
 }
 
-ordered_json number(double value) {
+ordered_json json_number(double value) {
   return std::isfinite(value) ? ordered_json(value) : ordered_json(nullptr);
 }
 
 ordered_json sensitivity_json(const Sensitivity& sensitivity) {
   return {{"key", sensitivity.parameter.key},
           {"symbol", sensitivity.parameter.symbol},
-          {"logarithmic_derivative", number(sensitivity.logarithmic)},
-          {"ratio_change_by_1_percent_more", number(sensitivity.change_by_more)},
-          {"ratio_change_by_1_percent_less", number(sensitivity.change_by_less)}};
+          {"logarithmic_derivative", json_number(sensitivity.logarithmic)},
+          {"ratio_change_by_1_percent_more", json_number(sensitivity.change_by_more)},
+          {"ratio_change_by_1_percent_less", json_number(sensitivity.change_by_less)}};
 }
 
 ordered_json point_json(const DesignPoint& point) {
@@ -48,18 +48,18 @@ ordered_json point_json(const DesignPoint& point) {
       {"sliding_velocity_m_per_s", each.sliding_m_per_s},
       {"friction_ratio", each.ratio},
       {"limit", name(each.limit)},
-      {"reachable_friction_ratio", number(each.reachable_ratio)},
-      {"drive_force_N", number(each.motion.drive_force_N)},
-      {"displacement_amplitude_m", number(each.motion.displacement_amplitude_m)},
-      {"velocity_amplitude_m_per_s", number(each.motion.velocity_amplitude_m_per_s)},
-      {"drive_power_W", number(each.motion.drive_power_W)},
-      {"apparent_power_W", number(each.motion.apparent_power_W)},
-      {"friction_power_W", number(each.motion.friction_power_W)},
-      {"undriven_friction_power_W", number(each.motion.undriven_friction_power_W)},
-      {"damping_power_W", number(each.motion.damping_power_W)},
+      {"reachable_friction_ratio", json_number(each.reachable_ratio)},
+      {"drive_force_N", json_number(each.motion.drive_force_N)},
+      {"displacement_amplitude_m", json_number(each.motion.displacement_amplitude_m)},
+      {"velocity_amplitude_m_per_s", json_number(each.motion.velocity_amplitude_m_per_s)},
+      {"drive_power_W", json_number(each.motion.drive_power_W)},
+      {"apparent_power_W", json_number(each.motion.apparent_power_W)},
+      {"friction_power_W", json_number(each.motion.friction_power_W)},
+      {"undriven_friction_power_W", json_number(each.motion.undriven_friction_power_W)},
+      {"damping_power_W", json_number(each.motion.damping_power_W)},
       {"closed_form",
-       {{"drive_force_N", number(each.closed_form_force_N)},
-        {"friction_ratio_error", number(each.closed_form_error)}}},
+       {{"drive_force_N", json_number(each.closed_form_force_N)},
+        {"friction_ratio_error", json_number(each.closed_form_error)}}},
       {"sensitivities", ordered_json::array()}};
   if (!each.reason.empty()) {
     json["reason"] = each.reason;
@@ -79,8 +79,8 @@ ordered_json detuning_json(const Detuning& detuning) {
           {"sliding_velocity_m_per_s", detuning.sliding_m_per_s},
           {"reachable_tuning", band_json(detuning.reachable)},
           {"sensitive_tuning", band_json(detuning.sensitive)},
-          {"ratio_change_by_1_percent_stiffness", number(detuning.change_by_stiffness)},
-          {"drive_force_at_sensitive_low_N", number(detuning.force_at_sensitive_low_N)}};
+          {"ratio_change_by_1_percent_stiffness", json_number(detuning.change_by_stiffness)},
+          {"drive_force_at_sensitive_low_N", json_number(detuning.force_at_sensitive_low_N)}};
 }
 
 }  // namespace
@@ -125,7 +125,7 @@ ordered_json to_json(const Study& study) {
   json["reach"] = ordered_json::array();
   for (const RatioCurve& curve : study.curves) {
     json["reach"].push_back({{"friction_ratio", curve.ratio},
-                             {"fastest_sliding_m_per_s", number(curve.fastest_m_per_s)}});
+                             {"fastest_sliding_m_per_s", json_number(curve.fastest_m_per_s)}});
   }
   json["detuning"] = ordered_json::array();
   for (const Detuning& detuning : study.detunings) {
