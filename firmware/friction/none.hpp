@@ -60,8 +60,8 @@ struct None {
   struct Arc {
     Arc(const None& /*law*/, Scalar /*direction*/, Scalar /*friction*/) {}
 
-    template <std::size_t N, class Coefficients>
-    Scalar coefficient(const Coefficients& /*travel*/, const Coefficients& /*earlier*/) const {
+    template <std::size_t N, class Travel, class Coefficients>
+    Scalar coefficient(const Travel& /*travel*/, const Coefficients& /*earlier*/) const {
       return Scalar(0);
     }
     Scalar friction_after(Scalar /*displacement*/) const { return Scalar(0); }
