@@ -94,8 +94,8 @@ struct Iwan {
       }
     }
 
-    template <std::size_t N, class Coefficients>
-    Scalar coefficient(const Coefficients& travel, const Coefficients& /*earlier*/) const {
+    template <std::size_t N, class Travel, class Coefficients>
+    Scalar coefficient(const Travel& travel, const Coefficients& /*earlier*/) const {
       if constexpr (N == 0) {
         return law_.friction(direction_, forces_);
       } else {
