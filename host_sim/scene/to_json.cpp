@@ -94,7 +94,7 @@ ordered_json echo(const Drive& drive, bool closed_loop) {
 }
 
 ordered_json echo(const Solver& solver) {
-  ordered_json table{{"method", name_of(solver_methods, solver.method)}};
+  ordered_json table{{"method", name_of(solver.method)}};
   if (is_adaptive(solver.method)) {
     table["tolerance"] = solver.tolerance;
     if (solver.order) {
