@@ -220,7 +220,7 @@ TEST(PaperTest, ANormallyVibratingContactGivesBothMeasuredReductions) {
 
 TEST(PaperTest, Table2IsThePapersSolverAndMissesTheRatioByItsPrintedStep) {
   const scene::Scene scene = scene::read_text(table_2_text(), "table_2.toml");
-  EXPECT_EQ(scene.solver.method, scene::SolverMethod::rk4);
+  EXPECT_EQ(scene.solver.method, scene::method_of<scene::solvers::Rk4>);
   const double ratio = loop::power_ratios(scene, loop::run(scene).whole).friction_ratio;
   // tests/plant/data/reference_open_loop.csv has the ratio.
   EXPECT_NEAR(ratio / 0.656900288709659, 1.0, 1e-7);

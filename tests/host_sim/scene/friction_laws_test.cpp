@@ -35,6 +35,10 @@ struct LeastValues {
   void optional(std::string_view key, double& parameter, const Range& range) {
     add(key, parameter, range, false);
   }
+  void optional(std::string_view key, int& count, int least, int /*most*/) {
+    count = least;
+    keys.push_back({std::string(key), static_cast<double>(least), false});
+  }
   void refuse(std::string_view /*key*/, double& parameter, std::string_view /*finding*/,
               double least, std::string_view /*rest*/) {
     parameter = least;
