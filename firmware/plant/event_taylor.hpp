@@ -140,8 +140,7 @@ class EventTaylor {
               State<Scalar>& state) const {
     if constexpr (Law::varies && Law::rate_independent && !Law::remembers) {
       const Scalar velocity = model_.contact_velocity(
-          interval.sliding_velocity + interval.sliding_acceleration * position.offset,
-          state.velocity);
+          interval.sliding_velocity + sliding_change(interval, position), state.velocity);
       const Scalar limit = velocity > Scalar(0) ? Scalar(1) : Scalar(-1);
       const Scalar negligible = numeric::min(unsettled * allowed_, most_unsettled);
       if (velocity != Scalar(0) && Scalar(1) - limit * state.friction <= negligible) {
@@ -154,7 +153,7 @@ class EventTaylor {
   void step(const Interval<Scalar>& interval, Position& position, StateOf<Law>& state,
             Account& account, Observer& observer) {
     const Scalar epsilon = std::numeric_limits<Scalar>::epsilon();
-    const Scalar change = interval.sliding_acceleration * position.offset;
+    const Scalar change = sliding_change(interval, position);
     const Scalar phase = interval.phase_begin + position.offset;
     const At instant = {Drive(interval.drive_amplitude, phase),
                         interval.sliding_velocity + change,
@@ -170,9 +169,25 @@ class EventTaylor {
         return;
       }
     }
-    while (!slide(interval, instant, branch, position, state, account, observer)) {
-      branch = {false, -branch.direction, branch.zero_order + 1};
-    }
+    Scalar unit = sliding_unit(instant, interval.duration - position.offset);
+    do {
+      switch (slide(interval, instant, branch, unit, position, state, account, observer)) {
+        case Slide::done:
+          return;
+        case Slide::reversal_too_close:
+          branch = {false, -branch.direction, branch.zero_order + 1};
+          break;
+        case Slide::overflow:
+          unit *= numeric::from_real<Scalar>(1.0 / 1024.0);
+          break;
+      }
+    } while (unit > std::numeric_limits<Scalar>::min());
+    state.velocity = std::numeric_limits<Scalar>::quiet_NaN();
+  }
+
+  /// Of the sliding velocity since the interval began.
+  static Scalar sliding_change(const Interval<Scalar>& interval, const Position& position) {
+    return Model::Sliding::change(interval.sliding_acceleration, position.offset);
   }
 
   Branch<Scalar> choose_branch(const At& instant, Scalar released) const {
@@ -187,28 +202,32 @@ class EventTaylor {
     return {false, Scalar(0), 0};
   }
 
-  /// False, with nothing done, where the next reversal is too close for time to move.
+  /// What a try to slide has come to.
+  enum class Slide {
+    done,
+    reversal_too_close,  ///< nothing is done: the next reversal is too close for time to move
+    overflow             ///< nothing is done: a coefficient is beyond the largest number
+  };
+
+  /// unit: the time in which the series is written.
   template <class Account, class Observer>
-  bool slide(const Interval<Scalar>& interval, const At& instant, const Branch<Scalar>& branch,
-             Position& position, StateOf<Law>& state, Account& account, Observer& observer) {
+  Slide slide(const Interval<Scalar>& interval, const At& instant, const Branch<Scalar>& branch,
+              Scalar unit, Position& position, StateOf<Law>& state, Account& account,
+              Observer& observer) {
     Arc arc(model_.law, branch.direction, contact_memory(state));
-    const Scalar rest_of_time = interval.duration - position.offset;
-    Series series(model_, instant, sliding_unit(instant, rest_of_time));
+    Series series(model_, instant, unit);
     series.slide(model_, arc);
     if (!series.is_finite()) {
-      shrink(series, instant, arc);
-      if (!series.is_finite()) {
-        state.velocity = std::numeric_limits<Scalar>::quiet_NaN();
-        return true;
-      }
+      return Slide::overflow;
     }
+    const Scalar rest_of_time = interval.duration - position.offset;
     const Scalar remaining = rest_of_time / series.unit;
     const Scalar longest = within_reach(series, sliding_extent(series, remaining));
     const Scalar reversal = up_to_reversal(series, branch, longest);
     const bool stands_still =
         reversal < longest && position.offset + reversal * series.unit == position.offset;
     if (stands_still && can_slide_beyond(branch)) {
-      return false;
+      return Slide::reversal_too_close;
     }
     const Scalar extent = up_to_corner(series, arc, branch.direction, reversal);
     const Sliding friction(series, arc, branch.direction, term_per_mean * allowed_);
@@ -219,7 +238,7 @@ class EventTaylor {
         rest(interval, position, state);
       }
     }
-    return true;
+    return Slide::done;
   }
 
   /// The step to come, as far as can be told.
@@ -228,16 +247,6 @@ class EventTaylor {
         model_.contact_velocity(instant.sliding_velocity, instant.state.velocity);
     return model_.law.series_unit(velocity, contact_memory(instant.state),
                                   numeric::min(longest_step_, rest_of_time));
-  }
-
-  /// Writes the series in smaller units until no coefficient overflows. Out of line: it is rare.
-  [[gnu::noinline]] void shrink(Series& series, const At& instant, Arc& arc) const {
-    Scalar unit = series.unit;
-    while (!series.is_finite() && unit > std::numeric_limits<Scalar>::min()) {
-      unit *= numeric::from_real<Scalar>(1.0 / 1024.0);
-      series = Series(model_, instant, unit);
-      series.slide(model_, arc);
-    }
   }
 
   /// How far a step may slide. What the vibration reaches in it is known once the step is: where
@@ -291,12 +300,15 @@ class EventTaylor {
 
   /// The last terms of V and phi but `before`, as much as they matter.
   Scalar last_term(const Series& series, std::size_t before, Scalar speed) const {
+    const Scalar motion = numeric::abs(series.rate * series.travel[last_power - before]);
+    if constexpr (!Law::varies) {
+      return motion;
+    }
     // What depends on the speed follows from the series alone.
     const Scalar weight = Law::rate_independent ? numeric::clamp(model_.contact_force(Scalar(1)),
                                                                  least_weight, most_weight)
                                                 : most_weight;
-    return numeric::max(numeric::abs(series.rate * series.travel[last_power - before]),
-                        speed * weight * numeric::abs(series.friction[Order - before]));
+    return numeric::max(motion, speed * weight * numeric::abs(series.friction[Order - before]));
   }
 
   /// The extent of the step, cut at the first reversal.
@@ -394,8 +406,8 @@ class EventTaylor {
   }
 
   void rest(const Interval<Scalar>& interval, const Position& position, State<Scalar>& state) {
-    state.velocity = model_.resting_velocity(interval.sliding_velocity +
-                                             interval.sliding_acceleration * position.offset);
+    state.velocity =
+        model_.resting_velocity(interval.sliding_velocity + sliding_change(interval, position));
     ++cost_.events;
   }
 

@@ -33,6 +33,7 @@ class GaussPanel {
  public:
   using Scalar = typename Model::Scalar;
   using Lanes = numeric::Lanes<Scalar>;
+  using Sliding = typename Model::Sliding;
   using Motions = PanelMotions<Model, Degree, SlowDegree>;
   using Piece = GaussPiece<Scalar, Nodes>;
   using Each = typename Motions::Each;
@@ -64,7 +65,7 @@ class GaussPanel {
   /// sigma times the displacement of sliding, its rate and the linear motion with it, at x.
   Scalar slid(Scalar x) const { return slid_over(x + Scalar(1)); }
   Lanes slid(Lanes x) const { return slid_over(x + Scalar(1)); }
-  Scalar sliding_rate(Scalar x) const { return sliding_[0] + sliding_[1] * (x + Scalar(1)); }
+  Scalar sliding_rate(Scalar x) const { return sliding_rate_after(x + Scalar(1)); }
   Scalar travel(Scalar x) const { return value_at(path_, numeric::broadcast(x))[0]; }
   Scalar travel_rate(Scalar x) const { return rate_at<Scalar>(path_, numeric::broadcast(x))[0]; }
 
@@ -79,7 +80,12 @@ class GaussPanel {
 
   template <class Number>
   Number slid_over(Number time) const {
-    return time * (sliding_[0] + numeric::half(sliding_[1]) * time);
+    return time * (sliding_[0] + Sliding::change(numeric::half(sliding_[1]), time));
+  }
+  Scalar sliding_slope() const { return Sliding::change(sliding_[1], Scalar(1)); }
+  template <class Number>
+  Number sliding_rate_after(Number time) const {
+    return sliding_[0] + Sliding::change(sliding_[1], time);
   }
 
   /// The linear motion at cuts.
@@ -151,11 +157,11 @@ class GaussPanel {
       const Lanes velocity = Motions::sum_of(
           share_, [&](std::size_t m) { return numeric::load(&motions.rate[m][v * width]); });
       grid.velocity[v] =
-          velocity + (sliding_[0] + sliding_[1] * numeric::load(&motions.since_begin[v * width]));
+          velocity + sliding_rate_after(numeric::load(&motions.since_begin[v * width]));
     }
     const auto slope = [&](std::size_t g) {
       return Motions::sum_of(share_, [&](std::size_t m) { return motions.bend[m][g]; }) +
-             sliding_[1];
+             sliding_slope();
     };
     Scalar third = Scalar(0);
     Scalar fourth = Scalar(0);
@@ -196,7 +202,7 @@ class GaussPanel {
   /// leave is an error of either.
   [[gnu::always_inline]] bool moves_enough(const Motions& motions,
                                            const PanelLimits<Scalar>& limits) const {
-    Scalar offset = numeric::abs(sliding_[0]) + numeric::twice(numeric::abs(sliding_[1]));
+    Scalar offset = numeric::abs(sliding_[0]) + numeric::twice(numeric::abs(sliding_slope()));
     Scalar rate = Scalar(0);
     for (std::size_t m = 0; m < 2; ++m) {
       const Scalar size = numeric::abs(share_[m]);
@@ -214,9 +220,10 @@ class GaussPanel {
   [[gnu::always_inline]] bool prepare(const Motions& motions, const PanelLimits<Scalar>& limits,
                                       const State<Scalar>& state) {
     path_ = motions.sum(share_);
-    path_[0] += sliding_[0] + numeric::half(sliding_[1]);
-    path_[1] += sliding_[0] + sliding_[1];
-    path_[2] += numeric::half(sliding_[1]);
+    const Scalar slid_beyond_rate = numeric::half(sliding_slope());
+    path_[0] += sliding_[0] + slid_beyond_rate;
+    path_[1] += sliding_rate_after(Scalar(1));
+    path_[2] += slid_beyond_rate;
     for (std::size_t v = 0; v * width < cuts_.count; ++v) {
       const Lanes x = numeric::load(&cuts_.at[v * width]);
       prepare_turns(motions, x, turns_[v]);
@@ -231,8 +238,8 @@ class GaussPanel {
     for (std::size_t i = 0; i < pieces_; ++i) {
       const bool last = i + 1 == pieces_;
       const Scalar end = last ? Scalar(1) : cuts_.at[i];
-      const Scalar end_travel = last ? linear_end_.value + numeric::twice(sliding_[0] + sliding_[1])
-                                     : turns_[i / width].travel[i % width];
+      const Scalar end_travel =
+          last ? linear_end_.value + slid_over(Scalar(2)) : turns_[i / width].travel[i % width];
       Piece& piece = piece_[i];
       piece.begin = begin;
       piece.length = end - begin;
@@ -302,7 +309,7 @@ class GaussPanel {
     turns.s = motions.slow_s(x);
     // By the oscillator's own equation.
     const Lanes y = turns.travel - slid(x);
-    const Lanes y_rate = turns.rate - (sliding_[0] + sliding_[1] * (x + Scalar(1)));
+    const Lanes y_rate = turns.rate - sliding_rate_after(x + Scalar(1));
     Lanes y_slope = -motions.stiffness * y - motions.damping * y_rate;
     Lanes y_bend = -motions.stiffness * y_rate;
     if constexpr (Motions::is_driven) {
@@ -312,7 +319,7 @@ class GaussPanel {
       y_slope += h * (share_[2] * cosine + share_[3] * sine);
       y_bend += h * h * (share_[3] * cosine - share_[2] * sine);
     }
-    turns.slope = y_slope + sliding_[1];
+    turns.slope = y_slope + sliding_slope();
     turns.bend = y_bend - motions.damping * y_slope;
   }
 

@@ -62,7 +62,7 @@ class GaussStep {
 
   Scalar sliding_work() const {
     const Scalar steady = interval_.sliding_velocity * friction_integral();
-    if (interval_.sliding_acceleration == Scalar(0)) {
+    if constexpr (!Model::Sliding::varies) {
       return steady;
     }
     Lanes moment{};

@@ -3,6 +3,7 @@
 
 #include "firmware/numeric/scalar.hpp"
 #include "firmware/plant/contact.hpp"
+#include "firmware/plant/sliding.hpp"
 #include "firmware/plant/state.hpp"
 
 namespace sonoglide::plant {
@@ -13,13 +14,15 @@ namespace sonoglide::plant {
 /// Law      friction::None, Coulomb, Stribeck, Dahl, Iwan or LuGre
 /// Damping  Undamped or Damped
 /// DriveOf  NoDrive, CosineDrive, RampDrive or LevelDrive
+/// SlidingOf  LinearSliding, or ConstantSliding where no interval has a sliding acceleration
 /// What is not named has no member: the parameters of a law and of the damping are its own.
 /// Aggregate: Model{{law, friction_force, vibration_sign}, {damping}, stiffness}.
-template <class Law, class Damping, class DriveOf>
+template <class Law, class Damping, class DriveOf, class SlidingOf = LinearSliding>
 struct Model : Contact<Law>, Damping {
   using Scalar = typename Law::Scalar;
   using FrictionLaw = Law;
   using Drive = DriveOf;
+  using Sliding = SlidingOf;
 
   Scalar stiffness = Scalar(0);  ///< k = Ks / (m omega^2) [-], any sign, 0 allowed
 

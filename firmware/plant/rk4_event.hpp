@@ -170,7 +170,8 @@ class Rk4Event {
 
   Scalar direction_of(const Interval<Scalar>& interval, Scalar offset,
                       const State<Scalar>& state) const {
-    const Scalar sliding = interval.sliding_velocity + interval.sliding_acceleration * offset;
+    const Scalar sliding =
+        interval.sliding_velocity + Model::Sliding::change(interval.sliding_acceleration, offset);
     return numeric::sign(model_.contact_velocity(sliding, state.velocity));
   }
 

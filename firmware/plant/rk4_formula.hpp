@@ -66,13 +66,14 @@ class Rk4Formula {
 
   /// The plant at one instant.
   Stage stage(Scalar drive, Scalar offset, PlantState state) const {
-    const Scalar sliding = interval_.sliding_velocity + interval_.sliding_acceleration * offset;
+    const Scalar sliding =
+        interval_.sliding_velocity + Model::Sliding::change(interval_.sliding_acceleration, offset);
     const Scalar velocity = model_.contact_velocity(sliding, state.velocity);
     state.friction = contact_.friction(model_.law, velocity, contact_memory(state));
     PlantState slope;
+    contact_memory(slope) = contact_.rate(model_.law, velocity, contact_memory(state));
     slope.displacement = state.velocity;
     slope.velocity = model_.acceleration(drive, state);
-    contact_memory(slope) = contact_.rate(model_.law, velocity, contact_memory(state));
     return {drive, sliding, state, slope};
   }
 
@@ -81,15 +82,18 @@ class Rk4Formula {
                 Scalar length) const {
     const PlantState& from = begin.state;
     const Scalar half = length / Scalar(2);
-    const Stage second = stage(drive.middle, offset + half, moved(from, begin.slope, half));
-    const Stage third = stage(drive.middle, offset + half, moved(from, second.slope, half));
-    const Stage fourth = stage(drive.end, offset + length, moved(from, third.slope, length));
-    const std::array<Stage, 4> k = {begin, second, third, fourth};
+    Stages taken;
+    auto& k = taken.inside;
+    k[0] = begin;
+    k[1] = stage(drive.middle, offset + half, moved(from, k[0].slope, half));
+    k[2] = stage(drive.middle, offset + half, moved(from, k[1].slope, half));
+    k[3] = stage(drive.end, offset + length, moved(from, k[2].slope, length));
     PlantState slope;
     slope.displacement = mean(k, [](const PlantState& rate) { return rate.displacement; });
     slope.velocity = mean(k, [](const PlantState& rate) { return rate.velocity; });
     contact_memory(slope) = mean(k, [](const PlantState& rate) { return contact_memory(rate); });
-    return {k, stage(drive.end, offset + length, moved(from, slope, length))};
+    taken.end = stage(drive.end, offset + length, moved(from, slope, length));
+    return taken;
   }
 
  private:

@@ -70,11 +70,10 @@ class Rk4Step {
   MotionIntegrals<Scalar> motion_integrals() const {
     MotionIntegrals<Scalar> sum;
     const Scalar sixth = length_ / Scalar(6);
-    for (std::size_t i = 0; i < stages_.size(); ++i) {
-      const Stage& stage = stages_[i];
-      sum.add(i % 3 == 0 ? sixth : numeric::twice(sixth), stage.drive, stage.state.displacement,
-              stage.state.velocity);
-    }
+    add(stages_[0], sixth, sum);
+    add(stages_[1], numeric::twice(sixth), sum);
+    add(stages_[2], numeric::twice(sixth), sum);
+    add(stages_[3], sixth, sum);
     sum.damping_work = model_.damping_force(sum.velocity_square);
     return sum;
   }
@@ -84,6 +83,10 @@ class Rk4Step {
   Scalar sum(const Integrand& f) const {
     return length_ / Scalar(6) *
            (f(stages_[0]) + Scalar(2) * (f(stages_[1]) + f(stages_[2])) + f(stages_[3]));
+  }
+
+  static void add(const Stage& stage, Scalar weight, MotionIntegrals<Scalar>& sum) {
+    sum.add(weight, stage.drive, stage.state.displacement, stage.state.velocity);
   }
 
   Scalar cubic(Scalar from, Scalar from_slope, Scalar to, Scalar to_slope, Scalar x) const {

@@ -14,21 +14,21 @@ template <class Scalar>
 inline constexpr Scalar largest_friction = Scalar(1) +
                                            Scalar(64) * std::numeric_limits<Scalar>::epsilon();
 
-/// A finite state within that bound.
+/// A finite state within that bound. What is bounded is finite: the usual state is asked no more.
 template <class Scalar>
 Error check_state(const State<Scalar>& state) {
-  if (!is_finite(state)) {
-    return Error::not_finite;
+  if (numeric::abs(state.friction) <= largest_friction<Scalar> &&
+      numeric::is_finite(state.displacement) && numeric::is_finite(state.velocity)) {
+    return Error::none;
   }
-  return numeric::abs(state.friction) <= largest_friction<Scalar> ? Error::none
-                                                                  : Error::friction_bound_broken;
+  return is_finite(state) ? Error::friction_bound_broken : Error::not_finite;
 }
 
 /// The same of a plant with this law: of a force that depends on the speed there is no bound, but
-/// of what the law remembers.
+/// of what the law remembers; one that is a sign is within its own.
 template <class Law>
 Error check_state(const Law& /*law*/, const State<typename Law::Scalar>& state) {
-  if constexpr (Law::rate_independent) {
+  if constexpr (Law::rate_independent && Law::varies) {
     return check_state(state);
   }
   return is_finite(state) ? Error::none : Error::not_finite;

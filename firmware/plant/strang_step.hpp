@@ -45,9 +45,10 @@ class StrangStep {
         velocity_({from_.state.velocity, from_.acceleration},
                   {to_.state.velocity, to_.acceleration}, change_.displacement * flow.rate(),
                   length_),
-        sliding_(velocity_.sliding(
-            model, interval.sliding_velocity + interval.sliding_acceleration * begin,
-            interval.sliding_acceleration)),
+        sliding_(velocity_.sliding(model,
+                                   interval.sliding_velocity +
+                                       Model::Sliding::change(interval.sliding_acceleration, begin),
+                                   interval.sliding_acceleration)),
         friction_(model.law, sliding_, length_, start.friction) {
     to_.state.friction = friction_.end_friction();
   }
@@ -114,8 +115,9 @@ class StrangStep {
   Scalar friction_integral() const { return friction_.integral(Scalar(1), Scalar(0)); }
   Scalar friction_work() const { return friction_.work(); }
   Scalar sliding_work() const {
-    return friction_.integral(interval_.sliding_velocity + interval_.sliding_acceleration * begin_,
-                              interval_.sliding_acceleration);
+    return friction_.integral(
+        interval_.sliding_velocity + Model::Sliding::change(interval_.sliding_acceleration, begin_),
+        interval_.sliding_acceleration);
   }
   MotionIntegrals<Scalar> motion_integrals() const {
     const Scalar velocity_squares = integral(velocity_square(from_), velocity_square(to_));

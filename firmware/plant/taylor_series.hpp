@@ -55,7 +55,8 @@ struct TaylorSeries {
         side(model.side()),
         rate(side / unit),
         drive(instant.drive, series_unit),
-        sliding_velocity{instant.sliding_velocity, instant.sliding_acceleration * series_unit},
+        sliding_velocity{instant.sliding_velocity,
+                         Model::Sliding::change(instant.sliding_acceleration, series_unit)},
         displacement(instant.state.displacement),
         velocity(instant.state.velocity) {
     vibration[0] = side * unit * velocity;
@@ -154,7 +155,7 @@ struct TaylorSeries {
     }
     if constexpr (N == 0) {
       vibration[1] = next;
-      travel[1] = next + unit * sliding_velocity[1];
+      travel[1] = next + Model::Sliding::change(sliding_velocity[1], unit);
     } else {
       travel[N + 1] = next;
     }

@@ -128,11 +128,11 @@ class TaylorStep {
   Scalar friction_integral() const { return series_.unit * friction_.integral(extent_); }
   Scalar friction_work() const { return friction_.work(extent_); }
   Scalar sliding_work() const {
-    const Scalar steady = series_.sliding_velocity[0] * friction_.integral(extent_);
-    const Scalar slope = series_.sliding_velocity[1];
-    // Most scenes slide at a constant speed.
-    return series_.unit *
-           (slope == Scalar(0) ? steady : steady + slope * friction_.moment(extent_));
+    Scalar sum = series_.sliding_velocity[0] * friction_.integral(extent_);
+    if constexpr (Model::Sliding::varies) {
+      sum += series_.sliding_velocity[1] * friction_.moment(extent_);
+    }
+    return series_.unit * sum;
   }
 
   /// By Gauss and Legendre, exact for the product of two series up to their order less 3.

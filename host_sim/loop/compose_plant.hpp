@@ -8,18 +8,20 @@
 #include "firmware/plant/damping.hpp"
 #include "firmware/plant/drive.hpp"
 #include "firmware/plant/model.hpp"
+#include "firmware/plant/sliding.hpp"
 #include "host_sim/loop/law_plants.hpp"
 #include "host_sim/loop/plant_description.hpp"
 #include "host_sim/loop/plant_port.hpp"
+#include "host_sim/loop/sliding_profile.hpp"
 #include "host_sim/loop/solver_list.hpp"
 #include "host_sim/scene/plant_contact.hpp"
 
 namespace sonoglide::loop {
 
-template <class Drive, class Law, class Damping>
+template <class Drive, class Sliding, class Law, class Damping>
 std::unique_ptr<PlantPort> with_solver(const PlantDescription& description,
                                        const plant::Contact<Law>& contact, const Damping& damping) {
-  using Model = plant::Model<Law, Damping, Drive>;
+  using Model = plant::Model<Law, Damping, Drive, Sliding>;
   return find_solver<Model>(description.scene.solver)(
       description, Model{contact, damping, description.numbers.stiffness});
 }
@@ -28,13 +30,23 @@ template <class Drive, class Law>
 std::unique_ptr<PlantPort> with_damping(const PlantDescription& description,
                                         const plant::Contact<Law>& contact) {
   const double damping = description.numbers.damping;
+  // A sliding speed that changes is a composition that few scenes name: damped, be it by nothing.
+  // Without friction nothing depends on it.
+  if constexpr (Law::reverses) {
+    if (!SlidingProfile(description.scene.sliding).is_constant()) {
+      return with_solver<Drive, plant::LinearSliding>(description, contact,
+                                                      plant::Damped<double>{damping});
+    }
+  }
   // A force that depends on the speed damps anyhow: no composition of it without damping.
   if constexpr (Law::rate_independent) {
     if (!(damping > 0.0)) {
-      return with_solver<Drive>(description, contact, plant::Undamped<double>{});
+      return with_solver<Drive, plant::ConstantSliding>(description, contact,
+                                                        plant::Undamped<double>{});
     }
   }
-  return with_solver<Drive>(description, contact, plant::Damped<double>{damping});
+  return with_solver<Drive, plant::ConstantSliding>(description, contact,
+                                                    plant::Damped<double>{damping});
 }
 
 template <class Law>
@@ -46,14 +58,15 @@ std::unique_ptr<PlantPort> make_law_plant(const PlantDescription& description, c
   if (!driven) {
     return with_damping<plant::NoDrive>(description, contact);
   }
-  // Straight drives are compositions that few scenes name: damped, be it by nothing.
+  // Straight drives are compositions that few scenes name: damped, be it by nothing, and for every
+  // sliding.
   const plant::Damped<double> damping{description.numbers.damping};
   switch (scene.drive->waveform) {
     case scene::Waveform::square:
-      return with_solver<plant::LevelDrive>(description, contact, damping);
+      return with_solver<plant::LevelDrive, plant::LinearSliding>(description, contact, damping);
     case scene::Waveform::triangle:
     case scene::Waveform::sawtooth:
-      return with_solver<plant::RampDrive>(description, contact, damping);
+      return with_solver<plant::RampDrive, plant::LinearSliding>(description, contact, damping);
     case scene::Waveform::cosine:
       break;
   }

@@ -20,6 +20,13 @@ double SlidingProfile::velocity_m_per_s(double time_s) const {
   return before.velocity_m_per_s + part * (after->velocity_m_per_s - before.velocity_m_per_s);
 }
 
+bool SlidingProfile::is_constant() const {
+  const double first = points_.front().velocity_m_per_s;
+  return std::all_of(points_.begin(), points_.end(), [first](const scene::SpeedPoint& point) {
+    return point.velocity_m_per_s == first;
+  });
+}
+
 std::vector<double> SlidingProfile::cuts_s() const {
   std::vector<double> cuts;
   for (std::size_t i = 0; i < points_.size(); ++i) {

@@ -13,6 +13,9 @@ class SlidingProfile {
 
   double velocity_m_per_s(double time_s) const;
 
+  /// One velocity throughout.
+  bool is_constant() const;
+
   /// Times at which the velocity changes its slope or its sign, rising.
   std::vector<double> cuts_s() const;
 

@@ -12,6 +12,7 @@
 #include "firmware/plant/model.hpp"
 #include "firmware/plant/observer.hpp"
 #include "firmware/plant/outcome.hpp"
+#include "firmware/plant/sliding.hpp"
 #include "firmware/plant/state.hpp"
 #include "host_sim/peers/contender.hpp"
 #include "host_sim/peers/problem.hpp"
@@ -82,13 +83,15 @@ template <template <class> class Solver, class Scalar>
 std::unique_ptr<peers::Contender> compose(const peers::Problem& problem, double setting) {
   const auto stiffness = static_cast<Scalar>(problem.stiffness);
   if (problem.damping > 0.0) {
-    using Model = plant::Model<friction::Dahl<Scalar>, plant::Damped<Scalar>, plant::CosineDrive>;
+    using Model = plant::Model<friction::Dahl<Scalar>, plant::Damped<Scalar>, plant::CosineDrive,
+                               plant::ConstantSliding>;
     return std::make_unique<Composed<Solver<Model>>>(
         problem,
         Model{contact_of<Scalar>(problem), {static_cast<Scalar>(problem.damping)}, stiffness},
         setting);
   }
-  using Model = plant::Model<friction::Dahl<Scalar>, plant::Undamped<Scalar>, plant::CosineDrive>;
+  using Model = plant::Model<friction::Dahl<Scalar>, plant::Undamped<Scalar>, plant::CosineDrive,
+                             plant::ConstantSliding>;
   return std::make_unique<Composed<Solver<Model>>>(
       problem, Model{contact_of<Scalar>(problem), {}, stiffness}, setting);
 }

@@ -52,11 +52,7 @@ bool advance(Result& state, const Scene& scene, double longest) {
     expand(s, scene, direction.sign);
 
     const double remaining = rest / s.unit;
-    const double rounding = epsilon * numeric::abs(s.rate * s.travel[0]);
-    const double allowed = numeric::max(allowed_term, rounding);
-    const double last = numeric::abs(s.rate * s.travel[order + 1]);
-    const double last_but_one = numeric::abs(s.rate * s.travel[order]);
-    const double end = step_extent(last, last_but_one, allowed, s.unit, longest, remaining);
+    const double end = free_extent(s, longest, remaining);
     const double extent = up_to_reversal(s, direction, end);
     state.displacement = displacement_at(s, extent);
     state.velocity = velocity_at(s, extent);

@@ -125,12 +125,6 @@ inline double series_unit(const Scene& scene, double velocity, double friction, 
   return numeric::min(longest, 16.0 / (1.0 + rate));
 }
 
-/// What a step of extent x reaches; 1 at most.
-[[gnu::always_inline]] inline double speed_within(const Series& s, double x) {
-  const double change = x * (numeric::abs(s.travel[1]) + x * numeric::abs(s.travel[2]));
-  return numeric::clamp(numeric::abs(s.velocity) + numeric::abs(s.rate) * change, 1e-12, 1.0);
-}
-
 [[gnu::always_inline]] inline double extent_at(const Series& s, const Scene& scene, double speed,
                                                double rounding, double longest, double remaining) {
   const double weight = numeric::clamp(scene.friction_force, 1e-3, 0.125);
@@ -264,7 +258,7 @@ inline double series_unit(const Scene& scene, double velocity, double friction, 
     expand(s, scene, arc, named);
 
     const double remaining = rest / s.unit;
-    const double rounding = epsilon * numeric::abs(s.rate * s.travel[0]);
+    const double rounding = epsilon * numeric::abs(s.velocity);
     const double fastest = speed_within(s, 1.0);
     const double first = extent_at(s, scene, fastest, rounding, longest, remaining);
     const double within = speed_within(s, first);

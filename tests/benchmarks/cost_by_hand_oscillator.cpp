@@ -50,9 +50,7 @@ namespace {
     expand(s, scene, driven, damped);
 
     const double remaining = rest / s.unit;
-    const double extent = step_extent(numeric::abs(s.rate * s.travel[order + 1]),
-                                      numeric::abs(s.rate * s.travel[order]), allowed_term, s.unit,
-                                      longest, remaining);
+    const double extent = free_extent(s, longest, remaining);
     state.displacement = displacement_at(s, extent);
     state.velocity = velocity_at(s, extent);
     ++state.steps;

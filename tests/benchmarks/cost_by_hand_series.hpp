@@ -121,12 +121,35 @@ inline Phasor drive_at(double amplitude, double phase) {
                       plant::quick_root_of_quotient<order>(allowed, last_but_one));
 }
 
+/// What a step of extent x reaches; 1 at most.
+[[gnu::always_inline]] inline double speed_within(const Series& s, double x) {
+  const double change = x * (numeric::abs(s.travel[1]) + x * numeric::abs(s.travel[2]));
+  return numeric::clamp(numeric::abs(s.velocity) + numeric::abs(s.rate) * change, 1e-12, 1.0);
+}
+
 [[gnu::always_inline]] inline double step_extent(double last, double last_but_one, double allowed,
                                                  double unit, double longest, double remaining) {
   if ((unit == longest || remaining <= 1.0) && last <= allowed && last_but_one <= allowed) {
     return numeric::min(1.0, remaining);
   }
   return numeric::min(reach(last, last_but_one, allowed), numeric::min(longest / unit, remaining));
+}
+
+/// The extent of a step whose friction is constant or none. What the vibration reaches in it is
+/// known once the step is: where that is far less than in a unit, a second pass.
+[[gnu::always_inline]] inline double free_extent(const Series& s, double longest,
+                                                 double remaining) {
+  const double rounding = epsilon * numeric::abs(s.velocity);
+  const double last = numeric::abs(s.rate * s.travel[order + 1]);
+  const double last_but_one = numeric::abs(s.rate * s.travel[order]);
+  const auto extent_at = [&](double speed) __attribute__((always_inline)) {
+    return step_extent(last, last_but_one, numeric::max(allowed_term * speed, rounding), s.unit,
+                       longest, remaining);
+  };
+  const double fastest = speed_within(s, 1.0);
+  const double extent = extent_at(fastest);
+  const double within = speed_within(s, extent);
+  return within < 0.5 * fastest ? extent_at(within) : extent;
 }
 
 }  // namespace sonoglide::cost

@@ -42,9 +42,9 @@ inline void fill(const Scene& scene, Damped& damping) {
 }
 
 template <class Law, class Damping, class Drive>
-plant::Model<Law, Damping, Drive> model_of(const Scene& scene,
-                                           const plant::Model<Law, Damping, Drive>& /*type*/) {
-  plant::Model<Law, Damping, Drive> model;
+plant::Model<Law, Damping, Drive, plant::ConstantSliding> model_of(
+    const Scene& scene, const plant::Model<Law, Damping, Drive, plant::ConstantSliding>& /*type*/) {
+  plant::Model<Law, Damping, Drive, plant::ConstantSliding> model;
   fill(scene, static_cast<plant::Contact<Law>&>(model));
   fill(scene, static_cast<Damping&>(model));
   model.stiffness = scene.stiffness;

@@ -16,6 +16,12 @@ TEST(SlidingProfileTest, OnePointIsAConstant) {
   }
 }
 
+TEST(SlidingProfileTest, IsConstantWhereEveryPointHasOneVelocity) {
+  EXPECT_TRUE(SlidingProfile({{{0.0, 0.02}}}).is_constant());
+  EXPECT_TRUE(SlidingProfile({{{0.0, 0.02}, {1.0, 0.02}, {3.0, 0.02}}}).is_constant());
+  EXPECT_FALSE(SlidingProfile({{{0.0, 0.02}, {1.0, 0.02}, {3.0, 0.03}}}).is_constant());
+}
+
 TEST(SlidingProfileTest, IsLinearBetweenPointsAndConstantOutside) {
   const SlidingProfile profile({{{1.0, 0.5}, {2.0, 1.0}, {4.0, -3.0}}});
   EXPECT_EQ(profile.velocity_m_per_s(0.0), 0.5);

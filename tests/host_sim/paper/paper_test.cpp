@@ -22,6 +22,7 @@
 #include "host_sim/paper/ratio_curve.hpp"
 #include "host_sim/paper/table_1.hpp"
 #include "host_sim/scene/reader.hpp"
+#include "host_sim/scene/solver_methods.hpp"
 
 namespace sonoglide::paper {
 namespace {

@@ -1,0 +1,28 @@
+/// How the sliding velocity goes on from where an interval begins.
+#pragma once
+
+namespace sonoglide::plant {
+
+/// r = sliding_velocity + sliding_acceleration t, as plant::Interval says it.
+struct LinearSliding {
+  static constexpr bool varies = true;
+
+  /// Of r, over a time, or a group of times, in the unit that the acceleration has.
+  template <class Scalar, class Time>
+  static constexpr Time change(Scalar acceleration, Time time) {
+    return acceleration * time;
+  }
+};
+
+/// r = sliding_velocity: an interval's sliding_acceleration is 0, and is not looked at.
+struct ConstantSliding {
+  static constexpr bool varies = false;
+
+  /// The zero to add at no cost: x + -0 is x to a compiler, x + 0 is not.
+  template <class Scalar, class Time>
+  static constexpr Time change(Scalar /*acceleration*/, Time /*time*/) {
+    return -Time{};
+  }
+};
+
+}  // namespace sonoglide::plant

@@ -1,0 +1,15 @@
+/// The energy account of a contact that slides at one velocity.
+
+#include "firmware/plant/sliding.hpp"
+#include "motion.hpp"
+
+namespace sonoglide::plant {
+
+using Plant = Model<friction::Dahl<double>, Undamped<double>, CosineDrive, ConstantSliding>;
+
+Outcome<double> constant_sliding_period(EventTaylor<Plant, 16>& solver, State<double>& state,
+                                        EnergyAccount<double>& account) {
+  return advance(solver, {0.0, 2.0 * pi, 1.0, 0.5, 0.0}, state, account);
+}
+
+}  // namespace sonoglide::plant

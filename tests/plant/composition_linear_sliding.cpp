@@ -1,0 +1,15 @@
+/// The same for a sliding that changes: what only it has a use for is found by the same reading.
+
+#include "firmware/plant/sliding.hpp"
+#include "motion.hpp"
+
+namespace sonoglide::plant {
+
+using Plant = Model<friction::Dahl<double>, Undamped<double>, CosineDrive, LinearSliding>;
+
+Outcome<double> linear_sliding_period(EventTaylor<Plant, 16>& solver, State<double>& state,
+                                      EnergyAccount<double>& account) {
+  return advance(solver, {0.0, 2.0 * pi, 1.0, 0.5, 0.1}, state, account);
+}
+
+}  // namespace sonoglide::plant
