@@ -135,7 +135,7 @@ class TaylorStep {
     return series_.unit * sum;
   }
 
-  /// By Gauss and Legendre, exact for the product of two series up to their order less 3.
+  /// By Gauss and Legendre, exact for the product of two series up to their order less 1.
   MotionIntegrals<Scalar> motion_integrals() const {
     static constexpr auto rule = friction::gauss_legendre<node_count>();
     MotionIntegrals<Scalar> sum;
@@ -149,7 +149,7 @@ class TaylorStep {
   }
 
  private:
-  static constexpr int node_count = static_cast<int>(Series::order) / 2 - 1;
+  static constexpr int node_count = static_cast<int>(Series::order) / 2;
 
   State<Scalar> state(Scalar x) const {
     return {series_.displacement_at(x), series_.velocity_at(x), friction_.at(x)};

@@ -181,7 +181,7 @@ inline double series_unit(const Scene& scene, double velocity, double friction, 
 
 [[gnu::always_inline]] inline void add_motion(Result& state, const Series& s, const Scene& scene,
                                               double extent, const Named& named) {
-  static constexpr auto rule = friction::gauss_legendre<order / 2 - 1>();
+  static constexpr auto rule = friction::gauss_legendre<order / 2>();
   double drive_work = 0.0;
   double velocity_square = 0.0;
   double displacement_square = 0.0;
