@@ -25,6 +25,7 @@ double inertia_N_per_m(const scene::Scene& scene) {
 std::vector<double> tunings(double own) {
   const double most_above = std::max(1.0, 1.25 * (own - 1.0));
   std::vector<double> all;
+  all.reserve(2 * points_a_side);
   for (const double most : {smallest_tuning - 1.0, most_above}) {
     for (int i = 1; i <= points_a_side; ++i) {
       const double part = static_cast<double>(i) / points_a_side;

@@ -31,16 +31,17 @@ struct TuningBand {
 
 /// Of one ratio at one sliding speed.
 struct Detuning {
-  double sliding_m_per_s;
-  double ratio;
+  double sliding_m_per_s = 0.0;
+  double ratio = 0.0;
   std::vector<DetunedPoint> points;  ///< tuning rises
   /// Where the drive has the force; smallest_tuning or largest_tuning where that goes on beyond.
   std::optional<TuningBand> reachable;
   /// About resonance: outside it 1 % of Ks changes the ratio by no more than the scene's settling
   /// band; largest_tuning where springs above resonance all are too sensitive.
   std::optional<TuningBand> sensitive;
-  double change_by_stiffness;       ///< as a point's, at the scene's own tuning
-  double force_at_sensitive_low_N;  ///< the least force below resonance outside that band
+  double change_by_stiffness = undefined;  ///< as a point's, at the scene's own tuning
+  double force_at_sensitive_low_N =
+      undefined;  ///< the least force below resonance outside that band
 };
 
 inline constexpr double smallest_tuning = 0.01;  ///< without a spring mean friction has no hold

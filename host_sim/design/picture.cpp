@@ -108,6 +108,7 @@ std::string detuning_blocks(const Study& study, const std::string& prefix,
 
 std::vector<double> ratios_of(const Study& study) {
   std::vector<double> ratios;
+  ratios.reserve(study.curves.size());
   for (const RatioCurve& curve : study.curves) {
     ratios.push_back(curve.ratio);
   }
@@ -116,6 +117,7 @@ std::vector<double> ratios_of(const Study& study) {
 
 std::vector<double> detuned_ratios(const Study& study) {
   std::vector<double> ratios;
+  ratios.reserve(study.detunings.size());
   for (const Detuning& detuning : study.detunings) {
     ratios.push_back(detuning.ratio);
   }

@@ -12,9 +12,6 @@
 namespace sonoglide::design {
 namespace {
 
-constexpr SteadyMotion no_motion = {undefined, undefined, undefined, undefined, undefined,
-                                    undefined, undefined, undefined, undefined};
-
 /// 0 where there is no steady vibration: a drive that puts in more than friction and damping can
 /// take lowers the ratio without end.
 double ratio_or_zero(const scene::Scene& scene, double sliding_m_per_s, double drive_force_N) {
@@ -84,10 +81,13 @@ const char* name(Limit limit) {
 }
 
 Requirement require_ratio(const scene::Scene& scene, double sliding_m_per_s, double ratio) {
-  Requirement found{sliding_m_per_s, ratio,     Limit::undriven, "",
-                    no_motion,       undefined, undefined,       ratio};
+  Requirement found;
+  found.sliding_m_per_s = sliding_m_per_s;
+  found.ratio = ratio;
+  found.reachable_ratio = ratio;
   const double undriven = undriven_friction_ratio(scene.friction, sliding_m_per_s);
   if (ratio >= undriven) {
+    found.limit = Limit::undriven;
     found.reachable_ratio = undriven;
     return found;
   }

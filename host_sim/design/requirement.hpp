@@ -1,16 +1,12 @@
 /// The drive that a friction ratio takes at a sliding speed.
 #pragma once
 
-#include <limits>
 #include <string>
 
 #include "host_sim/design/steady_motion.hpp"
 #include "host_sim/scene/scene.hpp"
 
 namespace sonoglide::design {
-
-/// A figure that there is not.
-inline constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
 
 /// What stands between a ratio and the drive.
 enum class Limit {
@@ -25,14 +21,17 @@ const char* name(Limit limit);
 
 /// What is not defined is NaN: the motion where the limit is none but actuator and none.
 struct Requirement {
-  double sliding_m_per_s;
-  double ratio;
-  Limit limit;
-  std::string reason;          ///< of no_orbit
-  SteadyMotion motion;         ///< at the smallest force that gives the ratio
-  double closed_form_force_N;  ///< by the closed form, with which the vibration is a sine
-  double closed_form_error;    ///< of the ratio: what that force really gives, less the ratio
-  double reachable_ratio;  ///< the nearest that the drive can hold at this speed; NaN with no_orbit
+  double sliding_m_per_s = 0.0;
+  double ratio = 0.0;
+  Limit limit = Limit::none;
+  std::string reason;   ///< of no_orbit
+  SteadyMotion motion;  ///< at the smallest force that gives the ratio
+  double closed_form_force_N =
+      undefined;  ///< by the closed form, with which the vibration is a sine
+  double closed_form_error =
+      undefined;  ///< of the ratio: what that force really gives, less the ratio
+  double reachable_ratio =
+      undefined;  ///< the nearest that the drive can hold at this speed; NaN with no_orbit
 };
 
 /// By the closed form's inverse, put right by a root of the ratio on the steady orbit.

@@ -1,21 +1,26 @@
 /// The plant on its steady orbit under one drive force.
 #pragma once
 
+#include <limits>
+
 #include "host_sim/scene/scene.hpp"
 
 namespace sonoglide::design {
 
+/// A figure that there is not.
+inline constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
+
 /// Means over a carrier period. Powers in W.
 struct SteadyMotion {
-  double drive_force_N;  ///< amplitude
-  double friction_ratio;
-  double displacement_amplitude_m;    ///< half of peak to peak
-  double velocity_amplitude_m_per_s;  ///< likewise
-  double drive_power_W;               ///< mean Fe x': what the drive puts in
-  double apparent_power_W;            ///< Fe v̂/2: what drive and mass pass to and fro
-  double friction_power_W;            ///< mean F V: dissipated in the contact
-  double undriven_friction_power_W;   ///< the same at this speed without vibration
-  double damping_power_W;             ///< mean c x'²
+  double drive_force_N = undefined;  ///< amplitude
+  double friction_ratio = undefined;
+  double displacement_amplitude_m = undefined;    ///< half of peak to peak
+  double velocity_amplitude_m_per_s = undefined;  ///< likewise
+  double drive_power_W = undefined;               ///< mean Fe x': what the drive puts in
+  double apparent_power_W = undefined;            ///< Fe v̂/2: what drive and mass pass to and fro
+  double friction_power_W = undefined;            ///< mean F V: dissipated in the contact
+  double undriven_friction_power_W = undefined;   ///< the same at this speed without vibration
+  double damping_power_W = undefined;             ///< mean c x'²
 };
 
 /// The open loop that a drive of constant amplitude makes of a scene: one carrier period on the

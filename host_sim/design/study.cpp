@@ -23,6 +23,7 @@ std::vector<double> curve_speeds_m_per_s(const SpeedRange& speeds) {
   const double factor = single ? 100.0 : speeds.fastest_m_per_s / speeds.slowest_m_per_s;
   const int own = single ? speed_count / 2 : 0;
   std::vector<double> all;
+  all.reserve(speed_count);
   for (int i = 0; i < speed_count; ++i) {
     all.push_back(speeds.slowest_m_per_s *
                   std::pow(factor, static_cast<double>(i - own) / (speed_count - 1)));
@@ -59,6 +60,7 @@ DesignPoint design_point(const Task& task, const Requirement& requirement) {
 std::vector<Requirement> requirements_at(const std::vector<RatioCurve>& curves,
                                          double sliding_m_per_s) {
   std::vector<Requirement> all;
+  all.reserve(curves.size());
   for (const RatioCurve& curve : curves) {
     all.push_back(*std::find_if(
         curve.requirements.begin(), curve.requirements.end(),

@@ -41,6 +41,7 @@ void require_steady_vibration(const scene::Scene& scene) {
 
 std::vector<double> targets(const scene::Controller& controller) {
   std::vector<double> ratios;
+  ratios.reserve(controller.target_friction_ratio.size());
   for (const scene::TargetStep& step : controller.target_friction_ratio) {
     ratios.push_back(step.friction_ratio);
   }
