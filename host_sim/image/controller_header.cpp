@@ -77,7 +77,7 @@ PartText friction_part(const scene::ControlDesign& design, const ScalarText& sca
 
 PartText feedforward_part(const scene::Scene& scene, const scene::ControlDesign& design,
                           const ScalarText& scalar) {
-  if (!scene::is_elastic(scene.friction.law)) {
+  if (scene::friction_map(scene.friction.law) == scene::FrictionMap::coulomb) {
     return {"coulomb_feedforward", "CoulombFeedforward<Scalar>", "{}"};
   }
   const numeric::Split<double> force = numeric::split(design.contact_force);

@@ -70,11 +70,14 @@ struct SceneNumbers {
   scene::ControlScales codes;
   double sliding_velocity;  ///< in units of L ω
   double full_drive;        ///< in units of m L ω²
+  double vibration_sign;    ///< +1 dissipative, −1 as printed
   std::int32_t sliding_code;
   plant::State<double> initial;
 
   explicit SceneNumbers(const scene::Scene& scene)
-      : plant(scene), codes(scene::design_control(scene).scales) {
+      : plant(scene),
+        codes(scene::design_control(scene).scales),
+        vibration_sign(scene::vibration_sign(scene.friction.sign_convention)) {
     const double sliding_m_per_s = constant_sliding_m_per_s(scene.sliding);
     const scene::PlantScales& scales = plant.scales;
     sliding_velocity = sliding_m_per_s / scales.velocity_m_per_s();
@@ -111,7 +114,7 @@ inline constexpr PlantBoard::Parameters plant_parameters{{
 }};
 )",
           damped ? "Damped" : "Undamped", float_number(numbers.contact_stiffness),
-          float_number(numbers.friction_force), float_number(scene.plant.vibration_sign),
+          float_number(numbers.friction_force), float_number(scene.vibration_sign),
           damped ? float_number(numbers.damping) : "", float_number(numbers.stiffness),
           float_number(numeric::two_pi / steps_per_period), steps_per_period,
           float_number(scene.initial.displacement), float_number(scene.initial.velocity),
@@ -149,10 +152,9 @@ template <class Damping>
 plant::FixedStrangParameters designed(const SceneNumbers& scene, const Damping& damping) {
   using Model = plant::Model<friction::Dahl<double>, Damping, plant::CosineDrive>;
   const scene::PlantNumbers& numbers = scene.plant.numbers;
-  const Model model{
-      {{numbers.contact_stiffness}, numbers.friction_force, scene.plant.vibration_sign},
-      damping,
-      numbers.stiffness};
+  const Model model{{{numbers.contact_stiffness}, numbers.friction_force, scene.vibration_sign},
+                    damping,
+                    numbers.stiffness};
   const plant::FixedStrangDesign design =
       plant::design_fixed_strang(model, scene.full_drive, scene.sliding_velocity, scene.initial);
   if (design.refusal != plant::FixedStrangRefusal::none) {
@@ -227,7 +229,7 @@ PlantText plant_text(const SceneNumbers& scene, scene::Arithmetic arithmetic) {
 std::string plant_header(const scene::Scene& scene, scene::Arithmetic arithmetic) {
   require(scene.controller.has_value(), "controller",
           "missing; required: a table [controller], of which an image is made");
-  require(scene.friction.law == scene::FrictionLaw::dahl, "friction.law",
+  require(scene::is<scene::laws::Dahl>(scene.friction.law), "friction.law",
           "the plant of an image has Dahl friction; allowed: \"dahl\"");
   require(scene.drive->waveform == scene::Waveform::cosine, "drive.waveform",
           "the plant of an image is driven by a cosine; allowed: \"cosine\"");

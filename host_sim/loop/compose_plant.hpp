@@ -8,9 +8,11 @@
 #include "firmware/plant/damping.hpp"
 #include "firmware/plant/drive.hpp"
 #include "firmware/plant/model.hpp"
+#include "host_sim/loop/law_plants.hpp"
 #include "host_sim/loop/plant_description.hpp"
 #include "host_sim/loop/plant_port.hpp"
 #include "host_sim/loop/solver_list.hpp"
+#include "host_sim/scene/plant_contact.hpp"
 
 namespace sonoglide::loop {
 
@@ -36,9 +38,10 @@ std::unique_ptr<PlantPort> with_damping(const PlantDescription& description,
 }
 
 template <class Law>
-std::unique_ptr<PlantPort> compose_plant(const PlantDescription& description,
-                                         const plant::Contact<Law>& contact) {
+std::unique_ptr<PlantPort> make_law_plant(const PlantDescription& description, const Law& law) {
   const scene::Scene& scene = description.scene;
+  const auto contact =
+      scene::plant_contact<double>(law, scene.friction, description.scales, description.numbers);
   const bool driven = scene.drive && (scene.drive->force_amplitude_N > 0.0 || scene.controller);
   if (!driven) {
     return with_damping<plant::NoDrive>(description, contact);

@@ -31,9 +31,8 @@ std::string ringing(const scene::Scene& scene) {
 std::string reason(const scene::Scene& scene, plant::Error error, const plant::Cost& cost) {
   switch (error) {
     case plant::Error::friction_bound_broken:
-      return scene.friction.bristles
-                 ? "the bristles' force > Fs, the step is too long for the contact stiffness"
-                 : "|F| > Fc, the step is too long for the contact stiffness";
+      return fmt::format("{}, the step is too long for the contact stiffness",
+                         scene::broken_bound(scene.friction.law));
     case plant::Error::step_too_long:
       return "the step is too long for the contact or for the oscillator" + ringing(scene);
     case plant::Error::too_many_steps:

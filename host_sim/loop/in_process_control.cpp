@@ -164,7 +164,8 @@ std::unique_ptr<ControlPort> make(const scene::Scene& scene, const ControlDesign
         return std::make_unique<InProcessControl<Parts>>(design);
       },
       choose<FrictionChoice<Scalar>>(design.calibrated),
-      choose<FeedforwardChoice<Scalar>>(scene::is_elastic(scene.friction.law)),
+      choose<FeedforwardChoice<Scalar>>(scene::friction_map(scene.friction.law) ==
+                                        scene::FrictionMap::dahl),
       choose<SlewChoice<Scalar>>(design.slew_limited), choose<ShaperChoice<Scalar>>(design.shaped));
 }
 

@@ -10,13 +10,11 @@ struct PlantDescription {
   const scene::Scene& scene;
   scene::PlantScales scales;
   scene::PlantNumbers numbers;
-  double vibration_sign;  ///< +1 dissipative, −1 as printed
 
   explicit PlantDescription(const scene::Scene& described)
       : scene(described),
         scales(scene::plant_scales(described)),
-        numbers(scene::plant_numbers(described, scales)),
-        vibration_sign(scene::vibration_sign(described.friction.sign_convention)) {}
+        numbers(scene::plant_numbers(described, scales)) {}
 };
 
 }  // namespace sonoglide::loop

@@ -24,8 +24,7 @@ using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 3, 3>;
 constexpr int friction_component = 2;
 
 bool remembers_friction(const scene::Scene& scene) {
-  return scene.friction.law == scene::FrictionLaw::dahl &&
-         scene::friction_limit_N(scene.friction) > 0.0;
+  return scene::is_elastic(scene::acting_law(scene.friction));
 }
 
 double sliding_m_per_s(const scene::Scene& scene) {

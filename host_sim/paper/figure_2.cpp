@@ -32,7 +32,7 @@ Laws compute() {
     laws.dahl.push_back(friction::dahl_friction_ratio(ratio, dahl));
   }
   laws.simulated_dahl = ratio_curve(scene, velocities);
-  scene.friction.law = scene::FrictionLaw::coulomb;
+  scene.friction.law = scene::laws::Coulomb{};
   laws.simulated_coulomb = ratio_curve(scene, velocities);
   return laws;
 }

@@ -17,7 +17,7 @@ namespace {
 constexpr double periods_shown = 3.0;
 constexpr double samples_per_period = 400.0;
 
-loop::Recording record_steady(scene::FrictionLaw law) {
+loop::Recording record_steady(const scene::FrictionLaw& law) {
   scene::Scene scene = steady(table_1());
   scene.friction.law = law;
   scene.run.duration_s = periods_shown * period_s(scene);
@@ -36,8 +36,8 @@ double largest_jump(const std::vector<double>& values) {
 }  // namespace
 
 Figure figure_3() {
-  const loop::Recording coulomb = record_steady(scene::FrictionLaw::coulomb);
-  const loop::Recording dahl = record_steady(scene::FrictionLaw::dahl);
+  const loop::Recording coulomb = record_steady(scene::laws::Coulomb{});
+  const loop::Recording dahl = record_steady(scene::laws::Dahl{});
   const std::vector<double> pulses_N = friction_forces_N(coulomb);
   const std::vector<double> wave_N = friction_forces_N(dahl);
   const double limit_N = scene::friction_limit_N(table_1().friction);

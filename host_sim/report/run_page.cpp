@@ -32,7 +32,7 @@ std::string lead(const scene::Scene& scene, const loop::RunResult& result) {
                         scene::name_of(scene::arithmetics, scene.controller->arithmetic))
           : std::string("Open loop");
   text += fmt::format(". Friction law: {}. Solver: {}. {:.6g} ms simulated in {:.3g} ms.",
-                      scene::name_of(scene::friction_laws, scene.friction.law),
+                      scene::name_of(scene.friction.law),
                       scene::name_of(scene::solver_methods, scene.solver.method),
                       result.final_time_s * 1e3, result.wall_s * 1e3);
   return text;
@@ -50,12 +50,12 @@ std::vector<std::string> warnings(const scene::Scene& scene, const loop::RunResu
     return all;
   }
   const bool cosine = scene.drive->waveform == scene::Waveform::cosine;
-  if (scene.friction.bristles || scene.friction.curve || !cosine) {
-    all.push_back(
-        fmt::format("The feedforward's map is that of a {} contact under a cosine; what "
-                    "{} changes is left to feedback.",
-                    scene::is_elastic(scene.friction.law) ? "Dahl" : "Coulomb",
-                    cosine ? "the law" : "the waveform"));
+  if (!scene::has_own_map(scene.friction.law) || !cosine) {
+    all.push_back(fmt::format(
+        "The feedforward's map is that of a {} contact under a cosine; what "
+        "{} changes is left to feedback.",
+        scene::friction_map(scene.friction.law) == scene::FrictionMap::dahl ? "Dahl" : "Coulomb",
+        cosine ? "the law" : "the waveform"));
   }
   for (const loop::FaultEvent& event : result.control->faults) {
     all.push_back(fmt::format("Fault at {:.6g} ms: {}. The drive is off from there on.",

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <string_view>
+#include <utility>
 
 #include "host_sim/scene/scene.hpp"
 
@@ -15,13 +16,18 @@ struct Named {
   Value value;
 };
 
-inline constexpr std::array<Named<FrictionLaw>, 5> friction_laws = {{
-    {"dahl", FrictionLaw::dahl},
-    {"lugre", FrictionLaw::lugre},
-    {"coulomb", FrictionLaw::coulomb},
-    {"stribeck", FrictionLaw::stribeck},
-    {"none", FrictionLaw::none},
-}};
+namespace detail {
+
+template <std::size_t... Index>
+constexpr std::array<Named<FrictionLaw>, law_count> named_laws(
+    std::index_sequence<Index...> /*all*/) {
+  return {{{LawAt<Index>::name, LawAt<Index>{}}...}};
+}
+
+}  // namespace detail
+
+inline constexpr std::array<Named<FrictionLaw>, law_count> friction_laws =
+    detail::named_laws(std::make_index_sequence<law_count>{});
 
 inline constexpr std::array<Named<SignConvention>, 2> sign_conventions = {{
     {"dissipative", SignConvention::dissipative},

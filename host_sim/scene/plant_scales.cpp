@@ -62,8 +62,12 @@ double peak_vibration_m_per_s(const Plant& plant, double frequency_Hz, double fo
   return force_amplitude_N * omega / dynamic_stiffness_N_per_m(plant, omega);
 }
 
-double friction_limit_N(const Friction& friction) {
-  return friction.coefficient * friction.normal_force_N;
+double friction_limit_N(const Contact& contact) {
+  return contact.coefficient * contact.normal_force_N;
+}
+
+FrictionLaw acting_law(const Friction& friction) {
+  return friction_limit_N(friction) > 0.0 ? friction.law : laws::None{};
 }
 
 PlantScales plant_scales(const Scene& scene) {
@@ -82,22 +86,6 @@ PlantNumbers plant_numbers(const Scene& scene, const PlantScales& scales) {
           scene.plant.damping_N_s_per_m / inertia, scales.friction_N / scales.force_N,
           elastic ? scene.friction.contact_stiffness_N_per_m * scales.length_m / scales.friction_N
                   : 0.0};
-}
-
-friction::Stribeck<double> stribeck_numbers(const Friction& friction, const PlantScales& scales) {
-  const double velocity = scales.velocity_m_per_s();
-  return {friction.curve->fall_s_per_m * velocity / friction.coefficient,
-          friction.curve->rise_s3_per_m3 * velocity * velocity * velocity / friction.coefficient};
-}
-
-friction::LuGre<double> lugre_numbers(const Friction& friction, const PlantScales& scales) {
-  const Bristles& bristles = *friction.bristles;
-  const double force_per_velocity = scales.velocity_m_per_s() / scales.friction_N;
-  return {friction.contact_stiffness_N_per_m * scales.length_m / scales.friction_N,
-          bristles.static_coefficient / friction.coefficient,
-          bristles.stribeck_velocity_m_per_s / scales.velocity_m_per_s(),
-          bristles.bristle_damping_N_s_per_m * force_per_velocity,
-          bristles.viscous_friction_N_s_per_m * force_per_velocity};
 }
 
 plant::State<double> initial_state(const Scene& scene, const PlantScales& scales) {

@@ -2,23 +2,11 @@
 /// scaled numbers.
 #pragma once
 
-#include "firmware/friction/lugre.hpp"
-#include "firmware/friction/stribeck.hpp"
 #include "firmware/plant/state.hpp"
+#include "host_sim/scene/scales.hpp"
 #include "host_sim/scene/scene.hpp"
 
 namespace sonoglide::scene {
-
-/// What the plant's dimensionless quantities are multiples of. Time is in 1/ω, displacement in L,
-/// force in m L ω², friction in Fc.
-struct PlantScales {
-  double angular_frequency_rad_per_s;  ///< ω: the drive's, or the plant's own where there is none
-  double length_m;                     ///< L, of the size of the motion to come
-  double force_N;                      ///< m L ω²
-  double friction_N;                   ///< Fc, 0 without friction
-
-  double velocity_m_per_s() const { return length_m * angular_frequency_rad_per_s; }
-};
 
 /// The plant's dimensionless parameters (see plant::Model).
 struct PlantNumbers {
@@ -30,10 +18,6 @@ struct PlantNumbers {
 
 PlantScales plant_scales(const Scene& scene);
 PlantNumbers plant_numbers(const Scene& scene, const PlantScales& scales);
-
-/// A Stribeck curve, and a contact of bristles, in the same units; there is friction.
-friction::Stribeck<double> stribeck_numbers(const Friction& friction, const PlantScales& scales);
-friction::LuGre<double> lugre_numbers(const Friction& friction, const PlantScales& scales);
 
 /// Where the run begins, in the same units.
 plant::State<double> initial_state(const Scene& scene, const PlantScales& scales);
@@ -53,7 +37,10 @@ double dynamic_stiffness_N_per_m(const Plant& plant, double omega_rad_per_s);
 double peak_vibration_m_per_s(const Plant& plant, double frequency_Hz, double force_amplitude_N);
 
 /// Fc = μ N.
-double friction_limit_N(const Friction& friction);
+double friction_limit_N(const Contact& contact);
+
+/// Without a friction force there is no friction, whatever the law.
+FrictionLaw acting_law(const Friction& friction);
 
 /// Largest |Vt| of the profile.
 double fastest_sliding_m_per_s(const Sliding& sliding);

@@ -53,10 +53,10 @@ void require_solvable(const Scene& scene, const Document& document) {
     }
   }
   const char* key = "solver.method";
-  throw SceneError(document.place_of(key), key,
-                   fmt::format("\"{}\" does not solve the friction law \"{}\"; allowed: {}",
-                               name_of(solver_methods, method),
-                               name_of(friction_laws, scene.friction.law), allowed));
+  throw SceneError(
+      document.place_of(key), key,
+      fmt::format("\"{}\" does not solve the friction law \"{}\"; allowed: {}",
+                  name_of(solver_methods, method), name_of(scene.friction.law), allowed));
 }
 
 /// A drive of straight pieces is solved by fewer methods, and in one order.

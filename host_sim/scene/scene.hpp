@@ -7,6 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "host_sim/scene/contact.hpp"
+#include "host_sim/scene/friction_laws.hpp"
+
 namespace sonoglide::scene {
 
 struct Plant {
@@ -17,41 +20,8 @@ struct Plant {
   double initial_velocity_m_per_s = 0.0;
 };
 
-enum class FrictionLaw { none, coulomb, stribeck, dahl, lugre };
-
-/// Whether the contact yields like a spring before it slides: it has a contact stiffness, and may
-/// begin under a force.
-constexpr bool is_elastic(FrictionLaw law) {
-  return law == FrictionLaw::dahl || law == FrictionLaw::lugre;
-}
-
-/// dissipative: V = Vt + x'. as_printed: V = Vt - x', as the paper's equations (1) and (2) have it;
-/// friction then pumps energy into the vibration.
-enum class SignConvention { dissipative, as_printed };
-
-/// What friction::LuGre has beyond the Dahl law.
-struct Bristles {
-  double static_coefficient = 0.0;
-  double stribeck_velocity_m_per_s = 0.0;
-  double bristle_damping_N_s_per_m = 0.0;
-  double viscous_friction_N_s_per_m = 0.0;
-};
-
-/// What friction::Stribeck has beyond the Coulomb law: mu(v) = mu_s sgn v - alpha v + beta v^3.
-struct StribeckCurve {
-  double fall_s_per_m = 0.0;    ///< alpha
-  double rise_s3_per_m3 = 0.0;  ///< beta
-};
-
-struct Friction {
-  FrictionLaw law = FrictionLaw::none;
-  double coefficient = 0.0;
-  double normal_force_N = 0.0;
-  double contact_stiffness_N_per_m = 0.0;  ///< elastic laws only
-  double initial_force_N = 0.0;            ///< elastic laws only
-  std::optional<Bristles> bristles;        ///< LuGre only
-  std::optional<StribeckCurve> curve;      ///< Stribeck only
-  SignConvention sign_convention = SignConvention::dissipative;
+struct Friction : Contact {
+  FrictionLaw law = laws::None{};
 };
 
 struct SpeedPoint {

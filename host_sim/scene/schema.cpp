@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "host_sim/scene/friction_laws.hpp"
+#include "host_sim/scene/range.hpp"
 #include "host_sim/scene/suggestion.hpp"
 
 namespace sonoglide::scene {
@@ -28,6 +30,42 @@ std::vector<std::string_view> table_names() {
   return names;
 }
 
+/// Lists the keys that friction laws have of their own.
+class KeyList {
+ public:
+  explicit KeyList(std::vector<std::string_view>& keys) : keys_(keys) {}
+
+  /// Laws may share a key.
+  void required(std::string_view key, double /*parameter*/, const Range& /*range*/) {
+    if (std::find(keys_.begin(), keys_.end(), key) == keys_.end()) {
+      keys_.push_back(key);
+    }
+  }
+  void optional(std::string_view key, double parameter, const Range& range) {
+    required(key, parameter, range);
+  }
+  void refuse(std::string_view /*key*/, double /*parameter*/, std::string_view /*finding*/,
+              double /*least*/, std::string_view /*rest*/) {}
+
+ private:
+  std::vector<std::string_view>& keys_;
+};
+
+/// Those of all laws.
+std::vector<std::string_view> friction_keys() {
+  std::vector<std::string_view> keys = {"law",
+                                        "coefficient",
+                                        "normal_force_N",
+                                        "contact_stiffness_N_per_m",
+                                        "initial_force_N",
+                                        "sign_convention"};
+  KeyList own(keys);
+  for (FrictionLaw law : every_law) {
+    std::visit([&](auto& any) { any.visit_keys(own, Contact{}); }, law);
+  }
+  return keys;
+}
+
 }  // namespace
 
 const std::vector<TableSchema>& schema() {
@@ -35,11 +73,7 @@ const std::vector<TableSchema>& schema() {
       {"plant",
        {"mass_kg", "stiffness_N_per_m", "damping_N_s_per_m", "initial_displacement_m",
         "initial_velocity_m_per_s"}},
-      {"friction",
-       {"law", "coefficient", "normal_force_N", "contact_stiffness_N_per_m", "initial_force_N",
-        "sign_convention", "static_coefficient", "stribeck_velocity_m_per_s",
-        "bristle_damping_N_s_per_m", "viscous_friction_N_s_per_m", "fall_s_per_m",
-        "rise_s3_per_m3"}},
+      {"friction", friction_keys()},
       {"sliding", {"velocity_m_per_s", "profile"}},
       {"drive",
        {"frequency_Hz", "force_amplitude_N", "waveform", "max_force_amplitude_N",

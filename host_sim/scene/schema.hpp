@@ -9,7 +9,7 @@
 namespace sonoglide::scene {
 
 /// A table has fewer keys than this.
-inline constexpr std::size_t most_keys = 16;
+inline constexpr std::size_t most_keys = 64;
 
 struct TableSchema {
   std::string_view name;

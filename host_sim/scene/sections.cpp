@@ -45,6 +45,27 @@ TableCursor closed_loop_table(const Variant& variant, std::string_view name) {
   return cursor;
 }
 
+/// Reads the keys that a friction law has of its own.
+class KeyReader {
+ public:
+  explicit KeyReader(TableCursor& cursor) : cursor_(cursor) {}
+
+  void required(std::string_view key, double& parameter, const Range& range) {
+    parameter = cursor_.real(key, range);
+  }
+  void optional(std::string_view key, double& parameter, const Range& range) {
+    parameter = cursor_.real(key, range, parameter);
+  }
+  void refuse(std::string_view key, double parameter, std::string_view finding, double least,
+              std::string_view rest) {
+    cursor_.fail(
+        key, fmt::format("{} {}; allowed: at least {:.6g} {}", parameter, finding, least, rest));
+  }
+
+ private:
+  TableCursor& cursor_;
+};
+
 }  // namespace
 
 Plant read_plant(const Variant& variant) {
@@ -58,39 +79,11 @@ Plant read_plant(const Variant& variant) {
   return plant;
 }
 
-Bristles read_bristles(TableCursor& cursor, double coefficient) {
-  const Range rate{0.0, 1e12, "N s/m"};
-  Bristles bristles;
-  bristles.static_coefficient = cursor.real("static_coefficient", {coefficient, 100.0});
-  bristles.stribeck_velocity_m_per_s =
-      cursor.real("stribeck_velocity_m_per_s", {1e-9, largest_speed_m_per_s, "m/s"});
-  bristles.bristle_damping_N_s_per_m = cursor.real("bristle_damping_N_s_per_m", rate, 0.0);
-  bristles.viscous_friction_N_s_per_m = cursor.real("viscous_friction_N_s_per_m", rate, 0.0);
-  return bristles;
-}
-
-/// Friction below zero would drive the contact.
-StribeckCurve read_curve(TableCursor& cursor, double coefficient) {
-  StribeckCurve curve;
-  curve.fall_s_per_m = cursor.real("fall_s_per_m", {0.0, 1e9, "s/m"});
-  curve.rise_s3_per_m3 = cursor.real("rise_s3_per_m3", {0.0, 1e27, "s^3/m^3"});
-  const double fall_cubed = curve.fall_s_per_m * curve.fall_s_per_m * curve.fall_s_per_m;
-  const double square = 27.0 * coefficient * coefficient;
-  if (coefficient > 0.0 && curve.rise_s3_per_m3 * square < 4.0 * fall_cubed) {
-    cursor.fail(
-        "rise_s3_per_m3",
-        fmt::format("{} lets the friction fall below zero; allowed: at least {:.6g} s^3/m^3 "
-                    "with this fall_s_per_m",
-                    curve.rise_s3_per_m3, 4.0 * fall_cubed / square));
-  }
-  return curve;
-}
-
 Friction read_friction(const Variant& variant, const Plant& plant) {
   TableCursor cursor = required_table(variant, "friction");
   Friction friction;
   friction.law = cursor.choice("law", friction_laws);
-  if (friction.law != FrictionLaw::none) {
+  if (!is<laws::None>(friction.law)) {
     friction.coefficient = cursor.real("coefficient", {0.0, 100.0});
     friction.normal_force_N =
         cursor.real("normal_force_N", {0.0, 1e9, "N"}, plant.mass_kg * standard_gravity_m_per_s2);
@@ -103,13 +96,9 @@ Friction read_friction(const Variant& variant, const Plant& plant) {
     const double limit_N = friction_limit_N(friction);
     friction.initial_force_N = cursor.real("initial_force_N", {-limit_N, limit_N, "N"}, 0.0);
   }
-  if (friction.law == FrictionLaw::lugre) {
-    friction.bristles = read_bristles(cursor, friction.coefficient);
-  }
-  if (friction.law == FrictionLaw::stribeck) {
-    friction.curve = read_curve(cursor, friction.coefficient);
-  }
-  cursor.reject_unread_with("friction.law", name_of(friction_laws, friction.law));
+  KeyReader keys(cursor);
+  std::visit([&](auto& law) { law.visit_keys(keys, friction); }, friction.law);
+  cursor.reject_unread_with("friction.law", name_of(friction.law));
   return friction;
 }
 
@@ -242,7 +231,7 @@ ModelError read_model_error(const Variant& variant, const Friction& friction) {
   if (is_elastic(friction.law)) {
     model_error.contact_stiffness = cursor.real("contact_stiffness", quotient, 1.0);
   }
-  cursor.reject_unread_with("friction.law", name_of(friction_laws, friction.law));
+  cursor.reject_unread_with("friction.law", name_of(friction.law));
   return model_error;
 }
 

@@ -1,10 +1,8 @@
 #include "host_sim/scene/solver_laws.hpp"
 
-#include "firmware/friction/coulomb.hpp"
-#include "firmware/friction/dahl.hpp"
-#include "firmware/friction/lugre.hpp"
+#include <type_traits>
+
 #include "firmware/friction/none.hpp"
-#include "firmware/friction/stribeck.hpp"
 #include "firmware/plant/adaptive_strang.hpp"
 #include "firmware/plant/damping.hpp"
 #include "firmware/plant/drive.hpp"
@@ -20,25 +18,17 @@ namespace {
 using AnyModel = plant::Model<friction::None<double>, plant::Undamped<double>, plant::NoDrive>;
 
 template <class Solver>
-bool solver_solves(FrictionLaw law) {
-  switch (law) {
-    case FrictionLaw::coulomb:
-      return Solver::template solves<friction::Coulomb<double>>;
-    case FrictionLaw::stribeck:
-      return Solver::template solves<friction::Stribeck<double>>;
-    case FrictionLaw::dahl:
-      return Solver::template solves<friction::Dahl<double>>;
-    case FrictionLaw::lugre:
-      return Solver::template solves<friction::LuGre<double>>;
-    case FrictionLaw::none:
-      break;
-  }
-  return Solver::template solves<friction::None<double>>;
+bool solver_solves(const FrictionLaw& law) {
+  return std::visit(
+      [](const auto& any) {
+        return Solver::template solves<typename std::decay_t<decltype(any)>::template Core<double>>;
+      },
+      law);
 }
 
 }  // namespace
 
-bool solves(SolverMethod method, FrictionLaw law) {
+bool solves(SolverMethod method, const FrictionLaw& law) {
   switch (method) {
     case SolverMethod::event_gauss:
       return solver_solves<plant::EventGauss<AnyModel, 8>>(law);

@@ -6,6 +6,6 @@
 namespace sonoglide::scene {
 
 /// As the solvers of the core say themselves.
-bool solves(SolverMethod method, FrictionLaw law);
+bool solves(SolverMethod method, const FrictionLaw& law);
 
 }  // namespace sonoglide::scene

@@ -1,6 +1,7 @@
 #include "host_sim/scene/to_json.hpp"
 
 #include "host_sim/scene/names.hpp"
+#include "host_sim/scene/range.hpp"
 
 namespace sonoglide::scene {
 namespace {
@@ -25,9 +26,27 @@ ordered_json echo(const Plant& plant, Start start) {
   return table;
 }
 
+/// Echoes the keys that a friction law has of its own.
+class KeyEcho {
+ public:
+  explicit KeyEcho(ordered_json& table) : table_(table) {}
+
+  void required(std::string_view key, double parameter, const Range& /*range*/) {
+    table_[std::string(key)] = parameter;
+  }
+  void optional(std::string_view key, double parameter, const Range& range) {
+    required(key, parameter, range);
+  }
+  void refuse(std::string_view /*key*/, double /*parameter*/, std::string_view /*finding*/,
+              double /*least*/, std::string_view /*rest*/) {}
+
+ private:
+  ordered_json& table_;
+};
+
 ordered_json echo(const Friction& friction, Start start) {
-  ordered_json table{{"law", name_of(friction_laws, friction.law)}};
-  if (friction.law == FrictionLaw::none) {
+  ordered_json table{{"law", name_of(friction.law)}};
+  if (is<laws::None>(friction.law)) {
     return table;
   }
   table["coefficient"] = friction.coefficient;
@@ -38,16 +57,9 @@ ordered_json echo(const Friction& friction, Start start) {
       table["initial_force_N"] = friction.initial_force_N;
     }
   }
-  if (friction.curve) {
-    table["fall_s_per_m"] = friction.curve->fall_s_per_m;
-    table["rise_s3_per_m3"] = friction.curve->rise_s3_per_m3;
-  }
-  if (friction.bristles) {
-    table["static_coefficient"] = friction.bristles->static_coefficient;
-    table["stribeck_velocity_m_per_s"] = friction.bristles->stribeck_velocity_m_per_s;
-    table["bristle_damping_N_s_per_m"] = friction.bristles->bristle_damping_N_s_per_m;
-    table["viscous_friction_N_s_per_m"] = friction.bristles->viscous_friction_N_s_per_m;
-  }
+  KeyEcho keys(table);
+  FrictionLaw law = friction.law;
+  std::visit([&](auto& any) { any.visit_keys(keys, friction); }, law);
   table["sign_convention"] = name_of(sign_conventions, friction.sign_convention);
   return table;
 }
@@ -134,7 +146,7 @@ ordered_json echo(const Sensor& sensor) {
   return table;
 }
 
-ordered_json echo(const ModelError& model_error, FrictionLaw law) {
+ordered_json echo(const ModelError& model_error, const FrictionLaw& law) {
   ordered_json table{{"mass", model_error.mass},
                      {"stiffness", model_error.stiffness},
                      {"coefficient", model_error.coefficient}};

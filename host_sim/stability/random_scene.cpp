@@ -57,19 +57,28 @@ void draw_plant(Dice& dice, double frequency_Hz, scene::Plant& plant) {
   plant.initial_velocity_m_per_s = dice.sign() * dice.decades_or_zero(0.6, -9.0, 3.0);
 }
 
+scene::FrictionLaw draw_law(Dice& dice) {
+  const double drawn = dice.uniform();
+  int percent = 0;
+  for (const scene::FrictionLaw& law : scene::every_law) {
+    percent += scene::random_percent(law);
+    if (drawn < percent / 100.0) {
+      return law;
+    }
+  }
+  return scene::laws::None{};
+}
+
 void draw_friction(Dice& dice, scene::Friction& friction) {
-  const double law = dice.uniform();
-  friction.law = law < 0.6   ? scene::FrictionLaw::dahl
-                 : law < 0.9 ? scene::FrictionLaw::coulomb
-                             : scene::FrictionLaw::none;
-  if (friction.law == scene::FrictionLaw::none) {
+  friction.law = draw_law(dice);
+  if (scene::is<scene::laws::None>(friction.law)) {
     return;
   }
   friction.coefficient = dice.decades_or_zero(0.05, -6.0, 1.0);
   friction.normal_force_N = dice.decades_or_zero(0.05, -9.0, 6.0);
   friction.sign_convention =
       dice.chance(0.25) ? scene::SignConvention::as_printed : scene::SignConvention::dissipative;
-  if (friction.law == scene::FrictionLaw::dahl) {
+  if (scene::is_elastic(friction.law)) {
     friction.contact_stiffness_N_per_m = dice.decades(-3.0, 13.0);
     const double part = dice.chance(0.5) ? 0.0 : dice.chance(0.2) ? 1.0 : dice.uniform();
     friction.initial_force_N = dice.sign() * part * scene::friction_limit_N(friction);

@@ -39,7 +39,7 @@ double vibration_m_per_s() {
 scene::Scene table_1(double contact_stiffness_N_per_m, int periods) {
   scene::Scene scene;
   scene.plant = table_1_plant();
-  scene.friction.law = scene::FrictionLaw::dahl;
+  scene.friction.law = scene::laws::Dahl{};
   scene.friction.coefficient = coefficient;
   scene.friction.normal_force_N = normal_force_N;
   scene.friction.contact_stiffness_N_per_m = contact_stiffness_N_per_m;

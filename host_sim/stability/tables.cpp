@@ -29,14 +29,14 @@ std::string scene_cells(const scene::Scene& scene) {
   const std::string drive =
       scene.drive ? fmt::format("{},{}", scene.drive->frequency_Hz, scene.drive->force_amplitude_N)
                   : std::string("nan,nan");
-  return fmt::format(
-      "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}", plant.mass_kg, plant.stiffness_N_per_m,
-      plant.damping_N_s_per_m, plant.initial_displacement_m, plant.initial_velocity_m_per_s,
-      scene::name_of(scene::friction_laws, friction.law), friction.coefficient,
-      friction.normal_force_N, friction.contact_stiffness_N_per_m, friction.initial_force_N,
-      scene::name_of(scene::sign_conventions, friction.sign_convention),
-      scene.sliding.profile.front().velocity_m_per_s, scene.sliding.profile.back().velocity_m_per_s,
-      drive, scene.run.duration_s);
+  return fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}", plant.mass_kg,
+                     plant.stiffness_N_per_m, plant.damping_N_s_per_m, plant.initial_displacement_m,
+                     plant.initial_velocity_m_per_s, scene::name_of(friction.law),
+                     friction.coefficient, friction.normal_force_N,
+                     friction.contact_stiffness_N_per_m, friction.initial_force_N,
+                     scene::name_of(scene::sign_conventions, friction.sign_convention),
+                     scene.sliding.profile.front().velocity_m_per_s,
+                     scene.sliding.profile.back().velocity_m_per_s, drive, scene.run.duration_s);
 }
 
 }  // namespace

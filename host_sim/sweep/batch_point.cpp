@@ -17,7 +17,7 @@ bool suits_lanes(const scene::Scene& scene) {
   const scene::Solver& solver = scene.solver;
   return !scene.controller && scene.run.start == scene::Start::given && scene.drive &&
          scene.drive->waveform == scene::Waveform::cosine &&
-         scene.friction.law == scene::FrictionLaw::dahl &&
+         scene::is<scene::laws::Dahl>(scene.friction.law) &&
          scene::friction_limit_N(scene.friction) > 0.0 && scene.sliding.profile.size() == 1 &&
          solver.method == scene::SolverMethod::event_taylor && !solver.order &&
          solver.tolerance >= fine_tolerance;

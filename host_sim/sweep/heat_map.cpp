@@ -84,7 +84,8 @@ std::string heat_map(const Plan& plan, const std::vector<Row>& rows, std::size_t
   script += palette;
   script += axis_commands(grid.axes()[rightward], 'x') + axis_commands(grid.axes()[upward], 'y') +
             range_command(right, 'x') + range_command(up, 'y');
-  script += fmt::format("set cblabel '{}'\nset tics out nomirror\nunset key\n", shown.label);
+  script += fmt::format("set cblabel '{}'\nset autoscale cbfix\nset tics out nomirror\nunset key\n",
+                        shown.label);
   script += "plot $defined using 1:2:3:4:5:6:7 with boxxyerror fs solid noborder fc palette";
   if (!undefined.empty()) {
     script += fmt::format(

@@ -12,7 +12,8 @@ Subject subject(const Plan& plan) {
 }
 
 std::string axis_commands(const Axis& axis, char letter) {
-  std::string commands = fmt::format("set {}label '{}' noenhanced\n", letter, axis.key);
+  std::string commands =
+      fmt::format("set {0}label '{1}' noenhanced\nset format {0} '%g'\n", letter, axis.key);
   // A logarithmic axis of negative values is drawn on a linear scale.
   if (axis.logarithmic && axis.from > 0.0) {
     commands += fmt::format("set logscale {}\n", letter);

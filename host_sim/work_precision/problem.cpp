@@ -29,10 +29,10 @@ void require_comparable(const scene::Scene& scene) {
     throw ConfigurationError("drive.waveform",
                              "solvers are compared under a cosine; allowed: \"cosine\"");
   }
-  if (scene.friction.law != scene::FrictionLaw::dahl) {
+  if (!scene::is<scene::laws::Dahl>(scene.friction.law)) {
     throw ConfigurationError(
         "friction.law", fmt::format("\"{}\" is not solved by every method here; allowed: \"dahl\"",
-                                    scene::name_of(scene::friction_laws, scene.friction.law)));
+                                    scene::name_of(scene.friction.law)));
   }
   if (!(scene::friction_limit_N(scene.friction) > 0.0)) {
     throw ConfigurationError("friction.coefficient",

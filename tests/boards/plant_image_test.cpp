@@ -284,7 +284,7 @@ TEST(PlantHeaderTest, IsRefusedWithTheKeyThatAnImageCannotFollow) {
   scene.controller.reset();
   EXPECT_EQ(refused_key(scene), "controller");
   scene = allowed;
-  scene.friction.law = scene::FrictionLaw::coulomb;
+  scene.friction.law = scene::laws::Coulomb{};
   EXPECT_EQ(refused_key(scene), "friction.law");
   scene = allowed;
   scene.sliding.profile.push_back({1e-3, 0.05});

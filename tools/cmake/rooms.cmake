@@ -2,15 +2,21 @@
 # root, its own folder and those of the rooms it links, and nothing else: an
 # include against the arrows does not find its file.
 
-# sonoglide_room(<target> <folder> [USES <rooms>...] [LIBRARIES <libraries>...])
+# sonoglide_room(<target> <folder> [FOLDERS <folders>...] [USES <rooms>...] [LIBRARIES <libraries>...])
+#
+# FOLDERS are those inside this one whose headers belong to the room.
 function(sonoglide_room target folder)
-  cmake_parse_arguments(ROOM "" "" "USES;LIBRARIES" ${ARGN})
+  cmake_parse_arguments(ROOM "" "" "FOLDERS;USES;LIBRARIES" ${ARGN})
   set(root "${PROJECT_BINARY_DIR}/sight/${target}")
   file(GLOB sources CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/${folder}/*.cpp")
+  list(TRANSFORM ROOM_FOLDERS REPLACE "(.+)" "${PROJECT_SOURCE_DIR}/${folder}/\\1/*.hpp"
+    OUTPUT_VARIABLE inner)
   file(GLOB names CONFIGURE_DEPENDS RELATIVE "${PROJECT_SOURCE_DIR}/${folder}"
-    "${PROJECT_SOURCE_DIR}/${folder}/*.hpp")
-  # Header by header: a folder inside this one is another room.
-  file(MAKE_DIRECTORY "${root}/${folder}")
+    "${PROJECT_SOURCE_DIR}/${folder}/*.hpp" ${inner})
+  # Header by header: any other folder inside this one is another room.
+  foreach(inside "" ${ROOM_FOLDERS})
+    file(MAKE_DIRECTORY "${root}/${folder}/${inside}")
+  endforeach()
   set(headers "")
   foreach(name IN LISTS names)
     file(CREATE_LINK "${PROJECT_SOURCE_DIR}/${folder}/${name}" "${root}/${folder}/${name}" SYMBOLIC)

@@ -30,7 +30,7 @@ std::ostream& operator<<(std::ostream& stream, const Case& varied) {
 }
 
 void into_coulomb(Scene& scene) {
-  scene.friction.law = scene::FrictionLaw::coulomb;
+  scene.friction.law = scene::laws::Coulomb{};
   scene.friction.contact_stiffness_N_per_m = 0.0;
 }
 

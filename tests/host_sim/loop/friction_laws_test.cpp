@@ -14,9 +14,8 @@
 namespace sonoglide::loop {
 namespace {
 
-scene::Scene lugre(scene::Scene scene, const scene::Bristles& bristles) {
-  scene.friction.law = scene::FrictionLaw::lugre;
-  scene.friction.bristles = bristles;
+scene::Scene lugre(scene::Scene scene, const scene::laws::LuGre& law) {
+  scene.friction.law = law;
   return scene;
 }
 
@@ -63,10 +62,9 @@ TEST(LuGreSceneTest, ClosedLoopReachesItsTargets) {
 scene::Scene stick_slip(double dither_N) {
   scene::Scene scene = table_1(dither_N);
   scene.plant.stiffness_N_per_m = 8e3;
-  scene.friction.law = scene::FrictionLaw::stribeck;
+  scene.friction.law = scene::laws::Stribeck{1.5, 50.0};
   scene.friction.coefficient = 0.2;
   scene.friction.normal_force_N = 10.0;
-  scene.friction.curve = scene::StribeckCurve{1.5, 50.0};
   scene.sliding.profile = {{0.0, 0.01}};
   scene.solver.tolerance = 1e-6;
   scene.run.duration_s = 0.1;
@@ -98,8 +96,7 @@ TEST(StribeckSceneTest, DitherQuenchesStickSlip) {
 /// At zeta = 1/2, of a vibration that friction hardly bends.
 TEST(StribeckSceneTest, FrictionRatioIsThatOfTheAveragedCurve) {
   scene::Scene scene = on_steady_orbit(table_1());
-  scene.friction.law = scene::FrictionLaw::stribeck;
-  scene.friction.curve = scene::StribeckCurve{1.5, 200.0};
+  scene.friction.law = scene::laws::Stribeck{1.5, 200.0};
   const double speed = 2.0 * scene.sliding.profile.front().velocity_m_per_s;
   EXPECT_NEAR(window_ratio(scene),
               friction::stribeck_friction_ratio(0.5, 15.0 * speed, 2000.0 * speed * speed * speed),
@@ -111,7 +108,7 @@ scene::Scene free_mass(scene::Waveform waveform, double first_m_per_s, double sl
   scene::Scene scene = table_1();
   scene.plant.stiffness_N_per_m = 0.0;
   scene.plant.initial_velocity_m_per_s = first_m_per_s;
-  scene.friction.law = scene::FrictionLaw::coulomb;
+  scene.friction.law = scene::laws::Coulomb{};
   scene.friction.coefficient = 1e-6;
   scene.sliding.profile = {{0.0, sliding_m_per_s}};
   scene.drive->waveform = waveform;

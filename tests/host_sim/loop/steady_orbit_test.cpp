@@ -76,7 +76,7 @@ TEST(FindSteadyOrbitTest, IsWhereStiffAndStickingContactsSettle) {
   scene.friction.normal_force_N = 2000.0;
   scene.friction.contact_stiffness_N_per_m = 1e9;
   EXPECT_NEAR(friction_ratio_of_steady_orbit(scene), friction_ratio_after(scene, 300), 1e-6);
-  scene.friction.law = scene::FrictionLaw::coulomb;
+  scene.friction.law = scene::laws::Coulomb{};
   scene.friction.normal_force_N = 3500.0;
   EXPECT_NEAR(friction_ratio_of_steady_orbit(scene), friction_ratio_after(scene, 300), 1e-6);
 }

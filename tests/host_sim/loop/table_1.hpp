@@ -28,7 +28,7 @@ inline scene::Scene table_1(double force_N = 384.0) {
   scene::Scene scene;
   scene.plant.mass_kg = 0.02;
   scene.plant.stiffness_N_per_m = 133e6;
-  scene.friction.law = scene::FrictionLaw::dahl;
+  scene.friction.law = scene::laws::Dahl{};
   scene.friction.coefficient = 0.1;
   scene.friction.normal_force_N = 0.02 * 9.81;
   scene.friction.contact_stiffness_N_per_m = 0.056e6;

@@ -73,11 +73,13 @@ TEST(RandomScene, MeetsEverySpecialCaseOften) {
   expect_share(all, 0.05, 0.2, [](auto& s) { return !s.drive; });
   expect_share(all, 0.05, 0.2,
                [](auto& s) { return s.drive && s.drive->force_amplitude_N == 0.0; });
-  expect_share(all, 0.05, 0.2, [](auto& s) { return s.friction.law == scene::FrictionLaw::none; });
+  expect_share(all, 0.05, 0.2,
+               [](auto& s) { return scene::is<scene::laws::None>(s.friction.law); });
   expect_share(all, 0.2, 0.4,
-               [](auto& s) { return s.friction.law == scene::FrictionLaw::coulomb; });
+               [](auto& s) { return scene::is<scene::laws::Coulomb>(s.friction.law); });
   expect_share(all, 0.05, 0.15, [](auto& s) {
-    return s.friction.law != scene::FrictionLaw::none && scene::friction_limit_N(s.friction) == 0.0;
+    return !scene::is<scene::laws::None>(s.friction.law) &&
+           scene::friction_limit_N(s.friction) == 0.0;
   });
   expect_share(all, 0.15, 0.3, [](auto& s) {
     return s.friction.sign_convention == scene::SignConvention::as_printed;

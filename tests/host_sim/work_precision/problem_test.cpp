@@ -13,7 +13,7 @@ namespace {
 scene::Scene table_1() {
   scene::Scene scene;
   scene.plant = {0.02, 133e6, 0.0, 0.0, 0.0};
-  scene.friction.law = scene::FrictionLaw::dahl;
+  scene.friction.law = scene::laws::Dahl{};
   scene.friction.coefficient = 0.1;
   scene.friction.normal_force_N = 0.1962;
   scene.friction.contact_stiffness_N_per_m = 0.056e6;
@@ -71,7 +71,7 @@ TEST(ProblemTest, RefusesByName) {
   EXPECT_EQ(refused_key(no_drive), "drive");
 
   scene::Scene coulomb = table_1();
-  coulomb.friction.law = scene::FrictionLaw::coulomb;
+  coulomb.friction.law = scene::laws::Coulomb{};
   EXPECT_EQ(refused_key(coulomb), "friction.law");
 
   scene::Scene no_friction = table_1();

@@ -1,0 +1,106 @@
+/// The friction laws that a scene chooses among: the one place that lists them.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+#include <variant>
+
+#include "host_sim/scene/contact.hpp"
+#include "host_sim/scene/laws/coulomb.hpp"
+#include "host_sim/scene/laws/dahl.hpp"
+#include "host_sim/scene/laws/lugre.hpp"
+#include "host_sim/scene/laws/none.hpp"
+#include "host_sim/scene/laws/stribeck.hpp"
+
+namespace sonoglide::scene {
+
+/// A law with its own parameters; what a law offers is listed at laws::None. Messages name them in
+/// this order.
+using FrictionLaw =
+    std::variant<laws::Dahl, laws::LuGre, laws::Coulomb, laws::Stribeck, laws::None>;
+
+inline constexpr std::size_t law_count = std::variant_size_v<FrictionLaw>;
+
+template <std::size_t Index>
+using LawAt = std::variant_alternative_t<Index, FrictionLaw>;
+
+namespace detail {
+
+template <std::size_t... Index>
+constexpr std::array<FrictionLaw, law_count> every_law(std::index_sequence<Index...> /*all*/) {
+  return {LawAt<Index>{}...};
+}
+
+}  // namespace detail
+
+/// Each law once, its own parameters as if absent.
+inline constexpr std::array<FrictionLaw, law_count> every_law =
+    detail::every_law(std::make_index_sequence<law_count>{});
+
+constexpr std::string_view name_of(const FrictionLaw& law) {
+  return std::visit([](const auto& any) { return any.name; }, law);
+}
+
+/// law_count where there is no such law.
+constexpr std::size_t law_index(std::string_view name) {
+  std::size_t index = 0;
+  while (index < law_count && name_of(every_law[index]) != name) {
+    ++index;
+  }
+  return index;
+}
+
+template <class Law>
+constexpr bool is(const FrictionLaw& law) {
+  return std::holds_alternative<Law>(law);
+}
+
+/// Whether the contact yields like a spring before it slides: it has a contact stiffness, and may
+/// begin under a force.
+constexpr bool is_elastic(const FrictionLaw& law) {
+  return std::visit([](const auto& any) { return any.elastic; }, law);
+}
+
+/// The closed-form map that a controller is fed forward by.
+constexpr FrictionMap friction_map(const FrictionLaw& law) {
+  return std::visit([](const auto& any) { return any.map; }, law);
+}
+
+/// Whether that map is the law's own.
+constexpr bool has_own_map(const FrictionLaw& law) {
+  return std::visit([](const auto& any) { return any.map_is_own; }, law);
+}
+
+/// Its part of the random scenes that solvers are tried on.
+constexpr int random_percent(const FrictionLaw& law) {
+  return std::visit([](const auto& any) { return any.random_percent; }, law);
+}
+
+/// What remembers more than the friction force, in the plural; empty where nothing does.
+constexpr std::string_view memory_of(const FrictionLaw& law) {
+  return std::visit(
+      [](const auto& any) -> std::string_view {
+        if constexpr (std::decay_t<decltype(any)>::template Core<double>::remembers) {
+          return any.memory;
+        }
+        return {};
+      },
+      law);
+}
+
+/// What is wrong where the contact's memory passes the law's bound.
+constexpr std::string_view broken_bound(const FrictionLaw& law) {
+  return std::visit(
+      [](const auto& any) -> std::string_view {
+        if constexpr (std::decay_t<decltype(any)>::template Core<double>::remembers) {
+          return any.bound_broken;
+        }
+        return "|F| > Fc";
+      },
+      law);
+}
+
+}  // namespace sonoglide::scene

@@ -1,0 +1,50 @@
+/// LuGre friction in a scene.
+#pragma once
+
+#include <string_view>
+
+#include "firmware/friction/lugre.hpp"
+#include "host_sim/scene/contact.hpp"
+#include "host_sim/scene/scales.hpp"
+
+namespace sonoglide::scene::laws {
+
+/// What friction::LuGre has beyond the Dahl law. What the other members mean is listed at
+/// laws::None.
+struct LuGre {
+  static constexpr std::string_view name = "lugre";
+  template <class Scalar>
+  using Core = friction::LuGre<Scalar>;
+  static constexpr bool elastic = true;
+  static constexpr FrictionMap map = FrictionMap::dahl;
+  static constexpr bool map_is_own = false;
+  static constexpr int random_percent = 0;
+  static constexpr std::string_view memory = "bristles";
+  static constexpr std::string_view bound_broken = "the bristles' force > Fs";
+
+  double static_coefficient = 0.0;
+  double stribeck_velocity_m_per_s = 0.0;
+  double bristle_damping_N_s_per_m = 0.0;
+  double viscous_friction_N_s_per_m = 0.0;
+
+  template <class Keys>
+  void visit_keys(Keys& keys, const Contact& contact) {
+    keys.required("static_coefficient", static_coefficient, {contact.coefficient, 100.0});
+    keys.required("stribeck_velocity_m_per_s", stribeck_velocity_m_per_s, {1e-9, 1e6, "m/s"});
+    keys.optional("bristle_damping_N_s_per_m", bristle_damping_N_s_per_m, {0.0, 1e12, "N s/m"});
+    keys.optional("viscous_friction_N_s_per_m", viscous_friction_N_s_per_m, {0.0, 1e12, "N s/m"});
+  }
+
+  template <class Scalar>
+  Core<Scalar> core(const Contact& contact, const PlantScales& scales) const {
+    const double force_per_velocity = scales.velocity_m_per_s() / scales.friction_N;
+    return {static_cast<Scalar>(contact.contact_stiffness_N_per_m * scales.length_m /
+                                scales.friction_N),
+            static_cast<Scalar>(static_coefficient / contact.coefficient),
+            static_cast<Scalar>(stribeck_velocity_m_per_s / scales.velocity_m_per_s()),
+            static_cast<Scalar>(bristle_damping_N_s_per_m * force_per_velocity),
+            static_cast<Scalar>(viscous_friction_N_s_per_m * force_per_velocity)};
+  }
+};
+
+}  // namespace sonoglide::scene::laws

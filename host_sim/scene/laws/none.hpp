@@ -1,0 +1,42 @@
+/// A scene without friction, and the list of what every friction law tells the workstation program.
+#pragma once
+
+#include <string_view>
+
+#include "firmware/friction/none.hpp"
+#include "host_sim/scene/contact.hpp"
+
+namespace sonoglide::scene::laws {
+
+/// No friction. A law, named as its file is, has its own parameters in SI units, the unit in the
+/// name, and beside them:
+///   name             its word: friction.law = "..."
+///   Core<Scalar>     the law of the core
+///   elastic          it yields like a spring before it slides: it takes contact_stiffness_N_per_m
+///                    and initial_force_N, and its force is part of the state
+///   map              the closed-form map that a controller is fed forward by
+///   map_is_own       that map is this law's; else a report says that feedback makes up the rest
+///   random_percent   its part of the random scenes of `sonoglide stability`, which draw no keys of
+///                    its own; all add up to 100
+///   visit_keys(keys, contact)  its own keys of [friction], in order: for each
+///     keys.required(key, parameter, range) or
+///     keys.optional(key, parameter, range), which leaves the parameter as it is where absent, and
+///     keys.refuse(key, parameter, finding, least, rest) where the others make it too small
+///   core<Scalar>(contact, scales)  the law of the core in dimensionless numbers; there is friction
+/// A law of the core that remembers more than its force also has
+///   memory           what remembers, in the plural
+///   bound_broken     what is wrong where that passes its bound
+struct None {
+  static constexpr std::string_view name = "none";
+  template <class Scalar>
+  using Core = friction::None<Scalar>;
+  static constexpr bool elastic = false;
+  static constexpr FrictionMap map = FrictionMap::coulomb;
+  static constexpr bool map_is_own = true;
+  static constexpr int random_percent = 10;
+
+  template <class Keys>
+  void visit_keys(Keys& /*keys*/, const Contact& /*contact*/) {}
+};
+
+}  // namespace sonoglide::scene::laws
