@@ -93,8 +93,7 @@ inline constexpr ListedSolver<plant::Model<Law, Damping, plant::StraightDrive<St
          make_composed_plant<
              plant::EventTaylor<plant::Model<Law, Damping, plant::StraightDrive<Straight>>, 16>>},
         {scene::SolverMethod::rk4, 0,
-         make_composed_plant<
-             plant::Rk4<plant::Model<Law, Damping, plant::StraightDrive<Straight>>>>},
+         maker_if_solved<plant::Rk4, plant::Model<Law, Damping, plant::StraightDrive<Straight>>>()},
 };
 
 /// The order that the scene asks for, or the one that takes the least time at its tolerance.

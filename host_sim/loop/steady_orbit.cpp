@@ -41,6 +41,7 @@ class PeriodMap {
                            sliding_m_per_s(scene) / rate_rad_per_s_)),
         friction_N_(scene::friction_limit_N(scene.friction)),
         size_(remembers_friction(scene) ? 3 : 2),
+        vibrates_normally_(scene::vibration_of(scene.friction.law) == friction::Vibration::normal),
         period_{1.0 / scene.drive->frequency_Hz,
                 0.0,
                 rate_rad_per_s_,
@@ -57,6 +58,15 @@ class PeriodMap {
       return std::nullopt;
     }
     return scaled(plant_->state());
+  }
+
+  /// The nearest state that the contact can be in; under a normal force that vibrates the contact
+  /// finds it itself.
+  Vector possible(Vector state) const {
+    if (state.size() > friction_component && !vibrates_normally_) {
+      state[friction_component] = std::clamp(state[friction_component], -1.0, 1.0);
+    }
+    return state;
   }
 
   /// Where the last call has led.
@@ -84,17 +94,10 @@ class PeriodMap {
   double length_m_;  ///< of the vibration, or of one that reverses the contact where that is larger
   double friction_N_;
   int size_;
+  bool vibrates_normally_;
   Stretch period_;
   std::uint64_t periods_ = 0;
 };
-
-/// The nearest state that the contact can be in.
-Vector possible(Vector state) {
-  if (state.size() > friction_component) {
-    state[friction_component] = std::clamp(state[friction_component], -1.0, 1.0);
-  }
-  return state;
-}
 
 /// At least 1.
 double size_of_motion(const Vector& state) {
@@ -110,8 +113,8 @@ std::optional<Matrix> derivative(PeriodMap& map, const Vector& at, double differ
     Vector high = at;
     low[i] -= part;
     high[i] += part;
-    low = possible(low);
-    high = possible(high);
+    low = map.possible(low);
+    high = map.possible(high);
     const auto after_low = map(low);
     const auto after_high = map(high);
     if (!after_low || !after_high) {
@@ -160,7 +163,7 @@ class Shooting {
       }
       const Vector correction = drift.solve(residual);
       if (correction.norm() <= accuracy_ * size_of_motion(at_)) {
-        return possible(at_ + correction);
+        return map_.possible(at_ + correction);
       }
       after = step(correction, residual.norm());
     }
@@ -176,7 +179,7 @@ class Shooting {
   /// where it passes a reversal. Hands on where the period leads then.
   std::optional<Vector> step(const Vector& correction, double gap) {
     for (const double part : {1.0, 0.5, 0.25, 0.125, 0.0625, 0.03125}) {
-      const Vector trial = possible(at_ + part * correction);
+      const Vector trial = map_.possible(at_ + part * correction);
       auto after = map_(trial);
       if (after && (*after - trial).norm() < gap) {
         at_ = trial;
