@@ -35,8 +35,8 @@ struct Coulomb {
    public:
     Arc(const Coulomb& /*law*/, Scalar direction, Scalar /*friction*/) : direction_(direction) {}
 
-    template <std::size_t N, class Coefficients>
-    Scalar coefficient(const Coefficients& /*travel*/, const Coefficients& /*earlier*/) const {
+    template <std::size_t N, class Travel, class Coefficients>
+    Scalar coefficient(const Travel& /*travel*/, const Coefficients& /*earlier*/) const {
       return N == 0 ? direction_ : Scalar(0);
     }
     Scalar friction_after(Scalar /*displacement*/) const { return direction_; }

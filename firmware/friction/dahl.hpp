@@ -55,8 +55,8 @@ struct Dahl {
           decay_(-law.contact_stiffness * direction),
           gap_(friction - direction) {}
 
-    template <std::size_t N, class Coefficients>
-    Scalar coefficient(const Coefficients& travel, const Coefficients& earlier) const {
+    template <std::size_t N, class Travel, class Coefficients>
+    Scalar coefficient(const Travel& travel, const Coefficients& earlier) const {
       if constexpr (N == 0) {
         return friction_;
       } else {

@@ -55,6 +55,24 @@ struct Iwan {
   Scalar series_unit(Scalar /*velocity*/, const Memory& /*forces*/, Scalar longest) const {
     return longest;
   }
+  Memory largest_memory() const {
+    Memory limits{};
+    for (std::size_t i = 0; i < elements; ++i) {
+      limits[i] = slip_limit(i);
+    }
+    return limits;
+  }
+  /// Equal springs share a first load, as far as their sliders let them.
+  Memory memory_at(Scalar friction) const {
+    Memory forces{};
+    Scalar left = friction;
+    for (std::size_t i = 0; i < elements; ++i) {
+      const Scalar limit = slip_limit(i);
+      forces[i] = numeric::clamp(left / static_cast<Scalar>(elements - i), -limit, limit);
+      left -= forces[i];
+    }
+    return forces;
+  }
   Scalar element_stiffness() const { return contact_stiffness / static_cast<Scalar>(elements); }
   /// q_i, i from 0.
   Scalar slip_limit(std::size_t i) const {
@@ -78,8 +96,8 @@ struct Iwan {
       }
     }
 
-    template <std::size_t N, class Coefficients>
-    Scalar coefficient(const Coefficients& travel, const Coefficients& /*earlier*/) const {
+    template <std::size_t N, class Travel, class Coefficients>
+    Scalar coefficient(const Travel& travel, const Coefficients& /*earlier*/) const {
       if constexpr (N == 0) {
         return law_.friction(direction_, forces_);
       } else {

@@ -54,7 +54,8 @@ struct LuGre {
   Scalar rate(Scalar velocity, Memory bristles) const {
     return contact_stiffness * bending(velocity, bristles);
   }
-  Scalar largest_memory() const { return static_friction; }
+  Memory largest_memory() const { return static_friction; }
+  Memory memory_at(Scalar friction) const { return friction; }
   Scalar series_unit(Scalar velocity, Memory /*bristles*/, Scalar longest) const {
     const Scalar moderate = Scalar(16);
     const Scalar rate = contact_stiffness * numeric::abs(velocity);

@@ -38,6 +38,7 @@ namespace sonoglide::friction {
 /// A law that remembers has a Memory, which takes the place of phi as an argument of friction, rate
 /// and series_unit and is what rate gives the derivative of. It also offers:
 ///   largest_memory()     no motion takes |Memory| beyond it
+///   memory_at(phi)       the Memory of a contact that has been loaded to phi for the first time
 ///   Series<Order>::memory(x)  the Memory at x; where rate independent,
 ///   Arc::memory_after(du)     the Memory after the displacement du
 /// A law that vibrates across the sliding takes for V a Slip, along and across, and has
@@ -46,8 +47,8 @@ namespace sonoglide::friction {
 ///                        has friction_along(n), the n-th coefficient of phi
 /// A law that vibrates normally to the surface has a pressure and a limit of |phi| in terms of the
 /// displacement y, and a spring in front of its slider: friction::NormalCoulomb.
-/// Another law that has corners is rate independent and remembers; no rate or largest_memory is
-/// asked of it. It also offers:
+/// Another law that has corners is rate independent and remembers; no rate is asked of it. It also
+/// offers:
 ///   Arc::to_corner()     the displacement, along the direction, to the first of them, or infinity
 template <class Number>
 struct None {
@@ -69,8 +70,8 @@ struct None {
   struct Arc {
     Arc(const None& /*law*/, Scalar /*direction*/, Scalar /*friction*/) {}
 
-    template <std::size_t N, class Coefficients>
-    Scalar coefficient(const Coefficients& /*travel*/, const Coefficients& /*earlier*/) const {
+    template <std::size_t N, class Travel, class Coefficients>
+    Scalar coefficient(const Travel& /*travel*/, const Coefficients& /*earlier*/) const {
       return Scalar(0);
     }
     Scalar friction_after(Scalar /*displacement*/) const { return Scalar(0); }

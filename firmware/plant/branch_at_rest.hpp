@@ -53,9 +53,7 @@ class BranchAtRest {
   using Arc = typename SlidingLaw<typename Model::FrictionLaw, Order>::Type;
 
   Scalar noise(Scalar drive, const State<Scalar>& state) const {
-    return instant_.relative_error * (drive + numeric::abs(model_.damping_force(state.velocity)) +
-                                      numeric::abs(model_.stiffness * state.displacement) +
-                                      numeric::abs(model_.contact_force(state.friction)));
+    return instant_.relative_error * model_.force_moduli(drive, state);
   }
 
   Branch<Scalar> stick_or_slip(Scalar acceleration, Scalar error, Scalar released) const {

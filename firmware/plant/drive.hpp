@@ -65,10 +65,11 @@ struct CosineDrive {
     Series(const Phasor<Scalar>& phasor, Scalar unit) {
       coefficients_[0] = phasor.in_phase;
       coefficients_[1] = -phasor.quadrature * unit;
-      const Scalar unit_squared = unit * unit;
+      const Scalar minus_square = -(unit * unit);
       for (std::size_t n = 2; n <= Order; ++n) {
-        coefficients_[n] = -coefficients_[n - 2] * unit_squared *
-                           (reciprocal<Scalar>(n) * reciprocal<Scalar>(n - 1));
+        // The phase enters late: it waits for one product each.
+        coefficients_[n] = coefficients_[n - 2] *
+                           (minus_square * (reciprocal<Scalar>(n) * reciprocal<Scalar>(n - 1)));
       }
     }
     Scalar operator[](std::size_t n) const { return coefficients_[n]; }

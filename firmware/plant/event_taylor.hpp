@@ -25,12 +25,14 @@ namespace sonoglide::plant {
 
 /// Taylor method of fixed order whose steps end at the reversals of the sliding velocity.
 ///
-/// Inside a step sgn V is constant and the motion analytic. The step is the longest, up to 3 rad,
-/// whose last two terms stay below what the tolerance allows: those of V, and more loosely those of
-/// phi, whose mean is taken from the displacement where its series does not give it. The first root
-/// of V is found with certainty; the step ends there, V is set to zero and the contact slides on,
-/// turns or sticks. Friction that does not depend on the speed follows from the displacement
-/// exactly, so that |phi| <= 1 for any step.
+/// Inside a step sgn V is constant and the motion analytic: of the force the powers up to Order are
+/// taken in, and so of V, its integral, one more. The step is the longest, up to 3 rad, whose last
+/// two terms stay below what the tolerance allows: those of V, and more loosely those of phi, whose
+/// mean is taken from the displacement where its series does not give it. The first root of V is
+/// found with certainty; the step ends there, V is set to zero and the contact slides on, turns or
+/// sticks. Friction that does not depend on the speed follows from the displacement exactly, so
+/// that |phi|
+/// <= 1 for any step.
 ///
 /// Quickest at tolerances above 1e-5 is order 8, down to 1e-8 order 12, below that 16, from 1e-11
 /// on 20; float has no use for more than 8.
@@ -96,13 +98,18 @@ class EventTaylor {
                          std::conditional_t<Law::rate_independent, SlidingFriction<Model, Series>,
                                             RatedFriction<Series, Arc>>>;
 
+  /// Of V. Friction that follows from the displacement matters by the force alone, whose terms go
+  /// into V one power higher; any other is as good as its own series.
+  static constexpr std::size_t last_power = Law::rate_independent ? Order + 1 : Order;
+  static constexpr int degree = static_cast<int>(last_power);
+
   struct Position {
     Scalar offset;
     Scalar released;  ///< direction in which a stick has just ended, else 0
   };
 
   /// The last term that a step takes in is about so many times the first one that it leaves out.
-  static constexpr Scalar last_term_per_error = Scalar(8);
+  static constexpr Scalar last_term_per_error = Scalar(4);
   /// Friction follows from the displacement, on which its last terms act by the force alone.
   static constexpr Scalar least_weight = numeric::from_real<Scalar>(1e-3);
   static constexpr Scalar most_weight = numeric::from_real<Scalar>(0.125);
@@ -117,11 +124,11 @@ class EventTaylor {
   /// What a vibration of unit amplitude allows, with something to spare; 3 rad at most.
   Scalar usual_step() const {
     Scalar product = allowed_;
-    for (std::size_t n = 2; n <= Order; ++n) {
+    for (std::size_t n = 2; n <= last_power; ++n) {
       product *= static_cast<Scalar>(n);
     }
-    return numeric::min(longest_step, numeric::from_real<Scalar>(0.85) *
-                                          quick_root<static_cast<int>(Order)>(product));
+    return numeric::min(longest_step,
+                        numeric::from_real<Scalar>(0.85) * quick_root<degree>(product));
   }
 
   /// Where the previous interval ended at V = 0, V is zero here but for rounding.
@@ -302,7 +309,7 @@ class EventTaylor {
   Scalar within_reach(const Series& series, Scalar extent) const {
     if constexpr (!Law::rate_independent) {
       Scalar change = Scalar(0);
-      for (std::size_t n = Order; n > 0; --n) {
+      for (std::size_t n = series.travel.size() - 1; n > 0; --n) {
         change = extent * (change + numeric::abs(series.travel[n]));
       }
       if constexpr (is_across) {
@@ -323,28 +330,40 @@ class EventTaylor {
   }
 
   Scalar extent_at(Scalar speed, const Series& series, Scalar remaining) const {
-    return step_extent(last_term(series, Order, speed), last_term(series, Order - 1, speed), speed,
-                       series, remaining);
+    return step_extent(last_term(series, 0, speed), last_term(series, 1, speed), speed, series,
+                       remaining);
   }
 
   /// What the error of the velocity is measured against: the velocity scale, or where that is
-  /// smaller, but not without end, the vibration itself on the way to x.
-  static Scalar speed(const Series& series, Scalar x) {
-    constexpr Scalar slowest = numeric::from_real<Scalar>(1e-12);
+  /// smaller the vibration itself on the way to x, but not without end.
+  Scalar speed(const Series& series, Scalar x) const {
+    constexpr Scalar slow = numeric::from_real<Scalar>(1e-12);
     const Scalar change =
         x * (numeric::abs(series.vibration[1]) + x * numeric::abs(series.travel[2]));
-    return numeric::clamp(numeric::abs(series.velocity) + numeric::abs(series.rate) * change,
-                          slowest, Scalar(1));
+    const Scalar fastest = numeric::abs(series.velocity) + numeric::abs(series.rate) * change;
+    return fastest < slow ? numeric::max(fastest, numeric::min(slow, slowest(series, x)))
+                          : numeric::min(fastest, Scalar(1));
   }
 
-  /// The n-th terms of V and phi, as much as they matter.
-  Scalar last_term(const Series& series, std::size_t n, Scalar speed) const {
+  /// The vibration below which the rounding of the forces, on the way to x, is more than is
+  /// allowed. Out of line: it is rare.
+  [[gnu::noinline]] Scalar slowest(const Series& series, Scalar x) const {
+    using Limits = std::numeric_limits<Scalar>;
+    const Scalar forces =
+        model_.force_moduli(numeric::abs(series.drive[0]) + numeric::abs(series.drive[1]),
+                            {series.displacement, series.velocity, series.friction[0]});
+    return numeric::max(Limits::epsilon() * (x * series.unit) * forces / allowed_,
+                        Limits::min() / Limits::epsilon());
+  }
+
+  /// The last terms of V and phi but `before`, as much as they matter.
+  Scalar last_term(const Series& series, std::size_t before, Scalar speed) const {
     // What depends on the speed follows from the series alone.
     const Scalar weight = Law::rate_independent ? numeric::clamp(model_.contact_force(Scalar(1)),
                                                                  least_weight, most_weight)
                                                 : most_weight;
-    return numeric::max(numeric::abs(series.rate * series.travel[n]),
-                        speed * weight * numeric::abs(series.friction[n]));
+    return numeric::max(numeric::abs(series.rate * series.travel[last_power - before]),
+                        speed * weight * numeric::abs(series.friction[Order - before]));
   }
 
   /// The extent of the step, cut at the first reversal.
@@ -419,22 +438,10 @@ class EventTaylor {
                         numeric::min(longest_step_ / series.unit, remaining));
   }
 
-  /// The extent, within 7 %, at which terms of the two highest orders reach what is allowed.
-  [[gnu::noinline]] static Scalar reach(Scalar last, Scalar last_but_one, Scalar allowed) {
-    constexpr int degree = static_cast<int>(Order);
-    return numeric::min(root_of_quotient<degree>(allowed, last),
-                        root_of_quotient<degree - 1>(allowed, last_but_one));
-  }
-
-  /// (allowed / term)^(1/Degree). Terms near the largest number leave a quotient without digits:
-  /// the step is then taken shorter than any such would make it.
-  template <int Degree>
-  static Scalar root_of_quotient(Scalar allowed, Scalar term) {
-    constexpr Scalar smallest = std::numeric_limits<Scalar>::min();
-    const Scalar quotient = allowed / numeric::max(term, smallest);
-    return quotient >= smallest
-               ? quick_root<Degree>(quotient)
-               : numeric::from_real<Scalar>(1.0 / 128.0) * quick_root<Degree>(smallest);
+  /// The extent, within 8 %, at which terms of the two highest orders reach what is allowed.
+  static Scalar reach(Scalar last, Scalar last_but_one, Scalar allowed) {
+    return numeric::min(quick_root_of_quotient<degree>(allowed, last),
+                        quick_root_of_quotient<degree - 1>(allowed, last_but_one));
   }
 
   template <class Friction, class Account, class Observer>

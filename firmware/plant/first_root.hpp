@@ -60,8 +60,7 @@ struct RootSearch {
 template <class Scalar, std::size_t Count>
 RootSearch<Scalar, Count> of_moderate_size(const std::array<Scalar, Count>& p, Scalar end) {
   using Limits = std::numeric_limits<Scalar>;
-  const Scalar root_of_min = numeric::sqrt(Limits::min());
-  const Scalar small = root_of_min / Limits::epsilon();
+  const Scalar small = numeric::sqrt(Limits::min()) / Limits::epsilon();
   Scalar largest = Limits::min();
   for (const Scalar coefficient : p) {
     largest = numeric::max(largest, numeric::abs(coefficient));
@@ -69,14 +68,15 @@ RootSearch<Scalar, Count> of_moderate_size(const std::array<Scalar, Count>& p, S
   if (p[0] >= small && largest <= Scalar(1) / small) {
     return {p, end, Scalar(1)};
   }
-  // Half of the range for the small ones among p, half for the powers of a small end.
-  RootSearch<Scalar, Count> search = {{}, Scalar(1), end};
-  Scalar power = Scalar(1) / root_of_min;
+  // One factor at a time: the powers of a short end would vanish, and so would p[0] over a term
+  // that only the end makes small.
+  RootSearch<Scalar, Count> search = {p, Scalar(1), end};
   Scalar largest_term = Limits::min();
   for (std::size_t n = 0; n < Count; ++n) {
-    search.polynomial[n] = p[n] / largest * power;
+    for (std::size_t factor = 0; factor < n; ++factor) {
+      search.polynomial[n] *= end;
+    }
     largest_term = numeric::max(largest_term, numeric::abs(search.polynomial[n]));
-    power *= end;
   }
   for (Scalar& term : search.polynomial) {
     term /= largest_term;

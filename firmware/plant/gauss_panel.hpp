@@ -75,6 +75,7 @@ class GaussPanel {
   static constexpr Scalar longest_length = numeric::from_real<Scalar>(1.25);
   static constexpr Scalar short_length = numeric::from_real<Scalar>(0.25);
   static constexpr Scalar longest_exponent = Scalar(6);
+  static constexpr Scalar slowest = numeric::from_real<Scalar>(1.0 / 512.0);  ///< of h |y'|
 
   template <class Number>
   Number slid_over(Number time) const {
@@ -190,8 +191,9 @@ class GaussPanel {
   }
 
   /// Where the oscillator hardly moves beside its own displacement or the sliding, the rounding of
-  /// those is an error of its motion; and where it stores little beside what the sliding spends,
-  /// that of phi is an error of its energy.
+  /// those is an error of its motion; where it stores little beside what the sliding spends, that
+  /// of phi is an error of its energy; and where it is slow beside its own scale, what the limits
+  /// leave is an error of either.
   [[gnu::always_inline]] bool moves_enough(const Motions& motions,
                                            const PanelLimits<Scalar>& limits) const {
     Scalar offset = numeric::abs(sliding_[0]) + numeric::twice(numeric::abs(sliding_[1]));
@@ -204,8 +206,8 @@ class GaussPanel {
     if constexpr (Motions::is_driven) {
       rate += numeric::abs(share_[2]) + numeric::abs(share_[3]);
     }
-    return offset * numeric::max(rate, numeric::abs(contact_.force)) <=
-           limits.largest_offset * (rate * rate);
+    return rate >= slowest && offset * numeric::max(rate, numeric::abs(contact_.force)) <=
+                                  limits.largest_offset * (rate * rate);
   }
 
   /// Everything that does not depend on friction.

@@ -1,6 +1,7 @@
 /// The oscillator with its friction contact, composed of types.
 #pragma once
 
+#include "firmware/numeric/scalar.hpp"
 #include "firmware/plant/contact.hpp"
 #include "firmware/plant/state.hpp"
 
@@ -26,6 +27,13 @@ struct Model : Contact<Law>, Damping {
   Scalar acceleration(Scalar drive, const State<Scalar>& state) const {
     return drive - this->damping_force(state.velocity) - stiffness * state.displacement -
            this->contact_force(state.friction);
+  }
+
+  /// The moduli of its terms, summed: what their rounding is relative to.
+  Scalar force_moduli(Scalar drive, const State<Scalar>& state) const {
+    return drive + numeric::abs(this->damping_force(state.velocity)) +
+           numeric::abs(stiffness * state.displacement) +
+           numeric::abs(this->contact_force(state.friction));
   }
 
   /// Kinetic energy and that of the spring, (v^2 + k y^2) / 2.

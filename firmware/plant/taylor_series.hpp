@@ -24,7 +24,8 @@ struct Instant {
   StateOf<typename Model::FrictionLaw> state;
 };
 
-/// Taylor coefficients in x = (tau - tau0) / unit, up to x^Order, seen from the contact.
+/// Taylor coefficients in x = (tau - tau0) / unit, seen from the contact: of the force up to
+/// x^Order, and so of the velocity up to one power more.
 ///
 /// Travel u = integral of V: du/dx = unit (r + sigma v). The vibration's share of it obeys
 ///   w' = sigma unit^2 (a cos - k y - beta phi) - d unit w,   w = sigma unit v,
@@ -35,6 +36,7 @@ struct TaylorSeries {
   using Scalar = typename Model::Scalar;
   static constexpr std::size_t order = Order;
   using Coefficients = std::array<Scalar, Order + 1>;
+  using Motion = std::array<Scalar, Order + 2>;
   using DriveSeries = typename Model::Drive::template Series<Scalar, Order>;
 
   Scalar unit;
@@ -45,8 +47,8 @@ struct TaylorSeries {
   Scalar displacement;                     ///< y at x = 0
   Scalar velocity;                         ///< v there
   std::array<Scalar, 2> vibration;         ///< w; beyond x^1 it is travel
-  Coefficients travel;                     ///< du/dx
-  Coefficients shift;                      ///< w / (n + 1): of the displacement, x apart
+  Motion travel;                           ///< du/dx
+  Motion shift;                            ///< w / (n + 1): of the displacement, x apart
   Coefficients friction;                   ///< phi
 
   TaylorSeries(const Model& model, const Instant<Model>& instant, Scalar series_unit)
@@ -64,7 +66,7 @@ struct TaylorSeries {
   /// The contact slides along an arc of its friction law.
   template <class Arc>
   [[gnu::always_inline]] void slide(const Model& model, Arc& arc) {
-    slide(model, arc, std::make_index_sequence<Order>());
+    slide(model, arc, std::make_index_sequence<Order + 1>());
   }
 
   /// The contact holds, V = 0, by whatever friction that takes.
@@ -104,12 +106,12 @@ struct TaylorSeries {
   /// u(x) - u(0). The sliding and the vibration are added before they are multiplied: they may
   /// cancel.
   Scalar travelled(Scalar x) const {
-    return x * (travel[0] + x * (numeric::half(travel[1]) + x * evaluate_from<2>(shift, x)));
+    return x * ((travel[0] + x * numeric::half(travel[1])) + (x * x) * evaluate_from<2>(shift, x));
   }
 
   /// False if a coefficient has overflowed.
   bool is_finite() const {
-    return numeric::is_finite(travel[Order]) && numeric::is_finite(friction[Order]);
+    return numeric::is_finite(travel[Order + 1]) && numeric::is_finite(friction[Order]);
   }
 
   Scalar motion(std::size_t n) const { return n < 2 ? vibration[n] : travel[n]; }
@@ -120,9 +122,8 @@ struct TaylorSeries {
   [[gnu::always_inline]] void slide(const Model& model, Arc& arc,
                                     std::index_sequence<Terms...> /*terms*/) {
     (add_term<Terms>(model, arc), ...);
-    friction[Order] = friction_coefficient<Order>(arc);
-    shift[Order - 1] = reciprocal<Scalar>(Order) * travel[Order - 1];
     shift[Order] = reciprocal<Scalar>(Order + 1) * travel[Order];
+    shift[Order + 1] = reciprocal<Scalar>(Order + 2) * travel[Order + 1];
   }
 
   template <std::size_t N, class Arc>
@@ -140,19 +141,20 @@ struct TaylorSeries {
   template <std::size_t N, class Arc>
   [[gnu::always_inline]] void add_term(const Model& model, Arc& arc) {
     friction[N] = friction_coefficient<N>(arc);
-    const Scalar factor = unit * reciprocal<Scalar>(N + 1);
-    const Scalar force_factor = side * unit * factor;
+    const Scalar square = unit * unit;
+    const Scalar force_factor = side * square;
     Scalar spring = force_factor * model.stiffness * displacement;
     if constexpr (N > 0) {
       shift[N - 1] = reciprocal<Scalar>(N) * motion(N - 1);
-      spring = (unit * factor * model.stiffness) * shift[N - 1];
+      spring = (square * model.stiffness) * shift[N - 1];
     }
     const Scalar free =
-        drive.term(N, force_factor) - spring - model.damping_force(factor * motion(N));
-    // Friction, the newest, enters last.
-    Scalar next = free;
+        drive.term(N, force_factor) - spring - model.damping_force(unit * motion(N));
+    // Friction, the newest, enters last, and by one product.
+    const Scalar integrated = reciprocal<Scalar>(N + 1);
+    Scalar next = integrated * free;
     if constexpr (N == 0 || Model::FrictionLaw::varies) {
-      next -= model.contact_force(force_factor) * friction[N];
+      next -= (integrated * model.contact_force(force_factor)) * friction[N];
     }
     if constexpr (N == 0) {
       vibration[1] = next;

@@ -33,9 +33,10 @@ void compute(const PaperOptions& options) {
 CLI::App* add_paper_command(CLI::App& program, PaperOptions& options) {
   CLI::App* command = program.add_subcommand(
       "paper", "The figures and the energy balance of Bharadwaj and Dapino (2013), checked");
-  add_output_option(*command, options.out,
-                    "index.html, balance.csv, table_1.toml and of each figure figure_NN.csv and "
-                    ".svg [paper]");
+  add_output_option(
+      *command, options.out,
+      "index.html, balance.csv, table_1.toml, table_2.toml, of each figure figure_NN.csv "
+      "and .svg, of figure 12 measurements.csv and scenes [paper]");
   command->add_option("--figure", options.figure, "This figure alone")
       ->check(CLI::IsMember(figure_numbers()));
   command->add_flag("--quiet", options.quiet, "No progress bar and no printed summary");

@@ -7,10 +7,11 @@
 
 namespace sonoglide::cli {
 
-scene::SceneError placed(const scene::ConfigurationError& error, const std::string& path) {
+scene::SceneError placed(const scene::ConfigurationError& error, const std::string& path,
+                         const std::vector<std::string>& overrides) {
   std::ifstream file(path, std::ios::binary);
   const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-  return {scene::Document(text, path, {}).place_of(error.key()), error.key(), error.what()};
+  return {scene::Document(text, path, overrides).place_of(error.key()), error.key(), error.what()};
 }
 
 }  // namespace sonoglide::cli

@@ -8,6 +8,7 @@
 
 #include "host_sim/cli/arithmetic_command.hpp"
 #include "host_sim/cli/configure_command.hpp"
+#include "host_sim/cli/design_command.hpp"
 #include "host_sim/cli/exit_code.hpp"
 #include "host_sim/cli/paper_command.hpp"
 #include "host_sim/cli/pil_command.hpp"
@@ -43,6 +44,7 @@ void parse_and_run(int argument_count, const char* const* arguments) {
   WorkPrecisionOptions work_precision_options;
   StabilityOptions stability_options;
   ArithmeticOptions arithmetic_options;
+  DesignOptions design_options;
   add_run_command(program, run_options)->callback([&] { run(run_options); });
   add_pil_command(program, pil_options)->callback([&] { pil(pil_options); });
   add_configure_command(program, configure_options)->callback([&] {
@@ -60,6 +62,7 @@ void parse_and_run(int argument_count, const char* const* arguments) {
   add_arithmetic_command(program, arithmetic_options)->callback([&] {
     arithmetic(arithmetic_options);
   });
+  add_design_command(program, design_options)->callback([&] { design(design_options); });
   try {
     program.parse(argument_count, arguments);
     if (program.get_subcommands().empty()) {

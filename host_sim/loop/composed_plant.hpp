@@ -10,6 +10,7 @@
 #include "firmware/plant/observer.hpp"
 #include "firmware/plant/outcome.hpp"
 #include "firmware/plant/state.hpp"
+#include "host_sim/loop/contact_memory.hpp"
 #include "host_sim/loop/drive_piece.hpp"
 #include "host_sim/loop/plant_port.hpp"
 #include "host_sim/scene/plant_scales.hpp"
@@ -56,7 +57,10 @@ class ComposedPlant final : public PlantPort {
   ComposedPlant(const scene::PlantScales& scales, const Model& model, const Solver& solver,
                 const plant::State<double>& initial)
       : scales_(scales), model_(model), solver_(solver) {
-    set_state(initial);
+    static_cast<plant::State<double>&>(state_) = initial;
+    if constexpr (Model::FrictionLaw::remembers) {
+      state_.memory = model.law.memory_at(initial.friction);
+    }
   }
 
   plant::Outcome<double> advance(const Stretch& stretch, EnergyBalance& energy) override {
@@ -78,22 +82,18 @@ class ComposedPlant final : public PlantPort {
     return outcome;
   }
 
-  void begin_at(const PlantState& state) override {
-    set_state({state.displacement_m / scales_.length_m,
-               state.velocity_m_per_s / scales_.velocity_m_per_s(),
-               scales_.friction_N > 0.0 ? state.friction_force_N / scales_.friction_N : 0.0});
+  void begin_at(const PlantState& state, const std::vector<double>& memory) override {
+    state_.displacement = state.displacement_m / scales_.length_m;
+    state_.velocity = state.velocity_m_per_s / scales_.velocity_m_per_s();
+    state_.friction = scales_.friction_N > 0.0 ? state.friction_force_N / scales_.friction_N : 0.0;
+    remember(model_.law, memory, state_);
   }
+  std::vector<double> memory() const override { return remembered(model_.law, state_); }
 
   PlantState state() const override { return in_si_units(state_); }
   plant::Cost cost() const override { return solver_.cost(); }
 
  private:
-  /// The contact's memory begins at the force.
-  void set_state(const plant::State<double>& state) {
-    static_cast<plant::State<double>&>(state_) = state;
-    plant::contact_memory(state_) = state.friction;
-  }
-
   template <class Observer>
   plant::Outcome<double> advance(const Stretch& stretch, Observer& observer,
                                  EnergyBalance& energy) {

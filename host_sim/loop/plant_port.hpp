@@ -43,8 +43,12 @@ class PlantPort {
                                                  EnergyBalance& energy,
                                                  std::vector<PlantState>& seen) = 0;
 
-  /// Puts the plant into a state; |F| at most Fc.
-  virtual void begin_at(const PlantState& state) = 0;
+  /// What the contact remembers of its past: numbers in [-1, 1], parts of the most that each can
+  /// be. Empty where the velocity alone sets the force.
+  virtual std::vector<double> memory() const = 0;
+
+  /// Puts the plant into a state; of a contact that remembers, the memory sets the force.
+  virtual void begin_at(const PlantState& state, const std::vector<double>& memory) = 0;
 
   virtual PlantState state() const = 0;
   virtual plant::Cost cost() const = 0;

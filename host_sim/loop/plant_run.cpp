@@ -23,7 +23,7 @@ PlantRun::PlantRun(const scene::Scene& scene, const CarrierGrid& grid, const Wat
   std::sort(cuts_s_.begin(), cuts_s_.end());
   if (scene.run.start == scene::Start::steady) {
     result.steady_orbit = find_steady_orbit(scene);
-    plant_->begin_at(result.steady_orbit->state);
+    plant_->begin_at(result.steady_orbit->state, result.steady_orbit->memory);
   }
 }
 

@@ -9,6 +9,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "firmware/numeric/turn.hpp"
 #include "host_sim/loop/computation_error.hpp"
@@ -17,18 +18,33 @@
 namespace sonoglide::loop {
 namespace {
 
-/// A state in multiples of the motion's scales; friction is left out where it has no memory.
-using Vector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 3, 1>;
-using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 3, 3>;
+/// A state in multiples of the motion's scales: displacement, velocity, and what the contact
+/// remembers.
+using Vector = Eigen::VectorXd;
+using Matrix = Eigen::MatrixXd;
 
-constexpr int friction_component = 2;
-
-bool remembers_friction(const scene::Scene& scene) {
-  return scene::is_elastic(scene::acting_law(scene.friction));
-}
+constexpr int motion_components = 2;
 
 double sliding_m_per_s(const scene::Scene& scene) {
   return std::abs(scene.sliding.profile.front().velocity_m_per_s);
+}
+
+/// One carrier period from drive phase 0, in pieces over which the drive is smooth.
+std::vector<Stretch> period_of(const scene::Scene& scene) {
+  const scene::Drive& drive = *scene.drive;
+  Stretch whole;
+  whole.duration_s = 1.0 / drive.frequency_Hz;
+  whole.drive_rate_rad_per_s = numeric::two_pi * drive.frequency_Hz;
+  whole.drive_amplitude_N = drive.force_amplitude_N;
+  whole.sliding_velocity_m_per_s = scene.sliding.profile.front().velocity_m_per_s;
+  whole.drive_waveform = drive.waveform;
+  if (drive.waveform == scene::Waveform::cosine || drive.waveform == scene::Waveform::sawtooth) {
+    return {whole};
+  }
+  whole.duration_s *= 0.5;
+  Stretch second = whole;
+  second.drive_phase_rad = 0.5 * numeric::two_pi;
+  return {whole, second};
 }
 
 /// The plant over one carrier period after another, from any state at drive phase 0.
@@ -39,82 +55,81 @@ class PeriodMap {
         rate_rad_per_s_(numeric::two_pi * scene.drive->frequency_Hz),
         length_m_(std::max(scene::plant_scales(scene).length_m,
                            sliding_m_per_s(scene) / rate_rad_per_s_)),
-        friction_N_(scene::friction_limit_N(scene.friction)),
-        size_(remembers_friction(scene) ? 3 : 2),
-        vibrates_normally_(scene::vibration_of(scene.friction.law) == friction::Vibration::normal),
-        period_{1.0 / scene.drive->frequency_Hz,
-                0.0,
-                rate_rad_per_s_,
-                scene.drive->force_amplitude_N,
-                scene.sliding.profile.front().velocity_m_per_s,
-                0.0} {}
+        period_(period_of(scene)) {}
 
   /// Nothing where the solver fails.
   std::optional<Vector> operator()(const Vector& from) {
-    plant_->begin_at(in_si_units(from));
-    EnergyBalance energy;
+    plant_->begin_at(motion(from), memory(from));
     ++periods_;
-    if (plant_->advance(period_, energy).error != plant::Error::none) {
-      return std::nullopt;
+    for (const Stretch& stretch : period_) {
+      EnergyBalance energy;
+      if (plant_->advance(stretch, energy).error != plant::Error::none) {
+        return std::nullopt;
+      }
     }
-    return scaled(plant_->state());
-  }
-
-  /// The nearest state that the contact can be in; under a normal force that vibrates the contact
-  /// finds it itself.
-  Vector possible(Vector state) const {
-    if (state.size() > friction_component && !vibrates_normally_) {
-      state[friction_component] = std::clamp(state[friction_component], -1.0, 1.0);
-    }
-    return state;
+    return state();
   }
 
   /// Where the last call has led.
-  PlantState state() const { return plant_->state(); }
+  Vector state() const { return scaled(plant_->state(), plant_->memory()); }
+  PlantState plant_state() const { return plant_->state(); }
+  std::vector<double> plant_memory() const { return plant_->memory(); }
   std::uint64_t periods() const { return periods_; }
 
-  Vector scaled(const PlantState& state) const {
-    Vector vector(size_);
-    vector[0] = state.displacement_m / length_m_;
-    vector[1] = state.velocity_m_per_s / (length_m_ * rate_rad_per_s_);
-    if (size_ > friction_component) {
-      vector[friction_component] = state.friction_force_N / friction_N_;
-    }
-    return vector;
+  /// @param load  0: the contact remembers nothing of its past; 1: it has slid on to its limits
+  Vector loaded(double displacement_m, double velocity_m_per_s, double load) const {
+    return scaled(
+        {displacement_m, velocity_m_per_s, 0.0},
+        std::vector<double>(plant_->memory().size(),
+                            std::copysign(load, period_.front().sliding_velocity_m_per_s)));
   }
 
  private:
-  PlantState in_si_units(const Vector& vector) const {
-    return {vector[0] * length_m_, vector[1] * length_m_ * rate_rad_per_s_,
-            size_ > friction_component ? vector[friction_component] * friction_N_ : 0.0};
+  Vector scaled(const PlantState& state, const std::vector<double>& memory) const {
+    Vector vector(motion_components + static_cast<int>(memory.size()));
+    vector[0] = state.displacement_m / length_m_;
+    vector[1] = state.velocity_m_per_s / (length_m_ * rate_rad_per_s_);
+    std::copy(memory.begin(), memory.end(), vector.begin() + motion_components);
+    return vector;
+  }
+  PlantState motion(const Vector& vector) const {
+    return {vector[0] * length_m_, vector[1] * length_m_ * rate_rad_per_s_, 0.0};
+  }
+  static std::vector<double> memory(const Vector& vector) {
+    return {vector.begin() + motion_components, vector.end()};
   }
 
   std::unique_ptr<PlantPort> plant_;
   double rate_rad_per_s_;
   double length_m_;  ///< of the vibration, or of one that reverses the contact where that is larger
-  double friction_N_;
-  int size_;
-  bool vibrates_normally_;
-  Stretch period_;
+  std::vector<Stretch> period_;
   std::uint64_t periods_ = 0;
 };
+
+/// The nearest state that the contact can be in.
+Vector possible(Vector state) {
+  for (int i = motion_components; i < state.size(); ++i) {
+    state[i] = std::clamp(state[i], -1.0, 1.0);
+  }
+  return state;
+}
 
 /// At least 1.
 double size_of_motion(const Vector& state) {
   return std::max(1.0, std::hypot(state[0], state[1]));
 }
 
-/// dP/dz by central differences, one-sided where friction is at its limit.
+/// dP/dz by central differences, one-sided where the contact is at a limit.
 std::optional<Matrix> derivative(PeriodMap& map, const Vector& at, double difference) {
   Matrix result(at.size(), at.size());
   for (int i = 0; i < at.size(); ++i) {
-    const double part = i == friction_component ? difference : difference * size_of_motion(at);
+    const double part = i < motion_components ? difference * size_of_motion(at) : difference;
     Vector low = at;
     Vector high = at;
     low[i] -= part;
     high[i] += part;
-    low = map.possible(low);
-    high = map.possible(high);
+    low = possible(low);
+    high = possible(high);
     const auto after_low = map(low);
     const auto after_high = map(high);
     if (!after_low || !after_high) {
@@ -127,16 +142,16 @@ std::optional<Matrix> derivative(PeriodMap& map, const Vector& at, double differ
 
 /// Displacement and velocity of the steady vibration without a contact; at rest where that has
 /// none.
-PlantState vibration_without_contact(const scene::Scene& scene) {
+Vector vibration_without_contact(const PeriodMap& map, const scene::Scene& scene, double load) {
   const double omega = numeric::two_pi * scene.drive->frequency_Hz;
   const std::complex<double> dynamic_stiffness(
       scene.plant.stiffness_N_per_m - scene.plant.mass_kg * omega * omega,
       scene.plant.damping_N_s_per_m * omega);
   if (!(std::abs(dynamic_stiffness) > 0.0)) {
-    return {0.0, 0.0, 0.0};
+    return map.loaded(0.0, 0.0, load);
   }
   const std::complex<double> amplitude_m = scene.drive->force_amplitude_N / dynamic_stiffness;
-  return {amplitude_m.real(), -omega * amplitude_m.imag(), 0.0};
+  return map.loaded(amplitude_m.real(), -omega * amplitude_m.imag(), load);
 }
 
 class Shooting {
@@ -163,7 +178,7 @@ class Shooting {
       }
       const Vector correction = drift.solve(residual);
       if (correction.norm() <= accuracy_ * size_of_motion(at_)) {
-        return map_.possible(at_ + correction);
+        return possible(at_ + correction);
       }
       after = step(correction, residual.norm());
     }
@@ -179,7 +194,7 @@ class Shooting {
   /// where it passes a reversal. Hands on where the period leads then.
   std::optional<Vector> step(const Vector& correction, double gap) {
     for (const double part : {1.0, 0.5, 0.25, 0.125, 0.0625, 0.03125}) {
-      const Vector trial = map_.possible(at_ + part * correction);
+      const Vector trial = possible(at_ + part * correction);
       auto after = map_(trial);
       if (after && (*after - trial).norm() < gap) {
         at_ = trial;
@@ -195,19 +210,19 @@ class Shooting {
   Vector at_;
 };
 
-/// From the vibration without a contact, then from one that reverses the contact in step with the
-/// drive, as at resonance; where both lead nowhere, from later and later states of the motion out
+/// From the vibration without a contact; from the same, the contact having slid on to its limits,
+/// as a stuck one has in the end; from one that reverses the contact in step with the drive, as at
+/// resonance; where none leads anywhere, from later and later states of the motion out
 /// of the scene's initial state.
 std::optional<Vector> closed_orbit(PeriodMap& map, Shooting& shooting, const scene::Scene& scene) {
-  for (const PlantState& start :
-       {vibration_without_contact(scene), PlantState{0.0, 2.0 * sliding_m_per_s(scene), 0.0}}) {
-    if (auto orbit = shooting(map.scaled(start))) {
+  std::optional<Vector> passing = map.state();
+  for (const Vector& start :
+       {vibration_without_contact(map, scene, 0.0), vibration_without_contact(map, scene, 1.0),
+        map.loaded(0.0, 2.0 * sliding_m_per_s(scene), 0.0)}) {
+    if (auto orbit = shooting(start)) {
       return orbit;
     }
   }
-  std::optional<Vector> passing =
-      map.scaled({scene.plant.initial_displacement_m, scene.plant.initial_velocity_m_per_s,
-                  scene.friction.initial_force_N});
   for (const int wait_periods : {30, 300}) {
     for (int i = 0; passing && i < wait_periods; ++i) {
       passing = map(*passing);
@@ -239,19 +254,19 @@ SteadyOrbit find_steady_orbit(const scene::Scene& scene) {
     fail(fmt::format("none of the drive's period found in {} carrier periods; the drive may put in "
                      "more than friction and damping take out",
                      map.periods()),
-         map.state());
+         map.plant_state());
   }
   const auto slope = derivative(map, *orbit, shooting.difference());
   if (!slope || !map(*orbit)) {
-    fail("found, but the solver fails beside it", map.state());
+    fail("found, but the solver fails beside it", map.plant_state());
   }
   const double multiplier = slope->eigenvalues().cwiseAbs().maxCoeff();
   if (multiplier > 1.0 + largest_rounding) {
     fail(fmt::format("it repels, a deviation grows by a factor of {:.9g} in each carrier period",
                      multiplier),
-         map.state());
+         map.plant_state());
   }
-  return {map.state(), multiplier, map.periods()};
+  return {map.plant_state(), map.plant_memory(), multiplier, map.periods()};
 }
 
 }  // namespace sonoglide::loop

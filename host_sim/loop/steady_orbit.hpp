@@ -2,15 +2,18 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "host_sim/loop/plant_port.hpp"
 #include "host_sim/scene/scene.hpp"
 
 namespace sonoglide::loop {
 
-/// The periodic orbit z = P(z), where P takes the state z = (x, x', F) over one carrier period.
+/// The periodic orbit z = P(z), where P takes the state z, which is x, x' and what the contact
+/// remembers, over one carrier period.
 struct SteadyOrbit {
-  PlantState state;  ///< at drive phase 0
+  PlantState state;            ///< at drive phase 0
+  std::vector<double> memory;  ///< of the contact there: see PlantPort::memory
   /// Largest modulus of an eigenvalue of dP/dz: what is left of a small deviation after a carrier
   /// period. At most 1 + largest_rounding: an orbit that repels is not one that a plant settles on.
   /// 1 where nothing damps the natural mode, as where the contact never reverses: the motion from

@@ -11,24 +11,40 @@
 namespace sonoglide::paper {
 namespace {
 
-constexpr int chart_width_px = 560;
-constexpr int chart_height_px = 430;
-constexpr const char* colours[] = {"#1f5fa8", "#d62728", "#1b9e5a", "#b8570f", "#7a3fa0"};
+// Two in a row fill a printed page of 178 mm: letters of 13 px are then 7.5 points high.
+constexpr int chart_width_px = 440;
+constexpr int chart_height_px = 350;
+// One alone stands on three quarters of that width.
+constexpr int single_width_px = 660;
+constexpr int single_height_px = 480;
 
-const char* colour(const Curve& curve) {
-  return colours[static_cast<std::size_t>(curve.colour) % std::size(colours)];
+struct Look {
+  const char* colour;
+  int symbol;  ///< of gnuplot
+};
+
+constexpr Look looks[] = {{"#000000", 7}, {"#1f5fa8", 4},  {"#d62728", 8},
+                          {"#1b9e5a", 6}, {"#b8570f", 10}, {"#7a3fa0", 12}};
+
+const Look& look(const Curve& curve) {
+  return looks[static_cast<std::size_t>(curve.colour) % std::size(looks)];
 }
 
-const char* style(Line line) {
-  switch (line) {
+std::string style(const Curve& curve) {
+  const int symbol = look(curve).symbol;
+  switch (curve.line) {
     case Line::solid:
-      return "with lines lw 2.2";
+      return "with lines lw 2";
+    case Line::marked:
+      return fmt::format("with linespoints pt {} pi 4 ps 0.7 lw 1.6", symbol);
     case Line::dashed:
-      return "with lines dt 2 lw 2";
+      return "with lines dt 2 lw 1.6";
     case Line::points:
+      return fmt::format("with points pt {} ps 0.6 lw 1.3", symbol);
+    case Line::area:
       break;
   }
-  return "with points pt 6 ps 0.6 lw 1.5";
+  return "with filledcurves closed fs transparent solid 0.3 noborder";
 }
 
 /// A block of data; a blank line is a gap.
@@ -44,6 +60,10 @@ std::string data(const Curve& curve, std::size_t index) {
   return text + "EOD\n";
 }
 
+std::string source(const Curve& curve, std::size_t index) {
+  return curve.y.empty() ? "keyentry" : fmt::format("$c{} using 1:2", index);
+}
+
 std::string key_entry(const Curve& curve) {
   return curve.label.empty() ? "notitle" : fmt::format("title \"{}\"", curve.label);
 }
@@ -52,11 +72,31 @@ std::string marks(const Chart& chart) {
   std::string text = "unset label\n";
   for (const Mark& mark : chart.marks) {
     text += fmt::format(
-        "set label \"{}\" at {:.9g},{:.9g} offset 0,0.5 rotate by 90 font ',10' point pt 7 ps "
+        "set label \"{}\" at {:.9g},{:.9g} offset 0,0.5 rotate by 90 font ',11' point pt 7 ps "
         "0.3\n",
         mark.text, mark.x, mark.y);
   }
   return text;
+}
+
+std::string key_place(Key key) {
+  const char* place = "tmargin center horizontal";
+  switch (key) {
+    case Key::none:
+      return "unset key\n";
+    case Key::lower_right:
+      place = "inside bottom right vertical";
+      break;
+    case Key::upper_right:
+      place = "inside top right vertical";
+      break;
+    case Key::upper_left:
+      place = "inside top left vertical";
+      break;
+    case Key::above:
+      break;
+  }
+  return fmt::format("set key {} Left reverse samplen 2.5\n", place);
 }
 
 std::string script(const Chart& chart) {
@@ -64,7 +104,7 @@ std::string script(const Chart& chart) {
   for (std::size_t i = 0; i < chart.curves.size(); ++i) {
     text += data(chart.curves[i], i);
   }
-  text += marks(chart);
+  text += marks(chart) + key_place(chart.key);
   text += fmt::format("set title \"{}\"\nset xlabel \"{}\"\nset ylabel \"{}\"\nunset logscale\n",
                       chart.title, chart.x_label, chart.y_label);
   text +=
@@ -74,9 +114,9 @@ std::string script(const Chart& chart) {
               : "set yrange [*:*]\n";
   const char* separator = "plot ";
   for (std::size_t i = 0; i < chart.curves.size(); ++i) {
-    text +=
-        fmt::format("{}$c{} using 1:2 {} lc rgb '{}' {}", separator, i, style(chart.curves[i].line),
-                    colour(chart.curves[i]), key_entry(chart.curves[i]));
+    const Curve& curve = chart.curves[i];
+    text += fmt::format("{}{} {} lc rgb '{}' {}", separator, source(curve, i), style(curve),
+                        look(curve).colour, key_entry(curve));
     separator = ", ";
   }
   return text + '\n';
@@ -84,18 +124,29 @@ std::string script(const Chart& chart) {
 
 }  // namespace
 
-std::string draw(const std::vector<Chart>& charts, int columns) {
+std::vector<double> scaled(std::vector<double> values, double factor) {
+  for (double& value : values) {
+    value *= factor;
+  }
+  return values;
+}
+
+std::string draw(const std::vector<Chart>& charts) {
+  const int columns = charts.size() == 1 ? 1 : 2;
   const int rows = (static_cast<int>(charts.size()) + columns - 1) / columns;
   std::string text = fmt::format(
       "set multiplot layout {},{}\nset autoscale xfixmax\nset grid lc rgb '#d8d8d8'\nset tics out "
       "nomirror\n"
-      "set key tmargin center horizontal samplen 2.5\nset rmargin 3\n",
+      "set rmargin 3\n"
+      "set offsets graph 0, graph 0, graph 0.04, graph 0\n",
       rows, columns);
   for (const Chart& chart : charts) {
     text += script(chart);
   }
-  return plot::draw_svg(text + "unset multiplot\n", columns * chart_width_px,
-                        rows * chart_height_px);
+  text += "unset multiplot\n";
+  return charts.size() == 1
+             ? plot::draw_svg(text, single_width_px, single_height_px)
+             : plot::draw_svg(text, columns * chart_width_px, rows * chart_height_px);
 }
 
 }  // namespace sonoglide::paper

@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "host_sim/report/page.hpp"
+
 namespace sonoglide::paper {
 
 enum class Verdict { holds, does_not_hold, depends };
@@ -15,6 +17,12 @@ struct Claim {
   std::string numbers;
 };
 
+/// Beside the figure's own CSV and SVG.
+struct File {
+  std::string name;
+  std::string text;
+};
+
 struct Figure {
   int number;
   std::string title;
@@ -23,6 +31,8 @@ struct Figure {
   std::string csv;
   std::string svg;
   std::vector<Claim> claims;
+  std::vector<report::Table> tables = {};
+  std::vector<File> files = {};
 };
 
 inline Verdict verdict(bool holds) {

@@ -52,21 +52,33 @@ std::string csv(const Laws& laws) {
                  {"coulomb_steady", laws.simulated_coulomb.friction_steady},
                  {"dahl_closed_form", laws.dahl},
                  {"dahl_from_rest", laws.simulated_dahl.friction_from_rest},
-                 {"dahl_steady", laws.simulated_dahl.friction_steady}});
+                 {"dahl_steady", laws.simulated_dahl.friction_steady},
+                 {"coulomb_dissipation_steady", laws.simulated_coulomb.dissipation_steady},
+                 {"dahl_dissipation_steady", laws.simulated_dahl.dissipation_steady}});
 }
 
 std::string svg(const Laws& laws) {
   const std::vector<double>& x = velocity_ratios();
-  return draw({{"Friction ratio at 384 N",
-                "V_t / peak vibration velocity [-]",
-                "friction ratio [-]",
-                {{"Coulomb", x, laws.coulomb, 0},
-                 {"", x, laws.simulated_coulomb.friction_steady, 0, Line::points},
-                 {"", x, laws.simulated_coulomb.friction_from_rest, 0, Line::dashed},
-                 {"Dahl", x, laws.dahl, 1},
-                 {"", x, laws.simulated_dahl.friction_steady, 1, Line::points},
-                 {"", x, laws.simulated_dahl.friction_from_rest, 1, Line::dashed}}}},
-              1);
+  const double dahl = dahl_number(table_1());
+  const double furthest = x.back();
+  return draw(
+      {{"Friction ratio at 384 N",
+        "V_t / peak vibration velocity [-]",
+        "friction ratio [-]",
+        {line_of(friction::coulomb_friction_ratio<double>, furthest, 1),
+         {"", x, laws.simulated_coulomb.friction_steady, 1, Line::points},
+         {"", x, laws.simulated_coulomb.friction_from_rest, 1, Line::dashed},
+         line_of([dahl](double ratio) { return friction::dahl_friction_ratio(ratio, dahl); },
+                 furthest, 2),
+         {"", x, laws.simulated_dahl.friction_steady, 2, Line::points},
+         {"", x, laws.simulated_dahl.friction_from_rest, 2, Line::dashed},
+         {"Coulomb", {}, {}, 1, Line::marked},
+         {"Dahl", {}, {}, 2, Line::marked},
+         {"from rest", {}, {}, black, Line::dashed}},
+        {},
+        Span{0.0, 1.05},
+        false,
+        Key::lower_right}});
 }
 
 std::vector<Claim> claims(const Laws& laws) {
@@ -109,7 +121,7 @@ Figure figure_2() {
   return {
       2,
       "Coulomb and Dahl friction under vibration",
-      "Table 1 at 384 N. Lines: closed forms; circles: the plant on its steady orbit, mean over "
+      "Table 1 at 384 N. Lines: closed forms; symbols: the plant on its steady orbit, mean over "
       "one carrier period; dashed: from rest, mean over the first 100 carrier periods.",
       "sonoglide sweep table_1.toml --vary velocity_ratio=0.05:1.2:24 --set run.start=steady",
       csv(laws),

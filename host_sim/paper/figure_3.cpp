@@ -33,6 +33,17 @@ double largest_jump(const std::vector<double>& values) {
   return largest;
 }
 
+/// On one scale for both laws.
+Chart over_time(const char* title, const std::vector<double>& time_s,
+                const std::vector<double>& force_N, int colour) {
+  return {title,
+          "time [µs]",
+          "friction force [mN]",
+          {{"", scaled(time_s, 1e6), scaled(force_N, 1e3), colour}},
+          {},
+          Span{-22.0, 22.0}};
+}
+
 }  // namespace
 
 Figure figure_3() {
@@ -52,8 +63,8 @@ Figure figure_3() {
       to_csv({{"time_s", dahl.time_s},
               {"coulomb_friction_force_N", pulses_N},
               {"dahl_friction_force_N", wave_N}}),
-      draw({{"(a) Coulomb", "time [s]", "friction force [N]", {{"", coulomb.time_s, pulses_N, 0}}},
-            {"(b) Dahl", "time [s]", "friction force [N]", {{"", dahl.time_s, wave_N, 1}}}}),
+      draw({over_time("(a) Coulomb", coulomb.time_s, pulses_N, 1),
+            over_time("(b) Dahl", dahl.time_s, wave_N, 2)}),
       {{"With the Coulomb law the force is discontinuous, a train of pulses.",
         verdict(pulse_jump > 1.9),
         fmt::format("It jumps by {:.3f} of its limit from one sample to the next.", pulse_jump)},

@@ -125,18 +125,9 @@ std::vector<Mark> marks(const Lines& lines, bool in_decibels) {
   return marks;
 }
 
-std::vector<double> kilohertz(const std::vector<double>& hertz) {
-  std::vector<double> values;
-  values.reserve(hertz.size());
-  for (const double each : hertz) {
-    values.push_back(1e-3 * each);
-  }
-  return values;
-}
-
 std::vector<Chart> charts(const char* letter, const char* quantity, const char* unit,
                           const Lines& lines, int colour) {
-  const std::vector<double> x = kilohertz(lines.spectrum.frequency_Hz);
+  const std::vector<double> x = scaled(lines.spectrum.frequency_Hz, 1e-3);
   const std::vector<double> levels = decibels(lines.spectrum.amplitude);
   return {{fmt::format("({}) {}, linear", letter, quantity),
            "frequency [kHz]",
@@ -193,8 +184,8 @@ Figure figure_6() {
   const Lines steady_velocity =
       lines(velocities_m_per_s(record(scene, 0.0, interval_s)), interval_s, scene);
 
-  std::vector<Chart> all = charts("a", "Velocity", "m/s", velocity, 0);
-  for (Chart& chart : charts("b", "Friction force", "N", force, 1)) {
+  std::vector<Chart> all = charts("a", "Velocity", "m/s", velocity, 1);
+  for (Chart& chart : charts("b", "Friction force", "N", force, 2)) {
     all.push_back(std::move(chart));
   }
   return {

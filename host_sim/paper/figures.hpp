@@ -18,6 +18,7 @@ Figure figure_8();   ///< of the coefficient of friction
 Figure figure_9();   ///< of the mass
 Figure figure_10();  ///< of the contact stiffness
 Figure figure_11();  ///< of the system stiffness
+Figure figure_12();  ///< the laws against each other and against published measurements
 
 struct NumberedFigure {
   int number;

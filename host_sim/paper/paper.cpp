@@ -35,13 +35,17 @@ void write_paper(const std::filesystem::path& out, std::optional<int> figure,
   for (const Figure& each : figures) {
     folder.write(fmt::format("figure_{:02}.csv", each.number), each.csv);
     folder.write(fmt::format("figure_{:02}.svg", each.number), each.svg);
+    for (const File& file : each.files) {
+      folder.write(file.name, file.text);
+    }
   }
   Findings findings;
   if (!figure) {
     findings = {faults(), balances()};
     folder.write("balance.csv", balance_csv(findings.balances));
   }
-  folder.write("table_1.toml", table_1_text);
+  folder.write("table_1.toml", table_1_text());
+  folder.write("table_2.toml", table_2_text());
   folder.write("index.html", report::to_html(paper_page(figures, findings)));
   folder.commit();
 }

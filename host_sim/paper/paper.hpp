@@ -9,8 +9,9 @@ namespace sonoglide::paper {
 
 using Progress = std::function<void(double fraction)>;
 
-/// Writes figure_NN.csv, figure_NN.svg, balance.csv, table_1.toml and index.html; of one figure
-/// alone its own two files, the scene and the page.
+/// Writes of each figure figure_NN.csv, figure_NN.svg and whatever else it has, balance.csv,
+/// table_1.toml, table_2.toml and index.html; of one figure alone its own files, the two scenes and
+/// the page.
 /// @param figure  one of figure_list(); absent: all of them, and the balance
 /// @throws report::OutputError, process::ProcessError, loop::ComputationError; nothing is written
 /// then

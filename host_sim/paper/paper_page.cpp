@@ -30,6 +30,7 @@ report::Section section(const Figure& figure) {
   section.title = fmt::format("Figure {}: {}", figure.number, figure.title);
   section.text = fmt::format("{} To compute it again: {}", figure.conditions, figure.command);
   section.tables = {claim_table(figure)};
+  section.tables.insert(section.tables.end(), figure.tables.begin(), figure.tables.end());
   section.pictures = {
       {fmt::format("figure_{0:02}.svg, data in figure_{0:02}.csv", figure.number), "", figure.svg}};
   return section;

@@ -22,6 +22,7 @@ constexpr const char* windows =
 constexpr const char* friction_label = "friction ratio [-]";
 constexpr const char* dissipation_label = "power dissipation ratio [-]";
 constexpr const char* velocity_label = "V_t / peak vibration velocity [-]";
+constexpr Span friction_span = {0.0, 1.05};
 
 struct Variation {
   std::string label;  ///< for the key
@@ -60,19 +61,28 @@ std::vector<Column> columns(const std::vector<Variation>& variations) {
 Chart chart(const char* title, const char* y_label, const std::vector<Variation>& variations,
             std::vector<double> RatioCurve::*steady, std::vector<double> RatioCurve::*from_rest) {
   Chart chart{title, velocity_label, y_label, {}};
-  int colour = 0;
+  int colour = black;
   for (const Variation& each : variations) {
-    chart.curves.push_back({each.label, velocity_ratios(), each.curve.*steady, colour});
-    chart.curves.push_back({"", velocity_ratios(), each.curve.*from_rest, colour++, Line::dashed});
+    ++colour;
+    chart.curves.push_back(
+        {each.label, velocity_ratios(), each.curve.*steady, colour, Line::marked});
+    chart.curves.push_back({"", velocity_ratios(), each.curve.*from_rest, colour, Line::dashed});
   }
+  chart.curves.push_back({"from rest", {}, {}, black, Line::dashed});
   return chart;
 }
 
-std::vector<Chart> charts(const std::vector<Variation>& variations, const std::string& with = "") {
-  return {chart(("(a) Friction ratio" + with).c_str(), friction_label, variations,
-                &RatioCurve::friction_steady, &RatioCurve::friction_from_rest),
-          chart(("(b) Power dissipation ratio" + with).c_str(), dissipation_label, variations,
-                &RatioCurve::dissipation_steady, &RatioCurve::dissipation_from_rest)};
+std::vector<Chart> charts(const std::vector<Variation>& variations,
+                          const char* friction_title = "(a) Friction ratio",
+                          const char* dissipation_title = "(b) Power dissipation ratio") {
+  Chart friction = chart(friction_title, friction_label, variations, &RatioCurve::friction_steady,
+                         &RatioCurve::friction_from_rest);
+  friction.y_span = friction_span;
+  friction.key = Key::none;
+  Chart dissipation = chart(dissipation_title, dissipation_label, variations,
+                            &RatioCurve::dissipation_steady, &RatioCurve::dissipation_from_rest);
+  dissipation.key = Key::upper_right;
+  return {friction, dissipation};
 }
 
 /// "384 N: 0.6749, 960 N: 0.5727" at one velocity ratio.
@@ -110,7 +120,7 @@ Claim trend(const char* statement, const std::vector<Variation>& variations, dou
 }
 
 std::string conditions(const char* parameters) {
-  return fmt::format("{} {} Solid: steady orbit; dashed: from rest.", parameters, windows);
+  return fmt::format("{} {} With symbols: steady orbit; dashed: from rest.", parameters, windows);
 }
 
 /// The sliding velocity of Table 1 under a stiffness that passes the resonant one.
@@ -164,17 +174,17 @@ std::vector<Claim> claims(const Resonance& resonance) {
 }
 
 std::vector<Chart> charts(const Resonance& resonance) {
-  const char* part_label = "Ks / m ω² [-]";
-  return {{"(c) Friction ratio at V_t = 26.7 mm/s",
+  const char* part_label = "Ks/(m ω²) [-]";
+  return {{"(c) Steady orbit at V_t = 26.7 mm/s",
            part_label,
            friction_label,
-           {{"steady orbit", resonance.parts, resonance.friction, 0, Line::points}}},
-          {"(d) Power dissipation ratio at V_t = 26.7 mm/s",
+           {{"", resonance.parts, resonance.friction, 1, Line::points}}},
+          {"(d) Steady orbit at V_t = 26.7 mm/s",
            part_label,
            dissipation_label,
-           {{"steady orbit", resonance.parts, resonance.dissipation, 0, Line::points}},
+           {{"", resonance.parts, resonance.dissipation, 1, Line::points}},
            {},
-           std::nullopt,
+           Span{0.5, 200.0},
            true}};
 }
 
@@ -282,12 +292,14 @@ Figure figure_9() {
                                                 mass_kg / scene.plant.mass_kg;
                                             scene.plant.mass_kg = mass_kg;
                                           });
+  std::vector<Chart> of_all = charts(all);
+  of_all[1].y_span = Span{0.0, 2.1};  // room for the key
   return {9,
           "Effect of the mass",
           conditions("Table 1 at 384 N, the normal force being the weight."),
           sweep_command("--set plant.mass_kg=0.04"),
           to_csv(columns(all)),
-          draw(charts(all)),
+          draw(of_all),
           {trend("More mass makes the reduction less effective; the curve flattens.", all, 0.5,
                  &RatioCurve::friction_steady, Trend::rising,
                  "At one velocity ratio there is a bound to that, the limit of a soft contact."),
@@ -300,6 +312,10 @@ Figure figure_10() {
       table_1(), {5.6e3, 56e3, 560e3}, "Kt = {:g} N/m", "driven_{:g}_N_per_m",
       [](scene::Scene& scene, double value) { scene.friction.contact_stiffness_N_per_m = value; });
   const std::vector<Variation> undriven = without_excitation(driven);
+  std::vector<Chart> of_undriven = charts(undriven, "(a) Friction ratio, no excitation",
+                                          "(b) Power dissipation ratio, no excitation");
+  of_undriven[1].y_span = friction_span;
+  of_undriven[1].key = Key::lower_right;
   std::vector<Column> of_driven = columns(driven);
   of_driven.erase(of_driven.begin());  // the velocity ratios stand before the others already
   return {10,
@@ -309,7 +325,8 @@ Figure figure_10() {
                      "at 384 N."),
           sweep_command("--set friction.contact_stiffness_N_per_m=560e3"),
           to_csv(joined(columns(undriven), of_driven)),
-          draw(joined(charts(undriven, ", no excitation"), charts(driven, ", 384 N"))),
+          draw(joined(of_undriven, charts(driven, "(c) Friction ratio, 384 N",
+                                          "(d) Power dissipation ratio, 384 N"))),
           claims_on_contact_stiffness(undriven, driven)};
 }
 
@@ -319,8 +336,8 @@ Figure figure_11() {
   const Edit edit = [resonant_N_per_m](scene::Scene& scene, double part) {
     scene.plant.stiffness_N_per_m = part * resonant_N_per_m;
   };
-  const std::vector<Variation> all = vary(table_1(), {0.0468, 0.5, 0.9, 0.99, 1.2},
-                                          "Ks = {:g} m ω²", "stiffness_{:g}_of_resonance", edit);
+  const std::vector<Variation> all = vary(table_1(), {0.0468, 0.5, 0.9, 0.99, 1.2}, "Ks = {:g} mω²",
+                                          "stiffness_{:g}_of_resonance", edit);
   const Resonance resonance = through_resonance(edit);
   return {11,
           "Effect of the system stiffness",

@@ -63,13 +63,20 @@ double part_beside_fundamental(std::vector<double> values) {
   return std::sqrt(std::max(0.0, square - fundamental) / fundamental);
 }
 
-Chart over_time(const char* title, const char* label, const Motions& motions,
+/// What is drawn: not the SI unit, of which these motions are small parts.
+struct Unit {
+  const char* label;
+  double per_si;
+};
+
+Chart over_time(const char* title, const Unit& unit, const Motions& motions,
                 const std::vector<double>& from_rest, const std::vector<double>& on_orbit) {
   return {title,
-          "time [s]",
-          label,
-          {{"from rest", motions.from_rest.time_s, from_rest, 0},
-           {"steady orbit", motions.on_orbit.time_s, on_orbit, 1, Line::dashed}}};
+          "time [µs]",
+          unit.label,
+          {{"from rest", scaled(motions.from_rest.time_s, 1e6), scaled(from_rest, unit.per_si), 1},
+           {"steady orbit", scaled(motions.on_orbit.time_s, 1e6), scaled(on_orbit, unit.per_si), 2,
+            Line::dashed}}};
 }
 
 Claim not_sinusoidal(const char* quantity, const std::vector<double>& from_rest,
@@ -120,9 +127,9 @@ Figure figure_4() {
                   {"velocity_from_rest_m_per_s", velocity},
                   {"displacement_steady_m", steady_displacement},
                   {"velocity_steady_m_per_s", steady_velocity}}),
-          draw({over_time("(a) Displacement", "displacement [m]", motions, displacement,
+          draw({over_time("(a) Displacement", {"displacement [µm]", 1e6}, motions, displacement,
                           steady_displacement),
-                over_time("(b) Velocity", "vibration velocity [m/s]", motions, velocity,
+                over_time("(b) Velocity", {"vibration velocity [mm/s]", 1e3}, motions, velocity,
                           steady_velocity)}),
           {not_sinusoidal("displacement", displacement, steady_displacement),
            not_sinusoidal("velocity", velocity, steady_velocity)}};
@@ -135,19 +142,20 @@ Figure figure_5() {
   const std::vector<double> steady_force = friction_forces_N(motions.on_orbit);
   const std::vector<double> steady_power = dissipated_powers_W(motions.on_orbit);
   const double limit_N = scene::friction_limit_N(table_1().friction);
-  return {
-      5,
-      "Friction force and dissipated power over time",
-      conditions,
-      command,
-      to_csv({{"time_s", motions.from_rest.time_s},
-              {"friction_force_from_rest_N", force},
-              {"dissipated_power_from_rest_W", power},
-              {"friction_force_steady_N", steady_force},
-              {"dissipated_power_steady_W", steady_power}}),
-      draw({over_time("(a) Friction force", "friction force [N]", motions, force, steady_force),
-            over_time("(b) Dissipated power", "F (V_t + x') [W]", motions, power, steady_power)}),
-      {within_limit(force, limit_N), dissipates(steady_power, limit_N)}};
+  return {5,
+          "Friction force and dissipated power over time",
+          conditions,
+          command,
+          to_csv({{"time_s", motions.from_rest.time_s},
+                  {"friction_force_from_rest_N", force},
+                  {"dissipated_power_from_rest_W", power},
+                  {"friction_force_steady_N", steady_force},
+                  {"dissipated_power_steady_W", steady_power}}),
+          draw({over_time("(a) Friction force", {"friction force [mN]", 1e3}, motions, force,
+                          steady_force),
+                over_time("(b) Dissipated power", {"F (V_t + x') [mW]", 1e3}, motions, power,
+                          steady_power)}),
+          {within_limit(force, limit_N), dissipates(steady_power, limit_N)}};
 }
 
 }  // namespace sonoglide::paper

@@ -32,8 +32,7 @@ std::string lead(const scene::Scene& scene, const loop::RunResult& result) {
                         scene::name_of(scene::arithmetics, scene.controller->arithmetic))
           : std::string("Open loop");
   text += fmt::format(". Friction law: {}. Solver: {}. {:.6g} ms simulated in {:.3g} ms.",
-                      scene::name_of(scene.friction.law),
-                      scene::name_of(scene::solver_methods, scene.solver.method),
+                      scene::name_of(scene.friction.law), scene::name_of(scene.solver.method),
                       result.final_time_s * 1e3, result.wall_s * 1e3);
   return text;
 }
@@ -135,7 +134,7 @@ Table run_table(const scene::Scene& scene, const loop::RunResult& result) {
         fmt::format("{:.6f}", result.steady_orbit->multiplier));
   }
   row("Solver steps", fmt::format("{}", result.solver_steps));
-  if (scene.solver.method != scene::SolverMethod::rk4) {
+  if (scene::counts_events(scene.solver.method)) {
     row("Reversals, sticks and releases", fmt::format("{}", result.solver_events));
   }
   row("Simulated time over wall time", fmt::format("{:.3g}", result.final_time_s / result.wall_s));

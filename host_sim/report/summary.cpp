@@ -22,11 +22,6 @@ ordered_json number(const std::optional<double>& value) {
   return value ? number(*value) : ordered_json(nullptr);
 }
 
-/// A fixed-step method passes over events without noticing.
-bool counts_events(const scene::Scene& scene) {
-  return scene.solver.method != scene::SolverMethod::rk4;
-}
-
 ordered_json power(const loop::PowerRatios& window) {
   return {{"dissipation_ratio", number(window.dissipation_ratio)},
           {"drive_input_ratio", number(window.drive_input_ratio)},
@@ -123,10 +118,11 @@ ordered_json summary(const scene::Scene& scene, const loop::RunResult& result,
   const loop::PowerRatios window = loop::power_ratios(scene, result.window);
   ordered_json json;
   json["scene"] = scene::to_json(scene);
-  json["solver"] = {{"method", scene::name_of(scene::solver_methods, scene.solver.method)},
-                    {"steps", result.solver_steps},
-                    {"events", counts_events(scene) ? ordered_json(result.solver_events)
-                                                    : ordered_json(nullptr)}};
+  json["solver"] = {
+      {"method", scene::name_of(scene.solver.method)},
+      {"steps", result.solver_steps},
+      {"events", scene::counts_events(scene.solver.method) ? ordered_json(result.solver_events)
+                                                           : ordered_json(nullptr)}};
   json["run"] = {{"simulated_s", result.final_time_s},
                  {"wall_s", result.wall_s},
                  {"real_time_factor", result.final_time_s / result.wall_s}};

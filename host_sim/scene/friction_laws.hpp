@@ -12,6 +12,7 @@
 #include "host_sim/scene/contact.hpp"
 #include "host_sim/scene/laws/coulomb.hpp"
 #include "host_sim/scene/laws/dahl.hpp"
+#include "host_sim/scene/laws/iwan.hpp"
 #include "host_sim/scene/laws/lugre.hpp"
 #include "host_sim/scene/laws/none.hpp"
 #include "host_sim/scene/laws/normal_coulomb.hpp"
@@ -22,7 +23,7 @@ namespace sonoglide::scene {
 
 /// A law with its own parameters; what a law offers is listed at laws::None. Messages name them in
 /// this order.
-using FrictionLaw = std::variant<laws::Dahl, laws::LuGre, laws::Coulomb, laws::Stribeck,
+using FrictionLaw = std::variant<laws::Dahl, laws::LuGre, laws::Iwan, laws::Coulomb, laws::Stribeck,
                                  laws::TransverseCoulomb, laws::NormalCoulomb, laws::None>;
 
 inline constexpr std::size_t law_count = std::variant_size_v<FrictionLaw>;
@@ -90,18 +91,6 @@ constexpr bool has_own_map(const FrictionLaw& law) {
 /// Its part of the random scenes that solvers are tried on.
 constexpr int random_percent(const FrictionLaw& law) {
   return std::visit([](const auto& any) { return any.random_percent; }, law);
-}
-
-/// What remembers more than the friction force, in the plural; empty where nothing does.
-constexpr std::string_view memory_of(const FrictionLaw& law) {
-  return std::visit(
-      [](const auto& any) -> std::string_view {
-        if constexpr (std::decay_t<decltype(any)>::template Core<double>::remembers) {
-          return any.memory;
-        }
-        return {};
-      },
-      law);
 }
 
 /// What is wrong where the contact's memory passes the law's bound.

@@ -34,14 +34,6 @@ inline constexpr std::array<Named<SignConvention>, 2> sign_conventions = {{
     {"as_printed", SignConvention::as_printed},
 }};
 
-inline constexpr std::array<Named<SolverMethod>, 5> solver_methods = {{
-    {"event_taylor", SolverMethod::event_taylor},
-    {"event_gauss", SolverMethod::event_gauss},
-    {"strang", SolverMethod::strang},
-    {"rk4", SolverMethod::rk4},
-    {"rk4_event", SolverMethod::rk4_event},
-}};
-
 inline constexpr std::array<Named<Start>, 2> starts = {{
     {"given", Start::given},
     {"steady", Start::steady},

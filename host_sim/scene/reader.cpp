@@ -10,7 +10,7 @@
 #include "host_sim/scene/control_design.hpp"
 #include "host_sim/scene/names.hpp"
 #include "host_sim/scene/sections.hpp"
-#include "host_sim/scene/solver_laws.hpp"
+#include "host_sim/scene/solver_methods.hpp"
 #include "host_sim/scene/variant.hpp"
 
 namespace sonoglide::scene {
@@ -41,22 +41,34 @@ std::string read_bytes(const std::filesystem::path& path) {
   return bytes;
 }
 
+/// The words of those for which `holds(method)`.
+template <class Condition>
+std::string methods_that(const Condition& holds) {
+  std::string words;
+  for (const Named<SolverMethod>& each : solver_methods) {
+    if (holds(each.value)) {
+      words += fmt::format("{}\"{}\"", words.empty() ? "" : ", ", each.name);
+    }
+  }
+  return words;
+}
+
 void require_solvable(const Scene& scene, const Document& document) {
   const SolverMethod method = scene.solver.method;
   if (solves(method, scene.friction.law)) {
     return;
   }
-  std::string allowed;
-  for (const Named<SolverMethod>& each : solver_methods) {
-    if (solves(each.value, scene.friction.law)) {
-      allowed += fmt::format("{}\"{}\"", allowed.empty() ? "" : ", ", each.name);
-    }
-  }
+  const std::string allowed =
+      methods_that([&](SolverMethod each) { return solves(each, scene.friction.law); });
   const char* key = "solver.method";
-  throw SceneError(
-      document.place_of(key), key,
-      fmt::format("\"{}\" does not solve the friction law \"{}\"; allowed: {}",
-                  name_of(solver_methods, method), name_of(scene.friction.law), allowed));
+  throw SceneError(document.place_of(key), key,
+                   fmt::format("\"{}\" does not solve the friction law \"{}\"; allowed: {}",
+                               name_of(method), name_of(scene.friction.law), allowed));
+}
+
+bool follows_straight_drives(SolverMethod method) {
+  return with_solver(method,
+                     [](auto solver) { return !decltype(solver)::straight_orders.empty(); });
 }
 
 /// A drive of straight pieces is solved by fewer methods, and in one order.
@@ -64,23 +76,27 @@ void settle_waveform(Scene& scene, const Document& document) {
   if (!scene.drive || scene.drive->waveform == Waveform::cosine) {
     return;
   }
-  constexpr int order = 16;
   const auto fail = [&](const char* key, std::string_view value, std::string_view allowed) {
     throw SceneError(document.place_of(key), key,
                      fmt::format("{} does not follow the waveform \"{}\"; allowed: {}", value,
                                  name_of(waveforms, scene.drive->waveform), allowed));
   };
   Solver& solver = scene.solver;
-  if (solver.method == SolverMethod::rk4) {
-    return;
+  if (!follows_straight_drives(solver.method)) {
+    fail("solver.method", name_of(solver.method), methods_that(follows_straight_drives));
   }
-  if (solver.method != SolverMethod::event_taylor) {
-    fail("solver.method", name_of(solver_methods, solver.method), "\"event_taylor\", \"rk4\"");
+  const std::optional<int> only = with_solver(solver.method, [](auto described) {
+    using Described = decltype(described);
+    std::optional<int> order;
+    if constexpr (Described::takes_order && !Described::straight_orders.empty()) {
+      order = Described::straight_orders[0];
+    }
+    return order;
+  });
+  if (only && solver.order.value_or(*only) != *only) {
+    fail("solver.order", std::to_string(*solver.order), std::to_string(*only));
   }
-  if (solver.order.value_or(order) != order) {
-    fail("solver.order", std::to_string(*solver.order), std::to_string(order));
-  }
-  solver.order = order;
+  solver.order = only;
 }
 
 /// A closed loop needs a controller that can be designed.

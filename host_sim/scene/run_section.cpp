@@ -115,11 +115,6 @@ void require_steady_conditions(const TableCursor& cursor, const Variant& variant
   if (so_far.sliding.profile.size() != 1) {
     cursor.fail("start", "nothing is steady under a sliding.profile; allowed: \"given\"");
   }
-  if (const std::string_view memory = memory_of(so_far.friction.law); !memory.empty()) {
-    cursor.fail("start", fmt::format("an orbit is a motion and a friction force, and {} remember "
-                                     "more than their force; allowed: \"given\"",
-                                     memory));
-  }
   reject_initial_state(variant, "plant", {"initial_displacement_m", "initial_velocity_m_per_s"});
   reject_initial_state(variant, "friction", {"initial_force_N"});
 }

@@ -1,7 +1,6 @@
 /// A validated scene: plain values in SI units, the unit in the name, every default filled in.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -9,6 +8,7 @@
 
 #include "host_sim/scene/contact.hpp"
 #include "host_sim/scene/friction_laws.hpp"
+#include "host_sim/scene/solver_method.hpp"
 
 namespace sonoglide::scene {
 
@@ -47,27 +47,12 @@ struct Drive {
   Waveform waveform = Waveform::cosine;
 };
 
-enum class SolverMethod { event_taylor, event_gauss, strang, rk4, rk4_event };
-
-/// Whether a method picks its own steps by a tolerance; the others take steps of a fixed length.
-constexpr bool is_adaptive(SolverMethod method) {
-  return method != SolverMethod::rk4 && method != SolverMethod::rk4_event;
-}
-
-/// Of an adaptive method.
-constexpr double default_tolerance(SolverMethod method) {
-  return method == SolverMethod::strang ? 1e-4 : 1e-10;
-}
-
-/// The orders of event_taylor that are built.
-inline constexpr std::array<int, 3> taylor_orders = {8, 12, 16};
-
 struct Solver {
-  SolverMethod method = SolverMethod::event_taylor;
+  SolverMethod method;
   double tolerance = 1e-10;  ///< adaptive methods
-  std::optional<int> order;  ///< event_taylor: absent, the one that suits the tolerance
-  /// Fixed steps, shortened so that a whole number fits a carrier period. Of strang the longest; 0
-  /// leaves that to the tolerance.
+  std::optional<int> order;  ///< absent, the one that suits the tolerance
+  /// Fixed steps, shortened so that a whole number fits a carrier period. Of an adaptive method the
+  /// longest; 0 leaves that to the tolerance.
   double step_s = 0.0;
 };
 

@@ -35,19 +35,20 @@ class KeyList {
  public:
   explicit KeyList(std::vector<std::string_view>& keys) : keys_(keys) {}
 
-  /// Laws may share a key.
-  void required(std::string_view key, double /*parameter*/, const Range& /*range*/) {
-    if (std::find(keys_.begin(), keys_.end(), key) == keys_.end()) {
-      keys_.push_back(key);
-    }
-  }
-  void optional(std::string_view key, double parameter, const Range& range) {
-    required(key, parameter, range);
-  }
+  void required(std::string_view key, double /*parameter*/, const Range& /*range*/) { add(key); }
+  void optional(std::string_view key, double /*parameter*/, const Range& /*range*/) { add(key); }
+  void optional(std::string_view key, int /*count*/, int /*least*/, int /*most*/) { add(key); }
   void refuse(std::string_view /*key*/, double /*parameter*/, std::string_view /*finding*/,
               double /*least*/, std::string_view /*rest*/) {}
 
  private:
+  /// Laws may share a key.
+  void add(std::string_view key) {
+    if (std::find(keys_.begin(), keys_.end(), key) == keys_.end()) {
+      keys_.push_back(key);
+    }
+  }
+
   std::vector<std::string_view>& keys_;
 };
 

@@ -9,6 +9,7 @@
 
 #include "host_sim/scene/names.hpp"
 #include "host_sim/scene/plant_scales.hpp"
+#include "host_sim/scene/solver_methods.hpp"
 #include "host_sim/scene/table_cursor.hpp"
 
 namespace sonoglide::scene {
@@ -55,6 +56,9 @@ class KeyReader {
   }
   void optional(std::string_view key, double& parameter, const Range& range) {
     parameter = cursor_.real(key, range, parameter);
+  }
+  void optional(std::string_view key, int& count, int least, int most) {
+    count = static_cast<int>(cursor_.integer(key, least, most, count));
   }
   void refuse(std::string_view key, double parameter, std::string_view finding, double least,
               std::string_view rest) {
@@ -168,35 +172,46 @@ std::optional<Drive> read_drive(const Variant& variant) {
   return drive;
 }
 
+template <class Described>
 std::optional<int> read_order(TableCursor& cursor) {
   const std::optional<std::int64_t> order = cursor.optional_integer("order", 1, 99);
   if (!order) {
     return std::nullopt;
   }
-  if (std::find(taylor_orders.begin(), taylor_orders.end(), *order) == taylor_orders.end()) {
-    cursor.fail("order", fmt::format("{} is not built; allowed: {}", *order,
-                                     fmt::join(taylor_orders, ", ")));
+  constexpr auto& built = Described::orders;
+  if (std::find(built.begin(), built.end(), *order) == built.end()) {
+    cursor.fail("order",
+                fmt::format("{} is not built; allowed: {}", *order, fmt::join(built, ", ")));
   }
   return static_cast<int>(*order);
 }
 
-Solver read_solver(const Variant& variant) {
+template <class Described>
+void read_keys(TableCursor& cursor, Solver& solver) {
   constexpr Range step_range = {1e-15, 1.0, "s"};
-  TableCursor cursor(variant, "solver");
-  Solver solver;
-  solver.method = cursor.choice("method", solver_methods, SolverMethod::event_taylor);
-  if (is_adaptive(solver.method)) {
-    solver.tolerance = cursor.real("tolerance", {1e-15, 1e-2}, default_tolerance(solver.method));
-    if (solver.method == SolverMethod::event_taylor) {
-      solver.order = read_order(cursor);
+  if constexpr (Described::adaptive) {
+    solver.tolerance = cursor.real("tolerance", {1e-15, 1e-2}, Described::default_tolerance);
+    if constexpr (Described::takes_order) {
+      solver.order = read_order<Described>(cursor);
     }
-    if (solver.method == SolverMethod::strang) {
+    if constexpr (Described::takes_step) {
       solver.step_s = cursor.optional_real("step_s", step_range).value_or(0.0);
     }
   } else {
     solver.step_s = cursor.real("step_s", step_range);
   }
-  cursor.reject_unread_with("solver.method", name_of(solver_methods, solver.method));
+}
+
+Solver read_solver(const Variant& variant) {
+  TableCursor cursor(variant, "solver");
+  Solver solver;
+  solver.method = cursor.choice("method", solver_methods, SolverMethod{});
+  for_each_solver([&](auto described, SolverMethod method) {
+    if (method == solver.method) {
+      read_keys<decltype(described)>(cursor, solver);
+    }
+  });
+  cursor.reject_unread_with("solver.method", name_of(solver.method));
   return solver;
 }
 

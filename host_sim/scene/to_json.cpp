@@ -37,6 +37,9 @@ class KeyEcho {
   void optional(std::string_view key, double parameter, const Range& range) {
     required(key, parameter, range);
   }
+  void optional(std::string_view key, int count, int /*least*/, int /*most*/) {
+    table_[std::string(key)] = count;
+  }
   void refuse(std::string_view /*key*/, double /*parameter*/, std::string_view /*finding*/,
               double /*least*/, std::string_view /*rest*/) {}
 
@@ -93,7 +96,7 @@ ordered_json echo(const Drive& drive, bool closed_loop) {
 }
 
 ordered_json echo(const Solver& solver) {
-  ordered_json table{{"method", name_of(solver_methods, solver.method)}};
+  ordered_json table{{"method", name_of(solver.method)}};
   if (is_adaptive(solver.method)) {
     table["tolerance"] = solver.tolerance;
     if (solver.order) {

@@ -1,7 +1,8 @@
-/// The solvers whose limits are drawn: the one place that lists them.
+/// The solvers whose limits are drawn.
 #pragma once
 
 #include <array>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -18,7 +19,7 @@ struct Precision {
 };
 
 struct Solver {
-  std::string_view name;
+  std::string name;
   bool adaptive;  ///< set by a tolerance, else by a number of steps per period
   std::array<Precision, 2> precisions;  ///< float64, float32
 };

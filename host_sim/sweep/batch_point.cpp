@@ -6,6 +6,7 @@
 #include "firmware/numeric/turn.hpp"
 #include "host_sim/loop/carrier_grid.hpp"
 #include "host_sim/scene/plant_scales.hpp"
+#include "host_sim/scene/solver_methods.hpp"
 
 namespace sonoglide::sweep {
 namespace {
@@ -19,7 +20,7 @@ bool suits_lanes(const scene::Scene& scene) {
          scene.drive->waveform == scene::Waveform::cosine &&
          scene::is<scene::laws::Dahl>(scene.friction.law) &&
          scene::friction_limit_N(scene.friction) > 0.0 && scene.sliding.profile.size() == 1 &&
-         solver.method == scene::SolverMethod::event_taylor && !solver.order &&
+         solver.method == scene::method_of<scene::solvers::EventTaylor> && !solver.order &&
          solver.tolerance >= fine_tolerance;
 }
 

@@ -35,11 +35,11 @@ Style style_of(Family family, std::size_t member) {
   static constexpr int markers[] = {7, 5, 9, 11, 13, 15, 4};
   const int marker = markers[member % 7];
   switch (family) {
-    case Family::event_taylor:
+    case Family::blue:
       return {blues[member % 4], "1", 2.4, marker};
-    case Family::event_gauss:
+    case Family::orange:
       return {oranges[member % 2], "1", 2.4, marker};
-    case Family::fixed_step:
+    case Family::green:
       return {greens[member % 3], "1", 2.0, marker};
     case Family::single:
       return {pales[member % 7], "3", 1.2, marker};

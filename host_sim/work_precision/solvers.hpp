@@ -10,10 +10,11 @@
 
 namespace sonoglide::work_precision {
 
+/// The product's own in double are told apart by their palettes.
 enum class Family {
-  event_taylor,
-  event_gauss,
-  fixed_step,    ///< the product's other solvers
+  blue,
+  orange,
+  green,
   single,        ///< the product's solvers in float32
   paper,         ///< the paper's own method
   outside_peer,  ///< solvers of other libraries

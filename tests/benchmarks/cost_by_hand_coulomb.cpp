@@ -25,6 +25,7 @@ namespace {
   s.travel[14] = free_term(s, scene, 13, true, false);
   s.travel[15] = free_term(s, scene, 14, true, false);
   s.travel[16] = free_term(s, scene, 15, true, false);
+  s.travel[17] = free_term(s, scene, order, true, false);
   close_shift(s);
 }
 
@@ -53,8 +54,8 @@ bool advance(Result& state, const Scene& scene, double longest) {
     const double remaining = rest / s.unit;
     const double rounding = epsilon * numeric::abs(s.rate * s.travel[0]);
     const double allowed = numeric::max(allowed_term, rounding);
-    const double last = numeric::abs(s.rate * s.travel[order]);
-    const double last_but_one = numeric::abs(s.rate * s.travel[order - 1]);
+    const double last = numeric::abs(s.rate * s.travel[order + 1]);
+    const double last_but_one = numeric::abs(s.rate * s.travel[order]);
     const double end = step_extent(last, last_but_one, allowed, s.unit, longest, remaining);
     const double extent = up_to_reversal(s, direction, end);
     state.displacement = displacement_at(s, extent);

@@ -71,9 +71,9 @@ inline double minus_decayed(double z) {
 
 [[gnu::always_inline]] inline void add_travel(Series& s, const Scene& scene, std::size_t n,
                                               const Named& named) {
-  const double force_factor = s.unit * (s.unit * (1.0 / static_cast<double>(n + 1)));
-  s.travel[n + 1] = free_term(s, scene, n, named.driven, named.damped) -
-                    scene.friction_force * force_factor * s.friction[n];
+  const double coupling =
+      (1.0 / static_cast<double>(n + 1)) * (scene.friction_force * (s.unit * s.unit));
+  s.travel[n + 1] = free_term(s, scene, n, named.driven, named.damped) - coupling * s.friction[n];
 }
 
 [[gnu::always_inline]] inline void expand(Series& s, const Scene& scene, const Arc& arc,
@@ -111,6 +111,7 @@ inline double minus_decayed(double z) {
   add_friction(s, arc, 15);
   add_travel(s, scene, 15, named);
   add_friction(s, arc, order);
+  add_travel(s, scene, order, named);
   close_shift(s);
 }
 
@@ -134,15 +135,16 @@ inline double series_unit(const Scene& scene, double velocity, double friction, 
                                                double rounding, double longest, double remaining) {
   const double weight = numeric::clamp(scene.friction_force, 1e-3, 0.125);
   const double allowed = numeric::max(allowed_term * speed, rounding);
-  const double last = numeric::max(numeric::abs(s.rate * s.travel[order]),
+  const double last = numeric::max(numeric::abs(s.rate * s.travel[order + 1]),
                                    speed * weight * numeric::abs(s.friction[order]));
-  const double last_but_one = numeric::max(numeric::abs(s.rate * s.travel[order - 1]),
+  const double last_but_one = numeric::max(numeric::abs(s.rate * s.travel[order]),
                                            speed * weight * numeric::abs(s.friction[order - 1]));
   return step_extent(last, last_but_one, allowed, s.unit, longest, remaining);
 }
 
 [[gnu::always_inline]] inline double travelled(const Series& s, const Arc& arc, double x) {
-  const double travel = x * (s.travel[0] + x * (0.5 * s.travel[1] + x * beyond_linear(s.shift, x)));
+  const double travel =
+      x * ((s.travel[0] + x * (0.5 * s.travel[1])) + (x * x) * beyond_linear(s.shift, x));
   return numeric::max(0.0, arc.direction * travel);
 }
 
@@ -154,12 +156,12 @@ inline double series_unit(const Scene& scene, double velocity, double friction, 
   const auto x = extent * numeric::load_group<4>(rule.node.data());
   const auto square = x * x;
   auto even = square * p[16] + p[14];
-  auto odd = square * p[15] + p[13];
-  for (std::size_t n = 12; n > 2; n -= 2) {
+  auto odd = square * p[17] + p[15];
+  for (std::size_t n = 12; n > 0; n -= 2) {
     even = even * square + p[n];
-    odd = odd * square + p[n - 1];
+    odd = odd * square + p[n + 1];
   }
-  even = (even * square + p[2]) * square + s.travel[0];
+  even = even * square + s.travel[0];
   odd = odd * square + 0.5 * s.travel[1];
   const auto travel = x * (even + x * odd);
   const auto z = numeric::at_most(64.0, scene.contact_stiffness * (arc.direction * travel));

@@ -28,6 +28,7 @@ namespace {
   add_term(s, scene, 13, driven, damped);
   add_term(s, scene, 14, driven, damped);
   add_term(s, scene, 15, driven, damped);
+  add_term(s, scene, order, driven, damped);
   close_shift(s);
 }
 
@@ -49,9 +50,9 @@ namespace {
     expand(s, scene, driven, damped);
 
     const double remaining = rest / s.unit;
-    const double extent = step_extent(numeric::abs(s.rate * s.travel[order]),
-                                      numeric::abs(s.rate * s.travel[order - 1]), allowed_term,
-                                      s.unit, longest, remaining);
+    const double extent = step_extent(numeric::abs(s.rate * s.travel[order + 1]),
+                                      numeric::abs(s.rate * s.travel[order]), allowed_term, s.unit,
+                                      longest, remaining);
     state.displacement = displacement_at(s, extent);
     state.velocity = velocity_at(s, extent);
     ++state.steps;

@@ -19,26 +19,28 @@ inline constexpr int order = 16;
 inline constexpr double epsilon = std::numeric_limits<double>::epsilon();
 inline constexpr std::uint32_t step_limit = 1000000;
 using Coefficients = std::array<double, order + 1>;
+/// Of the velocity, one power above the force.
+using Motion = std::array<double, order + 2>;
 
 /// Of the last two terms of a step.
-inline constexpr double allowed_term = 8.0 * tolerance;
+inline constexpr double allowed_term = 4.0 * tolerance;
 
 inline double longest_step() {
   double product = allowed_term;
-  for (int n = 2; n <= order; ++n) {
+  for (int n = 2; n <= order + 1; ++n) {
     product *= n;
   }
-  return numeric::min(3.0, 0.85 * plant::quick_root<order>(product));
+  return numeric::min(3.0, 0.85 * plant::quick_root<order + 1>(product));
 }
 
-/// p[2] + p[3] x + … + p[16] x^14.
-[[gnu::always_inline]] inline double beyond_linear(const Coefficients& p, double x) {
+/// p[2] + p[3] x + … + p[17] x^15.
+[[gnu::always_inline]] inline double beyond_linear(const Motion& p, double x) {
   const double square = x * x;
   const double fourth = square * square;
   const double a = ((p[14] * fourth + p[10]) * fourth + p[6]) * fourth + p[2];
   const double b = ((p[15] * fourth + p[11]) * fourth + p[7]) * fourth + p[3];
   const double c = ((p[16] * fourth + p[12]) * fourth + p[8]) * fourth + p[4];
-  const double d = (p[13] * fourth + p[9]) * fourth + p[5];
+  const double d = ((p[17] * fourth + p[13]) * fourth + p[9]) * fourth + p[5];
   return (a + x * b) + square * (c + x * d);
 }
 
@@ -61,8 +63,8 @@ struct Series {
   double velocity;      ///< v there
   double vibration;     ///< unit v
   Coefficients drive;
-  Coefficients travel;  ///< of the sliding velocity, times unit; above x^0 that of the vibration
-  Coefficients shift;   ///< of the displacement, x apart
+  Motion travel;  ///< of the sliding velocity, times unit; above x^0 that of the vibration
+  Motion shift;   ///< of the displacement, x apart
   Coefficients friction;
 };
 
@@ -77,33 +79,33 @@ inline Phasor drive_at(double amplitude, double phase) {
 }
 
 [[gnu::always_inline]] inline void set_drive(Series& s, const Phasor& phasor) {
-  const double square = s.unit * s.unit;
+  const double minus_square = -(s.unit * s.unit);
   s.drive[0] = phasor.in_phase;
   s.drive[1] = -phasor.quadrature * s.unit;
   for (std::size_t n = 2; n <= order; ++n) {
     const double reciprocals = (1.0 / static_cast<double>(n)) * (1.0 / static_cast<double>(n - 1));
-    s.drive[n] = -s.drive[n - 2] * square * reciprocals;
+    s.drive[n] = s.drive[n - 2] * (minus_square * reciprocals);
   }
 }
 
 /// The force on the oscillator beside that of the contact, times unit^2 / (n + 1).
 [[gnu::always_inline]] inline double free_term(Series& s, const Scene& scene, std::size_t n,
                                                bool driven, bool damped) {
-  const double factor = s.unit * (1.0 / static_cast<double>(n + 1));
-  const double force_factor = s.unit * factor;
+  const double square = s.unit * s.unit;
   const double motion = n == 0 ? s.vibration : s.travel[n];
-  double spring = force_factor * scene.stiffness * s.displacement;
+  double spring = square * scene.stiffness * s.displacement;
   if (n > 0) {
     s.shift[n - 1] = (1.0 / static_cast<double>(n)) * (n == 1 ? s.vibration : s.travel[n - 1]);
-    spring = force_factor * scene.stiffness * s.shift[n - 1];
+    spring = square * scene.stiffness * s.shift[n - 1];
   }
-  const double undamped = driven ? force_factor * s.drive[n] - spring : -spring;
-  return damped ? undamped - scene.damping * (factor * motion) : undamped;
+  const double undamped = driven ? square * s.drive[n] - spring : -spring;
+  const double free = damped ? undamped - scene.damping * (s.unit * motion) : undamped;
+  return (1.0 / static_cast<double>(n + 1)) * free;
 }
 
 [[gnu::always_inline]] inline void close_shift(Series& s) {
-  s.shift[order - 1] = (1.0 / order) * s.travel[order - 1];
   s.shift[order] = (1.0 / (order + 1)) * s.travel[order];
+  s.shift[order + 1] = (1.0 / (order + 2)) * s.travel[order + 1];
 }
 
 [[gnu::always_inline]] inline double displacement_at(const Series& s, double x) {
@@ -114,10 +116,9 @@ inline Phasor drive_at(double amplitude, double phase) {
 }
 
 /// The extent at which terms of the two highest orders reach what is allowed.
-[[gnu::noinline]] inline double reach(double last, double last_but_one, double allowed) {
-  constexpr double smallest = std::numeric_limits<double>::min();
-  return numeric::min(plant::quick_root<order>(allowed / numeric::max(last, smallest)),
-                      plant::quick_root<order - 1>(allowed / numeric::max(last_but_one, smallest)));
+[[gnu::always_inline]] inline double reach(double last, double last_but_one, double allowed) {
+  return numeric::min(plant::quick_root_of_quotient<order + 1>(allowed, last),
+                      plant::quick_root_of_quotient<order>(allowed, last_but_one));
 }
 
 [[gnu::always_inline]] inline double step_extent(double last, double last_but_one, double allowed,

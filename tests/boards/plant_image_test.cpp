@@ -82,7 +82,7 @@ class FloatPlant {
     const scene::PlantNumbers& numbers = described.numbers;
     solver_.configure({{{number(numbers.contact_stiffness)},
                         number(numbers.friction_force),
-                        number(described.vibration_sign)},
+                        number(scene::vibration_sign(scene.friction.sign_convention))},
                        {},
                        number(numbers.stiffness)},
                       number(two_pi / 8.0));
@@ -131,10 +131,11 @@ class FixedPlant {
     const loop::PlantDescription described(scene);
     const scene::PlantNumbers& numbers = described.numbers;
     using Model = plant::Model<friction::Dahl<double>, plant::Undamped<double>, plant::CosineDrive>;
-    const Model model{
-        {{numbers.contact_stiffness}, numbers.friction_force, described.vibration_sign},
-        {},
-        numbers.stiffness};
+    const Model model{{{numbers.contact_stiffness},
+                       numbers.friction_force,
+                       scene::vibration_sign(scene.friction.sign_convention)},
+                      {},
+                      numbers.stiffness};
     const plant::FixedStrangDesign design = plant::design_fixed_strang(
         model, scene.drive->max_force_amplitude_N / described.scales.force_N,
         scene.sliding.profile.front().velocity_m_per_s / described.scales.velocity_m_per_s(), {});

@@ -60,6 +60,16 @@ TEST(FirstRoot, OfTinyTermsInTinyTime) {
   EXPECT_NEAR(first_root(p, end), first_root(exact, static_cast<double>(end)), 1e-6F * end);
 }
 
+/// Met in float: a mass that friction stops at once, its ringing written in powers of a time that
+/// is a million times longer.
+TEST(FirstRoot, OfATinyValueBesideTermsThatOnlyTimeMakesSmall) {
+  const std::array<float, 13> p = {1.21614e-10F, -3.23578e7F,  472605.0F,   1.74504e14F,
+                                   -2.54873e12F, -2.82327e20F, 4.12355e18F, 2.17511e26F,
+                                   -3.17687e24F, -9.77519e31F, 1.42772e30F, 2.87548e37F,
+                                   -4.1998e35F};
+  EXPECT_NEAR(first_root(p, 2.94772e-6F), p[0] / -p[1], 1e-6F * p[0] / -p[1]);
+}
+
 /// Units of time and of p change nothing.
 TEST(FirstRoot, DoesNotDependOnTheUnitOfTime) {
   for (const float size : {1e-25F, 1e-12F, 1.0F}) {

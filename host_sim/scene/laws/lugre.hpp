@@ -19,7 +19,6 @@ struct LuGre {
   static constexpr FrictionMap map = FrictionMap::dahl;
   static constexpr bool map_is_own = false;
   static constexpr int random_percent = 0;
-  static constexpr std::string_view memory = "bristles";
   static constexpr std::string_view bound_broken = "the bristles' force > Fs";
 
   double static_coefficient = 0.0;

@@ -20,11 +20,11 @@ namespace sonoglide::scene::laws {
 ///                    its own; all add up to 100
 ///   visit_keys(keys, contact)  its own keys of [friction], in order: for each
 ///     keys.required(key, parameter, range) or
-///     keys.optional(key, parameter, range), which leaves the parameter as it is where absent, and
+///     keys.optional(key, parameter, range), which leaves the parameter as it is where absent,
+///     keys.optional(key, count, least, most), the same for an integer, and
 ///     keys.refuse(key, parameter, finding, least, rest) where the others make it too small
 ///   core<Scalar>(contact, scales)  the law of the core in dimensionless numbers; there is friction
 /// A law of the core that remembers more than its force also has
-///   memory           what remembers, in the plural
 ///   bound_broken     what is wrong where that passes its bound
 struct None {
   static constexpr std::string_view name = "none";

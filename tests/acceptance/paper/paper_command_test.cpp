@@ -25,9 +25,19 @@ TEST(PaperCommand, OneFigureIsItsDataItsPictureAndThePage) {
   EXPECT_EQ(folder.run("run out/table_1.toml --quiet").exit_code, 0);
 }
 
+TEST(PaperCommand, Figure12BringsTheMeasurementsAndItsScenes) {
+  const ScratchFolder folder;
+  ASSERT_EQ(folder.run("paper --figure 12 --out out --quiet").exit_code, 0);
+  EXPECT_EQ(folder.read("out/measurements.csv").substr(0, 21), "source,doi,vibration,");
+  for (const char* scene : {"table_2", "luo_2024", "table_1_coulomb", "table_1_dahl",
+                            "table_1_lugre", "table_1_stribeck"}) {
+    EXPECT_EQ(folder.run("run out/" + std::string(scene) + ".toml --quiet").exit_code, 0) << scene;
+  }
+}
+
 TEST(PaperCommand, BadUsageIsRejected) {
   const ScratchFolder folder;
-  for (const char* arguments : {"paper scene.toml", "paper --figure 1", "paper --figure 12",
+  for (const char* arguments : {"paper scene.toml", "paper --figure 1", "paper --figure 13",
                                 "paper --figure two", "paper --out ''"}) {
     const Outcome outcome = folder.run(arguments);
     EXPECT_EQ(outcome.exit_code, 2) << arguments;

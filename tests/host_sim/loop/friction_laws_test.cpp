@@ -58,6 +58,46 @@ TEST(LuGreSceneTest, ClosedLoopReachesItsTargets) {
   EXPECT_NEAR(logged.periods.back().friction_ratio, 0.6, 0.01);
 }
 
+scene::Scene iwan(scene::Scene scene, int elements) {
+  scene.friction.law = scene::laws::Iwan{elements};
+  return scene;
+}
+
+TEST(IwanSceneTest, EnergyIdentity) {
+  scene::Scene scene = iwan(table_1(), 5);
+  scene.solver.tolerance = 1e-12;
+  EXPECT_LE(std::abs(window_ratios(scene).balance_residual), 1e-9);
+}
+
+/// kappa = 0.4045 at 384 N: friction does not fall below 1 - kappa, but for what the slide adds.
+TEST(IwanSceneTest, OneElementKeepsItsFloor) {
+  scene::Scene scene = iwan(table_1(), 1);
+  scene.run.start = scene::Start::steady;
+  scene.sliding.profile[0].velocity_m_per_s *= 0.002;
+  EXPECT_NEAR(window_ratio(scene), 1.0 - 0.4045, 5e-3);
+}
+
+/// The force of the scene is that of a first load: stiff enough, it stays within it.
+TEST(IwanSceneTest, BeginsAtItsInitialForce) {
+  scene::Scene scene = iwan(table_1(0.0), 3);
+  scene.friction.initial_force_N = 0.015;
+  scene.plant.stiffness_N_per_m = 1e15;
+  scene.sliding.profile[0].velocity_m_per_s = 1e-12;
+  scene.drive.reset();
+  scene.run.record = {scene::Channel::friction_force};
+  scene.run.record_interval_s = scene.run.duration_s;
+  EXPECT_NEAR(run_logged(scene).trace.state.front().friction_force_N, 0.015, 1e-12);
+}
+
+TEST(IwanSceneTest, ClosedLoopReachesItsTargets) {
+  const scene::Scene scene = iwan(table_1_closed_loop(), 8);
+  const LoggedRun logged = run_logged(scene);
+  ASSERT_TRUE(logged.result.control.has_value());
+  EXPECT_TRUE(logged.result.control->faults.empty());
+  EXPECT_NEAR(logged.periods[58].friction_ratio, 0.4, 0.01);
+  EXPECT_NEAR(logged.periods.back().friction_ratio, 0.6, 0.01);
+}
+
 /// A slow resonator that sticks and slips on the falling curve at 10 mm/s.
 scene::Scene stick_slip(double dither_N) {
   scene::Scene scene = table_1(dither_N);

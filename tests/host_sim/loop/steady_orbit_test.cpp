@@ -8,6 +8,7 @@
 
 #include "host_sim/loop/computation_error.hpp"
 #include "host_sim/loop/run.hpp"
+#include "host_sim/scene/solver_methods.hpp"
 #include "table_1.hpp"
 
 namespace sonoglide::loop {
@@ -57,7 +58,7 @@ TEST(FindSteadyOrbitTest, HasTheKnownFrictionRatiosOfTable1) {
 // Nothing but friction takes the free vibration out, a ten thousandth of it in a carrier period.
 TEST(FindSteadyOrbitTest, IsWhereTheUndampedPlantSettlesFromRest) {
   Scene scene = table_1();
-  scene.solver.method = scene::SolverMethod::event_gauss;
+  scene.solver.method = scene::method_of<scene::solvers::EventGauss>;
   scene.solver.tolerance = 1e-8;
   expect_as_after(scene, 50000);
 }
@@ -79,6 +80,36 @@ TEST(FindSteadyOrbitTest, IsWhereStiffAndStickingContactsSettle) {
   scene.friction.law = scene::laws::Coulomb{};
   scene.friction.normal_force_N = 3500.0;
   EXPECT_NEAR(friction_ratio_of_steady_orbit(scene), friction_ratio_after(scene, 300), 1e-6);
+}
+
+// Bristles and springs remember more than their force.
+TEST(FindSteadyOrbitTest, IsWhereContactsWithMoreMemorySettle) {
+  Scene scene = table_1();
+  scene.plant.damping_N_s_per_m = 200.0;
+  scene.friction.law = scene::laws::LuGre{0.15, 0.02, 0.01, 0.02};
+  EXPECT_NEAR(friction_ratio_of_steady_orbit(scene), friction_ratio_after(scene, 600), 1e-6);
+  for (const int elements : {1, 3, 8}) {
+    scene.friction.law = scene::laws::Iwan{elements};
+    EXPECT_NEAR(friction_ratio_of_steady_orbit(scene), friction_ratio_after(scene, 600), 1e-6);
+  }
+}
+
+TEST(FindSteadyOrbitTest, IsWhereAContactThatIsMostlyStuckSettles) {
+  Scene scene = at_velocity_ratio(384.0, 0.01);
+  scene.plant.damping_N_s_per_m = 200.0;
+  scene.friction.law = scene::laws::Iwan{1};
+  EXPECT_EQ(find_steady_orbit(scene).memory.size(), 1U);
+  EXPECT_NEAR(friction_ratio_of_steady_orbit(scene), friction_ratio_after(scene, 1000), 1e-6);
+}
+
+TEST(FindSteadyOrbitTest, IsWhereOtherWaveformsSettle) {
+  for (const scene::Waveform waveform :
+       {scene::Waveform::square, scene::Waveform::triangle, scene::Waveform::sawtooth}) {
+    Scene scene = table_1();
+    scene.plant.damping_N_s_per_m = 200.0;
+    scene.drive->waveform = waveform;
+    EXPECT_NEAR(friction_ratio_of_steady_orbit(scene), friction_ratio_after(scene, 600), 1e-6);
+  }
 }
 
 // Only friction limits the vibration: over a period it takes what the drive puts in, and both take

@@ -84,6 +84,21 @@ waveform = "triangle"
 duration_periods = 100
 )";
 
+/// Springs in parallel that slip.
+inline constexpr const char* springs_open_loop = R"([plant]
+mass_kg = 0.02
+stiffness_N_per_m = 133e6
+[friction]
+law = "iwan"
+coefficient = 0.2
+contact_stiffness_N_per_m = 0.056e6
+elements = 8
+[sliding]
+velocity_m_per_s = 0.0267
+[run]
+duration_s = 1e-3
+)";
+
 /// Nothing that has a default.
 inline constexpr const char* shortest_closed_loop = R"([plant]
 mass_kg = 0.02

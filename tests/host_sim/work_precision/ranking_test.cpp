@@ -10,7 +10,7 @@
 namespace sonoglide::work_precision {
 namespace {
 
-const Solver quick{"quick", Family::event_taylor, Knob::tolerance, {}, nullptr};
+const Solver quick{"quick", Family::blue, Knob::tolerance, {}, nullptr};
 const Solver slow{"slow", Family::paper, Knob::steps_per_period, {}, nullptr};
 
 Row row(const Solver& solver, double setting, double error, double wall_us) {

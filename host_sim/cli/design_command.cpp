@@ -1,0 +1,117 @@
+#include "host_sim/cli/design_command.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <optional>
+
+#include "host_sim/cli/interruption.hpp"
+#include "host_sim/cli/output_option.hpp"
+#include "host_sim/cli/placed_error.hpp"
+#include "host_sim/cli/progress_bar.hpp"
+#include "host_sim/design/report.hpp"
+#include "host_sim/design/study.hpp"
+#include "host_sim/plot/gnuplot.hpp"
+#include "host_sim/scene/reader.hpp"
+
+namespace sonoglide::cli {
+namespace {
+
+constexpr double slowest_m_per_s = 1e-9;
+constexpr double fastest_m_per_s = 1e6;
+
+/// FROM:TO; nothing where it is not of that form or out of order or range.
+std::optional<design::SpeedRange> parse_speeds(const std::string& text) {
+  char* end = nullptr;
+  const double from = std::strtod(text.c_str(), &end);
+  if (end == text.c_str() || *end != ':') {
+    return std::nullopt;
+  }
+  const char* second = end + 1;
+  const double to = std::strtod(second, &end);
+  const bool whole = end != second && *end == '\0';
+  const bool allowed = from >= slowest_m_per_s && to >= from && to <= fastest_m_per_s;
+  return whole && allowed ? std::optional(design::SpeedRange{from, to}) : std::nullopt;
+}
+
+std::string check_speeds(const std::string& text) {
+  return parse_speeds(text) ? std::string()
+                            : fmt::format(
+                                  "\"{}\"; allowed: FROM:TO in m/s, {:g} <= FROM <= TO <= "
+                                  "{:g}",
+                                  text, slowest_m_per_s, fastest_m_per_s);
+}
+
+std::string check_ratio(const std::string& text) {
+  char* end = nullptr;
+  const double ratio = std::strtod(text.c_str(), &end);
+  const bool number = !text.empty() && *end == '\0';
+  return number && ratio >= 1e-3 && ratio < 1.0
+             ? std::string()
+             : fmt::format("\"{}\"; allowed: a number, 0.001 to below 1", text);
+}
+
+design::Study compute(const design::Task& task, bool quiet) {
+  const Interruption interruption;
+  ProgressBar bar(stderr, !quiet);
+  return design::study(task, [&](double fraction) {
+    interruption.check();
+    bar.update(fraction);
+  });
+}
+
+}  // namespace
+
+CLI::App* add_design_command(CLI::App& program, DesignOptions& options) {
+  CLI::App* command = program.add_subcommand(
+      "design",
+      "Design guidelines for a closed-loop scene: force, vibration and power that its friction "
+      "ratios take, what they hang on, what resonance would give, and what is out of reach");
+  command
+      ->add_option("scene", options.scene,
+                   "The scene, a TOML file; its [solver] and initial state play no part")
+      ->required()
+      ->type_name("SCENE.toml");
+  command
+      ->add_option("--ratio", options.ratios,
+                   "A friction ratio in place of the scene's targets; repeatable")
+      ->type_name("R")
+      ->allow_extra_args(false)
+      ->check(check_ratio);
+  command
+      ->add_option("--velocity", options.velocity,
+                   "Slowest and fastest sliding velocity in m/s, in place of the scene's")
+      ->type_name("FROM:TO")
+      ->check(check_speeds);
+  command
+      ->add_option("--set", options.overrides, "Replace or add one value of the scene; repeatable")
+      ->type_name("TABLE.KEY=VALUE")
+      ->allow_extra_args(false);
+  add_output_option(*command, options.out,
+                    "report.html, design.json, design.csv and detuning.csv [out/<scene "
+                    "name>_design]");
+  command->add_flag("--quiet", options.quiet, "No progress bar and no printed summary");
+  return command;
+}
+
+void design(const DesignOptions& options) {
+  const scene::Scene scene = scene::read_file(options.scene, options.overrides);
+  const design::Task task = with_places(
+      options.scene,
+      [&] { return design::make_task(scene, options.ratios, parse_speeds(options.velocity)); },
+      options.overrides);
+  const std::filesystem::path out = options.out.empty()
+                                        ? std::filesystem::path("out") / (scene.name + "_design")
+                                        : std::filesystem::path(options.out);
+  plot::require_gnuplot();
+  require_writable(out);
+  const design::Study study = compute(task, options.quiet);
+  design::write(out, study);
+  if (!options.quiet) {
+    fmt::print("{}", design::text(study, out));
+  }
+}
+
+}  // namespace sonoglide::cli

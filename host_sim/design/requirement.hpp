@@ -1,0 +1,48 @@
+/// The drive that a friction ratio takes at a sliding speed.
+#pragma once
+
+#include <limits>
+#include <string>
+
+#include "host_sim/design/steady_motion.hpp"
+#include "host_sim/scene/scene.hpp"
+
+namespace sonoglide::design {
+
+/// A figure that there is not.
+inline constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
+
+/// What stands between a ratio and the drive.
+enum class Limit {
+  none,
+  undriven,   ///< the contact has the ratio, or less, without vibration
+  actuator,   ///< the force is more than the drive has
+  amplitude,  ///< no vibration makes the ratio so low
+  no_orbit,   ///< no steady vibration has been found
+};
+
+const char* name(Limit limit);
+
+/// What is not defined is NaN: the motion where the limit is none but actuator and none.
+struct Requirement {
+  double sliding_m_per_s;
+  double ratio;
+  Limit limit;
+  std::string reason;          ///< of no_orbit
+  SteadyMotion motion;         ///< at the smallest force that gives the ratio
+  double closed_form_force_N;  ///< by the closed form, with which the vibration is a sine
+  double closed_form_error;    ///< of the ratio: what that force really gives, less the ratio
+  double reachable_ratio;  ///< the nearest that the drive can hold at this speed; NaN with no_orbit
+};
+
+/// By the closed form's inverse, put right by a root of the ratio on the steady orbit.
+/// Error: force 1e-9 of itself where friction hardly bends the motion.
+///
+/// @param sliding_m_per_s  > 0
+/// @param ratio            in (0, 1]
+Requirement require_ratio(const scene::Scene& scene, double sliding_m_per_s, double ratio);
+
+/// Fastest sliding at which the whole drive holds a ratio [m/s]; NaN where none is found.
+double fastest_sliding_m_per_s(const scene::Scene& scene, double ratio);
+
+}  // namespace sonoglide::design

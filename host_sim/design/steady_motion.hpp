@@ -1,0 +1,37 @@
+/// The plant on its steady orbit under one drive force.
+#pragma once
+
+#include "host_sim/scene/scene.hpp"
+
+namespace sonoglide::design {
+
+/// Means over a carrier period. Powers in W.
+struct SteadyMotion {
+  double drive_force_N;  ///< amplitude
+  double friction_ratio;
+  double displacement_amplitude_m;    ///< half of peak to peak
+  double velocity_amplitude_m_per_s;  ///< likewise
+  double drive_power_W;               ///< mean Fe x': what the drive puts in
+  double apparent_power_W;            ///< Fe v̂/2: what drive and mass pass to and fro
+  double friction_power_W;            ///< mean F V: dissipated in the contact
+  double undriven_friction_power_W;   ///< the same at this speed without vibration
+  double damping_power_W;             ///< mean c x'²
+};
+
+/// The open loop that a drive of constant amplitude makes of a scene: one carrier period on the
+/// steady orbit, whatever the scene's run, solver and initial state.
+scene::Scene steady_scene(const scene::Scene& scene, double sliding_m_per_s, double drive_force_N);
+
+/// Mean friction over Fc.
+/// Error: 1e-10, that of the orbit.
+/// @throws loop::ComputationError  no steady orbit
+double friction_ratio(const scene::Scene& steady_scene);
+
+/// Error: amplitudes 1e-5 of themselves (720 samples of a period), powers as the ratio.
+/// @throws loop::ComputationError
+SteadyMotion steady_motion(const scene::Scene& steady_scene);
+
+/// Mean friction over Fc without vibration: 1, or what a Stribeck curve has at the speed.
+double undriven_friction_ratio(const scene::Friction& friction, double sliding_m_per_s);
+
+}  // namespace sonoglide::design

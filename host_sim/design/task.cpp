@@ -1,0 +1,85 @@
+#include "host_sim/design/task.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "host_sim/scene/configuration_error.hpp"
+#include "host_sim/scene/control_design.hpp"
+#include "host_sim/scene/plant_scales.hpp"
+
+namespace sonoglide::design {
+namespace {
+
+void require_steady_vibration(const scene::Scene& scene) {
+  if (!scene.controller) {
+    throw scene::ConfigurationError(
+        "controller",
+        "missing: a design takes its ratios and the drive's limit from a closed "
+        "loop; required: a table [controller], and drive.max_force_amplitude_N");
+  }
+  if (!scene::has_own_map(scene.friction.law) &&
+      !scene::is<scene::laws::Stribeck>(scene.friction.law)) {
+    throw scene::ConfigurationError(
+        "friction.law",
+        fmt::format("is \"{}\", which has no closed form of the friction ratio to design by; "
+                    "allowed: \"dahl\", \"coulomb\", \"stribeck\"",
+                    scene::name_of(scene.friction.law)));
+  }
+  if (scene.friction.sign_convention == scene::SignConvention::as_printed) {
+    throw scene::ConfigurationError(
+        "friction.sign_convention",
+        "is \"as_printed\", with which friction feeds the vibration and no orbit is steady; "
+        "allowed: \"dissipative\"");
+  }
+  if (scene.drive->waveform != scene::Waveform::cosine) {
+    throw scene::ConfigurationError("drive.waveform",
+                                    "the closed forms are those of a cosine; allowed: \"cosine\"");
+  }
+}
+
+std::vector<double> targets(const scene::Controller& controller) {
+  std::vector<double> ratios;
+  for (const scene::TargetStep& step : controller.target_friction_ratio) {
+    ratios.push_back(step.friction_ratio);
+  }
+  return ratios;
+}
+
+SpeedRange speeds_of(const scene::Scene& scene) {
+  const double fastest = scene::fastest_sliding_m_per_s(scene.sliding);
+  double slowest = fastest;
+  double last = scene.sliding.profile.front().velocity_m_per_s;
+  for (const scene::SpeedPoint& point : scene.sliding.profile) {
+    const bool reverses = last * point.velocity_m_per_s < 0.0;
+    slowest = reverses ? 0.0 : std::min(slowest, std::abs(point.velocity_m_per_s));
+    last = point.velocity_m_per_s;
+  }
+  // The floor of a scene that gives none is at most half of its fastest speed.
+  return {std::min(std::max(slowest, speed_floor_m_per_s(scene)), fastest), fastest};
+}
+
+}  // namespace
+
+double speed_floor_m_per_s(const scene::Scene& scene) {
+  const scene::ControlDesign design = scene::design_control(scene);
+  return design.speed_floor * design.scales.velocity_m_per_s;
+}
+
+Task make_task(const scene::Scene& scene, const std::vector<double>& ratios,
+               const std::optional<SpeedRange>& speeds) {
+  require_steady_vibration(scene);
+  Task task{scene, ratios.empty() ? targets(*scene.controller) : ratios,
+            speeds ? *speeds : speeds_of(scene)};
+  if (!(task.speeds.slowest_m_per_s > 0.0)) {
+    throw scene::ConfigurationError(
+        "sliding.velocity_m_per_s",
+        "nothing slides, and there is no friction ratio; allowed: a speed other than 0");
+  }
+  std::sort(task.ratios.begin(), task.ratios.end());
+  task.ratios.erase(std::unique(task.ratios.begin(), task.ratios.end()), task.ratios.end());
+  return task;
+}
+
+}  // namespace sonoglide::design

@@ -1,0 +1,36 @@
+/// What a design is asked for.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "host_sim/scene/scene.hpp"
+
+namespace sonoglide::design {
+
+struct SpeedRange {
+  double slowest_m_per_s;  ///< > 0
+  double fastest_m_per_s;
+};
+
+struct Task {
+  scene::Scene scene;          ///< closed loop: plant, contact and drive with its limit
+  std::vector<double> ratios;  ///< each once, rising
+  SpeedRange speeds;
+};
+
+/// The ratios and the speeds that a closed-loop scene gives, unless others are named. The sign of a
+/// speed is of no consequence; what the scene slides slower than the controller's speed floor, down
+/// to a stop, is left out.
+///
+/// @param ratios  in (0, 1); empty: the scene's targets
+/// @throws scene::ConfigurationError  no controller, or a contact without a steady orbit of the
+///         drive's period: friction.law "lugre", sign_convention "as_printed", another waveform
+///         than the cosine
+Task make_task(const scene::Scene& scene, const std::vector<double>& ratios,
+               const std::optional<SpeedRange>& speeds);
+
+/// Slowest sliding at which the scene's controller follows its target: below it the drive is held.
+double speed_floor_m_per_s(const scene::Scene& scene);
+
+}  // namespace sonoglide::design

@@ -1,0 +1,36 @@
+/// The friction laws that the program has, as contacts of Table 1.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "host_sim/scene/scene.hpp"
+
+namespace sonoglide::paper {
+
+struct ContactLaw {
+  std::string name;     ///< for the key
+  std::string column;   ///< for a column and a file
+  std::string contact;  ///< the [friction] table's keys
+  /// Mean friction under a sinusoidal vibration over that without at the same speed, of the
+  /// velocity ratio; absent where no closed form is known.
+  std::function<double(double)> closed_form;
+
+  std::string scene_file() const;
+  std::string scene_text() const;
+};
+
+const std::vector<ContactLaw>& contact_laws();
+
+/// What a contact of Table 1 takes at a steady speed without vibration [N].
+double sliding_force_N(const scene::Friction& friction, double velocity_m_per_s);
+
+/// Mean friction over the scene's window by what the contact takes without vibration.
+/// @throws loop::ComputationError
+double vibration_ratio(const scene::Scene& scene);
+
+/// vibration_ratio() of a law over velocity_ratios(), on every core.
+std::vector<double> simulated_ratios(const ContactLaw& law);
+
+}  // namespace sonoglide::paper

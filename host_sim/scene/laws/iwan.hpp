@@ -1,0 +1,40 @@
+/// Iwan friction in a scene.
+#pragma once
+
+#include <cstddef>
+#include <string_view>
+
+#include "firmware/friction/iwan.hpp"
+#include "host_sim/scene/contact.hpp"
+#include "host_sim/scene/scales.hpp"
+
+namespace sonoglide::scene::laws {
+
+/// Springs in parallel, contact_stiffness_N_per_m together, that each slip. What the other members
+/// mean is listed at laws::None.
+struct Iwan {
+  static constexpr std::string_view name = "iwan";
+  template <class Scalar>
+  using Core = friction::Iwan<Scalar>;
+  static constexpr bool elastic = true;
+  static constexpr FrictionMap map = FrictionMap::dahl;
+  static constexpr bool map_is_own = false;
+  static constexpr int random_percent = 0;
+  static constexpr std::string_view bound_broken = "an element's force > its limit";
+
+  int elements = 1;
+
+  template <class Keys>
+  void visit_keys(Keys& keys, const Contact& /*contact*/) {
+    keys.optional("elements", elements, 1, static_cast<int>(Core<double>::most_elements));
+  }
+
+  template <class Scalar>
+  Core<Scalar> core(const Contact& contact, const PlantScales& scales) const {
+    return {static_cast<Scalar>(contact.contact_stiffness_N_per_m * scales.length_m /
+                                scales.friction_N),
+            static_cast<std::size_t>(elements)};
+  }
+};
+
+}  // namespace sonoglide::scene::laws

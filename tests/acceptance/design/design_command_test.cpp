@@ -1,0 +1,118 @@
+/// `sonoglide design` from outside.
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "tests/acceptance/program/csv.hpp"
+#include "tests/acceptance/program/program.hpp"
+#include "tests/table_1/scenes.hpp"
+
+namespace sonoglide::acceptance {
+namespace {
+
+using Entries = std::vector<std::string>;
+
+const std::string scene = table_1_closed_loop + R"([run]
+duration_s = 6e-3
+[controller]
+arithmetic = "float32"
+target_friction_ratio = [[0.0, 0.3], [2e-3, 0.5], [4e-3, 0.7]]
+)";
+
+void expect_scene_error(const std::string& options, const std::string& error) {
+  ScratchFolder folder;
+  folder.write("scene.toml", scene);
+  const Outcome outcome = folder.run("design scene.toml " + options);
+  EXPECT_EQ(outcome.exit_code, 2) << options;
+  EXPECT_EQ(outcome.out, "");
+  EXPECT_NE(outcome.err.find(error), std::string::npos) << outcome.err;
+  EXPECT_EQ(folder.entries(), Entries{"scene.toml"});
+}
+
+TEST(DesignCommand, HasTheKnownForcesInEveryOutput) {
+  ScratchFolder folder;
+  folder.write("scene.toml", scene);
+  const Outcome outcome = folder.run("design scene.toml --velocity 0.02672:0.02672");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_EQ(outcome.err, "") << "no progress bar on a pipe";
+  EXPECT_NE(outcome.out.find("report: out/scene_design/report.html"), std::string::npos);
+  const auto json = nlohmann::json::parse(folder.read("out/scene_design/design.json"));
+  const double forces_N[] = {818.6, 526.3, 367.9};
+  ASSERT_EQ(json["points"].size(), 3U);
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_NEAR(json["points"][i]["drive_force_N"].get<double>(), forces_N[i], 0.01 * forces_N[i]);
+    EXPECT_EQ(json["points"][i]["limit"], "none");
+  }
+  const auto rows = csv_rows(folder.read("out/scene_design/design.csv"));
+  EXPECT_EQ(rows.size(), 1U + 3 * 41);
+  EXPECT_EQ(rows.front()[2], "drive_force_N");
+  EXPECT_EQ(csv_rows(folder.read("out/scene_design/detuning.csv")).front()[1], "tuning");
+  EXPECT_NE(folder.read("out/scene_design/report.html").find("Design of scene"), std::string::npos);
+}
+
+TEST(DesignCommand, TakesRatiosSpeedsAndOverridesFromTheCommandLine) {
+  ScratchFolder folder;
+  folder.write("scene.toml", scene);
+  const Outcome outcome = folder.run(
+      "design scene.toml --ratio 0.2 --velocity 0.01:0.1 --set plant.damping_N_s_per_m=10 "
+      "--out here");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("UNREACHABLE: Ratio 0.2 at 100 mm/s"), std::string::npos);
+  const auto json = nlohmann::json::parse(folder.read("here/design.json"));
+  EXPECT_EQ(json["points"].size(), 2U);
+  EXPECT_EQ(json["points"][1]["limit"], "actuator");
+  EXPECT_EQ(json["scene"]["plant"]["damping_N_s_per_m"], 10.0);
+}
+
+TEST(DesignCommand, QuietPrintsNothing) {
+  ScratchFolder folder;
+  folder.write("scene.toml", scene);
+  const Outcome outcome = folder.run("design scene.toml --ratio 0.5 --quiet");
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_EQ(outcome.out + outcome.err, "");
+}
+
+TEST(DesignCommand, ContactsWithoutASteadyOrbitAreRejected) {
+  expect_scene_error("--set friction.sign_convention=as_printed",
+                     "--set:1:1: friction.sign_convention: is \"as_printed\"");
+  expect_scene_error("--set drive.waveform=square", "--set:1:1: drive.waveform: ");
+  expect_scene_error(
+      "--set friction.law=lugre --set friction.static_coefficient=0.1 --set "
+      "friction.stribeck_velocity_m_per_s=0.01 --set friction.bristle_damping_N_s_per_m=0 --set "
+      "friction.viscous_friction_N_s_per_m=0",
+      "--set:1:1: friction.law: is \"lugre\"");
+}
+
+TEST(DesignCommand, AnOpenLoopIsRejected) {
+  ScratchFolder folder;
+  folder.write("open.toml", table_1_open_loop + "[run]\nduration_s = 1e-3\n");
+  const Outcome outcome = folder.run("design open.toml");
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_NE(outcome.err.find("open.toml:1:1: controller: missing"), std::string::npos)
+      << outcome.err;
+  EXPECT_EQ(folder.entries(), Entries{"open.toml"});
+}
+
+TEST(DesignCommand, APlantWithoutASteadyVibrationFails) {
+  ScratchFolder folder;
+  folder.write("scene.toml", scene);
+  const Outcome outcome = folder.run("design scene.toml --set plant.stiffness_N_per_m=0");
+  EXPECT_EQ(outcome.exit_code, 3);
+  EXPECT_NE(outcome.err.find("steady orbit"), std::string::npos) << outcome.err;
+  EXPECT_EQ(folder.entries(), Entries{"scene.toml"});
+}
+
+TEST(DesignCommand, BadUsageIsRejected) {
+  for (const char* options :
+       {"--ratio 0", "--ratio 1", "--ratio half", "--ratio nan", "--velocity 0.1",
+        "--velocity 0:0.1", "--velocity 0.2:0.1", "--velocity 0.1:0.2:3", "--velocity nan:1",
+        "--velocity 0.1:inf", "--out ''"}) {
+    expect_scene_error(options, "sonoglide --help");
+  }
+}
+
+}  // namespace
+}  // namespace sonoglide::acceptance

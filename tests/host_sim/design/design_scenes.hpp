@@ -1,0 +1,58 @@
+/// Closed-loop scenes that designs are made for.
+#pragma once
+
+#include "host_sim/scene/scene.hpp"
+
+namespace sonoglide::design {
+
+/// The paper's Table 1 with 1920 N at most, sliding at 26.72 mm/s.
+inline scene::Scene table_1() {
+  scene::Scene scene;
+  scene.plant.mass_kg = 0.02;
+  scene.plant.stiffness_N_per_m = 133e6;
+  scene.friction.law = scene::laws::Dahl{};
+  scene.friction.coefficient = 0.1;
+  scene.friction.normal_force_N = 0.02 * 9.81;
+  scene.friction.contact_stiffness_N_per_m = 0.056e6;
+  scene.sliding.profile = {{0.0, 0.02672}};
+  scene.drive.emplace();
+  scene.drive->frequency_Hz = 60e3;
+  scene.drive->max_force_amplitude_N = 1920.0;
+  scene.run.duration_s = 6e-3;
+  scene.controller.emplace();
+  scene.controller->target_friction_ratio = {{0.0, 0.7}, {1e-3, 0.3}, {2e-3, 0.5}, {3e-3, 0.3}};
+  scene.sensor.force_full_scale_N =
+      2.0 * scene.friction.coefficient * scene.friction.normal_force_N;
+  return scene;
+}
+
+/// The same with a Coulomb contact.
+inline scene::Scene coulomb() {
+  scene::Scene scene = table_1();
+  scene.friction.law = scene::laws::Coulomb{};
+  scene.friction.contact_stiffness_N_per_m = 0.0;
+  return scene;
+}
+
+/// A friction curve that falls and rises again, on a damped plant.
+inline scene::Scene stribeck() {
+  scene::Scene scene = coulomb();
+  scene.friction.law = scene::laws::Stribeck{0.1, 0.5};
+  scene.plant.damping_N_s_per_m = 10.0;
+  return scene;
+}
+
+/// Natural and drive frequency are one; damping, heavy friction, and little force.
+inline scene::Scene resonant() {
+  scene::Scene scene = table_1();
+  const double omega = 6.283185307179586 * scene.drive->frequency_Hz;
+  scene.plant.stiffness_N_per_m = scene.plant.mass_kg * omega * omega;
+  scene.plant.damping_N_s_per_m = 200.0;
+  scene.friction.normal_force_N = 20.0;
+  scene.friction.contact_stiffness_N_per_m = 5e7;
+  scene.drive->max_force_amplitude_N = 50.0;
+  scene.sensor.force_full_scale_N = 4.0;
+  return scene;
+}
+
+}  // namespace sonoglide::design
