@@ -3,6 +3,7 @@
 
 #include <cstddef>
 
+#include "firmware/friction/vibration.hpp"
 #include "firmware/numeric/scalar.hpp"
 
 namespace sonoglide::friction {
@@ -14,6 +15,7 @@ namespace sonoglide::friction {
 template <class Number>
 struct Coulomb {
   using Scalar = Number;
+  static constexpr Vibration vibration = Vibration::along;
   static constexpr bool reverses = true;
   static constexpr bool varies = false;
   static constexpr bool sticks = true;

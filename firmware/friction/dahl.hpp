@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 
+#include "firmware/friction/vibration.hpp"
 #include "firmware/numeric/float_elementary.hpp"
 #include "firmware/numeric/lane_group.hpp"
 #include "firmware/numeric/scalar.hpp"
@@ -19,6 +20,7 @@ namespace sonoglide::friction {
 template <class Number>
 struct Dahl {
   using Scalar = Number;
+  static constexpr Vibration vibration = Vibration::along;
   static constexpr bool reverses = true;
   static constexpr bool varies = true;
   static constexpr bool sticks = false;

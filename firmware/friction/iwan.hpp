@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <limits>
 
+#include "firmware/friction/vibration.hpp"
 #include "firmware/numeric/scalar.hpp"
 
 namespace sonoglide::friction {
@@ -33,6 +34,7 @@ struct Iwan {
   using Scalar = Number;
   static constexpr std::size_t most_elements = 8;
   using Memory = std::array<Scalar, most_elements>;  ///< phi_i; those beyond n are 0
+  static constexpr Vibration vibration = Vibration::along;
   static constexpr bool reverses = true;
   static constexpr bool varies = true;
   static constexpr bool sticks = false;

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 
+#include "firmware/friction/vibration.hpp"
 #include "firmware/numeric/float_elementary.hpp"
 #include "firmware/numeric/scalar.hpp"
 
@@ -32,6 +33,7 @@ template <class Number>
 struct LuGre {
   using Scalar = Number;
   using Memory = Scalar;  ///< psi
+  static constexpr Vibration vibration = Vibration::along;
   static constexpr bool reverses = true;
   static constexpr bool varies = true;
   static constexpr bool sticks = false;

@@ -3,11 +3,14 @@
 
 #include <cstddef>
 
+#include "firmware/friction/vibration.hpp"
+
 namespace sonoglide::friction {
 
 /// No friction: phi = 0.
 ///
 /// A law gives phi = F/Fc [-] in [-1, 1] in terms of the sliding velocity V = du/d tau. It offers:
+///   vibration            which way the mass vibrates, seen from the sliding
 ///   reverses             phi depends on sgn V, so that an event solver stops where V changes sign
 ///   varies               phi changes between two reversals
 ///   sticks               V may stay zero while a friction force below Fc holds it there
@@ -38,12 +41,19 @@ namespace sonoglide::friction {
 ///   memory_at(phi)       the Memory of a contact that has been loaded to phi for the first time
 ///   Series<Order>::memory(x)  the Memory at x; where rate independent,
 ///   Arc::memory_after(du)     the Memory after the displacement du
-/// A law that has corners is rate independent and remembers; no rate is asked of it. It also
+/// A law that vibrates across the sliding takes for V a Slip, along and across, and has
+///   friction_across(V)   the friction on the oscillator, phi being that along the sliding
+///   Series<Order>        of the friction across, from the coefficients of either velocity; it also
+///                        has friction_along(n), the n-th coefficient of phi
+/// A law that vibrates normally to the surface has a pressure and a limit of |phi| in terms of the
+/// displacement y, and a spring in front of its slider: friction::NormalCoulomb.
+/// Another law that has corners is rate independent and remembers; no rate is asked of it. It also
 /// offers:
 ///   Arc::to_corner()     the displacement, along the direction, to the first of them, or infinity
 template <class Number>
 struct None {
   using Scalar = Number;
+  static constexpr Vibration vibration = Vibration::along;
   static constexpr bool reverses = false;
   static constexpr bool varies = false;
   static constexpr bool sticks = false;

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <limits>
 
+#include "firmware/friction/vibration.hpp"
 #include "firmware/numeric/scalar.hpp"
 
 namespace sonoglide::friction {
@@ -24,6 +25,7 @@ namespace sonoglide::friction {
 template <class Number>
 struct Stribeck {
   using Scalar = Number;
+  static constexpr Vibration vibration = Vibration::along;
   static constexpr bool reverses = true;
   static constexpr bool varies = true;
   static constexpr bool sticks = true;

@@ -2,11 +2,12 @@
 #pragma once
 
 #include "firmware/friction/none.hpp"
+#include "firmware/friction/vibration.hpp"
 
 namespace sonoglide::plant {
 
-/// Sliding velocity V = r + sigma v, friction force on the oscillator beta phi.
-template <class Law>
+/// Vibration along the sliding: V = r + sigma v, friction force on the oscillator beta phi.
+template <class Law, friction::Vibration = Law::vibration>
 struct Contact {
   using Scalar = typename Law::Scalar;
 
@@ -18,18 +19,73 @@ struct Contact {
   Scalar contact_velocity(Scalar sliding_velocity, Scalar velocity) const {
     return sliding_velocity + vibration_sign * velocity;
   }
+  /// Of the contact's path as the vibration leads it, and what the sliding adds to that.
+  Scalar path_velocity(Scalar sliding_velocity, Scalar velocity) const {
+    return contact_velocity(sliding_velocity, velocity);
+  }
+  Scalar path_share(Scalar sliding_velocity) const { return sliding_velocity; }
   /// The velocity dy / d tau at which V = 0.
   Scalar resting_velocity(Scalar sliding_velocity) const {
     return -vibration_sign * sliding_velocity;
   }
   Scalar contact_force(Scalar friction) const { return friction_force * friction; }
+  /// The friction on the oscillator, in Fc, where `friction` acts along the sliding.
+  Scalar friction_on_oscillator(Scalar /*sliding_velocity*/, Scalar /*velocity*/,
+                                Scalar friction) const {
+    return friction;
+  }
+  /// Power into the contact, in units of beta.
+  Scalar friction_power(Scalar sliding_velocity, Scalar velocity, Scalar friction) const {
+    return friction * contact_velocity(sliding_velocity, velocity);
+  }
   /// Energy that leaves the oscillator, from an integral of phi times a sliding velocity.
   Scalar contact_work(Scalar integral) const { return vibration_sign * friction_force * integral; }
 };
 
+/// Vibration across the sliding: the contact's path is the oscillator's own, and the slip a vector.
+template <class Law>
+struct Contact<Law, friction::Vibration::across> {
+  using Scalar = typename Law::Scalar;
+  using Slip = typename Law::Slip;
+
+  Law law{};
+  Scalar friction_force = Scalar(0);  ///< beta = Fc / (m L omega^2) [-], >= 0
+
+  Scalar side() const { return Scalar(1); }
+  Slip contact_velocity(Scalar sliding_velocity, Scalar velocity) const {
+    return {sliding_velocity, velocity};
+  }
+  Scalar path_velocity(Scalar /*sliding_velocity*/, Scalar velocity) const { return velocity; }
+  Scalar path_share(Scalar /*sliding_velocity*/) const { return Scalar(0); }
+  Scalar contact_force(Scalar friction) const { return friction_force * friction; }
+  Scalar friction_on_oscillator(Scalar sliding_velocity, Scalar velocity,
+                                Scalar /*friction*/) const {
+    return law.friction_across({sliding_velocity, velocity});
+  }
+  Scalar friction_power(Scalar sliding_velocity, Scalar velocity, Scalar /*friction*/) const {
+    return Slip{sliding_velocity, velocity}.speed();
+  }
+  Scalar contact_work(Scalar integral) const { return friction_force * integral; }
+};
+
+/// Vibration normal to the surface: friction does not act on the oscillator.
+template <class Law>
+struct Contact<Law, friction::Vibration::normal> {
+  using Scalar = typename Law::Scalar;
+
+  Law law{};
+  Scalar friction_force = Scalar(0);  ///< beta = mu N0 / (m L omega^2) [-], >= 0
+
+  Scalar side() const { return Scalar(1); }
+  Scalar path_velocity(Scalar /*sliding_velocity*/, Scalar velocity) const { return velocity; }
+  Scalar path_share(Scalar /*sliding_velocity*/) const { return Scalar(0); }
+  Scalar contact_force(Scalar /*friction*/) const { return Scalar(0); }
+  Scalar contact_work(Scalar integral) const { return friction_force * integral; }
+};
+
 /// Nothing touches: no parameters, and every term folds away.
 template <class Number>
-struct Contact<friction::None<Number>> {
+struct Contact<friction::None<Number>, friction::Vibration::along> {
   using Scalar = Number;
   static constexpr friction::None<Number> law{};
 
@@ -37,7 +93,17 @@ struct Contact<friction::None<Number>> {
   Scalar contact_velocity(Scalar /*sliding_velocity*/, Scalar /*velocity*/) const {
     return Scalar(0);
   }
+  Scalar path_velocity(Scalar /*sliding_velocity*/, Scalar /*velocity*/) const { return Scalar(0); }
+  Scalar path_share(Scalar sliding_velocity) const { return sliding_velocity; }
   Scalar contact_force(Scalar /*friction*/) const { return Scalar(0); }
+  Scalar friction_on_oscillator(Scalar /*sliding_velocity*/, Scalar /*velocity*/,
+                                Scalar friction) const {
+    return friction;
+  }
+  Scalar friction_power(Scalar /*sliding_velocity*/, Scalar /*velocity*/,
+                        Scalar /*friction*/) const {
+    return Scalar(0);
+  }
   Scalar contact_work(Scalar /*integral*/) const { return Scalar(0); }
 };
 

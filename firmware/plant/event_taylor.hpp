@@ -6,11 +6,14 @@
 #include <limits>
 #include <type_traits>
 
+#include "firmware/friction/vibration.hpp"
 #include "firmware/numeric/scalar.hpp"
+#include "firmware/plant/across_friction.hpp"
 #include "firmware/plant/branch_at_rest.hpp"
 #include "firmware/plant/corner.hpp"
 #include "firmware/plant/first_reversal.hpp"
 #include "firmware/plant/first_root.hpp"
+#include "firmware/plant/normal_piece.hpp"
 #include "firmware/plant/outcome.hpp"
 #include "firmware/plant/rated_friction.hpp"
 #include "firmware/plant/state.hpp"
@@ -88,8 +91,12 @@ class EventTaylor {
   using Arc = typename SlidingLaw<Law, Order>::Type;
   using Series = TaylorSeries<Model, Order>;
   using Coefficients = typename Series::Coefficients;
-  using Sliding = std::conditional_t<Law::rate_independent, SlidingFriction<Model, Series>,
-                                     RatedFriction<Series, Arc>>;
+  static constexpr bool is_across = Law::vibration == friction::Vibration::across;
+  static constexpr bool is_normal = Law::vibration == friction::Vibration::normal;
+  using Sliding =
+      std::conditional_t<is_across, AcrossFriction<Series, Arc>,
+                         std::conditional_t<Law::rate_independent, SlidingFriction<Model, Series>,
+                                            RatedFriction<Series, Arc>>>;
 
   /// Of V. Friction that follows from the displacement matters by the force alone, whose terms go
   /// into V one power higher; any other is as good as its own series.
@@ -161,6 +168,17 @@ class EventTaylor {
                         epsilon * (Scalar(16) + numeric::twice(phase)),
                         epsilon * (numeric::abs(interval.sliding_velocity) + numeric::abs(change)),
                         state};
+    if constexpr (is_normal) {
+      press(interval, instant, position, state, account, observer);
+    } else {
+      rub(interval, instant, position, state, account, observer);
+    }
+  }
+
+  /// The contact rubs on the vibrating mass: it slides, turns or sticks.
+  template <class Account, class Observer>
+  void rub(const Interval<Scalar>& interval, const At& instant, Position& position,
+           StateOf<Law>& state, Account& account, Observer& observer) {
     Branch<Scalar> branch = choose_branch(instant, position.released);
     position.released = Scalar(0);
     if constexpr (Law::sticks) {
@@ -188,6 +206,33 @@ class EventTaylor {
   /// Of the sliding velocity since the interval began.
   static Scalar sliding_change(const Interval<Scalar>& interval, const Position& position) {
     return Model::Sliding::change(interval.sliding_acceleration, position.offset);
+  }
+
+  /// The mass presses on a slider beside it, and moves as if alone.
+  template <class Account, class Observer>
+  void press(const Interval<Scalar>& interval, const At& instant, Position& position,
+             State<Scalar>& state, Account& account, Observer& observer) {
+    const Scalar rest_of_time = interval.duration - position.offset;
+    Arc nothing(model_.law, Scalar(0), state.friction);
+    Series series(model_, instant, numeric::min(longest_step_, rest_of_time));
+    series.slide(model_, nothing);
+    if (!series.is_finite()) {
+      shrink(series, instant, nothing);
+    }
+    const NormalPiece<Law, Series> piece(model_.law, series, state.friction);
+    series.friction = piece.friction();
+
+    const Scalar remaining = rest_of_time / series.unit;
+    const Scalar longest = sliding_extent(series, remaining);
+    const Scalar end = piece.end(longest);
+    cost_.events += end < longest ? 1 : 0;
+    // Time moves, however close the next corner.
+    const Scalar shortest =
+        numeric::twice(std::numeric_limits<Scalar>::epsilon()) * position.offset / series.unit;
+    const Scalar extent = numeric::min(numeric::max(end, shortest), remaining);
+    const NormalFriction<Law, Series> friction(model_.law, series);
+    accept(interval, series, friction, extent, extent == remaining, position, state, account,
+           observer);
   }
 
   Branch<Scalar> choose_branch(const At& instant, Scalar released) const {
@@ -222,7 +267,8 @@ class EventTaylor {
     }
     const Scalar rest_of_time = interval.duration - position.offset;
     const Scalar remaining = rest_of_time / series.unit;
-    const Scalar longest = within_reach(series, sliding_extent(series, remaining));
+    const Scalar longest =
+        within_reach(series, within_mean(arc, sliding_extent(series, remaining)));
     const Scalar reversal = up_to_reversal(series, branch, longest);
     const bool stands_still =
         reversal < longest && position.offset + reversal * series.unit == position.offset;
@@ -243,8 +289,7 @@ class EventTaylor {
 
   /// The step to come, as far as can be told.
   Scalar sliding_unit(const At& instant, Scalar rest_of_time) const {
-    const Scalar velocity =
-        model_.contact_velocity(instant.sliding_velocity, instant.state.velocity);
+    const auto velocity = model_.contact_velocity(instant.sliding_velocity, instant.state.velocity);
     return model_.law.series_unit(velocity, contact_memory(instant.state),
                                   numeric::min(longest_step_, rest_of_time));
   }
@@ -258,6 +303,17 @@ class EventTaylor {
     return within < numeric::half(fastest) ? extent_at(within, series, remaining) : extent;
   }
 
+  /// As much of an extent as the mean friction can be told for, where that is of another part of
+  /// the friction than the oscillator feels.
+  Scalar within_mean(const Arc& arc, Scalar extent) const {
+    if constexpr (is_across) {
+      return numeric::min(
+          extent, reach(numeric::abs(arc.friction_along(Order)),
+                        numeric::abs(arc.friction_along(Order - 1)), allowed_ / most_weight));
+    }
+    return extent;
+  }
+
   /// As much of an extent as the series of the law serves for.
   Scalar within_reach(const Series& series, Scalar extent) const {
     if constexpr (!Law::rate_independent) {
@@ -265,10 +321,21 @@ class EventTaylor {
       for (std::size_t n = series.travel.size() - 1; n > 0; --n) {
         change = extent * (change + numeric::abs(series.travel[n]));
       }
-      const Scalar reach = series.unit * model_.law.reach(series.travel[0] / series.unit);
+      if constexpr (is_across) {
+        change += extent * series.unit * numeric::abs(series.sliding_velocity[1]);
+      }
+      const Scalar reach = series.unit * model_.law.reach(contact_velocity(series));
       return change > reach ? extent * (reach / change) : extent;
     }
     return extent;
+  }
+
+  auto contact_velocity(const Series& series) const {
+    if constexpr (is_across) {
+      return model_.contact_velocity(series.sliding_velocity[0], series.velocity);
+    } else {
+      return series.travel[0] / series.unit;
+    }
   }
 
   Scalar extent_at(Scalar speed, const Series& series, Scalar remaining) const {

@@ -9,14 +9,15 @@
 namespace sonoglide::plant {
 
 /// y'' = a cos(tau) - d y' - k y - beta phi, in units of length L, time 1 / omega and force m L
-/// omega^2; phi = F / Fc.
+/// omega^2; phi = F / Fc, of the friction on the oscillator.
 ///
-/// Law      friction::None, Coulomb, Stribeck, Dahl, Iwan or LuGre
+/// Law      friction::None, Coulomb, Stribeck, Dahl, Iwan, LuGre, TransverseCoulomb or NormalCoulomb
 /// Damping  Undamped or Damped
 /// DriveOf  NoDrive, CosineDrive, RampDrive or LevelDrive
 /// SlidingOf  LinearSliding, or ConstantSliding where no interval has a sliding acceleration
 /// What is not named has no member: the parameters of a law and of the damping are its own.
-/// Aggregate: Model{{law, friction_force, vibration_sign}, {damping}, stiffness}.
+/// Aggregate: Model{{law, friction_force, vibration_sign}, {damping}, stiffness}, without the sign
+/// where the vibration is not along the sliding.
 template <class Law, class Damping, class DriveOf, class SlidingOf = LinearSliding>
 struct Model : Contact<Law>, Damping {
   using Scalar = typename Law::Scalar;

@@ -11,12 +11,12 @@ namespace sonoglide::plant {
 
 /// The law as it stands: its rate turns with sgn V wherever that happens.
 struct TurningContact {
-  template <class Law, class Scalar>
-  Scalar friction(const Law& law, Scalar velocity, Scalar friction) const {
+  template <class Law, class Velocity, class Scalar>
+  Scalar friction(const Law& law, const Velocity& velocity, Scalar friction) const {
     return law.friction(velocity, friction);
   }
-  template <class Law, class Scalar>
-  Scalar rate(const Law& law, Scalar velocity, Scalar friction) const {
+  template <class Law, class Velocity, class Scalar>
+  Scalar rate(const Law& law, const Velocity& velocity, Scalar friction) const {
     return law.rate(velocity, friction);
   }
 };
@@ -68,12 +68,14 @@ class Rk4Formula {
   Stage stage(Scalar drive, Scalar offset, PlantState state) const {
     const Scalar sliding =
         interval_.sliding_velocity + Model::Sliding::change(interval_.sliding_acceleration, offset);
-    const Scalar velocity = model_.contact_velocity(sliding, state.velocity);
+    const auto velocity = model_.contact_velocity(sliding, state.velocity);
     state.friction = contact_.friction(model_.law, velocity, contact_memory(state));
     PlantState slope;
     contact_memory(slope) = contact_.rate(model_.law, velocity, contact_memory(state));
     slope.displacement = state.velocity;
-    slope.velocity = model_.acceleration(drive, state);
+    slope.velocity = model_.acceleration(
+        drive, {state.displacement, state.velocity,
+                model_.friction_on_oscillator(sliding, state.velocity, state.friction)});
     return {drive, sliding, state, slope};
   }
 

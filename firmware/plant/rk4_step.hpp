@@ -60,8 +60,8 @@ class Rk4Step {
   }
   Scalar friction_work() const {
     return sum([this](const Stage& stage) {
-      return stage.state.friction *
-             model_.contact_velocity(stage.sliding_velocity, stage.state.velocity);
+      return model_.friction_power(stage.sliding_velocity, stage.state.velocity,
+                                   stage.state.friction);
     });
   }
   Scalar sliding_work() const {

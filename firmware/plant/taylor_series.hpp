@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <utility>
 
+#include "firmware/friction/vibration.hpp"
 #include "firmware/plant/polynomial.hpp"
 #include "firmware/plant/state.hpp"
 
@@ -60,7 +61,7 @@ struct TaylorSeries {
         displacement(instant.state.displacement),
         velocity(instant.state.velocity) {
     vibration[0] = side * unit * velocity;
-    travel[0] = unit * model.contact_velocity(sliding_velocity[0], velocity);
+    travel[0] = unit * model.path_velocity(sliding_velocity[0], velocity);
   }
 
   /// The contact slides along an arc of its friction law.
@@ -128,7 +129,10 @@ struct TaylorSeries {
 
   template <std::size_t N, class Arc>
   [[gnu::always_inline]] Scalar friction_coefficient(Arc& arc) const {
-    if constexpr (Model::FrictionLaw::rate_independent) {
+    using Law = typename Model::FrictionLaw;
+    if constexpr (Law::vibration == friction::Vibration::across) {
+      return arc.template coefficient<N>(rate * motion(N), N < 2 ? sliding_velocity[N] : Scalar(0));
+    } else if constexpr (Law::rate_independent) {
       return arc.template coefficient<N>(travel, friction);
     } else {
       return arc.template coefficient<N>(travel, unit);
@@ -155,7 +159,7 @@ struct TaylorSeries {
     }
     if constexpr (N == 0) {
       vibration[1] = next;
-      travel[1] = next + Model::Sliding::change(sliding_velocity[1], unit);
+      travel[1] = next + Model::Sliding::change(model.path_share(sliding_velocity[1]), unit);
     } else {
       travel[N + 1] = next;
     }

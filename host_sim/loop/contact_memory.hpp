@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "firmware/friction/vibration.hpp"
 #include "firmware/plant/state.hpp"
 
 namespace sonoglide::loop {
@@ -12,6 +13,10 @@ namespace sonoglide::loop {
 /// The force is all that a contact of this law remembers.
 template <class Law>
 inline constexpr bool remembers_force = !Law::remembers && Law::varies && Law::rate_independent;
+
+/// The force is, and its limit follows the vibration.
+template <class Law>
+inline constexpr bool remembers_force_on_spring = Law::vibration == friction::Vibration::normal;
 
 namespace detail {
 
@@ -48,6 +53,9 @@ std::vector<double> remembered(const Law& law, const plant::StateOf<Law>& state)
     return detail::parts(state.memory, law.largest_memory());
   } else if constexpr (remembers_force<Law>) {
     return {state.friction};
+  } else if constexpr (remembers_force_on_spring<Law>) {
+    const double limit = law.limit(state.displacement);
+    return {limit > 0.0 ? state.friction / limit : 0.0};
   }
   return {};
 }
@@ -58,6 +66,8 @@ void remember(const Law& law, const std::vector<double>& parts, plant::StateOf<L
     detail::set_parts(state.memory, law.largest_memory(), parts);
   } else if constexpr (remembers_force<Law>) {
     state.friction = parts.front();
+  } else if constexpr (remembers_force_on_spring<Law>) {
+    state.friction = parts.front() * law.limit(state.displacement);
   }
 }
 

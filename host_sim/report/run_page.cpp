@@ -316,7 +316,8 @@ Panel spectrum_panel(const scene::Scene& scene, const loop::Recording& ending) {
 Section ending(const scene::Scene& scene, const loop::Recording& recording) {
   constexpr std::size_t samples = 64;
   Section section{"End of the run", "", {}};
-  if (scene::friction_limit_N(scene.friction) > 0.0) {
+  // Across the sliding and normal to it the vibration is no part of the displacement travelled.
+  if (scene::friction_limit_N(scene.friction) > 0.0 && scene::vibrates_along(scene.friction.law)) {
     section.panels.push_back(
         hysteresis_panel(analysis::last_cycle(recording, scene.friction.sign_convention, samples)));
   }

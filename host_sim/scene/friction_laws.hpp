@@ -8,20 +8,23 @@
 #include <utility>
 #include <variant>
 
+#include "firmware/friction/vibration.hpp"
 #include "host_sim/scene/contact.hpp"
 #include "host_sim/scene/laws/coulomb.hpp"
 #include "host_sim/scene/laws/dahl.hpp"
 #include "host_sim/scene/laws/iwan.hpp"
 #include "host_sim/scene/laws/lugre.hpp"
 #include "host_sim/scene/laws/none.hpp"
+#include "host_sim/scene/laws/normal_coulomb.hpp"
 #include "host_sim/scene/laws/stribeck.hpp"
+#include "host_sim/scene/laws/transverse_coulomb.hpp"
 
 namespace sonoglide::scene {
 
 /// A law with its own parameters; what a law offers is listed at laws::None. Messages name them in
 /// this order.
-using FrictionLaw =
-    std::variant<laws::Dahl, laws::LuGre, laws::Iwan, laws::Coulomb, laws::Stribeck, laws::None>;
+using FrictionLaw = std::variant<laws::Dahl, laws::LuGre, laws::Iwan, laws::Coulomb, laws::Stribeck,
+                                 laws::TransverseCoulomb, laws::NormalCoulomb, laws::None>;
 
 inline constexpr std::size_t law_count = std::variant_size_v<FrictionLaw>;
 
@@ -63,6 +66,16 @@ constexpr bool is(const FrictionLaw& law) {
 /// begin under a force.
 constexpr bool is_elastic(const FrictionLaw& law) {
   return std::visit([](const auto& any) { return any.elastic; }, law);
+}
+
+/// Which way the mass vibrates, seen from the sliding.
+constexpr friction::Vibration vibration_of(const FrictionLaw& law) {
+  return std::visit(
+      [](const auto& any) { return std::decay_t<decltype(any)>::template Core<double>::vibration; },
+      law);
+}
+constexpr bool vibrates_along(const FrictionLaw& law) {
+  return vibration_of(law) == friction::Vibration::along;
 }
 
 /// The closed-form map that a controller is fed forward by.

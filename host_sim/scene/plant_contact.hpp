@@ -16,6 +16,9 @@ plant::Contact<typename Law::template Core<Scalar>> plant_contact(const Law& law
                                                                   const PlantNumbers& numbers) {
   if constexpr (std::is_same_v<Law, laws::None>) {
     return {};
+  } else if constexpr (Law::template Core<Scalar>::vibration != friction::Vibration::along) {
+    return {law.template core<Scalar>(contact, scales),
+            static_cast<Scalar>(numbers.friction_force)};
   } else {
     return {law.template core<Scalar>(contact, scales), static_cast<Scalar>(numbers.friction_force),
             static_cast<Scalar>(vibration_sign(contact.sign_convention))};

@@ -116,7 +116,7 @@ Scene read(const Document& document, const std::vector<double>& numbers) {
   scene.name = document.name();
   scene.plant = read_plant(variant);
   scene.friction = read_friction(variant, scene.plant);
-  scene.sliding = read_sliding(variant);
+  scene.sliding = read_sliding(variant, scene.friction);
   scene.drive = read_drive(variant);
   scene.solver = read_solver(variant);
   require_solvable(scene, document);

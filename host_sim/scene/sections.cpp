@@ -70,6 +70,30 @@ class KeyReader {
   TableCursor& cursor_;
 };
 
+bool stands(const SpeedPoint& point) {
+  return point.velocity_m_per_s == 0.0;
+}
+
+/// Whether the sliding stands for a while.
+bool stands_still(const std::vector<SpeedPoint>& profile) {
+  const bool at_first = stands(profile.front()) && profile.front().time_s > 0.0;
+  return at_first || stands(profile.back()) ||
+         std::adjacent_find(profile.begin(), profile.end(),
+                            [](const SpeedPoint& one, const SpeedPoint& next) {
+                              return stands(one) && stands(next);
+                            }) != profile.end();
+}
+
+/// Friction across the vibration needs a slip to point against.
+void require_slip(TableCursor& cursor, std::string_view key, const Sliding& sliding,
+                  const FrictionLaw& law) {
+  if (vibration_of(law) == friction::Vibration::across && stands_still(sliding.profile)) {
+    cursor.fail(key, fmt::format("a speed that stays 0 leaves the friction law \"{}\" without a "
+                                 "direction; allowed: a speed that at most passes 0",
+                                 name_of(law)));
+  }
+}
+
 }  // namespace
 
 Plant read_plant(const Variant& variant) {
@@ -91,6 +115,8 @@ Friction read_friction(const Variant& variant, const Plant& plant) {
     friction.coefficient = cursor.real("coefficient", {0.0, 100.0});
     friction.normal_force_N =
         cursor.real("normal_force_N", {0.0, 1e9, "N"}, plant.mass_kg * standard_gravity_m_per_s2);
+  }
+  if (!is<laws::None>(friction.law) && vibrates_along(friction.law)) {
     friction.sign_convention =
         cursor.choice("sign_convention", sign_conventions, SignConvention::dissipative);
   }
@@ -106,17 +132,19 @@ Friction read_friction(const Variant& variant, const Plant& plant) {
   return friction;
 }
 
-Sliding read_sliding(const Variant& variant) {
+Sliding read_sliding(const Variant& variant, const Friction& friction) {
   TableCursor cursor = required_table(variant, "sliding");
+  const std::string_view key = cursor.one_of("velocity_m_per_s", "profile");
   Sliding sliding;
-  if (cursor.one_of("velocity_m_per_s", "profile") == "velocity_m_per_s") {
-    sliding.profile.push_back({0.0, cursor.real("velocity_m_per_s", speed_range)});
-    return sliding;
+  if (key == "velocity_m_per_s") {
+    sliding.profile.push_back({0.0, cursor.real(key, speed_range)});
+  } else {
+    for (const auto& [time_s, velocity_m_per_s] :
+         cursor.timed_values(key, time_range, speed_range)) {
+      sliding.profile.push_back({time_s, velocity_m_per_s});
+    }
   }
-  for (const auto& [time_s, velocity_m_per_s] :
-       cursor.timed_values("profile", time_range, speed_range)) {
-    sliding.profile.push_back({time_s, velocity_m_per_s});
-  }
+  require_slip(cursor, key, sliding, friction.law);
   return sliding;
 }
 

@@ -10,7 +10,7 @@ namespace sonoglide::scene {
 /// range, or of no use in this scene.
 Plant read_plant(const Variant& variant);
 Friction read_friction(const Variant& variant, const Plant& plant);
-Sliding read_sliding(const Variant& variant);
+Sliding read_sliding(const Variant& variant, const Friction& friction);
 std::optional<Drive> read_drive(const Variant& variant);
 Solver read_solver(const Variant& variant);
 Run read_run(const Variant& variant, const Scene& so_far);

@@ -63,7 +63,9 @@ ordered_json echo(const Friction& friction, Start start) {
   KeyEcho keys(table);
   FrictionLaw law = friction.law;
   std::visit([&](auto& any) { any.visit_keys(keys, friction); }, law);
-  table["sign_convention"] = name_of(sign_conventions, friction.sign_convention);
+  if (vibrates_along(friction.law)) {
+    table["sign_convention"] = name_of(sign_conventions, friction.sign_convention);
+  }
   return table;
 }
 

@@ -3,10 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <boost/math/quadrature/gauss_kronrod.hpp>
 #include <boost/math/quadrature/trapezoidal.hpp>
 #include <boost/math/special_functions/ellint_1.hpp>
+#include <boost/math/tools/toms748_solve.hpp>
 #include <boost/multiprecision/cpp_bin_float.hpp>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 
 #include "firmware/friction/normal_vibration_ratio.hpp"
@@ -95,22 +98,59 @@ double followed_in_time(double amplitude_ratio, double velocity_ratio) {
 }
 
 TEST(NormalVibrationRatio, FollowsTheContactInTime) {
-  double furthest = 0.0;
   for (const double amplitude : {0.2, 0.7, 1.0}) {
     for (double speed = 0.005; speed < 1.3; speed += 0.05) {
-      const double reduction = 1.0 - normal_vibration_ratio(amplitude, speed);
-      const double above = (reduction - (1.0 - followed_in_time(amplitude, speed))) / amplitude;
-      EXPECT_GE(above, -1e-4) << amplitude << ' ' << speed;
-      EXPECT_LE(above, 0.015) << amplitude << ' ' << speed;
-      furthest = std::max(furthest, above);
+      EXPECT_NEAR(normal_vibration_ratio(amplitude, speed), followed_in_time(amplitude, speed),
+                  1e-4)
+          << amplitude << ' ' << speed;
     }
+  }
+}
+
+/// Psi by bracketing and quadrature: the phase from which the slider sticks is where the limit
+/// rises as fast as the spring is stretched, that at which it slips again where they meet.
+long double reduction_by_quadrature(long double s) {
+  using std::cos;
+  const long double begin = boost::math::constants::pi<long double>() + std::asin(s);
+  const auto above = [&](long double phase) {
+    return cos(phase) - cos(begin) - s * (phase - begin);
+  };
+  const long double low = begin + 2.0L * std::acos(s);
+  const long double turn = boost::math::constants::two_pi<long double>();
+  std::uintmax_t iterations = 200;
+  const auto end = boost::math::tools::toms748_solve(
+      above, low, begin + turn, boost::math::tools::eps_tolerance<long double>(60), iterations);
+  return boost::math::quadrature::gauss_kronrod<long double, 61>::integrate(above, begin, end.first,
+                                                                            5, 1e-17L) /
+         turn;
+}
+
+TEST(NormalVibrationRatio, IsTheIntegralOfTheForceThatTheSliderMisses) {
+  for (const double speed : {1e-6, 1e-3, 0.02, 0.1, 0.3, 0.5, 0.7, 0.9, 0.99, 0.9999}) {
+    const auto reduction = static_cast<double>(reduction_by_quadrature(speed));
+    EXPECT_NEAR(normal_vibration_ratio(1.0, speed), 1.0 - reduction, 1e-14) << speed;
+    EXPECT_NEAR(normal_vibration_ratio(0.3, speed), 1.0 - 0.3 * reduction, 1e-14) << speed;
+    EXPECT_NEAR(normal_vibration_ratio(1.0F, static_cast<float>(speed)), 1.0 - reduction, 1e-6)
+        << speed;
+  }
+}
+
+TEST(NormalVibrationRatio, IsNearThePublishedFit) {
+  double furthest = 0.0;
+  for (double speed = 0.005; speed < 1.3; speed += 0.005) {
+    const double below = 1.0 - std::min(speed, 1.0);
+    const double fit = 0.75 * std::pow(below, 2) + 0.25 * std::pow(below, 4);
+    const double above = fit - (1.0 - normal_vibration_ratio(1.0, speed));
+    EXPECT_GE(above, -1e-12) << speed;
+    EXPECT_LE(above, 0.015) << speed;
+    furthest = std::max(furthest, above);
   }
   EXPECT_GE(furthest, 0.013) << "the docstring gives a bound that is too wide";
 }
 
 TEST(NormalVibrationRatio, HasItsLimits) {
   for (const double amplitude : {0.0, 0.3, 1.0}) {
-    EXPECT_EQ(normal_vibration_ratio(amplitude, 0.0), 1.0 - amplitude);
+    EXPECT_NEAR(normal_vibration_ratio(amplitude, 0.0), 1.0 - amplitude, 1e-15);
     EXPECT_EQ(normal_vibration_ratio(amplitude, 1.0), 1.0);
     EXPECT_EQ(normal_vibration_ratio(amplitude, 40.0), 1.0);
     EXPECT_EQ(normal_vibration_ratio(amplitude, -0.4), normal_vibration_ratio(amplitude, 0.4));

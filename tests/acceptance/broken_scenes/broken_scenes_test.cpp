@@ -86,7 +86,7 @@ const std::vector<BrokenScene> broken_scenes = {
      "6:1: friction.zeta: unknown key; allowed: law, coefficient, normal_force_N, "
      "contact_stiffness_N_per_m, initial_force_N, sign_convention, static_coefficient, "
      "stribeck_velocity_m_per_s, bristle_damping_N_s_per_m, viscous_friction_N_s_per_m, elements, "
-     "fall_s_per_m, rise_s3_per_m3"},
+     "fall_s_per_m, rise_s3_per_m3, normal_contact_stiffness_N_per_m"},
     {"control_character_in_key", open_loop, "mass_kg = 0.02", "\"mass\\nkg\" = 0.02",
      "2:1: plant.mass\\x0akg: unknown key; did you mean mass_kg?"},
     {"sub_table", open_loop, "[friction]", "[plant.mount]\nx = 1\n[friction]",
@@ -103,8 +103,7 @@ const std::vector<BrokenScene> broken_scenes = {
      "16:13: solver.tolerance: is a table; allowed: a number, 1e-15 to 0.01"},
     {"number_for_word", open_loop, "law = \"dahl\"", "law = 1",
      "5:7: friction.law: is an integer; allowed: \"dahl\", \"lugre\", \"iwan\", \"coulomb\", "
-     "\"stribeck\", "
-     "\"none\""},
+     "\"stribeck\", \"transverse_coulomb\", \"normal_coulomb\", \"none\""},
     {"real_for_integer", closed_loop, "adc_bits = 12", "adc_bits = 12.0",
      "19:12: sensor.adc_bits: is a real number; allowed: an integer, 4 to 32"},
     {"number_for_table", open_loop, "[plant]\nmass_kg = 0.02\nstiffness_N_per_m = 133e6",
@@ -145,7 +144,8 @@ const std::vector<BrokenScene> broken_scenes = {
      "value"},
     {"unknown_word_near", open_loop, "\"dahl\"", "\"dhal\"",
      "5:7: friction.law: \"dhal\" is unknown; did you mean \"dahl\"? allowed: \"dahl\", "
-     "\"lugre\", \"iwan\", \"coulomb\", \"stribeck\", \"none\""},
+     "\"lugre\", \"iwan\", \"coulomb\", \"stribeck\", \"transverse_coulomb\", "
+     "\"normal_coulomb\", \"none\""},
     {"unknown_word_far", open_loop, "\"event_taylor\"", "\"magic\"",
      "15:10: solver.method: \"magic\" is unknown; allowed: \"event_taylor\", "
      "\"event_gauss\", \"strang\", \"rk4\", \"rk4_event\""},
@@ -181,6 +181,20 @@ const std::vector<BrokenScene> broken_scenes = {
      "6:12: friction.elements: 9 is out of range; allowed: 1 to 8"},
     {"part_of_an_element", open_loop, "\"dahl\"", "\"iwan\"\nelements = 1.5",
      "6:12: friction.elements: is a real number; allowed: an integer, 1 to 8"},
+    {"transverse_without_slip", open_loop,
+     "\"dahl\"\ncoefficient = 0.1\ncontact_stiffness_N_per_m = 0.056e6\n[sliding]\n"
+     "velocity_m_per_s = 0.0267",
+     "\"transverse_coulomb\"\ncoefficient = 0.1\n[sliding]\nvelocity_m_per_s = 0",
+     "8:20: sliding.velocity_m_per_s: a speed that stays 0 leaves the friction law "
+     "\"transverse_coulomb\" without a direction; allowed: a speed that at most passes 0"},
+    {"transverse_has_no_sign", open_loop,
+     "\"dahl\"\ncoefficient = 0.1\ncontact_stiffness_N_per_m = 0.056e6",
+     "\"transverse_coulomb\"\ncoefficient = 0.1\nsign_convention = \"dissipative\"",
+     "7:1: friction.sign_convention: not used with friction.law = \"transverse_coulomb\"; remove "
+     "it"},
+    {"normal_without_its_stiffness", open_loop, "\"dahl\"", "\"normal_coulomb\"",
+     "4:2: friction.normal_contact_stiffness_N_per_m: missing; required: a number, 1e-06 to 1e+18 "
+     "N/m"},
     {"dahl_has_no_bristles", open_loop, "[sliding]", "static_coefficient = 0.2\n[sliding]",
      "9:1: friction.static_coefficient: not used with friction.law = \"dahl\"; remove it"},
     {"unknown_channel", open_loop, "[\"displacement_m\"]", "[\"displacment_m\"]",
@@ -194,8 +208,7 @@ const std::vector<BrokenScene> broken_scenes = {
      "1:2: plant.mass_kg: missing; required: a number, 1e-12 to 1e+06 kg"},
     {"missing_word", open_loop, "law = \"dahl\"\n", "",
      "4:2: friction.law: missing; required: \"dahl\" or \"lugre\" or \"iwan\" or \"coulomb\" or "
-     "\"stribeck\" "
-     "or \"none\""},
+     "\"stribeck\" or \"transverse_coulomb\" or \"normal_coulomb\" or \"none\""},
     {"missing_table", open_loop, "[sliding]\nvelocity_m_per_s = 0.0267\n", "",
      "1:1: sliding: missing; required: a table [sliding]"},
     {"missing_velocity", open_loop, "velocity_m_per_s = 0.0267\n", "",

@@ -54,7 +54,8 @@ const std::vector<BadOverride> bad_overrides = {
      "--set:1:1: plant.mass_kg: more than one value; allowed: one TOML value or a bare word"},
     {"unknown_word", "--set friction.law=dahll",
      "--set:1:1: friction.law: \"dahll\" is unknown; did you mean \"dahl\"? allowed: \"dahl\", "
-     "\"lugre\", \"iwan\", \"coulomb\", \"stribeck\", \"none\""},
+     "\"lugre\", \"iwan\", \"coulomb\", \"stribeck\", \"transverse_coulomb\", "
+     "\"normal_coulomb\", \"none\""},
     {"ordinal_of_the_option", "--set plant.mass_kg=1 --set friction.coefficient=-1",
      "--set:2:1: friction.coefficient: -1 is out of range; allowed: 0 to 100"},
     {"element_of_the_value", "--set 'run.record=[\"velocity_m_per_s\", 3]'",

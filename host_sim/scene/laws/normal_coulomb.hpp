@@ -1,0 +1,40 @@
+/// Friction of a contact that vibrates normally to the surface, in a scene.
+#pragma once
+
+#include <string_view>
+
+#include "firmware/friction/normal_coulomb.hpp"
+#include "host_sim/scene/contact.hpp"
+#include "host_sim/scene/scales.hpp"
+
+namespace sonoglide::scene::laws {
+
+/// What friction::NormalCoulomb has beyond the stiffness along the sliding, which is the contact's.
+/// What the other members mean is listed at laws::None.
+struct NormalCoulomb {
+  static constexpr std::string_view name = "normal_coulomb";
+  template <class Scalar>
+  using Core = friction::NormalCoulomb<Scalar>;
+  static constexpr bool elastic = true;
+  static constexpr FrictionMap map = FrictionMap::coulomb;
+  static constexpr bool map_is_own = false;
+  static constexpr int random_percent = 0;
+
+  double normal_contact_stiffness_N_per_m = 0.0;  ///< kz
+
+  template <class Keys>
+  void visit_keys(Keys& keys, const Contact& /*contact*/) {
+    keys.required("normal_contact_stiffness_N_per_m", normal_contact_stiffness_N_per_m,
+                  {1e-6, 1e18, "N/m"});
+  }
+
+  template <class Scalar>
+  Core<Scalar> core(const Contact& contact, const PlantScales& scales) const {
+    return {static_cast<Scalar>(contact.contact_stiffness_N_per_m * scales.length_m /
+                                scales.friction_N),
+            static_cast<Scalar>(normal_contact_stiffness_N_per_m * scales.length_m /
+                                contact.normal_force_N)};
+  }
+};
+
+}  // namespace sonoglide::scene::laws

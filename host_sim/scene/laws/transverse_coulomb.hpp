@@ -1,0 +1,31 @@
+/// Friction of a contact that vibrates across the sliding, in a scene.
+#pragma once
+
+#include <string_view>
+
+#include "firmware/friction/transverse_coulomb.hpp"
+#include "host_sim/scene/contact.hpp"
+#include "host_sim/scene/scales.hpp"
+
+namespace sonoglide::scene::laws {
+
+/// What the members mean is listed at laws::None.
+struct TransverseCoulomb {
+  static constexpr std::string_view name = "transverse_coulomb";
+  template <class Scalar>
+  using Core = friction::TransverseCoulomb<Scalar>;
+  static constexpr bool elastic = false;
+  static constexpr FrictionMap map = FrictionMap::coulomb;
+  static constexpr bool map_is_own = false;
+  static constexpr int random_percent = 0;
+
+  template <class Keys>
+  void visit_keys(Keys& /*keys*/, const Contact& /*contact*/) {}
+
+  template <class Scalar>
+  Core<Scalar> core(const Contact& /*contact*/, const PlantScales& /*scales*/) const {
+    return {};
+  }
+};
+
+}  // namespace sonoglide::scene::laws

@@ -1,0 +1,114 @@
+/// Vibration across the sliding and normal to the surface, in SI units, in open and in closed loop.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "firmware/friction/normal_vibration_ratio.hpp"
+#include "firmware/friction/transverse_vibration_ratio.hpp"
+#include "host_sim/loop/run.hpp"
+#include "table_1.hpp"
+#include "tests/host_sim/loop/logs/logged_run.hpp"
+
+namespace sonoglide::loop {
+namespace {
+
+PowerRatios window_ratios(const scene::Scene& scene) {
+  return power_ratios(scene, run_logged(scene).result.window);
+}
+
+scene::Scene transverse(scene::Scene scene) {
+  scene.friction.law = scene::laws::TransverseCoulomb{};
+  return scene;
+}
+
+/// Of a vibration that friction hardly bends.
+TEST(TransverseSceneTest, FrictionRatioIsTheClosedForm) {
+  scene::Scene scene = on_steady_orbit(transverse(table_1()));
+  EXPECT_NEAR(window_ratios(scene).friction_ratio, friction::transverse_vibration_ratio(0.5), 1e-4);
+  scene.sliding.profile = {{0.0, -2.0 * scene.sliding.profile.front().velocity_m_per_s}};
+  EXPECT_NEAR(window_ratios(scene).friction_ratio, friction::transverse_vibration_ratio(1.0), 1e-4);
+}
+
+TEST(TransverseSceneTest, FixedStepsAgree) {
+  scene::Scene scene = transverse(table_1());
+  const double ratio = window_ratios(scene).friction_ratio;
+  scene.solver.method = scene::SolverMethod::rk4;
+  scene.solver.step_s = period_s / 1000.0;
+  EXPECT_NEAR(window_ratios(scene).friction_ratio, ratio, 1e-8);
+}
+
+TEST(TransverseSceneTest, EnergyIdentity) {
+  scene::Scene scene = transverse(table_1());
+  scene.friction.normal_force_N = 1000.0;
+  EXPECT_LE(std::abs(window_ratios(scene).balance_residual), 1e-8);
+}
+
+TEST(TransverseSceneTest, SteadyOrbitIsTheOneThatAVibrationSettlesOn) {
+  scene::Scene scene = transverse(table_1());
+  scene.friction.normal_force_N = 1000.0;
+  scene.run.duration_s = 400.0 * period_s;
+  scene.run.window_start_s = 390.0 * period_s;
+  const double settled = window_ratios(scene).friction_ratio;
+  scene.run.start = scene::Start::steady;
+  scene.run.duration_s = 2.0 * period_s;
+  scene.run.window_start_s = 0.0;
+  EXPECT_NEAR(window_ratios(scene).friction_ratio, settled, 1e-6);
+}
+
+TEST(TransverseSceneTest, ClosedLoopReachesItsTargets) {
+  const LoggedRun logged = run_logged(transverse(table_1_closed_loop()));
+  ASSERT_TRUE(logged.result.control.has_value());
+  EXPECT_TRUE(logged.result.control->faults.empty());
+  EXPECT_NEAR(logged.periods[58].friction_ratio, 0.4, 0.01);
+  EXPECT_NEAR(logged.periods.back().friction_ratio, 0.6, 0.01);
+}
+
+/// At 384 N the normal force vibrates by `amplitude` of itself; kx = kz / 10.
+scene::Scene normal(scene::Scene scene, double amplitude) {
+  const double kz = amplitude * scene.friction.normal_force_N /
+                    (384.0 * std::abs(compliance_m_per_N(scene.plant)));
+  scene.friction.law = scene::laws::NormalCoulomb{kz};
+  scene.friction.contact_stiffness_N_per_m = 0.1 * kz;
+  return scene;
+}
+
+/// Vt is half the vibration velocity, and Vc = mu kz / kx = 1 of it.
+TEST(NormalSceneTest, FrictionRatioIsTheClosedForm) {
+  for (const double amplitude : {0.2, 0.9}) {
+    const scene::Scene scene = normal(on_steady_orbit(table_1()), amplitude);
+    EXPECT_NEAR(window_ratios(scene).friction_ratio,
+                friction::normal_vibration_ratio(amplitude, 0.5), 1e-9);
+  }
+}
+
+TEST(NormalSceneTest, EnergyIdentity) {
+  EXPECT_LE(std::abs(window_ratios(normal(table_1(), 0.7)).balance_residual), 1e-9);
+}
+
+/// In phase with the drive the orbit begins with more friction than mu N0.
+TEST(NormalSceneTest, SteadyOrbitIsTheClosedForms) {
+  scene::Scene scene = normal(table_1(), 0.9);
+  scene.plant.damping_N_s_per_m = 20.0;
+  for (const double force_N : {384.0, -384.0}) {
+    scene.drive->force_amplitude_N = force_N;
+    scene.run.start = scene::Start::steady;
+    scene.run.duration_s = 2.0 * period_s;
+    scene.run.window_start_s = 0.0;
+    EXPECT_NEAR(window_ratios(scene).friction_ratio, friction::normal_vibration_ratio(0.9, 0.5),
+                1e-4);
+  }
+}
+
+TEST(NormalSceneTest, ClosedLoopReachesItsTargets) {
+  scene::Scene scene = normal(table_1_closed_loop(), 0.4);
+  scene.controller->target_friction_ratio = {{0.0, 0.8}, {1e-3, 0.6}};
+  const LoggedRun logged = run_logged(scene);
+  ASSERT_TRUE(logged.result.control.has_value());
+  EXPECT_TRUE(logged.result.control->faults.empty());
+  EXPECT_NEAR(logged.periods[58].friction_ratio, 0.8, 0.01);
+  EXPECT_NEAR(logged.periods.back().friction_ratio, 0.6, 0.01);
+}
+
+}  // namespace
+}  // namespace sonoglide::loop

@@ -1,0 +1,184 @@
+/// Vibration across the sliding: closed-form ratio, straight-line braking, energy, and a peer.
+
+#include "firmware/friction/transverse_coulomb.hpp"
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <array>
+#include <boost/numeric/odeint.hpp>
+#include <cmath>
+
+#include "firmware/friction/transverse_vibration_ratio.hpp"
+#include "motion.hpp"
+
+namespace sonoglide::plant {
+namespace {
+
+using Law = friction::TransverseCoulomb<double>;
+using PlantModel = Model<Law, Damped<double>, CosineDrive>;
+using Taylor = EventTaylor<PlantModel, 16>;
+using FixedSteps = Rk4<PlantModel>;
+
+PlantModel model_of(double friction_force = 0.0, double stiffness = 0.0, double damping = 0.0) {
+  return {{{}, friction_force}, {damping}, stiffness};
+}
+
+template <class Solver>
+double prescribed_ratio(double velocity_ratio, double setting) {
+  auto solver = configured<Solver>(model_of(), setting);
+  State<double> state = {-1.0, 0.0, 0.0};
+  MeanFriction<double> account;
+  EXPECT_EQ(run_periods(solver, 1, 1.0, velocity_ratio, state, account), Error::none);
+  return account.friction_integral / (2.0 * pi);
+}
+
+TEST(TransverseCoulomb, MeanUnderPrescribedVibrationIsTheClosedForm) {
+  for (const double ratio : {1e-3, 0.02, 0.1, 0.3, 0.5, 0.8, 1.0, 3.0, 40.0}) {
+    const double expected = friction::transverse_vibration_ratio(ratio);
+    EXPECT_NEAR(prescribed_ratio<Taylor>(ratio, 1e-13), expected, 1e-12) << ratio;
+    EXPECT_NEAR(prescribed_ratio<Taylor>(-ratio, 1e-13), -expected, 1e-12) << ratio;
+  }
+  for (const double ratio : {0.1, 0.5, 1.0}) {
+    EXPECT_NEAR(prescribed_ratio<FixedSteps>(ratio, 2.0 * pi / 1000.0),
+                friction::transverse_vibration_ratio(ratio), 1e-9)
+        << ratio;
+  }
+}
+
+TEST(TransverseCoulomb, MeanIsThePublishedOne) {
+  EXPECT_NEAR(prescribed_ratio<Taylor>(0.1, 1e-10), 0.23442, 5e-6);
+  EXPECT_NEAR(prescribed_ratio<Taylor>(0.5, 1e-10), 0.64264, 5e-6);
+  EXPECT_NEAR(prescribed_ratio<Taylor>(1.0, 1e-10), 0.83463, 5e-6);
+}
+
+/// Nothing hides a reversal here: the formula keeps its fourth order.
+TEST(TransverseCoulomb, FixedStepsKeepTheirFourthOrder) {
+  const Interval<double> interval = {0.3, 9.0, 1.0, 0.4, 0.01};
+  auto exact = configured<Taylor>(model_of(0.3, 0.4), 1e-14);
+  const double displacement = advanced(exact, interval, {0.3, -0.2, 0.0}).displacement;
+  const auto error = [&](double step) {
+    auto solver = configured<FixedSteps>(model_of(0.3, 0.4), step);
+    return std::abs(advanced(solver, interval, {0.3, -0.2, 0.0}).displacement - displacement);
+  };
+  EXPECT_NEAR(std::log2(error(9.0 / 1024.0) / error(9.0 / 2048.0)), 4.0, 0.3);
+}
+
+TEST(TransverseCoulomb, ToleranceIsThatOfTheMeanFriction) {
+  for (const double ratio : {0.003, 0.1, 0.7}) {
+    const double expected = friction::transverse_vibration_ratio(ratio);
+    const auto mean = [&](auto solver) {
+      State<double> state = {-1.0, 0.0, 0.0};
+      MeanFriction<double> account;
+      EXPECT_EQ(run_periods(solver, 4, 1.0, ratio, state, account), Error::none);
+      return account.friction_integral / (8.0 * pi);
+    };
+    EXPECT_NEAR(mean(configured<EventTaylor<PlantModel, 8>>(model_of(), 1e-4)), expected, 1e-4);
+    EXPECT_NEAR(mean(configured<EventTaylor<PlantModel, 8>>(model_of(), 1e-6)), expected, 1e-6);
+    EXPECT_NEAR(mean(configured<EventTaylor<PlantModel, 12>>(model_of(), 1e-8)), expected, 1e-8);
+    EXPECT_NEAR(mean(configured<EventTaylor<PlantModel, 16>>(model_of(), 1e-10)), expected, 1e-10);
+  }
+}
+
+TEST(TransverseCoulomb, MeanInSinglePrecision) {
+  using Single = Model<friction::TransverseCoulomb<float>, Damped<float>, CosineDrive>;
+  auto solver = configured<EventTaylor<Single, 8>>({{{}, 0.0F}, {0.0F}, 0.0F}, 1e-6F);
+  State<float> state = {-1.0F, 0.0F, 0.0F};
+  MeanFriction<float> account;
+  EXPECT_EQ(run_periods(solver, 1, 1.0F, 0.1F, state, account), Error::none);
+  EXPECT_NEAR(static_cast<double>(account.friction_integral) / (2.0 * pi),
+              friction::transverse_vibration_ratio(0.1), 1e-6);
+}
+
+/// A free mass that friction brakes, v' = -beta v / sqrt(r^2 + v^2): with v = r sinh(g) it is
+/// beta tau / r = G(g0) - G(g), G = ln tanh(g / 2) + cosh g.
+TEST(TransverseCoulomb, FreeMassIsBrakedAsInClosedForm) {
+  const double r = 0.3;
+  const double beta = 0.2;
+  const auto potential = [&](double velocity) {
+    const double g = std::asinh(velocity / r);
+    return std::log(std::tanh(0.5 * g)) + std::cosh(g);
+  };
+  auto taylor = configured<Taylor>(model_of(beta), 1e-14);
+  auto fixed = configured<FixedSteps>(model_of(beta), 1e-3);
+  const Interval<double> interval = {0.0, 4.0, 0.0, r, 0.0};
+  for (const State<double>& state :
+       {advanced(taylor, interval, {0.0, 1.0, 0.0}), advanced(fixed, interval, {0.0, 1.0, 0.0})}) {
+    EXPECT_NEAR(potential(1.0) - potential(state.velocity), beta * 4.0 / r, 1e-11);
+    EXPECT_NEAR(state.friction, r / std::hypot(r, state.velocity), 1e-15);
+  }
+}
+
+/// The same plant by an integrator of the Boost library; the last is the integral of phi.
+TEST(TransverseCoulomb, AgreesWithAPeer) {
+  using Numbers = std::array<double, 3>;
+  namespace odeint = boost::numeric::odeint;
+  const PlantModel model = model_of(0.5, 0.4, 0.05);
+  const Interval<double> interval = {0.8, 6.0, 1.0, 0.2, -0.06};  // r passes through 0 at 3.33
+  const auto slope = [&](const Numbers& at, Numbers& rate, double time) {
+    const double sliding = interval.sliding_velocity + interval.sliding_acceleration * time;
+    const double speed = std::hypot(sliding, at[1]);
+    rate = {at[1], std::cos(0.8 + time) - 0.4 * at[0] - 0.05 * at[1] - 0.5 * at[1] / speed,
+            sliding / speed};
+  };
+  Numbers expected = {0.3, -0.2, 0.0};
+  odeint::integrate_adaptive(
+      odeint::make_controlled(1e-14, 1e-14, odeint::runge_kutta_fehlberg78<Numbers>()), slope,
+      expected, 0.0, 6.0, 1e-3);
+  auto solver = configured<Taylor>(model, 1e-14);
+  State<double> state = {0.3, -0.2, 0.0};
+  MeanFriction<double> account;
+  EXPECT_EQ(advance(solver, interval, state, account).error, Error::none);
+  EXPECT_NEAR(state.displacement, expected[0], 1e-11);
+  EXPECT_NEAR(state.velocity, expected[1], 1e-11);
+  EXPECT_NEAR(account.friction_integral, expected[2], 1e-11);
+}
+
+/// Every pull on the contact is the oscillator's own: no sliding velocity reverses the force on it.
+TEST(TransverseCoulomb, OscillatorIsTheSameEitherWay) {
+  auto solver = configured<Taylor>(model_of(0.6, 0.2, 0.05), 1e-12);
+  const State<double> one = advanced(solver, {0.3, 30.0, 1.0, 0.3, 0.01}, {0.4, 0.1, 0.0});
+  const State<double> other = advanced(solver, {0.3, 30.0, 1.0, -0.3, -0.01}, {0.4, 0.1, 0.0});
+  EXPECT_EQ(one.displacement, other.displacement);
+  EXPECT_EQ(one.velocity, other.velocity);
+  EXPECT_EQ(one.friction, -other.friction);
+}
+
+/// At rest where nothing slides there is no direction of friction: said, not guessed.
+TEST(TransverseCoulomb, AtRestWithoutSlidingIsAnError) {
+  auto solver = configured<Taylor>(model_of(0.6), 1e-10);
+  State<double> state;
+  NoAccount account;
+  EXPECT_EQ(advance(solver, {0.0, 1.0, 1.0, 0.0, 0.0}, state, account).error, Error::not_finite);
+}
+
+double between(double low, double high) {
+  return low + (high - low) * 1e-6 * *rc::gen::inRange(0, 1000001);
+}
+
+template <class Solver>
+void keeps_its_bound_and_balances_its_energy(double setting, double allowed) {
+  const PlantModel model = model_of(between(0.0, 0.8), between(0.0, 2.0), between(0.0, 0.3));
+  const State<double> before = {between(-1.0, 1.0), between(-1.0, 1.0), 0.0};
+  auto solver = configured<Solver>(model, setting);
+  State<double> state = before;
+  EnergyAccount<double> account;
+  const double r = between(0.05, 2.0);
+  RC_ASSERT(run_periods(solver, 2, between(0.0, 2.0), r, state, account) == Error::none);
+  RC_ASSERT(std::abs(account.balance_residual(model, before, state)) < allowed);
+  RC_ASSERT(std::abs(state.friction) <= 1.0);
+  // What is taken, is taken from the pull and from the vibration.
+  RC_ASSERT(account.sliding_work >= 0.0);
+  RC_ASSERT(account.friction_work >= account.sliding_work);
+}
+
+RC_GTEST_PROP(TransverseCoulombProperties, KeepsItsBoundAndBalancesItsEnergy, ()) {
+  keeps_its_bound_and_balances_its_energy<Taylor>(1e-12, 1e-9);
+}
+
+RC_GTEST_PROP(TransverseCoulombProperties, SoDoFixedSteps, ()) {
+  keeps_its_bound_and_balances_its_energy<FixedSteps>(1e-3, 1e-6);
+}
+
+}  // namespace
+}  // namespace sonoglide::plant
