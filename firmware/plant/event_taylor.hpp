@@ -120,6 +120,8 @@ class EventTaylor {
   static constexpr Scalar unsettled = numeric::from_real<Scalar>(0.125);
   static constexpr Scalar most_unsettled = numeric::from_real<Scalar>(1e-6);
   static constexpr Scalar longest_step = Scalar(3);
+  /// A unit whose series overflows is tried again shorter by so much.
+  static constexpr Scalar overflow_retreat = numeric::from_real<Scalar>(1.0 / 1024.0);
 
   /// What a vibration of unit amplitude allows, with something to spare; 3 rad at most.
   Scalar usual_step() const {
@@ -196,7 +198,7 @@ class EventTaylor {
           branch = {false, -branch.direction, branch.zero_order + 1};
           break;
         case Slide::overflow:
-          unit *= numeric::from_real<Scalar>(1.0 / 1024.0);
+          unit *= overflow_retreat;
           break;
       }
     } while (unit > std::numeric_limits<Scalar>::min());
@@ -213,12 +215,7 @@ class EventTaylor {
   void press(const Interval<Scalar>& interval, const At& instant, Position& position,
              State<Scalar>& state, Account& account, Observer& observer) {
     const Scalar rest_of_time = interval.duration - position.offset;
-    Arc nothing(model_.law, Scalar(0), state.friction);
-    Series series(model_, instant, numeric::min(longest_step_, rest_of_time));
-    series.slide(model_, nothing);
-    if (!series.is_finite()) {
-      shrink(series, instant, nothing);
-    }
+    Series series = alone(instant, numeric::min(longest_step_, rest_of_time));
     const NormalPiece<Law, Series> piece(model_.law, series, state.friction);
     series.friction = piece.friction();
 
@@ -233,6 +230,19 @@ class EventTaylor {
     const NormalFriction<Law, Series> friction(model_.law, series);
     accept(interval, series, friction, extent, extent == remaining, position, state, account,
            observer);
+  }
+
+  /// The motion that no friction acts on, in units in which no coefficient overflows.
+  Series alone(const At& instant, Scalar unit) const {
+    Arc nothing(model_.law, Scalar(0), instant.state.friction);
+    Series series(model_, instant, unit);
+    series.slide(model_, nothing);
+    while (!series.is_finite() && unit > std::numeric_limits<Scalar>::min()) {
+      unit *= overflow_retreat;
+      series = Series(model_, instant, unit);
+      series.slide(model_, nothing);
+    }
+    return series;
   }
 
   Branch<Scalar> choose_branch(const At& instant, Scalar released) const {

@@ -7,6 +7,7 @@
 #include "firmware/friction/normal_vibration_ratio.hpp"
 #include "firmware/friction/transverse_vibration_ratio.hpp"
 #include "host_sim/loop/run.hpp"
+#include "host_sim/scene/solver_methods.hpp"
 #include "table_1.hpp"
 #include "tests/host_sim/loop/logs/logged_run.hpp"
 
@@ -33,7 +34,7 @@ TEST(TransverseSceneTest, FrictionRatioIsTheClosedForm) {
 TEST(TransverseSceneTest, FixedStepsAgree) {
   scene::Scene scene = transverse(table_1());
   const double ratio = window_ratios(scene).friction_ratio;
-  scene.solver.method = scene::SolverMethod::rk4;
+  scene.solver.method = scene::method_of<scene::solvers::Rk4>;
   scene.solver.step_s = period_s / 1000.0;
   EXPECT_NEAR(window_ratios(scene).friction_ratio, ratio, 1e-8);
 }
