@@ -116,8 +116,10 @@ class FrictionArcs {
     const Scalar end_velocity = i + 1 == arcs_ ? path_.end_velocity() : Scalar(0);
     const Sample from = sample(i, begin.x, begin_velocity, begin.friction);
     const Sample to = sample(i, end.x, end_velocity, end.friction);
-    return is_gentle(from, to) ? hermite(from, to, weight, slope)
-                               : integral_in_parts(i, from, to, weight, slope);
+    // Between two reversals in one step the contact slides, though it rests at both.
+    const bool gentle = is_gentle(from, to) && is_gentle(numeric::twice(numeric::abs(travel(i))));
+    return gentle ? hermite(from, to, weight, slope)
+                  : integral_in_parts(i, from, to, weight, slope);
   }
 
   Scalar integral_in_parts(std::size_t i, Sample from, const Sample& last, Scalar weight,
@@ -144,9 +146,12 @@ class FrictionArcs {
   }
 
   bool is_gentle(const Sample& from, const Sample& to) const {
-    const Scalar travel_bound = (to.time - from.time) * (from.speed + to.speed);
+    return is_gentle((to.time - from.time) * (from.speed + to.speed));
+  }
+  /// doubled_travel: twice the displacement of a part, or a bound of it.
+  bool is_gentle(Scalar doubled_travel) const {
     // Not <=: what is no number is not worth parts.
-    return !(law_.rate(Scalar(1), Scalar(0)) * travel_bound > Scalar(1));
+    return !(law_.rate(Scalar(1), Scalar(0)) * doubled_travel > Scalar(1));
   }
   static bool is_saturated(Scalar direction, Scalar friction) {
     return Scalar(1) - direction * friction <= negligible;

@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <string>
 #include <type_traits>
 
 #include "firmware/plant/event_gauss.hpp"
@@ -92,7 +93,13 @@ using Solvers = testing::Types<
     EventTaylor<DampedDahlModel<double>, 16>, EventTaylor<DampedDahlModel<float>, 8>,
     EventTaylor<DampedCoulombModel<double>, 16>, EventTaylor<DampedCoulombModel<float>, 8>,
     EventGauss<DampedDahlModel<double>, 12>, EventGauss<DampedDahlModel<float>, 8>>;
-TYPED_TEST_SUITE(Invariance, Solvers);
+struct SolverName {
+  template <class Solver>
+  static std::string GetName(int index) {
+    return std::to_string(index) + (Invariance<Solver>::is_single ? "Single" : "Double");
+  }
+};
+TYPED_TEST_SUITE(Invariance, Solvers, SolverName);
 
 /// To the bit where its displacement does not enter; EventGauss leaves to Taylor's method what it
 /// cannot tell from the displacement.
@@ -138,7 +145,14 @@ class StuckContact : public testing::Test {};
 
 using Precisions = testing::Types<Precise<double, 8>, Precise<double, 12>, Precise<double, 16>,
                                   Precise<float, 8>, Precise<float, 12>>;
-TYPED_TEST_SUITE(StuckContact, Precisions);
+struct PrecisionName {
+  template <class Precision>
+  static std::string GetName(int /*index*/) {
+    return "Taylor" + std::to_string(Precision::order) +
+           (std::is_same_v<typename Precision::Scalar, float> ? "Single" : "Double");
+  }
+};
+TYPED_TEST_SUITE(StuckContact, Precisions, PrecisionName);
 
 /// Far below its friction limit a Dahl contact is a spring of stiffness beta kappa: from rest a
 /// free mass on it moves by a (cos tau - cos(w tau)) / (w^2 - 1), w^2 = beta kappa, phi = kappa
