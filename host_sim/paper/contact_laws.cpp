@@ -28,6 +28,11 @@ stribeck_velocity_m_per_s = 0.02
 bristle_damping_N_s_per_m = 0.01
 viscous_friction_N_s_per_m = 0.02
 )";
+constexpr const char* iwan_contact = R"(law = "iwan"
+coefficient = 0.1
+contact_stiffness_N_per_m = 0.056e6
+elements = 1
+)";
 constexpr const char* stribeck_contact = R"(law = "stribeck"
 coefficient = 0.1
 fall_s_per_m = 0.75
@@ -47,6 +52,7 @@ std::vector<ContactLaw> make_laws() {
           {"Dahl", "dahl", std::string(dahl_contact),
            [dahl](double ratio) { return friction::dahl_friction_ratio(ratio, dahl); }},
           {"LuGre", "lugre", lugre_contact, {}},
+          {"Iwan", "iwan", iwan_contact, {}},
           {"Stribeck", "stribeck", stribeck_contact, stribeck_closed_form}};
 }
 

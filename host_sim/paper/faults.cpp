@@ -92,7 +92,7 @@ Fault floor() {
                   "0.1, 0.01 and 0.001.",
                   steady_friction_ratio(0.1), steady_friction_ratio(0.01),
                   steady_friction_ratio(0.001)),
-      "A limit of the model: a floor needs a contact that sticks elastically."};
+      "A limit of the model: a floor needs a contact that sticks elastically, as Iwan's."};
 }
 
 Fault unexcited() {

@@ -149,11 +149,14 @@ Claim higher_at_low_speed() {
           fmt::format("Of other measurements too: Luo and others (2024) find about {:.0f} % of the "
                       "friction left at 0.1 mm/s, a velocity ratio of {:.4f}. Dahl leaves at most "
                       "{:.2f} % there, whatever the contact stiffness, LuGre at most {:.2f} %, "
-                      "Stribeck at most {:.2f} %. In all of them a contact that goes to and "
-                      "fro creeps along under any force; one that sticks elastically is missing.",
+                      "Stribeck at most {:.2f} %: a contact that goes to and fro creeps along in "
+                      "them under any force. Iwan's sticks elastically and leaves {:.0f} % with "
+                      "Kt X/Fc = 0.1, {:.1f} % with 10.",
                       measured, speed_m_per_s / luo_peak_m_per_s(), left,
                       100.0 * (1.0 - luo_lugre(speed_m_per_s).least),
-                      100.0 * (1.0 - luo_stribeck(speed_m_per_s).least))};
+                      100.0 * (1.0 - luo_stribeck(speed_m_per_s).least),
+                      100.0 * (1.0 - luo_iwan(speed_m_per_s).least),
+                      100.0 * (1.0 - luo_iwan(speed_m_per_s).most))};
 }
 
 Claim floor(const std::vector<LawCurve>& laws) {

@@ -2,6 +2,7 @@
 
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <vector>
 
@@ -30,6 +31,17 @@ scene::Scene luo_with_bristles(double velocity_m_per_s, double dahl_number,
       scene::laws::LuGre{2.0 * scene.friction.coefficient, stribeck_velocity_m_per_s, 0.0, 0.0};
   scene.friction.contact_stiffness_N_per_m *= dahl_number;
   scene.sliding.profile = {{0.0, velocity_m_per_s}};
+  return scene;
+}
+
+/// Begun where it settles: a contact that is mostly stuck takes long.
+scene::Scene luo_with_spring(double velocity_m_per_s, double dahl_number) {
+  scene::Scene scene = luo();
+  scene.plant.initial_displacement_m = 0.0;
+  scene.friction.law = scene::laws::Iwan{};
+  scene.friction.contact_stiffness_N_per_m *= dahl_number;
+  scene.sliding.profile = {{0.0, velocity_m_per_s}};
+  scene.run.start = scene::Start::steady;
   return scene;
 }
 
@@ -103,6 +115,22 @@ Range luo_lugre(double velocity_m_per_s) {
     range = joined(range, {reduction, reduction});
   }
   return range;
+}
+
+double elastic_stick_reduction(double dahl_number) {
+  return std::min(dahl_number, 1.0);
+}
+
+Range luo_iwan(double velocity_m_per_s) {
+  constexpr double softest = 0.1;
+  constexpr double stiffest = 10.0;
+  if (velocity_m_per_s == 0.0) {
+    return {elastic_stick_reduction(softest), elastic_stick_reduction(stiffest)};
+  }
+  const auto reduction = [velocity_m_per_s](double dahl_number) {
+    return 1.0 - vibration_ratio(luo_with_spring(velocity_m_per_s, dahl_number));
+  };
+  return {reduction(softest), reduction(stiffest)};
 }
 
 Range luo_stribeck(double velocity_m_per_s) {

@@ -27,11 +27,19 @@ std::string luo_text();
 Range luo_coulomb(double velocity_m_per_s);
 Range luo_dahl(double velocity_m_per_s);      ///< every contact stiffness
 Range luo_lugre(double velocity_m_per_s);     ///< simulated; see luo_lugre_range
+Range luo_iwan(double velocity_m_per_s);      ///< simulated, but at rest; see luo_iwan_range
 Range luo_stribeck(double velocity_m_per_s);  ///< see luo_stribeck_range
+
+/// Friction at vanishing speed of an elastic stick, a spring Kt that lets go at Fc, under a
+/// vibration of amplitude X: carried forward to Fc once in each period, the spring gives way by Kt
+/// X in the mean.
+/// @param dahl_number  Kt X/Fc
+double elastic_stick_reduction(double dahl_number);
 
 inline constexpr const char* luo_dahl_range = "any contact stiffness";
 inline constexpr const char* luo_lugre_range =
     "Kt X/Fc 0.1 to 10; static friction Fc to 2 Fc; Stribeck velocity 1 to 100 mm/s";
+inline constexpr const char* luo_iwan_range = "one spring; Kt X/Fc 0.1 to 10";
 inline constexpr const char* luo_stribeck_range =
     "least friction at 57 to 570 mm/s; up to a half below the static one";
 

@@ -17,13 +17,6 @@ constexpr double luo_speeds_mm_per_s[] = {0.05, 0.1, 0.25, 0.5, 0.75, 1.0};
 constexpr double critical_velocities_mm_per_s[] = {50.0, 100.0, 200.0, 400.0};
 constexpr double per_cent = 100.0;
 
-/// Friction at vanishing speed of an elastic stick, a spring Kt that lets go at Fc, under a
-/// vibration of amplitude X: carried forward to Fc once in each period, the spring gives way by Kt
-/// X in the mean.
-double elastic_stick_reduction(double dahl_number) {
-  return std::min(dahl_number, 1.0);
-}
-
 double dahl_reduction_at_low_speed(double dahl_number) {
   constexpr double softest = 1e-4;
   return 1.0 - friction::dahl_friction_ratio(luo_slow_m_per_s / luo_peak_m_per_s(),
@@ -99,7 +92,7 @@ Chart contact_stiffness_chart() {
   Curve stick = line_of([](double number) { return per_cent * elastic_stick_reduction(number); },
                         stiffest, 5);
   dahl.label = "Dahl";
-  stick.label = "elastic stick, speed to 0";
+  stick.label = "Iwan, one spring, speed to 0";
   stick.line = Line::dashed;
   return {"(c) The same at 0.1 mm/s",
           "K_t X / F_c [-]",

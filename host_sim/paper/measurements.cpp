@@ -49,6 +49,7 @@ constexpr Law laws[] = {
     {"Coulomb", "", Direction::along, luo_coulomb},
     {"Dahl", luo_dahl_range, Direction::along, luo_dahl},
     {"LuGre", luo_lugre_range, Direction::along, luo_lugre},
+    {"Iwan", luo_iwan_range, Direction::along, luo_iwan},
     {"Stribeck", luo_stribeck_range, Direction::along, luo_stribeck},
     {"Coulomb with springs under normal vibration", dong_range, Direction::normal, dong_normal}};
 

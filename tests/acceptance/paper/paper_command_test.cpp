@@ -30,7 +30,7 @@ TEST(PaperCommand, Figure12BringsTheMeasurementsAndItsScenes) {
   ASSERT_EQ(folder.run("paper --figure 12 --out out --quiet").exit_code, 0);
   EXPECT_EQ(folder.read("out/measurements.csv").substr(0, 21), "source,doi,vibration,");
   for (const char* scene : {"table_2", "luo_2024", "table_1_coulomb", "table_1_dahl",
-                            "table_1_lugre", "table_1_stribeck"}) {
+                            "table_1_lugre", "table_1_iwan", "table_1_stribeck"}) {
     EXPECT_EQ(folder.run("run out/" + std::string(scene) + ".toml --quiet").exit_code, 0) << scene;
   }
 }

@@ -199,6 +199,9 @@ TEST(PaperTest, TheSceneOfTheSlowSliderIsTheClosedForm) {
   const double known = friction::dahl_friction_ratio(1e-4 / luo_peak_m_per_s(), 1.0);
   EXPECT_NEAR(ratio, known, 2e-3 * known);
   // LuGre has it as a limit.
+  // One spring holds on to 1 - Kt X/Fc, but for what the slide adds.
+  EXPECT_NEAR(luo_iwan(1e-4).least, 0.1, 5e-3);
+  EXPECT_NEAR(luo_iwan(1e-4).most, 1.0, 0.02);
   const Range lugre = luo_lugre(1e-4);
   EXPECT_LT(lugre.least, 1.0 - ratio);
   EXPECT_GT(lugre.most, 1.0 - ratio);
