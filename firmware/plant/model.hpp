@@ -11,7 +11,7 @@ namespace sonoglide::plant {
 /// y'' = a cos(tau) - d y' - k y - beta phi, in units of length L, time 1 / omega and force m L
 /// omega^2; phi = F / Fc, of the friction on the oscillator.
 ///
-/// Law      friction::None, Coulomb, Stribeck, Dahl, Iwan, LuGre, TransverseCoulomb or NormalCoulomb
+/// Law      friction::None, or another law of that room
 /// Damping  Undamped or Damped
 /// DriveOf  NoDrive, CosineDrive, RampDrive or LevelDrive
 /// SlidingOf  LinearSliding, or ConstantSliding where no interval has a sliding acceleration

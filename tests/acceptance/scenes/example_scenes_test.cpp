@@ -1,11 +1,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
+#include "firmware/friction/normal_vibration_ratio.hpp"
 #include "tests/acceptance/program/program.hpp"
 
 namespace sonoglide::acceptance {
@@ -47,6 +49,37 @@ TEST(ExampleSceneTest, TheSlidingVelocityOfTable1IsHalfThePeakVibrationVelocity)
   // 0.5 w F / |K - m w^2| with w = 2 pi 60e3, to 20 digits.
   EXPECT_DOUBLE_EQ(summary.at("scene").at("sliding").at("velocity_m_per_s"),
                    0.026714794439561916459);
+}
+
+/// Of a scene of the folder, with what else the command is given.
+double window_ratio(const std::string& scene, const std::string& options = "") {
+  const ScratchFolder folder;
+  const Outcome outcome =
+      folder.run("run '" SONOGLIDE_SCENES "/" + scene + ".toml' --out out " + options + " --quiet");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  const nlohmann::json summary = nlohmann::json::parse(folder.read("out/summary.json"));
+  return summary.at("friction_ratio").at("window");
+}
+
+TEST(ExampleSceneTest, VibrationAcrossTheSlidingLeavesThePublishedRatio) {
+  EXPECT_NEAR(window_ratio("transverse_open_loop"), 0.64264, 1e-4);
+  EXPECT_NEAR(
+      window_ratio("transverse_open_loop", "--set solver.method=rk4 --set solver.step_s=1e-8"),
+      0.64264, 1e-4);
+}
+
+/// Amplitude of the motion A, of the normal force alpha; Vc is the speed from which nothing is
+/// gained.
+TEST(ExampleSceneTest, VibrationNormalToTheSurfaceLeavesTheClosedForm) {
+  const double omega = 2.0 * 3.14159265358979323846 * 22e3;
+  const double amplitude_m = 750.0 / std::hypot(133e6 - 0.02 * omega * omega, 50.0 * omega);
+  const double alpha = 0.75e6 * amplitude_m / 3.0;
+  const double critical_m_per_s = 0.5 * 0.75 / 0.625 * omega * amplitude_m;
+  for (const double speed_m_per_s : {0.0203, 0.087}) {
+    EXPECT_NEAR(window_ratio("normal_open_loop",
+                             "--set sliding.velocity_m_per_s=" + std::to_string(speed_m_per_s)),
+                friction::normal_vibration_ratio(alpha, speed_m_per_s / critical_m_per_s), 1e-6);
+  }
 }
 
 }  // namespace
