@@ -182,13 +182,14 @@ const std::vector<BrokenScene> broken_scenes = {
     {"part_of_an_element", open_loop, "\"dahl\"", "\"iwan\"\nelements = 1.5",
      "6:12: friction.elements: is a real number; allowed: an integer, 1 to 8"},
     {"transverse_without_slip", open_loop,
-     "\"dahl\"\ncoefficient = 0.1\ncontact_stiffness_N_per_m = 0.056e6\n[sliding]\n"
+     "\"dahl\"\ncoefficient = 0.1\nnormal_force_N = 0.1962\ncontact_stiffness_N_per_m = "
+     "0.056e6\n[sliding]\n"
      "velocity_m_per_s = 0.0267",
      "\"transverse_coulomb\"\ncoefficient = 0.1\n[sliding]\nvelocity_m_per_s = 0",
      "8:20: sliding.velocity_m_per_s: a speed that stays 0 leaves the friction law "
      "\"transverse_coulomb\" without a direction; allowed: a speed that at most passes 0"},
     {"transverse_has_no_sign", open_loop,
-     "\"dahl\"\ncoefficient = 0.1\ncontact_stiffness_N_per_m = 0.056e6",
+     "\"dahl\"\ncoefficient = 0.1\nnormal_force_N = 0.1962\ncontact_stiffness_N_per_m = 0.056e6",
      "\"transverse_coulomb\"\ncoefficient = 0.1\nsign_convention = \"dissipative\"",
      "7:1: friction.sign_convention: not used with friction.law = \"transverse_coulomb\"; remove "
      "it"},

@@ -99,6 +99,21 @@ velocity_m_per_s = 0.0267
 duration_s = 1e-3
 )";
 
+/// Vibration normal to the surface.
+inline constexpr const char* normal_open_loop = R"([plant]
+mass_kg = 0.02
+stiffness_N_per_m = 133e6
+[friction]
+law = "normal_coulomb"
+coefficient = 0.5
+contact_stiffness_N_per_m = 0.6e6
+normal_contact_stiffness_N_per_m = 0.7e6
+[sliding]
+velocity_m_per_s = 0.0203
+[run]
+duration_s = 1e-3
+)";
+
 /// Nothing that has a default.
 inline constexpr const char* shortest_closed_loop = R"([plant]
 mass_kg = 0.02
