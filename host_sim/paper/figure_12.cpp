@@ -71,7 +71,7 @@ Chart laws_chart(const std::vector<LawCurve>& laws) {
               "friction with / without vibration [-]",
               {},
               {},
-              Span{0.0, 1.5},
+              Span{0.0, 2.6},
               false,
               Key::upper_left};
   int colour = black;

@@ -92,9 +92,9 @@ Chart contact_stiffness_chart() {
   Curve stick = line_of([](double number) { return per_cent * elastic_stick_reduction(number); },
                         stiffest, 5);
   dahl.label = "Dahl";
-  stick.label = "Iwan, one spring, speed to 0";
+  stick.label = "Iwan, one spring";
   stick.line = Line::dashed;
-  return {"(c) The same at 0.1 mm/s",
+  return {"(c) The same at 0.1 mm/s; Iwan: speed to 0",
           "K_t X / F_c [-]",
           "reduction of friction [%]",
           {{"measured",
