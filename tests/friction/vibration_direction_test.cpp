@@ -127,7 +127,8 @@ long double reduction_by_quadrature(long double s) {
 
 TEST(NormalVibrationRatio, IsTheIntegralOfTheForceThatTheSliderMisses) {
   for (const double speed : {1e-6, 1e-3, 0.02, 0.1, 0.3, 0.5, 0.7, 0.9, 0.99, 0.9999}) {
-    const auto reduction = static_cast<double>(reduction_by_quadrature(speed));
+    const auto reduction =
+        static_cast<double>(reduction_by_quadrature(static_cast<long double>(speed)));
     EXPECT_NEAR(normal_vibration_ratio(1.0, speed), 1.0 - reduction, 1e-14) << speed;
     EXPECT_NEAR(normal_vibration_ratio(0.3, speed), 1.0 - 0.3 * reduction, 1e-14) << speed;
     EXPECT_NEAR(normal_vibration_ratio(1.0F, static_cast<float>(speed)), 1.0 - reduction, 1e-6)
