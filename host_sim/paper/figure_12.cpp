@@ -176,8 +176,8 @@ Claim normal_vibration() {
   const NormalContact contact = dong_contact();
   return {"Vibration normal to the surface reduces friction as well, by 60 % at a seat belt.",
           Verdict::depends,
-          fmt::format("Not in this model: the plant vibrates along the sliding alone, and its laws "
-                      "say 0 %. The closed form for a contact with springs can say it, and that "
+          fmt::format("Not in the paper's model, which vibrates along the sliding alone and so "
+                      "gives 0 %. The closed form for a contact with springs can say it, and that "
                       "the gain falls with the speed, as Dong and Dapino (2015) find, 62 % at 20.3 "
                       "mm/s and 29 % at 87 mm/s. Both follow from a critical velocity of {:.0f} "
                       "mm/s and an amplitude of {:.2f} of the indentation, which the contact "
