@@ -293,7 +293,7 @@ Figure figure_9() {
                                             scene.plant.mass_kg = mass_kg;
                                           });
   std::vector<Chart> of_all = charts(all);
-  of_all[1].y_span = Span{0.0, 2.1};  // room for the key
+  of_all[1].y_span = Span{0.0, 2.5};  // room for the key
   return {9,
           "Effect of the mass",
           conditions("Table 1 at 384 N, the normal force being the weight."),
