@@ -65,9 +65,7 @@ void arithmetic(const ArithmeticOptions& options) {
   const scene::Scene scene = scene::read_file(options.scene);
   with_places(options.scene, [&] { return image::controller_header(scene); });
   const Boards boards = chosen(options.boards);
-  const std::filesystem::path out =
-      options.out.empty() ? std::filesystem::path("out") / (scene.name + "_arithmetic")
-                          : std::filesystem::path(options.out);
+  const std::filesystem::path out = output_folder(options.out, scene.name + "_arithmetic");
   plot::require_gnuplot();
   require_writable(out);
   const arithmetic::Comparison comparison = compute(scene, boards, options.quiet);

@@ -33,8 +33,7 @@ CLI::App* add_configure_command(CLI::App& program, ConfigureOptions& options) {
 
 void configure(const ConfigureOptions& options) {
   const scene::Scene scene = scene::read_file(options.scene);
-  const std::filesystem::path out = options.out.empty() ? std::filesystem::path("out") / scene.name
-                                                        : std::filesystem::path(options.out);
+  const std::filesystem::path out = output_folder(options.out, scene.name);
   report::OutputFolder folder(out);
   folder.write(image::controller_header_name,
                with_places(options.scene, [&] { return image::controller_header(scene); }));

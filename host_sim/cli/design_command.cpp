@@ -102,9 +102,7 @@ void design(const DesignOptions& options) {
       options.scene,
       [&] { return design::make_task(scene, options.ratios, parse_speeds(options.velocity)); },
       options.overrides);
-  const std::filesystem::path out = options.out.empty()
-                                        ? std::filesystem::path("out") / (scene.name + "_design")
-                                        : std::filesystem::path(options.out);
+  const std::filesystem::path out = output_folder(options.out, scene.name + "_design");
   plot::require_gnuplot();
   require_writable(out);
   const design::Study study = compute(task, options.quiet);

@@ -12,6 +12,10 @@ void add_output_option(CLI::App& command, std::string& out, const std::string& c
       });
 }
 
+std::filesystem::path output_folder(const std::string& out, const std::string& name) {
+  return out.empty() ? std::filesystem::path("out") / name : std::filesystem::path(out);
+}
+
 void require_writable(const std::filesystem::path& out) {
   const report::OutputFolder probe(out);
 }

@@ -63,9 +63,7 @@ void pil(const PilOptions& options) {
   const emulator::EmulatedBoard& board = *emulator::find_board(options.board);
   const scene::Scene scene = scene::read_file(options.scene);
   const std::string header = header_for(scene, board, options.scene);
-  const std::filesystem::path out =
-      options.out.empty() ? std::filesystem::path("out") / (scene.name + "_" + options.board)
-                          : std::filesystem::path(options.out);
+  const std::filesystem::path out = output_folder(options.out, scene.name + "_" + options.board);
   require_emulator(board);
   const Interruption interruption;
   report::RunReport report(out, scene);

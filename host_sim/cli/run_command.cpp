@@ -45,8 +45,7 @@ CLI::App* add_run_command(CLI::App& program, RunOptions& options) {
 
 void run(const RunOptions& options) {
   const scene::Scene scene = scene::read_file(options.scene, options.overrides);
-  const std::filesystem::path out = options.out.empty() ? std::filesystem::path("out") / scene.name
-                                                        : std::filesystem::path(options.out);
+  const std::filesystem::path out = output_folder(options.out, scene.name);
   const Interruption interruption;
   report::RunReport report(out, scene);
   const loop::RunResult result = compute(scene, report, options.quiet, interruption);

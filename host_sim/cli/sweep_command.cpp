@@ -85,9 +85,7 @@ CLI::App* add_sweep_command(CLI::App& program, SweepOptions& options) {
 
 void sweep(const SweepOptions& options) {
   const sweep::Plan plan(options.scene, options.overrides, options.vary);
-  const std::filesystem::path out =
-      options.out.empty() ? std::filesystem::path("out") / (plan.first().name + "_sweep")
-                          : std::filesystem::path(options.out);
+  const std::filesystem::path out = output_folder(options.out, plan.first().name + "_sweep");
   const sweep::Summary summary = compute(plan, out, options);
   if (!options.quiet) {
     fmt::print("{}", text(summary, out));

@@ -42,9 +42,7 @@ void work_precision(const WorkPrecisionOptions& options) {
   const scene::Scene scene = scene::read_file(options.scene);
   const peers::Problem problem =
       with_places(options.scene, [&] { return work_precision::problem_of(scene); });
-  const std::filesystem::path out =
-      options.out.empty() ? std::filesystem::path("out") / (scene.name + "_work_precision")
-                          : std::filesystem::path(options.out);
+  const std::filesystem::path out = output_folder(options.out, scene.name + "_work_precision");
   plot::require_gnuplot();
   require_writable(out);
   const work_precision::Comparison comparison = compute(problem, options.quiet);

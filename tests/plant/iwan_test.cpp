@@ -13,6 +13,7 @@
 #include "firmware/plant/rk4_event.hpp"
 #include "firmware/plant/strang.hpp"
 #include "motion.hpp"
+#include "random.hpp"
 
 namespace sonoglide::plant {
 namespace {
@@ -240,10 +241,6 @@ TEST(Iwan, MirroredMotionIsTheMirrorImageBitForBit) {
   EXPECT_EQ(one.displacement, -other.displacement);
   EXPECT_EQ(one.velocity, -other.velocity);
   EXPECT_EQ(one.memory[0], -other.memory[0]);
-}
-
-double between(double low, double high) {
-  return low + (high - low) * 1e-6 * *rc::gen::inRange(0, 1000001);
 }
 
 RC_GTEST_PROP(IwanProperties, KeepsItsBoundsBalancesItsEnergyAndIsPassive, ()) {

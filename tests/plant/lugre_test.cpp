@@ -13,6 +13,7 @@
 
 #include "firmware/friction/dahl_friction_ratio.hpp"
 #include "motion.hpp"
+#include "random.hpp"
 
 namespace sonoglide::plant {
 namespace {
@@ -206,10 +207,6 @@ TEST(LuGre, StepsTooLongForTheBristlesAreReported) {
   RememberingState<Law> state;
   NoAccount account;
   EXPECT_EQ(run_periods(solver, 1, 1.0, 0.5, state, account), Error::friction_bound_broken);
-}
-
-double between(double low, double high) {
-  return low + (high - low) * 1e-6 * *rc::gen::inRange(0, 1000001);
 }
 
 RC_GTEST_PROP(LuGreProperties, BalancesItsEnergyAndIsPassive, ()) {

@@ -11,6 +11,7 @@
 
 #include "firmware/friction/normal_vibration_ratio.hpp"
 #include "motion.hpp"
+#include "random.hpp"
 
 namespace sonoglide::plant {
 namespace {
@@ -150,10 +151,6 @@ TEST(NormalCoulomb, AgreesWithTheSliderFollowedInShortSteps) {
       }
     }
   }
-}
-
-double between(double low, double high) {
-  return low + (high - low) * 1e-6 * *rc::gen::inRange(0, 1000001);
 }
 
 RC_GTEST_PROP(NormalCoulombProperties, KeepsItsLimitBalancesItsEnergyAndIsPassive, ()) {

@@ -9,6 +9,7 @@
 
 #include "firmware/friction/stribeck_friction_ratio.hpp"
 #include "motion.hpp"
+#include "random.hpp"
 
 namespace sonoglide::plant {
 namespace {
@@ -138,10 +139,6 @@ TEST(Stribeck, MirroredMotionIsTheMirrorImageBitForBit) {
   const State<double> other = advanced(solver, {0.3, 30.0, -1.0, -0.3, -0.01}, {-0.4, -0.1, 0.0});
   EXPECT_EQ(one.displacement, -other.displacement);
   EXPECT_EQ(one.velocity, -other.velocity);
-}
-
-double between(double low, double high) {
-  return low + (high - low) * 1e-6 * *rc::gen::inRange(0, 1000001);
 }
 
 RC_GTEST_PROP(StribeckProperties, BalancesItsEnergyAndIsPassive, ()) {

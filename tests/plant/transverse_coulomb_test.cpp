@@ -11,6 +11,7 @@
 
 #include "firmware/friction/transverse_vibration_ratio.hpp"
 #include "motion.hpp"
+#include "random.hpp"
 
 namespace sonoglide::plant {
 namespace {
@@ -150,10 +151,6 @@ TEST(TransverseCoulomb, AtRestWithoutSlidingIsAnError) {
   State<double> state;
   NoAccount account;
   EXPECT_EQ(advance(solver, {0.0, 1.0, 1.0, 0.0, 0.0}, state, account).error, Error::not_finite);
-}
-
-double between(double low, double high) {
-  return low + (high - low) * 1e-6 * *rc::gen::inRange(0, 1000001);
 }
 
 template <class Solver>
