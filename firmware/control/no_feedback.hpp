@@ -15,6 +15,8 @@ class NoFeedback {
   explicit NoFeedback(const Parameters&) {}
   void restart() {}
   void hold() {}
+  void target_changes(Scalar) {}
+  void shift(Scalar, Scalar) {}
   Scalar propose(Scalar target, Scalar /*measured*/) const { return target; }
   void accept(bool, bool) {}
 };

@@ -75,6 +75,14 @@ std::vector<std::string> warnings(const scene::Scene& scene, const loop::RunResu
                     "is {:.3g} per carrier period.",
                     result.control->design.integral_gain));
   }
+  if (result.control->design.relearns) {
+    const analysis::PauseMetrics pauses = findings.pauses();
+    all.push_back(
+        fmt::format("The drive paused {} times to learn the friction force anew: {} of the time. "
+                    "The pauses raise "
+                    "the mean friction ratio by {:.3g}; the table of target steps leaves them out.",
+                    pauses.pauses, percent(pauses.time_fraction), pauses.ratio_cost));
+  }
   if (scene.controller->target_friction_ratio.size() > findings.close_ups().size()) {
     all.push_back(fmt::format("Close-ups are shown of the first {} target steps.",
                               findings.close_ups().size()));
@@ -100,7 +108,7 @@ Table step_table(const RunFindings& findings) {
          step.settling_time_s ? fmt::format("{:.1f}", *step.settling_time_s * 1e6) : "never",
          fmt::format("{:.5f}", step.overshoot), fmt::format("{:+.5f}", step.steady_error),
          fmt::format("{:.5f}", step.ripple), fmt::format("{:.1f}", step.drive_amplitude_N),
-         limit_name(step.limit)});
+         limit_text(step)});
   }
   return table;
 }

@@ -45,6 +45,8 @@ struct Drive {
   double max_force_amplitude_N = 0.0;            ///< closed loop: the actuator's limit
   std::optional<double> max_force_slew_N_per_s;  ///< closed loop: absent, no slew limit
   Waveform waveform = Waveform::cosine;
+  int delay_periods =
+      1;  ///< closed loop: from the end of a sampled period to where its answer acts
 };
 
 struct Solver {
@@ -84,6 +86,9 @@ struct Controller {
   double calibration_s = 0.0;
   Shaping shaping = Shaping::notch;
   std::optional<double> speed_floor_m_per_s;  ///< absent: the controller's own default
+  double standstill_hold_s = 0.02;            ///< for which the drive is held below the speed floor
+  std::optional<double> relearn_every_s;      ///< absent: the friction force is not learnt again
+  double mismatch_warning = 1.25;  ///< believed over true friction, or its inverse, that is named
 };
 
 /// Absent members leave that part of the sensor ideal.

@@ -164,6 +164,7 @@ std::optional<Drive> read_drive(const Variant& variant) {
         cursor.real("max_force_amplitude_N", {1e-12, largest_force_N, "N"});
     drive.max_force_slew_N_per_s =
         cursor.optional_real("max_force_slew_N_per_s", {1e-12, 1e21, "N/s"});
+    drive.delay_periods = static_cast<int>(cursor.integer("delay_periods", 0, 16, 1));
   } else {
     drive.force_amplitude_N = cursor.real("force_amplitude_N", {0.0, largest_force_N, "N"});
   }
@@ -245,6 +246,11 @@ std::optional<Controller> read_controller(const Variant& variant, const Scene& s
   controller.shaping = cursor.choice("shaping", shapings, Shaping::notch);
   controller.speed_floor_m_per_s =
       cursor.optional_real("speed_floor_m_per_s", {1e-12, largest_speed_m_per_s, "m/s"});
+  controller.standstill_hold_s =
+      cursor.real("standstill_hold_s", time_range, controller.standstill_hold_s);
+  controller.relearn_every_s = cursor.optional_real("relearn_every_s", {1e-9, largest_time_s, "s"});
+  controller.mismatch_warning =
+      cursor.real("mismatch_warning", {1.01, 100.0}, controller.mismatch_warning);
   return controller;
 }
 

@@ -91,6 +91,7 @@ ordered_json echo(const Drive& drive, bool closed_loop) {
   if (closed_loop) {
     table["max_force_amplitude_N"] = drive.max_force_amplitude_N;
     add_if_set(table, "max_force_slew_N_per_s", drive.max_force_slew_N_per_s);
+    table["delay_periods"] = drive.delay_periods;
   }
   return table;
 }
@@ -137,6 +138,9 @@ ordered_json echo(const Controller& controller) {
   table["calibration_s"] = controller.calibration_s;
   table["shaping"] = name_of(shapings, controller.shaping);
   add_if_set(table, "speed_floor_m_per_s", controller.speed_floor_m_per_s);
+  table["standstill_hold_s"] = controller.standstill_hold_s;
+  add_if_set(table, "relearn_every_s", controller.relearn_every_s);
+  table["mismatch_warning"] = controller.mismatch_warning;
   return table;
 }
 

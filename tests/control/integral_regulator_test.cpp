@@ -14,9 +14,11 @@ template <class Scalar>
 class IntegralRegulatorTest : public testing::Test {
  protected:
   static constexpr double gain = 0.125;
+  static constexpr std::uint16_t rest_periods = 12;
 
   static IntegralRegulator<Scalar> regulator(std::uint16_t hold_periods) {
-    IntegralRegulator<Scalar> result({scaled<Scalar>(gain), hold_periods});
+    IntegralRegulator<Scalar> result(
+        {scaled<Scalar>(gain), scaled<Scalar>(0.25), hold_periods, rest_periods});
     result.restart();
     return result;
   }
