@@ -86,13 +86,18 @@ struct Controller {
   std::optional<double> speed_floor_m_per_s;  ///< absent: the controller's own default
 };
 
-/// Absent members leave that part of the sensor ideal.
+/// Absent members leave that part of the sensor ideal. Of offsets and gains the controller knows
+/// nothing.
 struct Sensor {
   std::optional<int> adc_bits;
   double force_full_scale_N = 0.0;  ///< the converter spans ± this
   double force_noise_N = 0.0;       ///< rms, each sample
   std::optional<double> force_bandwidth_Hz;
   int delay_periods = 0;
+  double force_offset_N = 0.0;
+  double force_gain = 1.0;  ///< reading over true; -1: wired backwards, 0: dead
+  double velocity_offset_m_per_s = 0.0;
+  double velocity_gain = 1.0;
   std::uint64_t seed = 1;
 };
 

@@ -87,7 +87,7 @@ const std::vector<TableSchema>& schema() {
        {"arithmetic", "target_friction_ratio", "calibration_s", "shaping", "speed_floor_m_per_s"}},
       {"sensor",
        {"adc_bits", "force_full_scale_N", "force_noise_N", "force_bandwidth_Hz", "delay_periods",
-        "seed"}},
+        "force_offset_N", "force_gain", "velocity_offset_m_per_s", "velocity_gain", "seed"}},
       {"model_error", {"mass", "stiffness", "coefficient", "contact_stiffness"}},
   };
   return tables;
