@@ -36,10 +36,12 @@ std::string listing(const std::string& listed, const std::vector<random_loops::O
   if (listed == "named-settled") {
     return random_loops::named_settled_csv(outcomes);
   }
-  const std::map<std::string, Verdict> verdicts = {{"unnamed", Verdict::never_unnamed},
-                                                   {"never", Verdict::never_named},
-                                                   {"late", Verdict::late},
-                                                   {"prompt", Verdict::prompt}};
+  const std::map<std::string, std::optional<Verdict>> verdicts = {
+      {"all", std::nullopt},
+      {"unnamed", Verdict::never_unnamed},
+      {"never", Verdict::never_named},
+      {"late", Verdict::late},
+      {"prompt", Verdict::prompt}};
   return random_loops::list_csv(outcomes, verdicts.at(listed));
 }
 
@@ -74,12 +76,14 @@ int main(int argument_count, char** arguments) {
       ->check(CLI::Range(1U, 1000000U))
       ->capture_default_str();
   program
-      .add_option("--list", options.listed,
-                  "In place of the table, a line for each step: that never settles without a name "
-                  "for it (unnamed) or with one (never), settles after 1 ms (late) or before "
-                  "(prompt), or settles under a limit or fault (named-settled); or for each scene "
-                  "that is refused or fails (refused)")
-      ->check(CLI::IsMember({"unnamed", "never", "late", "prompt", "named-settled", "refused"}));
+      .add_option(
+          "--list", options.listed,
+          "In place of the table, a line for each step (all), or for each that never settles "
+          "without a name for it (unnamed) or with one (never), settles after 1 ms (late) "
+          "or before (prompt), or settles under a limit or fault (named-settled); or for "
+          "each scene that is refused or fails (refused)")
+      ->check(
+          CLI::IsMember({"all", "unnamed", "never", "late", "prompt", "named-settled", "refused"}));
   program.add_option("--table", options.table, "Where to write the table [standard output]");
   program.add_option("--scene", options.scene, "In place of the table, this loop as TOML");
   CLI11_PARSE(program, argument_count, arguments);

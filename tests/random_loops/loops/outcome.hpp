@@ -16,6 +16,8 @@ namespace sonoglide::random_loops {
 /// steady part, or a fault up to its end.
 enum class Verdict { prompt, late, never_named, never_unnamed };
 inline constexpr std::size_t verdicts = 4;
+inline constexpr std::array<std::string_view, verdicts> verdict_names = {
+    "prompt", "late", "never_named", "never_unnamed"};
 
 /// A prompt step settles within this.
 inline constexpr double prompt_s = 1e-3;

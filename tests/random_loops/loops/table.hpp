@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,8 +28,9 @@ namespace sonoglide::random_loops {
 /// @param counts  a table of its own for the first so many outcomes, one below the other
 std::string table_csv(const std::vector<Outcome>& all, const std::vector<std::uint32_t>& counts);
 
-/// One line for each step with a verdict, and a header: the numbers of its loop, its figures.
-std::string list_csv(const std::vector<Outcome>& all, Verdict verdict);
+/// One line for each step, of one verdict if it is given, and a header: the numbers of its loop,
+/// its figures.
+std::string list_csv(const std::vector<Outcome>& all, std::optional<Verdict> verdict);
 
 /// The same for each settled step that has a name for not being so.
 std::string named_settled_csv(const std::vector<Outcome>& all);
