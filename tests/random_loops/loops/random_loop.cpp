@@ -39,25 +39,26 @@ std::string_view draw_name(Dice& dice, const std::array<Share, Count>& shares) {
 
 /// Natural over carrier frequency.
 double draw_mode(Dice& dice) {
-  constexpr std::array<double, 3> percentages = {45.0, 35.0, 20.0};
+  constexpr std::array<double, mode_count> percentages = {45.0, 35.0, 5.0, 15.0};
   switch (static_cast<Mode>(dice.part(percentages))) {
     case Mode::below:
       return dice.between(0.05, 0.92);
     case Mode::above:
       return dice.between(1.075, 3.6);
+    case Mode::near_zero:
+      return dice.over_decades(1e-3, 1.6);  // to 0.04
     case Mode::near_multiple:
       break;
   }
-  const int multiple = dice.whole(1, 4);
-  const double beside = dice.over_decades(1e-4, 2.6);  // to 0.04
-  return multiple == 1 ? beside : multiple + dice.sign() * beside;
+  const int multiple = dice.whole(2, 4);
+  return multiple + dice.sign() * dice.over_decades(1e-4, 2.6);  // to 0.04
 }
 
 Mode mode_class(double mode_per_carrier) {
-  if (std::abs(mode_per_carrier - std::round(mode_per_carrier)) <= near_multiple) {
-    return Mode::near_multiple;
+  if (std::abs(mode_per_carrier - std::round(mode_per_carrier)) > near_multiple) {
+    return mode_per_carrier < 1.0 ? Mode::below : Mode::above;
   }
-  return mode_per_carrier < 1.0 ? Mode::below : Mode::above;
+  return mode_per_carrier < 1.0 ? Mode::near_zero : Mode::near_multiple;
 }
 
 double draw_damping_ratio(Dice& dice) {

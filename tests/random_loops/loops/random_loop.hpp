@@ -10,12 +10,14 @@
 namespace sonoglide::random_loops {
 
 /// Where the natural frequency lies, seen from the carrier's.
-enum class Mode { below, above, near_multiple };
-inline constexpr std::array<std::string_view, 3> mode_names = {"below carrier", "above carrier",
-                                                               "near multiple"};
+enum class Mode { below, above, near_zero, near_multiple };
+inline constexpr std::size_t mode_count = 4;
+inline constexpr std::array<std::string_view, mode_count> mode_names = {
+    "below carrier", "above carrier", "near zero", "near multiple"};
 
-/// A mode within this part of the carrier of a multiple of it (zero and all, but not the carrier,
-/// which none comes near) is a class of its own: the notch on it is ill-conditioned or banned.
+/// A mode within this part of the carrier of zero or of a multiple (none comes near the carrier
+/// itself) is in a class of its own: a notch on it is ill-conditioned or banned. One near zero is
+/// of a spring so soft that friction drags the mass along.
 inline constexpr double near_multiple = 0.04;
 
 inline constexpr std::size_t steps_per_loop = 3;
@@ -81,7 +83,7 @@ struct RandomLoop {
 ///
 /// Mass 1 g to 1 kg, carrier 18 to 120 kHz, sliding 1 mm/s to 0.3 m/s either way, normal force 1 to
 /// 100 times the weight, all log-uniform; natural frequency 0.05 to 0.92 of the carrier, 1.075 to
-/// 3.6 of it, or 1e-4 to 0.04 carriers beside zero or its second to fourth multiple; damping none,
+/// 3.6 of it, 1e-3 to 0.04, or 1e-4 to 0.04 beside its second to fourth multiple; damping none,
 /// 1e-4 to 0.01, or 0.01 to 0.3 of critical. Full drive vibrates 3 to 12 times as fast as the
 /// sliding, in one of twelve 1.1 to 3 times; the Dahl number is 0.05 to 100 there. Three targets
 /// from 0.25 to 0.9 hold 2 to 4 ms each, and as long as the undriven contact takes to forget; three

@@ -139,7 +139,8 @@ constexpr const char* list_header =
     "index,step,law,arithmetic,mode,mass_kg,frequency_Hz,mode_per_carrier,damping_ratio,"
     "sliding_velocity_m_per_s,full_velocity_ratio,full_dahl_number,adc_bits,noise_per_friction,"
     "force_bandwidth_Hz,delay_periods,calibration_s,error_stiffness,error_coefficient,"
-    "error_contact_stiffness,target,limit,fault,verdict,settling_time_s,steady_error,ripple\n";
+    "error_contact_stiffness,target,limit,fault,verdict,settling_time_s,steady_error,ripple,drive_"
+    "part\n";
 
 std::string list(const std::vector<Outcome>& all,
                  const std::function<bool(const StepOutcome&)>& wanted) {
@@ -149,12 +150,13 @@ std::string list(const std::vector<Outcome>& all,
       const StepOutcome& step = outcome.steps[i];
       if (wanted(step)) {
         const analysis::StepMetrics& metrics = step.metrics;
-        text += fmt::format("{},{},{},{:.6g},{},{},{},{:.4g},{:.4g},{:.4g}\n", outcome.loop.index,
-                            i, loop_cells(outcome.loop), metrics.target,
-                            control::name(metrics.limit), step.fault.empty() ? "none" : step.fault,
-                            verdict_names[static_cast<std::size_t>(step.verdict)],
-                            metrics.settling_time_s.value_or(NAN), metrics.steady_error,
-                            metrics.ripple);
+        text +=
+            fmt::format("{},{},{},{:.6g},{},{},{},{:.4g},{:.4g},{:.4g},{:.4g}\n",
+                        outcome.loop.index, i, loop_cells(outcome.loop), metrics.target,
+                        control::name(metrics.limit), step.fault.empty() ? "none" : step.fault,
+                        verdict_names[static_cast<std::size_t>(step.verdict)],
+                        metrics.settling_time_s.value_or(NAN), metrics.steady_error, metrics.ripple,
+                        metrics.drive_amplitude_N / outcome.loop.max_force_amplitude_N);
       }
     }
   }
