@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "firmware/control/names.hpp"
+#include "host_sim/analysis/target_spans.hpp"
 #include "host_sim/loop/computation_error.hpp"
 #include "host_sim/loop/run.hpp"
 #include "host_sim/scene/reader.hpp"
@@ -24,7 +25,7 @@ std::string fault_at(const loop::ControlRecord& record, double time_s) {
 }
 
 Verdict verdict(const StepOutcome& step) {
-  if (step.metrics.settling_time_s) {
+  if (step.settled()) {
     return *step.metrics.settling_time_s <= prompt_s ? Verdict::prompt : Verdict::late;
   }
   return step.named() ? Verdict::never_named : Verdict::never_unnamed;
@@ -36,10 +37,12 @@ void run_scene(const scene::Scene& scene, Outcome& outcome) {
   watch.periods.push_back(&meter);
   const loop::RunResult result = loop::run(scene, watch);
   const std::vector<analysis::StepMetrics> steps = meter.steps();
+  const std::vector<analysis::TargetSpan> spans = analysis::target_spans(scene);
   for (std::size_t i = 0; i < steps.size(); ++i) {
-    const double end_s = i + 1 < steps.size() ? steps[i + 1].time_s : scene.run.duration_s;
-    StepOutcome step{steps[i], fault_at(*result.control, end_s)};
+    StepOutcome step{steps[i], fault_at(*result.control, spans[i].end_s)};
     step.verdict = verdict(step);
+    step.at_end =
+        step.settled() && spans[i].begin_s + *steps[i].settling_time_s > spans[i].quarter_s;
     outcome.steps.push_back(step);
   }
 }

@@ -26,8 +26,10 @@ struct StepOutcome {
   analysis::StepMetrics metrics;
   std::string fault;  ///< that the controller is in at the step's end; empty: none
   Verdict verdict = Verdict::never_unnamed;
+  bool at_end = false;  ///< settled, but only in the last quarter: a swing may have ended inside
 
   bool named() const;
+  bool settled() const { return metrics.settling_time_s.has_value(); }
 };
 
 struct Outcome {

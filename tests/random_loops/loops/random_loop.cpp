@@ -154,6 +154,9 @@ void draw_friction(Dice& dice, RandomLoop& loop) {
   loop.coefficient = dice.over_decades(0.05, 1.0);
   const double weight_N = loop.mass_kg * standard_gravity_m_per_s2;
   loop.normal_force_N = dice.chance(0.5) ? weight_N : weight_N * dice.over_decades(1.0, 2.0);
+  const double natural_rad_per_s = loop.mode_per_carrier * angular_frequency_rad_per_s(loop);
+  loop.friction_ringing = friction_N(loop) / (loop.mass_kg * natural_rad_per_s *
+                                              std::abs(loop.sliding_velocity_m_per_s));
   if (loop.law == "normal_coulomb") {
     draw_normal_coulomb(dice, loop);
   } else if (loop.law == "stribeck") {

@@ -59,6 +59,8 @@ struct RandomLoop {
   double damping_ratio = 0.0;        ///< of critical
   double full_velocity_ratio = 0.0;  ///< peak vibration velocity at full drive over the sliding's
   double full_dahl_number = 0.0;     ///< Kt X/Fc at full drive, elastic laws
+  double friction_ringing =
+      0.0;  ///< Fc/(m omega_n), of the mode where Fc sets in, over the sliding
 
   std::string_view law;
   std::string_view arithmetic;

@@ -63,13 +63,10 @@ struct Counts {
   std::size_t failed = 0;
   std::size_t steps = 0;
   std::array<std::size_t, verdicts> of_verdict{};
+  std::size_t at_end = 0;
   std::size_t named_settled = 0;
   std::vector<double> ripples;
 };
-
-bool settled(const StepOutcome& step) {
-  return step.verdict == Verdict::prompt || step.verdict == Verdict::late;
-}
 
 void count(const Outcome& outcome, Counts& counts) {
   ++counts.drawn;
@@ -78,7 +75,8 @@ void count(const Outcome& outcome, Counts& counts) {
   for (const StepOutcome& step : outcome.steps) {
     ++counts.steps;
     ++counts.of_verdict[static_cast<std::size_t>(step.verdict)];
-    counts.named_settled += settled(step) && step.named() ? 1 : 0;
+    counts.at_end += step.at_end ? 1 : 0;
+    counts.named_settled += step.settled() && step.named() ? 1 : 0;
     counts.ripples.push_back(step.metrics.ripple);
   }
 }
@@ -111,10 +109,11 @@ std::string quantiles(std::vector<double> values) {
 }
 
 std::string row(std::size_t loops, const char* model, const Class& each, const Counts& counts) {
-  return fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", loops, model, each.of,
+  return fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", loops, model, each.of,
                      each.name, counts.drawn, counts.refused, counts.failed, counts.steps,
-                     counts.of_verdict[0], counts.of_verdict[1], counts.of_verdict[2],
-                     counts.of_verdict[3], counts.named_settled, quantiles(counts.ripples));
+                     counts.of_verdict[0], counts.of_verdict[1], counts.at_end,
+                     counts.of_verdict[2], counts.of_verdict[3], counts.named_settled,
+                     quantiles(counts.ripples));
 }
 
 std::string optional_number(double value) {
@@ -125,11 +124,13 @@ std::string loop_cells(const RandomLoop& loop) {
   const ModelErrorNumbers error = loop.model_error.value_or(ModelErrorNumbers{});
   const SensorNumbers& sensor = loop.sensor;
   return fmt::format(
-      "{},{},{},{:.6g},{:.6g},{:.6g},{:.3g},{:.6g},{:.3g},{:.3g},{},{},{},{},{:.3g},{:.3g},{:.3g},"
+      "{},{},{},{:.6g},{:.6g},{:.6g},{:.3g},{:.6g},{:.3g},{:.3g},{:.3g},{},{},{},{},{:.3g},{:.3g},{"
+      ":.3g},"
       "{:.3g}",
       loop.law, loop.arithmetic, mode_names[static_cast<std::size_t>(loop.mode)], loop.mass_kg,
       loop.frequency_Hz, loop.mode_per_carrier, loop.damping_ratio, loop.sliding_velocity_m_per_s,
-      loop.full_velocity_ratio, loop.full_dahl_number, sensor.adc_bits.value_or(0),
+      loop.full_velocity_ratio, loop.full_dahl_number, loop.friction_ringing,
+      sensor.adc_bits.value_or(0),
       optional_number(sensor.force_noise_N / (loop.coefficient * loop.normal_force_N)),
       optional_number(sensor.force_bandwidth_Hz.value_or(0.0)), sensor.delay_periods,
       loop.calibration_s, error.stiffness, error.coefficient, error.contact_stiffness);
@@ -137,7 +138,8 @@ std::string loop_cells(const RandomLoop& loop) {
 
 constexpr const char* list_header =
     "index,step,law,arithmetic,mode,mass_kg,frequency_Hz,mode_per_carrier,damping_ratio,"
-    "sliding_velocity_m_per_s,full_velocity_ratio,full_dahl_number,adc_bits,noise_per_friction,"
+    "sliding_velocity_m_per_s,full_velocity_ratio,full_dahl_number,friction_ringing,adc_bits,noise_"
+    "per_friction,"
     "force_bandwidth_Hz,delay_periods,calibration_s,error_stiffness,error_coefficient,"
     "error_contact_stiffness,target,limit,fault,verdict,settling_time_s,steady_error,ripple,drive_"
     "part\n";
@@ -167,7 +169,7 @@ std::string list(const std::vector<Outcome>& all,
 
 std::string table_csv(const std::vector<Outcome>& all, const std::vector<std::uint32_t>& counts) {
   std::string text =
-      "loops,model,class_of,class,drawn,refused,failed,steps,prompt,late,never_named,"
+      "loops,model,class_of,class,drawn,refused,failed,steps,prompt,late,at_end,never_named,"
       "never_unnamed,named_settled,ripple_p50,ripple_p90,ripple_p99\n";
   for (const std::uint32_t loops : counts) {
     for (const bool wrong : {false, true}) {
@@ -185,7 +187,7 @@ std::string list_csv(const std::vector<Outcome>& all, std::optional<Verdict> ver
 }
 
 std::string named_settled_csv(const std::vector<Outcome>& all) {
-  return list(all, [](const StepOutcome& step) { return settled(step) && step.named(); });
+  return list(all, [](const StepOutcome& step) { return step.settled() && step.named(); });
 }
 
 std::string refusals_text(const std::vector<Outcome>& all) {

@@ -20,6 +20,7 @@ namespace sonoglide::random_loops {
 ///     failed          the computation failed
 ///     steps           target steps of the others; of these
 ///     prompt, late    settled within 1 ms, or after
+///     at_end          of these, settled only in the step's last quarter
 ///     never_named     not settled, with a limit or a fault
 ///     never_unnamed   not settled, without
 ///     named_settled   settled although a limit or a fault is named
