@@ -47,6 +47,11 @@ void require_ideal(const scene::Sensor& sensor) {
   require(sensor.force_noise_N == 0.0, "sensor.force_noise_N", ideal + "allowed: 0");
   require(!sensor.force_bandwidth_Hz, "sensor.force_bandwidth_Hz", ideal + "remove it");
   require(sensor.delay_periods == 0, "sensor.delay_periods", ideal + "allowed: 0");
+  require(sensor.force_offset_N == 0.0, "sensor.force_offset_N", ideal + "allowed: 0");
+  require(sensor.force_gain == 1.0, "sensor.force_gain", ideal + "allowed: 1");
+  require(sensor.velocity_offset_m_per_s == 0.0, "sensor.velocity_offset_m_per_s",
+          ideal + "allowed: 0");
+  require(sensor.velocity_gain == 1.0, "sensor.velocity_gain", ideal + "allowed: 1");
 }
 
 std::uint64_t whole_periods(const scene::Scene& scene) {

@@ -91,13 +91,18 @@ struct Controller {
   double mismatch_warning = 1.25;  ///< believed over true friction, or its inverse, that is named
 };
 
-/// Absent members leave that part of the sensor ideal.
+/// Absent members leave that part of the sensor ideal. Of offsets and gains the controller knows
+/// nothing.
 struct Sensor {
   std::optional<int> adc_bits;
   double force_full_scale_N = 0.0;  ///< the converter spans ± this
   double force_noise_N = 0.0;       ///< rms, each sample
   std::optional<double> force_bandwidth_Hz;
   int delay_periods = 0;
+  double force_offset_N = 0.0;
+  double force_gain = 1.0;  ///< reading over true; -1: wired backwards, 0: dead
+  double velocity_offset_m_per_s = 0.0;
+  double velocity_gain = 1.0;
   std::uint64_t seed = 1;
 };
 

@@ -88,7 +88,7 @@ const std::vector<TableSchema>& schema() {
         "standstill_hold_s", "relearn_every_s", "mismatch_warning"}},
       {"sensor",
        {"adc_bits", "force_full_scale_N", "force_noise_N", "force_bandwidth_Hz", "delay_periods",
-        "seed"}},
+        "force_offset_N", "force_gain", "velocity_offset_m_per_s", "velocity_gain", "seed"}},
       {"model_error", {"mass", "stiffness", "coefficient", "contact_stiffness"}},
   };
   return tables;

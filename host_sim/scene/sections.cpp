@@ -23,6 +23,7 @@ constexpr std::string_view in_open_loop = "in open loop, without a [controller] 
 
 constexpr Range time_range{0.0, largest_time_s, "s"};
 constexpr Range speed_range{-largest_speed_m_per_s, largest_speed_m_per_s, "m/s"};
+constexpr Range sensor_gain_range{-100.0, 100.0};
 
 bool closed_loop(const Variant& variant) {
   return variant.find("controller") != nullptr;
@@ -265,6 +266,11 @@ Sensor read_sensor(const Variant& variant, const Friction& friction) {
   sensor.force_noise_N = cursor.real("force_noise_N", {0.0, largest_force_N, "N"}, 0.0);
   sensor.force_bandwidth_Hz = cursor.optional_real("force_bandwidth_Hz", {1e-3, 1e12, "Hz"});
   sensor.delay_periods = static_cast<int>(cursor.integer("delay_periods", 0, 64, 0));
+  sensor.force_offset_N =
+      cursor.real("force_offset_N", {-largest_force_N, largest_force_N, "N"}, 0.0);
+  sensor.force_gain = cursor.real("force_gain", sensor_gain_range, 1.0);
+  sensor.velocity_offset_m_per_s = cursor.real("velocity_offset_m_per_s", speed_range, 0.0);
+  sensor.velocity_gain = cursor.real("velocity_gain", sensor_gain_range, 1.0);
   sensor.seed = static_cast<std::uint64_t>(
       cursor.integer("seed", 0, std::numeric_limits<std::int64_t>::max(), 1));
   return sensor;

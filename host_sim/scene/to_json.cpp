@@ -151,6 +151,10 @@ ordered_json echo(const Sensor& sensor) {
   table["force_noise_N"] = sensor.force_noise_N;
   add_if_set(table, "force_bandwidth_Hz", sensor.force_bandwidth_Hz);
   table["delay_periods"] = sensor.delay_periods;
+  table["force_offset_N"] = sensor.force_offset_N;
+  table["force_gain"] = sensor.force_gain;
+  table["velocity_offset_m_per_s"] = sensor.velocity_offset_m_per_s;
+  table["velocity_gain"] = sensor.velocity_gain;
   table["seed"] = sensor.seed;
   return table;
 }
