@@ -127,6 +127,7 @@ class Controller {
     const Scalar target = numeric::clamp(half_ratio, Scalar{}, whole_ratio());
     if (target != target_) {
       regulator_.target_changes(target - target_);
+      watch_.retarget();
       target_ = target;
     }
   }

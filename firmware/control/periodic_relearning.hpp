@@ -15,8 +15,8 @@ namespace sonoglide::control {
 /// Periods of a pause, shaper over 2M periods, latency and sensor R, presliding slid through in n,
 /// readings averaged a:
 ///   request zero     2M + n + a
-///   drive disturbed  4M + n + a
-///   learnt           R periods after the last request of zero
+///   drive disturbed  4M + n + a, longer where the friction force has changed
+///   learnt           R periods after the last request of zero; the request then stands for one
 template <class Scalar>
 class PeriodicRelearning {
  public:
@@ -26,7 +26,7 @@ class PeriodicRelearning {
     Scalar travel;                ///< presliding travel, in 64 carrier periods at full drive's peak
                                   ///< vibration velocity
     std::uint16_t reading_periods;        ///< R: from a request to the reading that shows it
-    std::uint16_t return_periods;         ///< until shaper and contact are back
+    std::uint16_t return_periods;         ///< after that, until shaper and contact are back
     std::uint8_t average_periods;         ///< a, >= 1
     numeric::Accumulator<Scalar> weight;  ///< 1/a
   };
@@ -114,7 +114,7 @@ class PeriodicRelearning {
     if (shown <= now && now < shown + undriven) {
       mean_ += numeric::accumulate(force) * parameters_.weight;
     }
-    if (now + 1 >= shown + undriven && now + 1 >= undriven + parameters_.return_periods) {
+    if (now + 1 >= shown + undriven + parameters_.return_periods) {
       phase_ = Phase::idle;
     }
     if (now + 1 == shown + undriven) {

@@ -11,8 +11,8 @@ namespace sonoglide::control {
 /// Counts the periods in which the measured ratio is outside target ± band: 4 up for each of them,
 /// 1 down for each inside. From 4·patience on the loop is not settling, so that a ratio which
 /// swings through its band is found as well as one that stays away: one that is outside for more
-/// than a fifth of the time. Back at zero it has settled. A limit, once named, stays for 256
-/// periods inside. All ratios on base 2.
+/// than a fifth of the time. Back at zero it has settled; so it has when the limit ends, after up
+/// to 33 periods inside. All ratios on base 2.
 ///
 /// Settled, the commanded ratio is the true one, as the friction-ratio map has it, and the target
 /// is what the believed friction force makes of it: commanded / target = believed / true force.
@@ -32,6 +32,9 @@ class SettlingWatch {
     above_ = below_ = clamped_ = disagrees_ = false;
   }
 
+  /// Another target: at least half of the patience is left for it.
+  void retarget() { count_ = count_ < limit() / 2 ? count_ : limit() / 2; }
+
   /// One call for each period in which the drive is to hold a ratio.
   /// @param commanded  ratio that the drive is picked for
   /// @param clamped    the command stands at an end of its range
@@ -47,6 +50,7 @@ class SettlingWatch {
       clamped_ = clamped_ || clamped;
     } else if (count_ > 0) {
       --count_;
+      count_ = count_ + 1 == limit() ? 0 : count_;
     }
     if (count_ == 0) {
       above_ = below_ = clamped_ = false;
@@ -78,7 +82,7 @@ class SettlingWatch {
 
  private:
   static constexpr std::uint32_t step = 4;
-  static constexpr std::uint32_t afterwards = 256;  ///< periods inside that end the limit
+  static constexpr std::uint32_t afterwards = 32;  ///< periods inside that end the limit
 
   std::uint32_t limit() const { return step * parameters_.patience; }
 

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstddef>
 
+#include "host_sim/scene/control_design.hpp"
+
 namespace sonoglide::analysis {
 namespace {
 
@@ -19,7 +21,10 @@ control::Limit prevailing_limit(std::array<std::uint64_t, Limits> count) {
 
 }  // namespace
 
-StepMeter::StepMeter(const scene::Scene& scene) : cursor_(scene), band_(scene.run.settling_band) {
+StepMeter::StepMeter(const scene::Scene& scene)
+    : cursor_(scene),
+      band_(scene.run.settling_band),
+      tells_mismatch_(scene::design_control(scene).tells_mismatch) {
   for (const TargetSpan& span : cursor_.spans()) {
     Tally tally;
     tally.settled_s = span.begin_s;
@@ -115,7 +120,7 @@ StepMetrics StepMeter::metrics(const TargetSpan& span, const Tally& tally) const
   metrics.drive_amplitude_N = tally.drive_sum_N / count;
   metrics.limit = prevailing_limit(tally.limit_count);
   metrics.cause = tally.cause;
-  if (tally.settled_periods > 0) {
+  if (tally.settled_periods > 0 && tells_mismatch_) {
     metrics.mismatch = tally.mismatch_sum / static_cast<double>(tally.settled_periods);
   }
   if (!settled && metrics.limit == control::Limit::none && !tally.fault) {

@@ -88,6 +88,7 @@ class StepMeter final : public loop::PeriodSink {
 
   SpanCursor cursor_;
   double band_;
+  bool tells_mismatch_;
   std::vector<Tally> tallies_;
   bool pausing_ = false;
   std::uint64_t pauses_ = 0;

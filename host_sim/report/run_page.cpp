@@ -68,12 +68,8 @@ std::vector<std::string> warnings(const scene::Scene& scene, const loop::RunResu
                     percent(static_cast<double>(result.control->saturated_commands) /
                             static_cast<double>(result.control->commands))));
   }
-  if (result.control->design.free_mode) {
-    all.push_back(
-        fmt::format("No notch is on the natural mode: each change of the drive makes it ring. The "
-                    "feedback gain "
-                    "is {:.3g} per carrier period.",
-                    result.control->design.integral_gain));
+  for (std::string& note : scene::design_notes(result.control->design)) {
+    all.push_back(std::move(note));
   }
   if (result.control->design.relearns) {
     const analysis::PauseMetrics pauses = findings.pauses();

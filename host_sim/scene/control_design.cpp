@@ -171,7 +171,10 @@ void design_supervision(const Scene& scene, const BelievedPlant& plant, ControlD
   constexpr double holds = 4.0;
   constexpr double patience_margin = 40.0;
   design.settling_patience_periods = whole_periods(holds * design.hold_periods + patience_margin);
-  design.agreement = 1.0 / scene.controller->mismatch_warning;
+  // Another law's or wave's map is off by itself, whatever the friction force.
+  design.tells_mismatch =
+      has_own_map(scene.friction.law) && scene.drive->waveform == Waveform::cosine;
+  design.agreement = design.tells_mismatch ? 1.0 / scene.controller->mismatch_warning : 0.0;
 }
 
 /// value/scale, or an error in the name of the key that one should change.
@@ -394,6 +397,28 @@ ControlDesign design_control(const Scene& scene) {
   design_slew(*scene.drive, design);
   design_relearning(scene, plant, design);
   return design;
+}
+
+std::vector<std::string> design_notes(const ControlDesign& design) {
+  std::vector<std::string> notes;
+  if (design.free_mode) {
+    notes.push_back(
+        fmt::format("No notch is on the natural mode: each change of the drive makes it ring. The "
+                    "feedback gain is {:.3g} per carrier period.",
+                    design.integral_gain));
+  }
+  constexpr int longest_span = 16;  // carrier periods, in which a step is over at Table 1
+  if (design.shaped && 2 * design.notch_spacing > longest_span) {
+    const int spacing = design.notch_spacing;
+    notes.push_back(fmt::format(
+        "The natural mode is so near a multiple of the carrier frequency that its notch spans {} "
+        "carrier periods: {} of them after each change the drive stands at {:.0f} % of it, then {} "
+        "at "
+        "{:.0f} %. Targets, speeds and sensors that change faster are not followed.",
+        2 * spacing, spacing, 100.0 * design.notch_taps[0], spacing,
+        100.0 * (design.notch_taps[0] + design.notch_taps[1])));
+  }
+  return notes;
 }
 
 }  // namespace sonoglide::scene

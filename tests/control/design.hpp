@@ -76,6 +76,7 @@ struct Design {
   std::uint32_t average_periods = 40;
   std::uint32_t total_periods = 0;
   std::uint32_t relearn_every_periods = 1000;
+  std::uint16_t relearn_reading_periods = 2;
   double relearn_travel = 0.0075;  ///< half a carrier period at full drive's velocity
   double drive_limit = 1.0;
 };
@@ -97,7 +98,7 @@ void fill(const Design& design, typename PeriodicRelearning<S>::Parameters& para
   parameters = {design.relearn_every_periods,
                 shaping,
                 numeric::from_real<S>(design.relearn_travel),
-                1,
+                design.relearn_reading_periods,
                 static_cast<std::uint16_t>(shaping + 2),
                 1,
                 numeric::from_real<numeric::Accumulator<S>>(1.0)};

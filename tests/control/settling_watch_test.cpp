@@ -88,12 +88,13 @@ TYPED_TEST(SettlingWatchTest, AFewPeriodsOutsideAreForgottenByFourTimesAsManyIns
   EXPECT_EQ(this->watch_.settling(), Settling::settled);
 }
 
-TYPED_TEST(SettlingWatchTest, ALimitEndsAfter256PeriodsInside) {
+TYPED_TEST(SettlingWatchTest, ALimitEndsAfter33PeriodsInside) {
   this->judge_for(1000, 0.4, 0.5, 0.4);
-  this->judge_for(256, 0.4, 0.4, 0.4);
+  this->judge_for(32, 0.4, 0.4, 0.4);
   EXPECT_EQ(this->watch_.limit_named(), Limit::not_settling);
   this->judge(0.4, 0.4, 0.4);
   EXPECT_EQ(this->watch_.limit_named(), Limit::none);
+  EXPECT_EQ(this->watch_.settling(), Settling::settled);
 }
 
 TYPED_TEST(SettlingWatchTest, NamesAFrictionThatIsNotTheBelievedOne) {
