@@ -288,16 +288,17 @@ class Controller {
     return request({Scalar{}, Limit::none});
   }
 
-  /// The friction force learnt in a pause; the request stands in this period.
+  /// The friction force learnt in a pause; the request stands in this period. What the reading
+  /// before the pause was with the drive of that time, it is in terms of the new force.
   DriveCommand<Scalar> learn_anew() {
-    const Scalar target_force = numeric::twice(target_) * level_.force();
+    const bool settled = watch_.settling() == Settling::settled;
+    const Scalar driven = settled ? numeric::twice(target_) * level_.force()  // without its noise
+                                  : relearning_.driven_force();
     take_friction_force(relearning_.force());
     if (state_ == State::fault) {
       return undriven(Limit::none);
     }
-    if (watch_.settling() == Settling::settled) {
-      regulator_.shift(target_, level_.half_ratio(target_force));
-    }
+    regulator_.shift(target_, level_.half_ratio(driven));
     return apply({requested_, Limit::none});
   }
 

@@ -59,10 +59,9 @@ class IntegralRegulator {
     }
   }
 
-  /// The target with which the commanded ratio stays as it is, the measured ratio being another by
-  /// a better known friction force: what the integral has made up for of the force is taken from
-  /// it.
-  /// @param shown  what the target was as a measured ratio, in terms of the new friction force
+  /// A better known friction force: what the integral has made up for of it is taken away, so that
+  /// the ratio which the present command gives would be commanded for itself.
+  /// @param shown  that ratio, in terms of the new friction force
   void shift(Scalar target, Scalar shown) {
     integral_ += numeric::accumulate(target - shown);
     hold();
