@@ -32,10 +32,10 @@ static_assert(1.0 <= period_ticks && period_ticks <= Hardware::Board::most_perio
 
 int main() {
   Hardware::ByteLink bytes;
+  Hardware::Watchdog watchdog;
   Hardware::Flash flash;
   app::Unit unit(design, flash);
   app::Console console(unit, bytes);
-  Hardware::Watchdog watchdog;
   Hardware::Board board(static_cast<std::uint32_t>(period_ticks));
   app::TimedLoop loop(unit.supervisor(), board, watchdog, console);
   while (loop.serve()) {
