@@ -154,7 +154,7 @@ struct LoggedFault {
   static constexpr std::uint8_t kind = ReadFault::kind | answer_bit;
   std::uint8_t age;
   std::uint8_t fault;    ///< control::Fault or app::UnitFault
-  std::uint32_t period;  ///< in which it was found
+  std::uint32_t period;  ///< in which it was found; wraps
   std::uint32_t count;   ///< faults since reset, those no longer kept included
 
   template <class Message, class Visitor>
