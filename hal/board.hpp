@@ -64,8 +64,10 @@ struct Drive {
 ///     bool busy() const;
 ///   };
 ///
-/// A flash may stall the processor instead of being busy: it is written with the drive at zero
-/// only. The watchdog must then be slower than an erase. A word that a power cut spoilt may read as
-/// anything, but read() returns; a flash of wider words shows each as one of 32 bits.
+/// A flash may stall the processor instead of being busy: it is erased and programmed with the
+/// drive at zero only. A watchdog that is faster than an erase is made slower by the flash for that
+/// time, or is fast enough for the drive and yet slower than an erase. A word that a power cut
+/// spoilt may read as anything, but read() returns; a flash of wider words shows each as one of 32
+/// bits.
 
 }  // namespace sonoglide::hal
