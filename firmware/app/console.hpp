@@ -314,11 +314,11 @@ class Console {
       case 5:
         return say(control::name(static_cast<control::Limit>(drive_.limit)));
       case 6:
-        return say(", ");
+        return say(judged() ? ", " : "");
       case 7:
-        return say(control::name(static_cast<control::Settling>(drive_.settling)));
+        return say(judged() ? control::name(static_cast<control::Settling>(drive_.settling)) : "");
       case 8:
-        return say(", mismatch ", mismatch_thousandths(drive_, unit_.target()), 3);
+        return say_mismatch();
       case 9:
         return say(", fault ");
       case 10:
@@ -332,6 +332,17 @@ class Console {
       default:
         return say_last("\r\n");
     }
+  }
+
+  /// Whether the controller says how the ratio stands to its target.
+  bool judged() const {
+    return drive_.settling != static_cast<std::uint8_t>(control::Settling::pending);
+  }
+
+  /// Where it is known.
+  void say_mismatch() {
+    const std::uint32_t mismatch = mismatch_thousandths(drive_, unit_.target());
+    return mismatch > 0 ? say(", believed/true friction ", mismatch, 3) : say("");
   }
 
   /// @param amplitude  code, 0 … 2^31 − 1.

@@ -288,17 +288,19 @@ class Controller {
     return request({Scalar{}, Limit::none});
   }
 
-  /// The friction force learnt in a pause; the request stands in this period. What the reading
-  /// before the pause was with the drive of that time, it is in terms of the new force.
+  /// The friction force learnt in a pause; the request stands in this period. What feedback had
+  /// made up for of the force is taken from it; of a loop that had not settled that cannot be told.
   DriveCommand<Scalar> learn_anew() {
-    const bool settled = watch_.settling() == Settling::settled;
-    const Scalar driven = settled ? numeric::twice(target_) * level_.force()  // without its noise
-                                  : relearning_.driven_force();
+    const Scalar target_force = numeric::twice(target_) * level_.force();
     take_friction_force(relearning_.force());
     if (state_ == State::fault) {
       return undriven(Limit::none);
     }
-    regulator_.shift(target_, level_.half_ratio(driven));
+    if (watch_.settling() == Settling::settled) {
+      regulator_.shift(target_, level_.half_ratio(target_force));
+    } else {
+      regulator_.restart();
+    }
     return apply({requested_, Limit::none});
   }
 

@@ -59,9 +59,9 @@ class IntegralRegulator {
     }
   }
 
-  /// A better known friction force: what the integral has made up for of it is taken away, so that
-  /// the ratio which the present command gives would be commanded for itself.
-  /// @param shown  that ratio, in terms of the new friction force
+  /// A better known friction force, in terms of which the target was another ratio so far: what the
+  /// integral has made up for of that is taken from it.
+  /// @param shown  that ratio
   void shift(Scalar target, Scalar shown) {
     integral_ += numeric::accumulate(target - shown);
     hold();

@@ -60,7 +60,7 @@ class PeriodicRelearning {
   Task next(Scalar force, Scalar speed) {
     since_begin_ += since_begin_ + 1 < never ? 1U : 0U;
     if (phase_ == Phase::idle && since_begin_ >= parameters_.every_periods) {
-      begin(force);
+      begin();
     }
     switch (phase_) {
       case Phase::idle:
@@ -80,14 +80,10 @@ class PeriodicRelearning {
   /// Mean of what was learnt in the last pause.
   Scalar force() const { return numeric::rounded<Scalar>(mean_); }
 
-  /// The reading with which the last pause began.
-  Scalar driven_force() const { return driven_force_; }
-
  private:
   enum class Phase : std::uint8_t { idle, quiet, sliding, slid };
 
-  void begin(Scalar force) {
-    driven_force_ = force;
+  void begin() {
     since_begin_ = 0;
     count_ = 0;
     travelled_ = {};
@@ -131,7 +127,6 @@ class PeriodicRelearning {
   std::uint32_t since_begin_ = 0;
   std::uint16_t count_ = 0;
   Phase phase_ = Phase::idle;
-  Scalar driven_force_{};
   numeric::Accumulator<Scalar> travelled_{};
   numeric::Accumulator<Scalar> mean_{};
 };

@@ -127,9 +127,11 @@ void design_regulator(const Scene& scene, const Mode& mode, ControlDesign& desig
   const double latency = latency_periods(scene);
   const double delay = latency + shaping + filter;
   // An integrator behind a delay of D periods oscillates at a gain of 2 sin(π/(4D+2)); a third of
-  // it leaves room for a contact twice as steep as believed.
+  // it leaves room for a contact twice as steep as believed, a tenth for a law whose map is
+  // another's.
+  const double margin = has_own_map(scene.friction.law) ? 2.0 / 3.0 : 0.2;
   const double behind_delay =
-      std::min(0.25, 2.0 / 3.0 * numeric::sin(numeric::two_pi / (8.0 * delay + 4.0)));
+      std::min(0.25, margin * numeric::sin(numeric::two_pi / (8.0 * delay + 4.0)));
   design.free_mode = mode.rotation > 0.0 && !design.shaped;
   design.integral_gain =
       design.free_mode ? std::min(behind_delay, gain_beside_free_mode(scene, mode)) : behind_delay;

@@ -142,7 +142,8 @@ TEST_F(ConsoleTest, ParametersAreListedWithTheirRanges) {
             "speed_floor 0.01, compiled in 0.01; allowed is 0.0001 to 1\r\n"
             "stuck_periods 10, compiled in 10; allowed is 10 to 65535\r\n"
             "start_on_power 0, compiled in 0; allowed is 0 to 1\r\n"
-            "host_timeout 0, compiled in 0; allowed is 0 to 60 s\r\n");
+            "host_timeout 0, compiled in 0; allowed is 0 to 60 s\r\n"
+            "bad_samples 0, compiled in 0; allowed is 0 to 31\r\n");
 }
 
 TEST_F(ConsoleTest, AParameterIsSavedAndKeptOverAReset) {

@@ -28,8 +28,22 @@ class FieldParametersTest : public testing::Test {
 
   static constexpr S real(double value) { return numeric::from_real<S>(value); }
   /// Numbers that no millionth equals.
-  static constexpr Designed designed{
-      real(1.0 / 3.0), real(0.01 / 7.0), real(0.1), {}, {}, {}, {}, {real(1.0 / 9.0), 3}, {10}, {}};
+  static constexpr Designed designed = {real(1.0 / 3.0),
+                                        real(1.0 / 700.0),
+                                        real(0.01 / 7.0),
+                                        real(0.1),
+                                        {},
+                                        {},
+                                        {},
+                                        {},
+                                        {real(1.0 / 9.0), real(1.0 / 6.0), 3, 12},
+                                        {},
+                                        {500, real(1.0 / 128.0)},
+                                        {10},
+                                        {20},
+                                        {real(1.0 / 90.0), 60, real(0.7)},
+                                        {},
+                                        {}};
   static constexpr double period_s = 1.0 / 60e3;
   static constexpr Design design{designed, real(1.0 / 6.0), 1, period_s, timeout_of_link};
 
@@ -183,14 +197,20 @@ void expect_drive_within_its_limit() {
   static constexpr numeric::Split<double> force = numeric::split(1.0108);
   static constexpr typename control::Controller<Parts>::Parameters designed{
       numeric::from_real<S>(0.5),
+      numeric::from_real<S>(1.0 / 1024.0),
       numeric::from_real<S>(0.026),
       numeric::from_real<S>(0.02),
       {},
       {{numeric::from_real<S>(force.mantissa), force.exponent}},
       {},
       {},
-      {numeric::from_real<S>(0.148), 5},
+      {numeric::from_real<S>(0.148), numeric::from_real<S>(0.3), 5, 20},
+      {},
+      {5000, numeric::from_real<S>(1.0 / 128.0)},
       {11},
+      {21},
+      {numeric::from_real<S>(0.005), 60, numeric::from_real<S>(0.8)},
+      {},
       {}};
   static constexpr FieldDesign<Parts> design(designed, numeric::from_real<S>(0.2), 1, 1.0 / 60e3,
                                              timeout_of_link);

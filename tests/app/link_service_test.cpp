@@ -42,7 +42,7 @@ class PoweredUnit {
 
   /// What the unit sends within some periods, in which it serves whatever was put.
   std::vector<link::Frame> answers() {
-    serve(400);
+    serve(600);
     link::FrameDecoder decoder;
     std::vector<link::Frame> frames;
     for (const std::uint8_t byte : wire.from_unit) {
@@ -208,12 +208,12 @@ TEST(LinkServiceTest, EveryParameterIsReadWithItsRange) {
     EXPECT_EQ(told.highest, info.highest);
     EXPECT_EQ(told.preset, info.preset);
   }
-  for (const int unknown : {8, 9, 255}) {
+  for (const int unknown : {9, 10, 255}) {
     const auto parameter = static_cast<std::uint8_t>(unknown);
     expect_refusal(powered.answer_to(link::ReadParameter{parameter}), link::ReadParameter::kind,
-                   Reason::unknown_parameter, 0, 7);
+                   Reason::unknown_parameter, 0, 8);
     expect_refusal(powered.answer_to(link::WriteParameter{parameter, 0}),
-                   link::WriteParameter::kind, Reason::unknown_parameter, 0, 7);
+                   link::WriteParameter::kind, Reason::unknown_parameter, 0, 8);
   }
 }
 

@@ -27,8 +27,18 @@ using Parts = control::Parts<Scalar, control::TrustedFriction<Scalar>,
                              control::NoShaping<Scalar>, control::IntegralRegulator<Scalar>>;
 using TestedUnit = Unit<Parts, SimulatedFlash>;
 
-inline constexpr control::Controller<Parts>::Parameters designed{0.5F, 0.01F, 0.0F,      {},   {},
-                                                                 {},   {},    {0.1F, 3}, {10}, {}};
+inline constexpr control::Controller<Parts>::Parameters designed = [] {
+  control::Controller<Parts>::Parameters parameters{};
+  parameters.friction_force = 0.5F;
+  parameters.smallest_friction = 1.0F / 1024.0F;
+  parameters.speed_floor = 0.01F;
+  parameters.regulator = {0.1F, 0.5F, 3, 12};
+  parameters.standstill = {1000, 0.0078125F};
+  parameters.stuck = {10};
+  parameters.plausibility = {20};
+  parameters.watch = {0.01F, 50, 0.8F};
+  return parameters;
+}();
 inline constexpr double carrier_period_s = 1.0 / 60e3;
 inline constexpr FieldDesign<Parts> field_design(designed, 0.2F, 1, carrier_period_s,
                                                  timeout_of_link);
