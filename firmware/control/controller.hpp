@@ -91,7 +91,7 @@ class Controller {
   void start() {
     friction_.restart();
     shaper_.restart();
-    regulator_.restart();
+    regulator_.restart(target_);
     standstill_.restart();
     stuck_.restart();
     plausibility_.restart();
@@ -299,7 +299,7 @@ class Controller {
     if (watch_.settling() == Settling::settled) {
       regulator_.shift(target_, level_.half_ratio(target_force));
     } else {
-      regulator_.restart();
+      regulator_.restart(target_);
     }
     return apply({requested_, Limit::none});
   }

@@ -1,6 +1,8 @@
 /// Integral feedback on the friction ratio.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 
 #include "firmware/control/signals.hpp"
@@ -14,19 +16,24 @@ namespace sonoglide::control {
 /// The loop is closed in friction ratio, in front of the inverse map, so that its gain is near 1 at
 /// every operating point. All ratios on base 2.
 ///
-/// A changed target takes the delay of shaper, plant and sensor until the measured ratio shows it.
-/// The reference is what the reading should be meanwhile: the target behind a first-order lag with
-/// the mean of that delay, so that a change adds nothing to the integral on balance. A change above
-/// small_change() holds the integral for hold_periods instead, which disturbs it not at all, but
-/// once in rest_periods at most: a target that keeps changing does not switch feedback off.
-template <class Scalar>
+/// A changed target takes the delay of shaper, drive and sensor until the measured ratio shows it.
+/// The reference is what the reading should be meanwhile: the target of `delay_periods` ago, behind
+/// a lag like the sensor's. What the shaper and the contact do within that delay it leaves out, so
+/// that a change above small_change() holds the integral for hold_periods besides; but not again
+/// within rest_periods, so that a target which keeps changing does not switch feedback off.
+///
+/// @tparam MaxDelay  largest delay_periods, >= 1; the delay line holds as many targets.
+template <class Scalar, int MaxDelay>
 class IntegralRegulator {
  public:
+  static constexpr int max_delay = MaxDelay;
+
   struct Parameters {
-    Scalar gain;    ///< per carrier period
-    Scalar follow;  ///< of the reference towards the target, per carrier period; > 0
-    std::uint16_t hold_periods;
-    std::uint16_t rest_periods;  ///< between two holds for a changed target
+    Scalar gain;                 ///< per carrier period
+    Scalar keep;                 ///< of the reference's lag, per carrier period; in [0, 1)
+    std::uint16_t hold_periods;  ///< at least delay_periods
+    std::uint16_t rest_periods;  ///< between the beginnings of two holds for a changed target
+    std::uint8_t delay_periods;  ///< 1 … MaxDelay
   };
 
   /// A friction ratio of 1/256, on base 2.
@@ -38,21 +45,20 @@ class IntegralRegulator {
 
   explicit IntegralRegulator(const Parameters& parameters) : parameters_(parameters) {}
 
-  void restart() {
+  /// @param target  from here on
+  void restart(Scalar target) {
     integral_ = {};
+    past_.fill(target);
+    reference_ = target;
     rest_ = 0;
     hold();
   }
 
   /// Holds the integral for the next `hold_periods` calls of propose().
-  void hold() {
-    held_ = parameters_.hold_periods;
-    lag_ = {};
-  }
+  void hold() { held_ = parameters_.hold_periods; }
 
   /// @param change  from the target before to the new one
   void target_changes(Scalar change) {
-    lag_ += change;
     if (rest_ == 0 && small_change() < numeric::abs(change)) {
       rest_ = parameters_.rest_periods;
       hold();
@@ -67,9 +73,11 @@ class IntegralRegulator {
     hold();
   }
 
-  /// Commanded ratio, with the new error counted in; nothing is kept before accept().
+  /// Commanded ratio, with the new error counted in; the integral stays as it is before accept().
   Scalar propose(Scalar target, Scalar measured) {
-    error_ = numeric::observe<signal::RatioError>(target - lag_ - measured);
+    const Scalar past = delayed(target);
+    reference_ = past + parameters_.keep * (reference_ - past);
+    error_ = numeric::observe<signal::RatioError>(reference_ - measured);
     proposed_ =
         held_ == 0 ? integral_ + numeric::accumulated_product(parameters_.gain, error_) : integral_;
     return numeric::observe<signal::CommandedRatio>(numeric::clamp(
@@ -91,23 +99,27 @@ class IntegralRegulator {
     if (rest_ > 0) {
       --rest_;
     }
-    catch_up();
   }
 
  private:
-  /// What is below the resolution is no lag.
-  void catch_up() {
-    const Scalar step = parameters_.follow * lag_;
-    lag_ = step == Scalar{} ? step : lag_ - step;
+  /// The target of delay_periods ago; this one takes its place.
+  Scalar delayed(Scalar target) {
+    const std::size_t place = MaxDelay == 1 ? 0 : place_;
+    const Scalar before = past_[place];
+    past_[place] = target;
+    place_ = static_cast<std::uint8_t>(place + 1 < parameters_.delay_periods ? place + 1 : 0);
+    return before;
   }
 
   Parameters parameters_;
   numeric::Accumulator<Scalar> integral_{};
   numeric::Accumulator<Scalar> proposed_{};
-  Scalar lag_{};  ///< of the reference behind the target
+  Scalar reference_{};
   Scalar error_{};
+  std::array<Scalar, MaxDelay> past_{};
   std::uint16_t held_ = 0;
   std::uint16_t rest_ = 0;
+  std::uint8_t place_ = 0;  ///< of the oldest target
 };
 
 }  // namespace sonoglide::control

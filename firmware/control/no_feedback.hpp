@@ -13,7 +13,7 @@ class NoFeedback {
   static constexpr void scale_gain(Parameters&, Scalar) {}
 
   explicit NoFeedback(const Parameters&) {}
-  void restart() {}
+  void restart(Scalar) {}
   void hold() {}
   void target_changes(Scalar) {}
   void shift(Scalar, Scalar) {}

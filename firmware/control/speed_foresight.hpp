@@ -10,9 +10,9 @@ namespace sonoglide::control {
 /// Extrapolates the sliding velocity to the middle of the answer's effect: shaper, latency and
 /// carrier period delay the drive, and a sliding velocity that changes would find it late.
 ///
-/// foreseen = |v + lead · s|, s the smaller of the last two changes of v where they have one sign,
-/// and 0 where they have not (the minmod slope): a ramp is followed, a single wrong sample or a
-/// step is not carried on. A velocity never changes its sign by extrapolation: 0 then.
+/// foreseen = |v + lead · s|, s the last change of v. As far as the change before does not agree,
+/// the extrapolation is no more than |v|/8: a ramp is followed, a single wrong sample or a step is
+/// hardly carried on. A velocity never changes its sign by extrapolation: 0 then.
 ///
 /// Base: the peak vibration velocity at full drive.
 template <class Scalar>
@@ -27,18 +27,27 @@ class SpeedForesight {
   /// @return the foreseen speed, >= 0; fixed point saturates at full scale
   Scalar speed(Scalar velocity) {
     const Scalar change = known_ > 0 ? velocity - last_velocity_ : Scalar{};
-    const Scalar slope = known_ > 1 ? smaller(change, last_change_) : Scalar{};
+    const Scalar agreed = known_ > 1 ? smaller(change, last_change_) : Scalar{};
     last_velocity_ = velocity;
     last_change_ = change;
     known_ += known_ < 2 ? 1 : 0;
-    const Scalar foreseen = numeric::observe<signal::ForeseenVelocity>(
-        velocity + numeric::rounded<Scalar>(numeric::scale_by_power_of_two(
-                       numeric::accumulated_product(slope, lead_), 6)));
+    Scalar foreseen = velocity + ahead(agreed);
+    if (change != agreed) {
+      const Scalar most = numeric::scale_by_power_of_two(numeric::abs(velocity), -3);
+      foreseen += numeric::clamp(ahead(change - agreed), -most, most);
+    }
+    numeric::observe<signal::ForeseenVelocity>(foreseen);
     const bool turned = (velocity < Scalar{}) != (foreseen < Scalar{});
     return turned ? Scalar{} : numeric::abs(foreseen);
   }
 
  private:
+  Scalar ahead(Scalar change) const {
+    return numeric::rounded<Scalar>(
+        numeric::scale_by_power_of_two(numeric::accumulated_product(change, lead_), 6));
+  }
+
+  /// Of two that have one sign the smaller, else 0.
   static Scalar smaller(Scalar a, Scalar b) {
     if ((a < Scalar{}) != (b < Scalar{})) {
       return Scalar{};

@@ -69,11 +69,11 @@ PartText friction_part(const scene::ControlDesign& design, const ScalarText& sca
   if (!design.calibrated) {
     return {"trusted_friction", "TrustedFriction<Scalar>", "{}"};
   }
-  return {"learnt_friction", "LearntFriction<Scalar>",
-          fmt::format("{{{}, {}, {}, {}}}", design.calibration_settle_periods,
-                      design.calibration_average_periods,
-                      scalar.accumulated(1.0 / design.calibration_average_periods),
-                      design.calibration_total_periods)};
+  return {
+      "learnt_friction", "LearntFriction<Scalar>",
+      fmt::format("{{{}, {}, {}, {}}}", design.calibration_settle_periods,
+                  design.calibration_average_periods, scalar.accumulated(design.calibration_weight),
+                  design.calibration_total_periods)};
 }
 
 PartText feedforward_part(const scene::Scene& scene, const scene::ControlDesign& design,
@@ -108,10 +108,11 @@ PartText regulator_part(const scene::ControlDesign& design, const ScalarText& sc
   if (design.integral_gain == 0.0) {
     return {"no_feedback", "NoFeedback<Scalar>", "{}"};
   }
-  return {
-      "integral_regulator", "IntegralRegulator<Scalar>",
-      fmt::format("{{{}, {}, {}, {}}}", scalar.number(design.integral_gain),
-                  scalar.number(design.reference_step), design.hold_periods, design.rest_periods)};
+  return {"integral_regulator",
+          fmt::format("IntegralRegulator<Scalar, {}>", design.reference_delay_periods),
+          fmt::format("{{{}, {}, {}, {}, {}}}", scalar.number(design.integral_gain),
+                      scalar.number(design.reference_keep), design.hold_periods,
+                      design.rest_periods, design.reference_delay_periods)};
 }
 
 PartText relearning_part(const scene::ControlDesign& design, const ScalarText& scalar) {
@@ -122,8 +123,7 @@ PartText relearning_part(const scene::ControlDesign& design, const ScalarText& s
           fmt::format("{{{}, {}, {}, {}, {}, {}, {}}}", design.relearn_every_periods,
                       design.relearn_quiet_periods, scalar.number(design.relearn_travel),
                       design.relearn_reading_periods, design.relearn_return_periods,
-                      design.relearn_average_periods,
-                      scalar.accumulated(1.0 / design.relearn_average_periods))};
+                      design.relearn_average_periods, scalar.accumulated(design.relearn_weight))};
 }
 
 /// The carrier period, counted from 0, whose sample a target step is in force for: the sample is

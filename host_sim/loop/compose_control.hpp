@@ -46,7 +46,7 @@ template <class Scalar>
 typename control::LearntFriction<Scalar>::Parameters parameters(
     const ControlDesign& design, Type<control::LearntFriction<Scalar>> /*part*/) {
   return {design.calibration_settle_periods, design.calibration_average_periods,
-          scaled<numeric::Accumulator<Scalar>>(1.0 / design.calibration_average_periods),
+          scaled<numeric::Accumulator<Scalar>>(design.calibration_weight),
           design.calibration_total_periods};
 }
 
@@ -108,7 +108,7 @@ typename control::PeriodicRelearning<Scalar>::Parameters parameters(
           design.relearn_reading_periods,
           design.relearn_return_periods,
           design.relearn_average_periods,
-          scaled<numeric::Accumulator<Scalar>>(1.0 / design.relearn_average_periods)};
+          scaled<numeric::Accumulator<Scalar>>(design.relearn_weight)};
 }
 
 template <class Parts>
@@ -122,8 +122,8 @@ typename control::Controller<Parts>::Parameters controller_parameters(const Cont
           parameters(design, Type<typename Parts::Feedforward>{}),
           parameters(design, Type<typename Parts::Slew>{}),
           parameters(design, Type<typename Parts::Shaper>{}),
-          {scaled<Scalar>(design.integral_gain), scaled<Scalar>(design.reference_step),
-           design.hold_periods, design.rest_periods},
+          {scaled<Scalar>(design.integral_gain), scaled<Scalar>(design.reference_keep),
+           design.hold_periods, design.rest_periods, design.reference_delay_periods},
           parameters(design, Type<typename Parts::Relearning>{}),
           {design.standstill_hold_periods, scaled<Scalar>(design.standstill_fall)},
           {design.stuck_periods},
@@ -211,11 +211,11 @@ std::unique_ptr<ControlPort> make_control(const scene::Scene& scene,
       [&](auto friction, auto feedforward, auto shaper,
           auto extras) -> std::unique_ptr<ControlPort> {
         using Chosen = typename decltype(extras)::type;
-        using Parts =
-            control::Parts<Scalar, typename decltype(friction)::type,
-                           typename decltype(feedforward)::type, typename Chosen::Slew,
-                           typename decltype(shaper)::type, control::IntegralRegulator<Scalar>,
-                           typename Chosen::Relearning>;
+        using Parts = control::Parts<Scalar, typename decltype(friction)::type,
+                                     typename decltype(feedforward)::type, typename Chosen::Slew,
+                                     typename decltype(shaper)::type,
+                                     control::IntegralRegulator<Scalar, scene::max_reference_delay>,
+                                     typename Chosen::Relearning>;
         return std::make_unique<InProcessControl<Parts>>(design);
       },
       choose<FrictionChoice<Scalar>>(design.calibrated),

@@ -127,11 +127,9 @@ void design_regulator(const Scene& scene, const Mode& mode, ControlDesign& desig
   const double latency = latency_periods(scene);
   const double delay = latency + shaping + filter;
   // An integrator behind a delay of D periods oscillates at a gain of 2 sin(π/(4D+2)); a third of
-  // it leaves room for a contact twice as steep as believed, a tenth for a law whose map is
-  // another's.
-  const double margin = has_own_map(scene.friction.law) ? 2.0 / 3.0 : 0.2;
+  // it leaves room for a contact twice as steep as believed.
   const double behind_delay =
-      std::min(0.25, margin * numeric::sin(numeric::two_pi / (8.0 * delay + 4.0)));
+      std::min(0.25, 2.0 / 3.0 * numeric::sin(numeric::two_pi / (8.0 * delay + 4.0)));
   design.free_mode = mode.rotation > 0.0 && !design.shaped;
   design.integral_gain =
       design.free_mode ? std::min(behind_delay, gain_beside_free_mode(scene, mode)) : behind_delay;
@@ -139,11 +137,11 @@ void design_regulator(const Scene& scene, const Mode& mode, ControlDesign& desig
   constexpr double contact_settling = 2.0;  // carrier periods until the contact has forgotten
   constexpr double filter_settling = 4.0;   // time constants more: 0.7 % of a step is left
   design.hold_periods = whole_periods(delay + contact_settling + filter_settling * filter);
-  // Long enough between two holds that feedback acts most of the time.
-  constexpr double rest_per_hold = 4.0;
+  // Time between two holds in which feedback acts.
+  constexpr double rest_per_hold = 1.25;
   design.rest_periods = whole_periods(rest_per_hold * design.hold_periods);
-  // A lag of the same mean delay: (1 - f)/f.
-  design.reference_step = 1.0 / (1.0 + latency + design.notch_spacing + filter);
+  design.reference_delay_periods = static_cast<std::uint8_t>(latency + design.notch_spacing);
+  design.reference_keep = filter / (1.0 + filter);
   design.lead_periods = 0.5 + design.notch_spacing + scene.drive->delay_periods;
 }
 
@@ -173,9 +171,12 @@ void design_supervision(const Scene& scene, const BelievedPlant& plant, ControlD
   constexpr double holds = 4.0;
   constexpr double patience_margin = 40.0;
   design.settling_patience_periods = whole_periods(holds * design.hold_periods + patience_margin);
-  // Another law's or wave's map is off by itself, whatever the friction force.
-  design.tells_mismatch =
-      has_own_map(scene.friction.law) && scene.drive->waveform == Waveform::cosine;
+  // Another law's or wave's map is off by itself, whatever the friction force; so is any where
+  // friction slows the vibration.
+  constexpr double light_friction = 0.02;  // of the drive
+  design.tells_mismatch = has_own_map(scene.friction.law) &&
+                          scene.drive->waveform == Waveform::cosine &&
+                          plant.friction_N < light_friction * scene.drive->max_force_amplitude_N;
   design.agreement = design.tells_mismatch ? 1.0 / scene.controller->mismatch_warning : 0.0;
 }
 
@@ -217,6 +218,12 @@ double speed_floor(const Scene& scene, const BelievedPlant& plant, const Control
                                    control::smallest_speed_floor, "controller.speed_floor_m_per_s",
                                    "is {:.3g} of the peak vibration velocity at full drive")
                         : default_speed_floor(scene, plant, scales);
+}
+
+/// 1/n, below 1: fixed point ends there.
+double mean_weight(double samples) {
+  constexpr double largest_code = 1.0 - 0x1p-31;
+  return std::min(1.0 / samples, largest_code);
 }
 
 /// How many carrier periods a sliding in either direction lasts before a time.
@@ -293,6 +300,7 @@ void design_calibration(const Scene& scene, const BelievedPlant& plant, ControlD
       std::min({available - settling, std::ceil(0.5 * available), most_averaged});
   design.calibration_average_periods = static_cast<std::uint32_t>(averaged);
   design.calibration_settle_periods = static_cast<std::uint32_t>(available - averaged);
+  design.calibration_weight = mean_weight(averaged);
 }
 
 /// A pause long enough for the presliding travel, and for as many readings as their noise asks for.
@@ -316,6 +324,7 @@ void design_relearning(const Scene& scene, const BelievedPlant& plant, ControlDe
   design.relearn_return_periods = whole_periods(shaping + slewing + contact_settling);
   design.relearn_average_periods =
       static_cast<std::uint8_t>(std::clamp(std::ceil(noise * noise), 1.0, most_averaged));
+  design.relearn_weight = mean_weight(design.relearn_average_periods);
   design.relearn_travel = presliding_travels * presliding_m(plant) /
                           (64.0 * scales.velocity_m_per_s * scales.carrier_period_s);
   const double every = std::round(*scene.controller->relearn_every_s / scales.carrier_period_s);

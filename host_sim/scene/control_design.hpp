@@ -21,6 +21,8 @@ struct ControlScales {
 
 /// The largest tap spacing that a designed shaper may have, in carrier periods.
 inline constexpr int max_notch_spacing = 32;
+/// The longest delay of a target to its reading: drive and sensor at their longest, and the notch.
+inline constexpr int max_reference_delay = 1 + 16 + 64 + max_notch_spacing;
 
 /// A controller's parameters as real numbers, per unit of ControlScales; friction ratios on base 2.
 struct ControlDesign {
@@ -31,7 +33,8 @@ struct ControlDesign {
   double speed_floor = 0.0;
   double lead_periods = 0.0;    ///< from a sample to the middle of its effect
   double integral_gain = 0.0;   ///< per carrier period
-  double reference_step = 0.0;  ///< of the reference towards the target, per carrier period
+  double reference_keep = 0.0;  ///< of the reference's lag behind a past target, per carrier period
+  std::uint8_t reference_delay_periods = 1;
   std::uint16_t hold_periods = 0;
   std::uint16_t rest_periods = 0;   ///< between two holds for a changed target
   std::uint16_t stuck_periods = 0;  ///< 0: not supervised
@@ -54,6 +57,7 @@ struct ControlDesign {
   std::uint32_t calibration_settle_periods = 0;
   std::uint32_t calibration_average_periods = 0;
   std::uint32_t calibration_total_periods = 0;
+  double calibration_weight = 0.0;  ///< of a sample averaged
   bool relearns = false;
   std::uint32_t relearn_every_periods = 0;
   std::uint16_t relearn_quiet_periods = 0;
@@ -61,6 +65,7 @@ struct ControlDesign {
   std::uint16_t relearn_reading_periods = 0;
   std::uint16_t relearn_return_periods = 0;
   std::uint8_t relearn_average_periods = 0;
+  double relearn_weight = 0.0;  ///< of a sample averaged
 };
 
 /// Designs the controller of a closed-loop scene from what it believes (the scene through

@@ -149,14 +149,13 @@ TYPED_TEST(ControlLoopTest, ALostSampleEndsTheDriveInTheSameStep) {
   using Parts =
       control::Parts<TypeParam, control::TrustedFriction<TypeParam>,
                      control::CoulombFeedforward<TypeParam>, control::NoSlewLimit<TypeParam>,
-                     control::NoShaping<TypeParam>, control::IntegralRegulator<TypeParam>>;
+                     control::NoShaping<TypeParam>, control::IntegralRegulator<TypeParam, 1>>;
   using Controller = control::Controller<Parts>;
   typename Controller::Parameters parameters{};
   parameters.friction_force = numeric::from_real<TypeParam>(0.5);
   parameters.speed_floor = numeric::from_real<TypeParam>(0.01);
   parameters.smallest_friction = control::FrictionLevel<TypeParam>::smallest();
-  parameters.regulator = {numeric::from_real<TypeParam>(0.1), numeric::from_real<TypeParam>(0.5), 3,
-                          12};
+  parameters.regulator = {numeric::from_real<TypeParam>(0.1), TypeParam{}, 3, 12, 1};
   parameters.stuck = {10};
   parameters.plausibility = {20};
   parameters.watch = {numeric::from_real<TypeParam>(0.01), 50, numeric::from_real<TypeParam>(0.8)};

@@ -20,9 +20,9 @@ namespace {
 template <class S>
 class FieldParametersTest : public testing::Test {
  protected:
-  using Parts =
-      control::Parts<S, control::TrustedFriction<S>, control::CoulombFeedforward<S>,
-                     control::NoSlewLimit<S>, control::NoShaping<S>, control::IntegralRegulator<S>>;
+  using Parts = control::Parts<S, control::TrustedFriction<S>, control::CoulombFeedforward<S>,
+                               control::NoSlewLimit<S>, control::NoShaping<S>,
+                               control::IntegralRegulator<S, 1>>;
   using Designed = typename control::Controller<Parts>::Parameters;
   using Design = FieldDesign<Parts>;
 
@@ -36,7 +36,7 @@ class FieldParametersTest : public testing::Test {
                                         {},
                                         {},
                                         {},
-                                        {real(1.0 / 9.0), real(1.0 / 6.0), 3, 12},
+                                        {real(1.0 / 9.0), real(0.0), 3, 12, 1},
                                         {},
                                         {500, real(1.0 / 128.0)},
                                         {10},
@@ -191,9 +191,9 @@ TYPED_TEST(FieldParametersTest, TheTimeoutIsCountedInCarrierPeriods) {
 
 template <class S>
 void expect_drive_within_its_limit() {
-  using Parts =
-      control::Parts<S, control::TrustedFriction<S>, control::DahlFeedforward<S>,
-                     control::NoSlewLimit<S>, control::NoShaping<S>, control::IntegralRegulator<S>>;
+  using Parts = control::Parts<S, control::TrustedFriction<S>, control::DahlFeedforward<S>,
+                               control::NoSlewLimit<S>, control::NoShaping<S>,
+                               control::IntegralRegulator<S, 1>>;
   static constexpr numeric::Split<double> force = numeric::split(1.0108);
   static constexpr typename control::Controller<Parts>::Parameters designed{
       numeric::from_real<S>(0.5),
@@ -204,7 +204,7 @@ void expect_drive_within_its_limit() {
       {{numeric::from_real<S>(force.mantissa), force.exponent}},
       {},
       {},
-      {numeric::from_real<S>(0.148), numeric::from_real<S>(0.3), 5, 20},
+      {numeric::from_real<S>(0.148), numeric::from_real<S>(0.0), 5, 20, 1},
       {},
       {5000, numeric::from_real<S>(1.0 / 128.0)},
       {11},

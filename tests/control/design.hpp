@@ -22,33 +22,34 @@
 namespace sonoglide::control {
 
 inline constexpr int longest_spacing = 8;
+inline constexpr int longest_delay = 32;
 
 /// Everything in use.
 template <class S>
 using FullParts = Parts<S, LearntFriction<S>, DahlFeedforward<S>, SlewLimit<S>,
-                        NotchShaper<S, longest_spacing>, IntegralRegulator<S>>;
+                        NotchShaper<S, longest_spacing>, IntegralRegulator<S, longest_delay>>;
 /// What a scene at Table 1 without calibration gets.
 template <class S>
 using ShapedParts = Parts<S, TrustedFriction<S>, DahlFeedforward<S>, NoSlewLimit<S>,
-                          NotchShaper<S, longest_spacing>, IntegralRegulator<S>>;
+                          NotchShaper<S, longest_spacing>, IntegralRegulator<S, longest_delay>>;
 template <class S>
 using LearningParts = Parts<S, LearntFriction<S>, DahlFeedforward<S>, NoSlewLimit<S>,
-                            NotchShaper<S, longest_spacing>, IntegralRegulator<S>>;
+                            NotchShaper<S, longest_spacing>, IntegralRegulator<S, longest_delay>>;
 /// What a scene gets that learns the friction force again and again.
 template <class S>
-using RelearningParts =
-    Parts<S, TrustedFriction<S>, DahlFeedforward<S>, NoSlewLimit<S>,
-          NotchShaper<S, longest_spacing>, IntegralRegulator<S>, PeriodicRelearning<S>>;
+using RelearningParts = Parts<S, TrustedFriction<S>, DahlFeedforward<S>, NoSlewLimit<S>,
+                              NotchShaper<S, longest_spacing>, IntegralRegulator<S, longest_delay>,
+                              PeriodicRelearning<S>>;
 template <class S>
 using SlewingParts = Parts<S, TrustedFriction<S>, DahlFeedforward<S>, SlewLimit<S>, NoShaping<S>,
-                           IntegralRegulator<S>>;
+                           IntegralRegulator<S, longest_delay>>;
 template <class S>
 using UnshapedParts = Parts<S, TrustedFriction<S>, DahlFeedforward<S>, NoSlewLimit<S>, NoShaping<S>,
-                            IntegralRegulator<S>>;
+                            IntegralRegulator<S, longest_delay>>;
 /// Nothing that can be left out.
 template <class S>
 using BareParts = Parts<S, TrustedFriction<S>, CoulombFeedforward<S>, NoSlewLimit<S>, NoShaping<S>,
-                        IntegralRegulator<S>>;
+                        IntegralRegulator<S, longest_delay>>;
 
 /// Parameters as real numbers. As preset: Table 1 of the paper at 60 kHz and a drive limit of
 /// 1920 N, the sensor's full scale being 2 Fc; a speed of 0.1 is 26.7 mm/s.
@@ -59,7 +60,8 @@ struct Design {
   double speed_floor = 0.026;
   double lead_periods = 1.5;
   double gain = 0.148;
-  double follow = 0.3;
+  double keep = 0.0;
+  std::uint8_t delay_periods = 1;
   std::uint16_t hold_periods = 5;
   std::uint16_t rest_periods = 20;
   std::uint16_t stuck_periods = 11;
@@ -101,7 +103,7 @@ void fill(const Design& design, typename PeriodicRelearning<S>::Parameters& para
                 design.relearn_reading_periods,
                 static_cast<std::uint16_t>(shaping + 2),
                 1,
-                numeric::from_real<numeric::Accumulator<S>>(1.0)};
+                numeric::from_real<numeric::Accumulator<S>>(1.0 - 0x1p-31)};
 }
 
 template <class S>
@@ -140,8 +142,8 @@ typename Controller<PartsT>::Parameters parameters(const Design& design) {
   fill<S>(design, result.feedforward);
   fill<S>(design, result.slew);
   fill<S>(design, result.shaper);
-  result.regulator = {numeric::from_real<S>(design.gain), numeric::from_real<S>(design.follow),
-                      design.hold_periods, design.rest_periods};
+  result.regulator = {numeric::from_real<S>(design.gain), numeric::from_real<S>(design.keep),
+                      design.hold_periods, design.rest_periods, design.delay_periods};
   fill<S>(design, result.relearning);
   result.standstill = {design.standstill_hold_periods,
                        numeric::from_real<S>(design.standstill_fall)};

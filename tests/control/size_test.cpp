@@ -35,13 +35,13 @@ TYPED_TEST(ControllerSize, PartsThatDoNothingAreEmpty) {
 // Three configured numbers, three of state, four bytes of flags; the rest are the parts at work.
 TYPED_TEST(ControllerSize, TheBareControllerIsTheSumOfWhatItUses) {
   using S = TypeParam;
-  constexpr std::size_t used = 6 * sizeof(S) + sizeof(SpeedForesight<S>) +
-                               sizeof(IntegralRegulator<S>) + sizeof(StandstillHold<S>) +
-                               sizeof(StuckDetector<S>) + sizeof(Plausibility<S>) +
-                               sizeof(SettlingWatch<S>) + sizeof(FrictionLevel<S>) + 4;
+  constexpr std::size_t used =
+      6 * sizeof(S) + sizeof(SpeedForesight<S>) + sizeof(IntegralRegulator<S, longest_delay>) +
+      sizeof(StandstillHold<S>) + sizeof(StuckDetector<S>) + sizeof(Plausibility<S>) +
+      sizeof(SettlingWatch<S>) + sizeof(FrictionLevel<S>) + 4;
   EXPECT_LT(bytes<BareParts<S>>, used + 2 * alignof(S));
   EXPECT_LT(parameter_bytes<BareParts<S>>,
-            4 * sizeof(S) + sizeof(typename IntegralRegulator<S>::Parameters) +
+            4 * sizeof(S) + sizeof(typename IntegralRegulator<S, longest_delay>::Parameters) +
                 sizeof(typename StandstillHold<S>::Parameters) +
                 sizeof(typename StuckDetector<S>::Parameters) +
                 sizeof(typename Plausibility<S>::Parameters) +

@@ -37,8 +37,8 @@ TEST(TolerantSamplesTest, AcceptsWhatCountingAllows) {
 
 template <class S>
 using TolerantParts = Parts<S, TrustedFriction<S>, DahlFeedforward<S>, NoSlewLimit<S>,
-                            NotchShaper<S, longest_spacing>, IntegralRegulator<S>, NoRelearning<S>,
-                            FullDrive<S>, TolerantSamples>;
+                            NotchShaper<S, longest_spacing>, IntegralRegulator<S, longest_delay>,
+                            NoRelearning<S>, FullDrive<S>, TolerantSamples>;
 
 template <class Scalar>
 class ToleratedSamples : public testing::Test {

@@ -24,7 +24,7 @@ namespace sonoglide::app {
 using Scalar = float;
 using Parts = control::Parts<Scalar, control::TrustedFriction<Scalar>,
                              control::CoulombFeedforward<Scalar>, control::NoSlewLimit<Scalar>,
-                             control::NoShaping<Scalar>, control::IntegralRegulator<Scalar>>;
+                             control::NoShaping<Scalar>, control::IntegralRegulator<Scalar, 1>>;
 using TestedUnit = Unit<Parts, SimulatedFlash>;
 
 inline constexpr control::Controller<Parts>::Parameters designed = [] {
@@ -32,7 +32,7 @@ inline constexpr control::Controller<Parts>::Parameters designed = [] {
   parameters.friction_force = 0.5F;
   parameters.smallest_friction = 1.0F / 1024.0F;
   parameters.speed_floor = 0.01F;
-  parameters.regulator = {0.1F, 0.5F, 3, 12};
+  parameters.regulator = {0.1F, 0.0F, 3, 12, 1};
   parameters.standstill = {1000, 0.0078125F};
   parameters.stuck = {10};
   parameters.plausibility = {20};
