@@ -11,8 +11,8 @@ namespace sonoglide::control {
 /// Counts the periods in which the measured ratio is outside target ± band: 4 up for each of them,
 /// 1 down for each inside. From 4·patience on the loop is not settling, so that a ratio which
 /// swings through its band is found as well as one that stays away: one that is outside for more
-/// than a fifth of the time. Back at zero it has settled; so it has when the limit ends, after up
-/// to 33 periods inside. All ratios on base 2.
+/// than a fifth of the time. That ends after 129 periods inside in a row. Back at zero it has
+/// settled. All ratios on base 2.
 ///
 /// Settled, the commanded ratio is the true one, as the friction-ratio map has it, and the target
 /// is what the believed friction force makes of it: commanded / target = believed / true force.
@@ -42,18 +42,17 @@ class SettlingWatch {
     const Scalar error = measured - target;
     const bool above = parameters_.band < error;
     const bool below = error < -parameters_.band;
+    if (count_ <= limit() / 2) {
+      above_ = below_ = clamped_ = false;
+    }
     if (above || below) {
-      const std::uint32_t most = limit() + afterwards;
-      count_ = count_ + step < most ? count_ + step : most;
+      count_ = count_ + step < limit() ? count_ + step : limit() + afterwards;
       above_ = above_ || above;
       below_ = below_ || below;
       clamped_ = clamped_ || clamped;
     } else if (count_ > 0) {
       --count_;
       count_ = count_ + 1 == limit() ? 0 : count_;
-    }
-    if (count_ == 0) {
-      above_ = below_ = clamped_ = false;
     }
     disagrees_ = commanded < target ? commanded < parameters_.agreement * target
                                     : target < parameters_.agreement * commanded;
@@ -82,7 +81,7 @@ class SettlingWatch {
 
  private:
   static constexpr std::uint32_t step = 4;
-  static constexpr std::uint32_t afterwards = 32;  ///< periods inside that end the limit
+  static constexpr std::uint32_t afterwards = 128;  ///< periods inside that end the limit
 
   std::uint32_t limit() const { return step * parameters_.patience; }
 

@@ -19,7 +19,7 @@ template <class Number>
 using ControllerOf = control::Controller<
     control::Parts<Number, control::TrustedFriction<Number>, control::DahlFeedforward<Number>,
                    control::NoSlewLimit<Number>, control::NotchShaper<Number, 1>,
-                   control::IntegralRegulator<Number, scene::max_reference_delay>>>;
+                   control::IntegralRegulator<Number, 1>>>;
 
 template <class Number>
 ControllerOf<Number> controller_of(const ControlNumbers& numbers) {
@@ -32,8 +32,14 @@ ControllerOf<Number> controller_of(const ControlNumbers& numbers) {
   parameters.feedforward = {{number(contact.mantissa), contact.exponent}};
   parameters.shaper = {
       {number(numbers.outer_tap), number(numbers.middle_tap), number(numbers.outer_tap)}, 1};
-  parameters.regulator = {number(numbers.gain), numbers.hold_periods};
+  parameters.smallest_friction = control::FrictionLevel<Number>::smallest();
+  parameters.regulator = {number(numbers.gain), Number{}, numbers.hold_periods,
+                          numbers.rest_periods, 1};
+  parameters.standstill = {numbers.standstill_periods, number(numbers.standstill_fall)};
   parameters.stuck = {numbers.stuck_periods};
+  parameters.plausibility = {numbers.implausible_periods};
+  parameters.watch = {number(numbers.settling_band), numbers.patience_periods,
+                      number(numbers.agreement)};
   ControllerOf<Number> controller(parameters);
   controller.start();
   controller.set_target(number(0.5 * numbers.target_friction_ratio));

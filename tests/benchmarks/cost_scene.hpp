@@ -45,7 +45,14 @@ struct ControlNumbers {
   double lead_periods = 1.5;
   double gain = 0.148;
   std::uint16_t hold_periods = 5;
+  std::uint16_t rest_periods = 7;
   std::uint16_t stuck_periods = 11;
+  std::uint16_t implausible_periods = 21;
+  std::uint32_t standstill_periods = 1200;
+  double standstill_fall = 1.0 / 128.0;
+  double settling_band = 0.005;
+  std::uint16_t patience_periods = 60;
+  double agreement = 0.8;
   double outer_tap = 0.6323;
   double middle_tap = -0.2646;
   double full_drive_amplitude = 5.0;  ///< of the plant, in its own units

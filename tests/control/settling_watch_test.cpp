@@ -59,7 +59,7 @@ TYPED_TEST(SettlingWatchTest, KnowsWhy) {
   EXPECT_EQ(this->watch_.settling(), Settling::ringing);
   this->watch_.restart();
   for (int i = 0; i < 100; ++i) {
-    this->judge(0.4, 0.45, 0.0, i == 3);
+    this->judge(0.4, 0.45, 0.0, i == 40);
   }
   EXPECT_EQ(this->watch_.settling(), Settling::clamped);
 }
@@ -88,9 +88,9 @@ TYPED_TEST(SettlingWatchTest, AFewPeriodsOutsideAreForgottenByFourTimesAsManyIns
   EXPECT_EQ(this->watch_.settling(), Settling::settled);
 }
 
-TYPED_TEST(SettlingWatchTest, ALimitEndsAfter33PeriodsInside) {
+TYPED_TEST(SettlingWatchTest, ALimitEndsAfter129PeriodsInside) {
   this->judge_for(1000, 0.4, 0.5, 0.4);
-  this->judge_for(32, 0.4, 0.4, 0.4);
+  this->judge_for(128, 0.4, 0.4, 0.4);
   EXPECT_EQ(this->watch_.limit_named(), Limit::not_settling);
   this->judge(0.4, 0.4, 0.4);
   EXPECT_EQ(this->watch_.limit_named(), Limit::none);

@@ -18,14 +18,14 @@ double tracking_error(const nlohmann::json& summary) {
 class SpeedTest : public testing::TestWithParam<std::tuple<std::string, std::string>> {};
 
 // A drive that answers in a period of its own cannot foresee where a ramp begins: for three periods
-// the speed of speed_ramp has risen by 7.5 % each.
+// the speed of speed_ramp then rises by 7.5 % each.
 TEST_P(SpeedTest, IsFollowedClosely) {
   const auto& [scene, arithmetic] = GetParam();
   const nlohmann::json summary = summary_of(scene, {"controller.arithmetic=" + arithmetic});
-  EXPECT_LE(tracking_error(summary), scene == "speed_ramp" ? 0.047 : 0.02);
+  EXPECT_LE(tracking_error(summary), scene == "speed_ramp" ? 0.04 : 0.02);
   EXPECT_LE(tracking_error(summary_of(
                 scene, {"controller.arithmetic=" + arithmetic, "drive.delay_periods=0"})),
-            0.025);
+            0.02);
   EXPECT_NEAR(summary.at("control").at("speed_floor_m_per_s").get<double>(), 0.0070071, 1e-6);
   const Step step = steps_of(summary).at(0);
   EXPECT_TRUE(step.settling_time_s);
