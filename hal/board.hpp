@@ -14,12 +14,17 @@ struct Sample {
   bool fresh;                     ///< false where no sample arrived since the last one
 };
 
-/// Answer to a sample; the amplitude is applied from the next drive phase 0 on.
+/// Answer to a sample. The amplitude acts from a drive phase 0 on, as many carrier periods after
+/// the end of the period that the sample describes as the design states (drive.delay_periods of a
+/// scene, 1 if it says nothing).
 struct Drive {
   std::int32_t amplitude;  ///< 0 … 2^31 − 1, full scale: the actuator's limit
-  std::uint8_t state;      ///< control::State
-  std::uint8_t limit;      ///< control::Limit
-  std::uint8_t fault;      ///< control::Fault, or from 32 on what the unit's own loop found
+  std::int32_t
+      commanded_ratio;    ///< friction ratio, target and feedback together; 2^31 is a ratio of 2
+  std::uint8_t state;     ///< control::State
+  std::uint8_t limit;     ///< control::Limit
+  std::uint8_t fault;     ///< control::Fault, or from 32 on what the unit's own loop found
+  std::uint8_t settling;  ///< control::Settling
 };
 
 /// A board is a class of this shape; none derives from it, the app is compiled for one:
@@ -27,7 +32,7 @@ struct Drive {
 ///   class Board {
 ///    public:
 ///     bool sample(Sample& sample);     // waits for the next carrier period; false: shut down
-///     void drive(const Drive& drive);  // in force from the next drive phase 0 on
+///     void drive(const Drive& drive);  // acts at the drive phase 0 that the design states
 ///   };
 ///
 /// One whose own timer makes the carrier periods (app::TimedLoop) has the drive at zero from reset
@@ -59,8 +64,10 @@ struct Drive {
 ///     bool busy() const;
 ///   };
 ///
-/// A flash may stall the processor instead of being busy: it is written with the drive at zero
-/// only. The watchdog must then be slower than an erase. A word that a power cut spoilt may read as
-/// anything, but read() returns; a flash of wider words shows each as one of 32 bits.
+/// A flash may stall the processor instead of being busy: it is erased and programmed with the
+/// drive at zero only. A watchdog that is faster than an erase is made slower by the flash for that
+/// time, or is fast enough for the drive and yet slower than an erase. A word that a power cut
+/// spoilt may read as anything, but read() returns; a flash of wider words shows each as one of 32
+/// bits.
 
 }  // namespace sonoglide::hal

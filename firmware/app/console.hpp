@@ -5,6 +5,9 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "firmware/app/mismatch.hpp"
+#include "firmware/app/stop_word.hpp"
+#include "firmware/app/typed_ahead.hpp"
 #include "firmware/app/unit.hpp"
 #include "firmware/app/unit_names.hpp"
 #include "firmware/encoding/characters.hpp"
@@ -16,14 +19,18 @@ namespace sonoglide::app {
 /// |----------------|------------------------------------------------------------|
 /// | status         | state, target, drive, limit, fault                         |
 /// | target RATIO   | until reset                                                |
-/// | stop           | drive to zero                                              |
+/// | stop           | drive to zero, at once; what was typed before it and waits is forgotten |
 /// | restart        | from a stop or a fault                                     |
+/// | confirm        | the parameters, where they were lost or of another design  |
 /// | faults         | the latest first                                           |
 /// | params         | each with what is allowed, and as compiled in              |
 /// | set NAME VALUE | saved; needs a stop first                                  |
 ///
 /// After a reset it greets, so that none goes unseen. Answers are made in pieces, a word and a
-/// number at most, so that a carrier period has little to do; nothing is received meanwhile.
+/// number at most, so that a carrier period has little to do. Lines that come meanwhile wait, as
+/// far as TypedAhead holds them; one that ends with "stop" takes the drive to zero in the period
+/// after its last character, whatever is being answered or saved. Every character is a sign of
+/// life.
 ///
 /// @tparam ByteLink  see hal/board.hpp.
 template <class UnitT, class ByteLink>
@@ -33,22 +40,27 @@ class Console {
 
   Console(UnitT& unit, ByteLink& bytes) : unit_(unit), bytes_(bytes) {}
 
-  /// One character received or sent, one piece of an answer made, one command carried out, or one
-  /// step of a save.
+  /// Once in each carrier period: one character received; and one taken or sent, one piece of an
+  /// answer made, one command carried out, or one step of a save.
   void serve() {
+    unit_.count_silence();
+    receive();
     if (*text_ != '\0') {
       text_ += send(*text_) ? 1 : 0;
     } else if (digits_sent_ < digits_count_) {
       digits_sent_ += send(digits_[digits_sent_]) ? 1U : 0U;
     } else if (saving_) {
-      finish_set(unit_.proceed());
+      finish_save(unit_.proceed());
     } else if (reply_ != Reply::none) {
       say_next();
+    } else if (stopped_) {
+      stopped_ = false;
+      begin(Reply::status);
     } else if (line_ended_) {
       carry_out();
       begin_line();
-    } else {
-      receive();
+    } else if (!typed_.empty()) {
+      take(typed_.take());
     }
   }
 
@@ -64,10 +76,13 @@ class Console {
     range,
     saved,
     not_saved,
+    confirmed,
+    confirmed_until_reset,
     drive_not_stopped,
+    not_confirmed,
     unknown_parameter,
     unknown_command,
-    too_long,
+    line_lost,
   };
 
   bool send(char character) { return bytes_.send(static_cast<std::uint8_t>(character)); }
@@ -79,16 +94,29 @@ class Console {
     if (!bytes_.receive(byte)) {
       return;
     }
-    if (byte == '\r' || byte == '\n') {
-      line_ended_ = true;
-    } else if (size_ == most_line_characters) {
-      too_long_ = true;
+    unit_.hear_host();
+    const auto character = static_cast<char>(byte);
+    if (stop_word_.take(character)) {
+      unit_.stop();
+      stopped_ = true;
+      typed_.clear();
+      begin_line();
     } else {
-      take(static_cast<char>(byte));
+      typed_.put(character);
     }
   }
 
   void take(char character) {
+    if (character == '\r' || character == '\n') {
+      line_ended_ = true;
+    } else if (size_ == most_line_characters || character == TypedAhead::spoilt) {
+      line_lost_ = true;
+    } else {
+      append(character);
+    }
+  }
+
+  void append(char character) {
     line_[size_] = character;
     const bool begins = character != ' ' && !in_word_;
     in_word_ = character != ' ';
@@ -105,14 +133,14 @@ class Console {
     word_count_ = 0;
     in_word_ = false;
     line_ended_ = false;
-    too_long_ = false;
+    line_lost_ = false;
   }
 
   // Commands.
 
   void carry_out() {
-    if (too_long_) {
-      begin(Reply::too_long);
+    if (line_lost_) {
+      begin(Reply::line_lost);
     } else if (word_count_ == 1) {
       begin(carry_out(words_[0]));
     } else if (word_count_ == 2 && words_[0].are("target")) {
@@ -131,14 +159,19 @@ class Console {
     if (command.are("params")) {
       return Reply::parameters;
     }
-    if (command.are("stop")) {
-      unit_.supervisor().stop();
-    } else if (command.are("restart")) {
-      unit_.supervisor().restart();
-    } else if (!command.are("status")) {
-      return Reply::unknown_command;
+    if (command.are("confirm")) {
+      return confirm();
     }
-    return Reply::status;
+    if (command.are("restart")) {
+      return unit_.restart() == Answer::taken ? Reply::status : Reply::not_confirmed;
+    }
+    return command.are("status") ? Reply::status : Reply::unknown_command;
+  }
+
+  Reply confirm() {
+    confirming_ = unit_.confirm() == Answer::taken;
+    saving_ = confirming_;
+    return confirming_ ? Reply::none : Reply::drive_not_stopped;
   }
 
   Reply set_target(const Word& text) {
@@ -163,8 +196,10 @@ class Console {
     switch (unit_.write(parameter_, value)) {
       case Answer::taken:
         saving_ = true;
+        confirming_ = false;
         return Reply::none;
       case Answer::drive_not_stopped:
+      case Answer::parameters_not_confirmed:
         return Reply::drive_not_stopped;
       case Answer::unknown_parameter:
       case Answer::out_of_range:
@@ -173,10 +208,15 @@ class Console {
     return Reply::range;
   }
 
-  void finish_set(store::Saving saving) {
-    if (saving != store::Saving::busy) {
-      saving_ = false;
-      begin(saving == store::Saving::saved ? Reply::saved : Reply::not_saved);
+  void finish_save(store::Saving saving) {
+    if (saving == store::Saving::busy) {
+      return;
+    }
+    saving_ = false;
+    if (saving == store::Saving::saved) {
+      begin(confirming_ ? Reply::confirmed : Reply::saved);
+    } else {
+      begin(confirming_ ? Reply::confirmed_until_reset : Reply::not_saved);
     }
   }
 
@@ -231,19 +271,28 @@ class Console {
       case Reply::not_saved:
         say_value(piece_++, " stands; not saved\r\n");
         break;
+      case Reply::confirmed:
+        say_last("parameters confirmed, saved\r\n");
+        break;
+      case Reply::confirmed_until_reset:
+        say_last("parameters confirmed until reset; not saved\r\n");
+        break;
       case Reply::drive_not_stopped:
         say_last("stop the drive first\r\n");
+        break;
+      case Reply::not_confirmed:
+        say_last("see params, then confirm them or set one\r\n");
         break;
       case Reply::unknown_parameter:
         say_last("unknown; params lists what there is\r\n");
         break;
       case Reply::unknown_command:
         say_last(
-            "unknown; there are: status, target RATIO, stop, restart, faults, params, set NAME "
-            "VALUE\r\n");
+            "unknown; there are: status, target RATIO, stop, restart, confirm, faults, params, set "
+            "NAME VALUE\r\n");
         break;
-      case Reply::too_long:
-        say_last("the line is too long\r\n");
+      case Reply::line_lost:
+        say_last("the line is too long, or came too fast\r\n");
         break;
       case Reply::none:
         break;
@@ -265,18 +314,35 @@ class Console {
       case 5:
         return say(control::name(static_cast<control::Limit>(drive_.limit)));
       case 6:
-        return say(", fault ");
+        return say(judged() ? ", " : "");
       case 7:
-        return say(fault_name(drive_.fault));
+        return say(judged() ? control::name(static_cast<control::Settling>(drive_.settling)) : "");
       case 8:
-        return say(", parameters ");
+        return say_mismatch();
       case 9:
-        return say(name(unit_.origin()));
+        return say(", fault ");
       case 10:
+        return say(fault_name(drive_.fault));
+      case 11:
+        return say(", parameters ");
+      case 12:
+        return say(name(unit_.origin()));
+      case 13:
         return say(", period ", period_);
       default:
         return say_last("\r\n");
     }
+  }
+
+  /// Whether the controller says how the ratio stands to its target.
+  bool judged() const {
+    return drive_.settling != static_cast<std::uint8_t>(control::Settling::pending);
+  }
+
+  /// Where it is known.
+  void say_mismatch() {
+    const std::uint32_t mismatch = mismatch_thousandths(drive_, unit_.target());
+    return mismatch > 0 ? say(", believed/true friction ", mismatch, 3) : say("");
   }
 
   /// @param amplitude  code, 0 … 2^31 − 1.
@@ -315,6 +381,8 @@ class Console {
         return say("; allowed is ", info().lowest, info().decimal_places);
       case 4:
         return say(" to ", info().highest, info().decimal_places);
+      case 5:
+        return say(info().unit);
       default:
         return listed_ + 1 < parameter_count ? say_next_line() : say_last("\r\n");
     }
@@ -353,14 +421,18 @@ class Console {
   UnitT& unit_;
   ByteLink& bytes_;
 
+  StopWord stop_word_;
+  TypedAhead typed_;
+  bool stopped_ = false;  ///< on request, and that is not yet answered
   std::array<char, most_line_characters> line_{};
   std::size_t size_ = 0;
   std::array<Word, most_words + 1> words_{};  ///< one more than a command has
   std::size_t word_count_ = 0;
   bool in_word_ = false;
   bool line_ended_ = false;
-  bool too_long_ = false;
+  bool line_lost_ = false;
   bool saving_ = false;
+  bool confirming_ = false;  ///< what is saved was confirmed, not set
 
   Reply reply_ = Reply::none;
   int piece_ = 0;

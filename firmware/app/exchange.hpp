@@ -24,8 +24,9 @@ control::Measurement<Scalar> measurement_of(const hal::Sample& sample) {
 
 template <class Scalar>
 hal::Drive drive_of(const control::DriveCommand<Scalar>& command) {
-  return {numeric::to_code(command.amplitude), static_cast<std::uint8_t>(command.state),
-          static_cast<std::uint8_t>(command.limit), static_cast<std::uint8_t>(command.fault)};
+  return {numeric::to_code(command.amplitude),      numeric::to_code(command.commanded_ratio),
+          static_cast<std::uint8_t>(command.state), static_cast<std::uint8_t>(command.limit),
+          static_cast<std::uint8_t>(command.fault), static_cast<std::uint8_t>(command.settling)};
 }
 
 }  // namespace sonoglide::app

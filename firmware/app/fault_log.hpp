@@ -9,7 +9,7 @@ namespace sonoglide::app {
 
 struct FaultEntry {
   std::uint8_t fault;    ///< control::Fault or UnitFault
-  std::uint32_t period;  ///< in which it was found: served since reset, this one included
+  std::uint32_t period;  ///< in which it was found: served since reset, this one included; wraps
 };
 
 /// Keeps the last `Length` faults since reset.

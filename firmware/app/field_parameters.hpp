@@ -8,12 +8,13 @@
 #include "firmware/control/controller.hpp"
 #include "firmware/control/drive_limit.hpp"
 #include "firmware/control/friction_level.hpp"
+#include "firmware/control/tolerant_samples.hpp"
 #include "firmware/encoding/crc32.hpp"
 #include "firmware/numeric/scalar.hpp"
 
 namespace sonoglide::app {
 
-/// The order is that of the store and of the link: a new one goes to the end.
+/// The order is that of the link: a new one goes to the end. The store knows them by name.
 enum class Parameter : std::uint8_t {
   target,          ///< friction ratio from reset on; 1 is no drive
   drive_limit,     ///< highest amplitude, of the actuator's limit
@@ -21,21 +22,64 @@ enum class Parameter : std::uint8_t {
   friction_force,  ///< believed Fc, of the sensor's full scale; a calibration overrides it
   speed_floor,     ///< of the peak vibration velocity at full drive
   stuck_periods,   ///< for which a reading may stand still; the design's is the least
+  start_on_power,  ///< 1: a unit whose parameters are whole drives from power-on
+  host_timeout,    ///< seconds for which the host may be silent while the unit drives; 0: for ever
+  bad_samples,     ///< of the last 32 samples so many may be unusable; the drive then stands
 };
 
-inline constexpr std::size_t parameter_count = 6;
+inline constexpr std::size_t parameter_count = 9;
+
+/// That bad_samples counts in.
+inline constexpr std::uint8_t sample_window = 32;
+
+/// Presets of host_timeout, in milliseconds, by who talks to the unit.
+inline constexpr std::uint32_t timeout_of_link = 100;
+inline constexpr std::uint32_t timeout_of_console = 0;  ///< nobody types ten times a second
 
 /// Value of each parameter, in units of its last decimal place.
 using ParameterValues = std::array<std::uint32_t, parameter_count>;
 
+/// What becomes of a stored value under another design, or beside a damaged record.
+enum class Inheritance : std::uint8_t {
+  none,    ///< it belonged to its design: as compiled in
+  value,   ///< it is taken, at the nearer end of the range where it lies outside
+  higher,  ///< it is taken where it is higher than what is compiled in
+};
+
 struct ParameterInfo {
   const char* name;
+  const char* unit;  ///< as it stands after a number: " s", or nothing
   std::uint8_t decimal_places;
+  Inheritance inheritance;
   std::uint32_t lowest;
   std::uint32_t highest;
   std::uint32_t preset;  ///< compiled in
 
   constexpr bool allows(std::uint32_t value) const { return lowest <= value && value <= highest; }
+
+  /// In place of a value that was stored under another design.
+  constexpr std::uint32_t inherited(std::uint32_t value) const {
+    const std::uint32_t least = inheritance == Inheritance::higher ? preset : lowest;
+    return inheritance == Inheritance::none ? preset : numeric::clamp(value, least, highest);
+  }
+
+  /// CRC-32 of name, unit and decimal places: by it the store knows the parameter, whatever others
+  /// there are.
+  constexpr std::uint32_t identity() const {
+    encoding::Crc32 sum;
+    add(name, sum);
+    add(unit, sum);
+    sum.add(decimal_places);
+    return sum.value();
+  }
+
+ private:
+  /// With the zero at its end, so that "ab", "c" is not "a", "bc".
+  static constexpr void add(const char* text, encoding::Crc32& sum) {
+    do {
+      sum.add(static_cast<std::uint8_t>(*text));
+    } while (*text++ != '\0');
+  }
 };
 
 inline constexpr std::uint32_t one_in_millionths = 1'000'000;
@@ -61,31 +105,45 @@ template <class PartsT>
 class FieldDesign {
  public:
   using Scalar = typename PartsT::Scalar;
-  /// The designed parts, with a drive limit.
+  /// The designed parts, with a drive limit and a tolerance of unusable samples.
   using Parts = control::Parts<Scalar, typename PartsT::Friction, typename PartsT::Feedforward,
                                typename PartsT::Slew, typename PartsT::Shaper,
-                               typename PartsT::Regulator, control::DriveLimit<Scalar>>;
+                               typename PartsT::Regulator, typename PartsT::Relearning,
+                               control::DriveLimit<Scalar>, control::TolerantSamples>;
   using Controller = control::Controller<Parts>;
   using Designed = typename control::Controller<PartsT>::Parameters;
 
   /// @param half_target  the target from reset on, friction ratio on base 2.
-  /// @param design       number of the design: a store that was written under another is not used.
-  constexpr FieldDesign(const Designed& designed, Scalar half_target, std::uint32_t design)
+  /// @param design       number of the design: of a store that was written under another, only
+  ///                     the limits are taken, and the unit waits to be told.
+  /// @param period_s     of the loop, which a step answers; above 1e-6 s.
+  /// @param timeout_ms   host_timeout as compiled in: timeout_of_link or timeout_of_console.
+  constexpr FieldDesign(const Designed& designed, Scalar half_target, std::uint32_t design,
+                        double period_s, std::uint32_t timeout_ms)
       : designed_(designed),
         infos_{{
-            {"target", 6, 0, one_in_millionths, millionths(2.0 * numeric::to_real(half_target))},
-            {"drive_limit", 6, 0, one_in_millionths, one_in_millionths},
-            {"gain_scale", 6, 0, one_in_millionths, one_in_millionths},
-            {"friction_force", 6, smallest_friction(), one_in_millionths,
+            {"target", "", 6, Inheritance::none, 0, one_in_millionths,
+             millionths(2.0 * numeric::to_real(half_target))},
+            {"drive_limit", "", 6, Inheritance::value, 0, one_in_millionths, one_in_millionths},
+            {"gain_scale", "", 6, Inheritance::value, 0, one_in_millionths, one_in_millionths},
+            {"friction_force", "", 6, Inheritance::none, smallest_friction(), one_in_millionths,
              millionths(numeric::to_real(designed.friction_force))},
-            {"speed_floor", 6, millionths(control::smallest_speed_floor), one_in_millionths,
-             millionths(numeric::to_real(designed.speed_floor))},
-            {"stuck_periods", 0, designed.stuck.periods, UINT16_MAX, designed.stuck.periods},
+            {"speed_floor", "", 6, Inheritance::higher, millionths(control::smallest_speed_floor),
+             one_in_millionths, millionths(numeric::to_real(designed.speed_floor))},
+            {"stuck_periods", "", 0, Inheritance::none, designed.stuck.periods, UINT16_MAX,
+             designed.stuck.periods},
+            {"start_on_power", "", 0, Inheritance::value, 0, 1, 0},
+            {"host_timeout", " s", 3, Inheritance::value, 0, longest_timeout_ms, timeout_ms},
+            {"bad_samples", "", 0, Inheritance::none, 0, sample_window - 1, 0},
         }},
+        identities_(identities(infos_)),
         half_target_(half_target),
-        layout_(layout(design)) {}
+        design_(number(design)),
+        periods_per_ms_(numeric::round_half_up<std::uint32_t>(1e-3 / period_s * one_in_fraction)) {}
 
   constexpr const ParameterInfo& info(std::size_t parameter) const { return infos_[parameter]; }
+  /// ParameterInfo::identity, computed before.
+  constexpr std::uint32_t identity(std::size_t parameter) const { return identities_[parameter]; }
 
   constexpr ParameterValues presets() const {
     ParameterValues values{};
@@ -104,18 +162,36 @@ class FieldDesign {
     return true;
   }
 
-  /// Identifies the meaning of stored values; never that of erased flash.
-  constexpr std::uint32_t layout() const { return layout_; }
+  /// Tells this design from others, in the store.
+  constexpr std::uint32_t design() const { return design_; }
+
+  /// Carrier periods for which the host may be silent, rounded up; 0: for ever.
+  constexpr std::uint32_t timeout_periods(const ParameterValues& values) const {
+    const std::uint64_t periods =
+        std::uint64_t{value(values, Parameter::host_timeout)} * periods_per_ms_;
+    return static_cast<std::uint32_t>((periods + one_in_fraction - 1) / one_in_fraction);
+  }
 
   /// The designed controller where nothing was changed, bit for bit.
   constexpr typename Controller::Parameters controller_parameters(
       const ParameterValues& values) const {
     typename Controller::Parameters result{
-        designed_.friction_force, designed_.speed_floor,
-        designed_.lead,           designed_.friction,
-        designed_.feedforward,    designed_.slew,
-        designed_.shaper,         designed_.regulator,
-        designed_.stuck,          {control::FullDrive<Scalar>::highest()}};
+        designed_.friction_force,
+        designed_.smallest_friction,
+        designed_.speed_floor,
+        designed_.lead,
+        designed_.friction,
+        designed_.feedforward,
+        designed_.slew,
+        designed_.shaper,
+        designed_.regulator,
+        designed_.relearning,
+        designed_.standstill,
+        designed_.stuck,
+        designed_.plausibility,
+        designed_.watch,
+        {control::FullDrive<Scalar>::highest()},
+        {static_cast<std::uint8_t>(value(values, Parameter::bad_samples)), sample_window}};
     if (changed(values, Parameter::drive_limit)) {
       result.ceiling.highest = millionths_of(values, Parameter::drive_limit);
     }
@@ -140,7 +216,8 @@ class FieldDesign {
   }
 
  private:
-  static constexpr std::uint32_t layout_version = 1;
+  static constexpr std::uint32_t longest_timeout_ms = 60'000;
+  static constexpr std::uint32_t one_in_fraction = 1U << 16;
 
   static constexpr std::uint32_t millionths(double value) {
     return numeric::round_half_up<std::uint32_t>(value * one_in_millionths);
@@ -164,22 +241,36 @@ class FieldDesign {
     return value(values, parameter) != infos_[static_cast<std::size_t>(parameter)].preset;
   }
 
-  constexpr std::uint32_t layout(std::uint32_t design) const {
+  using Infos = std::array<ParameterInfo, parameter_count>;
+
+  static constexpr std::array<std::uint32_t, parameter_count> identities(const Infos& infos) {
+    std::array<std::uint32_t, parameter_count> result{};
+    for (std::size_t i = 0; i < parameter_count; ++i) {
+      result[i] = infos[i].identity();
+    }
+    return result;
+  }
+
+  constexpr std::uint32_t number(std::uint32_t design) const {
     encoding::Crc32 sum;
-    sum.add_word(layout_version);
     sum.add_word(design);
+    for (const std::uint32_t identity : identities_) {
+      sum.add_word(identity);
+    }
     for (const ParameterInfo& info : infos_) {
       sum.add_word(info.lowest);
       sum.add_word(info.highest);
       sum.add_word(info.preset);
     }
-    return sum.value() & 0x7FFFFFFFU;
+    return sum.value();
   }
 
   Designed designed_;
-  std::array<ParameterInfo, parameter_count> infos_;
+  Infos infos_;
+  std::array<std::uint32_t, parameter_count> identities_;
   Scalar half_target_;
-  std::uint32_t layout_;
+  std::uint32_t design_;
+  std::uint32_t periods_per_ms_;  ///< of the loop, with 16 fraction bits
 };
 
 }  // namespace sonoglide::app

@@ -1,17 +1,21 @@
 /// Answers the requests that come over a framed link.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 
 #include "firmware/app/link/frame.hpp"
 #include "firmware/app/link/messages.hpp"
 #include "firmware/app/link/sequence.hpp"
+#include "firmware/app/mismatch.hpp"
 #include "firmware/app/unit.hpp"
 
 namespace sonoglide::app {
 
-/// One request at a time: nothing is received while its answer is made and sent.
+/// Requests are answered one after the other; up to three wait meanwhile, and what comes then is
+/// counted as lost. A stop never waits: the drive is at zero in the carrier period after its last
+/// byte, and its answer is sent when the one at hand is.
 ///
 /// A request that comes again is not carried out again: its answer is sent again. One that is older
 /// than the last, or bears the last's number but says something else, is refused with the number of
@@ -24,62 +28,108 @@ class LinkService {
  public:
   LinkService(UnitT& unit, ByteLink& bytes) : unit_(unit), bytes_(bytes) {}
 
-  /// One byte received, encoded or sent; one request carried out; or one step of a save.
+  /// Once in each carrier period: one byte received, and unless it ends a frame one byte encoded or
+  /// sent, one request carried out, or one step of a save.
   void serve() {
-    if (requested_) {
-      requested_ = false;
-      take(decoder_.frame());
-    } else if (saving_) {
-      finish_write(unit_.proceed());
+    unit_.count_silence();
+    if (receive()) {
+      return;
+    }
+    if (saving_ != 0) {
+      finish_save(unit_.proceed());
     } else if (encoder_.busy()) {
       encoder_.proceed();
     } else if (sent_ < encoder_.wire().size) {
       sent_ += bytes_.send(encoder_.wire().bytes[sent_]) ? 1U : 0U;
-    } else {
-      receive();
+    } else if (stopped_) {
+      stopped_ = false;
+      send(link::frame_of(link::Stopped{}, stop_sequence_));
+    } else if (waiting_ > 0) {
+      --waiting_;
+      take(requests_[first_]);
+      first_ = (first_ + 1) % most_waiting;
     }
   }
 
  private:
-  void receive() {
+  static constexpr std::size_t most_waiting = 3;
+
+  struct Received {
+    link::Frame frame;
+    std::uint32_t checksum;
+  };
+
+  /// @return whether a frame came to its end, whole or not.
+  bool receive() {
     std::uint8_t byte = 0;
     if (!bytes_.receive(byte)) {
-      return;
+      return false;
     }
     switch (decoder_.take(byte)) {
       case link::Reception::nothing:
-        break;
+        return false;
       case link::Reception::frame:
-        requested_ = true;
+        unit_.hear_host();
+        accept(decoder_.frame());
         break;
       case link::Reception::truncated:
       case link::Reception::oversized:
       case link::Reception::corrupted:
       case link::Reception::wrong_version:
-        ++damaged_frames_;
+        ++lost_frames_;
         break;
+    }
+    return true;
+  }
+
+  void accept(const link::Frame& frame) {
+    link::Stop stop{};
+    if (link::read(frame, stop)) {
+      unit_.stop();
+      overtake(frame.sequence);
+    } else if (waiting_ < most_waiting) {
+      requests_[(first_ + waiting_) % most_waiting] = {frame, decoder_.checksum()};
+      ++waiting_;
+    } else {
+      ++lost_frames_;
     }
   }
 
-  void take(const link::Frame& request) {
-    const link::Turn turn = turns_.take(request.sequence);
-    if (turn == link::Turn::repeated && decoder_.checksum() == checksum_) {
+  /// A stop of that number: to what waits it is the last request.
+  void overtake(std::uint16_t sequence) {
+    const link::Turn turn = turns_.take(sequence);
+    if (turn == link::Turn::next || turn == link::Turn::skipped) {
+      checksum_ = decoder_.checksum();
+    }
+    stopped_ = true;
+    stop_sequence_ = sequence;
+  }
+
+  void take(const Received& request) {
+    const link::Frame& frame = request.frame;
+    const link::Turn turn = turns_.take(frame.sequence);
+    if (turn == link::Turn::repeated && request.checksum == checksum_) {
       send(answer_);
     } else if (turn == link::Turn::repeated || turn == link::Turn::late) {
       const std::uint32_t last = turns_.last();
-      send(link::frame_of(refusal(request.kind, link::Reason::out_of_turn, last, last),
-                          request.sequence));
+      send(link::frame_of(refusal(frame.kind, link::Reason::out_of_turn, last, last),
+                          frame.sequence));
     } else {
-      checksum_ = decoder_.checksum();
-      dispatch(request);
+      checksum_ = request.checksum;
+      sequence_ = frame.sequence;
+      dispatch(frame);
     }
   }
 
   void dispatch(const link::Frame& request) {
+    if (request.kind == link::Stop::kind) {
+      refuse(request.kind, link::Reason::wrong_length);  // one of the right length does not wait
+      return;
+    }
     const bool known = handles<link::ReadTelemetry>(request) || handles<link::SetTarget>(request) ||
                        handles<link::ReadParameter>(request) ||
                        handles<link::WriteParameter>(request) || handles<link::Restart>(request) ||
-                       handles<link::Stop>(request) || handles<link::ReadFault>(request);
+                       handles<link::ReadFault>(request) || handles<link::Confirm>(request);
     if (!known) {
       refuse(request.kind, link::Reason::unknown_request);
     }
@@ -105,7 +155,8 @@ class LinkService {
     const hal::Drive& drive = supervisor.drive();
     answer(link::Telemetry{supervisor.periods(), sample.friction_force, sample.sliding_velocity,
                            drive.amplitude, unit_.target(), drive.state, drive.limit, drive.fault,
-                           static_cast<std::uint8_t>(unit_.origin()), damaged_frames_});
+                           static_cast<std::uint8_t>(unit_.origin()), lost_frames_, drive.settling,
+                           mismatch_thousandths(drive, unit_.target())});
   }
 
   void carry_out(const link::SetTarget& request) {
@@ -133,7 +184,7 @@ class LinkService {
     switch (unit_.write(request.parameter, request.value)) {
       case Answer::taken:
         writing_ = request;
-        saving_ = true;
+        saving_ = request.kind;
         break;
       case Answer::out_of_range:
         refuse_value(request.kind, unit_.info(request.parameter));
@@ -142,34 +193,44 @@ class LinkService {
         refuse_parameter(request.kind);
         break;
       case Answer::drive_not_stopped:
+      case Answer::parameters_not_confirmed:
         refuse(request.kind, link::Reason::drive_not_stopped);
         break;
     }
   }
 
-  void finish_write(store::Saving saving) {
+  void carry_out(const link::Confirm& request) {
+    if (unit_.confirm() == Answer::taken) {
+      saving_ = request.kind;
+    } else {
+      refuse(request.kind, link::Reason::drive_not_stopped);
+    }
+  }
+
+  void finish_save(store::Saving saving) {
     if (saving == store::Saving::busy) {
       return;
     }
-    saving_ = false;
-    if (saving == store::Saving::saved) {
+    const std::uint8_t request = saving_;
+    saving_ = 0;
+    if (saving != store::Saving::saved) {
+      refuse(request, link::Reason::not_saved);
+    } else if (request == link::Confirm::kind) {
+      answer(link::Confirmed{});
+    } else {
       link::ParameterWritten written{};
       written.parameter = writing_.parameter;
       written.value = writing_.value;
       answer(written);
-    } else {
-      refuse(writing_.kind, link::Reason::not_saved);
     }
   }
 
-  void carry_out(const link::Restart& /*request*/) {
-    unit_.supervisor().restart();
-    answer(link::Restarted{});
-  }
-
-  void carry_out(const link::Stop& /*request*/) {
-    unit_.supervisor().stop();
-    answer(link::Stopped{});
+  void carry_out(const link::Restart& request) {
+    if (unit_.restart() == Answer::taken) {
+      answer(link::Restarted{});
+    } else {
+      refuse(request.kind, link::Reason::parameters_not_confirmed);
+    }
   }
 
   void carry_out(const link::ReadFault& request) {
@@ -201,10 +262,10 @@ class LinkService {
     return {kind, static_cast<std::uint8_t>(reason), lowest, highest};
   }
 
-  /// Answers the last request, and keeps the answer for a repetition.
+  /// Answers the request at hand, and keeps the answer for a repetition.
   template <class Message>
   void answer(const Message& message) {
-    answer_ = link::frame_of(message, turns_.last());
+    answer_ = link::frame_of(message, sequence_);
     send(answer_);
   }
 
@@ -216,15 +277,20 @@ class LinkService {
   UnitT& unit_;
   ByteLink& bytes_;
   link::FrameDecoder decoder_;
+  std::array<Received, most_waiting> requests_{};  ///< that wait, from first_ on
+  std::size_t first_ = 0;
+  std::size_t waiting_ = 0;
   link::SequenceWatch turns_;
-  std::uint32_t checksum_ = 0;  ///< of the last request
-  link::Frame answer_;          ///< to the last request
+  std::uint32_t checksum_ = 0;       ///< of the last request
+  std::uint16_t sequence_ = 0;       ///< of the request at hand
+  std::uint16_t stop_sequence_ = 0;  ///< of the last stop
+  bool stopped_ = false;             ///< and that is not yet answered
+  std::uint8_t saving_ = 0;          ///< kind of the request whose save goes on
+  std::uint16_t lost_frames_ = 0;
+  link::WriteParameter writing_{};
+  link::Frame answer_;  ///< to the last request that was carried out
   link::FrameEncoder encoder_;
   std::size_t sent_ = 0;  ///< of the encoder's wire
-  link::WriteParameter writing_{};
-  bool requested_ = false;
-  bool saving_ = false;
-  std::uint16_t damaged_frames_ = 0;
 };
 
 }  // namespace sonoglide::app

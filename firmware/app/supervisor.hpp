@@ -6,6 +6,7 @@
 
 #include "firmware/app/exchange.hpp"
 #include "firmware/app/fault_log.hpp"
+#include "firmware/app/no_host.hpp"
 #include "firmware/control/drive_command.hpp"
 #include "hal/board.hpp"
 
@@ -13,24 +14,33 @@ namespace sonoglide::app {
 
 /// What the loop finds, beside the controller's own faults (control::Fault, 16 … 31).
 enum class UnitFault : std::uint8_t {
-  overrun = 32,    ///< a step was not done when the next carrier period began
-  watchdog_reset,  ///< the watchdog reset the board
+  overrun = 32,     ///< a step was not done when the next carrier period began
+  watchdog_reset,   ///< the watchdog reset the board
+  host_silent,      ///< nothing was heard for longer than host_timeout; the drive ramps down
+  parameters_lost,  ///< what is stored is damaged; a restart is refused
+  parameters_of_other_design,  ///< what is stored was set under another; a restart is refused
 };
 
-/// A controller, and what becomes of it: off, running or in a fault. Drive is zero unless it runs.
-template <class ControllerT, std::size_t LogLength = 16>
+/// A controller, and what becomes of it: off, running or in a fault. Drive is zero unless it runs,
+/// or ramps down since its host fell silent.
+///
+/// @tparam Host  NoHost, or HostRamp where a service listens to somebody.
+template <class ControllerT, class Host = NoHost, std::size_t LogLength = 16>
 class Supervisor {
  public:
   using Controller = ControllerT;
   using Scalar = typename Controller::Scalar;
+  static constexpr bool drives_from_power_on = Host::drives_from_power_on;
 
   explicit Supervisor(const typename Controller::Parameters& parameters)
       : controller_(parameters) {}
 
   /// From any state: the drive begins afresh. The log is kept.
   void restart() {
+    host_.clear();
     controller_.start();
-    drive_ = {0, static_cast<std::uint8_t>(control::State::calibrating), 0, 0};
+    drive_ = {};
+    drive_.state = static_cast<std::uint8_t>(control::State::calibrating);
   }
 
   /// Drive to zero until a restart; a fault's cause is left to the log.
@@ -41,24 +51,33 @@ class Supervisor {
     log_.add({drive_.fault, periods_});
   }
 
+  /// While running: a fault, but the drive ramps down instead of ending at once.
+  void ramp_down(UnitFault fault) {
+    if (running()) {
+      const std::int32_t amplitude = drive_.amplitude;
+      trip(fault);
+      drive_.amplitude = amplitude;
+      host_.begin(amplitude);
+    }
+  }
+
   /// One carrier period.
   const hal::Drive& step(const hal::Sample& sample) {
     ++periods_;
     sample_ = sample;
-    if (driving()) {
+    if (running()) {
       drive_ = drive_of(controller_.step(measurement_of<Scalar>(sample)));
-      if (!driving()) {
+      if (!running()) {
         log_.add({drive_.fault, periods_});
       }
+    } else if (host_.falling()) {
+      drive_.amplitude = host_.next();
     }
     return drive_;
   }
 
-  /// Neither off nor in a fault.
-  bool driving() const {
-    return drive_.state != static_cast<std::uint8_t>(control::State::off) &&
-           drive_.state != static_cast<std::uint8_t>(control::State::fault);
-  }
+  /// Neither off nor in a fault, or on the ramp down.
+  bool driving() const { return running() || host_.falling(); }
 
   /// @param half_ratio  see Controller::set_target.
   void set_target(Scalar half_ratio) { controller_.set_target(half_ratio); }
@@ -71,20 +90,29 @@ class Supervisor {
   /// The last sample and the answer to it.
   const hal::Sample& sample() const { return sample_; }
   const hal::Drive& drive() const { return drive_; }
-  /// Served since reset; wraps.
+  /// Served since reset; wraps, after 19.9 h at 60 kHz.
   std::uint32_t periods() const { return periods_; }
   const FaultLog<LogLength>& faults() const { return log_; }
 
  private:
+  bool running() const {
+    return drive_.state != static_cast<std::uint8_t>(control::State::off) &&
+           drive_.state != static_cast<std::uint8_t>(control::State::fault);
+  }
+
   void end(control::State state, std::uint8_t fault) {
+    host_.clear();
     controller_.stop();
-    drive_ = {0, static_cast<std::uint8_t>(state), 0, fault};
+    drive_ = {};
+    drive_.state = static_cast<std::uint8_t>(state);
+    drive_.fault = fault;
   }
 
   Controller controller_;
   hal::Sample sample_{};
   hal::Drive drive_{};
   std::uint32_t periods_ = 0;
+  [[no_unique_address]] Host host_;
   FaultLog<LogLength> log_;
 };
 

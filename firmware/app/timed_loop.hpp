@@ -20,7 +20,8 @@ struct NoService {
 ///   replaced by zero, and the fault stays until a restart.
 /// - The watchdog is fed when a period's step was done in time, and then only; in a fault too, or
 ///   the reset would be a restart that nobody asked for.
-/// - After a reset by the watchdog the unit waits in a fault; after any other it runs.
+/// - After a reset by the watchdog the unit waits in a fault. After any other a unit that nobody
+///   talks to runs (NoHost); one with a host begins as its Unit decided.
 ///
 /// @tparam Board     see hal/board.hpp: sample, drive and period.
 /// @tparam Watchdog  see there; hal::NoWatchdog is none.
@@ -33,7 +34,7 @@ class TimedLoop {
       : supervisor_(supervisor), board_(board), watchdog_(watchdog), service_(service) {
     if (watchdog_.caused_reset()) {
       supervisor_.trip(UnitFault::watchdog_reset);
-    } else {
+    } else if constexpr (SupervisorT::drives_from_power_on) {
       supervisor_.restart();
     }
   }
@@ -45,8 +46,8 @@ class TimedLoop {
       return false;
     }
     const std::uint32_t period = board_.period();
-    const bool first = supervisor_.periods() == 0;
-    const bool none_lost = first || period == period_ + 1;
+    const bool none_lost = !begun_ || period == period_ + 1;
+    begun_ = true;
     period_ = period;
     // After drive(), so that a command which came just too late is replaced before it acts.
     board_.drive(supervisor_.step(sample));
@@ -67,6 +68,7 @@ class TimedLoop {
   Watchdog& watchdog_;
   Service& service_;
   std::uint32_t period_ = 0;  ///< of the last sample
+  bool begun_ = false;        ///< there was one; no counter says so, since all of them wrap
 };
 
 }  // namespace sonoglide::app

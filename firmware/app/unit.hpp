@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "firmware/app/field_parameters.hpp"
+#include "firmware/app/host_ramp.hpp"
 #include "firmware/app/store/two_page_store.hpp"
 #include "firmware/app/supervisor.hpp"
 
@@ -16,32 +17,79 @@ enum class Answer : std::uint8_t {
   out_of_range,
   unknown_parameter,
   drive_not_stopped,
+  parameters_not_confirmed,
 };
 
 /// Supervised controller, parameters and their store. Nothing here waits.
+///
+/// At power-on it drives only where `start_on_power` is stored for this design. Where what is
+/// stored is damaged or of another design, of its values only the limits are taken (Inheritance),
+/// the unit waits in a fault that says so, and a restart is refused until the parameters are
+/// confirmed or one of them is written.
+///
+/// A service tells it of every carrier period and of every sign of life from the host: one that is
+/// silent for longer than `host_timeout` while the unit drives is the fault host_silent, with which
+/// the drive ramps down (HostRamp). A restart ends it, like any fault.
 template <class PartsT, class Flash>
 class Unit {
  public:
   using Design = FieldDesign<PartsT>;
-  using Supervisor = app::Supervisor<typename Design::Controller>;
+  using Supervisor = app::Supervisor<typename Design::Controller, HostRamp>;
 
-  /// Takes the parameters from the store, or as compiled in where it holds none for this design.
+  /// Takes the parameters from the store, or as compiled in where it holds none.
   /// @param design  outlives the unit, as the flash does.
   Unit(const FieldDesign<PartsT>& design, Flash& flash)
       : design_(design),
-        store_(flash, design.layout()),
+        store_(flash, design.design()),
         values_(design.presets()),
         origin_(load()),
+        timeout_periods_(design.timeout_periods(values_)),
         target_(value(Parameter::target)),
         supervisor_(design.controller_parameters(values_)) {
     supervisor_.set_target(design_.half_target(target_));
+    begin();
   }
 
   Supervisor& supervisor() { return supervisor_; }
   const Supervisor& supervisor() const { return supervisor_; }
 
-  /// Where the parameters came from at reset.
+  /// Where the parameters come from: as found at reset, or stored since.
   store::Origin origin() const { return origin_; }
+
+  /// Drive to zero until a restart. Allowed at any time, in the middle of a save too.
+  void stop() { supervisor_.stop(); }
+
+  /// The drive begins afresh, from a stop, from a fault or from running.
+  Answer restart() {
+    if (!confirmed_) {
+      return Answer::parameters_not_confirmed;
+    }
+    silent_periods_ = 0;
+    supervisor_.restart();
+    return Answer::taken;
+  }
+
+  /// Takes the parameters in force for right, until reset, and begins to save them: see write().
+  Answer confirm() {
+    if (supervisor_.driving()) {
+      return Answer::drive_not_stopped;
+    }
+    confirmed_ = true;
+    pending_ = values_;
+    pending_parameter_ = parameter_count;
+    save();
+    return Answer::taken;
+  }
+
+  /// The host gave a sign of life.
+  void hear_host() { silent_periods_ = 0; }
+
+  /// Once in each carrier period.
+  void count_silence() {
+    if (timeout_periods_ != 0 && supervisor_.driving() && silent_periods_++ >= timeout_periods_) {
+      supervisor_.ramp_down(UnitFault::host_silent);
+    }
+  }
 
   /// In force from the next carrier period on, until reset.
   /// @param ratio  friction ratio, millionths.
@@ -67,7 +115,7 @@ class Unit {
   }
 
   /// Begins to save a value; it is in force when it is safe. Refused, it changes nothing. Until
-  /// proceed() has come to an end, no other request may be made.
+  /// proceed() has come to an end, no other request but a stop may be made.
   Answer write(std::size_t parameter, std::uint32_t value) {
     if (parameter >= parameter_count) {
       return Answer::unknown_parameter;
@@ -81,7 +129,7 @@ class Unit {
     pending_ = values_;
     pending_[parameter] = value;
     pending_parameter_ = parameter;
-    store_.save(pending_);
+    save();
     return Answer::taken;
   }
 
@@ -95,21 +143,63 @@ class Unit {
   }
 
  private:
+  using Store = store::TwoPageStore<Flash, parameter_count>;
+
   store::Origin load() {
-    ParameterValues stored{};
-    const store::Origin origin = store_.load(stored);
-    if (origin != store::Origin::stored) {
+    const store::Origin origin = store_.load();
+    if (origin == store::Origin::stored && take_all()) {
       return origin;
     }
-    if (!design_.allows(stored)) {
-      return store::Origin::damaged;
+    take_limits();
+    return origin == store::Origin::stored ? store::Origin::damaged : origin;
+  }
+
+  /// @return false, and nothing taken, unless each parameter is there and within its range.
+  bool take_all() {
+    ParameterValues stored{};
+    for (std::size_t i = 0; i < parameter_count; ++i) {
+      if (!store_.find(design_.identity(i), stored[i])) {
+        return false;
+      }
     }
-    values_ = stored;
-    return origin;
+    const bool allowed = design_.allows(stored);
+    values_ = allowed ? stored : values_;
+    return allowed;
+  }
+
+  void take_limits() {
+    for (std::size_t i = 0; i < parameter_count; ++i) {
+      std::uint32_t stored = 0;
+      if (store_.find(design_.identity(i), stored)) {
+        values_[i] = info(i).inherited(stored);
+      }
+    }
+  }
+
+  /// What the unit does at power-on.
+  void begin() {
+    confirmed_ = origin_ == store::Origin::stored || origin_ == store::Origin::blank;
+    if (!confirmed_) {
+      supervisor_.trip(origin_ == store::Origin::damaged ? UnitFault::parameters_lost
+                                                         : UnitFault::parameters_of_other_design);
+    } else if (value(Parameter::start_on_power) != 0) {
+      supervisor_.restart();
+    }
+  }
+
+  void save() {
+    typename Store::Record record{};
+    for (std::size_t i = 0; i < parameter_count; ++i) {
+      record[i] = {design_.identity(i), pending_[i]};
+    }
+    store_.save(record);
   }
 
   void adopt() {
     values_ = pending_;
+    origin_ = store::Origin::stored;
+    confirmed_ = true;
+    timeout_periods_ = design_.timeout_periods(values_);
     supervisor_.reconfigure(design_.controller_parameters(values_));
     if (pending_parameter_ == static_cast<std::size_t>(Parameter::target)) {
       target_ = value(Parameter::target);
@@ -118,9 +208,12 @@ class Unit {
   }
 
   const Design& design_;
-  store::TwoPageStore<Flash, parameter_count> store_;
+  Store store_;
   ParameterValues values_;
   store::Origin origin_;
+  bool confirmed_ = false;  ///< nothing speaks against the parameters, or somebody took them
+  std::uint32_t timeout_periods_;
+  std::uint32_t silent_periods_ = 0;
   std::uint32_t target_;
   ParameterValues pending_{};
   std::size_t pending_parameter_ = 0;

@@ -16,6 +16,12 @@ constexpr const char* fault_name(std::uint8_t fault) {
       return "overrun";
     case UnitFault::watchdog_reset:
       return "watchdog_reset";
+    case UnitFault::host_silent:
+      return "host_silent";
+    case UnitFault::parameters_lost:
+      return "parameters_lost";
+    case UnitFault::parameters_of_other_design:
+      return "parameters_of_other_design";
   }
   return control::name(static_cast<control::Fault>(fault));
 }
@@ -26,8 +32,8 @@ constexpr const char* name(store::Origin origin) {
       return "stored";
     case store::Origin::blank:
       return "blank";
-    case store::Origin::other_layout:
-      return "other_layout";
+    case store::Origin::other_design:
+      return "other_design";
     case store::Origin::damaged:
       break;
   }

@@ -7,7 +7,13 @@
 #include "firmware/control/friction_level.hpp"
 #include "firmware/control/full_drive.hpp"
 #include "firmware/control/measurement.hpp"
+#include "firmware/control/no_relearning.hpp"
+#include "firmware/control/plausibility.hpp"
+#include "firmware/control/settling_watch.hpp"
 #include "firmware/control/signals.hpp"
+#include "firmware/control/speed_foresight.hpp"
+#include "firmware/control/standstill_hold.hpp"
+#include "firmware/control/strict_samples.hpp"
 #include "firmware/control/stuck_detector.hpp"
 #include "firmware/numeric/accumulator.hpp"
 #include "firmware/numeric/scalar.hpp"
@@ -16,7 +22,8 @@ namespace sonoglide::control {
 
 /// What a controller is made of; each part is a type, and what a part does not do costs nothing.
 template <class ScalarT, class FrictionT, class FeedforwardT, class SlewT, class ShaperT,
-          class RegulatorT, class CeilingT = FullDrive<ScalarT>>
+          class RegulatorT, class RelearningT = NoRelearning<ScalarT>,
+          class CeilingT = FullDrive<ScalarT>, class SamplesT = StrictSamples>
 struct Parts {
   using Scalar = ScalarT;
   using Friction = FrictionT;        ///< TrustedFriction | LearntFriction
@@ -24,7 +31,9 @@ struct Parts {
   using Slew = SlewT;                ///< NoSlewLimit | SlewLimit
   using Shaper = ShaperT;            ///< NoShaping | NotchShaper
   using Regulator = RegulatorT;      ///< NoFeedback | IntegralRegulator
+  using Relearning = RelearningT;    ///< NoRelearning | PeriodicRelearning
   using Ceiling = CeilingT;          ///< FullDrive | DriveLimit
+  using Samples = SamplesT;          ///< StrictSamples | TolerantSamples
 };
 
 /// Smallest usable speed floor, per unit: where the controller's resolution ends.
@@ -41,44 +50,65 @@ class Controller {
   using Scalar = typename PartsT::Scalar;
 
   struct Parameters {
-    Scalar friction_force;  ///< believed Fc
-    Scalar speed_floor;     ///< slower than this the ratio is undefined; > 0
-    Scalar lead;            ///< from a sample to the middle of its effect, in 64 carrier periods
+    Scalar friction_force;     ///< believed Fc
+    Scalar smallest_friction;  ///< of a usable Fc, at least FrictionLevel::smallest()
+    Scalar speed_floor;        ///< slower than this the ratio is undefined; > 0
+    Scalar lead;               ///< from a sample to the middle of its effect, see SpeedForesight
     [[no_unique_address]] typename PartsT::Friction::Parameters friction;
     [[no_unique_address]] typename PartsT::Feedforward::Parameters feedforward;
     [[no_unique_address]] typename PartsT::Slew::Parameters slew;
     [[no_unique_address]] typename PartsT::Shaper::Parameters shaper;
     [[no_unique_address]] typename PartsT::Regulator::Parameters regulator;
+    [[no_unique_address]] typename PartsT::Relearning::Parameters relearning;
+    typename StandstillHold<Scalar>::Parameters standstill;
     typename StuckDetector<Scalar>::Parameters stuck;
+    typename Plausibility<Scalar>::Parameters plausibility;
+    typename SettlingWatch<Scalar>::Parameters watch;
     [[no_unique_address]] typename PartsT::Ceiling::Parameters ceiling{};
+    [[no_unique_address]] typename PartsT::Samples::Parameters samples{};
   };
 
   explicit Controller(const Parameters& parameters)
       : configured_friction_(parameters.friction_force),
+        smallest_friction_(parameters.smallest_friction),
         speed_floor_(parameters.speed_floor),
-        lead_(parameters.lead),
+        foresight_(parameters.lead),
         friction_(parameters.friction),
         feedforward_(parameters.feedforward),
         slew_(parameters.slew),
         shaper_(parameters.shaper),
         regulator_(parameters.regulator),
+        relearning_(parameters.relearning),
+        standstill_(parameters.standstill),
         stuck_(parameters.stuck),
+        plausibility_(parameters.plausibility),
+        watch_(parameters.watch),
         ceiling_(parameters.ceiling),
+        samples_(parameters.samples),
         level_(parameters.friction_force) {}
 
   /// From off or from a fault: begins afresh, with calibration where there is one.
   void start() {
     friction_.restart();
     shaper_.restart();
-    regulator_.restart();
+    regulator_.restart(target_);
+    standstill_.restart();
     stuck_.restart();
-    last_velocity_known_ = false;
+    plausibility_.restart();
+    watch_.restart();
+    foresight_.restart();
+    samples_.restart();
+    if constexpr (relearns) {
+      relearning_.restart();
+    }
+    backwards_ = false;
     requested_ = Scalar{};
     commanded_ = whole_ratio();
+    followed_ = true;
     fault_ = Fault::none;
     state_ = State::calibrating;
-    if (!friction_.learning() && !take_friction_level()) {
-      trip(Fault::friction_not_learnt);
+    if (!friction_.learning()) {
+      take_friction_force(friction_.friction_force(configured_friction_));
     }
   }
 
@@ -96,8 +126,9 @@ class Controller {
     }
     const Scalar target = numeric::clamp(half_ratio, Scalar{}, whole_ratio());
     if (target != target_) {
+      regulator_.target_changes(target - target_);
+      watch_.retarget();
       target_ = target;
-      regulator_.hold();
     }
   }
 
@@ -106,20 +137,26 @@ class Controller {
     if (state_ == State::off || state_ == State::fault) {
       return undriven(Limit::none);
     }
-    const Fault fault = inspect(measurement);
-    if (fault != Fault::none) {
-      return trip(fault);
+    const Fault unusable = inspect(measurement);
+    if (!samples_.accept(unusable == Fault::none)) {
+      return trip(unusable);
     }
-    const bool reversed = (measurement.sliding_velocity < Scalar{}) != (last_velocity_ < Scalar{});
-    const Scalar speed = numeric::abs(foresee(measurement.sliding_velocity));
-    if (friction_.learning()) {
-      return calibrate(measurement, reversed, speed);
+    if (unusable != Fault::none) {
+      return bridge();
     }
-    if (reversed) {
-      regulator_.hold();  // readings still on their way belong to the sliding before
+    const Scalar velocity = measurement.sliding_velocity;
+    const Scalar speed = foresight_.speed(velocity);
+    if (state_ == State::calibrating) {
+      return calibrate(measurement);
     }
-    const bool below_floor = speed < speed_floor_;
-    return below_floor && target_ < whole_ratio() ? hold() : regulate(measurement, speed);
+    const bool backwards = velocity < Scalar{};
+    if (backwards != backwards_) {
+      turn(backwards);
+    }
+    if (!(speed < speed_floor_)) {
+      return slide(measurement, speed);
+    }
+    return stand();
   }
 
  private:
@@ -128,33 +165,20 @@ class Controller {
     Limit limit;
   };
 
+  static constexpr bool relearns = PartsT::Relearning::relearns;
+
   static constexpr Scalar whole_ratio() { return numeric::from_real<Scalar>(0.5); }
 
-  Fault inspect(const Measurement<Scalar>& measurement) {
+  static Fault inspect(const Measurement<Scalar>& measurement) {
     if (measurement.quality == Quality::missing) {
       return Fault::measurement_missing;
     }
     if (measurement.quality == Quality::saturated) {
       return Fault::measurement_saturated;
     }
-    if (!numeric::is_finite(measurement.friction_force) ||
-        !numeric::is_finite(measurement.sliding_velocity)) {
-      return Fault::measurement_not_finite;
-    }
-    const bool followed = state_ == State::running;
-    return stuck_.stuck(measurement.friction_force, commanded_, followed) ? Fault::measurement_stuck
-                                                                          : Fault::none;
-  }
-
-  /// Sliding velocity extrapolated to the middle of the answer's effect: shaper and carrier period
-  /// delay the drive, and a sliding velocity that changes would find it late.
-  Scalar foresee(Scalar velocity) {
-    const Scalar change = last_velocity_known_ ? velocity - last_velocity_ : Scalar{};
-    last_velocity_ = velocity;
-    last_velocity_known_ = true;
-    return numeric::observe<signal::ForeseenVelocity>(
-        velocity + numeric::rounded<Scalar>(numeric::scale_by_power_of_two(
-                       numeric::accumulated_product(change, lead_), 6)));
+    const bool finite = numeric::is_finite(measurement.friction_force) &&
+                        numeric::is_finite(measurement.sliding_velocity);
+    return finite ? Fault::none : Fault::measurement_not_finite;
   }
 
   DriveCommand<Scalar> trip(Fault fault) {
@@ -163,50 +187,128 @@ class Controller {
     return undriven(Limit::none);
   }
 
-  DriveCommand<Scalar> undriven(Limit limit) const { return {Scalar{}, state_, limit, fault_}; }
-
-  /// Learns one sample of the undriven friction; an interrupted sliding begins anew.
-  DriveCommand<Scalar> calibrate(const Measurement<Scalar>& measurement, bool reversed,
-                                 Scalar foreseen_speed) {
-    const bool too_slow = numeric::abs(measurement.sliding_velocity) < speed_floor_;
-    if (reversed || too_slow) {
-      friction_.restart();
-    }
-    if (too_slow) {
-      return undriven(Limit::speed_floor);
-    }
-    friction_.learn(measurement.friction_force);
-    if (friction_.learning()) {
-      return undriven(Limit::none);
-    }
-    return take_friction_level() ? regulate(measurement, foreseen_speed)
-                                 : trip(Fault::friction_not_learnt);
+  DriveCommand<Scalar> undriven(Limit limit) const {
+    return {Scalar{}, whole_ratio(), state_, limit, fault_, Settling::pending};
   }
 
-  bool take_friction_level() {
-    const Scalar force = friction_.friction_force(configured_friction_);
-    if (force < FrictionLevel<Scalar>::smallest()) {
-      return false;
+  /// An unusable sample that is tolerated: the last request stands, and nothing is concluded.
+  DriveCommand<Scalar> bridge() {
+    if (state_ == State::calibrating) {
+      return undriven(Limit::bad_sample);
+    }
+    regulator_.hold();
+    return apply({requested_, Limit::bad_sample});
+  }
+
+  /// Learns one sample of the undriven friction. The drive begins a period after the last one.
+  DriveCommand<Scalar> calibrate(const Measurement<Scalar>& measurement) {
+    const bool slow = numeric::abs(measurement.sliding_velocity) < speed_floor_;
+    const DriveCommand<Scalar> silent = undriven(slow ? Limit::speed_floor : Limit::none);
+    backwards_ = measurement.sliding_velocity < Scalar{};
+    friction_.learn(measurement.friction_force, measurement.sliding_velocity, slow);
+    if (friction_.learning()) {
+      return silent;
+    }
+    take_friction_force(friction_.friction_force(configured_friction_));
+    return state_ == State::fault ? undriven(Limit::none) : silent;
+  }
+
+  /// Fc from here on; a force that cannot be one is a fault.
+  void take_friction_force(Scalar force) {
+    if (force < smallest_friction_) {
+      trip(force < -smallest_friction_ ? Fault::measurement_implausible
+                                       : Fault::friction_not_learnt);
+      return;
     }
     level_ = FrictionLevel<Scalar>(force);
     feedforward_.set_friction(level_);
     state_ = State::running;
-    return true;
   }
 
-  /// Below the speed floor: the last request stands, and feedback waits.
-  DriveCommand<Scalar> hold() {
+  /// Readings still on their way belong to the sliding before.
+  void turn(bool backwards) {
+    backwards_ = backwards;
     regulator_.hold();
-    return apply({requested_, Limit::speed_floor});
+    plausibility_.restart();
+    interrupt_relearning();
   }
 
-  DriveCommand<Scalar> regulate(const Measurement<Scalar>& measurement, Scalar speed) {
+  /// Below the speed floor feedback waits, and the last request stands for a while; with a target
+  /// of no drive there is none here either.
+  DriveCommand<Scalar> stand() {
+    regulator_.hold();
+    plausibility_.restart();
+    interrupt_relearning();
+    return target_ < whole_ratio() ? request({standstill_.request(requested_), Limit::speed_floor})
+                                   : request({Scalar{}, Limit::none});
+  }
+
+  /// Fast enough for a friction ratio.
+  DriveCommand<Scalar> slide(const Measurement<Scalar>& measurement, Scalar speed) {
+    standstill_.restart();
+    const Scalar force = friction_.without_offset(measurement.friction_force);
+    const Scalar along = backwards_ ? -force : force;
+    const Scalar measured = level_.half_ratio(along);
+    if (plausibility_.implausible(measured)) {
+      return trip(Fault::measurement_implausible);
+    }
+    if (stuck_.stuck(measurement.friction_force, measured, commanded_, followed_)) {
+      return trip(Fault::measurement_stuck);
+    }
+    if constexpr (relearns) {
+      if (target_ < whole_ratio()) {
+        return relearn(measured, along, speed);
+      }
+      interrupt_relearning();
+    }
+    return regulate(measured, speed);
+  }
+
+  void interrupt_relearning() {
+    if constexpr (relearns) {
+      relearning_.interrupt();
+    }
+  }
+
+  /// Regulates, or does what a pause asks for.
+  DriveCommand<Scalar> relearn(Scalar measured, Scalar along, Scalar speed) {
+    using Task = typename PartsT::Relearning::Task;
+    const Task task = relearning_.next(along, speed);
+    if (task == Task::regulate) {
+      return regulate(measured, speed);
+    }
+    regulator_.hold();
+    if (task == Task::learn) {
+      return learn_anew();
+    }
+    if (task == Task::resume) {
+      return regulate(measured, speed);
+    }
+    commanded_ = whole_ratio();
+    return request({Scalar{}, Limit::none});
+  }
+
+  /// The friction force learnt in a pause; the request stands in this period. What feedback had
+  /// made up for of the force is taken from it; of a loop that had not settled that cannot be told.
+  DriveCommand<Scalar> learn_anew() {
+    const Scalar target_force = numeric::twice(target_) * level_.force();
+    take_friction_force(relearning_.force());
+    if (state_ == State::fault) {
+      return undriven(Limit::none);
+    }
+    if (watch_.settling() == Settling::settled) {
+      regulator_.shift(target_, level_.half_ratio(target_force));
+    } else {
+      regulator_.restart(target_);
+    }
+    return apply({requested_, Limit::none});
+  }
+
+  DriveCommand<Scalar> regulate(Scalar measured, Scalar speed) {
     if (whole_ratio() <= target_) {
       regulator_.hold();  // no drive can bring an undriven reading to its target
     }
-    const Scalar along = measurement.sliding_velocity < Scalar{} ? -measurement.friction_force
-                                                                 : measurement.friction_force;
-    const Scalar ratio = regulator_.propose(target_, level_.half_ratio(along));
+    const Scalar ratio = regulator_.propose(target_, measured);
     const Request wanted = feedforward(ratio, speed);
     const Scalar slewed = slew_.limit(wanted.amplitude, requested_);
     const bool held_below = slewed < wanted.amplitude;
@@ -214,9 +316,33 @@ class Controller {
     const bool at_most = wanted.limit == Limit::actuator || held_below;
     const bool at_least = whole_ratio() <= ratio || held_above;
     regulator_.accept(at_most, at_least);
-
     commanded_ = ratio;
+    judge(measured, at_most || at_least);
     return apply({slewed, held_below || held_above ? Limit::slew : wanted.limit});
+  }
+
+  /// An amplitude that no feedback asks for, as fast as the actuator may change.
+  DriveCommand<Scalar> request(const Request& wanted) {
+    return apply({slew_.limit(wanted.amplitude, requested_), wanted.limit});
+  }
+
+  /// What the measured ratio tells. In a pause, and without a drive to judge, nothing.
+  void judge(Scalar measured, bool clamped) {
+    if (pausing()) {
+      return;
+    }
+    if (whole_ratio() <= target_) {
+      watch_.restart();
+      return;
+    }
+    watch_.judge(target_, measured, commanded_, clamped);
+  }
+
+  bool pausing() const {
+    if constexpr (relearns) {
+      return relearning_.pausing();
+    }
+    return false;
   }
 
   /// Amplitude for a commanded ratio, from the inverse map.
@@ -226,8 +352,10 @@ class Controller {
     }
     const Scalar amplitude = feedforward_.amplitude(half_ratio, speed);
     const Scalar highest = ceiling_.highest();
-    return amplitude < highest ? Request{amplitude, Limit::none}
-                               : Request{highest, Limit::actuator};
+    if (!(amplitude < highest)) {
+      return {highest, Limit::actuator};
+    }
+    return {amplitude, whole_ratio() <= half_ratio ? Limit::ratio_end : Limit::none};
   }
 
   DriveCommand<Scalar> apply(const Request& request) {
@@ -236,27 +364,42 @@ class Controller {
     const Scalar highest = ceiling_.highest();
     const Scalar amplitude = numeric::clamp(shaped, Scalar{}, highest);
     const bool clipped = shaped < Scalar{} || (highest <= shaped && requested_ < highest);
-    const Limit limit = clipped && request.limit == Limit::none ? Limit::actuator : request.limit;
+    Limit limit = clipped && request.limit == Limit::none ? Limit::actuator : request.limit;
+    followed_ = limit == Limit::none;
+    const bool judged = followed_ && !pausing();
+    if (judged) {
+      limit = watch_.limit_named();
+    }
     state_ = limit == Limit::none ? State::running : State::limited;
-    return {amplitude, state_, limit, fault_};
+    if (pausing()) {
+      state_ = State::relearning;
+    }
+    const Settling settling = judged ? watch_.settling() : Settling::pending;
+    return {amplitude, commanded_, state_, limit, fault_, settling};
   }
 
   Scalar configured_friction_;
+  Scalar smallest_friction_;
   Scalar speed_floor_;
-  Scalar lead_;
+  SpeedForesight<Scalar> foresight_;
   [[no_unique_address]] typename PartsT::Friction friction_;
   [[no_unique_address]] typename PartsT::Feedforward feedforward_;
   [[no_unique_address]] typename PartsT::Slew slew_;
   [[no_unique_address]] typename PartsT::Shaper shaper_;
   [[no_unique_address]] typename PartsT::Regulator regulator_;
+  [[no_unique_address]] typename PartsT::Relearning relearning_;
+  StandstillHold<Scalar> standstill_;
   StuckDetector<Scalar> stuck_;
+  Plausibility<Scalar> plausibility_;
+  SettlingWatch<Scalar> watch_;
   [[no_unique_address]] typename PartsT::Ceiling ceiling_;
+  [[no_unique_address]] typename PartsT::Samples samples_;
   FrictionLevel<Scalar> level_;
   Scalar target_ = whole_ratio();
   Scalar commanded_ = whole_ratio();  ///< friction ratio, target and feedback together, on base 2
   Scalar requested_{};                ///< amplitude before shaping
-  Scalar last_velocity_{};
-  bool last_velocity_known_ = false;
+  bool backwards_ = false;            ///< the sliding
+  bool followed_ = true;              ///< the drive could follow the last command
   State state_ = State::off;
   Fault fault_ = Fault::none;
 };

@@ -1,6 +1,7 @@
 /// What the controller answers once per carrier period.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 namespace sonoglide::control {
@@ -9,16 +10,34 @@ enum class State : std::uint8_t {
   off,          ///< not started, or stopped; drive zero
   calibrating,  ///< drive zero, the undriven friction force is being learnt
   running,
-  limited,  ///< running, and the limit named in the command is active
-  fault,    ///< drive zero until an explicit restart; the cause is kept
+  limited,     ///< running, and the limit named in the command is active
+  fault,       ///< drive zero until an explicit restart; the cause is kept
+  relearning,  ///< the drive pauses, or comes back from a pause, to learn the friction force anew
 };
 
-/// What keeps the command from following the target; the controller runs on.
+/// What keeps the friction ratio from its target; the controller runs on.
 enum class Limit : std::uint8_t {
   none = 0,
   actuator,     ///< the drive would have to leave [0, its limit], or a lower ceiling set to it
   slew,         ///< the drive amplitude may not change faster
-  speed_floor,  ///< sliding slower than the stated floor: the ratio is undefined, the drive is held
+  speed_floor,  ///< sliding slower than the stated floor: the ratio is undefined; the drive is held
+                ///< for the stated time and then taken to zero
+  ratio_end,    ///< the commanded ratio stands at 1: less drive than none does not exist
+  mismatch,     ///< settled, but the friction force is not the believed one: the true ratio is off
+  not_settling,  ///< outside its band for longer than the stated time; see Settling for why
+  bad_sample,    ///< the sample was unusable, the last request stands
+};
+
+inline constexpr std::size_t limit_count = 8;
+
+/// How the measured ratio stands to its target.
+enum class Settling : std::uint8_t {
+  pending = 0,  ///< nothing to be said yet
+  settled,      ///< in its band: commanded over target is believed over true friction
+  // Why the limit not_settling is active:
+  ringing,  ///< the ratio leaves its band on both sides: a natural mode, or a limit cycle
+  offset,   ///< it stays on one side: the drive does not act as believed, or feedback is off
+  clamped,  ///< the command stood at an end of its range meanwhile
 };
 
 /// Why the drive was switched off.
@@ -27,16 +46,21 @@ enum class Fault : std::uint8_t {
   measurement_not_finite = 16,
   measurement_missing,
   measurement_saturated,
-  measurement_stuck,    ///< the reading did not follow the command
-  friction_not_learnt,  ///< too small a friction force, learnt or configured
+  measurement_stuck,        ///< the reading did not follow the command
+  friction_not_learnt,      ///< too small a friction force, learnt or configured
+  measurement_implausible,  ///< a ratio that no contact has, or friction that pulls: wired
+                            ///< backwards
 };
 
 template <class Scalar>
 struct DriveCommand {
-  Scalar amplitude;  ///< base: the actuator's limit; in [0, 1]
+  Scalar amplitude;        ///< base: the actuator's limit; in [0, 1]
+  Scalar commanded_ratio;  ///< friction ratio, target and feedback together, base 2; over the
+                           ///< target it is believed over true friction force, once settled
   State state;
   Limit limit;
   Fault fault;
+  Settling settling;
 };
 
 }  // namespace sonoglide::control

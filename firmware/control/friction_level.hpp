@@ -34,6 +34,15 @@ class FrictionLevel {
 
   const numeric::Floating<Scalar>& level() const { return level_; }
 
+  /// Fc.
+  Scalar force() const {
+    if constexpr (numeric::is_fixed_point_v<Scalar>) {
+      return numeric::scale_by_power_of_two(level_.mantissa, level_.exponent);
+    } else {
+      return level_;
+    }
+  }
+
  private:
   static Scalar inverse_of(const numeric::Floating<Scalar>& level) {
     if constexpr (numeric::is_fixed_point_v<Scalar>) {

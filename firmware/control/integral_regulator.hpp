@@ -1,6 +1,8 @@
 /// Integral feedback on the friction ratio.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 
 #include "firmware/control/signals.hpp"
@@ -9,18 +11,33 @@
 
 namespace sonoglide::control {
 
-/// commanded ratio = target + integral of (target − measured), in [0, 1].
+/// commanded ratio = target + integral of (reference − measured), in [0, 1].
 ///
 /// The loop is closed in friction ratio, in front of the inverse map, so that its gain is near 1 at
-/// every operating point. All ratios on base 2. While a command is still on its way through shaper,
-/// plant and sensor (`hold_periods`) the error says nothing yet and the integral is held.
-template <class Scalar>
+/// every operating point. All ratios on base 2.
+///
+/// A changed target takes the delay of shaper, drive and sensor until the measured ratio shows it.
+/// The reference is what the reading should be meanwhile: the target of `delay_periods` ago, behind
+/// a lag like the sensor's. What the shaper and the contact do within that delay it leaves out, so
+/// that a change above small_change() holds the integral for hold_periods besides; but not again
+/// within rest_periods, so that a target which keeps changing does not switch feedback off.
+///
+/// @tparam MaxDelay  largest delay_periods, >= 1; the delay line holds as many targets.
+template <class Scalar, int MaxDelay>
 class IntegralRegulator {
  public:
+  static constexpr int max_delay = MaxDelay;
+
   struct Parameters {
-    Scalar gain;  ///< per carrier period
-    std::uint16_t hold_periods;
+    Scalar gain;                 ///< per carrier period
+    Scalar keep;                 ///< of the reference's lag, per carrier period; in [0, 1)
+    std::uint16_t hold_periods;  ///< at least delay_periods
+    std::uint16_t rest_periods;  ///< between the beginnings of two holds for a changed target
+    std::uint8_t delay_periods;  ///< 1 … MaxDelay
   };
+
+  /// A friction ratio of 1/256, on base 2.
+  static constexpr Scalar small_change() { return numeric::from_real<Scalar>(1.0 / 512.0); }
 
   static constexpr void scale_gain(Parameters& parameters, Scalar factor) {
     parameters.gain *= factor;
@@ -28,17 +45,39 @@ class IntegralRegulator {
 
   explicit IntegralRegulator(const Parameters& parameters) : parameters_(parameters) {}
 
-  void restart() {
+  /// @param target  from here on
+  void restart(Scalar target) {
     integral_ = {};
+    past_.fill(target);
+    reference_ = target;
+    rest_ = 0;
     hold();
   }
 
   /// Holds the integral for the next `hold_periods` calls of propose().
   void hold() { held_ = parameters_.hold_periods; }
 
-  /// Commanded ratio, with the new error counted in; nothing is kept before accept().
+  /// @param change  from the target before to the new one
+  void target_changes(Scalar change) {
+    if (rest_ == 0 && small_change() < numeric::abs(change)) {
+      rest_ = parameters_.rest_periods;
+      hold();
+    }
+  }
+
+  /// A better known friction force, in terms of which the target was another ratio so far: what the
+  /// integral has made up for of that is taken from it.
+  /// @param shown  that ratio
+  void shift(Scalar target, Scalar shown) {
+    integral_ += numeric::accumulate(target - shown);
+    hold();
+  }
+
+  /// Commanded ratio, with the new error counted in; the integral stays as it is before accept().
   Scalar propose(Scalar target, Scalar measured) {
-    error_ = numeric::observe<signal::RatioError>(target - measured);
+    const Scalar past = delayed(target);
+    reference_ = past + parameters_.keep * (reference_ - past);
+    error_ = numeric::observe<signal::RatioError>(reference_ - measured);
     proposed_ =
         held_ == 0 ? integral_ + numeric::accumulated_product(parameters_.gain, error_) : integral_;
     return numeric::observe<signal::CommandedRatio>(numeric::clamp(
@@ -57,14 +96,30 @@ class IntegralRegulator {
     if (held_ > 0) {
       --held_;
     }
+    if (rest_ > 0) {
+      --rest_;
+    }
   }
 
  private:
+  /// The target of delay_periods ago; this one takes its place.
+  Scalar delayed(Scalar target) {
+    const std::size_t place = MaxDelay == 1 ? 0 : place_;
+    const Scalar before = past_[place];
+    past_[place] = target;
+    place_ = static_cast<std::uint8_t>(place + 1 < parameters_.delay_periods ? place + 1 : 0);
+    return before;
+  }
+
   Parameters parameters_;
   numeric::Accumulator<Scalar> integral_{};
   numeric::Accumulator<Scalar> proposed_{};
+  Scalar reference_{};
   Scalar error_{};
+  std::array<Scalar, MaxDelay> past_{};
   std::uint16_t held_ = 0;
+  std::uint16_t rest_ = 0;
+  std::uint8_t place_ = 0;  ///< of the oldest target
 };
 
 }  // namespace sonoglide::control

@@ -1,6 +1,7 @@
 /// Calibration: the undriven friction force is learnt before the drive is first used.
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 #include "firmware/numeric/accumulator.hpp"
@@ -8,43 +9,114 @@
 
 namespace sonoglide::control {
 
-/// Mean magnitude of the undriven friction force over the last part of a calibration; the first
-/// part lets the contact slide through its presliding travel and the sensor settle.
+/// Mean of the undriven friction force along the sliding, once the contact has slid through its
+/// presliding travel and the sensor has settled; its sign shows a sensor that is wired backwards.
+///
+/// The sensor's offset is told apart from friction where the calibration allows it: by sliding both
+/// ways, half of the difference of the two means; else by standing still before the first sliding,
+/// when the contact is taken to be unloaded; else it is taken as 0.
+///
+/// Forces: base the sensor's full scale.
 template <class Scalar>
 class LearntFriction {
  public:
   struct Parameters {
-    std::uint32_t settle_periods;         ///< samples passed over
-    std::uint32_t average_periods;        ///< samples averaged, at least 1
+    std::uint32_t settle_periods;         ///< samples passed over in each direction
+    std::uint32_t average_periods;        ///< samples averaged after them, at least 1
     numeric::Accumulator<Scalar> weight;  ///< 1 / average_periods
+    std::uint32_t total_periods;          ///< least length of the calibration
   };
 
   explicit LearntFriction(const Parameters& parameters) : parameters_(parameters) {}
 
   void restart() {
-    samples_ = 0;
-    mean_ = {};
+    periods_ = 0;
+    slid_ = false;
+    tared_ = false;
+    known_ = {};
+    offset_ = {};
+    begin(false);
   }
 
-  bool learning() const {
-    return samples_ < parameters_.settle_periods + parameters_.average_periods;
-  }
+  bool learning() const { return !known_[direction()] || periods_ < parameters_.total_periods; }
 
-  /// Takes one undriven sample. Rounding of the mean: half a unit of the accumulator for each
-  /// sample.
-  void learn(Scalar force) {
-    if (samples_ >= parameters_.settle_periods) {
-      mean_ += numeric::accumulate(numeric::abs(force)) * parameters_.weight;
+  /// One call for each undriven sample. A sliding that stops or turns before its mean is known
+  /// begins anew. Rounding of a mean: half a unit of the accumulator for each sample.
+  /// @param slow  the sliding is below the speed floor
+  void learn(Scalar force, Scalar velocity, bool slow) {
+    periods_ += periods_ < UINT32_MAX ? 1U : 0U;
+    if (slow) {
+      begin(backwards_);
+      if (!slid_ && numeric::abs(velocity) < standing()) {
+        tare(force);
+      }
+      return;
     }
-    ++samples_;
+    slid_ = true;
+    const bool backwards = velocity < Scalar{};
+    if (backwards != backwards_) {
+      begin(backwards);
+    }
+    if (!known_[direction()]) {
+      average(backwards ? -force : force);
+    }
   }
 
-  Scalar friction_force(Scalar /*configured*/) const { return numeric::rounded<Scalar>(mean_); }
+  /// Fc; negative where friction seems to pull. After learning().
+  Scalar friction_force(Scalar /*configured*/) const {
+    return known_[0] && known_[1] ? numeric::half(forward()) + numeric::half(backward())
+                                  : (backwards_ ? backward() + tare() : forward() - tare());
+  }
+
+  /// A reading without the sensor's offset.
+  Scalar without_offset(Scalar force) const {
+    return force -
+           (known_[0] && known_[1] ? numeric::half(forward()) - numeric::half(backward()) : tare());
+  }
 
  private:
+  /// Slower than this nothing slides: 2^-15 of the peak vibration velocity at full drive.
+  static constexpr Scalar standing() { return numeric::from_real<Scalar>(1.0 / 32768.0); }
+
+  std::size_t direction() const { return backwards_ ? 1 : 0; }
+  Scalar forward() const { return numeric::rounded<Scalar>(mean_[0]); }
+  Scalar backward() const { return numeric::rounded<Scalar>(mean_[1]); }
+  Scalar tare() const { return numeric::rounded<Scalar>(offset_); }
+
+  void begin(bool backwards) {
+    backwards_ = backwards;
+    if (!known_[direction()]) {
+      samples_ = 0;
+      mean_[direction()] = {};
+    }
+  }
+
+  void average(Scalar along) {
+    if (samples_ >= parameters_.settle_periods) {
+      mean_[direction()] += numeric::accumulate(along) * parameters_.weight;
+    }
+    ++samples_;
+    known_[direction()] = samples_ >= parameters_.settle_periods + parameters_.average_periods;
+  }
+
+  /// A low-pass of 16 samples.
+  void tare(Scalar force) {
+    const numeric::Accumulator<Scalar> reading = numeric::accumulate(force);
+    offset_ = tared_ ? offset_ + numeric::scale_by_power_of_two(reading, -4) -
+                           numeric::scale_by_power_of_two(offset_, -4)
+                     : reading;
+    tared_ = true;
+  }
+
   Parameters parameters_;
+  std::uint32_t periods_ = 0;
   std::uint32_t samples_ = 0;
-  numeric::Accumulator<Scalar> mean_{};
+  std::array<numeric::Accumulator<Scalar>, 2> mean_{};  ///< sliding forwards, backwards
+  numeric::Accumulator<Scalar> offset_{};               ///< as tared
+  std::array<bool, 2> known_{};
+  bool backwards_ = false;
+  bool slid_ = false;
+  bool tared_ = false;
 };
 
 }  // namespace sonoglide::control

@@ -1,4 +1,4 @@
-/// The words by which states, limits and faults are named to people.
+/// The words by which states, limits, faults and the like are named to people.
 #pragma once
 
 #include "firmware/control/drive_command.hpp"
@@ -15,6 +15,8 @@ constexpr const char* name(State state) {
       return "running";
     case State::limited:
       return "limited";
+    case State::relearning:
+      return "relearning";
     case State::fault:
       break;
   }
@@ -29,10 +31,34 @@ constexpr const char* name(Limit limit) {
       return "slew";
     case Limit::speed_floor:
       return "speed_floor";
+    case Limit::ratio_end:
+      return "ratio_end";
+    case Limit::mismatch:
+      return "mismatch";
+    case Limit::not_settling:
+      return "not_settling";
+    case Limit::bad_sample:
+      return "bad_sample";
     case Limit::none:
       break;
   }
   return "none";
+}
+
+constexpr const char* name(Settling settling) {
+  switch (settling) {
+    case Settling::settled:
+      return "settled";
+    case Settling::ringing:
+      return "ringing";
+    case Settling::offset:
+      return "offset";
+    case Settling::clamped:
+      return "clamped";
+    case Settling::pending:
+      break;
+  }
+  return "pending";
 }
 
 constexpr const char* name(Fault fault) {
@@ -47,6 +73,8 @@ constexpr const char* name(Fault fault) {
       return "measurement_stuck";
     case Fault::friction_not_learnt:
       return "friction_not_learnt";
+    case Fault::measurement_implausible:
+      return "measurement_implausible";
     case Fault::none:
       break;
   }

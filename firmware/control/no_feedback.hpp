@@ -13,8 +13,10 @@ class NoFeedback {
   static constexpr void scale_gain(Parameters&, Scalar) {}
 
   explicit NoFeedback(const Parameters&) {}
-  void restart() {}
+  void restart(Scalar) {}
   void hold() {}
+  void target_changes(Scalar) {}
+  void shift(Scalar, Scalar) {}
   Scalar propose(Scalar target, Scalar /*measured*/) const { return target; }
   void accept(bool, bool) {}
 };

@@ -10,39 +10,48 @@ namespace sonoglide::control {
 /// A reading is stuck when it has not changed by a single code although the commanded friction
 /// ratio has come far from where it stood at the reading's last change. A constant reading under a
 /// constant command is no fault: a settled contact gives just that, at any drive amplitude that a
-/// changing sliding speed asks for.
+/// changing sliding speed asks for. Nor is one at the undriven friction, which vibration does not
+/// lower before it is faster than the sliding: that takes a command still farther away.
 template <class Scalar>
 class StuckDetector {
  public:
   struct Parameters {
-    std::uint16_t periods;  ///< granted to the reading to follow: the sensor's delay must fit in
+    std::uint16_t
+        periods;  ///< granted to the reading to follow: the sensor's delay must fit in; 0:
+                  ///< the drive may have no effect on the reading, nothing is concluded
   };
 
   /// Distance of the command that a live reading must show: a ratio of 1/4, on base 2.
   static constexpr Scalar telling_distance() { return numeric::from_real<Scalar>(0.125); }
+  /// The same for a reading of the undriven friction: a ratio of 3/4.
+  static constexpr Scalar telling_distance_undriven() { return numeric::from_real<Scalar>(0.375); }
+  /// From here on a reading passes for undriven: a ratio of 15/16, on base 2.
+  static constexpr Scalar undriven() { return numeric::from_real<Scalar>(0.46875); }
 
   explicit StuckDetector(const Parameters& parameters) : parameters_(parameters) {}
 
   void restart() { begun_ = false; }
 
   /// One call for each reading.
-  /// @param half_ratio  friction ratio on base 2 that was commanded while the reading was made
-  /// @param followed    the drive could follow that command; while it cannot, nothing is concluded
+  /// @param measured   the reading as a friction ratio on base 2
+  /// @param commanded  friction ratio on base 2 that was commanded while the reading was made
+  /// @param followed   the drive could follow that command; while it cannot, nothing is concluded
   /// @return true when the reading has stood still for the granted periods since the command became
   ///         telling
-  bool stuck(Scalar reading, Scalar half_ratio, bool followed) {
+  bool stuck(Scalar reading, Scalar measured, Scalar commanded, bool followed) {
     if (!begun_ || reading != last_reading_) {
       begun_ = true;
       last_reading_ = reading;
-      last_ratio_ = half_ratio;
+      last_ratio_ = commanded;
       still_ = 0;
       return false;
     }
-    const bool told = still_ > 0 || telling_distance() <= numeric::abs(half_ratio - last_ratio_);
-    if (told && followed) {
+    const Scalar telling = measured < undriven() ? telling_distance() : telling_distance_undriven();
+    const bool told = still_ > 0 || telling <= numeric::abs(commanded - last_ratio_);
+    if (told && followed && parameters_.periods > 0) {
       ++still_;
     }
-    return still_ >= parameters_.periods;
+    return still_ > 0 && still_ >= parameters_.periods;
   }
 
  private:

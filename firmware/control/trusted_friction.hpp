@@ -11,8 +11,9 @@ class TrustedFriction {
   explicit TrustedFriction(const Parameters&) {}
   void restart() {}
   static constexpr bool learning() { return false; }
-  void learn(Scalar) {}
+  void learn(Scalar, Scalar, bool) {}
   Scalar friction_force(Scalar configured) const { return configured; }
+  Scalar without_offset(Scalar force) const { return force; }
 };
 
 }  // namespace sonoglide::control

@@ -1,11 +1,17 @@
-// An image that nobody watches halts where it ends. A drive that is the processor's own doing ends
-// with it, and the watchdog, where there is one, resets the board.
+// An image that nobody watches halts where it ends, with its drive at zero. The watchdog, where
+// there is one, then resets the board.
 #include "hal/start/image_end.hpp"
+
+#include "hal/timed/drive_register.hpp"
 
 extern "C" {
 
+volatile std::int32_t drive_amplitude = 0;
+
+// Needs no stack: an exception may have come from there being none.
 void leave_image(int /*code*/) {
   for (;;) {
+    drive_amplitude = 0;
   }
 }
 

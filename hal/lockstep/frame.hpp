@@ -10,15 +10,16 @@
 
 namespace sonoglide::hal::lockstep {
 
-/// | byte | sample frame                | drive frame             |
-/// |------|-----------------------------|-------------------------|
-/// | 0    | period, u32, from 0         | period of the sample    |
-/// | 4    | friction_force, i32         | amplitude, i32          |
-/// | 8    | sliding_velocity, i32       | state, limit, fault, 0  |
-/// | 12   | force_at_rail, fresh, 0, 0  | cost of the step, u32   |
-/// | 16   |                             | cost of the answer, u32 |
+/// | byte | sample frame                | drive frame                   |
+/// |------|-----------------------------|-------------------------------|
+/// | 0    | period, u32, from 0         | period of the sample          |
+/// | 4    | friction_force, i32         | amplitude, i32                |
+/// | 8    | sliding_velocity, i32       | commanded_ratio, i32          |
+/// | 12   | force_at_rail, fresh, 0, 0  | state, limit, fault, settling |
+/// | 16   |                             | cost of the step, u32         |
+/// | 20   |                             | cost of the answer, u32       |
 inline constexpr std::size_t sample_frame_size = 16;
-inline constexpr std::size_t drive_frame_size = 20;
+inline constexpr std::size_t drive_frame_size = 24;
 
 /// What an answer cost the board, in the unit of its counter and without reading it; 0 from a board
 /// that has none.
@@ -70,19 +71,21 @@ inline DriveFrame encode(std::uint32_t period, const Drive& drive) {
   DriveFrame frame{};
   detail::put(period, frame.data());
   detail::put(static_cast<std::uint32_t>(drive.amplitude), frame.data() + 4);
-  frame[8] = drive.state;
-  frame[9] = drive.limit;
-  frame[10] = drive.fault;
+  detail::put(static_cast<std::uint32_t>(drive.commanded_ratio), frame.data() + 8);
+  frame[12] = drive.state;
+  frame[13] = drive.limit;
+  frame[14] = drive.fault;
+  frame[15] = drive.settling;
   return frame;
 }
 
 inline void put_cost(const Cost& cost, DriveFrame& frame) {
-  detail::put(cost.step, frame.data() + 12);
-  detail::put(cost.answer, frame.data() + 16);
+  detail::put(cost.step, frame.data() + 16);
+  detail::put(cost.answer, frame.data() + 20);
 }
 
 inline Cost cost_of(const DriveFrame& frame) {
-  return {detail::get(frame.data() + 12), detail::get(frame.data() + 16)};
+  return {detail::get(frame.data() + 16), detail::get(frame.data() + 20)};
 }
 
 inline Sample sample_of(const SampleFrame& frame) {
@@ -91,7 +94,12 @@ inline Sample sample_of(const SampleFrame& frame) {
 }
 
 inline Drive drive_of(const DriveFrame& frame) {
-  return {static_cast<std::int32_t>(detail::get(frame.data() + 4)), frame[8], frame[9], frame[10]};
+  return {static_cast<std::int32_t>(detail::get(frame.data() + 4)),
+          static_cast<std::int32_t>(detail::get(frame.data() + 8)),
+          frame[12],
+          frame[13],
+          frame[14],
+          frame[15]};
 }
 
 }  // namespace sonoglide::hal::lockstep

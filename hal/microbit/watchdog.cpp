@@ -27,7 +27,7 @@ extern volatile std::uint32_t reset_reason;
 }
 
 constexpr std::uint32_t by_watchdog = 1U << 1;
-constexpr std::uint32_t one_second = 32768 - 1;
+constexpr std::uint32_t tenth_of_a_second = 3277 - 1;
 constexpr std::uint32_t first_reload = 1;
 constexpr std::uint32_t runs_in_sleep = 1;
 constexpr std::uint32_t reload_word = 0x6e524635;
@@ -37,7 +37,7 @@ constexpr std::uint32_t reload_word = 0x6e524635;
 Watchdog::Watchdog() : caused_reset_((reset_reason & by_watchdog) != 0) {
   reset_reason = by_watchdog;  // a set bit clears it
   watchdog.configuration = runs_in_sleep;
-  watchdog.reload_value = one_second;
+  watchdog.reload_value = tenth_of_a_second;
   watchdog.reload_enable = first_reload;
   watchdog.start = 1;
 }

@@ -1,5 +1,7 @@
 #include "hal/netduinoplus2/flash.hpp"
 
+#include "hal/netduinoplus2/watchdog.hpp"
+
 // Source: ST, RM0090, embedded flash memory interface; supply of 2.7 V and more: 32 bits at a time.
 namespace sonoglide::hal::netduinoplus2 {
 namespace {
@@ -33,14 +35,27 @@ constexpr std::uint32_t locked = 1U << 31;
 constexpr std::uint32_t busy_bit = 1U << 16;
 constexpr std::uint32_t every_error = 0xf3;  // a set bit clears it
 
-}  // namespace
-
-Flash::Flash() {
-  if ((flash_control.control & locked) != 0) {
-    flash_control.key = first_key;
-    flash_control.key = second_key;
+/// The controller takes orders as long as this lives, and then finishes the last one.
+class Unlocked {
+ public:
+  Unlocked() {
+    // A key that it does not ask for locks it until a reset.
+    if ((flash_control.control & locked) != 0) {
+      flash_control.key = first_key;
+      flash_control.key = second_key;
+    }
+    flash_control.status = every_error;
   }
-}
+  ~Unlocked() {
+    while ((flash_control.status & busy_bit) != 0) {
+    }
+    flash_control.control = locked;
+  }
+  Unlocked(const Unlocked&) = delete;
+  Unlocked& operator=(const Unlocked&) = delete;
+};
+
+}  // namespace
 
 std::uint32_t Flash::read(std::size_t page, std::size_t word) const {
   return parameter_sectors[page][word];
@@ -48,13 +63,18 @@ std::uint32_t Flash::read(std::size_t page, std::size_t word) const {
 
 void Flash::erase(std::size_t page) {
   const auto sector = first_sector + static_cast<std::uint32_t>(page);
-  flash_control.status = every_error;
-  flash_control.control = words | erasing | sector << sector_position;
-  flash_control.control = flash_control.control | start;
+  const std::uint32_t order = words | erasing | sector << sector_position;
+  Watchdog::wait_long();
+  {
+    const Unlocked unlocked;
+    flash_control.control = order;
+    flash_control.control = order | start;
+  }
+  Watchdog::wait_short();
 }
 
 void Flash::program(std::size_t page, std::size_t word, std::uint32_t value) {
-  flash_control.status = every_error;
+  const Unlocked unlocked;
   flash_control.control = words | programming;
   parameter_sectors[page][word] = value;
 }

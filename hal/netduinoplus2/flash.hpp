@@ -6,14 +6,15 @@
 
 namespace sonoglide::hal::netduinoplus2 {
 
-/// The first 64 bytes of the last two sectors, of 128 KiB each, which the linker script keeps free
+/// The first 256 bytes of the last two sectors, of 128 KiB each, which the linker script keeps free
 /// of code. An erase takes 1 to 2 s, at most 4 s, and the processor stands still meanwhile, since
-/// its code comes from there too. The data cache has to be off, as it is after a reset.
+/// its code comes from there too: the watchdog, which must have been started, is made to wait. The
+/// controller is locked but for the time of an operation. The data cache has to be off, as it is
+/// after a reset.
 class Flash {
  public:
-  static constexpr std::size_t page_words = 16;
+  static constexpr std::size_t page_words = 64;
 
-  Flash();
   std::uint32_t read(std::size_t page, std::size_t word) const;
   void erase(std::size_t page);
   void program(std::size_t page, std::size_t word, std::uint32_t value);

@@ -24,24 +24,40 @@ constexpr std::uint32_t clear_reset_status = 1U << 24;
 constexpr std::uint32_t start_word = 0xcccc;
 constexpr std::uint32_t write_word = 0x5555;
 constexpr std::uint32_t feed_word = 0xaaaa;
+constexpr std::uint32_t divide_by_4 = 0;
 constexpr std::uint32_t divide_by_256 = 6;
-constexpr std::uint32_t eight_seconds = 1024 - 1;  // at 32 kHz
+constexpr std::uint32_t tenth_of_a_second = 800 - 1;  // at 32 kHz / 4
+constexpr std::uint32_t eight_seconds = 1024 - 1;     // at 32 kHz / 256
+
+// Either register takes over after some turns of the oscillator and is not to be written until
+// then.
+void set_period(std::uint32_t prescaler, std::uint32_t reload) {
+  independent_watchdog.key = write_word;
+  independent_watchdog.prescaler = prescaler;
+  independent_watchdog.reload = reload;
+  while (independent_watchdog.status != 0) {
+  }
+  Watchdog::feed();
+}
 
 }  // namespace
 
 Watchdog::Watchdog() : caused_reset_((reset_status & by_watchdog) != 0) {
   reset_status = reset_status | clear_reset_status;
   independent_watchdog.key = start_word;
-  independent_watchdog.key = write_word;
-  independent_watchdog.prescaler = divide_by_256;
-  independent_watchdog.reload = eight_seconds;
-  while (independent_watchdog.status != 0) {
-  }
-  feed();
+  wait_short();
 }
 
 void Watchdog::feed() {
   independent_watchdog.key = feed_word;
+}
+
+void Watchdog::wait_long() {
+  set_period(divide_by_256, eight_seconds);
+}
+
+void Watchdog::wait_short() {
+  set_period(divide_by_4, tenth_of_a_second);
 }
 
 }  // namespace sonoglide::hal::netduinoplus2

@@ -1,16 +1,19 @@
 /// A board that is the plant itself, in integers.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 #include "firmware/numeric/fixed.hpp"
 #include "firmware/numeric/scalar.hpp"
 #include "firmware/plant/fixed_strang.hpp"
 #include "hal/board.hpp"
+#include "hal/simulated/drive_latency.hpp"
 
 namespace sonoglide::hal::simulated {
 
 /// As PlantBoard, for a processor without a floating-point unit.
+template <std::size_t LatencyPeriods>
 class FixedPlantBoard {
  public:
   struct Parameters {
@@ -28,19 +31,19 @@ class FixedPlantBoard {
   bool sample(Sample& sample) {
     constexpr int fraction_bits = 31;  // of 2^(6 + 30 + 26), 2^31 are in the code
     const std::int64_t force = numeric::shift_right_rounded(
-        plant_.advance(amplitude_) * force_per_friction_, fraction_bits);
+        plant_.advance(amplitude_.in_force()) * force_per_friction_, fraction_bits);
     const std::int64_t code = numeric::clamp<std::int64_t>(force, INT32_MIN, INT32_MAX);
     sample = {static_cast<std::int32_t>(code), sliding_code_, code != force, true};
     return plant_.saturations() == 0;
   }
 
-  void drive(const Drive& drive) { amplitude_ = drive.amplitude; }
+  void drive(const Drive& drive) { amplitude_.take(drive.amplitude); }
 
  private:
   plant::FixedStrang plant_;
   std::int32_t force_per_friction_;
   std::int32_t sliding_code_;
-  std::int32_t amplitude_ = 0;
+  DriveLatency<std::int32_t, LatencyPeriods> amplitude_;
 };
 
 }  // namespace sonoglide::hal::simulated

@@ -1,6 +1,7 @@
 /// A board that is the plant itself: no host, no converter, no vibration.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 #include "firmware/numeric/scalar.hpp"
@@ -10,6 +11,7 @@
 #include "firmware/plant/outcome.hpp"
 #include "firmware/plant/state.hpp"
 #include "hal/board.hpp"
+#include "hal/simulated/drive_latency.hpp"
 
 namespace sonoglide::hal::simulated {
 
@@ -17,8 +19,9 @@ namespace sonoglide::hal::simulated {
 /// drive amplitude. The sensor is ideal: the code nearest to the mean friction force of the period,
 /// ties toward +infinity, at the rail where the force has left the range of codes.
 ///
-/// @tparam Solver  one of firmware/plant, in float or double
-template <class Solver>
+/// @tparam Solver          one of firmware/plant, in float or double
+/// @tparam LatencyPeriods  of the drive, see DriveLatency
+template <class Solver, std::size_t LatencyPeriods>
 class PlantBoard {
  public:
   using Scalar = typename Solver::Scalar;
@@ -49,8 +52,8 @@ class PlantBoard {
     plant::MeanFriction<Scalar> account;
     plant::NoObserver nobody;
     const plant::Outcome<Scalar> outcome =
-        solver_.advance({Scalar(0), two_pi, drive_amplitude_, sliding_velocity_, Scalar(0)}, state_,
-                        account, nobody);
+        solver_.advance({Scalar(0), two_pi, amplitude_.in_force(), sliding_velocity_, Scalar(0)},
+                        state_, account, nobody);
     const Scalar force = force_per_friction_ * account.friction_integral;
     const bool in_range = force > Scalar(-1) && force < Scalar(1);
     sample = {numeric::to_code(force), sliding_code_, !in_range, true};
@@ -58,7 +61,7 @@ class PlantBoard {
   }
 
   void drive(const Drive& drive) {
-    drive_amplitude_ = full_drive_ * numeric::from_code<Scalar>(drive.amplitude);
+    amplitude_.take(full_drive_ * numeric::from_code<Scalar>(drive.amplitude));
   }
 
  private:
@@ -67,7 +70,7 @@ class PlantBoard {
   Scalar sliding_velocity_;
   std::int32_t sliding_code_;
   plant::State<Scalar> state_;
-  Scalar drive_amplitude_ = Scalar(0);
+  DriveLatency<Scalar, LatencyPeriods> amplitude_;
   Solver solver_;
 };
 

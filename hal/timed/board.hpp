@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "hal/board.hpp"
+#include "hal/timed/drive_register.hpp"
 #include "hal/timed/stand_in_contact.hpp"
 
 namespace sonoglide::hal::timed {
@@ -34,12 +35,13 @@ class Board {
     return true;
   }
 
-  void drive(const Drive& drive) { contact_.drive(drive.amplitude); }
+  void drive(const Drive& drive) { drive_amplitude = drive.amplitude; }
 
   std::uint32_t period() {
     while (((clock_.ticks() - begin_) & Clock::largest) >= period_ticks_) {
       begin_ += period_ticks_;
       ++period_;
+      contact_.drive(drive_amplitude);
       contact_.live();
     }
     return period_;

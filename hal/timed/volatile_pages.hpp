@@ -10,7 +10,7 @@ namespace sonoglide::hal::timed {
 /// Two pages in RAM, erased at reset: what is saved is lost with it. It is never busy.
 class VolatilePages {
  public:
-  static constexpr std::size_t page_words = 16;
+  static constexpr std::size_t page_words = 64;
 
   VolatilePages() {
     erase(0);

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstddef>
 
+#include "host_sim/scene/control_design.hpp"
+
 namespace sonoglide::analysis {
 namespace {
 
@@ -19,7 +21,10 @@ control::Limit prevailing_limit(std::array<std::uint64_t, Limits> count) {
 
 }  // namespace
 
-StepMeter::StepMeter(const scene::Scene& scene) : cursor_(scene), band_(scene.run.settling_band) {
+StepMeter::StepMeter(const scene::Scene& scene)
+    : cursor_(scene),
+      band_(scene.run.settling_band),
+      tells_mismatch_(scene::design_control(scene).tells_mismatch) {
   for (const TargetSpan& span : cursor_.spans()) {
     Tally tally;
     tally.settled_s = span.begin_s;
@@ -30,6 +35,10 @@ StepMeter::StepMeter(const scene::Scene& scene) : cursor_(scene), band_(scene.ru
 void StepMeter::take(const loop::Period& period) {
   const std::size_t index = cursor_.span_of(period);
   if (index == SpanCursor::none) {
+    return;
+  }
+  take_pause(period);
+  if (pausing_) {
     return;
   }
   const TargetSpan& span = cursor_.spans()[index];
@@ -45,6 +54,26 @@ std::vector<StepMetrics> StepMeter::steps() const {
     all.push_back(metrics(cursor_.spans()[i], tallies_[i]));
   }
   return all;
+}
+
+PauseMetrics StepMeter::pauses() const {
+  if (paused_periods_ == 0) {
+    return {};
+  }
+  const auto all = static_cast<double>(periods_);
+  const auto driven = static_cast<double>(periods_ - paused_periods_);
+  return {pauses_, paused_periods_, static_cast<double>(paused_periods_) / all,
+          sum_ / all - (sum_ - paused_sum_) / driven};
+}
+
+void StepMeter::take_pause(const loop::Period& period) {
+  const bool pausing = period.state == control::State::relearning;
+  pauses_ += pausing && !pausing_ ? 1 : 0;
+  pausing_ = pausing;
+  paused_periods_ += pausing ? 1 : 0;
+  paused_sum_ += pausing ? period.friction_ratio : 0.0;
+  sum_ += period.friction_ratio;
+  ++periods_;
 }
 
 void StepMeter::take_any(const loop::Period& period, const TargetSpan& span, Tally& tally) const {
@@ -65,20 +94,42 @@ void StepMeter::take_steady(const loop::Period& period, Tally& tally) {
   tally.lowest = std::min(tally.lowest, period.friction_ratio);
   tally.highest = std::max(tally.highest, period.friction_ratio);
   ++tally.limit_count[static_cast<std::size_t>(period.limit)];
+  tally.fault = tally.fault || period.state == control::State::fault;
+  if (period.settling == control::Settling::settled) {
+    ++tally.settled_periods;
+    tally.mismatch_sum += period.commanded_ratio / period.target;
+  }
+  if (period.limit == control::Limit::not_settling) {
+    tally.cause = period.settling;
+  }
   ++tally.steady_periods;
 }
 
-StepMetrics StepMeter::metrics(const TargetSpan& span, const Tally& tally) {
+StepMetrics StepMeter::metrics(const TargetSpan& span, const Tally& tally) const {
   const bool settled = tally.periods > 0 && tally.settled_s < tally.last_end_s;
   const auto count = static_cast<double>(tally.steady_periods);  // none: the means are NaN
-  return {span.step_s,
-          span.target,
-          settled ? std::optional<double>(tally.settled_s - span.begin_s) : std::nullopt,
-          tally.periods > 0 ? tally.overshoot : undefined,
-          tally.ratio_sum / count - span.target,
-          tally.steady_periods > 0 ? 0.5 * (tally.highest - tally.lowest) : undefined,
-          tally.drive_sum_N / count,
-          prevailing_limit(tally.limit_count)};
+  StepMetrics metrics;
+  metrics.time_s = span.step_s;
+  metrics.target = span.target;
+  if (settled) {
+    metrics.settling_time_s = tally.settled_s - span.begin_s;
+  }
+  metrics.overshoot = tally.periods > 0 ? tally.overshoot : undefined;
+  metrics.steady_error = tally.ratio_sum / count - span.target;
+  metrics.ripple = tally.steady_periods > 0 ? 0.5 * (tally.highest - tally.lowest) : undefined;
+  metrics.drive_amplitude_N = tally.drive_sum_N / count;
+  metrics.limit = prevailing_limit(tally.limit_count);
+  metrics.cause = tally.cause;
+  if (tally.settled_periods > 0 && tells_mismatch_) {
+    metrics.mismatch = tally.mismatch_sum / static_cast<double>(tally.settled_periods);
+  }
+  if (!settled && metrics.limit == control::Limit::none && !tally.fault) {
+    const bool believed = 2 * tally.settled_periods > tally.steady_periods;
+    const bool off = std::abs(metrics.steady_error) > band_;
+    metrics.limit = believed && off ? control::Limit::mismatch : control::Limit::not_settling;
+    metrics.limit_seen_by_controller = false;
+  }
+  return metrics;
 }
 
 }  // namespace sonoglide::analysis

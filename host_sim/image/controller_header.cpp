@@ -69,10 +69,11 @@ PartText friction_part(const scene::ControlDesign& design, const ScalarText& sca
   if (!design.calibrated) {
     return {"trusted_friction", "TrustedFriction<Scalar>", "{}"};
   }
-  return {"learnt_friction", "LearntFriction<Scalar>",
-          fmt::format("{{{}, {}, {}}}", design.calibration_settle_periods,
-                      design.calibration_average_periods,
-                      scalar.accumulated(1.0 / design.calibration_average_periods))};
+  return {
+      "learnt_friction", "LearntFriction<Scalar>",
+      fmt::format("{{{}, {}, {}, {}}}", design.calibration_settle_periods,
+                  design.calibration_average_periods, scalar.accumulated(design.calibration_weight),
+                  design.calibration_total_periods)};
 }
 
 PartText feedforward_part(const scene::Scene& scene, const scene::ControlDesign& design,
@@ -107,8 +108,22 @@ PartText regulator_part(const scene::ControlDesign& design, const ScalarText& sc
   if (design.integral_gain == 0.0) {
     return {"no_feedback", "NoFeedback<Scalar>", "{}"};
   }
-  return {"integral_regulator", "IntegralRegulator<Scalar>",
-          fmt::format("{{{}, {}}}", scalar.number(design.integral_gain), design.hold_periods)};
+  return {"integral_regulator",
+          fmt::format("IntegralRegulator<Scalar, {}>", design.reference_delay_periods),
+          fmt::format("{{{}, {}, {}, {}, {}}}", scalar.number(design.integral_gain),
+                      scalar.number(design.reference_keep), design.hold_periods,
+                      design.rest_periods, design.reference_delay_periods)};
+}
+
+PartText relearning_part(const scene::ControlDesign& design, const ScalarText& scalar) {
+  if (!design.relearns) {
+    return {"no_relearning", "NoRelearning<Scalar>", "{}"};
+  }
+  return {"periodic_relearning", "PeriodicRelearning<Scalar>",
+          fmt::format("{{{}, {}, {}, {}, {}, {}, {}}}", design.relearn_every_periods,
+                      design.relearn_quiet_periods, scalar.number(design.relearn_travel),
+                      design.relearn_reading_periods, design.relearn_return_periods,
+                      design.relearn_average_periods, scalar.accumulated(design.relearn_weight))};
 }
 
 /// The carrier period, counted from 0, whose sample a target step is in force for: the sample is
@@ -171,8 +186,9 @@ std::string controller_header(const scene::Scene& scene) {
   const scene::ControlDesign design = scene::design_control(scene);
   const ScalarText scalar = scalar_text(scene.controller->arithmetic);
   const std::vector<PartText> parts{
-      friction_part(design, scalar), feedforward_part(scene, design, scalar),
-      slew_part(design, scalar), shaper_part(design, scalar), regulator_part(design, scalar)};
+      friction_part(design, scalar),  feedforward_part(scene, design, scalar),
+      slew_part(design, scalar),      shaper_part(design, scalar),
+      regulator_part(design, scalar), relearning_part(design, scalar)};
   std::string types;
   std::string parameters;
   for (const PartText& part : parts) {
@@ -191,9 +207,15 @@ using Parts = control::Parts<Scalar{}>;
 
 inline constexpr control::Controller<Parts>::Parameters parameters{{
     {},  // friction_force, of {} N
+    {},  // smallest_friction
     {},  // speed_floor, of {} m/s
     {},  // lead
-{}    {{{}}},  // stuck
+{}    {{{}, {}}},  // standstill
+    {{{}}},  // stuck
+    {{{}}},  // plausibility
+    {{{}, {}, {}}},  // watch
+    {{}},  // ceiling
+    {{}},  // samples
 }};
 
 inline constexpr TargetStep<Scalar> target_steps[] = {{
@@ -208,9 +230,12 @@ inline constexpr std::uint32_t design = {:#010x};
 }}  // namespace sonoglide::app::configuration
 )",
       scene.name, includes(parts, scalar), scalar.type, types, scalar.number(design.friction_force),
-      design.scales.force_N, scalar.number(design.speed_floor), design.scales.velocity_m_per_s,
-      scalar.number(design.lead_periods / 64.0), parameters, design.stuck_periods,
-      target_steps(scene, scalar), design.scales.carrier_period_s,
+      design.scales.force_N, scalar.number(design.smallest_friction),
+      scalar.number(design.speed_floor), design.scales.velocity_m_per_s,
+      scalar.number(design.lead_periods / 64.0), parameters, design.standstill_hold_periods,
+      scalar.number(design.standstill_fall), design.stuck_periods, design.implausible_periods,
+      scalar.number(design.settling_band), design.settling_patience_periods,
+      scalar.number(design.agreement), target_steps(scene, scalar), design.scales.carrier_period_s,
       design_number(types, parameters, design.scales));
 }
 

@@ -47,6 +47,11 @@ void require_ideal(const scene::Sensor& sensor) {
   require(sensor.force_noise_N == 0.0, "sensor.force_noise_N", ideal + "allowed: 0");
   require(!sensor.force_bandwidth_Hz, "sensor.force_bandwidth_Hz", ideal + "remove it");
   require(sensor.delay_periods == 0, "sensor.delay_periods", ideal + "allowed: 0");
+  require(sensor.force_offset_N == 0.0, "sensor.force_offset_N", ideal + "allowed: 0");
+  require(sensor.force_gain == 1.0, "sensor.force_gain", ideal + "allowed: 1");
+  require(sensor.velocity_offset_m_per_s == 0.0, "sensor.velocity_offset_m_per_s",
+          ideal + "allowed: 0");
+  require(sensor.velocity_gain == 1.0, "sensor.velocity_gain", ideal + "allowed: 1");
 }
 
 std::uint64_t whole_periods(const scene::Scene& scene) {
@@ -73,11 +78,13 @@ struct SceneNumbers {
   double vibration_sign;    ///< +1 dissipative, −1 as printed
   std::int32_t sliding_code;
   plant::State<double> initial;
+  int latency_periods;  ///< of the drive
 
   explicit SceneNumbers(const scene::Scene& scene)
       : plant(scene),
         codes(scene::design_control(scene).scales),
-        vibration_sign(scene::vibration_sign(scene.friction.sign_convention)) {
+        vibration_sign(scene::vibration_sign(scene.friction.sign_convention)),
+        latency_periods(scene.drive->delay_periods) {
     const double sliding_m_per_s = constant_sliding_m_per_s(scene.sliding);
     const scene::PlantScales& scales = plant.scales;
     sliding_velocity = sliding_m_per_s / scales.velocity_m_per_s();
@@ -101,7 +108,7 @@ PlantText float_plant(const SceneNumbers& scene) {
 )",
       fmt::format(
           R"(using PlantModel = plant::Model<friction::Dahl<float>, plant::{}<float>, plant::CosineDrive>;
-using PlantBoard = hal::simulated::PlantBoard<plant::Strang<PlantModel>>;
+using PlantBoard = hal::simulated::PlantBoard<plant::Strang<PlantModel>, {}>;
 
 inline constexpr PlantBoard::Parameters plant_parameters{{
     {{{{{{{}}}, {}, {}}}, {{{}}}, {}}},  // contact, damping, stiffness
@@ -113,12 +120,13 @@ inline constexpr PlantBoard::Parameters plant_parameters{{
     {},  // sliding_code
 }};
 )",
-          damped ? "Damped" : "Undamped", float_number(numbers.contact_stiffness),
-          float_number(numbers.friction_force), float_number(scene.vibration_sign),
-          damped ? float_number(numbers.damping) : "", float_number(numbers.stiffness),
-          float_number(numeric::two_pi / steps_per_period), steps_per_period,
-          float_number(scene.initial.displacement), float_number(scene.initial.velocity),
-          float_number(scene.initial.friction), float_number(scene.full_drive),
+          damped ? "Damped" : "Undamped", scene.latency_periods,
+          float_number(numbers.contact_stiffness), float_number(numbers.friction_force),
+          float_number(scene.vibration_sign), damped ? float_number(numbers.damping) : "",
+          float_number(numbers.stiffness), float_number(numeric::two_pi / steps_per_period),
+          steps_per_period, float_number(scene.initial.displacement),
+          float_number(scene.initial.velocity), float_number(scene.initial.friction),
+          float_number(scene.full_drive),
           float_number(scene.plant.scales.friction_N / (numeric::two_pi * scene.codes.force_N)),
           float_number(scene.sliding_velocity), scene.sliding_code)};
 }
@@ -184,7 +192,7 @@ PlantText fixed_plant(const SceneNumbers& scene) {
   return {
       R"(#include "hal/simulated/fixed_plant_board.hpp"
 )",
-      fmt::format(R"(using PlantBoard = hal::simulated::FixedPlantBoard;
+      fmt::format(R"(using PlantBoard = hal::simulated::FixedPlantBoard<{}>;
 
 inline constexpr PlantBoard::Parameters plant_parameters{{
     {{
@@ -203,10 +211,10 @@ inline constexpr PlantBoard::Parameters plant_parameters{{
     {},  // sliding_code
 }};
 )",
-                  g[0][0], g[0][1], g[1][0], g[1][1], driven_rows(p), p.kick, p.contact_stiffness,
-                  p.step, p.sliding_velocity, p.sliding_travel, p.side, p.initial[0], p.initial[1],
-                  p.initial[2], std::lround(std::ldexp(force_per_friction, 26)),
-                  scene.sliding_code)};
+                  scene.latency_periods, g[0][0], g[0][1], g[1][0], g[1][1], driven_rows(p), p.kick,
+                  p.contact_stiffness, p.step, p.sliding_velocity, p.sliding_travel, p.side,
+                  p.initial[0], p.initial[1], p.initial[2],
+                  std::lround(std::ldexp(force_per_friction, 26)), scene.sliding_code)};
 }
 
 PlantText plant_text(const SceneNumbers& scene, scene::Arithmetic arithmetic) {

@@ -8,19 +8,22 @@ ControlRun::ControlRun(const scene::Scene& scene, const CarrierGrid& grid, Contr
       grid_(grid),
       port_(port),
       record_(record),
-      sensor_(scene.sensor, record.design.scales) {}
+      sensor_(scene.sensor, record.design.scales),
+      actuator_(scene.drive->delay_periods, record.design.scales.drive_amplitude_N) {}
 
 void ControlRun::label(Period& period) const {
-  period.target = target_;
-  period.state = state_;
-  period.limit = limit_;
+  const Command& command = actuator_.in_force();
+  period.target = command.target;
+  period.state = command.state;
+  period.limit = command.limit;
+  period.settling = command.settling;
+  period.commanded_ratio = command.commanded_ratio;
 }
 
 void ControlRun::step(double time_s, double mean_force_N, double sliding_velocity_m_per_s) {
-  constexpr double unit = 1.0 / 2147483648.0;  // of an amplitude code, 2^-31
   follow_target(time_s);
   const hal::Drive drive = port_.exchange(sensor_.sample(mean_force_N, sliding_velocity_m_per_s));
-  amplitude_N_ = drive.amplitude * unit * record_.design.scales.drive_amplitude_N;
+  actuator_.take(drive, target_);
   account_for(drive, time_s);
 }
 
@@ -39,8 +42,6 @@ void ControlRun::follow_target(double time_s) {
 }
 
 void ControlRun::account_for(const hal::Drive& drive, double time_s) {
-  state_ = static_cast<control::State>(drive.state);
-  limit_ = static_cast<control::Limit>(drive.limit);
   const auto fault = static_cast<control::Fault>(drive.fault);
   if (fault != control::Fault::none && fault != fault_) {
     record_.faults.push_back({time_s, fault});
@@ -48,7 +49,8 @@ void ControlRun::account_for(const hal::Drive& drive, double time_s) {
   fault_ = fault;
   hash_.add(drive);
   ++record_.commands;
-  record_.saturated_commands += limit_ == control::Limit::actuator ? 1 : 0;
+  const auto limit = static_cast<control::Limit>(drive.limit);
+  record_.saturated_commands += limit == control::Limit::actuator ? 1 : 0;
 }
 
 }  // namespace sonoglide::loop

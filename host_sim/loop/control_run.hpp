@@ -7,6 +7,7 @@
 
 #include "firmware/control/drive_command.hpp"
 #include "hal/trace_hash.hpp"
+#include "host_sim/loop/actuator.hpp"
 #include "host_sim/loop/carrier_grid.hpp"
 #include "host_sim/loop/control_port.hpp"
 #include "host_sim/loop/period.hpp"
@@ -23,7 +24,7 @@ class ControlRun {
              ControlRecord& record);
 
   /// In force during the next carrier period.
-  double amplitude_N() const { return amplitude_N_; }
+  double amplitude_N() const { return actuator_.in_force().amplitude_N; }
 
   /// Notes in the period that has just passed what drove it.
   void label(Period& period) const;
@@ -43,12 +44,10 @@ class ControlRun {
   ControlPort& port_;
   ControlRecord& record_;
   Sensor sensor_;
+  Actuator actuator_;
   hal::TraceHash hash_;
   std::size_t next_step_ = 0;
   double target_ = std::numeric_limits<double>::quiet_NaN();
-  double amplitude_N_ = 0.0;
-  control::State state_ = control::State::off;
-  control::Limit limit_ = control::Limit::none;
   control::Fault fault_ = control::Fault::none;
 };
 

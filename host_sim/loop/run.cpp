@@ -68,7 +68,8 @@ class Simulation {
     const double end_velocity_m_per_s = plant_.sliding_velocity_m_per_s();
     if (!watch_.periods.empty()) {
       show({begin_s, end_s, friction_ratio(energy), begin_velocity_m_per_s, end_velocity_m_per_s,
-            amplitude_N, undefined, control::State::off, control::Limit::none});
+            amplitude_N, undefined, control::State::off, control::Limit::none,
+            control::Settling::pending, undefined});
     }
     if (control_ && grid_.is_whole(index)) {
       control_->step(end_s, energy.friction_impulse_N_s / energy.duration_s, end_velocity_m_per_s);

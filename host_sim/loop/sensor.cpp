@@ -47,10 +47,12 @@ Sensor::Sensor(const scene::Sensor& sensor, const scene::ControlScales& scales)
 }
 
 hal::Sample Sensor::sample(double mean_force_N, double sliding_velocity_m_per_s) {
-  const double force_N = delayed(filtered(mean_force_N)) + noise();
+  const double force_N =
+      sensor_.force_gain * delayed(filtered(mean_force_N)) + sensor_.force_offset_N + noise();
+  const double velocity_m_per_s =
+      sensor_.velocity_gain * sliding_velocity_m_per_s + sensor_.velocity_offset_m_per_s;
   const Conversion force = convert(force_N, scales_.force_N, sensor_.adc_bits.value_or(ideal_bits));
-  const Conversion velocity =
-      convert(sliding_velocity_m_per_s, scales_.velocity_m_per_s, ideal_bits);
+  const Conversion velocity = convert(velocity_m_per_s, scales_.velocity_m_per_s, ideal_bits);
   return {force.code, velocity.code, force.at_rail, true};
 }
 

@@ -1,4 +1,4 @@
-/// The force sensor between plant and controller.
+/// The sensors of friction force and sliding velocity between plant and controller.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,11 @@
 namespace sonoglide::loop {
 
 /// Turns the true mean friction force of each carrier period into the sample that the board gets:
-/// first-order low-pass, delay, noise, converter. The sliding velocity is measured ideally.
+/// first-order low-pass, delay, gain and offset, noise, converter. The sliding velocity goes
+/// through its gain and offset, and a converter of 32 bits.
+///
+/// Gain and offset are those of the wiring: before the delay's first reading has arrived, the
+/// sensor reads its offset.
 ///
 /// The low-pass acts on the running mean over one carrier period, taken as linear between samples:
 /// a sensor that is slow against the carrier and averages over it. Its noise is white and

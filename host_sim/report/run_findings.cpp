@@ -54,6 +54,10 @@ std::vector<analysis::StepMetrics> RunFindings::steps() const {
   return step_meter_ ? step_meter_->steps() : std::vector<analysis::StepMetrics>();
 }
 
+analysis::PauseMetrics RunFindings::pauses() const {
+  return step_meter_ ? step_meter_->pauses() : analysis::PauseMetrics();
+}
+
 std::optional<double> RunFindings::largest_tracking_error() const {
   return tracking_meter_ ? tracking_meter_->largest_error() : std::nullopt;
 }

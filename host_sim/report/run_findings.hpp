@@ -44,6 +44,8 @@ class RunFindings {
 
   /// In open loop empty.
   std::vector<analysis::StepMetrics> steps() const;
+  /// Of a loop that learns the friction force anew.
+  analysis::PauseMetrics pauses() const;
   std::optional<double> largest_tracking_error() const;
   const Course& course() const { return course_; }
   /// A few carrier periods at each of the first target steps; in open loop at the beginning.

@@ -68,12 +68,16 @@ std::vector<std::string> warnings(const scene::Scene& scene, const loop::RunResu
                     percent(static_cast<double>(result.control->saturated_commands) /
                             static_cast<double>(result.control->commands))));
   }
-  if (result.control->design.free_mode) {
+  for (std::string& note : scene::design_notes(result.control->design)) {
+    all.push_back(std::move(note));
+  }
+  if (result.control->design.relearns) {
+    const analysis::PauseMetrics pauses = findings.pauses();
     all.push_back(
-        fmt::format("No notch is on the natural mode: each change of the drive makes it ring. The "
-                    "feedback gain "
-                    "is {:.3g} per carrier period.",
-                    result.control->design.integral_gain));
+        fmt::format("The drive paused {} times to learn the friction force anew: {} of the time. "
+                    "The pauses raise "
+                    "the mean friction ratio by {:.3g}; the table of target steps leaves them out.",
+                    pauses.pauses, percent(pauses.time_fraction), pauses.ratio_cost));
   }
   if (scene.controller->target_friction_ratio.size() > findings.close_ups().size()) {
     all.push_back(fmt::format("Close-ups are shown of the first {} target steps.",
@@ -100,7 +104,7 @@ Table step_table(const RunFindings& findings) {
          step.settling_time_s ? fmt::format("{:.1f}", *step.settling_time_s * 1e6) : "never",
          fmt::format("{:.5f}", step.overshoot), fmt::format("{:+.5f}", step.steady_error),
          fmt::format("{:.5f}", step.ripple), fmt::format("{:.1f}", step.drive_amplitude_N),
-         limit_name(step.limit)});
+         limit_text(step)});
   }
   return table;
 }

@@ -15,14 +15,23 @@ std::string settling(const std::optional<double>& time_s) {
   return time_s ? fmt::format("{:.1f} us", *time_s * 1e6) : std::string("never");
 }
 
+std::string pause_line(const analysis::PauseMetrics& metrics) {
+  return fmt::format(
+      "friction learnt anew in {} pauses, {:.3g} % of the time; they raise the mean ratio by "
+      "{:.2g}\n",
+      metrics.pauses, 100.0 * metrics.time_fraction, metrics.ratio_cost);
+}
+
 std::string step_lines(const loop::RunResult& result, const RunFindings& findings) {
   std::string text = fmt::format("{:>11} {:>7} {:>11} {:>10} {:>8} {:>10}  {}\n", "from", "target",
                                  "settles in", "error", "ripple", "drive", "limit");
   for (const analysis::StepMetrics& step : findings.steps()) {
-    text +=
-        fmt::format("{:>8.3f} ms {:>7.3f} {:>11} {:>+10.5f} {:>8.5f} {:>8.1f} N  {}\n",
-                    step.time_s * 1e3, step.target, settling(step.settling_time_s),
-                    step.steady_error, step.ripple, step.drive_amplitude_N, limit_name(step.limit));
+    text += fmt::format("{:>8.3f} ms {:>7.3f} {:>11} {:>+10.5f} {:>8.5f} {:>8.1f} N  {}\n",
+                        step.time_s * 1e3, step.target, settling(step.settling_time_s),
+                        step.steady_error, step.ripple, step.drive_amplitude_N, limit_text(step));
+  }
+  if (result.control->design.relearns) {
+    text += pause_line(findings.pauses());
   }
   for (const loop::FaultEvent& event : result.control->faults) {
     text += fmt::format("FAULT at {:.3f} ms: {}; the drive is off from there on\n",

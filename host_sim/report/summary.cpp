@@ -40,6 +40,18 @@ ordered_json steady_orbit(const loop::SteadyOrbit& orbit) {
           {"carrier_periods_solved", orbit.periods}};
 }
 
+ordered_json limit_seen_by(const analysis::StepMetrics& metrics) {
+  if (metrics.limit == control::Limit::none) {
+    return nullptr;
+  }
+  return metrics.limit_seen_by_controller ? "controller" : "simulation";
+}
+
+ordered_json cause(const analysis::StepMetrics& metrics) {
+  return metrics.cause == control::Settling::pending ? ordered_json(nullptr)
+                                                     : ordered_json(settling_name(metrics.cause));
+}
+
 ordered_json step(const analysis::StepMetrics& metrics) {
   return {{"time_s", metrics.time_s},
           {"target", metrics.target},
@@ -48,7 +60,17 @@ ordered_json step(const analysis::StepMetrics& metrics) {
           {"steady_error", number(metrics.steady_error)},
           {"ripple", number(metrics.ripple)},
           {"drive_amplitude_N", number(metrics.drive_amplitude_N)},
-          {"limit", limit_name(metrics.limit)}};
+          {"limit", limit_name(metrics.limit)},
+          {"limit_seen_by", limit_seen_by(metrics)},
+          {"cause", cause(metrics)},
+          {"mismatch", number(metrics.mismatch)}};
+}
+
+ordered_json pauses(const analysis::PauseMetrics& metrics) {
+  return {{"pauses", metrics.pauses},
+          {"periods", metrics.periods},
+          {"time_fraction", metrics.time_fraction},
+          {"ratio_cost", metrics.ratio_cost}};
 }
 
 ordered_json signal(const numeric::SignalRecord& record) {
@@ -74,7 +96,7 @@ ordered_json control(const scene::Scene& scene, const loop::RunResult& result,
   for (const numeric::SignalRecord& entry : record.signals) {
     signals.push_back(signal(entry));
   }
-  return {
+  ordered_json json = {
       {"arithmetic", scene::name_of(scene::arithmetics, scene.controller->arithmetic)},
       {"trace_hash", fmt::format("{:016x}", record.trace_hash)},
       {"saturated_fraction", record.commands == 0 ? 0.0
@@ -86,6 +108,10 @@ ordered_json control(const scene::Scene& scene, const loop::RunResult& result,
       {"speed_floor_m_per_s", design.speed_floor * design.scales.velocity_m_per_s},
       {"integral_gain", design.integral_gain},
       {"signals", signals}};
+  if (design.relearns) {
+    json["relearning"] = pauses(findings.pauses());
+  }
+  return json;
 }
 
 ordered_json instructions(const loop::InstructionRange& range) {

@@ -58,6 +58,8 @@ struct Drive {
   double max_force_amplitude_N = 0.0;            ///< closed loop: the actuator's limit
   std::optional<double> max_force_slew_N_per_s;  ///< closed loop: absent, no slew limit
   Waveform waveform = Waveform::cosine;
+  int delay_periods =
+      1;  ///< closed loop: from the end of a sampled period to where its answer acts
 };
 
 struct Solver {
@@ -97,15 +99,23 @@ struct Controller {
   double calibration_s = 0.0;
   Shaping shaping = Shaping::notch;
   std::optional<double> speed_floor_m_per_s;  ///< absent: the controller's own default
+  double standstill_hold_s = 0.02;            ///< for which the drive is held below the speed floor
+  std::optional<double> relearn_every_s;      ///< absent: the friction force is not learnt again
+  double mismatch_warning = 1.25;  ///< believed over true friction, or its inverse, that is named
 };
 
-/// Absent members leave that part of the sensor ideal.
+/// Absent members leave that part of the sensor ideal. Of offsets and gains the controller knows
+/// nothing.
 struct Sensor {
   std::optional<int> adc_bits;
   double force_full_scale_N = 0.0;  ///< the converter spans ± this
   double force_noise_N = 0.0;       ///< rms, each sample
   std::optional<double> force_bandwidth_Hz;
   int delay_periods = 0;
+  double force_offset_N = 0.0;
+  double force_gain = 1.0;  ///< reading over true; -1: wired backwards, 0: dead
+  double velocity_offset_m_per_s = 0.0;
+  double velocity_gain = 1.0;
   std::uint64_t seed = 1;
 };
 

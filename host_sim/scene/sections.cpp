@@ -23,6 +23,7 @@ constexpr std::string_view in_open_loop = "in open loop, without a [controller] 
 
 constexpr Range time_range{0.0, largest_time_s, "s"};
 constexpr Range speed_range{-largest_speed_m_per_s, largest_speed_m_per_s, "m/s"};
+constexpr Range sensor_gain_range{-100.0, 100.0};
 
 bool closed_loop(const Variant& variant) {
   return variant.find("controller") != nullptr;
@@ -197,6 +198,7 @@ std::optional<Drive> read_drive(const Variant& variant) {
         cursor.real("max_force_amplitude_N", {1e-12, largest_force_N, "N"});
     drive.max_force_slew_N_per_s =
         cursor.optional_real("max_force_slew_N_per_s", {1e-12, 1e21, "N/s"});
+    drive.delay_periods = static_cast<int>(cursor.integer("delay_periods", 0, 16, 1));
   } else {
     drive.force_amplitude_N = cursor.real("force_amplitude_N", {0.0, largest_force_N, "N"});
   }
@@ -279,6 +281,11 @@ std::optional<Controller> read_controller(const Variant& variant, const Scene& s
   controller.shaping = cursor.choice("shaping", shapings, Shaping::notch);
   controller.speed_floor_m_per_s =
       cursor.optional_real("speed_floor_m_per_s", {1e-12, largest_speed_m_per_s, "m/s"});
+  controller.standstill_hold_s =
+      cursor.real("standstill_hold_s", time_range, controller.standstill_hold_s);
+  controller.relearn_every_s = cursor.optional_real("relearn_every_s", {1e-9, largest_time_s, "s"});
+  controller.mismatch_warning =
+      cursor.real("mismatch_warning", {1.01, 100.0}, controller.mismatch_warning);
   return controller;
 }
 
@@ -293,6 +300,11 @@ Sensor read_sensor(const Variant& variant, const Friction& friction) {
   sensor.force_noise_N = cursor.real("force_noise_N", {0.0, largest_force_N, "N"}, 0.0);
   sensor.force_bandwidth_Hz = cursor.optional_real("force_bandwidth_Hz", {1e-3, 1e12, "Hz"});
   sensor.delay_periods = static_cast<int>(cursor.integer("delay_periods", 0, 64, 0));
+  sensor.force_offset_N =
+      cursor.real("force_offset_N", {-largest_force_N, largest_force_N, "N"}, 0.0);
+  sensor.force_gain = cursor.real("force_gain", sensor_gain_range, 1.0);
+  sensor.velocity_offset_m_per_s = cursor.real("velocity_offset_m_per_s", speed_range, 0.0);
+  sensor.velocity_gain = cursor.real("velocity_gain", sensor_gain_range, 1.0);
   sensor.seed = static_cast<std::uint64_t>(
       cursor.integer("seed", 0, std::numeric_limits<std::int64_t>::max(), 1));
   return sensor;

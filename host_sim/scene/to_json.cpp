@@ -107,6 +107,7 @@ ordered_json echo(const Drive& drive, bool closed_loop) {
   if (closed_loop) {
     table["max_force_amplitude_N"] = drive.max_force_amplitude_N;
     add_if_set(table, "max_force_slew_N_per_s", drive.max_force_slew_N_per_s);
+    table["delay_periods"] = drive.delay_periods;
   }
   return table;
 }
@@ -153,6 +154,9 @@ ordered_json echo(const Controller& controller) {
   table["calibration_s"] = controller.calibration_s;
   table["shaping"] = name_of(shapings, controller.shaping);
   add_if_set(table, "speed_floor_m_per_s", controller.speed_floor_m_per_s);
+  table["standstill_hold_s"] = controller.standstill_hold_s;
+  add_if_set(table, "relearn_every_s", controller.relearn_every_s);
+  table["mismatch_warning"] = controller.mismatch_warning;
   return table;
 }
 
@@ -163,6 +167,10 @@ ordered_json echo(const Sensor& sensor) {
   table["force_noise_N"] = sensor.force_noise_N;
   add_if_set(table, "force_bandwidth_Hz", sensor.force_bandwidth_Hz);
   table["delay_periods"] = sensor.delay_periods;
+  table["force_offset_N"] = sensor.force_offset_N;
+  table["force_gain"] = sensor.force_gain;
+  table["velocity_offset_m_per_s"] = sensor.velocity_offset_m_per_s;
+  table["velocity_gain"] = sensor.velocity_gain;
   table["seed"] = sensor.seed;
   return table;
 }

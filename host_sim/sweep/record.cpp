@@ -87,7 +87,7 @@ std::optional<Record> parse_record(std::string_view text) {
     record.row.*figure = from_bits(numbers.next(hexadecimal));
   }
   const std::uint64_t limit = numbers.next(decimal);
-  if (!numbers.good() || limit > static_cast<std::uint64_t>(control::Limit::speed_floor)) {
+  if (!numbers.good() || limit >= control::limit_count) {
     return std::nullopt;
   }
   record.row.limit = static_cast<control::Limit>(limit);

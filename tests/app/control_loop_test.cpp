@@ -106,14 +106,18 @@ TYPED_TEST(ControlLoopTest, ASampleThatIsNotFreshIsMissing) {
 
 TYPED_TEST(ControlLoopTest, TheCommandReachesTheBoardAsCodes) {
   const auto half = numeric::from_real<TypeParam>(0.5);
-  const hal::Drive drive = this->driven(
-      {half, control::State::limited, control::Limit::speed_floor, control::Fault::none});
+  const hal::Drive drive =
+      this->driven({half, half, control::State::limited, control::Limit::speed_floor,
+                    control::Fault::none, control::Settling::settled});
   EXPECT_EQ(drive.amplitude, 1 << 30);
+  EXPECT_EQ(drive.commanded_ratio, 1 << 30);
+  EXPECT_EQ(drive.settling, 1);
   EXPECT_EQ(drive.state, 3);
   EXPECT_EQ(drive.limit, 3);
   EXPECT_EQ(drive.fault, 0);
-  const hal::Drive gone = this->driven({TypeParam{}, control::State::fault, control::Limit::none,
-                                        control::Fault::measurement_saturated});
+  const hal::Drive gone =
+      this->driven({TypeParam{}, half, control::State::fault, control::Limit::none,
+                    control::Fault::measurement_saturated, control::Settling::pending});
   EXPECT_EQ(gone.amplitude, 0);
   EXPECT_EQ(gone.state, 4);
   EXPECT_EQ(gone.limit, 0);
@@ -121,7 +125,8 @@ TYPED_TEST(ControlLoopTest, TheCommandReachesTheBoardAsCodes) {
 }
 
 TYPED_TEST(ControlLoopTest, FullDriveIsTheHighestCode) {
-  EXPECT_EQ(this->driven({numeric::from_code<TypeParam>(highest), {}, {}, {}}).amplitude, highest);
+  EXPECT_EQ(this->driven({numeric::from_code<TypeParam>(highest), {}, {}, {}, {}, {}}).amplitude,
+            highest);
 }
 
 TYPED_TEST(ControlLoopTest, ServesUntilTheBoardShutsDown) {
@@ -144,13 +149,16 @@ TYPED_TEST(ControlLoopTest, ALostSampleEndsTheDriveInTheSameStep) {
   using Parts =
       control::Parts<TypeParam, control::TrustedFriction<TypeParam>,
                      control::CoulombFeedforward<TypeParam>, control::NoSlewLimit<TypeParam>,
-                     control::NoShaping<TypeParam>, control::IntegralRegulator<TypeParam>>;
+                     control::NoShaping<TypeParam>, control::IntegralRegulator<TypeParam, 1>>;
   using Controller = control::Controller<Parts>;
   typename Controller::Parameters parameters{};
   parameters.friction_force = numeric::from_real<TypeParam>(0.5);
   parameters.speed_floor = numeric::from_real<TypeParam>(0.01);
-  parameters.regulator = {numeric::from_real<TypeParam>(0.1), 3};
+  parameters.smallest_friction = control::FrictionLevel<TypeParam>::smallest();
+  parameters.regulator = {numeric::from_real<TypeParam>(0.1), TypeParam{}, 3, 12, 1};
   parameters.stuck = {10};
+  parameters.plausibility = {20};
+  parameters.watch = {numeric::from_real<TypeParam>(0.01), 50, numeric::from_real<TypeParam>(0.8)};
   Controller controller(parameters);
   controller.set_target(numeric::from_real<TypeParam>(0.25));
   controller.start();

@@ -20,17 +20,32 @@ namespace {
 template <class S>
 class FieldParametersTest : public testing::Test {
  protected:
-  using Parts =
-      control::Parts<S, control::TrustedFriction<S>, control::CoulombFeedforward<S>,
-                     control::NoSlewLimit<S>, control::NoShaping<S>, control::IntegralRegulator<S>>;
+  using Parts = control::Parts<S, control::TrustedFriction<S>, control::CoulombFeedforward<S>,
+                               control::NoSlewLimit<S>, control::NoShaping<S>,
+                               control::IntegralRegulator<S, 1>>;
   using Designed = typename control::Controller<Parts>::Parameters;
   using Design = FieldDesign<Parts>;
 
   static constexpr S real(double value) { return numeric::from_real<S>(value); }
   /// Numbers that no millionth equals.
-  static constexpr Designed designed{
-      real(1.0 / 3.0), real(0.01 / 7.0), real(0.1), {}, {}, {}, {}, {real(1.0 / 9.0), 3}, {10}, {}};
-  static constexpr Design design{designed, real(1.0 / 6.0), 1};
+  static constexpr Designed designed = {real(1.0 / 3.0),
+                                        real(1.0 / 700.0),
+                                        real(0.01 / 7.0),
+                                        real(0.1),
+                                        {},
+                                        {},
+                                        {},
+                                        {},
+                                        {real(1.0 / 9.0), real(0.0), 3, 12, 1},
+                                        {},
+                                        {500, real(1.0 / 128.0)},
+                                        {10},
+                                        {20},
+                                        {real(1.0 / 90.0), 60, real(0.7)},
+                                        {},
+                                        {}};
+  static constexpr double period_s = 1.0 / 60e3;
+  static constexpr Design design{designed, real(1.0 / 6.0), 1, period_s, timeout_of_link};
 
   static ParameterValues with(Parameter parameter, std::uint32_t value) {
     ParameterValues values = design.presets();
@@ -101,36 +116,104 @@ TYPED_TEST(FieldParametersTest, PresetsAndTheEndsOfRangesAreAllowed) {
   EXPECT_FALSE(smallest.friction_force < control::FrictionLevel<TypeParam>::smallest());
 }
 
-TYPED_TEST(FieldParametersTest, AnotherDesignIsAnotherLayout) {
+TYPED_TEST(FieldParametersTest, AnotherDesignHasAnotherNumber) {
   using Other = typename TestFixture::Design;
   auto other = TestFixture::designed;
   other.speed_floor = this->real(0.02);
   const auto target = this->real(1.0 / 6.0);
-  const std::set<std::uint32_t> layouts{
-      TestFixture::design.layout(), Other(TestFixture::designed, target, 2).layout(),
-      Other(TestFixture::designed, this->real(0.2), 1).layout(), Other(other, target, 1).layout()};
-  EXPECT_EQ(layouts.size(), 4U);
-  EXPECT_EQ(layouts.count(0xFFFFFFFFU), 0U);
+  const std::set<std::uint32_t> numbers{
+      TestFixture::design.design(),
+      Other(TestFixture::designed, target, 2, TestFixture::period_s, timeout_of_link).design(),
+      Other(TestFixture::designed, this->real(0.2), 1, TestFixture::period_s, timeout_of_link)
+          .design(),
+      Other(TestFixture::designed, target, 1, TestFixture::period_s, timeout_of_console).design(),
+      Other(other, target, 1, TestFixture::period_s, timeout_of_link).design()};
+  EXPECT_EQ(numbers.size(), 5U);
+}
+
+TYPED_TEST(FieldParametersTest, AParameterIsKnownByNameUnitAndPlaces) {
+  const auto& tested = TestFixture::design;
+  std::set<std::uint32_t> identities;
+  for (std::size_t i = 0; i < parameter_count; ++i) {
+    EXPECT_EQ(tested.identity(i), tested.info(i).identity());
+    identities.insert(tested.identity(i));
+  }
+  EXPECT_EQ(identities.size(), parameter_count);
+  ParameterInfo info = tested.info(0);
+  info.lowest = 5;
+  info.preset = 7;
+  EXPECT_EQ(info.identity(), tested.identity(0));
+  info.decimal_places = 3;
+  identities.insert(info.identity());
+  info.unit = " s";
+  identities.insert(info.identity());
+  info.name = "target ";
+  info.unit = "s";
+  identities.insert(info.identity());
+  EXPECT_EQ(identities.size(), parameter_count + 3);
+  // CRC-32 of "drive_limit", 0, 0, 6: the store's format.
+  EXPECT_EQ(tested.identity(1), 0x13371804U);
+}
+
+TYPED_TEST(FieldParametersTest, OfAnotherDesignOnlyLimitsAreInherited) {
+  const auto& tested = TestFixture::design;
+  const auto inherited = [&](Parameter parameter, std::uint32_t stored) {
+    return tested.info(static_cast<std::size_t>(parameter)).inherited(stored);
+  };
+  EXPECT_EQ(inherited(Parameter::drive_limit, 200000), 200000U);
+  EXPECT_EQ(inherited(Parameter::drive_limit, UINT32_MAX), 1000000U);
+  EXPECT_EQ(inherited(Parameter::gain_scale, 0), 0U);
+  EXPECT_EQ(inherited(Parameter::start_on_power, 1), 1U);
+  EXPECT_EQ(inherited(Parameter::host_timeout, 0), 0U);
+  EXPECT_EQ(inherited(Parameter::host_timeout, 99999), 60000U);
+  EXPECT_EQ(inherited(Parameter::speed_floor, 1000), 1429U);  // the design's, which is higher
+  EXPECT_EQ(inherited(Parameter::speed_floor, 5000), 5000U);
+  EXPECT_EQ(inherited(Parameter::target, 700000), 333333U);
+  EXPECT_EQ(inherited(Parameter::friction_force, 700000), 333333U);
+  EXPECT_EQ(inherited(Parameter::stuck_periods, 1000), 10U);
+}
+
+TYPED_TEST(FieldParametersTest, TheTimeoutIsCountedInCarrierPeriods) {
+  using Other = typename TestFixture::Design;
+  const auto periods = [](double period, std::uint32_t timeout_ms) {
+    const Other other(TestFixture::designed, TestFixture::real(1.0 / 6.0), 1, period,
+                      timeout_of_link);
+    return other.timeout_periods(TestFixture::with(Parameter::host_timeout, timeout_ms));
+  };
+  EXPECT_EQ(periods(1.0 / 60e3, 0), 0U);
+  EXPECT_EQ(periods(1.0 / 60e3, 1), 60U);
+  EXPECT_EQ(periods(1.0 / 60e3, 100), 6000U);
+  EXPECT_EQ(periods(1.0 / 60e3, 60000), 3600000U);
+  EXPECT_EQ(periods(16.0 / 60e3, 1), 4U);  // 3.75
+  EXPECT_EQ(periods(0.02, 1), 1U);
+  EXPECT_EQ(periods(1e-6, 60000), 60000000U);
 }
 
 template <class S>
 void expect_drive_within_its_limit() {
-  using Parts =
-      control::Parts<S, control::TrustedFriction<S>, control::DahlFeedforward<S>,
-                     control::NoSlewLimit<S>, control::NoShaping<S>, control::IntegralRegulator<S>>;
+  using Parts = control::Parts<S, control::TrustedFriction<S>, control::DahlFeedforward<S>,
+                               control::NoSlewLimit<S>, control::NoShaping<S>,
+                               control::IntegralRegulator<S, 1>>;
   static constexpr numeric::Split<double> force = numeric::split(1.0108);
   static constexpr typename control::Controller<Parts>::Parameters designed{
       numeric::from_real<S>(0.5),
+      numeric::from_real<S>(1.0 / 1024.0),
       numeric::from_real<S>(0.026),
       numeric::from_real<S>(0.02),
       {},
       {{numeric::from_real<S>(force.mantissa), force.exponent}},
       {},
       {},
-      {numeric::from_real<S>(0.148), 5},
+      {numeric::from_real<S>(0.148), numeric::from_real<S>(0.0), 5, 20, 1},
+      {},
+      {5000, numeric::from_real<S>(1.0 / 128.0)},
       {11},
+      {21},
+      {numeric::from_real<S>(0.005), 60, numeric::from_real<S>(0.8)},
+      {},
       {}};
-  static constexpr FieldDesign<Parts> design(designed, numeric::from_real<S>(0.2), 1);
+  static constexpr FieldDesign<Parts> design(designed, numeric::from_real<S>(0.2), 1, 1.0 / 60e3,
+                                             timeout_of_link);
 
   ParameterValues values{};
   for (std::size_t i = 0; i < parameter_count; ++i) {

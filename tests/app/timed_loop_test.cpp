@@ -4,10 +4,13 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include <cmath>
 #include <cstdint>
 #include <type_traits>
+#include <vector>
 
 #include "firmware/app/control_loop.hpp"
+#include "firmware/app/host_ramp.hpp"
 #include "hal/no_watchdog.hpp"
 #include "tests/app/unit/simulated_unit.hpp"
 
@@ -17,6 +20,11 @@ namespace {
 constexpr auto running = static_cast<std::uint8_t>(control::State::running);
 constexpr auto faulted = static_cast<std::uint8_t>(control::State::fault);
 constexpr auto overrun = static_cast<std::uint8_t>(UnitFault::overrun);
+
+template <class SupervisorT>
+std::uint8_t fault_of(const SupervisorT& supervisor) {
+  return supervisor.faults().entry(0).fault;
+}
 
 /// Work between steps that takes as many carrier periods as it is told.
 class SlowService {
@@ -191,6 +199,163 @@ TEST_F(TimedLoopTest, RunsWithoutWatchdogAndService) {
   EXPECT_TRUE((std::is_empty_v<hal::NoWatchdog> && std::is_empty_v<NoService>));
 }
 
+/// The tested supervisor after so many carrier periods more: 2^32 of them take a day.
+class AgedSupervisor : public Supervisor<FieldDesign<Parts>::Controller> {
+ public:
+  using Supervisor::Supervisor;
+  std::uint32_t periods() const { return Supervisor::periods() + age; }
+
+  std::uint32_t age = 0;
+};
+
+// One period lost, at each place around the wrap of both counters.
+TEST(TimedLoopWrap, HidesNoLostPeriod) {
+  constexpr std::uint32_t before = 40;
+  for (int lost_after = 1; lost_after < 80; ++lost_after) {
+    AgedSupervisor supervisor(field_design.controller_parameters(field_design.presets()));
+    supervisor.set_target(0.2F);
+    supervisor.age = 0U - before;
+    TimedBoard board(0U - before);
+    CountingWatchdog watchdog;
+    SlowService service(board);
+    TimedLoop loop(supervisor, board, watchdog, service);
+    for (int i = 0; i < lost_after; ++i) {
+      ASSERT_TRUE(loop.serve());
+    }
+    ASSERT_EQ(supervisor.faults().count(), 0U) << lost_after;
+    service.takes = 2;
+    ASSERT_TRUE(loop.serve());
+    ASSERT_TRUE(loop.serve());
+    ASSERT_EQ(board.latest_drive().fault, overrun) << lost_after;
+    ASSERT_EQ(board.latest_drive().amplitude, 0) << lost_after;
+    ASSERT_EQ(watchdog.feeds, lost_after + 1);
+  }
+}
+
+TEST(TimedLoopWrap, IsNoFault) {
+  AgedSupervisor supervisor(field_design.controller_parameters(field_design.presets()));
+  supervisor.set_target(0.2F);
+  supervisor.age = 0U - 300;
+  TimedBoard board(0U - 400);
+  CountingWatchdog watchdog;
+  NoService service;
+  TimedLoop loop(supervisor, board, watchdog, service);
+  for (int i = 0; i < 800; ++i) {
+    ASSERT_TRUE(loop.serve());
+  }
+  EXPECT_EQ(supervisor.faults().count(), 0U);
+  EXPECT_EQ(watchdog.feeds, 800);
+  EXPECT_NEAR(board.ratio(), 0.4, 1e-3);
+}
+
+/// A supervisor with a host, and the loop around it.
+class HostedLoopTest : public testing::Test {
+ protected:
+  using Hosted = Supervisor<FieldDesign<Parts>::Controller, HostRamp>;
+
+  HostedLoopTest() { supervisor.set_target(0.2F); }
+
+  void serve(int periods) {
+    for (int i = 0; i < periods; ++i) {
+      ASSERT_TRUE(loop.serve());
+    }
+  }
+  void settle() {
+    supervisor.restart();
+    serve(200);
+    ASSERT_NEAR(board.ratio(), 0.4, 1e-3);
+  }
+
+  Hosted supervisor{field_design.controller_parameters(field_design.presets())};
+  TimedBoard board;
+  CountingWatchdog watchdog;
+  SlowService service{board};
+  TimedLoop<Hosted, TimedBoard, CountingWatchdog, SlowService> loop{supervisor, board, watchdog,
+                                                                    service};
+};
+
+TEST_F(HostedLoopTest, DrivesOnlyWhenTold) {
+  serve(100);
+  for (const std::int32_t amplitude : board.in_force) {
+    ASSERT_EQ(amplitude, 0);
+  }
+  EXPECT_EQ(board.latest_drive().state, static_cast<std::uint8_t>(control::State::off));
+  settle();
+}
+
+TEST_F(HostedLoopTest, RampsDownAlongALine) {
+  settle();
+  const std::int32_t begin = board.latest_drive().amplitude;
+  supervisor.ramp_down(UnitFault::host_silent);
+  EXPECT_EQ(fault_of(supervisor), static_cast<std::uint8_t>(UnitFault::host_silent));
+  for (int k = 1; k <= HostRamp::periods; ++k) {
+    ASSERT_TRUE(supervisor.driving()) << k;
+    serve(1);
+    const double line = begin * (1.0 - static_cast<double>(k) / HostRamp::periods);
+    ASSERT_NEAR(board.latest_drive().amplitude, line, HostRamp::periods) << k;
+    ASSERT_EQ(board.latest_drive().state, faulted);
+  }
+  EXPECT_FALSE(supervisor.driving());
+  serve(100);
+  EXPECT_EQ(board.latest_drive().amplitude, 0);
+  EXPECT_EQ(supervisor.faults().count(), 1U);
+  settle();
+}
+
+// What the board or a person wants at once is not held up by the ramp.
+TEST_F(HostedLoopTest, OnTheRampAStopAnOverrunAndARestartActAtOnce) {
+  const std::vector<void (*)(Hosted&, TimedBoard&)> ends{
+      [](Hosted& ended, TimedBoard&) { ended.stop(); },
+      [](Hosted&, TimedBoard& late) { late.step_takes = 1; },
+      [](Hosted& ended, TimedBoard&) { ended.restart(); }};
+  for (const auto end : ends) {
+    settle();
+    supervisor.ramp_down(UnitFault::host_silent);
+    serve(10);
+    ASSERT_GT(board.latest_drive().amplitude, 0);
+    end(supervisor, board);
+    if (supervisor.drive().state == static_cast<std::uint8_t>(control::State::calibrating)) {
+      serve(200);
+      EXPECT_NEAR(board.ratio(), 0.4, 1e-3);
+    } else {
+      serve(1);
+      EXPECT_EQ(board.latest_drive().amplitude, 0);
+    }
+  }
+  EXPECT_EQ(fault_of(supervisor), static_cast<std::uint8_t>(UnitFault::host_silent));
+}
+
+TEST_F(HostedLoopTest, OnlyARunningDriveRampsDown) {
+  serve(10);
+  supervisor.ramp_down(UnitFault::host_silent);
+  supervisor.trip(UnitFault::overrun);
+  supervisor.ramp_down(UnitFault::host_silent);
+  EXPECT_EQ(supervisor.faults().count(), 1U);
+  EXPECT_FALSE(supervisor.driving());
+}
+
+// A mode of any frequency between a hundredth and half of the carrier, undamped and static gain 1.
+TEST(HostRampTest, LeavesTheRingingThatItStates) {
+  constexpr double pi = 3.14159265358979323846;
+  for (double angle = 2.0 * pi / 100.0; angle < pi; angle *= 1.003) {
+    HostRamp ramp;
+    ramp.begin(INT32_MAX);
+    double cosine = 0.0;  // the ringing that the steps of the amplitude leave, as a phasor
+    double sine = 0.0;
+    double last = INT32_MAX;
+    for (int k = 0; ramp.falling(); ++k) {
+      const double next = ramp.next();
+      cosine += (last - next) * std::cos(angle * k);
+      sine += (last - next) * std::sin(angle * k);
+      last = next;
+    }
+    EXPECT_EQ(last, 0.0);
+    // In steps, w T / 2 becomes N sin(w / 2).
+    const double bound = 1.0 / (HostRamp::periods * std::sin(angle / 2.0));
+    ASSERT_LE(std::hypot(cosine, sine) / INT32_MAX, bound * (1.0 + 1e-6)) << angle;
+  }
+}
+
 /// Shows any codes, and keeps what it is driven with.
 class ShowingBoard {
  public:
@@ -223,6 +388,7 @@ RC_GTEST_PROP(TimedLoopCommands, AreThoseOfTheLockstepLoopBitForBit, ()) {
   hal::NoWatchdog watchdog;
   NoService service;
   TimedLoop timed(unit.supervisor(), timed_board, watchdog, service);
+  unit.restart();
 
   const auto code = rc::gen::arbitrary<std::int32_t>();
   const int periods = *rc::gen::inRange(1, 200);

@@ -19,7 +19,7 @@ template <class Number>
 using ControllerOf = control::Controller<
     control::Parts<Number, control::TrustedFriction<Number>, control::DahlFeedforward<Number>,
                    control::NoSlewLimit<Number>, control::NotchShaper<Number, 1>,
-                   control::IntegralRegulator<Number>>>;
+                   control::IntegralRegulator<Number, scene::max_reference_delay>>>;
 
 template <class Number>
 ControllerOf<Number> controller_of(const ControlNumbers& numbers) {

@@ -1,6 +1,7 @@
 /// The emulator's own console, by which a test does to a board what a hand would do.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -22,9 +23,16 @@ class Monitor {
   /// Asks for a reset of the board, which comes soon.
   void request_reset();
 
+  /// The word at an address of the board's memory.
+  std::uint32_t word(std::uint32_t address);
+
  private:
+  void type(const std::string& command);
+  char next();
+
   std::string path_;
   process::Descriptor to_emulator_;
+  process::Descriptor from_emulator_;
 };
 
 }  // namespace sonoglide::pil

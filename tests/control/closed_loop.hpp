@@ -52,6 +52,9 @@ class ClosedLoop {
     return {numeric::from_real<Scalar>(shown), numeric::from_real<Scalar>(velocity), Quality::good};
   }
 
+  /// The contact's friction force from here on.
+  void set_friction_force(double force) { contact_.friction_force = force; }
+
   /// One period: the contact answers the last command, the controller the contact.
   const DriveCommand<Scalar>& step(double velocity = 0.1, double noise = 0.0) {
     return answer(measurement(velocity, noise));

@@ -42,8 +42,8 @@ std::vector<BadSample<Scalar>> bad_samples() {
 
 template <class Scalar>
 bool same(const DriveCommand<Scalar>& a, const DriveCommand<Scalar>& b) {
-  return a.amplitude == b.amplitude && a.state == b.state && a.limit == b.limit &&
-         a.fault == b.fault;
+  return a.amplitude == b.amplitude && a.commanded_ratio == b.commanded_ratio &&
+         a.state == b.state && a.limit == b.limit && a.fault == b.fault && a.settling == b.settling;
 }
 
 /// Falls below the speed floor, reverses, rises again.

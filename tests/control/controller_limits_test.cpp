@@ -55,7 +55,8 @@ TYPED_TEST(ControllerLimits, AnUnreachableTargetLeavesNothingBehind) {
 template <class S>
 using LimitedDriveParts =
     Parts<S, TrustedFriction<S>, DahlFeedforward<S>, NoSlewLimit<S>,
-          NotchShaper<S, longest_spacing>, IntegralRegulator<S>, DriveLimit<S>>;
+          NotchShaper<S, longest_spacing>, IntegralRegulator<S, longest_delay>, NoRelearning<S>,
+          DriveLimit<S>>;
 
 TYPED_TEST(ControllerLimits, ADriveLimitIsNeverPassedAndNamedWhereItActs) {
   Design design;

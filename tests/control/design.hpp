@@ -14,6 +14,7 @@
 #include "firmware/control/no_shaping.hpp"
 #include "firmware/control/no_slew_limit.hpp"
 #include "firmware/control/notch_shaper.hpp"
+#include "firmware/control/periodic_relearning.hpp"
 #include "firmware/control/slew_limit.hpp"
 #include "firmware/control/trusted_friction.hpp"
 #include "firmware/numeric/scalar.hpp"
@@ -21,44 +22,64 @@
 namespace sonoglide::control {
 
 inline constexpr int longest_spacing = 8;
+inline constexpr int longest_delay = 32;
 
 /// Everything in use.
 template <class S>
 using FullParts = Parts<S, LearntFriction<S>, DahlFeedforward<S>, SlewLimit<S>,
-                        NotchShaper<S, longest_spacing>, IntegralRegulator<S>>;
+                        NotchShaper<S, longest_spacing>, IntegralRegulator<S, longest_delay>>;
 /// What a scene at Table 1 without calibration gets.
 template <class S>
 using ShapedParts = Parts<S, TrustedFriction<S>, DahlFeedforward<S>, NoSlewLimit<S>,
-                          NotchShaper<S, longest_spacing>, IntegralRegulator<S>>;
+                          NotchShaper<S, longest_spacing>, IntegralRegulator<S, longest_delay>>;
 template <class S>
 using LearningParts = Parts<S, LearntFriction<S>, DahlFeedforward<S>, NoSlewLimit<S>,
-                            NotchShaper<S, longest_spacing>, IntegralRegulator<S>>;
+                            NotchShaper<S, longest_spacing>, IntegralRegulator<S, longest_delay>>;
+/// What a scene gets that learns the friction force again and again.
+template <class S>
+using RelearningParts = Parts<S, TrustedFriction<S>, DahlFeedforward<S>, NoSlewLimit<S>,
+                              NotchShaper<S, longest_spacing>, IntegralRegulator<S, longest_delay>,
+                              PeriodicRelearning<S>>;
 template <class S>
 using SlewingParts = Parts<S, TrustedFriction<S>, DahlFeedforward<S>, SlewLimit<S>, NoShaping<S>,
-                           IntegralRegulator<S>>;
+                           IntegralRegulator<S, longest_delay>>;
 template <class S>
 using UnshapedParts = Parts<S, TrustedFriction<S>, DahlFeedforward<S>, NoSlewLimit<S>, NoShaping<S>,
-                            IntegralRegulator<S>>;
+                            IntegralRegulator<S, longest_delay>>;
 /// Nothing that can be left out.
 template <class S>
 using BareParts = Parts<S, TrustedFriction<S>, CoulombFeedforward<S>, NoSlewLimit<S>, NoShaping<S>,
-                        IntegralRegulator<S>>;
+                        IntegralRegulator<S, longest_delay>>;
 
 /// Parameters as real numbers. As preset: Table 1 of the paper at 60 kHz and a drive limit of
 /// 1920 N, the sensor's full scale being 2 Fc; a speed of 0.1 is 26.7 mm/s.
 struct Design {
   double friction_force = 0.5;
+  double smallest_friction = 1.0 / 1024.0;
   double contact_force = 1.0108;
   double speed_floor = 0.026;
   double lead_periods = 1.5;
   double gain = 0.148;
+  double keep = 0.0;
+  std::uint8_t delay_periods = 1;
   std::uint16_t hold_periods = 5;
+  std::uint16_t rest_periods = 20;
   std::uint16_t stuck_periods = 11;
+  std::uint16_t implausible_periods = 21;
+  std::uint32_t standstill_hold_periods = 5000;
+  double standstill_fall = 0.0078125;
+  double settling_band = 0.005;
+  std::uint16_t settling_patience_periods = 60;
+  double agreement = 0.8;
   std::array<double, 3> taps = {0.6323, -0.2646, 0.6323};
   std::uint8_t spacing = 1;
   double slew_per_period = 0.02;
   std::uint32_t settle_periods = 20;
   std::uint32_t average_periods = 40;
+  std::uint32_t total_periods = 0;
+  std::uint32_t relearn_every_periods = 1000;
+  std::uint16_t relearn_reading_periods = 2;
+  double relearn_travel = 0.0075;  ///< half a carrier period at full drive's velocity
   double drive_limit = 1.0;
 };
 
@@ -69,7 +90,20 @@ std::enable_if_t<std::is_empty_v<Empty>> fill(const Design& /*design*/, Empty& /
 template <class S>
 void fill(const Design& design, typename LearntFriction<S>::Parameters& parameters) {
   parameters = {design.settle_periods, design.average_periods,
-                numeric::from_real<numeric::Accumulator<S>>(1.0 / design.average_periods)};
+                numeric::from_real<numeric::Accumulator<S>>(1.0 / design.average_periods),
+                design.total_periods};
+}
+
+template <class S>
+void fill(const Design& design, typename PeriodicRelearning<S>::Parameters& parameters) {
+  const auto shaping = static_cast<std::uint16_t>(2 * design.spacing);
+  parameters = {design.relearn_every_periods,
+                shaping,
+                numeric::from_real<S>(design.relearn_travel),
+                design.relearn_reading_periods,
+                static_cast<std::uint16_t>(shaping + 2),
+                1,
+                numeric::from_real<numeric::Accumulator<S>>(1.0 - 0x1p-31)};
 }
 
 template <class S>
@@ -101,14 +135,22 @@ typename Controller<PartsT>::Parameters parameters(const Design& design) {
   using S = typename PartsT::Scalar;
   typename Controller<PartsT>::Parameters result{};
   result.friction_force = numeric::from_real<S>(design.friction_force);
+  result.smallest_friction = numeric::from_real<S>(design.smallest_friction);
   result.speed_floor = numeric::from_real<S>(design.speed_floor);
   result.lead = numeric::from_real<S>(design.lead_periods / 64.0);
   fill<S>(design, result.friction);
   fill<S>(design, result.feedforward);
   fill<S>(design, result.slew);
   fill<S>(design, result.shaper);
-  result.regulator = {numeric::from_real<S>(design.gain), design.hold_periods};
+  result.regulator = {numeric::from_real<S>(design.gain), numeric::from_real<S>(design.keep),
+                      design.hold_periods, design.rest_periods, design.delay_periods};
+  fill<S>(design, result.relearning);
+  result.standstill = {design.standstill_hold_periods,
+                       numeric::from_real<S>(design.standstill_fall)};
   result.stuck = {design.stuck_periods};
+  result.plausibility = {design.implausible_periods};
+  result.watch = {numeric::from_real<S>(design.settling_band), design.settling_patience_periods,
+                  numeric::from_real<S>(design.agreement)};
   fill<S>(design, result.ceiling);
   return result;
 }

@@ -27,18 +27,25 @@ TYPED_TEST(ControllerSize, PartsThatDoNothingAreEmpty) {
   EXPECT_TRUE(std::is_empty_v<CoulombFeedforward<TypeParam>>);
   EXPECT_TRUE(std::is_empty_v<NoSlewLimit<TypeParam>>);
   EXPECT_TRUE(std::is_empty_v<NoShaping<TypeParam>>);
+  EXPECT_TRUE(std::is_empty_v<NoRelearning<TypeParam>>);
   EXPECT_TRUE(std::is_empty_v<FullDrive<TypeParam>>);
+  EXPECT_TRUE(std::is_empty_v<StrictSamples>);
 }
 
-// Three configured numbers, five of state, three bytes of flags; the rest are the parts at work.
+// Three configured numbers, three of state, four bytes of flags; the rest are the parts at work.
 TYPED_TEST(ControllerSize, TheBareControllerIsTheSumOfWhatItUses) {
-  constexpr std::size_t used = 8 * sizeof(TypeParam) + sizeof(IntegralRegulator<TypeParam>) +
-                               sizeof(StuckDetector<TypeParam>) + sizeof(FrictionLevel<TypeParam>) +
-                               3;
-  EXPECT_LT(bytes<BareParts<TypeParam>>, used + alignof(TypeParam));
-  EXPECT_LT(parameter_bytes<BareParts<TypeParam>>,
-            3 * sizeof(TypeParam) + sizeof(typename IntegralRegulator<TypeParam>::Parameters) +
-                sizeof(typename StuckDetector<TypeParam>::Parameters) + alignof(TypeParam));
+  using S = TypeParam;
+  constexpr std::size_t used =
+      6 * sizeof(S) + sizeof(SpeedForesight<S>) + sizeof(IntegralRegulator<S, longest_delay>) +
+      sizeof(StandstillHold<S>) + sizeof(StuckDetector<S>) + sizeof(Plausibility<S>) +
+      sizeof(SettlingWatch<S>) + sizeof(FrictionLevel<S>) + 4;
+  EXPECT_LT(bytes<BareParts<S>>, used + 2 * alignof(S));
+  EXPECT_LT(parameter_bytes<BareParts<S>>,
+            4 * sizeof(S) + sizeof(typename IntegralRegulator<S, longest_delay>::Parameters) +
+                sizeof(typename StandstillHold<S>::Parameters) +
+                sizeof(typename StuckDetector<S>::Parameters) +
+                sizeof(typename Plausibility<S>::Parameters) +
+                sizeof(typename SettlingWatch<S>::Parameters) + 2 * alignof(S));
 }
 
 TYPED_TEST(ControllerSize, EachPartLeftOutSavesItsState) {

@@ -16,7 +16,8 @@ class StuckDetectorTest : public testing::Test {
 
   /// @param ratio  the commanded friction ratio itself
   bool stuck(double reading, double ratio, bool followed = true) {
-    return detector_.stuck(scaled<Scalar>(reading), scaled<Scalar>(0.5 * ratio), followed);
+    return detector_.stuck(scaled<Scalar>(reading), scaled<Scalar>(0.5 * measured_ratio),
+                           scaled<Scalar>(0.5 * ratio), followed);
   }
   /// Calls with this reading and command until the trip; -1 for none within `most`.
   int calls_until_stuck(double reading, double ratio, int most = 1000) {
@@ -28,6 +29,7 @@ class StuckDetectorTest : public testing::Test {
     return -1;
   }
 
+  double measured_ratio = 0.5;  ///< that the reading stands for
   StuckDetector<Scalar> detector_{typename StuckDetector<Scalar>::Parameters{periods}};
 };
 TYPED_TEST_SUITE(StuckDetectorTest, Scalars);
@@ -102,6 +104,22 @@ TYPED_TEST(StuckDetectorTest, AChangeOnTheWayIsMeasuredFromTheCommandOfThatTime)
   ASSERT_FALSE(this->stuck(0.3, 0.3));
   ASSERT_FALSE(this->stuck(0.5, 1.0, false));
   EXPECT_EQ(this->calls_until_stuck(0.5, 1.0), -1);
+}
+
+// Vibration slower than the sliding leaves the friction as it is, to the last code.
+TYPED_TEST(StuckDetectorTest, AReadingOfUndrivenFrictionNeedsACommandFartherAway) {
+  this->measured_ratio = 1.0;
+  ASSERT_FALSE(this->stuck(0.5, 1.0));
+  EXPECT_EQ(this->calls_until_stuck(0.5, 0.26), -1);
+  EXPECT_EQ(this->calls_until_stuck(0.5, 0.25), this->periods);
+}
+
+TYPED_TEST(StuckDetectorTest, NothingIsConcludedWhereTheDriveMayHaveNoEffect) {
+  StuckDetector<TypeParam> detector({0});
+  const auto ratio = scaled<TypeParam>(0.25);
+  for (int i = 0; i < 1000; ++i) {
+    ASSERT_FALSE(detector.stuck(ratio, ratio, scaled<TypeParam>(i == 0 ? 0.5 : 0.0), true));
+  }
 }
 
 TYPED_TEST(StuckDetectorTest, ARestartGivesTheFullTimeAgain) {

@@ -8,6 +8,10 @@
 #include "hal/timed/stand_in_contact.hpp"
 #include "hal/timed/volatile_pages.hpp"
 
+extern "C" {
+volatile std::int32_t drive_amplitude = 0;
+}
+
 namespace sonoglide::hal::timed {
 namespace {
 
@@ -37,6 +41,7 @@ class TimedBoard : public testing::Test {
   static Board<TurnedClock> start() {
     TurnedClock::now = 0x00fffe00;
     TurnedClock::by_itself = 0;
+    drive_amplitude = 0;
     return Board<TurnedClock>(period_ticks);
   }
 
@@ -83,6 +88,16 @@ TEST_F(TimedBoard, DrivesFromTheNextPeriodOn) {
   EXPECT_LT(sample.friction_force, StandInContact::undriven_friction / 10 * 6);
   EXPECT_TRUE(sample.fresh);
   EXPECT_FALSE(sample.force_at_rail);
+}
+
+// As an exception's handler takes the drive away, behind the loop's back.
+TEST_F(TimedBoard, IsNotDrivenWhereTheRegisterIsCleared) {
+  Sample sample{};
+  board.drive({INT32_MAX, 0, 0, 0});
+  drive_amplitude = 0;
+  turn(10 * period_ticks);
+  board.sample(sample);
+  EXPECT_EQ(sample.friction_force, StandInContact::undriven_friction);
 }
 
 TEST(StandInContact, SettlesAtTheRatioOfSlidingToVibrationVelocity) {

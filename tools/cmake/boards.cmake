@@ -16,11 +16,11 @@ sonoglide_room(sonoglide_simulated hal/simulated
   USES sonoglide_plant sonoglide_hal sonoglide_start)
 
 # sonoglide_image(<target> SOURCE <main> FOLDER <configuration> MEMORY <linker script>
-#   USES <rooms>...): an image of one configured controller; <main> is in firmware/app/image.
+#   USES <rooms>...): an image of one configured controller.
 function(sonoglide_image target)
   cmake_parse_arguments(IMAGE "" "SOURCE;FOLDER;MEMORY" "USES" ${ARGN})
   set(script "${PROJECT_SOURCE_DIR}/${IMAGE_MEMORY}")
-  add_executable(${target} "${PROJECT_SOURCE_DIR}/firmware/app/image/${IMAGE_SOURCE}")
+  add_executable(${target} "${PROJECT_SOURCE_DIR}/${IMAGE_SOURCE}")
   target_include_directories(${target} PRIVATE "${IMAGE_FOLDER}")
   target_link_libraries(${target} PRIVATE
     sonoglide_app ${IMAGE_USES} sonoglide_freestanding sonoglide_warnings)
@@ -31,7 +31,7 @@ endfunction()
 
 # sonoglide_images(<suffix> SOURCE <main> CLASS <board> HEADER <its header> MEMORY <linker script>
 #   USES <rooms>...): an image of every configured controller on a class that has the shape which
-# <main>, in firmware/app/image, asks for.
+# <main> asks for.
 function(sonoglide_images suffix)
   cmake_parse_arguments(IMAGE "" "SOURCE;CLASS;HEADER;MEMORY" "USES" ${ARGN})
   foreach(folder IN LISTS SONOGLIDE_CONTROLLERS)
@@ -50,7 +50,7 @@ function(sonoglide_plant_images memory)
   foreach(folder IN LISTS SONOGLIDE_CONTROLLERS)
     if(EXISTS "${folder}/plant_configuration.hpp")
       get_filename_component(name "${folder}" NAME)
-      sonoglide_image(${name}_plant SOURCE plant_main.cpp FOLDER "${folder}" MEMORY ${memory}
+      sonoglide_image(${name}_plant SOURCE firmware/app/image/plant_main.cpp FOLDER "${folder}" MEMORY ${memory}
         USES sonoglide_simulated sonoglide_processor sonoglide_semihosting)
     endif()
   endforeach()
@@ -65,7 +65,7 @@ function(sonoglide_board name)
   endif()
   cmake_parse_arguments(BOARD "" "FOLDER;CLASS" "" ${ARGN})
   sonoglide_room(sonoglide_board ${BOARD_FOLDER} USES sonoglide_hal sonoglide_start)
-  sonoglide_images("" SOURCE main.cpp MEMORY ${BOARD_FOLDER}/memory.ld
+  sonoglide_images("" SOURCE firmware/app/image/main.cpp MEMORY ${BOARD_FOLDER}/memory.ld
     CLASS ${BOARD_CLASS} HEADER ${BOARD_FOLDER}/board.hpp
     USES sonoglide_board sonoglide_processor)
 endfunction()
@@ -84,16 +84,20 @@ function(sonoglide_emulated_board name)
   endif()
   sonoglide_room(sonoglide_emulated_board ${BOARD_FOLDER}
     USES sonoglide_lockstep_board sonoglide_timed sonoglide_processor)
-  sonoglide_images("" SOURCE main.cpp MEMORY ${BOARD_FOLDER}/${BOARD_MEMORY}
+  sonoglide_images("" SOURCE firmware/app/image/main.cpp MEMORY ${BOARD_FOLDER}/${BOARD_MEMORY}
     CLASS semihosting::SemihostingBoard HEADER hal/semihosting/semihosting_board.hpp
     USES sonoglide_processor sonoglide_semihosting)
-  sonoglide_images(_serial SOURCE main.cpp MEMORY ${BOARD_FOLDER}/${BOARD_MEMORY}
+  sonoglide_images(_serial SOURCE firmware/app/image/main.cpp MEMORY ${BOARD_FOLDER}/${BOARD_MEMORY}
     CLASS ${BOARD_SERIAL_BOARD} HEADER ${BOARD_FOLDER}/serial_board.hpp
     USES sonoglide_emulated_board sonoglide_semihosting)
   if(BOARD_TIMED_HARDWARE)
-    sonoglide_images(_timed SOURCE timed_unit.cpp MEMORY ${BOARD_FOLDER}/${BOARD_MEMORY}
-      CLASS ${BOARD_TIMED_HARDWARE} HEADER ${BOARD_FOLDER}/timed_hardware.hpp
-      USES sonoglide_emulated_board sonoglide_halt)
+    set(timed_main firmware/app/image/timed_unit.cpp)
+    set(exception_main tests/boards/exception_unit.cpp)
+    foreach(image timed exception)
+      sonoglide_images(_${image} SOURCE ${${image}_main} MEMORY ${BOARD_FOLDER}/${BOARD_MEMORY}
+        CLASS ${BOARD_TIMED_HARDWARE} HEADER ${BOARD_FOLDER}/timed_hardware.hpp
+        USES sonoglide_emulated_board sonoglide_halt)
+    endforeach()
   endif()
   sonoglide_plant_images(${BOARD_FOLDER}/${BOARD_MEMORY})
 endfunction()
@@ -106,7 +110,7 @@ if(CMAKE_CROSSCOMPILING)
   sonoglide_room(sonoglide_lockstep_board hal/lockstep/board
     USES sonoglide_lockstep sonoglide_start)
   sonoglide_room(sonoglide_semihosting hal/semihosting USES sonoglide_lockstep_board)
-  sonoglide_room(sonoglide_halt hal/halt USES sonoglide_start)
+  sonoglide_room(sonoglide_halt hal/halt USES sonoglide_start sonoglide_timed)
   if(CMAKE_SYSTEM_PROCESSOR STREQUAL arm)
     sonoglide_room(sonoglide_processor hal/cortex_m USES sonoglide_start)
   else()

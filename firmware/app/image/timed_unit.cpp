@@ -16,24 +16,26 @@ using Hardware = SONOGLIDE_BOARD_CLASS;
 namespace app = sonoglide::app;
 namespace configuration = app::configuration;
 
+/// Of the loop; the carrier is derived from the same clock.
+constexpr double period_s = Hardware::carriers_per_period * configuration::carrier_period_s;
+
 constexpr app::FieldDesign<configuration::Parts> design(configuration::parameters,
                                                         configuration::target_steps[0].half_ratio,
-                                                        configuration::design);
+                                                        configuration::design, period_s,
+                                                        app::timeout_of_console);
 
-/// To the nearest tick; the carrier is derived from the same clock.
-constexpr double period_ticks =
-    Hardware::carriers_per_period * configuration::carrier_period_s * Hardware::Board::clock_hz +
-    0.5;
+/// To the nearest tick.
+constexpr double period_ticks = period_s * Hardware::Board::clock_hz + 0.5;
 static_assert(1.0 <= period_ticks && period_ticks <= Hardware::Board::most_period_ticks);
 
 }  // namespace
 
 int main() {
   Hardware::ByteLink bytes;
+  Hardware::Watchdog watchdog;
   Hardware::Flash flash;
   app::Unit unit(design, flash);
   app::Console console(unit, bytes);
-  Hardware::Watchdog watchdog;
   Hardware::Board board(static_cast<std::uint32_t>(period_ticks));
   app::TimedLoop loop(unit.supervisor(), board, watchdog, console);
   while (loop.serve()) {

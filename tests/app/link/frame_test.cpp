@@ -81,7 +81,7 @@ std::vector<Frame> every_message(std::uint32_t seed) {
   return {
       frame_of(ReadTelemetry{}, sequence()),
       frame_of(Telemetry{number(), code(), code(), code(), number(), byte(), byte(), byte(), byte(),
-                         sequence()},
+                         sequence(), byte(), sequence()},
                sequence()),
       frame_of(SetTarget{number()}, sequence()),
       frame_of(set, sequence()),
@@ -93,6 +93,8 @@ std::vector<Frame> every_message(std::uint32_t seed) {
       frame_of(Restarted{}, sequence()),
       frame_of(Stop{}, sequence()),
       frame_of(Stopped{}, sequence()),
+      frame_of(Confirm{}, sequence()),
+      frame_of(Confirmed{}, sequence()),
       frame_of(ReadFault{byte()}, sequence()),
       frame_of(LoggedFault{byte(), byte(), number(), number()}, sequence()),
       frame_of(Refusal{byte(), byte(), number(), number()}, sequence()),
@@ -119,10 +121,10 @@ TEST(FrameTest, EveryMessageArrives) {
 // The layout that the documentation promises, byte for byte.
 TEST(FrameTest, IsLaidOutAsDocumented) {
   const Bytes wire = wire_of(frame_of(SetTarget{450000}, 0x0102));
-  // 1, kind, sequence low first, 450000 = 0x0006DDD0 low first, CRC-32 low first; stuffed.
-  const Bytes record{1, 2, 0x02, 0x01, 0xD0, 0xDD, 0x06, 0x00};
+  // Version, kind, sequence low first, 450000 = 0x0006DDD0 low first, CRC-32 low first; stuffed.
+  const Bytes record{2, 2, 0x02, 0x01, 0xD0, 0xDD, 0x06, 0x00};
   const std::uint32_t checksum = encoding::crc32(record.data(), record.size());
-  Bytes expected{0, 8, 1, 2, 0x02, 0x01, 0xD0, 0xDD, 0x06, 5};
+  Bytes expected{0, 8, 2, 2, 0x02, 0x01, 0xD0, 0xDD, 0x06, 5};
   for (int i = 0; i < 4; ++i) {
     expected.push_back(static_cast<std::uint8_t>(checksum >> (8 * i)));
   }
@@ -245,7 +247,7 @@ TEST(MessageTest, AnotherKindOrLengthIsNotRead) {
   ReadTelemetry telemetry{};
   EXPECT_TRUE(read(frame, target));
   EXPECT_FALSE(read(frame, telemetry));
-  for (const int length : {0, 3, 5, 28}) {
+  for (const int length : {0, 3, 5, 32}) {
     frame.payload_bytes = static_cast<std::uint8_t>(length);
     EXPECT_FALSE(read(frame, target)) << length;
   }

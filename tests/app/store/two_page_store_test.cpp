@@ -3,43 +3,65 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
-#include <vector>
 
 #include "tests/app/flash/simulated_flash.hpp"
 
 namespace sonoglide::app::store {
 namespace {
 
-constexpr std::uint32_t layout = 7;
-using Store = TwoPageStore<SimulatedFlash, 6>;
-using Record = Store::Record;
+constexpr std::uint32_t design = 7;
+constexpr std::size_t count = 6;
+using Store = TwoPageStore<SimulatedFlash, count>;
+using Values = std::array<std::uint32_t, count>;
 
-constexpr Record compiled_in{1, 2, 3, 4, 5, 6};
+constexpr Values compiled_in{1, 2, 3, 4, 5, 6};
 
-Record record(std::uint32_t number) {
+constexpr std::uint32_t identity(std::size_t entry) {
+  return 0x10000001U * static_cast<std::uint32_t>(entry + 1);
+}
+
+Values values(std::uint32_t number) {
   return {number, 0xFFFFFFFFU, 0, number << 24, ~number, 0x5A5A5A5AU};
 }
 
-struct Loaded {
-  Record record = compiled_in;
-  Origin origin = Origin::blank;
-};
-
-/// What is found after a reset.
-Loaded loaded(SimulatedFlash& flash, std::uint32_t wanted_layout = layout) {
-  flash.restore_power();
-  Store store(flash, wanted_layout);
-  Loaded result;
-  result.origin = store.load(result.record);
+Store::Record record(const Values& wanted) {
+  Store::Record result{};
+  for (std::size_t i = 0; i < count; ++i) {
+    result[i] = {identity(i), wanted[i]};
+  }
   return result;
 }
 
-Saving save(SimulatedFlash& flash, const Record& wanted) {
-  Store store(flash, layout);
-  Record old{};
-  store.load(old);
-  store.save(wanted);
+struct Loaded {
+  Values values = compiled_in;
+  Origin origin = Origin::blank;
+};
+
+/// What a store of a design finds after a reset.
+template <class FoundBy = Store>
+Loaded loaded(SimulatedFlash& flash, std::uint32_t wanted_design = design) {
+  flash.restore_power();
+  FoundBy store(flash, wanted_design);
+  Loaded result;
+  result.origin = store.load();
+  for (std::size_t i = 0; i < count; ++i) {
+    store.find(identity(i), result.values[i]);
+  }
+  return result;
+}
+
+/// Of a store whose last save was cut: the old values or the new.
+bool is_found(Origin origin) {
+  return origin == Origin::stored || origin == Origin::blank || origin == Origin::damaged;
+}
+
+Saving save(SimulatedFlash& flash, const Values& wanted) {
+  Store store(flash, design);
+  store.load();
+  store.save(record(wanted));
   Saving saving = Saving::busy;
   while (saving == Saving::busy && flash.powered()) {
     saving = store.proceed();
@@ -50,42 +72,43 @@ Saving save(SimulatedFlash& flash, const Record& wanted) {
 
 int operations_of_a_save() {
   SimulatedFlash flash;
-  save(flash, record(1));
+  save(flash, values(1));
   return flash.operations();
 }
 
 /// Saves with a cut, or whole where the save has fewer operations; what a reset then finds.
-Loaded save_cut(SimulatedFlash& flash, const Record& wanted, int operations, Torn torn) {
+Loaded save_cut(SimulatedFlash& flash, const Values& wanted, int operations, Torn torn) {
   flash.cut_after(operations, torn);
   save(flash, wanted);
-  return loaded(flash);
+  const Loaded found = loaded(flash);
+  EXPECT_TRUE(is_found(found.origin));
+  return found;
 }
 
 TEST(TwoPageStoreTest, BlankFlashLeavesWhatIsCompiledIn) {
   SimulatedFlash flash;
   const Loaded found = loaded(flash);
   EXPECT_EQ(found.origin, Origin::blank);
-  EXPECT_EQ(found.record, compiled_in);
+  EXPECT_EQ(found.values, compiled_in);
 }
 
 TEST(TwoPageStoreTest, TheLastOfManyRecordsIsKept) {
   SimulatedFlash flash;
   for (std::uint32_t i = 0; i < 100; ++i) {
-    ASSERT_EQ(save(flash, record(i)), Saving::saved);
+    ASSERT_EQ(save(flash, values(i)), Saving::saved);
     const Loaded found = loaded(flash);
     ASSERT_EQ(found.origin, Origin::stored);
-    ASSERT_EQ(found.record, record(i));
+    ASSERT_EQ(found.values, values(i));
   }
 }
 
 TEST(TwoPageStoreTest, ASaveIsOneEraseAndAWordAtATime) {
-  // Layout, sequence, record, checksum.
-  EXPECT_EQ(operations_of_a_save(), 1 + 2 + 6 + 1);
+  // Format, sequence, design, identities and values, checksum.
+  EXPECT_EQ(operations_of_a_save(), 1 + 3 + 2 * 6 + 1);
   SimulatedFlash flash;
-  Store store(flash, layout);
-  Record old{};
-  store.load(old);
-  store.save(record(1));
+  Store store(flash, design);
+  store.load();
+  store.save(record(values(1)));
   int before = 0;
   while (store.proceed() == Saving::busy) {
     EXPECT_LE(flash.operations(), before + 1);
@@ -93,23 +116,25 @@ TEST(TwoPageStoreTest, ASaveIsOneEraseAndAWordAtATime) {
   }
 }
 
+constexpr std::size_t words_used = 3 + 2 * count + 1;
+
 TEST(TwoPageStoreTest, SequenceNumbersWrap) {
   SimulatedFlash flash;
-  save(flash, record(0));
-  save(flash, record(1));
+  save(flash, values(0));
+  save(flash, values(1));
   for (std::size_t page = 0; page < 2; ++page) {
     // The same records as if 2^32 - 2 had gone before.
     auto& words = flash.page(page);
     words[1] += 0xFFFFFFFEU;
     encoding::Crc32 checksum;
-    for (std::size_t i = 0; i < 8; ++i) {
+    for (std::size_t i = 0; i < words_used - 1; ++i) {
       checksum.add_word(words[i]);
     }
-    words[8] = checksum.value();
+    words[words_used - 1] = checksum.value();
   }
   for (std::uint32_t i = 2; i < 8; ++i) {
-    ASSERT_EQ(loaded(flash).record, record(i - 1));
-    save(flash, record(i));
+    ASSERT_EQ(loaded(flash).values, values(i - 1));
+    save(flash, values(i));
   }
 }
 
@@ -117,7 +142,7 @@ TEST(TwoPageStoreTest, SequenceNumbersWrap) {
 SimulatedFlash used(std::uint32_t saves) {
   SimulatedFlash flash;
   for (std::uint32_t i = 0; i < saves; ++i) {
-    save(flash, record(i));
+    save(flash, values(i));
   }
   return flash;
 }
@@ -128,17 +153,17 @@ TEST(TwoPageStoreTest, ACutLeavesTheOldRecordOrTheNewAndSoDoesTheNextCut) {
     for (int first = 0; first <= operations; ++first) {
       for (const Torn first_tear : every_tear) {
         SimulatedFlash once = used(saves);
-        const Record old = loaded(once).record;
-        const Record after_first = save_cut(once, record(20), first, first_tear).record;
-        ASSERT_TRUE(after_first == old || after_first == record(20)) << first;
+        const Values old = loaded(once).values;
+        const Values after_first = save_cut(once, values(20), first, first_tear).values;
+        ASSERT_TRUE(after_first == old || after_first == values(20)) << first;
         for (int second = 0; second <= operations; ++second) {
           for (const Torn second_tear : every_tear) {
             SimulatedFlash twice = once;
-            const Record after_second = save_cut(twice, record(30), second, second_tear).record;
-            ASSERT_TRUE(after_second == after_first || after_second == record(30))
+            const Values after_second = save_cut(twice, values(30), second, second_tear).values;
+            ASSERT_TRUE(after_second == after_first || after_second == values(30))
                 << first << ", " << second;
-            ASSERT_EQ(save(twice, record(40)), Saving::saved);
-            ASSERT_EQ(loaded(twice).record, record(40));
+            ASSERT_EQ(save(twice, values(40)), Saving::saved);
+            ASSERT_EQ(loaded(twice).values, values(40));
           }
         }
       }
@@ -149,10 +174,10 @@ TEST(TwoPageStoreTest, ACutLeavesTheOldRecordOrTheNewAndSoDoesTheNextCut) {
 // Every subset of a word's bits would be too many: a thousand random ones for each word.
 TEST(TwoPageStoreTest, AnyBitsOfATornWordLeaveARecordWhole) {
   SimulatedFlash flash = used(3);
-  const Record old = loaded(flash).record;
+  const Values old = loaded(flash).values;
   for (int operation = 0; operation < operations_of_a_save(); ++operation) {
     for (int i = 0; i < 1000; ++i) {
-      const Record found = save_cut(flash, record(20), operation, Torn::arbitrary).record;
+      const Values found = save_cut(flash, values(20), operation, Torn::arbitrary).values;
       ASSERT_EQ(found, old) << operation;
     }
   }
@@ -161,23 +186,47 @@ TEST(TwoPageStoreTest, AnyBitsOfATornWordLeaveARecordWhole) {
 TEST(TwoPageStoreTest, ASaveThatWasReportedIsThere) {
   for (const std::uint32_t saves : {0U, 1U, 2U}) {
     SimulatedFlash flash = used(saves);
-    EXPECT_EQ(save(flash, record(9)), Saving::saved);
-    EXPECT_EQ(loaded(flash).record, record(9));
+    EXPECT_EQ(save(flash, values(9)), Saving::saved);
+    EXPECT_EQ(loaded(flash).values, values(9));
   }
 }
 
 TEST(TwoPageStoreTest, WornFlashIsReportedAndTheOldRecordStands) {
   SimulatedFlash flash = used(2);
   flash.wear_out();
-  EXPECT_EQ(save(flash, record(9)), Saving::failed);
-  EXPECT_EQ(loaded(flash).record, record(1));
+  EXPECT_EQ(save(flash, values(9)), Saving::failed);
+  EXPECT_EQ(loaded(flash).values, values(1));
 }
 
-TEST(TwoPageStoreTest, AnotherLayoutLeavesWhatIsCompiledInAndIsReported) {
+TEST(TwoPageStoreTest, AnotherDesignFindsWhatItKnowsAndSaysSo) {
   SimulatedFlash flash = used(2);
-  const Loaded found = loaded(flash, layout + 1);
-  EXPECT_EQ(found.origin, Origin::other_layout);
-  EXPECT_EQ(found.record, compiled_in);
+  const Loaded found = loaded(flash, design + 1);
+  EXPECT_EQ(found.origin, Origin::other_design);
+  EXPECT_EQ(found.values, values(1));
+}
+
+// Entries are found by their identity, wherever they stand and whatever others there are.
+TEST(TwoPageStoreTest, OtherListsOfEntriesFindTheirOwn) {
+  SimulatedFlash flash = used(2);
+  using Shorter = TwoPageStore<SimulatedFlash, 2>;
+  using Longer = TwoPageStore<SimulatedFlash, 30>;
+  EXPECT_EQ(loaded<Shorter>(flash, design + 1).values, values(1));
+  EXPECT_EQ(loaded<Longer>(flash, design + 1).values, values(1));
+  Shorter shorter(flash, design + 1);
+  shorter.load();
+  shorter.save({Entry{identity(4), 44}, Entry{identity(9), 99}});
+  while (shorter.proceed() == Saving::busy) {
+  }
+  const Loaded found = loaded(flash);
+  EXPECT_EQ(found.origin, Origin::other_design);
+  EXPECT_EQ(found.values, (Values{1, 2, 3, 4, 44, 6}));
+  Store store(flash, design);
+  store.load();
+  std::uint32_t value = 7;
+  EXPECT_FALSE(store.find(identity(3), value));
+  EXPECT_EQ(value, 7U);
+  EXPECT_TRUE(store.find(identity(9), value));
+  EXPECT_EQ(value, 99U);
 }
 
 TEST(TwoPageStoreTest, WhatIsNotWholeIsReported) {
@@ -185,17 +234,31 @@ TEST(TwoPageStoreTest, WhatIsNotWholeIsReported) {
   flash.page(0)[4] ^= 1U;
   const Loaded found = loaded(flash);
   EXPECT_EQ(found.origin, Origin::damaged);
-  EXPECT_EQ(found.record, compiled_in);
+  EXPECT_EQ(found.values, compiled_in);
 }
 
-TEST(TwoPageStoreTest, EverySingleBitThatFallsIsNoticed) {
+// The older record may be the looser one: it is not `stored`.
+TEST(TwoPageStoreTest, EverySingleBitThatFallsIsReported) {
   const SimulatedFlash intact = used(2);
-  for (std::size_t word = 0; word < 9; ++word) {
-    for (int bit = 0; bit < 32; ++bit) {
-      SimulatedFlash flash = intact;
-      flash.page(1)[word] ^= 1U << bit;
-      ASSERT_EQ(loaded(flash).record, record(0)) << word << ", " << bit;
+  for (const std::size_t page : {0U, 1U}) {
+    for (std::size_t word = 0; word < words_used; ++word) {
+      for (int bit = 0; bit < 32; ++bit) {
+        SimulatedFlash flash = intact;
+        flash.page(page)[word] ^= 1U << bit;
+        const Loaded found = loaded(flash);
+        ASSERT_EQ(found.origin, Origin::damaged) << page << ", " << word << ", " << bit;
+        ASSERT_EQ(found.values, values(page == 1 ? 0 : 1)) << word << ", " << bit;
+      }
     }
+  }
+}
+
+TEST(TwoPageStoreTest, AnyFirstWordIsNoRecordUnlessItIs) {
+  SimulatedFlash flash = used(1);
+  const std::uint32_t first = flash.page(0)[0];
+  for (std::uint32_t entries = 0; entries < 256; ++entries) {
+    flash.page(0)[0] = (first & 0xFFFFFF00U) | entries;
+    ASSERT_EQ(loaded(flash).origin, entries == count ? Origin::stored : Origin::damaged) << entries;
   }
 }
 

@@ -24,12 +24,24 @@ namespace sonoglide::app {
 using Scalar = float;
 using Parts = control::Parts<Scalar, control::TrustedFriction<Scalar>,
                              control::CoulombFeedforward<Scalar>, control::NoSlewLimit<Scalar>,
-                             control::NoShaping<Scalar>, control::IntegralRegulator<Scalar>>;
+                             control::NoShaping<Scalar>, control::IntegralRegulator<Scalar, 1>>;
 using TestedUnit = Unit<Parts, SimulatedFlash>;
 
-inline constexpr control::Controller<Parts>::Parameters designed{0.5F, 0.01F, 0.0F,      {},   {},
-                                                                 {},   {},    {0.1F, 3}, {10}, {}};
-inline constexpr FieldDesign<Parts> field_design(designed, 0.2F, 1);
+inline constexpr control::Controller<Parts>::Parameters designed = [] {
+  control::Controller<Parts>::Parameters parameters{};
+  parameters.friction_force = 0.5F;
+  parameters.smallest_friction = 1.0F / 1024.0F;
+  parameters.speed_floor = 0.01F;
+  parameters.regulator = {0.1F, 0.0F, 3, 12, 1};
+  parameters.standstill = {1000, 0.0078125F};
+  parameters.stuck = {10};
+  parameters.plausibility = {20};
+  parameters.watch = {0.01F, 50, 0.8F};
+  return parameters;
+}();
+inline constexpr double carrier_period_s = 1.0 / 60e3;
+inline constexpr FieldDesign<Parts> field_design(designed, 0.2F, 1, carrier_period_s,
+                                                 timeout_of_link);
 
 /// A Coulomb contact under a board whose drive comes into force with each carrier period.
 class TimedBoard {
@@ -38,13 +50,16 @@ class TimedBoard {
   static constexpr double speed = 0.1;
   static constexpr double friction = 0.5;
 
+  /// @param period  its counter, which wraps.
+  explicit TimedBoard(std::uint32_t period = 0) : period_(period), sampled_(period) {}
+
   bool sample(hal::Sample& sample) {
     if (sampled_ == period_) {
       begin_period();
     }
     sampled_ = period_;
     sample = {code(friction * ratio_), code(speed), false, fresh};
-    return period_ < last_period;
+    return period_ != last_period;
   }
   void drive(const hal::Drive& drive) {
     pass(step_takes);
@@ -60,9 +75,9 @@ class TimedBoard {
     }
   }
 
-  int step_takes = 0;  ///< carrier periods that begin before the next command arrives
-  bool fresh = true;   ///< the sensor answers
-  std::uint32_t last_period = UINT32_MAX;
+  int step_takes = 0;             ///< carrier periods that begin before the next command arrives
+  bool fresh = true;              ///< the sensor answers
+  std::int64_t last_period = -1;  ///< at which the board shuts down; -1: none
   std::vector<std::int32_t> in_force;  ///< amplitude in each period
 
   const hal::Drive& latest_drive() const { return drive_; }
@@ -81,8 +96,8 @@ class TimedBoard {
 
   hal::Drive drive_{};
   double ratio_ = 1.0;
-  std::uint32_t period_ = 0;
-  std::uint32_t sampled_ = 0;
+  std::uint32_t period_;
+  std::uint32_t sampled_;
 };
 
 class CountingWatchdog {
@@ -106,7 +121,7 @@ class Wire {
     return true;
   }
   bool send(std::uint8_t byte) {
-    full_ = !full_;
+    full_ = blocked || !full_;
     if (!full_) {
       from_unit.push_back(byte);
     }
@@ -115,6 +130,7 @@ class Wire {
 
   std::deque<std::uint8_t> to_unit;
   std::vector<std::uint8_t> from_unit;
+  bool blocked = false;  ///< nobody empties the register
 
  private:
   bool full_ = false;

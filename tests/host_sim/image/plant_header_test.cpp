@@ -45,6 +45,14 @@ TEST(PlantHeader, NamesWhatIsAllowed) {
             "sensor.force_bandwidth_Hz" + ideal + "remove it");
   EXPECT_EQ(refusal("target_step", {"sensor.delay_periods=1"}),
             "sensor.delay_periods" + ideal + "allowed: 0");
+  EXPECT_EQ(refusal("target_step", {"sensor.force_offset_N=1e-3"}),
+            "sensor.force_offset_N" + ideal + "allowed: 0");
+  EXPECT_EQ(refusal("target_step", {"sensor.force_gain=-1"}),
+            "sensor.force_gain" + ideal + "allowed: 1");
+  EXPECT_EQ(refusal("target_step", {"sensor.velocity_offset_m_per_s=1e-3"}),
+            "sensor.velocity_offset_m_per_s" + ideal + "allowed: 0");
+  EXPECT_EQ(refusal("target_step", {"sensor.velocity_gain=1.1"}),
+            "sensor.velocity_gain" + ideal + "allowed: 1");
   EXPECT_EQ(refusal("target_step", {"run.duration_s=1e5", "run.record=[]"}),
             "run.duration_s: has more carrier periods than an image counts; allowed: up to 71582.8 "
             "s");

@@ -128,6 +128,76 @@ TEST(SensorTest, DelaysTheForceByWholePeriodsAndTheSpeedNotAtAll) {
   }
 }
 
+scene::Sensor miswired(double force_gain, double force_offset_N, double velocity_gain,
+                       double velocity_offset_m_per_s) {
+  scene::Sensor description;
+  description.force_gain = force_gain;
+  description.force_offset_N = force_offset_N;
+  description.velocity_gain = velocity_gain;
+  description.velocity_offset_m_per_s = velocity_offset_m_per_s;
+  return description;
+}
+
+TEST(SensorTest, GainAndOffsetAreOfTheReadingAlone) {
+  for (const double gain : {-1.0, 0.0, 0.5, 1.25}) {
+    for (const double offset : {-0.25, 0.0, 0.125}) {  // of full scale
+      Sensor sensor(miswired(gain, offset * full_scale_N, -gain, -offset * full_speed_m_per_s),
+                    scales);
+      for (const double value : {-0.5, -0.125, 0.0, 0.25, 0.5}) {
+        const hal::Sample sample = sensor.sample(value * full_scale_N, value * full_speed_m_per_s);
+        EXPECT_NEAR(sample.friction_force * unit, gain * value + offset, 0.51 * unit);
+        EXPECT_NEAR(sample.sliding_velocity * unit, -gain * value - offset, 0.51 * unit);
+        EXPECT_FALSE(sample.force_at_rail);
+      }
+    }
+  }
+}
+
+TEST(SensorTest, AnOffsetCanLeadToTheRailAndIsFlagged) {
+  Sensor sensor(miswired(1.0, full_scale_N, 1.0, 2.0 * full_speed_m_per_s), scales);
+  const hal::Sample sample = sensor.sample(0.25 * full_scale_N, 0.0);
+  EXPECT_TRUE(sample.force_at_rail);
+  EXPECT_EQ(sample.friction_force, INT32_MAX);
+  EXPECT_EQ(sample.sliding_velocity, INT32_MAX);
+}
+
+TEST(SensorTest, GainAndOffsetComeBehindLowPassAndDelayAndBeforeNoiseAndConverter) {
+  scene::Sensor plain;
+  plain.force_bandwidth_Hz = 5e3;
+  plain.delay_periods = 2;
+  scene::Sensor wired = plain;
+  wired.force_gain = -0.5;
+  wired.force_offset_N = 0.25 * full_scale_N;
+  scene::Sensor noisy = wired;
+  noisy.force_noise_N = 1e-4;
+  noisy.adc_bits = 12;
+  scene::Sensor only_noise;
+  only_noise.force_noise_N = 1e-4;
+  Sensor plain_sensor(plain, scales);
+  Sensor wired_sensor(wired, scales);
+  Sensor noisy_sensor(noisy, scales);
+  Sensor noise_sensor(only_noise, scales);
+  const double code = std::ldexp(1.0, -11);
+  for (int k = 0; k < 100; ++k) {
+    const double force = 0.8 * full_scale_N * std::sin(0.3 * k + 1.0);
+    const double passed = plain_sensor.sample(force, 0.0).friction_force * unit;
+    const double expected = 0.25 - 0.5 * passed;
+    EXPECT_NEAR(wired_sensor.sample(force, 0.0).friction_force * unit, expected, 1.01 * unit) << k;
+    const double noise = noise_sensor.sample(0.0, 0.0).friction_force * unit;
+    const double read = noisy_sensor.sample(force, 0.0).friction_force * unit;
+    EXPECT_NEAR(read, expected + noise, 0.501 * code) << k;
+    EXPECT_EQ(std::remainder(read, code), 0.0) << "the converter is the last";
+  }
+}
+
+TEST(SensorTest, ADeadSensorReadsItsOffset) {
+  Sensor sensor(miswired(0.0, 0.0, 0.0, 0.0), scales);
+  const hal::Sample sample = sensor.sample(-0.5 * full_scale_N, -0.5 * full_speed_m_per_s);
+  EXPECT_EQ(sample.friction_force, 0);
+  EXPECT_EQ(sample.sliding_velocity, 0);
+  EXPECT_FALSE(sample.force_at_rail);
+}
+
 constexpr double noise_N = 1e-4;
 
 std::vector<double> noise_samples(std::uint64_t seed, int count, double offset_N = 0.0) {

@@ -124,6 +124,8 @@ TEST(EchoTest, KeepsEveryBitOfAControllersNumbers) {
     echo["controller"]["target_friction_ratio"][0][1] = magnitude(1e-300, 1.0);
     echo["sensor"]["force_full_scale_N"] = magnitude(0.03, 10.0);
     echo["sensor"]["force_noise_N"] = magnitude(1e-300, 1.0);
+    echo["sensor"]["force_offset_N"] = -magnitude(1e-300, 1e12);
+    echo["sensor"]["velocity_gain"] = magnitude(1e-300, 100.0);
     echo["model_error"]["stiffness"] = magnitude(0.01, 10.0);
     RC_ASSERT(to_json(read_text(as_toml(echo), "s")) == echo);
   }));

@@ -108,6 +108,10 @@ TEST(ReaderTest, DefaultsOfClosedLoop) {
   EXPECT_EQ(scene.sensor.force_noise_N, 0.0);
   EXPECT_FALSE(scene.sensor.force_bandwidth_Hz.has_value());
   EXPECT_EQ(scene.sensor.delay_periods, 0);
+  EXPECT_EQ(scene.sensor.force_offset_N, 0.0);
+  EXPECT_EQ(scene.sensor.force_gain, 1.0);
+  EXPECT_EQ(scene.sensor.velocity_offset_m_per_s, 0.0);
+  EXPECT_EQ(scene.sensor.velocity_gain, 1.0);
   EXPECT_EQ(scene.sensor.seed, 1U);
   EXPECT_EQ(scene.model_error.mass, 1.0);
   EXPECT_EQ(scene.model_error.stiffness, 1.0);
@@ -137,11 +141,26 @@ TEST(ReaderTest, EveryKeyOfClosedLoop) {
   EXPECT_EQ(scene.sensor.force_noise_N, 1e-4);
   EXPECT_EQ(scene.sensor.force_bandwidth_Hz, 5e3);
   EXPECT_EQ(scene.sensor.delay_periods, 2);
+  EXPECT_EQ(scene.sensor.force_offset_N, -2e-3);
+  EXPECT_EQ(scene.sensor.force_gain, 0.9);
+  EXPECT_EQ(scene.sensor.velocity_offset_m_per_s, 1e-3);
+  EXPECT_EQ(scene.sensor.velocity_gain, -1.0);
   EXPECT_EQ(scene.sensor.seed, 9223372036854775807U);
   EXPECT_EQ(scene.model_error.mass, 0.9);
   EXPECT_EQ(scene.model_error.stiffness, 1.04);
   EXPECT_EQ(scene.model_error.coefficient, 1.3);
   EXPECT_EQ(scene.model_error.contact_stiffness, 1.5);
+}
+
+TEST(ReaderTest, DeadAndReversedSensorsAreScenes) {
+  for (const double gain : {0.0, -1.0, 100.0, -100.0}) {
+    const std::string value = std::to_string(gain);
+    const Sensor sensor = read_text(shortest_closed_loop, "s",
+                                    {"sensor.force_gain=" + value, "sensor.velocity_gain=" + value})
+                              .sensor;
+    EXPECT_EQ(sensor.force_gain, gain);
+    EXPECT_EQ(sensor.velocity_gain, gain);
+  }
 }
 
 TEST(ReaderTest, ZeroFrictionDriveAndDampingAreScenes) {

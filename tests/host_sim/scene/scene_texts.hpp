@@ -182,6 +182,10 @@ force_full_scale_N = 0.04
 force_noise_N = 1e-4
 force_bandwidth_Hz = 5e3
 delay_periods = 2
+force_offset_N = -2e-3
+force_gain = 0.9
+velocity_offset_m_per_s = 1e-3
+velocity_gain = -1
 seed = 9223372036854775807
 [model_error]
 mass = 0.9

@@ -1,0 +1,27 @@
+/// What a settled loop tells about the friction force.
+#pragma once
+
+#include <cstdint>
+
+#include "firmware/control/drive_command.hpp"
+#include "firmware/numeric/scalar.hpp"
+#include "hal/board.hpp"
+
+namespace sonoglide::app {
+
+/// Believed over true friction force, in thousandths: commanded over target ratio, where the loop
+/// has settled; 0 where it is not known. Limited to 65,535. Rounded down, from a commanded ratio
+/// that is rounded to a millionth.
+/// @param target  friction ratio, millionths
+inline std::uint16_t mismatch_thousandths(const hal::Drive& drive, std::uint32_t target) {
+  if (drive.settling != static_cast<std::uint8_t>(control::Settling::settled) || target == 0) {
+    return 0;
+  }
+  // 2^31 is a ratio of 2.
+  const auto commanded = static_cast<std::uint32_t>(
+      (static_cast<std::uint64_t>(drive.commanded_ratio) * 2'000'000 + (1U << 30)) >> 31);
+  return static_cast<std::uint16_t>(
+      numeric::min<std::uint32_t>(commanded * 1000 / target, UINT16_MAX));
+}
+
+}  // namespace sonoglide::app

@@ -1,0 +1,56 @@
+/// What is typed while a console answers.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace sonoglide::app {
+
+/// Keeps up to 62 characters in their order. A line that does not fit is never taken for a shorter
+/// one: `spoilt` stands before its end, for which two places are kept free.
+class TypedAhead {
+ public:
+  static constexpr char spoilt = '\x18';
+
+  void put(char character) {
+    if (!spoiling_ && count_ + 2 < characters_.size()) {
+      append(character);
+      return;
+    }
+    spoiling_ = character != '\r' && character != '\n';
+    // Where not even the end fits, that of the spoilt line before it is still there to be told.
+    if (!spoiling_ && count_ + 2 <= characters_.size()) {
+      append(spoilt);
+      append(character);
+    }
+  }
+
+  bool empty() const { return count_ == 0; }
+
+  /// The first of them; not where it is empty.
+  char take() {
+    const char character = characters_[first_];
+    first_ = (first_ + 1) % characters_.size();
+    --count_;
+    return character;
+  }
+
+  void clear() {
+    count_ = 0;
+    spoiling_ = false;
+  }
+
+ private:
+  void append(char character) {
+    characters_[(first_ + count_) % characters_.size()] = character;
+    ++count_;
+  }
+
+  std::array<char, 64> characters_{};
+  std::size_t first_ = 0;
+  std::size_t count_ = 0;
+  bool spoiling_ = false;  ///< characters of the last line were left out
+};
+
+}  // namespace sonoglide::app

@@ -1,0 +1,97 @@
+/// Whether the measured friction ratio comes to its target, and what it tells about the friction.
+#pragma once
+
+#include <cstdint>
+
+#include "firmware/control/drive_command.hpp"
+#include "firmware/numeric/scalar.hpp"
+
+namespace sonoglide::control {
+
+/// Counts the periods in which the measured ratio is outside target ± band: 4 up for each of them,
+/// 1 down for each inside. From 4·patience on the loop is not settling, so that a ratio which
+/// swings through its band is found as well as one that stays away: one that is outside for more
+/// than a fifth of the time. Back at zero it has settled; so it has when the limit ends, after up
+/// to 33 periods inside. All ratios on base 2.
+///
+/// Settled, the commanded ratio is the true one, as the friction-ratio map has it, and the target
+/// is what the believed friction force makes of it: commanded / target = believed / true force.
+template <class Scalar>
+class SettlingWatch {
+ public:
+  struct Parameters {
+    Scalar band;             ///< half width, > 0
+    std::uint16_t patience;  ///< periods outside the band that are granted, >= 1
+    Scalar agreement;        ///< least true / believed friction, or its inverse, not warned of
+  };
+
+  explicit SettlingWatch(const Parameters& parameters) : parameters_(parameters) {}
+
+  void restart() {
+    count_ = 1;  // pending until a period is inside
+    above_ = below_ = clamped_ = disagrees_ = false;
+  }
+
+  /// Another target: at least half of the patience is left for it.
+  void retarget() { count_ = count_ < limit() / 2 ? count_ : limit() / 2; }
+
+  /// One call for each period in which the drive is to hold a ratio.
+  /// @param commanded  ratio that the drive is picked for
+  /// @param clamped    the command stands at an end of its range
+  void judge(Scalar target, Scalar measured, Scalar commanded, bool clamped) {
+    const Scalar error = measured - target;
+    const bool above = parameters_.band < error;
+    const bool below = error < -parameters_.band;
+    if (above || below) {
+      const std::uint32_t most = limit() + afterwards;
+      count_ = count_ + step < most ? count_ + step : most;
+      above_ = above_ || above;
+      below_ = below_ || below;
+      clamped_ = clamped_ || clamped;
+    } else if (count_ > 0) {
+      --count_;
+      count_ = count_ + 1 == limit() ? 0 : count_;
+    }
+    if (count_ == 0) {
+      above_ = below_ = clamped_ = false;
+    }
+    disagrees_ = commanded < target ? commanded < parameters_.agreement * target
+                                    : target < parameters_.agreement * commanded;
+  }
+
+  Settling settling() const {
+    if (count_ == 0) {
+      return Settling::settled;
+    }
+    if (count_ < limit()) {
+      return Settling::pending;
+    }
+    if (clamped_) {
+      return Settling::clamped;
+    }
+    return above_ && below_ ? Settling::ringing : Settling::offset;
+  }
+
+  /// none, mismatch or not_settling.
+  Limit limit_named() const {
+    if (count_ == 0) {
+      return disagrees_ ? Limit::mismatch : Limit::none;
+    }
+    return count_ < limit() ? Limit::none : Limit::not_settling;
+  }
+
+ private:
+  static constexpr std::uint32_t step = 4;
+  static constexpr std::uint32_t afterwards = 32;  ///< periods inside that end the limit
+
+  std::uint32_t limit() const { return step * parameters_.patience; }
+
+  Parameters parameters_;
+  std::uint32_t count_ = 1;
+  bool above_ = false;
+  bool below_ = false;
+  bool clamped_ = false;
+  bool disagrees_ = false;
+};
+
+}  // namespace sonoglide::control

@@ -1,0 +1,42 @@
+/// The actuator between controller and plant.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <limits>
+
+#include "firmware/control/drive_command.hpp"
+#include "hal/board.hpp"
+
+namespace sonoglide::loop {
+
+/// What drives one carrier period.
+struct Command {
+  double amplitude_N = 0.0;
+  double target = std::numeric_limits<double>::quiet_NaN();  ///< that it was picked for
+  double commanded_ratio = std::numeric_limits<double>::quiet_NaN();
+  control::State state = control::State::off;
+  control::Limit limit = control::Limit::none;
+  control::Settling settling = control::Settling::pending;
+};
+
+/// Turns the codes of drive commands into newtons, each in force a latency later.
+class Actuator {
+ public:
+  /// @param delay_periods  from the end of the period that a sample describes to the phase 0 at
+  ///                       which its answer acts
+  /// @param full_scale_N   amplitude of code 2^31
+  Actuator(int delay_periods, double full_scale_N);
+
+  /// The answer to the period that has just passed; target: friction ratio it was picked for.
+  void take(const hal::Drive& drive, double target);
+
+  /// In force during the next carrier period; off until the first answer acts.
+  const Command& in_force() const { return queue_.front(); }
+
+ private:
+  double full_scale_N_;
+  std::deque<Command> queue_;
+};
+
+}  // namespace sonoglide::loop

@@ -1,0 +1,60 @@
+// A unit that drives, says so, and then does what no processor can: it is looked at what its
+// exception handler leaves of the drive.
+#include SONOGLIDE_BOARD_HEADER
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "controller_configuration.hpp"
+#include "firmware/app/supervisor.hpp"
+#include "firmware/app/timed_loop.hpp"
+#include "firmware/encoding/decimal.hpp"
+#include "hal/no_watchdog.hpp"
+#include "hal/timed/drive_register.hpp"
+
+namespace {
+
+using Hardware = SONOGLIDE_BOARD_CLASS;
+namespace app = sonoglide::app;
+namespace configuration = app::configuration;
+namespace encoding = sonoglide::encoding;
+
+constexpr double period_ticks =
+    Hardware::carriers_per_period * configuration::carrier_period_s * Hardware::Board::clock_hz +
+    0.5;
+constexpr int settled = 300;  // carrier periods
+
+void send(Hardware::ByteLink& bytes, char character) {
+  while (!bytes.send(static_cast<std::uint8_t>(character))) {
+  }
+}
+
+/// And a character after it.
+void send(Hardware::ByteLink& bytes, std::uint32_t number, char end) {
+  std::array<char, encoding::most_decimal_characters> text{};
+  const std::size_t size = encoding::write_decimal(number, 0, text.data());
+  for (std::size_t i = 0; i < size; ++i) {
+    send(bytes, text[i]);
+  }
+  send(bytes, end);
+}
+
+}  // namespace
+
+int main() {
+  Hardware::ByteLink bytes;
+  Hardware::Board board(static_cast<std::uint32_t>(period_ticks));
+  app::Supervisor<sonoglide::control::Controller<configuration::Parts>> supervisor(
+      configuration::parameters);
+  supervisor.set_target(configuration::target_steps[0].half_ratio);
+  sonoglide::hal::NoWatchdog watchdog;
+  app::NoService service;
+  app::TimedLoop loop(supervisor, board, watchdog, service);
+  for (int i = 0; i < settled; ++i) {
+    loop.serve();
+  }
+  send(bytes, static_cast<std::uint32_t>(reinterpret_cast<std::uintptr_t>(&drive_amplitude)), ' ');
+  send(bytes, static_cast<std::uint32_t>(drive_amplitude), '\n');
+  __builtin_trap();
+}

@@ -1,0 +1,77 @@
+#include "tests/random_loops/loops/outcome.hpp"
+
+#include <tbb/parallel_for.h>
+
+#include <limits>
+
+#include "firmware/control/names.hpp"
+#include "host_sim/analysis/target_spans.hpp"
+#include "host_sim/loop/computation_error.hpp"
+#include "host_sim/loop/run.hpp"
+#include "host_sim/scene/reader.hpp"
+
+namespace sonoglide::random_loops {
+namespace {
+
+/// The last fault that came before a time.
+std::string fault_at(const loop::ControlRecord& record, double time_s) {
+  std::string name;
+  for (const loop::FaultEvent& event : record.faults) {
+    if (event.time_s <= time_s) {
+      name = control::name(event.fault);
+    }
+  }
+  return name;
+}
+
+Verdict verdict(const StepOutcome& step) {
+  if (step.settled()) {
+    return *step.metrics.settling_time_s <= prompt_s ? Verdict::prompt : Verdict::late;
+  }
+  return step.named() ? Verdict::never_named : Verdict::never_unnamed;
+}
+
+void run_scene(const scene::Scene& scene, Outcome& outcome) {
+  analysis::StepMeter meter(scene);
+  loop::Watch watch;
+  watch.periods.push_back(&meter);
+  const loop::RunResult result = loop::run(scene, watch);
+  const std::vector<analysis::StepMetrics> steps = meter.steps();
+  const std::vector<analysis::TargetSpan> spans = analysis::target_spans(scene);
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    StepOutcome step{steps[i], fault_at(*result.control, spans[i].end_s)};
+    step.verdict = verdict(step);
+    step.at_end =
+        step.settled() && spans[i].begin_s + *steps[i].settling_time_s > spans[i].quarter_s;
+    outcome.steps.push_back(step);
+  }
+}
+
+}  // namespace
+
+bool StepOutcome::named() const {
+  return metrics.limit != control::Limit::none || !fault.empty();
+}
+
+Outcome outcome(std::uint32_t seed, std::uint32_t index) {
+  Outcome outcome;
+  outcome.loop = random_loop(seed, index);
+  try {
+    run_scene(scene::read_text(scene_text(outcome.loop), "random.toml"), outcome);
+  } catch (const scene::SceneError& error) {
+    outcome.refused = error.what();
+    outcome.refused_key = error.key();
+  } catch (const loop::ComputationError& error) {
+    outcome.failed = error.what();
+  }
+  return outcome;
+}
+
+std::vector<Outcome> outcomes(std::uint32_t seed, std::uint32_t count) {
+  std::vector<Outcome> all(count);
+  tbb::parallel_for(std::uint32_t{0}, count,
+                    [&](std::uint32_t index) { all[index] = outcome(seed, index); });
+  return all;
+}
+
+}  // namespace sonoglide::random_loops

@@ -1,0 +1,357 @@
+#include "tests/random_loops/loops/random_loop.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "firmware/numeric/float_sqrt.hpp"
+#include "firmware/numeric/turn.hpp"
+#include "tests/random_loops/loops/dice.hpp"
+
+namespace sonoglide::random_loops {
+namespace {
+
+constexpr double standard_gravity_m_per_s2 = 9.81;
+
+struct Share {
+  std::string_view name;
+  double percent;
+};
+
+constexpr std::array<Share, 7> laws = {{{"dahl", 55.0},
+                                        {"coulomb", 20.0},
+                                        {"lugre", 5.0},
+                                        {"iwan", 5.0},
+                                        {"stribeck", 5.0},
+                                        {"transverse_coulomb", 5.0},
+                                        {"normal_coulomb", 5.0}}};
+constexpr std::array<Share, 4> arithmetics = {
+    {{"float32", 35.0}, {"q31", 30.0}, {"q15", 20.0}, {"float64", 15.0}}};
+
+template <std::size_t Count>
+std::string_view draw_name(Dice& dice, const std::array<Share, Count>& shares) {
+  std::array<double, Count> percentages{};
+  std::transform(shares.begin(), shares.end(), percentages.begin(),
+                 [](const Share& share) { return share.percent; });
+  return shares[dice.part(percentages)].name;
+}
+
+/// Natural over carrier frequency.
+double draw_mode(Dice& dice) {
+  constexpr std::array<double, mode_count> percentages = {45.0, 35.0, 5.0, 15.0};
+  switch (static_cast<Mode>(dice.part(percentages))) {
+    case Mode::below:
+      return dice.between(0.05, 0.92);
+    case Mode::above:
+      return dice.between(1.075, 3.6);
+    case Mode::near_zero:
+      return dice.over_decades(1e-3, 1.6);  // to 0.04
+    case Mode::near_multiple:
+      break;
+  }
+  const int multiple = dice.whole(2, 4);
+  return multiple + dice.sign() * dice.over_decades(1e-4, 2.6);  // to 0.04
+}
+
+Mode mode_class(double mode_per_carrier) {
+  if (std::abs(mode_per_carrier - std::round(mode_per_carrier)) > near_multiple) {
+    return mode_per_carrier < 1.0 ? Mode::below : Mode::above;
+  }
+  return mode_per_carrier < 1.0 ? Mode::near_zero : Mode::near_multiple;
+}
+
+double draw_damping_ratio(Dice& dice) {
+  constexpr std::array<double, 3> percentages = {50.0, 25.0, 25.0};
+  switch (dice.part(percentages)) {
+    case 0:
+      return 0.0;
+    case 1:
+      return dice.over_decades(1e-4, 2.0);
+    default:
+      return dice.over_decades(1e-2, 1.477);
+  }
+}
+
+double angular_frequency_rad_per_s(const RandomLoop& loop) {
+  return numeric::two_pi * loop.frequency_Hz;
+}
+
+double full_vibration_m_per_s(const RandomLoop& loop) {
+  return loop.full_velocity_ratio * std::abs(loop.sliding_velocity_m_per_s);
+}
+
+double full_vibration_m(const RandomLoop& loop) {
+  return full_vibration_m_per_s(loop) / angular_frequency_rad_per_s(loop);
+}
+
+double friction_N(const RandomLoop& loop) {
+  return loop.coefficient * loop.normal_force_N;
+}
+
+void draw_plant(Dice& dice, RandomLoop& loop) {
+  loop.mass_kg = dice.over_decades(1e-3, 3.0);
+  loop.frequency_Hz = dice.over_decades(18e3, 0.8239);  // to 120 kHz
+  loop.mode_per_carrier = draw_mode(dice);
+  loop.mode = mode_class(loop.mode_per_carrier);
+  loop.damping_ratio = draw_damping_ratio(dice);
+  const double natural_rad_per_s = loop.mode_per_carrier * angular_frequency_rad_per_s(loop);
+  loop.stiffness_N_per_m = loop.mass_kg * natural_rad_per_s * natural_rad_per_s;
+  loop.damping_N_s_per_m = 2.0 * loop.damping_ratio * loop.mass_kg * natural_rad_per_s;
+}
+
+void draw_sliding_and_drive(Dice& dice, RandomLoop& loop) {
+  loop.sliding_velocity_m_per_s = dice.sign() * dice.over_decades(1e-3, 2.477);
+  loop.full_velocity_ratio =
+      dice.chance(1.0 / 12.0) ? dice.between(1.1, 3.0) : dice.over_decades(3.0, 0.602);
+  const double omega = angular_frequency_rad_per_s(loop);
+  const double reactive = loop.stiffness_N_per_m - loop.mass_kg * omega * omega;
+  const double resistive = loop.damping_N_s_per_m * omega;
+  loop.max_force_amplitude_N =
+      full_vibration_m(loop) * numeric::sqrt(reactive * reactive + resistive * resistive);
+}
+
+void draw_lugre(Dice& dice, RandomLoop& loop) {
+  const double friction_per_velocity = friction_N(loop) / full_vibration_m_per_s(loop);
+  LawNumbers& own = loop.law_numbers;
+  own.static_coefficient = loop.coefficient * dice.between(1.0, 1.5);
+  own.stribeck_velocity_m_per_s =
+      std::abs(loop.sliding_velocity_m_per_s) * dice.over_decades(0.3, 1.0);
+  own.bristle_damping_N_s_per_m = friction_per_velocity * dice.between(0.0, 0.1);
+  own.viscous_friction_N_s_per_m = friction_per_velocity * dice.between(0.0, 0.2);
+}
+
+/// The curve falls by up to a quarter from rest to the sliding speed, and never below zero.
+void draw_stribeck(Dice& dice, RandomLoop& loop) {
+  LawNumbers& own = loop.law_numbers;
+  own.fall_s_per_m =
+      dice.between(0.0, 0.25) * loop.coefficient / std::abs(loop.sliding_velocity_m_per_s);
+  const double least = 4.0 * own.fall_s_per_m * own.fall_s_per_m * own.fall_s_per_m /
+                       (27.0 * loop.coefficient * loop.coefficient);
+  own.rise_s3_per_m3 = least * dice.between(1.01, 2.0);
+}
+
+/// Full drive takes 0.5 to 1.2 of the normal force away; the sliding is 0.05 to 0.5 of the speed
+/// from which nothing is lost.
+void draw_normal_coulomb(Dice& dice, RandomLoop& loop) {
+  LawNumbers& own = loop.law_numbers;
+  own.normal_contact_stiffness_N_per_m =
+      dice.between(0.5, 1.2) * loop.normal_force_N / full_vibration_m(loop);
+  loop.contact_stiffness_N_per_m = dice.over_decades(0.05, 1.0) * loop.coefficient *
+                                   own.normal_contact_stiffness_N_per_m * loop.full_velocity_ratio;
+  loop.full_dahl_number =
+      loop.contact_stiffness_N_per_m * full_vibration_m(loop) / friction_N(loop);
+}
+
+void draw_contact_stiffness(Dice& dice, RandomLoop& loop) {
+  loop.full_dahl_number = dice.over_decades(0.05, 3.301);  // to 100
+  loop.contact_stiffness_N_per_m =
+      loop.full_dahl_number * friction_N(loop) / full_vibration_m(loop);
+}
+
+void draw_friction(Dice& dice, RandomLoop& loop) {
+  loop.law = draw_name(dice, laws);
+  loop.coefficient = dice.over_decades(0.05, 1.0);
+  const double weight_N = loop.mass_kg * standard_gravity_m_per_s2;
+  loop.normal_force_N = dice.chance(0.5) ? weight_N : weight_N * dice.over_decades(1.0, 2.0);
+  const double natural_rad_per_s = loop.mode_per_carrier * angular_frequency_rad_per_s(loop);
+  loop.friction_ringing = friction_N(loop) / (loop.mass_kg * natural_rad_per_s *
+                                              std::abs(loop.sliding_velocity_m_per_s));
+  if (loop.law == "normal_coulomb") {
+    draw_normal_coulomb(dice, loop);
+  } else if (loop.law == "stribeck") {
+    draw_stribeck(dice, loop);
+  } else if (loop.law == "dahl" || loop.law == "lugre" || loop.law == "iwan") {
+    draw_contact_stiffness(dice, loop);
+  }
+  if (loop.law == "lugre") {
+    draw_lugre(dice, loop);
+  } else if (loop.law == "iwan") {
+    loop.law_numbers.elements = dice.whole(1, 8);
+  }
+}
+
+void draw_sensor(Dice& dice, RandomLoop& loop) {
+  if (dice.chance(0.3)) {
+    return;
+  }
+  SensorNumbers& sensor = loop.sensor;
+  if (dice.chance(0.6)) {
+    sensor.adc_bits = dice.whole(8, 16);
+  }
+  if (dice.chance(0.5)) {
+    sensor.force_noise_N = friction_N(loop) * dice.over_decades(1e-4, 1.7);  // to 0.5 %
+  }
+  if (dice.chance(0.5)) {
+    sensor.force_bandwidth_Hz = dice.over_decades(2e3, 1.398);  // to 50 kHz
+  }
+  if (dice.chance(0.5)) {
+    sensor.delay_periods = dice.whole(1, 4);
+  }
+}
+
+bool has_contact_stiffness(const RandomLoop& loop) {
+  return loop.contact_stiffness_N_per_m > 0.0;
+}
+
+/// That the sliding takes through the contact's presliding travel.
+double presliding_s(const RandomLoop& loop) {
+  return has_contact_stiffness(loop) ? friction_N(loop) / loop.contact_stiffness_N_per_m /
+                                           std::abs(loop.sliding_velocity_m_per_s)
+                                     : 0.0;
+}
+
+/// Long enough for contact and sensor to settle.
+double draw_calibration_s(Dice& dice, const RandomLoop& loop) {
+  if (dice.chance(0.25)) {
+    return 0.0;
+  }
+  const double filter_s = loop.sensor.force_bandwidth_Hz
+                              ? 1.0 / (numeric::two_pi * *loop.sensor.force_bandwidth_Hz)
+                              : 0.0;
+  const double settling_s = 15.0 * presliding_s(loop) + 6.0 * filter_s;
+  constexpr double more_periods = 20.0;
+  return dice.between(1.0, 3.0) * (settling_s + more_periods / loop.frequency_Hz);
+}
+
+void draw_controller(Dice& dice, RandomLoop& loop) {
+  loop.arithmetic = draw_name(dice, arithmetics);
+  loop.calibration_s = draw_calibration_s(dice, loop);
+  for (std::size_t i = 0; i < steps_per_loop; ++i) {
+    loop.step_s[i] = dice.between(2e-3, 4e-3) + 7.0 * presliding_s(loop);
+    loop.targets[i] = dice.between(0.25, 0.9);
+  }
+}
+
+void draw_model_error(Dice& dice, RandomLoop& loop) {
+  if (loop.index % 2 == 0) {
+    return;
+  }
+  ModelErrorNumbers error;
+  error.stiffness = dice.between(0.95, 1.05);
+  error.coefficient = dice.between(0.7, 1.3);
+  error.contact_stiffness = dice.between(0.5, 1.5);
+  loop.model_error = error;
+}
+
+/// Lines of a scene. Six digits are enough to be what was drawn, and short enough to be read.
+class SceneText {
+ public:
+  void table(std::string_view name) { text_ += fmt::format("[{}]\n", name); }
+  void number(std::string_view key, double value) {
+    text_ += fmt::format("{} = {:.6g}\n", key, value);
+  }
+  void number_unless_zero(std::string_view key, double value) {
+    if (value != 0.0) {
+      number(key, value);
+    }
+  }
+  void word(std::string_view key, std::string_view value) {
+    text_ += fmt::format("{} = \"{}\"\n", key, value);
+  }
+  void line(const std::string& text) { text_ += text + '\n'; }
+  std::string take() { return std::move(text_); }
+
+ private:
+  std::string text_;
+};
+
+void write_friction(SceneText& text, const RandomLoop& loop) {
+  text.table("friction");
+  text.word("law", loop.law);
+  text.number("coefficient", loop.coefficient);
+  text.number("normal_force_N", loop.normal_force_N);
+  text.number_unless_zero("contact_stiffness_N_per_m", loop.contact_stiffness_N_per_m);
+  const LawNumbers& own = loop.law_numbers;
+  if (own.elements > 0) {
+    text.line(fmt::format("elements = {}", own.elements));
+  }
+  text.number_unless_zero("static_coefficient", own.static_coefficient);
+  text.number_unless_zero("stribeck_velocity_m_per_s", own.stribeck_velocity_m_per_s);
+  text.number_unless_zero("bristle_damping_N_s_per_m", own.bristle_damping_N_s_per_m);
+  text.number_unless_zero("viscous_friction_N_s_per_m", own.viscous_friction_N_s_per_m);
+  text.number_unless_zero("fall_s_per_m", own.fall_s_per_m);
+  text.number_unless_zero("rise_s3_per_m3", own.rise_s3_per_m3);
+  text.number_unless_zero("normal_contact_stiffness_N_per_m", own.normal_contact_stiffness_N_per_m);
+}
+
+void write_controller(SceneText& text, const RandomLoop& loop) {
+  std::string targets;
+  double begin_s = 0.0;
+  for (std::size_t i = 0; i < steps_per_loop; ++i) {
+    targets += fmt::format("{}[{:.6g}, {:.6g}]", i == 0 ? "" : ", ", begin_s, loop.targets[i]);
+    begin_s += loop.step_s[i] + (i == 0 ? loop.calibration_s : 0.0);
+  }
+  text.table("run");
+  text.number("duration_s", begin_s);
+  text.table("controller");
+  text.word("arithmetic", loop.arithmetic);
+  text.line(fmt::format("target_friction_ratio = [{}]", targets));
+  text.number_unless_zero("calibration_s", loop.calibration_s);
+}
+
+void write_sensor(SceneText& text, const RandomLoop& loop) {
+  const SensorNumbers& sensor = loop.sensor;
+  if (sensor.ideal()) {
+    return;
+  }
+  text.table("sensor");
+  if (sensor.adc_bits) {
+    text.line(fmt::format("adc_bits = {}", *sensor.adc_bits));
+  }
+  text.number_unless_zero("force_noise_N", sensor.force_noise_N);
+  text.number_unless_zero("force_bandwidth_Hz", sensor.force_bandwidth_Hz.value_or(0.0));
+  if (sensor.delay_periods > 0) {
+    text.line(fmt::format("delay_periods = {}", sensor.delay_periods));
+  }
+  text.line(fmt::format("seed = {}", loop.index));
+}
+
+void write_model_error(SceneText& text, const RandomLoop& loop) {
+  if (!loop.model_error) {
+    return;
+  }
+  text.table("model_error");
+  text.number("stiffness", loop.model_error->stiffness);
+  text.number("coefficient", loop.model_error->coefficient);
+  if (has_contact_stiffness(loop)) {
+    text.number("contact_stiffness", loop.model_error->contact_stiffness);
+  }
+}
+
+}  // namespace
+
+RandomLoop random_loop(std::uint32_t seed, std::uint32_t index) {
+  Dice dice(seed, index);
+  RandomLoop loop;
+  loop.index = index;
+  draw_plant(dice, loop);
+  draw_sliding_and_drive(dice, loop);
+  draw_friction(dice, loop);
+  draw_sensor(dice, loop);
+  draw_controller(dice, loop);
+  draw_model_error(dice, loop);
+  return loop;
+}
+
+std::string scene_text(const RandomLoop& loop) {
+  SceneText text;
+  text.table("plant");
+  text.number("mass_kg", loop.mass_kg);
+  text.number("stiffness_N_per_m", loop.stiffness_N_per_m);
+  text.number_unless_zero("damping_N_s_per_m", loop.damping_N_s_per_m);
+  write_friction(text, loop);
+  text.table("sliding");
+  text.number("velocity_m_per_s", loop.sliding_velocity_m_per_s);
+  text.table("drive");
+  text.number("frequency_Hz", loop.frequency_Hz);
+  text.number("max_force_amplitude_N", loop.max_force_amplitude_N);
+  text.table("solver");
+  text.number("tolerance", 1e-8);
+  write_controller(text, loop);
+  write_sensor(text, loop);
+  write_model_error(text, loop);
+  return text.take();
+}
+
+}  // namespace sonoglide::random_loops

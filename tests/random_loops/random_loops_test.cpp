@@ -1,0 +1,106 @@
+/// Random closed loops: that they are what they say, and that what becomes of them is the recorded
+/// table, neither worse nor better.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <map>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "tests/random_loops/loops/outcome.hpp"
+#include "tests/random_loops/loops/random_loop.hpp"
+#include "tests/random_loops/loops/table.hpp"
+
+namespace sonoglide::random_loops {
+namespace {
+
+constexpr std::uint32_t seed = 1;
+constexpr std::uint32_t count = SONOGLIDE_RANDOM_LOOPS;
+
+const std::vector<Outcome>& all() {
+  static const std::vector<Outcome> once = outcomes(seed, count);
+  return once;
+}
+
+/// The rows of a table that are about so many loops, after its header.
+std::vector<std::string> rows(std::istream& table) {
+  std::vector<std::string> found;
+  for (std::string line; std::getline(table, line);) {
+    if (found.empty() || line.rfind(std::to_string(count) + ",", 0) == 0) {
+      found.push_back(line);
+    }
+  }
+  return found;
+}
+
+TEST(RandomLoopsTest, EndAsRecorded) {
+  std::ifstream file(SONOGLIDE_RANDOM_LOOPS_TABLE);
+  std::istringstream computed(table_csv(all(), {count}));
+  const std::vector<std::string> recorded_rows = rows(file);
+  const std::vector<std::string> computed_rows = rows(computed);
+  ASSERT_GT(computed_rows.size(), 1U);
+  ASSERT_EQ(recorded_rows.size(), computed_rows.size());
+  for (std::size_t i = 0; i < computed_rows.size(); ++i) {
+    EXPECT_EQ(computed_rows[i], recorded_rows[i])
+        << "computed and recorded. If this is meant, cmake --build --preset release --target "
+           "write_random_loops and commit the change.";
+  }
+}
+
+TEST(RandomLoopsTest, HaveAVerdictForEachStep) {
+  for (const Outcome& outcome : all()) {
+    EXPECT_EQ(outcome.failed, "") << outcome.loop.index;
+    EXPECT_EQ(outcome.steps.size(), outcome.refused.empty() ? steps_per_loop : 0U)
+        << outcome.loop.index;
+    for (const StepOutcome& step : outcome.steps) {
+      const bool never =
+          step.verdict == Verdict::never_named || step.verdict == Verdict::never_unnamed;
+      EXPECT_EQ(never, !step.metrics.settling_time_s) << outcome.loop.index;
+      EXPECT_TRUE(std::isfinite(step.metrics.ripple)) << outcome.loop.index;
+    }
+  }
+}
+
+TEST(RandomLoopsTest, DependOnSeedAndNumberAlone) {
+  const std::string text = scene_text(random_loop(seed, 42));
+  random_loop(seed, 7);
+  EXPECT_EQ(scene_text(random_loop(seed, 42)), text);
+  EXPECT_NE(scene_text(random_loop(seed, 43)), text);
+  EXPECT_NE(scene_text(random_loop(seed + 1, 42)), text);
+}
+
+TEST(RandomLoopsTest, StayInsideTheirRanges) {
+  std::map<std::string, int> seen;
+  for (std::uint32_t index = 0; index < 2000; ++index) {
+    const RandomLoop loop = random_loop(seed, index);
+    EXPECT_TRUE(loop.mass_kg >= 1e-3 && loop.mass_kg <= 1.0) << index;
+    EXPECT_TRUE(loop.frequency_Hz >= 18e3 && loop.frequency_Hz <= 120.01e3) << index;
+    const double square = loop.mode_per_carrier * loop.mode_per_carrier;
+    EXPECT_GE(std::abs(square - 1.0), 0.15) << index << ": resonance";
+    EXPECT_TRUE(loop.damping_ratio == 0.0 ||
+                (loop.damping_ratio >= 1e-4 && loop.damping_ratio <= 0.3))
+        << index;
+    if (loop.law == "dahl") {
+      EXPECT_TRUE(loop.full_dahl_number >= 0.05 && loop.full_dahl_number <= 100.1) << index;
+    }
+    for (const double target : loop.targets) {
+      EXPECT_TRUE(target >= 0.25 && target <= 0.9) << index;
+    }
+    EXPECT_EQ(loop.model_error.has_value(), index % 2 == 1);
+    ++seen["mode " + std::string(mode_names[static_cast<std::size_t>(loop.mode)])];
+    ++seen["law " + std::string(loop.law)];
+    ++seen["arithmetic " + std::string(loop.arithmetic)];
+    ++seen[loop.sensor.ideal() ? "ideal sensor" : "imperfect sensor"];
+    ++seen[loop.calibration_s > 0.0 ? "calibrated" : "trusted"];
+    ++seen[loop.damping_ratio > 0.0 ? "damped" : "undamped"];
+  }
+  EXPECT_EQ(seen.size(), mode_count + 7U + 4U + 2U + 2U + 2U);
+  for (const auto& [part, times] : seen) {
+    EXPECT_GE(times, 60) << part;
+  }
+}
+
+}  // namespace
+}  // namespace sonoglide::random_loops
