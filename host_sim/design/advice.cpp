@@ -66,8 +66,7 @@ std::string shortfall(const Study& study, const Requirement& point) {
 Advice drive(const Study& study, const Requirement& point) {
   const std::string topic = fmt::format("Ratio {:g}", point.ratio);
   if (point.limit == Limit::undriven) {
-    return {topic, fmt::format("Needs no drive: undriven the contact is at {:.4f} at {}.",
-                               point.reachable_ratio, speed(point.sliding_m_per_s))};
+    return {topic, "Needs no drive: it is what the contact has undriven."};
   }
   const std::string further = reach(study, point.ratio);
   return {topic, fmt::format("Drive with {} ({:.3g} % of {}) at {}, a vibration of {} and {}{}.",

@@ -25,9 +25,10 @@ double closed_form_ratio(const scene::Scene& scene, double sliding_m_per_s,
   }
   if (const auto* curve = std::get_if<scene::laws::Stribeck>(&friction.law)) {
     const double v = vibration_m_per_s;
-    return friction::stribeck_friction_ratio(
+    const double over_limit = friction::stribeck_friction_ratio(
         velocity_ratio, curve->fall_s_per_m * v / friction.coefficient,
         curve->rise_s3_per_m3 * v * v * v / friction.coefficient);
+    return over_limit * friction.limit_N() / curve->undriven_N(friction, sliding_m_per_s);
   }
   return friction::coulomb_friction_ratio(velocity_ratio);
 }

@@ -85,10 +85,8 @@ Requirement require_ratio(const scene::Scene& scene, double sliding_m_per_s, dou
   found.sliding_m_per_s = sliding_m_per_s;
   found.ratio = ratio;
   found.reachable_ratio = ratio;
-  const double undriven = undriven_friction_ratio(scene.friction, sliding_m_per_s);
-  if (ratio >= undriven) {
+  if (ratio >= 1.0) {
     found.limit = Limit::undriven;
-    found.reachable_ratio = undriven;
     return found;
   }
   const double most_N = scene.drive->max_force_amplitude_N;

@@ -11,7 +11,7 @@ namespace sonoglide::design {
 /// What stands between a ratio and the drive.
 enum class Limit {
   none,
-  undriven,   ///< the contact has the ratio, or less, without vibration
+  undriven,   ///< the contact has the ratio without vibration
   actuator,   ///< the force is more than the drive has
   amplitude,  ///< no vibration makes the ratio so low
   no_orbit,   ///< no steady vibration has been found

@@ -5,7 +5,7 @@
 
 #include "host_sim/loop/recording.hpp"
 #include "host_sim/loop/run.hpp"
-#include "host_sim/scene/plant_scales.hpp"
+#include "host_sim/scene/friction_laws.hpp"
 
 namespace sonoglide::design {
 namespace {
@@ -22,16 +22,6 @@ double amplitude(const std::vector<loop::PlantState>& states, double loop::Plant
 }
 
 }  // namespace
-
-double undriven_friction_ratio(const scene::Friction& friction, double sliding_m_per_s) {
-  const auto* curve = std::get_if<scene::laws::Stribeck>(&friction.law);
-  if (curve == nullptr) {
-    return 1.0;
-  }
-  const double speed = std::abs(sliding_m_per_s);
-  return 1.0 - speed * (curve->fall_s_per_m - curve->rise_s3_per_m3 * speed * speed) /
-                   friction.coefficient;
-}
 
 scene::Scene steady_scene(const scene::Scene& scene, double sliding_m_per_s, double drive_force_N) {
   scene::Scene steady;
@@ -64,7 +54,8 @@ SteadyMotion steady_motion(const scene::Scene& steady_scene) {
   const double force_N = steady_scene.drive->force_amplitude_N;
   const double velocity_m_per_s = amplitude(recording.state, &loop::PlantState::velocity_m_per_s);
   const double sliding_m_per_s = steady_scene.sliding.profile.front().velocity_m_per_s;
-  const double undriven = undriven_friction_ratio(steady_scene.friction, sliding_m_per_s);
+  const double undriven_N =
+      scene::undriven_friction_N(steady_scene.friction.law, steady_scene.friction, sliding_m_per_s);
   return {force_N,
           loop::power_ratios(steady_scene, energy).friction_ratio,
           amplitude(recording.state, &loop::PlantState::displacement_m),
@@ -72,7 +63,7 @@ SteadyMotion steady_motion(const scene::Scene& steady_scene) {
           energy.drive_work_J / period_s,
           0.5 * force_N * velocity_m_per_s,
           energy.friction_work_J / period_s,
-          undriven * scene::friction_limit_N(steady_scene.friction) * std::abs(sliding_m_per_s),
+          undriven_N * std::abs(sliding_m_per_s),
           energy.damping_work_J / period_s};
 }
 

@@ -27,7 +27,7 @@ struct SteadyMotion {
 /// steady orbit, whatever the scene's run, solver and initial state.
 scene::Scene steady_scene(const scene::Scene& scene, double sliding_m_per_s, double drive_force_N);
 
-/// Mean friction over Fc.
+/// Mean friction over that of the same speed without vibration.
 /// Error: 1e-10, that of the orbit.
 /// @throws loop::ComputationError  no steady orbit
 double friction_ratio(const scene::Scene& steady_scene);
@@ -35,8 +35,5 @@ double friction_ratio(const scene::Scene& steady_scene);
 /// Error: amplitudes 1e-5 of themselves (720 samples of a period), powers as the ratio.
 /// @throws loop::ComputationError
 SteadyMotion steady_motion(const scene::Scene& steady_scene);
-
-/// Mean friction over Fc without vibration: 1, or what a Stribeck curve has at the speed.
-double undriven_friction_ratio(const scene::Friction& friction, double sliding_m_per_s);
 
 }  // namespace sonoglide::design

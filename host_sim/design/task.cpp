@@ -27,6 +27,12 @@ void require_steady_vibration(const scene::Scene& scene) {
                     "allowed: \"dahl\", \"coulomb\", \"stribeck\"",
                     scene::name_of(scene.friction.law)));
   }
+  if (scene.friction.has_profile()) {
+    throw scene::ConfigurationError(
+        scene.friction.profile_key(),
+        "a design is for a friction that does not change; allowed: coefficient and "
+        "normal_force_N");
+  }
   if (scene.friction.sign_convention == scene::SignConvention::as_printed) {
     throw scene::ConfigurationError(
         "friction.sign_convention",

@@ -89,6 +89,13 @@ class ComposedPlant final : public PlantPort {
     remember(model_.law, memory, state_);
   }
   std::vector<double> memory() const override { return remembered(model_.law, state_); }
+  std::vector<double> memory_limits_N() const override {
+    std::vector<double> limits = memory_limits(model_.law, state_);
+    for (double& limit : limits) {
+      limit *= scales_.friction_N;
+    }
+    return limits;
+  }
 
   PlantState state() const override { return in_si_units(state_); }
   plant::Cost cost() const override { return solver_.cost(); }

@@ -1,6 +1,7 @@
 /// What a contact remembers, as plain numbers.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <vector>
@@ -33,6 +34,14 @@ std::vector<double> parts(const std::array<double, Count>& memory,
   return all;
 }
 
+inline std::vector<double> limits(double largest) {
+  return {largest};
+}
+template <std::size_t Count>
+std::vector<double> limits(const std::array<double, Count>& largest) {
+  return {largest.begin(), std::find(largest.begin(), largest.end(), 0.0)};
+}
+
 inline void set_parts(double& memory, double largest, const std::vector<double>& parts) {
   memory = largest * parts.front();
 }
@@ -56,6 +65,19 @@ std::vector<double> remembered(const Law& law, const plant::StateOf<Law>& state)
   } else if constexpr (remembers_force_on_spring<Law>) {
     const double limit = law.limit(state.displacement);
     return {limit > 0.0 ? state.friction / limit : 0.0};
+  }
+  return {};
+}
+
+/// The most that each of them stands for, in units of the friction limit.
+template <class Law>
+std::vector<double> memory_limits(const Law& law, const plant::StateOf<Law>& state) {
+  if constexpr (Law::remembers) {
+    return detail::limits(law.largest_memory());
+  } else if constexpr (remembers_force<Law>) {
+    return {1.0};
+  } else if constexpr (remembers_force_on_spring<Law>) {
+    return {law.limit(state.displacement)};
   }
   return {};
 }

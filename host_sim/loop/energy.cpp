@@ -33,6 +33,8 @@ void EnergyBalance::append(const EnergyBalance& next) {
   sliding_distance_m += next.sliding_distance_m;
   friction_impulse_N_s += next.friction_impulse_N_s;
   resistance_impulse_N_s += next.resistance_impulse_N_s;
+  undriven_s += next.undriven_s;
+  limit_distance_m += next.limit_distance_m;
   friction_work_J += next.friction_work_J;
   pull_work_J += next.pull_work_J;
   drive_work_J += next.drive_work_J;
@@ -45,23 +47,24 @@ void EnergyBalance::append(const EnergyBalance& next) {
 PowerRatios power_ratios(const EnergyBalance& energy, double friction_N,
                          scene::SignConvention convention, double period_s) {
   const double sign = scene::vibration_sign(convention);
-  const double undriven_J = friction_N * energy.sliding_distance_m;
-  const double drive_input = quotient(energy.drive_work_J, undriven_J);
+  const double limit_J = friction_N * energy.limit_distance_m;
+  const double drive_input = quotient(energy.drive_work_J, limit_J);
   const double stored_as_printed =
-      quotient(energy.stored_integral_J_s + energy.momentum_integral_J_s, undriven_J * period_s);
+      quotient(energy.stored_integral_J_s + energy.momentum_integral_J_s, limit_J * period_s);
   const double change_J = energy.stored_end_J - energy.stored_begin_J;
-  return {quotient(energy.resistance_impulse_N_s, friction_N * energy.duration_s),
-          quotient(energy.friction_work_J, undriven_J),
+  return {quotient(energy.resistance_impulse_N_s, friction_N * energy.undriven_s),
+          quotient(energy.pull_work_J, limit_J),
+          quotient(energy.friction_work_J, limit_J),
           drive_input,
-          quotient(change_J, undriven_J),
-          quotient(energy.damping_work_J, undriven_J),
+          quotient(change_J, limit_J),
+          quotient(energy.damping_work_J, limit_J),
           balance_residual(energy, sign),
           1.0 + drive_input - stored_as_printed};
 }
 
 PowerRatios power_ratios(const scene::Scene& scene, const EnergyBalance& energy) {
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
-  return power_ratios(energy, scene::friction_limit_N(scene.friction),
+  return power_ratios(energy, scene::largest_friction_limit_N(scene.friction),
                       scene.friction.sign_convention,
                       scene.drive ? 1.0 / scene.drive->frequency_Hz : none);
 }

@@ -13,12 +13,16 @@ struct EnergyBalance {
   double duration_s = 0.0;
   double sliding_distance_m = 0.0;      ///< ∫|Vt| dt
   double friction_impulse_N_s = 0.0;    ///< ∫F dt
-  double resistance_impulse_N_s = 0.0;  ///< ∫F·sgn(Vt) dt
-  double friction_work_J = 0.0;         ///< ∫F V dt, into the contact
-  double pull_work_J = 0.0;             ///< ∫F Vt dt, from whatever slides
-  double drive_work_J = 0.0;            ///< ∫Fe x' dt
-  double damping_work_J = 0.0;          ///< ∫c x'² dt
-  double stored_begin_J = 0.0;          ///< m x'²/2 + Ks x²/2
+  double resistance_impulse_N_s = 0.0;  ///< ∫F·sgn(Vt) dt, sgn(0) = 1
+  /// ∫F0 dt / Fc: F0 is what the slide would meet without vibration at its speed and at the
+  /// friction of the moment, Fc the scene's largest friction limit.
+  double undriven_s = 0.0;
+  double limit_distance_m = 0.0;  ///< ∫μN |Vt| dt / Fc, the same Fc
+  double friction_work_J = 0.0;   ///< ∫F V dt, into the contact
+  double pull_work_J = 0.0;       ///< ∫F Vt dt, from whatever slides
+  double drive_work_J = 0.0;      ///< ∫Fe x' dt
+  double damping_work_J = 0.0;    ///< ∫c x'² dt
+  double stored_begin_J = 0.0;    ///< m x'²/2 + Ks x²/2
   double stored_end_J = 0.0;
   double stored_integral_J_s = 0.0;    ///< ∫(m x'²/2 + Ks x²/2) dt
   double momentum_integral_J_s = 0.0;  ///< ∫m Vt x' dt
@@ -27,10 +31,12 @@ struct EnergyBalance {
   void append(const EnergyBalance& next);
 };
 
-/// Energies relative to Fc times the sliding distance, what friction would dissipate undriven; NaN
-/// where that is zero. For constant Vt: φ_fu = ρ + σ (φ_iu − stored change − damping).
+/// The friction ratio, and energies relative to the limit's work ∫μN |Vt| dt; NaN where what they
+/// are relative to is zero. φ_fu = pull + σ (φ_iu − stored change − damping). Under a law whose
+/// undriven friction is μN, and where that and Vt are constant, the pull is ρ.
 struct PowerRatios {
-  double friction_ratio;          ///< ρ = mean F·sgn(Vt) / Fc, sgn(0) = 1; NaN without friction
+  double friction_ratio;          ///< ρ = ∫F·sgn(Vt) dt / ∫F0 dt, F0 the undriven friction
+  double pull_ratio;              ///< ∫F Vt dt: put in by whatever slides
   double dissipation_ratio;       ///< φ_fu
   double drive_input_ratio;       ///< φ_iu
   double stored_change_ratio;     ///< change of the oscillator's energy
@@ -39,6 +45,7 @@ struct PowerRatios {
   double dissipation_as_printed;  ///< 1 + φ_iu − φ_su, φ_su from the average stored energy
 };
 
+/// @param friction_N  the scene's largest friction limit
 /// @param period_s  carrier period: the paper divides stored energy by the work of one. NaN without
 /// a
 ///                  drive, and there is no printed value then.

@@ -18,7 +18,8 @@ double stuck_frequency_Hz(const scene::Scene& scene) {
 
 /// What the steps were spent on, where that may be the contact; else nothing.
 std::string ringing(const scene::Scene& scene) {
-  if (!scene::is_elastic(scene.friction.law) || scene::friction_limit_N(scene.friction) <= 0.0) {
+  if (!scene::is_elastic(scene.friction.law) ||
+      scene::largest_friction_limit_N(scene.friction) <= 0.0) {
     return "";
   }
   const std::string drive =

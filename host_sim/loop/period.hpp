@@ -9,7 +9,7 @@ namespace sonoglide::loop {
 struct Period {
   double begin_s;
   double end_s;
-  double friction_ratio;          ///< mean F·sgn(Vt) over Fc, sgn(0) = 1; NaN without friction
+  double friction_ratio;          ///< ρ, see PowerRatios; NaN without friction
   double begin_velocity_m_per_s;  ///< sliding
   double end_velocity_m_per_s;
   double drive_amplitude_N;    ///< in force during it

@@ -26,6 +26,7 @@ struct Stretch {
   double sliding_acceleration_m_per_s2 = 0.0;
   /// The stretch lies within one straight piece of it.
   scene::Waveform drive_waveform = scene::Waveform::cosine;
+  double begin_s = 0.0;  ///< since the run began: what changes in time is looked up by it
 };
 
 class PlantPort {
@@ -46,6 +47,9 @@ class PlantPort {
   /// What the contact remembers of its past: numbers in [-1, 1], parts of the most that each can
   /// be. Empty where the velocity alone sets the force.
   virtual std::vector<double> memory() const = 0;
+
+  /// The most that each of these numbers stands for, in N.
+  virtual std::vector<double> memory_limits_N() const = 0;
 
   /// Puts the plant into a state; of a contact that remembers, the memory sets the force.
   virtual void begin_at(const PlantState& state, const std::vector<double>& memory) = 0;

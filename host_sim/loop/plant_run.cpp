@@ -7,6 +7,24 @@
 #include "host_sim/loop/failure_reason.hpp"
 
 namespace sonoglide::loop {
+namespace {
+
+/// Where the sliding or the friction changes its course, or a window begins; rising.
+std::vector<double> cuts_of(const scene::Scene& scene, const SlidingProfile& sliding) {
+  std::vector<double> cuts_s = sliding.cuts_s();
+  cuts_s.push_back(scene.run.window_start_s);
+  for (const scene::TimedProfile* profile :
+       {&scene.friction.coefficient_profile, &scene.friction.normal_force_profile_N}) {
+    for (const scene::TimedValue& row : *profile) {
+      cuts_s.push_back(row.time_s);
+    }
+  }
+  std::sort(cuts_s.begin(), cuts_s.end());
+  return cuts_s;
+}
+
+}  // namespace
+
 PlantRun::PlantRun(const scene::Scene& scene, const CarrierGrid& grid, const Watch& watch,
                    RunResult& result)
     : scene_(scene),
@@ -14,13 +32,12 @@ PlantRun::PlantRun(const scene::Scene& scene, const CarrierGrid& grid, const Wat
       result_(result),
       plant_(make_plant_port(scene)),
       sliding_(scene.sliding),
+      undriven_(scene),
       drive_rate_rad_per_s_(scene.drive ? numeric::two_pi * scene.drive->frequency_Hz : 0.0),
       waveform_(scene.drive ? scene.drive->waveform : scene::Waveform::cosine),
       sliding_velocity_m_per_s_(sliding_.velocity_m_per_s(0.0)),
-      cuts_s_(sliding_.cuts_s()),
+      cuts_s_(cuts_of(scene, sliding_)),
       sampler_(watch.samples) {
-  cuts_s_.push_back(scene.run.window_start_s);
-  std::sort(cuts_s_.begin(), cuts_s_.end());
   if (scene.run.start == scene::Start::steady) {
     result.steady_orbit = find_steady_orbit(scene);
     plant_->begin_at(result.steady_orbit->state, result.steady_orbit->memory);
@@ -78,12 +95,13 @@ EnergyBalance PlantRun::stretch(double begin_s, double duration_s, double drive_
   const double last = sliding_.velocity_m_per_s(end_s);
   const Stretch stretch{duration_s,  drive_phase_rad, drive_rate_rad_per_s_,
                         amplitude_N, first,           (last - first) / duration_s,
-                        waveform_};
+                        waveform_,   begin_s};
   EnergyBalance energy;
   const plant::Outcome<double> outcome = solve(begin_s, end_s, stretch, energy);
   if (outcome.error != plant::Error::none) {
     fail(outcome.error, begin_s + outcome.offset);
   }
+  undriven_.complete(stretch, energy);
   sliding_velocity_m_per_s_ = last;
   if (begin_s >= scene_.run.window_start_s - grid_.rounding_s(begin_s)) {
     result_.window.append(energy);

@@ -12,6 +12,7 @@
 #include "host_sim/loop/run_result.hpp"
 #include "host_sim/loop/sampler.hpp"
 #include "host_sim/loop/sliding_profile.hpp"
+#include "host_sim/loop/undriven_friction.hpp"
 #include "host_sim/scene/scene.hpp"
 
 namespace sonoglide::loop {
@@ -47,6 +48,7 @@ class PlantRun {
   RunResult& result_;
   std::unique_ptr<PlantPort> plant_;
   SlidingProfile sliding_;
+  UndrivenFriction undriven_;
   double drive_rate_rad_per_s_;
   scene::Waveform waveform_;
   double sliding_velocity_m_per_s_;

@@ -40,7 +40,7 @@ class Simulation {
         grid_(scene),
         plant_(scene, grid_, watch, result),
         control_(make_control(scene, grid_, controller, result)),
-        friction_N_(scene::friction_limit_N(scene.friction)),
+        friction_N_(scene::largest_friction_limit_N(scene.friction)),
         open_loop_amplitude_N_(scene.drive ? scene.drive->force_amplitude_N : 0.0) {}
 
   void carry_out() {
@@ -77,8 +77,8 @@ class Simulation {
   }
 
   double friction_ratio(const EnergyBalance& energy) const {
-    return friction_N_ > 0.0 ? energy.resistance_impulse_N_s / (friction_N_ * energy.duration_s)
-                             : undefined;
+    const double undriven_N_s = friction_N_ * energy.undriven_s;
+    return undriven_N_s > 0.0 ? energy.resistance_impulse_N_s / undriven_N_s : undefined;
   }
 
   void show(Period period) const {

@@ -2,7 +2,6 @@
 
 #include <tbb/parallel_for.h>
 
-#include <cmath>
 #include <cstddef>
 
 #include "firmware/friction/coulomb_friction_ratio.hpp"
@@ -11,7 +10,6 @@
 #include "host_sim/paper/ratio_curve.hpp"
 #include "host_sim/paper/stribeck_shape.hpp"
 #include "host_sim/paper/table_1.hpp"
-#include "host_sim/scene/plant_scales.hpp"
 #include "host_sim/scene/reader.hpp"
 
 namespace sonoglide::paper {
@@ -71,25 +69,8 @@ const std::vector<ContactLaw>& contact_laws() {
   return laws;
 }
 
-double sliding_force_N(const scene::Friction& friction, double velocity_m_per_s) {
-  double coefficient = friction.coefficient;
-  double viscous_N = 0.0;
-  if (const auto* lugre = std::get_if<scene::laws::LuGre>(&friction.law)) {
-    const double part = velocity_m_per_s / lugre->stribeck_velocity_m_per_s;
-    coefficient += (lugre->static_coefficient - coefficient) * std::exp(-part * part);
-    viscous_N = lugre->viscous_friction_N_s_per_m * velocity_m_per_s;
-  }
-  if (const auto* curve = std::get_if<scene::laws::Stribeck>(&friction.law)) {
-    const double square = velocity_m_per_s * velocity_m_per_s;
-    coefficient += velocity_m_per_s * (curve->rise_s3_per_m3 * square - curve->fall_s_per_m);
-  }
-  return coefficient * friction.normal_force_N + viscous_N;
-}
-
 double vibration_ratio(const scene::Scene& scene) {
-  const double mean_N = loop::power_ratios(scene, loop::run(scene).window).friction_ratio *
-                        scene::friction_limit_N(scene.friction);
-  return mean_N / sliding_force_N(scene.friction, scene.sliding.profile.front().velocity_m_per_s);
+  return loop::power_ratios(scene, loop::run(scene).window).friction_ratio;
 }
 
 std::vector<double> simulated_ratios(const ContactLaw& law) {

@@ -23,10 +23,7 @@ struct ContactLaw {
 
 const std::vector<ContactLaw>& contact_laws();
 
-/// What a contact of Table 1 takes at a steady speed without vibration [N].
-double sliding_force_N(const scene::Friction& friction, double velocity_m_per_s);
-
-/// Mean friction over the scene's window by what the contact takes without vibration.
+/// The friction ratio over the scene's window.
 /// @throws loop::ComputationError
 double vibration_ratio(const scene::Scene& scene);
 

@@ -20,7 +20,7 @@ loop::PowerRatios ratios(const scene::Scene& scene) {
     return loop::power_ratios(scene, loop::run(scene).whole);
   } catch (const loop::ComputationError&) {
     constexpr double none = std::numeric_limits<double>::quiet_NaN();
-    return {none, none, none, none, none, none, none};
+    return {none, none, none, none, none, none, none, none};
   }
 }
 

@@ -115,12 +115,15 @@ Table run_table(const scene::Scene& scene, const loop::RunResult& result) {
   const auto row = [&table](const char* name, std::string value) {
     table.rows.push_back({name, std::move(value)});
   };
-  row("Undriven friction force [N]",
-      fmt::format("{:.6g}", scene::friction_limit_N(scene.friction)));
-  if (scene::friction_limit_N(scene.friction) > 0.0) {
+  row("Undriven friction force, window [N]",
+      fmt::format("{:.6g}", scene::largest_friction_limit_N(scene.friction) *
+                                result.window.undriven_s / result.window.duration_s));
+  if (scene::largest_friction_limit_N(scene.friction) > 0.0) {
     row("Friction ratio, whole run",
         fmt::format("{:.9f}", loop::power_ratios(scene, result.whole).friction_ratio));
     row("Friction ratio, window", fmt::format("{:.9f}", window.friction_ratio));
+    row("Power of the pull over that of the friction limit, window",
+        fmt::format("{:.6f}", window.pull_ratio));
     row("Power dissipation ratio, window", fmt::format("{:.6f}", window.dissipation_ratio));
     row("Drive input ratio, window", fmt::format("{:.6f}", window.drive_input_ratio));
     row("Change of stored energy, window", fmt::format("{:.6f}", window.stored_change_ratio));
@@ -168,6 +171,15 @@ std::string course_text(const scene::Scene& scene, const Course::Curve& curve) {
                      scene.run.record.empty() ? "" : " All of them are in periods.csv.");
 }
 
+std::vector<double> limits_N(const scene::Friction& friction, const std::vector<double>& time_s) {
+  std::vector<double> limits;
+  limits.reserve(time_s.size());
+  for (const double time : time_s) {
+    limits.push_back(scene::contact_at(friction, time).limit_N());
+  }
+  return limits;
+}
+
 Section course(const scene::Scene& scene, const Course::Curve& curve) {
   const std::vector<double> time = curve.x();
   const auto series = [&curve](const char* label, Course::Ordinate ordinate) {
@@ -175,10 +187,10 @@ Section course(const scene::Scene& scene, const Course::Curve& curve) {
   };
 
   Section section{"Course of the run", course_text(scene, curve), {}};
-  if (scene::friction_limit_N(scene.friction) > 0.0) {
+  if (scene::largest_friction_limit_N(scene.friction) > 0.0) {
     Panel panel{"Friction ratio",
-                "Mean friction force over a carrier period, divided by the "
-                "undriven one.",
+                "Mean friction force over a carrier period, divided by the undriven one at that "
+                "sliding speed and friction.",
                 time_label,
                 "Friction ratio [-]",
                 time,
@@ -190,6 +202,16 @@ Section course(const scene::Scene& scene, const Course::Curve& curve) {
     }
     panel.series.push_back(series("reached", Course::friction_ratio));
     section.panels.push_back(std::move(panel));
+  }
+  if (scene.friction.has_profile()) {
+    section.panels.push_back({"Friction limit",
+                              "",
+                              time_label,
+                              "Coefficient times normal force [N]",
+                              time,
+                              {{"limit", limits_N(scene.friction, time), true, false}},
+                              false,
+                              "course"});
   }
   if (scene.drive) {
     section.panels.push_back({"Drive amplitude",
@@ -246,7 +268,7 @@ Section close_up(const scene::Scene& scene, const loop::Recording& recording, st
   };
   panel("Displacement", "Displacement [m]", column(displacement));
   panel("Velocity", "Vibration velocity [m/s]", column(velocity));
-  if (scene::friction_limit_N(scene.friction) > 0.0) {
+  if (scene::largest_friction_limit_N(scene.friction) > 0.0) {
     panel("Friction force", "Friction force [N]", column(friction));
   }
   return section;
@@ -321,7 +343,8 @@ Section ending(const scene::Scene& scene, const loop::Recording& recording) {
   constexpr std::size_t samples = 64;
   Section section{"End of the run", "", {}};
   // Across the sliding and normal to it the vibration is no part of the displacement travelled.
-  if (scene::friction_limit_N(scene.friction) > 0.0 && scene::vibrates_along(scene.friction.law)) {
+  if (scene::largest_friction_limit_N(scene.friction) > 0.0 &&
+      scene::vibrates_along(scene.friction.law)) {
     section.panels.push_back(
         hysteresis_panel(analysis::last_cycle(recording, scene.friction.sign_convention, samples)));
   }

@@ -41,7 +41,7 @@ std::string step_lines(const loop::RunResult& result, const RunFindings& finding
 }
 
 std::string ratio_line(const scene::Scene& scene, const loop::RunResult& result) {
-  if (scene::friction_limit_N(scene.friction) == 0.0) {
+  if (scene::largest_friction_limit_N(scene.friction) == 0.0) {
     return "no friction, so no friction ratio\n";
   }
   return fmt::format("friction ratio {:.6f} over the whole run, {:.6f} from {:.6g} s on\n",

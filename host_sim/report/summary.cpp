@@ -23,7 +23,8 @@ ordered_json number(const std::optional<double>& value) {
 }
 
 ordered_json power(const loop::PowerRatios& window) {
-  return {{"dissipation_ratio", number(window.dissipation_ratio)},
+  return {{"pull_ratio", number(window.pull_ratio)},
+          {"dissipation_ratio", number(window.dissipation_ratio)},
           {"drive_input_ratio", number(window.drive_input_ratio)},
           {"stored_change_ratio", number(window.stored_change_ratio)},
           {"damping_ratio", number(window.damping_ratio)},

@@ -14,6 +14,9 @@ struct Contact {
   double contact_stiffness_N_per_m = 0.0;  ///< elastic laws only
   double initial_force_N = 0.0;            ///< elastic laws only
   SignConvention sign_convention = SignConvention::dissipative;
+
+  /// Fc = mu N.
+  double limit_N() const { return coefficient * normal_force_N; }
 };
 
 /// The closed-form friction-ratio maps that a controller is fed forward by.

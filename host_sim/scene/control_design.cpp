@@ -34,10 +34,19 @@ struct BelievedPlant {
   double contact_stiffness_N_per_m;
 };
 
+/// The friction force that the first slide of the scene meets without vibration.
+double first_undriven_friction_N(const Scene& scene) {
+  const auto& profile = scene.sliding.profile;
+  const auto moves = [](const SpeedPoint& point) { return point.velocity_m_per_s != 0.0; };
+  const auto first = std::find_if(profile.begin(), profile.end(), moves);
+  return undriven_friction_N(scene.friction.law, scene.friction,
+                             first == profile.end() ? 0.0 : first->velocity_m_per_s);
+}
+
 BelievedPlant believed_plant(const Scene& scene) {
   const ModelError& error = scene.model_error;
   return {scene.plant.mass_kg * error.mass, scene.plant.stiffness_N_per_m * error.stiffness,
-          scene.plant.damping_N_s_per_m, friction_limit_N(scene.friction) * error.coefficient,
+          scene.plant.damping_N_s_per_m, first_undriven_friction_N(scene) * error.coefficient,
           scene.friction.contact_stiffness_N_per_m * error.contact_stiffness};
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <string_view>
 #include <type_traits>
@@ -86,6 +87,18 @@ constexpr FrictionMap friction_map(const FrictionLaw& law) {
 /// Whether that map is the law's own.
 constexpr bool has_own_map(const FrictionLaw& law) {
   return std::visit([](const auto& any) { return any.map_is_own; }, law);
+}
+
+/// |F| <= Fc, and without Fc no friction.
+constexpr bool is_bounded(const FrictionLaw& law) {
+  return std::visit([](const auto& any) { return any.is_bounded; }, law);
+}
+
+/// Friction force of a steady slide at a speed [m/s], either way, without vibration.
+inline double undriven_friction_N(const FrictionLaw& law, const Contact& contact,
+                                  double sliding_m_per_s) {
+  return std::visit(
+      [&](const auto& any) { return any.undriven_N(contact, std::abs(sliding_m_per_s)); }, law);
 }
 
 /// Its part of the random scenes that solvers are tried on.

@@ -63,7 +63,29 @@ double peak_vibration_m_per_s(const Plant& plant, double frequency_Hz, double fo
 }
 
 double friction_limit_N(const Contact& contact) {
-  return contact.coefficient * contact.normal_force_N;
+  return contact.limit_N();
+}
+
+Contact contact_at(const Friction& friction, double time_s) {
+  Contact contact = friction;
+  if (!friction.coefficient_profile.empty()) {
+    contact.coefficient = value_at(friction.coefficient_profile, time_s);
+  }
+  if (!friction.normal_force_profile_N.empty()) {
+    contact.normal_force_N = value_at(friction.normal_force_profile_N, time_s);
+  }
+  return contact;
+}
+
+double largest_friction_limit_N(const Friction& friction) {
+  Contact most = friction;
+  if (!friction.coefficient_profile.empty()) {
+    most.coefficient = largest_value(friction.coefficient_profile);
+  }
+  if (!friction.normal_force_profile_N.empty()) {
+    most.normal_force_N = largest_value(friction.normal_force_profile_N);
+  }
+  return friction_limit_N(most);
 }
 
 FrictionLaw acting_law(const Friction& friction) {

@@ -36,8 +36,15 @@ double dynamic_stiffness_N_per_m(const Plant& plant, double omega_rad_per_s);
 /// undamped resonance.
 double peak_vibration_m_per_s(const Plant& plant, double frequency_Hz, double force_amplitude_N);
 
-/// Fc = μ N.
+/// Fc = μ N, at 0 s where it changes.
 double friction_limit_N(const Contact& contact);
+
+/// The contact at a time since the run began.
+Contact contact_at(const Friction& friction, double time_s);
+
+/// The largest coefficient times the largest normal force, of profiles too; where nothing changes
+/// Fc, and 0 without a law.
+double largest_friction_limit_N(const Friction& friction);
 
 /// Without a friction force there is no friction, whatever the law.
 FrictionLaw acting_law(const Friction& friction);

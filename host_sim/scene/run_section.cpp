@@ -115,6 +115,10 @@ void require_steady_conditions(const TableCursor& cursor, const Variant& variant
   if (so_far.sliding.profile.size() != 1) {
     cursor.fail("start", "nothing is steady under a sliding.profile; allowed: \"given\"");
   }
+  if (so_far.friction.has_profile()) {
+    cursor.fail("start", fmt::format("nothing is steady under a {}; allowed: \"given\"",
+                                     so_far.friction.profile_key()));
+  }
   reject_initial_state(variant, "plant", {"initial_displacement_m", "initial_velocity_m_per_s"});
   reject_initial_state(variant, "friction", {"initial_force_N"});
 }

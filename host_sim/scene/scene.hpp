@@ -9,6 +9,7 @@
 #include "host_sim/scene/contact.hpp"
 #include "host_sim/scene/friction_laws.hpp"
 #include "host_sim/scene/solver_method.hpp"
+#include "host_sim/scene/timed_profile.hpp"
 
 namespace sonoglide::scene {
 
@@ -20,8 +21,20 @@ struct Plant {
   double initial_velocity_m_per_s = 0.0;
 };
 
+/// Where a profile holds anything, the member of Contact that it stands for is its value at 0 s.
 struct Friction : Contact {
   FrictionLaw law = laws::None{};
+  TimedProfile coefficient_profile;
+  TimedProfile normal_force_profile_N;
+
+  bool has_profile() const {
+    return !coefficient_profile.empty() || !normal_force_profile_N.empty();
+  }
+  /// The one that is there, `table.key`.
+  const char* profile_key() const {
+    return coefficient_profile.empty() ? "friction.normal_force_profile_N"
+                                       : "friction.coefficient_profile";
+  }
 };
 
 struct SpeedPoint {

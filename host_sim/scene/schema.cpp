@@ -56,7 +56,9 @@ class KeyList {
 std::vector<std::string_view> friction_keys() {
   std::vector<std::string_view> keys = {"law",
                                         "coefficient",
+                                        "coefficient_profile",
                                         "normal_force_N",
+                                        "normal_force_profile_N",
                                         "contact_stiffness_N_per_m",
                                         "initial_force_N",
                                         "sign_convention"};

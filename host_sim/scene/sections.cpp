@@ -71,6 +71,34 @@ class KeyReader {
   TableCursor& cursor_;
 };
 
+/// A part of the friction limit: a number that holds throughout, or a profile and its value at 0 s.
+/// @param absent  what neither says
+double read_part_of_limit(TableCursor& cursor, std::string_view key, std::string_view profile_key,
+                          const Range& range, std::optional<double> absent, const FrictionLaw& law,
+                          TimedProfile& profile) {
+  if (cursor.at_most_one_of(key, profile_key) == profile_key) {
+    const Range in_profile{range.low, range.high, range.unit, !is_bounded(law)};
+    for (const auto& [time_s, value] :
+         cursor.timed_values(profile_key, time_range, in_profile, TableCursor::Times::jump)) {
+      profile.push_back({time_s, value});
+    }
+    return value_at(profile, 0.0);
+  }
+  return absent ? cursor.real(key, range, *absent) : cursor.real(key, range);
+}
+
+/// With the largest coefficient to come and with the smallest: a law's own keys suit both.
+std::vector<Contact> extreme_contacts(const Friction& friction) {
+  if (friction.coefficient_profile.empty()) {
+    return {friction};
+  }
+  Contact largest = friction;
+  Contact smallest = friction;
+  largest.coefficient = largest_value(friction.coefficient_profile);
+  smallest.coefficient = smallest_value(friction.coefficient_profile);
+  return {largest, smallest};
+}
+
 bool stands(const SpeedPoint& point) {
   return point.velocity_m_per_s == 0.0;
 }
@@ -113,9 +141,12 @@ Friction read_friction(const Variant& variant, const Plant& plant) {
   Friction friction;
   friction.law = cursor.choice("law", friction_laws);
   if (!is<laws::None>(friction.law)) {
-    friction.coefficient = cursor.real("coefficient", {0.0, 100.0});
-    friction.normal_force_N =
-        cursor.real("normal_force_N", {0.0, 1e9, "N"}, plant.mass_kg * standard_gravity_m_per_s2);
+    friction.coefficient =
+        read_part_of_limit(cursor, "coefficient", "coefficient_profile", {0.0, 100.0}, std::nullopt,
+                           friction.law, friction.coefficient_profile);
+    friction.normal_force_N = read_part_of_limit(
+        cursor, "normal_force_N", "normal_force_profile_N", {0.0, 1e9, "N"},
+        plant.mass_kg * standard_gravity_m_per_s2, friction.law, friction.normal_force_profile_N);
   }
   if (!is<laws::None>(friction.law) && vibrates_along(friction.law)) {
     friction.sign_convention =
@@ -128,7 +159,9 @@ Friction read_friction(const Variant& variant, const Plant& plant) {
     friction.initial_force_N = cursor.real("initial_force_N", {-limit_N, limit_N, "N"}, 0.0);
   }
   KeyReader keys(cursor);
-  std::visit([&](auto& law) { law.visit_keys(keys, friction); }, friction.law);
+  for (const Contact& contact : extreme_contacts(friction)) {
+    std::visit([&](auto& law) { law.visit_keys(keys, contact); }, friction.law);
+  }
   cursor.reject_unread_with("friction.law", name_of(friction.law));
   return friction;
 }
@@ -224,8 +257,9 @@ std::optional<Controller> read_controller(const Variant& variant, const Scene& s
   }
   if (!(friction_limit_N(so_far.friction) > 0.0)) {
     cursor.fail(
-        "there is no friction to control; allowed: a friction.law other than \"none\", "
-        "with coefficient and normal_force_N above 0");
+        fmt::format("there is no friction to control; allowed: a friction.law other than \"none\", "
+                    "with coefficient and normal_force_N above 0{}",
+                    so_far.friction.has_profile() ? " at 0 s" : ""));
   }
   Controller controller;
   controller.arithmetic = cursor.choice("arithmetic", arithmetics);
@@ -262,7 +296,7 @@ Sensor read_sensor(const Variant& variant, const Friction& friction) {
     sensor.adc_bits = static_cast<int>(*bits);
   }
   sensor.force_full_scale_N = cursor.real("force_full_scale_N", {1e-15, largest_force_N, "N"},
-                                          2.0 * friction_limit_N(friction));
+                                          2.0 * largest_friction_limit_N(friction));
   sensor.force_noise_N = cursor.real("force_noise_N", {0.0, largest_force_N, "N"}, 0.0);
   sensor.force_bandwidth_Hz = cursor.optional_real("force_bandwidth_Hz", {1e-3, 1e12, "Hz"});
   sensor.delay_periods = static_cast<int>(cursor.integer("delay_periods", 0, 64, 0));

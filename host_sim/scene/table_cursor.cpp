@@ -245,8 +245,33 @@ TableCursor::Pair TableCursor::pair_in(const Entry& entry, const toml::node& nod
           real_in(entry, (*pair)[1], {part.key, part.element, 1}, value)};
 }
 
+void TableCursor::check_time(const Entry& entry, const toml::node& node, const Part& part,
+                             const std::vector<Pair>& earlier, double time_s, Times times) const {
+  const std::size_t count = earlier.size();
+  if (count == 0 || time_s > earlier.back()[0]) {
+    return;
+  }
+  const double last_s = earlier.back()[0];
+  if (times == Times::rise) {
+    fail_part(
+        entry, node, part,
+        fmt::format("time {} s is not after {} s; allowed: times that increase", time_s, last_s));
+  }
+  if (time_s < last_s) {
+    fail_part(entry, node, part,
+              fmt::format("time {} s is before {} s; allowed: times that increase, or two of one "
+                          "time for a jump",
+                          time_s, last_s));
+  }
+  if (count > 1 && earlier[count - 2][0] == time_s) {
+    fail_part(
+        entry, node, part,
+        fmt::format("is the third pair of time {} s; allowed: at most two, for a jump", time_s));
+  }
+}
+
 std::vector<TableCursor::Pair> TableCursor::timed_values(std::string_view key, const Range& time,
-                                                         const Range& value) {
+                                                         const Range& value, Times times) {
   constexpr const char* allowed = "a list of pairs [[time in s, number], …]";
   const Entry* entry = take(key);
   if (entry == nullptr) {
@@ -264,11 +289,7 @@ std::vector<TableCursor::Pair> TableCursor::timed_values(std::string_view key, c
   for (std::size_t i = 0; i < list->size(); ++i) {
     const toml::node& element = (*list)[i];
     const Pair pair = pair_in(*entry, element, {key, i}, time, value);
-    if (!pairs.empty() && pair[0] <= pairs.back()[0]) {
-      fail_part(*entry, element, {key, i},
-                fmt::format("time {} s is not after {} s; allowed: times that increase", pair[0],
-                            pairs.back()[0]));
-    }
+    check_time(*entry, element, {key, i}, pairs, pair[0], times);
     pairs.push_back(pair);
   }
   return pairs;

@@ -59,8 +59,11 @@ class TableCursor {
   }
 
   using Pair = std::array<double, 2>;
-  /// `[[time_s, value], …]`: at least one pair, times strictly increasing.
-  std::vector<Pair> timed_values(std::string_view key, const Range& time, const Range& value);
+  /// rise: each is after the one before. jump: two in succession may be one, at a jump.
+  enum class Times { rise, jump };
+  /// `[[time_s, value], …]`: at least one pair.
+  std::vector<Pair> timed_values(std::string_view key, const Range& time, const Range& value,
+                                 Times times = Times::rise);
 
   /// The one of two keys that is there; it is an error if both or neither are.
   std::string_view one_of(std::string_view first, std::string_view second) const;
@@ -123,6 +126,8 @@ class TableCursor {
   std::vector<std::size_t> words(std::string_view key, const Words& allowed);
   Pair pair_in(const Entry& entry, const toml::node& node, const Part& part, const Range& time,
                const Range& value) const;
+  void check_time(const Entry& entry, const toml::node& node, const Part& part,
+                  const std::vector<Pair>& earlier, double time_s, Times times) const;
 
   const Variant& variant_;
   std::string_view name_;

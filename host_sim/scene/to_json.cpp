@@ -47,13 +47,29 @@ class KeyEcho {
   ordered_json& table_;
 };
 
+/// A number that holds throughout, or its profile.
+void add_level(ordered_json& table, const char* key, double value, const char* profile_key,
+               const TimedProfile& profile) {
+  if (profile.empty()) {
+    table[key] = value;
+    return;
+  }
+  ordered_json rows = ordered_json::array();
+  for (const TimedValue& row : profile) {
+    rows.push_back(ordered_json::array({row.time_s, row.value}));
+  }
+  table[profile_key] = rows;
+}
+
 ordered_json echo(const Friction& friction, Start start) {
   ordered_json table{{"law", name_of(friction.law)}};
   if (is<laws::None>(friction.law)) {
     return table;
   }
-  table["coefficient"] = friction.coefficient;
-  table["normal_force_N"] = friction.normal_force_N;
+  add_level(table, "coefficient", friction.coefficient, "coefficient_profile",
+            friction.coefficient_profile);
+  add_level(table, "normal_force_N", friction.normal_force_N, "normal_force_profile_N",
+            friction.normal_force_profile_N);
   if (is_elastic(friction.law)) {
     table["contact_stiffness_N_per_m"] = friction.contact_stiffness_N_per_m;
     if (start == Start::given) {

@@ -34,6 +34,11 @@ void require_comparable(const scene::Scene& scene) {
         "friction.law", fmt::format("\"{}\" is not solved by every method here; allowed: \"dahl\"",
                                     scene::name_of(scene.friction.law)));
   }
+  if (scene.friction.has_profile()) {
+    throw ConfigurationError(scene.friction.profile_key(),
+                             "solvers are compared at a friction that does not change; allowed: "
+                             "coefficient and normal_force_N");
+  }
   if (!(scene::friction_limit_N(scene.friction) > 0.0)) {
     throw ConfigurationError("friction.coefficient",
                              "without a friction force there is no friction ratio to compare; "

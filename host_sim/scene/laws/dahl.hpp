@@ -18,9 +18,14 @@ struct Dahl {
   static constexpr FrictionMap map = FrictionMap::dahl;
   static constexpr bool map_is_own = true;
   static constexpr int random_percent = 60;
+  static constexpr bool is_bounded = true;
 
   template <class Keys>
   void visit_keys(Keys& /*keys*/, const Contact& /*contact*/) {}
+
+  double undriven_N(const Contact& contact, double /*speed_m_per_s*/) const {
+    return contact.limit_N();
+  }
 
   template <class Scalar>
   Core<Scalar> core(const Contact& contact, const PlantScales& scales) const {

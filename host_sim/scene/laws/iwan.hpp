@@ -20,6 +20,7 @@ struct Iwan {
   static constexpr FrictionMap map = FrictionMap::dahl;
   static constexpr bool map_is_own = false;
   static constexpr int random_percent = 0;
+  static constexpr bool is_bounded = true;
   static constexpr std::string_view bound_broken = "an element's force > its limit";
 
   int elements = 1;
@@ -27,6 +28,10 @@ struct Iwan {
   template <class Keys>
   void visit_keys(Keys& keys, const Contact& /*contact*/) {
     keys.optional("elements", elements, 1, static_cast<int>(Core<double>::most_elements));
+  }
+
+  double undriven_N(const Contact& contact, double /*speed_m_per_s*/) const {
+    return contact.limit_N();
   }
 
   template <class Scalar>

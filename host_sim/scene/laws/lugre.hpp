@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "firmware/friction/lugre.hpp"
+#include "firmware/numeric/float_elementary.hpp"
 #include "host_sim/scene/contact.hpp"
 #include "host_sim/scene/scales.hpp"
 
@@ -19,6 +20,7 @@ struct LuGre {
   static constexpr FrictionMap map = FrictionMap::dahl;
   static constexpr bool map_is_own = false;
   static constexpr int random_percent = 0;
+  static constexpr bool is_bounded = false;
   static constexpr std::string_view bound_broken = "the bristles' force > Fs";
 
   double static_coefficient = 0.0;
@@ -32,6 +34,14 @@ struct LuGre {
     keys.required("stribeck_velocity_m_per_s", stribeck_velocity_m_per_s, {1e-9, 1e6, "m/s"});
     keys.optional("bristle_damping_N_s_per_m", bristle_damping_N_s_per_m, {0.0, 1e12, "N s/m"});
     keys.optional("viscous_friction_N_s_per_m", viscous_friction_N_s_per_m, {0.0, 1e12, "N s/m"});
+  }
+
+  /// N (mu + (mu_s - mu) exp(-(v/v_s)^2)) + sigma2 v
+  double undriven_N(const Contact& contact, double speed_m_per_s) const {
+    const double part = speed_m_per_s / stribeck_velocity_m_per_s;
+    const double coefficient = contact.coefficient + (static_coefficient - contact.coefficient) *
+                                                         numeric::exp(-part * part);
+    return coefficient * contact.normal_force_N + viscous_friction_N_s_per_m * speed_m_per_s;
   }
 
   template <class Scalar>

@@ -18,6 +18,10 @@ namespace sonoglide::scene::laws {
 ///   map_is_own       that map is this law's; else a report says that feedback makes up the rest
 ///   random_percent   its part of the random scenes of `sonoglide stability`, which draw no keys of
 ///                    its own; all add up to 100
+///   is_bounded       |F| <= Fc, and as Fc goes to 0 so does the law to no friction: a profile of
+///   the
+///                    friction may reach 0
+///   undriven_N(contact, speed)  friction force of a steady slide at a speed >= 0 without vibration
 ///   visit_keys(keys, contact)  its own keys of [friction], in order: for each
 ///     keys.required(key, parameter, range) or
 ///     keys.optional(key, parameter, range), which leaves the parameter as it is where absent,
@@ -34,9 +38,12 @@ struct None {
   static constexpr FrictionMap map = FrictionMap::coulomb;
   static constexpr bool map_is_own = true;
   static constexpr int random_percent = 10;
+  static constexpr bool is_bounded = true;
 
   template <class Keys>
   void visit_keys(Keys& /*keys*/, const Contact& /*contact*/) {}
+
+  double undriven_N(const Contact& /*contact*/, double /*speed_m_per_s*/) const { return 0.0; }
 };
 
 }  // namespace sonoglide::scene::laws

@@ -19,6 +19,7 @@ struct NormalCoulomb {
   static constexpr FrictionMap map = FrictionMap::coulomb;
   static constexpr bool map_is_own = false;
   static constexpr int random_percent = 0;
+  static constexpr bool is_bounded = false;
 
   double normal_contact_stiffness_N_per_m = 0.0;  ///< kz
 
@@ -26,6 +27,10 @@ struct NormalCoulomb {
   void visit_keys(Keys& keys, const Contact& /*contact*/) {
     keys.required("normal_contact_stiffness_N_per_m", normal_contact_stiffness_N_per_m,
                   {1e-6, 1e18, "N/m"});
+  }
+
+  double undriven_N(const Contact& contact, double /*speed_m_per_s*/) const {
+    return contact.limit_N();
   }
 
   template <class Scalar>

@@ -19,6 +19,7 @@ struct Stribeck {
   static constexpr FrictionMap map = FrictionMap::coulomb;
   static constexpr bool map_is_own = false;
   static constexpr int random_percent = 0;
+  static constexpr bool is_bounded = false;
 
   double fall_s_per_m = 0.0;    ///< alpha
   double rise_s3_per_m3 = 0.0;  ///< beta
@@ -34,6 +35,13 @@ struct Stribeck {
       keys.refuse("rise_s3_per_m3", rise_s3_per_m3, "lets the friction fall below zero",
                   4.0 * fall_cubed / square, "s^3/m^3 with this fall_s_per_m");
     }
+  }
+
+  /// mu(v) N
+  double undriven_N(const Contact& contact, double speed_m_per_s) const {
+    const double v = speed_m_per_s;
+    return (contact.coefficient - v * (fall_s_per_m - rise_s3_per_m3 * v * v)) *
+           contact.normal_force_N;
   }
 
   template <class Scalar>

@@ -18,9 +18,14 @@ struct TransverseCoulomb {
   static constexpr FrictionMap map = FrictionMap::coulomb;
   static constexpr bool map_is_own = false;
   static constexpr int random_percent = 0;
+  static constexpr bool is_bounded = true;
 
   template <class Keys>
   void visit_keys(Keys& /*keys*/, const Contact& /*contact*/) {}
+
+  double undriven_N(const Contact& contact, double /*speed_m_per_s*/) const {
+    return contact.limit_N();
+  }
 
   template <class Scalar>
   Core<Scalar> core(const Contact& /*contact*/, const PlantScales& /*scales*/) const {

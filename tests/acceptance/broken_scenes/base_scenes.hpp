@@ -1,4 +1,4 @@
-/// Three good scenes, from which the broken ones differ by one edit.
+/// Four good scenes, from which the broken ones differ by one edit.
 #pragma once
 
 #include <string>
@@ -27,6 +27,22 @@ tolerance = 1e-10
 duration_periods = 20
 record = ["displacement_m"]
 record_interval_s = 1e-6
+)";
+
+inline const std::string moving_open_loop = R"([plant]
+mass_kg = 0.02
+stiffness_N_per_m = 133e6
+[friction]
+law = "coulomb"
+coefficient = 0.1
+normal_force_profile_N = [[0, 0.2], [1e-4, 0.2], [1e-4, 0.3]]
+[sliding]
+velocity_m_per_s = 0.0267
+[drive]
+frequency_Hz = 60e3
+force_amplitude_N = 384.0
+[run]
+duration_periods = 20
 )";
 
 inline const std::string control_of_1_ms = R"([run]

@@ -83,8 +83,9 @@ const std::vector<BrokenScene> broken_scenes = {
      "controller, sensor, model_error"},
     {"first_unknown_key_in_file_order", open_loop, "coefficient = 0.1",
      "zeta = 1\nalpha = 2\ncoefficient = 0.1",
-     "6:1: friction.zeta: unknown key; allowed: law, coefficient, normal_force_N, "
-     "contact_stiffness_N_per_m, initial_force_N, sign_convention, static_coefficient, "
+     "6:1: friction.zeta: unknown key; allowed: law, coefficient, coefficient_profile, "
+     "normal_force_N, normal_force_profile_N, contact_stiffness_N_per_m, initial_force_N, "
+     "sign_convention, static_coefficient, "
      "stribeck_velocity_m_per_s, bristle_damping_N_s_per_m, viscous_friction_N_s_per_m, elements, "
      "fall_s_per_m, rise_s3_per_m3, normal_contact_stiffness_N_per_m"},
     {"control_character_in_key", open_loop, "mass_kg = 0.02", "\"mass\\nkg\" = 0.02",
@@ -286,11 +287,30 @@ const std::vector<BrokenScene> broken_scenes = {
     {"controller_with_zero_friction", closed_loop, "coefficient = 0.1", "coefficient = 0",
      "15:2: controller: there is no friction to control; allowed: a friction.law other than "
      "\"none\", with coefficient and normal_force_N above 0"},
+    {"controller_with_friction_later", closed_loop, "coefficient = 0.1",
+     "coefficient_profile = [[0, 0], [1e-3, 0.1]]",
+     "15:2: controller: there is no friction to control; allowed: a friction.law other than "
+     "\"none\", with coefficient and normal_force_N above 0 at 0 s"},
+    {"none_has_no_friction_profile", open_loop,
+     "law = \"dahl\"\ncoefficient = 0.1\nnormal_force_N = 0.1962\n"
+     "contact_stiffness_N_per_m = 0.056e6",
+     "law = \"none\"\ncoefficient_profile = [[0, 1]]",
+     "6:1: friction.coefficient_profile: not used with friction.law = \"none\"; remove it"},
     {"interval_without_record", open_loop, "record = [\"displacement_m\"]\n", "",
      "19:21: run.record_interval_s: not used without run.record; remove it"},
     // Keys that exclude each other
     {"velocity_and_profile", open_loop, "[drive]", "profile = [[0, 1]]\n[drive]",
      "11:1: sliding.profile: excludes velocity_m_per_s; allowed: one of the two"},
+    {"coefficient_and_profile", open_loop, "coefficient = 0.1",
+     "coefficient = 0.1\ncoefficient_profile = [[0, 0.1]]",
+     "7:1: friction.coefficient_profile: excludes coefficient; allowed: one of the two"},
+    {"normal_force_and_profile", open_loop, "normal_force_N = 0.1962",
+     "normal_force_profile_N = [[0, 1]]\nnormal_force_N = 0.1962",
+     "8:1: friction.normal_force_N: excludes normal_force_profile_N; allowed: one of the two"},
+    {"steady_under_a_friction_profile", moving_open_loop, "duration_periods = 20",
+     "duration_periods = 20\nstart = \"steady\"",
+     "15:9: run.start: nothing is steady under a friction.normal_force_profile_N; allowed: "
+     "\"given\""},
     {"two_durations", open_loop, "duration_periods = 20", "duration_periods = 20\nduration_s = 1",
      "19:1: run.duration_s: excludes duration_periods; allowed: one of the two"},
     {"two_window_starts", open_loop, "duration_periods = 20",
@@ -337,6 +357,30 @@ const std::vector<BrokenScene> broken_scenes = {
      "10:12: sliding.profile[0]: is an integer; allowed: a pair [time in s, number]"},
     {"infinite_in_profile", open_loop, "velocity_m_per_s = 0.0267", "profile = [[0, 1], [1, inf]]",
      "10:24: sliding.profile[1][1]: is not finite; allowed: a number, -1e+06 to 1e+06 m/s"},
+    {"negative_in_friction_profile", open_loop, "coefficient = 0.1",
+     "coefficient_profile = [[0, 0.1], [1e-3, -0.1]]",
+     "6:41: friction.coefficient_profile[1][1]: -0.1 is out of range; allowed: 0 to 100"},
+    {"falling_time_in_friction_profile", open_loop, "coefficient = 0.1",
+     "coefficient_profile = [[2e-3, 0.1], [1e-3, 0.2]]",
+     "6:37: friction.coefficient_profile[1]: time 0.001 s is before 0.002 s; allowed: times that "
+     "increase, or two of one time for a jump"},
+    {"third_row_of_a_jump", open_loop, "normal_force_N = 0.1962",
+     "normal_force_profile_N = [[0, 1], [0, 2], [0, 3]]",
+     "7:43: friction.normal_force_profile_N[2]: is the third pair of time 0 s; allowed: at most "
+     "two, for a jump"},
+    {"bristles_without_a_limit", open_loop, "law = \"dahl\"\ncoefficient = 0.1",
+     "law = \"lugre\"\nstatic_coefficient = 0.2\nstribeck_velocity_m_per_s = 0.1\n"
+     "coefficient_profile = [[0, 0]]",
+     "8:28: friction.coefficient_profile[0][1]: 0 is out of range; allowed: above 0, at most 100"},
+    {"static_coefficient_below_a_profile", open_loop, "law = \"dahl\"\ncoefficient = 0.1",
+     "law = \"lugre\"\nstatic_coefficient = 0.15\nstribeck_velocity_m_per_s = 0.1\n"
+     "coefficient_profile = [[0, 0.1], [1, 0.2]]",
+     "6:22: friction.static_coefficient: 0.15 is out of range; allowed: 0.2 to 100"},
+    {"curve_below_zero_on_a_profile", open_loop, "law = \"dahl\"\ncoefficient = 0.1",
+     "law = \"stribeck\"\nfall_s_per_m = 1.5\nrise_s3_per_m3 = 50\n"
+     "coefficient_profile = [[0, 0.2], [1, 0.05]]",
+     "7:18: friction.rise_s3_per_m3: 50 lets the friction fall below zero; allowed: at least 200 "
+     "s^3/m^3 with this fall_s_per_m"},
     {"first_target_late", closed_loop, "[[0.0, 0.4], ", "[[1e-4, 0.4], ",
      "17:25: controller.target_friction_ratio: begins at 0.0001 s; allowed: a first time of 0 s"},
     {"repeated_target_time", closed_loop, "[0.5e-3, 0.6]", "[0.0, 0.6]",

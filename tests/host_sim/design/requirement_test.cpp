@@ -79,8 +79,7 @@ TEST(RequireRatioTest, TellsWhatCoulombFrictionTakes) {
 TEST(RequireRatioTest, BalancesPowers) {
   for (const scene::Scene& scene : {table_1(), coulomb(), stribeck(), resonant()}) {
     const SteadyMotion motion = require_ratio(scene, 0.02672, 0.7).motion;
-    const double pull_W =
-        0.7 * scene.friction.coefficient * scene.friction.normal_force_N * 0.02672;
+    const double pull_W = 0.7 * motion.undriven_friction_power_W;
     EXPECT_NEAR(motion.drive_power_W, motion.friction_power_W + motion.damping_power_W - pull_W,
                 1e-6 * motion.friction_power_W);
     EXPECT_GE(motion.apparent_power_W, motion.drive_power_W);
@@ -102,10 +101,16 @@ TEST(RequireRatioTest, AsksForNothingWhereTheContactHasTheRatioUndriven) {
   const Requirement full = require_ratio(table_1(), 0.02672, 1.0);
   EXPECT_EQ(full.limit, Limit::undriven);
   EXPECT_EQ(full.reachable_ratio, 1.0);
-  // mu_s - alpha v + beta v^3 at 0.2 m/s over mu_s.
-  const Requirement fallen = require_ratio(stribeck(), 0.2, 0.9);
-  EXPECT_EQ(fallen.limit, Limit::undriven);
-  EXPECT_NEAR(fallen.reachable_ratio, (0.1 - 0.1 * 0.2 + 0.5 * 0.008) / 0.1, 1e-12);
+  // Also where friction at the speed is less than at rest: 0.084 of 0.1 at 0.2 m/s.
+  EXPECT_EQ(require_ratio(stribeck(), 0.2, 1.0).limit, Limit::undriven);
+  EXPECT_EQ(require_ratio(stribeck(), 0.2, 0.95).limit, Limit::none);
+}
+
+// mu_s - alpha v + beta v^3.
+TEST(RequireRatioTest, TellsWhatAStribeckContactTakesUndriven) {
+  const SteadyMotion motion = require_ratio(stribeck(), 0.1, 0.8).motion;
+  const double undriven_W = 0.02 * 9.81 * (0.1 - 0.1 * 0.1 + 0.5 * 0.001) * 0.1;
+  EXPECT_NEAR(motion.undriven_friction_power_W, undriven_W, 1e-12 * undriven_W);
 }
 
 TEST(RequireRatioTest, SaysWhereNoVibrationIsEnough) {

@@ -158,6 +158,8 @@ EnergyBalance stretch(double scale) {
   energy.sliding_distance_m = 2.0 * scale;
   energy.friction_impulse_N_s = 3.0 * scale;
   energy.resistance_impulse_N_s = 4.0 * scale;
+  energy.undriven_s = 13.0 * scale;
+  energy.limit_distance_m = 14.0 * scale;
   energy.friction_work_J = 5.0 * scale;
   energy.pull_work_J = 6.0 * scale;
   energy.drive_work_J = 7.0 * scale;
@@ -177,6 +179,8 @@ TEST(EnergyBalanceTest, StretchesAddUpAndKeepTheFirstAndLastStore) {
   EXPECT_EQ(total.sliding_distance_m, 6.0);
   EXPECT_EQ(total.friction_impulse_N_s, 9.0);
   EXPECT_EQ(total.resistance_impulse_N_s, 12.0);
+  EXPECT_EQ(total.undriven_s, 39.0);
+  EXPECT_EQ(total.limit_distance_m, 42.0);
   EXPECT_EQ(total.friction_work_J, 15.0);
   EXPECT_EQ(total.pull_work_J, 18.0);
   EXPECT_EQ(total.drive_work_J, 21.0);

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "host_sim/scene/plant_scales.hpp"
 #include "host_sim/scene/solver_methods.hpp"
 #include "scene_texts.hpp"
 
@@ -31,6 +32,36 @@ TEST(ReaderTest, DefaultsOfOpenLoop) {
   EXPECT_TRUE(scene.run.record.empty());
   EXPECT_EQ(scene.run.record_interval_s, 0.0);
   EXPECT_FALSE(scene.controller.has_value());
+}
+
+TEST(ReaderTest, FrictionProfiles) {
+  const Scene scene = read_text(profiles_open_loop, "s");
+  ASSERT_EQ(scene.friction.coefficient_profile.size(), 4U);
+  EXPECT_EQ(scene.friction.coefficient_profile[2].time_s, 1e-3);
+  EXPECT_EQ(scene.friction.coefficient_profile[2].value, 0.2);
+  ASSERT_EQ(scene.friction.normal_force_profile_N.size(), 1U);
+  EXPECT_EQ(scene.friction.coefficient, 0.1) << "at 0 s";
+  EXPECT_EQ(scene.friction.normal_force_N, 0.2) << "before the first row";
+  EXPECT_EQ(scene.sensor.force_full_scale_N, 2.0 * (0.2 * 0.2)) << "of the largest";
+  const Contact late = contact_at(scene.friction, 1.5e-3);
+  EXPECT_NEAR(late.coefficient, 0.1, 1e-16);
+  EXPECT_EQ(late.normal_force_N, 0.2);
+}
+
+TEST(TimedProfileTest, IsLinearBetweenRowsAndJumpsAtTwoOfOneTime) {
+  const TimedProfile profile = {{1.0, 2.0}, {3.0, 4.0}, {3.0, 10.0}, {5.0, 0.0}};
+  EXPECT_EQ(value_at(profile, 0.0), 2.0);
+  EXPECT_EQ(value_at(profile, 1.0), 2.0);
+  EXPECT_EQ(value_at(profile, 2.0), 3.0);
+  EXPECT_EQ(value_at(profile, 3.0), 10.0) << "after the jump";
+  EXPECT_EQ(value_at(profile, 4.0), 5.0);
+  EXPECT_EQ(value_at(profile, 9.0), 0.0);
+  EXPECT_EQ(smallest_value(profile), 0.0);
+  EXPECT_EQ(largest_value(profile), 10.0);
+  EXPECT_EQ(relative_slope_per_s(profile, 0.5), 0.0);
+  EXPECT_EQ(relative_slope_per_s(profile, 2.0), 0.25) << "of the higher end";
+  EXPECT_EQ(relative_slope_per_s(profile, 4.0), 0.5);
+  EXPECT_EQ(relative_slope_per_s(profile, 6.0), 0.0);
 }
 
 TEST(ReaderTest, EveryKeyOfOpenLoop) {

@@ -114,6 +114,21 @@ velocity_m_per_s = 0.0203
 duration_s = 1e-3
 )";
 
+/// Friction that changes in time.
+inline constexpr const char* profiles_open_loop = R"([plant]
+mass_kg = 0.02
+stiffness_N_per_m = 133e6
+[friction]
+law = "dahl"
+coefficient_profile = [[0, 0.1], [1e-3, 0.1], [1e-3, 0.2], [2e-3, 0]]
+normal_force_profile_N = [[5e-4, 0.2]]
+contact_stiffness_N_per_m = 0.056e6
+[sliding]
+velocity_m_per_s = 0.0267
+[run]
+duration_s = 2e-3
+)";
+
 /// Nothing that has a default.
 inline constexpr const char* shortest_closed_loop = R"([plant]
 mass_kg = 0.02

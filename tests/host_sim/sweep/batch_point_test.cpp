@@ -39,6 +39,9 @@ TEST(BatchPointTest, LeavesTheRestToTheScalarSolver) {
   EXPECT_FALSE(taken({"solver.tolerance=1e-4", "run.window_start_periods=0.25"}));
   EXPECT_FALSE(taken({"solver.tolerance=1e-4", "friction.coefficient=0"}));
   EXPECT_FALSE(taken({"solver.tolerance=1e-4", "run.start='steady'"}));
+  scene::Scene moving = scene_with({"solver.tolerance=1e-4"});
+  moving.friction.coefficient_profile = {{0.0, 0.1}, {1e-4, 0.2}};
+  EXPECT_FALSE(batch_point(moving).has_value());
   EXPECT_FALSE(taken({"solver.method=rk4", "solver.step_s=1.667e-8"}));
   EXPECT_FALSE(taken({"solver.tolerance=1e-4"}, closed_loop));
 }

@@ -82,6 +82,10 @@ TEST(ProblemTest, RefusesByName) {
   ramp.sliding.profile.push_back({1e-3, 0.0});
   EXPECT_EQ(refused_key(ramp), "sliding.profile");
 
+  scene::Scene moving = table_1();
+  moving.friction.coefficient_profile = {{0.0, 0.1}, {1e-3, 0.2}};
+  EXPECT_EQ(refused_key(moving), "friction.coefficient_profile");
+
   for (const double periods : {0.5, 2.5, 1001.0}) {
     scene::Scene odd = table_1();
     odd.run.duration_s = periods / 60e3;
