@@ -39,9 +39,8 @@ class SettlingWatch {
   /// @param commanded  ratio that the drive is picked for
   /// @param clamped    the command stands at an end of its range
   void judge(Scalar target, Scalar measured, Scalar commanded, bool clamped) {
-    const Scalar error = measured - target;
-    const bool above = parameters_.band < error;
-    const bool below = error < -parameters_.band;
+    const bool above = target + parameters_.band < measured;
+    const bool below = measured < target - parameters_.band;
     if (count_ <= limit() / 2) {
       above_ = below_ = clamped_ = false;
     }

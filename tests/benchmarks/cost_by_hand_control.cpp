@@ -112,11 +112,10 @@ bool is_settled(Control<Number>& c, Number measured) {
   const Number band = numeric::from_real<Number>(control_numbers.settling_band);
   const Number agreement = numeric::from_real<Number>(control_numbers.agreement);
   const std::uint32_t limit = 4U * control_numbers.patience_periods;
-  const Number error = measured - c.target;
-  const bool above = band < error;
-  const bool below = error < -band;
+  const bool above = c.target + band < measured;
+  const bool below = measured < c.target - band;
   if (above || below) {
-    c.outside = c.outside + 4 < limit + 32 ? c.outside + 4 : limit + 32;
+    c.outside = c.outside + 4 < limit ? c.outside + 4 : limit + 128;
     c.above = c.above || above;
     c.below = c.below || below;
   } else if (c.outside > 0) {
