@@ -204,7 +204,8 @@ TEST_P(TimedUnit, HoldsTheTargetThatIsTyped) {
   const std::string status = terminal.type("target 0.7");
   EXPECT_EQ(said(status, "target"), "0.7");
   expect_settled(terminal, 0.7);
-  EXPECT_EQ(terminal.type("faults"), "faults since reset: 0");
+  EXPECT_EQ(terminal.type("faults"),
+            is_held_off() ? "period 0: parameters_lost" : "faults since reset: 0");
 }
 
 TEST_P(TimedUnit, RefusesWhatIsOutOfRangeAndRunsOn) {
@@ -282,7 +283,12 @@ TEST_P(TimedUnit, AnOverrunTakesTheDriveAwayUntilARestart) {
       EXPECT_NE(entry.find(": overrun"), std::string::npos) << entry;
       entry = terminal.next_line();
     }
-    EXPECT_EQ(entry, "faults since reset: " + std::to_string(faults));
+    const bool lost_at_first = is_held_off();
+    if (lost_at_first) {
+      EXPECT_EQ(entry, "period 0: parameters_lost");
+      entry = terminal.next_line();
+    }
+    EXPECT_EQ(entry, "faults since reset: " + std::to_string(faults + (lost_at_first ? 1 : 0)));
     terminal.type("restart");
   }
 }
@@ -294,7 +300,7 @@ TEST_P(TimedUnit, AnExceptionTakesTheDriveAway) {
   const auto address = static_cast<std::uint32_t>(std::stoul(line.substr(0, blank)));
   EXPECT_NEAR(std::stod(line.substr(blank)) / 0x1p31, 0.1 / 0.4, 1e-3);
   // The trap comes some instructions after the last character.
-  for (int i = 0; i < 10000 && terminal.word(address) != 0; ++i) {
+  for (int i = 0; i < 1000 && terminal.word(address) != 0; ++i) {
   }
   EXPECT_EQ(terminal.word(address), 0U);
 }
