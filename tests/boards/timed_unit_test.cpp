@@ -136,10 +136,10 @@ std::string said(const std::string& answer, const std::string& word) {
   return answer.substr(begin, answer.find(',', begin) - begin);
 }
 
-/// The parameters' lines; the last one is that of host_timeout.
+/// The parameters' lines; the last one is that of bad_samples.
 std::vector<std::string> parameters(Terminal& terminal) {
   std::vector<std::string> lines{terminal.type("params")};
-  while (lines.back().rfind("host_timeout", 0) != 0) {
+  while (lines.back().rfind("bad_samples", 0) != 0) {
     lines.push_back(terminal.next_line());
   }
   return lines;
@@ -217,7 +217,7 @@ TEST_P(TimedUnit, RefusesWhatIsOutOfRangeAndRunsOn) {
   EXPECT_EQ(terminal.type("set gain_scale 0.5"), "stop the drive first");
   EXPECT_EQ(terminal.type("set gain 0.5"), "unknown; params lists what there is");
   const std::vector<std::string> lines = parameters(terminal);
-  ASSERT_EQ(lines.size(), 8U);
+  ASSERT_EQ(lines.size(), 9U);
   EXPECT_EQ(lines[0], "target 0.4, compiled in 0.4; allowed is 0 to 1");
   EXPECT_EQ(lines[2], "gain_scale 1, compiled in 1; allowed is 0 to 1");
   expect_settled(terminal, 0.4);
