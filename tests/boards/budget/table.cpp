@@ -95,6 +95,7 @@ const std::vector<Feature>& features() {
       {"shaping", "every_part", "no_shaping", "notch_shaper.hpp", "NotchShaper"},
       {"feedback", "no_shaping", "no_feedback", "integral_regulator.hpp", "IntegralRegulator"},
       {"calibration", "every_part", "no_calibration", "learnt_friction.hpp", "LearntFriction"},
+      {"relearning", "relearning", "every_part", "periodic_relearning.hpp", "PeriodicRelearning"},
       {"slew limit", "every_part", "no_slew_limit", "slew_limit.hpp", "control::SlewLimit"},
       {"dahl map", "every_part", "coulomb", "dahl_feedforward.hpp", "DahlFeedforward"},
   };
