@@ -36,6 +36,7 @@ ImageRow image_row(const scene::Scene& scene, const emulator::EmulatedBoard& boa
   Course course(scene);
   const loop::RunResult result = pil::run_image(scene, board, image::controller_header(scene),
                                                 watch(course, attention), attention);
+  pil::require_same(result);
   return {&board, scene.controller->arithmetic, precision(course, exact), first_fault(result),
           *result.image};
 }

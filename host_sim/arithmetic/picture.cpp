@@ -136,10 +136,10 @@ std::string draw(const Comparison& comparison, const std::string& title) {
     script += image_block(comparison, arithmetic) + target_block(comparison, arithmetic);
   }
   script += fmt::format(
-      "set multiplot title '{}' noenhanced font ',15'\n"
+      "set multiplot title {} noenhanced font ',15'\n"
       "set datafile missing 'nan'\n"
       "set tics nomirror\nset border 3\nset grid xtics ytics lc rgb '#d8d8d8' lw 1\n",
-      title);
+      plot::quoted(title));
   script += images_panel(comparison);
   script +=
       "unset logscale x\nset lmargin 11\nunset offsets\nunset key\nset ytics auto\nset format y "

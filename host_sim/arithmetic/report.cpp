@@ -9,6 +9,7 @@
 #include "host_sim/arithmetic/picture.hpp"
 #include "host_sim/report/output_folder.hpp"
 #include "host_sim/scene/names.hpp"
+#include "host_sim/text/printable.hpp"
 
 namespace sonoglide::arithmetic {
 namespace {
@@ -53,7 +54,7 @@ std::string text(const Comparison& comparison, const std::filesystem::path& out)
   return lines + fmt::format(
                      "rms, largest: difference of the friction ratio from float64's; instructions "
                      "of a step: min/mean/max\npicture: {}\n",
-                     (out / "arithmetic.svg").string());
+                     text::printable((out / "arithmetic.svg").string()));
 }
 
 }  // namespace sonoglide::arithmetic

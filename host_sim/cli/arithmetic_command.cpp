@@ -8,13 +8,11 @@
 #include "host_sim/arithmetic/comparison.hpp"
 #include "host_sim/arithmetic/report.hpp"
 #include "host_sim/cli/board_option.hpp"
-#include "host_sim/cli/interruption.hpp"
 #include "host_sim/cli/output_option.hpp"
-#include "host_sim/cli/placed_error.hpp"
 #include "host_sim/cli/progress_bar.hpp"
 #include "host_sim/image/controller_header.hpp"
 #include "host_sim/plot/gnuplot.hpp"
-#include "host_sim/scene/reader.hpp"
+#include "host_sim/process/interruption.hpp"
 
 namespace sonoglide::cli {
 namespace {
@@ -31,7 +29,7 @@ Boards chosen(const std::vector<std::string>& names) {
 }
 
 arithmetic::Comparison compute(const scene::Scene& scene, const Boards& boards, bool quiet) {
-  const Interruption interruption;
+  const process::Interruption interruption;
   ProgressBar bar(stderr, !quiet);
   return arithmetic::compare(
       scene, boards, [&] { interruption.check(); }, [&](double fraction) { bar.update(fraction); });
@@ -44,11 +42,7 @@ CLI::App* add_arithmetic_command(CLI::App& program, ArithmeticOptions& options) 
       "arithmetic",
       "Error against run time of a closed-loop scene's controller on microcontrollers, "
       "in q15, q31, float32 and, where a board computes it, float64");
-  command
-      ->add_option("scene", options.scene,
-                   "The scene, a TOML file; its controller.arithmetic plays no part")
-      ->required()
-      ->type_name("SCENE.toml");
+  add_scene_options(*command, options.scene, "its controller.arithmetic plays no part");
   command
       ->add_option("--board", options.boards,
                    "A board; may be repeated [microbit, mps2-an385, mps2-an386, mps2-an500]")
@@ -62,12 +56,13 @@ CLI::App* add_arithmetic_command(CLI::App& program, ArithmeticOptions& options) 
 }
 
 void arithmetic(const ArithmeticOptions& options) {
-  const scene::Scene scene = scene::read_file(options.scene);
-  with_places(options.scene, [&] { return image::controller_header(scene); });
+  const SceneInput input(options.scene);
+  const scene::Scene scene = input.read();
+  input.with_places([&] { return image::controller_header(scene); });
   const Boards boards = chosen(options.boards);
-  const std::filesystem::path out = output_folder(options.out, scene.name + "_arithmetic");
+  const std::filesystem::path out = output_folder(options.out, scene.name, "_arithmetic");
   plot::require_gnuplot();
-  require_writable(out);
+  require_writable(out, {"arithmetic.csv", "targets.csv", "arithmetic.svg"});
   const arithmetic::Comparison comparison = compute(scene, boards, options.quiet);
   arithmetic::write(out, scene, comparison);
   if (!options.quiet) {

@@ -6,10 +6,12 @@
 #include <string>
 #include <vector>
 
+#include "host_sim/cli/scene_input.hpp"
+
 namespace sonoglide::cli {
 
 struct ArithmeticOptions {
-  std::string scene;
+  SceneOptions scene;
   std::vector<std::string> boards = {"microbit", "mps2-an385", "mps2-an386", "mps2-an500"};
   std::string out;  ///< empty: out/<scene name>_arithmetic
   bool quiet = false;

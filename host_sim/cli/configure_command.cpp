@@ -5,19 +5,16 @@
 #include <filesystem>
 
 #include "host_sim/cli/output_option.hpp"
-#include "host_sim/cli/placed_error.hpp"
 #include "host_sim/image/controller_header.hpp"
 #include "host_sim/image/plant_header.hpp"
 #include "host_sim/report/output_folder.hpp"
-#include "host_sim/scene/reader.hpp"
+#include "host_sim/text/printable.hpp"
 
 namespace sonoglide::cli {
 CLI::App* add_configure_command(CLI::App& program, ConfigureOptions& options) {
   CLI::App* command = program.add_subcommand(
       "configure", "Write the controller of a closed-loop scene as a header for its image");
-  command->add_option("scene", options.scene, "The scene, a TOML file")
-      ->required()
-      ->type_name("SCENE.toml");
+  add_scene_options(*command, options.scene);
   add_output_option(*command, options.out,
                     fmt::format("{} [out/<scene name>]", image::controller_header_name));
   command
@@ -32,25 +29,25 @@ CLI::App* add_configure_command(CLI::App& program, ConfigureOptions& options) {
 }
 
 void configure(const ConfigureOptions& options) {
-  const scene::Scene scene = scene::read_file(options.scene);
+  const SceneInput input(options.scene);
+  const scene::Scene scene = input.read();
   const std::filesystem::path out = output_folder(options.out, scene.name);
   report::OutputFolder folder(out);
   folder.write(image::controller_header_name,
-               with_places(options.scene, [&] { return image::controller_header(scene); }));
+               input.with_places([&] { return image::controller_header(scene); }));
   if (options.plant.empty()) {
     folder.withdraw(image::plant_header_name);
   } else {
     const scene::Arithmetic arithmetic =
         options.plant == "q31" ? scene::Arithmetic::q31 : scene::Arithmetic::float32;
-    folder.write(image::plant_header_name, with_places(options.scene, [&] {
-                   return image::plant_header(scene, arithmetic);
-                 }));
+    folder.write(image::plant_header_name,
+                 input.with_places([&] { return image::plant_header(scene, arithmetic); }));
   }
   folder.commit();
   if (!options.quiet) {
-    fmt::print("header: {}\n", (out / image::controller_header_name).string());
+    fmt::print("header: {}\n", text::printable((out / image::controller_header_name).string()));
     if (!options.plant.empty()) {
-      fmt::print("plant:  {}\n", (out / image::plant_header_name).string());
+      fmt::print("plant:  {}\n", text::printable((out / image::plant_header_name).string()));
     }
   }
 }

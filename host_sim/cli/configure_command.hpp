@@ -5,10 +5,12 @@
 
 #include <string>
 
+#include "host_sim/cli/scene_input.hpp"
+
 namespace sonoglide::cli {
 
 struct ConfigureOptions {
-  std::string scene;
+  SceneOptions scene;
   std::string out;    ///< empty: out/<scene name>
   std::string plant;  ///< its arithmetic; empty: no plant
   bool quiet = false;

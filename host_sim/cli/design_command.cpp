@@ -7,14 +7,13 @@
 #include <filesystem>
 #include <optional>
 
-#include "host_sim/cli/interruption.hpp"
 #include "host_sim/cli/output_option.hpp"
-#include "host_sim/cli/placed_error.hpp"
 #include "host_sim/cli/progress_bar.hpp"
+#include "host_sim/cli/run_watch.hpp"
 #include "host_sim/design/report.hpp"
 #include "host_sim/design/study.hpp"
 #include "host_sim/plot/gnuplot.hpp"
-#include "host_sim/scene/reader.hpp"
+#include "host_sim/process/interruption.hpp"
 
 namespace sonoglide::cli {
 namespace {
@@ -54,12 +53,9 @@ std::string check_ratio(const std::string& text) {
 }
 
 design::Study compute(const design::Task& task, bool quiet) {
-  const Interruption interruption;
+  const process::Interruption interruption;
   ProgressBar bar(stderr, !quiet);
-  return design::study(task, [&](double fraction) {
-    interruption.check();
-    bar.update(fraction);
-  });
+  return design::study(task, watching(bar, interruption));
 }
 
 }  // namespace
@@ -69,11 +65,7 @@ CLI::App* add_design_command(CLI::App& program, DesignOptions& options) {
       "design",
       "Design guidelines for a closed-loop scene: force, vibration and power that its friction "
       "ratios take, what they hang on, what resonance would give, and what is out of reach");
-  command
-      ->add_option("scene", options.scene,
-                   "The scene, a TOML file; its [solver] and initial state play no part")
-      ->required()
-      ->type_name("SCENE.toml");
+  add_scene_options(*command, options.scene, "its [solver] and initial state play no part");
   command
       ->add_option("--ratio", options.ratios,
                    "A friction ratio in place of the scene's targets; repeatable")
@@ -85,10 +77,6 @@ CLI::App* add_design_command(CLI::App& program, DesignOptions& options) {
                    "Slowest and fastest sliding velocity in m/s, in place of the scene's")
       ->type_name("FROM:TO")
       ->check(check_speeds);
-  command
-      ->add_option("--set", options.overrides, "Replace or add one value of the scene; repeatable")
-      ->type_name("TABLE.KEY=VALUE")
-      ->allow_extra_args(false);
   add_output_option(*command, options.out,
                     "report.html, design.json, design.csv and detuning.csv [out/<scene "
                     "name>_design]");
@@ -97,14 +85,13 @@ CLI::App* add_design_command(CLI::App& program, DesignOptions& options) {
 }
 
 void design(const DesignOptions& options) {
-  const scene::Scene scene = scene::read_file(options.scene, options.overrides);
-  const design::Task task = with_places(
-      options.scene,
-      [&] { return design::make_task(scene, options.ratios, parse_speeds(options.velocity)); },
-      options.overrides);
-  const std::filesystem::path out = output_folder(options.out, scene.name + "_design");
+  const SceneInput input(options.scene);
+  const scene::Scene scene = input.read();
+  const design::Task task = input.with_places(
+      [&] { return design::make_task(scene, options.ratios, parse_speeds(options.velocity)); });
+  const std::filesystem::path out = output_folder(options.out, scene.name, "_design");
   plot::require_gnuplot();
-  require_writable(out);
+  require_writable(out, {"report.html", "design.json", "design.csv", "detuning.csv"});
   const design::Study study = compute(task, options.quiet);
   design::write(out, study);
   if (!options.quiet) {

@@ -6,14 +6,15 @@
 #include <string>
 #include <vector>
 
+#include "host_sim/cli/scene_input.hpp"
+
 namespace sonoglide::cli {
 
 struct DesignOptions {
-  std::string scene;
+  SceneOptions scene;
   std::vector<double> ratios;
   std::string velocity;  ///< FROM:TO in m/s; empty: the scene's
   std::string out;       ///< empty: out/<scene name>_design
-  std::vector<std::string> overrides;
   bool quiet = false;
 };
 

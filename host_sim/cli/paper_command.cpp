@@ -4,28 +4,36 @@
 
 #include <cstdio>
 #include <filesystem>
-#include <set>
+#include <string>
 
 #include "host_sim/cli/output_option.hpp"
 #include "host_sim/cli/progress_bar.hpp"
+#include "host_sim/cli/run_watch.hpp"
 #include "host_sim/paper/figures.hpp"
 #include "host_sim/paper/paper.hpp"
 #include "host_sim/plot/gnuplot.hpp"
+#include "host_sim/process/interruption.hpp"
+#include "host_sim/text/printable.hpp"
 
 namespace sonoglide::cli {
 namespace {
 
-std::set<int> figure_numbers() {
-  std::set<int> numbers;
+std::string check_figure(const std::string& text) {
+  std::string allowed;
   for (const paper::NumberedFigure& each : paper::figure_list()) {
-    numbers.insert(each.number);
+    const std::string number = std::to_string(each.number);
+    if (text == number) {
+      return {};
+    }
+    allowed += fmt::format("{}{}", allowed.empty() ? "" : ", ", number);
   }
-  return numbers;
+  return fmt::format("\"{}\" is no figure; allowed: {}", text, allowed);
 }
 
 void compute(const PaperOptions& options) {
+  const process::Interruption interruption;
   ProgressBar bar(stderr, !options.quiet);
-  paper::write_paper(options.out, options.figure, [&bar](double part) { bar.update(part); });
+  paper::write_paper(options.out, options.figure, watching(bar, interruption));
 }
 
 }  // namespace
@@ -38,7 +46,8 @@ CLI::App* add_paper_command(CLI::App& program, PaperOptions& options) {
       "index.html, balance.csv, table_1.toml, table_2.toml, of each figure figure_NN.csv "
       "and .svg, of figure 12 measurements.csv and scenes [paper]");
   command->add_option("--figure", options.figure, "This figure alone")
-      ->check(CLI::IsMember(figure_numbers()));
+      ->type_name("N")
+      ->check(check_figure);
   command->add_flag("--quiet", options.quiet, "No progress bar and no printed summary");
   return command;
 }
@@ -47,7 +56,8 @@ void paper(const PaperOptions& options) {
   plot::require_gnuplot();
   compute(options);
   if (!options.quiet) {
-    fmt::print("page: {}\n", (std::filesystem::path(options.out) / "index.html").string());
+    fmt::print("page: {}\n",
+               text::printable((std::filesystem::path(options.out) / "index.html").string()));
   }
 }
 

@@ -7,9 +7,7 @@
 #include <string>
 
 #include "host_sim/cli/board_option.hpp"
-#include "host_sim/cli/interruption.hpp"
 #include "host_sim/cli/output_option.hpp"
-#include "host_sim/cli/placed_error.hpp"
 #include "host_sim/cli/progress_bar.hpp"
 #include "host_sim/cli/run_watch.hpp"
 #include "host_sim/emulator/board_list.hpp"
@@ -17,23 +15,23 @@
 #include "host_sim/image/controller_header.hpp"
 #include "host_sim/loop/run.hpp"
 #include "host_sim/pil/run_image.hpp"
+#include "host_sim/process/interruption.hpp"
 #include "host_sim/report/run_report.hpp"
-#include "host_sim/scene/reader.hpp"
 
 namespace sonoglide::cli {
 namespace {
 
 loop::RunResult compute(const scene::Scene& scene, const emulator::EmulatedBoard& board,
                         const std::string& header, report::RunReport& report, bool quiet,
-                        const Interruption& interruption) {
+                        const process::Interruption& interruption) {
   ProgressBar bar(stderr, !quiet);
   return pil::run_image(scene, board, header, run_watch(report, bar, interruption),
                         [&] { interruption.check(); });
 }
 
-std::string header_for(const scene::Scene& scene, const emulator::EmulatedBoard& board,
-                       const std::string& path) {
-  return with_places(path, [&] {
+std::string header_for(const SceneInput& input, const scene::Scene& scene,
+                       const emulator::EmulatedBoard& board) {
+  return input.with_places([&] {
     image::require_arithmetic(scene, board);
     return image::controller_header(scene);
   });
@@ -45,9 +43,7 @@ CLI::App* add_pil_command(CLI::App& program, PilOptions& options) {
   CLI::App* command = program.add_subcommand(
       "pil",
       "Run a closed-loop scene with its controller as a firmware image on an emulated board");
-  command->add_option("scene", options.scene, "The scene, a TOML file")
-      ->required()
-      ->type_name("SCENE.toml");
+  add_scene_options(*command, options.scene);
   command->add_option("--board", options.board, "The board")
       ->required()
       ->type_name("NAME")
@@ -61,17 +57,19 @@ CLI::App* add_pil_command(CLI::App& program, PilOptions& options) {
 
 void pil(const PilOptions& options) {
   const emulator::EmulatedBoard& board = *emulator::find_board(options.board);
-  const scene::Scene scene = scene::read_file(options.scene);
-  const std::string header = header_for(scene, board, options.scene);
-  const std::filesystem::path out = output_folder(options.out, scene.name + "_" + options.board);
+  const SceneInput input(options.scene);
+  const scene::Scene scene = input.read();
+  const std::string header = header_for(input, scene, board);
+  const std::filesystem::path out = output_folder(options.out, scene.name, "_" + options.board);
   require_emulator(board);
-  const Interruption interruption;
+  const process::Interruption interruption;
   report::RunReport report(out, scene);
   const loop::RunResult result = compute(scene, board, header, report, options.quiet, interruption);
   report.finish(result);
   if (!options.quiet) {
     fmt::print("{}", report::run_text(scene, result, report.findings(), out));
   }
+  pil::require_same(result);
 }
 
 }  // namespace sonoglide::cli

@@ -5,10 +5,12 @@
 
 #include <string>
 
+#include "host_sim/cli/scene_input.hpp"
+
 namespace sonoglide::cli {
 
 struct PilOptions {
-  std::string scene;
+  SceneOptions scene;
   std::string board;
   std::string out;  ///< empty: out/<scene name>_<board>
   bool quiet = false;

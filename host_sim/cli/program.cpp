@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
+#include <string_view>
 
 #include "host_sim/cli/arithmetic_command.hpp"
 #include "host_sim/cli/configure_command.hpp"
@@ -16,10 +17,12 @@
 #include "host_sim/cli/run_command.hpp"
 #include "host_sim/cli/stability_command.hpp"
 #include "host_sim/cli/sweep_command.hpp"
+#include "host_sim/cli/usage.hpp"
 #include "host_sim/cli/work_precision_command.hpp"
 #include "host_sim/loop/run.hpp"
 #include "host_sim/report/output_folder.hpp"
 #include "host_sim/scene/scene_error.hpp"
+#include "host_sim/text/printable.hpp"
 
 namespace sonoglide::cli {
 namespace {
@@ -63,6 +66,7 @@ void parse_and_run(int argument_count, const char* const* arguments) {
     arithmetic(arithmetic_options);
   });
   add_design_command(program, design_options)->callback([&] { design(design_options); });
+  require_known_words(program, argument_count, arguments);
   try {
     program.parse(argument_count, arguments);
     if (program.get_subcommands().empty()) {
@@ -74,9 +78,16 @@ void parse_and_run(int argument_count, const char* const* arguments) {
   flush_output();
 }
 
-int fail(ExitCode code, const char* message) {
-  fmt::print(stderr, "{}\n", message);
+/// Names of files and words of other programs get no say in what the terminal does.
+int fail(ExitCode code, std::string_view message) {
+  fmt::print(stderr, "{}\n", text::printable_lines(message));
   return code;
+}
+
+int fail_usage(std::string_view message) {
+  return fail(
+      bad_input,
+      fmt::format("sonoglide: {}\nsonoglide --help lists the commands and their options", message));
 }
 
 }  // namespace
@@ -86,9 +97,9 @@ int run_program(int argument_count, const char* const* arguments) {
     parse_and_run(argument_count, arguments);
     return done;
   } catch (const CLI::ParseError& error) {
-    fmt::print(stderr, "sonoglide: {}\nsonoglide --help lists the commands and their options\n",
-               error.what());
-    return bad_input;
+    return fail_usage(text::printable(error.what()));
+  } catch (const UsageError& error) {
+    return fail_usage(error.what());
   } catch (const scene::SceneError& error) {
     return fail(bad_input, error.what());
   } catch (const loop::ComputationError& error) {

@@ -1,16 +1,20 @@
 #include "host_sim/cli/progress_bar.hpp"
 
 #include <fmt/format.h>
+#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
+#include <cstring>
 
 namespace sonoglide::cli {
 namespace {
 
 constexpr std::chrono::milliseconds redraw_interval{100};
-constexpr int width = 30;
+constexpr int widest_bar = 30;
+constexpr int narrowest_bar = 5;
 /// Erases from the cursor to the end of the line (ECMA-48).
 constexpr const char* erase_line = "\r\x1b[K";
 
@@ -25,23 +29,47 @@ std::string remaining(double fraction, double elapsed_s) {
   return fmt::format("{:.1f} h left", left_s / 3600.0);
 }
 
+bool can_erase_a_line(const char* terminal) {
+  return terminal != nullptr && *terminal != '\0' && std::strcmp(terminal, "dumb") != 0;
+}
+
+int columns_of(std::FILE* stream) {
+  constexpr int usual = 80;
+  winsize size{};
+  return ioctl(fileno(stream), TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : usual;
+}
+
 }  // namespace
 
-std::string progress_line(double fraction, double elapsed_s) {
+std::string progress_line(double fraction, double elapsed_s, int columns) {
   const double part = fraction > 0.0 ? std::min(fraction, 1.0) : 0.0;
-  const auto filled = static_cast<std::size_t>(part * width);
-  std::string line = fmt::format("[{}{}] {:3.0f} %", std::string(filled, '#'),
-                                 std::string(width - filled, '-'), std::floor(100.0 * part));
+  const std::string percent = fmt::format("{:3.0f} %", std::floor(100.0 * part));
   // An estimate from less than this is noise.
   constexpr double least_part = 1e-3;
+  std::string rest;
   if (part > least_part && part < 1.0) {
-    line += ", " + remaining(part, elapsed_s);
+    rest = ", " + remaining(part, elapsed_s);
   }
-  return line;
+  const auto room_beside = [&](const std::string& text) {
+    constexpr int brackets_and_blank = 3;
+    return columns - 1 - brackets_and_blank - static_cast<int>(text.size());
+  };
+  if (room_beside(percent + rest) < narrowest_bar) {
+    rest.clear();
+  }
+  const int room = room_beside(percent);
+  if (room < narrowest_bar) {
+    return columns > static_cast<int>(percent.size()) ? percent : std::string();
+  }
+  const auto width = static_cast<std::size_t>(std::min(widest_bar, room_beside(percent + rest)));
+  const auto filled = static_cast<std::size_t>(part * static_cast<double>(width));
+  return fmt::format("[{}{}] {}{}", std::string(filled, '#'), std::string(width - filled, '-'),
+                     percent, rest);
 }
 
 ProgressBar::ProgressBar(std::FILE* stream, bool wanted)
-    : stream_(stream), shown_(wanted && isatty(fileno(stream)) == 1) {}
+    : stream_(stream),
+      shown_(wanted && isatty(fileno(stream)) == 1 && can_erase_a_line(std::getenv("TERM"))) {}
 
 ProgressBar::~ProgressBar() {
   if (drawn_) {
@@ -59,7 +87,7 @@ void ProgressBar::update(double fraction) {
     return;
   }
   const double elapsed_s = std::chrono::duration<double>(now - start_).count();
-  fmt::print(stream_, "{}{}", erase_line, progress_line(fraction, elapsed_s));
+  fmt::print(stream_, "{}{}", erase_line, progress_line(fraction, elapsed_s, columns_of(stream_)));
   std::fflush(stream_);
   drawn_ = true;
   last_drawn_ = now;

@@ -7,14 +7,16 @@
 
 namespace sonoglide::cli {
 
-/// One line without its end: `[########------------]  40 %, 3 s left`.
+/// One line without its end: `[########------------]  40 %, 3 s left`; on a narrow terminal with a
+/// shorter bar, without the time, and at last without the bar.
 ///
 /// @param fraction   done, clamped to [0, 1]
 /// @param elapsed_s  time taken for it
-std::string progress_line(double fraction, double elapsed_s);
+/// @param columns    of the terminal; the line takes one less, which no terminal wraps
+std::string progress_line(double fraction, double elapsed_s, int columns = 80);
 
 /// Redraws its line at most ten times a second and clears it when destroyed. Silent unless the
-/// stream is a terminal.
+/// stream is a terminal that can erase a line: one of no name or `dumb` (TERM) cannot.
 class ProgressBar {
  public:
   /// @param stream  outlives the bar

@@ -5,21 +5,44 @@
 #include <cstdio>
 #include <filesystem>
 
-#include "host_sim/cli/interruption.hpp"
 #include "host_sim/cli/output_option.hpp"
 #include "host_sim/cli/progress_bar.hpp"
 #include "host_sim/cli/run_watch.hpp"
 #include "host_sim/loop/run.hpp"
+#include "host_sim/process/interruption.hpp"
+#include "host_sim/report/run_findings.hpp"
 #include "host_sim/report/run_report.hpp"
-#include "host_sim/scene/reader.hpp"
+#include "host_sim/report/summary.hpp"
 
 namespace sonoglide::cli {
 namespace {
 
-loop::RunResult compute(const scene::Scene& scene, report::RunReport& report, bool quiet,
-                        const Interruption& interruption) {
+using process::Interruption;
+
+/// The summary alone, nothing written.
+std::string compute_summary(const scene::Scene& scene, bool quiet) {
+  const Interruption interruption;
+  report::RunFindings findings(scene);
   ProgressBar bar(stderr, !quiet);
-  return loop::run(scene, run_watch(report, bar, interruption));
+  loop::Watch watch;
+  findings.join(watch);
+  watch.progress = watching(bar, interruption);
+  const loop::RunResult result = loop::run(scene, watch);
+  return report::summary_text(scene, result, findings);
+}
+
+/// @return what is printed
+std::string compute_report(const scene::Scene& scene, const std::filesystem::path& out,
+                           const RunOptions& options) {
+  const Interruption interruption;
+  report::RunReport report(out, scene);
+  ProgressBar bar(stderr, !options.quiet);
+  const loop::RunResult result = loop::run(scene, run_watch(report, bar, interruption));
+  report.finish(result);
+  if (options.json) {
+    return report::summary_text(scene, result, report.findings());
+  }
+  return options.quiet ? std::string() : report::run_text(scene, result, report.findings(), out);
 }
 
 }  // namespace
@@ -27,32 +50,22 @@ loop::RunResult compute(const scene::Scene& scene, report::RunReport& report, bo
 CLI::App* add_run_command(CLI::App& program, RunOptions& options) {
   CLI::App* command =
       program.add_subcommand("run", "Run a scene: closed loop if it has a [controller] table");
-  command->add_option("scene", options.scene, "The scene, a TOML file")
-      ->required()
-      ->type_name("SCENE.toml");
+  add_scene_options(*command, options.scene);
   add_output_option(*command, options.out,
                     "report.html and summary.json and, where the scene records anything, "
                     "periods.csv and trace.csv [out/<scene name>]");
-  command
-      ->add_option("--set", options.overrides,
-                   "Replace or add one value of the scene, e.g. drive.force_amplitude_N=1920; "
-                   "repeatable")
-      ->type_name("TABLE.KEY=VALUE")
-      ->allow_extra_args(false);
+  command->add_flag("--json", options.json,
+                    "Print summary.json and nothing else; files are then written only where --out "
+                    "names a folder");
   command->add_flag("--quiet", options.quiet, "No progress bar and no printed summary");
   return command;
 }
 
 void run(const RunOptions& options) {
-  const scene::Scene scene = scene::read_file(options.scene, options.overrides);
-  const std::filesystem::path out = output_folder(options.out, scene.name);
-  const Interruption interruption;
-  report::RunReport report(out, scene);
-  const loop::RunResult result = compute(scene, report, options.quiet, interruption);
-  report.finish(result);
-  if (!options.quiet) {
-    fmt::print("{}", report::run_text(scene, result, report.findings(), out));
-  }
+  const scene::Scene scene = SceneInput(options.scene).read();
+  const bool written = !options.json || !options.out.empty();
+  fmt::print("{}", written ? compute_report(scene, output_folder(options.out, scene.name), options)
+                           : compute_summary(scene, options.quiet));
 }
 
 }  // namespace sonoglide::cli

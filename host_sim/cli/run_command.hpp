@@ -4,14 +4,15 @@
 #include <CLI/CLI.hpp>
 
 #include <string>
-#include <vector>
+
+#include "host_sim/cli/scene_input.hpp"
 
 namespace sonoglide::cli {
 
 struct RunOptions {
-  std::string scene;
+  SceneOptions scene;
   std::string out;  ///< empty: out/<scene name>
-  std::vector<std::string> overrides;
+  bool json = false;
   bool quiet = false;
 };
 

@@ -8,9 +8,12 @@
 
 #include "host_sim/cli/output_option.hpp"
 #include "host_sim/cli/progress_bar.hpp"
+#include "host_sim/cli/run_watch.hpp"
 #include "host_sim/plot/gnuplot.hpp"
+#include "host_sim/process/interruption.hpp"
 #include "host_sim/stability/study.hpp"
 #include "host_sim/stability/study_text.hpp"
+#include "host_sim/text/printable.hpp"
 
 namespace sonoglide::cli {
 namespace {
@@ -20,13 +23,14 @@ constexpr std::uint64_t random_scenes = 100000;
 /// What would stop the report at the end stops it here.
 void require_output(const std::filesystem::path& out) {
   plot::require_gnuplot();
-  require_writable(out);
+  require_writable(
+      out, {"report.html", "stability_map.csv", "stability_map.svg", "stability_map_float32.csv",
+            "stability_map_float32.svg", "extremes.csv", "extremes_worst.csv"});
 }
 
-stability::Study compute(bool quiet) {
+stability::Study compute(bool quiet, const process::Interruption& interruption) {
   ProgressBar bar(stderr, !quiet);
-  return stability::study(stability::full_grid(), random_scenes,
-                          [&bar](double fraction) { bar.update(fraction); });
+  return stability::study(stability::full_grid(), random_scenes, watching(bar, interruption));
 }
 
 }  // namespace
@@ -44,11 +48,12 @@ CLI::App* add_stability_command(CLI::App& program, StabilityOptions& options) {
 void stability(const StabilityOptions& options) {
   const std::filesystem::path out = options.out;
   require_output(out);
-  const stability::Study study = compute(options.quiet);
+  const process::Interruption interruption;
+  const stability::Study study = compute(options.quiet, interruption);
   stability::write_study(out, study);
   if (!options.quiet) {
     fmt::print("{}report: {}\n", stability::study_text(study.extremes),
-               (out / "report.html").string());
+               text::printable((out / "report.html").string()));
   }
 }
 

@@ -8,6 +8,7 @@
 #include "host_sim/cli/output_option.hpp"
 #include "host_sim/cli/progress_bar.hpp"
 #include "host_sim/sweep/sweep.hpp"
+#include "host_sim/text/printable.hpp"
 
 namespace sonoglide::cli {
 namespace {
@@ -36,8 +37,9 @@ std::string text(const sweep::Summary& summary, const std::filesystem::path& out
   if (summary.failed > 0) {
     lines += fmt::format("{} points failed: see the column status\n", summary.failed);
   }
-  return lines + fmt::format("rows: {}\nreport: {}\n", (out / "sweep.csv").string(),
-                             (out / "report.html").string());
+  return lines + fmt::format("rows: {}\nreport: {}\n",
+                             text::printable((out / "sweep.csv").string()),
+                             text::printable((out / "report.html").string()));
 }
 
 }  // namespace
@@ -47,28 +49,24 @@ CLI::App* add_sweep_command(CLI::App& program, SweepOptions& options) {
       "sweep",
       "Run a scene for every combination of the values of some keys, on all cores; "
       "interrupted, the same command goes on from there");
-  command->add_option("scene", options.scene, "The scene, a TOML file")
-      ->required()
-      ->type_name("SCENE.toml");
+  add_scene_options(*command, options.scene);
   command
-      ->add_option(
-          "--vary", options.vary,
-          "A key and its values, evenly spaced or, with :log, by equal factors, e.g. "
-          "friction.contact_stiffness_N_per_m=1e4:1e6:32:log; of one value FROM is TO; repeatable, "
-          "the first key changes slowest. velocity_ratio stands for sliding velocity over peak "
-          "vibration "
-          "velocity of the steady state without friction, Fe w / |Ks - m w^2 + i c w|")
+      ->add_option("--vary", options.vary,
+                   "A key and its values, evenly spaced or, with :log, by equal factors, e.g. "
+                   "friction.contact_stiffness_N_per_m=1e4:1e6:32:log, of one value FROM is TO; or "
+                   "KEY=A,B,C, "
+                   "words or numbers, e.g. friction.law=dahl,coulomb, where a key that one word "
+                   "does not use "
+                   "may stand in the scene for another; repeatable, the first key changes slowest. "
+                   "velocity_ratio stands for sliding velocity over peak "
+                   "vibration "
+                   "velocity of the steady state without friction, Fe w / |Ks - m w^2 + i c w|")
       ->required()
-      ->type_name("KEY=FROM:TO:COUNT[:log]")
+      ->type_name("KEY=FROM:TO:COUNT[:log]|KEY=A,B,...")
       ->allow_extra_args(false);
   add_output_option(*command, options.out,
                     "sweep.csv, sweep.svg (one or two keys) and report.html [out/<scene "
                     "name>_sweep]");
-  command
-      ->add_option("--set", options.overrides,
-                   "Replace or add one value of the scene at every point; repeatable")
-      ->type_name("TABLE.KEY=VALUE")
-      ->allow_extra_args(false);
   command->add_option("--threads", options.threads, "At most so many threads [one for each core]")
       ->type_name("N")
       ->check([](const std::string& number) {
@@ -84,8 +82,9 @@ CLI::App* add_sweep_command(CLI::App& program, SweepOptions& options) {
 }
 
 void sweep(const SweepOptions& options) {
-  const sweep::Plan plan(options.scene, options.overrides, options.vary);
-  const std::filesystem::path out = output_folder(options.out, plan.first().name + "_sweep");
+  const sweep::Plan plan(scene::read_source(options.scene.path), options.scene.overrides,
+                         options.vary);
+  const std::filesystem::path out = output_folder(options.out, plan.first().name, "_sweep");
   const sweep::Summary summary = compute(plan, out, options);
   if (!options.quiet) {
     fmt::print("{}", text(summary, out));

@@ -6,13 +6,14 @@
 #include <string>
 #include <vector>
 
+#include "host_sim/cli/scene_input.hpp"
+
 namespace sonoglide::cli {
 
 struct SweepOptions {
-  std::string scene;
+  SceneOptions scene;
   std::string out;  ///< empty: out/<scene name>_sweep
   std::vector<std::string> vary;
-  std::vector<std::string> overrides;
   unsigned threads = 0;  ///< 0: one for each core
   bool quiet = false;
 };

@@ -5,10 +5,12 @@
 
 #include <string>
 
+#include "host_sim/cli/scene_input.hpp"
+
 namespace sonoglide::cli {
 
 struct WorkPrecisionOptions {
-  std::string scene;
+  SceneOptions scene;
   std::string out;  ///< empty: out/<scene name>_work_precision
   bool quiet = false;
 };

@@ -8,6 +8,7 @@
 #include "host_sim/design/tables.hpp"
 #include "host_sim/report/output_folder.hpp"
 #include "host_sim/report/page.hpp"
+#include "host_sim/text/printable.hpp"
 
 namespace sonoglide::design {
 namespace {
@@ -67,7 +68,7 @@ std::string text(const Study& study, const std::filesystem::path& out) {
   for (const Advice& each : advice(study)) {
     lines += fmt::format("{}: {}\n", each.topic, each.sentence);
   }
-  return lines + fmt::format("report: {}\n", (out / "report.html").string());
+  return lines + fmt::format("report: {}\n", text::printable((out / "report.html").string()));
 }
 
 }  // namespace sonoglide::design

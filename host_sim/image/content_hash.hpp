@@ -1,33 +1,32 @@
 /// A name for content.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string_view>
 
+#include "host_sim/text/checksum.hpp"
+
 namespace sonoglide::image {
 
-/// 64-bit FNV-1a over texts, each with its length, so that "ab", "c" is not "a", "bc".
-/// Source: Fowler, Noll and Vo, draft-eastlake-fnv.
+/// A checksum over texts, each with its length, so that "ab", "c" is not "a", "bc".
 class ContentHash {
  public:
   void add(std::string_view text) {
-    add_word(text.size());
-    for (const char each : text) {
-      add_byte(static_cast<std::uint8_t>(each));
+    std::array<char, 8> length{};
+    std::uint64_t left = text.size();
+    for (char& byte : length) {
+      byte = static_cast<char>(left & 0xffU);
+      left >>= 8U;
     }
+    sum_.add({length.data(), length.size()});
+    sum_.add(text);
   }
 
-  std::uint64_t value() const { return hash_; }
+  std::uint64_t value() const { return sum_.value(); }
 
  private:
-  void add_word(std::uint64_t word) {
-    for (unsigned shift = 0; shift < 64; shift += 8) {
-      add_byte(static_cast<std::uint8_t>(word >> shift));
-    }
-  }
-  void add_byte(std::uint8_t byte) { hash_ = (hash_ ^ byte) * 0x100000001b3U; }
-
-  std::uint64_t hash_ = 0xcbf29ce484222325U;
+  text::Checksum sum_;
 };
 
 }  // namespace sonoglide::image

@@ -13,6 +13,7 @@
 #include "host_sim/loop/carrier_grid.hpp"
 #include "host_sim/scene/configuration_error.hpp"
 #include "host_sim/scene/control_design.hpp"
+#include "host_sim/text/printable.hpp"
 
 namespace sonoglide::image {
 namespace {
@@ -229,13 +230,14 @@ inline constexpr std::uint32_t design = {:#010x};
 
 }}  // namespace sonoglide::app::configuration
 )",
-      scene.name, includes(parts, scalar), scalar.type, types, scalar.number(design.friction_force),
-      design.scales.force_N, scalar.number(design.smallest_friction),
-      scalar.number(design.speed_floor), design.scales.velocity_m_per_s,
-      scalar.number(design.lead_periods / 64.0), parameters, design.standstill_hold_periods,
-      scalar.number(design.standstill_fall), design.stuck_periods, design.implausible_periods,
-      scalar.number(design.settling_band), design.settling_patience_periods,
-      scalar.number(design.agreement), target_steps(scene, scalar), design.scales.carrier_period_s,
+      text::printable(scene.name), includes(parts, scalar), scalar.type, types,
+      scalar.number(design.friction_force), design.scales.force_N,
+      scalar.number(design.smallest_friction), scalar.number(design.speed_floor),
+      design.scales.velocity_m_per_s, scalar.number(design.lead_periods / 64.0), parameters,
+      design.standstill_hold_periods, scalar.number(design.standstill_fall), design.stuck_periods,
+      design.implausible_periods, scalar.number(design.settling_band),
+      design.settling_patience_periods, scalar.number(design.agreement),
+      target_steps(scene, scalar), design.scales.carrier_period_s,
       design_number(types, parameters, design.scales));
 }
 

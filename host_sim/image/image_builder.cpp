@@ -15,6 +15,7 @@
 #include "host_sim/process/process_error.hpp"
 #include "host_sim/process/run_tool.hpp"
 #include "host_sim/process/scratch_folder.hpp"
+#include "host_sim/text/printable.hpp"
 
 namespace sonoglide::image {
 namespace {
@@ -25,7 +26,19 @@ namespace fs = std::filesystem;
 constexpr const char* controller_name = "controller";
 
 [[noreturn]] void fail(const fs::path& path, const std::string& reason) {
-  throw process::ProcessError(path.string() + ": " + reason);
+  throw process::ProcessError(text::printable(path.string()) + ": " + reason);
+}
+
+/// To CMake a semicolon is the end of a path, and it or Ninja's shell stumble over a few others.
+void require_for_cmake(const fs::path& path) {
+  const std::string name = path.string();
+  const bool special =
+      name.find_first_of(";\"\\<>|") != std::string::npos || name.find("${") != std::string::npos;
+  if (special || text::printable(name) != name) {
+    fail(path,
+         "cannot be used by CMake; allowed: a path in UTF-8 without ; \" \\ < > | ${ and control "
+         "characters");
+  }
 }
 
 const char* environment(const char* name) {
@@ -52,6 +65,14 @@ fs::path cache_folder() {
     return fs::absolute(home) / ".cache/sonoglide";
   }
   fail("the image cache", "has no place; allowed: XDG_CACHE_HOME or HOME in the environment");
+}
+
+/// Says of an image which one it is and that it is whole.
+std::string seal_of(const std::string& key, const std::string& image) {
+  ContentHash hash;
+  hash.add(key);
+  hash.add(image);
+  return fmt::format("{:016x}\n", hash.value());
 }
 
 std::string content(const fs::path& path) {
@@ -115,13 +136,21 @@ fs::path build_image(const emulator::EmulatedBoard& board, const std::string& he
   process::require_program("ninja", "ninja-build");
   const fs::path compiler = process::require_program(tools.prefix + "g++", tools.package);
   const fs::path cache = cache_folder();
-  fs::path image = cache / (key_of(board, header, tree, compiler) + ".elf");
-  if (!fs::exists(image)) {
+  require_for_cmake(tree);
+  require_for_cmake(cache);
+  const std::string key = key_of(board, header, tree, compiler);
+  fs::path image = cache / (key + ".elf");
+  const fs::path seal = cache / (key + ".seal");
+  if (content(seal) != seal_of(key, content(image))) {
     fs::create_directories(cache);
     const process::ScratchFolder folder(cache);  // beside its target: the move there is a renaming
     compile(board, header, tree, folder.path(), attention);
-    // Somebody else may have put the same image there meanwhile: that one serves as well.
-    fs::rename(folder.path() / "build/bin" / fmt::format("{}.elf", controller_name), image);
+    const fs::path built = folder.path() / "build/bin" / fmt::format("{}.elf", controller_name);
+    const fs::path sealed = folder.path() / "seal";
+    std::ofstream(sealed, std::ios::binary) << seal_of(key, content(built));
+    // Somebody else may do the same meanwhile: the same image comes of it.
+    fs::rename(built, image);
+    fs::rename(sealed, seal);
   }
   return image;
 } catch (const fs::filesystem_error& error) {

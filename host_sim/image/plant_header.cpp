@@ -20,6 +20,7 @@
 #include "host_sim/scene/configuration_error.hpp"
 #include "host_sim/scene/control_design.hpp"
 #include "host_sim/scene/names.hpp"
+#include "host_sim/text/printable.hpp"
 
 namespace sonoglide::image {
 namespace {
@@ -259,7 +260,7 @@ namespace sonoglide::app::configuration {{
 
 }}  // namespace sonoglide::app::configuration
 )",
-      scene.name, text.includes, text.definitions, whole_periods(scene));
+      text::printable(scene.name), text.includes, text.definitions, whole_periods(scene));
 }
 
 }  // namespace sonoglide::image

@@ -19,8 +19,15 @@ struct ImageInstructions {
   InstructionRange answer;  ///< the same, with the frames of lockstep decoded and made up
 };
 
+/// The same loop with the controller in this process.
+struct WorkstationRun {
+  std::uint64_t trace_hash;  ///< as ControlRecord has it
+  bool same;                 ///< every drive command is the image's, bit for bit
+};
+
 struct ImageRecord {
   std::string board;
+  std::optional<WorkstationRun> workstation;       ///< absent: not compared
   std::optional<double> exchanges_per_second;      ///< absent after fewer than two exchanges
   std::optional<ImageInstructions> instructions;   ///< absent without a single step
   std::uint64_t flash_bytes = 0;                   ///< code, constants, initial values

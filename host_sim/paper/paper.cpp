@@ -13,6 +13,20 @@
 namespace sonoglide::paper {
 namespace {
 
+std::vector<std::string> file_names(std::optional<int> wanted) {
+  std::vector<std::string> names{"table_1.toml", "table_2.toml", "index.html"};
+  for (const NumberedFigure& each : figure_list()) {
+    if (!wanted || each.number == *wanted) {
+      names.push_back(fmt::format("figure_{:02}.csv", each.number));
+      names.push_back(fmt::format("figure_{:02}.svg", each.number));
+    }
+  }
+  if (!wanted) {
+    names.emplace_back("balance.csv");
+  }
+  return names;
+}
+
 std::vector<Figure> compute(std::optional<int> wanted, const Progress& progress) {
   std::vector<Figure> figures;
   double done = 0.0;
@@ -20,8 +34,9 @@ std::vector<Figure> compute(std::optional<int> wanted, const Progress& progress)
     if (!wanted || each.number == *wanted) {
       figures.push_back(each.compute());
     }
+    // What is left after the figures counts as one more.
     done += 1.0;
-    progress(done / static_cast<double>(figure_list().size()));
+    progress(done / static_cast<double>(figure_list().size() + 1));
   }
   return figures;
 }
@@ -30,8 +45,14 @@ std::vector<Figure> compute(std::optional<int> wanted, const Progress& progress)
 
 void write_paper(const std::filesystem::path& out, std::optional<int> figure,
                  const Progress& progress) {
-  report::OutputFolder folder(out);
+  { const report::OutputFolder probe(out, file_names(figure)); }
   const std::vector<Figure> figures = compute(figure, progress);
+  Findings findings;
+  if (!figure) {
+    findings = {faults(), balances()};
+  }
+  progress(1.0);
+  report::OutputFolder folder(out);
   for (const Figure& each : figures) {
     folder.write(fmt::format("figure_{:02}.csv", each.number), each.csv);
     folder.write(fmt::format("figure_{:02}.svg", each.number), each.svg);
@@ -39,9 +60,7 @@ void write_paper(const std::filesystem::path& out, std::optional<int> figure,
       folder.write(file.name, file.text);
     }
   }
-  Findings findings;
   if (!figure) {
-    findings = {faults(), balances()};
     folder.write("balance.csv", balance_csv(findings.balances));
   }
   folder.write("table_1.toml", table_1_text());

@@ -1,5 +1,8 @@
 #include "host_sim/pil/run_image.hpp"
 
+#include <fmt/format.h>
+
+#include <cstdint>
 #include <filesystem>
 
 #include "host_sim/image/image_builder.hpp"
@@ -18,6 +21,26 @@ void add_cost(const image::ImageCost& cost, loop::ImageRecord& record) {
   }
 }
 
+/// The image takes most of the time.
+constexpr double image_share = 0.9;
+
+loop::Watch of_the_image(loop::Watch watch) {
+  if (watch.progress) {
+    watch.progress = [progress = watch.progress](double part) { progress(image_share * part); };
+  }
+  return watch;
+}
+
+loop::WorkstationRun run_on_workstation(const scene::Scene& scene, std::uint64_t image_hash,
+                                        const loop::Progress& progress) {
+  loop::Watch watch;
+  if (progress) {
+    watch.progress = [&](double part) { progress(image_share + (1.0 - image_share) * part); };
+  }
+  const std::uint64_t hash = loop::run(scene, watch).control->trace_hash;
+  return {hash, hash == image_hash};
+}
+
 }  // namespace
 
 loop::RunResult run_image(const scene::Scene& scene, const emulator::EmulatedBoard& board,
@@ -26,10 +49,22 @@ loop::RunResult run_image(const scene::Scene& scene, const emulator::EmulatedBoa
   const std::filesystem::path image = image::build_image(board, header, attention);
   const image::ImageCost cost = image::measure_image(image, board, attention);
   ImageControl controller(board, image, attention);
-  loop::RunResult result = loop::run(scene, controller, watch);
+  loop::RunResult result = loop::run(scene, controller, of_the_image(watch));
   result.image = controller.shut_down();
   add_cost(cost, *result.image);
+  result.image->workstation = run_on_workstation(scene, result.control->trace_hash, watch.progress);
   return result;
+}
+
+void require_same(const loop::RunResult& result) {
+  const loop::WorkstationRun& workstation = result.image->workstation.value();
+  if (!workstation.same) {
+    throw loop::ComputationError(fmt::format(
+        "over {:g} s the image on {} gave other drive commands than the same controller on the "
+        "workstation: trace hash {:016x}, not {:016x}",
+        result.final_time_s, result.image->board, result.control->trace_hash,
+        workstation.trace_hash));
+  }
 }
 
 }  // namespace sonoglide::pil

@@ -10,7 +10,8 @@
 
 namespace sonoglide::pil {
 
-/// Builds and measures the image of a controller, and runs the scene with it on an emulated board.
+/// Builds and measures the image of a controller, runs the scene with it on an emulated board, and
+/// once more with the controller in this process, which should come to the same drive commands.
 ///
 /// @param header     of the scene's controller, as image::controller_header() writes it
 /// @param attention  called now and then while waiting; what it throws ends the wait
@@ -21,5 +22,9 @@ namespace sonoglide::pil {
 loop::RunResult run_image(const scene::Scene& scene, const emulator::EmulatedBoard& board,
                           const std::string& header, const loop::Watch& watch,
                           const process::Attention& attention);
+
+/// @param result  of run_image()
+/// @throws loop::ComputationError  the image's drive commands are not the workstation's
+void require_same(const loop::RunResult& result);
 
 }  // namespace sonoglide::pil

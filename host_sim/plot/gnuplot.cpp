@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cctype>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -9,11 +10,26 @@
 #include "host_sim/process/find_program.hpp"
 #include "host_sim/process/run_tool.hpp"
 #include "host_sim/process/scratch_folder.hpp"
+#include "host_sim/text/printable.hpp"
 
 namespace sonoglide::plot {
 
 std::filesystem::path require_gnuplot() {
   return process::require_program("gnuplot", "gnuplot-nox");
+}
+
+std::string quoted(std::string_view text) {
+  constexpr std::string_view plain = " .,:+-=_/()[]<>";
+  std::string string = "\"";
+  for (const char each : text::printable(text)) {
+    const auto byte = static_cast<unsigned char>(each);
+    if (std::isalnum(byte) != 0 || byte >= 0x80 || plain.find(each) != std::string_view::npos) {
+      string += each;
+    } else {
+      fmt::format_to(std::back_inserter(string), "\\{:03o}", byte);
+    }
+  }
+  return string + '"';
 }
 
 std::string draw_svg(const std::string& script, int width_px, int height_px) {

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 
 namespace sonoglide::plot {
 
@@ -10,6 +11,12 @@ namespace sonoglide::plot {
 /// @return gnuplot's place
 /// @throws process::ProcessError  there is no gnuplot; what() says what to install
 std::filesystem::path require_gnuplot();
+
+/// A text as a string of gnuplot's, with its quotes: double ones, and every sign that gnuplot could
+/// take for more than itself by its octal code. (In single quotes a doubled one stands for itself
+/// only behind another sign: neither `'a` nor `a''b` can be written so.) Printable, see
+/// text::printable(); write `noenhanced` after it where no mark-up is meant.
+std::string quoted(std::string_view text);
 
 /// Draws one SVG picture on a white ground.
 ///

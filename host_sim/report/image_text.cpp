@@ -27,6 +27,11 @@ Table image_table(const loop::ImageRecord& record) {
     row("Mean with the frames of lockstep",
         fmt::format("{:.1f}", record.instructions->answer.mean));
   }
+  if (record.workstation) {
+    row("Trace hash of the same loop on the workstation",
+        fmt::format("{:016x}", record.workstation->trace_hash));
+    row("Every drive command the same", record.workstation->same ? "yes" : "NO");
+  }
   row("Flash [B]", fmt::format("{}", record.flash_bytes));
   row("Static RAM [B]", fmt::format("{}", record.ram_bytes));
   row("Deepest stack [B]", stack_text(record));
@@ -40,6 +45,12 @@ std::string image_lines(const loop::ImageRecord& record) {
   std::string text =
       fmt::format("image on {}: {} B flash, {} B static RAM, deepest stack [B] {}\n", record.board,
                   record.flash_bytes, record.ram_bytes, stack_text(record));
+  if (record.workstation) {
+    text += record.workstation->same
+                ? "every drive command is the workstation's, bit for bit\n"
+                : fmt::format("NOT THE SAME as on the workstation, whose trace hash is {:016x}\n",
+                              record.workstation->trace_hash);
+  }
   if (record.instructions && record.exchanges_per_second) {
     text += fmt::format("a step takes {} to {} instructions (not cycles); {:.0f} exchanges/s\n",
                         record.instructions->step.min, record.instructions->step.max,

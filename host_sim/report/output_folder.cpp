@@ -2,27 +2,21 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cerrno>
-#include <random>
+#include <stdexcept>
 #include <system_error>
 #include <utility>
+
+#include "host_sim/report/written_files.hpp"
 
 namespace sonoglide::report {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kNameAttempts = 100;
 constexpr const char* kNewFiles = "new";  // in the staging folder
 constexpr const char* kOldFiles = "old";
-
-[[noreturn]] void fail(const fs::path& path, const std::string& reason) {
-  throw OutputError(path.string() + ": " + reason);
-}
-
-[[noreturn]] void fail(const fs::path& path, const std::error_code& error) {
-  fail(path, error.message());
-}
 
 /// Absolute, links and ".." resolved as far as the path exists, without a trailing separator.
 fs::path normal(const fs::path& path) {
@@ -62,22 +56,6 @@ fs::path nearest_folder(const fs::path& path) {
   }
 }
 
-/// A new hidden folder with a name that is not taken.
-fs::path create_staging(const fs::path& parent, const fs::path& target) {
-  std::random_device random;
-  for (int attempt = 0; attempt < kNameAttempts; ++attempt) {
-    fs::path path = parent / fmt::format(".{}.{:08x}", target.filename().string(), random());
-    std::error_code error;
-    if (fs::create_directory(path, error)) {
-      return path;
-    }
-    if (error) {
-      fail(target, "cannot be written: " + error.message());
-    }
-  }
-  fail(target, "no free name for a staging folder");
-}
-
 /// Creates what is missing of a folder's path; returns the created folders, outermost first.
 std::vector<fs::path> create_parents(const fs::path& folder) {
   std::vector<fs::path> missing;
@@ -103,8 +81,10 @@ std::vector<fs::path> create_parents(const fs::path& folder) {
   return missing;
 }
 
+}  // namespace
+
 /// Renames that are undone, last one first, unless kept.
-class Moves {
+class OutputFolder::Moves {
  public:
   Moves() = default;
   Moves(const Moves&) = delete;
@@ -132,7 +112,7 @@ class Moves {
 };
 
 /// Puts the file of this name, if there is one, aside.
-std::error_code clear(Moves& moves, const fs::path& place, const fs::path& aside) {
+std::error_code OutputFolder::clear(Moves& moves, const fs::path& place, const fs::path& aside) {
   std::error_code absent;
   if (fs::is_directory(place, absent)) {
     return std::make_error_code(std::errc::is_a_directory);
@@ -141,6 +121,8 @@ std::error_code clear(Moves& moves, const fs::path& place, const fs::path& aside
                                                        : std::error_code();
 }
 
+namespace {
+
 /// What the last failed system call said.
 std::string last_reason() {
   return errno == 0 ? "cannot be written" : std::generic_category().message(errno);
@@ -148,21 +130,24 @@ std::string last_reason() {
 
 }  // namespace
 
-OutputFolder::OutputFolder(const fs::path& target) : target_(normal(target)) {
-  staging_ = create_staging(nearest_folder(target_), target_);
+OutputFolder::OutputFolder(const fs::path& target, const std::vector<std::string>& names)
+    : target_(normal(target)) {
+  const fs::path parent = nearest_folder(target_);
+  std::for_each(names.begin(), names.end(), [this](const auto& name) { require_ours(name); });
+  try {
+    staging_.emplace(parent);
+  } catch (const process::ScratchError& error) {
+    fail(target_, "cannot be written: " + error.reason());
+  }
   std::error_code error;
-  if (!fs::create_directory(staging_ / kNewFiles, error) ||
-      !fs::create_directory(staging_ / kOldFiles, error)) {
-    std::error_code ignored;
-    fs::remove_all(staging_, ignored);
+  if (!fs::create_directory(staging_->path() / kNewFiles, error) ||
+      !fs::create_directory(staging_->path() / kOldFiles, error)) {
     fail(target_, error);
   }
 }
 
 OutputFolder::~OutputFolder() {
   files_.clear();
-  std::error_code ignored;
-  fs::remove_all(staging_, ignored);
 }
 
 void OutputFolder::write(const std::string& name, std::string_view content) {
@@ -180,25 +165,38 @@ std::ostream& OutputFolder::open(const std::string& name) {
 }
 
 void OutputFolder::withdraw(const std::string& name) {
-  require_unused(name);
+  require_usable(name);
   withdrawn_.insert(name);
 }
 
-void OutputFolder::require_unused(const std::string& name) const {
+void OutputFolder::require_usable(const std::string& name) const {
   const fs::path path(name);
-  if (name.empty() || path != path.filename() || name == "." || name == "..") {
+  const bool plain = path == path.filename() && name.find('\n') == std::string::npos;
+  if (name.empty() || !plain || name == "." || name == "..") {
     throw std::invalid_argument("'" + name + "' is not a plain file name");
   }
   if (files_.count(name) + withdrawn_.count(name) > 0) {
     throw std::invalid_argument("'" + name + "' is named twice");
   }
+  require_ours(name);
+}
+
+void OutputFolder::require_ours(const std::string& name) const {
+  const fs::path place = target_ / name;
+  std::error_code absent;
+  const fs::file_status status = fs::symlink_status(place, absent);
+  if (fs::exists(status) && !fs::is_directory(status) && !WrittenFiles(target_).has(name)) {
+    fail(place,
+         "was not written by an earlier run, or was changed since; allowed: another folder, or "
+         "that file out of the way");
+  }
 }
 
 std::ofstream& OutputFolder::stage(const std::string& name) {
-  require_unused(name);
+  require_usable(name);
   std::ofstream& file = files_[name];
   errno = 0;
-  file.open(staging_ / kNewFiles / name, std::ios::binary);
+  file.open(staging_->path() / kNewFiles / name, std::ios::binary);
   if (!file) {
     fail(target_ / name, last_reason());
   }
@@ -207,6 +205,7 @@ std::ofstream& OutputFolder::stage(const std::string& name) {
 
 void OutputFolder::commit() {
   close_files();
+  list_files();
   std::error_code error;
   if (fs::exists(target_, error)) {
     replace_files();
@@ -226,10 +225,25 @@ void OutputFolder::close_files() {
   }
 }
 
+/// Puts the list beside the new files.
+void OutputFolder::list_files() {
+  WrittenFiles list(target_);
+  for (const auto& [name, file] : files_) {
+    list.add(name, staging_->path() / kNewFiles / name);
+  }
+  errno = 0;
+  std::ofstream file(staging_->path() / kNewFiles / WrittenFiles::file_name, std::ios::binary);
+  file << list.text();
+  file.close();
+  if (!file) {
+    fail(target_ / WrittenFiles::file_name, last_reason());
+  }
+}
+
 void OutputFolder::place_new_folder() {
   const std::vector<fs::path> created = create_parents(target_.parent_path());
   std::error_code error;
-  fs::rename(staging_ / kNewFiles, target_, error);
+  fs::rename(staging_->path() / kNewFiles, target_, error);
   if (error) {
     for (auto path = created.rbegin(); path != created.rend(); ++path) {
       std::error_code ignored;
@@ -239,19 +253,39 @@ void OutputFolder::place_new_folder() {
   }
 }
 
+/// First of all, and in one step: it speaks of the old files as well as of the new ones.
+void OutputFolder::place_list(Moves& moves) const {
+  const fs::path from = staging_->path() / kNewFiles / WrittenFiles::file_name;
+  const fs::path to = target_ / WrittenFiles::file_name;
+  std::error_code error;
+  if (fs::exists(to, error)) {
+    fs::rename(from, to, error);
+  } else {
+    error = moves.move(from, to);
+  }
+  if (error) {
+    fail(to, error);
+  }
+}
+
 void OutputFolder::replace_files() {
   Moves moves;
+  place_list(moves);
   const auto clear_place = [&](const std::string& name) {
-    if (const std::error_code error = clear(moves, target_ / name, staging_ / kOldFiles / name)) {
+    if (const std::error_code error =
+            clear(moves, target_ / name, staging_->path() / kOldFiles / name)) {
       fail(target_ / name, error);
     }
   };
   for (const std::string& name : withdrawn_) {
+    require_ours(name);
     clear_place(name);
   }
   for (const auto& [name, file] : files_) {
+    require_ours(name);
     clear_place(name);
-    if (const std::error_code error = moves.move(staging_ / kNewFiles / name, target_ / name)) {
+    if (const std::error_code error =
+            moves.move(staging_->path() / kNewFiles / name, target_ / name)) {
       fail(target_ / name, error);
     }
   }

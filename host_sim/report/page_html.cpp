@@ -9,6 +9,7 @@
 #include "host_sim/report/assets.hpp"
 #include "host_sim/report/chart_json.hpp"
 #include "host_sim/report/page.hpp"
+#include "host_sim/text/printable.hpp"
 
 namespace sonoglide::report {
 namespace {
@@ -17,10 +18,11 @@ constexpr std::string_view kContentSecurityPolicy =
     "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data:; "
     "base-uri 'none'; form-action 'none'";
 
+/// Fit for elements and for attributes in either kind of quotes.
 std::string escaped(std::string_view text) {
   std::string html;
   html.reserve(text.size());
-  for (const char c : text) {
+  for (const char c : text::printable_lines(text)) {
     switch (c) {
       case '&':
         html += "&amp;";
@@ -33,6 +35,9 @@ std::string escaped(std::string_view text) {
         break;
       case '"':
         html += "&quot;";
+        break;
+      case '\'':
+        html += "&#39;";
         break;
       default:
         html += c;

@@ -6,14 +6,10 @@
 namespace sonoglide::report {
 namespace {
 
+constexpr const char* summary_file = "summary.json";
+constexpr const char* page_file = "report.html";
 constexpr const char* trace_file = "trace.csv";
 constexpr const char* periods_file = "periods.csv";
-
-/// A scene's file name need not be UTF-8; JSON must be.
-std::string text(const nlohmann::ordered_json& json) {
-  constexpr int indent = 2;
-  return json.dump(indent, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
-}
 
 CsvFile open(OutputFolder& folder, const char* name) {
   return {(folder.target() / name).string(), folder.open(name)};
@@ -22,7 +18,9 @@ CsvFile open(OutputFolder& folder, const char* name) {
 }  // namespace
 
 RunReport::RunReport(const std::filesystem::path& out, const scene::Scene& scene)
-    : scene_(scene), folder_(out), findings_(scene) {
+    : scene_(scene),
+      folder_(out, {summary_file, page_file, trace_file, periods_file}),
+      findings_(scene) {
   if (!scene.run.record.empty()) {
     periods_.emplace(open(folder_, periods_file));
     trace_.emplace(open(folder_, trace_file), scene.run.record);
@@ -41,8 +39,8 @@ void RunReport::join(loop::Watch& watch) {
 }
 
 void RunReport::finish(const loop::RunResult& result) {
-  folder_.write("summary.json", text(summary(scene_, result, findings_)));
-  folder_.write("report.html", to_html(run_page(scene_, result, findings_)));
+  folder_.write(summary_file, summary_text(scene_, result, findings_));
+  folder_.write(page_file, to_html(run_page(scene_, result, findings_)));
   folder_.commit();
 }
 

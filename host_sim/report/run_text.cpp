@@ -7,6 +7,7 @@
 #include "host_sim/report/image_text.hpp"
 #include "host_sim/report/run_report.hpp"
 #include "host_sim/scene/plant_scales.hpp"
+#include "host_sim/text/printable.hpp"
 
 namespace sonoglide::report {
 namespace {
@@ -59,7 +60,8 @@ std::string run_text(const scene::Scene& scene, const loop::RunResult& result,
   return fmt::format("{}{}{:.6g} ms simulated in {:.3g} ms, {:.3g} times real time\nreport: {}\n",
                      lines, result.image ? image_lines(*result.image) : "",
                      result.final_time_s * 1e3, result.wall_s * 1e3,
-                     result.final_time_s / result.wall_s, (out / "report.html").string());
+                     result.final_time_s / result.wall_s,
+                     text::printable((out / "report.html").string()));
 }
 
 }  // namespace sonoglide::report

@@ -121,11 +121,17 @@ ordered_json instructions(const loop::InstructionRange& range) {
 ordered_json image(const loop::ImageRecord& record) {
   ordered_json json = {{"board", record.board},
                        {"exchanges_per_second", number(record.exchanges_per_second)},
+                       {"trace_hash_workstation", nullptr},
+                       {"same_as_workstation", nullptr},
                        {"instructions_per_step", nullptr},
                        {"instructions_per_answer", nullptr},
                        {"flash_bytes", record.flash_bytes},
                        {"ram_bytes", record.ram_bytes},
                        {"stack_bytes_bound", nullptr}};
+  if (record.workstation) {
+    json["trace_hash_workstation"] = fmt::format("{:016x}", record.workstation->trace_hash);
+    json["same_as_workstation"] = record.workstation->same;
+  }
   if (record.instructions) {
     json["instructions_per_step"] = instructions(record.instructions->step);
     json["instructions_per_answer"] = instructions(record.instructions->answer);
@@ -171,6 +177,14 @@ ordered_json summary(const scene::Scene& scene, const loop::RunResult& result,
     json["pil"] = image(*result.image);
   }
   return json;
+}
+
+std::string summary_text(const scene::Scene& scene, const loop::RunResult& result,
+                         const RunFindings& findings) {
+  constexpr int indent = 2;
+  return summary(scene, result, findings)
+             .dump(indent, ' ', false, ordered_json::error_handler_t::replace) +
+         "\n";
 }
 
 }  // namespace sonoglide::report

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <nlohmann/json.hpp>
+#include <string>
 
 #include "host_sim/loop/run.hpp"
 #include "host_sim/report/run_findings.hpp"
@@ -13,5 +14,9 @@ namespace sonoglide::report {
 /// for the scene is null.
 nlohmann::ordered_json summary(const scene::Scene& scene, const loop::RunResult& result,
                                const RunFindings& findings);
+
+/// The same as text, valid UTF-8 whatever the names in it.
+std::string summary_text(const scene::Scene& scene, const loop::RunResult& result,
+                         const RunFindings& findings);
 
 }  // namespace sonoglide::report

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <utility>
 
 #include "host_sim/scene/schema.hpp"
@@ -42,15 +41,14 @@ Location Entry::place_of(const toml::node& element) const {
   return overridden ? value_place : located(value_place.file, element.source());
 }
 
-Document::Document(std::string_view text, const std::string& file,
-                   const std::vector<std::string>& overrides,
+Document::Document(const Source& source, const std::vector<std::string>& overrides,
                    const std::vector<std::string>& varied)
-    : file_(file), name_(std::filesystem::path(file).stem().string()) {
-  if (text.size() > max_bytes) {
+    : file_(source.file), name_(source.name()) {
+  if (source.text.size() > max_bytes) {
     throw SceneError(start(), "scene",
                      fmt::format("larger than {0} bytes; allowed: at most {0} bytes", max_bytes));
   }
-  root_ = parse_toml(text, file_);
+  root_ = parse_toml(source.text, file_);
   collect();
   for (std::size_t i = 0; i < overrides.size(); ++i) {
     apply_override(overrides[i], i + 1);
@@ -112,8 +110,19 @@ void Document::collect_table(const std::string& name, const Location& place,
 
 void Document::apply_override(const std::string& text, std::size_t ordinal) {
   Override override = parse_override(text, ordinal);
-  override_values_.push_back(std::move(override.holder));
+  if (!override.holder) {
+    remove(override.target);
+    return;
+  }
+  override_values_.push_back(std::move(*override.holder));
   overridden_entry(override.target).value = override_values_.back().get("value");
+}
+
+void Document::remove(const OverriddenKey& target) {
+  const auto table = tables_.find(target.table);
+  if (table != tables_.end()) {
+    table->second.entries.erase(target.key);
+  }
 }
 
 void Document::vary(const std::string& path, std::size_t ordinal, std::size_t index) {

@@ -13,6 +13,7 @@
 
 #include "host_sim/scene/override.hpp"
 #include "host_sim/scene/scene_error.hpp"
+#include "host_sim/scene/source.hpp"
 
 namespace sonoglide::scene {
 
@@ -41,15 +42,14 @@ class Document {
   /// Text larger than this is no scene; the bound keeps a wrong file from filling the memory.
   static constexpr std::size_t max_bytes = 1U << 20U;
 
-  /// @param text       TOML
-  /// @param file       the name that errors show
-  /// @param overrides  `TABLE.KEY=VALUE` each, in the order given; a later one wins
-  /// @param varied     `TABLE.KEY` each: keys whose numbers come with every reading. They count as
+  /// @param overrides  `TABLE.KEY=VALUE` each, in the order given; a later one wins; one without
+  ///                   VALUE removes the key
+  /// @param varied     `TABLE.KEY` each: keys whose values come with every reading. They count as
   ///                   overrides after the others, in errors too
   /// @throws SceneError  not TOML, too large, too deeply nested, a name that no scene has, an
   ///                     override or a varied key that is not of that form
-  Document(std::string_view text, const std::string& file,
-           const std::vector<std::string>& overrides, const std::vector<std::string>& varied = {});
+  explicit Document(const Source& source, const std::vector<std::string>& overrides = {},
+                    const std::vector<std::string>& varied = {});
 
   Document(const Document&) = delete;
   Document& operator=(const Document&) = delete;
@@ -61,7 +61,7 @@ class Document {
   /// where its table does, or at the beginning of the file.
   Location place_of(std::string_view dotted_key) const;
 
-  /// The file without folder and ending.
+  /// Of the source.
   const std::string& name() const { return name_; }
 
   /// The beginning of the file: the place of what is missing as a whole.
@@ -71,6 +71,7 @@ class Document {
   void collect();
   void collect_table(const std::string& name, const Location& place, const toml::table& table);
   void apply_override(const std::string& text, std::size_t ordinal);
+  void remove(const OverriddenKey& target);
   void vary(const std::string& path, std::size_t ordinal, std::size_t index);
   Entry& overridden_entry(const OverriddenKey& target);
 

@@ -12,7 +12,7 @@
 namespace sonoglide::scene {
 namespace {
 
-constexpr std::string_view form = "allowed: TABLE.KEY=VALUE";
+constexpr std::string_view form = "allowed: TABLE.KEY=VALUE, or TABLE.KEY= to remove the key";
 
 bool is_letter(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
@@ -24,6 +24,8 @@ bool is_bare_word(std::string_view text) {
            return is_letter(c) || (c >= '0' && c <= '9') || c == '_' || c == '-';
          });
 }
+
+}  // namespace
 
 toml::table parse_value(const std::string& value, const std::string& key, const Location& place) {
   toml::table holder;
@@ -41,6 +43,8 @@ toml::table parse_value(const std::string& value, const std::string& key, const 
   }
   return holder;
 }
+
+namespace {
 
 void check_names(const OverriddenKey& target, const std::string& path) {
   const TableSchema* table = find_table(target.table);
@@ -90,7 +94,7 @@ Override parse_override(const std::string& text, std::size_t ordinal) {
   OverriddenKey target = parse_overridden_key(path, ordinal);
   const std::string value = text.substr(equals + 1);
   if (value.empty()) {
-    throw SceneError(target.place, path, fmt::format("no value; {}", form));
+    return {std::move(target), std::nullopt};
   }
   toml::table holder = parse_value(value, path, target.place);
   return {std::move(target), std::move(holder)};

@@ -1,9 +1,10 @@
-/// One `--set TABLE.KEY=VALUE` option.
+/// One `--set TABLE.KEY=VALUE` or `--set TABLE.KEY=` option.
 #pragma once
 
 #include <toml++/toml.h>
 
 #include <cstddef>
+#include <optional>
 #include <string>
 
 #include "host_sim/scene/scene_error.hpp"
@@ -19,8 +20,13 @@ struct OverriddenKey {
 
 struct Override {
   OverriddenKey target;
-  toml::table holder;  ///< owns the value, under the name `value`
+  std::optional<toml::table> holder;  ///< owns the value, under the name `value`; absent: remove it
 };
+
+/// VALUE alone, under the name `value`.
+/// @param key, place  what an error shows
+/// @throws SceneError  neither TOML nor a bare word, or more than one value
+toml::table parse_value(const std::string& value, const std::string& key, const Location& place);
 
 /// TABLE.KEY alone.
 ///
@@ -28,7 +34,8 @@ struct Override {
 /// @throws SceneError  not of that form, or a table or key that no scene has
 OverriddenKey parse_overridden_key(const std::string& path, std::size_t ordinal);
 
-/// VALUE is TOML; a bare word that is not (`q31`) is a string.
+/// VALUE is TOML; a bare word that is not (`q31`) is a string. Without VALUE the key is to be
+/// removed, so that another can take its place.
 ///
 /// @param ordinal  1 for the first option
 /// @throws SceneError  not of that form, or a table or key that no scene has

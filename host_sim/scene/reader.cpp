@@ -2,10 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <cerrno>
-#include <fstream>
-#include <system_error>
-
 #include "host_sim/scene/configuration_error.hpp"
 #include "host_sim/scene/control_design.hpp"
 #include "host_sim/scene/names.hpp"
@@ -15,31 +11,6 @@
 
 namespace sonoglide::scene {
 namespace {
-
-constexpr std::string_view allowed_file = "allowed: a readable TOML file";
-
-/// One byte more than a scene may have is enough to tell.
-std::string read_bytes(const std::filesystem::path& path) {
-  const auto fail = [&path](std::string_view why) {
-    throw SceneError({path.string(), 1, 1}, "scene", fmt::format("{}; {}", why, allowed_file));
-  };
-  std::error_code error;
-  if (std::filesystem::is_directory(path, error)) {
-    fail("is a directory");
-  }
-  errno = 0;
-  std::ifstream file(path, std::ios::binary);
-  if (!file) {
-    fail(std::generic_category().message(errno));
-  }
-  std::string bytes(Document::max_bytes + 1, '\0');
-  file.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  if (file.bad()) {
-    fail("cannot be read");
-  }
-  bytes.resize(static_cast<std::size_t>(file.gcount()));
-  return bytes;
-}
 
 /// The words of those for which `holds(method)`.
 template <class Condition>
@@ -110,8 +81,8 @@ void require_controller(const Scene& scene, const Document& document) {
 
 }  // namespace
 
-Scene read(const Document& document, const std::vector<double>& numbers) {
-  const Variant variant(document, numbers);
+Scene read(const Document& document, const std::vector<VariedValue>& values, UnusedKeys* unused) {
+  const Variant variant(document, values, unused);
   Scene scene;
   scene.name = document.name();
   scene.plant = read_plant(variant);
@@ -133,11 +104,15 @@ Scene read(const Document& document, const std::vector<double>& numbers) {
 
 Scene read_text(std::string_view text, const std::string& file,
                 const std::vector<std::string>& overrides) {
-  return read(Document(text, file, overrides));
+  return read(Source{file, std::string(text)}, overrides);
+}
+
+Scene read(const Source& source, const std::vector<std::string>& overrides) {
+  return read(Document(source, overrides));
 }
 
 Scene read_file(const std::filesystem::path& path, const std::vector<std::string>& overrides) {
-  return read_text(read_bytes(path), path.string(), overrides);
+  return read(read_source(path), overrides);
 }
 
 }  // namespace sonoglide::scene

@@ -9,6 +9,8 @@
 #include "host_sim/scene/document.hpp"
 #include "host_sim/scene/scene.hpp"
 #include "host_sim/scene/scene_error.hpp"
+#include "host_sim/scene/source.hpp"
+#include "host_sim/scene/variant.hpp"
 
 namespace sonoglide::scene {
 
@@ -17,10 +19,14 @@ namespace sonoglide::scene {
 /// Errors come one at a time, in a fixed order: TOML, names that no scene has (in file order),
 /// overrides (in their order), then the values, table by table in the order of schema().
 ///
-/// @param overrides  `TABLE.KEY=VALUE` each, VALUE in TOML or a bare word; applied before anything
-///                   is checked, a later one wins
+/// @param path       a file, or `-` for standard input
+/// @param overrides  `TABLE.KEY=VALUE` each, VALUE in TOML or a bare word; without VALUE the key is
+///                   removed; applied before anything is checked, a later one wins
 /// @throws SceneError  and nothing else, short of memory running out
 Scene read_file(const std::filesystem::path& path, const std::vector<std::string>& overrides = {});
+
+/// The same from a text that is there already.
+Scene read(const Source& source, const std::vector<std::string>& overrides = {});
 
 /// The same from text.
 ///
@@ -29,11 +35,13 @@ Scene read_text(std::string_view text, const std::string& file,
                 const std::vector<std::string>& overrides = {});
 
 /// The scene of a parsed document, with all checks of values, for the same errors as by text: a
-/// number stands where `--set KEY=NUMBER` would, after the document's own overrides. Open loop
+/// value stands where `--set KEY=VALUE` would, after the document's own overrides. Open loop
 /// takes about a microsecond. Safe to call from several threads.
 ///
-/// @param numbers  of the document's varied keys, in their order, not fewer
+/// @param values  of the document's varied keys, in their order, not fewer
+/// @param unused  takes the keys that the scene cannot use; null: each of them is an error
 /// @throws SceneError
-Scene read(const Document& document, const std::vector<double>& numbers = {});
+Scene read(const Document& document, const std::vector<VariedValue>& values = {},
+           UnusedKeys* unused = nullptr);
 
 }  // namespace sonoglide::scene

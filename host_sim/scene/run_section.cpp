@@ -101,7 +101,7 @@ void reject_initial_state(const Variant& variant, std::string_view table,
   const TableCursor cursor(variant, table);
   for (const std::string_view key : keys) {
     if (cursor.has(key)) {
-      cursor.fail(key, "not used with run.start = \"steady\"; remove it");
+      cursor.reject(key, "with run.start = \"steady\"");
     }
   }
 }

@@ -4,24 +4,13 @@
 
 #include <utility>
 
+#include "host_sim/text/printable.hpp"
+
 namespace sonoglide::scene {
 namespace {
 
-std::string printable(const std::string& text) {
-  std::string shown;
-  for (const char c : text) {
-    const auto byte = static_cast<unsigned char>(c);
-    if (byte < 0x20 || byte == 0x7f) {
-      shown += fmt::format("\\x{:02x}", byte);
-    } else {
-      shown += c;
-    }
-  }
-  return shown;
-}
-
 std::string one_line(const Location& where, const std::string& key, const std::string& message) {
-  return printable(
+  return text::printable(
       fmt::format("{}:{}:{}: {}: {}", where.file, where.line, where.column, key, message));
 }
 

@@ -109,10 +109,26 @@ const std::pair<const std::string, Entry>* TableCursor::first_unread() const {
 }
 
 void TableCursor::reject_unread(std::string_view reason) const {
-  if (const auto* unread = first_unread()) {
-    throw SceneError(unread->second.key_place, path_of({unread->first}),
+  const auto* unread = first_unread();
+  if (unread == nullptr) {
+    return;
+  }
+  if (variant_.unused() == nullptr) {
+    reject(unread->first, reason);
+  }
+  for (const auto& [key, entry] : table_->entries) {
+    if (!read_[entry.position]) {
+      reject(key, reason);
+    }
+  }
+}
+
+void TableCursor::reject(std::string_view key, std::string_view reason) const {
+  if (variant_.unused() == nullptr) {
+    throw SceneError(find(key)->key_place, path_of({key}),
                      fmt::format("not used {}; remove it", reason));
   }
+  variant_.unused()->insert(path_of({key}));
 }
 
 void TableCursor::reject_unread_with(std::string_view key, std::string_view word) const {

@@ -76,10 +76,12 @@ class TableCursor {
   /// Throws for the table as a whole.
   [[noreturn]] void fail(const std::string& message) const;
   /// Throws for the first value in the file that nothing has asked for: a scene may hold nothing
-  /// that is silently ignored.
+  /// that is silently ignored. Where the variant takes unused keys, it gets all of them instead.
   void reject_unread(std::string_view reason) const;
   /// The same, the reason being the word that another key has.
   void reject_unread_with(std::string_view key, std::string_view word) const;
+  /// The same for one key that is there.
+  void reject(std::string_view key, std::string_view reason) const;
 
  private:
   /// What a choice allows.

@@ -2,25 +2,30 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <vector>
+#include <limits>
+#include <utility>
 
-#include "host_sim/scene/number.hpp"
+#include "host_sim/scene/override.hpp"
 #include "host_sim/scene/scene_error.hpp"
+#include "host_sim/scene/toml_text.hpp"
 
 namespace sonoglide::sweep {
 namespace {
 
-constexpr std::string_view form = "allowed: KEY=FROM:TO:COUNT or KEY=FROM:TO:COUNT:log";
+constexpr std::string_view form =
+    "allowed: KEY=FROM:TO:COUNT, KEY=FROM:TO:COUNT:log or KEY=A,B,...";
 
 /// What to blame an error on.
 struct Place {
   std::size_t ordinal;
   std::string key;
 
+  scene::Location location() const { return {"--vary", ordinal, 1}; }
   [[noreturn]] void fail(const std::string& message) const {
-    throw scene::SceneError({"--vary", ordinal, 1}, key, message);
+    throw scene::SceneError(location(), key, message);
   }
 };
 
@@ -63,9 +68,74 @@ bool have_one_sign(double a, double b) {
   return (a > 0.0 && b > 0.0) || (a < 0.0 && b < 0.0);
 }
 
+std::string trimmed(const std::string& text) {
+  const std::size_t begin = text.find_first_not_of(' ');
+  return begin == std::string::npos ? std::string()
+                                    : text.substr(begin, text.find_last_not_of(' ') - begin + 1);
+}
+
+ListedValue listed(const std::string& text, const Place& place) {
+  if (text.empty()) {
+    place.fail(fmt::format("an empty value; {}", form));
+  }
+  const toml::table holder = scene::parse_value(text, place.key, place.location());
+  const toml::node& node = *holder.get("value");
+  if (const auto number = node.value<double>(); number && node.is_number()) {
+    return {number_text(*number), number, scene::VariedValue(*number)};
+  }
+  if (const auto* word = node.as_string()) {
+    return {word->get(), std::nullopt, scene::VariedValue(word->get())};
+  }
+  if (const auto* truth = node.as_boolean()) {
+    return {truth->get() ? "true" : "false", std::nullopt, scene::VariedValue(truth->get())};
+  }
+  place.fail(fmt::format("\"{}\" is {}; allowed: numbers, words, true, false", text,
+                         scene::kind_of(node)));
+}
+
+Axis list_axis(const std::string& values, const Place& place) {
+  Axis axis;
+  axis.key = place.key;
+  for (const std::string& part : split(values, ',')) {
+    ListedValue next = listed(trimmed(part), place);
+    const bool known = std::any_of(axis.list.begin(), axis.list.end(),
+                                   [&](const auto& each) { return each.text == next.text; });
+    if (known) {
+      place.fail(fmt::format("{} is there twice; allowed: each value once", next.text));
+    }
+    axis.list.push_back(std::move(next));
+  }
+  axis.count = axis.list.size();
+  return axis;
+}
+
+Axis range_axis(const std::string& range, const Place& place) {
+  const std::vector<std::string> parts = split(range, ':');
+  if (parts.size() < 3 || parts.size() > 4) {
+    place.fail(fmt::format("\"{}\" is not a range; {}", range, form));
+  }
+  Axis axis{place.key, bound(parts[0], "FROM", place), bound(parts[1], "TO", place),
+            count_of(parts[2], place), parts.size() == 4};
+  if (axis.logarithmic && parts[3] != "log") {
+    place.fail(fmt::format("unknown spacing \"{}\"; {}", parts[3], form));
+  }
+  if (axis.logarithmic && !have_one_sign(axis.from, axis.to)) {
+    place.fail(fmt::format("{} to {} has no logarithm; allowed: FROM and TO of one sign, not zero",
+                           parts[0], parts[1]));
+  }
+  if (axis.count == 1 && axis.from != axis.to) {
+    place.fail(fmt::format("one value from {} to {}; allowed: FROM equal to TO, or a COUNT above 1",
+                           parts[0], parts[1]));
+  }
+  return axis;
+}
+
 }  // namespace
 
-double Axis::value(std::size_t index) const {
+double Axis::number(std::size_t index) const {
+  if (!list.empty()) {
+    return list[index].number.value_or(std::numeric_limits<double>::quiet_NaN());
+  }
   if (index == 0) {
     return from;
   }
@@ -86,6 +156,32 @@ double Axis::value(std::size_t index) const {
   return std::copysign(std::pow(10.0, first + (last - first) * step / intervals), from);
 }
 
+scene::VariedValue Axis::value(std::size_t index) const {
+  return list.empty() ? scene::VariedValue(number(index)) : list[index].value;
+}
+
+std::string Axis::text(std::size_t index) const {
+  return list.empty() ? number_text(number(index)) : list[index].text;
+}
+
+bool Axis::has_words() const {
+  return std::any_of(list.begin(), list.end(), [](const auto& each) { return !each.number; });
+}
+
+bool Axis::categorical() const {
+  if (list.empty() || has_words()) {
+    return !list.empty();
+  }
+  const auto rises = [](const auto& a, const auto& b) { return *a.number < *b.number; };
+  const auto falls = [](const auto& a, const auto& b) { return *a.number > *b.number; };
+  return !std::is_sorted(list.begin(), list.end(), rises) &&
+         !std::is_sorted(list.begin(), list.end(), falls);
+}
+
+double Axis::position(std::size_t index) const {
+  return categorical() ? static_cast<double>(index + 1) : number(index);
+}
+
 Axis parse_axis(const std::string& text, std::size_t ordinal) {
   const std::size_t equals = text.find('=');
   Place place{ordinal, text.substr(0, equals)};
@@ -94,29 +190,15 @@ Axis parse_axis(const std::string& text, std::size_t ordinal) {
     place.fail(fmt::format("no key; {}", form));
   }
   if (equals == std::string::npos) {
-    place.fail(fmt::format("no range; {}", form));
+    place.fail(fmt::format("no values; {}", form));
   }
-  const std::vector<std::string> parts = split(text.substr(equals + 1), ':');
-  if (parts.size() < 3 || parts.size() > 4) {
-    place.fail(fmt::format("\"{}\" is not a range; {}", text.substr(equals + 1), form));
-  }
-  Axis axis{place.key, bound(parts[0], "FROM", place), bound(parts[1], "TO", place),
-            count_of(parts[2], place), parts.size() == 4};
-  if (axis.logarithmic && parts[3] != "log") {
-    place.fail(fmt::format("unknown spacing \"{}\"; {}", parts[3], form));
-  }
-  if (axis.logarithmic && !have_one_sign(axis.from, axis.to)) {
-    place.fail(fmt::format("{} to {} has no logarithm; allowed: FROM and TO of one sign, not zero",
-                           parts[0], parts[1]));
-  }
-  if (axis.count == 1 && axis.from != axis.to) {
-    place.fail(fmt::format("one value from {} to {}; allowed: FROM equal to TO, or a COUNT above 1",
-                           parts[0], parts[1]));
-  }
-  return axis;
+  const std::string values = text.substr(equals + 1);
+  const bool is_range =
+      values.find(',') == std::string::npos && values.find(':') != std::string::npos;
+  return is_range ? range_axis(values, place) : list_axis(values, place);
 }
 
-std::string value_text(double value) {
+std::string number_text(double value) {
   return scene::is_written_whole(value) ? fmt::format("{:.0f}", value) : fmt::format("{}", value);
 }
 

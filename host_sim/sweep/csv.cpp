@@ -8,6 +8,7 @@
 
 #include "host_sim/report/control_names.hpp"
 #include "host_sim/report/csv_number.hpp"
+#include "host_sim/text/csv_cell.hpp"
 
 namespace sonoglide::sweep {
 namespace {
@@ -15,17 +16,6 @@ namespace {
 std::string number(double value) {
   constexpr int every_bit = 17;
   return report::csv_number(value, every_bit);
-}
-
-std::string quoted(const std::string& text) {
-  if (text.find_first_of(",\"") == std::string::npos) {
-    return text;
-  }
-  std::string inner;
-  for (const char c : text) {
-    inner += c == '"' ? "\"\"" : std::string(1, c);
-  }
-  return fmt::format("\"{}\"", inner);
 }
 
 std::string heading(const Plan& plan) {
@@ -41,17 +31,17 @@ std::string heading(const Plan& plan) {
 }
 
 std::string line(const Plan& plan, std::size_t point, const Row& row) {
-  std::string text;
+  std::string cells;
   for (std::size_t axis = 0; axis < plan.grid().axes().size(); ++axis) {
-    text += value_text(plan.grid().value(point, axis)) + ',';
+    cells += text::csv_cell(plan.grid().text(point, axis)) + ',';
   }
-  text += fmt::format("{},{},{},", number(row.friction_ratio_whole_run),
-                      number(row.friction_ratio_window), number(row.dissipation_ratio_window));
+  cells += fmt::format("{},{},{},", number(row.friction_ratio_whole_run),
+                       number(row.friction_ratio_window), number(row.dissipation_ratio_window));
   if (plan.closed_loop()) {
-    text += fmt::format("{},{},{},{},", number(row.settling_time_s), number(row.steady_error),
-                        number(row.ripple), report::limit_name(row.limit));
+    cells += fmt::format("{},{},{},{},", number(row.settling_time_s), number(row.steady_error),
+                         number(row.ripple), report::limit_name(row.limit));
   }
-  return text + quoted(row.status) + '\n';
+  return cells + text::csv_cell(row.status) + '\n';
 }
 
 }  // namespace

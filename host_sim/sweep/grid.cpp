@@ -17,7 +17,7 @@ namespace {
 
 Grid::Grid(std::vector<Axis> axes) : axes_(std::move(axes)), strides_(axes_.size()) {
   if (axes_.empty()) {
-    fail(0, "--vary", "nothing is varied; allowed: at least one --vary KEY=FROM:TO:COUNT");
+    fail(0, "--vary", "nothing is varied; allowed: at least one --vary");
   }
   for (std::size_t axis = axes_.size(); axis-- > 0;) {
     strides_[axis] = size_;

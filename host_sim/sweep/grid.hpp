@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
 #include <vector>
 
 #include "host_sim/sweep/axis.hpp"
@@ -23,8 +24,11 @@ class Grid {
   std::size_t index(std::size_t point, std::size_t axis) const {
     return point / strides_[axis] % axes_[axis].count;
   }
-  double value(std::size_t point, std::size_t axis) const {
-    return axes_[axis].value(index(point, axis));
+  double number(std::size_t point, std::size_t axis) const {
+    return axes_[axis].number(index(point, axis));
+  }
+  std::string text(std::size_t point, std::size_t axis) const {
+    return axes_[axis].text(index(point, axis));
   }
 
  private:

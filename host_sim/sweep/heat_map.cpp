@@ -42,10 +42,10 @@ std::vector<Cell> cells(const Axis& axis) {
   }
   std::vector<double> edges(picked.size() + 1);
   for (std::size_t i = 1; i < picked.size(); ++i) {
-    edges[i] = between(axis, axis.value(picked[i - 1]), axis.value(picked[i]));
+    edges[i] = between(axis, axis.position(picked[i - 1]), axis.position(picked[i]));
   }
-  edges.front() = mirrored(axis, axis.value(picked.front()), edges[1]);
-  edges.back() = mirrored(axis, axis.value(picked.back()), edges[picked.size() - 1]);
+  edges.front() = mirrored(axis, axis.position(picked.front()), edges[1]);
+  edges.back() = mirrored(axis, axis.position(picked.back()), edges[picked.size() - 1]);
   std::vector<Cell> cells;
   for (std::size_t i = 0; i < picked.size(); ++i) {
     cells.push_back(

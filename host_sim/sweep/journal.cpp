@@ -13,6 +13,7 @@
 
 #include "host_sim/report/output_folder.hpp"
 #include "host_sim/sweep/steady_time.hpp"
+#include "host_sim/text/printable.hpp"
 
 namespace sonoglide::sweep {
 namespace {
@@ -100,20 +101,21 @@ void Journal::lock() {
 void Journal::recover(const Identity& identity, std::size_t points) {
   std::ifstream journal(path_, std::ios::binary);
   std::string line;
+  const std::string first_line = sealed(header_text(identity)) + '\n';
   // Without the end of its first line the journal holds no point yet.
   if (!std::getline(journal, line) || journal.eof()) {
+    if (first_line.compare(0, line.size(), line) != 0) {
+      refuse("another format of journal");
+    }
     if (ftruncate(file_, 0) != 0) {
       fail(last_reason());
     }
-    write(sealed(header_text(identity)) + '\n');
+    write(first_line);
     return;
   }
   const auto header = unsealed(line);
   if (!header || *header != header_text(identity)) {
-    throw ForeignJournal(
-        fmt::format("{}: holds an unfinished sweep of {}; allowed: finish that one, remove the "
-                    "file, or choose another folder",
-                    path_.string(), difference(header.value_or(""), identity)));
+    refuse(difference(header.value_or(""), identity));
   }
   std::streamoff whole = journal.tellg();
   while (std::getline(journal, line) && !journal.eof()) {
@@ -128,6 +130,13 @@ void Journal::recover(const Identity& identity, std::size_t points) {
   if (ftruncate(file_, whole) != 0) {
     fail(last_reason());
   }
+}
+
+void Journal::refuse(const std::string& contents) const {
+  throw ForeignJournal(
+      fmt::format("{}: holds an unfinished sweep of {}; allowed: finish that one, remove the file, "
+                  "or choose another folder",
+                  text::printable(path_.string()), contents));
 }
 
 void Journal::write(const std::string& text) {
@@ -153,7 +162,7 @@ void Journal::sync_now_and_then() {
 }
 
 void Journal::fail(const std::string& reason) const {
-  throw report::OutputError(path_.string() + ": " + reason);
+  report::fail(path_, reason);
 }
 
 }  // namespace sonoglide::sweep

@@ -62,6 +62,7 @@ class Journal {
   void write(const std::string& text);
   void sync_now_and_then();
   [[noreturn]] void fail(const std::string& reason) const;
+  [[noreturn]] void refuse(const std::string& contents) const;
 
   std::filesystem::path path_;
   int file_;

@@ -2,6 +2,7 @@
 
 #include "host_sim/plot/gnuplot.hpp"
 #include "host_sim/sweep/curve.hpp"
+#include "host_sim/sweep/curve_family.hpp"
 #include "host_sim/sweep/extremes.hpp"
 #include "host_sim/sweep/heat_map.hpp"
 #include "host_sim/sweep/subject.hpp"
@@ -11,6 +12,20 @@ namespace {
 
 constexpr int width_px = 900;
 constexpr int height_px = 560;
+
+/// @param axes  one or two
+std::string script(const Plan& plan, const std::vector<Row>& rows,
+                   const std::vector<std::size_t>& axes) {
+  if (axes.size() == 1) {
+    return curve(plan, rows, axes[0]);
+  }
+  if (is_heat_map(plan.grid())) {
+    return heat_map(plan, rows, axes[0], axes[1]);
+  }
+  const bool first_by_name = plan.grid().axes()[axes[0]].categorical();
+  return first_by_name ? curve_family(plan, rows, axes[1], axes[0])
+                       : curve_family(plan, rows, axes[0], axes[1]);
+}
 
 }  // namespace
 
@@ -24,14 +39,18 @@ std::vector<std::size_t> drawn_axes(const Grid& grid) {
   return drawn;
 }
 
+bool is_heat_map(const Grid& grid) {
+  const std::vector<std::size_t> drawn = drawn_axes(grid);
+  return drawn.size() == 2 &&
+         grid.axes()[drawn[0]].categorical() == grid.axes()[drawn[1]].categorical();
+}
+
 std::optional<std::string> draw(const Plan& plan, const std::vector<Row>& rows) {
   const std::vector<std::size_t> axes = drawn_axes(plan.grid());
   if (axes.empty() || axes.size() > 2 || !extremes(rows, subject(plan).figure)) {
     return std::nullopt;
   }
-  const std::string script =
-      axes.size() == 1 ? curve(plan, rows, axes[0]) : heat_map(plan, rows, axes[0], axes[1]);
-  return plot::draw_svg(script, width_px, height_px);
+  return plot::draw_svg(script(plan, rows, axes), width_px, height_px);
 }
 
 }  // namespace sonoglide::sweep

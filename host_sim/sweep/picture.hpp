@@ -14,8 +14,12 @@ namespace sonoglide::sweep {
 /// The axes with more than one value.
 std::vector<std::size_t> drawn_axes(const Grid& grid);
 
-/// One axis drawn: a curve; two: a heat map, the first one upwards. SVG. Absent for any other
-/// number of axes, and where no point has a value.
+/// Whether the picture is a heat map: two axes drawn, both on a scale or both by name.
+bool is_heat_map(const Grid& grid);
+
+/// One axis drawn: a curve; two: a heat map, the first one upwards, or, where one of them is by
+/// name, a curve for each name. SVG. Absent for any other number of axes, and where no point has a
+/// value.
 /// @throws process::ProcessError
 std::optional<std::string> draw(const Plan& plan, const std::vector<Row>& rows);
 

@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <fstream>
 #include <iterator>
 #include <utility>
 
@@ -34,16 +33,6 @@ std::vector<Axis> parse_axes(const std::vector<std::string>& vary) {
   return axes;
 }
 
-/// A scene that cannot be read gets the reader's own message.
-std::string text_of(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-  if (!file || text.empty()) {
-    scene::read_file(path);
-  }
-  return text;
-}
-
 [[noreturn]] void fail_at_option(std::size_t axis, const std::string& key,
                                  const std::string& message) {
   throw scene::SceneError({"--vary", axis + 1, 1}, key, message);
@@ -51,16 +40,62 @@ std::string text_of(const std::string& path) {
 
 }  // namespace
 
-Plan::Plan(const std::filesystem::path& file, const std::vector<std::string>& overrides,
+Plan::Plan(scene::Source source, std::vector<std::string> overrides,
            const std::vector<std::string>& vary)
-    : file_(file.string()), overrides_(overrides), grid_(parse_axes(vary)), text_(text_of(file_)) {
+    : source_(std::move(source)), overrides_(std::move(overrides)), grid_(parse_axes(vary)) {
   require_varied_once();
   try {
-    document_.emplace(text_, file_, overrides_, varied_keys());
+    document_.emplace(source_, overrides_, varied_keys());
   } catch (const scene::SceneError& error) {
     fail_at_point(error, 0);
   }
+  const std::vector<Axis>& axes = grid_.axes();
+  has_words_ =
+      std::any_of(axes.begin(), axes.end(), [](const Axis& axis) { return axis.has_words(); });
   first_ = scene(0);
+  require_used();
+}
+
+std::vector<std::size_t> Plan::wordings() const {
+  std::vector<std::size_t> points;
+  for (std::size_t point = 0; point < grid_.size(); ++point) {
+    bool at_first_numbers = true;
+    for (std::size_t axis = 0; axis < grid_.axes().size(); ++axis) {
+      at_first_numbers =
+          at_first_numbers && (grid_.axes()[axis].has_words() || grid_.index(point, axis) == 0);
+    }
+    if (at_first_numbers) {
+      points.push_back(point);
+    }
+  }
+  return points;
+}
+
+/// What one word leaves unused another may need; what none needs has no place in the scene.
+void Plan::require_used() const {
+  if (!has_words_) {
+    return;
+  }
+  std::optional<scene::UnusedKeys> never_used;
+  for (const std::size_t point : wordings()) {
+    scene::UnusedKeys unused;
+    try {
+      read(point, &unused);
+    } catch (const scene::SceneError& error) {
+      fail_at_point(error, point);
+    }
+    scene::UnusedKeys both;
+    if (never_used) {
+      std::set_intersection(never_used->begin(), never_used->end(), unused.begin(), unused.end(),
+                            std::inserter(both, both.end()));
+    }
+    never_used = never_used ? std::move(both) : std::move(unused);
+  }
+  if (!never_used->empty()) {
+    const std::string& key = *never_used->begin();
+    throw scene::SceneError(document_->place_of(key), key,
+                            "not used at any point of the sweep; remove it");
+  }
 }
 
 scene::Scene Plan::scene(std::size_t point) const {
@@ -99,7 +134,7 @@ std::string Plan::describe(std::size_t point) const {
   std::string text;
   for (std::size_t axis = 0; axis < grid_.axes().size(); ++axis) {
     text += fmt::format("{}{}={}", axis == 0 ? "" : ", ", grid_.axes()[axis].key,
-                        value_text(grid_.value(point, axis)));
+                        grid_.text(point, axis));
   }
   return text;
 }
@@ -112,17 +147,25 @@ std::vector<std::string> Plan::varied_keys() const {
   return keys;
 }
 
-std::vector<double> Plan::numbers_of(std::size_t point) const {
-  std::vector<double> numbers(grid_.axes().size());
-  for (std::size_t axis = 0; axis < numbers.size(); ++axis) {
+std::vector<scene::VariedValue> Plan::values_of(std::size_t point) const {
+  std::vector<scene::VariedValue> values;
+  values.reserve(grid_.axes().size());
+  for (std::size_t i = 0; i < grid_.axes().size(); ++i) {
+    const Axis& axis = grid_.axes()[i];
     // The velocity follows from the rest of the scene, once that is read.
-    numbers[axis] = grid_.axes()[axis].key == velocity_ratio_key ? 0.0 : grid_.value(point, axis);
+    values.push_back(axis.key == velocity_ratio_key ? scene::VariedValue(0.0)
+                                                    : axis.value(grid_.index(point, i)));
   }
-  return numbers;
+  return values;
 }
 
 scene::Scene Plan::read(std::size_t point) const {
-  scene::Scene scene = scene::read(*document_, numbers_of(point));
+  scene::UnusedKeys passed_over;
+  return read(point, has_words_ ? &passed_over : nullptr);
+}
+
+scene::Scene Plan::read(std::size_t point, scene::UnusedKeys* unused) const {
+  scene::Scene scene = scene::read(*document_, values_of(point), unused);
   for (std::size_t axis = 0; axis < grid_.axes().size(); ++axis) {
     if (grid_.axes()[axis].key == velocity_ratio_key) {
       set_velocity(scene, point, axis);
@@ -136,6 +179,11 @@ scene::Scene Plan::read(std::size_t point) const {
 void Plan::set_velocity(scene::Scene& scene, std::size_t point, std::size_t axis) const {
   constexpr double largest_speed_m_per_s = 1e6;
   const std::string key(velocity_ratio_key);
+  const double ratio = grid_.number(point, axis);
+  if (std::isnan(ratio)) {
+    fail_at_option(axis, key,
+                   fmt::format("\"{}\" is no number; allowed: numbers", grid_.text(point, axis)));
+  }
   if (scene.controller) {
     fail_at_option(axis, key,
                    "in closed loop the controller sets the vibration; allowed: "
@@ -150,7 +198,7 @@ void Plan::set_velocity(scene::Scene& scene, std::size_t point, std::size_t axis
                    "there is no vibration to relate to; allowed: a scene with a [drive] whose "
                    "force_amplitude_N is above 0");
   }
-  const double velocity_m_per_s = grid_.value(point, axis) * peak_m_per_s;
+  const double velocity_m_per_s = ratio * peak_m_per_s;
   if (!(std::abs(velocity_m_per_s) <= largest_speed_m_per_s)) {
     fail_at_option(axis, key,
                    fmt::format("the peak vibration velocity is {:g} m/s, at or near an undamped "
@@ -184,7 +232,7 @@ void Plan::fail_at_point(const scene::SceneError& error, std::size_t point) cons
   const bool of_axis = error.file() == "--set" && error.line() > overrides_.size();
   if (!of_axis && error.file() != "--vary") {
     try {
-      scene::read_text(text_, file_, overrides_);
+      scene::read(source_, overrides_);
     } catch (const scene::SceneError& own) {
       if (std::string_view(own.what()) == error.what()) {
         throw;  // the point has nothing to do with it

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <filesystem>
 #include <functional>
 #include <optional>
 #include <string>
@@ -11,6 +10,8 @@
 #include "host_sim/scene/document.hpp"
 #include "host_sim/scene/scene.hpp"
 #include "host_sim/scene/scene_error.hpp"
+#include "host_sim/scene/source.hpp"
+#include "host_sim/scene/variant.hpp"
 #include "host_sim/sweep/grid.hpp"
 #include "host_sim/sweep/pace.hpp"
 
@@ -20,9 +21,10 @@ namespace sonoglide::sweep {
 class Plan {
  public:
   /// @param overrides  `TABLE.KEY=VALUE` each, for every point
-  /// @param vary       `KEY=FROM:TO:COUNT[:log]` each, see parse_axis()
-  /// @throws scene::SceneError  a bad option, a key both varied and set, an unusable first point
-  Plan(const std::filesystem::path& file, const std::vector<std::string>& overrides,
+  /// @param vary       `KEY=FROM:TO:COUNT[:log]` or `KEY=A,B,...` each, see parse_axis()
+  /// @throws scene::SceneError  a bad option, a key both varied and set, an unusable first point,
+  ///         where words are varied, a key that is of no use with any of them
+  Plan(scene::Source source, std::vector<std::string> overrides,
        const std::vector<std::string>& vary);
 
   const Grid& grid() const { return grid_; }
@@ -30,8 +32,12 @@ class Plan {
   const scene::Scene& first() const { return first_; }
   bool closed_loop() const { return first_.controller.has_value(); }
 
+  /// The points that take each combination of the varied words once, with the first of all numbers.
+  std::vector<std::size_t> wordings() const;
+
   /// The scene of a point, the same as `run` takes it with a --set for each varied key; nothing is
-  /// recorded. Safe to call from several threads.
+  /// recorded. Where words are varied, a key that the point's words have no use for is left out.
+  /// Safe to call from several threads.
   /// @throws scene::SceneError  at the place of the --vary option or in the scene; the message ends
   ///         with the point
   scene::Scene scene(std::size_t point) const;
@@ -49,16 +55,18 @@ class Plan {
 
  private:
   std::vector<std::string> varied_keys() const;
-  std::vector<double> numbers_of(std::size_t point) const;
+  std::vector<scene::VariedValue> values_of(std::size_t point) const;
   scene::Scene read(std::size_t point) const;
+  scene::Scene read(std::size_t point, scene::UnusedKeys* unused) const;
   void set_velocity(scene::Scene& scene, std::size_t point, std::size_t axis) const;
   void require_varied_once() const;
+  void require_used() const;
   [[noreturn]] void fail_at_point(const scene::SceneError& error, std::size_t point) const;
 
-  std::string file_;
+  scene::Source source_;
   std::vector<std::string> overrides_;
   Grid grid_;
-  std::string text_;
+  bool has_words_ = false;
   std::optional<scene::Document> document_;  ///< from the constructor on
   scene::Scene first_;
 };

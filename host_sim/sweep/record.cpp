@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <cstring>
 
-#include "host_sim/sweep/checksum.hpp"
+#include "host_sim/text/checksum.hpp"
 
 namespace sonoglide::sweep {
 namespace {
@@ -56,7 +56,7 @@ class Numbers {
 }  // namespace
 
 std::string sealed(std::string_view text) {
-  return fmt::format("{:016x} {}", checksum(text), text);
+  return fmt::format("{:016x} {}", text::checksum(text), text);
 }
 
 std::optional<std::string_view> unsealed(std::string_view line) {
@@ -64,7 +64,7 @@ std::optional<std::string_view> unsealed(std::string_view line) {
     return std::nullopt;
   }
   const std::string_view text = line.substr(checksum_digits + 1);
-  if (line.substr(0, checksum_digits + 1) != fmt::format("{:016x} ", checksum(text))) {
+  if (line.substr(0, checksum_digits + 1) != fmt::format("{:016x} ", text::checksum(text))) {
     return std::nullopt;
   }
   return text;

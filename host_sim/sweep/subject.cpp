@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "host_sim/plot/gnuplot.hpp"
+
 namespace sonoglide::sweep {
 
 Subject subject(const Plan& plan) {
@@ -12,8 +14,17 @@ Subject subject(const Plan& plan) {
 }
 
 std::string axis_commands(const Axis& axis, char letter) {
-  std::string commands =
-      fmt::format("set {0}label '{1}' noenhanced\nset format {0} '%g'\n", letter, axis.key);
+  std::string commands = fmt::format("set {0}label {1} noenhanced\nset format {0} '%g'\n", letter,
+                                     plot::quoted(axis.key));
+  if (axis.categorical()) {
+    std::string tics;
+    for (std::size_t index = 0; index < axis.count; ++index) {
+      tics += fmt::format("{}{} {}", tics.empty() ? "" : ", ", plot::quoted(axis.text(index)),
+                          axis.position(index));
+    }
+    return commands + fmt::format("set {0}tics noenhanced ({1})\nset {0}range [0.5:{2}.5]\n",
+                                  letter, tics, axis.count);
+  }
   // A logarithmic axis of negative values is drawn on a linear scale.
   if (axis.logarithmic && axis.from > 0.0) {
     commands += fmt::format("set logscale {}\n", letter);

@@ -16,8 +16,8 @@ struct Subject {
 /// The friction ratio over the window; in closed loop the steady error of the last target step.
 Subject subject(const Plan& plan);
 
-/// The gnuplot commands for an axis, `x` or `y`: its label, and its scale where that is
-/// logarithmic.
+/// The gnuplot commands for an axis, `x` or `y`: its label, its scale where that is logarithmic,
+/// and the names of values that stand side by side.
 std::string axis_commands(const Axis& axis, char letter);
 
 }  // namespace sonoglide::sweep

@@ -11,6 +11,7 @@
 
 #include "host_sim/batch/run_dahl_plants.hpp"
 #include "host_sim/plot/gnuplot.hpp"
+#include "host_sim/process/interruption.hpp"
 #include "host_sim/report/output_folder.hpp"
 #include "host_sim/report/page.hpp"
 #include "host_sim/scene/to_json.hpp"
@@ -25,33 +26,52 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr const char* table_file = "sweep.csv";
+constexpr const char* page_file = "report.html";
 constexpr const char* picture_file = "sweep.svg";
 
+std::string values_of(const Axis& axis) {
+  if (axis.list.empty()) {
+    return fmt::format("{}:{}:{}{}", axis.from, axis.to, axis.count,
+                       axis.logarithmic ? ":log" : "");
+  }
+  std::string values;
+  for (const ListedValue& each : axis.list) {
+    values += each.text + ',';
+  }
+  return values;
+}
+
+/// Of what words are varied the scenes differ in more than a value: each is told in full.
 Identity identity_of(const Plan& plan, const std::string& program) {
   std::string vary;
   for (const Axis& axis : plan.grid().axes()) {
-    vary += fmt::format("{}={}:{}:{}{} ", axis.key, axis.from, axis.to, axis.count,
-                        axis.logarithmic ? ":log" : "");
+    vary += fmt::format("{}={} ", axis.key, values_of(axis));
   }
-  return {program, scene::to_json(plan.first()).dump(), vary};
+  std::string scenes;
+  for (const std::size_t point : plan.wordings()) {
+    scenes += scene::to_json(plan.scene(point)).dump();
+  }
+  return {program, scenes, vary};
 }
 
 /// Creates the folder once it is known that it can be written to.
 void create_folder(const fs::path& out) {
-  { const report::OutputFolder probe(out); }
+  { const report::OutputFolder probe(out, {table_file, page_file, picture_file}); }
   std::error_code error;
   fs::create_directories(out, error);
   if (error) {
-    throw report::OutputError(out.string() + ": " + error.message());
+    report::fail(out, error);
   }
 }
 
+/// Interrupted, it is carried through first: it takes a second at most.
 void write_files(const Plan& plan, const std::vector<Row>& rows, const fs::path& out) {
   const std::optional<std::string> picture = draw(plan, rows);
   const std::string page = report::to_html(sweep_page(plan, rows, picture));
   report::OutputFolder folder(out);
-  write_csv(folder.open("sweep.csv"), plan, rows);
-  folder.write("report.html", page);
+  write_csv(folder.open(table_file), plan, rows);
+  folder.write(page_file, page);
   if (picture) {
     folder.write(picture_file, *picture);
   } else {
@@ -80,6 +100,7 @@ Summary run_sweep(const Plan& plan, const fs::path& out, const std::string& prog
   const std::size_t found = journal.finished().size();
   const std::vector<Row> rows = compute(solve, plan.grid().size(), journal, pace);
   const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - begin;
+  const process::Interruption held;
   write_files(plan, rows, out);
   journal.remove();
   const auto failed =

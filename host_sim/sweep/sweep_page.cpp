@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <utility>
 
@@ -62,11 +63,16 @@ std::vector<std::string> warnings(const Plan& plan, const std::vector<Row>& rows
 report::Table axis_table(const Plan& plan) {
   report::Table table{"Varied", {"Key", "From", "To", "Values", "Spacing"}, {}};
   for (const Axis& axis : plan.grid().axes()) {
-    table.rows.push_back({axis.key, value_text(axis.from), value_text(axis.value(axis.count - 1)),
-                          fmt::format("{}", axis.count),
-                          axis.logarithmic ? "logarithmic" : "linear"});
+    const char* spacing = axis.logarithmic ? "logarithmic" : "linear";
+    table.rows.push_back({axis.key, axis.text(0), axis.text(axis.count - 1),
+                          fmt::format("{}", axis.count), axis.list.empty() ? spacing : "listed"});
   }
   return table;
+}
+
+std::string short_text(const Grid& grid, std::size_t point, std::size_t axis) {
+  const double number = grid.number(point, axis);
+  return std::isnan(number) ? grid.text(point, axis) : fmt::format("{:.6g}", number);
 }
 
 report::Table extremes_table(const Plan& plan, const std::vector<Row>& rows) {
@@ -77,7 +83,7 @@ report::Table extremes_table(const Plan& plan, const std::vector<Row>& rows) {
   const auto add = [&](const char* name, const char* which, double value, std::size_t point) {
     std::vector<std::string> cells = {name, which, fmt::format("{:.6g}", value)};
     for (std::size_t axis = 0; axis < plan.grid().axes().size(); ++axis) {
-      cells.push_back(fmt::format("{:.6g}", plan.grid().value(point, axis)));
+      cells.push_back(short_text(plan.grid(), point, axis));
     }
     table.rows.push_back(std::move(cells));
   };
@@ -98,7 +104,7 @@ report::Table scene_table(const Plan& plan) {
     std::string values;
     for (const auto& [key, value] : keys.items()) {
       values += fmt::format("{}{} = {}", values.empty() ? "" : ", ", key,
-                            value.is_number() ? value_text(value.get<double>()) : value.dump());
+                            value.is_number() ? number_text(value.get<double>()) : value.dump());
     }
     table.rows.push_back({name, values});
   }
@@ -110,7 +116,7 @@ std::string picture_note(const Plan& plan) {
   const std::vector<std::size_t> drawn = drawn_axes(plan.grid());
   for (const std::size_t axis : drawn) {
     const std::size_t count = plan.grid().axes()[axis].count;
-    if (drawn.size() == 2 && count > most_cells_along) {
+    if (is_heat_map(plan.grid()) && count > most_cells_along) {
       note += fmt::format("One value of {} in {} is drawn. ", plan.grid().axes()[axis].key,
                           (count - 1) / most_cells_along + 1);
     }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "host_sim/report/csv_number.hpp"
+#include "host_sim/text/csv_cell.hpp"
 
 namespace sonoglide::work_precision {
 namespace {
@@ -19,7 +20,8 @@ std::string to_csv(const Comparison& comparison) {
   for (const Row& row : comparison.rows) {
     csv += fmt::format("{},{},{},{},{},{}\n", row.solver->name,
                        setting_text(row.solver->knob, row.setting), cell(row.error),
-                       cell(row.wall_us_per_period), cell(row.steps_per_period), row.status);
+                       cell(row.wall_us_per_period), cell(row.steps_per_period),
+                       text::csv_cell(row.status));
   }
   return csv;
 }

@@ -109,7 +109,7 @@ std::string draw(const Comparison& comparison, const std::string& title) {
     script += data(comparison, *solver);
   }
   script += fmt::format(
-      "set title '{}' noenhanced font ',15'\n"
+      "set title {} noenhanced font ',15'\n"
       "set logscale xy\n"
       "set format xy '10^{{%T}}'\n"
       "set xlabel '{} error of the friction ratio over the whole run'\n"
@@ -120,7 +120,8 @@ std::string draw(const Comparison& comparison, const std::string& title) {
       "set grid xtics ytics lc rgb '#d8d8d8' lw 1\n"
       "set border 3\n"
       "set key outside right top vertical Left reverse samplen 3 spacing 1.25\n",
-      title, comparison.absolute_error ? "Absolute" : "Relative", 0.5 * smallest_error);
+      plot::quoted(title), comparison.absolute_error ? "Absolute" : "Relative",
+      0.5 * smallest_error);
   return plot::draw_svg(script + curves(comparison), width_px, height_px);
 }
 

@@ -8,6 +8,7 @@
 
 #include "host_sim/report/output_folder.hpp"
 #include "host_sim/report/page.hpp"
+#include "host_sim/text/printable.hpp"
 #include "host_sim/work_precision/csv.hpp"
 #include "host_sim/work_precision/page.hpp"
 #include "host_sim/work_precision/picture.hpp"
@@ -51,7 +52,7 @@ std::string text(const Comparison& comparison, const std::filesystem::path& out)
                            times_the_fastest(rows, "cvode"));
     }
   }
-  return lines + fmt::format("report: {}\n", (out / "report.html").string());
+  return lines + fmt::format("report: {}\n", text::printable((out / "report.html").string()));
 }
 
 }  // namespace sonoglide::work_precision

@@ -23,16 +23,21 @@ void PrintTo(const BadOverride& override, std::ostream* out) {
 
 const std::vector<BadOverride> bad_overrides = {
     {"no_equals", "--set plant.mass_kg",
-     "--set:1:1: plant.mass_kg: no value; allowed: TABLE.KEY=VALUE"},
-    {"no_value",
-     "--set plant.mass_kg=", "--set:1:1: plant.mass_kg: no value; allowed: TABLE.KEY=VALUE"},
-    {"no_key", "--set =3", "--set:1:1: --set: no key; allowed: TABLE.KEY=VALUE"},
+     "--set:1:1: plant.mass_kg: no value; allowed: TABLE.KEY=VALUE, or TABLE.KEY= to remove the "
+     "key"},
+    {"removed", "--set plant.mass_kg=",
+     "scene.toml:1:1: plant.mass_kg: missing; required: a number, 1e-12 to 1e+06 kg"},
+    {"no_key", "--set =3",
+     "--set:1:1: --set: no key; allowed: TABLE.KEY=VALUE, or TABLE.KEY= to remove the key"},
     {"whole_table", "--set plant=3",
-     "--set:1:1: plant: a whole table cannot be set; allowed: TABLE.KEY=VALUE"},
+     "--set:1:1: plant: a whole table cannot be set; allowed: TABLE.KEY=VALUE, or TABLE.KEY= to "
+     "remove the key"},
     {"array_element", "--set 'run.record[0]=\"velocity_m_per_s\"'",
-     "--set:1:1: run.record[0]: a part of a value cannot be set; allowed: TABLE.KEY=VALUE"},
+     "--set:1:1: run.record[0]: a part of a value cannot be set; allowed: TABLE.KEY=VALUE, or "
+     "TABLE.KEY= to remove the key"},
     {"third_level", "--set run.record.0=3",
-     "--set:1:1: run.record.0: a part of a value cannot be set; allowed: TABLE.KEY=VALUE"},
+     "--set:1:1: run.record.0: a part of a value cannot be set; allowed: TABLE.KEY=VALUE, or "
+     "TABLE.KEY= to remove the key"},
     {"unknown_key", "--set plant.mass=3",
      "--set:1:1: plant.mass: unknown key; did you mean mass_kg?"},
     {"unknown_table", "--set plan.mass_kg=3",

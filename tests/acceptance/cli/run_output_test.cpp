@@ -46,14 +46,16 @@ TEST_F(RunOutputTest, GoesByDefaultToAFolderNamedAfterTheScene) {
   EXPECT_EQ(outcome.err, "") << "no progress bar on a pipe";
   EXPECT_NE(outcome.out.find("report.html"), std::string::npos);
   EXPECT_EQ(folder_.entries(),
-            (Entries{"out", "out/scene", "out/scene/periods.csv", "out/scene/report.html",
-                     "out/scene/summary.json", "out/scene/trace.csv", "scene.toml"}));
+            (Entries{"out", "out/scene", "out/scene/.sonoglide", "out/scene/periods.csv",
+                     "out/scene/report.html", "out/scene/summary.json", "out/scene/trace.csv",
+                     "scene.toml"}));
 }
 
 TEST_F(RunOutputTest, GoesWhereTheUserWantsIt) {
   EXPECT_EQ(folder_.run("run scene.toml --out a/b").exit_code, 0);
-  EXPECT_EQ(folder_.entries(), (Entries{"a", "a/b", "a/b/periods.csv", "a/b/report.html",
-                                        "a/b/summary.json", "a/b/trace.csv", "scene.toml"}));
+  EXPECT_EQ(folder_.entries(),
+            (Entries{"a", "a/b", "a/b/.sonoglide", "a/b/periods.csv", "a/b/report.html",
+                     "a/b/summary.json", "a/b/trace.csv", "scene.toml"}));
 }
 
 TEST_F(RunOutputTest, QuietPrintsNothing) {
@@ -72,7 +74,11 @@ TEST_F(RunOutputTest, ASecondRunReplacesTheFirst) {
 }
 
 TEST_F(RunOutputTest, NothingIsRecordedUnlessTheSceneAsks) {
-  const Entries unrecorded{"out", "out/scene", "out/scene/report.html", "out/scene/summary.json",
+  const Entries unrecorded{"out",
+                           "out/scene",
+                           "out/scene/.sonoglide",
+                           "out/scene/report.html",
+                           "out/scene/summary.json",
                            "scene.toml"};
   EXPECT_EQ(folder_.run("run scene.toml --quiet --set 'run.record=[]'").exit_code, 0);
   EXPECT_EQ(folder_.entries(), unrecorded);
@@ -141,7 +147,7 @@ TEST_F(RunOutputTest, AnInterruptedRunLeavesNothing) {
       "run scene.toml --quiet --set run.duration_periods=1e9 --set run.record_interval_s=1e-4 & "
       "until ls -A '" +
       folder_name() +
-      "' | grep -q '^[.]scene[.]'; do sleep 0.01; done; "
+      "' | grep -q '^[.]sonoglide-'; do sleep 0.01; done; "
       "kill -TERM $(cat /proc/$!/task/$!/children) $!; wait $!");
   constexpr int ended_by_term = 128 + 15;
   EXPECT_EQ(outcome.exit_code, ended_by_term);

@@ -59,7 +59,7 @@ TEST_F(ArithmeticCommandTest, WritesItsThreeFilesAndPrintsTheTable) {
   EXPECT_EQ(outcome_.err, "") << "no progress bar on a pipe";
   EXPECT_NE(outcome_.out.find("Cortex-M4F  q15 "), std::string::npos) << outcome_.out;
   EXPECT_NE(outcome_.out.find("results/arithmetic.svg"), std::string::npos) << outcome_.out;
-  EXPECT_EQ(folder_->entries(), (Entries{"results", "results/arithmetic.csv",
+  EXPECT_EQ(folder_->entries(), (Entries{"results", "results/.sonoglide", "results/arithmetic.csv",
                                          "results/arithmetic.svg", "results/targets.csv"}));
 }
 

@@ -28,6 +28,14 @@ fs::path make_folder() {
 
 }  // namespace
 
+std::string shell_word(const std::string& text) {
+  std::string word = "'";
+  for (const char each : text) {
+    word += each == '\'' ? "'\\''" : std::string(1, each);
+  }
+  return word + '\'';
+}
+
 ScratchFolder::ScratchFolder() : path_(make_folder()) {}
 
 ScratchFolder::~ScratchFolder() {
@@ -53,9 +61,9 @@ std::vector<std::string> ScratchFolder::entries() const {
   return names;
 }
 
-Outcome ScratchFolder::run(const std::string& arguments) const {
+Outcome ScratchFolder::run(const std::string& arguments, const std::string& inside) const {
   const ScratchFolder streams;
-  const std::string command = "cd '" + path_.string() + "' && '" SONOGLIDE_PROGRAM "' " +
+  const std::string command = "cd '" + (path_ / inside).string() + "' && '" SONOGLIDE_PROGRAM "' " +
                               arguments + " >'" + (streams.path() / "out").string() + "' 2>'" +
                               (streams.path() / "err").string() + "'";
   const int status = std::system(command.c_str());

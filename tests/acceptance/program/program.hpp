@@ -13,6 +13,9 @@ struct Outcome {
   std::string err;
 };
 
+/// Any text as one word of a shell.
+std::string shell_word(const std::string& text);
+
 /// An empty folder of its own, gone with its owner.
 class ScratchFolder {
  public:
@@ -26,8 +29,8 @@ class ScratchFolder {
   std::string read(const std::string& name) const;
   /// Everything in it, at any depth, sorted.
   std::vector<std::string> entries() const;
-  /// Runs the program in this folder; `arguments` are shell words.
-  Outcome run(const std::string& arguments) const;
+  /// Runs the program in this folder, or in one inside it; `arguments` are shell words.
+  Outcome run(const std::string& arguments, const std::string& inside = ".") const;
 
  private:
   std::filesystem::path path_;

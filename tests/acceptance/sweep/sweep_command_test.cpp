@@ -60,8 +60,8 @@ TEST_F(SweepCommandTest, LeavesATableAPictureAndAPage) {
   EXPECT_EQ(outcome.err, "") << "no progress bar on a pipe";
   EXPECT_EQ(outcome.out.find("9 points; 9 computed in "), 0U) << outcome.out;
   EXPECT_EQ(folder_.entries(), (Entries{"closed.toml", "open.toml", "out", "out/open_sweep",
-                                        "out/open_sweep/report.html", "out/open_sweep/sweep.csv",
-                                        "out/open_sweep/sweep.svg"}));
+                                        "out/open_sweep/.sonoglide", "out/open_sweep/report.html",
+                                        "out/open_sweep/sweep.csv", "out/open_sweep/sweep.svg"}));
   const std::string page = folder_.read("out/open_sweep/report.html");
   for (const char* part : {"Sweep of open", "Extremes", "velocity_ratio", "data:image/svg+xml"}) {
     EXPECT_NE(page.find(part), std::string::npos) << part;
@@ -170,7 +170,7 @@ TEST_F(SweepCommandTest, AFailedPointKeepsItsRow) {
 TEST_F(SweepCommandTest, BadInputIsFoundBeforeAnythingRuns) {
   expect_refused("open.toml --vary friction.coefficient=0.1:0.2",
                  "--vary:1:1: friction.coefficient: \"0.1:0.2\" is not a range; allowed: "
-                 "KEY=FROM:TO:COUNT or KEY=FROM:TO:COUNT:log");
+                 "KEY=FROM:TO:COUNT, KEY=FROM:TO:COUNT:log or KEY=A,B,...");
   expect_refused("open.toml --vary velocity_ratio=0.1:1:3 --vary friction.coefficient=99:101:3",
                  "--vary:2:1: friction.coefficient: 101 is out of range; allowed: 0 to "
                  "100 (at velocity_ratio=0.1, friction.coefficient=101)");
@@ -181,6 +181,54 @@ TEST_F(SweepCommandTest, BadInputIsFoundBeforeAnythingRuns) {
   expect_refused("open.toml", "sonoglide: --vary is required" + hint);
   expect_refused("open.toml --vary velocity_ratio=0.1:1:3 --threads 0",
                  "sonoglide: --threads: \"0\"; allowed: a whole number, 1 to 1024" + hint);
+}
+
+TEST_F(SweepCommandTest, WordsAreVaried) {
+  sweep("open.toml --out o --vary friction.law=dahl,coulomb --vary velocity_ratio=0.2,0.6,0.9");
+  const std::vector<Cells> table = rows("o");
+  ASSERT_EQ(table.size(), 7U);
+  EXPECT_EQ(table[0][0], "friction.law");
+  for (std::size_t i = 1; i < table.size(); ++i) {
+    EXPECT_EQ(table[i][0], i < 4 ? "dahl" : "coulomb");
+    EXPECT_EQ(table[i].back(), "ok");
+  }
+  EXPECT_EQ(table[4][1], "0.2");
+  const nlohmann::json single = summary("open.toml --set sliding.velocity_m_per_s=0.05");
+  sweep(
+      "open.toml --out m --vary solver.method=event_taylor,event_gauss,strang "
+      "--set sliding.velocity_m_per_s=0.05");
+  const std::vector<Cells> methods = rows("m");
+  ASSERT_EQ(methods.size(), 4U);
+  EXPECT_EQ(number(methods[1][1]), single.at("friction_ratio").at("whole_run"));
+  EXPECT_NEAR(number(methods[2][1]), number(methods[1][1]), 1e-9);
+  const std::string picture = folder_.read("m/sweep.svg");
+  EXPECT_NE(picture.find(">event_gauss<"), std::string::npos);
+  const std::string page = folder_.read("m/report.html");
+  for (const char* part : {"listed", "event_taylor", "strang"}) {
+    EXPECT_NE(page.find(part), std::string::npos) << part;
+  }
+}
+
+TEST_F(SweepCommandTest, ArithmeticsAreVariedInClosedLoop) {
+  sweep("closed.toml --out c --vary controller.arithmetic=float32,q31,q15,float64");
+  const std::vector<Cells> table = rows("c");
+  ASSERT_EQ(table.size(), 5U);
+  EXPECT_EQ(table[3][0], "q15");
+  EXPECT_EQ(number(table[2][6]), summary("closed.toml --set controller.arithmetic=q31")
+                                     .at("control")
+                                     .at("steps")
+                                     .back()
+                                     .at("steady_error"));
+}
+
+TEST_F(SweepCommandTest, AWordThatNoSceneHasIsRefused) {
+  expect_refused("open.toml --vary friction.law=dahl,coulom",
+                 "--vary:1:1: friction.law: \"coulom\" is unknown; did you mean \"coulomb\"? "
+                 "allowed: \"dahl\", \"lugre\", \"iwan\", \"coulomb\", \"stribeck\", "
+                 "\"transverse_coulomb\", \"normal_coulomb\", \"none\" (at friction.law=coulom)");
+  expect_refused("open.toml --vary friction.law=coulomb,none",
+                 "open.toml:7:29: friction.contact_stiffness_N_per_m: not used at any point of the "
+                 "sweep; remove it");
 }
 
 TEST_F(SweepCommandTest, AFileInTheWayIsFoundBeforeAnythingRuns) {

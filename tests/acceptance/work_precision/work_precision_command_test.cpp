@@ -39,8 +39,8 @@ TEST_F(WorkPrecisionTest, WritesItsThreeFiles) {
   EXPECT_EQ(outcome_.err, "") << "no progress bar on a pipe";
   EXPECT_NE(outcome_.out.find("results/report.html"), std::string::npos);
   EXPECT_EQ(folder_->entries(),
-            (Entries{"results", "results/report.html", "results/work_precision.csv",
-                     "results/work_precision.svg", "short.toml"}));
+            (Entries{"results", "results/.sonoglide", "results/report.html",
+                     "results/work_precision.csv", "results/work_precision.svg", "short.toml"}));
 }
 
 TEST_F(WorkPrecisionTest, TheTableHasEverySolverAndItsSchema) {
@@ -84,15 +84,18 @@ TEST_F(WorkPrecisionTest, ThePageHasTheRankingThePictureAndTheMachine) {
 }
 
 TEST_F(WorkPrecisionTest, WithoutAFolderTheSceneNamesIt) {
+  // A name that gnuplot would take for a command.
+  const std::string name = "x'; system(\"touch pwned\") #\\";
   const ScratchFolder folder;
-  folder.write("short.toml", table_1);
-  const Outcome outcome = folder.run("work-precision short.toml --quiet");
+  folder.write(name + ".toml", table_1);
+  const Outcome outcome = folder.run("work-precision " + shell_word(name + ".toml") + " --quiet");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_EQ(outcome.out, "");
-  EXPECT_EQ(folder.entries(),
-            (Entries{"out", "out/short_work_precision", "out/short_work_precision/report.html",
-                     "out/short_work_precision/work_precision.csv",
-                     "out/short_work_precision/work_precision.svg", "short.toml"}));
+  const std::string results = "out/" + name + "_work_precision";
+  EXPECT_EQ(folder.entries(), (Entries{"out", results, results + "/.sonoglide",
+                                       results + "/report.html", results + "/work_precision.csv",
+                                       results + "/work_precision.svg", name + ".toml"}));
+  EXPECT_NE(folder.read(results + "/work_precision.svg").find(">x'; system("), std::string::npos);
 }
 
 void expect_refused(const std::string& scene, const std::string& place_and_key) {

@@ -4,6 +4,7 @@
 #include <pty.h>
 #include <unistd.h>
 
+#include <cstdlib>
 #include <limits>
 #include <string>
 
@@ -13,8 +14,10 @@ namespace {
 /// A terminal that remembers what it was sent.
 class Terminal {
  public:
-  Terminal() {
-    EXPECT_EQ(openpty(&master_, &slave_, nullptr, nullptr, nullptr), 0);
+  explicit Terminal(const char* name = "xterm", unsigned short columns = 0) {
+    const winsize size{25, columns, 0, 0};
+    EXPECT_EQ(openpty(&master_, &slave_, nullptr, nullptr, &size), 0);
+    setenv("TERM", name, 1);
     stream_ = fdopen(slave_, "w");
   }
   ~Terminal() {
@@ -56,6 +59,40 @@ TEST(ProgressLineTest, TakesAnyNumber) {
   EXPECT_EQ(progress_line(-1.0, 1.0), progress_line(0.0, 1.0));
   EXPECT_EQ(progress_line(2.0, 1.0), progress_line(1.0, 1.0));
   EXPECT_EQ(progress_line(std::numeric_limits<double>::quiet_NaN(), 1.0), progress_line(0.0, 1.0));
+}
+
+TEST(ProgressLineTest, FitsItsTerminal) {
+  EXPECT_EQ(progress_line(0.5, 3.0, 30), "[#####------]  50 %, 3 s left");
+  EXPECT_EQ(progress_line(0.5, 3.0, 20), "[#####------]  50 %");
+  EXPECT_EQ(progress_line(0.5, 3.0, 12), " 50 %");
+  EXPECT_EQ(progress_line(0.5, 3.0, 3), "");
+  for (int columns = 1; columns < 100; ++columns) {
+    for (const double fraction : {0.0, 0.01, 0.5, 0.999, 1.0}) {
+      for (const double elapsed_s : {0.0, 1.0, 1e3, 1e7}) {
+        EXPECT_LT(static_cast<int>(progress_line(fraction, elapsed_s, columns).size()), columns);
+      }
+    }
+  }
+}
+
+TEST(ProgressBarTest, AsksTheTerminalForItsWidth) {
+  const Terminal terminal("xterm", 20);
+  {
+    ProgressBar bar(terminal.stream(), true);
+    bar.update(0.0);
+  }
+  EXPECT_EQ(terminal.written(), "\r\x1b[K[-----------]   0 %\r\x1b[K");
+}
+
+TEST(ProgressBarTest, IsSilentWhereNoLineCanBeErased) {
+  for (const char* name : {"dumb", ""}) {
+    const Terminal terminal(name);
+    {
+      ProgressBar bar(terminal.stream(), true);
+      bar.update(0.5);
+    }
+    EXPECT_EQ(terminal.written(), "");
+  }
 }
 
 TEST(ProgressBarTest, DrawsOnATerminalAndClearsItself) {

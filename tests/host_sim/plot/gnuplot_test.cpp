@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "host_sim/process/process_error.hpp"
 #include "host_sim/process/scratch_folder.hpp"
@@ -40,6 +41,40 @@ TEST(Gnuplot, DrawsWhereverTemporaryFilesAre) {
   unsetenv("TMPDIR");
   EXPECT_NE(svg.find("</svg>"), std::string::npos);
   EXPECT_TRUE(std::filesystem::is_empty(odd));
+}
+
+// None is a command, ends its string, or is taken for mark-up.
+TEST(Gnuplot, AnyTextIsATitle) {
+  const process::ScratchFolder home(std::filesystem::temp_directory_path());
+  const std::string pwned = (home.path() / "pwned").string();
+  const std::vector<std::string> texts = {"it's",
+                                          "'",
+                                          "''",
+                                          "'a'",
+                                          "a''b",
+                                          "\"",
+                                          "\\\"",
+                                          "'; system(\"touch " + pwned + "\") #",
+                                          "`touch " + pwned + "`",
+                                          "$(touch " + pwned + ")",
+                                          "@pwned",
+                                          "%s %d %",
+                                          "{/Bold x} a_b ^c ~d",
+                                          "ends in \\",
+                                          "a\n!touch " + pwned + "\n",
+                                          "\xff\xfe",
+                                          "\x1b[31m",
+                                          "# ; & <b>"};
+  for (const std::string& text : texts) {
+    const std::string svg = draw_svg("pwned = 'system(\"touch " + pwned + "\")'\nset title " +
+                                         plot::quoted(text) + " noenhanced\nplot x\n",
+                                     640, 480);
+    EXPECT_NE(svg.find("</svg>"), std::string::npos) << text;
+    EXPECT_FALSE(std::filesystem::exists(pwned)) << text;
+  }
+  EXPECT_NE(draw_svg("set title " + plot::quoted("it's {a} _b") + " noenhanced\nplot x\n", 640, 480)
+                .find(">it's {a} _b<"),
+            std::string::npos);
 }
 
 TEST(Gnuplot, SaysWhatToInstall) {

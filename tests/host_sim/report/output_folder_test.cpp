@@ -35,6 +35,18 @@ std::set<std::string> names_in(const fs::path& folder) {
 
 using Names = std::set<std::string>;
 
+/// What stands in an output folder beside its files.
+const std::string list = ".sonoglide";
+
+/// Files that an earlier run left in a folder.
+void put_by_us(const fs::path& folder, const Names& names, const std::string& text) {
+  OutputFolder output(folder);
+  for (const std::string& name : names) {
+    output.write(name, text);
+  }
+  output.commit();
+}
+
 class OutputFolderTest : public ::testing::Test {
  protected:
   OutputFolderTest() {
@@ -66,7 +78,7 @@ TEST_F(OutputFolderTest, NewFolderAppearsAtCommitAndWhole) {
     output.commit();
   }
   EXPECT_EQ(names_in(root_), Names{"out"});
-  EXPECT_EQ(names_in(target), (Names{"summary.json", "trace.csv"}));
+  EXPECT_EQ(names_in(target), (Names{list, "summary.json", "trace.csv"}));
   EXPECT_EQ(text_of(target / "summary.json"), std::string("{\0}", 3));
   EXPECT_EQ(text_of(target / "trace.csv"), "time_s\n0.5\n");
 }
@@ -87,8 +99,7 @@ TEST_F(OutputFolderTest, MissingParentsAreCreatedAtCommit) {
 }
 
 TEST_F(OutputFolderTest, WithoutCommitNothingIsLeft) {
-  fs::create_directory(root_ / "old");
-  put(root_ / "old" / "file", "before");
+  put_by_us(root_ / "old", {"file"}, "before");
   {
     OutputFolder fresh(root_ / "a" / "out");
     fresh.write("file", "text");
@@ -96,12 +107,12 @@ TEST_F(OutputFolderTest, WithoutCommitNothingIsLeft) {
     existing.open("file") << "after";
   }
   EXPECT_EQ(names_in(root_), Names{"old"});
-  EXPECT_EQ(names_in(root_ / "old"), Names{"file"});
+  EXPECT_EQ(names_in(root_ / "old"), (Names{list, "file"}));
   EXPECT_EQ(text_of(root_ / "old" / "file"), "before");
 }
 
 TEST_F(OutputFolderTest, ExistingFolderKeepsItsOtherFiles) {
-  put(root_ / "file", "before");
+  put_by_us(root_, {"file"}, "before");
   put(root_ / "other", "kept");
   {
     OutputFolder output(root_);
@@ -110,14 +121,13 @@ TEST_F(OutputFolderTest, ExistingFolderKeepsItsOtherFiles) {
     EXPECT_EQ(text_of(root_ / "file"), "before");
     output.commit();
   }
-  EXPECT_EQ(names_in(root_), (Names{"added", "file", "other"}));
+  EXPECT_EQ(names_in(root_), (Names{list, "added", "file", "other"}));
   EXPECT_EQ(text_of(root_ / "file"), "after");
   EXPECT_EQ(text_of(root_ / "other"), "kept");
 }
 
 TEST_F(OutputFolderTest, WithdrawnFilesGoWithTheCommit) {
-  put(root_ / "file", "before");
-  put(root_ / "stale", "before");
+  put_by_us(root_, {"file", "stale"}, "before");
   put(root_ / "other", "kept");
   {
     OutputFolder output(root_);
@@ -127,12 +137,11 @@ TEST_F(OutputFolderTest, WithdrawnFilesGoWithTheCommit) {
     EXPECT_EQ(text_of(root_ / "stale"), "before");
     output.commit();
   }
-  EXPECT_EQ(names_in(root_), (Names{"file", "other"}));
+  EXPECT_EQ(names_in(root_), (Names{list, "file", "other"}));
 }
 
 TEST_F(OutputFolderTest, AFileThatCannotBeReplacedUndoesTheOthers) {
-  put(root_ / "a", "before");
-  put(root_ / "stale", "before");
+  put_by_us(root_, {"a", "stale"}, "before");
   fs::create_directory(root_ / "c");
   {
     OutputFolder output(root_);
@@ -144,8 +153,77 @@ TEST_F(OutputFolderTest, AFileThatCannotBeReplacedUndoesTheOthers) {
     EXPECT_NE(message.find((root_ / "c").string() + ": Is a directory"), std::string::npos)
         << message;
   }
-  EXPECT_EQ(names_in(root_), (Names{"a", "c", "stale"}));
+  EXPECT_EQ(names_in(root_), (Names{list, "a", "c", "stale"}));
   EXPECT_EQ(text_of(root_ / "a"), "before");
+  put_by_us(root_, {"a"}, "again");
+  EXPECT_EQ(text_of(root_ / "a"), "again") << "still known as ours";
+}
+
+TEST_F(OutputFolderTest, ACommitThatFailsInAForeignFolderLeavesNoList) {
+  fs::create_directory(root_ / "c");
+  {
+    OutputFolder output(root_);
+    output.write("c", "in the way");
+    EXPECT_NE(message_of([&] { output.commit(); }), "nothing was thrown");
+  }
+  EXPECT_EQ(names_in(root_), Names{"c"});
+}
+
+TEST_F(OutputFolderTest, WhatIsSomebodyElsesIsNeitherReplacedNorRemoved) {
+  put(root_ / "trace.csv", "mine");
+  const auto refused = [&](const std::string& message) {
+    EXPECT_EQ(message.find((root_ / "trace.csv").string() + ": was not written by an earlier run"),
+              0U)
+        << message;
+  };
+  refused(message_of([&] { OutputFolder(root_, {"summary.json", "trace.csv"}); }));
+  refused(message_of([&] { OutputFolder(root_).write("trace.csv", "ours"); }));
+  refused(message_of([&] { OutputFolder(root_).open("trace.csv"); }));
+  refused(message_of([&] { OutputFolder(root_).withdraw("trace.csv"); }));
+  EXPECT_EQ(names_in(root_), Names{"trace.csv"});
+  EXPECT_EQ(text_of(root_ / "trace.csv"), "mine");
+}
+
+TEST_F(OutputFolderTest, WhatWasChangedSinceIsSomebodyElses) {
+  put_by_us(root_, {"trace.csv", "report.html"}, "ours");
+  put(root_ / "trace.csv", "mine");  // of the same length
+  EXPECT_THROW(OutputFolder(root_, {"trace.csv"}), OutputError);
+  EXPECT_NO_THROW(OutputFolder(root_, {"report.html"}));
+  fs::remove(root_ / "trace.csv");
+  put_by_us(root_, {"trace.csv"}, "again");
+  EXPECT_EQ(text_of(root_ / "trace.csv"), "again");
+}
+
+TEST_F(OutputFolderTest, AFileThatAppearsMeanwhileIsKept) {
+  OutputFolder output(root_);
+  output.write("file", "ours");
+  output.withdraw("stale");
+  put(root_ / "stale", "mine");
+  EXPECT_THROW(output.commit(), OutputError);
+  EXPECT_EQ(text_of(root_ / "stale"), "mine");
+  EXPECT_EQ(names_in(root_).count("file"), 0U);
+}
+
+TEST_F(OutputFolderTest, AForeignFileInTheListsPlaceIsKept) {
+  put(root_ / list, "mine\n");
+  OutputFolder output(root_);
+  output.write("file", "ours");
+  EXPECT_THROW(output.commit(), OutputError);
+  EXPECT_EQ(text_of(root_ / list), "mine\n");
+}
+
+/// A run that is killed between any two of the moves of its commit.
+TEST_F(OutputFolderTest, ACommitThatIsCutOffLeavesWhatTheNextRunReplaces) {
+  put_by_us(root_, {"a", "b", "c"}, "first");
+  const std::string old_list = text_of(root_ / list);
+  put_by_us(root_, {"a", "b", "c"}, "second");
+  for (const char* last : {"", "a", "b", "c"}) {
+    for (const char* name : {"a", "b", "c"}) {
+      put(root_ / name, std::string(name) <= last ? "second" : "first");
+    }
+    EXPECT_NO_THROW(OutputFolder(root_, {"a", "b", "c"})) << last;
+  }
+  EXPECT_NE(old_list, text_of(root_ / list));
 }
 
 TEST_F(OutputFolderTest, AFolderMadeMeanwhileIsFilledNotReplaced) {
@@ -154,7 +232,7 @@ TEST_F(OutputFolderTest, AFolderMadeMeanwhileIsFilledNotReplaced) {
   fs::create_directory(root_ / "out");
   put(root_ / "out" / "other", "kept");
   output.commit();
-  EXPECT_EQ(names_in(root_ / "out"), (Names{"file", "other"}));
+  EXPECT_EQ(names_in(root_ / "out"), (Names{list, "file", "other"}));
 }
 
 TEST_F(OutputFolderTest, TargetsThatCannotBeWrittenAreRefusedAtOnce) {
@@ -177,7 +255,7 @@ TEST_F(OutputFolderTest, TargetMayEndInASeparatorOrALink) {
     output.write("file", "text");
     output.commit();
   }
-  EXPECT_EQ(names_in(root_ / "real"), Names{"file"});
+  EXPECT_EQ(names_in(root_ / "real"), (Names{list, "file"}));
   EXPECT_EQ(names_in(root_), (Names{"link", "real"}));
 }
 
@@ -238,7 +316,7 @@ TEST_F(OutputFolderTest, AWriteThatTheSystemRefusesIsReported) {
 
 TEST_F(OutputFolderTest, NamesArePlainAndUsedOnce) {
   OutputFolder output(root_ / "out");
-  for (const char* name : {"", ".", "..", "a/b", "/a", "a/"}) {
+  for (const char* name : {"", ".", "..", "a/b", "/a", "a/", "a\n"}) {
     EXPECT_THROW(output.write(name, ""), std::invalid_argument) << name;
   }
   output.write("file", "text");

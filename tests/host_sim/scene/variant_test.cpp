@@ -11,10 +11,10 @@
 #include <string>
 #include <vector>
 
-#include "host_sim/scene/number.hpp"
 #include "host_sim/scene/reader.hpp"
 #include "host_sim/scene/schema.hpp"
 #include "host_sim/scene/to_json.hpp"
+#include "host_sim/scene/varied_value.hpp"
 #include "scene_texts.hpp"
 
 namespace sonoglide::scene {
@@ -27,6 +27,10 @@ using Numbers = std::vector<double>;
 std::string option(const std::string& key, double number) {
   return is_written_whole(number) ? fmt::format("{}={:.0f}", key, number)
                                   : fmt::format("{}={}", key, number);
+}
+
+std::vector<VariedValue> values(const Numbers& numbers) {
+  return {numbers.begin(), numbers.end()};
 }
 
 /// The scene in full or the whole error.
@@ -48,8 +52,8 @@ void expect_as_by_text(const std::string& text, const Texts& overrides, const Te
   }
   const std::string by_text = outcome([&] { return read_text(text, "a/s.toml", all); });
   const std::string by_number = outcome([&] {
-    const Document document(text, "a/s.toml", overrides, keys);
-    return read(document, numbers);
+    const Document document({"a/s.toml", text}, overrides, keys);
+    return read(document, values(numbers));
   });
   ASSERT_EQ(by_number, by_text) << fmt::format("{} {}", keys.front(), numbers.front());
 }
@@ -110,9 +114,9 @@ TEST(VariantTest, BadNamesAreAsByText) {
 }
 
 TEST(VariantTest, AnUnusedKeyIsAnErrorAtItsOption) {
-  const Document document(shortest_open_loop, "s", {"plant.mass_kg=1"}, {"solver.step_s"});
+  const Document document({"s", shortest_open_loop}, {"plant.mass_kg=1"}, {"solver.step_s"});
   try {
-    read(document, {1e-8});
+    read(document, values({1e-8}));
     FAIL() << "no error";
   } catch (const SceneError& error) {
     EXPECT_STREQ(error.what(),
@@ -121,11 +125,34 @@ TEST(VariantTest, AnUnusedKeyIsAnErrorAtItsOption) {
   }
 }
 
+TEST(VariantTest, WordsAreAsByText) {
+  for (const std::string word : {"dahl", "coulomb", "dhal", "", "1e4"}) {
+    for (const std::string& text : texts) {
+      for (const char* key : {"friction.law", "solver.method", "plant.mass_kg"}) {
+        const std::string by_text =
+            outcome([&] { return read_text(text, "s", {fmt::format("{}=\"{}\"", key, word)}); });
+        const std::string by_word = outcome([&] {
+          const Document document({"s", text}, {}, {key});
+          return read(document, {VariedValue(word)});
+        });
+        EXPECT_EQ(by_word, by_text) << key << ' ' << word;
+      }
+    }
+  }
+}
+
+TEST(VariantTest, UnusedKeysGoToWhoTakesThem) {
+  const Document document({"s", shortest_open_loop}, {"solver.step_s=1e-8", "friction.elements=2"});
+  UnusedKeys unused;
+  read(document, {}, &unused);
+  EXPECT_EQ(unused, (UnusedKeys{"friction.elements", "solver.step_s"}));
+}
+
 TEST(VariantTest, OneDocumentServesManyReadings) {
-  const Document document(fullest_closed_loop, "dir/scene.toml", {},
+  const Document document({"dir/scene.toml", fullest_closed_loop}, {},
                           {"model_error.mass", "sensor.seed"});
   for (int i = 1; i <= 100; ++i) {
-    const Scene scene = read(document, {0.9 + 1e-3 * i, static_cast<double>(i)});
+    const Scene scene = read(document, values({0.9 + 1e-3 * i, static_cast<double>(i)}));
     EXPECT_EQ(scene.name, "scene");
     EXPECT_EQ(scene.model_error.mass, 0.9 + 1e-3 * i);
     EXPECT_EQ(scene.sensor.seed, static_cast<std::uint64_t>(i));
@@ -133,9 +160,9 @@ TEST(VariantTest, OneDocumentServesManyReadings) {
 }
 
 TEST(VariantTest, AnErrorLeavesTheDocumentAsItWas) {
-  const Document document(shortest_open_loop, "s", {}, {"friction.coefficient"});
-  EXPECT_THROW(read(document, {-1.0}), SceneError);
-  EXPECT_EQ(read(document, {0.25}).friction.coefficient, 0.25);
+  const Document document({"s", shortest_open_loop}, {}, {"friction.coefficient"});
+  EXPECT_THROW(read(document, values({-1.0})), SceneError);
+  EXPECT_EQ(read(document, values({0.25})).friction.coefficient, 0.25);
 }
 
 }  // namespace

@@ -18,7 +18,7 @@ std::vector<double> values(const std::string& text) {
   const Axis axis = parse_axis(text, 1);
   std::vector<double> all;
   for (std::size_t i = 0; i < axis.count; ++i) {
-    all.push_back(axis.value(i));
+    all.push_back(axis.number(i));
   }
   return all;
 }
@@ -53,10 +53,10 @@ TEST(AxisTest, HitsBothEndsAndStaysInOrder) {
     const double to = std::pow(10.0, *rc::gen::inRange(-300, 300) / 10.0);
     const Axis axis{"a.b", from, to, static_cast<std::size_t>(*rc::gen::inRange(2, 50)),
                     *rc::gen::arbitrary<bool>()};
-    RC_ASSERT(axis.value(0) == from);
-    RC_ASSERT(axis.value(axis.count - 1) == to);
+    RC_ASSERT(axis.number(0) == from);
+    RC_ASSERT(axis.number(axis.count - 1) == to);
     for (std::size_t i = 1; i < axis.count; ++i) {
-      const double step = axis.value(i) - axis.value(i - 1);
+      const double step = axis.number(i) - axis.number(i - 1);
       RC_ASSERT((from < to ? step >= 0.0 : step <= 0.0));
     }
   }));
@@ -69,9 +69,9 @@ TEST(AxisTest, SurvivesTheLargestRange) {
 }
 
 TEST(AxisTest, SaysWhatIsWrong) {
-  const std::string form = "allowed: KEY=FROM:TO:COUNT or KEY=FROM:TO:COUNT:log";
+  const std::string form = "allowed: KEY=FROM:TO:COUNT, KEY=FROM:TO:COUNT:log or KEY=A,B,...";
   EXPECT_EQ(error_of("=1:2:3"), "--vary:3:1: --vary: no key; " + form);
-  EXPECT_EQ(error_of("a.b"), "--vary:3:1: a.b: no range; " + form);
+  EXPECT_EQ(error_of("a.b"), "--vary:3:1: a.b: no values; " + form);
   EXPECT_EQ(error_of("a.b=1:2"), "--vary:3:1: a.b: \"1:2\" is not a range; " + form);
   EXPECT_EQ(error_of("a.b=1:2:3:log:4"),
             "--vary:3:1: a.b: \"1:2:3:log:4\" is not a range; " + form);
@@ -96,12 +96,50 @@ TEST(AxisTest, SaysWhatIsWrong) {
       "--vary:3:1: a.b: one value from 7 to 9; allowed: FROM equal to TO, or a COUNT above 1");
 }
 
+TEST(AxisTest, ListsWordsNumbersAndTruthValues) {
+  const Axis axis = parse_axis("a.b=dahl, 1e4,0.5,true,\"x y\"", 1);
+  ASSERT_EQ(axis.count, 5U);
+  const std::vector<std::string> texts = {"dahl", "10000", "0.5", "true", "x y"};
+  for (std::size_t i = 0; i < axis.count; ++i) {
+    EXPECT_EQ(axis.text(i), texts[i]);
+    EXPECT_EQ(axis.position(i), static_cast<double>(i + 1));
+  }
+  EXPECT_TRUE(axis.has_words());
+  EXPECT_TRUE(axis.categorical());
+  EXPECT_TRUE(std::isnan(axis.number(0)));
+  EXPECT_EQ(axis.number(1), 1e4);
+  EXPECT_TRUE(axis.value(0).node().is_string());
+  EXPECT_TRUE(axis.value(1).node().is_integer()) << "as a range gives it";
+  EXPECT_TRUE(axis.value(2).node().is_floating_point());
+  EXPECT_TRUE(axis.value(3).node().is_boolean());
+}
+
+TEST(AxisTest, NumbersInOrderStandOnAScale) {
+  EXPECT_FALSE(parse_axis("a.b=1,2,10", 1).categorical());
+  EXPECT_FALSE(parse_axis("a.b=10,2,1", 1).categorical());
+  EXPECT_TRUE(parse_axis("a.b=1,10,2", 1).categorical());
+  EXPECT_FALSE(parse_axis("a.b=1,10,2", 1).has_words());
+  EXPECT_EQ(parse_axis("a.b=7", 1).count, 1U);
+  EXPECT_EQ(parse_axis("a.b=1,2,10", 1).position(2), 10.0);
+}
+
+TEST(AxisTest, SaysWhatIsWrongInAList) {
+  const std::string form = "allowed: KEY=FROM:TO:COUNT, KEY=FROM:TO:COUNT:log or KEY=A,B,...";
+  EXPECT_EQ(error_of("a.b="), "--vary:3:1: a.b: an empty value; " + form);
+  EXPECT_EQ(error_of("a.b=x,,y"), "--vary:3:1: a.b: an empty value; " + form);
+  EXPECT_EQ(error_of("a.b=x,y,x"), "--vary:3:1: a.b: x is there twice; allowed: each value once");
+  EXPECT_EQ(error_of("a.b=1,1.0"), "--vary:3:1: a.b: 1 is there twice; allowed: each value once");
+  EXPECT_EQ(error_of("a.b=[1],x"),
+            "--vary:3:1: a.b: \"[1]\" is an array; allowed: numbers, words, true, false");
+  EXPECT_NE(error_of("a.b=1:2:3,4").find("--vary:3:1: a.b: "), std::string::npos);
+}
+
 TEST(AxisTest, WritesValuesThatReadBackTheSame) {
-  EXPECT_EQ(value_text(12.0), "12");
-  EXPECT_EQ(value_text(-3.0), "-3");
-  EXPECT_EQ(value_text(0.05), "0.05");
+  EXPECT_EQ(number_text(12.0), "12");
+  EXPECT_EQ(number_text(-3.0), "-3");
+  EXPECT_EQ(number_text(0.05), "0.05");
   EXPECT_TRUE(rc::check("it reads back the same", [](double x) {
-    RC_ASSERT(std::strtod(value_text(x).c_str(), nullptr) == x);
+    RC_ASSERT(std::strtod(number_text(x).c_str(), nullptr) == x);
   }));
 }
 
@@ -111,8 +149,8 @@ TEST(GridTest, TheFirstAxisIsTheSlowest) {
   std::vector<double> first;
   std::vector<double> second;
   for (std::size_t point = 0; point < grid.size(); ++point) {
-    first.push_back(grid.value(point, 0));
-    second.push_back(grid.value(point, 1));
+    first.push_back(grid.number(point, 0));
+    second.push_back(grid.number(point, 1));
   }
   EXPECT_EQ(first, (std::vector<double>{1, 1, 1, 2, 2, 2}));
   EXPECT_EQ(second, (std::vector<double>{10, 20, 30, 10, 20, 30}));

@@ -94,6 +94,9 @@ TEST_F(JournalTest, ServesNoOtherSweepAndSaysWhy) {
   EXPECT_NE(refusal({ours.program, "{}", ours.vary}).find("of another scene;"), std::string::npos);
   EXPECT_NE(refusal({ours.program, ours.scene, ""}).find("of other --vary;"), std::string::npos);
   EXPECT_EQ(content(), before);
+  set_content("mine, a line without an end");
+  EXPECT_NE(refusal(ours).find("another format of journal"), std::string::npos);
+  EXPECT_EQ(content(), "mine, a line without an end");
   set_content("mine\n");
   EXPECT_NE(refusal(ours).find("another format of journal"), std::string::npos);
   EXPECT_EQ(content(), "mine\n");

@@ -31,7 +31,7 @@ std::vector<Row> rows(std::size_t count) {
 std::optional<std::string> picture(const std::vector<std::string>& vary,
                                    const std::vector<Row>& shown) {
   const ScratchScene scratch(open_loop);
-  return draw(Plan(scratch.file(), {}, vary), shown);
+  return draw(Plan(scene::read_source(scratch.file()), {}, vary), shown);
 }
 
 TEST(PictureTest, AHeatMapHasACellForEachPointAndGreysTheFailed) {
@@ -61,6 +61,36 @@ TEST(PictureTest, OneKeyIsACurve) {
   ASSERT_TRUE(svg.has_value());
   EXPECT_NE(svg->find("whole run"), std::string::npos);
   EXPECT_NE(svg->find(">failed<"), std::string::npos);
+}
+
+TEST(PictureTest, WordsStandSideBySide) {
+  const auto svg = picture({"friction.law=coulomb,dahl,transverse_coulomb"}, rows(3));
+  ASSERT_TRUE(svg.has_value());
+  for (const char* word : {">coulomb<", ">dahl<", ">transverse_coulomb<", "friction.law"}) {
+    EXPECT_NE(svg->find(word), std::string::npos) << word;
+  }
+}
+
+TEST(PictureTest, WordsAgainstNumbersAreACurveForEachWord) {
+  std::vector<Row> shown = rows(8);
+  shown[1].friction_ratio_window = Row::undefined;
+  for (const bool words_first : {true, false}) {
+    const std::vector<std::string> vary = {"friction.law=coulomb,dahl", "velocity_ratio=0.1:1:4"};
+    const auto svg =
+        picture(words_first ? vary : std::vector<std::string>{vary[1], vary[0]}, shown);
+    ASSERT_TRUE(svg.has_value());
+    EXPECT_NE(svg->find(">coulomb<"), std::string::npos);
+    EXPECT_NE(svg->find(">dahl<"), std::string::npos);
+  }
+}
+
+TEST(PictureTest, WordsAgainstWordsAreAMap) {
+  const auto svg =
+      picture({"friction.law=dahl,coulomb", "friction.coefficient=0.1,0.3,0.2"}, rows(6));
+  ASSERT_TRUE(svg.has_value());
+  for (const char* word : {">coulomb<", ">0.3<"}) {
+    EXPECT_NE(svg->find(word), std::string::npos) << word;
+  }
 }
 
 TEST(PictureTest, NoPictureOfMoreKeysNorOfNothing) {

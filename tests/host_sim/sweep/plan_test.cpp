@@ -20,7 +20,8 @@ using Texts = std::vector<std::string>;
 std::string error_of(const std::string& text, const Texts& vary, const Texts& overrides = {}) {
   const ScratchScene scratch(text);
   try {
-    Plan(scratch.file(), overrides, vary).visit_all([](std::size_t, const scene::Scene&) {});
+    Plan(scene::read_source(scratch.file()), overrides, vary)
+        .visit_all([](std::size_t, const scene::Scene&) {});
   } catch (const scene::SceneError& error) {
     std::string what = error.what();
     const std::string folder = scratch.folder().string() + "/";
@@ -32,7 +33,7 @@ std::string error_of(const std::string& text, const Texts& vary, const Texts& ov
 
 TEST(PlanTest, APointIsTheSceneWithItsKeysSet) {
   const ScratchScene scratch(open_loop);
-  const Plan plan(scratch.file(), {"solver.tolerance=1e-8"},
+  const Plan plan(scene::read_source(scratch.file()), {"solver.tolerance=1e-8"},
                   {"drive.force_amplitude_N=100:300:3", "friction.coefficient=0.1:0.2:2"});
   const scene::Scene expected = scene::read_file(
       scratch.file(),
@@ -43,7 +44,8 @@ TEST(PlanTest, APointIsTheSceneWithItsKeysSet) {
 
 TEST(PlanTest, TakesIntegerKeys) {
   const ScratchScene scratch(closed_loop);
-  const Plan plan(scratch.file(), {}, {"sensor.adc_bits=8:12:3", "sensor.seed=1:2:2"});
+  const Plan plan(scene::read_source(scratch.file()), {},
+                  {"sensor.adc_bits=8:12:3", "sensor.seed=1:2:2"});
   EXPECT_EQ(plan.scene(5).sensor.adc_bits, 12);
   EXPECT_EQ(plan.scene(5).sensor.seed, 2U);
 }
@@ -51,11 +53,11 @@ TEST(PlanTest, TakesIntegerKeys) {
 TEST(PlanTest, EveryPointIsTheSceneThatItsOptionsGive) {
   const ScratchScene scratch(open_loop);
   const Plan plan(
-      scratch.file(), {"solver.tolerance=1e-8"},
+      scene::read_source(scratch.file()), {"solver.tolerance=1e-8"},
       {"friction.contact_stiffness_N_per_m=1:1e17:35:log", "sliding.velocity_m_per_s=-0.1:0.2:7"});
   plan.visit_all([&](std::size_t point, const scene::Scene& scene) {
     const auto option = [&](const char* key, std::size_t axis) {
-      return key + ('=' + value_text(plan.grid().value(point, axis)));
+      return key + ('=' + plan.grid().text(point, axis));
     };
     const scene::Scene expected = scene::read_file(
         scratch.file(), {"solver.tolerance=1e-8", option("friction.contact_stiffness_N_per_m", 0),
@@ -66,7 +68,7 @@ TEST(PlanTest, EveryPointIsTheSceneThatItsOptionsGive) {
 
 TEST(PlanTest, ReadingTellsOfItsProgress) {
   const ScratchScene scratch(open_loop);
-  const Plan plan(scratch.file(), {}, {"friction.coefficient=0.1:0.2:5000"});
+  const Plan plan(scene::read_source(scratch.file()), {}, {"friction.coefficient=0.1:0.2:5000"});
   std::vector<double> fractions;
   const Progress progress = [&](double fraction) { fractions.push_back(fraction); };
   Pace pace(progress);
@@ -79,20 +81,20 @@ TEST(PlanTest, ReadingTellsOfItsProgress) {
 TEST(PlanTest, RecordsNothing) {
   const ScratchScene scratch(open_loop +
                              "record = [\"displacement_m\"]\nrecord_interval_s = 1e-6\n");
-  const Plan plan(scratch.file(), {}, {"friction.coefficient=0.1:0.2:2"});
+  const Plan plan(scene::read_source(scratch.file()), {}, {"friction.coefficient=0.1:0.2:2"});
   EXPECT_TRUE(plan.scene(1).run.record.empty());
 }
 
 TEST(PlanTest, TheSceneIsReadOnce) {
   const ScratchScene scratch(open_loop);
-  const Plan plan(scratch.file(), {}, {"friction.coefficient=0.1:0.2:2"});
+  const Plan plan(scene::read_source(scratch.file()), {}, {"friction.coefficient=0.1:0.2:2"});
   std::filesystem::remove(scratch.file());
   EXPECT_NO_THROW(plan.scene(1));
 }
 
 TEST(PlanTest, TheVelocityRatioFollowsTheImpedanceOfThePoint) {
   const ScratchScene scratch(open_loop);
-  const Plan plan(scratch.file(), {},
+  const Plan plan(scene::read_source(scratch.file()), {},
                   {"velocity_ratio=0.5:1:2", "plant.damping_N_s_per_m=0:5000:2"});
   const std::complex<double> i(0.0, 1.0);
   const double omega = 2.0 * 3.14159265358979323846 * 60e3;
@@ -136,7 +138,7 @@ TEST(PlanTest, TheScenesOwnErrorsAreThoseOfRun) {
 
 TEST(PlanTest, AMissingSceneIsAnError) {
   try {
-    const Plan plan("nowhere.toml", {}, {"friction.coefficient=0.1:0.2:2"});
+    const Plan plan(scene::read_source("nowhere.toml"), {}, {"friction.coefficient=0.1:0.2:2"});
     FAIL() << "read a file that is not there";
   } catch (const scene::SceneError& error) {
     EXPECT_EQ(std::string(error.what()),
@@ -155,6 +157,44 @@ TEST(PlanTest, AKeyHasOneSourceOfItsValue) {
   EXPECT_EQ(error_of(open_loop, {"velocity_ratio=0.1:0.2:2"}, {"sliding.velocity_m_per_s=1"}),
             "--set:1:1: sliding.velocity_m_per_s: is varied by --vary velocity_ratio; allowed: one "
             "of the two");
+}
+
+TEST(PlanTest, WordsAreVariedAsNumbersAre) {
+  const ScratchScene scratch(open_loop);
+  const Plan plan(scene::read_source(scratch.file()), {},
+                  {"solver.method=event_taylor,event_gauss", "friction.coefficient=0.1,0.3,0.2"});
+  EXPECT_EQ(plan.describe(4), "solver.method=event_gauss, friction.coefficient=0.3");
+  const scene::Scene expected =
+      scene::read_file(scratch.file(), {"solver.method=event_gauss", "friction.coefficient=0.3"});
+  EXPECT_EQ(scene::to_json(plan.scene(4)), scene::to_json(expected));
+  EXPECT_EQ(plan.wordings(), (std::vector<std::size_t>{0, 3}));
+}
+
+// Coulomb's law has no contact stiffness, Dahl's needs one.
+TEST(PlanTest, AKeyThatOneWordUsesIsNoErrorWithAnother) {
+  const ScratchScene scratch(open_loop);
+  const Plan plan(scene::read_source(scratch.file()), {}, {"friction.law=coulomb,dahl"});
+  EXPECT_EQ(plan.scene(1).friction.contact_stiffness_N_per_m, 0.056e6);
+  EXPECT_EQ(scene::to_json(plan.scene(0)),
+            scene::to_json(scene::read_file(
+                scratch.file(), {"friction.law=coulomb", "friction.contact_stiffness_N_per_m="})));
+}
+
+TEST(PlanTest, AKeyThatNoWordUsesIsAnError) {
+  EXPECT_EQ(error_of(open_loop, {"friction.law=coulomb,none"}),
+            "scene.toml:7:29: friction.contact_stiffness_N_per_m: not used at any point of the "
+            "sweep; remove it");
+  EXPECT_EQ(error_of(open_loop, {"solver.method=event_taylor,strang"}, {"friction.elements=2"}),
+            "--set:1:1: friction.elements: not used at any point of the sweep; remove it");
+}
+
+TEST(PlanTest, WordsThatNoSceneHasNameTheOption) {
+  EXPECT_EQ(error_of(open_loop, {"friction.law=dahl,dhal"})
+                .find("--vary:1:1: friction.law: \"dhal\" is unknown; did you mean \"dahl\"?"),
+            0U);
+  EXPECT_EQ(error_of(open_loop, {"velocity_ratio=0.1,fast"}),
+            "--vary:1:1: velocity_ratio: \"fast\" is no number; allowed: numbers (at "
+            "velocity_ratio=fast)");
 }
 
 TEST(PlanTest, AVelocityRatioNeedsAVibration) {

@@ -24,7 +24,8 @@ const char* const frictionless_first = "friction.coefficient=0:0.2:5";
 class SolveTest : public testing::Test {
  protected:
   void plan_for(const std::vector<std::string>& vary) {
-    plan_.emplace(scratch_.file(), std::vector<std::string>{"solver.tolerance=1e-4"}, vary);
+    plan_.emplace(scene::read_source(scratch_.file()),
+                  std::vector<std::string>{"solver.tolerance=1e-4"}, vary);
     solve_.emplace(*plan_, pace_);
     for (std::size_t point = 0; point < plan_->grid().size(); ++point) {
       all_.push_back(point);

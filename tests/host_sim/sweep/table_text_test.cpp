@@ -22,7 +22,7 @@ Row row(double ratio) {
 
 TEST(CsvTest, HasOneRowForEachPointAndQuotesReasons) {
   const ScratchScene scratch(open_loop);
-  const Plan plan(scratch.file(), {}, {"friction.coefficient=0.1:0.2:2"});
+  const Plan plan(scene::read_source(scratch.file()), {}, {"friction.coefficient=0.1:0.2:2"});
   Row failed;
   failed.status = "solver: at 1 s, |F| > \"Fc\"";
   std::ostringstream out;
@@ -36,7 +36,7 @@ TEST(CsvTest, HasOneRowForEachPointAndQuotesReasons) {
 
 TEST(CsvTest, AClosedLoopHasItsLastStep) {
   const ScratchScene scratch(closed_loop);
-  const Plan plan(scratch.file(), {}, {"sensor.seed=1:1:1"});
+  const Plan plan(scene::read_source(scratch.file()), {}, {"sensor.seed=1:1:1"});
   Row limited = row(0.125);
   limited.steady_error = -0.5;
   limited.ripple = 0.0;

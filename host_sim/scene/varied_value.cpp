@@ -1,6 +1,7 @@
-#include "host_sim/scene/number.hpp"
+#include "host_sim/scene/varied_value.hpp"
 
 #include <cmath>
+#include <utility>
 
 namespace sonoglide::scene {
 
@@ -9,10 +10,14 @@ bool is_written_whole(double number) {
   return std::trunc(number) == number && std::abs(number) < largest_plain;
 }
 
-Number::Number(double number) : value_(toml::value<double>(number)) {
+VariedValue::VariedValue(double number) : value_(toml::value<double>(number)) {
   if (is_written_whole(number)) {
     value_ = toml::value<std::int64_t>(static_cast<std::int64_t>(number));
   }
 }
+
+VariedValue::VariedValue(std::string word) : value_(toml::value<std::string>(std::move(word))) {}
+
+VariedValue::VariedValue(bool truth) : value_(toml::value<bool>(truth)) {}
 
 }  // namespace sonoglide::scene

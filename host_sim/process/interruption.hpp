@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <stdexcept>
 
-namespace sonoglide::cli {
+namespace sonoglide::process {
 
 /// Unwinds an interrupted command, so that no half of an output stays behind.
 class Interrupted : public std::runtime_error {
@@ -32,4 +32,4 @@ class Interruption {
   std::array<struct sigaction, signals.size()> previous_{};
 };
 
-}  // namespace sonoglide::cli
+}  // namespace sonoglide::process

@@ -1,6 +1,6 @@
-#include "host_sim/cli/interruption.hpp"
+#include "host_sim/process/interruption.hpp"
 
-namespace sonoglide::cli {
+namespace sonoglide::process {
 namespace {
 
 volatile std::sig_atomic_t received = 0;
@@ -40,4 +40,4 @@ void Interruption::check() const {
   }
 }
 
-}  // namespace sonoglide::cli
+}  // namespace sonoglide::process

@@ -1,0 +1,122 @@
+/// Where a command gets its scene from: a file, standard input, options.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "tests/acceptance/program/program.hpp"
+#include "tests/table_1/scenes.hpp"
+
+namespace sonoglide::acceptance {
+namespace {
+
+const std::string open_loop = table_1_open_loop + R"([run]
+duration_periods = 4
+)";
+
+const std::string closed_loop = table_1_closed_loop + R"([run]
+duration_periods = 60
+[controller]
+arithmetic = "float32"
+target_friction_ratio = [[0.0, 0.4]]
+)";
+
+class SceneInputTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_.write("open.toml", open_loop);
+    folder_.write("closed.toml", closed_loop);
+  }
+
+  ScratchFolder folder_;
+};
+
+// Each from the end of what it checks, so that nothing is computed for long.
+const std::vector<std::string> scene_commands = {"run -",
+                                                 "pil - --board mps2-an386",
+                                                 "configure -",
+                                                 "sweep - --vary velocity_ratio=0.1:1:3",
+                                                 "work-precision -",
+                                                 "arithmetic -",
+                                                 "design -"};
+
+TEST_F(SceneInputTest, EveryCommandReadsStandardInputAndPlacesErrorsThere) {
+  folder_.write("bad.toml", "[plant]\nmass_kg = -1\n");
+  for (const std::string& command : scene_commands) {
+    const Outcome outcome = folder_.run(command + " <bad.toml");
+    EXPECT_EQ(outcome.exit_code, 2) << command;
+    EXPECT_EQ(outcome.err,
+              "<stdin>:2:11: plant.mass_kg: -1 is out of range; allowed: 1e-12 to 1e+06 kg\n")
+        << command;
+  }
+}
+
+TEST_F(SceneInputTest, EveryCommandTakesOverrides) {
+  for (const std::string& command : scene_commands) {
+    const Outcome outcome =
+        folder_.run(command + " --set plant.damping_N_s_per_m=0 --set plant.mass_kg=-1 <open.toml");
+    EXPECT_EQ(outcome.exit_code, 2) << command;
+    EXPECT_EQ(outcome.err,
+              "--set:2:1: plant.mass_kg: -1 is out of range; allowed: 1e-12 to 1e+06 kg\n")
+        << command;
+  }
+}
+
+TEST_F(SceneInputTest, StandardInputIsTheSceneStdin) {
+  EXPECT_EQ(folder_.run("run - --quiet <open.toml").exit_code, 0);
+  EXPECT_NE(folder_.read("out/stdin/summary.json"), "");
+  EXPECT_EQ(folder_.run("configure - --quiet <closed.toml").exit_code, 0);
+  EXPECT_NE(folder_.read("out/stdin/controller_configuration.hpp").find("the scene stdin."),
+            std::string::npos);
+  EXPECT_EQ(folder_.run("sweep - --quiet --vary friction.coefficient=0.1,0.2 <open.toml").exit_code,
+            0);
+  EXPECT_NE(folder_.read("out/stdin_sweep/sweep.csv"), "");
+}
+
+TEST_F(SceneInputTest, ErrorsThatShowLaterAreOfStandardInputToo) {
+  const Outcome outcome = folder_.run(
+      "configure - --plant float32 --set drive.waveform=square "
+      "--set solver.method=event_taylor <closed.toml");
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_EQ(outcome.err.find("--set:1:1: drive.waveform: "), 0U) << outcome.err;
+  EXPECT_EQ(folder_.run("configure - <open.toml").err.find("<stdin>:1:1: controller: missing"), 0U);
+}
+
+TEST_F(SceneInputTest, AKeyIsRemovedToMakeRoomForAnother) {
+  const Outcome outcome = folder_.run(
+      "run open.toml --quiet --set sliding.velocity_m_per_s= "
+      "--set 'sliding.profile=[[0,0.01],[1e-3,0.05]]'");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  const auto summary = nlohmann::json::parse(folder_.read("out/open/summary.json"));
+  EXPECT_EQ(summary.at("scene").at("sliding").dump(), "{\"profile\":[[0.0,0.01],[0.001,0.05]]}");
+}
+
+TEST_F(SceneInputTest, JsonIsTheSummaryAndNothingElse) {
+  for (const std::string scene : {"open.toml", "closed.toml"}) {
+    const std::vector<std::string> before = folder_.entries();
+    const Outcome outcome = folder_.run("run " + scene + " --json");
+    EXPECT_EQ(outcome.exit_code, 0);
+    EXPECT_EQ(outcome.err, "");
+    EXPECT_EQ(folder_.entries(), before) << "nothing is written";
+    EXPECT_EQ(folder_.run("run " + scene + " --quiet --out o").out, "");
+    nlohmann::json printed = nlohmann::json::parse(outcome.out);
+    nlohmann::json written = nlohmann::json::parse(folder_.read("o/summary.json"));
+    printed.erase("run");  // the time that it took
+    written.erase("run");
+    EXPECT_EQ(printed, written);
+    const Outcome both = folder_.run("run " + scene + " --json --out o");
+    EXPECT_EQ(both.out, folder_.read("o/summary.json"));
+    std::filesystem::remove_all(folder_.path() / "o");
+  }
+}
+
+TEST_F(SceneInputTest, AFailedRunPrintsNoJson) {
+  const Outcome outcome = folder_.run("run open.toml --json --set plant.mass_kg=0");
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_EQ(outcome.out, "");
+}
+
+}  // namespace
+}  // namespace sonoglide::acceptance

@@ -1,0 +1,96 @@
+/// Words that the program does not know are named, and what is nearest to them.
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "tests/acceptance/program/odd_names.hpp"
+#include "tests/acceptance/program/program.hpp"
+
+namespace sonoglide::acceptance {
+namespace {
+
+void expect_refused(const std::string& arguments, const std::string& errors) {
+  const ScratchFolder folder;
+  const Outcome outcome = folder.run(arguments);
+  EXPECT_EQ(outcome.exit_code, 2) << arguments;
+  EXPECT_EQ(outcome.out, "") << arguments;
+  EXPECT_EQ(outcome.err,
+            "sonoglide: " + errors + "\nsonoglide --help lists the commands and their options\n");
+  EXPECT_TRUE(folder.entries().empty());
+}
+
+TEST(UsageTest, AnUnknownOptionIsNamedWithTheNearestKnownOne) {
+  expect_refused("sweep a.toml --thread 3",
+                 "--thread is no option of sweep; did you mean --threads?");
+  expect_refused("run a.toml --quite", "--quite is no option of run; did you mean --quiet?");
+  expect_refused("run a.toml --ouput=b", "--ouput is no option of run; did you mean --out?");
+}
+
+TEST(UsageTest, WithNoneNearItNamesAll) {
+  expect_refused("run a.toml --jobs 3",
+                 "--jobs is no option of run; allowed: --help, --set, --out, --json, --quiet");
+  expect_refused("--fast", "--fast is no option of sonoglide; allowed: --help, --version");
+}
+
+TEST(UsageTest, ItComesBeforeWhatIsMissing) {
+  expect_refused("sweep a.toml --jobs=3",
+                 "--jobs is no option of sweep; allowed: --help, --set, --vary, --out, --threads, "
+                 "--quiet");
+  expect_refused("pil --bord microbit a.toml", "--bord is no option of pil; did you mean --board?");
+  expect_refused("sweep a.toml b.toml --jobs 3 c.toml",
+                 "b.toml is one argument too many for sweep\n"
+                 "--jobs is no option of sweep; allowed: --help, --set, --vary, --out, --threads, "
+                 "--quiet\n"
+                 "c.toml is one argument too many for sweep");
+}
+
+TEST(UsageTest, SeveralComeInTheirOrder) {
+  expect_refused("run a.toml --zzzzzz --aaaaaa b.toml",
+                 "--zzzzzz is no option of run; allowed: --help, --set, --out, --json, --quiet\n"
+                 "--aaaaaa is no option of run; allowed: --help, --set, --out, --json, --quiet");
+}
+
+TEST(UsageTest, AnUnknownCommandIsNamed) {
+  expect_refused("swep a.toml",
+                 "swep is no command; did you mean sweep?\n"
+                 "a.toml is no command; allowed: run, pil, configure, ratio, sweep, "
+                 "paper, work-precision, stability, arithmetic, design");
+}
+
+TEST(UsageTest, ValuesThatLookLikeOptionsAreValues) {
+  const ScratchFolder folder;
+  EXPECT_EQ(folder.run("ratio --velocity-ratio -0.5 --dahl-number 10").exit_code, 0);
+  EXPECT_EQ(folder.run("ratio --velocity-ratio=-0.5 --dahl-number=10").exit_code, 0);
+}
+
+TEST(UsageTest, AFileThatLooksLikeAnOptionIsRecognised) {
+  const ScratchFolder folder;
+  folder.write("-x.toml", "");
+  EXPECT_EQ(
+      folder.run("run -x.toml")
+          .err.find("sonoglide: -x.toml is no option of run; the file of that name is ./-x.toml\n"),
+      0U);
+}
+
+TEST(UsageTest, ValuesOutOfAListNameTheList) {
+  expect_refused("paper --figure twelve",
+                 "--figure: \"twelve\" is no figure; allowed: 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12");
+  expect_refused("paper --figure 13",
+                 "--figure: \"13\" is no figure; allowed: 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12");
+}
+
+TEST(UsageTest, WordsOfTheUserReachTheTerminalPrintable) {
+  for (const std::string& name : odd_names) {
+    const ScratchFolder folder;
+    for (const std::string command : {"", "run ", "run --", "run a --out ", "run a --set ",
+                                      "pil a --board ", "sweep a --vary ", "paper --figure "}) {
+      const Outcome outcome = folder.run(command + shell_word(name));
+      EXPECT_NE(outcome.exit_code, 0) << command << name;
+      EXPECT_TRUE(is_printable(outcome.err)) << command << outcome.err;
+    }
+    EXPECT_TRUE(folder.entries().empty());
+  }
+}
+
+}  // namespace
+}  // namespace sonoglide::acceptance
