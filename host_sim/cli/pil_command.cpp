@@ -7,6 +7,7 @@
 #include <string>
 
 #include "host_sim/cli/board_option.hpp"
+#include "host_sim/cli/design_notes.hpp"
 #include "host_sim/cli/output_option.hpp"
 #include "host_sim/cli/progress_bar.hpp"
 #include "host_sim/cli/run_watch.hpp"
@@ -60,6 +61,9 @@ void pil(const PilOptions& options) {
   const SceneInput input(options.scene);
   const scene::Scene scene = input.read();
   const std::string header = header_for(input, scene, board);
+  if (!options.quiet) {
+    print_design_notes(scene);
+  }
   const std::filesystem::path out = output_folder(options.out, scene.name, "_" + options.board);
   require_emulator(board);
   const process::Interruption interruption;

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "host_sim/cli/design_notes.hpp"
 #include "host_sim/cli/output_option.hpp"
 #include "host_sim/cli/progress_bar.hpp"
 #include "host_sim/cli/run_watch.hpp"
@@ -63,6 +64,9 @@ CLI::App* add_run_command(CLI::App& program, RunOptions& options) {
 
 void run(const RunOptions& options) {
   const scene::Scene scene = SceneInput(options.scene).read();
+  if (!options.quiet) {
+    print_design_notes(scene);
+  }
   const bool written = !options.json || !options.out.empty();
   fmt::print("{}", written ? compute_report(scene, output_folder(options.out, scene.name), options)
                            : compute_summary(scene, options.quiet));
