@@ -39,6 +39,8 @@ TEST(BatchPointTest, LeavesTheRestToTheScalarSolver) {
   EXPECT_FALSE(taken({"solver.tolerance=1e-4", "run.window_start_periods=0.25"}));
   EXPECT_FALSE(taken({"solver.tolerance=1e-4", "friction.coefficient=0"}));
   EXPECT_FALSE(taken({"solver.tolerance=1e-4", "run.start='steady'"}));
+  EXPECT_FALSE(taken({"solver.tolerance=1e-4", "plant.stiffness_N_per_m=0"})) << "a mass drifts";
+  EXPECT_FALSE(taken({"solver.tolerance=1e-4", "plant.stiffness_N_per_m=1e10"})) << "a fast mode";
   EXPECT_FALSE(taken({"solver.method=rk4", "solver.step_s=1.667e-8"}));
   EXPECT_FALSE(taken({"solver.tolerance=1e-4"}, closed_loop));
 }
