@@ -40,8 +40,8 @@ class EventGauss {
   static constexpr bool solves =
       !Law::sticks && Law::varies && Law::rate_independent && !Law::remembers;
 
-  /// tolerance: of the mean friction, relative to Fc, and of the velocity, in units of its scale;
-  /// > 0. Not a bound: over a hundred periods of the contacts tested the error was below it.
+  /// tolerance: of the mean friction over a hundred carrier periods, relative to Fc, and of the
+  /// velocity, in units of its scale; > 0. Kept as EventTaylor keeps it.
   /// step_limit: the most steps that one advance may take.
   void configure(const Model& model, Scalar tolerance,
                  std::uint32_t step_limit = max_steps_per_advance) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <type_traits>
 
 #include "firmware/plant/contact.hpp"
 #include "firmware/plant/damping.hpp"
@@ -30,14 +31,6 @@ template <class Drive, class Law>
 std::unique_ptr<PlantPort> with_damping(const PlantDescription& description,
                                         const plant::Contact<Law>& contact) {
   const double damping = description.numbers.damping;
-  // A sliding speed that changes is a composition that few scenes name: damped, be it by nothing.
-  // Without friction nothing depends on it.
-  if constexpr (Law::reverses) {
-    if (!SlidingProfile(description.scene.sliding).is_constant()) {
-      return with_solver<Drive, plant::LinearSliding>(description, contact,
-                                                      plant::Damped<double>{damping});
-    }
-  }
   // A force that depends on the speed damps anyhow: no composition of it without damping.
   if constexpr (Law::rate_independent) {
     if (!(damping > 0.0)) {
@@ -49,28 +42,38 @@ std::unique_ptr<PlantPort> with_damping(const PlantDescription& description,
                                                     plant::Damped<double>{damping});
 }
 
+/// Few scenes name a sliding speed that changes, or a straight drive: of all those one composition
+/// each, damped, be it by nothing, and driven, be it at no amplitude.
+template <class Drive, class Law>
+std::unique_ptr<PlantPort> with_any_sliding(const PlantDescription& description,
+                                            const plant::Contact<Law>& contact) {
+  return with_solver<Drive, plant::LinearSliding>(
+      description, contact, plant::Damped<double>{description.numbers.damping});
+}
+
 template <class Law>
 std::unique_ptr<PlantPort> make_law_plant(const PlantDescription& description, const Law& law) {
   const scene::Scene& scene = description.scene;
   const auto contact =
       scene::plant_contact<double>(law, scene.friction, description.scales, description.numbers);
   const bool driven = scene.drive && (scene.drive->force_amplitude_N > 0.0 || scene.controller);
-  if (!driven) {
-    return with_damping<plant::NoDrive>(description, contact);
-  }
-  // Straight drives are compositions that few scenes name: damped, be it by nothing, and for every
-  // sliding.
-  const plant::Damped<double> damping{description.numbers.damping};
-  switch (scene.drive->waveform) {
+  switch (driven ? scene.drive->waveform : scene::Waveform::cosine) {
     case scene::Waveform::square:
-      return with_solver<plant::LevelDrive, plant::LinearSliding>(description, contact, damping);
+      return with_any_sliding<plant::LevelDrive>(description, contact);
     case scene::Waveform::triangle:
     case scene::Waveform::sawtooth:
-      return with_solver<plant::RampDrive, plant::LinearSliding>(description, contact, damping);
+      return with_any_sliding<plant::RampDrive>(description, contact);
     case scene::Waveform::cosine:
       break;
   }
-  return with_damping<plant::CosineDrive>(description, contact);
+  // Without friction nothing depends on the sliding.
+  if constexpr (!std::is_same_v<Law, scene::laws::None>) {
+    if (!SlidingProfile(scene.sliding).is_constant()) {
+      return with_any_sliding<plant::CosineDrive>(description, contact);
+    }
+  }
+  return driven ? with_damping<plant::CosineDrive>(description, contact)
+                : with_damping<plant::NoDrive>(description, contact);
 }
 
 }  // namespace sonoglide::loop

@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "firmware/numeric/turn.hpp"
+#include "firmware/plant/step_share.hpp"
 #include "host_sim/loop/carrier_grid.hpp"
 #include "host_sim/scene/plant_scales.hpp"
 #include "host_sim/scene/solver_methods.hpp"
@@ -23,6 +24,11 @@ bool suits_lanes(const scene::Scene& scene) {
          scene.sliding.profile.size() == 1 &&
          solver.method == scene::method_of<scene::solvers::EventTaylor> && !solver.order &&
          solver.tolerance >= fine_tolerance;
+}
+
+/// The lanes take steps of one share of their tolerance.
+bool adds_up_errors(const batch::DahlPlant& plant) {
+  return plant::step_share(plant.stiffness, plant::Drift::of_velocity) < 1.0;
 }
 
 batch::DahlPlant plant_of(const scene::Scene& scene) {
@@ -54,8 +60,12 @@ std::optional<BatchPoint> batch_point(const scene::Scene& scene) {
   if (!periods || !window_start || *window_start >= *periods || *periods > most_periods) {
     return std::nullopt;
   }
+  const batch::DahlPlant plant = plant_of(scene);
+  if (adds_up_errors(plant)) {
+    return std::nullopt;
+  }
   return BatchPoint{
-      plant_of(scene),
+      plant,
       {static_cast<std::uint32_t>(*periods), static_cast<std::uint32_t>(*window_start)},
       scene.solver.tolerance >= map_tolerance ? batch::Accuracy::map : batch::Accuracy::fine};
 }

@@ -39,6 +39,15 @@ TEST(TransverseSceneTest, FixedStepsAgree) {
   EXPECT_NEAR(window_ratios(scene).friction_ratio, ratio, 1e-8);
 }
 
+/// The value is that of an integrator of other origin.
+TEST(TransverseSceneTest, FollowsASlidingProfileWithinThePeriods) {
+  scene::Scene scene = transverse(table_1());
+  scene.sliding.profile = {{0.0, 0.01}, {1e-3, 0.05}};
+  scene.run.duration_s = 1e-3;
+  scene.run.window_start_s = 0.0;
+  EXPECT_NEAR(window_ratios(scene).friction_ratio, 0.649584, 1e-6);
+}
+
 TEST(TransverseSceneTest, EnergyIdentity) {
   scene::Scene scene = transverse(table_1());
   scene.friction.normal_force_N = 1000.0;

@@ -42,6 +42,8 @@ TEST(BatchPointTest, LeavesTheRestToTheScalarSolver) {
   scene::Scene moving = scene_with({"solver.tolerance=1e-4"});
   moving.friction.coefficient_profile = {{0.0, 0.1}, {1e-4, 0.2}};
   EXPECT_FALSE(batch_point(moving).has_value());
+  EXPECT_FALSE(taken({"solver.tolerance=1e-4", "plant.stiffness_N_per_m=0"})) << "a mass drifts";
+  EXPECT_FALSE(taken({"solver.tolerance=1e-4", "plant.stiffness_N_per_m=1e10"})) << "a fast mode";
   EXPECT_FALSE(taken({"solver.method=rk4", "solver.step_s=1.667e-8"}));
   EXPECT_FALSE(taken({"solver.tolerance=1e-4"}, closed_loop));
 }
