@@ -288,15 +288,18 @@ class Controller {
     return request({Scalar{}, Limit::none});
   }
 
-  /// The friction force learnt in a pause; the request stands in this period. What feedback had
-  /// made up for of the force is taken from it; of a loop that had not settled that cannot be told.
+  /// The friction force learnt in a pause; the request stands in this period. Of a settled loop what
+  /// feedback had made up for of a small change is taken from it; otherwise it begins anew.
   DriveCommand<Scalar> learn_anew() {
-    const Scalar target_force = numeric::twice(target_) * level_.force();
+    const Scalar before = level_.force();
+    const Scalar target_force = numeric::twice(target_) * before;
     take_friction_force(relearning_.force());
     if (state_ == State::fault) {
       return undriven(Limit::none);
     }
-    if (watch_.settling() == Settling::settled) {
+    const bool small =
+        numeric::abs(relearning_.force() - before) < numeric::scale_by_power_of_two(before, -4);
+    if (small && watch_.settling() == Settling::settled) {
       regulator_.shift(target_, level_.half_ratio(target_force));
     } else {
       regulator_.restart(target_);

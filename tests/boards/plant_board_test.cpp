@@ -60,7 +60,7 @@ class PlantBoardTest : public testing::Test {
     ToldSolver::error = plant::Error::none;
   }
 
-  PlantBoard<ToldSolver> board_{{{}, 1.0F, {}, 2.0F, 1.0F, 0.25F, 77}};
+  PlantBoard<ToldSolver, 0> board_{{{}, 1.0F, {}, 2.0F, 1.0F, 0.25F, 77}};
 };
 
 RC_GTEST_FIXTURE_PROP(PlantBoardTest, SamplesAsTheIdealSensorOfASimulationDoes, ()) {
@@ -100,7 +100,7 @@ TEST_F(PlantBoardTest, LivesThroughOnePeriodUnderTheLatestDrive) {
   EXPECT_EQ(ToldSolver::asked.duration, 6.28318548F);  // the float nearest to 2 pi
   EXPECT_EQ(ToldSolver::asked.sliding_velocity, 0.25F);
   EXPECT_EQ(ToldSolver::asked.sliding_acceleration, 0.0F);
-  board_.drive({1 << 30, 0, 0, 0});
+  board_.drive({1 << 30, 0, 0, 0, 0, 0});
   board_.sample(sample);
   EXPECT_EQ(ToldSolver::asked.drive_amplitude, 1.0F);
 }

@@ -74,17 +74,17 @@ TEST_F(TemplateBoard, CountsPeriodsAcrossTheirOverflow) {
 
 TEST_F(TemplateBoard, DrivesWithTheUpperBitsOfTheAmplitude) {
   Board board;
-  board.drive({INT32_MAX, 0, 0, 0});
+  board.drive({INT32_MAX, 0, 0, 0, 0, 0});
   EXPECT_EQ(carrier.amplitude, 1023U);
-  board.drive({1 << 30, 0, 0, 0});
+  board.drive({1 << 30, 0, 0, 0, 0, 0});
   EXPECT_EQ(carrier.amplitude, 512U);
-  board.drive({0, 0, 0, 0});
+  board.drive({0, 0, 0, 0, 0, 0});
   EXPECT_EQ(carrier.amplitude, 0U);
 }
 
 TEST_F(TemplateBoard, StopsWithTheDriveOff) {
   Board board;
-  board.drive({INT32_MAX, 0, 0, 0});
+  board.drive({INT32_MAX, 0, 0, 0, 0, 0});
   carrier.stop = 1;
   Sample sample{};
   EXPECT_FALSE(board.sample(sample));

@@ -82,7 +82,7 @@ TEST_F(TimedBoard, DrivesFromTheNextPeriodOn) {
   turn(period_ticks);
   board.sample(sample);
   EXPECT_EQ(sample.friction_force, StandInContact::undriven_friction);
-  board.drive({INT32_MAX, 0, 0, 0});
+  board.drive({INT32_MAX, 0, 0, 0, 0, 0});
   turn(period_ticks);
   board.sample(sample);
   EXPECT_LT(sample.friction_force, StandInContact::undriven_friction / 10 * 6);
@@ -93,7 +93,7 @@ TEST_F(TimedBoard, DrivesFromTheNextPeriodOn) {
 // As an exception's handler takes the drive away, behind the loop's back.
 TEST_F(TimedBoard, IsNotDrivenWhereTheRegisterIsCleared) {
   Sample sample{};
-  board.drive({INT32_MAX, 0, 0, 0});
+  board.drive({INT32_MAX, 0, 0, 0, 0, 0});
   drive_amplitude = 0;
   turn(10 * period_ticks);
   board.sample(sample);

@@ -119,7 +119,8 @@ TEST(FrictionJumpTest, IsNamedWithBelievedOverTrueFriction) {
     const nlohmann::json step = step_of(summary_of("target_step", friction_jump(factor)));
     EXPECT_EQ(step.at("limit"), "mismatch") << factor;
     EXPECT_EQ(step.at("limit_seen_by"), "controller") << factor;
-    EXPECT_NEAR(step.at("mismatch").get<double>() * factor, 1.0, 0.1) << factor;
+    // The map takes the presliding travel from the believed friction force.
+    EXPECT_NEAR(step.at("mismatch").get<double>() * factor, 1.0, 0.2) << factor;
     EXPECT_NEAR(step.at("steady_error").get<double>(), 0.5 / factor - 0.5, 0.005) << factor;
   }
 }
