@@ -121,7 +121,7 @@ TEST_F(PlantBoardTest, IsWatchedWithoutADifference) {
     ASSERT_TRUE(watched.sample(sample));
     EXPECT_EQ(sample.friction_force, i << 29);
     counter += static_cast<std::uint32_t>(10 * i);  // the controller at work
-    const Drive drive{i << 28, 1, 2, 3};
+    const Drive drive{i << 28, i << 27, 1, 2, 3, 4};
     watched.drive(drive);
     samples.add(sample);
     drives.add(drive);
