@@ -24,7 +24,7 @@ control::Limit prevailing_limit(std::array<std::uint64_t, Limits> count) {
 StepMeter::StepMeter(const scene::Scene& scene)
     : cursor_(scene),
       band_(scene.run.settling_band),
-      tells_mismatch_(scene::design_control(scene).tells_mismatch) {
+      tells_mismatch_(scene::tells_mismatch(scene)) {
   for (const TargetSpan& span : cursor_.spans()) {
     Tally tally;
     tally.settled_s = span.begin_s;

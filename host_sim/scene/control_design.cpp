@@ -180,13 +180,7 @@ void design_supervision(const Scene& scene, const BelievedPlant& plant, ControlD
   constexpr double holds = 4.0;
   constexpr double patience_margin = 40.0;
   design.settling_patience_periods = whole_periods(holds * design.hold_periods + patience_margin);
-  // Another law's or wave's map is off by itself, whatever the friction force; so is any where
-  // friction slows the vibration.
-  constexpr double light_friction = 0.02;  // of the drive
-  design.tells_mismatch = has_own_map(scene.friction.law) &&
-                          scene.drive->waveform == Waveform::cosine &&
-                          plant.friction_N < light_friction * scene.drive->max_force_amplitude_N;
-  design.agreement = design.tells_mismatch ? 1.0 / scene.controller->mismatch_warning : 0.0;
+  design.agreement = tells_mismatch(scene) ? 1.0 / scene.controller->mismatch_warning : 0.0;
 }
 
 /// value/scale, or an error in the name of the key that one should change.
@@ -417,6 +411,12 @@ ControlDesign design_control(const Scene& scene) {
   design_slew(*scene.drive, design);
   design_relearning(scene, plant, design);
   return design;
+}
+
+bool tells_mismatch(const Scene& scene) {
+  constexpr double light_friction = 0.02;  // of the drive
+  return has_own_map(scene.friction.law) && scene.drive->waveform == Waveform::cosine &&
+         believed_plant(scene).friction_N < light_friction * scene.drive->max_force_amplitude_N;
 }
 
 std::vector<std::string> design_notes(const ControlDesign& design) {

@@ -43,8 +43,8 @@ struct ControlDesign {
   double standstill_fall = 0.0;  ///< of the amplitude after that, per carrier period
   double settling_band = 0.0;    ///< as the sensor shows it, on base 2
   std::uint16_t settling_patience_periods = 0;
-  bool tells_mismatch = false;  ///< commanded over target ratio tells believed over true friction
-  double agreement = 0.0;       ///< 1 / controller.mismatch_warning; 0: nothing is told
+  double agreement =
+      0.0;  ///< 1 / controller.mismatch_warning; 0: nothing is told, see tells_mismatch
 
   bool free_mode = false;  ///< the plant has a natural mode that no notch takes care of
 
@@ -73,6 +73,10 @@ struct ControlDesign {
 /// @throws ConfigurationError where no controller exists: resonance with next to no damping, speeds
 ///         or forces outside the per-unit range.
 ControlDesign design_control(const Scene& scene);
+
+/// Whether commanded over target ratio tells believed over true friction: the feedforward's map is
+/// the law's own, and friction too light to slow the vibration.
+bool tells_mismatch(const Scene& scene);
 
 /// What one should know of a design before it runs, a sentence each.
 std::vector<std::string> design_notes(const ControlDesign& design);

@@ -60,7 +60,7 @@ const std::vector<BrokenScene> broken_scenes = {
      "arithmetic = \"float32\"\ncalibration_s = 20e-6",
      "17:17: controller.calibration_s: is too short for contact and sensor to settle; allowed: 0 "
      "(no "
-     "calibration), or at least 0.000117 s"},
+     "calibration), or at least 0.000133 s"},
     // Names
     {"unknown_key_near", open_loop, "mass_kg = 0.02", "mas_kg = 0.02",
      "2:1: plant.mas_kg: unknown key; did you mean mass_kg?"},

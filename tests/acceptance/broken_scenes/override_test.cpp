@@ -26,7 +26,7 @@ const std::vector<BadOverride> bad_overrides = {
      "--set:1:1: plant.mass_kg: no value; allowed: TABLE.KEY=VALUE, or TABLE.KEY= to remove the "
      "key"},
     {"removed", "--set plant.mass_kg=",
-     "scene.toml:1:1: plant.mass_kg: missing; required: a number, 1e-12 to 1e+06 kg"},
+     "scene.toml:1:2: plant.mass_kg: missing; required: a number, 1e-12 to 1e+06 kg"},
     {"no_key", "--set =3",
      "--set:1:1: --set: no key; allowed: TABLE.KEY=VALUE, or TABLE.KEY= to remove the key"},
     {"whole_table", "--set plant=3",
