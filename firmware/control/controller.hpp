@@ -288,8 +288,8 @@ class Controller {
     return request({Scalar{}, Limit::none});
   }
 
-  /// The friction force learnt in a pause; the request stands in this period. Of a settled loop what
-  /// feedback had made up for of a small change is taken from it; otherwise it begins anew.
+  /// The friction force learnt in a pause; the request stands in this period. Of a settled loop
+  /// what feedback had made up for of a small change is taken from it; otherwise it begins anew.
   DriveCommand<Scalar> learn_anew() {
     const Scalar before = level_.force();
     const Scalar target_force = numeric::twice(target_) * before;

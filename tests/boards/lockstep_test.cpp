@@ -15,6 +15,7 @@
 #include "hal/lockstep/frame.hpp"
 #include "hal/trace_hash.hpp"
 #include "host_sim/emulator/board_list.hpp"
+#include "host_sim/loop/actuator.hpp"
 #include "host_sim/loop/control_port.hpp"
 #include "host_sim/loop/plant_port.hpp"
 #include "host_sim/loop/run.hpp"
@@ -94,13 +95,16 @@ void expect_the_hosts_commands(const scene::Scene& scene, ImageProcess& board) {
   const scene::ControlDesign& design = record.design;
   SensedPlant plant(scene, design);
   hal::TraceHash hash;
-  double amplitude_N = 0.0;
+  loop::Actuator actuator(scene.drive->delay_periods, design.scales.drive_amplitude_N);
+  const std::size_t latency = static_cast<std::size_t>(scene.drive->delay_periods) + 1;
   for (std::size_t k = 0; k < host.periods.size(); ++k) {
-    const hal::Drive drive = board.exchange(plant.advance(host.periods[k], amplitude_N));
+    const hal::Drive drive =
+        board.exchange(plant.advance(host.periods[k], actuator.in_force().amplitude_N));
     hash.add(drive);
-    amplitude_N = drive.amplitude * 0x1p-31 * design.scales.drive_amplitude_N;
-    if (k + 1 < host.periods.size()) {
-      const loop::Period& answered = host.periods[k + 1];
+    actuator.take(drive, host.periods[k].target);
+    if (k + latency < host.periods.size()) {
+      const loop::Period& answered = host.periods[k + latency];
+      const double amplitude_N = drive.amplitude * 0x1p-31 * design.scales.drive_amplitude_N;
       ASSERT_EQ(amplitude_N, answered.drive_amplitude_N) << "carrier period " << k;
       ASSERT_EQ(drive.state, static_cast<std::uint8_t>(answered.state)) << "carrier period " << k;
       ASSERT_EQ(drive.limit, static_cast<std::uint8_t>(answered.limit)) << "carrier period " << k;

@@ -70,7 +70,7 @@ TYPED_TEST(Supervision, AReadingWiredBackwardsIsAFault) {
   int steps = 0;
   while (loop.command().fault == Fault::none && steps < 1000) {
     auto sample = loop.measurement(0.1);
-    sample.friction_force = -sample.friction_force;
+    sample.friction_force = scaled<TypeParam>(-0.8) * sample.friction_force;
     loop.answer(sample);
     ++steps;
   }

@@ -92,8 +92,13 @@ function(sonoglide_emulated_board name)
     USES sonoglide_emulated_board sonoglide_semihosting)
   if(BOARD_TIMED_HARDWARE)
     set(timed_main firmware/app/image/timed_unit.cpp)
+    set(timed_images timed)
+    # Of the tests, which a tree of the product alone does not have.
     set(exception_main tests/boards/exception_unit.cpp)
-    foreach(image timed exception)
+    if(EXISTS "${PROJECT_SOURCE_DIR}/${exception_main}")
+      list(APPEND timed_images exception)
+    endif()
+    foreach(image IN LISTS timed_images)
       sonoglide_images(_${image} SOURCE ${${image}_main} MEMORY ${BOARD_FOLDER}/${BOARD_MEMORY}
         CLASS ${BOARD_TIMED_HARDWARE} HEADER ${BOARD_FOLDER}/timed_hardware.hpp
         USES sonoglide_emulated_board sonoglide_halt)

@@ -54,7 +54,7 @@ const std::vector<BrokenScene> broken_scenes = {
      "allowed: 0.0001 to below 1"},
     {"converter_too_coarse", closed_loop, "adc_bits = 12", "adc_bits = 8\nforce_full_scale_N = 2",
      "19:12: sensor.adc_bits: one code is 0.796 of the believed friction force; allowed: at most "
-     "0.25, "
+     "0.125, "
      "by more bits or a smaller sensor.force_full_scale_N"},
     {"calibration_too_short", closed_loop, "arithmetic = \"float32\"",
      "arithmetic = \"float32\"\ncalibration_s = 20e-6",

@@ -147,7 +147,8 @@ TEST(StepMetricsTest, AStepThatCalibrationHasSwallowedIsNotMeasured) {
   EXPECT_FALSE(steps[0].settling_time_s);
   EXPECT_TRUE(std::isnan(steps[0].steady_error));
   EXPECT_TRUE(std::isnan(steps[0].ripple));
-  EXPECT_EQ(steps[0].limit, control::Limit::none);
+  EXPECT_EQ(steps[0].limit, control::Limit::not_settling);
+  EXPECT_FALSE(steps[0].limit_seen_by_controller);
   ASSERT_TRUE(steps[1].settling_time_s);
   EXPECT_NEAR(*steps[1].settling_time_s, 1e-3, 1e-12);
   // The ratio came down from 1, whatever the target was during calibration.

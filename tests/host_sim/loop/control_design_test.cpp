@@ -129,10 +129,10 @@ TEST(ControlDesignTest, IntegralIsSlowerTheLongerTheSensorTakes) {
     const ControlDesign design = design_control(scene);
     EXPECT_LT(design.integral_gain, faster);
     EXPECT_GT(design.integral_gain, 0.0);
-    EXPECT_GE(design.hold_periods, 3 + delay);
-    EXPECT_GT(design.stuck_periods, 3 + delay);
+    EXPECT_GE(design.hold_periods, 4 + delay);
+    EXPECT_GT(design.stuck_periods, 4 + delay);
     // An integrator behind D periods of delay oscillates at this gain.
-    const double critical = 2.0 * std::sin(pi / (4.0 * (3.0 + delay) + 2.0));
+    const double critical = 2.0 * std::sin(pi / (4.0 * (4.0 + delay) + 2.0));
     EXPECT_NEAR(design.integral_gain, critical / 3.0, 1e-12);
     faster = design.integral_gain;
   }
@@ -265,7 +265,9 @@ TEST(ControlDesignTest, CalibrationIsCountedInCarrierPeriods) {
   scene.controller->calibration_s = 0.5e-3;
   const ControlDesign design = design_control(scene);
   ASSERT_TRUE(design.calibrated);
-  EXPECT_EQ(design.calibration_settle_periods + design.calibration_average_periods, 30U);
+  // The drive begins in the period after the last sample.
+  EXPECT_EQ(design.calibration_total_periods, 29U);
+  EXPECT_EQ(design.calibration_settle_periods + design.calibration_average_periods, 29U);
   EXPECT_GT(design.calibration_average_periods, 0U);
 }
 

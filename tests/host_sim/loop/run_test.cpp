@@ -153,14 +153,23 @@ TEST(RunTest, TheMeanOfThePeriodsIsThatOfTheRun) {
   EXPECT_NEAR(sum / static_cast<double>(logged.periods.size()), whole, 1e-12);
 }
 
-TEST(RunTest, ACommandActsInTheNextPeriodAndATargetFromItsTimeOn) {
-  const LoggedRun logged = run_logged(table_1_closed_loop());
-  EXPECT_EQ(logged.periods[0].drive_amplitude_N, 0.0);
-  EXPECT_TRUE(std::isnan(logged.periods[0].target));
-  for (std::size_t i = 1; i < logged.periods.size(); ++i) {
-    EXPECT_EQ(logged.periods[i].target, logged.periods[i].begin_s < 1e-3 - 1e-9 ? 0.4 : 0.6) << i;
+// A target is set with the sample that ends at its time; the answer acts a latency later.
+TEST(RunTest, ACommandActsAfterTheLatencyAndATargetFromItsTimeOn) {
+  for (const int latency : {0, 1, 3}) {
+    Scene scene = table_1_closed_loop();
+    scene.drive->delay_periods = latency;
+    const LoggedRun logged = run_logged(scene);
+    const auto late = static_cast<std::size_t>(latency);
+    for (std::size_t i = 0; i <= late; ++i) {
+      EXPECT_EQ(logged.periods[i].drive_amplitude_N, 0.0);
+      EXPECT_TRUE(std::isnan(logged.periods[i].target));
+    }
+    for (std::size_t i = late + 1; i < logged.periods.size(); ++i) {
+      EXPECT_EQ(logged.periods[i].target, i < 60 + late ? 0.4 : 0.6) << i;
+    }
+    EXPECT_NE(logged.periods[60 + late].drive_amplitude_N,
+              logged.periods[59 + late].drive_amplitude_N);
   }
-  EXPECT_NE(logged.periods[60].drive_amplitude_N, logged.periods[59].drive_amplitude_N);
 }
 
 /// Ends a run in its hundredth carrier period.

@@ -63,7 +63,8 @@ std::size_t count(const std::string& text, const std::string& part) {
 
 TEST(PageHtml, EscapesTextWhereverItStands) {
   const std::string nasty = "<b>\"a\" & 'b'</b></script><!--";
-  const std::string safe = "&lt;b&gt;&quot;a&quot; &amp; &#39;b&#39;&lt;/b&gt;&lt;/script&gt;&lt;!--";
+  const std::string safe =
+      "&lt;b&gt;&quot;a&quot; &amp; &#39;b&#39;&lt;/b&gt;&lt;/script&gt;&lt;!--";
   Panel drawn = panel({0.0, 1.0}, {1.0, 2.0});
   drawn.title = drawn.note = drawn.x_label = drawn.y_label = drawn.group = nasty;
   drawn.series[0].label = nasty;

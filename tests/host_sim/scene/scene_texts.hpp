@@ -174,6 +174,7 @@ settling_band = 0.02
 arithmetic = "float32"
 target_friction_ratio = [[0.0, 0.4], [2e-3, 0.6]]
 calibration_s = 0.5e-3
+relearn_every_s = 0.1
 shaping = "none"
 speed_floor_m_per_s = 1e-4
 [sensor]
