@@ -368,8 +368,8 @@ class Controller {
     const Scalar amplitude = numeric::clamp(shaped, Scalar{}, highest);
     const bool clipped = shaped < Scalar{} || (highest <= shaped && requested_ < highest);
     Limit limit = clipped && request.limit == Limit::none ? Limit::actuator : request.limit;
-    followed_ = limit == Limit::none;
-    const bool judged = followed_ && !pausing();
+    followed_ = limit == Limit::none || limit == Limit::ratio_end;
+    const bool judged = limit == Limit::none && !pausing();
     if (judged) {
       limit = watch_.limit_named();
     }

@@ -29,14 +29,12 @@ constexpr const char* controller_name = "controller";
   throw process::ProcessError(text::printable(path.string()) + ": " + reason);
 }
 
-/// To CMake a semicolon is the end of a path, and it or Ninja's shell stumble over a few others.
+/// To CMake a semicolon is the end of a path, and it, Ninja or the shell stumble over a few others.
 void require_for_cmake(const fs::path& path) {
   const std::string name = path.string();
-  const bool special =
-      name.find_first_of(";\"\\<>|") != std::string::npos || name.find("${") != std::string::npos;
-  if (special || text::printable(name) != name) {
+  if (name.find_first_of(";\"\\<>|$") != std::string::npos || text::printable(name) != name) {
     fail(path,
-         "cannot be used by CMake; allowed: a path in UTF-8 without ; \" \\ < > | ${ and control "
+         "cannot be used by CMake; allowed: a path in UTF-8 without ; \" \\ < > | $ and control "
          "characters");
   }
 }

@@ -101,7 +101,7 @@ constexpr control::Fault no_fault = control::Fault::none;
 constexpr control::Limit no_limit = control::Limit::none;
 constexpr Script scripts[] = {
     {"force_stuck", 100, for_good, stuck_force, control::Fault::measurement_stuck, no_limit, 39},
-    {"force_dead", 60, for_good, dead_force, control::Fault::measurement_stuck, no_limit, 20},
+    {"force_dead", 60, for_good, dead_force, control::Fault::measurement_stuck, no_limit, 17},
     {"force_at_rail", 60, 1, force_at_rail, control::Fault::measurement_saturated, no_limit, 0},
     {"missing_once", 60, 1, missing, control::Fault::measurement_missing, no_limit, 0},
     {"missing_twice", 150, 2, missing, control::Fault::measurement_missing, no_limit, 0},
@@ -205,12 +205,12 @@ void expect_limited(const std::vector<hal::Drive>& drives, std::size_t from, std
 }
 
 /// The drive is what it is without any alteration, but for what the actuator's end left in the
-/// natural mode.
+/// undamped natural mode: the ringing lowers the friction too, and feedback takes that off.
 void expect_settled(const std::vector<hal::Drive>& drives, const std::vector<hal::Drive>& unaltered,
                     std::size_t from) {
   for (std::size_t k = from; k < drives.size(); ++k) {
     ASSERT_EQ(drives[k].fault, 0) << "period " << k;
-    ASSERT_NEAR(drives[k].amplitude * 0x1p-31, unaltered[k].amplitude * 0x1p-31, 0.02)
+    ASSERT_NEAR(drives[k].amplitude * 0x1p-31, unaltered[k].amplitude * 0x1p-31, 0.025)
         << "period " << k;
   }
 }

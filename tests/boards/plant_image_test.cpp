@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <iostream>
 #include <map>
@@ -45,23 +46,26 @@ constexpr double two_pi = 6.28318530717958647693;
 class HashedControl final : public loop::ControlPort {
  public:
   explicit HashedControl(const scene::Scene& scene)
-      : port_(loop::make_control_port(scene, scene::design_control(scene))) {}
+      : port_(loop::make_control_port(scene, scene::design_control(scene))),
+        amplitudes_(static_cast<std::size_t>(scene.drive->delay_periods) + 1, 0) {}
 
   void set_target(double friction_ratio) override { port_->set_target(friction_ratio); }
   hal::Drive exchange(const hal::Sample& sample) override {
     samples_.add(sample);
-    drive_ = port_->exchange(sample);
-    return drive_;
+    const hal::Drive drive = port_->exchange(sample);
+    amplitudes_.push_back(drive.amplitude);
+    return drive;
   }
   std::vector<numeric::SignalRecord> signals() const override { return {}; }
 
-  const hal::Drive& latest_drive() const { return drive_; }
+  /// In force in a carrier period: of the answers so far, after the drive's delay.
+  std::int32_t amplitude(std::size_t period) const { return amplitudes_.at(period); }
   std::uint64_t sample_hash() const { return samples_.value(); }
 
  private:
   std::unique_ptr<loop::ControlPort> port_;
   hal::TraceHash samples_;
-  hal::Drive drive_{};
+  std::vector<std::int32_t> amplitudes_;
 };
 
 /// A carrier period of a plant that is not the simulation's.
@@ -163,7 +167,7 @@ ClosedLoop closed_loop(const scene::Scene& scene, Plant plant) {
   loop::ControlRun run(scene, grid, control, record);
   ClosedLoop result;
   for (std::uint64_t k = 0; k < grid.count(); ++k) {
-    const LivedPeriod period = plant.advance(control.latest_drive().amplitude);
+    const LivedPeriod period = plant.advance(control.amplitude(k));
     run.step(grid.end_s(k), period.reading * record.design.scales.force_N,
              scene.sliding.profile.front().velocity_m_per_s);
     result.friction_ratios.push_back(period.friction_ratio);

@@ -108,7 +108,7 @@ TEST_F(ImageTrustTest, AnImageThatAnswersOtherwiseIsTold) {
 
 TEST_F(ImageTrustTest, AFolderThatCMakeCannotTakeIsRefusedBeforeIt) {
   for (const std::string name :
-       {"a;b", "a\"b", "a\\b", "a<b", "a>b", "a|b", "a${b}", "a\nb", "caf\xe9"}) {
+       {"a;b", "a\"b", "a\\b", "a<b", "a>b", "a|b", "a${b}", "a$(b)", "a\nb", "caf\xe9"}) {
     const fs::path odd = folder_.path() / name;
     fs::create_directory(odd);
     const std::vector<std::string> before = folder_.entries();
@@ -123,7 +123,7 @@ TEST_F(ImageTrustTest, AFolderThatCMakeCannotTakeIsRefusedBeforeIt) {
 }
 
 TEST_F(ImageTrustTest, AnyOtherFolderServes) {
-  const fs::path odd = cache_.path() / "it's a $(false) `x` #&@%~!^[y]{z}*?:=é";
+  const fs::path odd = cache_.path() / "it's a (false) `x` #&@%~!^[y]{z}*?:=é";
   fs::create_directory(odd);
   setenv("XDG_CACHE_HOME", odd.c_str(), 1);
   EXPECT_EQ(folder_.run("pil " + scene + " --board mps2-an386 --quiet").exit_code, 0);

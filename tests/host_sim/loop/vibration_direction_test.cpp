@@ -115,6 +115,7 @@ TEST(NormalSceneTest, SteadyOrbitIsTheClosedForms) {
 TEST(NormalSceneTest, ClosedLoopReachesItsTargets) {
   scene::Scene scene = normal(table_1_closed_loop(), 0.4);
   scene.controller->target_friction_ratio = {{0.0, 0.8}, {1e-3, 0.6}};
+  scene.run.duration_s = 4e-3;
   const LoggedRun logged = run_logged(scene);
   ASSERT_TRUE(logged.result.control.has_value());
   EXPECT_TRUE(logged.result.control->faults.empty());
