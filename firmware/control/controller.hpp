@@ -139,10 +139,11 @@ class Controller {
     }
     const Fault unusable = inspect(measurement);
     if (!samples_.accept(unusable == Fault::none)) {
-      return trip(unusable);
+      trip(unusable);
+      return undriven(Limit::none);
     }
     if (unusable != Fault::none) {
-      return bridge();
+      return state_ == State::calibrating ? undriven(Limit::bad_sample) : apply(bridge());
     }
     const Scalar velocity = measurement.sliding_velocity;
     const Scalar speed = foresight_.speed(velocity);
@@ -153,10 +154,8 @@ class Controller {
     if (backwards != backwards_) {
       turn(backwards);
     }
-    if (!(speed < speed_floor_)) {
-      return slide(measurement, speed);
-    }
-    return stand();
+    const Request wanted = speed < speed_floor_ ? stand() : slide(measurement, speed);
+    return state_ == State::fault ? undriven(Limit::none) : apply(wanted);
   }
 
  private:
@@ -181,10 +180,10 @@ class Controller {
     return finite ? Fault::none : Fault::measurement_not_finite;
   }
 
-  DriveCommand<Scalar> trip(Fault fault) {
+  Request trip(Fault fault) {
     state_ = State::fault;
     fault_ = fault;
-    return undriven(Limit::none);
+    return {Scalar{}, Limit::none};
   }
 
   DriveCommand<Scalar> undriven(Limit limit) const {
@@ -192,12 +191,9 @@ class Controller {
   }
 
   /// An unusable sample that is tolerated: the last request stands, and nothing is concluded.
-  DriveCommand<Scalar> bridge() {
-    if (state_ == State::calibrating) {
-      return undriven(Limit::bad_sample);
-    }
+  Request bridge() {
     regulator_.hold();
-    return apply({requested_, Limit::bad_sample});
+    return {requested_, Limit::bad_sample};
   }
 
   /// Learns one sample of the undriven friction. The drive begins a period after the last one.
@@ -235,16 +231,16 @@ class Controller {
 
   /// Below the speed floor feedback waits, and the last request stands for a while; with a target
   /// of no drive there is none here either.
-  DriveCommand<Scalar> stand() {
+  Request stand() {
     regulator_.hold();
     plausibility_.restart();
     interrupt_relearning();
-    return target_ < whole_ratio() ? request({standstill_.request(requested_), Limit::speed_floor})
-                                   : request({Scalar{}, Limit::none});
+    return target_ < whole_ratio() ? slewed({standstill_.request(requested_), Limit::speed_floor})
+                                   : slewed({Scalar{}, Limit::none});
   }
 
   /// Fast enough for a friction ratio.
-  DriveCommand<Scalar> slide(const Measurement<Scalar>& measurement, Scalar speed) {
+  Request slide(const Measurement<Scalar>& measurement, Scalar speed) {
     standstill_.restart();
     const Scalar force = friction_.without_offset(measurement.friction_force);
     const Scalar along = backwards_ ? -force : force;
@@ -271,7 +267,7 @@ class Controller {
   }
 
   /// Regulates, or does what a pause asks for.
-  DriveCommand<Scalar> relearn(Scalar measured, Scalar along, Scalar speed) {
+  Request relearn(Scalar measured, Scalar along, Scalar speed) {
     using Task = typename PartsT::Relearning::Task;
     const Task task = relearning_.next(along, speed);
     if (task == Task::regulate) {
@@ -285,18 +281,15 @@ class Controller {
       return regulate(measured, speed);
     }
     commanded_ = whole_ratio();
-    return request({Scalar{}, Limit::none});
+    return slewed({Scalar{}, Limit::none});
   }
 
   /// The friction force learnt in a pause; the request stands in this period. Of a settled loop
   /// what feedback had made up for of a small change is taken from it; otherwise it begins anew.
-  DriveCommand<Scalar> learn_anew() {
+  Request learn_anew() {
     const Scalar before = level_.force();
     const Scalar target_force = numeric::twice(target_) * before;
     take_friction_force(relearning_.force());
-    if (state_ == State::fault) {
-      return undriven(Limit::none);
-    }
     const bool small =
         numeric::abs(relearning_.force() - before) < numeric::scale_by_power_of_two(before, -4);
     if (small && watch_.settling() == Settling::settled) {
@@ -304,29 +297,29 @@ class Controller {
     } else {
       regulator_.restart(target_);
     }
-    return apply({requested_, Limit::none});
+    return {requested_, Limit::none};
   }
 
-  DriveCommand<Scalar> regulate(Scalar measured, Scalar speed) {
+  Request regulate(Scalar measured, Scalar speed) {
     if (whole_ratio() <= target_) {
       regulator_.hold();  // no drive can bring an undriven reading to its target
     }
     const Scalar ratio = regulator_.propose(target_, measured);
     const Request wanted = feedforward(ratio, speed);
-    const Scalar slewed = slew_.limit(wanted.amplitude, requested_);
-    const bool held_below = slewed < wanted.amplitude;
-    const bool held_above = wanted.amplitude < slewed;
+    const Scalar amplitude = slew_.limit(wanted.amplitude, requested_);
+    const bool held_below = amplitude < wanted.amplitude;
+    const bool held_above = wanted.amplitude < amplitude;
     const bool at_most = wanted.limit == Limit::actuator || held_below;
     const bool at_least = whole_ratio() <= ratio || held_above;
     regulator_.accept(at_most, at_least);
     commanded_ = ratio;
     judge(measured, at_most || at_least);
-    return apply({slewed, held_below || held_above ? Limit::slew : wanted.limit});
+    return {amplitude, held_below || held_above ? Limit::slew : wanted.limit};
   }
 
   /// An amplitude that no feedback asks for, as fast as the actuator may change.
-  DriveCommand<Scalar> request(const Request& wanted) {
-    return apply({slew_.limit(wanted.amplitude, requested_), wanted.limit});
+  Request slewed(const Request& wanted) {
+    return {slew_.limit(wanted.amplitude, requested_), wanted.limit};
   }
 
   /// What the measured ratio tells. In a pause, and without a drive to judge, nothing.

@@ -53,8 +53,8 @@ class SettlingWatch {
       --count_;
       count_ = count_ + 1 == limit() ? 0 : count_;
     }
-    disagrees_ = commanded < target ? commanded < parameters_.agreement * target
-                                    : target < parameters_.agreement * commanded;
+    const Scalar least = parameters_.agreement * (commanded < target ? target : commanded);
+    disagrees_ = commanded < least || target < least;
   }
 
   Settling settling() const {

@@ -22,18 +22,21 @@ class SpeedForesight {
   /// @param lead  from a sample to the middle of its effect, in 64 carrier periods
   explicit SpeedForesight(Scalar lead) : lead_(lead) {}
 
-  void restart() { known_ = 0; }
+  void restart() {
+    begun_ = false;
+    last_change_ = {};
+  }
 
   /// One call for each sample.
   /// @return the foreseen speed, >= 0; fixed point saturates at full scale
   Scalar speed(Scalar velocity) {
-    const Scalar change = known_ > 0 ? velocity - last_velocity_ : Scalar{};
-    const bool opposite = known_ > 1 && ((change < Scalar{} && Scalar{} < last_change_) ||
-                                         (Scalar{} < change && last_change_ < Scalar{}));
-    const Scalar agreed = known_ > 1 && !opposite ? smaller(change, last_change_) : Scalar{};
+    const Scalar change = begun_ ? velocity - last_velocity_ : Scalar{};
+    const bool opposite = (change < Scalar{} && Scalar{} < last_change_) ||
+                          (Scalar{} < change && last_change_ < Scalar{});
+    const Scalar agreed = opposite ? Scalar{} : smaller(change, last_change_);
     last_velocity_ = velocity;
     last_change_ = change;
-    known_ += known_ < 2 ? 1 : 0;
+    begun_ = true;
     Scalar foreseen = velocity + ahead(agreed);
     if (change != agreed && !opposite) {
       const Scalar most = numeric::scale_by_power_of_two(numeric::abs(velocity), -3);
@@ -55,7 +58,7 @@ class SpeedForesight {
   Scalar lead_;
   Scalar last_velocity_{};
   Scalar last_change_{};
-  int known_ = 0;  ///< samples since restart, up to 2
+  bool begun_ = false;  ///< a sample since restart
 };
 
 }  // namespace sonoglide::control
