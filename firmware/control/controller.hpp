@@ -87,8 +87,9 @@ class Controller {
         samples_(parameters.samples),
         level_(parameters.friction_force) {}
 
-  /// From off or from a fault: begins afresh, with calibration where there is one.
+  /// From off, from a fault or anew: begins afresh, with calibration where there is one.
   void start() {
+    const bool driven = state_ == State::running || state_ == State::limited;
     friction_.restart();
     shaper_.restart();
     regulator_.restart(target_);
@@ -103,12 +104,14 @@ class Controller {
     }
     backwards_ = false;
     requested_ = Scalar{};
-    commanded_ = whole_ratio();
+    if (!driven || friction_.learning()) {
+      commanded_ = whole_ratio();  // else the reading may stand where it is, as the command does
+    }
     followed_ = true;
     fault_ = Fault::none;
     state_ = State::calibrating;
     if (!friction_.learning()) {
-      take_friction_force(friction_.friction_force(configured_friction_));
+      believe(friction_.friction_force(configured_friction_));
     }
   }
 
@@ -205,7 +208,7 @@ class Controller {
     if (friction_.learning()) {
       return silent;
     }
-    take_friction_force(friction_.friction_force(configured_friction_));
+    believe(friction_.friction_force(configured_friction_));
     return state_ == State::fault ? undriven(Limit::none) : silent;
   }
 
@@ -217,8 +220,12 @@ class Controller {
       return;
     }
     level_ = FrictionLevel<Scalar>(force);
-    feedforward_.set_friction(level_);
     state_ = State::running;
+  }
+
+  void believe(Scalar force) {
+    take_friction_force(force);
+    feedforward_.set_friction(level_);
   }
 
   /// Readings still on their way belong to the sliding before.
@@ -262,7 +269,9 @@ class Controller {
 
   void interrupt_relearning() {
     if constexpr (relearns) {
-      relearning_.interrupt();
+      if (relearning_.interrupt()) {
+        feedforward_.set_friction(level_);
+      }
     }
   }
 
@@ -277,6 +286,10 @@ class Controller {
     if (task == Task::learn) {
       return learn_anew();
     }
+    if (task == Task::adapt) {
+      feedforward_.set_friction(level_);
+      return {requested_, Limit::none};
+    }
     if (task == Task::resume) {
       return regulate(measured, speed);
     }
@@ -284,19 +297,21 @@ class Controller {
     return slewed({Scalar{}, Limit::none});
   }
 
-  /// The friction force learnt in a pause; the request stands in this period. Of a settled loop
-  /// what feedback had made up for of a small change is taken from it; otherwise it begins anew.
+  /// The friction force learnt in a pause; the request stands in this period, and in the next,
+  /// which the map takes to follow. What feedback had made up for of a small change is taken from
+  /// it; after a large one, and where the loop does not settle, it begins anew.
   Request learn_anew() {
     const Scalar before = level_.force();
     const Scalar target_force = numeric::twice(target_) * before;
     take_friction_force(relearning_.force());
     const bool small =
         numeric::abs(relearning_.force() - before) < numeric::scale_by_power_of_two(before, -4);
-    if (small && watch_.settling() == Settling::settled) {
+    if (small && watch_.limit_named() != Limit::not_settling) {
       regulator_.shift(target_, level_.half_ratio(target_force));
     } else {
       regulator_.restart(target_);
     }
+    watch_.forget_doubt();
     return {requested_, Limit::none};
   }
 

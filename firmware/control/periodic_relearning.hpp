@@ -16,7 +16,7 @@ namespace sonoglide::control {
 /// readings averaged a:
 ///   request zero     2M + n + a
 ///   drive disturbed  4M + n + a, longer where the friction force has changed
-///   learnt           R periods after the last request of zero; the request then stands for one
+///   learnt           R periods after the last request of zero; the request then stands for two
 template <class Scalar>
 class PeriodicRelearning {
  public:
@@ -26,7 +26,7 @@ class PeriodicRelearning {
     Scalar travel;                ///< presliding travel, in 64 carrier periods at full drive's peak
                                   ///< vibration velocity
     std::uint16_t reading_periods;        ///< R: from a request to the reading that shows it
-    std::uint16_t return_periods;         ///< after that, until shaper and contact are back
+    std::uint16_t return_periods;         ///< after that, until shaper and contact are back, >= 1
     std::uint8_t average_periods;         ///< a, >= 1
     numeric::Accumulator<Scalar> weight;  ///< 1/a
   };
@@ -39,7 +39,8 @@ class PeriodicRelearning {
     regulate,  ///< no pause
     pause,     ///< request zero
     resume,    ///< a pause, but the request is as it would be without
-    learn,     ///< resume, and force() is new
+    learn,     ///< the request stands, and force() is new
+    adapt,     ///< the request stands, for what else follows from force()
   };
 
   explicit PeriodicRelearning(const Parameters& parameters) : parameters_(parameters) {}
@@ -49,8 +50,13 @@ class PeriodicRelearning {
     phase_ = Phase::idle;
   }
 
-  /// Ends a pause without having learnt anything.
-  void interrupt() { phase_ = Phase::idle; }
+  /// Ends a pause.
+  /// @return true if `adapt` would have been next
+  bool interrupt() {
+    const bool learnt = phase_ == Phase::slid && count_ == learnt_after();
+    phase_ = Phase::idle;
+    return learnt;
+  }
 
   bool pausing() const { return phase_ != Phase::idle; }
 
@@ -109,18 +115,25 @@ class PeriodicRelearning {
   /// From the request on whose period is slid through from its beginning.
   Task conclude(Scalar force) {
     const std::uint32_t now = count_++;
-    const std::uint32_t undriven = parameters_.average_periods;
     const std::uint32_t shown = parameters_.reading_periods;
-    if (shown <= now && now < shown + undriven) {
+    if (shown <= now && now < learnt_after()) {
       mean_ += numeric::accumulate(force) * parameters_.weight;
     }
-    if (now + 1 >= shown + undriven + parameters_.return_periods) {
+    if (now + 1 >= learnt_after() + parameters_.return_periods) {
       phase_ = Phase::idle;
     }
-    if (now + 1 == shown + undriven) {
+    if (now + 1 == learnt_after()) {
       return Task::learn;
     }
-    return now < undriven ? Task::pause : Task::resume;
+    if (now == learnt_after()) {
+      return Task::adapt;
+    }
+    return now < parameters_.average_periods ? Task::pause : Task::resume;
+  }
+
+  /// Readings from the beginning of the period slid through on.
+  std::uint32_t learnt_after() const {
+    return std::uint32_t{parameters_.reading_periods} + parameters_.average_periods;
   }
 
   Parameters parameters_;

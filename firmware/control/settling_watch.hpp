@@ -16,6 +16,7 @@ namespace sonoglide::control {
 ///
 /// Settled, the commanded ratio is the true one, as the friction-ratio map has it, and the target
 /// is what the believed friction force makes of it: commanded / target = believed / true force.
+/// That they disagree is believed once periods that say so are 16 ahead of those that do not.
 template <class Scalar>
 class SettlingWatch {
  public:
@@ -29,11 +30,15 @@ class SettlingWatch {
 
   void restart() {
     count_ = 1;  // pending until a period is inside
-    above_ = below_ = clamped_ = disagrees_ = false;
+    above_ = below_ = clamped_ = false;
+    doubt_ = 0;
   }
 
   /// Another target: at least half of the patience is left for it.
   void retarget() { count_ = count_ < limit() / 2 ? count_ : limit() / 2; }
+
+  /// The friction force is another from here on.
+  void forget_doubt() { doubt_ = 0; }
 
   /// One call for each period in which the drive is to hold a ratio.
   /// @param commanded  ratio that the drive is picked for
@@ -54,7 +59,12 @@ class SettlingWatch {
       count_ = count_ + 1 == limit() ? 0 : count_;
     }
     const Scalar least = parameters_.agreement * (commanded < target ? target : commanded);
-    disagrees_ = commanded < least || target < least;
+    const bool disagrees = commanded < least || target < least;
+    if (disagrees) {
+      doubt_ += doubt_ < 2 * doubtful ? 1 : 0;
+    } else {
+      doubt_ -= doubt_ > 0 ? 1 : 0;
+    }
   }
 
   Settling settling() const {
@@ -73,13 +83,14 @@ class SettlingWatch {
   /// none, mismatch or not_settling.
   Limit limit_named() const {
     if (count_ == 0) {
-      return disagrees_ ? Limit::mismatch : Limit::none;
+      return doubt_ >= doubtful ? Limit::mismatch : Limit::none;
     }
     return count_ < limit() ? Limit::none : Limit::not_settling;
   }
 
  private:
   static constexpr std::uint32_t step = 4;
+  static constexpr int doubtful = 16;               ///< noise alone is not named
   static constexpr std::uint32_t afterwards = 128;  ///< periods inside that end the limit
 
   std::uint32_t limit() const { return step * parameters_.patience; }
@@ -89,7 +100,7 @@ class SettlingWatch {
   bool above_ = false;
   bool below_ = false;
   bool clamped_ = false;
-  bool disagrees_ = false;
+  int doubt_ = 0;  ///< up where command and target disagree, down where they agree
 };
 
 }  // namespace sonoglide::control

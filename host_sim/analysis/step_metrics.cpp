@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <numeric>
 
 #include "host_sim/scene/control_design.hpp"
 
@@ -11,9 +12,14 @@ namespace {
 
 constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
 
+/// Of a settled step none, unless it was named in most periods: one from before may still end.
 template <std::size_t Limits>
-control::Limit prevailing_limit(std::array<std::uint64_t, Limits> count) {
-  count[static_cast<std::size_t>(control::Limit::none)] = 0;
+control::Limit prevailing_limit(std::array<std::uint64_t, Limits> count, bool settled) {
+  auto& unlimited = count[static_cast<std::size_t>(control::Limit::none)];
+  if (settled && 2 * unlimited >= std::accumulate(count.begin(), count.end(), std::uint64_t{0})) {
+    return control::Limit::none;
+  }
+  unlimited = 0;
   const auto most = std::max_element(count.begin(), count.end());
   return *most == 0 ? control::Limit::none
                     : static_cast<control::Limit>(std::distance(count.begin(), most));
@@ -116,9 +122,9 @@ StepMetrics StepMeter::metrics(const TargetSpan& span, const Tally& tally) const
   }
   metrics.overshoot = tally.periods > 0 ? tally.overshoot : undefined;
   metrics.steady_error = tally.ratio_sum / count - span.target;
-  metrics.ripple = tally.steady_periods > 0 ? 0.5 * (tally.highest - tally.lowest) : undefined;
+  metrics.ripple = tally.lowest <= tally.highest ? 0.5 * (tally.highest - tally.lowest) : undefined;
   metrics.drive_amplitude_N = tally.drive_sum_N / count;
-  metrics.limit = prevailing_limit(tally.limit_count);
+  metrics.limit = prevailing_limit(tally.limit_count, settled);
   metrics.cause = tally.cause;
   if (tally.settled_periods > 0 && tells_mismatch_) {
     metrics.mismatch = tally.mismatch_sum / static_cast<double>(tally.settled_periods);

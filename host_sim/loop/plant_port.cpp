@@ -2,14 +2,31 @@
 
 #include "host_sim/loop/law_plants.hpp"
 #include "host_sim/loop/moving_friction_plant.hpp"
+#include "host_sim/scene/plant_scales.hpp"
+#include "host_sim/scene/solver_methods.hpp"
 
 namespace sonoglide::loop {
+namespace {
+
+/// Where the friction is none, event_gauss has nothing to cut at reversals, and event_taylor's one
+/// step in a period takes its place.
+scene::Scene with_acting_solver(scene::Scene scene) {
+  if (scene.solver.method == scene::method_of<scene::solvers::EventGauss> &&
+      scene::friction_limit_N(scene.friction) == 0.0) {
+    scene.solver.method = scene::method_of<scene::solvers::EventTaylor>;
+    scene.solver.order.reset();
+  }
+  return scene;
+}
+
+}  // namespace
 
 std::unique_ptr<PlantPort> make_plant_port(const scene::Scene& scene) {
   if (scene.friction.has_profile()) {
     return std::make_unique<MovingFrictionPlant>(scene);
   }
-  const PlantDescription description(scene);
+  const scene::Scene acting = with_acting_solver(scene);
+  const PlantDescription description(acting);
   return std::visit([&](const auto& law) { return make_law_plant(description, law); },
                     scene::acting_law(scene.friction));
 }

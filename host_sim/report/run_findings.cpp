@@ -26,7 +26,7 @@ double speed_floor_m_per_s(const scene::Scene& scene) {
 void Course::take(const loop::Period& period) {
   curve_.add(period.begin_s, {period.friction_ratio, period.target, period.drive_amplitude_N,
                               period.begin_velocity_m_per_s});
-  held_at_speed_floor_ = held_at_speed_floor_ || period.limit == control::Limit::speed_floor;
+  ++periods_in_[static_cast<std::size_t>(period.limit)];
 }
 
 RunFindings::RunFindings(const scene::Scene& scene) : scene_(scene), grid_(scene) {

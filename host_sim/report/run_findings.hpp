@@ -1,9 +1,13 @@
 /// What a run's report shows beside the result: gathered while the run goes, in bounded memory.
 #pragma once
 
+#include <array>
+#include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
+#include "firmware/control/drive_command.hpp"
 #include "host_sim/analysis/extremes_curve.hpp"
 #include "host_sim/analysis/step_metrics.hpp"
 #include "host_sim/analysis/tracking_error.hpp"
@@ -23,14 +27,16 @@ class Course final : public loop::PeriodSink {
   void take(const loop::Period& period) override;
 
   const Curve& curve() const { return curve_; }
-  /// Whether slow sliding has ever held the drive.
-  bool held_at_speed_floor() const { return held_at_speed_floor_; }
+  /// Carrier periods that a limit was in force in.
+  std::uint64_t periods_in(control::Limit limit) const {
+    return periods_in_[static_cast<std::size_t>(limit)];
+  }
 
  private:
   static constexpr std::size_t most_points = 20000;
 
   Curve curve_{most_points};
-  bool held_at_speed_floor_ = false;
+  std::array<std::uint64_t, control::limit_count> periods_in_{};
 };
 
 class RunFindings {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <utility>
 
@@ -11,6 +12,7 @@
 #include "host_sim/analysis/hysteresis.hpp"
 #include "host_sim/analysis/spectrum.hpp"
 #include "host_sim/report/control_names.hpp"
+#include "host_sim/report/figure.hpp"
 #include "host_sim/report/image_text.hpp"
 #include "host_sim/scene/names.hpp"
 #include "host_sim/scene/plant_scales.hpp"
@@ -35,6 +37,18 @@ std::string lead(const scene::Scene& scene, const loop::RunResult& result) {
                       scene::name_of(scene.friction.law), scene::name_of(scene.solver.method),
                       result.final_time_s * 1e3, result.wall_s * 1e3);
   return text;
+}
+
+/// Of the limits that no other warning speaks of.
+void append_limits(const Course& course, std::vector<std::string>& warnings) {
+  using control::Limit;
+  for (const Limit limit :
+       {Limit::slew, Limit::ratio_end, Limit::mismatch, Limit::not_settling, Limit::bad_sample}) {
+    if (const std::uint64_t periods = course.periods_in(limit); periods > 0) {
+      warnings.push_back(fmt::format("The limit {} was named in {} carrier {}.", limit_name(limit),
+                                     periods, periods == 1 ? "period" : "periods"));
+    }
+  }
 }
 
 std::vector<std::string> warnings(const scene::Scene& scene, const loop::RunResult& result,
@@ -68,6 +82,7 @@ std::vector<std::string> warnings(const scene::Scene& scene, const loop::RunResu
                     percent(static_cast<double>(result.control->saturated_commands) /
                             static_cast<double>(result.control->commands))));
   }
+  append_limits(findings.course(), all);
   for (std::string& note : scene::design_notes(result.control->design)) {
     all.push_back(std::move(note));
   }
@@ -83,7 +98,7 @@ std::vector<std::string> warnings(const scene::Scene& scene, const loop::RunResu
     all.push_back(fmt::format("Close-ups are shown of the first {} target steps.",
                               findings.close_ups().size()));
   }
-  if (findings.course().held_at_speed_floor()) {
+  if (findings.course().periods_in(control::Limit::speed_floor) > 0) {
     const scene::ControlDesign& design = result.control->design;
     all.push_back(
         fmt::format("The drive was held while sliding was slower than {:.3g} mm/s, where "
@@ -102,8 +117,8 @@ Table step_table(const RunFindings& findings) {
     table.rows.push_back(
         {fmt::format("{:.3f}", step.time_s * 1e3), fmt::format("{:.3f}", step.target),
          step.settling_time_s ? fmt::format("{:.1f}", *step.settling_time_s * 1e6) : "never",
-         fmt::format("{:.5f}", step.overshoot), fmt::format("{:+.5f}", step.steady_error),
-         fmt::format("{:.5f}", step.ripple), fmt::format("{:.1f}", step.drive_amplitude_N),
+         figure("{:.5f}", step.overshoot), figure("{:+.5f}", step.steady_error),
+         figure("{:.5f}", step.ripple), figure("{:.1f}", step.drive_amplitude_N),
          limit_text(step)});
   }
   return table;

@@ -4,6 +4,7 @@
 
 #include "host_sim/analysis/step_metrics.hpp"
 #include "host_sim/report/control_names.hpp"
+#include "host_sim/report/figure.hpp"
 #include "host_sim/report/image_text.hpp"
 #include "host_sim/report/run_report.hpp"
 #include "host_sim/scene/plant_scales.hpp"
@@ -27,9 +28,10 @@ std::string step_lines(const loop::RunResult& result, const RunFindings& finding
   std::string text = fmt::format("{:>11} {:>7} {:>11} {:>10} {:>8} {:>10}  {}\n", "from", "target",
                                  "settles in", "error", "ripple", "drive", "limit");
   for (const analysis::StepMetrics& step : findings.steps()) {
-    text += fmt::format("{:>8.3f} ms {:>7.3f} {:>11} {:>+10.5f} {:>8.5f} {:>8.1f} N  {}\n",
-                        step.time_s * 1e3, step.target, settling(step.settling_time_s),
-                        step.steady_error, step.ripple, step.drive_amplitude_N, limit_text(step));
+    text += fmt::format("{:>8.3f} ms {:>7.3f} {:>11} {:>10} {:>8} {:>8} N  {}\n", step.time_s * 1e3,
+                        step.target, settling(step.settling_time_s),
+                        figure("{:+.5f}", step.steady_error), figure("{:.5f}", step.ripple),
+                        figure("{:.1f}", step.drive_amplitude_N), limit_text(step));
   }
   if (result.control->design.relearns) {
     text += pause_line(findings.pauses());

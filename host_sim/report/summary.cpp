@@ -1,6 +1,7 @@
 #include "host_sim/report/summary.hpp"
 
 #include <cmath>
+#include <cstddef>
 
 #include <fmt/format.h>
 
@@ -73,6 +74,15 @@ ordered_json pauses(const analysis::PauseMetrics& metrics) {
           {"ratio_cost", metrics.ratio_cost}};
 }
 
+ordered_json limited_periods(const Course& course) {
+  ordered_json json = ordered_json::object();
+  for (std::size_t i = 1; i < control::limit_count; ++i) {
+    const auto limit = static_cast<control::Limit>(i);
+    json[limit_name(limit)] = course.periods_in(limit);
+  }
+  return json;
+}
+
 ordered_json signal(const numeric::SignalRecord& record) {
   return {{"name", record.name},
           {"smallest", record.smallest},
@@ -102,6 +112,7 @@ ordered_json control(const scene::Scene& scene, const loop::RunResult& result,
       {"saturated_fraction", record.commands == 0 ? 0.0
                                                   : static_cast<double>(record.saturated_commands) /
                                                         static_cast<double>(record.commands)},
+      {"limited_periods", limited_periods(findings.course())},
       {"faults", faults},
       {"steps", steps},
       {"largest_tracking_error", number(findings.largest_tracking_error())},

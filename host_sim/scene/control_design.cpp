@@ -433,8 +433,7 @@ std::vector<std::string> design_notes(const ControlDesign& design) {
     notes.push_back(fmt::format(
         "The natural mode is so near a multiple of the carrier frequency that its notch spans {} "
         "carrier periods: {} of them after each change the drive stands at {:.0f} % of it, then {} "
-        "at "
-        "{:.0f} %. Targets, speeds and sensors that change faster are not followed.",
+        "at {:.0f} %. Targets, speeds and sensors that change faster are not followed.",
         2 * spacing, spacing, 100.0 * design.notch_taps[0], spacing,
         100.0 * (design.notch_taps[0] + design.notch_taps[1])));
   }

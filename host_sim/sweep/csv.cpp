@@ -25,7 +25,7 @@ std::string heading(const Plan& plan) {
   }
   text += "friction_ratio_whole_run,friction_ratio_window,dissipation_ratio_window,";
   if (plan.closed_loop()) {
-    text += "settling_time_s,steady_error,ripple,limit,";
+    text += "settling_time_s,steady_error,ripple,limit,fault,";
   }
   return text + "status\n";
 }
@@ -38,8 +38,9 @@ std::string line(const Plan& plan, std::size_t point, const Row& row) {
   cells += fmt::format("{},{},{},", number(row.friction_ratio_whole_run),
                        number(row.friction_ratio_window), number(row.dissipation_ratio_window));
   if (plan.closed_loop()) {
-    cells += fmt::format("{},{},{},{},", number(row.settling_time_s), number(row.steady_error),
-                         number(row.ripple), report::limit_name(row.limit));
+    cells += fmt::format("{},{},{},{},{},", number(row.settling_time_s), number(row.steady_error),
+                         number(row.ripple), report::limit_name(row.limit),
+                         report::fault_name(row.fault));
   }
   return cells + text::csv_cell(row.status) + '\n';
 }

@@ -10,7 +10,7 @@
 namespace sonoglide::sweep {
 
 /// One line for each point, in the order of the grid, under a heading: the varied keys, the figures
-/// of Row, status last. In closed loop also settling_time_s, steady_error, ripple and limit.
+/// of Row, status last. In closed loop also settling_time_s, steady_error, ripple, limit and fault.
 /// Numbers read back the same to the bit; what is not defined is `nan`. A status with a comma is
 /// quoted (RFC 4180).
 void write_csv(std::ostream& out, const Plan& plan, const std::vector<Row>& rows);

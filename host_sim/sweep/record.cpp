@@ -75,22 +75,26 @@ std::string record_text(const Record& record) {
   for (const auto figure : figure_members) {
     text += fmt::format("{:x} ", bits_of(record.row.*figure));
   }
-  return text + fmt::format("{} {}", static_cast<unsigned>(record.row.limit), record.row.status);
+  return text + fmt::format("{} {} {}", static_cast<unsigned>(record.row.limit),
+                            static_cast<unsigned>(record.row.fault), record.row.status);
 }
 
 std::optional<Record> parse_record(std::string_view text) {
   constexpr int decimal = 10;
   constexpr int hexadecimal = 16;
+  constexpr auto last_fault = static_cast<std::uint64_t>(control::Fault::measurement_implausible);
   Numbers numbers(text);
   Record record{static_cast<std::size_t>(numbers.next(decimal)), {}};
   for (const auto figure : figure_members) {
     record.row.*figure = from_bits(numbers.next(hexadecimal));
   }
   const std::uint64_t limit = numbers.next(decimal);
-  if (!numbers.good() || limit >= control::limit_count) {
+  const std::uint64_t fault = numbers.next(decimal);
+  if (!numbers.good() || limit >= control::limit_count || fault > last_fault) {
     return std::nullopt;
   }
   record.row.limit = static_cast<control::Limit>(limit);
+  record.row.fault = static_cast<control::Fault>(fault);
   record.row.status = std::string(numbers.rest());
   return record;
 }

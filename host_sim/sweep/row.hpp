@@ -21,6 +21,7 @@ struct Row {
   double steady_error = undefined;
   double ripple = undefined;
   control::Limit limit = control::Limit::none;
+  control::Fault fault = control::Fault::none;  ///< the first of the run
 
   bool ok() const { return status == "ok"; }
 };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <vector>
 
 #include "host_sim/analysis/step_metrics.hpp"
 #include "host_sim/loop/run.hpp"
@@ -27,6 +28,8 @@ Row run(const scene::Scene& scene) {
     row.steady_error = last.steady_error;
     row.ripple = last.ripple;
     row.limit = last.limit;
+    const std::vector<loop::FaultEvent>& faults = result.control->faults;
+    row.fault = faults.empty() ? control::Fault::none : faults.front().fault;
   }
   return row;
 }

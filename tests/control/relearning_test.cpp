@@ -61,7 +61,6 @@ TYPED_TEST(Relearning, FindsTheFrictionForceAfterAJump) {
 }
 
 TYPED_TEST(Relearning, ComesAgainAfterTheStatedPeriods) {
-  const Design design;
   auto loop = this->at_target(0.5);
   int begun = 0;
   bool before = false;

@@ -98,15 +98,27 @@ TYPED_TEST(SettlingWatchTest, ALimitEndsAfter129PeriodsInside) {
 }
 
 TYPED_TEST(SettlingWatchTest, NamesAFrictionThatIsNotTheBelievedOne) {
-  this->judge_for(2, 0.4, 0.4, 0.49);
+  this->judge_for(20, 0.4, 0.4, 0.49);
   EXPECT_EQ(this->watch_.limit_named(), Limit::none);
-  this->judge_for(2, 0.4, 0.4, 0.51);
+  this->judge_for(15, 0.4, 0.4, 0.51);
+  EXPECT_EQ(this->watch_.limit_named(), Limit::none);
+  this->judge(0.4, 0.4, 0.51);
   EXPECT_EQ(this->watch_.limit_named(), Limit::mismatch);
   EXPECT_EQ(this->watch_.settling(), Settling::settled);
-  this->judge_for(2, 0.4, 0.4, 0.33);
+  this->judge(0.4, 0.4, 0.33);
   EXPECT_EQ(this->watch_.limit_named(), Limit::none);
-  this->judge_for(2, 0.4, 0.4, 0.31);
+  this->judge_for(16, 0.4, 0.4, 0.31);
   EXPECT_EQ(this->watch_.limit_named(), Limit::mismatch);
+  this->watch_.forget_doubt();
+  EXPECT_EQ(this->watch_.limit_named(), Limit::none);
+}
+
+TYPED_TEST(SettlingWatchTest, TakesNoNoiseForAnotherFriction) {
+  for (int i = 0; i < 500; ++i) {
+    this->judge(0.4, 0.4, i % 3 == 0 ? 0.2 : i % 3 == 1 ? 0.6 : 0.4);
+    this->judge(0.4, 0.4, 0.4);
+    ASSERT_EQ(this->watch_.limit_named(), Limit::none) << i;
+  }
 }
 
 TYPED_TEST(SettlingWatchTest, NamesNoMismatchBeforeItHasSettled) {

@@ -108,5 +108,25 @@ TYPED_TEST(Supervision, AnOffsetIsLearntAsOneWhereTheCalibrationSlidesBothWays) 
   EXPECT_EQ(loop.command().limit, Limit::none);
 }
 
+// Nothing ends the drive in between, so that reading and command may stand where they were.
+TYPED_TEST(Supervision, ARestartWhileDrivingIsNotTakenForAStuckReading) {
+  ClosedLoop<UnshapedParts<TypeParam>> loop({});
+  loop.set_target(0.4);
+  loop.run(400);
+  const auto settled = loop.measurement(0.1);
+  loop.controller.start();
+  for (int i = 0; i < 400; ++i) {
+    loop.answer(settled);
+  }
+  EXPECT_EQ(loop.command().fault, Fault::none);
+  loop.controller.stop();
+  loop.answer(settled);
+  loop.controller.start();
+  for (int i = 0; i < 400; ++i) {
+    loop.answer(settled);
+  }
+  EXPECT_EQ(loop.command().fault, Fault::measurement_stuck);
+}
+
 }  // namespace
 }  // namespace sonoglide::control

@@ -143,6 +143,18 @@ TEST(FrictionJumpTest, IsLearntInTheNextPause) {
   }
 }
 
+// 3 to 5 ms of the example scene: 120 carrier periods, less those in which the loop settles.
+TEST(FrictionJumpTest, IsCountedThoughItIsMendedInTheEnd) {
+  const nlohmann::json summary = summary_of("friction_jump");
+  const nlohmann::json& control = summary.at("control");
+  EXPECT_EQ(step_of(summary).at("limit"), "none");
+  EXPECT_NEAR(step_of(summary).at("steady_error").get<double>(), 0.0, 0.01);
+  EXPECT_EQ(control.at("relearning").at("pauses"), 2);
+  EXPECT_GT(control.at("limited_periods").at("mismatch"), 60);
+  EXPECT_LT(control.at("limited_periods").at("mismatch"), 120);
+  EXPECT_EQ(control.at("limited_periods").at("not_settling"), 0);
+}
+
 TEST(RelearningTest, DisturbsTheDriveForTenPeriods) {
   const auto periods =
       periods_of("target_step", {"controller.target_friction_ratio=[[0,0.5]]",
@@ -153,6 +165,18 @@ TEST(RelearningTest, DisturbsTheDriveForTenPeriods) {
     disturbed += settled && std::abs(period.drive_amplitude_N - 526.3) > 5.0 ? 1 : 0;
   }
   EXPECT_EQ(disturbed, 3 * 10);
+}
+
+// Coulomb's map is not that of a vibration across the sliding: feedback makes up for it, and a
+// pause that finds the friction force as it was leaves that as it is.
+TEST(RelearningTest, LeavesWhatFeedbackHasFound) {
+  Settings settings{"friction.law=transverse_coulomb", "friction.contact_stiffness_N_per_m=",
+                    "controller.target_friction_ratio=[[0,0.7]]", "run.duration_s=20e-3"};
+  EXPECT_LT(step_of(summary_of("target_step", settings)).at("settling_time_s"), 1e-3);
+  settings.emplace_back("controller.relearn_every_s=1.5e-3");
+  const nlohmann::json summary = summary_of("target_step", settings);
+  EXPECT_LT(step_of(summary).at("settling_time_s"), 2e-3);
+  EXPECT_GE(summary.at("control").at("relearning").at("pauses"), 12);
 }
 
 TEST(RelearningTest, TellsWhatThePausesCost) {

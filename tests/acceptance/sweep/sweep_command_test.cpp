@@ -156,6 +156,15 @@ TEST_F(SweepCommandTest, AClosedLoopReportsItsLastStep) {
   }
 }
 
+TEST_F(SweepCommandTest, AFaultIsInItsRow) {
+  sweep("closed.toml --out c --vary sensor.force_gain=-1,1");
+  const std::vector<Cells> table = rows("c");
+  ASSERT_EQ(table.size(), 3U);
+  EXPECT_EQ(table[0][8], "fault");
+  EXPECT_EQ(table[1][8], "measurement_implausible");
+  EXPECT_EQ(table[2][8], "none");
+}
+
 TEST_F(SweepCommandTest, AFailedPointKeepsItsRow) {
   const Outcome outcome = folder_.run(
       "sweep open.toml --out o --vary friction.contact_stiffness_N_per_m=1e5:1e10:2:log "

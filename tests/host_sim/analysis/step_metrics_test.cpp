@@ -128,6 +128,21 @@ TEST(StepMetricsTest, NamesTheLimitOfTheLastQuarter) {
   EXPECT_EQ(only_step(scene, periods).limit, control::Limit::speed_floor);
 }
 
+TEST(StepMetricsTest, ASettledStepHasTheLimitOfMostPeriods) {
+  const Scene scene = made_up_scene({{0.0, 0.5}}, 0.1);
+  std::vector<loop::Period> periods = made_up_run(scene, [](int) { return 0.5; });
+  for (std::size_t k = 75; k < 87; ++k) {
+    periods[k].limit = control::Limit::not_settling;
+  }
+  EXPECT_EQ(only_step(scene, periods).limit, control::Limit::none);
+  periods[87].limit = control::Limit::not_settling;
+  EXPECT_EQ(only_step(scene, periods).limit, control::Limit::not_settling);
+}
+
+TEST(StepMetricsTest, WithoutARatioThereIsNoRipple) {
+  EXPECT_TRUE(std::isnan(one_step(0.5, [](int) { return std::nan(""); }).ripple));
+}
+
 TEST(StepMetricsTest, TheClockStartsWhenCalibrationEnds) {
   Scene scene = made_up_scene({{0.0, 0.5}}, 0.1);
   scene.controller->calibration_s = 20e-3;

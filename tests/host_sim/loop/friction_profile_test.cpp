@@ -241,17 +241,21 @@ TEST(FrictionProfileTest, EnergyIdentityHoldsAcrossChanges) {
 
 /// Every solver that takes the law.
 TEST(FrictionProfileTest, EverySolverFollows) {
-  const Scene reference = with_coefficient(heavy(scene::laws::Dahl{}), slopes);
-  const double impulse_N_s = run_logged(reference).result.whole.friction_impulse_N_s;
-  for (const auto& method : scene::solver_methods) {
-    Scene scene = reference;
-    scene.solver.method = method.value;
-    const bool adaptive = scene::is_adaptive(method.value);
-    scene.solver.tolerance = 1e-6;
-    scene.solver.step_s = adaptive ? 0.0 : period_s / 4000.0;
-    EXPECT_NEAR(run_logged(scene).result.whole.friction_impulse_N_s, impulse_N_s,
-                1e-7 * std::abs(impulse_N_s))
-        << method.name;
+  const TimedProfile vanishing = {
+      {0.0, 0.0}, {period_s, 0.0}, {period_s, 0.1}, {4.0 * period_s, 0.1}, {4.0 * period_s, 0.0}};
+  for (const TimedProfile& profile : {slopes, vanishing}) {
+    const Scene reference = with_coefficient(heavy(scene::laws::Dahl{}), profile);
+    const double impulse_N_s = run_logged(reference).result.whole.friction_impulse_N_s;
+    for (const auto& method : scene::solver_methods) {
+      Scene scene = reference;
+      scene.solver.method = method.value;
+      const bool adaptive = scene::is_adaptive(method.value);
+      scene.solver.tolerance = 1e-6;
+      scene.solver.step_s = adaptive ? 0.0 : period_s / 4000.0;
+      EXPECT_NEAR(run_logged(scene).result.whole.friction_impulse_N_s, impulse_N_s,
+                  1e-7 * std::abs(impulse_N_s))
+          << method.name;
+    }
   }
 }
 

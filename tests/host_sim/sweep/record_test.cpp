@@ -20,6 +20,8 @@ TEST(RecordTest, KeepsEveryBit) {
     record.row.friction_ratio_window = -b;
     record.row.ripple = c;
     record.row.limit = *rc::gen::element(control::Limit::none, control::Limit::speed_floor);
+    record.row.fault =
+        *rc::gen::element(control::Fault::none, control::Fault::measurement_implausible);
     record.row.status = *rc::gen::element<std::string>("ok", "solver: at 1 s, \"x\" 2 m: why");
     const auto read = parse_record(record_text(record));
     RC_ASSERT(read.has_value());
@@ -29,6 +31,7 @@ TEST(RecordTest, KeepsEveryBit) {
     RC_ASSERT(same_bits(read->row.dissipation_ratio_window, Row::undefined));
     RC_ASSERT(same_bits(read->row.ripple, c));
     RC_ASSERT(read->row.limit == record.row.limit);
+    RC_ASSERT(read->row.fault == record.row.fault);
     RC_ASSERT(read->row.status == record.row.status);
   }));
 }

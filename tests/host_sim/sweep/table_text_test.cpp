@@ -41,12 +41,13 @@ TEST(CsvTest, AClosedLoopHasItsLastStep) {
   limited.steady_error = -0.5;
   limited.ripple = 0.0;
   limited.limit = control::Limit::actuator;
+  limited.fault = control::Fault::measurement_stuck;
   std::ostringstream out;
   write_csv(out, plan, {limited});
   EXPECT_EQ(out.str(),
             "sensor.seed,friction_ratio_whole_run,friction_ratio_window,dissipation_ratio_window,"
-            "settling_time_s,steady_error,ripple,limit,status\n"
-            "1,0.125,0.5,0.25,nan,-0.5,0,actuator,ok\n");
+            "settling_time_s,steady_error,ripple,limit,fault,status\n"
+            "1,0.125,0.5,0.25,nan,-0.5,0,actuator,measurement_stuck,ok\n");
 }
 
 TEST(ExtremesTest, PassOverWhatIsNotDefined) {
