@@ -22,7 +22,7 @@ enum class Limit : std::uint8_t {
   slew,         ///< the drive amplitude may not change faster
   speed_floor,  ///< sliding slower than the stated floor: the ratio is undefined; the drive is held
                 ///< for the stated time and then taken to zero
-  ratio_end,    ///< the commanded ratio stands at 1: less drive than none does not exist
+  ratio_end,    ///< the commanded ratio stands at 1, the weakest drive of the map
   mismatch,     ///< settled, but the friction force is not the believed one: the true ratio is off
   not_settling,  ///< outside its band for longer than the stated time; see Settling for why
   bad_sample,    ///< the sample was unusable, the last request stands

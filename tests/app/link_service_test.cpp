@@ -594,7 +594,7 @@ TEST(LinkServiceTest, AWriteConfirmsTheOtherParameters) {
 TEST(LinkServiceTest, AnyDamageToTheStoreHoldsTheUnitOff) {
   const SimulatedFlash intact = limited_flash();
   std::minstd_rand random(7);
-  for (int i = 0; i < 60; ++i) {
+  for (std::size_t i = 0; i < 60; ++i) {
     SimulatedFlash flash = intact;
     const bool both = i % 2 == 0;
     for (std::size_t page = i / 2 % 2; page < (both ? 2U : i / 2 % 2 + 1U); ++page) {
