@@ -51,8 +51,13 @@ struct TransverseCoulomb {
     constexpr Scalar shortest = numeric::power_of_two<Scalar>(-8);
     return numeric::min(longest, numeric::max(shortest, numeric::twice(slip.speed())));
   }
-  /// The series converge while the slip changes by less than its speed.
-  Scalar reach(const Slip& slip) const { return numeric::half(slip.speed()); }
+  /// The series converge while the slip changes by less than its speed. At rest across there is no
+  /// force across for them to tell, and the sliding passes 0 in one short step.
+  Scalar reach(const Slip& slip) const {
+    constexpr Scalar passing = numeric::power_of_two<Scalar>(-20);
+    const Scalar near = numeric::half(slip.speed());
+    return slip.across == Scalar(0) ? numeric::max(near, passing) : near;
+  }
 
   /// From the square S of the speed: 1 / speed = S^(-1/2), by S (S^a)' = a S' S^a.
   template <std::size_t Order>
@@ -68,7 +73,10 @@ struct TransverseCoulomb {
       across_[N] = across;
       along_[N] = along;
       square_[N] = product(across_, across_, N) + product(along_, along_, N);
-      if constexpr (N == 0) {
+      if (!(square_[0] > Scalar(0))) {
+        // Passing through rest; staying there is not modelled, and not a number.
+        per_speed_[N] = N == 1 ? Scalar(0) / along : Scalar(0);
+      } else if constexpr (N == 0) {
         per_speed_[0] = Scalar(1) / numeric::sqrt(square_[0]);
       } else {
         Scalar sum = Scalar(0);

@@ -48,6 +48,24 @@ TEST(TransverseSceneTest, FollowsASlidingProfileWithinThePeriods) {
   EXPECT_NEAR(window_ratios(scene).friction_ratio, 0.649584, 1e-6);
 }
 
+TEST(TransverseSceneTest, SlidingPassesZeroOverARestingOscillator) {
+  scene::Scene scene = transverse(table_1());
+  scene.drive->force_amplitude_N = 0.0;
+  scene.run.duration_s = 2e-3;
+  scene.run.window_start_s = 0.0;
+  for (const double turn_s : {0.4e-3, 1e-3, 1.2345e-3}) {
+    scene.sliding.profile = {{0.0, 0.02}, {2.0 * turn_s, -0.02}};
+    for (const auto method :
+         {scene::method_of<scene::solvers::EventTaylor>, scene::method_of<scene::solvers::Rk4>}) {
+      scene.solver.method = method;
+      scene.solver.step_s = period_s / 1000.0;
+      const RunResult result = run_logged(scene).result;
+      EXPECT_EQ(result.final_state.displacement_m, 0.0);
+      EXPECT_NEAR(power_ratios(scene, result.window).friction_ratio, 1.0, 1e-3);
+    }
+  }
+}
+
 TEST(TransverseSceneTest, EnergyIdentity) {
   scene::Scene scene = transverse(table_1());
   scene.friction.normal_force_N = 1000.0;
