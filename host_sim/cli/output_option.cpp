@@ -15,7 +15,7 @@ namespace {
 /// systems allow.
 std::string folder_name(const std::string& scene_name) {
   constexpr std::size_t most_bytes = 200;
-  const std::string name = text::printable(scene_name);
+  std::string name = text::printable(scene_name);
   if (name.find_first_not_of('.') == std::string::npos) {
     return "scene";
   }

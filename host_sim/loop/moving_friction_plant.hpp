@@ -64,7 +64,7 @@ class MovingFrictionPlant final : public PlantPort {
   struct Sight {
     const std::vector<double>& offsets_s;
     std::vector<PlantState>& seen;
-    double begin_s;
+    double begin_s = 0.0;
     std::size_t next = 0;
   };
 

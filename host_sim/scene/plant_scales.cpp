@@ -67,7 +67,8 @@ double friction_limit_N(const Contact& contact) {
 }
 
 Contact contact_at(const Friction& friction, double time_s) {
-  Contact contact = friction;
+  const Contact& held = friction;
+  Contact contact = held;
   if (!friction.coefficient_profile.empty()) {
     contact.coefficient = value_at(friction.coefficient_profile, time_s);
   }
@@ -78,7 +79,8 @@ Contact contact_at(const Friction& friction, double time_s) {
 }
 
 double largest_friction_limit_N(const Friction& friction) {
-  Contact most = friction;
+  const Contact& held = friction;
+  Contact most = held;
   if (!friction.coefficient_profile.empty()) {
     most.coefficient = largest_value(friction.coefficient_profile);
   }

@@ -89,11 +89,12 @@ double read_part_of_limit(TableCursor& cursor, std::string_view key, std::string
 
 /// With the largest coefficient to come and with the smallest: a law's own keys suit both.
 std::vector<Contact> extreme_contacts(const Friction& friction) {
+  const Contact& held = friction;
   if (friction.coefficient_profile.empty()) {
-    return {friction};
+    return {held};
   }
-  Contact largest = friction;
-  Contact smallest = friction;
+  Contact largest = held;
+  Contact smallest = held;
   largest.coefficient = largest_value(friction.coefficient_profile);
   smallest.coefficient = smallest_value(friction.coefficient_profile);
   return {largest, smallest};

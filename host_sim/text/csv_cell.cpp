@@ -5,7 +5,7 @@
 namespace sonoglide::text {
 
 std::string csv_cell(std::string_view text) {
-  const std::string line = printable(text);
+  std::string line = printable(text);
   if (line.find_first_of(",\"") == std::string::npos) {
     return line;
   }
