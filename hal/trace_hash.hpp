@@ -7,10 +7,10 @@
 
 namespace sonoglide::hal {
 
-/// 64-bit FNV-1a over every drive command (amplitude, commanded_ratio, state,
-/// limit, fault, settling), or over every sample
-/// (friction_force, sliding_velocity, force_at_rail, fresh); a code is four bytes, lowest first, a
-/// flag is a byte, 1 or 0. Source: Fowler, Noll and Vo, draft-eastlake-fnv.
+/// 64-bit FNV-1a over every drive command (amplitude, commanded_ratio, state, limit, fault,
+/// settling), or over every sample (friction_force, sliding_velocity, force_at_rail, fresh); a code
+/// is four bytes, lowest first, a flag is a byte, 1 or 0. Source: Fowler, Noll and Vo,
+/// draft-eastlake-fnv.
 class TraceHash {
  public:
   void add(const Drive& drive) {

@@ -87,7 +87,7 @@ class Controller {
         samples_(parameters.samples),
         level_(parameters.friction_force) {}
 
-  /// From off, from a fault or anew: begins afresh, with calibration where there is one.
+  /// Begins afresh, from any state, with calibration where there is one.
   void start() {
     const bool driven = state_ == State::running || state_ == State::limited;
     friction_.restart();
@@ -223,6 +223,7 @@ class Controller {
     state_ = State::running;
   }
 
+  /// The same, and the map follows.
   void believe(Scalar force) {
     take_friction_force(force);
     feedforward_.set_friction(level_);

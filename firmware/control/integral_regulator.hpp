@@ -26,8 +26,6 @@ namespace sonoglide::control {
 template <class Scalar, int MaxDelay>
 class IntegralRegulator {
  public:
-  static constexpr int max_delay = MaxDelay;
-
   struct Parameters {
     Scalar gain;                 ///< per carrier period
     Scalar keep;                 ///< of the reference's lag, per carrier period; in [0, 1)

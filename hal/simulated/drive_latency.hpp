@@ -6,9 +6,8 @@
 
 namespace sonoglide::hal::simulated {
 
-/// @tparam Periods  from the end of the period that a sample describes to the drive phase 0 at
-/// which
-///                  its answer acts
+/// @tparam Periods  from the end of the period that a sample describes to the phase 0 at which its
+///                  answer acts
 template <class Amplitude, std::size_t Periods>
 class DriveLatency {
  public:

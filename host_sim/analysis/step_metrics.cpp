@@ -13,8 +13,8 @@ namespace {
 constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
 
 /// Of a settled step none, unless it was named in most periods: one from before may still end.
-template <std::size_t Limits>
-control::Limit prevailing_limit(std::array<std::uint64_t, Limits> count, bool settled) {
+control::Limit prevailing_limit(std::array<std::uint64_t, control::limit_count> count,
+                                bool settled) {
   auto& unlimited = count[static_cast<std::size_t>(control::Limit::none)];
   if (settled && 2 * unlimited >= std::accumulate(count.begin(), count.end(), std::uint64_t{0})) {
     return control::Limit::none;

@@ -20,8 +20,7 @@ double closed_form_ratio(const scene::Scene& scene, double sliding_m_per_s,
   if (scene::is<scene::laws::Dahl>(friction.law)) {
     const double amplitude_m = vibration_m_per_s / (numeric::two_pi * scene.drive->frequency_Hz);
     return friction::dahl_friction_ratio(
-        velocity_ratio,
-        friction.contact_stiffness_N_per_m * amplitude_m / scene::friction_limit_N(friction));
+        velocity_ratio, friction.contact_stiffness_N_per_m * amplitude_m / friction.limit_N());
   }
   if (const auto* curve = std::get_if<scene::laws::Stribeck>(&friction.law)) {
     const double v = vibration_m_per_s;

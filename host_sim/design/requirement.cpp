@@ -33,7 +33,7 @@ std::optional<SteadyMotion> motion_at(const scene::Scene& scene, double sliding_
 
 /// At resonance friction alone holds against the drive, and the closed form asks for too little.
 double first_guess_N(const scene::Scene& scene, double closed_form_force_N) {
-  return std::max(closed_form_force_N, 0.1 * scene::friction_limit_N(scene.friction));
+  return std::max(closed_form_force_N, 0.1 * scene.friction.limit_N());
 }
 
 /// Where the closed form's force has no steady vibration, no other is tried.

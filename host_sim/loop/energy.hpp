@@ -47,8 +47,7 @@ struct PowerRatios {
 
 /// @param friction_N  the scene's largest friction limit
 /// @param period_s  carrier period: the paper divides stored energy by the work of one. NaN without
-/// a
-///                  drive, and there is no printed value then.
+///                  a drive, and there is no printed value then.
 PowerRatios power_ratios(const EnergyBalance& energy, double friction_N,
                          scene::SignConvention convention, double period_s);
 

@@ -77,7 +77,6 @@ class MovingFrictionPlant final : public PlantPort {
   Carried carried() const;
   void put(const Carried& from);
   void hold(const scene::Contact& contact, const Carried& from);
-  void hold_limit_of(double time_s);
   PlantState within_limit(PlantState state, double time_s) const;
 
   scene::Friction friction_;

@@ -12,7 +12,7 @@ namespace {
 /// step in a period takes its place.
 scene::Scene with_acting_solver(scene::Scene scene) {
   if (scene.solver.method == scene::method_of<scene::solvers::EventGauss> &&
-      scene::friction_limit_N(scene.friction) == 0.0) {
+      scene.friction.limit_N() == 0.0) {
     scene.solver.method = scene::method_of<scene::solvers::EventTaylor>;
     scene.solver.order.reset();
   }

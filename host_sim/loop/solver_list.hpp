@@ -92,9 +92,8 @@ PlantMaker<Model> maker(int order) {
 }  // namespace detail
 
 /// In the order that the scene asks for, or the one that takes the least time at its tolerance.
-/// @throws std::logic_error  there is no such solver for the model, which a scene that was read
-/// from
-///         a file has been checked for
+/// @throws std::logic_error  there is no such solver for the model, for which a scene that was read
+///         from a file has been checked
 template <class Model>
 PlantMaker<Model> find_solver(const scene::Solver& solver) {
   const PlantMaker<Model> make = scene::with_solver(solver.method, [&](auto described) {

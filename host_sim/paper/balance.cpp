@@ -50,7 +50,7 @@ Balance balance(const std::string& start, double velocity_ratio, const scene::Sc
   b.start = start;
   b.velocity_ratio = velocity_ratio;
   b.kinetic_sliding = 0.5 * scene.plant.mass_kg * sliding * sliding;
-  b.undriven = scene::friction_limit_N(scene.friction) * sliding * period;
+  b.undriven = scene.friction.limit_N() * sliding * period;
   b.input_undriven = b.kinetic_sliding + b.undriven;
   b.ultrasonic_input = energy.drive_work_J;
   b.input = b.input_undriven + b.ultrasonic_input;

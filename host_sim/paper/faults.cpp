@@ -43,7 +43,7 @@ Fault sign() {
 double algebraic_friction_ratio(const scene::Scene& scene) {
   constexpr int samples = 20000;
   const double sliding = scene.sliding.profile.front().velocity_m_per_s;
-  const double limit_N = scene::friction_limit_N(scene.friction);
+  const double limit_N = scene.friction.limit_N();
   double sum = 0.0;
   for (int i = 0; i < samples; ++i) {
     const double velocity = sliding * (1.0 + 2.0 * std::cos(numeric::two_pi * (i + 0.5) / samples));

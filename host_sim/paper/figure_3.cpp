@@ -51,7 +51,7 @@ Figure figure_3() {
   const loop::Recording dahl = record_steady(scene::laws::Dahl{});
   const std::vector<double> pulses_N = friction_forces_N(coulomb);
   const std::vector<double> wave_N = friction_forces_N(dahl);
-  const double limit_N = scene::friction_limit_N(table_1().friction);
+  const double limit_N = table_1().friction.limit_N();
   const double pulse_jump = largest_jump(pulses_N) / limit_N;
   const double wave_jump = largest_jump(wave_N) / limit_N;
   return {

@@ -101,8 +101,7 @@ double dahl_number(const scene::Scene& scene) {
   const double amplitude_m =
       scene.drive->force_amplitude_N /
       scene::dynamic_stiffness_N_per_m(scene.plant, numeric::two_pi * scene.drive->frequency_Hz);
-  return scene.friction.contact_stiffness_N_per_m * amplitude_m /
-         scene::friction_limit_N(scene.friction);
+  return scene.friction.contact_stiffness_N_per_m * amplitude_m / scene.friction.limit_N();
 }
 
 }  // namespace sonoglide::paper

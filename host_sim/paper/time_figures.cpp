@@ -141,7 +141,7 @@ Figure figure_5() {
   const std::vector<double> power = dissipated_powers_W(motions.from_rest);
   const std::vector<double> steady_force = friction_forces_N(motions.on_orbit);
   const std::vector<double> steady_power = dissipated_powers_W(motions.on_orbit);
-  const double limit_N = scene::friction_limit_N(table_1().friction);
+  const double limit_N = table_1().friction.limit_N();
   return {5,
           "Friction force and dissipated power over time",
           conditions,

@@ -15,7 +15,7 @@ struct Contact {
   double initial_force_N = 0.0;            ///< elastic laws only
   SignConvention sign_convention = SignConvention::dissipative;
 
-  /// Fc = mu N.
+  /// Fc = mu N, at 0 s where it changes.
   double limit_N() const { return coefficient * normal_force_N; }
 };
 

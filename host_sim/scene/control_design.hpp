@@ -43,8 +43,7 @@ struct ControlDesign {
   double standstill_fall = 0.0;  ///< of the amplitude after that, per carrier period
   double settling_band = 0.0;    ///< as the sensor shows it, on base 2
   std::uint16_t settling_patience_periods = 0;
-  double agreement =
-      0.0;  ///< 1 / controller.mismatch_warning; 0: nothing is told, see tells_mismatch
+  double agreement = 0.0;  ///< 1 / controller.mismatch_warning; 0: see tells_mismatch()
 
   bool free_mode = false;  ///< the plant has a natural mode that no notch takes care of
 

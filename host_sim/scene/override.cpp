@@ -25,27 +25,6 @@ bool is_bare_word(std::string_view text) {
          });
 }
 
-}  // namespace
-
-toml::table parse_value(const std::string& value, const std::string& key, const Location& place) {
-  toml::table holder;
-  try {
-    holder = parse_toml("value = " + value, place.file);
-  } catch (const SceneError& error) {
-    if (!is_bare_word(value)) {
-      throw SceneError(place, key,
-                       fmt::format("{}; allowed: a TOML value or a bare word", error.message()));
-    }
-    holder.insert("value", value);
-  }
-  if (holder.size() != 1) {
-    throw SceneError(place, key, "more than one value; allowed: one TOML value or a bare word");
-  }
-  return holder;
-}
-
-namespace {
-
 void check_names(const OverriddenKey& target, const std::string& path) {
   const TableSchema* table = find_table(target.table);
   if (table == nullptr) {
@@ -73,6 +52,23 @@ void split_path(OverriddenKey& target, const std::string& path) {
 }
 
 }  // namespace
+
+toml::table parse_value(const std::string& value, const std::string& key, const Location& place) {
+  toml::table holder;
+  try {
+    holder = parse_toml("value = " + value, place.file);
+  } catch (const SceneError& error) {
+    if (!is_bare_word(value)) {
+      throw SceneError(place, key,
+                       fmt::format("{}; allowed: a TOML value or a bare word", error.message()));
+    }
+    holder.insert("value", value);
+  }
+  if (holder.size() != 1) {
+    throw SceneError(place, key, "more than one value; allowed: one TOML value or a bare word");
+  }
+  return holder;
+}
 
 OverriddenKey parse_overridden_key(const std::string& path, std::size_t ordinal) {
   OverriddenKey target;

@@ -29,7 +29,7 @@ double motion_m(const Scene& scene, double omega) {
   const double drive_N =
       scene.drive ? std::max(scene.drive->force_amplitude_N, scene.drive->max_force_amplitude_N)
                   : 0.0;
-  const double force_N = std::max(drive_N, friction_limit_N(scene.friction));
+  const double force_N = std::max(drive_N, scene.friction.limit_N());
   const double motion =
       std::max({force_N / resistance_N_per_m, std::abs(plant.initial_velocity_m_per_s) / omega,
                 std::abs(plant.initial_displacement_m)});
@@ -62,10 +62,6 @@ double peak_vibration_m_per_s(const Plant& plant, double frequency_Hz, double fo
   return force_amplitude_N * omega / dynamic_stiffness_N_per_m(plant, omega);
 }
 
-double friction_limit_N(const Contact& contact) {
-  return contact.limit_N();
-}
-
 Contact contact_at(const Friction& friction, double time_s) {
   const Contact& held = friction;
   Contact contact = held;
@@ -87,11 +83,11 @@ double largest_friction_limit_N(const Friction& friction) {
   if (!friction.normal_force_profile_N.empty()) {
     most.normal_force_N = largest_value(friction.normal_force_profile_N);
   }
-  return friction_limit_N(most);
+  return most.limit_N();
 }
 
 FrictionLaw acting_law(const Friction& friction) {
-  return friction_limit_N(friction) > 0.0 ? friction.law : laws::None{};
+  return friction.limit_N() > 0.0 ? friction.law : laws::None{};
 }
 
 PlantScales plant_scales(const Scene& scene) {
@@ -99,7 +95,7 @@ PlantScales plant_scales(const Scene& scene) {
       scene.drive ? numeric::two_pi * scene.drive->frequency_Hz : own_rate_rad_per_s(scene);
   const double length_m = motion_m(scene, omega);
   return {omega, length_m, scene.plant.mass_kg * length_m * omega * omega,
-          friction_limit_N(scene.friction)};
+          scene.friction.limit_N()};
 }
 
 PlantNumbers plant_numbers(const Scene& scene, const PlantScales& scales) {

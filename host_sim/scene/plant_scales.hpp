@@ -36,9 +36,6 @@ double dynamic_stiffness_N_per_m(const Plant& plant, double omega_rad_per_s);
 /// undamped resonance.
 double peak_vibration_m_per_s(const Plant& plant, double frequency_Hz, double force_amplitude_N);
 
-/// Fc = μ N, at 0 s where it changes.
-double friction_limit_N(const Contact& contact);
-
 /// The contact at a time since the run began.
 Contact contact_at(const Friction& friction, double time_s);
 

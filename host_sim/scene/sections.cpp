@@ -156,7 +156,7 @@ Friction read_friction(const Variant& variant, const Plant& plant) {
   if (is_elastic(friction.law)) {
     friction.contact_stiffness_N_per_m =
         cursor.real("contact_stiffness_N_per_m", {1e-6, 1e18, "N/m"});
-    const double limit_N = friction_limit_N(friction);
+    const double limit_N = friction.limit_N();
     friction.initial_force_N = cursor.real("initial_force_N", {-limit_N, limit_N, "N"}, 0.0);
   }
   KeyReader keys(cursor);
@@ -256,7 +256,7 @@ std::optional<Controller> read_controller(const Variant& variant, const Scene& s
   if (!cursor.present()) {
     return std::nullopt;
   }
-  if (!(friction_limit_N(so_far.friction) > 0.0)) {
+  if (!(so_far.friction.limit_N() > 0.0)) {
     cursor.fail(
         fmt::format("there is no friction to control; allowed: a friction.law other than \"none\", "
                     "with coefficient and normal_force_N above 0{}",

@@ -81,7 +81,7 @@ void draw_friction(Dice& dice, scene::Friction& friction) {
   if (scene::is_elastic(friction.law)) {
     friction.contact_stiffness_N_per_m = dice.decades(-3.0, 13.0);
     const double part = dice.chance(0.5) ? 0.0 : dice.chance(0.2) ? 1.0 : dice.uniform();
-    friction.initial_force_N = dice.sign() * part * scene::friction_limit_N(friction);
+    friction.initial_force_N = dice.sign() * part * friction.limit_N();
   }
 }
 

@@ -19,9 +19,8 @@ bool suits_lanes(const scene::Scene& scene) {
   const scene::Solver& solver = scene.solver;
   return !scene.controller && scene.run.start == scene::Start::given && scene.drive &&
          scene.drive->waveform == scene::Waveform::cosine &&
-         scene::is<scene::laws::Dahl>(scene.friction.law) &&
-         scene::friction_limit_N(scene.friction) > 0.0 && !scene.friction.has_profile() &&
-         scene.sliding.profile.size() == 1 &&
+         scene::is<scene::laws::Dahl>(scene.friction.law) && scene.friction.limit_N() > 0.0 &&
+         !scene.friction.has_profile() && scene.sliding.profile.size() == 1 &&
          solver.method == scene::method_of<scene::solvers::EventTaylor> && !solver.order &&
          solver.tolerance >= fine_tolerance;
 }

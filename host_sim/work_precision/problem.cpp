@@ -39,7 +39,7 @@ void require_comparable(const scene::Scene& scene) {
                              "solvers are compared at a friction that does not change; allowed: "
                              "coefficient and normal_force_N");
   }
-  if (!(scene::friction_limit_N(scene.friction) > 0.0)) {
+  if (!(scene.friction.limit_N() > 0.0)) {
     throw ConfigurationError("friction.coefficient",
                              "without a friction force there is no friction ratio to compare; "
                              "allowed: coefficient and normal_force_N above 0");

@@ -120,7 +120,7 @@ class FloatPlant {
 class FixedPlant {
  public:
   explicit FixedPlant(const scene::Scene& scene) : plant_(parameters(scene)) {
-    EXPECT_EQ(scene.sensor.force_full_scale_N, 2.0 * scene::friction_limit_N(scene.friction));
+    EXPECT_EQ(scene.sensor.force_full_scale_N, 2.0 * scene.friction.limit_N());
   }
 
   LivedPeriod advance(std::int32_t amplitude) {

@@ -19,8 +19,7 @@ namespace sonoglide::scene::laws {
 ///   random_percent   its part of the random scenes of `sonoglide stability`, which draw no keys of
 ///                    its own; all add up to 100
 ///   is_bounded       |F| <= Fc, and as Fc goes to 0 so does the law to no friction: a profile of
-///   the
-///                    friction may reach 0
+///                    the friction may reach 0
 ///   undriven_N(contact, speed)  friction force of a steady slide at a speed >= 0 without vibration
 ///   visit_keys(keys, contact)  its own keys of [friction], in order: for each
 ///     keys.required(key, parameter, range) or

@@ -4,22 +4,11 @@
 #include <string>
 #include <vector>
 
+#include "short_scenes.hpp"
 #include "tests/acceptance/program/program.hpp"
-#include "tests/table_1/scenes.hpp"
 
 namespace sonoglide::acceptance {
 namespace {
-
-const std::string open_loop = table_1_open_loop + R"([run]
-duration_periods = 4
-)";
-
-const std::string closed_loop = table_1_closed_loop + R"([run]
-duration_periods = 60
-[controller]
-arithmetic = "float32"
-target_friction_ratio = [[0.0, 0.4]]
-)";
 
 struct Command {
   const char* arguments;
@@ -45,8 +34,8 @@ const std::vector<Command> commands = {
 TEST(ForeignFileTest, IsKeptByEveryCommand) {
   for (const Command& command : commands) {
     const ScratchFolder folder;
-    folder.write("open.toml", open_loop);
-    folder.write("closed.toml", closed_loop);
+    folder.write("open.toml", short_open_loop);
+    folder.write("closed.toml", short_closed_loop);
     folder.write(command.file, "mine");
     const std::vector<std::string> before = folder.entries();
     const Outcome outcome = folder.run(command.arguments);
@@ -61,7 +50,7 @@ TEST(ForeignFileTest, IsKeptByEveryCommand) {
 
 TEST(ForeignFileTest, OtherNamesAreNobodysBusiness) {
   const ScratchFolder folder;
-  folder.write("open.toml", open_loop);
+  folder.write("open.toml", short_open_loop);
   EXPECT_EQ(folder.run("run open.toml --out . --quiet").exit_code, 0);
   EXPECT_EQ(folder.run("run open.toml --out . --quiet").exit_code, 0);
   EXPECT_EQ(folder.entries(),
@@ -70,7 +59,7 @@ TEST(ForeignFileTest, OtherNamesAreNobodysBusiness) {
 
 TEST(ForeignFileTest, AnOutputThatWasEditedIsTheUsers) {
   const ScratchFolder folder;
-  folder.write("open.toml", open_loop);
+  folder.write("open.toml", short_open_loop);
   EXPECT_EQ(folder.run("run open.toml --out o --quiet").exit_code, 0);
   const std::string edited = folder.read("o/summary.json") + "\n";
   folder.write("o/summary.json", edited);
@@ -80,7 +69,7 @@ TEST(ForeignFileTest, AnOutputThatWasEditedIsTheUsers) {
 
 TEST(ForeignFileTest, CommandsReplaceEachOthersOutput) {
   const ScratchFolder folder;
-  folder.write("open.toml", open_loop);
+  folder.write("open.toml", short_open_loop);
   EXPECT_EQ(folder.run("run open.toml --out o --quiet").exit_code, 0);
   EXPECT_EQ(folder.run("sweep open.toml --out o --quiet --vary velocity_ratio=0.1:1:3").exit_code,
             0);

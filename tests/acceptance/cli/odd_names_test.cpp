@@ -9,25 +9,16 @@
 #include <string>
 #include <vector>
 
+#include "short_scenes.hpp"
 #include "tests/acceptance/program/program.hpp"
-#include "tests/table_1/scenes.hpp"
 
 namespace sonoglide::acceptance {
 namespace {
 
 namespace fs = std::filesystem;
 
-const std::string open_loop = table_1_open_loop + R"([run]
-duration_periods = 4
-record = ["displacement_m"]
+const std::string recorded_open_loop = short_open_loop + R"(record = ["displacement_m"]
 record_interval_s = 1e-6
-)";
-
-const std::string closed_loop = table_1_closed_loop + R"([run]
-duration_periods = 60
-[controller]
-arithmetic = "float32"
-target_friction_ratio = [[0.0, 0.4]]
 )";
 
 class OddNameTest : public testing::TestWithParam<std::string> {
@@ -66,7 +57,7 @@ class OddNameTest : public testing::TestWithParam<std::string> {
 };
 
 TEST_P(OddNameTest, Run) {
-  expect_only_shown(run("run " + scene(open_loop)), 0);
+  expect_only_shown(run("run " + scene(recorded_open_loop)), 0);
   const std::string folder = results().string();
   EXPECT_TRUE(nlohmann::json::accept(folder_.read(folder + "/summary.json")));
   const std::string page = folder_.read(folder + "/report.html");
@@ -83,18 +74,19 @@ TEST_P(OddNameTest, RunOfABadScene) {
 }
 
 TEST_P(OddNameTest, Sweep) {
-  expect_only_shown(run("sweep " + scene(open_loop) + " --vary velocity_ratio=0.2:1:3"), 0);
+  expect_only_shown(run("sweep " + scene(recorded_open_loop) + " --vary velocity_ratio=0.2:1:3"),
+                    0);
   EXPECT_NE(folder_.read(results().string() + "/sweep.svg").find("</svg>"), std::string::npos);
 }
 
 TEST_P(OddNameTest, Configure) {
-  folder_.write("plain.toml", closed_loop);
+  folder_.write("plain.toml", short_closed_loop);
   EXPECT_EQ(folder_.run("configure plain.toml --out . --quiet").exit_code, 0);
   const std::string plain = folder_.read("controller_configuration.hpp");
   for (const char* name : {"plain.toml", "controller_configuration.hpp", ".sonoglide"}) {
     fs::remove(folder_.path() / name);
   }
-  expect_only_shown(run("configure " + scene(closed_loop)), 0);
+  expect_only_shown(run("configure " + scene(short_closed_loop)), 0);
   const std::string header = folder_.read(results().string() + "/controller_configuration.hpp");
   EXPECT_TRUE(is_printable(header));
   EXPECT_EQ(header.rfind("/// The controller of the scene ", 0), 0U);
@@ -102,7 +94,7 @@ TEST_P(OddNameTest, Configure) {
 }
 
 TEST_P(OddNameTest, Design) {
-  const Outcome outcome = run("design " + scene(closed_loop) + " --ratio 0.5");
+  const Outcome outcome = run("design " + scene(short_closed_loop) + " --ratio 0.5");
   expect_only_shown(outcome, 0);
   const std::string folder = results().string();
   EXPECT_TRUE(nlohmann::json::accept(folder_.read(folder + "/design.json")));
@@ -115,7 +107,7 @@ TEST(LongNameTest, HasAFolderOfItsOwn) {
   const ScratchFolder folder;
   const std::string begin(249, 'a');
   for (const char* end : {"b", "c"}) {
-    folder.write(begin + end + ".toml", open_loop);
+    folder.write(begin + end + ".toml", recorded_open_loop);
     EXPECT_EQ(folder.run("run " + begin + end + ".toml --quiet").exit_code, 0);
   }
   EXPECT_EQ(std::distance(fs::directory_iterator(folder.path() / "out"), fs::directory_iterator()),

@@ -6,28 +6,17 @@
 #include <string>
 #include <vector>
 
+#include "short_scenes.hpp"
 #include "tests/acceptance/program/program.hpp"
-#include "tests/table_1/scenes.hpp"
 
 namespace sonoglide::acceptance {
 namespace {
 
-const std::string open_loop = table_1_open_loop + R"([run]
-duration_periods = 4
-)";
-
-const std::string closed_loop = table_1_closed_loop + R"([run]
-duration_periods = 60
-[controller]
-arithmetic = "float32"
-target_friction_ratio = [[0.0, 0.4]]
-)";
-
 class SceneInputTest : public testing::Test {
  protected:
   void SetUp() override {
-    folder_.write("open.toml", open_loop);
-    folder_.write("closed.toml", closed_loop);
+    folder_.write("open.toml", short_open_loop);
+    folder_.write("closed.toml", short_closed_loop);
   }
 
   ScratchFolder folder_;

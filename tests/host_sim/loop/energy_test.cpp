@@ -16,8 +16,8 @@ namespace {
 using scene::Scene;
 
 PowerRatios window_ratios(const Scene& scene) {
-  return power_ratios(run(scene).window, scene::friction_limit_N(scene.friction),
-                      scene.friction.sign_convention, period_s);
+  return power_ratios(run(scene).window, scene.friction.limit_N(), scene.friction.sign_convention,
+                      period_s);
 }
 
 struct Case {
@@ -117,9 +117,8 @@ TEST(EnergyTest, DissipationIsPullPlusDriveInTheSteadyState) {
   const Scene scene = on_steady_orbit(table_1());
   const RunResult result = run(scene);
   const PowerRatios ratios = window_ratios(scene);
-  const double stored =
-      (result.window.stored_end_J - result.window.stored_begin_J) /
-      (scene::friction_limit_N(scene.friction) * result.window.sliding_distance_m);
+  const double stored = (result.window.stored_end_J - result.window.stored_begin_J) /
+                        (scene.friction.limit_N() * result.window.sliding_distance_m);
   EXPECT_NEAR(ratios.dissipation_ratio, ratios.friction_ratio + ratios.drive_input_ratio - stored,
               1e-6);
 }

@@ -50,8 +50,7 @@ Values reference(const std::string& name) {
 }
 
 PowerRatios ratios(const Scene& scene, const EnergyBalance& energy) {
-  return power_ratios(energy, scene::friction_limit_N(scene.friction),
-                      scene.friction.sign_convention, period_s);
+  return power_ratios(energy, scene.friction.limit_N(), scene.friction.sign_convention, period_s);
 }
 
 Values values(const Scene& scene) {

@@ -123,7 +123,7 @@ double friction_ratio(scene::Scene scene, scene::SolverMethod method, double tol
   scene.solver.method = method;
   scene.solver.tolerance = tolerance;
   return run(scene).whole.resistance_impulse_N_s /
-         (scene::friction_limit_N(scene.friction) * scene.run.duration_s);
+         (scene.friction.limit_N() * scene.run.duration_s);
 }
 
 /// Of the friction ratio, in tolerances: each one that a solver of the law has made, rising.

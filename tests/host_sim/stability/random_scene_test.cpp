@@ -55,7 +55,7 @@ TEST(RandomScene, StaysInsideItsRanges) {
     const scene::Plant& plant = scene.plant;
     EXPECT_TRUE(plant.mass_kg >= 0.999e-9 && plant.mass_kg <= 1.001e3) << scene.name;
     EXPECT_TRUE(plant.damping_N_s_per_m >= 0.0 && plant.damping_N_s_per_m <= 1e12) << scene.name;
-    EXPECT_LE(std::abs(scene.friction.initial_force_N), scene::friction_limit_N(scene.friction));
+    EXPECT_LE(std::abs(scene.friction.initial_force_N), scene.friction.limit_N());
     EXPECT_LE(scene.friction.coefficient, 10.001);
     EXPECT_LE(scene.friction.normal_force_N, 1.001e6);
     const double begin = scene.sliding.profile.front().velocity_m_per_s;
@@ -78,8 +78,7 @@ TEST(RandomScene, MeetsEverySpecialCaseOften) {
   expect_share(all, 0.2, 0.4,
                [](auto& s) { return scene::is<scene::laws::Coulomb>(s.friction.law); });
   expect_share(all, 0.05, 0.15, [](auto& s) {
-    return !scene::is<scene::laws::None>(s.friction.law) &&
-           scene::friction_limit_N(s.friction) == 0.0;
+    return !scene::is<scene::laws::None>(s.friction.law) && s.friction.limit_N() == 0.0;
   });
   expect_share(all, 0.15, 0.3, [](auto& s) {
     return s.friction.sign_convention == scene::SignConvention::as_printed;
