@@ -5,11 +5,11 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "firmware/app/link/frame.hpp"
-#include "firmware/app/link/messages.hpp"
-#include "firmware/app/link/sequence.hpp"
 #include "firmware/app/mismatch.hpp"
 #include "firmware/app/unit.hpp"
+#include "firmware/link/frame.hpp"
+#include "firmware/link/messages.hpp"
+#include "firmware/link/sequence.hpp"
 
 namespace sonoglide::app {
 

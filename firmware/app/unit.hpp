@@ -6,8 +6,8 @@
 
 #include "firmware/app/field_parameters.hpp"
 #include "firmware/app/host_ramp.hpp"
-#include "firmware/app/store/two_page_store.hpp"
 #include "firmware/app/supervisor.hpp"
+#include "firmware/store/two_page_store.hpp"
 
 namespace sonoglide::app {
 

@@ -3,9 +3,9 @@
 
 #include <cstdint>
 
-#include "firmware/app/store/two_page_store.hpp"
 #include "firmware/app/supervisor.hpp"
 #include "firmware/control/names.hpp"
+#include "firmware/store/two_page_store.hpp"
 
 namespace sonoglide::app {
 

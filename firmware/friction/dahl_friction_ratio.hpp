@@ -3,8 +3,8 @@
 
 #include <cstddef>
 
-#include "firmware/friction/gauss_legendre.hpp"
 #include "firmware/numeric/float_elementary.hpp"
+#include "firmware/numeric/gauss_legendre.hpp"
 #include "firmware/numeric/scalar.hpp"
 
 namespace sonoglide::friction {
@@ -15,7 +15,8 @@ constexpr double pi = 3.141592653589793238462643383279502884;
 /// What lies beyond adds less than 1e-13 to the ratio, and 24 nodes resolve what lies before.
 constexpr double negligible_exponent = 28.0;
 constexpr int node_count = 24;
-inline constexpr GaussLegendreRule<node_count> rule = gauss_legendre<node_count>();
+inline constexpr numeric::GaussLegendreRule<node_count> rule =
+    numeric::gauss_legendre<node_count>();
 
 /// One arc of V/v̂ = r + cos θ between two reversals, seen from the reversal where it begins:
 /// travel(x) = ± (x cos θ* + 2 sin(x/2) cos(x/2 ∓ θ*)), x the phase since then.

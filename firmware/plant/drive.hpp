@@ -7,8 +7,8 @@
 #include <cstddef>
 
 #include "firmware/numeric/float_elementary.hpp"
+#include "firmware/numeric/power_series.hpp"
 #include "firmware/numeric/scalar.hpp"
-#include "firmware/plant/polynomial.hpp"
 
 namespace sonoglide::plant {
 
@@ -68,14 +68,15 @@ struct CosineDrive {
       const Scalar minus_square = -(unit * unit);
       for (std::size_t n = 2; n <= Order; ++n) {
         // The phase enters late: it waits for one product each.
-        coefficients_[n] = coefficients_[n - 2] *
-                           (minus_square * (reciprocal<Scalar>(n) * reciprocal<Scalar>(n - 1)));
+        coefficients_[n] =
+            coefficients_[n - 2] *
+            (minus_square * (numeric::reciprocal<Scalar>(n) * numeric::reciprocal<Scalar>(n - 1)));
       }
     }
     Scalar operator[](std::size_t n) const { return coefficients_[n]; }
     /// The n-th coefficient, times a factor.
     Scalar term(std::size_t n, Scalar factor) const { return factor * coefficients_[n]; }
-    Scalar at(Scalar x) const { return evaluate(coefficients_, x); }
+    Scalar at(Scalar x) const { return numeric::evaluate(coefficients_, x); }
 
    private:
     std::array<Scalar, Order + 1> coefficients_;

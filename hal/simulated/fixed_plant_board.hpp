@@ -6,7 +6,7 @@
 
 #include "firmware/numeric/fixed.hpp"
 #include "firmware/numeric/scalar.hpp"
-#include "firmware/plant/fixed_strang.hpp"
+#include "firmware/plant/strang/fixed_point_strang.hpp"
 #include "hal/board.hpp"
 #include "hal/simulated/drive_latency.hpp"
 

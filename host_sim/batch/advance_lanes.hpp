@@ -13,7 +13,7 @@
 #include <cstddef>
 #include <limits>
 
-#include "firmware/friction/gauss_legendre.hpp"
+#include "firmware/numeric/gauss_legendre.hpp"
 #include "host_sim/batch/certain_reversal.hpp"
 #include "host_sim/batch/decay_lanes.hpp"
 #include "host_sim/batch/lane_pack.hpp"
@@ -175,7 +175,7 @@ class StepLanes {
     return instant_.deficit * extent * instant_.unit * sum;
   }
 
-  static constexpr auto rule = friction::gauss_legendre<Setting::node_count>();
+  static constexpr auto rule = numeric::gauss_legendre<Setting::node_count>();
 
   const PlantLanes<D>& plant_;
   InstantLanes<D> instant_;

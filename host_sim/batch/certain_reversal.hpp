@@ -5,8 +5,8 @@
 #include <cstddef>
 #include <limits>
 
+#include "firmware/numeric/first_root.hpp"
 #include "firmware/numeric/scalar.hpp"
-#include "firmware/plant/first_root.hpp"
 
 namespace sonoglide::batch {
 
@@ -27,7 +27,7 @@ Scalar certain_reversal(std::array<Scalar, Count> p, Scalar end) {
     }
     p[Count - 1] = Scalar(0);
   }
-  return plant::first_root(p, end);
+  return numeric::first_root(p, end);
 }
 
 }  // namespace sonoglide::batch

@@ -10,7 +10,7 @@
 
 #include <utility>
 
-#include "firmware/plant/polynomial.hpp"
+#include "firmware/numeric/power_series.hpp"
 #include "host_sim/batch/lane_pack.hpp"
 #include "host_sim/batch/plant_lanes.hpp"
 
@@ -21,7 +21,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 /// 1 / n in every lane.
 template <class D>
 HWY_INLINE Pack<D> reciprocal(D d, int n) {
-  return broadcast(d, plant::reciprocal<hn::TFromD<D>>(static_cast<std::size_t>(n)));
+  return broadcast(d, numeric::reciprocal<hn::TFromD<D>>(static_cast<std::size_t>(n)));
 }
 
 /// The motion where the step begins, and the direction in which the contact slides.

@@ -5,24 +5,24 @@
 #include <cstdio>
 #include <filesystem>
 
-#include "host_sim/arithmetic/comparison.hpp"
-#include "host_sim/arithmetic/report.hpp"
 #include "host_sim/cli/board_option.hpp"
 #include "host_sim/cli/output_option.hpp"
 #include "host_sim/cli/progress_bar.hpp"
-#include "host_sim/image/controller_header.hpp"
-#include "host_sim/plot/gnuplot.hpp"
+#include "host_sim/emulated/controller_header.hpp"
+#include "host_sim/output/gnuplot.hpp"
 #include "host_sim/process/interruption.hpp"
+#include "host_sim/studies/arithmetic/comparison.hpp"
+#include "host_sim/studies/arithmetic/report.hpp"
 
 namespace sonoglide::cli {
 namespace {
 
-using Boards = std::vector<const emulator::EmulatedBoard*>;
+using Boards = std::vector<const emulated::EmulatedBoard*>;
 
 Boards chosen(const std::vector<std::string>& names) {
   Boards boards;
   for (const std::string& name : names) {
-    boards.push_back(emulator::find_board(name));
+    boards.push_back(emulated::find_board(name));
     require_emulator(*boards.back());
   }
   return boards;
@@ -58,10 +58,10 @@ CLI::App* add_arithmetic_command(CLI::App& program, ArithmeticOptions& options) 
 void arithmetic(const ArithmeticOptions& options) {
   const SceneInput input(options.scene);
   const scene::Scene scene = input.read();
-  input.with_places([&] { return image::controller_header(scene); });
+  input.with_places([&] { return emulated::controller_header(scene); });
   const Boards boards = chosen(options.boards);
   const std::filesystem::path out = output_folder(options.out, scene.name, "_arithmetic");
-  plot::require_gnuplot();
+  output::require_gnuplot();
   require_writable(out, {"arithmetic.csv", "targets.csv", "arithmetic.svg"});
   const arithmetic::Comparison comparison = compute(scene, boards, options.quiet);
   arithmetic::write(out, scene, comparison);

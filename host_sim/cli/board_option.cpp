@@ -7,17 +7,17 @@
 namespace sonoglide::cli {
 
 std::string check_board(const std::string& name) {
-  if (emulator::find_board(name) != nullptr) {
+  if (emulated::find_board(name) != nullptr) {
     return {};
   }
   std::string allowed;
-  for (const emulator::EmulatedBoard& board : emulator::emulated_boards()) {
+  for (const emulated::EmulatedBoard& board : emulated::emulated_boards()) {
     allowed += fmt::format("{}{}", allowed.empty() ? "" : ", ", board.name);
   }
   return fmt::format("\"{}\" is no board; allowed: {}", name, allowed);
 }
 
-void require_emulator(const emulator::EmulatedBoard& board) {
+void require_emulator(const emulated::EmulatedBoard& board) {
   const std::string program(board.emulator);
   process::require_program(program,
                            program == "qemu-system-arm" ? "qemu-system-arm" : "qemu-system-misc");

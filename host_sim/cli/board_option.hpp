@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "host_sim/emulator/board_list.hpp"
+#include "host_sim/emulated/board_list.hpp"
 
 namespace sonoglide::cli {
 
@@ -12,6 +12,6 @@ std::string check_board(const std::string& name);
 
 /// What would stop the run later stops it before anything is built.
 /// @throws process::ProcessError  the board's emulator is not installed
-void require_emulator(const emulator::EmulatedBoard& board);
+void require_emulator(const emulated::EmulatedBoard& board);
 
 }  // namespace sonoglide::cli

@@ -5,9 +5,9 @@
 #include <filesystem>
 
 #include "host_sim/cli/output_option.hpp"
-#include "host_sim/image/controller_header.hpp"
-#include "host_sim/image/plant_header.hpp"
-#include "host_sim/report/output_folder.hpp"
+#include "host_sim/emulated/controller_header.hpp"
+#include "host_sim/emulated/plant_header.hpp"
+#include "host_sim/output/output_folder.hpp"
 #include "host_sim/text/printable.hpp"
 
 namespace sonoglide::cli {
@@ -16,12 +16,12 @@ CLI::App* add_configure_command(CLI::App& program, ConfigureOptions& options) {
       "configure", "Write the controller of a closed-loop scene as a header for its image");
   add_scene_options(*command, options.scene);
   add_output_option(*command, options.out,
-                    fmt::format("{} [out/<scene name>]", image::controller_header_name));
+                    fmt::format("{} [out/<scene name>]", emulated::controller_header_name));
   command
       ->add_option("--plant", options.plant,
                    fmt::format("Write the plant as well, in this arithmetic, as {}: for an image "
                                "that holds both",
-                               image::plant_header_name))
+                               emulated::plant_header_name))
       ->type_name("float32|q31")
       ->check(CLI::IsMember({"float32", "q31"}));
   command->add_flag("--quiet", options.quiet, "No word on where the header is");
@@ -32,22 +32,22 @@ void configure(const ConfigureOptions& options) {
   const SceneInput input(options.scene);
   const scene::Scene scene = input.read();
   const std::filesystem::path out = output_folder(options.out, scene.name);
-  report::OutputFolder folder(out);
-  folder.write(image::controller_header_name,
-               input.with_places([&] { return image::controller_header(scene); }));
+  output::OutputFolder folder(out);
+  folder.write(emulated::controller_header_name,
+               input.with_places([&] { return emulated::controller_header(scene); }));
   if (options.plant.empty()) {
-    folder.withdraw(image::plant_header_name);
+    folder.withdraw(emulated::plant_header_name);
   } else {
     const scene::Arithmetic arithmetic =
         options.plant == "q31" ? scene::Arithmetic::q31 : scene::Arithmetic::float32;
-    folder.write(image::plant_header_name,
-                 input.with_places([&] { return image::plant_header(scene, arithmetic); }));
+    folder.write(emulated::plant_header_name,
+                 input.with_places([&] { return emulated::plant_header(scene, arithmetic); }));
   }
   folder.commit();
   if (!options.quiet) {
-    fmt::print("header: {}\n", text::printable((out / image::controller_header_name).string()));
+    fmt::print("header: {}\n", text::printable((out / emulated::controller_header_name).string()));
     if (!options.plant.empty()) {
-      fmt::print("plant:  {}\n", text::printable((out / image::plant_header_name).string()));
+      fmt::print("plant:  {}\n", text::printable((out / emulated::plant_header_name).string()));
     }
   }
 }

@@ -10,10 +10,10 @@
 #include "host_sim/cli/output_option.hpp"
 #include "host_sim/cli/progress_bar.hpp"
 #include "host_sim/cli/run_watch.hpp"
-#include "host_sim/design/report.hpp"
-#include "host_sim/design/study.hpp"
-#include "host_sim/plot/gnuplot.hpp"
+#include "host_sim/output/gnuplot.hpp"
 #include "host_sim/process/interruption.hpp"
+#include "host_sim/studies/design/report.hpp"
+#include "host_sim/studies/design/study.hpp"
 
 namespace sonoglide::cli {
 namespace {
@@ -90,7 +90,7 @@ void design(const DesignOptions& options) {
   const design::Task task = input.with_places(
       [&] { return design::make_task(scene, options.ratios, parse_speeds(options.velocity)); });
   const std::filesystem::path out = output_folder(options.out, scene.name, "_design");
-  plot::require_gnuplot();
+  output::require_gnuplot();
   require_writable(out, {"report.html", "design.json", "design.csv", "detuning.csv"});
   const design::Study study = compute(task, options.quiet);
   design::write(out, study);

@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <string>
 
-#include "host_sim/scene/control_design.hpp"
+#include "host_sim/configure/control_design.hpp"
 
 namespace sonoglide::cli {
 
@@ -13,7 +13,7 @@ void print_design_notes(const scene::Scene& scene) {
   if (!scene.controller) {
     return;
   }
-  for (const std::string& note : scene::design_notes(scene::design_control(scene))) {
+  for (const std::string& note : configure::design_notes(configure::design_control(scene))) {
     fmt::print(stderr, "note: {}\n", note);
   }
 }

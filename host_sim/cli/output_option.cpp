@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-#include "host_sim/report/output_folder.hpp"
+#include "host_sim/output/output_folder.hpp"
 #include "host_sim/text/checksum.hpp"
 #include "host_sim/text/printable.hpp"
 
@@ -49,7 +49,7 @@ std::filesystem::path output_folder(const std::string& out, const std::string& s
 }
 
 void require_writable(const std::filesystem::path& out, const std::vector<std::string>& names) {
-  const report::OutputFolder probe(out, names);
+  const output::OutputFolder probe(out, names);
 }
 
 }  // namespace sonoglide::cli

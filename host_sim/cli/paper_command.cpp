@@ -9,10 +9,10 @@
 #include "host_sim/cli/output_option.hpp"
 #include "host_sim/cli/progress_bar.hpp"
 #include "host_sim/cli/run_watch.hpp"
-#include "host_sim/paper/figures.hpp"
-#include "host_sim/paper/paper.hpp"
-#include "host_sim/plot/gnuplot.hpp"
+#include "host_sim/output/gnuplot.hpp"
 #include "host_sim/process/interruption.hpp"
+#include "host_sim/studies/paper/figures.hpp"
+#include "host_sim/studies/paper/paper.hpp"
 #include "host_sim/text/printable.hpp"
 
 namespace sonoglide::cli {
@@ -53,7 +53,7 @@ CLI::App* add_paper_command(CLI::App& program, PaperOptions& options) {
 }
 
 void paper(const PaperOptions& options) {
-  plot::require_gnuplot();
+  output::require_gnuplot();
   compute(options);
   if (!options.quiet) {
     fmt::print("page: {}\n",

@@ -11,30 +11,30 @@
 #include "host_sim/cli/output_option.hpp"
 #include "host_sim/cli/progress_bar.hpp"
 #include "host_sim/cli/run_watch.hpp"
-#include "host_sim/emulator/board_list.hpp"
-#include "host_sim/image/board_arithmetic.hpp"
-#include "host_sim/image/controller_header.hpp"
+#include "host_sim/emulated/board_arithmetic.hpp"
+#include "host_sim/emulated/board_list.hpp"
+#include "host_sim/emulated/controller_header.hpp"
+#include "host_sim/emulated/run_image.hpp"
 #include "host_sim/loop/run.hpp"
-#include "host_sim/pil/run_image.hpp"
 #include "host_sim/process/interruption.hpp"
 #include "host_sim/report/run_report.hpp"
 
 namespace sonoglide::cli {
 namespace {
 
-loop::RunResult compute(const scene::Scene& scene, const emulator::EmulatedBoard& board,
+loop::RunResult compute(const scene::Scene& scene, const emulated::EmulatedBoard& board,
                         const std::string& header, report::RunReport& report, bool quiet,
                         const process::Interruption& interruption) {
   ProgressBar bar(stderr, !quiet);
-  return pil::run_image(scene, board, header, run_watch(report, bar, interruption),
-                        [&] { interruption.check(); });
+  return emulated::run_image(scene, board, header, run_watch(report, bar, interruption),
+                             [&] { interruption.check(); });
 }
 
 std::string header_for(const SceneInput& input, const scene::Scene& scene,
-                       const emulator::EmulatedBoard& board) {
+                       const emulated::EmulatedBoard& board) {
   return input.with_places([&] {
-    image::require_arithmetic(scene, board);
-    return image::controller_header(scene);
+    emulated::require_arithmetic(scene, board);
+    return emulated::controller_header(scene);
   });
 }
 
@@ -57,7 +57,7 @@ CLI::App* add_pil_command(CLI::App& program, PilOptions& options) {
 }
 
 void pil(const PilOptions& options) {
-  const emulator::EmulatedBoard& board = *emulator::find_board(options.board);
+  const emulated::EmulatedBoard& board = *emulated::find_board(options.board);
   const SceneInput input(options.scene);
   const scene::Scene scene = input.read();
   const std::string header = header_for(input, scene, board);
@@ -73,7 +73,7 @@ void pil(const PilOptions& options) {
   if (!options.quiet) {
     fmt::print("{}", report::run_text(scene, result, report.findings(), out));
   }
-  pil::require_same(result);
+  emulated::require_same(result);
 }
 
 }  // namespace sonoglide::cli

@@ -19,8 +19,9 @@ struct PilOptions {
 /// Adds the command to the program; `options` outlives it and is filled in by parsing.
 CLI::App* add_pil_command(CLI::App& program, PilOptions& options);
 
-/// Throws what run() throws, and process::ProcessError or pil::EmulatorError where the image cannot
-/// be built or carried on; in each case nothing was written and no other program is left behind.
+/// Throws what run() throws, and process::ProcessError or emulated::EmulatorError where the image
+/// cannot be built or carried on; in each case nothing was written and no other program is left
+/// behind.
 void pil(const PilOptions& options);
 
 }  // namespace sonoglide::cli

@@ -20,8 +20,8 @@
 #include "host_sim/cli/usage.hpp"
 #include "host_sim/cli/work_precision_command.hpp"
 #include "host_sim/loop/run.hpp"
-#include "host_sim/report/output_folder.hpp"
-#include "host_sim/scene/scene_error.hpp"
+#include "host_sim/output/output_folder.hpp"
+#include "host_sim/scene_file/scene_error.hpp"
 #include "host_sim/text/printable.hpp"
 
 namespace sonoglide::cli {
@@ -30,7 +30,7 @@ namespace {
 /// A full disk or a closed pipe shows only when the buffer goes out.
 void flush_output() {
   if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
-    throw report::OutputError("standard output: cannot be written");
+    throw output::OutputError("standard output: cannot be written");
   }
 }
 
@@ -100,7 +100,7 @@ int run_program(int argument_count, const char* const* arguments) {
     return fail_usage(text::printable(error.what()));
   } catch (const UsageError& error) {
     return fail_usage(error.what());
-  } catch (const scene::SceneError& error) {
+  } catch (const scene_file::SceneError& error) {
     return fail(bad_input, error.what());
   } catch (const loop::ComputationError& error) {
     return fail(computation_failed, error.what());

@@ -1,6 +1,6 @@
 #include "host_sim/cli/scene_input.hpp"
 
-#include "host_sim/scene/document.hpp"
+#include "host_sim/scene_file/document.hpp"
 
 namespace sonoglide::cli {
 
@@ -20,10 +20,10 @@ void add_scene_options(CLI::App& command, SceneOptions& options, const std::stri
 }
 
 SceneInput::SceneInput(const SceneOptions& options)
-    : options_(options), source_(scene::read_source(options.path)) {}
+    : options_(options), source_(scene_file::read_source(options.path)) {}
 
-scene::SceneError SceneInput::placed(const scene::ConfigurationError& error) const {
-  return {scene::Document(source_, options_.overrides).place_of(error.key()), error.key(),
+scene_file::SceneError SceneInput::placed(const configure::ConfigurationError& error) const {
+  return {scene_file::Document(source_, options_.overrides).place_of(error.key()), error.key(),
           error.what()};
 }
 

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "host_sim/scene/configuration_error.hpp"
-#include "host_sim/scene/reader.hpp"
+#include "host_sim/configure/configuration_error.hpp"
+#include "host_sim/scene_file/reader.hpp"
 
 namespace sonoglide::cli {
 
@@ -28,7 +28,7 @@ class SceneInput {
   explicit SceneInput(const SceneOptions& options);
 
   /// @throws scene::SceneError
-  scene::Scene read() const { return scene::read(source_, options_.overrides); }
+  scene::Scene read() const { return scene_file::read(source_, options_.overrides); }
 
   /// What a call makes of the scene that read() gave.
   /// @throws scene::SceneError  at the place of its key, where the call throws a
@@ -37,16 +37,16 @@ class SceneInput {
   auto with_places(const Call& call) const {
     try {
       return call();
-    } catch (const scene::ConfigurationError& error) {
+    } catch (const configure::ConfigurationError& error) {
       throw placed(error);
     }
   }
 
  private:
-  scene::SceneError placed(const scene::ConfigurationError& error) const;
+  scene_file::SceneError placed(const configure::ConfigurationError& error) const;
 
   const SceneOptions& options_;
-  scene::Source source_;
+  scene_file::Source source_;
 };
 
 }  // namespace sonoglide::cli

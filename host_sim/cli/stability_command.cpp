@@ -9,10 +9,10 @@
 #include "host_sim/cli/output_option.hpp"
 #include "host_sim/cli/progress_bar.hpp"
 #include "host_sim/cli/run_watch.hpp"
-#include "host_sim/plot/gnuplot.hpp"
+#include "host_sim/output/gnuplot.hpp"
 #include "host_sim/process/interruption.hpp"
-#include "host_sim/stability/study.hpp"
-#include "host_sim/stability/study_text.hpp"
+#include "host_sim/studies/stability/study.hpp"
+#include "host_sim/studies/stability/study_text.hpp"
 #include "host_sim/text/printable.hpp"
 
 namespace sonoglide::cli {
@@ -22,7 +22,7 @@ constexpr std::uint64_t random_scenes = 100000;
 
 /// What would stop the report at the end stops it here.
 void require_output(const std::filesystem::path& out) {
-  plot::require_gnuplot();
+  output::require_gnuplot();
   require_writable(
       out, {"report.html", "stability_map.csv", "stability_map.svg", "stability_map_float32.csv",
             "stability_map_float32.svg", "extremes.csv", "extremes_worst.csv"});

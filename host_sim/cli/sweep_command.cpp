@@ -7,7 +7,7 @@
 
 #include "host_sim/cli/output_option.hpp"
 #include "host_sim/cli/progress_bar.hpp"
-#include "host_sim/sweep/sweep.hpp"
+#include "host_sim/studies/sweep/sweep.hpp"
 #include "host_sim/text/printable.hpp"
 
 namespace sonoglide::cli {
@@ -80,7 +80,7 @@ CLI::App* add_sweep_command(CLI::App& program, SweepOptions& options) {
 }
 
 void sweep(const SweepOptions& options) {
-  const sweep::Plan plan(scene::read_source(options.scene.path), options.scene.overrides,
+  const sweep::Plan plan(scene_file::read_source(options.scene.path), options.scene.overrides,
                          options.vary);
   const std::filesystem::path out = output_folder(options.out, plan.first().name, "_sweep");
   const sweep::Summary summary = compute(plan, out, options);

@@ -10,7 +10,7 @@
 #include <system_error>
 #include <vector>
 
-#include "host_sim/scene/suggestion.hpp"
+#include "host_sim/scene_file/suggestion.hpp"
 #include "host_sim/text/printable.hpp"
 
 namespace sonoglide::cli {
@@ -99,7 +99,7 @@ class Words {
 
   static std::string nearest(std::string_view name, const std::vector<std::string>& known,
                              std::string_view before, const std::string& otherwise) {
-    const auto found = scene::nearest_name(name, {known.begin(), known.end()});
+    const auto found = scene_file::nearest_name(name, {known.begin(), known.end()});
     return found ? fmt::format("did you mean {}{}?", before, *found) : otherwise;
   }
 

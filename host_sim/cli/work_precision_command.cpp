@@ -8,11 +8,11 @@
 #include "host_sim/cli/output_option.hpp"
 #include "host_sim/cli/progress_bar.hpp"
 #include "host_sim/cli/run_watch.hpp"
-#include "host_sim/plot/gnuplot.hpp"
+#include "host_sim/output/gnuplot.hpp"
 #include "host_sim/process/interruption.hpp"
-#include "host_sim/work_precision/comparison.hpp"
-#include "host_sim/work_precision/problem.hpp"
-#include "host_sim/work_precision/report.hpp"
+#include "host_sim/studies/work_precision/comparison.hpp"
+#include "host_sim/studies/work_precision/problem.hpp"
+#include "host_sim/studies/work_precision/report.hpp"
 
 namespace sonoglide::cli {
 namespace {
@@ -43,7 +43,7 @@ void work_precision(const WorkPrecisionOptions& options) {
   const peers::Problem problem =
       input.with_places([&] { return work_precision::problem_of(scene); });
   const std::filesystem::path out = output_folder(options.out, scene.name, "_work_precision");
-  plot::require_gnuplot();
+  output::require_gnuplot();
   require_writable(out, {"report.html", "work_precision.csv", "work_precision.svg"});
   const process::Interruption interruption;
   const work_precision::Comparison comparison = compute(problem, options.quiet, interruption);

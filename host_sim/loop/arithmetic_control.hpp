@@ -3,8 +3,8 @@
 
 #include <memory>
 
+#include "host_sim/configure/control_design.hpp"
 #include "host_sim/loop/control_port.hpp"
-#include "host_sim/scene/control_design.hpp"
 #include "host_sim/scene/scene.hpp"
 
 namespace sonoglide::loop {
@@ -13,6 +13,6 @@ namespace sonoglide::loop {
 /// makes of arithmetic_control.cpp.in: they take long to compile.
 template <class Scalar>
 std::unique_ptr<ControlPort> make_control(const scene::Scene& scene,
-                                          const scene::ControlDesign& design);
+                                          const configure::ControlDesign& design);
 
 }  // namespace sonoglide::loop

@@ -27,7 +27,7 @@
 namespace sonoglide::loop {
 namespace compose {
 
-using scene::ControlDesign;
+using configure::ControlDesign;
 
 template <class Scalar>
 Scalar scaled(double value) {
@@ -176,7 +176,7 @@ template <class Scalar>
 using FeedforwardChoice =
     std::variant<Type<control::CoulombFeedforward<Scalar>>, Type<control::DahlFeedforward<Scalar>>>;
 template <class Scalar>
-using LongNotch = control::NotchShaper<Scalar, scene::max_notch_spacing>;
+using LongNotch = control::NotchShaper<Scalar, configure::max_notch_spacing>;
 template <class Scalar>
 using ShaperChoice = std::variant<Type<control::NoShaping<Scalar>>, Type<LongNotch<Scalar>>>;
 
@@ -205,17 +205,18 @@ Choice choose(bool second) {
 
 template <class Scalar>
 std::unique_ptr<ControlPort> make_control(const scene::Scene& scene,
-                                          const scene::ControlDesign& design) {
+                                          const configure::ControlDesign& design) {
   using namespace compose;
   return std::visit(
       [&](auto friction, auto feedforward, auto shaper,
           auto extras) -> std::unique_ptr<ControlPort> {
         using Chosen = typename decltype(extras)::type;
-        using Parts = control::Parts<Scalar, typename decltype(friction)::type,
-                                     typename decltype(feedforward)::type, typename Chosen::Slew,
-                                     typename decltype(shaper)::type,
-                                     control::IntegralRegulator<Scalar, scene::max_reference_delay>,
-                                     typename Chosen::Relearning>;
+        using Parts =
+            control::Parts<Scalar, typename decltype(friction)::type,
+                           typename decltype(feedforward)::type, typename Chosen::Slew,
+                           typename decltype(shaper)::type,
+                           control::IntegralRegulator<Scalar, configure::max_reference_delay>,
+                           typename Chosen::Relearning>;
         return std::make_unique<InProcessControl<Parts>>(design);
       },
       choose<FrictionChoice<Scalar>>(design.calibrated),

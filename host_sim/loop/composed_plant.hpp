@@ -7,45 +7,45 @@
 #include <vector>
 
 #include "firmware/plant/account.hpp"
-#include "firmware/plant/observer.hpp"
 #include "firmware/plant/outcome.hpp"
 #include "firmware/plant/state.hpp"
+#include "host_sim/configure/plant_scales.hpp"
 #include "host_sim/loop/contact_memory.hpp"
 #include "host_sim/loop/drive_piece.hpp"
 #include "host_sim/loop/plant_port.hpp"
-#include "host_sim/scene/plant_scales.hpp"
 
 namespace sonoglide::loop {
 
-/// Reads states off the steps as they are taken.
+/// Reads states off the steps as they are taken; one made by default reads none. One type serves
+/// both, so that a solver is compiled once.
 class StateReader {
  public:
+  StateReader() = default;
+  /// @param offsets_s  since the beginning, rising; outlives the reader, and so does `seen`
   StateReader(const std::vector<double>& offsets_s, double angular_frequency_rad_per_s,
               std::vector<plant::State<double>>& seen)
-      : offsets_s_(offsets_s),
+      : next_(offsets_s.data()),
+        end_(offsets_s.data() + offsets_s.size()),
         angular_frequency_rad_per_s_(angular_frequency_rad_per_s),
-        seen_(seen) {}
+        seen_(&seen) {}
 
   template <class Step>
   void operator()(const Step& step) {
     const double end = step.begin() + step.length();
-    for (; next_ < offsets_s_.size(); ++next_) {
-      const double offset = offsets_s_[next_] * angular_frequency_rad_per_s_;
+    for (; next_ != end_; ++next_) {
+      const double offset = *next_ * angular_frequency_rad_per_s_;
       if (offset > end) {
         return;
       }
-      seen_.push_back(step.at(std::max(0.0, offset - step.begin())));
+      seen_->push_back(step.at(std::max(0.0, offset - step.begin())));
     }
   }
 
-  /// Offsets that rounding has put past the last step.
-  void finish(const plant::State<double>& last) { seen_.resize(offsets_s_.size(), last); }
-
  private:
-  const std::vector<double>& offsets_s_;
-  double angular_frequency_rad_per_s_;
-  std::vector<plant::State<double>>& seen_;
-  std::size_t next_ = 0;
+  const double* next_ = nullptr;
+  const double* end_ = nullptr;
+  double angular_frequency_rad_per_s_ = 0.0;
+  std::vector<plant::State<double>>* seen_ = nullptr;
 };
 
 template <class Solver>
@@ -64,7 +64,7 @@ class ComposedPlant final : public PlantPort {
   }
 
   plant::Outcome<double> advance(const Stretch& stretch, EnergyBalance& energy) override {
-    plant::NoObserver nobody;
+    StateReader nobody;
     return advance(stretch, nobody, energy);
   }
 
@@ -75,7 +75,8 @@ class ComposedPlant final : public PlantPort {
     seen_.clear();
     StateReader reader(offsets_s, scales_.angular_frequency_rad_per_s, seen_);
     const plant::Outcome<double> outcome = advance(stretch, reader, energy);
-    reader.finish(state_);
+    // Offsets that rounding has put past the last step.
+    seen_.resize(offsets_s.size(), state_);
     for (const plant::State<double>& state : seen_) {
       seen.push_back(in_si_units(state));
     }
@@ -101,8 +102,7 @@ class ComposedPlant final : public PlantPort {
   plant::Cost cost() const override { return solver_.cost(); }
 
  private:
-  template <class Observer>
-  plant::Outcome<double> advance(const Stretch& stretch, Observer& observer,
+  plant::Outcome<double> advance(const Stretch& stretch, StateReader& reader,
                                  EnergyBalance& energy) {
     const double omega = scales_.angular_frequency_rad_per_s;
     const DrivePiece drive = drive_piece(stretch);
@@ -112,7 +112,7 @@ class ComposedPlant final : public PlantPort {
         stretch.sliding_acceleration_m_per_s2 / (scales_.velocity_m_per_s() * omega)};
     const plant::State<double> before = state_;
     plant::EnergyAccount<double> account;
-    plant::Outcome<double> outcome = solver_.advance(interval, state_, account, observer);
+    plant::Outcome<double> outcome = solver_.advance(interval, state_, account, reader);
     energy = balance(stretch, account, before);
     outcome.offset /= omega;
     return outcome;

@@ -6,7 +6,7 @@
 
 #include "firmware/numeric/signal_ledger.hpp"
 #include "hal/board.hpp"
-#include "host_sim/scene/control_design.hpp"
+#include "host_sim/configure/control_design.hpp"
 #include "host_sim/scene/scene.hpp"
 
 namespace sonoglide::loop {
@@ -25,6 +25,6 @@ class ControlPort {
 
 /// The controller of a scene, in this process: the image's control loop on a simulated board.
 std::unique_ptr<ControlPort> make_control_port(const scene::Scene& scene,
-                                               const scene::ControlDesign& design);
+                                               const configure::ControlDesign& design);
 
 }  // namespace sonoglide::loop

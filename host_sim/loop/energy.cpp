@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "host_sim/scene/plant_scales.hpp"
+#include "host_sim/configure/plant_scales.hpp"
 
 namespace sonoglide::loop {
 namespace {
@@ -46,7 +46,7 @@ void EnergyBalance::append(const EnergyBalance& next) {
 
 PowerRatios power_ratios(const EnergyBalance& energy, double friction_N,
                          scene::SignConvention convention, double period_s) {
-  const double sign = scene::vibration_sign(convention);
+  const double sign = configure::vibration_sign(convention);
   const double limit_J = friction_N * energy.limit_distance_m;
   const double drive_input = quotient(energy.drive_work_J, limit_J);
   const double stored_as_printed =
@@ -64,7 +64,7 @@ PowerRatios power_ratios(const EnergyBalance& energy, double friction_N,
 
 PowerRatios power_ratios(const scene::Scene& scene, const EnergyBalance& energy) {
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
-  return power_ratios(energy, scene::largest_friction_limit_N(scene.friction),
+  return power_ratios(energy, configure::largest_friction_limit_N(scene.friction),
                       scene.friction.sign_convention,
                       scene.drive ? 1.0 / scene.drive->frequency_Hz : none);
 }

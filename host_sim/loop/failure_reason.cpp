@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "firmware/numeric/turn.hpp"
-#include "host_sim/scene/plant_scales.hpp"
+#include "host_sim/configure/plant_scales.hpp"
 
 namespace sonoglide::loop {
 namespace {
@@ -19,7 +19,7 @@ double stuck_frequency_Hz(const scene::Scene& scene) {
 /// What the steps were spent on, where that may be the contact; else nothing.
 std::string ringing(const scene::Scene& scene) {
   if (!scene::is_elastic(scene.friction.law) ||
-      scene::largest_friction_limit_N(scene.friction) <= 0.0) {
+      configure::largest_friction_limit_N(scene.friction) <= 0.0) {
     return "";
   }
   const std::string drive =

@@ -5,7 +5,7 @@
 namespace sonoglide::loop {
 
 std::unique_ptr<ControlPort> make_control_port(const scene::Scene& scene,
-                                               const scene::ControlDesign& design) {
+                                               const configure::ControlDesign& design) {
   switch (scene.controller->arithmetic) {
     case scene::Arithmetic::float32:
       return make_control<float>(scene, design);

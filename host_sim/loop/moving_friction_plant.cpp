@@ -5,8 +5,8 @@
 #include <cstddef>
 
 #include "firmware/numeric/turn.hpp"
-#include "host_sim/scene/plant_scales.hpp"
-#include "host_sim/scene/solver_methods.hpp"
+#include "host_sim/configure/plant_scales.hpp"
+#include "host_sim/configure/solver_methods.hpp"
 
 namespace sonoglide::loop {
 namespace {
@@ -15,7 +15,7 @@ namespace {
 double shortest_period_s(const scene::Scene& scene) {
   const double stiffness_N_per_m =
       std::max(scene.plant.stiffness_N_per_m, scene.friction.contact_stiffness_N_per_m);
-  return numeric::two_pi / std::max(scene::plant_scales(scene).angular_frequency_rad_per_s,
+  return numeric::two_pi / std::max(configure::plant_scales(scene).angular_frequency_rad_per_s,
                                     std::sqrt(stiffness_N_per_m / scene.plant.mass_kg));
 }
 
@@ -28,8 +28,8 @@ scene::Scene held(scene::Scene scene) {
 
 /// What event_gauss leaves to event_taylor anyhow, but without making tables for whole periods.
 scene::SolverMethod method_of_pieces(scene::SolverMethod asked) {
-  return asked == scene::method_of<scene::solvers::EventGauss>
-             ? scene::method_of<scene::solvers::EventTaylor>
+  return asked == configure::method_of<configure::solvers::EventGauss>
+             ? configure::method_of<configure::solvers::EventTaylor>
              : asked;
 }
 
@@ -124,7 +124,7 @@ plant::Outcome<double> MovingFrictionPlant::follow(const Stretch& stretch, Sight
 plant::Outcome<double> MovingFrictionPlant::follow_piece(const Stretch& piece, const Carried& begin,
                                                          int halvings, bool last, Sight* sight,
                                                          EnergyBalance& energy) {
-  const scene::Contact contact = scene::contact_at(friction_, middle_s(piece));
+  const scene::Contact contact = configure::contact_at(friction_, middle_s(piece));
   hold(contact, begin);
   if (halvings <= 0) {
     return hold_piece(piece, last, sight, energy);
@@ -133,7 +133,7 @@ plant::Outcome<double> MovingFrictionPlant::follow_piece(const Stretch& piece, c
   const plant::Outcome<double> tried = hold_piece(piece, last, nullptr, energy);
   // Of the line that holds in the middle: at its end the limit may jump.
   const double fall =
-      2.0 * (scene::contact_at(friction_, piece.begin_s).limit_N() / contact.limit_N() - 1.0);
+      2.0 * (configure::contact_at(friction_, piece.begin_s).limit_N() / contact.limit_N() - 1.0);
   const Descent found = descent(memory, held_->memory(), held_->memory_limits_N(), fall);
   if (tried.error != plant::Error::none ||
       (!found.leaves && found.lost == 0.0 && sight == nullptr)) {
@@ -230,7 +230,7 @@ void MovingFrictionPlant::hold(const scene::Contact& contact, const Carried& fro
 /// What the limit of a piece's middle leaves above that of the moment.
 PlantState MovingFrictionPlant::within_limit(PlantState state, double time_s) const {
   if (scene::is_bounded(friction_.law)) {
-    const double limit_N = scene::contact_at(friction_, time_s).limit_N();
+    const double limit_N = configure::contact_at(friction_, time_s).limit_N();
     state.friction_force_N = std::clamp(state.friction_force_N, -limit_N, limit_N);
   }
   return state;

@@ -1,7 +1,7 @@
 /// What every composition of a scene's plant is filled in from.
 #pragma once
 
-#include "host_sim/scene/plant_scales.hpp"
+#include "host_sim/configure/plant_scales.hpp"
 #include "host_sim/scene/scene.hpp"
 
 namespace sonoglide::loop {
@@ -9,12 +9,12 @@ namespace sonoglide::loop {
 struct PlantDescription {
   const scene::Scene& scene;
   scene::PlantScales scales;
-  scene::PlantNumbers numbers;
+  configure::PlantNumbers numbers;
 
   explicit PlantDescription(const scene::Scene& described)
       : scene(described),
-        scales(scene::plant_scales(described)),
-        numbers(scene::plant_numbers(described, scales)) {}
+        scales(configure::plant_scales(described)),
+        numbers(configure::plant_numbers(described, scales)) {}
 };
 
 }  // namespace sonoglide::loop

@@ -1,9 +1,9 @@
 #include "host_sim/loop/plant_port.hpp"
 
+#include "host_sim/configure/plant_scales.hpp"
+#include "host_sim/configure/solver_methods.hpp"
 #include "host_sim/loop/law_plants.hpp"
 #include "host_sim/loop/moving_friction_plant.hpp"
-#include "host_sim/scene/plant_scales.hpp"
-#include "host_sim/scene/solver_methods.hpp"
 
 namespace sonoglide::loop {
 namespace {
@@ -11,9 +11,9 @@ namespace {
 /// Where the friction is none, event_gauss has nothing to cut at reversals, and event_taylor's one
 /// step in a period takes its place.
 scene::Scene with_acting_solver(scene::Scene scene) {
-  if (scene.solver.method == scene::method_of<scene::solvers::EventGauss> &&
+  if (scene.solver.method == configure::method_of<configure::solvers::EventGauss> &&
       scene.friction.limit_N() == 0.0) {
-    scene.solver.method = scene::method_of<scene::solvers::EventTaylor>;
+    scene.solver.method = configure::method_of<configure::solvers::EventTaylor>;
     scene.solver.order.reset();
   }
   return scene;
@@ -28,7 +28,7 @@ std::unique_ptr<PlantPort> make_plant_port(const scene::Scene& scene) {
   const scene::Scene acting = with_acting_solver(scene);
   const PlantDescription description(acting);
   return std::visit([&](const auto& law) { return make_law_plant(description, law); },
-                    scene::acting_law(scene.friction));
+                    configure::acting_law(scene.friction));
 }
 
 }  // namespace sonoglide::loop

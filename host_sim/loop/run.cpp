@@ -9,10 +9,10 @@
 #include <optional>
 #include <utility>
 
+#include "host_sim/configure/plant_scales.hpp"
 #include "host_sim/loop/carrier_grid.hpp"
 #include "host_sim/loop/control_run.hpp"
 #include "host_sim/loop/plant_run.hpp"
-#include "host_sim/scene/plant_scales.hpp"
 
 namespace sonoglide::loop {
 namespace {
@@ -27,7 +27,7 @@ std::optional<ControlRun> make_control(const scene::Scene& scene, const CarrierG
     return std::nullopt;
   }
   result.control.emplace();
-  result.control->design = scene::design_control(scene);
+  result.control->design = configure::design_control(scene);
   return std::optional<ControlRun>(std::in_place, scene, grid, *controller, *result.control);
 }
 
@@ -40,7 +40,7 @@ class Simulation {
         grid_(scene),
         plant_(scene, grid_, watch, result),
         control_(make_control(scene, grid_, controller, result)),
-        friction_N_(scene::largest_friction_limit_N(scene.friction)),
+        friction_N_(configure::largest_friction_limit_N(scene.friction)),
         open_loop_amplitude_N_(scene.drive ? scene.drive->force_amplitude_N : 0.0) {}
 
   void carry_out() {
@@ -115,7 +115,7 @@ RunResult run(const scene::Scene& scene, const Watch& watch) {
   if (!scene.controller) {
     return simulate(scene, nullptr, watch);
   }
-  const auto controller = make_control_port(scene, scene::design_control(scene));
+  const auto controller = make_control_port(scene, configure::design_control(scene));
   return simulate(scene, controller.get(), watch);
 }
 

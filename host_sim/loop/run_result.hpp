@@ -7,11 +7,11 @@
 
 #include "firmware/control/drive_command.hpp"
 #include "firmware/numeric/signal_ledger.hpp"
+#include "host_sim/configure/control_design.hpp"
 #include "host_sim/loop/energy.hpp"
 #include "host_sim/loop/image_record.hpp"
 #include "host_sim/loop/plant_port.hpp"
 #include "host_sim/loop/steady_orbit.hpp"
-#include "host_sim/scene/control_design.hpp"
 
 namespace sonoglide::loop {
 
@@ -22,7 +22,7 @@ struct FaultEvent {
 
 /// What only a closed loop has.
 struct ControlRecord {
-  scene::ControlDesign design;
+  configure::ControlDesign design;
   std::uint64_t trace_hash = 0;  ///< FNV-1a over every drive command, bit for bit
   std::uint64_t commands = 0;
   std::uint64_t saturated_commands = 0;        ///< at the actuator's limit

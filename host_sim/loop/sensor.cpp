@@ -34,7 +34,7 @@ constexpr int ideal_bits = 32;
 
 }  // namespace
 
-Sensor::Sensor(const scene::Sensor& sensor, const scene::ControlScales& scales)
+Sensor::Sensor(const scene::Sensor& sensor, const configure::ControlScales& scales)
     : sensor_(sensor),
       scales_(scales),
       pipeline_N_(static_cast<std::size_t>(sensor.delay_periods), 0.0),

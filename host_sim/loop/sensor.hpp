@@ -6,7 +6,7 @@
 #include <random>
 
 #include "hal/board.hpp"
-#include "host_sim/scene/control_design.hpp"
+#include "host_sim/configure/control_design.hpp"
 #include "host_sim/scene/scene.hpp"
 
 namespace sonoglide::loop {
@@ -24,7 +24,7 @@ namespace sonoglide::loop {
 /// machine.
 class Sensor {
  public:
-  Sensor(const scene::Sensor& sensor, const scene::ControlScales& scales);
+  Sensor(const scene::Sensor& sensor, const configure::ControlScales& scales);
 
   /// @param mean_force_N  true mean over the carrier period just ended
   hal::Sample sample(double mean_force_N, double sliding_velocity_m_per_s);
@@ -35,7 +35,7 @@ class Sensor {
   double noise();
 
   scene::Sensor sensor_;
-  scene::ControlScales scales_;
+  configure::ControlScales scales_;
   double filter_decay_ = 0.0;       ///< exp(−T/τ)
   double filter_new_weight_ = 1.0;  ///< of the sample that ends the period
   double filter_state_N_ = 0.0;

@@ -5,13 +5,15 @@
 #include <cstddef>
 #include <memory>
 #include <stdexcept>
+#include <type_traits>
 #include <utility>
 
 #include "firmware/plant/drive.hpp"
+#include "firmware/plant/sliding.hpp"
+#include "host_sim/configure/solver_methods.hpp"
 #include "host_sim/loop/composed_plant.hpp"
 #include "host_sim/loop/plant_description.hpp"
 #include "host_sim/loop/plant_port.hpp"
-#include "host_sim/scene/solver_methods.hpp"
 
 namespace sonoglide::loop {
 
@@ -46,7 +48,13 @@ std::unique_ptr<PlantPort> make_composed_plant(const PlantDescription& descripti
   const scene::PlantScales& scales = description.scales;
   return std::make_unique<ComposedPlant<Solver>>(
       scales, model, configured_solver<Described, Solver>(description, model),
-      scene::initial_state(scene, scales));
+      configure::initial_state(scene, scales));
+}
+
+/// Whether a solver has the compositions of lean_plant; the others always take the general ones.
+inline bool composed_lean(scene::SolverMethod method) {
+  return configure::with_solver(method,
+                                [](auto described) { return decltype(described)::composed_lean; });
 }
 
 template <class Drive>
@@ -73,10 +81,14 @@ constexpr std::array<PlantMaker<Model>, sizeof...(Index)> makers(
       Described, typename Described::template Core<Model, orders<Described, Model>()[Index]>>...};
 }
 
-/// Null where the law is not solved, nor the order built.
+template <class Model>
+inline constexpr bool is_lean = std::is_same_v<typename Model::Sliding, plant::ConstantSliding>;
+
+/// Null where the law is not solved, nor the order or the composition built.
 template <class Described, class Model>
 PlantMaker<Model> maker(int order) {
-  if constexpr (scene::takes_law<Described, typename Model::FrictionLaw>) {
+  if constexpr (configure::takes_law<Described, typename Model::FrictionLaw> &&
+                (Described::composed_lean || !is_lean<Model>)) {
     constexpr auto& built = orders<Described, Model>();
     constexpr auto makers_of =
         makers<Described, Model>(std::make_index_sequence<orders<Described, Model>().size()>{});
@@ -96,7 +108,7 @@ PlantMaker<Model> maker(int order) {
 ///         from a file has been checked
 template <class Model>
 PlantMaker<Model> find_solver(const scene::Solver& solver) {
-  const PlantMaker<Model> make = scene::with_solver(solver.method, [&](auto described) {
+  const PlantMaker<Model> make = configure::with_solver(solver.method, [&](auto described) {
     using Described = decltype(described);
     return detail::maker<Described, Model>(
         solver.order.value_or(Described::order_for(solver.tolerance)));

@@ -2,7 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Dense>
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -12,8 +13,9 @@
 #include <vector>
 
 #include "firmware/numeric/turn.hpp"
+#include "host_sim/configure/plant_scales.hpp"
+#include "host_sim/configure/solver_facts.hpp"
 #include "host_sim/loop/computation_error.hpp"
-#include "host_sim/scene/plant_scales.hpp"
 
 namespace sonoglide::loop {
 namespace {
@@ -53,7 +55,7 @@ class PeriodMap {
   explicit PeriodMap(const scene::Scene& scene)
       : plant_(make_plant_port(scene)),
         rate_rad_per_s_(numeric::two_pi * scene.drive->frequency_Hz),
-        length_m_(std::max(scene::plant_scales(scene).length_m,
+        length_m_(std::max(configure::plant_scales(scene).length_m,
                            sliding_m_per_s(scene) / rate_rad_per_s_)),
         period_(period_of(scene)) {}
 
@@ -144,13 +146,11 @@ std::optional<Matrix> derivative(PeriodMap& map, const Vector& at, double differ
 /// none.
 Vector vibration_without_contact(const PeriodMap& map, const scene::Scene& scene, double load) {
   const double omega = numeric::two_pi * scene.drive->frequency_Hz;
-  const std::complex<double> dynamic_stiffness(
-      scene.plant.stiffness_N_per_m - scene.plant.mass_kg * omega * omega,
-      scene.plant.damping_N_s_per_m * omega);
-  if (!(std::abs(dynamic_stiffness) > 0.0)) {
+  const std::complex<double> stiffness = configure::dynamic_stiffness(scene.plant, omega);
+  if (!(std::abs(stiffness) > 0.0)) {
     return map.loaded(0.0, 0.0, load);
   }
-  const std::complex<double> amplitude_m = scene.drive->force_amplitude_N / dynamic_stiffness;
+  const std::complex<double> amplitude_m = scene.drive->force_amplitude_N / stiffness;
   return map.loaded(amplitude_m.real(), -omega * amplitude_m.imag(), load);
 }
 
@@ -248,7 +248,8 @@ std::optional<Vector> closed_orbit(PeriodMap& map, Shooting& shooting, const sce
 
 SteadyOrbit find_steady_orbit(const scene::Scene& scene) {
   PeriodMap map(scene);
-  Shooting shooting(map, scene::is_adaptive(scene.solver.method) ? scene.solver.tolerance : 0.0);
+  Shooting shooting(map,
+                    configure::is_adaptive(scene.solver.method) ? scene.solver.tolerance : 0.0);
   const auto orbit = closed_orbit(map, shooting, scene);
   if (!orbit) {
     fail(fmt::format("none of the drive's period found in {} carrier periods; the drive may put in "

@@ -3,14 +3,14 @@
 #include <cmath>
 #include <cstddef>
 
-#include "firmware/friction/gauss_legendre.hpp"
-#include "host_sim/scene/plant_scales.hpp"
+#include "firmware/numeric/gauss_legendre.hpp"
+#include "host_sim/configure/plant_scales.hpp"
 
 namespace sonoglide::loop {
 
 UndrivenFriction::UndrivenFriction(const scene::Scene& scene)
     : friction_(scene.friction),
-      largest_N_(scene::largest_friction_limit_N(scene.friction)),
+      largest_N_(configure::largest_friction_limit_N(scene.friction)),
       is_limit_(!scene.friction.has_profile() && scene::is_bounded(scene.friction.law)) {}
 
 void UndrivenFriction::complete(const Stretch& stretch, EnergyBalance& energy) const {
@@ -35,12 +35,12 @@ double UndrivenFriction::part_of_largest(const scene::Contact& contact,
 }
 
 void UndrivenFriction::follow(const Stretch& stretch, EnergyBalance& energy) const {
-  static constexpr auto rule = friction::gauss_legendre<24>();
+  static constexpr auto rule = numeric::gauss_legendre<24>();
   double undriven = 0.0;
   double travel_m_per_s = 0.0;
   for (std::size_t i = 0; i < rule.node.size(); ++i) {
     const double offset_s = rule.node[i] * stretch.duration_s;
-    const scene::Contact contact = scene::contact_at(friction_, stretch.begin_s + offset_s);
+    const scene::Contact contact = configure::contact_at(friction_, stretch.begin_s + offset_s);
     const double sliding_m_per_s =
         stretch.sliding_velocity_m_per_s + stretch.sliding_acceleration_m_per_s2 * offset_s;
     undriven += rule.weight[i] * part_of_largest(contact, sliding_m_per_s);

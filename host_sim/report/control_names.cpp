@@ -18,7 +18,7 @@ std::string settling_name(control::Settling settling) {
   return control::name(settling);
 }
 
-std::string limit_text(const analysis::StepMetrics& step) {
+std::string limit_text(const report::StepMetrics& step) {
   std::string text = limit_name(step.limit);
   if (step.limit == control::Limit::not_settling && step.cause != control::Settling::pending) {
     text += fmt::format(" ({})", settling_name(step.cause));

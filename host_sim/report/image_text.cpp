@@ -14,8 +14,8 @@ std::string stack_text(const loop::ImageRecord& record) {
 
 }  // namespace
 
-Table image_table(const loop::ImageRecord& record) {
-  Table table{"Image on " + record.board, {}, {}};
+output::Table image_table(const loop::ImageRecord& record) {
+  output::Table table{"Image on " + record.board, {}, {}};
   const auto row = [&table](const char* name, std::string value) {
     table.rows.push_back({name, std::move(value)});
   };

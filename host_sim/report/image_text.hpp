@@ -4,12 +4,12 @@
 #include <string>
 
 #include "host_sim/loop/image_record.hpp"
-#include "host_sim/report/page.hpp"
+#include "host_sim/output/page.hpp"
 
 namespace sonoglide::report {
 
 /// Every figure with its name.
-Table image_table(const loop::ImageRecord& record);
+output::Table image_table(const loop::ImageRecord& record);
 
 /// The same in two lines.
 std::string image_lines(const loop::ImageRecord& record);

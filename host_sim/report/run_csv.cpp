@@ -7,8 +7,8 @@
 #include <fmt/compile.h>
 
 #include "firmware/numeric/float_format.hpp"
+#include "host_sim/output/output_folder.hpp"
 #include "host_sim/report/control_names.hpp"
-#include "host_sim/report/output_folder.hpp"
 #include "host_sim/scene/names.hpp"
 
 namespace sonoglide::report {
@@ -49,7 +49,7 @@ void CsvFile::finish_row() {
   stream_.write(row_.data(), static_cast<std::streamsize>(row_.size()));
   row_.clear();
   if (!stream_) {
-    throw OutputError(path_ + ": could not be written in full");
+    throw output::OutputError(path_ + ": could not be written in full");
   }
 }
 

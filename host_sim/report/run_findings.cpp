@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "host_sim/scene/control_design.hpp"
+#include "host_sim/configure/control_design.hpp"
 
 namespace sonoglide::report {
 namespace {
@@ -17,7 +17,7 @@ constexpr std::size_t most_close_ups = 12;
 constexpr std::uint64_t ending_periods = 256;
 
 double speed_floor_m_per_s(const scene::Scene& scene) {
-  const scene::ControlDesign design = scene::design_control(scene);
+  const configure::ControlDesign design = configure::design_control(scene);
   return design.speed_floor * design.scales.velocity_m_per_s;
 }
 
@@ -50,12 +50,12 @@ void RunFindings::join(loop::Watch& watch) {
   watch.samples.push_back({ending_grid(steps_s.back()), &ending_});
 }
 
-std::vector<analysis::StepMetrics> RunFindings::steps() const {
-  return step_meter_ ? step_meter_->steps() : std::vector<analysis::StepMetrics>();
+std::vector<report::StepMetrics> RunFindings::steps() const {
+  return step_meter_ ? step_meter_->steps() : std::vector<report::StepMetrics>();
 }
 
-analysis::PauseMetrics RunFindings::pauses() const {
-  return step_meter_ ? step_meter_->pauses() : analysis::PauseMetrics();
+report::PauseMetrics RunFindings::pauses() const {
+  return step_meter_ ? step_meter_->pauses() : report::PauseMetrics();
 }
 
 std::optional<double> RunFindings::largest_tracking_error() const {

@@ -8,12 +8,12 @@
 #include <vector>
 
 #include "firmware/control/drive_command.hpp"
-#include "host_sim/analysis/extremes_curve.hpp"
-#include "host_sim/analysis/step_metrics.hpp"
-#include "host_sim/analysis/tracking_error.hpp"
 #include "host_sim/loop/carrier_grid.hpp"
 #include "host_sim/loop/recording.hpp"
 #include "host_sim/loop/watch.hpp"
+#include "host_sim/report/extremes_curve.hpp"
+#include "host_sim/report/step_metrics.hpp"
+#include "host_sim/report/tracking_error.hpp"
 #include "host_sim/scene/scene.hpp"
 
 namespace sonoglide::report {
@@ -22,7 +22,7 @@ namespace sonoglide::report {
 class Course final : public loop::PeriodSink {
  public:
   enum Ordinate { friction_ratio, target, drive_amplitude_N, sliding_velocity_m_per_s, ordinates };
-  using Curve = analysis::ExtremesCurve<ordinates>;
+  using Curve = report::ExtremesCurve<ordinates>;
 
   void take(const loop::Period& period) override;
 
@@ -49,9 +49,9 @@ class RunFindings {
   void join(loop::Watch& watch);
 
   /// In open loop empty.
-  std::vector<analysis::StepMetrics> steps() const;
+  std::vector<report::StepMetrics> steps() const;
   /// Of a loop that learns the friction force anew.
-  analysis::PauseMetrics pauses() const;
+  report::PauseMetrics pauses() const;
   std::optional<double> largest_tracking_error() const;
   const Course& course() const { return course_; }
   /// A few carrier periods at each of the first target steps; in open loop at the beginning.
@@ -66,8 +66,8 @@ class RunFindings {
 
   const scene::Scene& scene_;
   loop::CarrierGrid grid_;
-  std::optional<analysis::StepMeter> step_meter_;
-  std::optional<analysis::TrackingMeter> tracking_meter_;
+  std::optional<report::StepMeter> step_meter_;
+  std::optional<report::TrackingMeter> tracking_meter_;
   Course course_;
   std::vector<loop::Recording> close_ups_;
   loop::Recording ending_;

@@ -9,18 +9,20 @@
 
 #include <fmt/format.h>
 
-#include "host_sim/analysis/hysteresis.hpp"
-#include "host_sim/analysis/spectrum.hpp"
+#include "host_sim/configure/plant_scales.hpp"
+#include "host_sim/configure/solver_facts.hpp"
+#include "host_sim/output/figure.hpp"
 #include "host_sim/report/control_names.hpp"
-#include "host_sim/report/figure.hpp"
+#include "host_sim/report/hysteresis.hpp"
 #include "host_sim/report/image_text.hpp"
+#include "host_sim/report/spectrum.hpp"
 #include "host_sim/scene/names.hpp"
-#include "host_sim/scene/plant_scales.hpp"
 
 namespace sonoglide::report {
 namespace {
 
-constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
+/// Where a curve has a gap.
+constexpr double gap = std::numeric_limits<double>::quiet_NaN();
 constexpr const char* time_label = "Time [s]";
 
 std::string percent(double part) {
@@ -34,7 +36,7 @@ std::string lead(const scene::Scene& scene, const loop::RunResult& result) {
                         scene::name_of(scene::arithmetics, scene.controller->arithmetic))
           : std::string("Open loop");
   text += fmt::format(". Friction law: {}. Solver: {}. {:.6g} ms simulated in {:.3g} ms.",
-                      scene::name_of(scene.friction.law), scene::name_of(scene.solver.method),
+                      scene::name_of(scene.friction.law), configure::name_of(scene.solver.method),
                       result.final_time_s * 1e3, result.wall_s * 1e3);
   return text;
 }
@@ -83,11 +85,11 @@ std::vector<std::string> warnings(const scene::Scene& scene, const loop::RunResu
                             static_cast<double>(result.control->commands))));
   }
   append_limits(findings.course(), all);
-  for (std::string& note : scene::design_notes(result.control->design)) {
+  for (std::string& note : configure::design_notes(result.control->design)) {
     all.push_back(std::move(note));
   }
   if (result.control->design.relearns) {
-    const analysis::PauseMetrics pauses = findings.pauses();
+    const report::PauseMetrics pauses = findings.pauses();
     all.push_back(
         fmt::format("The drive paused {} times to learn the friction force anew: {} of the time. "
                     "The pauses raise "
@@ -99,7 +101,7 @@ std::vector<std::string> warnings(const scene::Scene& scene, const loop::RunResu
                               findings.close_ups().size()));
   }
   if (findings.course().periods_in(control::Limit::speed_floor) > 0) {
-    const scene::ControlDesign& design = result.control->design;
+    const configure::ControlDesign& design = result.control->design;
     all.push_back(
         fmt::format("The drive was held while sliding was slower than {:.3g} mm/s, where "
                     "the friction ratio is undefined.",
@@ -108,32 +110,32 @@ std::vector<std::string> warnings(const scene::Scene& scene, const loop::RunResu
   return all;
 }
 
-Table step_table(const RunFindings& findings) {
-  Table table{"Target steps",
-              {"From [ms]", "Target", "Settles in [µs]", "Overshoot", "Steady error", "Ripple",
-               "Drive [N]", "Limit"},
-              {}};
-  for (const analysis::StepMetrics& step : findings.steps()) {
+output::Table step_table(const RunFindings& findings) {
+  output::Table table{"Target steps",
+                      {"From [ms]", "Target", "Settles in [µs]", "Overshoot", "Steady error",
+                       "Ripple", "Drive [N]", "Limit"},
+                      {}};
+  for (const report::StepMetrics& step : findings.steps()) {
     table.rows.push_back(
         {fmt::format("{:.3f}", step.time_s * 1e3), fmt::format("{:.3f}", step.target),
          step.settling_time_s ? fmt::format("{:.1f}", *step.settling_time_s * 1e6) : "never",
-         figure("{:.5f}", step.overshoot), figure("{:+.5f}", step.steady_error),
-         figure("{:.5f}", step.ripple), figure("{:.1f}", step.drive_amplitude_N),
+         output::figure("{:.5f}", step.overshoot), output::figure("{:+.5f}", step.steady_error),
+         output::figure("{:.5f}", step.ripple), output::figure("{:.1f}", step.drive_amplitude_N),
          limit_text(step)});
   }
   return table;
 }
 
-Table run_table(const scene::Scene& scene, const loop::RunResult& result) {
+output::Table run_table(const scene::Scene& scene, const loop::RunResult& result) {
   const loop::PowerRatios window = loop::power_ratios(scene, result.window);
-  Table table{"Run", {}, {}};
+  output::Table table{"Run", {}, {}};
   const auto row = [&table](const char* name, std::string value) {
     table.rows.push_back({name, std::move(value)});
   };
   row("Undriven friction force, window [N]",
-      fmt::format("{:.6g}", scene::largest_friction_limit_N(scene.friction) *
+      fmt::format("{:.6g}", configure::largest_friction_limit_N(scene.friction) *
                                 result.window.undriven_s / result.window.duration_s));
-  if (scene::largest_friction_limit_N(scene.friction) > 0.0) {
+  if (configure::largest_friction_limit_N(scene.friction) > 0.0) {
     row("Friction ratio, whole run",
         fmt::format("{:.9f}", loop::power_ratios(scene, result.whole).friction_ratio));
     row("Friction ratio, window", fmt::format("{:.9f}", window.friction_ratio));
@@ -156,15 +158,15 @@ Table run_table(const scene::Scene& scene, const loop::RunResult& result) {
         fmt::format("{:.6f}", result.steady_orbit->multiplier));
   }
   row("Solver steps", fmt::format("{}", result.solver_steps));
-  if (scene::counts_events(scene.solver.method)) {
+  if (configure::counts_events(scene.solver.method)) {
     row("Reversals, sticks and releases", fmt::format("{}", result.solver_events));
   }
   row("Simulated time over wall time", fmt::format("{:.3g}", result.final_time_s / result.wall_s));
   return table;
 }
 
-Table signal_table(const loop::ControlRecord& control) {
-  Table table{
+output::Table signal_table(const loop::ControlRecord& control) {
+  output::Table table{
       "Fixed-point signals, per unit", {"Signal", "Smallest", "Largest", "Saturations"}, {}};
   for (const numeric::SignalRecord& signal : control.signals) {
     table.rows.push_back({signal.name, fmt::format("{:.6f}", signal.smallest),
@@ -190,28 +192,29 @@ std::vector<double> limits_N(const scene::Friction& friction, const std::vector<
   std::vector<double> limits;
   limits.reserve(time_s.size());
   for (const double time : time_s) {
-    limits.push_back(scene::contact_at(friction, time).limit_N());
+    limits.push_back(configure::contact_at(friction, time).limit_N());
   }
   return limits;
 }
 
-Section course(const scene::Scene& scene, const Course::Curve& curve) {
+output::Section course(const scene::Scene& scene, const Course::Curve& curve) {
   const std::vector<double> time = curve.x();
   const auto series = [&curve](const char* label, Course::Ordinate ordinate) {
-    return Series{label, curve.y(ordinate), true, false};
+    return output::Series{label, curve.y(ordinate), true, false};
   };
 
-  Section section{"Course of the run", course_text(scene, curve), {}};
-  if (scene::largest_friction_limit_N(scene.friction) > 0.0) {
-    Panel panel{"Friction ratio",
-                "Mean friction force over a carrier period, divided by the undriven one at that "
-                "sliding speed and friction.",
-                time_label,
-                "Friction ratio [-]",
-                time,
-                {},
-                false,
-                "course"};
+  output::Section section{"Course of the run", course_text(scene, curve), {}};
+  if (configure::largest_friction_limit_N(scene.friction) > 0.0) {
+    output::Panel panel{
+        "Friction ratio",
+        "Mean friction force over a carrier period, divided by the undriven one at that "
+        "sliding speed and friction.",
+        time_label,
+        "Friction ratio [-]",
+        time,
+        {},
+        false,
+        "course"};
     if (scene.controller) {
       panel.series.push_back(series("target", Course::target));
     }
@@ -251,7 +254,8 @@ Section course(const scene::Scene& scene, const Course::Curve& curve) {
   return section;
 }
 
-Section close_up(const scene::Scene& scene, const loop::Recording& recording, std::size_t index) {
+output::Section close_up(const scene::Scene& scene, const loop::Recording& recording,
+                         std::size_t index) {
   const auto column = [&recording](auto value) {
     std::vector<double> values;
     for (const loop::PlantState& state : recording.state) {
@@ -263,7 +267,7 @@ Section close_up(const scene::Scene& scene, const loop::Recording& recording, st
   const auto velocity = [](const loop::PlantState& state) { return state.velocity_m_per_s; };
   const auto friction = [](const loop::PlantState& state) { return state.friction_force_N; };
 
-  Section section{"Start", "The first carrier periods.", {}};
+  output::Section section{"Start", "The first carrier periods.", {}};
   if (scene.controller) {
     const scene::TargetStep& step = scene.controller->target_friction_ratio[index];
     section.title =
@@ -283,28 +287,28 @@ Section close_up(const scene::Scene& scene, const loop::Recording& recording, st
   };
   panel("Displacement", "Displacement [m]", column(displacement));
   panel("Velocity", "Vibration velocity [m/s]", column(velocity));
-  if (scene::largest_friction_limit_N(scene.friction) > 0.0) {
+  if (configure::largest_friction_limit_N(scene.friction) > 0.0) {
     panel("Friction force", "Friction force [N]", column(friction));
   }
   return section;
 }
 
-Panel hysteresis_panel(const analysis::HysteresisLoop& cycle) {
-  Panel panel{"Friction force against displacement",
-              "One cycle of the contact, at the end of the run.",
-              "Displacement travelled [m]",
-              "Friction force [N]",
-              {},
-              {{"sliding forward", {}, false, true}, {"sliding back", {}, false, true}},
-              false,
-              ""};
+output::Panel hysteresis_panel(const report::HysteresisLoop& cycle) {
+  output::Panel panel{"Friction force against displacement",
+                      "One cycle of the contact, at the end of the run.",
+                      "Displacement travelled [m]",
+                      "Friction force [N]",
+                      {},
+                      {{"sliding forward", {}, false, true}, {"sliding back", {}, false, true}},
+                      false,
+                      ""};
   struct Point {
     double displacement_m;
     double force_N;
     std::size_t branch;
   };
   std::vector<Point> points;
-  const auto collect = [&points](const analysis::Branch& branch, std::size_t index) {
+  const auto collect = [&points](const report::Branch& branch, std::size_t index) {
     for (std::size_t i = 0; i < branch.force_N.size(); ++i) {
       points.push_back({branch.displacement_m[i], branch.force_N[i], index});
     }
@@ -317,7 +321,7 @@ Panel hysteresis_panel(const analysis::HysteresisLoop& cycle) {
   for (const Point& point : points) {
     panel.x.push_back(point.displacement_m);
     panel.series[point.branch].y.push_back(point.force_N);
-    panel.series[1 - point.branch].y.push_back(undefined);
+    panel.series[1 - point.branch].y.push_back(gap);
   }
   if (cycle.backward.force_N.empty()) {
     panel.series.pop_back();
@@ -325,7 +329,7 @@ Panel hysteresis_panel(const analysis::HysteresisLoop& cycle) {
   return panel;
 }
 
-Panel spectrum_panel(const scene::Scene& scene, const loop::Recording& ending) {
+output::Panel spectrum_panel(const scene::Scene& scene, const loop::Recording& ending) {
   std::vector<double> velocity;
   for (const loop::PlantState& state : ending.state) {
     velocity.push_back(state.velocity_m_per_s);
@@ -334,7 +338,7 @@ Panel spectrum_panel(const scene::Scene& scene, const loop::Recording& ending) {
     velocity.pop_back();  // the sample that begins the next carrier period
   }
   const double interval_s = ending.time_s.size() > 1 ? ending.time_s[1] - ending.time_s[0] : 1.0;
-  analysis::Spectrum spectrum = analysis::amplitude_spectrum(velocity, interval_s);
+  report::Spectrum spectrum = report::amplitude_spectrum(velocity, interval_s);
   if (scene.drive) {
     constexpr double harmonics_shown = 5.0;
     const double highest_Hz = harmonics_shown * scene.drive->frequency_Hz;
@@ -354,14 +358,14 @@ Panel spectrum_panel(const scene::Scene& scene, const loop::Recording& ending) {
       ""};
 }
 
-Section ending(const scene::Scene& scene, const loop::Recording& recording) {
+output::Section ending(const scene::Scene& scene, const loop::Recording& recording) {
   constexpr std::size_t samples = 64;
-  Section section{"End of the run", "", {}};
+  output::Section section{"End of the run", "", {}};
   // Across the sliding and normal to it the vibration is no part of the displacement travelled.
-  if (scene::largest_friction_limit_N(scene.friction) > 0.0 &&
+  if (configure::largest_friction_limit_N(scene.friction) > 0.0 &&
       scene::vibrates_along(scene.friction.law)) {
     section.panels.push_back(
-        hysteresis_panel(analysis::last_cycle(recording, scene.friction.sign_convention, samples)));
+        hysteresis_panel(report::last_cycle(recording, scene.friction.sign_convention, samples)));
   }
   section.panels.push_back(spectrum_panel(scene, recording));
   return section;
@@ -369,9 +373,9 @@ Section ending(const scene::Scene& scene, const loop::Recording& recording) {
 
 }  // namespace
 
-Page run_page(const scene::Scene& scene, const loop::RunResult& result,
-              const RunFindings& findings) {
-  Page page{scene.name, lead(scene, result), warnings(scene, result, findings), {}, {}};
+output::Page run_page(const scene::Scene& scene, const loop::RunResult& result,
+                      const RunFindings& findings) {
+  output::Page page{scene.name, lead(scene, result), warnings(scene, result, findings), {}, {}};
   if (scene.controller) {
     page.tables.push_back(step_table(findings));
   }

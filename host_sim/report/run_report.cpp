@@ -11,7 +11,7 @@ constexpr const char* page_file = "report.html";
 constexpr const char* trace_file = "trace.csv";
 constexpr const char* periods_file = "periods.csv";
 
-CsvFile open(OutputFolder& folder, const char* name) {
+CsvFile open(output::OutputFolder& folder, const char* name) {
   return {(folder.target() / name).string(), folder.open(name)};
 }
 
@@ -40,7 +40,7 @@ void RunReport::join(loop::Watch& watch) {
 
 void RunReport::finish(const loop::RunResult& result) {
   folder_.write(summary_file, summary_text(scene_, result, findings_));
-  folder_.write(page_file, to_html(run_page(scene_, result, findings_)));
+  folder_.write(page_file, output::to_html(run_page(scene_, result, findings_)));
   folder_.commit();
 }
 

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "host_sim/loop/run.hpp"
-#include "host_sim/report/output_folder.hpp"
+#include "host_sim/output/output_folder.hpp"
 #include "host_sim/report/run_csv.hpp"
 #include "host_sim/report/run_findings.hpp"
 #include "host_sim/scene/scene.hpp"
@@ -32,7 +32,7 @@ class RunReport {
 
  private:
   const scene::Scene& scene_;
-  OutputFolder folder_;
+  output::OutputFolder folder_;
   RunFindings findings_;
   std::optional<PeriodsCsv> periods_;
   std::optional<TraceCsv> trace_;

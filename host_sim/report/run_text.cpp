@@ -2,12 +2,12 @@
 
 #include <fmt/format.h>
 
-#include "host_sim/analysis/step_metrics.hpp"
+#include "host_sim/configure/plant_scales.hpp"
+#include "host_sim/output/figure.hpp"
 #include "host_sim/report/control_names.hpp"
-#include "host_sim/report/figure.hpp"
 #include "host_sim/report/image_text.hpp"
 #include "host_sim/report/run_report.hpp"
-#include "host_sim/scene/plant_scales.hpp"
+#include "host_sim/report/step_metrics.hpp"
 #include "host_sim/text/printable.hpp"
 
 namespace sonoglide::report {
@@ -17,7 +17,7 @@ std::string settling(const std::optional<double>& time_s) {
   return time_s ? fmt::format("{:.1f} us", *time_s * 1e6) : std::string("never");
 }
 
-std::string pause_line(const analysis::PauseMetrics& metrics) {
+std::string pause_line(const report::PauseMetrics& metrics) {
   return fmt::format(
       "friction learnt anew in {} pauses, {:.3g} % of the time; they raise the mean ratio by "
       "{:.2g}\n",
@@ -27,11 +27,12 @@ std::string pause_line(const analysis::PauseMetrics& metrics) {
 std::string step_lines(const loop::RunResult& result, const RunFindings& findings) {
   std::string text = fmt::format("{:>11} {:>7} {:>11} {:>10} {:>8} {:>10}  {}\n", "from", "target",
                                  "settles in", "error", "ripple", "drive", "limit");
-  for (const analysis::StepMetrics& step : findings.steps()) {
+  for (const report::StepMetrics& step : findings.steps()) {
     text += fmt::format("{:>8.3f} ms {:>7.3f} {:>11} {:>10} {:>8} {:>8} N  {}\n", step.time_s * 1e3,
                         step.target, settling(step.settling_time_s),
-                        figure("{:+.5f}", step.steady_error), figure("{:.5f}", step.ripple),
-                        figure("{:.1f}", step.drive_amplitude_N), limit_text(step));
+                        output::figure("{:+.5f}", step.steady_error),
+                        output::figure("{:.5f}", step.ripple),
+                        output::figure("{:.1f}", step.drive_amplitude_N), limit_text(step));
   }
   if (result.control->design.relearns) {
     text += pause_line(findings.pauses());
@@ -44,7 +45,7 @@ std::string step_lines(const loop::RunResult& result, const RunFindings& finding
 }
 
 std::string ratio_line(const scene::Scene& scene, const loop::RunResult& result) {
-  if (scene::largest_friction_limit_N(scene.friction) == 0.0) {
+  if (configure::largest_friction_limit_N(scene.friction) == 0.0) {
     return "no friction, so no friction ratio\n";
   }
   return fmt::format("friction ratio {:.6f} over the whole run, {:.6f} from {:.6g} s on\n",

@@ -5,10 +5,11 @@
 
 #include <fmt/format.h>
 
+#include "host_sim/configure/plant_scales.hpp"
+#include "host_sim/configure/solver_facts.hpp"
 #include "host_sim/report/control_names.hpp"
 #include "host_sim/scene/names.hpp"
-#include "host_sim/scene/plant_scales.hpp"
-#include "host_sim/scene/to_json.hpp"
+#include "host_sim/scene_file/to_json.hpp"
 
 namespace sonoglide::report {
 namespace {
@@ -41,19 +42,19 @@ ordered_json steady_orbit(const loop::SteadyOrbit& orbit) {
           {"carrier_periods_solved", orbit.periods}};
 }
 
-ordered_json limit_seen_by(const analysis::StepMetrics& metrics) {
+ordered_json limit_seen_by(const report::StepMetrics& metrics) {
   if (metrics.limit == control::Limit::none) {
     return nullptr;
   }
   return metrics.limit_seen_by_controller ? "controller" : "simulation";
 }
 
-ordered_json cause(const analysis::StepMetrics& metrics) {
+ordered_json cause(const report::StepMetrics& metrics) {
   return metrics.cause == control::Settling::pending ? ordered_json(nullptr)
                                                      : ordered_json(settling_name(metrics.cause));
 }
 
-ordered_json step(const analysis::StepMetrics& metrics) {
+ordered_json step(const report::StepMetrics& metrics) {
   return {{"time_s", metrics.time_s},
           {"target", metrics.target},
           {"settling_time_s", number(metrics.settling_time_s)},
@@ -67,7 +68,7 @@ ordered_json step(const analysis::StepMetrics& metrics) {
           {"mismatch", number(metrics.mismatch)}};
 }
 
-ordered_json pauses(const analysis::PauseMetrics& metrics) {
+ordered_json pauses(const report::PauseMetrics& metrics) {
   return {{"pauses", metrics.pauses},
           {"periods", metrics.periods},
           {"time_fraction", metrics.time_fraction},
@@ -93,9 +94,9 @@ ordered_json signal(const numeric::SignalRecord& record) {
 ordered_json control(const scene::Scene& scene, const loop::RunResult& result,
                      const RunFindings& findings) {
   const loop::ControlRecord& record = *result.control;
-  const scene::ControlDesign& design = record.design;
+  const configure::ControlDesign& design = record.design;
   ordered_json steps = ordered_json::array();
-  for (const analysis::StepMetrics& metrics : findings.steps()) {
+  for (const report::StepMetrics& metrics : findings.steps()) {
     steps.push_back(step(metrics));
   }
   ordered_json faults = ordered_json::array();
@@ -161,12 +162,12 @@ ordered_json summary(const scene::Scene& scene, const loop::RunResult& result,
                      const RunFindings& findings) {
   const loop::PowerRatios window = loop::power_ratios(scene, result.window);
   ordered_json json;
-  json["scene"] = scene::to_json(scene);
+  json["scene"] = scene_file::to_json(scene);
   json["solver"] = {
-      {"method", scene::name_of(scene.solver.method)},
+      {"method", configure::name_of(scene.solver.method)},
       {"steps", result.solver_steps},
-      {"events", scene::counts_events(scene.solver.method) ? ordered_json(result.solver_events)
-                                                           : ordered_json(nullptr)}};
+      {"events", configure::counts_events(scene.solver.method) ? ordered_json(result.solver_events)
+                                                               : ordered_json(nullptr)}};
   json["run"] = {{"simulated_s", result.final_time_s},
                  {"wall_s", result.wall_s},
                  {"real_time_factor", result.final_time_s / result.wall_s}};

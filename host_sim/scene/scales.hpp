@@ -11,6 +11,10 @@ struct PlantScales {
   double friction_N;                   ///< Fc, 0 without friction
 
   double velocity_m_per_s() const { return length_m * angular_frequency_rad_per_s; }
+  /// A contact's stiffness in units of Fc/L: kappa = Kt L/Fc.
+  double contact_stiffness(double stiffness_N_per_m) const {
+    return stiffness_N_per_m * length_m / friction_N;
+  }
 };
 
 }  // namespace sonoglide::scene

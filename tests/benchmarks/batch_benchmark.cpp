@@ -1,5 +1,5 @@
-/// Many plants at once, and the friction-ratio map: points per second, and the errors that go with
-/// them. The label names the instruction set.
+/// Many plants at once: points per second, and the errors that go with them. The label names the
+/// instruction set.
 
 #include <benchmark/benchmark.h>
 #include <hwy/highway.h>
@@ -9,11 +9,8 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <random>
 #include <vector>
 
-#include "firmware/friction/dahl_friction_ratio.hpp"
-#include "host_sim/batch/dahl_friction_ratios.hpp"
 #include "host_sim/batch/run_dahl_plants.hpp"
 #include "tests/host_sim/batch/runs/plants.hpp"
 #include "tests/host_sim/batch/runs/scalar_run.hpp"
@@ -51,31 +48,6 @@ void sweep(benchmark::State& state, Accuracy accuracy) {
 }
 BENCHMARK_CAPTURE(sweep, map, Accuracy::map)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(sweep, fine, Accuracy::fine)->Unit(benchmark::kMillisecond);
-
-/// a in [1e-4, 1e7], r in [0, 1.5]; the error is absolute, against the scalar map.
-void friction_ratio_map(benchmark::State& state) {
-  constexpr std::size_t count = 4096;
-  std::mt19937_64 generator(1);
-  std::uniform_real_distribution<double> unit(0.0, 1.0);
-  std::vector<double> velocity_ratios(count);
-  std::vector<double> dahl_numbers(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    velocity_ratios[i] = 1.5 * unit(generator);
-    dahl_numbers[i] = 1e-4 * std::pow(10.0, 11.0 * unit(generator));
-  }
-  std::vector<double> ratios(count);
-  for (auto _ : state) {
-    dahl_friction_ratios(velocity_ratios.data(), dahl_numbers.data(), count, ratios.data());
-    benchmark::DoNotOptimize(ratios.data());
-  }
-  double worst = 0.0;
-  for (std::size_t i = 0; i < count; ++i) {
-    const double expected = friction::dahl_friction_ratio(velocity_ratios[i], dahl_numbers[i]);
-    worst = std::max(worst, std::abs(ratios[i] - expected));
-  }
-  report(state, count, worst);
-}
-BENCHMARK(friction_ratio_map);
 
 }  // namespace
 }  // namespace sonoglide::batch

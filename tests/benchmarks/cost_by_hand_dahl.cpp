@@ -2,10 +2,10 @@
 
 #include "cost_by_hand.hpp"
 #include "cost_by_hand_reversals.hpp"
-#include "firmware/friction/gauss_legendre.hpp"
+#include "firmware/numeric/gauss_legendre.hpp"
+#include "firmware/numeric/gauss_rule.hpp"
 #include "firmware/numeric/lane_group.hpp"
-#include "firmware/plant/gauss_rule.hpp"
-#include "firmware/plant/polynomial.hpp"
+#include "firmware/numeric/power_series.hpp"
 
 namespace sonoglide::cost::by_hand {
 namespace {
@@ -145,7 +145,7 @@ inline double series_unit(const Scene& scene, double velocity, double friction, 
 /// Integral of phi over x, by eight nodes on the way that the contact slides.
 [[gnu::noinline, gnu::pure]] double friction_by_nodes(const Series& s, const Scene& scene,
                                                       const Arc& arc, double extent) {
-  constexpr auto& rule = plant::gauss_rule<double, 8>;
+  constexpr auto& rule = numeric::gauss_rule<double, 8>;
   const auto& p = s.shift;
   const auto x = extent * numeric::load_group<4>(rule.node.data());
   const auto square = x * x;
@@ -169,7 +169,7 @@ inline double series_unit(const Scene& scene, double velocity, double friction, 
   const double last =
       numeric::max(extent * numeric::abs(s.friction[order]), numeric::abs(s.friction[order - 1]));
   const double length = numeric::max(1.0, s.unit * extent);
-  if (length * plant::power<order - 1>(extent) * last > 64.0 * allowed_term) {
+  if (length * numeric::power<order - 1>(extent) * last > 64.0 * allowed_term) {
     return friction_by_nodes(s, scene, arc, extent);
   }
   Coefficients mean;
@@ -181,7 +181,7 @@ inline double series_unit(const Scene& scene, double velocity, double friction, 
 
 [[gnu::always_inline]] inline void add_motion(Result& state, const Series& s, const Scene& scene,
                                               double extent, const Named& named) {
-  static constexpr auto rule = friction::gauss_legendre<order / 2>();
+  static constexpr auto rule = numeric::gauss_legendre<order / 2>();
   double drive_work = 0.0;
   double velocity_square = 0.0;
   double displacement_square = 0.0;

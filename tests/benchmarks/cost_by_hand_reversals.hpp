@@ -3,7 +3,7 @@
 #pragma once
 
 #include "cost_by_hand_series.hpp"
-#include "firmware/plant/first_reversal.hpp"
+#include "firmware/plant/taylor/first_reversal.hpp"
 
 namespace sonoglide::cost {
 

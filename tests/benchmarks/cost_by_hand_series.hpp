@@ -10,8 +10,8 @@
 
 #include "cost_scene.hpp"
 #include "firmware/numeric/float_elementary.hpp"
+#include "firmware/numeric/quick_root.hpp"
 #include "firmware/numeric/scalar.hpp"
-#include "firmware/plant/step_size.hpp"
 
 namespace sonoglide::cost {
 
@@ -30,7 +30,7 @@ inline double longest_step() {
   for (int n = 2; n <= order + 1; ++n) {
     product *= n;
   }
-  return numeric::min(3.0, 0.85 * plant::quick_root<order + 1>(product));
+  return numeric::min(3.0, 0.85 * numeric::quick_root<order + 1>(product));
 }
 
 /// p[2] + p[3] x + … + p[17] x^15.
@@ -117,8 +117,8 @@ inline Phasor drive_at(double amplitude, double phase) {
 
 /// The extent at which terms of the two highest orders reach what is allowed.
 [[gnu::always_inline]] inline double reach(double last, double last_but_one, double allowed) {
-  return numeric::min(plant::quick_root_of_quotient<order + 1>(allowed, last),
-                      plant::quick_root_of_quotient<order>(allowed, last_but_one));
+  return numeric::min(numeric::quick_root_of_quotient<order + 1>(allowed, last),
+                      numeric::quick_root_of_quotient<order>(allowed, last_but_one));
 }
 
 /// What a step of extent x reaches; 1 at most.

@@ -10,10 +10,10 @@
 #include "firmware/plant/account.hpp"
 #include "firmware/plant/damping.hpp"
 #include "firmware/plant/drive.hpp"
-#include "firmware/plant/event_taylor.hpp"
 #include "firmware/plant/model.hpp"
 #include "firmware/plant/observer.hpp"
-#include "firmware/plant/rk4.hpp"
+#include "firmware/plant/rk4/rk4.hpp"
+#include "firmware/plant/taylor/event_taylor.hpp"
 
 namespace sonoglide::cost {
 

@@ -6,7 +6,7 @@
 #include <tuple>
 #include <vector>
 
-#include "host_sim/emulator/board_list.hpp"
+#include "host_sim/emulated/board_list.hpp"
 #include "tests/boards/budget/table.hpp"
 
 namespace sonoglide::budget {
@@ -63,14 +63,14 @@ class BudgetTest : public testing::TestWithParam<std::tuple<std::string, std::st
 TEST_P(BudgetTest, IsTheRecordedOne) {
   const auto& [board, arithmetic] = GetParam();
   const std::vector<Row> recorded = recorded_budget();
-  for (const Row& row : measure_scenes(*emulator::find_board(board), arithmetic)) {
+  for (const Row& row : measure_scenes(*emulated::find_board(board), arithmetic)) {
     expect_recorded(row, recorded, {"board", "arithmetic", "scene"});
   }
 }
 
 std::vector<std::string> board_names() {
   std::vector<std::string> names;
-  for (const emulator::EmulatedBoard& board : emulator::emulated_boards()) {
+  for (const emulated::EmulatedBoard& board : emulated::emulated_boards()) {
     names.emplace_back(board.name);
   }
   return names;

@@ -15,15 +15,15 @@
 #include "firmware/control/drive_command.hpp"
 #include "hal/lockstep/exit_code.hpp"
 #include "hal/lockstep/frame.hpp"
-#include "host_sim/emulator/board_list.hpp"
+#include "host_sim/configure/control_design.hpp"
+#include "host_sim/emulated/board_list.hpp"
+#include "host_sim/emulated/image_process.hpp"
 #include "host_sim/loop/control_port.hpp"
 #include "host_sim/loop/run.hpp"
-#include "host_sim/pil/image_process.hpp"
-#include "host_sim/scene/control_design.hpp"
-#include "host_sim/scene/reader.hpp"
+#include "host_sim/scene_file/reader.hpp"
 #include "monitor.hpp"
 
-namespace sonoglide::pil {
+namespace sonoglide::emulated {
 namespace {
 
 using std::chrono_literals::operator""s;
@@ -154,13 +154,14 @@ class ImagePort final : public loop::ControlPort {
 };
 
 scene::Scene scene_of(const std::string& controller) {
-  scene::Scene scene = scene::read_file(SONOGLIDE_CONTROLLERS "/" + controller + "/scene.toml");
+  scene::Scene scene =
+      scene_file::read_file(SONOGLIDE_CONTROLLERS "/" + controller + "/scene.toml");
   scene.run.record.clear();
   return scene;
 }
 
 std::vector<std::string> emulate(const std::string& board, const std::string& controller) {
-  return emulator::emulator_command(*emulator::find_board(board),
+  return emulated::emulator_command(*emulated::find_board(board),
                                     SONOGLIDE_IMAGES "/" + board + "/bin/" + controller + ".elf");
 }
 
@@ -172,7 +173,7 @@ std::vector<hal::Drive> drives(const scene::Scene& scene, loop::ControlPort& con
 }
 
 std::vector<hal::Drive> drives_on_host(const scene::Scene& scene, const Script& script) {
-  const auto control = loop::make_control_port(scene, scene::design_control(scene));
+  const auto control = loop::make_control_port(scene, configure::design_control(scene));
   return drives(scene, *control, script);
 }
 
@@ -380,4 +381,4 @@ INSTANTIATE_TEST_SUITE_P(Boards, ResetInMidRun, testing::Values("microbit", "mps
                          });
 
 }  // namespace
-}  // namespace sonoglide::pil
+}  // namespace sonoglide::emulated

@@ -1,5 +1,5 @@
 // What becomes of an emulator, and of who waits for it, when things go wrong.
-#include "host_sim/pil/image_process.hpp"
+#include "host_sim/emulated/image_process.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,17 +9,17 @@
 #include <string>
 #include <vector>
 
-#include "host_sim/emulator/board_list.hpp"
+#include "host_sim/emulated/board_list.hpp"
 #include "host_sim/process/process_error.hpp"
 
-namespace sonoglide::pil {
+namespace sonoglide::emulated {
 namespace {
 
 using std::chrono_literals::operator""s;
 using std::chrono_literals::operator""ms;
 
 std::vector<std::string> emulate(const std::string& image) {
-  return emulator::emulator_command(*emulator::find_board("mps2-an386"), image);
+  return emulated::emulator_command(*emulated::find_board("mps2-an386"), image);
 }
 
 std::vector<std::string> running() {
@@ -99,4 +99,4 @@ TEST(ImageProcessTest, ListensToItsOwnerWhileItWaits) {
 }
 
 }  // namespace
-}  // namespace sonoglide::pil
+}  // namespace sonoglide::emulated

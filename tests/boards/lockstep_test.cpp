@@ -14,18 +14,18 @@
 #include "hal/lockstep/exit_code.hpp"
 #include "hal/lockstep/frame.hpp"
 #include "hal/trace_hash.hpp"
-#include "host_sim/emulator/board_list.hpp"
+#include "host_sim/configure/control_design.hpp"
+#include "host_sim/emulated/board_list.hpp"
+#include "host_sim/emulated/image_process.hpp"
 #include "host_sim/loop/actuator.hpp"
 #include "host_sim/loop/control_port.hpp"
 #include "host_sim/loop/plant_port.hpp"
 #include "host_sim/loop/run.hpp"
 #include "host_sim/loop/sensor.hpp"
-#include "host_sim/pil/image_process.hpp"
-#include "host_sim/scene/control_design.hpp"
-#include "host_sim/scene/reader.hpp"
+#include "host_sim/scene_file/reader.hpp"
 #include "tests/host_sim/loop/logs/logged_run.hpp"
 
-namespace sonoglide::pil {
+namespace sonoglide::emulated {
 namespace {
 
 using std::chrono_literals::operator""s;
@@ -41,13 +41,13 @@ std::string image(const std::string& board, const std::string& controller) {
 }
 
 std::vector<std::string> emulate(const std::string& board, const std::string& image) {
-  return emulator::emulator_command(*emulator::find_board(board), image);
+  return emulated::emulator_command(*emulated::find_board(board), image);
 }
 
 /// The plant of a scene and its sensor, fed period by period.
 class SensedPlant {
  public:
-  SensedPlant(const scene::Scene& scene, const scene::ControlDesign& design)
+  SensedPlant(const scene::Scene& scene, const configure::ControlDesign& design)
       : period_s_(1.0 / scene.drive->frequency_Hz),
         rate_(two_pi * scene.drive->frequency_Hz),
         plant_(loop::make_plant_port(scene)),
@@ -73,7 +73,7 @@ class SensedPlant {
 };
 
 scene::Scene scene_of(const std::string& controller) {
-  return scene::read_file(SONOGLIDE_CONTROLLERS "/" + controller + "/scene.toml");
+  return scene_file::read_file(SONOGLIDE_CONTROLLERS "/" + controller + "/scene.toml");
 }
 
 /// An image on a board: (board, controller).
@@ -92,7 +92,7 @@ class Image : public testing::TestWithParam<std::tuple<std::string, std::string>
 void expect_the_hosts_commands(const scene::Scene& scene, ImageProcess& board) {
   const loop::LoggedRun host = loop::run_logged(scene);
   const loop::ControlRecord& record = *host.result.control;
-  const scene::ControlDesign& design = record.design;
+  const configure::ControlDesign& design = record.design;
   SensedPlant plant(scene, design);
   hal::TraceHash hash;
   loop::Actuator actuator(scene.drive->delay_periods, design.scales.drive_amplitude_N);
@@ -120,7 +120,7 @@ TEST_P(Image, DrivesThePlantWithTheHostsCommandsBitForBit) {
 }
 
 TEST_P(Image, AnswersAnyConverterCodeAsTheHostDoes) {
-  const auto host = loop::make_control_port(scene_, scene::design_control(scene_));
+  const auto host = loop::make_control_port(scene_, configure::design_control(scene_));
   const scene::TargetStep& target = scene_.controller->target_friction_ratio[0];
   const scene::TargetStep& next_target = scene_.controller->target_friction_ratio[1];
   host->set_target(target.friction_ratio);
@@ -165,7 +165,7 @@ std::string test_name_of(std::string board) {
 
 std::vector<std::string> board_names() {
   std::vector<std::string> names;
-  for (const emulator::EmulatedBoard& board : emulator::emulated_boards()) {
+  for (const emulated::EmulatedBoard& board : emulated::emulated_boards()) {
     names.emplace_back(board.name);
   }
   return names;
@@ -184,7 +184,7 @@ INSTANTIATE_TEST_SUITE_P(Boards, Image,
 class SerialImage : public testing::TestWithParam<std::string> {
  protected:
   SerialImage()
-      : board_(emulator::serial_emulator_command(*emulator::find_board(GetParam()),
+      : board_(emulated::serial_emulator_command(*emulated::find_board(GetParam()),
                                                  image(GetParam(), "target_step_serial")),
                60s) {
     board_.await_greeting();
@@ -223,4 +223,4 @@ TEST(ImageTest, LeavesOnATrapOfARiscV) {
 }
 
 }  // namespace
-}  // namespace sonoglide::pil
+}  // namespace sonoglide::emulated

@@ -12,7 +12,7 @@
 
 #include "host_sim/process/wait_for_input.hpp"
 
-namespace sonoglide::pil {
+namespace sonoglide::emulated {
 namespace {
 
 using std::chrono_literals::operator""s;
@@ -89,4 +89,4 @@ char Monitor::next() {
   return character;
 }
 
-}  // namespace sonoglide::pil
+}  // namespace sonoglide::emulated

@@ -7,7 +7,7 @@
 
 #include "host_sim/process/descriptor.hpp"
 
-namespace sonoglide::pil {
+namespace sonoglide::emulated {
 
 /// Two named pipes in the folder of temporary files, gone with this object.
 class Monitor {
@@ -35,4 +35,4 @@ class Monitor {
   process::Descriptor from_emulator_;
 };
 
-}  // namespace sonoglide::pil
+}  // namespace sonoglide::emulated

@@ -18,23 +18,23 @@
 #include "firmware/plant/account.hpp"
 #include "firmware/plant/damping.hpp"
 #include "firmware/plant/drive.hpp"
-#include "firmware/plant/fixed_strang.hpp"
-#include "firmware/plant/fixed_strang_design.hpp"
 #include "firmware/plant/model.hpp"
 #include "firmware/plant/observer.hpp"
 #include "firmware/plant/state.hpp"
-#include "firmware/plant/strang.hpp"
+#include "firmware/plant/strang/equal_step_strang.hpp"
+#include "firmware/plant/strang/fixed_point_strang.hpp"
+#include "firmware/plant/strang/fixed_point_strang_design.hpp"
 #include "hal/trace_hash.hpp"
-#include "host_sim/emulator/board_list.hpp"
-#include "host_sim/image/measure_image.hpp"
-#include "host_sim/image/plant_header.hpp"
+#include "host_sim/configure/configuration_error.hpp"
+#include "host_sim/emulated/board_list.hpp"
+#include "host_sim/emulated/measure_image.hpp"
+#include "host_sim/emulated/plant_header.hpp"
 #include "host_sim/loop/carrier_grid.hpp"
 #include "host_sim/loop/control_port.hpp"
 #include "host_sim/loop/control_run.hpp"
 #include "host_sim/loop/plant_description.hpp"
 #include "host_sim/process/run_tool.hpp"
-#include "host_sim/scene/configuration_error.hpp"
-#include "host_sim/scene/reader.hpp"
+#include "host_sim/scene_file/reader.hpp"
 #include "tests/host_sim/loop/logs/logged_run.hpp"
 
 namespace sonoglide {
@@ -46,7 +46,7 @@ constexpr double two_pi = 6.28318530717958647693;
 class HashedControl final : public loop::ControlPort {
  public:
   explicit HashedControl(const scene::Scene& scene)
-      : port_(loop::make_control_port(scene, scene::design_control(scene))),
+      : port_(loop::make_control_port(scene, configure::design_control(scene))),
         amplitudes_(static_cast<std::size_t>(scene.drive->delay_periods) + 1, 0) {}
 
   void set_target(double friction_ratio) override { port_->set_target(friction_ratio); }
@@ -82,11 +82,11 @@ class FloatPlant {
  public:
   explicit FloatPlant(const scene::Scene& scene) {
     const loop::PlantDescription described(scene);
-    const scene::ControlScales codes = scene::design_control(scene).scales;
-    const scene::PlantNumbers& numbers = described.numbers;
+    const configure::ControlScales codes = configure::design_control(scene).scales;
+    const configure::PlantNumbers& numbers = described.numbers;
     solver_.configure({{{number(numbers.contact_stiffness)},
                         number(numbers.friction_force),
-                        number(scene::vibration_sign(scene.friction.sign_convention))},
+                        number(configure::vibration_sign(scene.friction.sign_convention))},
                        {},
                        number(numbers.stiffness)},
                       number(two_pi / 8.0));
@@ -133,11 +133,11 @@ class FixedPlant {
  private:
   static plant::FixedStrangParameters parameters(const scene::Scene& scene) {
     const loop::PlantDescription described(scene);
-    const scene::PlantNumbers& numbers = described.numbers;
+    const configure::PlantNumbers& numbers = described.numbers;
     using Model = plant::Model<friction::Dahl<double>, plant::Undamped<double>, plant::CosineDrive>;
     const Model model{{{numbers.contact_stiffness},
                        numbers.friction_force,
-                       scene::vibration_sign(scene.friction.sign_convention)},
+                       configure::vibration_sign(scene.friction.sign_convention)},
                       {},
                       numbers.stiffness};
     const plant::FixedStrangDesign design = plant::design_fixed_strang(
@@ -161,7 +161,7 @@ struct ClosedLoop {
 template <class Plant>
 ClosedLoop closed_loop(const scene::Scene& scene, Plant plant) {
   loop::ControlRecord record;
-  record.design = scene::design_control(scene);
+  record.design = configure::design_control(scene);
   const loop::CarrierGrid grid(scene);
   HashedControl control(scene);
   loop::ControlRun run(scene, grid, control, record);
@@ -179,7 +179,7 @@ ClosedLoop closed_loop(const scene::Scene& scene, Plant plant) {
 }
 
 scene::Scene scene_of(const std::string& controller) {
-  return scene::read_file(SONOGLIDE_CONTROLLERS "/" + controller + "/scene.toml");
+  return scene_file::read_file(SONOGLIDE_CONTROLLERS "/" + controller + "/scene.toml");
 }
 
 ClosedLoop closed_loop_of(const std::string& controller) {
@@ -189,9 +189,9 @@ ClosedLoop closed_loop_of(const std::string& controller) {
 }
 
 /// What an image says, by name; numbers as it writes them.
-std::map<std::string, std::string> words_of(const emulator::EmulatedBoard& board,
+std::map<std::string, std::string> words_of(const emulated::EmulatedBoard& board,
                                             const std::string& image) {
-  std::istringstream output(process::run_tool(emulator::emulator_command(board, image), [] {}));
+  std::istringstream output(process::run_tool(emulated::emulator_command(board, image), [] {}));
   std::map<std::string, std::string> words;
   for (std::string name, value; output >> name >> value;) {
     words[name] = value;
@@ -210,7 +210,7 @@ std::string hexadecimal(std::uint64_t value) {
 /// (board, controller)
 class PlantImage : public testing::TestWithParam<std::tuple<std::string, std::string>> {
  protected:
-  const emulator::EmulatedBoard& board_ = *emulator::find_board(std::get<0>(GetParam()));
+  const emulated::EmulatedBoard& board_ = *emulated::find_board(std::get<0>(GetParam()));
   std::string controller_ = std::get<1>(GetParam());
   std::string image_ =
       SONOGLIDE_IMAGES "/" + std::get<0>(GetParam()) + "/bin/" + controller_ + "_plant.elf";
@@ -231,7 +231,7 @@ TEST_P(PlantImage, CostsTheSameInEveryRun) {
     return std::lround(std::stod(words[side + "_counts_sum"]) / std::stod(words["periods"]) /
                        board_.counts_per_instruction);
   };
-  const image::ImageCost cost = image::measure_image(image_, board_, [] {});
+  const emulated::ImageCost cost = emulated::measure_image(image_, board_, [] {});
   std::cout << board_.name << ' ' << controller_ << ": " << mean("plant")
             << " instructions of plant and " << mean("controller")
             << " of controller in a carrier period, " << cost.size.flash_bytes << " B flash, "
@@ -244,7 +244,7 @@ TEST_P(PlantImage, CostsTheSameInEveryRun) {
 
 std::vector<std::string> board_names() {
   std::vector<std::string> names;
-  for (const emulator::EmulatedBoard& board : emulator::emulated_boards()) {
+  for (const emulated::EmulatedBoard& board : emulated::emulated_boards()) {
     names.emplace_back(board.name);
   }
   return names;
@@ -275,8 +275,8 @@ TEST(PlantInAnImageTest, KeepsTheFrictionRatioOfTheScenesOwnPlant) {
 std::string refused_key(const scene::Scene& scene,
                         scene::Arithmetic arithmetic = scene::Arithmetic::float32) {
   try {
-    image::plant_header(scene, arithmetic);
-  } catch (const scene::ConfigurationError& error) {
+    emulated::plant_header(scene, arithmetic);
+  } catch (const configure::ConfigurationError& error) {
     return error.key();
   }
   return "";

@@ -13,13 +13,13 @@
 #include <utility>
 #include <vector>
 
-#include "host_sim/emulator/board_list.hpp"
+#include "host_sim/emulated/board_list.hpp"
 #include "host_sim/process/child_process.hpp"
 #include "host_sim/process/pipe.hpp"
 #include "host_sim/process/wait_for_input.hpp"
 #include "monitor.hpp"
 
-namespace sonoglide::pil {
+namespace sonoglide::emulated {
 namespace {
 
 using std::chrono_literals::operator""s;
@@ -46,8 +46,8 @@ constexpr TimedBoard timed_boards[] = {
 };
 
 std::vector<std::string> emulate(const std::string& board, const std::string& image, int speed) {
-  std::vector<std::string> command = emulator::serial_emulator_command(
-      *emulator::find_board(board), SONOGLIDE_IMAGES "/" + board + "/bin/" + image + ".elf");
+  std::vector<std::string> command = emulated::serial_emulator_command(
+      *emulated::find_board(board), SONOGLIDE_IMAGES "/" + board + "/bin/" + image + ".elf");
   command.insert(command.end(), {"-icount", "shift=" + std::to_string(speed)});
   return command;
 }
@@ -347,4 +347,4 @@ INSTANTIATE_TEST_SUITE_P(Boards, TimedUnitWatchdog, testing::Values("mps2-an386"
                          named_after_its_board);
 
 }  // namespace
-}  // namespace sonoglide::pil
+}  // namespace sonoglide::emulated

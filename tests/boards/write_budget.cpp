@@ -3,7 +3,7 @@
 #include <iostream>
 #include <vector>
 
-#include "host_sim/emulator/board_list.hpp"
+#include "host_sim/emulated/board_list.hpp"
 #include "tests/boards/budget/table.hpp"
 
 namespace {
@@ -16,7 +16,7 @@ void append(std::vector<budget::Row>& rows, const std::vector<budget::Row>& more
 
 void write_tables() {
   std::vector<budget::Row> scenes;
-  for (const auto& board : sonoglide::emulator::emulated_boards()) {
+  for (const auto& board : sonoglide::emulated::emulated_boards()) {
     for (const auto& arithmetic : budget::arithmetics) {
       append(scenes, budget::measure_scenes(board, arithmetic));
     }

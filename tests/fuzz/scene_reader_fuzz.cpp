@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "host_sim/scene/reader.hpp"
-#include "host_sim/scene/to_json.hpp"
+#include "host_sim/scene_file/reader.hpp"
+#include "host_sim/scene_file/to_json.hpp"
 
 namespace {
 
@@ -34,7 +34,7 @@ std::vector<std::string> pieces_of(const std::string& bytes) {
   return pieces;
 }
 
-void check_one_line(const sonoglide::scene::SceneError& error) {
+void check_one_line(const sonoglide::scene_file::SceneError& error) {
   const std::string what = error.what();
   if (error.line() < 1 || error.column() < 1 || error.key().empty() || error.message().empty() ||
       what.find('\n') != std::string::npos) {

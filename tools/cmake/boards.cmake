@@ -13,7 +13,7 @@ sonoglide_room(sonoglide_lockstep hal/lockstep USES sonoglide_hal)
 sonoglide_room(sonoglide_start hal/start)
 sonoglide_room(sonoglide_timed hal/timed USES sonoglide_hal)
 sonoglide_room(sonoglide_simulated hal/simulated
-  USES sonoglide_plant sonoglide_hal sonoglide_start)
+  USES sonoglide_strang sonoglide_hal sonoglide_start)
 
 # sonoglide_image(<target> SOURCE <main> FOLDER <configuration> MEMORY <linker script>
 #   USES <rooms>...): an image of one configured controller.
@@ -50,7 +50,7 @@ function(sonoglide_plant_images memory)
   foreach(folder IN LISTS SONOGLIDE_CONTROLLERS)
     if(EXISTS "${folder}/plant_configuration.hpp")
       get_filename_component(name "${folder}" NAME)
-      sonoglide_image(${name}_plant SOURCE firmware/app/image/plant_main.cpp FOLDER "${folder}" MEMORY ${memory}
+      sonoglide_image(${name}_plant SOURCE firmware/image/plant_main.cpp FOLDER "${folder}" MEMORY ${memory}
         USES sonoglide_simulated sonoglide_processor sonoglide_semihosting)
     endif()
   endforeach()
@@ -65,7 +65,7 @@ function(sonoglide_board name)
   endif()
   cmake_parse_arguments(BOARD "" "FOLDER;CLASS" "" ${ARGN})
   sonoglide_room(sonoglide_board ${BOARD_FOLDER} USES sonoglide_hal sonoglide_start)
-  sonoglide_images("" SOURCE firmware/app/image/main.cpp MEMORY ${BOARD_FOLDER}/memory.ld
+  sonoglide_images("" SOURCE firmware/image/main.cpp MEMORY ${BOARD_FOLDER}/memory.ld
     CLASS ${BOARD_CLASS} HEADER ${BOARD_FOLDER}/board.hpp
     USES sonoglide_board sonoglide_processor)
 endfunction()
@@ -84,14 +84,14 @@ function(sonoglide_emulated_board name)
   endif()
   sonoglide_room(sonoglide_emulated_board ${BOARD_FOLDER}
     USES sonoglide_lockstep_board sonoglide_timed sonoglide_processor)
-  sonoglide_images("" SOURCE firmware/app/image/main.cpp MEMORY ${BOARD_FOLDER}/${BOARD_MEMORY}
+  sonoglide_images("" SOURCE firmware/image/main.cpp MEMORY ${BOARD_FOLDER}/${BOARD_MEMORY}
     CLASS semihosting::SemihostingBoard HEADER hal/semihosting/semihosting_board.hpp
     USES sonoglide_processor sonoglide_semihosting)
-  sonoglide_images(_serial SOURCE firmware/app/image/main.cpp MEMORY ${BOARD_FOLDER}/${BOARD_MEMORY}
+  sonoglide_images(_serial SOURCE firmware/image/main.cpp MEMORY ${BOARD_FOLDER}/${BOARD_MEMORY}
     CLASS ${BOARD_SERIAL_BOARD} HEADER ${BOARD_FOLDER}/serial_board.hpp
     USES sonoglide_emulated_board sonoglide_semihosting)
   if(BOARD_TIMED_HARDWARE)
-    set(timed_main firmware/app/image/timed_unit.cpp)
+    set(timed_main firmware/image/timed_unit.cpp)
     set(timed_images timed)
     # Of the tests, which a tree of the product alone does not have.
     set(exception_main tests/boards/exception_unit.cpp)

@@ -47,8 +47,7 @@ struct LuGre {
   template <class Scalar>
   Core<Scalar> core(const Contact& contact, const PlantScales& scales) const {
     const double force_per_velocity = scales.velocity_m_per_s() / scales.friction_N;
-    return {static_cast<Scalar>(contact.contact_stiffness_N_per_m * scales.length_m /
-                                scales.friction_N),
+    return {static_cast<Scalar>(scales.contact_stiffness(contact.contact_stiffness_N_per_m)),
             static_cast<Scalar>(static_coefficient / contact.coefficient),
             static_cast<Scalar>(stribeck_velocity_m_per_s / scales.velocity_m_per_s()),
             static_cast<Scalar>(bristle_damping_N_s_per_m * force_per_velocity),

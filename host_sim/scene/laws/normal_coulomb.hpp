@@ -35,8 +35,7 @@ struct NormalCoulomb {
 
   template <class Scalar>
   Core<Scalar> core(const Contact& contact, const PlantScales& scales) const {
-    return {static_cast<Scalar>(contact.contact_stiffness_N_per_m * scales.length_m /
-                                scales.friction_N),
+    return {static_cast<Scalar>(scales.contact_stiffness(contact.contact_stiffness_N_per_m)),
             static_cast<Scalar>(normal_contact_stiffness_N_per_m * scales.length_m /
                                 contact.normal_force_N)};
   }

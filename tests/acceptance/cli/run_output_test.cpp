@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "tests/acceptance/program/program.hpp"
-#include "tests/table_1/scenes.hpp"
+#include "tests/common/scenes.hpp"
 
 namespace sonoglide::acceptance {
 namespace {

@@ -5,7 +5,7 @@
 #include <fstream>
 #include <string>
 
-#include "host_sim/report/page.hpp"
+#include "host_sim/output/page.hpp"
 #include "sample_page.hpp"
 #include "tests/acceptance/page/browser.hpp"
 #include "tests/acceptance/page/exercise.hpp"
@@ -36,7 +36,7 @@ int count(const browser::Visit& visit, const std::string& name) {
 }
 
 TEST_F(PageInBrowser, DrawsEveryPanelAndStaysOffTheNetwork) {
-  const browser::Visit seen = visit(report::to_html(report::sample_page()));
+  const browser::Visit seen = visit(output::to_html(report::sample_page()));
   EXPECT_EQ(count(seen, "data-panels"), kPanels);
   EXPECT_EQ(count(seen, "data-drawn"), kPanels);
   EXPECT_TRUE(seen.requests.empty()) << seen.requests.front();
@@ -44,7 +44,7 @@ TEST_F(PageInBrowser, DrawsEveryPanelAndStaysOffTheNetwork) {
 
 TEST_F(PageInBrowser, ZoomsReadsPansAndResetsByMouse) {
   const browser::Visit seen =
-      visit(report::to_html(report::sample_page()), browser::exercise_script);
+      visit(output::to_html(report::sample_page()), browser::exercise_script);
   EXPECT_EQ(count(seen, "data-zoomed"), kPanels);
   EXPECT_EQ(count(seen, "data-read"), kPanels);
   EXPECT_EQ(count(seen, "data-panned"), kPanels);
@@ -53,7 +53,7 @@ TEST_F(PageInBrowser, ZoomsReadsPansAndResetsByMouse) {
 }
 
 TEST_F(PageInBrowser, ShowsSiPrefixesThatFollowTheZoom) {
-  const browser::Visit seen = visit(report::to_html(report::sample_page()), R"js(
+  const browser::Visit seen = visit(output::to_html(report::sample_page()), R"js(
     const figure = [...document.querySelectorAll('figure.panel')].find(
         (f) => f.querySelector('h3').textContent === 'Displacement');
     const name = (axis) => figure.querySelector('.axis-name.' + axis).textContent;
@@ -66,7 +66,7 @@ TEST_F(PageInBrowser, ShowsSiPrefixesThatFollowTheZoom) {
 }
 
 TEST_F(PageInBrowser, DrawsEverySeriesOfTheLoopAcrossItsGaps) {
-  const browser::Visit seen = visit(report::to_html(report::sample_page()), R"js(
+  const browser::Visit seen = visit(output::to_html(report::sample_page()), R"js(
     const figure = [...document.querySelectorAll('figure.panel')].find(
         (f) => f.querySelector('h3').textContent === 'Friction against displacement');
     const canvas = figure.querySelector('canvas');
@@ -89,7 +89,7 @@ TEST_F(PageInBrowser, DrawsEverySeriesOfTheLoopAcrossItsGaps) {
 }
 
 TEST_F(PageInBrowser, LaysChartsOutForTheSheetWhilePrinting) {
-  const browser::Visit seen = visit(report::to_html(report::sample_page()), R"js(
+  const browser::Visit seen = visit(output::to_html(report::sample_page()), R"js(
     const widest = () => String(Math.max(
         ...[...document.querySelectorAll('.chart canvas')].map((c) => c.clientWidth)));
     document.body.dataset.screen = widest();
@@ -104,20 +104,20 @@ TEST_F(PageInBrowser, LaysChartsOutForTheSheetWhilePrinting) {
 }
 
 TEST_F(PageInBrowser, SaysWhereNothingCanBeDrawn) {
-  report::Page page;
+  output::Page page;
   page.title = "empty";
-  report::Panel logarithm{"no positive value", "", "x [-]", "y [-]", {0.0, 1.0}, {}, true, ""};
+  output::Panel logarithm{"no positive value", "", "x [-]", "y [-]", {0.0, 1.0}, {}, true, ""};
   logarithm.series.push_back({"negative", {-1.0, 0.0}});
-  report::Panel point{"one point", "", "x [-]", "y [-]", {2.0}, {{"constant", {3.0}}}, false, ""};
+  output::Panel point{"one point", "", "x [-]", "y [-]", {2.0}, {{"constant", {3.0}}}, false, ""};
   page.sections = {{"Section", "", {logarithm, point}}};
-  const browser::Visit seen = visit(report::to_html(page));
+  const browser::Visit seen = visit(output::to_html(page));
   EXPECT_EQ(count(seen, "data-panels"), 1);
   EXPECT_EQ(count(seen, "data-drawn"), 1);
   EXPECT_NE(seen.dom.find("No values to draw."), std::string::npos);
 }
 
 TEST_F(PageInBrowser, NoticesChartsThatWereNotPainted) {
-  std::string html = report::to_html(report::sample_page());
+  std::string html = output::to_html(report::sample_page());
   html.insert(html.find("<main>"),
               "<script>CanvasRenderingContext2D.prototype.stroke = () => {};</script>");
   const browser::Visit seen = visit(html);
@@ -136,7 +136,7 @@ TEST_F(PageInBrowser, NetworkLogShowsARequestWhereOneIsMade) {
 }
 
 TEST_F(PageInBrowser, PolicyStopsEvenAScriptThatCallsHome) {
-  const browser::Visit seen = visit(report::to_html(report::sample_page()), kCallHome);
+  const browser::Visit seen = visit(output::to_html(report::sample_page()), kCallHome);
   EXPECT_EQ(count(seen, "data-drawn"), kPanels);
   EXPECT_TRUE(seen.requests.empty()) << seen.requests.front();
 }

@@ -41,8 +41,9 @@ double ratio_at(double time_s) {
   return target + (from - target) * std::exp(-since_s / 4e-5) * std::cos(since_s * 6e4);
 }
 
-Section regulation() {
-  Section section{"Regulation", "Friction ratio of each carrier period against its target.", {}};
+output::Section regulation() {
+  output::Section section{
+      "Regulation", "Friction ratio of each carrier period against its target.", {}};
   const std::vector<double> periods_s = ramp(0.0, 2e-3, 121);
   section.panels.push_back(
       {"Friction ratio",
@@ -75,7 +76,7 @@ double branch_force(double travel_m) {
          (1.0 - 1.9 * std::exp(-kContactStiffness_N_per_m * travel_m / kCoulombForce_N));
 }
 
-Panel hysteresis_loop() {
+output::Panel hysteresis_loop() {
   const std::vector<double> phase = ramp(0.0, kPi, 90);
   std::vector<std::pair<double, int>> points;
   for (const double angle : phase) {
@@ -83,14 +84,14 @@ Panel hysteresis_loop() {
     points.emplace_back(-kAmplitude_m * std::cos(angle + 0.5 * kPi / 90), 1);
   }
   std::sort(points.begin(), points.end());
-  Panel panel{"Friction against displacement",
-              "One period, settled.",
-              "Displacement [m]",
-              "Friction force [N]",
-              {},
-              {{"sliding forward", {}, false, true}, {"sliding back", {}, false, true}},
-              false,
-              ""};
+  output::Panel panel{"Friction against displacement",
+                      "One period, settled.",
+                      "Displacement [m]",
+                      "Friction force [N]",
+                      {},
+                      {{"sliding forward", {}, false, true}, {"sliding back", {}, false, true}},
+                      false,
+                      ""};
   for (const auto& [x_m, branch] : points) {
     panel.x.push_back(x_m);
     panel.series[0].y.push_back(branch == 0 ? branch_force(x_m + kAmplitude_m) : kGap);
@@ -99,8 +100,8 @@ Panel hysteresis_loop() {
   return panel;
 }
 
-Section carrier() {
-  Section section{"Within the carrier period", "The last eight periods of the run.", {}};
+output::Section carrier() {
+  output::Section section{"Within the carrier period", "The last eight periods of the run.", {}};
   const std::vector<double> time_s = ramp(2e-3 - 8 / kCarrier_Hz, 2e-3, 801);
   const auto angle = [](double t) { return 2.0 * kPi * kCarrier_Hz * t; };
   const auto single = [&](const char* title, const char* label, const char* name, auto f) {
@@ -118,7 +119,7 @@ Section carrier() {
   return section;
 }
 
-Section spectrum() {
+output::Section spectrum() {
   const std::vector<double> frequency_Hz = ramp(0.0, 200e3, 1001);
   const auto peak = [](double f, double at, double height) {
     return height / (1.0 + std::pow((f - at) / 300.0, 2));
@@ -144,8 +145,8 @@ Section spectrum() {
 
 }  // namespace
 
-Page sample_page() {
-  Page page;
+output::Page sample_page() {
+  output::Page page;
   page.title = "target_step: friction ratio 0.4, then 0.6";
   page.lead =
       "Closed loop at Table 1: 20 g slider, 60 kHz drive, Dahl contact, single-precision "

@@ -1,10 +1,10 @@
 /// A page with every kind of panel that a report has, filled from closed forms.
 #pragma once
 
-#include "host_sim/report/page.hpp"
+#include "host_sim/output/page.hpp"
 
 namespace sonoglide::report {
 
-Page sample_page();
+output::Page sample_page();
 
 }  // namespace sonoglide::report

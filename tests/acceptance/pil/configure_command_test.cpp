@@ -2,14 +2,14 @@
 
 #include <string>
 
-#include "host_sim/image/controller_header.hpp"
-#include "host_sim/image/plant_header.hpp"
+#include "host_sim/emulated/controller_header.hpp"
+#include "host_sim/emulated/plant_header.hpp"
 #include "tests/acceptance/program/program.hpp"
 
 namespace sonoglide::acceptance {
 namespace {
 
-const std::string name = std::string("/") + image::controller_header_name;
+const std::string name = std::string("/") + emulated::controller_header_name;
 
 TEST(ConfigureCommandTest, WritesTheHeaderOfAScene) {
   const ScratchFolder folder;
@@ -33,7 +33,7 @@ TEST(ConfigureCommandTest, SaysWhereASceneHasNoController) {
 }
 
 TEST(ConfigureCommandTest, WritesThePlantAsWellWhereItIsAskedTo) {
-  const std::string plant_name = std::string("/") + image::plant_header_name;
+  const std::string plant_name = std::string("/") + emulated::plant_header_name;
   const ScratchFolder folder;
   const std::string scene = "'" SONOGLIDE_SCENES "/target_step.toml'";
   EXPECT_EQ(folder.run("configure " + scene + " --plant float32").out,

@@ -16,7 +16,7 @@
 
 #include "image_cache.hpp"
 #include "tests/acceptance/program/program.hpp"
-#include "tests/table_1/scenes.hpp"
+#include "tests/common/scenes.hpp"
 
 namespace sonoglide::acceptance {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "tests/acceptance/program/csv.hpp"
 #include "tests/acceptance/program/program.hpp"
-#include "tests/table_1/scenes.hpp"
+#include "tests/common/scenes.hpp"
 
 namespace sonoglide::acceptance {
 namespace {

@@ -6,11 +6,11 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "host_sim/image/cross_tools.hpp"
+#include "host_sim/emulated/cross_tools.hpp"
+#include "host_sim/emulated/image_control.hpp"
 #include "host_sim/loop/run.hpp"
-#include "host_sim/pil/image_control.hpp"
 #include "host_sim/process/run_tool.hpp"
-#include "host_sim/scene/reader.hpp"
+#include "host_sim/scene_file/reader.hpp"
 
 namespace sonoglide::budget {
 namespace {
@@ -34,13 +34,13 @@ std::string joined(const Row& row, std::string Figure::*member) {
 
 }  // namespace
 
-ImageBudget measure(const Folders& folders, const emulator::EmulatedBoard& board,
+ImageBudget measure(const Folders& folders, const emulated::EmulatedBoard& board,
                     const std::string& image) {
   const std::filesystem::path path =
       folders.images / std::string(board.name) / "bin" / (image + ".elf");
-  const scene::Scene scene = scene::read_file(folders.controllers / image / "scene.toml");
-  const image::ImageCost cost = image::measure_image(path, board, {});
-  pil::ImageControl controller(board, path, {});
+  const scene::Scene scene = scene_file::read_file(folders.controllers / image / "scene.toml");
+  const emulated::ImageCost cost = emulated::measure_image(path, board, {});
+  emulated::ImageControl controller(board, path, {});
   const std::uint64_t hash = loop::run(scene, controller).control->trace_hash;
   if (hash != loop::run(scene).control->trace_hash) {
     throw std::runtime_error(path.string() + ": its commands are not the workstation's");
@@ -49,7 +49,7 @@ ImageBudget measure(const Folders& folders, const emulator::EmulatedBoard& board
           controller.shut_down().instructions.value()};
 }
 
-Row budget_row(const emulator::EmulatedBoard& board, const std::string& arithmetic,
+Row budget_row(const emulated::EmulatedBoard& board, const std::string& arithmetic,
                const std::string& scene, const std::string& compiler, const ImageBudget& budget) {
   const auto& [step, answer] = budget.instructions;
   const Parts& flash = budget.parts.flash;
@@ -77,9 +77,9 @@ Row budget_row(const emulator::EmulatedBoard& board, const std::string& arithmet
                                     : budget.cost.stack.unbounded_by}};
 }
 
-std::string compiler_version(const emulator::EmulatedBoard& board) {
+std::string compiler_version(const emulated::EmulatedBoard& board) {
   std::string version =
-      process::run_tool({image::cross_tools(board).prefix + "g++", "-dumpfullversion"}, {});
+      process::run_tool({emulated::cross_tools(board).prefix + "g++", "-dumpfullversion"}, {});
   version.erase(version.find_last_not_of('\n') + 1);
   return version;
 }

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "host_sim/emulator/board_list.hpp"
-#include "host_sim/image/measure_image.hpp"
+#include "host_sim/emulated/board_list.hpp"
+#include "host_sim/emulated/measure_image.hpp"
 #include "host_sim/loop/image_record.hpp"
 #include "tests/boards/budget/image_parts.hpp"
 
@@ -20,15 +20,15 @@ struct Folders {
 };
 
 struct ImageBudget {
-  image::ImageCost cost;
+  emulated::ImageCost cost;
   ImageParts parts;
   loop::ImageInstructions instructions;  ///< over the whole scene
 };
 
 /// Takes an image apart and runs its scene with it, in closed loop.
-/// @throws process::ProcessError, pil::EmulatorError
+/// @throws process::ProcessError, emulated::EmulatorError
 /// @throws std::runtime_error  a command differs from the workstation's: the cost of something else
-ImageBudget measure(const Folders& folders, const emulator::EmulatedBoard& board,
+ImageBudget measure(const Folders& folders, const emulated::EmulatedBoard& board,
                     const std::string& image);
 
 /// A column of a table and what stands in it.
@@ -40,11 +40,11 @@ using Row = std::vector<Figure>;
 
 /// The row of a board's image of an example scene.
 /// @param compiler  its version
-Row budget_row(const emulator::EmulatedBoard& board, const std::string& arithmetic,
+Row budget_row(const emulated::EmulatedBoard& board, const std::string& arithmetic,
                const std::string& scene, const std::string& compiler, const ImageBudget& budget);
 
 /// The version of a board's compiler. Figures of two versions cannot be compared.
-std::string compiler_version(const emulator::EmulatedBoard& board);
+std::string compiler_version(const emulated::EmulatedBoard& board);
 
 /// The image of an example scene in an arithmetic.
 std::string image_name(const std::string& scene, const std::string& arithmetic);

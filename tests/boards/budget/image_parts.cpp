@@ -6,7 +6,7 @@
 #include <sstream>
 #include <vector>
 
-#include "host_sim/image/cross_tools.hpp"
+#include "host_sim/emulated/cross_tools.hpp"
 #include "host_sim/process/run_tool.hpp"
 
 namespace sonoglide::budget {
@@ -144,9 +144,9 @@ StateBytes state_of(const std::vector<Symbol>& symbols) {
 
 }  // namespace
 
-ImageParts image_parts(const emulator::EmulatedBoard& board, const std::filesystem::path& image,
+ImageParts image_parts(const emulated::EmulatedBoard& board, const std::filesystem::path& image,
                        std::uint64_t flash_bytes) {
-  const std::string prefix = image::cross_tools(board).prefix;
+  const std::string prefix = emulated::cross_tools(board).prefix;
   ImageParts parts;
   parts.symbols = process::run_tool(
       {prefix + "nm", "--print-size", "--demangle", "--defined-only", image.string()}, {});

@@ -6,7 +6,7 @@
 #include <map>
 #include <string>
 
-#include "host_sim/emulator/board_list.hpp"
+#include "host_sim/emulated/board_list.hpp"
 
 namespace sonoglide::budget {
 
@@ -39,7 +39,7 @@ struct ImageParts {
 
 /// @param flash_bytes  of the whole image
 /// @throws process::ProcessError  the file is no image, or the board's binutils are missing
-ImageParts image_parts(const emulator::EmulatedBoard& board, const std::filesystem::path& image,
+ImageParts image_parts(const emulated::EmulatedBoard& board, const std::filesystem::path& image,
                        std::uint64_t flash_bytes);
 
 }  // namespace sonoglide::budget

@@ -7,9 +7,9 @@
 #include <map>
 #include <sstream>
 
-#include "host_sim/image/cross_tools.hpp"
-#include "host_sim/image/image_size.hpp"
-#include "host_sim/image/stack_bound.hpp"
+#include "host_sim/emulated/cross_tools.hpp"
+#include "host_sim/emulated/image_size.hpp"
+#include "host_sim/emulated/stack_bound.hpp"
 #include "host_sim/process/run_tool.hpp"
 
 namespace sonoglide::budget {
@@ -52,14 +52,14 @@ struct UnitCost {
 };
 
 /// Of a unit without a board, which begins with main.
-UnitCost unit_cost(const emulator::EmulatedBoard& board, const std::string& unit) {
+UnitCost unit_cost(const emulated::EmulatedBoard& board, const std::string& unit) {
   const std::string path = fmt::format("{}/{}/{}.elf", SONOGLIDE_UNITS, unit, unit);
   std::ifstream file(path, std::ios::binary);
   const std::string elf{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-  const std::string disassembly =
-      process::run_tool({image::cross_tools(board).prefix + "objdump", "--disassemble", path}, {});
-  return {static_cast<std::int64_t>(image::image_size(elf).flash_bytes),
-          static_cast<std::int64_t>(image::stack_bound(disassembly, "main").bytes)};
+  const std::string disassembly = process::run_tool(
+      {emulated::cross_tools(board).prefix + "objdump", "--disassemble", path}, {});
+  return {static_cast<std::int64_t>(emulated::image_size(elf).flash_bytes),
+          static_cast<std::int64_t>(emulated::stack_bound(disassembly, "main").bytes)};
 }
 
 void record(const char* path, const std::vector<Row>& rows) {
@@ -79,7 +79,7 @@ std::vector<std::string> example_scenes() {
   return scenes;
 }
 
-std::vector<Row> measure_scenes(const emulator::EmulatedBoard& board,
+std::vector<Row> measure_scenes(const emulated::EmulatedBoard& board,
                                 const std::string& arithmetic) {
   const std::string compiler = compiler_version(board);
   std::vector<Row> rows;
@@ -103,11 +103,11 @@ const std::vector<Feature>& features() {
 }
 
 ImageBudget measure_feature_scene(const FeatureBoard& board, const std::string& scene) {
-  return measure(folders, *emulator::find_board(board.board), image_name(scene, board.arithmetic));
+  return measure(folders, *emulated::find_board(board.board), image_name(scene, board.arithmetic));
 }
 
 std::vector<Row> measure_features(const FeatureBoard& board) {
-  const std::string compiler = compiler_version(*emulator::find_board(board.board));
+  const std::string compiler = compiler_version(*emulated::find_board(board.board));
   std::map<std::string, ImageBudget> images;
   const auto image = [&](const std::string& scene) -> const ImageBudget& {
     if (images.count(scene) == 0) {
@@ -124,7 +124,7 @@ std::vector<Row> measure_features(const FeatureBoard& board) {
 }
 
 std::vector<Row> measure_services() {
-  const emulator::EmulatedBoard& board = *emulator::find_board("mps2-an386");
+  const emulated::EmulatedBoard& board = *emulated::find_board("mps2-an386");
   const std::string compiler = compiler_version(board);
   const UnitCost alone = unit_cost(board, "unit_m4f");
   std::vector<Row> rows;

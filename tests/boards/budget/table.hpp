@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "host_sim/emulator/board_list.hpp"
+#include "host_sim/emulated/board_list.hpp"
 #include "tests/boards/budget/image_budget.hpp"
 
 namespace sonoglide::budget {
@@ -15,7 +15,7 @@ std::vector<std::string> example_scenes();
 inline const std::vector<std::string> arithmetics = {"float32", "q31"};
 
 /// One row for each example scene.
-std::vector<Row> measure_scenes(const emulator::EmulatedBoard& board,
+std::vector<Row> measure_scenes(const emulated::EmulatedBoard& board,
                                 const std::string& arithmetic);
 
 /// A part of the controller that a scene may do without: two scenes, one of them without it.

@@ -13,10 +13,10 @@
 #include <utility>
 #include <vector>
 
+#include "host_sim/configure/solver_methods.hpp"
 #include "host_sim/loop/run.hpp"
 #include "host_sim/scene/names.hpp"
-#include "host_sim/scene/reader.hpp"
-#include "host_sim/scene/solver_methods.hpp"
+#include "host_sim/scene_file/reader.hpp"
 #include "tests/host_sim/loop/equations/follow.hpp"
 
 namespace sonoglide::loop {
@@ -232,8 +232,8 @@ template <class Described>
 bool is_solved(const Composition& composition) {
   const bool takes_law = std::visit(
       [](const auto& law) {
-        return scene::takes_law<Described,
-                                typename std::decay_t<decltype(law)>::template Core<double>>;
+        return configure::takes_law<Described,
+                                    typename std::decay_t<decltype(law)>::template Core<double>>;
       },
       composition.law);
   return takes_law && (!composition.is_straight() || !Described::straight_orders.empty());
@@ -241,9 +241,9 @@ bool is_solved(const Composition& composition) {
 
 void expect_refused(const std::string& text) {
   try {
-    scene::read_text(text, "scene.toml");
+    scene_file::read_text(text, "scene.toml");
     ADD_FAILURE() << "not refused";
-  } catch (const scene::SceneError& error) {
+  } catch (const scene_file::SceneError& error) {
     EXPECT_EQ(error.key(), "solver.method") << error.what();
   }
 }
@@ -251,7 +251,7 @@ void expect_refused(const std::string& text) {
 void expect_agreement(const Composition& composition, const std::string& solver, double allowed,
                       const equations::State& expected) {
   SCOPED_TRACE(solver);
-  const RunResult result = run(scene::read_text(composition.text(solver), "scene.toml"));
+  const RunResult result = run(scene_file::read_text(composition.text(solver), "scene.toml"));
   const double size_m = drive_N / (undamped_mass.stiffness_N_per_m +
                                    undamped_mass.mass_kg * std::pow(two_pi * frequency_Hz, 2));
   EXPECT_NEAR(result.final_state.displacement_m, expected[0], allowed * size_m);
@@ -267,7 +267,7 @@ void try_every_solver(const Composition& composition) {
                            composition.drive_name(), composition.damped ? "damped" : "undamped",
                            composition.sliding.size()));
   const equations::State expected = expected_state(composition);
-  scene::for_each_solver([&](auto described, scene::SolverMethod /*method*/) {
+  configure::for_each_solver([&](auto described, scene::SolverMethod /*method*/) {
     using Described = decltype(described);
     if (!is_solved<Described>(composition)) {
       const Composition any = {scene::laws::None{}, false, nullptr, {}};

@@ -6,9 +6,9 @@
 #include <ostream>
 #include <string>
 
+#include "host_sim/configure/plant_scales.hpp"
 #include "host_sim/loop/run.hpp"
-#include "host_sim/scene/plant_scales.hpp"
-#include "table_1.hpp"
+#include "tests/common/table_1.hpp"
 
 namespace sonoglide::loop {
 namespace {

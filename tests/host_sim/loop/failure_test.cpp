@@ -2,9 +2,9 @@
 
 #include <string>
 
+#include "host_sim/configure/solver_methods.hpp"
 #include "host_sim/loop/run.hpp"
-#include "host_sim/scene/solver_methods.hpp"
-#include "table_1.hpp"
+#include "tests/common/table_1.hpp"
 
 namespace sonoglide::loop {
 namespace {
@@ -28,7 +28,7 @@ void expect_time_and_state(const std::string& message) {
 scene::Scene with_rk4(double contact_stiffness_N_per_m) {
   scene::Scene scene = table_1();
   scene.friction.contact_stiffness_N_per_m = contact_stiffness_N_per_m;
-  scene.solver.method = scene::method_of<scene::solvers::Rk4>;
+  scene.solver.method = configure::method_of<configure::solvers::Rk4>;
   scene.solver.step_s = 1.667e-8;
   return scene;
 }

@@ -8,7 +8,7 @@
 
 #include "firmware/friction/stribeck_friction_ratio.hpp"
 #include "host_sim/loop/run.hpp"
-#include "table_1.hpp"
+#include "tests/common/table_1.hpp"
 #include "tests/host_sim/loop/logs/logged_run.hpp"
 
 namespace sonoglide::loop {

@@ -13,10 +13,11 @@
 #include <utility>
 #include <vector>
 
+#include "host_sim/configure/plant_scales.hpp"
+#include "host_sim/configure/solver_facts.hpp"
+#include "host_sim/configure/solver_methods.hpp"
 #include "host_sim/loop/moving_friction_plant.hpp"
-#include "host_sim/scene/plant_scales.hpp"
-#include "host_sim/scene/solver_methods.hpp"
-#include "table_1.hpp"
+#include "tests/common/table_1.hpp"
 #include "tests/host_sim/loop/logs/logged_run.hpp"
 
 namespace sonoglide::loop {
@@ -66,8 +67,8 @@ class Line {
   Line(const Scene& scene, double begin_s, double end_s) : begin_s_(begin_s) {
     constexpr double inside = 1e-9;
     const double span_s = end_s - begin_s;
-    const auto near_begin = scene::contact_at(scene.friction, begin_s + inside * span_s);
-    const auto near_end = scene::contact_at(scene.friction, end_s - inside * span_s);
+    const auto near_begin = configure::contact_at(scene.friction, begin_s + inside * span_s);
+    const auto near_end = configure::contact_at(scene.friction, end_s - inside * span_s);
     const double inner_s = (1.0 - 2.0 * inside) * span_s;
     coefficient_slope_ = (near_end.coefficient - near_begin.coefficient) / inner_s;
     normal_slope_ = (near_end.normal_force_N - near_begin.normal_force_N) / inner_s;
@@ -152,7 +153,7 @@ void expect_peers_motion(const Scene& scene, double allowed) {
   const Numbers expected = by_peer(scene);
   const RunResult result = run_logged(scene).result;
   const double velocity = vibration_velocity_m_per_s(scene.plant, 384.0);
-  const double limit_N = scene::largest_friction_limit_N(scene.friction);
+  const double limit_N = configure::largest_friction_limit_N(scene.friction);
   EXPECT_NEAR(result.final_state.displacement_m, expected[0],
               allowed * velocity / (2.0 * pi * carrier_Hz));
   EXPECT_NEAR(result.final_state.velocity_m_per_s, expected[1], allowed * velocity);
@@ -220,12 +221,14 @@ TEST(FrictionProfileTest, NoLawPassesItsLimit) {
       const LoggedRun logged = run_logged(scene);
       ASSERT_EQ(logged.trace.state.size(), 641U);
       for (std::size_t i = 0; i < logged.trace.state.size(); ++i) {
-        const double limit_N = scene::contact_at(scene.friction, logged.trace.time_s[i]).limit_N();
+        const double limit_N =
+            configure::contact_at(scene.friction, logged.trace.time_s[i]).limit_N();
         EXPECT_LE(std::abs(logged.trace.state[i].friction_force_N), limit_N * (1.0 + 1e-12))
             << scene::name_of(law) << " at " << logged.trace.time_s[i];
       }
-      EXPECT_LE(std::abs(logged.result.final_state.friction_force_N),
-                scene::contact_at(scene.friction, scene.run.duration_s).limit_N() * (1.0 + 1e-12));
+      EXPECT_LE(
+          std::abs(logged.result.final_state.friction_force_N),
+          configure::contact_at(scene.friction, scene.run.duration_s).limit_N() * (1.0 + 1e-12));
     }
   }
 }
@@ -247,10 +250,10 @@ TEST(FrictionProfileTest, EverySolverFollows) {
   for (const auto& [profile, bound] : {std::pair(slopes, 1e-7), std::pair(vanishing, 1e-6)}) {
     const Scene reference = with_coefficient(heavy(scene::laws::Dahl{}), profile);
     const double impulse_N_s = run_logged(reference).result.whole.friction_impulse_N_s;
-    for (const auto& method : scene::solver_methods) {
+    for (const auto& method : configure::solver_methods) {
       Scene scene = reference;
       scene.solver.method = method.value;
-      const bool adaptive = scene::is_adaptive(method.value);
+      const bool adaptive = configure::is_adaptive(method.value);
       scene.solver.tolerance = 1e-6;
       scene.solver.step_s = adaptive ? 0.0 : period_s / 4000.0;
       EXPECT_NEAR(run_logged(scene).result.whole.friction_impulse_N_s, impulse_N_s,

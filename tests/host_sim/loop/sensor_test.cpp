@@ -15,7 +15,7 @@ constexpr long double pi_l = 3.14159265358979323846264338327950288L;
 constexpr double full_scale_N = 0.04;
 constexpr double full_speed_m_per_s = 0.25;
 constexpr double period_s = 1.0 / 60e3;
-constexpr scene::ControlScales scales{period_s, full_scale_N, full_speed_m_per_s, 1920.0};
+constexpr configure::ControlScales scales{period_s, full_scale_N, full_speed_m_per_s, 1920.0};
 constexpr double unit = 1.0 / 2147483648.0;  // 2^-31: of a code
 
 double force_N(const hal::Sample& sample) {

@@ -6,10 +6,10 @@
 
 #include <cmath>
 
+#include "host_sim/configure/solver_methods.hpp"
 #include "host_sim/loop/computation_error.hpp"
 #include "host_sim/loop/run.hpp"
-#include "host_sim/scene/solver_methods.hpp"
-#include "table_1.hpp"
+#include "tests/common/table_1.hpp"
 
 namespace sonoglide::loop {
 namespace {
@@ -58,7 +58,7 @@ TEST(FindSteadyOrbitTest, HasTheKnownFrictionRatiosOfTable1) {
 // Nothing but friction takes the free vibration out, a ten thousandth of it in a carrier period.
 TEST(FindSteadyOrbitTest, IsWhereTheUndampedPlantSettlesFromRest) {
   Scene scene = table_1();
-  scene.solver.method = scene::method_of<scene::solvers::EventGauss>;
+  scene.solver.method = configure::method_of<configure::solvers::EventGauss>;
   scene.solver.tolerance = 1e-8;
   expect_as_after(scene, 50000);
 }

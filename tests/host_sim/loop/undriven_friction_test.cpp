@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "table_1.hpp"
+#include "tests/common/table_1.hpp"
 #include "tests/host_sim/loop/logs/logged_run.hpp"
 
 namespace sonoglide::loop {

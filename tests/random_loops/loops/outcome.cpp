@@ -5,10 +5,10 @@
 #include <limits>
 
 #include "firmware/control/names.hpp"
-#include "host_sim/analysis/target_spans.hpp"
 #include "host_sim/loop/computation_error.hpp"
 #include "host_sim/loop/run.hpp"
-#include "host_sim/scene/reader.hpp"
+#include "host_sim/report/target_spans.hpp"
+#include "host_sim/scene_file/reader.hpp"
 
 namespace sonoglide::random_loops {
 namespace {
@@ -32,12 +32,12 @@ Verdict verdict(const StepOutcome& step) {
 }
 
 void run_scene(const scene::Scene& scene, Outcome& outcome) {
-  analysis::StepMeter meter(scene);
+  report::StepMeter meter(scene);
   loop::Watch watch;
   watch.periods.push_back(&meter);
   const loop::RunResult result = loop::run(scene, watch);
-  const std::vector<analysis::StepMetrics> steps = meter.steps();
-  const std::vector<analysis::TargetSpan> spans = analysis::target_spans(scene);
+  const std::vector<report::StepMetrics> steps = meter.steps();
+  const std::vector<report::TargetSpan> spans = report::target_spans(scene);
   for (std::size_t i = 0; i < steps.size(); ++i) {
     StepOutcome step{steps[i], fault_at(*result.control, spans[i].end_s)};
     step.verdict = verdict(step);
@@ -57,8 +57,8 @@ Outcome outcome(std::uint32_t seed, std::uint32_t index) {
   Outcome outcome;
   outcome.loop = random_loop(seed, index);
   try {
-    run_scene(scene::read_text(scene_text(outcome.loop), "random.toml"), outcome);
-  } catch (const scene::SceneError& error) {
+    run_scene(scene_file::read_text(scene_text(outcome.loop), "random.toml"), outcome);
+  } catch (const scene_file::SceneError& error) {
     outcome.refused = error.what();
     outcome.refused_key = error.key();
   } catch (const loop::ComputationError& error) {

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "host_sim/analysis/step_metrics.hpp"
+#include "host_sim/report/step_metrics.hpp"
 #include "tests/random_loops/loops/random_loop.hpp"
 
 namespace sonoglide::random_loops {
@@ -23,7 +23,7 @@ inline constexpr std::array<std::string_view, verdicts> verdict_names = {
 inline constexpr double prompt_s = 1e-3;
 
 struct StepOutcome {
-  analysis::StepMetrics metrics;
+  report::StepMetrics metrics;
   std::string fault;  ///< that the controller is in at the step's end; empty: none
   Verdict verdict = Verdict::never_unnamed;
   bool at_end = false;  ///< settled, but only in the last quarter: a swing may have ended inside

@@ -151,7 +151,7 @@ std::string list(const std::vector<Outcome>& all,
     for (std::size_t i = 0; i < outcome.steps.size(); ++i) {
       const StepOutcome& step = outcome.steps[i];
       if (wanted(step)) {
-        const analysis::StepMetrics& metrics = step.metrics;
+        const report::StepMetrics& metrics = step.metrics;
         text +=
             fmt::format("{},{},{},{:.6g},{},{},{},{:.4g},{:.4g},{:.4g},{:.4g}\n",
                         outcome.loop.index, i, loop_cells(outcome.loop), metrics.target,

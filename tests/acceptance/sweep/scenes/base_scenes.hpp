@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "tests/table_1/scenes.hpp"
+#include "tests/common/scenes.hpp"
 
 namespace sonoglide::acceptance {
 

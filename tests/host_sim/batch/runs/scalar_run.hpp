@@ -7,9 +7,9 @@
 #include "firmware/plant/account.hpp"
 #include "firmware/plant/damping.hpp"
 #include "firmware/plant/drive.hpp"
-#include "firmware/plant/event_taylor.hpp"
 #include "firmware/plant/model.hpp"
 #include "firmware/plant/observer.hpp"
+#include "firmware/plant/taylor/event_taylor.hpp"
 #include "host_sim/batch/dahl_run.hpp"
 
 namespace sonoglide::batch {

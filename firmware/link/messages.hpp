@@ -1,0 +1,271 @@
+/// What a unit and its host say to each other: a request, and for each its answer or a refusal.
+///
+/// A message is a struct with a kind and its fields in the order of the wire. Ratios, amplitudes
+/// and parameters with six decimal places travel in millionths; force and speed as converter codes
+/// (hal::Sample).
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <type_traits>
+
+#include "firmware/link/frame.hpp"
+
+namespace sonoglide::link {
+
+/// A kind with this bit answers the kind without it.
+inline constexpr std::uint8_t answer_bit = 0x80;
+
+struct ReadTelemetry {
+  static constexpr std::uint8_t kind = 0x01;
+
+  template <class Message, class Visitor>
+  static constexpr void fields(Message& /*message*/, Visitor&& /*visit*/) {}
+};
+
+struct Telemetry {
+  static constexpr std::uint8_t kind = ReadTelemetry::kind | answer_bit;
+  std::uint32_t period;           ///< carrier periods served since reset, wraps
+  std::int32_t friction_force;    ///< converter code
+  std::int32_t sliding_velocity;  ///< converter code
+  std::int32_t amplitude;         ///< code in force; full scale: the actuator's limit
+  std::uint32_t target;           ///< friction ratio, millionths
+  std::uint8_t state;             ///< control::State
+  std::uint8_t limit;             ///< control::Limit
+  std::uint8_t fault;             ///< control::Fault or app::UnitFault
+  std::uint8_t parameters;        ///< store::Origin
+  std::uint16_t lost_frames;      ///< damaged, or one too many at a time; since reset, wraps
+  std::uint8_t settling;          ///< control::Settling
+  std::uint16_t mismatch;         ///< believed over true friction, thousandths; 0: not known
+
+  template <class Message, class Visitor>
+  static constexpr void fields(Message& message, Visitor&& visit) {
+    visit(message.period);
+    visit(message.friction_force);
+    visit(message.sliding_velocity);
+    visit(message.amplitude);
+    visit(message.target);
+    visit(message.state);
+    visit(message.limit);
+    visit(message.fault);
+    visit(message.parameters);
+    visit(message.lost_frames);
+    visit(message.settling);
+    visit(message.mismatch);
+  }
+};
+
+/// In force from the next carrier period on, until reset.
+struct SetTarget {
+  static constexpr std::uint8_t kind = 0x02;
+  std::uint32_t ratio;  ///< friction ratio, millionths
+
+  template <class Message, class Visitor>
+  static constexpr void fields(Message& message, Visitor&& visit) {
+    visit(message.ratio);
+  }
+};
+
+struct TargetSet : SetTarget {
+  static constexpr std::uint8_t kind = SetTarget::kind | answer_bit;
+};
+
+struct ReadParameter {
+  static constexpr std::uint8_t kind = 0x03;
+  std::uint8_t parameter;  ///< app::Parameter
+
+  template <class Message, class Visitor>
+  static constexpr void fields(Message& message, Visitor&& visit) {
+    visit(message.parameter);
+  }
+};
+
+struct ParameterValue {
+  static constexpr std::uint8_t kind = ReadParameter::kind | answer_bit;
+  std::uint8_t parameter;
+  std::uint8_t decimal_places;  ///< of the four numbers that follow
+  std::uint32_t value;
+  std::uint32_t lowest;
+  std::uint32_t highest;
+  std::uint32_t preset;  ///< compiled in
+
+  template <class Message, class Visitor>
+  static constexpr void fields(Message& message, Visitor&& visit) {
+    visit(message.parameter);
+    visit(message.decimal_places);
+    visit(message.value);
+    visit(message.lowest);
+    visit(message.highest);
+    visit(message.preset);
+  }
+};
+
+/// Needs the drive stopped. Answered when the value is safe in the store.
+struct WriteParameter {
+  static constexpr std::uint8_t kind = 0x04;
+  std::uint8_t parameter;
+  std::uint32_t value;
+
+  template <class Message, class Visitor>
+  static constexpr void fields(Message& message, Visitor&& visit) {
+    visit(message.parameter);
+    visit(message.value);
+  }
+};
+
+struct ParameterWritten : WriteParameter {
+  static constexpr std::uint8_t kind = WriteParameter::kind | answer_bit;
+};
+
+/// The drive begins afresh, from a stop, from a fault or from running. Refused while parameters
+/// that were lost, or set under another design, are not confirmed.
+struct Restart {
+  static constexpr std::uint8_t kind = 0x05;
+
+  template <class Message, class Visitor>
+  static constexpr void fields(Message& /*message*/, Visitor&& /*visit*/) {}
+};
+
+struct Restarted : Restart {
+  static constexpr std::uint8_t kind = Restart::kind | answer_bit;
+};
+
+/// Drive to zero until a restart: in the carrier period after its last byte, whatever else is being
+/// answered or saved, and whatever its sequence number. Requests that came before it and wait are
+/// refused as out of turn.
+struct Stop {
+  static constexpr std::uint8_t kind = 0x06;
+
+  template <class Message, class Visitor>
+  static constexpr void fields(Message& /*message*/, Visitor&& /*visit*/) {}
+};
+
+struct Stopped : Stop {
+  static constexpr std::uint8_t kind = Stop::kind | answer_bit;
+};
+
+struct ReadFault {
+  static constexpr std::uint8_t kind = 0x07;
+  std::uint8_t age;  ///< 0: the latest
+
+  template <class Message, class Visitor>
+  static constexpr void fields(Message& message, Visitor&& visit) {
+    visit(message.age);
+  }
+};
+
+struct LoggedFault {
+  static constexpr std::uint8_t kind = ReadFault::kind | answer_bit;
+  std::uint8_t age;
+  std::uint8_t fault;    ///< control::Fault or app::UnitFault
+  std::uint32_t period;  ///< in which it was found; wraps
+  std::uint32_t count;   ///< faults since reset, those no longer kept included
+
+  template <class Message, class Visitor>
+  static constexpr void fields(Message& message, Visitor&& visit) {
+    visit(message.age);
+    visit(message.fault);
+    visit(message.period);
+    visit(message.count);
+  }
+};
+
+/// The parameters in force are right: a restart is allowed. Needs the drive stopped. Answered when
+/// they are safe in the store; refused as not saved, they are confirmed until reset.
+struct Confirm {
+  static constexpr std::uint8_t kind = 0x08;
+
+  template <class Message, class Visitor>
+  static constexpr void fields(Message& /*message*/, Visitor&& /*visit*/) {}
+};
+
+struct Confirmed : Confirm {
+  static constexpr std::uint8_t kind = Confirm::kind | answer_bit;
+};
+
+enum class Reason : std::uint8_t {
+  unknown_request = 1,
+  wrong_length,
+  out_of_range,       ///< lowest and highest name what is allowed
+  unknown_parameter,  ///< of lowest … highest
+  no_such_fault,      ///< that many are kept: highest
+  drive_not_stopped,
+  not_saved,    ///< the store could not be written; the old value stands
+  out_of_turn,  ///< an older frame than the last, whose sequence number is in lowest and highest
+  parameters_not_confirmed,  ///< confirm them, or write one
+};
+
+struct Refusal {
+  static constexpr std::uint8_t kind = 0xFF;
+  std::uint8_t request;  ///< kind of what is refused
+  std::uint8_t reason;   ///< Reason
+  std::uint32_t lowest;
+  std::uint32_t highest;
+
+  template <class Message, class Visitor>
+  static constexpr void fields(Message& message, Visitor&& visit) {
+    visit(message.request);
+    visit(message.reason);
+    visit(message.lowest);
+    visit(message.highest);
+  }
+};
+
+/// Bytes of a message's payload.
+template <class Message>
+constexpr std::size_t payload_bytes() {
+  std::size_t size = 0;
+  Message message{};
+  Message::fields(message, [&size](auto field) { size += sizeof field; });
+  return size;
+}
+
+namespace detail {
+
+// Out of line: every field of every message would bring its own copy.
+
+[[gnu::noinline]] inline void append(std::uint32_t value, std::size_t size, Frame& frame) {
+  for (std::size_t i = 0; i < size; ++i, value >>= 8) {
+    frame.payload[frame.payload_bytes++] = static_cast<std::uint8_t>(value);
+  }
+}
+
+[[gnu::noinline]] inline std::uint32_t field_at(std::size_t begin, std::size_t size,
+                                                const Frame& frame) {
+  std::uint32_t value = 0;
+  for (std::size_t i = begin + size; i > begin; --i) {
+    value = value << 8 | frame.payload[i - 1];
+  }
+  return value;
+}
+
+}  // namespace detail
+
+template <class Message>
+Frame frame_of(const Message& message, std::uint16_t sequence) {
+  static_assert(payload_bytes<Message>() <= most_payload_bytes);
+  Frame frame;
+  frame.kind = Message::kind;
+  frame.sequence = sequence;
+  Message::fields(message, [&frame](auto field) {
+    detail::append(static_cast<std::uint32_t>(field), sizeof field, frame);
+  });
+  return frame;
+}
+
+/// @return false where the frame is of another kind or length.
+template <class Message>
+bool read(const Frame& frame, Message& message) {
+  if (frame.kind != Message::kind || frame.payload_bytes != payload_bytes<Message>()) {
+    return false;
+  }
+  std::size_t at = 0;
+  Message::fields(message, [&frame, &at](auto& field) {
+    using Field = std::remove_reference_t<decltype(field)>;
+    field = static_cast<Field>(detail::field_at(at, sizeof field, frame));
+    at += sizeof field;
+  });
+  return true;
+}
+
+}  // namespace sonoglide::link

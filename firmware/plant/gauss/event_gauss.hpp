@@ -1,0 +1,146 @@
+/// A solver for weakly coupled contacts: one panel for each carrier period.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+
+#include "firmware/numeric/float_elementary.hpp"
+#include "firmware/numeric/scalar.hpp"
+#include "firmware/numeric/turn.hpp"
+#include "firmware/plant/gauss/gauss_panel.hpp"
+#include "firmware/plant/gauss/gauss_step.hpp"
+#include "firmware/plant/outcome.hpp"
+#include "firmware/plant/state.hpp"
+#include "firmware/plant/taylor/event_taylor.hpp"
+
+namespace sonoglide::plant {
+
+/// Gauss quadrature of friction between the reversals of the sliding velocity, about the linear
+/// motion of the oscillator.
+///
+/// An interval of one carrier period is one panel: without friction its motion is a sum of known
+/// ones, whose reversals a table shows; friction, exact in the displacement, acts on it by
+/// variation of constants at `Nodes` nodes between two reversals. A panel whose friction is not
+/// weak, whose reversals are not certain, whose motion is lost in the rounding of its displacement,
+/// or whose error seems to exceed the tolerance, and an interval of any other length, are the
+/// Taylor method's from beginning to end. |phi| <= 1 always.
+///
+/// Quickest at tolerances down to 1e-8 are 8 nodes, below that 12; float needs 8.
+template <class ModelType, std::size_t Nodes>
+class EventGauss {
+  static_assert(Nodes == 8 || Nodes == 12, "degrees are chosen for these");
+
+ public:
+  using Model = ModelType;
+  using Scalar = typename Model::Scalar;
+
+  /// Friction laws that it can solve: those that vary with the displacement alone, without stick.
+  template <class Law>
+  static constexpr bool solves =
+      !Law::sticks && Law::varies && Law::rate_independent && !Law::remembers;
+
+  /// tolerance: of the mean friction over a hundred carrier periods, relative to Fc, and of the
+  /// velocity, in units of its scale; > 0. Kept as EventTaylor keeps it.
+  /// step_limit: the most steps that one advance may take.
+  void configure(const Model& model, Scalar tolerance,
+                 std::uint32_t step_limit = max_steps_per_advance) {
+    model_ = model;
+    motions_ = Motions(model, half_period);
+    rounding_ = numeric::max(tolerance, Scalar(16) * std::numeric_limits<Scalar>::epsilon());
+    is_weak_ = set_limits(tolerance);
+    taylor_.configure(model, tolerance, step_limit);
+    cost_ = Cost();
+  }
+
+  /// Advances the state over the interval, adding every step to the account and showing it to the
+  /// observer.
+  template <class Account, class Observer>
+  Outcome<Scalar> advance(const Interval<Scalar>& interval, State<Scalar>& state, Account& account,
+                          Observer& observer) {
+    const Scalar beyond = interval.duration - numeric::twice(half_period);
+    if (is_weak_ && numeric::abs(beyond) <= rounding_) {
+      if (panel_.solve(model_, motions_, limits_, interval, state)) {
+        const GaussStep<Model, Panel> taken(model_, motions_, panel_, interval, state);
+        state = panel_.end();
+        account.add(taken);
+        observer(taken);
+        ++cost_.steps;
+        cost_.events += panel_.reversals();
+        return {Error::none, interval.duration};
+      }
+    }
+    return taylor_.advance(interval, state, account, observer);
+  }
+
+  Cost cost() const {
+    return {cost_.steps + taylor_.cost().steps, cost_.events + taylor_.cost().events};
+  }
+
+ private:
+  static constexpr bool is_single = std::numeric_limits<Scalar>::digits <= 24;
+  static constexpr std::size_t degree = Nodes == 8 ? 15 : 19;
+  static constexpr std::size_t slow_degree = Nodes == 8 ? 7 : 9;
+  static constexpr std::size_t taylor_order = is_single ? 8 : Nodes == 8 ? 12 : 16;
+  /// The quadrature misses the coefficient of degree 2 Nodes or so, which in exp(-E x^2) is the
+  /// square of the last one over the middle binomial coefficient of Nodes; 10 was found by trial.
+  static constexpr Scalar middle_binomial = Nodes == 8 ? Scalar(70) : Scalar(924);
+  static constexpr Scalar half_period = numeric::from_real<Scalar>(0.5 * numeric::two_pi);
+
+  using Panel = GaussPanel<Model, Nodes, degree, slow_degree>;
+  using Motions = typename Panel::Motions;
+
+  /// False where friction is not weak, or the series of the motions are too short.
+  bool set_limits(Scalar tolerance) {
+    const Scalar kappa = model_.law.contact_stiffness;
+    const Scalar reach = numeric::max(kappa, Scalar(1));
+    const Scalar share = numeric::from_real<Scalar>(0.125) * tolerance;
+    const Scalar force = model_.contact_force(half_period * half_period) *
+                         numeric::exp(numeric::abs(motions_.damping));
+    const auto& [c, s] = motions_.largest;
+    const auto& [c_rate, s_rate] = motions_.largest_rate;
+    // c and s of the reaction stay below 2 force max|S| and 2 force max|C|.
+    const Scalar shift = Scalar(4) * force * c * s;
+    limits_.velocity_share = numeric::twice(force) * (s * c_rate + c * s_rate);
+    limits_.slope_share = force + numeric::abs(motions_.stiffness) * shift +
+                          numeric::abs(motions_.damping) * limits_.velocity_share;
+    limits_.path_error = share / reach;
+    limits_.largest_offset = rounding_ / std::numeric_limits<Scalar>::epsilon();
+    limits_.turn_error = share / reach;
+    // At 4 nodes the error of exp(-E x^2) is about E^4 / 10^6, and they are used where it is less.
+    limits_.short_exponent = numeric::min(numeric::from_real<Scalar>(0.25),
+                                          Scalar(25) * numeric::sqrt(numeric::sqrt(tolerance)));
+    limits_.unresolved = Scalar(10) * tolerance * middle_binomial;
+    set_sweeps(tolerance, force);
+    const Scalar exponent = kappa * shift;
+    const Scalar square = exponent * exponent;
+    const Scalar slow_error = motions_.slow_error * reach * Scalar(8) * force * numeric::max(c, s);
+    return square * square <= Scalar(3) * tolerance && slow_error <= share;
+  }
+
+  /// After n sweeps phi is wrong, in the mean, by about the (n + 1)-th power of kappa beta length^2
+  /// over 8, 200 and 10000, and the displacement by that over kappa.
+  void set_sweeps(Scalar tolerance, Scalar force) {
+    constexpr Scalar smallest = std::numeric_limits<Scalar>::min();
+    const Scalar kappa = numeric::max(model_.law.contact_stiffness, smallest);
+    const Scalar ratio = numeric::min(Scalar(1), numeric::twice(kappa));
+    const Scalar curvature =
+        Scalar(1) + numeric::abs(motions_.stiffness) + numeric::abs(motions_.damping);
+    const Scalar inverse = Scalar(1) / numeric::max(kappa * force * curvature, smallest);
+    const Scalar allowed = ratio * tolerance;
+    limits_.sweep_length = {Scalar(4) * allowed * inverse,
+                            Scalar(10) * numeric::sqrt(allowed) * inverse,
+                            Scalar(10) * numeric::quick_root<3>(allowed) * inverse};
+  }
+
+  Model model_;
+  Motions motions_;
+  PanelLimits<Scalar> limits_;
+  Scalar rounding_ = Scalar(0);  ///< by which the length of a panel, or its motion, may be wrong
+  bool is_weak_ = false;
+  Panel panel_;  ///< the last one, and where the next is written
+  EventTaylor<Model, taylor_order> taylor_;
+  Cost cost_;
+};
+
+}  // namespace sonoglide::plant

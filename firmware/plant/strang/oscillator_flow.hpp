@@ -1,0 +1,126 @@
+/// The oscillator without its contact over one step: linear, hence exact.
+#pragma once
+
+#include <cstddef>
+
+#include "firmware/numeric/growth_matrix.hpp"
+#include "firmware/numeric/scalar.hpp"
+#include "firmware/plant/drive.hpp"
+#include "firmware/plant/state.hpp"
+
+namespace sonoglide::plant {
+
+/// Change of displacement and velocity.
+template <class Scalar>
+struct Motion {
+  Scalar displacement;
+  Scalar velocity;
+};
+
+/// Drive force at one instant, and its time derivative.
+template <class Scalar>
+struct DriveForce {
+  Scalar value;
+  Scalar slope;
+};
+
+/// y'' + d y' + k y = drive over steps of one length, by the exponential of the linear system, in
+/// which a cosine drive is two more states. Nothing is divided by k, by k - 1 or by d: any spring,
+/// any damping, and resonance are alike.
+template <class Model, class Drive = typename Model::Drive>
+class OscillatorFlow;
+
+template <class Model>
+class OscillatorFlow<Model, NoDrive> {
+ public:
+  using Scalar = typename Model::Scalar;
+
+  /// The drive as the steps follow it.
+  class Follower {
+   public:
+    explicit Follower(const Interval<Scalar>& /*interval*/) {}
+    DriveForce<Scalar> force() const { return {Scalar(0), Scalar(0)}; }
+  };
+
+  OscillatorFlow() = default;
+  OscillatorFlow(const Model& model, Scalar length)
+      : length_(length),
+        rate_(Scalar(1) / length),
+        growth_(numeric::growth_matrix<Scalar, 2>(
+            {{{Scalar(0), Scalar(1)}, {-model.stiffness, -model.damping_force(Scalar(1))}}},
+            length)) {}
+
+  Scalar length() const { return length_; }
+  /// Steps per unit of time.
+  Scalar rate() const { return rate_; }
+
+  /// What one step adds to the motion; the drive moves on by that step.
+  Motion<Scalar> advance(const State<Scalar>& state, Follower& /*drive*/) const {
+    return {growth_[0][0] * state.displacement + growth_[0][1] * state.velocity,
+            growth_[1][0] * state.displacement + growth_[1][1] * state.velocity};
+  }
+
+ private:
+  Scalar length_ = Scalar(0);
+  Scalar rate_ = Scalar(0);
+  numeric::SquareMatrix<Scalar, 2> growth_{};
+};
+
+template <class Model>
+class OscillatorFlow<Model, CosineDrive> {
+ public:
+  using Scalar = typename Model::Scalar;
+
+  /// The drive as the steps follow it: one rotation each, no cosine.
+  class Follower {
+   public:
+    explicit Follower(const Interval<Scalar>& interval)
+        : phasor_(interval.drive_amplitude, interval.phase_begin) {}
+    DriveForce<Scalar> force() const { return {phasor_.in_phase, -phasor_.quadrature}; }
+
+   private:
+    friend class OscillatorFlow;
+    CosineDrive::Phasor<Scalar> phasor_;
+  };
+
+  OscillatorFlow() = default;
+  /// States: y, v, a cos(tau), a sin(tau).
+  OscillatorFlow(const Model& model, Scalar length)
+      : length_(length),
+        rate_(Scalar(1) / length),
+        growth_(numeric::growth_matrix<Scalar, 4>(
+            {{{Scalar(0), Scalar(1), Scalar(0), Scalar(0)},
+              {-model.stiffness, -model.damping_force(Scalar(1)), Scalar(1), Scalar(0)},
+              {Scalar(0), Scalar(0), Scalar(0), Scalar(-1)},
+              {Scalar(0), Scalar(0), Scalar(1), Scalar(0)}}},
+            length)) {}
+
+  Scalar length() const { return length_; }
+  /// Steps per unit of time.
+  Scalar rate() const { return rate_; }
+
+  /// What one step adds to the motion; the drive moves on by that step.
+  Motion<Scalar> advance(const State<Scalar>& state, Follower& drive) const {
+    auto& [in_phase, quadrature] = drive.phasor_;
+    const Motion<Scalar> change = {grown(0, state, in_phase, quadrature),
+                                   grown(1, state, in_phase, quadrature)};
+    const Scalar in_phase_change = growth_[2][2] * in_phase + growth_[2][3] * quadrature;
+    quadrature += growth_[3][2] * in_phase + growth_[3][3] * quadrature;
+    in_phase += in_phase_change;
+    return change;
+  }
+
+ private:
+  Scalar grown(std::size_t row, const State<Scalar>& state, Scalar in_phase,
+               Scalar quadrature) const {
+    const auto& g = growth_[row];
+    return (g[0] * state.displacement + g[1] * state.velocity) +
+           (g[2] * in_phase + g[3] * quadrature);
+  }
+
+  Scalar length_ = Scalar(0);
+  Scalar rate_ = Scalar(0);
+  numeric::SquareMatrix<Scalar, 4> growth_{};
+};
+
+}  // namespace sonoglide::plant

@@ -1,0 +1,192 @@
+/// One step of the splitting method: the motion inside it, and its integrals.
+#pragma once
+
+#include <cstddef>
+
+#include "firmware/numeric/scalar.hpp"
+#include "firmware/plant/account.hpp"
+#include "firmware/plant/state.hpp"
+#include "firmware/plant/strang/friction_arcs.hpp"
+#include "firmware/plant/strang/oscillator_flow.hpp"
+#include "firmware/plant/velocity_path.hpp"
+
+namespace sonoglide::plant {
+
+/// The oscillator at one end of its linear flow.
+template <class Scalar>
+struct FlowEnd {
+  State<Scalar> state;  ///< velocity between the kicks; friction before, or after, the step
+  DriveForce<Scalar> drive;
+  Scalar acceleration;  ///< without friction
+};
+
+/// Half a kick of friction, the oscillator's own flow along which the contact follows its law in
+/// displacement, half a kick.
+template <class Model>
+class StrangStep {
+ public:
+  using Scalar = typename Model::Scalar;
+  using Law = typename Model::FrictionLaw;
+  using Flow = OscillatorFlow<Model>;
+
+  /// drive: as it is at `begin`, since the beginning of the interval; left as it is at the end.
+  StrangStep(const Model& model, const Flow& flow, const Interval<Scalar>& interval,
+             typename Flow::Follower& drive, Scalar begin, const State<Scalar>& start)
+      : model_(model),
+        interval_(interval),
+        begin_(begin),
+        length_(flow.length()),
+        start_velocity_(start.velocity),
+        from_(flow_end(kicked(start), drive)),
+        change_(flow.advance(from_.state, drive)),
+        to_(flow_end({from_.state.displacement + change_.displacement,
+                      from_.state.velocity + change_.velocity, start.friction},
+                     drive)),
+        velocity_({from_.state.velocity, from_.acceleration},
+                  {to_.state.velocity, to_.acceleration}, change_.displacement * flow.rate(),
+                  length_),
+        sliding_(velocity_.sliding(model,
+                                   interval.sliding_velocity +
+                                       Model::Sliding::change(interval.sliding_acceleration, begin),
+                                   interval.sliding_acceleration)),
+        friction_(model.law, sliding_, length_, start.friction) {
+    to_.state.friction = friction_.end_friction();
+  }
+  StrangStep(const StrangStep&) = delete;
+  StrangStep& operator=(const StrangStep&) = delete;
+
+  Scalar begin() const { return begin_; }
+  Scalar length() const { return length_; }
+  State<Scalar> end() const { return kicked(to_.state); }
+  std::size_t reversals() const { return friction_.reversals(); }
+
+  /// The two kicks spread evenly over the step, so that the ends are those of the step.
+  State<Scalar> at(Scalar offset) const {
+    const Scalar x = offset / length_;
+    const Scalar rest = Scalar(1) - x;
+    const Scalar half_step = numeric::half(length_);
+    const Scalar from_force = model_.contact_force(from_.state.friction);
+    const Scalar to_force = model_.contact_force(to_.state.friction);
+    const Scalar mean_force = numeric::half(from_force + to_force);
+    return {from_.state.displacement + velocity_.displacement(x) +
+                half_step * length_ * mean_force * x * rest,
+            velocity_.velocity(x) + half_step * (from_force * rest - to_force * x),
+            friction_.friction(x)};
+  }
+
+  /// What the two kicks miss of the impulse of the friction along the flow: O(length^3 beta), or
+  /// O(length beta) where the friction jumps.
+  Scalar missed_impulse(Scalar friction_integral) const {
+    const Scalar ends = from_.state.friction + to_.state.friction;
+    return model_.contact_force(friction_integral - numeric::half(length_) * ends);
+  }
+
+  /// How far the velocity of the flow may be from the path that the contact is led along, at most:
+  /// seen at the ends, where their second derivatives differ by v""' length^3 / 120, and the
+  /// velocity itself by less than a hundredth of that times length^2 between them.
+  Scalar missed_path() const {
+    if constexpr (Law::varies) {
+      const auto [begin, end] = velocity_.end_bends();
+      const Scalar square = length_ * length_;
+      return numeric::from_real<Scalar>(0.01) *
+             numeric::max(numeric::abs(begin - square * jerk(from_)),
+                          numeric::abs(end - square * jerk(to_)));
+    }
+    return Scalar(0);
+  }
+
+  /// The energies of a step; the differences without the cancellation of whole energies.
+  struct Gain {
+    Scalar kicks;    ///< of the oscillator, from the two kicks
+    Scalar kinetic;  ///< from the flow
+    Scalar elastic;
+  };
+  Gain gain() const {
+    const State<Scalar>& from = from_.state;
+    const State<Scalar>& to = to_.state;
+    const Scalar first = model_.contact_force(from.friction) * (start_velocity_ + from.velocity);
+    const Scalar last = model_.contact_force(to.friction) * (to.velocity + end().velocity);
+    return {-numeric::half(numeric::half(length_)) * (first + last),
+            numeric::half(change_.velocity * (from.velocity + to.velocity)),
+            numeric::half(model_.stiffness * change_.displacement *
+                          (from.displacement + to.displacement))};
+  }
+
+  Scalar friction_integral() const { return friction_.integral(Scalar(1), Scalar(0)); }
+  Scalar friction_work() const { return friction_.work(); }
+  Scalar sliding_work() const {
+    return friction_.integral(
+        interval_.sliding_velocity + Model::Sliding::change(interval_.sliding_acceleration, begin_),
+        interval_.sliding_acceleration);
+  }
+  MotionIntegrals<Scalar> motion_integrals() const {
+    const Scalar velocity_squares = integral(velocity_square(from_), velocity_square(to_));
+    return {integral(drive_power(from_), drive_power(to_)), velocity_squares,
+            integral(displacement_square(from_), displacement_square(to_)),
+            model_.damping_force(velocity_squares)};
+  }
+
+ private:
+  using End = FlowEnd<Scalar>;
+
+  State<Scalar> kicked(State<Scalar> state) const {
+    state.velocity -= numeric::half(length_) * model_.contact_force(state.friction);
+    return state;
+  }
+  End flow_end(const State<Scalar>& state, const typename Flow::Follower& drive) const {
+    const DriveForce<Scalar> force = drive.force();
+    const State<Scalar> free = {state.displacement, state.velocity, Scalar(0)};
+    return {state, force, model_.acceleration(force.value, free)};
+  }
+
+  /// A function of time and its first two derivatives.
+  struct Germ {
+    Scalar value;
+    Scalar slope;
+    Scalar bend;
+  };
+
+  /// d acceleration / d tau of the flow.
+  Scalar jerk(const End& end) const {
+    return model_.acceleration(end.drive.slope, {end.state.velocity, end.acceleration, Scalar(0)});
+  }
+  Germ drive_power(const End& end) const {
+    const Scalar velocity = end.state.velocity;
+    const auto [drive, slope] = end.drive;
+    return {drive * velocity, drive * end.acceleration + slope * velocity,
+            drive * (jerk(end) - velocity) + numeric::twice(slope * end.acceleration)};
+  }
+  Germ velocity_square(const End& end) const {
+    const Scalar velocity = end.state.velocity;
+    return {velocity * velocity, numeric::twice(velocity * end.acceleration),
+            numeric::twice(end.acceleration * end.acceleration + velocity * jerk(end))};
+  }
+  Germ displacement_square(const End& end) const {
+    const auto& [displacement, velocity, friction] = end.state;
+    return {displacement * displacement, numeric::twice(displacement * velocity),
+            numeric::twice(velocity * velocity + displacement * end.acceleration)};
+  }
+
+  /// Of the quintic with these values and derivatives at the ends.
+  Scalar integral(const Germ& from, const Germ& to) const {
+    constexpr Scalar fifth = numeric::from_real<Scalar>(1.0 / 5.0);
+    constexpr Scalar twelfth = numeric::from_real<Scalar>(1.0 / 12.0);
+    const Scalar bends = length_ * twelfth * (from.bend + to.bend);
+    const Scalar slopes = length_ * fifth * ((from.slope - to.slope) + bends);
+    return numeric::half(length_) * ((from.value + to.value) + slopes);
+  }
+
+  const Model& model_;
+  const Interval<Scalar>& interval_;
+  Scalar begin_;
+  Scalar length_;
+  Scalar start_velocity_;
+  End from_;
+  Motion<Scalar> change_;
+  End to_;
+  VelocityPath<Scalar> velocity_;
+  VelocityPath<Scalar> sliding_;
+  FrictionArcs<Law> friction_;
+};
+
+}  // namespace sonoglide::plant

@@ -1,0 +1,440 @@
+#include "host_sim/configure/control_design.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "firmware/control/controller.hpp"
+#include "firmware/control/friction_level.hpp"
+#include "firmware/numeric/float_elementary.hpp"
+#include "firmware/numeric/turn.hpp"
+#include "host_sim/configure/configuration_error.hpp"
+#include "host_sim/configure/plant_scales.hpp"
+
+namespace sonoglide::configure {
+namespace {
+
+// The elementary functions are the core's own, so that a scene gives the same parameters, bit for
+// bit, on every machine.
+
+/// The controller's resolution ends here, per unit.
+constexpr double smallest_friction = control::FrictionLevel<double>::smallest();
+
+/// What the controller takes the plant to be.
+struct BelievedPlant : scene::Plant {
+  double friction_N;
+  double contact_stiffness_N_per_m;
+};
+
+/// The friction force that the first slide of the scene meets without vibration.
+double first_undriven_friction_N(const scene::Scene& scene) {
+  const auto& profile = scene.sliding.profile;
+  const auto moves = [](const scene::SpeedPoint& point) { return point.velocity_m_per_s != 0.0; };
+  const auto first = std::find_if(profile.begin(), profile.end(), moves);
+  return scene::undriven_friction_N(scene.friction.law, scene.friction,
+                                    first == profile.end() ? 0.0 : first->velocity_m_per_s);
+}
+
+BelievedPlant believed_plant(const scene::Scene& scene) {
+  const scene::ModelError& error = scene.model_error;
+  BelievedPlant plant{scene.plant, first_undriven_friction_N(scene) * error.coefficient,
+                      scene.friction.contact_stiffness_N_per_m * error.contact_stiffness};
+  plant.mass_kg *= error.mass;
+  plant.stiffness_N_per_m *= error.stiffness;
+  return plant;
+}
+
+/// The natural mode over one carrier period: decay and rotation of its free motion.
+struct Mode {
+  double decay;     ///< exp(−σT)
+  double rotation;  ///< ωd T, 0 where overdamped
+};
+
+Mode natural_mode(const BelievedPlant& plant, double period_s) {
+  const double sigma = 0.5 * plant.damping_N_s_per_m / plant.mass_kg;
+  const double natural_squared = plant.stiffness_N_per_m / plant.mass_kg;
+  const double damped_squared = std::max(0.0, natural_squared - sigma * sigma);
+  return {numeric::exp(-sigma * period_s), numeric::sqrt(damped_squared) * period_s};
+}
+
+/// Taps of the notch at a spacing; false where one of them would leave ±1.
+bool place_notch(const Mode& mode, int spacing, ControlDesign& design) {
+  double decay = 1.0;
+  for (int i = 0; i < spacing; ++i) {
+    decay *= mode.decay;
+  }
+  const double middle = -2.0 * decay * numeric::cos(mode.rotation * spacing);
+  const double sum = 1.0 + middle + decay * decay;
+  if (sum <= 1.0 || std::abs(middle) >= sum) {
+    return false;
+  }
+  design.notch_taps = {1.0 / sum, middle / sum, decay * decay / sum};
+  design.notch_spacing = static_cast<std::uint8_t>(spacing);
+  return true;
+}
+
+void design_shaper(const scene::Scene& scene, const Mode& mode, ControlDesign& design) {
+  if (scene.controller->shaping == scene::Shaping::none || mode.rotation == 0.0) {
+    return;
+  }
+  for (int spacing = 1; spacing <= max_notch_spacing && !design.shaped; ++spacing) {
+    design.shaped = place_notch(mode, spacing, design);
+  }
+}
+
+/// Time constant of the sensor's low-pass, in carrier periods.
+double filter_periods(const scene::Scene& scene, const ControlScales& scales) {
+  return scene.sensor.force_bandwidth_Hz
+             ? 1.0 / (numeric::two_pi * *scene.sensor.force_bandwidth_Hz * scales.carrier_period_s)
+             : 0.0;
+}
+
+std::uint16_t whole_periods(double periods) {
+  constexpr double most = 60000.0;
+  return static_cast<std::uint16_t>(std::min(most, std::ceil(periods)));
+}
+
+/// From a request to the reading of the period that it acts in.
+double latency_periods(const scene::Scene& scene) {
+  return 1.0 + scene.drive->delay_periods + scene.sensor.delay_periods;
+}
+
+/// Force of one code of the converter; 0 of an ideal one.
+double code_N(const scene::Sensor& sensor) {
+  return sensor.adc_bits ? 2.0 * sensor.force_full_scale_N * std::exp2(-*sensor.adc_bits) : 0.0;
+}
+
+/// A natural mode that nothing notches out answers every change of the command, and feedback drives
+/// it further: by less than its own damping takes away, if the gain is small against that. Without
+/// damping there is no such gain, and feedforward is left alone. A scene that leaves the notch out
+/// on purpose gets slow feedback all the same, to show what becomes of it.
+double gain_beside_free_mode(const scene::Scene& scene, const Mode& mode) {
+  constexpr double slow = 0.005;
+  constexpr double part_of_decay = 0.2;
+  return scene.controller->shaping == scene::Shaping::none
+             ? slow
+             : std::min(slow, part_of_decay * (1.0 - mode.decay));
+}
+
+void design_regulator(const scene::Scene& scene, const Mode& mode, ControlDesign& design) {
+  const double filter = filter_periods(scene, design.scales);
+  const double shaping = 2.0 * design.notch_spacing;
+  // From a command to the reading that shows it.
+  const double latency = latency_periods(scene);
+  const double delay = latency + shaping + filter;
+  // An integrator behind a delay of D periods oscillates at a gain of 2 sin(π/(4D+2)); a third of
+  // it leaves room for a contact twice as steep as believed.
+  const double behind_delay =
+      std::min(0.25, 2.0 / 3.0 * numeric::sin(numeric::two_pi / (8.0 * delay + 4.0)));
+  design.free_mode = mode.rotation > 0.0 && !design.shaped;
+  design.integral_gain =
+      design.free_mode ? std::min(behind_delay, gain_beside_free_mode(scene, mode)) : behind_delay;
+
+  constexpr double contact_settling = 2.0;  // carrier periods until the contact has forgotten
+  constexpr double filter_settling = 4.0;   // time constants more: 0.7 % of a step is left
+  design.hold_periods = whole_periods(delay + contact_settling + filter_settling * filter);
+  // Time between two holds in which feedback acts.
+  constexpr double rest_per_hold = 1.25;
+  design.rest_periods = whole_periods(rest_per_hold * design.hold_periods);
+  design.reference_delay_periods = static_cast<std::uint8_t>(latency + design.notch_spacing);
+  design.reference_keep = filter / (1.0 + filter);
+  design.lead_periods = 0.5 + design.notch_spacing + scene.drive->delay_periods;
+}
+
+/// What the controller is to notice, and after how long.
+void design_supervision(const scene::Scene& scene, const BelievedPlant& plant,
+                        ControlDesign& design) {
+  const double filter = filter_periods(scene, design.scales);
+  const double delay = latency_periods(scene) + 2.0 * design.notch_spacing + filter;
+  constexpr double filter_settling = 4.0;
+  constexpr double stuck_margin = 8.0;
+  // Normal vibration may leave the ratio where it is, whatever the drive.
+  const bool supervised = scene::vibration_of(scene.friction.law) != friction::Vibration::normal;
+  design.stuck_periods =
+      supervised ? whole_periods(delay + filter_settling * filter + stuck_margin) : 0;
+  constexpr double implausible_margin = 16.0;
+  design.implausible_periods = whole_periods(design.hold_periods + implausible_margin);
+
+  constexpr double fall_periods = 128.0;
+  design.standstill_hold_periods = static_cast<std::uint32_t>(std::min(
+      4e9, std::round(scene.controller->standstill_hold_s / design.scales.carrier_period_s)));
+  design.standstill_fall = 1.0 / fall_periods;
+
+  constexpr double noise_deviations = 4.0;
+  constexpr double widest_band = 0.5;
+  const double reading =
+      (noise_deviations * scene.sensor.force_noise_N + code_N(scene.sensor)) / plant.friction_N;
+  design.settling_band = 0.5 * std::min(widest_band, scene.run.settling_band + reading);
+  constexpr double holds = 4.0;
+  constexpr double patience_margin = 40.0;
+  design.settling_patience_periods = whole_periods(holds * design.hold_periods + patience_margin);
+  design.agreement = tells_mismatch(scene) ? 1.0 / scene.controller->mismatch_warning : 0.0;
+}
+
+/// value/scale, or an error in the name of the key that one should change.
+/// @param finding  what is wrong, with a place for the ratio
+double per_unit(double value, double scale, double smallest, const char* key, const char* finding) {
+  const double ratio = value / scale;
+  if (!(ratio >= smallest && ratio < 1.0)) {
+    throw ConfigurationError(key, fmt::format(fmt::runtime(finding), ratio) +
+                                      fmt::format("; allowed: {:.3g} to below 1", smallest));
+  }
+  return ratio;
+}
+
+double presliding_m(const BelievedPlant& plant) {
+  return plant.contact_stiffness_N_per_m > 0.0 ? plant.friction_N / plant.contact_stiffness_N_per_m
+                                               : 0.0;
+}
+
+/// Slowest sliding at which the friction ratio is taken as defined by its steady map: the contact's
+/// presliding travel takes at most three carrier periods, so that it forgets faster than a speed is
+/// likely to change. Never more than half of the fastest speed to come, nor of what can be reached.
+///
+/// @return per unit, not below the smallest usable floor
+double default_speed_floor(const scene::Scene& scene, const BelievedPlant& plant,
+                           const ControlScales& scales) {
+  constexpr double presliding_periods = 3.0;
+  const double forgets_m_per_s =
+      presliding_m(plant) / (presliding_periods * scales.carrier_period_s);
+  const double highest =
+      0.5 * std::min(fastest_sliding_m_per_s(scene.sliding), scales.velocity_m_per_s);
+  return std::max(control::smallest_speed_floor,
+                  std::min(forgets_m_per_s, highest) / scales.velocity_m_per_s);
+}
+
+double speed_floor(const scene::Scene& scene, const BelievedPlant& plant,
+                   const ControlScales& scales) {
+  const std::optional<double>& chosen_m_per_s = scene.controller->speed_floor_m_per_s;
+  return chosen_m_per_s ? per_unit(*chosen_m_per_s, scales.velocity_m_per_s,
+                                   control::smallest_speed_floor, "controller.speed_floor_m_per_s",
+                                   "is {:.3g} of the peak vibration velocity at full drive")
+                        : default_speed_floor(scene, plant, scales);
+}
+
+/// 1/n, below 1: fixed point ends there.
+double mean_weight(double samples) {
+  constexpr double largest_code = 1.0 - 0x1p-31;
+  return std::min(1.0 / samples, largest_code);
+}
+
+/// How many carrier periods a sliding in either direction lasts before a time.
+struct SlidingSpells {
+  std::uint32_t last = 0;      ///< without a break up to that time
+  std::uint32_t opposite = 0;  ///< the longest one the other way
+};
+
+double sliding_velocity_m_per_s(const std::vector<scene::SpeedPoint>& profile, std::size_t& place,
+                                double time_s) {
+  while (place + 1 < profile.size() && profile[place + 1].time_s <= time_s) {
+    ++place;
+  }
+  const scene::SpeedPoint& before = profile[place];
+  if (place + 1 == profile.size() || time_s <= before.time_s) {
+    return before.velocity_m_per_s;
+  }
+  const scene::SpeedPoint& after = profile[place + 1];
+  const double part = (time_s - before.time_s) / (after.time_s - before.time_s);
+  return before.velocity_m_per_s + part * (after.velocity_m_per_s - before.velocity_m_per_s);
+}
+
+SlidingSpells sliding_spells(const scene::Scene& scene, const ControlDesign& design,
+                             std::uint32_t periods) {
+  const std::vector<scene::SpeedPoint>& profile = scene.sliding.profile;
+  const double floor_m_per_s = design.speed_floor * design.scales.velocity_m_per_s;
+  std::array<std::uint32_t, 2> longest{};
+  std::uint32_t length = 0;
+  bool backwards = false;
+  std::size_t place = 0;
+  for (std::uint32_t k = 1; k <= periods; ++k) {
+    const double velocity_m_per_s =
+        sliding_velocity_m_per_s(profile, place, k * design.scales.carrier_period_s);
+    const bool turned = (velocity_m_per_s < 0.0) != backwards;
+    backwards = velocity_m_per_s < 0.0;
+    length = std::abs(velocity_m_per_s) < floor_m_per_s ? 0 : (turned ? 1 : length + 1);
+    longest[backwards ? 1 : 0] = std::max(longest[backwards ? 1 : 0], length);
+  }
+  return {length, longest[backwards ? 0 : 1]};
+}
+
+/// The contact must slide through its presliding travel, and the sensor settle, before the friction
+/// force can be learnt; in both directions where the sliding turns meanwhile.
+void design_calibration(const scene::Scene& scene, const BelievedPlant& plant,
+                        ControlDesign& design) {
+  if (scene.controller->calibration_s <= 0.0) {
+    return;
+  }
+  constexpr double presliding_travels = 7.0;  // 0.1 % of the force is left
+  constexpr double filter_settling = 5.0;     // 0.7 % of it
+  const ControlScales& scales = design.scales;
+  const double speed_m_per_s = std::max(std::abs(scene.sliding.profile.front().velocity_m_per_s),
+                                        design.speed_floor * scales.velocity_m_per_s);
+  const double settling = std::ceil(
+      presliding_travels * presliding_m(plant) / (speed_m_per_s * scales.carrier_period_s) +
+      filter_settling * filter_periods(scene, scales) + scene.sensor.delay_periods);
+  const double total = std::round(scene.controller->calibration_s / scales.carrier_period_s) - 1.0;
+  if (total < settling + 1.0) {
+    throw ConfigurationError(
+        "controller.calibration_s",
+        fmt::format(
+            "is too short for contact and sensor to settle; allowed: 0 (no calibration), or "
+            "at least {:.3g} s",
+            (settling + 2.0) * scales.carrier_period_s));
+  }
+  design.calibrated = true;
+  design.calibration_total_periods = static_cast<std::uint32_t>(total);
+  const SlidingSpells spells = sliding_spells(scene, design, design.calibration_total_periods);
+  // A sliding that begins too late for it makes the calibration longer.
+  const double last = spells.last > settling ? spells.last : total;
+  const double available =
+      spells.opposite > settling ? std::min<double>(last, spells.opposite) : last;
+  constexpr double most_averaged = 65536.0;  // more would only add up roundings in float32
+  const double averaged =
+      std::min({available - settling, std::ceil(0.5 * available), most_averaged});
+  design.calibration_average_periods = static_cast<std::uint32_t>(averaged);
+  design.calibration_settle_periods = static_cast<std::uint32_t>(available - averaged);
+  design.calibration_weight = mean_weight(averaged);
+}
+
+/// A pause long enough for the presliding travel, and for as many readings as their noise asks for.
+void design_relearning(const scene::Scene& scene, const BelievedPlant& plant,
+                       ControlDesign& design) {
+  if (!scene.controller->relearn_every_s) {
+    return;
+  }
+  constexpr double presliding_travels = 6.0;  // 0.15 % of the force is left
+  constexpr double filter_settling = 5.0;     // 0.7 % of it
+  constexpr double contact_settling = 2.0;    // carrier periods until the contact has forgotten
+  constexpr double error = 0.0025;            // rms, of the force
+  constexpr double most_averaged = 16.0;
+  const ControlScales& scales = design.scales;
+  const double shaping = 2.0 * design.notch_spacing;
+  const double slewing = design.slew_limited ? 1.0 / design.slew_per_period : 0.0;
+  const double noise = scene.sensor.force_noise_N / (error * plant.friction_N);
+  design.relearns = true;
+  design.relearn_quiet_periods =
+      whole_periods(shaping + slewing + filter_settling * filter_periods(scene, scales));
+  design.relearn_reading_periods = whole_periods(latency_periods(scene));
+  design.relearn_return_periods = whole_periods(shaping + slewing + contact_settling);
+  design.relearn_average_periods =
+      static_cast<std::uint8_t>(std::clamp(std::ceil(noise * noise), 1.0, most_averaged));
+  design.relearn_weight = mean_weight(design.relearn_average_periods);
+  design.relearn_travel = presliding_travels * presliding_m(plant) /
+                          (64.0 * scales.velocity_m_per_s * scales.carrier_period_s);
+  const double every = std::round(*scene.controller->relearn_every_s / scales.carrier_period_s);
+  const double shortest = 10.0 * (design.relearn_quiet_periods + design.relearn_reading_periods +
+                                  design.relearn_return_periods + design.relearn_average_periods);
+  if (!(every >= shortest && design.relearn_travel < 1.0)) {
+    throw ConfigurationError(
+        "controller.relearn_every_s",
+        design.relearn_travel < 1.0
+            ? fmt::format(
+                  "leaves no time between two pauses of the drive; allowed: at least {:.3g} s",
+                  shortest * scales.carrier_period_s)
+            : "cannot be kept: the presliding travel takes more than 64 carrier periods at the "
+              "peak "
+              "vibration velocity of full drive; remove it");
+  }
+  design.relearn_every_periods = static_cast<std::uint32_t>(std::min(every, 4e9));
+}
+
+/// The undriven friction must be some codes, or a healthy sensor would pass for a stuck one.
+constexpr double fewest_codes = 8.0;
+
+void check_converter(const scene::Scene& scene, const BelievedPlant& plant) {
+  if (fewest_codes * code_N(scene.sensor) > plant.friction_N) {
+    throw ConfigurationError(
+        "sensor.adc_bits",
+        fmt::format(
+            "one code is {:.3g} of the believed friction force; allowed: at most {}, by more "
+            "bits or a smaller sensor.force_full_scale_N",
+            code_N(scene.sensor) / plant.friction_N, 1.0 / fewest_codes));
+  }
+}
+
+/// The slew limit holds behind the shaper, whose taps may add up.
+void design_slew(const scene::Drive& drive, ControlDesign& design) {
+  if (!drive.max_force_slew_N_per_s) {
+    return;
+  }
+  double gain = 0.0;
+  for (const double tap : design.notch_taps) {
+    gain += std::abs(tap);
+  }
+  gain = design.shaped ? gain : 1.0;
+  const double per_period = *drive.max_force_slew_N_per_s * design.scales.carrier_period_s /
+                            design.scales.drive_amplitude_N;
+  design.slew_limited = per_period < gain;
+  design.slew_per_period = per_period / gain;
+}
+
+}  // namespace
+
+ControlDesign design_control(const scene::Scene& scene) {
+  const BelievedPlant plant = believed_plant(scene);
+  const double omega = numeric::two_pi * scene.drive->frequency_Hz;
+  const double compliance = 1.0 / dynamic_stiffness_N_per_m(plant, omega);
+  // At resonance the vibration takes about as many radians to build up as it is amplified.
+  constexpr double largest_amplification = 1000.0;
+  if (!(compliance * plant.mass_kg * omega * omega <= largest_amplification)) {
+    throw ConfigurationError(
+        "drive.frequency_Hz",
+        "is the plant's natural frequency, and with so little damping the vibration never settles; "
+        "allowed: another frequency, or more plant.damping_N_s_per_m");
+  }
+  ControlDesign design;
+  const double displacement_m = scene.drive->max_force_amplitude_N * compliance;
+  design.scales = {1.0 / scene.drive->frequency_Hz, scene.sensor.force_full_scale_N,
+                   displacement_m * omega, scene.drive->max_force_amplitude_N};
+  design.friction_force = per_unit(plant.friction_N, design.scales.force_N, smallest_friction,
+                                   "sensor.force_full_scale_N",
+                                   "makes the believed friction force {:.3g} of full scale");
+  design.contact_force = plant.contact_stiffness_N_per_m * displacement_m / design.scales.force_N;
+  design.speed_floor = speed_floor(scene, plant, design.scales);
+  check_converter(scene, plant);
+  design.smallest_friction =
+      std::max(smallest_friction, fewest_codes * code_N(scene.sensor) / design.scales.force_N);
+  const Mode mode = natural_mode(plant, design.scales.carrier_period_s);
+  design_shaper(scene, mode, design);
+  design_regulator(scene, mode, design);
+  design_supervision(scene, plant, design);
+  design_calibration(scene, plant, design);
+  design_slew(*scene.drive, design);
+  design_relearning(scene, plant, design);
+  return design;
+}
+
+bool tells_mismatch(const scene::Scene& scene) {
+  constexpr double light_friction = 0.02;  // of the drive
+  return scene::has_own_map(scene.friction.law) &&
+         scene.drive->waveform == scene::Waveform::cosine &&
+         believed_plant(scene).friction_N < light_friction * scene.drive->max_force_amplitude_N;
+}
+
+std::vector<std::string> design_notes(const ControlDesign& design) {
+  std::vector<std::string> notes;
+  if (design.free_mode) {
+    notes.push_back(
+        fmt::format("No notch is on the natural mode: each change of the drive makes it ring. The "
+                    "feedback gain is {:.3g} per carrier period.",
+                    design.integral_gain));
+  }
+  constexpr int longest_span = 16;  // carrier periods, in which a step is over at Table 1
+  if (design.shaped && 2 * design.notch_spacing > longest_span) {
+    const int spacing = design.notch_spacing;
+    notes.push_back(fmt::format(
+        "The natural mode is so near a multiple of the carrier frequency that its notch spans {} "
+        "carrier periods: {} of them after each change the drive stands at {:.0f} % of it, then {} "
+        "at {:.0f} %. Targets, speeds and sensors that change faster are not followed.",
+        2 * spacing, spacing, 100.0 * design.notch_taps[0], spacing,
+        100.0 * (design.notch_taps[0] + design.notch_taps[1])));
+  }
+  return notes;
+}
+
+}  // namespace sonoglide::configure

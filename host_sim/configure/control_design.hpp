@@ -1,0 +1,83 @@
+/// From a scene to the controller's per-unit numbers: the only place where the controller's units
+/// become scaled numbers.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "host_sim/scene/scene.hpp"
+
+namespace sonoglide::configure {
+
+/// What the controller's per-unit numbers are multiples of.
+struct ControlScales {
+  double carrier_period_s;
+  double force_N;            ///< the sensor's full scale
+  double velocity_m_per_s;   ///< believed peak vibration velocity at full drive
+  double drive_amplitude_N;  ///< the actuator's limit
+};
+
+/// The largest tap spacing that a designed shaper may have, in carrier periods.
+inline constexpr int max_notch_spacing = 32;
+/// The longest delay of a target to its reading: drive and sensor at their longest, and the notch.
+inline constexpr int max_reference_delay = 1 + 16 + 64 + max_notch_spacing;
+
+/// A controller's parameters as real numbers, per unit of ControlScales; friction ratios on base 2.
+struct ControlDesign {
+  ControlScales scales{};
+  double friction_force = 0.0;     ///< believed Fc
+  double smallest_friction = 0.0;  ///< that may be learnt
+  double contact_force = 0.0;      ///< believed Kt times the vibration amplitude at full drive
+  double speed_floor = 0.0;
+  double lead_periods = 0.0;    ///< from a sample to the middle of its effect
+  double integral_gain = 0.0;   ///< per carrier period
+  double reference_keep = 0.0;  ///< of the reference's lag behind a past target, per carrier period
+  std::uint8_t reference_delay_periods = 1;
+  std::uint16_t hold_periods = 0;
+  std::uint16_t rest_periods = 0;   ///< between two holds for a changed target
+  std::uint16_t stuck_periods = 0;  ///< 0: not supervised
+  std::uint16_t implausible_periods = 0;
+  std::uint32_t standstill_hold_periods = 0;
+  double standstill_fall = 0.0;  ///< of the amplitude after that, per carrier period
+  double settling_band = 0.0;    ///< as the sensor shows it, on base 2
+  std::uint16_t settling_patience_periods = 0;
+  double agreement = 0.0;  ///< 1 / controller.mismatch_warning; 0: see tells_mismatch()
+
+  bool free_mode = false;  ///< the plant has a natural mode that no notch takes care of
+
+  bool shaped = false;  ///< the members below hold where the flag is set
+  std::array<double, 3> notch_taps{};
+  std::uint8_t notch_spacing = 0;
+  bool slew_limited = false;
+  double slew_per_period = 0.0;
+  bool calibrated = false;
+  std::uint32_t calibration_settle_periods = 0;
+  std::uint32_t calibration_average_periods = 0;
+  std::uint32_t calibration_total_periods = 0;
+  double calibration_weight = 0.0;  ///< of a sample averaged
+  bool relearns = false;
+  std::uint32_t relearn_every_periods = 0;
+  std::uint16_t relearn_quiet_periods = 0;
+  double relearn_travel = 0.0;  ///< in 64 carrier periods at full drive's peak vibration velocity
+  std::uint16_t relearn_reading_periods = 0;
+  std::uint16_t relearn_return_periods = 0;
+  std::uint8_t relearn_average_periods = 0;
+  double relearn_weight = 0.0;  ///< of a sample averaged
+};
+
+/// Designs the controller of a closed-loop scene from what it believes (the scene through
+/// [model_error]).
+/// @throws ConfigurationError where no controller exists: resonance with next to no damping, speeds
+///         or forces outside the per-unit range.
+ControlDesign design_control(const scene::Scene& scene);
+
+/// Whether commanded over target ratio tells believed over true friction: the feedforward's map is
+/// the law's own, and friction too light to slow the vibration.
+bool tells_mismatch(const scene::Scene& scene);
+
+/// What one should know of a design before it runs, a sentence each.
+std::vector<std::string> design_notes(const ControlDesign& design);
+
+}  // namespace sonoglide::configure

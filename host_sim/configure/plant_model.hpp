@@ -1,0 +1,43 @@
+/// A scene's plant as a composition of the core: the only place that composes one.
+#pragma once
+
+#include <type_traits>
+
+#include "firmware/plant/contact.hpp"
+#include "firmware/plant/damping.hpp"
+#include "firmware/plant/model.hpp"
+#include "host_sim/configure/plant_scales.hpp"
+
+namespace sonoglide::configure {
+
+/// @param law  the acting one: laws::None where there is no friction force
+template <class Scalar, class Law>
+plant::Contact<typename Law::template Core<Scalar>> plant_contact(const Law& law,
+                                                                  const scene::Contact& contact,
+                                                                  const scene::PlantScales& scales,
+                                                                  const PlantNumbers& numbers) {
+  if constexpr (std::is_same_v<Law, scene::laws::None>) {
+    return {};
+  } else if constexpr (Law::template Core<Scalar>::vibration != friction::Vibration::along) {
+    return {law.template core<Scalar>(contact, scales),
+            static_cast<Scalar>(numbers.friction_force)};
+  } else {
+    return {law.template core<Scalar>(contact, scales), static_cast<Scalar>(numbers.friction_force),
+            static_cast<Scalar>(vibration_sign(contact.sign_convention))};
+  }
+}
+
+/// @tparam Damping  plant::Damped, or plant::Undamped where the scene has no damping
+template <class Scalar, template <class> class Damping, class Drive, class Sliding, class Law>
+auto plant_model(const Law& law, const scene::Contact& contact, const scene::PlantScales& scales,
+                 const PlantNumbers& numbers) {
+  using Model = plant::Model<typename Law::template Core<Scalar>, Damping<Scalar>, Drive, Sliding>;
+  Damping<Scalar> damping;
+  if constexpr (std::is_same_v<Damping<Scalar>, plant::Damped<Scalar>>) {
+    damping.damping = static_cast<Scalar>(numbers.damping);
+  }
+  return Model{plant_contact<Scalar>(law, contact, scales, numbers), damping,
+               static_cast<Scalar>(numbers.stiffness)};
+}
+
+}  // namespace sonoglide::configure

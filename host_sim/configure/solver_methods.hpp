@@ -1,0 +1,92 @@
+/// The solvers that a scene chooses among: the one place that lists them.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <stdexcept>
+#include <tuple>
+#include <type_traits>
+#include <utility>
+
+#include "firmware/friction/none.hpp"
+#include "firmware/plant/damping.hpp"
+#include "firmware/plant/drive.hpp"
+#include "firmware/plant/model.hpp"
+#include "host_sim/configure/solvers/event_gauss.hpp"
+#include "host_sim/configure/solvers/event_taylor.hpp"
+#include "host_sim/configure/solvers/rk4.hpp"
+#include "host_sim/configure/solvers/rk4_event.hpp"
+#include "host_sim/configure/solvers/strang.hpp"
+#include "host_sim/scene/names.hpp"
+#include "host_sim/scene/solver_method.hpp"
+
+namespace sonoglide::configure {
+
+/// What a solver offers is listed at solvers::EventTaylor. Messages name them in this order; the
+/// first is the default.
+using SolverMethods = std::tuple<solvers::EventTaylor, solvers::EventGauss, solvers::Strang,
+                                 solvers::Rk4, solvers::Rk4Event>;
+
+inline constexpr std::size_t solver_count = std::tuple_size_v<SolverMethods>;
+
+template <std::size_t Index>
+using SolverAt = std::tuple_element_t<Index, SolverMethods>;
+
+namespace detail {
+
+template <class Visitor, std::size_t... Index>
+constexpr void for_each_solver(const Visitor& visitor, std::index_sequence<Index...> /*all*/) {
+  (visitor(SolverAt<Index>{}, scene::SolverMethod{Index}), ...);
+}
+
+}  // namespace detail
+
+/// Calls visitor(solver, method) with each of them.
+template <class Visitor>
+constexpr void for_each_solver(const Visitor& visitor) {
+  detail::for_each_solver(visitor, std::make_index_sequence<solver_count>{});
+}
+
+/// Calls visitor(solver) with the chosen one.
+/// @return what that returns, a value that can be assigned
+template <class Visitor>
+constexpr auto with_solver(scene::SolverMethod chosen, const Visitor& visitor) {
+  decltype(visitor(SolverAt<0>{})) result{};
+  for_each_solver([&](auto solver, scene::SolverMethod method) {
+    if (method == chosen) {
+      result = visitor(solver);
+    }
+  });
+  return result;
+}
+
+inline constexpr std::array<scene::Named<scene::SolverMethod>, solver_count> solver_methods = [] {
+  std::array<scene::Named<scene::SolverMethod>, solver_count> named{};
+  for_each_solver([&](auto solver, scene::SolverMethod method) {
+    named[method.index] = {decltype(solver)::name, method};
+  });
+  return named;
+}();
+
+/// solver_count where there is no such solver.
+constexpr std::size_t solver_index(std::string_view name) {
+  std::size_t index = 0;
+  while (index < solver_count && solver_methods[index].name != name) {
+    ++index;
+  }
+  return index;
+}
+
+template <class Described>
+inline constexpr scene::SolverMethod method_of{solver_index(Described::name)};
+
+/// Whether a solver takes a law of the core.
+template <class Described, class Law>
+inline constexpr bool takes_law = [] {
+  // It is no type for a law that it does not take, but answers for every law elsewhere.
+  using Scalar = typename Law::Scalar;
+  using AnyModel = plant::Model<friction::None<Scalar>, plant::Undamped<Scalar>, plant::NoDrive>;
+  return Described::template Core<AnyModel, Described::orders[0]>::template solves<Law>;
+}();
+
+}  // namespace sonoglide::configure

@@ -1,0 +1,37 @@
+/// The solver for weakly coupled contacts in a scene.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <string_view>
+
+#include "firmware/plant/gauss/event_gauss.hpp"
+#include "host_sim/configure/study_terms.hpp"
+
+namespace sonoglide::configure::solvers {
+
+/// What the members mean is listed at solvers::EventTaylor.
+struct EventGauss {
+  static constexpr std::string_view name = "event_gauss";
+  static constexpr bool adaptive = true;
+  static constexpr double default_tolerance = 1e-10;
+  static constexpr bool takes_step = false;
+  static constexpr bool takes_order = false;
+  static constexpr std::array<int, 2> orders = {8, 12};  // nodes
+  static constexpr std::array<int, 0> straight_orders = {};
+  static constexpr int order_for(double tolerance) { return tolerance >= 1e-8 ? 8 : 12; }
+  static constexpr bool composed_lean = false;
+  static constexpr bool counts_events = true;
+  template <class Model, int Order>
+  using Core = plant::EventGauss<Model, static_cast<std::size_t>(Order)>;
+
+  static constexpr Palette palette = Palette::orange;
+  static constexpr std::array<Sweep, 2> float64_sweeps = {{{8, 1, 12}, {12, 6, 14}}};
+  static constexpr std::array<Sweep, 1> float32_sweeps = {{{8, 1, 7}}};
+  // With the nodes that suit the tolerances below.
+  static constexpr std::array<TrialOrders, 1> trial_orders = {{{12, 8}}};
+  static constexpr TrialSettings trial_settings = {1e-10, 1e-6};
+  static constexpr bool exact_bound = true;
+};
+
+}  // namespace sonoglide::configure::solvers

@@ -1,0 +1,36 @@
+/// The splitting method in a scene.
+#pragma once
+
+#include <array>
+#include <string_view>
+
+#include "firmware/plant/strang/adaptive_strang.hpp"
+#include "host_sim/configure/study_terms.hpp"
+
+namespace sonoglide::configure::solvers {
+
+/// What the members mean is listed at solvers::EventTaylor.
+struct Strang {
+  static constexpr std::string_view name = "strang";
+  static constexpr bool adaptive = true;
+  static constexpr double default_tolerance = 1e-4;
+  static constexpr bool takes_step = true;
+  static constexpr bool takes_order = false;
+  static constexpr std::array<int, 1> orders = {0};
+  static constexpr std::array<int, 0> straight_orders = {};
+  static constexpr int order_for(double /*tolerance*/) { return 0; }
+  static constexpr bool composed_lean = true;
+  static constexpr bool counts_events = true;
+  template <class Model, int /*Order*/>
+  using Core = plant::AdaptiveStrang<Model>;
+
+  static constexpr Palette palette = Palette::green;
+  static constexpr std::array<Sweep, 1> float64_sweeps = {{{0, 1, 9}}};
+  static constexpr std::array<Sweep, 1> float32_sweeps = {{{0, 1, 5}}};
+  static constexpr std::array<TrialOrders, 1> trial_orders = {{{0, 0}}};
+  // Over the periods of a random scene the balance then keeps below what is allowed.
+  static constexpr TrialSettings trial_settings = {1.6e-7, 1e-3};
+  static constexpr bool exact_bound = true;
+};
+
+}  // namespace sonoglide::configure::solvers

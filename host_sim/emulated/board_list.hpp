@@ -1,0 +1,36 @@
+/// The boards that an image is built for and an emulator stands in for.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace sonoglide::emulated {
+
+struct EmulatedBoard {
+  std::string_view name;       ///< of the board, its configure preset and its images' folder
+  std::string_view core;       ///< for a reader
+  std::string_view toolchain;  ///< file in tools/toolchains, without its ending
+  std::string_view emulator;   ///< program, to be found in PATH
+  std::vector<std::string_view> machine_arguments;  ///< what makes the emulator this board
+  double counts_per_instruction;  ///< unit of a drive frame's count, under emulator_command()
+  bool computes_double = false;   ///< its floating-point unit does, so that float64 can be built
+};
+
+/// Every board, from the smallest core to the largest, the other instruction set last.
+const std::vector<EmulatedBoard>& emulated_boards();
+
+/// @return the board of that name, or null
+const EmulatedBoard* find_board(std::string_view name);
+
+/// The command that runs an image in lockstep: semihosting joined to the emulator's standard input
+/// and output, no window, no device that the board does not have. The emulator's time passes with
+/// the instructions: the same run counts the same.
+std::vector<std::string> emulator_command(const EmulatedBoard& board, const std::string& image);
+
+/// The same with the board's first serial line joined to standard input and output instead, every
+/// byte as it is; semihosting still carries the exit code.
+std::vector<std::string> serial_emulator_command(const EmulatedBoard& board,
+                                                 const std::string& image);
+
+}  // namespace sonoglide::emulated

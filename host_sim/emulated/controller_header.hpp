@@ -1,0 +1,18 @@
+/// The controller of a scene as C++, to be compiled into an image.
+#pragma once
+
+#include <string>
+
+#include "host_sim/scene/scene.hpp"
+
+namespace sonoglide::emulated {
+
+/// The name under which an image includes it.
+inline constexpr const char* controller_header_name = "controller_configuration.hpp";
+
+/// The controller's parts, its parameters and its targets, every number in the controller's own
+/// scalar, bit for bit what the simulation uses. The same scene gives the same text.
+/// @throws scene::ConfigurationError  an open-loop scene, or a target too late for an image
+std::string controller_header(const scene::Scene& scene);
+
+}  // namespace sonoglide::emulated

@@ -1,0 +1,158 @@
+#include "host_sim/emulated/image_builder.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <vector>
+
+#include "host_sim/emulated/content_hash.hpp"
+#include "host_sim/emulated/controller_header.hpp"
+#include "host_sim/emulated/cross_tools.hpp"
+#include "host_sim/process/find_program.hpp"
+#include "host_sim/process/process_error.hpp"
+#include "host_sim/process/run_tool.hpp"
+#include "host_sim/process/scratch_folder.hpp"
+#include "host_sim/text/printable.hpp"
+
+namespace sonoglide::emulated {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The folder of the configured controller, which CMake names the image after.
+constexpr const char* controller_name = "controller";
+
+[[noreturn]] void fail(const fs::path& path, const std::string& reason) {
+  throw process::ProcessError(text::printable(path.string()) + ": " + reason);
+}
+
+/// To CMake a semicolon is the end of a path, and it, Ninja or the shell stumble over a few others.
+void require_for_cmake(const fs::path& path) {
+  const std::string name = path.string();
+  if (name.find_first_of(";\"\\<>|$") != std::string::npos || text::printable(name) != name) {
+    fail(path,
+         "cannot be used by CMake; allowed: a path in UTF-8 without ; \" \\ < > | $ and control "
+         "characters");
+  }
+}
+
+const char* environment(const char* name) {
+  const char* value = std::getenv(name);
+  return value != nullptr && *value != '\0' ? value : nullptr;
+}
+
+fs::path source_tree() {
+  const char* named = environment("SONOGLIDE_SOURCE");
+  fs::path tree = fs::absolute(named != nullptr ? named : SONOGLIDE_SOURCE);
+  if (!fs::exists(tree / "firmware/image/main.cpp")) {
+    fail(tree,
+         "has no Sonoglide sources to build an image from; allowed: SONOGLIDE_SOURCE=FOLDER in "
+         "the environment, with the source tree");
+  }
+  return tree;
+}
+
+fs::path cache_folder() {
+  if (const char* cache = environment("XDG_CACHE_HOME")) {
+    return fs::absolute(cache) / "sonoglide";
+  }
+  if (const char* home = environment("HOME")) {
+    return fs::absolute(home) / ".cache/sonoglide";
+  }
+  fail("the image cache", "has no place; allowed: XDG_CACHE_HOME or HOME in the environment");
+}
+
+/// Says of an image which one it is and that it is whole.
+std::string seal_of(const std::string& key, const std::string& image) {
+  ContentHash hash;
+  hash.add(key);
+  hash.add(image);
+  return fmt::format("{:016x}\n", hash.value());
+}
+
+std::string content(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+}
+
+std::vector<fs::path> image_sources(const fs::path& tree) {
+  std::vector<fs::path> sources{"CMakeLists.txt"};
+  for (const char* folder : {"firmware", "hal", "tools/cmake", "tools/toolchains"}) {
+    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(tree / folder)) {
+      if (entry.is_regular_file()) {
+        sources.push_back(fs::relative(entry.path(), tree));
+      }
+    }
+  }
+  std::sort(sources.begin(), sources.end());
+  return sources;
+}
+
+/// What an image is made of, as a name for it.
+std::string key_of(const emulated::EmulatedBoard& board, const std::string& header,
+                   const fs::path& tree, const fs::path& compiler) {
+  ContentHash hash;
+  hash.add(board.name);
+  hash.add(board.toolchain);
+  hash.add(header);
+  for (const fs::path& source : image_sources(tree)) {
+    hash.add(source.string());
+    hash.add(content(tree / source));
+  }
+  const fs::path program = fs::canonical(compiler);
+  hash.add(program.string());
+  hash.add(fmt::format("{} {}", fs::file_size(program),
+                       fs::last_write_time(program).time_since_epoch().count()));
+  return fmt::format("{}-{:016x}", board.name, hash.value());
+}
+
+void compile(const emulated::EmulatedBoard& board, const std::string& header, const fs::path& tree,
+             const fs::path& folder, const process::Attention& attention) {
+  const fs::path controller = folder / controller_name;
+  fs::create_directory(controller);
+  std::ofstream(controller / controller_header_name, std::ios::binary) << header;
+  const fs::path toolchain = tree / fmt::format("tools/toolchains/{}.cmake", board.toolchain);
+  const std::string build = (folder / "build").string();
+  process::run_tool({"cmake", "-G", "Ninja", "-S", tree.string(), "-B", build,
+                     "-DCMAKE_TOOLCHAIN_FILE=" + toolchain.string(),
+                     fmt::format("-DSONOGLIDE_BOARD={}", board.name),
+                     "-DSONOGLIDE_CONTROLLERS=" + controller.string()},
+                    attention);
+  process::run_tool({"cmake", "--build", build, "--target", controller_name}, attention);
+}
+
+}  // namespace
+
+fs::path build_image(const emulated::EmulatedBoard& board, const std::string& header,
+                     const process::Attention& attention) try {
+  const fs::path tree = source_tree();
+  const CrossTools tools = cross_tools(board);
+  process::require_program("cmake", "cmake");
+  process::require_program("ninja", "ninja-build");
+  const fs::path compiler = process::require_program(tools.prefix + "g++", tools.package);
+  const fs::path cache = cache_folder();
+  require_for_cmake(tree);
+  require_for_cmake(cache);
+  const std::string key = key_of(board, header, tree, compiler);
+  fs::path image = cache / (key + ".elf");
+  const fs::path seal = cache / (key + ".seal");
+  if (content(seal) != seal_of(key, content(image))) {
+    fs::create_directories(cache);
+    const process::ScratchFolder folder(cache);  // beside its target: the move there is a renaming
+    compile(board, header, tree, folder.path(), attention);
+    const fs::path built = folder.path() / "build/bin" / fmt::format("{}.elf", controller_name);
+    const fs::path sealed = folder.path() / "seal";
+    std::ofstream(sealed, std::ios::binary) << seal_of(key, content(built));
+    // Somebody else may do the same meanwhile: the same image comes of it.
+    fs::rename(built, image);
+    fs::rename(sealed, seal);
+  }
+  return image;
+} catch (const fs::filesystem_error& error) {
+  throw process::ProcessError(error.what());
+}
+
+}  // namespace sonoglide::emulated

@@ -1,0 +1,115 @@
+#include "host_sim/emulated/image_process.hpp"
+
+#include <fmt/format.h>
+#include <sys/mman.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <utility>
+
+#include "hal/lockstep/frame.hpp"
+
+namespace sonoglide::emulated {
+
+namespace lockstep = hal::lockstep;
+
+ImageProcess::ImageProcess(const std::vector<std::string>& command,
+                           std::chrono::milliseconds patience, process::Attention attention)
+    : patience_(patience),
+      attention_(std::move(attention)),
+      samples_(process::make_pipe()),
+      drives_(process::make_pipe()),
+      // In memory: a pipe that nobody empties would stop a talkative emulator.
+      complaints_(memfd_create("emulator", MFD_CLOEXEC)) {
+  child_.emplace(command, process::Streams{samples_.read_end.number(), drives_.write_end.number(),
+                                           complaints_.number()});
+  // The reading end of the samples stays open here: writing to an emulator that has died is then no
+  // broken pipe, and its death shows where its answer is read.
+  drives_.write_end.close();
+}
+
+void ImageProcess::await_greeting() {
+  std::uint8_t byte = 0;
+  receive(&byte, 1);
+  if (byte != lockstep::greeting) {
+    fail(fmt::format("greets with {}", byte));
+  }
+}
+
+hal::Drive ImageProcess::exchange(const hal::Sample& sample) {
+  const lockstep::SampleFrame question = lockstep::encode(period_, sample);
+  send(question.data(), question.size());
+  lockstep::DriveFrame answer{};
+  receive(answer.data(), answer.size());
+  if (lockstep::period(answer) != period_) {
+    fail(fmt::format("answered as for carrier period {}", lockstep::period(answer)));
+  }
+  ++period_;
+  cost_ = lockstep::cost_of(answer);
+  return lockstep::drive_of(answer);
+}
+
+void ImageProcess::send(const std::uint8_t* bytes, std::size_t size) {
+  ssize_t count = 0;
+  do {
+    count = write(samples_.write_end.number(), bytes, size);
+  } while (count < 0 && errno == EINTR);
+  if (count != static_cast<ssize_t>(size)) {
+    fail(std::string("cannot be sent a sample: ") + std::strerror(errno));
+  }
+}
+
+int ImageProcess::shut_down() {
+  samples_.write_end.close();
+  samples_.read_end.close();
+  // The output ends when the emulator does.
+  std::uint8_t unasked = 0;
+  wait_for_answer();
+  if (read(drives_.read_end.number(), &unasked, 1) > 0) {
+    fail("sent what nobody asked for");
+  }
+  const int status = child_->wait();
+  if (!WIFEXITED(status)) {
+    fail("ended with " + process::describe_end(status));
+  }
+  return WEXITSTATUS(status);
+}
+
+void ImageProcess::receive(std::uint8_t* bytes, std::size_t size) {
+  while (size > 0) {
+    wait_for_answer();
+    const ssize_t count = read(drives_.read_end.number(), bytes, size);
+    if (count <= 0) {
+      fail("ended with " + process::describe_end(child_->wait()));
+    }
+    bytes += count;
+    size -= static_cast<std::size_t>(count);
+  }
+}
+
+void ImageProcess::wait_for_answer() {
+  if (!process::wait_for_input(drives_.read_end.number(), patience_, attention_)) {
+    child_->kill();
+    fail(fmt::format("hung for {} ms and was ended", patience_.count()));
+  }
+}
+
+void ImageProcess::fail(const std::string& what) const {
+  throw EmulatorError(
+      fmt::format("carrier period {}: the emulator {}{}", period_, what, last_words()));
+}
+
+std::string ImageProcess::last_words() const {
+  std::array<char, 2000> tail{};
+  const off_t size = lseek(complaints_.number(), 0, SEEK_END);
+  const off_t from = std::max<off_t>(0, size - static_cast<off_t>(tail.size()));
+  const ssize_t count = pread(complaints_.number(), tail.data(), tail.size(), from);
+  const std::string text(tail.data(), static_cast<std::size_t>(std::max<ssize_t>(0, count)));
+  return text.empty() ? ", without a word" : "; its last words:\n" + text;
+}
+
+}  // namespace sonoglide::emulated

@@ -1,0 +1,28 @@
+/// Print-quality pictures, drawn by gnuplot.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace sonoglide::output {
+
+/// Finds out whether pictures can be drawn, before anything long is computed for them.
+/// @return gnuplot's place
+/// @throws process::ProcessError  there is no gnuplot; what() says what to install
+std::filesystem::path require_gnuplot();
+
+/// A text as a string of gnuplot's, with its quotes: double ones, and every sign that gnuplot could
+/// take for more than itself by its octal code. (In single quotes a doubled one stands for itself
+/// only behind another sign: neither `'a` nor `a''b` can be written so.) Printable, see
+/// text::printable(); write `noenhanced` after it where no mark-up is meant.
+std::string quoted(std::string_view text);
+
+/// Draws one SVG picture on a white ground.
+///
+/// @param script  gnuplot commands, the data in them ("$name << EOD" blocks); terminal and output
+///                are set already
+/// @throws process::ProcessError  gnuplot is missing or refuses the script, which what() quotes
+std::string draw_svg(const std::string& script, int width_px, int height_px);
+
+}  // namespace sonoglide::output

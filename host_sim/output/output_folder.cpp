@@ -1,0 +1,295 @@
+#include "host_sim/output/output_folder.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <stdexcept>
+#include <system_error>
+#include <utility>
+
+#include "host_sim/output/written_files.hpp"
+
+namespace sonoglide::output {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kNewFiles = "new";  // in the staging folder
+constexpr const char* kOldFiles = "old";
+
+/// Absolute, links and ".." resolved as far as the path exists, without a trailing separator.
+fs::path normal(const fs::path& path) {
+  if (path.empty()) {
+    throw OutputError("the output folder has an empty name");
+  }
+  std::error_code error;
+  const fs::path result = fs::weakly_canonical(fs::absolute(path, error), error);
+  if (error) {
+    fail(path, error);
+  }
+  return result.has_filename() ? result : result.parent_path();
+}
+
+/// The path itself or its nearest parent that exists; must be a folder.
+fs::path nearest_folder(const fs::path& path) {
+  fs::path candidate = path;
+  while (true) {
+    std::error_code error;
+    const fs::file_status status = fs::status(candidate, error);
+    if (fs::is_directory(status)) {
+      return candidate;
+    }
+    if (fs::exists(status)) {
+      fail(candidate, "is a file, not a folder");
+    }
+    if (status.type() == fs::file_type::none) {
+      fail(candidate, error);
+    }
+    if (fs::is_symlink(fs::symlink_status(candidate, error))) {
+      fail(candidate, "is a symbolic link to nothing");
+    }
+    if (candidate == candidate.parent_path()) {
+      fail(path, "no parent folder exists");
+    }
+    candidate = candidate.parent_path();
+  }
+}
+
+/// Creates what is missing of a folder's path; returns the created folders, outermost first.
+std::vector<fs::path> create_parents(const fs::path& folder) {
+  std::vector<fs::path> missing;
+  std::error_code unknown;
+  for (fs::path path = folder; !fs::exists(path, unknown); path = path.parent_path()) {
+    if (unknown) {
+      fail(path, unknown);
+    }
+    missing.insert(missing.begin(), path);
+  }
+  for (std::size_t i = 0; i < missing.size(); ++i) {
+    std::error_code error;
+    fs::create_directory(missing[i], error);
+    if (error) {
+      missing.resize(i);
+      for (auto made = missing.rbegin(); made != missing.rend(); ++made) {
+        std::error_code ignored;
+        fs::remove(*made, ignored);
+      }
+      fail(folder, error);
+    }
+  }
+  return missing;
+}
+
+}  // namespace
+
+/// Renames that are undone, last one first, unless kept.
+class OutputFolder::Moves {
+ public:
+  Moves() = default;
+  Moves(const Moves&) = delete;
+  Moves& operator=(const Moves&) = delete;
+  ~Moves() {
+    for (auto move = moves_.rbegin(); move != moves_.rend(); ++move) {
+      std::error_code ignored;
+      fs::rename(move->second, move->first, ignored);
+    }
+  }
+
+  std::error_code move(const fs::path& from, const fs::path& to) {
+    std::error_code error;
+    fs::rename(from, to, error);
+    if (!error) {
+      moves_.emplace_back(from, to);
+    }
+    return error;
+  }
+
+  void keep() { moves_.clear(); }
+
+ private:
+  std::vector<std::pair<fs::path, fs::path>> moves_;  // from, to
+};
+
+/// Puts the file of this name, if there is one, aside.
+std::error_code OutputFolder::clear(Moves& moves, const fs::path& place, const fs::path& aside) {
+  std::error_code absent;
+  if (fs::is_directory(place, absent)) {
+    return std::make_error_code(std::errc::is_a_directory);
+  }
+  return fs::exists(fs::symlink_status(place, absent)) ? moves.move(place, aside)
+                                                       : std::error_code();
+}
+
+namespace {
+
+/// What the last failed system call said.
+std::string last_reason() {
+  return errno == 0 ? "cannot be written" : std::generic_category().message(errno);
+}
+
+}  // namespace
+
+OutputFolder::OutputFolder(const fs::path& target, const std::vector<std::string>& names)
+    : target_(normal(target)) {
+  const fs::path parent = nearest_folder(target_);
+  std::for_each(names.begin(), names.end(), [this](const auto& name) { require_ours(name); });
+  try {
+    staging_.emplace(parent);
+  } catch (const process::ScratchError& error) {
+    fail(target_, "cannot be written: " + error.reason());
+  }
+  std::error_code error;
+  if (!fs::create_directory(staging_->path() / kNewFiles, error) ||
+      !fs::create_directory(staging_->path() / kOldFiles, error)) {
+    fail(target_, error);
+  }
+}
+
+OutputFolder::~OutputFolder() {
+  files_.clear();
+}
+
+void OutputFolder::write(const std::string& name, std::string_view content) {
+  std::ofstream& file = stage(name);
+  errno = 0;
+  file.write(content.data(), static_cast<std::streamsize>(content.size()));
+  file.close();
+  if (!file) {
+    fail(target_ / name, last_reason());
+  }
+}
+
+std::ostream& OutputFolder::open(const std::string& name) {
+  return stage(name);
+}
+
+void OutputFolder::withdraw(const std::string& name) {
+  require_usable(name);
+  withdrawn_.insert(name);
+}
+
+void OutputFolder::require_usable(const std::string& name) const {
+  const fs::path path(name);
+  const bool plain = path == path.filename() && name.find('\n') == std::string::npos;
+  if (name.empty() || !plain || name == "." || name == "..") {
+    throw std::invalid_argument("'" + name + "' is not a plain file name");
+  }
+  if (files_.count(name) + withdrawn_.count(name) > 0) {
+    throw std::invalid_argument("'" + name + "' is named twice");
+  }
+  require_ours(name);
+}
+
+void OutputFolder::require_ours(const std::string& name) const {
+  const fs::path place = target_ / name;
+  std::error_code absent;
+  const fs::file_status status = fs::symlink_status(place, absent);
+  if (fs::exists(status) && !fs::is_directory(status) && !WrittenFiles(target_).has(name)) {
+    fail(place,
+         "was not written by an earlier run, or was changed since; allowed: another folder, or "
+         "that file out of the way");
+  }
+}
+
+std::ofstream& OutputFolder::stage(const std::string& name) {
+  require_usable(name);
+  std::ofstream& file = files_[name];
+  errno = 0;
+  file.open(staging_->path() / kNewFiles / name, std::ios::binary);
+  if (!file) {
+    fail(target_ / name, last_reason());
+  }
+  return file;
+}
+
+void OutputFolder::commit() {
+  close_files();
+  list_files();
+  std::error_code error;
+  if (fs::exists(target_, error)) {
+    replace_files();
+  } else {
+    place_new_folder();
+  }
+}
+
+void OutputFolder::close_files() {
+  for (auto& [name, file] : files_) {
+    if (file.is_open()) {
+      file.close();
+    }
+    if (!file) {
+      fail(target_ / name, "could not be written in full");
+    }
+  }
+}
+
+/// Puts the list beside the new files.
+void OutputFolder::list_files() {
+  WrittenFiles list(target_);
+  for (const auto& [name, file] : files_) {
+    list.add(name, staging_->path() / kNewFiles / name);
+  }
+  errno = 0;
+  std::ofstream file(staging_->path() / kNewFiles / WrittenFiles::file_name, std::ios::binary);
+  file << list.text();
+  file.close();
+  if (!file) {
+    fail(target_ / WrittenFiles::file_name, last_reason());
+  }
+}
+
+void OutputFolder::place_new_folder() {
+  const std::vector<fs::path> created = create_parents(target_.parent_path());
+  std::error_code error;
+  fs::rename(staging_->path() / kNewFiles, target_, error);
+  if (error) {
+    for (auto path = created.rbegin(); path != created.rend(); ++path) {
+      std::error_code ignored;
+      fs::remove(*path, ignored);
+    }
+    fail(target_, error);
+  }
+}
+
+/// First of all, and in one step: it speaks of the old files as well as of the new ones.
+void OutputFolder::place_list(Moves& moves) const {
+  const fs::path from = staging_->path() / kNewFiles / WrittenFiles::file_name;
+  const fs::path to = target_ / WrittenFiles::file_name;
+  std::error_code error;
+  if (fs::exists(to, error)) {
+    fs::rename(from, to, error);
+  } else {
+    error = moves.move(from, to);
+  }
+  if (error) {
+    fail(to, error);
+  }
+}
+
+void OutputFolder::replace_files() {
+  Moves moves;
+  place_list(moves);
+  const auto clear_place = [&](const std::string& name) {
+    if (const std::error_code error =
+            clear(moves, target_ / name, staging_->path() / kOldFiles / name)) {
+      fail(target_ / name, error);
+    }
+  };
+  for (const std::string& name : withdrawn_) {
+    require_ours(name);
+    clear_place(name);
+  }
+  for (const auto& [name, file] : files_) {
+    require_ours(name);
+    clear_place(name);
+    if (const std::error_code error =
+            moves.move(staging_->path() / kNewFiles / name, target_ / name)) {
+      fail(target_ / name, error);
+    }
+  }
+  moves.keep();
+}
+
+}  // namespace sonoglide::output

@@ -1,0 +1,264 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <stdexcept>
+#include <string_view>
+
+#include "host_sim/output/assets.hpp"
+#include "host_sim/output/chart_json.hpp"
+#include "host_sim/output/page.hpp"
+#include "host_sim/text/printable.hpp"
+
+namespace sonoglide::output {
+namespace {
+
+constexpr std::string_view kContentSecurityPolicy =
+    "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data:; "
+    "base-uri 'none'; form-action 'none'";
+
+/// Fit for elements and for attributes in either kind of quotes.
+std::string escaped(std::string_view text) {
+  std::string html;
+  html.reserve(text.size());
+  for (const char c : text::printable_lines(text)) {
+    switch (c) {
+      case '&':
+        html += "&amp;";
+        break;
+      case '<':
+        html += "&lt;";
+        break;
+      case '>':
+        html += "&gt;";
+        break;
+      case '"':
+        html += "&quot;";
+        break;
+      case '\'':
+        html += "&#39;";
+        break;
+      default:
+        html += c;
+    }
+  }
+  return html;
+}
+
+void append_paragraph(std::string& html, std::string_view css_class, const std::string& text) {
+  if (!text.empty()) {
+    html += fmt::format("<p class=\"{}\">{}</p>\n", css_class, escaped(text));
+  }
+}
+
+/// Drops the comment at the end of a minified file that sends developer tools for a source map.
+std::string_view without_source_map(std::string_view text) {
+  const std::size_t marker = text.rfind("# sourceMappingURL=");
+  return marker == std::string_view::npos ? text : text.substr(0, marker - 2);
+}
+
+void check(const Panel& panel) {
+  const bool ordered = std::is_sorted(panel.x.begin(), panel.x.end());
+  const bool finite =
+      std::all_of(panel.x.begin(), panel.x.end(), [](double x) { return std::isfinite(x); });
+  if (!ordered || !finite) {
+    throw std::invalid_argument("panel '" + panel.title + "': x decreases or is not finite");
+  }
+  for (const Series& series : panel.series) {
+    if (series.y.size() != panel.x.size()) {
+      throw std::invalid_argument(fmt::format("panel '{}', series '{}': {} values for {} abscissae",
+                                              panel.title, series.label, series.y.size(),
+                                              panel.x.size()));
+    }
+  }
+}
+
+void check(const Table& table) {
+  for (const std::vector<std::string>& row : table.rows) {
+    if (!table.header.empty() && row.size() != table.header.size()) {
+      throw std::invalid_argument(fmt::format("table '{}': a row of {} cells under {} headings",
+                                              table.title, row.size(), table.header.size()));
+    }
+  }
+}
+
+/// A number, alone or followed by one word, its unit.
+bool is_number(const std::string& cell) {
+  // A typographic minus is not one that strtod reads.
+  constexpr std::string_view kMinus = "\u2212";
+  const bool negative = cell.compare(0, kMinus.size(), kMinus) == 0;
+  const std::string text = negative ? "-" + cell.substr(kMinus.size()) : cell;
+  char* end = nullptr;
+  std::strtod(text.c_str(), &end);
+  const std::string_view rest = end;
+  return rest.size() < text.size() && (rest.empty() || rest.front() == '%' || rest.rfind(' ') == 0);
+}
+
+bool is_numeric_column(const Table& table, std::size_t column) {
+  std::size_t numbers = 0;
+  std::size_t texts = 0;
+  for (const std::vector<std::string>& row : table.rows) {
+    if (column < row.size() && !row[column].empty()) {
+      ++(is_number(row[column]) ? numbers : texts);
+    }
+  }
+  return numbers > 0 && numbers >= texts;
+}
+
+void append_row(std::string& html, const Table& table, const std::vector<std::string>& cells,
+                std::string_view tag) {
+  html += "<tr>";
+  for (std::size_t column = 0; column < cells.size(); ++column) {
+    html += fmt::format("<{}{}>{}</{}>", tag,
+                        is_numeric_column(table, column) ? " class=\"number\"" : "",
+                        escaped(cells[column]), tag);
+  }
+  html += "</tr>\n";
+}
+
+void append_table(std::string& html, const Table& table) {
+  html += "<section class=\"table\">\n";
+  if (!table.title.empty()) {
+    html += fmt::format("<h2>{}</h2>\n", escaped(table.title));
+  }
+  html += "<div class=\"scroll\"><table>\n";
+  if (!table.header.empty()) {
+    html += "<thead>";
+    append_row(html, table, table.header, "th");
+    html += "</thead>\n";
+  }
+  html += "<tbody>\n";
+  for (const std::vector<std::string>& row : table.rows) {
+    append_row(html, table, row, "td");
+  }
+  html += "</tbody></table></div>\n</section>\n";
+}
+
+void append_warnings(std::string& html, const std::vector<std::string>& warnings) {
+  if (warnings.empty()) {
+    return;
+  }
+  html += fmt::format("<aside class=\"warnings\">\n<h2>{}</h2>\n<ul>\n",
+                      warnings.size() == 1 ? "Warning" : "Warnings");
+  for (const std::string& warning : warnings) {
+    html += fmt::format("<li>{}</li>\n", escaped(warning));
+  }
+  html += "</ul>\n</aside>\n";
+}
+
+void append_panel(std::string& html, const Panel& panel) {
+  html += fmt::format("<figure class=\"panel\">\n<figcaption><h3>{}</h3>\n", escaped(panel.title));
+  append_paragraph(html, "note", panel.note);
+  html += "</figcaption>\n";
+  if (has_something_to_draw(panel)) {
+    html += fmt::format("<script type=\"application/json\">{}</script>\n", chart_json(panel));
+  } else {
+    html += "<p class=\"empty\">No values to draw.</p>\n";
+  }
+  html += "</figure>\n";
+}
+
+/// An SVG document as the address of an image: its names cannot clash with those of another.
+std::string data_address(std::string_view svg) {
+  std::string address = "data:image/svg+xml,";
+  for (const char c : svg) {
+    const bool plain =
+        c > ' ' && c < 127 && std::string_view("\"#%&<>").find(c) == std::string::npos;
+    if (plain) {
+      address += c;
+    } else {
+      address += fmt::format("%{:02X}", static_cast<unsigned char>(c));
+    }
+  }
+  return address;
+}
+
+void append_picture(std::string& html, const Picture& picture) {
+  html +=
+      fmt::format("<figure class=\"picture\">\n<figcaption><h3>{}</h3>\n", escaped(picture.title));
+  append_paragraph(html, "note", picture.note);
+  html += fmt::format("</figcaption>\n<img alt=\"{}\" src=\"{}\">\n</figure>\n",
+                      escaped(picture.title), data_address(picture.svg));
+}
+
+void append_sections(std::string& html, const std::vector<Section>& sections) {
+  for (const Section& section : sections) {
+    html += fmt::format("<section class=\"charts\">\n<h2>{}</h2>\n", escaped(section.title));
+    append_paragraph(html, "text", section.text);
+    for (const Table& table : section.tables) {
+      append_table(html, table);
+    }
+    for (const Panel& panel : section.panels) {
+      append_panel(html, panel);
+    }
+    for (const Picture& picture : section.pictures) {
+      append_picture(html, picture);
+    }
+    html += "</section>\n";
+  }
+}
+
+void append_hint(std::string& html) {
+  html +=
+      "<p class=\"hint\">Drag across a chart to zoom, shift-drag to pan, double-click to reset; "
+      "hover to read values.</p>\n"
+      "<noscript><p class=\"empty\">The charts need JavaScript.</p></noscript>\n";
+}
+
+void append_head(std::string& html, const Page& page) {
+  html += fmt::format(
+      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+      "<meta http-equiv=\"Content-Security-Policy\" content=\"{}\">\n"
+      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
+      "<meta name=\"color-scheme\" content=\"light dark\">\n"
+      "<link rel=\"icon\" href=\"data:,\">\n<title>{}</title>\n",
+      kContentSecurityPolicy, escaped(page.title));
+  html += fmt::format("<style>\n{}\n</style>\n<style>\n{}</style>\n</head>\n",
+                      without_source_map(dygraphs_css()), page_css());
+}
+
+void append_scripts(std::string& html) {
+  html += fmt::format("<script>\n{}\n</script>\n<script>\n{}</script>\n",
+                      without_source_map(dygraphs_js()), page_js());
+}
+
+bool has_panels(const Page& page) {
+  return std::any_of(page.sections.begin(), page.sections.end(),
+                     [](const Section& section) { return !section.panels.empty(); });
+}
+
+}  // namespace
+
+std::string to_html(const Page& page) {
+  for (const Table& table : page.tables) {
+    check(table);
+  }
+  for (const Section& section : page.sections) {
+    for (const Panel& panel : section.panels) {
+      check(panel);
+    }
+  }
+  std::string html;
+  append_head(html, page);
+  html += fmt::format("<body>\n<main>\n<header>\n<h1>{}</h1>\n", escaped(page.title));
+  append_paragraph(html, "lead", page.lead);
+  html += "</header>\n";
+  append_warnings(html, page.warnings);
+  for (const Table& table : page.tables) {
+    append_table(html, table);
+  }
+  if (has_panels(page)) {
+    append_hint(html);
+  }
+  append_sections(html, page.sections);
+  html += fmt::format(
+      "</main>\n<footer><details><summary>Charts drawn by dygraphs (MIT licence)</summary>\n"
+      "<pre>{}</pre></details></footer>\n",
+      escaped(dygraphs_notice()));
+  append_scripts(html);
+  html += "</body>\n</html>\n";
+  return html;
+}
+
+}  // namespace sonoglide::output

@@ -1,0 +1,95 @@
+#include "host_sim/output/written_files.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <fstream>
+#include <sstream>
+#include <system_error>
+#include <utility>
+
+#include "host_sim/output/output_error.hpp"
+#include "host_sim/text/checksum.hpp"
+
+namespace sonoglide::output {
+namespace {
+
+constexpr const char* heading =
+    "Written by sonoglide, which replaces or removes these files as it left them, and no others: "
+    "checksum, bytes, name.";
+
+}  // namespace
+
+WrittenFiles::WrittenFiles(const std::filesystem::path& folder) : folder_(folder) {
+  std::ifstream list(folder / file_name, std::ios::binary);
+  std::string line;
+  if (!std::getline(list, line)) {
+    return;
+  }
+  if (line != heading) {
+    fail(folder / file_name,
+         "is not a list of files that this program wrote; allowed: another "
+         "folder, or that file out of the way");
+  }
+  while (std::getline(list, line)) {
+    std::istringstream words(line);
+    Content content{};
+    std::string name;
+    words >> std::hex >> content.checksum >> std::dec >> content.bytes >> std::ws;
+    if (std::getline(words, name)) {
+      files_[name].push_back(content);
+    }
+  }
+}
+
+bool WrittenFiles::has(const std::string& name) const {
+  const auto found = files_.find(name);
+  const std::filesystem::path file = folder_ / name;
+  std::error_code unknown;
+  if (found == files_.end() ||
+      !std::filesystem::is_regular_file(std::filesystem::symlink_status(file, unknown))) {
+    return false;
+  }
+  const std::vector<Content>& known = found->second;
+  return std::find(known.begin(), known.end(), content_of(file)) != known.end();
+}
+
+void WrittenFiles::add(const std::string& name, const std::filesystem::path& file) {
+  std::vector<Content> contents;
+  if (has(name)) {
+    contents.push_back(content_of(folder_ / name));
+  }
+  contents.push_back(content_of(file));
+  files_[name] = std::move(contents);
+}
+
+std::string WrittenFiles::text() const {
+  std::string lines = std::string(heading) + '\n';
+  for (const auto& [name, contents] : files_) {
+    for (const Content& content : contents) {
+      lines += fmt::format("{:016x} {} {}\n", content.checksum, content.bytes, name);
+    }
+  }
+  return lines;
+}
+
+WrittenFiles::Content WrittenFiles::content_of(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  std::array<char, 1U << 16U> part{};
+  Content content{};
+  text::Checksum sum;
+  while (stream) {
+    stream.read(part.data(), part.size());
+    const auto count = static_cast<std::size_t>(stream.gcount());
+    sum.add({part.data(), count});
+    content.bytes += count;
+  }
+  if (!stream.eof()) {
+    fail(file, "cannot be read");
+  }
+  content.checksum = sum.value();
+  return content;
+}
+
+}  // namespace sonoglide::output

@@ -1,0 +1,141 @@
+#include "host_sim/report/step_metrics.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numeric>
+
+#include "host_sim/configure/control_design.hpp"
+
+namespace sonoglide::report {
+namespace {
+
+constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
+
+/// Of a settled step none, unless it was named in most periods: one from before may still end.
+control::Limit prevailing_limit(std::array<std::uint64_t, control::limit_count> count,
+                                bool settled) {
+  auto& unlimited = count[static_cast<std::size_t>(control::Limit::none)];
+  if (settled && 2 * unlimited >= std::accumulate(count.begin(), count.end(), std::uint64_t{0})) {
+    return control::Limit::none;
+  }
+  unlimited = 0;
+  const auto most = std::max_element(count.begin(), count.end());
+  return *most == 0 ? control::Limit::none
+                    : static_cast<control::Limit>(std::distance(count.begin(), most));
+}
+
+}  // namespace
+
+StepMeter::StepMeter(const scene::Scene& scene)
+    : cursor_(scene),
+      band_(scene.run.settling_band),
+      tells_mismatch_(configure::tells_mismatch(scene)) {
+  for (const TargetSpan& span : cursor_.spans()) {
+    Tally tally;
+    tally.settled_s = span.begin_s;
+    tallies_.push_back(tally);
+  }
+}
+
+void StepMeter::take(const loop::Period& period) {
+  const std::size_t index = cursor_.span_of(period);
+  if (index == SpanCursor::none) {
+    return;
+  }
+  take_pause(period);
+  if (pausing_) {
+    return;
+  }
+  const TargetSpan& span = cursor_.spans()[index];
+  take_any(period, span, tallies_[index]);
+  if (cursor_.in_last_quarter(period, span)) {
+    take_steady(period, tallies_[index]);
+  }
+}
+
+std::vector<StepMetrics> StepMeter::steps() const {
+  std::vector<StepMetrics> all;
+  for (std::size_t i = 0; i < tallies_.size(); ++i) {
+    all.push_back(metrics(cursor_.spans()[i], tallies_[i]));
+  }
+  return all;
+}
+
+PauseMetrics StepMeter::pauses() const {
+  if (paused_periods_ == 0) {
+    return {};
+  }
+  const auto all = static_cast<double>(periods_);
+  const auto driven = static_cast<double>(periods_ - paused_periods_);
+  return {pauses_, paused_periods_, static_cast<double>(paused_periods_) / all,
+          sum_ / all - (sum_ - paused_sum_) / driven};
+}
+
+void StepMeter::take_pause(const loop::Period& period) {
+  const bool pausing = period.state == control::State::relearning;
+  pauses_ += pausing && !pausing_ ? 1 : 0;
+  pausing_ = pausing;
+  paused_periods_ += pausing ? 1 : 0;
+  paused_sum_ += pausing ? period.friction_ratio : 0.0;
+  sum_ += period.friction_ratio;
+  ++periods_;
+}
+
+void StepMeter::take_any(const loop::Period& period, const TargetSpan& span, Tally& tally) const {
+  const double error = period.friction_ratio - span.target;
+  if (!(std::abs(error) <= band_)) {
+    tally.settled_s = period.end_s;
+  }
+  if (period.target == span.target) {  // else still driven for the target before
+    tally.overshoot = std::max(tally.overshoot, span.target < span.previous ? -error : error);
+  }
+  tally.last_end_s = period.end_s;
+  ++tally.periods;
+}
+
+void StepMeter::take_steady(const loop::Period& period, Tally& tally) {
+  tally.ratio_sum += period.friction_ratio;
+  tally.drive_sum_N += period.drive_amplitude_N;
+  tally.lowest = std::min(tally.lowest, period.friction_ratio);
+  tally.highest = std::max(tally.highest, period.friction_ratio);
+  ++tally.limit_count[static_cast<std::size_t>(period.limit)];
+  tally.fault = tally.fault || period.state == control::State::fault;
+  if (period.settling == control::Settling::settled) {
+    ++tally.settled_periods;
+    tally.mismatch_sum += period.commanded_ratio / period.target;
+  }
+  if (period.limit == control::Limit::not_settling) {
+    tally.cause = period.settling;
+  }
+  ++tally.steady_periods;
+}
+
+StepMetrics StepMeter::metrics(const TargetSpan& span, const Tally& tally) const {
+  const bool settled = tally.periods > 0 && tally.settled_s < tally.last_end_s;
+  const auto count = static_cast<double>(tally.steady_periods);  // none: the means are NaN
+  StepMetrics metrics;
+  metrics.time_s = span.step_s;
+  metrics.target = span.target;
+  if (settled) {
+    metrics.settling_time_s = tally.settled_s - span.begin_s;
+  }
+  metrics.overshoot = tally.periods > 0 ? tally.overshoot : undefined;
+  metrics.steady_error = tally.ratio_sum / count - span.target;
+  metrics.ripple = tally.lowest <= tally.highest ? 0.5 * (tally.highest - tally.lowest) : undefined;
+  metrics.drive_amplitude_N = tally.drive_sum_N / count;
+  metrics.limit = prevailing_limit(tally.limit_count, settled);
+  metrics.cause = tally.cause;
+  if (tally.settled_periods > 0 && tells_mismatch_) {
+    metrics.mismatch = tally.mismatch_sum / static_cast<double>(tally.settled_periods);
+  }
+  if (!settled && metrics.limit == control::Limit::none && !tally.fault) {
+    const bool believed = 2 * tally.settled_periods > tally.steady_periods;
+    const bool off = std::abs(metrics.steady_error) > band_;
+    metrics.limit = believed && off ? control::Limit::mismatch : control::Limit::not_settling;
+    metrics.limit_seen_by_controller = false;
+  }
+  return metrics;
+}
+
+}  // namespace sonoglide::report

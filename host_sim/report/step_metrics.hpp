@@ -1,0 +1,101 @@
+/// How well a closed loop followed each step of its target.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "firmware/control/drive_command.hpp"
+#include "host_sim/loop/period.hpp"
+#include "host_sim/report/target_spans.hpp"
+#include "host_sim/scene/scene.hpp"
+
+namespace sonoglide::report {
+
+/// One target step. "Steady" means the last quarter of the step, or of what calibration leaves of
+/// it. A figure for which there is no carrier period is NaN. Pauses in which the controller learns
+/// the friction force anew are left out; what they cost is in PauseMetrics.
+struct StepMetrics {
+  double time_s = 0.0;
+  double target = 0.0;
+  /// From the later of the step's time and the end of calibration until the per-period ratio is
+  /// inside target ± band for the rest of the step; absent if it never is.
+  std::optional<double> settling_time_s;
+  double overshoot =
+      0.0;  ///< farthest beyond the target, seen from where the ratio came from; >= 0
+  double steady_error = 0.0;       ///< mean ratio − target
+  double ripple = 0.0;             ///< half peak-to-peak of the per-period ratio
+  double drive_amplitude_N = 0.0;  ///< mean
+  /// The most frequent one of the steady part. Where the controller names none though the ratio
+  /// never settles, and no fault has switched the drive off, the simulation names what only it can
+  /// see: mismatch where the controller takes its reading for settled, else not_settling.
+  control::Limit limit = control::Limit::none;
+  bool limit_seen_by_controller = true;
+  control::Settling cause =
+      control::Settling::pending;  ///< of not_settling, if the controller knows
+  /// Mean of commanded over target ratio where the controller took the ratio for settled: believed
+  /// over true friction force, as it sees it.
+  std::optional<double> mismatch;
+};
+
+/// What the pauses cost in which the friction force is learnt anew.
+struct PauseMetrics {
+  std::uint64_t pauses = 0;
+  std::uint64_t periods = 0;   ///< with the drive disturbed
+  double time_fraction = 0.0;  ///< of the periods since the first target
+  double ratio_cost = 0.0;     ///< mean friction ratio with the pauses minus without
+};
+
+/// Measures every target step that begins before the run ends, from its carrier periods as they
+/// come.
+class StepMeter final : public loop::PeriodSink {
+ public:
+  /// @param scene  in closed loop
+  explicit StepMeter(const scene::Scene& scene);
+
+  void take(const loop::Period& period) override;
+
+  /// One entry for each step; to be asked after the run.
+  std::vector<StepMetrics> steps() const;
+
+  PauseMetrics pauses() const;
+
+ private:
+  struct Tally {
+    double settled_s = 0.0;   ///< end of the last period outside the band
+    double last_end_s = 0.0;  ///< of the last period
+    double overshoot = 0.0;
+    std::uint64_t periods = 0;
+    // Of the steady part:
+    std::uint64_t steady_periods = 0;
+    double ratio_sum = 0.0;
+    double drive_sum_N = 0.0;
+    double lowest = std::numeric_limits<double>::infinity();
+    double highest = -std::numeric_limits<double>::infinity();
+    std::array<std::uint64_t, control::limit_count> limit_count{};
+    std::uint64_t settled_periods = 0;  ///< as the controller sees it
+    double mismatch_sum = 0.0;
+    control::Settling cause = control::Settling::pending;
+    bool fault = false;
+  };
+
+  void take_pause(const loop::Period& period);
+  void take_any(const loop::Period& period, const TargetSpan& span, Tally& tally) const;
+  static void take_steady(const loop::Period& period, Tally& tally);
+  StepMetrics metrics(const TargetSpan& span, const Tally& tally) const;
+
+  SpanCursor cursor_;
+  double band_;
+  bool tells_mismatch_;
+  std::vector<Tally> tallies_;
+  bool pausing_ = false;
+  std::uint64_t pauses_ = 0;
+  std::uint64_t paused_periods_ = 0;
+  std::uint64_t periods_ = 0;
+  double paused_sum_ = 0.0;  ///< of ratios
+  double sum_ = 0.0;
+};
+
+}  // namespace sonoglide::report

@@ -1,0 +1,142 @@
+#include "host_sim/scene_file/document.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "host_sim/scene_file/schema.hpp"
+#include "host_sim/scene_file/toml_text.hpp"
+
+namespace sonoglide::scene_file {
+namespace {
+
+Location located(const std::string& file, const toml::source_region& source) {
+  return {file, source.begin.line, source.begin.column};
+}
+
+using Item = std::pair<const toml::key*, const toml::node*>;
+
+/// The parser sorts by name; errors come in file order.
+std::vector<Item> in_file_order(const toml::table& table) {
+  std::vector<Item> items;
+  for (const auto& [key, value] : table) {
+    items.emplace_back(&key, &value);
+  }
+  std::stable_sort(items.begin(), items.end(), [](const Item& a, const Item& b) {
+    return a.first->source().begin < b.first->source().begin;
+  });
+  return items;
+}
+
+/// The number of its keys if the table has none of this name.
+std::size_t position_of(const TableSchema& table, std::string_view key) {
+  return static_cast<std::size_t>(std::find(table.keys.begin(), table.keys.end(), key) -
+                                  table.keys.begin());
+}
+
+}  // namespace
+
+Location Entry::place_of(const toml::node& element) const {
+  return overridden ? value_place : located(value_place.file, element.source());
+}
+
+Document::Document(const Source& source, const std::vector<std::string>& overrides,
+                   const std::vector<std::string>& varied)
+    : file_(source.file), name_(source.name()) {
+  if (source.text.size() > max_bytes) {
+    throw SceneError(start(), "scene",
+                     fmt::format("larger than {0} bytes; allowed: at most {0} bytes", max_bytes));
+  }
+  root_ = parse_toml(source.text, file_);
+  collect();
+  for (std::size_t i = 0; i < overrides.size(); ++i) {
+    apply_override(overrides[i], i + 1);
+  }
+  for (std::size_t i = 0; i < varied.size(); ++i) {
+    vary(varied[i], overrides.size() + i + 1, i);
+  }
+}
+
+const Table* Document::find(std::string_view name) const {
+  const auto found = tables_.find(name);
+  return found == tables_.end() ? nullptr : &found->second;
+}
+
+Location Document::place_of(std::string_view dotted_key) const {
+  const std::size_t dot = dotted_key.find('.');
+  const Table* table = find(dotted_key.substr(0, dot));
+  if (table == nullptr) {
+    return start();
+  }
+  const auto entry = dot == std::string_view::npos
+                         ? table->entries.end()
+                         : table->entries.find(dotted_key.substr(dot + 1));
+  return entry == table->entries.end() ? table->place : entry->second.value_place;
+}
+
+void Document::collect() {
+  for (const auto& [key, value] : in_file_order(root_)) {
+    const std::string name(key->str());
+    const Location place = located(file_, key->source());
+    if (find_table(name) == nullptr) {
+      throw SceneError(place, name, unknown_table(name));
+    }
+    const toml::table* table = value->as_table();
+    if (table == nullptr) {
+      throw SceneError(place, name,
+                       fmt::format("is {}; allowed: one table, [{}]", kind_of(*value), name));
+    }
+    collect_table(name, place, *table);
+  }
+}
+
+void Document::collect_table(const std::string& name, const Location& place,
+                             const toml::table& table) {
+  const TableSchema& schema = *find_table(name);
+  Table collected{name, place, {}};
+  for (const auto& [key, value] : in_file_order(table)) {
+    const Location key_place = located(file_, key->source());
+    const std::size_t position = position_of(schema, key->str());
+    if (position == schema.keys.size()) {
+      throw SceneError(key_place, fmt::format("{}.{}", name, key->str()),
+                       unknown_key(schema, key->str()));
+    }
+    collected.entries[std::string(key->str())] = {value, key_place, located(file_, value->source()),
+                                                  false, position};
+  }
+  tables_[name] = std::move(collected);
+}
+
+void Document::apply_override(const std::string& text, std::size_t ordinal) {
+  Override override = parse_override(text, ordinal);
+  if (!override.holder) {
+    remove(override.target);
+    return;
+  }
+  override_values_.push_back(std::move(*override.holder));
+  overridden_entry(override.target).value = override_values_.back().get("value");
+}
+
+void Document::remove(const OverriddenKey& target) {
+  const auto table = tables_.find(target.table);
+  if (table != tables_.end()) {
+    table->second.entries.erase(target.key);
+  }
+}
+
+void Document::vary(const std::string& path, std::size_t ordinal, std::size_t index) {
+  overridden_entry(parse_overridden_key(path, ordinal)).varied = index;
+}
+
+/// The entry, without a value yet.
+Entry& Document::overridden_entry(const OverriddenKey& target) {
+  Table& table =
+      tables_.try_emplace(target.table, Table{target.table, target.place, {}}).first->second;
+  Entry& entry = table.entries[target.key];
+  entry = {nullptr, target.place, target.place, true,
+           position_of(*find_table(target.table), target.key)};
+  return entry;
+}
+
+}  // namespace sonoglide::scene_file

@@ -1,0 +1,99 @@
+#include "host_sim/scene_file/override.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string_view>
+#include <utility>
+
+#include "host_sim/scene_file/schema.hpp"
+#include "host_sim/scene_file/toml_text.hpp"
+
+namespace sonoglide::scene_file {
+namespace {
+
+constexpr std::string_view form = "allowed: TABLE.KEY=VALUE, or TABLE.KEY= to remove the key";
+
+bool is_letter(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
+}
+
+bool is_bare_word(std::string_view text) {
+  return !text.empty() && is_letter(text.front()) &&
+         std::all_of(text.begin(), text.end(), [](char c) {
+           return is_letter(c) || (c >= '0' && c <= '9') || c == '_' || c == '-';
+         });
+}
+
+void check_names(const OverriddenKey& target, const std::string& path) {
+  const TableSchema* table = find_table(target.table);
+  if (table == nullptr) {
+    throw SceneError(target.place, path, unknown_table(target.table));
+  }
+  if (std::find(table->keys.begin(), table->keys.end(), target.key) == table->keys.end()) {
+    throw SceneError(target.place, path, unknown_key(*table, target.key));
+  }
+}
+
+/// Fills in table and key.
+void split_path(OverriddenKey& target, const std::string& path) {
+  if (path.find('[') != std::string::npos || std::count(path.begin(), path.end(), '.') > 1) {
+    throw SceneError(target.place, path, fmt::format("a part of a value cannot be set; {}", form));
+  }
+  const std::size_t dot = path.find('.');
+  target.table = path.substr(0, dot);
+  if (dot == std::string::npos) {
+    throw SceneError(target.place, path,
+                     find_table(path) != nullptr
+                         ? fmt::format("a whole table cannot be set; {}", form)
+                         : unknown_table(path));
+  }
+  target.key = path.substr(dot + 1);
+}
+
+}  // namespace
+
+toml::table parse_value(const std::string& value, const std::string& key, const Location& place) {
+  toml::table holder;
+  try {
+    holder = parse_toml("value = " + value, place.file);
+  } catch (const SceneError& error) {
+    if (!is_bare_word(value)) {
+      throw SceneError(place, key,
+                       fmt::format("{}; allowed: a TOML value or a bare word", error.message()));
+    }
+    holder.insert("value", value);
+  }
+  if (holder.size() != 1) {
+    throw SceneError(place, key, "more than one value; allowed: one TOML value or a bare word");
+  }
+  return holder;
+}
+
+OverriddenKey parse_overridden_key(const std::string& path, std::size_t ordinal) {
+  OverriddenKey target;
+  target.place = {"--set", ordinal, 1};
+  if (path.empty()) {
+    throw SceneError(target.place, "--set", fmt::format("no key; {}", form));
+  }
+  split_path(target, path);
+  check_names(target, path);
+  return target;
+}
+
+Override parse_override(const std::string& text, std::size_t ordinal) {
+  const std::size_t equals = text.find('=');
+  const std::string path = text.substr(0, equals);
+  if (equals == std::string::npos && !path.empty()) {
+    throw SceneError({"--set", ordinal, 1}, path, fmt::format("no value; {}", form));
+  }
+  OverriddenKey target = parse_overridden_key(path, ordinal);
+  const std::string value = text.substr(equals + 1);
+  if (value.empty()) {
+    return {std::move(target), std::nullopt};
+  }
+  toml::table holder = parse_value(value, path, target.place);
+  return {std::move(target), std::move(holder)};
+}
+
+}  // namespace sonoglide::scene_file

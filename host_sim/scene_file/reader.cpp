@@ -1,0 +1,122 @@
+#include "host_sim/scene_file/reader.hpp"
+
+#include <fmt/format.h>
+
+#include "host_sim/configure/configuration_error.hpp"
+#include "host_sim/configure/control_design.hpp"
+#include "host_sim/configure/solver_facts.hpp"
+#include "host_sim/configure/solver_methods.hpp"
+#include "host_sim/scene/names.hpp"
+#include "host_sim/scene_file/sections.hpp"
+#include "host_sim/scene_file/variant.hpp"
+
+namespace sonoglide::scene_file {
+namespace {
+
+/// The words of those for which `holds(method)`.
+template <class Condition>
+std::string methods_that(const Condition& holds) {
+  std::string words;
+  for (const scene::Named<scene::SolverMethod>& each : configure::solver_methods) {
+    if (holds(each.value)) {
+      words += fmt::format("{}\"{}\"", words.empty() ? "" : ", ", each.name);
+    }
+  }
+  return words;
+}
+
+void require_solvable(const scene::Scene& scene, const Document& document) {
+  const scene::SolverMethod method = scene.solver.method;
+  if (configure::solves(method, scene.friction.law)) {
+    return;
+  }
+  const std::string allowed = methods_that(
+      [&](scene::SolverMethod each) { return configure::solves(each, scene.friction.law); });
+  const char* key = "solver.method";
+  throw SceneError(
+      document.place_of(key), key,
+      fmt::format("\"{}\" does not solve the friction law \"{}\"; allowed: {}",
+                  configure::name_of(method), scene::name_of(scene.friction.law), allowed));
+}
+
+bool follows_straight_drives(scene::SolverMethod method) {
+  return configure::with_solver(
+      method, [](auto solver) { return !decltype(solver)::straight_orders.empty(); });
+}
+
+/// A drive of straight pieces is solved by fewer methods, and in one order.
+void settle_waveform(scene::Scene& scene, const Document& document) {
+  if (!scene.drive || scene.drive->waveform == scene::Waveform::cosine) {
+    return;
+  }
+  const auto fail = [&](const char* key, std::string_view value, std::string_view allowed) {
+    throw SceneError(document.place_of(key), key,
+                     fmt::format("{} does not follow the waveform \"{}\"; allowed: {}", value,
+                                 scene::name_of(scene::waveforms, scene.drive->waveform), allowed));
+  };
+  scene::Solver& solver = scene.solver;
+  if (!follows_straight_drives(solver.method)) {
+    fail("solver.method", configure::name_of(solver.method), methods_that(follows_straight_drives));
+  }
+  const std::optional<int> only = configure::with_solver(solver.method, [](auto described) {
+    using Described = decltype(described);
+    std::optional<int> order;
+    if constexpr (Described::takes_order && !Described::straight_orders.empty()) {
+      order = Described::straight_orders[0];
+    }
+    return order;
+  });
+  if (only && solver.order.value_or(*only) != *only) {
+    fail("solver.order", std::to_string(*solver.order), std::to_string(*only));
+  }
+  solver.order = only;
+}
+
+/// A closed loop needs a controller that can be designed.
+void require_controller(const scene::Scene& scene, const Document& document) {
+  try {
+    configure::design_control(scene);
+  } catch (const configure::ConfigurationError& error) {
+    throw SceneError(document.place_of(error.key()), error.key(), error.what());
+  }
+}
+
+}  // namespace
+
+scene::Scene read(const Document& document, const std::vector<VariedValue>& values,
+                  UnusedKeys* unused) {
+  const Variant variant(document, values, unused);
+  scene::Scene scene;
+  scene.name = document.name();
+  scene.plant = read_plant(variant);
+  scene.friction = read_friction(variant, scene.plant);
+  scene.sliding = read_sliding(variant, scene.friction);
+  scene.drive = read_drive(variant);
+  scene.solver = read_solver(variant);
+  require_solvable(scene, document);
+  settle_waveform(scene, document);
+  scene.run = read_run(variant, scene);
+  scene.controller = read_controller(variant, scene);
+  scene.sensor = read_sensor(variant, scene.friction);
+  scene.model_error = read_model_error(variant, scene.friction);
+  if (scene.controller) {
+    require_controller(scene, document);
+  }
+  return scene;
+}
+
+scene::Scene read_text(std::string_view text, const std::string& file,
+                       const std::vector<std::string>& overrides) {
+  return read(Source{file, std::string(text)}, overrides);
+}
+
+scene::Scene read(const Source& source, const std::vector<std::string>& overrides) {
+  return read(Document(source, overrides));
+}
+
+scene::Scene read_file(const std::filesystem::path& path,
+                       const std::vector<std::string>& overrides) {
+  return read(read_source(path), overrides);
+}
+
+}  // namespace sonoglide::scene_file

@@ -1,0 +1,58 @@
+#include "host_sim/scene_file/source.hpp"
+
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <fstream>
+#include <iostream>
+#include <string_view>
+#include <system_error>
+
+#include "host_sim/scene_file/document.hpp"
+#include "host_sim/text/printable.hpp"
+
+namespace sonoglide::scene_file {
+namespace {
+
+constexpr std::string_view allowed_file = "allowed: a readable TOML file";
+
+[[noreturn]] void fail_to_read(const std::string& file, std::string_view why) {
+  throw SceneError({file, 1, 1}, "scene", fmt::format("{}; {}", why, allowed_file));
+}
+
+/// One byte more than a scene may have is enough to tell.
+std::string bytes_of(std::istream& stream, const std::string& file) {
+  std::string bytes(Document::max_bytes + 1, '\0');
+  stream.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  if (stream.bad()) {
+    fail_to_read(file, "cannot be read");
+  }
+  bytes.resize(static_cast<std::size_t>(stream.gcount()));
+  return bytes;
+}
+
+}  // namespace
+
+std::string Source::name() const {
+  return file == standard_input ? "stdin"
+                                : text::printable(std::filesystem::path(file).stem().string());
+}
+
+Source read_source(const std::filesystem::path& path) {
+  if (path == "-") {
+    return {Source::standard_input, bytes_of(std::cin, Source::standard_input)};
+  }
+  const std::string file = path.string();
+  std::error_code error;
+  if (std::filesystem::is_directory(path, error)) {
+    fail_to_read(file, "is a directory");
+  }
+  errno = 0;
+  std::ifstream stream(path, std::ios::binary);
+  if (!stream) {
+    fail_to_read(file, std::generic_category().message(errno));
+  }
+  return {file, bytes_of(stream, file)};
+}
+
+}  // namespace sonoglide::scene_file

@@ -1,0 +1,65 @@
+#include "host_sim/scene_file/suggestion.hpp"
+
+#include <algorithm>
+
+namespace sonoglide::scene_file {
+namespace {
+
+/// Longer names are not typing errors, and the distance costs the product of both lengths.
+constexpr std::size_t longest_name = 64;
+
+char lower(char c) {
+  return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+}
+
+bool lacks_only_unit(std::string_view name, std::string_view known) {
+  return !name.empty() && known.size() > name.size() && known.substr(0, name.size()) == name &&
+         known[name.size()] == '_';
+}
+
+}  // namespace
+
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> before_last(b.size() + 1);
+  std::vector<std::size_t> last(b.size() + 1);
+  std::vector<std::size_t> current(b.size() + 1);
+  for (std::size_t j = 0; j <= b.size(); ++j) {
+    last[j] = j;
+  }
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    current[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const bool same = lower(a[i - 1]) == lower(b[j - 1]);
+      current[j] = std::min({last[j] + 1, current[j - 1] + 1, last[j - 1] + (same ? 0U : 1U)});
+      if (i > 1 && j > 1 && lower(a[i - 1]) == lower(b[j - 2]) &&
+          lower(a[i - 2]) == lower(b[j - 1])) {
+        current[j] = std::min(current[j], before_last[j - 2] + 1);
+      }
+    }
+    before_last.swap(last);
+    last.swap(current);
+  }
+  return last[b.size()];
+}
+
+std::optional<std::string_view> nearest_name(std::string_view name,
+                                             const std::vector<std::string_view>& known) {
+  if (name.size() > longest_name) {
+    return std::nullopt;
+  }
+  std::optional<std::string_view> nearest;
+  std::size_t least = 0;
+  for (const std::string_view candidate : known) {
+    const std::size_t distance =
+        lacks_only_unit(name, candidate) ? 1 : edit_distance(name, candidate);
+    const std::size_t limit = std::max<std::size_t>(2, std::max(name.size(), candidate.size()) / 4);
+    // A name shorter than the limit is near to everything.
+    if (distance <= limit && distance < name.size() && (!nearest || distance < least)) {
+      nearest = candidate;
+      least = distance;
+    }
+  }
+  return nearest;
+}
+
+}  // namespace sonoglide::scene_file

@@ -1,0 +1,340 @@
+#include "host_sim/scene_file/table_cursor.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include "host_sim/scene_file/suggestion.hpp"
+#include "host_sim/scene_file/toml_text.hpp"
+
+namespace sonoglide::scene_file {
+namespace {
+
+std::string allowed_number(const Range& range) {
+  return fmt::format("a number, {}", range.text());
+}
+
+std::string allowed_integer(std::int64_t low, std::int64_t high) {
+  return fmt::format("an integer, {} to {}", low, high);
+}
+
+/// A word of the file, short enough for a message.
+std::string quoted(const std::string& text) {
+  constexpr std::size_t longest = 60;
+  return text.size() <= longest ? fmt::format("\"{}\"", text)
+                                : fmt::format("\"{}\"…", text.substr(0, longest));
+}
+
+/// An integer too large for every bit of it to fit is rounded.
+double number_in(const toml::node& node) {
+  const toml::value<std::int64_t>* whole = node.as_integer();
+  return whole != nullptr ? static_cast<double>(whole->get()) : node.as_floating_point()->get();
+}
+
+/// Overrides follow the file.
+bool earlier(const Entry& a, const Entry& b) {
+  return std::tuple(a.overridden, a.key_place.line, a.key_place.column) <
+         std::tuple(b.overridden, b.key_place.line, b.key_place.column);
+}
+
+}  // namespace
+
+TableCursor::TableCursor(const Variant& variant, std::string_view name)
+    : variant_(variant), name_(name), table_(variant.find(name)) {}
+
+const Entry* TableCursor::find(std::string_view key) const {
+  if (table_ == nullptr) {
+    return nullptr;
+  }
+  const auto found = table_->entries.find(key);
+  return found == table_->entries.end() ? nullptr : &found->second;
+}
+
+const Entry* TableCursor::take(std::string_view key) {
+  const Entry* entry = find(key);
+  if (entry != nullptr) {
+    read_.set(entry->position);
+  }
+  return entry;
+}
+
+std::string TableCursor::path_of(const Part& part) const {
+  std::string path = fmt::format("{}.{}", name_, part.key);
+  for (const std::optional<std::size_t>& index : {part.element, part.member}) {
+    path += index ? fmt::format("[{}]", *index) : "";
+  }
+  return path;
+}
+
+Location TableCursor::place() const {
+  return table_ != nullptr ? table_->place : variant_.document().start();
+}
+
+Location TableCursor::place_of(std::string_view key) const {
+  const Entry* entry = find(key);
+  return entry != nullptr ? entry->value_place : place();
+}
+
+void TableCursor::fail(std::string_view key, const std::string& message) const {
+  throw SceneError(place_of(key), path_of({key}), message);
+}
+
+void TableCursor::fail(const std::string& message) const {
+  throw SceneError(place(), std::string(name_), message);
+}
+
+void TableCursor::fail_missing(std::string_view key, const std::string& allowed) const {
+  fail(key, fmt::format("missing; required: {}", allowed));
+}
+
+void TableCursor::fail_part(const Entry& entry, const toml::node& node, const Part& part,
+                            const std::string& message) const {
+  throw SceneError(entry.place_of(node), path_of(part), message);
+}
+
+const std::pair<const std::string, Entry>* TableCursor::first_unread() const {
+  const std::pair<const std::string, Entry>* first = nullptr;
+  if (table_ == nullptr) {
+    return first;
+  }
+  for (const auto& item : table_->entries) {
+    if (!read_[item.second.position] && (first == nullptr || earlier(item.second, first->second))) {
+      first = &item;
+    }
+  }
+  return first;
+}
+
+void TableCursor::reject_unread(std::string_view reason) const {
+  const auto* unread = first_unread();
+  if (unread == nullptr) {
+    return;
+  }
+  if (variant_.unused() == nullptr) {
+    reject(unread->first, reason);
+  }
+  for (const auto& [key, entry] : table_->entries) {
+    if (!read_[entry.position]) {
+      reject(key, reason);
+    }
+  }
+}
+
+void TableCursor::reject(std::string_view key, std::string_view reason) const {
+  if (variant_.unused() == nullptr) {
+    throw SceneError(find(key)->key_place, path_of({key}),
+                     fmt::format("not used {}; remove it", reason));
+  }
+  variant_.unused()->insert(path_of({key}));
+}
+
+void TableCursor::reject_unread_with(std::string_view key, std::string_view word) const {
+  if (first_unread() != nullptr) {
+    reject_unread(fmt::format("with {} = \"{}\"", key, word));
+  }
+}
+
+double TableCursor::real_in(const Entry& entry, const toml::node& node, const Part& part,
+                            const Range& range) const {
+  if (!node.is_number()) {
+    fail_part(entry, node, part,
+              fmt::format("is {}; allowed: {}", kind_of(node), allowed_number(range)));
+  }
+  const double value = number_in(node);
+  if (!std::isfinite(value)) {
+    fail_part(entry, node, part, fmt::format("is not finite; allowed: {}", allowed_number(range)));
+  }
+  if (!range.contains(value)) {
+    fail_part(entry, node, part,
+              fmt::format("{} is out of range; allowed: {}", value, range.text()));
+  }
+  return value;
+}
+
+double TableCursor::real(std::string_view key, const Range& range) {
+  const std::optional<double> value = optional_real(key, range);
+  if (!value) {
+    fail_missing(key, allowed_number(range));
+  }
+  return *value;
+}
+
+std::optional<double> TableCursor::optional_real(std::string_view key, const Range& range) {
+  const Entry* entry = take(key);
+  if (entry == nullptr) {
+    return std::nullopt;
+  }
+  return real_in(*entry, variant_.value(*entry), {key}, range);
+}
+
+double TableCursor::real(std::string_view key, const Range& range, double absent) {
+  return optional_real(key, range).value_or(absent);
+}
+
+std::optional<std::int64_t> TableCursor::optional_integer(std::string_view key, std::int64_t low,
+                                                          std::int64_t high) {
+  const Entry* entry = take(key);
+  if (entry == nullptr) {
+    return std::nullopt;
+  }
+  const toml::node& node = variant_.value(*entry);
+  const toml::value<std::int64_t>* value = node.as_integer();
+  if (value == nullptr) {
+    fail(key, fmt::format("is {}; allowed: {}", kind_of(node), allowed_integer(low, high)));
+  }
+  if (value->get() < low || value->get() > high) {
+    fail(key, fmt::format("{} is out of range; allowed: {} to {}", value->get(), low, high));
+  }
+  return value->get();
+}
+
+std::int64_t TableCursor::integer(std::string_view key, std::int64_t low, std::int64_t high,
+                                  std::int64_t absent) {
+  return optional_integer(key, low, high).value_or(absent);
+}
+
+std::size_t TableCursor::word_in(const Entry& entry, const toml::node& node, const Part& part,
+                                 const Words& allowed) const {
+  const toml::value<std::string>* text = node.as_string();
+  if (text != nullptr) {
+    const auto* found = std::find(allowed.begin(), allowed.end(), text->get());
+    if (found != allowed.end()) {
+      return static_cast<std::size_t>(found - allowed.begin());
+    }
+  }
+  const std::string list =
+      fmt::format("\"{}\"", fmt::join(allowed.begin(), allowed.end(), "\", \""));
+  if (text == nullptr) {
+    fail_part(entry, node, part, fmt::format("is {}; allowed: {}", kind_of(node), list));
+  }
+  const auto nearest = nearest_name(text->get(), {allowed.begin(), allowed.end()});
+  fail_part(entry, node, part,
+            fmt::format("{} is unknown; {}allowed: {}", quoted(text->get()),
+                        nearest ? fmt::format("did you mean \"{}\"? ", *nearest) : "", list));
+}
+
+std::size_t TableCursor::word(std::string_view key, const Words& allowed) {
+  const Entry* entry = take(key);
+  if (entry == nullptr) {
+    fail_missing(key, fmt::format("\"{}\"", fmt::join(allowed.begin(), allowed.end(), "\" or \"")));
+  }
+  return word_in(*entry, variant_.value(*entry), {key}, allowed);
+}
+
+std::vector<std::size_t> TableCursor::words(std::string_view key, const Words& allowed) {
+  std::vector<std::size_t> indices;
+  const Entry* entry = take(key);
+  if (entry == nullptr) {
+    return indices;
+  }
+  const toml::node& value = variant_.value(*entry);
+  const toml::array* list = value.as_array();
+  if (list == nullptr) {
+    fail(key, fmt::format("is {}; allowed: a list of \"{}\"", kind_of(value),
+                          fmt::join(allowed.begin(), allowed.end(), "\", \"")));
+  }
+  for (std::size_t i = 0; i < list->size(); ++i) {
+    const toml::node& node = (*list)[i];
+    const Part part{key, i};
+    const std::size_t index = word_in(*entry, node, part, allowed);
+    if (std::find(indices.begin(), indices.end(), index) != indices.end()) {
+      fail_part(*entry, node, part,
+                fmt::format("\"{}\" is there twice; allowed: each once", allowed.first[index]));
+    }
+    indices.push_back(index);
+  }
+  return indices;
+}
+
+TableCursor::Pair TableCursor::pair_in(const Entry& entry, const toml::node& node, const Part& part,
+                                       const Range& time, const Range& value) const {
+  const toml::array* pair = node.as_array();
+  if (pair == nullptr || pair->size() != 2) {
+    const std::string found =
+        pair == nullptr ? std::string(kind_of(node)) : fmt::format("an array of {}", pair->size());
+    fail_part(entry, node, part, fmt::format("is {}; allowed: a pair [time in s, number]", found));
+  }
+  return {real_in(entry, (*pair)[0], {part.key, part.element, 0}, time),
+          real_in(entry, (*pair)[1], {part.key, part.element, 1}, value)};
+}
+
+void TableCursor::check_time(const Entry& entry, const toml::node& node, const Part& part,
+                             const std::vector<Pair>& earlier, double time_s, Times times) const {
+  const std::size_t count = earlier.size();
+  if (count == 0 || time_s > earlier.back()[0]) {
+    return;
+  }
+  const double last_s = earlier.back()[0];
+  if (times == Times::rise) {
+    fail_part(
+        entry, node, part,
+        fmt::format("time {} s is not after {} s; allowed: times that increase", time_s, last_s));
+  }
+  if (time_s < last_s) {
+    fail_part(entry, node, part,
+              fmt::format("time {} s is before {} s; allowed: times that increase, or two of one "
+                          "time for a jump",
+                          time_s, last_s));
+  }
+  if (count > 1 && earlier[count - 2][0] == time_s) {
+    fail_part(
+        entry, node, part,
+        fmt::format("is the third pair of time {} s; allowed: at most two, for a jump", time_s));
+  }
+}
+
+std::vector<TableCursor::Pair> TableCursor::timed_values(std::string_view key, const Range& time,
+                                                         const Range& value, Times times) {
+  constexpr const char* allowed = "a list of pairs [[time in s, number], …]";
+  const Entry* entry = take(key);
+  if (entry == nullptr) {
+    fail_missing(key, allowed);
+  }
+  const toml::node& node = variant_.value(*entry);
+  const toml::array* list = node.as_array();
+  if (list == nullptr) {
+    fail(key, fmt::format("is {}; allowed: {}", kind_of(node), allowed));
+  }
+  if (list->empty()) {
+    fail(key, "is empty; allowed: at least one pair [time in s, number]");
+  }
+  std::vector<Pair> pairs;
+  for (std::size_t i = 0; i < list->size(); ++i) {
+    const toml::node& element = (*list)[i];
+    const Pair pair = pair_in(*entry, element, {key, i}, time, value);
+    check_time(*entry, element, {key, i}, pairs, pair[0], times);
+    pairs.push_back(pair);
+  }
+  return pairs;
+}
+
+std::optional<std::string_view> TableCursor::at_most_one_of(std::string_view first,
+                                                            std::string_view second) const {
+  if (has(first) && has(second)) {
+    const bool first_is_later = earlier(*find(second), *find(first));
+    const std::string_view later = first_is_later ? first : second;
+    const std::string_view other = first_is_later ? second : first;
+    throw SceneError(find(later)->key_place, path_of({later}),
+                     fmt::format("excludes {}; allowed: one of the two", other));
+  }
+  if (has(first)) {
+    return first;
+  }
+  if (has(second)) {
+    return second;
+  }
+  return std::nullopt;
+}
+
+std::string_view TableCursor::one_of(std::string_view first, std::string_view second) const {
+  const auto found = at_most_one_of(first, second);
+  if (!found) {
+    fail(first, fmt::format("missing; required: {} or {}", first, second));
+  }
+  return *found;
+}
+
+}  // namespace sonoglide::scene_file

@@ -1,0 +1,143 @@
+/// Reads the values of one scene table, each checked, and knows which of them were asked for.
+#pragma once
+
+#include <array>
+#include <bitset>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "host_sim/scene/names.hpp"
+#include "host_sim/scene_file/range.hpp"
+#include "host_sim/scene_file/schema.hpp"
+#include "host_sim/scene_file/variant.hpp"
+
+namespace sonoglide::scene_file {
+
+/// Every reading call throws SceneError where the value is not what it asks for; the calls without
+/// a default also where the value is missing.
+class TableCursor {
+ public:
+  /// @param variant, name  outlive the cursor; the values of an absent table are all missing
+  TableCursor(const Variant& variant, std::string_view name);
+
+  bool present() const { return table_ != nullptr; }
+  bool has(std::string_view key) const { return find(key) != nullptr; }
+
+  /// An integer is taken where a real number is meant, never the other way round.
+  double real(std::string_view key, const Range& range);
+  double real(std::string_view key, const Range& range, double absent);
+  std::optional<double> optional_real(std::string_view key, const Range& range);
+
+  std::int64_t integer(std::string_view key, std::int64_t low, std::int64_t high,
+                       std::int64_t absent);
+  std::optional<std::int64_t> optional_integer(std::string_view key, std::int64_t low,
+                                               std::int64_t high);
+
+  template <class Value, std::size_t Count>
+  Value choice(std::string_view key, const std::array<scene::Named<Value>, Count>& names) {
+    const auto list = list_of(names);
+    return names[word(key, {list.data(), Count})].value;
+  }
+  template <class Value, std::size_t Count>
+  Value choice(std::string_view key, const std::array<scene::Named<Value>, Count>& names,
+               Value absent) {
+    return has(key) ? choice(key, names) : absent;
+  }
+  /// A list of different words; empty where absent.
+  template <class Value, std::size_t Count>
+  std::vector<Value> choices(std::string_view key,
+                             const std::array<scene::Named<Value>, Count>& names) {
+    const auto list = list_of(names);
+    std::vector<Value> values;
+    for (const std::size_t index : words(key, {list.data(), Count})) {
+      values.push_back(names[index].value);
+    }
+    return values;
+  }
+
+  using Pair = std::array<double, 2>;
+  /// rise: each is after the one before. jump: two in succession may be one, at a jump.
+  enum class Times { rise, jump };
+  /// `[[time_s, value], …]`: at least one pair.
+  std::vector<Pair> timed_values(std::string_view key, const Range& time, const Range& value,
+                                 Times times = Times::rise);
+
+  /// The one of two keys that is there; it is an error if both or neither are.
+  std::string_view one_of(std::string_view first, std::string_view second) const;
+  /// The one of two keys that is there, or none; it is an error if both are.
+  std::optional<std::string_view> at_most_one_of(std::string_view first,
+                                                 std::string_view second) const;
+
+  /// Throws for the key; at the table where the key is absent, at the file's start without table.
+  [[noreturn]] void fail(std::string_view key, const std::string& message) const;
+  /// Throws for the table as a whole.
+  [[noreturn]] void fail(const std::string& message) const;
+  /// Throws for the first value in the file that nothing has asked for: a scene may hold nothing
+  /// that is silently ignored. Where the variant takes unused keys, it gets all of them instead.
+  void reject_unread(std::string_view reason) const;
+  /// The same, the reason being the word that another key has.
+  void reject_unread_with(std::string_view key, std::string_view word) const;
+  /// The same for one key that is there.
+  void reject(std::string_view key, std::string_view reason) const;
+
+ private:
+  /// What a choice allows.
+  struct Words {
+    const std::string_view* first;
+    std::size_t count;
+
+    const std::string_view* begin() const { return first; }
+    const std::string_view* end() const { return first + count; }
+  };
+  template <class Value, std::size_t Count>
+  static std::array<std::string_view, Count> list_of(
+      const std::array<scene::Named<Value>, Count>& names) {
+    std::array<std::string_view, Count> list;
+    for (std::size_t i = 0; i < Count; ++i) {
+      list[i] = names[i].name;
+    }
+    return list;
+  }
+
+  /// A value, or a part of one: spelt out only where an error needs it.
+  struct Part {
+    std::string_view key;
+    std::optional<std::size_t> element = std::nullopt;
+    std::optional<std::size_t> member = std::nullopt;  ///< of the element
+  };
+
+  const Entry* find(std::string_view key) const;
+  /// Marks the key as read; null where absent.
+  const Entry* take(std::string_view key);
+  /// The first value that nothing has asked for, options after the file; null if there is none.
+  const std::pair<const std::string, Entry>* first_unread() const;
+  Location place() const;
+  Location place_of(std::string_view key) const;
+  std::string path_of(const Part& part) const;
+  [[noreturn]] void fail_missing(std::string_view key, const std::string& allowed) const;
+  [[noreturn]] void fail_part(const Entry& entry, const toml::node& node, const Part& part,
+                              const std::string& message) const;
+
+  double real_in(const Entry& entry, const toml::node& node, const Part& part,
+                 const Range& range) const;
+  std::size_t word_in(const Entry& entry, const toml::node& node, const Part& part,
+                      const Words& allowed) const;
+  std::size_t word(std::string_view key, const Words& allowed);
+  std::vector<std::size_t> words(std::string_view key, const Words& allowed);
+  Pair pair_in(const Entry& entry, const toml::node& node, const Part& part, const Range& time,
+               const Range& value) const;
+  void check_time(const Entry& entry, const toml::node& node, const Part& part,
+                  const std::vector<Pair>& earlier, double time_s, Times times) const;
+
+  const Variant& variant_;
+  std::string_view name_;
+  const Table* table_;
+  std::bitset<most_keys> read_;  ///< by Entry::position
+};
+
+}  // namespace sonoglide::scene_file

@@ -1,0 +1,88 @@
+#include "host_sim/studies/arithmetic/comparison.hpp"
+
+#include <cstddef>
+
+#include "host_sim/emulated/controller_header.hpp"
+#include "host_sim/emulated/run_image.hpp"
+
+namespace sonoglide::arithmetic {
+namespace {
+
+/// Targets 0.05, 0.10 … 0.95.
+constexpr int last_target = 19;
+constexpr double target_spacing = 0.05;
+
+scene::Scene in_arithmetic(scene::Scene scene, scene::Arithmetic arithmetic) {
+  scene.controller.value().arithmetic = arithmetic;
+  return scene;
+}
+
+scene::Scene at_target(scene::Scene scene, double target) {
+  scene.controller.value().target_friction_ratio = {{0.0, target}};
+  return scene;
+}
+
+control::Fault first_fault(const loop::RunResult& result) {
+  const std::vector<loop::FaultEvent>& faults = result.control->faults;
+  return faults.empty() ? control::Fault::none : faults.front().fault;
+}
+
+loop::Watch watch(Course& course, const process::Attention& attention) {
+  return {{&course}, {}, [&attention](double) { attention(); }};
+}
+
+ImageRow image_row(const scene::Scene& scene, const emulated::EmulatedBoard& board,
+                   const Course& exact, const process::Attention& attention) {
+  Course course(scene);
+  const loop::RunResult result = emulated::run_image(
+      scene, board, emulated::controller_header(scene), watch(course, attention), attention);
+  emulated::require_same(result);
+  return {&board, scene.controller->arithmetic, precision(course, exact), first_fault(result),
+          *result.image};
+}
+
+std::vector<TargetRow> rows_at(const scene::Scene& scene, double target,
+                               const process::Attention& attention) {
+  const scene::Scene steady = at_target(scene, target);
+  Course exact(steady);
+  loop::run(in_arithmetic(steady, scene::Arithmetic::float64), watch(exact, attention));
+  std::vector<TargetRow> rows;
+  for (const scene::Arithmetic arithmetic : all_arithmetics) {
+    Course course(steady);
+    const loop::RunResult result =
+        loop::run(in_arithmetic(steady, arithmetic), watch(course, attention));
+    rows.push_back({target, arithmetic, precision(course, exact), course.steps().front().limit,
+                    first_fault(result)});
+  }
+  return rows;
+}
+
+}  // namespace
+
+Comparison compare(const scene::Scene& scene,
+                   const std::vector<const emulated::EmulatedBoard*>& boards,
+                   const process::Attention& attention,
+                   const std::function<void(double)>& progress) {
+  Course exact(scene);
+  loop::run(in_arithmetic(scene, scene::Arithmetic::float64), watch(exact, attention));
+  Comparison comparison;
+  const auto steps = static_cast<double>(boards.size() * all_arithmetics.size() + 1);
+  double done = 0.0;
+  for (const emulated::EmulatedBoard* board : boards) {
+    for (const scene::Arithmetic arithmetic : all_arithmetics) {
+      progress(done++ / steps);
+      if (arithmetic != scene::Arithmetic::float64 || board->computes_double) {
+        comparison.images.push_back(
+            image_row(in_arithmetic(scene, arithmetic), *board, exact, attention));
+      }
+    }
+  }
+  for (int i = 1; i <= last_target; ++i) {
+    for (const TargetRow& row : rows_at(scene, i * target_spacing, attention)) {
+      comparison.targets.push_back(row);
+    }
+  }
+  return comparison;
+}
+
+}  // namespace sonoglide::arithmetic

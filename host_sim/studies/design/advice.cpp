@@ -1,0 +1,237 @@
+#include "host_sim/studies/design/advice.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "host_sim/studies/design/quantity.hpp"
+
+namespace sonoglide::design {
+namespace {
+
+double most_N(const Study& study) {
+  return study.task.scene.drive->max_force_amplitude_N;
+}
+
+std::string speed(double value_m_per_s) {
+  return quantity(value_m_per_s, "m/s");
+}
+
+std::string force(double value_N) {
+  return fmt::format("{:.4g} N", value_N);
+}
+
+const RatioCurve& curve_of(const Study& study, double ratio) {
+  return *std::find_if(study.curves.begin(), study.curves.end(),
+                       [&](const RatioCurve& curve) { return curve.ratio == ratio; });
+}
+
+/// Up to which speed a ratio is to be had; empty where that is not known.
+std::string reach(const Study& study, double ratio) {
+  const double fastest_m_per_s = curve_of(study, ratio).fastest_m_per_s;
+  return std::isfinite(fastest_m_per_s)
+             ? fmt::format("within reach up to {}", speed(fastest_m_per_s))
+             : std::string();
+}
+
+/// Nothing where the ratio is within reach.
+std::string shortfall(const Study& study, const Requirement& point) {
+  const std::string where =
+      fmt::format("Ratio {:g} at {}", point.ratio, speed(point.sliding_m_per_s));
+  switch (point.limit) {
+    case Limit::actuator: {
+      const std::string slower = reach(study, point.ratio);
+      return fmt::format(
+          "{} is beyond the drive: it takes {}, {:.3g} times the {} that there are. The nearest at "
+          "this speed is {:.4f}{}.",
+          where, force(point.motion.drive_force_N), point.motion.drive_force_N / most_N(study),
+          force(most_N(study)), point.reachable_ratio,
+          slower.empty() ? "" : fmt::format("; {:g} is {}", point.ratio, slower));
+    }
+    case Limit::amplitude:
+      return fmt::format(
+          "{} is not to be had: more vibration raises the friction again. The nearest is {:.4f}.",
+          where, point.reachable_ratio);
+    case Limit::no_orbit:
+      return fmt::format("{} has no steady vibration that was found: {}.", where, point.reason);
+    case Limit::undriven:
+    case Limit::none:
+      break;
+  }
+  return {};
+}
+
+/// The point of the most force for a ratio that is within reach.
+Advice drive(const Study& study, const Requirement& point) {
+  const std::string topic = fmt::format("Ratio {:g}", point.ratio);
+  if (point.limit == Limit::undriven) {
+    return {topic, "Needs no drive: it is what the contact has undriven."};
+  }
+  const std::string further = reach(study, point.ratio);
+  return {topic, fmt::format("Drive with {} ({:.3g} % of {}) at {}, a vibration of {} and {}{}.",
+                             force(point.motion.drive_force_N),
+                             100.0 * point.motion.drive_force_N / most_N(study),
+                             force(most_N(study)), speed(point.sliding_m_per_s),
+                             quantity(point.motion.displacement_amplitude_m, "m"),
+                             speed(point.motion.velocity_amplitude_m_per_s),
+                             further.empty() ? "" : "; " + further)};
+}
+
+Advice closed_form(const std::vector<DesignPoint>& points) {
+  const Requirement& worst = std::max_element(points.begin(), points.end(),
+                                              [](const DesignPoint& a, const DesignPoint& b) {
+                                                return std::abs(a.requirement.closed_form_error) <
+                                                       std::abs(b.requirement.closed_form_error);
+                                              })
+                                 ->requirement;
+  return {"Closed form",
+          fmt::format("Its force, {} against {}, misses ratio {:g} at {} by {:+.2g}, as friction "
+                      "bends the motion that it takes for a sine; nowhere here by more.",
+                      force(worst.closed_form_force_N), force(worst.motion.drive_force_N),
+                      worst.ratio, speed(worst.sliding_m_per_s), worst.closed_form_error)};
+}
+
+Advice power(const std::vector<DesignPoint>& points) {
+  const Requirement& point = std::max_element(points.begin(), points.end(),
+                                              [](const DesignPoint& a, const DesignPoint& b) {
+                                                return a.requirement.motion.drive_power_W <
+                                                       b.requirement.motion.drive_power_W;
+                                              })
+                                 ->requirement;
+  const SteadyMotion& motion = point.motion;
+  const auto watts = [](double value_W) { return quantity(value_W, "W"); };
+  return {"Power",
+          fmt::format("The drive puts in most for ratio {:g} at {}: {}, of which damping takes {}; "
+                      "friction takes {}, undriven {}. On another spring these stay; what passes "
+                      "to and fro between drive and mass, Fe v/2 = {}, falls towards resonance. "
+                      "The piezo's electrical side is not modelled.",
+                      point.ratio, speed(point.sliding_m_per_s), watts(motion.drive_power_W),
+                      watts(motion.damping_power_W), watts(motion.friction_power_W),
+                      watts(motion.undriven_friction_power_W), watts(motion.apparent_power_W))};
+}
+
+double total_change(const DesignPoint& point) {
+  double sum = 0.0;
+  for (const Sensitivity& each : point.sensitivities) {
+    sum += each.largest_change();
+  }
+  return sum;
+}
+
+Advice accuracy(const Study& study, const std::vector<DesignPoint>& points) {
+  const DesignPoint& worst = *std::max_element(
+      points.begin(), points.end(),
+      [](const DesignPoint& a, const DesignPoint& b) { return total_change(a) < total_change(b); });
+  std::vector<Sensitivity> by_size = worst.sensitivities;
+  std::sort(by_size.begin(), by_size.end(), [](const Sensitivity& a, const Sensitivity& b) {
+    return a.largest_change() > b.largest_change();
+  });
+  const double total = total_change(worst);
+  const double band = study.task.scene.run.settling_band;
+  return {"Accuracy",
+          fmt::format("Without feedback 1 % in everything at once moves ratio {:g} at {} by up to "
+                      "{:.3f}, {} the settling band of {:g}. Most hangs on {} ({:.4f} for 1 %) and "
+                      "{} ({:.4f}).",
+                      worst.requirement.ratio, speed(worst.requirement.sliding_m_per_s), total,
+                      total > band ? "more than" : "within", band, by_size[0].parameter.symbol,
+                      by_size[0].largest_change(), by_size[1].parameter.symbol,
+                      by_size[1].largest_change())};
+}
+
+std::string frequency(const Study& study, double tuning) {
+  return quantity(std::sqrt(tuning) * study.task.scene.drive->frequency_Hz, "Hz");
+}
+
+/// The edge of the sensitive band below resonance, and what the drive needs there.
+std::string lower_edge(const Study& study, const Detuning& detuning) {
+  const double force_N = detuning.force_at_sensitive_low_N;
+  return fmt::format("at {:.3g} ({}) it takes {}{}", detuning.sensitive->low,
+                     frequency(study, detuning.sensitive->low), force(force_N),
+                     force_N > most_N(study) ? ", more than the drive has" : "");
+}
+
+/// Where the spring stands, seen from resonance.
+std::string position(const Study& study, const Detuning& detuning) {
+  const double allowed = study.task.scene.run.settling_band;
+  if (study.tuning > detuning.sensitive->high) {
+    return "above resonance, and far enough";
+  }
+  if (study.tuning < detuning.sensitive->low) {
+    return "below resonance, and far enough; a stiffer spring saves force, " +
+           lower_edge(study, detuning);
+  }
+  if (detuning.change_by_stiffness <= allowed) {
+    return fmt::format(
+        "on the flat top of a damped resonance, 1 % of Ks moves ratio {:g} by {:.4f}",
+        detuning.ratio, detuning.change_by_stiffness);
+  }
+  return fmt::format(
+      "too near to resonance, 1 % of Ks moves ratio {:g} by {:.4f}: leave that to feedback, or go "
+      "down, {}",
+      detuning.ratio, detuning.change_by_stiffness, lower_edge(study, detuning));
+}
+
+Advice resonance(const Study& study, const Detuning& detuning) {
+  const std::string here = fmt::format("Ks/(m w^2) = {:.3g}, natural frequency {}", study.tuning,
+                                       frequency(study, study.tuning));
+  if (!detuning.sensitive) {
+    return {"Resonance", here + ": at no tuning does 1 % of Ks cost the settling band."};
+  }
+  const TuningBand& band = *detuning.sensitive;
+  const std::string high =
+      band.high < largest_tuning ? fmt::format("to {:.3g}", band.high) : std::string("on");
+  return {"Resonance",
+          fmt::format("{}: {}. Stay out of the springs from {:.3g} {}, where 1 % of Ks may move "
+                      "the ratio by more than the settling band of {:g}.",
+                      here, position(study, detuning), band.low, high,
+                      study.task.scene.run.settling_band)};
+}
+
+Advice tuning_reach(const Detuning& detuning) {
+  const TuningBand& band = *detuning.reachable;
+  return {"Detuning",
+          fmt::format("The drive reaches ratio {:g} at {} for Ks/(m w^2) from {:.3g} to {:.3g}{}.",
+                      detuning.ratio, speed(detuning.sliding_m_per_s), band.low, band.high,
+                      band.low > smallest_tuning ? "" : ", and for less")};
+}
+
+}  // namespace
+
+std::vector<std::string> shortfalls(const Study& study) {
+  std::vector<std::string> all;
+  for (const DesignPoint& point : study.points) {
+    std::string sentence = shortfall(study, point.requirement);
+    if (!sentence.empty()) {
+      all.push_back(std::move(sentence));
+    }
+  }
+  return all;
+}
+
+std::vector<Advice> advice(const Study& study) {
+  std::vector<Advice> all;
+  for (const DesignPoint& point : study.points) {
+    const Requirement& each = point.requirement;
+    const bool hardest = each.sliding_m_per_s == study.task.speeds.fastest_m_per_s;
+    if (hardest && (each.limit == Limit::none || each.limit == Limit::undriven)) {
+      all.push_back(drive(study, each));
+    }
+  }
+  const std::vector<DesignPoint> points = moving_points(study);
+  if (!points.empty()) {
+    all.push_back(closed_form(points));
+    all.push_back(power(points));
+    all.push_back(accuracy(study, points));
+  }
+  if (!study.detunings.empty()) {
+    const Detuning& lowest = study.detunings.front();
+    all.push_back(resonance(study, lowest));
+    if (lowest.reachable) {
+      all.push_back(tuning_reach(lowest));
+    }
+  }
+  return all;
+}
+
+}  // namespace sonoglide::design

@@ -1,0 +1,166 @@
+#include "host_sim/studies/design/detuning.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "firmware/numeric/turn.hpp"
+#include "host_sim/loop/computation_error.hpp"
+#include "host_sim/studies/design/root.hpp"
+#include "host_sim/studies/design/sensitivity.hpp"
+
+namespace sonoglide::design {
+namespace {
+
+constexpr int points_a_side = 30;
+/// A tolerance of 1 % must not reach the other side of resonance.
+constexpr double nearest = 0.011;
+
+double inertia_N_per_m(const scene::Scene& scene) {
+  const double omega = numeric::two_pi * scene.drive->frequency_Hz;
+  return scene.plant.mass_kg * omega * omega;
+}
+
+/// Distances from resonance by the squares of equal steps, on either side of it.
+std::vector<double> tunings(double own) {
+  const double most_above = std::max(1.0, 1.25 * (own - 1.0));
+  std::vector<double> all;
+  all.reserve(2 * points_a_side);
+  for (const double most : {smallest_tuning - 1.0, most_above}) {
+    for (int i = 1; i <= points_a_side; ++i) {
+      const double part = static_cast<double>(i) / points_a_side;
+      all.push_back(1.0 + most * part * part);
+    }
+  }
+  std::sort(all.begin(), all.end());
+  return all;
+}
+
+/// One ratio at one speed, on any spring.
+class Retuning {
+ public:
+  Retuning(const scene::Scene& scene, const Requirement& requirement)
+      : scene_(scene), requirement_(requirement) {}
+
+  /// NaN where none is found.
+  double force_N(double tuning) const {
+    return require_ratio(retuned(scene_, tuning), requirement_.sliding_m_per_s, requirement_.ratio)
+        .motion.drive_force_N;
+  }
+
+  /// Of the ratio under the force that gives it, by 1 % of the spring.
+  double change(double tuning, double force_N) const {
+    try {
+      const scene::Scene steady = under(tuning, force_N);
+      const auto by = [&](double part) {
+        return std::abs(ratio_with(steady, stiffness(), 1.0 + part) - requirement_.ratio);
+      };
+      return std::max(by(parameter_change), by(-parameter_change));
+    } catch (const loop::ComputationError&) {
+      return undefined;
+    }
+  }
+
+  double ratio(double tuning, double force_N) const {
+    try {
+      return friction_ratio(under(tuning, force_N));
+    } catch (const loop::ComputationError&) {
+      return undefined;
+    }
+  }
+
+  DetunedPoint point(double tuning) const {
+    const double needed_N = force_N(tuning);
+    return {tuning, needed_N, change(tuning, needed_N),
+            ratio(tuning, requirement_.motion.drive_force_N)};
+  }
+
+  /// Farthest from resonance where the drive has the force.
+  /// @param side  -1 below resonance, 1 above
+  std::optional<double> reach(double side) const {
+    const double most_N = scene_.drive->max_force_amplitude_N;
+    return outermost(side, [&](double tuning) { return 1.0 - force_N(tuning) / most_N; });
+  }
+
+  /// Farthest from resonance where the spring counts for too much.
+  std::optional<double> sensitive(double side) const {
+    const double allowed = scene_.run.settling_band;
+    return outermost(
+        side, [&](double tuning) { return change(tuning, force_N(tuning)) / allowed - 1.0; });
+  }
+
+ private:
+  scene::Scene under(double tuning, double force_N) const {
+    return steady_scene(retuned(scene_, tuning), requirement_.sliding_m_per_s, force_N);
+  }
+
+  /// The tuning farthest from resonance at which a figure is positive, looked for at distances
+  /// that shrink by equal factors: the far end where it is so there, nothing where it nowhere is.
+  template <class Figure>
+  static std::optional<double> outermost(double side, const Figure& figure) {
+    constexpr int steps = 24;
+    const double far_end = side < 0.0 ? smallest_tuning : largest_tuning;
+    const double factor = std::pow(nearest / std::abs(far_end - 1.0), 1.0 / steps);
+    double last = far_end;
+    double last_figure = undefined;
+    for (int i = 0; i <= steps; ++i) {
+      const double tuning = i == 0 ? far_end : 1.0 + (far_end - 1.0) * std::pow(factor, i);
+      const double here = figure(tuning);
+      if (here > 0.0) {
+        return last_figure < 0.0
+                   ? root_between(figure, std::min(tuning, last), std::max(tuning, last))
+                   : tuning;
+      }
+      last = tuning;
+      last_figure = here;
+    }
+    return std::nullopt;
+  }
+
+  const scene::Scene& scene_;
+  const Requirement& requirement_;
+};
+
+std::optional<TuningBand> reachable_band(const Retuning& retuning) {
+  const auto below = retuning.reach(-1.0);
+  const auto above = retuning.reach(1.0);
+  return below && above ? std::optional(TuningBand{*below, *above}) : std::nullopt;
+}
+
+std::optional<TuningBand> sensitive_band(const Retuning& retuning) {
+  const auto below = retuning.sensitive(-1.0);
+  const auto above = retuning.sensitive(1.0);
+  return below || above ? std::optional(TuningBand{below.value_or(1.0), above.value_or(1.0)})
+                        : std::nullopt;
+}
+
+}  // namespace
+
+double tuning(const scene::Scene& scene) {
+  return scene.plant.stiffness_N_per_m / inertia_N_per_m(scene);
+}
+
+scene::Scene retuned(scene::Scene scene, double tuning) {
+  scene.plant.stiffness_N_per_m = tuning * inertia_N_per_m(scene);
+  return scene;
+}
+
+Detuning detune(const scene::Scene& scene, const Requirement& requirement) {
+  const Retuning retuning(scene, requirement);
+  Detuning detuning{requirement.sliding_m_per_s,
+                    requirement.ratio,
+                    {},
+                    reachable_band(retuning),
+                    sensitive_band(retuning),
+                    retuning.change(tuning(scene), requirement.motion.drive_force_N),
+                    undefined};
+  if (detuning.sensitive) {
+    detuning.force_at_sensitive_low_N = retuning.force_N(detuning.sensitive->low);
+  }
+  for (const double each : tunings(tuning(scene))) {
+    detuning.points.push_back(retuning.point(each));
+  }
+  return detuning;
+}
+
+}  // namespace sonoglide::design

@@ -1,0 +1,74 @@
+#include "host_sim/studies/design/report.hpp"
+
+#include <fmt/format.h>
+
+#include "host_sim/output/output_folder.hpp"
+#include "host_sim/output/page.hpp"
+#include "host_sim/studies/design/advice.hpp"
+#include "host_sim/studies/design/page.hpp"
+#include "host_sim/studies/design/quantity.hpp"
+#include "host_sim/studies/design/tables.hpp"
+#include "host_sim/text/printable.hpp"
+
+namespace sonoglide::design {
+namespace {
+
+std::string drive_line(const Requirement& point) {
+  const SteadyMotion& motion = point.motion;
+  return fmt::format("{:>10} {:>6.4g} {:>9} {:>10} {:>9} {:>9} {:>9} {:>9}  {}\n",
+                     quantity(point.sliding_m_per_s, "m/s"), point.ratio,
+                     quantity(motion.drive_force_N, "N"),
+                     quantity(motion.velocity_amplitude_m_per_s, "m/s"),
+                     quantity(motion.displacement_amplitude_m, "m"),
+                     quantity(motion.drive_power_W, "W"), quantity(motion.friction_power_W, "W"),
+                     quantity(motion.undriven_friction_power_W, "W"), name(point.limit));
+}
+
+std::string sensitivity_lines(const std::vector<DesignPoint>& points) {
+  if (points.empty()) {
+    return {};
+  }
+  std::string lines = fmt::format("\nd ln ratio / d ln p\n{:>10} {:>6}", "sliding", "ratio");
+  for (const Sensitivity& each : points.front().sensitivities) {
+    lines += fmt::format(" {:>7}", each.parameter.symbol);
+  }
+  for (const DesignPoint& point : points) {
+    lines += fmt::format("\n{:>10} {:>6.4g}", quantity(point.requirement.sliding_m_per_s, "m/s"),
+                         point.requirement.ratio);
+    for (const Sensitivity& each : point.sensitivities) {
+      lines += fmt::format(" {:>7.3f}", each.logarithmic);
+    }
+  }
+  return lines + '\n';
+}
+
+}  // namespace
+
+void write(const std::filesystem::path& out, const Study& study) {
+  const std::string html = output::to_html(page(study));
+  output::OutputFolder folder(out);
+  folder.write("report.html", html);
+  folder.write("design.json", to_json(study).dump(2) + '\n');
+  folder.write("design.csv", requirements_csv(study));
+  folder.write("detuning.csv", detuning_csv(study));
+  folder.commit();
+}
+
+std::string text(const Study& study, const std::filesystem::path& out) {
+  std::string lines =
+      fmt::format("{:>10} {:>6} {:>9} {:>10} {:>9} {:>9} {:>9} {:>9}  {}\n", "sliding", "ratio",
+                  "force", "vibration", "amplitude", "drive", "friction", "undriven", "limit");
+  for (const DesignPoint& point : study.points) {
+    lines += drive_line(point.requirement);
+  }
+  lines += sensitivity_lines(moving_points(study)) + '\n';
+  for (const std::string& each : shortfalls(study)) {
+    lines += fmt::format("UNREACHABLE: {}\n", each);
+  }
+  for (const Advice& each : advice(study)) {
+    lines += fmt::format("{}: {}\n", each.topic, each.sentence);
+  }
+  return lines + fmt::format("report: {}\n", text::printable((out / "report.html").string()));
+}
+
+}  // namespace sonoglide::design

@@ -1,0 +1,132 @@
+#include "host_sim/studies/design/study.hpp"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include "host_sim/loop/computation_error.hpp"
+
+namespace sonoglide::design {
+namespace {
+
+constexpr int speed_count = 41;
+
+bool is_single(const SpeedRange& speeds) {
+  return speeds.slowest_m_per_s == speeds.fastest_m_per_s;
+}
+
+/// By equal factors; the task's own speeds are among them, to the bit.
+std::vector<double> curve_speeds_m_per_s(const SpeedRange& speeds) {
+  const bool single = is_single(speeds);
+  const double factor = single ? 100.0 : speeds.fastest_m_per_s / speeds.slowest_m_per_s;
+  const int own = single ? speed_count / 2 : 0;
+  std::vector<double> all;
+  all.reserve(speed_count);
+  for (int i = 0; i < speed_count; ++i) {
+    all.push_back(speeds.slowest_m_per_s *
+                  std::pow(factor, static_cast<double>(i - own) / (speed_count - 1)));
+  }
+  if (!single) {
+    all.back() = speeds.fastest_m_per_s;
+  }
+  return all;
+}
+
+bool has_motion(const Requirement& requirement) {
+  return requirement.limit == Limit::none || requirement.limit == Limit::actuator;
+}
+
+RatioCurve ratio_curve(const Task& task, double ratio, const std::vector<double>& speeds_m_per_s) {
+  RatioCurve curve{ratio, std::vector<Requirement>(speeds_m_per_s.size()),
+                   fastest_sliding_m_per_s(task.scene, ratio)};
+  tbb::parallel_for(std::size_t{0}, speeds_m_per_s.size(), [&](std::size_t i) {
+    curve.requirements[i] = require_ratio(task.scene, speeds_m_per_s[i], ratio);
+  });
+  return curve;
+}
+
+DesignPoint design_point(const Task& task, const Requirement& requirement) {
+  DesignPoint point{requirement, {}};
+  if (has_motion(requirement)) {
+    point.sensitivities = sensitivities(
+        steady_scene(task.scene, requirement.sliding_m_per_s, requirement.motion.drive_force_N));
+  }
+  return point;
+}
+
+/// Of every curve the requirement at a speed that it was computed for.
+std::vector<Requirement> requirements_at(const std::vector<RatioCurve>& curves,
+                                         double sliding_m_per_s) {
+  std::vector<Requirement> all;
+  all.reserve(curves.size());
+  for (const RatioCurve& curve : curves) {
+    all.push_back(*std::find_if(
+        curve.requirements.begin(), curve.requirements.end(),
+        [&](const Requirement& each) { return each.sliding_m_per_s == sliding_m_per_s; }));
+  }
+  return all;
+}
+
+std::vector<DesignPoint> design_points(const Task& task, const std::vector<RatioCurve>& curves) {
+  std::vector<Requirement> wanted = requirements_at(curves, task.speeds.slowest_m_per_s);
+  if (!is_single(task.speeds)) {
+    const auto fastest = requirements_at(curves, task.speeds.fastest_m_per_s);
+    wanted.insert(wanted.end(), fastest.begin(), fastest.end());
+  }
+  std::vector<DesignPoint> points(wanted.size());
+  tbb::parallel_for(std::size_t{0}, wanted.size(),
+                    [&](std::size_t i) { points[i] = design_point(task, wanted[i]); });
+  return points;
+}
+
+std::vector<Detuning> detunings(const Task& task, const std::vector<RatioCurve>& curves) {
+  std::vector<Requirement> wanted = requirements_at(curves, task.speeds.fastest_m_per_s);
+  wanted.erase(std::remove_if(wanted.begin(), wanted.end(),
+                              [](const Requirement& each) { return !has_motion(each); }),
+               wanted.end());
+  std::vector<Detuning> all(wanted.size());
+  tbb::parallel_for(std::size_t{0}, wanted.size(),
+                    [&](std::size_t i) { all[i] = detune(task.scene, wanted[i]); });
+  return all;
+}
+
+/// A design in which nothing can be said is a failure, with the first reason for it.
+void require_an_orbit(const std::vector<DesignPoint>& points) {
+  const bool none = std::all_of(points.begin(), points.end(), [](const DesignPoint& point) {
+    return point.requirement.limit == Limit::no_orbit;
+  });
+  if (none) {
+    throw loop::ComputationError(points.front().requirement.reason);
+  }
+}
+
+}  // namespace
+
+std::vector<DesignPoint> moving_points(const Study& study) {
+  std::vector<DesignPoint> points;
+  for (const DesignPoint& point : study.points) {
+    if (has_motion(point.requirement)) {
+      points.push_back(point);
+    }
+  }
+  return points;
+}
+
+Study study(const Task& task, const Progress& progress) {
+  const std::vector<double> speeds_m_per_s = curve_speeds_m_per_s(task.speeds);
+  Study study{task, tuning(task.scene), {}, {}, {}};
+  for (const double ratio : task.ratios) {
+    study.curves.push_back(ratio_curve(task, ratio, speeds_m_per_s));
+    progress(0.5 * static_cast<double>(study.curves.size()) /
+             static_cast<double>(task.ratios.size()));
+  }
+  study.points = design_points(task, study.curves);
+  require_an_orbit(study.points);
+  study.detunings = detunings(task, study.curves);
+  progress(1.0);
+  return study;
+}
+
+}  // namespace sonoglide::design

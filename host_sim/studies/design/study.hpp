@@ -1,0 +1,44 @@
+/// A design: what the drive must do, how far it gets, and what it hangs on.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "host_sim/studies/design/detuning.hpp"
+#include "host_sim/studies/design/requirement.hpp"
+#include "host_sim/studies/design/sensitivity.hpp"
+#include "host_sim/studies/design/task.hpp"
+
+namespace sonoglide::design {
+
+using Progress = std::function<void(double fraction)>;
+
+/// A ratio at an end of the task's speeds.
+struct DesignPoint {
+  Requirement requirement;
+  std::vector<Sensitivity> sensitivities;  ///< empty without a motion
+};
+
+/// One friction ratio over all speeds.
+struct RatioCurve {
+  double ratio;
+  std::vector<Requirement> requirements;  ///< by rising speed: study().speeds_m_per_s
+  double fastest_m_per_s;                 ///< at which the whole drive holds the ratio; may be NaN
+};
+
+struct Study {
+  Task task;
+  double tuning;  ///< Ks/(m w²)
+  std::vector<RatioCurve> curves;
+  std::vector<DesignPoint> points;  ///< slowest speed first, ratios rising; one speed is once
+  std::vector<Detuning> detunings;  ///< each ratio at the fastest speed, where it has a motion
+};
+
+/// The design points that have a motion.
+std::vector<DesignPoint> moving_points(const Study& study);
+
+/// On every core. Of a single speed the curves go from a tenth to ten times it.
+/// @throws loop::ComputationError  no ratio has a steady vibration at any of the task's speeds
+Study study(const Task& task, const Progress& progress);
+
+}  // namespace sonoglide::design

@@ -1,0 +1,137 @@
+#include "host_sim/studies/design/tables.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "host_sim/output/csv_number.hpp"
+#include "host_sim/scene_file/to_json.hpp"
+
+namespace sonoglide::design {
+namespace {
+
+using nlohmann::ordered_json;
+
+std::string cell(double value) {
+  constexpr int digits = 17;
+  return output::csv_number(value, digits);
+}
+
+std::string row(const Requirement& point) {
+  const SteadyMotion& motion = point.motion;
+  std::string text = cell(point.sliding_m_per_s);
+  for (const double value :
+       {point.ratio, motion.drive_force_N, motion.displacement_amplitude_m,
+        motion.velocity_amplitude_m_per_s, motion.drive_power_W, motion.apparent_power_W,
+        motion.friction_power_W, motion.undriven_friction_power_W, motion.damping_power_W,
+        point.closed_form_force_N, point.closed_form_error, point.reachable_ratio}) {
+    text += ',' + cell(value);
+  }
+  return fmt::format("{},{}\n", text, name(point.limit));
+}
+
+ordered_json json_number(double value) {
+  return std::isfinite(value) ? ordered_json(value) : ordered_json(nullptr);
+}
+
+ordered_json sensitivity_json(const Sensitivity& sensitivity) {
+  return {{"key", sensitivity.parameter.key},
+          {"symbol", sensitivity.parameter.symbol},
+          {"logarithmic_derivative", json_number(sensitivity.logarithmic)},
+          {"ratio_change_by_1_percent_more", json_number(sensitivity.change_by_more)},
+          {"ratio_change_by_1_percent_less", json_number(sensitivity.change_by_less)}};
+}
+
+ordered_json point_json(const DesignPoint& point) {
+  const Requirement& each = point.requirement;
+  ordered_json json = {
+      {"sliding_velocity_m_per_s", each.sliding_m_per_s},
+      {"friction_ratio", each.ratio},
+      {"limit", name(each.limit)},
+      {"reachable_friction_ratio", json_number(each.reachable_ratio)},
+      {"drive_force_N", json_number(each.motion.drive_force_N)},
+      {"displacement_amplitude_m", json_number(each.motion.displacement_amplitude_m)},
+      {"velocity_amplitude_m_per_s", json_number(each.motion.velocity_amplitude_m_per_s)},
+      {"drive_power_W", json_number(each.motion.drive_power_W)},
+      {"apparent_power_W", json_number(each.motion.apparent_power_W)},
+      {"friction_power_W", json_number(each.motion.friction_power_W)},
+      {"undriven_friction_power_W", json_number(each.motion.undriven_friction_power_W)},
+      {"damping_power_W", json_number(each.motion.damping_power_W)},
+      {"closed_form",
+       {{"drive_force_N", json_number(each.closed_form_force_N)},
+        {"friction_ratio_error", json_number(each.closed_form_error)}}},
+      {"sensitivities", ordered_json::array()}};
+  if (!each.reason.empty()) {
+    json["reason"] = each.reason;
+  }
+  for (const Sensitivity& sensitivity : point.sensitivities) {
+    json["sensitivities"].push_back(sensitivity_json(sensitivity));
+  }
+  return json;
+}
+
+ordered_json band_json(const std::optional<TuningBand>& band) {
+  return band ? ordered_json{{"low", band->low}, {"high", band->high}} : ordered_json(nullptr);
+}
+
+ordered_json detuning_json(const Detuning& detuning) {
+  return {{"friction_ratio", detuning.ratio},
+          {"sliding_velocity_m_per_s", detuning.sliding_m_per_s},
+          {"reachable_tuning", band_json(detuning.reachable)},
+          {"sensitive_tuning", band_json(detuning.sensitive)},
+          {"ratio_change_by_1_percent_stiffness", json_number(detuning.change_by_stiffness)},
+          {"drive_force_at_sensitive_low_N", json_number(detuning.force_at_sensitive_low_N)}};
+}
+
+}  // namespace
+
+std::string requirements_csv(const Study& study) {
+  std::string csv =
+      "sliding_velocity_m_per_s,friction_ratio,drive_force_N,displacement_amplitude_m,"
+      "velocity_amplitude_m_per_s,drive_power_W,apparent_power_W,friction_power_W,"
+      "undriven_friction_power_W,damping_power_W,closed_form_force_N,closed_form_ratio_error,"
+      "reachable_friction_ratio,limit\n";
+  for (const RatioCurve& curve : study.curves) {
+    for (const Requirement& point : curve.requirements) {
+      csv += row(point);
+    }
+  }
+  return csv;
+}
+
+std::string detuning_csv(const Study& study) {
+  std::string csv =
+      "friction_ratio,tuning,drive_force_N,ratio_change_by_1_percent_stiffness,"
+      "friction_ratio_at_the_scenes_force\n";
+  for (const Detuning& detuning : study.detunings) {
+    for (const DetunedPoint& point : detuning.points) {
+      csv += fmt::format("{},{},{},{},{}\n", cell(detuning.ratio), cell(point.tuning),
+                         cell(point.drive_force_N), cell(point.change_by_stiffness),
+                         cell(point.ratio_at_same_force));
+    }
+  }
+  return csv;
+}
+
+ordered_json to_json(const Study& study) {
+  ordered_json json;
+  json["scene"] = scene_file::to_json(study.task.scene);
+  json["tuning"] = study.tuning;
+  json["speed_floor_m_per_s"] = speed_floor_m_per_s(study.task.scene);
+  json["points"] = ordered_json::array();
+  for (const DesignPoint& point : study.points) {
+    json["points"].push_back(point_json(point));
+  }
+  json["reach"] = ordered_json::array();
+  for (const RatioCurve& curve : study.curves) {
+    json["reach"].push_back({{"friction_ratio", curve.ratio},
+                             {"fastest_sliding_m_per_s", json_number(curve.fastest_m_per_s)}});
+  }
+  json["detuning"] = ordered_json::array();
+  for (const Detuning& detuning : study.detunings) {
+    json["detuning"].push_back(detuning_json(detuning));
+  }
+  return json;
+}
+
+}  // namespace sonoglide::design

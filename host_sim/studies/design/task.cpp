@@ -1,0 +1,92 @@
+#include "host_sim/studies/design/task.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "host_sim/configure/configuration_error.hpp"
+#include "host_sim/configure/control_design.hpp"
+#include "host_sim/configure/plant_scales.hpp"
+
+namespace sonoglide::design {
+namespace {
+
+void require_steady_vibration(const scene::Scene& scene) {
+  if (!scene.controller) {
+    throw configure::ConfigurationError(
+        "controller",
+        "missing: a design takes its ratios and the drive's limit from a closed "
+        "loop; required: a table [controller], and drive.max_force_amplitude_N");
+  }
+  if (!scene::has_own_map(scene.friction.law) &&
+      !scene::is<scene::laws::Stribeck>(scene.friction.law)) {
+    throw configure::ConfigurationError(
+        "friction.law",
+        fmt::format("is \"{}\", which has no closed form of the friction ratio to design by; "
+                    "allowed: \"dahl\", \"coulomb\", \"stribeck\"",
+                    scene::name_of(scene.friction.law)));
+  }
+  if (scene.friction.has_profile()) {
+    throw configure::ConfigurationError(
+        scene.friction.profile_key(),
+        "a design is for a friction that does not change; allowed: coefficient and "
+        "normal_force_N");
+  }
+  if (scene.friction.sign_convention == scene::SignConvention::as_printed) {
+    throw configure::ConfigurationError(
+        "friction.sign_convention",
+        "is \"as_printed\", with which friction feeds the vibration and no orbit is steady; "
+        "allowed: \"dissipative\"");
+  }
+  if (scene.drive->waveform != scene::Waveform::cosine) {
+    throw configure::ConfigurationError(
+        "drive.waveform", "the closed forms are those of a cosine; allowed: \"cosine\"");
+  }
+}
+
+std::vector<double> targets(const scene::Controller& controller) {
+  std::vector<double> ratios;
+  ratios.reserve(controller.target_friction_ratio.size());
+  for (const scene::TargetStep& step : controller.target_friction_ratio) {
+    ratios.push_back(step.friction_ratio);
+  }
+  return ratios;
+}
+
+SpeedRange speeds_of(const scene::Scene& scene) {
+  const double fastest = configure::fastest_sliding_m_per_s(scene.sliding);
+  double slowest = fastest;
+  double last = scene.sliding.profile.front().velocity_m_per_s;
+  for (const scene::SpeedPoint& point : scene.sliding.profile) {
+    const bool reverses = last * point.velocity_m_per_s < 0.0;
+    slowest = reverses ? 0.0 : std::min(slowest, std::abs(point.velocity_m_per_s));
+    last = point.velocity_m_per_s;
+  }
+  // The floor of a scene that gives none is at most half of its fastest speed.
+  return {std::min(std::max(slowest, speed_floor_m_per_s(scene)), fastest), fastest};
+}
+
+}  // namespace
+
+double speed_floor_m_per_s(const scene::Scene& scene) {
+  const configure::ControlDesign design = configure::design_control(scene);
+  return design.speed_floor * design.scales.velocity_m_per_s;
+}
+
+Task make_task(const scene::Scene& scene, const std::vector<double>& ratios,
+               const std::optional<SpeedRange>& speeds) {
+  require_steady_vibration(scene);
+  Task task{scene, ratios.empty() ? targets(*scene.controller) : ratios,
+            speeds ? *speeds : speeds_of(scene)};
+  if (!(task.speeds.slowest_m_per_s > 0.0)) {
+    throw configure::ConfigurationError(
+        "sliding.velocity_m_per_s",
+        "nothing slides, and there is no friction ratio; allowed: a speed other than 0");
+  }
+  std::sort(task.ratios.begin(), task.ratios.end());
+  task.ratios.erase(std::unique(task.ratios.begin(), task.ratios.end()), task.ratios.end());
+  return task;
+}
+
+}  // namespace sonoglide::design

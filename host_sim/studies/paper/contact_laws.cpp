@@ -1,0 +1,85 @@
+#include "host_sim/studies/paper/contact_laws.hpp"
+
+#include <tbb/parallel_for.h>
+
+#include <cstddef>
+
+#include "firmware/friction/coulomb_friction_ratio.hpp"
+#include "firmware/friction/dahl_friction_ratio.hpp"
+#include "host_sim/loop/run.hpp"
+#include "host_sim/scene_file/reader.hpp"
+#include "host_sim/studies/paper/ratio_curve.hpp"
+#include "host_sim/studies/paper/stribeck_shape.hpp"
+#include "host_sim/studies/paper/table_1.hpp"
+
+namespace sonoglide::paper {
+namespace {
+
+// What no source gives for this contact, the static friction and the curves, is chosen: a static
+// friction half as large again, least friction at 50 mm/s, a quarter below the static one.
+constexpr const char* coulomb_contact = "law = \"coulomb\"\ncoefficient = 0.1\n";
+constexpr const char* lugre_contact = R"(law = "lugre"
+coefficient = 0.1
+contact_stiffness_N_per_m = 0.056e6
+static_coefficient = 0.15
+stribeck_velocity_m_per_s = 0.02
+bristle_damping_N_s_per_m = 0.01
+viscous_friction_N_s_per_m = 0.02
+)";
+constexpr const char* iwan_contact = R"(law = "iwan"
+coefficient = 0.1
+contact_stiffness_N_per_m = 0.056e6
+elements = 1
+)";
+constexpr const char* stribeck_contact = R"(law = "stribeck"
+coefficient = 0.1
+fall_s_per_m = 0.75
+rise_s3_per_m3 = 100.0
+)";
+
+double stribeck_closed_form(double velocity_ratio) {
+  constexpr double speed_of_least_m_per_s = 0.05;
+  constexpr double drop = 0.25;
+  return stribeck_vibration_ratio(
+      velocity_ratio, {drop, peak_vibration_m_per_s(table_1()) / speed_of_least_m_per_s});
+}
+
+std::vector<ContactLaw> make_laws() {
+  const double dahl = dahl_number(table_1());
+  return {{"Coulomb", "coulomb", coulomb_contact, friction::coulomb_friction_ratio<double>},
+          {"Dahl", "dahl", std::string(dahl_contact),
+           [dahl](double ratio) { return friction::dahl_friction_ratio(ratio, dahl); }},
+          {"LuGre", "lugre", lugre_contact, {}},
+          {"Iwan", "iwan", iwan_contact, {}},
+          {"Stribeck", "stribeck", stribeck_contact, stribeck_closed_form}};
+}
+
+}  // namespace
+
+std::string ContactLaw::scene_file() const {
+  return "table_1_" + column + ".toml";
+}
+
+std::string ContactLaw::scene_text() const {
+  return table_1_text(contact);
+}
+
+const std::vector<ContactLaw>& contact_laws() {
+  static const std::vector<ContactLaw> laws = make_laws();
+  return laws;
+}
+
+double vibration_ratio(const scene::Scene& scene) {
+  return loop::power_ratios(scene, loop::run(scene).window).friction_ratio;
+}
+
+std::vector<double> simulated_ratios(const ContactLaw& law) {
+  const scene::Scene scene = scene_file::read_text(law.scene_text(), law.scene_file());
+  std::vector<double> ratios(velocity_ratios().size());
+  tbb::parallel_for(std::size_t{0}, ratios.size(), [&](std::size_t i) {
+    ratios[i] = vibration_ratio(at_velocity_ratio(scene, velocity_ratios()[i]));
+  });
+  return ratios;
+}
+
+}  // namespace sonoglide::paper

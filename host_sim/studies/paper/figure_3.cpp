@@ -1,0 +1,77 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include "host_sim/configure/plant_scales.hpp"
+#include "host_sim/studies/paper/chart.hpp"
+#include "host_sim/studies/paper/columns.hpp"
+#include "host_sim/studies/paper/figures.hpp"
+#include "host_sim/studies/paper/recorded_run.hpp"
+#include "host_sim/studies/paper/table_1.hpp"
+
+namespace sonoglide::paper {
+namespace {
+
+constexpr double periods_shown = 3.0;
+constexpr double samples_per_period = 400.0;
+
+loop::Recording record_steady(const scene::FrictionLaw& law) {
+  scene::Scene scene = steady(table_1());
+  scene.friction.law = law;
+  scene.run.duration_s = periods_shown * period_s(scene);
+  return record(scene, 0.0, period_s(scene) / samples_per_period);
+}
+
+/// Largest change from one sample to the next.
+double largest_jump(const std::vector<double>& values) {
+  double largest = 0.0;
+  for (std::size_t i = 1; i < values.size(); ++i) {
+    largest = std::max(largest, std::abs(values[i] - values[i - 1]));
+  }
+  return largest;
+}
+
+/// On one scale for both laws.
+Chart over_time(const char* title, const std::vector<double>& time_s,
+                const std::vector<double>& force_N, int colour) {
+  return {title,
+          "time [µs]",
+          "friction force [mN]",
+          {{"", scaled(time_s, 1e6), scaled(force_N, 1e3), colour}},
+          {},
+          Span{-22.0, 22.0}};
+}
+
+}  // namespace
+
+Figure figure_3() {
+  const loop::Recording coulomb = record_steady(scene::laws::Coulomb{});
+  const loop::Recording dahl = record_steady(scene::laws::Dahl{});
+  const std::vector<double> pulses_N = friction_forces_N(coulomb);
+  const std::vector<double> wave_N = friction_forces_N(dahl);
+  const double limit_N = table_1().friction.limit_N();
+  const double pulse_jump = largest_jump(pulses_N) / limit_N;
+  const double wave_jump = largest_jump(wave_N) / limit_N;
+  return {
+      3,
+      "Friction force over time",
+      "Table 1 at 384 N, velocity ratio 0.5, on the steady orbit from drive phase 0.",
+      "sonoglide run table_1.toml --set run.start=steady --set run.duration_periods=3 --set "
+      "run.record='[\"friction_force_N\"]' --set run.record_interval_s=1e-7",
+      to_csv({{"time_s", dahl.time_s},
+              {"coulomb_friction_force_N", pulses_N},
+              {"dahl_friction_force_N", wave_N}}),
+      draw({over_time("(a) Coulomb", coulomb.time_s, pulses_N, 1),
+            over_time("(b) Dahl", dahl.time_s, wave_N, 2)}),
+      {{"With the Coulomb law the force is discontinuous, a train of pulses.",
+        verdict(pulse_jump > 1.9),
+        fmt::format("It jumps by {:.3f} of its limit from one sample to the next.", pulse_jump)},
+       {"With the Dahl law it is a continuous oscillation.", verdict(wave_jump < 0.1),
+        fmt::format("The largest change between samples 1/400 of a period apart is {:.4f} of the "
+                    "limit.",
+                    wave_jump)}}};
+}
+
+}  // namespace sonoglide::paper

@@ -1,0 +1,153 @@
+#include "host_sim/studies/paper/measurement_charts.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string>
+
+#include "firmware/friction/dahl_friction_ratio.hpp"
+#include "firmware/friction/normal_vibration_ratio.hpp"
+#include "host_sim/studies/paper/dong_dapino.hpp"
+#include "host_sim/studies/paper/luo_2024.hpp"
+
+namespace sonoglide::paper {
+namespace {
+
+constexpr double luo_speeds_mm_per_s[] = {0.05, 0.1, 0.25, 0.5, 0.75, 1.0};
+constexpr double critical_velocities_mm_per_s[] = {50.0, 100.0, 200.0, 400.0};
+constexpr double per_cent = 100.0;
+
+double dahl_reduction_at_low_speed(double dahl_number) {
+  constexpr double softest = 1e-4;
+  return 1.0 - friction::dahl_friction_ratio(luo_slow_m_per_s / luo_peak_m_per_s(),
+                                             std::max(dahl_number, softest));
+}
+
+/// Of a vibration as large as the indentation; a smaller one gives as much less.
+double normal_reduction(double velocity_mm_per_s, double critical_mm_per_s) {
+  return 1.0 - friction::normal_vibration_ratio(1.0, velocity_mm_per_s / critical_mm_per_s);
+}
+
+std::vector<double> ends(const std::vector<Range>& ranges, double Range::*end) {
+  std::vector<double> values;
+  values.reserve(ranges.size());
+  for (const Range& range : ranges) {
+    values.push_back(range.*end);
+  }
+  return values;
+}
+
+/// The outline of a range over the speed.
+Curve area(const char* label, const std::vector<double>& x, const std::vector<Range>& ranges,
+           int colour) {
+  Curve curve{label, x, scaled(ends(ranges, &Range::least), per_cent), colour, Line::area};
+  const std::vector<double> back = scaled(ends(ranges, &Range::most), per_cent);
+  curve.x.insert(curve.x.end(), x.rbegin(), x.rend());
+  curve.y.insert(curve.y.end(), back.rbegin(), back.rend());
+  return curve;
+}
+
+}  // namespace
+
+SlowSliding slow_sliding() {
+  SlowSliding slow;
+  for (const double speed_mm_per_s : luo_speeds_mm_per_s) {
+    const double speed_m_per_s = 1e-3 * speed_mm_per_s;
+    slow.speeds_mm_per_s.push_back(speed_mm_per_s);
+    slow.coulomb.push_back(luo_coulomb(speed_m_per_s));
+    slow.dahl.push_back(luo_dahl(speed_m_per_s));
+    slow.lugre.push_back(luo_lugre(speed_m_per_s));
+    slow.stribeck.push_back(luo_stribeck(speed_m_per_s));
+  }
+  return slow;
+}
+
+Chart slow_sliding_chart(const SlowSliding& slow) {
+  const std::vector<double>& x = slow.speeds_mm_per_s;
+  std::vector<Range> every_law;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    every_law.push_back(
+        joined(joined(slow.coulomb[i], slow.dahl[i]), joined(slow.lugre[i], slow.stribeck[i])));
+  }
+  return {"(b) Longitudinal vibration, slow sliding",
+          "sliding velocity [mm/s]",
+          "reduction of friction [%]",
+          {area("Coulomb, Dahl, LuGre, Stribeck", x, every_law, 1),
+           area("measured, all speeds", {0.0, x.back()}, {luo_reductions, luo_reductions}, black),
+           {"measured",
+            {0.0, 1e3 * luo_slow_m_per_s},
+            {per_cent * luo_static_reduction, per_cent * luo_slow_reduction},
+            black,
+            Line::points}},
+          {},
+          Span{50.0, 102.0},
+          false,
+          Key::lower_right};
+}
+
+Chart contact_stiffness_chart() {
+  constexpr double stiffest = 2.0;
+  Curve dahl = line_of([](double number) { return per_cent * dahl_reduction_at_low_speed(number); },
+                       stiffest, 2);
+  Curve stick = line_of([](double number) { return per_cent * elastic_stick_reduction(number); },
+                        stiffest, 5);
+  dahl.label = "Dahl";
+  stick.label = "Iwan, one spring";
+  stick.line = Line::dashed;
+  return {"(c) The same at 0.1 mm/s; Iwan: speed to 0",
+          "K_t X / F_c [-]",
+          "reduction of friction [%]",
+          {{"measured",
+            {0.0, stiffest},
+            {per_cent * luo_slow_reduction, per_cent * luo_slow_reduction},
+            black},
+           dahl,
+           stick},
+          {},
+          Span{0.0, 105.0},
+          false,
+          Key::lower_right};
+}
+
+Chart normal_vibration_chart() {
+  Chart chart{"(d) Normal vibration as large as the indentation",
+              "sliding velocity [mm/s]",
+              "reduction of friction [%]",
+              {},
+              {},
+              Span{0.0, 105.0},
+              false,
+              Key::upper_right};
+  int colour = black;
+  for (const double critical_mm_per_s : critical_velocities_mm_per_s) {
+    std::vector<double> x;
+    std::vector<double> y;
+    for (int i = 0; i <= 80; ++i) {
+      x.push_back(2.5 * i);
+      y.push_back(per_cent * normal_reduction(x.back(), critical_mm_per_s));
+    }
+    chart.curves.push_back(
+        {fmt::format("V_c = {:g} mm/s", critical_mm_per_s), x, y, ++colour, Line::marked});
+  }
+  chart.curves.push_back({"measured",
+                          {1e3 * dong_velocities_m_per_s[0], 1e3 * dong_velocities_m_per_s[1]},
+                          {per_cent * dong_reductions[0], per_cent * dong_reductions[1]},
+                          black,
+                          Line::points});
+  return chart;
+}
+
+std::vector<Column> columns(const SlowSliding& slow) {
+  std::vector<Column> all = {{"sliding_velocity_mm_per_s", slow.speeds_mm_per_s},
+                             {"coulomb_reduction", ends(slow.coulomb, &Range::least)}};
+  const auto add = [&all](const std::string& law, const std::vector<Range>& ranges) {
+    all.push_back({law + "_reduction_from", ends(ranges, &Range::least)});
+    all.push_back({law + "_reduction_to", ends(ranges, &Range::most)});
+  };
+  add("dahl", slow.dahl);
+  add("lugre", slow.lugre);
+  add("stribeck", slow.stribeck);
+  return all;
+}
+
+}  // namespace sonoglide::paper

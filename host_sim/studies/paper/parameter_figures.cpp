@@ -1,0 +1,354 @@
+/// Figures 7 to 11: one parameter of Table 1 at a time.
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstddef>
+#include <functional>
+
+#include "firmware/numeric/turn.hpp"
+#include "host_sim/studies/paper/chart.hpp"
+#include "host_sim/studies/paper/columns.hpp"
+#include "host_sim/studies/paper/figures.hpp"
+#include "host_sim/studies/paper/ratio_curve.hpp"
+#include "host_sim/studies/paper/table_1.hpp"
+
+namespace sonoglide::paper {
+namespace {
+
+constexpr const char* windows =
+    "From rest (x = x' = F = 0): mean over the first 100 carrier periods. Steady orbit: mean "
+    "over one carrier period, which is the mean of ever after.";
+constexpr const char* friction_label = "friction ratio [-]";
+constexpr const char* dissipation_label = "power dissipation ratio [-]";
+constexpr const char* velocity_label = "V_t / peak vibration velocity [-]";
+constexpr Span friction_span = {0.0, 1.05};
+
+struct Variation {
+  std::string label;  ///< for the key
+  std::string name;   ///< for a column, unit included
+  scene::Scene scene;
+  RatioCurve curve;
+};
+
+using Edit = std::function<void(scene::Scene&, double)>;
+
+/// The scene with one value after another, each over the velocity ratio.
+std::vector<Variation> vary(const scene::Scene& base, const std::vector<double>& values,
+                            const char* label, const char* name, const Edit& edit) {
+  std::vector<Variation> variations;
+  for (const double value : values) {
+    scene::Scene scene = base;
+    edit(scene, value);
+    RatioCurve curve = ratio_curve(scene, sliding_velocities_m_per_s(scene));
+    variations.push_back({fmt::format(fmt::runtime(label), value),
+                          fmt::format(fmt::runtime(name), value), scene, std::move(curve)});
+  }
+  return variations;
+}
+
+std::vector<Column> columns(const std::vector<Variation>& variations) {
+  std::vector<Column> all = {{"velocity_ratio", velocity_ratios()}};
+  for (const Variation& each : variations) {
+    all.push_back({each.name + "_friction_ratio_from_rest", each.curve.friction_from_rest});
+    all.push_back({each.name + "_friction_ratio_steady", each.curve.friction_steady});
+    all.push_back({each.name + "_dissipation_ratio_from_rest", each.curve.dissipation_from_rest});
+    all.push_back({each.name + "_dissipation_ratio_steady", each.curve.dissipation_steady});
+  }
+  return all;
+}
+
+Chart chart(const char* title, const char* y_label, const std::vector<Variation>& variations,
+            std::vector<double> RatioCurve::*steady, std::vector<double> RatioCurve::*from_rest) {
+  Chart chart{title, velocity_label, y_label, {}};
+  int colour = black;
+  for (const Variation& each : variations) {
+    ++colour;
+    chart.curves.push_back(
+        {each.label, velocity_ratios(), each.curve.*steady, colour, Line::marked});
+    chart.curves.push_back({"", velocity_ratios(), each.curve.*from_rest, colour, Line::dashed});
+  }
+  chart.curves.push_back({"from rest", {}, {}, black, Line::dashed});
+  return chart;
+}
+
+std::vector<Chart> charts(const std::vector<Variation>& variations,
+                          const char* friction_title = "(a) Friction ratio",
+                          const char* dissipation_title = "(b) Power dissipation ratio") {
+  Chart friction = chart(friction_title, friction_label, variations, &RatioCurve::friction_steady,
+                         &RatioCurve::friction_from_rest);
+  friction.y_span = friction_span;
+  friction.key = Key::none;
+  Chart dissipation = chart(dissipation_title, dissipation_label, variations,
+                            &RatioCurve::dissipation_steady, &RatioCurve::dissipation_from_rest);
+  dissipation.key = Key::upper_right;
+  return {friction, dissipation};
+}
+
+/// "384 N: 0.6749, 960 N: 0.5727" at one velocity ratio.
+std::string listed(const std::vector<Variation>& variations, double velocity_ratio,
+                   std::vector<double> RatioCurve::*values) {
+  std::string text = fmt::format("At a velocity ratio of {:g}: ", velocity_ratio);
+  const char* separator = "";
+  for (const Variation& each : variations) {
+    text += fmt::format("{}{}: {:.4f}", separator, each.label,
+                        (each.curve.*values)[index_of(velocity_ratio)]);
+    separator = "; ";
+  }
+  return text + ". ";
+}
+
+enum class Trend { rising, falling };
+
+/// Whether the values at one velocity ratio follow the parameter so, all of them.
+bool follows(const std::vector<Variation>& variations, double velocity_ratio,
+             std::vector<double> RatioCurve::*values, Trend trend) {
+  for (std::size_t i = 1; i < variations.size(); ++i) {
+    const double before = (variations[i - 1].curve.*values)[index_of(velocity_ratio)];
+    const double after = (variations[i].curve.*values)[index_of(velocity_ratio)];
+    if (!(trend == Trend::rising ? after > before : after < before)) {
+      return false;
+    }
+  }
+  return true;
+}
+
+Claim trend(const char* statement, const std::vector<Variation>& variations, double velocity_ratio,
+            std::vector<double> RatioCurve::*values, Trend expected, const char* why) {
+  return {statement, verdict(follows(variations, velocity_ratio, values, expected)),
+          "Steady orbit. " + listed(variations, velocity_ratio, values) + why};
+}
+
+std::string conditions(const char* parameters) {
+  return fmt::format("{} {} With symbols: steady orbit; dashed: from rest.", parameters, windows);
+}
+
+/// The sliding velocity of Table 1 under a stiffness that passes the resonant one.
+struct Resonance {
+  std::vector<double> parts;  ///< Ks/(m ω²)
+  std::vector<double> friction;
+  std::vector<double> dissipation;
+};
+
+Resonance through_resonance(const Edit& edit) {
+  Resonance resonance;
+  for (int i = 0; i < 80; ++i) {
+    const double part = 0.025 * i + 0.0125;  // never 1, where no steady orbit is
+    scene::Scene scene = table_1();
+    edit(scene, part);
+    const RatioCurve point =
+        ratio_curve(scene, {table_1().sliding.profile.front().velocity_m_per_s});
+    resonance.parts.push_back(part);
+    resonance.friction.push_back(point.friction_steady.front());
+    resonance.dissipation.push_back(point.dissipation_steady.front());
+  }
+  return resonance;
+}
+
+std::vector<Claim> claims(const Resonance& resonance) {
+  const std::size_t soft = 1;       // 0.0375
+  const std::size_t softer = 9;     // 0.2375
+  const std::size_t resonant = 39;  // 0.9875
+  const std::vector<double>& friction = resonance.friction;
+  const std::vector<double>& dissipation = resonance.dissipation;
+  return {
+      {"Near resonance the vibration grows, and friction falls at a given sliding velocity.",
+       verdict(friction[resonant] < 0.5 * friction[soft]),
+       fmt::format("At 26.7 mm/s: {:.4f} at 0.0375 of the resonant stiffness, {:.5f} at 0.9875. At "
+                   "resonance itself the undamped plant has no steady orbit: the drive puts in "
+                   "more than friction can take.",
+                   friction[soft], friction[resonant])},
+      {"The power dissipated is high there.",
+       verdict(dissipation[resonant] > 2.0 * dissipation[soft]),
+       fmt::format("{:.3f} at 0.0375 of the resonant stiffness, {:.2f} at 0.9875.",
+                   dissipation[soft], dissipation[resonant])},
+      {"Low stiffnesses hardly change the power dissipation ratio.",
+       verdict(std::abs(dissipation[softer] - dissipation[soft]) < 0.01 * dissipation[resonant]),
+       fmt::format("{:.3f} at 0.0375 of the resonant stiffness and {:.3f} at 0.2375, where the "
+                   "plant is controlled by its mass; little against what resonance does.",
+                   dissipation[soft], dissipation[softer])},
+      {"It is best to work at the natural frequency.", Verdict::depends,
+       "On what is wanted: the least drive force, yes; the least power, no, see above; a ratio "
+       "that keeps to its target, no: next to resonance it follows every change of mass or "
+       "stiffness, and a free vibration takes the longer to fade the larger the drive's is."}};
+}
+
+std::vector<Chart> charts(const Resonance& resonance) {
+  const char* part_label = "Ks/(m ω²) [-]";
+  return {{"(c) Steady orbit at V_t = 26.7 mm/s",
+           part_label,
+           friction_label,
+           {{"", resonance.parts, resonance.friction, 1, Line::points}}},
+          {"(d) Steady orbit at V_t = 26.7 mm/s",
+           part_label,
+           dissipation_label,
+           {{"", resonance.parts, resonance.dissipation, 1, Line::points}},
+           {},
+           Span{0.5, 200.0},
+           true}};
+}
+
+/// The same scenes at the same sliding velocities, without their drive.
+std::vector<Variation> without_excitation(const std::vector<Variation>& driven) {
+  std::vector<Variation> undriven;
+  for (const Variation& each : driven) {
+    scene::Scene scene = each.scene;
+    scene.drive->force_amplitude_N = 0.0;
+    undriven.push_back({each.label, "un" + each.name, scene,
+                        ratio_curve(scene, sliding_velocities_m_per_s(table_1()))});
+  }
+  return undriven;
+}
+
+double lowest_steady_friction(const std::vector<Variation>& variations) {
+  double lowest = 1.0;
+  for (const Variation& each : variations) {
+    for (const double ratio : each.curve.friction_steady) {
+      lowest = std::fmin(lowest, ratio);
+    }
+  }
+  return lowest;
+}
+
+std::vector<Claim> claims_on_contact_stiffness(const std::vector<Variation>& undriven,
+                                               const std::vector<Variation>& driven) {
+  const double lowest = lowest_steady_friction(undriven);
+  return {
+      {"Without excitation friction falls, the more the stiffer the contact.",
+       verdict(lowest < 0.999),
+       fmt::format("On the steady orbit no ratio is below {:.6f}: sliding at a constant speed "
+                   "takes the full force. From rest, with F = 0, the force has to build up over "
+                   "Fc/Kt of travel first, which is the shorter the stiffer the contact: the "
+                   "opposite of the claim. {}",
+                   lowest, listed(undriven, 0.1, &RatioCurve::friction_from_rest))},
+      {"Without excitation the power dissipation is always below unity.", Verdict::does_not_hold,
+       listed(undriven, 0.5, &RatioCurve::dissipation_steady) +
+           "Below it only from rest, while the force builds up."},
+      trend("A stiffer contact makes friction reduction more effective.", driven, 0.5,
+            &RatioCurve::friction_steady, Trend::falling, "Under excitation.")};
+}
+
+template <class Item>
+std::vector<Item> joined(std::vector<Item> first, const std::vector<Item>& second) {
+  first.insert(first.end(), second.begin(), second.end());
+  return first;
+}
+
+std::string sweep_command(const char* setting) {
+  return fmt::format(
+      "sonoglide sweep table_1.toml --vary velocity_ratio=0.05:1.2:24 {} (and once more with --set "
+      "run.start=steady)",
+      setting);
+}
+
+}  // namespace
+
+Figure figure_7() {
+  const std::vector<Variation> all =
+      vary(table_1(), {192.0, 384.0, 960.0, 1920.0}, "{:g} N", "force_{:g}_N",
+           [](scene::Scene& scene, double force_N) { scene.drive->force_amplitude_N = force_N; });
+  const double from_rest = all[1].curve.dissipation_from_rest[index_of(1.1)];
+  return {
+      7,
+      "Effect of the control force",
+      conditions("Table 1."),
+      sweep_command("--set drive.force_amplitude_N=960"),
+      to_csv(columns(all)),
+      draw(charts(all)),
+      {trend("More control force lowers the friction ratio.", all, 0.5,
+             &RatioCurve::friction_steady, Trend::falling,
+             "Even at one velocity ratio: the vibration covers more presliding distances."),
+       trend("At low velocity ratios more control force dissipates more.", all, 0.1,
+             &RatioCurve::dissipation_steady, Trend::rising, ""),
+       {"At and above a velocity ratio of 1 vibration has no effect.", Verdict::depends,
+        fmt::format("On the steady orbit it has none. From rest the free vibration still makes "
+                    "the contact reverse: power dissipation ratio {:.4f} at 384 N and a velocity "
+                    "ratio of 1.1.",
+                    from_rest)}}};
+}
+
+Figure figure_8() {
+  const std::vector<Variation> all =
+      vary(table_1(), {0.05, 0.1, 0.2, 0.4}, "coefficient {:g}", "coefficient_{:g}",
+           [](scene::Scene& scene, double value) { scene.friction.coefficient = value; });
+  return {8,
+          "Effect of the coefficient of friction",
+          conditions("Table 1 at 384 N."),
+          sweep_command("--set friction.coefficient=0.2"),
+          to_csv(columns(all)),
+          draw(charts(all)),
+          {trend("A higher coefficient makes the reduction less effective.", all, 0.5,
+                 &RatioCurve::friction_steady, Trend::rising, ""),
+           trend("The power dissipation ratio falls as the coefficient rises.", all, 0.1,
+                 &RatioCurve::dissipation_steady, Trend::falling,
+                 "The reason is the presliding distance Fc/Kt, which grows, and not what the paper "
+                 "gives: its stored power is an average energy, no power.")}};
+}
+
+Figure figure_9() {
+  const std::vector<Variation> all = vary(table_1(), {0.02, 0.04, 0.1, 0.2}, "{:g} kg",
+                                          "mass_{:g}_kg", [](scene::Scene& scene, double mass_kg) {
+                                            scene.friction.normal_force_N *=
+                                                mass_kg / scene.plant.mass_kg;
+                                            scene.plant.mass_kg = mass_kg;
+                                          });
+  std::vector<Chart> of_all = charts(all);
+  of_all[1].y_span = Span{0.0, 2.5};  // room for the key
+  return {9,
+          "Effect of the mass",
+          conditions("Table 1 at 384 N, the normal force being the weight."),
+          sweep_command("--set plant.mass_kg=0.04"),
+          to_csv(columns(all)),
+          draw(of_all),
+          {trend("More mass makes the reduction less effective; the curve flattens.", all, 0.5,
+                 &RatioCurve::friction_steady, Trend::rising,
+                 "At one velocity ratio there is a bound to that, the limit of a soft contact."),
+           trend("The power dissipation ratio falls as the mass rises.", all, 0.1,
+                 &RatioCurve::dissipation_steady, Trend::falling, "")}};
+}
+
+Figure figure_10() {
+  const std::vector<Variation> driven = vary(
+      table_1(), {5.6e3, 56e3, 560e3}, "Kt = {:g} N/m", "driven_{:g}_N_per_m",
+      [](scene::Scene& scene, double value) { scene.friction.contact_stiffness_N_per_m = value; });
+  const std::vector<Variation> undriven = without_excitation(driven);
+  std::vector<Chart> of_undriven = charts(undriven, "(a) Friction ratio, no excitation",
+                                          "(b) Power dissipation ratio, no excitation");
+  of_undriven[1].y_span = friction_span;
+  of_undriven[1].key = Key::lower_right;
+  std::vector<Column> of_driven = columns(driven);
+  of_driven.erase(of_driven.begin());  // the velocity ratios stand before the others already
+  return {10,
+          "Effect of the contact stiffness",
+          conditions("Table 1, without excitation as the paper has it, and at 384 N; without "
+                     "excitation the abscissa is the sliding velocity over the vibration velocity "
+                     "at 384 N."),
+          sweep_command("--set friction.contact_stiffness_N_per_m=560e3"),
+          to_csv(joined(columns(undriven), of_driven)),
+          draw(joined(of_undriven, charts(driven, "(c) Friction ratio, 384 N",
+                                          "(d) Power dissipation ratio, 384 N"))),
+          claims_on_contact_stiffness(undriven, driven)};
+}
+
+Figure figure_11() {
+  const double omega = numeric::two_pi * table_1().drive->frequency_Hz;
+  const double resonant_N_per_m = table_1().plant.mass_kg * omega * omega;
+  const Edit edit = [resonant_N_per_m](scene::Scene& scene, double part) {
+    scene.plant.stiffness_N_per_m = part * resonant_N_per_m;
+  };
+  const std::vector<Variation> all = vary(table_1(), {0.0468, 0.5, 0.9, 0.99, 1.2}, "Ks = {:g} mω²",
+                                          "stiffness_{:g}_of_resonance", edit);
+  const Resonance resonance = through_resonance(edit);
+  return {11,
+          "Effect of the system stiffness",
+          conditions("Table 1 at 384 N; 0.0468 is its own stiffness."),
+          sweep_command("--set plant.stiffness_N_per_m=2.56e9"),
+          to_csv(joined(columns(all),
+                        {{"stiffness_of_resonance", resonance.parts},
+                         {"friction_ratio_at_26.7_mm_per_s_steady", resonance.friction},
+                         {"dissipation_ratio_at_26.7_mm_per_s_steady", resonance.dissipation}})),
+          draw(joined(charts(all), charts(resonance))),
+          claims(resonance)};
+}
+
+}  // namespace sonoglide::paper

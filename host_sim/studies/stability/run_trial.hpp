@@ -1,0 +1,77 @@
+/// Runs one solver, of any type and precision, over a scene.
+#pragma once
+
+#include <cmath>
+
+#include "firmware/numeric/turn.hpp"
+#include "firmware/plant/observer.hpp"
+#include "firmware/plant/state.hpp"
+#include "host_sim/configure/plant_scales.hpp"
+#include "host_sim/scene/scene.hpp"
+#include "host_sim/studies/stability/composition.hpp"
+#include "host_sim/studies/stability/trial.hpp"
+#include "host_sim/studies/stability/witness.hpp"
+
+namespace sonoglide::stability {
+namespace detail {
+
+/// Sliding velocity in units of the velocity scale: its start, and its rise in one period.
+struct Ramp {
+  double begin;
+  double rise;
+};
+
+inline Ramp ramp(const scene::Scene& scene, const scene::PlantScales& scales, int periods) {
+  const double begin = scene.sliding.profile.front().velocity_m_per_s;
+  const double end = scene.sliding.profile.back().velocity_m_per_s;
+  const double scale = scales.velocity_m_per_s();
+  return {begin / scale, (end - begin) / scale / periods};
+}
+
+template <class Scalar>
+plant::State<Scalar> initial_state(const scene::Scene& scene, const scene::PlantScales& scales) {
+  const plant::State<double> initial = configure::initial_state(scene, scales);
+  return {static_cast<Scalar>(initial.displacement), static_cast<Scalar>(initial.velocity),
+          static_cast<Scalar>(initial.friction)};
+}
+
+template <class Scalar>
+plant::Interval<Scalar> period(const scene::Scene& scene, const scene::PlantScales& scales,
+                               const Ramp& ramp, int number) {
+  const double amplitude = scene.drive ? scene.drive->force_amplitude_N / scales.force_N : 0.0;
+  return {Scalar(0), static_cast<Scalar>(numeric::two_pi), static_cast<Scalar>(amplitude),
+          static_cast<Scalar>(ramp.begin + ramp.rise * number),
+          static_cast<Scalar>(ramp.rise / numeric::two_pi)};
+}
+
+}  // namespace detail
+
+/// @param scene      open loop; the profile of its sliding has one point, or two that are the ends
+///                   of the trial
+/// @param precision  the solver's own setting: tolerance, or step in tau
+template <class Solver>
+TrialResult run_trial(const scene::Scene& scene, const scene::PlantScales& scales,
+                      const typename Solver::Model& model, const TrialPlan& plan,
+                      double precision) {
+  using Scalar = typename Solver::Scalar;
+  Solver solver;
+  solver.configure(model, static_cast<Scalar>(precision), plan.step_limit);
+  const detail::Ramp ramp = detail::ramp(scene, scales, plan.periods);
+  const plant::State<Scalar> initial = detail::initial_state<Scalar>(scene, scales);
+  plant::State<Scalar> state = initial;
+  Witness witness;
+  plant::NoObserver nobody;
+  TrialResult result;
+  for (int n = 0; n < plan.periods && result.error == plant::Error::none; ++n) {
+    const auto interval = detail::period<Scalar>(scene, scales, ramp, n);
+    result.error = solver.advance(interval, state, witness, nobody).error;
+  }
+  const double tau = numeric::two_pi * plan.periods;
+  result.finite = plant::is_finite(state) && std::isfinite(witness.friction_integral());
+  result.largest_friction = witness.largest_friction();
+  result.friction_ratio = std::copysign(1.0, ramp.begin) * witness.friction_integral() / tau;
+  result.balance_residual = witness.balance_residual(model, initial, state);
+  return result;
+}
+
+}  // namespace sonoglide::stability

@@ -1,0 +1,39 @@
+#include "host_sim/studies/stability/study.hpp"
+
+#include <utility>
+
+#include "host_sim/output/output_folder.hpp"
+#include "host_sim/studies/stability/map_picture.hpp"
+#include "host_sim/studies/stability/study_page.hpp"
+#include "host_sim/studies/stability/tables.hpp"
+
+namespace sonoglide::stability {
+namespace {
+
+/// The maps' part of the run time.
+constexpr double maps_share = 0.3;
+
+}  // namespace
+
+Study study(const MapGrid& grid, std::uint64_t scenes, const Progress& progress) {
+  StabilityMaps maps = stability_maps(grid, [&](double part) { progress(maps_share * part); });
+  Extremes rows =
+      extremes(scenes, [&](double part) { progress(maps_share + (1.0 - maps_share) * part); });
+  return {std::move(maps), std::move(rows)};
+}
+
+void write_study(const std::filesystem::path& out, const Study& study) {
+  output::OutputFolder folder(out);
+  const MapPictures pictures = {map_picture(study.maps, "float64"),
+                                map_picture(study.maps, "float32")};
+  folder.write("stability_map.csv", map_csv(study.maps, "float64"));
+  folder.write("stability_map.svg", pictures.float64);
+  folder.write("stability_map_float32.csv", map_csv(study.maps, "float32"));
+  folder.write("stability_map_float32.svg", pictures.float32);
+  folder.write("extremes.csv", extremes_csv(study.extremes));
+  folder.write("extremes_worst.csv", worst_csv(study.extremes));
+  folder.write("report.html", output::to_html(study_page(study, pictures)));
+  folder.commit();
+}
+
+}  // namespace sonoglide::stability

@@ -1,0 +1,19 @@
+/// One swept key as a curve.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "host_sim/studies/sweep/plan.hpp"
+#include "host_sim/studies/sweep/row.hpp"
+
+namespace sonoglide::sweep {
+
+/// A gnuplot script: the friction ratio over window and whole run against the key; in closed loop
+/// the steady error with the ripple on either side. Failed points are grey lines from bottom to
+/// top. Other axes have one value.
+/// @param axis  with more than one value
+std::string curve(const Plan& plan, const std::vector<Row>& rows, std::size_t axis);
+
+}  // namespace sonoglide::sweep

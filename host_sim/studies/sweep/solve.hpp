@@ -1,0 +1,45 @@
+/// Points of a sweep to rows, each by the solver that suits it.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "host_sim/studies/sweep/batch_point.hpp"
+#include "host_sim/studies/sweep/plan.hpp"
+#include "host_sim/studies/sweep/record.hpp"
+
+namespace sonoglide::sweep {
+
+/// Points that are solved in one go.
+using Points = std::vector<std::size_t>;
+
+/// Takes finished points, from any thread.
+using Sink = std::function<void(std::vector<Record>)>;
+
+/// Every point of a sweep read and checked, and divided among the solvers.
+class Solve {
+ public:
+  /// The plan outlives this.
+  /// @param pace  told of the points read
+  /// @throws scene::SceneError  a point is unusable
+  Solve(const Plan& plan, Pace& pace);
+
+  /// These points as calls that are worth making: those that suit SIMD lanes together, up to some
+  /// hundreds that have their length and accuracy in common, the others alone.
+  std::vector<Points> calls(const Points& points) const;
+
+  /// Solves one of the calls above: over SIMD lanes, or one by one as `run` does, which is also
+  /// what becomes of points that the lanes give up. A row depends on its point alone, to the bit.
+  /// Safe to call from several threads.
+  void operator()(const Points& call, const Sink& sink) const;
+
+ private:
+  Points over_lanes(const Points& call, const Sink& sink) const;
+
+  const Plan& plan_;
+  std::vector<std::optional<BatchPoint>> batch_points_;  ///< of each point; absent: no lanes
+};
+
+}  // namespace sonoglide::sweep

@@ -1,0 +1,23 @@
+/// What the pictures of a sweep show.
+#pragma once
+
+#include <string>
+
+#include "host_sim/studies/sweep/plan.hpp"
+#include "host_sim/studies/sweep/row.hpp"
+
+namespace sonoglide::sweep {
+
+struct Subject {
+  double Row::*figure;
+  std::string label;  ///< with its unit
+};
+
+/// The friction ratio over the window; in closed loop the steady error of the last target step.
+Subject subject(const Plan& plan);
+
+/// The gnuplot commands for an axis, `x` or `y`: its label, its scale where that is logarithmic,
+/// and the names of values that stand side by side.
+std::string axis_commands(const Axis& axis, char letter);
+
+}  // namespace sonoglide::sweep

@@ -1,0 +1,111 @@
+#include "host_sim/studies/sweep/sweep.hpp"
+
+#include <fmt/format.h>
+#include <tbb/global_control.h>
+#include <tbb/info.h>
+
+#include <algorithm>
+#include <chrono>
+#include <optional>
+#include <system_error>
+
+#include "host_sim/batch/run_dahl_plants.hpp"
+#include "host_sim/output/gnuplot.hpp"
+#include "host_sim/output/output_folder.hpp"
+#include "host_sim/output/page.hpp"
+#include "host_sim/process/interruption.hpp"
+#include "host_sim/scene_file/to_json.hpp"
+#include "host_sim/studies/sweep/compute.hpp"
+#include "host_sim/studies/sweep/csv.hpp"
+#include "host_sim/studies/sweep/journal.hpp"
+#include "host_sim/studies/sweep/picture.hpp"
+#include "host_sim/studies/sweep/sweep_page.hpp"
+
+namespace sonoglide::sweep {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* table_file = "sweep.csv";
+constexpr const char* page_file = "report.html";
+constexpr const char* picture_file = "sweep.svg";
+
+std::string values_of(const Axis& axis) {
+  if (axis.list.empty()) {
+    return fmt::format("{}:{}:{}{}", axis.from, axis.to, axis.count,
+                       axis.logarithmic ? ":log" : "");
+  }
+  std::string values;
+  for (const ListedValue& each : axis.list) {
+    values += each.text + ',';
+  }
+  return values;
+}
+
+/// Of what words are varied the scenes differ in more than a value: each is told in full.
+Identity identity_of(const Plan& plan, const std::string& program) {
+  std::string vary;
+  for (const Axis& axis : plan.grid().axes()) {
+    vary += fmt::format("{}={} ", axis.key, values_of(axis));
+  }
+  std::string scenes;
+  for (const std::size_t point : plan.wordings()) {
+    scenes += scene_file::to_json(plan.scene(point)).dump();
+  }
+  return {program, scenes, vary};
+}
+
+/// Creates the folder once it is known that it can be written to.
+void create_folder(const fs::path& out) {
+  { const output::OutputFolder probe(out, {table_file, page_file, picture_file}); }
+  std::error_code error;
+  fs::create_directories(out, error);
+  if (error) {
+    output::fail(out, error);
+  }
+}
+
+/// Interrupted, it is carried through first: it takes a second at most.
+void write_files(const Plan& plan, const std::vector<Row>& rows, const fs::path& out) {
+  const std::optional<std::string> picture = draw(plan, rows);
+  const std::string page = output::to_html(sweep_page(plan, rows, picture));
+  output::OutputFolder folder(out);
+  write_csv(folder.open(table_file), plan, rows);
+  folder.write(page_file, page);
+  if (picture) {
+    folder.write(picture_file, *picture);
+  } else {
+    folder.withdraw(picture_file);
+  }
+  folder.commit();
+}
+
+}  // namespace
+
+Summary run_sweep(const Plan& plan, const fs::path& out, const std::string& program,
+                  unsigned threads, const Progress& progress) {
+  const tbb::global_control limit(
+      tbb::global_control::max_allowed_parallelism,
+      threads > 0 ? threads : static_cast<std::size_t>(tbb::info::default_concurrency()));
+  const auto begin = std::chrono::steady_clock::now();
+  Pace pace(progress);
+  const Solve solve(plan, pace);
+  if (!drawn_axes(plan.grid()).empty() && drawn_axes(plan.grid()).size() <= 2) {
+    output::require_gnuplot();
+  }
+  create_folder(out);
+  // The lanes of another instruction set differ in the last bit: rows of both do not mix.
+  const std::string decisive = fmt::format("{}, {}", program, batch::instruction_set());
+  Journal journal(out, identity_of(plan, decisive), plan.grid().size());
+  const std::size_t found = journal.finished().size();
+  const std::vector<Row> rows = compute(solve, plan.grid().size(), journal, pace);
+  const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - begin;
+  const process::Interruption held;
+  write_files(plan, rows, out);
+  journal.remove();
+  const auto failed =
+      std::count_if(rows.begin(), rows.end(), [](const Row& row) { return !row.ok(); });
+  return {rows.size(), static_cast<std::size_t>(failed), found, wall.count()};
+}
+
+}  // namespace sonoglide::sweep

@@ -1,0 +1,146 @@
+#include "host_sim/studies/sweep/sweep_page.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+
+#include "host_sim/scene_file/to_json.hpp"
+#include "host_sim/studies/sweep/extremes.hpp"
+#include "host_sim/studies/sweep/heat_map.hpp"
+#include "host_sim/studies/sweep/picture.hpp"
+
+namespace sonoglide::sweep {
+namespace {
+
+struct Figure {
+  const char* name;
+  double Row::*value;
+};
+
+std::vector<Figure> figures(const Plan& plan) {
+  std::vector<Figure> all = {{"Friction ratio, whole run", &Row::friction_ratio_whole_run},
+                             {"Friction ratio, window", &Row::friction_ratio_window},
+                             {"Power dissipation ratio, window", &Row::dissipation_ratio_window}};
+  if (plan.closed_loop()) {
+    all.push_back({"Settling time, last target step [s]", &Row::settling_time_s});
+    all.push_back({"Steady error, last target step", &Row::steady_error});
+    all.push_back({"Ripple, last target step", &Row::ripple});
+  }
+  return all;
+}
+
+std::size_t failures(const std::vector<Row>& rows) {
+  return static_cast<std::size_t>(
+      std::count_if(rows.begin(), rows.end(), [](const Row& row) { return !row.ok(); }));
+}
+
+std::string lead(const Plan& plan) {
+  return fmt::format("{} points, {}. One row for each point is in sweep.csv.", plan.grid().size(),
+                     plan.closed_loop() ? "closed loop" : "open loop");
+}
+
+std::vector<std::string> warnings(const Plan& plan, const std::vector<Row>& rows) {
+  std::vector<std::string> all;
+  if (plan.first().friction.sign_convention == scene::SignConvention::as_printed) {
+    all.emplace_back(
+        "Sign convention as printed in the paper (V = Vt - x'): friction pumps energy into the "
+        "vibration. The dissipative convention is V = Vt + x'.");
+  }
+  const std::size_t failed = failures(rows);
+  if (failed > 0) {
+    const auto first =
+        std::find_if(rows.begin(), rows.end(), [](const Row& row) { return !row.ok(); });
+    all.push_back(fmt::format(
+        "{} of {} points could not be computed. The first of them, at {}: {}.", failed, rows.size(),
+        plan.describe(static_cast<std::size_t>(first - rows.begin())), first->status));
+  }
+  return all;
+}
+
+output::Table axis_table(const Plan& plan) {
+  output::Table table{"Varied", {"Key", "From", "To", "Values", "Spacing"}, {}};
+  for (const Axis& axis : plan.grid().axes()) {
+    const char* spacing = axis.logarithmic ? "logarithmic" : "linear";
+    table.rows.push_back({axis.key, axis.text(0), axis.text(axis.count - 1),
+                          fmt::format("{}", axis.count), axis.list.empty() ? spacing : "listed"});
+  }
+  return table;
+}
+
+std::string short_text(const Grid& grid, std::size_t point, std::size_t axis) {
+  const double number = grid.number(point, axis);
+  return std::isnan(number) ? grid.text(point, axis) : fmt::format("{:.6g}", number);
+}
+
+output::Table extremes_table(const Plan& plan, const std::vector<Row>& rows) {
+  output::Table table{"Extremes", {"Figure", "", "Value"}, {}};
+  for (const Axis& axis : plan.grid().axes()) {
+    table.header.push_back("at " + axis.key);
+  }
+  const auto add = [&](const char* name, const char* which, double value, std::size_t point) {
+    std::vector<std::string> cells = {name, which, fmt::format("{:.6g}", value)};
+    for (std::size_t axis = 0; axis < plan.grid().axes().size(); ++axis) {
+      cells.push_back(short_text(plan.grid(), point, axis));
+    }
+    table.rows.push_back(std::move(cells));
+  };
+  for (const Figure& figure : figures(plan)) {
+    if (const auto found = extremes(rows, figure.value)) {
+      add(figure.name, "lowest", rows[found->lowest].*figure.value, found->lowest);
+      add("", "highest", rows[found->highest].*figure.value, found->highest);
+    }
+  }
+  return table;
+}
+
+/// One line for each table of the scene.
+output::Table scene_table(const Plan& plan) {
+  output::Table table{"Scene of the first point", {"Table", "Values"}, {}};
+  const auto scene = scene_file::to_json(plan.first());
+  for (const auto& [name, keys] : scene.items()) {
+    std::string values;
+    for (const auto& [key, value] : keys.items()) {
+      values += fmt::format("{}{} = {}", values.empty() ? "" : ", ", key,
+                            value.is_number() ? number_text(value.get<double>()) : value.dump());
+    }
+    table.rows.push_back({name, values});
+  }
+  return table;
+}
+
+std::string picture_note(const Plan& plan) {
+  std::string note;
+  const std::vector<std::size_t> drawn = drawn_axes(plan.grid());
+  for (const std::size_t axis : drawn) {
+    const std::size_t count = plan.grid().axes()[axis].count;
+    if (is_heat_map(plan.grid()) && count > most_cells_along) {
+      note += fmt::format("One value of {} in {} is drawn. ", plan.grid().axes()[axis].key,
+                          (count - 1) / most_cells_along + 1);
+    }
+  }
+  return note + "Grey where the figure is not defined.";
+}
+
+}  // namespace
+
+output::Page sweep_page(const Plan& plan, const std::vector<Row>& rows,
+                        const std::optional<std::string>& picture) {
+  output::Page page{
+      fmt::format("Sweep of {}", plan.first().name), lead(plan), warnings(plan, rows), {}, {}};
+  page.tables.push_back(axis_table(plan));
+  page.tables.push_back(extremes_table(plan, rows));
+  page.tables.push_back(scene_table(plan));
+  if (picture) {
+    output::Section section{"Picture", "", {}, {}};
+    section.pictures.push_back(
+        {plan.closed_loop() ? "Steady error of the friction ratio" : "Friction ratio",
+         picture_note(plan), *picture});
+    page.sections.push_back(std::move(section));
+  }
+  return page;
+}
+
+}  // namespace sonoglide::sweep

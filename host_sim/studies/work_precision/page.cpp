@@ -1,0 +1,131 @@
+#include "host_sim/studies/work_precision/page.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+
+#include "host_sim/studies/work_precision/machine.hpp"
+#include "host_sim/studies/work_precision/ranking.hpp"
+
+namespace sonoglide::work_precision {
+namespace {
+
+constexpr std::array<double, 4> accuracies = {1e-4, 1e-6, 1e-8, 1e-10};
+/// The paper's step, 1.667e-8 s at 60 kHz.
+constexpr double paper_steps_per_period = 1000.0;
+
+const char* kind_of_error(const Comparison& comparison) {
+  return comparison.absolute_error ? "Absolute error" : "Relative error";
+}
+
+std::string number(double value) {
+  return std::isfinite(value) ? fmt::format("{:.3g}", value) : std::string("–");
+}
+
+std::string lead(const scene::Scene& scene, const Comparison& comparison) {
+  return fmt::format(
+      "Error against run time of every solver on the scene {}, {} carrier periods. The error is "
+      "that of the friction ratio over the whole run{}. The time is the smallest of several runs "
+      "on one thread, over the carrier periods alone; the solvers take turns. A setting is counted "
+      "within an error if the next two finer ones of its solver are too: the error of one number "
+      "passes through zero at some settings by chance.",
+      scene.name, comparison.periods,
+      comparison.absolute_error ? ", absolute because the ratio is about 0" : "");
+}
+
+output::Table set_up(const Comparison& comparison) {
+  const Reference& motion = comparison.reference.motion;
+  return {"Reference and machine",
+          {},
+          {{"Friction ratio of the reference",
+            fmt::format("{:.16f}", static_cast<double>(motion.friction_ratio))},
+           {"Its own error, from a second run at a lower order",
+            fmt::format("{:.1e}", static_cast<double>(comparison.reference.error))},
+           {"Method of the reference",
+            "Gragg–Bulirsch–Stoer extrapolation, long double, steps that end at the reversals"},
+           {"Machine and compiler", machine()}}};
+}
+
+output::Table ranking(const Comparison& comparison, double accuracy) {
+  output::Table table{
+      fmt::format("Cheapest setting of each solver within an error of {:.0e}", accuracy),
+      {"Solver", "Setting", kind_of_error(comparison), "Time per period [µs]", "Steps per period",
+       "Times the fastest"},
+      {}};
+  const std::vector<const Row*> rows = cheapest(comparison, accuracy);
+  for (const Row* row : rows) {
+    table.rows.push_back({row->solver->name, setting_text(row->solver->knob, row->setting),
+                          number(row->error), number(row->wall_us_per_period),
+                          number(row->steps_per_period),
+                          number(row->wall_us_per_period / rows.front()->wall_us_per_period)});
+  }
+  return table;
+}
+
+/// Empty where the paper's run failed.
+output::Table against_the_paper(const Comparison& comparison) {
+  const Row* paper = find(comparison, "rk4_table", paper_steps_per_period);
+  output::Table table{
+      "The paper's run, and the fastest that is at least as accurate",
+      {"Solver", "Setting", kind_of_error(comparison), "Time per period [µs]", "Times the fastest"},
+      {}};
+  if (paper == nullptr) {
+    return table;
+  }
+  if (!paper->ok()) {
+    table.rows.push_back({paper->solver->name, setting_text(Knob::steps_per_period, paper->setting),
+                          paper->status, "–", "–"});
+    return table;
+  }
+  std::vector<const Row*> rows = cheapest(comparison, paper->error);
+  rows.resize(std::min<std::size_t>(rows.size(), 1));
+  rows.push_back(paper);
+  for (const Row* row : rows) {
+    table.rows.push_back({row->solver->name, setting_text(row->solver->knob, row->setting),
+                          number(row->error), number(row->wall_us_per_period),
+                          number(row->wall_us_per_period / rows.front()->wall_us_per_period)});
+  }
+  return table;
+}
+
+output::Table every_row(const Comparison& comparison) {
+  output::Table table{"Every setting",
+                      {"Solver", "Setting", kind_of_error(comparison), "Time per period [µs]",
+                       "Steps per period", "Status"},
+                      {}};
+  for (const Row& row : comparison.rows) {
+    table.rows.push_back({row.solver->name, setting_text(row.solver->knob, row.setting),
+                          number(row.error), number(row.wall_us_per_period),
+                          number(row.steps_per_period), row.status});
+  }
+  return table;
+}
+
+}  // namespace
+
+output::Page page(const scene::Scene& scene, const Comparison& comparison, const std::string& svg) {
+  output::Page page;
+  page.title = "Work and precision: " + scene.name;
+  page.lead = lead(scene, comparison);
+  page.tables.push_back(set_up(comparison));
+  page.tables.push_back(against_the_paper(comparison));
+  for (const double accuracy : accuracies) {
+    page.tables.push_back(ranking(comparison, accuracy));
+  }
+  page.tables.push_back(every_row(comparison));
+  output::Section section{"Work-precision diagram", "", {}};
+  section.pictures.push_back(
+      {"Time for a carrier period against error",
+       "Lower and further left is better. A line shows the error that a solver can be relied on "
+       "for, the worst of a setting and its next two finer ones; small points show the error that "
+       "each setting happened to have.",
+       svg});
+  page.sections.push_back(std::move(section));
+  return page;
+}
+
+}  // namespace sonoglide::work_precision

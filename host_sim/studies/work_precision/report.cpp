@@ -1,0 +1,58 @@
+#include "host_sim/studies/work_precision/report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string_view>
+#include <vector>
+
+#include "host_sim/output/output_folder.hpp"
+#include "host_sim/output/page.hpp"
+#include "host_sim/studies/work_precision/csv.hpp"
+#include "host_sim/studies/work_precision/page.hpp"
+#include "host_sim/studies/work_precision/picture.hpp"
+#include "host_sim/studies/work_precision/ranking.hpp"
+#include "host_sim/text/printable.hpp"
+
+namespace sonoglide::work_precision {
+namespace {
+
+/// What the cheapest solver whose name begins so costs, in units of the cheapest of all.
+std::string times_the_fastest(const std::vector<const Row*>& rows, std::string_view beginning) {
+  const auto row = std::find_if(rows.begin(), rows.end(), [beginning](const Row* candidate) {
+    return candidate->solver->name.compare(0, beginning.size(), beginning) == 0;
+  });
+  return row == rows.end() ? std::string("-")
+                           : fmt::format("{:.3g}x", (*row)->wall_us_per_period /
+                                                        rows.front()->wall_us_per_period);
+}
+
+}  // namespace
+
+void write(const std::filesystem::path& out, const scene::Scene& scene,
+           const Comparison& comparison) {
+  const std::string svg =
+      draw(comparison, fmt::format("{}, {} carrier periods", scene.name, comparison.periods));
+  output::OutputFolder folder(out);
+  folder.write("work_precision.csv", to_csv(comparison));
+  folder.write("work_precision.svg", svg);
+  folder.write("report.html", output::to_html(page(scene, comparison, svg)));
+  folder.commit();
+}
+
+std::string text(const Comparison& comparison, const std::filesystem::path& out) {
+  std::string lines = fmt::format("{:>6}  {:24} {:>13} {:>10} {:>10} {:>10}\n", "error", "fastest",
+                                  "us per period", "rk4_table", "dopri5", "cvode");
+  for (const double accuracy : {1e-4, 1e-6, 1e-8, 1e-10}) {
+    const std::vector<const Row*> rows = cheapest(comparison, accuracy);
+    if (!rows.empty()) {
+      lines += fmt::format("{:>6.0e}  {:24} {:>13.3g} {:>10} {:>10} {:>10}\n", accuracy,
+                           rows.front()->solver->name, rows.front()->wall_us_per_period,
+                           times_the_fastest(rows, "rk4_table"), times_the_fastest(rows, "odeint"),
+                           times_the_fastest(rows, "cvode"));
+    }
+  }
+  return lines + fmt::format("report: {}\n", text::printable((out / "report.html").string()));
+}
+
+}  // namespace sonoglide::work_precision

@@ -1,0 +1,753 @@
+/// A unit with a host on its link: what is asked is done, kept over a reset, or refused by name.
+#include "firmware/app/link_service.hpp"
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <cstdint>
+#include <random>
+#include <vector>
+
+#include "firmware/app/timed_loop.hpp"
+#include "tests/firmware/app/unit/simulated_unit.hpp"
+
+namespace sonoglide::app {
+namespace {
+
+using link::Reason;
+
+/// From reset to the next reset; the flash outlives it.
+class PoweredUnit {
+ public:
+  explicit PoweredUnit(SimulatedFlash& flash, const FieldDesign<Parts>& design = field_design)
+      : unit(with_power(flash, design), flash) {}
+
+  /// As a host would, but without the link.
+  void start(int periods = 300) {
+    EXPECT_EQ(unit.restart(), Answer::taken);
+    serve(periods);
+  }
+
+  void serve(int periods) {
+    for (int i = 0; i < periods; ++i) {
+      loop_.serve();
+    }
+  }
+
+  void put(const link::Frame& frame) {
+    const link::WireFrame encoded = link::encode(frame);
+    wire.to_unit.insert(wire.to_unit.end(), encoded.bytes.begin(),
+                        encoded.bytes.begin() + static_cast<std::ptrdiff_t>(encoded.size));
+  }
+
+  /// What the unit sends within some periods, in which it serves whatever was put.
+  std::vector<link::Frame> answers() {
+    serve(600);
+    link::FrameDecoder decoder;
+    std::vector<link::Frame> frames;
+    for (const std::uint8_t byte : wire.from_unit) {
+      if (decoder.take(byte) == link::Reception::frame) {
+        frames.push_back(decoder.frame());
+      }
+    }
+    wire.from_unit.clear();
+    return frames;
+  }
+
+  /// The one frame that answers a request.
+  template <class Request>
+  link::Frame answer_to(const Request& request) {
+    put(link::frame_of(request, ++sequence));
+    const std::vector<link::Frame> frames = answers();
+    EXPECT_EQ(frames.size(), 1U);
+    if (frames.size() != 1) {
+      return {};
+    }
+    EXPECT_EQ(frames.front().sequence, sequence);
+    return frames.front();
+  }
+
+  /// The answer of the kind that is expected.
+  template <class Answer, class Request>
+  Answer ask(const Request& request) {
+    Answer answer{};
+    EXPECT_TRUE(link::read(answer_to(request), answer));
+    return answer;
+  }
+
+  link::Telemetry telemetry() { return ask<link::Telemetry>(link::ReadTelemetry{}); }
+  std::uint32_t read(Parameter parameter) {
+    return ask<link::ParameterValue>(link::ReadParameter{static_cast<std::uint8_t>(parameter)})
+        .value;
+  }
+  static link::WriteParameter writing(Parameter parameter, std::uint32_t value) {
+    return {static_cast<std::uint8_t>(parameter), value};
+  }
+
+  TestedUnit unit;
+  TimedBoard board;
+  CountingWatchdog watchdog;
+  Wire wire;
+  std::uint16_t sequence = 100;
+
+ private:
+  static const FieldDesign<Parts>& with_power(SimulatedFlash& flash,
+                                              const FieldDesign<Parts>& design) {
+    flash.restore_power();
+    return design;
+  }
+
+  using Service = LinkService<TestedUnit, Wire>;
+
+  Service service_{unit, wire};
+  TimedLoop<TestedUnit::Supervisor, TimedBoard, CountingWatchdog, Service> loop_{
+      unit.supervisor(), board, watchdog, service_};
+};
+
+constexpr auto off = static_cast<std::uint8_t>(control::State::off);
+constexpr auto running = static_cast<std::uint8_t>(control::State::running);
+constexpr auto limited = static_cast<std::uint8_t>(control::State::limited);
+constexpr auto faulted = static_cast<std::uint8_t>(control::State::fault);
+
+/// Erase; format, sequence, design; identity and value of each parameter; checksum.
+constexpr int operations_of_a_save = 1 + 3 + 2 * static_cast<int>(parameter_count) + 1;
+
+void expect_refusal(const link::Frame& frame, std::uint8_t request, Reason reason,
+                    std::uint32_t lowest, std::uint32_t highest) {
+  link::Refusal refusal{};
+  ASSERT_TRUE(link::read(frame, refusal));
+  EXPECT_EQ(refusal.request, request);
+  EXPECT_EQ(refusal.reason, static_cast<std::uint8_t>(reason));
+  EXPECT_EQ(refusal.lowest, lowest);
+  EXPECT_EQ(refusal.highest, highest);
+}
+
+TEST(LinkServiceTest, TelemetryShowsTheRunningUnit) {
+  SimulatedFlash flash;
+  PoweredUnit powered(flash);
+  powered.start();
+  const link::Telemetry told = powered.telemetry();
+  EXPECT_GT(told.period, 300U);
+  EXPECT_LT(told.period, powered.unit.supervisor().periods());
+  EXPECT_EQ(told.state, running);
+  EXPECT_EQ(told.fault, 0);
+  EXPECT_EQ(told.target, 400000U);
+  EXPECT_EQ(told.parameters, static_cast<std::uint8_t>(store::Origin::blank));
+  EXPECT_EQ(told.lost_frames, 0);
+  EXPECT_NEAR(told.friction_force * 0x1p-31, 0.4 * TimedBoard::friction, 1e-3);
+  EXPECT_NEAR(told.sliding_velocity * 0x1p-31, TimedBoard::speed, 1e-9);
+  EXPECT_NEAR(told.amplitude, powered.board.latest_drive().amplitude, 0x1p31 * 1e-3);
+}
+
+TEST(LinkServiceTest, ATargetSetInMidRunIsReached) {
+  SimulatedFlash flash;
+  PoweredUnit powered(flash);
+  powered.start();
+  for (const std::uint32_t target : {600000U, 123456U, 990000U}) {
+    EXPECT_EQ(powered.ask<link::TargetSet>(link::SetTarget{target}).ratio, target);
+    powered.serve(300);
+    EXPECT_NEAR(powered.board.ratio(), target / 1e6, 1e-3);
+    EXPECT_EQ(powered.telemetry().target, target);
+  }
+  EXPECT_EQ(powered.watchdog.feeds, static_cast<int>(powered.unit.supervisor().periods()));
+}
+
+TEST(LinkServiceTest, ATargetOutOfRangeIsRefusedAndChangesNothing) {
+  SimulatedFlash flash;
+  PoweredUnit powered(flash);
+  expect_refusal(powered.answer_to(link::SetTarget{1000001}), link::SetTarget::kind,
+                 Reason::out_of_range, 0, 1000000);
+  EXPECT_EQ(powered.telemetry().target, 400000U);
+}
+
+TEST(LinkServiceTest, StopTakesTheDriveAwayUntilARestart) {
+  SimulatedFlash flash;
+  PoweredUnit powered(flash);
+  powered.start();
+  powered.ask<link::Stopped>(link::Stop{});
+  EXPECT_EQ(powered.board.latest_drive().amplitude, 0);
+  EXPECT_EQ(powered.telemetry().state, off);
+  powered.ask<link::Restarted>(link::Restart{});
+  EXPECT_EQ(powered.telemetry().state, running);
+  EXPECT_NEAR(powered.board.ratio(), 0.4, 1e-3);
+}
+
+TEST(LinkServiceTest, AFaultIsReportedLoggedAndLeftByARestart) {
+  SimulatedFlash flash;
+  PoweredUnit powered(flash);
+  expect_refusal(powered.answer_to(link::ReadFault{0}), link::ReadFault::kind,
+                 Reason::no_such_fault, 0, 0);
+  powered.start();
+  powered.board.fresh = false;
+  powered.serve(1);
+  const std::uint32_t period = powered.unit.supervisor().periods();
+  powered.board.fresh = true;
+  const link::Telemetry told = powered.telemetry();
+  EXPECT_EQ(told.state, faulted);
+  EXPECT_EQ(told.fault, static_cast<std::uint8_t>(control::Fault::measurement_missing));
+  EXPECT_EQ(told.amplitude, 0);
+  const auto logged = powered.ask<link::LoggedFault>(link::ReadFault{0});
+  EXPECT_EQ(logged.fault, told.fault);
+  EXPECT_EQ(logged.period, period);
+  EXPECT_EQ(logged.count, 1U);
+  powered.ask<link::Restarted>(link::Restart{});
+  EXPECT_EQ(powered.telemetry().state, running);
+  EXPECT_EQ(powered.ask<link::LoggedFault>(link::ReadFault{0}).count, 1U);
+}
+
+TEST(LinkServiceTest, EveryParameterIsReadWithItsRange) {
+  SimulatedFlash flash;
+  PoweredUnit powered(flash);
+  for (std::uint8_t i = 0; i < parameter_count; ++i) {
+    const auto told = powered.ask<link::ParameterValue>(link::ReadParameter{i});
+    const ParameterInfo& info = field_design.info(i);
+    EXPECT_EQ(told.parameter, i);
+    EXPECT_EQ(told.decimal_places, info.decimal_places);
+    EXPECT_EQ(told.value, info.preset);
+    EXPECT_EQ(told.lowest, info.lowest);
+    EXPECT_EQ(told.highest, info.highest);
+    EXPECT_EQ(told.preset, info.preset);
+  }
+  for (const int unknown : {9, 10, 255}) {
+    const auto parameter = static_cast<std::uint8_t>(unknown);
+    expect_refusal(powered.answer_to(link::ReadParameter{parameter}), link::ReadParameter::kind,
+                   Reason::unknown_parameter, 0, 8);
+    expect_refusal(powered.answer_to(link::WriteParameter{parameter, 0}),
+                   link::WriteParameter::kind, Reason::unknown_parameter, 0, 8);
+  }
+}
+
+TEST(LinkServiceTest, ParametersNeedAStopAndAreKeptOverAReset) {
+  SimulatedFlash flash;
+  {
+    PoweredUnit powered(flash);
+    powered.start();
+    const auto write = PoweredUnit::writing(Parameter::drive_limit, 120000);
+    expect_refusal(powered.answer_to(write), link::WriteParameter::kind, Reason::drive_not_stopped,
+                   0, 0);
+    EXPECT_EQ(flash.operations(), 0);
+    powered.ask<link::Stopped>(link::Stop{});
+    EXPECT_EQ(powered.ask<link::ParameterWritten>(write).value, 120000U);
+    powered.ask<link::ParameterWritten>(PoweredUnit::writing(Parameter::target, 500000));
+    EXPECT_EQ(powered.read(Parameter::drive_limit), 120000U);
+  }
+  PoweredUnit powered(flash);
+  EXPECT_EQ(powered.read(Parameter::drive_limit), 120000U);
+  powered.start();
+  const link::Telemetry told = powered.telemetry();
+  EXPECT_EQ(told.parameters, static_cast<std::uint8_t>(store::Origin::stored));
+  EXPECT_EQ(told.target, 500000U);
+  // A ratio of 0.5 would take 0.141 of the actuator's limit.
+  EXPECT_EQ(told.state, limited);
+  EXPECT_EQ(told.limit, static_cast<std::uint8_t>(control::Limit::actuator));
+  EXPECT_NEAR(powered.board.latest_drive().amplitude * 0x1p-31, 0.12, 1e-7);
+}
+
+TEST(LinkServiceTest, AWrittenParameterIsInForceFromTheNextRestart) {
+  SimulatedFlash flash;
+  PoweredUnit powered(flash);
+  powered.ask<link::TargetSet>(link::SetTarget{500000});
+  powered.ask<link::Stopped>(link::Stop{});
+  powered.ask<link::ParameterWritten>(PoweredUnit::writing(Parameter::drive_limit, 120000));
+  EXPECT_EQ(powered.board.latest_drive().amplitude, 0);
+  powered.ask<link::Restarted>(link::Restart{});
+  EXPECT_NEAR(powered.board.latest_drive().amplitude * 0x1p-31, 0.12, 1e-7);
+  EXPECT_EQ(powered.telemetry().target, 500000U);
+}
+
+TEST(LinkServiceTest, AValueOutOfRangeIsRefusedByItsRangeAndChangesNothing) {
+  SimulatedFlash flash;
+  PoweredUnit powered(flash);
+  for (std::uint8_t i = 0; i < parameter_count; ++i) {
+    const ParameterInfo& info = field_design.info(i);
+    expect_refusal(powered.answer_to(link::WriteParameter{i, info.highest + 1}),
+                   link::WriteParameter::kind, Reason::out_of_range, info.lowest, info.highest);
+    EXPECT_EQ(powered.ask<link::ParameterValue>(link::ReadParameter{i}).value, info.preset);
+  }
+  EXPECT_EQ(flash.operations(), 0);
+}
+
+TEST(LinkServiceTest, FlashThatDoesNotKeepAValueIsReported) {
+  SimulatedFlash flash;
+  flash.wear_out();
+  PoweredUnit powered(flash);
+  expect_refusal(powered.answer_to(PoweredUnit::writing(Parameter::gain_scale, 1)),
+                 link::WriteParameter::kind, Reason::not_saved, 0, 0);
+  EXPECT_EQ(powered.read(Parameter::gain_scale), one_in_millionths);
+}
+
+TEST(LinkServiceTest, APowerCutWhileWritingLeavesTheOldValueOrTheNew) {
+  for (int operation = 0; operation < operations_of_a_save; ++operation) {
+    for (const Torn torn : every_tear) {
+      SimulatedFlash flash;
+      {
+        PoweredUnit powered(flash);
+        powered.ask<link::ParameterWritten>(PoweredUnit::writing(Parameter::gain_scale, 111));
+        powered.put(link::frame_of(PoweredUnit::writing(Parameter::gain_scale, 222), 200));
+        flash.cut_after(operation, torn);
+        for (int i = 0; i < 400 && flash.powered(); ++i) {
+          powered.serve(1);
+        }
+      }
+      PoweredUnit powered(flash);
+      const std::uint32_t value = powered.read(Parameter::gain_scale);
+      EXPECT_TRUE(value == 111 || value == 222) << operation;
+    }
+  }
+}
+
+TEST(LinkServiceTest, ARepeatedRequestIsAnsweredAgainAndNotDoneAgain) {
+  SimulatedFlash flash;
+  PoweredUnit powered(flash);
+  const auto write = link::frame_of(PoweredUnit::writing(Parameter::gain_scale, 111), 7);
+  powered.put(write);
+  powered.put(write);
+  powered.put(write);
+  const std::vector<link::Frame> frames = powered.answers();
+  ASSERT_EQ(frames.size(), 3U);
+  for (const link::Frame& frame : frames) {
+    link::ParameterWritten written{};
+    EXPECT_TRUE(link::read(frame, written));
+    EXPECT_EQ(frame.sequence, 7);
+  }
+  EXPECT_EQ(flash.operations(), operations_of_a_save);
+}
+
+TEST(LinkServiceTest, ALateOrReusedNumberIsRefusedWithTheLast) {
+  SimulatedFlash flash;
+  PoweredUnit powered(flash);
+  powered.put(link::frame_of(link::SetTarget{600000}, 1000));
+  powered.put(link::frame_of(link::SetTarget{700000}, 999));
+  powered.put(link::frame_of(link::SetTarget{800000}, 1000));
+  powered.put(link::frame_of(link::SetTarget{600000}, 1000));
+  const std::vector<link::Frame> frames = powered.answers();
+  ASSERT_EQ(frames.size(), 4U);
+  expect_refusal(frames[1], link::SetTarget::kind, Reason::out_of_turn, 1000, 1000);
+  EXPECT_EQ(frames[1].sequence, 999);
+  expect_refusal(frames[2], link::SetTarget::kind, Reason::out_of_turn, 1000, 1000);
+  link::TargetSet set{};
+  EXPECT_TRUE(link::read(frames[3], set));
+  EXPECT_EQ(powered.unit.target(), 600000U);
+}
+
+TEST(LinkServiceTest, UnknownAndMisshapenRequestsAreRefused) {
+  SimulatedFlash flash;
+  PoweredUnit powered(flash);
+  for (const int kind : {0, 9, 0x7F, 0x81, 0xFF}) {
+    link::Frame frame;
+    frame.kind = static_cast<std::uint8_t>(kind);
+    frame.sequence = ++powered.sequence;
+    powered.put(frame);
+    expect_refusal(powered.answers().at(0), frame.kind, Reason::unknown_request, 0, 0);
+  }
+  for (std::uint8_t kind = 1; kind < 9; ++kind) {
+    link::Frame frame;
+    frame.kind = kind;
+    frame.sequence = ++powered.sequence;
+    frame.payload_bytes = 6;
+    powered.put(frame);
+    expect_refusal(powered.answers().at(0), kind, Reason::wrong_length, 0, 0);
+  }
+}
+
+TEST(LinkServiceTest, DamagedFramesAreCountedAndCostNoStep) {
+  SimulatedFlash flash;
+  PoweredUnit powered(flash);
+  powered.start();
+  powered.put(link::frame_of(link::Stop{}, 1));
+  powered.wire.to_unit[4] ^= 0x40U;
+  EXPECT_TRUE(powered.answers().empty());
+  EXPECT_EQ(powered.telemetry().lost_frames, 1);
+  EXPECT_EQ(powered.telemetry().state, running);
+  EXPECT_EQ(powered.watchdog.feeds, static_cast<int>(powered.unit.supervisor().periods()));
+}
+
+// The bound on what a carrier period spends on the link.
+TEST(LinkServiceTest, APeriodMovesOneByteEachWayOrOneStepOfASave) {
+  SimulatedFlash flash;
+  PoweredUnit powered(flash);
+  powered.put(link::frame_of(PoweredUnit::writing(Parameter::gain_scale, 111), 7));
+  for (int i = 0; i < 400; ++i) {
+    const std::size_t to = powered.wire.to_unit.size();
+    const std::size_t from = powered.wire.from_unit.size();
+    const int operations = flash.operations();
+    powered.serve(1);
+    const std::size_t sent = powered.wire.from_unit.size() - from;
+    ASSERT_LE(to - powered.wire.to_unit.size(), 1U);
+    ASSERT_LE(sent + static_cast<std::size_t>(flash.operations() - operations), 1U);
+  }
+  EXPECT_EQ(flash.operations(), operations_of_a_save);
+}
+
+/// A request of each kind, told apart by its answer.
+std::vector<link::Frame> every_request(std::uint16_t sequence) {
+  return {link::frame_of(link::ReadTelemetry{}, sequence),
+          link::frame_of(link::SetTarget{450000}, sequence),
+          link::frame_of(link::SetTarget{2000000}, sequence),  // refused
+          link::frame_of(link::ReadParameter{1}, sequence),
+          link::frame_of(PoweredUnit::writing(Parameter::gain_scale, 111), sequence),
+          link::frame_of(link::Restart{}, sequence),
+          link::frame_of(link::ReadFault{0}, sequence),
+          link::frame_of(link::Confirm{}, sequence)};
+}
+
+std::size_t wire_size(const link::Frame& frame) {
+  return link::encode(frame).size;
+}
+
+/// Serves until the drive is off, which takes the stop's own bytes.
+void expect_stopped_within(PoweredUnit& powered, std::size_t bytes, const char* what, int when) {
+  powered.serve(static_cast<int>(bytes));
+  ASSERT_FALSE(powered.unit.supervisor().driving()) << what << " after " << when;
+  powered.serve(1);
+  ASSERT_EQ(powered.board.latest_drive().amplitude, 0) << what << " after " << when;
+}
+
+// The first byte of a stop comes so many periods after the request: with each byte of it, while it
+// waits, while it is carried out, and with each byte of its answer, sent to a host that does not
+// read, too.
+TEST(LinkServiceTest, AStopActsWithItsLastByteWhateverIsBeingAnswered) {
+  const std::size_t stop_bytes = wire_size(link::frame_of(link::Stop{}, 0));
+  for (const bool host_reads : {true, false}) {
+    for (std::size_t request = 0; request < every_request(0).size(); ++request) {
+      for (int when = 0; when < 170; ++when) {
+        SimulatedFlash flash;
+        PoweredUnit powered(flash);
+        powered.start(50);
+        powered.wire.blocked = !host_reads;
+        powered.put(every_request(1)[request]);
+        powered.serve(when);
+        const std::size_t in_front = powered.wire.to_unit.size();
+        powered.put(link::frame_of(link::Stop{}, 2));
+        expect_stopped_within(powered, in_front + stop_bytes, "request", when);
+        ASSERT_EQ(powered.board.latest_drive().state, off);
+        powered.wire.blocked = false;
+        const std::vector<link::Frame> frames = powered.answers();
+        ASSERT_EQ(frames.size(), 2U) << request << " after " << when;
+        // The answers in either order, but each with its own number.
+        ASSERT_EQ(frames[0].sequence + frames[1].sequence, 3) << request << " after " << when;
+        link::Stopped stopped{};
+        ASSERT_TRUE(link::read(frames[frames[0].sequence == 2 ? 0 : 1], stopped));
+        ASSERT_EQ(powered.telemetry().state, off);
+      }
+    }
+  }
+}
+
+// The drive does not run during a save, but a restart that waits behind it must not outlive a stop.
+TEST(LinkServiceTest, AStopOvertakesARestartThatWaitsInEveryPhaseOfASave) {
+  for (int when = 0; when < 200; ++when) {
+    SimulatedFlash flash;
+    PoweredUnit powered(flash);
+    powered.put(link::frame_of(PoweredUnit::writing(Parameter::gain_scale, 111), 1));
+    powered.put(link::frame_of(link::Restart{}, 2));
+    powered.serve(when);
+    const std::size_t in_front = powered.wire.to_unit.size();
+    powered.put(link::frame_of(link::Stop{}, 3));
+    expect_stopped_within(powered, in_front + wire_size(link::frame_of(link::Stop{}, 3)), "save",
+                          when);
+    ASSERT_EQ(powered.answers().size() + powered.wire.to_unit.size(), 3U) << when;
+    powered.serve(300);
+    ASSERT_EQ(powered.board.latest_drive().state, off) << when;
+    ASSERT_EQ(powered.unit.value(Parameter::gain_scale), 111U) << when;
+    ASSERT_FALSE(flash.misused());
+  }
+}
+
+RC_GTEST_PROP(LinkServiceTest, AStopActsBehindAnyBytes, ()) {
+  SimulatedFlash flash;
+  PoweredUnit powered(flash);
+  powered.start(50);
+  const auto noise = *rc::gen::arbitrary<std::vector<std::uint8_t>>();
+  powered.wire.to_unit.insert(powered.wire.to_unit.end(), noise.begin(), noise.end());
+  powered.put(link::frame_of(link::Stop{}, *rc::gen::arbitrary<std::uint16_t>()));
+  powered.serve(static_cast<int>(powered.wire.to_unit.size()));
+  RC_ASSERT(!powered.unit.supervisor().driving());
+}
+
+// A host that was started anew counts from the beginning: its stop is in doubt, and acts.
+TEST(LinkServiceTest, AStopActsWhateverItsNumber) {
+  for (const int number : {999, 1000, 1001, 40000}) {
+    SimulatedFlash flash;
+    PoweredUnit powered(flash);
+    powered.start(50);
+    powered.sequence = 999;
+    powered.ask<link::TargetSet>(link::SetTarget{600000});
+    powered.put(link::frame_of(link::Stop{}, static_cast<std::uint16_t>(number)));
+    const std::vector<link::Frame> frames = powered.answers();
+    ASSERT_EQ(frames.size(), 1U);
+    link::Stopped stopped{};
+    EXPECT_TRUE(link::read(frames[0], stopped));
+    EXPECT_EQ(frames[0].sequence, number);
+    EXPECT_FALSE(powered.unit.supervisor().driving());
+  }
+}
+
+TEST(LinkServiceTest, WhatComesWhileThreeRequestsWaitIsCountedAsLost) {
+  SimulatedFlash flash;
+  PoweredUnit powered(flash);
+  powered.wire.blocked = true;
+  for (std::uint16_t sequence = 1; sequence <= 7; ++sequence) {
+    powered.put(link::frame_of(link::ReadTelemetry{}, sequence));
+  }
+  powered.serve(400);
+  powered.wire.blocked = false;
+  EXPECT_EQ(powered.answers().size(), 4U);
+  EXPECT_EQ(powered.telemetry().lost_frames, 3);
+}
+
+TEST(LinkServiceTest, AHealthyUnitDrivesFromPowerOnOnlyWhereThatIsStored) {
+  SimulatedFlash flash;
+  for (const bool starts : {false, true, false}) {
+    PoweredUnit powered(flash);
+    powered.ask<link::Stopped>(link::Stop{});
+    powered.ask<link::ParameterWritten>(
+        PoweredUnit::writing(Parameter::start_on_power, starts ? 1 : 0));
+    PoweredUnit after(flash);
+    after.serve(300);
+    EXPECT_EQ(after.telemetry().state, starts ? running : off);
+    EXPECT_EQ(after.board.latest_drive().amplitude > 0, starts);
+  }
+}
+
+TEST(LinkServiceTest, AfterAResetByTheWatchdogStartOnPowerDoesNotCount) {
+  SimulatedFlash flash;
+  PoweredUnit(flash).ask<link::ParameterWritten>(
+      PoweredUnit::writing(Parameter::start_on_power, 1));
+  TestedUnit unit(field_design, flash);
+  TimedBoard board;
+  CountingWatchdog watchdog;
+  watchdog.reset = true;
+  NoService service;
+  TimedLoop loop(unit.supervisor(), board, watchdog, service);
+  ASSERT_TRUE(loop.serve());
+  EXPECT_EQ(board.latest_drive().fault, static_cast<std::uint8_t>(UnitFault::watchdog_reset));
+  EXPECT_EQ(board.latest_drive().amplitude, 0);
+}
+
+/// A unit with a strict drive limit that starts by itself.
+SimulatedFlash limited_flash() {
+  SimulatedFlash flash;
+  PoweredUnit powered(flash);
+  powered.ask<link::ParameterWritten>(PoweredUnit::writing(Parameter::start_on_power, 1));
+  powered.ask<link::ParameterWritten>(PoweredUnit::writing(Parameter::drive_limit, 120000));
+  powered.ask<link::ParameterWritten>(PoweredUnit::writing(Parameter::gain_scale, 500000));
+  powered.ask<link::ParameterWritten>(PoweredUnit::writing(Parameter::target, 700000));
+  return flash;
+}
+
+void expect_held_off(PoweredUnit& powered, UnitFault fault, store::Origin origin) {
+  powered.serve(300);
+  const link::Telemetry told = powered.telemetry();
+  EXPECT_EQ(told.state, faulted);
+  EXPECT_EQ(told.fault, static_cast<std::uint8_t>(fault));
+  EXPECT_EQ(told.parameters, static_cast<std::uint8_t>(origin));
+  EXPECT_EQ(powered.ask<link::LoggedFault>(link::ReadFault{0}).fault, told.fault);
+  expect_refusal(powered.answer_to(link::Restart{}), link::Restart::kind,
+                 Reason::parameters_not_confirmed, 0, 0);
+  powered.ask<link::Stopped>(link::Stop{});
+  expect_refusal(powered.answer_to(link::Restart{}), link::Restart::kind,
+                 Reason::parameters_not_confirmed, 0, 0);
+  for (const std::int32_t amplitude : powered.board.in_force) {
+    ASSERT_EQ(amplitude, 0);
+  }
+}
+
+void expect_drives(PoweredUnit& powered) {
+  powered.ask<link::Restarted>(link::Restart{});
+  powered.serve(300);
+  EXPECT_GT(powered.board.latest_drive().amplitude, 0);
+  EXPECT_LE(powered.board.latest_drive().amplitude, 0x1p31 * 0.12 + 1);
+}
+
+constexpr FieldDesign<Parts> other_design(designed, 0.2F, 2, carrier_period_s, timeout_of_link);
+
+TEST(LinkServiceTest, UnderAnotherDesignLimitsHoldAndTheUnitWaitsToBeTold) {
+  SimulatedFlash flash = limited_flash();
+  {
+    PoweredUnit powered(flash, other_design);
+    expect_held_off(powered, UnitFault::parameters_of_other_design, store::Origin::other_design);
+    EXPECT_EQ(powered.read(Parameter::drive_limit), 120000U);
+    EXPECT_EQ(powered.read(Parameter::gain_scale), 500000U);
+    EXPECT_EQ(powered.read(Parameter::target), 400000U);
+    EXPECT_EQ(powered.read(Parameter::start_on_power), 1U);
+    powered.ask<link::Confirmed>(link::Confirm{});
+    EXPECT_EQ(powered.telemetry().parameters, static_cast<std::uint8_t>(store::Origin::stored));
+    expect_drives(powered);
+    expect_refusal(powered.answer_to(link::Confirm{}), link::Confirm::kind,
+                   Reason::drive_not_stopped, 0, 0);
+  }
+  PoweredUnit powered(flash, other_design);
+  powered.serve(300);
+  EXPECT_EQ(powered.read(Parameter::drive_limit), 120000U);
+  EXPECT_GT(powered.board.latest_drive().amplitude, 0);
+}
+
+TEST(LinkServiceTest, AWriteConfirmsTheOtherParameters) {
+  SimulatedFlash flash = limited_flash();
+  PoweredUnit powered(flash, other_design);
+  powered.ask<link::ParameterWritten>(PoweredUnit::writing(Parameter::target, 500000));
+  EXPECT_EQ(powered.telemetry().state, faulted);
+  expect_drives(powered);
+}
+
+TEST(LinkServiceTest, AnyDamageToTheStoreHoldsTheUnitOff) {
+  const SimulatedFlash intact = limited_flash();
+  std::minstd_rand random(7);
+  for (std::size_t i = 0; i < 60; ++i) {
+    SimulatedFlash flash = intact;
+    const bool both = i % 2 == 0;
+    for (std::size_t page = i / 2 % 2; page < (both ? 2U : i / 2 % 2 + 1U); ++page) {
+      flash.page(page)[random() % 20] ^= 1U << random() % 32;
+    }
+    if (both) {
+      flash.page(0)[random() % 20] ^= 0x10101U;
+    }
+    PoweredUnit powered(flash);
+    expect_held_off(powered, UnitFault::parameters_lost, store::Origin::damaged);
+  }
+}
+
+TEST(LinkServiceTest, OfADamagedStoreTheRecordThatIsLeftGivesTheLimits) {
+  SimulatedFlash flash = limited_flash();
+  flash.page(0).fill(0);
+  flash.page(1)[5] ^= 1U;
+  PoweredUnit nothing_left(flash);
+  EXPECT_EQ(nothing_left.read(Parameter::drive_limit), 1000000U);
+  flash = limited_flash();
+  flash.page(1)[5] ^= 1U;  // the newest, with the target
+  PoweredUnit powered(flash);
+  expect_held_off(powered, UnitFault::parameters_lost, store::Origin::damaged);
+  EXPECT_EQ(powered.read(Parameter::drive_limit), 120000U);
+  EXPECT_EQ(powered.read(Parameter::target), 400000U);
+}
+
+// On a board whose flash no longer takes anything somebody can still vouch for the parameters.
+TEST(LinkServiceTest, AConfirmationThatCannotBeSavedHoldsUntilReset) {
+  SimulatedFlash flash = limited_flash();
+  flash.page(0)[5] ^= 1U;
+  flash.page(1)[5] ^= 1U;
+  flash.wear_out();
+  for (int reset = 0; reset < 2; ++reset) {
+    PoweredUnit powered(flash);
+    powered.serve(10);
+    EXPECT_EQ(powered.telemetry().fault, static_cast<std::uint8_t>(UnitFault::parameters_lost));
+    expect_refusal(powered.answer_to(link::Confirm{}), link::Confirm::kind, Reason::not_saved, 0,
+                   0);
+    powered.ask<link::Restarted>(link::Restart{});
+    EXPECT_EQ(powered.telemetry().state, running);
+  }
+}
+
+/// Carrier periods of the preset, 0.1 s.
+constexpr int timeout_periods = 6000;
+
+TEST(LinkServiceTest, AHostThatFallsSilentLosesTheDriveByARamp) {
+  SimulatedFlash flash;
+  PoweredUnit powered(flash);
+  powered.ask<link::Restarted>(link::Restart{});
+  // Whatever is whole counts as life, an older frame too.
+  for (int i = 0; i < 3; ++i) {
+    powered.serve(timeout_periods - 600);
+    powered.put(link::frame_of(link::ReadTelemetry{}, 1));
+    powered.answers();
+    ASSERT_EQ(powered.board.latest_drive().state, running);
+  }
+  powered.serve(timeout_periods - 600);
+  ASSERT_EQ(powered.board.latest_drive().state, running);
+  const std::int32_t amplitude = powered.board.latest_drive().amplitude;
+  while (powered.board.latest_drive().state == running) {
+    powered.serve(1);
+  }
+  int falling = 0;
+  for (std::int32_t last = amplitude; powered.board.latest_drive().amplitude > 0; ++falling) {
+    ASSERT_LE(last - powered.board.latest_drive().amplitude,
+              amplitude / HostRamp::periods + HostRamp::periods);
+    last = powered.board.latest_drive().amplitude;
+    powered.serve(1);
+  }
+  EXPECT_EQ(falling, HostRamp::periods - 1);
+  const link::Telemetry told = powered.telemetry();
+  EXPECT_EQ(told.state, faulted);
+  EXPECT_EQ(told.fault, static_cast<std::uint8_t>(UnitFault::host_silent));
+  EXPECT_EQ(told.amplitude, 0);
+  powered.serve(100);
+  EXPECT_EQ(powered.telemetry().state, faulted);  // a host that is heard again is not enough
+  powered.ask<link::Restarted>(link::Restart{});
+  EXPECT_EQ(powered.telemetry().state, running);
+  EXPECT_EQ(powered.ask<link::LoggedFault>(link::ReadFault{0}).count, 1U);
+}
+
+TEST(LinkServiceTest, SilenceIsCountedToThePeriod) {
+  for (const std::uint32_t timeout_ms : {1U, 7U, 100U}) {
+    SimulatedFlash flash;
+    PoweredUnit powered(flash);
+    powered.ask<link::ParameterWritten>(PoweredUnit::writing(Parameter::host_timeout, timeout_ms));
+    powered.unit.restart();
+    powered.serve(static_cast<int>(60 * timeout_ms));
+    EXPECT_EQ(powered.unit.supervisor().faults().count(), 0U) << timeout_ms;
+    powered.serve(1);
+    EXPECT_EQ(powered.unit.supervisor().faults().count(), 1U) << timeout_ms;
+  }
+}
+
+TEST(LinkServiceTest, DamagedFramesAreNoLife) {
+  SimulatedFlash flash;
+  PoweredUnit powered(flash);
+  powered.start(0);
+  const link::WireFrame frame = link::encode(link::frame_of(link::ReadTelemetry{}, 1));
+  for (int i = 0; i < timeout_periods / 10; ++i) {
+    for (std::size_t k = 0; k < frame.size; ++k) {
+      powered.wire.to_unit.push_back(k == 4 ? frame.bytes[k] ^ 0x10U : frame.bytes[k]);
+    }
+    powered.serve(20);
+  }
+  EXPECT_EQ(powered.board.latest_drive().fault, static_cast<std::uint8_t>(UnitFault::host_silent));
+}
+
+TEST(LinkServiceTest, WithoutATimeoutOrADriveSilenceIsNoFault) {
+  SimulatedFlash flash;
+  PoweredUnit powered(flash);
+  powered.serve(2 * timeout_periods);
+  EXPECT_EQ(powered.unit.supervisor().faults().count(), 0U);
+  powered.ask<link::ParameterWritten>(PoweredUnit::writing(Parameter::host_timeout, 0));
+  powered.ask<link::Restarted>(link::Restart{});
+  powered.serve(4 * timeout_periods);
+  EXPECT_EQ(powered.telemetry().state, running);
+}
+
+TEST(LinkServiceTest, NothingIsWrittenOnTheRamp) {
+  SimulatedFlash flash;
+  PoweredUnit powered(flash);
+  powered.start(timeout_periods + 2);
+  ASSERT_GT(powered.board.latest_drive().amplitude, 0);
+  EXPECT_EQ(powered.unit.write(0, 1), Answer::drive_not_stopped);
+  EXPECT_EQ(powered.unit.confirm(), Answer::drive_not_stopped);
+}
+
+RC_GTEST_PROP(LinkServiceTest, AnyRequestIsAnsweredAndNoneHarms, ()) {
+  SimulatedFlash flash;
+  PoweredUnit powered(flash);
+  const int requests = *rc::gen::inRange(1, 30);
+  for (int i = 0; i < requests; ++i) {
+    link::Frame frame;
+    frame.kind = *rc::gen::weightedOneOf<std::uint8_t>(
+        {{4, rc::gen::inRange<std::uint8_t>(1, 9)}, {1, rc::gen::arbitrary<std::uint8_t>()}});
+    frame.sequence = ++powered.sequence;
+    frame.payload_bytes = *rc::gen::element<std::uint8_t>(0, 1, 4, 5, 32);
+    for (auto& byte : frame.payload) {
+      byte = *rc::gen::weightedOneOf<std::uint8_t>(
+          {{2, rc::gen::inRange<std::uint8_t>(0, 7)}, {1, rc::gen::arbitrary<std::uint8_t>()}});
+    }
+    powered.put(frame);
+    RC_ASSERT(powered.answers().size() == 1U);
+  }
+  RC_ASSERT(!flash.misused());
+  RC_ASSERT(powered.watchdog.feeds == static_cast<int>(powered.unit.supervisor().periods()));
+  for (std::size_t i = 0; i < parameter_count; ++i) {
+    RC_ASSERT(powered.unit.info(i).allows(powered.unit.value(i)));
+  }
+}
+
+}  // namespace
+}  // namespace sonoglide::app

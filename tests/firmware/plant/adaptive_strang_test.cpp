@@ -1,0 +1,226 @@
+/// The splitting that checks itself: what it hands over is within its tolerance, the rest it
+/// declines.
+
+#include "firmware/plant/strang/adaptive_strang.hpp"
+
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+#include <rapidcheck/gtest.h>
+
+#include <cmath>
+#include <cstdint>
+
+#include "motion.hpp"
+
+namespace sonoglide::plant {
+namespace {
+
+static_assert(AdaptiveStrang<DahlModel<double>>::solves<friction::Dahl<double>>);
+static_assert(!AdaptiveStrang<DahlModel<double>>::solves<friction::Coulomb<double>>);
+
+using Contact = DampedDahlModel<double>;
+using Solver = AdaptiveStrang<Contact>;
+using Taylor = EventTaylor<Contact, 16>;
+
+constexpr double period = 2.0 * pi;
+const Contact ordinary = {{{0.9}, 0.3, 1.0}, {0.2}, 0.6};
+const State<double> start = {0.2, -0.1, 0.3};
+
+/// The integrals, and the energies that went through the steps, each with its magnitude.
+struct Passed : EnergyAccount<double> {
+  double drive = 0.0;
+  double damper = 0.0;
+  double contact = 0.0;  ///< over beta
+  double velocity_square_at_most = 0.0;
+
+  template <class Step>
+  void add(const Step& step) {
+    EnergyAccount<double>::add(step);
+    drive += std::abs(step.motion_integrals().drive_work);
+    damper += std::abs(step.motion_integrals().damping_work);
+    contact += std::abs(step.friction_work() - step.sliding_work());
+    const double end = step.at(step.length()).velocity;
+    velocity_square_at_most = std::fmax(velocity_square_at_most, end * end);
+  }
+};
+
+struct Ran {
+  State<double> state;
+  Passed account;
+  Error error = Error::none;
+  Cost cost;
+};
+
+/// Whole periods with drive amplitude 1.
+template <class Method>
+Ran run(const Contact& model, double tolerance, int periods, double sliding_velocity,
+        const State<double>& from, std::uint32_t step_limit = max_steps_per_advance) {
+  Method solver;
+  solver.configure(model, tolerance, step_limit);
+  Ran result;
+  result.state = from;
+  result.error = run_periods(solver, periods, 1.0, sliding_velocity, result.state, result.account);
+  result.cost = solver.cost();
+  return result;
+}
+
+double distance(const Ran& a, const Ran& b, int periods) {
+  return std::abs(a.state.displacement - b.state.displacement) +
+         std::abs(a.state.velocity - b.state.velocity) +
+         std::abs(a.state.friction - b.state.friction) +
+         std::abs(a.account.friction_integral - b.account.friction_integral) / (period * periods);
+}
+
+TEST(AdaptiveStrang, TheToleranceIsDelivered) {
+  const Ran exact = run<Taylor>(ordinary, 1e-15, 4, 0.3, start);
+  for (double tolerance = 1e-2; tolerance > 2e-8; tolerance /= 10.0) {
+    const Ran found = run<Solver>(ordinary, tolerance, 4, 0.3, start);
+    ASSERT_EQ(found.error, Error::none) << tolerance;
+    EXPECT_LT(distance(found, exact, 4), 10.0 * tolerance) << tolerance;
+  }
+}
+
+/// Friction too weak for its energy to show what its mean is; the contact turns twice in a step,
+/// and reaches its limit both ways in between.
+TEST(AdaptiveStrang, TheMeanFrictionOfAStiffContactThatTurnsTwiceInAStep) {
+  const Contact grazing = {{{2.35e4}, 2.88e-5, 1.0}, {1.08e-3}, 0.726};
+  const State<double> slipping = {0.0, 0.0, -0.646};
+  constexpr double tolerance = 1e-4;
+  const Ran exact = run<Taylor>(grazing, 1e-13, 3, 1.89, slipping);
+  const Ran found = run<Solver>(grazing, tolerance, 3, 1.89, slipping);
+  EXPECT_EQ(found.error, Error::none);
+  EXPECT_LT(found.cost.steps, 50U);
+  EXPECT_NEAR(found.account.friction_integral, exact.account.friction_integral,
+              period * 3 * 10.0 * tolerance);
+}
+
+/// Whatever the contact: declined, or balanced as promised, and with the friction ratio of another
+/// method.
+RC_GTEST_PROP(AdaptiveStrang, DeclinesOrIsRight, ()) {
+  const auto decades = [](int low, int high) {
+    return std::pow(10.0, 1e-3 * *rc::gen::inRange(1000 * low, 1000 * high + 1));
+  };
+  const auto part = [] { return 1e-3 * *rc::gen::inRange(-1000, 1001); };
+  const Contact model = {{{decades(-3, 8)}, decades(-8, 1), *rc::gen::element(1.0, -1.0)},
+                         {*rc::gen::element(0.0, decades(-3, 1))},
+                         *rc::gen::element(0.0, decades(-3, 3))};
+  const State<double> from = {0.0, 0.0, part()};
+  const double sliding = 2.0 * part();
+  constexpr double tolerance = 1e-4;
+  constexpr int periods = 3;
+  const Ran found = run<Solver>(model, tolerance, periods, sliding, from, 2000);
+  if (found.error == Error::too_many_steps) {
+    return;
+  }
+  RC_ASSERT(found.error == Error::none);
+  RC_ASSERT(std::abs(found.state.friction) <= 1.0);
+  const Passed& account = found.account;
+  const double missing = account.balance_residual(model, from, found.state) *
+                         account.largest_term(model, from, found.state);
+  const double passed = std::fmax(
+      std::fmax(account.drive, account.damper),
+      std::fmax(model.contact_force(account.contact), 0.5 * account.velocity_square_at_most));
+  RC_ASSERT(std::abs(missing) <= (periods + 3) * tolerance * passed);
+  const Ran exact = run<Taylor>(model, 1e-12, periods, sliding, from, 20000);
+  if (exact.error == Error::none) {
+    RC_ASSERT(std::abs(account.friction_integral - exact.account.friction_integral) <
+              period * periods * 20.0 * tolerance);
+  }
+}
+
+/// A step far too long for the ringing of a stuck contact.
+TEST(AdaptiveStrang, CutsAStepThatIsTooLongForTheContact) {
+  const Contact ringing = {{{1e4}, 0.5, 1.0}, {0.0}, 0.0};
+  const State<double> displaced = {1e-11, 0.0, 1e-7};
+  const double duration = 200.0 * pi / std::sqrt(0.5e4);
+  auto solver = configured<Solver>(ringing, 1e-3);
+  auto reference = configured<Taylor>(ringing, 1e-13);
+  const Interval<double> undriven = {0.0, duration, 0.0, 0.0, 0.0};
+  const State<double> exact = advanced(reference, undriven, displaced);
+  const State<double> found = advanced(solver, undriven, displaced);
+  EXPECT_NEAR(found.displacement, exact.displacement, 2e-13);
+  EXPECT_GT(solver.cost().steps, 2000U);
+}
+
+TEST(AdaptiveStrang, DeclinesWhatItsStepsDoNotReach) {
+  const Contact stiff = {{{1e8}, 0.5, 1.0}, {0.0}, 0.05};
+  Solver solver;
+  solver.configure(stiff, 1e-6, 1000);
+  State<double> state;
+  NoAccount account;
+  const Outcome<double> outcome = advance(solver, {0.0, period, 1.0, 0.5, 0.0}, state, account);
+  EXPECT_EQ(outcome.error, Error::too_many_steps);
+  EXPECT_LT(outcome.offset, period);
+  EXPECT_LE(solver.cost().steps, 1000U);
+}
+
+TEST(AdaptiveStrang, DeclinesAToleranceBelowRounding) {
+  EXPECT_EQ(run<Solver>(ordinary, 1e-18, 1, 0.3, start, 5000).error, Error::too_many_steps);
+}
+
+TEST(AdaptiveStrang, TellsOfAStateThatIsNoNumber) {
+  const Ran lost = run<Solver>(ordinary, 1e-4, 1, 0.3, {std::nan(""), 0.0, 0.0}, 1000);
+  EXPECT_NE(lost.error, Error::none);
+}
+
+TEST(AdaptiveStrang, OfASteadyMotionEveryPeriodTakesTheSameSteps) {
+  auto solver = configured<Solver>(ordinary, 1e-5);
+  State<double> state = start;
+  NoAccount account;
+  ASSERT_EQ(run_periods(solver, 20, 1.0, 0.3, state, account), Error::none);
+  const std::uint64_t settled = solver.cost().steps;
+  ASSERT_EQ(run_periods(solver, 1, 1.0, 0.3, state, account), Error::none);
+  const std::uint64_t one = solver.cost().steps - settled;
+  ASSERT_EQ(run_periods(solver, 50, 1.0, 0.3, state, account), Error::none);
+  EXPECT_EQ(solver.cost().steps, settled + 51 * one);
+}
+
+/// A contact that rings, and then slides to and fro as if it never had.
+TEST(AdaptiveStrang, ItsStepsGrowAgainWhereTheyMay) {
+  const Contact model = {{{1e3}, 1e-3, 1.0}, {0.2}, 0.6};
+  const auto steps_of_a_late_period = [&](double first_drive) {
+    auto solver = configured<Solver>(model, 1e-4);
+    State<double> state;
+    NoAccount account;
+    EXPECT_EQ(run_periods(solver, 2, first_drive, 0.0, state, account), Error::none);
+    EXPECT_EQ(run_periods(solver, 20, 1.0, 0.3, state, account), Error::none);
+    const std::uint64_t before = solver.cost().steps;
+    EXPECT_EQ(run_periods(solver, 1, 1.0, 0.3, state, account), Error::none);
+    return solver.cost().steps - before;
+  };
+  EXPECT_LE(steps_of_a_late_period(1e-9), 2 * steps_of_a_late_period(1.0));
+}
+
+TEST(AdaptiveStrang, NoStepIsLongerThanTheLongest) {
+  Solver solver;
+  solver.configure(ordinary, 1e-2, max_steps_per_advance, period / 500.0);
+  State<double> state = start;
+  NoAccount account;
+  double longest = 0.0;
+  auto watch = [&](const auto& step) { longest = std::fmax(longest, step.length()); };
+  ASSERT_EQ(solver.advance({0.0, period, 1.0, 0.3, 0.0}, state, account, watch).error, Error::none);
+  EXPECT_NEAR(longest, period / 500.0, 1e-12);
+}
+
+/// Steps that are taken again leave no trace: what is shown joins without a gap.
+TEST(AdaptiveStrang, TheStepsShownJoin) {
+  auto solver = configured<Solver>(ordinary, 1e-6);
+  State<double> state = start;
+  State<double> last = start;
+  double end = 0.0;
+  NoAccount account;
+  auto watch = [&](const auto& step) {
+    EXPECT_NEAR(step.begin(), end, 1e-14);
+    const State<double> first = step.at(0.0);
+    EXPECT_NEAR(first.displacement, last.displacement, 1e-14);
+    EXPECT_NEAR(first.velocity, last.velocity, 1e-14);
+    EXPECT_NEAR(first.friction, last.friction, 1e-14);
+    last = step.at(step.length());
+    end = step.begin() + step.length();
+  };
+  ASSERT_EQ(solver.advance({0.0, period, 1.0, 0.3, 0.0}, state, account, watch).error, Error::none);
+  EXPECT_NEAR(end, period, 1e-14);
+}
+
+}  // namespace
+}  // namespace sonoglide::plant

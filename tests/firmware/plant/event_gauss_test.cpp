@@ -1,0 +1,258 @@
+/// The panels of the Gauss method: when they serve, what they are worth, what they leave to Taylor.
+
+#include "firmware/plant/gauss/event_gauss.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "motion.hpp"
+
+namespace sonoglide::plant {
+namespace {
+
+using Contact = DampedDahlModel<double>;
+using Gauss8 = EventGauss<Contact, 8>;
+using Gauss12 = EventGauss<Contact, 12>;
+using Taylor16 = EventTaylor<Contact, 16>;
+
+constexpr double period = 2.0 * pi;
+const Contact weak = {{{0.4}, 5e-5, 1.0}, {0.01}, 0.05};
+const Interval<double> ordinary = {0.3, period, 1.0, 0.5, 0.002};
+const State<double> start = {0.1, 0.2, -0.3};
+
+struct Reached {
+  State<double> state;
+  EnergyAccount<double> account;
+  Cost cost;
+};
+
+template <class Solver>
+Reached reached(const Contact& model, double tolerance, const Interval<double>& interval,
+                const State<double>& from) {
+  auto solver = configured<Solver>(model, tolerance);
+  Reached run;
+  run.state = from;
+  EXPECT_EQ(advance(solver, interval, run.state, run.account).error, Error::none);
+  run.cost = solver.cost();
+  return run;
+}
+
+/// The same sequence of weakly coupled plants on every machine.
+class Plants {
+ public:
+  double uniform(double low, double high) {
+    return low + (high - low) * std::ldexp(static_cast<double>(engine_() >> 11U), -53);
+  }
+  Contact model() {
+    const double kappa = std::pow(10.0, uniform(-3.0, 1.0));
+    const double beta = std::pow(10.0, uniform(-8.0, -3.0)) / std::fmax(1.0, kappa);
+    const double sign = uniform(-1.0, 1.0) < 0.0 ? -1.0 : 1.0;
+    const double damping = std::pow(10.0, uniform(-3.0, 0.3));
+    return {{{kappa}, beta, sign},
+            {uniform(0.0, 1.0) < 0.5 ? 0.0 : damping},
+            std::pow(10.0, uniform(-3.0, 0.3))};
+  }
+  Interval<double> interval() {
+    const double acceleration = uniform(0.0, 1.0) < 0.5 ? 0.0 : uniform(-0.02, 0.02);
+    return {uniform(0.0, 6.28), period, uniform(0.1, 2.0), uniform(-1.5, 1.5), acceleration};
+  }
+  State<double> state() { return {uniform(-1.0, 1.0), uniform(-1.0, 1.0), uniform(-1.0, 1.0)}; }
+
+ private:
+  std::mt19937_64 engine_;
+};
+
+/// Against another method; returns whether one panel did.
+template <class Solver>
+bool agrees(Plants& any, double tolerance) {
+  const Contact model = any.model();
+  const Interval<double> interval = any.interval();
+  const State<double> before = any.state();
+  const Reached run = reached<Solver>(model, tolerance, interval, before);
+  const Reached exact = reached<Taylor16>(model, 1e-15, interval, before);
+  if (run.cost.steps != 1) {
+    return false;
+  }
+  EXPECT_NEAR(run.account.friction_integral, exact.account.friction_integral,
+              2.0 * period * tolerance);
+  EXPECT_EQ(run.cost.events, exact.cost.events);
+  EXPECT_NEAR(run.state.displacement, exact.state.displacement, tolerance);
+  EXPECT_NEAR(run.state.velocity, exact.state.velocity, tolerance);
+  EXPECT_NEAR(run.state.friction, exact.state.friction, tolerance);
+  EXPECT_NEAR(run.account.friction_work, exact.account.friction_work, tolerance);
+  EXPECT_NEAR(run.account.sliding_work, exact.account.sliding_work, 20.0 * tolerance);
+  EXPECT_NEAR(run.account.drive_work, exact.account.drive_work, 10.0 * tolerance);
+  EXPECT_NEAR(run.account.damping_work, exact.account.damping_work, 10.0 * tolerance);
+  EXPECT_NEAR(run.account.velocity_square, exact.account.velocity_square, 20.0 * tolerance);
+  EXPECT_NEAR(run.account.displacement_square, exact.account.displacement_square,
+              100.0 * tolerance);
+  EXPECT_LE(std::abs(run.state.friction), 1.0);
+  EXPECT_NEAR(run.account.balance_residual(model, before, run.state), 0.0, 100.0 * tolerance);
+  return true;
+}
+
+template <class Solver>
+void expect_agreement(double tolerance) {
+  Plants any;
+  int panels = 0;
+  for (int i = 0; i < 2000; ++i) {
+    SCOPED_TRACE(i);
+    panels += agrees<Solver>(any, tolerance) ? 1 : 0;
+  }
+  EXPECT_GT(panels, 600);
+}
+
+TEST(EventGauss, AgreesWithTaylorToItsTolerance) {
+  expect_agreement<Gauss8>(1e-5);
+  expect_agreement<Gauss8>(1e-8);
+  expect_agreement<Gauss12>(1e-10);
+}
+
+TEST(EventGauss, IsOneStepForACarrierPeriodOfAWeakContact) {
+  const Reached run = reached<Gauss8>(weak, 1e-8, ordinary, start);
+  EXPECT_EQ(run.cost.steps, 1U);
+  EXPECT_EQ(run.cost.events, 2U);
+}
+
+/// Whatever is no panel is Taylor's, bit for bit.
+void expect_taylor(const Contact& model, const Interval<double>& interval,
+                   const State<double>& from) {
+  const Reached run = reached<Gauss8>(model, 1e-8, interval, from);
+  const Reached taylor = reached<EventTaylor<Contact, 12>>(model, 1e-8, interval, from);
+  EXPECT_EQ(run.state.displacement, taylor.state.displacement);
+  EXPECT_EQ(run.state.velocity, taylor.state.velocity);
+  EXPECT_EQ(run.state.friction, taylor.state.friction);
+  EXPECT_EQ(run.account.friction_integral, taylor.account.friction_integral);
+  EXPECT_EQ(run.account.drive_work, taylor.account.drive_work);
+  EXPECT_EQ(run.cost.steps, taylor.cost.steps);
+}
+
+TEST(EventGauss, LeavesToTaylorWhatIsNoPanel) {
+  expect_taylor(weak, {0.3, 0.9 * period, 1.0, 0.5, 0.0}, start);
+  expect_taylor(weak, {0.3, 3.0 * period, 1.0, 0.5, 0.0}, start);
+  Contact strong = weak;
+  strong.friction_force = 0.3;
+  expect_taylor(strong, ordinary, start);
+  Contact saturating = weak;
+  saturating.law.contact_stiffness = 100.0;
+  saturating.friction_force = 1e-9;
+  expect_taylor(saturating, ordinary, start);
+  Contact fast = weak;
+  fast.stiffness = 400.0;
+  expect_taylor(fast, ordinary, start);
+}
+
+TEST(EventGauss, LeavesToTaylorReversalsThatAreNotCertain) {
+  const Contact bare = {{{0.4}, 0.0, 1.0}, {0.0}, 0.0};
+  // V = r + sin(tau): zero at the beginning, at the end, touching zero, and all but touching it.
+  expect_taylor(bare, {0.0, period, 1.0, 0.0, 0.0}, {-1.0, 0.0, 0.0});
+  expect_taylor(bare, {0.0, period, 1.0, 1e-6, 0.0}, {-1.0, 0.0, 0.0});
+  expect_taylor(bare, {0.0, period, 1.0, 1.0, 0.0}, {-1.0, 0.0, 0.0});
+  expect_taylor(bare, {0.0, period, 1.0, 1.0001, 0.0}, {-1.0, 0.0, 0.0});
+}
+
+TEST(EventGauss, LeavesToTaylorAMotionThatRoundingWouldLose) {
+  // A mass that hardly moves about a place far off; a fast slide over a mass that hardly moves; and
+  // one over a contact so soft that the energy is lost beside what the slide spends.
+  expect_taylor({{{4e11}, 5e-21, 1.0}, {3e-6}, 0.0}, {0.0, period, 2e-17, 2e-13, 0.0},
+                {1.0, 0.0, 0.0});
+  expect_taylor({{{5e-14}, 1.0, 1.0}, {8e-6}, 2e-6}, {0.0, period, 1e-6, 46.0, 0.0}, {});
+  expect_taylor({{{6e-15}, 1.0, 1.0}, {0.0}, 0.0}, {0.0, period, 2e-7, 158.0, 0.0},
+                {0.0, 9e-4, 0.0});
+}
+
+TEST(EventGauss, TellsOfAStateThatIsNotFinite) {
+  auto solver = configured<Gauss8>(weak, 1e-8);
+  State<double> state = {std::nan(""), 0.0, 0.0};
+  NoAccount account;
+  EXPECT_EQ(advance(solver, ordinary, state, account).error, Error::not_finite);
+}
+
+TEST(EventGauss, TheStepLimitIsTaylors) {
+  Gauss8 solver;
+  solver.configure(weak, 1e-8, 2);
+  State<double> state;
+  NoAccount account;
+  EXPECT_EQ(advance(solver, ordinary, state, account).error, Error::none);
+  EXPECT_EQ(advance(solver, {0.0, 3.0 * period, 1.0, 0.5, 0.0}, state, account).error,
+            Error::too_many_steps);
+}
+
+TEST(EventGauss, SolvesAnUndrivenContact) {
+  using Undriven = Model<friction::Dahl<double>, Undamped<double>, NoDrive>;
+  const Undriven model = {{{0.7}, 1e-5, 1.0}, {}, 0.1};
+  auto gauss = configured<EventGauss<Undriven, 8>>(model, 1e-8);
+  auto taylor = configured<EventTaylor<Undriven, 16>>(model, 1e-15);
+  const Interval<double> interval = {0.0, period, 0.0, 0.1, 0.0};
+  const State<double> before = {0.4, 0.3, 0.2};
+  State<double> state = before;
+  EnergyAccount<double> account;
+  ASSERT_EQ(advance(gauss, interval, state, account).error, Error::none);
+  EXPECT_EQ(gauss.cost().steps, 1U);
+  const State<double> exact = advanced(taylor, interval, before);
+  EXPECT_NEAR(state.displacement, exact.displacement, 1e-9);
+  EXPECT_NEAR(state.velocity, exact.velocity, 1e-9);
+  EXPECT_NEAR(state.friction, exact.friction, 1e-9);
+  EXPECT_NEAR(account.balance_residual(model, before, state), 0.0, 1e-8);
+}
+
+/// Compares the inside of a panel with Taylor's steps that end there.
+struct InsideObserver {
+  Taylor16& taylor;
+  const Interval<double>& interval;
+  double worst = 0.0;
+  double largest_friction = 0.0;
+
+  template <class Step>
+  void operator()(const Step& step) {
+    EXPECT_EQ(step.begin(), 0.0);
+    EXPECT_EQ(step.length(), interval.duration);
+    for (int i = 0; i <= 50; ++i) {
+      Interval<double> part = interval;
+      part.duration = step.length() * i / 50.0;
+      const State<double> exact = advanced(taylor, part, start);
+      const State<double> seen = step.at(part.duration);
+      worst = std::fmax(worst, std::abs(seen.displacement - exact.displacement));
+      worst = std::fmax(worst, std::abs(seen.velocity - exact.velocity));
+      worst = std::fmax(worst, std::abs(seen.friction - exact.friction));
+      largest_friction = std::fmax(largest_friction, std::abs(seen.friction));
+    }
+  }
+};
+
+TEST(EventGauss, ShowsTheInsideOfAPanel) {
+  auto gauss = configured<Gauss12>(weak, 1e-10);
+  auto taylor = configured<Taylor16>(weak, 1e-15);
+  InsideObserver inside{taylor, ordinary};
+  State<double> state = start;
+  NoAccount account;
+  ASSERT_EQ(gauss.advance(ordinary, state, account, inside).error, Error::none);
+  EXPECT_EQ(gauss.cost().steps, 1U);
+  EXPECT_LT(inside.worst, 1e-10);
+  EXPECT_LE(inside.largest_friction, 1.0);
+}
+
+TEST(EventGauss, SeeingAndAccountingChangeNoBit) {
+  const Reached run = reached<Gauss8>(weak, 1e-8, ordinary, start);
+  auto solver = configured<Gauss8>(weak, 1e-8);
+  const State<double> plain = advanced(solver, ordinary, start);
+  EXPECT_EQ(run.state.displacement, plain.displacement);
+  EXPECT_EQ(run.state.velocity, plain.velocity);
+  EXPECT_EQ(run.state.friction, plain.friction);
+}
+
+TEST(EventGauss, MirroredMotionIsTheMirrorImageBitForBit) {
+  const Reached one = reached<Gauss8>(weak, 1e-8, ordinary, start);
+  const Reached other =
+      reached<Gauss8>(weak, 1e-8, {0.3, period, -1.0, -0.5, -0.002}, {-0.1, -0.2, 0.3});
+  EXPECT_EQ(one.cost.steps, 1U);
+  EXPECT_EQ(one.state.displacement, -other.state.displacement);
+  EXPECT_EQ(one.state.velocity, -other.state.velocity);
+  EXPECT_EQ(one.state.friction, -other.state.friction);
+  EXPECT_EQ(one.account.drive_work, other.account.drive_work);
+}
+
+}  // namespace
+}  // namespace sonoglide::plant

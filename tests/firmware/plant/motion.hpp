@@ -1,0 +1,71 @@
+/// The plant's compositions under test, and a run over whole carrier periods.
+#pragma once
+
+#include "firmware/friction/coulomb.hpp"
+#include "firmware/friction/dahl.hpp"
+#include "firmware/friction/none.hpp"
+#include "firmware/plant/account.hpp"
+#include "firmware/plant/damping.hpp"
+#include "firmware/plant/drive.hpp"
+#include "firmware/plant/model.hpp"
+#include "firmware/plant/observer.hpp"
+#include "firmware/plant/rk4/rk4.hpp"
+#include "firmware/plant/taylor/event_taylor.hpp"
+
+namespace sonoglide::plant {
+
+constexpr double pi = 3.14159265358979323846;
+
+template <class Scalar>
+using DahlModel = Model<friction::Dahl<Scalar>, Undamped<Scalar>, CosineDrive>;
+template <class Scalar>
+using DampedDahlModel = Model<friction::Dahl<Scalar>, Damped<Scalar>, CosineDrive>;
+template <class Scalar>
+using CoulombModel = Model<friction::Coulomb<Scalar>, Undamped<Scalar>, CosineDrive>;
+template <class Scalar>
+using DampedCoulombModel = Model<friction::Coulomb<Scalar>, Damped<Scalar>, CosineDrive>;
+
+template <class Solver>
+Solver configured(const typename Solver::Model& model, typename Solver::Scalar setting) {
+  Solver solver;
+  solver.configure(model, setting);
+  return solver;
+}
+
+template <class Solver>
+using StateFor = StateOf<typename Solver::Model::FrictionLaw>;
+
+template <class Solver, class Account>
+Outcome<typename Solver::Scalar> advance(Solver& solver,
+                                         const Interval<typename Solver::Scalar>& interval,
+                                         StateFor<Solver>& state, Account& account) {
+  NoObserver observer;
+  return solver.advance(interval, state, account, observer);
+}
+
+template <class Solver>
+StateFor<Solver> advanced(Solver& solver, const Interval<typename Solver::Scalar>& interval,
+                          StateFor<Solver> state) {
+  NoAccount account;
+  advance(solver, interval, state, account);
+  return state;
+}
+
+/// Whole carrier periods from drive phase 0; stops at the first error.
+template <class Solver, class Account>
+Error run_periods(Solver& solver, int periods, typename Solver::Scalar drive_amplitude,
+                  typename Solver::Scalar sliding_velocity, StateFor<Solver>& state,
+                  Account& account) {
+  using Scalar = typename Solver::Scalar;
+  const Interval<Scalar> period = {Scalar(0), static_cast<Scalar>(2.0 * pi), drive_amplitude,
+                                   sliding_velocity, Scalar(0)};
+  for (int i = 0; i < periods; ++i) {
+    const Error error = advance(solver, period, state, account).error;
+    if (error != Error::none) {
+      return error;
+    }
+  }
+  return Error::none;
+}
+
+}  // namespace sonoglide::plant

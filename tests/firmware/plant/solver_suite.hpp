@@ -1,0 +1,181 @@
+/// The solvers under one suite: each with a setting that leaves little but rounding, and with what
+/// that setting is held to.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cstddef>
+#include <string>
+#include <type_traits>
+
+#include "firmware/plant/gauss/event_gauss.hpp"
+#include "firmware/plant/rk4/rk4_event.hpp"
+#include "firmware/plant/strang/equal_step_strang.hpp"
+#include "motion.hpp"
+
+namespace sonoglide::plant {
+
+template <class Scalar>
+inline constexpr bool is_single = std::is_same_v<Scalar, float>;
+
+/// smooth: error of motion and friction without reversals; across: with them.
+template <class Number, std::size_t Order>
+struct TaylorMethod {
+  using Scalar = Number;
+  template <class Model>
+  using Solver = EventTaylor<Model, Order>;
+  static std::string name() { return "Taylor" + std::to_string(Order); }
+  static constexpr double setting = is_single<Number> ? 1e-7 : 1e-13;
+  static constexpr double coarse_setting = 1e-3;
+  static constexpr double smooth = is_single<Number> ? 3e-5 : 2e-11;
+  static constexpr double across = smooth;
+};
+
+template <class Number>
+struct Rk4Method {
+  using Scalar = Number;
+  template <class Model>
+  using Solver = Rk4<Model>;
+  static std::string name() { return "Rk4"; }
+  static constexpr double setting = is_single<Number> ? 0.02 : 1e-3;
+  static constexpr double coarse_setting = 0.3;
+  static constexpr double smooth = is_single<Number> ? 1e-4 : 1e-10;
+  static constexpr double across = is_single<Number> ? 5e-4 : 2e-6;
+};
+
+template <class Number>
+struct Rk4EventMethod {
+  using Scalar = Number;
+  template <class Model>
+  using Solver = Rk4Event<Model>;
+  static std::string name() { return "Rk4Event"; }
+  static constexpr double setting = is_single<Number> ? 0.05 : 1e-3;
+  static constexpr double coarse_setting = 0.3;
+  static constexpr double smooth = is_single<Number> ? 1e-4 : 1e-10;
+  static constexpr double across = smooth;
+};
+
+template <class Number>
+struct StrangMethod {
+  using Scalar = Number;
+  template <class Model>
+  using Solver = Strang<Model>;
+  static std::string name() { return "Strang"; }
+  static constexpr double setting = is_single<Number> ? 0.01 : 1e-3;
+  static constexpr double coarse_setting = 0.3;
+  static constexpr double smooth = is_single<Number> ? 1e-4 : 2e-7;
+  static constexpr double across = smooth;
+};
+
+/// Without friction it has nothing to solve.
+template <class Number, std::size_t Nodes>
+struct GaussMethod {
+  using Scalar = Number;
+  template <class Model>
+  using Solver = std::conditional_t<Model::FrictionLaw::reverses, EventGauss<Model, Nodes>,
+                                    EventTaylor<Model, 12>>;
+  static std::string name() { return "Gauss" + std::to_string(Nodes); }
+  static constexpr double setting = is_single<Number> ? 1e-7 : 1e-12;
+  static constexpr double coarse_setting = 1e-3;
+  static constexpr double smooth = is_single<Number> ? 3e-5 : 1e-10;
+  static constexpr double across = smooth;
+};
+
+using SolverMethods =
+    testing::Types<TaylorMethod<double, 8>, TaylorMethod<double, 12>, TaylorMethod<double, 16>,
+                   Rk4Method<double>, Rk4EventMethod<double>, StrangMethod<double>,
+                   GaussMethod<double, 8>, GaussMethod<float, 8>, TaylorMethod<float, 8>,
+                   Rk4Method<float>, Rk4EventMethod<float>, StrangMethod<float>>;
+
+struct SolverMethodName {
+  template <class Method>
+  static std::string GetName(int /*index*/) {
+    return Method::name() + (is_single<typename Method::Scalar> ? "Single" : "Double");
+  }
+};
+
+template <class To, class From>
+State<To> state_cast(const State<From>& state) {
+  return {static_cast<To>(state.displacement), static_cast<To>(state.velocity),
+          static_cast<To>(state.friction)};
+}
+
+/// In double, rounded to the method's scalar where it enters the core.
+struct Case {
+  double contact_stiffness = 1.0;
+  double friction_force = 0.0;
+  double vibration_sign = 1.0;
+  double damping = 0.0;
+  double stiffness = 0.0;
+};
+
+template <class Scalar>
+using DampedFrictionless = Model<friction::None<Scalar>, Damped<Scalar>, CosineDrive>;
+
+template <class Model>
+Model model_of(const Case& c) {
+  using Scalar = typename Model::Scalar;
+  const auto scalar = [](double x) { return static_cast<Scalar>(x); };
+  if constexpr (Model::FrictionLaw::reverses) {
+    return {{{scalar(c.contact_stiffness)}, scalar(c.friction_force), scalar(c.vibration_sign)},
+            {scalar(c.damping)},
+            scalar(c.stiffness)};
+  } else {
+    return {{}, {scalar(c.damping)}, scalar(c.stiffness)};
+  }
+}
+
+/// Drive phase 0 at the beginning unless said otherwise.
+struct Course {
+  double duration = 0.0;
+  double drive_amplitude = 0.0;
+  double sliding_velocity = 0.0;
+  double sliding_acceleration = 0.0;
+  double phase = 0.0;
+};
+
+template <class Scalar>
+Interval<Scalar> interval_of(const Course& course) {
+  return {static_cast<Scalar>(course.phase), static_cast<Scalar>(course.duration),
+          static_cast<Scalar>(course.drive_amplitude), static_cast<Scalar>(course.sliding_velocity),
+          static_cast<Scalar>(course.sliding_acceleration)};
+}
+
+struct Advanced {
+  State<double> state;
+  EnergyAccount<double> account;
+  double balance_residual = 0.0;
+  Error error = Error::none;
+  Cost cost;
+};
+
+/// One advance of one method.
+template <class Method, template <class> class ModelOf = DampedDahlModel>
+Advanced run_of(const Case& c, const Course& course, const State<double>& start,
+                double setting = Method::setting) {
+  using Scalar = typename Method::Scalar;
+  using Model = ModelOf<Scalar>;
+  const Model model = model_of<Model>(c);
+  auto solver =
+      configured<typename Method::template Solver<Model>>(model, static_cast<Scalar>(setting));
+  const State<Scalar> before = state_cast<Scalar>(start);
+  State<Scalar> state = before;
+  EnergyAccount<Scalar> account;
+  const Error error = advance(solver, interval_of<Scalar>(course), state, account).error;
+  const auto wide = [](Scalar x) { return static_cast<double>(x); };
+  return {state_cast<double>(state),
+          {wide(account.friction_integral), wide(account.friction_work), wide(account.sliding_work),
+           wide(account.drive_work), wide(account.damping_work)},
+          wide(account.balance_residual(model, before, state)),
+          error,
+          solver.cost()};
+}
+
+inline void expect_near(const State<double>& actual, const State<double>& expected,
+                        double tolerance) {
+  EXPECT_NEAR(actual.displacement, expected.displacement, tolerance);
+  EXPECT_NEAR(actual.velocity, expected.velocity, tolerance);
+  EXPECT_NEAR(actual.friction, expected.friction, tolerance);
+}
+
+}  // namespace sonoglide::plant

@@ -1,0 +1,275 @@
+#include "host_sim/configure/control_design.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <complex>
+#include <string>
+
+#include "host_sim/configure/configuration_error.hpp"
+#include "tests/common/table_1.hpp"
+
+namespace sonoglide::configure {
+namespace {
+
+using loop::carrier_Hz;
+using loop::period_s;
+using loop::pi;
+using loop::table_1_closed_loop;
+
+constexpr long double pi_l = 3.14159265358979323846264338327950288L;
+const double omega = 2.0 * pi * carrier_Hz;
+
+/// The key that a refused scene should change.
+std::string refused_key(const scene::Scene& scene) {
+  try {
+    design_control(scene);
+  } catch (const ConfigurationError& error) {
+    EXPECT_NE(std::string(error.what()).find("allowed:"), std::string::npos) << error.what();
+    return error.key();
+  }
+  return "none";
+}
+
+/// A plant whose natural frequency is the given part of the carrier's.
+scene::Scene with_natural_frequency(double part, double damping_ratio = 0.0) {
+  scene::Scene scene = table_1_closed_loop();
+  scene::Plant& plant = scene.plant;
+  plant.stiffness_N_per_m = plant.mass_kg * part * part * omega * omega;
+  plant.damping_N_s_per_m = 2.0 * damping_ratio * plant.mass_kg * part * omega;
+  return scene;
+}
+
+/// The natural mode over one carrier period, exp((−σ ± iωd) T).
+std::complex<long double> mode_of(const scene::Plant& plant) {
+  const auto mass = static_cast<long double>(plant.mass_kg);
+  const auto stiffness = static_cast<long double>(plant.stiffness_N_per_m);
+  const auto damping = static_cast<long double>(plant.damping_N_s_per_m);
+  const long double sigma = damping / (2.0L * mass);
+  const long double damped = std::sqrt(stiffness / mass - sigma * sigma);
+  return std::exp(std::complex<long double>(-sigma, damped) / 60e3L);
+}
+
+/// Magnitude of the shaper's transfer function.
+double gain_at(const ControlDesign& design, std::complex<long double> z) {
+  const std::complex<long double> back = std::pow(z, -static_cast<int>(design.notch_spacing));
+  return static_cast<double>(
+      std::abs(static_cast<long double>(design.notch_taps[0]) +
+               back * (static_cast<long double>(design.notch_taps[1]) +
+                       back * static_cast<long double>(design.notch_taps[2]))));
+}
+
+TEST(ControlDesignTest, NotchOfTable1IsTheTwoTapFormula) {
+  const scene::Scene scene = table_1_closed_loop();
+  const ControlDesign design = design_control(scene);
+  const long double turn = std::sqrt(133e6L / 0.02L) / 60e3L;
+  const long double sum = 2.0L - 2.0L * std::cos(turn);
+  ASSERT_TRUE(design.shaped);
+  EXPECT_EQ(design.notch_spacing, 1);
+  EXPECT_NEAR(design.notch_taps[0], static_cast<double>(1.0L / sum), 1e-15);
+  EXPECT_NEAR(design.notch_taps[1], static_cast<double>(-2.0L * std::cos(turn) / sum), 1e-15);
+  EXPECT_NEAR(design.notch_taps[2], static_cast<double>(1.0L / sum), 1e-15);
+}
+
+TEST(ControlDesignTest, NotchHasItsZerosOnTheNaturalModeAndUnitGain) {
+  for (const double damping_ratio : {0.0, 0.01, 0.1, 0.5, 0.9}) {
+    for (double part = 0.05; part < 3.0; part += 0.0173) {
+      const scene::Scene scene = with_natural_frequency(part, damping_ratio);
+      const ControlDesign design = design_control(scene);
+      if (!design.shaped) {
+        continue;
+      }
+      EXPECT_NEAR(gain_at(design, mode_of(scene.plant)), 0.0, 1e-11)
+          << part << ' ' << damping_ratio;
+      EXPECT_NEAR(gain_at(design, 1.0L), 1.0, 1e-14);
+    }
+  }
+}
+
+TEST(ControlDesignTest, NotchSpacingIsTheSmallestThatKeepsEveryTapBelowOne) {
+  int shaped = 0;
+  for (double part = 0.0101; part < 3.0; part += 0.0107) {
+    const ControlDesign design = design_control(with_natural_frequency(part));
+    int smallest = 0;
+    for (int spacing = 1; spacing <= max_notch_spacing && smallest == 0; ++spacing) {
+      const long double cosine = std::cos(2.0L * pi_l * static_cast<long double>(part) * spacing);
+      const long double sum = 2.0L - 2.0L * cosine;
+      smallest = sum > 1.0L && std::abs(2.0L * cosine) < sum ? spacing : 0;
+    }
+    EXPECT_EQ(design.notch_spacing, smallest) << part;
+    EXPECT_EQ(design.shaped, smallest > 0) << part;
+    shaped += smallest > 0 ? 1 : 0;
+  }
+  EXPECT_GT(shaped, 250);
+}
+
+TEST(ControlDesignTest, NothingIsShapedWithoutANaturalMode) {
+  const scene::Scene overdamped = with_natural_frequency(0.2, 1.5);
+  EXPECT_FALSE(design_control(overdamped).shaped);
+  scene::Scene springless = table_1_closed_loop();
+  springless.plant.stiffness_N_per_m = 0.0;
+  EXPECT_FALSE(design_control(springless).shaped);
+  // With no shaper in the way the loop may be faster than with one.
+  EXPECT_GT(design_control(springless).integral_gain,
+            design_control(table_1_closed_loop()).integral_gain);
+}
+
+TEST(ControlDesignTest, NothingIsShapedWhereTheSceneSaysSo) {
+  scene::Scene scene = table_1_closed_loop();
+  scene.controller->shaping = scene::Shaping::none;
+  EXPECT_FALSE(design_control(scene).shaped);
+  EXPECT_LT(design_control(scene).integral_gain, 0.01);
+}
+
+TEST(ControlDesignTest, IntegralIsSlowerTheLongerTheSensorTakes) {
+  double faster = 1.0;
+  for (const int delay : {0, 1, 2, 4, 8, 64}) {
+    scene::Scene scene = table_1_closed_loop();
+    scene.sensor.delay_periods = delay;
+    const ControlDesign design = design_control(scene);
+    EXPECT_LT(design.integral_gain, faster);
+    EXPECT_GT(design.integral_gain, 0.0);
+    EXPECT_GE(design.hold_periods, 4 + delay);
+    EXPECT_GT(design.stuck_periods, 4 + delay);
+    // An integrator behind D periods of delay oscillates at this gain.
+    const double critical = 2.0 * std::sin(pi / (4.0 * (4.0 + delay) + 2.0));
+    EXPECT_NEAR(design.integral_gain, critical / 3.0, 1e-12);
+    faster = design.integral_gain;
+  }
+}
+
+TEST(ControlDesignTest, UndampedResonanceHasNoController) {
+  scene::Scene scene = table_1_closed_loop();
+  scene.plant.stiffness_N_per_m = scene.plant.mass_kg * omega * omega;
+  EXPECT_EQ(refused_key(scene), "drive.frequency_Hz");
+  scene.plant.stiffness_N_per_m *= 1.0 + 1e-12;
+  EXPECT_EQ(refused_key(scene), "drive.frequency_Hz");
+  scene.plant.damping_N_s_per_m = 10.0;  // amplifies 750 times
+  EXPECT_EQ(refused_key(scene), "none");
+}
+
+TEST(ControlDesignTest, BaseOfSpeedIsThePeakVibrationAtFullDrive) {
+  const scene::Scene scene = table_1_closed_loop();
+  const ControlDesign design = design_control(scene);
+  EXPECT_NEAR(design.scales.velocity_m_per_s, 0.267147944395619, 1e-12);
+  EXPECT_DOUBLE_EQ(design.scales.carrier_period_s, period_s);
+  EXPECT_EQ(design.scales.drive_amplitude_N, 1920.0);
+  EXPECT_EQ(design.scales.force_N, scene.sensor.force_full_scale_N);
+  EXPECT_DOUBLE_EQ(design.friction_force, 0.5);
+}
+
+TEST(ControlDesignTest, ModelErrorIsWhatIsBelievedOverWhatIsTrue) {
+  scene::Scene scene = table_1_closed_loop();
+  const ControlDesign exact = design_control(scene);
+  scene.model_error.coefficient = 1.3;
+  scene.model_error.contact_stiffness = 1.5;
+  const ControlDesign contact = design_control(scene);
+  EXPECT_DOUBLE_EQ(contact.friction_force, 1.3 * exact.friction_force);
+  EXPECT_DOUBLE_EQ(contact.contact_force, 1.5 * exact.contact_force);
+  EXPECT_EQ(contact.notch_taps, exact.notch_taps);
+
+  scene = table_1_closed_loop();
+  scene.model_error.stiffness = 1.04;
+  scene::Scene stiffer = table_1_closed_loop();
+  stiffer.plant.stiffness_N_per_m *= 1.04;
+  EXPECT_EQ(design_control(scene).notch_taps, design_control(stiffer).notch_taps);
+  scene = table_1_closed_loop();
+  scene.model_error.mass = 0.9;
+  scene::Scene lighter = table_1_closed_loop();
+  lighter.plant.mass_kg *= 0.9;
+  EXPECT_EQ(design_control(scene).notch_taps, design_control(lighter).notch_taps);
+  EXPECT_EQ(design_control(scene).scales.velocity_m_per_s,
+            design_control(lighter).scales.velocity_m_per_s);
+}
+
+TEST(ControlDesignTest, SpeedFloorIsThreePeriodsOfPreslidingTravel) {
+  const scene::Scene scene = table_1_closed_loop();
+  const ControlDesign design = design_control(scene);
+  const double floor_m_per_s = design.speed_floor * design.scales.velocity_m_per_s;
+  EXPECT_NEAR(floor_m_per_s, 0.01962 / 0.056e6 / (3.0 * period_s), 1e-12);
+}
+
+TEST(ControlDesignTest, SpeedFloorOfAStiffContactIsATenThousandthOfTheVibration) {
+  scene::Scene scene = table_1_closed_loop();
+  scene.friction.contact_stiffness_N_per_m = 1e9;
+  EXPECT_DOUBLE_EQ(design_control(scene).speed_floor, 1e-4);
+}
+
+TEST(ControlDesignTest, SpeedFloorIsAtMostHalfTheFastestSliding) {
+  scene::Scene scene = table_1_closed_loop();
+  scene.friction.contact_stiffness_N_per_m = 0.056e4;
+  const ControlDesign design = design_control(scene);
+  EXPECT_NEAR(design.speed_floor * design.scales.velocity_m_per_s,
+              0.5 * scene.sliding.profile.front().velocity_m_per_s, 1e-12);
+}
+
+TEST(ControlDesignTest, CalibrationCoversPreslidingAndTheSensor) {
+  scene::Scene scene = table_1_closed_loop();
+  scene.sensor.force_bandwidth_Hz = 500.0;  // a time constant of 19 carrier periods
+  scene.controller->calibration_s = 1e-3;
+  EXPECT_EQ(refused_key(scene), "controller.calibration_s");
+  scene.controller->calibration_s = 4e-3;
+  EXPECT_GE(design_control(scene).calibration_settle_periods, 96U);
+}
+
+TEST(ControlDesignTest, SpeedFloorMayBeStated) {
+  scene::Scene scene = table_1_closed_loop();
+  scene.controller->speed_floor_m_per_s = 0.01;
+  const ControlDesign design = design_control(scene);
+  EXPECT_NEAR(design.speed_floor * design.scales.velocity_m_per_s, 0.01, 1e-15);
+  scene.controller->speed_floor_m_per_s = 0.3;
+  EXPECT_EQ(refused_key(scene), "controller.speed_floor_m_per_s");
+  scene.controller->speed_floor_m_per_s = 1e-5;
+  EXPECT_EQ(refused_key(scene), "controller.speed_floor_m_per_s");
+}
+
+TEST(ControlDesignTest, FrictionOutsideTheSensorsScaleIsRefused) {
+  scene::Scene scene = table_1_closed_loop();
+  for (const double full_scale_N : {0.018, 25.0}) {
+    scene.sensor.force_full_scale_N = full_scale_N;
+    EXPECT_EQ(refused_key(scene), "sensor.force_full_scale_N") << full_scale_N;
+  }
+  for (const double full_scale_N : {0.0197, 0.04, 15.0}) {
+    scene.sensor.force_full_scale_N = full_scale_N;
+    EXPECT_EQ(refused_key(scene), "none") << full_scale_N;
+  }
+}
+
+TEST(ControlDesignTest, SlewIsSharedAmongTheTaps) {
+  scene::Scene scene = table_1_closed_loop();
+  scene.drive->max_force_slew_N_per_s = 5e6;
+  const ControlDesign design = design_control(scene);
+  double gain = 0.0;
+  for (const double tap : design.notch_taps) {
+    gain += std::abs(tap);
+  }
+  ASSERT_TRUE(design.slew_limited);
+  EXPECT_NEAR(design.slew_per_period * gain, 5e6 * period_s / 1920.0, 1e-15);
+}
+
+TEST(ControlDesignTest, SlewThatNothingReachesIsNoLimit) {
+  scene::Scene scene = table_1_closed_loop();
+  scene.drive->max_force_slew_N_per_s = 1e9;
+  EXPECT_FALSE(design_control(scene).slew_limited);
+  scene.controller->shaping = scene::Shaping::none;
+  scene.drive->max_force_slew_N_per_s = 1.01 * 1920.0 * carrier_Hz;
+  EXPECT_FALSE(design_control(scene).slew_limited);
+  scene.drive->max_force_slew_N_per_s = 0.99 * 1920.0 * carrier_Hz;
+  EXPECT_TRUE(design_control(scene).slew_limited);
+  EXPECT_NEAR(design_control(scene).slew_per_period, 0.99, 1e-12);
+}
+
+TEST(ControlDesignTest, CalibrationIsCountedInCarrierPeriods) {
+  scene::Scene scene = table_1_closed_loop();
+  EXPECT_FALSE(design_control(scene).calibrated);
+  scene.controller->calibration_s = 0.5e-3;
+  const ControlDesign design = design_control(scene);
+  ASSERT_TRUE(design.calibrated);
+  // The drive begins in the period after the last sample.
+  EXPECT_EQ(design.calibration_total_periods, 29U);
+  EXPECT_EQ(design.calibration_settle_periods + design.calibration_average_periods, 29U);
+  EXPECT_GT(design.calibration_average_periods, 0U);
+}
+
+}  // namespace
+}  // namespace sonoglide::configure

@@ -1,0 +1,76 @@
+// The list of boards against what the boards are built with: presets, toolchain files, folders.
+#include "host_sim/emulated/board_list.hpp"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <regex>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace sonoglide::emulated {
+namespace {
+
+const std::string source_folder = SONOGLIDE_SOURCE_DIR;
+
+/// Toolchain file of each configure preset that has one, by the preset's name.
+nlohmann::json toolchains() {
+  std::ifstream file(source_folder + "/CMakePresets.json");
+  nlohmann::json found = nlohmann::json::object();
+  const nlohmann::json presets = nlohmann::json::parse(file);
+  for (const auto& preset : presets.at("configurePresets")) {
+    if (preset.contains("toolchainFile")) {
+      found[preset.at("name").get<std::string>()] = preset.at("toolchainFile");
+    }
+  }
+  return found;
+}
+
+TEST(BoardList, EachBoardHasItsPresetWithItsToolchain) {
+  const nlohmann::json presets = toolchains();
+  for (const EmulatedBoard& board : emulated_boards()) {
+    const std::string file = "tools/toolchains/" + std::string(board.toolchain) + ".cmake";
+    ASSERT_TRUE(presets.contains(std::string(board.name))) << board.name;
+    EXPECT_EQ(presets.at(std::string(board.name)), file);
+    EXPECT_TRUE(std::filesystem::exists(source_folder + "/" + file)) << file;
+  }
+}
+
+TEST(BoardList, EachBoardHasItsLineAmongTheBoardsAndEachLineItsFolder) {
+  std::ifstream file(source_folder + "/tools/cmake/boards.cmake");
+  const std::string lines{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  for (const EmulatedBoard& board : emulated_boards()) {
+    EXPECT_TRUE(std::regex_search(lines, std::regex("[( ]" + std::string(board.name) + "[ )\n]")))
+        << board.name;
+  }
+  const std::regex folder("FOLDER (hal/[a-z0-9_]+)");
+  for (std::sregex_iterator each(lines.begin(), lines.end(), folder), end; each != end; ++each) {
+    EXPECT_TRUE(std::filesystem::is_directory(source_folder + "/" + each->str(1))) << each->str(1);
+  }
+}
+
+TEST(BoardList, FindsABoardByItsNameAlone) {
+  std::set<std::string_view> names;
+  for (const EmulatedBoard& board : emulated_boards()) {
+    EXPECT_EQ(find_board(board.name), &board);
+    EXPECT_TRUE(names.insert(board.name).second) << board.name;
+  }
+  EXPECT_EQ(find_board("mps2"), nullptr);
+  EXPECT_EQ(find_board(""), nullptr);
+}
+
+TEST(BoardList, CommandEndsInTheImage) {
+  for (const EmulatedBoard& board : emulated_boards()) {
+    const std::vector<std::string> command = emulator_command(board, "a folder/image.elf");
+    EXPECT_EQ(command.front(), board.emulator);
+    EXPECT_EQ(command[command.size() - 2], "-kernel");
+    EXPECT_EQ(command.back(), "a folder/image.elf");
+  }
+}
+
+}  // namespace
+}  // namespace sonoglide::emulated

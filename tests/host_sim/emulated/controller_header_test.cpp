@@ -1,0 +1,94 @@
+#include "host_sim/emulated/controller_header.hpp"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "host_sim/configure/configuration_error.hpp"
+#include "host_sim/emulated/board_arithmetic.hpp"
+#include "host_sim/emulated/board_list.hpp"
+#include "host_sim/scene_file/reader.hpp"
+
+namespace sonoglide::emulated {
+namespace {
+
+scene::Scene read(const std::string& name, const std::vector<std::string>& overrides = {}) {
+  return scene_file::read_file(SONOGLIDE_SCENES "/" + name + ".toml", overrides);
+}
+
+bool has(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+/// The key of the error that a header ends in; empty where there is none.
+std::string refused_key(const scene::Scene& scene) {
+  try {
+    controller_header(scene);
+  } catch (const configure::ConfigurationError& error) {
+    return error.key();
+  }
+  return "";
+}
+
+TEST(ControllerHeader, NamesTheSceneAndItsScalar) {
+  EXPECT_TRUE(has(controller_header(read("target_step")), "of the scene target_step."));
+  EXPECT_TRUE(has(controller_header(read("target_step")), "using Scalar = float;"));
+  EXPECT_TRUE(has(controller_header(read("target_step_q31")), "using Scalar = numeric::Q31"));
+  EXPECT_TRUE(has(controller_header(read("target_step_q15")), "using Scalar = numeric::Q15"));
+  EXPECT_TRUE(has(controller_header(read("target_step_float64")), "using Scalar = double;"));
+}
+
+// 1/30 of 2^31: a share of the mean that 16 bits could not hold for long calibrations.
+TEST(ControllerHeader, KeepsTheWeightsOfCalibrationIn32Bits) {
+  const std::string header =
+      controller_header(read("target_step_q15", {"controller.calibration_s=1e-3"}));
+  EXPECT_TRUE(has(header, "{29, 30, numeric::Accumulator<Scalar>::from_raw(71582788), 59}"))
+      << header;
+}
+
+TEST(ControllerHeader, HoldsNoPartThatTheSceneDoesNotName) {
+  const std::string shaped = controller_header(read("target_step"));
+  const std::string unshaped = controller_header(read("target_step_unshaped"));
+  EXPECT_TRUE(has(shaped, "notch_shaper.hpp"));
+  EXPECT_FALSE(has(unshaped, "notch_shaper.hpp"));
+  EXPECT_FALSE(has(shaped, "/slew_limit.hpp"));
+  // A mode at twice the carrier can neither be notched out nor fed back to.
+  const std::string fed_forward =
+      controller_header(read("target_step", {"drive.frequency_Hz=6489"}));
+  EXPECT_TRUE(has(shaped, "integral_regulator.hpp"));
+  EXPECT_FALSE(has(fed_forward, "integral_regulator.hpp"));
+}
+
+// The step at 2 ms is answered by the sample that ends the carrier period 119, counted from 0.
+TEST(ControllerHeader, CountsTheTargetsInCarrierPeriods) {
+  EXPECT_TRUE(has(controller_header(read("target_step")), "{119, "));
+  // So late that 2e-16 of the time is more than 1e-9 of a period.
+  EXPECT_TRUE(has(controller_header(
+                      read("target_step", {"controller.target_friction_ratio=[[0.0,0.4],[1e3,0.5]]",
+                                           "run.duration_s=2e3", "run.record_interval_s=1e-3"})),
+                  "{59999999, "));
+}
+
+TEST(ControllerHeader, IsForClosedLoopsWithTargetsInReach) {
+  EXPECT_EQ(refused_key(read("table_1_open_loop")), "controller");
+  EXPECT_EQ(
+      refused_key(read("target_step", {"controller.target_friction_ratio=[[0.0,0.4],[8e4,0.5]]",
+                                       "run.duration_s=1e5", "run.record_interval_s=1e-3"})),
+      "controller.target_friction_ratio");
+}
+
+TEST(BoardArithmetic, Float64NeedsABoardThatComputesIt) {
+  for (const emulated::EmulatedBoard& board : emulated::emulated_boards()) {
+    EXPECT_NO_THROW(require_arithmetic(read("target_step"), board));
+    EXPECT_NO_THROW(require_arithmetic(read("target_step_q31"), board));
+    if (board.name == "mps2-an500") {
+      EXPECT_NO_THROW(require_arithmetic(read("target_step_float64"), board));
+    } else {
+      EXPECT_THROW(require_arithmetic(read("target_step_float64"), board),
+                   configure::ConfigurationError);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace sonoglide::emulated

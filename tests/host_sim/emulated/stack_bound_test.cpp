@@ -1,0 +1,155 @@
+// The deepest stack against the compiler's own figure for every frame.
+#include "host_sim/emulated/stack_bound.hpp"
+
+#include <gtest/gtest.h>
+
+#include "compiled.hpp"
+
+namespace sonoglide::emulated {
+namespace {
+
+constexpr const char* calls = R"(
+extern "C" {
+volatile int sink;
+[[gnu::noinline]] void leaf() { volatile char room[40]; room[0] = 1; sink = room[0]; }
+[[gnu::noinline]] void deep() { volatile char room[400]; room[sink] = 1; leaf(); sink = room[1]; }
+[[gnu::noinline]] void shallow() { volatile char room[4]; room[sink] = 1; leaf(); sink = room[1]; }
+[[gnu::noinline]] void reset() { shallow(); deep(); sink = 0; }
+}
+)";
+
+class StackBoundTest : public testing::TestWithParam<Compiler> {};
+
+TEST_P(StackBoundTest, IsTheSumOfTheCompilersFramesAlongTheDeepestPath) {
+  const Compiled compiled(GetParam(), calls);
+  const StackBound bound = stack_bound(compiled.disassembly(), "reset");
+  EXPECT_EQ(bound.unbounded_by, "");
+  EXPECT_GE(compiled.frame_bytes("deep"), 400U);
+  EXPECT_EQ(bound.bytes, compiled.frame_bytes("reset") + compiled.frame_bytes("deep") +
+                             compiled.frame_bytes("leaf"));
+}
+
+TEST_P(StackBoundTest, LooksIntoTheCompilersLibrary) {
+  const Compiled compiled(GetParam(), R"(
+extern "C" {
+volatile double x;
+[[gnu::noinline]] void reset() { x = x / (x * x); }
+}
+)");
+  const StackBound bound = stack_bound(compiled.disassembly(), "reset");
+  EXPECT_EQ(bound.unbounded_by, "");
+  EXPECT_GT(bound.bytes, compiled.frame_bytes("reset"));
+}
+
+TEST_P(StackBoundTest, PassesASwitch) {
+  const Compiled compiled(GetParam(), R"(
+extern "C" {
+volatile int x;
+[[gnu::noinline]] void other() { volatile char room[100]; room[x] = 1; }
+[[gnu::noinline]] void reset() {
+  switch (x) {
+    case 0: x = 7; break;
+    case 1: other(); break;
+    case 2: x = 3; x = 4; break;
+    case 3: x = 1; break;
+    case 4: x = x + 1; break;
+    case 5: x = x * 5; break;
+    case 6: other(); x = 8; break;
+  }
+}
+}
+)");
+  const StackBound bound = stack_bound(compiled.disassembly(), "reset");
+  EXPECT_EQ(bound.unbounded_by, "");
+  EXPECT_GE(bound.bytes, compiled.frame_bytes("other"));
+}
+
+TEST_P(StackBoundTest, KnowsAFrameThatNoInstructionsConstantReaches) {
+  for (const char* room : {"600", "1024"}) {
+    const Compiled compiled(GetParam(), std::string(R"(
+extern "C" {
+volatile int x;
+[[gnu::noinline]] void reset() { volatile char room[)") +
+                                            room + R"(]; room[x] = 1; x = room[x + 1]; }
+}
+)");
+    const StackBound bound = stack_bound(compiled.disassembly(), "reset");
+    EXPECT_EQ(bound.unbounded_by, "");
+    EXPECT_EQ(bound.bytes, compiled.frame_bytes("reset"));
+  }
+}
+
+TEST_P(StackBoundTest, PassesAReturnFromUnderSpilledArguments) {
+  const Compiled compiled(GetParam(), R"(
+extern "C" {
+struct Many { int of[8]; };
+volatile int x;
+[[gnu::noinline]] int sum(int first, Many many) {
+  volatile char room[100];
+  room[x] = 1;
+  const Many* volatile all = &many;
+  return first + all->of[x] + room[x];
+}
+[[gnu::noinline]] void reset() { x = sum(1, Many{{1, 2, 3, 4, 5, 6, 7, 8}}) + 1; }
+}
+)");
+  const StackBound bound = stack_bound(compiled.disassembly(), "reset");
+  EXPECT_EQ(bound.unbounded_by, "");
+  EXPECT_GE(bound.bytes, compiled.frame_bytes("reset") + compiled.frame_bytes("sum"));
+}
+
+TEST_P(StackBoundTest, IsNoneForACallThroughAPointer) {
+  const Compiled compiled(GetParam(), R"(
+extern "C" {
+void (*volatile pointer)();
+volatile int x;
+[[gnu::noinline]] void through() { pointer(); x = 1; }
+[[gnu::noinline]] void reset() { through(); x = 2; }
+}
+)");
+  EXPECT_EQ(stack_bound(compiled.disassembly(), "reset").unbounded_by,
+            "through jumps through a pointer");
+}
+
+TEST_P(StackBoundTest, IsNoneForARecursion) {
+  const Compiled compiled(GetParam(), R"(
+extern "C" {
+volatile int x;
+void ping();
+[[gnu::noinline]] void pong() { if (x) { ping(); } x = 1; }
+[[gnu::noinline]] void ping() { pong(); x = 2; }
+[[gnu::noinline]] void reset() { ping(); x = 3; }
+}
+)");
+  EXPECT_EQ(stack_bound(compiled.disassembly(), "reset").unbounded_by, "ping calls itself");
+}
+
+TEST_P(StackBoundTest, IsNoneForAFrameOfVariableSize) {
+  const Compiled compiled(GetParam(), R"(
+extern "C" {
+volatile unsigned x;
+[[gnu::noinline]] void reset() {
+  volatile char* room = static_cast<char*>(__builtin_alloca(x));
+  room[0] = 1;
+  x = room[x];
+}
+}
+)");
+  EXPECT_EQ(stack_bound(compiled.disassembly(), "reset").unbounded_by,
+            "reset takes a variable amount of stack");
+}
+
+INSTANTIATE_TEST_SUITE_P(Compilers, StackBoundTest, testing::Values(arm, small_arm, riscv),
+                         [](const auto& compiler) {
+                           const std::string& target = compiler.param.flags.front();
+                           return target == "-mcpu=cortex-m4"   ? "CortexM4F"
+                                  : target == "-mcpu=cortex-m0" ? "CortexM0"
+                                                                : "RiscV";
+                         });
+
+TEST(StackBound, IsNoneForWhatIsMissing) {
+  EXPECT_EQ(stack_bound("", "reset").unbounded_by, "reset is not in the image");
+}
+
+}  // namespace
+}  // namespace sonoglide::emulated

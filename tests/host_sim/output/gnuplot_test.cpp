@@ -1,0 +1,95 @@
+/// Pictures come out whole, or the reason why not.
+
+#include "host_sim/output/gnuplot.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "host_sim/process/process_error.hpp"
+#include "host_sim/process/scratch_folder.hpp"
+
+namespace sonoglide::output {
+namespace {
+
+TEST(Gnuplot, DrawsAnSvgOfTheSizeAskedFor) {
+  const std::string svg =
+      draw_svg("$points << EOD\n0 1\n1 3\nEOD\nplot $points with lines\n", 640, 480);
+  EXPECT_EQ(svg.rfind("<?xml", 0), 0U);
+  EXPECT_NE(svg.find("viewBox=\"0 0 640 480\""), std::string::npos);
+  EXPECT_NE(svg.find("</svg>"), std::string::npos);
+}
+
+TEST(Gnuplot, SaysWhatItDidNotUnderstand) {
+  try {
+    draw_svg("plott 1\n", 640, 480);
+    FAIL() << "a bad script was drawn";
+  } catch (const process::ProcessError& error) {
+    EXPECT_NE(std::string(error.what()).find("plott"), std::string::npos) << error.what();
+  }
+}
+
+TEST(Gnuplot, DrawsWhereverTemporaryFilesAre) {
+  const process::ScratchFolder home(std::filesystem::temp_directory_path());
+  const std::filesystem::path odd = home.path() / "it's a $(false) \"folder\"";
+  std::filesystem::create_directory(odd);
+  setenv("TMPDIR", odd.c_str(), 1);
+  const std::string svg = draw_svg("plot x\n", 640, 480);
+  unsetenv("TMPDIR");
+  EXPECT_NE(svg.find("</svg>"), std::string::npos);
+  EXPECT_TRUE(std::filesystem::is_empty(odd));
+}
+
+// None is a command, ends its string, or is taken for mark-up.
+TEST(Gnuplot, AnyTextIsATitle) {
+  const process::ScratchFolder home(std::filesystem::temp_directory_path());
+  const std::string pwned = (home.path() / "pwned").string();
+  const std::vector<std::string> texts = {"it's",
+                                          "'",
+                                          "''",
+                                          "'a'",
+                                          "a''b",
+                                          "\"",
+                                          "\\\"",
+                                          "'; system(\"touch " + pwned + "\") #",
+                                          "`touch " + pwned + "`",
+                                          "$(touch " + pwned + ")",
+                                          "@pwned",
+                                          "%s %d %",
+                                          "{/Bold x} a_b ^c ~d",
+                                          "ends in \\",
+                                          "a\n!touch " + pwned + "\n",
+                                          "\xff\xfe",
+                                          "\x1b[31m",
+                                          "# ; & <b>"};
+  for (const std::string& text : texts) {
+    const std::string svg = draw_svg("pwned = 'system(\"touch " + pwned + "\")'\nset title " +
+                                         output::quoted(text) + " noenhanced\nplot x\n",
+                                     640, 480);
+    EXPECT_NE(svg.find("</svg>"), std::string::npos) << text;
+    EXPECT_FALSE(std::filesystem::exists(pwned)) << text;
+  }
+  EXPECT_NE(
+      draw_svg("set title " + output::quoted("it's {a} _b") + " noenhanced\nplot x\n", 640, 480)
+          .find(">it's {a} _b<"),
+      std::string::npos);
+}
+
+TEST(Gnuplot, SaysWhatToInstall) {
+  const std::string path = std::getenv("PATH");
+  setenv("PATH", "/nowhere", 1);
+  std::string what;
+  try {
+    require_gnuplot();
+  } catch (const process::ProcessError& error) {
+    what = error.what();
+  }
+  setenv("PATH", path.c_str(), 1);
+  EXPECT_EQ(what, "gnuplot: is not installed; on Debian: apt-get install gnuplot-nox");
+}
+
+}  // namespace
+}  // namespace sonoglide::output

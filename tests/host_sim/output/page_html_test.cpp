@@ -1,0 +1,212 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <regex>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "host_sim/output/page.hpp"
+
+namespace sonoglide::output {
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+Panel panel(std::vector<double> x, std::vector<double> y) {
+  Panel result{"Title", "", "Time [s]", "Force [N]", std::move(x), {}, false, ""};
+  result.series.push_back({"series", std::move(y)});
+  return result;
+}
+
+Page page_of(const Panel& panel) {
+  Page page;
+  page.title = "Page";
+  page.sections = {{"Section", "", {panel}}};
+  return page;
+}
+
+/// Everything between each pair of marks.
+std::vector<std::string> between(const std::string& text, const std::string& open,
+                                 const std::string& close) {
+  std::vector<std::string> found;
+  std::size_t at = text.find(open);
+  while (at != std::string::npos) {
+    const std::size_t from = at + open.size();
+    const std::size_t to = text.find(close, from);
+    found.push_back(text.substr(from, to - from));
+    at = text.find(open, to);
+  }
+  return found;
+}
+
+std::vector<std::string> chart_texts(const std::string& html) {
+  return between(html, "<script type=\"application/json\">", "</script>");
+}
+
+nlohmann::json only_chart(const Page& page) {
+  const std::vector<std::string> charts = chart_texts(to_html(page));
+  EXPECT_EQ(charts.size(), 1U);
+  return nlohmann::json::parse(charts.at(0));
+}
+
+std::size_t count(const std::string& text, const std::string& part) {
+  std::size_t found = 0;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) {
+    ++found;
+  }
+  return found;
+}
+
+TEST(PageHtml, EscapesTextWhereverItStands) {
+  const std::string nasty = "<b>\"a\" & 'b'</b></script><!--";
+  const std::string safe =
+      "&lt;b&gt;&quot;a&quot; &amp; &#39;b&#39;&lt;/b&gt;&lt;/script&gt;&lt;!--";
+  Panel drawn = panel({0.0, 1.0}, {1.0, 2.0});
+  drawn.title = drawn.note = drawn.x_label = drawn.y_label = drawn.group = nasty;
+  drawn.series[0].label = nasty;
+  Page page = page_of(drawn);
+  page.title = page.lead = nasty;
+  page.warnings = {nasty};
+  page.tables = {{nasty, {nasty}, {{nasty}}}};
+  page.sections[0].title = page.sections[0].text = nasty;
+  const std::string html = to_html(page);
+  EXPECT_EQ(html.find(nasty), std::string::npos);
+  EXPECT_EQ(count(html, safe), 11U);  // title twice, and nine texts once
+  EXPECT_EQ(count(html, "<script"), 3U);
+  EXPECT_EQ(count(html, "</script>"), 3U);
+  const nlohmann::json chart = nlohmann::json::parse(chart_texts(html).at(0));
+  EXPECT_EQ(chart.at("xLabel"), nasty);
+  EXPECT_EQ(chart.at("group"), nasty);
+  EXPECT_EQ(chart.at("series").at(0).at("label"), nasty);
+}
+
+TEST(PageHtml, BrokenUtf8DoesNotBreakTheData) {
+  Panel drawn = panel({0.0, 1.0}, {1.0, 2.0});
+  drawn.series[0].label = "caf\xe9";
+  EXPECT_EQ(only_chart(page_of(drawn)).at("series").at(0).at("label"), "caf\uFFFD");
+}
+
+TEST(PageHtml, WritesNanAndInfinityAsNull) {
+  const nlohmann::json chart =
+      only_chart(page_of(panel({0.0, 1.0, 2.0, 3.0}, {1.5, kNaN, kInfinity, -kInfinity})));
+  EXPECT_EQ(chart.at("series").at(0).at("y"), nlohmann::json::parse("[1.5,null,null,null]"));
+}
+
+TEST(PageHtml, KeepsSevenDigitsOfOrdinates) {
+  const double pi = 3.14159265358979323846;
+  const std::vector<double> y = {pi, -pi * 1e-7, pi * 1e300, 5e-324};
+  const nlohmann::json written =
+      only_chart(page_of(panel({0.0, 1.0, 2.0, 3.0}, y))).at("series").at(0).at("y");
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_NEAR(written.at(i).get<double>() / y[i], 1.0, 5e-7);
+  }
+  EXPECT_EQ(written.at(3).get<double>(), 5e-324);
+}
+
+TEST(PageHtml, ResolvesAShortWindowFarFromZero) {
+  std::vector<double> x(1000);
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    x[i] = 200.0 + 1e-9 * static_cast<double>(i);
+  }
+  const nlohmann::json written =
+      only_chart(page_of(panel(x, std::vector<double>(x.size(), 1.0)))).at("x");
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    EXPECT_NEAR(written.at(i).get<double>(), x[i], 1e-7 * 1e-6);
+  }
+}
+
+TEST(PageHtml, PassesOnHowToDraw) {
+  Panel drawn = panel({0.0, 1.0}, {1.0, 2.0});
+  drawn.series[0].stepped = true;
+  drawn.series.push_back({"loop", {kNaN, 1.0}, false, true});
+  drawn.logarithmic_y = true;
+  drawn.group = "zoom";
+  const nlohmann::json chart = only_chart(page_of(drawn));
+  EXPECT_EQ(chart.at("logarithmicY"), true);
+  EXPECT_EQ(chart.at("group"), "zoom");
+  EXPECT_EQ(chart.at("series").at(0).at("stepped"), true);
+  EXPECT_EQ(chart.at("series").at(0).at("connectGaps"), false);
+  EXPECT_EQ(chart.at("series").at(1).at("connectGaps"), true);
+}
+
+TEST(PageHtml, EmptyPanelSaysSoInsteadOfAChart) {
+  Panel negative = panel({0.0, 1.0}, {-1.0, 0.0});
+  negative.logarithmic_y = true;
+  Panel without_series = panel({0.0}, {0.0});
+  without_series.series.clear();
+  for (const Panel& empty :
+       {panel({}, {}), panel({0.0, 1.0}, {kNaN, kInfinity}), without_series, negative}) {
+    const std::string html = to_html(page_of(empty));
+    EXPECT_TRUE(chart_texts(html).empty());
+    EXPECT_NE(html.find("No values to draw."), std::string::npos);
+  }
+}
+
+TEST(PageHtml, RefusesInconsistentData) {
+  EXPECT_THROW(to_html(page_of(panel({0.0, 1.0}, {1.0}))), std::invalid_argument);
+  EXPECT_THROW(to_html(page_of(panel({1.0, 0.0}, {1.0, 1.0}))), std::invalid_argument);
+  EXPECT_THROW(to_html(page_of(panel({0.0, kNaN}, {1.0, 1.0}))), std::invalid_argument);
+  Page page;
+  page.tables = {{"", {"one", "two"}, {{"1"}}}};
+  EXPECT_THROW(to_html(page), std::invalid_argument);
+}
+
+TEST(PageHtml, LoadsNothingFromOutside) {
+  const std::string html = to_html(page_of(panel({0.0, 1.0}, {1.0, 2.0})));
+  EXPECT_NE(html.find("<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; "
+                      "script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data:;"),
+            std::string::npos);
+  EXPECT_FALSE(std::regex_search(html, std::regex("(src|href|action)\\s*=\\s*[\"']?(https?:)?//")));
+  EXPECT_FALSE(std::regex_search(html, std::regex("url\\(\\s*[\"']?(?!data:)[a-z/]")));
+  for (const char* loader : {"@import", "sourceMappingURL", "<iframe", "<object", "<script src"}) {
+    EXPECT_EQ(html.find(loader), std::string::npos) << loader;
+  }
+}
+
+TEST(PageHtml, KeepsTheLicenceOfTheChartLibrary) {
+  const std::string html = to_html(page_of(panel({0.0, 1.0}, {1.0, 2.0})));
+  for (const char* text : {"Dan Vanderkam", "Permission is hereby granted, free of charge",
+                           "THE SOFTWARE IS PROVIDED &quot;AS IS&quot;", "/*! @license", "MIT"}) {
+    EXPECT_NE(html.find(text), std::string::npos) << text;
+  }
+}
+
+TEST(PageHtml, SetsColumnsOfNumbersFlushRight) {
+  Page page;
+  page.tables = {{"",
+                  {"name", "settling", "share"},
+                  {{"first", "83.3 µs", "1.5%"}, {"2nd", "−1.2e-3", ""}, {"third", "never", "2"}}}};
+  const std::string html = to_html(page);
+  EXPECT_NE(html.find("<tr><th>name</th><th class=\"number\">settling</th>"
+                      "<th class=\"number\">share</th></tr>"),
+            std::string::npos);
+  EXPECT_NE(html.find("<tr><td>third</td><td class=\"number\">never</td>"
+                      "<td class=\"number\">2</td></tr>"),
+            std::string::npos);
+}
+
+TEST(PageHtml, PutsWarningsBeforeEverythingButTheTitle) {
+  Page page = page_of(panel({0.0, 1.0}, {1.0, 2.0}));
+  page.tables = {{"Table", {"a"}, {{"1"}}}};
+  EXPECT_EQ(to_html(page).find("<aside"), std::string::npos);
+  page.warnings = {"Mind the gap"};
+  const std::string html = to_html(page);
+  EXPECT_LT(html.find("</h1>"), html.find("Mind the gap"));
+  EXPECT_LT(html.find("Mind the gap"), html.find("<table>"));
+}
+
+TEST(PageHtml, APictureIsAnImageThatNeedsNothingElse) {
+  Page page;
+  page.sections = {{"Section", "", {}, {{"A & B", "Note.", "<svg id=\"a\">50 %</svg>"}}}};
+  const std::string html = to_html(page);
+  EXPECT_EQ(count(html, "<figure class=\"picture\">"), 1U);
+  EXPECT_EQ(count(html, "alt=\"A &amp; B\""), 1U);
+  EXPECT_EQ(count(html, "src=\"data:image/svg+xml,%3Csvg%20id=%22a%22%3E50%20%25%3C/svg%3E\""), 1U);
+}
+
+}  // namespace
+}  // namespace sonoglide::output

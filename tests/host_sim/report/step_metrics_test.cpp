@@ -1,0 +1,210 @@
+#include "host_sim/report/step_metrics.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <vector>
+
+#include "periods.hpp"
+
+namespace sonoglide::report {
+namespace {
+
+using scene::Scene;
+
+std::vector<StepMetrics> step_metrics(const Scene& scene,
+                                      const std::vector<loop::Period>& periods) {
+  StepMeter meter(scene);
+  for (const loop::Period& period : periods) {
+    meter.take(period);
+  }
+  return meter.steps();
+}
+
+StepMetrics only_step(const Scene& scene, const std::vector<loop::Period>& periods) {
+  const std::vector<StepMetrics> all = step_metrics(scene, periods);
+  EXPECT_EQ(all.size(), 1U);
+  return all.at(0);
+}
+
+/// One step to `target` from 0 on, 100 periods.
+StepMetrics one_step(double target, const std::function<double(int)>& ratio) {
+  const Scene scene = made_up_scene({{0.0, target}}, 0.1);
+  return only_step(scene, made_up_run(scene, ratio));
+}
+
+TEST(StepMetricsTest, SettlesWhenItIsInsideTheBandForGood) {
+  const StepMetrics step = one_step(0.5, [](int k) { return k < 7 ? 0.6 : 0.5; });
+  ASSERT_TRUE(step.settling_time_s);
+  EXPECT_NEAR(*step.settling_time_s, 7e-3, 1e-12);
+  EXPECT_EQ(step.time_s, 0.0);
+  EXPECT_EQ(step.target, 0.5);
+  EXPECT_NEAR(step.steady_error, 0.0, 1e-15);
+  EXPECT_EQ(step.ripple, 0.0);
+  EXPECT_NEAR(step.drive_amplitude_N, 100.0, 1e-12);
+  EXPECT_EQ(step.limit, control::Limit::none);
+}
+
+TEST(StepMetricsTest, ALaterExcursionPutsSettlingOff) {
+  const StepMetrics step = one_step(0.5, [](int k) { return k == 0 || k == 41 ? 0.489 : 0.5; });
+  ASSERT_TRUE(step.settling_time_s);
+  EXPECT_NEAR(*step.settling_time_s, 42e-3, 1e-12);
+}
+
+TEST(StepMetricsTest, TheBandsEdgeIsInside) {
+  const StepMetrics step = one_step(0.5, [](int k) { return k % 2 == 0 ? 0.5099999 : 0.4900001; });
+  ASSERT_TRUE(step.settling_time_s);
+  EXPECT_EQ(*step.settling_time_s, 0.0);
+}
+
+TEST(StepMetricsTest, NeverSettlesWhereTheLastPeriodIsOutside) {
+  EXPECT_FALSE(one_step(0.5, [](int k) { return k == 99 ? 0.52 : 0.5; }).settling_time_s);
+  EXPECT_FALSE(one_step(0.5, [](int) { return 0.7; }).settling_time_s);
+  EXPECT_FALSE(one_step(0.5, [](int) { return std::nan(""); }).settling_time_s);
+}
+
+TEST(StepMetricsTest, OvershootIsBeyondTheTargetOnTheWayDown) {
+  const StepMetrics step = one_step(0.4, [](int k) {
+    return k == 0 ? 1.0 : k == 3 ? 0.37 : k == 4 ? 0.45 : 0.4;
+  });
+  EXPECT_NEAR(step.overshoot, 0.03, 1e-12);
+}
+
+TEST(StepMetricsTest, OvershootIsBeyondTheTargetOnTheWayUp) {
+  const Scene scene = made_up_scene({{0.0, 0.4}, {0.05, 0.6}}, 0.1);
+  const auto steps = step_metrics(scene, made_up_run(scene, [](int k) {
+                                    return k < 50 ? 0.4 : k == 52 ? 0.67 : k == 53 ? 0.5 : 0.6;
+                                  }));
+  ASSERT_EQ(steps.size(), 2U);
+  EXPECT_EQ(steps[0].overshoot, 0.0);
+  EXPECT_NEAR(steps[1].overshoot, 0.07, 1e-12);
+  EXPECT_NEAR(*steps[1].settling_time_s, 4e-3, 1e-12);
+  EXPECT_EQ(steps[1].time_s, 0.05);
+}
+
+TEST(StepMetricsTest, OvershootLeavesOutPeriodsDrivenForTheTargetBefore) {
+  const Scene scene = made_up_scene({{0.0, 0.6}, {0.05, 0.4}}, 0.1);
+  std::vector<loop::Period> periods = made_up_run(scene, [](int k) {
+    return k < 50 ? 0.6 : k == 50 ? 0.3 : 0.4;
+  });
+  EXPECT_NEAR(step_metrics(scene, periods)[1].overshoot, 0.1, 1e-12);
+  periods[50].target = 0.6;
+  EXPECT_EQ(step_metrics(scene, periods)[1].overshoot, 0.0);
+}
+
+TEST(StepMetricsTest, SteadyErrorAndRippleAreThoseOfTheLastQuarter) {
+  const StepMetrics step = one_step(0.5, [](int k) {
+    const double wave = k % 2 == 0 ? 0.003 : -0.003;
+    return k < 75 ? 0.8 : 0.502 + wave;
+  });
+  EXPECT_NEAR(step.steady_error, 0.502 - 0.5 + 0.003 * (12 - 13) / 25.0, 1e-12);
+  EXPECT_NEAR(step.ripple, 0.003, 1e-12);
+}
+
+TEST(StepMetricsTest, DriveAmplitudeIsTheMeanOverTheLastQuarter) {
+  const Scene scene = made_up_scene({{0.0, 0.5}}, 0.1);
+  std::vector<loop::Period> periods = made_up_run(scene, [](int) { return 0.5; });
+  for (std::size_t k = 0; k < 100; ++k) {
+    periods[k].drive_amplitude_N = static_cast<double>(k);
+  }
+  EXPECT_NEAR(only_step(scene, periods).drive_amplitude_N, 87.0, 1e-12);
+}
+
+TEST(StepMetricsTest, NamesTheLimitOfTheLastQuarter) {
+  const Scene scene = made_up_scene({{0.0, 0.5}}, 0.1);
+  std::vector<loop::Period> periods = made_up_run(scene, [](int) { return 0.5; });
+  for (std::size_t k = 0; k < 75; ++k) {
+    periods[k].limit = control::Limit::slew;
+  }
+  EXPECT_EQ(only_step(scene, periods).limit, control::Limit::none);
+  for (std::size_t k = 75; k < 100; ++k) {
+    periods[k].limit = k < 80 ? control::Limit::slew : control::Limit::actuator;
+  }
+  EXPECT_EQ(only_step(scene, periods).limit, control::Limit::actuator);
+  for (std::size_t k = 75; k < 100; ++k) {
+    periods[k].limit = control::Limit::speed_floor;
+  }
+  EXPECT_EQ(only_step(scene, periods).limit, control::Limit::speed_floor);
+}
+
+TEST(StepMetricsTest, ASettledStepHasTheLimitOfMostPeriods) {
+  const Scene scene = made_up_scene({{0.0, 0.5}}, 0.1);
+  std::vector<loop::Period> periods = made_up_run(scene, [](int) { return 0.5; });
+  for (std::size_t k = 75; k < 87; ++k) {
+    periods[k].limit = control::Limit::not_settling;
+  }
+  EXPECT_EQ(only_step(scene, periods).limit, control::Limit::none);
+  periods[87].limit = control::Limit::not_settling;
+  EXPECT_EQ(only_step(scene, periods).limit, control::Limit::not_settling);
+}
+
+TEST(StepMetricsTest, WithoutARatioThereIsNoRipple) {
+  EXPECT_TRUE(std::isnan(one_step(0.5, [](int) { return std::nan(""); }).ripple));
+}
+
+TEST(StepMetricsTest, TheClockStartsWhenCalibrationEnds) {
+  Scene scene = made_up_scene({{0.0, 0.5}}, 0.1);
+  scene.controller->calibration_s = 20e-3;
+  const StepMetrics step =
+      only_step(scene, made_up_run(scene, [](int k) { return k < 24 ? 1.0 : 0.5; }));
+  ASSERT_TRUE(step.settling_time_s);
+  EXPECT_NEAR(*step.settling_time_s, 4e-3, 1e-12);
+  EXPECT_EQ(step.time_s, 0.0);
+}
+
+TEST(StepMetricsTest, AStepThatCalibrationHasSwallowedIsNotMeasured) {
+  Scene scene = made_up_scene({{0.0, 0.3}, {10e-3, 0.6}}, 0.1);
+  scene.controller->calibration_s = 20e-3;
+  const auto steps =
+      step_metrics(scene, made_up_run(scene, [](int k) { return k < 21 ? 1.0 : 0.6; }));
+  ASSERT_EQ(steps.size(), 2U);
+  EXPECT_FALSE(steps[0].settling_time_s);
+  EXPECT_TRUE(std::isnan(steps[0].steady_error));
+  EXPECT_TRUE(std::isnan(steps[0].ripple));
+  EXPECT_EQ(steps[0].limit, control::Limit::not_settling);
+  EXPECT_FALSE(steps[0].limit_seen_by_controller);
+  ASSERT_TRUE(steps[1].settling_time_s);
+  EXPECT_NEAR(*steps[1].settling_time_s, 1e-3, 1e-12);
+  // The ratio came down from 1, whatever the target was during calibration.
+  EXPECT_NEAR(steps[1].overshoot, 0.0, 1e-12);
+}
+
+TEST(StepMetricsTest, AStepShorterThanFourPeriodsMayHaveNoSteadyPart) {
+  const Scene scene = made_up_scene({{0.0, 0.5}, {3.5e-3, 0.6}}, 0.1);
+  const auto steps = step_metrics(scene, made_up_run(scene, [](int) { return 0.5; }));
+  ASSERT_EQ(steps.size(), 2U);
+  EXPECT_NEAR(*steps[0].settling_time_s, 0.0, 1e-12);
+  EXPECT_TRUE(std::isnan(steps[0].steady_error));
+  EXPECT_TRUE(std::isnan(steps[0].drive_amplitude_N));
+}
+
+TEST(StepMetricsTest, AStepAfterTheEndIsLeftOut) {
+  const Scene scene = made_up_scene({{0.0, 0.5}, {0.1, 0.6}, {0.2, 0.7}}, 0.1);
+  EXPECT_EQ(step_metrics(scene, made_up_run(scene, [](int) { return 0.5; })).size(), 1U);
+}
+
+TEST(StepMetricsTest, APeriodThatBelongsToTwoStepsBelongsToNeither) {
+  const Scene scene = made_up_scene({{0.0, 0.4}, {50.5e-3, 0.6}}, 0.1);
+  const auto steps = step_metrics(scene, made_up_run(scene, [](int k) {
+                                    return k < 50 ? 0.4 : k == 50 ? 9.0 : 0.6;
+                                  }));
+  EXPECT_EQ(steps[0].ripple, 0.0);
+  EXPECT_NEAR(*steps[0].settling_time_s, 0.0, 1e-12);
+  EXPECT_NEAR(*steps[1].settling_time_s, 0.0, 1e-12);
+  EXPECT_EQ(steps[1].overshoot, 0.0);
+}
+
+TEST(StepMetricsTest, ALastPeriodThatTheRunCutsShortHasNoRatioOfItsOwn) {
+  // The mean over part of a carrier period is not a friction ratio.
+  const Scene scene = made_up_scene({{0.0, 0.5}}, 100.4e-3);
+  const StepMetrics step =
+      only_step(scene, made_up_run(scene, [](int k) { return k < 5 || k == 100 ? 0.9 : 0.5; }));
+  ASSERT_TRUE(step.settling_time_s);
+  EXPECT_NEAR(*step.settling_time_s, 5e-3, 1e-12);
+  EXPECT_EQ(step.ripple, 0.0);
+  EXPECT_NEAR(step.steady_error, 0.0, 1e-12);
+}
+
+}  // namespace
+}  // namespace sonoglide::report

@@ -1,0 +1,270 @@
+#include "host_sim/scene_file/reader.hpp"
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "host_sim/configure/plant_scales.hpp"
+#include "host_sim/configure/solver_methods.hpp"
+#include "scene_texts.hpp"
+
+namespace sonoglide::scene_file {
+namespace {
+
+TEST(ReaderTest, NameIsThatOfTheFile) {
+  EXPECT_EQ(read_text(shortest_open_loop, "some/where/table_1.toml").name, "table_1");
+}
+
+TEST(ReaderTest, DefaultsOfOpenLoop) {
+  const scene::Scene scene = read_text(shortest_open_loop, "s");
+  EXPECT_EQ(scene.plant.damping_N_s_per_m, 0.0);
+  EXPECT_EQ(scene.plant.initial_displacement_m, 0.0);
+  EXPECT_EQ(scene.plant.initial_velocity_m_per_s, 0.0);
+  EXPECT_DOUBLE_EQ(scene.friction.normal_force_N, 0.1962);
+  EXPECT_EQ(scene.friction.initial_force_N, 0.0);
+  EXPECT_EQ(scene.friction.sign_convention, scene::SignConvention::dissipative);
+  EXPECT_FALSE(scene.drive.has_value());
+  EXPECT_EQ(scene.solver.method, configure::method_of<configure::solvers::EventTaylor>);
+  EXPECT_EQ(scene.solver.tolerance, 1e-10);
+  EXPECT_EQ(scene.run.start, scene::Start::given);
+  EXPECT_EQ(scene.run.window_start_s, 0.0);
+  EXPECT_TRUE(scene.run.record.empty());
+  EXPECT_EQ(scene.run.record_interval_s, 0.0);
+  EXPECT_FALSE(scene.controller.has_value());
+}
+
+TEST(ReaderTest, FrictionProfiles) {
+  const scene::Scene scene = read_text(profiles_open_loop, "s");
+  ASSERT_EQ(scene.friction.coefficient_profile.size(), 4U);
+  EXPECT_EQ(scene.friction.coefficient_profile[2].time_s, 1e-3);
+  EXPECT_EQ(scene.friction.coefficient_profile[2].value, 0.2);
+  ASSERT_EQ(scene.friction.normal_force_profile_N.size(), 1U);
+  EXPECT_EQ(scene.friction.coefficient, 0.1) << "at 0 s";
+  EXPECT_EQ(scene.friction.normal_force_N, 0.2) << "before the first row";
+  EXPECT_EQ(scene.sensor.force_full_scale_N, 2.0 * (0.2 * 0.2)) << "of the largest";
+  const scene::Contact late = configure::contact_at(scene.friction, 1.5e-3);
+  EXPECT_NEAR(late.coefficient, 0.1, 1e-16);
+  EXPECT_EQ(late.normal_force_N, 0.2);
+}
+
+TEST(TimedProfileTest, IsLinearBetweenRowsAndJumpsAtTwoOfOneTime) {
+  const scene::TimedProfile profile = {{1.0, 2.0}, {3.0, 4.0}, {3.0, 10.0}, {5.0, 0.0}};
+  EXPECT_EQ(scene::value_at(profile, 0.0), 2.0);
+  EXPECT_EQ(scene::value_at(profile, 1.0), 2.0);
+  EXPECT_EQ(scene::value_at(profile, 2.0), 3.0);
+  EXPECT_EQ(scene::value_at(profile, 3.0), 10.0) << "after the jump";
+  EXPECT_EQ(scene::value_at(profile, 4.0), 5.0);
+  EXPECT_EQ(scene::value_at(profile, 9.0), 0.0);
+  EXPECT_EQ(scene::smallest_value(profile), 0.0);
+  EXPECT_EQ(scene::largest_value(profile), 10.0);
+  EXPECT_EQ(scene::relative_slope_per_s(profile, 0.5), 0.0);
+  EXPECT_EQ(scene::relative_slope_per_s(profile, 2.0), 0.25) << "of the higher end";
+  EXPECT_EQ(scene::relative_slope_per_s(profile, 4.0), 0.5);
+  EXPECT_EQ(scene::relative_slope_per_s(profile, 6.0), 0.0);
+}
+
+TEST(ReaderTest, EveryKeyOfOpenLoop) {
+  const scene::Scene scene = read_text(fullest_open_loop, "s");
+  EXPECT_EQ(scene.plant.mass_kg, 0.02);
+  EXPECT_EQ(scene.plant.stiffness_N_per_m, 133e6);
+  EXPECT_EQ(scene.plant.damping_N_s_per_m, 1.5);
+  EXPECT_EQ(scene.plant.initial_displacement_m, -1e-7);
+  EXPECT_EQ(scene.plant.initial_velocity_m_per_s, 2e-3);
+  EXPECT_TRUE(scene::is<scene::laws::Dahl>(scene.friction.law));
+  EXPECT_EQ(scene.friction.coefficient, 0.2);
+  EXPECT_EQ(scene.friction.normal_force_N, 3.0) << "an integer where a real number is meant";
+  EXPECT_EQ(scene.friction.contact_stiffness_N_per_m, 56e3);
+  EXPECT_EQ(scene.friction.initial_force_N, -0.25);
+  EXPECT_EQ(scene.friction.sign_convention, scene::SignConvention::as_printed);
+  ASSERT_EQ(scene.sliding.profile.size(), 2U);
+  EXPECT_EQ(scene.sliding.profile[1].time_s, 2e-3);
+  EXPECT_EQ(scene.sliding.profile[1].velocity_m_per_s, -0.02);
+  ASSERT_TRUE(scene.drive.has_value());
+  EXPECT_EQ(scene.drive->frequency_Hz, 40e3);
+  EXPECT_EQ(scene.drive->force_amplitude_N, 384.0);
+  EXPECT_EQ(scene.drive->waveform, scene::Waveform::cosine);
+  EXPECT_EQ(scene.solver.method, configure::method_of<configure::solvers::Rk4>);
+  EXPECT_EQ(scene.solver.step_s, 1e-8);
+  EXPECT_EQ(scene.run.duration_s, 2.5e-3) << "100 periods of 25 us";
+  EXPECT_EQ(scene.run.window_start_s, 1.25e-3);
+  EXPECT_EQ(scene.run.record, (std::vector<scene::Channel>{
+                                  scene::Channel::sliding_velocity, scene::Channel::displacement,
+                                  scene::Channel::velocity, scene::Channel::friction_force,
+                                  scene::Channel::drive_force}));
+  EXPECT_EQ(scene.run.record_interval_s, 1e-6);
+}
+
+TEST(ReaderTest, DefaultsOfClosedLoop) {
+  const scene::Scene scene = read_text(shortest_closed_loop, "s");
+  EXPECT_FALSE(scene.drive->max_force_slew_N_per_s.has_value());
+  EXPECT_EQ(scene.run.settling_band, 0.01);
+  ASSERT_TRUE(scene.controller.has_value());
+  EXPECT_EQ(scene.controller->calibration_s, 0.0);
+  EXPECT_EQ(scene.controller->shaping, scene::Shaping::notch);
+  EXPECT_FALSE(scene.controller->speed_floor_m_per_s.has_value());
+  EXPECT_FALSE(scene.sensor.adc_bits.has_value());
+  EXPECT_DOUBLE_EQ(scene.sensor.force_full_scale_N, 0.03924) << "twice the friction limit";
+  EXPECT_EQ(scene.sensor.force_noise_N, 0.0);
+  EXPECT_FALSE(scene.sensor.force_bandwidth_Hz.has_value());
+  EXPECT_EQ(scene.sensor.delay_periods, 0);
+  EXPECT_EQ(scene.sensor.force_offset_N, 0.0);
+  EXPECT_EQ(scene.sensor.force_gain, 1.0);
+  EXPECT_EQ(scene.sensor.velocity_offset_m_per_s, 0.0);
+  EXPECT_EQ(scene.sensor.velocity_gain, 1.0);
+  EXPECT_EQ(scene.sensor.seed, 1U);
+  EXPECT_EQ(scene.model_error.mass, 1.0);
+  EXPECT_EQ(scene.model_error.stiffness, 1.0);
+  EXPECT_EQ(scene.model_error.coefficient, 1.0);
+  EXPECT_EQ(scene.model_error.contact_stiffness, 1.0);
+}
+
+TEST(ReaderTest, EveryKeyOfClosedLoop) {
+  const scene::Scene scene = read_text(fullest_closed_loop, "s");
+  EXPECT_EQ(scene.sliding.profile.front().velocity_m_per_s, -0.0267);
+  EXPECT_EQ(scene.drive->max_force_amplitude_N, 1920.0);
+  EXPECT_EQ(scene.drive->max_force_slew_N_per_s, 1e8);
+  EXPECT_EQ(scene.solver.tolerance, 1e-12);
+  EXPECT_EQ(scene.solver.order, 16);
+  EXPECT_EQ(scene.run.duration_s, 4e-3);
+  EXPECT_EQ(scene.run.window_start_s, 1e-3);
+  EXPECT_EQ(scene.run.settling_band, 0.02);
+  EXPECT_EQ(scene.controller->arithmetic, scene::Arithmetic::float32);
+  ASSERT_EQ(scene.controller->target_friction_ratio.size(), 2U);
+  EXPECT_EQ(scene.controller->target_friction_ratio[1].time_s, 2e-3);
+  EXPECT_EQ(scene.controller->target_friction_ratio[1].friction_ratio, 0.6);
+  EXPECT_EQ(scene.controller->calibration_s, 0.5e-3);
+  EXPECT_EQ(scene.controller->shaping, scene::Shaping::none);
+  EXPECT_EQ(scene.controller->speed_floor_m_per_s, 1e-4);
+  EXPECT_EQ(scene.sensor.adc_bits, 12);
+  EXPECT_EQ(scene.sensor.force_full_scale_N, 0.04);
+  EXPECT_EQ(scene.sensor.force_noise_N, 1e-4);
+  EXPECT_EQ(scene.sensor.force_bandwidth_Hz, 5e3);
+  EXPECT_EQ(scene.sensor.delay_periods, 2);
+  EXPECT_EQ(scene.sensor.force_offset_N, -2e-3);
+  EXPECT_EQ(scene.sensor.force_gain, 0.9);
+  EXPECT_EQ(scene.sensor.velocity_offset_m_per_s, 1e-3);
+  EXPECT_EQ(scene.sensor.velocity_gain, -1.0);
+  EXPECT_EQ(scene.sensor.seed, 9223372036854775807U);
+  EXPECT_EQ(scene.model_error.mass, 0.9);
+  EXPECT_EQ(scene.model_error.stiffness, 1.04);
+  EXPECT_EQ(scene.model_error.coefficient, 1.3);
+  EXPECT_EQ(scene.model_error.contact_stiffness, 1.5);
+}
+
+TEST(ReaderTest, DeadAndReversedSensorsAreScenes) {
+  for (const double gain : {0.0, -1.0, 100.0, -100.0}) {
+    const std::string value = std::to_string(gain);
+    const scene::Sensor sensor =
+        read_text(shortest_closed_loop, "s",
+                  {"sensor.force_gain=" + value, "sensor.velocity_gain=" + value})
+            .sensor;
+    EXPECT_EQ(sensor.force_gain, gain);
+    EXPECT_EQ(sensor.velocity_gain, gain);
+  }
+}
+
+TEST(ReaderTest, ZeroFrictionDriveAndDampingAreScenes) {
+  EXPECT_EQ(read_text(shortest_open_loop, "s", {"friction.coefficient=0"}).friction.coefficient,
+            0.0);
+  EXPECT_EQ(
+      read_text(shortest_open_loop, "s", {"friction.normal_force_N=0"}).friction.normal_force_N,
+      0.0);
+  EXPECT_EQ(
+      read_text(fullest_open_loop, "s", {"drive.force_amplitude_N=0"}).drive->force_amplitude_N,
+      0.0);
+  EXPECT_EQ(
+      read_text(fullest_open_loop, "s", {"plant.damping_N_s_per_m=0"}).plant.damping_N_s_per_m,
+      0.0);
+}
+
+TEST(ReaderTest, OverridesTakeTomlAndBareWords) {
+  EXPECT_EQ(read_text(shortest_closed_loop, "s", {"controller.arithmetic=float64"})
+                .controller->arithmetic,
+            scene::Arithmetic::float64);
+  EXPECT_EQ(read_text(shortest_closed_loop, "s", {"controller.arithmetic=\"float64\""})
+                .controller->arithmetic,
+            scene::Arithmetic::float64);
+  const scene::Scene scene = read_text(
+      shortest_closed_loop, "s", {"controller.target_friction_ratio=[[0, 0.3], [1e-3, 0.5]]"});
+  EXPECT_EQ(scene.controller->target_friction_ratio[1].friction_ratio, 0.5);
+}
+
+TEST(ReaderTest, AnIntegerBeyondTheDigitsOfARealNumberIsRounded) {
+  EXPECT_EQ(read_text(shortest_open_loop, "s", {"plant.stiffness_N_per_m=9007199254740993"})
+                .plant.stiffness_N_per_m,
+            9007199254740992.0);
+}
+
+TEST(ReaderTest, AnOverrideMakesTheTableItNeeds) {
+  EXPECT_EQ(read_text(shortest_closed_loop, "s", {"sensor.adc_bits=10"}).sensor.adc_bits, 10);
+}
+
+TEST(ReaderTest, ManyOverridesStayWithTheirValues) {
+  std::vector<std::string> overrides;
+  for (int i = 1; i <= 1000; ++i) {
+    overrides.push_back("plant.mass_kg=" + std::to_string(i));
+    overrides.push_back("friction.coefficient=0.5");
+  }
+  const scene::Scene scene = read_text(shortest_open_loop, "s", overrides);
+  EXPECT_EQ(scene.plant.mass_kg, 1000.0);
+  EXPECT_EQ(scene.friction.coefficient, 0.5);
+}
+
+TEST(ReaderTest, AnEmptyListSwitchesTheRecordingOff) {
+  const scene::Scene scene = read_text(fullest_open_loop, "s", {"run.record=[]"});
+  EXPECT_TRUE(scene.run.record.empty());
+  EXPECT_EQ(scene.run.record_interval_s, 0.0);
+}
+
+TEST(ReaderTest, DottedKeysAndInlineTablesAreTheSameScene) {
+  const scene::Scene scene = read_text(
+      "plant = {mass_kg = 1, stiffness_N_per_m = 2}\n"
+      "friction.law = 'none'\n"
+      "sliding.velocity_m_per_s = 0\n"
+      "run.duration_s = 1\n",
+      "s");
+  EXPECT_EQ(scene.plant.stiffness_N_per_m, 2.0);
+  EXPECT_TRUE(scene::is<scene::laws::None>(scene.friction.law));
+}
+
+std::string refused_key(std::vector<std::string> overrides) {
+  overrides.emplace_back("run.start='steady'");
+  try {
+    read_text(shortest_open_loop, "s", overrides);
+  } catch (const SceneError& error) {
+    return error.key();
+  }
+  return {};
+}
+
+TEST(ReaderTest, ASteadyOrbitHasAPeriodAndNoOtherBeginning) {
+  EXPECT_EQ(refused_key({}), "run.start") << "no drive";
+  const std::string hertz = "drive.frequency_Hz=60e3";
+  const std::string newton = "drive.force_amplitude_N=384";
+  EXPECT_EQ(refused_key({hertz, newton}), "");
+  EXPECT_EQ(refused_key({hertz, newton, "plant.initial_displacement_m=0"}),
+            "plant.initial_displacement_m");
+  EXPECT_EQ(refused_key({hertz, newton, "plant.initial_velocity_m_per_s=0"}),
+            "plant.initial_velocity_m_per_s");
+  EXPECT_EQ(refused_key({hertz, newton, "friction.initial_force_N=0"}), "friction.initial_force_N");
+}
+
+TEST(ReaderTest, TheErrorCarriesItsParts) {
+  try {
+    read_text("[plant]\n  mass_kg = -1\n", "dir/bad.toml");
+    FAIL() << "no error";
+  } catch (const SceneError& error) {
+    EXPECT_EQ(error.file(), "dir/bad.toml");
+    EXPECT_EQ(error.line(), 2U);
+    EXPECT_EQ(error.column(), 13U);
+    EXPECT_EQ(error.key(), "plant.mass_kg");
+    EXPECT_EQ(error.message(), "-1 is out of range; allowed: 1e-12 to 1e+06 kg");
+    EXPECT_STREQ(error.what(),
+                 "dir/bad.toml:2:13: plant.mass_kg: -1 is out of range; allowed: 1e-12 to 1e+06 "
+                 "kg");
+  }
+}
+
+}  // namespace
+}  // namespace sonoglide::scene_file

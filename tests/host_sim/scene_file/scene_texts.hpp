@@ -1,0 +1,198 @@
+/// Scenes that use every key a scene can have.
+#pragma once
+
+namespace sonoglide::scene_file {
+
+/// Nothing that has a default.
+inline constexpr const char* shortest_open_loop = R"([plant]
+mass_kg = 0.02
+stiffness_N_per_m = 133e6
+[friction]
+law = "dahl"
+coefficient = 0.1
+contact_stiffness_N_per_m = 0.056e6
+[sliding]
+velocity_m_per_s = 0.0267
+[run]
+duration_s = 2e-3
+)";
+
+inline constexpr const char* fullest_open_loop = R"([plant]
+mass_kg = 0.02
+stiffness_N_per_m = 133e6
+damping_N_s_per_m = 1.5
+initial_displacement_m = -1e-7
+initial_velocity_m_per_s = 2e-3
+[friction]
+law = "dahl"
+coefficient = 0.2
+normal_force_N = 3
+contact_stiffness_N_per_m = 0.056e6
+initial_force_N = -0.25
+sign_convention = "as_printed"
+[sliding]
+profile = [[1e-3, 0.02], [2e-3, -0.02]]
+[drive]
+frequency_Hz = 40e3
+force_amplitude_N = 384
+waveform = "cosine"
+[solver]
+method = "rk4"
+step_s = 1e-8
+[run]
+duration_periods = 100
+window_start_periods = 50
+record = ["sliding_velocity_m_per_s", "displacement_m", "velocity_m_per_s", "friction_force_N",
+          "drive_force_N"]
+record_interval_s = 1e-6
+)";
+
+/// A Stribeck curve.
+inline constexpr const char* curve_open_loop = R"([plant]
+mass_kg = 0.02
+stiffness_N_per_m = 8e3
+[friction]
+law = "stribeck"
+coefficient = 0.2
+fall_s_per_m = 1.5
+rise_s3_per_m3 = 50
+[sliding]
+velocity_m_per_s = 0.01
+[run]
+duration_s = 1e-2
+)";
+
+/// A contact of bristles under a wave of straight pieces.
+inline constexpr const char* bristles_open_loop = R"([plant]
+mass_kg = 0.02
+stiffness_N_per_m = 133e6
+[friction]
+law = "lugre"
+coefficient = 0.2
+contact_stiffness_N_per_m = 0.056e6
+static_coefficient = 0.3
+stribeck_velocity_m_per_s = 0.01
+bristle_damping_N_s_per_m = 0.02
+viscous_friction_N_s_per_m = 0.03
+[sliding]
+velocity_m_per_s = 0.0267
+[drive]
+frequency_Hz = 40e3
+force_amplitude_N = 384
+waveform = "triangle"
+[run]
+duration_periods = 100
+)";
+
+/// Springs in parallel that slip.
+inline constexpr const char* springs_open_loop = R"([plant]
+mass_kg = 0.02
+stiffness_N_per_m = 133e6
+[friction]
+law = "iwan"
+coefficient = 0.2
+contact_stiffness_N_per_m = 0.056e6
+elements = 8
+[sliding]
+velocity_m_per_s = 0.0267
+[run]
+duration_s = 1e-3
+)";
+
+/// Vibration normal to the surface.
+inline constexpr const char* normal_open_loop = R"([plant]
+mass_kg = 0.02
+stiffness_N_per_m = 133e6
+[friction]
+law = "normal_coulomb"
+coefficient = 0.5
+contact_stiffness_N_per_m = 0.6e6
+normal_contact_stiffness_N_per_m = 0.7e6
+[sliding]
+velocity_m_per_s = 0.0203
+[run]
+duration_s = 1e-3
+)";
+
+/// Friction that changes in time.
+inline constexpr const char* profiles_open_loop = R"([plant]
+mass_kg = 0.02
+stiffness_N_per_m = 133e6
+[friction]
+law = "dahl"
+coefficient_profile = [[0, 0.1], [1e-3, 0.1], [1e-3, 0.2], [2e-3, 0]]
+normal_force_profile_N = [[5e-4, 0.2]]
+contact_stiffness_N_per_m = 0.056e6
+[sliding]
+velocity_m_per_s = 0.0267
+[run]
+duration_s = 2e-3
+)";
+
+/// Nothing that has a default.
+inline constexpr const char* shortest_closed_loop = R"([plant]
+mass_kg = 0.02
+stiffness_N_per_m = 133e6
+[friction]
+law = "coulomb"
+coefficient = 0.1
+[sliding]
+velocity_m_per_s = 0.0267
+[drive]
+frequency_Hz = 60e3
+max_force_amplitude_N = 1920
+[run]
+duration_s = 2e-3
+[controller]
+arithmetic = "q31"
+target_friction_ratio = [[0, 1]]
+)";
+
+inline constexpr const char* fullest_closed_loop = R"([plant]
+mass_kg = 0.02
+stiffness_N_per_m = 133e6
+[friction]
+law = "dahl"
+coefficient = 0.1
+normal_force_N = 0.1962
+contact_stiffness_N_per_m = 0.056e6
+[sliding]
+velocity_m_per_s = -0.0267
+[drive]
+frequency_Hz = 60e3
+max_force_amplitude_N = 1920
+max_force_slew_N_per_s = 1e8
+[solver]
+method = "event_taylor"
+tolerance = 1e-12
+order = 16
+[run]
+duration_s = 4e-3
+window_start_s = 1e-3
+settling_band = 0.02
+[controller]
+arithmetic = "float32"
+target_friction_ratio = [[0.0, 0.4], [2e-3, 0.6]]
+calibration_s = 0.5e-3
+relearn_every_s = 0.1
+shaping = "none"
+speed_floor_m_per_s = 1e-4
+[sensor]
+adc_bits = 12
+force_full_scale_N = 0.04
+force_noise_N = 1e-4
+force_bandwidth_Hz = 5e3
+delay_periods = 2
+force_offset_N = -2e-3
+force_gain = 0.9
+velocity_offset_m_per_s = 1e-3
+velocity_gain = -1
+seed = 9223372036854775807
+[model_error]
+mass = 0.9
+stiffness = 1.04
+coefficient = 1.3
+contact_stiffness = 1.5
+)";
+
+}  // namespace sonoglide::scene_file

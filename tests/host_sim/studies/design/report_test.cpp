@@ -1,0 +1,118 @@
+/// What a design says and writes.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+#include <sstream>
+#include <string>
+
+#include "design_scenes.hpp"
+#include "host_sim/studies/design/advice.hpp"
+#include "host_sim/studies/design/quantity.hpp"
+#include "host_sim/studies/design/tables.hpp"
+
+namespace sonoglide::design {
+namespace {
+
+Study study_of(const scene::Scene& scene, const std::vector<double>& ratios, SpeedRange speeds) {
+  return study(make_task(scene, ratios, speeds), [](double) {});
+}
+
+std::string all_advice(const Study& study) {
+  std::string text;
+  for (const Advice& each : advice(study)) {
+    text += each.topic + ": " + each.sentence + '\n';
+  }
+  return text;
+}
+
+bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+TEST(QuantityTest, HasThePrefixThatSuits) {
+  EXPECT_EQ(quantity(526.34, "N"), "526.3 N");
+  EXPECT_EQ(quantity(0.02672, "m/s"), "26.72 mm/s");
+  EXPECT_EQ(quantity(-2e-7, "m"), "-200 nm");
+  EXPECT_EQ(quantity(999.99, "W"), "1 kW");
+  EXPECT_EQ(quantity(0.0, "W"), "0 W");
+  EXPECT_EQ(quantity(1e-15, "W"), "0.001 pW");
+  EXPECT_EQ(quantity(1e14, "Hz"), "1e+05 GHz");
+  EXPECT_EQ(quantity(std::numeric_limits<double>::quiet_NaN(), "N"), "-");
+}
+
+TEST(AdviceTest, SaysWhatIsOutOfReachAndWhatIsNearest) {
+  const Study found = study_of(table_1(), {0.2, 0.5}, {0.1, 0.1});
+  const std::vector<std::string> short_of = shortfalls(found);
+  ASSERT_EQ(short_of.size(), 1U);
+  EXPECT_TRUE(contains(short_of[0], "Ratio 0.2 at 100 mm/s is beyond the drive: it takes 281"))
+      << short_of[0];
+  EXPECT_TRUE(contains(short_of[0], "The nearest at this speed is 0.350")) << short_of[0];
+  EXPECT_TRUE(contains(short_of[0], "0.2 is within reach up to 59.4")) << short_of[0];
+  EXPECT_TRUE(contains(all_advice(found), "Ratio 0.5: Drive with 151"));
+  EXPECT_FALSE(contains(all_advice(found), "Ratio 0.2:"));
+}
+
+TEST(AdviceTest, SaysWhereTheSceneStandsFromResonance) {
+  const SpeedRange speeds{0.02672, 0.02672};
+  EXPECT_TRUE(contains(all_advice(study_of(table_1(), {0.5}, speeds)),
+                       "below resonance, and far enough; a stiffer spring saves force, at 0.6"));
+  EXPECT_TRUE(contains(all_advice(study_of(retuned(table_1(), 3.0), {0.5}, speeds)),
+                       "above resonance, and far enough"));
+  EXPECT_TRUE(contains(all_advice(study_of(retuned(table_1(), 0.95), {0.5}, speeds)),
+                       "too near to resonance, 1 % of Ks moves ratio 0.5 by 0.1"));
+  scene::Scene damped = resonant();
+  damped.plant.damping_N_s_per_m = 1500.0;
+  EXPECT_TRUE(contains(all_advice(study_of(damped, {0.5}, speeds)),
+                       "on the flat top of a damped resonance"));
+}
+
+TEST(AdviceTest, SaysWhatStribeckFrictionDenies) {
+  const Study found = study_of(stribeck(), {0.01, 0.5, 1.0}, {0.02672, 0.02672});
+  ASSERT_EQ(shortfalls(found).size(), 1U);
+  EXPECT_TRUE(contains(shortfalls(found)[0], "more vibration raises the friction again"));
+  EXPECT_TRUE(contains(all_advice(found), "Ratio 1: Needs no drive"));
+}
+
+TEST(RequirementsCsvTest, HasALineForEachSpeedAndRatio) {
+  const Study found = study_of(table_1(), {0.2, 0.5}, {0.01, 0.1});
+  std::istringstream lines(requirements_csv(found));
+  std::string heading;
+  std::getline(lines, heading);
+  std::string line;
+  int count = 0;
+  while (std::getline(lines, line)) {
+    EXPECT_EQ(std::count(line.begin(), line.end(), ','),
+              std::count(heading.begin(), heading.end(), ','));
+    ++count;
+  }
+  EXPECT_EQ(count, 2 * 41);
+  EXPECT_TRUE(contains(requirements_csv(found), ",none\n"));
+  EXPECT_TRUE(contains(requirements_csv(found), ",actuator\n"));
+}
+
+TEST(ToJsonTest, HoldsPointsReachAndDetuning) {
+  const Study found = study_of(table_1(), {0.5}, {0.01, 0.1});
+  const auto json = to_json(found);
+  ASSERT_EQ(json["points"].size(), 2U);
+  const auto& point = json["points"][1];
+  EXPECT_EQ(point["sliding_velocity_m_per_s"], 0.1);
+  EXPECT_EQ(point["drive_force_N"], found.points[1].requirement.motion.drive_force_N);
+  EXPECT_EQ(point["sensitivities"][0]["key"], "plant.mass_kg");
+  EXPECT_FALSE(point.contains("reason"));
+  EXPECT_EQ(json["reach"][0]["fastest_sliding_m_per_s"], found.curves[0].fastest_m_per_s);
+  EXPECT_EQ(json["detuning"][0]["reachable_tuning"]["high"], found.detunings[0].reachable->high);
+  EXPECT_EQ(json["scene"]["plant"]["mass_kg"], 0.02);
+}
+
+TEST(ToJsonTest, HasNullForWhatIsNotDefined) {
+  const Study found = study_of(stribeck(), {0.01, 0.5}, {0.02672, 0.02672});
+  const auto json = to_json(found);
+  EXPECT_TRUE(json["points"][0]["drive_force_N"].is_null());
+  EXPECT_EQ(json["points"][0]["limit"], "amplitude");
+  EXPECT_TRUE(contains(requirements_csv(found), ",nan,"));
+}
+
+}  // namespace
+}  // namespace sonoglide::design

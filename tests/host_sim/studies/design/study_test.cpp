@@ -1,0 +1,97 @@
+#include "host_sim/studies/design/study.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "design_scenes.hpp"
+#include "host_sim/configure/configuration_error.hpp"
+#include "host_sim/loop/computation_error.hpp"
+
+namespace sonoglide::design {
+namespace {
+
+void expect_denied(const scene::Scene& scene, const std::string& key) {
+  try {
+    make_task(scene, {}, {});
+    FAIL() << key;
+  } catch (const configure::ConfigurationError& error) {
+    EXPECT_EQ(error.key(), key);
+  }
+}
+
+TEST(MakeTaskTest, TakesRatiosAndSpeedsOfTheScene) {
+  const Task task = make_task(table_1(), {}, {});
+  EXPECT_EQ(task.ratios, (std::vector<double>{0.3, 0.5, 0.7}));
+  EXPECT_EQ(task.speeds.slowest_m_per_s, 0.02672);
+  EXPECT_EQ(task.speeds.fastest_m_per_s, 0.02672);
+  EXPECT_EQ(make_task(table_1(), {0.6, 0.2, 0.6}, {}).ratios, (std::vector<double>{0.2, 0.6}));
+  EXPECT_EQ(make_task(table_1(), {}, SpeedRange{0.01, 0.1}).speeds.fastest_m_per_s, 0.1);
+}
+
+TEST(MakeTaskTest, LeavesOutWhatIsSlowerThanTheSpeedFloor) {
+  scene::Scene scene = table_1();
+  scene.sliding.profile = {{0.0, 0.03}, {1e-3, -0.02}};
+  const Task reversing = make_task(scene, {}, {});
+  EXPECT_EQ(reversing.speeds.fastest_m_per_s, 0.03);
+  EXPECT_EQ(reversing.speeds.slowest_m_per_s, speed_floor_m_per_s(scene));
+  scene.sliding.profile = {{0.0, -0.03}, {1e-3, -0.02}};
+  EXPECT_EQ(make_task(scene, {}, {}).speeds.slowest_m_per_s, 0.02);
+}
+
+TEST(MakeTaskTest, DeniesWhatHasNoSteadyVibration) {
+  scene::Scene scene = table_1();
+  scene.controller.reset();
+  expect_denied(scene, "controller");
+  scene = table_1();
+  scene.friction.law = scene::laws::LuGre{};
+  expect_denied(scene, "friction.law");
+  scene = table_1();
+  scene.friction.sign_convention = scene::SignConvention::as_printed;
+  expect_denied(scene, "friction.sign_convention");
+  scene = table_1();
+  scene.drive->waveform = scene::Waveform::square;
+  expect_denied(scene, "drive.waveform");
+  scene = table_1();
+  scene.sliding.profile = {{0.0, 0.0}};
+  expect_denied(scene, "sliding.velocity_m_per_s");
+}
+
+TEST(StudyTest, HasEveryRatioAtBothEndsOfTheSpeeds) {
+  double told = 0.0;
+  const Study found = study(make_task(table_1(), {0.3, 0.7}, SpeedRange{0.01, 0.1}),
+                            [&](double fraction) { told = fraction; });
+  EXPECT_EQ(told, 1.0);
+  ASSERT_EQ(found.points.size(), 4U);
+  EXPECT_EQ(found.points[0].requirement.sliding_m_per_s, 0.01);
+  EXPECT_EQ(found.points[0].requirement.ratio, 0.3);
+  EXPECT_EQ(found.points[3].requirement.sliding_m_per_s, 0.1);
+  EXPECT_EQ(found.points[3].requirement.ratio, 0.7);
+  EXPECT_EQ(found.points[3].sensitivities.size(), 8U);
+  ASSERT_EQ(found.curves.size(), 2U);
+  for (const RatioCurve& curve : found.curves) {
+    EXPECT_TRUE(std::is_sorted(curve.requirements.begin(), curve.requirements.end(),
+                               [](const Requirement& a, const Requirement& b) {
+                                 return a.motion.drive_force_N < b.motion.drive_force_N;
+                               }));
+  }
+  EXPECT_EQ(found.detunings.size(), 2U);
+}
+
+TEST(StudyTest, OfASingleSpeedShowsADecadeToEitherSide) {
+  const Study found = study(make_task(table_1(), {0.5}, {}), [](double) {});
+  ASSERT_EQ(found.points.size(), 1U);
+  EXPECT_NEAR(found.curves[0].requirements.front().sliding_m_per_s, 0.002672, 1e-12);
+  EXPECT_NEAR(found.curves[0].requirements.back().sliding_m_per_s, 0.2672, 1e-10);
+  EXPECT_GT(found.curves[0].fastest_m_per_s, 0.1);
+}
+
+TEST(StudyTest, FailsWhereNothingCanBeSaid) {
+  scene::Scene free = table_1();
+  free.plant.stiffness_N_per_m = 0.0;
+  EXPECT_THROW(study(make_task(free, {}, {}), [](double) {}), loop::ComputationError);
+}
+
+}  // namespace
+}  // namespace sonoglide::design

@@ -1,0 +1,82 @@
+/// A coarse map shows what theory says of it.
+
+#include "host_sim/studies/stability/stability_map.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <stdexcept>
+#include <string_view>
+
+#include "host_sim/studies/stability/solver_list.hpp"
+
+namespace sonoglide::stability {
+namespace {
+
+const StabilityMaps& coarse() {
+  static const StabilityMaps maps =
+      stability_maps({{1e4, 5.6e4, 1e8, 1e11}, {1e-4, 1e-8}, {16.0, 1024.0}, 3}, [](double) {});
+  return maps;
+}
+
+const SolverMap& map_of(std::string_view solver) {
+  for (const SolverMap& map : coarse().maps) {
+    if (map.solver == solver && map.precision == "float64") {
+      return map;
+    }
+  }
+  throw std::out_of_range("no such map");
+}
+
+TEST(StabilityMap, EverySolverHasItsMapInBothPrecisions) {
+  EXPECT_EQ(coarse().maps.size(), 2 * solvers().size());
+  for (const SolverMap& map : coarse().maps) {
+    EXPECT_EQ(map.cells.size(), 8U) << map.solver;
+  }
+}
+
+TEST(StabilityMap, TwoOrdersAgreeOnTheReference) {
+  EXPECT_LT(coarse().reference_difference, 1e-10);
+}
+
+TEST(StabilityMap, TheEventSolversAreAccurateAtAnyStiffness) {
+  for (const char* solver :
+       {"event_taylor_8", "event_taylor_12", "event_taylor_16", "event_gauss"}) {
+    for (const MapCell& cell : map_of(solver).cells) {
+      EXPECT_EQ(cell.verdict, Verdict::good) << solver << " at " << cell.contact_stiffness_N_per_m;
+    }
+  }
+}
+
+TEST(StabilityMap, RungeKuttaIsAccurateFarInsideItsLimitAndSaysSoFarBeyond) {
+  for (const MapCell& cell : map_of("rk4").cells) {
+    const double limit = rk4_limit_steps_per_period(cell.contact_stiffness_N_per_m);
+    if (cell.setting > 1000.0 && cell.setting > 20.0 * limit) {
+      EXPECT_EQ(cell.verdict, Verdict::good) << cell.contact_stiffness_N_per_m;
+    }
+    if (cell.setting < 0.05 * limit) {
+      EXPECT_TRUE(cell.verdict == Verdict::declined_friction_bound ||
+                  cell.verdict == Verdict::declined_not_finite)
+          << cell.contact_stiffness_N_per_m;
+    }
+  }
+}
+
+TEST(StabilityMap, AnErrorIsGivenOnlyWhereThereIsAResult) {
+  for (const SolverMap& map : coarse().maps) {
+    for (const MapCell& cell : map.cells) {
+      const bool handed_over = cell.verdict == Verdict::good || cell.verdict == Verdict::wrong;
+      EXPECT_EQ(std::isnan(cell.relative_error), !handed_over) << map.solver;
+    }
+  }
+}
+
+TEST(StabilityMap, TheLimitIsThePublishedOne) {
+  // Table 1: v = 53.4 mm/s, Vt = 26.7 mm/s, and 0.216 of v in the natural mode: 0.0917 m/s in all.
+  EXPECT_NEAR(rk4_limit_steps_per_period(0.056e6), 0.056e6 * 0.0917 / (2.785 * 0.01962 * 60e3),
+              0.003);
+  EXPECT_DOUBLE_EQ(rk4_limit_steps_per_period(1e9), 1e3 * rk4_limit_steps_per_period(1e6));
+}
+
+}  // namespace
+}  // namespace sonoglide::stability

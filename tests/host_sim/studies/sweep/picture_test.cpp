@@ -1,0 +1,106 @@
+#include "host_sim/studies/sweep/picture.hpp"
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "tests/host_sim/studies/sweep/scenes/base_scenes.hpp"
+#include "tests/host_sim/studies/sweep/scenes/scratch_scene.hpp"
+
+namespace sonoglide::sweep {
+namespace {
+
+std::size_t occurrences(const std::string& text, const std::string& part) {
+  std::size_t count = 0;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) {
+    ++count;
+  }
+  return count;
+}
+
+std::vector<Row> rows(std::size_t count) {
+  std::vector<Row> all(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    all[i].friction_ratio_window = static_cast<double>(i);
+    all[i].friction_ratio_whole_run = 1.0;
+  }
+  return all;
+}
+
+std::optional<std::string> picture(const std::vector<std::string>& vary,
+                                   const std::vector<Row>& shown) {
+  const ScratchScene scratch(open_loop);
+  return draw(Plan(scene_file::read_source(scratch.file()), {}, vary), shown);
+}
+
+TEST(PictureTest, AHeatMapHasACellForEachPointAndGreysTheFailed) {
+  std::vector<Row> shown = rows(12);
+  shown[5].friction_ratio_window = Row::undefined;
+  const auto svg = picture(
+      {"velocity_ratio=1:0.1:4", "friction.contact_stiffness_N_per_m=1e4:1e6:3:log"}, shown);
+  ASSERT_TRUE(svg.has_value());
+  EXPECT_EQ(occurrences(*svg, "fill = 'rgb(184, 184, 184)'"), 1U);
+  EXPECT_NE(svg->find("velocity_ratio"), std::string::npos);
+  EXPECT_NE(svg->find("friction.contact_stiffness_N_per_m"), std::string::npos);
+  EXPECT_NE(svg->find("Friction ratio, window [-]"), std::string::npos);
+}
+
+TEST(PictureTest, ABigHeatMapIsThinnedOut) {
+  const auto svg =
+      picture({"velocity_ratio=0.1:1:2", "friction.coefficient=0.1:0.2:1000"}, rows(2000));
+  ASSERT_TRUE(svg.has_value());
+  EXPECT_LT(svg->size(), 200000U);
+}
+
+TEST(PictureTest, OneKeyIsACurve) {
+  std::vector<Row> shown = rows(5);
+  shown[2] = Row();
+  shown[2].status = "failed";
+  const auto svg = picture({"velocity_ratio=0.1:1:5", "friction.coefficient=0.1:0.1:1"}, shown);
+  ASSERT_TRUE(svg.has_value());
+  EXPECT_NE(svg->find("whole run"), std::string::npos);
+  EXPECT_NE(svg->find(">failed<"), std::string::npos);
+}
+
+TEST(PictureTest, WordsStandSideBySide) {
+  const auto svg = picture({"friction.law=coulomb,dahl,transverse_coulomb"}, rows(3));
+  ASSERT_TRUE(svg.has_value());
+  for (const char* word : {">coulomb<", ">dahl<", ">transverse_coulomb<", "friction.law"}) {
+    EXPECT_NE(svg->find(word), std::string::npos) << word;
+  }
+}
+
+TEST(PictureTest, WordsAgainstNumbersAreACurveForEachWord) {
+  std::vector<Row> shown = rows(8);
+  shown[1].friction_ratio_window = Row::undefined;
+  for (const bool words_first : {true, false}) {
+    const std::vector<std::string> vary = {"friction.law=coulomb,dahl", "velocity_ratio=0.1:1:4"};
+    const auto svg =
+        picture(words_first ? vary : std::vector<std::string>{vary[1], vary[0]}, shown);
+    ASSERT_TRUE(svg.has_value());
+    EXPECT_NE(svg->find(">coulomb<"), std::string::npos);
+    EXPECT_NE(svg->find(">dahl<"), std::string::npos);
+  }
+}
+
+TEST(PictureTest, WordsAgainstWordsAreAMap) {
+  const auto svg =
+      picture({"friction.law=dahl,coulomb", "friction.coefficient=0.1,0.3,0.2"}, rows(6));
+  ASSERT_TRUE(svg.has_value());
+  for (const char* word : {">coulomb<", ">0.3<"}) {
+    EXPECT_NE(svg->find(word), std::string::npos) << word;
+  }
+}
+
+TEST(PictureTest, NoPictureOfMoreKeysNorOfNothing) {
+  EXPECT_FALSE(picture({"velocity_ratio=0.1:1:2", "friction.coefficient=0.1:0.2:2",
+                        "plant.mass_kg=0.01:0.02:2"},
+                       rows(8))
+                   .has_value());
+  EXPECT_FALSE(picture({"velocity_ratio=0.1:0.1:1"}, rows(1)).has_value());
+  EXPECT_FALSE(picture({"velocity_ratio=0.1:1:2"}, std::vector<Row>(2)).has_value());
+}
+
+}  // namespace
+}  // namespace sonoglide::sweep

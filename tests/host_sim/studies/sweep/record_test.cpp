@@ -1,0 +1,61 @@
+#include "host_sim/studies/sweep/record.hpp"
+
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+
+#include <cstring>
+#include <string>
+
+namespace sonoglide::sweep {
+namespace {
+
+bool same_bits(double a, double b) {
+  return std::memcmp(&a, &b, sizeof a) == 0;
+}
+
+TEST(RecordTest, KeepsEveryBit) {
+  EXPECT_TRUE(rc::check("read is written", [](std::size_t point, double a, double b, double c) {
+    Record record{point, {}};
+    record.row.friction_ratio_whole_run = a;
+    record.row.friction_ratio_window = -b;
+    record.row.ripple = c;
+    record.row.limit = *rc::gen::element(control::Limit::none, control::Limit::speed_floor);
+    record.row.fault =
+        *rc::gen::element(control::Fault::none, control::Fault::measurement_implausible);
+    record.row.status = *rc::gen::element<std::string>("ok", "solver: at 1 s, \"x\" 2 m: why");
+    const auto read = parse_record(record_text(record));
+    RC_ASSERT(read.has_value());
+    RC_ASSERT(read->point == point);
+    RC_ASSERT(same_bits(read->row.friction_ratio_whole_run, a));
+    RC_ASSERT(same_bits(read->row.friction_ratio_window, -b));
+    RC_ASSERT(same_bits(read->row.dissipation_ratio_window, Row::undefined));
+    RC_ASSERT(same_bits(read->row.ripple, c));
+    RC_ASSERT(read->row.limit == record.row.limit);
+    RC_ASSERT(read->row.fault == record.row.fault);
+    RC_ASSERT(read->row.status == record.row.status);
+  }));
+}
+
+TEST(RecordTest, NoTornOrDamagedLineIsTaken) {
+  const std::string line = sealed(record_text({17, {}}));
+  ASSERT_TRUE(unsealed(line).has_value());
+  for (std::size_t length = 0; length < line.size(); ++length) {
+    EXPECT_FALSE(unsealed(line.substr(0, length)).has_value()) << length;
+  }
+  for (std::size_t at = 0; at < line.size(); ++at) {
+    for (int bit = 0; bit < 8; ++bit) {
+      std::string damaged = line;
+      damaged[at] = static_cast<char>(damaged[at] ^ (1 << bit));
+      EXPECT_FALSE(unsealed(damaged).has_value()) << at << ' ' << bit;
+    }
+  }
+}
+
+TEST(RecordTest, TextsOfAnotherFormAreRefused) {
+  for (const char* text : {"", "1", "x 0 0 0 0 0 0 0 ok", "1 0 0 0 0 0 0 9 ok", "1 0 0 0 0 0 0"}) {
+    EXPECT_FALSE(parse_record(text).has_value()) << text;
+  }
+}
+
+}  // namespace
+}  // namespace sonoglide::sweep
