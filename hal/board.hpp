@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstdint>
+#include <type_traits>
+#include <utility>
 
 namespace sonoglide::hal {
 
@@ -69,5 +71,30 @@ struct Drive {
 /// time, or is fast enough for the drive and yet slower than an erase. A word that a power cut
 /// spoilt may read as anything, but read() returns; a flash of wider words shows each as one of 32
 /// bits.
+namespace detail {
+
+template <class Board, class = void>
+struct IsBoard : std::false_type {};
+template <class Board>
+struct IsBoard<Board,
+               std::void_t<decltype(std::declval<Board&>().sample(std::declval<Sample&>())),
+                           decltype(std::declval<Board&>().drive(std::declval<const Drive&>()))>>
+    : std::is_same<decltype(std::declval<Board&>().sample(std::declval<Sample&>())), bool> {};
+
+template <class Board, class = void>
+struct KeepsPeriods : std::false_type {};
+template <class Board>
+struct KeepsPeriods<Board, std::void_t<decltype(std::declval<Board&>().period())>>
+    : std::is_same<decltype(std::declval<Board&>().period()), std::uint32_t> {};
+
+}  // namespace detail
+
+/// Whether a class has the shape of a board.
+template <class Board>
+inline constexpr bool is_board = detail::IsBoard<Board>::value;
+
+/// Whether it makes the carrier periods itself.
+template <class Board>
+inline constexpr bool keeps_periods = is_board<Board>&& detail::KeepsPeriods<Board>::value;
 
 }  // namespace sonoglide::hal

@@ -9,6 +9,8 @@ namespace sonoglide::app {
 /// Joins a controller to a board. The same code runs in an image and in the simulation.
 template <class ControllerT, class BoardT>
 class ControlLoop {
+  static_assert(hal::is_board<BoardT>, "a board has sample() and drive(): see hal/board.hpp");
+
  public:
   using Scalar = typename ControllerT::Scalar;
 

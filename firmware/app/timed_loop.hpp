@@ -29,6 +29,9 @@ struct NoService {
 ///                   LinkService, Console; NoService is none.
 template <class SupervisorT, class Board, class Watchdog, class Service>
 class TimedLoop {
+  static_assert(hal::keeps_periods<Board>,
+                "a board on its own timer has sample(), drive() and period(): see hal/board.hpp");
+
  public:
   TimedLoop(SupervisorT& supervisor, Board& board, Watchdog& watchdog, Service& service)
       : supervisor_(supervisor), board_(board), watchdog_(watchdog), service_(service) {

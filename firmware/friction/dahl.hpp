@@ -15,7 +15,7 @@ namespace sonoglide::friction {
 ///
 /// Between two reversals, with s = sgn V and e = 1 - s phi, the force depends on the displacement
 /// alone: e(u) = e(0) exp(-kappa |u|). So |phi| <= 1 always. Passive: the work done on the contact
-/// is never less than -phi^2 / (2 kappa). What the members mean is listed at friction::None.
+/// is never less than -phi^2 / (2 kappa). What the members mean is listed in friction/law.hpp.
 /// Source: P. R. Dahl, A solid friction model, Aerospace Corporation TOR-0158(3107-18)-1, 1968.
 template <class Number>
 struct Dahl {

@@ -26,7 +26,7 @@ namespace sonoglide::friction {
 /// which for one element is (1 - kappa Y)_+: unlike those of Dahl and Coulomb, friction that is
 /// stuck elastically does not vanish. As kappa grows, Coulomb.
 /// Not modelled: creep at constant load, wear, a normal force that varies, stick without travel.
-/// What the members mean is listed at friction::None.
+/// What the members mean is listed in friction/law.hpp.
 /// Source: W. D. Iwan, A distributed-element model for hysteresis and its steady-state dynamic
 /// response, Journal of Applied Mechanics 33 (1966) 893-900.
 template <class Number>

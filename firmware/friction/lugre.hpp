@@ -26,7 +26,7 @@ namespace sonoglide::friction {
 /// eta times the mean of V: over a period psi returns, so that delta's mean is nothing.
 /// Not modelled: stick that does not creep, a delta that fades with the speed, a normal force that
 /// varies, friction lag apart from that of the bristles.
-/// What the members mean is listed at friction::None.
+/// What the members mean is listed in friction/law.hpp.
 /// Source: C. Canudas de Wit, H. Olsson, K. J. Åström, P. Lischinsky, A new model for control of
 /// systems with friction, IEEE Trans. Automatic Control 40 (1995) 419-425.
 template <class Number>

@@ -20,7 +20,7 @@ namespace sonoglide::friction {
 /// Under y = sin tau, for nu <= 1, the mean of phi is normal_vibration_ratio(nu, kappa r / nu).
 /// Not modelled: friction that acts back on the vibration; the stiffness kz in the oscillator,
 /// whose spring has to include it, and its loss where the contact opens; impact; Hertzian springs.
-/// What the members mean is listed at friction::None.
+/// What the members mean is listed in friction/law.hpp.
 /// Source: M. Popov, Frontiers in Mechanical Engineering 6 (2020) 69, 10.3389/fmech.2020.00069.
 template <class Number>
 struct NormalCoulomb {

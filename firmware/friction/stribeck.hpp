@@ -19,7 +19,7 @@ namespace sonoglide::friction {
 /// vibration all the same: a body on a spring, pulled slowly, sticks and slips.
 /// Limit: a = b = 0 is Coulomb.
 /// Not modelled: presliding displacement, friction lag, a contact at rest that grows stronger.
-/// What the members mean is listed at friction::None.
+/// What the members mean is listed in friction/law.hpp.
 /// Source: J. J. Thomsen, Using fast vibrations to quench friction-induced oscillations, Journal
 /// of Sound and Vibration 228 (1999) 1079-1102.
 template <class Number>

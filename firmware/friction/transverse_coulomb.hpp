@@ -21,7 +21,7 @@ namespace sonoglide::friction {
 /// transverse_vibration_ratio(r).
 /// Not modelled: a contact at rest, r = v = 0, which may hold by any |phi| <= 1; presliding
 /// displacement, for which the measured ratio is the higher; a limit that depends on the direction.
-/// No parameter and no state. What the members mean is listed at friction::None.
+/// No parameter and no state. What the members mean is listed in friction/law.hpp.
 /// Source: H. Storck, W. Littmann, J. Wallaschek, M. Mracek, Ultrasonics 40 (2002) 379-383.
 template <class Number>
 struct TransverseCoulomb {

@@ -1,6 +1,7 @@
 /// The oscillator with its friction contact, composed of types.
 #pragma once
 
+#include "firmware/friction/law.hpp"
 #include "firmware/numeric/scalar.hpp"
 #include "firmware/plant/contact.hpp"
 #include "firmware/plant/sliding.hpp"
@@ -11,7 +12,7 @@ namespace sonoglide::plant {
 /// y'' = a cos(tau) - d y' - k y - beta phi, in units of length L, time 1 / omega and force m L
 /// omega^2; phi = F / Fc, of the friction on the oscillator.
 ///
-/// Law      friction::None, or another law of that room
+/// Law      friction::None, or another law of friction/ (law.hpp lists what a law offers)
 /// Damping  Undamped or Damped
 /// DriveOf  NoDrive, CosineDrive, RampDrive or LevelDrive
 /// SlidingOf  LinearSliding, or ConstantSliding where no interval has a sliding acceleration
@@ -20,6 +21,8 @@ namespace sonoglide::plant {
 /// where the vibration is not along the sliding.
 template <class Law, class Damping, class DriveOf, class SlidingOf = LinearSliding>
 struct Model : Contact<Law>, Damping {
+  static_assert(friction::check_law<Law>());
+
   using Scalar = typename Law::Scalar;
   using FrictionLaw = Law;
   using Drive = DriveOf;

@@ -1,13 +1,17 @@
-#include "host_sim/cli/arithmetic_command.hpp"
+#include "host_sim/cli/commands.hpp"
 
 #include <fmt/format.h>
 
 #include <cstdio>
 #include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
 
 #include "host_sim/cli/board_option.hpp"
 #include "host_sim/cli/output_option.hpp"
 #include "host_sim/cli/progress_bar.hpp"
+#include "host_sim/cli/scene_input.hpp"
 #include "host_sim/emulated/controller_header.hpp"
 #include "host_sim/output/gnuplot.hpp"
 #include "host_sim/process/interruption.hpp"
@@ -16,6 +20,13 @@
 
 namespace sonoglide::cli {
 namespace {
+
+struct ArithmeticOptions {
+  SceneOptions scene;
+  std::vector<std::string> boards = {"microbit", "mps2-an385", "mps2-an386", "mps2-an500"};
+  std::string out;  ///< empty: out/<scene name>_arithmetic
+  bool quiet = false;
+};
 
 using Boards = std::vector<const emulated::EmulatedBoard*>;
 
@@ -35,26 +46,8 @@ arithmetic::Comparison compute(const scene::Scene& scene, const Boards& boards, 
       scene, boards, [&] { interruption.check(); }, [&](double fraction) { bar.update(fraction); });
 }
 
-}  // namespace
-
-CLI::App* add_arithmetic_command(CLI::App& program, ArithmeticOptions& options) {
-  CLI::App* command = program.add_subcommand(
-      "arithmetic",
-      "Error against run time of a closed-loop scene's controller on microcontrollers, "
-      "in q15, q31, float32 and, where a board computes it, float64");
-  add_scene_options(*command, options.scene, "its controller.arithmetic plays no part");
-  command
-      ->add_option("--board", options.boards,
-                   "A board; may be repeated [microbit, mps2-an385, mps2-an386, mps2-an500]")
-      ->type_name("NAME")
-      ->allow_extra_args(false)
-      ->check(check_board);
-  add_output_option(*command, options.out,
-                    "arithmetic.csv, targets.csv and arithmetic.svg [out/<scene name>_arithmetic]");
-  command->add_flag("--quiet", options.quiet, "No progress bar and no printed table");
-  return command;
-}
-
+/// Throws what pil() throws, and process::ProcessError; in each case nothing was written and no
+/// other program is left behind.
 void arithmetic(const ArithmeticOptions& options) {
   const SceneInput input(options.scene);
   const scene::Scene scene = input.read();
@@ -68,6 +61,27 @@ void arithmetic(const ArithmeticOptions& options) {
   if (!options.quiet) {
     fmt::print("{}", arithmetic::text(comparison, out));
   }
+}
+
+}  // namespace
+
+void add_arithmetic_command(CLI::App& program) {
+  const auto options = std::make_shared<ArithmeticOptions>();
+  CLI::App* command = program.add_subcommand(
+      "arithmetic",
+      "Error against run time of a closed-loop scene's controller on microcontrollers, "
+      "in q15, q31, float32 and, where a board computes it, float64");
+  add_scene_options(*command, options->scene, "its controller.arithmetic plays no part");
+  command
+      ->add_option("--board", options->boards,
+                   "A board; may be repeated [microbit, mps2-an385, mps2-an386, mps2-an500]")
+      ->type_name("NAME")
+      ->allow_extra_args(false)
+      ->check(check_board);
+  add_output_option(*command, options->out,
+                    "arithmetic.csv, targets.csv and arithmetic.svg [out/<scene name>_arithmetic]");
+  command->add_flag("--quiet", options->quiet, "No progress bar and no printed table");
+  command->callback([options] { arithmetic(*options); });
 }
 
 }  // namespace sonoglide::cli

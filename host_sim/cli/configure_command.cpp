@@ -1,33 +1,29 @@
-#include "host_sim/cli/configure_command.hpp"
+#include "host_sim/cli/commands.hpp"
 
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <memory>
+#include <string>
 
 #include "host_sim/cli/output_option.hpp"
+#include "host_sim/cli/scene_input.hpp"
 #include "host_sim/emulated/controller_header.hpp"
 #include "host_sim/emulated/plant_header.hpp"
 #include "host_sim/output/output_folder.hpp"
 #include "host_sim/text/printable.hpp"
 
 namespace sonoglide::cli {
-CLI::App* add_configure_command(CLI::App& program, ConfigureOptions& options) {
-  CLI::App* command = program.add_subcommand(
-      "configure", "Write the controller of a closed-loop scene as a header for its image");
-  add_scene_options(*command, options.scene);
-  add_output_option(*command, options.out,
-                    fmt::format("{} [out/<scene name>]", emulated::controller_header_name));
-  command
-      ->add_option("--plant", options.plant,
-                   fmt::format("Write the plant as well, in this arithmetic, as {}: for an image "
-                               "that holds both",
-                               emulated::plant_header_name))
-      ->type_name("float32|q31")
-      ->check(CLI::IsMember({"float32", "q31"}));
-  command->add_flag("--quiet", options.quiet, "No word on where the header is");
-  return command;
-}
+namespace {
 
+struct ConfigureOptions {
+  SceneOptions scene;
+  std::string out;    ///< empty: out/<scene name>
+  std::string plant;  ///< its arithmetic; empty: no plant
+  bool quiet = false;
+};
+
+/// Throws scene::SceneError, report::OutputError; in each case nothing was written.
 void configure(const ConfigureOptions& options) {
   const SceneInput input(options.scene);
   const scene::Scene scene = input.read();
@@ -50,6 +46,26 @@ void configure(const ConfigureOptions& options) {
       fmt::print("plant:  {}\n", text::printable((out / emulated::plant_header_name).string()));
     }
   }
+}
+
+}  // namespace
+
+void add_configure_command(CLI::App& program) {
+  const auto options = std::make_shared<ConfigureOptions>();
+  CLI::App* command = program.add_subcommand(
+      "configure", "Write the controller of a closed-loop scene as a header for its image");
+  add_scene_options(*command, options->scene);
+  add_output_option(*command, options->out,
+                    fmt::format("{} [out/<scene name>]", emulated::controller_header_name));
+  command
+      ->add_option("--plant", options->plant,
+                   fmt::format("Write the plant as well, in this arithmetic, as {}: for an image "
+                               "that holds both",
+                               emulated::plant_header_name))
+      ->type_name("float32|q31")
+      ->check(CLI::IsMember({"float32", "q31"}));
+  command->add_flag("--quiet", options->quiet, "No word on where the header is");
+  command->callback([options] { configure(*options); });
 }
 
 }  // namespace sonoglide::cli

@@ -1,15 +1,19 @@
-#include "host_sim/cli/design_command.hpp"
+#include "host_sim/cli/commands.hpp"
 
 #include <fmt/format.h>
 
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <memory>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "host_sim/cli/output_option.hpp"
 #include "host_sim/cli/progress_bar.hpp"
 #include "host_sim/cli/run_watch.hpp"
+#include "host_sim/cli/scene_input.hpp"
 #include "host_sim/output/gnuplot.hpp"
 #include "host_sim/process/interruption.hpp"
 #include "host_sim/studies/design/report.hpp"
@@ -17,6 +21,14 @@
 
 namespace sonoglide::cli {
 namespace {
+
+struct DesignOptions {
+  SceneOptions scene;
+  std::vector<double> ratios;
+  std::string velocity;  ///< FROM:TO in m/s; empty: the scene's
+  std::string out;       ///< empty: out/<scene name>_design
+  bool quiet = false;
+};
 
 constexpr double slowest_m_per_s = 1e-9;
 constexpr double fastest_m_per_s = 1e6;
@@ -58,32 +70,8 @@ design::Study compute(const design::Task& task, bool quiet) {
   return design::study(task, watching(bar, interruption));
 }
 
-}  // namespace
-
-CLI::App* add_design_command(CLI::App& program, DesignOptions& options) {
-  CLI::App* command = program.add_subcommand(
-      "design",
-      "Design guidelines for a closed-loop scene: force, vibration and power that its friction "
-      "ratios take, what they hang on, what resonance would give, and what is out of reach");
-  add_scene_options(*command, options.scene, "its [solver] and initial state play no part");
-  command
-      ->add_option("--ratio", options.ratios,
-                   "A friction ratio in place of the scene's targets; repeatable")
-      ->type_name("R")
-      ->allow_extra_args(false)
-      ->check(check_ratio);
-  command
-      ->add_option("--velocity", options.velocity,
-                   "Slowest and fastest sliding velocity in m/s, in place of the scene's")
-      ->type_name("FROM:TO")
-      ->check(check_speeds);
-  add_output_option(*command, options.out,
-                    "report.html, design.json, design.csv and detuning.csv [out/<scene "
-                    "name>_design]");
-  command->add_flag("--quiet", options.quiet, "No progress bar and no printed summary");
-  return command;
-}
-
+/// Throws scene::SceneError, loop::ComputationError, report::OutputError, process::ProcessError; in
+/// each case nothing was written.
 void design(const DesignOptions& options) {
   const SceneInput input(options.scene);
   const scene::Scene scene = input.read();
@@ -97,6 +85,33 @@ void design(const DesignOptions& options) {
   if (!options.quiet) {
     fmt::print("{}", design::text(study, out));
   }
+}
+
+}  // namespace
+
+void add_design_command(CLI::App& program) {
+  const auto options = std::make_shared<DesignOptions>();
+  CLI::App* command = program.add_subcommand(
+      "design",
+      "Design guidelines for a closed-loop scene: force, vibration and power that its friction "
+      "ratios take, what they hang on, what resonance would give, and what is out of reach");
+  add_scene_options(*command, options->scene, "its [solver] and initial state play no part");
+  command
+      ->add_option("--ratio", options->ratios,
+                   "A friction ratio in place of the scene's targets; repeatable")
+      ->type_name("R")
+      ->allow_extra_args(false)
+      ->check(check_ratio);
+  command
+      ->add_option("--velocity", options->velocity,
+                   "Slowest and fastest sliding velocity in m/s, in place of the scene's")
+      ->type_name("FROM:TO")
+      ->check(check_speeds);
+  add_output_option(*command, options->out,
+                    "report.html, design.json, design.csv and detuning.csv [out/<scene "
+                    "name>_design]");
+  command->add_flag("--quiet", options->quiet, "No progress bar and no printed summary");
+  command->callback([options] { design(*options); });
 }
 
 }  // namespace sonoglide::cli

@@ -1,9 +1,11 @@
-#include "host_sim/cli/paper_command.hpp"
+#include "host_sim/cli/commands.hpp"
 
 #include <fmt/format.h>
 
 #include <cstdio>
 #include <filesystem>
+#include <memory>
+#include <optional>
 #include <string>
 
 #include "host_sim/cli/output_option.hpp"
@@ -17,6 +19,12 @@
 
 namespace sonoglide::cli {
 namespace {
+
+struct PaperOptions {
+  std::string out = "paper";
+  std::optional<int> figure;
+  bool quiet = false;
+};
 
 std::string check_figure(const std::string& text) {
   std::string allowed;
@@ -36,22 +44,8 @@ void compute(const PaperOptions& options) {
   paper::write_paper(options.out, options.figure, watching(bar, interruption));
 }
 
-}  // namespace
-
-CLI::App* add_paper_command(CLI::App& program, PaperOptions& options) {
-  CLI::App* command = program.add_subcommand(
-      "paper", "The figures and the energy balance of Bharadwaj and Dapino (2013), checked");
-  add_output_option(
-      *command, options.out,
-      "index.html, balance.csv, table_1.toml, table_2.toml, of each figure figure_NN.csv "
-      "and .svg, of figure 12 measurements.csv and scenes [paper]");
-  command->add_option("--figure", options.figure, "This figure alone")
-      ->type_name("N")
-      ->check(check_figure);
-  command->add_flag("--quiet", options.quiet, "No progress bar and no printed summary");
-  return command;
-}
-
+/// Throws report::OutputError, process::ProcessError, loop::ComputationError; in each case nothing
+/// was written.
 void paper(const PaperOptions& options) {
   output::require_gnuplot();
   compute(options);
@@ -59,6 +53,23 @@ void paper(const PaperOptions& options) {
     fmt::print("page: {}\n",
                text::printable((std::filesystem::path(options.out) / "index.html").string()));
   }
+}
+
+}  // namespace
+
+void add_paper_command(CLI::App& program) {
+  const auto options = std::make_shared<PaperOptions>();
+  CLI::App* command = program.add_subcommand(
+      "paper", "The figures and the energy balance of Bharadwaj and Dapino (2013), checked");
+  add_output_option(
+      *command, options->out,
+      "index.html, balance.csv, table_1.toml, table_2.toml, of each figure figure_NN.csv "
+      "and .svg, of figure 12 measurements.csv and scenes [paper]");
+  command->add_option("--figure", options->figure, "This figure alone")
+      ->type_name("N")
+      ->check(check_figure);
+  command->add_flag("--quiet", options->quiet, "No progress bar and no printed summary");
+  command->callback([options] { paper(*options); });
 }
 
 }  // namespace sonoglide::cli

@@ -1,9 +1,10 @@
-#include "host_sim/cli/pil_command.hpp"
+#include "host_sim/cli/commands.hpp"
 
 #include <fmt/format.h>
 
 #include <cstdio>
 #include <filesystem>
+#include <memory>
 #include <string>
 
 #include "host_sim/cli/board_option.hpp"
@@ -11,6 +12,7 @@
 #include "host_sim/cli/output_option.hpp"
 #include "host_sim/cli/progress_bar.hpp"
 #include "host_sim/cli/run_watch.hpp"
+#include "host_sim/cli/scene_input.hpp"
 #include "host_sim/emulated/board_arithmetic.hpp"
 #include "host_sim/emulated/board_list.hpp"
 #include "host_sim/emulated/controller_header.hpp"
@@ -21,6 +23,13 @@
 
 namespace sonoglide::cli {
 namespace {
+
+struct PilOptions {
+  SceneOptions scene;
+  std::string board;
+  std::string out;  ///< empty: out/<scene name>_<board>
+  bool quiet = false;
+};
 
 loop::RunResult compute(const scene::Scene& scene, const emulated::EmulatedBoard& board,
                         const std::string& header, report::RunReport& report, bool quiet,
@@ -38,24 +47,9 @@ std::string header_for(const SceneInput& input, const scene::Scene& scene,
   });
 }
 
-}  // namespace
-
-CLI::App* add_pil_command(CLI::App& program, PilOptions& options) {
-  CLI::App* command = program.add_subcommand(
-      "pil",
-      "Run a closed-loop scene with its controller as a firmware image on an emulated board");
-  add_scene_options(*command, options.scene);
-  command->add_option("--board", options.board, "The board")
-      ->required()
-      ->type_name("NAME")
-      ->check(check_board);
-  add_output_option(*command, options.out,
-                    "report.html and summary.json and, where the scene records anything, "
-                    "periods.csv and trace.csv [out/<scene name>_<board>]");
-  command->add_flag("--quiet", options.quiet, "No progress bar and no printed summary");
-  return command;
-}
-
+/// Throws what run() throws, and process::ProcessError or emulated::EmulatorError where the image
+/// cannot be built or carried on; in each case nothing was written and no other program is left
+/// behind.
 void pil(const PilOptions& options) {
   const emulated::EmulatedBoard& board = *emulated::find_board(options.board);
   const SceneInput input(options.scene);
@@ -74,6 +68,25 @@ void pil(const PilOptions& options) {
     fmt::print("{}", report::run_text(scene, result, report.findings(), out));
   }
   emulated::require_same(result);
+}
+
+}  // namespace
+
+void add_pil_command(CLI::App& program) {
+  const auto options = std::make_shared<PilOptions>();
+  CLI::App* command = program.add_subcommand(
+      "pil",
+      "Run a closed-loop scene with its controller as a firmware image on an emulated board");
+  add_scene_options(*command, options->scene);
+  command->add_option("--board", options->board, "The board")
+      ->required()
+      ->type_name("NAME")
+      ->check(check_board);
+  add_output_option(*command, options->out,
+                    "report.html and summary.json and, where the scene records anything, "
+                    "periods.csv and trace.csv [out/<scene name>_<board>]");
+  command->add_flag("--quiet", options->quiet, "No progress bar and no printed summary");
+  command->callback([options] { pil(*options); });
 }
 
 }  // namespace sonoglide::cli

@@ -1,14 +1,20 @@
-#include "host_sim/cli/ratio_command.hpp"
+#include "host_sim/cli/commands.hpp"
 
 #include <fmt/format.h>
 
 #include <cstdlib>
+#include <memory>
 #include <string>
 
 #include "firmware/friction/dahl_friction_ratio.hpp"
 
 namespace sonoglide::cli {
 namespace {
+
+struct RatioOptions {
+  double velocity_ratio = 0.0;  ///< Vt / v̂ [-]
+  double dahl_number = 0.0;     ///< Kt X / Fc [-]
+};
 
 /// What is wrong with a number, or nothing.
 std::string check_number(const std::string& text, double low, double high) {
@@ -23,29 +29,31 @@ std::string check_number(const std::string& text, double low, double high) {
   return {};
 }
 
+/// Prints the number alone, with 17 significant digits.
+void ratio(const RatioOptions& options) {
+  fmt::print("{:.17g}\n",
+             friction::dahl_friction_ratio(options.velocity_ratio, options.dahl_number));
+}
+
 }  // namespace
 
-CLI::App* add_ratio_command(CLI::App& program, RatioOptions& options) {
+void add_ratio_command(CLI::App& program) {
+  const auto options = std::make_shared<RatioOptions>();
   CLI::App* command = program.add_subcommand(
       "ratio", "Friction ratio of a Dahl contact under sinusoidal vibration, in closed form");
   command
-      ->add_option("--velocity-ratio", options.velocity_ratio,
+      ->add_option("--velocity-ratio", options->velocity_ratio,
                    "Sliding velocity over peak vibration velocity, Vt / v [-]; its sign is ignored")
       ->required()
       ->type_name("R")
       ->check([](const std::string& text) { return check_number(text, -1e12, 1e12); });
   command
-      ->add_option("--dahl-number", options.dahl_number,
+      ->add_option("--dahl-number", options->dahl_number,
                    "Vibration amplitude over presliding distance, Kt X / Fc [-]")
       ->required()
       ->type_name("K")
       ->check([](const std::string& text) { return check_number(text, 1e-12, 1e12); });
-  return command;
-}
-
-void ratio(const RatioOptions& options) {
-  fmt::print("{:.17g}\n",
-             friction::dahl_friction_ratio(options.velocity_ratio, options.dahl_number));
+  command->callback([options] { ratio(*options); });
 }
 
 }  // namespace sonoglide::cli

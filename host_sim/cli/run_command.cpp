@@ -1,14 +1,17 @@
-#include "host_sim/cli/run_command.hpp"
+#include "host_sim/cli/commands.hpp"
 
 #include <fmt/format.h>
 
 #include <cstdio>
 #include <filesystem>
+#include <memory>
+#include <string>
 
 #include "host_sim/cli/design_notes.hpp"
 #include "host_sim/cli/output_option.hpp"
 #include "host_sim/cli/progress_bar.hpp"
 #include "host_sim/cli/run_watch.hpp"
+#include "host_sim/cli/scene_input.hpp"
 #include "host_sim/loop/run.hpp"
 #include "host_sim/process/interruption.hpp"
 #include "host_sim/report/run_findings.hpp"
@@ -17,6 +20,13 @@
 
 namespace sonoglide::cli {
 namespace {
+
+struct RunOptions {
+  SceneOptions scene;
+  std::string out;  ///< empty: out/<scene name>
+  bool json = false;
+  bool quiet = false;
+};
 
 using process::Interruption;
 
@@ -46,22 +56,8 @@ std::string compute_report(const scene::Scene& scene, const std::filesystem::pat
   return options.quiet ? std::string() : report::run_text(scene, result, report.findings(), out);
 }
 
-}  // namespace
-
-CLI::App* add_run_command(CLI::App& program, RunOptions& options) {
-  CLI::App* command =
-      program.add_subcommand("run", "Run a scene: closed loop if it has a [controller] table");
-  add_scene_options(*command, options.scene);
-  add_output_option(*command, options.out,
-                    "report.html and summary.json and, where the scene records anything, "
-                    "periods.csv and trace.csv [out/<scene name>]");
-  command->add_flag("--json", options.json,
-                    "Print summary.json and nothing else; files are then written only where --out "
-                    "names a folder");
-  command->add_flag("--quiet", options.quiet, "No progress bar and no printed summary");
-  return command;
-}
-
+/// Throws scene::SceneError, loop::ComputationError, report::OutputError, or ends by the signal
+/// that interrupts it; in each case nothing was written.
 void run(const RunOptions& options) {
   const scene::Scene scene = SceneInput(options.scene).read();
   if (!options.quiet) {
@@ -70,6 +66,23 @@ void run(const RunOptions& options) {
   const bool written = !options.json || !options.out.empty();
   fmt::print("{}", written ? compute_report(scene, output_folder(options.out, scene.name), options)
                            : compute_summary(scene, options.quiet));
+}
+
+}  // namespace
+
+void add_run_command(CLI::App& program) {
+  const auto options = std::make_shared<RunOptions>();
+  CLI::App* command =
+      program.add_subcommand("run", "Run a scene: closed loop if it has a [controller] table");
+  add_scene_options(*command, options->scene);
+  add_output_option(*command, options->out,
+                    "report.html and summary.json and, where the scene records anything, "
+                    "periods.csv and trace.csv [out/<scene name>]");
+  command->add_flag("--json", options->json,
+                    "Print summary.json and nothing else; files are then written only where --out "
+                    "names a folder");
+  command->add_flag("--quiet", options->quiet, "No progress bar and no printed summary");
+  command->callback([options] { run(*options); });
 }
 
 }  // namespace sonoglide::cli

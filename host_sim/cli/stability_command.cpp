@@ -1,10 +1,12 @@
-#include "host_sim/cli/stability_command.hpp"
+#include "host_sim/cli/commands.hpp"
 
 #include <fmt/format.h>
 
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
+#include <memory>
+#include <string>
 
 #include "host_sim/cli/output_option.hpp"
 #include "host_sim/cli/progress_bar.hpp"
@@ -17,6 +19,11 @@
 
 namespace sonoglide::cli {
 namespace {
+
+struct StabilityOptions {
+  std::string out = "out/stability";
+  bool quiet = false;
+};
 
 constexpr std::uint64_t random_scenes = 100000;
 
@@ -33,18 +40,7 @@ stability::Study compute(bool quiet, const process::Interruption& interruption) 
   return stability::study(stability::full_grid(), random_scenes, watching(bar, interruption));
 }
 
-}  // namespace
-
-CLI::App* add_stability_command(CLI::App& program, StabilityOptions& options) {
-  CLI::App* command = program.add_subcommand(
-      "stability", "Where each solver can be trusted: maps over step and stiffness, extreme cases");
-  add_output_option(*command, options.out,
-                    "report.html, stability_map.csv and .svg, the same for float32, extremes.csv "
-                    "and extremes_worst.csv [out/stability]");
-  command->add_flag("--quiet", options.quiet, "No progress bar and no printed summary");
-  return command;
-}
-
+/// Throws report::OutputError, process::ProcessError; in each case nothing was written.
 void stability(const StabilityOptions& options) {
   const std::filesystem::path out = options.out;
   require_output(out);
@@ -55,6 +51,19 @@ void stability(const StabilityOptions& options) {
     fmt::print("{}report: {}\n", stability::study_text(study.extremes),
                text::printable((out / "report.html").string()));
   }
+}
+
+}  // namespace
+
+void add_stability_command(CLI::App& program) {
+  const auto options = std::make_shared<StabilityOptions>();
+  CLI::App* command = program.add_subcommand(
+      "stability", "Where each solver can be trusted: maps over step and stiffness, extreme cases");
+  add_output_option(*command, options->out,
+                    "report.html, stability_map.csv and .svg, the same for float32, extremes.csv "
+                    "and extremes_worst.csv [out/stability]");
+  command->add_flag("--quiet", options->quiet, "No progress bar and no printed summary");
+  command->callback([options] { stability(*options); });
 }
 
 }  // namespace sonoglide::cli

@@ -1,17 +1,29 @@
-#include "host_sim/cli/sweep_command.hpp"
+#include "host_sim/cli/commands.hpp"
 
 #include <fmt/format.h>
 
 #include <cstdio>
 #include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
 
 #include "host_sim/cli/output_option.hpp"
 #include "host_sim/cli/progress_bar.hpp"
+#include "host_sim/cli/scene_input.hpp"
 #include "host_sim/studies/sweep/sweep.hpp"
 #include "host_sim/text/printable.hpp"
 
 namespace sonoglide::cli {
 namespace {
+
+struct SweepOptions {
+  SceneOptions scene;
+  std::string out;  ///< empty: out/<scene name>_sweep
+  std::vector<std::string> vary;
+  unsigned threads = 0;  ///< 0: one for each core
+  bool quiet = false;
+};
 
 constexpr unsigned most_threads = 1024;
 
@@ -42,16 +54,29 @@ std::string text(const sweep::Summary& summary, const std::filesystem::path& out
                              text::printable((out / "report.html").string()));
 }
 
+/// Throws scene::SceneError and CLI::ValidationError, nothing was written then;
+/// report::OutputError, process::ProcessError.
+void sweep(const SweepOptions& options) {
+  const sweep::Plan plan(scene_file::read_source(options.scene.path), options.scene.overrides,
+                         options.vary);
+  const std::filesystem::path out = output_folder(options.out, plan.first().name, "_sweep");
+  const sweep::Summary summary = compute(plan, out, options);
+  if (!options.quiet) {
+    fmt::print("{}", text(summary, out));
+  }
+}
+
 }  // namespace
 
-CLI::App* add_sweep_command(CLI::App& program, SweepOptions& options) {
+void add_sweep_command(CLI::App& program) {
+  const auto options = std::make_shared<SweepOptions>();
   CLI::App* command = program.add_subcommand(
       "sweep",
       "Run a scene for every combination of the values of some keys, on all cores; "
       "interrupted, the same command goes on from there");
-  add_scene_options(*command, options.scene);
+  add_scene_options(*command, options->scene);
   command
-      ->add_option("--vary", options.vary,
+      ->add_option("--vary", options->vary,
                    "A key and its values, evenly spaced or, with :log, by equal factors, e.g. "
                    "friction.contact_stiffness_N_per_m=1e4:1e6:32:log, of one value FROM is TO; or "
                    "KEY=A,B,C, words or numbers, e.g. friction.law=dahl,coulomb, where a key that "
@@ -62,10 +87,10 @@ CLI::App* add_sweep_command(CLI::App& program, SweepOptions& options) {
       ->required()
       ->type_name("KEY=FROM:TO:COUNT[:log]|KEY=A,B,...")
       ->allow_extra_args(false);
-  add_output_option(*command, options.out,
+  add_output_option(*command, options->out,
                     "sweep.csv, sweep.svg (one or two keys) and report.html [out/<scene "
                     "name>_sweep]");
-  command->add_option("--threads", options.threads, "At most so many threads [one for each core]")
+  command->add_option("--threads", options->threads, "At most so many threads [one for each core]")
       ->type_name("N")
       ->check([](const std::string& number) {
         const bool whole = !number.empty() && number.size() <= 4 &&
@@ -75,18 +100,8 @@ CLI::App* add_sweep_command(CLI::App& program, SweepOptions& options) {
                    ? std::string()
                    : fmt::format("\"{}\"; allowed: a whole number, 1 to {}", number, most_threads);
       });
-  command->add_flag("--quiet", options.quiet, "No progress bar and no printed summary");
-  return command;
-}
-
-void sweep(const SweepOptions& options) {
-  const sweep::Plan plan(scene_file::read_source(options.scene.path), options.scene.overrides,
-                         options.vary);
-  const std::filesystem::path out = output_folder(options.out, plan.first().name, "_sweep");
-  const sweep::Summary summary = compute(plan, out, options);
-  if (!options.quiet) {
-    fmt::print("{}", text(summary, out));
-  }
+  command->add_flag("--quiet", options->quiet, "No progress bar and no printed summary");
+  command->callback([options] { sweep(*options); });
 }
 
 }  // namespace sonoglide::cli

@@ -1,13 +1,16 @@
-#include "host_sim/cli/work_precision_command.hpp"
+#include "host_sim/cli/commands.hpp"
 
 #include <fmt/format.h>
 
 #include <cstdio>
 #include <filesystem>
+#include <memory>
+#include <string>
 
 #include "host_sim/cli/output_option.hpp"
 #include "host_sim/cli/progress_bar.hpp"
 #include "host_sim/cli/run_watch.hpp"
+#include "host_sim/cli/scene_input.hpp"
 #include "host_sim/output/gnuplot.hpp"
 #include "host_sim/process/interruption.hpp"
 #include "host_sim/studies/work_precision/comparison.hpp"
@@ -17,6 +20,12 @@
 namespace sonoglide::cli {
 namespace {
 
+struct WorkPrecisionOptions {
+  SceneOptions scene;
+  std::string out;  ///< empty: out/<scene name>_work_precision
+  bool quiet = false;
+};
+
 work_precision::Comparison compute(const peers::Problem& problem, bool quiet,
                                    const process::Interruption& interruption) {
   ProgressBar bar(stderr, !quiet);
@@ -24,19 +33,8 @@ work_precision::Comparison compute(const peers::Problem& problem, bool quiet,
                                  watching(bar, interruption));
 }
 
-}  // namespace
-
-CLI::App* add_work_precision_command(CLI::App& program, WorkPrecisionOptions& options) {
-  CLI::App* command = program.add_subcommand(
-      "work-precision", "Error against run time on an open-loop scene, every solver and peer");
-  add_scene_options(*command, options.scene, "its [solver] plays no part");
-  add_output_option(*command, options.out,
-                    "report.html, work_precision.csv and work_precision.svg [out/<scene "
-                    "name>_work_precision]");
-  command->add_flag("--quiet", options.quiet, "No progress bar and no printed summary");
-  return command;
-}
-
+/// Throws scene::SceneError, loop::ComputationError, report::OutputError, process::ProcessError; in
+/// each case nothing was written.
 void work_precision(const WorkPrecisionOptions& options) {
   const SceneInput input(options.scene);
   const scene::Scene scene = input.read();
@@ -51,6 +49,20 @@ void work_precision(const WorkPrecisionOptions& options) {
   if (!options.quiet) {
     fmt::print("{}", work_precision::text(comparison, out));
   }
+}
+
+}  // namespace
+
+void add_work_precision_command(CLI::App& program) {
+  const auto options = std::make_shared<WorkPrecisionOptions>();
+  CLI::App* command = program.add_subcommand(
+      "work-precision", "Error against run time on an open-loop scene, every solver and peer");
+  add_scene_options(*command, options->scene, "its [solver] plays no part");
+  add_output_option(*command, options->out,
+                    "report.html, work_precision.csv and work_precision.svg [out/<scene "
+                    "name>_work_precision]");
+  command->add_flag("--quiet", options->quiet, "No progress bar and no printed summary");
+  command->callback([options] { work_precision(*options); });
 }
 
 }  // namespace sonoglide::cli

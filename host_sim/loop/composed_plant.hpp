@@ -8,6 +8,7 @@
 
 #include "firmware/plant/account.hpp"
 #include "firmware/plant/outcome.hpp"
+#include "firmware/plant/solver.hpp"
 #include "firmware/plant/state.hpp"
 #include "host_sim/configure/plant_scales.hpp"
 #include "host_sim/loop/contact_memory.hpp"
@@ -50,6 +51,8 @@ class StateReader {
 
 template <class Solver>
 class ComposedPlant final : public PlantPort {
+  static_assert(plant::check_solver<Solver>());
+
  public:
   using Model = typename Solver::Model;
 

@@ -26,18 +26,20 @@ namespace sonoglide::plant {
 
 /// Taylor method of fixed order whose steps end at the reversals of the sliding velocity.
 ///
-/// Inside a step sgn V is constant and the motion analytic: of the force the powers up to Order are
-/// taken in, and so of V, its integral, one more. The step is the longest, up to 3 rad, whose last
-/// two terms stay below what the tolerance allows: those of V, and more loosely those of phi, whose
-/// mean is taken from the displacement where its series does not give it. The first root of V is
-/// found with certainty; the step ends there, V is set to zero and the contact slides on, turns or
-/// sticks. Friction that does not depend on the speed follows from the displacement exactly, so
-/// that |phi|
-/// <= 1 for any step.
+/// Inside a step sgn V is constant and the motion is analytic. The force is expanded up to the power
+/// Order, and V, its integral, one power higher. The step is the longest one, up to 3 rad, whose
+/// last two terms stay below what the tolerance allows: the terms of V strictly, those of phi more
+/// loosely, because the mean of phi follows from the displacement where its series does not give it.
+/// The first root of V is found with certainty. The step ends there; V is set to zero, and the
+/// contact slides on, turns or sticks. Friction that does not depend on the speed follows from the
+/// displacement exactly, so that |phi| <= 1 for any step.
 ///
-/// Quickest at tolerances above 1e-5 is order 8, down to 1e-8 order 12, below that 16, from 1e-11
-/// on 20; float has no use for more than 8.
-/// The cost of a contact stuck without end grows as sqrt(beta kappa): its ringing is resolved.
+/// The quickest order is 8 at tolerances above 1e-5, 12 down to 1e-8, 16 below, and 20 from 1e-11
+/// on; float needs no more than 8. A contact that sticks for ever costs as much as its ringing,
+/// which grows as sqrt(beta kappa).
+/// Source: A. Jorba and M. Zou, A software package for the numerical integration of ODEs by means of
+/// high-order Taylor methods, Experimental Mathematics 14 (2005) 99-117 (step size from the last two
+/// terms); R. E. Moore, Interval Analysis, 1966 (recurrences of the coefficients).
 template <class ModelType, std::size_t Order>
 class EventTaylor {
   static_assert(Order >= 4 && Order <= 24, "the tables reach order 24");

@@ -1,0 +1,29 @@
+/// The commands of the program: the one place that lists them. Each is a file of its own, NAME_command.cpp.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <array>
+
+namespace sonoglide::cli {
+
+// Each adds its command, with its options, to the program. What a command throws ends the program
+// with the exit code that program.cpp gives it; nothing was written then.
+void add_run_command(CLI::App& program);
+void add_pil_command(CLI::App& program);
+void add_configure_command(CLI::App& program);
+void add_ratio_command(CLI::App& program);
+void add_sweep_command(CLI::App& program);
+void add_paper_command(CLI::App& program);
+void add_work_precision_command(CLI::App& program);
+void add_stability_command(CLI::App& program);
+void add_arithmetic_command(CLI::App& program);
+void add_design_command(CLI::App& program);
+
+/// In the order of the help.
+inline constexpr std::array commands = {
+    add_run_command,        add_pil_command,    add_configure_command,      add_ratio_command,
+    add_sweep_command,      add_paper_command,  add_work_precision_command, add_stability_command,
+    add_arithmetic_command, add_design_command,
+};
+
+}  // namespace sonoglide::cli

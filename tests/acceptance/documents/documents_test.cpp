@@ -1,0 +1,185 @@
+/// The documents tell the truth: their links lead somewhere, and their commands print what they show.
+
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <regex>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "tests/acceptance/program/program.hpp"
+
+namespace sonoglide::acceptance {
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path source = SONOGLIDE_SOURCE;
+
+std::vector<fs::path> documents() {
+  std::vector<fs::path> found{source / "README.md", source / "GLOSSARY.md"};
+  for (const char* folder : {"firmware", "hal", "host_sim", "tests"}) {
+    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(source / folder)) {
+      if (entry.path().extension() == ".md") {
+        found.push_back(entry.path());
+      }
+    }
+  }
+  return found;
+}
+
+std::vector<std::string> lines_of(const fs::path& document) {
+  std::ifstream file(document);
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(file, line);) {
+    lines.push_back(line);
+  }
+  return lines;
+}
+
+/// What stands between fences: its language, and its lines.
+struct Block {
+  std::string language;
+  std::vector<std::string> lines;
+};
+
+std::vector<Block> blocks_of(const fs::path& document) {
+  std::vector<Block> blocks;
+  bool inside = false;
+  for (const std::string& line : lines_of(document)) {
+    if (line.rfind("```", 0) == 0) {
+      inside = !inside;
+      if (inside) {
+        blocks.push_back({line.substr(3), {}});
+      }
+    } else if (inside) {
+      blocks.back().lines.push_back(line);
+    }
+  }
+  return blocks;
+}
+
+std::string joined(const std::vector<std::string>& lines) {
+  std::string text;
+  for (const std::string& line : lines) {
+    text += line + '\n';
+  }
+  return text;
+}
+
+/// A folder that looks like the root of a built repository.
+class BuiltRepository {
+ public:
+  BuiltRepository() {
+    const fs::path root = folder_.path();
+    fs::create_directories(root / "build/release/bin");
+    fs::create_symlink(SONOGLIDE_PROGRAM, root / "build/release/bin/sonoglide");
+    fs::create_directories(root / "host_sim");
+    fs::create_directory_symlink(source / "host_sim/scenes", root / "host_sim/scenes");
+    fs::create_directories(root / "tools");
+    folder_.write("tools/demo", "#!/bin/sh\n");
+    fs::permissions(root / "tools/demo", fs::perms::owner_all);
+  }
+
+  /// Both streams of a shell that runs these commands there.
+  Outcome run(const std::string& commands) const {
+    folder_.write("commands", commands);
+    const std::string root = folder_.path().string();
+    const std::string line = "cd " + shell_word(root) + " && PATH=" + shell_word(root) +
+                             "/build/release/bin:\"$PATH\" sh -e commands >shown 2>&1";
+    const int status = std::system(line.c_str());
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, folder_.read("shown"), ""};
+  }
+
+ private:
+  ScratchFolder folder_;
+};
+
+/// Run times differ from machine to machine.
+bool is_timing(const std::string& line) {
+  return line.find("times real time") != std::string::npos;
+}
+
+void expect_shown(const std::vector<std::string>& expected, const std::string& shown,
+                  const std::string& commands) {
+  for (const std::string& line : expected) {
+    if (!is_timing(line)) {
+      EXPECT_NE(shown.find(line), std::string::npos)
+          << "not printed: " << line << "\nby: " << commands << "\nwhich prints:\n"
+          << shown;
+    }
+  }
+}
+
+TEST(Documents, EveryRelativeLinkLeadsToAFile) {
+  const std::regex link(R"(\]\(([^)#]+)(#[^)]*)?\))");
+  int links = 0;
+  for (const fs::path& document : documents()) {
+    const std::string text = joined(lines_of(document));
+    for (std::sregex_iterator each(text.begin(), text.end(), link), end; each != end; ++each) {
+      const std::string target = (*each)[1];
+      if (target.find("://") == std::string::npos) {
+        ++links;
+        EXPECT_TRUE(fs::exists(document.parent_path() / target))
+            << document.lexically_relative(source) << " links to " << target;
+      }
+    }
+  }
+  EXPECT_GT(links, 50);
+}
+
+TEST(Documents, TheFirstOneIsShort) {
+  EXPECT_LE(lines_of(source / "README.md").size(), 150U);
+}
+
+TEST(Documents, TheTutorialShowsWhatItsCommandsPrint) {
+  const BuiltRepository repository;
+  const std::vector<Block> blocks = blocks_of(source / "host_sim/scenes/README.md");
+  int compared = 0;
+  for (std::size_t i = 0; i < blocks.size(); ++i) {
+    if (blocks[i].language != "sh") {
+      continue;
+    }
+    const std::string commands = joined(blocks[i].lines);
+    const Outcome outcome = repository.run(commands);
+    const bool shows = i + 1 < blocks.size() && blocks[i + 1].language.empty();
+    if (shows) {
+      expect_shown(blocks[i + 1].lines, outcome.out, commands);
+      ++compared;
+    } else {
+      EXPECT_EQ(outcome.exit_code, 0) << commands << outcome.out;
+    }
+  }
+  EXPECT_GT(compared, 8);
+}
+
+/// Commands of at most some seconds; the others are the studies' own tests.
+bool is_quick(const std::string& commands) {
+  static const std::regex quick(R"(^sonoglide (run|ratio|design|configure) )");
+  return std::regex_search(commands, quick) && commands.find("cmake") == std::string::npos;
+}
+
+TEST(Documents, TheQuickCommandsOfTheReferenceRun) {
+  const BuiltRepository repository;
+  int ran = 0;
+  for (const fs::path& document : documents()) {
+    for (const Block& block : blocks_of(document)) {
+      const std::string commands = joined(block.lines);
+      if (block.language == "sh" && document.parent_path().filename() != "scenes" &&
+          is_quick(commands)) {
+        const Outcome outcome = repository.run(commands);
+        EXPECT_EQ(outcome.exit_code, 0) << document << '\n' << commands << outcome.out;
+        ++ran;
+      }
+    }
+  }
+  EXPECT_GT(ran, 3);
+}
+
+}  // namespace
+}  // namespace sonoglide::acceptance
