@@ -1,0 +1,30 @@
+# Builds the stranger's project for NAME, the workstation or a toolchain file of the package. What it
+# compiled came from the package and with its flags, without our warnings.
+include("${CMAKE_CURRENT_LIST_DIR}/run.cmake")
+
+set(build "${FOLDER}/build_${NAME}")
+if(NAME STREQUAL "workstation")
+  set(how "-DCMAKE_CXX_COMPILER=${COMPILER}")
+else()
+  set(how "-DCMAKE_TOOLCHAIN_FILE=${FOLDER}/prefix/share/sonoglide/toolchains/${NAME}.cmake")
+endif()
+file(REMOVE_RECURSE "${build}")
+run("${CMAKE_COMMAND}" -G Ninja -S "${FOLDER}/stranger" -B "${build}" ${how}
+  "-DCMAKE_PREFIX_PATH=${FOLDER}/prefix" -DCMAKE_EXPORT_COMPILE_COMMANDS=ON)
+run("${CMAKE_COMMAND}" --build "${build}")
+if(NAME STREQUAL "workstation")
+  run("${build}/product")
+  expect("${output}" HAS "fault 0")
+else()
+  expect("${output}" HAS "product.elf")
+endif()
+
+run("${CMAKE_COMMAND}" --build "${build}" -- -t deps)
+expect("${output}" HAS "prefix/include/sonoglide/firmware/control/controller.hpp")
+foreach(folder firmware hal)
+  expect("${output}" HAS_NO "${SOURCE}/${folder}/")
+endforeach()
+file(READ "${build}/compile_commands.json" commands)
+expect("${commands}" HAS "-ffp-contract=off")
+expect("${commands}" HAS_NO "-Werror")
+expect("${commands}" HAS_NO "-Wall")

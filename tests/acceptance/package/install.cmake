@@ -1,0 +1,40 @@
+# Installs the package and copies the stranger's project, with a controller that the installed program
+# configures, beside it. Then nothing in the package is a link or names the source tree.
+include("${CMAKE_CURRENT_LIST_DIR}/run.cmake")
+
+file(REMOVE_RECURSE "${FOLDER}/installed" "${FOLDER}/prefix" "${FOLDER}/stranger" "${FOLDER}/above")
+foreach(component core documents program)
+  run("${CMAKE_COMMAND}" --install "${BUILD}" --prefix "${FOLDER}/installed" --component ${component})
+endforeach()
+file(RENAME "${FOLDER}/installed" "${FOLDER}/prefix")
+set(data "${FOLDER}/prefix/share/sonoglide")
+
+file(COPY "${CMAKE_CURRENT_LIST_DIR}/stranger" "${CMAKE_CURRENT_LIST_DIR}/above"
+  DESTINATION "${FOLDER}")
+file(COPY "${data}/hal/template" DESTINATION "${FOLDER}/stranger/hal")
+run("${FOLDER}/prefix/bin/sonoglide" configure "${data}/scenes/target_step.toml"
+  --out "${FOLDER}/stranger/controller")
+
+# The program names the tree that it builds images from; nothing else does.
+file(GLOB_RECURSE files LIST_DIRECTORIES ON
+  "${FOLDER}/prefix/include/*" "${FOLDER}/prefix/share/*")
+foreach(file IN LISTS files)
+  if(IS_SYMLINK "${file}")
+    message(FATAL_ERROR "${file} is a link")
+  elseif(NOT IS_DIRECTORY "${file}")
+    file(READ "${file}" text)
+    foreach(folder "${SOURCE}" "${FOLDER}")
+      string(FIND "${text}" "${folder}" at)
+      if(NOT at EQUAL -1)
+        message(FATAL_ERROR "${file} names ${folder}")
+      endif()
+    endforeach()
+  endif()
+endforeach()
+foreach(file include/sonoglide/firmware/control/controller.hpp share/sonoglide/hal/template/memory.ld
+    share/sonoglide/toolchains/arm-cortex-m4f.cmake share/doc/sonoglide/LICENSE
+    share/doc/sonoglide/README.md share/doc/sonoglide/firmware/README.md)
+  if(NOT EXISTS "${FOLDER}/prefix/${file}")
+    message(FATAL_ERROR "${file} is not installed")
+  endif()
+endforeach()
