@@ -151,13 +151,13 @@ TEST(TwoPageStoreTest, ACutLeavesTheOldRecordOrTheNewAndSoDoesTheNextCut) {
   const int operations = operations_of_a_save();
   for (const std::uint32_t saves : {0U, 1U, 2U, 3U}) {
     for (int first = 0; first <= operations; ++first) {
-      for (const app::Torn first_tear : every_tear) {
+      for (const app::Torn first_tear : app::every_tear) {
         app::SimulatedFlash once = used(saves);
         const Values old = loaded(once).values;
         const Values after_first = save_cut(once, values(20), first, first_tear).values;
         ASSERT_TRUE(after_first == old || after_first == values(20)) << first;
         for (int second = 0; second <= operations; ++second) {
-          for (const app::Torn second_tear : every_tear) {
+          for (const app::Torn second_tear : app::every_tear) {
             app::SimulatedFlash twice = once;
             const Values after_second = save_cut(twice, values(30), second, second_tear).values;
             ASSERT_TRUE(after_second == after_first || after_second == values(30))
