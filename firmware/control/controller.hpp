@@ -21,6 +21,9 @@
 namespace sonoglide::control {
 
 /// What a controller is made of; each part is a type, and what a part does not do costs nothing.
+///
+/// The Parameters of a part, where they are not empty, name their fields:
+/// Parameters::fields(parameters, visit) calls visit(name, field) for each, in order.
 template <class ScalarT, class FrictionT, class FeedforwardT, class SlewT, class ShaperT,
           class RegulatorT, class RelearningT = NoRelearning<ScalarT>,
           class CeilingT = FullDrive<ScalarT>, class SamplesT = StrictSamples>
@@ -66,6 +69,26 @@ class Controller {
     typename SettlingWatch<Scalar>::Parameters watch;
     [[no_unique_address]] typename PartsT::Ceiling::Parameters ceiling{};
     [[no_unique_address]] typename PartsT::Samples::Parameters samples{};
+
+    template <class Self, class Visitor>
+    static constexpr void fields(Self& self, Visitor&& visit) {
+      visit("friction_force", self.friction_force);
+      visit("smallest_friction", self.smallest_friction);
+      visit("speed_floor", self.speed_floor);
+      visit("lead", self.lead);
+      visit("friction", self.friction);
+      visit("feedforward", self.feedforward);
+      visit("slew", self.slew);
+      visit("shaper", self.shaper);
+      visit("regulator", self.regulator);
+      visit("relearning", self.relearning);
+      visit("standstill", self.standstill);
+      visit("stuck", self.stuck);
+      visit("plausibility", self.plausibility);
+      visit("watch", self.watch);
+      visit("ceiling", self.ceiling);
+      visit("samples", self.samples);
+    }
   };
 
   explicit Controller(const Parameters& parameters)

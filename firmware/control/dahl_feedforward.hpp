@@ -16,6 +16,11 @@ class DahlFeedforward {
   struct Parameters {
     /// Kt·X̂ / force full scale, X̂ the vibration amplitude at full drive.
     numeric::Split<Scalar> contact_force;
+
+    template <class Self, class Visitor>
+    static constexpr void fields(Self& self, Visitor&& visit) {
+      visit("contact_force", self.contact_force);
+    }
   };
 
   explicit DahlFeedforward(const Parameters& parameters) : parameters_(parameters) {}

@@ -10,6 +10,11 @@ class DriveLimit {
  public:
   struct Parameters {
     Scalar highest;  ///< amplitude, base: the actuator's limit; in [0, 1]
+
+    template <class Self, class Visitor>
+    static constexpr void fields(Self& self, Visitor&& visit) {
+      visit("highest", self.highest);
+    }
   };
 
   explicit DriveLimit(const Parameters& parameters) : parameters_(parameters) {}

@@ -32,6 +32,15 @@ class IntegralRegulator {
     std::uint16_t hold_periods;  ///< at least delay_periods
     std::uint16_t rest_periods;  ///< between the beginnings of two holds for a changed target
     std::uint8_t delay_periods;  ///< 1 … MaxDelay
+
+    template <class Self, class Visitor>
+    static constexpr void fields(Self& self, Visitor&& visit) {
+      visit("gain", self.gain);
+      visit("keep", self.keep);
+      visit("hold_periods", self.hold_periods);
+      visit("rest_periods", self.rest_periods);
+      visit("delay_periods", self.delay_periods);
+    }
   };
 
   /// A friction ratio of 1/256, on base 2.

@@ -25,6 +25,14 @@ class LearntFriction {
     std::uint32_t average_periods;        ///< samples averaged after them, at least 1
     numeric::Accumulator<Scalar> weight;  ///< 1 / average_periods
     std::uint32_t total_periods;          ///< least length of the calibration
+
+    template <class Self, class Visitor>
+    static constexpr void fields(Self& self, Visitor&& visit) {
+      visit("settle_periods", self.settle_periods);
+      visit("average_periods", self.average_periods);
+      visit("weight", self.weight);
+      visit("total_periods", self.total_periods);
+    }
   };
 
   explicit LearntFriction(const Parameters& parameters) : parameters_(parameters) {}

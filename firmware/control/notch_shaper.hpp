@@ -27,6 +27,12 @@ class NotchShaper {
   struct Parameters {
     std::array<Scalar, 3> taps;
     std::uint8_t spacing;  ///< M, 1 … MaxSpacing
+
+    template <class Self, class Visitor>
+    static constexpr void fields(Self& self, Visitor&& visit) {
+      visit("taps", self.taps);
+      visit("spacing", self.spacing);
+    }
   };
 
   explicit NotchShaper(const Parameters& parameters)

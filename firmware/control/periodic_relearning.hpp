@@ -29,6 +29,17 @@ class PeriodicRelearning {
     std::uint16_t return_periods;         ///< after that, until shaper and contact are back, >= 1
     std::uint8_t average_periods;         ///< a, >= 1
     numeric::Accumulator<Scalar> weight;  ///< 1/a
+
+    template <class Self, class Visitor>
+    static constexpr void fields(Self& self, Visitor&& visit) {
+      visit("every_periods", self.every_periods);
+      visit("quiet_periods", self.quiet_periods);
+      visit("travel", self.travel);
+      visit("reading_periods", self.reading_periods);
+      visit("return_periods", self.return_periods);
+      visit("average_periods", self.average_periods);
+      visit("weight", self.weight);
+    }
   };
   static constexpr bool relearns = true;
   /// As every_periods: no pause at all.

@@ -15,6 +15,11 @@ class Plausibility {
  public:
   struct Parameters {
     std::uint16_t periods;  ///< in a row that are granted, >= 1
+
+    template <class Self, class Visitor>
+    static constexpr void fields(Self& self, Visitor&& visit) {
+      visit("periods", self.periods);
+    }
   };
 
   static constexpr Scalar lowest() { return numeric::from_real<Scalar>(-0.075); }  ///< base 2

@@ -24,6 +24,13 @@ class SettlingWatch {
     Scalar band;             ///< half width, > 0
     std::uint16_t patience;  ///< periods outside the band that are granted, >= 1
     Scalar agreement;        ///< least true / believed friction, or its inverse, not warned of
+
+    template <class Self, class Visitor>
+    static constexpr void fields(Self& self, Visitor&& visit) {
+      visit("band", self.band);
+      visit("patience", self.patience);
+      visit("agreement", self.agreement);
+    }
   };
 
   explicit SettlingWatch(const Parameters& parameters) : parameters_(parameters) {}

@@ -10,6 +10,11 @@ class SlewLimit {
  public:
   struct Parameters {
     Scalar per_period;  ///< largest change of the amplitude in one carrier period, > 0
+
+    template <class Self, class Visitor>
+    static constexpr void fields(Self& self, Visitor&& visit) {
+      visit("per_period", self.per_period);
+    }
   };
 
   explicit SlewLimit(const Parameters& parameters) : parameters_(parameters) {}

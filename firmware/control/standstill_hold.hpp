@@ -15,6 +15,12 @@ class StandstillHold {
   struct Parameters {
     std::uint32_t hold_periods;  ///< for which the request stands
     Scalar fall_per_period;      ///< of the amplitude after that, > 0; base: the actuator's limit
+
+    template <class Self, class Visitor>
+    static constexpr void fields(Self& self, Visitor&& visit) {
+      visit("hold_periods", self.hold_periods);
+      visit("fall_per_period", self.fall_per_period);
+    }
   };
 
   explicit StandstillHold(const Parameters& parameters) : parameters_(parameters) {}

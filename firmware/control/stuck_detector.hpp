@@ -19,6 +19,11 @@ class StuckDetector {
     std::uint16_t
         periods;  ///< granted to the reading to follow: the sensor's delay must fit in; 0:
                   ///< the drive may have no effect on the reading, nothing is concluded
+
+    template <class Self, class Visitor>
+    static constexpr void fields(Self& self, Visitor&& visit) {
+      visit("periods", self.periods);
+    }
   };
 
   /// Distance of the command that a live reading must show: a ratio of 1/4, on base 2.

@@ -12,6 +12,12 @@ class TolerantSamples {
   struct Parameters {
     std::uint8_t tolerated = 0;  ///< N, < window
     std::uint8_t window = 1;     ///< M, 1 … 32
+
+    template <class Self, class Visitor>
+    static constexpr void fields(Self& self, Visitor&& visit) {
+      visit("tolerated", self.tolerated);
+      visit("window", self.window);
+    }
   };
 
   explicit TolerantSamples(const Parameters& parameters) : parameters_(parameters) {}

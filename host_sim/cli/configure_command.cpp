@@ -8,6 +8,7 @@
 
 #include "host_sim/cli/output_option.hpp"
 #include "host_sim/cli/scene_input.hpp"
+#include "host_sim/configure/control_design.hpp"
 #include "host_sim/emulated/controller_header.hpp"
 #include "host_sim/emulated/plant_header.hpp"
 #include "host_sim/output/output_folder.hpp"
@@ -27,17 +28,19 @@ struct ConfigureOptions {
 void configure(const ConfigureOptions& options) {
   const SceneInput input(options.scene);
   const scene::Scene scene = input.read();
+  const auto design = configure::design_if_closed(scene);
   const std::filesystem::path out = output_folder(options.out, scene.name);
   output::OutputFolder folder(out);
   folder.write(emulated::controller_header_name,
-               input.with_places([&] { return emulated::controller_header(scene); }));
+               input.with_places([&] { return emulated::controller_header(scene, design); }));
   if (options.plant.empty()) {
     folder.withdraw(emulated::plant_header_name);
   } else {
     const scene::Arithmetic arithmetic =
         options.plant == "q31" ? scene::Arithmetic::q31 : scene::Arithmetic::float32;
-    folder.write(emulated::plant_header_name,
-                 input.with_places([&] { return emulated::plant_header(scene, arithmetic); }));
+    folder.write(emulated::plant_header_name, input.with_places([&] {
+      return emulated::plant_header(scene, design, arithmetic);
+    }));
   }
   folder.commit();
   if (!options.quiet) {

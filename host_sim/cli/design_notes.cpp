@@ -5,15 +5,13 @@
 #include <cstdio>
 #include <string>
 
-#include "host_sim/configure/control_design.hpp"
-
 namespace sonoglide::cli {
 
-void print_design_notes(const scene::Scene& scene) {
-  if (!scene.controller) {
+void print_design_notes(const std::optional<configure::ControlDesign>& design) {
+  if (!design) {
     return;
   }
-  for (const std::string& note : configure::design_notes(configure::design_control(scene))) {
+  for (const std::string& note : configure::design_notes(*design)) {
     fmt::print(stderr, "note: {}\n", note);
   }
 }

@@ -1,11 +1,13 @@
 /// What one should know of a closed loop before it runs.
 #pragma once
 
-#include "host_sim/scene/scene.hpp"
+#include <optional>
+
+#include "host_sim/configure/control_design.hpp"
 
 namespace sonoglide::cli {
 
-/// Prints the notes of the scene's controller design on standard error; none in open loop.
-void print_design_notes(const scene::Scene& scene);
+/// Prints the notes of a controller's design on standard error; none in open loop.
+void print_design_notes(const std::optional<configure::ControlDesign>& design);
 
 }  // namespace sonoglide::cli

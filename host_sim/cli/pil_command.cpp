@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "host_sim/cli/board_option.hpp"
@@ -13,6 +14,7 @@
 #include "host_sim/cli/progress_bar.hpp"
 #include "host_sim/cli/run_watch.hpp"
 #include "host_sim/cli/scene_input.hpp"
+#include "host_sim/configure/control_design.hpp"
 #include "host_sim/emulated/board_arithmetic.hpp"
 #include "host_sim/emulated/board_list.hpp"
 #include "host_sim/emulated/controller_header.hpp"
@@ -31,19 +33,21 @@ struct PilOptions {
   bool quiet = false;
 };
 
-loop::RunResult compute(const scene::Scene& scene, const emulated::EmulatedBoard& board,
-                        const std::string& header, report::RunReport& report, bool quiet,
+loop::RunResult compute(const scene::Scene& scene, const configure::ControlDesign& design,
+                        const emulated::EmulatedBoard& board, const std::string& header,
+                        report::RunReport& report, bool quiet,
                         const process::Interruption& interruption) {
   ProgressBar bar(stderr, !quiet);
-  return emulated::run_image(scene, board, header, run_watch(report, bar, interruption),
+  return emulated::run_image(scene, design, board, header, run_watch(report, bar, interruption),
                              [&] { interruption.check(); });
 }
 
 std::string header_for(const SceneInput& input, const scene::Scene& scene,
+                       const std::optional<configure::ControlDesign>& design,
                        const emulated::EmulatedBoard& board) {
   return input.with_places([&] {
     emulated::require_arithmetic(scene, board);
-    return emulated::controller_header(scene);
+    return emulated::controller_header(scene, design);
   });
 }
 
@@ -54,15 +58,17 @@ void pil(const PilOptions& options) {
   const emulated::EmulatedBoard& board = *emulated::find_board(options.board);
   const SceneInput input(options.scene);
   const scene::Scene scene = input.read();
-  const std::string header = header_for(input, scene, board);
+  const auto design = configure::design_if_closed(scene);
+  const std::string header = header_for(input, scene, design, board);
   if (!options.quiet) {
-    print_design_notes(scene);
+    print_design_notes(design);
   }
   const std::filesystem::path out = output_folder(options.out, scene.name, "_" + options.board);
   require_emulator(board);
   const process::Interruption interruption;
-  report::RunReport report(out, scene);
-  const loop::RunResult result = compute(scene, board, header, report, options.quiet, interruption);
+  report::RunReport report(out, scene, design);
+  const loop::RunResult result =
+      compute(scene, *design, board, header, report, options.quiet, interruption);
   report.finish(result);
   if (!options.quiet) {
     fmt::print("{}", report::run_text(scene, result, report.findings(), out));

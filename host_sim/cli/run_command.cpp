@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "host_sim/cli/design_notes.hpp"
@@ -12,6 +13,7 @@
 #include "host_sim/cli/progress_bar.hpp"
 #include "host_sim/cli/run_watch.hpp"
 #include "host_sim/cli/scene_input.hpp"
+#include "host_sim/configure/control_design.hpp"
 #include "host_sim/loop/run.hpp"
 #include "host_sim/process/interruption.hpp"
 #include "host_sim/report/run_findings.hpp"
@@ -29,26 +31,27 @@ struct RunOptions {
 };
 
 using process::Interruption;
+using Design = std::optional<configure::ControlDesign>;
 
 /// The summary alone, nothing written.
-std::string compute_summary(const scene::Scene& scene, bool quiet) {
+std::string compute_summary(const scene::Scene& scene, const Design& design, bool quiet) {
   const Interruption interruption;
-  report::RunFindings findings(scene);
+  report::RunFindings findings(scene, design);
   ProgressBar bar(stderr, !quiet);
   loop::Watch watch;
   findings.join(watch);
   watch.progress = watching(bar, interruption);
-  const loop::RunResult result = loop::run(scene, watch);
+  const loop::RunResult result = loop::run(scene, design, watch);
   return report::summary_text(scene, result, findings);
 }
 
 /// @return what is printed
-std::string compute_report(const scene::Scene& scene, const std::filesystem::path& out,
-                           const RunOptions& options) {
+std::string compute_report(const scene::Scene& scene, const Design& design,
+                           const std::filesystem::path& out, const RunOptions& options) {
   const Interruption interruption;
-  report::RunReport report(out, scene);
+  report::RunReport report(out, scene, design);
   ProgressBar bar(stderr, !options.quiet);
-  const loop::RunResult result = loop::run(scene, run_watch(report, bar, interruption));
+  const loop::RunResult result = loop::run(scene, design, run_watch(report, bar, interruption));
   report.finish(result);
   if (options.json) {
     return report::summary_text(scene, result, report.findings());
@@ -60,12 +63,14 @@ std::string compute_report(const scene::Scene& scene, const std::filesystem::pat
 /// that interrupts it; in each case nothing was written.
 void run(const RunOptions& options) {
   const scene::Scene scene = SceneInput(options.scene).read();
+  const Design design = configure::design_if_closed(scene);
   if (!options.quiet) {
-    print_design_notes(scene);
+    print_design_notes(design);
   }
   const bool written = !options.json || !options.out.empty();
-  fmt::print("{}", written ? compute_report(scene, output_folder(options.out, scene.name), options)
-                           : compute_summary(scene, options.quiet));
+  fmt::print(
+      "{}", written ? compute_report(scene, design, output_folder(options.out, scene.name), options)
+                    : compute_summary(scene, design, options.quiet));
 }
 
 }  // namespace

@@ -388,6 +388,7 @@ ControlDesign design_control(const scene::Scene& scene) {
         "allowed: another frequency, or more plant.damping_N_s_per_m");
   }
   ControlDesign design;
+  design.map = scene::friction_map(scene.friction.law);
   const double displacement_m = scene.drive->max_force_amplitude_N * compliance;
   design.scales = {1.0 / scene.drive->frequency_Hz, scene.sensor.force_full_scale_N,
                    displacement_m * omega, scene.drive->max_force_amplitude_N};
@@ -407,6 +408,10 @@ ControlDesign design_control(const scene::Scene& scene) {
   design_slew(*scene.drive, design);
   design_relearning(scene, plant, design);
   return design;
+}
+
+std::optional<ControlDesign> design_if_closed(const scene::Scene& scene) {
+  return scene.controller ? std::optional<ControlDesign>(design_control(scene)) : std::nullopt;
 }
 
 bool tells_mismatch(const scene::Scene& scene) {

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,9 +28,10 @@ inline constexpr int max_reference_delay = 1 + 16 + 64 + max_notch_spacing;
 /// A controller's parameters as real numbers, per unit of ControlScales; friction ratios on base 2.
 struct ControlDesign {
   ControlScales scales{};
-  double friction_force = 0.0;     ///< believed Fc
-  double smallest_friction = 0.0;  ///< that may be learnt
-  double contact_force = 0.0;      ///< believed Kt times the vibration amplitude at full drive
+  scene::FrictionMap map = scene::FrictionMap::dahl;  ///< of the feedforward
+  double friction_force = 0.0;                        ///< believed Fc
+  double smallest_friction = 0.0;                     ///< that may be learnt
+  double contact_force = 0.0;  ///< believed Kt times the vibration amplitude at full drive
   double speed_floor = 0.0;
   double lead_periods = 0.0;    ///< from a sample to the middle of its effect
   double integral_gain = 0.0;   ///< per carrier period
@@ -65,6 +67,8 @@ struct ControlDesign {
   std::uint16_t relearn_return_periods = 0;
   std::uint8_t relearn_average_periods = 0;
   double relearn_weight = 0.0;  ///< of a sample averaged
+
+  double speed_floor_m_per_s() const { return speed_floor * scales.velocity_m_per_s; }
 };
 
 /// Designs the controller of a closed-loop scene from what it believes (the scene through
@@ -72,6 +76,9 @@ struct ControlDesign {
 /// @throws ConfigurationError where no controller exists: resonance with next to no damping, speeds
 ///         or forces outside the per-unit range.
 ControlDesign design_control(const scene::Scene& scene);
+
+/// The same for a scene of either kind: an open loop has none.
+std::optional<ControlDesign> design_if_closed(const scene::Scene& scene);
 
 /// Whether commanded over target ratio tells believed over true friction: the feedforward's map is
 /// the law's own, and friction too light to slow the vibration.

@@ -4,127 +4,126 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <variant>
 #include <vector>
 
+#include "firmware/control/controller.hpp"
 #include "firmware/encoding/crc32.hpp"
-#include "firmware/numeric/accumulator.hpp"
-#include "firmware/numeric/scalar.hpp"
+#include "firmware/numeric/fixed.hpp"
 #include "host_sim/configure/configuration_error.hpp"
 #include "host_sim/configure/control_design.hpp"
-#include "host_sim/emulated/float_number.hpp"
+#include "host_sim/configure/controller_parameters.hpp"
+#include "host_sim/configure/controller_parts.hpp"
+#include "host_sim/emulated/initialiser.hpp"
+#include "host_sim/emulated/part_name.hpp"
 #include "host_sim/loop/carrier_grid.hpp"
 #include "host_sim/text/printable.hpp"
 
 namespace sonoglide::emulated {
 namespace {
 
-/// How the scalar is written: its type, and a number of it or of its accumulator, bit for bit.
-struct ScalarText {
-  const char* type;
-  const char* header;
-  std::string (*number)(double value);
-  std::string (*accumulated)(double value);
-};
-
-std::string double_number(double value) {
-  return fmt::format("{:a}", value);
-}
-
 using Q31 = numeric::Q31<numeric::Saturating>;
 using Q15 = numeric::Q15<numeric::Saturating>;
 
-template <class Fixed>
-std::string fixed_number(double value) {
-  return fmt::format("Scalar::from_raw({})", numeric::from_real<Fixed>(value).raw());
-}
+// How an image's code names a scalar.
 
-std::string q15_accumulated(double value) {
-  return fmt::format("numeric::Accumulator<Scalar>::from_raw({})",
-                     numeric::from_real<numeric::Accumulator<Q15>>(value).raw());
-}
+template <class Scalar>
+struct ScalarName;
+template <>
+struct ScalarName<float> {
+  static constexpr const char* type = "float";
+  static constexpr const char* header = nullptr;
+};
+template <>
+struct ScalarName<double> {
+  static constexpr const char* type = "double";
+  static constexpr const char* header = nullptr;
+};
+template <>
+struct ScalarName<Q31> {
+  static constexpr const char* type = "numeric::Q31<numeric::Saturating>";
+  static constexpr const char* header = "firmware/numeric/fixed.hpp";
+};
+template <>
+struct ScalarName<Q15> {
+  static constexpr const char* type = "numeric::Q15<numeric::Saturating>";
+  static constexpr const char* header = "firmware/numeric/fixed.hpp";
+};
 
-ScalarText scalar_text(scene::Arithmetic arithmetic) {
-  switch (arithmetic) {
-    case scene::Arithmetic::float32:
-      return {"float", nullptr, float_number, float_number};
-    case scene::Arithmetic::q31:
-      return {"numeric::Q31<numeric::Saturating>", "firmware/numeric/fixed.hpp", fixed_number<Q31>,
-              fixed_number<Q31>};
-    case scene::Arithmetic::q15:
-      return {"numeric::Q15<numeric::Saturating>", "firmware/numeric/fixed.hpp", fixed_number<Q15>,
-              q15_accumulated};
-    case scene::Arithmetic::float64:
-      break;
-  }
-  return {"double", nullptr, double_number, double_number};
-}
-
-/// One part of the controller: its header, its type, and the initialiser of its parameters.
+/// One part of the controller: what its parameters are called, its header, its type, and the
+/// initialiser of its parameters.
 struct PartText {
+  std::string slot;
   const char* header;
   std::string type;
   std::string parameters;
 };
 
-PartText friction_part(const configure::ControlDesign& design, const ScalarText& scalar) {
-  if (!design.calibrated) {
-    return {"trusted_friction", "TrustedFriction<Scalar>", "{}"};
+/// Visits the choices of configure::ControllerParts.
+template <class Scalar>
+struct PartTexts {
+  const configure::ControlDesign& design;
+  std::vector<PartText> texts;
+
+  template <class Choice>
+  void operator()(const char* slot, const Choice& choice) {
+    std::visit(
+        [&](auto part) {
+          const auto parameters = configure::parameters(design, part);
+          const PartName name = part_name(part, parameters);
+          texts.push_back({slot, name.header, name.type, Initialiser<Scalar>::of(parameters)});
+        },
+        choice);
   }
-  return {
-      "learnt_friction", "LearntFriction<Scalar>",
-      fmt::format("{{{}, {}, {}, {}}}", design.calibration_settle_periods,
-                  design.calibration_average_periods, scalar.accumulated(design.calibration_weight),
-                  design.calibration_total_periods)};
+};
+
+template <class Scalar>
+std::vector<PartText> part_texts(const configure::ControlDesign& design) {
+  PartTexts<Scalar> parts{design, {}};
+  configure::ControllerParts<Scalar>(design).fields(parts);
+  return parts.texts;
 }
 
-PartText feedforward_part(const scene::Scene& scene, const configure::ControlDesign& design,
-                          const ScalarText& scalar) {
-  if (scene::friction_map(scene.friction.law) == scene::FrictionMap::coulomb) {
-    return {"coulomb_feedforward", "CoulombFeedforward<Scalar>", "{}"};
-  }
-  const numeric::Split<double> force = numeric::split(design.contact_force);
-  return {"dahl_feedforward", "DahlFeedforward<Scalar>",
-          fmt::format("{{{{{}, {}}}}}", scalar.number(force.mantissa), force.exponent)};
-}
+/// Visits the parameters of a controller: a line for each, those of the chosen parts as they are
+/// told in `parts`.
+template <class Scalar>
+struct ParameterLines {
+  const std::vector<PartText>& parts;
+  const configure::ControlScales& scales;
+  std::string text;
 
-PartText slew_part(const configure::ControlDesign& design, const ScalarText& scalar) {
-  if (!design.slew_limited) {
-    return {"no_slew_limit", "NoSlewLimit<Scalar>", "{}"};
+  template <class Field>
+  void operator()(const std::string& name, const Field& field) {
+    const auto part = std::find_if(parts.begin(), parts.end(),
+                                   [&](const PartText& each) { return each.slot == name; });
+    text += part == parts.end() ? line(Initialiser<Scalar>::of(field), name + base(name))
+                                : line(part->parameters, part->type);
   }
-  return {"slew_limit", "SlewLimit<Scalar>",
-          fmt::format("{{{}}}", scalar.number(design.slew_per_period))};
-}
 
-PartText shaper_part(const configure::ControlDesign& design, const ScalarText& scalar) {
-  if (!design.shaped) {
-    return {"no_shaping", "NoShaping<Scalar>", "{}"};
+  static std::string line(const std::string& value, const std::string& comment) {
+    return fmt::format("    {},  // {}\n", value, comment);
   }
-  const auto& taps = design.notch_taps;
-  return {"notch_shaper", fmt::format("NotchShaper<Scalar, {}>", design.notch_spacing),
-          fmt::format("{{{{{}, {}, {}}}, {}}}", scalar.number(taps[0]), scalar.number(taps[1]),
-                      scalar.number(taps[2]), design.notch_spacing)};
-}
 
-PartText regulator_part(const configure::ControlDesign& design, const ScalarText& scalar) {
-  if (design.integral_gain == 0.0) {
-    return {"no_feedback", "NoFeedback<Scalar>", "{}"};
+  /// What a number is a multiple of.
+  std::string base(const std::string& name) const {
+    if (name == "friction_force") {
+      return fmt::format(", of {} N", scales.force_N);
+    }
+    return name == "speed_floor" ? fmt::format(", of {} m/s", scales.velocity_m_per_s) : "";
   }
-  return {"integral_regulator",
-          fmt::format("IntegralRegulator<Scalar, {}>", design.reference_delay_periods),
-          fmt::format("{{{}, {}, {}, {}, {}}}", scalar.number(design.integral_gain),
-                      scalar.number(design.reference_keep), design.hold_periods,
-                      design.rest_periods, design.reference_delay_periods)};
-}
+};
 
-PartText relearning_part(const configure::ControlDesign& design, const ScalarText& scalar) {
-  if (!design.relearns) {
-    return {"no_relearning", "NoRelearning<Scalar>", "{}"};
-  }
-  return {"periodic_relearning", "PeriodicRelearning<Scalar>",
-          fmt::format("{{{}, {}, {}, {}, {}, {}, {}}}", design.relearn_every_periods,
-                      design.relearn_quiet_periods, scalar.number(design.relearn_travel),
-                      design.relearn_reading_periods, design.relearn_return_periods,
-                      design.relearn_average_periods, scalar.accumulated(design.relearn_weight))};
+/// The parameters that are no part's are the same with any parts.
+template <class Scalar>
+std::string parameter_lines(const configure::ControlDesign& design,
+                            const std::vector<PartText>& parts) {
+  using Parts = control::Parts<Scalar, control::TrustedFriction<Scalar>,
+                               control::CoulombFeedforward<Scalar>, control::NoSlewLimit<Scalar>,
+                               control::NoShaping<Scalar>, control::NoFeedback<Scalar>>;
+  ParameterLines<Scalar> lines{parts, design.scales, {}};
+  const auto parameters = configure::controller_parameters<Parts>(design);
+  control::Controller<Parts>::Parameters::fields(parameters, lines);
+  return lines.text;
 }
 
 /// The carrier period, counted from 0, whose sample a target step is in force for: the sample is
@@ -141,24 +140,27 @@ std::uint32_t first_period(const loop::CarrierGrid& grid, double time_s) {
   return static_cast<std::uint32_t>(period);
 }
 
-std::string target_steps(const scene::Scene& scene, const ScalarText& scalar) {
+template <class Scalar>
+std::string target_steps(const scene::Scene& scene) {
   const loop::CarrierGrid grid(scene);
   std::string text;
   for (const scene::TargetStep& step : scene.controller->target_friction_ratio) {
-    text += fmt::format("    {{{}, {}}},  // {}\n", first_period(grid, step.time_s),
-                        scalar.number(0.5 * step.friction_ratio), step.friction_ratio);
+    text +=
+        fmt::format("    {{{}, {}}},  // {}\n", first_period(grid, step.time_s),
+                    Initialiser<Scalar>::of(configure::half_target<Scalar>(step.friction_ratio)),
+                    step.friction_ratio);
   }
   return text;
 }
 
-std::string includes(const std::vector<PartText>& parts, const ScalarText& scalar) {
+std::string includes(const std::vector<PartText>& parts, const char* scalar_header) {
   std::vector<std::string> headers{"firmware/app/target_schedule.hpp",
                                    "firmware/control/controller.hpp"};
   for (const PartText& part : parts) {
     headers.push_back(fmt::format("firmware/control/{}.hpp", part.header));
   }
-  if (scalar.header != nullptr) {
-    headers.emplace_back(scalar.header);
+  if (scalar_header != nullptr) {
+    headers.emplace_back(scalar_header);
   }
   std::sort(headers.begin(), headers.end());
   std::string text;
@@ -168,33 +170,24 @@ std::string includes(const std::vector<PartText>& parts, const ScalarText& scala
   return text;
 }
 
-/// Number of a design: of its parts, its parameters and what they are multiples of.
-std::uint32_t design_number(const std::string& types, const std::string& parameters,
+/// Number of a design: of its parts, their parameters and what these are multiples of.
+std::uint32_t design_number(const std::string& types, const std::vector<PartText>& parts,
                             const configure::ControlScales& scales) {
-  const std::string text =
-      fmt::format("{}{}{} {} {} {}", types, parameters, scales.carrier_period_s, scales.force_N,
-                  scales.velocity_m_per_s, scales.drive_amplitude_N);
+  std::string text = types;
+  for (const PartText& part : parts) {
+    text += fmt::format("    {},  // {}\n", part.parameters, part.type);
+  }
+  text += fmt::format("{} {} {} {}", scales.carrier_period_s, scales.force_N,
+                      scales.velocity_m_per_s, scales.drive_amplitude_N);
   return encoding::crc32(reinterpret_cast<const std::uint8_t*>(text.data()), text.size());
 }
 
-}  // namespace
-
-std::string controller_header(const scene::Scene& scene) {
-  if (!scene.controller) {
-    throw configure::ConfigurationError(
-        "controller", "missing; required: a table [controller], of which an image is made");
-  }
-  const configure::ControlDesign design = configure::design_control(scene);
-  const ScalarText scalar = scalar_text(scene.controller->arithmetic);
-  const std::vector<PartText> parts{
-      friction_part(design, scalar),  feedforward_part(scene, design, scalar),
-      slew_part(design, scalar),      shaper_part(design, scalar),
-      regulator_part(design, scalar), relearning_part(design, scalar)};
+template <class Scalar>
+std::string header_in(const scene::Scene& scene, const configure::ControlDesign& design) {
+  const std::vector<PartText> parts = part_texts<Scalar>(design);
   std::string types;
-  std::string parameters;
   for (const PartText& part : parts) {
     types += fmt::format(",\n                             control::{}", part.type);
-    parameters += fmt::format("    {},  // {}\n", part.parameters, part.type);
   }
   return fmt::format(
       R"(/// The controller of the scene {}. Written by sonoglide configure: edit the scene.
@@ -207,17 +200,7 @@ using Scalar = {};
 using Parts = control::Parts<Scalar{}>;
 
 inline constexpr control::Controller<Parts>::Parameters parameters{{
-    {},  // friction_force, of {} N
-    {},  // smallest_friction
-    {},  // speed_floor, of {} m/s
-    {},  // lead
-{}    {{{}, {}}},  // standstill
-    {{{}}},  // stuck
-    {{{}}},  // plausibility
-    {{{}, {}, {}}},  // watch
-    {{}},  // ceiling
-    {{}},  // samples
-}};
+{}}};
 
 inline constexpr TargetStep<Scalar> target_steps[] = {{
 {}}};
@@ -230,15 +213,35 @@ inline constexpr std::uint32_t design = {:#010x};
 
 }}  // namespace sonoglide::app::configuration
 )",
-      text::printable(scene.name), includes(parts, scalar), scalar.type, types,
-      scalar.number(design.friction_force), design.scales.force_N,
-      scalar.number(design.smallest_friction), scalar.number(design.speed_floor),
-      design.scales.velocity_m_per_s, scalar.number(design.lead_periods / 64.0), parameters,
-      design.standstill_hold_periods, scalar.number(design.standstill_fall), design.stuck_periods,
-      design.implausible_periods, scalar.number(design.settling_band),
-      design.settling_patience_periods, scalar.number(design.agreement),
-      target_steps(scene, scalar), design.scales.carrier_period_s,
-      design_number(types, parameters, design.scales));
+      text::printable(scene.name), includes(parts, ScalarName<Scalar>::header),
+      ScalarName<Scalar>::type, types, parameter_lines<Scalar>(design, parts),
+      target_steps<Scalar>(scene), design.scales.carrier_period_s,
+      design_number(types, parts, design.scales));
+}
+
+}  // namespace
+
+std::string controller_header(const scene::Scene& scene) {
+  return controller_header(scene, configure::design_if_closed(scene));
+}
+
+std::string controller_header(const scene::Scene& scene,
+                              const std::optional<configure::ControlDesign>& design) {
+  if (!design) {
+    throw configure::ConfigurationError(
+        "controller", "missing; required: a table [controller], of which an image is made");
+  }
+  switch (scene.controller->arithmetic) {
+    case scene::Arithmetic::float32:
+      return header_in<float>(scene, *design);
+    case scene::Arithmetic::q31:
+      return header_in<Q31>(scene, *design);
+    case scene::Arithmetic::q15:
+      return header_in<Q15>(scene, *design);
+    case scene::Arithmetic::float64:
+      break;
+  }
+  return header_in<double>(scene, *design);
 }
 
 }  // namespace sonoglide::emulated

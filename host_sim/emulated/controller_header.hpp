@@ -1,8 +1,10 @@
 /// The controller of a scene as C++, to be compiled into an image.
 #pragma once
 
+#include <optional>
 #include <string>
 
+#include "host_sim/configure/control_design.hpp"
 #include "host_sim/scene/scene.hpp"
 
 namespace sonoglide::emulated {
@@ -14,5 +16,9 @@ inline constexpr const char* controller_header_name = "controller_configuration.
 /// scalar, bit for bit what the simulation uses. The same scene gives the same text.
 /// @throws scene::ConfigurationError  an open-loop scene, or a target too late for an image
 std::string controller_header(const scene::Scene& scene);
+
+/// The same of the controller that has been designed for the scene; none in open loop.
+std::string controller_header(const scene::Scene& scene,
+                              const std::optional<configure::ControlDesign>& design);
 
 }  // namespace sonoglide::emulated

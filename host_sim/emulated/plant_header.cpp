@@ -11,11 +11,13 @@
 #include "firmware/plant/damping.hpp"
 #include "firmware/plant/drive.hpp"
 #include "firmware/plant/model.hpp"
+#include "firmware/plant/sliding.hpp"
 #include "firmware/plant/state.hpp"
 #include "firmware/plant/strang/fixed_point_strang_design.hpp"
 #include "host_sim/configure/configuration_error.hpp"
 #include "host_sim/configure/control_design.hpp"
-#include "host_sim/emulated/float_number.hpp"
+#include "host_sim/configure/plant_model.hpp"
+#include "host_sim/emulated/initialiser.hpp"
 #include "host_sim/loop/carrier_grid.hpp"
 #include "host_sim/loop/plant_description.hpp"
 #include "host_sim/loop/sensor.hpp"
@@ -76,16 +78,12 @@ struct SceneNumbers {
   configure::ControlScales codes;
   double sliding_velocity;  ///< in units of L ω
   double full_drive;        ///< in units of m L ω²
-  double vibration_sign;    ///< +1 dissipative, −1 as printed
   std::int32_t sliding_code;
   plant::State<double> initial;
   int latency_periods;  ///< of the drive
 
-  explicit SceneNumbers(const scene::Scene& scene)
-      : plant(scene),
-        codes(configure::design_control(scene).scales),
-        vibration_sign(configure::vibration_sign(scene.friction.sign_convention)),
-        latency_periods(scene.drive->delay_periods) {
+  SceneNumbers(const scene::Scene& scene, const configure::ControlScales& scales_of_codes)
+      : plant(scene), codes(scales_of_codes), latency_periods(scene.drive->delay_periods) {
     const double sliding_m_per_s = constant_sliding_m_per_s(scene.sliding);
     const scene::PlantScales& scales = plant.scales;
     sliding_velocity = sliding_m_per_s / scales.velocity_m_per_s();
@@ -95,9 +93,46 @@ struct SceneNumbers {
   }
 };
 
+template <class Scalar, template <class> class Damping>
+using ModelOf =
+    plant::Model<friction::Dahl<Scalar>, Damping<Scalar>, plant::CosineDrive, plant::LinearSliding>;
+
+template <class Scalar, template <class> class Damping>
+ModelOf<Scalar, Damping> plant_model(const SceneNumbers& scene) {
+  return configure::plant_model<Scalar, Damping, plant::CosineDrive, plant::LinearSliding>(
+      std::get<scene::laws::Dahl>(scene.plant.scene.friction.law), scene.plant.scene.friction,
+      scene.plant.scales, scene.plant.numbers);
+}
+
+/// A float plant's number.
+std::string number(double value) {
+  return Initialiser<float>::of(numeric::from_real<float>(value));
+}
+
+std::string damping_type(const plant::Undamped<float>& /*damping*/) {
+  return "Undamped";
+}
+std::string damping_type(const plant::Damped<float>& /*damping*/) {
+  return "Damped";
+}
+std::string damping_number(const plant::Undamped<float>& /*damping*/) {
+  return "";
+}
+std::string damping_number(const plant::Damped<float>& damping) {
+  return number(damping.damping);
+}
+
+/// As plant::Model is initialised.
+template <class Model>
+std::string model_number(const Model& model) {
+  return fmt::format("{{{{{{{}}}, {}, {}}}, {{{}}}, {}}}", number(model.law.contact_stiffness),
+                     number(model.friction_force), number(model.vibration_sign),
+                     damping_number(model), number(model.stiffness));
+}
+
+template <template <class> class Damping>
 PlantText float_plant(const SceneNumbers& scene) {
-  const configure::PlantNumbers& numbers = scene.plant.numbers;
-  const bool damped = numbers.damping > 0.0;
+  const ModelOf<float, Damping> model = plant_model<float, Damping>(scene);
   return {
       R"(#include "firmware/friction/dahl.hpp"
 #include "firmware/plant/contact.hpp"
@@ -112,7 +147,7 @@ PlantText float_plant(const SceneNumbers& scene) {
 using PlantBoard = hal::simulated::PlantBoard<plant::Strang<PlantModel>, {}>;
 
 inline constexpr PlantBoard::Parameters plant_parameters{{
-    {{{{{{{}}}, {}, {}}}, {{{}}}, {}}},  // contact, damping, stiffness
+    {},  // contact, damping, stiffness
     {},  // step, {} to a carrier period
     {{{}, {}, {}}},  // initial
     {},  // full_drive
@@ -121,15 +156,12 @@ inline constexpr PlantBoard::Parameters plant_parameters{{
     {},  // sliding_code
 }};
 )",
-          damped ? "Damped" : "Undamped", scene.latency_periods,
-          float_number(numbers.contact_stiffness), float_number(numbers.friction_force),
-          float_number(scene.vibration_sign), damped ? float_number(numbers.damping) : "",
-          float_number(numbers.stiffness), float_number(numeric::two_pi / steps_per_period),
-          steps_per_period, float_number(scene.initial.displacement),
-          float_number(scene.initial.velocity), float_number(scene.initial.friction),
-          float_number(scene.full_drive),
-          float_number(scene.plant.scales.friction_N / (numeric::two_pi * scene.codes.force_N)),
-          float_number(scene.sliding_velocity), scene.sliding_code)};
+          damping_type(model), scene.latency_periods, model_number(model),
+          number(numeric::two_pi / steps_per_period), steps_per_period,
+          number(scene.initial.displacement), number(scene.initial.velocity),
+          number(scene.initial.friction), number(scene.full_drive),
+          number(scene.plant.scales.friction_N / (numeric::two_pi * scene.codes.force_N)),
+          number(scene.sliding_velocity), scene.sliding_code)};
 }
 
 [[noreturn]] void refuse(plant::FixedStrangRefusal refusal) {
@@ -158,39 +190,45 @@ inline constexpr PlantBoard::Parameters plant_parameters{{
       "q31; allowed: the plant in float32");
 }
 
-template <class Damping>
-plant::FixedStrangParameters designed(const SceneNumbers& scene, const Damping& damping) {
-  using Model = plant::Model<friction::Dahl<double>, Damping, plant::CosineDrive>;
-  const configure::PlantNumbers& numbers = scene.plant.numbers;
-  const Model model{{{numbers.contact_stiffness}, numbers.friction_force, scene.vibration_sign},
-                    damping,
-                    numbers.stiffness};
-  const plant::FixedStrangDesign design =
-      plant::design_fixed_strang(model, scene.full_drive, scene.sliding_velocity, scene.initial);
+template <template <class> class Damping>
+plant::FixedStrangParameters designed(const SceneNumbers& scene) {
+  const plant::FixedStrangDesign design = plant::design_fixed_strang(
+      plant_model<double, Damping>(scene), scene.full_drive, scene.sliding_velocity, scene.initial);
   if (design.refusal != plant::FixedStrangRefusal::none) {
     refuse(design.refusal);
   }
   return design.parameters;
 }
 
-std::string driven_rows(const plant::FixedStrangParameters& plant) {
-  std::string rows;
-  for (const auto& [displacement, velocity] : plant.driven) {
-    rows += fmt::format("         {{{}, {}}},\n", displacement, velocity);
-  }
-  return rows;
-}
+using DrivenRows = decltype(plant::FixedStrangParameters::driven);
 
+/// Visits the parameters of the solver: a line for each, a table's a row each.
+struct SolverLines {
+  std::string text;
+
+  template <class Field>
+  void operator()(const char* name, const Field& field) {
+    text += fmt::format("        {},  // {}\n", Initialiser<std::int32_t>::of(field), name);
+  }
+
+  void operator()(const char* name, const DrivenRows& rows) {
+    text += "        {{\n";
+    for (const auto& row : rows) {
+      text += fmt::format("         {},\n", Initialiser<std::int32_t>::of(row));
+    }
+    text += fmt::format("        }}}},  // {}\n", name);
+  }
+};
+
+template <template <class> class Damping>
 PlantText fixed_plant(const SceneNumbers& scene) {
-  const double damping = scene.plant.numbers.damping;
   const double force_per_friction = scene.plant.scales.friction_N / scene.codes.force_N;
   require(force_per_friction < 1.0, "sensor.force_full_scale_N",
           fmt::format("is not above the friction force; allowed: more than {:g} N",
                       scene.plant.scales.friction_N));
-  const plant::FixedStrangParameters p = damping > 0.0
-                                             ? designed(scene, plant::Damped<double>{damping})
-                                             : designed(scene, plant::Undamped<double>{});
-  const auto& g = p.growth;
+  const plant::FixedStrangParameters parameters = designed<Damping>(scene);
+  SolverLines solver;
+  plant::FixedStrangParameters::fields(parameters, solver);
   return {
       R"(#include "hal/simulated/fixed_plant_board.hpp"
 )",
@@ -198,33 +236,22 @@ PlantText fixed_plant(const SceneNumbers& scene) {
 
 inline constexpr PlantBoard::Parameters plant_parameters{{
     {{
-        {{{{{{{}, {}}}, {{{}, {}}}}}}},  // growth
-        {{{{
-{}        }}}},  // driven
-        {},  // kick
-        {},  // contact_stiffness
-        {},  // step
-        {},  // sliding_velocity
-        {},  // sliding_travel
-        {},  // side
-        {{{}, {}, {}}},  // initial
-    }},
+{}    }},
     {},  // force_per_friction
     {},  // sliding_code
 }};
 )",
-                  scene.latency_periods, g[0][0], g[0][1], g[1][0], g[1][1], driven_rows(p), p.kick,
-                  p.contact_stiffness, p.step, p.sliding_velocity, p.sliding_travel, p.side,
-                  p.initial[0], p.initial[1], p.initial[2],
+                  scene.latency_periods, solver.text,
                   std::lround(std::ldexp(force_per_friction, 26)), scene.sliding_code)};
 }
 
 PlantText plant_text(const SceneNumbers& scene, scene::Arithmetic arithmetic) {
+  const bool damped = scene.plant.numbers.damping > 0.0;
   switch (arithmetic) {
     case scene::Arithmetic::float32:
-      return float_plant(scene);
+      return damped ? float_plant<plant::Damped>(scene) : float_plant<plant::Undamped>(scene);
     case scene::Arithmetic::q31:
-      return fixed_plant(scene);
+      return damped ? fixed_plant<plant::Damped>(scene) : fixed_plant<plant::Undamped>(scene);
     case scene::Arithmetic::float64:
     case scene::Arithmetic::q15:
       break;
@@ -236,8 +263,10 @@ PlantText plant_text(const SceneNumbers& scene, scene::Arithmetic arithmetic) {
 
 }  // namespace
 
-std::string plant_header(const scene::Scene& scene, scene::Arithmetic arithmetic) {
-  require(scene.controller.has_value(), "controller",
+std::string plant_header(const scene::Scene& scene,
+                         const std::optional<configure::ControlDesign>& design,
+                         scene::Arithmetic arithmetic) {
+  require(design.has_value(), "controller",
           "missing; required: a table [controller], of which an image is made");
   require(scene::is<scene::laws::Dahl>(scene.friction.law), "friction.law",
           "the plant of an image has Dahl friction; allowed: \"dahl\"");
@@ -247,7 +276,7 @@ std::string plant_header(const scene::Scene& scene, scene::Arithmetic arithmetic
   require(scene.drive->waveform == scene::Waveform::cosine, "drive.waveform",
           "the plant of an image is driven by a cosine; allowed: \"cosine\"");
   require_ideal(scene.sensor);
-  const PlantText text = plant_text(SceneNumbers(scene), arithmetic);
+  const PlantText text = plant_text(SceneNumbers(scene, design->scales), arithmetic);
   return fmt::format(
       R"(/// The plant of the scene {}. Written by sonoglide configure: edit the scene.
 #pragma once
@@ -262,6 +291,10 @@ namespace sonoglide::app::configuration {{
 }}  // namespace sonoglide::app::configuration
 )",
       text::printable(scene.name), text.includes, text.definitions, whole_periods(scene));
+}
+
+std::string plant_header(const scene::Scene& scene, scene::Arithmetic arithmetic) {
+  return plant_header(scene, configure::design_if_closed(scene), arithmetic);
 }
 
 }  // namespace sonoglide::emulated

@@ -1,8 +1,10 @@
 /// The plant of a scene as C++, to be compiled into an image beside the controller.
 #pragma once
 
+#include <optional>
 #include <string>
 
+#include "host_sim/configure/control_design.hpp"
 #include "host_sim/scene/scene.hpp"
 
 namespace sonoglide::emulated {
@@ -19,11 +21,17 @@ inline constexpr const char* plant_header_name = "plant_configuration.hpp";
 /// amplitude, over 100,000 periods. EventTaylor of order 8 is within 3e-4 in float, for six times
 /// the instructions on a Cortex-M4F and half as much flash again.
 ///
+/// @param design      of the scene's controller: the codes of the seam are in its scales
 /// @param arithmetic  of the plant, whatever the controller's: float32 or q31
 /// @throws scene::ConfigurationError  an open-loop scene, a friction law that the solver is not
 /// for,
 ///         a sliding velocity that changes, a sensor that is not ideal; in q31 also numbers that
 ///         the integers do not reach
+std::string plant_header(const scene::Scene& scene,
+                         const std::optional<configure::ControlDesign>& design,
+                         scene::Arithmetic arithmetic);
+
+/// The same with a design of its own.
 std::string plant_header(const scene::Scene& scene, scene::Arithmetic arithmetic);
 
 }  // namespace sonoglide::emulated

@@ -26,14 +26,13 @@ std::optional<ControlRun> make_control(const scene::Scene& scene, const CarrierG
   if (controller == nullptr) {
     return std::nullopt;
   }
-  result.control.emplace();
-  result.control->design = configure::design_control(scene);
   return std::optional<ControlRun>(std::in_place, scene, grid, *controller, *result.control);
 }
 
 class Simulation {
  public:
   /// @param controller  null in open loop
+  /// @param result      with the record of a closed loop, of which the design is filled in
   Simulation(const scene::Scene& scene, ControlPort* controller, const Watch& watch,
              RunResult& result)
       : watch_(watch),
@@ -100,8 +99,8 @@ class Simulation {
   double open_loop_amplitude_N_;
 };
 
-RunResult simulate(const scene::Scene& scene, ControlPort* controller, const Watch& watch) {
-  RunResult result;
+RunResult simulate(const scene::Scene& scene, ControlPort* controller, const Watch& watch,
+                   RunResult result) {
   const auto begin = std::chrono::steady_clock::now();
   Simulation(scene, controller, watch, result).carry_out();
   const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - begin;
@@ -112,15 +111,28 @@ RunResult simulate(const scene::Scene& scene, ControlPort* controller, const Wat
 }  // namespace
 
 RunResult run(const scene::Scene& scene, const Watch& watch) {
-  if (!scene.controller) {
-    return simulate(scene, nullptr, watch);
+  return run(scene, configure::design_if_closed(scene), watch);
+}
+
+RunResult run(const scene::Scene& scene, const std::optional<configure::ControlDesign>& design,
+              const Watch& watch) {
+  if (!design) {
+    return simulate(scene, nullptr, watch, {});
   }
-  const auto controller = make_control_port(scene, configure::design_control(scene));
-  return simulate(scene, controller.get(), watch);
+  const auto controller = make_control_port(scene, *design);
+  return run(scene, *design, *controller, watch);
 }
 
 RunResult run(const scene::Scene& scene, ControlPort& controller, const Watch& watch) {
-  return simulate(scene, &controller, watch);
+  return run(scene, configure::design_control(scene), controller, watch);
+}
+
+RunResult run(const scene::Scene& scene, const configure::ControlDesign& design,
+              ControlPort& controller, const Watch& watch) {
+  RunResult result;
+  result.control.emplace();
+  result.control->design = design;
+  return simulate(scene, &controller, watch, std::move(result));
 }
 
 }  // namespace sonoglide::loop

@@ -5,8 +5,6 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "host_sim/configure/control_design.hpp"
-
 namespace sonoglide::report {
 namespace {
 
@@ -16,11 +14,6 @@ constexpr std::uint64_t close_up_after_periods = 10;
 constexpr std::size_t most_close_ups = 12;
 constexpr std::uint64_t ending_periods = 256;
 
-double speed_floor_m_per_s(const scene::Scene& scene) {
-  const configure::ControlDesign design = configure::design_control(scene);
-  return design.speed_floor * design.scales.velocity_m_per_s;
-}
-
 }  // namespace
 
 void Course::take(const loop::Period& period) {
@@ -29,10 +22,12 @@ void Course::take(const loop::Period& period) {
   ++periods_in_[static_cast<std::size_t>(period.limit)];
 }
 
-RunFindings::RunFindings(const scene::Scene& scene) : scene_(scene), grid_(scene) {
-  if (scene.controller) {
+RunFindings::RunFindings(const scene::Scene& scene,
+                         const std::optional<configure::ControlDesign>& design)
+    : scene_(scene), grid_(scene) {
+  if (design) {
     step_meter_.emplace(scene);
-    tracking_meter_.emplace(scene, speed_floor_m_per_s(scene));
+    tracking_meter_.emplace(scene, design->speed_floor_m_per_s());
   }
   close_ups_.resize(std::min(target_steps_s().size(), most_close_ups));
 }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "firmware/control/drive_command.hpp"
+#include "host_sim/configure/control_design.hpp"
 #include "host_sim/loop/carrier_grid.hpp"
 #include "host_sim/loop/recording.hpp"
 #include "host_sim/loop/watch.hpp"
@@ -41,7 +42,8 @@ class Course final : public loop::PeriodSink {
 
 class RunFindings {
  public:
-  explicit RunFindings(const scene::Scene& scene);
+  /// @param design  of the scene's controller; none in open loop
+  RunFindings(const scene::Scene& scene, const std::optional<configure::ControlDesign>& design);
   RunFindings(const RunFindings&) = delete;
   RunFindings& operator=(const RunFindings&) = delete;
 

@@ -17,10 +17,11 @@ CsvFile open(output::OutputFolder& folder, const char* name) {
 
 }  // namespace
 
-RunReport::RunReport(const std::filesystem::path& out, const scene::Scene& scene)
+RunReport::RunReport(const std::filesystem::path& out, const scene::Scene& scene,
+                     const std::optional<configure::ControlDesign>& design)
     : scene_(scene),
       folder_(out, {summary_file, page_file, trace_file, periods_file}),
-      findings_(scene) {
+      findings_(scene, design) {
   if (!scene.run.record.empty()) {
     periods_.emplace(open(folder_, periods_file));
     trace_.emplace(open(folder_, trace_file), scene.run.record);

@@ -17,9 +17,11 @@ namespace sonoglide::report {
 /// trace.csv and periods.csv (one row for each carrier period); all or none.
 class RunReport {
  public:
-  /// @param scene  outlives this
+  /// @param scene   outlives this
+  /// @param design  of the scene's controller; none in open loop
   /// @throws OutputError  nothing can be written there; found out before anything is computed
-  RunReport(const std::filesystem::path& out, const scene::Scene& scene);
+  RunReport(const std::filesystem::path& out, const scene::Scene& scene,
+            const std::optional<configure::ControlDesign>& design);
 
   /// Watches the run: the tables are written as it goes. This outlives the run.
   void join(loop::Watch& watch);

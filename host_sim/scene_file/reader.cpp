@@ -72,7 +72,8 @@ void settle_waveform(scene::Scene& scene, const Document& document) {
   solver.order = only;
 }
 
-/// A closed loop needs a controller that can be designed.
+/// A closed loop needs a controller that can be designed: told here, where a key has its place in
+/// the file. The design is not kept, for whoever reads a scene may change it.
 void require_controller(const scene::Scene& scene, const Document& document) {
   try {
     configure::design_control(scene);

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "firmware/control/drive_command.hpp"
+#include "firmware/numeric/scalar.hpp"
 #include "hal/lockstep/exit_code.hpp"
 #include "hal/lockstep/frame.hpp"
 #include "host_sim/configure/control_design.hpp"
@@ -211,7 +212,8 @@ void expect_settled(const std::vector<hal::Drive>& drives, const std::vector<hal
                     std::size_t from) {
   for (std::size_t k = from; k < drives.size(); ++k) {
     ASSERT_EQ(drives[k].fault, 0) << "period " << k;
-    ASSERT_NEAR(drives[k].amplitude * 0x1p-31, unaltered[k].amplitude * 0x1p-31, 0.025)
+    ASSERT_NEAR(numeric::from_code<double>(drives[k].amplitude),
+                numeric::from_code<double>(unaltered[k].amplitude), 0.025)
         << "period " << k;
   }
 }

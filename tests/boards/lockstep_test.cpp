@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "firmware/control/drive_command.hpp"
+#include "firmware/numeric/scalar.hpp"
 #include "hal/lockstep/exit_code.hpp"
 #include "hal/lockstep/frame.hpp"
 #include "hal/trace_hash.hpp"
@@ -104,7 +105,8 @@ void expect_the_hosts_commands(const scene::Scene& scene, ImageProcess& board) {
     actuator.take(drive, host.periods[k].target);
     if (k + latency < host.periods.size()) {
       const loop::Period& answered = host.periods[k + latency];
-      const double amplitude_N = drive.amplitude * 0x1p-31 * design.scales.drive_amplitude_N;
+      const double amplitude_N =
+          numeric::from_code<double>(drive.amplitude) * design.scales.drive_amplitude_N;
       ASSERT_EQ(amplitude_N, answered.drive_amplitude_N) << "carrier period " << k;
       ASSERT_EQ(drive.state, static_cast<std::uint8_t>(answered.state)) << "carrier period " << k;
       ASSERT_EQ(drive.limit, static_cast<std::uint8_t>(answered.limit)) << "carrier period " << k;

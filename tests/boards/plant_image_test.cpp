@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "firmware/friction/dahl.hpp"
+#include "firmware/numeric/scalar.hpp"
 #include "firmware/plant/account.hpp"
 #include "firmware/plant/damping.hpp"
 #include "firmware/plant/drive.hpp"
@@ -99,9 +100,8 @@ class FloatPlant {
   LivedPeriod advance(std::int32_t amplitude) {
     plant::MeanFriction<float> account;
     plant::NoObserver nobody;
-    const plant::Interval<float> period{0.0F, number(two_pi),
-                                        full_drive_ * (static_cast<float>(amplitude) * 0x1p-31F),
-                                        sliding_, 0.0F};
+    const plant::Interval<float> period{
+        0.0F, number(two_pi), full_drive_ * numeric::from_code<float>(amplitude), sliding_, 0.0F};
     EXPECT_EQ(solver_.advance(period, state_, account, nobody).error, plant::Error::none);
     const float reading = force_ * account.friction_integral;
     return {static_cast<double>(reading), static_cast<double>(account.friction_integral) / two_pi};

@@ -28,6 +28,20 @@ struct FixedStrangParameters {
   std::int32_t sliding_travel;          ///< h r / S
   std::int32_t side;                    ///< sigma, +1 or -1
   std::array<std::int32_t, 3> initial;  ///< displacement, velocity, friction
+
+  /// Calls visit(name, field) for each, in order.
+  template <class Self, class Visitor>
+  static constexpr void fields(Self& self, Visitor&& visit) {
+    visit("growth", self.growth);
+    visit("driven", self.driven);
+    visit("kick", self.kick);
+    visit("contact_stiffness", self.contact_stiffness);
+    visit("step", self.step);
+    visit("sliding_velocity", self.sliding_velocity);
+    visit("sliding_travel", self.sliding_travel);
+    visit("side", self.side);
+    visit("initial", self.initial);
+  }
 };
 
 /// Strang splitting of a Dahl contact under a cosine drive, from drive phase 0 to 2 pi, in 32-bit

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 
+#include "host_sim/configure/control_design.hpp"
 #include "host_sim/emulated/controller_header.hpp"
 #include "host_sim/emulated/run_image.hpp"
 
@@ -34,8 +35,10 @@ loop::Watch watch(Course& course, const process::Attention& attention) {
 ImageRow image_row(const scene::Scene& scene, const emulated::EmulatedBoard& board,
                    const Course& exact, const process::Attention& attention) {
   Course course(scene);
-  const loop::RunResult result = emulated::run_image(
-      scene, board, emulated::controller_header(scene), watch(course, attention), attention);
+  const configure::ControlDesign design = configure::design_control(scene);
+  const loop::RunResult result =
+      emulated::run_image(scene, design, board, emulated::controller_header(scene, design),
+                          watch(course, attention), attention);
   emulated::require_same(result);
   return {&board, scene.controller->arithmetic, precision(course, exact), first_fault(result),
           *result.image};

@@ -70,8 +70,7 @@ SpeedRange speeds_of(const scene::Scene& scene) {
 }  // namespace
 
 double speed_floor_m_per_s(const scene::Scene& scene) {
-  const configure::ControlDesign design = configure::design_control(scene);
-  return design.speed_floor * design.scales.velocity_m_per_s;
+  return configure::design_control(scene).speed_floor_m_per_s();
 }
 
 Task make_task(const scene::Scene& scene, const std::vector<double>& ratios,

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "firmware/app/timed_loop.hpp"
+#include "firmware/numeric/scalar.hpp"
 #include "tests/firmware/app/unit/simulated_unit.hpp"
 
 namespace sonoglide::app {
@@ -134,8 +135,8 @@ TEST(LinkServiceTest, TelemetryShowsTheRunningUnit) {
   EXPECT_EQ(told.target, 400000U);
   EXPECT_EQ(told.parameters, static_cast<std::uint8_t>(store::Origin::blank));
   EXPECT_EQ(told.lost_frames, 0);
-  EXPECT_NEAR(told.friction_force * 0x1p-31, 0.4 * TimedBoard::friction, 1e-3);
-  EXPECT_NEAR(told.sliding_velocity * 0x1p-31, TimedBoard::speed, 1e-9);
+  EXPECT_NEAR(numeric::from_code<double>(told.friction_force), 0.4 * TimedBoard::friction, 1e-3);
+  EXPECT_NEAR(numeric::from_code<double>(told.sliding_velocity), TimedBoard::speed, 1e-9);
   EXPECT_NEAR(told.amplitude, powered.board.latest_drive().amplitude, 0x1p31 * 1e-3);
 }
 
@@ -240,7 +241,7 @@ TEST(LinkServiceTest, ParametersNeedAStopAndAreKeptOverAReset) {
   // A ratio of 0.5 would take 0.141 of the actuator's limit.
   EXPECT_EQ(told.state, limited);
   EXPECT_EQ(told.limit, static_cast<std::uint8_t>(control::Limit::actuator));
-  EXPECT_NEAR(powered.board.latest_drive().amplitude * 0x1p-31, 0.12, 1e-7);
+  EXPECT_NEAR(numeric::from_code<double>(powered.board.latest_drive().amplitude), 0.12, 1e-7);
 }
 
 TEST(LinkServiceTest, AWrittenParameterIsInForceFromTheNextRestart) {
@@ -251,7 +252,7 @@ TEST(LinkServiceTest, AWrittenParameterIsInForceFromTheNextRestart) {
   powered.ask<link::ParameterWritten>(PoweredUnit::writing(Parameter::drive_limit, 120000));
   EXPECT_EQ(powered.board.latest_drive().amplitude, 0);
   powered.ask<link::Restarted>(link::Restart{});
-  EXPECT_NEAR(powered.board.latest_drive().amplitude * 0x1p-31, 0.12, 1e-7);
+  EXPECT_NEAR(numeric::from_code<double>(powered.board.latest_drive().amplitude), 0.12, 1e-7);
   EXPECT_EQ(powered.telemetry().target, 500000U);
 }
 

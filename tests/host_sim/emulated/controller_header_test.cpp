@@ -5,8 +5,11 @@
 #include <string>
 
 #include "host_sim/configure/configuration_error.hpp"
+#include "host_sim/configure/controller_parameters.hpp"
+#include "host_sim/configure/controller_parts.hpp"
 #include "host_sim/emulated/board_arithmetic.hpp"
 #include "host_sim/emulated/board_list.hpp"
+#include "host_sim/emulated/initialiser.hpp"
 #include "host_sim/scene_file/reader.hpp"
 
 namespace sonoglide::emulated {
@@ -36,6 +39,22 @@ TEST(ControllerHeader, NamesTheSceneAndItsScalar) {
   EXPECT_TRUE(has(controller_header(read("target_step_q31")), "using Scalar = numeric::Q31"));
   EXPECT_TRUE(has(controller_header(read("target_step_q15")), "using Scalar = numeric::Q15"));
   EXPECT_TRUE(has(controller_header(read("target_step_float64")), "using Scalar = double;"));
+}
+
+TEST(ControllerHeader, HoldsTheParametersThatTheSimulationRuns) {
+  using Parts =
+      control::Parts<float, control::TrustedFriction<float>, control::DahlFeedforward<float>,
+                     control::NoSlewLimit<float>, control::NotchShaper<float, 32>,
+                     control::IntegralRegulator<float, 32>>;
+  const scene::Scene scene = read("target_step");
+  const auto parameters = configure::controller_parameters<Parts>(configure::design_control(scene));
+  const std::string header = controller_header(scene);
+  std::size_t end = 0;
+  const auto expect_next = [&](const char* name, const auto& field) {
+    end = header.find("\n    " + Initialiser<float>::of(field) + ",  // ", end);
+    EXPECT_NE(end, std::string::npos) << name;
+  };
+  control::Controller<Parts>::Parameters::fields(parameters, expect_next);
 }
 
 // 1/30 of 2^31: a share of the mean that 16 bits could not hold for long calibrations.

@@ -8,6 +8,8 @@
 #include <random>
 #include <vector>
 
+#include "firmware/numeric/scalar.hpp"
+
 namespace sonoglide::loop {
 namespace {
 
@@ -16,7 +18,7 @@ constexpr double full_scale_N = 0.04;
 constexpr double full_speed_m_per_s = 0.25;
 constexpr double period_s = 1.0 / 60e3;
 constexpr configure::ControlScales scales{period_s, full_scale_N, full_speed_m_per_s, 1920.0};
-constexpr double unit = 1.0 / 2147483648.0;  // 2^-31: of a code
+constexpr double unit = numeric::from_code<double>(1);
 
 double force_N(const hal::Sample& sample) {
   return sample.friction_force * unit * full_scale_N;

@@ -88,7 +88,7 @@ class TimedBoard {
   static std::int32_t code(double value) { return static_cast<std::int32_t>(value * 0x1p31); }
 
   void begin_period() {
-    const double amplitude = drive_.amplitude * 0x1p-31;
+    const double amplitude = numeric::from_code<double>(drive_.amplitude);
     ratio_ = amplitude > speed ? std::asin(speed / amplitude) / std::asin(1.0) : 1.0;
     in_force.push_back(drive_.amplitude);
     ++period_;

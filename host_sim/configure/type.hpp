@@ -1,7 +1,7 @@
 /// A type as a value, to be chosen among at run time.
 #pragma once
 
-namespace sonoglide::loop {
+namespace sonoglide::configure {
 
 /// Names a type without an object of it.
 template <class T>
@@ -9,4 +9,4 @@ struct Type {
   using type = T;
 };
 
-}  // namespace sonoglide::loop
+}  // namespace sonoglide::configure

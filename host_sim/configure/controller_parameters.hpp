@@ -1,0 +1,117 @@
+/// A designed controller's parameters in its own scalar: the only place that makes them, for the
+/// simulation and for an image alike.
+#pragma once
+
+#include <cstdint>
+#include <type_traits>
+
+#include "firmware/control/controller.hpp"
+#include "firmware/control/dahl_feedforward.hpp"
+#include "firmware/control/integral_regulator.hpp"
+#include "firmware/control/learnt_friction.hpp"
+#include "firmware/control/notch_shaper.hpp"
+#include "firmware/control/periodic_relearning.hpp"
+#include "firmware/control/slew_limit.hpp"
+#include "firmware/numeric/accumulator.hpp"
+#include "firmware/numeric/scalar.hpp"
+#include "host_sim/configure/control_design.hpp"
+#include "host_sim/configure/type.hpp"
+
+namespace sonoglide::configure {
+
+template <class Scalar>
+Scalar scaled(double value) {
+  return numeric::from_real<Scalar>(value);
+}
+
+/// A target friction ratio as a controller takes it, on base 2.
+template <class Scalar>
+Scalar half_target(double friction_ratio) {
+  return scaled<Scalar>(0.5 * friction_ratio);
+}
+
+/// Of a part that has none.
+template <class Part>
+std::enable_if_t<std::is_empty_v<typename Part::Parameters>, typename Part::Parameters> parameters(
+    const ControlDesign& /*design*/, Type<Part> /*part*/) {
+  return {};
+}
+
+template <class Scalar>
+typename control::LearntFriction<Scalar>::Parameters parameters(
+    const ControlDesign& design, Type<control::LearntFriction<Scalar>> /*part*/) {
+  return {design.calibration_settle_periods, design.calibration_average_periods,
+          scaled<numeric::Accumulator<Scalar>>(design.calibration_weight),
+          design.calibration_total_periods};
+}
+
+template <class Scalar>
+typename control::DahlFeedforward<Scalar>::Parameters parameters(
+    const ControlDesign& design, Type<control::DahlFeedforward<Scalar>> /*part*/) {
+  const numeric::Split<double> force = numeric::split(design.contact_force);
+  return {{scaled<Scalar>(force.mantissa), force.exponent}};
+}
+
+/// Wide open where the design has none.
+template <class Scalar>
+typename control::SlewLimit<Scalar>::Parameters parameters(
+    const ControlDesign& design, Type<control::SlewLimit<Scalar>> /*part*/) {
+  return {design.slew_limited ? scaled<Scalar>(design.slew_per_period)
+                              : numeric::from_code<Scalar>(INT32_MAX)};
+}
+
+template <class Scalar, int MaxSpacing>
+typename control::NotchShaper<Scalar, MaxSpacing>::Parameters parameters(
+    const ControlDesign& design, Type<control::NotchShaper<Scalar, MaxSpacing>> /*part*/) {
+  const auto& taps = design.notch_taps;
+  return {{scaled<Scalar>(taps[0]), scaled<Scalar>(taps[1]), scaled<Scalar>(taps[2])},
+          design.notch_spacing};
+}
+
+template <class Scalar, int MaxDelay>
+typename control::IntegralRegulator<Scalar, MaxDelay>::Parameters parameters(
+    const ControlDesign& design, Type<control::IntegralRegulator<Scalar, MaxDelay>> /*part*/) {
+  return {scaled<Scalar>(design.integral_gain), scaled<Scalar>(design.reference_keep),
+          design.hold_periods, design.rest_periods, design.reference_delay_periods};
+}
+
+/// Without any pause where the design has none.
+template <class Scalar>
+typename control::PeriodicRelearning<Scalar>::Parameters parameters(
+    const ControlDesign& design, Type<control::PeriodicRelearning<Scalar>> /*part*/) {
+  if (!design.relearns) {
+    return {control::PeriodicRelearning<Scalar>::never, 0, {}, 1, 0, 1, {}};
+  }
+  return {design.relearn_every_periods,
+          design.relearn_quiet_periods,
+          scaled<Scalar>(design.relearn_travel),
+          design.relearn_reading_periods,
+          design.relearn_return_periods,
+          design.relearn_average_periods,
+          scaled<numeric::Accumulator<Scalar>>(design.relearn_weight)};
+}
+
+/// @tparam Parts  control::Parts: those that the design needs, or such as do their work
+template <class Parts>
+typename control::Controller<Parts>::Parameters controller_parameters(const ControlDesign& design) {
+  using Scalar = typename Parts::Scalar;
+  return {scaled<Scalar>(design.friction_force),
+          scaled<Scalar>(design.smallest_friction),
+          scaled<Scalar>(design.speed_floor),
+          scaled<Scalar>(design.lead_periods / 64.0),
+          parameters(design, Type<typename Parts::Friction>{}),
+          parameters(design, Type<typename Parts::Feedforward>{}),
+          parameters(design, Type<typename Parts::Slew>{}),
+          parameters(design, Type<typename Parts::Shaper>{}),
+          parameters(design, Type<typename Parts::Regulator>{}),
+          parameters(design, Type<typename Parts::Relearning>{}),
+          {design.standstill_hold_periods, scaled<Scalar>(design.standstill_fall)},
+          {design.stuck_periods},
+          {design.implausible_periods},
+          {scaled<Scalar>(design.settling_band), design.settling_patience_periods,
+           scaled<Scalar>(design.agreement)},
+          {},
+          {}};
+}
+
+}  // namespace sonoglide::configure

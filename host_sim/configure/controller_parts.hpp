@@ -1,0 +1,68 @@
+/// The parts of a designed controller, chosen among at run time.
+#pragma once
+
+#include <variant>
+
+#include "firmware/control/coulomb_feedforward.hpp"
+#include "firmware/control/dahl_feedforward.hpp"
+#include "firmware/control/integral_regulator.hpp"
+#include "firmware/control/learnt_friction.hpp"
+#include "firmware/control/no_feedback.hpp"
+#include "firmware/control/no_relearning.hpp"
+#include "firmware/control/no_shaping.hpp"
+#include "firmware/control/no_slew_limit.hpp"
+#include "firmware/control/notch_shaper.hpp"
+#include "firmware/control/periodic_relearning.hpp"
+#include "firmware/control/slew_limit.hpp"
+#include "firmware/control/trusted_friction.hpp"
+#include "host_sim/configure/control_design.hpp"
+#include "host_sim/configure/type.hpp"
+
+namespace sonoglide::configure {
+
+/// One of these types.
+template <class... Ts>
+using Choice = std::variant<Type<Ts>...>;
+
+/// The second alternative where `second`, else the first.
+template <class ChoiceOfTwo>
+ChoiceOfTwo choose(bool second) {
+  if (second) {
+    return std::variant_alternative_t<1, ChoiceOfTwo>{};
+  }
+  return std::variant_alternative_t<0, ChoiceOfTwo>{};
+}
+
+/// The leanest parts that do what a design asks for; notch and regulator hold the longest that a
+/// design may have. The members are called as those of control::Controller::Parameters.
+template <class Scalar>
+struct ControllerParts {
+  Choice<control::TrustedFriction<Scalar>, control::LearntFriction<Scalar>> friction;
+  Choice<control::CoulombFeedforward<Scalar>, control::DahlFeedforward<Scalar>> feedforward;
+  Choice<control::NoSlewLimit<Scalar>, control::SlewLimit<Scalar>> slew;
+  Choice<control::NoShaping<Scalar>, control::NotchShaper<Scalar, max_notch_spacing>> shaper;
+  Choice<control::NoFeedback<Scalar>, control::IntegralRegulator<Scalar, max_reference_delay>>
+      regulator;
+  Choice<control::NoRelearning<Scalar>, control::PeriodicRelearning<Scalar>> relearning;
+
+  explicit ControllerParts(const ControlDesign& design)
+      : friction(choose<decltype(friction)>(design.calibrated)),
+        feedforward(choose<decltype(feedforward)>(design.map == scene::FrictionMap::dahl)),
+        slew(choose<decltype(slew)>(design.slew_limited)),
+        shaper(choose<decltype(shaper)>(design.shaped)),
+        regulator(choose<decltype(regulator)>(design.integral_gain != 0.0)),
+        relearning(choose<decltype(relearning)>(design.relearns)) {}
+
+  /// Calls visit(name, choice) for each, in the order of control::Parts.
+  template <class Visitor>
+  void fields(Visitor&& visit) const {
+    visit("friction", friction);
+    visit("feedforward", feedforward);
+    visit("slew", slew);
+    visit("shaper", shaper);
+    visit("regulator", regulator);
+    visit("relearning", relearning);
+  }
+};
+
+}  // namespace sonoglide::configure
