@@ -181,30 +181,39 @@ std::string built_orders() {
   return words;
 }
 
+/// Adaptive, with a longest step that a scene may give.
+template <class Described>
+constexpr bool takes_longest_step() {
+  if constexpr (Described::adaptive) {
+    return Described::takes_step;
+  } else {
+    return false;
+  }
+}
+
 std::vector<Key> solver_keys() {
+  const auto is_adaptive = [](auto described) { return decltype(described)::adaptive; };
+  const auto takes_order = [](auto described) { return decltype(described)::takes_order; };
+  const auto takes_longest = [](auto described) {
+    return takes_longest_step<decltype(described)>();
+  };
+  const auto takes_step = [](auto described) {
+    using Described = decltype(described);
+    return !Described::adaptive || takes_longest_step<Described>();
+  };
   return {
       {"method", Word{words_of(configure::solver_methods)},
        configure::name_of(scene::SolverMethod{}), "solver"},
       {"tolerance", Number{{1e-15, 1e-2}}, Rule{default_tolerances()},
-       "error that the method aims at, relative to the friction limit",
-       methods_where([](auto described) { return decltype(described)::adaptive; })},
+       "error that the method aims at, relative to the friction limit", methods_where(is_adaptive)},
       {"order", Integer{1, 99}, Rule{"the one that suits the tolerance"},
        fmt::format("order of the method, one of those that are built: {}", built_orders()),
-       methods_where([](auto described) { return decltype(described)::takes_order; })},
+       methods_where(takes_order)},
       {"step_s", Number{{1e-15, 1.0, "s"}},
-       Rule{fmt::format("required; without limit with {}", methods_where([](auto described) {
-                          return decltype(described)::adaptive;
-                        }))},
+       Rule{fmt::format("required; no limit with {}", methods_where(takes_longest))},
        "length of the steps, shortened to a whole number in a carrier period; longest step of a "
        "method that picks its own",
-       methods_where([](auto described) {
-         using Described = decltype(described);
-         if constexpr (Described::adaptive) {
-           return Described::takes_step;
-         } else {
-           return true;
-         }
-       })},
+       methods_where(takes_step)},
   };
 }
 
@@ -217,18 +226,18 @@ std::vector<Key> run_keys() {
        open_loop},
       {"duration_s", Number{{1e-12, 1e9, "s"}}, Instead{"duration_periods"}, "simulated time"},
       {"duration_periods", Number{{1e-3, most_periods, "periods"}}, Instead{"duration_s"},
-       "simulated time in carrier periods", "drive"},
+       "simulated time in carrier periods", "[drive]"},
       {"window_start_s", Number{time_range}, run.window_start_s,
        "start of the window over which means are taken, to the end of the run"},
       {"window_start_periods", Number{{0.0, most_periods, "periods"}}, Rule{"window_start_s"},
-       "the same in carrier periods, in place of window_start_s", "drive"},
+       "the same in carrier periods, in place of window_start_s", "[drive]"},
       {"settling_band", Number{{0.0, 1.0, "", true}}, run.settling_band,
        "half width of the band around a target in which a step has settled, in friction ratio",
        closed_loop_only},
       {"record", WordList{words_of(scene::channels)}, Rule{"nothing is recorded"},
        "channels that trace.csv records"},
       {"record_interval_s", Number{{1e-15, 1e9, "s"}}, Rule{"required if record names a channel"},
-       "time between two rows of trace.csv", "record"},
+       "time between two rows of trace.csv", "run.record"},
   };
 }
 
@@ -245,8 +254,9 @@ std::vector<Key> controller_keys() {
        scene::name_of(scene::shapings, controller.shaping),
        "filter between target and drive; the notch cancels the ringing of the natural mode"},
       {"speed_floor_m_per_s", Number{{1e-12, largest_speed_m_per_s, "m/s"}},
-       Rule{"where the presliding distance takes three carrier periods; at most half of the "
-            "fastest speed"},
+       Rule{
+           "where the presliding distance takes three carrier periods; at most half of the fastest "
+           "sliding and of the largest vibration velocity"},
        "sliding velocity below which the drive is held"},
       {"standstill_hold_s", Number{time_range}, controller.standstill_hold_s,
        "time for which the drive is held below the speed floor before it falls to 0"},
@@ -269,7 +279,7 @@ std::vector<Key> sensor_keys() {
       {"force_bandwidth_Hz", Number{{1e-3, 1e12, "Hz"}}, Rule{"no limit"},
        "bandwidth of the force sensor, a low-pass of first order"},
       {"delay_periods", Integer{0, 64, "periods"}, static_cast<double>(sensor.delay_periods),
-       "carrier periods by which the readings are late"},
+       "carrier periods by which the force reading is late"},
       {"force_offset_N", Number{either_force_range}, sensor.force_offset_N,
        "force read where there is none"},
       {"force_gain", Number{sensor_gain_range}, sensor.force_gain,
