@@ -15,6 +15,7 @@
 #include "host_sim/cli/pil_command.hpp"
 #include "host_sim/cli/ratio_command.hpp"
 #include "host_sim/cli/run_command.hpp"
+#include "host_sim/cli/schema_command.hpp"
 #include "host_sim/cli/stability_command.hpp"
 #include "host_sim/cli/sweep_command.hpp"
 #include "host_sim/cli/usage.hpp"
@@ -66,6 +67,7 @@ void parse_and_run(int argument_count, const char* const* arguments) {
     arithmetic(arithmetic_options);
   });
   add_design_command(program, design_options)->callback([&] { design(design_options); });
+  add_schema_command(program)->callback([] { schema(); });
   require_known_words(program, argument_count, arguments);
   try {
     program.parse(argument_count, arguments);
