@@ -1,4 +1,5 @@
-/// The commands of the program: the one place that lists them. Each is a file of its own, NAME_command.cpp.
+/// The commands of the program: the one place that lists them. Each is a file of its own,
+/// NAME_command.cpp.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -18,12 +19,14 @@ void add_work_precision_command(CLI::App& program);
 void add_stability_command(CLI::App& program);
 void add_arithmetic_command(CLI::App& program);
 void add_design_command(CLI::App& program);
+/// Prints the JSON Schema of scenes alone.
+void add_schema_command(CLI::App& program);
 
 /// In the order of the help.
 inline constexpr std::array commands = {
     add_run_command,        add_pil_command,    add_configure_command,      add_ratio_command,
     add_sweep_command,      add_paper_command,  add_work_precision_command, add_stability_command,
-    add_arithmetic_command, add_design_command,
+    add_arithmetic_command, add_design_command, add_schema_command,
 };
 
 }  // namespace sonoglide::cli

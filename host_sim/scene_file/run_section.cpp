@@ -12,22 +12,20 @@
 namespace sonoglide::scene_file {
 namespace {
 
-// Hours of a carrier, and days of writing: more is a mistyped unit.
-constexpr double most_periods = 1e10;
+// Days of writing: more is a mistyped unit.
 constexpr double most_fixed_steps = 1e11;
 constexpr double most_recorded_rows = 1e9;
-constexpr Range interval_range{1e-15, 1e9, "s"};
 
 /// A time given in seconds under one key or in carrier periods under another.
 double time_under(TableCursor& cursor, std::string_view key,
-                  const std::optional<scene::Drive>& drive, double low_s, double low_periods) {
+                  const std::optional<scene::Drive>& drive) {
   if (key.substr(key.size() - 2) == "_s") {
-    return cursor.real(key, {low_s, 1e9, "s"});
+    return cursor.real(key);
   }
   if (!drive) {
     cursor.fail(key, "there is no period without a [drive] table; allowed: the time in s");
   }
-  return cursor.real(key, {low_periods, most_periods, "periods"}) / drive->frequency_Hz;
+  return cursor.real(key) / drive->frequency_Hz;
 }
 
 /// Bounds what a mistyped unit can cost.
@@ -65,7 +63,7 @@ double read_window_start(TableCursor& cursor, const std::optional<scene::Drive>&
   if (!key) {
     return 0.0;
   }
-  const double start_s = time_under(cursor, *key, drive, 0.0, 0.0);
+  const double start_s = time_under(cursor, *key, drive);
   if (!(start_s < duration_s)) {
     cursor.fail(*key, fmt::format("{:g} s is not before the end of the run; allowed: less than "
                                   "{:g} s",
@@ -84,10 +82,10 @@ void read_record(TableCursor& cursor, scene::Run& run) {
   // An empty list switches the recording off in place: the interval may stay.
   run.record = cursor.choices("record", scene::channels);
   if (run.record.empty()) {
-    cursor.optional_real("record_interval_s", interval_range);
+    cursor.optional_real("record_interval_s");
     return;
   }
-  run.record_interval_s = cursor.real("record_interval_s", interval_range);
+  run.record_interval_s = cursor.real("record_interval_s");
   const double rows = run.duration_s / run.record_interval_s;
   if (rows > most_recorded_rows) {
     cursor.fail("record_interval_s",
@@ -124,7 +122,7 @@ void require_steady_conditions(const TableCursor& cursor, const Variant& variant
 }
 
 scene::Start read_start(TableCursor& cursor, const Variant& variant, const scene::Scene& so_far) {
-  const scene::Start start = cursor.choice("start", scene::starts, scene::Start::given);
+  const scene::Start start = cursor.choice("start", scene::starts);
   if (start == scene::Start::steady) {
     require_steady_conditions(cursor, variant, so_far);
   }
@@ -141,12 +139,12 @@ scene::Run read_run(const Variant& variant, const scene::Scene& so_far) {
   const bool closed = variant.find("controller") != nullptr;
   scene::Run run;
   const std::string_view key = cursor.one_of("duration_s", "duration_periods");
-  run.duration_s = time_under(cursor, key, so_far.drive, 1e-12, 1e-3);
+  run.duration_s = time_under(cursor, key, so_far.drive);
   check_work(cursor, key, run, so_far);
   run.window_start_s = read_window_start(cursor, so_far.drive, run.duration_s);
   if (closed) {
     check_whole_period(cursor, key, run, *so_far.drive);
-    run.settling_band = cursor.real("settling_band", {0.0, 1.0, "", true}, run.settling_band);
+    run.settling_band = cursor.real("settling_band");
   } else {
     run.start = read_start(cursor, variant, so_far);
   }

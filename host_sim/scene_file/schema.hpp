@@ -1,4 +1,4 @@
-/// The tables and keys that a scene may hold.
+/// The names of the tables and keys that a scene may hold.
 #pragma once
 
 #include <cstddef>

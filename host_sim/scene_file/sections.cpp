@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "host_sim/configure/plant_scales.hpp"
 #include "host_sim/configure/solver_facts.hpp"
@@ -16,15 +15,7 @@
 namespace sonoglide::scene_file {
 namespace {
 
-constexpr double standard_gravity_m_per_s2 = 9.81;
-constexpr double largest_force_N = 1e12;
-constexpr double largest_time_s = 1e9;
-constexpr double largest_speed_m_per_s = 1e6;
 constexpr std::string_view in_open_loop = "in open loop, without a [controller] table";
-
-constexpr Range time_range{0.0, largest_time_s, "s"};
-constexpr Range speed_range{-largest_speed_m_per_s, largest_speed_m_per_s, "m/s"};
-constexpr Range sensor_gain_range{-100.0, 100.0};
 
 bool closed_loop(const Variant& variant) {
   return variant.find("controller") != nullptr;
@@ -53,14 +44,17 @@ class KeyReader {
  public:
   explicit KeyReader(TableCursor& cursor) : cursor_(cursor) {}
 
-  void required(std::string_view key, double& parameter, const Range& range) {
-    parameter = cursor_.real(key, range);
+  void required(std::string_view key, double& parameter, const Range& range,
+                std::string_view /*meaning*/) {
+    parameter = cursor_.real_in(key, range);
   }
-  void optional(std::string_view key, double& parameter, const Range& range) {
-    parameter = cursor_.real(key, range, parameter);
+  void optional(std::string_view key, double& parameter, const Range& range,
+                std::string_view /*meaning*/) {
+    parameter = cursor_.real_in(key, range, parameter);
   }
-  void optional(std::string_view key, int& count, int least, int most) {
-    count = static_cast<int>(cursor_.integer(key, least, most, count));
+  void optional(std::string_view key, int& count, int least, int most,
+                std::string_view /*meaning*/) {
+    count = static_cast<int>(cursor_.integer_in(key, {least, most}, count));
   }
   void refuse(std::string_view key, double parameter, std::string_view finding, double least,
               std::string_view rest) {
@@ -73,19 +67,20 @@ class KeyReader {
 };
 
 /// A part of the friction limit: a number that holds throughout, or a profile and its value at 0 s.
-/// @param absent  what neither says
+/// @param absent  the default of the number
 double read_part_of_limit(TableCursor& cursor, std::string_view key, std::string_view profile_key,
-                          const Range& range, std::optional<double> absent,
-                          const scene::FrictionLaw& law, scene::TimedProfile& profile) {
+                          std::optional<double> absent, const scene::FrictionLaw& law,
+                          scene::TimedProfile& profile) {
   if (cursor.at_most_one_of(key, profile_key) == profile_key) {
-    const Range in_profile{range.low, range.high, range.unit, !scene::is_bounded(law)};
+    Profile allowed = cursor.allowed<Profile>(profile_key);
+    allowed.value.low_open = !scene::is_bounded(law);
     for (const auto& [time_s, value] :
-         cursor.timed_values(profile_key, time_range, in_profile, TableCursor::Times::jump)) {
+         cursor.timed_values_in(profile_key, allowed, TableCursor::Times::jump)) {
       profile.push_back({time_s, value});
     }
     return scene::value_at(profile, 0.0);
   }
-  return absent ? cursor.real(key, range, *absent) : cursor.real(key, range);
+  return cursor.real_in(key, cursor.allowed<Number>(key).range, absent);
 }
 
 /// With the largest coefficient to come and with the smallest: a law's own keys suit both.
@@ -130,11 +125,11 @@ void require_slip(TableCursor& cursor, std::string_view key, const scene::Slidin
 scene::Plant read_plant(const Variant& variant) {
   TableCursor cursor = required_table(variant, "plant");
   scene::Plant plant;
-  plant.mass_kg = cursor.real("mass_kg", {1e-12, 1e6, "kg"});
-  plant.stiffness_N_per_m = cursor.real("stiffness_N_per_m", {0.0, 1e18, "N/m"});
-  plant.damping_N_s_per_m = cursor.real("damping_N_s_per_m", {0.0, 1e12, "N s/m"}, 0.0);
-  plant.initial_displacement_m = cursor.real("initial_displacement_m", {-1e3, 1e3, "m"}, 0.0);
-  plant.initial_velocity_m_per_s = cursor.real("initial_velocity_m_per_s", speed_range, 0.0);
+  plant.mass_kg = cursor.real("mass_kg");
+  plant.stiffness_N_per_m = cursor.real("stiffness_N_per_m");
+  plant.damping_N_s_per_m = cursor.real("damping_N_s_per_m");
+  plant.initial_displacement_m = cursor.real("initial_displacement_m");
+  plant.initial_velocity_m_per_s = cursor.real("initial_velocity_m_per_s");
   return plant;
 }
 
@@ -144,21 +139,20 @@ scene::Friction read_friction(const Variant& variant, const scene::Plant& plant)
   friction.law = cursor.choice("law", scene::friction_laws);
   if (!scene::is<scene::laws::None>(friction.law)) {
     friction.coefficient =
-        read_part_of_limit(cursor, "coefficient", "coefficient_profile", {0.0, 100.0}, std::nullopt,
-                           friction.law, friction.coefficient_profile);
-    friction.normal_force_N = read_part_of_limit(
-        cursor, "normal_force_N", "normal_force_profile_N", {0.0, 1e9, "N"},
-        plant.mass_kg * standard_gravity_m_per_s2, friction.law, friction.normal_force_profile_N);
+        read_part_of_limit(cursor, "coefficient", "coefficient_profile", std::nullopt, friction.law,
+                           friction.coefficient_profile);
+    friction.normal_force_N = read_part_of_limit(cursor, "normal_force_N", "normal_force_profile_N",
+                                                 plant.mass_kg * standard_gravity_m_per_s2,
+                                                 friction.law, friction.normal_force_profile_N);
   }
   if (!scene::is<scene::laws::None>(friction.law) && scene::vibrates_along(friction.law)) {
-    friction.sign_convention = cursor.choice("sign_convention", scene::sign_conventions,
-                                             scene::SignConvention::dissipative);
+    friction.sign_convention = cursor.choice("sign_convention", scene::sign_conventions);
   }
   if (scene::is_elastic(friction.law)) {
-    friction.contact_stiffness_N_per_m =
-        cursor.real("contact_stiffness_N_per_m", {1e-6, 1e18, "N/m"});
+    friction.contact_stiffness_N_per_m = cursor.real("contact_stiffness_N_per_m");
     const double limit_N = friction.limit_N();
-    friction.initial_force_N = cursor.real("initial_force_N", {-limit_N, limit_N, "N"}, 0.0);
+    friction.initial_force_N =
+        cursor.real_in("initial_force_N", {-limit_N, limit_N, "N"}, friction.initial_force_N);
   }
   KeyReader keys(cursor);
   for (const scene::Contact& contact : extreme_contacts(friction)) {
@@ -173,10 +167,9 @@ scene::Sliding read_sliding(const Variant& variant, const scene::Friction& frict
   const std::string_view key = cursor.one_of("velocity_m_per_s", "profile");
   scene::Sliding sliding;
   if (key == "velocity_m_per_s") {
-    sliding.profile.push_back({0.0, cursor.real(key, speed_range)});
+    sliding.profile.push_back({0.0, cursor.real(key)});
   } else {
-    for (const auto& [time_s, velocity_m_per_s] :
-         cursor.timed_values(key, time_range, speed_range)) {
+    for (const auto& [time_s, velocity_m_per_s] : cursor.timed_values(key)) {
       sliding.profile.push_back({time_s, velocity_m_per_s});
     }
   }
@@ -194,24 +187,22 @@ std::optional<scene::Drive> read_drive(const Variant& variant) {
     return std::nullopt;
   }
   scene::Drive drive;
-  drive.frequency_Hz = cursor.real("frequency_Hz", {1e-3, 1e9, "Hz"});
+  drive.frequency_Hz = cursor.real("frequency_Hz");
   if (closed) {
-    drive.max_force_amplitude_N =
-        cursor.real("max_force_amplitude_N", {1e-12, largest_force_N, "N"});
-    drive.max_force_slew_N_per_s =
-        cursor.optional_real("max_force_slew_N_per_s", {1e-12, 1e21, "N/s"});
-    drive.delay_periods = static_cast<int>(cursor.integer("delay_periods", 0, 16, 1));
+    drive.max_force_amplitude_N = cursor.real("max_force_amplitude_N");
+    drive.max_force_slew_N_per_s = cursor.optional_real("max_force_slew_N_per_s");
+    drive.delay_periods = static_cast<int>(cursor.integer("delay_periods"));
   } else {
-    drive.force_amplitude_N = cursor.real("force_amplitude_N", {0.0, largest_force_N, "N"});
+    drive.force_amplitude_N = cursor.real("force_amplitude_N");
   }
-  drive.waveform = cursor.choice("waveform", scene::waveforms, scene::Waveform::cosine);
+  drive.waveform = cursor.choice("waveform", scene::waveforms);
   cursor.reject_unread(closed ? "in closed loop: the controller sets the amplitude" : in_open_loop);
   return drive;
 }
 
 template <class Described>
 std::optional<int> read_order(TableCursor& cursor) {
-  const std::optional<std::int64_t> order = cursor.optional_integer("order", 1, 99);
+  const std::optional<std::int64_t> order = cursor.optional_integer("order");
   if (!order) {
     return std::nullopt;
   }
@@ -225,24 +216,23 @@ std::optional<int> read_order(TableCursor& cursor) {
 
 template <class Described>
 void read_keys(TableCursor& cursor, scene::Solver& solver) {
-  constexpr Range step_range = {1e-15, 1.0, "s"};
   if constexpr (Described::adaptive) {
-    solver.tolerance = cursor.real("tolerance", {1e-15, 1e-2}, Described::default_tolerance);
+    solver.tolerance = cursor.real("tolerance", Described::default_tolerance);
     if constexpr (Described::takes_order) {
       solver.order = read_order<Described>(cursor);
     }
     if constexpr (Described::takes_step) {
-      solver.step_s = cursor.optional_real("step_s", step_range).value_or(0.0);
+      solver.step_s = cursor.real("step_s", 0.0);
     }
   } else {
-    solver.step_s = cursor.real("step_s", step_range);
+    solver.step_s = cursor.real("step_s");
   }
 }
 
 scene::Solver read_solver(const Variant& variant) {
   TableCursor cursor(variant, "solver");
   scene::Solver solver;
-  solver.method = cursor.choice("method", configure::solver_methods, scene::SolverMethod{});
+  solver.method = cursor.choice("method", configure::solver_methods);
   configure::for_each_solver([&](auto described, scene::SolverMethod method) {
     if (method == solver.method) {
       read_keys<decltype(described)>(cursor, solver);
@@ -266,8 +256,7 @@ std::optional<scene::Controller> read_controller(const Variant& variant,
   }
   scene::Controller controller;
   controller.arithmetic = cursor.choice("arithmetic", scene::arithmetics);
-  const auto targets =
-      cursor.timed_values("target_friction_ratio", time_range, {0.0, 1.0, "", true});
+  const auto targets = cursor.timed_values("target_friction_ratio");
   if (targets.front()[0] != 0.0) {
     cursor.fail("target_friction_ratio",
                 fmt::format("begins at {} s; allowed: a first time of 0 s", targets.front()[0]));
@@ -275,53 +264,47 @@ std::optional<scene::Controller> read_controller(const Variant& variant,
   for (const auto& [time_s, friction_ratio] : targets) {
     controller.target_friction_ratio.push_back({time_s, friction_ratio});
   }
-  controller.calibration_s = cursor.real("calibration_s", time_range, 0.0);
+  controller.calibration_s = cursor.real("calibration_s");
   if (!(controller.calibration_s < so_far.run.duration_s)) {
     cursor.fail("calibration_s",
                 fmt::format("{} s is not before the end of the run; allowed: less than {} s",
                             controller.calibration_s, so_far.run.duration_s));
   }
-  controller.shaping = cursor.choice("shaping", scene::shapings, scene::Shaping::notch);
-  controller.speed_floor_m_per_s =
-      cursor.optional_real("speed_floor_m_per_s", {1e-12, largest_speed_m_per_s, "m/s"});
-  controller.standstill_hold_s =
-      cursor.real("standstill_hold_s", time_range, controller.standstill_hold_s);
-  controller.relearn_every_s = cursor.optional_real("relearn_every_s", {1e-9, largest_time_s, "s"});
-  controller.mismatch_warning =
-      cursor.real("mismatch_warning", {1.01, 100.0}, controller.mismatch_warning);
+  controller.shaping = cursor.choice("shaping", scene::shapings);
+  controller.speed_floor_m_per_s = cursor.optional_real("speed_floor_m_per_s");
+  controller.standstill_hold_s = cursor.real("standstill_hold_s");
+  controller.relearn_every_s = cursor.optional_real("relearn_every_s");
+  controller.mismatch_warning = cursor.real("mismatch_warning");
   return controller;
 }
 
 scene::Sensor read_sensor(const Variant& variant, const scene::Friction& friction) {
   TableCursor cursor = closed_loop_table(variant, "sensor");
   scene::Sensor sensor;
-  if (const auto bits = cursor.optional_integer("adc_bits", 4, 32)) {
+  if (const auto bits = cursor.optional_integer("adc_bits")) {
     sensor.adc_bits = static_cast<int>(*bits);
   }
-  sensor.force_full_scale_N = cursor.real("force_full_scale_N", {1e-15, largest_force_N, "N"},
-                                          2.0 * configure::largest_friction_limit_N(friction));
-  sensor.force_noise_N = cursor.real("force_noise_N", {0.0, largest_force_N, "N"}, 0.0);
-  sensor.force_bandwidth_Hz = cursor.optional_real("force_bandwidth_Hz", {1e-3, 1e12, "Hz"});
-  sensor.delay_periods = static_cast<int>(cursor.integer("delay_periods", 0, 64, 0));
-  sensor.force_offset_N =
-      cursor.real("force_offset_N", {-largest_force_N, largest_force_N, "N"}, 0.0);
-  sensor.force_gain = cursor.real("force_gain", sensor_gain_range, 1.0);
-  sensor.velocity_offset_m_per_s = cursor.real("velocity_offset_m_per_s", speed_range, 0.0);
-  sensor.velocity_gain = cursor.real("velocity_gain", sensor_gain_range, 1.0);
-  sensor.seed = static_cast<std::uint64_t>(
-      cursor.integer("seed", 0, std::numeric_limits<std::int64_t>::max(), 1));
+  sensor.force_full_scale_N =
+      cursor.real("force_full_scale_N", 2.0 * configure::largest_friction_limit_N(friction));
+  sensor.force_noise_N = cursor.real("force_noise_N");
+  sensor.force_bandwidth_Hz = cursor.optional_real("force_bandwidth_Hz");
+  sensor.delay_periods = static_cast<int>(cursor.integer("delay_periods"));
+  sensor.force_offset_N = cursor.real("force_offset_N");
+  sensor.force_gain = cursor.real("force_gain");
+  sensor.velocity_offset_m_per_s = cursor.real("velocity_offset_m_per_s");
+  sensor.velocity_gain = cursor.real("velocity_gain");
+  sensor.seed = static_cast<std::uint64_t>(cursor.integer("seed"));
   return sensor;
 }
 
 scene::ModelError read_model_error(const Variant& variant, const scene::Friction& friction) {
   TableCursor cursor = closed_loop_table(variant, "model_error");
-  const Range quotient{0.01, 100.0};
   scene::ModelError model_error;
-  model_error.mass = cursor.real("mass", quotient, 1.0);
-  model_error.stiffness = cursor.real("stiffness", quotient, 1.0);
-  model_error.coefficient = cursor.real("coefficient", quotient, 1.0);
+  model_error.mass = cursor.real("mass");
+  model_error.stiffness = cursor.real("stiffness");
+  model_error.coefficient = cursor.real("coefficient");
   if (scene::is_elastic(friction.law)) {
-    model_error.contact_stiffness = cursor.real("contact_stiffness", quotient, 1.0);
+    model_error.contact_stiffness = cursor.real("contact_stiffness");
   }
   cursor.reject_unread_with("friction.law", scene::name_of(friction.law));
   return model_error;

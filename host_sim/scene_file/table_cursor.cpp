@@ -17,8 +17,8 @@ std::string allowed_number(const Range& range) {
   return fmt::format("a number, {}", range.text());
 }
 
-std::string allowed_integer(std::int64_t low, std::int64_t high) {
-  return fmt::format("an integer, {} to {}", low, high);
+std::string allowed_integer(const Integer& range) {
+  return fmt::format("an integer, {} to {}", range.low, range.high);
 }
 
 /// A word of the file, short enough for a message.
@@ -29,7 +29,7 @@ std::string quoted(const std::string& text) {
 }
 
 /// An integer too large for every bit of it to fit is rounded.
-double number_in(const toml::node& node) {
+double as_number(const toml::node& node) {
   const toml::value<std::int64_t>* whole = node.as_integer();
   return whole != nullptr ? static_cast<double>(whole->get()) : node.as_floating_point()->get();
 }
@@ -43,7 +43,7 @@ bool earlier(const Entry& a, const Entry& b) {
 }  // namespace
 
 TableCursor::TableCursor(const Variant& variant, std::string_view name)
-    : variant_(variant), name_(name), table_(variant.find(name)) {}
+    : variant_(variant), keys_(key_table(name)), table_(variant.find(name)) {}
 
 const Entry* TableCursor::find(std::string_view key) const {
   if (table_ == nullptr) {
@@ -62,7 +62,7 @@ const Entry* TableCursor::take(std::string_view key) {
 }
 
 std::string TableCursor::path_of(const Part& part) const {
-  std::string path = fmt::format("{}.{}", name_, part.key);
+  std::string path = fmt::format("{}.{}", keys_.name, part.key);
   for (const std::optional<std::size_t>& index : {part.element, part.member}) {
     path += index ? fmt::format("[{}]", *index) : "";
   }
@@ -83,7 +83,7 @@ void TableCursor::fail(std::string_view key, const std::string& message) const {
 }
 
 void TableCursor::fail(const std::string& message) const {
-  throw SceneError(place(), std::string(name_), message);
+  throw SceneError(place(), std::string(keys_.name), message);
 }
 
 void TableCursor::fail_missing(std::string_view key, const std::string& allowed) const {
@@ -137,13 +137,13 @@ void TableCursor::reject_unread_with(std::string_view key, std::string_view word
   }
 }
 
-double TableCursor::real_in(const Entry& entry, const toml::node& node, const Part& part,
-                            const Range& range) const {
+double TableCursor::number_in(const Entry& entry, const toml::node& node, const Part& part,
+                              const Range& range) const {
   if (!node.is_number()) {
     fail_part(entry, node, part,
               fmt::format("is {}; allowed: {}", kind_of(node), allowed_number(range)));
   }
-  const double value = number_in(node);
+  const double value = as_number(node);
   if (!std::isfinite(value)) {
     fail_part(entry, node, part, fmt::format("is not finite; allowed: {}", allowed_number(range)));
   }
@@ -154,77 +154,98 @@ double TableCursor::real_in(const Entry& entry, const toml::node& node, const Pa
   return value;
 }
 
-double TableCursor::real(std::string_view key, const Range& range) {
-  const std::optional<double> value = optional_real(key, range);
-  if (!value) {
+double TableCursor::real(std::string_view key) {
+  const auto* absent = std::get_if<double>(&key_of(keys_, key).absent);
+  return real_in(key, allowed<Number>(key).range,
+                 absent != nullptr ? std::optional(*absent) : std::nullopt);
+}
+
+double TableCursor::real(std::string_view key, double absent) {
+  return real_in(key, allowed<Number>(key).range, absent);
+}
+
+double TableCursor::real_in(std::string_view key, const Range& range,
+                            std::optional<double> absent) {
+  const Entry* entry = take(key);
+  if (entry != nullptr) {
+    return number_in(*entry, variant_.value(*entry), {key}, range);
+  }
+  if (!absent) {
     fail_missing(key, allowed_number(range));
   }
-  return *value;
+  return *absent;
 }
 
-std::optional<double> TableCursor::optional_real(std::string_view key, const Range& range) {
-  const Entry* entry = take(key);
-  if (entry == nullptr) {
-    return std::nullopt;
-  }
-  return real_in(*entry, variant_.value(*entry), {key}, range);
+std::optional<double> TableCursor::optional_real(std::string_view key) {
+  const Range& range = allowed<Number>(key).range;
+  return has(key) ? std::optional(real_in(key, range)) : std::nullopt;
 }
 
-double TableCursor::real(std::string_view key, const Range& range, double absent) {
-  return optional_real(key, range).value_or(absent);
-}
-
-std::optional<std::int64_t> TableCursor::optional_integer(std::string_view key, std::int64_t low,
-                                                          std::int64_t high) {
-  const Entry* entry = take(key);
-  if (entry == nullptr) {
-    return std::nullopt;
-  }
-  const toml::node& node = variant_.value(*entry);
+std::int64_t TableCursor::whole_number(std::string_view key, const Entry& entry,
+                                       const Integer& range) const {
+  const toml::node& node = variant_.value(entry);
   const toml::value<std::int64_t>* value = node.as_integer();
   if (value == nullptr) {
-    fail(key, fmt::format("is {}; allowed: {}", kind_of(node), allowed_integer(low, high)));
+    fail(key, fmt::format("is {}; allowed: {}", kind_of(node), allowed_integer(range)));
   }
-  if (value->get() < low || value->get() > high) {
-    fail(key, fmt::format("{} is out of range; allowed: {} to {}", value->get(), low, high));
+  if (value->get() < range.low || value->get() > range.high) {
+    fail(key,
+         fmt::format("{} is out of range; allowed: {} to {}", value->get(), range.low, range.high));
   }
   return value->get();
 }
 
-std::int64_t TableCursor::integer(std::string_view key, std::int64_t low, std::int64_t high,
-                                  std::int64_t absent) {
-  return optional_integer(key, low, high).value_or(absent);
+std::int64_t TableCursor::integer(std::string_view key) {
+  const double absent = std::get<double>(key_of(keys_, key).absent);
+  return integer_in(key, allowed<Integer>(key), static_cast<std::int64_t>(absent));
+}
+
+std::int64_t TableCursor::integer_in(std::string_view key, const Integer& range,
+                                     std::int64_t absent) {
+  const Entry* entry = take(key);
+  return entry != nullptr ? whole_number(key, *entry, range) : absent;
+}
+
+std::optional<std::int64_t> TableCursor::optional_integer(std::string_view key) {
+  const Entry* entry = take(key);
+  return entry != nullptr ? std::optional(whole_number(key, *entry, allowed<Integer>(key)))
+                          : std::nullopt;
 }
 
 std::size_t TableCursor::word_in(const Entry& entry, const toml::node& node, const Part& part,
                                  const Words& allowed) const {
   const toml::value<std::string>* text = node.as_string();
   if (text != nullptr) {
-    const auto* found = std::find(allowed.begin(), allowed.end(), text->get());
+    const auto found = std::find(allowed.begin(), allowed.end(), text->get());
     if (found != allowed.end()) {
       return static_cast<std::size_t>(found - allowed.begin());
     }
   }
-  const std::string list =
-      fmt::format("\"{}\"", fmt::join(allowed.begin(), allowed.end(), "\", \""));
+  const std::string list = fmt::format("\"{}\"", fmt::join(allowed, "\", \""));
   if (text == nullptr) {
     fail_part(entry, node, part, fmt::format("is {}; allowed: {}", kind_of(node), list));
   }
-  const auto nearest = nearest_name(text->get(), {allowed.begin(), allowed.end()});
+  const auto nearest = nearest_name(text->get(), allowed);
   fail_part(entry, node, part,
             fmt::format("{} is unknown; {}allowed: {}", quoted(text->get()),
                         nearest ? fmt::format("did you mean \"{}\"? ", *nearest) : "", list));
 }
 
-std::size_t TableCursor::word(std::string_view key, const Words& allowed) {
+std::size_t TableCursor::word(std::string_view key) {
+  const Words& words = allowed<Word>(key).allowed;
   const Entry* entry = take(key);
-  if (entry == nullptr) {
-    fail_missing(key, fmt::format("\"{}\"", fmt::join(allowed.begin(), allowed.end(), "\" or \"")));
+  if (entry != nullptr) {
+    return word_in(*entry, variant_.value(*entry), {key}, words);
   }
-  return word_in(*entry, variant_.value(*entry), {key}, allowed);
+  const auto* absent = std::get_if<std::string_view>(&key_of(keys_, key).absent);
+  if (absent == nullptr) {
+    fail_missing(key, fmt::format("\"{}\"", fmt::join(words, "\" or \"")));
+  }
+  return static_cast<std::size_t>(std::find(words.begin(), words.end(), *absent) - words.begin());
 }
 
-std::vector<std::size_t> TableCursor::words(std::string_view key, const Words& allowed) {
+std::vector<std::size_t> TableCursor::words(std::string_view key) {
+  const Words& words = allowed<WordList>(key).allowed;
   std::vector<std::size_t> indices;
   const Entry* entry = take(key);
   if (entry == nullptr) {
@@ -234,15 +255,15 @@ std::vector<std::size_t> TableCursor::words(std::string_view key, const Words& a
   const toml::array* list = value.as_array();
   if (list == nullptr) {
     fail(key, fmt::format("is {}; allowed: a list of \"{}\"", kind_of(value),
-                          fmt::join(allowed.begin(), allowed.end(), "\", \"")));
+                          fmt::join(words, "\", \"")));
   }
   for (std::size_t i = 0; i < list->size(); ++i) {
     const toml::node& node = (*list)[i];
     const Part part{key, i};
-    const std::size_t index = word_in(*entry, node, part, allowed);
+    const std::size_t index = word_in(*entry, node, part, words);
     if (std::find(indices.begin(), indices.end(), index) != indices.end()) {
       fail_part(*entry, node, part,
-                fmt::format("\"{}\" is there twice; allowed: each once", allowed.first[index]));
+                fmt::format("\"{}\" is there twice; allowed: each once", words[index]));
     }
     indices.push_back(index);
   }
@@ -250,15 +271,15 @@ std::vector<std::size_t> TableCursor::words(std::string_view key, const Words& a
 }
 
 TableCursor::Pair TableCursor::pair_in(const Entry& entry, const toml::node& node, const Part& part,
-                                       const Range& time, const Range& value) const {
+                                       const Profile& profile) const {
   const toml::array* pair = node.as_array();
   if (pair == nullptr || pair->size() != 2) {
     const std::string found =
         pair == nullptr ? std::string(kind_of(node)) : fmt::format("an array of {}", pair->size());
     fail_part(entry, node, part, fmt::format("is {}; allowed: a pair [time in s, number]", found));
   }
-  return {real_in(entry, (*pair)[0], {part.key, part.element, 0}, time),
-          real_in(entry, (*pair)[1], {part.key, part.element, 1}, value)};
+  return {number_in(entry, (*pair)[0], {part.key, part.element, 0}, profile.time),
+          number_in(entry, (*pair)[1], {part.key, part.element, 1}, profile.value)};
 }
 
 void TableCursor::check_time(const Entry& entry, const toml::node& node, const Part& part,
@@ -286,8 +307,12 @@ void TableCursor::check_time(const Entry& entry, const toml::node& node, const P
   }
 }
 
-std::vector<TableCursor::Pair> TableCursor::timed_values(std::string_view key, const Range& time,
-                                                         const Range& value, Times times) {
+std::vector<TableCursor::Pair> TableCursor::timed_values(std::string_view key, Times times) {
+  return timed_values_in(key, allowed<Profile>(key), times);
+}
+
+std::vector<TableCursor::Pair> TableCursor::timed_values_in(std::string_view key,
+                                                            const Profile& profile, Times times) {
   constexpr const char* allowed = "a list of pairs [[time in s, number], …]";
   const Entry* entry = take(key);
   if (entry == nullptr) {
@@ -304,7 +329,7 @@ std::vector<TableCursor::Pair> TableCursor::timed_values(std::string_view key, c
   std::vector<Pair> pairs;
   for (std::size_t i = 0; i < list->size(); ++i) {
     const toml::node& element = (*list)[i];
-    const Pair pair = pair_in(*entry, element, {key, i}, time, value);
+    const Pair pair = pair_in(*entry, element, {key, i}, profile);
     check_time(*entry, element, {key, i}, pairs, pair[0], times);
     pairs.push_back(pair);
   }

@@ -12,49 +12,48 @@
 #include <vector>
 
 #include "host_sim/scene/names.hpp"
+#include "host_sim/scene_file/keys.hpp"
 #include "host_sim/scene_file/range.hpp"
 #include "host_sim/scene_file/schema.hpp"
 #include "host_sim/scene_file/variant.hpp"
 
 namespace sonoglide::scene_file {
 
-/// Every reading call throws SceneError where the value is not what it asks for; the calls without
-/// a default also where the value is missing.
+/// Every reading call throws SceneError where the value is not what the description of its key
+/// allows. Where the value is missing it returns the default of the description, and throws if there
+/// is none. Calls whose name ends in `_in` take both from their arguments instead.
 class TableCursor {
  public:
-  /// @param variant, name  outlive the cursor; the values of an absent table are all missing
+  /// @param variant  outlives the cursor; the values of an absent table are all missing
+  /// @param name     of a table that is described
   TableCursor(const Variant& variant, std::string_view name);
 
   bool present() const { return table_ != nullptr; }
   bool has(std::string_view key) const { return find(key) != nullptr; }
 
   /// An integer is taken where a real number is meant, never the other way round.
-  double real(std::string_view key, const Range& range);
-  double real(std::string_view key, const Range& range, double absent);
-  std::optional<double> optional_real(std::string_view key, const Range& range);
+  double real(std::string_view key);
+  /// @param absent  the default, which follows from other keys
+  double real(std::string_view key, double absent);
+  double real_in(std::string_view key, const Range& range,
+                 std::optional<double> absent = std::nullopt);
+  std::optional<double> optional_real(std::string_view key);
 
-  std::int64_t integer(std::string_view key, std::int64_t low, std::int64_t high,
-                       std::int64_t absent);
-  std::optional<std::int64_t> optional_integer(std::string_view key, std::int64_t low,
-                                               std::int64_t high);
+  std::int64_t integer(std::string_view key);
+  std::int64_t integer_in(std::string_view key, const Integer& range, std::int64_t absent);
+  std::optional<std::int64_t> optional_integer(std::string_view key);
 
+  /// @param names  those that the description of the key allows, in its order
   template <class Value, std::size_t Count>
   Value choice(std::string_view key, const std::array<scene::Named<Value>, Count>& names) {
-    const auto list = list_of(names);
-    return names[word(key, {list.data(), Count})].value;
+    return names[word(key)].value;
   }
-  template <class Value, std::size_t Count>
-  Value choice(std::string_view key, const std::array<scene::Named<Value>, Count>& names,
-               Value absent) {
-    return has(key) ? choice(key, names) : absent;
-  }
-  /// A list of different words; empty where absent.
+  /// A list of different words in any order; empty where absent.
   template <class Value, std::size_t Count>
   std::vector<Value> choices(std::string_view key,
                              const std::array<scene::Named<Value>, Count>& names) {
-    const auto list = list_of(names);
     std::vector<Value> values;
-    for (const std::size_t index : words(key, {list.data(), Count})) {
+    for (const std::size_t index : words(key)) {
       values.push_back(names[index].value);
     }
     return values;
@@ -64,8 +63,14 @@ class TableCursor {
   /// rise: each is after the one before. jump: two in succession may be one, at a jump.
   enum class Times { rise, jump };
   /// `[[time_s, value], …]`: at least one pair.
-  std::vector<Pair> timed_values(std::string_view key, const Range& time, const Range& value,
-                                 Times times = Times::rise);
+  std::vector<Pair> timed_values(std::string_view key, Times times = Times::rise);
+  std::vector<Pair> timed_values_in(std::string_view key, const Profile& profile, Times times);
+
+  /// What the description of the key allows.
+  template <class Kind>
+  const Kind& allowed(std::string_view key) const {
+    return std::get<Kind>(key_of(keys_, key).allowed);
+  }
 
   /// The one of two keys that is there; it is an error if both or neither are.
   std::string_view one_of(std::string_view first, std::string_view second) const;
@@ -86,24 +91,6 @@ class TableCursor {
   void reject(std::string_view key, std::string_view reason) const;
 
  private:
-  /// What a choice allows.
-  struct Words {
-    const std::string_view* first;
-    std::size_t count;
-
-    const std::string_view* begin() const { return first; }
-    const std::string_view* end() const { return first + count; }
-  };
-  template <class Value, std::size_t Count>
-  static std::array<std::string_view, Count> list_of(
-      const std::array<scene::Named<Value>, Count>& names) {
-    std::array<std::string_view, Count> list;
-    for (std::size_t i = 0; i < Count; ++i) {
-      list[i] = names[i].name;
-    }
-    return list;
-  }
-
   /// A value, or a part of one: spelt out only where an error needs it.
   struct Part {
     std::string_view key;
@@ -123,19 +110,20 @@ class TableCursor {
   [[noreturn]] void fail_part(const Entry& entry, const toml::node& node, const Part& part,
                               const std::string& message) const;
 
-  double real_in(const Entry& entry, const toml::node& node, const Part& part,
-                 const Range& range) const;
+  std::int64_t whole_number(std::string_view key, const Entry& entry, const Integer& range) const;
+  double number_in(const Entry& entry, const toml::node& node, const Part& part,
+                   const Range& range) const;
   std::size_t word_in(const Entry& entry, const toml::node& node, const Part& part,
                       const Words& allowed) const;
-  std::size_t word(std::string_view key, const Words& allowed);
-  std::vector<std::size_t> words(std::string_view key, const Words& allowed);
-  Pair pair_in(const Entry& entry, const toml::node& node, const Part& part, const Range& time,
-               const Range& value) const;
+  std::size_t word(std::string_view key);
+  std::vector<std::size_t> words(std::string_view key);
+  Pair pair_in(const Entry& entry, const toml::node& node, const Part& part,
+               const Profile& profile) const;
   void check_time(const Entry& entry, const toml::node& node, const Part& part,
                   const std::vector<Pair>& earlier, double time_s, Times times) const;
 
   const Variant& variant_;
-  std::string_view name_;
+  const KeyTable& keys_;
   const Table* table_;
   std::bitset<most_keys> read_;  ///< by Entry::position
 };

@@ -32,13 +32,16 @@ class KeyEcho {
  public:
   explicit KeyEcho(ordered_json& table) : table_(table) {}
 
-  void required(std::string_view key, double parameter, const Range& /*range*/) {
+  void required(std::string_view key, double parameter, const Range& /*range*/,
+                std::string_view /*meaning*/) {
     table_[std::string(key)] = parameter;
   }
-  void optional(std::string_view key, double parameter, const Range& range) {
-    required(key, parameter, range);
+  void optional(std::string_view key, double parameter, const Range& range,
+                std::string_view meaning) {
+    required(key, parameter, range, meaning);
   }
-  void optional(std::string_view key, int count, int /*least*/, int /*most*/) {
+  void optional(std::string_view key, int count, int /*least*/, int /*most*/,
+                std::string_view /*meaning*/) {
     table_[std::string(key)] = count;
   }
   void refuse(std::string_view /*key*/, double /*parameter*/, std::string_view /*finding*/,

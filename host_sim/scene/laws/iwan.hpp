@@ -27,7 +27,8 @@ struct Iwan {
 
   template <class Keys>
   void visit_keys(Keys& keys, const Contact& /*contact*/) {
-    keys.optional("elements", elements, 1, static_cast<int>(Core<double>::most_elements));
+    keys.optional("elements", elements, 1, static_cast<int>(Core<double>::most_elements),
+                  "number of springs in parallel, which slip at graded limits");
   }
 
   double undriven_N(const Contact& contact, double /*speed_m_per_s*/) const {

@@ -30,10 +30,14 @@ struct LuGre {
 
   template <class Keys>
   void visit_keys(Keys& keys, const Contact& contact) {
-    keys.required("static_coefficient", static_coefficient, {contact.coefficient, 100.0});
-    keys.required("stribeck_velocity_m_per_s", stribeck_velocity_m_per_s, {1e-9, 1e6, "m/s"});
-    keys.optional("bristle_damping_N_s_per_m", bristle_damping_N_s_per_m, {0.0, 1e12, "N s/m"});
-    keys.optional("viscous_friction_N_s_per_m", viscous_friction_N_s_per_m, {0.0, 1e12, "N s/m"});
+    keys.required("static_coefficient", static_coefficient, {contact.coefficient, 100.0},
+                  "friction coefficient at rest, at least coefficient");
+    keys.required("stribeck_velocity_m_per_s", stribeck_velocity_m_per_s, {1e-9, 1e6, "m/s"},
+                  "sliding velocity over which static friction falls to sliding friction");
+    keys.optional("bristle_damping_N_s_per_m", bristle_damping_N_s_per_m, {0.0, 1e12, "N s/m"},
+                  "damping of the bristles");
+    keys.optional("viscous_friction_N_s_per_m", viscous_friction_N_s_per_m, {0.0, 1e12, "N s/m"},
+                  "friction force per sliding velocity that is added");
   }
 
   /// N (mu + (mu_s - mu) exp(-(v/v_s)^2)) + sigma2 v

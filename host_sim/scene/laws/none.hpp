@@ -22,10 +22,12 @@ namespace sonoglide::scene::laws {
 ///                    the friction may reach 0
 ///   undriven_N(contact, speed)  friction force of a steady slide at a speed >= 0 without vibration
 ///   visit_keys(keys, contact)  its own keys of [friction], in order: for each
-///     keys.required(key, parameter, range) or
-///     keys.optional(key, parameter, range), which leaves the parameter as it is where absent,
-///     keys.optional(key, count, least, most), the same for an integer, and
-///     keys.refuse(key, parameter, finding, least, rest) where the others make it too small
+///     keys.required(key, parameter, range, meaning) or
+///     keys.optional(key, parameter, range, meaning), which leaves the parameter as it is where
+///     absent,
+///     keys.optional(key, count, least, most, meaning), the same for an integer, and
+///     keys.refuse(key, parameter, finding, least, rest) where the others make it too small;
+///     the meaning is one line for the reference of keys, without a final stop
 ///   core<Scalar>(contact, scales)  the law of the core in dimensionless numbers; there is friction
 /// A law of the core that remembers more than its force also has
 ///   bound_broken     what is wrong where that passes its bound

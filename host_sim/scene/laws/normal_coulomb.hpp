@@ -26,7 +26,7 @@ struct NormalCoulomb {
   template <class Keys>
   void visit_keys(Keys& keys, const Contact& /*contact*/) {
     keys.required("normal_contact_stiffness_N_per_m", normal_contact_stiffness_N_per_m,
-                  {1e-6, 1e18, "N/m"});
+                  {1e-6, 1e18, "N/m"}, "stiffness of the contact normal to the surface");
   }
 
   double undriven_N(const Contact& contact, double /*speed_m_per_s*/) const {

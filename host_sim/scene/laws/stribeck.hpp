@@ -27,8 +27,11 @@ struct Stribeck {
   /// Friction below zero would drive the contact.
   template <class Keys>
   void visit_keys(Keys& keys, const Contact& contact) {
-    keys.required("fall_s_per_m", fall_s_per_m, {0.0, 1e9, "s/m"});
-    keys.required("rise_s3_per_m3", rise_s3_per_m3, {0.0, 1e27, "s^3/m^3"});
+    keys.required("fall_s_per_m", fall_s_per_m, {0.0, 1e9, "s/m"},
+                  "linear fall of the friction coefficient with the sliding velocity");
+    keys.required("rise_s3_per_m3", rise_s3_per_m3, {0.0, 1e27, "s^3/m^3"},
+                  "cubic rise of the friction coefficient with the sliding velocity, which keeps "
+                  "the friction above 0");
     const double fall_cubed = fall_s_per_m * fall_s_per_m * fall_s_per_m;
     const double square = 27.0 * contact.coefficient * contact.coefficient;
     if (contact.coefficient > 0.0 && rise_s3_per_m3 * square < 4.0 * fall_cubed) {

@@ -8,6 +8,7 @@
 #include <set>
 #include <string>
 
+#include "as_toml.hpp"
 #include "host_sim/scene_file/reader.hpp"
 #include "host_sim/scene_file/schema.hpp"
 #include "host_sim/scene_file/to_json.hpp"
@@ -15,18 +16,6 @@
 
 namespace sonoglide::scene_file {
 namespace {
-
-/// JSON's numbers, strings and arrays are TOML as they are.
-std::string as_toml(const nlohmann::ordered_json& echo) {
-  std::string text;
-  for (const auto& [table, values] : echo.items()) {
-    text += "[" + table + "]\n";
-    for (const auto& [key, value] : values.items()) {
-      text += key + " = " + value.dump() + "\n";
-    }
-  }
-  return text;
-}
 
 void expect_same_scene_again(const scene::Scene& scene) {
   const nlohmann::ordered_json echo = to_json(scene);

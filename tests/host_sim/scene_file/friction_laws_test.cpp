@@ -30,13 +30,16 @@ struct LeastValues {
   };
   std::vector<Key> keys;
 
-  void required(std::string_view key, double& parameter, const scene_file::Range& range) {
+  void required(std::string_view key, double& parameter, const scene_file::Range& range,
+                std::string_view /*meaning*/) {
     add(key, parameter, range, true);
   }
-  void optional(std::string_view key, double& parameter, const scene_file::Range& range) {
+  void optional(std::string_view key, double& parameter, const scene_file::Range& range,
+                std::string_view /*meaning*/) {
     add(key, parameter, range, false);
   }
-  void optional(std::string_view key, int& count, int least, int /*most*/) {
+  void optional(std::string_view key, int& count, int least, int /*most*/,
+                std::string_view /*meaning*/) {
     count = least;
     keys.push_back({std::string(key), static_cast<double>(least), false});
   }

@@ -1,0 +1,119 @@
+#include "host_sim/scene_file/json_schema.hpp"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "host_sim/scene_file/key_text.hpp"
+#include "host_sim/scene_file/keys.hpp"
+
+namespace sonoglide::scene_file {
+namespace {
+
+using nlohmann::ordered_json;
+
+ordered_json number_schema(const Range& range) {
+  ordered_json schema{{"type", "number"}, {"minimum", range.low}};
+  if (range.low_open) {
+    schema["exclusiveMinimum"] = true;
+  }
+  schema["maximum"] = range.high;
+  return schema;
+}
+
+/// The schema of a value by what it may be.
+struct ValueSchema {
+  ordered_json operator()(const Number& number) const { return number_schema(number.range); }
+  ordered_json operator()(const Integer& integer) const {
+    return {{"type", "integer"}, {"minimum", integer.low}, {"maximum", integer.high}};
+  }
+  ordered_json operator()(const Word& word) const {
+    return {{"type", "string"}, {"enum", word.allowed}};
+  }
+  ordered_json operator()(const WordList& list) const {
+    return {{"type", "array"},
+            {"uniqueItems", true},
+            {"items", {{"type", "string"}, {"enum", list.allowed}}}};
+  }
+  ordered_json operator()(const Profile& profile) const {
+    ordered_json pair{{"type", "array"}, {"minItems", 2}, {"maxItems", 2}};
+    pair["items"] =
+        ordered_json::array({number_schema(profile.time), number_schema(profile.value)});
+    return {{"type", "array"}, {"minItems", 1}, {"items", pair}};
+  }
+};
+
+void add_default(ordered_json& schema, const Key& key) {
+  if (const auto* number = std::get_if<double>(&key.absent)) {
+    if (std::holds_alternative<Integer>(key.allowed)) {
+      schema["default"] = static_cast<std::int64_t>(*number);
+    } else {
+      schema["default"] = *number;
+    }
+  } else if (const auto* word = std::get_if<std::string_view>(&key.absent)) {
+    schema["default"] = *word;
+  }
+}
+
+/// Meaning, default and use, a sentence each.
+std::string description(const Key& key) {
+  const std::string absent = absent_text(key);
+  const bool required = absent.rfind("required", 0) == 0;
+  return fmt::format("{} {}{}", sentence(key.meaning),
+                     sentence(required ? absent : fmt::format("default: {}", absent)),
+                     key.used.empty() ? "" : fmt::format(" Used with {}.", key.used));
+}
+
+ordered_json key_schema(const Key& key) {
+  const std::string_view unit = unit_of(key);
+  ordered_json schema{
+      {"title", unit.empty() ? std::string(key.name) : fmt::format("{} [{}]", key.name, unit)},
+      {"description", description(key)}};
+  schema.update(std::visit(ValueSchema{}, key.allowed));
+  add_default(schema, key);
+  return schema;
+}
+
+/// The keys that must be there whatever the rest of the scene, and those of which one must be.
+void add_required(ordered_json& schema, const std::vector<Key>& keys) {
+  for (const Key& key : keys) {
+    if (std::holds_alternative<Required>(key.absent) && key.used.empty()) {
+      schema["required"].push_back(key.name);
+    }
+  }
+  for (const Key& key : keys) {
+    if (std::holds_alternative<Instead>(key.absent)) {
+      schema["oneOf"].push_back({{"required", {key.name}}});
+    }
+  }
+}
+
+ordered_json table_schema(const KeyTable& table) {
+  ordered_json schema{{"title", fmt::format("[{}]", table.name)},
+                      {"description", sentence(table.meaning)},
+                      {"type", "object"},
+                      {"additionalProperties", false}};
+  add_required(schema, table.keys);
+  for (const Key& key : table.keys) {
+    schema["properties"][std::string(key.name)] = key_schema(key);
+  }
+  return schema;
+}
+
+}  // namespace
+
+std::string json_schema() {
+  ordered_json schema{{"$schema", "http://json-schema.org/draft-04/schema#"},
+                      {"title", "Scene of sonoglide"},
+                      {"type", "object"},
+                      {"additionalProperties", false}};
+  for (const KeyTable& table : key_tables()) {
+    if (table.required) {
+      schema["required"].push_back(table.name);
+    }
+    schema["properties"][std::string(table.name)] = table_schema(table);
+  }
+  return schema.dump(2) + "\n";
+}
+
+}  // namespace sonoglide::scene_file

@@ -1,0 +1,19 @@
+/// What is said of a key, in words.
+#pragma once
+
+#include <string>
+
+#include "host_sim/scene_file/keys.hpp"
+
+namespace sonoglide::scene_file {
+
+/// What the key may hold, without the unit: `1e-12 to 1e+06`.
+std::string allowed_text(const Key& key);
+
+/// What holds without the key: its default, `required`, or a rule.
+std::string absent_text(const Key& key);
+
+/// With a capital and a final stop.
+std::string sentence(std::string text);
+
+}  // namespace sonoglide::scene_file

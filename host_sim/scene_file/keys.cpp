@@ -1,0 +1,366 @@
+#include "host_sim/scene_file/keys.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <array>
+#include <limits>
+#include <stdexcept>
+
+#include "host_sim/configure/solver_facts.hpp"
+#include "host_sim/configure/solver_methods.hpp"
+#include "host_sim/scene/names.hpp"
+#include "host_sim/scene_file/law_keys.hpp"
+
+namespace sonoglide::scene_file {
+namespace {
+
+constexpr double largest_force_N = 1e12;
+constexpr double largest_speed_m_per_s = 1e6;
+constexpr Range time_range{0.0, 1e9, "s"};
+constexpr Range speed_range{-largest_speed_m_per_s, largest_speed_m_per_s, "m/s"};
+constexpr Range force_range{0.0, largest_force_N, "N"};
+constexpr Range either_force_range{-largest_force_N, largest_force_N, "N"};
+constexpr Range sensor_gain_range{-100.0, 100.0};
+constexpr Range coefficient_range{0.0, 100.0};
+constexpr Range normal_force_range{0.0, 1e9, "N"};
+
+const char* const open_loop = "open loop";
+const char* const closed_loop_only = "closed loop";
+
+template <class Value, std::size_t Count>
+Words words_of(const std::array<scene::Named<Value>, Count>& names) {
+  Words words;
+  for (const scene::Named<Value>& each : names) {
+    words.push_back(each.name);
+  }
+  return words;
+}
+
+/// The laws for which `holds(law)`.
+template <class Condition>
+std::string laws_where(const Condition& holds) {
+  Words words;
+  Words others;
+  for (const scene::FrictionLaw& law : scene::every_law) {
+    (holds(law) ? words : others).push_back(scene::name_of(law));
+  }
+  if (others.size() == 1) {
+    return fmt::format("every law but {}", others.front());
+  }
+  return fmt::format("law {}", fmt::join(words, ", "));
+}
+
+/// The methods for which `holds(described)`.
+template <class Condition>
+std::string methods_where(const Condition& holds) {
+  Words words;
+  configure::for_each_solver([&](auto described, scene::SolverMethod /*method*/) {
+    if (holds(described)) {
+      words.push_back(decltype(described)::name);
+    }
+  });
+  return fmt::format("method {}", fmt::join(words, ", "));
+}
+
+bool has_friction(const scene::FrictionLaw& law) {
+  return !scene::is<scene::laws::None>(law);
+}
+
+std::vector<Key> plant_keys() {
+  const scene::Plant plant;
+  return {
+      {"mass_kg", Number{{1e-12, 1e6, "kg"}}, Required{}, "mass that vibrates"},
+      {"stiffness_N_per_m", Number{{0.0, 1e18, "N/m"}}, Required{},
+       "stiffness of the spring that holds the mass"},
+      {"damping_N_s_per_m", Number{{0.0, 1e12, "N s/m"}}, plant.damping_N_s_per_m,
+       "viscous damping of the vibration"},
+      {"initial_displacement_m", Number{{-1e3, 1e3, "m"}}, plant.initial_displacement_m,
+       "displacement at 0 s", "run.start = \"given\""},
+      {"initial_velocity_m_per_s", Number{speed_range}, plant.initial_velocity_m_per_s,
+       "vibration velocity at 0 s", "run.start = \"given\""},
+  };
+}
+
+/// Those of every law.
+std::vector<Key> friction_keys() {
+  const std::string with_friction = laws_where(has_friction);
+  const std::string elastic = laws_where(scene::is_elastic);
+  const std::string unbounded =
+      laws_where([](const scene::FrictionLaw& law) { return !scene::is_bounded(law); });
+  const double largest_limit_N = coefficient_range.high * normal_force_range.high;
+  std::vector<Key> keys = {
+      {"law", Word{words_of(scene::friction_laws)}, Required{}, "friction law"},
+      {"coefficient", Number{coefficient_range}, Rule{"required, or coefficient_profile"},
+       "friction coefficient", with_friction},
+      {"coefficient_profile", Profile{time_range, coefficient_range}, Rule{"coefficient, constant"},
+       fmt::format("friction coefficient over time, in place of coefficient, linear between the "
+                   "pairs, with a jump at two pairs of one time; above 0 with {}",
+                   unbounded),
+       with_friction},
+      {"normal_force_N", Number{normal_force_range},
+       Rule{fmt::format("plant.mass_kg * {}", standard_gravity_m_per_s2)},
+       "normal force of the contact", with_friction},
+      {"normal_force_profile_N", Profile{time_range, normal_force_range},
+       Rule{"normal_force_N, constant"},
+       fmt::format("normal force over time, in place of normal_force_N, linear between the pairs, "
+                   "with a jump at two pairs of one time; above 0 with {}",
+                   unbounded),
+       with_friction},
+      {"contact_stiffness_N_per_m", Number{{1e-6, 1e18, "N/m"}}, Required{},
+       "tangential stiffness of the contact", elastic},
+      {"initial_force_N", Number{{-largest_limit_N, largest_limit_N, "N"}},
+       scene::Contact{}.initial_force_N,
+       "friction force at 0 s, at most coefficient * normal_force_N either way",
+       elastic + "; run.start = \"given\""},
+      {"sign_convention", Word{words_of(scene::sign_conventions)},
+       scene::name_of(scene::sign_conventions, scene::Contact{}.sign_convention),
+       "dissipative: the contact slides at Vt + x'; as_printed: at Vt - x', as in the paper's "
+       "equations (1) and (2)",
+       laws_where([](const scene::FrictionLaw& law) {
+         return has_friction(law) && scene::vibrates_along(law);
+       })},
+  };
+  add_law_keys(keys);
+  return keys;
+}
+
+std::vector<Key> sliding_keys() {
+  return {
+      {"velocity_m_per_s", Number{speed_range}, Instead{"profile"}, "constant sliding velocity Vt"},
+      {"profile", Profile{time_range, speed_range}, Instead{"velocity_m_per_s"},
+       "sliding velocity over time, linear between the pairs, constant before and after them"},
+  };
+}
+
+std::vector<Key> drive_keys() {
+  const scene::Drive drive;
+  return {
+      {"frequency_Hz", Number{{1e-3, 1e9, "Hz"}}, Required{}, "carrier frequency"},
+      {"force_amplitude_N", Number{force_range}, Instead{"max_force_amplitude_N"},
+       "amplitude of the drive force", open_loop},
+      {"waveform", Word{words_of(scene::waveforms)},
+       scene::name_of(scene::waveforms, drive.waveform),
+       fmt::format("shape of the drive force, its peak at phase 0; all but cosine with {}",
+                   methods_where([](auto described) {
+                     return !decltype(described)::straight_orders.empty();
+                   }))},
+      {"max_force_amplitude_N", Number{{1e-12, largest_force_N, "N"}}, Instead{"force_amplitude_N"},
+       "limit of the actuator: largest amplitude of the drive force", closed_loop_only},
+      {"max_force_slew_N_per_s", Number{{1e-12, 1e21, "N/s"}}, Rule{"no limit"},
+       "limit of the actuator: fastest change of the amplitude", closed_loop_only},
+      {"delay_periods", Integer{0, 16, "periods"}, static_cast<double>(drive.delay_periods),
+       "carrier periods from the end of a sampled period to the phase 0 at which its answer acts; "
+       "0 "
+       "needs a board that answers within no time",
+       closed_loop_only},
+  };
+}
+
+std::string default_tolerances() {
+  std::string words;
+  configure::for_each_solver([&](auto described, scene::SolverMethod /*method*/) {
+    using Described = decltype(described);
+    if constexpr (Described::adaptive) {
+      words += fmt::format("{}{} with {}", words.empty() ? "" : ", ", Described::default_tolerance,
+                           Described::name);
+    }
+  });
+  return words;
+}
+
+std::string built_orders() {
+  std::string words;
+  configure::for_each_solver([&](auto described, scene::SolverMethod /*method*/) {
+    using Described = decltype(described);
+    if constexpr (Described::takes_order) {
+      words += fmt::format("{}{} with {}", words.empty() ? "" : "; ",
+                           fmt::join(Described::orders, ", "), Described::name);
+    }
+  });
+  return words;
+}
+
+/// Adaptive, with a longest step that a scene may give.
+template <class Described>
+constexpr bool takes_longest_step() {
+  if constexpr (Described::adaptive) {
+    return Described::takes_step;
+  } else {
+    return false;
+  }
+}
+
+std::vector<Key> solver_keys() {
+  const auto is_adaptive = [](auto described) { return decltype(described)::adaptive; };
+  const auto takes_order = [](auto described) { return decltype(described)::takes_order; };
+  const auto takes_longest = [](auto described) {
+    return takes_longest_step<decltype(described)>();
+  };
+  const auto takes_step = [](auto described) {
+    using Described = decltype(described);
+    return !Described::adaptive || takes_longest_step<Described>();
+  };
+  return {
+      {"method", Word{words_of(configure::solver_methods)},
+       configure::name_of(scene::SolverMethod{}), "solver"},
+      {"tolerance", Number{{1e-15, 1e-2}}, Rule{default_tolerances()},
+       "error that the method aims at, relative to the friction limit", methods_where(is_adaptive)},
+      {"order", Integer{1, 99}, Rule{"the one that suits the tolerance"},
+       fmt::format("order of the method, one of those that are built: {}", built_orders()),
+       methods_where(takes_order)},
+      {"step_s", Number{{1e-15, 1.0, "s"}},
+       Rule{fmt::format("required; no limit with {}", methods_where(takes_longest))},
+       "length of the steps, shortened to a whole number in a carrier period; longest step of a "
+       "method that picks its own",
+       methods_where(takes_step)},
+  };
+}
+
+std::vector<Key> run_keys() {
+  const scene::Run run;
+  return {
+      {"start", Word{words_of(scene::starts)}, scene::name_of(scene::starts, run.start),
+       "given: from the initial state; steady: on the periodic orbit of a drive, a sliding and a "
+       "friction that do not change",
+       open_loop},
+      {"duration_s", Number{{1e-12, 1e9, "s"}}, Instead{"duration_periods"}, "simulated time"},
+      {"duration_periods", Number{{1e-3, most_periods, "periods"}}, Instead{"duration_s"},
+       "simulated time in carrier periods", "[drive]"},
+      {"window_start_s", Number{time_range}, run.window_start_s,
+       "start of the window over which means are taken, to the end of the run"},
+      {"window_start_periods", Number{{0.0, most_periods, "periods"}}, Rule{"window_start_s"},
+       "the same in carrier periods, in place of window_start_s", "[drive]"},
+      {"settling_band", Number{{0.0, 1.0, "", true}}, run.settling_band,
+       "half width of the band around a target in which a step has settled, in friction ratio",
+       closed_loop_only},
+      {"record", WordList{words_of(scene::channels)}, Rule{"nothing is recorded"},
+       "channels that trace.csv records"},
+      {"record_interval_s", Number{{1e-15, 1e9, "s"}}, Rule{"required if record names a channel"},
+       "time between two rows of trace.csv", "run.record"},
+  };
+}
+
+std::vector<Key> controller_keys() {
+  const scene::Controller controller;
+  return {
+      {"arithmetic", Word{words_of(scene::arithmetics)}, Required{},
+       "number type in which the controller computes"},
+      {"target_friction_ratio", Profile{time_range, {0.0, 1.0, "", true}}, Required{},
+       "friction ratio asked for, stepwise; the first time is 0"},
+      {"calibration_s", Number{time_range}, controller.calibration_s,
+       "time with the drive off in which the friction limit is learnt; 0: the scene's is trusted"},
+      {"shaping", Word{words_of(scene::shapings)},
+       scene::name_of(scene::shapings, controller.shaping),
+       "filter between target and drive; the notch cancels the ringing of the natural mode"},
+      {"speed_floor_m_per_s", Number{{1e-12, largest_speed_m_per_s, "m/s"}},
+       Rule{
+           "where the presliding distance takes three carrier periods; at most half of the fastest "
+           "sliding and of the largest vibration velocity"},
+       "sliding velocity below which the drive is held"},
+      {"standstill_hold_s", Number{time_range}, controller.standstill_hold_s,
+       "time for which the drive is held below the speed floor before it falls to 0"},
+      {"relearn_every_s", Number{{1e-9, 1e9, "s"}}, Rule{"never"},
+       "time between two pauses of the drive in which the friction limit is learnt again"},
+      {"mismatch_warning", Number{{1.01, 100.0}}, controller.mismatch_warning,
+       "believed over true friction, or its inverse, from which on the limit mismatch is named"},
+  };
+}
+
+std::vector<Key> sensor_keys() {
+  const scene::Sensor sensor;
+  return {
+      {"adc_bits", Integer{4, 32, "bits"}, Rule{"ideal"}, "resolution of the converter"},
+      {"force_full_scale_N", Number{{1e-15, largest_force_N, "N"}},
+       Rule{"2 * coefficient * normal_force_N, of profiles the largest"},
+       "the converter spans this force either way"},
+      {"force_noise_N", Number{force_range}, sensor.force_noise_N,
+       "noise of each sample of the force, rms"},
+      {"force_bandwidth_Hz", Number{{1e-3, 1e12, "Hz"}}, Rule{"no limit"},
+       "bandwidth of the force sensor, a low-pass of first order"},
+      {"delay_periods", Integer{0, 64, "periods"}, static_cast<double>(sensor.delay_periods),
+       "carrier periods by which the force reading is late"},
+      {"force_offset_N", Number{either_force_range}, sensor.force_offset_N,
+       "force read where there is none"},
+      {"force_gain", Number{sensor_gain_range}, sensor.force_gain,
+       "force read over true force; -1: wired backwards, 0: dead"},
+      {"velocity_offset_m_per_s", Number{speed_range}, sensor.velocity_offset_m_per_s,
+       "sliding velocity read at standstill"},
+      {"velocity_gain", Number{sensor_gain_range}, sensor.velocity_gain,
+       "sliding velocity read over the true one; -1: wired backwards, 0: dead"},
+      {"seed", Integer{0, std::numeric_limits<std::int64_t>::max()},
+       static_cast<double>(sensor.seed), "seed of the noise; the same seed gives the same noise"},
+  };
+}
+
+std::vector<Key> model_error_keys() {
+  constexpr Range quotient{0.01, 100.0};
+  const scene::ModelError model_error;
+  return {
+      {"mass", Number{quotient}, model_error.mass, "believed over true plant.mass_kg"},
+      {"stiffness", Number{quotient}, model_error.stiffness,
+       "believed over true plant.stiffness_N_per_m"},
+      {"coefficient", Number{quotient}, model_error.coefficient,
+       "believed over true friction.coefficient"},
+      {"contact_stiffness", Number{quotient}, model_error.contact_stiffness,
+       "believed over true friction.contact_stiffness_N_per_m", laws_where(scene::is_elastic)},
+  };
+}
+
+std::string_view unit_in(const Allowed& allowed) {
+  if (const auto* number = std::get_if<Number>(&allowed)) {
+    return number->range.unit;
+  }
+  if (const auto* integer = std::get_if<Integer>(&allowed)) {
+    return integer->unit;
+  }
+  const auto* profile = std::get_if<Profile>(&allowed);
+  return profile != nullptr ? profile->value.unit : "";
+}
+
+}  // namespace
+
+const std::vector<KeyTable>& key_tables() {
+  static const std::vector<KeyTable> tables = {
+      {"plant", true, "the mass that vibrates, on a spring and a damper", plant_keys()},
+      {"friction", true, "the contact and its friction law", friction_keys()},
+      {"sliding", true, "how the body slides over the contact", sliding_keys()},
+      {"drive", false, "the force that drives the vibration; needed in closed loop", drive_keys()},
+      {"solver", false, "how the motion is computed", solver_keys()},
+      {"run", true, "how long to simulate and what to record", run_keys()},
+      {"controller", false,
+       "the controller of the friction ratio; a scene with this table runs in closed loop, without "
+       "it in open loop",
+       controller_keys()},
+      {"sensor", false, "errors of the sensors, in closed loop; ideal without this table",
+       sensor_keys()},
+      {"model_error", false,
+       "what the controller believes over what is true, in closed loop; 1 without this table",
+       model_error_keys()},
+  };
+  return tables;
+}
+
+const KeyTable& key_table(std::string_view name) {
+  for (const KeyTable& table : key_tables()) {
+    if (table.name == name) {
+      return table;
+    }
+  }
+  throw std::logic_error(fmt::format("no table {} is described", name));
+}
+
+const Key& key_of(const KeyTable& table, std::string_view name) {
+  for (const Key& key : table.keys) {
+    if (key.name == name) {
+      return key;
+    }
+  }
+  throw std::logic_error(fmt::format("no key {}.{} is described", table.name, name));
+}
+
+std::string_view unit_of(const Key& key) {
+  return unit_in(key.allowed);
+}
+
+}  // namespace sonoglide::scene_file

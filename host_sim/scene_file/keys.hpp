@@ -1,0 +1,93 @@
+/// Every key of a scene, told once: what it may hold, what it means, and what holds without it. The
+/// reader, the reference and the JSON Schema are made from this list.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "host_sim/scene_file/range.hpp"
+
+namespace sonoglide::scene_file {
+
+inline constexpr double standard_gravity_m_per_s2 = 9.81;
+/// Hours of a carrier: more is a mistyped unit.
+inline constexpr double most_periods = 1e10;
+
+using Words = std::vector<std::string_view>;
+
+struct Number {
+  Range range;
+};
+
+struct Integer {
+  std::int64_t low;
+  std::int64_t high;
+  std::string_view unit = "";
+};
+
+/// One of the words.
+struct Word {
+  Words allowed;
+};
+
+/// A list of different words.
+struct WordList {
+  Words allowed;
+};
+
+/// `[[time in s, value], …]`
+struct Profile {
+  Range time;
+  Range value;
+};
+
+using Allowed = std::variant<Number, Integer, Word, WordList, Profile>;
+
+/// The key must be there wherever it is used.
+struct Required {};
+
+/// Exactly one of this key and the other must be there.
+struct Instead {
+  std::string_view other;
+};
+
+/// What holds without the key, in words.
+struct Rule {
+  std::string words;
+};
+
+/// What holds without the key; a number or a word is its default.
+using Absent = std::variant<Required, Instead, double, std::string_view, Rule>;
+
+struct Key {
+  std::string_view name;
+  Allowed allowed;
+  Absent absent;
+  std::string meaning;    ///< one line
+  std::string used = {};  ///< the mode, the laws or the methods that use the key; empty: every one
+};
+
+struct KeyTable {
+  std::string_view name;
+  bool required;
+  std::string meaning;
+  std::vector<Key> keys;
+};
+
+/// Every table with its keys, in the order in which scenes are read.
+const std::vector<KeyTable>& key_tables();
+
+/// @throws std::logic_error  no scene has such a table
+const KeyTable& key_table(std::string_view name);
+
+/// @throws std::logic_error  the table has no such key
+const Key& key_of(const KeyTable& table, std::string_view name);
+
+/// `kg`, `m/s`, `periods`; empty for words and for numbers without a unit. Of a profile, that of its
+/// values.
+std::string_view unit_of(const Key& key);
+
+}  // namespace sonoglide::scene_file

@@ -1,0 +1,39 @@
+/// `sonoglide schema`.
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <iterator>
+#include <string>
+
+#include "tests/acceptance/program/program.hpp"
+
+namespace sonoglide::acceptance {
+namespace {
+
+TEST(SchemaCommandTest, PrintsTheFileThatTheExamplesName) {
+  std::ifstream file(SONOGLIDE_SCENES "/scene.schema.json", std::ios::binary);
+  const std::string expected{std::istreambuf_iterator<char>(file),
+                             std::istreambuf_iterator<char>()};
+  const ScratchFolder folder;
+  const Outcome outcome = folder.run("schema");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_EQ(outcome.err, "");
+  EXPECT_FALSE(expected.empty());
+  EXPECT_TRUE(outcome.out == expected);
+  EXPECT_TRUE(folder.entries().empty());
+}
+
+TEST(SchemaCommandTest, HasNoOptions) {
+  const ScratchFolder folder;
+  for (const char* option : {"--quiet", "--out=a", "--set=a.b=1"}) {
+    const Outcome outcome = folder.run(std::string("schema ") + option);
+    EXPECT_EQ(outcome.exit_code, 2) << option;
+    EXPECT_EQ(outcome.out, "") << option;
+    EXPECT_NE(outcome.err.find(" is no option of schema; allowed: --help"), std::string::npos)
+        << outcome.err;
+  }
+  EXPECT_EQ(folder.run("schema --help").exit_code, 0);
+}
+
+}  // namespace
+}  // namespace sonoglide::acceptance

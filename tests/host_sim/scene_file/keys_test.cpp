@@ -1,0 +1,75 @@
+/// The list of keys, and the files that are written from it.
+#include "host_sim/scene_file/keys.hpp"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+
+#include "host_sim/scene_file/json_schema.hpp"
+#include "host_sim/scene_file/key_reference.hpp"
+
+namespace sonoglide::scene_file {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string text_of(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+}
+
+TEST(KeysTest, TheFilesAreThoseOfTheList) {
+  const fs::path scenes = SONOGLIDE_SCENES;
+  EXPECT_TRUE(text_of(scenes / "keys.md") == key_reference())
+      << "cmake --build BUILD --target write_keys writes it";
+  EXPECT_TRUE(text_of(scenes / "scene.schema.json") == json_schema())
+      << "cmake --build BUILD --target write_keys writes it";
+}
+
+TEST(KeysTest, EveryExampleNamesTheSchema) {
+  const std::string named = "#:schema scene.schema.json\n";
+  for (const auto& entry : fs::directory_iterator(SONOGLIDE_SCENES)) {
+    if (entry.path().extension() == ".toml") {
+      EXPECT_EQ(text_of(entry.path()).substr(0, named.size()), named) << entry.path();
+    }
+  }
+}
+
+TEST(KeysTest, AreOneLineEachAndFitATableOfMarkdown) {
+  for (const KeyTable& table : key_tables()) {
+    for (const Key& key : table.keys) {
+      EXPECT_FALSE(key.meaning.empty()) << key.name;
+      EXPECT_EQ(key.meaning.find_first_of("\n|"), std::string::npos) << key.name;
+      EXPECT_NE(key.meaning.back(), '.') << key.name;
+    }
+  }
+}
+
+/// Whether a key that stands in for another is itself replaced by that one.
+bool is_mutual(const KeyTable& table, const Key& key, const Instead& instead) {
+  const auto* back = std::get_if<Instead>(&key_of(table, instead.other).absent);
+  return back != nullptr && back->other == key.name;
+}
+
+TEST(KeysTest, OfWhichOneIsRequiredAreTwo) {
+  for (const KeyTable& table : key_tables()) {
+    int count = 0;
+    for (const Key& key : table.keys) {
+      const auto* instead = std::get_if<Instead>(&key.absent);
+      count += instead != nullptr ? 1 : 0;
+      EXPECT_TRUE(instead == nullptr || is_mutual(table, key, *instead)) << key.name;
+    }
+    EXPECT_TRUE(count == 0 || count == 2) << table.name;
+  }
+}
+
+TEST(KeysTest, AnUnknownNameIsAMistakeOfTheProgram) {
+  EXPECT_THROW(key_table("plants"), std::logic_error);
+  EXPECT_THROW(key_of(key_table("plant"), "mass"), std::logic_error);
+}
+
+}  // namespace
+}  // namespace sonoglide::scene_file
