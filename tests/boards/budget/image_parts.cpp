@@ -97,7 +97,7 @@ bool has(const std::string& text, const char* part) {
 
 /// The namespaces of ours are their rooms.
 std::string room_of(const std::string& symbol) {
-  for (const char* room : {"control", "friction", "numeric", "app"}) {
+  for (const char* room : {"control", "friction", "numeric", "app", "link", "store"}) {
     if (has(symbol, fmt::format("sonoglide::{}::", room).c_str())) {
       return fmt::format("firmware/{}/", room);
     }
@@ -112,10 +112,15 @@ void add_constants(const std::vector<Symbol>& symbols, FileBytes& files) {
   }
 }
 
+bool is_of_application(const std::string& file) {
+  return has(file, "firmware/app/") || has(file, "firmware/link/") ||
+         has(file, "firmware/store/") || has(file, "firmware/image/");
+}
+
 Parts parts_of(const FileBytes& files) {
   Parts parts;
   for (const auto& [file, bytes] : files) {
-    if (has(file, "firmware/app/")) {
+    if (is_of_application(file)) {
       parts.application += bytes;
     } else if (has(file, "firmware/")) {
       parts.controller += bytes;

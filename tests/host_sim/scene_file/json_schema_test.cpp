@@ -142,7 +142,7 @@ class Cases {
     std::ofstream(file) << ordered_json{{"schema", ordered_json::parse(json_schema())},
                                         {"cases", list_}};
     const std::string command =
-        fmt::format("python3 '{}' '{}' 2>&1", SONOGLIDE_SCHEMA_CHECK, file.string());
+        fmt::format("'{}' '{}' '{}' 2>&1", SONOGLIDE_PYTHON, SONOGLIDE_SCHEMA_CHECK, file.string());
     FILE* output = popen(command.c_str(), "r");
     ASSERT_NE(output, nullptr);
     std::string text;
