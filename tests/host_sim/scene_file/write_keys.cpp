@@ -1,8 +1,10 @@
 /// Writes the reference of scene keys and the JSON Schema anew.
 ///
 /// Usage: key_writer FOLDER
+#include <exception>
 #include <fstream>
 #include <iostream>
+#include <stdexcept>
 #include <string>
 
 #include "host_sim/scene_file/json_schema.hpp"
@@ -10,24 +12,30 @@
 
 namespace {
 
-bool write(const std::string& path, const std::string& text) {
+void write(const std::string& path, const std::string& text) {
   std::ofstream file(path, std::ios::binary);
   file << text << std::flush;
   if (!file) {
-    std::cerr << path << ": cannot be written\n";
+    throw std::runtime_error(path + ": cannot be written");
   }
-  return file.good();
+}
+
+void write_files(const std::string& folder) {
+  write(folder + "/keys.md", sonoglide::scene_file::key_reference());
+  write(folder + "/scene.schema.json", sonoglide::scene_file::json_schema());
 }
 
 }  // namespace
 
 int main(int argument_count, char** arguments) {
-  if (argument_count != 2) {
-    std::cerr << "usage: key_writer FOLDER\n";
-    return 2;
+  try {
+    if (argument_count != 2) {
+      throw std::runtime_error("usage: key_writer FOLDER");
+    }
+    write_files(arguments[1]);
+    return 0;
+  } catch (const std::exception& error) {
+    std::cerr << error.what() << '\n';
+    return 1;
   }
-  const std::string folder = arguments[1];
-  const bool written = write(folder + "/keys.md", sonoglide::scene_file::key_reference()) &&
-                       write(folder + "/scene.schema.json", sonoglide::scene_file::json_schema());
-  return written ? 0 : 1;
 }
