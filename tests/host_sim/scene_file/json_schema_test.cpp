@@ -164,7 +164,7 @@ TEST(JsonSchemaTest, HasEveryKeyAndNoOther) {
   for (const auto& [table, content] : schema["properties"].items()) {
     EXPECT_EQ(content["additionalProperties"], false) << table;
     for (const auto& [key, value] : content["properties"].items()) {
-      described.insert(table + "." + key);
+      described.insert(fmt::format("{}.{}", table, key));
     }
   }
   std::set<std::string> read;
