@@ -109,6 +109,10 @@ std::string number(double value) {
   return Initialiser<float>::of(numeric::from_real<float>(value));
 }
 
+std::string number(float value) {
+  return number(static_cast<double>(value));
+}
+
 std::string damping_type(const plant::Undamped<float>& /*damping*/) {
   return "Undamped";
 }

@@ -75,11 +75,11 @@ double vibration_ratio(const scene::Scene& scene) {
 
 std::vector<double> simulated_ratios(const ContactLaw& law) {
   const scene::Scene scene = scene_file::read_text(law.scene_text(), law.scene_file());
-  std::vector<double> ratios(velocity_ratios().size());
-  tbb::parallel_for(std::size_t{0}, ratios.size(), [&](std::size_t i) {
-    ratios[i] = vibration_ratio(at_velocity_ratio(scene, velocity_ratios()[i]));
+  std::vector<double> simulated(velocity_ratios().size());
+  tbb::parallel_for(std::size_t{0}, simulated.size(), [&](std::size_t i) {
+    simulated[i] = vibration_ratio(at_velocity_ratio(scene, velocity_ratios()[i]));
   });
-  return ratios;
+  return simulated;
 }
 
 }  // namespace sonoglide::paper
