@@ -45,7 +45,7 @@ void check_one_line(const sonoglide::scene_file::SceneError& error) {
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  using namespace sonoglide::scene;
+  using namespace sonoglide::scene_file;
   std::vector<std::string> pieces =
       pieces_of(std::string(reinterpret_cast<const char*>(data), size));
   const std::string text = pieces.front();

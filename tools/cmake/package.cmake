@@ -67,7 +67,7 @@ function(sonoglide_install_data)
 
   install(DIRECTORY "${PROJECT_SOURCE_DIR}/host_sim/scenes"
     DESTINATION "${SONOGLIDE_DATA_FOLDER}" COMPONENT documents FILES_MATCHING PATTERN "*.toml")
-  install(FILES "${PROJECT_SOURCE_DIR}/README.md" "${PROJECT_SOURCE_DIR}/GLOSSARY.md"
+  install(FILES "${PROJECT_SOURCE_DIR}/README.md"
     DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT documents)
   foreach(folder firmware hal host_sim tests)
     file(GLOB_RECURSE documents CONFIGURE_DEPENDS RELATIVE "${PROJECT_SOURCE_DIR}"
