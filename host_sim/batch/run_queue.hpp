@@ -6,7 +6,7 @@
 #include <cstdint>
 
 #include "firmware/plant/state.hpp"
-#include "host_sim/batch/dahl_run.hpp"
+#include "host_sim/batch/run_dahl_plants.hpp"
 
 namespace sonoglide::batch {
 

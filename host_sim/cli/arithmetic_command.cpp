@@ -8,10 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "host_sim/cli/board_option.hpp"
-#include "host_sim/cli/output_option.hpp"
+#include "host_sim/cli/options.hpp"
 #include "host_sim/cli/progress_bar.hpp"
-#include "host_sim/cli/scene_input.hpp"
 #include "host_sim/emulated/controller_header.hpp"
 #include "host_sim/output/gnuplot.hpp"
 #include "host_sim/process/interruption.hpp"

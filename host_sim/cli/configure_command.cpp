@@ -6,13 +6,12 @@
 #include <memory>
 #include <string>
 
-#include "host_sim/cli/output_option.hpp"
-#include "host_sim/cli/scene_input.hpp"
+#include "host_sim/cli/options.hpp"
 #include "host_sim/configure/control_design.hpp"
 #include "host_sim/emulated/controller_header.hpp"
 #include "host_sim/emulated/plant_header.hpp"
 #include "host_sim/output/output_folder.hpp"
-#include "host_sim/text/printable.hpp"
+#include "host_sim/process/printable.hpp"
 
 namespace sonoglide::cli {
 namespace {
@@ -44,9 +43,9 @@ void configure(const ConfigureOptions& options) {
   }
   folder.commit();
   if (!options.quiet) {
-    fmt::print("header: {}\n", text::printable((out / emulated::controller_header_name).string()));
+    fmt::print("header: {}\n", process::printable((out / emulated::controller_header_name).string()));
     if (!options.plant.empty()) {
-      fmt::print("plant:  {}\n", text::printable((out / emulated::plant_header_name).string()));
+      fmt::print("plant:  {}\n", process::printable((out / emulated::plant_header_name).string()));
     }
   }
 }

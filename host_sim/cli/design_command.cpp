@@ -10,10 +10,9 @@
 #include <string>
 #include <vector>
 
-#include "host_sim/cli/output_option.hpp"
+#include "host_sim/cli/options.hpp"
 #include "host_sim/cli/progress_bar.hpp"
 #include "host_sim/cli/run_watch.hpp"
-#include "host_sim/cli/scene_input.hpp"
 #include "host_sim/output/gnuplot.hpp"
 #include "host_sim/process/interruption.hpp"
 #include "host_sim/studies/design/report.hpp"

@@ -8,14 +8,14 @@
 #include <optional>
 #include <string>
 
-#include "host_sim/cli/output_option.hpp"
+#include "host_sim/cli/options.hpp"
 #include "host_sim/cli/progress_bar.hpp"
 #include "host_sim/cli/run_watch.hpp"
 #include "host_sim/output/gnuplot.hpp"
 #include "host_sim/process/interruption.hpp"
+#include "host_sim/process/printable.hpp"
 #include "host_sim/studies/paper/figures.hpp"
 #include "host_sim/studies/paper/paper.hpp"
-#include "host_sim/text/printable.hpp"
 
 namespace sonoglide::cli {
 namespace {
@@ -51,7 +51,7 @@ void paper(const PaperOptions& options) {
   compute(options);
   if (!options.quiet) {
     fmt::print("page: {}\n",
-               text::printable((std::filesystem::path(options.out) / "index.html").string()));
+               process::printable((std::filesystem::path(options.out) / "index.html").string()));
   }
 }
 

@@ -8,14 +8,10 @@
 #include <optional>
 #include <string>
 
-#include "host_sim/cli/board_option.hpp"
-#include "host_sim/cli/design_notes.hpp"
-#include "host_sim/cli/output_option.hpp"
+#include "host_sim/cli/options.hpp"
 #include "host_sim/cli/progress_bar.hpp"
 #include "host_sim/cli/run_watch.hpp"
-#include "host_sim/cli/scene_input.hpp"
 #include "host_sim/configure/control_design.hpp"
-#include "host_sim/emulated/board_arithmetic.hpp"
 #include "host_sim/emulated/board_list.hpp"
 #include "host_sim/emulated/controller_header.hpp"
 #include "host_sim/emulated/run_image.hpp"

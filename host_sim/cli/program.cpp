@@ -1,19 +1,18 @@
 #include "host_sim/cli/program.hpp"
 
 #include <fmt/format.h>
-
 #include <CLI/CLI.hpp>
+
 #include <cstdio>
 #include <exception>
 #include <string_view>
 
 #include "host_sim/cli/commands.hpp"
-#include "host_sim/cli/exit_code.hpp"
 #include "host_sim/cli/usage.hpp"
 #include "host_sim/loop/run.hpp"
 #include "host_sim/output/output_folder.hpp"
+#include "host_sim/process/printable.hpp"
 #include "host_sim/scene_file/scene_error.hpp"
-#include "host_sim/text/printable.hpp"
 
 namespace sonoglide::cli {
 namespace {
@@ -46,7 +45,7 @@ void parse_and_run(int argument_count, const char* const* arguments) {
 
 /// Names of files and words of other programs get no say in what the terminal does.
 int fail(ExitCode code, std::string_view message) {
-  fmt::print(stderr, "{}\n", text::printable_lines(message));
+  fmt::print(stderr, "{}\n", process::printable_lines(message));
   return code;
 }
 
@@ -63,7 +62,7 @@ int run_program(int argument_count, const char* const* arguments) {
     parse_and_run(argument_count, arguments);
     return done;
   } catch (const CLI::ParseError& error) {
-    return fail_usage(text::printable(error.what()));
+    return fail_usage(process::printable(error.what()));
   } catch (const UsageError& error) {
     return fail_usage(error.what());
   } catch (const scene_file::SceneError& error) {

@@ -8,17 +8,14 @@
 #include <optional>
 #include <string>
 
-#include "host_sim/cli/design_notes.hpp"
-#include "host_sim/cli/output_option.hpp"
+#include "host_sim/cli/options.hpp"
 #include "host_sim/cli/progress_bar.hpp"
 #include "host_sim/cli/run_watch.hpp"
-#include "host_sim/cli/scene_input.hpp"
 #include "host_sim/configure/control_design.hpp"
 #include "host_sim/loop/run.hpp"
 #include "host_sim/process/interruption.hpp"
 #include "host_sim/report/run_findings.hpp"
 #include "host_sim/report/run_report.hpp"
-#include "host_sim/report/summary.hpp"
 
 namespace sonoglide::cli {
 namespace {

@@ -1,6 +1,20 @@
 #include "host_sim/cli/run_watch.hpp"
 
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <string>
+
 namespace sonoglide::cli {
+
+void print_design_notes(const std::optional<configure::ControlDesign>& design) {
+  if (!design) {
+    return;
+  }
+  for (const std::string& note : configure::design_notes(*design)) {
+    fmt::print(stderr, "note: {}\n", note);
+  }
+}
 
 loop::Progress watching(ProgressBar& bar, const process::Interruption& interruption) {
   return [&bar, &interruption](double fraction) {

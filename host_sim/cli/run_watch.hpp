@@ -1,12 +1,18 @@
-/// What the commands that simulate a scene watch it with.
+/// What the commands that simulate a scene tell of it and watch it with.
 #pragma once
 
+#include <optional>
+
 #include "host_sim/cli/progress_bar.hpp"
+#include "host_sim/configure/control_design.hpp"
 #include "host_sim/loop/watch.hpp"
 #include "host_sim/process/interruption.hpp"
 #include "host_sim/report/run_report.hpp"
 
 namespace sonoglide::cli {
+
+/// Prints the notes of a controller's design on standard error; none in open loop.
+void print_design_notes(const std::optional<configure::ControlDesign>& design);
 
 /// The progress bar, and an end to the run when somebody interrupts it. Both outlive it.
 loop::Progress watching(ProgressBar& bar, const process::Interruption& interruption);

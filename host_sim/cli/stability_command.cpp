@@ -8,14 +8,14 @@
 #include <memory>
 #include <string>
 
-#include "host_sim/cli/output_option.hpp"
+#include "host_sim/cli/options.hpp"
 #include "host_sim/cli/progress_bar.hpp"
 #include "host_sim/cli/run_watch.hpp"
 #include "host_sim/output/gnuplot.hpp"
 #include "host_sim/process/interruption.hpp"
+#include "host_sim/process/printable.hpp"
+#include "host_sim/studies/stability/report.hpp"
 #include "host_sim/studies/stability/study.hpp"
-#include "host_sim/studies/stability/study_text.hpp"
-#include "host_sim/text/printable.hpp"
 
 namespace sonoglide::cli {
 namespace {
@@ -49,7 +49,7 @@ void stability(const StabilityOptions& options) {
   stability::write_study(out, study);
   if (!options.quiet) {
     fmt::print("{}report: {}\n", stability::study_text(study.extremes),
-               text::printable((out / "report.html").string()));
+               process::printable((out / "report.html").string()));
   }
 }
 

@@ -8,11 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "host_sim/cli/output_option.hpp"
+#include "host_sim/cli/options.hpp"
 #include "host_sim/cli/progress_bar.hpp"
-#include "host_sim/cli/scene_input.hpp"
+#include "host_sim/process/printable.hpp"
 #include "host_sim/studies/sweep/sweep.hpp"
-#include "host_sim/text/printable.hpp"
 
 namespace sonoglide::cli {
 namespace {
@@ -50,8 +49,8 @@ std::string text(const sweep::Summary& summary, const std::filesystem::path& out
     lines += fmt::format("{} points failed: see the column status\n", summary.failed);
   }
   return lines + fmt::format("rows: {}\nreport: {}\n",
-                             text::printable((out / "sweep.csv").string()),
-                             text::printable((out / "report.html").string()));
+                             process::printable((out / "sweep.csv").string()),
+                             process::printable((out / "report.html").string()));
 }
 
 /// Throws scene::SceneError and CLI::ValidationError, nothing was written then;

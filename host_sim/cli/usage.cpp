@@ -10,8 +10,8 @@
 #include <system_error>
 #include <vector>
 
+#include "host_sim/process/printable.hpp"
 #include "host_sim/scene_file/suggestion.hpp"
-#include "host_sim/text/printable.hpp"
 
 namespace sonoglide::cli {
 namespace {
@@ -105,7 +105,7 @@ class Words {
 
   /// One line, whatever the word.
   void add(const std::string& error) {
-    errors_ += (errors_.empty() ? "" : "\n") + text::printable(error);
+    errors_ += (errors_.empty() ? "" : "\n") + process::printable(error);
   }
 
   const CLI::App* app_;

@@ -7,15 +7,14 @@
 #include <memory>
 #include <string>
 
-#include "host_sim/cli/output_option.hpp"
+#include "host_sim/cli/options.hpp"
 #include "host_sim/cli/progress_bar.hpp"
 #include "host_sim/cli/run_watch.hpp"
-#include "host_sim/cli/scene_input.hpp"
 #include "host_sim/output/gnuplot.hpp"
 #include "host_sim/process/interruption.hpp"
 #include "host_sim/studies/work_precision/comparison.hpp"
-#include "host_sim/studies/work_precision/problem.hpp"
 #include "host_sim/studies/work_precision/report.hpp"
+#include "host_sim/studies/work_precision/scene_problem.hpp"
 
 namespace sonoglide::cli {
 namespace {

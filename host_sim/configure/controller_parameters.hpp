@@ -15,9 +15,14 @@
 #include "firmware/numeric/accumulator.hpp"
 #include "firmware/numeric/scalar.hpp"
 #include "host_sim/configure/control_design.hpp"
-#include "host_sim/configure/type.hpp"
 
 namespace sonoglide::configure {
+
+/// Names a type without an object of it.
+template <class T>
+struct Type {
+  using type = T;
+};
 
 template <class Scalar>
 Scalar scaled(double value) {

@@ -16,7 +16,7 @@
 #include "firmware/control/slew_limit.hpp"
 #include "firmware/control/trusted_friction.hpp"
 #include "host_sim/configure/control_design.hpp"
-#include "host_sim/configure/type.hpp"
+#include "host_sim/configure/controller_parameters.hpp"
 
 namespace sonoglide::configure {
 

@@ -28,16 +28,22 @@ plant::Contact<typename Law::template Core<Scalar>> plant_contact(const Law& law
 }
 
 /// @tparam Damping  plant::Damped, or plant::Undamped where the scene has no damping
-template <class Scalar, template <class> class Damping, class Drive, class Sliding, class Law>
-auto plant_model(const Law& law, const scene::Contact& contact, const scene::PlantScales& scales,
-                 const PlantNumbers& numbers) {
-  using Model = plant::Model<typename Law::template Core<Scalar>, Damping<Scalar>, Drive, Sliding>;
+template <class Scalar, template <class> class Damping, class Drive, class Sliding, class CoreLaw>
+plant::Model<CoreLaw, Damping<Scalar>, Drive, Sliding> plant_model(
+    const plant::Contact<CoreLaw>& contact, const PlantNumbers& numbers) {
   Damping<Scalar> damping;
   if constexpr (std::is_same_v<Damping<Scalar>, plant::Damped<Scalar>>) {
     damping.damping = static_cast<Scalar>(numbers.damping);
   }
-  return Model{plant_contact<Scalar>(law, contact, scales, numbers), damping,
-               static_cast<Scalar>(numbers.stiffness)};
+  return {contact, damping, static_cast<Scalar>(numbers.stiffness)};
+}
+
+/// The same with the law as the scene has it.
+template <class Scalar, template <class> class Damping, class Drive, class Sliding, class Law>
+auto plant_model(const Law& law, const scene::Contact& contact, const scene::PlantScales& scales,
+                 const PlantNumbers& numbers) {
+  return plant_model<Scalar, Damping, Drive, Sliding>(
+      plant_contact<Scalar>(law, contact, scales, numbers), numbers);
 }
 
 }  // namespace sonoglide::configure

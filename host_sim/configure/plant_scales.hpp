@@ -5,7 +5,7 @@
 #include <complex>
 
 #include "firmware/plant/state.hpp"
-#include "host_sim/scene/scales.hpp"
+#include "host_sim/scene/contact.hpp"
 #include "host_sim/scene/scene.hpp"
 
 namespace sonoglide::configure {

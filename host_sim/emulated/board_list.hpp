@@ -33,4 +33,15 @@ std::vector<std::string> emulator_command(const EmulatedBoard& board, const std:
 std::vector<std::string> serial_emulator_command(const EmulatedBoard& board,
                                                  const std::string& image);
 
+struct CrossTools {
+  std::string prefix;   ///< of every program's name
+  std::string package;  ///< of Debian, that has the compiler
+};
+
+inline CrossTools cross_tools(const emulated::EmulatedBoard& board) {
+  return board.toolchain.substr(0, 4) == "arm-"
+             ? CrossTools{"arm-none-eabi-", "gcc-arm-none-eabi"}
+             : CrossTools{"riscv64-unknown-elf-", "gcc-riscv64-unknown-elf"};
+}
+
 }  // namespace sonoglide::emulated

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <string>
 #include <variant>
 #include <vector>
 
@@ -15,11 +16,32 @@
 #include "host_sim/configure/controller_parameters.hpp"
 #include "host_sim/configure/controller_parts.hpp"
 #include "host_sim/emulated/initialiser.hpp"
-#include "host_sim/emulated/part_name.hpp"
 #include "host_sim/loop/carrier_grid.hpp"
-#include "host_sim/text/printable.hpp"
+#include "host_sim/loop/control_run.hpp"
+#include "host_sim/process/printable.hpp"
 
 namespace sonoglide::emulated {
+
+void require_arithmetic(const scene::Scene& scene, const emulated::EmulatedBoard& board) {
+  const bool wanted =
+      scene.controller && scene.controller->arithmetic == scene::Arithmetic::float64;
+  if (!wanted || board.computes_double) {
+    return;
+  }
+  std::string capable;
+  for (const emulated::EmulatedBoard& each : emulated::emulated_boards()) {
+    if (each.computes_double) {
+      capable += fmt::format("{}{}", capable.empty() ? "" : ", ", each.name);
+    }
+  }
+  throw configure::ConfigurationError(
+      "controller.arithmetic",
+      fmt::format(
+          "float64 has no hardware on {} ({}); allowed: \"float32\", \"q31\", \"q15\", or a "
+          "board that has it: {}",
+          board.name, board.core, capable));
+}
+
 namespace {
 
 using Q31 = numeric::Q31<numeric::Saturating>;
@@ -126,27 +148,25 @@ std::string parameter_lines(const configure::ControlDesign& design,
   return lines.text;
 }
 
-/// The carrier period, counted from 0, whose sample a target step is in force for: the sample is
-/// taken at the period's end.
-std::uint32_t first_period(const loop::CarrierGrid& grid, double time_s) {
+/// @throws configure::ConfigurationError  an image cannot count so far
+void require_reach(const loop::ScheduledTarget& step, const loop::CarrierGrid& grid) {
   constexpr std::uint64_t most_periods = 0xffffffff;
-  const std::uint64_t period = std::max<std::uint64_t>(1, grid.at_or_after(time_s)) - 1;
-  if (period > most_periods) {
+  if (step.period > most_periods) {
     throw configure::ConfigurationError(
         "controller.target_friction_ratio",
-        fmt::format("a step at {:g} s is out of an image's reach; allowed: up to {:g} s", time_s,
+        fmt::format("a step at {:g} s is out of an image's reach; allowed: up to {:g} s", step.time_s,
                     static_cast<double>(most_periods) * grid.period_s()));
   }
-  return static_cast<std::uint32_t>(period);
 }
 
 template <class Scalar>
 std::string target_steps(const scene::Scene& scene) {
   const loop::CarrierGrid grid(scene);
   std::string text;
-  for (const scene::TargetStep& step : scene.controller->target_friction_ratio) {
+  for (const loop::ScheduledTarget& step : loop::target_schedule(scene, grid)) {
+    require_reach(step, grid);
     text +=
-        fmt::format("    {{{}, {}}},  // {}\n", first_period(grid, step.time_s),
+        fmt::format("    {{{}, {}}},  // {}\n", step.period,
                     Initialiser<Scalar>::of(configure::half_target<Scalar>(step.friction_ratio)),
                     step.friction_ratio);
   }
@@ -213,7 +233,7 @@ inline constexpr std::uint32_t design = {:#010x};
 
 }}  // namespace sonoglide::app::configuration
 )",
-      text::printable(scene.name), includes(parts, ScalarName<Scalar>::header),
+      process::printable(scene.name), includes(parts, ScalarName<Scalar>::header),
       ScalarName<Scalar>::type, types, parameter_lines<Scalar>(design, parts),
       target_steps<Scalar>(scene), design.scales.carrier_period_s,
       design_number(types, parts, design.scales));

@@ -5,9 +5,13 @@
 #include <string>
 
 #include "host_sim/configure/control_design.hpp"
+#include "host_sim/emulated/board_list.hpp"
 #include "host_sim/scene/scene.hpp"
 
 namespace sonoglide::emulated {
+
+/// @throws scene::ConfigurationError  a float64 scene on a board that computes that in software
+void require_arithmetic(const scene::Scene& scene, const emulated::EmulatedBoard& board);
 
 /// The name under which an image includes it.
 inline constexpr const char* controller_header_name = "controller_configuration.hpp";

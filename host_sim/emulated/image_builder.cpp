@@ -8,14 +8,13 @@
 #include <iterator>
 #include <vector>
 
-#include "host_sim/emulated/content_hash.hpp"
+#include "host_sim/emulated/board_list.hpp"
 #include "host_sim/emulated/controller_header.hpp"
-#include "host_sim/emulated/cross_tools.hpp"
-#include "host_sim/process/find_program.hpp"
-#include "host_sim/process/process_error.hpp"
+#include "host_sim/process/checksum.hpp"
+#include "host_sim/process/pipe.hpp"
+#include "host_sim/process/printable.hpp"
 #include "host_sim/process/run_tool.hpp"
 #include "host_sim/process/scratch_folder.hpp"
-#include "host_sim/text/printable.hpp"
 
 namespace sonoglide::emulated {
 namespace {
@@ -26,13 +25,13 @@ namespace fs = std::filesystem;
 constexpr const char* controller_name = "controller";
 
 [[noreturn]] void fail(const fs::path& path, const std::string& reason) {
-  throw process::ProcessError(text::printable(path.string()) + ": " + reason);
+  throw process::ProcessError(process::printable(path.string()) + ": " + reason);
 }
 
 /// To CMake a semicolon is the end of a path, and it, Ninja or the shell stumble over a few others.
 void require_for_cmake(const fs::path& path) {
   const std::string name = path.string();
-  if (name.find_first_of(";\"\\<>|$") != std::string::npos || text::printable(name) != name) {
+  if (name.find_first_of(";\"\\<>|$") != std::string::npos || process::printable(name) != name) {
     fail(path,
          "cannot be used by CMake; allowed: a path in UTF-8 without ; \" \\ < > | $ and control "
          "characters");
@@ -67,7 +66,7 @@ fs::path cache_folder() {
 
 /// Says of an image which one it is and that it is whole.
 std::string seal_of(const std::string& key, const std::string& image) {
-  ContentHash hash;
+  process::ContentHash hash;
   hash.add(key);
   hash.add(image);
   return fmt::format("{:016x}\n", hash.value());
@@ -94,7 +93,7 @@ std::vector<fs::path> image_sources(const fs::path& tree) {
 /// What an image is made of, as a name for it.
 std::string key_of(const emulated::EmulatedBoard& board, const std::string& header,
                    const fs::path& tree, const fs::path& compiler) {
-  ContentHash hash;
+  process::ContentHash hash;
   hash.add(board.name);
   hash.add(board.toolchain);
   hash.add(header);

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "host_sim/emulated/board_list.hpp"
-#include "host_sim/process/wait_for_input.hpp"
+#include "host_sim/process/pipe.hpp"
 
 namespace sonoglide::emulated {
 

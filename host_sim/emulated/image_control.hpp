@@ -9,9 +9,9 @@
 
 #include "host_sim/emulated/board_list.hpp"
 #include "host_sim/emulated/image_process.hpp"
-#include "host_sim/emulated/one_core.hpp"
 #include "host_sim/loop/control_port.hpp"
-#include "host_sim/loop/image_record.hpp"
+#include "host_sim/loop/run_result.hpp"
+#include "host_sim/process/child_process.hpp"
 
 namespace sonoglide::emulated {
 
@@ -56,7 +56,7 @@ class ImageControl final : public loop::ControlPort {
   using Clock = std::chrono::steady_clock;
 
   const emulated::EmulatedBoard& board_;
-  OneCore core_;
+  process::OneCore core_;
   ImageProcess image_;
   Clock::time_point first_answer_;
   std::uint64_t exchanges_ = 0;

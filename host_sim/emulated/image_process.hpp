@@ -5,17 +5,23 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "hal/board.hpp"
 #include "hal/lockstep/frame.hpp"
-#include "host_sim/emulated/emulator_error.hpp"
 #include "host_sim/process/child_process.hpp"
 #include "host_sim/process/pipe.hpp"
-#include "host_sim/process/wait_for_input.hpp"
 
 namespace sonoglide::emulated {
+
+/// The emulator died, hung or answered out of turn; what() says which, in which carrier period, and
+/// what the emulator said last.
+class EmulatorError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
 
 /// Runs an emulator with its standard input and output connected to this object. The emulator ends
 /// with its owner, or with the owner's process.

@@ -21,8 +21,8 @@
 #include "host_sim/loop/carrier_grid.hpp"
 #include "host_sim/loop/plant_description.hpp"
 #include "host_sim/loop/sensor.hpp"
+#include "host_sim/process/printable.hpp"
 #include "host_sim/scene/names.hpp"
-#include "host_sim/text/printable.hpp"
 
 namespace sonoglide::emulated {
 namespace {
@@ -140,9 +140,6 @@ PlantText float_plant(const SceneNumbers& scene) {
   return {
       R"(#include "firmware/friction/dahl.hpp"
 #include "firmware/plant/contact.hpp"
-#include "firmware/plant/damping.hpp"
-#include "firmware/plant/drive.hpp"
-#include "firmware/plant/model.hpp"
 #include "firmware/plant/strang/equal_step_strang.hpp"
 #include "hal/simulated/plant_board.hpp"
 )",
@@ -285,7 +282,6 @@ std::string plant_header(const scene::Scene& scene,
       R"(/// The plant of the scene {}. Written by sonoglide configure: edit the scene.
 #pragma once
 
-#include <cstdint>
 
 {}
 namespace sonoglide::app::configuration {{
@@ -294,7 +290,7 @@ namespace sonoglide::app::configuration {{
 
 }}  // namespace sonoglide::app::configuration
 )",
-      text::printable(scene.name), text.includes, text.definitions, whole_periods(scene));
+      process::printable(scene.name), text.includes, text.definitions, whole_periods(scene));
 }
 
 std::string plant_header(const scene::Scene& scene, scene::Arithmetic arithmetic) {

@@ -7,7 +7,7 @@
 
 #include "host_sim/emulated/image_builder.hpp"
 #include "host_sim/emulated/image_control.hpp"
-#include "host_sim/emulated/measure_image.hpp"
+#include "host_sim/emulated/image_cost.hpp"
 
 namespace sonoglide::emulated {
 namespace {

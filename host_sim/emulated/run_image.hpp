@@ -6,7 +6,7 @@
 #include "host_sim/configure/control_design.hpp"
 #include "host_sim/emulated/board_list.hpp"
 #include "host_sim/loop/run.hpp"
-#include "host_sim/process/wait_for_input.hpp"
+#include "host_sim/process/pipe.hpp"
 #include "host_sim/scene/scene.hpp"
 
 namespace sonoglide::emulated {

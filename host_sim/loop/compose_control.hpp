@@ -11,7 +11,6 @@
 #include "hal/host/simulated_board.hpp"
 #include "host_sim/configure/controller_parameters.hpp"
 #include "host_sim/configure/controller_parts.hpp"
-#include "host_sim/loop/arithmetic_control.hpp"
 #include "host_sim/loop/control_port.hpp"
 
 namespace sonoglide::loop {

@@ -9,7 +9,6 @@
 #include "firmware/plant/drive.hpp"
 #include "firmware/plant/sliding.hpp"
 #include "host_sim/configure/plant_model.hpp"
-#include "host_sim/loop/law_plants.hpp"
 #include "host_sim/loop/plant_description.hpp"
 #include "host_sim/loop/plant_port.hpp"
 #include "host_sim/loop/sliding_profile.hpp"

@@ -12,7 +12,6 @@
 #include "firmware/plant/state.hpp"
 #include "host_sim/configure/plant_scales.hpp"
 #include "host_sim/loop/contact_memory.hpp"
-#include "host_sim/loop/drive_piece.hpp"
 #include "host_sim/loop/plant_port.hpp"
 
 namespace sonoglide::loop {

@@ -27,4 +27,9 @@ class ControlPort {
 std::unique_ptr<ControlPort> make_control_port(const scene::Scene& scene,
                                                const configure::ControlDesign& design);
 
+/// Defined in compose_control.hpp. Each arithmetic has a translation unit of its own, which CMake
+/// makes of arithmetic_control.cpp.in: they take long to compile.
+template <class Scalar>
+std::unique_ptr<ControlPort> make_control(const configure::ControlDesign& design);
+
 }  // namespace sonoglide::loop

@@ -1,11 +1,22 @@
 #include "host_sim/loop/control_run.hpp"
 
+#include <algorithm>
+
 namespace sonoglide::loop {
+
+std::vector<ScheduledTarget> target_schedule(const scene::Scene& scene, const CarrierGrid& grid) {
+  std::vector<ScheduledTarget> schedule;
+  for (const scene::TargetStep& step : scene.controller->target_friction_ratio) {
+    // The sample of a period is taken at its end.
+    const std::uint64_t period = std::max<std::uint64_t>(1, grid.at_or_after(step.time_s)) - 1;
+    schedule.push_back({period, step.time_s, step.friction_ratio});
+  }
+  return schedule;
+}
 
 ControlRun::ControlRun(const scene::Scene& scene, const CarrierGrid& grid, ControlPort& port,
                        ControlRecord& record)
-    : scene_(scene),
-      grid_(grid),
+    : schedule_(target_schedule(scene, grid)),
       port_(port),
       record_(record),
       sensor_(scene.sensor, record.design.scales),
@@ -21,7 +32,7 @@ void ControlRun::label(Period& period) const {
 }
 
 void ControlRun::step(double time_s, double mean_force_N, double sliding_velocity_m_per_s) {
-  follow_target(time_s);
+  follow_target();
   const hal::Drive drive = port_.exchange(sensor_.sample(mean_force_N, sliding_velocity_m_per_s));
   actuator_.take(drive, target_);
   account_for(drive, time_s);
@@ -32,13 +43,12 @@ void ControlRun::finish() {
   record_.signals = port_.signals();
 }
 
-void ControlRun::follow_target(double time_s) {
-  const auto& steps = scene_.controller->target_friction_ratio;
-  const double now_s = time_s + grid_.rounding_s(time_s);
-  while (next_step_ < steps.size() && steps[next_step_].time_s <= now_s) {
-    target_ = steps[next_step_++].friction_ratio;
+void ControlRun::follow_target() {
+  for (; next_step_ < schedule_.size() && schedule_[next_step_].period <= period_; ++next_step_) {
+    target_ = schedule_[next_step_].friction_ratio;
     port_.set_target(target_);
   }
+  ++period_;
 }
 
 void ControlRun::account_for(const hal::Drive& drive, double time_s) {

@@ -3,19 +3,31 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <limits>
+#include <vector>
 
 #include "firmware/control/drive_command.hpp"
 #include "hal/trace_hash.hpp"
 #include "host_sim/loop/actuator.hpp"
 #include "host_sim/loop/carrier_grid.hpp"
 #include "host_sim/loop/control_port.hpp"
-#include "host_sim/loop/period.hpp"
 #include "host_sim/loop/run_result.hpp"
 #include "host_sim/loop/sensor.hpp"
+#include "host_sim/loop/watch.hpp"
 #include "host_sim/scene/scene.hpp"
 
 namespace sonoglide::loop {
+
+/// A target step on the grid of the samples.
+struct ScheduledTarget {
+  std::uint64_t period;  ///< in force from the sample of this carrier period on, counted from 0
+  double time_s;         ///< as the scene has it
+  double friction_ratio;
+};
+
+/// The target steps of a closed loop, for a controller in this process and for an image alike.
+std::vector<ScheduledTarget> target_schedule(const scene::Scene& scene, const CarrierGrid& grid);
 
 class ControlRun {
  public:
@@ -36,17 +48,17 @@ class ControlRun {
   void finish();
 
  private:
-  void follow_target(double time_s);
+  void follow_target();
   void account_for(const hal::Drive& drive, double time_s);
 
-  const scene::Scene& scene_;
-  const CarrierGrid& grid_;
+  std::vector<ScheduledTarget> schedule_;
   ControlPort& port_;
   ControlRecord& record_;
   Sensor sensor_;
   Actuator actuator_;
   hal::TraceHash hash_;
   std::size_t next_step_ = 0;
+  std::uint64_t period_ = 0;  ///< whose sample comes next
   double target_ = std::numeric_limits<double>::quiet_NaN();
   control::Fault fault_ = control::Fault::none;
 };

@@ -1,7 +1,10 @@
-/// What every composition of a scene's plant is filled in from.
+/// What the composed plant of a scene is made from, and who makes it.
 #pragma once
 
+#include <memory>
+
 #include "host_sim/configure/plant_scales.hpp"
+#include "host_sim/loop/plant_port.hpp"
 #include "host_sim/scene/scene.hpp"
 
 namespace sonoglide::loop {
@@ -16,5 +19,10 @@ struct PlantDescription {
         scales(configure::plant_scales(described)),
         numbers(configure::plant_numbers(described, scales)) {}
 };
+
+/// Defined in compose_plant.hpp. Each law has a translation unit of its own, which CMake makes of
+/// law_plants.cpp.in: they take long to compile.
+template <class Law>
+std::unique_ptr<PlantPort> make_law_plant(const PlantDescription& description, const Law& law);
 
 }  // namespace sonoglide::loop

@@ -1,9 +1,12 @@
 #include "host_sim/loop/plant_port.hpp"
 
+#include <cmath>
+
+#include "firmware/numeric/turn.hpp"
 #include "host_sim/configure/plant_scales.hpp"
 #include "host_sim/configure/solver_methods.hpp"
-#include "host_sim/loop/law_plants.hpp"
 #include "host_sim/loop/moving_friction_plant.hpp"
+#include "host_sim/loop/plant_description.hpp"
 
 namespace sonoglide::loop {
 namespace {
@@ -29,6 +32,51 @@ std::unique_ptr<PlantPort> make_plant_port(const scene::Scene& scene) {
   const PlantDescription description(acting);
   return std::visit([&](const auto& law) { return make_law_plant(description, law); },
                     configure::acting_law(scene.friction));
+}
+
+namespace {
+
+constexpr double half_turn = 0.5 * numeric::two_pi;
+
+/// By its middle: an end may lie beyond the corner, by a rounding.
+bool in_second_half(const Stretch& stretch) {
+  return stretch.drive_phase_rad + 0.5 * stretch.drive_rate_rad_per_s * stretch.duration_s >
+         half_turn;
+}
+
+}  // namespace
+
+DrivePiece drive_piece(const Stretch& stretch) {
+  const double amplitude = stretch.drive_amplitude_N;
+  const double phase = stretch.drive_phase_rad;
+  const bool second = in_second_half(stretch);
+  switch (stretch.drive_waveform) {
+    case scene::Waveform::square:
+      return {second ? -amplitude : amplitude, phase};
+    case scene::Waveform::triangle:
+      return second ? DrivePiece{amplitude / (0.5 * half_turn), phase - 1.5 * half_turn}
+                    : DrivePiece{-amplitude / (0.5 * half_turn), phase - 0.5 * half_turn};
+    case scene::Waveform::sawtooth:
+      return {-amplitude / half_turn, phase - half_turn};
+    case scene::Waveform::cosine:
+      break;
+  }
+  return {amplitude, phase};
+}
+
+double drive_force_N(const Stretch& stretch, double offset_s) {
+  const DrivePiece piece = drive_piece(stretch);
+  const double phase_rad = piece.phase_rad + stretch.drive_rate_rad_per_s * offset_s;
+  switch (stretch.drive_waveform) {
+    case scene::Waveform::square:
+      return piece.amplitude_N;
+    case scene::Waveform::triangle:
+    case scene::Waveform::sawtooth:
+      return piece.amplitude_N * phase_rad;
+    case scene::Waveform::cosine:
+      break;
+  }
+  return piece.amplitude_N * std::cos(phase_rad);
 }
 
 }  // namespace sonoglide::loop

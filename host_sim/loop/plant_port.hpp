@@ -61,4 +61,15 @@ class PlantPort {
 /// The plant of a scene, composed of exactly what the scene names, in its initial state.
 std::unique_ptr<PlantPort> make_plant_port(const scene::Scene& scene);
 
+/// As plant::CosineDrive, RampDrive or LevelDrive, whichever is the waveform's, takes it.
+struct DrivePiece {
+  double amplitude_N;
+  double phase_rad;  ///< at the beginning of the stretch
+};
+
+DrivePiece drive_piece(const Stretch& stretch);
+
+/// Force of the drive at a time since the beginning of the stretch.
+double drive_force_N(const Stretch& stretch, double offset_s);
+
 }  // namespace sonoglide::loop

@@ -3,8 +3,7 @@
 #include <algorithm>
 
 #include "firmware/numeric/turn.hpp"
-#include "host_sim/loop/computation_error.hpp"
-#include "host_sim/loop/failure_reason.hpp"
+#include "host_sim/loop/failure.hpp"
 
 namespace sonoglide::loop {
 namespace {

@@ -4,8 +4,8 @@
 #include <optional>
 
 #include "host_sim/configure/control_design.hpp"
-#include "host_sim/loop/computation_error.hpp"
 #include "host_sim/loop/control_port.hpp"
+#include "host_sim/loop/failure.hpp"
 #include "host_sim/loop/run_result.hpp"
 #include "host_sim/loop/watch.hpp"
 #include "host_sim/scene/scene.hpp"

@@ -15,7 +15,7 @@
 #include "firmware/numeric/turn.hpp"
 #include "host_sim/configure/plant_scales.hpp"
 #include "host_sim/configure/solver_facts.hpp"
-#include "host_sim/loop/computation_error.hpp"
+#include "host_sim/loop/failure.hpp"
 
 namespace sonoglide::loop {
 namespace {

@@ -1,13 +1,71 @@
-/// Who watches a run, and what of it.
+/// Who watches a run, and what of it: carrier periods, states at chosen times, progress.
 #pragma once
 
 #include <functional>
 #include <vector>
 
-#include "host_sim/loop/period.hpp"
-#include "host_sim/loop/sample.hpp"
+#include "firmware/control/drive_command.hpp"
+#include "host_sim/loop/plant_port.hpp"
 
 namespace sonoglide::loop {
+
+/// One carrier period (where there is no drive: one thousandth of the run).
+struct Period {
+  double begin_s;
+  double end_s;
+  double friction_ratio;          ///< ρ, see PowerRatios; NaN without friction
+  double begin_velocity_m_per_s;  ///< sliding
+  double end_velocity_m_per_s;
+  double drive_amplitude_N;    ///< in force during it
+  double target;               ///< that its drive was picked for; NaN in open loop
+  control::State state;        ///< of the command in force during it
+  control::Limit limit;        ///< likewise
+  control::Settling settling;  ///< likewise
+  double commanded_ratio;      ///< likewise: friction ratio, target and feedback together
+};
+
+/// Takes the carrier periods of a run, in order, as soon as each is over.
+class PeriodSink {
+ public:
+  virtual ~PeriodSink() = default;
+  virtual void take(const Period& period) = 0;
+};
+
+struct Sample {
+  double time_s;
+  PlantState state;
+  double drive_force_N;
+  double sliding_velocity_m_per_s;
+};
+
+/// Takes samples in the order of time.
+class SampleSink {
+ public:
+  virtual ~SampleSink() = default;
+  virtual void take(const Sample& sample) = 0;
+};
+
+/// Equally spaced times: begin_s + i·interval_s up to end_s, ends included.
+struct SampleGrid {
+  double begin_s;
+  double end_s;
+  double interval_s;
+};
+
+/// Keeps every sample that it is given, column by column.
+struct Recording final : SampleSink {
+  std::vector<double> time_s;
+  std::vector<PlantState> state;
+  std::vector<double> drive_force_N;
+  std::vector<double> sliding_velocity_m_per_s;
+
+  void take(const Sample& sample) override {
+    time_s.push_back(sample.time_s);
+    state.push_back(sample.state);
+    drive_force_N.push_back(sample.drive_force_N);
+    sliding_velocity_m_per_s.push_back(sample.sliding_velocity_m_per_s);
+  }
+};
 
 /// Called now and then with the fraction done, in [0, 1].
 using Progress = std::function<void(double fraction)>;

@@ -7,10 +7,9 @@
 #include <fstream>
 #include <iterator>
 
-#include "host_sim/process/find_program.hpp"
+#include "host_sim/process/printable.hpp"
 #include "host_sim/process/run_tool.hpp"
 #include "host_sim/process/scratch_folder.hpp"
-#include "host_sim/text/printable.hpp"
 
 namespace sonoglide::output {
 
@@ -21,7 +20,7 @@ std::filesystem::path require_gnuplot() {
 std::string quoted(std::string_view text) {
   constexpr std::string_view plain = " .,:+-=_/()[]<>";
   std::string string = "\"";
-  for (const char each : text::printable(text)) {
+  for (const char each : process::printable(text)) {
     const auto byte = static_cast<unsigned char>(each);
     if (std::isalnum(byte) != 0 || byte >= 0x80 || plain.find(each) != std::string_view::npos) {
       string += each;

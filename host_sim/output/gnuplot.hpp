@@ -15,7 +15,7 @@ std::filesystem::path require_gnuplot();
 /// A text as a string of gnuplot's, with its quotes: double ones, and every sign that gnuplot could
 /// take for more than itself by its octal code. (In single quotes a doubled one stands for itself
 /// only behind another sign: neither `'a` nor `a''b` can be written so.) Printable, see
-/// text::printable(); write `noenhanced` after it where no mark-up is meant.
+/// process::printable(); write `noenhanced` after it where no mark-up is meant.
 std::string quoted(std::string_view text);
 
 /// Draws one SVG picture on a white ground.

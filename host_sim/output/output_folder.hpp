@@ -12,7 +12,7 @@
 #include <system_error>
 #include <vector>
 
-#include "host_sim/output/output_error.hpp"
+#include "host_sim/output/written_files.hpp"
 #include "host_sim/process/scratch_folder.hpp"
 
 namespace sonoglide::output {

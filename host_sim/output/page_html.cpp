@@ -9,7 +9,7 @@
 #include "host_sim/output/assets.hpp"
 #include "host_sim/output/chart_json.hpp"
 #include "host_sim/output/page.hpp"
-#include "host_sim/text/printable.hpp"
+#include "host_sim/process/printable.hpp"
 
 namespace sonoglide::output {
 namespace {
@@ -22,7 +22,7 @@ constexpr std::string_view kContentSecurityPolicy =
 std::string escaped(std::string_view text) {
   std::string html;
   html.reserve(text.size());
-  for (const char c : text::printable_lines(text)) {
+  for (const char c : process::printable_lines(text)) {
     switch (c) {
       case '&':
         html += "&amp;";

@@ -9,8 +9,7 @@
 #include <system_error>
 #include <utility>
 
-#include "host_sim/output/output_error.hpp"
-#include "host_sim/text/checksum.hpp"
+#include "host_sim/process/checksum.hpp"
 
 namespace sonoglide::output {
 namespace {
@@ -78,7 +77,7 @@ WrittenFiles::Content WrittenFiles::content_of(const std::filesystem::path& file
   std::ifstream stream(file, std::ios::binary);
   std::array<char, 1U << 16U> part{};
   Content content{};
-  text::Checksum sum;
+  process::Checksum sum;
   while (stream) {
     stream.read(part.data(), part.size());
     const auto count = static_cast<std::size_t>(stream.gcount());

@@ -1,13 +1,32 @@
-/// Which files of a folder this program has written.
+/// Which files of a folder this program has written, and the error where one cannot be.
 #pragma once
 
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <stdexcept>
 #include <string>
+#include <system_error>
 #include <vector>
 
+#include "host_sim/process/printable.hpp"
+
 namespace sonoglide::output {
+
+/// The file system refused, or holds what is somebody else's; the message names the path and the
+/// reason.
+class OutputError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// @throws OutputError
+[[noreturn]] inline void fail(const std::filesystem::path& path, const std::string& reason) {
+  throw OutputError(process::printable(path.string()) + ": " + reason);
+}
+[[noreturn]] inline void fail(const std::filesystem::path& path, const std::error_code& error) {
+  fail(path, error.message());
+}
 
 /// The list of them, kept in the folder itself, each with its size and checksum: a file that
 /// somebody else has made or changed since is not on it. A file that is about to be replaced is on

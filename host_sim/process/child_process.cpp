@@ -10,7 +10,6 @@
 #include <cstring>
 
 #include "host_sim/process/pipe.hpp"
-#include "host_sim/process/process_error.hpp"
 
 namespace sonoglide::process {
 namespace {
@@ -101,6 +100,23 @@ void ChildProcess::kill() {
 std::string describe_end(int status) {
   return WIFSIGNALED(status) ? fmt::format("signal {}", WTERMSIG(status))
                              : fmt::format("exit code {}", WEXITSTATUS(status));
+}
+
+OneCore::OneCore() {
+  const int core = sched_getcpu();
+  if (core < 0 || core >= CPU_SETSIZE || sched_getaffinity(0, sizeof previous_, &previous_) != 0) {
+    return;
+  }
+  cpu_set_t one;
+  CPU_ZERO(&one);
+  CPU_SET(static_cast<unsigned>(core), &one);
+  changed_ = sched_setaffinity(0, sizeof one, &one) == 0;
+}
+
+OneCore::~OneCore() {
+  if (changed_) {
+    sched_setaffinity(0, sizeof previous_, &previous_);
+  }
 }
 
 }  // namespace sonoglide::process

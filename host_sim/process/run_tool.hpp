@@ -1,12 +1,18 @@
-/// A tool that is run to its end for what it does and says.
+/// Tools: where they are, and running them to their end for what they do and say.
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
-#include "host_sim/process/wait_for_input.hpp"
+#include "host_sim/process/pipe.hpp"
 
 namespace sonoglide::process {
+
+/// @param package  of Debian, that has the program
+/// @return the program's place in PATH
+/// @throws ProcessError  it has none
+std::filesystem::path require_program(const std::string& program, const std::string& package);
 
 /// Runs a tool with no input.
 /// @return all that it wrote, errors included

@@ -12,7 +12,7 @@
 #include <system_error>
 #include <utility>
 
-#include "host_sim/text/printable.hpp"
+#include "host_sim/process/printable.hpp"
 
 namespace sonoglide::process {
 namespace {
@@ -64,7 +64,7 @@ void remove_orphans(const fs::path& parent) {
 }  // namespace
 
 ScratchError::ScratchError(const std::string& path, std::string reason)
-    : ProcessError(text::printable(path) + ": cannot be created: " + reason),
+    : ProcessError(process::printable(path) + ": cannot be created: " + reason),
       reason_(std::move(reason)) {}
 
 ScratchFolder::ScratchFolder(const fs::path& parent) {

@@ -5,8 +5,7 @@
 
 #include <string>
 
-#include "host_sim/process/descriptor.hpp"
-#include "host_sim/process/process_error.hpp"
+#include "host_sim/process/pipe.hpp"
 
 namespace sonoglide::process {
 

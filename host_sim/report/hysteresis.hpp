@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "host_sim/loop/recording.hpp"
+#include "host_sim/loop/watch.hpp"
 #include "host_sim/scene/scene.hpp"
 
 namespace sonoglide::report {

@@ -8,7 +8,7 @@
 
 #include "firmware/numeric/float_format.hpp"
 #include "host_sim/output/output_folder.hpp"
-#include "host_sim/report/control_names.hpp"
+#include "host_sim/report/words.hpp"
 #include "host_sim/scene/names.hpp"
 
 namespace sonoglide::report {

@@ -7,8 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "host_sim/loop/period.hpp"
-#include "host_sim/loop/sample.hpp"
+#include "host_sim/loop/watch.hpp"
 #include "host_sim/scene/scene.hpp"
 
 namespace sonoglide::report {

@@ -61,9 +61,9 @@ std::optional<double> RunFindings::largest_tracking_error() const {
 std::vector<double> RunFindings::target_steps_s() const {
   std::vector<double> steps_s{0.0};
   if (scene_.controller) {
-    for (const scene::TargetStep& step : scene_.controller->target_friction_ratio) {
-      if (step.time_s > 0.0 && step.time_s < scene_.run.duration_s) {
-        steps_s.push_back(step.time_s);
+    for (const TargetSpan& span : target_spans(scene_)) {
+      if (span.step_s > 0.0) {
+        steps_s.push_back(span.step_s);
       }
     }
   }

@@ -10,11 +10,9 @@
 #include "firmware/control/drive_command.hpp"
 #include "host_sim/configure/control_design.hpp"
 #include "host_sim/loop/carrier_grid.hpp"
-#include "host_sim/loop/recording.hpp"
 #include "host_sim/loop/watch.hpp"
 #include "host_sim/report/extremes_curve.hpp"
 #include "host_sim/report/step_metrics.hpp"
-#include "host_sim/report/tracking_error.hpp"
 #include "host_sim/scene/scene.hpp"
 
 namespace sonoglide::report {

@@ -1,17 +1,32 @@
 /// The files and the few printed lines that a run leaves behind.
 #pragma once
 
+#include <nlohmann/json.hpp>
+
 #include <filesystem>
 #include <optional>
 #include <string>
 
 #include "host_sim/loop/run.hpp"
 #include "host_sim/output/output_folder.hpp"
+#include "host_sim/output/page.hpp"
 #include "host_sim/report/run_csv.hpp"
 #include "host_sim/report/run_findings.hpp"
 #include "host_sim/scene/scene.hpp"
 
 namespace sonoglide::report {
+
+output::Page run_page(const scene::Scene& scene, const loop::RunResult& result,
+                      const RunFindings& findings);
+
+/// Every number that a script may want, with the scene echoed in full; a figure that is not defined
+/// for the scene is null.
+nlohmann::ordered_json summary(const scene::Scene& scene, const loop::RunResult& result,
+                               const RunFindings& findings);
+
+/// The same as text, valid UTF-8 whatever the names in it.
+std::string summary_text(const scene::Scene& scene, const loop::RunResult& result,
+                         const RunFindings& findings);
 
 /// The output of one run: summary.json, report.html and, where the scene records anything,
 /// trace.csv and periods.csv (one row for each carrier period); all or none.

@@ -3,12 +3,10 @@
 #include <fmt/format.h>
 
 #include "host_sim/configure/plant_scales.hpp"
-#include "host_sim/output/figure.hpp"
-#include "host_sim/report/control_names.hpp"
-#include "host_sim/report/image_text.hpp"
+#include "host_sim/process/printable.hpp"
 #include "host_sim/report/run_report.hpp"
 #include "host_sim/report/step_metrics.hpp"
-#include "host_sim/text/printable.hpp"
+#include "host_sim/report/words.hpp"
 
 namespace sonoglide::report {
 namespace {
@@ -30,9 +28,9 @@ std::string step_lines(const loop::RunResult& result, const RunFindings& finding
   for (const report::StepMetrics& step : findings.steps()) {
     text += fmt::format("{:>8.3f} ms {:>7.3f} {:>11} {:>10} {:>8} {:>8} N  {}\n", step.time_s * 1e3,
                         step.target, settling(step.settling_time_s),
-                        output::figure("{:+.5f}", step.steady_error),
-                        output::figure("{:.5f}", step.ripple),
-                        output::figure("{:.1f}", step.drive_amplitude_N), limit_text(step));
+                        figure("{:+.5f}", step.steady_error),
+                        figure("{:.5f}", step.ripple),
+                        figure("{:.1f}", step.drive_amplitude_N), limit_text(step));
   }
   if (result.control->design.relearns) {
     text += pause_line(findings.pauses());
@@ -64,7 +62,7 @@ std::string run_text(const scene::Scene& scene, const loop::RunResult& result,
                      lines, result.image ? image_lines(*result.image) : "",
                      result.final_time_s * 1e3, result.wall_s * 1e3,
                      result.final_time_s / result.wall_s,
-                     text::printable((out / "report.html").string()));
+                     process::printable((out / "report.html").string()));
 }
 
 }  // namespace sonoglide::report

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "host_sim/loop/period.hpp"
+#include "host_sim/loop/watch.hpp"
 #include "host_sim/scene/scene.hpp"
 
 namespace sonoglide::report {

@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "host_sim/scene_file/key_text.hpp"
+#include "host_sim/scene_file/key_reference.hpp"
 #include "host_sim/scene_file/keys.hpp"
 
 namespace sonoglide::scene_file {

@@ -8,9 +8,21 @@
 #include <variant>
 #include <vector>
 
-#include "host_sim/scene_file/range.hpp"
-
 namespace sonoglide::scene_file {
+
+/// From low to high, both allowed unless low_open; in text `1e-12 to 1e+06 kg`.
+struct Range {
+  double low;
+  double high;
+  std::string_view unit = "";
+  bool low_open = false;
+
+  /// False for NaN.
+  bool contains(double value) const {
+    return (low_open ? value > low : value >= low) && value <= high;
+  }
+  std::string text() const;
+};
 
 inline constexpr double standard_gravity_m_per_s2 = 9.81;
 /// Hours of a carrier: more is a mistyped unit.
@@ -89,5 +101,8 @@ const Key& key_of(const KeyTable& table, std::string_view name);
 /// `kg`, `m/s`, `periods`; empty for words and for numbers without a unit. Of a profile, that of its
 /// values.
 std::string_view unit_of(const Key& key);
+
+/// Adds each once, as the laws describe them; laws may share a key.
+void add_law_keys(std::vector<Key>& keys);
 
 }  // namespace sonoglide::scene_file

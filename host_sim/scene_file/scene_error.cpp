@@ -4,13 +4,13 @@
 
 #include <utility>
 
-#include "host_sim/text/printable.hpp"
+#include "host_sim/process/printable.hpp"
 
 namespace sonoglide::scene_file {
 namespace {
 
 std::string one_line(const Location& where, const std::string& key, const std::string& message) {
-  return text::printable(
+  return process::printable(
       fmt::format("{}:{}:{}: {}: {}", where.file, where.line, where.column, key, message));
 }
 

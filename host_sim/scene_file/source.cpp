@@ -8,8 +8,8 @@
 #include <string_view>
 #include <system_error>
 
+#include "host_sim/process/printable.hpp"
 #include "host_sim/scene_file/document.hpp"
-#include "host_sim/text/printable.hpp"
 
 namespace sonoglide::scene_file {
 namespace {
@@ -35,7 +35,7 @@ std::string bytes_of(std::istream& stream, const std::string& file) {
 
 std::string Source::name() const {
   return file == standard_input ? "stdin"
-                                : text::printable(std::filesystem::path(file).stem().string());
+                                : process::printable(std::filesystem::path(file).stem().string());
 }
 
 Source read_source(const std::filesystem::path& path) {

@@ -13,7 +13,6 @@
 
 #include "host_sim/scene/names.hpp"
 #include "host_sim/scene_file/keys.hpp"
-#include "host_sim/scene_file/range.hpp"
 #include "host_sim/scene_file/schema.hpp"
 #include "host_sim/scene_file/variant.hpp"
 

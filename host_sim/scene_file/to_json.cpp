@@ -2,7 +2,7 @@
 
 #include "host_sim/configure/solver_facts.hpp"
 #include "host_sim/scene/names.hpp"
-#include "host_sim/scene_file/range.hpp"
+#include "host_sim/scene_file/keys.hpp"
 
 namespace sonoglide::scene_file {
 namespace {

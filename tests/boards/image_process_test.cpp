@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "host_sim/emulated/board_list.hpp"
-#include "host_sim/process/process_error.hpp"
+#include "host_sim/process/pipe.hpp"
 
 namespace sonoglide::emulated {
 namespace {

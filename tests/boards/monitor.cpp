@@ -10,7 +10,7 @@
 #include <stdexcept>
 #include <string_view>
 
-#include "host_sim/process/wait_for_input.hpp"
+#include "host_sim/process/pipe.hpp"
 
 namespace sonoglide::emulated {
 namespace {

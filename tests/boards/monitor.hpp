@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "host_sim/process/descriptor.hpp"
+#include "host_sim/process/pipe.hpp"
 
 namespace sonoglide::emulated {
 

@@ -28,7 +28,7 @@
 #include "hal/trace_hash.hpp"
 #include "host_sim/configure/configuration_error.hpp"
 #include "host_sim/emulated/board_list.hpp"
-#include "host_sim/emulated/measure_image.hpp"
+#include "host_sim/emulated/image_cost.hpp"
 #include "host_sim/emulated/plant_header.hpp"
 #include "host_sim/loop/carrier_grid.hpp"
 #include "host_sim/loop/control_port.hpp"

@@ -16,7 +16,6 @@
 #include "host_sim/emulated/board_list.hpp"
 #include "host_sim/process/child_process.hpp"
 #include "host_sim/process/pipe.hpp"
-#include "host_sim/process/wait_for_input.hpp"
 #include "monitor.hpp"
 
 namespace sonoglide::emulated {

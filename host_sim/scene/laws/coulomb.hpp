@@ -5,7 +5,6 @@
 
 #include "firmware/friction/coulomb.hpp"
 #include "host_sim/scene/contact.hpp"
-#include "host_sim/scene/scales.hpp"
 
 namespace sonoglide::scene::laws {
 

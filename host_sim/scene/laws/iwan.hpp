@@ -6,7 +6,6 @@
 
 #include "firmware/friction/iwan.hpp"
 #include "host_sim/scene/contact.hpp"
-#include "host_sim/scene/scales.hpp"
 
 namespace sonoglide::scene::laws {
 

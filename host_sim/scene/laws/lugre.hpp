@@ -6,7 +6,6 @@
 #include "firmware/friction/lugre.hpp"
 #include "firmware/numeric/float_elementary.hpp"
 #include "host_sim/scene/contact.hpp"
-#include "host_sim/scene/scales.hpp"
 
 namespace sonoglide::scene::laws {
 

@@ -3,16 +3,48 @@
 
 #include <array>
 #include <functional>
+#include <string>
 #include <vector>
 
 #include "firmware/control/drive_command.hpp"
 #include "host_sim/emulated/board_list.hpp"
-#include "host_sim/loop/image_record.hpp"
-#include "host_sim/process/wait_for_input.hpp"
+#include "host_sim/loop/run.hpp"
+#include "host_sim/loop/run_result.hpp"
+#include "host_sim/process/pipe.hpp"
+#include "host_sim/report/step_metrics.hpp"
 #include "host_sim/scene/scene.hpp"
-#include "host_sim/studies/arithmetic/precision.hpp"
 
 namespace sonoglide::arithmetic {
+
+/// The course of one closed-loop run; to be watched with.
+class Course final : public loop::PeriodSink {
+ public:
+  explicit Course(const scene::Scene& scene) : meter_(scene) {}
+
+  void take(const loop::Period& period) override {
+    friction_ratios_.push_back(period.friction_ratio);
+    meter_.take(period);
+  }
+
+  /// One for each carrier period.
+  const std::vector<double>& friction_ratios() const { return friction_ratios_; }
+  std::vector<report::StepMetrics> steps() const { return meter_.steps(); }
+
+ private:
+  std::vector<double> friction_ratios_;
+  report::StepMeter meter_;
+};
+
+/// A figure for which there is no target step is NaN.
+struct Precision {
+  double rms_difference = 0.0;  ///< of the friction ratio from that with float64, all periods
+  double largest_difference = 0.0;
+  double steady_error = 0.0;  ///< largest magnitude over the target steps that no limit disturbed
+  double ripple = 0.0;        ///< largest over the same
+};
+
+/// @param exact  the same scene with a controller in float64
+Precision precision(const Course& course, const Course& exact);
 
 /// From the fewest bits to the most.
 inline constexpr std::array<scene::Arithmetic, 4> all_arithmetics = {

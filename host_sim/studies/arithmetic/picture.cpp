@@ -1,4 +1,4 @@
-#include "host_sim/studies/arithmetic/picture.hpp"
+#include "host_sim/studies/arithmetic/report.hpp"
 
 #include <fmt/format.h>
 

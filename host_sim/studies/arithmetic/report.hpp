@@ -8,6 +8,17 @@
 
 namespace sonoglide::arithmetic {
 
+/// One line for each image under a heading line; what is not defined is nan.
+std::string images_csv(const Comparison& comparison);
+
+/// One line for each target and arithmetic.
+std::string targets_csv(const Comparison& comparison);
+
+/// Left: difference from float64 against instructions per step, a point for each image. Right:
+/// difference and ripple against the target.
+/// @throws process::ProcessError
+std::string draw(const Comparison& comparison, const std::string& title);
+
 /// Writes arithmetic.csv, targets.csv and arithmetic.svg; all or none.
 /// @throws report::OutputError, process::ProcessError
 void write(const std::filesystem::path& out, const scene::Scene& scene,

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "host_sim/studies/design/quantity.hpp"
+#include "host_sim/studies/design/report.hpp"
 
 namespace sonoglide::design {
 namespace {

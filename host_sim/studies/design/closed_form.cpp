@@ -9,7 +9,6 @@
 #include "firmware/friction/stribeck_friction_ratio.hpp"
 #include "firmware/numeric/turn.hpp"
 #include "host_sim/configure/plant_scales.hpp"
-#include "host_sim/studies/design/root.hpp"
 
 namespace sonoglide::design {
 

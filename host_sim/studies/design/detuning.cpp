@@ -5,8 +5,8 @@
 #include <limits>
 
 #include "firmware/numeric/turn.hpp"
-#include "host_sim/loop/computation_error.hpp"
-#include "host_sim/studies/design/root.hpp"
+#include "host_sim/loop/failure.hpp"
+#include "host_sim/studies/design/closed_form.hpp"
 #include "host_sim/studies/design/sensitivity.hpp"
 
 namespace sonoglide::design {

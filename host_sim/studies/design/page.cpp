@@ -1,4 +1,4 @@
-#include "host_sim/studies/design/page.hpp"
+#include "host_sim/studies/design/report.hpp"
 
 #include <fmt/format.h>
 
@@ -6,8 +6,6 @@
 
 #include "host_sim/scene/names.hpp"
 #include "host_sim/studies/design/advice.hpp"
-#include "host_sim/studies/design/picture.hpp"
-#include "host_sim/studies/design/quantity.hpp"
 
 namespace sonoglide::design {
 namespace {

@@ -1,4 +1,4 @@
-#include "host_sim/studies/design/picture.hpp"
+#include "host_sim/studies/design/report.hpp"
 
 #include <fmt/format.h>
 

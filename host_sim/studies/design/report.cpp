@@ -2,15 +2,34 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "host_sim/output/output_folder.hpp"
 #include "host_sim/output/page.hpp"
+#include "host_sim/process/printable.hpp"
 #include "host_sim/studies/design/advice.hpp"
-#include "host_sim/studies/design/page.hpp"
-#include "host_sim/studies/design/quantity.hpp"
-#include "host_sim/studies/design/tables.hpp"
-#include "host_sim/text/printable.hpp"
 
 namespace sonoglide::design {
+
+std::string number(double value) {
+  return std::isfinite(value) ? fmt::format("{:.4g}", value) : std::string("-");
+}
+
+std::string quantity(double value, const char* unit) {
+  if (!std::isfinite(value) || value == 0.0) {
+    return std::isfinite(value) ? fmt::format("0 {}", unit) : std::string("-");
+  }
+  static constexpr const char* prefixes[] = {"p", "n", "u", "m", "", "k", "M", "G"};
+  constexpr int without = 4;
+  constexpr int last = 7;
+  // What rounds to 1000 has the next prefix.
+  const double thousands = std::floor(std::log10(std::abs(value) * (1.0 + 5e-5)) / 3.0);
+  const int index = std::clamp(static_cast<int>(thousands) + without, 0, last);
+  return fmt::format("{:.4g} {}{}", value * std::pow(1000.0, without - index), prefixes[index],
+                     unit);
+}
+
 namespace {
 
 std::string drive_line(const Requirement& point) {
@@ -68,7 +87,7 @@ std::string text(const Study& study, const std::filesystem::path& out) {
   for (const Advice& each : advice(study)) {
     lines += fmt::format("{}: {}\n", each.topic, each.sentence);
   }
-  return lines + fmt::format("report: {}\n", text::printable((out / "report.html").string()));
+  return lines + fmt::format("report: {}\n", process::printable((out / "report.html").string()));
 }
 
 }  // namespace sonoglide::design

@@ -1,12 +1,46 @@
 /// The files and the printed page that a design leaves behind.
 #pragma once
 
+#include <nlohmann/json.hpp>
+
 #include <filesystem>
 #include <string>
 
+#include "host_sim/output/page.hpp"
 #include "host_sim/studies/design/study.hpp"
 
 namespace sonoglide::design {
+
+/// Four digits with the prefix that suits: `526.3 N`, `26.72 mm/s`; `-` for what is not defined.
+std::string quantity(double value, const char* unit);
+
+/// Four digits without a prefix.
+std::string number(double value);
+
+/// One line for each ratio and speed, 17 digits.
+std::string requirements_csv(const Study& study);
+
+/// One line for each ratio and tuning Ks/(m w²), at the fastest of the task's speeds, 17 digits.
+std::string detuning_csv(const Study& study);
+
+/// The design points with their sensitivities, the reach of each ratio, and the tuning bands.
+nlohmann::ordered_json to_json(const Study& study);
+
+/// Each one an SVG document. @throws process::ProcessError
+
+/// Required force and power over the sliding speed, the drive's limit shaded.
+std::string draw_requirements(const Study& study);
+
+/// Bars of d ln rho/d ln p at the fastest of the task's speeds, a colour a ratio; some ratio has a
+/// motion there.
+std::string draw_sensitivities(const Study& study);
+
+/// Over the tuning Ks/(m w²): the ratio under the scene's force, the force that keeps it, and what
+/// 1 % of the spring then costs; some ratio has a motion.
+std::string draw_detunings(const Study& study);
+
+/// @throws process::ProcessError  of the pictures
+output::Page page(const Study& study);
 
 /// Writes report.html, design.json, design.csv and detuning.csv; all or none.
 /// @throws report::OutputError, process::ProcessError

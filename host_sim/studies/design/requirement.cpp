@@ -5,9 +5,8 @@
 #include <optional>
 
 #include "host_sim/configure/plant_scales.hpp"
-#include "host_sim/loop/computation_error.hpp"
+#include "host_sim/loop/failure.hpp"
 #include "host_sim/studies/design/closed_form.hpp"
-#include "host_sim/studies/design/root.hpp"
 
 namespace sonoglide::design {
 namespace {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "host_sim/loop/recording.hpp"
 #include "host_sim/loop/run.hpp"
+#include "host_sim/loop/watch.hpp"
 #include "host_sim/scene/friction_laws.hpp"
 
 namespace sonoglide::design {

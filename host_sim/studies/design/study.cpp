@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstddef>
 
-#include "host_sim/loop/computation_error.hpp"
+#include "host_sim/loop/failure.hpp"
 
 namespace sonoglide::design {
 namespace {

@@ -1,10 +1,10 @@
-#include "host_sim/studies/design/tables.hpp"
+#include "host_sim/studies/design/report.hpp"
 
 #include <fmt/format.h>
 
 #include <cmath>
 
-#include "host_sim/output/csv_number.hpp"
+#include "host_sim/output/csv.hpp"
 #include "host_sim/scene_file/to_json.hpp"
 
 namespace sonoglide::design {

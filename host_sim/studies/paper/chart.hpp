@@ -7,6 +7,14 @@
 
 namespace sonoglide::paper {
 
+struct Column {
+  std::string name;  ///< with its unit
+  std::vector<double> values;
+};
+
+/// Numbers with 17 digits; `nan` below the end of a shorter column.
+std::string to_csv(const std::vector<Column>& columns);
+
 /// marked: a line with its colour's own symbol on it, so that it is told from others in grey as
 /// well. area: inside of a closed outline, filled.
 enum class Line { solid, marked, dashed, points, area };

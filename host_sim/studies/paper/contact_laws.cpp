@@ -6,13 +6,21 @@
 
 #include "firmware/friction/coulomb_friction_ratio.hpp"
 #include "firmware/friction/dahl_friction_ratio.hpp"
+#include "firmware/friction/stribeck_friction_ratio.hpp"
 #include "host_sim/loop/run.hpp"
 #include "host_sim/scene_file/reader.hpp"
-#include "host_sim/studies/paper/ratio_curve.hpp"
-#include "host_sim/studies/paper/stribeck_shape.hpp"
+#include "host_sim/studies/paper/runs.hpp"
 #include "host_sim/studies/paper/table_1.hpp"
 
 namespace sonoglide::paper {
+
+double stribeck_vibration_ratio(double velocity_ratio, const StribeckShape& shape) {
+  const double fall = 1.5 * shape.drop * shape.vibration;
+  const double rise = 0.5 * shape.drop * shape.vibration * shape.vibration * shape.vibration;
+  const double r = velocity_ratio;
+  return friction::stribeck_friction_ratio(r, fall, rise) / (1.0 - r * (fall - rise * r * r));
+}
+
 namespace {
 
 // What no source gives for this contact, the static friction and the curves, is chosen: a static

@@ -8,14 +8,12 @@
 #include "host_sim/loop/run.hpp"
 #include "host_sim/scene_file/reader.hpp"
 #include "host_sim/studies/paper/chart.hpp"
-#include "host_sim/studies/paper/columns.hpp"
 #include "host_sim/studies/paper/contact_laws.hpp"
-#include "host_sim/studies/paper/dong_dapino.hpp"
+#include "host_sim/studies/paper/experiments.hpp"
 #include "host_sim/studies/paper/figures.hpp"
-#include "host_sim/studies/paper/luo_2024.hpp"
 #include "host_sim/studies/paper/measurement_charts.hpp"
 #include "host_sim/studies/paper/measurements.hpp"
-#include "host_sim/studies/paper/ratio_curve.hpp"
+#include "host_sim/studies/paper/runs.hpp"
 #include "host_sim/studies/paper/table_1.hpp"
 
 namespace sonoglide::paper {

@@ -7,8 +7,7 @@
 
 #include "firmware/friction/dahl_friction_ratio.hpp"
 #include "firmware/friction/normal_vibration_ratio.hpp"
-#include "host_sim/studies/paper/dong_dapino.hpp"
-#include "host_sim/studies/paper/luo_2024.hpp"
+#include "host_sim/studies/paper/experiments.hpp"
 
 namespace sonoglide::paper {
 namespace {

@@ -4,8 +4,7 @@
 #include <vector>
 
 #include "host_sim/studies/paper/chart.hpp"
-#include "host_sim/studies/paper/columns.hpp"
-#include "host_sim/studies/paper/range.hpp"
+#include "host_sim/studies/paper/experiments.hpp"
 
 namespace sonoglide::paper {
 

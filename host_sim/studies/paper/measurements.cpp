@@ -6,9 +6,8 @@
 #include <iterator>
 #include <limits>
 
-#include "host_sim/output/csv_number.hpp"
-#include "host_sim/studies/paper/dong_dapino.hpp"
-#include "host_sim/studies/paper/luo_2024.hpp"
+#include "host_sim/output/csv.hpp"
+#include "host_sim/studies/paper/experiments.hpp"
 
 namespace sonoglide::paper {
 namespace {

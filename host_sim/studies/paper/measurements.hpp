@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "host_sim/output/page.hpp"
-#include "host_sim/studies/paper/range.hpp"
+#include "host_sim/studies/paper/experiments.hpp"
 
 namespace sonoglide::paper {
 

@@ -5,12 +5,19 @@
 #include <vector>
 
 #include "host_sim/output/output_folder.hpp"
-#include "host_sim/studies/paper/balance.hpp"
 #include "host_sim/studies/paper/figures.hpp"
-#include "host_sim/studies/paper/paper_page.hpp"
+#include "host_sim/studies/paper/findings.hpp"
 #include "host_sim/studies/paper/table_1.hpp"
 
 namespace sonoglide::paper {
+
+const std::vector<NumberedFigure>& figure_list() {
+  static const std::vector<NumberedFigure> list = {
+      {2, figure_2}, {3, figure_3}, {4, figure_4},   {5, figure_5},   {6, figure_6},  {7, figure_7},
+      {8, figure_8}, {9, figure_9}, {10, figure_10}, {11, figure_11}, {12, figure_12}};
+  return list;
+}
+
 namespace {
 
 std::vector<std::string> file_names(std::optional<int> wanted) {

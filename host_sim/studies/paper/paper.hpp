@@ -4,8 +4,22 @@
 #include <filesystem>
 #include <functional>
 #include <optional>
+#include <vector>
+
+#include "host_sim/output/page.hpp"
+#include "host_sim/studies/paper/figures.hpp"
+#include "host_sim/studies/paper/findings.hpp"
 
 namespace sonoglide::paper {
+
+/// What is no figure.
+struct Findings {
+  std::vector<Fault> faults;
+  std::vector<Balance> balances;
+};
+
+/// @param findings  left out where empty
+output::Page paper_page(const std::vector<Figure>& figures, const Findings& findings);
 
 using Progress = std::function<void(double fraction)>;
 

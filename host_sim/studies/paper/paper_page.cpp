@@ -1,4 +1,4 @@
-#include "host_sim/studies/paper/paper_page.hpp"
+#include "host_sim/studies/paper/paper.hpp"
 
 #include <fmt/format.h>
 

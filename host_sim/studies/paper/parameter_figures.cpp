@@ -8,9 +8,8 @@
 
 #include "firmware/numeric/turn.hpp"
 #include "host_sim/studies/paper/chart.hpp"
-#include "host_sim/studies/paper/columns.hpp"
 #include "host_sim/studies/paper/figures.hpp"
-#include "host_sim/studies/paper/ratio_curve.hpp"
+#include "host_sim/studies/paper/runs.hpp"
 #include "host_sim/studies/paper/table_1.hpp"
 
 namespace sonoglide::paper {

@@ -11,9 +11,8 @@
 #include "host_sim/configure/plant_scales.hpp"
 #include "host_sim/loop/run.hpp"
 #include "host_sim/studies/paper/chart.hpp"
-#include "host_sim/studies/paper/columns.hpp"
 #include "host_sim/studies/paper/figures.hpp"
-#include "host_sim/studies/paper/recorded_run.hpp"
+#include "host_sim/studies/paper/runs.hpp"
 #include "host_sim/studies/paper/table_1.hpp"
 
 namespace sonoglide::paper {

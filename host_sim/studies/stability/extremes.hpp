@@ -9,7 +9,6 @@
 
 #include "host_sim/studies/stability/parallel.hpp"
 #include "host_sim/studies/stability/trial.hpp"
-#include "host_sim/studies/stability/verdict.hpp"
 
 namespace sonoglide::stability {
 

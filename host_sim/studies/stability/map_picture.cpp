@@ -1,4 +1,4 @@
-#include "host_sim/studies/stability/map_picture.hpp"
+#include "host_sim/studies/stability/report.hpp"
 
 #include <fmt/format.h>
 

@@ -10,7 +10,6 @@
 #include "firmware/plant/state_check.hpp"
 #include "host_sim/configure/plant_scales.hpp"
 #include "host_sim/configure/solver_methods.hpp"
-#include "host_sim/studies/stability/composition.hpp"
 #include "host_sim/studies/stability/run_trial.hpp"
 
 namespace sonoglide::stability {

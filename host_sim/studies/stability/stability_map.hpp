@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "host_sim/studies/stability/parallel.hpp"
-#include "host_sim/studies/stability/verdict.hpp"
+#include "host_sim/studies/stability/trial.hpp"
 
 namespace sonoglide::stability {
 

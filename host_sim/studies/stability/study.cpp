@@ -3,9 +3,7 @@
 #include <utility>
 
 #include "host_sim/output/output_folder.hpp"
-#include "host_sim/studies/stability/map_picture.hpp"
-#include "host_sim/studies/stability/study_page.hpp"
-#include "host_sim/studies/stability/tables.hpp"
+#include "host_sim/studies/stability/report.hpp"
 
 namespace sonoglide::stability {
 namespace {

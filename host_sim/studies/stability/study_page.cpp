@@ -1,4 +1,4 @@
-#include "host_sim/studies/stability/study_page.hpp"
+#include "host_sim/studies/stability/report.hpp"
 
 #include <fmt/format.h>
 

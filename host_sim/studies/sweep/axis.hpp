@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "host_sim/scene_file/varied_value.hpp"
+#include "host_sim/scene_file/variant.hpp"
 
 namespace sonoglide::sweep {
 
@@ -62,5 +62,33 @@ Axis parse_axis(const std::string& text, std::size_t ordinal);
 /// A number as scenes and tables write it: the shortest text that reads back the same; a whole
 /// number below 1e16 has no point.
 std::string number_text(double value);
+
+/// Cartesian product; the first axis changes slowest.
+class Grid {
+ public:
+  /// @throws scene::SceneError  no axis, or more than most_points points
+  explicit Grid(std::vector<Axis> axes);
+
+  const std::vector<Axis>& axes() const { return axes_; }
+  std::size_t size() const { return size_; }
+
+  /// Points from one value of an axis to the next.
+  std::size_t stride(std::size_t axis) const { return strides_[axis]; }
+  /// Position along an axis of a point, in [0, count of that axis).
+  std::size_t index(std::size_t point, std::size_t axis) const {
+    return point / strides_[axis] % axes_[axis].count;
+  }
+  double number(std::size_t point, std::size_t axis) const {
+    return axes_[axis].number(index(point, axis));
+  }
+  std::string text(std::size_t point, std::size_t axis) const {
+    return axes_[axis].text(index(point, axis));
+  }
+
+ private:
+  std::vector<Axis> axes_;
+  std::vector<std::size_t> strides_;
+  std::size_t size_ = 1;
+};
 
 }  // namespace sonoglide::sweep

@@ -3,7 +3,6 @@
 
 #include <optional>
 
-#include "host_sim/batch/dahl_run.hpp"
 #include "host_sim/batch/run_dahl_plants.hpp"
 #include "host_sim/scene/scene.hpp"
 #include "host_sim/studies/sweep/row.hpp"

@@ -12,8 +12,8 @@
 #include <utility>
 
 #include "host_sim/output/output_folder.hpp"
-#include "host_sim/studies/sweep/steady_time.hpp"
-#include "host_sim/text/printable.hpp"
+#include "host_sim/process/printable.hpp"
+#include "host_sim/studies/sweep/pace.hpp"
 
 namespace sonoglide::sweep {
 namespace {
@@ -136,7 +136,7 @@ void Journal::refuse(const std::string& contents) const {
   throw ForeignJournal(
       fmt::format("{}: holds an unfinished sweep of {}; allowed: finish that one, remove the file, "
                   "or choose another folder",
-                  text::printable(path_.string()), contents));
+                  process::printable(path_.string()), contents));
 }
 
 void Journal::write(const std::string& text) {

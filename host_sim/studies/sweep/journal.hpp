@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "host_sim/studies/sweep/record.hpp"
+#include "host_sim/studies/sweep/row.hpp"
 
 namespace sonoglide::sweep {
 

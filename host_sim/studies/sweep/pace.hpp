@@ -1,14 +1,22 @@
 /// Finished points to the part of the time that is gone.
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <functional>
 #include <mutex>
 
-#include "host_sim/studies/sweep/progress.hpp"
-#include "host_sim/studies/sweep/steady_time.hpp"
-
 namespace sonoglide::sweep {
+
+/// Called now and then with the part of the time that is gone, in [0, 1], by one thread at a time:
+/// time gone × (1 − fraction) / fraction is the time left. It falls where the rest turns out to
+/// take longer than it seemed.
+using Progress = std::function<void(double fraction)>;
+
+/// Time in s since some beginning.
+inline double steady_time_s() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
 
 /// Follows work done in stages. Within a stage every point is taken to cost the same; points that
 /// were finished before do not count, so that a sweep that goes on is not thought a fast one.

@@ -12,7 +12,7 @@
 #include "host_sim/scene_file/scene_error.hpp"
 #include "host_sim/scene_file/source.hpp"
 #include "host_sim/scene_file/variant.hpp"
-#include "host_sim/studies/sweep/grid.hpp"
+#include "host_sim/studies/sweep/axis.hpp"
 #include "host_sim/studies/sweep/pace.hpp"
 
 namespace sonoglide::sweep {

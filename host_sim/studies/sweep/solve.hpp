@@ -6,11 +6,22 @@
 #include <optional>
 #include <vector>
 
+#include "host_sim/scene/scene.hpp"
 #include "host_sim/studies/sweep/batch_point.hpp"
 #include "host_sim/studies/sweep/plan.hpp"
-#include "host_sim/studies/sweep/record.hpp"
+#include "host_sim/studies/sweep/row.hpp"
 
 namespace sonoglide::sweep {
+
+/// Time to solve a point over the time to read it, right to a factor of about two: it serves the
+/// progress shown while the points of a sweep are read, and nothing else.
+double expected_solving_cost(const scene::Scene& scene);
+
+/// The mean of all points, as a few from all over the sweep have it.
+double expected_solving_cost(const Plan& plan);
+
+/// A computation that fails gives a row whose status says why.
+Row solve_scalar_point(const scene::Scene& scene);
 
 /// Points that are solved in one go.
 using Points = std::vector<std::size_t>;

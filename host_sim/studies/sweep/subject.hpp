@@ -1,7 +1,10 @@
 /// What the pictures of a sweep show.
 #pragma once
 
+#include <cstddef>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "host_sim/studies/sweep/plan.hpp"
 #include "host_sim/studies/sweep/row.hpp"
@@ -19,5 +22,13 @@ Subject subject(const Plan& plan);
 /// The gnuplot commands for an axis, `x` or `y`: its label, its scale where that is logarithmic,
 /// and the names of values that stand side by side.
 std::string axis_commands(const Axis& axis, char letter);
+
+struct Extremes {
+  std::size_t lowest;   ///< point
+  std::size_t highest;  ///< point
+};
+
+/// The first point of several with the same value; absent where the figure is NaN in every row.
+std::optional<Extremes> extremes(const std::vector<Row>& rows, double Row::*figure);
 
 }  // namespace sonoglide::sweep

@@ -1,13 +1,19 @@
 #include "host_sim/studies/sweep/sweep.hpp"
 
 #include <fmt/format.h>
+#include <tbb/blocked_range.h>
 #include <tbb/global_control.h>
 #include <tbb/info.h>
+#include <tbb/parallel_for.h>
+#include <tbb/partitioner.h>
 
 #include <algorithm>
 #include <chrono>
+#include <mutex>
 #include <optional>
+#include <string>
 #include <system_error>
+#include <utility>
 
 #include "host_sim/batch/run_dahl_plants.hpp"
 #include "host_sim/output/gnuplot.hpp"
@@ -15,13 +21,80 @@
 #include "host_sim/output/page.hpp"
 #include "host_sim/process/interruption.hpp"
 #include "host_sim/scene_file/to_json.hpp"
-#include "host_sim/studies/sweep/compute.hpp"
-#include "host_sim/studies/sweep/csv.hpp"
 #include "host_sim/studies/sweep/journal.hpp"
-#include "host_sim/studies/sweep/picture.hpp"
-#include "host_sim/studies/sweep/sweep_page.hpp"
+#include "host_sim/studies/sweep/report.hpp"
 
 namespace sonoglide::sweep {
+namespace {
+
+/// Where the threads hand in what they have finished.
+class Collection {
+ public:
+  Collection(std::size_t points, Journal& journal, Pace& pace)
+      : rows_(points), known_(points), journal_(journal), pace_(pace) {
+    for (const Record& record : journal.finished()) {
+      take(record);
+    }
+  }
+
+  void hand_in(std::vector<Record> records) {
+    // The text is made before the lock: that is most of the work.
+    const std::string text = Journal::text_of(records);
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      journal_.append(text);
+      for (Record& record : records) {
+        take(std::move(record));
+      }
+    }
+    pace_.add(records.size());
+  }
+
+  Points open_points() const {
+    Points open;
+    for (std::size_t point = 0; point < known_.size(); ++point) {
+      if (!known_[point]) {
+        open.push_back(point);
+      }
+    }
+    return open;
+  }
+
+  std::vector<Row> take_rows() { return std::move(rows_); }
+
+ private:
+  void take(Record record) {
+    known_[record.point] = true;
+    rows_[record.point] = std::move(record.row);
+  }
+
+  std::mutex mutex_;
+  std::vector<Row> rows_;
+  std::vector<bool> known_;
+  Journal& journal_;
+  Pace& pace_;
+};
+
+}  // namespace
+
+std::vector<Row> compute(const Solve& solve, std::size_t points, Journal& journal, Pace& pace) {
+  Collection collection(points, journal, pace);
+  const Points open = collection.open_points();
+  pace.begin(open.size(), 0.0);
+  const std::vector<Points> calls = solve.calls(open);
+  // One call to a task: those that take long leave the rest to others.
+  tbb::parallel_for(
+      tbb::blocked_range<std::size_t>(0, calls.size(), 1),
+      [&](const tbb::blocked_range<std::size_t>& range) {
+        for (std::size_t index = range.begin(); index < range.end(); ++index) {
+          solve(calls[index],
+                [&](std::vector<Record> records) { collection.hand_in(std::move(records)); });
+        }
+      },
+      tbb::simple_partitioner());
+  return collection.take_rows();
+}
+
 namespace {
 
 namespace fs = std::filesystem;

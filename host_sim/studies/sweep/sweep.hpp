@@ -7,10 +7,19 @@
 #include <vector>
 
 #include "host_sim/studies/sweep/journal.hpp"
+#include "host_sim/studies/sweep/pace.hpp"
 #include "host_sim/studies/sweep/plan.hpp"
-#include "host_sim/studies/sweep/progress.hpp"
+#include "host_sim/studies/sweep/row.hpp"
+#include "host_sim/studies/sweep/solve.hpp"
 
 namespace sonoglide::sweep {
+
+/// The rows of the whole grid, in its order: those that the journal holds and, into it, the others.
+/// The rows are the same to the bit for any number of threads and after any interruption.
+/// @param points  of the grid
+/// @param pace    told of the points computed
+/// @throws report::OutputError  the journal cannot be written
+std::vector<Row> compute(const Solve& solve, std::size_t points, Journal& journal, Pace& pace);
 
 struct Summary {
   std::size_t points;

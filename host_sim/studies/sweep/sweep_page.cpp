@@ -1,4 +1,4 @@
-#include "host_sim/studies/sweep/sweep_page.hpp"
+#include "host_sim/studies/sweep/report.hpp"
 
 #include <fmt/format.h>
 
@@ -8,9 +8,7 @@
 #include <utility>
 
 #include "host_sim/scene_file/to_json.hpp"
-#include "host_sim/studies/sweep/extremes.hpp"
-#include "host_sim/studies/sweep/heat_map.hpp"
-#include "host_sim/studies/sweep/picture.hpp"
+#include "host_sim/studies/sweep/subject.hpp"
 
 namespace sonoglide::sweep {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "host_sim/studies/work_precision/peers/problem.hpp"
+#include "host_sim/studies/work_precision/peers/contender.hpp"
 #include "host_sim/studies/work_precision/reference.hpp"
 #include "host_sim/studies/work_precision/solvers.hpp"
 

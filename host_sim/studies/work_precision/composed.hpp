@@ -1,27 +1,30 @@
 /// A solver of the product as a contender: composed by types, as everywhere else.
 #pragma once
 
+#include <fmt/format.h>
+
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <string>
 #include <type_traits>
+#include <utility>
 
 #include "firmware/friction/dahl.hpp"
 #include "firmware/plant/account.hpp"
+#include "firmware/plant/contact.hpp"
 #include "firmware/plant/damping.hpp"
 #include "firmware/plant/drive.hpp"
-#include "firmware/plant/model.hpp"
 #include "firmware/plant/observer.hpp"
 #include "firmware/plant/outcome.hpp"
 #include "firmware/plant/sliding.hpp"
 #include "firmware/plant/state.hpp"
+#include "host_sim/configure/plant_model.hpp"
+#include "host_sim/configure/solver_methods.hpp"
 #include "host_sim/studies/work_precision/peers/contender.hpp"
-#include "host_sim/studies/work_precision/peers/problem.hpp"
+#include "host_sim/studies/work_precision/solvers.hpp"
 
 namespace sonoglide::work_precision {
-
-/// What a failed advance shows as its status.
-std::string status_of(plant::Error error);
 
 template <class Solver>
 class Composed final : public peers::Contender {
@@ -71,11 +74,21 @@ class Composed final : public peers::Contender {
 };
 
 /// The problem's model with this damping, in this arithmetic.
-template <class Scalar>
-plant::Contact<friction::Dahl<Scalar>> contact_of(const peers::Problem& problem) {
-  return {{static_cast<Scalar>(problem.contact_stiffness)},
-          static_cast<Scalar>(problem.friction_force),
-          static_cast<Scalar>(problem.vibration_sign)};
+template <class Scalar, template <class> class Damping>
+auto model_of(const peers::Problem& problem) {
+  const plant::Contact<friction::Dahl<Scalar>> contact = {
+      {static_cast<Scalar>(problem.contact_stiffness)},
+      static_cast<Scalar>(problem.friction_force),
+      static_cast<Scalar>(problem.vibration_sign)};
+  return configure::plant_model<Scalar, Damping, plant::CosineDrive, plant::ConstantSliding>(
+      contact,
+      {problem.stiffness, problem.damping, problem.friction_force, problem.contact_stiffness});
+}
+
+template <template <class> class Solver, class Model>
+std::unique_ptr<peers::Contender> contender_of(const peers::Problem& problem, const Model& model,
+                                               double setting) {
+  return std::make_unique<Composed<Solver<Model>>>(problem, model, setting);
 }
 
 /// @tparam Solver   a solver template over the model
@@ -83,21 +96,75 @@ plant::Contact<friction::Dahl<Scalar>> contact_of(const peers::Problem& problem)
 /// The plant has no damping term where the problem has no damping; in float it always has one.
 template <template <class> class Solver, class Scalar>
 std::unique_ptr<peers::Contender> compose(const peers::Problem& problem, double setting) {
-  const auto stiffness = static_cast<Scalar>(problem.stiffness);
   if constexpr (std::is_same_v<Scalar, double>) {
     if (!(problem.damping > 0.0)) {
-      using Model = plant::Model<friction::Dahl<Scalar>, plant::Undamped<Scalar>,
-                                 plant::CosineDrive, plant::ConstantSliding>;
-      return std::make_unique<Composed<Solver<Model>>>(
-          problem, Model{contact_of<Scalar>(problem), {}, stiffness}, setting);
+      return contender_of<Solver>(problem, model_of<Scalar, plant::Undamped>(problem), setting);
     }
   }
-  using Model = plant::Model<friction::Dahl<Scalar>, plant::Damped<Scalar>, plant::CosineDrive,
-                             plant::ConstantSliding>;
-  return std::make_unique<Composed<Solver<Model>>>(
-      problem,
-      Model{contact_of<Scalar>(problem), {static_cast<Scalar>(problem.damping)}, stiffness},
-      setting);
+  return contender_of<Solver>(problem, model_of<Scalar, plant::Damped>(problem), setting);
+}
+
+namespace detail {
+
+template <class Described, int Order>
+struct OfOrder {
+  template <class Model>
+  using Solver = typename Described::template Core<Model, Order>;
+};
+
+template <class Described, int Order, class Scalar>
+std::unique_ptr<peers::Contender> contender(const peers::Problem& problem, double setting) {
+  return compose<OfOrder<Described, Order>::template Solver, Scalar>(
+      problem, Described::adaptive ? setting : peers::carrier_period / setting);
+}
+
+constexpr Family family_of(configure::Palette palette) {
+  switch (palette) {
+    case configure::Palette::blue:
+      return Family::blue;
+    case configure::Palette::orange:
+      return Family::orange;
+    case configure::Palette::green:
+      break;
+  }
+  return Family::green;
+}
+
+template <class Scalar>
+inline constexpr bool is_single = std::is_same_v<Scalar, float>;
+
+template <class Described, class Scalar>
+constexpr const auto& sweeps() {
+  if constexpr (is_single<Scalar>) {
+    return Described::float32_sweeps;
+  } else {
+    return Described::float64_sweeps;
+  }
+}
+
+template <class Described, class Scalar, std::size_t Index>
+Solver solver() {
+  constexpr configure::Sweep sweep = sweeps<Described, Scalar>()[Index];
+  const std::string order = sweep.order > 0 ? fmt::format("_{}", sweep.order) : "";
+  return {fmt::format("{}{}{}", Described::name, order, is_single<Scalar> ? "_float32" : ""),
+          is_single<Scalar> ? Family::single : family_of(Described::palette),
+          Described::adaptive ? Knob::tolerance : Knob::steps_per_period,
+          Described::adaptive ? tolerances(sweep.first_decade, sweep.last_decade)
+                              : step_counts(sweep.first_decade, sweep.last_decade),
+          contender<Described, sweep.order, Scalar>};
+}
+
+template <class Described, class Scalar, std::size_t... Index>
+std::vector<Solver> contenders(std::index_sequence<Index...> /*all*/) {
+  return {solver<Described, Scalar, Index>()...};
+}
+
+}  // namespace detail
+
+template <class Described, class Scalar>
+std::vector<Solver> contenders() {
+  return detail::contenders<Described, Scalar>(
+      std::make_index_sequence<detail::sweeps<Described, Scalar>().size()>{});
 }
 
 }  // namespace sonoglide::work_precision

@@ -1,4 +1,4 @@
-#include "host_sim/studies/work_precision/picture.hpp"
+#include "host_sim/studies/work_precision/report.hpp"
 
 #include <fmt/format.h>
 

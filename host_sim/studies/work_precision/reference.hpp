@@ -1,7 +1,7 @@
 /// The motion computed by another method, in higher precision, far more finely.
 #pragma once
 
-#include "host_sim/studies/work_precision/peers/problem.hpp"
+#include "host_sim/studies/work_precision/peers/contender.hpp"
 
 namespace sonoglide::work_precision {
 

@@ -6,15 +6,33 @@
 #include <string_view>
 #include <vector>
 
+#include "host_sim/output/csv.hpp"
 #include "host_sim/output/output_folder.hpp"
 #include "host_sim/output/page.hpp"
-#include "host_sim/studies/work_precision/csv.hpp"
-#include "host_sim/studies/work_precision/page.hpp"
-#include "host_sim/studies/work_precision/picture.hpp"
+#include "host_sim/process/printable.hpp"
 #include "host_sim/studies/work_precision/ranking.hpp"
-#include "host_sim/text/printable.hpp"
 
 namespace sonoglide::work_precision {
+namespace {
+
+std::string cell(double value) {
+  constexpr int digits = 6;
+  return output::csv_number(value, digits);
+}
+
+}  // namespace
+
+std::string to_csv(const Comparison& comparison) {
+  std::string csv = "solver,setting,relative_error,wall_us_per_period,steps_per_period,status\n";
+  for (const Row& row : comparison.rows) {
+    csv += fmt::format("{},{},{},{},{},{}\n", row.solver->name,
+                       setting_text(row.solver->knob, row.setting), cell(row.error),
+                       cell(row.wall_us_per_period), cell(row.steps_per_period),
+                       output::csv_cell(row.status));
+  }
+  return csv;
+}
+
 namespace {
 
 /// What the cheapest solver whose name begins so costs, in units of the cheapest of all.
@@ -52,7 +70,7 @@ std::string text(const Comparison& comparison, const std::filesystem::path& out)
                            times_the_fastest(rows, "cvode"));
     }
   }
-  return lines + fmt::format("report: {}\n", text::printable((out / "report.html").string()));
+  return lines + fmt::format("report: {}\n", process::printable((out / "report.html").string()));
 }
 
 }  // namespace sonoglide::work_precision

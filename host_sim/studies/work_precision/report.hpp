@@ -4,10 +4,23 @@
 #include <filesystem>
 #include <string>
 
+#include "host_sim/output/page.hpp"
 #include "host_sim/scene/scene.hpp"
 #include "host_sim/studies/work_precision/comparison.hpp"
 
 namespace sonoglide::work_precision {
+
+/// One line for each row under a heading line; what was not measured is left empty.
+std::string to_csv(const Comparison& comparison);
+
+/// @param svg  the picture of the same comparison
+output::Page page(const scene::Scene& scene, const Comparison& comparison, const std::string& svg);
+
+/// Time for a carrier period against error, both axes logarithmic: one line for each solver through
+/// the errors that its settings can be relied on for (see Standing), small points at the errors
+/// that they happened to have.
+/// @throws process::ProcessError
+std::string draw(const Comparison& comparison, const std::string& title);
 
 /// Writes work_precision.csv, work_precision.svg and report.html; all or none.
 /// @throws report::OutputError, process::ProcessError

@@ -2,12 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <utility>
 
 #include "host_sim/configure/solver_methods.hpp"
-#include "host_sim/studies/work_precision/contenders.hpp"
 #include "host_sim/studies/work_precision/peers/paper_rk4.hpp"
-#include "host_sim/studies/work_precision/settings.hpp"
 #ifdef SONOGLIDE_WITH_ODEINT
 #include "host_sim/studies/work_precision/peers/odeint/dopri5.hpp"
 #endif
@@ -16,6 +15,45 @@
 #endif
 
 namespace sonoglide::work_precision {
+
+std::string status_of(plant::Error error) {
+  switch (error) {
+    case plant::Error::friction_bound_broken:
+      return "friction bound broken";
+    case plant::Error::too_many_steps:
+      return "too many steps in a period";
+    case plant::Error::not_finite:
+      return "state not finite";
+    case plant::Error::step_too_long:
+      return "step too long";
+    case plant::Error::none:
+      break;
+  }
+  return "ok";
+}
+
+std::vector<double> tolerances(int first, int last) {
+  std::vector<double> all;
+  for (int half_decades = 2 * first; half_decades <= 2 * last; ++half_decades) {
+    // Two digits, so that the text of a setting is the setting.
+    const int decade = (half_decades + 1) / 2;
+    const double digits = half_decades % 2 == 0 ? 1.0 : 3.2;
+    all.push_back(digits * std::pow(10.0, -decade));
+  }
+  return all;
+}
+
+std::vector<double> step_counts(int first_decade, int last_decade) {
+  std::vector<double> all;
+  for (int decade = first_decade; decade < last_decade; ++decade) {
+    for (const double digits : {1.0, 1.8, 3.2, 5.6}) {
+      all.push_back(std::round(digits * std::pow(10.0, decade)));
+    }
+  }
+  all.push_back(std::pow(10.0, last_decade));
+  return all;
+}
+
 namespace {
 
 template <class Scalar>

@@ -5,10 +5,16 @@
 #include <string>
 #include <vector>
 
+#include "firmware/plant/outcome.hpp"
 #include "host_sim/studies/work_precision/peers/contender.hpp"
-#include "host_sim/studies/work_precision/peers/problem.hpp"
 
 namespace sonoglide::work_precision {
+
+/// 10^-first … 10^-last, two for each decade.
+std::vector<double> tolerances(int first, int last);
+
+/// Steps for each carrier period, four for each decade.
+std::vector<double> step_counts(int first_decade, int last_decade);
 
 /// The product's own in double are told apart by their palettes.
 enum class Family {
@@ -34,7 +40,16 @@ struct Solver {
 /// Every solver that is built in.
 const std::vector<Solver>& solvers();
 
+/// What a failed advance shows as its status.
+std::string status_of(plant::Error error);
+
 /// A setting in words: "tolerance 1e-08", "1000 steps per period".
 std::string setting_text(Knob knob, double setting);
+
+/// One for each order in which a solver takes part, in double or in float. Defined in
+/// composed.hpp; each has a translation unit of its own, which CMake makes of
+/// contenders.cpp.in: they take long to compile.
+template <class Described, class Scalar>
+std::vector<Solver> contenders();
 
 }  // namespace sonoglide::work_precision

@@ -6,7 +6,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "host_sim/emulated/cross_tools.hpp"
+#include "host_sim/emulated/board_list.hpp"
 #include "host_sim/emulated/image_control.hpp"
 #include "host_sim/loop/run.hpp"
 #include "host_sim/process/run_tool.hpp"

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "host_sim/emulated/board_list.hpp"
-#include "host_sim/emulated/measure_image.hpp"
-#include "host_sim/loop/image_record.hpp"
+#include "host_sim/emulated/image_cost.hpp"
+#include "host_sim/loop/run_result.hpp"
 #include "tests/boards/budget/image_parts.hpp"
 
 namespace sonoglide::budget {

@@ -6,7 +6,7 @@
 #include <sstream>
 #include <vector>
 
-#include "host_sim/emulated/cross_tools.hpp"
+#include "host_sim/emulated/board_list.hpp"
 #include "host_sim/process/run_tool.hpp"
 
 namespace sonoglide::budget {

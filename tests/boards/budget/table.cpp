@@ -7,8 +7,8 @@
 #include <map>
 #include <sstream>
 
-#include "host_sim/emulated/cross_tools.hpp"
-#include "host_sim/emulated/image_size.hpp"
+#include "host_sim/emulated/board_list.hpp"
+#include "host_sim/emulated/image_cost.hpp"
 #include "host_sim/emulated/stack_bound.hpp"
 #include "host_sim/process/run_tool.hpp"
 

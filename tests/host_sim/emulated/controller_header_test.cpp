@@ -7,7 +7,6 @@
 #include "host_sim/configure/configuration_error.hpp"
 #include "host_sim/configure/controller_parameters.hpp"
 #include "host_sim/configure/controller_parts.hpp"
-#include "host_sim/emulated/board_arithmetic.hpp"
 #include "host_sim/emulated/board_list.hpp"
 #include "host_sim/emulated/initialiser.hpp"
 #include "host_sim/scene_file/reader.hpp"

@@ -1,5 +1,5 @@
 // The memory that an image takes against GNU size.
-#include "host_sim/emulated/image_size.hpp"
+#include "host_sim/emulated/image_cost.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <string>
 
 #include "compiled.hpp"
-#include "host_sim/process/process_error.hpp"
+#include "host_sim/process/pipe.hpp"
 
 namespace sonoglide::emulated {
 namespace {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "host_sim/loop/recording.hpp"
+#include "host_sim/loop/watch.hpp"
 
 namespace sonoglide::loop {
 namespace {

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "host_sim/configure/solver_methods.hpp"
-#include "host_sim/loop/computation_error.hpp"
+#include "host_sim/loop/failure.hpp"
 #include "host_sim/loop/run.hpp"
 #include "tests/common/table_1.hpp"
 

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "host_sim/process/process_error.hpp"
+#include "host_sim/process/pipe.hpp"
 #include "host_sim/process/scratch_folder.hpp"
 
 namespace sonoglide::output {

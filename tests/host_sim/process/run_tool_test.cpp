@@ -9,8 +9,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "host_sim/process/find_program.hpp"
-#include "host_sim/process/process_error.hpp"
+#include "host_sim/process/pipe.hpp"
 
 namespace sonoglide::process {
 namespace {

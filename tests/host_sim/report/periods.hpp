@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "host_sim/loop/period.hpp"
+#include "host_sim/loop/watch.hpp"
 #include "host_sim/scene/scene.hpp"
 
 namespace sonoglide::report {

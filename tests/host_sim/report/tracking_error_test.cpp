@@ -1,4 +1,4 @@
-#include "host_sim/report/tracking_error.hpp"
+#include "host_sim/report/step_metrics.hpp"
 
 #include <gtest/gtest.h>
 

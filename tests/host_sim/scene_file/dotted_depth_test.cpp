@@ -1,4 +1,4 @@
-#include "host_sim/scene_file/dotted_depth.hpp"
+#include "host_sim/scene_file/toml_text.hpp"
 
 #include <gtest/gtest.h>
 

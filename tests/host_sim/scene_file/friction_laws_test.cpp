@@ -13,7 +13,7 @@
 
 #include "host_sim/configure/solver_facts.hpp"
 #include "host_sim/configure/solver_methods.hpp"
-#include "host_sim/scene_file/range.hpp"
+#include "host_sim/scene_file/keys.hpp"
 #include "host_sim/scene_file/reader.hpp"
 #include "host_sim/scene_file/schema.hpp"
 #include "host_sim/scene_file/to_json.hpp"

@@ -14,7 +14,7 @@
 #include "host_sim/scene_file/reader.hpp"
 #include "host_sim/scene_file/schema.hpp"
 #include "host_sim/scene_file/to_json.hpp"
-#include "host_sim/scene_file/varied_value.hpp"
+#include "host_sim/scene_file/variant.hpp"
 #include "scene_texts.hpp"
 
 namespace sonoglide::scene_file {

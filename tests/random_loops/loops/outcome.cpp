@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "firmware/control/names.hpp"
-#include "host_sim/loop/computation_error.hpp"
+#include "host_sim/loop/failure.hpp"
 #include "host_sim/loop/run.hpp"
 #include "host_sim/report/target_spans.hpp"
 #include "host_sim/scene_file/reader.hpp"

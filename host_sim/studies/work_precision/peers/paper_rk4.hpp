@@ -5,7 +5,6 @@
 #include <memory>
 
 #include "host_sim/studies/work_precision/peers/contender.hpp"
-#include "host_sim/studies/work_precision/peers/problem.hpp"
 
 namespace sonoglide::peers {
 

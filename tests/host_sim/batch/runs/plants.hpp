@@ -7,7 +7,7 @@
 #include <random>
 #include <vector>
 
-#include "host_sim/batch/dahl_run.hpp"
+#include "host_sim/batch/run_dahl_plants.hpp"
 
 namespace sonoglide::batch {
 

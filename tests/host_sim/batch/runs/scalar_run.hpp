@@ -10,7 +10,7 @@
 #include "firmware/plant/model.hpp"
 #include "firmware/plant/observer.hpp"
 #include "firmware/plant/taylor/event_taylor.hpp"
-#include "host_sim/batch/dahl_run.hpp"
+#include "host_sim/batch/run_dahl_plants.hpp"
 
 namespace sonoglide::batch {
 

@@ -4,8 +4,8 @@
 #include <utility>
 #include <vector>
 
-#include "host_sim/loop/recording.hpp"
 #include "host_sim/loop/run.hpp"
+#include "host_sim/loop/watch.hpp"
 #include "host_sim/scene/scene.hpp"
 
 namespace sonoglide::loop {

@@ -9,8 +9,7 @@
 
 #include "design_scenes.hpp"
 #include "host_sim/studies/design/advice.hpp"
-#include "host_sim/studies/design/quantity.hpp"
-#include "host_sim/studies/design/tables.hpp"
+#include "host_sim/studies/design/report.hpp"
 
 namespace sonoglide::design {
 namespace {

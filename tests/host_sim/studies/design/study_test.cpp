@@ -7,7 +7,7 @@
 
 #include "design_scenes.hpp"
 #include "host_sim/configure/configuration_error.hpp"
-#include "host_sim/loop/computation_error.hpp"
+#include "host_sim/loop/failure.hpp"
 
 namespace sonoglide::design {
 namespace {

@@ -14,14 +14,12 @@
 #include "host_sim/configure/solver_methods.hpp"
 #include "host_sim/loop/run.hpp"
 #include "host_sim/scene_file/reader.hpp"
-#include "host_sim/studies/paper/balance.hpp"
 #include "host_sim/studies/paper/contact_laws.hpp"
-#include "host_sim/studies/paper/dong_dapino.hpp"
-#include "host_sim/studies/paper/faults.hpp"
+#include "host_sim/studies/paper/experiments.hpp"
 #include "host_sim/studies/paper/figures.hpp"
-#include "host_sim/studies/paper/luo_2024.hpp"
+#include "host_sim/studies/paper/findings.hpp"
 #include "host_sim/studies/paper/measurements.hpp"
-#include "host_sim/studies/paper/ratio_curve.hpp"
+#include "host_sim/studies/paper/runs.hpp"
 #include "host_sim/studies/paper/table_1.hpp"
 
 namespace sonoglide::paper {

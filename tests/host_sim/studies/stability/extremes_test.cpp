@@ -10,8 +10,8 @@
 #include <string_view>
 
 #include "host_sim/studies/stability/random_scene.hpp"
+#include "host_sim/studies/stability/report.hpp"
 #include "host_sim/studies/stability/solver_list.hpp"
-#include "host_sim/studies/stability/tables.hpp"
 
 namespace sonoglide::stability {
 namespace {

@@ -13,8 +13,8 @@
 #include <string>
 #include <vector>
 
+#include "host_sim/studies/stability/report.hpp"
 #include "host_sim/studies/stability/solver_list.hpp"
-#include "host_sim/studies/stability/study_text.hpp"
 
 namespace sonoglide::stability {
 namespace {

@@ -1,6 +1,6 @@
 /// What the solver said comes first; then what it should have said.
 
-#include "host_sim/studies/stability/verdict.hpp"
+#include "host_sim/studies/stability/trial.hpp"
 
 #include <gtest/gtest.h>
 

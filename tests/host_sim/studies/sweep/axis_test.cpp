@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "host_sim/scene_file/scene_error.hpp"
-#include "host_sim/studies/sweep/grid.hpp"
 
 namespace sonoglide::sweep {
 namespace {

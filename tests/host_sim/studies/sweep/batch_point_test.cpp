@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "host_sim/scene_file/reader.hpp"
-#include "host_sim/studies/sweep/scalar_point.hpp"
+#include "host_sim/studies/sweep/solve.hpp"
 #include "tests/host_sim/studies/sweep/scenes/base_scenes.hpp"
 
 namespace sonoglide::sweep {

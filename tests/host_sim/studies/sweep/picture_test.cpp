@@ -1,4 +1,4 @@
-#include "host_sim/studies/sweep/picture.hpp"
+#include "host_sim/studies/sweep/report.hpp"
 
 #include <gtest/gtest.h>
 

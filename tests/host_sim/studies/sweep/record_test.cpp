@@ -1,4 +1,4 @@
-#include "host_sim/studies/sweep/record.hpp"
+#include "host_sim/studies/sweep/row.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>

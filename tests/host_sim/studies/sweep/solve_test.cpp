@@ -10,8 +10,6 @@
 #include <string>
 #include <vector>
 
-#include "host_sim/studies/sweep/expected_cost.hpp"
-#include "host_sim/studies/sweep/scalar_point.hpp"
 #include "tests/host_sim/studies/sweep/scenes/base_scenes.hpp"
 #include "tests/host_sim/studies/sweep/scenes/scratch_scene.hpp"
 

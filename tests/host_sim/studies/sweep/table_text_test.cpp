@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "host_sim/studies/sweep/csv.hpp"
-#include "host_sim/studies/sweep/extremes.hpp"
+#include "host_sim/studies/sweep/report.hpp"
+#include "host_sim/studies/sweep/subject.hpp"
 #include "tests/host_sim/studies/sweep/scenes/base_scenes.hpp"
 #include "tests/host_sim/studies/sweep/scenes/scratch_scene.hpp"
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "host_sim/studies/work_precision/csv.hpp"
+#include "host_sim/studies/work_precision/report.hpp"
 
 namespace sonoglide::work_precision {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "host_sim/studies/work_precision/peers/problem.hpp"
+#include "host_sim/studies/work_precision/peers/contender.hpp"
 
 namespace sonoglide::peers {
 

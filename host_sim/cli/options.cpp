@@ -1,0 +1,98 @@
+#include "host_sim/cli/options.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdint>
+
+#include "host_sim/output/output_folder.hpp"
+#include "host_sim/process/checksum.hpp"
+#include "host_sim/process/printable.hpp"
+#include "host_sim/process/run_tool.hpp"
+#include "host_sim/scene_file/document.hpp"
+
+namespace sonoglide::cli {
+
+void add_scene_options(CLI::App& command, SceneOptions& options, const std::string& note) {
+  command
+      .add_option("scene", options.path,
+                  "The scene, a TOML file, or - for standard input" +
+                      (note.empty() ? std::string() : "; " + note))
+      ->required()
+      ->type_name("SCENE.toml");
+  command
+      .add_option("--set", options.overrides,
+                  "Replace or add one value of the scene, e.g. drive.frequency_Hz=61e3, or, "
+                  "without a value, remove it; repeatable")
+      ->type_name("TABLE.KEY=VALUE")
+      ->allow_extra_args(false);
+}
+
+SceneInput::SceneInput(const SceneOptions& options)
+    : options_(options), source_(scene_file::read_source(options.path)) {}
+
+scene_file::SceneError SceneInput::placed(const configure::ConfigurationError& error) const {
+  return {scene_file::Document(source_, options_.overrides).place_of(error.key()), error.key(),
+          error.what()};
+}
+
+namespace {
+
+/// A name that is no path, no parent, and leaves room for a suffix in the 255 bytes that file
+/// systems allow.
+std::string folder_name(const std::string& scene_name) {
+  constexpr std::size_t most_bytes = 200;
+  std::string name = process::printable(scene_name);
+  if (name.find_first_not_of('.') == std::string::npos) {
+    return "scene";
+  }
+  if (name.size() <= most_bytes) {
+    return name;
+  }
+  const auto continues = [&name](std::size_t at) {
+    return (static_cast<std::uint8_t>(name[at]) & 0xc0U) == 0x80;
+  };
+  std::size_t end = most_bytes;
+  while (continues(end)) {
+    --end;
+  }
+  return fmt::format("{}-{:016x}", name.substr(0, end), process::checksum(name));
+}
+
+}  // namespace
+
+void add_output_option(CLI::App& command, std::string& out, const std::string& contents) {
+  command.add_option("--out", out, "Folder for " + contents)
+      ->type_name("DIR")
+      ->check([](const std::string& folder) {
+        return folder.empty() ? std::string("is empty; allowed: a folder") : std::string();
+      });
+}
+
+std::filesystem::path output_folder(const std::string& out, const std::string& scene_name,
+                                    const std::string& suffix) {
+  return out.empty() ? std::filesystem::path("out") / (folder_name(scene_name) + suffix)
+                     : std::filesystem::path(out);
+}
+
+void require_writable(const std::filesystem::path& out, const std::vector<std::string>& names) {
+  const output::OutputFolder probe(out, names);
+}
+
+std::string check_board(const std::string& name) {
+  if (emulated::find_board(name) != nullptr) {
+    return {};
+  }
+  std::string allowed;
+  for (const emulated::EmulatedBoard& board : emulated::emulated_boards()) {
+    allowed += fmt::format("{}{}", allowed.empty() ? "" : ", ", board.name);
+  }
+  return fmt::format("\"{}\" is no board; allowed: {}", name, allowed);
+}
+
+void require_emulator(const emulated::EmulatedBoard& board) {
+  const std::string program(board.emulator);
+  process::require_program(program,
+                           program == "qemu-system-arm" ? "qemu-system-arm" : "qemu-system-misc");
+}
+
+}  // namespace sonoglide::cli

@@ -1,0 +1,78 @@
+/// The options that commands share: the scene, the output folder, the board.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "host_sim/configure/configuration_error.hpp"
+#include "host_sim/emulated/board_list.hpp"
+#include "host_sim/scene_file/reader.hpp"
+
+namespace sonoglide::cli {
+
+struct SceneOptions {
+  std::string path;  ///< `-`: standard input
+  std::vector<std::string> overrides;
+};
+
+/// Adds the scene, required, and `--set` to a command.
+/// @param note  what of the scene plays no part, or nothing
+void add_scene_options(CLI::App& command, SceneOptions& options, const std::string& note = "");
+
+/// The scene that the options name, its text read once.
+class SceneInput {
+ public:
+  /// @param options  outlive this
+  /// @throws scene::SceneError  the text cannot be read
+  explicit SceneInput(const SceneOptions& options);
+
+  /// @throws scene::SceneError
+  scene::Scene read() const { return scene_file::read(source_, options_.overrides); }
+
+  /// What a call makes of the scene that read() gave.
+  /// @throws scene::SceneError  at the place of its key, where the call throws a
+  ///         scene::ConfigurationError
+  template <class Call>
+  auto with_places(const Call& call) const {
+    try {
+      return call();
+    } catch (const configure::ConfigurationError& error) {
+      throw placed(error);
+    }
+  }
+
+ private:
+  scene_file::SceneError placed(const configure::ConfigurationError& error) const;
+
+  const SceneOptions& options_;
+  scene_file::Source source_;
+};
+
+/// Adds `--out DIR` to a command; an empty name is an error of usage.
+/// @param contents  what the folder will hold, and in brackets where it is by default
+void add_output_option(CLI::App& command, std::string& out, const std::string& contents);
+
+/// @param out  as the option has it; empty where it was not given: then out/NAMESUFFIX in the
+///             working folder, where NAME is the scene's name as a plain folder can have it:
+///             `scene` for one of nothing but dots, and one too long for a file system is cut, with
+///             its checksum at the end
+std::filesystem::path output_folder(const std::string& out, const std::string& scene_name,
+                                    const std::string& suffix = "");
+
+/// Finds out, before results are computed, that an output cannot be written: stages and removes an
+/// empty folder.
+/// @param names  of the files
+/// @throws report::OutputError
+void require_writable(const std::filesystem::path& out, const std::vector<std::string>& names);
+
+/// @return empty for the name of a board, else what is wrong with it
+std::string check_board(const std::string& name);
+
+/// What would stop the run later stops it before anything is built.
+/// @throws process::ProcessError  the board's emulator is not installed
+void require_emulator(const emulated::EmulatedBoard& board);
+
+}  // namespace sonoglide::cli

@@ -1,0 +1,91 @@
+#include "host_sim/report/words.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "firmware/control/names.hpp"
+
+namespace sonoglide::report {
+
+std::string limit_name(control::Limit limit) {
+  return control::name(limit);
+}
+
+std::string fault_name(control::Fault fault) {
+  return control::name(fault);
+}
+
+std::string settling_name(control::Settling settling) {
+  return control::name(settling);
+}
+
+std::string limit_text(const report::StepMetrics& step) {
+  std::string text = limit_name(step.limit);
+  if (step.limit == control::Limit::not_settling && step.cause != control::Settling::pending) {
+    text += fmt::format(" ({})", settling_name(step.cause));
+  }
+  if (step.limit == control::Limit::mismatch && step.mismatch) {
+    text += fmt::format(" (believed/true friction {:.3g})", *step.mismatch);
+  }
+  if (!step.limit_seen_by_controller) {
+    text += ", unseen by the controller";
+  }
+  return text;
+}
+
+namespace {
+
+std::string stack_text(const loop::ImageRecord& record) {
+  return record.stack_bytes_bound ? fmt::format("{}", *record.stack_bytes_bound)
+                                  : "no bound: " + record.stack_unbounded_by;
+}
+
+}  // namespace
+
+output::Table image_table(const loop::ImageRecord& record) {
+  output::Table table{"Image on " + record.board, {}, {}};
+  const auto row = [&table](const char* name, std::string value) {
+    table.rows.push_back({name, std::move(value)});
+  };
+  if (record.instructions) {
+    const loop::InstructionRange& step = record.instructions->step;
+    row("Instructions of a control step (not cycles), smallest", fmt::format("{}", step.min));
+    row("Mean", fmt::format("{:.1f}", step.mean));
+    row("Largest", fmt::format("{}", step.max));
+    row("Mean with the frames of lockstep",
+        fmt::format("{:.1f}", record.instructions->answer.mean));
+  }
+  if (record.workstation) {
+    row("Trace hash of the same loop on the workstation",
+        fmt::format("{:016x}", record.workstation->trace_hash));
+    row("Every drive command the same", record.workstation->same ? "yes" : "NO");
+  }
+  row("Flash [B]", fmt::format("{}", record.flash_bytes));
+  row("Static RAM [B]", fmt::format("{}", record.ram_bytes));
+  row("Deepest stack [B]", stack_text(record));
+  if (record.exchanges_per_second) {
+    row("Exchanges per second", fmt::format("{:.0f}", *record.exchanges_per_second));
+  }
+  return table;
+}
+
+std::string image_lines(const loop::ImageRecord& record) {
+  std::string text =
+      fmt::format("image on {}: {} B flash, {} B static RAM, deepest stack [B] {}\n", record.board,
+                  record.flash_bytes, record.ram_bytes, stack_text(record));
+  if (record.workstation) {
+    text += record.workstation->same
+                ? "every drive command is the workstation's, bit for bit\n"
+                : fmt::format("NOT THE SAME as on the workstation, whose trace hash is {:016x}\n",
+                              record.workstation->trace_hash);
+  }
+  if (record.instructions && record.exchanges_per_second) {
+    text += fmt::format("a step takes {} to {} instructions (not cycles); {:.0f} exchanges/s\n",
+                        record.instructions->step.min, record.instructions->step.max,
+                        *record.exchanges_per_second);
+  }
+  return text;
+}
+
+}  // namespace sonoglide::report

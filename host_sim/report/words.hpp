@@ -1,0 +1,35 @@
+/// How the reports speak: names of limits and faults, figures, the cost of an image.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <string>
+
+#include "firmware/control/drive_command.hpp"
+#include "host_sim/loop/run_result.hpp"
+#include "host_sim/output/page.hpp"
+#include "host_sim/report/step_metrics.hpp"
+
+namespace sonoglide::report {
+
+/// "-" for a figure that is not defined.
+inline std::string figure(fmt::format_string<const double&> format, double value) {
+  return std::isnan(value) ? "-" : fmt::format(format, value);
+}
+
+
+std::string limit_name(control::Limit limit);
+std::string fault_name(control::Fault fault);
+/// The limit of a target step, with its cause, how far belief and truth are apart, and whether only
+/// the simulation can see it; all where there is something to say.
+std::string limit_text(const report::StepMetrics& step);
+std::string settling_name(control::Settling settling);
+
+/// Every figure with its name.
+output::Table image_table(const loop::ImageRecord& record);
+
+/// The same in two lines.
+std::string image_lines(const loop::ImageRecord& record);
+
+}  // namespace sonoglide::report

@@ -1,0 +1,56 @@
+#include "host_sim/studies/sweep/report.hpp"
+
+#include <fmt/format.h>
+
+#include <cstddef>
+#include <iterator>
+#include <string>
+
+#include "host_sim/output/csv.hpp"
+#include "host_sim/report/words.hpp"
+
+namespace sonoglide::sweep {
+namespace {
+
+std::string number(double value) {
+  constexpr int every_bit = 17;
+  return output::csv_number(value, every_bit);
+}
+
+std::string heading(const Plan& plan) {
+  std::string text;
+  for (const Axis& axis : plan.grid().axes()) {
+    text += axis.key + ',';
+  }
+  text += "friction_ratio_whole_run,friction_ratio_window,dissipation_ratio_window,";
+  if (plan.closed_loop()) {
+    text += "settling_time_s,steady_error,ripple,limit,fault,";
+  }
+  return text + "status\n";
+}
+
+std::string line(const Plan& plan, std::size_t point, const Row& row) {
+  std::string cells;
+  for (std::size_t axis = 0; axis < plan.grid().axes().size(); ++axis) {
+    cells += output::csv_cell(plan.grid().text(point, axis)) + ',';
+  }
+  cells += fmt::format("{},{},{},", number(row.friction_ratio_whole_run),
+                       number(row.friction_ratio_window), number(row.dissipation_ratio_window));
+  if (plan.closed_loop()) {
+    cells += fmt::format("{},{},{},{},{},", number(row.settling_time_s), number(row.steady_error),
+                         number(row.ripple), report::limit_name(row.limit),
+                         report::fault_name(row.fault));
+  }
+  return cells + output::csv_cell(row.status) + '\n';
+}
+
+}  // namespace
+
+void write_csv(std::ostream& out, const Plan& plan, const std::vector<Row>& rows) {
+  out << heading(plan);
+  for (std::size_t point = 0; point < rows.size(); ++point) {
+    out << line(plan, point, rows[point]);
+  }
+}
+
+}  // namespace sonoglide::sweep

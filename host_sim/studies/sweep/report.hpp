@@ -1,0 +1,48 @@
+/// What a sweep shows: its table, its picture and its page.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <ostream>
+#include <string>
+#include <vector>
+
+#include "host_sim/output/page.hpp"
+#include "host_sim/studies/sweep/plan.hpp"
+#include "host_sim/studies/sweep/row.hpp"
+
+namespace sonoglide::sweep {
+
+/// One line for each point, in the order of the grid, under a heading: the varied keys, the figures
+/// of Row, status last. In closed loop also settling_time_s, steady_error, ripple, limit and fault.
+/// Numbers read back the same to the bit; what is not defined is `nan`. A status with a comma is
+/// quoted (RFC 4180).
+void write_csv(std::ostream& out, const Plan& plan, const std::vector<Row>& rows);
+
+/// The axes with more than one value.
+std::vector<std::size_t> drawn_axes(const Grid& grid);
+
+/// Whether the picture is a heat map: two axes drawn, both on a scale or both by name.
+bool is_heat_map(const Grid& grid);
+
+/// One axis drawn: a curve; two: a heat map, the first one upwards, or, where one of them is by
+/// name, a curve for each name. SVG. Absent for any other number of axes, and where no point has a
+/// value.
+/// @throws process::ProcessError
+std::optional<std::string> draw(const Plan& plan, const std::vector<Row>& rows);
+
+/// @param picture  an SVG document; absent where none can be drawn
+output::Page sweep_page(const Plan& plan, const std::vector<Row>& rows,
+                        const std::optional<std::string>& picture);
+
+/// Along an axis a heat map shows at most this many values, evenly picked.
+inline constexpr std::size_t most_cells_along = 200;
+
+/// A gnuplot script: one cell for each point in the colour of the sweep's subject(), grey where
+/// that is not defined. Other axes stay at their first value.
+/// @param upward, rightward  axes with more than one value
+/// @param rows  the subject is defined in one at least
+std::string heat_map(const Plan& plan, const std::vector<Row>& rows, std::size_t upward,
+                     std::size_t rightward);
+
+}  // namespace sonoglide::sweep
