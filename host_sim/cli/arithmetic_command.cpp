@@ -37,7 +37,8 @@ Boards chosen(const std::vector<std::string>& names) {
   return boards;
 }
 
-arithmetic::Comparison compute(const scene::Scene& scene, const Boards& boards, bool quiet) {
+arithmetic::ArithmeticComparison compute(const scene::Scene& scene, const Boards& boards,
+                                         bool quiet) {
   const process::Interruption interruption;
   ProgressBar bar(stderr, !quiet);
   return arithmetic::compare(
@@ -54,7 +55,7 @@ void arithmetic(const ArithmeticOptions& options) {
   const std::filesystem::path out = output_folder(options.out, scene.name, "_arithmetic");
   output::require_gnuplot();
   require_writable(out, {"arithmetic.csv", "targets.csv", "arithmetic.svg"});
-  const arithmetic::Comparison comparison = compute(scene, boards, options.quiet);
+  const arithmetic::ArithmeticComparison comparison = compute(scene, boards, options.quiet);
   arithmetic::write(out, scene, comparison);
   if (!options.quiet) {
     fmt::print("{}", arithmetic::text(comparison, out));

@@ -63,7 +63,7 @@ std::string check_ratio(const std::string& text) {
              : fmt::format("\"{}\"; allowed: a number, 0.001 to below 1", text);
 }
 
-design::Study compute(const design::Task& task, bool quiet) {
+design::DesignStudy compute(const design::Task& task, bool quiet) {
   const process::Interruption interruption;
   ProgressBar bar(stderr, !quiet);
   return design::study(task, watching(bar, interruption));
@@ -79,7 +79,7 @@ void design(const DesignOptions& options) {
   const std::filesystem::path out = output_folder(options.out, scene.name, "_design");
   output::require_gnuplot();
   require_writable(out, {"report.html", "design.json", "design.csv", "detuning.csv"});
-  const design::Study study = compute(task, options.quiet);
+  const design::DesignStudy study = compute(task, options.quiet);
   design::write(out, study);
   if (!options.quiet) {
     fmt::print("{}", design::text(study, out));

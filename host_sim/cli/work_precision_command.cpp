@@ -25,8 +25,8 @@ struct WorkPrecisionOptions {
   bool quiet = false;
 };
 
-work_precision::Comparison compute(const peers::Problem& problem, bool quiet,
-                                   const process::Interruption& interruption) {
+work_precision::SolverComparison compute(const peers::Problem& problem, bool quiet,
+                                         const process::Interruption& interruption) {
   ProgressBar bar(stderr, !quiet);
   return work_precision::compare(problem, work_precision::solvers(), {},
                                  watching(bar, interruption));
@@ -43,7 +43,7 @@ void work_precision(const WorkPrecisionOptions& options) {
   output::require_gnuplot();
   require_writable(out, {"report.html", "work_precision.csv", "work_precision.svg"});
   const process::Interruption interruption;
-  const work_precision::Comparison comparison = compute(problem, options.quiet, interruption);
+  const work_precision::SolverComparison comparison = compute(problem, options.quiet, interruption);
   work_precision::write(out, scene, comparison);
   if (!options.quiet) {
     fmt::print("{}", work_precision::text(comparison, out));

@@ -12,10 +12,9 @@ namespace sonoglide::configure {
 
 /// @param law  the acting one: laws::None where there is no friction force
 template <class Scalar, class Law>
-plant::Contact<typename Law::template Core<Scalar>> plant_contact(const Law& law,
-                                                                  const scene::Contact& contact,
-                                                                  const scene::PlantScales& scales,
-                                                                  const PlantNumbers& numbers) {
+plant::Contact<typename Law::template Core<Scalar>> plant_contact(
+    const Law& law, const scene::ContactValues& contact, const scene::PlantScales& scales,
+    const PlantNumbers& numbers) {
   if constexpr (std::is_same_v<Law, scene::laws::None>) {
     return {};
   } else if constexpr (Law::template Core<Scalar>::vibration != friction::Vibration::along) {
@@ -40,8 +39,8 @@ plant::Model<CoreLaw, Damping<Scalar>, Drive, Sliding> plant_model(
 
 /// The same with the law as the scene has it.
 template <class Scalar, template <class> class Damping, class Drive, class Sliding, class Law>
-auto plant_model(const Law& law, const scene::Contact& contact, const scene::PlantScales& scales,
-                 const PlantNumbers& numbers) {
+auto plant_model(const Law& law, const scene::ContactValues& contact,
+                 const scene::PlantScales& scales, const PlantNumbers& numbers) {
   return plant_model<Scalar, Damping, Drive, Sliding>(
       plant_contact<Scalar>(law, contact, scales, numbers), numbers);
 }

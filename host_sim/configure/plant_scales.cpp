@@ -67,9 +67,9 @@ double peak_vibration_m_per_s(const scene::Plant& plant, double frequency_Hz,
   return force_amplitude_N * omega / dynamic_stiffness_N_per_m(plant, omega);
 }
 
-scene::Contact contact_at(const scene::Friction& friction, double time_s) {
-  const scene::Contact& held = friction;
-  scene::Contact contact = held;
+scene::ContactValues contact_at(const scene::Friction& friction, double time_s) {
+  const scene::ContactValues& held = friction;
+  scene::ContactValues contact = held;
   if (!friction.coefficient_profile.empty()) {
     contact.coefficient = scene::value_at(friction.coefficient_profile, time_s);
   }
@@ -80,8 +80,8 @@ scene::Contact contact_at(const scene::Friction& friction, double time_s) {
 }
 
 double largest_friction_limit_N(const scene::Friction& friction) {
-  const scene::Contact& held = friction;
-  scene::Contact most = held;
+  const scene::ContactValues& held = friction;
+  scene::ContactValues most = held;
   if (!friction.coefficient_profile.empty()) {
     most.coefficient = scene::largest_value(friction.coefficient_profile);
   }

@@ -42,7 +42,7 @@ double peak_vibration_m_per_s(const scene::Plant& plant, double frequency_Hz,
                               double force_amplitude_N);
 
 /// The contact at a time since the run began.
-scene::Contact contact_at(const scene::Friction& friction, double time_s);
+scene::ContactValues contact_at(const scene::Friction& friction, double time_s);
 
 /// The largest coefficient times the largest normal force, of profiles too; where nothing changes
 /// Fc, and 0 without a law.

@@ -124,7 +124,7 @@ plant::Outcome<double> MovingFrictionPlant::follow(const Stretch& stretch, Sight
 plant::Outcome<double> MovingFrictionPlant::follow_piece(const Stretch& piece, const Carried& begin,
                                                          int halvings, bool last, Sight* sight,
                                                          EnergyBalance& energy) {
-  const scene::Contact contact = configure::contact_at(friction_, middle_s(piece));
+  const scene::ContactValues contact = configure::contact_at(friction_, middle_s(piece));
   hold(contact, begin);
   if (halvings <= 0) {
     return hold_piece(piece, last, sight, energy);
@@ -140,7 +140,7 @@ plant::Outcome<double> MovingFrictionPlant::follow_piece(const Stretch& piece, c
     return tried;
   }
   if (!found.leaves) {
-    scene::Contact raised = contact;
+    scene::ContactValues raised = contact;
     raised.coefficient *= 1.0 + 0.5 * found.lost;
     hold(raised, begin);
     put(begin);
@@ -215,7 +215,7 @@ void MovingFrictionPlant::put(const Carried& from) {
   held_->begin_at(state, parts);
 }
 
-void MovingFrictionPlant::hold(const scene::Contact& contact, const Carried& from) {
+void MovingFrictionPlant::hold(const scene::ContactValues& contact, const Carried& from) {
   if (contact.coefficient != scene_.friction.coefficient ||
       contact.normal_force_N != scene_.friction.normal_force_N || method_ != scene_.solver.method) {
     spent_ = cost();

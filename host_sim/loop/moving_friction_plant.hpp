@@ -76,7 +76,7 @@ class MovingFrictionPlant final : public PlantPort {
   double pieces_per_period(const Stretch& stretch) const;
   Carried carried() const;
   void put(const Carried& from);
-  void hold(const scene::Contact& contact, const Carried& from);
+  void hold(const scene::ContactValues& contact, const Carried& from);
   PlantState within_limit(PlantState state, double time_s) const;
 
   scene::Friction friction_;

@@ -29,7 +29,7 @@ void UndrivenFriction::complete(const Stretch& stretch, EnergyBalance& energy) c
   }
 }
 
-double UndrivenFriction::part_of_largest(const scene::Contact& contact,
+double UndrivenFriction::part_of_largest(const scene::ContactValues& contact,
                                          double sliding_m_per_s) const {
   return scene::undriven_friction_N(friction_.law, contact, sliding_m_per_s) / largest_N_;
 }
@@ -40,7 +40,8 @@ void UndrivenFriction::follow(const Stretch& stretch, EnergyBalance& energy) con
   double travel_m_per_s = 0.0;
   for (std::size_t i = 0; i < rule.node.size(); ++i) {
     const double offset_s = rule.node[i] * stretch.duration_s;
-    const scene::Contact contact = configure::contact_at(friction_, stretch.begin_s + offset_s);
+    const scene::ContactValues contact =
+        configure::contact_at(friction_, stretch.begin_s + offset_s);
     const double sliding_m_per_s =
         stretch.sliding_velocity_m_per_s + stretch.sliding_acceleration_m_per_s2 * offset_s;
     undriven += rule.weight[i] * part_of_largest(contact, sliding_m_per_s);

@@ -19,7 +19,7 @@ class UndrivenFriction {
   void complete(const Stretch& stretch, EnergyBalance& energy) const;
 
  private:
-  double part_of_largest(const scene::Contact& contact, double sliding_m_per_s) const;
+  double part_of_largest(const scene::ContactValues& contact, double sliding_m_per_s) const;
   void follow(const Stretch& stretch, EnergyBalance& energy) const;
 
   scene::Friction friction_;

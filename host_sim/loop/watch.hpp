@@ -31,7 +31,7 @@ class PeriodSink {
   virtual void take(const Period& period) = 0;
 };
 
-struct Sample {
+struct PlantSample {
   double time_s;
   PlantState state;
   double drive_force_N;
@@ -42,7 +42,7 @@ struct Sample {
 class SampleSink {
  public:
   virtual ~SampleSink() = default;
-  virtual void take(const Sample& sample) = 0;
+  virtual void take(const PlantSample& sample) = 0;
 };
 
 /// Equally spaced times: begin_s + i·interval_s up to end_s, ends included.
@@ -59,7 +59,7 @@ struct Recording final : SampleSink {
   std::vector<double> drive_force_N;
   std::vector<double> sliding_velocity_m_per_s;
 
-  void take(const Sample& sample) override {
+  void take(const PlantSample& sample) override {
     time_s.push_back(sample.time_s);
     state.push_back(sample.state);
     drive_force_N.push_back(sample.drive_force_N);

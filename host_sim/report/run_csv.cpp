@@ -26,7 +26,7 @@ void append_time(fmt::memory_buffer& row, double time_s) {
   fmt::format_to(std::back_inserter(row), FMT_COMPILE("{:.12g}"), time_s);
 }
 
-double value_of(const loop::Sample& sample, scene::Channel channel) {
+double value_of(const loop::PlantSample& sample, scene::Channel channel) {
   switch (channel) {
     case scene::Channel::displacement:
       return sample.state.displacement_m;
@@ -94,7 +94,7 @@ TraceCsv::TraceCsv(CsvFile file, std::vector<scene::Channel> channels)
   file_.finish_row();
 }
 
-void TraceCsv::take(const loop::Sample& sample) {
+void TraceCsv::take(const loop::PlantSample& sample) {
   append_time(file_.row(), sample.time_s);
   for (const scene::Channel channel : channels_) {
     file_.row().push_back(',');

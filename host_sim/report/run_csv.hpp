@@ -57,7 +57,7 @@ class PeriodsCsv final : public loop::PeriodSink {
 class TraceCsv final : public loop::SampleSink {
  public:
   TraceCsv(CsvFile file, std::vector<scene::Channel> channels);
-  void take(const loop::Sample& sample) override;
+  void take(const loop::PlantSample& sample) override;
 
  private:
   CsvFile file_;

@@ -8,7 +8,7 @@ namespace sonoglide::scene {
 enum class SignConvention { dissipative, as_printed };
 
 /// The contact, whatever its law.
-struct Contact {
+struct ContactValues {
   double coefficient = 0.0;
   double normal_force_N = 0.0;
   double contact_stiffness_N_per_m = 0.0;  ///< elastic laws only

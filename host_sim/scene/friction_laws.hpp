@@ -95,7 +95,7 @@ constexpr bool is_bounded(const FrictionLaw& law) {
 }
 
 /// Friction force of a steady slide at a speed [m/s], either way, without vibration.
-inline double undriven_friction_N(const FrictionLaw& law, const Contact& contact,
+inline double undriven_friction_N(const FrictionLaw& law, const ContactValues& contact,
                                   double sliding_m_per_s) {
   return std::visit(
       [&](const auto& any) { return any.undriven_N(contact, std::abs(sliding_m_per_s)); }, law);

@@ -22,7 +22,7 @@ struct Plant {
 };
 
 /// Where a profile holds anything, the member of Contact that it stands for is its value at 0 s.
-struct Friction : Contact {
+struct Friction : ContactValues {
   FrictionLaw law = laws::None{};
   TimedProfile coefficient_profile;
   TimedProfile normal_force_profile_N;

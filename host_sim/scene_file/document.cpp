@@ -58,14 +58,14 @@ Document::Document(const Source& source, const std::vector<std::string>& overrid
   }
 }
 
-const Table* Document::find(std::string_view name) const {
+const SceneTable* Document::find(std::string_view name) const {
   const auto found = tables_.find(name);
   return found == tables_.end() ? nullptr : &found->second;
 }
 
 Location Document::place_of(std::string_view dotted_key) const {
   const std::size_t dot = dotted_key.find('.');
-  const Table* table = find(dotted_key.substr(0, dot));
+  const SceneTable* table = find(dotted_key.substr(0, dot));
   if (table == nullptr) {
     return start();
   }
@@ -94,7 +94,7 @@ void Document::collect() {
 void Document::collect_table(const std::string& name, const Location& place,
                              const toml::table& table) {
   const TableSchema& schema = *find_table(name);
-  Table collected{name, place, {}};
+  SceneTable collected{name, place, {}};
   for (const auto& [key, value] : in_file_order(table)) {
     const Location key_place = located(file_, key->source());
     const std::size_t position = position_of(schema, key->str());
@@ -131,8 +131,8 @@ void Document::vary(const std::string& path, std::size_t ordinal, std::size_t in
 
 /// The entry, without a value yet.
 Entry& Document::overridden_entry(const OverriddenKey& target) {
-  Table& table =
-      tables_.try_emplace(target.table, Table{target.table, target.place, {}}).first->second;
+  SceneTable& table =
+      tables_.try_emplace(target.table, SceneTable{target.table, target.place, {}}).first->second;
   Entry& entry = table.entries[target.key];
   entry = {nullptr, target.place, target.place, true,
            position_of(*find_table(target.table), target.key)};

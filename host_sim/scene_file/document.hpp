@@ -30,7 +30,7 @@ struct Entry {
   Location place_of(const toml::node& element) const;
 };
 
-struct Table {
+struct SceneTable {
   std::string name;
   Location place;
   std::map<std::string, Entry, std::less<>> entries;
@@ -55,7 +55,7 @@ class Document {
   Document& operator=(const Document&) = delete;
 
   /// The table of this name; null where the scene has none.
-  const Table* find(std::string_view name) const;
+  const SceneTable* find(std::string_view name) const;
 
   /// Where the value of `TABLE.KEY` stands, or a whole table; what is left to its default stands
   /// where its table does, or at the beginning of the file.
@@ -79,7 +79,7 @@ class Document {
   std::string name_;
   toml::table root_;
   std::deque<toml::table> override_values_;  ///< never moved once in
-  std::map<std::string, Table, std::less<>> tables_;
+  std::map<std::string, SceneTable, std::less<>> tables_;
 };
 
 }  // namespace sonoglide::scene_file

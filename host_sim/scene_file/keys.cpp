@@ -119,11 +119,11 @@ std::vector<Key> friction_keys() {
       {"contact_stiffness_N_per_m", Number{{1e-6, 1e18, "N/m"}}, Required{},
        "tangential stiffness of the contact", elastic},
       {"initial_force_N", Number{{-largest_limit_N, largest_limit_N, "N"}},
-       scene::Contact{}.initial_force_N,
+       scene::ContactValues{}.initial_force_N,
        "friction force at 0 s, at most coefficient * normal_force_N either way",
        elastic + "; run.start = \"given\""},
       {"sign_convention", Word{words_of(scene::sign_conventions)},
-       scene::name_of(scene::sign_conventions, scene::Contact{}.sign_convention),
+       scene::name_of(scene::sign_conventions, scene::ContactValues{}.sign_convention),
        "dissipative: the contact slides at Vt + x'; as_printed: at Vt - x', as in the paper's "
        "equations (1) and (2)",
        laws_where([](const scene::FrictionLaw& law) {
@@ -414,7 +414,7 @@ class LawKeys {
 void add_law_keys(std::vector<Key>& keys) {
   for (scene::FrictionLaw law : scene::every_law) {
     LawKeys own(keys, scene::name_of(law));
-    std::visit([&](auto& any) { any.visit_keys(own, scene::Contact{}); }, law);
+    std::visit([&](auto& any) { any.visit_keys(own, scene::ContactValues{}); }, law);
   }
 }
 

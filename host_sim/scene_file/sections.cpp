@@ -84,13 +84,13 @@ double read_part_of_limit(TableCursor& cursor, std::string_view key, std::string
 }
 
 /// With the largest coefficient to come and with the smallest: a law's own keys suit both.
-std::vector<scene::Contact> extreme_contacts(const scene::Friction& friction) {
-  const scene::Contact& held = friction;
+std::vector<scene::ContactValues> extreme_contacts(const scene::Friction& friction) {
+  const scene::ContactValues& held = friction;
   if (friction.coefficient_profile.empty()) {
     return {held};
   }
-  scene::Contact largest = held;
-  scene::Contact smallest = held;
+  scene::ContactValues largest = held;
+  scene::ContactValues smallest = held;
   largest.coefficient = scene::largest_value(friction.coefficient_profile);
   smallest.coefficient = scene::smallest_value(friction.coefficient_profile);
   return {largest, smallest};
@@ -155,7 +155,7 @@ scene::Friction read_friction(const Variant& variant, const scene::Plant& plant)
         cursor.real_in("initial_force_N", {-limit_N, limit_N, "N"}, friction.initial_force_N);
   }
   KeyReader keys(cursor);
-  for (const scene::Contact& contact : extreme_contacts(friction)) {
+  for (const scene::ContactValues& contact : extreme_contacts(friction)) {
     std::visit([&](auto& law) { law.visit_keys(keys, contact); }, friction.law);
   }
   cursor.reject_unread_with("friction.law", scene::name_of(friction.law));

@@ -123,7 +123,7 @@ class TableCursor {
 
   const Variant& variant_;
   const KeyTable& keys_;
-  const Table* table_;
+  const SceneTable* table_;
   std::bitset<most_keys> read_;  ///< by Entry::position
 };
 

@@ -50,7 +50,7 @@ class Variant {
           UnusedKeys* unused = nullptr)
       : document_(document), values_(values), unused_(unused) {}
 
-  const Table* find(std::string_view name) const { return document_.find(name); }
+  const SceneTable* find(std::string_view name) const { return document_.find(name); }
   const Document& document() const { return document_; }
 
   const toml::node& value(const Entry& entry) const {

@@ -20,14 +20,14 @@ struct Dahl {
   static constexpr bool is_bounded = true;
 
   template <class Keys>
-  void visit_keys(Keys& /*keys*/, const Contact& /*contact*/) {}
+  void visit_keys(Keys& /*keys*/, const ContactValues& /*contact*/) {}
 
-  double undriven_N(const Contact& contact, double /*speed_m_per_s*/) const {
+  double undriven_N(const ContactValues& contact, double /*speed_m_per_s*/) const {
     return contact.limit_N();
   }
 
   template <class Scalar>
-  Core<Scalar> core(const Contact& contact, const PlantScales& scales) const {
+  Core<Scalar> core(const ContactValues& contact, const PlantScales& scales) const {
     return {static_cast<Scalar>(scales.contact_stiffness(contact.contact_stiffness_N_per_m))};
   }
 };

@@ -25,17 +25,17 @@ struct Iwan {
   int elements = 1;
 
   template <class Keys>
-  void visit_keys(Keys& keys, const Contact& /*contact*/) {
+  void visit_keys(Keys& keys, const ContactValues& /*contact*/) {
     keys.optional("elements", elements, 1, static_cast<int>(Core<double>::most_elements),
                   "number of springs in parallel, which slip at graded limits");
   }
 
-  double undriven_N(const Contact& contact, double /*speed_m_per_s*/) const {
+  double undriven_N(const ContactValues& contact, double /*speed_m_per_s*/) const {
     return contact.limit_N();
   }
 
   template <class Scalar>
-  Core<Scalar> core(const Contact& contact, const PlantScales& scales) const {
+  Core<Scalar> core(const ContactValues& contact, const PlantScales& scales) const {
     return {static_cast<Scalar>(scales.contact_stiffness(contact.contact_stiffness_N_per_m)),
             static_cast<std::size_t>(elements)};
   }

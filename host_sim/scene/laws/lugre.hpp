@@ -28,7 +28,7 @@ struct LuGre {
   double viscous_friction_N_s_per_m = 0.0;
 
   template <class Keys>
-  void visit_keys(Keys& keys, const Contact& contact) {
+  void visit_keys(Keys& keys, const ContactValues& contact) {
     keys.required("static_coefficient", static_coefficient, {contact.coefficient, 100.0},
                   "friction coefficient at rest, at least coefficient");
     keys.required("stribeck_velocity_m_per_s", stribeck_velocity_m_per_s, {1e-9, 1e6, "m/s"},
@@ -40,7 +40,7 @@ struct LuGre {
   }
 
   /// N (mu + (mu_s - mu) exp(-(v/v_s)^2)) + sigma2 v
-  double undriven_N(const Contact& contact, double speed_m_per_s) const {
+  double undriven_N(const ContactValues& contact, double speed_m_per_s) const {
     const double part = speed_m_per_s / stribeck_velocity_m_per_s;
     const double coefficient = contact.coefficient + (static_coefficient - contact.coefficient) *
                                                          numeric::exp(-part * part);
@@ -48,7 +48,7 @@ struct LuGre {
   }
 
   template <class Scalar>
-  Core<Scalar> core(const Contact& contact, const PlantScales& scales) const {
+  Core<Scalar> core(const ContactValues& contact, const PlantScales& scales) const {
     const double force_per_velocity = scales.velocity_m_per_s() / scales.friction_N;
     return {static_cast<Scalar>(scales.contact_stiffness(contact.contact_stiffness_N_per_m)),
             static_cast<Scalar>(static_coefficient / contact.coefficient),

@@ -42,9 +42,11 @@ struct None {
   static constexpr bool is_bounded = true;
 
   template <class Keys>
-  void visit_keys(Keys& /*keys*/, const Contact& /*contact*/) {}
+  void visit_keys(Keys& /*keys*/, const ContactValues& /*contact*/) {}
 
-  double undriven_N(const Contact& /*contact*/, double /*speed_m_per_s*/) const { return 0.0; }
+  double undriven_N(const ContactValues& /*contact*/, double /*speed_m_per_s*/) const {
+    return 0.0;
+  }
 };
 
 }  // namespace sonoglide::scene::laws

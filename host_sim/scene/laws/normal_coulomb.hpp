@@ -23,17 +23,17 @@ struct NormalCoulomb {
   double normal_contact_stiffness_N_per_m = 0.0;  ///< kz
 
   template <class Keys>
-  void visit_keys(Keys& keys, const Contact& /*contact*/) {
+  void visit_keys(Keys& keys, const ContactValues& /*contact*/) {
     keys.required("normal_contact_stiffness_N_per_m", normal_contact_stiffness_N_per_m,
                   {1e-6, 1e18, "N/m"}, "stiffness of the contact normal to the surface");
   }
 
-  double undriven_N(const Contact& contact, double /*speed_m_per_s*/) const {
+  double undriven_N(const ContactValues& contact, double /*speed_m_per_s*/) const {
     return contact.limit_N();
   }
 
   template <class Scalar>
-  Core<Scalar> core(const Contact& contact, const PlantScales& scales) const {
+  Core<Scalar> core(const ContactValues& contact, const PlantScales& scales) const {
     return {static_cast<Scalar>(scales.contact_stiffness(contact.contact_stiffness_N_per_m)),
             static_cast<Scalar>(normal_contact_stiffness_N_per_m * scales.length_m /
                                 contact.normal_force_N)};

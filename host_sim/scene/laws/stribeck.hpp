@@ -25,7 +25,7 @@ struct Stribeck {
 
   /// Friction below zero would drive the contact.
   template <class Keys>
-  void visit_keys(Keys& keys, const Contact& contact) {
+  void visit_keys(Keys& keys, const ContactValues& contact) {
     keys.required("fall_s_per_m", fall_s_per_m, {0.0, 1e9, "s/m"},
                   "linear fall of the friction coefficient with the sliding velocity");
     keys.required("rise_s3_per_m3", rise_s3_per_m3, {0.0, 1e27, "s^3/m^3"},
@@ -40,14 +40,14 @@ struct Stribeck {
   }
 
   /// mu(v) N
-  double undriven_N(const Contact& contact, double speed_m_per_s) const {
+  double undriven_N(const ContactValues& contact, double speed_m_per_s) const {
     const double v = speed_m_per_s;
     return (contact.coefficient - v * (fall_s_per_m - rise_s3_per_m3 * v * v)) *
            contact.normal_force_N;
   }
 
   template <class Scalar>
-  Core<Scalar> core(const Contact& contact, const PlantScales& scales) const {
+  Core<Scalar> core(const ContactValues& contact, const PlantScales& scales) const {
     const double velocity = scales.velocity_m_per_s();
     return {
         static_cast<Scalar>(fall_s_per_m * velocity / contact.coefficient),

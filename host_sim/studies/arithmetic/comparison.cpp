@@ -98,13 +98,13 @@ std::vector<TargetRow> rows_at(const scene::Scene& scene, double target,
 
 }  // namespace
 
-Comparison compare(const scene::Scene& scene,
-                   const std::vector<const emulated::EmulatedBoard*>& boards,
-                   const process::Attention& attention,
-                   const std::function<void(double)>& progress) {
+ArithmeticComparison compare(const scene::Scene& scene,
+                             const std::vector<const emulated::EmulatedBoard*>& boards,
+                             const process::Attention& attention,
+                             const std::function<void(double)>& progress) {
   Course exact(scene);
   loop::run(in_arithmetic(scene, scene::Arithmetic::float64), watch(exact, attention));
-  Comparison comparison;
+  ArithmeticComparison comparison;
   const auto steps = static_cast<double>(boards.size() * all_arithmetics.size() + 1);
   double done = 0.0;
   for (const emulated::EmulatedBoard* board : boards) {

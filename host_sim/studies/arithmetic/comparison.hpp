@@ -69,7 +69,7 @@ struct TargetRow {
   control::Fault fault = control::Fault::none;
 };
 
-struct Comparison {
+struct ArithmeticComparison {
   std::vector<ImageRow> images;    ///< board by board
   std::vector<TargetRow> targets;  ///< target by target
 };
@@ -79,9 +79,9 @@ struct Comparison {
 /// @param attention  called now and then; what it throws ends the comparison
 /// @param progress   called with the fraction done
 /// @throws what emulated::run_image() and emulated::controller_header() throw
-Comparison compare(const scene::Scene& scene,
-                   const std::vector<const emulated::EmulatedBoard*>& boards,
-                   const process::Attention& attention,
-                   const std::function<void(double)>& progress);
+ArithmeticComparison compare(const scene::Scene& scene,
+                             const std::vector<const emulated::EmulatedBoard*>& boards,
+                             const process::Attention& attention,
+                             const std::function<void(double)>& progress);
 
 }  // namespace sonoglide::arithmetic

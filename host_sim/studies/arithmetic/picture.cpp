@@ -39,7 +39,7 @@ int marker_of(std::size_t board) {
 }
 
 /// Each once, in the order of the rows.
-std::vector<const emulated::EmulatedBoard*> boards_of(const Comparison& comparison) {
+std::vector<const emulated::EmulatedBoard*> boards_of(const ArithmeticComparison& comparison) {
   std::vector<const emulated::EmulatedBoard*> boards;
   for (const ImageRow& row : comparison.images) {
     if (boards.empty() || boards.back() != row.board) {
@@ -58,7 +58,7 @@ double drawn(double difference) {
 }
 
 /// "$images_q15": instructions, difference, marker of the board.
-std::string image_block(const Comparison& comparison, scene::Arithmetic arithmetic) {
+std::string image_block(const ArithmeticComparison& comparison, scene::Arithmetic arithmetic) {
   std::string block = fmt::format("$images_{} << EOD\n", name(arithmetic));
   const std::vector<const emulated::EmulatedBoard*> boards = boards_of(comparison);
   for (std::size_t i = 0; i < boards.size(); ++i) {
@@ -73,7 +73,7 @@ std::string image_block(const Comparison& comparison, scene::Arithmetic arithmet
 }
 
 /// "$targets_q15": target, difference, ripple, and no ripple where a limit disturbs.
-std::string target_block(const Comparison& comparison, scene::Arithmetic arithmetic) {
+std::string target_block(const ArithmeticComparison& comparison, scene::Arithmetic arithmetic) {
   std::string block = fmt::format("$targets_{} << EOD\n", name(arithmetic));
   for (const TargetRow& row : comparison.targets) {
     if (row.arithmetic == arithmetic) {
@@ -84,7 +84,7 @@ std::string target_block(const Comparison& comparison, scene::Arithmetic arithme
   return block + "EOD\n";
 }
 
-std::string images_panel(const Comparison& comparison) {
+std::string images_panel(const ArithmeticComparison& comparison) {
   std::string plots;
   for (const scene::Arithmetic arithmetic : all_arithmetics) {
     plots += fmt::format(
@@ -130,7 +130,7 @@ std::string targets_panel(const char* placement, const char* x_label, const char
 
 }  // namespace
 
-std::string draw(const Comparison& comparison, const std::string& title) {
+std::string draw(const ArithmeticComparison& comparison, const std::string& title) {
   std::string script;
   for (const scene::Arithmetic arithmetic : all_arithmetics) {
     script += image_block(comparison, arithmetic) + target_block(comparison, arithmetic);

@@ -32,7 +32,7 @@ std::string fields(const std::optional<loop::ImageInstructions>& instructions) {
 
 }  // namespace
 
-std::string images_csv(const Comparison& comparison) {
+std::string images_csv(const ArithmeticComparison& comparison) {
   std::string csv =
       "board,core,arithmetic,rms_difference,largest_difference,steady_error,ripple,fault,"
       "instructions_min,instructions_mean,instructions_max,flash_bytes,ram_bytes\n";
@@ -45,7 +45,7 @@ std::string images_csv(const Comparison& comparison) {
   return csv;
 }
 
-std::string targets_csv(const Comparison& comparison) {
+std::string targets_csv(const ArithmeticComparison& comparison) {
   std::string csv =
       "target,arithmetic,rms_difference,largest_difference,steady_error,ripple,limit,fault\n";
   for (const TargetRow& row : comparison.targets) {
@@ -80,7 +80,7 @@ std::string line(const ImageRow& row) {
 }  // namespace
 
 void write(const std::filesystem::path& out, const scene::Scene& scene,
-           const Comparison& comparison) {
+           const ArithmeticComparison& comparison) {
   const std::string svg = draw(comparison, scene.name + ", the controller in every arithmetic");
   output::OutputFolder folder(out);
   folder.write("arithmetic.csv", images_csv(comparison));
@@ -89,7 +89,7 @@ void write(const std::filesystem::path& out, const scene::Scene& scene,
   folder.commit();
 }
 
-std::string text(const Comparison& comparison, const std::filesystem::path& out) {
+std::string text(const ArithmeticComparison& comparison, const std::filesystem::path& out) {
   std::string lines = fmt::format("{:11} {:8} {:>8} {:>8} {:>8} {:>8} {:>17} {:>7}\n", "core", "",
                                   "rms", "largest", "error", "ripple", "instructions", "flash");
   for (const ImageRow& row : comparison.images) {

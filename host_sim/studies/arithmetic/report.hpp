@@ -9,22 +9,22 @@
 namespace sonoglide::arithmetic {
 
 /// One line for each image under a heading line; what is not defined is nan.
-std::string images_csv(const Comparison& comparison);
+std::string images_csv(const ArithmeticComparison& comparison);
 
 /// One line for each target and arithmetic.
-std::string targets_csv(const Comparison& comparison);
+std::string targets_csv(const ArithmeticComparison& comparison);
 
 /// Left: difference from float64 against instructions per step, a point for each image. Right:
 /// difference and ripple against the target.
 /// @throws process::ProcessError
-std::string draw(const Comparison& comparison, const std::string& title);
+std::string draw(const ArithmeticComparison& comparison, const std::string& title);
 
 /// Writes arithmetic.csv, targets.csv and arithmetic.svg; all or none.
 /// @throws report::OutputError, process::ProcessError
 void write(const std::filesystem::path& out, const scene::Scene& scene,
-           const Comparison& comparison);
+           const ArithmeticComparison& comparison);
 
 /// The images as a table, and where the picture is.
-std::string text(const Comparison& comparison, const std::filesystem::path& out);
+std::string text(const ArithmeticComparison& comparison, const std::filesystem::path& out);
 
 }  // namespace sonoglide::arithmetic

@@ -10,7 +10,7 @@
 namespace sonoglide::design {
 namespace {
 
-double most_N(const Study& study) {
+double most_N(const DesignStudy& study) {
   return study.task.scene.drive->max_force_amplitude_N;
 }
 
@@ -22,13 +22,13 @@ std::string force(double value_N) {
   return fmt::format("{:.4g} N", value_N);
 }
 
-const RatioCurve& curve_of(const Study& study, double ratio) {
+const RatioRequirements& curve_of(const DesignStudy& study, double ratio) {
   return *std::find_if(study.curves.begin(), study.curves.end(),
-                       [&](const RatioCurve& curve) { return curve.ratio == ratio; });
+                       [&](const RatioRequirements& curve) { return curve.ratio == ratio; });
 }
 
 /// Up to which speed a ratio is to be had; empty where that is not known.
-std::string reach(const Study& study, double ratio) {
+std::string reach(const DesignStudy& study, double ratio) {
   const double fastest_m_per_s = curve_of(study, ratio).fastest_m_per_s;
   return std::isfinite(fastest_m_per_s)
              ? fmt::format("within reach up to {}", speed(fastest_m_per_s))
@@ -36,11 +36,11 @@ std::string reach(const Study& study, double ratio) {
 }
 
 /// Nothing where the ratio is within reach.
-std::string shortfall(const Study& study, const Requirement& point) {
+std::string shortfall(const DesignStudy& study, const Requirement& point) {
   const std::string where =
       fmt::format("Ratio {:g} at {}", point.ratio, speed(point.sliding_m_per_s));
   switch (point.limit) {
-    case Limit::actuator: {
+    case Obstacle::actuator: {
       const std::string slower = reach(study, point.ratio);
       return fmt::format(
           "{} is beyond the drive: it takes {}, {:.3g} times the {} that there are. The nearest at "
@@ -49,23 +49,23 @@ std::string shortfall(const Study& study, const Requirement& point) {
           force(most_N(study)), point.reachable_ratio,
           slower.empty() ? "" : fmt::format("; {:g} is {}", point.ratio, slower));
     }
-    case Limit::amplitude:
+    case Obstacle::amplitude:
       return fmt::format(
           "{} is not to be had: more vibration raises the friction again. The nearest is {:.4f}.",
           where, point.reachable_ratio);
-    case Limit::no_orbit:
+    case Obstacle::no_orbit:
       return fmt::format("{} has no steady vibration that was found: {}.", where, point.reason);
-    case Limit::undriven:
-    case Limit::none:
+    case Obstacle::undriven:
+    case Obstacle::none:
       break;
   }
   return {};
 }
 
 /// The point of the most force for a ratio that is within reach.
-Advice drive(const Study& study, const Requirement& point) {
+Advice drive(const DesignStudy& study, const Requirement& point) {
   const std::string topic = fmt::format("Ratio {:g}", point.ratio);
-  if (point.limit == Limit::undriven) {
+  if (point.limit == Obstacle::undriven) {
     return {topic, "Needs no drive: it is what the contact has undriven."};
   }
   const std::string further = reach(study, point.ratio);
@@ -119,7 +119,7 @@ double total_change(const DesignPoint& point) {
   return sum;
 }
 
-Advice accuracy(const Study& study, const std::vector<DesignPoint>& points) {
+Advice accuracy(const DesignStudy& study, const std::vector<DesignPoint>& points) {
   const DesignPoint& worst = *std::max_element(
       points.begin(), points.end(),
       [](const DesignPoint& a, const DesignPoint& b) { return total_change(a) < total_change(b); });
@@ -139,12 +139,12 @@ Advice accuracy(const Study& study, const std::vector<DesignPoint>& points) {
                       by_size[1].largest_change())};
 }
 
-std::string frequency(const Study& study, double tuning) {
+std::string frequency(const DesignStudy& study, double tuning) {
   return quantity(std::sqrt(tuning) * study.task.scene.drive->frequency_Hz, "Hz");
 }
 
 /// The edge of the sensitive band below resonance, and what the drive needs there.
-std::string lower_edge(const Study& study, const Detuning& detuning) {
+std::string lower_edge(const DesignStudy& study, const Detuning& detuning) {
   const double force_N = detuning.force_at_sensitive_low_N;
   return fmt::format("at {:.3g} ({}) it takes {}{}", detuning.sensitive->low,
                      frequency(study, detuning.sensitive->low), force(force_N),
@@ -152,7 +152,7 @@ std::string lower_edge(const Study& study, const Detuning& detuning) {
 }
 
 /// Where the spring stands, seen from resonance.
-std::string position(const Study& study, const Detuning& detuning) {
+std::string position(const DesignStudy& study, const Detuning& detuning) {
   const double allowed = study.task.scene.run.settling_band;
   if (study.tuning > detuning.sensitive->high) {
     return "above resonance, and far enough";
@@ -172,7 +172,7 @@ std::string position(const Study& study, const Detuning& detuning) {
       detuning.ratio, detuning.change_by_stiffness, lower_edge(study, detuning));
 }
 
-Advice resonance(const Study& study, const Detuning& detuning) {
+Advice resonance(const DesignStudy& study, const Detuning& detuning) {
   const std::string here = fmt::format("Ks/(m w^2) = {:.3g}, natural frequency {}", study.tuning,
                                        frequency(study, study.tuning));
   if (!detuning.sensitive) {
@@ -198,7 +198,7 @@ Advice tuning_reach(const Detuning& detuning) {
 
 }  // namespace
 
-std::vector<std::string> shortfalls(const Study& study) {
+std::vector<std::string> shortfalls(const DesignStudy& study) {
   std::vector<std::string> all;
   for (const DesignPoint& point : study.points) {
     std::string sentence = shortfall(study, point.requirement);
@@ -209,12 +209,12 @@ std::vector<std::string> shortfalls(const Study& study) {
   return all;
 }
 
-std::vector<Advice> advice(const Study& study) {
+std::vector<Advice> advice(const DesignStudy& study) {
   std::vector<Advice> all;
   for (const DesignPoint& point : study.points) {
     const Requirement& each = point.requirement;
     const bool hardest = each.sliding_m_per_s == study.task.speeds.fastest_m_per_s;
-    if (hardest && (each.limit == Limit::none || each.limit == Limit::undriven)) {
+    if (hardest && (each.limit == Obstacle::none || each.limit == Obstacle::undriven)) {
       all.push_back(drive(study, each));
     }
   }

@@ -15,9 +15,9 @@ struct Advice {
 
 /// Whether each ratio is within reach and how far, what the closed form is worth, power, accuracy,
 /// and which way resonance lies.
-std::vector<Advice> advice(const Study& study);
+std::vector<Advice> advice(const DesignStudy& study);
 
 /// What cannot be had, and the nearest that can; empty where everything is within reach.
-std::vector<std::string> shortfalls(const Study& study);
+std::vector<std::string> shortfalls(const DesignStudy& study);
 
 }  // namespace sonoglide::design

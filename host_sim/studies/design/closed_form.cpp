@@ -31,7 +31,8 @@ double closed_form_ratio(const scene::Scene& scene, double sliding_m_per_s,
   return friction::coulomb_friction_ratio(velocity_ratio);
 }
 
-Vibration closed_form_vibration(const scene::Scene& scene, double sliding_m_per_s, double ratio) {
+RequiredVibration closed_form_vibration(const scene::Scene& scene, double sliding_m_per_s,
+                                        double ratio) {
   constexpr double largest_logarithm = 13.8;  // of 10^6
   const auto excess = [&](double logarithm) {
     return closed_form_ratio(scene, sliding_m_per_s, sliding_m_per_s * std::exp(logarithm)) - ratio;

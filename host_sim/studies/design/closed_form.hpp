@@ -51,7 +51,7 @@ double closed_form_ratio(const scene::Scene& scene, double sliding_m_per_s,
                          double vibration_m_per_s);
 
 /// A friction ratio and the least vibration that gives it.
-struct Vibration {
+struct RequiredVibration {
   double friction_ratio;
   double velocity_m_per_s;  ///< peak
 };
@@ -60,7 +60,8 @@ struct Vibration {
 /// vibration up to 10^6 times the sliding gives that: it is the lowest then.
 ///
 /// @param ratio  less than without vibration
-Vibration closed_form_vibration(const scene::Scene& scene, double sliding_m_per_s, double ratio);
+RequiredVibration closed_form_vibration(const scene::Scene& scene, double sliding_m_per_s,
+                                        double ratio);
 
 /// Drive force that a vibration takes without a contact [N].
 double force_N(const scene::Scene& scene, double vibration_m_per_s);

@@ -17,7 +17,7 @@ std::string speeds_text(const SpeedRange& speeds) {
              : fmt::format("{} to {}", slowest, quantity(speeds.fastest_m_per_s, "m/s"));
 }
 
-std::string lead(const Study& study) {
+std::string lead(const DesignStudy& study) {
   const scene::Scene& scene = study.task.scene;
   return fmt::format(
       "What the drive of {} must do to hold a friction ratio: {} contact, drive of {} with up to "
@@ -26,7 +26,7 @@ std::string lead(const Study& study) {
       fmt::format("{:.4g} N", scene.drive->max_force_amplitude_N), speeds_text(study.task.speeds));
 }
 
-output::Table advice_table(const Study& study) {
+output::Table advice_table(const DesignStudy& study) {
   output::Table table{"What to do", {}, {}};
   for (const Advice& each : advice(study)) {
     table.rows.push_back({each.topic, each.sentence});
@@ -34,7 +34,7 @@ output::Table advice_table(const Study& study) {
   return table;
 }
 
-output::Table drive_table(const Study& study) {
+output::Table drive_table(const DesignStudy& study) {
   output::Table table{"",
                       {"Sliding", "Ratio", "Force", "Velocity amplitude", "Amplitude", "Limit",
                        "Ratio within reach", "Closed form", "It misses by"},
@@ -67,7 +67,7 @@ output::Table power_table(const std::vector<DesignPoint>& points) {
   return table;
 }
 
-output::Section drive_section(const Study& study, const std::vector<DesignPoint>& moving) {
+output::Section drive_section(const DesignStudy& study, const std::vector<DesignPoint>& moving) {
   output::Section section;
   section.title = "Required drive";
   section.text =
@@ -101,7 +101,8 @@ output::Table sensitivity_table(const std::vector<DesignPoint>& points, const ch
   return table;
 }
 
-output::Section sensitivity_section(const Study& study, const std::vector<DesignPoint>& points) {
+output::Section sensitivity_section(const DesignStudy& study,
+                                    const std::vector<DesignPoint>& points) {
   output::Section section;
   section.title = "What the ratio hangs on";
   section.text =
@@ -132,7 +133,7 @@ std::string text(const std::optional<TuningBand>& band, double drive_Hz) {
   return fmt::format("{} to {}", edge(band->low), edge(band->high));
 }
 
-output::Section resonance_section(const Study& study) {
+output::Section resonance_section(const DesignStudy& study) {
   output::Section section;
   section.title = "Resonance: what it gives and what it costs";
   section.text = fmt::format(
@@ -159,7 +160,7 @@ output::Section resonance_section(const Study& study) {
 
 }  // namespace
 
-output::Page page(const Study& study) {
+output::Page page(const DesignStudy& study) {
   const std::vector<DesignPoint> points = moving_points(study);
   output::Page page{fmt::format("Design of {}", study.task.scene.name),
                     lead(study),

@@ -60,7 +60,7 @@ std::string curves(const std::vector<double>& ratios, const std::string& prefix,
   return plots + more + '\n';
 }
 
-std::string requirement_blocks(const Study& study, const std::string& prefix,
+std::string requirement_blocks(const DesignStudy& study, const std::string& prefix,
                                const std::function<double(const Requirement&)>& figure) {
   std::string text;
   for (std::size_t i = 0; i < study.curves.size(); ++i) {
@@ -73,7 +73,7 @@ std::string requirement_blocks(const Study& study, const std::string& prefix,
   return text;
 }
 
-std::string undriven_block(const Study& study) {
+std::string undriven_block(const DesignStudy& study) {
   std::string lines;
   for (const Requirement& point : study.curves.front().requirements) {
     lines += line(point.sliding_m_per_s, point.motion.undriven_friction_power_W);
@@ -81,7 +81,7 @@ std::string undriven_block(const Study& study) {
   return block("undriven", lines);
 }
 
-std::string design_point_block(const Study& study) {
+std::string design_point_block(const DesignStudy& study) {
   std::string lines;
   for (const DesignPoint& point : study.points) {
     lines += line(point.requirement.sliding_m_per_s, point.requirement.motion.drive_force_N);
@@ -89,7 +89,7 @@ std::string design_point_block(const Study& study) {
   return block("points", lines);
 }
 
-std::string detuning_blocks(const Study& study, const std::string& prefix,
+std::string detuning_blocks(const DesignStudy& study, const std::string& prefix,
                             double DetunedPoint::*figure) {
   std::string text;
   for (std::size_t i = 0; i < study.detunings.size(); ++i) {
@@ -106,16 +106,16 @@ std::string detuning_blocks(const Study& study, const std::string& prefix,
   return text;
 }
 
-std::vector<double> ratios_of(const Study& study) {
+std::vector<double> ratios_of(const DesignStudy& study) {
   std::vector<double> ratios;
   ratios.reserve(study.curves.size());
-  for (const RatioCurve& curve : study.curves) {
+  for (const RatioRequirements& curve : study.curves) {
     ratios.push_back(curve.ratio);
   }
   return ratios;
 }
 
-std::vector<double> detuned_ratios(const Study& study) {
+std::vector<double> detuned_ratios(const DesignStudy& study) {
   std::vector<double> ratios;
   ratios.reserve(study.detunings.size());
   for (const Detuning& detuning : study.detunings) {
@@ -125,7 +125,7 @@ std::vector<double> detuned_ratios(const Study& study) {
 }
 
 /// At the fastest speed.
-std::vector<DesignPoint> fastest_points(const Study& study) {
+std::vector<DesignPoint> fastest_points(const DesignStudy& study) {
   std::vector<DesignPoint> points;
   for (const DesignPoint& point : moving_points(study)) {
     if (point.requirement.sliding_m_per_s == study.task.speeds.fastest_m_per_s) {
@@ -137,7 +137,7 @@ std::vector<DesignPoint> fastest_points(const Study& study) {
 
 }  // namespace
 
-std::string draw_requirements(const Study& study) {
+std::string draw_requirements(const DesignStudy& study) {
   const double most_N = study.task.scene.drive->max_force_amplitude_N;
   std::string script =
       requirement_blocks(study, "force",
@@ -161,7 +161,7 @@ std::string draw_requirements(const Study& study) {
   return output::draw_svg(script + "unset multiplot\n", 2 * panel_width_px, panel_height_px);
 }
 
-std::string draw_sensitivities(const Study& study) {
+std::string draw_sensitivities(const DesignStudy& study) {
   const std::vector<DesignPoint> points = fastest_points(study);
   std::string lines;
   for (std::size_t row = 0; row < points.front().sensitivities.size(); ++row) {
@@ -186,7 +186,7 @@ std::string draw_sensitivities(const Study& study) {
       2 * panel_width_px, 360);
 }
 
-std::string draw_detunings(const Study& study) {
+std::string draw_detunings(const DesignStudy& study) {
   const scene::Scene& scene = study.task.scene;
   const char* tuning_label = "Ks/(m w^2) [-]";
   const std::vector<double> ratios = detuned_ratios(study);

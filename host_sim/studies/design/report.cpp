@@ -63,7 +63,7 @@ std::string sensitivity_lines(const std::vector<DesignPoint>& points) {
 
 }  // namespace
 
-void write(const std::filesystem::path& out, const Study& study) {
+void write(const std::filesystem::path& out, const DesignStudy& study) {
   const std::string html = output::to_html(page(study));
   output::OutputFolder folder(out);
   folder.write("report.html", html);
@@ -73,7 +73,7 @@ void write(const std::filesystem::path& out, const Study& study) {
   folder.commit();
 }
 
-std::string text(const Study& study, const std::filesystem::path& out) {
+std::string text(const DesignStudy& study, const std::filesystem::path& out) {
   std::string lines =
       fmt::format("{:>10} {:>6} {:>9} {:>10} {:>9} {:>9} {:>9} {:>9}  {}\n", "sliding", "ratio",
                   "force", "vibration", "amplitude", "drive", "friction", "undriven", "limit");

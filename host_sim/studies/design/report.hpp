@@ -18,35 +18,35 @@ std::string quantity(double value, const char* unit);
 std::string number(double value);
 
 /// One line for each ratio and speed, 17 digits.
-std::string requirements_csv(const Study& study);
+std::string requirements_csv(const DesignStudy& study);
 
 /// One line for each ratio and tuning Ks/(m w²), at the fastest of the task's speeds, 17 digits.
-std::string detuning_csv(const Study& study);
+std::string detuning_csv(const DesignStudy& study);
 
 /// The design points with their sensitivities, the reach of each ratio, and the tuning bands.
-nlohmann::ordered_json to_json(const Study& study);
+nlohmann::ordered_json to_json(const DesignStudy& study);
 
 /// Each one an SVG document. @throws process::ProcessError
 
 /// Required force and power over the sliding speed, the drive's limit shaded.
-std::string draw_requirements(const Study& study);
+std::string draw_requirements(const DesignStudy& study);
 
 /// Bars of d ln rho/d ln p at the fastest of the task's speeds, a colour a ratio; some ratio has a
 /// motion there.
-std::string draw_sensitivities(const Study& study);
+std::string draw_sensitivities(const DesignStudy& study);
 
 /// Over the tuning Ks/(m w²): the ratio under the scene's force, the force that keeps it, and what
 /// 1 % of the spring then costs; some ratio has a motion.
-std::string draw_detunings(const Study& study);
+std::string draw_detunings(const DesignStudy& study);
 
 /// @throws process::ProcessError  of the pictures
-output::Page page(const Study& study);
+output::Page page(const DesignStudy& study);
 
 /// Writes report.html, design.json, design.csv and detuning.csv; all or none.
 /// @throws report::OutputError, process::ProcessError
-void write(const std::filesystem::path& out, const Study& study);
+void write(const std::filesystem::path& out, const DesignStudy& study);
 
 /// The design on a page of text, and where the report is.
-std::string text(const Study& study, const std::filesystem::path& out);
+std::string text(const DesignStudy& study, const std::filesystem::path& out);
 
 }  // namespace sonoglide::design

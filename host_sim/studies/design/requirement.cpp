@@ -41,7 +41,7 @@ void solve(const scene::Scene& scene, double closed_form_force_N, Requirement& f
   const auto excess = [&](double force_N) {
     return ratio_or_zero(scene, sliding_m_per_s, force_N) - found.ratio;
   };
-  found.limit = Limit::no_orbit;
+  found.limit = Obstacle::no_orbit;
   found.closed_form_force_N = closed_form_force_N;
   try {
     found.closed_form_error =
@@ -54,8 +54,8 @@ void solve(const scene::Scene& scene, double closed_form_force_N, Requirement& f
       return;
     }
     found.motion = *motion;
-    found.limit =
-        motion->drive_force_N > scene.drive->max_force_amplitude_N ? Limit::actuator : Limit::none;
+    found.limit = motion->drive_force_N > scene.drive->max_force_amplitude_N ? Obstacle::actuator
+                                                                             : Obstacle::none;
   } catch (const loop::ComputationError& error) {
     found.reason = error.what();
   }
@@ -63,17 +63,17 @@ void solve(const scene::Scene& scene, double closed_form_force_N, Requirement& f
 
 }  // namespace
 
-const char* name(Limit limit) {
+const char* name(Obstacle limit) {
   switch (limit) {
-    case Limit::none:
+    case Obstacle::none:
       return "none";
-    case Limit::undriven:
+    case Obstacle::undriven:
       return "undriven";
-    case Limit::actuator:
+    case Obstacle::actuator:
       return "actuator";
-    case Limit::amplitude:
+    case Obstacle::amplitude:
       return "amplitude";
-    case Limit::no_orbit:
+    case Obstacle::no_orbit:
       break;
   }
   return "no_orbit";
@@ -85,23 +85,23 @@ Requirement require_ratio(const scene::Scene& scene, double sliding_m_per_s, dou
   found.ratio = ratio;
   found.reachable_ratio = ratio;
   if (ratio >= 1.0) {
-    found.limit = Limit::undriven;
+    found.limit = Obstacle::undriven;
     return found;
   }
   const double most_N = scene.drive->max_force_amplitude_N;
-  const Vibration vibration = closed_form_vibration(scene, sliding_m_per_s, ratio);
+  const RequiredVibration vibration = closed_form_vibration(scene, sliding_m_per_s, ratio);
   const double closed_form_force_N = force_N(scene, vibration.velocity_m_per_s);
   if (vibration.friction_ratio > ratio) {
-    found.limit = Limit::amplitude;
+    found.limit = Obstacle::amplitude;
     found.reachable_ratio =
         ratio_or_zero(scene, sliding_m_per_s, std::min(closed_form_force_N, most_N));
     return found;
   }
   solve(scene, closed_form_force_N, found);
-  if (found.limit == Limit::no_orbit) {
+  if (found.limit == Obstacle::no_orbit) {
     found.reachable_ratio = undefined;
   }
-  if (found.limit == Limit::actuator) {
+  if (found.limit == Obstacle::actuator) {
     found.reachable_ratio = ratio_or_zero(scene, sliding_m_per_s, most_N);
   }
   return found;

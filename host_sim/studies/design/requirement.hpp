@@ -9,7 +9,7 @@
 namespace sonoglide::design {
 
 /// What stands between a ratio and the drive.
-enum class Limit {
+enum class Obstacle {
   none,
   undriven,   ///< the contact has the ratio without vibration
   actuator,   ///< the force is more than the drive has
@@ -17,13 +17,13 @@ enum class Limit {
   no_orbit,   ///< no steady vibration has been found
 };
 
-const char* name(Limit limit);
+const char* name(Obstacle limit);
 
 /// What is not defined is NaN: the motion where the limit is none but actuator and none.
 struct Requirement {
   double sliding_m_per_s = 0.0;
   double ratio = 0.0;
-  Limit limit = Limit::none;
+  Obstacle limit = Obstacle::none;
   std::string reason;   ///< of no_orbit
   SteadyMotion motion;  ///< at the smallest force that gives the ratio
   double closed_form_force_N =

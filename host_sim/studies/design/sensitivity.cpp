@@ -10,7 +10,7 @@ namespace {
 
 /// d rho/d ln p by central differences of fourth order: beside a resonance the ratio bends within
 /// a hundredth of a parameter.
-double derivative(const scene::Scene& scene, const Parameter& parameter) {
+double derivative(const scene::Scene& scene, const SceneParameter& parameter) {
   constexpr double h = 2e-4;
   const auto rise = [&](double part) {
     return ratio_with(scene, parameter, 1.0 + part) - ratio_with(scene, parameter, 1.0 - part);
@@ -18,7 +18,7 @@ double derivative(const scene::Scene& scene, const Parameter& parameter) {
   return (8.0 * rise(h) - rise(2.0 * h)) / (12.0 * h);
 }
 
-Sensitivity sensitivity(const scene::Scene& scene, const Parameter& parameter, double ratio) {
+Sensitivity sensitivity(const scene::Scene& scene, const SceneParameter& parameter, double ratio) {
   return {parameter, derivative(scene, parameter) / ratio,
           ratio_with(scene, parameter, 1.0 + parameter_change) - ratio,
           ratio_with(scene, parameter, 1.0 - parameter_change) - ratio};
@@ -26,7 +26,7 @@ Sensitivity sensitivity(const scene::Scene& scene, const Parameter& parameter, d
 
 }  // namespace
 
-double ratio_with(scene::Scene steady_scene, const Parameter& parameter, double factor) {
+double ratio_with(scene::Scene steady_scene, const SceneParameter& parameter, double factor) {
   parameter.in(steady_scene) *= factor;
   steady_scene.run.duration_s = 1.0 / steady_scene.drive->frequency_Hz;
   return friction_ratio(steady_scene);
@@ -36,13 +36,13 @@ double Sensitivity::largest_change() const {
   return std::max(std::abs(change_by_more), std::abs(change_by_less));
 }
 
-Parameter stiffness() {
+SceneParameter stiffness() {
   return {"plant.stiffness_N_per_m", "Ks",
           [](scene::Scene& s) -> double& { return s.plant.stiffness_N_per_m; }};
 }
 
-std::vector<Parameter> parameters_of(const scene::Scene& steady_scene) {
-  std::vector<Parameter> all = {
+std::vector<SceneParameter> parameters_of(const scene::Scene& steady_scene) {
+  std::vector<SceneParameter> all = {
       {"plant.mass_kg", "m", [](scene::Scene& s) -> double& { return s.plant.mass_kg; }},
       stiffness()};
   if (steady_scene.plant.damping_N_s_per_m > 0.0) {
@@ -71,7 +71,7 @@ std::vector<Parameter> parameters_of(const scene::Scene& steady_scene) {
 std::vector<Sensitivity> sensitivities(const scene::Scene& steady_scene) {
   const double ratio = friction_ratio(steady_scene);
   std::vector<Sensitivity> all;
-  for (const Parameter& parameter : parameters_of(steady_scene)) {
+  for (const SceneParameter& parameter : parameters_of(steady_scene)) {
     all.push_back(sensitivity(steady_scene, parameter, ratio));
   }
   return all;

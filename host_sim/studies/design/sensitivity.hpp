@@ -8,19 +8,19 @@
 namespace sonoglide::design {
 
 /// One positive number of a scene that its steady ratio depends on.
-struct Parameter {
+struct SceneParameter {
   const char* key;  ///< as `--set` takes it
   const char* symbol;
   double& (*in)(scene::Scene& steady_scene);
 };
 
 /// Those that the scene has: damping where it is not 0, contact stiffness of an elastic law.
-std::vector<Parameter> parameters_of(const scene::Scene& steady_scene);
+std::vector<SceneParameter> parameters_of(const scene::Scene& steady_scene);
 
 /// Every other parameter and the drive's force stay as they are: feedback that follows the ratio
 /// takes the change out again, feedforward does not.
 struct Sensitivity {
-  Parameter parameter;
+  SceneParameter parameter;
   double logarithmic;     ///< d ln rho / d ln p
   double change_by_more;  ///< of the ratio, by 1 % more of the parameter
   double change_by_less;  ///< by 1 % less
@@ -37,9 +37,9 @@ std::vector<Sensitivity> sensitivities(const scene::Scene& steady_scene);
 inline constexpr double parameter_change = 0.01;
 
 /// Ratio with the parameter taken times a factor. @throws loop::ComputationError
-double ratio_with(scene::Scene steady_scene, const Parameter& parameter, double factor);
+double ratio_with(scene::Scene steady_scene, const SceneParameter& parameter, double factor);
 
 /// Of the spring, on which resonance hangs.
-Parameter stiffness();
+SceneParameter stiffness();
 
 }  // namespace sonoglide::design

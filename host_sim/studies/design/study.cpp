@@ -35,12 +35,13 @@ std::vector<double> curve_speeds_m_per_s(const SpeedRange& speeds) {
 }
 
 bool has_motion(const Requirement& requirement) {
-  return requirement.limit == Limit::none || requirement.limit == Limit::actuator;
+  return requirement.limit == Obstacle::none || requirement.limit == Obstacle::actuator;
 }
 
-RatioCurve ratio_curve(const Task& task, double ratio, const std::vector<double>& speeds_m_per_s) {
-  RatioCurve curve{ratio, std::vector<Requirement>(speeds_m_per_s.size()),
-                   fastest_sliding_m_per_s(task.scene, ratio)};
+RatioRequirements ratio_curve(const Task& task, double ratio,
+                              const std::vector<double>& speeds_m_per_s) {
+  RatioRequirements curve{ratio, std::vector<Requirement>(speeds_m_per_s.size()),
+                          fastest_sliding_m_per_s(task.scene, ratio)};
   tbb::parallel_for(std::size_t{0}, speeds_m_per_s.size(), [&](std::size_t i) {
     curve.requirements[i] = require_ratio(task.scene, speeds_m_per_s[i], ratio);
   });
@@ -57,11 +58,11 @@ DesignPoint design_point(const Task& task, const Requirement& requirement) {
 }
 
 /// Of every curve the requirement at a speed that it was computed for.
-std::vector<Requirement> requirements_at(const std::vector<RatioCurve>& curves,
+std::vector<Requirement> requirements_at(const std::vector<RatioRequirements>& curves,
                                          double sliding_m_per_s) {
   std::vector<Requirement> all;
   all.reserve(curves.size());
-  for (const RatioCurve& curve : curves) {
+  for (const RatioRequirements& curve : curves) {
     all.push_back(*std::find_if(
         curve.requirements.begin(), curve.requirements.end(),
         [&](const Requirement& each) { return each.sliding_m_per_s == sliding_m_per_s; }));
@@ -69,7 +70,8 @@ std::vector<Requirement> requirements_at(const std::vector<RatioCurve>& curves,
   return all;
 }
 
-std::vector<DesignPoint> design_points(const Task& task, const std::vector<RatioCurve>& curves) {
+std::vector<DesignPoint> design_points(const Task& task,
+                                       const std::vector<RatioRequirements>& curves) {
   std::vector<Requirement> wanted = requirements_at(curves, task.speeds.slowest_m_per_s);
   if (!is_single(task.speeds)) {
     const auto fastest = requirements_at(curves, task.speeds.fastest_m_per_s);
@@ -81,7 +83,7 @@ std::vector<DesignPoint> design_points(const Task& task, const std::vector<Ratio
   return points;
 }
 
-std::vector<Detuning> detunings(const Task& task, const std::vector<RatioCurve>& curves) {
+std::vector<Detuning> detunings(const Task& task, const std::vector<RatioRequirements>& curves) {
   std::vector<Requirement> wanted = requirements_at(curves, task.speeds.fastest_m_per_s);
   wanted.erase(std::remove_if(wanted.begin(), wanted.end(),
                               [](const Requirement& each) { return !has_motion(each); }),
@@ -95,7 +97,7 @@ std::vector<Detuning> detunings(const Task& task, const std::vector<RatioCurve>&
 /// A design in which nothing can be said is a failure, with the first reason for it.
 void require_an_orbit(const std::vector<DesignPoint>& points) {
   const bool none = std::all_of(points.begin(), points.end(), [](const DesignPoint& point) {
-    return point.requirement.limit == Limit::no_orbit;
+    return point.requirement.limit == Obstacle::no_orbit;
   });
   if (none) {
     throw loop::ComputationError(points.front().requirement.reason);
@@ -104,7 +106,7 @@ void require_an_orbit(const std::vector<DesignPoint>& points) {
 
 }  // namespace
 
-std::vector<DesignPoint> moving_points(const Study& study) {
+std::vector<DesignPoint> moving_points(const DesignStudy& study) {
   std::vector<DesignPoint> points;
   for (const DesignPoint& point : study.points) {
     if (has_motion(point.requirement)) {
@@ -114,9 +116,9 @@ std::vector<DesignPoint> moving_points(const Study& study) {
   return points;
 }
 
-Study study(const Task& task, const Progress& progress) {
+DesignStudy study(const Task& task, const Progress& progress) {
   const std::vector<double> speeds_m_per_s = curve_speeds_m_per_s(task.speeds);
-  Study study{task, tuning(task.scene), {}, {}, {}};
+  DesignStudy study{task, tuning(task.scene), {}, {}, {}};
   for (const double ratio : task.ratios) {
     study.curves.push_back(ratio_curve(task, ratio, speeds_m_per_s));
     progress(0.5 * static_cast<double>(study.curves.size()) /

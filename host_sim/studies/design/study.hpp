@@ -20,25 +20,25 @@ struct DesignPoint {
 };
 
 /// One friction ratio over all speeds.
-struct RatioCurve {
+struct RatioRequirements {
   double ratio;
   std::vector<Requirement> requirements;  ///< by rising speed: study().speeds_m_per_s
   double fastest_m_per_s;                 ///< at which the whole drive holds the ratio; may be NaN
 };
 
-struct Study {
+struct DesignStudy {
   Task task;
   double tuning;  ///< Ks/(m w²)
-  std::vector<RatioCurve> curves;
+  std::vector<RatioRequirements> curves;
   std::vector<DesignPoint> points;  ///< slowest speed first, ratios rising; one speed is once
   std::vector<Detuning> detunings;  ///< each ratio at the fastest speed, where it has a motion
 };
 
 /// The design points that have a motion.
-std::vector<DesignPoint> moving_points(const Study& study);
+std::vector<DesignPoint> moving_points(const DesignStudy& study);
 
 /// On every core. Of a single speed the curves go from a tenth to ten times it.
 /// @throws loop::ComputationError  no ratio has a steady vibration at any of the task's speeds
-Study study(const Task& task, const Progress& progress);
+DesignStudy study(const Task& task, const Progress& progress);
 
 }  // namespace sonoglide::design

@@ -85,13 +85,13 @@ ordered_json detuning_json(const Detuning& detuning) {
 
 }  // namespace
 
-std::string requirements_csv(const Study& study) {
+std::string requirements_csv(const DesignStudy& study) {
   std::string csv =
       "sliding_velocity_m_per_s,friction_ratio,drive_force_N,displacement_amplitude_m,"
       "velocity_amplitude_m_per_s,drive_power_W,apparent_power_W,friction_power_W,"
       "undriven_friction_power_W,damping_power_W,closed_form_force_N,closed_form_ratio_error,"
       "reachable_friction_ratio,limit\n";
-  for (const RatioCurve& curve : study.curves) {
+  for (const RatioRequirements& curve : study.curves) {
     for (const Requirement& point : curve.requirements) {
       csv += row(point);
     }
@@ -99,7 +99,7 @@ std::string requirements_csv(const Study& study) {
   return csv;
 }
 
-std::string detuning_csv(const Study& study) {
+std::string detuning_csv(const DesignStudy& study) {
   std::string csv =
       "friction_ratio,tuning,drive_force_N,ratio_change_by_1_percent_stiffness,"
       "friction_ratio_at_the_scenes_force\n";
@@ -113,7 +113,7 @@ std::string detuning_csv(const Study& study) {
   return csv;
 }
 
-ordered_json to_json(const Study& study) {
+ordered_json to_json(const DesignStudy& study) {
   ordered_json json;
   json["scene"] = scene_file::to_json(study.task.scene);
   json["tuning"] = study.tuning;
@@ -123,7 +123,7 @@ ordered_json to_json(const Study& study) {
     json["points"].push_back(point_json(point));
   }
   json["reach"] = ordered_json::array();
-  for (const RatioCurve& curve : study.curves) {
+  for (const RatioRequirements& curve : study.curves) {
     json["reach"].push_back({{"friction_ratio", curve.ratio},
                              {"fastest_sliding_m_per_s", json_number(curve.fastest_m_per_s)}});
   }

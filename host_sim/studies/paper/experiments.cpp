@@ -19,8 +19,8 @@ namespace sonoglide::paper {
 namespace {
 
 constexpr double frequency_Hz = 22e3;
-constexpr Range amplitudes_m = {0.5e-6, 5e-6};
-constexpr Range coefficients = {0.1, 0.8};
+constexpr Interval amplitudes_m = {0.5e-6, 5e-6};
+constexpr Interval coefficients = {0.1, 0.8};
 constexpr double poisson_number = 0.3;
 /// R. D. Mindlin, Journal of Applied Mechanics 16 (1949) 259-268.
 constexpr double normal_by_tangential = (2.0 - poisson_number) / (2.0 - 2.0 * poisson_number);
@@ -36,12 +36,12 @@ double largest_reduction(double velocity_m_per_s, double critical_m_per_s) {
 
 }  // namespace
 
-Range dong_critical_velocities_m_per_s() {
+Interval dong_critical_velocities_m_per_s() {
   return {critical_velocity_m_per_s(amplitudes_m.least, coefficients.least),
           critical_velocity_m_per_s(amplitudes_m.most, coefficients.most)};
 }
 
-Range dong_normal(double velocity_m_per_s) {
+Interval dong_normal(double velocity_m_per_s) {
   return {0.0, largest_reduction(velocity_m_per_s, dong_critical_velocities_m_per_s().most)};
 }
 
@@ -61,7 +61,7 @@ NormalContact dong_contact() {
 
 namespace {
 
-constexpr Range everything = {1.0, 1.0};
+constexpr Interval everything = {1.0, 1.0};
 
 scene::Scene luo() {
   return scene_file::read_text(luo_text(), "luo_2024.toml");
@@ -123,20 +123,20 @@ window_start_periods = 100
 )";
 }
 
-Range luo_coulomb(double velocity_m_per_s) {
+Interval luo_coulomb(double velocity_m_per_s) {
   const double reduction =
       1.0 - friction::coulomb_friction_ratio(velocity_m_per_s / luo_peak_m_per_s());
   return {reduction, reduction};
 }
 
-Range luo_dahl(double velocity_m_per_s) {
+Interval luo_dahl(double velocity_m_per_s) {
   constexpr double softest = 1e-4;
   const double ratio =
       friction::dahl_friction_ratio(velocity_m_per_s / luo_peak_m_per_s(), softest);
   return {1.0 - ratio, luo_coulomb(velocity_m_per_s).most};
 }
 
-Range luo_lugre(double velocity_m_per_s) {
+Interval luo_lugre(double velocity_m_per_s) {
   if (velocity_m_per_s == 0.0) {
     return everything;
   }
@@ -153,8 +153,8 @@ Range luo_lugre(double velocity_m_per_s) {
                     [&](std::size_t i) { reductions[i] = 1.0 - vibration_ratio(scenes[i]); });
   // Without a static friction above the sliding one the law is Dahl's.
   const double r = velocity_m_per_s / luo_peak_m_per_s();
-  Range range = {1.0 - friction::dahl_friction_ratio(r, dahl_numbers[0]),
-                 1.0 - friction::dahl_friction_ratio(r, dahl_numbers[2])};
+  Interval range = {1.0 - friction::dahl_friction_ratio(r, dahl_numbers[0]),
+                    1.0 - friction::dahl_friction_ratio(r, dahl_numbers[2])};
   for (const double reduction : reductions) {
     range = joined(range, {reduction, reduction});
   }
@@ -165,7 +165,7 @@ double elastic_stick_reduction(double dahl_number) {
   return std::min(dahl_number, 1.0);
 }
 
-Range luo_iwan(double velocity_m_per_s) {
+Interval luo_iwan(double velocity_m_per_s) {
   constexpr double softest = 0.1;
   constexpr double stiffest = 10.0;
   if (velocity_m_per_s == 0.0) {
@@ -177,9 +177,9 @@ Range luo_iwan(double velocity_m_per_s) {
   return {reduction(softest), reduction(stiffest)};
 }
 
-Range luo_stribeck(double velocity_m_per_s) {
+Interval luo_stribeck(double velocity_m_per_s) {
   const double r = velocity_m_per_s / luo_peak_m_per_s();
-  Range range = luo_coulomb(velocity_m_per_s);
+  Interval range = luo_coulomb(velocity_m_per_s);
   for (const double drop : {0.1, 0.2, 0.3, 0.4, 0.5}) {
     for (const double vibration : {0.1, 0.2, 0.4, 0.6, 0.8, 1.0}) {
       const double reduction = 1.0 - stribeck_vibration_ratio(r, {drop, vibration});

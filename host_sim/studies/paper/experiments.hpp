@@ -6,12 +6,12 @@
 
 namespace sonoglide::paper {
 
-struct Range {
+struct Interval {
   double least;
   double most;
 };
 
-inline Range joined(const Range& one, const Range& other) {
+inline Interval joined(const Interval& one, const Interval& other) {
   return {std::min(one.least, other.least), std::max(one.most, other.most)};
 }
 
@@ -22,14 +22,14 @@ inline constexpr double dong_reductions[] = {0.62, 0.29};
 /// From which speed on such a vibration gains nothing, Vc = (mu kz/kx) omega A (see
 /// friction::normal_vibration_ratio). Neither amplitude nor contact is published: amplitudes of 0.5
 /// to 5 um, coefficients of 0.1 to 0.8, kz/kx of a Hertzian contact of Poisson's number 0.3.
-Range dong_critical_velocities_m_per_s();
+Interval dong_critical_velocities_m_per_s();
 
 inline constexpr const char* dong_range =
     "amplitude up to the indentation; 0.5 to 5 um; coefficient 0.1 to 0.8; Hertzian springs";
 
 /// Reductions at such a speed, over that range.
 /// @param velocity_m_per_s  >= 0
-Range dong_normal(double velocity_m_per_s);
+Interval dong_normal(double velocity_m_per_s);
 
 /// A contact by what counts for the law.
 struct NormalContact {
@@ -45,7 +45,7 @@ inline constexpr double luo_static_reduction = 0.76;
 inline constexpr double luo_slow_m_per_s = 1e-4;
 inline constexpr double luo_slow_reduction = 0.85;
 inline constexpr double luo_fastest_m_per_s = 1e-3;
-inline constexpr Range luo_reductions = {0.76, 0.89};
+inline constexpr Interval luo_reductions = {0.76, 0.89};
 
 /// 0.35 um at 26 kHz: 57 mm/s.
 double luo_peak_m_per_s();
@@ -56,11 +56,11 @@ std::string luo_text();
 
 /// Reductions under that vibration. Nothing is fitted: a range goes over what is not published.
 /// @param velocity_m_per_s  >= 0; at 0 friction has no mean, and everything is reduced
-Range luo_coulomb(double velocity_m_per_s);
-Range luo_dahl(double velocity_m_per_s);      ///< every contact stiffness
-Range luo_lugre(double velocity_m_per_s);     ///< simulated; see luo_lugre_range
-Range luo_iwan(double velocity_m_per_s);      ///< simulated, but at rest; see luo_iwan_range
-Range luo_stribeck(double velocity_m_per_s);  ///< see luo_stribeck_range
+Interval luo_coulomb(double velocity_m_per_s);
+Interval luo_dahl(double velocity_m_per_s);      ///< every contact stiffness
+Interval luo_lugre(double velocity_m_per_s);     ///< simulated; see luo_lugre_range
+Interval luo_iwan(double velocity_m_per_s);      ///< simulated, but at rest; see luo_iwan_range
+Interval luo_stribeck(double velocity_m_per_s);  ///< see luo_stribeck_range
 
 /// Friction at vanishing speed of an elastic stick, a spring Kt that lets go at Fc, under a
 /// vibration of amplitude X: carried forward to Fc once in each period, the spring gives way by Kt

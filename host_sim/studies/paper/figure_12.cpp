@@ -120,7 +120,7 @@ Claim better_than_closed_forms(const std::vector<LawCurve>& laws) {
     }
   }
   return {"The system model describes the measured points better than the Coulomb and Dahl models.",
-          Verdict::depends,
+          ClaimStatus::depends,
           fmt::format("The points are those of Storck and others (2002); they are in no source at "
                       "hand, and nothing here is claimed of them. Once the start has faded the "
                       "system model and the closed form of its law are one; largest differences in "
@@ -131,7 +131,7 @@ Claim better_than_closed_forms(const std::vector<LawCurve>& laws) {
 }
 
 Claim law_matters(const std::vector<LawCurve>& laws) {
-  return {"The Dahl law is a more complete description than Coulomb's.", Verdict::depends,
+  return {"The Dahl law is a more complete description than Coulomb's.", ClaimStatus::depends,
           fmt::format("Laws differ more than the model from its own closed form: at a velocity "
                       "ratio of 0.5 {}; at 0.1 {}. Which of them is right only a "
                       "measurement of the same contact can say.",
@@ -160,7 +160,7 @@ Claim higher_at_low_speed() {
 Claim floor(const std::vector<LawCurve>& laws) {
   return {
       "Coulomb and Dahl predict that friction can vanish, the system model that it cannot.",
-      Verdict::does_not_hold,
+      ClaimStatus::does_not_hold,
       fmt::format("At a velocity ratio of 0.05 the system gives {:.4f} with the Dahl law, and in "
                   "proportion below. An elastic stick would leave 1 - Kt X/Fc at vanishing "
                   "speed: the reductions of 76 % at rest and 85 % at 0.1 mm/s are those of "
@@ -170,10 +170,10 @@ Claim floor(const std::vector<LawCurve>& laws) {
 }
 
 Claim normal_vibration() {
-  const Range critical = dong_critical_velocities_m_per_s();
+  const Interval critical = dong_critical_velocities_m_per_s();
   const NormalContact contact = dong_contact();
   return {"Vibration normal to the surface reduces friction as well, by 60 % at a seat belt.",
-          Verdict::depends,
+          ClaimStatus::depends,
           fmt::format("Not in the paper's model, which vibrates along the sliding alone and so "
                       "gives 0 %. The closed form for a contact with springs can say it, and that "
                       "the gain falls with the speed, as Dong and Dapino (2015) find, 62 % at 20.3 "
@@ -205,7 +205,7 @@ Claim printed_solver() {
 Figure figure_12() {
   const std::vector<LawCurve> laws = compute();
   const SlowSliding slow = slow_sliding();
-  const std::vector<Comparison> comparisons = compare_measurements();
+  const std::vector<MeasurementComparison> comparisons = compare_measurements();
   Figure figure{
       12,
       "The laws against each other and against measurements",

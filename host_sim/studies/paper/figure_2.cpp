@@ -17,8 +17,8 @@ namespace {
 struct Laws {
   std::vector<double> coulomb;
   std::vector<double> dahl;
-  RatioCurve simulated_coulomb;
-  RatioCurve simulated_dahl;
+  SimulatedRatios simulated_coulomb;
+  SimulatedRatios simulated_dahl;
 };
 
 Laws compute() {
@@ -98,11 +98,11 @@ std::vector<Claim> claims(const Laws& laws) {
       {"With the Dahl law the reduction depends on mass, friction coefficient and contact "
        "stiffness "
        "as well.",
-       Verdict::holds,
+       ClaimStatus::holds,
        fmt::format("Through one number, Kt X/Fc = {:.4f} here, {:.4f} with twice the mass.",
                    dahl_number(table_1()), dahl_number(heavier))},
       {"The closed forms, which prescribe a sinusoidal vibration, miss what the natural mode does.",
-       Verdict::depends,
+       ClaimStatus::depends,
        fmt::format(
            "On its steady orbit it departs from them by at most {:.1e} (Coulomb) and {:.1e} "
            "(Dahl); from rest by {:.3f} and {:.3f}: the undamped free vibration "

@@ -159,7 +159,7 @@ bool has_sum_or_difference(const std::vector<Peak>& peaks) {
 
 std::vector<Claim> claims(const Lines& velocity, const Lines& steady_velocity, const Lines& force) {
   return {{"The velocity has two components, at the drive's and at the natural frequency.",
-           Verdict::depends,
+           ClaimStatus::depends,
            fmt::format("From rest: {}. On the steady orbit: {}. The second component is the free "
                        "vibration of the start.",
                        listed(velocity.peaks, "m/s"), listed(steady_velocity.peaks, "m/s"))},

@@ -8,12 +8,12 @@
 
 namespace sonoglide::paper {
 
-enum class Verdict { holds, does_not_hold, depends };
+enum class ClaimStatus { holds, does_not_hold, depends };
 
 /// What the paper says, and what the numbers say of it.
 struct Claim {
   std::string statement;
-  Verdict verdict;
+  ClaimStatus verdict;
   std::string numbers;
 };
 
@@ -35,8 +35,8 @@ struct Figure {
   std::vector<File> files = {};
 };
 
-inline Verdict verdict(bool holds) {
-  return holds ? Verdict::holds : Verdict::does_not_hold;
+inline ClaimStatus verdict(bool holds) {
+  return holds ? ClaimStatus::holds : ClaimStatus::does_not_hold;
 }
 
 /// Each computes what it shows. @throws process::ProcessError, loop::ComputationError

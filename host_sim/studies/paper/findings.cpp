@@ -143,7 +143,7 @@ double friction_ratio_from_rest(scene::Scene scene, double duration_s, double wi
   return loop::power_ratios(scene, loop::run(scene).window).friction_ratio;
 }
 
-Fault sign() {
+PrintedFault sign() {
   scene::Scene printed = table_1();
   printed.friction.sign_convention = scene::SignConvention::as_printed;
   return {"Equations (1) and (2) take V = Vt - x' with -F, equations (6) and (8) Vt + x'.",
@@ -169,7 +169,7 @@ double algebraic_friction_ratio(const scene::Scene& scene) {
   return sum / samples;
 }
 
-Fault lost_dot() {
+PrintedFault lost_dot() {
   return {"Equation (2) has lost the dot over the friction force.",
           fmt::format("Taken literally it is algebraic, its units do not agree, and it gives a "
                       "friction ratio of {:.4f} at a velocity ratio of 0.5: Coulomb's {:.4f}, not "
@@ -179,7 +179,7 @@ Fault lost_dot() {
           "dF/dt is integrated."};
 }
 
-Fault stored_energy() {
+PrintedFault stored_energy() {
   const Balance at_half = steady_balance(0.5);
   return {"Equations (9) to (16) add the average of the stored energy, not its change.",
           fmt::format("At a velocity ratio of 0.5 on the steady orbit equation (16) gives a power "
@@ -188,7 +188,7 @@ Fault stored_energy() {
           "The true balance and its residual, see below; the printed value beside it."};
 }
 
-Fault window() {
+PrintedFault window() {
   const auto after = [](double time_s) {
     return friction_ratio_from_rest(table_1(), time_s, time_s - 1e-3);
   };
@@ -201,7 +201,7 @@ Fault window() {
       "Every figure states both, and gives a start from rest and the steady orbit."};
 }
 
-Fault floor() {
+PrintedFault floor() {
   return {
       "Inertia, friction and friction-induced oscillation are said to keep the ratio from zero.",
       fmt::format("With this model nothing does: {:.4f}, {:.5f} and {:.6f} at velocity ratios of "
@@ -211,7 +211,7 @@ Fault floor() {
       "A limit of the model: a floor needs a contact that sticks elastically, as Iwan's."};
 }
 
-Fault unexcited() {
+PrintedFault unexcited() {
   return {"Figure 10 shows a reduction without excitation.",
           "There is none in this model but while the force builds up, see figure 10.",
           "What the model gives."};
@@ -219,7 +219,7 @@ Fault unexcited() {
 
 }  // namespace
 
-std::vector<Fault> faults() {
+std::vector<PrintedFault> faults() {
   return {sign(), lost_dot(), stored_energy(), window(), floor(), unexcited()};
 }
 

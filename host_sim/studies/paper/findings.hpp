@@ -37,12 +37,12 @@ std::vector<Balance> balances();
 /// `start,velocity_ratio,equation,quantity,value`, one line for each quantity.
 std::string balance_csv(const std::vector<Balance>& balances);
 
-struct Fault {
+struct PrintedFault {
   std::string in_print;
   std::string effect;  ///< measured
   std::string here;
 };
 
-std::vector<Fault> faults();
+std::vector<PrintedFault> faults();
 
 }  // namespace sonoglide::paper

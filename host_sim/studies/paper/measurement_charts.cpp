@@ -27,20 +27,20 @@ double normal_reduction(double velocity_mm_per_s, double critical_mm_per_s) {
   return 1.0 - friction::normal_vibration_ratio(1.0, velocity_mm_per_s / critical_mm_per_s);
 }
 
-std::vector<double> ends(const std::vector<Range>& ranges, double Range::*end) {
+std::vector<double> ends(const std::vector<Interval>& ranges, double Interval::*end) {
   std::vector<double> values;
   values.reserve(ranges.size());
-  for (const Range& range : ranges) {
+  for (const Interval& range : ranges) {
     values.push_back(range.*end);
   }
   return values;
 }
 
 /// The outline of a range over the speed.
-Curve area(const char* label, const std::vector<double>& x, const std::vector<Range>& ranges,
+Curve area(const char* label, const std::vector<double>& x, const std::vector<Interval>& ranges,
            int colour) {
-  Curve curve{label, x, scaled(ends(ranges, &Range::least), per_cent), colour, Line::area};
-  const std::vector<double> back = scaled(ends(ranges, &Range::most), per_cent);
+  Curve curve{label, x, scaled(ends(ranges, &Interval::least), per_cent), colour, Line::area};
+  const std::vector<double> back = scaled(ends(ranges, &Interval::most), per_cent);
   curve.x.insert(curve.x.end(), x.rbegin(), x.rend());
   curve.y.insert(curve.y.end(), back.rbegin(), back.rend());
   return curve;
@@ -63,7 +63,7 @@ SlowSliding slow_sliding() {
 
 Chart slow_sliding_chart(const SlowSliding& slow) {
   const std::vector<double>& x = slow.speeds_mm_per_s;
-  std::vector<Range> every_law;
+  std::vector<Interval> every_law;
   for (std::size_t i = 0; i < x.size(); ++i) {
     every_law.push_back(
         joined(joined(slow.coulomb[i], slow.dahl[i]), joined(slow.lugre[i], slow.stribeck[i])));
@@ -138,10 +138,10 @@ Chart normal_vibration_chart() {
 
 std::vector<Column> columns(const SlowSliding& slow) {
   std::vector<Column> all = {{"sliding_velocity_mm_per_s", slow.speeds_mm_per_s},
-                             {"coulomb_reduction", ends(slow.coulomb, &Range::least)}};
-  const auto add = [&all](const std::string& law, const std::vector<Range>& ranges) {
-    all.push_back({law + "_reduction_from", ends(ranges, &Range::least)});
-    all.push_back({law + "_reduction_to", ends(ranges, &Range::most)});
+                             {"coulomb_reduction", ends(slow.coulomb, &Interval::least)}};
+  const auto add = [&all](const std::string& law, const std::vector<Interval>& ranges) {
+    all.push_back({law + "_reduction_from", ends(ranges, &Interval::least)});
+    all.push_back({law + "_reduction_to", ends(ranges, &Interval::most)});
   };
   add("dahl", slow.dahl);
   add("lugre", slow.lugre);

@@ -11,10 +11,10 @@ namespace sonoglide::paper {
 /// What the laws say of Luo's slider, over the sliding velocity.
 struct SlowSliding {
   std::vector<double> speeds_mm_per_s;
-  std::vector<Range> coulomb;
-  std::vector<Range> dahl;
-  std::vector<Range> lugre;
-  std::vector<Range> stribeck;
+  std::vector<Interval> coulomb;
+  std::vector<Interval> dahl;
+  std::vector<Interval> lugre;
+  std::vector<Interval> stribeck;
 };
 
 /// @throws loop::ComputationError

@@ -16,12 +16,12 @@ constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 constexpr const char* luo_doi = "10.1038/s41598-024-73652-w";
 constexpr const char* dong_doi = "10.3791/52931";
 
-Range at(double value) {
+Interval at(double value) {
   return {value, value};
 }
 
-const std::vector<Measurement>& measurements() {
-  static const std::vector<Measurement> list = {
+const std::vector<PublishedMeasurement>& measurements() {
+  static const std::vector<PublishedMeasurement> list = {
       {"Luo 2024 static", luo_doi, Direction::along, at(0.0), at(luo_static_reduction)},
       {"Luo 2024", luo_doi, Direction::along, at(luo_slow_m_per_s), at(luo_slow_reduction)},
       {"Luo 2024 over all speeds",
@@ -41,7 +41,7 @@ struct Law {
   const char* name;
   const char* over;
   Direction direction;
-  Range (*reduction)(double velocity_m_per_s);
+  Interval (*reduction)(double velocity_m_per_s);
 };
 
 constexpr Law laws[] = {
@@ -56,19 +56,19 @@ const char* word(Direction direction) {
   return direction == Direction::along ? "along" : "normal";
 }
 
-Range predicted(const Law& law, const Measurement& measurement) {
+Interval predicted(const Law& law, const PublishedMeasurement& measurement) {
   if (law.direction != measurement.direction) {
     return {0.0, 0.0};
   }
-  const Range& velocity = measurement.velocity_m_per_s;
+  const Interval& velocity = measurement.velocity_m_per_s;
   if (std::isnan(velocity.least)) {
     return joined(law.reduction(0.0), {0.0, 0.0});
   }
   return joined(law.reduction(velocity.least), law.reduction(velocity.most));
 }
 
-Comparison compare(const Measurement& measurement) {
-  Comparison comparison{measurement, {}};
+MeasurementComparison compare(const PublishedMeasurement& measurement) {
+  MeasurementComparison comparison{measurement, {}};
   for (const Law& law : laws) {
     const bool own = law.direction == measurement.direction;
     comparison.predictions.push_back({law.name, law.direction,
@@ -78,13 +78,13 @@ Comparison compare(const Measurement& measurement) {
   return comparison;
 }
 
-std::string percent(const Range& range) {
+std::string percent(const Interval& range) {
   return range.least == range.most
              ? fmt::format("{:.4g}", 100.0 * range.least)
              : fmt::format("{:.4g} to {:.4g}", 100.0 * range.least, 100.0 * range.most);
 }
 
-std::string speed(const Range& velocity_m_per_s) {
+std::string speed(const Interval& velocity_m_per_s) {
   if (std::isnan(velocity_m_per_s.least)) {
     return "not given";
   }
@@ -98,14 +98,14 @@ std::string points(double difference) {
   return difference == 0.0 ? "0" : fmt::format("{:+.1f}", 100.0 * difference);
 }
 
-std::string numbers(const Range& range) {
+std::string numbers(const Interval& range) {
   constexpr int digits = 9;
   return output::csv_number(range.least, digits) + ',' + output::csv_number(range.most, digits);
 }
 
 }  // namespace
 
-double Prediction::difference(const Measurement& measurement) const {
+double Prediction::difference(const PublishedMeasurement& measurement) const {
   if (reduction.least > measurement.reduction.most) {
     return reduction.least - measurement.reduction.most;
   }
@@ -115,20 +115,20 @@ double Prediction::difference(const Measurement& measurement) const {
   return 0.0;
 }
 
-std::vector<Comparison> compare_measurements() {
-  std::vector<Comparison> comparisons;
-  for (const Measurement& measurement : measurements()) {
+std::vector<MeasurementComparison> compare_measurements() {
+  std::vector<MeasurementComparison> comparisons;
+  for (const PublishedMeasurement& measurement : measurements()) {
     comparisons.push_back(compare(measurement));
   }
   return comparisons;
 }
 
-output::Table measurement_table(const std::vector<Comparison>& comparisons) {
+output::Table measurement_table(const std::vector<MeasurementComparison>& comparisons) {
   output::Table table{
       "Published measurements and the laws for their direction of vibration",
       {"Measurement", "Speed, mm/s", "Reduction, %", "Law", "It says, %", "Difference, points"},
       {}};
-  for (const Comparison& each : comparisons) {
+  for (const MeasurementComparison& each : comparisons) {
     for (const Prediction& prediction : each.predictions) {
       if (prediction.direction == each.measurement.direction) {
         table.rows.push_back({each.measurement.source, speed(each.measurement.velocity_m_per_s),
@@ -141,12 +141,12 @@ output::Table measurement_table(const std::vector<Comparison>& comparisons) {
   return table;
 }
 
-std::string measurements_csv(const std::vector<Comparison>& comparisons) {
+std::string measurements_csv(const std::vector<MeasurementComparison>& comparisons) {
   std::string text =
       "source,doi,vibration,velocity_from_m_per_s,velocity_to_m_per_s,measured_reduction_from,"
       "measured_reduction_to,law,over,predicted_reduction_from,predicted_reduction_to,difference\n";
-  for (const Comparison& each : comparisons) {
-    const Measurement& m = each.measurement;
+  for (const MeasurementComparison& each : comparisons) {
+    const PublishedMeasurement& m = each.measurement;
     for (const Prediction& prediction : each.predictions) {
       fmt::format_to(std::back_inserter(text), "{},{},{},{},{},{},{},{},{:.9g}\n", m.source, m.doi,
                      word(m.direction), numbers(m.velocity_m_per_s), numbers(m.reduction),

@@ -13,12 +13,12 @@ namespace sonoglide::paper {
 /// is at hand.
 enum class Direction { along, normal };
 
-struct Measurement {
+struct PublishedMeasurement {
   std::string source;
   std::string doi;  ///< "-" where only the paper's word is at hand
   Direction direction;
-  Range velocity_m_per_s;  ///< NaN where it is not given
-  Range reduction;         ///< 1 - friction with vibration / without [-]
+  Interval velocity_m_per_s;  ///< NaN where it is not given
+  Interval reduction;         ///< 1 - friction with vibration / without [-]
 };
 
 /// A law's word on a measurement. Where something it needs is not published, a range.
@@ -26,23 +26,23 @@ struct Prediction {
   std::string law;
   Direction direction;  ///< that the law is for
   std::string over;     ///< what the range goes over; empty where nothing is open
-  Range reduction;
+  Interval reduction;
 
   /// From the measured range: 0 where they meet; positive where the law promises more.
-  double difference(const Measurement& measurement) const;
+  double difference(const PublishedMeasurement& measurement) const;
 };
 
-struct Comparison {
-  Measurement measurement;
+struct MeasurementComparison {
+  PublishedMeasurement measurement;
   std::vector<Prediction> predictions;
 };
 
 /// Of every measurement. Vibration in a direction that is not the law's own reduces nothing.
 /// @throws loop::ComputationError
-std::vector<Comparison> compare_measurements();
+std::vector<MeasurementComparison> compare_measurements();
 
 /// One row for each measurement and law for its direction.
-output::Table measurement_table(const std::vector<Comparison>& comparisons);
-std::string measurements_csv(const std::vector<Comparison>& comparisons);
+output::Table measurement_table(const std::vector<MeasurementComparison>& comparisons);
+std::string measurements_csv(const std::vector<MeasurementComparison>& comparisons);
 
 }  // namespace sonoglide::paper

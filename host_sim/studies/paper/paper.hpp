@@ -14,7 +14,7 @@ namespace sonoglide::paper {
 
 /// What is no figure.
 struct Findings {
-  std::vector<Fault> faults;
+  std::vector<PrintedFault> faults;
   std::vector<Balance> balances;
 };
 

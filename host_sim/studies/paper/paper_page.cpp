@@ -5,13 +5,13 @@
 namespace sonoglide::paper {
 namespace {
 
-const char* word(Verdict verdict) {
+const char* word(ClaimStatus verdict) {
   switch (verdict) {
-    case Verdict::holds:
+    case ClaimStatus::holds:
       return "holds";
-    case Verdict::does_not_hold:
+    case ClaimStatus::does_not_hold:
       return "does not hold";
-    case Verdict::depends:
+    case ClaimStatus::depends:
       break;
   }
   return "depends";
@@ -36,12 +36,12 @@ output::Section section(const Figure& figure) {
   return section;
 }
 
-output::Section section(const std::vector<Fault>& faults) {
+output::Section section(const std::vector<PrintedFault>& faults) {
   output::Section section;
   section.title = "Where the paper cannot be right as printed";
   section.text = "Table 1 at 384 N and, unless said, a velocity ratio of 0.5.";
   output::Table table{"", {"In print", "Effect, measured", "Here"}, {}};
-  for (const Fault& fault : faults) {
+  for (const PrintedFault& fault : faults) {
     table.rows.push_back({fault.in_print, fault.effect, fault.here});
   }
   section.tables = {table};

@@ -27,7 +27,7 @@ struct Variation {
   std::string label;  ///< for the key
   std::string name;   ///< for a column, unit included
   scene::Scene scene;
-  RatioCurve curve;
+  SimulatedRatios curve;
 };
 
 using Edit = std::function<void(scene::Scene&, double)>;
@@ -39,7 +39,7 @@ std::vector<Variation> vary(const scene::Scene& base, const std::vector<double>&
   for (const double value : values) {
     scene::Scene scene = base;
     edit(scene, value);
-    RatioCurve curve = ratio_curve(scene, sliding_velocities_m_per_s(scene));
+    SimulatedRatios curve = ratio_curve(scene, sliding_velocities_m_per_s(scene));
     variations.push_back({fmt::format(fmt::runtime(label), value),
                           fmt::format(fmt::runtime(name), value), scene, std::move(curve)});
   }
@@ -58,7 +58,8 @@ std::vector<Column> columns(const std::vector<Variation>& variations) {
 }
 
 Chart chart(const char* title, const char* y_label, const std::vector<Variation>& variations,
-            std::vector<double> RatioCurve::*steady, std::vector<double> RatioCurve::*from_rest) {
+            std::vector<double> SimulatedRatios::*steady,
+            std::vector<double> SimulatedRatios::*from_rest) {
   Chart chart{title, velocity_label, y_label, {}};
   int colour = black;
   for (const Variation& each : variations) {
@@ -74,19 +75,20 @@ Chart chart(const char* title, const char* y_label, const std::vector<Variation>
 std::vector<Chart> charts(const std::vector<Variation>& variations,
                           const char* friction_title = "(a) Friction ratio",
                           const char* dissipation_title = "(b) Power dissipation ratio") {
-  Chart friction = chart(friction_title, friction_label, variations, &RatioCurve::friction_steady,
-                         &RatioCurve::friction_from_rest);
+  Chart friction = chart(friction_title, friction_label, variations,
+                         &SimulatedRatios::friction_steady, &SimulatedRatios::friction_from_rest);
   friction.y_span = friction_span;
   friction.key = Key::none;
-  Chart dissipation = chart(dissipation_title, dissipation_label, variations,
-                            &RatioCurve::dissipation_steady, &RatioCurve::dissipation_from_rest);
+  Chart dissipation =
+      chart(dissipation_title, dissipation_label, variations, &SimulatedRatios::dissipation_steady,
+            &SimulatedRatios::dissipation_from_rest);
   dissipation.key = Key::upper_right;
   return {friction, dissipation};
 }
 
 /// "384 N: 0.6749, 960 N: 0.5727" at one velocity ratio.
 std::string listed(const std::vector<Variation>& variations, double velocity_ratio,
-                   std::vector<double> RatioCurve::*values) {
+                   std::vector<double> SimulatedRatios::*values) {
   std::string text = fmt::format("At a velocity ratio of {:g}: ", velocity_ratio);
   const char* separator = "";
   for (const Variation& each : variations) {
@@ -101,7 +103,7 @@ enum class Trend { rising, falling };
 
 /// Whether the values at one velocity ratio follow the parameter so, all of them.
 bool follows(const std::vector<Variation>& variations, double velocity_ratio,
-             std::vector<double> RatioCurve::*values, Trend trend) {
+             std::vector<double> SimulatedRatios::*values, Trend trend) {
   for (std::size_t i = 1; i < variations.size(); ++i) {
     const double before = (variations[i - 1].curve.*values)[index_of(velocity_ratio)];
     const double after = (variations[i].curve.*values)[index_of(velocity_ratio)];
@@ -113,7 +115,7 @@ bool follows(const std::vector<Variation>& variations, double velocity_ratio,
 }
 
 Claim trend(const char* statement, const std::vector<Variation>& variations, double velocity_ratio,
-            std::vector<double> RatioCurve::*values, Trend expected, const char* why) {
+            std::vector<double> SimulatedRatios::*values, Trend expected, const char* why) {
   return {statement, verdict(follows(variations, velocity_ratio, values, expected)),
           "Steady orbit. " + listed(variations, velocity_ratio, values) + why};
 }
@@ -135,7 +137,7 @@ Resonance through_resonance(const Edit& edit) {
     const double part = 0.025 * i + 0.0125;  // never 1, where no steady orbit is
     scene::Scene scene = table_1();
     edit(scene, part);
-    const RatioCurve point =
+    const SimulatedRatios point =
         ratio_curve(scene, {table_1().sliding.profile.front().velocity_m_per_s});
     resonance.parts.push_back(part);
     resonance.friction.push_back(point.friction_steady.front());
@@ -166,7 +168,7 @@ std::vector<Claim> claims(const Resonance& resonance) {
        fmt::format("{:.3f} at 0.0375 of the resonant stiffness and {:.3f} at 0.2375, where the "
                    "plant is controlled by its mass; little against what resonance does.",
                    dissipation[soft], dissipation[softer])},
-      {"It is best to work at the natural frequency.", Verdict::depends,
+      {"It is best to work at the natural frequency.", ClaimStatus::depends,
        "On what is wanted: the least drive force, yes; the least power, no, see above; a ratio "
        "that keeps to its target, no: next to resonance it follows every change of mass or "
        "stiffness, and a free vibration takes the longer to fade the larger the drive's is."}};
@@ -219,12 +221,13 @@ std::vector<Claim> claims_on_contact_stiffness(const std::vector<Variation>& und
                    "takes the full force. From rest, with F = 0, the force has to build up over "
                    "Fc/Kt of travel first, which is the shorter the stiffer the contact: the "
                    "opposite of the claim. {}",
-                   lowest, listed(undriven, 0.1, &RatioCurve::friction_from_rest))},
-      {"Without excitation the power dissipation is always below unity.", Verdict::does_not_hold,
-       listed(undriven, 0.5, &RatioCurve::dissipation_steady) +
+                   lowest, listed(undriven, 0.1, &SimulatedRatios::friction_from_rest))},
+      {"Without excitation the power dissipation is always below unity.",
+       ClaimStatus::does_not_hold,
+       listed(undriven, 0.5, &SimulatedRatios::dissipation_steady) +
            "Below it only from rest, while the force builds up."},
       trend("A stiffer contact makes friction reduction more effective.", driven, 0.5,
-            &RatioCurve::friction_steady, Trend::falling, "Under excitation.")};
+            &SimulatedRatios::friction_steady, Trend::falling, "Under excitation.")};
 }
 
 template <class Item>
@@ -255,11 +258,11 @@ Figure figure_7() {
       to_csv(columns(all)),
       draw(charts(all)),
       {trend("More control force lowers the friction ratio.", all, 0.5,
-             &RatioCurve::friction_steady, Trend::falling,
+             &SimulatedRatios::friction_steady, Trend::falling,
              "Even at one velocity ratio: the vibration covers more presliding distances."),
        trend("At low velocity ratios more control force dissipates more.", all, 0.1,
-             &RatioCurve::dissipation_steady, Trend::rising, ""),
-       {"At and above a velocity ratio of 1 vibration has no effect.", Verdict::depends,
+             &SimulatedRatios::dissipation_steady, Trend::rising, ""),
+       {"At and above a velocity ratio of 1 vibration has no effect.", ClaimStatus::depends,
         fmt::format("On the steady orbit it has none. From rest the free vibration still makes "
                     "the contact reverse: power dissipation ratio {:.4f} at 384 N and a velocity "
                     "ratio of 1.1.",
@@ -277,9 +280,9 @@ Figure figure_8() {
           to_csv(columns(all)),
           draw(charts(all)),
           {trend("A higher coefficient makes the reduction less effective.", all, 0.5,
-                 &RatioCurve::friction_steady, Trend::rising, ""),
+                 &SimulatedRatios::friction_steady, Trend::rising, ""),
            trend("The power dissipation ratio falls as the coefficient rises.", all, 0.1,
-                 &RatioCurve::dissipation_steady, Trend::falling,
+                 &SimulatedRatios::dissipation_steady, Trend::falling,
                  "The reason is the presliding distance Fc/Kt, which grows, and not what the paper "
                  "gives: its stored power is an average energy, no power.")}};
 }
@@ -300,10 +303,10 @@ Figure figure_9() {
           to_csv(columns(all)),
           draw(of_all),
           {trend("More mass makes the reduction less effective; the curve flattens.", all, 0.5,
-                 &RatioCurve::friction_steady, Trend::rising,
+                 &SimulatedRatios::friction_steady, Trend::rising,
                  "At one velocity ratio there is a bound to that, the limit of a soft contact."),
            trend("The power dissipation ratio falls as the mass rises.", all, 0.1,
-                 &RatioCurve::dissipation_steady, Trend::falling, "")}};
+                 &SimulatedRatios::dissipation_steady, Trend::falling, "")}};
 }
 
 Figure figure_10() {

@@ -86,10 +86,10 @@ std::size_t index_of(double velocity_ratio) {
   return static_cast<std::size_t>(std::lround(velocity_ratio / ratio_step)) - 1;
 }
 
-RatioCurve ratio_curve(const scene::Scene& scene, const std::vector<double>& sliding_m_per_s) {
+SimulatedRatios ratio_curve(const scene::Scene& scene, const std::vector<double>& sliding_m_per_s) {
   const std::size_t count = sliding_m_per_s.size();
-  RatioCurve curve{std::vector<double>(count), std::vector<double>(count),
-                   std::vector<double>(count), std::vector<double>(count)};
+  SimulatedRatios curve{std::vector<double>(count), std::vector<double>(count),
+                        std::vector<double>(count), std::vector<double>(count)};
   tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
     scene::Scene point = scene;
     point.sliding.profile = {{0.0, sliding_m_per_s[i]}};

@@ -18,7 +18,7 @@ std::vector<double> friction_forces_N(const loop::Recording& recording);
 std::vector<double> dissipated_powers_W(const loop::Recording& recording);
 
 /// One value for each sliding velocity; NaN where the solver gives up or no steady orbit exists.
-struct RatioCurve {
+struct SimulatedRatios {
   std::vector<double> friction_from_rest;  ///< mean over the scene's run
   std::vector<double> dissipation_from_rest;
   std::vector<double> friction_steady;  ///< mean over a carrier period of the steady orbit
@@ -32,7 +32,7 @@ const std::vector<double>& velocity_ratios();
 std::size_t index_of(double velocity_ratio);
 
 /// On every core.
-RatioCurve ratio_curve(const scene::Scene& scene, const std::vector<double>& sliding_m_per_s);
+SimulatedRatios ratio_curve(const scene::Scene& scene, const std::vector<double>& sliding_m_per_s);
 
 /// The sliding velocities that belong to velocity_ratios() in this scene.
 std::vector<double> sliding_velocities_m_per_s(const scene::Scene& scene);

@@ -81,7 +81,8 @@ Chart over_time(const char* title, const Unit& unit, const Motions& motions,
 Claim not_sinusoidal(const char* quantity, const std::vector<double>& from_rest,
                      const std::vector<double>& on_orbit) {
   return {
-      fmt::format("The {} is not sinusoidal although the drive is.", quantity), Verdict::depends,
+      fmt::format("The {} is not sinusoidal although the drive is.", quantity),
+      ClaimStatus::depends,
       fmt::format(
           "From rest, what is not at the drive's frequency has {:.1f} % of the rms value of "
           "what is: the free vibration of an undamped plant. On the steady orbit that is "
@@ -100,7 +101,7 @@ Claim dissipates(const std::vector<double>& steady_powers_W, double limit_N) {
   const scene::Scene scene = steady(table_1());
   const loop::PowerRatios ratios = loop::power_ratios(scene, loop::run(scene).whole);
   const double undriven_W = limit_N * scene.sliding.profile.front().velocity_m_per_s;
-  return {"What (b) shows is the power that friction dissipates.", Verdict::depends,
+  return {"What (b) shows is the power that friction dissipates.", ClaimStatus::depends,
           fmt::format(
               "In the mean, yes. A Dahl contact is a spring as well: for part of each period it "
               "gives power back, at most {:.2g} mW on the steady orbit. In the mean of that "

@@ -14,7 +14,7 @@ namespace {
 constexpr std::size_t batch = 500;
 constexpr std::size_t worst_kept = 5;
 
-double allowed_residual(const Precision& precision) {
+double allowed_residual(const TriedPrecision& precision) {
   return precision.name == "float64" ? allowed_residual_float64 : allowed_residual_float32;
 }
 
@@ -24,7 +24,7 @@ double comparable_residual(const TrialResult& result) {
                                              : result.balance_residual;
 }
 
-WorstCase run_one(const Precision& precision, std::uint64_t scene) {
+WorstCase run_one(const TriedPrecision& precision, std::uint64_t scene) {
   TrialResult result = precision.trial(
       random_scene(scene), {random_scene_periods, precision.extreme_setting, extreme_step_limit});
   result.balance_residual = comparable_residual(result);
@@ -81,8 +81,8 @@ void summarise(std::vector<WorstCase> runs, ExtremeRow& row) {
 Extremes extremes(std::uint64_t count, const Progress& progress) {
   Extremes result{count, {}};
   const double row_count = static_cast<double>(2 * solvers().size());
-  for (const Solver& solver : solvers()) {
-    for (const Precision& precision : solver.precisions) {
+  for (const TriedSolver& solver : solvers()) {
+    for (const TriedPrecision& precision : solver.precisions) {
       const double begun = static_cast<double>(result.rows.size());
       std::vector<WorstCase> runs(count);
       for_each_index(

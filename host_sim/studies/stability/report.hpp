@@ -34,6 +34,6 @@ struct MapPictures {
   std::string float32;
 };
 
-output::Page study_page(const Study& study, const MapPictures& pictures);
+output::Page study_page(const StabilityStudy& study, const MapPictures& pictures);
 
 }  // namespace sonoglide::stability

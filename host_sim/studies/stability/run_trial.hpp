@@ -42,12 +42,12 @@ TrialResult with_model(const scene::Scene& scene, const scene::PlantScales& scal
 namespace detail {
 
 /// Sliding velocity in units of the velocity scale: its start, and its rise in one period.
-struct Ramp {
+struct SlidingRamp {
   double begin;
   double rise;
 };
 
-inline Ramp ramp(const scene::Scene& scene, const scene::PlantScales& scales, int periods) {
+inline SlidingRamp ramp(const scene::Scene& scene, const scene::PlantScales& scales, int periods) {
   const double begin = scene.sliding.profile.front().velocity_m_per_s;
   const double end = scene.sliding.profile.back().velocity_m_per_s;
   const double scale = scales.velocity_m_per_s();
@@ -63,7 +63,7 @@ plant::State<Scalar> initial_state(const scene::Scene& scene, const scene::Plant
 
 template <class Scalar>
 plant::Interval<Scalar> period(const scene::Scene& scene, const scene::PlantScales& scales,
-                               const Ramp& ramp, int number) {
+                               const SlidingRamp& ramp, int number) {
   const double amplitude = scene.drive ? scene.drive->force_amplitude_N / scales.force_N : 0.0;
   return {Scalar(0), static_cast<Scalar>(numeric::two_pi), static_cast<Scalar>(amplitude),
           static_cast<Scalar>(ramp.begin + ramp.rise * number),
@@ -82,7 +82,7 @@ TrialResult run_trial(const scene::Scene& scene, const scene::PlantScales& scale
   using Scalar = typename Solver::Scalar;
   Solver solver;
   solver.configure(model, static_cast<Scalar>(precision), plan.step_limit);
-  const detail::Ramp ramp = detail::ramp(scene, scales, plan.periods);
+  const detail::SlidingRamp ramp = detail::ramp(scene, scales, plan.periods);
   const plant::State<Scalar> initial = detail::initial_state<Scalar>(scene, scales);
   plant::State<Scalar> state = initial;
   Witness witness;

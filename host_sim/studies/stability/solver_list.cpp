@@ -46,7 +46,7 @@ std::string name_in(std::string_view name, configure::TrialOrders orders) {
 }
 
 template <class Described, std::size_t Row>
-Solver solver() {
+TriedSolver solver() {
   constexpr configure::TrialOrders orders = Described::trial_orders[Row];
   constexpr configure::TrialSettings extreme = Described::trial_settings;
   return {name_in(Described::name, orders),
@@ -58,15 +58,15 @@ Solver solver() {
 }
 
 template <class Described, std::size_t... Row>
-void add(std::vector<Solver>& list, std::index_sequence<Row...> /*all*/) {
+void add(std::vector<TriedSolver>& list, std::index_sequence<Row...> /*all*/) {
   (list.push_back(solver<Described, Row>()), ...);
 }
 
 }  // namespace
 
-const std::vector<Solver>& solvers() {
-  static const std::vector<Solver> list = [] {
-    std::vector<Solver> all;
+const std::vector<TriedSolver>& solvers() {
+  static const std::vector<TriedSolver> list = [] {
+    std::vector<TriedSolver> all;
     configure::for_each_solver([&](auto described, scene::SolverMethod /*method*/) {
       using Described = decltype(described);
       add<Described>(all, std::make_index_sequence<Described::trial_orders.size()>{});

@@ -11,19 +11,19 @@
 namespace sonoglide::stability {
 
 /// A solver in one arithmetic.
-struct Precision {
+struct TriedPrecision {
   std::string_view name;
   Trial trial;
   double extreme_setting;  ///< tolerance or steps per period, for the random scenes
   double friction_bound;   ///< largest |F|/Fc that the solver lets pass
 };
 
-struct Solver {
+struct TriedSolver {
   std::string name;
   bool adaptive;  ///< set by a tolerance, else by a number of steps per period
-  std::array<Precision, 2> precisions;  ///< float64, float32
+  std::array<TriedPrecision, 2> precisions;  ///< float64, float32
 };
 
-const std::vector<Solver>& solvers();
+const std::vector<TriedSolver>& solvers();
 
 }  // namespace sonoglide::stability

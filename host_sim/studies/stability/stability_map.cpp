@@ -60,9 +60,9 @@ std::vector<double> geometric(double first, double factor, std::size_t count) {
   return values;
 }
 
-const Precision& precision_of(std::string_view solver) {
+const TriedPrecision& precision_of(std::string_view solver) {
   const auto found = std::find_if(solvers().begin(), solvers().end(),
-                                  [&](const Solver& each) { return each.name == solver; });
+                                  [&](const TriedSolver& each) { return each.name == solver; });
   return found->precisions.front();
 }
 
@@ -88,7 +88,7 @@ References references(const MapGrid& grid) {
   return result;
 }
 
-MapCell cell(const MapGrid& grid, const Precision& precision, double setting, double stiffness,
+MapCell cell(const MapGrid& grid, const TriedPrecision& precision, double setting, double stiffness,
              double reference) {
   const TrialResult result = precision.trial(table_1(stiffness, grid.periods),
                                              {grid.periods, setting, plant::max_steps_per_advance});
@@ -116,8 +116,8 @@ StabilityMaps stability_maps(const MapGrid& grid, const Progress& progress) {
   const std::size_t columns = grid.contact_stiffness_N_per_m.size();
   const std::size_t map_count = 2 * solvers().size();
   for (std::size_t p = 0; p < 2; ++p) {
-    for (const Solver& solver : solvers()) {
-      const Precision& precision = solver.precisions[p];
+    for (const TriedSolver& solver : solvers()) {
+      const TriedPrecision& precision = solver.precisions[p];
       const std::vector<double>& settings =
           solver.adaptive ? grid.tolerance : grid.steps_per_period;
       SolverMap map{solver.name, precision.name, solver.adaptive, {}};

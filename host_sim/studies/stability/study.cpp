@@ -13,14 +13,14 @@ constexpr double maps_share = 0.3;
 
 }  // namespace
 
-Study study(const MapGrid& grid, std::uint64_t scenes, const Progress& progress) {
+StabilityStudy study(const MapGrid& grid, std::uint64_t scenes, const Progress& progress) {
   StabilityMaps maps = stability_maps(grid, [&](double part) { progress(maps_share * part); });
   Extremes rows =
       extremes(scenes, [&](double part) { progress(maps_share + (1.0 - maps_share) * part); });
   return {std::move(maps), std::move(rows)};
 }
 
-void write_study(const std::filesystem::path& out, const Study& study) {
+void write_study(const std::filesystem::path& out, const StabilityStudy& study) {
   output::OutputFolder folder(out);
   const MapPictures pictures = {map_picture(study.maps, "float64"),
                                 map_picture(study.maps, "float32")};

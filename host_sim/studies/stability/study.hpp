@@ -11,16 +11,16 @@
 
 namespace sonoglide::stability {
 
-struct Study {
+struct StabilityStudy {
   StabilityMaps maps;
   Extremes extremes;
 };
 
-Study study(const MapGrid& grid, std::uint64_t scenes, const Progress& progress);
+StabilityStudy study(const MapGrid& grid, std::uint64_t scenes, const Progress& progress);
 
 /// stability_map.csv, stability_map.svg, both for float32 too, extremes.csv, extremes_worst.csv
 /// and report.html.
 /// @throws report::OutputError, process::ProcessError; nothing was written then
-void write_study(const std::filesystem::path& out, const Study& study);
+void write_study(const std::filesystem::path& out, const StabilityStudy& study);
 
 }  // namespace sonoglide::stability

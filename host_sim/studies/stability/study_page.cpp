@@ -18,7 +18,7 @@ std::uint64_t count(const ExtremeRow& row, Verdict verdict) {
   return row.count[static_cast<std::size_t>(verdict)];
 }
 
-std::string lead(const Study& study) {
+std::string lead(const StabilityStudy& study) {
   return fmt::format(
       "Every solver over step or tolerance and contact stiffness, and over {} random scenes of "
       "{} carrier periods that span what anybody may ask for. A result is either good, or the "
@@ -118,7 +118,7 @@ std::string extremes_text() {
 
 }  // namespace
 
-output::Page study_page(const Study& study, const MapPictures& pictures) {
+output::Page study_page(const StabilityStudy& study, const MapPictures& pictures) {
   output::Page page;
   page.title = "Where each solver can be trusted";
   page.lead = lead(study);

@@ -69,16 +69,17 @@ std::optional<BatchPoint> batch_point(const scene::Scene& scene) {
       scene.solver.tolerance >= map_tolerance ? batch::Accuracy::map : batch::Accuracy::fine};
 }
 
-Row row_of(const BatchPoint& point, const batch::DahlRun& run) {
+PointResult row_of(const BatchPoint& point, const batch::DahlRun& run) {
   const double sliding = point.plant.sliding_velocity;
   const double direction = sliding < 0.0 ? -1.0 : 1.0;
   const double window =
       numeric::two_pi * (point.length.periods - point.length.window_start_periods);
-  Row row;
+  PointResult row;
   row.friction_ratio_whole_run = direction * run.whole.friction_ratio;
   row.friction_ratio_window = direction * run.window.friction_ratio;
-  row.dissipation_ratio_window =
-      sliding == 0.0 ? Row::undefined : run.window.friction_work / (std::abs(sliding) * window);
+  row.dissipation_ratio_window = sliding == 0.0
+                                     ? PointResult::undefined
+                                     : run.window.friction_work / (std::abs(sliding) * window);
   return row;
 }
 

@@ -21,6 +21,6 @@ struct BatchPoint {
 std::optional<BatchPoint> batch_point(const scene::Scene& scene);
 
 /// @param run  solved
-Row row_of(const BatchPoint& point, const batch::DahlRun& run);
+PointResult row_of(const BatchPoint& point, const batch::DahlRun& run);
 
 }  // namespace sonoglide::sweep

@@ -24,13 +24,13 @@ constexpr const char* closed_loop_plot =
 
 }  // namespace
 
-std::string curve(const Plan& plan, const std::vector<Row>& rows, std::size_t axis) {
+std::string curve(const Plan& plan, const std::vector<PointResult>& rows, std::size_t axis) {
   const Subject shown = subject(plan);
   const Axis& drawn = plan.grid().axes()[axis];
   std::string defined;
   std::string failed;
   for (std::size_t point = 0; point < rows.size(); ++point) {
-    const Row& row = rows[point];
+    const PointResult& row = rows[point];
     const double x = drawn.position(plan.grid().index(point, axis));
     fmt::format_to(std::back_inserter(defined), "{} {} {}\n", x, row.*shown.figure,
                    plan.closed_loop() ? row.ripple : row.friction_ratio_whole_run);
@@ -61,7 +61,7 @@ constexpr const char* colours[] = {"#1f5fa8", "#b8570f", "#1b9e5a", "#d62728",
 constexpr int markers[] = {7, 5, 9, 11, 13, 15, 4};
 
 /// The points of one member; a gap where one failed.
-std::string member_data(const Plan& plan, const std::vector<Row>& rows, std::size_t along,
+std::string member_data(const Plan& plan, const std::vector<PointResult>& rows, std::size_t along,
                         std::size_t first) {
   const Grid& grid = plan.grid();
   const Subject shown = subject(plan);
@@ -79,7 +79,7 @@ std::string member_data(const Plan& plan, const std::vector<Row>& rows, std::siz
 
 }  // namespace
 
-std::string curve_family(const Plan& plan, const std::vector<Row>& rows, std::size_t along,
+std::string curve_family(const Plan& plan, const std::vector<PointResult>& rows, std::size_t along,
                          std::size_t family) {
   const Grid& grid = plan.grid();
   const Axis& members = grid.axes()[family];

@@ -14,13 +14,13 @@ namespace sonoglide::sweep {
 /// the steady error with the ripple on either side. Failed points are grey lines from bottom to
 /// top. Other axes have one value.
 /// @param axis  with more than one value
-std::string curve(const Plan& plan, const std::vector<Row>& rows, std::size_t axis);
+std::string curve(const Plan& plan, const std::vector<PointResult>& rows, std::size_t axis);
 
 /// A gnuplot script: the sweep's subject() against the one key, a curve for each value of the
 /// other; failed points are left out. Other axes have one value.
 /// @param along   with more than one value, not categorical
 /// @param family  categorical
-std::string curve_family(const Plan& plan, const std::vector<Row>& rows, std::size_t along,
+std::string curve_family(const Plan& plan, const std::vector<PointResult>& rows, std::size_t along,
                          std::size_t family);
 
 }  // namespace sonoglide::sweep

@@ -62,7 +62,7 @@ std::string range_command(const std::vector<Cell>& cells, char letter) {
 
 }  // namespace
 
-std::string heat_map(const Plan& plan, const std::vector<Row>& rows, std::size_t upward,
+std::string heat_map(const Plan& plan, const std::vector<PointResult>& rows, std::size_t upward,
                      std::size_t rightward) {
   const Grid& grid = plan.grid();
   const Subject shown = subject(plan);
@@ -101,7 +101,7 @@ constexpr int width_px = 900;
 constexpr int height_px = 560;
 
 /// @param axes  one or two
-std::string script(const Plan& plan, const std::vector<Row>& rows,
+std::string script(const Plan& plan, const std::vector<PointResult>& rows,
                    const std::vector<std::size_t>& axes) {
   if (axes.size() == 1) {
     return curve(plan, rows, axes[0]);
@@ -132,7 +132,7 @@ bool is_heat_map(const Grid& grid) {
          grid.axes()[drawn[0]].categorical() == grid.axes()[drawn[1]].categorical();
 }
 
-std::optional<std::string> draw(const Plan& plan, const std::vector<Row>& rows) {
+std::optional<std::string> draw(const Plan& plan, const std::vector<PointResult>& rows) {
   const std::vector<std::size_t> axes = drawn_axes(plan.grid());
   if (axes.empty() || axes.size() > 2 || !extremes(rows, subject(plan).figure)) {
     return std::nullopt;

@@ -29,7 +29,7 @@ std::string heading(const Plan& plan) {
   return text + "status\n";
 }
 
-std::string line(const Plan& plan, std::size_t point, const Row& row) {
+std::string line(const Plan& plan, std::size_t point, const PointResult& row) {
   std::string cells;
   for (std::size_t axis = 0; axis < plan.grid().axes().size(); ++axis) {
     cells += output::csv_cell(plan.grid().text(point, axis)) + ',';
@@ -46,7 +46,7 @@ std::string line(const Plan& plan, std::size_t point, const Row& row) {
 
 }  // namespace
 
-void write_csv(std::ostream& out, const Plan& plan, const std::vector<Row>& rows) {
+void write_csv(std::ostream& out, const Plan& plan, const std::vector<PointResult>& rows) {
   out << heading(plan);
   for (std::size_t point = 0; point < rows.size(); ++point) {
     out << line(plan, point, rows[point]);

@@ -17,7 +17,7 @@ namespace sonoglide::sweep {
 /// of Row, status last. In closed loop also settling_time_s, steady_error, ripple, limit and fault.
 /// Numbers read back the same to the bit; what is not defined is `nan`. A status with a comma is
 /// quoted (RFC 4180).
-void write_csv(std::ostream& out, const Plan& plan, const std::vector<Row>& rows);
+void write_csv(std::ostream& out, const Plan& plan, const std::vector<PointResult>& rows);
 
 /// The axes with more than one value.
 std::vector<std::size_t> drawn_axes(const Grid& grid);
@@ -29,10 +29,10 @@ bool is_heat_map(const Grid& grid);
 /// name, a curve for each name. SVG. Absent for any other number of axes, and where no point has a
 /// value.
 /// @throws process::ProcessError
-std::optional<std::string> draw(const Plan& plan, const std::vector<Row>& rows);
+std::optional<std::string> draw(const Plan& plan, const std::vector<PointResult>& rows);
 
 /// @param picture  an SVG document; absent where none can be drawn
-output::Page sweep_page(const Plan& plan, const std::vector<Row>& rows,
+output::Page sweep_page(const Plan& plan, const std::vector<PointResult>& rows,
                         const std::optional<std::string>& picture);
 
 /// Along an axis a heat map shows at most this many values, evenly picked.
@@ -42,7 +42,7 @@ inline constexpr std::size_t most_cells_along = 200;
 /// that is not defined. Other axes stay at their first value.
 /// @param upward, rightward  axes with more than one value
 /// @param rows  the subject is defined in one at least
-std::string heat_map(const Plan& plan, const std::vector<Row>& rows, std::size_t upward,
+std::string heat_map(const Plan& plan, const std::vector<PointResult>& rows, std::size_t upward,
                      std::size_t rightward);
 
 }  // namespace sonoglide::sweep

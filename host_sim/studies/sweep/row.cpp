@@ -13,9 +13,13 @@ namespace sonoglide::sweep {
 namespace {
 
 constexpr std::size_t checksum_digits = 16;
-constexpr std::array<double Row::*, 6> figure_members = {
-    &Row::friction_ratio_whole_run, &Row::friction_ratio_window, &Row::dissipation_ratio_window,
-    &Row::settling_time_s,          &Row::steady_error,          &Row::ripple};
+constexpr std::array<double PointResult::*, 6> figure_members = {
+    &PointResult::friction_ratio_whole_run,
+    &PointResult::friction_ratio_window,
+    &PointResult::dissipation_ratio_window,
+    &PointResult::settling_time_s,
+    &PointResult::steady_error,
+    &PointResult::ripple};
 
 std::uint64_t bits_of(double value) {
   std::uint64_t bits = 0;

@@ -12,7 +12,7 @@
 namespace sonoglide::sweep {
 
 /// A figure that is not defined, or of a failed point, is NaN.
-struct Row {
+struct PointResult {
   static constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
 
   std::string status = "ok";  ///< or why the point could not be computed, one line
@@ -31,7 +31,7 @@ struct Row {
 
 struct Record {
   std::size_t point = 0;
-  Row row;
+  PointResult row;
 };
 
 /// `CHECKSUM TEXT`, without the end of the line: the checksum of TEXT in 16 hexadecimal digits.

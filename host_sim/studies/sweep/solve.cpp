@@ -65,7 +65,7 @@ double expected_solving_cost(const Plan& plan) try {
 
 namespace {
 
-Row run(const scene::Scene& scene) {
+PointResult run(const scene::Scene& scene) {
   std::optional<report::StepMeter> meter;
   loop::Watch watch;
   if (scene.controller) {
@@ -73,13 +73,13 @@ Row run(const scene::Scene& scene) {
   }
   const loop::RunResult result = loop::run(scene, watch);
   const loop::PowerRatios window = loop::power_ratios(scene, result.window);
-  Row row;
+  PointResult row;
   row.friction_ratio_whole_run = loop::power_ratios(scene, result.whole).friction_ratio;
   row.friction_ratio_window = window.friction_ratio;
   row.dissipation_ratio_window = window.dissipation_ratio;
   if (meter) {
     const report::StepMetrics last = meter->steps().back();
-    row.settling_time_s = last.settling_time_s.value_or(Row::undefined);
+    row.settling_time_s = last.settling_time_s.value_or(PointResult::undefined);
     row.steady_error = last.steady_error;
     row.ripple = last.ripple;
     row.limit = last.limit;
@@ -98,11 +98,11 @@ std::string one_line(std::string text) {
 
 }  // namespace
 
-Row solve_scalar_point(const scene::Scene& scene) {
+PointResult solve_scalar_point(const scene::Scene& scene) {
   try {
     return run(scene);
   } catch (const loop::ComputationError& error) {
-    Row failed;
+    PointResult failed;
     failed.status = one_line(error.what());
     return failed;
   }

@@ -21,7 +21,7 @@ double expected_solving_cost(const scene::Scene& scene);
 double expected_solving_cost(const Plan& plan);
 
 /// A computation that fails gives a row whose status says why.
-Row solve_scalar_point(const scene::Scene& scene);
+PointResult solve_scalar_point(const scene::Scene& scene);
 
 /// Points that are solved in one go.
 using Points = std::vector<std::size_t>;

@@ -9,8 +9,9 @@
 namespace sonoglide::sweep {
 
 Subject subject(const Plan& plan) {
-  return plan.closed_loop() ? Subject{&Row::steady_error, "Steady error of the friction ratio [-]"}
-                            : Subject{&Row::friction_ratio_window, "Friction ratio, window [-]"};
+  return plan.closed_loop()
+             ? Subject{&PointResult::steady_error, "Steady error of the friction ratio [-]"}
+             : Subject{&PointResult::friction_ratio_window, "Friction ratio, window [-]"};
 }
 
 std::string axis_commands(const Axis& axis, char letter) {
@@ -36,15 +37,16 @@ std::string axis_commands(const Axis& axis, char letter) {
   return commands;
 }
 
-std::optional<Extremes> extremes(const std::vector<Row>& rows, double Row::*figure) {
-  std::optional<Extremes> found;
+std::optional<ExtremePoints> extremes(const std::vector<PointResult>& rows,
+                                      double PointResult::*figure) {
+  std::optional<ExtremePoints> found;
   for (std::size_t point = 0; point < rows.size(); ++point) {
     const double value = rows[point].*figure;
     if (std::isnan(value)) {
       continue;
     }
     if (!found) {
-      found = Extremes{point, point};
+      found = ExtremePoints{point, point};
     }
     if (value < rows[found->lowest].*figure) {
       found->lowest = point;

@@ -12,7 +12,7 @@
 namespace sonoglide::sweep {
 
 struct Subject {
-  double Row::*figure;
+  double PointResult::*figure;
   std::string label;  ///< with its unit
 };
 
@@ -23,12 +23,13 @@ Subject subject(const Plan& plan);
 /// and the names of values that stand side by side.
 std::string axis_commands(const Axis& axis, char letter);
 
-struct Extremes {
+struct ExtremePoints {
   std::size_t lowest;   ///< point
   std::size_t highest;  ///< point
 };
 
 /// The first point of several with the same value; absent where the figure is NaN in every row.
-std::optional<Extremes> extremes(const std::vector<Row>& rows, double Row::*figure);
+std::optional<ExtremePoints> extremes(const std::vector<PointResult>& rows,
+                                      double PointResult::*figure);
 
 }  // namespace sonoglide::sweep

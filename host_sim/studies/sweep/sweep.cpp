@@ -60,7 +60,7 @@ class Collection {
     return open;
   }
 
-  std::vector<Row> take_rows() { return std::move(rows_); }
+  std::vector<PointResult> take_rows() { return std::move(rows_); }
 
  private:
   void take(Record record) {
@@ -69,7 +69,7 @@ class Collection {
   }
 
   std::mutex mutex_;
-  std::vector<Row> rows_;
+  std::vector<PointResult> rows_;
   std::vector<bool> known_;
   Journal& journal_;
   Pace& pace_;
@@ -77,7 +77,8 @@ class Collection {
 
 }  // namespace
 
-std::vector<Row> compute(const Solve& solve, std::size_t points, Journal& journal, Pace& pace) {
+std::vector<PointResult> compute(const Solve& solve, std::size_t points, Journal& journal,
+                                 Pace& pace) {
   Collection collection(points, journal, pace);
   const Points open = collection.open_points();
   pace.begin(open.size(), 0.0);
@@ -139,7 +140,7 @@ void create_folder(const fs::path& out) {
 }
 
 /// Interrupted, it is carried through first: it takes a second at most.
-void write_files(const Plan& plan, const std::vector<Row>& rows, const fs::path& out) {
+void write_files(const Plan& plan, const std::vector<PointResult>& rows, const fs::path& out) {
   const std::optional<std::string> picture = draw(plan, rows);
   const std::string page = output::to_html(sweep_page(plan, rows, picture));
   output::OutputFolder folder(out);
@@ -171,13 +172,13 @@ Summary run_sweep(const Plan& plan, const fs::path& out, const std::string& prog
   const std::string decisive = fmt::format("{}, {}", program, batch::instruction_set());
   Journal journal(out, identity_of(plan, decisive), plan.grid().size());
   const std::size_t found = journal.finished().size();
-  const std::vector<Row> rows = compute(solve, plan.grid().size(), journal, pace);
+  const std::vector<PointResult> rows = compute(solve, plan.grid().size(), journal, pace);
   const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - begin;
   const process::Interruption held;
   write_files(plan, rows, out);
   journal.remove();
   const auto failed =
-      std::count_if(rows.begin(), rows.end(), [](const Row& row) { return !row.ok(); });
+      std::count_if(rows.begin(), rows.end(), [](const PointResult& row) { return !row.ok(); });
   return {rows.size(), static_cast<std::size_t>(failed), found, wall.count()};
 }
 

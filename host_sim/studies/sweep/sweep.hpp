@@ -19,7 +19,8 @@ namespace sonoglide::sweep {
 /// @param points  of the grid
 /// @param pace    told of the points computed
 /// @throws report::OutputError  the journal cannot be written
-std::vector<Row> compute(const Solve& solve, std::size_t points, Journal& journal, Pace& pace);
+std::vector<PointResult> compute(const Solve& solve, std::size_t points, Journal& journal,
+                                 Pace& pace);
 
 struct Summary {
   std::size_t points;

@@ -15,24 +15,25 @@ namespace {
 
 struct Figure {
   const char* name;
-  double Row::*value;
+  double PointResult::*value;
 };
 
 std::vector<Figure> figures(const Plan& plan) {
-  std::vector<Figure> all = {{"Friction ratio, whole run", &Row::friction_ratio_whole_run},
-                             {"Friction ratio, window", &Row::friction_ratio_window},
-                             {"Power dissipation ratio, window", &Row::dissipation_ratio_window}};
+  std::vector<Figure> all = {
+      {"Friction ratio, whole run", &PointResult::friction_ratio_whole_run},
+      {"Friction ratio, window", &PointResult::friction_ratio_window},
+      {"Power dissipation ratio, window", &PointResult::dissipation_ratio_window}};
   if (plan.closed_loop()) {
-    all.push_back({"Settling time, last target step [s]", &Row::settling_time_s});
-    all.push_back({"Steady error, last target step", &Row::steady_error});
-    all.push_back({"Ripple, last target step", &Row::ripple});
+    all.push_back({"Settling time, last target step [s]", &PointResult::settling_time_s});
+    all.push_back({"Steady error, last target step", &PointResult::steady_error});
+    all.push_back({"Ripple, last target step", &PointResult::ripple});
   }
   return all;
 }
 
-std::size_t failures(const std::vector<Row>& rows) {
+std::size_t failures(const std::vector<PointResult>& rows) {
   return static_cast<std::size_t>(
-      std::count_if(rows.begin(), rows.end(), [](const Row& row) { return !row.ok(); }));
+      std::count_if(rows.begin(), rows.end(), [](const PointResult& row) { return !row.ok(); }));
 }
 
 std::string lead(const Plan& plan) {
@@ -40,7 +41,7 @@ std::string lead(const Plan& plan) {
                      plan.closed_loop() ? "closed loop" : "open loop");
 }
 
-std::vector<std::string> warnings(const Plan& plan, const std::vector<Row>& rows) {
+std::vector<std::string> warnings(const Plan& plan, const std::vector<PointResult>& rows) {
   std::vector<std::string> all;
   if (plan.first().friction.sign_convention == scene::SignConvention::as_printed) {
     all.emplace_back(
@@ -50,7 +51,7 @@ std::vector<std::string> warnings(const Plan& plan, const std::vector<Row>& rows
   const std::size_t failed = failures(rows);
   if (failed > 0) {
     const auto first =
-        std::find_if(rows.begin(), rows.end(), [](const Row& row) { return !row.ok(); });
+        std::find_if(rows.begin(), rows.end(), [](const PointResult& row) { return !row.ok(); });
     all.push_back(fmt::format(
         "{} of {} points could not be computed. The first of them, at {}: {}.", failed, rows.size(),
         plan.describe(static_cast<std::size_t>(first - rows.begin())), first->status));
@@ -73,7 +74,7 @@ std::string short_text(const Grid& grid, std::size_t point, std::size_t axis) {
   return std::isnan(number) ? grid.text(point, axis) : fmt::format("{:.6g}", number);
 }
 
-output::Table extremes_table(const Plan& plan, const std::vector<Row>& rows) {
+output::Table extremes_table(const Plan& plan, const std::vector<PointResult>& rows) {
   output::Table table{"Extremes", {"Figure", "", "Value"}, {}};
   for (const Axis& axis : plan.grid().axes()) {
     table.header.push_back("at " + axis.key);
@@ -124,7 +125,7 @@ std::string picture_note(const Plan& plan) {
 
 }  // namespace
 
-output::Page sweep_page(const Plan& plan, const std::vector<Row>& rows,
+output::Page sweep_page(const Plan& plan, const std::vector<PointResult>& rows,
                         const std::optional<std::string>& picture) {
   output::Page page{
       fmt::format("Sweep of {}", plan.first().name), lead(plan), warnings(plan, rows), {}, {}};

@@ -24,7 +24,7 @@ double seconds_since(Clock::time_point start) {
 
 /// A row on its way to being measured.
 struct Trial {
-  Row row;
+  MeasuredSetting row;
   std::unique_ptr<peers::Contender> contender;
   double shortest_s = std::numeric_limits<double>::infinity();
   double spent_s = 0.0;
@@ -56,8 +56,8 @@ void first_run(Trial& trial, const peers::Problem& problem, const Effort& effort
   trial.count(elapsed_s);
 }
 
-void judge(Trial& trial, const Comparison& comparison) {
-  Row& row = trial.row;
+void judge(Trial& trial, const SolverComparison& comparison) {
+  MeasuredSetting& row = trial.row;
   const long double whole = static_cast<long double>(peers::carrier_period) * comparison.periods;
   const long double reference = comparison.reference.motion.friction_ratio;
   const long double error =
@@ -77,9 +77,10 @@ void repeat(Trial& trial, const peers::Problem& problem) {
   trial.count(seconds_since(start));
 }
 
-std::vector<Trial> trials_of(const peers::Problem& problem, const std::vector<Solver>& solvers) {
+std::vector<Trial> trials_of(const peers::Problem& problem,
+                             const std::vector<ComparedSolver>& solvers) {
   std::vector<Trial> trials;
-  for (const Solver& solver : solvers) {
+  for (const ComparedSolver& solver : solvers) {
     for (const double setting : solver.settings) {
       Trial trial;
       trial.row.solver = &solver;
@@ -93,15 +94,15 @@ std::vector<Trial> trials_of(const peers::Problem& problem, const std::vector<So
 
 }  // namespace
 
-Comparison compare(const peers::Problem& problem, const std::vector<Solver>& solvers,
-                   const Effort& effort, const std::function<void(double)>& progress) {
+SolverComparison compare(const peers::Problem& problem, const std::vector<ComparedSolver>& solvers,
+                         const Effort& effort, const std::function<void(double)>& progress) {
   const auto report = [&progress](double part) {
     if (progress) {
       progress(part);
     }
   };
   report(0.0);
-  Comparison comparison;
+  SolverComparison comparison;
   comparison.periods = problem.periods;
   comparison.reference = checked_reference(problem);
   comparison.absolute_error =

@@ -15,8 +15,8 @@ namespace sonoglide::work_precision {
 inline constexpr const char* status_ok = "ok";
 
 /// One solver at one setting. What was not measured is not a number.
-struct Row {
-  const Solver* solver = nullptr;
+struct MeasuredSetting {
+  const ComparedSolver* solver = nullptr;
   double setting = 0.0;
   double error = std::numeric_limits<double>::quiet_NaN();  ///< of the friction ratio
   double wall_us_per_period = std::numeric_limits<double>::quiet_NaN();
@@ -26,11 +26,11 @@ struct Row {
   bool ok() const { return status == status_ok; }
 };
 
-struct Comparison {
+struct SolverComparison {
   int periods = 0;
   CheckedReference reference;
   bool absolute_error = false;  ///< the friction ratio is about 0: errors are not relative to it
-  std::vector<Row> rows;        ///< solver by solver, settings from coarse to fine
+  std::vector<MeasuredSetting> rows;  ///< solver by solver, settings from coarse to fine
 };
 
 /// How much time a comparison may take.
@@ -47,7 +47,7 @@ struct Effort {
 /// what disturbs the machine disturbs them alike.
 ///
 /// @param progress  called with the part done, 0 to 1; may be empty
-Comparison compare(const peers::Problem& problem, const std::vector<Solver>& solvers,
-                   const Effort& effort, const std::function<void(double)>& progress);
+SolverComparison compare(const peers::Problem& problem, const std::vector<ComparedSolver>& solvers,
+                         const Effort& effort, const std::function<void(double)>& progress);
 
 }  // namespace sonoglide::work_precision

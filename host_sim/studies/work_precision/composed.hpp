@@ -143,7 +143,7 @@ constexpr const auto& sweeps() {
 }
 
 template <class Described, class Scalar, std::size_t Index>
-Solver solver() {
+ComparedSolver solver() {
   constexpr configure::Sweep sweep = sweeps<Described, Scalar>()[Index];
   const std::string order = sweep.order > 0 ? fmt::format("_{}", sweep.order) : "";
   return {fmt::format("{}{}{}", Described::name, order, is_single<Scalar> ? "_float32" : ""),
@@ -155,14 +155,14 @@ Solver solver() {
 }
 
 template <class Described, class Scalar, std::size_t... Index>
-std::vector<Solver> contenders(std::index_sequence<Index...> /*all*/) {
+std::vector<ComparedSolver> contenders(std::index_sequence<Index...> /*all*/) {
   return {solver<Described, Scalar, Index>()...};
 }
 
 }  // namespace detail
 
 template <class Described, class Scalar>
-std::vector<Solver> contenders() {
+std::vector<ComparedSolver> contenders() {
   return detail::contenders<Described, Scalar>(
       std::make_index_sequence<detail::sweeps<Described, Scalar>().size()>{});
 }

@@ -58,7 +58,7 @@ constexpr std::array<double, 4> accuracies = {1e-4, 1e-6, 1e-8, 1e-10};
 /// The paper's step, 1.667e-8 s at 60 kHz.
 constexpr double paper_steps_per_period = 1000.0;
 
-const char* kind_of_error(const Comparison& comparison) {
+const char* kind_of_error(const SolverComparison& comparison) {
   return comparison.absolute_error ? "Absolute error" : "Relative error";
 }
 
@@ -66,7 +66,7 @@ std::string number(double value) {
   return std::isfinite(value) ? fmt::format("{:.3g}", value) : std::string("–");
 }
 
-std::string lead(const scene::Scene& scene, const Comparison& comparison) {
+std::string lead(const scene::Scene& scene, const SolverComparison& comparison) {
   return fmt::format(
       "Error against run time of every solver on the scene {}, {} carrier periods. The error is "
       "that of the friction ratio over the whole run{}. The time is the smallest of several runs "
@@ -77,7 +77,7 @@ std::string lead(const scene::Scene& scene, const Comparison& comparison) {
       comparison.absolute_error ? ", absolute because the ratio is about 0" : "");
 }
 
-output::Table set_up(const Comparison& comparison) {
+output::Table set_up(const SolverComparison& comparison) {
   const Reference& motion = comparison.reference.motion;
   return {"Reference and machine",
           {},
@@ -90,14 +90,14 @@ output::Table set_up(const Comparison& comparison) {
            {"Machine and compiler", machine()}}};
 }
 
-output::Table ranking(const Comparison& comparison, double accuracy) {
+output::Table ranking(const SolverComparison& comparison, double accuracy) {
   output::Table table{
       fmt::format("Cheapest setting of each solver within an error of {:.0e}", accuracy),
       {"Solver", "Setting", kind_of_error(comparison), "Time per period [µs]", "Steps per period",
        "Times the fastest"},
       {}};
-  const std::vector<const Row*> rows = cheapest(comparison, accuracy);
-  for (const Row* row : rows) {
+  const std::vector<const MeasuredSetting*> rows = cheapest(comparison, accuracy);
+  for (const MeasuredSetting* row : rows) {
     table.rows.push_back({row->solver->name, setting_text(row->solver->knob, row->setting),
                           number(row->error), number(row->wall_us_per_period),
                           number(row->steps_per_period),
@@ -107,8 +107,8 @@ output::Table ranking(const Comparison& comparison, double accuracy) {
 }
 
 /// Empty where the paper's run failed.
-output::Table against_the_paper(const Comparison& comparison) {
-  const Row* paper = find(comparison, "rk4_table", paper_steps_per_period);
+output::Table against_the_paper(const SolverComparison& comparison) {
+  const MeasuredSetting* paper = find(comparison, "rk4_table", paper_steps_per_period);
   output::Table table{
       "The paper's run, and the fastest that is at least as accurate",
       {"Solver", "Setting", kind_of_error(comparison), "Time per period [µs]", "Times the fastest"},
@@ -121,10 +121,10 @@ output::Table against_the_paper(const Comparison& comparison) {
                           paper->status, "–", "–"});
     return table;
   }
-  std::vector<const Row*> rows = cheapest(comparison, paper->error);
+  std::vector<const MeasuredSetting*> rows = cheapest(comparison, paper->error);
   rows.resize(std::min<std::size_t>(rows.size(), 1));
   rows.push_back(paper);
-  for (const Row* row : rows) {
+  for (const MeasuredSetting* row : rows) {
     table.rows.push_back({row->solver->name, setting_text(row->solver->knob, row->setting),
                           number(row->error), number(row->wall_us_per_period),
                           number(row->wall_us_per_period / rows.front()->wall_us_per_period)});
@@ -132,12 +132,12 @@ output::Table against_the_paper(const Comparison& comparison) {
   return table;
 }
 
-output::Table every_row(const Comparison& comparison) {
+output::Table every_row(const SolverComparison& comparison) {
   output::Table table{"Every setting",
                       {"Solver", "Setting", kind_of_error(comparison), "Time per period [µs]",
                        "Steps per period", "Status"},
                       {}};
-  for (const Row& row : comparison.rows) {
+  for (const MeasuredSetting& row : comparison.rows) {
     table.rows.push_back({row.solver->name, setting_text(row.solver->knob, row.setting),
                           number(row.error), number(row.wall_us_per_period),
                           number(row.steps_per_period), row.status});
@@ -147,7 +147,8 @@ output::Table every_row(const Comparison& comparison) {
 
 }  // namespace
 
-output::Page page(const scene::Scene& scene, const Comparison& comparison, const std::string& svg) {
+output::Page page(const scene::Scene& scene, const SolverComparison& comparison,
+                  const std::string& svg) {
   output::Page page;
   page.title = "Work and precision: " + scene.name;
   page.lead = lead(scene, comparison);

@@ -52,15 +52,15 @@ Style style_of(Family family, std::size_t member) {
 }
 
 /// The names under which gnuplot knows a solver's points.
-std::string block(const char* kind, const Solver& solver) {
+std::string block(const char* kind, const ComparedSolver& solver) {
   return fmt::format("${}_{}", kind, solver.name);
 }
 
-std::string point(double error, const Row& row) {
+std::string point(double error, const MeasuredSetting& row) {
   return fmt::format("{:.6g} {:.6g}\n", std::max(error, smallest_error), row.wall_us_per_period);
 }
 
-std::string data(const Comparison& comparison, const Solver& solver) {
+std::string data(const SolverComparison& comparison, const ComparedSolver& solver) {
   std::string blocks = block("all", solver) + " << EOD\n";
   for (const Standing& standing : standings(comparison, solver)) {
     blocks += point(standing.row->error, *standing.row);
@@ -73,10 +73,10 @@ std::string data(const Comparison& comparison, const Solver& solver) {
 }
 
 /// A solver's place in its family, the same whether or not the others could be measured.
-std::size_t member_of(const Comparison& comparison, const Solver& solver) {
+std::size_t member_of(const SolverComparison& comparison, const ComparedSolver& solver) {
   std::size_t member = 0;
-  const Solver* last = nullptr;
-  for (const Row& row : comparison.rows) {
+  const ComparedSolver* last = nullptr;
+  for (const MeasuredSetting& row : comparison.rows) {
     if (row.solver == &solver) {
       break;
     }
@@ -86,10 +86,10 @@ std::size_t member_of(const Comparison& comparison, const Solver& solver) {
   return member;
 }
 
-std::string curves(const Comparison& comparison) {
+std::string curves(const SolverComparison& comparison) {
   std::string points;
   std::string lines;
-  for (const Solver* solver : measured_solvers(comparison)) {
+  for (const ComparedSolver* solver : measured_solvers(comparison)) {
     const Style style = style_of(solver->family, member_of(comparison, *solver));
     points += fmt::format("{} with points pt 7 ps 0.2 lc rgb '{}' notitle, \\\n",
                           block("all", *solver), style.colour);
@@ -103,9 +103,9 @@ std::string curves(const Comparison& comparison) {
 
 }  // namespace
 
-std::string draw(const Comparison& comparison, const std::string& title) {
+std::string draw(const SolverComparison& comparison, const std::string& title) {
   std::string script;
-  for (const Solver* solver : measured_solvers(comparison)) {
+  for (const ComparedSolver* solver : measured_solvers(comparison)) {
     script += data(comparison, *solver);
   }
   script += fmt::format(

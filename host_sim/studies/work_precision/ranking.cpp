@@ -9,15 +9,15 @@ namespace {
 /// Half a decade of steps, one and a half of a tolerance.
 constexpr std::size_t finer_neighbours = 2;
 
-bool cheaper(const Row* a, const Row* b) {
+bool cheaper(const MeasuredSetting* a, const MeasuredSetting* b) {
   return a->wall_us_per_period < b->wall_us_per_period;
 }
 
 }  // namespace
 
-std::vector<Standing> standings(const Comparison& comparison, const Solver& solver) {
+std::vector<Standing> standings(const SolverComparison& comparison, const ComparedSolver& solver) {
   std::vector<Standing> all;
-  for (const Row& row : comparison.rows) {
+  for (const MeasuredSetting& row : comparison.rows) {
     if (row.solver == &solver && row.ok()) {
       all.push_back({&row, row.error});
     }
@@ -30,7 +30,7 @@ std::vector<Standing> standings(const Comparison& comparison, const Solver& solv
   return all;
 }
 
-std::vector<Standing> frontier(const Comparison& comparison, const Solver& solver) {
+std::vector<Standing> frontier(const SolverComparison& comparison, const ComparedSolver& solver) {
   std::vector<Standing> all = standings(comparison, solver);
   std::sort(all.begin(), all.end(),
             [](const Standing& a, const Standing& b) { return cheaper(a.row, b.row); });
@@ -43,9 +43,10 @@ std::vector<Standing> frontier(const Comparison& comparison, const Solver& solve
   return kept;
 }
 
-std::vector<const Row*> cheapest(const Comparison& comparison, double error_bound) {
-  std::vector<const Row*> rows;
-  for (const Solver* solver : measured_solvers(comparison)) {
+std::vector<const MeasuredSetting*> cheapest(const SolverComparison& comparison,
+                                             double error_bound) {
+  std::vector<const MeasuredSetting*> rows;
+  for (const ComparedSolver* solver : measured_solvers(comparison)) {
     const std::vector<Standing> kept = frontier(comparison, *solver);
     const auto first = std::find_if(kept.begin(), kept.end(), [error_bound](const Standing& s) {
       return s.error <= error_bound;
@@ -58,17 +59,19 @@ std::vector<const Row*> cheapest(const Comparison& comparison, double error_boun
   return rows;
 }
 
-const Row* find(const Comparison& comparison, const char* solver, double setting) {
-  const auto row = std::find_if(
-      comparison.rows.begin(), comparison.rows.end(), [solver, setting](const Row& candidate) {
-        return candidate.solver->name == solver && candidate.setting == setting;
-      });
+const MeasuredSetting* find(const SolverComparison& comparison, const char* solver,
+                            double setting) {
+  const auto row =
+      std::find_if(comparison.rows.begin(), comparison.rows.end(),
+                   [solver, setting](const MeasuredSetting& candidate) {
+                     return candidate.solver->name == solver && candidate.setting == setting;
+                   });
   return row == comparison.rows.end() ? nullptr : &*row;
 }
 
-std::vector<const Solver*> measured_solvers(const Comparison& comparison) {
-  std::vector<const Solver*> solvers;
-  for (const Row& row : comparison.rows) {
+std::vector<const ComparedSolver*> measured_solvers(const SolverComparison& comparison) {
+  std::vector<const ComparedSolver*> solvers;
+  for (const MeasuredSetting& row : comparison.rows) {
     if (row.ok() && (solvers.empty() || solvers.back() != row.solver)) {
       solvers.push_back(row.solver);
     }

@@ -22,9 +22,9 @@ std::string cell(double value) {
 
 }  // namespace
 
-std::string to_csv(const Comparison& comparison) {
+std::string to_csv(const SolverComparison& comparison) {
   std::string csv = "solver,setting,relative_error,wall_us_per_period,steps_per_period,status\n";
-  for (const Row& row : comparison.rows) {
+  for (const MeasuredSetting& row : comparison.rows) {
     csv += fmt::format("{},{},{},{},{},{}\n", row.solver->name,
                        setting_text(row.solver->knob, row.setting), cell(row.error),
                        cell(row.wall_us_per_period), cell(row.steps_per_period),
@@ -36,10 +36,12 @@ std::string to_csv(const Comparison& comparison) {
 namespace {
 
 /// What the cheapest solver whose name begins so costs, in units of the cheapest of all.
-std::string times_the_fastest(const std::vector<const Row*>& rows, std::string_view beginning) {
-  const auto row = std::find_if(rows.begin(), rows.end(), [beginning](const Row* candidate) {
-    return candidate->solver->name.compare(0, beginning.size(), beginning) == 0;
-  });
+std::string times_the_fastest(const std::vector<const MeasuredSetting*>& rows,
+                              std::string_view beginning) {
+  const auto row =
+      std::find_if(rows.begin(), rows.end(), [beginning](const MeasuredSetting* candidate) {
+        return candidate->solver->name.compare(0, beginning.size(), beginning) == 0;
+      });
   return row == rows.end() ? std::string("-")
                            : fmt::format("{:.3g}x", (*row)->wall_us_per_period /
                                                         rows.front()->wall_us_per_period);
@@ -48,7 +50,7 @@ std::string times_the_fastest(const std::vector<const Row*>& rows, std::string_v
 }  // namespace
 
 void write(const std::filesystem::path& out, const scene::Scene& scene,
-           const Comparison& comparison) {
+           const SolverComparison& comparison) {
   const std::string svg =
       draw(comparison, fmt::format("{}, {} carrier periods", scene.name, comparison.periods));
   output::OutputFolder folder(out);
@@ -58,11 +60,11 @@ void write(const std::filesystem::path& out, const scene::Scene& scene,
   folder.commit();
 }
 
-std::string text(const Comparison& comparison, const std::filesystem::path& out) {
+std::string text(const SolverComparison& comparison, const std::filesystem::path& out) {
   std::string lines = fmt::format("{:>6}  {:24} {:>13} {:>10} {:>10} {:>10}\n", "error", "fastest",
                                   "us per period", "rk4_table", "dopri5", "cvode");
   for (const double accuracy : {1e-4, 1e-6, 1e-8, 1e-10}) {
-    const std::vector<const Row*> rows = cheapest(comparison, accuracy);
+    const std::vector<const MeasuredSetting*> rows = cheapest(comparison, accuracy);
     if (!rows.empty()) {
       lines += fmt::format("{:>6.0e}  {:24} {:>13.3g} {:>10} {:>10} {:>10}\n", accuracy,
                            rows.front()->solver->name, rows.front()->wall_us_per_period,

@@ -11,23 +11,24 @@
 namespace sonoglide::work_precision {
 
 /// One line for each row under a heading line; what was not measured is left empty.
-std::string to_csv(const Comparison& comparison);
+std::string to_csv(const SolverComparison& comparison);
 
 /// @param svg  the picture of the same comparison
-output::Page page(const scene::Scene& scene, const Comparison& comparison, const std::string& svg);
+output::Page page(const scene::Scene& scene, const SolverComparison& comparison,
+                  const std::string& svg);
 
 /// Time for a carrier period against error, both axes logarithmic: one line for each solver through
 /// the errors that its settings can be relied on for (see Standing), small points at the errors
 /// that they happened to have.
 /// @throws process::ProcessError
-std::string draw(const Comparison& comparison, const std::string& title);
+std::string draw(const SolverComparison& comparison, const std::string& title);
 
 /// Writes work_precision.csv, work_precision.svg and report.html; all or none.
 /// @throws report::OutputError, process::ProcessError
 void write(const std::filesystem::path& out, const scene::Scene& scene,
-           const Comparison& comparison);
+           const SolverComparison& comparison);
 
 /// The result in a few lines, and where the report is.
-std::string text(const Comparison& comparison, const std::filesystem::path& out);
+std::string text(const SolverComparison& comparison, const std::filesystem::path& out);
 
 }  // namespace sonoglide::work_precision

@@ -57,15 +57,15 @@ std::vector<double> step_counts(int first_decade, int last_decade) {
 namespace {
 
 template <class Scalar>
-void add_own(std::vector<Solver>& all) {
+void add_own(std::vector<ComparedSolver>& all) {
   configure::for_each_solver([&](auto described, scene::SolverMethod /*method*/) {
-    for (Solver& solver : contenders<decltype(described), Scalar>()) {
+    for (ComparedSolver& solver : contenders<decltype(described), Scalar>()) {
       all.push_back(std::move(solver));
     }
   });
 }
 
-std::vector<Solver> peers_of_them() {
+std::vector<ComparedSolver> peers_of_them() {
   constexpr Knob tolerance = Knob::tolerance;
   constexpr Knob steps = Knob::steps_per_period;
   return {
@@ -85,12 +85,12 @@ std::vector<Solver> peers_of_them() {
 
 }  // namespace
 
-const std::vector<Solver>& solvers() {
-  static const std::vector<Solver> all = [] {
-    std::vector<Solver> list;
+const std::vector<ComparedSolver>& solvers() {
+  static const std::vector<ComparedSolver> all = [] {
+    std::vector<ComparedSolver> list;
     add_own<double>(list);
     add_own<float>(list);
-    for (Solver& peer : peers_of_them()) {
+    for (ComparedSolver& peer : peers_of_them()) {
       list.push_back(std::move(peer));
     }
     return list;

@@ -29,7 +29,7 @@ enum class Family {
 /// What a setting is.
 enum class Knob { tolerance, steps_per_period };
 
-struct Solver {
+struct ComparedSolver {
   std::string name;
   Family family;
   Knob knob;
@@ -38,7 +38,7 @@ struct Solver {
 };
 
 /// Every solver that is built in.
-const std::vector<Solver>& solvers();
+const std::vector<ComparedSolver>& solvers();
 
 /// What a failed advance shows as its status.
 std::string status_of(plant::Error error);
@@ -50,6 +50,6 @@ std::string setting_text(Knob knob, double setting);
 /// composed.hpp; each has a translation unit of its own, which CMake makes of
 /// contenders.cpp.in: they take long to compile.
 template <class Described, class Scalar>
-std::vector<Solver> contenders();
+std::vector<ComparedSolver> contenders();
 
 }  // namespace sonoglide::work_precision

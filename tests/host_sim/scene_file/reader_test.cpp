@@ -43,7 +43,7 @@ TEST(ReaderTest, FrictionProfiles) {
   EXPECT_EQ(scene.friction.coefficient, 0.1) << "at 0 s";
   EXPECT_EQ(scene.friction.normal_force_N, 0.2) << "before the first row";
   EXPECT_EQ(scene.sensor.force_full_scale_N, 2.0 * (0.2 * 0.2)) << "of the largest";
-  const scene::Contact late = configure::contact_at(scene.friction, 1.5e-3);
+  const scene::ContactValues late = configure::contact_at(scene.friction, 1.5e-3);
   EXPECT_NEAR(late.coefficient, 0.1, 1e-16);
   EXPECT_EQ(late.normal_force_N, 0.2);
 }

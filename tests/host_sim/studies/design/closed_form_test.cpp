@@ -14,7 +14,7 @@ constexpr double pi = 3.14159265358979323846;
 // rho = (2/pi) asin(Vt/v), so v = Vt/sin(pi rho/2).
 TEST(ClosedFormVibrationTest, IsTheInverseOfCoulombsArcSine) {
   for (const double ratio : {0.01, 0.1, 0.5, 0.9, 0.999}) {
-    const Vibration vibration = closed_form_vibration(coulomb(), 0.03, ratio);
+    const RequiredVibration vibration = closed_form_vibration(coulomb(), 0.03, ratio);
     EXPECT_NEAR(vibration.velocity_m_per_s, 0.03 / std::sin(0.5 * pi * ratio),
                 1e-12 * vibration.velocity_m_per_s);
     EXPECT_EQ(vibration.friction_ratio, ratio);
@@ -23,7 +23,7 @@ TEST(ClosedFormVibrationTest, IsTheInverseOfCoulombsArcSine) {
 
 TEST(ClosedFormVibrationTest, IsTheInverseOfTheDahlMap) {
   for (const double ratio : {0.001, 0.1, 0.5, 0.9, 0.999}) {
-    const Vibration vibration = closed_form_vibration(table_1(), 0.03, ratio);
+    const RequiredVibration vibration = closed_form_vibration(table_1(), 0.03, ratio);
     EXPECT_NEAR(closed_form_ratio(table_1(), 0.03, vibration.velocity_m_per_s), ratio, 1e-12);
   }
 }
@@ -34,10 +34,10 @@ TEST(ClosedFormVibrationTest, HasALowestRatioWhereFrictionRisesWithTheVibration)
   for (double vibration = 0.0268; vibration < 2.0; vibration += 1e-4) {
     lowest = std::min(lowest, closed_form_ratio(stribeck(), 0.02672, vibration));
   }
-  const Vibration found = closed_form_vibration(stribeck(), 0.02672, 0.5 * lowest);
+  const RequiredVibration found = closed_form_vibration(stribeck(), 0.02672, 0.5 * lowest);
   EXPECT_NEAR(found.friction_ratio, lowest, 1e-6);
   EXPECT_NEAR(closed_form_ratio(stribeck(), 0.02672, found.velocity_m_per_s), lowest, 1e-6);
-  const Vibration above = closed_form_vibration(stribeck(), 0.02672, 1.1 * lowest);
+  const RequiredVibration above = closed_form_vibration(stribeck(), 0.02672, 1.1 * lowest);
   EXPECT_LT(above.velocity_m_per_s, found.velocity_m_per_s);
   EXPECT_NEAR(closed_form_ratio(stribeck(), 0.02672, above.velocity_m_per_s), 1.1 * lowest, 1e-12);
 }

@@ -14,11 +14,12 @@
 namespace sonoglide::design {
 namespace {
 
-Study study_of(const scene::Scene& scene, const std::vector<double>& ratios, SpeedRange speeds) {
+DesignStudy study_of(const scene::Scene& scene, const std::vector<double>& ratios,
+                     SpeedRange speeds) {
   return study(make_task(scene, ratios, speeds), [](double) {});
 }
 
-std::string all_advice(const Study& study) {
+std::string all_advice(const DesignStudy& study) {
   std::string text;
   for (const Advice& each : advice(study)) {
     text += each.topic + ": " + each.sentence + '\n';
@@ -42,7 +43,7 @@ TEST(QuantityTest, HasThePrefixThatSuits) {
 }
 
 TEST(AdviceTest, SaysWhatIsOutOfReachAndWhatIsNearest) {
-  const Study found = study_of(table_1(), {0.2, 0.5}, {0.1, 0.1});
+  const DesignStudy found = study_of(table_1(), {0.2, 0.5}, {0.1, 0.1});
   const std::vector<std::string> short_of = shortfalls(found);
   ASSERT_EQ(short_of.size(), 1U);
   EXPECT_TRUE(contains(short_of[0], "Ratio 0.2 at 100 mm/s is beyond the drive: it takes 281"))
@@ -68,14 +69,14 @@ TEST(AdviceTest, SaysWhereTheSceneStandsFromResonance) {
 }
 
 TEST(AdviceTest, SaysWhatStribeckFrictionDenies) {
-  const Study found = study_of(stribeck(), {0.01, 0.5, 1.0}, {0.02672, 0.02672});
+  const DesignStudy found = study_of(stribeck(), {0.01, 0.5, 1.0}, {0.02672, 0.02672});
   ASSERT_EQ(shortfalls(found).size(), 1U);
   EXPECT_TRUE(contains(shortfalls(found)[0], "more vibration raises the friction again"));
   EXPECT_TRUE(contains(all_advice(found), "Ratio 1: Needs no drive"));
 }
 
 TEST(RequirementsCsvTest, HasALineForEachSpeedAndRatio) {
-  const Study found = study_of(table_1(), {0.2, 0.5}, {0.01, 0.1});
+  const DesignStudy found = study_of(table_1(), {0.2, 0.5}, {0.01, 0.1});
   std::istringstream lines(requirements_csv(found));
   std::string heading;
   std::getline(lines, heading);
@@ -92,7 +93,7 @@ TEST(RequirementsCsvTest, HasALineForEachSpeedAndRatio) {
 }
 
 TEST(ToJsonTest, HoldsPointsReachAndDetuning) {
-  const Study found = study_of(table_1(), {0.5}, {0.01, 0.1});
+  const DesignStudy found = study_of(table_1(), {0.5}, {0.01, 0.1});
   const auto json = to_json(found);
   ASSERT_EQ(json["points"].size(), 2U);
   const auto& point = json["points"][1];
@@ -106,7 +107,7 @@ TEST(ToJsonTest, HoldsPointsReachAndDetuning) {
 }
 
 TEST(ToJsonTest, HasNullForWhatIsNotDefined) {
-  const Study found = study_of(stribeck(), {0.01, 0.5}, {0.02672, 0.02672});
+  const DesignStudy found = study_of(stribeck(), {0.01, 0.5}, {0.02672, 0.02672});
   const auto json = to_json(found);
   EXPECT_TRUE(json["points"][0]["drive_force_N"].is_null());
   EXPECT_EQ(json["points"][0]["limit"], "amplitude");

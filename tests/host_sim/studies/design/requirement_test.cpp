@@ -27,10 +27,10 @@ TEST(RequireRatioTest, HasTheKnownForcesOfTable1) {
 
 TEST(RequireRatioTest, NamesTheActuatorAndTheNearestRatioWithinReach) {
   const Requirement within = require_ratio(table_1(), 0.1, 0.5);
-  EXPECT_EQ(within.limit, Limit::none);
+  EXPECT_EQ(within.limit, Obstacle::none);
   EXPECT_EQ(within.reachable_ratio, 0.5);
   const Requirement beyond = require_ratio(table_1(), 0.1, 0.2);
-  EXPECT_EQ(beyond.limit, Limit::actuator);
+  EXPECT_EQ(beyond.limit, Obstacle::actuator);
   EXPECT_GT(beyond.reachable_ratio, 0.2);
   // What the whole drive gives is what needs the whole drive.
   EXPECT_NEAR(require_ratio(table_1(), 0.1, beyond.reachable_ratio).motion.drive_force_N, 1920.0,
@@ -41,7 +41,7 @@ TEST(RequireRatioTest, IsMetByTheSteadyOrbit) {
   for (const scene::Scene& scene : {table_1(), coulomb(), stribeck(), resonant()}) {
     for (const double ratio : {0.6, 0.8, 0.9}) {
       const Requirement found = require_ratio(scene, 0.02672, ratio);
-      ASSERT_EQ(found.limit, Limit::none) << found.reason;
+      ASSERT_EQ(found.limit, Obstacle::none) << found.reason;
       EXPECT_NEAR(friction_ratio(steady_scene(scene, 0.02672, found.motion.drive_force_N)), ratio,
                   1e-9);
     }
@@ -90,7 +90,7 @@ TEST(RequireRatioTest, BalancesPowers) {
 // which is at most 4/pi Fc.
 TEST(RequireRatioTest, AtResonanceIsMoreThanTheClosedFormByFriction) {
   const Requirement found = require_ratio(resonant(), 0.02672, 0.5);
-  ASSERT_EQ(found.limit, Limit::none) << found.reason;
+  ASSERT_EQ(found.limit, Obstacle::none) << found.reason;
   const double damping_N = 200.0 * found.motion.velocity_amplitude_m_per_s;
   EXPECT_GT(found.motion.drive_force_N, damping_N);
   EXPECT_LT(found.motion.drive_force_N, damping_N + 4.0 / pi * 2.0);
@@ -99,11 +99,11 @@ TEST(RequireRatioTest, AtResonanceIsMoreThanTheClosedFormByFriction) {
 
 TEST(RequireRatioTest, AsksForNothingWhereTheContactHasTheRatioUndriven) {
   const Requirement full = require_ratio(table_1(), 0.02672, 1.0);
-  EXPECT_EQ(full.limit, Limit::undriven);
+  EXPECT_EQ(full.limit, Obstacle::undriven);
   EXPECT_EQ(full.reachable_ratio, 1.0);
   // Also where friction at the speed is less than at rest: 0.084 of 0.1 at 0.2 m/s.
-  EXPECT_EQ(require_ratio(stribeck(), 0.2, 1.0).limit, Limit::undriven);
-  EXPECT_EQ(require_ratio(stribeck(), 0.2, 0.95).limit, Limit::none);
+  EXPECT_EQ(require_ratio(stribeck(), 0.2, 1.0).limit, Obstacle::undriven);
+  EXPECT_EQ(require_ratio(stribeck(), 0.2, 0.95).limit, Obstacle::none);
 }
 
 // mu_s - alpha v + beta v^3.
@@ -115,17 +115,17 @@ TEST(RequireRatioTest, TellsWhatAStribeckContactTakesUndriven) {
 
 TEST(RequireRatioTest, SaysWhereNoVibrationIsEnough) {
   const Requirement found = require_ratio(stribeck(), 0.02672, 0.01);
-  EXPECT_EQ(found.limit, Limit::amplitude);
+  EXPECT_EQ(found.limit, Obstacle::amplitude);
   EXPECT_TRUE(std::isnan(found.motion.drive_force_N));
   EXPECT_GT(found.reachable_ratio, 0.01);
-  EXPECT_EQ(require_ratio(stribeck(), 0.02672, found.reachable_ratio + 0.02).limit, Limit::none);
+  EXPECT_EQ(require_ratio(stribeck(), 0.02672, found.reachable_ratio + 0.02).limit, Obstacle::none);
 }
 
 TEST(RequireRatioTest, SaysWhereThereIsNoSteadyVibration) {
   scene::Scene free = table_1();
   free.plant.stiffness_N_per_m = 0.0;
   const Requirement found = require_ratio(free, 0.02672, 0.5);
-  EXPECT_EQ(found.limit, Limit::no_orbit);
+  EXPECT_EQ(found.limit, Obstacle::no_orbit);
   EXPECT_NE(found.reason, "");
 }
 

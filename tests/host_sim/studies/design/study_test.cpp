@@ -60,8 +60,8 @@ TEST(MakeTaskTest, DeniesWhatHasNoSteadyVibration) {
 
 TEST(StudyTest, HasEveryRatioAtBothEndsOfTheSpeeds) {
   double told = 0.0;
-  const Study found = study(make_task(table_1(), {0.3, 0.7}, SpeedRange{0.01, 0.1}),
-                            [&](double fraction) { told = fraction; });
+  const DesignStudy found = study(make_task(table_1(), {0.3, 0.7}, SpeedRange{0.01, 0.1}),
+                                  [&](double fraction) { told = fraction; });
   EXPECT_EQ(told, 1.0);
   ASSERT_EQ(found.points.size(), 4U);
   EXPECT_EQ(found.points[0].requirement.sliding_m_per_s, 0.01);
@@ -70,7 +70,7 @@ TEST(StudyTest, HasEveryRatioAtBothEndsOfTheSpeeds) {
   EXPECT_EQ(found.points[3].requirement.ratio, 0.7);
   EXPECT_EQ(found.points[3].sensitivities.size(), 8U);
   ASSERT_EQ(found.curves.size(), 2U);
-  for (const RatioCurve& curve : found.curves) {
+  for (const RatioRequirements& curve : found.curves) {
     EXPECT_TRUE(std::is_sorted(curve.requirements.begin(), curve.requirements.end(),
                                [](const Requirement& a, const Requirement& b) {
                                  return a.motion.drive_force_N < b.motion.drive_force_N;
@@ -80,7 +80,7 @@ TEST(StudyTest, HasEveryRatioAtBothEndsOfTheSpeeds) {
 }
 
 TEST(StudyTest, OfASingleSpeedShowsADecadeToEitherSide) {
-  const Study found = study(make_task(table_1(), {0.5}, {}), [](double) {});
+  const DesignStudy found = study(make_task(table_1(), {0.5}, {}), [](double) {});
   ASSERT_EQ(found.points.size(), 1U);
   EXPECT_NEAR(found.curves[0].requirements.front().sliding_m_per_s, 0.002672, 1e-12);
   EXPECT_NEAR(found.curves[0].requirements.back().sliding_m_per_s, 0.2672, 1e-10);

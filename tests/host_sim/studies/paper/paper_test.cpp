@@ -56,7 +56,7 @@ double at(const Columns& columns, const std::string& name, double velocity_ratio
   return columns.at(name).at(index_of(velocity_ratio));
 }
 
-bool has_claim(const Figure& figure, Verdict verdict, const std::string& numbers) {
+bool has_claim(const Figure& figure, ClaimStatus verdict, const std::string& numbers) {
   return std::any_of(figure.claims.begin(), figure.claims.end(), [&](const Claim& claim) {
     return claim.verdict == verdict && claim.numbers.find(numbers) != std::string::npos;
   });
@@ -85,7 +85,7 @@ TEST(PaperTest, Figure2HasTheClosedFormsAndAPlantThatAgreesOnItsSteadyOrbit) {
 TEST(PaperTest, Figure4SaysThatTheFreeVibrationIsTheStarts) {
   const Figure figure = figure_4();
   EXPECT_EQ(figure.claims.size(), 2U);
-  EXPECT_TRUE(has_claim(figure, Verdict::depends, "the free vibration of an undamped plant"));
+  EXPECT_TRUE(has_claim(figure, ClaimStatus::depends, "the free vibration of an undamped plant"));
   const Columns motion = columns(figure.csv);
   EXPECT_EQ(motion.at("displacement_from_rest_m").front(), 0.0);
   const std::vector<double>& velocity = motion.at("velocity_steady_m_per_s");
@@ -95,10 +95,10 @@ TEST(PaperTest, Figure4SaysThatTheFreeVibrationIsTheStarts) {
 // sqrt(Ks/m)/2π is 12.979 kHz; the lines of the spectrum are 30 Hz apart.
 TEST(PaperTest, Figure6NamesDriveNaturalFrequencyAndTheirCombinations) {
   const Figure figure = figure_6();
-  EXPECT_TRUE(has_claim(figure, Verdict::depends, "f (60.00 kHz)"));
-  EXPECT_TRUE(has_claim(figure, Verdict::depends, "fn (12.99 kHz)"));
-  EXPECT_TRUE(has_claim(figure, Verdict::holds, "2f (120.00 kHz)"));
-  EXPECT_TRUE(has_claim(figure, Verdict::holds, "f - fn (47.01 kHz)"));
+  EXPECT_TRUE(has_claim(figure, ClaimStatus::depends, "f (60.00 kHz)"));
+  EXPECT_TRUE(has_claim(figure, ClaimStatus::depends, "fn (12.99 kHz)"));
+  EXPECT_TRUE(has_claim(figure, ClaimStatus::holds, "2f (120.00 kHz)"));
+  EXPECT_TRUE(has_claim(figure, ClaimStatus::holds, "f - fn (47.01 kHz)"));
 }
 
 TEST(PaperTest, Figure7HasTheKnownRatiosOfTwoForces) {
@@ -156,9 +156,9 @@ TEST(PaperTest, Figure12HasTheKnownRatiosOfEveryLaw) {
 
 TEST(PaperTest, Figure12SaysWhichOfItsClaimsCannotBeChecked) {
   const Figure figure = figure_12();
-  EXPECT_TRUE(has_claim(figure, Verdict::depends, "in no source at hand"));
-  EXPECT_TRUE(has_claim(figure, Verdict::holds, "15 % of the friction left at 0.1 mm/s"));
-  EXPECT_TRUE(has_claim(figure, Verdict::does_not_hold, "so that this is no test"));
+  EXPECT_TRUE(has_claim(figure, ClaimStatus::depends, "in no source at hand"));
+  EXPECT_TRUE(has_claim(figure, ClaimStatus::holds, "15 % of the friction left at 0.1 mm/s"));
+  EXPECT_TRUE(has_claim(figure, ClaimStatus::does_not_hold, "so that this is no test"));
 }
 
 // Coulomb says 1 - (2/pi) asin(Vt/v), v = 2 pi 26 kHz 0.35 um, whatever is not published; with the
@@ -167,7 +167,7 @@ TEST(PaperTest, MeasurementsStandBesideWhatTheLawsSay) {
   const double pi = std::acos(-1.0);
   EXPECT_NEAR(luo_peak_m_per_s(), 2.0 * pi * 26e3 * 0.35e-6, 1e-12);
   const double r = 1e-4 / luo_peak_m_per_s();
-  const std::vector<Comparison> all = compare_measurements();
+  const std::vector<MeasurementComparison> all = compare_measurements();
   ASSERT_EQ(all.size(), 6U);
   const std::vector<Prediction>& slow = all[1].predictions;
   const double coulomb = 1.0 - 2.0 / pi * std::asin(r);
@@ -176,7 +176,7 @@ TEST(PaperTest, MeasurementsStandBesideWhatTheLawsSay) {
   EXPECT_NEAR(slow[1].reduction.least,
               1.0 - pi * r / (2.0 * (std::sqrt(1.0 - r * r) + r * std::asin(r))), 1e-6);
   EXPECT_NEAR(slow[1].reduction.most, coulomb, 1e-12);
-  for (const Comparison& each : all) {
+  for (const MeasurementComparison& each : all) {
     for (const Prediction& prediction : each.predictions) {
       EXPECT_LE(prediction.reduction.least, prediction.reduction.most);
       EXPECT_GE(prediction.reduction.least, 0.0);
@@ -200,7 +200,7 @@ TEST(PaperTest, TheSceneOfTheSlowSliderIsTheClosedForm) {
   // One spring holds on to 1 - Kt X/Fc, but for what the slide adds.
   EXPECT_NEAR(luo_iwan(1e-4).least, 0.1, 5e-3);
   EXPECT_NEAR(luo_iwan(1e-4).most, 1.0, 0.02);
-  const Range lugre = luo_lugre(1e-4);
+  const Interval lugre = luo_lugre(1e-4);
   EXPECT_LT(lugre.least, 1.0 - ratio);
   EXPECT_GT(lugre.most, 1.0 - ratio);
   luo.friction.normal_force_N *= 1e-4;
@@ -244,7 +244,7 @@ TEST(PaperTest, TheTrueBalanceClosesAndThePrintedOneDoesNot) {
 }
 
 TEST(PaperTest, TheFaultsHaveTheirKnownEffects) {
-  const std::vector<Fault> all = faults();
+  const std::vector<PrintedFault> all = faults();
   ASSERT_EQ(all.size(), 6U);
   EXPECT_NE(all[0].effect.find("0.51"), std::string::npos) << all[0].effect;
   EXPECT_NE(all[3].effect.find("0.6749 on the steady orbit"), std::string::npos) << all[3].effect;

@@ -44,7 +44,7 @@ TEST(Extremes, NoSolverReturnsAStateThatIsNoNumberOrAFrictionAboveItsLimit) {
 }
 
 TEST(Extremes, WhoeverTakesAToleranceKeepsTheEnergyOrDeclines) {
-  for (const Solver& solver : solvers()) {
+  for (const TriedSolver& solver : solvers()) {
     for (const ExtremeRow& row : small().rows) {
       if (row.solver == solver.name && solver.adaptive) {
         EXPECT_EQ(count(row, Verdict::wrong), 0U) << row.solver << " " << row.precision;
@@ -62,11 +62,11 @@ TEST(Extremes, ScenesThatOnceWentWrong) {
   for (const std::uint64_t scene :
        {54U,   321U,   534U,   639U,   2669U,  3376U,  4186U,  4924U,  7090U,  9938U,
         9968U, 16202U, 34846U, 37999U, 62157U, 66241U, 72461U, 76026U, 94419U, 95313U}) {
-    for (const Solver& solver : solvers()) {
+    for (const TriedSolver& solver : solvers()) {
       if (!solver.adaptive) {
         continue;
       }
-      for (const Precision& precision : solver.precisions) {
+      for (const TriedPrecision& precision : solver.precisions) {
         const TrialResult result =
             precision.trial(random_scene(scene),
                             {random_scene_periods, precision.extreme_setting, extreme_step_limit});
@@ -88,7 +88,7 @@ TEST(Extremes, ScenesThatOnceWentWrong) {
 TEST(Extremes, TaylorsOrdersAgreeOnMassesStuckFarFromTheOrigin) {
   for (const std::uint64_t number : {34846U, 95313U}) {
     const scene::Scene scene = random_scene(number);
-    const auto ratio = [&scene](const Precision& precision, double tolerance) {
+    const auto ratio = [&scene](const TriedPrecision& precision, double tolerance) {
       return precision.trial(scene, {random_scene_periods, tolerance, extreme_step_limit})
           .friction_ratio;
     };
@@ -105,8 +105,8 @@ TEST(Extremes, TaylorsOrdersAgreeOnMassesStuckFarFromTheOrigin) {
 /// whose displacement is below its rounding, a velocity that is no number.
 TEST(Extremes, EveryTrialEnds) {
   for (const std::uint64_t scene : {670U, 1591U, 3039U, 10886U, 15183U}) {
-    for (const Solver& solver : solvers()) {
-      for (const Precision& precision : solver.precisions) {
+    for (const TriedSolver& solver : solvers()) {
+      for (const TriedPrecision& precision : solver.precisions) {
         const TrialResult result =
             precision.trial(random_scene(scene),
                             {random_scene_periods, precision.extreme_setting, extreme_step_limit});

@@ -60,11 +60,11 @@ class StudyTest : public testing::Test {
   }
 
   static fs::path folder_;
-  static Study result_;
+  static StabilityStudy result_;
 };
 
 fs::path StudyTest::folder_;
-Study StudyTest::result_;
+StabilityStudy StudyTest::result_;
 
 TEST_F(StudyTest, WritesEveryMapCell) {
   for (const char* name : {"stability_map.csv", "stability_map_float32.csv"}) {
@@ -96,7 +96,7 @@ TEST_F(StudyTest, WritesTheWorstScenesWithAllTheirNumbers) {
 TEST_F(StudyTest, DrawsAPanelForEachSolver) {
   for (const char* name : {"stability_map.svg", "stability_map_float32.svg"}) {
     const std::string picture = read(name);
-    for (const Solver& solver : solvers()) {
+    for (const TriedSolver& solver : solvers()) {
       EXPECT_NE(picture.find(std::string(solver.name)), std::string::npos) << solver.name;
     }
   }
@@ -112,7 +112,7 @@ TEST_F(StudyTest, ThePageHoldsPicturesAndTable) {
 TEST_F(StudyTest, TheTextNamesEverySolver) {
   const std::string text = study_text(result_.extremes);
   EXPECT_EQ(text.rfind("50 random scenes\n", 0), 0U);
-  for (const Solver& solver : solvers()) {
+  for (const TriedSolver& solver : solvers()) {
     EXPECT_NE(text.find(std::string(solver.name)), std::string::npos) << solver.name;
   }
 }

@@ -66,10 +66,10 @@ void expect_agreement(const Texts& overrides, double tolerance) {
   const std::vector<batch::DahlRun> runs =
       batch::run_dahl_plants({point->plant}, point->length, point->accuracy);
   ASSERT_EQ(runs.front().status, batch::RunStatus::solved);
-  const Row lanes = row_of(*point, runs.front());
+  const PointResult lanes = row_of(*point, runs.front());
   Texts fine = overrides;
   fine.push_back("solver.tolerance=1e-12");
-  const Row scalar = solve_scalar_point(scene_with(fine));
+  const PointResult scalar = solve_scalar_point(scene_with(fine));
   const auto expect_near = [tolerance](double value, double reference) {
     EXPECT_NEAR(value, reference, tolerance * std::max(1.0, std::abs(reference)));
   };

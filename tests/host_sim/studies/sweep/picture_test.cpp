@@ -19,8 +19,8 @@ std::size_t occurrences(const std::string& text, const std::string& part) {
   return count;
 }
 
-std::vector<Row> rows(std::size_t count) {
-  std::vector<Row> all(count);
+std::vector<PointResult> rows(std::size_t count) {
+  std::vector<PointResult> all(count);
   for (std::size_t i = 0; i < count; ++i) {
     all[i].friction_ratio_window = static_cast<double>(i);
     all[i].friction_ratio_whole_run = 1.0;
@@ -29,14 +29,14 @@ std::vector<Row> rows(std::size_t count) {
 }
 
 std::optional<std::string> picture(const std::vector<std::string>& vary,
-                                   const std::vector<Row>& shown) {
+                                   const std::vector<PointResult>& shown) {
   const ScratchScene scratch(open_loop);
   return draw(Plan(scene_file::read_source(scratch.file()), {}, vary), shown);
 }
 
 TEST(PictureTest, AHeatMapHasACellForEachPointAndGreysTheFailed) {
-  std::vector<Row> shown = rows(12);
-  shown[5].friction_ratio_window = Row::undefined;
+  std::vector<PointResult> shown = rows(12);
+  shown[5].friction_ratio_window = PointResult::undefined;
   const auto svg = picture(
       {"velocity_ratio=1:0.1:4", "friction.contact_stiffness_N_per_m=1e4:1e6:3:log"}, shown);
   ASSERT_TRUE(svg.has_value());
@@ -54,8 +54,8 @@ TEST(PictureTest, ABigHeatMapIsThinnedOut) {
 }
 
 TEST(PictureTest, OneKeyIsACurve) {
-  std::vector<Row> shown = rows(5);
-  shown[2] = Row();
+  std::vector<PointResult> shown = rows(5);
+  shown[2] = PointResult();
   shown[2].status = "failed";
   const auto svg = picture({"velocity_ratio=0.1:1:5", "friction.coefficient=0.1:0.1:1"}, shown);
   ASSERT_TRUE(svg.has_value());
@@ -72,8 +72,8 @@ TEST(PictureTest, WordsStandSideBySide) {
 }
 
 TEST(PictureTest, WordsAgainstNumbersAreACurveForEachWord) {
-  std::vector<Row> shown = rows(8);
-  shown[1].friction_ratio_window = Row::undefined;
+  std::vector<PointResult> shown = rows(8);
+  shown[1].friction_ratio_window = PointResult::undefined;
   for (const bool words_first : {true, false}) {
     const std::vector<std::string> vary = {"friction.law=coulomb,dahl", "velocity_ratio=0.1:1:4"};
     const auto svg =
@@ -99,7 +99,7 @@ TEST(PictureTest, NoPictureOfMoreKeysNorOfNothing) {
                        rows(8))
                    .has_value());
   EXPECT_FALSE(picture({"velocity_ratio=0.1:0.1:1"}, rows(1)).has_value());
-  EXPECT_FALSE(picture({"velocity_ratio=0.1:1:2"}, std::vector<Row>(2)).has_value());
+  EXPECT_FALSE(picture({"velocity_ratio=0.1:1:2"}, std::vector<PointResult>(2)).has_value());
 }
 
 }  // namespace

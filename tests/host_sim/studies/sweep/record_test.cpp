@@ -28,7 +28,7 @@ TEST(RecordTest, KeepsEveryBit) {
     RC_ASSERT(read->point == point);
     RC_ASSERT(same_bits(read->row.friction_ratio_whole_run, a));
     RC_ASSERT(same_bits(read->row.friction_ratio_window, -b));
-    RC_ASSERT(same_bits(read->row.dissipation_ratio_window, Row::undefined));
+    RC_ASSERT(same_bits(read->row.dissipation_ratio_window, PointResult::undefined));
     RC_ASSERT(same_bits(read->row.ripple, c));
     RC_ASSERT(read->row.limit == record.row.limit);
     RC_ASSERT(read->row.fault == record.row.fault);

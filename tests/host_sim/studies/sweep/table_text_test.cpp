@@ -12,8 +12,8 @@
 namespace sonoglide::sweep {
 namespace {
 
-Row row(double ratio) {
-  Row filled;
+PointResult row(double ratio) {
+  PointResult filled;
   filled.friction_ratio_whole_run = ratio;
   filled.friction_ratio_window = 0.5;
   filled.dissipation_ratio_window = 0.25;
@@ -23,7 +23,7 @@ Row row(double ratio) {
 TEST(CsvTest, HasOneRowForEachPointAndQuotesReasons) {
   const ScratchScene scratch(open_loop);
   const Plan plan(scene_file::read_source(scratch.file()), {}, {"friction.coefficient=0.1:0.2:2"});
-  Row failed;
+  PointResult failed;
   failed.status = "solver: at 1 s, |F| > \"Fc\"";
   std::ostringstream out;
   write_csv(out, plan, {row(0.125), failed});
@@ -37,7 +37,7 @@ TEST(CsvTest, HasOneRowForEachPointAndQuotesReasons) {
 TEST(CsvTest, AClosedLoopHasItsLastStep) {
   const ScratchScene scratch(closed_loop);
   const Plan plan(scene_file::read_source(scratch.file()), {}, {"sensor.seed=1:1:1"});
-  Row limited = row(0.125);
+  PointResult limited = row(0.125);
   limited.steady_error = -0.5;
   limited.ripple = 0.0;
   limited.limit = control::Limit::actuator;
@@ -51,12 +51,12 @@ TEST(CsvTest, AClosedLoopHasItsLastStep) {
 }
 
 TEST(ExtremesTest, PassOverWhatIsNotDefined) {
-  const std::vector<Row> rows = {Row(), row(0.5), row(0.25), row(0.75), row(0.25)};
-  const auto found = extremes(rows, &Row::friction_ratio_whole_run);
+  const std::vector<PointResult> rows = {PointResult(), row(0.5), row(0.25), row(0.75), row(0.25)};
+  const auto found = extremes(rows, &PointResult::friction_ratio_whole_run);
   ASSERT_TRUE(found.has_value());
   EXPECT_EQ(found->lowest, 2U);
   EXPECT_EQ(found->highest, 3U);
-  EXPECT_FALSE(extremes(rows, &Row::ripple).has_value());
+  EXPECT_FALSE(extremes(rows, &PointResult::ripple).has_value());
 }
 
 }  // namespace

@@ -15,8 +15,8 @@ namespace {
 
 constexpr Effort once{10.0, 0.0, 0};
 
-Solver with_settings(const std::string& name, std::vector<double> settings) {
-  for (const Solver& solver : solvers()) {
+ComparedSolver with_settings(const std::string& name, std::vector<double> settings) {
+  for (const ComparedSolver& solver : solvers()) {
     if (solver.name == name) {
       return {solver.name, solver.family, solver.knob, std::move(settings), solver.make};
     }
@@ -38,11 +38,11 @@ struct Expected {
 };
 
 void expect_errors(const peers::Problem& problem, const std::vector<Expected>& expected) {
-  std::vector<Solver> chosen;
+  std::vector<ComparedSolver> chosen;
   for (const Expected& one : expected) {
     chosen.push_back(with_settings(one.solver, {one.setting}));
   }
-  const Comparison comparison = compare(problem, chosen, once, {});
+  const SolverComparison comparison = compare(problem, chosen, once, {});
   ASSERT_EQ(comparison.rows.size(), expected.size());
   for (std::size_t i = 0; i < expected.size(); ++i) {
     EXPECT_EQ(comparison.rows[i].status, status_ok) << expected[i].solver;
@@ -52,7 +52,7 @@ void expect_errors(const peers::Problem& problem, const std::vector<Expected>& e
 
 TEST(SolversTest, EveryNameIsItsOwnAndNoListOfSettingsIsEmpty) {
   std::set<std::string> names;
-  for (const Solver& solver : solvers()) {
+  for (const ComparedSolver& solver : solvers()) {
     EXPECT_TRUE(names.insert(solver.name).second) << solver.name;
     EXPECT_GT(solver.settings.size(), 2U) << solver.name;
   }
@@ -98,13 +98,13 @@ TEST(ComparisonTest, DampingIsSeenByAll) {
 }
 
 TEST(ComparisonTest, AFailedSolverKeepsItsRowAndSaysWhy) {
-  const std::vector<Solver> chosen = {with_settings("rk4", {1000}),
-                                      with_settings("rk4_table", {1000}),
-                                      with_settings("event_taylor_12", {1e-8})};
-  const Comparison comparison = compare(short_problem("stiff_contact"), chosen, once, {});
+  const std::vector<ComparedSolver> chosen = {with_settings("rk4", {1000}),
+                                              with_settings("rk4_table", {1000}),
+                                              with_settings("event_taylor_12", {1e-8})};
+  const SolverComparison comparison = compare(short_problem("stiff_contact"), chosen, once, {});
   ASSERT_EQ(comparison.rows.size(), 3U);
   for (const int i : {0, 1}) {
-    const Row& row = comparison.rows[static_cast<std::size_t>(i)];
+    const MeasuredSetting& row = comparison.rows[static_cast<std::size_t>(i)];
     EXPECT_EQ(row.status, "friction bound broken") << row.solver->name;
     EXPECT_TRUE(std::isnan(row.error));
     EXPECT_TRUE(std::isnan(row.wall_us_per_period));
@@ -113,9 +113,9 @@ TEST(ComparisonTest, AFailedSolverKeepsItsRowAndSaysWhy) {
 }
 
 TEST(ComparisonTest, ARunThatIsTooSlowIsBrokenOff) {
-  const std::vector<Solver> chosen = {with_settings("rk4_naive", {100000})};
+  const std::vector<ComparedSolver> chosen = {with_settings("rk4_naive", {100000})};
   constexpr Effort little{1e-3, 0.0, 0};
-  const Comparison comparison = compare(short_problem("table1"), chosen, little, {});
+  const SolverComparison comparison = compare(short_problem("table1"), chosen, little, {});
   EXPECT_EQ(comparison.rows[0].status, "too slow");
   EXPECT_TRUE(std::isnan(comparison.rows[0].wall_us_per_period));
 }
@@ -126,8 +126,8 @@ TEST(ComparisonTest, AroundZeroErrorsAreAbsolute) {
   peers::Problem problem = short_problem("stiff_contact");
   problem.sliding_velocity = 0.0;
   problem.displacement = -1.0 / (1.0 - problem.stiffness);
-  const std::vector<Solver> chosen = {with_settings("event_taylor_16", {1e-13})};
-  const Comparison comparison = compare(problem, chosen, once, {});
+  const std::vector<ComparedSolver> chosen = {with_settings("event_taylor_16", {1e-13})};
+  const SolverComparison comparison = compare(problem, chosen, once, {});
   EXPECT_TRUE(comparison.absolute_error);
   EXPECT_LT(comparison.rows[0].error, 1e-12);
 }

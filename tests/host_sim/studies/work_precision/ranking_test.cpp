@@ -10,11 +10,11 @@
 namespace sonoglide::work_precision {
 namespace {
 
-const Solver quick{"quick", Family::blue, Knob::tolerance, {}, nullptr};
-const Solver slow{"slow", Family::paper, Knob::steps_per_period, {}, nullptr};
+const ComparedSolver quick{"quick", Family::blue, Knob::tolerance, {}, nullptr};
+const ComparedSolver slow{"slow", Family::paper, Knob::steps_per_period, {}, nullptr};
 
-Row row(const Solver& solver, double setting, double error, double wall_us) {
-  Row row;
+MeasuredSetting row(const ComparedSolver& solver, double setting, double error, double wall_us) {
+  MeasuredSetting row;
   row.solver = &solver;
   row.setting = setting;
   row.error = error;
@@ -23,16 +23,16 @@ Row row(const Solver& solver, double setting, double error, double wall_us) {
   return row;
 }
 
-Row failed(const Solver& solver, double setting) {
-  Row row;
+MeasuredSetting failed(const ComparedSolver& solver, double setting) {
+  MeasuredSetting row;
   row.solver = &solver;
   row.setting = setting;
   row.status = "friction bound broken";
   return row;
 }
 
-Comparison example() {
-  Comparison comparison;
+SolverComparison example() {
+  SolverComparison comparison;
   comparison.periods = 100;
   comparison.rows = {
       row(quick, 1e-2, 1e-9, 1.0),  // by chance
@@ -44,16 +44,16 @@ Comparison example() {
 }
 
 TEST(RankingTest, AnErrorThatIsSmallByChanceDoesNotCount) {
-  const Comparison comparison = example();
-  const std::vector<const Row*> rows = cheapest(comparison, 1e-8);
+  const SolverComparison comparison = example();
+  const std::vector<const MeasuredSetting*> rows = cheapest(comparison, 1e-8);
   ASSERT_EQ(rows.size(), 1U);
   EXPECT_EQ(rows[0]->solver, &quick);
   EXPECT_EQ(rows[0]->setting, 1e-6);
 }
 
 TEST(RankingTest, TheCheapestSolverComesFirst) {
-  const Comparison comparison = example();
-  const std::vector<const Row*> rows = cheapest(comparison, 1e-5);
+  const SolverComparison comparison = example();
+  const std::vector<const MeasuredSetting*> rows = cheapest(comparison, 1e-5);
   ASSERT_EQ(rows.size(), 2U);
   EXPECT_EQ(rows[0]->setting, 1e-4);
   EXPECT_EQ(rows[1]->solver, &slow);
@@ -65,7 +65,7 @@ TEST(RankingTest, NobodyMayReachAnAccuracy) {
 }
 
 TEST(RankingTest, AFrontierGetsDearerAndMoreAccurate) {
-  const Comparison comparison = example();
+  const SolverComparison comparison = example();
   const std::vector<Standing> kept = frontier(comparison, quick);
   ASSERT_GT(kept.size(), 1U);
   for (std::size_t i = 1; i < kept.size(); ++i) {
