@@ -1,4 +1,4 @@
-/// Between the board's codes and the controller's numbers.
+/// Conversion between the codes of a board and the numbers of a controller.
 #pragma once
 
 #include <cstdint>
