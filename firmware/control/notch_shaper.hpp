@@ -10,8 +10,8 @@ namespace sonoglide::control {
 
 /// Three taps on the drive amplitude, with zeros on the natural mode:
 ///   N(z) = h0 + h1 z^-M + h2 z^-2M,
-///   h = (1, −2 e^(−σMT) cos(ωd M T), e^(−2σMT)) / sum,   σ ± iωd the natural mode, T the carrier
-///   period.
+///   h = (1, −2 e^(−σMT) cos(ωd M T), e^(−2σMT)) / sum,
+/// −σ ± iωd the natural mode, T the carrier period.
 ///
 /// The amplitude changes at drive phase 0 only. So the free response is linear in the steps of the
 /// amplitude, and vanishes 2M periods after the last one. M is the smallest spacing for which every

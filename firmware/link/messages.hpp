@@ -242,6 +242,7 @@ namespace detail {
 
 }  // namespace detail
 
+/// The frame of a message, its fields in their order.
 template <class Message>
 Frame frame_of(const Message& message, std::uint16_t sequence) {
   static_assert(payload_bytes<Message>() <= most_payload_bytes);
@@ -254,6 +255,7 @@ Frame frame_of(const Message& message, std::uint16_t sequence) {
   return frame;
 }
 
+/// Reads a message from its frame.
 /// @return false where the frame is of another kind or length.
 template <class Message>
 bool read(const Frame& frame, Message& message) {

@@ -15,7 +15,7 @@ namespace sonoglide::numeric {
 template <class Scalar>
 using Floating = std::conditional_t<is_fixed_point_v<Scalar>, Split<Scalar>, Scalar>;
 
-/// @param x  > 0.
+/// x > 0 in this form; exact.
 template <class Scalar>
 constexpr Floating<Scalar> floating(Scalar x) {
   if constexpr (is_fixed_point_v<Scalar>) {
@@ -25,6 +25,7 @@ constexpr Floating<Scalar> floating(Scalar x) {
   }
 }
 
+/// A split number in this form: exact in fixed point, as scale_by_power_of_two in floating point.
 template <class Scalar>
 constexpr Floating<Scalar> floating(const Split<Scalar>& x) {
   if constexpr (is_fixed_point_v<Scalar>) {
@@ -34,11 +35,13 @@ constexpr Floating<Scalar> floating(const Split<Scalar>& x) {
   }
 }
 
+/// a b, rounded by IEEE-754.
 template <class Float, std::enable_if_t<std::is_floating_point_v<Float>, int> = 0>
 constexpr Float product(Float a, Float b) {
   return a * b;
 }
 
+/// a / b, rounded by IEEE-754.
 template <class Float, std::enable_if_t<std::is_floating_point_v<Float>, int> = 0>
 constexpr Float quotient(Float a, Float b) {
   return a / b;

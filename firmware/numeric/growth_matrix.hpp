@@ -11,6 +11,7 @@ namespace sonoglide::numeric {
 template <class Scalar, std::size_t Size>
 using SquareMatrix = std::array<std::array<Scalar, Size>, Size>;
 
+/// Matrix product a b.
 template <class Scalar, std::size_t Size>
 SquareMatrix<Scalar, Size> product(const SquareMatrix<Scalar, Size>& a,
                                    const SquareMatrix<Scalar, Size>& b) {

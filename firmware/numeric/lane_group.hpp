@@ -77,6 +77,7 @@ template <std::size_t Count, class Float>
   return group;
 }
 
+/// at_most() of each vector.
 template <class Float, std::size_t Count>
 [[gnu::always_inline]] inline LaneGroup<Float, Count> at_most(Float limit,
                                                               LaneGroup<Float, Count> x) {
@@ -86,6 +87,7 @@ template <class Float, std::size_t Count>
   return x;
 }
 
+/// The sum of all numbers: of the vectors first, then of the lanes.
 template <class Float, std::size_t Count>
 [[gnu::always_inline]] inline Float sum_of_lanes(const LaneGroup<Float, Count>& x) {
   Lanes<Float> sum = x.part[0];

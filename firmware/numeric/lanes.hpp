@@ -40,6 +40,7 @@ using LaneBits = typename detail::LaneTypes<Float>::Bits;
 template <class Float>
 inline constexpr std::size_t lane_count = 16 / sizeof(Float);
 
+/// x in every lane; -0 becomes 0.
 template <class Float>
 [[gnu::always_inline]] inline Lanes<Float> broadcast(Float x) {
   return Lanes<Float>{} + x;
@@ -53,6 +54,7 @@ template <class Float>
   return lanes;
 }
 
+/// The sum of the lanes, in pairs.
 template <class Float>
 [[gnu::always_inline]] inline Float sum_of_lanes(Lanes<Float> x) {
   if constexpr (lane_count<Float> == 2) {

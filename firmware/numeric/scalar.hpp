@@ -60,11 +60,13 @@ constexpr Scalar sign(Scalar x) {
   return static_cast<Scalar>(static_cast<int>(x > Scalar(0)) - static_cast<int>(x < Scalar(0)));
 }
 
+/// The smaller of a and b; a if one of them is NaN.
 template <class Scalar>
 constexpr Scalar min(Scalar a, Scalar b) {
   return b < a ? b : a;
 }
 
+/// The larger of a and b; a if one of them is NaN.
 template <class Scalar>
 constexpr Scalar max(Scalar a, Scalar b) {
   return a < b ? b : a;
