@@ -1,4 +1,4 @@
-/// What an engineer may change in the field without designing the controller anew.
+/// Parameters that an engineer may change in the field, without a new design of the controller.
 #pragma once
 
 #include <array>
@@ -39,11 +39,11 @@ inline constexpr std::uint32_t timeout_of_console = 0;  ///< nobody types ten ti
 /// Value of each parameter, in units of its last decimal place.
 using ParameterValues = std::array<std::uint32_t, parameter_count>;
 
-/// What becomes of a stored value under another design, or beside a damaged record.
+/// The value in force if the stored one is of another design, or if a record is damaged.
 enum class Inheritance : std::uint8_t {
-  none,    ///< it belonged to its design: as compiled in
-  value,   ///< it is taken, at the nearer end of the range where it lies outside
-  higher,  ///< it is taken where it is higher than what is compiled in
+  none,    ///< the value compiled in
+  value,   ///< the stored value, moved to the nearer end of the range if it is outside
+  higher,  ///< the higher one of the stored value and the value compiled in
 };
 
 struct ParameterInfo {

@@ -128,7 +128,7 @@ class Controller {
     backwards_ = false;
     requested_ = Scalar{};
     if (!driven || friction_.learning()) {
-      commanded_ = whole_ratio();  // else the reading may stand where it is, as the command does
+      commanded_ = whole_ratio();  // else the reading may stand still, as the command does
     }
     followed_ = true;
     fault_ = Fault::none;

@@ -1,4 +1,4 @@
-/// Whether the measured friction ratio comes to its target, and what it tells about the friction.
+/// Whether the measured friction ratio reaches its target, and what it shows of the friction force.
 #pragma once
 
 #include <cstdint>

@@ -13,7 +13,7 @@
 namespace sonoglide::plant {
 
 /// A solver is a template over the plant::Model that it advances. It offers:
-///   Model, Scalar   what it is composed of, and the number that it computes in
+///   Model, Scalar   the plant that it solves, and the number type in which it computes
 ///   solves<Law>     whether it takes a friction law; a model of another is a static_assert
 ///   configure(model, setting, step_limit)
 ///                   begins anew: `setting` is the tolerance of an adaptive solver (error of the

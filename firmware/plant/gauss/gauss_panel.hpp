@@ -326,8 +326,8 @@ class GaussPanel {
   }
 
   struct Turn {
-    Scalar shift;  ///< of sigma y by friction, as it counts for the travel to the very reversal
-    Scalar error;  ///< of that, and of the integral of kappa phi
+    Scalar shift;  ///< of sigma y by friction, for the travel to the true reversal
+    Scalar error;  ///< of the shift, and of the integral of kappa phi
   };
 
   /// At a reversal of the linear motion V with friction's share is not quite zero. The true

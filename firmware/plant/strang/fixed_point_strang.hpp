@@ -155,7 +155,7 @@ class FixedStrang {
   }
 
   std::int64_t slide(std::int32_t begin, std::int32_t end, std::int64_t travel) {
-    // Signs of the Bernstein coefficients of the parabola: where they agree, so does all of it.
+    // If the Bernstein coefficients of the parabola have one sign, so has the parabola.
     const std::int64_t middle =
         3 * travel - product(std::int64_t{parameters_.step}, std::int64_t{begin} + end);
     if ((begin < 0) != (end < 0) || (begin < 0) != (middle < 0)) {

@@ -29,7 +29,7 @@ class StrangStep {
   using Law = typename Model::FrictionLaw;
   using Flow = OscillatorFlow<Model>;
 
-  /// drive: as it is at `begin`, since the beginning of the interval; left as it is at the end.
+  /// begin: time since the interval began. drive: at `begin`; advanced to the end of the step.
   StrangStep(const Model& model, const Flow& flow, const Interval<Scalar>& interval,
              typename Flow::Follower& drive, Scalar begin, const State<Scalar>& start)
       : model_(model),

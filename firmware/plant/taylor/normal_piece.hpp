@@ -143,7 +143,7 @@ class NormalPiece {
   std::size_t slip_order_ = 0;
 };
 
-/// The friction of a piece, as the series has it.
+/// The friction of a piece, given by the series.
 template <class Law, class Series>
 class NormalFriction {
  public:

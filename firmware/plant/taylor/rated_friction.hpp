@@ -20,7 +20,7 @@ struct SlidingLaw<Law, Order, false> {
   using Type = typename Law::template Series<Order>;
 };
 
-/// Friction of a sliding contact as the series has it.
+/// Friction of a sliding contact, given by the series.
 template <class Series, class LawSeries>
 class RatedFriction {
  public:

@@ -91,7 +91,7 @@ class SlidingFriction {
   Scalar tolerated_;
 };
 
-/// Friction of a contact that holds: as the series has it, and no work.
+/// Friction of a contact that sticks, given by the series; it does no work.
 template <class Series>
 class HoldingFriction {
  public:
