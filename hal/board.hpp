@@ -1,4 +1,4 @@
-/// The seam between the controller and a board: all that a board must offer.
+/// The seam between a controller and a board: everything that a board must offer.
 #pragma once
 
 #include <cstdint>
@@ -16,9 +16,9 @@ struct Sample {
   bool fresh;                     ///< false where no sample arrived since the last one
 };
 
-/// Answer to a sample. The amplitude acts from a drive phase 0 on, as many carrier periods after
-/// the end of the period that the sample describes as the design states (drive.delay_periods of a
-/// scene, 1 if it says nothing).
+/// Answer to a sample. The amplitude takes effect at a drive phase 0. The design states how many
+/// carrier periods this is after the end of the sampled period (drive.delay_periods of a scene, 1
+/// by default).
 struct Drive {
   std::int32_t amplitude;  ///< 0 … 2^31 − 1, full scale: the actuator's limit
   std::int32_t
@@ -29,7 +29,7 @@ struct Drive {
   std::uint8_t settling;  ///< control::Settling
 };
 
-/// A board is a class of this shape; none derives from it, the app is compiled for one:
+/// A board is a class of this shape. It needs no base class; the app is compiled for one board:
 ///
 ///   class Board {
 ///    public:
@@ -37,13 +37,13 @@ struct Drive {
 ///     void drive(const Drive& drive);  // acts at the drive phase 0 that the design states
 ///   };
 ///
-/// One whose own timer makes the carrier periods (app::TimedLoop) has the drive at zero from reset
-/// until the first drive(), and offers besides:
+/// A board whose own timer makes the carrier periods (app::TimedLoop) keeps the drive at zero from
+/// reset until the first drive(), and also offers:
 ///
 ///     std::uint32_t period();  // carrier periods begun since reset; wraps
 ///
-/// sample() then gives the sample that came with the latest period, and waits where it has been
-/// given before. The rest is optional; what an image does not name is not in it.
+/// sample() then gives the sample that came with the latest period, and waits if it has given that
+/// one before. The rest is optional; an image holds only what it names.
 ///
 ///   class Watchdog {  // resets the board unless it is fed in time
 ///    public:
@@ -66,11 +66,10 @@ struct Drive {
 ///     bool busy() const;
 ///   };
 ///
-/// A flash may stall the processor instead of being busy: it is erased and programmed with the
-/// drive at zero only. A watchdog that is faster than an erase is made slower by the flash for that
-/// time, or is fast enough for the drive and yet slower than an erase. A word that a power cut
-/// spoilt may read as anything, but read() returns; a flash of wider words shows each as one of 32
-/// bits.
+/// A flash may stall the processor in place of being busy, because it is erased and programmed with
+/// the drive at zero only. A watchdog is slower than an erase, or the flash makes it slower for
+/// that time. A word that a power cut spoilt may read as anything, but read() returns. A flash of
+/// wider words shows each as one of 32 bits.
 namespace detail {
 
 template <class Board, class = void>
@@ -93,7 +92,7 @@ struct KeepsPeriods<Board, std::void_t<decltype(std::declval<Board&>().period())
 template <class Board>
 inline constexpr bool is_board = detail::IsBoard<Board>::value;
 
-/// Whether it makes the carrier periods itself.
+/// Whether a board makes the carrier periods itself.
 template <class Board>
 inline constexpr bool keeps_periods = is_board<Board>&& detail::KeepsPeriods<Board>::value;
 

@@ -1,4 +1,4 @@
-/// One number for a whole sequence of what passes the seam.
+/// One number for a whole sequence of samples or drives.
 #pragma once
 
 #include <cstdint>

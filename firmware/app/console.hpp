@@ -26,11 +26,11 @@ namespace sonoglide::app {
 /// | params         | each with what is allowed, and as compiled in              |
 /// | set NAME VALUE | saved; needs a stop first                                  |
 ///
-/// After a reset it greets, so that none goes unseen. Answers are made in pieces, a word and a
-/// number at most, so that a carrier period has little to do. Lines that come meanwhile wait, as
-/// far as TypedAhead holds them; one that ends with "stop" takes the drive to zero in the period
-/// after its last character, whatever is being answered or saved. Every character is a sign of
-/// life.
+/// It greets after a reset, so that no reset goes unseen. Answers are made in pieces, a word and a
+/// number at most, so that the work of a carrier period is bounded. Lines that come meanwhile wait,
+/// as far as TypedAhead holds them. A line that ends with "stop" takes the drive to zero in the
+/// period after its last character, whatever is being answered or saved. Every character is a sign
+/// of life.
 ///
 /// @tparam ByteLink  see hal/board.hpp.
 template <class UnitT, class ByteLink>
@@ -40,8 +40,8 @@ class Console {
 
   Console(UnitT& unit, ByteLink& bytes) : unit_(unit), bytes_(bytes) {}
 
-  /// Once in each carrier period: one character received; and one taken or sent, one piece of an
-  /// answer made, one command carried out, or one step of a save.
+  /// Once in each carrier period: receives one character. Besides it takes or sends one character,
+  /// makes one piece of an answer, carries out one command, or takes one step of a save.
   void serve() {
     unit_.count_silence();
     receive();
@@ -220,7 +220,7 @@ class Console {
     }
   }
 
-  /// A value of the parameter at hand.
+  /// The text as a value of the parameter that is being set.
   bool read(const Word& text, std::uint32_t& value) const {
     return encoding::read_decimal(text.begin, text.size, info().decimal_places, value);
   }
@@ -334,7 +334,7 @@ class Console {
     }
   }
 
-  /// Whether the controller says how the ratio stands to its target.
+  /// Whether the controller judges how the ratio stands to its target.
   bool judged() const {
     return drive_.settling != static_cast<std::uint8_t>(control::Settling::pending);
   }

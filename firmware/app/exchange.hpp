@@ -1,4 +1,4 @@
-/// Between the board's codes and the controller's numbers.
+/// Conversion between the codes of a board and the numbers of a controller.
 #pragma once
 
 #include <cstdint>
@@ -10,6 +10,8 @@
 
 namespace sonoglide::app {
 
+/// Codes as per-unit numbers, rounded as numeric::from_code. A sample that is not fresh is missing,
+/// even if its force is at a rail.
 template <class Scalar>
 control::Measurement<Scalar> measurement_of(const hal::Sample& sample) {
   control::Quality quality = control::Quality::good;
@@ -22,6 +24,7 @@ control::Measurement<Scalar> measurement_of(const hal::Sample& sample) {
           numeric::from_code<Scalar>(sample.sliding_velocity), quality};
 }
 
+/// Per-unit numbers as codes, rounded and limited as numeric::to_code.
 template <class Scalar>
 hal::Drive drive_of(const control::DriveCommand<Scalar>& command) {
   return {numeric::to_code(command.amplitude),      numeric::to_code(command.commanded_ratio),

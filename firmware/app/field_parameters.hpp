@@ -1,4 +1,4 @@
-/// What an engineer may change in the field without designing the controller anew.
+/// Parameters that an engineer may change in the field, without a new design of the controller.
 #pragma once
 
 #include <array>
@@ -29,7 +29,7 @@ enum class Parameter : std::uint8_t {
 
 inline constexpr std::size_t parameter_count = 9;
 
-/// That bad_samples counts in.
+/// The number of samples among which bad_samples counts.
 inline constexpr std::uint8_t sample_window = 32;
 
 /// Presets of host_timeout, in milliseconds, by who talks to the unit.
@@ -39,11 +39,11 @@ inline constexpr std::uint32_t timeout_of_console = 0;  ///< nobody types ten ti
 /// Value of each parameter, in units of its last decimal place.
 using ParameterValues = std::array<std::uint32_t, parameter_count>;
 
-/// What becomes of a stored value under another design, or beside a damaged record.
+/// The value in force if the stored one is of another design, or if a record is damaged.
 enum class Inheritance : std::uint8_t {
-  none,    ///< it belonged to its design: as compiled in
-  value,   ///< it is taken, at the nearer end of the range where it lies outside
-  higher,  ///< it is taken where it is higher than what is compiled in
+  none,    ///< the value compiled in
+  value,   ///< the stored value, moved to the nearer end of the range if it is outside
+  higher,  ///< the higher one of the stored value and the value compiled in
 };
 
 struct ParameterInfo {
@@ -57,14 +57,13 @@ struct ParameterInfo {
 
   constexpr bool allows(std::uint32_t value) const { return lowest <= value && value <= highest; }
 
-  /// In place of a value that was stored under another design.
+  /// The value to use in place of one that was stored under another design.
   constexpr std::uint32_t inherited(std::uint32_t value) const {
     const std::uint32_t least = inheritance == Inheritance::higher ? preset : lowest;
     return inheritance == Inheritance::none ? preset : numeric::clamp(value, least, highest);
   }
 
-  /// CRC-32 of name, unit and decimal places: by it the store knows the parameter, whatever others
-  /// there are.
+  /// CRC-32 of name, unit and decimal places. By it the store finds the parameter in any list.
   constexpr std::uint32_t identity() const {
     encoding::Crc32 sum;
     add(name, sum);
@@ -172,7 +171,7 @@ class FieldDesign {
     return static_cast<std::uint32_t>((periods + one_in_fraction - 1) / one_in_fraction);
   }
 
-  /// The designed controller where nothing was changed, bit for bit.
+  /// The designed controller; where nothing was changed, bit for bit.
   constexpr typename Controller::Parameters controller_parameters(
       const ParameterValues& values) const {
     typename Controller::Parameters result{
@@ -208,7 +207,7 @@ class FieldDesign {
     return result;
   }
 
-  /// A friction ratio in millionths on base 2, as controllers take it; the designed target exactly.
+  /// A friction ratio in millionths as controllers take it, on base 2; the designed target exactly.
   constexpr Scalar half_target(std::uint32_t millionths) const {
     return millionths == infos_[static_cast<std::size_t>(Parameter::target)].preset
                ? half_target_

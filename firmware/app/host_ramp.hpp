@@ -6,12 +6,11 @@
 namespace sonoglide::app {
 
 /// The amplitude falls to zero along a straight line, over `periods` carrier periods, whatever the
-/// readings say. Of the ringing at a natural mode of angular frequency w that switching off at once
-/// would leave, the line leaves at most 2 / (w T) in a time of T, and asks for no model of the
-/// mode.
+/// readings are. Switching off at once would leave a ringing at a natural mode of angular frequency
+/// w. A line of duration T leaves at most 2 / (w T) of it, and needs no model of the mode.
 class HostRamp {
  public:
-  /// The host asks for a start.
+  /// The host asks for every start.
   static constexpr bool drives_from_power_on = false;
   static constexpr std::int32_t periods = 128;
 

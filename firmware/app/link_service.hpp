@@ -13,14 +13,14 @@
 
 namespace sonoglide::app {
 
-/// Requests are answered one after the other; up to three wait meanwhile, and what comes then is
-/// counted as lost. A stop never waits: the drive is at zero in the carrier period after its last
-/// byte, and its answer is sent when the one at hand is.
+/// Requests are answered one after the other. Up to three wait; one that comes then is counted as
+/// lost. A stop never waits: the drive is at zero in the carrier period after its last byte, and
+/// the stop is answered after the request at hand.
 ///
-/// A request that comes again is not carried out again: its answer is sent again. One that is older
-/// than the last, or bears the last's number but says something else, is refused with the number of
-/// the last, so that a host which has lost count goes on from there. Damaged frames are counted and
-/// not answered.
+/// A request that comes again is not carried out again: its answer is sent again. A request that is
+/// older than the last, or has its number but other content, is refused with the number of the
+/// last, from which a host that has lost count can go on. Damaged frames are counted and not
+/// answered.
 ///
 /// @tparam ByteLink  see hal/board.hpp.
 template <class UnitT, class ByteLink>
@@ -28,8 +28,8 @@ class LinkService {
  public:
   LinkService(UnitT& unit, ByteLink& bytes) : unit_(unit), bytes_(bytes) {}
 
-  /// Once in each carrier period: one byte received, and unless it ends a frame one byte encoded or
-  /// sent, one request carried out, or one step of a save.
+  /// Once in each carrier period: receives one byte. Unless that ends a frame, it encodes or sends
+  /// one byte, carries out one request, or takes one step of a save.
   void serve() {
     unit_.count_silence();
     if (receive()) {
@@ -95,7 +95,7 @@ class LinkService {
     }
   }
 
-  /// A stop of that number: to what waits it is the last request.
+  /// A stop of that number. Waiting requests are older than it.
   void overtake(std::uint16_t sequence) {
     const link::Turn turn = turns_.take(sequence);
     if (turn == link::Turn::next || turn == link::Turn::skipped) {

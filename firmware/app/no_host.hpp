@@ -5,7 +5,7 @@
 
 namespace sonoglide::app {
 
-/// Nobody could ask for a start, and nobody's silence ends the drive.
+/// Nobody can ask for a start, and no silence ends the drive.
 struct NoHost {
   static constexpr bool drives_from_power_on = true;
 

@@ -12,7 +12,7 @@
 
 namespace sonoglide::app {
 
-/// What the loop finds, beside the controller's own faults (control::Fault, 16 … 31).
+/// Faults that the loop finds, besides those of the controller (control::Fault, 16 … 31).
 enum class UnitFault : std::uint8_t {
   overrun = 32,     ///< a step was not done when the next carrier period began
   watchdog_reset,   ///< the watchdog reset the board
@@ -21,8 +21,8 @@ enum class UnitFault : std::uint8_t {
   parameters_of_other_design,  ///< what is stored was set under another; a restart is refused
 };
 
-/// A controller, and what becomes of it: off, running or in a fault. Drive is zero unless it runs,
-/// or ramps down since its host fell silent.
+/// A controller and its operation: off, running or in a fault. The drive is zero unless the
+/// controller runs, or ramps down because its host fell silent.
 ///
 /// @tparam Host  NoHost, or HostRamp where a service listens to somebody.
 template <class ControllerT, class Host = NoHost, std::size_t LogLength = 16>

@@ -15,13 +15,13 @@ struct NoService {
 
 /// Each carrier period: sample, step, drive, feed the watchdog, and one piece of service.
 ///
-/// - A step that is not done when the next period begins, or a period that passed without a sample,
-///   is an overrun while the unit drives: the amplitude, which would come into force late, is
+/// - An overrun is a step that is not done when the next period begins, or a period that passed
+///   without a sample, while the unit drives. The amplitude would come into force late; it is
 ///   replaced by zero, and the fault stays until a restart.
-/// - The watchdog is fed when a period's step was done in time, and then only; in a fault too, or
-///   the reset would be a restart that nobody asked for.
-/// - After a reset by the watchdog the unit waits in a fault. After any other a unit that nobody
-///   talks to runs (NoHost); one with a host begins as its Unit decided.
+/// - The watchdog is fed only when a period's step was done in time. This holds in a fault too:
+///   otherwise the reset would be a restart that nobody asked for.
+/// - After a reset by the watchdog the unit waits in a fault. After any other reset a unit without
+///   a host runs (NoHost); one with a host does as its Unit decided.
 ///
 /// @tparam Board     see hal/board.hpp: sample, drive and period.
 /// @tparam Watchdog  see there; hal::NoWatchdog is none.

@@ -22,14 +22,14 @@ enum class Answer : std::uint8_t {
 
 /// Supervised controller, parameters and their store. Nothing here waits.
 ///
-/// At power-on it drives only where `start_on_power` is stored for this design. Where what is
-/// stored is damaged or of another design, of its values only the limits are taken (Inheritance),
-/// the unit waits in a fault that says so, and a restart is refused until the parameters are
-/// confirmed or one of them is written.
+/// At power-on it drives only if `start_on_power` is stored for this design. If the stored
+/// parameters are damaged or of another design, the unit takes only their limits (Inheritance) and
+/// waits in a fault that says so. It then refuses a restart until the parameters are confirmed or
+/// one of them is written.
 ///
-/// A service tells it of every carrier period and of every sign of life from the host: one that is
-/// silent for longer than `host_timeout` while the unit drives is the fault host_silent, with which
-/// the drive ramps down (HostRamp). A restart ends it, like any fault.
+/// A service tells it of every carrier period and of every sign of life from the host. If the host
+/// is silent for longer than `host_timeout` while the unit drives, the unit is in the fault
+/// host_silent, and the drive ramps down (HostRamp). A restart ends this fault, like any other.
 template <class PartsT, class Flash>
 class Unit {
  public:
@@ -69,7 +69,7 @@ class Unit {
     return Answer::taken;
   }
 
-  /// Takes the parameters in force for right, until reset, and begins to save them: see write().
+  /// Accepts the parameters in force until reset, and begins to save them: see write().
   Answer confirm() {
     if (supervisor_.driving()) {
       return Answer::drive_not_stopped;
@@ -114,7 +114,7 @@ class Unit {
     return value(static_cast<std::size_t>(parameter));
   }
 
-  /// Begins to save a value; it is in force when it is safe. Refused, it changes nothing. Until
+  /// Begins to save a value, which is in force once it is safe. A refusal changes nothing. Until
   /// proceed() has come to an end, no other request but a stop may be made.
   Answer write(std::size_t parameter, std::uint32_t value) {
     if (parameter >= parameter_count) {

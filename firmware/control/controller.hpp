@@ -20,7 +20,7 @@
 
 namespace sonoglide::control {
 
-/// What a controller is made of; each part is a type, and what a part does not do costs nothing.
+/// The parts of a controller; each is a type. What a part does not do costs nothing.
 ///
 /// The Parameters of a part, where they are not empty, name their fields:
 /// Parameters::fields(parameters, visit) calls visit(name, field) for each, in order.
@@ -128,7 +128,7 @@ class Controller {
     backwards_ = false;
     requested_ = Scalar{};
     if (!driven || friction_.learning()) {
-      commanded_ = whole_ratio();  // else the reading may stand where it is, as the command does
+      commanded_ = whole_ratio();  // else the reading may stand still, as the command does
     }
     followed_ = true;
     fault_ = Fault::none;
@@ -138,14 +138,14 @@ class Controller {
     }
   }
 
-  /// Drive to zero until the next start(); a fault's cause is forgotten.
+  /// Drive to zero until the next start(). Forgets the cause of a fault.
   void stop() {
     state_ = State::off;
     fault_ = Fault::none;
   }
 
   /// @param half_ratio  target friction ratio on base 2, limited to [0, 1/2]; 1/2 (ρ = 1) is
-  ///                    no drive at all. What is not finite leaves the target as it was.
+  ///                    no drive at all. A target that is not finite leaves the old one in force.
   void set_target(Scalar half_ratio) {
     if (!numeric::is_finite(half_ratio)) {
       return;
@@ -216,7 +216,8 @@ class Controller {
     return {Scalar{}, whole_ratio(), state_, limit, fault_, Settling::pending};
   }
 
-  /// An unusable sample that is tolerated: the last request stands, and nothing is concluded.
+  /// Answer to an unusable sample that is tolerated: the last request stands, and no part judges
+  /// the sample.
   Request bridge() {
     regulator_.hold();
     return {requested_, Limit::bad_sample};
@@ -235,7 +236,7 @@ class Controller {
     return state_ == State::fault ? undriven(Limit::none) : silent;
   }
 
-  /// Fc from here on; a force that cannot be one is a fault.
+  /// Takes Fc; a force too small for one is a fault, as is friction that pulls.
   void take_friction_force(Scalar force) {
     if (force < smallest_friction_) {
       trip(force < -smallest_friction_ ? Fault::measurement_implausible
@@ -246,13 +247,13 @@ class Controller {
     state_ = State::running;
   }
 
-  /// The same, and the map follows.
+  /// Takes Fc and adapts the inverse map to it.
   void believe(Scalar force) {
     take_friction_force(force);
     feedforward_.set_friction(level_);
   }
 
-  /// Readings still on their way belong to the sliding before.
+  /// The sliding has turned. Readings that are still on their way belong to the other direction.
   void turn(bool backwards) {
     backwards_ = backwards;
     regulator_.hold();
@@ -260,8 +261,8 @@ class Controller {
     interrupt_relearning();
   }
 
-  /// Below the speed floor feedback waits, and the last request stands for a while; with a target
-  /// of no drive there is none here either.
+  /// Answer below the speed floor: feedback waits, and the last request stands for a while. A
+  /// target of no drive gives no drive here either.
   Request stand() {
     regulator_.hold();
     plausibility_.restart();
@@ -270,7 +271,7 @@ class Controller {
                                    : slewed({Scalar{}, Limit::none});
   }
 
-  /// Fast enough for a friction ratio.
+  /// Answer at a sliding that is fast enough for a friction ratio.
   Request slide(const Measurement<Scalar>& measurement, Scalar speed) {
     standstill_.restart();
     const Scalar force = friction_.without_offset(measurement.friction_force);
@@ -299,7 +300,7 @@ class Controller {
     }
   }
 
-  /// Regulates, or does what a pause asks for.
+  /// Answer with relearning: regulates, or does what a pause needs.
   Request relearn(Scalar measured, Scalar along, Scalar speed) {
     using Task = typename PartsT::Relearning::Task;
     const Task task = relearning_.next(along, speed);
@@ -321,9 +322,10 @@ class Controller {
     return slewed({Scalar{}, Limit::none});
   }
 
-  /// The friction force learnt in a pause; the request stands in this period, and in the next,
-  /// which the map takes to follow. What feedback had made up for of a small change is taken from
-  /// it; after a large one, and where the loop does not settle, it begins anew.
+  /// Takes the friction force learnt in a pause. The request stands in this period, and in the
+  /// next, in which the map adapts. After a small change the integral gives up what it had
+  /// corrected for it. After a large change, and if the loop does not settle, the integral begins
+  /// anew.
   Request learn_anew() {
     const Scalar before = level_.force();
     const Scalar target_force = numeric::twice(target_) * before;
@@ -361,7 +363,7 @@ class Controller {
     return {slew_.limit(wanted.amplitude, requested_), wanted.limit};
   }
 
-  /// What the measured ratio tells. In a pause, and without a drive to judge, nothing.
+  /// Judges the measured ratio. In a pause, and without a drive, there is nothing to judge.
   void judge(Scalar measured, bool clamped) {
     if (pausing()) {
       return;

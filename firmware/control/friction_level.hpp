@@ -8,8 +8,8 @@
 
 namespace sonoglide::control {
 
-/// Fc held so that a measured force becomes a friction ratio by one multiplication, in fixed point
-/// with a shift.
+/// Fc, held so that one multiplication, in fixed point with a shift, makes a friction ratio of a
+/// measured force.
 /// Forces: base the sensor's full scale. Ratios: base 2, one bit of headroom above ρ = 1.
 template <class Scalar>
 class FrictionLevel {

@@ -17,10 +17,11 @@ namespace sonoglide::control {
 /// every operating point. All ratios on base 2.
 ///
 /// A changed target takes the delay of shaper, drive and sensor until the measured ratio shows it.
-/// The reference is what the reading should be meanwhile: the target of `delay_periods` ago, behind
-/// a lag like the sensor's. What the shaper and the contact do within that delay it leaves out, so
-/// that a change above small_change() holds the integral for hold_periods besides; but not again
-/// within rest_periods, so that a target which keeps changing does not switch feedback off.
+/// The reference is the expected reading meanwhile: the target of `delay_periods` ago, behind a lag
+/// like the sensor's. It leaves out shaper and contact within that delay. So a change above
+/// small_change() also holds the integral for hold_periods. The next such hold begins at least
+/// rest_periods later, so that a target which keeps changing does not switch feedback off.
+/// Anti-windup by conditional integration, see accept() (Åström 1995, README.md).
 ///
 /// @tparam MaxDelay  largest delay_periods, >= 1; the delay line holds as many targets.
 template <class Scalar, int MaxDelay>
@@ -72,9 +73,9 @@ class IntegralRegulator {
     }
   }
 
-  /// A better known friction force, in terms of which the target was another ratio so far: what the
-  /// integral has made up for of that is taken from it.
-  /// @param shown  that ratio
+  /// A better known friction force. In terms of the old force the target was another ratio; the
+  /// integral gives up what it had corrected for the difference.
+  /// @param shown  the target ratio in terms of the old force
   void shift(Scalar target, Scalar shown) {
     integral_ += numeric::accumulate(target - shown);
     hold();

@@ -9,12 +9,13 @@
 
 namespace sonoglide::control {
 
-/// Mean of the undriven friction force along the sliding, once the contact has slid through its
-/// presliding travel and the sensor has settled; its sign shows a sensor that is wired backwards.
+/// Mean of the undriven friction force along the sliding. It begins once the contact has slid
+/// through its presliding distance and the sensor has settled. Its sign shows a sensor that is
+/// wired backwards.
 ///
-/// The sensor's offset is told apart from friction where the calibration allows it: by sliding both
-/// ways, half of the difference of the two means; else by standing still before the first sliding,
-/// when the contact is taken to be unloaded; else it is taken as 0.
+/// The sensor's offset is separated from friction if the calibration allows it. If the sliding goes
+/// both ways, friction is half of the difference of the two means. If the contact stands still
+/// before the first sliding, it is taken to be unloaded there. Otherwise the offset is taken as 0.
 ///
 /// Forces: base the sensor's full scale.
 template <class Scalar>
@@ -70,13 +71,13 @@ class LearntFriction {
     }
   }
 
-  /// Fc; negative where friction seems to pull. After learning().
+  /// Fc after learning(); negative if friction seems to pull.
   Scalar friction_force(Scalar /*configured*/) const {
     return known_[0] && known_[1] ? numeric::half(forward()) + numeric::half(backward())
                                   : (backwards_ ? backward() + tare() : forward() - tare());
   }
 
-  /// A reading without the sensor's offset.
+  /// A reading less the sensor's offset.
   Scalar without_offset(Scalar force) const {
     return force -
            (known_[0] && known_[1] ? numeric::half(forward()) - numeric::half(backward()) : tare());

@@ -3,8 +3,8 @@
 
 namespace sonoglide::control {
 
-/// Where the design leaves feedforward alone; the commands are those of an IntegralRegulator with a
-/// gain of 0.
+/// For a design with feedforward alone. The commands are those of an IntegralRegulator with a gain
+/// of 0.
 template <class Scalar>
 class NoFeedback {
  public:

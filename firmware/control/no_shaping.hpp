@@ -1,4 +1,4 @@
-/// No command shaping: for plants without a natural mode, and to show what it is for.
+/// No command shaping: for plants without a natural mode, and to show the effect of the notch.
 #pragma once
 
 namespace sonoglide::control {

@@ -10,7 +10,7 @@
 
 namespace sonoglide::control {
 
-/// As the arithmetic rounds: that is far too little to be seen in the natural mode.
+/// Rounds as the arithmetic does. That is far too little to be seen in the natural mode.
 ///
 /// @tparam Depth  places of the delay line
 template <class Scalar, std::size_t Depth>
@@ -24,11 +24,12 @@ class NotchRounding {
   }
 };
 
-/// To 16 bits the rounding errors e are steps of the drive like any other, and would shake an
-/// undamped mode without end. So each error is followed by its own echoes,
-///   y = N(z) x + (1 + h1/h0 z^-M + h2/h0 z^-2M) e,
-/// which have their zeros on the mode, as N has. The drive then moves by a code now and then, about
-/// an amplitude that is finer than 16 bits.
+/// In 16 bits the rounding errors e are steps of the drive like any other, and would excite an
+/// undamped mode without end. So each error is followed by its own echoes (error feedback, Spang
+/// 1962, README.md):
+///   y = N(z) x + (1 + h1/h0 z^-M + h2/h0 z^-2M) e.
+/// Like N this has its zeros on the mode. The drive then moves by a code now and then, about an
+/// amplitude that is finer than 16 bits.
 ///
 /// Inputs in [0, 1): the sum then fits 32 bits, whatever the taps.
 template <class Overflow, std::size_t Depth>

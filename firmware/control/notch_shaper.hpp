@@ -10,12 +10,13 @@ namespace sonoglide::control {
 
 /// Three taps on the drive amplitude, with zeros on the natural mode:
 ///   N(z) = h0 + h1 z^-M + h2 z^-2M,
-///   h = (1, −2 e^(−σMT) cos(ωd M T), e^(−2σMT)) / sum,   σ ± iωd the natural mode, T the carrier
-///   period.
+///   h = (1, −2 e^(−σMT) cos(ωd M T), e^(−2σMT)) / sum,
+/// −σ ± iωd the natural mode, T the carrier period.
 ///
-/// The amplitude changes at drive phase 0 only, so that the free response is linear in its steps
-/// and vanishes 2M periods after the last one. M is the smallest spacing for which every tap is
-/// within ±1.
+/// The amplitude changes at drive phase 0 only. So the free response is linear in the steps of the
+/// amplitude, and vanishes 2M periods after the last one. M is the smallest spacing for which every
+/// tap is within ±1.
+/// Source: Singer 1990 (input shaping), Tuttle 1994 (zeros placed on the mode), see README.md.
 ///
 /// @tparam MaxSpacing  largest M; the delay line holds 2·MaxSpacing amplitudes.
 template <class ScalarT, int MaxSpacing>

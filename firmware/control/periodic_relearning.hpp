@@ -8,9 +8,9 @@
 
 namespace sonoglide::control {
 
-/// Every so often the request is zero, by way of the shaper, for as many periods as the contact
-/// needs to slide through its presliding travel, and comes back before the last undriven reading
-/// has arrived. A pause in which the sliding reverses or gets too slow teaches nothing.
+/// At regular intervals the request is zero, through the shaper, for as many periods as the contact
+/// needs to slide through its presliding distance. It comes back before the last undriven reading
+/// has arrived. A pause in which the sliding reverses or becomes too slow teaches nothing.
 ///
 /// Periods of a pause, shaper over 2M periods, latency and sensor R, presliding slid through in n,
 /// readings averaged a:
@@ -123,7 +123,7 @@ class PeriodicRelearning {
     }
   }
 
-  /// From the request on whose period is slid through from its beginning.
+  /// Called from the first request on whose period is slid through from its beginning.
   Task conclude(Scalar force) {
     const std::uint32_t now = count_++;
     const std::uint32_t shown = parameters_.reading_periods;
@@ -142,7 +142,7 @@ class PeriodicRelearning {
     return now < parameters_.average_periods ? Task::pause : Task::resume;
   }
 
-  /// Readings from the beginning of the period slid through on.
+  /// Number of readings, from the begin of the period slid through, until the force is learnt.
   std::uint32_t learnt_after() const {
     return std::uint32_t{parameters_.reading_periods} + parameters_.average_periods;
   }

@@ -7,9 +7,9 @@
 
 namespace sonoglide::control {
 
-/// Friction resists the sliding and vibration lowers it: the true ratio lies in [0, 1]. A measured
-/// one outside (−0.15, 1.3) for longer than the sensor lags is of a sensor that is wired backwards,
-/// has lost its zero, or measures something else.
+/// Friction resists the sliding and vibration lowers it, so the true ratio is in [0, 1]. A measured
+/// ratio outside (−0.15, 1.3) for longer than the sensor lags shows a sensor that is wired
+/// backwards, has lost its zero, or measures something else.
 template <class Scalar>
 class Plausibility {
  public:

@@ -1,4 +1,4 @@
-/// Whether the measured friction ratio comes to its target, and what it tells about the friction.
+/// Whether the measured friction ratio reaches its target, and what it shows of the friction force.
 #pragma once
 
 #include <cstdint>
@@ -8,15 +8,15 @@
 
 namespace sonoglide::control {
 
-/// Counts the periods in which the measured ratio is outside target ± band: 4 up for each of them,
-/// 1 down for each inside. From 4·patience on the loop is not settling, so that a ratio which
-/// swings through its band is found as well as one that stays away: one that is outside for more
-/// than a fifth of the time. That ends after 129 periods inside in a row. Back at zero it has
-/// settled. All ratios on base 2.
+/// Counts the periods in which the measured ratio is outside target ± band: 4 up for each of these,
+/// 1 down for each period inside. From 4·patience on the loop is not settling. So a ratio that is
+/// outside for more than a fifth of the time is found, whether it stays away or swings through the
+/// band. 129 periods inside in a row end the limit. Back at zero the loop has settled. All ratios
+/// on base 2.
 ///
-/// Settled, the commanded ratio is the true one, as the friction-ratio map has it, and the target
-/// is what the believed friction force makes of it: commanded / target = believed / true force.
-/// That they disagree is believed once periods that say so are 16 ahead of those that do not.
+/// In a settled loop the commanded ratio is the true one, as far as the friction-ratio map is
+/// right, and the target is what the believed friction force makes of it: commanded / target =
+/// believed / true force. The mismatch counts once 16 more periods show it than do not.
 template <class Scalar>
 class SettlingWatch {
  public:

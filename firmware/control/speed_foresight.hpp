@@ -7,13 +7,13 @@
 
 namespace sonoglide::control {
 
-/// Extrapolates the sliding velocity to the middle of the answer's effect: shaper, latency and
-/// carrier period delay the drive, and a sliding velocity that changes would find it late.
+/// Extrapolates the sliding velocity to the middle of the answer's effect, because shaper, latency
+/// and carrier period delay the drive.
 ///
-/// foreseen = |v + lead · s|, s the last change of v. As far as it is larger than the change
-/// before, the extrapolation is no more than |v|/8, and where it goes back on that, there is none:
-/// a ramp is followed, a single wrong sample or a step is hardly carried on. A velocity never
-/// changes its sign by extrapolation: 0 then.
+/// foreseen = |v + lead · s|, s the last change of v. The part of s beyond the change before is
+/// extrapolated by at most |v|/8. If the two changes have opposite signs, nothing is extrapolated.
+/// So a ramp is followed, and a step or a single wrong sample is hardly extrapolated. An
+/// extrapolation through 0 gives 0.
 ///
 /// Base: the peak vibration velocity at full drive.
 template <class Scalar>

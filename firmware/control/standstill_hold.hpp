@@ -7,8 +7,8 @@
 
 namespace sonoglide::control {
 
-/// Below the speed floor the request from before stands for a stated time, so that a reversal or a
-/// short stop leaves the vibration as it is; then it falls to zero along a straight line.
+/// Below the speed floor the last request stays in force for a stated time, so that a reversal or a
+/// short stop does not disturb the vibration. Then it falls to zero along a straight line.
 template <class Scalar>
 class StandstillHold {
  public:

@@ -7,11 +7,11 @@
 
 namespace sonoglide::control {
 
-/// A reading is stuck when it has not changed by a single code although the commanded friction
-/// ratio has come far from where it stood at the reading's last change. A constant reading under a
-/// constant command is no fault: a settled contact gives just that, at any drive amplitude that a
-/// changing sliding speed asks for. Nor is one at the undriven friction, which vibration does not
-/// lower before it is faster than the sliding: that takes a command still farther away.
+/// A reading is stuck if it has not changed by a single code although the commanded friction ratio
+/// has moved far since the last change of the reading. A constant reading under a constant command
+/// is no fault: a settled contact gives this, at any drive amplitude that a changing sliding speed
+/// needs. A reading of the undriven friction needs a command still farther away, because a
+/// vibration slower than the sliding does not lower friction.
 template <class Scalar>
 class StuckDetector {
  public:

@@ -5,8 +5,8 @@
 
 namespace sonoglide::control {
 
-/// Of the last M samples N may be unusable; the request of the last usable one stands meanwhile. N
-/// = 0 is as strict as StrictSamples.
+/// N of the last M samples may be unusable. Until the next usable sample the last request stays in
+/// force. With N = 0 it is as strict as StrictSamples.
 class TolerantSamples {
  public:
   struct Parameters {

@@ -1,4 +1,4 @@
-/// A piece of text that lives elsewhere.
+/// A piece of text that is stored elsewhere.
 #pragma once
 
 #include <cstddef>

@@ -54,6 +54,7 @@ class Crc32 {
   std::uint32_t rest_ = 0xFFFFFFFFU;
 };
 
+/// CRC-32 of `size` bytes.
 constexpr std::uint32_t crc32(const std::uint8_t* bytes, std::size_t size) {
   Crc32 crc;
   for (std::size_t i = 0; i < size; ++i) {

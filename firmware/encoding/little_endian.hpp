@@ -1,4 +1,4 @@
-/// Whole numbers from bytes, the lowest first; no byte order of a machine shows.
+/// Whole numbers from bytes, the lowest first, on a machine of any byte order.
 #pragma once
 
 #include <cstddef>

@@ -11,7 +11,8 @@ namespace sonoglide::friction {
 /// Coulomb friction: phi = sgn V while sliding; at V = 0 whatever holds the contact, |phi| <= 1.
 ///
 /// No parameter and no state. What the members mean is listed in friction/law.hpp.
-/// A fixed-step method sees sgn 0 = 0 and chatters about a stick; an event solver resolves it.
+/// A fixed-step method takes sgn 0 = 0 and chatters about a stick; an event solver resolves the
+/// stick.
 template <class Number>
 struct Coulomb {
   using Scalar = Number;

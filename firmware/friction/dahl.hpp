@@ -16,7 +16,7 @@ namespace sonoglide::friction {
 /// Between two reversals, with s = sgn V and e = 1 - s phi, the force depends on the displacement
 /// alone: e(u) = e(0) exp(-kappa |u|). So |phi| <= 1 always. Passive: the work done on the contact
 /// is never less than -phi^2 / (2 kappa). What the members mean is listed in friction/law.hpp.
-/// Source: P. R. Dahl, A solid friction model, Aerospace Corporation TOR-0158(3107-18)-1, 1968.
+/// Source: Dahl 1968 (README.md).
 template <class Number>
 struct Dahl {
   using Scalar = Number;
@@ -93,8 +93,8 @@ struct Dahl {
     }
 
    private:
-    /// Most steps are so short that they need not wait for exp to reduce its argument: below this a
-    /// series serves.
+    /// Below this argument a series replaces exp, whose argument reduction takes longer. Most steps
+    /// are that short.
     static constexpr Scalar series_end = Scalar(1);
 
     /// exp(-z) - 1, z >= 0.
@@ -107,7 +107,7 @@ struct Dahl {
       return z < series_end ? decay_remainder_series(z) : (numeric::expm1(-z) + z) / (z * z);
     }
 
-    /// The same, z <= 1. Each level doubles the powers of z.
+    /// (exp(-z) - 1 + z) / z^2 for 0 <= z <= 1, by its series. Each level doubles the powers of z.
     [[gnu::always_inline]] static Scalar decay_remainder_series(Scalar z) {
       constexpr std::array<Scalar, 16> term = decay_remainder_terms();
       const Scalar second = z * z;

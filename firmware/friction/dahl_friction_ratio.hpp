@@ -12,7 +12,8 @@ namespace sonoglide::friction {
 namespace dahl_friction_ratio_detail {
 
 constexpr double pi = 3.141592653589793238462643383279502884;
-/// What lies beyond adds less than 1e-13 to the ratio, and 24 nodes resolve what lies before.
+/// Exponent beyond which the decay is neglected: the rest adds less than 1e-13 to the ratio. 24
+/// nodes resolve the decay up to there.
 constexpr double negligible_exponent = 28.0;
 constexpr int node_count = 24;
 inline constexpr numeric::GaussLegendreRule<node_count> rule =
@@ -34,7 +35,7 @@ struct Arc {
   }
 };
 
-/// Phase beyond which exp(−a·travel) is negligible; the whole arc where it never is.
+/// Phase beyond which exp(−a·travel) is negligible; the length of the arc if there is none.
 inline double effective_length(const Arc& arc, double dahl_number) {
   if (dahl_number * arc.travel(arc.length) <= negligible_exponent) {
     return arc.length;
@@ -73,7 +74,7 @@ inline double relaxation_integral(const Arc& arc, double dahl_number) {
 /// Error ≤ 1e-12 for dahl_number in [1e-4, 1e7] (Gauss–Legendre, 24 nodes an arc; tested against
 /// quadrature in binary128).
 /// Limits: → (2/π) asin r (Coulomb) as a → ∞; → πr / (2(√(1−r²) + r asin r)) as a → 0.
-/// Source: Dahl (1968), integrated in displacement between velocity reversals.
+/// Source: Dahl 1968 (README.md), integrated in displacement between velocity reversals.
 inline double dahl_friction_ratio(double velocity_ratio, double dahl_number) {
   using namespace dahl_friction_ratio_detail;
   const double r = numeric::abs(velocity_ratio);

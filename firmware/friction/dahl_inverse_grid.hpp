@@ -3,8 +3,8 @@
 
 namespace sonoglide::friction {
 
-/// Grid lines at 0 and, four to an octave, from 2^first_octave to 2^end_octave: a position is read
-/// off a number's exponent and leading bits.
+/// Grid lines at 0 and from 2^first_octave to 2^end_octave, four to an octave. The exponent and the
+/// leading bits of a number give its position.
 template <int FirstOctave, int EndOctave>
 struct DyadicAxis {
   static constexpr int first_octave = FirstOctave;
@@ -13,9 +13,9 @@ struct DyadicAxis {
   static constexpr int lines = 2 + (end_octave - first_octave) * cells_per_octave;
 };
 
-/// Axes of the table of z = √(ρ/r − ρ) against reduced Dahl number κ' = λ/ρ, λ = κ r, (rows) and
-/// 1 − ρ (columns). z bends as little along them as asin r does, and r = ρ/(ρ + z²) stays below 1
-/// without a sine.
+/// Axes of the table of z = √(ρ/r − ρ): a row for each reduced Dahl number κ' = λ/ρ, λ = κ r, and a
+/// column for each 1 − ρ. Along both axes z is as nearly straight as asin r. With z, r = ρ/(ρ + z²)
+/// stays below 1 and needs no sine.
 struct DahlInverseGrid {
   using Row = DyadicAxis<-4, 10>;
   using Column = DyadicAxis<-8, 0>;

@@ -25,8 +25,8 @@ struct GridPosition {
   Scalar fraction;  ///< in [0, 1]
 };
 
-/// Of x >= 0 on an axis; clamped at the upper end. Numbers of one sign are in the order of their
-/// bits, and integers are compared faster.
+/// Position of x >= 0 on an axis, clamped at the upper end. Floating-point numbers of one sign have
+/// the order of their bits, and integers are compared faster.
 template <class Axis, class Float, std::enable_if_t<std::is_floating_point_v<Float>, int> = 0>
 GridPosition<Float> position(Float x) {
   using Format = numeric::FloatFormat<Float>;
@@ -111,7 +111,7 @@ GridPosition<Scalar> column(Scalar half_ratio) {
   }
 }
 
-/// x + 2 a b, no more than the largest value; all of them at least 0.
+/// min(x + 2 a b, largest value), for x, a and b of at least 0.
 template <class Float, std::enable_if_t<std::is_floating_point_v<Float>, int> = 0>
 Float limited_sum(Float x, Float a, Float b) {
   const Float sum = x + (a + a) * b;
@@ -156,16 +156,16 @@ numeric::Q15<Overflow> limited_sum(numeric::Q15<Overflow> x,
 /// Peak vibration velocity v̂ at which a Dahl contact that slides at Vt has the given friction
 /// ratio.
 ///
-/// The vibration amplitude being what is looked for, the contact is given by λ = Kt·Vt/(ω·Fc),
-/// the Dahl number times r = Vt/v̂, which does not depend on it. v̂ = Vt/r = Vt + (Vt/ρ)·z², z from a
-/// table against λ/ρ and ρ (DahlInverseGrid, 3944 bytes): one division, of which λ/ρ is a multiple,
-/// and no sine.
+/// The vibration amplitude is unknown, so λ = Kt·Vt/(ω·Fc) describes the contact: it is the Dahl
+/// number times r = Vt/v̂ and does not depend on the amplitude. v̂ = Vt/r = Vt + (Vt/ρ)·z², with z
+/// from a table against λ/ρ and ρ (DahlInverseGrid, 3944 bytes). This takes one division and no
+/// sine.
 ///
 /// @param half_ratio   ρ on base 2, at most 1/2.
 /// @param speed        Vt, > 0, on the base of the result.
 /// @param half_travel  λ/(2 Vt), > 0.
-/// @return v̂ from Vt to 1 (fixed point: the largest value), where it ends; falls as ρ rises; 1 for
-/// ρ <= 0.
+/// @return v̂, at least Vt and at most 1 (fixed point: the largest value). Falls as ρ rises; 1 for
+///         ρ <= 0.
 /// Error: the map at r = Vt/v̂ differs from ρ by at most 0.002 for Dahl numbers λ/r in [0.01, 1000],
 /// in float64, float32 and Q31 alike (tested over velocity ratios 0 to 2); in Q15, for which Vt is
 /// coarser, 0.002 for Vt from 0.1 and 0.008 for Vt from 0.0125 on.

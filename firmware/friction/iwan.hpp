@@ -15,20 +15,19 @@ namespace sonoglide::friction {
 ///   d phi_i / d tau = (kappa / n) V while |phi_i| < q_i, 0 while it slips;  phi = sum of phi_i,
 ///   q_i = (2 i - 1) / n^2, i = 1 ... n.
 ///
-/// So graded, the first load follows phi = kappa u - (kappa u)^2 / 4, Iwan's uniform distribution,
-/// by n + 1 straight lines that meet it at their corners, and is at its limit from
-/// u = (2 n - 1) / (n kappa). One element is a spring that slips at Fc. |phi_i| <= q_i always,
+/// With these limits the first load consists of n + 1 straight lines. At their corners it meets
+/// Iwan's uniform distribution, phi = kappa u - (kappa u)^2 / 4. It is at its limit from
+/// u = (2 n - 1) / (n kappa) on. One element is a spring that slips at Fc. |phi_i| <= q_i always,
 /// and so |phi| <= 1.
-/// Passive: an element stores phi_i^2 n / (2 kappa), and slipping only takes; the work done on the
-/// contact is never less than minus what it stores.
+/// Passive: an element stores phi_i^2 n / (2 kappa), and slip only takes energy; the work done on
+/// the contact is never less than minus the stored energy.
 /// A vibration of amplitude Y about a slow slide, r -> 0, leaves the friction
 ///   sum of (q_i - Y kappa / n)_+,
-/// which for one element is (1 - kappa Y)_+: unlike those of Dahl and Coulomb, friction that is
-/// stuck elastically does not vanish. As kappa grows, Coulomb.
+/// which for one element is (1 - kappa Y)_+. So friction does not vanish, as it does with Dahl and
+/// Coulomb. Limit: Coulomb as kappa grows.
 /// Not modelled: creep at constant load, wear, a normal force that varies, stick without travel.
 /// What the members mean is listed in friction/law.hpp.
-/// Source: W. D. Iwan, A distributed-element model for hysteresis and its steady-state dynamic
-/// response, Journal of Applied Mechanics 33 (1966) 893-900.
+/// Source: Iwan 1966 (README.md).
 template <class Number>
 struct Iwan {
   using Scalar = Number;
@@ -62,7 +61,8 @@ struct Iwan {
     }
     return limits;
   }
-  /// Equal springs share a first load, as far as their sliders let them.
+  /// Memory after a first load to this friction: the springs are equal and share it until they
+  /// slip.
   Memory memory_at(Scalar friction) const {
     Memory forces{};
     Scalar left = friction;

@@ -8,7 +8,8 @@
 
 namespace sonoglide::friction {
 
-/// A friction law gives phi = F/Fc [-] in [-1, 1] in terms of the sliding velocity V = du/d tau. It offers:
+/// A friction law gives phi = F/Fc [-] in [-1, 1] in terms of the sliding velocity V = du/d tau. It
+/// offers:
 ///   vibration            which way the mass vibrates, seen from the sliding
 ///   reverses             phi depends on sgn V, so that an event solver stops where V changes sign
 ///   varies               phi changes between two reversals
@@ -25,12 +26,12 @@ namespace sonoglide::friction {
 ///     coefficient<N>(travel, earlier)  N-th Taylor coefficient of phi in x = time / unit, from
 ///                          those of travel, du/dx, and of phi itself, below N
 ///     friction_after(du)   phi exactly, after the displacement du >= 0 along the direction
-///     friction_along(du)   where it varies: the same at a group of lanes, for du from a rounding
-///                          error below 0; absolute error 1e-9 (double), 5e-6 (float), where it has
-///                          relaxed by less than a factor of e^6 1e-13 in double
+///     friction_along(du)   only if it varies: the same at a group of lanes, for du from a rounding
+///                          error below 0. Absolute error 1e-9 (double), 5e-6 (float); in double
+///                          1e-13 as long as it has relaxed by less than a factor of e^6
 ///     work(du)             integral of phi V d tau exactly, over the same displacement
-/// Another, in its place:
-///   reach(V)             change of V over which a power series tells what is to come
+/// A law that is not rate independent offers in place of Arc:
+///   reach(V)             change of V over which a power series of the law is valid
 ///   Series<Order>        such a series, sgn V = direction being constant:
 ///     coefficient<N>(travel, unit)  N-th Taylor coefficient of phi in x = time / unit, from those
 ///                          of travel up to N
@@ -46,8 +47,8 @@ namespace sonoglide::friction {
 ///                        has friction_along(n), the n-th coefficient of phi
 /// A law that vibrates normally to the surface has a pressure and a limit of |phi| in terms of the
 /// displacement y, and a spring in front of its slider: friction::NormalCoulomb.
-/// Another law that has corners is rate independent and remembers; no rate is asked of it. It also
-/// offers:
+/// A law along the sliding that has corners is rate independent and remembers; its rate is not
+/// used. It also offers:
 ///   Arc::to_corner()     the displacement, along the direction, to the first of them, or infinity
 ///
 /// check_law<Law>() names the first member that is missing. friction::None is the shortest law,
@@ -85,7 +86,7 @@ struct HasFriction<
 
 }  // namespace detail
 
-/// Fails to compile, with the reason, where Law is no friction law; true otherwise.
+/// True if Law is a friction law; otherwise it fails to compile, with the reason.
 template <class Law>
 constexpr bool check_law() {
   static_assert(detail::HasTraits<Law>::value,

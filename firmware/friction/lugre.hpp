@@ -21,14 +21,13 @@ namespace sonoglide::friction {
 /// Passive where eta >= delta (gamma - 1): then phi V - d(psi^2 / 2 kappa) / d tau
 ///   = |V| (psi^2 / g + |V| (delta + eta - delta s psi / g)) >= 0, as s psi <= gamma and g >= 1, so
 /// that the work done on the contact is never less than -psi^2 / (2 kappa).
-/// Limits: gamma = 1, delta = eta = 0 is Dahl; then kappa to infinity is Coulomb. Sliding steadily,
-/// phi = g(V) sgn V + eta V. With gamma = 1 a periodic motion has the mean friction of Dahl, plus
-/// eta times the mean of V: over a period psi returns, so that delta's mean is nothing.
+/// Limits: gamma = 1, delta = eta = 0 is Dahl; then kappa to infinity is Coulomb. Steady sliding
+/// has phi = g(V) sgn V + eta V. With gamma = 1 a periodic motion has the mean friction of Dahl
+/// plus eta times the mean of V: psi returns after a period, so the mean of the delta term is 0.
 /// Not modelled: stick that does not creep, a delta that fades with the speed, a normal force that
 /// varies, friction lag apart from that of the bristles.
 /// What the members mean is listed in friction/law.hpp.
-/// Source: C. Canudas de Wit, H. Olsson, K. J. Åström, P. Lischinsky, A new model for control of
-/// systems with friction, IEEE Trans. Automatic Control 40 (1995) 419-425.
+/// Source: Canudas de Wit 1995 (README.md).
 template <class Number>
 struct LuGre {
   using Scalar = Number;
@@ -63,7 +62,7 @@ struct LuGre {
                ? longest
                : numeric::min(longest, moderate / (Scalar(1) + rate));
   }
-  /// From afar the terms of g do not show that it is about to rise: beyond 6 nu it is flat.
+  /// Far from V = 0 the Taylor terms of g do not show that g rises there. Beyond 6 nu g is flat.
   Scalar reach(Scalar velocity) const {
     return numeric::max(numeric::half(stribeck_velocity),
                         numeric::abs(velocity) - Scalar(6) * stribeck_velocity);

@@ -15,13 +15,13 @@ namespace sonoglide::friction {
 /// phi = F / (mu N0); y > 0 is towards the surface. The slider slips while the limit falls, or
 /// rises more slowly than the spring is loaded, and sticks from then until it meets the limit
 /// again. Where the contact opens, phi = 0. In SI units nu = kz L / N0, kappa = kx L / (mu N0).
-/// Passive: the contact stores phi^2 / (2 kappa), and slipping only takes; the work of the pull is
-/// never less than minus what is stored.
+/// Passive: the contact stores phi^2 / (2 kappa), and slip only takes energy; the work of the pull
+/// is never less than minus the stored energy.
 /// Under y = sin tau, for nu <= 1, the mean of phi is normal_vibration_ratio(nu, kappa r / nu).
 /// Not modelled: friction that acts back on the vibration; the stiffness kz in the oscillator,
 /// whose spring has to include it, and its loss where the contact opens; impact; Hertzian springs.
 /// What the members mean is listed in friction/law.hpp.
-/// Source: M. Popov, Frontiers in Mechanical Engineering 6 (2020) 69, 10.3389/fmech.2020.00069.
+/// Source: Popov 2020 (README.md).
 template <class Number>
 struct NormalCoulomb {
   using Scalar = Number;

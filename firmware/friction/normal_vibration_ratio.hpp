@@ -11,9 +11,10 @@ namespace sonoglide::friction {
 
 namespace normal_vibration_ratio_detail {
 
-/// The root in (2 acos s, 2 pi] of the limit above the force,
-///   h(x) = c (1 - cos x) - s (x - sin x),  c = sqrt(1 - s^2),
-/// to half of its digits: the reduction is stationary there. h falls from above 0 to it, and on.
+/// The root x in (2 acos s, 2 pi] of the limit above the force,
+///   h(x) = c (1 - cos x) - s (x - sin x),  c = sqrt(1 - s^2).
+/// Half of the digits are enough, because the reduction is stationary there. h falls through the
+/// root.
 template <class Float>
 Float sticking_phase(Float s, Float c) {
   constexpr Float accuracy = numeric::power_of_two<Float>(-std::numeric_limits<Float>::digits / 2);
@@ -56,8 +57,7 @@ Float sticking_phase(Float s, Float c) {
 /// Error <= 1e-14 in double, 1e-6 in float (tested against quadrature in long double).
 /// Limits: 1 - alpha as s -> 0, the least normal force, whatever the springs; 1 from s = 1 on.
 /// Not modelled: a contact that opens, inertia, a pull that yields, Hertzian springs.
-/// Source: model of M. Popov, Frontiers in Mechanical Engineering 6 (2020) 69,
-/// 10.3389/fmech.2020.00069, equations (17), (33) and (37); the integral is exact.
+/// Source: model of Popov 2020 (README.md), equations (17), (33) and (37); the integral is exact.
 template <class Float>
 Float normal_vibration_ratio(Float amplitude_ratio, Float velocity_ratio) {
   const Float s = numeric::abs(velocity_ratio);

@@ -15,13 +15,12 @@ namespace sonoglide::friction {
 ///
 /// In SI units mu(v) = mu_s sgn v - alpha v + beta v^3, Fc = mu_s N. The force is least at
 /// |V| = sqrt(a / 3 b), and beyond sqrt(a / b) it passes that of the contact at rest.
-/// Passive where 4 a^3 <= 27 b: then phi V >= 0 at any speed. Where phi falls it feeds a
-/// vibration all the same: a body on a spring, pulled slowly, sticks and slips.
+/// Passive where 4 a^3 <= 27 b: then phi V >= 0 at any speed. Falling friction still feeds a
+/// vibration: a body on a spring that is pulled slowly sticks and slips.
 /// Limit: a = b = 0 is Coulomb.
 /// Not modelled: presliding displacement, friction lag, a contact at rest that grows stronger.
 /// What the members mean is listed in friction/law.hpp.
-/// Source: J. J. Thomsen, Using fast vibrations to quench friction-induced oscillations, Journal
-/// of Sound and Vibration 228 (1999) 1079-1102.
+/// Source: Thomsen 1999 (README.md).
 template <class Number>
 struct Stribeck {
   using Scalar = Number;

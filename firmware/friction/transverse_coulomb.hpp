@@ -22,7 +22,7 @@ namespace sonoglide::friction {
 /// Not modelled: a contact at rest, r = v = 0, which may hold by any |phi| <= 1; presliding
 /// displacement, for which the measured ratio is the higher; a limit that depends on the direction.
 /// No parameter and no state. What the members mean is listed in friction/law.hpp.
-/// Source: H. Storck, W. Littmann, J. Wallaschek, M. Mracek, Ultrasonics 40 (2002) 379-383.
+/// Source: Storck 2002 (README.md).
 template <class Number>
 struct TransverseCoulomb {
   using Scalar = Number;
@@ -46,13 +46,13 @@ struct TransverseCoulomb {
   }
   Scalar friction_across(const Slip& slip) const { return share(slip.across, slip); }
   Scalar rate(const Slip& /*slip*/, Scalar /*friction*/) const { return Scalar(0); }
-  /// Where the slip is slow it soon turns: by and by the series serves no longer than that takes.
+  /// A slow slip soon turns its direction, and the series is valid for no longer than that takes.
   Scalar series_unit(const Slip& slip, Scalar /*friction*/, Scalar longest) const {
     constexpr Scalar shortest = numeric::power_of_two<Scalar>(-8);
     return numeric::min(longest, numeric::max(shortest, numeric::twice(slip.speed())));
   }
-  /// The series converge while the slip changes by less than its speed. At rest across there is no
-  /// force across for them to tell, and the sliding passes 0 in one short step.
+  /// The series converge while the slip changes by less than its speed. Without slip across there
+  /// is no friction across; a sliding velocity that passes 0 then does so in one short step.
   Scalar reach(const Slip& slip) const {
     constexpr Scalar passing = numeric::power_of_two<Scalar>(-20);
     const Scalar near = numeric::half(slip.speed());
@@ -67,14 +67,14 @@ struct TransverseCoulomb {
 
     Series(const TransverseCoulomb& law, Scalar /*direction*/, Scalar /*friction*/) : law_(law) {}
 
-    /// Of the friction across, from those of v and r.
+    /// N-th coefficient of the friction across, from those of v and r.
     template <std::size_t N>
     Scalar coefficient(Scalar across, Scalar along) {
       across_[N] = across;
       along_[N] = along;
       square_[N] = product(across_, across_, N) + product(along_, along_, N);
       if (!(square_[0] > Scalar(0))) {
-        // Passing through rest; staying there is not modelled, and not a number.
+        // Passing through rest. Staying there is not modelled: the series is then not finite.
         per_speed_[N] = N == 1 ? Scalar(0) / along : Scalar(0);
       } else if constexpr (N == 0) {
         per_speed_[0] = Scalar(1) / numeric::sqrt(square_[0]);

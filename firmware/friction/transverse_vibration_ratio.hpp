@@ -20,7 +20,7 @@ namespace sonoglide::friction {
 /// Relative error <= 8 units in the last place of 1 (tested against Boost's ellint_1).
 /// Limits: (2/pi) r ln(4/r) as r -> 0; 1 - 1/(4 r^2) as r -> infinity: it never reaches 1.
 /// Not modelled: a contact that yields before it slides, whose ratio is the higher.
-/// Source: H. Storck, W. Littmann, J. Wallaschek, M. Mracek, Ultrasonics 40 (2002) 379-383.
+/// Source: Storck 2002 (README.md).
 template <class Float>
 Float transverse_vibration_ratio(Float velocity_ratio) {
   const Float r = numeric::abs(velocity_ratio);

@@ -9,7 +9,7 @@
 /// | end    | 4      | CRC-32 (IEEE 802.3) of all before it                        |
 ///
 /// Numbers are little-endian. On the wire the frame is stuffed (COBS) and stands between two zero
-/// bytes: the first one parts it from whatever noise came before.
+/// bytes. The first one separates it from noise that came before.
 #pragma once
 
 #include <array>
@@ -117,8 +117,8 @@ inline WireFrame encode(const Frame& frame) {
   return encoder.wire();
 }
 
-/// What a received byte brought about. All but `nothing` come with the zero byte that ends a frame,
-/// and the next byte begins a new one.
+/// Result of a received byte. All but `nothing` come with the zero byte that ends a frame; the next
+/// byte begins a new one.
 enum class Reception : std::uint8_t {
   nothing,
   frame,          ///< a whole one, in frame()
@@ -148,7 +148,7 @@ class FrameDecoder {
     return Reception::nothing;
   }
 
-  /// Good until the next byte is taken.
+  /// Valid until the next byte is taken.
   const Frame& frame() const { return frame_; }
   /// Of that frame: what tells two frames of one sequence number apart.
   std::uint32_t checksum() const { return frame_checksum_; }

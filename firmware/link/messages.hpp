@@ -1,4 +1,4 @@
-/// What a unit and its host say to each other: a request, and for each its answer or a refusal.
+/// The messages between a unit and its host: requests, and for each an answer or a refusal.
 ///
 /// A message is a struct with a kind and its fields in the order of the wire. Ratios, amplitudes
 /// and parameters with six decimal places travel in millionths; force and speed as converter codes
@@ -130,9 +130,9 @@ struct Restarted : Restart {
   static constexpr std::uint8_t kind = Restart::kind | answer_bit;
 };
 
-/// Drive to zero until a restart: in the carrier period after its last byte, whatever else is being
-/// answered or saved, and whatever its sequence number. Requests that came before it and wait are
-/// refused as out of turn.
+/// Drive to zero until a restart, in the carrier period after the last byte of the stop. It does
+/// not matter what is being answered or saved, nor which sequence number it has. Requests that came
+/// before it and wait are refused as out of turn.
 struct Stop {
   static constexpr std::uint8_t kind = 0x06;
 
@@ -170,8 +170,9 @@ struct LoggedFault {
   }
 };
 
-/// The parameters in force are right: a restart is allowed. Needs the drive stopped. Answered when
-/// they are safe in the store; refused as not saved, they are confirmed until reset.
+/// Says that the parameters in force are right, so that a restart is allowed. Needs the drive
+/// stopped. Answered when they are safe in the store. If it is refused as not saved, they are
+/// confirmed until reset.
 struct Confirm {
   static constexpr std::uint8_t kind = 0x08;
 
@@ -241,6 +242,7 @@ namespace detail {
 
 }  // namespace detail
 
+/// The frame of a message, its fields in their order.
 template <class Message>
 Frame frame_of(const Message& message, std::uint16_t sequence) {
   static_assert(payload_bytes<Message>() <= most_payload_bytes);
@@ -253,6 +255,7 @@ Frame frame_of(const Message& message, std::uint16_t sequence) {
   return frame;
 }
 
+/// Reads a message from its frame.
 /// @return false where the frame is of another kind or length.
 template <class Message>
 bool read(const Frame& frame, Message& message) {

@@ -1,4 +1,4 @@
-/// Frames that come twice, late, or not at all.
+/// Detects frames that come twice, late, or not at all.
 #pragma once
 
 #include <cstdint>
@@ -12,8 +12,8 @@ enum class Turn : std::uint8_t {
   late,      ///< older than the last
 };
 
-/// Follows the sequence numbers of one sender, which count up by one and wrap. Whatever number
-/// comes first is in turn; of two numbers the newer is the one less than half the range ahead.
+/// Follows the sequence numbers of one sender, which count up by one and wrap. The first number is
+/// in turn, whatever it is. Of two numbers the newer is the one less than half the range ahead.
 class SequenceWatch {
  public:
   /// Judges a frame; `next` and `skipped` become the last.

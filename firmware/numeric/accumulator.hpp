@@ -1,4 +1,4 @@
-/// Where a scalar's products and sums are kept before they are rounded to it.
+/// The wider type in which products and sums of a scalar are kept before they are rounded.
 #pragma once
 
 #include <cstdint>
@@ -8,8 +8,8 @@
 
 namespace sonoglide::numeric {
 
-/// Where products wait to be scaled and many small terms are summed: the scalar itself, but 32 bits
-/// of the same range for a 16-bit number, as in a multiply-accumulate unit.
+/// The type in which products wait to be scaled and many small terms are summed: Q31 for Q15, as in
+/// a multiply-accumulate unit, and the scalar itself otherwise.
 template <class Scalar>
 struct AccumulatorOf {
   using Type = Scalar;
@@ -31,7 +31,8 @@ constexpr Accumulator<Scalar> accumulate(Scalar x) {
   }
 }
 
-/// a·b in the accumulator; exact for a 16-bit number.
+/// a·b in the accumulator. For Q15 exact, but (-1)(-1) overflows; otherwise rounded as by
+/// operator*.
 template <class Scalar>
 constexpr Accumulator<Scalar> accumulated_product(Scalar a, Scalar b) {
   using Sum = Accumulator<Scalar>;
@@ -43,7 +44,7 @@ constexpr Accumulator<Scalar> accumulated_product(Scalar a, Scalar b) {
   }
 }
 
-/// A scalar from its accumulator, rounded once.
+/// A scalar from its accumulator, rounded once, ties toward +infinity; overflow by policy.
 template <class Scalar>
 constexpr Scalar rounded(Accumulator<Scalar> sum) {
   if constexpr (std::is_same_v<Accumulator<Scalar>, Scalar>) {

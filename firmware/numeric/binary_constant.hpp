@@ -29,7 +29,7 @@ constexpr Float bits_of(const BinaryConstant& constant, int top, int count) {
   return sum;
 }
 
-/// The Float nearest to a constant, and what that leaves: value + rest is good to twice the digits.
+/// The Float nearest to a constant, and the error of that: value + rest has twice the digits.
 template <class Float>
 struct NearestConstant {
   Float value;

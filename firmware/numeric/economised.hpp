@@ -8,10 +8,11 @@
 
 namespace sonoglide::numeric {
 
-/// Shortens p on [-1, 1]: its highest powers, one after the other, are replaced by the lower ones
-/// that differ from them by a multiple of a Chebyshev polynomial.
+/// Economises the power series p on [-1, 1]: removes its highest powers one after the other. Each
+/// is replaced by the lower powers that differ from it by a multiple of a Chebyshev polynomial.
 ///
-/// Returns a bound of the difference, the sum of |p[n]| 2^(1-n) over the powers taken out.
+/// Returns a bound of the change: the sum of |p[n]| 2^(1-n) over the removed powers.
+/// Source: C. Lanczos, Applied Analysis, 1956 (economization of power series).
 template <class Scalar, std::size_t Long, std::size_t Short>
 Scalar economise(std::array<Scalar, Long> p, std::array<Scalar, Short>& shortened) {
   static_assert(Short <= Long && Short > 1, "fewer terms, but more than one");

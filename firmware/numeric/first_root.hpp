@@ -1,5 +1,4 @@
-/// The first root of a polynomial, certified: no root and no pair of roots before it is passed
-/// over.
+/// The first root of a polynomial, with certainty: no root and no pair of roots is passed over.
 #pragma once
 
 #include <array>
@@ -25,7 +24,8 @@ Scalar lowest_curvature(const std::array<Scalar, Count>& p, Scalar end) {
 }
 
 /// A lower bound of the smallest positive root of value + slope t + curvature t^2 / 2, value > 0;
-/// `none` if there is no root before it. Close to the root where slope^2 > 2 value |curvature|.
+/// `none` if there is no root before it. The bound is close to the root if slope^2 > 2 value
+/// |curvature|.
 template <class Scalar>
 Scalar parabola_root(Scalar value, Scalar slope, Scalar curvature, Scalar none) {
   const bool positive_at_end = value + none * (slope + numeric::half(none * curvature)) > Scalar(0);
@@ -55,8 +55,9 @@ struct RootSearch {
   Scalar unit;
 };
 
-/// The search for a root of p before `end` in units in which the squares of what it meets neither
-/// vanish nor overflow: mostly as it is given, else in units of `end` and of the largest term.
+/// The search for a root of p before `end`, in units in which no square of its numbers vanishes or
+/// overflows. Most polynomials stay as they are; the others are written in units of `end` and of
+/// the largest term.
 template <class Scalar, std::size_t Count>
 RootSearch<Scalar, Count> of_moderate_size(const std::array<Scalar, Count>& p, Scalar end) {
   using Limits = std::numeric_limits<Scalar>;
@@ -107,13 +108,14 @@ std::array<Scalar, Count> without_zero(const std::array<Scalar, Count>& p, Scala
   return quotient;
 }
 
-/// The first t in (0, none) with p(t) = 0, or `none`; p(0) > 0.
+/// The first t in (0, none) with p(t) = 0; `none` if there is no root. Requires p(0) > 0.
 ///
-/// From each point the search moves to the root of a parabola that lies below p up to the end of a
-/// window (same value and slope, the lowest curvature in it), which cannot lie beyond a root of p.
-/// The steps shrink quadratically towards a simple root. Towards a double root they shrink by a
-/// constant factor, until p is within its rounding error of zero: that counts as a root. Where the
-/// curvature keeps the steps short the window narrows, and so does the bound of the curvature.
+/// Each step moves to the root of a parabola that lies below p up to the end of a window: it has
+/// the value and the slope of p, and the lowest curvature of p in the window. This root cannot lie
+/// beyond a root of p. The steps shrink quadratically towards a simple root. Towards a double root
+/// they shrink by a constant factor, until p is within its rounding error of zero: that counts as a
+/// root. Where the curvature keeps the steps short, the window narrows and the curvature bound
+/// improves.
 template <class Scalar, std::size_t Count>
 [[gnu::noinline]] Scalar first_root(const std::array<Scalar, Count>& polynomial, Scalar none) {
   static_assert(Count >= 4, "the curvature bound needs a cubic");

@@ -1,7 +1,7 @@
 /// Binary fixed-point numbers in two's complement.
 ///
-/// Rounding, everywhere alike (multiplication, division, conversion): to nearest, ties toward
-/// +infinity. Overflow, everywhere alike: the nearest end of the range, reported to the policy.
+/// Multiplication, division and conversion round to nearest, ties toward +infinity. An overflow
+/// gives the nearest end of the range and is reported to the policy.
 #pragma once
 
 #include <array>
@@ -75,7 +75,7 @@ class Fixed {
     return narrow == raw ? from_raw(narrow) : beyond(raw < 0);
   }
 
-  /// What an overflow past either end gives, brought about by the policy.
+  /// The result of an overflow: an end of the range. Reports it to the policy.
   static constexpr Fixed beyond(bool lower_end) {
     Overflow::on_overflow();
     return lower_end ? lowest() : largest();
@@ -180,7 +180,8 @@ using Q31 = Fixed<std::int32_t, 31, Overflow>;
 template <class Overflow>
 using Q15 = Fixed<std::int16_t, 15, Overflow>;
 
-/// The same number in another format or under another policy; overflow is the target's.
+/// The same number in another format or under another policy, rounded to nearest, ties toward
+/// +infinity; overflow by the policy of the target.
 template <class Target, class Storage, int FractionBits, class Overflow>
 constexpr Target fixed_cast(Fixed<Storage, FractionBits, Overflow> x) {
   constexpr int shift = Target::fraction_bits - FractionBits;
@@ -203,8 +204,7 @@ constexpr Number fixed_dot(const std::array<Number, N>& a, const std::array<Numb
 
 }  // namespace detail
 
-/// Sum of a[i] * b[i]: each product rounded as by operator*, none brought into range, one
-/// saturation at the end.
+/// Sum of a[i] * b[i]. Each product is rounded as by operator*; only the sum is brought into range.
 template <class Storage, int FractionBits, class Overflow, std::size_t N>
 constexpr Fixed<Storage, FractionBits, Overflow> dot(
     const std::array<Fixed<Storage, FractionBits, Overflow>, N>& a,

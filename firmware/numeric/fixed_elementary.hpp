@@ -93,7 +93,7 @@ constexpr std::int64_t q31_sine(std::int64_t x, unsigned quarter_turns) {
   return flipped != (rest < 0) ? -sine : sine;
 }
 
-/// The same with 15 fraction bits: products of 32 bits do.
+/// sin(pi x + quarter_turns pi/2) with 15 fraction bits, for which 32-bit products suffice.
 constexpr std::int32_t q15_sine(std::int32_t x, unsigned quarter_turns) {
   const auto angle = static_cast<std::uint16_t>(x);
   const unsigned nearest = (angle + (1U << 13)) >> 14;
@@ -189,7 +189,7 @@ constexpr Fixed<Storage, FractionBits, Overflow> asin_per_pi(
   return detail::from_q31<decltype(x)>(detail::q31_arcsine(detail::to_q31(x)));
 }
 
-/// exp(x) for x in [-1, 0], in (0.367, 1]; x > 0 overflows.
+/// exp(x) in (0.367, 1] for x in [-1, 0]; x > 0 overflows.
 /// Error <= 1 LSB in Q31 and in Q15.
 template <class Storage, int FractionBits, class Overflow>
 constexpr Fixed<Storage, FractionBits, Overflow> exp(Fixed<Storage, FractionBits, Overflow> x) {

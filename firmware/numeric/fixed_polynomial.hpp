@@ -13,9 +13,10 @@ namespace sonoglide::numeric {
 
 /// Sum of c[k] z^k for |z| <= 1, z with 31 fraction bits, by Horner's rule.
 ///
-/// The partial sum from term k on is kept with as many fraction bits as fit 31 bits and a sign, so
-/// the small sums at the far end are rounded finely; what counts is the rounding of the last sum.
-/// @tparam Wide  of the products; with std::int32_t, z and the partial sums have 15 bits for 31.
+/// The partial sum from term k on has as many fraction bits as fit into 31 bits and a sign. So the
+/// small first sums are rounded finely, and the rounding of the last sum dominates.
+/// @tparam Wide  type of the products; with std::int32_t, z and the partial sums have 15 bits, not
+///               31.
 template <std::size_t Terms, class Wide = std::int64_t>
 class FixedPolynomial {
  public:

@@ -42,7 +42,7 @@ constexpr ExponentialArgument<Float> reduce_exponential(Float x) {
   return {rest, (high - rest) - low, n.integer};
 }
 
-/// Past these ends the result is infinity and 0 as well.
+/// Beyond these ends exp is infinity or 0 in the format, so the argument may be cut off there.
 template <class Float>
 inline constexpr Float exponential_high = is_double<Float> ? Float{720} : Float{90};
 template <class Float>

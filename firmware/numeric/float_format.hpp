@@ -54,7 +54,7 @@ constexpr Float power_of_two(int n) {
   return from_bits<Float>(biased << Format::fraction_bits);
 }
 
-/// An integer twice: as a number, and as the int it is.
+/// An integer as a floating-point value and as an int.
 template <class Float>
 struct NearestInteger {
   Float value;

@@ -22,7 +22,7 @@ constexpr Float sine_near_zero(Float r) {
   return r + r * (square * polynomial(sine_coefficients<Float>, square));
 }
 
-/// cos r, |r| <= pi/4; the rounding of 1 - r^2/2 is made good.
+/// cos r, |r| <= pi/4; corrected for the rounding of 1 - r^2/2.
 template <class Float>
 constexpr Float cosine_near_zero(Float r) {
   const Float square = r * r;
@@ -39,7 +39,8 @@ constexpr Float in_quadrant(Float sine, Float cosine, std::uint32_t quarter_turn
   return (quarter_turns & 2U) != 0U ? -magnitude : magnitude;
 }
 
-/// The same from r. Both series and a choice: quicker than a branch that mispredicts.
+/// sin(r + quarter_turns * pi/2) from r. Computing both series and selecting one is quicker than a
+/// branch that mispredicts.
 template <class Float>
 constexpr Float sine_of_quadrant(Float r, std::uint32_t quarter_turns) {
   return in_quadrant(sine_near_zero(r), cosine_near_zero(r), quarter_turns);
@@ -102,7 +103,7 @@ inline constexpr Float inverse_pi = static_cast<Float>(0.31830988618379067154);
 
 }  // namespace detail
 
-/// sin(x), x in radians, |x| <= 1e6 (double) or 1e4 (float); beyond that meaningless.
+/// sin(x), x in radians, |x| <= 1e6 (double) or 1e4 (float); beyond that the result has no meaning.
 /// Error <= 3 ulp, next to the zeros too.
 template <class Float, std::enable_if_t<std::is_floating_point_v<Float>, int> = 0>
 constexpr Float sin(Float x) {
@@ -122,7 +123,7 @@ struct SineAndCosine {
   Float cosine;
 };
 
-/// Both at once, bit for bit what sin and cos give.
+/// sin(x) and cos(x) at once, with the bits of sin and cos.
 template <class Float, std::enable_if_t<std::is_floating_point_v<Float>, int> = 0>
 [[gnu::always_inline]] constexpr SineAndCosine<Float> sine_and_cosine(Float x) {
   const auto n = detail::nearest_quarter_turn(x);

@@ -10,12 +10,12 @@
 
 namespace sonoglide::numeric {
 
-/// A positive number whatever its size: itself in floating point, a mantissa in [1/2, 1) and an
-/// exponent in fixed point.
+/// A positive number of any magnitude: itself in floating point; in fixed point a mantissa in [1/2,
+/// 1) and an exponent.
 template <class Scalar>
 using Floating = std::conditional_t<is_fixed_point_v<Scalar>, Split<Scalar>, Scalar>;
 
-/// @param x  > 0.
+/// x > 0 in this form; exact.
 template <class Scalar>
 constexpr Floating<Scalar> floating(Scalar x) {
   if constexpr (is_fixed_point_v<Scalar>) {
@@ -25,6 +25,7 @@ constexpr Floating<Scalar> floating(Scalar x) {
   }
 }
 
+/// A split number in this form: exact in fixed point, as scale_by_power_of_two in floating point.
 template <class Scalar>
 constexpr Floating<Scalar> floating(const Split<Scalar>& x) {
   if constexpr (is_fixed_point_v<Scalar>) {
@@ -34,17 +35,19 @@ constexpr Floating<Scalar> floating(const Split<Scalar>& x) {
   }
 }
 
+/// a b, rounded by IEEE-754.
 template <class Float, std::enable_if_t<std::is_floating_point_v<Float>, int> = 0>
 constexpr Float product(Float a, Float b) {
   return a * b;
 }
 
+/// a / b, rounded by IEEE-754.
 template <class Float, std::enable_if_t<std::is_floating_point_v<Float>, int> = 0>
 constexpr Float quotient(Float a, Float b) {
   return a / b;
 }
 
-/// Rounded once.
+/// a b, rounded once.
 template <class Overflow>
 constexpr Split<Q31<Overflow>> product(const Split<Q31<Overflow>>& a,
                                        const Split<Q31<Overflow>>& b) {
@@ -56,7 +59,7 @@ constexpr Split<Q31<Overflow>> product(const Split<Q31<Overflow>>& a,
              : Split<Q31<Overflow>>{Q31<Overflow>::from_raw(mantissa), exponent};
 }
 
-/// At most 2^-14 of it too small.
+/// a b, too small by at most 2^-14 of it.
 template <class Overflow>
 constexpr Split<Q15<Overflow>> product(const Split<Q15<Overflow>>& a,
                                        const Split<Q15<Overflow>>& b) {
@@ -71,8 +74,8 @@ namespace detail {
 
 /// n/d, 2^30 <= n, d < 2^31, with 28 fraction bits; too small by at most 2^-24.
 ///
-/// Long division by two digits of 12 and 16 bits, each from a reciprocal of 15: every product fits
-/// a word, which counts where a wide one or a division is a call.
+/// Long division by two digits of 12 and 16 bits, each from a reciprocal of 15 bits. So every
+/// product fits a word; on small processors a wide product or a division is a call.
 constexpr std::uint32_t mantissa_quotient(std::uint32_t n, std::uint32_t d) {
   const std::uint32_t leading = (d >> 15) + 1;  // 1/2 to 1 with 16 bits, and not too small
   // 48/17 - 32/17 m is within 1/17 of 1/m; two steps of Newton's iteration square that twice.
@@ -89,7 +92,7 @@ constexpr std::uint32_t mantissa_quotient(std::uint32_t n, std::uint32_t d) {
 
 }  // namespace detail
 
-/// a/b, at most 2^-23 of it too small.
+/// a/b, too small by at most 2^-23 of it.
 template <class Overflow>
 constexpr Split<Q31<Overflow>> quotient(const Split<Q31<Overflow>>& a,
                                         const Split<Q31<Overflow>>& b) {
@@ -101,7 +104,7 @@ constexpr Split<Q31<Overflow>> quotient(const Split<Q31<Overflow>>& a,
           below_one ? exponent : exponent + 1};
 }
 
-/// a/b, at most 2^-13 of it too small.
+/// a/b, too small by at most 2^-13 of it.
 template <class Overflow>
 constexpr Split<Q15<Overflow>> quotient(const Split<Q15<Overflow>>& a,
                                         const Split<Q15<Overflow>>& b) {

@@ -18,8 +18,8 @@ struct Legendre {
   double slope;
 };
 
-/// Of the given degree, >= 1, by the three-term recurrence; |x| < 1. Error: some rounding per
-/// degree.
+/// Legendre polynomial of a degree >= 1 at |x| < 1, by the three-term recurrence. Error: a few
+/// roundings per degree.
 constexpr Legendre legendre(int degree, double x) {
   double previous = 1.0;
   double value = x;
@@ -33,8 +33,8 @@ constexpr Legendre legendre(int degree, double x) {
 
 namespace gauss_legendre_detail {
 
-/// Largest root of P_degree below `bound`: Newton from the right descends monotonically once the
-/// roots already found are divided out.
+/// Largest root of P_Count below `start` that is not among the first `already` found. Those are
+/// divided out, so that Newton's method descends monotonically from the right.
 template <int Count>
 constexpr double next_root(const std::array<double, Count>& found, int already, double start) {
   double x = start;

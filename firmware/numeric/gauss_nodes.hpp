@@ -1,4 +1,4 @@
-/// The nodes of Gauss and Legendre on an arc, and what is done with values at them.
+/// Gauss-Legendre nodes on an arc, and tables that integrate and expand a function given at them.
 #pragma once
 
 #include <array>
@@ -12,14 +12,14 @@ namespace sonoglide::numeric {
 
 namespace detail {
 
-/// In double, on [0, 1], nodes in rising order.
+/// Tables in double, on [0, 1], nodes in rising order.
 template <std::size_t Count>
 struct GaussTables {
   numeric::GaussLegendreRule<static_cast<int>(Count)> rule =
       numeric::gauss_legendre<static_cast<int>(Count)>();
 
-  /// From the middle to node i, of the polynomial that is 1 at node j and 0 at the others; the rule
-  /// is exact for it.
+  /// Integral, from the middle of [0, 1] to node i, of the polynomial that is 1 at node j and 0 at
+  /// the other nodes; exact.
   constexpr double integral(std::size_t i, std::size_t j) const {
     double sum = 0.0;
     for (std::size_t q = 0; q < Count; ++q) {
@@ -42,9 +42,9 @@ struct GaussTables {
 
 }  // namespace detail
 
-/// `Count` nodes on [0, 1]. They come in pairs, a node of the first half and its mirror image:
-/// a function is held as its values at the first half, in rising order, then at their images. With
-/// sums and differences of a pair every table below shrinks to a half of a side.
+/// `Count` nodes on [0, 1] in pairs: a node of the first half and its mirror image. A function is
+/// held as its values at the first half, in rising order, then at the images. The tables act on
+/// sums and differences of a pair, which halves each of their sides.
 template <class Float, std::size_t Count>
 struct GaussNodes {
   static constexpr std::size_t pairs = Count / 2;
@@ -55,8 +55,8 @@ struct GaussNodes {
 
   Values<Count> node{};
   OfPairs weight{};
-  /// Integrals from 0 to a node are half of the whole, plus that of the differences, plus (minus
-  /// for the image) that of the sums. [j][i]: what pair j adds for node i.
+  /// The integral from 0 to a node is half of the whole, plus the part of the differences, plus the
+  /// part of the sums (minus for the image). [j][i]: what pair j adds at node i.
   std::array<OfPairs, pairs> of_differences{};
   std::array<OfPairs, pairs> of_sums{};
   /// The two highest coefficients of a function in Legendre polynomials.

@@ -1,4 +1,4 @@
-/// The rule of Gauss and Legendre, ready for lanes.
+/// A Gauss-Legendre rule as whole lanes.
 #pragma once
 
 #include <array>

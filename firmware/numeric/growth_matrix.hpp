@@ -11,6 +11,7 @@ namespace sonoglide::numeric {
 template <class Scalar, std::size_t Size>
 using SquareMatrix = std::array<std::array<Scalar, Size>, Size>;
 
+/// Matrix product a b.
 template <class Scalar, std::size_t Size>
 SquareMatrix<Scalar, Size> product(const SquareMatrix<Scalar, Size>& a,
                                    const SquareMatrix<Scalar, Size>& b) {
@@ -25,11 +26,13 @@ SquareMatrix<Scalar, Size> product(const SquareMatrix<Scalar, Size>& a,
   return result;
 }
 
-/// exp(time generator) - 1: what the state of z' = generator z grows by in `time`, any real matrix.
+/// exp(time generator) - 1, for any real matrix: the growth of the state of z' = generator z in
+/// `time`.
 ///
 /// Taylor series of a halved time, then doubling by (1 + g)^2 - 1 = 2 g + g^2, which keeps the
-/// digits of a small growth. Error <= 64 epsilon times one more than the doublings, relative to 1
-/// or the largest entry of the exponential, whichever is larger.
+/// digits of a small growth. Error <= 64 epsilon (doublings + 1), relative to the larger of 1 and
+/// the largest entry of the exponential.
+/// Source: C. Moler, C. Van Loan, SIAM Review 45 (2003) 3-49 (scaling and squaring).
 template <class Scalar, std::size_t Size>
 SquareMatrix<Scalar, Size> growth_matrix(const SquareMatrix<Scalar, Size>& generator, Scalar time) {
   constexpr int terms = 15;  // 2^-16 / 16! is below the rounding of double

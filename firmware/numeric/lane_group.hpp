@@ -1,5 +1,4 @@
-/// Vectors of lanes that are worked on side by side: the long chain of dependent operations of one
-/// fills the waits of the others.
+/// Several vectors of lanes, computed side by side: while one waits for a result, others proceed.
 #pragma once
 
 #include <array>
@@ -9,8 +8,8 @@
 
 namespace sonoglide::numeric {
 
-/// `Count` vectors, with + - * lane by lane: among themselves, and with a number or a vector that
-/// counts for each. The same bits as one vector after the other.
+/// `Count` vectors, with + - * lane by lane. The other operand is a group, or a number or vector
+/// that applies to each. The bits are those of one vector after the other.
 template <class Float, std::size_t Count>
 struct LaneGroup {
   std::array<Lanes<Float>, Count> part;
@@ -78,6 +77,7 @@ template <std::size_t Count, class Float>
   return group;
 }
 
+/// at_most() of each vector.
 template <class Float, std::size_t Count>
 [[gnu::always_inline]] inline LaneGroup<Float, Count> at_most(Float limit,
                                                               LaneGroup<Float, Count> x) {
@@ -87,6 +87,7 @@ template <class Float, std::size_t Count>
   return x;
 }
 
+/// The sum of all numbers: of the vectors first, then of the lanes.
 template <class Float, std::size_t Count>
 [[gnu::always_inline]] inline Float sum_of_lanes(const LaneGroup<Float, Count>& x) {
   Lanes<Float> sum = x.part[0];

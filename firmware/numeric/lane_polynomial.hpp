@@ -14,8 +14,8 @@ using LanePolynomial = std::array<numeric::Lanes<Scalar>, Degree + 1>;
 
 enum class Parity : std::size_t { even, odd };
 
-/// The even powers of p, or the odd ones: its values at x are even + x odd. At lanes, or at a group
-/// of them.
+/// The even powers of p, or the odd ones over x: p(x) = even + x odd. At lanes or at a group of
+/// them.
 template <Parity Which, class Coefficient, std::size_t Count, class Numbers>
 [[gnu::always_inline]] inline Numbers half_value(const std::array<Coefficient, Count>& p,
                                                  Numbers square) {
@@ -29,7 +29,7 @@ template <Parity Which, class Coefficient, std::size_t Count, class Numbers>
   return sum;
 }
 
-/// p(x). Its two halves do not wait for each other.
+/// p(x), from two halves that do not wait for each other.
 template <class Coefficient, std::size_t Count, class Numbers>
 [[gnu::always_inline]] inline Numbers value_at(const std::array<Coefficient, Count>& p, Numbers x) {
   const Numbers square = x * x;

@@ -1,4 +1,4 @@
-/// A few numbers side by side: what every processor's vector unit, or none at all, can hold.
+/// A few numbers side by side, on any processor, with a vector unit or without.
 #pragma once
 
 #include <array>
@@ -40,6 +40,7 @@ using LaneBits = typename detail::LaneTypes<Float>::Bits;
 template <class Float>
 inline constexpr std::size_t lane_count = 16 / sizeof(Float);
 
+/// x in every lane; -0 becomes 0.
 template <class Float>
 [[gnu::always_inline]] inline Lanes<Float> broadcast(Float x) {
   return Lanes<Float>{} + x;
@@ -53,6 +54,7 @@ template <class Float>
   return lanes;
 }
 
+/// The sum of the lanes, in pairs.
 template <class Float>
 [[gnu::always_inline]] inline Float sum_of_lanes(Lanes<Float> x) {
   if constexpr (lane_count<Float> == 2) {
@@ -62,7 +64,7 @@ template <class Float>
   }
 }
 
-/// x or the limit, whichever is less, lane by lane; the limit where x is no number.
+/// The smaller of x and the limit, lane by lane; the limit where x is NaN.
 template <class Float>
 [[gnu::always_inline]] inline Lanes<Float> at_most(Float limit, Lanes<Float> x) {
   const Lanes<Float> limits = broadcast(limit);
@@ -75,15 +77,14 @@ template <class Float>
   return reinterpret_cast<LaneBits<Float>>(x) >> (8 * sizeof(Float) - 1);
 }
 
-/// As far as moderate_decay has sense; what is left there is less than its error.
+/// Largest argument of moderate_decay: beyond it exp(-z) is below the error.
 template <class Float>
 inline constexpr Float longest_decay = sizeof(Float) == sizeof(double) ? Float(64) : Float(20);
 
-/// exp(-z), z in [-0.5, 6]. Error <= 1e-13 in double, 5e-6 in float; up to longest_decay 1e-9 and
-/// 5e-6.
+/// exp(-z), of lanes or of a group of them. Error for z in [-0.5, 6]: <= 1e-13 in double, 5e-6 in
+/// float; for z up to longest_decay: <= 1e-9 in double, 5e-6 in float.
 ///
-/// A power of exp at a fraction of z, which is small enough for a short series. Of lanes, or of a
-/// group of them.
+/// A short series gives exp at a fraction of z. Squaring it repeatedly gives exp(-z).
 template <class Float, class Numbers>
 [[gnu::always_inline]] inline Numbers moderate_decay(Numbers z) {
   constexpr int halvings = sizeof(Float) == sizeof(double) ? 6 : 3;

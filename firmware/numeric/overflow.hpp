@@ -1,6 +1,7 @@
 /// What fixed-point arithmetic does when a result leaves its range: policies as type tags.
 ///
-/// Under every policy the result is the nearest end of the range; they differ in who hears of it.
+/// Under every policy the result is the nearest end of the range. The policies differ in what else
+/// an overflow does.
 #pragma once
 
 #include "firmware/numeric/signal_ledger.hpp"

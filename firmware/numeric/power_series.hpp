@@ -44,8 +44,8 @@ constexpr Scalar power(Scalar x) {
   }
 }
 
-/// Sum of p[n] x^(n - First), n >= First: four chains, one for each power modulo 4, do not wait for
-/// each other. Inlined by order: a call for each polynomial cost the solver a fifth of its time.
+/// Sum of p[n] x^(n - First), n >= First, in four independent chains, one for each power modulo 4.
+/// Always inlined: a call for each polynomial cost the solver a fifth of its time.
 template <std::size_t First, class Scalar, std::size_t Count>
 [[gnu::always_inline]] inline Scalar evaluate_from(const std::array<Scalar, Count>& p, Scalar x) {
   static_assert(Count > First, "nothing to sum");
@@ -68,7 +68,7 @@ Scalar evaluate(const std::array<Scalar, Count>& p, Scalar x) {
   return evaluate_from<0>(p, x);
 }
 
-/// Coefficients of the derivative of p of the given degree, over its factorial.
+/// Coefficients of the derivative of p of the given degree, over the factorial of the degree.
 template <std::size_t Degree, class Scalar, std::size_t Count>
 std::array<Scalar, Count - Degree> derivative(const std::array<Scalar, Count>& p) {
   std::array<Scalar, Count - Degree> result{};

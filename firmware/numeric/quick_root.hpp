@@ -7,10 +7,11 @@
 
 namespace sonoglide::numeric {
 
-/// x^(1/Degree) within 7 %, x > 0 and normal; something large for infinity.
+/// x^(1/Degree) within 7 %, x > 0 and normal; for infinity a large number.
 ///
-/// The bits of a floating-point number, read as an integer, are nearly its logarithm: those of the
-/// root lie as much closer to those of 1. The same bits on every machine, and no logarithm.
+/// The bits of a floating-point number, read as an integer, are nearly its logarithm. So a
+/// Degree-th of their distance from the bits of 1 gives the root, without a logarithm and with the
+/// same bits on every machine.
 template <int Degree, class Float>
 constexpr Float quick_root(Float x) {
   using Bits = numeric::FloatBits<Float>;
@@ -19,10 +20,10 @@ constexpr Float quick_root(Float x) {
   return numeric::from_bits<Float>(static_cast<Bits>(kept + numeric::to_bits(x) / Degree));
 }
 
-/// (a / b)^(1/Degree) within 8 %, Degree >= 4, a and b normal; larger for b = 0.
+/// (a / b)^(1/Degree) within 8 %, Degree >= 4, a and b normal; for b = 0 a larger number.
 ///
-/// The difference of the bits is nearly the logarithm of the quotient, which may itself be beyond
-/// the format.
+/// The difference of the bits is nearly the logarithm of the quotient. The quotient itself may be
+/// beyond the format.
 template <int Degree, class Float>
 constexpr Float quick_root_of_quotient(Float a, Float b) {
   using Bits = numeric::FloatBits<Float>;

@@ -1,4 +1,4 @@
-/// What generic code may ask of its scalar, be it double, float or Fixed.
+/// Operations that generic code needs of its scalar: double, float or Fixed.
 #pragma once
 
 #include <array>
@@ -22,7 +22,7 @@ template <class Scalar>
 inline constexpr bool is_fixed_point_v = IsFixedPoint<Scalar>::value;
 
 /// Nearest value of the scalar; fixed point rounds ties toward +infinity and overflows by policy.
-/// For constants and the host: a board without a double unit should meet it at compile time only.
+/// For constants and the host; on a board without a double unit for compile time only.
 template <class Scalar>
 constexpr Scalar from_real(double value) {
   if constexpr (is_fixed_point_v<Scalar>) {
@@ -54,17 +54,19 @@ constexpr Scalar abs(Scalar x) {
   }
 }
 
-/// -1, 0 or 1, of either zero 0; floating point.
+/// Sign of a floating-point number: -1, 0 or 1; 0 for both zeros and for NaN.
 template <class Scalar>
 constexpr Scalar sign(Scalar x) {
   return static_cast<Scalar>(static_cast<int>(x > Scalar(0)) - static_cast<int>(x < Scalar(0)));
 }
 
+/// The smaller of a and b; a if one of them is NaN.
 template <class Scalar>
 constexpr Scalar min(Scalar a, Scalar b) {
   return b < a ? b : a;
 }
 
+/// The larger of a and b; a if one of them is NaN.
 template <class Scalar>
 constexpr Scalar max(Scalar a, Scalar b) {
   return a < b ? b : a;
@@ -148,8 +150,8 @@ struct Split {
   int exponent;
 };
 
-/// Splits x > 0 into a mantissa in [0.5, 1) and a power of two; 0, negative numbers, infinity and
-/// NaN come back whole, with exponent 0.
+/// Splits x > 0 into a mantissa in [0.5, 1) and a power of two. 0, negative numbers, infinity and
+/// NaN are returned unchanged, with exponent 0.
 ///
 /// Exact, subnormals included; only a fixed-point value above 1 that has more digits than the
 /// mantissa's fraction holds is rounded. A fixed-point format needs at least one fraction bit.
@@ -183,8 +185,8 @@ constexpr Split<Scalar> split(Scalar x) {
   }
 }
 
-/// A left-justified converter code as a number: code * 2^-31, rounded to the scalar. What rounds to
-/// +1 where the scalar ends below it becomes the largest value, and that is not an overflow.
+/// A left-justified converter code as a number: code * 2^-31, rounded to the scalar. In fixed point
+/// a code that rounds to +1 gives the largest value; that is not an overflow.
 template <class Scalar>
 constexpr Scalar from_code(std::int32_t code) {
   if constexpr (is_fixed_point_v<Scalar>) {

@@ -1,5 +1,4 @@
-/// What the fixed-point signals of a simulation did: how far they reached, how often they
-/// saturated.
+/// Range and saturations of each fixed-point signal of a simulation.
 #pragma once
 
 #include <array>
@@ -20,7 +19,7 @@ struct SignalRecord {
   double largest = 0.0;
 };
 
-/// Fixed capacity, no heap; signals stand in the order in which they were first observed.
+/// Fixed capacity, no heap. The signals are in the order of their first observation.
 struct SignalLedger {
   static constexpr std::size_t capacity = 32;
 
@@ -95,11 +94,11 @@ struct SignalLedger {
   }
 };
 
-/// The ledger that this thread's Counting arithmetic writes to; null, and nothing is recorded.
-/// Arithmetic under another policy never names it, so an image holds no trace of it.
+/// The ledger that Counting arithmetic of this thread writes to; if it is null, nothing is
+/// recorded. Other policies never name it, so an image holds no trace of it.
 inline thread_local SignalLedger* attached_ledger = nullptr;
 
-/// Attaches a ledger to this thread, and puts back the one before when the scope ends.
+/// Attaches a ledger to this thread. The end of the scope restores the previous one.
 class LedgerScope {
  public:
   explicit LedgerScope(SignalLedger& ledger) : previous_(attached_ledger) {
@@ -122,9 +121,8 @@ struct IsCounted<Scalar, std::void_t<typename Scalar::Overflow>>
 
 /// Returns value unchanged; under Counting also enters it in the attached ledger.
 ///
-/// @tparam Signal  a type that names the signal: `struct Force { static constexpr const char* name
-/// =
-///                 "force"; };`. Every saturation since the observation before is charged to it.
+/// @tparam Signal  names the signal: `static constexpr const char* name`. Every saturation since
+///                 the previous observation is charged to it.
 /// For every other scalar this is the identity: no code, no string.
 template <class Signal, class Scalar>
 constexpr Scalar observe(Scalar value) {

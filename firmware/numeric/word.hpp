@@ -37,7 +37,7 @@ constexpr std::int32_t product_of_halves(std::int32_t a, std::int32_t b) {
                                    static_cast<std::uint32_t>((rest + (1 << 14)) >> 15));
 }
 
-/// The same, however the processor does it best.
+/// As product_of_halves(), by a wide product where the processor has one.
 constexpr std::int32_t rounded_q31_product(std::int32_t a, std::int32_t b) {
   if constexpr (has_wide_product) {
     return static_cast<std::int32_t>((std::int64_t{a} * b + (1 << 30)) >> 31);
@@ -63,7 +63,7 @@ constexpr int width_by_halving(std::uint32_t x) {
   return width;
 }
 
-/// The same, however the processor does it best.
+/// As width_by_halving(), by an instruction where the processor has one.
 constexpr int bit_width(std::uint32_t x) {
   return has_leading_zeros ? 32 - __builtin_clz(x) : width_by_halving(x);
 }

@@ -40,7 +40,7 @@ struct MotionIntegrals {
   }
 };
 
-/// Where the energy goes; all integrals over tau.
+/// Integrals of the energy balance over tau.
 template <class Scalar>
 struct EnergyAccount {
   Scalar friction_integral = Scalar(0);    ///< integral of phi
@@ -69,8 +69,8 @@ struct EnergyAccount {
   /// Residual of the identity
   ///   stored(after) - stored(before) = drive_work - damping_work
   ///                                    - sigma beta (friction_work - sliding_work),
-  /// relative to the largest of its terms; 0 where all of them are 0. The works are net ones: over
-  /// whole periods of a light contact they may be far smaller than the energy that came and went.
+  /// relative to the largest of its terms; 0 if all of them are 0. The works are net: over whole
+  /// periods of a light contact they may be far smaller than the energy that was exchanged.
   template <class Model>
   Scalar balance_residual(const Model& model, const State<Scalar>& before,
                           const State<Scalar>& after) const {

@@ -19,7 +19,7 @@ struct Contact {
   Scalar contact_velocity(Scalar sliding_velocity, Scalar velocity) const {
     return sliding_velocity + vibration_sign * velocity;
   }
-  /// Of the contact's path as the vibration leads it, and what the sliding adds to that.
+  /// Velocity along the contact's path, and the part of it that the sliding contributes.
   Scalar path_velocity(Scalar sliding_velocity, Scalar velocity) const {
     return contact_velocity(sliding_velocity, velocity);
   }
@@ -29,7 +29,7 @@ struct Contact {
     return -vibration_sign * sliding_velocity;
   }
   Scalar contact_force(Scalar friction) const { return friction_force * friction; }
-  /// The friction on the oscillator, in Fc, where `friction` acts along the sliding.
+  /// The friction on the oscillator, in Fc. `friction`, in Fc, acts along the sliding.
   Scalar friction_on_oscillator(Scalar /*sliding_velocity*/, Scalar /*velocity*/,
                                 Scalar friction) const {
     return friction;
@@ -42,7 +42,8 @@ struct Contact {
   Scalar contact_work(Scalar integral) const { return vibration_sign * friction_force * integral; }
 };
 
-/// Vibration across the sliding: the contact's path is the oscillator's own, and the slip a vector.
+/// Vibration across the sliding. The contact's path is that of the oscillator; the slip is a
+/// vector.
 template <class Law>
 struct Contact<Law, friction::Vibration::across> {
   using Scalar = typename Law::Scalar;
@@ -83,7 +84,7 @@ struct Contact<Law, friction::Vibration::normal> {
   Scalar contact_work(Scalar integral) const { return friction_force * integral; }
 };
 
-/// Nothing touches: no parameters, and every term folds away.
+/// No contact: no parameters, and the compiler removes every term.
 template <class Number>
 struct Contact<friction::None<Number>, friction::Vibration::along> {
   using Scalar = Number;

@@ -1,6 +1,6 @@
-/// Drive waveforms. Each offers itself in two forms: as a power series about one phase, and sampled
-/// at equal steps of phase. One with corners or jumps is put together of straight pieces: an
-/// interval lies within one piece.
+/// Drive waveforms. Each offers a power series about one phase, and samples at equal steps of
+/// phase. A waveform with corners or jumps consists of straight pieces; an interval lies within one
+/// piece.
 #pragma once
 
 #include <array>
@@ -82,7 +82,7 @@ struct CosineDrive {
     std::array<Scalar, Order + 1> coefficients_;
   };
 
-  /// One rotation for each sample instead of one cosine; the error grows by a rounding each time.
+  /// Samples by one rotation each in place of one cosine; the error grows by a rounding each time.
   template <class Scalar>
   class Samples {
    public:
@@ -104,7 +104,7 @@ struct CosineDrive {
 };
 
 /// A force that is linear in time. Straight::at(amplitude, phase) is the force at a phase,
-/// Straight::slope(amplitude) what it grows by in a radian.
+/// Straight::slope(amplitude) its increase per radian.
 template <class Straight>
 struct StraightDrive {
   /// The drive at one phase.
@@ -152,7 +152,7 @@ struct StraightDrive {
   };
 };
 
-/// a phase: a piece of a triangle or a sawtooth, the phase counted from where the force is zero.
+/// a phase: a piece of a triangle or a sawtooth. The phase counts from the zero of the force.
 struct Ramp {
   template <class Scalar>
   static Scalar at(Scalar amplitude, Scalar phase) {

@@ -35,7 +35,7 @@ struct Model : Contact<Law>, Damping {
            this->contact_force(state.friction);
   }
 
-  /// The moduli of its terms, summed: what their rounding is relative to.
+  /// Sum of the moduli of the terms of y''; its rounding error is relative to this.
   Scalar force_moduli(Scalar drive, const State<Scalar>& state) const {
     return drive + numeric::abs(this->damping_force(state.velocity)) +
            numeric::abs(stiffness * state.displacement) +

@@ -3,7 +3,7 @@
 
 namespace sonoglide::plant {
 
-/// Watches nothing. Any other observer is a callable too; the step it is given offers
+/// Observes nothing. Every other observer is a callable too. The step that it is given offers
 ///   begin(), length()   time since the beginning of the interval, and duration of the step
 ///   at(offset)          State at begin() + offset, offset in [0, length()]
 ///   friction_integral(), motion_integrals(), …   integrals over the step, see account.hpp

@@ -1,4 +1,4 @@
-/// What an advance of a solver came to, and what it cost.
+/// Result and cost of an advance of a solver.
 #pragma once
 
 #include <cstdint>

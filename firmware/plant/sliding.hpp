@@ -1,4 +1,4 @@
-/// How the sliding velocity goes on from where an interval begins.
+/// The sliding velocity within an interval.
 #pragma once
 
 namespace sonoglide::plant {
@@ -7,7 +7,7 @@ namespace sonoglide::plant {
 struct LinearSliding {
   static constexpr bool varies = true;
 
-  /// Of r, over a time, or a group of times, in the unit that the acceleration has.
+  /// Change of r over a time, or over a group of times, in the unit of time of the acceleration.
   template <class Scalar, class Time>
   static constexpr Time change(Scalar acceleration, Time time) {
     return acceleration * time;

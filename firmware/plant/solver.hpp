@@ -13,7 +13,7 @@
 namespace sonoglide::plant {
 
 /// A solver is a template over the plant::Model that it advances. It offers:
-///   Model, Scalar   what it is composed of, and the number that it computes in
+///   Model, Scalar   the plant that it solves, and the number type in which it computes
 ///   solves<Law>     whether it takes a friction law; a model of another is a static_assert
 ///   configure(model, setting, step_limit)
 ///                   begins anew: `setting` is the tolerance of an adaptive solver (error of the
@@ -21,12 +21,13 @@ namespace sonoglide::plant {
 ///                   in tau of another; `step_limit` the most steps of one advance
 ///   advance(interval, state, account, observer) -> Outcome
 ///                   takes the state over one Interval, in which the sliding velocity keeps its
-///                   sign; adds every step to the account (account.hpp) and shows it to the observer
-///                   (observer.hpp). Whatever it cannot hold is an Error, with the place
+///                   sign; adds every step to the account (account.hpp) and shows it to the
+///                   observer
+///                   (observer.hpp). A failure is an Error with its time
 ///   cost()          steps and events since configure()
 /// For every solver |phi| <= 1 to rounding, the energy identity holds to its tolerance, and an
-/// advance that is cut in two gives the same motion to its tolerance. The typed suite of the tests,
-/// solver_suite.hpp, asks all of that of each.
+/// advance that is cut in two gives the same motion to its tolerance. The typed test suite
+/// solver_suite.hpp tests all of this for each solver.
 namespace detail {
 
 template <class Solver, class = void>
@@ -57,7 +58,7 @@ struct HasCost<Solver, std::void_t<decltype(std::declval<const Solver&>().cost()
 
 }  // namespace detail
 
-/// Fails to compile, with the reason, where Solver is no solver; true otherwise.
+/// True if Solver is a solver; otherwise it fails to compile, with the reason.
 template <class Solver>
 constexpr bool check_solver() {
   static_assert(detail::HasConfigure<Solver>::value,

@@ -26,7 +26,7 @@ template <class Law>
 using StateOf =
     std::conditional_t<Law::remembers, RememberingState<Law>, State<typename Law::Scalar>>;
 
-/// What the law goes on from: phi, or its Memory.
+/// What the law advances: phi, or its Memory.
 template <class Scalar>
 Scalar& contact_memory(State<Scalar>& state) {
   return state.friction;

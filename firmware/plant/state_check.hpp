@@ -1,4 +1,4 @@
-/// What every step is held to, whatever the method.
+/// The check of the state after every step, whatever the method.
 #pragma once
 
 #include <limits>
@@ -14,7 +14,8 @@ template <class Scalar>
 inline constexpr Scalar largest_friction = Scalar(1) +
                                            Scalar(64) * std::numeric_limits<Scalar>::epsilon();
 
-/// A finite state within that bound. What is bounded is finite: the usual state is asked no more.
+/// Checks that the state is finite and |phi| within that bound. A bounded phi is finite, so the
+/// usual state needs no further test.
 template <class Scalar>
 Error check_state(const State<Scalar>& state) {
   if (numeric::abs(state.friction) <= largest_friction<Scalar> &&
@@ -24,8 +25,8 @@ Error check_state(const State<Scalar>& state) {
   return is_finite(state) ? Error::friction_bound_broken : Error::not_finite;
 }
 
-/// The same of a plant with this law: of a force that depends on the speed there is no bound, but
-/// of what the law remembers; one that is a sign is within its own.
+/// The same check for a plant with this law. A force that depends on the speed has no bound, but
+/// its Memory may have one. A force that is a sign keeps its bound by itself.
 template <class Law>
 Error check_state(const Law& /*law*/, const State<typename Law::Scalar>& state) {
   if constexpr (Law::rate_independent && Law::varies) {

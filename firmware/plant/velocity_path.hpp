@@ -192,9 +192,9 @@ class VelocityPath {
                   : quarter_ * (static_cast<Scalar>(i - 1) + c[i - 1] / (c[i - 1] - c[i]));
   }
 
-  /// Where a piece goes from the sign `direction` to the other one, which it does once; zeros at
-  /// its ends are not meant. The displacement is stationary there: half of the digits of the root
-  /// give it to all of its own.
+  /// Where a piece changes from the sign `direction` to the other one, which it does once; zeros at
+  /// its ends do not count. The displacement is stationary there, so half of the digits of the root
+  /// give all digits of the displacement.
   static Scalar only_root(const Coefficients& c, Scalar direction) {
     constexpr int digits = std::numeric_limits<Scalar>::digits;
     constexpr Scalar accuracy = numeric::power_of_two<Scalar>(-digits / 2);

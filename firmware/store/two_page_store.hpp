@@ -1,4 +1,4 @@
-/// Numbers in flash that a power cut leaves whole and another firmware finds by name.
+/// Numbers in flash that survive a power cut, and that other firmware finds by name.
 #pragma once
 
 #include <array>
@@ -9,7 +9,7 @@
 
 namespace sonoglide::store {
 
-/// What is found in the store.
+/// Result of the search of the store.
 enum class Origin : std::uint8_t {
   stored,
   blank,         ///< nothing was ever stored
@@ -39,12 +39,12 @@ struct Entry {
 /// | 3, 4 …        | identity and value of each entry                   |
 /// | after them    | CRC-32 of all before it, words low first           |
 ///
-/// The page with the older record is erased and programmed, its checksum last, while the newer one
-/// is not touched. Power may fail during any erase or program: load() then finds the old record or
-/// the new one, whole. What a torn operation left is told from a record by the checksum, with a
-/// chance of 2^-32 to mistake it; a cell left between 0 and 1 may read differently at each reset,
-/// and one of the two records comes each time. A torn page and one that was whole and has decayed
-/// look alike: both are `damaged`, since the record that is left may be the looser one.
+/// The page with the older record is erased and programmed, its checksum last; the page with the
+/// newer record is not touched. If power fails during any erase or program, load() finds the old
+/// record or the new one, whole. The checksum takes a torn record for a whole one with a
+/// probability of 2^-32. A cell left between 0 and 1 may read differently at each reset; each reset
+/// then finds one of the two records. A torn page and a page that has decayed look alike. Both are
+/// `damaged`, because the record that is left may have the looser limits.
 ///
 /// @tparam Flash  see hal/board.hpp; not owned.
 template <class Flash, std::size_t Count>
@@ -137,7 +137,7 @@ class TwoPageStore {
   static constexpr std::size_t first_word = 2;
   static constexpr std::size_t verify = first_word + words_used;
 
-  /// As far as the page's first word can be trusted.
+  /// Number of entries, as far as the page's first word can be trusted.
   std::size_t entries(std::size_t page) const { return flash_.read(page, 0) & count_bits; }
 
   bool is_whole(std::size_t page) const {

@@ -1,5 +1,5 @@
-// An image that nobody watches halts where it ends, with its drive at zero. The watchdog, where
-// there is one, then resets the board.
+// An image that nobody watches halts where it ends, with its drive at zero. A watchdog, if there is
+// one, then resets the board.
 #include "hal/start/image_end.hpp"
 
 #include "hal/timed/drive_register.hpp"

@@ -1,5 +1,5 @@
-/// What a board in lockstep and its host say to each other: one frame each way for every carrier
-/// period, the host first. No byte order of a machine shows: little-endian, two's complement.
+/// The frames between a board in lockstep and its host: one each way for every carrier period, the
+/// host first. Numbers are little-endian and in two's complement, on machines of any byte order.
 #pragma once
 
 #include <array>
@@ -21,14 +21,14 @@ namespace sonoglide::hal::lockstep {
 inline constexpr std::size_t sample_frame_size = 16;
 inline constexpr std::size_t drive_frame_size = 24;
 
-/// What an answer cost the board, in the unit of its counter and without reading it; 0 from a board
-/// that has none.
+/// Cost of an answer on the board, in the unit of its counter, the reading of the counter excluded.
+/// 0 from a board without a counter.
 struct Cost {
   std::uint32_t step;    ///< from the sample handed over to the drive taken
   std::uint32_t answer;  ///< from the arrival of the sample frame to the drive frame being made up
 };
 
-/// Over a serial line the board speaks first: this byte says that it hears.
+/// Over a serial line the board speaks first: this byte says that it is ready to receive.
 inline constexpr std::uint8_t greeting = 0xa5;
 
 /// Aligned, so that a processor without unaligned access takes it by words.

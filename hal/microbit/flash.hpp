@@ -7,7 +7,7 @@
 namespace sonoglide::hal::microbit {
 
 /// The last two pages, which the linker script keeps free of code. The processor stands still while
-/// a page is erased, 22 ms, or a word programmed, 46 us, since its code comes from there too.
+/// a page is erased (22 ms) or a word is programmed (46 us), because its code is in the same flash.
 class Flash {
  public:
   static constexpr std::size_t page_words = 256;

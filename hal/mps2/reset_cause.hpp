@@ -13,7 +13,7 @@ extern volatile std::uint32_t reset_syndrome;     ///< SSE-200 system control, R
 
 /// Cortex-M3, M4 and M7. Source: Arm, Cortex-M System Design Kit, Technical Reference Manual.
 struct ResetInformation {
-  /// Tells, and forgets.
+  /// Returns whether it was the watchdog, and clears the record.
   static bool take_watchdog() {
     constexpr std::uint32_t by_watchdog = 1U << 1;
     const bool caused = (reset_information & by_watchdog) != 0;
@@ -24,7 +24,7 @@ struct ResetInformation {
 
 /// Cortex-M33. Source: Arm, CoreLink SSE-200 Subsystem, Technical Reference Manual.
 struct ResetSyndrome {
-  /// Tells, and forgets.
+  /// Returns whether it was the watchdog, and clears the record.
   static bool take_watchdog() {
     constexpr std::uint32_t by_secure_watchdog = 1U << 2;
     const bool caused = (reset_syndrome & by_secure_watchdog) != 0;

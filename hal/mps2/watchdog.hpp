@@ -19,8 +19,8 @@ extern WatchdogRegisters watchdog;
 extern volatile std::uint32_t watchdog_lock;
 }
 
-/// Unfed for a tenth of a second, it raises the NMI, by which the image ends; another tenth later
-/// it resets the board.
+/// If it is not fed for a tenth of a second, it raises the NMI, which ends the image. Another tenth
+/// later it resets the board.
 ///
 /// @tparam ResetCause  offers bool take_watchdog(), whether the watchdog caused the last reset
 template <std::uint32_t ClockHz, class ResetCause>

@@ -35,7 +35,8 @@ constexpr std::uint32_t locked = 1U << 31;
 constexpr std::uint32_t busy_bit = 1U << 16;
 constexpr std::uint32_t every_error = 0xf3;  // a set bit clears it
 
-/// The controller takes orders as long as this lives, and then finishes the last one.
+/// Unlocks the flash controller while this lives. Its end finishes the last operation and locks the
+/// controller.
 class Unlocked {
  public:
   Unlocked() {

@@ -6,11 +6,11 @@
 
 namespace sonoglide::hal::netduinoplus2 {
 
-/// The first 256 bytes of the last two sectors, of 128 KiB each, which the linker script keeps free
-/// of code. An erase takes 1 to 2 s, at most 4 s, and the processor stands still meanwhile, since
-/// its code comes from there too: the watchdog, which must have been started, is made to wait. The
-/// controller is locked but for the time of an operation. The data cache has to be off, as it is
-/// after a reset.
+/// The first 256 bytes of the last two sectors of 128 KiB, which the linker script keeps free of
+/// code. An erase takes 1 to 2 s, at most 4 s. The processor stands still meanwhile, because its
+/// code is in the same flash. So the watchdog, which must have been started, is made to wait. The
+/// controller of the flash is locked except during an operation. The data cache must be off, as it
+/// is after a reset.
 class Flash {
  public:
   static constexpr std::size_t page_words = 64;

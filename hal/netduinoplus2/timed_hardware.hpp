@@ -9,8 +9,8 @@
 
 namespace sonoglide::hal::netduinoplus2 {
 
-/// Erasing a flash sector stands still for longer than SysTick turns in, so that periods go
-/// uncounted: only while parameters are saved, when the drive is at zero.
+/// The erase of a flash sector takes longer than SysTick takes to wrap, so that periods go
+/// uncounted. This happens only while parameters are saved, with the drive at zero.
 struct TimedHardware {
   /// The internal oscillator's 16 MHz leave 266 clocks for each carrier period.
   static constexpr unsigned carriers_per_period = 16;

@@ -29,8 +29,8 @@ constexpr std::uint32_t divide_by_256 = 6;
 constexpr std::uint32_t tenth_of_a_second = 800 - 1;  // at 32 kHz / 4
 constexpr std::uint32_t eight_seconds = 1024 - 1;     // at 32 kHz / 256
 
-// Either register takes over after some turns of the oscillator and is not to be written until
-// then.
+// A register takes over a new value after some cycles of the oscillator, and must not be written
+// before.
 void set_period(std::uint32_t prescaler, std::uint32_t reload) {
   independent_watchdog.key = write_word;
   independent_watchdog.prescaler = prescaler;

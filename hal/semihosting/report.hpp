@@ -1,4 +1,4 @@
-/// Lines of text for whoever runs the image.
+/// Lines of text for the person or program that runs the image.
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-/// A board that is the plant itself: no host, no converter, no vibration.
+/// A board that is the plant itself: no host and no converter.
 #pragma once
 
 #include <cstddef>
@@ -15,9 +15,9 @@
 
 namespace sonoglide::hal::simulated {
 
-/// Lives through one carrier period for every sample, from drive phase 0 to 2 pi, under the latest
+/// Each sample takes one carrier period of the plant, from drive phase 0 to 2 pi, under the latest
 /// drive amplitude. The sensor is ideal: the code nearest to the mean friction force of the period,
-/// ties toward +infinity, at the rail where the force has left the range of codes.
+/// ties toward +infinity. A force beyond the range of codes is at the rail.
 ///
 /// @tparam Solver          one of firmware/plant, in float or double
 /// @tparam LatencyPeriods  of the drive, see DriveLatency

@@ -1,4 +1,4 @@
-/// What passes the seam, and what either side of it costs.
+/// What passes between a controller and a board, and what each of them costs.
 #pragma once
 
 #include <cstdint>
@@ -27,8 +27,8 @@ class CountRange {
   std::uint64_t sum_ = 0;
 };
 
-/// A board with its samples and drives hashed, and with the processor's counter read whenever a
-/// call begins or ends: sampling is the board's own work, answering the controller's.
+/// A board that hashes its samples and drives, and reads the processor's counter at the begin and
+/// the end of every call: sampling is the board's own work, answering the controller's.
 template <class Board>
 class WatchedBoard {
  public:

@@ -1,4 +1,4 @@
-/// What a stretch of code costs, in a unit of the processor's own.
+/// Cost of a stretch of code, in a unit of the processor.
 #pragma once
 
 #include <cstdint>
@@ -8,6 +8,6 @@ extern "C" {
 /// Lets the processor's counter run.
 void start_counter();
 
-/// Rises while the processor works and wraps at 2^32: a difference of two counts is a stretch.
+/// Rises while the processor works, and wraps at 2^32. The difference of two counts is the cost.
 std::uint32_t read_counter();
 }

@@ -9,9 +9,10 @@
 
 namespace sonoglide::hal::timed {
 
-/// Begins a carrier period every so many ticks, and takes its samples from a StandInContact: there
-/// is neither converter nor transducer. Periods are counted from the counter's value, so that one
-/// which nobody waited for is counted too; a call must come at least once in each of its turns.
+/// Begins a carrier period every so many ticks, and takes its samples from a StandInContact,
+/// because it has neither converter nor transducer. Periods are counted from the counter's value,
+/// so that a period in which nobody waited counts too. A call must come at least once in each turn
+/// of the counter.
 ///
 /// @tparam Clock  once constructed, it counts up and wraps; it offers
 ///   static constexpr std::uint32_t hz;

@@ -1,4 +1,4 @@
-/// Stands in for transducer, contact and sensors on a board that has none of them.
+/// Stands in for transducer, contact and sensors on a board that has none.
 #pragma once
 
 #include <cstdint>
@@ -7,10 +7,10 @@
 
 namespace sonoglide::hal::timed {
 
-/// A contact of one state: friction follows the drive by half of the way in each carrier period,
-/// towards Fc v / a where the drive's peak velocity a exceeds the sliding velocity v, else towards
-/// Fc. It is no model of friction. The ratio lies above the Coulomb contact's (2/pi) asin(v / a) by
-/// a factor of up to pi/2, which is left to the controller's feedback.
+/// A contact of one state. In each carrier period friction moves half of the way towards a value:
+/// Fc v / a if the drive's peak velocity a exceeds the sliding velocity v, otherwise Fc. It is no
+/// model of friction. The ratio is above that of the Coulomb contact, (2/pi) asin(v / a), by a
+/// factor of up to pi/2, which the controller's feedback corrects.
 ///
 /// Fc is half of the sensor's full scale and v a tenth of the peak velocity at full drive, as in
 /// scenes that say nothing else and in the Table 1 contact.

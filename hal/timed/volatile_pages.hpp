@@ -7,7 +7,7 @@
 
 namespace sonoglide::hal::timed {
 
-/// Two pages in RAM, erased at reset: what is saved is lost with it. It is never busy.
+/// Two pages in RAM, erased at reset, so that saved parameters are lost with it. Never busy.
 class VolatilePages {
  public:
   static constexpr std::size_t page_words = 64;

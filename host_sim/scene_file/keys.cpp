@@ -104,7 +104,7 @@ std::vector<Key> friction_keys() {
        "friction coefficient", with_friction},
       {"coefficient_profile", Profile{time_range, coefficient_range}, Rule{"coefficient, constant"},
        fmt::format("friction coefficient over time, in place of coefficient, linear between the "
-                   "pairs, with a jump at two pairs of one time; above 0 with {}",
+                   "pairs; two pairs at the same time are a jump; above 0 with {}",
                    unbounded),
        with_friction},
       {"normal_force_N", Number{normal_force_range},
@@ -112,15 +112,15 @@ std::vector<Key> friction_keys() {
        "normal force of the contact", with_friction},
       {"normal_force_profile_N", Profile{time_range, normal_force_range},
        Rule{"normal_force_N, constant"},
-       fmt::format("normal force over time, in place of normal_force_N, linear between the pairs, "
-                   "with a jump at two pairs of one time; above 0 with {}",
+       fmt::format("normal force over time, in place of normal_force_N, linear between the pairs; "
+                   "two pairs at the same time are a jump; above 0 with {}",
                    unbounded),
        with_friction},
       {"contact_stiffness_N_per_m", Number{{1e-6, 1e18, "N/m"}}, Required{},
        "tangential stiffness of the contact", elastic},
       {"initial_force_N", Number{{-largest_limit_N, largest_limit_N, "N"}},
        scene::ContactValues{}.initial_force_N,
-       "friction force at 0 s, at most coefficient * normal_force_N either way",
+       "friction force at 0 s; its magnitude is at most coefficient * normal_force_N",
        elastic + "; run.start = \"given\""},
       {"sign_convention", Word{words_of(scene::sign_conventions)},
        scene::name_of(scene::sign_conventions, scene::ContactValues{}.sign_convention),
@@ -150,7 +150,8 @@ std::vector<Key> drive_keys() {
        "amplitude of the drive force", open_loop},
       {"waveform", Word{words_of(scene::waveforms)},
        scene::name_of(scene::waveforms, drive.waveform),
-       fmt::format("shape of the drive force, its peak at phase 0; all but cosine with {}",
+       fmt::format("shape of the drive force, with its peak at phase 0; a shape other than cosine "
+                   "needs {}",
                    methods_where([](auto described) {
                      return !decltype(described)::straight_orders.empty();
                    }))},
@@ -159,9 +160,8 @@ std::vector<Key> drive_keys() {
       {"max_force_slew_N_per_s", Number{{1e-12, 1e21, "N/s"}}, Rule{"no limit"},
        "limit of the actuator: fastest change of the amplitude", closed_loop_only},
       {"delay_periods", Integer{0, 16, "periods"}, static_cast<double>(drive.delay_periods),
-       "carrier periods from the end of a sampled period to the phase 0 at which its answer acts; "
-       "0 "
-       "needs a board that answers within no time",
+       "carrier periods from the end of a sampled period to the phase 0 at which the command that "
+       "answers it acts; 0 stands for a board that computes in no time",
        closed_loop_only},
   };
 }
@@ -220,8 +220,9 @@ std::vector<Key> solver_keys() {
        methods_where(takes_order)},
       {"step_s", Number{{1e-15, 1.0, "s"}},
        Rule{fmt::format("required; no limit with {}", methods_where(takes_longest))},
-       "length of the steps, shortened to a whole number in a carrier period; longest step of a "
-       "method that picks its own",
+       fmt::format("length of the steps, shortened so that a whole number of them fills a carrier "
+                   "period; the longest step with {}",
+                   methods_where(takes_longest)),
        methods_where(takes_step)},
   };
 }
@@ -230,18 +231,19 @@ std::vector<Key> run_keys() {
   const scene::Run run;
   return {
       {"start", Word{words_of(scene::starts)}, scene::name_of(scene::starts, run.start),
-       "given: from the initial state; steady: on the periodic orbit of a drive, a sliding and a "
-       "friction that do not change",
+       "given: from the initial state; steady: on the periodic orbit, for which drive, sliding and "
+       "friction must be constant",
        open_loop},
       {"duration_s", Number{{1e-12, 1e9, "s"}}, Instead{"duration_periods"}, "simulated time"},
       {"duration_periods", Number{{1e-3, most_periods, "periods"}}, Instead{"duration_s"},
        "simulated time in carrier periods", "[drive]"},
       {"window_start_s", Number{time_range}, run.window_start_s,
-       "start of the window over which means are taken, to the end of the run"},
+       "start of the window over which means are taken; the window ends with the run"},
       {"window_start_periods", Number{{0.0, most_periods, "periods"}}, Rule{"window_start_s"},
        "the same in carrier periods, in place of window_start_s", "[drive]"},
       {"settling_band", Number{{0.0, 1.0, "", true}}, run.settling_band,
-       "half width of the band around a target in which a step has settled, in friction ratio",
+       "half width of the band around a target, in friction ratio; a step has settled once the "
+       "ratio stays in the band",
        closed_loop_only},
       {"record", WordList{words_of(scene::channels)}, Rule{"nothing is recorded"},
        "channels that trace.csv records"},
@@ -256,23 +258,25 @@ std::vector<Key> controller_keys() {
       {"arithmetic", Word{words_of(scene::arithmetics)}, Required{},
        "number type in which the controller computes"},
       {"target_friction_ratio", Profile{time_range, {0.0, 1.0, "", true}}, Required{},
-       "friction ratio asked for, stepwise; the first time is 0"},
+       "target friction ratio, constant from each time to the next; the first time is 0"},
       {"calibration_s", Number{time_range}, controller.calibration_s,
-       "time with the drive off in which the friction limit is learnt; 0: the scene's is trusted"},
+       "time with the drive off in which the friction force is learnt; 0: the controller believes "
+       "the scene's"},
       {"shaping", Word{words_of(scene::shapings)},
        scene::name_of(scene::shapings, controller.shaping),
        "filter between target and drive; the notch cancels the ringing of the natural mode"},
       {"speed_floor_m_per_s", Number{{1e-12, largest_speed_m_per_s, "m/s"}},
        Rule{
-           "where the presliding distance takes three carrier periods; at most half of the fastest "
-           "sliding and of the largest vibration velocity"},
+           "velocity at which the presliding distance takes three carrier periods; at most half of "
+           "the fastest sliding and of the largest vibration velocity"},
        "sliding velocity below which the drive is held"},
       {"standstill_hold_s", Number{time_range}, controller.standstill_hold_s,
        "time for which the drive is held below the speed floor before it falls to 0"},
       {"relearn_every_s", Number{{1e-9, 1e9, "s"}}, Rule{"never"},
-       "time between two pauses of the drive in which the friction limit is learnt again"},
+       "time between two pauses of the drive in which the friction force is learnt again"},
       {"mismatch_warning", Number{{1.01, 100.0}}, controller.mismatch_warning,
-       "believed over true friction, or its inverse, from which on the limit mismatch is named"},
+       "the limit mismatch is reported once believed over true friction, or its inverse, reaches "
+       "this value"},
   };
 }
 
@@ -282,7 +286,7 @@ std::vector<Key> sensor_keys() {
       {"adc_bits", Integer{4, 32, "bits"}, Rule{"ideal"}, "resolution of the converter"},
       {"force_full_scale_N", Number{{1e-15, largest_force_N, "N"}},
        Rule{"2 * coefficient * normal_force_N, of profiles the largest"},
-       "the converter spans this force either way"},
+       "largest force that the converter reads, in both directions"},
       {"force_noise_N", Number{force_range}, sensor.force_noise_N,
        "noise of each sample of the force, rms"},
       {"force_bandwidth_Hz", Number{{1e-3, 1e12, "Hz"}}, Rule{"no limit"},
@@ -290,7 +294,7 @@ std::vector<Key> sensor_keys() {
       {"delay_periods", Integer{0, 64, "periods"}, static_cast<double>(sensor.delay_periods),
        "carrier periods by which the force reading is late"},
       {"force_offset_N", Number{either_force_range}, sensor.force_offset_N,
-       "force read where there is none"},
+       "force read while the true force is 0"},
       {"force_gain", Number{sensor_gain_range}, sensor.force_gain,
        "force read over true force; -1: wired backwards, 0: dead"},
       {"velocity_offset_m_per_s", Number{speed_range}, sensor.velocity_offset_m_per_s,
@@ -344,7 +348,8 @@ const std::vector<KeyTable>& key_tables() {
       {"sensor", false, "errors of the sensors, in closed loop; ideal without this table",
        sensor_keys()},
       {"model_error", false,
-       "what the controller believes over what is true, in closed loop; 1 without this table",
+       "believed over true value of the parameters that the controller is designed with, in closed "
+       "loop; 1 without this table",
        model_error_keys()},
   };
   return tables;

@@ -19,14 +19,14 @@ namespace sonoglide::plant {
 /// Gauss quadrature of friction between the reversals of the sliding velocity, about the linear
 /// motion of the oscillator.
 ///
-/// An interval of one carrier period is one panel: without friction its motion is a sum of known
-/// ones, whose reversals a table shows; friction, exact in the displacement, acts on it by
-/// variation of constants at `Nodes` nodes between two reversals. A panel whose friction is not
-/// weak, whose reversals are not certain, whose motion is lost in the rounding of its displacement,
-/// or whose error seems to exceed the tolerance, and an interval of any other length, are the
-/// Taylor method's from beginning to end. |phi| <= 1 always.
+/// An interval of one carrier period is one panel. Its motion without friction is a sum of known
+/// motions, and a table shows the reversals of that sum. Between two reversals friction is exact in
+/// the displacement, and acts on the motion by variation of constants at `Nodes` nodes (Hairer
+/// 1993, I.11). The Taylor method takes the interval from beginning to end if it has another
+/// length, if friction is not weak, if a reversal is not certain, if the motion is lost in the
+/// rounding of the displacement, or if the error seems to exceed the tolerance. |phi| <= 1 always.
 ///
-/// Quickest at tolerances down to 1e-8 are 8 nodes, below that 12; float needs 8.
+/// 8 nodes are quickest at tolerances down to 1e-8, 12 below that; float needs 8.
 template <class ModelType, std::size_t Nodes>
 class EventGauss {
   static_assert(Nodes == 8 || Nodes == 12, "degrees are chosen for these");
@@ -35,13 +35,13 @@ class EventGauss {
   using Model = ModelType;
   using Scalar = typename Model::Scalar;
 
-  /// Friction laws that it can solve: those that vary with the displacement alone, without stick.
+  /// Friction laws that it can solve: force by the displacement alone, no stick, no further memory.
   template <class Law>
   static constexpr bool solves =
       !Law::sticks && Law::varies && Law::rate_independent && !Law::remembers;
 
-  /// tolerance: of the mean friction over a hundred carrier periods, relative to Fc, and of the
-  /// velocity, in units of its scale; > 0. Kept as EventTaylor keeps it.
+  /// tolerance: as of EventTaylor. Error of the mean friction over a hundred carrier periods,
+  /// relative to Fc, and of the velocity, in units of its scale; > 0.
   /// step_limit: the most steps that one advance may take.
   void configure(const Model& model, Scalar tolerance,
                  std::uint32_t step_limit = max_steps_per_advance) {
@@ -82,15 +82,16 @@ class EventGauss {
   static constexpr std::size_t degree = Nodes == 8 ? 15 : 19;
   static constexpr std::size_t slow_degree = Nodes == 8 ? 7 : 9;
   static constexpr std::size_t taylor_order = is_single ? 8 : Nodes == 8 ? 12 : 16;
-  /// The quadrature misses the coefficient of degree 2 Nodes or so, which in exp(-E x^2) is the
-  /// square of the last one over the middle binomial coefficient of Nodes; 10 was found by trial.
+  /// The quadrature misses the coefficient of degree about 2 Nodes. For exp(-E x^2) this is the
+  /// square of the last coefficient over the middle binomial coefficient of Nodes; 10 was found by
+  /// trial.
   static constexpr Scalar middle_binomial = Nodes == 8 ? Scalar(70) : Scalar(924);
   static constexpr Scalar half_period = numeric::from_real<Scalar>(0.5 * numeric::two_pi);
 
   using Panel = GaussPanel<Model, Nodes, degree, slow_degree>;
   using Motions = typename Panel::Motions;
 
-  /// False where friction is not weak, or the series of the motions are too short.
+  /// Returns false if friction is not weak, or if the series of the motions are too short.
   bool set_limits(Scalar tolerance) {
     const Scalar kappa = model_.law.contact_stiffness;
     const Scalar reach = numeric::max(kappa, Scalar(1));
@@ -107,7 +108,8 @@ class EventGauss {
     limits_.path_error = share / reach;
     limits_.largest_offset = rounding_ / std::numeric_limits<Scalar>::epsilon();
     limits_.turn_error = share / reach;
-    // At 4 nodes the error of exp(-E x^2) is about E^4 / 10^6, and they are used where it is less.
+    // At 4 nodes the error of exp(-E x^2) is about E^4 / 10^6. They are used where it is less than
+    // that.
     limits_.short_exponent = numeric::min(numeric::from_real<Scalar>(0.25),
                                           Scalar(25) * numeric::sqrt(numeric::sqrt(tolerance)));
     limits_.unresolved = Scalar(10) * tolerance * middle_binomial;
@@ -118,8 +120,8 @@ class EventGauss {
     return square * square <= Scalar(3) * tolerance && slow_error <= share;
   }
 
-  /// After n sweeps phi is wrong, in the mean, by about the (n + 1)-th power of kappa beta length^2
-  /// over 8, 200 and 10000, and the displacement by that over kappa.
+  /// After n sweeps the mean error of phi is about the (n + 1)-th power of kappa beta length^2 over
+  /// 8, 200 and 10000. The error of the displacement is that over kappa.
   void set_sweeps(Scalar tolerance, Scalar force) {
     constexpr Scalar smallest = std::numeric_limits<Scalar>::min();
     const Scalar kappa = numeric::max(model_.law.contact_stiffness, smallest);

@@ -14,7 +14,7 @@
 
 namespace sonoglide::plant {
 
-/// What a panel is held to, all in x.
+/// Bounds that a panel has to keep, all in x.
 template <class Scalar>
 struct PanelLimits {
   Scalar velocity_share = Scalar(0);  ///< the most that friction can add to |V|
@@ -39,7 +39,7 @@ class GaussPanel {
   using Each = typename Motions::Each;
   static constexpr std::size_t width = numeric::lane_count<Scalar>;
 
-  /// False where a panel is no matter for this method; the state is as it was.
+  /// Returns false if this method cannot solve the panel; the state is then unchanged.
   [[gnu::always_inline]] bool solve(const Model& model, const Motions& motions,
                                     const PanelLimits<Scalar>& limits,
                                     const Interval<Scalar>& interval, const State<Scalar>& state) {
@@ -198,10 +198,10 @@ class GaussPanel {
     return true;
   }
 
-  /// Where the oscillator hardly moves beside its own displacement or the sliding, the rounding of
-  /// those is an error of its motion; where it stores little beside what the sliding spends, that
-  /// of phi is an error of its energy; and where it is slow beside its own scale, what the limits
-  /// leave is an error of either.
+  /// Whether the oscillator moves enough. If it hardly moves compared with its displacement or the
+  /// sliding, their rounding is an error of its motion. If it stores little compared with the work
+  /// of the sliding, the rounding of phi is an error of its energy. If it is slow compared with its
+  /// scale, what the limits leave is an error of both.
   [[gnu::always_inline]] bool moves_enough(const Motions& motions,
                                            const PanelLimits<Scalar>& limits) const {
     Scalar offset = numeric::abs(sliding_[0]) + numeric::twice(numeric::abs(sliding_slope()));
@@ -326,13 +326,14 @@ class GaussPanel {
   }
 
   struct Turn {
-    Scalar shift;  ///< of sigma y by friction, as it counts for the travel to the very reversal
-    Scalar error;  ///< of that, and of the integral of kappa phi
+    Scalar shift;  ///< of sigma y by friction, for the travel to the true reversal
+    Scalar error;  ///< of the shift, and of the integral of kappa phi
   };
 
-  /// Where V, friction's share included, is not quite zero at a reversal of the linear motion, the
-  /// very reversal is early by e = V / V', and the travel to it shorter by V e / 2 + V" e^3 / 6.
-  /// Up to there phi is followed as if it had turned: the difference is kappa V' e^3 / 3 at most.
+  /// At a reversal of the linear motion V with friction's share is not quite zero. The true
+  /// reversal is earlier by e = V / V', and the travel to it shorter by V e / 2 + V" e^3 / 6. In
+  /// between phi is followed as if the sliding had turned, with an error of kappa V' e^3 / 3 at
+  /// most.
   [[gnu::always_inline]] Turn turn(const Motions& motions, std::size_t i,
                                    const Reaction<Scalar>& reaction) const {
     const Turns& turns = turns_[i / width];

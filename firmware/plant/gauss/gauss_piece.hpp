@@ -1,5 +1,4 @@
-/// Friction of a weakly coupled contact along one piece of its way, at the nodes of Gauss and
-/// Legendre.
+/// Friction of a weakly coupled contact along one piece of its path, at Gauss-Legendre nodes.
 #pragma once
 
 #include <array>
@@ -21,7 +20,7 @@ struct Reaction {
   Scalar s = Scalar(0);
 };
 
-/// A contact that its oscillator feels but little, in x, from -1 to 1 over a panel.
+/// A contact whose friction moves the oscillator little, in x from -1 to 1 over a panel.
 template <class Scalar>
 struct PanelContact {
   Scalar contact_stiffness;  ///< kappa
@@ -32,12 +31,12 @@ struct PanelContact {
 ///   phi = s + (phi0 - s) exp(-kappa |u|),
 ///   u   = (travel of the linear motion) + c C + s S - (their sum at the beginning),
 ///   c'  = -S f / W,  s' = C f / W,  f = -sigma beta h^2 phi,  W = C S' - C' S = exp(-D x),
-/// ' = d / dx. A sweep takes phi at the nodes and gives u there, by the integrals of the
-/// polynomials through c' and s'; each is nearer than the last by about kappa beta h^2 length^2
-/// / 4.
+/// ' = d / dx. A sweep (a Picard iteration, Hairer 1993, I.8) takes phi at the nodes and gives u
+/// there, by the integrals of the polynomials through c' and s'. Each sweep reduces the error by a
+/// factor of about kappa beta h^2 length^2 / 4.
 template <class Scalar, std::size_t Nodes>
 struct GaussPiece {
-  /// Enough for a short piece.
+  /// Enough nodes for a short piece.
   static constexpr std::size_t fewer_nodes =
       Nodes > 4 && (Nodes - 4) % (2 * numeric::lane_count<Scalar>) == 0 ? Nodes - 4 : Nodes;
   using Lanes = numeric::Lanes<Scalar>;
@@ -84,8 +83,8 @@ struct GaussPiece {
     set<Count>(decay, numeric::moderate_decay<Scalar>(rate * (path_there - begin_travel)));
   }
 
-  /// Finds phi with `sweeps` sweeps, friction, turned and before being set. Returns the reaction at
-  /// the end.
+  /// Finds phi with `sweeps` sweeps and returns the reaction at the end. Set friction, turned and
+  /// `before` first.
   template <std::size_t Count, class Motions>
   [[gnu::always_inline]] Reaction<Scalar> follow(const Motions& motions,
                                                  const PanelContact<Scalar>& contact, int sweeps) {
@@ -158,14 +157,15 @@ struct GaussPiece {
     return (Scalar(1) - z) + square * (numeric::from_real<Scalar>(0.5) - z * sixth);
   }
 
-  /// phi after that travel of the linear motion and that shift, since the beginning.
+  /// phi from the decay over the travel of the linear motion, and the shift added to it, since the
+  /// beginning.
   Scalar friction_after(Scalar contact_stiffness, Scalar linear_decay, Scalar added) const {
     const Scalar z = contact_stiffness * direction * added;
     return direction +
            (friction - direction) * numeric::min(Scalar(1), linear_decay * small_decay(z));
   }
 
-  /// Shows each vector of nodes, and what it weighs in an integral over x.
+  /// Shows each vector of nodes with its weights in an integral over x.
   template <class Show>
   [[gnu::always_inline]] void for_each(const Show& show) const {
     if constexpr (Nodes > fewer_nodes) {

@@ -77,7 +77,8 @@ class GaussStep {
            interval_.sliding_acceleration * (h * h) * numeric::sum_of_lanes<Scalar>(moment);
   }
 
-  /// Of the squares of the linear motion by a table, of what friction adds at the nodes. With
+  /// Integrals of the linear motion's squares from a table, those of friction's share at the nodes.
+  /// With
   /// y" = drive - d v - k y - beta phi,
   ///   integral of drive v = [drive y] - integral of drive' y,
   ///   integral of v^2     = [y v] - integral of y y".

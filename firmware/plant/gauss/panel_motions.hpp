@@ -16,7 +16,7 @@
 
 namespace sonoglide::plant {
 
-/// What the motions of a panel have in common, whatever accuracy they are written with.
+/// Grid points of a panel; the same for every order of the series.
 struct PanelGrid {
   static constexpr std::size_t intervals = 16;
   static constexpr std::size_t points = intervals + 1;
@@ -132,7 +132,7 @@ struct PanelMotions {
     return x * numeric::half_value<numeric::Parity::odd>(harmonic[1], x * x);
   }
 
-  /// f over the Wronskian C S' - C' S = exp(-D x), where C and S are known.
+  /// f over the Wronskian C S' - C' S = exp(-D x), at a place where C and S are known.
   template <class Number>
   [[gnu::always_inline]] Number unwound(Number f, Number c, Number s) const {
     if constexpr (is_split) {
@@ -170,7 +170,7 @@ struct PanelMotions {
   static constexpr std::size_t terms = 33;
   using Series = std::array<Scalar, terms>;
 
-  /// Returns a bound of what that loses.
+  /// Returns a bound of the error of the shortening.
   template <std::size_t Count>
   static Scalar shorten(const Series& series, std::array<numeric::Lanes<Scalar>, Count>& lanes) {
     std::array<Scalar, Count> shortened{};
@@ -226,7 +226,8 @@ struct PanelMotions {
     return spacing * static_cast<Scalar>(g) - Scalar(1);
   }
 
-  /// Of |p| on the panel: the largest value on the grid, and what a parabola can hide between.
+  /// Bound of |p| on the panel: the largest value on the grid, plus what a parabola can hide
+  /// between two points.
   template <std::size_t Count>
   static Scalar bound(const std::array<Scalar, Count>& p) {
     const auto second = numeric::derivative<1>(numeric::derivative<1>(p));

@@ -11,7 +11,7 @@
 
 namespace sonoglide::plant {
 
-/// Where V changes sign in x, near enough that what is left can be mended.
+/// Places in x where V changes sign, accurate enough for GaussPanel::turn() to correct the rest.
 template <class Scalar>
 struct PanelReversals {
   static constexpr std::size_t most = 4;
@@ -21,9 +21,10 @@ struct PanelReversals {
   Scalar direction = Scalar(0);  ///< sgn V at the beginning
 };
 
-/// V on the grid of a panel. Between two points it differs from a straight line by less than
-/// spacing^2 / 8 max|V"|, and V' likewise by max|V"'|: that, and what friction can add, shows where
-/// V keeps its sign, or where it is monotone and has one root at most.
+/// V on the grid of a panel. Between two points V differs from a straight line by less than
+/// spacing^2 / 8 max|V"|, and V' by less than spacing^2 / 8 max|V"'|. With these bounds and that of
+/// friction's share, the grid shows where V keeps its sign, or is monotone and has at most one
+/// root.
 template <class Scalar>
 class GridVelocity {
  public:
@@ -34,7 +35,7 @@ class GridVelocity {
 
   std::array<Lanes, vectors> velocity{};
 
-  /// False where it cannot be told which way V goes, and how often it turns.
+  /// Returns false if the grid does not show which way V goes and how often it turns.
   /// slope(g): V' on the grid. velocity_margin, slope_margin: what V and V' on the grid may differ
   /// from the truth between its points.
   template <class Slope>
@@ -95,8 +96,8 @@ class GridVelocity {
 
   Scalar at(std::size_t g) const { return velocity[g / width][g % width]; }
 
-  /// The root of the cubic with these values and slopes: first of its inverse, then one of Newton's
-  /// steps.
+  /// The root of the cubic with these values and slopes: an estimate from the inverse cubic, then
+  /// one step of Newton's method.
   void add_root(std::size_t g, Scalar begin_slope, Scalar end_slope,
                 PanelReversals<Scalar>& found) const {
     constexpr Scalar spacing = Scalar(2) / static_cast<Scalar>(PanelGrid::intervals);

@@ -24,9 +24,9 @@ namespace sonoglide::plant {
 /// step reverses, a pair of reversals included, the step is taken again, shorter, until it ends at
 /// V = 0: the reversal has the error of the method, not of an interpolation.
 ///
-/// The method is explicit and says so in a stiff contact: beta kappa step^2 > 1 (the ringing of a
-/// stuck contact), or kappa |du| > 1/2 in a step while the friction still grows, is
-/// Error::step_too_long.
+/// The method is explicit, so a stiff contact limits its step. It reports Error::step_too_long for
+/// beta kappa step^2 > 1 (the ringing of a stuck contact), and for kappa |du| > 1/2 in a step in
+/// which the friction still grows.
 template <class ModelType>
 class Rk4Event {
  public:
@@ -104,10 +104,11 @@ class Rk4Event {
     bool ends_at_reversal;
   };
 
-  /// Steeper than this in displacement no law of unit friction gets.
+  /// d phi / du of the unloaded contact: kappa under Dahl friction.
   Scalar law_stiffness() const { return model_.law.rate(Scalar(1), Scalar(0)); }
 
-  /// The displacement, quadratic in it, is below rounding; time, the phase included, is well above.
+  /// Shortest part of a step: the displacement, quadratic in the part, is below rounding; time and
+  /// phase are well above it.
   static Scalar shortest_part(const Interval<Scalar>& interval, Scalar length) {
     constexpr int digits = std::numeric_limits<Scalar>::digits;
     constexpr Scalar epsilon = std::numeric_limits<Scalar>::epsilon();

@@ -9,7 +9,7 @@
 
 namespace sonoglide::plant {
 
-/// The law as it stands: its rate turns with sgn V wherever that happens.
+/// The law as it stands: its rate changes with sgn V wherever V changes sign.
 struct TurningContact {
   template <class Law, class Velocity, class Scalar>
   Scalar friction(const Law& law, const Velocity& velocity, Scalar friction) const {
@@ -21,7 +21,7 @@ struct TurningContact {
   }
 };
 
-/// The law with sgn V frozen: smooth, and its own continuation a little beyond a reversal.
+/// The law with sgn V frozen: smooth, and continued smoothly a little beyond a reversal.
 template <class Scalar>
 struct FrozenContact {
   Scalar direction;  ///< sgn V; 0 holds the friction where it is
@@ -46,6 +46,7 @@ struct Rk4Drive {
 };
 
 /// The four stages of a step, and the plant at its end.
+/// Source: the classical method of fourth order, Hairer 1993, II.1 (../README.md).
 template <class Scalar, class StateType = State<Scalar>>
 struct Rk4Stages {
   std::array<Rk4Stage<Scalar, StateType>, 4> inside;

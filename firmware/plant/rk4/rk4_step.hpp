@@ -19,9 +19,9 @@ struct Rk4Stage {
   StateType slope;                      ///< d state / d tau, of phi where the law goes on from it
 };
 
-/// Integrals as the method gives them for extra states. Between the ends the state is the cubic
-/// that has their values and slopes; where that passes |phi| = 1 it is cut off, unless the law
-/// depends on the speed.
+/// The step's integrals are those that the method gives for additional states. Between the ends the
+/// state is the cubic that has their values and slopes (Hairer 1993, II.6). |phi| is cut off at 1,
+/// unless the law depends on the speed.
 template <class Model>
 class Rk4Step {
  public:

@@ -1,4 +1,4 @@
-/// Strang splitting that checks itself, and cuts its steps until they are short enough.
+/// Strang splitting that measures its own error, and halves its steps until they are short enough.
 #pragma once
 
 #include <cstdint>
@@ -29,9 +29,9 @@ namespace sonoglide::plant {
 /// so is the rest of the interval: in a steady motion all steps are alike, and the splitting stays
 /// symmetric. The next interval tries steps twice as long where there is room.
 ///
-/// An interval that would need more steps than the limit is declined with Error::too_many_steps,
-/// not returned: a stuck contact that rings, a stiff one that reverses (first order there), an
-/// oscillator far faster than the drive, or a tolerance below rounding.
+/// An interval that needs more steps than the limit is declined with Error::too_many_steps. Causes
+/// are a stuck contact that rings, a stiff contact that reverses (first order there), an oscillator
+/// far faster than the drive, and a tolerance below rounding.
 template <class ModelType>
 class AdaptiveStrang {
  public:
@@ -100,8 +100,8 @@ class AdaptiveStrang {
  private:
   using Flow = OscillatorFlow<Model>;
 
-  /// A defect grows by no more than so much when the step is doubled: that of the path, by its
-  /// fifth order.
+  /// Doubling a step multiplies its defects by at most the inverse of this. The defect of the path
+  /// is of fifth order.
   static constexpr Scalar room_to_double = numeric::from_real<Scalar>(1.0 / 32.0);
   /// The square of a velocity below this has lost its digits.
   static constexpr Scalar slowest = numeric::power_of_two<Scalar>(
@@ -113,7 +113,7 @@ class AdaptiveStrang {
     }
   }
 
-  /// False, with nothing done, where the step is not good.
+  /// Returns false, with the state unchanged, if the step is not good.
   template <class Account, class Observer>
   bool step(const Interval<Scalar>& interval, typename Flow::Follower& drive, Scalar offset,
             State<Scalar>& state, Account& account, Observer& observer) {
@@ -124,7 +124,7 @@ class AdaptiveStrang {
     const State<Scalar> end = taken.end();
     const Scalar velocity = numeric::max(highest_velocity_, numeric::abs(end.velocity));
     const Scalar defect = relative_defect(measured, velocity);
-    // Not >: what is no number is not good either.
+    // Not >: a defect that is not a number is not good either.
     if (!(defect <= Scalar(1))) {
       worst_ = Scalar(0);
       return false;
@@ -139,8 +139,8 @@ class AdaptiveStrang {
     return true;
   }
 
-  /// The sum of both defects, each over what is allowed or what rounding leaves; no number if one
-  /// is none.
+  /// Sum of both defects, each over the larger of its allowance and its rounding error; not a
+  /// number if one of them is not.
   Scalar relative_defect(const MeasuredStrangStep<Model>& step, Scalar velocity) const {
     constexpr Scalar rounding = Scalar(4) * std::numeric_limits<Scalar>::epsilon();
     constexpr Scalar share = numeric::from_real<Scalar>(0.5 / numeric::two_pi);

@@ -15,14 +15,14 @@
 
 namespace sonoglide::plant {
 
-/// Symmetric splitting with a fixed step: half a kick of friction, the oscillator's own flow along
-/// which the contact follows its law in displacement, half a kick.
+/// Symmetric splitting (Strang 1968, ../README.md) with a fixed step: half a kick of friction; the
+/// oscillator's own flow, along which the contact follows its law in displacement; half a kick.
 ///
-/// Second order in step^2 beta; without reaction of friction (beta = 0) the motion is exact, and
-/// the friction as good as the displacement at its reversals, O(step^6). |phi| <= 1 for any step.
-/// The step is never longer than 1 / sqrt(beta kappa), at which the ringing of a stuck contact is
-/// stable and 5 % fast. In a stiff contact the friction jumps at a reversal, and the kicks that
-/// follow it are known to a step only: first order in step beta.
+/// Second order in step^2 beta. Without reaction of friction (beta = 0) the motion is exact, and
+/// the friction is as good as the displacement at its reversals, O(step^6). |phi| <= 1 for any
+/// step. The step is at most 1 / sqrt(beta kappa), at which the ringing of a stuck contact is
+/// stable and 5 % fast. In a stiff contact the friction jumps at a reversal, and the kicks place
+/// the jump to within a step only: first order in step beta.
 template <class ModelType>
 class Strang {
  public:

@@ -44,9 +44,10 @@ struct FixedStrangParameters {
   }
 };
 
-/// Strang splitting of a Dahl contact under a cosine drive, from drive phase 0 to 2 pi, in 32-bit
-/// integers with 64-bit products: the oscillator's own flow from a table, between kicks of friction
-/// that follows the displacement exactly. Sliding is constant.
+/// Strang splitting (Strang 1968, ../README.md) of a Dahl contact under a cosine drive, from drive
+/// phase 0 to 2 pi, in 32-bit integers with 64-bit products. The oscillator's own flow comes from a
+/// table; between the flows friction kicks, and it follows the displacement exactly. Sliding is
+/// constant.
 ///
 /// A step whose sliding velocity may reverse is cut at the roots of the parabola through its values
 /// at both ends and its mean. |phi| <= 1 always. Displacement and velocity end at the range of the
@@ -119,7 +120,7 @@ class FixedStrang {
   static std::int64_t product(std::int64_t a, std::int64_t b) {
     return numeric::shift_right_rounded(a * b, fraction_bits);
   }
-  /// Of words alone, which is one instruction of a larger Cortex-M.
+  /// A product of words alone: one instruction of a larger Cortex-M.
   static std::int32_t word_product(std::int32_t a, std::int32_t b) {
     return static_cast<std::int32_t>(
         numeric::shift_right_rounded(std::int64_t{a} * b, fraction_bits));
@@ -154,7 +155,7 @@ class FixedStrang {
   }
 
   std::int64_t slide(std::int32_t begin, std::int32_t end, std::int64_t travel) {
-    // Signs of the Bernstein coefficients of the parabola: where they agree, so does all of it.
+    // If the Bernstein coefficients of the parabola have one sign, so has the parabola.
     const std::int64_t middle =
         3 * travel - product(std::int64_t{parameters_.step}, std::int64_t{begin} + end);
     if ((begin < 0) != (end < 0) || (begin < 0) != (middle < 0)) {
@@ -233,9 +234,9 @@ class FixedStrang {
 
   static std::int64_t magnitude(std::int64_t value) { return value < 0 ? -value : value; }
 
-  /// The trapezium rule errs by h^2/12 times the change of phi'. From step to step that cancels;
-  /// where the arcs next to the ends of a step are shorter than the step, this is what is left. At
-  /// a reversal phi' is zero.
+  /// The trapezium rule errs by h^2/12 times the change of phi'. From step to step that cancels.
+  /// Where the arcs at the ends of a step are shorter than the step, this correction is left. phi'
+  /// is zero at a reversal.
   std::int64_t correction(const Sliding& sliding, std::int64_t first_width, std::int64_t last_width,
                           std::int32_t before) const {
     const std::int64_t begin = one - product(first_width, first_width);
@@ -245,8 +246,8 @@ class FixedStrang {
            6;
   }
 
-  /// h phi' for a sliding velocity times h; where that is large, a stiff contact has forgotten the
-  /// reversal within the step and the rule does not hold.
+  /// h phi' from a sliding velocity times h. Where it is large, a stiff contact has forgotten the
+  /// reversal within the step, and the rule does not hold.
   std::int64_t rate(std::int64_t velocity, std::int32_t friction) const {
     const std::int64_t gap = one - (velocity < 0 ? -friction : friction);
     return product(numeric::clamp(stretched(velocity), -one, one), gap);

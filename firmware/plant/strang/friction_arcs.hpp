@@ -11,8 +11,8 @@
 
 namespace sonoglide::plant {
 
-/// A law that is exact in the displacement, followed over a path of the sliding velocity that is
-/// cut where it turns. Every arc goes one way, so |phi| <= 1 whatever the path.
+/// A law that is exact in the displacement, along a path of the sliding velocity that is cut at its
+/// reversals. On every arc the sliding goes one way, so |phi| <= 1 for any path.
 template <class Law>
 class FrictionArcs {
  public:
@@ -55,9 +55,9 @@ class FrictionArcs {
   /// Integral of phi (weight + slope t) d tau, t since the beginning of the step.
   ///
   /// Hermite's rule of fourth order, over parts in which 1 - |phi| falls by less than a factor of
-  /// e^(1/2): an arc that a stiff contact saturates in a moment costs more, and loses nothing.
-  /// Parts too short to matter are taken as they are: near a reversal the displacement is known to
-  /// half of its digits only, and friction may not follow from it.
+  /// e^(1/2). So an arc in which a stiff contact saturates at once needs more parts and loses no
+  /// accuracy. Parts too short to matter are not divided: near a reversal the displacement has half
+  /// of its digits only, and friction may not follow from it.
   Scalar integral(Scalar weight, Scalar slope) const {
     Scalar sum = Scalar(0);
     for (std::size_t i = 0; i < arcs_; ++i) {
@@ -150,14 +150,14 @@ class FrictionArcs {
   }
   /// doubled_travel: twice the displacement of a part, or a bound of it.
   bool is_gentle(Scalar doubled_travel) const {
-    // Not <=: what is no number is not worth parts.
+    // Not <=: a travel that is not a number is not divided.
     return !(law_.rate(Scalar(1), Scalar(0)) * doubled_travel > Scalar(1));
   }
   static bool is_saturated(Scalar direction, Scalar friction) {
     return Scalar(1) - direction * friction <= negligible;
   }
 
-  /// What is the same as nothing beside 1, with something to spare.
+  /// A number below this is nothing beside 1, with a margin.
   static constexpr Scalar negligible =
       numeric::power_of_two<Scalar>(-2 * std::numeric_limits<Scalar>::digits / 3);
 

@@ -1,4 +1,4 @@
-/// A step of the splitting method, measured by what it knows of its own error.
+/// A step of the splitting method with two measures of its error.
 #pragma once
 
 #include "firmware/numeric/scalar.hpp"

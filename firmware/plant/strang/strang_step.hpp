@@ -20,8 +20,8 @@ struct FlowEnd {
   Scalar acceleration;  ///< without friction
 };
 
-/// Half a kick of friction, the oscillator's own flow along which the contact follows its law in
-/// displacement, half a kick.
+/// Half a kick of friction; the oscillator's own flow, along which the contact follows its law in
+/// displacement; half a kick (Strang 1968, ../README.md).
 template <class Model>
 class StrangStep {
  public:
@@ -29,7 +29,7 @@ class StrangStep {
   using Law = typename Model::FrictionLaw;
   using Flow = OscillatorFlow<Model>;
 
-  /// drive: as it is at `begin`, since the beginning of the interval; left as it is at the end.
+  /// begin: time since the interval began. drive: at `begin`; advanced to the end of the step.
   StrangStep(const Model& model, const Flow& flow, const Interval<Scalar>& interval,
              typename Flow::Follower& drive, Scalar begin, const State<Scalar>& start)
       : model_(model),
@@ -81,9 +81,9 @@ class StrangStep {
     return model_.contact_force(friction_integral - numeric::half(length_) * ends);
   }
 
-  /// How far the velocity of the flow may be from the path that the contact is led along, at most:
-  /// seen at the ends, where their second derivatives differ by v""' length^3 / 120, and the
-  /// velocity itself by less than a hundredth of that times length^2 between them.
+  /// Bound of the difference between the velocity of the flow and the path that the contact
+  /// follows. At the ends their second derivatives differ by v""' length^3 / 120. Between the ends
+  /// the velocities differ by less than a hundredth of that times length^2.
   Scalar missed_path() const {
     if constexpr (Law::varies) {
       const auto [begin, end] = velocity_.end_bends();

@@ -9,7 +9,7 @@
 
 namespace sonoglide::plant {
 
-/// Along the sliding: from the slip itself, its integrals from the series of the law.
+/// Friction along the sliding comes from the slip itself, its integrals from the series of the law.
 template <class Series, class LawSeries>
 class AcrossFriction {
  public:
@@ -24,7 +24,7 @@ class AcrossFriction {
   }
 
   Scalar at(Scalar x) const { return law_.friction(sliding_velocity(x), series_.velocity_at(x)); }
-  /// Of both parts of the friction, by Gauss and Legendre.
+  /// Work of both parts of the friction, by Gauss-Legendre quadrature.
   Scalar work(Scalar x) const {
     static constexpr auto rule = numeric::gauss_legendre<static_cast<int>(Series::order) / 2>();
     Scalar sum = Scalar(0);

@@ -8,10 +8,10 @@
 namespace sonoglide::plant {
 
 /// The x in (0, end] at which a travel that does not turn back has gone `distance` > 0, within some
-/// roundings of the distance; `end` if it does not go so far.
+/// roundings of the distance. `end` if the travel is shorter.
 ///
 /// @param direction  of the travel, +1 or -1.
-/// Newton's method between bounds: where it would leave them, they are halved.
+/// Newton's method between bounds: a step that would leave them is replaced by halving.
 template <class Series, class Scalar>
 Scalar corner(const Series& series, Scalar direction, Scalar distance, Scalar end) {
   const Scalar whole = direction * series.travelled(end);

@@ -26,20 +26,19 @@ namespace sonoglide::plant {
 
 /// Taylor method of fixed order whose steps end at the reversals of the sliding velocity.
 ///
-/// Inside a step sgn V is constant and the motion is analytic. The force is expanded up to the power
-/// Order, and V, its integral, one power higher. The step is the longest one, up to 3 rad, whose
-/// last two terms stay below what the tolerance allows: the terms of V strictly, those of phi more
-/// loosely, because the mean of phi follows from the displacement where its series does not give it.
-/// The first root of V is found with certainty. The step ends there; V is set to zero, and the
-/// contact slides on, turns or sticks. Friction that does not depend on the speed follows from the
-/// displacement exactly, so that |phi| <= 1 for any step.
+/// Inside a step sgn V is constant and the motion is analytic. The force is expanded up to the
+/// power Order, and V, its integral, one power higher. The step is the longest one, up to 3 rad,
+/// whose last two terms stay below what the tolerance allows. This holds strictly for the terms of
+/// V, and more loosely for those of phi, because the mean of phi follows from the displacement
+/// where its series does not give it. The first root of V is found with certainty. The step ends
+/// there; V is set to zero, and the contact slides on, turns or sticks. Friction that does not
+/// depend on the speed follows from the displacement exactly, so that |phi| <= 1 for any step.
 ///
 /// The quickest order is 8 at tolerances above 1e-5, 12 down to 1e-8, 16 below, and 20 from 1e-11
 /// on; float needs no more than 8. A contact that sticks for ever costs as much as its ringing,
 /// which grows as sqrt(beta kappa).
-/// Source: A. Jorba and M. Zou, A software package for the numerical integration of ODEs by means of
-/// high-order Taylor methods, Experimental Mathematics 14 (2005) 99-117 (step size from the last two
-/// terms); R. E. Moore, Interval Analysis, 1966 (recurrences of the coefficients).
+/// Source: Jorba 2005 (step size from the last two terms), Moore 1966 (recurrences of the
+/// coefficients), see ../README.md.
 template <class ModelType, std::size_t Order>
 class EventTaylor {
   static_assert(Order >= 4 && Order <= 24, "the tables reach order 24");
@@ -53,8 +52,9 @@ class EventTaylor {
   static constexpr bool solves = true;
 
   /// tolerance: of the mean friction over a hundred carrier periods, relative to Fc, and of the
-  /// velocity, in units of its scale; > 0. Not a bound: of random contacts 95 in 100 erred by less,
-  /// the worst by ten times as much, where the vibration only just reverses the sliding.
+  /// velocity, in units of its scale; > 0. It is not a bound: of random contacts 95 in 100 erred by
+  /// less. The worst erred by ten times as much, where the vibration only just reverses the
+  /// sliding.
   /// step_limit: the most steps that one advance may take.
   void configure(const Model& model, Scalar tolerance,
                  std::uint32_t step_limit = max_steps_per_advance) {
@@ -102,13 +102,13 @@ class EventTaylor {
                          std::conditional_t<Law::rate_independent, SlidingFriction<Model, Series>,
                                             RatedFriction<Series, Arc>>>;
 
-  /// Of V. Friction that follows from the displacement matters by the force alone, whose terms go
-  /// into V one power higher; any other is as good as its own series.
+  /// Highest power of V. Friction that follows from the displacement enters by the force alone,
+  /// whose terms go into V one power higher. Other friction is as good as its own series.
   static constexpr std::size_t last_power = Law::rate_independent ? Order + 1 : Order;
   static constexpr int degree = static_cast<int>(last_power);
 
-  /// Under a normal force that vibrates the limit of the friction follows the displacement. Across
-  /// the sliding the series of the law end the steps.
+  /// A normal force that vibrates makes the limit of the friction follow the displacement. Across
+  /// the sliding the series of the law ends the steps.
   static constexpr Drift drift = is_normal   ? Drift::of_displacement
                                  : is_across ? Drift::hardly_felt
                                              : Drift::of_velocity;
@@ -118,25 +118,26 @@ class EventTaylor {
     Scalar released;  ///< direction in which a stick has just ended, else 0
   };
 
-  /// The last term that a step takes in is about so many times the first one that it leaves out.
+  /// Ratio of the last term that a step uses to the first term that it leaves out, about.
   static constexpr Scalar last_term_per_error = Scalar(4);
-  /// Friction follows from the displacement, on which its last terms act by the force alone.
+  /// Weights of the last terms of phi if friction follows from the displacement: they act by the
+  /// force alone.
   static constexpr Scalar least_weight = numeric::from_real<Scalar>(1e-3);
   static constexpr Scalar most_weight = numeric::from_real<Scalar>(0.125);
-  /// What a step leaves wrong in a memory that has no other account than its series goes on into
-  /// the next ones: the last terms of phi stay below the tolerance themselves.
+  /// Weight if a Memory has no other account than its series: the error of a step stays in the next
+  /// ones, so the last terms of phi stay below the tolerance themselves.
   static constexpr Scalar memory_weight = last_term_per_error;
-  /// What a term of phi adds to the mean over a period is less than the term by so much.
+  /// A term of phi changes the mean over a period by less than the term over this.
   static constexpr Scalar term_per_mean = Scalar(64);
-  /// What phi is short of its limit where that is negligible: of the last terms allowed, and at
+  /// Rest of phi below its limit that is negligible: as a part of the last terms allowed, and at
   /// most.
   static constexpr Scalar unsettled = numeric::from_real<Scalar>(0.125);
   static constexpr Scalar most_unsettled = numeric::from_real<Scalar>(1e-6);
   static constexpr Scalar longest_step = Scalar(3);
-  /// A unit whose series overflows is tried again shorter by so much.
+  /// Factor by which a unit is shortened after its series has overflowed.
   static constexpr Scalar overflow_retreat = numeric::from_real<Scalar>(1.0 / 1024.0);
 
-  /// What a vibration of unit amplitude allows, with something to spare; 3 rad at most.
+  /// Step that a vibration of unit amplitude allows, with a margin; 3 rad at most.
   Scalar usual_step() const {
     Scalar product = allowed_;
     for (std::size_t n = 2; n <= last_power; ++n) {
@@ -146,7 +147,8 @@ class EventTaylor {
                         numeric::from_real<Scalar>(0.85) * numeric::quick_root<degree>(product));
   }
 
-  /// Where the previous interval ended at V = 0, V is zero here but for rounding.
+  /// Makes V exactly zero where the previous interval ended at V = 0 and only rounding is left of
+  /// it.
   void snap_to_rest(const Interval<Scalar>& interval, State<Scalar>& state) const {
     if constexpr (Law::reverses) {
       const Scalar velocity = model_.contact_velocity(interval.sliding_velocity, state.velocity);
@@ -157,7 +159,8 @@ class EventTaylor {
     }
   }
 
-  /// Friction that is at its limit but for a negligible rest stays there while the contact slips.
+  /// While the contact slips, sets friction that is short of its limit by a negligible rest to the
+  /// limit.
   void settle(const Interval<Scalar>& interval, const Position& position,
               State<Scalar>& state) const {
     if constexpr (Law::varies && Law::rate_independent && !Law::remembers) {
@@ -218,12 +221,12 @@ class EventTaylor {
     state.velocity = std::numeric_limits<Scalar>::quiet_NaN();
   }
 
-  /// Of the sliding velocity since the interval began.
+  /// Change of the sliding velocity since the interval began.
   static Scalar sliding_change(const Interval<Scalar>& interval, const Position& position) {
     return Model::Sliding::change(interval.sliding_acceleration, position.offset);
   }
 
-  /// The mass presses on a slider beside it, and moves as if alone.
+  /// The mass presses on a slider beside it. No friction acts on the mass.
   template <class Account, class Observer>
   void press(const Interval<Scalar>& interval, const At& instant, Position& position,
              State<Scalar>& state, Account& account, Observer& observer) {
@@ -245,7 +248,7 @@ class EventTaylor {
            observer);
   }
 
-  /// The motion that no friction acts on, in units in which no coefficient overflows.
+  /// The motion without friction, in a unit in which no coefficient overflows.
   Series alone(const At& instant, Scalar unit) const {
     Arc nothing(model_.law, Scalar(0), instant.state.friction);
     Series series(model_, instant, unit);
@@ -270,7 +273,7 @@ class EventTaylor {
     return {false, Scalar(0), 0};
   }
 
-  /// What a try to slide has come to.
+  /// Result of a try to slide.
   enum class Slide {
     done,
     reversal_too_close,  ///< nothing is done: the next reversal is too close for time to move
@@ -310,15 +313,16 @@ class EventTaylor {
     return Slide::done;
   }
 
-  /// The step to come, as far as can be told.
+  /// The expected length of the next step.
   Scalar sliding_unit(const At& instant, Scalar rest_of_time) const {
     const auto velocity = model_.contact_velocity(instant.sliding_velocity, instant.state.velocity);
     return model_.law.series_unit(velocity, contact_memory(instant.state),
                                   numeric::min(longest_step_, rest_of_time));
   }
 
-  /// How far a step may slide. What the vibration reaches in it is known once the step is: where
-  /// that is far less than in a unit, as in a contact that rings, a second pass.
+  /// How far a step may slide. The speed that the vibration reaches in the step is known only once
+  /// the step is. If it is far less than in a unit, as in a contact that rings, a second pass
+  /// follows.
   Scalar sliding_extent(const Series& series, Scalar remaining) const {
     const Scalar fastest = speed(series, Scalar(1));
     const Scalar extent = extent_at(fastest, series, remaining);
@@ -326,8 +330,8 @@ class EventTaylor {
     return within < numeric::half(fastest) ? extent_at(within, series, remaining) : extent;
   }
 
-  /// As much of an extent as the mean friction can be told for, where that is of another part of
-  /// the friction than the oscillator feels.
+  /// The extent, shortened to where the mean friction is accurate. Only friction of which another
+  /// part acts on the oscillator needs this.
   Scalar within_mean(const Arc& arc, Scalar extent) const {
     if constexpr (is_across) {
       return numeric::min(
@@ -337,7 +341,7 @@ class EventTaylor {
     return extent;
   }
 
-  /// As much of an extent as the series of the law serves for.
+  /// The extent, shortened to where the series of the law is valid.
   Scalar within_reach(const Series& series, Scalar extent) const {
     if constexpr (!Law::rate_independent) {
       Scalar change = Scalar(0);
@@ -366,8 +370,8 @@ class EventTaylor {
                        remaining);
   }
 
-  /// What the error of the velocity is measured against: the velocity scale, or where that is
-  /// smaller the vibration itself on the way to x, but not without end.
+  /// Scale of the error of the velocity: the velocity scale, or a smaller vibration itself on the
+  /// way to x, with a lower bound.
   Scalar speed(const Series& series, Scalar x) const {
     constexpr Scalar slow = numeric::from_real<Scalar>(1e-12);
     const Scalar change =
@@ -377,7 +381,7 @@ class EventTaylor {
                           : numeric::min(fastest, Scalar(1));
   }
 
-  /// The vibration below which the rounding of the forces, on the way to x, is more than is
+  /// The vibration below which the rounding of the forces, on the way to x, exceeds what is
   /// allowed. Out of line: it is rare.
   [[gnu::noinline]] Scalar slowest(const Series& series, Scalar x) const {
     using Limits = std::numeric_limits<Scalar>;
@@ -388,7 +392,7 @@ class EventTaylor {
                         Limits::min() / Limits::epsilon());
   }
 
-  /// The last terms of V and phi but `before`, as much as they matter.
+  /// The larger of the weighted terms of V and phi, `before` orders below the last.
   Scalar last_term(const Series& series, std::size_t before, Scalar speed) const {
     const Scalar motion = numeric::abs(series.rate * series.travel[last_power - before]);
     if constexpr (!Law::varies) {
@@ -402,7 +406,7 @@ class EventTaylor {
     if constexpr (Law::rate_independent) {
       return numeric::clamp(model_.contact_force(Scalar(1)), least_weight, most_weight);
     }
-    // What depends on the speed follows from the series alone.
+    // Friction that depends on the speed follows from the series alone.
     return Law::remembers ? memory_weight : most_weight;
   }
 
@@ -431,7 +435,7 @@ class EventTaylor {
     return longest;
   }
 
-  /// Two reversals closer than time can tell are none: the contact slides on beyond them.
+  /// Two reversals too close for time to tell them apart count as none: the contact slides on.
   static bool can_slide_beyond(const Branch<Scalar>& branch) {
     return Law::reverses && !Law::sticks && 0 < branch.zero_order && branch.zero_order < Order;
   }
@@ -466,7 +470,7 @@ class EventTaylor {
   }
 
   /// The extent at which the last two terms reach what is allowed, or the rounding error of the
-  /// velocity if that is larger. A unit that was well chosen is it.
+  /// velocity if that is larger. It is the unit itself if the unit was well chosen.
   Scalar step_extent(Scalar last, Scalar last_but_one, Scalar speed, const Series& series,
                      Scalar remaining) const {
     const Scalar rounding = std::numeric_limits<Scalar>::epsilon() * numeric::abs(series.velocity);

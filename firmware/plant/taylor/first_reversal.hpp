@@ -1,4 +1,4 @@
-/// The first sign change of the sliding velocity inside a step: certified, and mostly quick.
+/// The first sign change of the sliding velocity inside a step, found with certainty.
 #pragma once
 
 #include <array>
@@ -13,7 +13,8 @@ namespace sonoglide::plant {
 
 namespace detail {
 
-/// A cubic by its Bernstein coefficients on [0, 1]: it lies between the least and the greatest.
+/// A cubic by its Bernstein coefficients on [0, 1]; its values lie between the smallest and the
+/// largest coefficient.
 template <class Scalar>
 struct Cubic {
   std::array<Scalar, 4> control;
@@ -22,20 +23,20 @@ struct Cubic {
     return numeric::min(numeric::min(control[0], control[1]),
                         numeric::min(control[2], control[3])) > margin;
   }
-  /// The same of the cubic over x where it begins with zero: there it is a parabola.
+  /// For a cubic that begins with zero: cubic / x, a parabola, stays above the margin.
   bool rises_above(Scalar margin) const {
     const Scalar first = Scalar(3) * control[1];
     const Scalar second = control[2] + numeric::half(control[2]);
     return numeric::min(numeric::min(first, second), control[3]) > margin;
   }
-  /// Falls throughout, by more than the margin in each third.
+  /// The cubic falls throughout, by more than the margin in each third.
   bool falls(Scalar margin) const {
     const Scalar first = control[0] - control[1];
     const Scalar second = control[1] - control[2];
     const Scalar third = control[2] - control[3];
     return numeric::min(numeric::min(first, second), third) > margin;
   }
-  /// Near its root, where it falls from above zero to below: from the chord, one step of Halley's.
+  /// Near the root of a cubic that falls through zero: one step of Halley's method from the chord.
   Scalar root() const {
     const Scalar b = Scalar(3) * (control[1] - control[0]);
     const Scalar c = Scalar(3) * (control[2] - control[1]) - b;
@@ -50,11 +51,21 @@ struct Cubic {
   }
 };
 
-/// A root of p from a guess that is a few per cent of `length` off; NaN if it is not found. Each
-/// pass takes the error to its fourth power: the inverse series of p about the guess, up to the
-/// third derivative. The last one must be short, and p nearly straight over it.
+/// Where the polishing of a root has come to.
+template <class Scalar>
+struct PolishedRoot {
+  Scalar place;
+  bool found;  ///< if false, `place` means nothing
+
+  bool lies_between(Scalar low, Scalar high) const { return found && low < place && place < high; }
+};
+
+/// A root of p from a guess that is a few per cent of `length` off. Each pass uses the inverse
+/// series of p about the guess up to the third derivative, which takes the error to its fourth
+/// power. The root is found once a pass is short and p is nearly straight over it.
 template <class Scalar, std::size_t Count>
-Scalar polished_root(const std::array<Scalar, Count>& p, Scalar guess, Scalar length) {
+PolishedRoot<Scalar> polished_root(const std::array<Scalar, Count>& p, Scalar guess,
+                                   Scalar length) {
   constexpr bool is_short = std::numeric_limits<Scalar>::digits <= 24;
   constexpr Scalar close = numeric::from_real<Scalar>(is_short ? 2e-2 : 2e-4);
   constexpr int most_passes = 8;
@@ -70,15 +81,15 @@ Scalar polished_root(const std::array<Scalar, Count>& p, Scalar guess, Scalar le
     root -= newton * (Scalar(1) + (b + (numeric::twice(b * b) - c)));
     if (numeric::abs(newton) <= close * length && numeric::abs(b) <= close &&
         numeric::abs(c) <= close) {
-      return root;
+      return {root, true};
     }
   }
-  return std::numeric_limits<Scalar>::quiet_NaN();
+  return {root, false};
 }
 
-/// Bound of |p - q| on [0, end], end <= 1: q is the cubic that has p's value and first two
-/// derivatives at 0 and its value at end. Of each power u^n of p it leaves u^n - u^3, which is
-/// below 1 - 3/n on [0, 1]; rounding adds some epsilon of every term.
+/// Bound of |p - q| on [0, end], end <= 1. q is the cubic that has p's value and first two
+/// derivatives at 0 and p's value at end. For each power u^n of p, |u^n - u^3| remains, which is
+/// below 1 - 3/n on [0, 1]. Rounding adds some epsilon of every term.
 template <class Scalar, std::size_t Count>
 [[gnu::always_inline]] inline Scalar cubic_remainder(const std::array<Scalar, Count>& p,
                                                      Scalar end) {
@@ -94,8 +105,8 @@ template <class Scalar, std::size_t Count>
          numeric::from_real<Scalar>(rounding) * (low + numeric::abs(p[3]));
 }
 
-/// The bound for the cubic between two points with values and slopes: length^4 / 384 times the sum
-/// of the moduli of p''''.
+/// The same bound for the cubic that has p's values and slopes at two points: length^4 / 384 times
+/// the sum of the moduli of the terms of p''''.
 template <class Scalar, std::size_t Count>
 Scalar hermite_remainder(const std::array<Scalar, Count>& p, Scalar end, Scalar length) {
   constexpr double rounding = 16.0 * static_cast<double>(std::numeric_limits<Scalar>::epsilon());
@@ -115,8 +126,8 @@ Scalar hermite_remainder(const std::array<Scalar, Count>& p, Scalar end, Scalar 
 
 }  // namespace detail
 
-/// True only if direction p(x) is positive on (0, end], end <= 1, where it has at 0 a zero of the
-/// given order and is positive beyond. False says nothing.
+/// True only if direction p(x) is positive on (0, end], end <= 1; false proves nothing. At 0 it
+/// must have a zero of the given order and be positive just beyond.
 template <class Scalar, std::size_t Count>
 [[gnu::always_inline]] inline bool certainly_keeps_sign(const std::array<Scalar, Count>& p,
                                                         Scalar direction, std::size_t zero_order,
@@ -133,11 +144,11 @@ template <class Scalar, std::size_t Count>
                          : zero_order == 1 && cubic.rises_above(Scalar(3) * margin);
 }
 
-/// The first x in (0, end) at which p changes sign, or `end` if there is none; direction p(x) has
-/// at 0 a zero of the given order and is positive beyond.
+/// The first x in (0, end) at which p changes sign, or `end` if there is none. At 0 direction p(x)
+/// must have a zero of the given order and be positive just beyond.
 ///
-/// Cubics on either half, with bounds of what they miss, tell most cases: no zero, or one in a half
-/// in which p falls throughout. The rest is searched for by first_root.
+/// Cubics on the two halves, with bounds of their errors, settle most cases: no zero, or one zero
+/// in a half in which p falls throughout. first_root settles the rest.
 template <class Scalar, std::size_t Count>
 [[gnu::noinline]] Scalar first_reversal(const std::array<Scalar, Count>& p, Scalar direction,
                                         std::size_t zero_order, Scalar end) {
@@ -155,20 +166,19 @@ template <class Scalar, std::size_t Count>
     const Scalar margin = detail::hermite_remainder(p, end, middle);
     const bool left_is_free =
         zero_order == 0 ? left.stays_above(margin) : left.rises_above(Scalar(3) * margin);
-    Scalar root = end;
     if (left_is_free && right.stays_above(margin)) {
       return end;
     }
     if (left_is_free && last < Scalar(0) && right.falls(numeric::twice(margin))) {
-      root = detail::polished_root(p, middle + middle * right.root(), middle);
-      if (middle < root && root < end) {
-        return root;
+      const auto root = detail::polished_root(p, middle + middle * right.root(), middle);
+      if (root.lies_between(middle, end)) {
+        return root.place;
       }
     }
     if (zero_order == 0 && half_way < Scalar(0) && left.falls(numeric::twice(margin))) {
-      root = detail::polished_root(p, middle * left.root(), middle);
-      if (Scalar(0) < root && root < middle) {
-        return root;
+      const auto root = detail::polished_root(p, middle * left.root(), middle);
+      if (root.lies_between(Scalar(0), middle)) {
+        return root.place;
       }
     }
   }

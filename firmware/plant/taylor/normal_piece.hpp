@@ -10,12 +10,12 @@
 
 namespace sonoglide::plant {
 
-/// What the slider does from one instant on, and until when: it sticks, slips, or is lifted off.
+/// The slider's motion from one instant on, and its end: it sticks, slips, or is lifted off.
 ///
-/// Which of them, the first coefficients of two margins tell that exceed their rounding errors:
-/// that of the pressure above 0 and, were it to stick, that of the limit above the force. Each ends
-/// at a first root: of a margin, or where it slips of the rate at which its margin would open. No
-/// root is passed over.
+/// Two margins decide: that of the pressure above 0 and, for a slider that sticks, that of the
+/// limit above the force. Of each the first coefficient counts that exceeds its rounding error. A
+/// motion ends at the first root of a margin; a slip also ends where the rate at which the margin
+/// would open passes zero. No root is passed over.
 template <class Law, class Series>
 class NormalPiece {
  public:
@@ -45,7 +45,7 @@ class NormalPiece {
     return friction;
   }
 
-  /// Where it ends, or `longest`.
+  /// Where the motion ends, or `longest`.
   Scalar end(Scalar longest) const {
     switch (motion_) {
       case Motion::lifted:
@@ -103,7 +103,7 @@ class NormalPiece {
     return {Scalar(0), order + 1};
   }
 
-  /// Of the limit above the force in a direction, while the slider sticks.
+  /// Margin of the limit above the force in a direction, while the slider sticks.
   Coefficients margin(Scalar direction) const {
     Coefficients margin = pressure_;
     for (std::size_t n = 0; n < 3; ++n) {
@@ -112,7 +112,7 @@ class NormalPiece {
     return margin;
   }
 
-  /// The rate at which the margin would open grows from below 0.
+  /// Where the rate at which the margin would open rises from below 0.
   Scalar slip_end(Scalar longest) const {
     const Coefficients above = margin(direction_);
     Coefficients rate{};
@@ -143,7 +143,7 @@ class NormalPiece {
   std::size_t slip_order_ = 0;
 };
 
-/// The friction of a piece, as the series has it.
+/// The friction of a piece, given by the series.
 template <class Law, class Series>
 class NormalFriction {
  public:
@@ -155,7 +155,7 @@ class NormalFriction {
     const Scalar limit = law_.limit(series_.displacement_at(x));
     return numeric::clamp(numeric::evaluate(series_.friction, x), -limit, limit);
   }
-  /// Of the pull, which all goes into the contact.
+  /// Work of the pull, which all goes into the contact.
   Scalar work(Scalar x) const {
     return series_.unit *
            (series_.sliding_velocity[0] * integral(x) + series_.sliding_velocity[1] * moment(x));

@@ -20,7 +20,7 @@ struct SlidingLaw<Law, Order, false> {
   using Type = typename Law::template Series<Order>;
 };
 
-/// Friction of a sliding contact as the series has it.
+/// Friction of a sliding contact, given by the series.
 template <class Series, class LawSeries>
 class RatedFriction {
  public:
@@ -31,7 +31,8 @@ class RatedFriction {
       : series_(series), law_(law) {}
 
   Scalar at(Scalar x) const { return numeric::evaluate(series_.friction, x); }
-  /// By Gauss and Legendre, exact for the product of two series up to their order less 1.
+  /// Work by Gauss-Legendre quadrature, exact for the product of two series up to their order less
+  /// 1.
   Scalar work(Scalar x) const {
     static constexpr auto rule = numeric::gauss_legendre<static_cast<int>(Series::order) / 2>();
     Scalar sum = Scalar(0);

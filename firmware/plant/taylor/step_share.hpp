@@ -16,8 +16,8 @@ enum class Drift {
 /// The part of a tolerance that the error of a step may take, in (0, 1], for a hundred carrier
 /// periods to keep the tolerance.
 ///
-/// While the natural mode turns, the errors of the steps cancel: 1. They add up in a mode slower
-/// than 1/8 of the drive, the more the longer it takes to turn, so that a free mass drifts; and in
+/// 1 while the natural mode turns, because the errors of the steps then cancel. They add up in a
+/// mode slower than 1/8 of the drive, the more the slower it is, so that a free mass drifts; and in
 /// a mode faster than the drive, whose phase each step moves the same way. The numbers were found
 /// by trial.
 /// stiffness: k = Ks / (m omega^2), the square of the natural mode over the drive.

@@ -70,7 +70,7 @@ struct TaylorSeries {
     slide(model, arc, std::make_index_sequence<Order + 1>());
   }
 
-  /// The contact holds, V = 0, by whatever friction that takes.
+  /// The contact sticks: V = 0, and phi is the friction that holds it.
   void stick(const Model& model) {
     vibration = {-unit * sliding_velocity[0], -unit * sliding_velocity[1]};
     travel = {};

@@ -53,12 +53,12 @@ class SlidingFriction {
  private:
   static constexpr std::size_t order = Series::order;
 
-  /// An increment, and never backwards: a difference of two displacements would cancel.
+  /// An increment that never goes backwards: the difference of two displacements would cancel.
   Scalar travelled(Scalar x) const {
     return numeric::max(Scalar(0), direction_ * series_.travelled(x));
   }
 
-  /// Where the last terms of phi, times the length of a long step, are more than tolerated.
+  /// Whether the last terms of phi, times the length of a long step, exceed what is tolerated.
   bool is_beyond_series(Scalar x) const {
     const Scalar last = numeric::max(x * numeric::abs(series_.friction[order]),
                                      numeric::abs(series_.friction[order - 1]));
@@ -66,9 +66,9 @@ class SlidingFriction {
            tolerated_;
   }
 
-  /// Of x^Power phi by Gauss and Legendre, from the displacement: good long after the series of phi
-  /// has ceased to converge. Out of line: a step that is told by the series does without. Pure: two
-  /// accounts of one step need it once.
+  /// Integral of x^Power phi by Gauss-Legendre quadrature from the displacement, which stays
+  /// accurate after the series of phi has ceased to converge. Out of line: most steps use the
+  /// series. Pure: two accounts of one step need it once.
   template <int Power>
   [[gnu::noinline, gnu::pure]] Scalar quadrature(Scalar extent) const {
     constexpr std::size_t width = numeric::lane_count<Scalar>;
@@ -91,7 +91,7 @@ class SlidingFriction {
   Scalar tolerated_;
 };
 
-/// Friction of a contact that holds: as the series has it, and no work.
+/// Friction of a contact that sticks, given by the series; it does no work.
 template <class Series>
 class HoldingFriction {
  public:
@@ -136,7 +136,7 @@ class TaylorStep {
     return series_.unit * sum;
   }
 
-  /// By Gauss and Legendre, exact for the product of two series up to their order less 1.
+  /// By Gauss-Legendre quadrature, exact for the product of two series up to their order less 1.
   MotionIntegrals<Scalar> motion_integrals() const {
     static constexpr auto rule = numeric::gauss_legendre<node_count>();
     MotionIntegrals<Scalar> sum;

@@ -12,8 +12,8 @@
 
 namespace sonoglide::hal::lockstep {
 
-/// Samples come from a link to the host, drives go back on it. The end of the input shuts the board
-/// down; a broken link ends the image (ExitCode::link_broken).
+/// Samples come from a link to the host, and drives go back over it. The end of the input shuts the
+/// board down; a broken link ends the image (ExitCode::link_broken).
 ///
 /// @tparam Link  offers
 ///   // waits; how many came until the end

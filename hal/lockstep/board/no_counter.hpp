@@ -1,4 +1,4 @@
-/// For a board that does not count what its answers cost.
+/// The counter of a board that does not measure the cost of its answers.
 #pragma once
 
 #include <cstdint>
