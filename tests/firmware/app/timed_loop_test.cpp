@@ -12,6 +12,7 @@
 #include "firmware/app/control_loop.hpp"
 #include "firmware/app/host_ramp.hpp"
 #include "hal/no_watchdog.hpp"
+#include "tests/common/constants/pi.hpp"
 #include "tests/firmware/app/unit/simulated_unit.hpp"
 
 namespace sonoglide::app {
@@ -336,7 +337,7 @@ TEST_F(HostedLoopTest, OnlyARunningDriveRampsDown) {
 
 // A mode of any frequency between a hundredth and half of the carrier, undamped and static gain 1.
 TEST(HostRampTest, LeavesTheRingingThatItStates) {
-  constexpr double pi = 3.14159265358979323846;
+  using tests::pi;
   for (double angle = 2.0 * pi / 100.0; angle < pi; angle *= 1.003) {
     HostRamp ramp;
     ramp.begin(INT32_MAX);

@@ -8,6 +8,7 @@
 #include "firmware/control/dahl_feedforward.hpp"
 #include "firmware/friction/dahl_friction_ratio.hpp"
 #include "scalars.hpp"
+#include "tests/common/constants/pi.hpp"
 
 namespace sonoglide::control {
 namespace {
@@ -28,13 +29,12 @@ TYPED_TEST_SUITE(FeedforwardTest, Scalars);
 
 TYPED_TEST(FeedforwardTest, CoulombFollowsTheSineAtAnySpeed) {
   const CoulombFeedforward<TypeParam> feedforward({});
-  const double half_turn = std::acos(-1.0);
   const double largest = numeric::to_real(numeric::from_code<TypeParam>(INT32_MAX));
   for (double half_ratio = 0.0; half_ratio < 0.5; half_ratio += 0.013) {
     for (const double speed : {0.001, 0.1, 0.99}) {
       const double amplitude = numeric::to_real(
           feedforward.amplitude(scaled<TypeParam>(half_ratio), scaled<TypeParam>(speed)));
-      const double r = std::sin(half_turn * half_ratio);
+      const double r = std::sin(tests::pi * half_ratio);
       const double wanted = speed < r ? speed / r : largest;
       EXPECT_NEAR(amplitude, wanted, 8.0 * resolution<TypeParam>() / std::max(r, speed));
     }

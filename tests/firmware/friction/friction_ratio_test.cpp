@@ -6,11 +6,12 @@
 
 #include "firmware/friction/coulomb_friction_ratio.hpp"
 #include "firmware/friction/dahl_friction_ratio.hpp"
+#include "tests/common/constants/pi.hpp"
 
 namespace sonoglide::friction {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+using tests::pi;
 
 TEST(GaussLegendre, IntegratesEveryPolynomialOfItsDegree) {
   constexpr auto rule = numeric::gauss_legendre<24>();

@@ -7,6 +7,7 @@
 #include "firmware/friction/dahl_friction_ratio.hpp"
 #include "firmware/friction/dahl_inverse_map.hpp"
 #include "firmware/numeric/fixed.hpp"
+#include "tests/common/constants/pi.hpp"
 
 namespace sonoglide::friction {
 namespace {
@@ -102,7 +103,7 @@ TYPED_TEST(DahlInverseMap, EndsAtTheLargestValue) {
 // Drive amplitudes at which Table 1 of the paper reaches a ratio, sliding at 26.72 mm/s and at
 // 0.1 m/s: v = Vt / v̂(1920 N), λ = Kt Vt/(ω Fc).
 TYPED_TEST(DahlInverseMap, GivesTheDriveAmplitudesOfTable1) {
-  const double omega = 2.0 * 3.14159265358979323846 * 60e3;
+  const double omega = tests::two_pi * 60e3;
   const double peak_m_per_s_per_N = omega / (0.02 * omega * omega - 133e6);
   const double friction_N = 0.1 * 0.02 * 9.81;
   struct Point {

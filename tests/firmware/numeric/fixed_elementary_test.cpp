@@ -13,10 +13,12 @@
 #include <type_traits>
 #include <vector>
 
+#include "tests/common/constants/pi.hpp"
+
 namespace sonoglide::numeric {
 namespace {
 
-constexpr long double long_pi = 3.14159265358979323846264338327950288L;
+using tests::long_pi;
 
 template <class Raw>
 std::vector<Raw> raw_arguments() {

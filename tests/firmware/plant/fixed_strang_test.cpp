@@ -19,11 +19,12 @@
 #include "firmware/plant/observer.hpp"
 #include "firmware/plant/strang/equal_step_strang.hpp"
 #include "firmware/plant/strang/fixed_point_strang_design.hpp"
+#include "tests/common/constants/pi.hpp"
 
 namespace sonoglide::plant {
 namespace {
 
-constexpr double two_pi = 6.28318530717958647693;
+using tests::two_pi;
 
 using Model = plant::Model<friction::Dahl<double>, Damped<double>, CosineDrive>;
 

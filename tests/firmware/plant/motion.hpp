@@ -11,10 +11,11 @@
 #include "firmware/plant/observer.hpp"
 #include "firmware/plant/rk4/rk4.hpp"
 #include "firmware/plant/taylor/event_taylor.hpp"
+#include "tests/common/constants/pi.hpp"
 
 namespace sonoglide::plant {
 
-constexpr double pi = 3.14159265358979323846;
+using tests::pi;
 
 template <class Scalar>
 using DahlModel = Model<friction::Dahl<Scalar>, Undamped<Scalar>, CosineDrive>;
