@@ -36,12 +36,13 @@
 #include "host_sim/loop/plant_description.hpp"
 #include "host_sim/process/run_tool.hpp"
 #include "host_sim/scene_file/reader.hpp"
+#include "tests/common/constants/pi.hpp"
 #include "tests/host_sim/loop/logs/logged_run.hpp"
 
 namespace sonoglide {
 namespace {
 
-constexpr double two_pi = 6.28318530717958647693;
+using tests::two_pi;
 
 /// The controller of a scene, with what it gets and answers hashed.
 class HashedControl final : public loop::ControlPort {

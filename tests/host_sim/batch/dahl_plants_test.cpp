@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "host_sim/batch/run_dahl_plants.hpp"
+#include "tests/common/constants/pi.hpp"
 #include "tests/host_sim/batch/runs/instruction_sets.hpp"
 #include "tests/host_sim/batch/runs/plants.hpp"
 #include "tests/host_sim/batch/runs/scalar_run.hpp"
@@ -59,7 +60,7 @@ TEST(DahlPlants, SweepOfTable1IsGoodToTheAccuracyAskedFor) {
 
 TEST(DahlPlants, ReferenceOfTable1) {
   // Table 1 at 384 N, velocity ratio 0.5; integrated with twenty digits.
-  const double omega = 2.0 * 3.14159265358979323846 * 60e3;
+  const double omega = tests::two_pi * 60e3;
   DahlPlant plant;
   plant.stiffness = 133e6 / (0.02 * omega * omega);
   plant.friction_force = 0.01962 / 384.0;

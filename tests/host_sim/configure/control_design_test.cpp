@@ -7,6 +7,7 @@
 #include <string>
 
 #include "host_sim/configure/configuration_error.hpp"
+#include "tests/common/constants/pi.hpp"
 #include "tests/common/table_1.hpp"
 
 namespace sonoglide::configure {
@@ -16,8 +17,8 @@ using loop::carrier_Hz;
 using loop::period_s;
 using loop::pi;
 using loop::table_1_closed_loop;
+using tests::long_pi;
 
-constexpr long double pi_l = 3.14159265358979323846264338327950288L;
 const double omega = 2.0 * pi * carrier_Hz;
 
 /// The key that a refused scene should change.
@@ -92,7 +93,8 @@ TEST(ControlDesignTest, NotchSpacingIsTheSmallestThatKeepsEveryTapBelowOne) {
     const ControlDesign design = design_control(with_natural_frequency(part));
     int smallest = 0;
     for (int spacing = 1; spacing <= max_notch_spacing && smallest == 0; ++spacing) {
-      const long double cosine = std::cos(2.0L * pi_l * static_cast<long double>(part) * spacing);
+      const long double cosine =
+          std::cos(2.0L * long_pi * static_cast<long double>(part) * spacing);
       const long double sum = 2.0L - 2.0L * cosine;
       smallest = sum > 1.0L && std::abs(2.0L * cosine) < sum ? spacing : 0;
     }

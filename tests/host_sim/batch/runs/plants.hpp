@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "host_sim/batch/dahl_run.hpp"
+#include "tests/common/constants/pi.hpp"
 
 namespace sonoglide::batch {
 
@@ -17,7 +18,7 @@ inline std::vector<DahlPlant> table_1_sweep(std::size_t side) {
   constexpr double mass_kg = 0.02;
   constexpr double force_N = 384.0;
   constexpr double friction_N = 0.1 * mass_kg * 9.81;
-  const double omega = 2.0 * 3.14159265358979323846 * 60e3;
+  const double omega = tests::two_pi * 60e3;
   const double length_m = force_N / (mass_kg * omega * omega);
   std::vector<DahlPlant> plants;
   for (std::size_t i = 0; i < side; ++i) {

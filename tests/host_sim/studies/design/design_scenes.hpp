@@ -2,6 +2,7 @@
 #pragma once
 
 #include "host_sim/scene/scene.hpp"
+#include "tests/common/constants/pi.hpp"
 
 namespace sonoglide::design {
 
@@ -45,7 +46,7 @@ inline scene::Scene stribeck() {
 /// Natural and drive frequency are one; damping, heavy friction, and little force.
 inline scene::Scene resonant() {
   scene::Scene scene = table_1();
-  const double omega = 6.283185307179586 * scene.drive->frequency_Hz;
+  const double omega = tests::two_pi * scene.drive->frequency_Hz;
   scene.plant.stiffness_N_per_m = scene.plant.mass_kg * omega * omega;
   scene.plant.damping_N_s_per_m = 200.0;
   scene.friction.normal_force_N = 20.0;

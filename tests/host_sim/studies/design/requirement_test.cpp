@@ -7,11 +7,12 @@
 #include <cmath>
 
 #include "design_scenes.hpp"
+#include "tests/common/constants/pi.hpp"
 
 namespace sonoglide::design {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+using tests::pi;
 
 // Known answers at Table 1, within 1 %.
 TEST(RequireRatioTest, HasTheKnownForcesOfTable1) {

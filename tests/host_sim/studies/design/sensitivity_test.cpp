@@ -10,11 +10,12 @@
 
 #include "design_scenes.hpp"
 #include "host_sim/studies/design/requirement.hpp"
+#include "tests/common/constants/pi.hpp"
 
 namespace sonoglide::design {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+using tests::pi;
 
 using BySymbol = std::map<std::string, double>;
 

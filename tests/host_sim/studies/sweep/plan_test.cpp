@@ -8,6 +8,7 @@
 
 #include "host_sim/scene_file/reader.hpp"
 #include "host_sim/scene_file/to_json.hpp"
+#include "tests/common/constants/pi.hpp"
 #include "tests/host_sim/studies/sweep/scenes/base_scenes.hpp"
 #include "tests/host_sim/studies/sweep/scenes/scratch_scene.hpp"
 
@@ -98,7 +99,7 @@ TEST(PlanTest, TheVelocityRatioFollowsTheImpedanceOfThePoint) {
   const Plan plan(scene_file::read_source(scratch.file()), {},
                   {"velocity_ratio=0.5:1:2", "plant.damping_N_s_per_m=0:5000:2"});
   const std::complex<double> i(0.0, 1.0);
-  const double omega = 2.0 * 3.14159265358979323846 * 60e3;
+  const double omega = tests::two_pi * 60e3;
   for (std::size_t point = 0; point < 4; ++point) {
     const double damping = point % 2 == 0 ? 0.0 : 5000.0;
     const double ratio = point < 2 ? 0.5 : 1.0;
