@@ -1,7 +1,7 @@
 /// The energy account of a contact that slides at one velocity.
 
 #include "firmware/plant/sliding.hpp"
-#include "motion.hpp"
+#include "tests/firmware/plant/runs/motion.hpp"
 
 namespace sonoglide::plant {
 

@@ -1,6 +1,6 @@
 /// A scene that names a drive and a contact: the same reading finds them, where they are.
 
-#include "motion.hpp"
+#include "tests/firmware/plant/runs/motion.hpp"
 
 namespace sonoglide::plant {
 

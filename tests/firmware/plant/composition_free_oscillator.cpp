@@ -1,6 +1,6 @@
 /// The smallest scene there is; what its loop refers to is read from the object file.
 
-#include "motion.hpp"
+#include "tests/firmware/plant/runs/motion.hpp"
 
 namespace sonoglide::plant {
 

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "firmware/numeric/lane_group.hpp"
-#include "motion.hpp"
+#include "tests/firmware/plant/runs/motion.hpp"
 
 namespace sonoglide::plant {
 namespace {

@@ -7,7 +7,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "motion.hpp"
+#include "tests/firmware/plant/runs/motion.hpp"
 
 namespace sonoglide::plant {
 namespace {

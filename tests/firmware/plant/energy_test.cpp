@@ -5,7 +5,7 @@
 #include <cmath>
 #include <random>
 
-#include "motion.hpp"
+#include "tests/firmware/plant/runs/motion.hpp"
 
 namespace sonoglide::plant {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <limits>
 
-#include "motion.hpp"
+#include "tests/firmware/plant/runs/motion.hpp"
 
 namespace sonoglide::plant {
 namespace {

@@ -10,7 +10,7 @@
 #include <type_traits>
 
 #include "firmware/plant/gauss/event_gauss.hpp"
-#include "motion.hpp"
+#include "tests/firmware/plant/runs/motion.hpp"
 
 namespace sonoglide::plant {
 namespace {

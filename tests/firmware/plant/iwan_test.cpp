@@ -12,8 +12,8 @@
 
 #include "firmware/plant/rk4/rk4_event.hpp"
 #include "firmware/plant/strang/equal_step_strang.hpp"
-#include "motion.hpp"
 #include "random.hpp"
+#include "tests/firmware/plant/runs/motion.hpp"
 
 namespace sonoglide::plant {
 namespace {

@@ -6,7 +6,7 @@
 #include <complex>
 #include <string>
 
-#include "motion.hpp"
+#include "tests/firmware/plant/runs/motion.hpp"
 
 namespace sonoglide::plant {
 namespace {

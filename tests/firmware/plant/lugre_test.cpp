@@ -12,8 +12,8 @@
 #include <cmath>
 
 #include "firmware/friction/dahl_friction_ratio.hpp"
-#include "motion.hpp"
 #include "random.hpp"
+#include "tests/firmware/plant/runs/motion.hpp"
 
 namespace sonoglide::plant {
 namespace {

@@ -9,7 +9,7 @@
 #include <string>
 
 #include "firmware/plant/gauss/event_gauss.hpp"
-#include "motion.hpp"
+#include "tests/firmware/plant/runs/motion.hpp"
 
 namespace sonoglide::plant {
 namespace {

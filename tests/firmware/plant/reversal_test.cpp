@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "motion.hpp"
+#include "tests/firmware/plant/runs/motion.hpp"
 
 namespace sonoglide::plant {
 namespace {

@@ -8,8 +8,8 @@
 #include <cmath>
 
 #include "firmware/friction/stribeck_friction_ratio.hpp"
-#include "motion.hpp"
 #include "random.hpp"
+#include "tests/firmware/plant/runs/motion.hpp"
 
 namespace sonoglide::plant {
 namespace {

@@ -10,8 +10,8 @@
 #include <cmath>
 
 #include "firmware/friction/transverse_vibration_ratio.hpp"
-#include "motion.hpp"
 #include "random.hpp"
+#include "tests/firmware/plant/runs/motion.hpp"
 
 namespace sonoglide::plant {
 namespace {

@@ -1,4 +1,4 @@
-/// Runge–Kutta with located reversals: their number and place, budgets, and what it cannot do.
+/// Runge–Kutta with located reversals: their number and place, and what it cannot do.
 
 #include "firmware/plant/rk4/rk4_event.hpp"
 
@@ -7,8 +7,7 @@
 #include <cmath>
 #include <vector>
 
-#include "firmware/plant/strang/equal_step_strang.hpp"
-#include "motion.hpp"
+#include "tests/firmware/plant/runs/motion.hpp"
 
 namespace sonoglide::plant {
 namespace {
@@ -126,45 +125,6 @@ TEST(Rk4EventError, ARingingThatTheStepCannotFollow) {
   State<double> state = {1e-11, 0.0, 1e-7};
   NoAccount account;
   EXPECT_EQ(advance(solver, {0.0, 1.0, 0.0, 0.0, 0.0}, state, account).error, Error::step_too_long);
-}
-
-template <class FixedStep>
-void expect_budget_kept() {
-  FixedStep solver;
-  solver.configure(prescribed, 0.1, 62);
-  State<double> state;
-  NoAccount account;
-  NoObserver observer;
-  const Interval<double> period = {0.0, 2.0 * pi, 1.0, 0.5, 0.0};
-  const Outcome<double> outcome = solver.advance(period, state, account, observer);
-  EXPECT_EQ(outcome.error, Error::too_many_steps);
-  EXPECT_EQ(outcome.offset, 0.0);
-  EXPECT_EQ(solver.cost().steps, 0U) << "known before the first step";
-}
-
-TEST(FixedStepBudget, IsKnownBeforeTheFirstStep) {
-  expect_budget_kept<Rk4<Contact>>();
-  expect_budget_kept<Rk4Event<Contact>>();
-  expect_budget_kept<Strang<Contact>>();
-}
-
-TEST(FixedStepBudget, CountsThePartsOfCutSteps) {
-  Solver solver;
-  solver.configure(prescribed, 0.1, 64);
-  State<double> state;
-  NoAccount account;
-  const Outcome<double> outcome = advance(solver, {0.0, 2.0 * pi, 1.0, 0.5, 0.0}, state, account);
-  EXPECT_EQ(outcome.error, Error::too_many_steps);
-  EXPECT_GT(outcome.offset, 6.0);
-  EXPECT_EQ(solver.cost().steps, 64U);
-}
-
-TEST(FixedStepBudget, StepsThatFitButForRoundingFit) {
-  EXPECT_EQ(fixed_step_count(1.0, 0.1, 100U), 10U);
-  EXPECT_EQ(fixed_step_count(1.0, 0.0999, 100U), 11U);
-  EXPECT_EQ(fixed_step_count(0.0, 0.1, 100U), 0U);
-  EXPECT_EQ(fixed_step_count(1.0, 0.1, 9U), 10U);
-  EXPECT_EQ(fixed_step_count(1e300, 1e-300, 9U), 10U);
 }
 
 }  // namespace

@@ -10,7 +10,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "motion.hpp"
+#include "tests/firmware/plant/runs/motion.hpp"
 
 namespace sonoglide::plant {
 namespace {
