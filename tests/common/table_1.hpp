@@ -4,10 +4,10 @@
 #include <cmath>
 
 #include "host_sim/scene/scene.hpp"
+#include "tests/common/constants/pi.hpp"
 
-namespace sonoglide::loop {
+namespace sonoglide::tests {
 
-inline constexpr double pi = 3.14159265358979323846;
 inline constexpr double carrier_Hz = 60e3;
 inline constexpr double period_s = 1.0 / carrier_Hz;
 
@@ -64,4 +64,4 @@ inline scene::Scene table_1_closed_loop(scene::Arithmetic arithmetic = scene::Ar
   return scene;
 }
 
-}  // namespace sonoglide::loop
+}  // namespace sonoglide::tests

@@ -13,11 +13,11 @@
 namespace sonoglide::configure {
 namespace {
 
-using loop::carrier_Hz;
-using loop::period_s;
-using loop::pi;
-using loop::table_1_closed_loop;
+using tests::carrier_Hz;
 using tests::long_pi;
+using tests::period_s;
+using tests::pi;
+using tests::table_1_closed_loop;
 
 const double omega = 2.0 * pi * carrier_Hz;
 

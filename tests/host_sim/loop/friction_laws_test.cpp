@@ -14,6 +14,11 @@
 namespace sonoglide::loop {
 namespace {
 
+using tests::on_steady_orbit;
+using tests::period_s;
+using tests::table_1;
+using tests::table_1_closed_loop;
+
 scene::Scene lugre(scene::Scene scene, const scene::laws::LuGre& law) {
   scene.friction.law = law;
   return scene;

@@ -12,6 +12,10 @@ namespace sonoglide::loop {
 namespace {
 
 using scene::Scene;
+using tests::period_s;
+using tests::pi;
+using tests::table_1;
+using tests::table_1_closed_loop;
 
 /// mu_s is half as large again, the curve is halfway down at 17 mm/s.
 const scene::laws::LuGre bristles = {0.15, 0.02, 0.01, 0.02};

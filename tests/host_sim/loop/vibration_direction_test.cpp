@@ -14,6 +14,14 @@
 namespace sonoglide::loop {
 namespace {
 
+using tests::carrier_Hz;
+using tests::compliance_m_per_N;
+using tests::on_steady_orbit;
+using tests::period_s;
+using tests::pi;
+using tests::table_1;
+using tests::table_1_closed_loop;
+
 PowerRatios window_ratios(const scene::Scene& scene) {
   return power_ratios(scene, run_logged(scene).result.window);
 }
