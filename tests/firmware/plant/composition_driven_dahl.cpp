@@ -6,7 +6,7 @@ namespace sonoglide::plant {
 
 State<double> driven_dahl_period(EventTaylor<DahlModel<double>, 16>& solver,
                                  const State<double>& state) {
-  return advanced(solver, {0.0, 2.0 * pi, 1.0, 0.5, 0.0}, state);
+  return advanced(solver, lasting(2.0 * pi).driven(1.0).sliding(0.5), state);
 }
 
 }  // namespace sonoglide::plant

@@ -8,7 +8,7 @@ using FreeOscillator = Model<friction::None<double>, Undamped<double>, NoDrive>;
 
 State<double> free_oscillator_period(EventTaylor<FreeOscillator, 16>& solver,
                                      const State<double>& state) {
-  return advanced(solver, {0.0, 2.0 * pi, 0.0, 0.0, 0.0}, state);
+  return advanced(solver, lasting(2.0 * pi), state);
 }
 
 }  // namespace sonoglide::plant

@@ -14,7 +14,7 @@ namespace {
 using Contact = DahlModel<double>;
 
 /// No reaction of friction and no spring: from rest v = a sin(tau), V = r + a sin(tau).
-const Contact prescribed = {{{0.5}, 0.0, 1.0}, {}, 0.0};
+const Contact prescribed = Case().contact_stiffness(0.5);
 
 template <class FixedStep>
 void expect_budget_kept() {
@@ -23,7 +23,7 @@ void expect_budget_kept() {
   State<double> state;
   NoAccount account;
   NoObserver observer;
-  const Interval<double> period = {0.0, 2.0 * pi, 1.0, 0.5, 0.0};
+  const Interval<double> period = lasting(2.0 * pi).driven(1.0).sliding(0.5);
   const Outcome<double> outcome = solver.advance(period, state, account, observer);
   EXPECT_EQ(outcome.error, Error::too_many_steps);
   EXPECT_EQ(outcome.offset, 0.0);
@@ -41,7 +41,8 @@ TEST(FixedStepBudget, CountsThePartsOfCutSteps) {
   solver.configure(prescribed, 0.1, 64);
   State<double> state;
   NoAccount account;
-  const Outcome<double> outcome = advance(solver, {0.0, 2.0 * pi, 1.0, 0.5, 0.0}, state, account);
+  const Outcome<double> outcome =
+      advance(solver, lasting(2.0 * pi).driven(1.0).sliding(0.5), state, account);
   EXPECT_EQ(outcome.error, Error::too_many_steps);
   EXPECT_GT(outcome.offset, 6.0);
   EXPECT_EQ(solver.cost().steps, 64U);

@@ -13,13 +13,13 @@ namespace {
 
 TEST(PanelMotions, AreThoseOfTheOscillator) {
   using Damped = DampedDahlModel<double>;
-  const Damped model = {{{1.0}, 0.0, 1.0}, {0.3}, 0.7};
+  const Damped model = Case().contact_stiffness(1.0).damping(0.3).stiffness(0.7);
   using Motions = PanelMotions<Damped, 19, 9>;
   const Motions motions(model, pi);
   auto taylor = configured<EventTaylor<Damped, 16>>(model, 1e-15);
   // A panel from x = -1 under cos(tau): what is left of the two free motions at its end.
   const State<double> before = {0.4, -0.3, 0.0};
-  const State<double> end = advanced(taylor, {0.0, 2.0 * pi, 1.0, 0.0, 0.0}, before);
+  const State<double> end = advanced(taylor, lasting(2.0 * pi).driven(1.0), before);
   const auto& begin = motions.begin;
   const double y = before.displacement + begin[2].value;  // cos(tau) = -cos(pi x)
   const double rate = pi * before.velocity + begin[2].rate;

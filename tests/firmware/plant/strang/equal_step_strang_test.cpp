@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "tests/common/constants/table_1_numbers.hpp"
 #include "tests/firmware/plant/runs/motion.hpp"
 #include "tests/firmware/plant/runs/quartic_path.hpp"
 
@@ -59,18 +60,18 @@ TEST(StrangStuck, RingsAsASpringHoweverLongTheStep) {
   const double kappa = 1e4;
   const double beta = 0.5;
   const double w = std::sqrt(beta * kappa);
-  auto solver = configured<Strang<DahlModel<double>>>({{{kappa}, beta, 1.0}, {}, 0.0}, 1.0);
+  auto solver = configured<Strang<DahlModel<double>>>(
+      Case().contact_stiffness(kappa).friction_force(beta), 1.0);
   State<double> state = {1e-11, 0.0, kappa * 1e-11};
   double largest = 0.0;
   NoAccount account;
   auto watch = [&](const auto& step) {
     largest = std::fmax(largest, std::abs(step.at(step.length()).displacement));
   };
-  ASSERT_EQ(solver.advance({0.0, 200.0 * pi / w, 0.0, 0.0, 0.0}, state, account, watch).error,
-            Error::none);
+  ASSERT_EQ(solver.advance(lasting(200.0 * pi / w), state, account, watch).error, Error::none);
   EXPECT_GT(largest, 0.8e-11);
   EXPECT_LT(largest, 1.2e-11);
-  EXPECT_GE(solver.cost().steps, 600U);
+  EXPECT_EQ(solver.cost().steps, 629U);  // 1 / w each
 }
 
 /// The flow is computed anew for every length of step, and for no other reason.
@@ -81,31 +82,38 @@ TEST(StrangFlow, IntervalsOfAnyLengthJoin) {
   State<double> state;
   double phase = 0.0;
   for (const double part : {0.3, 2.0, 0.3, 0.0, 1e-9, 1.4}) {
-    state = advanced(solver, {phase, part, 1.0, 0.0, 0.0}, state);
+    state = advanced(solver, lasting(part).from_phase(phase).driven(1.0), state);
     phase += part;
   }
   const double w = std::sqrt(0.7);
   EXPECT_NEAR(state.displacement, (std::cos(phase) - std::cos(w * phase)) / (0.7 - 1.0), 1e-14);
 }
 
-/// Mean friction of one period of Table 1, whose drive changes every 200.
+/// Mean friction of one period of Table 1 at 26.72 mm/s, whose drive changes every 200.
 template <class Scalar>
 class Table1Plant {
  public:
   explicit Table1Plant(double steps_per_period) {
-    const DahlModel<Scalar> model{
-        {{number(1.8417)}, number(1.0696e-5), Scalar(1)}, {}, number(0.04679)};
+    const DahlModel<Scalar> model = Case()
+                                        .contact_stiffness(table_1.contact_stiffness)
+                                        .friction_force(table_1.friction_force)
+                                        .stiffness(table_1.stiffness);
     solver_.configure(model, number(2.0 * pi / steps_per_period));
   }
 
   double mean_friction(int period, double full_drive) {
-    const double amplitude = full_drive * (period / 200 % 2 == 0 ? 0.4 : 0.6) * 1.04679;
+    const double amplitude = full_drive * (period / 200 % 2 == 0 ? 0.4 : 0.6);
     MeanFriction<Scalar> account;
-    run_periods(solver_, 1, number(amplitude), number(0.10984), state_, account);
+    run_periods(solver_, 1, number(amplitude), number(sliding), state_, account);
     return static_cast<double>(account.friction_integral) / (2.0 * pi);
   }
 
  private:
+  static constexpr double full_drive_N = 1920.0;
+  static constexpr tests::DimensionlessTable1 table_1{full_drive_N};
+  static constexpr double sliding =
+      0.02672 * tests::Table1::inertia_N_per_m / (full_drive_N * tests::Table1::carrier_rad_per_s);
+
   static Scalar number(double value) { return static_cast<Scalar>(value); }
 
   Strang<DahlModel<Scalar>> solver_;
