@@ -128,7 +128,7 @@ class FixedPlant {
     const double friction = static_cast<double>(plant_.advance(amplitude)) * 0x1p-36;
     EXPECT_EQ(plant_.saturations(), 0U);
     // As a code already: the way through newtons could turn a tie.
-    return {std::floor(0.5 * friction * 0x1p31 + 0.5) * 0x1p-31, friction};
+    return {numeric::from_code<double>(numeric::to_code(0.5 * friction)), friction};
   }
 
  private:

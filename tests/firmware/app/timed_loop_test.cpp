@@ -309,6 +309,7 @@ TEST_F(HostedLoopTest, OnTheRampAStopAnOverrunAndARestartActAtOnce) {
       [](Hosted& ended, TimedBoard&) { ended.stop(); },
       [](Hosted&, TimedBoard& late) { late.step_takes = 1; },
       [](Hosted& ended, TimedBoard&) { ended.restart(); }};
+  int restarts = 0;
   for (const auto end : ends) {
     settle();
     supervisor.ramp_down(UnitFault::host_silent);
@@ -318,11 +319,13 @@ TEST_F(HostedLoopTest, OnTheRampAStopAnOverrunAndARestartActAtOnce) {
     if (supervisor.drive().state == static_cast<std::uint8_t>(control::State::calibrating)) {
       serve(200);
       EXPECT_NEAR(board.ratio(), 0.4, 1e-3);
+      ++restarts;
     } else {
       serve(1);
       EXPECT_EQ(board.latest_drive().amplitude, 0);
     }
   }
+  EXPECT_EQ(restarts, 1);
   EXPECT_EQ(fault_of(supervisor), static_cast<std::uint8_t>(UnitFault::host_silent));
 }
 
