@@ -8,6 +8,7 @@
 
 #include "host_sim/configure/configuration_error.hpp"
 #include "tests/common/constants/pi.hpp"
+#include "tests/common/constants/table_1_numbers.hpp"
 #include "tests/common/table_1.hpp"
 
 namespace sonoglide::configure {
@@ -188,7 +189,10 @@ TEST(ControlDesignTest, SpeedFloorIsThreePeriodsOfPreslidingTravel) {
   const scene::Scene scene = table_1_closed_loop();
   const ControlDesign design = design_control(scene);
   const double floor_m_per_s = design.speed_floor * design.scales.velocity_m_per_s;
-  EXPECT_NEAR(floor_m_per_s, 0.01962 / 0.056e6 / (3.0 * period_s), 1e-12);
+  EXPECT_NEAR(
+      floor_m_per_s,
+      tests::Table1::friction_limit_N / tests::Table1::contact_stiffness_N_per_m / (3.0 * period_s),
+      1e-12);
 }
 
 TEST(ControlDesignTest, SpeedFloorOfAStiffContactIsATenThousandthOfTheVibration) {
