@@ -3,9 +3,11 @@
 
 #include <cstdint>
 
+#include "tests/common/constants/pi.hpp"
+
 namespace sonoglide::cost {
 
-inline constexpr double two_pi = 6.28318530717958647693;
+using tests::two_pi;
 inline constexpr int periods = 100;
 inline constexpr int samples_per_period = 16;
 inline constexpr int samples_per_run = periods * samples_per_period;

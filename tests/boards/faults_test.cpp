@@ -187,6 +187,7 @@ std::vector<hal::Drive> drives_in_image(const scene::Scene& scene, const std::st
 
 void expect_gone_for_good(const std::vector<hal::Drive>& drives, std::size_t from,
                           control::Fault fault) {
+  ASSERT_LT(from, drives.size());
   for (std::size_t k = from; k < drives.size(); ++k) {
     ASSERT_EQ(drives[k].amplitude, 0) << "period " << k;
     ASSERT_EQ(drives[k].state, static_cast<std::uint8_t>(control::State::fault)) << "period " << k;
@@ -196,6 +197,8 @@ void expect_gone_for_good(const std::vector<hal::Drive>& drives, std::size_t fro
 
 void expect_limited(const std::vector<hal::Drive>& drives, std::size_t from, std::size_t end,
                     control::Limit limit) {
+  ASSERT_LT(from, end);
+  ASSERT_LE(end, drives.size());
   for (std::size_t k = from; k < end; ++k) {
     ASSERT_EQ(drives[k].state, static_cast<std::uint8_t>(control::State::limited))
         << "period " << k;
@@ -210,6 +213,7 @@ void expect_limited(const std::vector<hal::Drive>& drives, std::size_t from, std
 /// undamped natural mode: the ringing lowers the friction too, and feedback takes that off.
 void expect_settled(const std::vector<hal::Drive>& drives, const std::vector<hal::Drive>& unaltered,
                     std::size_t from) {
+  ASSERT_LT(from, drives.size());
   for (std::size_t k = from; k < drives.size(); ++k) {
     ASSERT_EQ(drives[k].fault, 0) << "period " << k;
     ASSERT_NEAR(numeric::from_code<double>(drives[k].amplitude),

@@ -24,6 +24,7 @@
 #include "host_sim/loop/run.hpp"
 #include "host_sim/loop/sensor.hpp"
 #include "host_sim/scene_file/reader.hpp"
+#include "tests/common/constants/pi.hpp"
 #include "tests/host_sim/loop/logs/logged_run.hpp"
 
 namespace sonoglide::emulated {
@@ -35,7 +36,7 @@ constexpr int shut_down = static_cast<int>(hal::lockstep::ExitCode::shut_down);
 constexpr int link_broken = static_cast<int>(hal::lockstep::ExitCode::link_broken);
 constexpr int processor_fault = static_cast<int>(hal::lockstep::ExitCode::processor_fault);
 
-constexpr double two_pi = 6.28318530717958647693;
+using tests::two_pi;
 
 std::string image(const std::string& board, const std::string& controller) {
   return SONOGLIDE_IMAGES "/" + board + "/bin/" + controller + ".elf";
@@ -98,6 +99,7 @@ void expect_the_hosts_commands(const scene::Scene& scene, ImageProcess& board) {
   hal::TraceHash hash;
   loop::Actuator actuator(scene.drive->delay_periods, design.scales.drive_amplitude_N);
   const std::size_t latency = static_cast<std::size_t>(scene.drive->delay_periods) + 1;
+  ASSERT_GT(host.periods.size(), latency) << "no command to compare";
   for (std::size_t k = 0; k < host.periods.size(); ++k) {
     const hal::Drive drive =
         board.exchange(plant.advance(host.periods[k], actuator.in_force().amplitude_N));

@@ -12,6 +12,7 @@
 #include "firmware/plant/state.hpp"
 #include "hal/simulated/watched_board.hpp"
 #include "host_sim/loop/sensor.hpp"
+#include "tests/common/constants/pi.hpp"
 
 namespace {
 
@@ -97,7 +98,7 @@ TEST_F(PlantBoardTest, LivesThroughOnePeriodUnderTheLatestDrive) {
   board_.sample(sample);
   EXPECT_EQ(ToldSolver::asked.drive_amplitude, 0.0F);
   EXPECT_EQ(ToldSolver::asked.phase_begin, 0.0F);
-  EXPECT_EQ(ToldSolver::asked.duration, 6.28318548F);  // the float nearest to 2 pi
+  EXPECT_EQ(ToldSolver::asked.duration, static_cast<float>(tests::two_pi));
   EXPECT_EQ(ToldSolver::asked.sliding_velocity, 0.25F);
   EXPECT_EQ(ToldSolver::asked.sliding_acceleration, 0.0F);
   board_.drive({1 << 30, 0, 0, 0, 0, 0});

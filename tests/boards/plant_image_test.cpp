@@ -36,12 +36,13 @@
 #include "host_sim/loop/plant_description.hpp"
 #include "host_sim/process/run_tool.hpp"
 #include "host_sim/scene_file/reader.hpp"
+#include "tests/common/constants/pi.hpp"
 #include "tests/host_sim/loop/logs/logged_run.hpp"
 
 namespace sonoglide {
 namespace {
 
-constexpr double two_pi = 6.28318530717958647693;
+using tests::two_pi;
 
 /// The controller of a scene, with what it gets and answers hashed.
 class HashedControl final : public loop::ControlPort {
@@ -127,7 +128,7 @@ class FixedPlant {
     const double friction = static_cast<double>(plant_.advance(amplitude)) * 0x1p-36;
     EXPECT_EQ(plant_.saturations(), 0U);
     // As a code already: the way through newtons could turn a tie.
-    return {std::floor(0.5 * friction * 0x1p31 + 0.5) * 0x1p-31, friction};
+    return {numeric::from_code<double>(numeric::to_code(0.5 * friction)), friction};
   }
 
  private:

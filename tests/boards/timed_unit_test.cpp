@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "firmware/numeric/scalar.hpp"
 #include "host_sim/emulated/board_list.hpp"
 #include "host_sim/process/child_process.hpp"
 #include "host_sim/process/pipe.hpp"
@@ -297,7 +298,7 @@ TEST_P(TimedUnit, AnExceptionTakesTheDriveAway) {
   const std::string line = terminal.next_line();  // where the amplitude in force stands, and it
   const std::size_t blank = line.find(' ');
   const auto address = static_cast<std::uint32_t>(std::stoul(line.substr(0, blank)));
-  EXPECT_NEAR(std::stod(line.substr(blank)) / 0x1p31, 0.1 / 0.4, 1e-3);
+  EXPECT_NEAR(numeric::from_code<double>(std::stoi(line.substr(blank))), 0.1 / 0.4, 1e-3);
   // The trap comes some instructions after the last character.
   for (int i = 0; i < 1000 && terminal.word(address) != 0; ++i) {
   }

@@ -4,11 +4,11 @@
 #include <cmath>
 
 #include "host_sim/scene/scene.hpp"
+#include "tests/common/constants/table_1_numbers.hpp"
 
-namespace sonoglide::loop {
+namespace sonoglide::tests {
 
-inline constexpr double pi = 3.14159265358979323846;
-inline constexpr double carrier_Hz = 60e3;
+inline constexpr double carrier_Hz = Table1::carrier_Hz;
 inline constexpr double period_s = 1.0 / carrier_Hz;
 
 /// Signed steady displacement per unit of drive force at drive phase 0, without friction.
@@ -26,12 +26,12 @@ inline double vibration_velocity_m_per_s(const scene::Plant& plant, double force
 /// the peak vibration velocity.
 inline scene::Scene table_1(double force_N = 384.0) {
   scene::Scene scene;
-  scene.plant.mass_kg = 0.02;
-  scene.plant.stiffness_N_per_m = 133e6;
+  scene.plant.mass_kg = Table1::mass_kg;
+  scene.plant.stiffness_N_per_m = Table1::stiffness_N_per_m;
   scene.friction.law = scene::laws::Dahl{};
-  scene.friction.coefficient = 0.1;
-  scene.friction.normal_force_N = 0.02 * 9.81;
-  scene.friction.contact_stiffness_N_per_m = 0.056e6;
+  scene.friction.coefficient = Table1::friction_coefficient;
+  scene.friction.normal_force_N = Table1::normal_force_N;
+  scene.friction.contact_stiffness_N_per_m = Table1::contact_stiffness_N_per_m;
   scene.sliding.profile = {{0.0, 0.5 * vibration_velocity_m_per_s(scene.plant, force_N)}};
   scene.drive.emplace();
   scene.drive->frequency_Hz = carrier_Hz;
@@ -64,4 +64,4 @@ inline scene::Scene table_1_closed_loop(scene::Arithmetic arithmetic = scene::Ar
   return scene;
 }
 
-}  // namespace sonoglide::loop
+}  // namespace sonoglide::tests

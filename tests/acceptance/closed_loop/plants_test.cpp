@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "tests/acceptance/closed_loop/runs/closed_loop.hpp"
+#include "tests/common/constants/pi.hpp"
 
 namespace sonoglide::acceptance {
 namespace {
@@ -119,7 +120,7 @@ TEST_P(ArithmeticTest, CoulombContactIsControlled) {
   const std::vector<Step> steps = steps_of(summary);
   ASSERT_EQ(steps.size(), 3U);
   for (const Step& step : steps) {
-    const double velocity_ratio = std::sin(std::acos(-1.0) / 2.0 * step.target);
+    const double velocity_ratio = std::sin(tests::pi / 2.0 * step.target);
     EXPECT_NEAR(step.drive_amplitude_N * 0.13913955437e-3 * velocity_ratio / 0.02672, 1.0, 0.01);
   }
 }

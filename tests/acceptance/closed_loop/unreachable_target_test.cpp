@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "tests/acceptance/closed_loop/runs/closed_loop.hpp"
+#include "tests/common/constants/pi.hpp"
 
 namespace sonoglide::acceptance {
 namespace {
@@ -64,7 +65,7 @@ TEST_P(UnreachableTargetTest, IsAtTheLimitThreePeriodsAfterTheStep) {
     const double since_s = trace.time_s[i] - step_time_s;
     if (since_s >= 3.0 * period_s + 1e-9 && since_s < 2e-3 - 1e-9) {
       const double phase = std::fmod(trace.time_s[i] / period_s, 1.0);
-      ASSERT_NEAR(trace.drive_force_N[i], limit_N * std::cos(2.0 * std::acos(-1.0) * phase), 1e-3)
+      ASSERT_NEAR(trace.drive_force_N[i], limit_N * std::cos(tests::two_pi * phase), 1e-3)
           << trace.time_s[i];
     }
   }

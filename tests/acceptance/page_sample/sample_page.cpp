@@ -5,10 +5,12 @@
 #include <limits>
 #include <utility>
 
+#include "tests/common/constants/pi.hpp"
+
 namespace sonoglide::report {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
+using tests::pi;
 constexpr double kGap = std::numeric_limits<double>::quiet_NaN();
 constexpr double kCarrier_Hz = 60e3;
 constexpr double kCoulombForce_N = 0.01962;
@@ -77,11 +79,11 @@ double branch_force(double travel_m) {
 }
 
 output::Panel hysteresis_loop() {
-  const std::vector<double> phase = ramp(0.0, kPi, 90);
+  const std::vector<double> phase = ramp(0.0, pi, 90);
   std::vector<std::pair<double, int>> points;
   for (const double angle : phase) {
     points.emplace_back(-kAmplitude_m * std::cos(angle), 0);
-    points.emplace_back(-kAmplitude_m * std::cos(angle + 0.5 * kPi / 90), 1);
+    points.emplace_back(-kAmplitude_m * std::cos(angle + 0.5 * pi / 90), 1);
   }
   std::sort(points.begin(), points.end());
   output::Panel panel{"Friction against displacement",
@@ -103,7 +105,7 @@ output::Panel hysteresis_loop() {
 output::Section carrier() {
   output::Section section{"Within the carrier period", "The last eight periods of the run.", {}};
   const std::vector<double> time_s = ramp(2e-3 - 8 / kCarrier_Hz, 2e-3, 801);
-  const auto angle = [](double t) { return 2.0 * kPi * kCarrier_Hz * t; };
+  const auto angle = [](double t) { return 2.0 * pi * kCarrier_Hz * t; };
   const auto single = [&](const char* title, const char* label, const char* name, auto f) {
     section.panels.push_back(
         {title, "", "Time [s]", label, time_s, {{name, mapped(time_s, f)}}, false, "carrier"});

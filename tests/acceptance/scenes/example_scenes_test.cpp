@@ -9,6 +9,7 @@
 
 #include "firmware/friction/normal_vibration_ratio.hpp"
 #include "tests/acceptance/program/program.hpp"
+#include "tests/common/constants/pi.hpp"
 
 namespace sonoglide::acceptance {
 namespace {
@@ -71,7 +72,7 @@ TEST(ExampleSceneTest, VibrationAcrossTheSlidingLeavesThePublishedRatio) {
 /// Amplitude of the motion A, of the normal force alpha; Vc is the speed from which nothing is
 /// gained.
 TEST(ExampleSceneTest, VibrationNormalToTheSurfaceLeavesTheClosedForm) {
-  const double omega = 2.0 * 3.14159265358979323846 * 22e3;
+  const double omega = tests::two_pi * 22e3;
   const double amplitude_m = 750.0 / std::hypot(133e6 - 0.02 * omega * omega, 50.0 * omega);
   const double alpha = 0.75e6 * amplitude_m / 3.0;
   const double critical_m_per_s = 0.5 * 0.75 / 0.625 * omega * amplitude_m;

@@ -91,7 +91,7 @@ TYPED_TEST(ControlLoopTest, CodesBecomePartsOfFullScale) {
   EXPECT_EQ(numeric::to_real(measured.sliding_velocity), -0.25);
   EXPECT_EQ(measured.quality, control::Quality::good);
   const auto ends = this->told({highest, lowest, false, true});
-  EXPECT_NEAR(numeric::to_real(ends.friction_force), 1.0, 0x1p-31);
+  EXPECT_NEAR(numeric::to_real(ends.friction_force), 1.0, numeric::from_code<double>(1));
   EXPECT_EQ(numeric::to_real(ends.sliding_velocity), -1.0);
 }
 
@@ -174,7 +174,7 @@ TYPED_TEST(ControlLoopTest, ALostSampleEndsTheDriveInTheSameStep) {
   }
   ASSERT_EQ(board.driven.size(), 4U);
   // A ratio of a half takes r = sin(π/4): an amplitude of √2/8.
-  EXPECT_NEAR(board.driven[1].amplitude, 0.17677669529663689 * 0x1p31, 300.0);
+  EXPECT_NEAR(board.driven[1].amplitude, numeric::to_code(0.17677669529663689), 300.0);
   for (std::size_t i = 2; i < 4; ++i) {
     EXPECT_EQ(board.driven[i].amplitude, 0);
     EXPECT_EQ(board.driven[i].state, static_cast<std::uint8_t>(control::State::fault));

@@ -98,6 +98,7 @@ TYPED_TEST(FieldParametersTest, MillionthsAreRoundedOnce) {
 TYPED_TEST(FieldParametersTest, PresetsAndTheEndsOfRangesAreAllowed) {
   const auto& tested = TestFixture::design;
   EXPECT_TRUE(tested.allows(tested.presets()));
+  int lower_ends = 0;
   for (std::size_t i = 0; i < parameter_count; ++i) {
     const ParameterInfo& info = tested.info(i);
     EXPECT_LE(info.lowest, info.preset) << info.name;
@@ -108,8 +109,10 @@ TYPED_TEST(FieldParametersTest, PresetsAndTheEndsOfRangesAreAllowed) {
     EXPECT_FALSE(tested.allows(this->with(parameter, info.highest + 1))) << info.name;
     if (info.lowest > 0) {
       EXPECT_FALSE(tested.allows(this->with(parameter, info.lowest - 1))) << info.name;
+      ++lower_ends;
     }
   }
+  EXPECT_GE(lower_ends, 1);
   // No allowed friction force is too small for the controller.
   const auto smallest =
       tested.controller_parameters(this->with(Parameter::friction_force, tested.info(3).lowest));

@@ -137,7 +137,7 @@ TEST(LinkServiceTest, TelemetryShowsTheRunningUnit) {
   EXPECT_EQ(told.lost_frames, 0);
   EXPECT_NEAR(numeric::from_code<double>(told.friction_force), 0.4 * TimedBoard::friction, 1e-3);
   EXPECT_NEAR(numeric::from_code<double>(told.sliding_velocity), TimedBoard::speed, 1e-9);
-  EXPECT_NEAR(told.amplitude, powered.board.latest_drive().amplitude, 0x1p31 * 1e-3);
+  EXPECT_NEAR(told.amplitude, powered.board.latest_drive().amplitude, numeric::to_code(1e-3));
 }
 
 TEST(LinkServiceTest, ATargetSetInMidRunIsReached) {
@@ -558,7 +558,7 @@ void expect_drives(PoweredUnit& powered) {
   powered.ask<link::Restarted>(link::Restart{});
   powered.serve(300);
   EXPECT_GT(powered.board.latest_drive().amplitude, 0);
-  EXPECT_LE(powered.board.latest_drive().amplitude, 0x1p31 * 0.12 + 1);
+  EXPECT_LE(powered.board.latest_drive().amplitude, numeric::to_code(0.12) + 1);
 }
 
 constexpr FieldDesign<Parts> other_design(designed, 0.2F, 2, carrier_period_s, timeout_of_link);

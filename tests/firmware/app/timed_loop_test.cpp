@@ -12,6 +12,7 @@
 #include "firmware/app/control_loop.hpp"
 #include "firmware/app/host_ramp.hpp"
 #include "hal/no_watchdog.hpp"
+#include "tests/common/constants/pi.hpp"
 #include "tests/firmware/app/unit/simulated_unit.hpp"
 
 namespace sonoglide::app {
@@ -308,6 +309,7 @@ TEST_F(HostedLoopTest, OnTheRampAStopAnOverrunAndARestartActAtOnce) {
       [](Hosted& ended, TimedBoard&) { ended.stop(); },
       [](Hosted&, TimedBoard& late) { late.step_takes = 1; },
       [](Hosted& ended, TimedBoard&) { ended.restart(); }};
+  int restarts = 0;
   for (const auto end : ends) {
     settle();
     supervisor.ramp_down(UnitFault::host_silent);
@@ -317,11 +319,13 @@ TEST_F(HostedLoopTest, OnTheRampAStopAnOverrunAndARestartActAtOnce) {
     if (supervisor.drive().state == static_cast<std::uint8_t>(control::State::calibrating)) {
       serve(200);
       EXPECT_NEAR(board.ratio(), 0.4, 1e-3);
+      ++restarts;
     } else {
       serve(1);
       EXPECT_EQ(board.latest_drive().amplitude, 0);
     }
   }
+  EXPECT_EQ(restarts, 1);
   EXPECT_EQ(fault_of(supervisor), static_cast<std::uint8_t>(UnitFault::host_silent));
 }
 
@@ -336,7 +340,7 @@ TEST_F(HostedLoopTest, OnlyARunningDriveRampsDown) {
 
 // A mode of any frequency between a hundredth and half of the carrier, undamped and static gain 1.
 TEST(HostRampTest, LeavesTheRingingThatItStates) {
-  constexpr double pi = 3.14159265358979323846;
+  using tests::pi;
   for (double angle = 2.0 * pi / 100.0; angle < pi; angle *= 1.003) {
     HostRamp ramp;
     ramp.begin(INT32_MAX);

@@ -77,14 +77,17 @@ TYPED_TEST(ClosedLoopTest, HoldsTheTargetAcrossAReversal) {
   loop.set_target(0.5);
   loop.run(100);
   double velocity = 0.1;
+  int held = 0;
   while (velocity > -0.1) {
     velocity -= 0.0008;
     const auto& command = loop.step(velocity);
     ASSERT_EQ(command.fault, Fault::none);
     if (command.limit == Limit::none && std::abs(velocity) > 0.04) {
+      ++held;
       EXPECT_NEAR(loop.ratio(), 0.5, 0.01) << "velocity " << velocity;
     }
   }
+  EXPECT_GE(held, 140);  // of 150 on both sides of the reversal
   loop.run(100, velocity);
   EXPECT_NEAR(loop.ratio(), 0.5, 1e-5);
 }

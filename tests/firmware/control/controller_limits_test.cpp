@@ -12,7 +12,7 @@ namespace sonoglide::control {
 namespace {
 
 /// The largest amplitude: the last converter code.
-constexpr double full_drive = 1.0 - 0x1p-31;
+constexpr double full_drive = numeric::from_code<double>(INT32_MAX);
 
 template <class Scalar>
 class ControllerLimits : public testing::Test {};
@@ -140,6 +140,7 @@ TYPED_TEST(ControllerLimits, TheDriveChangesNoFasterThanTheSlewLimit) {
   const Design design;
   ClosedLoop<SlewingParts<TypeParam>> loop(design);
   double before = 0.0;
+  int slewing = 0;
   for (const double target : {0.2, 0.9, 0.3, 1.0, 0.15}) {
     loop.set_target(target);
     for (int i = 0; i < 150; ++i) {
@@ -147,6 +148,7 @@ TYPED_TEST(ControllerLimits, TheDriveChangesNoFasterThanTheSlewLimit) {
       const double change = std::abs(loop.amplitude() - before);
       ASSERT_LE(change, design.slew_per_period + 2.0 * resolution<TypeParam>());
       if (change > 0.999 * design.slew_per_period) {
+        ++slewing;
         ASSERT_EQ(command.limit, Limit::slew);
         ASSERT_EQ(command.state, State::limited);
       }
@@ -155,6 +157,7 @@ TYPED_TEST(ControllerLimits, TheDriveChangesNoFasterThanTheSlewLimit) {
     EXPECT_EQ(loop.command().limit, Limit::none);
     EXPECT_NEAR(loop.ratio(), target, 1e-3);
   }
+  EXPECT_GE(slewing, 50);
 }
 
 TYPED_TEST(ControllerLimits, AChangeWithinTheSlewLimitIsNotNamed) {
@@ -190,6 +193,7 @@ TYPED_TEST(ControllerLimits, BelowTheSpeedFloorTheDriveIsHeldAndThenGoesOn) {
   loop.run(200, 0.03);
   double velocity = 0.03;
   constexpr double change = 1e-4;
+  int running = 0;
   int held_for = 0;
   double held = 0.0;
   while (velocity > -0.05) {
@@ -199,6 +203,7 @@ TYPED_TEST(ControllerLimits, BelowTheSpeedFloorTheDriveIsHeldAndThenGoesOn) {
     if (foreseen > design.speed_floor + 1e-6) {
       ASSERT_EQ(command.limit, Limit::none) << "velocity " << velocity;
       ASSERT_EQ(command.state, State::running);
+      ++running;
     } else if (foreseen < design.speed_floor - 1e-6) {
       ASSERT_EQ(command.limit, Limit::speed_floor) << "velocity " << velocity;
       ASSERT_EQ(command.state, State::limited);
@@ -210,6 +215,7 @@ TYPED_TEST(ControllerLimits, BelowTheSpeedFloorTheDriveIsHeldAndThenGoesOn) {
       }
     }
   }
+  EXPECT_GE(running, 250);
   EXPECT_GT(held_for, 500);
   EXPECT_NEAR(loop.ratio(), 0.5, 0.01);
   loop.run(200, velocity);

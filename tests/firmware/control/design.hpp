@@ -103,7 +103,7 @@ void fill(const Design& design, typename PeriodicRelearning<S>::Parameters& para
                 design.relearn_reading_periods,
                 static_cast<std::uint16_t>(shaping + 2),
                 1,
-                numeric::from_real<numeric::Accumulator<S>>(1.0 - 0x1p-31)};
+                numeric::from_real<numeric::Accumulator<S>>(numeric::from_code<double>(INT32_MAX))};
 }
 
 template <class S>

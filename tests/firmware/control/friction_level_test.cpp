@@ -27,7 +27,8 @@ long double exact_half_ratio(Scalar force, Scalar friction_force) {
 template <class Scalar>
 long double allowance(long double half_ratio, Scalar friction_force) {
   if constexpr (numeric::is_fixed_point_v<Scalar>) {
-    return std::ldexp(1.0L, 1 - numeric::split(friction_force).exponent - 31);
+    return std::ldexp(static_cast<long double>(resolution<Scalar>()),
+                      1 - numeric::split(friction_force).exponent);
   } else {
     return 2.0L * static_cast<long double>(resolution<Scalar>()) * std::abs(half_ratio);
   }
@@ -45,13 +46,16 @@ void expect_exact(double friction, double ratio) {
 }
 
 TYPED_TEST(FrictionLevelTest, DividesAsExactArithmeticDoesFromTheSmallestForceUp) {
+  int divided = 0;
   for (double friction = 1.0 / 1024.0; friction < 0.999; friction *= 1.0137) {
     for (double ratio = -1.99; ratio < 1.99; ratio += 0.0731) {
       if (std::abs(ratio * friction) < 1.0) {
         expect_exact<TypeParam>(friction, ratio);
+        ++divided;
       }
     }
   }
+  EXPECT_GE(divided, 20000);
 }
 
 TYPED_TEST(FrictionLevelTest, DividesAsExactArithmeticDoesForAnyPair) {
@@ -61,7 +65,7 @@ TYPED_TEST(FrictionLevelTest, DividesAsExactArithmeticDoesForAnyPair) {
     // A measured ratio within ±2.
     const auto most = std::min(std::int64_t{1} << 31, 2 * friction - 4096);
     const auto force = *rc::gen::inRange<std::int64_t>(1 - most, most);
-    const double unit = 0x1p-31;
+    const double unit = resolution<Saturated>();
     expect_exact<TypeParam>(static_cast<double>(friction) * unit,
                             static_cast<double>(force) / static_cast<double>(friction));
   }));

@@ -12,6 +12,7 @@
 
 #include "firmware/control/no_shaping.hpp"
 #include "scalars.hpp"
+#include "tests/common/constants/table_1_numbers.hpp"
 
 namespace sonoglide::control {
 namespace {
@@ -110,7 +111,8 @@ TYPED_TEST(NotchShaperTest, LeavesTheModeAtRestAfterTheLastStep) {
 }
 
 TYPED_TEST(NotchShaperTest, LeavesTheModeOfTable1AtRestAfterFiveCarrierPeriods) {
-  const Mode mode{1.0, std::sqrt(133e6 / 0.02) / 60e3};
+  using tests::Table1;
+  const Mode mode{1.0, std::sqrt(Table1::stiffness_N_per_m / Table1::mass_kg) / Table1::carrier_Hz};
   auto notching = shaper<TypeParam>(notch(mode, 1), 1);
   std::vector<double> shaped;
   for (int k = 0; k < 5; ++k) {

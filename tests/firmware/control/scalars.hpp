@@ -27,7 +27,7 @@ Scalar scaled(double value) {
 template <class Scalar>
 double resolution() {
   if constexpr (numeric::is_fixed_point_v<Scalar>) {
-    return 0x1p-31;
+    return numeric::from_code<double>(1);
   } else {
     return static_cast<double>(std::numeric_limits<Scalar>::epsilon());
   }

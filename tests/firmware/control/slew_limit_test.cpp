@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <cstdlib>
 
 #include "firmware/control/no_slew_limit.hpp"
 #include "scalars.hpp"
@@ -43,14 +45,34 @@ TYPED_TEST(SlewLimitTest, NeverMovesFasterNorPastWhatIsWanted) {
   }));
 }
 
-// Else a rounding would be reported as a limit.
+/// Steps in which every arithmetic holds amplitudes and their differences exactly.
+constexpr std::int32_t exact_step = 256;
+
+std::int32_t any_exact_code() {
+  return exact_step * *rc::gen::inRange<std::int32_t>(0, INT32_MAX / exact_step);
+}
+
+// Else a rounding would be reported as a limit. A step less of reach, and the step is missing.
 TYPED_TEST(SlewLimitTest, ReachesExactlyWhatIsWithinReach) {
-  EXPECT_TRUE(rc::check([] {
-    const auto wanted = any_amplitude<TypeParam>();
-    const auto previous = any_amplitude<TypeParam>();
-    const SlewLimit<TypeParam> slew({numeric::from_code<TypeParam>(INT32_MAX)});
-    RC_ASSERT(slew.limit(wanted, previous) == wanted);
+  int reached = 0;
+  EXPECT_TRUE(rc::check([&reached] {
+    const std::int32_t wanted = any_exact_code();
+    const std::int32_t previous = any_exact_code();
+    const std::int32_t distance = std::abs(wanted - previous);
+    RC_PRE(distance > exact_step);
+    const auto after = [&](std::int32_t reach) {
+      const SlewLimit<TypeParam> slew({numeric::from_code<TypeParam>(reach)});
+      return slew.limit(numeric::from_code<TypeParam>(wanted),
+                        numeric::from_code<TypeParam>(previous));
+    };
+    const std::int32_t spare = std::min(any_exact_code(), INT32_MAX - distance);
+    RC_ASSERT(after(distance) == numeric::from_code<TypeParam>(wanted));
+    RC_ASSERT(after(distance + spare) == numeric::from_code<TypeParam>(wanted));
+    const std::int32_t nearest = wanted + (wanted < previous ? exact_step : -exact_step);
+    RC_ASSERT(after(distance - exact_step) == numeric::from_code<TypeParam>(nearest));
+    ++reached;
   }));
+  EXPECT_GE(reached, 100);
 }
 
 TYPED_TEST(SlewLimitTest, NoLimitIsTheIdentity) {

@@ -6,22 +6,12 @@
 
 #include "firmware/friction/coulomb_friction_ratio.hpp"
 #include "firmware/friction/dahl_friction_ratio.hpp"
+#include "tests/common/constants/pi.hpp"
 
 namespace sonoglide::friction {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
-
-TEST(GaussLegendre, IntegratesEveryPolynomialOfItsDegree) {
-  constexpr auto rule = numeric::gauss_legendre<24>();
-  for (int power = 0; power < 48; ++power) {
-    double integral = 0.0;
-    for (std::size_t i = 0; i < rule.node.size(); ++i) {
-      integral += rule.weight[i] * std::pow(rule.node[i], power);
-    }
-    EXPECT_NEAR(integral, 1.0 / (power + 1), 1e-15) << "x^" << power;
-  }
-}
+using tests::pi;
 
 TEST(CoulombFrictionRatio, MatchesPublishedValues) {
   EXPECT_NEAR(coulomb_friction_ratio(0.1), 0.06377, 5e-6);

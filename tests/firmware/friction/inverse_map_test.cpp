@@ -7,6 +7,7 @@
 #include "firmware/friction/dahl_friction_ratio.hpp"
 #include "firmware/friction/dahl_inverse_map.hpp"
 #include "firmware/numeric/fixed.hpp"
+#include "tests/common/constants/table_1_numbers.hpp"
 
 namespace sonoglide::friction {
 namespace {
@@ -102,9 +103,9 @@ TYPED_TEST(DahlInverseMap, EndsAtTheLargestValue) {
 // Drive amplitudes at which Table 1 of the paper reaches a ratio, sliding at 26.72 mm/s and at
 // 0.1 m/s: v = Vt / v̂(1920 N), λ = Kt Vt/(ω Fc).
 TYPED_TEST(DahlInverseMap, GivesTheDriveAmplitudesOfTable1) {
-  const double omega = 2.0 * 3.14159265358979323846 * 60e3;
-  const double peak_m_per_s_per_N = omega / (0.02 * omega * omega - 133e6);
-  const double friction_N = 0.1 * 0.02 * 9.81;
+  using tests::Table1;
+  const double omega = Table1::carrier_rad_per_s;
+  const double peak_m_per_s_per_N = omega * Table1::compliance_m_per_N;
   struct Point {
     double velocity_m_per_s;
     double ratio;
@@ -113,7 +114,8 @@ TYPED_TEST(DahlInverseMap, GivesTheDriveAmplitudesOfTable1) {
   for (const Point& point :
        {Point{0.02672, 0.3, 818.6}, Point{0.02672, 0.5, 526.3}, Point{0.02672, 0.7, 367.9},
         Point{0.1, 0.5, 1512.0}, Point{0.1, 0.2, 2814.0}}) {
-    const double lambda = 0.056e6 * point.velocity_m_per_s / (omega * friction_N);
+    const double lambda = Table1::contact_stiffness_N_per_m * point.velocity_m_per_s /
+                          (omega * Table1::friction_limit_N);
     const double r = velocity_ratio<TypeParam>(point.ratio, lambda);
     EXPECT_NEAR(point.velocity_m_per_s / (r * peak_m_per_s_per_N), point.force_N,
                 0.01 * point.force_N);

@@ -15,11 +15,12 @@
 #include "firmware/friction/normal_vibration_ratio.hpp"
 #include "firmware/friction/transverse_vibration_ratio.hpp"
 #include "firmware/numeric/arithmetic_geometric_mean.hpp"
+#include "tests/common/constants/pi.hpp"
 
 namespace sonoglide::friction {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+using tests::pi;
 constexpr double unit = std::numeric_limits<double>::epsilon();
 
 /// Near k = 1 the integral tells moduli apart that double and long double do not.

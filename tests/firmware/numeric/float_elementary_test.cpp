@@ -12,12 +12,13 @@
 #include <type_traits>
 #include <vector>
 
+#include "tests/common/constants/pi.hpp"
 #include "ulp.hpp"
 
 namespace sonoglide::numeric {
 namespace {
 
-constexpr long double long_pi = 3.14159265358979323846264338327950288L;
+using tests::long_pi;
 
 /// sin(pi x), the reduction to an eighth of a turn being exact.
 long double reference_sin_pi(long double x) {

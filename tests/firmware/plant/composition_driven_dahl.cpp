@@ -1,12 +1,12 @@
 /// A scene that names a drive and a contact: the same reading finds them, where they are.
 
-#include "motion.hpp"
+#include "tests/firmware/plant/runs/motion.hpp"
 
 namespace sonoglide::plant {
 
 State<double> driven_dahl_period(EventTaylor<DahlModel<double>, 16>& solver,
                                  const State<double>& state) {
-  return advanced(solver, {0.0, 2.0 * pi, 1.0, 0.5, 0.0}, state);
+  return advanced(solver, lasting(2.0 * pi).driven(1.0).sliding(0.5), state);
 }
 
 }  // namespace sonoglide::plant

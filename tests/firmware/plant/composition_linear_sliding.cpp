@@ -1,7 +1,7 @@
 /// The same for a sliding that changes: what only it has a use for is found by the same reading.
 
 #include "firmware/plant/sliding.hpp"
-#include "motion.hpp"
+#include "tests/firmware/plant/runs/motion.hpp"
 
 namespace sonoglide::plant {
 
@@ -9,7 +9,8 @@ using Plant = Model<friction::Dahl<double>, Undamped<double>, CosineDrive, Linea
 
 Outcome<double> linear_sliding_period(EventTaylor<Plant, 16>& solver, State<double>& state,
                                       EnergyAccount<double>& account) {
-  return advance(solver, {0.0, 2.0 * pi, 1.0, 0.5, 0.1}, state, account);
+  return advance(solver, lasting(2.0 * pi).driven(1.0).sliding(0.5).accelerating(0.1), state,
+                 account);
 }
 
 }  // namespace sonoglide::plant

@@ -8,7 +8,7 @@
 
 #include "firmware/plant/rk4/rk4_event.hpp"
 #include "firmware/plant/strang/equal_step_strang.hpp"
-#include "motion.hpp"
+#include "tests/firmware/plant/runs/motion.hpp"
 
 namespace sonoglide::plant {
 namespace {

@@ -4,14 +4,14 @@
 
 #include <cmath>
 
-#include "motion.hpp"
+#include "tests/firmware/plant/runs/motion.hpp"
 
 namespace sonoglide::plant {
 namespace {
 
 using Contact = DampedDahlModel<double>;
 
-const Contact soft = {{{0.9}, 0.3, 1.0}, {0.2}, 0.6};
+const Contact soft = Case().contact_stiffness(0.9).friction_force(0.3).damping(0.2).stiffness(0.6);
 const State<double> start = {0.2, -0.1, 0.3};
 
 /// Equal pieces of an interval in which the sliding velocity keeps its sign.
@@ -21,7 +21,8 @@ State<double> in_pieces(int pieces, double setting) {
   State<double> state = start;
   const double length = 4.0 / pieces;
   for (int i = 0; i < pieces; ++i) {
-    state = advanced(solver, {0.3 + i * length, length, 0.7, 3.0, 0.0}, state);
+    state = advanced(solver, lasting(length).from_phase(0.3 + i * length).driven(0.7).sliding(3.0),
+                     state);
   }
   return state;
 }
@@ -69,7 +70,8 @@ double mean_friction(const Contact& model, double setting) {
 
 TEST(Convergence, TaylorDeliversItsToleranceAcrossReversals) {
   for (const double kappa : {0.4, 30.0, 3000.0, 1e6, 1e9}) {
-    const Contact model = {{{kappa}, 0.05, 1.0}, {0.1}, 0.05};
+    const Contact model =
+        Case().contact_stiffness(kappa).friction_force(0.05).damping(0.1).stiffness(0.05);
     const double reference = mean_friction<EventTaylor<Contact, 16>>(model, 1e-15);
     for (const double tolerance : {1e-4, 1e-6, 1e-8, 1e-10}) {
       const double loose = mean_friction<EventTaylor<Contact, 8>>(model, tolerance);
@@ -89,7 +91,7 @@ TEST(Convergence, Rk4TendsToTheSameMeanAcrossReversalsInSecondOrder) {
 
 TEST(Convergence, Rk4TendsToTheCoulombMeanInFirstOrder) {
   using Coulomb = CoulombModel<double>;
-  auto solver = configured<Rk4<Coulomb>>({{{}, 0.0, 1.0}, {}, 0.0}, 1e-3);
+  auto solver = configured<Rk4<Coulomb>>(Case(), 1e-3);
   State<double> state = {-1.0, 0.0, 0.0};
   MeanFriction<double> account;
   EXPECT_EQ(run_periods(solver, 10, 1.0, 0.5, state, account), Error::none);

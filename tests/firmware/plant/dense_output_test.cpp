@@ -7,7 +7,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "motion.hpp"
+#include "tests/firmware/plant/runs/motion.hpp"
 
 namespace sonoglide::plant {
 namespace {
@@ -16,11 +16,11 @@ template <class LawModel>
 LawModel model();
 template <>
 DampedDahlModel<double> model() {
-  return {{{8.0}, 0.2, 1.0}, {0.1}, 0.4};
+  return Case().contact_stiffness(8.0).friction_force(0.2).damping(0.1).stiffness(0.4);
 }
 template <>
 DampedCoulombModel<double> model() {
-  return {{{}, 0.4, 1.0}, {0.1}, 0.4};
+  return Case().friction_force(0.4).damping(0.1).stiffness(0.4);
 }
 
 struct Sample {
@@ -54,7 +54,8 @@ class DenseOutput : public testing::Test {
   // Where a fixed step chatters about a stick, its state is known to a step only.
   static constexpr double tolerance = fixed_step ? 2e-3 : 1e-10;
 
-  const Interval<double> interval = {0.7, 6.0, 1.0, 0.3, 0.02};
+  const Interval<double> interval =
+      lasting(6.0).from_phase(0.7).driven(1.0).sliding(0.3).accelerating(0.02);
   const State<double> start = {0.1, 0.2, 0.05};
 };
 
@@ -131,7 +132,8 @@ TEST(DenseOutputOfFriction, FollowsTheExactArcInsideAStep) {
   Recorder recorder;
   NoAccount account;
   State<double> state = {0.0, 0.0, -0.9};
-  ASSERT_EQ(solver.advance({0.0, 5.0, 0.5, 3.0, 0.0}, state, account, recorder).error, Error::none);
+  ASSERT_EQ(solver.advance(lasting(5.0).driven(0.5).sliding(3.0), state, account, recorder).error,
+            Error::none);
   for (const Sample& sample : recorder.samples) {
     const double travel = 3.0 * sample.time + sample.state.displacement;
     EXPECT_NEAR(sample.state.friction, 1.0 - 1.9 * std::exp(-8.0 * travel), 1e-13);

@@ -5,7 +5,8 @@
 #include <cmath>
 #include <random>
 
-#include "motion.hpp"
+#include "tests/common/constants/table_1_numbers.hpp"
+#include "tests/firmware/plant/runs/motion.hpp"
 
 namespace sonoglide::plant {
 namespace {
@@ -32,8 +33,12 @@ Model<Law, Damped<double>, CosineDrive> any_model(Cases& any, const Law& law) {
 }
 
 Interval<double> any_interval(Cases& any) {
-  return {any.uniform(0.0, 6.28), any.uniform(0.5, 13.0), any.or_zero(any.uniform(0.1, 2.0)),
-          any.or_zero(any.uniform(-1.5, 1.5)), any.or_zero(any.uniform(-0.2, 0.2))};
+  const double phase = any.uniform(0.0, 6.28);
+  return lasting(any.uniform(0.5, 13.0))
+      .from_phase(phase)
+      .driven(any.or_zero(any.uniform(0.1, 2.0)))
+      .sliding(any.or_zero(any.uniform(-1.5, 1.5)))
+      .accelerating(any.or_zero(any.uniform(-0.2, 0.2)));
 }
 
 State<double> any_state(Cases& any) {
@@ -127,28 +132,38 @@ TEST(AnyPlant, SplittingAnIntervalChangesNothingBeyondTheTolerance) {
 }
 
 TEST(EnergyAccount, BalancesOverManyPeriodsOfTable1) {
-  const DahlModel<double> model = {{{0.385592}, 5.109e-5, 1.0}, {}, 0.0467907};
+  constexpr tests::DimensionlessTable1 table_1(384.0);
+  const DahlModel<double> model = Case()
+                                      .contact_stiffness(table_1.contact_stiffness)
+                                      .friction_force(table_1.friction_force)
+                                      .stiffness(table_1.stiffness);
+  const double sliding = 0.5 * table_1.vibration;
   auto solver = configured<EventTaylor<DahlModel<double>, 16>>(model, 1e-15);
   const State<double> before;
   State<double> state = before;
   EnergyAccount<double> account;
-  EXPECT_EQ(run_periods(solver, 1000, 1.0, 0.5245, state, account), Error::none);
+  EXPECT_EQ(run_periods(solver, 1000, 1.0, sliding, state, account), Error::none);
   EXPECT_NEAR(account.balance_residual(model, before, state), 0.0, 1e-12);
-  EXPECT_NEAR(account.sliding_work, 0.5245 * account.friction_integral, 1e-10);
+  EXPECT_NEAR(account.sliding_work, sliding * account.friction_integral, 1e-10);
 }
 
 TEST(EnergyAccount, OfRk4BalancesToItsOrder) {
-  const DampedDahlModel<double> model = {{{0.5}, 0.3, -1.0}, {0.1}, 0.4};
+  const DampedDahlModel<double> model =
+      Case().contact_stiffness(0.5).friction_force(0.3).vibration_sign(-1.0).damping(0.1).stiffness(
+          0.4);
   auto solver = configured<Rk4<DampedDahlModel<double>>>(model, 1e-3);
   const State<double> before = {0.3, 0.0, 0.0};
   State<double> state = before;
   EnergyAccount<double> account;
-  EXPECT_EQ(advance(solver, {0.0, 20.0, 1.0, 0.4, 0.01}, state, account).error, Error::none);
+  EXPECT_EQ(
+      advance(solver, lasting(20.0).driven(1.0).sliding(0.4).accelerating(0.01), state, account)
+          .error,
+      Error::none);
   EXPECT_NEAR(account.balance_residual(model, before, state), 0.0, 1e-9);
 }
 
 TEST(EnergyAccount, OfNothingHasNoResidual) {
-  const DahlModel<double> model = {{{1.0}, 1.0, 1.0}, {}, 1.0};
+  const DahlModel<double> model = Case().contact_stiffness(1.0).friction_force(1.0).stiffness(1.0);
   EXPECT_EQ(EnergyAccount<double>().balance_residual(model, {}, {}), 0.0);
 }
 

@@ -4,7 +4,7 @@
 
 #include <limits>
 
-#include "motion.hpp"
+#include "tests/firmware/plant/runs/motion.hpp"
 
 namespace sonoglide::plant {
 namespace {
@@ -20,8 +20,8 @@ Outcome<double> outcome(const typename Solver::Model& model, double setting,
   return advance(solver, interval, state, account);
 }
 
-const Contact ordinary = {{{1.0}, 0.1, 1.0}, {}, 0.5};
-const Interval<double> period = {0.0, 2.0 * pi, 1.0, 0.5, 0.0};
+const Contact ordinary = Case().contact_stiffness(1.0).friction_force(0.1).stiffness(0.5);
+const Interval<double> period = lasting(2.0 * pi).driven(1.0).sliding(0.5);
 
 TEST(SolverError, NoneReachesTheEndOfTheInterval) {
   EXPECT_EQ(outcome<Taylor>(ordinary, 1e-8, period, {}).offset, period.duration);
@@ -32,7 +32,7 @@ TEST(SolverError, NotFinite) {
   const State<double> broken = {std::numeric_limits<double>::quiet_NaN(), 0.0, 0.0};
   EXPECT_EQ(outcome<Taylor>(ordinary, 1e-8, period, broken).error, Error::not_finite);
   EXPECT_EQ(outcome<Rk4<Contact>>(ordinary, 1e-2, period, broken).error, Error::not_finite);
-  const Contact unstable = {{{1.0}, 0.1, 1.0}, {}, -1e6};
+  const Contact unstable = Case().contact_stiffness(1.0).friction_force(0.1).stiffness(-1e6);
   const Outcome<double> grown = outcome<Taylor>(unstable, 1e-8, period, {1.0, 0.0, 0.0});
   EXPECT_EQ(grown.error, Error::not_finite);
   EXPECT_GT(grown.offset, 0.6);
@@ -40,7 +40,7 @@ TEST(SolverError, NotFinite) {
 }
 
 TEST(SolverError, FrictionBoundBrokenByRk4InAStiffContact) {
-  const Contact stiff = {{{1e4}, 0.1, 1.0}, {}, 0.5};
+  const Contact stiff = Case().contact_stiffness(1e4).friction_force(0.1).stiffness(0.5);
   const Outcome<double> broken = outcome<Rk4<Contact>>(stiff, 1e-2, period, {});
   EXPECT_EQ(broken.error, Error::friction_bound_broken);
   EXPECT_GT(broken.offset, 0.0);
@@ -48,8 +48,8 @@ TEST(SolverError, FrictionBoundBrokenByRk4InAStiffContact) {
 }
 
 TEST(SolverError, TooManySteps) {
-  const Contact ringing = {{{1e16}, 10.0, 1.0}, {}, 0.5};
-  const Outcome<double> stuck = outcome<Taylor>(ringing, 1e-8, {0.0, 2.0 * pi, 1.0, 0.0, 0.0}, {});
+  const Contact ringing = Case().contact_stiffness(1e16).friction_force(10.0).stiffness(0.5);
+  const Outcome<double> stuck = outcome<Taylor>(ringing, 1e-8, lasting(2.0 * pi).driven(1.0), {});
   EXPECT_EQ(stuck.error, Error::too_many_steps);
   EXPECT_LT(stuck.offset, period.duration);
   EXPECT_EQ(outcome<Rk4<Contact>>(ordinary, 1e-9, period, {}).error, Error::too_many_steps);

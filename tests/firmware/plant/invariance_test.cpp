@@ -10,7 +10,7 @@
 #include <type_traits>
 
 #include "firmware/plant/gauss/event_gauss.hpp"
-#include "motion.hpp"
+#include "tests/firmware/plant/runs/motion.hpp"
 
 namespace sonoglide::plant {
 namespace {
@@ -168,18 +168,12 @@ TYPED_TEST(StuckContact, IsASpringHoweverSlowItsVibration) {
   for (const double amplitude : {1e-3, 1e-9, 1e-12, 1e-15, 1e-18, 1e-22}) {
     const double travel = 2.0 * amplitude / (square - 1.0);
     const double stiffness = largest_friction / travel;
-    const Contact model = {
-        {{static_cast<Scalar>(stiffness)}, static_cast<Scalar>(square / stiffness), Scalar(1)},
-        {},
-        Scalar(0)};
+    const Contact model = Case().contact_stiffness(stiffness).friction_force(square / stiffness);
     auto solver = configured<EventTaylor<Contact, TypeParam::order>>(
         model, static_cast<Scalar>(is_single ? 1e-6 : 1e-10));
     const double duration = 11.0;
     State<Scalar> state{Scalar(1), Scalar(0), Scalar(0)};
-    state = advanced(solver,
-                     {Scalar(0), static_cast<Scalar>(duration), static_cast<Scalar>(amplitude),
-                      Scalar(0), Scalar(0)},
-                     state);
+    state = advanced(solver, lasting(duration).driven(amplitude), state);
     const double velocity =
         amplitude / (square - 1.0) * (rate * std::sin(rate * duration) - std::sin(duration));
     const double displacement =

@@ -6,7 +6,7 @@
 #include <complex>
 #include <string>
 
-#include "motion.hpp"
+#include "tests/firmware/plant/runs/motion.hpp"
 
 namespace sonoglide::plant {
 namespace {
@@ -41,7 +41,7 @@ class LinearMotion : public testing::Test {
   static State<double> after(const Model& model, double duration, double drive_amplitude,
                              const State<double>& from) {
     auto solver = configured<typename Method::template Solver<Model>>(model, Method::setting);
-    return advanced(solver, {0.0, duration, drive_amplitude, 0.0, 0.0}, from);
+    return advanced(solver, lasting(duration).driven(drive_amplitude), from);
   }
 };
 

@@ -9,10 +9,13 @@
 #include <string>
 
 #include "firmware/plant/gauss/event_gauss.hpp"
-#include "motion.hpp"
+#include "tests/common/constants/table_1_numbers.hpp"
+#include "tests/firmware/plant/runs/motion.hpp"
 
 namespace sonoglide::plant {
 namespace {
+
+using tests::Table1;
 
 struct Scene {
   std::string name;
@@ -21,10 +24,11 @@ struct Scene {
   double vibration_sign;
 };
 
-const Scene table1 = {"table1", 0.056e6, 0.02 * 9.81, 1.0};
-const Scene stiff_contact = {"stiff_contact", 1e9, 0.02 * 9.81, 1.0};
+const Scene table1 = {"table1", Table1::contact_stiffness_N_per_m, Table1::normal_force_N, 1.0};
+const Scene stiff_contact = {"stiff_contact", 1e9, Table1::normal_force_N, 1.0};
 const Scene heavy_friction = {"heavy_friction", 1e9, 2000.0, 1.0};
-const Scene table1_as_printed = {"table1_as_printed", 0.056e6, 0.02 * 9.81, -1.0};
+const Scene table1_as_printed = {"table1_as_printed", Table1::contact_stiffness_N_per_m,
+                                 Table1::normal_force_N, -1.0};
 
 /// In the order of the file's columns.
 struct Values {
@@ -57,27 +61,26 @@ Values reference(const std::string& name) {
   return {};
 }
 
-constexpr double mass_kg = 0.02;
-constexpr double stiffness_N_per_m = 133e6;
-constexpr double angular_frequency = 2.0 * pi * 60e3;
+constexpr double stiffness_N_per_m = Table1::stiffness_N_per_m;
+constexpr double angular_frequency = Table1::carrier_rad_per_s;
 constexpr double force_amplitude_N = 384.0;
-constexpr double inertia_N_per_m = mass_kg * angular_frequency * angular_frequency;
+constexpr double inertia_N_per_m = Table1::inertia_N_per_m;
 constexpr double length_m = force_amplitude_N / inertia_N_per_m;
 constexpr double paper_step = 1.667e-8 * angular_frequency;
 
 /// A hundred carrier periods from rest; sets the error by which the solver stopped, if any.
 template <template <class> class SolverOf, class Scalar>
 Values run(const Scene& scene, double setting, Error& error) {
-  const double friction_limit_N = 0.1 * scene.normal_force_N;
+  const double friction_limit_N = Table1::friction_coefficient * scene.normal_force_N;
   const double velocity_ratio_half =
       0.5 * inertia_N_per_m / std::abs(stiffness_N_per_m - inertia_N_per_m);
   const auto scalar = [](double x) { return static_cast<Scalar>(x); };
-  const DahlModel<Scalar> model = {
-      {{scalar(scene.contact_stiffness_N_per_m * length_m / friction_limit_N)},
-       scalar(friction_limit_N / force_amplitude_N),
-       scalar(scene.vibration_sign)},
-      {},
-      scalar(stiffness_N_per_m / inertia_N_per_m)};
+  const DahlModel<Scalar> model =
+      Case()
+          .contact_stiffness(scene.contact_stiffness_N_per_m * length_m / friction_limit_N)
+          .friction_force(friction_limit_N / force_amplitude_N)
+          .vibration_sign(scene.vibration_sign)
+          .stiffness(stiffness_N_per_m / inertia_N_per_m);
   auto solver = configured<SolverOf<DahlModel<Scalar>>>(model, scalar(setting));
   State<Scalar> state;
   EnergyAccount<Scalar> first;
@@ -204,9 +207,9 @@ TEST(ReferenceOpenLoopRk4, ThePapersStepBreaksTheFrictionBoundInStiffContact) {
 }
 
 TEST(ReferenceOpenLoopRk4, ThePapersStepIsAThousandthOfThePeriod) {
-  const DahlModel<double> model = {{{1.0}, 1.0, 1.0}, {}, 1.0};
+  const DahlModel<double> model = Case().contact_stiffness(1.0).friction_force(1.0).stiffness(1.0);
   auto solver = configured<Rk4<DahlModel<double>>>(model, paper_step);
-  advanced(solver, {0.0, 2.0 * pi, 1.0, 0.5, 0.0}, {});
+  advanced(solver, lasting(2.0 * pi).driven(1.0).sliding(0.5), {});
   EXPECT_EQ(solver.cost().steps, 1000U);
 }
 

@@ -6,9 +6,9 @@
 
 #include "firmware/friction/law.hpp"
 #include "firmware/plant/solver.hpp"
-#include "motion.hpp"
 #include "samples/explicit_euler.hpp"
 #include "samples/viscous.hpp"
+#include "tests/firmware/plant/runs/motion.hpp"
 
 namespace sonoglide::plant {
 namespace {

@@ -11,7 +11,7 @@
 #include "firmware/plant/rk4/rk4_event.hpp"
 #include "firmware/plant/sliding.hpp"
 #include "firmware/plant/strang/adaptive_strang.hpp"
-#include "motion.hpp"
+#include "tests/firmware/plant/runs/motion.hpp"
 
 namespace sonoglide::plant {
 namespace {

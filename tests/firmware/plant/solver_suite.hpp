@@ -10,8 +10,9 @@
 
 #include "firmware/plant/gauss/event_gauss.hpp"
 #include "firmware/plant/rk4/rk4_event.hpp"
+#include "firmware/plant/strang/adaptive_strang.hpp"
 #include "firmware/plant/strang/equal_step_strang.hpp"
-#include "motion.hpp"
+#include "tests/firmware/plant/runs/motion.hpp"
 
 namespace sonoglide::plant {
 
@@ -67,13 +68,24 @@ struct StrangMethod {
   static constexpr double across = smooth;
 };
 
-/// Without friction it has nothing to solve.
+/// The splitting that a scene gets under the name of strang.
+struct AdaptiveStrangMethod {
+  using Scalar = double;
+  template <class Model>
+  using Solver = AdaptiveStrang<Model>;
+  static std::string name() { return "AdaptiveStrang"; }
+  static constexpr double setting = 1e-6;
+  static constexpr double coarse_setting = 1e-2;
+  static constexpr double smooth = 1e-5;
+  static constexpr double across = smooth;
+};
+
+/// Only with friction: without it there is nothing that it solves.
 template <class Number, std::size_t Nodes>
 struct GaussMethod {
   using Scalar = Number;
   template <class Model>
-  using Solver = std::conditional_t<Model::FrictionLaw::reverses, EventGauss<Model, Nodes>,
-                                    EventTaylor<Model, 12>>;
+  using Solver = EventGauss<Model, Nodes>;
   static std::string name() { return "Gauss" + std::to_string(Nodes); }
   static constexpr double setting = is_single<Number> ? 1e-7 : 1e-12;
   static constexpr double coarse_setting = 1e-3;
@@ -81,11 +93,17 @@ struct GaussMethod {
   static constexpr double across = smooth;
 };
 
+using OscillatorMethods =
+    testing::Types<TaylorMethod<double, 8>, TaylorMethod<double, 12>, TaylorMethod<double, 16>,
+                   Rk4Method<double>, Rk4EventMethod<double>, StrangMethod<double>,
+                   AdaptiveStrangMethod, TaylorMethod<float, 8>, Rk4Method<float>,
+                   Rk4EventMethod<float>, StrangMethod<float>>;
 using SolverMethods =
     testing::Types<TaylorMethod<double, 8>, TaylorMethod<double, 12>, TaylorMethod<double, 16>,
                    Rk4Method<double>, Rk4EventMethod<double>, StrangMethod<double>,
-                   GaussMethod<double, 8>, GaussMethod<float, 8>, TaylorMethod<float, 8>,
-                   Rk4Method<float>, Rk4EventMethod<float>, StrangMethod<float>>;
+                   AdaptiveStrangMethod, GaussMethod<double, 8>, GaussMethod<float, 8>,
+                   TaylorMethod<float, 8>, Rk4Method<float>, Rk4EventMethod<float>,
+                   StrangMethod<float>>;
 
 struct SolverMethodName {
   template <class Method>
@@ -100,46 +118,8 @@ State<To> state_cast(const State<From>& state) {
           static_cast<To>(state.friction)};
 }
 
-/// In double, rounded to the method's scalar where it enters the core.
-struct Case {
-  double contact_stiffness = 1.0;
-  double friction_force = 0.0;
-  double vibration_sign = 1.0;
-  double damping = 0.0;
-  double stiffness = 0.0;
-};
-
 template <class Scalar>
 using DampedFrictionless = Model<friction::None<Scalar>, Damped<Scalar>, CosineDrive>;
-
-template <class Model>
-Model model_of(const Case& c) {
-  using Scalar = typename Model::Scalar;
-  const auto scalar = [](double x) { return static_cast<Scalar>(x); };
-  if constexpr (Model::FrictionLaw::reverses) {
-    return {{{scalar(c.contact_stiffness)}, scalar(c.friction_force), scalar(c.vibration_sign)},
-            {scalar(c.damping)},
-            scalar(c.stiffness)};
-  } else {
-    return {{}, {scalar(c.damping)}, scalar(c.stiffness)};
-  }
-}
-
-/// Drive phase 0 at the beginning unless said otherwise.
-struct Course {
-  double duration = 0.0;
-  double drive_amplitude = 0.0;
-  double sliding_velocity = 0.0;
-  double sliding_acceleration = 0.0;
-  double phase = 0.0;
-};
-
-template <class Scalar>
-Interval<Scalar> interval_of(const Course& course) {
-  return {static_cast<Scalar>(course.phase), static_cast<Scalar>(course.duration),
-          static_cast<Scalar>(course.drive_amplitude), static_cast<Scalar>(course.sliding_velocity),
-          static_cast<Scalar>(course.sliding_acceleration)};
-}
 
 struct Advanced {
   State<double> state;
@@ -155,13 +135,13 @@ Advanced run_of(const Case& c, const Course& course, const State<double>& start,
                 double setting = Method::setting) {
   using Scalar = typename Method::Scalar;
   using Model = ModelOf<Scalar>;
-  const Model model = model_of<Model>(c);
+  const Model model = c;
   auto solver =
       configured<typename Method::template Solver<Model>>(model, static_cast<Scalar>(setting));
   const State<Scalar> before = state_cast<Scalar>(start);
   State<Scalar> state = before;
   EnergyAccount<Scalar> account;
-  const Error error = advance(solver, interval_of<Scalar>(course), state, account).error;
+  const Error error = advance(solver, course, state, account).error;
   const auto wide = [](Scalar x) { return static_cast<double>(x); };
   return {state_cast<double>(state),
           {wide(account.friction_integral), wide(account.friction_work), wide(account.sliding_work),

@@ -9,10 +9,10 @@
 namespace sonoglide::plant {
 namespace {
 
-const Case plant = {0.9, 0.3, 1.0, 0.2, 0.6};
+const Case plant = Case().contact_stiffness(0.9).friction_force(0.3).damping(0.2).stiffness(0.6);
 const State<double> start = {0.2, -0.1, 0.3};
-const Course sliding_on = {4.0, 0.7, 3.0, 0.0, 0.3};
-const Course reversing = {25.0, 1.0, 0.3, 0.0, 0.3};
+const Course sliding_on = lasting(4.0).from_phase(0.3).driven(0.7).sliding(3.0);
+const Course reversing = lasting(25.0).from_phase(0.3).driven(1.0).sliding(0.3);
 
 /// What is compared: the state, and the mean of phi.
 double distance(const Advanced& a, const Advanced& b, double duration) {
@@ -27,7 +27,7 @@ double error(const Course& course, double setting) {
   const Advanced exact = run_of<TaylorMethod<double, 16>>(plant, course, start, 1e-16);
   const Advanced run = run_of<Method>(plant, course, start, setting);
   EXPECT_EQ(run.error, Error::none);
-  return distance(run, exact, course.duration);
+  return distance(run, exact, course.duration());
 }
 
 /// Mean order over a range of steps; single errors across reversals scatter with where these fall.
@@ -80,7 +80,7 @@ TEST(SolverOrder, TheToleranceOfTaylorIsDelivered) {
 
 /// Without reaction of friction the splitting has no error; its paths are of sixth order.
 TEST(SolverOrder, SplittingIsOfSixthOrderWithoutReaction) {
-  const Case prescribed = {0.9, 0.0, 1.0, 0.2, 0.6};
+  const Case prescribed = Case().contact_stiffness(0.9).damping(0.2).stiffness(0.6);
   const auto friction_error = [&](double step) {
     const State<double> exact =
         run_of<TaylorMethod<double, 16>>(prescribed, reversing, start, 1e-16).state;

@@ -7,17 +7,13 @@
 #include <sstream>
 #include <string>
 
-#include "firmware/plant/strang/adaptive_strang.hpp"
 #include "solver_suite.hpp"
+#include "tests/common/constants/table_1_numbers.hpp"
 
 namespace sonoglide::plant {
 namespace {
 
-struct AdaptiveStrangMethod {
-  using Scalar = double;
-  template <class Model>
-  using Solver = AdaptiveStrang<Model>;
-};
+using tests::Table1;
 
 struct ReferenceScene {
   std::string name;
@@ -26,10 +22,12 @@ struct ReferenceScene {
   double vibration_sign;
 };
 
-const ReferenceScene table1 = {"table1", 0.056e6, 0.1962, 1.0};
-const ReferenceScene stiff_contact = {"stiff_contact", 1e9, 0.1962, 1.0};
+const ReferenceScene table1 = {"table1", Table1::contact_stiffness_N_per_m, Table1::normal_force_N,
+                               1.0};
+const ReferenceScene stiff_contact = {"stiff_contact", 1e9, Table1::normal_force_N, 1.0};
 const ReferenceScene heavy_friction = {"heavy_friction", 1e9, 2000.0, 1.0};
-const ReferenceScene table1_as_printed = {"table1_as_printed", 0.056e6, 0.1962, -1.0};
+const ReferenceScene table1_as_printed = {"table1_as_printed", Table1::contact_stiffness_N_per_m,
+                                          Table1::normal_force_N, -1.0};
 
 /// Mean friction over Fc, from rest over a hundred periods: the fifth column.
 double known_ratio(const std::string& name) {
@@ -60,16 +58,16 @@ Ratio ratio(const ReferenceScene& scene, double setting) {
   using Scalar = typename Method::Scalar;
   using Model = DahlModel<Scalar>;
   const double force_amplitude_N = 384.0;
-  const double inertia_N_per_m = 0.02 * (2.0 * pi * 60e3) * (2.0 * pi * 60e3);
-  const double length_m = force_amplitude_N / inertia_N_per_m;
-  const double friction_limit_N = 0.1 * scene.normal_force_N;
-  const double k = 133e6 / inertia_N_per_m;
+  const double length_m = force_amplitude_N / Table1::inertia_N_per_m;
+  const double friction_limit_N = Table1::friction_coefficient * scene.normal_force_N;
+  const double k = Table1::stiffness_N_per_m / Table1::inertia_N_per_m;
   const auto scalar = [](double x) { return static_cast<Scalar>(x); };
-  const Model model = {{{scalar(scene.contact_stiffness_N_per_m * length_m / friction_limit_N)},
-                        scalar(friction_limit_N / force_amplitude_N),
-                        scalar(scene.vibration_sign)},
-                       {},
-                       scalar(k)};
+  const Model model =
+      Case()
+          .contact_stiffness(scene.contact_stiffness_N_per_m * length_m / friction_limit_N)
+          .friction_force(friction_limit_N / force_amplitude_N)
+          .vibration_sign(scene.vibration_sign)
+          .stiffness(k);
   auto solver = configured<typename Method::template Solver<Model>>(
       model, scalar(setting > 1.0 ? 2.0 * pi / setting : setting));
   State<Scalar> state;

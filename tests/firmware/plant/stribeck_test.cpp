@@ -8,8 +8,8 @@
 #include <cmath>
 
 #include "firmware/friction/stribeck_friction_ratio.hpp"
-#include "motion.hpp"
 #include "random.hpp"
+#include "tests/firmware/plant/runs/motion.hpp"
 
 namespace sonoglide::plant {
 namespace {
@@ -64,13 +64,15 @@ TEST(Stribeck, MeanOfOneCase) {
 }
 
 TEST(Stribeck, WithoutItsCurveIsCoulomb) {
-  const Interval<double> interval = {0.3, 30.0, 1.0, 0.3, 0.01};
+  const Interval<double> interval =
+      lasting(30.0).from_phase(0.3).driven(1.0).sliding(0.3).accelerating(0.01);
   auto solver = configured<Taylor>(model_of({}, 0.6, 0.2, 0.05), 1e-12);
-  auto coulomb =
-      configured<EventTaylor<DampedCoulombModel<double>, 16>>({{{}, 0.6, 1.0}, {0.05}, 0.2}, 1e-12);
+  auto coulomb = configured<EventTaylor<DampedCoulombModel<double>, 16>>(
+      Case().friction_force(0.6).damping(0.05).stiffness(0.2), 1e-12);
   const State<double> state = advanced(solver, interval, {0.4, 0.1, 0.0});
   const State<double> expected = advanced(coulomb, interval, {0.4, 0.1, 0.0});
   EXPECT_GT(coulomb.cost().events, 4U);
+  EXPECT_LE(coulomb.cost().events, 20U);
   EXPECT_EQ(solver.cost().events, coulomb.cost().events);
   EXPECT_NEAR(state.displacement, expected.displacement, 1e-11);
   EXPECT_NEAR(state.velocity, expected.velocity, 1e-11);
@@ -91,8 +93,8 @@ TEST(Stribeck, SlipWithAFallingForceGrows) {
       rest - rest * std::exp(growth * t) * (std::cos(w * t) - growth / w * std::sin(w * t));
   auto taylor = configured<Taylor>(model_of({a, 0.0}, beta, k), 1e-13);
   auto fixed = configured<FixedSteps>(model_of({a, 0.0}, beta, k), 1e-3);
-  EXPECT_NEAR(advanced(taylor, {0.0, t, 0.0, r, 0.0}, {}).displacement, expected, 1e-12);
-  EXPECT_NEAR(advanced(fixed, {0.0, t, 0.0, r, 0.0}, {}).displacement, expected, 1e-11);
+  EXPECT_NEAR(advanced(taylor, lasting(t).sliding(r), {}).displacement, expected, 1e-12);
+  EXPECT_NEAR(advanced(fixed, lasting(t).sliding(r), {}).displacement, expected, 1e-11);
   EXPECT_EQ(taylor.cost().events, 0U);
 }
 
@@ -101,10 +103,10 @@ TEST(Stribeck, SticksUntilTheSpringPullsItLoose) {
   auto solver = configured<Taylor>(model_of({0.4, 0.1}, 0.3, 0.5), 1e-13);
   const double r = 0.1;
   State<double> state = {0.0, -r, 0.0};
-  state = advanced(solver, {0.0, 4.0, 0.0, r, 0.0}, state);
+  state = advanced(solver, lasting(4.0).sliding(r), state);
   EXPECT_NEAR(state.friction, 0.5 * r * 4.0 / 0.3, 1e-12);
   EXPECT_EQ(state.velocity, -r);
-  state = advanced(solver, {4.0, 3.0, 0.0, r, 0.0}, state);
+  state = advanced(solver, lasting(3.0).from_phase(4.0).sliding(r), state);
   EXPECT_GT(state.velocity, -r);
 }
 
@@ -124,7 +126,9 @@ TEST(Stribeck, DitherQuenchesStickSlip) {
   EXPECT_EQ(run_periods(without, 2000, 0.0, r, quiet, account), Error::none);
   const auto events_before = without.cost().events;
   EXPECT_EQ(run_periods(without, 500, 0.0, r, quiet, account), Error::none);
-  EXPECT_GE(without.cost().events - events_before, 10U);  // a stick in each of ten natural periods
+  // A stick and a release, perhaps a reversal too, in each of at most ten natural periods.
+  EXPECT_GE(without.cost().events - events_before, 10U);
+  EXPECT_LE(without.cost().events - events_before, 30U);
 
   auto with = configured<EventTaylor<PlantModel, 8>>(model, 1e-6);
   EXPECT_EQ(run_periods(with, 4000, 1.0, r, dithered, account), Error::none);
@@ -135,8 +139,12 @@ TEST(Stribeck, DitherQuenchesStickSlip) {
 
 TEST(Stribeck, MirroredMotionIsTheMirrorImageBitForBit) {
   auto solver = configured<Taylor>(model_of({0.6, 0.2}, 0.6, 0.2, 0.05), 1e-12);
-  const State<double> one = advanced(solver, {0.3, 30.0, 1.0, 0.3, 0.01}, {0.4, 0.1, 0.0});
-  const State<double> other = advanced(solver, {0.3, 30.0, -1.0, -0.3, -0.01}, {-0.4, -0.1, 0.0});
+  const State<double> one =
+      advanced(solver, lasting(30.0).from_phase(0.3).driven(1.0).sliding(0.3).accelerating(0.01),
+               {0.4, 0.1, 0.0});
+  const State<double> other =
+      advanced(solver, lasting(30.0).from_phase(0.3).driven(-1.0).sliding(-0.3).accelerating(-0.01),
+               {-0.4, -0.1, 0.0});
   EXPECT_EQ(one.displacement, -other.displacement);
   EXPECT_EQ(one.velocity, -other.velocity);
 }

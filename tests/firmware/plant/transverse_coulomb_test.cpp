@@ -10,8 +10,8 @@
 #include <cmath>
 
 #include "firmware/friction/transverse_vibration_ratio.hpp"
-#include "motion.hpp"
 #include "random.hpp"
+#include "tests/firmware/plant/runs/motion.hpp"
 
 namespace sonoglide::plant {
 namespace {
@@ -55,7 +55,8 @@ TEST(TransverseCoulomb, MeanIsThePublishedOne) {
 
 /// Nothing hides a reversal here: the formula keeps its fourth order.
 TEST(TransverseCoulomb, FixedStepsKeepTheirFourthOrder) {
-  const Interval<double> interval = {0.3, 9.0, 1.0, 0.4, 0.01};
+  const Interval<double> interval =
+      lasting(9.0).from_phase(0.3).driven(1.0).sliding(0.4).accelerating(0.01);
   auto exact = configured<Taylor>(model_of(0.3, 0.4), 1e-14);
   const double displacement = advanced(exact, interval, {0.3, -0.2, 0.0}).displacement;
   const auto error = [&](double step) {
@@ -102,7 +103,7 @@ TEST(TransverseCoulomb, FreeMassIsBrakedAsInClosedForm) {
   };
   auto taylor = configured<Taylor>(model_of(beta), 1e-14);
   auto fixed = configured<FixedSteps>(model_of(beta), 1e-3);
-  const Interval<double> interval = {0.0, 4.0, 0.0, r, 0.0};
+  const Interval<double> interval = lasting(4.0).sliding(r);
   for (const State<double>& state :
        {advanced(taylor, interval, {0.0, 1.0, 0.0}), advanced(fixed, interval, {0.0, 1.0, 0.0})}) {
     EXPECT_NEAR(potential(1.0) - potential(state.velocity), beta * 4.0 / r, 1e-11);
@@ -115,7 +116,9 @@ TEST(TransverseCoulomb, AgreesWithAPeer) {
   using Numbers = std::array<double, 3>;
   namespace odeint = boost::numeric::odeint;
   const PlantModel model = model_of(0.5, 0.4, 0.05);
-  const Interval<double> interval = {0.8, 6.0, 1.0, 0.2, -0.06};  // r passes through 0 at 3.33
+  // r passes through 0 at 3.33.
+  const Interval<double> interval =
+      lasting(6.0).from_phase(0.8).driven(1.0).sliding(0.2).accelerating(-0.06);
   const auto slope = [&](const Numbers& at, Numbers& rate, double time) {
     const double sliding = interval.sliding_velocity + interval.sliding_acceleration * time;
     const double speed = std::hypot(sliding, at[1]);
@@ -138,8 +141,12 @@ TEST(TransverseCoulomb, AgreesWithAPeer) {
 /// Every pull on the contact is the oscillator's own: no sliding velocity reverses the force on it.
 TEST(TransverseCoulomb, OscillatorIsTheSameEitherWay) {
   auto solver = configured<Taylor>(model_of(0.6, 0.2, 0.05), 1e-12);
-  const State<double> one = advanced(solver, {0.3, 30.0, 1.0, 0.3, 0.01}, {0.4, 0.1, 0.0});
-  const State<double> other = advanced(solver, {0.3, 30.0, 1.0, -0.3, -0.01}, {0.4, 0.1, 0.0});
+  const State<double> one =
+      advanced(solver, lasting(30.0).from_phase(0.3).driven(1.0).sliding(0.3).accelerating(0.01),
+               {0.4, 0.1, 0.0});
+  const State<double> other =
+      advanced(solver, lasting(30.0).from_phase(0.3).driven(1.0).sliding(-0.3).accelerating(-0.01),
+               {0.4, 0.1, 0.0});
   EXPECT_EQ(one.displacement, other.displacement);
   EXPECT_EQ(one.velocity, other.velocity);
   EXPECT_EQ(one.friction, -other.friction);
@@ -150,7 +157,7 @@ TEST(TransverseCoulomb, AtRestWithoutSlidingIsAnError) {
   auto solver = configured<Taylor>(model_of(0.6), 1e-10);
   State<double> state;
   NoAccount account;
-  EXPECT_EQ(advance(solver, {0.0, 1.0, 1.0, 0.0, 0.0}, state, account).error, Error::not_finite);
+  EXPECT_EQ(advance(solver, lasting(1.0).driven(1.0), state, account).error, Error::not_finite);
 }
 
 template <class Solver>

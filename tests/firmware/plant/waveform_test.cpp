@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "motion.hpp"
+#include "tests/firmware/plant/runs/motion.hpp"
 
 namespace sonoglide::plant {
 namespace {
@@ -27,12 +27,16 @@ constexpr Piece sawtooth[] = {{-1.0 / pi, -pi, 2.0 * pi}};
 template <class Solver, std::size_t Count>
 double coulomb_ratio(const Piece (&pieces)[Count], double first_velocity, double sliding,
                      double setting) {
-  auto solver = configured<Solver>({{{}, 0.0, 1.0}, {0.0}, 0.0}, setting);
+  auto solver = configured<Solver>(Case(), setting);
   State<double> state = {0.0, first_velocity, 0.0};
   MeanFriction<double> account;
   for (const Piece& piece : pieces) {
-    EXPECT_EQ(advance(solver, {piece.phase, piece.duration, piece.amplitude, sliding, 0.0}, state,
-                      account)
+    EXPECT_EQ(advance(solver,
+                      lasting(piece.duration)
+                          .from_phase(piece.phase)
+                          .driven(piece.amplitude)
+                          .sliding(sliding),
+                      state, account)
                   .error,
               Error::none);
   }
@@ -88,7 +92,7 @@ TEST(Waveform, RampOnASpring) {
   const Free model = {{}, {0.0}, k};
   auto taylor = configured<EventTaylor<Free, 12>>(model, 1e-13);
   auto fixed = configured<Rk4<Free>>(model, 1e-2);
-  const Interval<double> interval = {-1.2, 3.0, a, 0.0, 0.0};
+  const Interval<double> interval = lasting(3.0).from_phase(-1.2).driven(a);
   const double expected = a / k * (1.8 + 1.2 * std::cos(3.0 * w) - std::sin(3.0 * w) / w);
   EXPECT_NEAR(advanced(fixed, interval, {}).displacement, expected, 1e-9);
   State<double> state;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "host_sim/batch/run_dahl_plants.hpp"
+#include "tests/common/constants/table_1_numbers.hpp"
 #include "tests/host_sim/batch/runs/instruction_sets.hpp"
 #include "tests/host_sim/batch/runs/plants.hpp"
 #include "tests/host_sim/batch/runs/scalar_run.hpp"
@@ -59,12 +60,12 @@ TEST(DahlPlants, SweepOfTable1IsGoodToTheAccuracyAskedFor) {
 
 TEST(DahlPlants, ReferenceOfTable1) {
   // Table 1 at 384 N, velocity ratio 0.5; integrated with twenty digits.
-  const double omega = 2.0 * 3.14159265358979323846 * 60e3;
+  constexpr tests::DimensionlessTable1 table_1(384.0);
   DahlPlant plant;
-  plant.stiffness = 133e6 / (0.02 * omega * omega);
-  plant.friction_force = 0.01962 / 384.0;
-  plant.contact_stiffness = 0.056e6 * 384.0 / (0.02 * omega * omega) / 0.01962;
-  plant.sliding_velocity = 0.5 / (1.0 - plant.stiffness);
+  plant.stiffness = table_1.stiffness;
+  plant.friction_force = table_1.friction_force;
+  plant.contact_stiffness = table_1.contact_stiffness;
+  plant.sliding_velocity = 0.5 * table_1.vibration;
   const std::vector<DahlRun> runs = run_dahl_plants({plant}, {100, 50}, Accuracy::fine);
   EXPECT_NEAR(runs[0].whole.friction_ratio, 0.656900288709659, 1e-8);
   EXPECT_NEAR(runs[0].window.friction_ratio, 0.659906711817741, 1e-8);

@@ -7,17 +7,19 @@
 #include <string>
 
 #include "host_sim/configure/configuration_error.hpp"
+#include "tests/common/constants/pi.hpp"
+#include "tests/common/constants/table_1_numbers.hpp"
 #include "tests/common/table_1.hpp"
 
 namespace sonoglide::configure {
 namespace {
 
-using loop::carrier_Hz;
-using loop::period_s;
-using loop::pi;
-using loop::table_1_closed_loop;
+using tests::carrier_Hz;
+using tests::long_pi;
+using tests::period_s;
+using tests::pi;
+using tests::table_1_closed_loop;
 
-constexpr long double pi_l = 3.14159265358979323846264338327950288L;
 const double omega = 2.0 * pi * carrier_Hz;
 
 /// The key that a refused scene should change.
@@ -92,7 +94,8 @@ TEST(ControlDesignTest, NotchSpacingIsTheSmallestThatKeepsEveryTapBelowOne) {
     const ControlDesign design = design_control(with_natural_frequency(part));
     int smallest = 0;
     for (int spacing = 1; spacing <= max_notch_spacing && smallest == 0; ++spacing) {
-      const long double cosine = std::cos(2.0L * pi_l * static_cast<long double>(part) * spacing);
+      const long double cosine =
+          std::cos(2.0L * long_pi * static_cast<long double>(part) * spacing);
       const long double sum = 2.0L - 2.0L * cosine;
       smallest = sum > 1.0L && std::abs(2.0L * cosine) < sum ? spacing : 0;
     }
@@ -186,7 +189,10 @@ TEST(ControlDesignTest, SpeedFloorIsThreePeriodsOfPreslidingTravel) {
   const scene::Scene scene = table_1_closed_loop();
   const ControlDesign design = design_control(scene);
   const double floor_m_per_s = design.speed_floor * design.scales.velocity_m_per_s;
-  EXPECT_NEAR(floor_m_per_s, 0.01962 / 0.056e6 / (3.0 * period_s), 1e-12);
+  EXPECT_NEAR(
+      floor_m_per_s,
+      tests::Table1::friction_limit_N / tests::Table1::contact_stiffness_N_per_m / (3.0 * period_s),
+      1e-12);
 }
 
 TEST(ControlDesignTest, SpeedFloorOfAStiffContactIsATenThousandthOfTheVibration) {

@@ -17,12 +17,13 @@
 #include "host_sim/loop/run.hpp"
 #include "host_sim/scene/names.hpp"
 #include "host_sim/scene_file/reader.hpp"
+#include "tests/common/constants/pi.hpp"
 #include "tests/host_sim/loop/equations/follow.hpp"
 
 namespace sonoglide::loop {
 namespace {
 
-constexpr double two_pi = 6.28318530717958647693;
+using tests::two_pi;
 constexpr double frequency_Hz = 60e3;
 constexpr double period_s = 1.0 / frequency_Hz;
 constexpr double duration_s = 5.5e-5;  // 3.3 periods

@@ -14,6 +14,12 @@ namespace sonoglide::loop {
 namespace {
 
 using scene::Scene;
+using tests::carrier_Hz;
+using tests::on_steady_orbit;
+using tests::period_s;
+using tests::pi;
+using tests::table_1;
+using tests::vibration_velocity_m_per_s;
 
 PowerRatios window_ratios(const Scene& scene) {
   return power_ratios(run(scene).window, scene.friction.limit_N(), scene.friction.sign_convention,

@@ -9,6 +9,10 @@
 namespace sonoglide::loop {
 namespace {
 
+using tests::period_s;
+using tests::table_1;
+using tests::table_1_closed_loop;
+
 std::string failure(const scene::Scene& scene) {
   try {
     run(scene);

@@ -8,11 +8,17 @@
 
 #include "firmware/friction/stribeck_friction_ratio.hpp"
 #include "host_sim/loop/run.hpp"
+#include "tests/common/constants/table_1_numbers.hpp"
 #include "tests/common/table_1.hpp"
 #include "tests/host_sim/loop/logs/logged_run.hpp"
 
 namespace sonoglide::loop {
 namespace {
+
+using tests::on_steady_orbit;
+using tests::period_s;
+using tests::table_1;
+using tests::table_1_closed_loop;
 
 scene::Scene lugre(scene::Scene scene, const scene::laws::LuGre& law) {
   scene.friction.law = law;
@@ -44,8 +50,8 @@ TEST(LuGreSceneTest, WithoutItsOwnPartsIsDahl) {
 TEST(LuGreSceneTest, ViscousFrictionAddsItsShare) {
   const scene::Scene dahl = on_steady_orbit(table_1());
   const double viscous_N_s_per_m = 0.1;
-  const double share =
-      viscous_N_s_per_m * dahl.sliding.profile.front().velocity_m_per_s / (0.1 * 0.02 * 9.81);
+  const double share = viscous_N_s_per_m * dahl.sliding.profile.front().velocity_m_per_s /
+                       tests::Table1::friction_limit_N;
   EXPECT_NEAR(window_ratio(lugre(dahl, {0.1, 1.0, 0.05, viscous_N_s_per_m})),
               (window_ratio(dahl) + share) / (1.0 + share), 2e-5);
 }

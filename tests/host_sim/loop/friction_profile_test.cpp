@@ -25,6 +25,12 @@ namespace {
 
 using scene::Scene;
 using scene::TimedProfile;
+using tests::carrier_Hz;
+using tests::period_s;
+using tests::pi;
+using tests::table_1;
+using tests::table_1_closed_loop;
+using tests::vibration_velocity_m_per_s;
 
 /// Friction that bends the motion, on a scene of ten carrier periods.
 Scene heavy(const scene::FrictionLaw& law) {

@@ -18,6 +18,10 @@ namespace sonoglide::loop {
 namespace {
 
 using scene::Scene;
+using tests::on_steady_orbit;
+using tests::period_s;
+using tests::table_1;
+using tests::vibration_velocity_m_per_s;
 
 /// In the order of the file's columns.
 struct Values {

@@ -16,6 +16,11 @@ namespace sonoglide::loop {
 namespace {
 
 using scene::Scene;
+using tests::carrier_Hz;
+using tests::period_s;
+using tests::pi;
+using tests::table_1;
+using tests::table_1_closed_loop;
 
 bool same_bits(double a, double b) {
   return std::memcmp(&a, &b, sizeof a) == 0;

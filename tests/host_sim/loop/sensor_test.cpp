@@ -9,11 +9,11 @@
 #include <vector>
 
 #include "firmware/numeric/scalar.hpp"
+#include "tests/common/constants/pi.hpp"
 
 namespace sonoglide::loop {
 namespace {
 
-constexpr long double pi_l = 3.14159265358979323846264338327950288L;
 constexpr double full_scale_N = 0.04;
 constexpr double full_speed_m_per_s = 0.25;
 constexpr double period_s = 1.0 / 60e3;
@@ -82,7 +82,7 @@ TEST(SensorTest, LowPassAnswersARampExactly) {
     scene::Sensor description;
     description.force_bandwidth_Hz = bandwidth_Hz;
     Sensor sensor(description, scales);
-    const double lag_s = 1.0 / (2.0 * static_cast<double>(pi_l) * bandwidth_Hz);
+    const double lag_s = 1.0 / (tests::two_pi * bandwidth_Hz);
     const double slope_N_per_s = full_scale_N / (250.0 * period_s);
     for (int k = 1; k <= 200; ++k) {
       const double t = k * period_s;
@@ -99,7 +99,7 @@ TEST(SensorTest, LowPassAnswersAStepExactly) {
     scene::Sensor description;
     description.force_bandwidth_Hz = bandwidth_Hz;
     Sensor sensor(description, scales);
-    const double lag_s = 1.0 / (2.0 * static_cast<double>(pi_l) * bandwidth_Hz);
+    const double lag_s = 1.0 / (tests::two_pi * bandwidth_Hz);
     const double height_N = 0.5 * full_scale_N;
     for (int k = 1; k <= 200; ++k) {
       const double left =
@@ -267,7 +267,7 @@ TEST(SensorTest, NoiseIsBoxAndMullersFromTheMersenneTwister) {
     const long double angle_draw = std::ldexp(static_cast<long double>(generator() >> 11), -53);
     const long double expected = static_cast<long double>(noise_N) *
                                  std::sqrt(-2.0L * std::log(radius_draw)) *
-                                 std::sin(pi_l * (2.0L * angle_draw - 1.0L));
+                                 std::sin(tests::long_pi * (2.0L * angle_draw - 1.0L));
     EXPECT_NEAR(sample, static_cast<double>(expected), 0.51 * unit * full_scale_N);
   }
 }

@@ -15,6 +15,10 @@ namespace sonoglide::loop {
 namespace {
 
 using scene::Scene;
+using tests::carrier_Hz;
+using tests::period_s;
+using tests::pi;
+using tests::table_1;
 
 double friction_ratio_of_steady_orbit(Scene scene) {
   scene.run.start = scene::Start::steady;

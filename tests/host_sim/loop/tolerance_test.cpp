@@ -15,11 +15,12 @@
 #include "host_sim/configure/solver_facts.hpp"
 #include "host_sim/configure/solver_methods.hpp"
 #include "host_sim/loop/run.hpp"
+#include "tests/common/constants/pi.hpp"
 
 namespace sonoglide::loop {
 namespace {
 
-constexpr double two_pi = 6.28318530717958647693;
+using tests::two_pi;
 constexpr int scene_count = 60;
 constexpr int periods = 100;
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "tests/common/constants/table_1_numbers.hpp"
 #include "tests/common/table_1.hpp"
 #include "tests/host_sim/loop/logs/logged_run.hpp"
 
@@ -12,6 +13,10 @@ namespace sonoglide::loop {
 namespace {
 
 using scene::Scene;
+using tests::period_s;
+using tests::pi;
+using tests::table_1;
+using tests::table_1_closed_loop;
 
 /// mu_s is half as large again, the curve is halfway down at 17 mm/s.
 const scene::laws::LuGre bristles = {0.15, 0.02, 0.01, 0.02};
@@ -20,7 +25,8 @@ const scene::laws::Stribeck curve = {0.75, 100.0};
 
 Scene with_law(Scene scene, const scene::FrictionLaw& law) {
   scene.friction.law = law;
-  scene.friction.contact_stiffness_N_per_m = scene::is_elastic(law) ? 0.056e6 : 0.0;
+  scene.friction.contact_stiffness_N_per_m =
+      scene::is_elastic(law) ? tests::Table1::contact_stiffness_N_per_m : 0.0;
   return scene;
 }
 
@@ -62,7 +68,8 @@ TEST(UndrivenFrictionTest, OfBristlesOnARampIsTheErrorFunction) {
                                            stretch(duration_s, 0.0, end_m_per_s / duration_s));
     const double part = end_m_per_s / 0.02;
     const double bell = 0.5 * std::sqrt(pi) * std::erf(part) / part;
-    const double mean = 1.0 + 0.5 * bell + 0.02 * 0.5 * end_m_per_s / (0.1 * 0.02 * 9.81);
+    const double mean =
+        1.0 + 0.5 * bell + 0.02 * 0.5 * end_m_per_s / tests::Table1::friction_limit_N;
     EXPECT_NEAR(energy.undriven_s / duration_s, mean, 1e-9) << end_m_per_s;
   }
 }
@@ -134,7 +141,7 @@ struct Formula {
 
 TEST(UndrivenFrictionTest, AClosedLoopOnTargetIsShownOnIt) {
   constexpr double v = 0.02672;
-  constexpr double normal_N = 0.02 * 9.81;
+  constexpr double normal_N = tests::Table1::normal_force_N;
   const Formula formulas[] = {
       {bristles, normal_N * (0.1 + 0.05 * std::exp(-v * v / 0.0004)) + 0.02 * v},
       {curve, normal_N * (0.1 - 0.75 * v + 100.0 * v * v * v)}};

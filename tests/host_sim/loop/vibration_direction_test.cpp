@@ -8,11 +8,18 @@
 #include "firmware/friction/transverse_vibration_ratio.hpp"
 #include "host_sim/configure/solver_methods.hpp"
 #include "host_sim/loop/run.hpp"
+#include "tests/common/constants/table_1_numbers.hpp"
 #include "tests/common/table_1.hpp"
 #include "tests/host_sim/loop/logs/logged_run.hpp"
 
 namespace sonoglide::loop {
 namespace {
+
+using tests::compliance_m_per_N;
+using tests::on_steady_orbit;
+using tests::period_s;
+using tests::table_1;
+using tests::table_1_closed_loop;
 
 PowerRatios window_ratios(const scene::Scene& scene) {
   return power_ratios(scene, run_logged(scene).result.window);
@@ -116,8 +123,10 @@ TEST(NormalSceneTest, EnergyIdentity) {
 
 /// Below resonance, in phase with the drive, the orbit begins with more friction than mu N0.
 TEST(NormalSceneTest, SteadyOrbitIsTheClosedForms) {
-  const double inertia_N_per_m = 0.02 * std::pow(2.0 * pi * carrier_Hz, 2);
-  for (const double stiffness_N_per_m : {133e6, 2.0 * inertia_N_per_m - 133e6}) {
+  constexpr double inertia_N_per_m = tests::Table1::inertia_N_per_m;
+  constexpr double table_1_N_per_m = tests::Table1::stiffness_N_per_m;
+  for (const double stiffness_N_per_m :
+       {table_1_N_per_m, 2.0 * inertia_N_per_m - table_1_N_per_m}) {
     scene::Scene scene = table_1();
     scene.plant.stiffness_N_per_m = stiffness_N_per_m;
     scene.plant.damping_N_s_per_m = 20.0;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "host_sim/output/page.hpp"
+#include "tests/common/constants/pi.hpp"
 
 namespace sonoglide::output {
 namespace {
@@ -97,7 +98,7 @@ TEST(PageHtml, WritesNanAndInfinityAsNull) {
 }
 
 TEST(PageHtml, KeepsSevenDigitsOfOrdinates) {
-  const double pi = 3.14159265358979323846;
+  using tests::pi;
   const std::vector<double> y = {pi, -pi * 1e-7, pi * 1e300, 5e-324};
   const nlohmann::json written =
       only_chart(page_of(panel({0.0, 1.0, 2.0, 3.0}, y))).at("series").at(0).at("y");

@@ -6,10 +6,12 @@
 #include <cmath>
 #include <cstddef>
 
+#include "tests/common/constants/pi.hpp"
+
 namespace sonoglide::report {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+using tests::pi;
 constexpr int samples_per_cycle = 64;
 constexpr double amplitude_m = 1e-6;
 constexpr double presliding_m = 0.35e-6;

@@ -7,10 +7,12 @@
 #include <cstddef>
 #include <vector>
 
+#include "tests/common/constants/pi.hpp"
+
 namespace sonoglide::report {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+using tests::pi;
 
 /// Samples of a sine whose frequency is given in cycles per record.
 std::vector<double> sine(std::size_t samples, double cycles, double amplitude, double phase = 0.3) {

@@ -8,17 +8,17 @@
 #include <vector>
 
 #include "host_sim/batch/run_dahl_plants.hpp"
+#include "tests/common/constants/table_1_numbers.hpp"
 
 namespace sonoglide::batch {
 
 /// Table 1 at 384 N from rest, swept over velocity ratio 0.05 to 1.2 and, in equal ratios, contact
 /// stiffness 1e4 to 1e6 N/m: `side` by `side` points.
 inline std::vector<DahlPlant> table_1_sweep(std::size_t side) {
-  constexpr double mass_kg = 0.02;
+  using tests::Table1;
   constexpr double force_N = 384.0;
-  constexpr double friction_N = 0.1 * mass_kg * 9.81;
-  const double omega = 2.0 * 3.14159265358979323846 * 60e3;
-  const double length_m = force_N / (mass_kg * omega * omega);
+  constexpr double friction_N = Table1::friction_limit_N;
+  constexpr double length_m = force_N / Table1::inertia_N_per_m;
   std::vector<DahlPlant> plants;
   for (std::size_t i = 0; i < side; ++i) {
     for (std::size_t j = 0; j < side; ++j) {
@@ -26,7 +26,7 @@ inline std::vector<DahlPlant> table_1_sweep(std::size_t side) {
       const double velocity_ratio = 0.05 + 1.15 * static_cast<double>(i) / last;
       const double contact_N_per_m = 1e4 * std::pow(100.0, static_cast<double>(j) / last);
       DahlPlant plant;
-      plant.stiffness = 133e6 / (mass_kg * omega * omega);
+      plant.stiffness = Table1::stiffness_N_per_m / Table1::inertia_N_per_m;
       plant.friction_force = friction_N / force_N;
       plant.contact_stiffness = contact_N_per_m * length_m / friction_N;
       plant.sliding_velocity = velocity_ratio / (1.0 - plant.stiffness);

@@ -11,10 +11,11 @@
 #include "firmware/plant/observer.hpp"
 #include "firmware/plant/taylor/event_taylor.hpp"
 #include "host_sim/batch/run_dahl_plants.hpp"
+#include "tests/common/constants/pi.hpp"
 
 namespace sonoglide::batch {
 
-inline constexpr double two_pi = 6.28318530717958647693;
+using tests::two_pi;
 
 /// Order 16, tolerance 1e-12, one interval for each period.
 inline DahlRun scalar_run(const DahlPlant& plant, const RunLength& length) {

@@ -5,11 +5,12 @@
 #include <cmath>
 
 #include "design_scenes.hpp"
+#include "tests/common/constants/pi.hpp"
 
 namespace sonoglide::design {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+using tests::pi;
 
 // rho = (2/pi) asin(Vt/v), so v = Vt/sin(pi rho/2).
 TEST(ClosedFormVibrationTest, IsTheInverseOfCoulombsArcSine) {

@@ -2,21 +2,25 @@
 #pragma once
 
 #include "host_sim/scene/scene.hpp"
+#include "tests/common/constants/pi.hpp"
+#include "tests/common/constants/table_1_numbers.hpp"
 
 namespace sonoglide::design {
+
+using tests::Table1;
 
 /// The paper's Table 1 with 1920 N at most, sliding at 26.72 mm/s.
 inline scene::Scene table_1() {
   scene::Scene scene;
-  scene.plant.mass_kg = 0.02;
-  scene.plant.stiffness_N_per_m = 133e6;
+  scene.plant.mass_kg = Table1::mass_kg;
+  scene.plant.stiffness_N_per_m = Table1::stiffness_N_per_m;
   scene.friction.law = scene::laws::Dahl{};
-  scene.friction.coefficient = 0.1;
-  scene.friction.normal_force_N = 0.02 * 9.81;
-  scene.friction.contact_stiffness_N_per_m = 0.056e6;
+  scene.friction.coefficient = Table1::friction_coefficient;
+  scene.friction.normal_force_N = Table1::normal_force_N;
+  scene.friction.contact_stiffness_N_per_m = Table1::contact_stiffness_N_per_m;
   scene.sliding.profile = {{0.0, 0.02672}};
   scene.drive.emplace();
-  scene.drive->frequency_Hz = 60e3;
+  scene.drive->frequency_Hz = Table1::carrier_Hz;
   scene.drive->max_force_amplitude_N = 1920.0;
   scene.run.duration_s = 6e-3;
   scene.controller.emplace();
@@ -45,7 +49,7 @@ inline scene::Scene stribeck() {
 /// Natural and drive frequency are one; damping, heavy friction, and little force.
 inline scene::Scene resonant() {
   scene::Scene scene = table_1();
-  const double omega = 6.283185307179586 * scene.drive->frequency_Hz;
+  const double omega = tests::two_pi * scene.drive->frequency_Hz;
   scene.plant.stiffness_N_per_m = scene.plant.mass_kg * omega * omega;
   scene.plant.damping_N_s_per_m = 200.0;
   scene.friction.normal_force_N = 20.0;

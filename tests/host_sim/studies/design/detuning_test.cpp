@@ -8,6 +8,7 @@
 
 #include "design_scenes.hpp"
 #include "host_sim/studies/design/sensitivity.hpp"
+#include "tests/common/constants/pi.hpp"
 
 namespace sonoglide::design {
 namespace {
@@ -51,7 +52,7 @@ TEST(DetuneTest, PowerIsTheSameOnAnySpring) {
 TEST(DetuneTest, SensitivityToTheSpringGrowsTowardsResonance) {
   scene::Scene scene = coulomb();
   const double ratio = 0.5;
-  const double r = std::sin(0.25 * 3.14159265358979323846);
+  const double r = std::sin(0.25 * tests::pi);
   const double by_vibration = r / (std::sqrt(1.0 - r * r) * 0.7853981633974483);
   const Detuning detuning = detuning_at(scene, ratio);
   ASSERT_TRUE(detuning.sensitive);

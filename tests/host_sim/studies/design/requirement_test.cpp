@@ -7,11 +7,13 @@
 #include <cmath>
 
 #include "design_scenes.hpp"
+#include "tests/common/constants/pi.hpp"
+#include "tests/common/constants/table_1_numbers.hpp"
 
 namespace sonoglide::design {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+using tests::pi;
 
 // Known answers at Table 1, within 1 %.
 TEST(RequireRatioTest, HasTheKnownForcesOfTable1) {
@@ -51,8 +53,8 @@ TEST(RequireRatioTest, IsMetByTheSteadyOrbit) {
 // Friction of 0.02 N does not bend a motion under hundreds of newtons: F = |Ks - m w^2| v/w.
 TEST(RequireRatioTest, OfCoulombIsTheArcSinesInverse) {
   const scene::Scene scene = coulomb();
-  const double omega = 2.0 * pi * 60e3;
-  const double stiffness = std::abs(133e6 - 0.02 * omega * omega);
+  const double omega = Table1::carrier_rad_per_s;
+  const double stiffness = std::abs(Table1::stiffness_N_per_m - Table1::inertia_N_per_m);
   for (const double ratio : {0.1, 0.3, 0.5, 0.9}) {
     const double vibration_m_per_s = 0.02672 / std::sin(0.5 * pi * ratio);
     const Requirement found = require_ratio(scene, 0.02672, ratio);
@@ -70,7 +72,7 @@ TEST(RequireRatioTest, OfCoulombIsTheArcSinesInverse) {
 // phi_fu of Coulomb: (2/pi)(asin z + sqrt(1 - z^2)/z), z the velocity ratio.
 TEST(RequireRatioTest, TellsWhatCoulombFrictionTakes) {
   const SteadyMotion motion = require_ratio(coulomb(), 0.02672, 1.0 / 3.0).motion;
-  const double undriven_W = 0.02 * 9.81 * 0.1 * 0.02672;
+  const double undriven_W = Table1::friction_limit_N * 0.02672;
   EXPECT_NEAR(motion.undriven_friction_power_W, undriven_W, 1e-12 * undriven_W);
   EXPECT_NEAR(motion.friction_power_W, 1.4360 * undriven_W, 2e-3 * undriven_W);
 }
@@ -109,7 +111,7 @@ TEST(RequireRatioTest, AsksForNothingWhereTheContactHasTheRatioUndriven) {
 // mu_s - alpha v + beta v^3.
 TEST(RequireRatioTest, TellsWhatAStribeckContactTakesUndriven) {
   const SteadyMotion motion = require_ratio(stribeck(), 0.1, 0.8).motion;
-  const double undriven_W = 0.02 * 9.81 * (0.1 - 0.1 * 0.1 + 0.5 * 0.001) * 0.1;
+  const double undriven_W = Table1::normal_force_N * (0.1 - 0.1 * 0.1 + 0.5 * 0.001) * 0.1;
   EXPECT_NEAR(motion.undriven_friction_power_W, undriven_W, 1e-12 * undriven_W);
 }
 

@@ -10,11 +10,13 @@
 
 #include "design_scenes.hpp"
 #include "host_sim/studies/design/requirement.hpp"
+#include "tests/common/constants/pi.hpp"
+#include "tests/common/constants/table_1_numbers.hpp"
 
 namespace sonoglide::design {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+using tests::pi;
 
 using BySymbol = std::map<std::string, double>;
 
@@ -36,8 +38,7 @@ TEST(SensitivityTest, OfCoulombIsTheDerivativeOfTheArcSine) {
   const double ratio = 0.4;
   const double r = std::sin(0.5 * pi * ratio);
   const double by_r = r / (std::sqrt(1.0 - r * r) * 0.5 * pi * ratio);
-  const double inertia = 0.02 * std::pow(2.0 * pi * 60e3, 2);
-  const double spring = 133e6 / (inertia - 133e6);
+  const double spring = Table1::stiffness_N_per_m * Table1::compliance_m_per_N;
   BySymbol found = logarithmic(at_ratio(coulomb(), ratio));
   EXPECT_NEAR(found["Vt"], by_r, 2e-3 * by_r);
   EXPECT_NEAR(found["Fe"], -by_r, 2e-3 * by_r);

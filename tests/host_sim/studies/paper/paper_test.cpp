@@ -21,6 +21,7 @@
 #include "host_sim/studies/paper/measurements.hpp"
 #include "host_sim/studies/paper/runs.hpp"
 #include "host_sim/studies/paper/table_1.hpp"
+#include "tests/common/constants/pi.hpp"
 
 namespace sonoglide::paper {
 namespace {
@@ -164,7 +165,7 @@ TEST(PaperTest, Figure12SaysWhichOfItsClaimsCannotBeChecked) {
 // Coulomb says 1 - (2/pi) asin(Vt/v), v = 2 pi 26 kHz 0.35 um, whatever is not published; with the
 // softest contact, kappa to 0, Dahl says 1 - pi r / (2 (sqrt(1 - r^2) + r asin r)).
 TEST(PaperTest, MeasurementsStandBesideWhatTheLawsSay) {
-  const double pi = std::acos(-1.0);
+  using tests::pi;
   EXPECT_NEAR(luo_peak_m_per_s(), 2.0 * pi * 26e3 * 0.35e-6, 1e-12);
   const double r = 1e-4 / luo_peak_m_per_s();
   const std::vector<MeasurementComparison> all = compare_measurements();

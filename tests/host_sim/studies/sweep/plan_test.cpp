@@ -8,6 +8,7 @@
 
 #include "host_sim/scene_file/reader.hpp"
 #include "host_sim/scene_file/to_json.hpp"
+#include "tests/common/constants/table_1_numbers.hpp"
 #include "tests/host_sim/studies/sweep/scenes/base_scenes.hpp"
 #include "tests/host_sim/studies/sweep/scenes/scratch_scene.hpp"
 
@@ -98,12 +99,13 @@ TEST(PlanTest, TheVelocityRatioFollowsTheImpedanceOfThePoint) {
   const Plan plan(scene_file::read_source(scratch.file()), {},
                   {"velocity_ratio=0.5:1:2", "plant.damping_N_s_per_m=0:5000:2"});
   const std::complex<double> i(0.0, 1.0);
-  const double omega = 2.0 * 3.14159265358979323846 * 60e3;
+  using tests::Table1;
+  constexpr double omega = Table1::carrier_rad_per_s;
+  constexpr double spring = Table1::stiffness_N_per_m - Table1::inertia_N_per_m;
   for (std::size_t point = 0; point < 4; ++point) {
     const double damping = point % 2 == 0 ? 0.0 : 5000.0;
     const double ratio = point < 2 ? 0.5 : 1.0;
-    const double peak =
-        384.0 * omega / std::abs(133e6 - 0.02 * omega * omega + i * damping * omega);
+    const double peak = 384.0 * omega / std::abs(spring + i * damping * omega);
     const scene::Sliding sliding = plan.scene(point).sliding;
     ASSERT_EQ(sliding.profile.size(), 1U);
     EXPECT_NEAR(sliding.profile[0].velocity_m_per_s, ratio * peak, 1e-15);

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "host_sim/studies/work_precision/gragg_bulirsch_stoer.hpp"
+#include "tests/common/constants/pi.hpp"
 #include "tests/host_sim/studies/work_precision/peers/published/published_problems.hpp"
 
 namespace sonoglide::work_precision {
@@ -66,7 +67,7 @@ TEST(ReferenceTest, WithoutDriveTheContactStartsUpAsDahlSays) {
   problem.sliding_velocity = 0.7;
   problem.periods = 2;
   const CheckedReference computed = checked_reference(problem);
-  const long double z = 0.3L * 0.7L * 2.0L * 6.28318530717958647693L;
+  const long double z = 0.3L * 0.7L * 4.0L * tests::long_pi;
   EXPECT_NEAR(static_cast<double>(computed.motion.friction_ratio),
               static_cast<double>(1.0L + std::expm1(-z) / z), 1e-15);
 }

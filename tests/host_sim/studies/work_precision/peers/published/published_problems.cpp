@@ -4,20 +4,22 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "tests/common/constants/table_1_numbers.hpp"
+
 namespace sonoglide::peers {
 namespace {
 
-constexpr double mass_kg = 0.02;
-constexpr double stiffness_N_per_m = 133e6;
-constexpr double omega_rad_per_s = carrier_period * 60e3;
+using tests::Table1;
+
+constexpr double omega_rad_per_s = Table1::carrier_rad_per_s;
 constexpr double drive_N = 384.0;
 /// The length scale is that of a free mass under the drive.
-constexpr double inertia_N_per_m = mass_kg * omega_rad_per_s * omega_rad_per_s;
+constexpr double inertia_N_per_m = Table1::inertia_N_per_m;
 constexpr double length_m = drive_N / inertia_N_per_m;
 
 double friction_limit_N(const std::string& name) {
-  const double normal_N = name == "heavy_friction" ? 2000.0 : mass_kg * 9.81;
-  return 0.1 * normal_N;
+  const double normal_N = name == "heavy_friction" ? 2000.0 : Table1::normal_force_N;
+  return Table1::friction_coefficient * normal_N;
 }
 
 }  // namespace
@@ -28,10 +30,10 @@ std::vector<std::string> published_names() {
 
 Problem published_problem(const std::string& name) {
   const bool table_1 = name.rfind("table1", 0) == 0;
-  const double contact_N_per_m = table_1 ? 0.056e6 : 1e9;
+  const double contact_N_per_m = table_1 ? Table1::contact_stiffness_N_per_m : 1e9;
   const double limit_N = friction_limit_N(name);
   Problem problem{};
-  problem.stiffness = stiffness_N_per_m / inertia_N_per_m;
+  problem.stiffness = Table1::stiffness_N_per_m / inertia_N_per_m;
   problem.friction_force = limit_N / drive_N;
   problem.contact_stiffness = contact_N_per_m * length_m / limit_N;
   problem.vibration_sign = name == "table1_as_printed" ? -1.0 : 1.0;

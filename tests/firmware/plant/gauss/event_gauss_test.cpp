@@ -5,9 +5,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdint>
 #include <random>
 
-#include "motion.hpp"
+#include "tests/firmware/plant/runs/motion.hpp"
 
 namespace sonoglide::plant {
 namespace {
@@ -18,8 +19,10 @@ using Gauss12 = EventGauss<Contact, 12>;
 using Taylor16 = EventTaylor<Contact, 16>;
 
 constexpr double period = 2.0 * pi;
-const Contact weak = {{{0.4}, 5e-5, 1.0}, {0.01}, 0.05};
-const Interval<double> ordinary = {0.3, period, 1.0, 0.5, 0.002};
+const Contact weak =
+    Case().contact_stiffness(0.4).friction_force(5e-5).damping(0.01).stiffness(0.05);
+const Interval<double> ordinary =
+    lasting(period).from_phase(0.3).driven(1.0).sliding(0.5).accelerating(0.002);
 const State<double> start = {0.1, 0.2, -0.3};
 
 struct Reached {
@@ -50,13 +53,20 @@ class Plants {
     const double beta = std::pow(10.0, uniform(-8.0, -3.0)) / std::fmax(1.0, kappa);
     const double sign = uniform(-1.0, 1.0) < 0.0 ? -1.0 : 1.0;
     const double damping = std::pow(10.0, uniform(-3.0, 0.3));
-    return {{{kappa}, beta, sign},
-            {uniform(0.0, 1.0) < 0.5 ? 0.0 : damping},
-            std::pow(10.0, uniform(-3.0, 0.3))};
+    return Case()
+        .contact_stiffness(kappa)
+        .friction_force(beta)
+        .vibration_sign(sign)
+        .damping(uniform(0.0, 1.0) < 0.5 ? 0.0 : damping)
+        .stiffness(std::pow(10.0, uniform(-3.0, 0.3)));
   }
   Interval<double> interval() {
     const double acceleration = uniform(0.0, 1.0) < 0.5 ? 0.0 : uniform(-0.02, 0.02);
-    return {uniform(0.0, 6.28), period, uniform(0.1, 2.0), uniform(-1.5, 1.5), acceleration};
+    return lasting(period)
+        .from_phase(uniform(0.0, 6.28))
+        .driven(uniform(0.1, 2.0))
+        .sliding(uniform(-1.5, 1.5))
+        .accelerating(acceleration);
   }
   State<double> state() { return {uniform(-1.0, 1.0), uniform(-1.0, 1.0), uniform(-1.0, 1.0)}; }
 
@@ -116,6 +126,56 @@ TEST(EventGauss, IsOneStepForACarrierPeriodOfAWeakContact) {
   EXPECT_EQ(run.cost.events, 2U);
 }
 
+/// Without reaction of friction the oscillator moves alone: over carrier periods, each of them a
+/// panel and none of it Taylor's.
+template <class Solver>
+State<double> oscillator_after_panels(const Case& oscillator, int periods,
+                                      const State<double>& from, double tolerance) {
+  auto solver = configured<Solver>(oscillator.contact_stiffness(0.02), tolerance);
+  State<double> state = from;
+  MeanFriction<double> account;
+  EXPECT_EQ(run_periods(solver, periods, 1.0, 0.5, state, account), Error::none);
+  EXPECT_EQ(solver.cost().steps, static_cast<std::uint64_t>(periods));
+  return state;
+}
+
+template <class Solver>
+void expect_the_oscillator(double tolerance) {
+  constexpr int periods = 3;
+  constexpr double duration = periods * period;
+  const double k = 0.37;
+  const double w = std::sqrt(k);
+  const State<double> driven =
+      oscillator_after_panels<Solver>(Case().stiffness(k), periods, {}, tolerance);
+  EXPECT_NEAR(driven.displacement, (1.0 - std::cos(w * duration)) / (k - 1.0), tolerance);
+  EXPECT_NEAR(driven.velocity, w * std::sin(w * duration) / (k - 1.0), tolerance);
+
+  const State<double> resonant =
+      oscillator_after_panels<Solver>(Case().stiffness(1.0), periods, {}, tolerance);
+  EXPECT_NEAR(resonant.displacement, 0.0, tolerance);
+  EXPECT_NEAR(resonant.velocity, 0.5 * duration, tolerance);
+
+  const State<double> orbit = {1.0 / (k - 1.0), 0.0, 0.0};
+  const State<double> steady =
+      oscillator_after_panels<Solver>(Case().stiffness(k), periods, orbit, tolerance);
+  EXPECT_NEAR(steady.displacement, orbit.displacement, tolerance);
+  EXPECT_NEAR(steady.velocity, 0.0, tolerance);
+
+  // y = Re(exp(i tau) / (k - 1 + i d)) on the damped orbit.
+  const double d = 0.2;
+  const double square = (k - 1.0) * (k - 1.0) + d * d;
+  const State<double> damped_orbit = {(k - 1.0) / square, d / square, 0.0};
+  const State<double> damped = oscillator_after_panels<Solver>(Case().damping(d).stiffness(k),
+                                                               periods, damped_orbit, tolerance);
+  EXPECT_NEAR(damped.displacement, damped_orbit.displacement, tolerance);
+  EXPECT_NEAR(damped.velocity, damped_orbit.velocity, tolerance);
+}
+
+TEST(EventGauss, MovesTheOscillatorAsInClosedForm) {
+  expect_the_oscillator<Gauss8>(1e-8);
+  expect_the_oscillator<Gauss12>(1e-10);
+}
+
 /// Whatever is no panel is Taylor's, bit for bit.
 void expect_taylor(const Contact& model, const Interval<double>& interval,
                    const State<double>& from) {
@@ -130,8 +190,8 @@ void expect_taylor(const Contact& model, const Interval<double>& interval,
 }
 
 TEST(EventGauss, LeavesToTaylorWhatIsNoPanel) {
-  expect_taylor(weak, {0.3, 0.9 * period, 1.0, 0.5, 0.0}, start);
-  expect_taylor(weak, {0.3, 3.0 * period, 1.0, 0.5, 0.0}, start);
+  expect_taylor(weak, lasting(0.9 * period).from_phase(0.3).driven(1.0).sliding(0.5), start);
+  expect_taylor(weak, lasting(3.0 * period).from_phase(0.3).driven(1.0).sliding(0.5), start);
   Contact strong = weak;
   strong.friction_force = 0.3;
   expect_taylor(strong, ordinary, start);
@@ -145,22 +205,23 @@ TEST(EventGauss, LeavesToTaylorWhatIsNoPanel) {
 }
 
 TEST(EventGauss, LeavesToTaylorReversalsThatAreNotCertain) {
-  const Contact bare = {{{0.4}, 0.0, 1.0}, {0.0}, 0.0};
+  const Contact bare = Case().contact_stiffness(0.4);
   // V = r + sin(tau): zero at the beginning, at the end, touching zero, and all but touching it.
-  expect_taylor(bare, {0.0, period, 1.0, 0.0, 0.0}, {-1.0, 0.0, 0.0});
-  expect_taylor(bare, {0.0, period, 1.0, 1e-6, 0.0}, {-1.0, 0.0, 0.0});
-  expect_taylor(bare, {0.0, period, 1.0, 1.0, 0.0}, {-1.0, 0.0, 0.0});
-  expect_taylor(bare, {0.0, period, 1.0, 1.0001, 0.0}, {-1.0, 0.0, 0.0});
+  expect_taylor(bare, lasting(period).driven(1.0), {-1.0, 0.0, 0.0});
+  expect_taylor(bare, lasting(period).driven(1.0).sliding(1e-6), {-1.0, 0.0, 0.0});
+  expect_taylor(bare, lasting(period).driven(1.0).sliding(1.0), {-1.0, 0.0, 0.0});
+  expect_taylor(bare, lasting(period).driven(1.0).sliding(1.0001), {-1.0, 0.0, 0.0});
 }
 
 TEST(EventGauss, LeavesToTaylorAMotionThatRoundingWouldLose) {
   // A mass that hardly moves about a place far off; a fast slide over a mass that hardly moves; and
   // one over a contact so soft that the energy is lost beside what the slide spends.
-  expect_taylor({{{4e11}, 5e-21, 1.0}, {3e-6}, 0.0}, {0.0, period, 2e-17, 2e-13, 0.0},
-                {1.0, 0.0, 0.0});
-  expect_taylor({{{5e-14}, 1.0, 1.0}, {8e-6}, 2e-6}, {0.0, period, 1e-6, 46.0, 0.0}, {});
-  expect_taylor({{{6e-15}, 1.0, 1.0}, {0.0}, 0.0}, {0.0, period, 2e-7, 158.0, 0.0},
-                {0.0, 9e-4, 0.0});
+  expect_taylor(Case().contact_stiffness(4e11).friction_force(5e-21).damping(3e-6),
+                lasting(period).driven(2e-17).sliding(2e-13), {1.0, 0.0, 0.0});
+  expect_taylor(Case().contact_stiffness(5e-14).friction_force(1.0).damping(8e-6).stiffness(2e-6),
+                lasting(period).driven(1e-6).sliding(46.0), {});
+  expect_taylor(Case().contact_stiffness(6e-15).friction_force(1.0),
+                lasting(period).driven(2e-7).sliding(158.0), {0.0, 9e-4, 0.0});
 }
 
 TEST(EventGauss, TellsOfAStateThatIsNotFinite) {
@@ -176,16 +237,16 @@ TEST(EventGauss, TheStepLimitIsTaylors) {
   State<double> state;
   NoAccount account;
   EXPECT_EQ(advance(solver, ordinary, state, account).error, Error::none);
-  EXPECT_EQ(advance(solver, {0.0, 3.0 * period, 1.0, 0.5, 0.0}, state, account).error,
+  EXPECT_EQ(advance(solver, lasting(3.0 * period).driven(1.0).sliding(0.5), state, account).error,
             Error::too_many_steps);
 }
 
 TEST(EventGauss, SolvesAnUndrivenContact) {
   using Undriven = Model<friction::Dahl<double>, Undamped<double>, NoDrive>;
-  const Undriven model = {{{0.7}, 1e-5, 1.0}, {}, 0.1};
+  const Undriven model = Case().contact_stiffness(0.7).friction_force(1e-5).stiffness(0.1);
   auto gauss = configured<EventGauss<Undriven, 8>>(model, 1e-8);
   auto taylor = configured<EventTaylor<Undriven, 16>>(model, 1e-15);
-  const Interval<double> interval = {0.0, period, 0.0, 0.1, 0.0};
+  const Interval<double> interval = lasting(period).sliding(0.1);
   const State<double> before = {0.4, 0.3, 0.2};
   State<double> state = before;
   EnergyAccount<double> account;
@@ -245,8 +306,9 @@ TEST(EventGauss, SeeingAndAccountingChangeNoBit) {
 
 TEST(EventGauss, MirroredMotionIsTheMirrorImageBitForBit) {
   const Reached one = reached<Gauss8>(weak, 1e-8, ordinary, start);
-  const Reached other =
-      reached<Gauss8>(weak, 1e-8, {0.3, period, -1.0, -0.5, -0.002}, {-0.1, -0.2, 0.3});
+  const Reached other = reached<Gauss8>(
+      weak, 1e-8, lasting(period).from_phase(0.3).driven(-1.0).sliding(-0.5).accelerating(-0.002),
+      {-0.1, -0.2, 0.3});
   EXPECT_EQ(one.cost.steps, 1U);
   EXPECT_EQ(one.state.displacement, -other.state.displacement);
   EXPECT_EQ(one.state.velocity, -other.state.velocity);

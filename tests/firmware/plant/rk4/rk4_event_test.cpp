@@ -1,4 +1,4 @@
-/// Runge–Kutta with located reversals: their number and place, budgets, and what it cannot do.
+/// Runge–Kutta with located reversals: their number and place, and what it cannot do.
 
 #include "firmware/plant/rk4/rk4_event.hpp"
 
@@ -7,8 +7,7 @@
 #include <cmath>
 #include <vector>
 
-#include "firmware/plant/strang/equal_step_strang.hpp"
-#include "motion.hpp"
+#include "tests/firmware/plant/runs/motion.hpp"
 
 namespace sonoglide::plant {
 namespace {
@@ -22,16 +21,16 @@ static_assert(!Solver::solves<friction::Coulomb<double>>);
 static_assert(Rk4<Contact>::solves<friction::Coulomb<double>>);
 
 /// No reaction of friction and no spring: from rest v = a sin(tau), V = r + a sin(tau).
-const Contact prescribed = {{{0.5}, 0.0, 1.0}, {}, 0.0};
+const Contact prescribed = Case().contact_stiffness(0.5);
 
 std::uint64_t reversals(double drive_amplitude, double sliding_velocity, double step) {
   auto solver = configured<Solver>(prescribed, step);
   State<double> state;
   NoAccount account;
-  EXPECT_EQ(
-      advance(solver, {0.0, 20.0 * pi, drive_amplitude, sliding_velocity, 0.0}, state, account)
-          .error,
-      Error::none);
+  EXPECT_EQ(advance(solver, lasting(20.0 * pi).driven(drive_amplitude).sliding(sliding_velocity),
+                    state, account)
+                .error,
+            Error::none);
   return solver.cost().events;
 }
 
@@ -63,7 +62,8 @@ TEST(Rk4EventReversal, StepsEndAtTheReversals) {
   NoAccount account;
   std::vector<double> ends;
   auto watch = [&](const auto& step) { ends.push_back(step.begin() + step.length()); };
-  ASSERT_EQ(solver.advance({0.0, 2.0 * pi, 1.0, r, 0.0}, state, account, watch).error, Error::none);
+  ASSERT_EQ(solver.advance(lasting(2.0 * pi).driven(1.0).sliding(r), state, account, watch).error,
+            Error::none);
   for (const double reversal : {pi + std::asin(r), 2.0 * pi - std::asin(r)}) {
     double nearest = 1.0;
     for (const double end : ends) {
@@ -78,9 +78,10 @@ TEST(Rk4EventReversal, AtTheEndOfAnInterval) {
   for (const double cut : {0.0, 1e-16, 1e-12, 1e-7, -1e-7}) {
     auto solver = configured<Solver>(prescribed, 0.05);
     const double first = pi + std::asin(0.3) + cut;
-    State<double> state = advanced(solver, {0.0, first, 1.0, 0.3, 0.0}, {});
-    state = advanced(solver, {first, 2.0 * pi - first, 1.0, 0.3, 0.0}, state);
-    const State<double> whole = advanced(solver, {0.0, 2.0 * pi, 1.0, 0.3, 0.0}, {});
+    State<double> state = advanced(solver, lasting(first).driven(1.0).sliding(0.3), {});
+    state = advanced(solver, lasting(2.0 * pi - first).from_phase(first).driven(1.0).sliding(0.3),
+                     state);
+    const State<double> whole = advanced(solver, lasting(2.0 * pi).driven(1.0).sliding(0.3), {});
     EXPECT_NEAR(state.friction, whole.friction, 1e-7) << cut;
   }
 }
@@ -91,7 +92,9 @@ TEST(Rk4EventReversal, SinglePrecisionAlwaysGoesOn) {
   for (int i = 0; i < 400; ++i) {
     const float r = 0.9F + 0.0005F * static_cast<float>(i);
     for (const float sign : {1.0F, -1.0F}) {
-      const Single model = {{{0.4F}, 0.01F, sign}, {}, 0.05F};
+      const Single model =
+          Case().contact_stiffness(0.4F).friction_force(0.01F).vibration_sign(sign).stiffness(
+              0.05F);
       Rk4Event<Single> solver;
       solver.configure(model, 0.1F, 200);
       State<float> state;
@@ -103,68 +106,30 @@ TEST(Rk4EventReversal, SinglePrecisionAlwaysGoesOn) {
 
 TEST(Rk4EventError, AStiffContactIsReportedNotGuessed) {
   // kappa |V| step = 2: stable, and wrong by more than the friction itself.
-  auto solver = configured<Solver>({{{20.0}, 0.0, 1.0}, {}, 0.0}, 0.1);
+  auto solver = configured<Solver>(Case().contact_stiffness(20.0), 0.1);
   State<double> state;
   NoAccount account;
-  const Outcome<double> outcome = advance(solver, {0.0, 1.0, 0.0, 1.0, 0.0}, state, account);
+  const Outcome<double> outcome = advance(solver, lasting(1.0).sliding(1.0), state, account);
   EXPECT_EQ(outcome.error, Error::step_too_long);
   EXPECT_EQ(outcome.offset, 0.0);
   EXPECT_EQ(state.friction, 0.0);
 }
 
 TEST(Rk4EventError, AFullySlidingStiffContactIsNoTrouble) {
-  auto solver = configured<Solver>({{{1e9}, 1e-12, 1.0}, {}, 0.0}, 0.1);
+  auto solver = configured<Solver>(Case().contact_stiffness(1e9).friction_force(1e-12), 0.1);
   State<double> state = {0.0, 0.0, 1.0};
   MeanFriction<double> account;
-  EXPECT_EQ(advance(solver, {0.0, 20.0, 0.5, 1.0, 0.0}, state, account).error, Error::none);
+  EXPECT_EQ(advance(solver, lasting(20.0).driven(0.5).sliding(1.0), state, account).error,
+            Error::none);
   EXPECT_EQ(state.friction, 1.0);
   EXPECT_NEAR(account.friction_integral, 20.0, 1e-12);
 }
 
 TEST(Rk4EventError, ARingingThatTheStepCannotFollow) {
-  auto solver = configured<Solver>({{{1e4}, 0.5, 1.0}, {}, 0.0}, 0.02);
+  auto solver = configured<Solver>(Case().contact_stiffness(1e4).friction_force(0.5), 0.02);
   State<double> state = {1e-11, 0.0, 1e-7};
   NoAccount account;
-  EXPECT_EQ(advance(solver, {0.0, 1.0, 0.0, 0.0, 0.0}, state, account).error, Error::step_too_long);
-}
-
-template <class FixedStep>
-void expect_budget_kept() {
-  FixedStep solver;
-  solver.configure(prescribed, 0.1, 62);
-  State<double> state;
-  NoAccount account;
-  NoObserver observer;
-  const Interval<double> period = {0.0, 2.0 * pi, 1.0, 0.5, 0.0};
-  const Outcome<double> outcome = solver.advance(period, state, account, observer);
-  EXPECT_EQ(outcome.error, Error::too_many_steps);
-  EXPECT_EQ(outcome.offset, 0.0);
-  EXPECT_EQ(solver.cost().steps, 0U) << "known before the first step";
-}
-
-TEST(FixedStepBudget, IsKnownBeforeTheFirstStep) {
-  expect_budget_kept<Rk4<Contact>>();
-  expect_budget_kept<Rk4Event<Contact>>();
-  expect_budget_kept<Strang<Contact>>();
-}
-
-TEST(FixedStepBudget, CountsThePartsOfCutSteps) {
-  Solver solver;
-  solver.configure(prescribed, 0.1, 64);
-  State<double> state;
-  NoAccount account;
-  const Outcome<double> outcome = advance(solver, {0.0, 2.0 * pi, 1.0, 0.5, 0.0}, state, account);
-  EXPECT_EQ(outcome.error, Error::too_many_steps);
-  EXPECT_GT(outcome.offset, 6.0);
-  EXPECT_EQ(solver.cost().steps, 64U);
-}
-
-TEST(FixedStepBudget, StepsThatFitButForRoundingFit) {
-  EXPECT_EQ(fixed_step_count(1.0, 0.1, 100U), 10U);
-  EXPECT_EQ(fixed_step_count(1.0, 0.0999, 100U), 11U);
-  EXPECT_EQ(fixed_step_count(0.0, 0.1, 100U), 0U);
-  EXPECT_EQ(fixed_step_count(1.0, 0.1, 9U), 10U);
-  EXPECT_EQ(fixed_step_count(1e300, 1e-300, 9U), 10U);
+  EXPECT_EQ(advance(solver, lasting(1.0), state, account).error, Error::step_too_long);
 }
 
 }  // namespace

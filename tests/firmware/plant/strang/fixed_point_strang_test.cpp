@@ -19,22 +19,29 @@
 #include "firmware/plant/observer.hpp"
 #include "firmware/plant/strang/equal_step_strang.hpp"
 #include "firmware/plant/strang/fixed_point_strang_design.hpp"
+#include "tests/common/constants/pi.hpp"
+#include "tests/common/constants/table_1_numbers.hpp"
 
 namespace sonoglide::plant {
 namespace {
 
-constexpr double two_pi = 6.28318530717958647693;
+using tests::two_pi;
 
 using Model = plant::Model<friction::Dahl<double>, Damped<double>, CosineDrive>;
 
-/// Table 1 at 60 kHz, in units of the vibration that 1920 N cause.
-const Model table_1{{{1.8417}, 1.0696e-5, 1.0}, {0.0}, 0.04679};
-constexpr double table_1_drive = 1.04679;
-constexpr double table_1_sliding = 0.10984;
+/// Table 1 with 1920 N at most, sliding at 26.72 mm/s.
+constexpr double full_drive_N = 1920.0;
+constexpr tests::DimensionlessTable1 numbers(full_drive_N);
+const Model table_1 = Case()
+                          .contact_stiffness(numbers.contact_stiffness)
+                          .friction_force(numbers.friction_force)
+                          .stiffness(numbers.stiffness);
+constexpr double table_1_drive = 1.0;
+constexpr double table_1_sliding =
+    0.02672 * tests::Table1::inertia_N_per_m / (full_drive_N * tests::Table1::carrier_rad_per_s);
 
 double mean_friction(FixedStrang& plant, double amplitude) {
-  return static_cast<double>(plant.advance(static_cast<std::int32_t>(amplitude * 0x1p31))) *
-         0x1p-36;
+  return static_cast<double>(plant.advance(numeric::to_code(amplitude))) * 0x1p-36;
 }
 
 /// The same in double, steps enough to be as good as exact here.
@@ -49,8 +56,8 @@ class DoublePlant {
   double mean_friction(double amplitude) {
     MeanFriction<double> account;
     NoObserver nobody;
-    solver_.advance({0.0, two_pi, amplitude * full_drive_, sliding_velocity_, 0.0}, state_, account,
-                    nobody);
+    solver_.advance(lasting(two_pi).driven(amplitude * full_drive_).sliding(sliding_velocity_),
+                    state_, account, nobody);
     return account.friction_integral / two_pi;
   }
 
@@ -116,7 +123,12 @@ TEST(FixedStrangTest, WithoutDriveFrictionTendsToItsLimit) {
 }
 
 TEST(FixedStrangTest, FollowsDampingTheSignAsPrintedAndAnInitialState) {
-  const Model printed{{{1.5}, 2e-3, -1.0}, {0.02}, 0.3};
+  const Model printed = Case()
+                            .contact_stiffness(1.5)
+                            .friction_force(2e-3)
+                            .vibration_sign(-1.0)
+                            .damping(0.02)
+                            .stiffness(0.3);
   const State<double> initial{0.4, -0.2, 0.5};
   FixedStrang fixed = designed(printed, 0.7, -0.2, initial);
   DoublePlant exact(printed, 0.7, -0.2, 64.0, initial);
@@ -130,7 +142,7 @@ RC_GTEST_PROP(FixedStrangTest, StaysInBoundsWhateverTheContactAndTheDrive, ()) {
   const double kappa = std::exp2(*rc::gen::inRange(-60, 60) / 10.0);
   const double sliding = *rc::gen::inRange(-190, 190) / 100.0;
   const double stiffness = *rc::gen::inRange(0, 80) / 100.0;
-  const Model model{{{kappa}, 1e-4, 1.0}, {0.0}, stiffness};
+  const Model model = Case().contact_stiffness(kappa).friction_force(1e-4).stiffness(stiffness);
   FixedStrang fixed = designed(model, 1.0, sliding);
   for (int k = 0; k < 50; ++k) {
     const auto code = static_cast<std::int32_t>(*rc::gen::arbitrary<std::uint32_t>() >> 1U);
@@ -144,7 +156,7 @@ RC_GTEST_PROP(FixedStrangTest, FollowsTheDoublePlantInAnyOrdinaryContact, ()) {
   const double sliding = *rc::gen::inRange(-150, 150) / 100.0;
   const double stiffness = *rc::gen::inRange(0, 50) / 100.0;
   const double amplitude = *rc::gen::inRange(0, 1000) / 1000.0;
-  const Model model{{{kappa}, 1e-5, 1.0}, {0.0}, stiffness};
+  const Model model = Case().contact_stiffness(kappa).friction_force(1e-5).stiffness(stiffness);
   FixedStrang fixed = designed(model, 1.0, sliding);
   DoublePlant exact(model, 1.0, sliding, 64.0);
   const double step = two_pi / 32.0;

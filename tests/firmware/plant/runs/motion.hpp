@@ -11,10 +11,13 @@
 #include "firmware/plant/observer.hpp"
 #include "firmware/plant/rk4/rk4.hpp"
 #include "firmware/plant/taylor/event_taylor.hpp"
+#include "tests/common/constants/pi.hpp"
+#include "tests/firmware/plant/runs/case.hpp"
+#include "tests/firmware/plant/runs/course.hpp"
 
 namespace sonoglide::plant {
 
-constexpr double pi = 3.14159265358979323846;
+using tests::pi;
 
 template <class Scalar>
 using DahlModel = Model<friction::Dahl<Scalar>, Undamped<Scalar>, CosineDrive>;
@@ -56,9 +59,9 @@ template <class Solver, class Account>
 Error run_periods(Solver& solver, int periods, typename Solver::Scalar drive_amplitude,
                   typename Solver::Scalar sliding_velocity, StateFor<Solver>& state,
                   Account& account) {
-  using Scalar = typename Solver::Scalar;
-  const Interval<Scalar> period = {Scalar(0), static_cast<Scalar>(2.0 * pi), drive_amplitude,
-                                   sliding_velocity, Scalar(0)};
+  const auto wide = [](auto x) { return static_cast<double>(x); };
+  const Interval<typename Solver::Scalar> period =
+      lasting(2.0 * pi).driven(wide(drive_amplitude)).sliding(wide(sliding_velocity));
   for (int i = 0; i < periods; ++i) {
     const Error error = advance(solver, period, state, account).error;
     if (error != Error::none) {

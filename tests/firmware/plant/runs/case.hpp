@@ -1,0 +1,55 @@
+/// A plant in words: Case().contact_stiffness(1.2).friction_force(0.3).stiffness(0.4).
+#pragma once
+
+#include <type_traits>
+
+#include "firmware/friction/dahl.hpp"
+#include "firmware/plant/model.hpp"
+
+namespace sonoglide::plant {
+
+/// Numbers in double, rounded to a model's scalar where they enter it; a model takes those that it
+/// has. What is not said is 0, and the vibration dissipates.
+class Case {
+ public:
+  constexpr Case contact_stiffness(double kappa) const { return with(&Case::kappa_, kappa); }
+  constexpr Case friction_force(double beta) const { return with(&Case::beta_, beta); }
+  constexpr Case vibration_sign(double sigma) const { return with(&Case::sigma_, sigma); }
+  constexpr Case damping(double d) const { return with(&Case::d_, d); }
+  constexpr Case stiffness(double k) const { return with(&Case::k_, k); }
+
+  template <class Law, class Damping, class Drive, class Sliding>
+  constexpr operator Model<Law, Damping, Drive, Sliding>() const {
+    using Scalar = typename Law::Scalar;
+    static_assert(!Law::varies || std::is_same_v<Law, friction::Dahl<Scalar>>,
+                  "other laws have numbers of their own");
+    Model<Law, Damping, Drive, Sliding> model{};
+    if constexpr (Law::varies) {
+      model.law.contact_stiffness = static_cast<Scalar>(kappa_);
+    }
+    if constexpr (Law::reverses) {
+      model.friction_force = static_cast<Scalar>(beta_);
+      model.vibration_sign = static_cast<Scalar>(sigma_);
+    }
+    if constexpr (!std::is_empty_v<Damping>) {
+      model.damping = static_cast<Scalar>(d_);
+    }
+    model.stiffness = static_cast<Scalar>(k_);
+    return model;
+  }
+
+ private:
+  constexpr Case with(double Case::*member, double value) const {
+    Case changed = *this;
+    changed.*member = value;
+    return changed;
+  }
+
+  double kappa_ = 0.0;
+  double beta_ = 0.0;
+  double sigma_ = 1.0;
+  double d_ = 0.0;
+  double k_ = 0.0;
+};
+
+}  // namespace sonoglide::plant
