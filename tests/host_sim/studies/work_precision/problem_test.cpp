@@ -12,7 +12,8 @@ namespace {
 
 scene::Scene table_1() {
   scene::Scene scene;
-  scene.plant = {0.02, 133e6, 0.0, 0.0, 0.0};
+  scene.plant.mass_kg = 0.02;
+  scene.plant.stiffness_N_per_m = 133e6;
   scene.friction.law = scene::laws::Dahl{};
   scene.friction.coefficient = 0.1;
   scene.friction.normal_force_N = 0.1962;
