@@ -25,11 +25,12 @@ void natural_mode(const NaturalModeOptions& options) {
   const SceneInput input(options.scene);
   const scene::Scene scene = input.read();
   const std::string table = input.with_places([&] { return natural_mode::table(scene); });
-  output::OutputFolder folder(output_folder(options.out, scene.name, "_natural_mode"));
+  const std::filesystem::path out = output_folder(options.out, scene.name, "_natural_mode");
+  output::OutputFolder folder(out);
   folder.write("natural_mode.csv", table);
   folder.commit();
   if (!options.quiet) {
-    fmt::print("table: {}\n", text::printable((folder.target() / "natural_mode.csv").string()));
+    fmt::print("table: {}\n", text::printable((out / "natural_mode.csv").string()));
   }
 }
 
