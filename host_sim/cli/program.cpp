@@ -6,8 +6,10 @@
 #include <cstdio>
 #include <exception>
 #include <string_view>
+#include <vector>
 
 #include "host_sim/cli/commands.hpp"
+#include "host_sim/cli/program.hpp"
 #include "host_sim/cli/usage.hpp"
 #include "host_sim/loop/run.hpp"
 #include "host_sim/output/output_folder.hpp"
@@ -24,11 +26,12 @@ void flush_output() {
   }
 }
 
-void parse_and_run(int argument_count, const char* const* arguments) {
+void parse_and_run(int argument_count, const char* const* arguments,
+                   const std::vector<AddCommand>& command_list) {
   CLI::App program("Ultrasonic friction control: simulation of plant and controller", "sonoglide");
   program.set_version_flag("--version", "sonoglide " SONOGLIDE_VERSION);
   program.require_subcommand(0, 1);
-  for (const auto add_command : commands) {
+  for (const AddCommand add_command : command_list) {
     add_command(program);
   }
   require_known_words(program, argument_count, arguments);
@@ -57,9 +60,10 @@ int fail_usage(std::string_view message) {
 
 }  // namespace
 
-int run_program(int argument_count, const char* const* arguments) {
+int run_program(int argument_count, const char* const* arguments,
+                const std::vector<AddCommand>& command_list) {
   try {
-    parse_and_run(argument_count, arguments);
+    parse_and_run(argument_count, arguments, command_list);
     return done;
   } catch (const CLI::ParseError& error) {
     return fail_usage(process::printable(error.what()));

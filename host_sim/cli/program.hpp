@@ -1,6 +1,10 @@
 /// The command line as a whole.
 #pragma once
 
+#include <CLI/CLI.hpp>
+
+#include <vector>
+
 namespace sonoglide::cli {
 
 enum ExitCode : int {
@@ -10,7 +14,12 @@ enum ExitCode : int {
   computation_failed = 3,  ///< time, state and reason are on stderr
 };
 
+/// Adds a command, with its options, to the program.
+using AddCommand = void (*)(CLI::App& program);
+
 /// Parses, runs the command, reports any failure on stderr; returns an ExitCode.
-int run_program(int argument_count, const char* const* arguments);
+/// @param command_list  in the order of the help
+int run_program(int argument_count, const char* const* arguments,
+                const std::vector<AddCommand>& command_list);
 
 }  // namespace sonoglide::cli

@@ -1,4 +1,4 @@
-#include "host_sim/cli/commands.hpp"
+#include "host_sim/cli/stability_command.hpp"
 
 #include <fmt/format.h>
 
@@ -8,6 +8,7 @@
 #include <memory>
 #include <string>
 
+#include "host_sim/cli/commands.hpp"
 #include "host_sim/cli/options.hpp"
 #include "host_sim/cli/progress_bar.hpp"
 #include "host_sim/cli/run_watch.hpp"
@@ -25,8 +26,6 @@ struct StabilityOptions {
   bool quiet = false;
 };
 
-constexpr std::uint64_t random_scenes = 100000;
-
 /// What would stop the report at the end stops it here.
 void require_output(const std::filesystem::path& out) {
   output::require_gnuplot();
@@ -35,17 +34,18 @@ void require_output(const std::filesystem::path& out) {
             "stability_map_float32.svg", "extremes.csv", "extremes_worst.csv"});
 }
 
-stability::StabilityStudy compute(bool quiet, const process::Interruption& interruption) {
+stability::Study compute(const StabilityWork& work, bool quiet,
+                         const process::Interruption& interruption) {
   ProgressBar bar(stderr, !quiet);
-  return stability::study(stability::full_grid(), random_scenes, watching(bar, interruption));
+  return stability::study(work.grid, work.random_scenes, watching(bar, interruption));
 }
 
 /// Throws report::OutputError, process::ProcessError; in each case nothing was written.
-void stability(const StabilityOptions& options) {
+void stability(const StabilityOptions& options, const StabilityWork& work) {
   const std::filesystem::path out = options.out;
   require_output(out);
   const process::Interruption interruption;
-  const stability::StabilityStudy study = compute(options.quiet, interruption);
+  const stability::Study study = compute(work, options.quiet, interruption);
   stability::write_study(out, study);
   if (!options.quiet) {
     fmt::print("{}report: {}\n", stability::study_text(study.extremes),
@@ -55,7 +55,7 @@ void stability(const StabilityOptions& options) {
 
 }  // namespace
 
-void add_stability_command(CLI::App& program) {
+void add_stability_command_for(CLI::App& program, const StabilityWork& work) {
   const auto options = std::make_shared<StabilityOptions>();
   CLI::App* command = program.add_subcommand(
       "stability", "Where each solver can be trusted: maps over step and stiffness, extreme cases");
@@ -63,7 +63,12 @@ void add_stability_command(CLI::App& program) {
                     "report.html, stability_map.csv and .svg, the same for float32, extremes.csv "
                     "and extremes_worst.csv [out/stability]");
   command->add_flag("--quiet", options->quiet, "No progress bar and no printed summary");
-  command->callback([options] { stability(*options); });
+  command->callback([options, work] { stability(*options, work); });
+}
+
+void add_stability_command(CLI::App& program) {
+  constexpr std::uint64_t random_scenes = 100000;
+  add_stability_command_for(program, {stability::full_grid(), random_scenes});
 }
 
 }  // namespace sonoglide::cli

@@ -3,12 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <fstream>
 #include <map>
-#include <sstream>
 #include <string>
 #include <vector>
 
+#include "tests/common/csv/csv.hpp"
 #include "tests/random_loops/loops/outcome.hpp"
 #include "tests/random_loops/loops/random_loop.hpp"
 #include "tests/random_loops/loops/table.hpp"
@@ -24,23 +23,24 @@ const std::vector<Outcome>& all() {
   return once;
 }
 
-/// The rows of a table that are about so many loops, after its header.
-std::vector<std::string> rows(std::istream& table) {
-  std::vector<std::string> found;
-  for (std::string line; std::getline(table, line);) {
-    if (found.empty() || line.rfind(std::to_string(count) + ",", 0) == 0) {
-      found.push_back(line);
+/// The rows of a table that are about so many loops.
+std::vector<csv::Cells> rows(const csv::Table& table) {
+  std::vector<csv::Cells> found;
+  for (const csv::Row& row : table.rows()) {
+    if (row.text("loops") == std::to_string(count)) {
+      found.push_back(row.cells());
     }
   }
   return found;
 }
 
 TEST(RandomLoopsTest, EndAsRecorded) {
-  std::ifstream file(SONOGLIDE_RANDOM_LOOPS_TABLE);
-  std::istringstream computed(table_csv(all(), {count}));
-  const std::vector<std::string> recorded_rows = rows(file);
-  const std::vector<std::string> computed_rows = rows(computed);
-  ASSERT_GT(computed_rows.size(), 1U);
+  const csv::Table recorded = csv::read_file(SONOGLIDE_RANDOM_LOOPS_TABLE);
+  const csv::Table computed(table_csv(all(), {count}));
+  EXPECT_EQ(computed.columns(), recorded.columns());
+  const std::vector<csv::Cells> recorded_rows = rows(recorded);
+  const std::vector<csv::Cells> computed_rows = rows(computed);
+  ASSERT_GE(computed_rows.size(), 1U);
   ASSERT_EQ(recorded_rows.size(), computed_rows.size());
   for (std::size_t i = 0; i < computed_rows.size(); ++i) {
     EXPECT_EQ(computed_rows[i], recorded_rows[i])

@@ -1,5 +1,8 @@
+#include "host_sim/cli/commands.hpp"
 #include "host_sim/cli/program.hpp"
 
 int main(int argument_count, char** arguments) {
-  return sonoglide::cli::run_program(argument_count, arguments);
+  return sonoglide::cli::run_program(
+      argument_count, arguments,
+      {sonoglide::cli::commands.begin(), sonoglide::cli::commands.end()});
 }

@@ -1,7 +1,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -28,42 +27,9 @@ class RunOutputTest : public testing::Test {
   nlohmann::json echo(const std::string& summary) const {
     return nlohmann::json::parse(folder_.read(summary)).at("scene");
   }
-  void expect_no_output(const std::string& arguments, const std::string& error) const {
-    const Entries before = folder_.entries();
-    const Outcome outcome = folder_.run(arguments);
-    EXPECT_EQ(outcome.exit_code, 1);
-    EXPECT_EQ(outcome.err, error + "\n");
-    EXPECT_EQ(outcome.out, "");
-    EXPECT_EQ(folder_.entries(), before);
-  }
 
   ScratchFolder folder_;
 };
-
-TEST_F(RunOutputTest, GoesByDefaultToAFolderNamedAfterTheScene) {
-  const Outcome outcome = folder_.run("run scene.toml");
-  EXPECT_EQ(outcome.exit_code, 0);
-  EXPECT_EQ(outcome.err, "") << "no progress bar on a pipe";
-  EXPECT_NE(outcome.out.find("report.html"), std::string::npos);
-  EXPECT_EQ(folder_.entries(),
-            (Entries{"out", "out/scene", "out/scene/.sonoglide", "out/scene/periods.csv",
-                     "out/scene/report.html", "out/scene/summary.json", "out/scene/trace.csv",
-                     "scene.toml"}));
-}
-
-TEST_F(RunOutputTest, GoesWhereTheUserWantsIt) {
-  EXPECT_EQ(folder_.run("run scene.toml --out a/b").exit_code, 0);
-  EXPECT_EQ(folder_.entries(),
-            (Entries{"a", "a/b", "a/b/.sonoglide", "a/b/periods.csv", "a/b/report.html",
-                     "a/b/summary.json", "a/b/trace.csv", "scene.toml"}));
-}
-
-TEST_F(RunOutputTest, QuietPrintsNothing) {
-  const Outcome outcome = folder_.run("run scene.toml --quiet");
-  EXPECT_EQ(outcome.exit_code, 0);
-  EXPECT_EQ(outcome.out, "");
-  EXPECT_EQ(outcome.err, "");
-}
 
 TEST_F(RunOutputTest, ASecondRunReplacesTheFirst) {
   EXPECT_EQ(folder_.run("run scene.toml --quiet").exit_code, 0);
@@ -110,30 +76,6 @@ TEST_F(RunOutputTest, OverridesReplaceAndAddAndTheLastOneWins) {
   EXPECT_EQ(scene.at("friction").at("sign_convention"), "as_printed");
   EXPECT_EQ(scene.at("friction").at("normal_force_N"), 0.04 * 9.81) << "defaults follow overrides";
   EXPECT_EQ(scene.at("solver").at("tolerance"), 1e-8);
-}
-
-TEST_F(RunOutputTest, AFileInTheWayIsFoundBeforeTheRun) {
-  folder_.write("taken", "");
-  expect_no_output("run scene.toml --out taken", folder_name() + "/taken: is a file, not a folder");
-}
-
-TEST_F(RunOutputTest, AFileAmongTheParentsIsFoundBeforeTheRun) {
-  folder_.write("taken", "");
-  expect_no_output("run scene.toml --out taken/deep/results",
-                   folder_name() + "/taken: is a file, not a folder");
-}
-
-TEST_F(RunOutputTest, ALinkToNothingIsFoundBeforeTheRun) {
-  std::filesystem::create_symlink("nowhere", folder_.path() / "link");
-  expect_no_output("run scene.toml --out link",
-                   folder_name() + "/link: is a symbolic link to nothing");
-}
-
-TEST_F(RunOutputTest, AFolderThatNobodyMayWriteToIsFoundBeforeTheRun) {
-  const Outcome outcome = folder_.run("run scene.toml --out /proc/results");
-  EXPECT_EQ(outcome.exit_code, 1);
-  EXPECT_EQ(outcome.err, "/proc/results: cannot be written: No such file or directory\n");
-  EXPECT_EQ(folder_.entries(), Entries{"scene.toml"});
 }
 
 TEST_F(RunOutputTest, ABadSceneIsReportedBeforeABadFolder) {

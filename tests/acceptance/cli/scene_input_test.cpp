@@ -22,37 +22,6 @@ class SceneInputTest : public testing::Test {
   ScratchFolder folder_;
 };
 
-// Each from the end of what it checks, so that nothing is computed for long.
-const std::vector<std::string> scene_commands = {"run -",
-                                                 "pil - --board mps2-an386",
-                                                 "configure -",
-                                                 "sweep - --vary velocity_ratio=0.1:1:3",
-                                                 "work-precision -",
-                                                 "arithmetic -",
-                                                 "design -"};
-
-TEST_F(SceneInputTest, EveryCommandReadsStandardInputAndPlacesErrorsThere) {
-  folder_.write("bad.toml", "[plant]\nmass_kg = -1\n");
-  for (const std::string& command : scene_commands) {
-    const Outcome outcome = folder_.run(command + " <bad.toml");
-    EXPECT_EQ(outcome.exit_code, 2) << command;
-    EXPECT_EQ(outcome.err,
-              "<stdin>:2:11: plant.mass_kg: -1 is out of range; allowed: 1e-12 to 1e+06 kg\n")
-        << command;
-  }
-}
-
-TEST_F(SceneInputTest, EveryCommandTakesOverrides) {
-  for (const std::string& command : scene_commands) {
-    const Outcome outcome =
-        folder_.run(command + " --set plant.damping_N_s_per_m=0 --set plant.mass_kg=-1 <open.toml");
-    EXPECT_EQ(outcome.exit_code, 2) << command;
-    EXPECT_EQ(outcome.err,
-              "--set:2:1: plant.mass_kg: -1 is out of range; allowed: 1e-12 to 1e+06 kg\n")
-        << command;
-  }
-}
-
 TEST_F(SceneInputTest, StandardInputIsTheSceneStdin) {
   EXPECT_EQ(folder_.run("run - --quiet <open.toml").exit_code, 0);
   EXPECT_NE(folder_.read("out/stdin/summary.json"), "");

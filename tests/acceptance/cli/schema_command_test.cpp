@@ -23,17 +23,5 @@ TEST(SchemaCommandTest, PrintsTheFileThatTheExamplesName) {
   EXPECT_TRUE(folder.entries().empty());
 }
 
-TEST(SchemaCommandTest, HasNoOptions) {
-  const ScratchFolder folder;
-  for (const char* option : {"--quiet", "--out=a", "--set=a.b=1"}) {
-    const Outcome outcome = folder.run(std::string("schema ") + option);
-    EXPECT_EQ(outcome.exit_code, 2) << option;
-    EXPECT_EQ(outcome.out, "") << option;
-    EXPECT_NE(outcome.err.find(" is no option of schema; allowed: --help"), std::string::npos)
-        << outcome.err;
-  }
-  EXPECT_EQ(folder.run("schema --help").exit_code, 0);
-}
-
 }  // namespace
 }  // namespace sonoglide::acceptance

@@ -4,11 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 #include <string>
 #include <vector>
 
 #include "tests/acceptance/closed_loop/runs/closed_loop.hpp"
+#include "tests/common/csv/csv.hpp"
 
 namespace sonoglide::acceptance {
 namespace {
@@ -24,17 +24,11 @@ std::vector<DrivenPeriod> periods_of(const std::string& scene, Settings settings
   const ScratchFolder folder;
   settings.emplace_back("run.record=[\"velocity_m_per_s\"]");
   run_scene(folder, scene, settings);
-  std::istringstream rows(folder.read("out/periods.csv"));
+  const csv::Table table(folder.read("out/periods.csv"));
   std::vector<DrivenPeriod> periods;
-  std::string row;
-  std::getline(rows, row);
-  while (std::getline(rows, row)) {
-    std::istringstream cells(row);
-    std::string cell[4];
-    for (std::string& each : cell) {
-      std::getline(cells, each, ',');
-    }
-    periods.push_back({std::stod(cell[0]), std::stod(cell[1]), std::stod(cell[3])});
+  for (const csv::Row& row : table.rows()) {
+    periods.push_back(
+        {row.number("time_s"), row.number("friction_ratio"), row.number("drive_amplitude_N")});
   }
   return periods;
 }
@@ -82,12 +76,15 @@ TEST_P(StopTest, NeverRaisesTheDrive) {
       }
     }
     ASSERT_GT(before_N, 100.0);
+    int checked = 0;
     for (const DrivenPeriod& period : periods) {
       if (period.time_s > 4e-3) {
         ASSERT_LE(period.drive_amplitude_N, before_N * 1.005)
             << "stop in " << duration_s << " s, at " << period.time_s << " s";
+        ++checked;
       }
     }
+    EXPECT_NEAR(checked, 8e-3 * 60e3, 2.0);
   }
 }
 
@@ -95,14 +92,21 @@ TEST_P(StopTest, TakesTheDriveAwayAfterTheStatedTime) {
   Settings settings = stop(50e-6, GetParam());
   settings.emplace_back("controller.standstill_hold_s=2e-3");
   const auto periods = periods_of("stop_and_start", settings);
+  const double gone_s = 4.1e-3 + 2e-3 + 145.0 / 60e3;
+  int held = 0;
+  int gone = 0;
   for (const DrivenPeriod& period : periods) {
     if (period.time_s > 4.5e-3 && period.time_s < 6e-3) {
       ASSERT_GT(period.drive_amplitude_N, 100.0) << period.time_s;
+      ++held;
     }
-    if (period.time_s > 4.1e-3 + 2e-3 + 145.0 / 60e3) {
+    if (period.time_s > gone_s) {
       ASSERT_EQ(period.drive_amplitude_N, 0.0) << period.time_s;
+      ++gone;
     }
   }
+  EXPECT_NEAR(held, 1.5e-3 * 60e3, 2.0);
+  EXPECT_NEAR(gone, (12e-3 - gone_s) * 60e3, 2.0);
 }
 
 INSTANTIATE_TEST_SUITE_P(Spacings, StopTest, testing::Values("133e6", "7e6"));
@@ -135,11 +139,14 @@ TEST(FrictionJumpTest, IsLearntInTheNextPause) {
     EXPECT_NEAR(step_of(summary).at("steady_error").get<double>(), 0.0, 0.002);
     settings.pop_back();
     settings.back() = "controller.relearn_every_s=20e-3";
+    int checked = 0;
     for (const DrivenPeriod& period : periods_of("target_step", settings)) {
       if (period.time_s > 60e-3 + 14.0 / 60e3 && period.time_s < 80e-3) {
         ASSERT_NEAR(period.friction_ratio, 0.5, 0.02) << factor << " at " << period.time_s;
+        ++checked;
       }
     }
+    EXPECT_NEAR(checked, 20e-3 * 60e3 - 14.0, 2.0);
   }
 }
 
@@ -176,7 +183,9 @@ TEST(RelearningTest, LeavesWhatFeedbackHasFound) {
   settings.emplace_back("controller.relearn_every_s=1.5e-3");
   const nlohmann::json summary = summary_of("target_step", settings);
   EXPECT_LT(step_of(summary).at("settling_time_s"), 2e-3);
+  // Every 1.5 ms in 20 ms, and a pause takes some periods itself.
   EXPECT_GE(summary.at("control").at("relearning").at("pauses"), 12);
+  EXPECT_LE(summary.at("control").at("relearning").at("pauses"), 13);
 }
 
 TEST(RelearningTest, TellsWhatThePausesCost) {
@@ -185,6 +194,7 @@ TEST(RelearningTest, TellsWhatThePausesCost) {
                                  "controller.relearn_every_s=0.1", "run.duration_s=1"});
   const nlohmann::json& cost = summary.at("control").at("relearning");
   EXPECT_EQ(cost.at("pauses"), 9);
+  EXPECT_GE(cost.at("time_fraction").get<double>(), 9.0 * 10.0 / 60e3) << "ten periods each";
   EXPECT_LE(cost.at("time_fraction").get<double>(), 0.0025);
   EXPECT_GT(cost.at("ratio_cost").get<double>(), 0.0);
   EXPECT_LE(cost.at("ratio_cost").get<double>(), 0.001);

@@ -1,12 +1,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <sstream>
 #include <string>
 #include <vector>
 
 #include "tests/acceptance/closed_loop/runs/closed_loop.hpp"
 #include "tests/common/constants/pi.hpp"
+#include "tests/common/csv/csv.hpp"
 
 namespace sonoglide::acceptance {
 namespace {
@@ -14,26 +14,6 @@ namespace {
 constexpr double period_s = 1.0 / 60e3;
 constexpr double step_time_s = 2e-3;
 constexpr double limit_N = 1920.0;
-
-/// Columns time_s and drive_force_N of a trace.
-struct Trace {
-  std::vector<double> time_s;
-  std::vector<double> drive_force_N;
-};
-
-Trace trace_of(const std::string& csv) {
-  std::istringstream lines(csv);
-  std::string line;
-  std::getline(lines, line);
-  EXPECT_EQ(line, "time_s,friction_force_N,drive_force_N");
-  Trace trace;
-  while (std::getline(lines, line)) {
-    const std::size_t first = line.find(',');
-    trace.time_s.push_back(std::stod(line.substr(0, first)));
-    trace.drive_force_N.push_back(std::stod(line.substr(line.find(',', first + 1) + 1)));
-  }
-  return trace;
-}
 
 class UnreachableTargetTest : public testing::TestWithParam<std::string> {
  protected:
@@ -59,16 +39,22 @@ TEST_P(UnreachableTargetTest, SaturatesAndSaysSo) {
 TEST_P(UnreachableTargetTest, IsAtTheLimitThreePeriodsAfterTheStep) {
   const ScratchFolder folder;
   run_scene(folder, "unreachable_target", with({}));
-  const Trace trace = trace_of(folder.read("out/trace.csv"));
-  ASSERT_EQ(trace.time_s.size(), 6001U);
-  for (std::size_t i = 0; i < trace.time_s.size(); ++i) {
-    const double since_s = trace.time_s[i] - step_time_s;
+  const csv::Table trace(folder.read("out/trace.csv"));
+  EXPECT_EQ(trace.columns(), (csv::Cells{"time_s", "friction_force_N", "drive_force_N"}));
+  ASSERT_EQ(trace.rows().size(), 6001U);
+  int checked = 0;
+  for (const csv::Row& row : trace.rows()) {
+    const double time_s = row.number("time_s");
+    const double since_s = time_s - step_time_s;
     if (since_s >= 3.0 * period_s + 1e-9 && since_s < 2e-3 - 1e-9) {
-      const double phase = std::fmod(trace.time_s[i] / period_s, 1.0);
-      ASSERT_NEAR(trace.drive_force_N[i], limit_N * std::cos(tests::two_pi * phase), 1e-3)
-          << trace.time_s[i];
+      const double phase = std::fmod(time_s / period_s, 1.0);
+      ASSERT_NEAR(row.number("drive_force_N"), limit_N * std::cos(tests::two_pi * phase),
+                  1e-3)
+          << time_s;
+      ++checked;
     }
   }
+  EXPECT_NEAR(checked, (2e-3 - 3.0 * period_s) / 1e-6, 2.0);
 }
 
 TEST_P(UnreachableTargetTest, DoesNotWindUp) {

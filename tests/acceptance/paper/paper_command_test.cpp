@@ -3,14 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <string>
-#include <vector>
 
 #include "tests/acceptance/program/program.hpp"
 
 namespace sonoglide::acceptance {
 namespace {
-
-using Entries = std::vector<std::string>;
 
 TEST(PaperCommand, OneFigureIsItsDataItsPictureAndThePage) {
   const ScratchFolder folder;
@@ -37,23 +34,13 @@ TEST(PaperCommand, Figure12BringsTheMeasurementsAndItsScenes) {
 
 TEST(PaperCommand, BadUsageIsRejected) {
   const ScratchFolder folder;
-  for (const char* arguments : {"paper scene.toml", "paper --figure 1", "paper --figure 13",
-                                "paper --figure two", "paper --out ''"}) {
+  for (const char* arguments : {"paper --figure 1", "paper --figure 13", "paper --figure two"}) {
     const Outcome outcome = folder.run(arguments);
     EXPECT_EQ(outcome.exit_code, 2) << arguments;
     EXPECT_EQ(outcome.out, "") << arguments;
     EXPECT_NE(outcome.err.find("sonoglide --help"), std::string::npos) << arguments;
   }
   EXPECT_TRUE(folder.entries().empty());
-}
-
-TEST(PaperCommand, AFileInTheWayIsFoundBeforeTheComputation) {
-  const ScratchFolder folder;
-  folder.write("taken", "");
-  const Outcome outcome = folder.run("paper --out taken");
-  EXPECT_EQ(outcome.exit_code, 1);
-  EXPECT_EQ(outcome.err, folder.path().string() + "/taken: is a file, not a folder\n");
-  EXPECT_EQ(folder.entries(), Entries{"taken"});
 }
 
 }  // namespace

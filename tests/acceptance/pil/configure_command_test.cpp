@@ -23,15 +23,6 @@ TEST(ConfigureCommandTest, WritesTheHeaderOfAScene) {
   EXPECT_EQ(folder.read("other" + name), header);
 }
 
-TEST(ConfigureCommandTest, SaysWhereASceneHasNoController) {
-  const ScratchFolder folder;
-  const Outcome outcome = folder.run("configure '" SONOGLIDE_SCENES "/table_1_open_loop.toml'");
-  EXPECT_EQ(outcome.exit_code, 2);
-  EXPECT_NE(outcome.err.find("table_1_open_loop.toml:1:1: controller: missing"), std::string::npos)
-      << outcome.err;
-  EXPECT_TRUE(folder.entries().empty());
-}
-
 TEST(ConfigureCommandTest, WritesThePlantAsWellWhereItIsAskedTo) {
   const std::string plant_name = std::string("/") + emulated::plant_header_name;
   const ScratchFolder folder;

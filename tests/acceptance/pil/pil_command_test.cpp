@@ -134,15 +134,6 @@ TEST_F(PilCommandTest, KnowsItsBoards) {
   EXPECT_EQ(folder_.run("pil " + scene_file("target_step")).exit_code, 2);
 }
 
-TEST_F(PilCommandTest, NeedsAClosedLoop) {
-  const Outcome outcome =
-      folder_.run("pil " + scene_file("table_1_open_loop") + " --board mps2-an386");
-  EXPECT_EQ(outcome.exit_code, 2);
-  EXPECT_NE(outcome.err.find("table_1_open_loop.toml:1:1: controller: missing"), std::string::npos)
-      << outcome.err;
-  EXPECT_TRUE(folder_.entries().empty());
-}
-
 TEST_F(PilCommandTest, NeedsABoardThatComputesTheScenesArithmetic) {
   const Outcome outcome =
       folder_.run("pil " + scene_file("target_step_float64") + " --board mps2-an386");

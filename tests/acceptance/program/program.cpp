@@ -62,8 +62,13 @@ std::vector<std::string> ScratchFolder::entries() const {
 }
 
 Outcome ScratchFolder::run(const std::string& arguments, const std::string& inside) const {
+  return run_program(SONOGLIDE_PROGRAM, arguments, inside);
+}
+
+Outcome ScratchFolder::run_program(const std::string& program, const std::string& arguments,
+                                   const std::string& inside) const {
   const ScratchFolder streams;
-  const std::string command = "cd '" + (path_ / inside).string() + "' && '" SONOGLIDE_PROGRAM "' " +
+  const std::string command = "cd '" + (path_ / inside).string() + "' && '" + program + "' " +
                               arguments + " >'" + (streams.path() / "out").string() + "' 2>'" +
                               (streams.path() / "err").string() + "'";
   const int status = std::system(command.c_str());

@@ -31,6 +31,9 @@ class ScratchFolder {
   std::vector<std::string> entries() const;
   /// Runs the program in this folder, or in one inside it; `arguments` are shell words.
   Outcome run(const std::string& arguments, const std::string& inside = ".") const;
+  /// The same with another program that is built from the same rooms.
+  Outcome run_program(const std::string& program, const std::string& arguments,
+                      const std::string& inside = ".") const;
 
  private:
   std::filesystem::path path_;

@@ -1,48 +1,124 @@
-/// `sonoglide stability` from outside: what goes wrong is found before anything is computed.
+/// `sonoglide stability` from outside: its help, and a small one run to its end.
 
 #include <gtest/gtest.h>
 
+#include <memory>
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "host_sim/studies/stability/solver_list.hpp"
 #include "tests/acceptance/program/program.hpp"
+#include "tests/common/csv/csv.hpp"
 
 namespace sonoglide::acceptance {
 namespace {
 
 using Entries = std::vector<std::string>;
 
-TEST(StabilityCommand, HelpNamesItsOptionsAndFiles) {
+TEST(StabilityCommand, HelpNamesItsFiles) {
   const ScratchFolder folder;
   const Outcome outcome = folder.run("stability --help");
   EXPECT_EQ(outcome.exit_code, 0);
   EXPECT_EQ(outcome.err, "");
-  for (const char* part :
-       {"--out", "--quiet", "report.html", "stability_map.csv", "extremes.csv"}) {
+  for (const char* part : {"report.html", "stability_map.csv", "extremes.csv"}) {
     EXPECT_NE(outcome.out.find(part), std::string::npos) << part;
   }
 }
 
-TEST(StabilityCommand, BadUsageIsRejected) {
-  const ScratchFolder folder;
-  for (const char* arguments :
-       {"stability scene.toml", "stability --fast", "stability --out", "stability --out ''"}) {
-    const Outcome outcome = folder.run(arguments);
-    EXPECT_EQ(outcome.exit_code, 2) << arguments;
-    EXPECT_EQ(outcome.out, "") << arguments;
-    EXPECT_NE(outcome.err.find("sonoglide --help"), std::string::npos) << arguments;
+/// One study, looked at from all sides.
+class SmallStability : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    folder_ = std::make_unique<ScratchFolder>();
+    outcome_ = folder_->run_program(SONOGLIDE_SMALL_STABILITY, "stability");
   }
-  EXPECT_TRUE(folder.entries().empty());
+  static void TearDownTestSuite() { folder_.reset(); }
+  static std::string read(const std::string& name) {
+    return folder_->read("out/stability/" + name);
+  }
+  /// Solver and precision of each row; a row twice is there once.
+  static std::set<std::pair<std::string, std::string>> solvers_in(const csv::Table& table) {
+    std::set<std::pair<std::string, std::string>> found;
+    for (const csv::Row& row : table.rows()) {
+      found.emplace(row.text("solver"), row.text("precision"));
+    }
+    return found;
+  }
+  static std::set<std::pair<std::string, std::string>> every_solver() {
+    std::set<std::pair<std::string, std::string>> all;
+    for (const stability::Solver& solver : stability::solvers()) {
+      for (const stability::Precision& precision : solver.precisions) {
+        all.emplace(solver.name, precision.name);
+      }
+    }
+    return all;
+  }
+
+  static std::unique_ptr<ScratchFolder> folder_;
+  static Outcome outcome_;
+};
+
+std::unique_ptr<ScratchFolder> SmallStability::folder_;
+Outcome SmallStability::outcome_;
+
+TEST_F(SmallStability, WritesItsSevenFilesAndSaysWhere) {
+  EXPECT_EQ(outcome_.exit_code, 0) << outcome_.err;
+  EXPECT_EQ(outcome_.err, "") << "no progress bar on a pipe";
+  EXPECT_EQ(outcome_.out.rfind("50 random scenes\n", 0), 0U) << outcome_.out;
+  const std::string last = "\nreport: out/stability/report.html\n";
+  ASSERT_GE(outcome_.out.size(), last.size());
+  EXPECT_EQ(outcome_.out.substr(outcome_.out.size() - last.size()), last);
+  Entries expected{"out", "out/stability"};
+  for (const char* file :
+       {".sonoglide", "extremes.csv", "extremes_worst.csv", "report.html", "stability_map.csv",
+        "stability_map.svg", "stability_map_float32.csv", "stability_map_float32.svg"}) {
+    expected.push_back(std::string("out/stability/") + file);
+  }
+  EXPECT_EQ(folder_->entries(), expected);
 }
 
-TEST(StabilityCommand, AFileInTheWayIsFoundBeforeTheComputation) {
-  const ScratchFolder folder;
-  folder.write("taken", "");
-  const Outcome outcome = folder.run("stability --out taken");
-  EXPECT_EQ(outcome.exit_code, 1);
-  EXPECT_EQ(outcome.out, "");
-  EXPECT_EQ(outcome.err, folder.path().string() + "/taken: is a file, not a folder\n");
-  EXPECT_EQ(folder.entries(), Entries{"taken"});
+TEST_F(SmallStability, CountsEverySceneOfEverySolverOnce) {
+  const csv::Table table(read("extremes.csv"));
+  EXPECT_EQ(table.rows().size(), every_solver().size());
+  EXPECT_EQ(solvers_in(table), every_solver());
+  for (const csv::Row& row : table.rows()) {
+    double scenes = 0.0;
+    for (const char* verdict :
+         {"good", "silent_imbalance", "silent_friction_bound", "silent_not_finite",
+          "declined_friction_bound", "declined_step_too_long", "declined_not_finite",
+          "declined_too_many_steps", "unsupported"}) {
+      scenes += row.number(verdict);
+    }
+    EXPECT_EQ(row.number("scenes"), 50.0);
+    EXPECT_EQ(scenes, 50.0) << row.text("solver");
+    EXPECT_GE(row.number("good"), 1.0) << row.text("solver");
+  }
+  EXPECT_EQ(solvers_in(csv::Table(read("extremes_worst.csv"))), every_solver());
+}
+
+TEST_F(SmallStability, MapsEverySettingAndStiffness) {
+  for (const char* file : {"stability_map.csv", "stability_map_float32.csv"}) {
+    const csv::Table table(read(file));
+    std::set<csv::Cells> cells;
+    for (const csv::Row& row : table.rows()) {
+      cells.insert(
+          {row.text("solver"), row.text("setting"), row.text("contact_stiffness_N_per_m")});
+    }
+    EXPECT_EQ(table.rows().size(), 4 * stability::solvers().size()) << file;
+    EXPECT_EQ(cells.size(), table.rows().size()) << file << ": a cell is there twice";
+  }
+}
+
+TEST_F(SmallStability, ThePageHasTheMapsAndTheTable) {
+  const std::string page = read("report.html");
+  for (const char* part : {"data:image/svg+xml", "Extreme cases: 50 random scenes", "</html>"}) {
+    EXPECT_NE(page.find(part), std::string::npos) << part;
+  }
+  for (const stability::Solver& solver : stability::solvers()) {
+    EXPECT_NE(page.find(solver.name), std::string::npos) << solver.name;
+  }
 }
 
 }  // namespace

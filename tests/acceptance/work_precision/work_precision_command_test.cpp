@@ -1,13 +1,12 @@
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <map>
 #include <memory>
 #include <string>
 #include <vector>
 
-#include "tests/acceptance/program/csv.hpp"
 #include "tests/acceptance/program/program.hpp"
+#include "tests/common/csv/csv.hpp"
 #include "tests/common/scenes.hpp"
 
 namespace sonoglide::acceptance {
@@ -44,26 +43,24 @@ TEST_F(WorkPrecisionTest, WritesItsThreeFiles) {
 }
 
 TEST_F(WorkPrecisionTest, TheTableHasEverySolverAndItsSchema) {
-  std::vector<Cells> table = csv_rows(folder_->read("results/work_precision.csv"));
-  ASSERT_FALSE(table.empty());
-  EXPECT_EQ(table.front(), (Cells{"solver", "setting", "relative_error", "wall_us_per_period",
-                                  "steps_per_period", "status"}));
-  table.erase(table.begin());
-  std::map<std::string, int> rows;
-  for (const Cells& cells : table) {
-    ASSERT_EQ(cells.size(), 6U);
-    ++rows[cells[0]];
-    if (cells[5] == "ok") {
-      EXPECT_GE(std::strtod(cells[2].c_str(), nullptr), 0.0) << cells[0];
-      EXPECT_GT(std::strtod(cells[3].c_str(), nullptr), 0.0) << cells[0];
-      EXPECT_GT(std::strtod(cells[4].c_str(), nullptr), 0.0) << cells[0];
+  const csv::Table table(folder_->read("results/work_precision.csv"));
+  EXPECT_EQ(table.columns(), (csv::Cells{"solver", "setting", "relative_error",
+                                         "wall_us_per_period", "steps_per_period", "status"}));
+  std::map<std::string, int> solved;
+  for (const csv::Row& row : table.rows()) {
+    const std::string& solver = row.text("solver");
+    if (row.text("status") == "ok") {
+      EXPECT_GE(row.number("relative_error"), 0.0) << solver;
+      EXPECT_GT(row.number("wall_us_per_period"), 0.0) << solver;
+      EXPECT_GT(row.number("steps_per_period"), 0.0) << solver;
+      ++solved[solver];
     }
   }
   for (const char* solver :
        {"event_taylor_8", "event_taylor_12", "event_taylor_16", "event_taylor_20", "event_gauss_8",
         "event_gauss_12", "strang", "rk4", "rk4_event", "event_taylor_8_float32", "strang_float32",
         "rk4_float32", "rk4_event_float32", "rk4_table", "rk4_naive"}) {
-    EXPECT_GT(rows[solver], 2) << solver;
+    EXPECT_GT(solved[solver], 2) << solver;
   }
 }
 
@@ -123,24 +120,6 @@ TEST(WorkPrecisionUsageTest, WhatCannotBeComparedIsRefusedByName) {
                  "scene.toml:13:2: run: ");
   expect_refused(replaced("coefficient = 0.1", "coefficient = 0"),
                  "scene.toml:6:15: friction.coefficient: ");
-}
-
-TEST(WorkPrecisionUsageTest, BadUsage) {
-  const ScratchFolder folder;
-  EXPECT_EQ(folder.run("work-precision").exit_code, 2);
-  EXPECT_EQ(folder.run("work-precision none.toml").exit_code, 2);
-  EXPECT_EQ(folder.run("work-precision scene.toml --fast").exit_code, 2);
-  EXPECT_EQ(folder.run("work-precision scene.toml --out ''").exit_code, 2);
-  EXPECT_TRUE(folder.entries().empty());
-}
-
-TEST(WorkPrecisionUsageTest, AFileInTheWayIsFoundBeforeTheComparison) {
-  const ScratchFolder folder;
-  folder.write("short.toml", table_1);
-  folder.write("taken", "");
-  const Outcome outcome = folder.run("work-precision short.toml --out taken");
-  EXPECT_EQ(outcome.exit_code, 1);
-  EXPECT_EQ(folder.entries(), (Entries{"short.toml", "taken"}));
 }
 
 }  // namespace

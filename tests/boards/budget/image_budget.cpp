@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
-#include <sstream>
 #include <stdexcept>
 
 #include "host_sim/emulated/board_list.hpp"
@@ -11,18 +9,10 @@
 #include "host_sim/loop/run.hpp"
 #include "host_sim/process/run_tool.hpp"
 #include "host_sim/scene_file/reader.hpp"
+#include "tests/common/csv/csv.hpp"
 
 namespace sonoglide::budget {
 namespace {
-
-std::vector<std::string> split(const std::string& line) {
-  std::vector<std::string> fields;
-  std::istringstream stream(line);
-  for (std::string field; std::getline(stream, field, ',');) {
-    fields.push_back(field);
-  }
-  return fields;
-}
 
 std::string joined(const Row& row, std::string Figure::*member) {
   std::string line;
@@ -97,18 +87,13 @@ std::string csv(const std::vector<Row>& rows) {
 }
 
 std::vector<Row> read_csv(const std::filesystem::path& path) {
-  std::ifstream file(path);
-  std::string line;
-  std::getline(file, line);
-  const std::vector<std::string> columns = split(line);
+  const csv::Table table = csv::read_file(path);
   std::vector<Row> rows;
-  while (std::getline(file, line)) {
-    const std::vector<std::string> values = split(line);
-    Row row;
-    for (std::size_t i = 0; i < columns.size() && i < values.size(); ++i) {
-      row.push_back({columns[i], values[i]});
+  for (const csv::Row& line : table.rows()) {
+    Row& row = rows.emplace_back();
+    for (const std::string& column : table.columns()) {
+      row.push_back({column, line.text(column)});
     }
-    rows.push_back(row);
   }
   return rows;
 }

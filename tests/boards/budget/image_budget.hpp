@@ -52,7 +52,8 @@ std::string image_name(const std::string& scene, const std::string& arithmetic);
 /// The table as CSV, with its header.
 std::string csv(const std::vector<Row>& rows);
 
-/// The rows of a CSV file; none where there is no such file.
+/// The rows of a CSV file.
+/// @throws csv::CsvError
 std::vector<Row> read_csv(const std::filesystem::path& path);
 
 }  // namespace sonoglide::budget

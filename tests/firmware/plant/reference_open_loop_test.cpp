@@ -2,14 +2,13 @@
 
 #include <gtest/gtest.h>
 
-#include <array>
 #include <cmath>
-#include <fstream>
-#include <sstream>
 #include <string>
 
 #include "firmware/plant/gauss/event_gauss.hpp"
+#include "motion.hpp"
 #include "tests/common/constants/table_1_numbers.hpp"
+#include "tests/common/csv/csv.hpp"
 #include "tests/firmware/plant/runs/motion.hpp"
 
 namespace sonoglide::plant {
@@ -30,7 +29,6 @@ const Scene heavy_friction = {"heavy_friction", 1e9, 2000.0, 1.0};
 const Scene table1_as_printed = {"table1_as_printed", Table1::contact_stiffness_N_per_m,
                                  Table1::normal_force_N, -1.0};
 
-/// In the order of the file's columns.
 struct Values {
   double displacement_m;
   double velocity_m_per_s;
@@ -42,23 +40,11 @@ struct Values {
 };
 
 Values reference(const std::string& name) {
-  std::ifstream file(REFERENCE_OPEN_LOOP);
-  for (std::string line; std::getline(file, line);) {
-    std::istringstream fields(line);
-    std::string first;
-    std::getline(fields, first, ',');
-    if (first == name) {
-      std::array<double, 7> numbers{};
-      for (double& number : numbers) {
-        std::string text;
-        std::getline(fields, text, ',');
-        number = std::stod(text);
-      }
-      return {numbers[0], numbers[1], numbers[2], numbers[3], numbers[4], numbers[5], numbers[6]};
-    }
-  }
-  ADD_FAILURE() << name << " is not in " << REFERENCE_OPEN_LOOP;
-  return {};
+  const csv::Table table = csv::read_file(REFERENCE_OPEN_LOOP);
+  const csv::Row& row = table.row_of("scene", name);
+  return {row.number("x_end_m"),    row.number("v_end_m_per_s"), row.number("F_end_N"),
+          row.number("rho_all"),    row.number("rho_last"),      row.number("phi_fu_all"),
+          row.number("phi_fu_last")};
 }
 
 constexpr double stiffness_N_per_m = Table1::stiffness_N_per_m;

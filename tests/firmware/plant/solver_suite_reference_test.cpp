@@ -3,12 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <fstream>
-#include <sstream>
 #include <string>
 
 #include "solver_suite.hpp"
 #include "tests/common/constants/table_1_numbers.hpp"
+#include "tests/common/csv/csv.hpp"
 
 namespace sonoglide::plant {
 namespace {
@@ -29,22 +28,9 @@ const ReferenceScene heavy_friction = {"heavy_friction", 1e9, 2000.0, 1.0};
 const ReferenceScene table1_as_printed = {"table1_as_printed", Table1::contact_stiffness_N_per_m,
                                           Table1::normal_force_N, -1.0};
 
-/// Mean friction over Fc, from rest over a hundred periods: the fifth column.
+/// Mean friction over Fc, from rest over a hundred periods.
 double known_ratio(const std::string& name) {
-  std::ifstream file(REFERENCE_OPEN_LOOP);
-  for (std::string line; std::getline(file, line);) {
-    std::istringstream fields(line);
-    std::string text;
-    std::getline(fields, text, ',');
-    if (text == name) {
-      for (int column = 0; column < 4; ++column) {
-        std::getline(fields, text, ',');
-      }
-      return std::stod(text);
-    }
-  }
-  ADD_FAILURE() << name << " is not in " << REFERENCE_OPEN_LOOP;
-  return 0.0;
+  return csv::read_file(REFERENCE_OPEN_LOOP).row_of("scene", name).number("rho_all");
 }
 
 struct Ratio {

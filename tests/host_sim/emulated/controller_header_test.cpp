@@ -96,16 +96,19 @@ TEST(ControllerHeader, IsForClosedLoopsWithTargetsInReach) {
 }
 
 TEST(BoardArithmetic, Float64NeedsABoardThatComputesIt) {
+  int computing = 0;
   for (const emulated::EmulatedBoard& board : emulated::emulated_boards()) {
     EXPECT_NO_THROW(require_arithmetic(read("target_step"), board));
     EXPECT_NO_THROW(require_arithmetic(read("target_step_q31"), board));
     if (board.name == "mps2-an500") {
       EXPECT_NO_THROW(require_arithmetic(read("target_step_float64"), board));
+      ++computing;
     } else {
       EXPECT_THROW(require_arithmetic(read("target_step_float64"), board),
                    configure::ConfigurationError);
     }
   }
+  EXPECT_EQ(computing, 1);
 }
 
 }  // namespace

@@ -35,7 +35,21 @@ constexpr double first_velocity_m_per_s = 0.03;
 /// vibration.
 constexpr equations::Mass undamped_mass = {0.02, 8.5e8, 0.0};
 constexpr double damping_N_s_per_m = 300.0;
-constexpr equations::Contact contact = {0.1, 500.0, 1e9, 0.13, 0.02, 50.0, 60.0, 0.8, 20.0, 4e9};
+constexpr equations::Contact every_number_of_a_contact() {
+  equations::Contact all{};
+  all.coefficient = 0.1;
+  all.normal_force_N = 500.0;
+  all.contact_stiffness_N_per_m = 1e9;
+  all.static_coefficient = 0.13;
+  all.stribeck_velocity_m_per_s = 0.02;
+  all.bristle_damping_N_s_per_m = 50.0;
+  all.viscous_friction_N_s_per_m = 60.0;
+  all.fall_s_per_m = 0.8;
+  all.rise_s3_per_m3 = 20.0;
+  all.normal_contact_stiffness_N_per_m = 4e9;
+  return all;
+}
+constexpr equations::Contact contact = every_number_of_a_contact();
 
 /// Own keys, beside the coefficient and the normal force.
 std::string own_keys(const scene::FrictionLaw& law) {

@@ -9,6 +9,7 @@
 #include <boost/numeric/odeint/stepper/generation.hpp>
 #include <boost/numeric/odeint/stepper/runge_kutta_dopri5.hpp>
 #include <cmath>
+#include <iterator>
 #include <string>
 #include <utility>
 #include <vector>
@@ -217,11 +218,15 @@ const std::vector<scene::FrictionLaw>& laws() {
   return all;
 }
 
+std::vector<scene::FrictionLaw> bounded_laws() {
+  std::vector<scene::FrictionLaw> found;
+  std::copy_if(laws().begin(), laws().end(), std::back_inserter(found), scene::is_bounded);
+  return found;
+}
+
 TEST(FrictionProfileTest, NoLawPassesItsLimit) {
-  for (const scene::FrictionLaw& law : laws()) {
-    if (!scene::is_bounded(law)) {
-      continue;
-    }
+  ASSERT_EQ(bounded_laws().size(), 4U) << "Dahl, Iwan and Coulomb along and across";
+  for (const scene::FrictionLaw& law : bounded_laws()) {
     for (const TimedProfile& profile : {jumps, slopes}) {
       const Scene scene = recorded(with_coefficient(heavy(law), profile));
       const LoggedRun logged = run_logged(scene);
@@ -324,10 +329,7 @@ TEST(FrictionProfileTest, BristlesFollowTheNormalForce) {
 }
 
 TEST(FrictionProfileTest, FrictionMayVanishAndComeBack) {
-  for (const scene::FrictionLaw& law : laws()) {
-    if (!scene::is_bounded(law)) {
-      continue;
-    }
+  for (const scene::FrictionLaw& law : bounded_laws()) {
     const TimedProfile gone = {
         {2.0 * period_s, 0.1}, {3.0 * period_s, 0.0}, {5.0 * period_s, 0.0}, {6.0 * period_s, 0.1}};
     const LoggedRun logged = run_logged(with_coefficient(heavy(law), gone));

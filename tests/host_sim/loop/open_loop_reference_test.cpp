@@ -2,16 +2,14 @@
 
 #include <gtest/gtest.h>
 
-#include <array>
 #include <cmath>
-#include <fstream>
 #include <optional>
-#include <sstream>
 #include <string>
 
 #include "host_sim/configure/plant_scales.hpp"
 #include "host_sim/configure/solver_methods.hpp"
 #include "host_sim/loop/run.hpp"
+#include "tests/common/csv/csv.hpp"
 #include "tests/common/table_1.hpp"
 
 namespace sonoglide::loop {
@@ -23,7 +21,6 @@ using tests::period_s;
 using tests::table_1;
 using tests::vibration_velocity_m_per_s;
 
-/// In the order of the file's columns.
 struct Values {
   double displacement_m;
   double velocity_m_per_s;
@@ -35,22 +32,11 @@ struct Values {
 };
 
 Values reference(const std::string& name) {
-  std::ifstream file(REFERENCE_OPEN_LOOP);
-  for (std::string line; std::getline(file, line);) {
-    std::istringstream fields(line);
-    std::string text;
-    std::getline(fields, text, ',');
-    if (text == name) {
-      std::array<double, 7> numbers{};
-      for (double& number : numbers) {
-        std::getline(fields, text, ',');
-        number = std::stod(text);
-      }
-      return {numbers[0], numbers[1], numbers[2], numbers[3], numbers[4], numbers[5], numbers[6]};
-    }
-  }
-  ADD_FAILURE() << name << " is not in " << REFERENCE_OPEN_LOOP;
-  return {};
+  const csv::Table table = csv::read_file(REFERENCE_OPEN_LOOP);
+  const csv::Row& row = table.row_of("scene", name);
+  return {row.number("x_end_m"),    row.number("v_end_m_per_s"), row.number("F_end_N"),
+          row.number("rho_all"),    row.number("rho_last"),      row.number("phi_fu_all"),
+          row.number("phi_fu_last")};
 }
 
 PowerRatios ratios(const Scene& scene, const EnergyBalance& energy) {

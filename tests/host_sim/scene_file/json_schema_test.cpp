@@ -179,6 +179,7 @@ TEST(JsonSchemaTest, HasEveryKeyAndNoOther) {
 TEST(JsonSchemaTest, AcceptsWhatTheReaderAccepts) {
   Cases cases;
   for (const char* folder : {SONOGLIDE_SCENES, SONOGLIDE_SCENE_CORPUS}) {
+    int accepted = 0;
     for (const auto& entry : fs::directory_iterator(folder)) {
       if (entry.path().extension() != ".toml") {
         continue;
@@ -188,8 +189,10 @@ TEST(JsonSchemaTest, AcceptsWhatTheReaderAccepts) {
                              std::istreambuf_iterator<char>()};
       if (reader_accepts(text, {})) {
         cases.add(entry.path().filename(), as_json(text), true);
+        ++accepted;
       }
     }
+    EXPECT_GE(accepted, 5) << folder;
   }
   for (const Scene& scene : whole_scenes()) {
     cases.add(scene.text, scene.json, true);
@@ -228,6 +231,7 @@ TEST(JsonSchemaTest, RefusesUnknownKeysAndTables) {
 /// Without one of these keys there is no scene.
 TEST(JsonSchemaTest, RefusesScenesWithoutARequiredKey) {
   Cases cases;
+  int removed = 0;
   const Scene scene = whole_scenes().back();
   for (const KeyTable& table : key_tables()) {
     for (const Key& key : table.keys) {
@@ -241,8 +245,10 @@ TEST(JsonSchemaTest, RefusesScenesWithoutARequiredKey) {
       ordered_json without = scene.json;
       without[std::string(table.name)].erase(std::string(key.name));
       cases.add(option, without, false);
+      ++removed;
     }
   }
+  EXPECT_GE(removed, 5);
   cases.check();
 }
 

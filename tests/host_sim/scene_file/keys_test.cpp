@@ -31,11 +31,14 @@ TEST(KeysTest, TheFilesAreThoseOfTheList) {
 
 TEST(KeysTest, EveryExampleNamesTheSchema) {
   const std::string named = "#:schema scene.schema.json\n";
+  int examples = 0;
   for (const auto& entry : fs::directory_iterator(SONOGLIDE_SCENES)) {
     if (entry.path().extension() == ".toml") {
       EXPECT_EQ(text_of(entry.path()).substr(0, named.size()), named) << entry.path();
+      ++examples;
     }
   }
+  EXPECT_GE(examples, 20);
 }
 
 TEST(KeysTest, AreOneLineEachAndFitATableOfMarkdown) {

@@ -13,9 +13,17 @@
 namespace sonoglide::stability {
 namespace {
 
+MapGrid coarse_grid() {
+  MapGrid grid;
+  grid.contact_stiffness_N_per_m = {1e4, 5.6e4, 1e8, 1e11};
+  grid.tolerance = {1e-4, 1e-8};
+  grid.steps_per_period = {16.0, 1024.0};
+  grid.periods = 3;
+  return grid;
+}
+
 const StabilityMaps& coarse() {
-  static const StabilityMaps maps =
-      stability_maps({{1e4, 5.6e4, 1e8, 1e11}, {1e-4, 1e-8}, {16.0, 1024.0}, 3}, [](double) {});
+  static const StabilityMaps maps = stability_maps(coarse_grid(), [](double) {});
   return maps;
 }
 
@@ -49,17 +57,24 @@ TEST(StabilityMap, TheEventSolversAreAccurateAtAnyStiffness) {
 }
 
 TEST(StabilityMap, RungeKuttaIsAccurateFarInsideItsLimitAndSaysSoFarBeyond) {
+  int far_inside = 0;
+  int far_beyond = 0;
   for (const MapCell& cell : map_of("rk4").cells) {
     const double limit = rk4_limit_steps_per_period(cell.contact_stiffness_N_per_m);
     if (cell.setting > 1000.0 && cell.setting > 20.0 * limit) {
       EXPECT_EQ(cell.verdict, Verdict::good) << cell.contact_stiffness_N_per_m;
+      ++far_inside;
     }
     if (cell.setting < 0.05 * limit) {
       EXPECT_TRUE(cell.verdict == Verdict::declined_friction_bound ||
                   cell.verdict == Verdict::declined_not_finite)
           << cell.contact_stiffness_N_per_m;
+      ++far_beyond;
     }
   }
+  // Limits of 0.28, 1.6, 2.8e3 and 2.8e6 steps per period; settings of 16 and 1024.
+  EXPECT_EQ(far_inside, 2);
+  EXPECT_EQ(far_beyond, 3);
 }
 
 TEST(StabilityMap, AnErrorIsGivenOnlyWhereThereIsAResult) {

@@ -1,8 +1,6 @@
 #include "tests/host_sim/studies/work_precision/peers/published/published_problems.hpp"
 
-#include <fstream>
-#include <sstream>
-#include <stdexcept>
+#include "tests/common/csv/csv.hpp"
 
 #include "tests/common/constants/table_1_numbers.hpp"
 
@@ -44,25 +42,13 @@ Problem published_problem(const std::string& name) {
 }
 
 PublishedOutcome published_outcome(const std::string& name) {
-  std::ifstream file(REFERENCE_OPEN_LOOP);
-  for (std::string line; std::getline(file, line);) {
-    std::istringstream fields(line);
-    std::string text;
-    std::getline(fields, text, ',');
-    if (text != name) {
-      continue;
-    }
-    long double numbers[4]{};
-    for (long double& number : numbers) {
-      std::getline(fields, text, ',');
-      number = std::stold(text);
-    }
-    const long double length = static_cast<long double>(length_m);
-    const long double omega = static_cast<long double>(omega_rad_per_s);
-    return {numbers[0] / length, numbers[1] / (length * omega),
-            numbers[2] / static_cast<long double>(friction_limit_N(name)), numbers[3]};
-  }
-  throw std::runtime_error(name + " is not in " REFERENCE_OPEN_LOOP);
+  const csv::Table table = csv::read_file(REFERENCE_OPEN_LOOP);
+  const csv::Row& row = table.row_of("scene", name);
+  const long double length = static_cast<long double>(length_m);
+  const long double omega = static_cast<long double>(omega_rad_per_s);
+  return {row.long_number("x_end_m") / length, row.long_number("v_end_m_per_s") / (length * omega),
+          row.long_number("F_end_N") / static_cast<long double>(friction_limit_N(name)),
+          row.long_number("rho_all")};
 }
 
 }  // namespace sonoglide::peers

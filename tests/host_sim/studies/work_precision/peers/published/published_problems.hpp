@@ -21,7 +21,7 @@ struct PublishedOutcome {
   long double friction_ratio;  ///< over the whole run
 };
 
-/// @throws std::runtime_error  no such name
+/// @throws csv::CsvError  no such name
 PublishedOutcome published_outcome(const std::string& name);
 
 }  // namespace sonoglide::peers

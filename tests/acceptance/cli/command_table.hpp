@@ -1,0 +1,101 @@
+/// What the tests of every command know of each: a new command is a line here.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace sonoglide::acceptance {
+
+/// What it takes to run a command to its end.
+enum class Cost { instant, seconds, minutes, emulator };
+
+struct Command {
+  std::string name;
+  std::string scene;                 ///< a file of SceneFolder; empty: it takes none
+  std::string arguments;             ///< that it needs besides
+  std::vector<std::string> options;  ///< in the order of its help, after --help
+  std::string folder;                ///< without --out; empty: it writes nothing
+  std::vector<std::string> files;    ///< of a run to the end, sorted; empty where that is long
+  std::vector<std::string> others;   ///< names that a file of somebody else keeps
+  Cost cost = Cost::instant;
+};
+
+inline const std::vector<Command> command_table = {
+    {"run",
+     "open.toml",
+     "",
+     {"--set", "--out", "--json", "--quiet"},
+     "out/open",
+     {"periods.csv", "report.html", "summary.json", "trace.csv"},
+     {"trace.csv", "summary.json", "report.html"}},
+    {"pil",
+     "closed.toml",
+     "--board mps2-an386",
+     {"--set", "--board", "--out", "--quiet"},
+     "out/closed_mps2-an386",
+     {},
+     {"summary.json"},
+     Cost::emulator},
+    {"configure",
+     "closed.toml",
+     "",
+     {"--set", "--out", "--plant", "--quiet"},
+     "out/closed",
+     {"controller_configuration.hpp"},
+     {"controller_configuration.hpp", "plant_configuration.hpp"}},
+    {"ratio",
+     "",
+     "--velocity-ratio 0.5 --dahl-number 1",
+     {"--velocity-ratio", "--dahl-number"},
+     "",
+     {},
+     {}},
+    {"sweep",
+     "open.toml",
+     "--vary velocity_ratio=0.2:1:3",
+     {"--set", "--vary", "--out", "--threads", "--quiet"},
+     "out/open_sweep",
+     {"report.html", "sweep.csv", "sweep.svg"},
+     {"sweep.csv", "sweep.svg", "sweep.journal"}},
+    {"paper",
+     "",
+     "--figure 3",
+     {"--out", "--figure", "--quiet"},
+     "paper",
+     {"figure_03.csv", "figure_03.svg", "index.html", "table_1.toml", "table_2.toml"},
+     {"figure_03.csv"}},
+    {"work-precision",
+     "open.toml",
+     "",
+     {"--set", "--out", "--quiet"},
+     "out/open_work_precision",
+     {"report.html", "work_precision.csv", "work_precision.svg"},
+     {"work_precision.svg"},
+     Cost::seconds},
+    {"stability",
+     "",
+     "",
+     {"--out", "--quiet"},
+     "out/stability",
+     {},
+     {"extremes.csv"},
+     Cost::minutes},
+    {"arithmetic",
+     "closed.toml",
+     "",
+     {"--set", "--board", "--out", "--quiet"},
+     "out/closed_arithmetic",
+     {},
+     {"arithmetic.csv"},
+     Cost::emulator},
+    {"design",
+     "closed.toml",
+     "--ratio 0.5",
+     {"--set", "--ratio", "--velocity", "--out", "--quiet"},
+     "out/closed_design",
+     {"design.csv", "design.json", "detuning.csv", "report.html"},
+     {"design.json"}},
+    {"schema", "", "", {}, "", {}, {}},
+};
+
+}  // namespace sonoglide::acceptance

@@ -1,0 +1,39 @@
+/// A folder with the scenes of the table of commands.
+#pragma once
+
+#include <string>
+
+#include "command_table.hpp"
+#include "short_scenes.hpp"
+#include "tests/acceptance/program/program.hpp"
+
+namespace sonoglide::acceptance {
+
+inline const std::string recorded_open_loop = short_open_loop + R"(record = ["displacement_m"]
+record_interval_s = 1e-6
+)";
+
+/// The text of a scene of the table.
+inline const std::string& text_of_scene(const std::string& file) {
+  return file == "closed.toml" ? short_closed_loop : recorded_open_loop;
+}
+
+class SceneFolder : public ScratchFolder {
+ public:
+  SceneFolder() {
+    for (const char* file : {"open.toml", "closed.toml"}) {
+      write(file, text_of_scene(file));
+    }
+  }
+};
+
+/// The words of a command with another scene than the table's.
+inline std::string words_with_scene(const Command& command, const std::string& scene) {
+  return command.name + " " + scene + " " + command.arguments;
+}
+
+inline std::string words(const Command& command) {
+  return words_with_scene(command, command.scene);
+}
+
+}  // namespace sonoglide::acceptance
