@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "host_sim/cli/commands.hpp"
-#include "host_sim/cli/program.hpp"
 #include "host_sim/cli/usage.hpp"
 #include "host_sim/loop/run.hpp"
 #include "host_sim/output/output_folder.hpp"

@@ -1,0 +1,170 @@
+/// The recorded comparisons: errors and steps are those of this build. Times are times, and the
+/// fastest solver is one that the document names.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstddef>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "host_sim/output/csv_number.hpp"
+#include "host_sim/scene_file/reader.hpp"
+#include "host_sim/studies/work_precision/comparison.hpp"
+#include "host_sim/studies/work_precision/csv.hpp"
+#include "host_sim/studies/work_precision/problem.hpp"
+#include "host_sim/studies/work_precision/ranking.hpp"
+
+namespace sonoglide::work_precision {
+namespace {
+
+constexpr const char* renew =
+    "If this is meant, cmake --build --preset release --target write_work_precision_measured and "
+    "commit the change.";
+
+/// A run that took longer when it was recorded is not repeated here.
+constexpr double longest_run_us = 4000.0;
+/// Of an error, and below which it is rounding.
+constexpr double error_band = 0.01;
+constexpr double rounding = 1e-14;
+
+peers::Problem problem(const std::string& scene) {
+  const std::filesystem::path folder = SONOGLIDE_WORK_PRECISION_SCENES;
+  return problem_of(
+      scene_file::read_file(folder / (scene + ".toml"), {SONOGLIDE_WORK_PRECISION_OVERRIDES}));
+}
+
+/// Solver and setting, and the rest of a line.
+using Lines = std::map<std::pair<std::string, std::string>, std::string>;
+
+Lines recorded_lines(const std::string& scene) {
+  const std::filesystem::path folder = SONOGLIDE_WORK_PRECISION_MEASURED;
+  std::ifstream file(folder / (scene + ".csv"));
+  std::string heading;
+  std::getline(file, heading);
+  EXPECT_EQ(heading + "\n", to_csv({})) << scene;
+  Lines lines;
+  std::string solver;
+  std::string setting;
+  std::string rest;
+  while (std::getline(file, solver, ',') && std::getline(file, setting, ',') &&
+         std::getline(file, rest)) {
+    EXPECT_TRUE(lines.emplace(std::make_pair(solver, setting), rest).second)
+        << scene << " " << solver << " " << setting;
+  }
+  return lines;
+}
+
+Row row_of(const Solver& solver, double setting, const std::string& figures) {
+  Row row;
+  row.solver = &solver;
+  row.setting = setting;
+  std::istringstream text(figures);
+  for (double* figure : {&row.error, &row.wall_us_per_period, &row.steps_per_period}) {
+    std::string cell;
+    std::getline(text, cell, ',');
+    *figure = std::strtod(cell.c_str(), nullptr);
+  }
+  std::getline(text, row.status);
+  return row;
+}
+
+/// A peer is built in only where its library is found.
+bool is_peer(const std::string& solver) {
+  return solver.rfind("odeint_", 0) == 0 || solver.rfind("cvode_", 0) == 0;
+}
+
+/// As it was recorded.
+Comparison recorded(const std::string& scene) {
+  Lines lines = recorded_lines(scene);
+  Comparison comparison;
+  for (const Solver& solver : solvers()) {
+    for (const double setting : solver.settings) {
+      const auto line = lines.find({solver.name, setting_text(solver.knob, setting)});
+      if (line == lines.end()) {
+        ADD_FAILURE() << scene << " " << solver.name << " " << setting << ": no line. " << renew;
+      } else {
+        comparison.rows.push_back(row_of(solver, setting, line->second));
+        lines.erase(line);
+      }
+    }
+  }
+  for (const auto& [name, figures] : lines) {
+    EXPECT_TRUE(is_peer(name.first)) << scene << ": there is no " << name.first << ". " << renew;
+  }
+  return comparison;
+}
+
+/// Whether another machine comes to the same, and soon.
+bool is_repeatable(const Row& row, int periods) {
+  return row.ok() ? row.wall_us_per_period * periods <= longest_run_us : row.status != "too slow";
+}
+
+/// Each row that can be repeated, as a solver of one setting.
+std::vector<Solver> repeated(const std::vector<const Row*>& rows) {
+  std::vector<Solver> chosen;
+  for (const Row* row : rows) {
+    chosen.push_back(*row->solver);
+    chosen.back().settings = {row->setting};
+  }
+  return chosen;
+}
+
+class MeasuredTest : public testing::TestWithParam<std::pair<std::string, std::string>> {};
+
+TEST_P(MeasuredTest, ErrorsAndStepsAreThoseOfThisBuild) {
+  const peers::Problem scene = problem(GetParam().first);
+  const Comparison then = recorded(GetParam().first);
+  std::vector<const Row*> rows;
+  for (const Row& row : then.rows) {
+    if (is_repeatable(row, scene.periods)) {
+      rows.push_back(&row);
+    }
+  }
+  EXPECT_GT(rows.size(), 100U);
+  const std::vector<Solver> chosen = repeated(rows);
+  const Comparison now = compare(scene, chosen, {10.0, 0.0, 0}, {});
+  ASSERT_EQ(now.rows.size(), rows.size());
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const std::string name =
+        rows[i]->solver->name + " " + setting_text(rows[i]->solver->knob, rows[i]->setting);
+    EXPECT_EQ(now.rows[i].status, rows[i]->status) << name << ". " << renew;
+    if (rows[i]->ok()) {
+      EXPECT_NEAR(now.rows[i].error, rows[i]->error, error_band * rows[i]->error + rounding)
+          << name << ". " << renew;
+      EXPECT_EQ(output::csv_number(now.rows[i].steps_per_period, 6),
+                output::csv_number(rows[i]->steps_per_period, 6))
+          << name << ". " << renew;
+    }
+  }
+}
+
+TEST_P(MeasuredTest, TimesAreTimes) {
+  for (const Row& row : recorded(GetParam().first).rows) {
+    EXPECT_EQ(row.ok(), std::isfinite(row.wall_us_per_period)) << row.solver->name;
+    EXPECT_FALSE(row.wall_us_per_period <= 0.0) << row.solver->name;
+  }
+}
+
+TEST_P(MeasuredTest, TheFastestAtAnErrorOf1em8IsOneThatTheDocumentNames) {
+  const Comparison then = recorded(GetParam().first);
+  const std::vector<const Row*> ranking = cheapest(then, 1e-8);
+  ASSERT_GT(ranking.size(), 1U);
+  EXPECT_EQ(ranking.front()->solver->name.rfind(GetParam().second, 0), 0U)
+      << ranking.front()->solver->name;
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, MeasuredTest,
+                         testing::Values(std::make_pair("table_1_open_loop", "event_gauss"),
+                                         std::make_pair("stiff_contact_open_loop", "event_"),
+                                         std::make_pair("heavy_friction_open_loop", "event_")),
+                         [](const auto& scene) { return scene.param.first; });
+
+}  // namespace
+}  // namespace sonoglide::work_precision
