@@ -9,6 +9,20 @@
 
 namespace sonoglide::plant {
 
+/// No damping, and no member for it.
+template <class Scalar>
+struct Undamped {
+  Scalar damping_force(Scalar /*velocity*/) const { return Scalar(0); }
+};
+
+/// Damping force d v on the oscillator.
+template <class Scalar>
+struct Damped {
+  Scalar damping = Scalar(0);  ///< d = c / (m omega) [-]
+
+  Scalar damping_force(Scalar velocity) const { return damping * velocity; }
+};
+
 /// y'' = a cos(tau) - d y' - k y - beta phi, in units of length L, time 1 / omega and force m L
 /// omega^2; phi = F / Fc, of the friction on the oscillator.
 ///

@@ -6,11 +6,20 @@
 #include <utility>
 
 #include "firmware/plant/account.hpp"
-#include "firmware/plant/observer.hpp"
 #include "firmware/plant/outcome.hpp"
 #include "firmware/plant/state.hpp"
 
 namespace sonoglide::plant {
+
+/// Observes nothing. Every other observer is a callable too. The step that it is given offers
+///   begin(), length()   time since the beginning of the interval, and duration of the step
+///   at(offset)          State at begin() + offset, offset in [0, length()]
+///   friction_integral(), motion_integrals(), …   integrals over the step, see account.hpp
+/// and is valid during the call only. An observer sees the motion; it cannot change it.
+struct NoObserver {
+  template <class Step>
+  void operator()(const Step& /*step*/) const {}
+};
 
 /// A solver is a template over the plant::Model that it advances. It offers:
 ///   Model, Scalar   the plant that it solves, and the number type in which it computes
@@ -22,8 +31,7 @@ namespace sonoglide::plant {
 ///   advance(interval, state, account, observer) -> Outcome
 ///                   takes the state over one Interval, in which the sliding velocity keeps its
 ///                   sign; adds every step to the account (account.hpp) and shows it to the
-///                   observer
-///                   (observer.hpp). A failure is an Error with its time
+///                   observer (see NoObserver). A failure is an Error with its time
 ///   cost()          steps and events since configure()
 /// For every solver |phi| <= 1 to rounding, the energy identity holds to its tolerance, and an
 /// advance that is cut in two gives the same motion to its tolerance. The typed test suite

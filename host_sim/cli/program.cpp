@@ -8,7 +8,6 @@
 #include <string_view>
 #include <vector>
 
-#include "host_sim/cli/commands.hpp"
 #include "host_sim/cli/usage.hpp"
 #include "host_sim/loop/run.hpp"
 #include "host_sim/output/output_folder.hpp"

@@ -34,8 +34,8 @@ void require_output(const std::filesystem::path& out) {
             "stability_map_float32.svg", "extremes.csv", "extremes_worst.csv"});
 }
 
-stability::Study compute(const StabilityWork& work, bool quiet,
-                         const process::Interruption& interruption) {
+stability::StabilityStudy compute(const StabilityWork& work, bool quiet,
+                                  const process::Interruption& interruption) {
   ProgressBar bar(stderr, !quiet);
   return stability::study(work.grid, work.random_scenes, watching(bar, interruption));
 }
@@ -45,7 +45,7 @@ void stability(const StabilityOptions& options, const StabilityWork& work) {
   const std::filesystem::path out = options.out;
   require_output(out);
   const process::Interruption interruption;
-  const stability::Study study = compute(work, options.quiet, interruption);
+  const stability::StabilityStudy study = compute(work, options.quiet, interruption);
   stability::write_study(out, study);
   if (!options.quiet) {
     fmt::print("{}report: {}\n", stability::study_text(study.extremes),

@@ -4,7 +4,6 @@
 #include <type_traits>
 
 #include "firmware/plant/contact.hpp"
-#include "firmware/plant/damping.hpp"
 #include "firmware/plant/model.hpp"
 #include "host_sim/configure/plant_scales.hpp"
 

@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "firmware/friction/none.hpp"
-#include "firmware/plant/damping.hpp"
 #include "firmware/plant/drive.hpp"
 #include "firmware/plant/model.hpp"
 #include "host_sim/configure/solvers/event_gauss.hpp"

@@ -8,7 +8,6 @@
 
 #include "firmware/friction/dahl.hpp"
 #include "firmware/numeric/turn.hpp"
-#include "firmware/plant/damping.hpp"
 #include "firmware/plant/drive.hpp"
 #include "firmware/plant/model.hpp"
 #include "firmware/plant/sliding.hpp"
@@ -140,6 +139,7 @@ PlantText float_plant(const SceneNumbers& scene) {
   return {
       R"(#include "firmware/friction/dahl.hpp"
 #include "firmware/plant/contact.hpp"
+#include "firmware/plant/model.hpp"
 #include "firmware/plant/strang/equal_step_strang.hpp"
 #include "hal/simulated/plant_board.hpp"
 )",

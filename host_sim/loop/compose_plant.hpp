@@ -5,8 +5,8 @@
 #include <memory>
 #include <type_traits>
 
-#include "firmware/plant/damping.hpp"
 #include "firmware/plant/drive.hpp"
+#include "firmware/plant/model.hpp"
 #include "firmware/plant/sliding.hpp"
 #include "host_sim/configure/plant_model.hpp"
 #include "host_sim/loop/plant_description.hpp"

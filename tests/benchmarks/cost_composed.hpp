@@ -8,11 +8,10 @@
 #include "firmware/friction/dahl.hpp"
 #include "firmware/friction/none.hpp"
 #include "firmware/plant/account.hpp"
-#include "firmware/plant/damping.hpp"
 #include "firmware/plant/drive.hpp"
 #include "firmware/plant/model.hpp"
-#include "firmware/plant/observer.hpp"
 #include "firmware/plant/rk4/rk4.hpp"
+#include "firmware/plant/solver.hpp"
 #include "firmware/plant/taylor/event_taylor.hpp"
 
 namespace sonoglide::cost {

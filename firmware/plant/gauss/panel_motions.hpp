@@ -11,8 +11,8 @@
 #include "firmware/numeric/lanes.hpp"
 #include "firmware/numeric/power_series.hpp"
 #include "firmware/numeric/scalar.hpp"
-#include "firmware/plant/damping.hpp"
 #include "firmware/plant/drive.hpp"
+#include "firmware/plant/model.hpp"
 
 namespace sonoglide::plant {
 

@@ -7,10 +7,10 @@
 #include <variant>
 
 #include "firmware/numeric/turn.hpp"
-#include "firmware/plant/damping.hpp"
 #include "firmware/plant/drive.hpp"
-#include "firmware/plant/observer.hpp"
+#include "firmware/plant/model.hpp"
 #include "firmware/plant/sliding.hpp"
+#include "firmware/plant/solver.hpp"
 #include "firmware/plant/state.hpp"
 #include "host_sim/configure/plant_model.hpp"
 #include "host_sim/configure/plant_scales.hpp"

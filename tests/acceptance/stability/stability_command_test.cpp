@@ -48,8 +48,8 @@ class SmallStability : public testing::Test {
   }
   static std::set<std::pair<std::string, std::string>> every_solver() {
     std::set<std::pair<std::string, std::string>> all;
-    for (const stability::Solver& solver : stability::solvers()) {
-      for (const stability::Precision& precision : solver.precisions) {
+    for (const stability::TriedSolver& solver : stability::solvers()) {
+      for (const stability::TriedPrecision& precision : solver.precisions) {
         all.emplace(solver.name, precision.name);
       }
     }
@@ -116,7 +116,7 @@ TEST_F(SmallStability, ThePageHasTheMapsAndTheTable) {
   for (const char* part : {"data:image/svg+xml", "Extreme cases: 50 random scenes", "</html>"}) {
     EXPECT_NE(page.find(part), std::string::npos) << part;
   }
-  for (const stability::Solver& solver : stability::solvers()) {
+  for (const stability::TriedSolver& solver : stability::solvers()) {
     EXPECT_NE(page.find(solver.name), std::string::npos) << solver.name;
   }
 }

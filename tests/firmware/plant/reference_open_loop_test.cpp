@@ -6,7 +6,6 @@
 #include <string>
 
 #include "firmware/plant/gauss/event_gauss.hpp"
-#include "motion.hpp"
 #include "tests/common/constants/table_1_numbers.hpp"
 #include "tests/common/csv/csv.hpp"
 #include "tests/firmware/plant/runs/motion.hpp"

@@ -57,7 +57,7 @@ struct LeastValues {
 };
 
 std::vector<LeastValues::Key> own_keys(FrictionLaw law) {
-  Contact contact;
+  ContactValues contact;
   contact.coefficient = 0.1;
   LeastValues values;
   std::visit([&](auto& any) { any.visit_keys(values, contact); }, law);

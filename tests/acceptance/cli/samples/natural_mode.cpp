@@ -6,8 +6,7 @@
 
 #include "firmware/numeric/turn.hpp"
 #include "host_sim/configure/configuration_error.hpp"
-#include "host_sim/output/csv_number.hpp"
-#include "host_sim/text/csv_cell.hpp"
+#include "host_sim/output/csv.hpp"
 
 namespace sonoglide::natural_mode {
 
@@ -20,7 +19,7 @@ double frequency_Hz(const scene::Plant& plant) {
 }
 
 std::string table(const scene::Scene& scene) {
-  return fmt::format("scene,natural_mode_Hz\n{},{}\n", text::csv_cell(scene.name),
+  return fmt::format("scene,natural_mode_Hz\n{},{}\n", output::csv_cell(scene.name),
                      output::csv_number(frequency_Hz(scene.plant), 17));
 }
 

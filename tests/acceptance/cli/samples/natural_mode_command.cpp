@@ -5,10 +5,9 @@
 #include <memory>
 #include <string>
 
-#include "host_sim/cli/output_option.hpp"
-#include "host_sim/cli/scene_input.hpp"
+#include "host_sim/cli/options.hpp"
 #include "host_sim/output/output_folder.hpp"
-#include "host_sim/text/printable.hpp"
+#include "host_sim/process/printable.hpp"
 #include "tests/acceptance/cli/samples/natural_mode.hpp"
 #include "tests/acceptance/cli/samples/sample_commands.hpp"
 
@@ -30,7 +29,7 @@ void natural_mode(const NaturalModeOptions& options) {
   folder.write("natural_mode.csv", table);
   folder.commit();
   if (!options.quiet) {
-    fmt::print("table: {}\n", text::printable((out / "natural_mode.csv").string()));
+    fmt::print("table: {}\n", process::printable((out / "natural_mode.csv").string()));
   }
 }
 

@@ -13,14 +13,15 @@
 #include "firmware/friction/dahl.hpp"
 #include "firmware/plant/account.hpp"
 #include "firmware/plant/contact.hpp"
-#include "firmware/plant/damping.hpp"
 #include "firmware/plant/drive.hpp"
 #include "firmware/plant/model.hpp"
-#include "firmware/plant/observer.hpp"
+#include "firmware/plant/solver.hpp"
 #include "firmware/plant/strang/equal_step_strang.hpp"
 #include "firmware/plant/strang/fixed_point_strang_design.hpp"
 #include "tests/common/constants/pi.hpp"
 #include "tests/common/constants/table_1_numbers.hpp"
+#include "tests/firmware/plant/runs/case.hpp"
+#include "tests/firmware/plant/runs/course.hpp"
 
 namespace sonoglide::plant {
 namespace {

@@ -5,10 +5,9 @@
 
 #include "firmware/friction/dahl.hpp"
 #include "firmware/plant/account.hpp"
-#include "firmware/plant/damping.hpp"
 #include "firmware/plant/drive.hpp"
 #include "firmware/plant/model.hpp"
-#include "firmware/plant/observer.hpp"
+#include "firmware/plant/solver.hpp"
 #include "firmware/plant/taylor/event_taylor.hpp"
 #include "host_sim/batch/run_dahl_plants.hpp"
 #include "tests/common/constants/pi.hpp"

@@ -14,7 +14,7 @@
 #include "host_sim/emulated/board_list.hpp"
 #include "host_sim/scene_file/reader.hpp"
 #include "host_sim/studies/arithmetic/comparison.hpp"
-#include "host_sim/studies/arithmetic/csv.hpp"
+#include "host_sim/studies/arithmetic/report.hpp"
 
 namespace sonoglide::arithmetic {
 namespace {

@@ -77,7 +77,7 @@ TEST(AdviceTest, SaysWhatStribeckFrictionDenies) {
 }
 
 TEST(RequirementsCsvTest, HasALineForEachSpeedAndRatio) {
-  const Study found = study_of(table_1(), {0.2, 0.5}, {0.01, 0.1});
+  const DesignStudy found = study_of(table_1(), {0.2, 0.5}, {0.01, 0.1});
   const csv::Table table(requirements_csv(found));
   std::map<std::pair<double, double>, int> points;
   std::map<std::string, int> limits;

@@ -59,7 +59,7 @@ TEST(PaperTest, Figure2HasTheClosedFormsAndAPlantThatAgreesOnItsSteadyOrbit) {
 TEST(PaperTest, Figure4SaysThatTheFreeVibrationIsTheStarts) {
   const Figure figure = figure_4();
   EXPECT_EQ(figure.claims.size(), 2U);
-  EXPECT_TRUE(has_claim(figure, Verdict::depends, "the free vibration of an undamped plant"));
+  EXPECT_TRUE(has_claim(figure, ClaimStatus::depends, "the free vibration of an undamped plant"));
   const csv::Table motion(figure.csv);
   EXPECT_EQ(motion.numbers("displacement_from_rest_m").front(), 0.0);
   const std::vector<double> velocity = motion.numbers("velocity_steady_m_per_s");

@@ -47,10 +47,10 @@ TEST(Extremes, NoSolverReturnsAStateThatIsNoNumberOrAFrictionAboveItsLimit) {
 }
 
 /// Whoever takes a tolerance, by the names of solver and precision.
-std::map<std::string, Precision> adaptive_solvers() {
-  std::map<std::string, Precision> found;
-  for (const Solver& solver : solvers()) {
-    for (const Precision& precision : solver.precisions) {
+std::map<std::string, TriedPrecision> adaptive_solvers() {
+  std::map<std::string, TriedPrecision> found;
+  for (const TriedSolver& solver : solvers()) {
+    for (const TriedPrecision& precision : solver.precisions) {
       if (solver.adaptive) {
         found.emplace(solver.name + " " + std::string(precision.name), precision);
       }

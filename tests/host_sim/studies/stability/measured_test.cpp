@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "host_sim/studies/stability/extremes.hpp"
-#include "host_sim/studies/stability/tables.hpp"
+#include "host_sim/studies/stability/report.hpp"
 
 namespace sonoglide::stability {
 namespace {

@@ -9,7 +9,6 @@
 
 #include "firmware/friction/none.hpp"
 #include "firmware/plant/account.hpp"
-#include "firmware/plant/damping.hpp"
 #include "firmware/plant/drive.hpp"
 #include "firmware/plant/model.hpp"
 

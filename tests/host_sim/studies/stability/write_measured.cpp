@@ -5,7 +5,7 @@
 #include <string>
 
 #include "host_sim/studies/stability/extremes.hpp"
-#include "host_sim/studies/stability/tables.hpp"
+#include "host_sim/studies/stability/report.hpp"
 
 int main() {
   namespace stability = sonoglide::stability;

@@ -14,12 +14,12 @@
 #include <utility>
 #include <vector>
 
-#include "host_sim/output/csv_number.hpp"
+#include "host_sim/output/csv.hpp"
 #include "host_sim/scene_file/reader.hpp"
 #include "host_sim/studies/work_precision/comparison.hpp"
-#include "host_sim/studies/work_precision/csv.hpp"
-#include "host_sim/studies/work_precision/problem.hpp"
 #include "host_sim/studies/work_precision/ranking.hpp"
+#include "host_sim/studies/work_precision/report.hpp"
+#include "host_sim/studies/work_precision/scene_problem.hpp"
 
 namespace sonoglide::work_precision {
 namespace {
@@ -61,8 +61,8 @@ Lines recorded_lines(const std::string& scene) {
   return lines;
 }
 
-Row row_of(const Solver& solver, double setting, const std::string& figures) {
-  Row row;
+MeasuredSetting row_of(const ComparedSolver& solver, double setting, const std::string& figures) {
+  MeasuredSetting row;
   row.solver = &solver;
   row.setting = setting;
   std::istringstream text(figures);
@@ -81,10 +81,10 @@ bool is_peer(const std::string& solver) {
 }
 
 /// As it was recorded.
-Comparison recorded(const std::string& scene) {
+SolverComparison recorded(const std::string& scene) {
   Lines lines = recorded_lines(scene);
-  Comparison comparison;
-  for (const Solver& solver : solvers()) {
+  SolverComparison comparison;
+  for (const ComparedSolver& solver : solvers()) {
     for (const double setting : solver.settings) {
       const auto line = lines.find({solver.name, setting_text(solver.knob, setting)});
       if (line == lines.end()) {
@@ -102,14 +102,14 @@ Comparison recorded(const std::string& scene) {
 }
 
 /// Whether another machine comes to the same, and soon.
-bool is_repeatable(const Row& row, int periods) {
+bool is_repeatable(const MeasuredSetting& row, int periods) {
   return row.ok() ? row.wall_us_per_period * periods <= longest_run_us : row.status != "too slow";
 }
 
 /// Each row that can be repeated, as a solver of one setting.
-std::vector<Solver> repeated(const std::vector<const Row*>& rows) {
-  std::vector<Solver> chosen;
-  for (const Row* row : rows) {
+std::vector<ComparedSolver> repeated(const std::vector<const MeasuredSetting*>& rows) {
+  std::vector<ComparedSolver> chosen;
+  for (const MeasuredSetting* row : rows) {
     chosen.push_back(*row->solver);
     chosen.back().settings = {row->setting};
   }
@@ -120,16 +120,16 @@ class MeasuredTest : public testing::TestWithParam<std::pair<std::string, std::s
 
 TEST_P(MeasuredTest, ErrorsAndStepsAreThoseOfThisBuild) {
   const peers::Problem scene = problem(GetParam().first);
-  const Comparison then = recorded(GetParam().first);
-  std::vector<const Row*> rows;
-  for (const Row& row : then.rows) {
+  const SolverComparison then = recorded(GetParam().first);
+  std::vector<const MeasuredSetting*> rows;
+  for (const MeasuredSetting& row : then.rows) {
     if (is_repeatable(row, scene.periods)) {
       rows.push_back(&row);
     }
   }
   EXPECT_GT(rows.size(), 100U);
-  const std::vector<Solver> chosen = repeated(rows);
-  const Comparison now = compare(scene, chosen, {10.0, 0.0, 0}, {});
+  const std::vector<ComparedSolver> chosen = repeated(rows);
+  const SolverComparison now = compare(scene, chosen, {10.0, 0.0, 0}, {});
   ASSERT_EQ(now.rows.size(), rows.size());
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const std::string name =
@@ -146,15 +146,15 @@ TEST_P(MeasuredTest, ErrorsAndStepsAreThoseOfThisBuild) {
 }
 
 TEST_P(MeasuredTest, TimesAreTimes) {
-  for (const Row& row : recorded(GetParam().first).rows) {
+  for (const MeasuredSetting& row : recorded(GetParam().first).rows) {
     EXPECT_EQ(row.ok(), std::isfinite(row.wall_us_per_period)) << row.solver->name;
     EXPECT_FALSE(row.wall_us_per_period <= 0.0) << row.solver->name;
   }
 }
 
 TEST_P(MeasuredTest, TheFastestAtAnErrorOf1em8IsOneThatTheDocumentNames) {
-  const Comparison then = recorded(GetParam().first);
-  const std::vector<const Row*> ranking = cheapest(then, 1e-8);
+  const SolverComparison then = recorded(GetParam().first);
+  const std::vector<const MeasuredSetting*> ranking = cheapest(then, 1e-8);
   ASSERT_GT(ranking.size(), 1U);
   EXPECT_EQ(ranking.front()->solver->name.rfind(GetParam().second, 0), 0U)
       << ranking.front()->solver->name;
