@@ -1,6 +1,8 @@
-/// State of the plant, and the interval over which a solver advances it. All dimensionless.
+/// State of the plant, the interval over which a solver advances it, and how equal steps cut it. All
+/// dimensionless.
 #pragma once
 
+#include <cstdint>
 #include <type_traits>
 
 #include "firmware/numeric/scalar.hpp"
@@ -62,5 +64,19 @@ struct Interval {
   Scalar sliding_velocity = Scalar(0);  ///< r = Vt / (omega L) at the beginning
   Scalar sliding_acceleration = Scalar(0);  ///< dr / d tau
 };
+
+/// The smallest number of equal steps no longer than longest_step. A number above `limit` is not
+/// told exactly: it is given as limit + 1.
+///
+/// A step that fits a whole number of times to within 1e-5 of it counts as fitting.
+template <class Scalar>
+std::uint32_t fixed_step_count(Scalar duration, Scalar longest_step, std::uint32_t limit) {
+  const Scalar steps = duration / longest_step * numeric::from_real<Scalar>(1.0 - 1e-5);
+  if (!(steps <= static_cast<Scalar>(limit))) {
+    return limit + 1;
+  }
+  const auto whole = static_cast<std::uint32_t>(steps);
+  return steps > static_cast<Scalar>(whole) ? whole + 1 : whole;
+}
 
 }  // namespace sonoglide::plant

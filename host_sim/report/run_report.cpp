@@ -2,397 +2,17 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
-#include <cstddef>
-#include <cstdint>
-#include <limits>
-#include <utility>
 
 #include "host_sim/configure/plant_scales.hpp"
 #include "host_sim/configure/solver_facts.hpp"
-#include "host_sim/report/hysteresis.hpp"
-#include "host_sim/report/spectrum.hpp"
+#include "host_sim/process/printable.hpp"
+#include "host_sim/report/step_metrics.hpp"
 #include "host_sim/report/words.hpp"
 #include "host_sim/scene/names.hpp"
 #include "host_sim/scene_file/to_json.hpp"
 
 namespace sonoglide::report {
-namespace {
-
-/// Where a curve has a gap.
-constexpr double gap = std::numeric_limits<double>::quiet_NaN();
-constexpr const char* time_label = "Time [s]";
-
-std::string percent(double part) {
-  return fmt::format("{:.3g} %", 100.0 * part);
-}
-
-std::string lead(const scene::Scene& scene, const loop::RunResult& result) {
-  std::string text =
-      scene.controller
-          ? fmt::format("Closed loop, controller in {}",
-                        scene::name_of(scene::arithmetics, scene.controller->arithmetic))
-          : std::string("Open loop");
-  text += fmt::format(". Friction law: {}. Solver: {}. {:.6g} ms simulated in {:.3g} ms.",
-                      scene::name_of(scene.friction.law), configure::name_of(scene.solver.method),
-                      result.final_time_s * 1e3, result.wall_s * 1e3);
-  return text;
-}
-
-/// Of the limits that no other warning speaks of.
-void append_limits(const Course& course, std::vector<std::string>& warnings) {
-  using control::Limit;
-  for (const Limit limit :
-       {Limit::slew, Limit::ratio_end, Limit::mismatch, Limit::not_settling, Limit::bad_sample}) {
-    if (const std::uint64_t periods = course.periods_in(limit); periods > 0) {
-      warnings.push_back(fmt::format("The limit {} was named in {} carrier {}.", limit_name(limit),
-                                     periods, periods == 1 ? "period" : "periods"));
-    }
-  }
-}
-
-std::vector<std::string> warnings(const scene::Scene& scene, const loop::RunResult& result,
-                                  const RunFindings& findings) {
-  std::vector<std::string> all;
-  if (scene.friction.sign_convention == scene::SignConvention::as_printed) {
-    all.emplace_back(
-        "Sign convention as printed in the paper (V = Vt - x'): friction pumps energy into the "
-        "vibration. The dissipative convention is V = Vt + x'.");
-  }
-  if (!result.control) {
-    return all;
-  }
-  const bool cosine = scene.drive->waveform == scene::Waveform::cosine;
-  if (!scene::has_own_map(scene.friction.law) || !cosine) {
-    all.push_back(fmt::format(
-        "The feedforward's map is that of a {} contact under a cosine; what "
-        "{} changes is left to feedback.",
-        scene::friction_map(scene.friction.law) == scene::FrictionMap::dahl ? "Dahl" : "Coulomb",
-        cosine ? "the law" : "the waveform"));
-  }
-  for (const loop::FaultEvent& event : result.control->faults) {
-    all.push_back(fmt::format("Fault at {:.6g} ms: {}. The drive is off from there on.",
-                              event.time_s * 1e3, fault_name(event.fault)));
-  }
-  if (result.control->saturated_commands > 0) {
-    all.push_back(
-        fmt::format("The actuator's range of 0 to {:.6g} N limited the drive in {} of the "
-                    "control steps.",
-                    scene.drive->max_force_amplitude_N,
-                    percent(static_cast<double>(result.control->saturated_commands) /
-                            static_cast<double>(result.control->commands))));
-  }
-  append_limits(findings.course(), all);
-  for (std::string& note : configure::design_notes(result.control->design)) {
-    all.push_back(std::move(note));
-  }
-  if (result.control->design.relearns) {
-    const report::PauseMetrics pauses = findings.pauses();
-    all.push_back(
-        fmt::format("The drive paused {} times to learn the friction force anew: {} of the time. "
-                    "The pauses raise "
-                    "the mean friction ratio by {:.3g}; the table of target steps leaves them out.",
-                    pauses.pauses, percent(pauses.time_fraction), pauses.ratio_cost));
-  }
-  if (scene.controller->target_friction_ratio.size() > findings.close_ups().size()) {
-    all.push_back(fmt::format("Close-ups are shown of the first {} target steps.",
-                              findings.close_ups().size()));
-  }
-  if (findings.course().periods_in(control::Limit::speed_floor) > 0) {
-    const configure::ControlDesign& design = result.control->design;
-    all.push_back(
-        fmt::format("The drive was held while sliding was slower than {:.3g} mm/s, where "
-                    "the friction ratio is undefined.",
-                    1e3 * design.speed_floor * design.scales.velocity_m_per_s));
-  }
-  return all;
-}
-
-output::Table step_table(const RunFindings& findings) {
-  output::Table table{"Target steps",
-                      {"From [ms]", "Target", "Settles in [µs]", "Overshoot", "Steady error",
-                       "Ripple", "Drive [N]", "Limit"},
-                      {}};
-  for (const report::StepMetrics& step : findings.steps()) {
-    table.rows.push_back(
-        {fmt::format("{:.3f}", step.time_s * 1e3), fmt::format("{:.3f}", step.target),
-         step.settling_time_s ? fmt::format("{:.1f}", *step.settling_time_s * 1e6) : "never",
-         figure("{:.5f}", step.overshoot), figure("{:+.5f}", step.steady_error),
-         figure("{:.5f}", step.ripple), figure("{:.1f}", step.drive_amplitude_N),
-         limit_text(step)});
-  }
-  return table;
-}
-
-output::Table run_table(const scene::Scene& scene, const loop::RunResult& result) {
-  const loop::PowerRatios window = loop::power_ratios(scene, result.window);
-  output::Table table{"Run", {}, {}};
-  const auto row = [&table](const char* name, std::string value) {
-    table.rows.push_back({name, std::move(value)});
-  };
-  row("Undriven friction force, window [N]",
-      fmt::format("{:.6g}", configure::largest_friction_limit_N(scene.friction) *
-                                result.window.undriven_s / result.window.duration_s));
-  if (configure::largest_friction_limit_N(scene.friction) > 0.0) {
-    row("Friction ratio, whole run",
-        fmt::format("{:.9f}", loop::power_ratios(scene, result.whole).friction_ratio));
-    row("Friction ratio, window", fmt::format("{:.9f}", window.friction_ratio));
-    row("Power of the pull over that of the friction limit, window",
-        fmt::format("{:.6f}", window.pull_ratio));
-    row("Power dissipation ratio, window", fmt::format("{:.6f}", window.dissipation_ratio));
-    row("Drive input ratio, window", fmt::format("{:.6f}", window.drive_input_ratio));
-    row("Change of stored energy, window", fmt::format("{:.6f}", window.stored_change_ratio));
-    row("Damping, window", fmt::format("{:.6f}", window.damping_ratio));
-  }
-  row("Residual of the energy balance, window", fmt::format("{:.2g}", window.balance_residual));
-  if (std::isfinite(window.dissipation_as_printed)) {
-    row("Power dissipation ratio as the paper prints it",
-        fmt::format("{:.6g}", window.dissipation_as_printed));
-  }
-  if (result.steady_orbit) {
-    row("Steady orbit: carrier periods solved to find it",
-        fmt::format("{}", result.steady_orbit->periods));
-    row("Steady orbit: part of a deviation that is left after a carrier period",
-        fmt::format("{:.6f}", result.steady_orbit->multiplier));
-  }
-  row("Solver steps", fmt::format("{}", result.solver_steps));
-  if (configure::counts_events(scene.solver.method)) {
-    row("Reversals, sticks and releases", fmt::format("{}", result.solver_events));
-  }
-  row("Simulated time over wall time", fmt::format("{:.3g}", result.final_time_s / result.wall_s));
-  return table;
-}
-
-output::Table signal_table(const loop::ControlRecord& control) {
-  output::Table table{
-      "Fixed-point signals, per unit", {"Signal", "Smallest", "Largest", "Saturations"}, {}};
-  for (const numeric::SignalRecord& signal : control.signals) {
-    table.rows.push_back({signal.name, fmt::format("{:.6f}", signal.smallest),
-                          fmt::format("{:.6f}", signal.largest),
-                          fmt::format("{}", signal.saturations)});
-  }
-  return table;
-}
-
-std::string course_text(const scene::Scene& scene, const Course::Curve& curve) {
-  if (!scene.drive) {
-    return "One value for each thousandth of the run.";
-  }
-  if (curve.piece_size() == 1) {
-    return "One value for each carrier period.";
-  }
-  return fmt::format("Smallest and largest value of every {} carrier periods.{}",
-                     curve.piece_size(),
-                     scene.run.record.empty() ? "" : " All of them are in periods.csv.");
-}
-
-std::vector<double> limits_N(const scene::Friction& friction, const std::vector<double>& time_s) {
-  std::vector<double> limits;
-  limits.reserve(time_s.size());
-  for (const double time : time_s) {
-    limits.push_back(configure::contact_at(friction, time).limit_N());
-  }
-  return limits;
-}
-
-output::Section course(const scene::Scene& scene, const Course::Curve& curve) {
-  const std::vector<double> time = curve.x();
-  const auto series = [&curve](const char* label, Course::Ordinate ordinate) {
-    return output::Series{label, curve.y(ordinate), true, false};
-  };
-
-  output::Section section{"Course of the run", course_text(scene, curve), {}};
-  if (configure::largest_friction_limit_N(scene.friction) > 0.0) {
-    output::Panel panel{
-        "Friction ratio",
-        "Mean friction force over a carrier period, divided by the undriven one at that "
-        "sliding speed and friction.",
-        time_label,
-        "Friction ratio [-]",
-        time,
-        {},
-        false,
-        "course"};
-    if (scene.controller) {
-      panel.series.push_back(series("target", Course::target));
-    }
-    panel.series.push_back(series("reached", Course::friction_ratio));
-    section.panels.push_back(std::move(panel));
-  }
-  if (scene.friction.has_profile()) {
-    section.panels.push_back({"Friction limit",
-                              "",
-                              time_label,
-                              "Coefficient times normal force [N]",
-                              time,
-                              {{"limit", limits_N(scene.friction, time), true, false}},
-                              false,
-                              "course"});
-  }
-  if (scene.drive) {
-    section.panels.push_back({"Drive amplitude",
-                              "",
-                              time_label,
-                              "Drive force amplitude [N]",
-                              time,
-                              {series("amplitude", Course::drive_amplitude_N)},
-                              false,
-                              "course"});
-  }
-  if (scene.sliding.profile.size() > 1) {
-    section.panels.push_back({"Sliding velocity",
-                              "",
-                              time_label,
-                              "Sliding velocity [m/s]",
-                              time,
-                              {series("sliding", Course::sliding_velocity_m_per_s)},
-                              false,
-                              "course"});
-  }
-  return section;
-}
-
-output::Section close_up(const scene::Scene& scene, const loop::Recording& recording,
-                         std::size_t index) {
-  const auto column = [&recording](auto value) {
-    std::vector<double> values;
-    for (const loop::PlantState& state : recording.state) {
-      values.push_back(value(state));
-    }
-    return values;
-  };
-  const auto displacement = [](const loop::PlantState& state) { return state.displacement_m; };
-  const auto velocity = [](const loop::PlantState& state) { return state.velocity_m_per_s; };
-  const auto friction = [](const loop::PlantState& state) { return state.friction_force_N; };
-
-  output::Section section{"Start", "The first carrier periods.", {}};
-  if (scene.controller) {
-    const scene::TargetStep& step = scene.controller->target_friction_ratio[index];
-    section.title =
-        fmt::format("Step to {:.3g} at {:.6g} ms", step.friction_ratio, step.time_s * 1e3);
-    section.text = "The carrier periods around the step.";
-  }
-  const std::string group = fmt::format("close_up_{}", index);
-  const auto panel = [&](const char* title, const char* label, std::vector<double> values) {
-    section.panels.push_back({title,
-                              "",
-                              time_label,
-                              label,
-                              recording.time_s,
-                              {{title, std::move(values), false, false}},
-                              false,
-                              group});
-  };
-  panel("Displacement", "Displacement [m]", column(displacement));
-  panel("Velocity", "Vibration velocity [m/s]", column(velocity));
-  if (configure::largest_friction_limit_N(scene.friction) > 0.0) {
-    panel("Friction force", "Friction force [N]", column(friction));
-  }
-  return section;
-}
-
-output::Panel hysteresis_panel(const report::HysteresisLoop& cycle) {
-  output::Panel panel{"Friction force against displacement",
-                      "One cycle of the contact, at the end of the run.",
-                      "Displacement travelled [m]",
-                      "Friction force [N]",
-                      {},
-                      {{"sliding forward", {}, false, true}, {"sliding back", {}, false, true}},
-                      false,
-                      ""};
-  struct Point {
-    double displacement_m;
-    double force_N;
-    std::size_t branch;
-  };
-  std::vector<Point> points;
-  const auto collect = [&points](const report::Branch& branch, std::size_t index) {
-    for (std::size_t i = 0; i < branch.force_N.size(); ++i) {
-      points.push_back({branch.displacement_m[i], branch.force_N[i], index});
-    }
-  };
-  collect(cycle.forward, 0);
-  collect(cycle.backward, 1);
-  std::stable_sort(points.begin(), points.end(), [](const Point& a, const Point& b) {
-    return a.displacement_m < b.displacement_m;
-  });
-  for (const Point& point : points) {
-    panel.x.push_back(point.displacement_m);
-    panel.series[point.branch].y.push_back(point.force_N);
-    panel.series[1 - point.branch].y.push_back(gap);
-  }
-  if (cycle.backward.force_N.empty()) {
-    panel.series.pop_back();
-  }
-  return panel;
-}
-
-output::Panel spectrum_panel(const scene::Scene& scene, const loop::Recording& ending) {
-  std::vector<double> velocity;
-  for (const loop::PlantState& state : ending.state) {
-    velocity.push_back(state.velocity_m_per_s);
-  }
-  if (!velocity.empty()) {
-    velocity.pop_back();  // the sample that begins the next carrier period
-  }
-  const double interval_s = ending.time_s.size() > 1 ? ending.time_s[1] - ending.time_s[0] : 1.0;
-  report::Spectrum spectrum = report::amplitude_spectrum(velocity, interval_s);
-  if (scene.drive) {
-    constexpr double harmonics_shown = 5.0;
-    const double highest_Hz = harmonics_shown * scene.drive->frequency_Hz;
-    const auto end =
-        std::upper_bound(spectrum.frequency_Hz.begin(), spectrum.frequency_Hz.end(), highest_Hz);
-    spectrum.amplitude.resize(static_cast<std::size_t>(end - spectrum.frequency_Hz.begin()));
-    spectrum.frequency_Hz.resize(spectrum.amplitude.size());
-  }
-  return {
-      "Velocity spectrum",
-      fmt::format("Amplitude, Hann window, {} samples from the end of the run.", velocity.size()),
-      "Frequency [Hz]",
-      "Velocity amplitude [m/s]",
-      std::move(spectrum.frequency_Hz),
-      {{"velocity", std::move(spectrum.amplitude), false, false}},
-      true,
-      ""};
-}
-
-output::Section ending(const scene::Scene& scene, const loop::Recording& recording) {
-  constexpr std::size_t samples = 64;
-  output::Section section{"End of the run", "", {}};
-  // Across the sliding and normal to it the vibration is no part of the displacement travelled.
-  if (configure::largest_friction_limit_N(scene.friction) > 0.0 &&
-      scene::vibrates_along(scene.friction.law)) {
-    section.panels.push_back(
-        hysteresis_panel(report::last_cycle(recording, scene.friction.sign_convention, samples)));
-  }
-  section.panels.push_back(spectrum_panel(scene, recording));
-  return section;
-}
-
-}  // namespace
-
-output::Page run_page(const scene::Scene& scene, const loop::RunResult& result,
-                      const RunFindings& findings) {
-  output::Page page{scene.name, lead(scene, result), warnings(scene, result, findings), {}, {}};
-  if (scene.controller) {
-    page.tables.push_back(step_table(findings));
-  }
-  page.tables.push_back(run_table(scene, result));
-  if (result.control && !result.control->signals.empty()) {
-    page.tables.push_back(signal_table(*result.control));
-  }
-  if (result.image) {
-    page.tables.push_back(image_table(*result.image));
-  }
-  page.sections.push_back(course(scene, findings.course().curve()));
-  for (std::size_t i = 0; i < findings.close_ups().size(); ++i) {
-    page.sections.push_back(close_up(scene, findings.close_ups()[i], i));
-  }
-  page.sections.push_back(ending(scene, findings.ending()));
-  return page;
-}
-
 namespace {
 
 using nlohmann::ordered_json;
@@ -619,6 +239,61 @@ void RunReport::finish(const loop::RunResult& result) {
   folder_.write(summary_file, summary_text(scene_, result, findings_));
   folder_.write(page_file, output::to_html(run_page(scene_, result, findings_)));
   folder_.commit();
+}
+
+namespace {
+
+std::string settling(const std::optional<double>& time_s) {
+  return time_s ? fmt::format("{:.1f} us", *time_s * 1e6) : std::string("never");
+}
+
+std::string pause_line(const report::PauseMetrics& metrics) {
+  return fmt::format(
+      "friction learnt anew in {} pauses, {:.3g} % of the time; they raise the mean ratio by "
+      "{:.2g}\n",
+      metrics.pauses, 100.0 * metrics.time_fraction, metrics.ratio_cost);
+}
+
+std::string step_lines(const loop::RunResult& result, const RunFindings& findings) {
+  std::string text = fmt::format("{:>11} {:>7} {:>11} {:>10} {:>8} {:>10}  {}\n", "from", "target",
+                                 "settles in", "error", "ripple", "drive", "limit");
+  for (const report::StepMetrics& step : findings.steps()) {
+    text += fmt::format("{:>8.3f} ms {:>7.3f} {:>11} {:>10} {:>8} {:>8} N  {}\n", step.time_s * 1e3,
+                        step.target, settling(step.settling_time_s),
+                        figure("{:+.5f}", step.steady_error), figure("{:.5f}", step.ripple),
+                        figure("{:.1f}", step.drive_amplitude_N), limit_text(step));
+  }
+  if (result.control->design.relearns) {
+    text += pause_line(findings.pauses());
+  }
+  for (const loop::FaultEvent& event : result.control->faults) {
+    text += fmt::format("FAULT at {:.3f} ms: {}; the drive is off from there on\n",
+                        event.time_s * 1e3, fault_name(event.fault));
+  }
+  return text;
+}
+
+std::string ratio_line(const scene::Scene& scene, const loop::RunResult& result) {
+  if (configure::largest_friction_limit_N(scene.friction) == 0.0) {
+    return "no friction, so no friction ratio\n";
+  }
+  return fmt::format("friction ratio {:.6f} over the whole run, {:.6f} from {:.6g} s on\n",
+                     loop::power_ratios(scene, result.whole).friction_ratio,
+                     loop::power_ratios(scene, result.window).friction_ratio,
+                     scene.run.window_start_s);
+}
+
+}  // namespace
+
+std::string run_text(const scene::Scene& scene, const loop::RunResult& result,
+                     const RunFindings& findings, const std::filesystem::path& out) {
+  const std::string lines =
+      scene.controller ? step_lines(result, findings) : ratio_line(scene, result);
+  return fmt::format("{}{}{:.6g} ms simulated in {:.3g} ms, {:.3g} times real time\nreport: {}\n",
+                     lines, result.image ? image_lines(*result.image) : "",
+                     result.final_time_s * 1e3, result.wall_s * 1e3,
+                     result.final_time_s / result.wall_s,
+                     process::printable((out / "report.html").string()));
 }
 
 }  // namespace sonoglide::report

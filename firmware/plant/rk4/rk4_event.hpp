@@ -8,7 +8,6 @@
 
 #include "firmware/numeric/float_format.hpp"
 #include "firmware/numeric/scalar.hpp"
-#include "firmware/plant/fixed_steps.hpp"
 #include "firmware/plant/outcome.hpp"
 #include "firmware/plant/rk4/rk4_formula.hpp"
 #include "firmware/plant/rk4/rk4_step.hpp"

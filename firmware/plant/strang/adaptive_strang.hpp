@@ -8,7 +8,6 @@
 #include "firmware/numeric/quick_root.hpp"
 #include "firmware/numeric/scalar.hpp"
 #include "firmware/numeric/turn.hpp"
-#include "firmware/plant/fixed_steps.hpp"
 #include "firmware/plant/outcome.hpp"
 #include "firmware/plant/state.hpp"
 #include "firmware/plant/state_check.hpp"

@@ -6,7 +6,6 @@
 
 #include "firmware/numeric/float_elementary.hpp"
 #include "firmware/numeric/scalar.hpp"
-#include "firmware/plant/fixed_steps.hpp"
 #include "firmware/plant/outcome.hpp"
 #include "firmware/plant/state.hpp"
 #include "firmware/plant/state_check.hpp"

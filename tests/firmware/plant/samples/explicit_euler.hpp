@@ -5,7 +5,6 @@
 
 #include "firmware/numeric/scalar.hpp"
 #include "firmware/plant/account.hpp"
-#include "firmware/plant/fixed_steps.hpp"
 #include "firmware/plant/outcome.hpp"
 #include "firmware/plant/state.hpp"
 #include "firmware/plant/state_check.hpp"

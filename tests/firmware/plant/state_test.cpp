@@ -1,6 +1,6 @@
 /// The budget of the solvers that take equal steps.
 
-#include "firmware/plant/fixed_steps.hpp"
+#include "firmware/plant/state.hpp"
 
 #include <gtest/gtest.h>
 
