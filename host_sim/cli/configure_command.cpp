@@ -43,7 +43,8 @@ void configure(const ConfigureOptions& options) {
   }
   folder.commit();
   if (!options.quiet) {
-    fmt::print("header: {}\n", process::printable((out / emulated::controller_header_name).string()));
+    fmt::print("header: {}\n",
+               process::printable((out / emulated::controller_header_name).string()));
     if (!options.plant.empty()) {
       fmt::print("plant:  {}\n", process::printable((out / emulated::plant_header_name).string()));
     }

@@ -154,8 +154,8 @@ void require_reach(const loop::ScheduledTarget& step, const loop::CarrierGrid& g
   if (step.period > most_periods) {
     throw configure::ConfigurationError(
         "controller.target_friction_ratio",
-        fmt::format("a step at {:g} s is out of an image's reach; allowed: up to {:g} s", step.time_s,
-                    static_cast<double>(most_periods) * grid.period_s()));
+        fmt::format("a step at {:g} s is out of an image's reach; allowed: up to {:g} s",
+                    step.time_s, static_cast<double>(most_periods) * grid.period_s()));
   }
 }
 

@@ -15,7 +15,6 @@ inline std::string csv_number(double value, int digits) {
   return std::isnan(value) ? "nan" : fmt::format("{:.{}g}", value, digits);
 }
 
-
 /// A text as a cell of CSV (RFC 4180): in quotes where it has a comma or a quote, printable (see
 /// printable()), so that a row is a line.
 std::string csv_cell(std::string_view text);

@@ -45,7 +45,6 @@ class ChildProcess {
 /// "exit code 1" or "signal 9", from a status of waitpid.
 std::string describe_end(int status);
 
-
 /// Keeps the calling thread, and every process that it starts meanwhile, on the core that it is on.
 /// In lockstep one side always sleeps until the other has spoken: waking it on the same core takes
 /// a quarter of the time. Not for a side that looks again and again instead of sleeping. Where the

@@ -18,7 +18,6 @@ inline std::string figure(fmt::format_string<const double&> format, double value
   return std::isnan(value) ? "-" : fmt::format(format, value);
 }
 
-
 std::string limit_name(control::Limit limit);
 std::string fault_name(control::Fault fault);
 /// The limit of a target step, with its cause, how far belief and truth are apart, and whether only

@@ -48,8 +48,7 @@ TEST_P(UnreachableTargetTest, IsAtTheLimitThreePeriodsAfterTheStep) {
     const double since_s = time_s - step_time_s;
     if (since_s >= 3.0 * period_s + 1e-9 && since_s < 2e-3 - 1e-9) {
       const double phase = std::fmod(time_s / period_s, 1.0);
-      ASSERT_NEAR(row.number("drive_force_N"), limit_N * std::cos(tests::two_pi * phase),
-                  1e-3)
+      ASSERT_NEAR(row.number("drive_force_N"), limit_N * std::cos(tests::two_pi * phase), 1e-3)
           << time_s;
       ++checked;
     }

@@ -12,7 +12,6 @@
 
 #include "host_sim/studies/stability/report.hpp"
 #include "host_sim/studies/stability/solver_list.hpp"
-#include "host_sim/studies/stability/report.hpp"
 #include "tests/common/csv/csv.hpp"
 
 namespace sonoglide::stability {
