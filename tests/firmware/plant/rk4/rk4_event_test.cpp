@@ -91,10 +91,9 @@ TEST(Rk4EventReversal, SinglePrecisionAlwaysGoesOn) {
   using Single = DahlModel<float>;
   for (int i = 0; i < 400; ++i) {
     const float r = 0.9F + 0.0005F * static_cast<float>(i);
-    for (const float sign : {1.0F, -1.0F}) {
+    for (const double sign : {1.0, -1.0}) {
       const Single model =
-          Case().contact_stiffness(0.4F).friction_force(0.01F).vibration_sign(sign).stiffness(
-              0.05F);
+          Case().contact_stiffness(0.4).friction_force(0.01).vibration_sign(sign).stiffness(0.05);
       Rk4Event<Single> solver;
       solver.configure(model, 0.1F, 200);
       State<float> state;

@@ -3,10 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdlib>
-#include <fstream>
 #include <map>
-#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -15,6 +14,7 @@
 #include "host_sim/scene_file/reader.hpp"
 #include "host_sim/studies/arithmetic/comparison.hpp"
 #include "host_sim/studies/arithmetic/report.hpp"
+#include "tests/common/csv/csv.hpp"
 
 namespace sonoglide::arithmetic {
 namespace {
@@ -25,20 +25,14 @@ constexpr const char* renew =
 
 const std::vector<std::string> boards = {SONOGLIDE_ARITHMETIC_BOARDS};
 
-/// The heading, and the lines of a board.
-std::vector<std::string> lines_of(std::istream& table, const std::string& board) {
-  std::vector<std::string> found;
-  for (std::string line; std::getline(table, line);) {
-    if (found.empty() || line.rfind(board + ",", 0) == 0) {
-      found.push_back(line);
+std::vector<csv::Row> rows_of(const csv::Table& table, const std::string& board) {
+  std::vector<csv::Row> found;
+  for (const csv::Row& row : table.rows()) {
+    if (row.text("board") == board) {
+      found.push_back(row);
     }
   }
   return found;
-}
-
-std::vector<std::string> recorded_lines(const std::string& board) {
-  std::ifstream file(SONOGLIDE_ARITHMETIC_MEASURED);
-  return lines_of(file, board);
 }
 
 class MeasuredTest : public testing::TestWithParam<std::string> {};
@@ -46,13 +40,14 @@ class MeasuredTest : public testing::TestWithParam<std::string> {};
 TEST_P(MeasuredTest, ErrorsInstructionsAndBytesAreThoseOfThisBuild) {
   setenv("XDG_CACHE_HOME", SONOGLIDE_IMAGE_CACHE, 1);
   const scene::Scene scene = scene_file::read_file(SONOGLIDE_ARITHMETIC_SCENE);
-  std::istringstream table(images_csv(compare(
+  const csv::Table computed(images_csv(compare(
       scene, {emulated::find_board(GetParam())}, [] {}, [](double) {})));
-  const std::vector<std::string> computed = lines_of(table, GetParam());
-  const std::vector<std::string> recorded = recorded_lines(GetParam());
-  ASSERT_EQ(recorded.size(), computed.size()) << renew;
-  for (std::size_t i = 0; i < computed.size(); ++i) {
-    EXPECT_EQ(recorded[i], computed[i]) << "recorded and computed. " << renew;
+  const csv::Table recorded = csv::read_file(SONOGLIDE_ARITHMETIC_MEASURED);
+  ASSERT_EQ(recorded.columns(), computed.columns()) << renew;
+  const std::vector<csv::Row> rows = rows_of(recorded, GetParam());
+  ASSERT_EQ(rows.size(), computed.rows().size()) << renew;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    EXPECT_EQ(rows[i].cells(), computed.rows()[i].cells()) << "recorded and computed. " << renew;
   }
 }
 
@@ -64,18 +59,9 @@ INSTANTIATE_TEST_SUITE_P(Boards, MeasuredTest, testing::ValuesIn(boards), [](con
 
 /// Arithmetics of a board, with the mean instructions of a step.
 std::map<std::string, double> instructions(const std::string& board) {
-  constexpr std::size_t arithmetic = 2;
-  constexpr std::size_t mean = 9;
-  std::vector<std::string> lines = recorded_lines(board);
-  lines.erase(lines.begin());
   std::map<std::string, double> found;
-  for (const std::string& line : lines) {
-    std::vector<std::string> cells;
-    std::istringstream text(line);
-    for (std::string cell; std::getline(text, cell, ',');) {
-      cells.push_back(cell);
-    }
-    found[cells.at(arithmetic)] = std::stod(cells.at(mean));
+  for (const csv::Row& row : rows_of(csv::read_file(SONOGLIDE_ARITHMETIC_MEASURED), board)) {
+    found[row.text("arithmetic")] = row.number("instructions_mean");
   }
   return found;
 }

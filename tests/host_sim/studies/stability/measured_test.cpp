@@ -2,34 +2,23 @@
 
 #include <gtest/gtest.h>
 
-#include <fstream>
-#include <sstream>
-#include <string>
-#include <vector>
+#include <cstddef>
 
 #include "host_sim/studies/stability/extremes.hpp"
 #include "host_sim/studies/stability/report.hpp"
+#include "tests/common/csv/csv.hpp"
 
 namespace sonoglide::stability {
 namespace {
 
-std::vector<std::string> lines(std::istream& text) {
-  std::vector<std::string> all;
-  for (std::string line; std::getline(text, line);) {
-    all.push_back(line);
-  }
-  return all;
-}
-
 TEST(Measured, VerdictsAndResidualsAreThoseOfThisBuild) {
-  std::ifstream file(SONOGLIDE_STABILITY_MEASURED);
-  std::istringstream table(
+  const csv::Table recorded = csv::read_file(SONOGLIDE_STABILITY_MEASURED);
+  const csv::Table computed(
       extremes_csv(extremes(SONOGLIDE_STABILITY_MEASURED_SCENES, [](double) {})));
-  const std::vector<std::string> recorded = lines(file);
-  const std::vector<std::string> computed = lines(table);
-  ASSERT_EQ(recorded.size(), computed.size());
-  for (std::size_t i = 0; i < computed.size(); ++i) {
-    EXPECT_EQ(recorded[i], computed[i])
+  ASSERT_EQ(recorded.columns(), computed.columns());
+  ASSERT_EQ(recorded.rows().size(), computed.rows().size());
+  for (std::size_t i = 0; i < computed.rows().size(); ++i) {
+    EXPECT_EQ(recorded.rows()[i].cells(), computed.rows()[i].cells())
         << "recorded and computed. If this is meant, cmake --build --preset release --target "
            "write_stability_measured and commit the change.";
   }

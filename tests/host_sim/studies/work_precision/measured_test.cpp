@@ -5,11 +5,8 @@
 
 #include <cmath>
 #include <cstddef>
-#include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <map>
-#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -20,6 +17,7 @@
 #include "host_sim/studies/work_precision/ranking.hpp"
 #include "host_sim/studies/work_precision/report.hpp"
 #include "host_sim/studies/work_precision/scene_problem.hpp"
+#include "tests/common/csv/csv.hpp"
 
 namespace sonoglide::work_precision {
 namespace {
@@ -40,39 +38,28 @@ peers::Problem problem(const std::string& scene) {
       scene_file::read_file(folder / (scene + ".toml"), {SONOGLIDE_WORK_PRECISION_OVERRIDES}));
 }
 
-/// Solver and setting, and the rest of a line.
-using Lines = std::map<std::pair<std::string, std::string>, std::string>;
+/// By solver and setting.
+using Rows = std::map<std::pair<std::string, std::string>, csv::Row>;
 
-Lines recorded_lines(const std::string& scene) {
+Rows recorded_rows(const std::string& scene) {
   const std::filesystem::path folder = SONOGLIDE_WORK_PRECISION_MEASURED;
-  std::ifstream file(folder / (scene + ".csv"));
-  std::string heading;
-  std::getline(file, heading);
-  EXPECT_EQ(heading + "\n", to_csv({})) << scene;
-  Lines lines;
-  std::string solver;
-  std::string setting;
-  std::string rest;
-  while (std::getline(file, solver, ',') && std::getline(file, setting, ',') &&
-         std::getline(file, rest)) {
-    EXPECT_TRUE(lines.emplace(std::make_pair(solver, setting), rest).second)
-        << scene << " " << solver << " " << setting;
+  const csv::Table table = csv::read_file(folder / (scene + ".csv"));
+  EXPECT_EQ(table.columns(), csv::Table(to_csv({})).columns()) << scene;
+  Rows rows;
+  for (const csv::Row& row : table.rows()) {
+    EXPECT_TRUE(rows.emplace(std::make_pair(row.text("solver"), row.text("setting")), row).second)
+        << scene << " " << row.text("solver") << " " << row.text("setting");
   }
-  return lines;
+  return rows;
 }
 
-MeasuredSetting row_of(const ComparedSolver& solver, double setting, const std::string& figures) {
-  MeasuredSetting row;
-  row.solver = &solver;
-  row.setting = setting;
-  std::istringstream text(figures);
-  for (double* figure : {&row.error, &row.wall_us_per_period, &row.steps_per_period}) {
-    std::string cell;
-    std::getline(text, cell, ',');
-    *figure = std::strtod(cell.c_str(), nullptr);
-  }
-  std::getline(text, row.status);
-  return row;
+MeasuredSetting measured(const ComparedSolver& solver, double setting, const csv::Row& row) {
+  return {&solver,
+          setting,
+          row.number("relative_error"),
+          row.number("wall_us_per_period"),
+          row.number("steps_per_period"),
+          row.text("status")};
 }
 
 /// A peer is built in only where its library is found.
@@ -82,20 +69,20 @@ bool is_peer(const std::string& solver) {
 
 /// As it was recorded.
 SolverComparison recorded(const std::string& scene) {
-  Lines lines = recorded_lines(scene);
+  Rows rows = recorded_rows(scene);
   SolverComparison comparison;
   for (const ComparedSolver& solver : solvers()) {
     for (const double setting : solver.settings) {
-      const auto line = lines.find({solver.name, setting_text(solver.knob, setting)});
-      if (line == lines.end()) {
-        ADD_FAILURE() << scene << " " << solver.name << " " << setting << ": no line. " << renew;
+      const auto row = rows.find({solver.name, setting_text(solver.knob, setting)});
+      if (row == rows.end()) {
+        ADD_FAILURE() << scene << " " << solver.name << " " << setting << ": no row. " << renew;
       } else {
-        comparison.rows.push_back(row_of(solver, setting, line->second));
-        lines.erase(line);
+        comparison.rows.push_back(measured(solver, setting, row->second));
+        rows.erase(row);
       }
     }
   }
-  for (const auto& [name, figures] : lines) {
+  for (const auto& [name, row] : rows) {
     EXPECT_TRUE(is_peer(name.first)) << scene << ": there is no " << name.first << ". " << renew;
   }
   return comparison;
