@@ -1,6 +1,7 @@
 /// What the tests of every command know of each: a new command is a line here.
 #pragma once
 
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,11 @@ struct Command {
   std::vector<std::string> others;   ///< names that a file of somebody else keeps
   Cost cost = Cost::instant;
 };
+
+/// For the names of the tests.
+inline void PrintTo(const Command& command, std::ostream* out) {
+  *out << command.name;
+}
 
 inline const std::vector<Command> command_table = {
     {"run",
