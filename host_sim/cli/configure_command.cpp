@@ -23,7 +23,7 @@ struct ConfigureOptions {
   bool quiet = false;
 };
 
-/// Throws scene::SceneError, report::OutputError; in each case nothing was written.
+/// Throws scene_file::SceneError, output::OutputError; in each case nothing was written.
 void configure(const ConfigureOptions& options) {
   const SceneInput input(options.scene);
   const scene::Scene scene = input.read();

@@ -69,8 +69,8 @@ design::DesignStudy compute(const design::Task& task, bool quiet) {
   return design::study(task, watching(bar, interruption));
 }
 
-/// Throws scene::SceneError, loop::ComputationError, report::OutputError, process::ProcessError; in
-/// each case nothing was written.
+/// Throws scene_file::SceneError, loop::ComputationError, output::OutputError,
+/// process::ProcessError; in each case nothing was written.
 void design(const DesignOptions& options) {
   const SceneInput input(options.scene);
   const scene::Scene scene = input.read();

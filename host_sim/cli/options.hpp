@@ -26,15 +26,15 @@ void add_scene_options(CLI::App& command, SceneOptions& options, const std::stri
 class SceneInput {
  public:
   /// @param options  outlive this
-  /// @throws scene::SceneError  the text cannot be read
+  /// @throws scene_file::SceneError  the text cannot be read
   explicit SceneInput(const SceneOptions& options);
 
-  /// @throws scene::SceneError
+  /// @throws scene_file::SceneError
   scene::Scene read() const { return scene_file::read(source_, options_.overrides); }
 
   /// What a call makes of the scene that read() gave.
-  /// @throws scene::SceneError  at the place of its key, where the call throws a
-  ///         scene::ConfigurationError
+  /// @throws scene_file::SceneError  at the place of its key, where the call throws a
+  ///         configure::ConfigurationError
   template <class Call>
   auto with_places(const Call& call) const {
     try {
@@ -65,7 +65,7 @@ std::filesystem::path output_folder(const std::string& out, const std::string& s
 /// Finds out, before results are computed, that an output cannot be written: stages and removes an
 /// empty folder.
 /// @param names  of the files
-/// @throws report::OutputError
+/// @throws output::OutputError
 void require_writable(const std::filesystem::path& out, const std::vector<std::string>& names);
 
 /// @return empty for the name of a board, else what is wrong with it

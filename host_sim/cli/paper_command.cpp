@@ -44,7 +44,7 @@ void compute(const PaperOptions& options) {
   paper::write_paper(options.out, options.figure, watching(bar, interruption));
 }
 
-/// Throws report::OutputError, process::ProcessError, loop::ComputationError; in each case nothing
+/// Throws output::OutputError, process::ProcessError, loop::ComputationError; in each case nothing
 /// was written.
 void paper(const PaperOptions& options) {
   output::require_gnuplot();

@@ -56,8 +56,8 @@ std::string compute_report(const scene::Scene& scene, const Design& design,
   return options.quiet ? std::string() : report::run_text(scene, result, report.findings(), out);
 }
 
-/// Throws scene::SceneError, loop::ComputationError, report::OutputError, or ends by the signal
-/// that interrupts it; in each case nothing was written.
+/// Throws scene_file::SceneError, loop::ComputationError, output::OutputError, or ends by the
+/// signal that interrupts it; in each case nothing was written.
 void run(const RunOptions& options) {
   const scene::Scene scene = SceneInput(options.scene).read();
   const Design design = configure::design_if_closed(scene);

@@ -40,7 +40,7 @@ stability::StabilityStudy compute(const StabilityWork& work, bool quiet,
   return stability::study(work.grid, work.random_scenes, watching(bar, interruption));
 }
 
-/// Throws report::OutputError, process::ProcessError; in each case nothing was written.
+/// Throws output::OutputError, process::ProcessError; in each case nothing was written.
 void stability(const StabilityOptions& options, const StabilityWork& work) {
   const std::filesystem::path out = options.out;
   require_output(out);

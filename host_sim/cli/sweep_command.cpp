@@ -53,8 +53,8 @@ std::string text(const sweep::Summary& summary, const std::filesystem::path& out
                              process::printable((out / "report.html").string()));
 }
 
-/// Throws scene::SceneError and CLI::ValidationError, nothing was written then;
-/// report::OutputError, process::ProcessError.
+/// Throws scene_file::SceneError and CLI::ValidationError, nothing was written then;
+/// output::OutputError, process::ProcessError.
 void sweep(const SweepOptions& options) {
   const sweep::Plan plan(scene_file::read_source(options.scene.path), options.scene.overrides,
                          options.vary);

@@ -32,8 +32,8 @@ work_precision::SolverComparison compute(const peers::Problem& problem, bool qui
                                  watching(bar, interruption));
 }
 
-/// Throws scene::SceneError, loop::ComputationError, report::OutputError, process::ProcessError; in
-/// each case nothing was written.
+/// Throws scene_file::SceneError, loop::ComputationError, output::OutputError,
+/// process::ProcessError; in each case nothing was written.
 void work_precision(const WorkPrecisionOptions& options) {
   const SceneInput input(options.scene);
   const scene::Scene scene = input.read();

@@ -10,7 +10,7 @@
 
 namespace sonoglide::emulated {
 
-/// @throws scene::ConfigurationError  a float64 scene on a board that computes that in software
+/// @throws configure::ConfigurationError  a float64 scene on a board that computes that in software
 void require_arithmetic(const scene::Scene& scene, const emulated::EmulatedBoard& board);
 
 /// The name under which an image includes it.
@@ -18,7 +18,7 @@ inline constexpr const char* controller_header_name = "controller_configuration.
 
 /// The controller's parts, its parameters and its targets, every number in the controller's own
 /// scalar, bit for bit what the simulation uses. The same scene gives the same text.
-/// @throws scene::ConfigurationError  an open-loop scene, or a target too late for an image
+/// @throws configure::ConfigurationError  an open-loop scene, or a target too late for an image
 std::string controller_header(const scene::Scene& scene);
 
 /// The same of the controller that has been designed for the scene; none in open loop.

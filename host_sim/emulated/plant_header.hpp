@@ -23,7 +23,7 @@ inline constexpr const char* plant_header_name = "plant_configuration.hpp";
 ///
 /// @param design      of the scene's controller: the codes of the seam are in its scales
 /// @param arithmetic  of the plant, whatever the controller's: float32 or q31
-/// @throws scene::ConfigurationError  an open-loop scene, a friction law that the solver is not
+/// @throws configure::ConfigurationError  an open-loop scene, a friction law that the solver is not
 /// for,
 ///         a sliding velocity that changes, a sensor that is not ideal; in q31 also numbers that
 ///         the integers do not reach

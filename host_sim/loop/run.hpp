@@ -15,8 +15,8 @@ namespace sonoglide::loop {
 /// Runs a scene, its controller in this process, in memory that does not grow with its duration.
 /// The result carries the controller's design.
 /// @throws ComputationError  the solver failed
-/// @throws scene::ConfigurationError  no controller can be designed for the scene; a scene that was
-///         read from a file has been checked for that
+/// @throws configure::ConfigurationError  no controller can be designed for the scene; a scene that
+///         was read from a file has been checked for that
 RunResult run(const scene::Scene& scene, const Watch& watch = {});
 
 /// The same with the controller that has been designed for the scene; none in open loop.

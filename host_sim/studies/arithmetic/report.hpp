@@ -20,7 +20,7 @@ std::string targets_csv(const ArithmeticComparison& comparison);
 std::string draw(const ArithmeticComparison& comparison, const std::string& title);
 
 /// Writes arithmetic.csv, targets.csv and arithmetic.svg; all or none.
-/// @throws report::OutputError, process::ProcessError
+/// @throws output::OutputError, process::ProcessError
 void write(const std::filesystem::path& out, const scene::Scene& scene,
            const ArithmeticComparison& comparison);
 

@@ -43,7 +43,7 @@ std::string draw_detunings(const DesignStudy& study);
 output::Page page(const DesignStudy& study);
 
 /// Writes report.html, design.json, design.csv and detuning.csv; all or none.
-/// @throws report::OutputError, process::ProcessError
+/// @throws output::OutputError, process::ProcessError
 void write(const std::filesystem::path& out, const DesignStudy& study);
 
 /// The design on a page of text, and where the report is.

@@ -24,7 +24,7 @@ struct Task {
 /// to a stop, is left out.
 ///
 /// @param ratios  in (0, 1); empty: the scene's targets
-/// @throws scene::ConfigurationError  no controller, or a contact without a steady orbit of the
+/// @throws configure::ConfigurationError  no controller, or a contact without a steady orbit of the
 ///         drive's period or without a closed form: a friction.law but Dahl, Coulomb and Stribeck,
 ///         sign_convention "as_printed", another waveform than the cosine
 Task make_task(const scene::Scene& scene, const std::vector<double>& ratios,

@@ -20,7 +20,7 @@ StabilityStudy study(const MapGrid& grid, std::uint64_t scenes, const Progress& 
 
 /// stability_map.csv, stability_map.svg, both for float32 too, extremes.csv, extremes_worst.csv
 /// and report.html.
-/// @throws report::OutputError, process::ProcessError; nothing was written then
+/// @throws output::OutputError, process::ProcessError; nothing was written then
 void write_study(const std::filesystem::path& out, const StabilityStudy& study);
 
 }  // namespace sonoglide::stability

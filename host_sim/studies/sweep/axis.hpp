@@ -53,9 +53,9 @@ struct Axis {
 /// `KEY=A,B,C`: words, truth values and numbers, each as `--set` takes it.
 ///
 /// @param ordinal  1 for the first --vary option: the line of the errors' place
-/// @throws scene::SceneError  not of either form, COUNT not in [1, most_points], a bound that is
-///         not finite, a logarithmic axis whose bounds are zero or differ in sign, one value of a
-///         range with two ends, a value that is listed twice. Whether a scene has the key is not
+/// @throws scene_file::SceneError  not of either form, COUNT not in [1, most_points], a bound that
+///         is not finite, a logarithmic axis whose bounds are zero or differ in sign, one value of
+///         a range with two ends, a value that is listed twice. Whether a scene has the key is not
 ///         looked at here.
 Axis parse_axis(const std::string& text, std::size_t ordinal);
 
@@ -66,7 +66,7 @@ std::string number_text(double value);
 /// Cartesian product; the first axis changes slowest.
 class Grid {
  public:
-  /// @throws scene::SceneError  no axis, or more than most_points points
+  /// @throws scene_file::SceneError  no axis, or more than most_points points
   explicit Grid(std::vector<Axis> axes);
 
   const std::vector<Axis>& axes() const { return axes_; }

@@ -37,7 +37,7 @@ class Journal {
   /// Opens the journal of this folder, or begins one; nobody else can until this is destroyed.
   /// @param folder  exists
   /// @param points  records of points from here on count as damaged
-  /// @throws ForeignJournal, report::OutputError
+  /// @throws ForeignJournal, output::OutputError
   Journal(const std::filesystem::path& folder, const Identity& identity, std::size_t points);
   ~Journal();
   Journal(const Journal&) = delete;
@@ -50,7 +50,7 @@ class Journal {
   static std::string text_of(const std::vector<Record>& records);
 
   /// @param text  from text_of()
-  /// @throws report::OutputError
+  /// @throws output::OutputError
   void append(const std::string& text);
 
   /// The sweep is whole: removes the file.

@@ -22,8 +22,8 @@ class Plan {
  public:
   /// @param overrides  `TABLE.KEY=VALUE` each, for every point
   /// @param vary       `KEY=FROM:TO:COUNT[:log]` or `KEY=A,B,...` each, see parse_axis()
-  /// @throws scene::SceneError  a bad option, a key both varied and set, an unusable first point,
-  ///         where words are varied, a key that is of no use with any of them
+  /// @throws scene_file::SceneError  a bad option, a key both varied and set, an unusable first
+  ///         point, where words are varied, a key that is of no use with any of them
   Plan(scene_file::Source source, std::vector<std::string> overrides,
        const std::vector<std::string>& vary);
 
@@ -38,8 +38,8 @@ class Plan {
   /// The scene of a point, the same as `run` takes it with a --set for each varied key; nothing is
   /// recorded. Where words are varied, a key that the point's words have no use for is left out.
   /// Safe to call from several threads.
-  /// @throws scene::SceneError  at the place of the --vary option or in the scene; the message ends
-  ///         with the point
+  /// @throws scene_file::SceneError  at the place of the --vary option or in the scene; the message
+  ///         ends with the point
   scene::Scene scene(std::size_t point) const;
 
   /// Takes the scene of a point; called by several threads.
@@ -47,7 +47,7 @@ class Plan {
 
   /// Reads the scenes of all points, on all threads.
   /// @param pace  its stage is the reading; may be null
-  /// @throws scene::SceneError  the error of the first unusable point
+  /// @throws scene_file::SceneError  the error of the first unusable point
   void visit_all(const Visit& visit, Pace* pace = nullptr) const;
 
   /// `KEY=VALUE, KEY=VALUE`, in the order of the axes.

@@ -34,7 +34,7 @@ class Solve {
  public:
   /// The plan outlives this.
   /// @param pace  told of the points read
-  /// @throws scene::SceneError  a point is unusable
+  /// @throws scene_file::SceneError  a point is unusable
   Solve(const Plan& plan, Pace& pace);
 
   /// These points as calls that are worth making: those that suit SIMD lanes together, up to some

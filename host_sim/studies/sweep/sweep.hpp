@@ -18,7 +18,7 @@ namespace sonoglide::sweep {
 /// The rows are the same to the bit for any number of threads and after any interruption.
 /// @param points  of the grid
 /// @param pace    told of the points computed
-/// @throws report::OutputError  the journal cannot be written
+/// @throws output::OutputError  the journal cannot be written
 std::vector<PointResult> compute(const Solve& solve, std::size_t points, Journal& journal,
                                  Pace& pace);
 
@@ -36,8 +36,8 @@ struct Summary {
 ///
 /// @param program  name and version: a journal of another program is refused
 /// @param threads  0: one for each core
-/// @throws scene::SceneError  nothing was written
-/// @throws ForeignJournal, report::OutputError, process::ProcessError
+/// @throws scene_file::SceneError  nothing was written
+/// @throws ForeignJournal, output::OutputError, process::ProcessError
 Summary run_sweep(const Plan& plan, const std::filesystem::path& out, const std::string& program,
                   unsigned threads, const Progress& progress);
 

@@ -10,7 +10,7 @@
 
 namespace sonoglide::work_precision {
 
-/// One line for each row under a heading line; what was not measured is left empty.
+/// One line for each row under a heading line; what was not measured is `nan`.
 std::string to_csv(const SolverComparison& comparison);
 
 /// @param svg  the picture of the same comparison
@@ -24,7 +24,7 @@ output::Page page(const scene::Scene& scene, const SolverComparison& comparison,
 std::string draw(const SolverComparison& comparison, const std::string& title);
 
 /// Writes work_precision.csv, work_precision.svg and report.html; all or none.
-/// @throws report::OutputError, process::ProcessError
+/// @throws output::OutputError, process::ProcessError
 void write(const std::filesystem::path& out, const scene::Scene& scene,
            const SolverComparison& comparison);
 

@@ -11,7 +11,7 @@ inline constexpr int most_periods = 1000;
 
 /// A comparison needs an open loop, a carrier, a Dahl contact with friction, a constant sliding
 /// velocity and a whole number of carrier periods; [solver] and the recording play no part.
-/// @throws scene::ConfigurationError  names the key that stands in the way
+/// @throws configure::ConfigurationError  names the key that stands in the way
 peers::Problem problem_of(const scene::Scene& scene);
 
 }  // namespace sonoglide::work_precision
