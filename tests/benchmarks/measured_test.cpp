@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace sonoglide {
+namespace sonoglide::measured_test {
 namespace {
 
 using Json = nlohmann::json;
@@ -82,4 +82,4 @@ TEST(Measured, NamesItsMachine) {
 }
 
 }  // namespace
-}  // namespace sonoglide
+}  // namespace sonoglide::measured_test

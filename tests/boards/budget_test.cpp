@@ -9,7 +9,7 @@
 #include "host_sim/emulated/board_list.hpp"
 #include "tests/boards/budget/table.hpp"
 
-namespace sonoglide::budget {
+namespace sonoglide::budget::budget_test {
 namespace {
 
 constexpr const char* renew =
@@ -195,4 +195,4 @@ INSTANTIATE_TEST_SUITE_P(Boards, FeatureTest, testing::ValuesIn(feature_boards),
                          [](const auto& parameter) { return name_of(parameter.param.board); });
 
 }  // namespace
-}  // namespace sonoglide::budget
+}  // namespace sonoglide::budget::budget_test

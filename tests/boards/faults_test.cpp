@@ -24,7 +24,7 @@
 #include "host_sim/scene_file/reader.hpp"
 #include "monitor.hpp"
 
-namespace sonoglide::emulated {
+namespace sonoglide::emulated::faults_test {
 namespace {
 
 using std::chrono_literals::operator""s;
@@ -387,4 +387,4 @@ INSTANTIATE_TEST_SUITE_P(Boards, ResetInMidRun, testing::Values("microbit", "mps
                          });
 
 }  // namespace
-}  // namespace sonoglide::emulated
+}  // namespace sonoglide::emulated::faults_test

@@ -12,7 +12,7 @@
 #include "host_sim/emulated/board_list.hpp"
 #include "host_sim/process/pipe.hpp"
 
-namespace sonoglide::emulated {
+namespace sonoglide::emulated::image_process_test {
 namespace {
 
 using std::chrono_literals::operator""s;
@@ -99,4 +99,4 @@ TEST(ImageProcessTest, ListensToItsOwnerWhileItWaits) {
 }
 
 }  // namespace
-}  // namespace sonoglide::emulated
+}  // namespace sonoglide::emulated::image_process_test

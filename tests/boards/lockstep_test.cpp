@@ -27,7 +27,7 @@
 #include "tests/common/constants/pi.hpp"
 #include "tests/host_sim/loop/logs/logged_run.hpp"
 
-namespace sonoglide::emulated {
+namespace sonoglide::emulated::lockstep_test {
 namespace {
 
 using std::chrono_literals::operator""s;
@@ -227,4 +227,4 @@ TEST(ImageTest, LeavesOnATrapOfARiscV) {
 }
 
 }  // namespace
-}  // namespace sonoglide::emulated
+}  // namespace sonoglide::emulated::lockstep_test

@@ -27,7 +27,7 @@ extern "C" std::uint32_t read_counter() {
   return counter;
 }
 
-namespace sonoglide::hal::simulated {
+namespace sonoglide::hal::simulated::plant_board_test {
 namespace {
 
 struct AnyModel {};
@@ -143,4 +143,4 @@ TEST_F(PlantBoardTest, IsWatchedWithoutADifference) {
 }
 
 }  // namespace
-}  // namespace sonoglide::hal::simulated
+}  // namespace sonoglide::hal::simulated::plant_board_test

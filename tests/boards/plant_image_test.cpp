@@ -38,7 +38,7 @@
 #include "tests/common/constants/pi.hpp"
 #include "tests/host_sim/loop/logs/logged_run.hpp"
 
-namespace sonoglide {
+namespace sonoglide::plant_image_test {
 namespace {
 
 using tests::two_pi;
@@ -322,4 +322,4 @@ TEST(PlantHeaderTest, IsRefusedWhereTheIntegersEnd) {
 }
 
 }  // namespace
-}  // namespace sonoglide
+}  // namespace sonoglide::plant_image_test

@@ -19,7 +19,7 @@
 #include "host_sim/process/pipe.hpp"
 #include "monitor.hpp"
 
-namespace sonoglide::emulated {
+namespace sonoglide::emulated::timed_unit_test {
 namespace {
 
 using std::chrono_literals::operator""s;
@@ -347,4 +347,4 @@ INSTANTIATE_TEST_SUITE_P(Boards, TimedUnitWatchdog, testing::Values("mps2-an386"
                          named_after_its_board);
 
 }  // namespace
-}  // namespace sonoglide::emulated
+}  // namespace sonoglide::emulated::timed_unit_test

@@ -9,7 +9,7 @@ extern "C" {
 sonoglide::hal::template_board::CarrierRegisters carrier;
 }
 
-namespace sonoglide::hal::template_board {
+namespace sonoglide::hal::template_board::template_board_test {
 namespace {
 
 class TemplateBoard : public testing::Test {
@@ -92,4 +92,4 @@ TEST_F(TemplateBoard, StopsWithTheDriveOff) {
 }
 
 }  // namespace
-}  // namespace sonoglide::hal::template_board
+}  // namespace sonoglide::hal::template_board::template_board_test

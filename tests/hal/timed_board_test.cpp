@@ -12,7 +12,7 @@ extern "C" {
 volatile std::int32_t drive_amplitude = 0;
 }
 
-namespace sonoglide::hal::timed {
+namespace sonoglide::hal::timed::timed_board_test {
 namespace {
 
 /// A counter of 24 bits that the test turns, or that goes on by itself whenever it is read.
@@ -129,4 +129,4 @@ TEST(VolatilePages, AreErasedAtFirstAndOnlyClearBits) {
 }
 
 }  // namespace
-}  // namespace sonoglide::hal::timed
+}  // namespace sonoglide::hal::timed::timed_board_test

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <string>
 
-namespace sonoglide::hal {
+namespace sonoglide::hal::trace_hash_test {
 namespace {
 
 __extension__ using Wide = unsigned __int128;
@@ -91,4 +91,4 @@ TEST(TraceHashTest, SeesEveryFieldAndTheLastBit) {
 }
 
 }  // namespace
-}  // namespace sonoglide::hal
+}  // namespace sonoglide::hal::trace_hash_test

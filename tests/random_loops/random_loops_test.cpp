@@ -12,7 +12,7 @@
 #include "tests/random_loops/loops/random_loop.hpp"
 #include "tests/random_loops/loops/table.hpp"
 
-namespace sonoglide::random_loops {
+namespace sonoglide::random_loops::random_loops_test {
 namespace {
 
 constexpr std::uint32_t seed = 1;
@@ -106,4 +106,4 @@ TEST(RandomLoopsTest, StayInsideTheirRanges) {
 }
 
 }  // namespace
-}  // namespace sonoglide::random_loops
+}  // namespace sonoglide::random_loops::random_loops_test

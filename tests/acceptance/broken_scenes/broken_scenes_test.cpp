@@ -8,7 +8,7 @@
 #include "base_scenes.hpp"
 #include "tests/acceptance/program/program.hpp"
 
-namespace sonoglide::acceptance {
+namespace sonoglide::acceptance::broken_scenes_test {
 namespace {
 
 /// A good scene, the text to replace in it, what stands there instead, and all of stderr after the
@@ -437,4 +437,4 @@ TEST(UneditedSceneTest, IsAccepted) {
 }
 
 }  // namespace
-}  // namespace sonoglide::acceptance
+}  // namespace sonoglide::acceptance::broken_scenes_test

@@ -7,7 +7,7 @@
 #include "base_scenes.hpp"
 #include "tests/acceptance/program/program.hpp"
 
-namespace sonoglide::acceptance {
+namespace sonoglide::acceptance::override_test {
 namespace {
 
 /// Options as shell words, and all of stderr.
@@ -92,4 +92,4 @@ INSTANTIATE_TEST_SUITE_P(Table, BadOverrideTest, testing::ValuesIn(bad_overrides
                          [](const auto& scene) { return std::string(scene.param.name); });
 
 }  // namespace
-}  // namespace sonoglide::acceptance
+}  // namespace sonoglide::acceptance::override_test

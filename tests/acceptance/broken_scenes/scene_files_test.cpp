@@ -9,7 +9,7 @@
 #include "base_scenes.hpp"
 #include "tests/acceptance/program/program.hpp"
 
-namespace sonoglide::acceptance {
+namespace sonoglide::acceptance::scene_files_test {
 namespace {
 
 using Entries = std::vector<std::string>;
@@ -119,4 +119,4 @@ TEST(SceneFileTest, DeeplyDottedKey) {
 }
 
 }  // namespace
-}  // namespace sonoglide::acceptance
+}  // namespace sonoglide::acceptance::scene_files_test

@@ -10,7 +10,7 @@
 #include "host_sim/cli/commands.hpp"
 #include "tests/acceptance/program/program.hpp"
 
-namespace sonoglide::acceptance {
+namespace sonoglide::acceptance::command_line_test {
 namespace {
 
 constexpr const char* hint = "sonoglide --help lists the commands and their options\n";
@@ -154,4 +154,4 @@ TEST(RatioCommandTest, ReportsOutputThatCannotBeWritten) {
 }
 
 }  // namespace
-}  // namespace sonoglide::acceptance
+}  // namespace sonoglide::acceptance::command_line_test

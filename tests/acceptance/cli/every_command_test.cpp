@@ -12,7 +12,7 @@
 #include "command_table.hpp"
 #include "scene_folder.hpp"
 
-namespace sonoglide::acceptance {
+namespace sonoglide::acceptance::every_command_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -260,4 +260,4 @@ INSTANTIATE_TEST_SUITE_P(Commands, QuickCommandTest,
                          test_name);
 
 }  // namespace
-}  // namespace sonoglide::acceptance
+}  // namespace sonoglide::acceptance::every_command_test

@@ -8,7 +8,7 @@
 #include "short_scenes.hpp"
 #include "tests/acceptance/program/program.hpp"
 
-namespace sonoglide::acceptance {
+namespace sonoglide::acceptance::foreign_files_test {
 namespace {
 
 // An option that changes what is written leaves what the program checks.
@@ -62,4 +62,4 @@ TEST(ForeignFileTest, CommandsReplaceEachOthersOutput) {
 }
 
 }  // namespace
-}  // namespace sonoglide::acceptance
+}  // namespace sonoglide::acceptance::foreign_files_test

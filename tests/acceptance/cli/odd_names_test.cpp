@@ -14,7 +14,7 @@
 #include "short_scenes.hpp"
 #include "tests/acceptance/program/program.hpp"
 
-namespace sonoglide::acceptance {
+namespace sonoglide::acceptance::odd_names_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -123,4 +123,4 @@ TEST(LongNameTest, HasAFolderOfItsOwn) {
 }
 
 }  // namespace
-}  // namespace sonoglide::acceptance
+}  // namespace sonoglide::acceptance::odd_names_test

@@ -8,7 +8,7 @@
 #include "tests/acceptance/program/program.hpp"
 #include "tests/common/scenes.hpp"
 
-namespace sonoglide::acceptance {
+namespace sonoglide::acceptance::run_output_test {
 namespace {
 
 using Entries = std::vector<std::string>;
@@ -110,4 +110,4 @@ TEST_F(RunOutputTest, AFailedComputationLeavesNothing) {
 }
 
 }  // namespace
-}  // namespace sonoglide::acceptance
+}  // namespace sonoglide::acceptance::run_output_test

@@ -8,7 +8,7 @@
 #include "tests/acceptance/program/program.hpp"
 #include "tests/common/csv/csv.hpp"
 
-namespace sonoglide::acceptance {
+namespace sonoglide::acceptance::sample_command_test {
 namespace {
 
 using Entries = std::vector<std::string>;
@@ -64,4 +64,4 @@ TEST_F(SampleCommandTest, FailsAsTheOthersDo) {
 }
 
 }  // namespace
-}  // namespace sonoglide::acceptance
+}  // namespace sonoglide::acceptance::sample_command_test

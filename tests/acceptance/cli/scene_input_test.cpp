@@ -9,7 +9,7 @@
 #include "short_scenes.hpp"
 #include "tests/acceptance/program/program.hpp"
 
-namespace sonoglide::acceptance {
+namespace sonoglide::acceptance::scene_input_test {
 namespace {
 
 class SceneInputTest : public testing::Test {
@@ -77,4 +77,4 @@ TEST_F(SceneInputTest, AFailedRunPrintsNoJson) {
 }
 
 }  // namespace
-}  // namespace sonoglide::acceptance
+}  // namespace sonoglide::acceptance::scene_input_test

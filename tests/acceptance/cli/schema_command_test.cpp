@@ -7,7 +7,7 @@
 
 #include "tests/acceptance/program/program.hpp"
 
-namespace sonoglide::acceptance {
+namespace sonoglide::acceptance::schema_command_test {
 namespace {
 
 TEST(SchemaCommandTest, PrintsTheFileThatTheExamplesName) {
@@ -24,4 +24,4 @@ TEST(SchemaCommandTest, PrintsTheFileThatTheExamplesName) {
 }
 
 }  // namespace
-}  // namespace sonoglide::acceptance
+}  // namespace sonoglide::acceptance::schema_command_test

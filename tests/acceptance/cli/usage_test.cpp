@@ -6,7 +6,7 @@
 #include "tests/acceptance/program/odd_names.hpp"
 #include "tests/acceptance/program/program.hpp"
 
-namespace sonoglide::acceptance {
+namespace sonoglide::acceptance::usage_test {
 namespace {
 
 void expect_refused(const std::string& arguments, const std::string& errors) {
@@ -93,4 +93,4 @@ TEST(UsageTest, WordsOfTheUserReachTheTerminalPrintable) {
 }
 
 }  // namespace
-}  // namespace sonoglide::acceptance
+}  // namespace sonoglide::acceptance::usage_test

@@ -10,7 +10,7 @@
 #include "host_sim/scene_file/reader.hpp"
 #include "tests/host_sim/loop/logs/logged_run.hpp"
 
-namespace sonoglide {
+namespace sonoglide::arithmetic_agreement_test {
 namespace {
 
 /// Largest difference of the friction ratio in any carrier period.
@@ -73,4 +73,4 @@ TEST(ArithmeticAgreementTest, FixedPointSaturatesNowhereInside) {
 }
 
 }  // namespace
-}  // namespace sonoglide
+}  // namespace sonoglide::arithmetic_agreement_test

@@ -10,7 +10,7 @@
 #include "tests/acceptance/closed_loop/runs/closed_loop.hpp"
 #include "tests/common/csv/csv.hpp"
 
-namespace sonoglide::acceptance {
+namespace sonoglide::acceptance::disturbed_loop_test {
 namespace {
 
 /// Of periods.csv.
@@ -270,4 +270,4 @@ TEST(TargetStreamTest, LeavesFeedbackOn) {
 }
 
 }  // namespace
-}  // namespace sonoglide::acceptance
+}  // namespace sonoglide::acceptance::disturbed_loop_test

@@ -4,7 +4,7 @@
 
 #include "tests/acceptance/closed_loop/runs/closed_loop.hpp"
 
-namespace sonoglide::acceptance {
+namespace sonoglide::acceptance::drive_amplitude_test {
 namespace {
 
 /// The drive that holds a friction ratio at a sliding velocity, from the inverse of the closed-form
@@ -35,4 +35,4 @@ INSTANTIATE_TEST_SUITE_P(Arithmetic, DriveAmplitudeTest, testing::ValuesIn(arith
                          [](const auto& arithmetic) { return arithmetic.param; });
 
 }  // namespace
-}  // namespace sonoglide::acceptance
+}  // namespace sonoglide::acceptance::drive_amplitude_test

@@ -6,7 +6,7 @@
 
 #include "tests/acceptance/closed_loop/runs/closed_loop.hpp"
 
-namespace sonoglide::acceptance {
+namespace sonoglide::acceptance::imperfect_loop_test {
 namespace {
 
 /// Believed over true, of stiffness, coefficient and contact stiffness; arithmetic.
@@ -100,4 +100,4 @@ TEST(CalibrationTest, OfSixTimeConstantsIsEnoughForASlowSensor) {
 }
 
 }  // namespace
-}  // namespace sonoglide::acceptance
+}  // namespace sonoglide::acceptance::imperfect_loop_test

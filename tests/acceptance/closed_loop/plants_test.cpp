@@ -8,7 +8,7 @@
 #include "tests/acceptance/closed_loop/runs/closed_loop.hpp"
 #include "tests/common/constants/pi.hpp"
 
-namespace sonoglide::acceptance {
+namespace sonoglide::acceptance::plants_test {
 namespace {
 
 constexpr double period_s = 1.0 / 60e3;
@@ -152,4 +152,4 @@ INSTANTIATE_TEST_SUITE_P(Arithmetic, ArithmeticTest, testing::ValuesIn(arithmeti
                          [](const auto& arithmetic) { return arithmetic.param; });
 
 }  // namespace
-}  // namespace sonoglide::acceptance
+}  // namespace sonoglide::acceptance::plants_test

@@ -8,7 +8,7 @@
 #include "tests/acceptance/page/browser.hpp"
 #include "tests/acceptance/page/exercise.hpp"
 
-namespace sonoglide::acceptance {
+namespace sonoglide::acceptance::run_page_test {
 namespace {
 
 struct Report {
@@ -69,4 +69,4 @@ INSTANTIATE_TEST_SUITE_P(Reports, RunPageTest, testing::ValuesIn(reports),
                          [](const auto& report) { return report.param.scene; });
 
 }  // namespace
-}  // namespace sonoglide::acceptance
+}  // namespace sonoglide::acceptance::run_page_test

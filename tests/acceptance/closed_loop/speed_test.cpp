@@ -7,7 +7,7 @@
 
 #include "tests/acceptance/closed_loop/runs/closed_loop.hpp"
 
-namespace sonoglide::acceptance {
+namespace sonoglide::acceptance::speed_test {
 namespace {
 
 double tracking_error(const nlohmann::json& summary) {
@@ -103,4 +103,4 @@ TEST_P(SlowRampTest, ASteadyReadingUnderAMovingDriveIsNoFault) {
 INSTANTIATE_TEST_SUITE_P(Converters, SlowRampTest, testing::Values(8, 10, 12));
 
 }  // namespace
-}  // namespace sonoglide::acceptance
+}  // namespace sonoglide::acceptance::speed_test

@@ -4,7 +4,7 @@
 
 #include "tests/acceptance/closed_loop/runs/closed_loop.hpp"
 
-namespace sonoglide::acceptance {
+namespace sonoglide::acceptance::target_step_test {
 namespace {
 
 constexpr double period_s = 1.0 / 60e3;
@@ -65,4 +65,4 @@ TEST(UnshapedTargetStepTest, RingsTheNaturalModeForEver) {
 }
 
 }  // namespace
-}  // namespace sonoglide::acceptance
+}  // namespace sonoglide::acceptance::target_step_test

@@ -5,7 +5,7 @@
 
 #include "tests/acceptance/closed_loop/runs/closed_loop.hpp"
 
-namespace sonoglide::acceptance {
+namespace sonoglide::acceptance::trace_hash_test {
 namespace {
 
 std::string hash_of(const std::string& scene, const Settings& settings = {}) {
@@ -35,4 +35,4 @@ TEST(TraceHashTest, DependsOnTheSensorsSeed) {
 }
 
 }  // namespace
-}  // namespace sonoglide::acceptance
+}  // namespace sonoglide::acceptance::trace_hash_test

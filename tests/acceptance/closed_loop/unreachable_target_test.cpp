@@ -8,7 +8,7 @@
 #include "tests/common/constants/pi.hpp"
 #include "tests/common/csv/csv.hpp"
 
-namespace sonoglide::acceptance {
+namespace sonoglide::acceptance::unreachable_target_test {
 namespace {
 
 constexpr double period_s = 1.0 / 60e3;
@@ -116,4 +116,4 @@ TEST(SlewLimitTest, IsNamedWhileItHoldsAndSettlesWhenItIsOver) {
 }
 
 }  // namespace
-}  // namespace sonoglide::acceptance
+}  // namespace sonoglide::acceptance::unreachable_target_test

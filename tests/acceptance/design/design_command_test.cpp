@@ -10,7 +10,7 @@
 #include "tests/common/csv/csv.hpp"
 #include "tests/common/scenes.hpp"
 
-namespace sonoglide::acceptance {
+namespace sonoglide::acceptance::design_command_test {
 namespace {
 
 using Entries = std::vector<std::string>;
@@ -99,4 +99,4 @@ TEST(DesignCommand, BadUsageIsRejected) {
 }
 
 }  // namespace
-}  // namespace sonoglide::acceptance
+}  // namespace sonoglide::acceptance::design_command_test

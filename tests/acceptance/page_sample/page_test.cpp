@@ -10,7 +10,7 @@
 #include "tests/acceptance/page/browser.hpp"
 #include "tests/acceptance/page/exercise.hpp"
 
-namespace sonoglide {
+namespace sonoglide::page_test {
 namespace {
 
 constexpr int kPanels = 7;
@@ -142,4 +142,4 @@ TEST_F(PageInBrowser, PolicyStopsEvenAScriptThatCallsHome) {
 }
 
 }  // namespace
-}  // namespace sonoglide
+}  // namespace sonoglide::page_test

@@ -6,7 +6,7 @@
 
 #include "tests/acceptance/program/program.hpp"
 
-namespace sonoglide::acceptance {
+namespace sonoglide::acceptance::paper_command_test {
 namespace {
 
 TEST(PaperCommand, OneFigureIsItsDataItsPictureAndThePage) {
@@ -44,4 +44,4 @@ TEST(PaperCommand, BadUsageIsRejected) {
 }
 
 }  // namespace
-}  // namespace sonoglide::acceptance
+}  // namespace sonoglide::acceptance::paper_command_test

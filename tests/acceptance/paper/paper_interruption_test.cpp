@@ -11,7 +11,7 @@
 #include "tests/acceptance/program/program.hpp"
 #include "tests/acceptance/program/started_program.hpp"
 
-namespace sonoglide::acceptance {
+namespace sonoglide::acceptance::paper_interruption_test {
 namespace {
 
 TEST(PaperInterruption, LeavesNothing) {
@@ -50,4 +50,4 @@ TEST(PaperInterruption, WhatAKillLeavesGoesWithTheNextRun) {
 }
 
 }  // namespace
-}  // namespace sonoglide::acceptance
+}  // namespace sonoglide::acceptance::paper_interruption_test

@@ -10,7 +10,7 @@
 #include "tests/acceptance/program/program.hpp"
 #include "tests/common/csv/csv.hpp"
 
-namespace sonoglide::acceptance {
+namespace sonoglide::acceptance::arithmetic_command_test {
 namespace {
 
 using Entries = std::vector<std::string>;
@@ -105,4 +105,4 @@ TEST_F(ArithmeticCommandTest, RefusesWhatItCannotCompare) {
 }
 
 }  // namespace
-}  // namespace sonoglide::acceptance
+}  // namespace sonoglide::acceptance::arithmetic_command_test

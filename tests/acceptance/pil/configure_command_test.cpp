@@ -6,7 +6,7 @@
 #include "host_sim/emulated/plant_header.hpp"
 #include "tests/acceptance/program/program.hpp"
 
-namespace sonoglide::acceptance {
+namespace sonoglide::acceptance::configure_command_test {
 namespace {
 
 const std::string name = std::string("/") + emulated::controller_header_name;
@@ -49,4 +49,4 @@ TEST(ConfigureCommandTest, SaysWhatThePlantOfAnImageCannotFollow) {
 }
 
 }  // namespace
-}  // namespace sonoglide::acceptance
+}  // namespace sonoglide::acceptance::configure_command_test

@@ -12,7 +12,7 @@
 #include "tests/acceptance/program/odd_names.hpp"
 #include "tests/acceptance/program/program.hpp"
 
-namespace sonoglide::acceptance {
+namespace sonoglide::acceptance::image_trust_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -147,4 +147,4 @@ TEST_F(ImageTrustTest, ASceneOfAnyNameIsOnlyShown) {
 }
 
 }  // namespace
-}  // namespace sonoglide::acceptance
+}  // namespace sonoglide::acceptance::image_trust_test

@@ -12,7 +12,7 @@
 #include "image_cache.hpp"
 #include "tests/acceptance/program/program.hpp"
 
-namespace sonoglide::acceptance {
+namespace sonoglide::acceptance::pil_command_test {
 namespace {
 
 std::string scene_file(const std::string& scene) {
@@ -164,4 +164,4 @@ TEST_F(PilCommandTest, SaysWhereSourcesAreMissing) {
 }
 
 }  // namespace
-}  // namespace sonoglide::acceptance
+}  // namespace sonoglide::acceptance::pil_command_test

@@ -18,7 +18,7 @@
 #include "tests/acceptance/program/program.hpp"
 #include "tests/common/scenes.hpp"
 
-namespace sonoglide::acceptance {
+namespace sonoglide::acceptance::pil_interruption_test {
 namespace {
 
 /// The target step of Table 1 over minutes.
@@ -201,4 +201,4 @@ TEST_F(PilInterruptionTest, ReportsAnEmulatorThatDies) {
 }
 
 }  // namespace
-}  // namespace sonoglide::acceptance
+}  // namespace sonoglide::acceptance::pil_interruption_test

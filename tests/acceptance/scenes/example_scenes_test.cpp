@@ -11,7 +11,7 @@
 #include "tests/acceptance/program/program.hpp"
 #include "tests/common/constants/pi.hpp"
 
-namespace sonoglide::acceptance {
+namespace sonoglide::acceptance::example_scenes_test {
 namespace {
 
 std::vector<std::string> scene_names() {
@@ -84,4 +84,4 @@ TEST(ExampleSceneTest, VibrationNormalToTheSurfaceLeavesTheClosedForm) {
 }
 
 }  // namespace
-}  // namespace sonoglide::acceptance
+}  // namespace sonoglide::acceptance::example_scenes_test

@@ -12,7 +12,7 @@
 #include "tests/acceptance/program/program.hpp"
 #include "tests/common/csv/csv.hpp"
 
-namespace sonoglide::acceptance {
+namespace sonoglide::acceptance::stability_command_test {
 namespace {
 
 using Entries = std::vector<std::string>;
@@ -122,4 +122,4 @@ TEST_F(SmallStability, ThePageHasTheMapsAndTheTable) {
 }
 
 }  // namespace
-}  // namespace sonoglide::acceptance
+}  // namespace sonoglide::acceptance::stability_command_test

@@ -17,7 +17,7 @@
 #include "tests/acceptance/program/program.hpp"
 #include "tests/acceptance/sweep/scenes/base_scenes.hpp"
 
-namespace sonoglide::acceptance {
+namespace sonoglide::acceptance::kill_test {
 namespace {
 
 using Milliseconds = std::chrono::duration<double, std::milli>;
@@ -165,4 +165,4 @@ TEST_F(JournalLeftTest, IsNotComputedAgain) {
 }
 
 }  // namespace
-}  // namespace sonoglide::acceptance
+}  // namespace sonoglide::acceptance::kill_test

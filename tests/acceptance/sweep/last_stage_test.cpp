@@ -11,7 +11,7 @@
 #include "tests/acceptance/program/started_program.hpp"
 #include "tests/acceptance/sweep/scenes/base_scenes.hpp"
 
-namespace sonoglide::acceptance {
+namespace sonoglide::acceptance::last_stage_test {
 namespace {
 
 class LastStageTest : public testing::Test {
@@ -72,4 +72,4 @@ TEST_F(LastStageTest, InterruptedItIsCarriedThrough) {
 }
 
 }  // namespace
-}  // namespace sonoglide::acceptance
+}  // namespace sonoglide::acceptance::last_stage_test

@@ -11,7 +11,7 @@
 #include "tests/acceptance/sweep/scenes/base_scenes.hpp"
 #include "tests/common/csv/csv.hpp"
 
-namespace sonoglide::acceptance {
+namespace sonoglide::acceptance::sweep_command_test {
 namespace {
 
 using Entries = std::vector<std::string>;
@@ -236,4 +236,4 @@ TEST_F(SweepCommandTest, AWordThatNoSceneHasIsRefused) {
 }
 
 }  // namespace
-}  // namespace sonoglide::acceptance
+}  // namespace sonoglide::acceptance::sweep_command_test

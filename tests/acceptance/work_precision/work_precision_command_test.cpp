@@ -9,7 +9,7 @@
 #include "tests/common/csv/csv.hpp"
 #include "tests/common/scenes.hpp"
 
-namespace sonoglide::acceptance {
+namespace sonoglide::acceptance::work_precision_command_test {
 namespace {
 
 using Entries = std::vector<std::string>;
@@ -123,4 +123,4 @@ TEST(WorkPrecisionUsageTest, WhatCannotBeComparedIsRefusedByName) {
 }
 
 }  // namespace
-}  // namespace sonoglide::acceptance
+}  // namespace sonoglide::acceptance::work_precision_command_test

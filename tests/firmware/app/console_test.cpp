@@ -12,7 +12,7 @@
 #include "firmware/app/timed_loop.hpp"
 #include "tests/firmware/app/unit/simulated_unit.hpp"
 
-namespace sonoglide::app {
+namespace sonoglide::app::console_test {
 namespace {
 
 constexpr FieldDesign<Parts> console_design(designed, 0.2F, 1, carrier_period_s,
@@ -361,4 +361,4 @@ RC_GTEST_PROP(ConsoleAnswerTest, AnyTextIsAnsweredInWholeLines, ()) {
 }
 
 }  // namespace
-}  // namespace sonoglide::app
+}  // namespace sonoglide::app::console_test

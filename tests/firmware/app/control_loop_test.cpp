@@ -16,7 +16,7 @@
 #include "firmware/control/trusted_friction.hpp"
 #include "firmware/numeric/fixed.hpp"
 
-namespace sonoglide::app {
+namespace sonoglide::app::control_loop_test {
 namespace {
 
 constexpr std::int32_t highest = std::numeric_limits<std::int32_t>::max();
@@ -184,4 +184,4 @@ TYPED_TEST(ControlLoopTest, ALostSampleEndsTheDriveInTheSameStep) {
 }
 
 }  // namespace
-}  // namespace sonoglide::app
+}  // namespace sonoglide::app::control_loop_test

@@ -14,7 +14,7 @@
 #include "firmware/control/trusted_friction.hpp"
 #include "firmware/numeric/fixed.hpp"
 
-namespace sonoglide::app {
+namespace sonoglide::app::field_parameters_test {
 namespace {
 
 template <class S>
@@ -246,4 +246,4 @@ RC_GTEST_PROP(FieldValues, AnyThatAreAllowedKeepTheDriveWithinItsLimit, ()) {
 }
 
 }  // namespace
-}  // namespace sonoglide::app
+}  // namespace sonoglide::app::field_parameters_test

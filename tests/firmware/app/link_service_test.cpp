@@ -12,7 +12,7 @@
 #include "firmware/numeric/scalar.hpp"
 #include "tests/firmware/app/unit/simulated_unit.hpp"
 
-namespace sonoglide::app {
+namespace sonoglide::app::link_service_test {
 namespace {
 
 using link::Reason;
@@ -751,4 +751,4 @@ RC_GTEST_PROP(LinkServiceTest, AnyRequestIsAnsweredAndNoneHarms, ()) {
 }
 
 }  // namespace
-}  // namespace sonoglide::app
+}  // namespace sonoglide::app::link_service_test

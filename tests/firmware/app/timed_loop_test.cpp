@@ -15,7 +15,7 @@
 #include "tests/common/constants/pi.hpp"
 #include "tests/firmware/app/unit/simulated_unit.hpp"
 
-namespace sonoglide::app {
+namespace sonoglide::app::timed_loop_test {
 namespace {
 
 constexpr auto running = static_cast<std::uint8_t>(control::State::running);
@@ -410,4 +410,4 @@ RC_GTEST_PROP(TimedLoopCommands, AreThoseOfTheLockstepLoopBitForBit, ()) {
 }
 
 }  // namespace
-}  // namespace sonoglide::app
+}  // namespace sonoglide::app::timed_loop_test

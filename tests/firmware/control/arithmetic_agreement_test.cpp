@@ -14,7 +14,7 @@
 #include "scalars.hpp"
 #include "scripted_run.hpp"
 
-namespace sonoglide::control {
+namespace sonoglide::control::arithmetic_agreement_test {
 namespace {
 
 constexpr int periods = 5000;
@@ -59,4 +59,4 @@ TEST(ArithmeticAgreement, Q15StaysBesideFloat64) {
 }
 
 }  // namespace
-}  // namespace sonoglide::control
+}  // namespace sonoglide::control::arithmetic_agreement_test

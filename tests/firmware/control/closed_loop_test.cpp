@@ -9,7 +9,7 @@
 #include "closed_loop.hpp"
 #include "scalars.hpp"
 
-namespace sonoglide::control {
+namespace sonoglide::control::closed_loop_test {
 namespace {
 
 template <class Scalar>
@@ -137,4 +137,4 @@ TYPED_TEST(ClosedLoopFloatingTest, ATargetThatIsNoNumberIsNotTaken) {
 }
 
 }  // namespace
-}  // namespace sonoglide::control
+}  // namespace sonoglide::control::closed_loop_test

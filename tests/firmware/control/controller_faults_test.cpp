@@ -9,7 +9,7 @@
 #include "closed_loop.hpp"
 #include "scalars.hpp"
 
-namespace sonoglide::control {
+namespace sonoglide::control::controller_faults_test {
 namespace {
 
 template <class Scalar>
@@ -187,4 +187,4 @@ TYPED_TEST(ControllerFaults, ADelayedReadingIsNotStuck) {
 }
 
 }  // namespace
-}  // namespace sonoglide::control
+}  // namespace sonoglide::control::controller_faults_test

@@ -8,7 +8,7 @@
 #include "closed_loop.hpp"
 #include "scalars.hpp"
 
-namespace sonoglide::control {
+namespace sonoglide::control::controller_limits_test {
 namespace {
 
 /// The largest amplitude: the last converter code.
@@ -264,4 +264,4 @@ TEST(ControllerLimitsSaturation, TheLowestVelocityCodeIsFullSpeed) {
 }
 
 }  // namespace
-}  // namespace sonoglide::control
+}  // namespace sonoglide::control::controller_limits_test

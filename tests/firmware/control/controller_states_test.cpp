@@ -5,7 +5,7 @@
 #include "closed_loop.hpp"
 #include "scalars.hpp"
 
-namespace sonoglide::control {
+namespace sonoglide::control::controller_states_test {
 namespace {
 
 template <class Scalar>
@@ -176,4 +176,4 @@ TYPED_TEST(ControllerStates, AnInterruptedCalibrationBeginsAnew) {
 }
 
 }  // namespace
-}  // namespace sonoglide::control
+}  // namespace sonoglide::control::controller_states_test

@@ -11,7 +11,7 @@
 #include "tests/common/constants/pi.hpp"
 #include "tests/common/constants/table_1_numbers.hpp"
 
-namespace sonoglide::control {
+namespace sonoglide::control::feedforward_test {
 namespace {
 
 template <class Scalar>
@@ -107,4 +107,4 @@ TYPED_TEST(FeedforwardTest, BothGiveTheEndsOfTheMap) {
 }
 
 }  // namespace
-}  // namespace sonoglide::control
+}  // namespace sonoglide::control::feedforward_test

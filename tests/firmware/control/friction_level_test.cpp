@@ -9,7 +9,7 @@
 
 #include "scalars.hpp"
 
-namespace sonoglide::control {
+namespace sonoglide::control::friction_level_test {
 namespace {
 
 template <class Scalar>
@@ -88,4 +88,4 @@ TEST(FrictionLevelSaturation, EndsAtRatiosOfTwoInFixedPoint) {
 }
 
 }  // namespace
-}  // namespace sonoglide::control
+}  // namespace sonoglide::control::friction_level_test

@@ -7,7 +7,7 @@
 
 #include "scalars.hpp"
 
-namespace sonoglide::control {
+namespace sonoglide::control::integral_regulator_test {
 namespace {
 
 template <class Scalar>
@@ -155,4 +155,4 @@ TYPED_TEST(IntegralRegulatorTest, CommandsARatioBetweenNothingAndAllOfIt) {
 }
 
 }  // namespace
-}  // namespace sonoglide::control
+}  // namespace sonoglide::control::integral_regulator_test

@@ -8,7 +8,7 @@
 #include "firmware/control/trusted_friction.hpp"
 #include "scalars.hpp"
 
-namespace sonoglide::control {
+namespace sonoglide::control::learnt_friction_test {
 namespace {
 
 template <class Scalar>
@@ -161,4 +161,4 @@ TYPED_TEST(LearntFrictionTest, TrustNeverLearns) {
 }
 
 }  // namespace
-}  // namespace sonoglide::control
+}  // namespace sonoglide::control::learnt_friction_test

@@ -60,7 +60,7 @@ __attribute__((noinline)) void operator delete(void* memory, std::size_t /*size*
   std::free(memory);
 }
 
-namespace sonoglide::control {
+namespace sonoglide::control::no_allocation_test {
 namespace {
 
 constexpr int steps = 50'000;
@@ -119,4 +119,4 @@ TEST(NoAllocationDeathTest, WouldBeNoticed) {
 }
 
 }  // namespace
-}  // namespace sonoglide::control
+}  // namespace sonoglide::control::no_allocation_test

@@ -14,7 +14,7 @@
 #include "scalars.hpp"
 #include "tests/common/constants/table_1_numbers.hpp"
 
-namespace sonoglide::control {
+namespace sonoglide::control::notch_shaper_test {
 namespace {
 
 constexpr int max_spacing = 32;
@@ -171,4 +171,4 @@ TEST(NotchRoundingTest, SixteenBitsLeaveAnUndampedModeAlone) {
 }
 
 }  // namespace
-}  // namespace sonoglide::control
+}  // namespace sonoglide::control::notch_shaper_test

@@ -4,7 +4,7 @@
 
 #include "scalars.hpp"
 
-namespace sonoglide::control {
+namespace sonoglide::control::plausibility_test {
 namespace {
 
 template <class Scalar>
@@ -44,4 +44,4 @@ TYPED_TEST(PlausibilityTest, ContactsStayInside) {
 }
 
 }  // namespace
-}  // namespace sonoglide::control
+}  // namespace sonoglide::control::plausibility_test

@@ -9,7 +9,7 @@
 #include "closed_loop.hpp"
 #include "scalars.hpp"
 
-namespace sonoglide::control {
+namespace sonoglide::control::random_measurements_test {
 namespace {
 
 std::int32_t any_code() {
@@ -106,4 +106,4 @@ TEST(NormalOperation, OverflowsNothingInFixedPoint) {
 }
 
 }  // namespace
-}  // namespace sonoglide::control
+}  // namespace sonoglide::control::random_measurements_test

@@ -7,7 +7,7 @@
 #include "closed_loop.hpp"
 #include "scalars.hpp"
 
-namespace sonoglide::control {
+namespace sonoglide::control::relearning_test {
 namespace {
 
 template <class Scalar>
@@ -106,4 +106,4 @@ TYPED_TEST(Relearning, WithoutADriveThereIsNoPause) {
 }
 
 }  // namespace
-}  // namespace sonoglide::control
+}  // namespace sonoglide::control::relearning_test

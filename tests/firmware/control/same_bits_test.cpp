@@ -11,7 +11,7 @@
 #include "scalars.hpp"
 #include "scripted_run.hpp"
 
-namespace sonoglide::control {
+namespace sonoglide::control::same_bits_test {
 namespace {
 
 template <class Scalar>
@@ -68,4 +68,4 @@ TEST(SameBits, OverflowPolicyChangesNoBit) {
 }
 
 }  // namespace
-}  // namespace sonoglide::control
+}  // namespace sonoglide::control::same_bits_test

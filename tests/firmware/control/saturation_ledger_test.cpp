@@ -6,7 +6,7 @@
 #include "firmware/numeric/signal_ledger.hpp"
 #include "scalars.hpp"
 
-namespace sonoglide::control {
+namespace sonoglide::control::saturation_ledger_test {
 namespace {
 
 using Counted = numeric::Q31<numeric::Counting>;
@@ -84,4 +84,4 @@ TEST_F(SaturationLedger, CountsAForeseenSpeedBeyondFullSpeed) {
 }
 
 }  // namespace
-}  // namespace sonoglide::control
+}  // namespace sonoglide::control::saturation_ledger_test

@@ -7,7 +7,7 @@
 
 #include "scalars.hpp"
 
-namespace sonoglide::control {
+namespace sonoglide::control::settling_watch_test {
 namespace {
 
 template <class Scalar>
@@ -127,4 +127,4 @@ TYPED_TEST(SettlingWatchTest, NamesNoMismatchBeforeItHasSettled) {
 }
 
 }  // namespace
-}  // namespace sonoglide::control
+}  // namespace sonoglide::control::settling_watch_test

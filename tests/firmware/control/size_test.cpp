@@ -9,7 +9,7 @@
 #include "design.hpp"
 #include "scalars.hpp"
 
-namespace sonoglide::control {
+namespace sonoglide::control::size_test {
 namespace {
 
 template <class S>
@@ -69,4 +69,4 @@ TYPED_TEST(ControllerSize, TheDelayLineIsTwoSpacings) {
 }
 
 }  // namespace
-}  // namespace sonoglide::control
+}  // namespace sonoglide::control::size_test

@@ -11,7 +11,7 @@
 #include "firmware/control/no_slew_limit.hpp"
 #include "scalars.hpp"
 
-namespace sonoglide::control {
+namespace sonoglide::control::slew_limit_test {
 namespace {
 
 template <class Scalar>
@@ -81,4 +81,4 @@ TYPED_TEST(SlewLimitTest, NoLimitIsTheIdentity) {
 }
 
 }  // namespace
-}  // namespace sonoglide::control
+}  // namespace sonoglide::control::slew_limit_test

@@ -9,7 +9,7 @@
 #include "scalars.hpp"
 #include "scripted_run.hpp"
 
-namespace sonoglide::control {
+namespace sonoglide::control::speed_foresight_test {
 namespace {
 
 constexpr double lead_periods = 2.5;
@@ -89,4 +89,4 @@ TYPED_TEST(SpeedForesightTest, ARestartForgetsTheSlope) {
 }
 
 }  // namespace
-}  // namespace sonoglide::control
+}  // namespace sonoglide::control::speed_foresight_test

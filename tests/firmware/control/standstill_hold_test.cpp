@@ -4,7 +4,7 @@
 
 #include "scalars.hpp"
 
-namespace sonoglide::control {
+namespace sonoglide::control::standstill_hold_test {
 namespace {
 
 template <class Scalar>
@@ -33,4 +33,4 @@ TYPED_TEST(StandstillHoldTest, WithoutAHoldItFallsAtOnce) {
 }
 
 }  // namespace
-}  // namespace sonoglide::control
+}  // namespace sonoglide::control::standstill_hold_test

@@ -10,7 +10,7 @@
 #include "scalars.hpp"
 #include "scripted_run.hpp"
 
-namespace sonoglide::control {
+namespace sonoglide::control::standstill_test {
 namespace {
 
 /// Table 1, and its plant on a soft spring (7e6 N/m), whose notch needs a spacing of 4.
@@ -136,4 +136,4 @@ TYPED_TEST(Standstill, OneWrongSampleOfTheSpeedKicksNothing) {
 }
 
 }  // namespace
-}  // namespace sonoglide::control
+}  // namespace sonoglide::control::standstill_test

@@ -6,7 +6,7 @@
 
 #include "scalars.hpp"
 
-namespace sonoglide::control {
+namespace sonoglide::control::stuck_detector_test {
 namespace {
 
 template <class Scalar>
@@ -131,4 +131,4 @@ TYPED_TEST(StuckDetectorTest, ARestartGivesTheFullTimeAgain) {
 }
 
 }  // namespace
-}  // namespace sonoglide::control
+}  // namespace sonoglide::control::stuck_detector_test

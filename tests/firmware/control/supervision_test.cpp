@@ -5,7 +5,7 @@
 #include "closed_loop.hpp"
 #include "scalars.hpp"
 
-namespace sonoglide::control {
+namespace sonoglide::control::supervision_test {
 namespace {
 
 template <class Scalar>
@@ -130,4 +130,4 @@ TYPED_TEST(Supervision, ARestartWhileDrivingIsNotTakenForAStuckReading) {
 }
 
 }  // namespace
-}  // namespace sonoglide::control
+}  // namespace sonoglide::control::supervision_test

@@ -5,7 +5,7 @@
 #include "closed_loop.hpp"
 #include "scalars.hpp"
 
-namespace sonoglide::control {
+namespace sonoglide::control::target_stream_test {
 namespace {
 
 template <class Scalar>
@@ -58,4 +58,4 @@ TYPED_TEST(TargetStream, ARampIsFollowedWithoutError) {
 }
 
 }  // namespace
-}  // namespace sonoglide::control
+}  // namespace sonoglide::control::target_stream_test

@@ -10,7 +10,7 @@
 #include "closed_loop.hpp"
 #include "scalars.hpp"
 
-namespace sonoglide::control {
+namespace sonoglide::control::tolerant_samples_test {
 namespace {
 
 /// Counted one by one.
@@ -80,4 +80,4 @@ TYPED_TEST(ToleratedSamples, NoneIsAsStrictAsStrict) {
 }
 
 }  // namespace
-}  // namespace sonoglide::control
+}  // namespace sonoglide::control::tolerant_samples_test

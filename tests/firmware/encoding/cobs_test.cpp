@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace sonoglide::encoding {
+namespace sonoglide::encoding::cobs_test {
 namespace {
 
 using Bytes = std::vector<std::uint8_t>;
@@ -104,4 +104,4 @@ TEST(CobsTest, TellsACutBlockFromAnEndAndFromAnIdleLine) {
 }
 
 }  // namespace
-}  // namespace sonoglide::encoding
+}  // namespace sonoglide::encoding::cobs_test

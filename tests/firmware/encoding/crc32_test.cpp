@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace sonoglide::encoding {
+namespace sonoglide::encoding::crc32_test {
 namespace {
 
 std::uint32_t ours(const std::vector<std::uint8_t>& bytes) {
@@ -39,4 +39,4 @@ RC_GTEST_PROP(Crc32Test, KnowsARecordThatEndsWithItsOwn,
 }
 
 }  // namespace
-}  // namespace sonoglide::encoding
+}  // namespace sonoglide::encoding::crc32_test

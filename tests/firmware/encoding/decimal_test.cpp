@@ -8,7 +8,7 @@
 #include <optional>
 #include <string>
 
-namespace sonoglide::encoding {
+namespace sonoglide::encoding::decimal_test {
 namespace {
 
 std::string written(std::uint32_t value, int places) {
@@ -71,4 +71,4 @@ RC_GTEST_PROP(DecimalTest, AnyTextIsReadOrRefused, (const std::string& text)) {
 }
 
 }  // namespace
-}  // namespace sonoglide::encoding
+}  // namespace sonoglide::encoding::decimal_test

@@ -8,7 +8,7 @@
 #include "firmware/friction/dahl_friction_ratio.hpp"
 #include "tests/common/constants/pi.hpp"
 
-namespace sonoglide::friction {
+namespace sonoglide::friction::friction_ratio_test {
 namespace {
 
 using tests::pi;
@@ -72,4 +72,4 @@ TEST(DahlFrictionRatio, RisesWithVelocityRatioAndFallsWithDahlNumber) {
 }
 
 }  // namespace
-}  // namespace sonoglide::friction
+}  // namespace sonoglide::friction::friction_ratio_test

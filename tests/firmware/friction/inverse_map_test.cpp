@@ -9,7 +9,7 @@
 #include "firmware/numeric/fixed.hpp"
 #include "tests/common/constants/table_1_numbers.hpp"
 
-namespace sonoglide::friction {
+namespace sonoglide::friction::inverse_map_test {
 namespace {
 
 static_assert(sizeof(dahl_inverse_table) <= 4096, "the inverse map's constants fit 4 KiB");
@@ -123,4 +123,4 @@ TYPED_TEST(DahlInverseMap, GivesTheDriveAmplitudesOfTable1) {
 }
 
 }  // namespace
-}  // namespace sonoglide::friction
+}  // namespace sonoglide::friction::inverse_map_test

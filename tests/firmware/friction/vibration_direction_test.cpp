@@ -17,7 +17,7 @@
 #include "firmware/numeric/arithmetic_geometric_mean.hpp"
 #include "tests/common/constants/pi.hpp"
 
-namespace sonoglide::friction {
+namespace sonoglide::friction::vibration_direction_test {
 namespace {
 
 using tests::pi;
@@ -160,4 +160,4 @@ TEST(NormalVibrationRatio, HasItsLimits) {
 }
 
 }  // namespace
-}  // namespace sonoglide::friction
+}  // namespace sonoglide::friction::vibration_direction_test

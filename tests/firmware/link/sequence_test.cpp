@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-namespace sonoglide::link {
+namespace sonoglide::link::sequence_test {
 namespace {
 
 TEST(SequenceWatchTest, TakesWhateverComesFirst) {
@@ -51,4 +51,4 @@ TEST(SequenceWatchTest, KnowsFramesOutOfOrder) {
 }
 
 }  // namespace
-}  // namespace sonoglide::link
+}  // namespace sonoglide::link::sequence_test

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <type_traits>
 
-namespace sonoglide::numeric {
+namespace sonoglide::numeric::accumulator_test {
 namespace {
 
 using Short = Q15<Trapping>;
@@ -35,4 +35,4 @@ TEST(AccumulatorTest, RoundsToNearestOnTheWayBack) {
 }
 
 }  // namespace
-}  // namespace sonoglide::numeric
+}  // namespace sonoglide::numeric::accumulator_test

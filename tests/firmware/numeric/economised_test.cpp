@@ -8,7 +8,7 @@
 
 #include "firmware/numeric/power_series.hpp"
 
-namespace sonoglide::numeric {
+namespace sonoglide::numeric::economised_test {
 namespace {
 
 TEST(Economised, StaysWithinItsBound) {
@@ -30,4 +30,4 @@ TEST(Economised, StaysWithinItsBound) {
 }
 
 }  // namespace
-}  // namespace sonoglide::numeric
+}  // namespace sonoglide::numeric::economised_test

@@ -12,7 +12,7 @@
 
 #include "firmware/numeric/fixed.hpp"
 
-namespace sonoglide::numeric {
+namespace sonoglide::numeric::exhaustive_test {
 namespace {
 
 __extension__ typedef __int128 Int128;
@@ -184,4 +184,4 @@ TEST(EdgesAndRandomPairsOf32Bit, Divide) {
 }
 
 }  // namespace
-}  // namespace sonoglide::numeric
+}  // namespace sonoglide::numeric::exhaustive_test

@@ -9,7 +9,7 @@
 
 #include "firmware/numeric/first_root.hpp"
 
-namespace sonoglide::numeric {
+namespace sonoglide::numeric::first_root_test {
 namespace {
 
 /// Positive at 0, with these roots and no others.
@@ -132,4 +132,4 @@ TEST(FirstRoot, OfAnyRoots) {
 }
 
 }  // namespace
-}  // namespace sonoglide::numeric
+}  // namespace sonoglide::numeric::first_root_test

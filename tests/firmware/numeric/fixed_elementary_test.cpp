@@ -15,7 +15,7 @@
 
 #include "tests/common/constants/pi.hpp"
 
-namespace sonoglide::numeric {
+namespace sonoglide::numeric::fixed_elementary_test {
 namespace {
 
 using tests::long_pi;
@@ -151,4 +151,4 @@ TEST(IntegerRoot, IsTheNearestInteger) {
 }
 
 }  // namespace
-}  // namespace sonoglide::numeric
+}  // namespace sonoglide::numeric::fixed_elementary_test

@@ -11,7 +11,7 @@
 #include <random>
 #include <type_traits>
 
-namespace sonoglide::numeric {
+namespace sonoglide::numeric::fixed_test {
 namespace {
 
 using Short = Q15<Saturating>;
@@ -203,4 +203,4 @@ TEST(FixedDotProduct, RoundsEachProductAndSaturatesOnce) {
 }
 
 }  // namespace
-}  // namespace sonoglide::numeric
+}  // namespace sonoglide::numeric::fixed_test

@@ -15,7 +15,7 @@
 #include "tests/common/constants/pi.hpp"
 #include "ulp.hpp"
 
-namespace sonoglide::numeric {
+namespace sonoglide::numeric::float_elementary_test {
 namespace {
 
 using tests::long_pi;
@@ -226,4 +226,4 @@ TYPED_TEST(FloatElementary, OutsideTheDomainIsNan) {
 }
 
 }  // namespace
-}  // namespace sonoglide::numeric
+}  // namespace sonoglide::numeric::float_elementary_test

@@ -10,7 +10,7 @@
 
 #include "firmware/numeric/word.hpp"
 
-namespace sonoglide::numeric {
+namespace sonoglide::numeric::floating_test {
 namespace {
 
 using Number = Q31<Trapping>;
@@ -101,4 +101,4 @@ TEST(FloatingFloat, IsTheNumberItself) {
 }
 
 }  // namespace
-}  // namespace sonoglide::numeric
+}  // namespace sonoglide::numeric::floating_test

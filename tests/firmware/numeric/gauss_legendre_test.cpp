@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstddef>
 
-namespace sonoglide::numeric {
+namespace sonoglide::numeric::gauss_legendre_test {
 namespace {
 
 TEST(GaussLegendre, IntegratesEveryPolynomialOfItsDegree) {
@@ -20,4 +20,4 @@ TEST(GaussLegendre, IntegratesEveryPolynomialOfItsDegree) {
 }
 
 }  // namespace
-}  // namespace sonoglide::numeric
+}  // namespace sonoglide::numeric::gauss_legendre_test

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstddef>
 
-namespace sonoglide::numeric {
+namespace sonoglide::numeric::gauss_nodes_test {
 namespace {
 
 TEST(GaussNodes, IntegrateAPolynomialToEachNode) {
@@ -44,4 +44,4 @@ TEST(GaussNodes, KnowTheHighestLegendreCoefficients) {
 }
 
 }  // namespace
-}  // namespace sonoglide::numeric
+}  // namespace sonoglide::numeric::gauss_nodes_test

@@ -8,7 +8,7 @@
 #include <cstddef>
 #include <limits>
 
-namespace sonoglide::numeric {
+namespace sonoglide::numeric::growth_matrix_test {
 namespace {
 
 /// exp of {{0, 1}, {-k, -d}} time, less the unit matrix: series at time / 2^20, squared.
@@ -77,4 +77,4 @@ TEST(GrowthMatrix, KeepsTheDigitsOfASmallGrowth) {
 }
 
 }  // namespace
-}  // namespace sonoglide::numeric
+}  // namespace sonoglide::numeric::growth_matrix_test

@@ -10,7 +10,7 @@
 
 #include "firmware/numeric/lane_group.hpp"
 
-namespace sonoglide::numeric {
+namespace sonoglide::numeric::lanes_test {
 namespace {
 
 template <class Float>
@@ -97,4 +97,4 @@ TYPED_TEST(LanesTest, WhatIsNoNumberIsLimited) {
 }
 
 }  // namespace
-}  // namespace sonoglide::numeric
+}  // namespace sonoglide::numeric::lanes_test

@@ -12,7 +12,7 @@
 #include "firmware/numeric/float_elementary.hpp"
 #include "firmware/numeric/scalar.hpp"
 
-namespace sonoglide::numeric {
+namespace sonoglide::numeric::properties_test {
 namespace {
 
 using Long = Q31<Saturating>;
@@ -151,4 +151,4 @@ RC_GTEST_PROP(FloatProperty, SplitAndScaleAreInverse, ()) {
 }
 
 }  // namespace
-}  // namespace sonoglide::numeric
+}  // namespace sonoglide::numeric::properties_test

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <limits>
 
-namespace sonoglide::numeric {
+namespace sonoglide::numeric::quick_root_test {
 namespace {
 
 /// A power of two below `limit` in modulus, times 1 to 2.
@@ -50,4 +50,4 @@ TEST(StepSize, WithoutATermTheRootIsLargeAndFinite) {
 }
 
 }  // namespace
-}  // namespace sonoglide::numeric
+}  // namespace sonoglide::numeric::quick_root_test

@@ -10,7 +10,7 @@
 #include "firmware/numeric/fixed_elementary.hpp"
 #include "firmware/numeric/float_elementary.hpp"
 
-namespace sonoglide::numeric {
+namespace sonoglide::numeric::same_bits_test {
 namespace {
 
 /// FNV-1a of the results of `function` at `count` arguments from low in equal steps.
@@ -125,4 +125,4 @@ TEST(SameBits, FixedSquareRoot) {
 }
 
 }  // namespace
-}  // namespace sonoglide::numeric
+}  // namespace sonoglide::numeric::same_bits_test

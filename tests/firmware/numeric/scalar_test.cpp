@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <limits>
 
-namespace sonoglide::numeric {
+namespace sonoglide::numeric::scalar_test {
 namespace {
 
 using Long = Q31<Saturating>;
@@ -158,4 +158,4 @@ TEST(DoubleCodes, LieNextToTheEnds) {
 }
 
 }  // namespace
-}  // namespace sonoglide::numeric
+}  // namespace sonoglide::numeric::scalar_test

@@ -9,7 +9,7 @@
 
 #include "firmware/numeric/fixed.hpp"
 
-namespace sonoglide::numeric {
+namespace sonoglide::numeric::signal_ledger_test {
 namespace {
 
 struct Force {
@@ -92,4 +92,4 @@ TEST(SignalLedgerTest, OtherScalarsPassUnobserved) {
 }
 
 }  // namespace
-}  // namespace sonoglide::numeric
+}  // namespace sonoglide::numeric::signal_ledger_test

@@ -10,7 +10,7 @@
 #include "firmware/plant/strang/equal_step_strang.hpp"
 #include "tests/firmware/plant/runs/motion.hpp"
 
-namespace sonoglide::plant {
+namespace sonoglide::plant::composition_size_test {
 namespace {
 
 template <class Scalar>
@@ -113,4 +113,4 @@ TYPED_TEST(CompositionSize, AnAccountIsTheIntegralsItIsNamedFor) {
 }
 
 }  // namespace
-}  // namespace sonoglide::plant
+}  // namespace sonoglide::plant::composition_size_test

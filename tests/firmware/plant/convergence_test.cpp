@@ -6,7 +6,7 @@
 
 #include "tests/firmware/plant/runs/motion.hpp"
 
-namespace sonoglide::plant {
+namespace sonoglide::plant::convergence_test {
 namespace {
 
 using Contact = DampedDahlModel<double>;
@@ -99,4 +99,4 @@ TEST(Convergence, Rk4TendsToTheCoulombMeanInFirstOrder) {
 }
 
 }  // namespace
-}  // namespace sonoglide::plant
+}  // namespace sonoglide::plant::convergence_test

@@ -6,7 +6,7 @@
 
 #include "tests/firmware/plant/runs/motion.hpp"
 
-namespace sonoglide::plant {
+namespace sonoglide::plant::coulomb_test {
 namespace {
 
 using Contact = CoulombModel<double>;
@@ -206,4 +206,4 @@ TEST(CoulombRest, NothingHappensWithoutAnyForce) {
 }
 
 }  // namespace
-}  // namespace sonoglide::plant
+}  // namespace sonoglide::plant::coulomb_test

@@ -9,7 +9,7 @@
 #include "tests/common/constants/table_1_numbers.hpp"
 #include "tests/firmware/plant/runs/motion.hpp"
 
-namespace sonoglide::plant {
+namespace sonoglide::plant::dahl_test {
 namespace {
 
 using Contact = DahlModel<double>;
@@ -161,4 +161,4 @@ TEST(DahlStuck, RingsAsASpring) {
 }
 
 }  // namespace
-}  // namespace sonoglide::plant
+}  // namespace sonoglide::plant::dahl_test

@@ -9,7 +9,7 @@
 
 #include "tests/firmware/plant/runs/motion.hpp"
 
-namespace sonoglide::plant {
+namespace sonoglide::plant::dense_output_test {
 namespace {
 
 template <class LawModel>
@@ -141,4 +141,4 @@ TEST(DenseOutputOfFriction, FollowsTheExactArcInsideAStep) {
 }
 
 }  // namespace
-}  // namespace sonoglide::plant
+}  // namespace sonoglide::plant::dense_output_test

@@ -8,7 +8,7 @@
 #include "tests/common/constants/table_1_numbers.hpp"
 #include "tests/firmware/plant/runs/motion.hpp"
 
-namespace sonoglide::plant {
+namespace sonoglide::plant::energy_test {
 namespace {
 
 /// The same sequence of cases on every machine.
@@ -168,4 +168,4 @@ TEST(EnergyAccount, OfNothingHasNoResidual) {
 }
 
 }  // namespace
-}  // namespace sonoglide::plant
+}  // namespace sonoglide::plant::energy_test

@@ -6,7 +6,7 @@
 
 #include "tests/firmware/plant/runs/motion.hpp"
 
-namespace sonoglide::plant {
+namespace sonoglide::plant::error_test {
 namespace {
 
 using Contact = DahlModel<double>;
@@ -56,4 +56,4 @@ TEST(SolverError, TooManySteps) {
 }
 
 }  // namespace
-}  // namespace sonoglide::plant
+}  // namespace sonoglide::plant::error_test

@@ -12,7 +12,7 @@
 #include "firmware/plant/gauss/event_gauss.hpp"
 #include "tests/firmware/plant/runs/motion.hpp"
 
-namespace sonoglide::plant {
+namespace sonoglide::plant::invariance_test {
 namespace {
 
 constexpr int periods = 3;
@@ -187,4 +187,4 @@ TYPED_TEST(StuckContact, IsASpringHoweverSlowItsVibration) {
 }
 
 }  // namespace
-}  // namespace sonoglide::plant
+}  // namespace sonoglide::plant::invariance_test

@@ -15,7 +15,7 @@
 #include "random.hpp"
 #include "tests/firmware/plant/runs/motion.hpp"
 
-namespace sonoglide::plant {
+namespace sonoglide::plant::iwan_test {
 namespace {
 
 using Law = friction::Iwan<double>;
@@ -273,4 +273,4 @@ RC_GTEST_PROP(IwanProperties, KeepsItsBoundsBalancesItsEnergyAndIsPassive, ()) {
 }
 
 }  // namespace
-}  // namespace sonoglide::plant
+}  // namespace sonoglide::plant::iwan_test

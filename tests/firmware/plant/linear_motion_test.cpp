@@ -8,7 +8,7 @@
 
 #include "tests/firmware/plant/runs/motion.hpp"
 
-namespace sonoglide::plant {
+namespace sonoglide::plant::linear_motion_test {
 namespace {
 
 using Free = Model<friction::None<double>, Undamped<double>, NoDrive>;
@@ -152,4 +152,4 @@ TYPED_TEST(LinearMotion, AnEmptyIntervalChangesNothing) {
 }
 
 }  // namespace
-}  // namespace sonoglide::plant
+}  // namespace sonoglide::plant::linear_motion_test

@@ -15,7 +15,7 @@
 #include "random.hpp"
 #include "tests/firmware/plant/runs/motion.hpp"
 
-namespace sonoglide::plant {
+namespace sonoglide::plant::lugre_test {
 namespace {
 
 using Law = friction::LuGre<double>;
@@ -266,4 +266,4 @@ TEST(LuGre, FrictionOfTheStepsJoins) {
 }
 
 }  // namespace
-}  // namespace sonoglide::plant
+}  // namespace sonoglide::plant::lugre_test

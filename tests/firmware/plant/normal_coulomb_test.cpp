@@ -13,7 +13,7 @@
 #include "random.hpp"
 #include "tests/firmware/plant/runs/motion.hpp"
 
-namespace sonoglide::plant {
+namespace sonoglide::plant::normal_coulomb_test {
 namespace {
 
 using Law = friction::NormalCoulomb<double>;
@@ -180,4 +180,4 @@ RC_GTEST_PROP(NormalCoulombProperties, KeepsItsLimitBalancesItsEnergyAndIsPassiv
 }
 
 }  // namespace
-}  // namespace sonoglide::plant
+}  // namespace sonoglide::plant::normal_coulomb_test

@@ -10,7 +10,7 @@
 #include "tests/common/csv/csv.hpp"
 #include "tests/firmware/plant/runs/motion.hpp"
 
-namespace sonoglide::plant {
+namespace sonoglide::plant::reference_open_loop_test {
 namespace {
 
 using tests::Table1;
@@ -199,4 +199,4 @@ TEST(ReferenceOpenLoopRk4, ThePapersStepIsAThousandthOfThePeriod) {
 }
 
 }  // namespace
-}  // namespace sonoglide::plant
+}  // namespace sonoglide::plant::reference_open_loop_test

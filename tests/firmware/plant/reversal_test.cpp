@@ -7,7 +7,7 @@
 
 #include "tests/firmware/plant/runs/motion.hpp"
 
-namespace sonoglide::plant {
+namespace sonoglide::plant::reversal_test {
 namespace {
 
 using Contact = DahlModel<double>;
@@ -139,4 +139,4 @@ TEST(Reversal, MirroredMotionIsTheMirrorImageBitForBit) {
 }
 
 }  // namespace
-}  // namespace sonoglide::plant
+}  // namespace sonoglide::plant::reversal_test

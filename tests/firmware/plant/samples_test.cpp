@@ -10,7 +10,7 @@
 #include "samples/viscous.hpp"
 #include "tests/firmware/plant/runs/motion.hpp"
 
-namespace sonoglide::plant {
+namespace sonoglide::plant::samples_test {
 namespace {
 
 using FilmModel = Model<friction::Viscous<double>, Undamped<double>, NoDrive>;
@@ -57,4 +57,4 @@ TEST(SampleSolver, IsOfFirstOrder) {
 }
 
 }  // namespace
-}  // namespace sonoglide::plant
+}  // namespace sonoglide::plant::samples_test

@@ -13,7 +13,7 @@
 #include "firmware/plant/strang/adaptive_strang.hpp"
 #include "tests/firmware/plant/runs/motion.hpp"
 
-namespace sonoglide::plant {
+namespace sonoglide::plant::sliding_test {
 namespace {
 
 template <class Law, class Sliding>
@@ -123,4 +123,4 @@ TEST(ConstantSlidingTest, CostsNoByte) {
 }
 
 }  // namespace
-}  // namespace sonoglide::plant
+}  // namespace sonoglide::plant::sliding_test

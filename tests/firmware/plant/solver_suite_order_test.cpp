@@ -6,7 +6,7 @@
 
 #include "solver_suite.hpp"
 
-namespace sonoglide::plant {
+namespace sonoglide::plant::solver_suite_order_test {
 namespace {
 
 const Case plant = Case().contact_stiffness(0.9).friction_force(0.3).damping(0.2).stiffness(0.6);
@@ -94,4 +94,4 @@ TEST(SolverOrder, SplittingIsOfSixthOrderWithoutReaction) {
 }
 
 }  // namespace
-}  // namespace sonoglide::plant
+}  // namespace sonoglide::plant::solver_suite_order_test

@@ -9,7 +9,7 @@
 #include "tests/common/constants/table_1_numbers.hpp"
 #include "tests/common/csv/csv.hpp"
 
-namespace sonoglide::plant {
+namespace sonoglide::plant::solver_suite_reference_test {
 namespace {
 
 using tests::Table1;
@@ -126,4 +126,4 @@ TEST(SolverReference, AdaptiveStrang) {
 }
 
 }  // namespace
-}  // namespace sonoglide::plant
+}  // namespace sonoglide::plant::solver_suite_reference_test

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <complex>
 
-namespace sonoglide::plant {
+namespace sonoglide::plant::solver_suite_test {
 namespace {
 
 template <class Method>
@@ -413,4 +413,4 @@ TYPED_TEST(SolverSuite, StepsJoinAndIntegrateTheMotion) {
 }
 
 }  // namespace
-}  // namespace sonoglide::plant
+}  // namespace sonoglide::plant::solver_suite_test

@@ -8,7 +8,7 @@
 #include "firmware/plant/strang/equal_step_strang.hpp"
 #include "tests/firmware/plant/runs/motion.hpp"
 
-namespace sonoglide::plant {
+namespace sonoglide::plant::state_test {
 namespace {
 
 using Contact = DahlModel<double>;
@@ -57,4 +57,4 @@ TEST(FixedStepBudget, StepsThatFitButForRoundingFit) {
 }
 
 }  // namespace
-}  // namespace sonoglide::plant
+}  // namespace sonoglide::plant::state_test

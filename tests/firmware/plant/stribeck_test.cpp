@@ -11,7 +11,7 @@
 #include "random.hpp"
 #include "tests/firmware/plant/runs/motion.hpp"
 
-namespace sonoglide::plant {
+namespace sonoglide::plant::stribeck_test {
 namespace {
 
 using Law = friction::Stribeck<double>;
@@ -164,4 +164,4 @@ RC_GTEST_PROP(StribeckProperties, BalancesItsEnergyAndIsPassive, ()) {
 }
 
 }  // namespace
-}  // namespace sonoglide::plant
+}  // namespace sonoglide::plant::stribeck_test

@@ -13,7 +13,7 @@
 #include "random.hpp"
 #include "tests/firmware/plant/runs/motion.hpp"
 
-namespace sonoglide::plant {
+namespace sonoglide::plant::transverse_coulomb_test {
 namespace {
 
 using Law = friction::TransverseCoulomb<double>;
@@ -185,4 +185,4 @@ RC_GTEST_PROP(TransverseCoulombProperties, SoDoFixedSteps, ()) {
 }
 
 }  // namespace
-}  // namespace sonoglide::plant
+}  // namespace sonoglide::plant::transverse_coulomb_test

@@ -11,7 +11,7 @@
 
 #include "tests/firmware/plant/runs/quartic_path.hpp"
 
-namespace sonoglide::plant {
+namespace sonoglide::plant::velocity_path_test {
 namespace {
 
 TEST(VelocityPath, IsTheQuarticThroughItsEnds) {
@@ -66,4 +66,4 @@ TEST(VelocityPath, FromRestItGoesWhereItGoes) {
 }
 
 }  // namespace
-}  // namespace sonoglide::plant
+}  // namespace sonoglide::plant::velocity_path_test

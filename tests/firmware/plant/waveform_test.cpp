@@ -6,7 +6,7 @@
 
 #include "tests/firmware/plant/runs/motion.hpp"
 
-namespace sonoglide::plant {
+namespace sonoglide::plant::waveform_test {
 namespace {
 
 template <template <class> class Law, class Drive>
@@ -103,4 +103,4 @@ TEST(Waveform, RampOnASpring) {
 }
 
 }  // namespace
-}  // namespace sonoglide::plant
+}  // namespace sonoglide::plant::waveform_test

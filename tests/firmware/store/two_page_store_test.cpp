@@ -9,7 +9,7 @@
 
 #include "tests/firmware/app/flash/simulated_flash.hpp"
 
-namespace sonoglide::store {
+namespace sonoglide::store::two_page_store_test {
 namespace {
 
 constexpr std::uint32_t design = 7;
@@ -263,4 +263,4 @@ TEST(TwoPageStoreTest, AnyFirstWordIsNoRecordUnlessItIs) {
 }
 
 }  // namespace
-}  // namespace sonoglide::store
+}  // namespace sonoglide::store::two_page_store_test

@@ -11,7 +11,7 @@
 #include "tests/host_sim/batch/runs/plants.hpp"
 #include "tests/host_sim/batch/runs/scalar_run.hpp"
 
-namespace sonoglide::batch {
+namespace sonoglide::batch::dahl_plants_test {
 namespace {
 
 struct Errors {
@@ -156,4 +156,4 @@ TEST(DahlPlants, NoPointsNoRuns) {
 }
 
 }  // namespace
-}  // namespace sonoglide::batch
+}  // namespace sonoglide::batch::dahl_plants_test

@@ -5,7 +5,7 @@
 
 #include "host_sim/batch/run_dahl_plants.hpp"
 
-namespace sonoglide::batch {
+namespace sonoglide::batch::given_up_test {
 namespace {
 
 RunStatus status_of(const DahlPlant& plant) {
@@ -66,4 +66,4 @@ TEST(GivenUp, MotionBeyondTheRange) {
 }
 
 }  // namespace
-}  // namespace sonoglide::batch
+}  // namespace sonoglide::batch::given_up_test

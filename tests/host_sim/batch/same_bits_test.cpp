@@ -9,7 +9,7 @@
 #include "tests/host_sim/batch/runs/instruction_sets.hpp"
 #include "tests/host_sim/batch/runs/plants.hpp"
 
-namespace sonoglide::batch {
+namespace sonoglide::batch::same_bits_test {
 namespace {
 
 constexpr RunLength length = {12, 5};
@@ -81,4 +81,4 @@ INSTANTIATE_TEST_SUITE_P(Accuracies, SameBits, testing::Values(Accuracy::map, Ac
                          });
 
 }  // namespace
-}  // namespace sonoglide::batch
+}  // namespace sonoglide::batch::same_bits_test

@@ -8,7 +8,7 @@
 #include <limits>
 #include <string>
 
-namespace sonoglide::cli {
+namespace sonoglide::cli::progress_bar_test {
 namespace {
 
 /// A terminal that remembers what it was sent.
@@ -125,4 +125,4 @@ TEST(ProgressBarTest, IsSilentElsewhere) {
 }
 
 }  // namespace
-}  // namespace sonoglide::cli
+}  // namespace sonoglide::cli::progress_bar_test

@@ -11,7 +11,7 @@
 #include "tests/common/constants/table_1_numbers.hpp"
 #include "tests/common/table_1.hpp"
 
-namespace sonoglide::configure {
+namespace sonoglide::configure::control_design_test {
 namespace {
 
 using tests::carrier_Hz;
@@ -281,4 +281,4 @@ TEST(ControlDesignTest, CalibrationIsCountedInCarrierPeriods) {
 }
 
 }  // namespace
-}  // namespace sonoglide::configure
+}  // namespace sonoglide::configure::control_design_test

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-namespace sonoglide::emulated {
+namespace sonoglide::emulated::board_list_test {
 namespace {
 
 const std::string source_folder = SONOGLIDE_SOURCE_DIR;
@@ -73,4 +73,4 @@ TEST(BoardList, CommandEndsInTheImage) {
 }
 
 }  // namespace
-}  // namespace sonoglide::emulated
+}  // namespace sonoglide::emulated::board_list_test

@@ -11,7 +11,7 @@
 #include "host_sim/emulated/initialiser.hpp"
 #include "host_sim/scene_file/reader.hpp"
 
-namespace sonoglide::emulated {
+namespace sonoglide::emulated::controller_header_test {
 namespace {
 
 scene::Scene read(const std::string& name, const std::vector<std::string>& overrides = {}) {
@@ -112,4 +112,4 @@ TEST(BoardArithmetic, Float64NeedsABoardThatComputesIt) {
 }
 
 }  // namespace
-}  // namespace sonoglide::emulated
+}  // namespace sonoglide::emulated::controller_header_test

@@ -10,7 +10,7 @@
 #include "compiled.hpp"
 #include "host_sim/process/pipe.hpp"
 
-namespace sonoglide::emulated {
+namespace sonoglide::emulated::image_cost_test {
 namespace {
 
 constexpr const char* data_of_each_kind = R"(
@@ -67,4 +67,4 @@ TEST(ImageSize, RefusesWhatIsNoImage) {
 }
 
 }  // namespace
-}  // namespace sonoglide::emulated
+}  // namespace sonoglide::emulated::image_cost_test

@@ -21,7 +21,7 @@
 #include "firmware/control/tolerant_samples.hpp"
 #include "firmware/plant/strang/fixed_point_strang.hpp"
 
-namespace sonoglide::emulated {
+namespace sonoglide::emulated::initialiser_test {
 namespace {
 
 /// Stands for any member of an aggregate.
@@ -153,4 +153,4 @@ TEST(Initialiser, NestsArrays) {
 }
 
 }  // namespace
-}  // namespace sonoglide::emulated
+}  // namespace sonoglide::emulated::initialiser_test

@@ -8,7 +8,7 @@
 #include "host_sim/configure/configuration_error.hpp"
 #include "host_sim/scene_file/reader.hpp"
 
-namespace sonoglide::emulated {
+namespace sonoglide::emulated::plant_header_test {
 namespace {
 
 using Texts = std::vector<std::string>;
@@ -65,4 +65,4 @@ TEST(PlantHeader, NamesWhatIsAllowed) {
 }
 
 }  // namespace
-}  // namespace sonoglide::emulated
+}  // namespace sonoglide::emulated::plant_header_test

@@ -5,7 +5,7 @@
 
 #include "compiled.hpp"
 
-namespace sonoglide::emulated {
+namespace sonoglide::emulated::stack_bound_test {
 namespace {
 
 constexpr const char* calls = R"(
@@ -152,4 +152,4 @@ TEST(StackBound, IsNoneForWhatIsMissing) {
 }
 
 }  // namespace
-}  // namespace sonoglide::emulated
+}  // namespace sonoglide::emulated::stack_bound_test

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <optional>
 
-namespace sonoglide::loop {
+namespace sonoglide::loop::carrier_grid_test {
 namespace {
 
 CarrierGrid grid_of(double frequency_Hz, double duration_s) {
@@ -75,4 +75,4 @@ TEST(CarrierGridTest, WithoutADriveHasAThousandPieces) {
 }
 
 }  // namespace
-}  // namespace sonoglide::loop
+}  // namespace sonoglide::loop::carrier_grid_test

@@ -20,7 +20,7 @@
 #include "tests/common/constants/pi.hpp"
 #include "tests/host_sim/loop/equations/follow.hpp"
 
-namespace sonoglide::loop {
+namespace sonoglide::loop::compositions_test {
 namespace {
 
 using tests::two_pi;
@@ -317,4 +317,4 @@ INSTANTIATE_TEST_SUITE_P(Laws, CompositionsTest, testing::ValuesIn(scene::every_
                          });
 
 }  // namespace
-}  // namespace sonoglide::loop
+}  // namespace sonoglide::loop::compositions_test

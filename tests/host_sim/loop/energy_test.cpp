@@ -10,7 +10,7 @@
 #include "host_sim/loop/run.hpp"
 #include "tests/common/table_1.hpp"
 
-namespace sonoglide::loop {
+namespace sonoglide::loop::energy_test {
 namespace {
 
 using scene::Scene;
@@ -215,4 +215,4 @@ TEST(EnergyBalanceTest, ResidualTakesTheConventionsSign) {
 }
 
 }  // namespace
-}  // namespace sonoglide::loop
+}  // namespace sonoglide::loop::energy_test

@@ -6,7 +6,7 @@
 #include "host_sim/loop/run.hpp"
 #include "tests/common/table_1.hpp"
 
-namespace sonoglide::loop {
+namespace sonoglide::loop::failure_test {
 namespace {
 
 using tests::period_s;
@@ -81,4 +81,4 @@ TEST(FailureTest, AContactThatIsSoftEnoughRuns) {
 }
 
 }  // namespace
-}  // namespace sonoglide::loop
+}  // namespace sonoglide::loop::failure_test

@@ -12,7 +12,7 @@
 #include "tests/common/table_1.hpp"
 #include "tests/host_sim/loop/logs/logged_run.hpp"
 
-namespace sonoglide::loop {
+namespace sonoglide::loop::friction_laws_test {
 namespace {
 
 using tests::on_steady_orbit;
@@ -200,4 +200,4 @@ TEST(WaveformSceneTest, TheTraceShowsTheWave) {
 }
 
 }  // namespace
-}  // namespace sonoglide::loop
+}  // namespace sonoglide::loop::friction_laws_test

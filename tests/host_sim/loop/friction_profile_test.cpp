@@ -21,7 +21,7 @@
 #include "tests/common/table_1.hpp"
 #include "tests/host_sim/loop/logs/logged_run.hpp"
 
-namespace sonoglide::loop {
+namespace sonoglide::loop::friction_profile_test {
 namespace {
 
 using scene::Scene;
@@ -361,4 +361,4 @@ TEST(FrictionProfileTest, AClosedLoopWithoutAChangeKeepsItsTrace) {
 }
 
 }  // namespace
-}  // namespace sonoglide::loop
+}  // namespace sonoglide::loop::friction_profile_test

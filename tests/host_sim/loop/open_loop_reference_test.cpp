@@ -12,7 +12,7 @@
 #include "tests/common/csv/csv.hpp"
 #include "tests/common/table_1.hpp"
 
-namespace sonoglide::loop {
+namespace sonoglide::loop::open_loop_reference_test {
 namespace {
 
 using scene::Scene;
@@ -195,4 +195,4 @@ TEST(SteadyOrbitTest, GivesTheClosedFormMapOfTheDahlContact) {
 }
 
 }  // namespace
-}  // namespace sonoglide::loop
+}  // namespace sonoglide::loop::open_loop_reference_test

@@ -12,7 +12,7 @@
 #include "tests/common/table_1.hpp"
 #include "tests/host_sim/loop/logs/logged_run.hpp"
 
-namespace sonoglide::loop {
+namespace sonoglide::loop::run_test {
 namespace {
 
 using scene::Scene;
@@ -235,4 +235,4 @@ TEST(RunTest, OnlyFixedPointHasSignals) {
 }
 
 }  // namespace
-}  // namespace sonoglide::loop
+}  // namespace sonoglide::loop::run_test

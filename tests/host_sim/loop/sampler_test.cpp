@@ -7,7 +7,7 @@
 
 #include "host_sim/loop/watch.hpp"
 
-namespace sonoglide::loop {
+namespace sonoglide::loop::sampler_test {
 namespace {
 
 /// Goes through [0, end_s] in stretches of the given length; every state is its own time.
@@ -128,4 +128,4 @@ TEST(SamplerTest, WantsNothingBeforeTheFirstSampleNorAfterTheLast) {
 }
 
 }  // namespace
-}  // namespace sonoglide::loop
+}  // namespace sonoglide::loop::sampler_test

@@ -11,7 +11,7 @@
 #include "firmware/numeric/scalar.hpp"
 #include "tests/common/constants/pi.hpp"
 
-namespace sonoglide::loop {
+namespace sonoglide::loop::sensor_test {
 namespace {
 
 constexpr double full_scale_N = 0.04;
@@ -290,4 +290,4 @@ TEST(SensorTest, NoiseComesAfterTheDelay) {
 }
 
 }  // namespace
-}  // namespace sonoglide::loop
+}  // namespace sonoglide::loop::sensor_test

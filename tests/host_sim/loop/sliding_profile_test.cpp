@@ -4,7 +4,7 @@
 
 #include <vector>
 
-namespace sonoglide::loop {
+namespace sonoglide::loop::sliding_profile_test {
 namespace {
 
 using Times = std::vector<double>;
@@ -56,4 +56,4 @@ TEST(SlidingProfileTest, CrossesZeroAtItsCuts) {
 }
 
 }  // namespace
-}  // namespace sonoglide::loop
+}  // namespace sonoglide::loop::sliding_profile_test

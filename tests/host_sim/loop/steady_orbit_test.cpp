@@ -11,7 +11,7 @@
 #include "host_sim/loop/run.hpp"
 #include "tests/common/table_1.hpp"
 
-namespace sonoglide::loop {
+namespace sonoglide::loop::steady_orbit_test {
 namespace {
 
 using scene::Scene;
@@ -162,4 +162,4 @@ TEST(FindSteadyOrbitTest, IsDeniedWhereThereIsNone) {
 }
 
 }  // namespace
-}  // namespace sonoglide::loop
+}  // namespace sonoglide::loop::steady_orbit_test

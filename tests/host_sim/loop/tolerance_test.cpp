@@ -17,7 +17,7 @@
 #include "host_sim/loop/run.hpp"
 #include "tests/common/constants/pi.hpp"
 
-namespace sonoglide::loop {
+namespace sonoglide::loop::tolerance_test {
 namespace {
 
 using tests::two_pi;
@@ -172,4 +172,4 @@ INSTANTIATE_TEST_SUITE_P(Laws, ToleranceTest, testing::ValuesIn(laws_with_a_rati
                          });
 
 }  // namespace
-}  // namespace sonoglide::loop
+}  // namespace sonoglide::loop::tolerance_test

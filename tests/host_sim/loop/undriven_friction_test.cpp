@@ -9,7 +9,7 @@
 #include "tests/common/table_1.hpp"
 #include "tests/host_sim/loop/logs/logged_run.hpp"
 
-namespace sonoglide::loop {
+namespace sonoglide::loop::undriven_friction_test {
 namespace {
 
 using scene::Scene;
@@ -168,4 +168,4 @@ TEST(UndrivenFrictionTest, AClosedLoopOnTargetIsShownOnIt) {
 }
 
 }  // namespace
-}  // namespace sonoglide::loop
+}  // namespace sonoglide::loop::undriven_friction_test

@@ -12,7 +12,7 @@
 #include "tests/common/table_1.hpp"
 #include "tests/host_sim/loop/logs/logged_run.hpp"
 
-namespace sonoglide::loop {
+namespace sonoglide::loop::vibration_direction_test {
 namespace {
 
 using tests::compliance_m_per_N;
@@ -151,4 +151,4 @@ TEST(NormalSceneTest, ClosedLoopReachesItsTargets) {
 }
 
 }  // namespace
-}  // namespace sonoglide::loop
+}  // namespace sonoglide::loop::vibration_direction_test

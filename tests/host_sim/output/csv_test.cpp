@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <limits>
 
-namespace sonoglide::output {
+namespace sonoglide::output::csv_test {
 namespace {
 
 TEST(CsvNumber, AlwaysReadsAsANumber) {
@@ -34,4 +34,4 @@ TEST(CsvCellTest, IsOneLine) {
 }
 
 }  // namespace
-}  // namespace sonoglide::output
+}  // namespace sonoglide::output::csv_test

@@ -12,7 +12,7 @@
 #include "host_sim/process/pipe.hpp"
 #include "host_sim/process/scratch_folder.hpp"
 
-namespace sonoglide::output {
+namespace sonoglide::output::gnuplot_test {
 namespace {
 
 TEST(Gnuplot, DrawsAnSvgOfTheSizeAskedFor) {
@@ -92,4 +92,4 @@ TEST(Gnuplot, SaysWhatToInstall) {
 }
 
 }  // namespace
-}  // namespace sonoglide::output
+}  // namespace sonoglide::output::gnuplot_test

@@ -11,7 +11,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace sonoglide::output {
+namespace sonoglide::output::output_folder_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -325,4 +325,4 @@ TEST_F(OutputFolderTest, NamesArePlainAndUsedOnce) {
 }
 
 }  // namespace
-}  // namespace sonoglide::output
+}  // namespace sonoglide::output::output_folder_test

@@ -11,7 +11,7 @@
 #include "host_sim/output/page.hpp"
 #include "tests/common/constants/pi.hpp"
 
-namespace sonoglide::output {
+namespace sonoglide::output::page_html_test {
 namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
@@ -210,4 +210,4 @@ TEST(PageHtml, APictureIsAnImageThatNeedsNothingElse) {
 }
 
 }  // namespace
-}  // namespace sonoglide::output
+}  // namespace sonoglide::output::page_html_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace sonoglide::process {
+namespace sonoglide::process::checksum_test {
 namespace {
 
 TEST(ChecksumTest, MatchesThePublishedVectors) {
@@ -21,4 +21,4 @@ TEST(ChecksumTest, IsTheSamePieceByPiece) {
 }
 
 }  // namespace
-}  // namespace sonoglide::process
+}  // namespace sonoglide::process::checksum_test

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-namespace sonoglide::process {
+namespace sonoglide::process::printable_test {
 namespace {
 
 TEST(PrintableTest, LeavesTextAsItIs) {
@@ -50,4 +50,4 @@ TEST(PrintableTest, AnyBytesAreFitForJsonAndChangeOnlyOnce) {
 }
 
 }  // namespace
-}  // namespace sonoglide::process
+}  // namespace sonoglide::process::printable_test

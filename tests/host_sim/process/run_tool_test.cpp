@@ -11,7 +11,7 @@
 
 #include "host_sim/process/pipe.hpp"
 
-namespace sonoglide::process {
+namespace sonoglide::process::run_tool_test {
 namespace {
 
 std::string failure(const std::vector<std::string>& command) {
@@ -95,4 +95,4 @@ TEST(RequireProgram, SaysWhatToInstall) {
 }
 
 }  // namespace
-}  // namespace sonoglide::process
+}  // namespace sonoglide::process::run_tool_test

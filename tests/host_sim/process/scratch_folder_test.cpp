@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace sonoglide::process {
+namespace sonoglide::process::scratch_folder_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -94,4 +94,4 @@ TEST_F(ScratchFolderTest, SaysWhyItCannotBe) {
 }
 
 }  // namespace
-}  // namespace sonoglide::process
+}  // namespace sonoglide::process::scratch_folder_test

@@ -8,7 +8,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace sonoglide::report {
+namespace sonoglide::report::extremes_curve_test {
 namespace {
 
 using Curve = ExtremesCurve<2>;
@@ -98,4 +98,4 @@ TEST(ExtremesCurveTest, EveryPieceHoldsTheExtremesOfItsPoints) {
 }
 
 }  // namespace
-}  // namespace sonoglide::report
+}  // namespace sonoglide::report::extremes_curve_test

@@ -8,7 +8,7 @@
 
 #include "tests/common/constants/pi.hpp"
 
-namespace sonoglide::report {
+namespace sonoglide::report::hysteresis_test {
 namespace {
 
 using tests::pi;
@@ -144,4 +144,4 @@ TEST(HysteresisTest, TakesWhatThereIs) {
 }
 
 }  // namespace
-}  // namespace sonoglide::report
+}  // namespace sonoglide::report::hysteresis_test

@@ -9,7 +9,7 @@
 
 #include "tests/common/constants/pi.hpp"
 
-namespace sonoglide::report {
+namespace sonoglide::report::spectrum_test {
 namespace {
 
 using tests::pi;
@@ -119,4 +119,4 @@ TEST(SpectrumTest, OfFewerThanTwoSamplesIsEmpty) {
 }
 
 }  // namespace
-}  // namespace sonoglide::report
+}  // namespace sonoglide::report::spectrum_test

@@ -8,7 +8,7 @@
 
 #include "periods.hpp"
 
-namespace sonoglide::report {
+namespace sonoglide::report::step_metrics_test {
 namespace {
 
 using scene::Scene;
@@ -207,4 +207,4 @@ TEST(StepMetricsTest, ALastPeriodThatTheRunCutsShortHasNoRatioOfItsOwn) {
 }
 
 }  // namespace
-}  // namespace sonoglide::report
+}  // namespace sonoglide::report::step_metrics_test

@@ -7,7 +7,7 @@
 
 #include "periods.hpp"
 
-namespace sonoglide::report {
+namespace sonoglide::report::target_spans_test {
 namespace {
 
 /// The span of each carrier period in turn.
@@ -41,4 +41,4 @@ TEST(SpanCursorTest, LeavesOutStepsShorterThanAPeriod) {
 }
 
 }  // namespace
-}  // namespace sonoglide::report
+}  // namespace sonoglide::report::target_spans_test

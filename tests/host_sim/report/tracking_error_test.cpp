@@ -7,7 +7,7 @@
 
 #include "periods.hpp"
 
-namespace sonoglide::report {
+namespace sonoglide::report::tracking_error_test {
 namespace {
 
 using scene::Scene;
@@ -75,4 +75,4 @@ TEST(TrackingErrorTest, IsAbsentWhereNothingCounts) {
 }
 
 }  // namespace
-}  // namespace sonoglide::report
+}  // namespace sonoglide::report::tracking_error_test

@@ -14,7 +14,7 @@
 #include "host_sim/scene_file/to_json.hpp"
 #include "scene_texts.hpp"
 
-namespace sonoglide::scene_file {
+namespace sonoglide::scene_file::echo_test {
 namespace {
 
 void expect_same_scene_again(const scene::Scene& scene) {
@@ -121,4 +121,4 @@ TEST(EchoTest, KeepsEveryBitOfAControllersNumbers) {
 }
 
 }  // namespace
-}  // namespace sonoglide::scene_file
+}  // namespace sonoglide::scene_file::echo_test

@@ -18,7 +18,7 @@
 #include "host_sim/scene_file/schema.hpp"
 #include "host_sim/scene_file/to_json.hpp"
 
-namespace sonoglide::scene {
+namespace sonoglide::scene::friction_laws_test {
 namespace {
 
 /// The least that a scene may give for each of a law's own keys.
@@ -152,4 +152,4 @@ TEST(FrictionLawsTest, TheirKeysFitTheTable) {
 }
 
 }  // namespace
-}  // namespace sonoglide::scene
+}  // namespace sonoglide::scene::friction_laws_test

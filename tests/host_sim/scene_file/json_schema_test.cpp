@@ -27,7 +27,7 @@
 #include "host_sim/scene_file/toml_text.hpp"
 #include "scene_texts.hpp"
 
-namespace sonoglide::scene_file {
+namespace sonoglide::scene_file::json_schema_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -253,4 +253,4 @@ TEST(JsonSchemaTest, RefusesScenesWithoutARequiredKey) {
 }
 
 }  // namespace
-}  // namespace sonoglide::scene_file
+}  // namespace sonoglide::scene_file::json_schema_test

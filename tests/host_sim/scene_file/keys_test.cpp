@@ -11,7 +11,7 @@
 #include "host_sim/scene_file/json_schema.hpp"
 #include "host_sim/scene_file/key_reference.hpp"
 
-namespace sonoglide::scene_file {
+namespace sonoglide::scene_file::keys_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -75,4 +75,4 @@ TEST(KeysTest, AnUnknownNameIsAMistakeOfTheProgram) {
 }
 
 }  // namespace
-}  // namespace sonoglide::scene_file
+}  // namespace sonoglide::scene_file::keys_test

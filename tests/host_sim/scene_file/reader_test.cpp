@@ -9,7 +9,7 @@
 #include "host_sim/configure/solver_methods.hpp"
 #include "scene_texts.hpp"
 
-namespace sonoglide::scene_file {
+namespace sonoglide::scene_file::reader_test {
 namespace {
 
 TEST(ReaderTest, NameIsThatOfTheFile) {
@@ -267,4 +267,4 @@ TEST(ReaderTest, TheErrorCarriesItsParts) {
 }
 
 }  // namespace
-}  // namespace sonoglide::scene_file
+}  // namespace sonoglide::scene_file::reader_test

@@ -12,7 +12,7 @@
 #include "host_sim/scene_file/reader.hpp"
 #include "host_sim/scene_file/to_json.hpp"
 
-namespace sonoglide::configure {
+namespace sonoglide::configure::solver_methods_test {
 namespace {
 
 /// Of the law that every solver takes.
@@ -89,4 +89,4 @@ TYPED_TEST(SolverMethodTest, IsBuiltInTheOrderThatItPicks) {
 }
 
 }  // namespace
-}  // namespace sonoglide::configure
+}  // namespace sonoglide::configure::solver_methods_test

@@ -10,7 +10,7 @@
 #include "host_sim/scene_file/to_json.hpp"
 #include "scene_texts.hpp"
 
-namespace sonoglide::scene_file {
+namespace sonoglide::scene_file::source_test {
 namespace {
 
 std::string name_of_file(const std::string& file) {
@@ -85,4 +85,4 @@ TEST(RemovalTest, OnlyKeysOfScenesAreRemoved) {
 }
 
 }  // namespace
-}  // namespace sonoglide::scene_file
+}  // namespace sonoglide::scene_file::source_test

@@ -4,7 +4,7 @@
 
 #include <string>
 
-namespace sonoglide::scene_file {
+namespace sonoglide::scene_file::suggestion_test {
 namespace {
 
 TEST(EditDistanceTest, KnownDistances) {
@@ -39,4 +39,4 @@ TEST(NearestNameTest, HasNothingForFarNames) {
 }
 
 }  // namespace
-}  // namespace sonoglide::scene_file
+}  // namespace sonoglide::scene_file::suggestion_test

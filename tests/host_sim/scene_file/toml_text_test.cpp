@@ -4,7 +4,7 @@
 
 #include <string>
 
-namespace sonoglide::scene_file {
+namespace sonoglide::scene_file::toml_text_test {
 namespace {
 
 std::string repeated(const std::string& part, int count) {
@@ -50,4 +50,4 @@ TEST(DottedDepthTest, EndsWithTheText) {
 }
 
 }  // namespace
-}  // namespace sonoglide::scene_file
+}  // namespace sonoglide::scene_file::toml_text_test

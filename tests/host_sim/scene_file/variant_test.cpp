@@ -17,7 +17,7 @@
 #include "host_sim/scene_file/variant.hpp"
 #include "scene_texts.hpp"
 
-namespace sonoglide::scene_file {
+namespace sonoglide::scene_file::variant_test {
 namespace {
 
 using Texts = std::vector<std::string>;
@@ -166,4 +166,4 @@ TEST(VariantTest, AnErrorLeavesTheDocumentAsItWas) {
 }
 
 }  // namespace
-}  // namespace sonoglide::scene_file
+}  // namespace sonoglide::scene_file::variant_test

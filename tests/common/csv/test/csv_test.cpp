@@ -6,7 +6,7 @@
 #include <functional>
 #include <string>
 
-namespace sonoglide::csv {
+namespace sonoglide::csv::csv_test {
 namespace {
 
 std::string error_of(const std::function<void()>& call) {
@@ -67,4 +67,4 @@ TEST(CsvTest, RefusesWhatIsNoTable) {
 }
 
 }  // namespace
-}  // namespace sonoglide::csv
+}  // namespace sonoglide::csv::csv_test

@@ -10,7 +10,7 @@
 
 #include "tests/firmware/plant/runs/motion.hpp"
 
-namespace sonoglide::plant {
+namespace sonoglide::plant::event_gauss_test {
 namespace {
 
 using Contact = DampedDahlModel<double>;
@@ -317,4 +317,4 @@ TEST(EventGauss, MirroredMotionIsTheMirrorImageBitForBit) {
 }
 
 }  // namespace
-}  // namespace sonoglide::plant
+}  // namespace sonoglide::plant::event_gauss_test

@@ -8,7 +8,7 @@
 #include "firmware/plant/gauss/panel_reversals.hpp"
 #include "tests/firmware/plant/runs/motion.hpp"
 
-namespace sonoglide::plant {
+namespace sonoglide::plant::panel_tables_test {
 namespace {
 
 TEST(PanelMotions, AreThoseOfTheOscillator) {
@@ -78,4 +78,4 @@ TEST(GridVelocity, SaysWhereItCannotTell) {
 }
 
 }  // namespace
-}  // namespace sonoglide::plant
+}  // namespace sonoglide::plant::panel_tables_test

@@ -9,7 +9,7 @@
 
 #include "tests/firmware/plant/runs/motion.hpp"
 
-namespace sonoglide::plant {
+namespace sonoglide::plant::rk4_event_test {
 namespace {
 
 using Contact = DahlModel<double>;
@@ -132,4 +132,4 @@ TEST(Rk4EventError, ARingingThatTheStepCannotFollow) {
 }
 
 }  // namespace
-}  // namespace sonoglide::plant
+}  // namespace sonoglide::plant::rk4_event_test

@@ -11,7 +11,7 @@
 
 #include "tests/firmware/plant/runs/motion.hpp"
 
-namespace sonoglide::plant {
+namespace sonoglide::plant::adaptive_strang_test {
 namespace {
 
 static_assert(AdaptiveStrang<DahlModel<double>>::solves<friction::Dahl<double>>);
@@ -251,4 +251,4 @@ TEST(AdaptiveStrang, TheStepsShownJoin) {
 }
 
 }  // namespace
-}  // namespace sonoglide::plant
+}  // namespace sonoglide::plant::adaptive_strang_test

@@ -10,7 +10,7 @@
 #include "tests/firmware/plant/runs/motion.hpp"
 #include "tests/firmware/plant/runs/quartic_path.hpp"
 
-namespace sonoglide::plant {
+namespace sonoglide::plant::equal_step_strang_test {
 namespace {
 
 static_assert(Strang<DahlModel<double>>::solves<friction::Dahl<double>>);
@@ -132,4 +132,4 @@ TEST(StrangFloat, EightStepsKeepTheFrictionRatioOfTable1) {
 }
 
 }  // namespace
-}  // namespace sonoglide::plant
+}  // namespace sonoglide::plant::equal_step_strang_test

@@ -23,7 +23,7 @@
 #include "tests/firmware/plant/runs/case.hpp"
 #include "tests/firmware/plant/runs/course.hpp"
 
-namespace sonoglide::plant {
+namespace sonoglide::plant::fixed_point_strang_test {
 namespace {
 
 using tests::two_pi;
@@ -208,4 +208,4 @@ TEST(FixedStrangTest, IsRefusedWhereTheIntegersEnd) {
 }
 
 }  // namespace
-}  // namespace sonoglide::plant
+}  // namespace sonoglide::plant::fixed_point_strang_test

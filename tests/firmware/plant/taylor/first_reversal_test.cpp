@@ -11,7 +11,7 @@
 
 #include "firmware/numeric/first_root.hpp"
 
-namespace sonoglide::plant {
+namespace sonoglide::plant::first_reversal_test {
 namespace {
 
 constexpr std::size_t count = 13;
@@ -117,4 +117,4 @@ TEST(FirstReversal, SinglePrecisionReachesItsOwnEnd) {
 }
 
 }  // namespace
-}  // namespace sonoglide::plant
+}  // namespace sonoglide::plant::first_reversal_test

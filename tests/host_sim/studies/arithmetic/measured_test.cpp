@@ -16,7 +16,7 @@
 #include "host_sim/studies/arithmetic/report.hpp"
 #include "tests/common/csv/csv.hpp"
 
-namespace sonoglide::arithmetic {
+namespace sonoglide::arithmetic::measured_test {
 namespace {
 
 constexpr const char* renew =
@@ -81,4 +81,4 @@ TEST(MeasuredTable, HasTheShortestStepsWhereTheDocumentSays) {
 }
 
 }  // namespace
-}  // namespace sonoglide::arithmetic
+}  // namespace sonoglide::arithmetic::measured_test

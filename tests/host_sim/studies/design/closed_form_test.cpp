@@ -7,7 +7,7 @@
 #include "design_scenes.hpp"
 #include "tests/common/constants/pi.hpp"
 
-namespace sonoglide::design {
+namespace sonoglide::design::closed_form_test {
 namespace {
 
 using tests::pi;
@@ -44,4 +44,4 @@ TEST(ClosedFormVibrationTest, HasALowestRatioWhereFrictionRisesWithTheVibration)
 }
 
 }  // namespace
-}  // namespace sonoglide::design
+}  // namespace sonoglide::design::closed_form_test

@@ -10,7 +10,7 @@
 #include "host_sim/studies/design/sensitivity.hpp"
 #include "tests/common/constants/pi.hpp"
 
-namespace sonoglide::design {
+namespace sonoglide::design::detuning_test {
 namespace {
 
 Detuning detuning_at(const scene::Scene& scene, double ratio) {
@@ -99,4 +99,4 @@ TEST(DetuneTest, ATargetBeyondTheDriveIsReachedNearerToResonance) {
 }
 
 }  // namespace
-}  // namespace sonoglide::design
+}  // namespace sonoglide::design::detuning_test

@@ -12,7 +12,7 @@
 #include "host_sim/studies/design/report.hpp"
 #include "tests/common/csv/csv.hpp"
 
-namespace sonoglide::design {
+namespace sonoglide::design::report_test {
 namespace {
 
 DesignStudy study_of(const scene::Scene& scene, const std::vector<double>& ratios,
@@ -114,4 +114,4 @@ TEST(ToJsonTest, HasNullForWhatIsNotDefined) {
 }
 
 }  // namespace
-}  // namespace sonoglide::design
+}  // namespace sonoglide::design::report_test

@@ -10,7 +10,7 @@
 #include "tests/common/constants/pi.hpp"
 #include "tests/common/constants/table_1_numbers.hpp"
 
-namespace sonoglide::design {
+namespace sonoglide::design::requirement_test {
 namespace {
 
 using tests::pi;
@@ -142,4 +142,4 @@ TEST(FastestSlidingTest, NeedsTheWholeDrive) {
 }
 
 }  // namespace
-}  // namespace sonoglide::design
+}  // namespace sonoglide::design::requirement_test

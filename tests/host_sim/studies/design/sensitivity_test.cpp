@@ -13,7 +13,7 @@
 #include "tests/common/constants/pi.hpp"
 #include "tests/common/constants/table_1_numbers.hpp"
 
-namespace sonoglide::design {
+namespace sonoglide::design::sensitivity_test {
 namespace {
 
 using tests::pi;
@@ -88,4 +88,4 @@ TEST(SensitivityTest, ChangesAreThoseOfTheSimulation) {
 }
 
 }  // namespace
-}  // namespace sonoglide::design
+}  // namespace sonoglide::design::sensitivity_test

@@ -9,7 +9,7 @@
 #include "host_sim/configure/configuration_error.hpp"
 #include "host_sim/loop/failure.hpp"
 
-namespace sonoglide::design {
+namespace sonoglide::design::study_test {
 namespace {
 
 void expect_denied(const scene::Scene& scene, const std::string& key) {
@@ -94,4 +94,4 @@ TEST(StudyTest, FailsWhereNothingCanBeSaid) {
 }
 
 }  // namespace
-}  // namespace sonoglide::design
+}  // namespace sonoglide::design::study_test

@@ -23,7 +23,7 @@
 #include "tests/common/constants/pi.hpp"
 #include "tests/common/csv/csv.hpp"
 
-namespace sonoglide::paper {
+namespace sonoglide::paper::paper_test {
 namespace {
 
 double at(const csv::Table& table, const std::string& column, double velocity_ratio) {
@@ -228,4 +228,4 @@ TEST(PaperTest, TheFaultsHaveTheirKnownEffects) {
 }
 
 }  // namespace
-}  // namespace sonoglide::paper
+}  // namespace sonoglide::paper::paper_test

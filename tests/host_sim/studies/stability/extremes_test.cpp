@@ -16,7 +16,7 @@
 #include "host_sim/studies/stability/report.hpp"
 #include "host_sim/studies/stability/solver_list.hpp"
 
-namespace sonoglide::stability {
+namespace sonoglide::stability::extremes_test {
 namespace {
 
 constexpr std::uint64_t scenes = 300;
@@ -218,4 +218,4 @@ TEST(Extremes, ProgressEndsAtOneAndNeverFalls) {
 }
 
 }  // namespace
-}  // namespace sonoglide::stability
+}  // namespace sonoglide::stability::extremes_test

@@ -8,7 +8,7 @@
 #include "host_sim/studies/stability/report.hpp"
 #include "tests/common/csv/csv.hpp"
 
-namespace sonoglide::stability {
+namespace sonoglide::stability::measured_test {
 namespace {
 
 TEST(Measured, VerdictsAndResidualsAreThoseOfThisBuild) {
@@ -25,4 +25,4 @@ TEST(Measured, VerdictsAndResidualsAreThoseOfThisBuild) {
 }
 
 }  // namespace
-}  // namespace sonoglide::stability
+}  // namespace sonoglide::stability::measured_test

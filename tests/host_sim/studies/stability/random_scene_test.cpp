@@ -11,7 +11,7 @@
 
 #include "host_sim/configure/plant_scales.hpp"
 
-namespace sonoglide::stability {
+namespace sonoglide::stability::random_scene_test {
 namespace {
 
 constexpr std::uint64_t drawn = 5000;
@@ -94,4 +94,4 @@ TEST(RandomScene, MeetsEverySpecialCaseOften) {
 }
 
 }  // namespace
-}  // namespace sonoglide::stability
+}  // namespace sonoglide::stability::random_scene_test

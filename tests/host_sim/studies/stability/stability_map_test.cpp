@@ -10,7 +10,7 @@
 
 #include "host_sim/studies/stability/solver_list.hpp"
 
-namespace sonoglide::stability {
+namespace sonoglide::stability::stability_map_test {
 namespace {
 
 MapGrid coarse_grid() {
@@ -94,4 +94,4 @@ TEST(StabilityMap, TheLimitIsThePublishedOne) {
 }
 
 }  // namespace
-}  // namespace sonoglide::stability
+}  // namespace sonoglide::stability::stability_map_test

@@ -14,7 +14,7 @@
 #include "host_sim/studies/stability/solver_list.hpp"
 #include "tests/common/csv/csv.hpp"
 
-namespace sonoglide::stability {
+namespace sonoglide::stability::study_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -130,4 +130,4 @@ TEST_F(StudyTest, TheTextNamesEverySolver) {
 }
 
 }  // namespace
-}  // namespace sonoglide::stability
+}  // namespace sonoglide::stability::study_test

@@ -6,7 +6,7 @@
 
 #include <limits>
 
-namespace sonoglide::stability {
+namespace sonoglide::stability::trial_test {
 namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
@@ -57,4 +57,4 @@ TEST(Verdict, ASolverMayRefuseALaw) {
 }
 
 }  // namespace
-}  // namespace sonoglide::stability
+}  // namespace sonoglide::stability::trial_test

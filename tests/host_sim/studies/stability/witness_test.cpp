@@ -12,7 +12,7 @@
 #include "firmware/plant/drive.hpp"
 #include "firmware/plant/model.hpp"
 
-namespace sonoglide::stability {
+namespace sonoglide::stability::witness_test {
 namespace {
 
 using State = plant::State<double>;
@@ -83,4 +83,4 @@ TEST(Witness, DoesNotPassOverAFrictionThatIsNoNumber) {
 }
 
 }  // namespace
-}  // namespace sonoglide::stability
+}  // namespace sonoglide::stability::witness_test

@@ -10,7 +10,7 @@
 
 #include "host_sim/scene_file/scene_error.hpp"
 
-namespace sonoglide::sweep {
+namespace sonoglide::sweep::axis_test {
 namespace {
 
 std::vector<double> values(const std::string& text) {
@@ -163,4 +163,4 @@ TEST(GridTest, HasABound) {
 }
 
 }  // namespace
-}  // namespace sonoglide::sweep
+}  // namespace sonoglide::sweep::axis_test

@@ -13,7 +13,7 @@
 #include "host_sim/studies/sweep/solve.hpp"
 #include "tests/host_sim/studies/sweep/scenes/base_scenes.hpp"
 
-namespace sonoglide::sweep {
+namespace sonoglide::sweep::batch_point_test {
 namespace {
 
 using Texts = std::vector<std::string>;
@@ -96,4 +96,4 @@ TEST(BatchPointTest, AgreesWithTheScalarSolverWithinTheTolerance) {
 }
 
 }  // namespace
-}  // namespace sonoglide::sweep
+}  // namespace sonoglide::sweep::batch_point_test

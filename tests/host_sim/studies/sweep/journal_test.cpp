@@ -11,7 +11,7 @@
 #include "host_sim/output/output_folder.hpp"
 #include "tests/host_sim/studies/sweep/scenes/scratch_scene.hpp"
 
-namespace sonoglide::sweep {
+namespace sonoglide::sweep::journal_test {
 namespace {
 
 const Identity ours{"sonoglide 1", "{\"plant\":{}}", "a.b=1:2:3"};
@@ -114,4 +114,4 @@ TEST_F(JournalTest, GoesWhenTheSweepIsWhole) {
 }
 
 }  // namespace
-}  // namespace sonoglide::sweep
+}  // namespace sonoglide::sweep::journal_test

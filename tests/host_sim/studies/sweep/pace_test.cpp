@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace sonoglide::sweep {
+namespace sonoglide::sweep::pace_test {
 namespace {
 
 /// A clock that stands until it is told to go on.
@@ -84,4 +84,4 @@ TEST(QuietPaceTest, NeedsNoListener) {
 }
 
 }  // namespace
-}  // namespace sonoglide::sweep
+}  // namespace sonoglide::sweep::pace_test

@@ -8,7 +8,7 @@
 #include "tests/host_sim/studies/sweep/scenes/base_scenes.hpp"
 #include "tests/host_sim/studies/sweep/scenes/scratch_scene.hpp"
 
-namespace sonoglide::sweep {
+namespace sonoglide::sweep::picture_test {
 namespace {
 
 std::size_t occurrences(const std::string& text, const std::string& part) {
@@ -103,4 +103,4 @@ TEST(PictureTest, NoPictureOfMoreKeysNorOfNothing) {
 }
 
 }  // namespace
-}  // namespace sonoglide::sweep
+}  // namespace sonoglide::sweep::picture_test

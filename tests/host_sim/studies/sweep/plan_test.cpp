@@ -12,7 +12,7 @@
 #include "tests/host_sim/studies/sweep/scenes/base_scenes.hpp"
 #include "tests/host_sim/studies/sweep/scenes/scratch_scene.hpp"
 
-namespace sonoglide::sweep {
+namespace sonoglide::sweep::plan_test {
 namespace {
 
 using Texts = std::vector<std::string>;
@@ -210,4 +210,4 @@ TEST(PlanTest, AVelocityRatioNeedsAVibration) {
 }
 
 }  // namespace
-}  // namespace sonoglide::sweep
+}  // namespace sonoglide::sweep::plan_test

@@ -9,7 +9,7 @@
 #include "tests/host_sim/studies/sweep/scenes/base_scenes.hpp"
 #include "tests/host_sim/studies/sweep/scenes/scratch_scene.hpp"
 
-namespace sonoglide::sweep {
+namespace sonoglide::sweep::report_test {
 namespace {
 
 PointResult row(double ratio) {
@@ -60,4 +60,4 @@ TEST(ExtremesTest, PassOverWhatIsNotDefined) {
 }
 
 }  // namespace
-}  // namespace sonoglide::sweep
+}  // namespace sonoglide::sweep::report_test

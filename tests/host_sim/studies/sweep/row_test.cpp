@@ -6,7 +6,7 @@
 #include <cstring>
 #include <string>
 
-namespace sonoglide::sweep {
+namespace sonoglide::sweep::row_test {
 namespace {
 
 bool same_bits(double a, double b) {
@@ -58,4 +58,4 @@ TEST(RecordTest, TextsOfAnotherFormAreRefused) {
 }
 
 }  // namespace
-}  // namespace sonoglide::sweep
+}  // namespace sonoglide::sweep::row_test

@@ -13,7 +13,7 @@
 #include "tests/host_sim/studies/sweep/scenes/base_scenes.hpp"
 #include "tests/host_sim/studies/sweep/scenes/scratch_scene.hpp"
 
-namespace sonoglide::sweep {
+namespace sonoglide::sweep::solve_test {
 namespace {
 
 /// Without friction the lanes have nothing to solve.
@@ -85,4 +85,4 @@ TEST_F(SolveTest, TheExpectedCostIsThatOfTheSweepNotOfItsFirstPoint) {
 }
 
 }  // namespace
-}  // namespace sonoglide::sweep
+}  // namespace sonoglide::sweep::solve_test

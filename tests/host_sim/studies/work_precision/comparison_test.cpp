@@ -10,7 +10,7 @@
 #include "host_sim/studies/work_precision/ranking.hpp"
 #include "tests/host_sim/studies/work_precision/peers/published/published_problems.hpp"
 
-namespace sonoglide::work_precision {
+namespace sonoglide::work_precision::comparison_test {
 namespace {
 
 constexpr Effort once{10.0, 0.0, 0};
@@ -143,4 +143,4 @@ TEST(ComparisonTest, ReportsItsProgressUpToTheEnd) {
 }
 
 }  // namespace
-}  // namespace sonoglide::work_precision
+}  // namespace sonoglide::work_precision::comparison_test

@@ -19,7 +19,7 @@
 #include "host_sim/studies/work_precision/scene_problem.hpp"
 #include "tests/common/csv/csv.hpp"
 
-namespace sonoglide::work_precision {
+namespace sonoglide::work_precision::measured_test {
 namespace {
 
 constexpr const char* renew =
@@ -154,4 +154,4 @@ INSTANTIATE_TEST_SUITE_P(Scenes, MeasuredTest,
                          [](const auto& scene) { return scene.param.first; });
 
 }  // namespace
-}  // namespace sonoglide::work_precision
+}  // namespace sonoglide::work_precision::measured_test

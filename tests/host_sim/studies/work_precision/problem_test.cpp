@@ -8,7 +8,7 @@
 #include "tests/common/constants/table_1_numbers.hpp"
 #include "tests/host_sim/studies/work_precision/peers/published/published_problems.hpp"
 
-namespace sonoglide::work_precision {
+namespace sonoglide::work_precision::problem_test {
 namespace {
 
 using tests::Table1;
@@ -98,4 +98,4 @@ TEST(ProblemTest, RefusesByName) {
 }
 
 }  // namespace
-}  // namespace sonoglide::work_precision
+}  // namespace sonoglide::work_precision::problem_test

@@ -7,7 +7,7 @@
 
 #include "host_sim/studies/work_precision/report.hpp"
 
-namespace sonoglide::work_precision {
+namespace sonoglide::work_precision::ranking_test {
 namespace {
 
 const ComparedSolver quick{"quick", Family::blue, Knob::tolerance, {}, nullptr};
@@ -85,4 +85,4 @@ TEST(CsvTest, AFailedSolverKeepsItsRow) {
 }
 
 }  // namespace
-}  // namespace sonoglide::work_precision
+}  // namespace sonoglide::work_precision::ranking_test

@@ -9,7 +9,7 @@
 #include "tests/common/constants/pi.hpp"
 #include "tests/host_sim/studies/work_precision/peers/published/published_problems.hpp"
 
-namespace sonoglide::work_precision {
+namespace sonoglide::work_precision::reference_test {
 namespace {
 
 TEST(GraggBulirschStoerTest, FollowsAnOscillatorOverOneRadian) {
@@ -73,4 +73,4 @@ TEST(ReferenceTest, WithoutDriveTheContactStartsUpAsDahlSays) {
 }
 
 }  // namespace
-}  // namespace sonoglide::work_precision
+}  // namespace sonoglide::work_precision::reference_test

@@ -14,7 +14,7 @@
 #include "host_sim/studies/work_precision/peers/sundials/cvode.hpp"
 #endif
 
-namespace sonoglide::peers {
+namespace sonoglide::peers::peers_test {
 namespace {
 
 struct Peer {
@@ -145,4 +145,4 @@ TEST(PaperRk4Test, DampingTakesItsPart) {
 }
 
 }  // namespace
-}  // namespace sonoglide::peers
+}  // namespace sonoglide::peers::peers_test
