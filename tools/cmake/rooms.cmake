@@ -57,15 +57,6 @@ function(sonoglide_optimise level)
   endforeach()
 endfunction()
 
-# sonoglide_optimise_little(<targets>...): no solver is compiled in them. With the sanitizers -O1
-# takes two to three times as long to compile as -O0.
-function(sonoglide_optimise_little)
-  foreach(target IN LISTS ARGN)
-    target_compile_options(${target} PRIVATE
-      $<$<CONFIG:Release>:-O1> $<$<BOOL:${SONOGLIDE_SANITIZE}>:-O0>)
-  endforeach()
-endfunction()
-
 # Compiles every header of a room without sources alone, with nothing in sight
 # but the room's own arrows: it is held to them too.
 function(sonoglide_check_headers target folder headers)
@@ -84,18 +75,28 @@ function(sonoglide_check_headers target folder headers)
   endif()
 endfunction()
 
-# sonoglide_test(<name> [LONG] SOURCES <files>... USES <targets>...): one GoogleTest program. The
-# sanitizers leave out a LONG one, which computes for minutes under them on paths that others take.
+# sonoglide_test(<name> [OPTIMISED] SOURCES <files>... USES <targets>... [LONG <tests>...]): one
+# GoogleTest program. For ctest it is one test, so that a suite computes once what its tests look at.
+# An OPTIMISED one would compute for longer at -O0 than it takes to compile at -O1. The sanitizers
+# leave out LONG tests, which compute for minutes under them on paths that others take.
 function(sonoglide_test name)
-  cmake_parse_arguments(TEST "LONG" "" "SOURCES;USES" ${ARGN})
+  cmake_parse_arguments(TEST "OPTIMISED" "" "SOURCES;USES;LONG" ${ARGN})
   add_executable(${name} ${TEST_SOURCES})
   target_link_libraries(${name} PRIVATE ${TEST_USES} sonoglide_warnings GTest::gtest_main)
-  target_precompile_headers(${name} REUSE_FROM sonoglide_test_headers)
-  sonoglide_optimise_little(${name})
+  if(TEST_OPTIMISED)
+    sonoglide_optimise(-O1 ${name})
+  else()
+    sonoglide_optimise(-O0 ${name})
+    target_precompile_headers(${name} REUSE_FROM sonoglide_test_headers)
+  endif()
   sonoglide_unite(${name})
-  if(TEST_LONG AND SONOGLIDE_SANITIZE)
+  if(NOT SONOGLIDE_SANITIZE)
+    set(TEST_LONG "")
+  endif()
+  if(TEST_LONG STREQUAL "*")
     set_target_properties(${name} PROPERTIES EXCLUDE_FROM_ALL ON)
   else()
-    gtest_discover_tests(${name} TEST_PREFIX "${name}." DISCOVERY_TIMEOUT 60)
+    list(JOIN TEST_LONG ":" left_out)
+    add_test(NAME ${name} COMMAND ${name} --gtest_brief=1 --gtest_filter=-${left_out})
   endif()
 endfunction()

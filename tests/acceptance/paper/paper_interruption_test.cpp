@@ -14,20 +14,25 @@
 namespace sonoglide::acceptance::paper_interruption_test {
 namespace {
 
+void expect_nothing_left(int signal, int wait_ms) {
+  const ScratchFolder folder;
+  const ScratchFolder temporary;
+  StartedProgram program(folder, {"paper", "--out", "paper", "--quiet"}, temporary);
+  std::this_thread::sleep_for(std::chrono::milliseconds(wait_ms));
+  program.send(signal);
+  const int status = program.end();
+  EXPECT_TRUE(WIFSIGNALED(status)) << wait_ms;
+  EXPECT_EQ(WTERMSIG(status), signal);
+  EXPECT_EQ(folder.entries(), std::vector<std::string>());
+  EXPECT_EQ(temporary.entries(), std::vector<std::string>());
+}
+
 TEST(PaperInterruption, LeavesNothing) {
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
-    for (const int wait_ms : {50, 300, 900, 2000}) {
-      const ScratchFolder folder;
-      const ScratchFolder temporary;
-      StartedProgram program(folder, {"paper", "--out", "paper", "--quiet"}, temporary);
-      std::this_thread::sleep_for(std::chrono::milliseconds(wait_ms));
-      program.send(signal);
-      const int status = program.end();
-      EXPECT_TRUE(WIFSIGNALED(status)) << wait_ms;
-      EXPECT_EQ(WTERMSIG(status), signal);
-      EXPECT_EQ(folder.entries(), std::vector<std::string>());
-      EXPECT_EQ(temporary.entries(), std::vector<std::string>());
-    }
+  for (const int wait_ms : {50, 300, 900, 2000}) {
+    expect_nothing_left(SIGINT, wait_ms);
+  }
+  for (const int signal : {SIGTERM, SIGHUP}) {
+    expect_nothing_left(signal, 300);
   }
 }
 
