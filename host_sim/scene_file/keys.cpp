@@ -214,7 +214,9 @@ std::vector<Key> solver_keys() {
       {"method", Word{words_of(configure::solver_methods)},
        configure::name_of(scene::SolverMethod{}), "solver"},
       {"tolerance", Number{{1e-15, 1e-2}}, Rule{default_tolerances()},
-       "error that the method aims at, relative to the friction limit", methods_where(is_adaptive)},
+       "event_taylor, event_gauss: error of the friction ratio over a hundred carrier periods that "
+       "the method aims at; strang: limit of the defects of velocity and energy in each step",
+       methods_where(is_adaptive)},
       {"order", Integer{1, 99}, Rule{"the one that suits the tolerance"},
        fmt::format("order of the method, one of those that are built: {}", built_orders()),
        methods_where(takes_order)},

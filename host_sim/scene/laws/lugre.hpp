@@ -36,7 +36,7 @@ struct LuGre {
     keys.optional("bristle_damping_N_s_per_m", bristle_damping_N_s_per_m, {0.0, 1e12, "N s/m"},
                   "damping of the bristles");
     keys.optional("viscous_friction_N_s_per_m", viscous_friction_N_s_per_m, {0.0, 1e12, "N s/m"},
-                  "friction force per sliding velocity that is added");
+                  "viscous coefficient: friction force added per sliding velocity");
   }
 
   /// N (mu + (mu_s - mu) exp(-(v/v_s)^2)) + sigma2 v
