@@ -5,7 +5,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "host_sim/scene_file/schema.hpp"
+#include "host_sim/scene_file/keys.hpp"
+#include "host_sim/scene_file/suggestion.hpp"
 #include "host_sim/scene_file/toml_text.hpp"
 
 namespace sonoglide::scene_file {
@@ -29,10 +30,8 @@ std::vector<Item> in_file_order(const toml::table& table) {
   return items;
 }
 
-/// The number of its keys if the table has none of this name.
-std::size_t position_of(const TableSchema& table, std::string_view key) {
-  return static_cast<std::size_t>(std::find(table.keys.begin(), table.keys.end(), key) -
-                                  table.keys.begin());
+std::size_t position_of(const KeyTable& table, const Key& key) {
+  return static_cast<std::size_t>(&key - table.keys.data());
 }
 
 }  // namespace
@@ -93,17 +92,17 @@ void Document::collect() {
 
 void Document::collect_table(const std::string& name, const Location& place,
                              const toml::table& table) {
-  const TableSchema& schema = *find_table(name);
+  const KeyTable& described = *find_table(name);
   SceneTable collected{name, place, {}};
   for (const auto& [key, value] : in_file_order(table)) {
     const Location key_place = located(file_, key->source());
-    const std::size_t position = position_of(schema, key->str());
-    if (position == schema.keys.size()) {
+    const Key* known = find_key(described, key->str());
+    if (known == nullptr) {
       throw SceneError(key_place, fmt::format("{}.{}", name, key->str()),
-                       unknown_key(schema, key->str()));
+                       unknown_key(described, key->str()));
     }
     collected.entries[std::string(key->str())] = {value, key_place, located(file_, value->source()),
-                                                  false, position};
+                                                  false, position_of(described, *known)};
   }
   tables_[name] = std::move(collected);
 }
@@ -133,9 +132,10 @@ void Document::vary(const std::string& path, std::size_t ordinal, std::size_t in
 Entry& Document::overridden_entry(const OverriddenKey& target) {
   SceneTable& table =
       tables_.try_emplace(target.table, SceneTable{target.table, target.place, {}}).first->second;
+  const KeyTable& described = key_table(target.table);
   Entry& entry = table.entries[target.key];
   entry = {nullptr, target.place, target.place, true,
-           position_of(*find_table(target.table), target.key)};
+           position_of(described, key_of(described, target.key))};
   return entry;
 }
 

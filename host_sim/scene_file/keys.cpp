@@ -357,20 +357,29 @@ const std::vector<KeyTable>& key_tables() {
   return tables;
 }
 
+const KeyTable* find_table(std::string_view name) {
+  const auto& tables = key_tables();
+  const auto found = std::find_if(tables.begin(), tables.end(),
+                                  [&](const KeyTable& table) { return table.name == name; });
+  return found == tables.end() ? nullptr : &*found;
+}
+
+const Key* find_key(const KeyTable& table, std::string_view name) {
+  const auto found = std::find_if(table.keys.begin(), table.keys.end(),
+                                  [&](const Key& key) { return key.name == name; });
+  return found == table.keys.end() ? nullptr : &*found;
+}
+
 const KeyTable& key_table(std::string_view name) {
-  for (const KeyTable& table : key_tables()) {
-    if (table.name == name) {
-      return table;
-    }
+  if (const KeyTable* table = find_table(name)) {
+    return *table;
   }
   throw std::logic_error(fmt::format("no table {} is described", name));
 }
 
 const Key& key_of(const KeyTable& table, std::string_view name) {
-  for (const Key& key : table.keys) {
-    if (key.name == name) {
-      return key;
-    }
+  if (const Key* key = find_key(table, name)) {
+    return *key;
   }
   throw std::logic_error(fmt::format("no key {}.{} is described", table.name, name));
 }

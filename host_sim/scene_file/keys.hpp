@@ -1,7 +1,9 @@
 /// Every key of a scene, told once: what it may hold, what it means, and what holds without it. The
-/// reader, the reference and the JSON Schema are made from this list.
+/// reader, the suggestions, the reference and the JSON Schema are made from this list;
+/// scene_values.hpp tells which value of a scene each key holds.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -82,6 +84,9 @@ struct Key {
   std::string used = {};  ///< the mode, the laws or the methods that use the key; empty: every one
 };
 
+/// A table has fewer keys than this.
+inline constexpr std::size_t most_keys = 64;
+
 struct KeyTable {
   std::string_view name;
   bool required;
@@ -89,8 +94,13 @@ struct KeyTable {
   std::vector<Key> keys;
 };
 
-/// Every table with its keys, in the order in which scenes are read.
+/// Every table with its keys, in the order in which scenes are read and echoed.
 const std::vector<KeyTable>& key_tables();
+
+/// The table of this name; null if there is none.
+const KeyTable* find_table(std::string_view name);
+/// Its key of this name; null if there is none.
+const Key* find_key(const KeyTable& table, std::string_view name);
 
 /// @throws std::logic_error  no scene has such a table
 const KeyTable& key_table(std::string_view name);

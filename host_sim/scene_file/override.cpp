@@ -6,7 +6,8 @@
 #include <string_view>
 #include <utility>
 
-#include "host_sim/scene_file/schema.hpp"
+#include "host_sim/scene_file/keys.hpp"
+#include "host_sim/scene_file/suggestion.hpp"
 #include "host_sim/scene_file/toml_text.hpp"
 
 namespace sonoglide::scene_file {
@@ -26,11 +27,11 @@ bool is_bare_word(std::string_view text) {
 }
 
 void check_names(const OverriddenKey& target, const std::string& path) {
-  const TableSchema* table = find_table(target.table);
+  const KeyTable* table = find_table(target.table);
   if (table == nullptr) {
     throw SceneError(target.place, path, unknown_table(target.table));
   }
-  if (std::find(table->keys.begin(), table->keys.end(), target.key) == table->keys.end()) {
+  if (find_key(*table, target.key) == nullptr) {
     throw SceneError(target.place, path, unknown_key(*table, target.key));
   }
 }

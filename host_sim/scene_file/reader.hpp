@@ -17,7 +17,7 @@ namespace sonoglide::scene_file {
 /// Reads, overrides, checks and completes a scene.
 ///
 /// Errors come one at a time, in a fixed order: TOML, names that no scene has (in file order),
-/// overrides (in their order), then the values, table by table in the order of schema().
+/// overrides (in their order), then the values, table by table in the order of key_tables().
 ///
 /// @param path       a file, or `-` for standard input
 /// @param overrides  `TABLE.KEY=VALUE` each, VALUE in TOML or a bare word; without VALUE the key is

@@ -1,16 +1,18 @@
 #include "host_sim/scene_file/sections.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 
+#include "firmware/numeric/turn.hpp"
 #include "host_sim/configure/plant_scales.hpp"
 #include "host_sim/configure/solver_facts.hpp"
-#include "host_sim/configure/solver_methods.hpp"
 #include "host_sim/scene/names.hpp"
+#include "host_sim/scene_file/scene_values.hpp"
 #include "host_sim/scene_file/table_cursor.hpp"
+#include "host_sim/scene_file/value_reader.hpp"
 
 namespace sonoglide::scene_file {
 namespace {
@@ -39,63 +41,6 @@ TableCursor closed_loop_table(const Variant& variant, std::string_view name) {
   return cursor;
 }
 
-/// Reads the keys that a friction law has of its own.
-class KeyReader {
- public:
-  explicit KeyReader(TableCursor& cursor) : cursor_(cursor) {}
-
-  void required(std::string_view key, double& parameter, const Range& range,
-                std::string_view /*meaning*/) {
-    parameter = cursor_.real_in(key, range);
-  }
-  void optional(std::string_view key, double& parameter, const Range& range,
-                std::string_view /*meaning*/) {
-    parameter = cursor_.real_in(key, range, parameter);
-  }
-  void optional(std::string_view key, int& count, int least, int most,
-                std::string_view /*meaning*/) {
-    count = static_cast<int>(cursor_.integer_in(key, {least, most}, count));
-  }
-  void refuse(std::string_view key, double parameter, std::string_view finding, double least,
-              std::string_view rest) {
-    cursor_.fail(
-        key, fmt::format("{} {}; allowed: at least {:.6g} {}", parameter, finding, least, rest));
-  }
-
- private:
-  TableCursor& cursor_;
-};
-
-/// A part of the friction limit: a number that holds throughout, or a profile and its value at 0 s.
-/// @param absent  the default of the number
-double read_part_of_limit(TableCursor& cursor, std::string_view key, std::string_view profile_key,
-                          std::optional<double> absent, const scene::FrictionLaw& law,
-                          scene::TimedProfile& profile) {
-  if (cursor.at_most_one_of(key, profile_key) == profile_key) {
-    Profile allowed = cursor.allowed<Profile>(profile_key);
-    allowed.value.low_open = !scene::is_bounded(law);
-    for (const auto& [time_s, value] :
-         cursor.timed_values_in(profile_key, allowed, TableCursor::Times::jump)) {
-      profile.push_back({time_s, value});
-    }
-    return scene::value_at(profile, 0.0);
-  }
-  return cursor.real_in(key, cursor.allowed<Number>(key).range, absent);
-}
-
-/// With the largest coefficient to come and with the smallest: a law's own keys suit both.
-std::vector<scene::ContactValues> extreme_contacts(const scene::Friction& friction) {
-  const scene::ContactValues& held = friction;
-  if (friction.coefficient_profile.empty()) {
-    return {held};
-  }
-  scene::ContactValues largest = held;
-  scene::ContactValues smallest = held;
-  largest.coefficient = scene::largest_value(friction.coefficient_profile);
-  smallest.coefficient = scene::smallest_value(friction.coefficient_profile);
-  return {largest, smallest};
-}
-
 bool stands(const scene::SpeedPoint& point) {
   return point.velocity_m_per_s == 0.0;
 }
@@ -120,60 +65,116 @@ void require_slip(TableCursor& cursor, std::string_view key, const scene::Slidin
   }
 }
 
+// Days of writing: more is a mistyped unit.
+constexpr double most_fixed_steps = 1e11;
+constexpr double most_recorded_rows = 1e9;
+
+/// Bounds what a mistyped unit can cost.
+void check_work(const TableCursor& cursor, std::string_view key, const scene::Run& run,
+                const scene::Scene& so_far) {
+  const double drive_Hz = so_far.drive ? so_far.drive->frequency_Hz : 0.0;
+  const double natural_Hz =
+      std::sqrt(so_far.plant.stiffness_N_per_m / so_far.plant.mass_kg) / numeric::two_pi;
+  const double periods = run.duration_s * std::max(drive_Hz, natural_Hz);
+  // The conversion of periods to seconds and back may round up.
+  if (periods > most_periods * (1.0 + 1e-12)) {
+    cursor.fail(key, fmt::format("{:g} s is {:g} periods of the {}; allowed: at most {:g} periods",
+                                 run.duration_s, periods,
+                                 drive_Hz >= natural_Hz ? "drive" : "natural mode", most_periods));
+  }
+  const double steps = so_far.solver.step_s > 0.0 ? run.duration_s / so_far.solver.step_s : 0.0;
+  if (steps > most_fixed_steps) {
+    cursor.fail(key, fmt::format("{:g} s is {:g} steps of solver.step_s; allowed: at most {:g}",
+                                 run.duration_s, steps, most_fixed_steps));
+  }
+}
+
+void check_whole_period(const TableCursor& cursor, std::string_view key, const scene::Run& run,
+                        const scene::Drive& drive) {
+  if (run.duration_s * drive.frequency_Hz < 1.0 - 1e-12) {
+    cursor.fail(key, fmt::format("{:g} s is less than a carrier period, in which the controller "
+                                 "acts once; allowed: at least {:g} s",
+                                 run.duration_s, 1.0 / drive.frequency_Hz));
+  }
+}
+
+void reject_initial_state(const Variant& variant, std::string_view table,
+                          std::initializer_list<std::string_view> keys) {
+  const TableCursor cursor(variant, table);
+  for (const std::string_view key : keys) {
+    if (cursor.has(key)) {
+      cursor.reject(key, "with run.start = \"steady\"");
+    }
+  }
+}
+
+/// A steady orbit has the period of the drive, and nothing that changes from one to the next.
+void require_steady_conditions(const TableCursor& cursor, const Variant& variant,
+                               const scene::Scene& so_far) {
+  if (!so_far.drive) {
+    cursor.fail("start", "there is no period without a [drive] table; allowed: \"given\"");
+  }
+  if (so_far.sliding.profile.size() != 1) {
+    cursor.fail("start", "nothing is steady under a sliding.profile; allowed: \"given\"");
+  }
+  if (so_far.friction.has_profile()) {
+    cursor.fail("start", fmt::format("nothing is steady under a {}; allowed: \"given\"",
+                                     so_far.friction.profile_key()));
+  }
+  reject_initial_state(variant, "plant", {"initial_displacement_m", "initial_velocity_m_per_s"});
+  reject_initial_state(variant, "friction", {"initial_force_N"});
+}
+
+void check_window(const TableCursor& cursor, std::string_view key, const scene::Run& run) {
+  if (!(run.window_start_s < run.duration_s)) {
+    cursor.fail(key, fmt::format("{:g} s is not before the end of the run; allowed: less than "
+                                 "{:g} s",
+                                 run.window_start_s, run.duration_s));
+  }
+}
+
+void check_record(TableCursor& cursor, const scene::Run& run) {
+  if (run.record.empty()) {
+    if (!cursor.has("record") && cursor.has("record_interval_s")) {
+      cursor.fail("record_interval_s", "not used without run.record; remove it");
+    }
+    // An empty list switches the recording off in place: the interval may stay.
+    cursor.optional_real("record_interval_s");
+    return;
+  }
+  const double rows = run.duration_s / run.record_interval_s;
+  if (rows > most_recorded_rows) {
+    cursor.fail("record_interval_s",
+                fmt::format("gives {:g} rows; allowed: at most {:g}, so at least {:g} s", rows,
+                            most_recorded_rows, run.duration_s / most_recorded_rows));
+  }
+}
+
 }  // namespace
 
 scene::Plant read_plant(const Variant& variant) {
   TableCursor cursor = required_table(variant, "plant");
+  ValueReader reader(cursor);
   scene::Plant plant;
-  plant.mass_kg = cursor.real("mass_kg");
-  plant.stiffness_N_per_m = cursor.real("stiffness_N_per_m");
-  plant.damping_N_s_per_m = cursor.real("damping_N_s_per_m");
-  plant.initial_displacement_m = cursor.real("initial_displacement_m");
-  plant.initial_velocity_m_per_s = cursor.real("initial_velocity_m_per_s");
+  visit_plant(reader, plant, scene::Start::given);
   return plant;
 }
 
 scene::Friction read_friction(const Variant& variant, const scene::Plant& plant) {
   TableCursor cursor = required_table(variant, "friction");
+  ValueReader reader(cursor);
   scene::Friction friction;
-  friction.law = cursor.choice("law", scene::friction_laws);
-  if (!scene::is<scene::laws::None>(friction.law)) {
-    friction.coefficient =
-        read_part_of_limit(cursor, "coefficient", "coefficient_profile", std::nullopt, friction.law,
-                           friction.coefficient_profile);
-    friction.normal_force_N = read_part_of_limit(cursor, "normal_force_N", "normal_force_profile_N",
-                                                 plant.mass_kg * standard_gravity_m_per_s2,
-                                                 friction.law, friction.normal_force_profile_N);
-  }
-  if (!scene::is<scene::laws::None>(friction.law) && scene::vibrates_along(friction.law)) {
-    friction.sign_convention = cursor.choice("sign_convention", scene::sign_conventions);
-  }
-  if (scene::is_elastic(friction.law)) {
-    friction.contact_stiffness_N_per_m = cursor.real("contact_stiffness_N_per_m");
-    const double limit_N = friction.limit_N();
-    friction.initial_force_N =
-        cursor.real_in("initial_force_N", {-limit_N, limit_N, "N"}, friction.initial_force_N);
-  }
-  KeyReader keys(cursor);
-  for (const scene::ContactValues& contact : extreme_contacts(friction)) {
-    std::visit([&](auto& law) { law.visit_keys(keys, contact); }, friction.law);
-  }
+  visit_friction(reader, friction, plant, scene::Start::given);
   cursor.reject_unread_with("friction.law", scene::name_of(friction.law));
   return friction;
 }
 
 scene::Sliding read_sliding(const Variant& variant, const scene::Friction& friction) {
   TableCursor cursor = required_table(variant, "sliding");
-  const std::string_view key = cursor.one_of("velocity_m_per_s", "profile");
+  ValueReader reader(cursor);
   scene::Sliding sliding;
-  if (key == "velocity_m_per_s") {
-    sliding.profile.push_back({0.0, cursor.real(key)});
-  } else {
-    for (const auto& [time_s, velocity_m_per_s] : cursor.timed_values(key)) {
-      sliding.profile.push_back({time_s, velocity_m_per_s});
-    }
-  }
-  require_slip(cursor, key, sliding, friction.law);
+  visit_sliding(reader, sliding);
+  require_slip(cursor, cursor.one_of("velocity_m_per_s", "profile"), sliding, friction.law);
   return sliding;
 }
 
@@ -186,60 +187,39 @@ std::optional<scene::Drive> read_drive(const Variant& variant) {
     }
     return std::nullopt;
   }
+  ValueReader reader(cursor);
   scene::Drive drive;
-  drive.frequency_Hz = cursor.real("frequency_Hz");
-  if (closed) {
-    drive.max_force_amplitude_N = cursor.real("max_force_amplitude_N");
-    drive.max_force_slew_N_per_s = cursor.optional_real("max_force_slew_N_per_s");
-    drive.delay_periods = static_cast<int>(cursor.integer("delay_periods"));
-  } else {
-    drive.force_amplitude_N = cursor.real("force_amplitude_N");
-  }
-  drive.waveform = cursor.choice("waveform", scene::waveforms);
+  visit_drive(reader, drive, closed);
   cursor.reject_unread(closed ? "in closed loop: the controller sets the amplitude" : in_open_loop);
   return drive;
 }
 
-template <class Described>
-std::optional<int> read_order(TableCursor& cursor) {
-  const std::optional<std::int64_t> order = cursor.optional_integer("order");
-  if (!order) {
-    return std::nullopt;
-  }
-  constexpr auto& built = Described::orders;
-  if (std::find(built.begin(), built.end(), *order) == built.end()) {
-    cursor.fail("order",
-                fmt::format("{} is not built; allowed: {}", *order, fmt::join(built, ", ")));
-  }
-  return static_cast<int>(*order);
-}
-
-template <class Described>
-void read_keys(TableCursor& cursor, scene::Solver& solver) {
-  if constexpr (Described::adaptive) {
-    solver.tolerance = cursor.real("tolerance", Described::default_tolerance);
-    if constexpr (Described::takes_order) {
-      solver.order = read_order<Described>(cursor);
-    }
-    if constexpr (Described::takes_step) {
-      solver.step_s = cursor.real("step_s", 0.0);
-    }
-  } else {
-    solver.step_s = cursor.real("step_s");
-  }
-}
-
 scene::Solver read_solver(const Variant& variant) {
   TableCursor cursor(variant, "solver");
+  ValueReader reader(cursor);
   scene::Solver solver;
-  solver.method = cursor.choice("method", configure::solver_methods);
-  configure::for_each_solver([&](auto described, scene::SolverMethod method) {
-    if (method == solver.method) {
-      read_keys<decltype(described)>(cursor, solver);
-    }
-  });
+  visit_solver(reader, solver);
   cursor.reject_unread_with("solver.method", configure::name_of(solver.method));
   return solver;
+}
+
+scene::Run read_run(const Variant& variant, const scene::Scene& so_far) {
+  TableCursor cursor = required_table(variant, "run");
+  const bool closed = closed_loop(variant);
+  ValueReader reader(cursor);
+  scene::Run run;
+  visit_run(reader, run, so_far.drive, closed);
+  const std::string_view duration = cursor.one_of("duration_s", "duration_periods");
+  check_work(cursor, duration, run, so_far);
+  check_window(cursor, cursor.one_of("window_start_s", "window_start_periods"), run);
+  if (closed) {
+    check_whole_period(cursor, duration, run, *so_far.drive);
+  } else if (run.start == scene::Start::steady) {
+    require_steady_conditions(cursor, variant, so_far);
+  }
+  check_record(cursor, run);
+  cursor.reject_unread(closed ? "in closed loop, which begins with the drive off" : in_open_loop);
+  return run;
 }
 
 std::optional<scene::Controller> read_controller(const Variant& variant,
@@ -254,58 +234,30 @@ std::optional<scene::Controller> read_controller(const Variant& variant,
                     "with coefficient and normal_force_N above 0{}",
                     so_far.friction.has_profile() ? " at 0 s" : ""));
   }
+  ValueReader reader(cursor);
   scene::Controller controller;
-  controller.arithmetic = cursor.choice("arithmetic", scene::arithmetics);
-  const auto targets = cursor.timed_values("target_friction_ratio");
-  if (targets.front()[0] != 0.0) {
-    cursor.fail("target_friction_ratio",
-                fmt::format("begins at {} s; allowed: a first time of 0 s", targets.front()[0]));
-  }
-  for (const auto& [time_s, friction_ratio] : targets) {
-    controller.target_friction_ratio.push_back({time_s, friction_ratio});
-  }
-  controller.calibration_s = cursor.real("calibration_s");
+  visit_controller(reader, controller);
   if (!(controller.calibration_s < so_far.run.duration_s)) {
     cursor.fail("calibration_s",
                 fmt::format("{} s is not before the end of the run; allowed: less than {} s",
                             controller.calibration_s, so_far.run.duration_s));
   }
-  controller.shaping = cursor.choice("shaping", scene::shapings);
-  controller.speed_floor_m_per_s = cursor.optional_real("speed_floor_m_per_s");
-  controller.standstill_hold_s = cursor.real("standstill_hold_s");
-  controller.relearn_every_s = cursor.optional_real("relearn_every_s");
-  controller.mismatch_warning = cursor.real("mismatch_warning");
   return controller;
 }
 
 scene::Sensor read_sensor(const Variant& variant, const scene::Friction& friction) {
   TableCursor cursor = closed_loop_table(variant, "sensor");
+  ValueReader reader(cursor);
   scene::Sensor sensor;
-  if (const auto bits = cursor.optional_integer("adc_bits")) {
-    sensor.adc_bits = static_cast<int>(*bits);
-  }
-  sensor.force_full_scale_N =
-      cursor.real("force_full_scale_N", 2.0 * configure::largest_friction_limit_N(friction));
-  sensor.force_noise_N = cursor.real("force_noise_N");
-  sensor.force_bandwidth_Hz = cursor.optional_real("force_bandwidth_Hz");
-  sensor.delay_periods = static_cast<int>(cursor.integer("delay_periods"));
-  sensor.force_offset_N = cursor.real("force_offset_N");
-  sensor.force_gain = cursor.real("force_gain");
-  sensor.velocity_offset_m_per_s = cursor.real("velocity_offset_m_per_s");
-  sensor.velocity_gain = cursor.real("velocity_gain");
-  sensor.seed = static_cast<std::uint64_t>(cursor.integer("seed"));
+  visit_sensor(reader, sensor, 2.0 * configure::largest_friction_limit_N(friction));
   return sensor;
 }
 
 scene::ModelError read_model_error(const Variant& variant, const scene::Friction& friction) {
   TableCursor cursor = closed_loop_table(variant, "model_error");
+  ValueReader reader(cursor);
   scene::ModelError model_error;
-  model_error.mass = cursor.real("mass");
-  model_error.stiffness = cursor.real("stiffness");
-  model_error.coefficient = cursor.real("coefficient");
-  if (scene::is_elastic(friction.law)) {
-    model_error.contact_stiffness = cursor.real("contact_stiffness");
-  }
+  visit_model_error(reader, model_error, friction.law);
   cursor.reject_unread_with("friction.law", scene::name_of(friction.law));
   return model_error;
 }

@@ -1,5 +1,8 @@
 #include "host_sim/scene_file/suggestion.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 
 namespace sonoglide::scene_file {
@@ -15,6 +18,25 @@ char lower(char c) {
 bool lacks_only_unit(std::string_view name, std::string_view known) {
   return !name.empty() && known.size() > name.size() && known.substr(0, name.size()) == name &&
          known[name.size()] == '_';
+}
+
+template <class Named>
+std::vector<std::string_view> names_of(const std::vector<Named>& all) {
+  std::vector<std::string_view> names;
+  for (const Named& each : all) {
+    names.push_back(each.name);
+  }
+  return names;
+}
+
+/// The table that owns this key; null if none does.
+const KeyTable* find_owner(std::string_view key) {
+  for (const KeyTable& table : key_tables()) {
+    if (find_key(table, key) != nullptr) {
+      return &table;
+    }
+  }
+  return nullptr;
 }
 
 }  // namespace
@@ -60,6 +82,28 @@ std::optional<std::string_view> nearest_name(std::string_view name,
     }
   }
   return nearest;
+}
+
+std::string unknown_table(std::string_view name) {
+  if (const KeyTable* owner = find_owner(name)) {
+    return fmt::format("unknown table; did you mean {}.{}?", owner->name, name);
+  }
+  const std::vector<std::string_view> names = names_of(key_tables());
+  if (const auto nearest = nearest_name(name, names)) {
+    return fmt::format("unknown table; did you mean {}?", *nearest);
+  }
+  return fmt::format("unknown table; allowed: {}", fmt::join(names, ", "));
+}
+
+std::string unknown_key(const KeyTable& table, std::string_view key) {
+  const std::vector<std::string_view> names = names_of(table.keys);
+  if (const auto nearest = nearest_name(key, names)) {
+    return fmt::format("unknown key; did you mean {}?", *nearest);
+  }
+  if (const KeyTable* owner = find_owner(key)) {
+    return fmt::format("unknown key; did you mean {}.{}?", owner->name, key);
+  }
+  return fmt::format("unknown key; allowed: {}", fmt::join(names, ", "));
 }
 
 }  // namespace sonoglide::scene_file

@@ -336,8 +336,7 @@ std::vector<TableCursor::Pair> TableCursor::timed_values_in(std::string_view key
   return pairs;
 }
 
-std::optional<std::string_view> TableCursor::at_most_one_of(std::string_view first,
-                                                            std::string_view second) const {
+std::string_view TableCursor::one_of(std::string_view first, std::string_view second) const {
   if (has(first) && has(second)) {
     const bool first_is_later = earlier(*find(second), *find(first));
     const std::string_view later = first_is_later ? first : second;
@@ -345,21 +344,13 @@ std::optional<std::string_view> TableCursor::at_most_one_of(std::string_view fir
     throw SceneError(find(later)->key_place, path_of({later}),
                      fmt::format("excludes {}; allowed: one of the two", other));
   }
-  if (has(first)) {
-    return first;
-  }
   if (has(second)) {
     return second;
   }
-  return std::nullopt;
-}
-
-std::string_view TableCursor::one_of(std::string_view first, std::string_view second) const {
-  const auto found = at_most_one_of(first, second);
-  if (!found) {
+  if (!has(first) && std::holds_alternative<Instead>(key_of(keys_, first).absent)) {
     fail(first, fmt::format("missing; required: {} or {}", first, second));
   }
-  return *found;
+  return first;
 }
 
 }  // namespace sonoglide::scene_file

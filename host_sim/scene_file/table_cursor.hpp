@@ -13,7 +13,6 @@
 
 #include "host_sim/scene/names.hpp"
 #include "host_sim/scene_file/keys.hpp"
-#include "host_sim/scene_file/schema.hpp"
 #include "host_sim/scene_file/variant.hpp"
 
 namespace sonoglide::scene_file {
@@ -71,11 +70,9 @@ class TableCursor {
     return std::get<Kind>(key_of(keys_, key).allowed);
   }
 
-  /// The one of two keys that is there; it is an error if both or neither are.
+  /// The one of two keys that is there; it is an error if both are. Without either, the first, or
+  /// an error where the description wants one of them.
   std::string_view one_of(std::string_view first, std::string_view second) const;
-  /// The one of two keys that is there, or none; it is an error if both are.
-  std::optional<std::string_view> at_most_one_of(std::string_view first,
-                                                 std::string_view second) const;
 
   /// Throws for the key; at the table where the key is absent, at the file's start without table.
   [[noreturn]] void fail(std::string_view key, const std::string& message) const;

@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
@@ -9,8 +10,8 @@
 #include <string>
 
 #include "as_toml.hpp"
+#include "host_sim/scene_file/keys.hpp"
 #include "host_sim/scene_file/reader.hpp"
-#include "host_sim/scene_file/schema.hpp"
 #include "host_sim/scene_file/to_json.hpp"
 #include "scene_texts.hpp"
 
@@ -76,10 +77,10 @@ TEST(EchoTest, KnowsEveryKeyOfTheSchema) {
   // Periods are echoed as seconds.
   echoed.insert("run.duration_periods");
   echoed.insert("run.window_start_periods");
-  for (const TableSchema& table : schema()) {
-    for (const std::string_view key : table.keys) {
-      EXPECT_EQ(echoed.count(std::string(table.name) + "." + std::string(key)), 1U)
-          << table.name << "." << key;
+  for (const KeyTable& table : key_tables()) {
+    for (const Key& key : table.keys) {
+      EXPECT_EQ(echoed.count(fmt::format("{}.{}", table.name, key.name)), 1U)
+          << table.name << "." << key.name;
     }
   }
 }

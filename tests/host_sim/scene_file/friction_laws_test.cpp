@@ -15,7 +15,6 @@
 #include "host_sim/configure/solver_methods.hpp"
 #include "host_sim/scene_file/keys.hpp"
 #include "host_sim/scene_file/reader.hpp"
-#include "host_sim/scene_file/schema.hpp"
 #include "host_sim/scene_file/to_json.hpp"
 
 namespace sonoglide::scene::friction_laws_test {

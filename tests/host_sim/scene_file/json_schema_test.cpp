@@ -22,7 +22,6 @@
 #include "as_toml.hpp"
 #include "host_sim/scene_file/keys.hpp"
 #include "host_sim/scene_file/reader.hpp"
-#include "host_sim/scene_file/schema.hpp"
 #include "host_sim/scene_file/to_json.hpp"
 #include "host_sim/scene_file/toml_text.hpp"
 #include "scene_texts.hpp"
@@ -168,9 +167,9 @@ TEST(JsonSchemaTest, HasEveryKeyAndNoOther) {
     }
   }
   std::set<std::string> read;
-  for (const TableSchema& table : scene_file::schema()) {
-    for (const std::string_view key : table.keys) {
-      read.insert(fmt::format("{}.{}", table.name, key));
+  for (const KeyTable& table : key_tables()) {
+    for (const Key& key : table.keys) {
+      read.insert(fmt::format("{}.{}", table.name, key.name));
     }
   }
   EXPECT_EQ(described, read);

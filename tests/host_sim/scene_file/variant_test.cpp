@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
+#include "host_sim/scene_file/keys.hpp"
 #include "host_sim/scene_file/reader.hpp"
-#include "host_sim/scene_file/schema.hpp"
 #include "host_sim/scene_file/to_json.hpp"
 #include "host_sim/scene_file/variant.hpp"
 #include "scene_texts.hpp"
@@ -60,9 +60,9 @@ void expect_as_by_text(const std::string& text, const Texts& overrides, const Te
 
 Texts every_key() {
   Texts keys;
-  for (const TableSchema& table : schema()) {
-    for (const std::string_view key : table.keys) {
-      keys.push_back(fmt::format("{}.{}", table.name, key));
+  for (const KeyTable& table : key_tables()) {
+    for (const Key& key : table.keys) {
+      keys.push_back(fmt::format("{}.{}", table.name, key.name));
     }
   }
   return keys;

@@ -1,0 +1,187 @@
+/// Which value of a scene each key holds, and when: told once, for the reader and for the echo.
+#pragma once
+
+#include <optional>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "host_sim/configure/solver_methods.hpp"
+#include "host_sim/scene/names.hpp"
+#include "host_sim/scene/scene.hpp"
+#include "host_sim/scene_file/keys.hpp"
+
+namespace sonoglide::scene_file {
+
+/// A number that holds throughout, or in its place a profile and its value at 0 s.
+struct Level {
+  std::string_view key;
+  std::string_view profile_key;
+  double& value;
+  scene::TimedProfile& profile;
+};
+
+// Each visitor takes a `Keys` and calls, in the order of the list of keys:
+//   keys.value(key, value)           a number; absent, what the list of keys says
+//   keys.value(key, value, absent)   the same; absent, a number that follows from other keys
+//   keys.value_in(key, value, range) the same in a range that follows from other keys
+//   keys.value_or_0(key, value)      a number that is 0 where the key is absent
+//   keys.word(key, value, names)     one of the named values
+//   keys.words(key, values, names)   a list of them; empty where absent
+//   keys.one_of(key, value, allowed) one of a few integers
+//   keys.time(key, periods_key, value, drive)  in seconds, or under the other key in periods
+//   keys.level(level, absent, law)   required where `absent` is nullopt
+//   keys.speed(key, profile_key, points)  one speed, or its profile in place of it
+//   keys.targets(key, steps)
+// and, of a friction law, what scene::laws::None lists.
+
+template <class Keys>
+void visit_plant(Keys& keys, scene::Plant& plant, scene::Start start) {
+  keys.value("mass_kg", plant.mass_kg);
+  keys.value("stiffness_N_per_m", plant.stiffness_N_per_m);
+  keys.value("damping_N_s_per_m", plant.damping_N_s_per_m);
+  if (start == scene::Start::given) {
+    keys.value("initial_displacement_m", plant.initial_displacement_m);
+    keys.value("initial_velocity_m_per_s", plant.initial_velocity_m_per_s);
+  }
+}
+
+/// With the largest coefficient to come and with the smallest: a law's own keys suit both.
+inline std::vector<scene::ContactValues> extreme_contacts(const scene::Friction& friction) {
+  const scene::ContactValues& held = friction;
+  if (friction.coefficient_profile.empty()) {
+    return {held};
+  }
+  scene::ContactValues largest = held;
+  scene::ContactValues smallest = held;
+  largest.coefficient = scene::largest_value(friction.coefficient_profile);
+  smallest.coefficient = scene::smallest_value(friction.coefficient_profile);
+  return {largest, smallest};
+}
+
+template <class Keys>
+void visit_friction(Keys& keys, scene::Friction& friction, const scene::Plant& plant,
+                    scene::Start start) {
+  keys.word("law", friction.law, scene::friction_laws);
+  if (scene::is<scene::laws::None>(friction.law)) {
+    return;
+  }
+  keys.level(Level{"coefficient", "coefficient_profile", friction.coefficient,
+                   friction.coefficient_profile},
+             std::nullopt, friction.law);
+  keys.level(Level{"normal_force_N", "normal_force_profile_N", friction.normal_force_N,
+                   friction.normal_force_profile_N},
+             plant.mass_kg * standard_gravity_m_per_s2, friction.law);
+  if (scene::is_elastic(friction.law)) {
+    keys.value("contact_stiffness_N_per_m", friction.contact_stiffness_N_per_m);
+    if (start == scene::Start::given) {
+      const double limit_N = friction.limit_N();
+      keys.value_in("initial_force_N", friction.initial_force_N, {-limit_N, limit_N, "N"});
+    }
+  }
+  for (const scene::ContactValues& contact : extreme_contacts(friction)) {
+    std::visit([&](auto& law) { law.visit_keys(keys, contact); }, friction.law);
+  }
+  if (scene::vibrates_along(friction.law)) {
+    keys.word("sign_convention", friction.sign_convention, scene::sign_conventions);
+  }
+}
+
+template <class Keys>
+void visit_sliding(Keys& keys, scene::Sliding& sliding) {
+  keys.speed("velocity_m_per_s", "profile", sliding.profile);
+}
+
+template <class Keys>
+void visit_drive(Keys& keys, scene::Drive& drive, bool closed_loop) {
+  keys.value("frequency_Hz", drive.frequency_Hz);
+  if (!closed_loop) {
+    keys.value("force_amplitude_N", drive.force_amplitude_N);
+  }
+  keys.word("waveform", drive.waveform, scene::waveforms);
+  if (closed_loop) {
+    keys.value("max_force_amplitude_N", drive.max_force_amplitude_N);
+    keys.value("max_force_slew_N_per_s", drive.max_force_slew_N_per_s);
+    keys.value("delay_periods", drive.delay_periods);
+  }
+}
+
+template <class Described, class Keys>
+void visit_accuracy(Keys& keys, scene::Solver& solver) {
+  if constexpr (Described::adaptive) {
+    keys.value("tolerance", solver.tolerance, Described::default_tolerance);
+    if constexpr (Described::takes_order) {
+      keys.one_of("order", solver.order, Described::orders);
+    }
+    if constexpr (Described::takes_step) {
+      keys.value_or_0("step_s", solver.step_s);
+    }
+  } else {
+    keys.value("step_s", solver.step_s);
+  }
+}
+
+template <class Keys>
+void visit_solver(Keys& keys, scene::Solver& solver) {
+  keys.word("method", solver.method, configure::solver_methods);
+  configure::for_each_solver([&](auto described, scene::SolverMethod method) {
+    if (method == solver.method) {
+      visit_accuracy<decltype(described)>(keys, solver);
+    }
+  });
+}
+
+template <class Keys>
+void visit_run(Keys& keys, scene::Run& run, const std::optional<scene::Drive>& drive,
+               bool closed_loop) {
+  keys.time("duration_s", "duration_periods", run.duration_s, drive);
+  keys.time("window_start_s", "window_start_periods", run.window_start_s, drive);
+  if (closed_loop) {
+    keys.value("settling_band", run.settling_band);
+  } else {
+    keys.word("start", run.start, scene::starts);
+  }
+  keys.words("record", run.record, scene::channels);
+  if (!run.record.empty()) {
+    keys.value("record_interval_s", run.record_interval_s);
+  }
+}
+
+template <class Keys>
+void visit_controller(Keys& keys, scene::Controller& controller) {
+  keys.word("arithmetic", controller.arithmetic, scene::arithmetics);
+  keys.targets("target_friction_ratio", controller.target_friction_ratio);
+  keys.value("calibration_s", controller.calibration_s);
+  keys.word("shaping", controller.shaping, scene::shapings);
+  keys.value("speed_floor_m_per_s", controller.speed_floor_m_per_s);
+  keys.value("standstill_hold_s", controller.standstill_hold_s);
+  keys.value("relearn_every_s", controller.relearn_every_s);
+  keys.value("mismatch_warning", controller.mismatch_warning);
+}
+
+/// @param full_scale_N  of the force, where the scene does not say
+template <class Keys>
+void visit_sensor(Keys& keys, scene::Sensor& sensor, double full_scale_N) {
+  keys.value("adc_bits", sensor.adc_bits);
+  keys.value("force_full_scale_N", sensor.force_full_scale_N, full_scale_N);
+  keys.value("force_noise_N", sensor.force_noise_N);
+  keys.value("force_bandwidth_Hz", sensor.force_bandwidth_Hz);
+  keys.value("delay_periods", sensor.delay_periods);
+  keys.value("force_offset_N", sensor.force_offset_N);
+  keys.value("force_gain", sensor.force_gain);
+  keys.value("velocity_offset_m_per_s", sensor.velocity_offset_m_per_s);
+  keys.value("velocity_gain", sensor.velocity_gain);
+  keys.value("seed", sensor.seed);
+}
+
+template <class Keys>
+void visit_model_error(Keys& keys, scene::ModelError& model_error, const scene::FrictionLaw& law) {
+  keys.value("mass", model_error.mass);
+  keys.value("stiffness", model_error.stiffness);
+  keys.value("coefficient", model_error.coefficient);
+  if (scene::is_elastic(law)) {
+    keys.value("contact_stiffness", model_error.contact_stiffness);
+  }
+}
+
+}  // namespace sonoglide::scene_file
