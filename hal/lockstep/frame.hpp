@@ -23,7 +23,7 @@ inline constexpr std::size_t drive_frame_size = 24;
 
 /// Cost of an answer on the board, in the unit of its counter, the reading of the counter excluded.
 /// 0 from a board without a counter.
-struct Cost {
+struct AnswerCost {
   std::uint32_t step;    ///< from the sample handed over to the drive taken
   std::uint32_t answer;  ///< from the arrival of the sample frame to the drive frame being made up
 };
@@ -79,12 +79,12 @@ inline DriveFrame encode(std::uint32_t period, const Drive& drive) {
   return frame;
 }
 
-inline void put_cost(const Cost& cost, DriveFrame& frame) {
+inline void put_cost(const AnswerCost& cost, DriveFrame& frame) {
   detail::put(cost.step, frame.data() + 16);
   detail::put(cost.answer, frame.data() + 20);
 }
 
-inline Cost cost_of(const DriveFrame& frame) {
+inline AnswerCost cost_of(const DriveFrame& frame) {
   return {detail::get(frame.data() + 16), detail::get(frame.data() + 20)};
 }
 

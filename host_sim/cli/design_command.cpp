@@ -12,9 +12,7 @@
 
 #include "host_sim/cli/options.hpp"
 #include "host_sim/cli/progress_bar.hpp"
-#include "host_sim/cli/run_watch.hpp"
 #include "host_sim/output/gnuplot.hpp"
-#include "host_sim/process/interruption.hpp"
 #include "host_sim/studies/design/report.hpp"
 #include "host_sim/studies/design/study.hpp"
 
@@ -58,15 +56,15 @@ std::string check_ratio(const std::string& text) {
   char* end = nullptr;
   const double ratio = std::strtod(text.c_str(), &end);
   const bool number = !text.empty() && *end == '\0';
-  return number && ratio >= 1e-3 && ratio < 1.0
+  return number && ratio >= design::least_ratio && ratio < 1.0
              ? std::string()
-             : fmt::format("\"{}\"; allowed: a number, 0.001 to below 1", text);
+             : fmt::format("\"{}\"; allowed: a number, {} to below 1", text, design::least_ratio);
 }
 
+/// A signal ends it at once: nothing is written yet.
 design::DesignStudy compute(const design::Task& task, bool quiet) {
-  const process::Interruption interruption;
   ProgressBar bar(stderr, !quiet);
-  return design::study(task, watching(bar, interruption));
+  return design::study(task, [&](double fraction) { bar.update(fraction); });
 }
 
 /// Throws scene_file::SceneError, loop::ComputationError, output::OutputError,

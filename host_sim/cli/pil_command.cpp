@@ -87,7 +87,7 @@ void add_pil_command(CLI::App& program) {
   add_output_option(*command, options->out,
                     "report.html and summary.json and, where the scene records anything, "
                     "periods.csv and trace.csv [out/<scene name>_<board>]");
-  command->add_flag("--quiet", options->quiet, "No progress bar and no printed summary");
+  command->add_flag("--quiet", options->quiet, "No progress bar, no notes, no printed summary");
   command->callback([options] { pil(*options); });
 }
 

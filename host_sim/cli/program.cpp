@@ -44,9 +44,8 @@ void parse_and_run(int argument_count, const char* const* arguments,
   flush_output();
 }
 
-/// Names of files and words of other programs get no say in what the terminal does.
 int fail(ExitCode code, std::string_view message) {
-  fmt::print(stderr, "{}\n", process::printable_lines(message));
+  process::show_on_stderr(message);
   return code;
 }
 

@@ -87,7 +87,8 @@ void ProgressBar::update(double fraction) {
     return;
   }
   const double elapsed_s = std::chrono::duration<double>(now - start_).count();
-  fmt::print(stream_, "{}{}", erase_line, progress_line(fraction, elapsed_s, columns_of(stream_)));
+  std::fputs(erase_line, stream_);
+  std::fputs(progress_line(fraction, elapsed_s, columns_of(stream_)).c_str(), stream_);
   std::fflush(stream_);
   drawn_ = true;
   last_drawn_ = now;

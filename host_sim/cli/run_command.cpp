@@ -83,7 +83,7 @@ void add_run_command(CLI::App& program) {
   command->add_flag("--json", options->json,
                     "Print summary.json and nothing else; files are then written only where --out "
                     "names a folder");
-  command->add_flag("--quiet", options->quiet, "No progress bar and no printed summary");
+  command->add_flag("--quiet", options->quiet, "No progress bar, no notes, no printed summary");
   command->callback([options] { run(*options); });
 }
 

@@ -1,9 +1,8 @@
 #include "host_sim/cli/run_watch.hpp"
 
-#include <fmt/format.h>
-
-#include <cstdio>
 #include <string>
+
+#include "host_sim/process/printable.hpp"
 
 namespace sonoglide::cli {
 
@@ -12,7 +11,7 @@ void print_design_notes(const std::optional<configure::ControlDesign>& design) {
     return;
   }
   for (const std::string& note : configure::design_notes(*design)) {
-    fmt::print(stderr, "note: {}\n", note);
+    process::show_on_stderr("note: " + note);
   }
 }
 

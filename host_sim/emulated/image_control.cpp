@@ -39,7 +39,7 @@ hal::Drive ImageControl::exchange(const hal::Sample& sample) {
     first_answer_ = Clock::now();
   }
   ++exchanges_;
-  const hal::lockstep::Cost cost = image_.latest_cost();
+  const hal::lockstep::AnswerCost cost = image_.latest_cost();
   step_.add(instructions(cost.step, board_));
   answer_.add(instructions(cost.answer, board_));
   return drive;

@@ -43,7 +43,7 @@ class ImageProcess {
   hal::Drive exchange(const hal::Sample& sample);
 
   /// What the latest answer cost, in the unit of the board's counter.
-  hal::lockstep::Cost latest_cost() const { return cost_; }
+  hal::lockstep::AnswerCost latest_cost() const { return cost_; }
 
   /// Sends bytes as they are.
   void send(const std::uint8_t* bytes, std::size_t size);
@@ -70,7 +70,7 @@ class ImageProcess {
   process::Descriptor complaints_;
   std::optional<process::ChildProcess> child_;
   std::uint32_t period_ = 0;
-  hal::lockstep::Cost cost_{};
+  hal::lockstep::AnswerCost cost_{};
 };
 
 }  // namespace sonoglide::emulated

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <cstdio>
 #include <iterator>
 
 namespace sonoglide::process {
@@ -97,6 +98,10 @@ std::string printable(std::string_view text) {
 
 std::string printable_lines(std::string_view text) {
   return shown(text, "\n\t");
+}
+
+void show_on_stderr(std::string_view text) {
+  std::fputs((printable_lines(text) + '\n').c_str(), stderr);
 }
 
 }  // namespace sonoglide::process

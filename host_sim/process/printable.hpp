@@ -20,4 +20,8 @@ std::string printable(std::string_view text);
 /// The same, line by line: line feeds and tabs stay. For text of several lines.
 std::string printable_lines(std::string_view text);
 
+/// Shows printable_lines of the text and a line feed on standard error. Where that cannot be
+/// written, nobody can be told, and the program goes on.
+void show_on_stderr(std::string_view text);
+
 }  // namespace sonoglide::process

@@ -36,7 +36,7 @@ std::size_t position_of(const KeyTable& table, const Key& key) {
 
 }  // namespace
 
-Location Entry::place_of(const toml::node& element) const {
+Location GivenValue::place_of(const toml::node& element) const {
   return overridden ? value_place : located(value_place.file, element.source());
 }
 
@@ -129,11 +129,11 @@ void Document::vary(const std::string& path, std::size_t ordinal, std::size_t in
 }
 
 /// The entry, without a value yet.
-Entry& Document::overridden_entry(const OverriddenKey& target) {
+GivenValue& Document::overridden_entry(const OverriddenKey& target) {
   SceneTable& table =
       tables_.try_emplace(target.table, SceneTable{target.table, target.place, {}}).first->second;
   const KeyTable& described = key_table(target.table);
-  Entry& entry = table.entries[target.key];
+  GivenValue& entry = table.entries[target.key];
   entry = {nullptr, target.place, target.place, true,
            position_of(described, key_of(described, target.key))};
   return entry;

@@ -18,7 +18,7 @@
 namespace sonoglide::scene_file {
 
 /// One value. An overridden one has a single place, its `--set` option.
-struct Entry {
+struct GivenValue {
   const toml::node* value = nullptr;  ///< null for a varied key
   Location key_place;
   Location value_place;
@@ -33,7 +33,7 @@ struct Entry {
 struct SceneTable {
   std::string name;
   Location place;
-  std::map<std::string, Entry, std::less<>> entries;
+  std::map<std::string, GivenValue, std::less<>> entries;
 };
 
 /// Values live as long as the document. It does not change: any number of threads may read it.
@@ -73,7 +73,7 @@ class Document {
   void apply_override(const std::string& text, std::size_t ordinal);
   void remove(const OverriddenKey& target);
   void vary(const std::string& path, std::size_t ordinal, std::size_t index);
-  Entry& overridden_entry(const OverriddenKey& target);
+  GivenValue& overridden_entry(const OverriddenKey& target);
 
   std::string file_;
   std::string name_;

@@ -60,7 +60,7 @@ std::string description(const Key& key) {
   const std::string absent = absent_text(key);
   const bool required = absent.rfind("required", 0) == 0;
   return fmt::format("{} {}{}", sentence(key.meaning),
-                     sentence(required ? absent : fmt::format("default: {}", absent)),
+                     sentence(required ? absent : fmt::format("Default: {}", absent)),
                      key.used.empty() ? "" : fmt::format(" Used with {}.", key.used));
 }
 

@@ -51,7 +51,9 @@ std::string absent_text(const Key& key) {
 }
 
 std::string sentence(std::string text) {
-  if (!text.empty() && text.front() >= 'a' && text.front() <= 'z') {
+  const std::size_t end = text.find_first_not_of("abcdefghijklmnopqrstuvwxyz");
+  const bool of_a_scene = end != std::string::npos && (text[end] == '_' || text[end] == ':');
+  if (!text.empty() && end > 0 && !of_a_scene) {
     text.front() = static_cast<char>(text.front() - 'a' + 'A');
   }
   return text + ".";

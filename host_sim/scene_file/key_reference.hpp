@@ -13,7 +13,7 @@ std::string allowed_text(const Key& key);
 /// What holds without the key: its default, `required`, or a rule.
 std::string absent_text(const Key& key);
 
-/// With a capital and a final stop.
+/// With a final stop, and a capital unless it begins with a word of a scene: `given: …`.
 std::string sentence(std::string text);
 
 /// The whole file, in Markdown: a table for each table of a scene.

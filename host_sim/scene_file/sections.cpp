@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <initializer_list>
+#include <limits>
 
 #include "firmware/numeric/turn.hpp"
 #include "host_sim/configure/plant_scales.hpp"
@@ -125,8 +126,13 @@ void require_steady_conditions(const TableCursor& cursor, const Variant& variant
   reject_initial_state(variant, "friction", {"initial_force_N"});
 }
 
-void check_window(const TableCursor& cursor, std::string_view key, const scene::Run& run) {
-  if (!(run.window_start_s < run.duration_s)) {
+/// A shorter window than the rounding of its times holds nothing.
+void check_window(const TableCursor& cursor, std::string_view key, const scene::Run& run,
+                  const std::optional<scene::Drive>& drive) {
+  const double period_s = drive ? 1.0 / drive->frequency_Hz : 1e-3 * run.duration_s;
+  const double rounding_s =
+      2e-9 * period_s + 8.0 * std::numeric_limits<double>::epsilon() * run.duration_s;
+  if (!(run.window_start_s < run.duration_s - rounding_s)) {
     cursor.fail(key, fmt::format("{:g} s is not before the end of the run; allowed: less than "
                                  "{:g} s",
                                  run.window_start_s, run.duration_s));
@@ -211,7 +217,7 @@ scene::Run read_run(const Variant& variant, const scene::Scene& so_far) {
   visit_run(reader, run, so_far.drive, closed);
   const std::string_view duration = cursor.one_of("duration_s", "duration_periods");
   check_work(cursor, duration, run, so_far);
-  check_window(cursor, cursor.one_of("window_start_s", "window_start_periods"), run);
+  check_window(cursor, cursor.one_of("window_start_s", "window_start_periods"), run, so_far.drive);
   if (closed) {
     check_whole_period(cursor, duration, run, *so_far.drive);
   } else if (run.start == scene::Start::steady) {

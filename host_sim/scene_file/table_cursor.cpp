@@ -35,7 +35,7 @@ double as_number(const toml::node& node) {
 }
 
 /// Overrides follow the file.
-bool earlier(const Entry& a, const Entry& b) {
+bool earlier(const GivenValue& a, const GivenValue& b) {
   return std::tuple(a.overridden, a.key_place.line, a.key_place.column) <
          std::tuple(b.overridden, b.key_place.line, b.key_place.column);
 }
@@ -45,7 +45,7 @@ bool earlier(const Entry& a, const Entry& b) {
 TableCursor::TableCursor(const Variant& variant, std::string_view name)
     : variant_(variant), keys_(key_table(name)), table_(variant.find(name)) {}
 
-const Entry* TableCursor::find(std::string_view key) const {
+const GivenValue* TableCursor::find(std::string_view key) const {
   if (table_ == nullptr) {
     return nullptr;
   }
@@ -53,8 +53,8 @@ const Entry* TableCursor::find(std::string_view key) const {
   return found == table_->entries.end() ? nullptr : &found->second;
 }
 
-const Entry* TableCursor::take(std::string_view key) {
-  const Entry* entry = find(key);
+const GivenValue* TableCursor::take(std::string_view key) {
+  const GivenValue* entry = find(key);
   if (entry != nullptr) {
     read_.set(entry->position);
   }
@@ -74,7 +74,7 @@ Location TableCursor::place() const {
 }
 
 Location TableCursor::place_of(std::string_view key) const {
-  const Entry* entry = find(key);
+  const GivenValue* entry = find(key);
   return entry != nullptr ? entry->value_place : place();
 }
 
@@ -90,13 +90,13 @@ void TableCursor::fail_missing(std::string_view key, const std::string& allowed)
   fail(key, fmt::format("missing; required: {}", allowed));
 }
 
-void TableCursor::fail_part(const Entry& entry, const toml::node& node, const Part& part,
+void TableCursor::fail_part(const GivenValue& entry, const toml::node& node, const Part& part,
                             const std::string& message) const {
   throw SceneError(entry.place_of(node), path_of(part), message);
 }
 
-const std::pair<const std::string, Entry>* TableCursor::first_unread() const {
-  const std::pair<const std::string, Entry>* first = nullptr;
+const std::pair<const std::string, GivenValue>* TableCursor::first_unread() const {
+  const std::pair<const std::string, GivenValue>* first = nullptr;
   if (table_ == nullptr) {
     return first;
   }
@@ -137,7 +137,7 @@ void TableCursor::reject_unread_with(std::string_view key, std::string_view word
   }
 }
 
-double TableCursor::number_in(const Entry& entry, const toml::node& node, const Part& part,
+double TableCursor::number_in(const GivenValue& entry, const toml::node& node, const Part& part,
                               const Range& range) const {
   if (!node.is_number()) {
     fail_part(entry, node, part,
@@ -166,7 +166,7 @@ double TableCursor::real(std::string_view key, double absent) {
 
 double TableCursor::real_in(std::string_view key, const Range& range,
                             std::optional<double> absent) {
-  const Entry* entry = take(key);
+  const GivenValue* entry = take(key);
   if (entry != nullptr) {
     return number_in(*entry, variant_.value(*entry), {key}, range);
   }
@@ -181,7 +181,7 @@ std::optional<double> TableCursor::optional_real(std::string_view key) {
   return has(key) ? std::optional(real_in(key, range)) : std::nullopt;
 }
 
-std::int64_t TableCursor::whole_number(std::string_view key, const Entry& entry,
+std::int64_t TableCursor::whole_number(std::string_view key, const GivenValue& entry,
                                        const Integer& range) const {
   const toml::node& node = variant_.value(entry);
   const toml::value<std::int64_t>* value = node.as_integer();
@@ -202,17 +202,17 @@ std::int64_t TableCursor::integer(std::string_view key) {
 
 std::int64_t TableCursor::integer_in(std::string_view key, const Integer& range,
                                      std::int64_t absent) {
-  const Entry* entry = take(key);
+  const GivenValue* entry = take(key);
   return entry != nullptr ? whole_number(key, *entry, range) : absent;
 }
 
 std::optional<std::int64_t> TableCursor::optional_integer(std::string_view key) {
-  const Entry* entry = take(key);
+  const GivenValue* entry = take(key);
   return entry != nullptr ? std::optional(whole_number(key, *entry, allowed<Integer>(key)))
                           : std::nullopt;
 }
 
-std::size_t TableCursor::word_in(const Entry& entry, const toml::node& node, const Part& part,
+std::size_t TableCursor::word_in(const GivenValue& entry, const toml::node& node, const Part& part,
                                  const Words& allowed) const {
   const toml::value<std::string>* text = node.as_string();
   if (text != nullptr) {
@@ -233,7 +233,7 @@ std::size_t TableCursor::word_in(const Entry& entry, const toml::node& node, con
 
 std::size_t TableCursor::word(std::string_view key) {
   const Words& words = allowed<Word>(key).allowed;
-  const Entry* entry = take(key);
+  const GivenValue* entry = take(key);
   if (entry != nullptr) {
     return word_in(*entry, variant_.value(*entry), {key}, words);
   }
@@ -247,7 +247,7 @@ std::size_t TableCursor::word(std::string_view key) {
 std::vector<std::size_t> TableCursor::words(std::string_view key) {
   const Words& words = allowed<WordList>(key).allowed;
   std::vector<std::size_t> indices;
-  const Entry* entry = take(key);
+  const GivenValue* entry = take(key);
   if (entry == nullptr) {
     return indices;
   }
@@ -270,8 +270,8 @@ std::vector<std::size_t> TableCursor::words(std::string_view key) {
   return indices;
 }
 
-TableCursor::Pair TableCursor::pair_in(const Entry& entry, const toml::node& node, const Part& part,
-                                       const Profile& profile) const {
+TableCursor::Pair TableCursor::pair_in(const GivenValue& entry, const toml::node& node,
+                                       const Part& part, const Profile& profile) const {
   const toml::array* pair = node.as_array();
   if (pair == nullptr || pair->size() != 2) {
     const std::string found =
@@ -282,7 +282,7 @@ TableCursor::Pair TableCursor::pair_in(const Entry& entry, const toml::node& nod
           number_in(entry, (*pair)[1], {part.key, part.element, 1}, profile.value)};
 }
 
-void TableCursor::check_time(const Entry& entry, const toml::node& node, const Part& part,
+void TableCursor::check_time(const GivenValue& entry, const toml::node& node, const Part& part,
                              const std::vector<Pair>& earlier, double time_s, Times times) const {
   const std::size_t count = earlier.size();
   if (count == 0 || time_s > earlier.back()[0]) {
@@ -314,7 +314,7 @@ std::vector<TableCursor::Pair> TableCursor::timed_values(std::string_view key, T
 std::vector<TableCursor::Pair> TableCursor::timed_values_in(std::string_view key,
                                                             const Profile& profile, Times times) {
   constexpr const char* allowed = "a list of pairs [[time in s, number], …]";
-  const Entry* entry = take(key);
+  const GivenValue* entry = take(key);
   if (entry == nullptr) {
     fail_missing(key, allowed);
   }

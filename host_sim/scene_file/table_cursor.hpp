@@ -94,34 +94,35 @@ class TableCursor {
     std::optional<std::size_t> member = std::nullopt;  ///< of the element
   };
 
-  const Entry* find(std::string_view key) const;
+  const GivenValue* find(std::string_view key) const;
   /// Marks the key as read; null where absent.
-  const Entry* take(std::string_view key);
+  const GivenValue* take(std::string_view key);
   /// The first value that nothing has asked for, options after the file; null if there is none.
-  const std::pair<const std::string, Entry>* first_unread() const;
+  const std::pair<const std::string, GivenValue>* first_unread() const;
   Location place() const;
   Location place_of(std::string_view key) const;
   std::string path_of(const Part& part) const;
   [[noreturn]] void fail_missing(std::string_view key, const std::string& allowed) const;
-  [[noreturn]] void fail_part(const Entry& entry, const toml::node& node, const Part& part,
+  [[noreturn]] void fail_part(const GivenValue& entry, const toml::node& node, const Part& part,
                               const std::string& message) const;
 
-  std::int64_t whole_number(std::string_view key, const Entry& entry, const Integer& range) const;
-  double number_in(const Entry& entry, const toml::node& node, const Part& part,
+  std::int64_t whole_number(std::string_view key, const GivenValue& entry,
+                            const Integer& range) const;
+  double number_in(const GivenValue& entry, const toml::node& node, const Part& part,
                    const Range& range) const;
-  std::size_t word_in(const Entry& entry, const toml::node& node, const Part& part,
+  std::size_t word_in(const GivenValue& entry, const toml::node& node, const Part& part,
                       const Words& allowed) const;
   std::size_t word(std::string_view key);
   std::vector<std::size_t> words(std::string_view key);
-  Pair pair_in(const Entry& entry, const toml::node& node, const Part& part,
+  Pair pair_in(const GivenValue& entry, const toml::node& node, const Part& part,
                const Profile& profile) const;
-  void check_time(const Entry& entry, const toml::node& node, const Part& part,
+  void check_time(const GivenValue& entry, const toml::node& node, const Part& part,
                   const std::vector<Pair>& earlier, double time_s, Times times) const;
 
   const Variant& variant_;
   const KeyTable& keys_;
   const SceneTable* table_;
-  std::bitset<most_keys> read_;  ///< by Entry::position
+  std::bitset<most_keys> read_;  ///< by GivenValue::position
 };
 
 }  // namespace sonoglide::scene_file

@@ -53,7 +53,7 @@ class Variant {
   const SceneTable* find(std::string_view name) const { return document_.find(name); }
   const Document& document() const { return document_; }
 
-  const toml::node& value(const Entry& entry) const {
+  const toml::node& value(const GivenValue& entry) const {
     return entry.value != nullptr ? *entry.value : values_[entry.varied].node();
   }
 

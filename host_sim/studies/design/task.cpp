@@ -54,6 +54,18 @@ std::vector<double> targets(const scene::Controller& controller) {
   return ratios;
 }
 
+/// With any other alone there is no curve of force over speed.
+void require_some_ratio(const std::vector<double>& ratios) {
+  const bool some = std::any_of(ratios.begin(), ratios.end(),
+                                [](double ratio) { return ratio >= least_ratio && ratio < 1.0; });
+  if (!some) {
+    throw configure::ConfigurationError(
+        "controller.target_friction_ratio",
+        fmt::format("no target to design for; allowed: at least one of {} to below 1",
+                    least_ratio));
+  }
+}
+
 SpeedRange speeds_of(const scene::Scene& scene) {
   const double fastest = configure::fastest_sliding_m_per_s(scene.sliding);
   double slowest = fastest;
@@ -83,6 +95,7 @@ Task make_task(const scene::Scene& scene, const std::vector<double>& ratios,
         "sliding.velocity_m_per_s",
         "nothing slides, and there is no friction ratio; allowed: a speed other than 0");
   }
+  require_some_ratio(task.ratios);
   std::sort(task.ratios.begin(), task.ratios.end());
   task.ratios.erase(std::unique(task.ratios.begin(), task.ratios.end()), task.ratios.end());
   return task;

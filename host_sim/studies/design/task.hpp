@@ -8,6 +8,9 @@
 
 namespace sonoglide::design {
 
+/// The least friction ratio that is designed for.
+inline constexpr double least_ratio = 1e-3;
+
 struct SpeedRange {
   double slowest_m_per_s;  ///< > 0
   double fastest_m_per_s;
@@ -24,7 +27,7 @@ struct Task {
 /// to a stop, is left out.
 ///
 /// @param ratios  in (0, 1); empty: the scene's targets
-/// @throws configure::ConfigurationError  no controller, or a contact without a steady orbit of the
+/// @throws configure::ConfigurationError  no controller, no ratio from least_ratio to below 1, or a contact without a steady orbit of the
 ///         drive's period or without a closed form: a friction.law but Dahl, Coulomb and Stribeck,
 ///         sign_convention "as_printed", another waveform than the cosine
 Task make_task(const scene::Scene& scene, const std::vector<double>& ratios,

@@ -325,6 +325,10 @@ const std::vector<BrokenScene> broken_scenes = {
      "duration_periods = 20\nwindow_start_periods = 30",
      "19:24: run.window_start_periods: 0.0005 s is not before the end of the run; allowed: less "
      "than 0.000333333 s"},
+    {"window_within_the_rounding_of_the_end", open_loop, "duration_periods = 20",
+     "duration_periods = 20\nwindow_start_periods = 19.9999999999",
+     "19:24: run.window_start_periods: 0.000333333 s is not before the end of the run; allowed: "
+     "less than 0.000333333 s"},
     {"zero_duration", closed_loop, "duration_s = 1e-3", "duration_s = 0.0",
      "14:14: run.duration_s: 0 is out of range; allowed: 1e-12 to 1e+09 s"},
     {"shorter_than_a_period", closed_loop, "duration_s = 1e-3", "duration_s = 1e-5",

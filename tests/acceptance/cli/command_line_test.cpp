@@ -153,5 +153,19 @@ TEST(RatioCommandTest, ReportsOutputThatCannotBeWritten) {
   EXPECT_EQ(folder.read("err"), "standard output: cannot be written\n");
 }
 
+/// Nobody can be told, but the exit code is that of the error, and a note stops no run.
+TEST(StandardErrorTest, MayBeClosedOrFull) {
+  const ScratchFolder folder;
+  const std::string unshaped = std::string(SONOGLIDE_SCENES) + "/target_step_unshaped.toml";
+  for (const char* unwritable : {">/dev/full", ">&-"}) {
+    SCOPED_TRACE(unwritable);
+    const std::string nowhere = std::string(" >out 2") + unwritable + " #";
+    EXPECT_EQ(folder.run("run nowhere.toml" + nowhere).exit_code, 2);
+    EXPECT_EQ(folder.run("fly" + nowhere).exit_code, 2);
+    EXPECT_EQ(folder.run("run --out noted " + shell_word(unshaped) + nowhere).exit_code, 0);
+    EXPECT_NE(folder.read("noted/summary.json"), "");
+  }
+}
+
 }  // namespace
 }  // namespace sonoglide::acceptance::command_line_test

@@ -8,7 +8,7 @@
 namespace sonoglide::acceptance {
 
 /// What it takes to run a command to its end.
-enum class Cost { instant, seconds, minutes, emulator };
+enum class Effort { instant, seconds, minutes, emulator };
 
 struct Command {
   std::string name;
@@ -18,7 +18,7 @@ struct Command {
   std::string folder;                ///< without --out; empty: it writes nothing
   std::vector<std::string> files;    ///< of a run to the end, sorted; empty where that is long
   std::vector<std::string> others;   ///< names that a file of somebody else keeps
-  Cost cost = Cost::instant;
+  Effort effort = Effort::instant;
 };
 
 /// For the names of the tests.
@@ -41,7 +41,7 @@ inline const std::vector<Command> command_table = {
      "out/closed_mps2-an386",
      {},
      {"summary.json"},
-     Cost::emulator},
+     Effort::emulator},
     {"configure",
      "closed.toml",
      "",
@@ -77,7 +77,7 @@ inline const std::vector<Command> command_table = {
      "out/open_work_precision",
      {"report.html", "work_precision.csv", "work_precision.svg"},
      {"work_precision.svg"},
-     Cost::seconds},
+     Effort::seconds},
     {"stability",
      "",
      "",
@@ -85,7 +85,7 @@ inline const std::vector<Command> command_table = {
      "out/stability",
      {},
      {"extremes.csv"},
-     Cost::minutes},
+     Effort::minutes},
     {"arithmetic",
      "closed.toml",
      "",
@@ -93,7 +93,7 @@ inline const std::vector<Command> command_table = {
      "out/closed_arithmetic",
      {},
      {"arithmetic.csv"},
-     Cost::emulator},
+     Effort::emulator},
     {"design",
      "closed.toml",
      "--ratio 0.5",

@@ -22,7 +22,7 @@ const std::string hint = "\nsonoglide --help lists the commands and their option
 
 bool runs_here(const Command& command) {
   constexpr bool has_emulators = SONOGLIDE_BOARD_TESTS != 0;
-  return has_emulators || command.cost != Cost::emulator;
+  return has_emulators || command.effort != Effort::emulator;
 }
 
 std::vector<Command> commands_that(const std::function<bool(const Command&)>& condition) {

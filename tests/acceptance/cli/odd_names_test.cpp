@@ -73,7 +73,7 @@ class OddNameTest : public testing::TestWithParam<std::string> {
 TEST_P(OddNameTest, IsOnlyShownByEveryCommand) {
   int checked = 0;
   for (const Command& command : command_table) {
-    if (!command.scene.empty() && command.cost == Cost::instant) {
+    if (!command.scene.empty() && command.effort == Effort::instant) {
       SCOPED_TRACE(command.name);
       fs::remove_all(inner_ / "out");
       const std::string name = scene(text_of_scene(command.scene));

@@ -28,6 +28,27 @@ PlantModel model_of(const Law& law, double friction_force = 0.0, double stiffnes
   return {{law, friction_force, sign}, {0.0}, stiffness};
 }
 
+/// A contact with what LuGre adds to the Dahl law, each number by its name.
+struct Contact : Law {
+  explicit Contact(double stiffness) { contact_stiffness = stiffness; }
+  Contact& falling_from(double friction_at_rest, double within_velocity) {
+    static_friction = friction_at_rest;
+    stribeck_velocity = within_velocity;
+    return *this;
+  }
+  Contact& damped(double damping) {
+    bristle_damping = damping;
+    return *this;
+  }
+  Contact& viscous(double friction_per_velocity) {
+    viscous_friction = friction_per_velocity;
+    return *this;
+  }
+};
+
+/// It has everything, of a size that shows.
+const Law complete = Contact(2.5).falling_from(1.5, 0.2).damped(0.1).viscous(0.06);
+
 /// psi and phi at constant speed, from psi = 0.
 void expect_relaxation(const RememberingState<Law>& state, const Law& law, double velocity,
                        double duration, double tolerance) {
@@ -45,7 +66,7 @@ void expect_relaxation(const RememberingState<Law>& state, const Law& law, doubl
 
 TEST(LuGre, RelaxesToItsStribeckCurveAtConstantSpeed) {
   for (const double velocity : {0.02, -0.02, 0.4, -3.0}) {
-    const Law law = {1.7, 1.8, 0.3, 0.05, 0.02};
+    const Law law = Contact(1.7).falling_from(1.8, 0.3).damped(0.05).viscous(0.02);
     auto taylor = configured<Taylor>(model_of(law), 1e-13);
     auto fixed = configured<FixedSteps>(model_of(law), 1e-3);
     for (const double duration : {0.7, 40.0}) {
@@ -71,11 +92,12 @@ double prescribed_ratio(const Law& law, double velocity_ratio, double setting = 
 }
 
 TEST(LuGreLimits, Dahl) {
-  EXPECT_NEAR(prescribed_ratio({0.404519756998724}, 0.5), 0.674948666956629, 1e-12);
-  EXPECT_NEAR(prescribed_ratio({2.023}, 0.1), 0.08814, 1e-5);
-  EXPECT_NEAR(prescribed_ratio({10.0}, 0.5), friction::dahl_friction_ratio(0.5, 10.0), 1e-12);
-  EXPECT_NEAR((prescribed_ratio<FixedSteps>({0.404519756998724}, 0.5, 1e-3)), 0.674948666956629,
-              1e-6);
+  EXPECT_NEAR(prescribed_ratio(Contact(0.404519756998724), 0.5), 0.674948666956629, 1e-12);
+  EXPECT_NEAR(prescribed_ratio(Contact(2.023), 0.1), 0.08814, 1e-5);
+  EXPECT_NEAR(prescribed_ratio(Contact(10.0), 0.5), friction::dahl_friction_ratio(0.5, 10.0),
+              1e-12);
+  EXPECT_NEAR((prescribed_ratio<FixedSteps>(Contact(0.404519756998724), 0.5, 1e-3)),
+              0.674948666956629, 1e-6);
 }
 
 TEST(LuGreLimits, DahlInSinglePrecision) {
@@ -90,13 +112,13 @@ TEST(LuGreLimits, DahlInSinglePrecision) {
 }
 
 TEST(LuGreLimits, Coulomb) {
-  EXPECT_NEAR(prescribed_ratio({3e3}, 0.5, 1e-8, 2), 1.0 / 3.0, 1e-3);
+  EXPECT_NEAR(prescribed_ratio(Contact(3e3), 0.5, 1e-8, 2), 1.0 / 3.0, 1e-3);
 }
 
 /// Whatever the bristles' damping, psi is periodic: the mean of its rate is nothing.
 TEST(LuGre, PeriodicMeanIsThatOfDahlAndTheViscousShare) {
   for (const double velocity_ratio : {0.2, 0.5, 0.9}) {
-    const Law law = {1.5, 1.0, 1.0, 0.4, 0.3};
+    const Law law = Contact(1.5).damped(0.4).viscous(0.3);
     EXPECT_NEAR(prescribed_ratio(law, velocity_ratio),
                 friction::dahl_friction_ratio(velocity_ratio, 1.5) + 0.3 * velocity_ratio, 1e-12);
   }
@@ -104,7 +126,7 @@ TEST(LuGre, PeriodicMeanIsThatOfDahlAndTheViscousShare) {
 
 /// Stiff bristles follow the curve: phi = g(V) sgn V + eta V, averaged over the phase.
 TEST(LuGre, StiffBristlesAverageTheStribeckCurve) {
-  const Law law = {3e3, 1.6, 0.4, 0.0, 0.1};
+  const Law law = Contact(3e3).falling_from(1.6, 0.4).viscous(0.1);
   constexpr int points = 200000;
   double sum = 0.0;
   for (int i = 0; i < points; ++i) {
@@ -117,7 +139,7 @@ TEST(LuGre, StiffBristlesAverageTheStribeckCurve) {
 
 /// A contact that does not slip is a spring and a damper: y'' = -k y - beta (kappa y + c y').
 TEST(LuGre, SmallVibrationOfAStuckContact) {
-  const Law law = {40.0, 1.5, 0.1, 0.3, 0.2};
+  const Law law = Contact(40.0).falling_from(1.5, 0.1).damped(0.3).viscous(0.2);
   const double beta = 0.5;
   const double k = 0.3;
   const double decay = 0.5 * beta * (0.3 + 0.2);
@@ -159,7 +181,7 @@ Peer peer_state(const PlantModel& model, const Interval<double>& interval, Peer 
 
 TEST(LuGre, ReversingContactAgreesWithAPeer) {
   for (const double sign : {1.0, -1.0}) {
-    const PlantModel model = model_of({2.5, 1.5, 0.2, 0.1, 0.06}, 0.3, 0.4, sign);
+    const PlantModel model = model_of(complete, 0.3, 0.4, sign);
     const Interval<double> interval =
         lasting(9.0).from_phase(0.8).driven(1.0).sliding(0.4).accelerating(0.01);
     const Peer expected = peer_state(model, interval, {0.3, -0.2, 0.1});
@@ -179,8 +201,7 @@ TEST(LuGre, ReversingContactAgreesWithAPeer) {
 
 template <std::size_t Order>
 double mean_friction(double tolerance) {
-  auto solver = configured<EventTaylor<PlantModel, Order>>(
-      model_of({2.5, 1.5, 0.2, 0.1, 0.06}, 0.3, 0.4), tolerance);
+  auto solver = configured<EventTaylor<PlantModel, Order>>(model_of(complete, 0.3, 0.4), tolerance);
   RememberingState<Law> state;
   MeanFriction<double> account;
   EXPECT_EQ(run_periods(solver, 4, 1.0, 0.4, state, account), Error::none);
@@ -195,7 +216,7 @@ TEST(LuGre, ToleranceIsThatOfTheMeanFriction) {
 }
 
 TEST(LuGre, MirroredMotionIsTheMirrorImageBitForBit) {
-  auto solver = configured<Taylor>(model_of({2.5, 1.5, 0.2, 0.1, 0.06}, 0.3, 0.4), 1e-12);
+  auto solver = configured<Taylor>(model_of(complete, 0.3, 0.4), 1e-12);
   const auto one =
       advanced(solver, lasting(9.0).from_phase(0.3).driven(1.0).sliding(0.4).accelerating(0.01),
                {{0.3, -0.2, 0.0}, 0.1});
@@ -209,14 +230,16 @@ TEST(LuGre, MirroredMotionIsTheMirrorImageBitForBit) {
 
 /// Explicit steps that are too long for the bristles are reported.
 TEST(LuGre, StepsTooLongForTheBristlesAreReported) {
-  auto solver = configured<FixedSteps>(model_of({1e4, 1.5, 0.2, 0.1, 0.06}), 0.01);
+  auto solver = configured<FixedSteps>(
+      model_of(Contact(1e4).falling_from(1.5, 0.2).damped(0.1).viscous(0.06)), 0.01);
   RememberingState<Law> state;
   NoAccount account;
   EXPECT_EQ(run_periods(solver, 1, 1.0, 0.5, state, account), Error::friction_bound_broken);
 }
 
 RC_GTEST_PROP(LuGreProperties, BalancesItsEnergyAndIsPassive, ()) {
-  Law law = {between(0.1, 50.0), between(1.0, 2.5), between(0.05, 2.0), between(0.0, 0.5)};
+  Law law = Contact(between(0.1, 50.0)).falling_from(between(1.0, 2.5), between(0.05, 2.0));
+  law.bristle_damping = between(0.0, 0.5);
   law.viscous_friction = law.bristle_damping * (law.static_friction - 1.0) * between(1.0, 2.0);
   const PlantModel model = model_of(law, between(0.0, 0.5), between(0.0, 2.0));
   const RememberingState<Law> before = {{between(-1.0, 1.0), between(-1.0, 1.0), 0.0},
@@ -249,7 +272,7 @@ struct Joints {
 
 template <class Solver>
 double worst_jump(double setting) {
-  auto solver = configured<Solver>(model_of({2.5, 1.5, 0.2, 0.1, 0.06}, 0.3, 0.4), setting);
+  auto solver = configured<Solver>(model_of(complete, 0.3, 0.4), setting);
   RememberingState<Law> state;
   NoAccount account;
   Joints joints;

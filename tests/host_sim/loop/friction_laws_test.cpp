@@ -9,12 +9,15 @@
 #include "firmware/friction/stribeck_friction_ratio.hpp"
 #include "host_sim/loop/run.hpp"
 #include "tests/common/constants/table_1_numbers.hpp"
+#include "tests/common/lugre.hpp"
 #include "tests/common/table_1.hpp"
 #include "tests/host_sim/loop/logs/logged_run.hpp"
 
 namespace sonoglide::loop::friction_laws_test {
 namespace {
 
+using tests::bare_lugre;
+using tests::damped_lugre;
 using tests::on_steady_orbit;
 using tests::period_s;
 using tests::table_1;
@@ -36,13 +39,13 @@ double window_ratio(const scene::Scene& scene) {
 }
 
 TEST(LuGreSceneTest, EnergyIdentity) {
-  scene::Scene scene = lugre(table_1(), {0.13, 0.02, 0.01, 0.02});
+  scene::Scene scene = lugre(table_1(), damped_lugre(0.13));
   scene.solver.tolerance = 1e-12;
   EXPECT_LE(std::abs(window_ratios(scene).balance_residual), 1e-9);
 }
 
 TEST(LuGreSceneTest, WithoutItsOwnPartsIsDahl) {
-  EXPECT_NEAR(window_ratio(lugre(table_1(), {0.1, 1.0, 0.0, 0.0})), window_ratio(table_1()), 1e-9);
+  EXPECT_NEAR(window_ratio(lugre(table_1(), bare_lugre(0.1, 1.0))), window_ratio(table_1()), 1e-9);
 }
 
 /// Damped bristles add nothing to the mean, viscous friction adds sigma2 Vt / Fc to it and to what
@@ -52,12 +55,14 @@ TEST(LuGreSceneTest, ViscousFrictionAddsItsShare) {
   const double viscous_N_s_per_m = 0.1;
   const double share = viscous_N_s_per_m * dahl.sliding.profile.front().velocity_m_per_s /
                        tests::Table1::friction_limit_N;
-  EXPECT_NEAR(window_ratio(lugre(dahl, {0.1, 1.0, 0.05, viscous_N_s_per_m})),
-              (window_ratio(dahl) + share) / (1.0 + share), 2e-5);
+  scene::laws::LuGre law = bare_lugre(0.1, 1.0);
+  law.bristle_damping_N_s_per_m = 0.05;
+  law.viscous_friction_N_s_per_m = viscous_N_s_per_m;
+  EXPECT_NEAR(window_ratio(lugre(dahl, law)), (window_ratio(dahl) + share) / (1.0 + share), 2e-5);
 }
 
 TEST(LuGreSceneTest, ClosedLoopReachesItsTargets) {
-  const scene::Scene scene = lugre(table_1_closed_loop(), {0.13, 0.02, 0.01, 0.02});
+  const scene::Scene scene = lugre(table_1_closed_loop(), damped_lugre(0.13));
   const LoggedRun logged = run_logged(scene);
   ASSERT_TRUE(logged.result.control.has_value());
   EXPECT_TRUE(logged.result.control->faults.empty());

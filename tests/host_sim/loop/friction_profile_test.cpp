@@ -18,6 +18,7 @@
 #include "host_sim/configure/solver_facts.hpp"
 #include "host_sim/configure/solver_methods.hpp"
 #include "host_sim/loop/moving_friction_plant.hpp"
+#include "tests/common/lugre.hpp"
 #include "tests/common/table_1.hpp"
 #include "tests/host_sim/loop/logs/logged_run.hpp"
 
@@ -209,7 +210,7 @@ Scene recorded(Scene scene) {
 
 const std::vector<scene::FrictionLaw>& laws() {
   static const std::vector<scene::FrictionLaw> all = {scene::laws::Dahl{},
-                                                      scene::laws::LuGre{0.4, 0.02, 0.01, 0.02},
+                                                      tests::damped_lugre(0.4),
                                                       scene::laws::Iwan{3},
                                                       scene::laws::Coulomb{},
                                                       scene::laws::Stribeck{0.3, 30.0},
@@ -318,7 +319,7 @@ TEST(FrictionProfileTest, TheForceGoesOverInNewtons) {
 
 /// Bristles that have more of a static friction than of a sliding one keep to their own bound.
 TEST(FrictionProfileTest, BristlesFollowTheNormalForce) {
-  Scene scene = heavy(scene::laws::LuGre{0.2, 1e-3, 0.0, 0.0});
+  Scene scene = heavy(tests::bare_lugre(0.2, 1e-3));
   scene.drive.reset();
   scene.plant.stiffness_N_per_m = 1e15;
   scene.friction.normal_force_N = 10.0;

@@ -9,6 +9,7 @@
 #include "host_sim/configure/solver_methods.hpp"
 #include "host_sim/loop/failure.hpp"
 #include "host_sim/loop/run.hpp"
+#include "tests/common/lugre.hpp"
 #include "tests/common/table_1.hpp"
 
 namespace sonoglide::loop::steady_orbit_test {
@@ -91,7 +92,7 @@ TEST(FindSteadyOrbitTest, IsWhereStiffAndStickingContactsSettle) {
 TEST(FindSteadyOrbitTest, IsWhereContactsWithMoreMemorySettle) {
   Scene scene = table_1();
   scene.plant.damping_N_s_per_m = 200.0;
-  scene.friction.law = scene::laws::LuGre{0.15, 0.02, 0.01, 0.02};
+  scene.friction.law = tests::damped_lugre(0.15);
   EXPECT_NEAR(friction_ratio_of_steady_orbit(scene), friction_ratio_after(scene, 600), 1e-6);
   for (const int elements : {1, 3, 8}) {
     scene.friction.law = scene::laws::Iwan{elements};

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "tests/common/constants/table_1_numbers.hpp"
+#include "tests/common/lugre.hpp"
 #include "tests/common/table_1.hpp"
 #include "tests/host_sim/loop/logs/logged_run.hpp"
 
@@ -18,8 +19,8 @@ using tests::pi;
 using tests::table_1;
 using tests::table_1_closed_loop;
 
-/// mu_s is half as large again, the curve is halfway down at 17 mm/s.
-const scene::laws::LuGre bristles = {0.15, 0.02, 0.01, 0.02};
+/// mu_s is half as large again.
+const scene::laws::LuGre bristles = tests::damped_lugre(0.15);
 /// Least friction at 50 mm/s, a quarter below the static one.
 const scene::laws::Stribeck curve = {0.75, 100.0};
 

@@ -30,6 +30,16 @@ TEST(MakeTaskTest, TakesRatiosAndSpeedsOfTheScene) {
   EXPECT_EQ(make_task(table_1(), {}, SpeedRange{0.01, 0.1}).speeds.fastest_m_per_s, 0.1);
 }
 
+TEST(MakeTaskTest, DeniesTargetsThatNoCurveOfForceHas) {
+  for (const double ratio : {1.0, 1e-9}) {
+    scene::Scene scene = table_1();
+    scene.controller->target_friction_ratio = {{0.0, ratio}};
+    expect_denied(scene, "controller.target_friction_ratio");
+    scene.controller->target_friction_ratio.push_back({1e-3, 0.5});
+    EXPECT_EQ(make_task(scene, {}, {}).ratios.size(), 2U);
+  }
+}
+
 TEST(MakeTaskTest, LeavesOutWhatIsSlowerThanTheSpeedFloor) {
   scene::Scene scene = table_1();
   scene.sliding.profile = {{0.0, 0.03}, {1e-3, -0.02}};
