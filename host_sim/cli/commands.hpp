@@ -2,8 +2,11 @@
 /// NAME_command.cpp.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <array>
+
+namespace CLI {
+class App;
+}
 
 namespace sonoglide::cli {
 

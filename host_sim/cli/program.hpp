@@ -1,9 +1,11 @@
 /// The command line as a whole.
 #pragma once
 
-#include <CLI/CLI.hpp>
-
 #include <vector>
+
+namespace CLI {
+class App;
+}
 
 namespace sonoglide::cli {
 

@@ -1,6 +1,7 @@
 #include "host_sim/cli/commands.hpp"
 
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <cstdlib>
 #include <memory>

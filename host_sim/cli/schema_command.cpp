@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include "host_sim/cli/commands.hpp"
 #include "host_sim/scene_file/json_schema.hpp"

@@ -1,11 +1,13 @@
 /// `stability` with as much work as is asked for.
 #pragma once
 
-#include <CLI/CLI.hpp>
-
 #include <cstdint>
 
 #include "host_sim/studies/stability/stability_map.hpp"
+
+namespace CLI {
+class App;
+}
 
 namespace sonoglide::cli {
 

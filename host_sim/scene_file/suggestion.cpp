@@ -23,6 +23,7 @@ bool lacks_only_unit(std::string_view name, std::string_view known) {
 template <class Named>
 std::vector<std::string_view> names_of(const std::vector<Named>& all) {
   std::vector<std::string_view> names;
+  names.reserve(all.size());
   for (const Named& each : all) {
     names.push_back(each.name);
   }

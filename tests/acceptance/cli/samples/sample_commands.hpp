@@ -1,7 +1,9 @@
 /// The list of a program that has one command more, as commands.hpp would have it.
 #pragma once
 
-#include <CLI/CLI.hpp>
+namespace CLI {
+class App;
+}
 
 namespace sonoglide::cli {
 
