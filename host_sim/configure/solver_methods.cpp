@@ -2,6 +2,7 @@
 
 #include "host_sim/configure/solver_facts.hpp"
 #include "host_sim/scene/friction_laws.hpp"
+#include "host_sim/scene/law_cores.hpp"
 
 namespace sonoglide::configure {
 

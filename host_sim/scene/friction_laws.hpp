@@ -70,12 +70,8 @@ constexpr bool is_elastic(const FrictionLaw& law) {
 }
 
 /// Which way the mass vibrates, seen from the sliding.
-constexpr friction::Vibration vibration_of(const FrictionLaw& law) {
-  return std::visit(
-      [](const auto& any) { return std::decay_t<decltype(any)>::template Core<double>::vibration; },
-      law);
-}
-constexpr bool vibrates_along(const FrictionLaw& law) {
+friction::Vibration vibration_of(const FrictionLaw& law);
+inline bool vibrates_along(const FrictionLaw& law) {
   return vibration_of(law) == friction::Vibration::along;
 }
 
@@ -107,15 +103,6 @@ constexpr int random_percent(const FrictionLaw& law) {
 }
 
 /// What is wrong where the contact's memory passes the law's bound.
-constexpr std::string_view broken_bound(const FrictionLaw& law) {
-  return std::visit(
-      [](const auto& any) -> std::string_view {
-        if constexpr (std::decay_t<decltype(any)>::template Core<double>::remembers) {
-          return any.bound_broken;
-        }
-        return "|F| > Fc";
-      },
-      law);
-}
+std::string_view broken_bound(const FrictionLaw& law);
 
 }  // namespace sonoglide::scene

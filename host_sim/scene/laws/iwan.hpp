@@ -4,8 +4,12 @@
 #include <cstddef>
 #include <string_view>
 
-#include "firmware/friction/iwan.hpp"
 #include "host_sim/scene/contact.hpp"
+
+namespace sonoglide::friction {
+template <class Number>
+struct Iwan;
+}
 
 namespace sonoglide::scene::laws {
 
@@ -21,12 +25,13 @@ struct Iwan {
   static constexpr int random_percent = 0;
   static constexpr bool is_bounded = true;
   static constexpr std::string_view bound_broken = "an element's force > its limit";
+  static constexpr int most_elements = 8;
 
   int elements = 1;
 
   template <class Keys>
   void visit_keys(Keys& keys, const ContactValues& /*contact*/) {
-    keys.optional("elements", elements, 1, static_cast<int>(Core<double>::most_elements),
+    keys.optional("elements", elements, 1, most_elements,
                   "number of springs in parallel, which slip at graded limits");
   }
 
@@ -36,6 +41,7 @@ struct Iwan {
 
   template <class Scalar>
   Core<Scalar> core(const ContactValues& contact, const PlantScales& scales) const {
+    static_assert(most_elements == static_cast<int>(Core<Scalar>::most_elements));
     return {static_cast<Scalar>(scales.contact_stiffness(contact.contact_stiffness_N_per_m)),
             static_cast<std::size_t>(elements)};
   }

@@ -3,9 +3,13 @@
 
 #include <string_view>
 
-#include "firmware/friction/lugre.hpp"
 #include "firmware/numeric/float_elementary.hpp"
 #include "host_sim/scene/contact.hpp"
+
+namespace sonoglide::friction {
+template <class Number>
+struct LuGre;
+}
 
 namespace sonoglide::scene::laws {
 

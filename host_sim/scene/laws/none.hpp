@@ -3,15 +3,20 @@
 
 #include <string_view>
 
-#include "firmware/friction/none.hpp"
 #include "host_sim/scene/contact.hpp"
+
+namespace sonoglide::friction {
+template <class Number>
+struct None;
+}
 
 namespace sonoglide::scene::laws {
 
 /// No friction. A law, named as its file is, has its own parameters in SI units, the unit in the
 /// name, and beside them:
 ///   name             its word: friction.law = "..."
-///   Core<Scalar>     the law of the core
+///   Core<Scalar>     the law of the core, declared only: what composes plants of it includes
+///                    law_cores.hpp
 ///   elastic          it yields like a spring before it slides: it takes contact_stiffness_N_per_m
 ///                    and initial_force_N, and its force is part of the state
 ///   map              the closed-form map that a controller is fed forward by

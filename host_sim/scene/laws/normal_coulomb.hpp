@@ -3,8 +3,12 @@
 
 #include <string_view>
 
-#include "firmware/friction/normal_coulomb.hpp"
 #include "host_sim/scene/contact.hpp"
+
+namespace sonoglide::friction {
+template <class Number>
+struct NormalCoulomb;
+}
 
 namespace sonoglide::scene::laws {
 

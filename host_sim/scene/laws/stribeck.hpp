@@ -3,8 +3,12 @@
 
 #include <string_view>
 
-#include "firmware/friction/stribeck.hpp"
 #include "host_sim/scene/contact.hpp"
+
+namespace sonoglide::friction {
+template <class Number>
+struct Stribeck;
+}
 
 namespace sonoglide::scene::laws {
 

@@ -3,8 +3,12 @@
 
 #include <string_view>
 
-#include "firmware/friction/transverse_coulomb.hpp"
 #include "host_sim/scene/contact.hpp"
+
+namespace sonoglide::friction {
+template <class Number>
+struct TransverseCoulomb;
+}
 
 namespace sonoglide::scene::laws {
 

@@ -14,6 +14,7 @@
 #include "firmware/plant/state.hpp"
 #include "host_sim/configure/plant_model.hpp"
 #include "host_sim/configure/plant_scales.hpp"
+#include "host_sim/scene/law_cores.hpp"
 #include "host_sim/scene/scene.hpp"
 #include "host_sim/studies/stability/trial.hpp"
 #include "host_sim/studies/stability/witness.hpp"

@@ -15,6 +15,7 @@
 
 #include "host_sim/configure/solver_methods.hpp"
 #include "host_sim/loop/run.hpp"
+#include "host_sim/scene/law_cores.hpp"
 #include "host_sim/scene/names.hpp"
 #include "host_sim/scene_file/reader.hpp"
 #include "tests/common/constants/pi.hpp"
