@@ -1,5 +1,6 @@
 #include "host_sim/configure/solver_methods.hpp"
 
+#include "host_sim/configure/solver_cores.hpp"
 #include "host_sim/configure/solver_facts.hpp"
 #include "host_sim/scene/friction_laws.hpp"
 #include "host_sim/scene/law_cores.hpp"

@@ -8,9 +8,6 @@
 #include <type_traits>
 #include <utility>
 
-#include "firmware/friction/none.hpp"
-#include "firmware/plant/drive.hpp"
-#include "firmware/plant/model.hpp"
 #include "host_sim/configure/solvers/event_gauss.hpp"
 #include "host_sim/configure/solvers/event_taylor.hpp"
 #include "host_sim/configure/solvers/rk4.hpp"
@@ -78,14 +75,5 @@ constexpr std::size_t solver_index(std::string_view name) {
 
 template <class Described>
 inline constexpr scene::SolverMethod method_of{solver_index(Described::name)};
-
-/// Whether a solver takes a law of the core.
-template <class Described, class Law>
-inline constexpr bool takes_law = [] {
-  // It is no type for a law that it does not take, but answers for every law elsewhere.
-  using Scalar = typename Law::Scalar;
-  using AnyModel = plant::Model<friction::None<Scalar>, plant::Undamped<Scalar>, plant::NoDrive>;
-  return Described::template Core<AnyModel, Described::orders[0]>::template solves<Law>;
-}();
 
 }  // namespace sonoglide::configure

@@ -145,7 +145,7 @@ PlantText float_plant(const SceneNumbers& scene) {
 )",
       fmt::format(
           R"(using PlantModel = plant::Model<friction::Dahl<float>, plant::{}<float>, plant::CosineDrive>;
-using PlantBoard = hal::simulated::PlantBoard<plant::Strang<PlantModel>, {}>;
+using PlantBoard = hal::simulated::PlantBoard<plant::EqualStepStrang<PlantModel>, {}>;
 
 inline constexpr PlantBoard::Parameters plant_parameters{{
     {},  // contact, damping, stiffness

@@ -10,6 +10,7 @@
 
 #include "firmware/plant/drive.hpp"
 #include "firmware/plant/sliding.hpp"
+#include "host_sim/configure/solver_cores.hpp"
 #include "host_sim/configure/solver_methods.hpp"
 #include "host_sim/loop/composed_plant.hpp"
 #include "host_sim/loop/plant_description.hpp"

@@ -110,7 +110,7 @@ class FloatPlant {
  private:
   using Model = plant::Model<friction::Dahl<float>, plant::Undamped<float>, plant::CosineDrive>;
 
-  plant::Strang<Model> solver_;
+  plant::EqualStepStrang<Model> solver_;
   plant::State<float> state_;
   float sliding_;
   float full_drive_;

@@ -23,7 +23,7 @@ namespace sonoglide::plant {
 /// stable and 5 % fast. In a stiff contact the friction jumps at a reversal, and the kicks place
 /// the jump to within a step only: first order in step beta.
 template <class ModelType>
-class Strang {
+class EqualStepStrang {
  public:
   using Model = ModelType;
   using Scalar = typename Model::Scalar;

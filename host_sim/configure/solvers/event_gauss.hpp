@@ -5,8 +5,12 @@
 #include <cstddef>
 #include <string_view>
 
-#include "firmware/plant/gauss/event_gauss.hpp"
 #include "host_sim/configure/study_terms.hpp"
+
+namespace sonoglide::plant {
+template <class Model, std::size_t Nodes>
+class EventGauss;
+}
 
 namespace sonoglide::configure::solvers {
 

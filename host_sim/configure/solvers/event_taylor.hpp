@@ -6,12 +6,16 @@
 #include <cstddef>
 #include <string_view>
 
-#include "firmware/plant/taylor/event_taylor.hpp"
 #include "host_sim/configure/study_terms.hpp"
+
+namespace sonoglide::plant {
+template <class Model, std::size_t Order>
+class EventTaylor;
+}
 
 namespace sonoglide::configure::solvers {
 
-/// A solver, named as its file is, has:
+/// A solver, named as its file and as the core's `firmware/plant/*/NAME.hpp`, has:
 ///   name               its word in a scene: solver.method = "..."
 ///   adaptive           true if it picks its own steps by the key `tolerance`; if false it requires
 ///                      the key `step_s`
@@ -24,7 +28,7 @@ namespace sonoglide::configure::solvers {
 ///   composed_lean      true if common scenes have compositions of their own, without damping or
 ///                      sliding acceleration where a scene has none; false: one for all scenes
 ///   counts_events      true if it notices reversals, sticks and releases
-///   Core<Model, Order> the solver of the core; which laws it takes that says itself
+///   Core<Model, Order> the solver of the core, declared only; which laws it takes that says itself
 /// and for the studies of solvers:
 ///   palette            colours of its curves in `work-precision`, shared with others like it
 ///   float64_sweeps, float32_sweeps  its settings there

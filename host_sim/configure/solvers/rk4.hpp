@@ -4,8 +4,12 @@
 #include <array>
 #include <string_view>
 
-#include "firmware/plant/rk4/rk4.hpp"
 #include "host_sim/configure/study_terms.hpp"
+
+namespace sonoglide::plant {
+template <class Model>
+class Rk4;
+}
 
 namespace sonoglide::configure::solvers {
 

@@ -4,8 +4,12 @@
 #include <array>
 #include <string_view>
 
-#include "firmware/plant/strang/adaptive_strang.hpp"
 #include "host_sim/configure/study_terms.hpp"
+
+namespace sonoglide::plant {
+template <class Model>
+class Strang;
+}
 
 namespace sonoglide::configure::solvers {
 
@@ -22,7 +26,7 @@ struct Strang {
   static constexpr bool composed_lean = true;
   static constexpr bool counts_events = true;
   template <class Model, int /*Order*/>
-  using Core = plant::AdaptiveStrang<Model>;
+  using Core = plant::Strang<Model>;
 
   static constexpr Palette palette = Palette::green;
   static constexpr std::array<Sweep, 1> float64_sweeps = {{{0, 1, 9}}};

@@ -18,7 +18,7 @@
 namespace sonoglide::paper {
 namespace {
 
-constexpr double frequency_Hz = 22e3;
+constexpr double dong_frequency_Hz = 22e3;
 constexpr Interval amplitudes_m = {0.5e-6, 5e-6};
 constexpr Interval coefficients = {0.1, 0.8};
 constexpr double poisson_number = 0.3;
@@ -26,7 +26,7 @@ constexpr double poisson_number = 0.3;
 constexpr double normal_by_tangential = (2.0 - poisson_number) / (2.0 - 2.0 * poisson_number);
 
 double critical_velocity_m_per_s(double amplitude_m, double coefficient) {
-  return coefficient * normal_by_tangential * numeric::two_pi * frequency_Hz * amplitude_m;
+  return coefficient * normal_by_tangential * numeric::two_pi * dong_frequency_Hz * amplitude_m;
 }
 
 /// Of a vibration as large as the indentation.

@@ -35,7 +35,7 @@ std::vector<double> over_velocity_ratio(const std::function<double(double)>& map
   return values;
 }
 
-std::vector<LawCurve> compute() {
+std::vector<LawCurve> law_curves() {
   std::vector<LawCurve> curves;
   for (const ContactLaw& law : contact_laws()) {
     curves.push_back({law, simulated_ratios(law), {}});
@@ -203,7 +203,7 @@ Claim printed_solver() {
 }  // namespace
 
 Figure figure_12() {
-  const std::vector<LawCurve> laws = compute();
+  const std::vector<LawCurve> laws = law_curves();
   const SlowSliding slow = slow_sliding();
   const std::vector<MeasurementComparison> comparisons = compare_measurements();
   Figure figure{

@@ -21,7 +21,7 @@ struct Laws {
   SimulatedRatios simulated_dahl;
 };
 
-Laws compute() {
+Laws both_laws() {
   scene::Scene scene = table_1();
   const double dahl = dahl_number(scene);
   const std::vector<double> velocities = sliding_velocities_m_per_s(scene);
@@ -116,7 +116,7 @@ std::vector<Claim> claims(const Laws& laws) {
 }  // namespace
 
 Figure figure_2() {
-  const Laws laws = compute();
+  const Laws laws = both_laws();
   return {
       2,
       "Coulomb and Dahl friction under vibration",

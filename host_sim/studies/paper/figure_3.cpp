@@ -13,14 +13,14 @@
 namespace sonoglide::paper {
 namespace {
 
-constexpr double periods_shown = 3.0;
-constexpr double samples_per_period = 400.0;
+constexpr double loop_periods = 3.0;
+constexpr double samples_per_loop = 400.0;
 
 loop::Recording record_steady(const scene::FrictionLaw& law) {
   scene::Scene scene = steady(table_1());
   scene.friction.law = law;
-  scene.run.duration_s = periods_shown * period_s(scene);
-  return record(scene, 0.0, period_s(scene) / samples_per_period);
+  scene.run.duration_s = loop_periods * period_s(scene);
+  return record(scene, 0.0, period_s(scene) / samples_per_loop);
 }
 
 /// Largest change from one sample to the next.

@@ -17,7 +17,7 @@ namespace sonoglide::paper {
 namespace {
 
 constexpr double highest_Hz = 260e3;
-constexpr int samples_per_period = 32;
+constexpr int spectrum_samples_per_period = 32;
 constexpr int periods = 2000;
 /// Peaks below this part of the highest are left unnamed.
 constexpr double least_peak = 3e-3;
@@ -174,7 +174,7 @@ std::vector<Claim> claims(const Lines& velocity, const Lines& steady_velocity, c
 
 Figure figure_6() {
   scene::Scene scene = table_1();
-  const double interval_s = period_s(scene) / samples_per_period;
+  const double interval_s = period_s(scene) / spectrum_samples_per_period;
   scene.run.duration_s = periods * period_s(scene);
   const loop::Recording from_rest = record(scene, 0.0, interval_s);
   const Lines velocity = lines(velocities_m_per_s(from_rest), interval_s, scene);

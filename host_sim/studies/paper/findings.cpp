@@ -17,7 +17,7 @@
 namespace sonoglide::paper {
 namespace {
 
-constexpr double ratios[] = {0.1, 0.25, 0.5, 0.75, 0.95, 1.2};
+constexpr double balanced_ratios[] = {0.1, 0.25, 0.5, 0.75, 0.95, 1.2};
 
 double largest_of(std::initializer_list<double> terms) {
   double largest = 0.0;
@@ -81,7 +81,7 @@ Balance steady_balance(double velocity_ratio) {
 
 std::vector<Balance> balances() {
   std::vector<Balance> all;
-  for (const double ratio : ratios) {
+  for (const double ratio : balanced_ratios) {
     scene::Scene scene = at_velocity_ratio(table_1(), ratio);
     scene.run.window_start_s = scene.run.duration_s - period_s(scene);
     all.push_back(balance("from_rest", ratio, scene));

@@ -59,7 +59,7 @@ namespace {
 constexpr double ratio_step = 0.05;
 constexpr int ratio_count = 24;
 
-loop::PowerRatios ratios(const scene::Scene& scene) {
+loop::PowerRatios power_ratios(const scene::Scene& scene) {
   try {
     return loop::power_ratios(scene, loop::run(scene).whole);
   } catch (const loop::ComputationError&) {
@@ -93,8 +93,8 @@ SimulatedRatios ratio_curve(const scene::Scene& scene, const std::vector<double>
   tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
     scene::Scene point = scene;
     point.sliding.profile = {{0.0, sliding_m_per_s[i]}};
-    const loop::PowerRatios from_rest = ratios(point);
-    const loop::PowerRatios on_orbit = ratios(steady(point));
+    const loop::PowerRatios from_rest = power_ratios(point);
+    const loop::PowerRatios on_orbit = power_ratios(steady(point));
     curve.friction_from_rest[i] = from_rest.friction_ratio;
     curve.dissipation_from_rest[i] = from_rest.dissipation_ratio;
     curve.friction_steady[i] = on_orbit.friction_ratio;

@@ -10,17 +10,18 @@ namespace sonoglide::paper {
 
 namespace {
 
-constexpr std::string_view own_solver =
+constexpr std::string_view own_method =
     R"(method = "event_taylor"
 tolerance = 1e-13
 )";
-constexpr std::string_view printed_solver =
+constexpr std::string_view printed_method =
     R"(method = "rk4"
 step_s = 1.667e-8
 )";
-constexpr std::string_view from_rest = "duration_periods = 100\n";
+constexpr std::string_view start_from_rest = "duration_periods = 100\n";
 /// The free vibration that a start from rest leaves is then a thousandth of the drive's.
-constexpr std::string_view from_vibration = "duration_periods = 200\nwindow_start_periods = 100\n";
+constexpr std::string_view start_from_vibration =
+    "duration_periods = 200\nwindow_start_periods = 100\n";
 
 struct Parts {
   std::string_view title;
@@ -56,20 +57,20 @@ force_amplitude_N = 384.0
 
 std::string table_1_text() {
   return text_of({"The paper's Table 1 at 384 N and a velocity ratio of 0.5, from rest.",
-                  dahl_contact, own_solver, from_rest});
+                  dahl_contact, own_method, start_from_rest});
 }
 
 std::string table_2_text() {
   return text_of(
       {"The paper's Table 2: Table 1 and the paper's own solver, 1000 steps in a carrier "
        "period.",
-       dahl_contact, printed_solver, from_rest});
+       dahl_contact, printed_method, start_from_rest});
 }
 
 std::string table_1_text(std::string_view contact) {
   return text_of(
       {"The paper's Table 1 at 384 N and a velocity ratio of 0.5, begun on the vibration.", contact,
-       own_solver, from_vibration,
+       own_method, start_from_vibration,
        "initial_displacement_m = -1.4172638629133863e-7   # -Fe/(m w^2 - Ks)\n"});
 }
 

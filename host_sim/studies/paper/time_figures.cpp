@@ -20,7 +20,7 @@ namespace {
 
 constexpr int periods_shown = 30;
 constexpr int samples_per_period = 40;
-constexpr const char* conditions =
+constexpr const char* stated_conditions =
     "Table 1 at 384 N, velocity ratio 0.5. From rest: x = x' = F = 0 at the beginning; the first "
     "30 "
     "carrier periods are shown. Steady orbit: what is left of it in the end.";
@@ -34,7 +34,7 @@ struct Motions {
   loop::Recording on_orbit;
 };
 
-Motions compute() {
+Motions simulated_motions() {
   const auto shown = [](scene::Scene scene) {
     scene.run.duration_s = periods_shown * period_s(scene);
     return record(scene, 0.0, period_s(scene) / samples_per_period);
@@ -113,14 +113,14 @@ Claim dissipates(const std::vector<double>& steady_powers_W, double limit_N) {
 }  // namespace
 
 Figure figure_4() {
-  const Motions motions = compute();
+  const Motions motions = simulated_motions();
   const std::vector<double> displacement = displacements_m(motions.from_rest);
   const std::vector<double> velocity = velocities_m_per_s(motions.from_rest);
   const std::vector<double> steady_displacement = displacements_m(motions.on_orbit);
   const std::vector<double> steady_velocity = velocities_m_per_s(motions.on_orbit);
   return {4,
           "Displacement and velocity over time",
-          conditions,
+          stated_conditions,
           command,
           to_csv({{"time_s", motions.from_rest.time_s},
                   {"displacement_from_rest_m", displacement},
@@ -136,7 +136,7 @@ Figure figure_4() {
 }
 
 Figure figure_5() {
-  const Motions motions = compute();
+  const Motions motions = simulated_motions();
   const std::vector<double> force = friction_forces_N(motions.from_rest);
   const std::vector<double> power = dissipated_powers_W(motions.from_rest);
   const std::vector<double> steady_force = friction_forces_N(motions.on_orbit);
@@ -144,7 +144,7 @@ Figure figure_5() {
   const double limit_N = table_1().friction.limit_N();
   return {5,
           "Friction force and dissipated power over time",
-          conditions,
+          stated_conditions,
           command,
           to_csv({{"time_s", motions.from_rest.time_s},
                   {"friction_force_from_rest_N", force},

@@ -9,6 +9,7 @@
 #include "firmware/numeric/turn.hpp"
 #include "firmware/plant/state_check.hpp"
 #include "host_sim/configure/plant_scales.hpp"
+#include "host_sim/configure/solver_cores.hpp"
 #include "host_sim/configure/solver_methods.hpp"
 #include "host_sim/studies/stability/run_trial.hpp"
 

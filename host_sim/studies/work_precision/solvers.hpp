@@ -46,9 +46,9 @@ std::string status_of(plant::Error error);
 /// A setting in words: "tolerance 1e-08", "1000 steps per period".
 std::string setting_text(Knob knob, double setting);
 
-/// One for each order in which a solver takes part, in double or in float. Defined in
-/// composed.hpp; each has a translation unit of its own, which CMake makes of
-/// contenders.cpp.in: they take long to compile.
+/// One for each order in which a solver takes part, in double or in float. Defined in composed.hpp.
+/// Those of a solver have a translation unit of their own, which CMake makes of contenders.cpp.in:
+/// they take long to compile.
 template <class Described, class Scalar>
 std::vector<ComparedSolver> contenders();
 

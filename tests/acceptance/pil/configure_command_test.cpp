@@ -30,7 +30,7 @@ TEST(ConfigureCommandTest, WritesThePlantAsWellWhereItIsAskedTo) {
   EXPECT_EQ(folder.run("configure " + scene + " --plant float32").out,
             "header: out/target_step" + name + "\nplant:  out/target_step" + plant_name + "\n");
   const std::string header = folder.read("out/target_step" + plant_name);
-  EXPECT_NE(header.find("plant::Strang<PlantModel>"), std::string::npos) << header;
+  EXPECT_NE(header.find("plant::EqualStepStrang<PlantModel>"), std::string::npos) << header;
   EXPECT_NE(header.find("plant_periods = 360;"), std::string::npos) << header;
   EXPECT_EQ(folder.run("configure " + scene + " --plant q31 --out q31").exit_code, 0);
   EXPECT_NE(folder.read("q31" + plant_name).find("FixedPlantBoard"), std::string::npos);

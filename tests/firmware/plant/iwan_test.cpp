@@ -26,7 +26,7 @@ using Forces = Law::Memory;
 static_assert(Taylor::solves<Law>);
 static_assert(!Rk4<DahlModel<double>>::solves<Law>);
 static_assert(!Rk4Event<DahlModel<double>>::solves<Law>);
-static_assert(!Strang<DahlModel<double>>::solves<Law>);
+static_assert(!EqualStepStrang<DahlModel<double>>::solves<Law>);
 
 PlantModel model_of(const Law& law, double friction_force = 0.0, double stiffness = 0.0,
                     double sign = 1.0) {

@@ -10,7 +10,7 @@
 #include "firmware/plant/gauss/event_gauss.hpp"
 #include "firmware/plant/rk4/rk4_event.hpp"
 #include "firmware/plant/sliding.hpp"
-#include "firmware/plant/strang/adaptive_strang.hpp"
+#include "firmware/plant/strang/strang.hpp"
 #include "tests/firmware/plant/runs/motion.hpp"
 
 namespace sonoglide::plant::sliding_test {
@@ -104,7 +104,7 @@ RC_GTEST_PROP(ConstantSlidingTest, EventGaussOnDahl, ()) {
   expect_same<Gauss>(any_dahl(), 1e-8);
 }
 RC_GTEST_PROP(ConstantSlidingTest, StrangOnDahl, ()) {
-  expect_same<AdaptiveStrang>(any_dahl(), 1e-3);
+  expect_same<Strang>(any_dahl(), 1e-3);
 }
 RC_GTEST_PROP(ConstantSlidingTest, Rk4OnDahl, ()) {
   expect_same<Rk4>(any_dahl(), 0.05);

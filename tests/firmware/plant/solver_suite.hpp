@@ -10,8 +10,8 @@
 
 #include "firmware/plant/gauss/event_gauss.hpp"
 #include "firmware/plant/rk4/rk4_event.hpp"
-#include "firmware/plant/strang/adaptive_strang.hpp"
 #include "firmware/plant/strang/equal_step_strang.hpp"
+#include "firmware/plant/strang/strang.hpp"
 #include "tests/firmware/plant/runs/motion.hpp"
 
 namespace sonoglide::plant {
@@ -57,11 +57,11 @@ struct Rk4EventMethod {
 };
 
 template <class Number>
-struct StrangMethod {
+struct EqualStepStrangMethod {
   using Scalar = Number;
   template <class Model>
-  using Solver = Strang<Model>;
-  static std::string name() { return "Strang"; }
+  using Solver = EqualStepStrang<Model>;
+  static std::string name() { return "EqualStepStrang"; }
   static constexpr double setting = is_single<Number> ? 0.01 : 1e-3;
   static constexpr double coarse_setting = 0.3;
   static constexpr double smooth = is_single<Number> ? 1e-4 : 2e-7;
@@ -69,11 +69,11 @@ struct StrangMethod {
 };
 
 /// The splitting that a scene gets under the name of strang.
-struct AdaptiveStrangMethod {
+struct StrangMethod {
   using Scalar = double;
   template <class Model>
-  using Solver = AdaptiveStrang<Model>;
-  static std::string name() { return "AdaptiveStrang"; }
+  using Solver = Strang<Model>;
+  static std::string name() { return "Strang"; }
   static constexpr double setting = 1e-6;
   static constexpr double coarse_setting = 1e-2;
   static constexpr double smooth = 1e-5;
@@ -95,15 +95,15 @@ struct GaussMethod {
 
 using OscillatorMethods =
     testing::Types<TaylorMethod<double, 8>, TaylorMethod<double, 12>, TaylorMethod<double, 16>,
-                   Rk4Method<double>, Rk4EventMethod<double>, StrangMethod<double>,
-                   AdaptiveStrangMethod, TaylorMethod<float, 8>, Rk4Method<float>,
-                   Rk4EventMethod<float>, StrangMethod<float>>;
+                   Rk4Method<double>, Rk4EventMethod<double>, EqualStepStrangMethod<double>,
+                   StrangMethod, TaylorMethod<float, 8>, Rk4Method<float>, Rk4EventMethod<float>,
+                   EqualStepStrangMethod<float>>;
 using SolverMethods =
     testing::Types<TaylorMethod<double, 8>, TaylorMethod<double, 12>, TaylorMethod<double, 16>,
-                   Rk4Method<double>, Rk4EventMethod<double>, StrangMethod<double>,
-                   AdaptiveStrangMethod, GaussMethod<double, 8>, GaussMethod<float, 8>,
+                   Rk4Method<double>, Rk4EventMethod<double>, EqualStepStrangMethod<double>,
+                   StrangMethod, GaussMethod<double, 8>, GaussMethod<float, 8>,
                    TaylorMethod<float, 8>, Rk4Method<float>, Rk4EventMethod<float>,
-                   StrangMethod<float>>;
+                   EqualStepStrangMethod<float>>;
 
 struct SolverMethodName {
   template <class Method>

@@ -40,13 +40,13 @@ double order(const Course& course, double coarse, double fine) {
 TEST(SolverOrder, BetweenReversals) {
   EXPECT_NEAR(order<Rk4Method<double>>(sliding_on, 0.04, 0.02), 4.0, 0.1);
   EXPECT_NEAR(order<Rk4EventMethod<double>>(sliding_on, 0.04, 0.02), 4.0, 0.1);
-  EXPECT_NEAR(order<StrangMethod<double>>(sliding_on, 0.04, 0.02), 2.0, 0.05);
+  EXPECT_NEAR(order<EqualStepStrangMethod<double>>(sliding_on, 0.04, 0.02), 2.0, 0.05);
 }
 
 TEST(SolverOrder, AcrossReversals) {
   EXPECT_NEAR(order<Rk4Method<double>>(reversing, 0.1, 0.001), 2.0, 0.5);
   EXPECT_NEAR(order<Rk4EventMethod<double>>(reversing, 0.1, 0.01), 4.0, 0.2);
-  EXPECT_NEAR(order<StrangMethod<double>>(reversing, 0.1, 0.01), 2.0, 0.1);
+  EXPECT_NEAR(order<EqualStepStrangMethod<double>>(reversing, 0.1, 0.01), 2.0, 0.1);
 }
 
 /// Each halving gains, down to rounding; there the error stays.
@@ -59,7 +59,7 @@ TEST(SolverOrder, HalvingTheStepGainsUntilRounding) {
   }
   last = 1.0;
   for (double step = 0.1; step > 1e-4; step /= 2.0) {
-    const double found = error<StrangMethod<double>>(reversing, step);
+    const double found = error<EqualStepStrangMethod<double>>(reversing, step);
     EXPECT_LT(found, 0.4 * last + 3e-11) << step;
     last = found;
   }
@@ -85,7 +85,7 @@ TEST(SolverOrder, SplittingIsOfSixthOrderWithoutReaction) {
     const State<double> exact =
         run_of<TaylorMethod<double, 16>>(prescribed, reversing, start, 1e-16).state;
     const State<double> state =
-        run_of<StrangMethod<double>>(prescribed, reversing, start, step).state;
+        run_of<EqualStepStrangMethod<double>>(prescribed, reversing, start, step).state;
     EXPECT_NEAR(state.displacement, exact.displacement, 1e-12);
     EXPECT_NEAR(state.velocity, exact.velocity, 1e-12);
     return std::abs(state.friction - exact.friction);

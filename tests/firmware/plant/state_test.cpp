@@ -33,7 +33,7 @@ void expect_budget_kept() {
 TEST(FixedStepBudget, IsKnownBeforeTheFirstStep) {
   expect_budget_kept<Rk4<Contact>>();
   expect_budget_kept<Rk4Event<Contact>>();
-  expect_budget_kept<Strang<Contact>>();
+  expect_budget_kept<EqualStepStrang<Contact>>();
 }
 
 TEST(FixedStepBudget, CountsThePartsOfCutSteps) {

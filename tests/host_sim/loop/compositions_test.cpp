@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "host_sim/configure/solver_cores.hpp"
 #include "host_sim/configure/solver_methods.hpp"
 #include "host_sim/loop/run.hpp"
 #include "host_sim/scene/law_cores.hpp"

@@ -13,9 +13,9 @@
 namespace sonoglide::plant::equal_step_strang_test {
 namespace {
 
-static_assert(Strang<DahlModel<double>>::solves<friction::Dahl<double>>);
-static_assert(Strang<DahlModel<double>>::solves<friction::None<double>>);
-static_assert(!Strang<DahlModel<double>>::solves<friction::Coulomb<double>>);
+static_assert(EqualStepStrang<DahlModel<double>>::solves<friction::Dahl<double>>);
+static_assert(EqualStepStrang<DahlModel<double>>::solves<friction::None<double>>);
+static_assert(!EqualStepStrang<DahlModel<double>>::solves<friction::Coulomb<double>>);
 
 /// V = 1 - 2 x over a step of length 1: out and back by a quarter.
 TEST(FrictionArcs, FollowTheLawOutAndBack) {
@@ -60,7 +60,7 @@ TEST(StrangStuck, RingsAsASpringHoweverLongTheStep) {
   const double kappa = 1e4;
   const double beta = 0.5;
   const double w = std::sqrt(beta * kappa);
-  auto solver = configured<Strang<DahlModel<double>>>(
+  auto solver = configured<EqualStepStrang<DahlModel<double>>>(
       Case().contact_stiffness(kappa).friction_force(beta), 1.0);
   State<double> state = {1e-11, 0.0, kappa * 1e-11};
   double largest = 0.0;
@@ -78,7 +78,7 @@ TEST(StrangStuck, RingsAsASpringHoweverLongTheStep) {
 TEST(StrangFlow, IntervalsOfAnyLengthJoin) {
   using Free = Model<friction::None<double>, Undamped<double>, CosineDrive>;
   const Free model = {{}, {}, 0.7};
-  auto solver = configured<Strang<Free>>(model, 0.5);
+  auto solver = configured<EqualStepStrang<Free>>(model, 0.5);
   State<double> state;
   double phase = 0.0;
   for (const double part : {0.3, 2.0, 0.3, 0.0, 1e-9, 1.4}) {
@@ -116,7 +116,7 @@ class Table1Plant {
 
   static Scalar number(double value) { return static_cast<Scalar>(value); }
 
-  Strang<DahlModel<Scalar>> solver_;
+  EqualStepStrang<DahlModel<Scalar>> solver_;
   State<Scalar> state_;
 };
 

@@ -66,7 +66,7 @@ class DoublePlant {
   double full_drive_;
   double sliding_velocity_;
   State<double> state_;
-  Strang<Model> solver_;
+  EqualStepStrang<Model> solver_;
 };
 
 FixedStrang designed(const Model& model, double full_drive, double sliding_velocity,

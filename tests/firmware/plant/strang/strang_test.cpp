@@ -1,7 +1,7 @@
 /// The splitting that checks itself: what it hands over is within its tolerance, the rest it
 /// declines.
 
-#include "firmware/plant/strang/adaptive_strang.hpp"
+#include "firmware/plant/strang/strang.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
@@ -11,14 +11,14 @@
 
 #include "tests/firmware/plant/runs/motion.hpp"
 
-namespace sonoglide::plant::adaptive_strang_test {
+namespace sonoglide::plant::strang_test {
 namespace {
 
-static_assert(AdaptiveStrang<DahlModel<double>>::solves<friction::Dahl<double>>);
-static_assert(!AdaptiveStrang<DahlModel<double>>::solves<friction::Coulomb<double>>);
+static_assert(Strang<DahlModel<double>>::solves<friction::Dahl<double>>);
+static_assert(!Strang<DahlModel<double>>::solves<friction::Coulomb<double>>);
 
 using Contact = DampedDahlModel<double>;
-using Solver = AdaptiveStrang<Contact>;
+using Solver = Strang<Contact>;
 using Taylor = EventTaylor<Contact, 16>;
 
 constexpr double period = 2.0 * pi;
@@ -71,7 +71,7 @@ double distance(const Ran& a, const Ran& b, int periods) {
          std::abs(a.account.friction_integral - b.account.friction_integral) / (period * periods);
 }
 
-TEST(AdaptiveStrang, TheToleranceIsDelivered) {
+TEST(Strang, TheToleranceIsDelivered) {
   const Ran exact = run<Taylor>(ordinary, 1e-15, 4, 0.3, start);
   for (double tolerance = 1e-2; tolerance > 2e-8; tolerance /= 10.0) {
     const Ran found = run<Solver>(ordinary, tolerance, 4, 0.3, start);
@@ -82,7 +82,7 @@ TEST(AdaptiveStrang, TheToleranceIsDelivered) {
 
 /// Friction too weak for its energy to show what its mean is; the contact turns twice in a step,
 /// and reaches its limit both ways in between.
-TEST(AdaptiveStrang, TheMeanFrictionOfAStiffContactThatTurnsTwiceInAStep) {
+TEST(Strang, TheMeanFrictionOfAStiffContactThatTurnsTwiceInAStep) {
   const Contact grazing =
       Case().contact_stiffness(2.35e4).friction_force(2.88e-5).damping(1.08e-3).stiffness(0.726);
   const State<double> slipping = {0.0, 0.0, -0.646};
@@ -140,7 +140,7 @@ void declines_or_is_right(Checked& checked) {
   }
 }
 
-TEST(AdaptiveStrang, DeclinesOrIsRight) {
+TEST(Strang, DeclinesOrIsRight) {
   Checked checked;
   EXPECT_TRUE(rc::check([&checked] { declines_or_is_right(checked); }));
   EXPECT_GE(checked.balances, 20);
@@ -148,7 +148,7 @@ TEST(AdaptiveStrang, DeclinesOrIsRight) {
 }
 
 /// A step far too long for the ringing of a stuck contact.
-TEST(AdaptiveStrang, CutsAStepThatIsTooLongForTheContact) {
+TEST(Strang, CutsAStepThatIsTooLongForTheContact) {
   const Contact ringing = Case().contact_stiffness(1e4).friction_force(0.5);
   const State<double> displaced = {1e-11, 0.0, 1e-7};
   const double duration = 200.0 * pi / std::sqrt(0.5e4);
@@ -162,7 +162,7 @@ TEST(AdaptiveStrang, CutsAStepThatIsTooLongForTheContact) {
   EXPECT_LE(solver.cost().steps, 12320U);
 }
 
-TEST(AdaptiveStrang, DeclinesWhatItsStepsDoNotReach) {
+TEST(Strang, DeclinesWhatItsStepsDoNotReach) {
   const Contact stiff = Case().contact_stiffness(1e8).friction_force(0.5).stiffness(0.05);
   Solver solver;
   solver.configure(stiff, 1e-6, 1000);
@@ -176,16 +176,16 @@ TEST(AdaptiveStrang, DeclinesWhatItsStepsDoNotReach) {
   EXPECT_LE(solver.cost().steps, 1000U);
 }
 
-TEST(AdaptiveStrang, DeclinesAToleranceBelowRounding) {
+TEST(Strang, DeclinesAToleranceBelowRounding) {
   EXPECT_EQ(run<Solver>(ordinary, 1e-18, 1, 0.3, start, 5000).error, Error::too_many_steps);
 }
 
-TEST(AdaptiveStrang, TellsOfAStateThatIsNoNumber) {
+TEST(Strang, TellsOfAStateThatIsNoNumber) {
   const Ran lost = run<Solver>(ordinary, 1e-4, 1, 0.3, {std::nan(""), 0.0, 0.0}, 1000);
   EXPECT_NE(lost.error, Error::none);
 }
 
-TEST(AdaptiveStrang, OfASteadyMotionEveryPeriodTakesTheSameSteps) {
+TEST(Strang, OfASteadyMotionEveryPeriodTakesTheSameSteps) {
   auto solver = configured<Solver>(ordinary, 1e-5);
   State<double> state = start;
   NoAccount account;
@@ -198,7 +198,7 @@ TEST(AdaptiveStrang, OfASteadyMotionEveryPeriodTakesTheSameSteps) {
 }
 
 /// A contact that rings, and then slides to and fro as if it never had.
-TEST(AdaptiveStrang, ItsStepsGrowAgainWhereTheyMay) {
+TEST(Strang, ItsStepsGrowAgainWhereTheyMay) {
   const Contact model =
       Case().contact_stiffness(1e3).friction_force(1e-3).damping(0.2).stiffness(0.6);
   const auto steps_of_a_late_period = [&](double first_drive) {
@@ -217,7 +217,7 @@ TEST(AdaptiveStrang, ItsStepsGrowAgainWhereTheyMay) {
   EXPECT_LE(after_ringing, 2 * unrung);
 }
 
-TEST(AdaptiveStrang, NoStepIsLongerThanTheLongest) {
+TEST(Strang, NoStepIsLongerThanTheLongest) {
   Solver solver;
   solver.configure(ordinary, 1e-2, max_steps_per_advance, period / 500.0);
   State<double> state = start;
@@ -230,7 +230,7 @@ TEST(AdaptiveStrang, NoStepIsLongerThanTheLongest) {
 }
 
 /// Steps that are taken again leave no trace: what is shown joins without a gap.
-TEST(AdaptiveStrang, TheStepsShownJoin) {
+TEST(Strang, TheStepsShownJoin) {
   auto solver = configured<Solver>(ordinary, 1e-6);
   State<double> state = start;
   State<double> last = start;
@@ -251,4 +251,4 @@ TEST(AdaptiveStrang, TheStepsShownJoin) {
 }
 
 }  // namespace
-}  // namespace sonoglide::plant::adaptive_strang_test
+}  // namespace sonoglide::plant::strang_test

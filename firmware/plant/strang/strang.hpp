@@ -18,7 +18,7 @@
 
 namespace sonoglide::plant {
 
-/// The steps of Strang, taken only where their own defects are small.
+/// The steps of EqualStepStrang, taken only where their own defects are small.
 ///
 /// A step is good where its velocity defect is below tolerance times the highest velocity of the
 /// interval so far, and its energy defect below tolerance times
@@ -32,12 +32,12 @@ namespace sonoglide::plant {
 /// are a stuck contact that rings, a stiff contact that reverses (first order there), an oscillator
 /// far faster than the drive, and a tolerance below rounding.
 template <class ModelType>
-class AdaptiveStrang {
+class Strang {
  public:
   using Model = ModelType;
   using Scalar = typename Model::Scalar;
   template <class Law>
-  static constexpr bool solves = Strang<Model>::template solves<Law>;
+  static constexpr bool solves = EqualStepStrang<Model>::template solves<Law>;
 
   /// tolerance: of velocity and energy, as above; > 0. Not a bound of the friction ratio: of random
   /// contacts over three periods 99 in 100 erred by less than 3e-5 at 1e-4 and by less than 6e-6 at
