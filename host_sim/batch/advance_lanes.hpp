@@ -13,8 +13,9 @@
 #include <cstddef>
 #include <limits>
 
+#include "firmware/numeric/first_root.hpp"
 #include "firmware/numeric/gauss_legendre.hpp"
-#include "host_sim/batch/certain_reversal.hpp"
+#include "firmware/numeric/scalar.hpp"
 #include "host_sim/batch/decay_lanes.hpp"
 #include "host_sim/batch/lane_pack.hpp"
 #include "host_sim/batch/plant_lanes.hpp"
@@ -25,6 +26,26 @@
 HWY_BEFORE_NAMESPACE();
 namespace sonoglide::batch::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
+
+/// The first zero of p = |V| within (0, end) in a single lane, certified, or `end`; p[0] >= 0, and where it is zero
+/// that zero does not count. Not a number where the polynomial is not made of finite ones.
+template <class Scalar, std::size_t Count>
+Scalar certain_reversal(std::array<Scalar, Count> p, Scalar end) {
+  Scalar sum = end;
+  for (const Scalar coefficient : p) {
+    sum += numeric::abs(coefficient);
+  }
+  if (!numeric::is_finite(sum)) {
+    return std::numeric_limits<Scalar>::quiet_NaN();
+  }
+  if (p[0] == Scalar(0)) {
+    for (std::size_t n = 1; n < Count; ++n) {
+      p[n - 1] = p[n];
+    }
+    p[Count - 1] = Scalar(0);
+  }
+  return numeric::first_root(p, end);
+}
 
 /// Each lane takes its own step: the longest whose last terms stay below the tolerance, shortened
 /// to the first reversal of V and to the end of the lane's last period. Friction follows the

@@ -4,7 +4,7 @@
 #include <string_view>
 
 #include "host_sim/scene/friction_laws.hpp"
-#include "host_sim/scene/solver_method.hpp"
+#include "host_sim/scene/scene.hpp"
 
 namespace sonoglide::configure {
 

@@ -14,7 +14,7 @@
 #include "host_sim/configure/solvers/rk4_event.hpp"
 #include "host_sim/configure/solvers/strang.hpp"
 #include "host_sim/scene/names.hpp"
-#include "host_sim/scene/solver_method.hpp"
+#include "host_sim/scene/scene.hpp"
 
 namespace sonoglide::configure {
 

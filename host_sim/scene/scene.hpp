@@ -1,6 +1,7 @@
 /// A validated scene: plain values in SI units, the unit in the name, every default filled in.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -8,7 +9,6 @@
 
 #include "host_sim/scene/contact.hpp"
 #include "host_sim/scene/friction_laws.hpp"
-#include "host_sim/scene/solver_method.hpp"
 #include "host_sim/scene/timed_profile.hpp"
 
 namespace sonoglide::scene {
@@ -58,9 +58,21 @@ struct Drive {
   double max_force_amplitude_N = 0.0;            ///< closed loop: the actuator's limit
   std::optional<double> max_force_slew_N_per_s;  ///< closed loop: absent, no slew limit
   Waveform waveform = Waveform::cosine;
-  int delay_periods =
-      1;  ///< closed loop: from the end of a sampled period to where its answer acts
+  /// Closed loop: from the end of a sampled period to where its answer acts.
+  int delay_periods = 1;
 };
+
+/// A solver by its place in the list of configure/solver_methods.hpp.
+struct SolverMethod {
+  std::size_t index = 0;
+};
+
+constexpr bool operator==(SolverMethod a, SolverMethod b) {
+  return a.index == b.index;
+}
+constexpr bool operator!=(SolverMethod a, SolverMethod b) {
+  return !(a == b);
+}
 
 struct Solver {
   SolverMethod method;
