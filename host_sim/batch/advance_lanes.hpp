@@ -27,8 +27,9 @@ HWY_BEFORE_NAMESPACE();
 namespace sonoglide::batch::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// The first zero of p = |V| within (0, end) in a single lane, certified, or `end`; p[0] >= 0, and where it is zero
-/// that zero does not count. Not a number where the polynomial is not made of finite ones.
+/// In a single lane: the first zero of p = |V| within (0, end), certified, or `end`; p[0] >= 0, and
+/// where it is zero that zero does not count. Not a number where the polynomial is not made of
+/// finite ones.
 template <class Scalar, std::size_t Count>
 Scalar certain_reversal(std::array<Scalar, Count> p, Scalar end) {
   Scalar sum = end;
