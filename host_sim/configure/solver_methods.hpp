@@ -3,9 +3,8 @@
 
 #include <array>
 #include <cstddef>
-#include <stdexcept>
+#include <string_view>
 #include <tuple>
-#include <type_traits>
 #include <utility>
 
 #include "host_sim/configure/solvers/event_gauss.hpp"

@@ -41,11 +41,12 @@ std::unique_ptr<PlantPort> lean_plant(const PlantDescription& description, const
   return with_solver<plant::Damped, plant::CosineDrive, plant::ConstantSliding>(description, law);
 }
 
-/// The laws of most scenes. With the others the parts that a scene does not name take less than a
-/// tenth of the time, and one composition for all scenes is enough.
+/// The laws whose plants take a tenth more time or so with parts that a scene does not name. With the
+/// others it is less, and one composition for all scenes is enough.
 template <class Law>
-inline constexpr bool is_common_law =
-    std::is_same_v<Law, scene::laws::Dahl> || std::is_same_v<Law, scene::laws::Coulomb>;
+inline constexpr bool is_quick_law =
+    std::is_same_v<Law, scene::laws::Dahl> || std::is_same_v<Law, scene::laws::Coulomb> ||
+    std::is_same_v<Law, scene::laws::Iwan>;
 
 template <class Law>
 std::unique_ptr<PlantPort> make_law_plant(const PlantDescription& description, const Law& law) {
@@ -59,7 +60,7 @@ std::unique_ptr<PlantPort> make_law_plant(const PlantDescription& description, c
     case scene::Waveform::cosine:
       break;
   }
-  if constexpr (is_common_law<Law>) {
+  if constexpr (is_quick_law<Law>) {
     if (SlidingProfile(scene.sliding).is_constant() && composed_lean(scene.solver.method)) {
       return lean_plant(description, law);
     }

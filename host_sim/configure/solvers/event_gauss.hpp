@@ -24,7 +24,7 @@ struct EventGauss {
   static constexpr std::array<int, 2> orders = {8, 12};  // nodes
   static constexpr std::array<int, 0> straight_orders = {};
   static constexpr int order_for(double tolerance) { return tolerance >= 1e-8 ? 8 : 12; }
-  static constexpr bool composed_lean = false;
+  static constexpr bool composed_lean = true;
   static constexpr bool counts_events = true;
   template <class Model, int Order>
   using Core = plant::EventGauss<Model, static_cast<std::size_t>(Order)>;
