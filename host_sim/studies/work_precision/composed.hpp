@@ -93,13 +93,11 @@ std::unique_ptr<peers::Contender> contender_of(const peers::Problem& problem, co
 
 /// @tparam Solver   a solver template over the model
 /// @param  setting  what its configure() takes: a tolerance, or the longest step in tau
-/// The plant has no damping term where the problem has no damping; in float it always has one.
+/// The plant has no damping term where the problem has no damping.
 template <template <class> class Solver, class Scalar>
 std::unique_ptr<peers::Contender> compose(const peers::Problem& problem, double setting) {
-  if constexpr (std::is_same_v<Scalar, double>) {
-    if (!(problem.damping > 0.0)) {
-      return contender_of<Solver>(problem, model_of<Scalar, plant::Undamped>(problem), setting);
-    }
+  if (!(problem.damping > 0.0)) {
+    return contender_of<Solver>(problem, model_of<Scalar, plant::Undamped>(problem), setting);
   }
   return contender_of<Solver>(problem, model_of<Scalar, plant::Damped>(problem), setting);
 }
