@@ -67,6 +67,14 @@ double peak_vibration_m_per_s(const scene::Plant& plant, double frequency_Hz,
   return force_amplitude_N * omega / dynamic_stiffness_N_per_m(plant, omega);
 }
 
+double carrier_frequency_Hz(const scene::Drive& drive, double time_s) {
+  const double asked_Hz = drive.frequency_profile.empty()
+                              ? drive.frequency_Hz
+                              : scene::value_at(drive.frequency_profile, time_s);
+  const double step_Hz = drive.frequency_resolution_Hz;
+  return step_Hz > 0.0 ? step_Hz * std::max(1.0, std::round(asked_Hz / step_Hz)) : asked_Hz;
+}
+
 scene::ContactValues contact_at(const scene::Friction& friction, double time_s) {
   const scene::ContactValues& held = friction;
   scene::ContactValues contact = held;

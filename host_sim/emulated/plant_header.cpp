@@ -271,9 +271,10 @@ std::string plant_header(const scene::Scene& scene,
           "missing; required: a table [controller], of which an image is made");
   require(scene::is<scene::laws::Dahl>(scene.friction.law), "friction.law",
           "the plant of an image has Dahl friction; allowed: \"dahl\"");
-  require(!scene.friction.has_profile(), scene.friction.profile_key(),
-          "changes, but the plant of an image has one friction; allowed: coefficient and "
-          "normal_force_N");
+  const char* key = scene.profile_key();
+  require(key == nullptr, key,
+          "changes, but the plant of an image does not; allowed: a constant value in place of a "
+          "profile");
   require(scene.drive->waveform == scene::Waveform::cosine, "drive.waveform",
           "the plant of an image is driven by a cosine; allowed: \"cosine\"");
   require_ideal(scene.sensor);

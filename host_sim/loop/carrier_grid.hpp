@@ -1,4 +1,4 @@
-/// How a run is cut into carrier periods, and when two of its times are one.
+/// How a time is cut into carrier periods of one length, and when two times are one.
 #pragma once
 
 #include <algorithm>
@@ -15,15 +15,23 @@ namespace sonoglide::loop {
 /// "period" is one thousandth of the run.
 class CarrierGrid {
  public:
+  /// Of a run at the carrier frequency that the scene names.
   explicit CarrierGrid(const scene::Scene& scene)
-      : period_s_(scene.drive ? 1.0 / scene.drive->frequency_Hz : scene.run.duration_s / 1000.0),
-        end_s_(scene.run.duration_s),
+      : CarrierGrid(scene.drive ? 1.0 / scene.drive->frequency_Hz : scene.run.duration_s / 1000.0,
+                    0.0, scene.run.duration_s) {}
+  /// Of the rest of a run.
+  CarrierGrid(double period_s, double origin_s, double end_s)
+      : period_s_(period_s),
+        origin_s_(origin_s),
+        end_s_(end_s),
         count_(std::max<std::uint64_t>(1, at_or_after(end_s_))) {}
 
   double period_s() const { return period_s_; }
   std::uint64_t count() const { return count_; }
 
-  double begin_s(std::uint64_t index) const { return static_cast<double>(index) * period_s_; }
+  double begin_s(std::uint64_t index) const {
+    return origin_s_ + static_cast<double>(index) * period_s_;
+  }
   double end_s(std::uint64_t index) const {
     return index + 1 < count_ ? begin_s(index + 1) : end_s_;
   }
@@ -37,12 +45,13 @@ class CarrierGrid {
 
   /// Periods that are over at a time.
   std::uint64_t over_at(double time_s) const {
-    return static_cast<std::uint64_t>(std::floor((time_s + rounding_s(time_s)) / period_s_));
+    return static_cast<std::uint64_t>(
+        std::floor((time_s - origin_s_ + rounding_s(time_s)) / period_s_));
   }
   /// Index of the first period that begins at a time or after it.
   std::uint64_t at_or_after(double time_s) const {
     return static_cast<std::uint64_t>(
-        std::ceil(std::max(0.0, time_s - rounding_s(time_s)) / period_s_));
+        std::ceil(std::max(0.0, time_s - origin_s_ - rounding_s(time_s)) / period_s_));
   }
 
   /// The number of periods that a time is, where that is a whole one.
@@ -59,6 +68,7 @@ class CarrierGrid {
 
  private:
   double period_s_;
+  double origin_s_;
   double end_s_;
   std::uint64_t count_;
 };

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "firmware/plant/account.hpp"
+#include "firmware/plant/demodulator.hpp"
 #include "firmware/plant/outcome.hpp"
 #include "firmware/plant/solver.hpp"
 #include "firmware/plant/state.hpp"
@@ -16,21 +17,41 @@
 
 namespace sonoglide::loop {
 
-/// Reads states off the steps as they are taken; one made by default reads none. One type serves
-/// both, so that a solver is compiled once.
-class StateReader {
+/// Reads off the steps, as they are taken, what is asked for; made by default, nothing. One type
+/// serves all, so that a solver is compiled once.
+class StepReader {
  public:
-  StateReader() = default;
+  StepReader() = default;
+
+  /// States.
   /// @param offsets_s  since the beginning, rising; outlives the reader, and so does `seen`
-  StateReader(const std::vector<double>& offsets_s, double angular_frequency_rad_per_s,
-              std::vector<plant::State<double>>& seen)
-      : next_(offsets_s.data()),
-        end_(offsets_s.data() + offsets_s.size()),
-        angular_frequency_rad_per_s_(angular_frequency_rad_per_s),
-        seen_(&seen) {}
+  void read_states(const std::vector<double>& offsets_s, double angular_frequency_rad_per_s,
+                   std::vector<plant::State<double>>& seen) {
+    next_ = offsets_s.data();
+    end_ = next_ + offsets_s.size();
+    angular_frequency_rad_per_s_ = angular_frequency_rad_per_s;
+    seen_ = &seen;
+    reads_ = true;
+  }
+  /// @param demodulator  outlives the reader
+  void demodulate(plant::Demodulator<double>& demodulator) {
+    demodulator_ = &demodulator;
+    reads_ = true;
+  }
 
   template <class Step>
   void operator()(const Step& step) {
+    if (reads_) {
+      read(step);
+    }
+  }
+
+ private:
+  template <class Step>
+  void read(const Step& step) {
+    if (demodulator_ != nullptr) {
+      (*demodulator_)(step);
+    }
     const double end = step.begin() + step.length();
     for (; next_ != end_; ++next_) {
       const double offset = *next_ * angular_frequency_rad_per_s_;
@@ -41,7 +62,8 @@ class StateReader {
     }
   }
 
- private:
+  bool reads_ = false;
+  plant::Demodulator<double>* demodulator_ = nullptr;
   const double* next_ = nullptr;
   const double* end_ = nullptr;
   double angular_frequency_rad_per_s_ = 0.0;
@@ -66,8 +88,8 @@ class ComposedPlant final : public PlantPort {
   }
 
   plant::Outcome<double> advance(const Stretch& stretch, EnergyBalance& energy) override {
-    StateReader nobody;
-    return advance(stretch, nobody, energy);
+    StepReader reader;
+    return advance(stretch, reader, energy);
   }
 
   plant::Outcome<double> advance_sampled(const Stretch& stretch,
@@ -75,7 +97,8 @@ class ComposedPlant final : public PlantPort {
                                          EnergyBalance& energy,
                                          std::vector<PlantState>& seen) override {
     seen_.clear();
-    StateReader reader(offsets_s, scales_.angular_frequency_rad_per_s, seen_);
+    StepReader reader;
+    reader.read_states(offsets_s, scales_.angular_frequency_rad_per_s, seen_);
     const plant::Outcome<double> outcome = advance(stretch, reader, energy);
     // Offsets that rounding has put past the last step.
     seen_.resize(offsets_s.size(), state_);
@@ -104,7 +127,7 @@ class ComposedPlant final : public PlantPort {
   plant::Cost cost() const override { return solver_.cost(); }
 
  private:
-  plant::Outcome<double> advance(const Stretch& stretch, StateReader& reader,
+  plant::Outcome<double> advance(const Stretch& stretch, StepReader& reader,
                                  EnergyBalance& energy) {
     const double omega = scales_.angular_frequency_rad_per_s;
     const DrivePiece drive = drive_piece(stretch);
@@ -114,8 +137,14 @@ class ComposedPlant final : public PlantPort {
         stretch.sliding_acceleration_m_per_s2 / (scales_.velocity_m_per_s() * omega)};
     const plant::State<double> before = state_;
     plant::EnergyAccount<double> account;
+    plant::Demodulator<double> demodulator(stretch.drive_phase_rad);
+    if (stretch.demodulated) {
+      reader.demodulate(demodulator);
+    }
     plant::Outcome<double> outcome = solver_.advance(interval, state_, account, reader);
     energy = balance(stretch, account, before);
+    energy.velocity_in_phase_m = demodulator.in_phase() * scales_.length_m;
+    energy.velocity_quadrature_m = demodulator.quadrature() * scales_.length_m;
     outcome.offset /= omega;
     return outcome;
   }
@@ -152,6 +181,9 @@ class ComposedPlant final : public PlantPort {
     energy.stored_end_J = model_.stored_energy(state_) * energy_J;
     energy.stored_integral_J_s = stored_integral * energy_J / omega;
     energy.momentum_integral_J_s = inertia_kg * 0.5 * (first + last) * travel_m;
+    const double area_m2 = scales_.length_m * scales_.length_m;
+    energy.displacement_square_m2_s = account.displacement_square * area_m2 / omega;
+    energy.velocity_square_m2_per_s = account.velocity_square * area_m2 * omega;
     return energy;
   }
 

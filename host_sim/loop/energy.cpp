@@ -15,11 +15,12 @@ double quotient(double numerator, double denominator) {
 
 double balance_residual(const EnergyBalance& energy, double sign) {
   const double change = energy.stored_end_J - energy.stored_begin_J;
-  const double residual = energy.friction_work_J - energy.pull_work_J -
-                          sign * (energy.drive_work_J - energy.damping_work_J - change);
-  const double largest =
-      std::max({std::abs(energy.friction_work_J), std::abs(energy.pull_work_J),
-                std::abs(energy.drive_work_J), std::abs(energy.damping_work_J), std::abs(change)});
+  const double residual =
+      energy.friction_work_J - energy.pull_work_J -
+      sign * (energy.drive_work_J + energy.spring_work_J - energy.damping_work_J - change);
+  const double largest = std::max({std::abs(energy.friction_work_J), std::abs(energy.pull_work_J),
+                                   std::abs(energy.drive_work_J), std::abs(energy.spring_work_J),
+                                   std::abs(energy.damping_work_J), std::abs(change)});
   return largest > 0.0 ? std::abs(residual) / largest : 0.0;
 }
 
@@ -39,9 +40,18 @@ void EnergyBalance::append(const EnergyBalance& next) {
   pull_work_J += next.pull_work_J;
   drive_work_J += next.drive_work_J;
   damping_work_J += next.damping_work_J;
+  spring_work_J += next.spring_work_J;
   stored_end_J = next.stored_end_J;
   stored_integral_J_s += next.stored_integral_J_s;
   momentum_integral_J_s += next.momentum_integral_J_s;
+  displacement_square_m2_s += next.displacement_square_m2_s;
+  velocity_square_m2_per_s += next.velocity_square_m2_per_s;
+  velocity_in_phase_m += next.velocity_in_phase_m;
+  velocity_quadrature_m += next.velocity_quadrature_m;
+}
+
+std::complex<double> EnergyBalance::vibration_m_per_s() const {
+  return 2.0 / duration_s * std::complex<double>(velocity_in_phase_m, -velocity_quadrature_m);
 }
 
 PowerRatios power_ratios(const EnergyBalance& energy, double friction_N,

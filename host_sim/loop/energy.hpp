@@ -1,6 +1,8 @@
 /// Where the energy of a stretch of motion went, in SI units.
 #pragma once
 
+#include <complex>
+
 #include "host_sim/scene/scene.hpp"
 
 namespace sonoglide::loop {
@@ -8,7 +10,8 @@ namespace sonoglide::loop {
 /// Integrals over a stretch of motion; stretches add up.
 ///
 /// Identity, σ = +1 dissipative, −1 as printed:
-///   friction_work = pull_work + σ (drive_work − damping_work − (stored_end − stored_begin)).
+///   friction_work = pull_work
+///                   + σ (drive_work + spring_work − damping_work − (stored_end − stored_begin)).
 struct EnergyBalance {
   double duration_s = 0.0;
   double sliding_distance_m = 0.0;      ///< ∫|Vt| dt
@@ -22,10 +25,18 @@ struct EnergyBalance {
   double pull_work_J = 0.0;       ///< ∫F Vt dt, from whatever slides
   double drive_work_J = 0.0;      ///< ∫Fe x' dt
   double damping_work_J = 0.0;    ///< ∫c x'² dt
+  double spring_work_J = 0.0;     ///< ∫x²/2 dKs, from whatever changes the stiffness
   double stored_begin_J = 0.0;    ///< m x'²/2 + Ks x²/2
   double stored_end_J = 0.0;
-  double stored_integral_J_s = 0.0;    ///< ∫(m x'²/2 + Ks x²/2) dt
-  double momentum_integral_J_s = 0.0;  ///< ∫m Vt x' dt
+  double stored_integral_J_s = 0.0;       ///< ∫(m x'²/2 + Ks x²/2) dt
+  double momentum_integral_J_s = 0.0;     ///< ∫m Vt x' dt
+  double displacement_square_m2_s = 0.0;  ///< ∫x² dt
+  double velocity_square_m2_per_s = 0.0;  ///< ∫x'² dt
+  double velocity_in_phase_m = 0.0;  ///< ∫x' cos θ dt, θ the phase of the drive; 0 unless asked for
+  double velocity_quadrature_m = 0.0;  ///< ∫x' sin θ dt; likewise
+
+  /// z [m/s] of the fundamental Re(z e^jθ) of x' over whole carrier periods.
+  std::complex<double> vibration_m_per_s() const;
 
   /// Appends the stretch that follows.
   void append(const EnergyBalance& next);

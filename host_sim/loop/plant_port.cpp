@@ -5,11 +5,17 @@
 #include "firmware/numeric/turn.hpp"
 #include "host_sim/configure/plant_scales.hpp"
 #include "host_sim/configure/solver_methods.hpp"
-#include "host_sim/loop/moving_friction_plant.hpp"
+#include "host_sim/loop/changing_plant.hpp"
 #include "host_sim/loop/plant_description.hpp"
 
 namespace sonoglide::loop {
 namespace {
+
+/// Beside the sliding, which every plant follows.
+bool changes(const scene::Scene& scene) {
+  return scene.profile_key() != nullptr ||
+         (scene.drive && scene.drive->frequency_resolution_Hz > 0.0);
+}
 
 /// Where the friction is none, event_gauss has nothing to cut at reversals, and event_taylor's one
 /// step in a period takes its place.
@@ -25,8 +31,8 @@ scene::Scene with_acting_solver(scene::Scene scene) {
 }  // namespace
 
 std::unique_ptr<PlantPort> make_plant_port(const scene::Scene& scene) {
-  if (scene.friction.has_profile()) {
-    return std::make_unique<MovingFrictionPlant>(scene);
+  if (changes(scene)) {
+    return std::make_unique<ChangingPlant>(scene);
   }
   const scene::Scene acting = with_acting_solver(scene);
   const PlantDescription description(acting);

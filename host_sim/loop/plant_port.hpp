@@ -26,7 +26,8 @@ struct Stretch {
   double sliding_acceleration_m_per_s2 = 0.0;
   /// The stretch lies within one straight piece of it.
   scene::Waveform drive_waveform = scene::Waveform::cosine;
-  double begin_s = 0.0;  ///< since the run began: what changes in time is looked up by it
+  double begin_s = 0.0;      ///< since the run began: what changes in time is looked up by it
+  bool demodulated = false;  ///< the account is to have velocity_in_phase_m and its quadrature
 };
 
 class PlantPort {

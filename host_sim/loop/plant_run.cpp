@@ -1,19 +1,20 @@
 #include "host_sim/loop/plant_run.hpp"
 
 #include <algorithm>
+#include <cmath>
 
-#include "firmware/numeric/turn.hpp"
 #include "host_sim/loop/failure.hpp"
 
 namespace sonoglide::loop {
 namespace {
 
-/// Where the sliding or the friction changes its course, or a window begins; rising.
+/// Where the sliding, the friction or the spring changes its course, or a window begins; rising.
 std::vector<double> cuts_of(const scene::Scene& scene, const SlidingProfile& sliding) {
   std::vector<double> cuts_s = sliding.cuts_s();
   cuts_s.push_back(scene.run.window_start_s);
   for (const scene::TimedProfile* profile :
-       {&scene.friction.coefficient_profile, &scene.friction.normal_force_profile_N}) {
+       {&scene.plant.stiffness_profile, &scene.friction.coefficient_profile,
+        &scene.friction.normal_force_profile_N}) {
     for (const scene::TimedValue& row : *profile) {
       cuts_s.push_back(row.time_s);
     }
@@ -24,60 +25,77 @@ std::vector<double> cuts_of(const scene::Scene& scene, const SlidingProfile& sli
 
 }  // namespace
 
-PlantRun::PlantRun(const scene::Scene& scene, const CarrierGrid& grid, const Watch& watch,
+PlantRun::PlantRun(const scene::Scene& scene, const CarrierClock& clock, const Watch& watch,
                    RunResult& result)
     : scene_(scene),
-      grid_(grid),
+      clock_(clock),
       result_(result),
       plant_(make_plant_port(scene)),
       sliding_(scene.sliding),
       undriven_(scene),
-      drive_rate_rad_per_s_(scene.drive ? numeric::two_pi * scene.drive->frequency_Hz : 0.0),
       waveform_(scene.drive ? scene.drive->waveform : scene::Waveform::cosine),
       sliding_velocity_m_per_s_(sliding_.velocity_m_per_s(0.0)),
       cuts_s_(cuts_of(scene, sliding_)),
       sampler_(watch.samples) {
+  if (scene.transducer) {
+    result.electrical.emplace();
+  }
   if (scene.run.start == scene::Start::steady) {
     result.steady_orbit = find_steady_orbit(scene);
     plant_->begin_at(result.steady_orbit->state, result.steady_orbit->memory);
   }
 }
 
-EnergyBalance PlantRun::advance(std::uint64_t period, double amplitude_N) {
-  const double begin_s = grid_.begin_s(period);
-  const double end_s = grid_.end_s(period);
-  const double duration_s = grid_.duration_s(period);
-  const double corner_s = 0.5 * grid_.period_s();
+EnergyBalance PlantRun::advance(double amplitude_N) {
+  const double begin_s = clock_.begin_s();
+  const double end_s = clock_.end_s();
+  const double duration_s = clock_.duration_s();
+  const double corner_s = 0.5 * clock_.period_s();
   const bool has_corner =
       waveform_ == scene::Waveform::square || waveform_ == scene::Waveform::triangle;
   EnergyBalance total;
-  if (has_corner && corner_s < duration_s - grid_.rounding_s(end_s)) {
+  if (has_corner && corner_s < duration_s - clock_.rounding_s(end_s)) {
     total = piece(begin_s, 0.0, corner_s, begin_s + corner_s, amplitude_N);
     total.append(piece(begin_s, corner_s, duration_s, end_s, amplitude_N));
   } else {
     total = piece(begin_s, 0.0, duration_s, end_s, amplitude_N);
   }
   result_.whole.append(total);
+  note_peaks(begin_s, amplitude_N, total);
   return total;
+}
+
+bool PlantRun::in_window(double begin_s) const {
+  return begin_s >= scene_.run.window_start_s - clock_.rounding_s(begin_s);
+}
+
+void PlantRun::note_peaks(double begin_s, double amplitude_N, const EnergyBalance& period) {
+  if (scene_.transducer && in_window(begin_s)) {
+    ElectricalBalance peaks;
+    peaks.voltage_peak_V = std::abs(amplitude_N) / scene_.transducer->force_factor_N_per_V;
+    peaks.current_peak_A = current_amplitude_A(*scene_.transducer, amplitude_N,
+                                               clock_.frequency_Hz(), period.vibration_m_per_s());
+    result_.electrical->append(peaks);
+  }
 }
 
 /// One piece of the waveform, which ends until_s after its period began, at end_s.
 EnergyBalance PlantRun::piece(double begin_s, double from_s, double until_s, double end_s,
                               double amplitude_N) {
-  const double rounding_s = grid_.rounding_s(end_s);
+  const double rounding_s = clock_.rounding_s(end_s);
   EnergyBalance total;
   double done_s = from_s;
   for (; next_cut_ < cuts_s_.size() && cuts_s_[next_cut_] < end_s - rounding_s; ++next_cut_) {
     const double cut_s = cuts_s_[next_cut_];
     const double part_s = cut_s - begin_s;
     if (part_s > done_s + rounding_s) {
-      total.append(stretch(begin_s + done_s, part_s - done_s, drive_rate_rad_per_s_ * done_s, cut_s,
-                           amplitude_N));
+      total.append(stretch(begin_s + done_s, part_s - done_s,
+                           clock_.drive_rate_rad_per_s() * done_s, cut_s, amplitude_N));
       done_s = part_s;
     }
   }
-  total.append(stretch(begin_s + done_s, until_s - done_s, drive_rate_rad_per_s_ * done_s, end_s,
-                       amplitude_N));
+  total.append(stretch(begin_s + done_s, until_s - done_s, clock_.drive_rate_rad_per_s() * done_s,
+                       end_s, amplitude_N));
   return total;
 }
 
@@ -92,9 +110,9 @@ EnergyBalance PlantRun::stretch(double begin_s, double duration_s, double drive_
                                 double end_s, double amplitude_N) {
   const double first = sliding_velocity_m_per_s_;
   const double last = sliding_.velocity_m_per_s(end_s);
-  const Stretch stretch{duration_s,  drive_phase_rad, drive_rate_rad_per_s_,
+  const Stretch stretch{duration_s,  drive_phase_rad, clock_.drive_rate_rad_per_s(),
                         amplitude_N, first,           (last - first) / duration_s,
-                        waveform_,   begin_s};
+                        waveform_,   begin_s,         scene_.transducer.has_value()};
   EnergyBalance energy;
   const plant::Outcome<double> outcome = solve(begin_s, end_s, stretch, energy);
   if (outcome.error != plant::Error::none) {
@@ -102,8 +120,11 @@ EnergyBalance PlantRun::stretch(double begin_s, double duration_s, double drive_
   }
   undriven_.complete(stretch, energy);
   sliding_velocity_m_per_s_ = last;
-  if (begin_s >= scene_.run.window_start_s - grid_.rounding_s(begin_s)) {
+  if (in_window(begin_s)) {
     result_.window.append(energy);
+    if (scene_.transducer) {
+      result_.electrical->append(electrical_balance(*scene_.transducer, stretch, energy));
+    }
   }
   return energy;
 }
@@ -113,7 +134,7 @@ plant::Outcome<double> PlantRun::solve(double begin_s, double end_s, const Stret
   if (!sampler_.wants_before(end_s)) {
     return plant_->advance(stretch, energy);
   }
-  const bool ends_run = end_s >= scene_.run.duration_s - grid_.rounding_s(end_s);
+  const bool ends_run = end_s >= scene_.run.duration_s - clock_.rounding_s(end_s);
   const std::vector<double>& offsets_s = sampler_.plan(begin_s, end_s, ends_run);
   seen_.clear();
   const plant::Outcome<double> outcome = plant_->advance_sampled(stretch, offsets_s, energy, seen_);

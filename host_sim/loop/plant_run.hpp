@@ -6,7 +6,8 @@
 #include <memory>
 #include <vector>
 
-#include "host_sim/loop/carrier_grid.hpp"
+#include "host_sim/loop/carrier_clock.hpp"
+#include "host_sim/loop/electrical.hpp"
 #include "host_sim/loop/energy.hpp"
 #include "host_sim/loop/plant_port.hpp"
 #include "host_sim/loop/run_result.hpp"
@@ -21,15 +22,15 @@ class PlantRun {
  public:
   /// Energies and final values go into the result. All must outlive it.
   /// @throws ComputationError  the steady orbit that the run is to begin on cannot be found
-  PlantRun(const scene::Scene& scene, const CarrierGrid& grid, const Watch& watch,
+  PlantRun(const scene::Scene& scene, const CarrierClock& clock, const Watch& watch,
            RunResult& result);
 
   /// Where the last call of advance() ended.
   double sliding_velocity_m_per_s() const { return sliding_velocity_m_per_s_; }
 
-  /// Advances over the next carrier period, under one drive amplitude.
+  /// Advances over the carrier period of the clock, under one drive amplitude.
   /// @throws ComputationError
-  EnergyBalance advance(std::uint64_t period, double amplitude_N);
+  EnergyBalance advance(double amplitude_N);
 
   /// Fills in what the run ends with.
   void finish();
@@ -41,15 +42,16 @@ class PlantRun {
                         double amplitude_N);
   plant::Outcome<double> solve(double begin_s, double end_s, const Stretch& stretch,
                                EnergyBalance& energy);
+  void note_peaks(double begin_s, double amplitude_N, const EnergyBalance& period);
+  bool in_window(double begin_s) const;
   [[noreturn]] void fail(plant::Error error, double time_s) const;
 
   const scene::Scene& scene_;
-  const CarrierGrid& grid_;
+  const CarrierClock& clock_;
   RunResult& result_;
   std::unique_ptr<PlantPort> plant_;
   SlidingProfile sliding_;
   UndrivenFriction undriven_;
-  double drive_rate_rad_per_s_;
   scene::Waveform waveform_;
   double sliding_velocity_m_per_s_;
   std::vector<double> cuts_s_;  ///< times inside carrier periods at which a stretch must end

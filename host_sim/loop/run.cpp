@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "host_sim/configure/plant_scales.hpp"
-#include "host_sim/loop/carrier_grid.hpp"
+#include "host_sim/loop/carrier_clock.hpp"
 #include "host_sim/loop/control_run.hpp"
 #include "host_sim/loop/plant_run.hpp"
 
@@ -21,12 +21,13 @@ namespace {
 constexpr std::uint64_t progress_calls = 500;
 constexpr std::uint64_t most_periods_untold = 10000;
 
-std::optional<ControlRun> make_control(const scene::Scene& scene, const CarrierGrid& grid,
-                                       ControlPort* controller, RunResult& result) {
+std::optional<ControlRun> make_control(const scene::Scene& scene, ControlPort* controller,
+                                       RunResult& result) {
   if (controller == nullptr) {
     return std::nullopt;
   }
-  return std::optional<ControlRun>(std::in_place, scene, grid, *controller, *result.control);
+  return std::optional<ControlRun>(std::in_place, scene, CarrierGrid(scene), *controller,
+                                   *result.control);
 }
 
 class Simulation {
@@ -35,21 +36,22 @@ class Simulation {
   /// @param result      with the record of a closed loop, of which the design is filled in
   Simulation(const scene::Scene& scene, ControlPort* controller, const Watch& watch,
              RunResult& result)
-      : watch_(watch),
-        grid_(scene),
-        plant_(scene, grid_, watch, result),
-        control_(make_control(scene, grid_, controller, result)),
+      : scene_(scene),
+        watch_(watch),
+        clock_(scene),
+        plant_(scene, clock_, watch, result),
+        control_(make_control(scene, controller, result)),
         friction_N_(configure::largest_friction_limit_N(scene.friction)),
         open_loop_amplitude_N_(scene.drive ? scene.drive->force_amplitude_N : 0.0) {}
 
   void carry_out() {
     const std::uint64_t tell_every =
-        std::min(grid_.count() / progress_calls + 1, most_periods_untold);
-    for (std::uint64_t k = 0; k < grid_.count(); ++k) {
-      advance(k);
+        std::min(CarrierGrid(scene_).count() / progress_calls + 1, most_periods_untold);
+    for (std::uint64_t k = 0; !clock_.over(); ++k, clock_.next()) {
       if (watch_.progress && k % tell_every == 0) {
-        watch_.progress(static_cast<double>(k) / static_cast<double>(grid_.count()));
+        watch_.progress(clock_.begin_s() / scene_.run.duration_s);
       }
+      advance();
     }
     plant_.finish();
     if (control_) {
@@ -58,19 +60,22 @@ class Simulation {
   }
 
  private:
-  void advance(std::uint64_t index) {
-    const double begin_s = grid_.begin_s(index);
-    const double end_s = grid_.end_s(index);
+  void advance() {
+    if (scene_.drive) {
+      clock_.set_frequency_Hz(configure::carrier_frequency_Hz(*scene_.drive, clock_.begin_s()));
+    }
+    const double begin_s = clock_.begin_s();
+    const double end_s = clock_.end_s();
     const double begin_velocity_m_per_s = plant_.sliding_velocity_m_per_s();
     const double amplitude_N = control_ ? control_->amplitude_N() : open_loop_amplitude_N_;
-    const EnergyBalance energy = plant_.advance(index, amplitude_N);
+    const EnergyBalance energy = plant_.advance(amplitude_N);
     const double end_velocity_m_per_s = plant_.sliding_velocity_m_per_s();
     if (!watch_.periods.empty()) {
       show({begin_s, end_s, friction_ratio(energy), begin_velocity_m_per_s, end_velocity_m_per_s,
-            amplitude_N, undefined, control::State::off, control::Limit::none,
-            control::Settling::pending, undefined});
+            amplitude_N, clock_.frequency_Hz(), energy.vibration_m_per_s(), undefined,
+            control::State::off, control::Limit::none, control::Settling::pending, undefined});
     }
-    if (control_ && grid_.is_whole(index)) {
+    if (control_ && clock_.is_whole()) {
       control_->step(end_s, energy.friction_impulse_N_s / energy.duration_s, end_velocity_m_per_s);
     }
   }
@@ -91,8 +96,9 @@ class Simulation {
 
   static constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
 
+  const scene::Scene& scene_;
   const Watch& watch_;
-  CarrierGrid grid_;
+  CarrierClock clock_;
   PlantRun plant_;
   std::optional<ControlRun> control_;
   double friction_N_;

@@ -9,6 +9,7 @@
 #include "firmware/control/drive_command.hpp"
 #include "firmware/numeric/signal_ledger.hpp"
 #include "host_sim/configure/control_design.hpp"
+#include "host_sim/loop/electrical.hpp"
 #include "host_sim/loop/energy.hpp"
 #include "host_sim/loop/plant_port.hpp"
 #include "host_sim/loop/steady_orbit.hpp"
@@ -68,7 +69,8 @@ struct RunResult {
   double wall_s = 0.0;
   EnergyBalance whole;
   EnergyBalance window;
-  std::optional<SteadyOrbit> steady_orbit;  ///< where the run began on it
+  std::optional<ElectricalBalance> electrical;  ///< of the window; where there is a transducer
+  std::optional<SteadyOrbit> steady_orbit;      ///< where the run began on it
   std::optional<ControlRecord> control;
   std::optional<ImageRecord> image;  ///< whoever made the image fills it in
 };

@@ -1,6 +1,7 @@
 /// Who watches a run, and what of it: carrier periods, states at chosen times, progress.
 #pragma once
 
+#include <complex>
 #include <functional>
 #include <vector>
 
@@ -16,7 +17,10 @@ struct Period {
   double friction_ratio;          ///< ρ, see PowerRatios; NaN without friction
   double begin_velocity_m_per_s;  ///< sliding
   double end_velocity_m_per_s;
-  double drive_amplitude_N;    ///< in force during it
+  double drive_amplitude_N;  ///< in force during it
+  double frequency_Hz;       ///< likewise, of the carrier; 0 without a drive
+  /// z [m/s]: the vibration velocity is Re(z e^jθ), θ the phase of the drive; 0 without a transducer.
+  std::complex<double> vibration_m_per_s;
   double target;               ///< that its drive was picked for; NaN in open loop
   control::State state;        ///< of the command in force during it
   control::Limit limit;        ///< likewise

@@ -62,9 +62,11 @@ void RepeatingNumber::append_to(fmt::memory_buffer& row, double value) {
   row.append(text_.begin(), text_.end());
 }
 
-PeriodsCsv::PeriodsCsv(CsvFile file) : file_(std::move(file)) {
-  file_.row().append(std::string_view(
-      "time_s,friction_ratio,target,drive_amplitude_N,sliding_velocity_m_per_s,limit"));
+PeriodsCsv::PeriodsCsv(CsvFile file, const AmplitudeUnit& unit)
+    : file_(std::move(file)), unit_(unit) {
+  fmt::format_to(std::back_inserter(file_.row()),
+                 "time_s,friction_ratio,target,drive_amplitude_{},sliding_velocity_m_per_s,limit",
+                 unit.name);
   file_.finish_row();
 }
 
@@ -76,7 +78,7 @@ void PeriodsCsv::take(const loop::Period& period) {
   row.push_back(',');
   target_.append_to(row, period.target);
   row.push_back(',');
-  drive_amplitude_N_.append_to(row, period.drive_amplitude_N);
+  drive_amplitude_.append_to(row, period.drive_amplitude_N * unit_.per_N);
   row.push_back(',');
   sliding_velocity_m_per_s_.append_to(row, period.begin_velocity_m_per_s);
   row.push_back(',');

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "host_sim/loop/watch.hpp"
+#include "host_sim/report/words.hpp"
 #include "host_sim/scene/scene.hpp"
 
 namespace sonoglide::report {
@@ -43,13 +44,14 @@ class RepeatingNumber {
 /// periods.csv: one row for each carrier period; numbers as short as they can be read back.
 class PeriodsCsv final : public loop::PeriodSink {
  public:
-  explicit PeriodsCsv(CsvFile file);
+  PeriodsCsv(CsvFile file, const AmplitudeUnit& unit);
   void take(const loop::Period& period) override;
 
  private:
   CsvFile file_;
+  AmplitudeUnit unit_;
   RepeatingNumber target_;
-  RepeatingNumber drive_amplitude_N_;
+  RepeatingNumber drive_amplitude_;
   RepeatingNumber sliding_velocity_m_per_s_;
 };
 

@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "host_sim/loop/electrical.hpp"
+
 namespace sonoglide::report {
 namespace {
 
@@ -22,6 +24,14 @@ void Course::take(const loop::Period& period) {
   ++periods_in_[static_cast<std::size_t>(period.limit)];
 }
 
+void VibrationCourse::take(const loop::Period& period) {
+  curve_.add(period.begin_s,
+             {std::abs(period.vibration_m_per_s),
+              loop::current_amplitude_A(transducer_, period.drive_amplitude_N, period.frequency_Hz,
+                                        period.vibration_m_per_s),
+              period.frequency_Hz});
+}
+
 RunFindings::RunFindings(const scene::Scene& scene,
                          const std::optional<configure::ControlDesign>& design)
     : scene_(scene), grid_(scene) {
@@ -29,11 +39,17 @@ RunFindings::RunFindings(const scene::Scene& scene,
     step_meter_.emplace(scene);
     tracking_meter_.emplace(scene, design->speed_floor_m_per_s());
   }
+  if (scene.transducer) {
+    vibration_.emplace(*scene.transducer);
+  }
   close_ups_.resize(std::min(target_steps_s().size(), most_close_ups));
 }
 
 void RunFindings::join(loop::Watch& watch) {
   watch.periods.push_back(&course_);
+  if (vibration_) {
+    watch.periods.push_back(&*vibration_);
+  }
   if (step_meter_) {
     watch.periods.push_back(&*step_meter_);
     watch.periods.push_back(&*tracking_meter_);

@@ -38,6 +38,25 @@ class Course final : public loop::PeriodSink {
   std::array<std::uint64_t, control::limit_count> periods_in_{};
 };
 
+/// The fundamental of vibration and current, carrier period by carrier period.
+class VibrationCourse final : public loop::PeriodSink {
+ public:
+  enum Ordinate { vibration_m_per_s, current_A, frequency_Hz, ordinates };
+  using Curve = report::ExtremesCurve<ordinates>;
+
+  explicit VibrationCourse(const scene::Transducer& transducer) : transducer_(transducer) {}
+
+  void take(const loop::Period& period) override;
+
+  const Curve& curve() const { return curve_; }
+
+ private:
+  static constexpr std::size_t most_points = 20000;
+
+  scene::Transducer transducer_;
+  Curve curve_{most_points};
+};
+
 class RunFindings {
  public:
   /// @param design  of the scene's controller; none in open loop
@@ -54,6 +73,8 @@ class RunFindings {
   report::PauseMetrics pauses() const;
   std::optional<double> largest_tracking_error() const;
   const Course& course() const { return course_; }
+  /// Null without a transducer.
+  const VibrationCourse* vibration() const { return vibration_ ? &*vibration_ : nullptr; }
   /// A few carrier periods at each of the first target steps; in open loop at the beginning.
   const std::vector<loop::Recording>& close_ups() const { return close_ups_; }
   /// The last carrier periods, for loops and spectra.
@@ -69,6 +90,7 @@ class RunFindings {
   std::optional<report::StepMeter> step_meter_;
   std::optional<report::TrackingMeter> tracking_meter_;
   Course course_;
+  std::optional<VibrationCourse> vibration_;
   std::vector<loop::Recording> close_ups_;
   loop::Recording ending_;
 };

@@ -74,11 +74,12 @@ std::vector<std::string> warnings(const scene::Scene& scene, const loop::RunResu
     all.push_back(fmt::format("Fault at {:.6g} ms: {}. The drive is off from there on.",
                               event.time_s * 1e3, fault_name(event.fault)));
   }
+  const AmplitudeUnit unit = amplitude_unit(scene);
   if (result.control->saturated_commands > 0) {
     all.push_back(
-        fmt::format("The actuator's range of 0 to {:.6g} N limited the drive in {} of the "
+        fmt::format("The actuator's range of 0 to {:.6g} {} limited the drive in {} of the "
                     "control steps.",
-                    scene.drive->max_force_amplitude_N,
+                    scene.drive->max_force_amplitude_N * unit.per_N, unit.name,
                     percent(static_cast<double>(result.control->saturated_commands) /
                             static_cast<double>(result.control->commands))));
   }
@@ -108,17 +109,18 @@ std::vector<std::string> warnings(const scene::Scene& scene, const loop::RunResu
   return all;
 }
 
-output::Table step_table(const RunFindings& findings) {
+output::Table step_table(const scene::Scene& scene, const RunFindings& findings) {
+  const AmplitudeUnit unit = amplitude_unit(scene);
   output::Table table{"Target steps",
                       {"From [ms]", "Target", "Settles in [µs]", "Overshoot", "Steady error",
-                       "Ripple", "Drive [N]", "Limit"},
+                       "Ripple", fmt::format("Drive [{}]", unit.name), "Limit"},
                       {}};
   for (const report::StepMetrics& step : findings.steps()) {
     table.rows.push_back(
         {fmt::format("{:.3f}", step.time_s * 1e3), fmt::format("{:.3f}", step.target),
          step.settling_time_s ? fmt::format("{:.1f}", *step.settling_time_s * 1e6) : "never",
          figure("{:.5f}", step.overshoot), figure("{:+.5f}", step.steady_error),
-         figure("{:.5f}", step.ripple), figure("{:.1f}", step.drive_amplitude_N),
+         figure("{:.5f}", step.ripple), figure("{:.1f}", step.drive_amplitude_N * unit.per_N),
          limit_text(step)});
   }
   return table;
@@ -161,6 +163,22 @@ output::Table run_table(const scene::Scene& scene, const loop::RunResult& result
   }
   row("Simulated time over wall time", fmt::format("{:.3g}", result.final_time_s / result.wall_s));
   return table;
+}
+
+output::Table electrical_table(const loop::ElectricalBalance& balance) {
+  const loop::ElectricalFigures figures = loop::electrical_figures(balance);
+  return {
+      "Transducer, window",
+      {},
+      {{"Largest voltage amplitude [V]", fmt::format("{:.6g}", figures.voltage_peak_V)},
+       {"Largest current amplitude, fundamental [A]",
+        fmt::format("{:.6g}", figures.current_peak_A)},
+       {"Active power [W]", fmt::format("{:.6g}", figures.active_power_W)},
+       {"Reactive power, below 0 capacitive [var]",
+        fmt::format("{:.6g}", figures.reactive_power_var)},
+       {"Apparent power [VA]", fmt::format("{:.6g}", figures.apparent_power_VA)},
+       {"Power factor", figure("{:.6f}", figures.power_factor)},
+       {"Residual of the electrical balance", fmt::format("{:.2g}", figures.balance_residual)}}};
 }
 
 output::Table signal_table(const loop::ControlRecord& control) {
@@ -230,14 +248,16 @@ output::Section course(const scene::Scene& scene, const Course::Curve& curve) {
                               "course"});
   }
   if (scene.drive) {
-    section.panels.push_back({"Drive amplitude",
-                              "",
-                              time_label,
-                              "Drive force amplitude [N]",
-                              time,
-                              {series("amplitude", Course::drive_amplitude_N)},
-                              false,
-                              "course"});
+    const AmplitudeUnit unit = amplitude_unit(scene);
+    section.panels.push_back(
+        {"Drive amplitude",
+         "",
+         time_label,
+         fmt::format("Drive {} amplitude [{}]", scene.transducer ? "voltage" : "force", unit.name),
+         time,
+         {{"amplitude", unit.of(curve.y(Course::drive_amplitude_N)), true, false}},
+         false,
+         "course"});
   }
   if (scene.sliding.profile.size() > 1) {
     section.panels.push_back({"Sliding velocity",
@@ -248,6 +268,28 @@ output::Section course(const scene::Scene& scene, const Course::Curve& curve) {
                               {series("sliding", Course::sliding_velocity_m_per_s)},
                               false,
                               "course"});
+  }
+  return section;
+}
+
+output::Section vibration_section(const scene::Scene& scene, const VibrationCourse::Curve& curve) {
+  const std::vector<double> time = curve.x();
+  output::Section section{"Vibration and current", "Fundamental of each carrier period.", {}};
+  const auto panel = [&](const char* title, const char* label, VibrationCourse::Ordinate ordinate) {
+    section.panels.push_back({title,
+                              "",
+                              time_label,
+                              label,
+                              time,
+                              {{"fundamental", curve.y(ordinate), true, false}},
+                              false,
+                              "course"});
+  };
+  panel("Vibration velocity", "Vibration velocity, amplitude [m/s]",
+        VibrationCourse::vibration_m_per_s);
+  panel("Current", "Current, amplitude [A]", VibrationCourse::current_A);
+  if (!scene.drive->frequency_profile.empty()) {
+    panel("Carrier frequency", "Carrier frequency [Hz]", VibrationCourse::frequency_Hz);
   }
   return section;
 }
@@ -375,9 +417,12 @@ output::Page run_page(const scene::Scene& scene, const loop::RunResult& result,
                       const RunFindings& findings) {
   output::Page page{scene.name, lead(scene, result), warnings(scene, result, findings), {}, {}};
   if (scene.controller) {
-    page.tables.push_back(step_table(findings));
+    page.tables.push_back(step_table(scene, findings));
   }
   page.tables.push_back(run_table(scene, result));
+  if (result.electrical) {
+    page.tables.push_back(electrical_table(*result.electrical));
+  }
   if (result.control && !result.control->signals.empty()) {
     page.tables.push_back(signal_table(*result.control));
   }
@@ -385,6 +430,9 @@ output::Page run_page(const scene::Scene& scene, const loop::RunResult& result,
     page.tables.push_back(image_table(*result.image));
   }
   page.sections.push_back(course(scene, findings.course().curve()));
+  if (const VibrationCourse* vibration = findings.vibration()) {
+    page.sections.push_back(vibration_section(scene, vibration->curve()));
+  }
   for (std::size_t i = 0; i < findings.close_ups().size(); ++i) {
     page.sections.push_back(close_up(scene, findings.close_ups()[i], i));
   }

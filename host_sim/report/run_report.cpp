@@ -35,6 +35,16 @@ ordered_json power(const loop::PowerRatios& window) {
           {"as_printed", {{"dissipation_ratio", number(window.dissipation_as_printed)}}}};
 }
 
+ordered_json electrical(const loop::ElectricalFigures& figures) {
+  return {{"voltage_peak_V", figures.voltage_peak_V},
+          {"current_peak_A", figures.current_peak_A},
+          {"active_power_W", number(figures.active_power_W)},
+          {"reactive_power_var", number(figures.reactive_power_var)},
+          {"apparent_power_VA", number(figures.apparent_power_VA)},
+          {"power_factor", number(figures.power_factor)},
+          {"balance_residual", number(figures.balance_residual)}};
+}
+
 ordered_json steady_orbit(const loop::SteadyOrbit& orbit) {
   return {{"displacement_m", orbit.state.displacement_m},
           {"velocity_m_per_s", orbit.state.velocity_m_per_s},
@@ -55,14 +65,15 @@ ordered_json cause(const report::StepMetrics& metrics) {
                                                      : ordered_json(settling_name(metrics.cause));
 }
 
-ordered_json step(const report::StepMetrics& metrics) {
+ordered_json step(const report::StepMetrics& metrics, const AmplitudeUnit& unit) {
   return {{"time_s", metrics.time_s},
           {"target", metrics.target},
           {"settling_time_s", number(metrics.settling_time_s)},
           {"overshoot", number(metrics.overshoot)},
           {"steady_error", number(metrics.steady_error)},
           {"ripple", number(metrics.ripple)},
-          {"drive_amplitude_N", number(metrics.drive_amplitude_N)},
+          {fmt::format("drive_amplitude_{}", unit.name),
+           number(metrics.drive_amplitude_N * unit.per_N)},
           {"limit", limit_name(metrics.limit)},
           {"limit_seen_by", limit_seen_by(metrics)},
           {"cause", cause(metrics)},
@@ -98,7 +109,7 @@ ordered_json control(const scene::Scene& scene, const loop::RunResult& result,
   const configure::ControlDesign& design = record.design;
   ordered_json steps = ordered_json::array();
   for (const report::StepMetrics& metrics : findings.steps()) {
-    steps.push_back(step(metrics));
+    steps.push_back(step(metrics, amplitude_unit(scene)));
   }
   ordered_json faults = ordered_json::array();
   for (const loop::FaultEvent& event : record.faults) {
@@ -180,6 +191,9 @@ ordered_json summary(const scene::Scene& scene, const loop::RunResult& result,
       {"whole_run", number(loop::power_ratios(scene, result.whole).friction_ratio)},
       {"window", number(window.friction_ratio)}};
   json["power"] = power(window);
+  if (result.electrical) {
+    json["electrical"] = electrical(loop::electrical_figures(*result.electrical));
+  }
   if (result.steady_orbit) {
     json["steady_orbit"] = steady_orbit(*result.steady_orbit);
   }
@@ -219,7 +233,7 @@ RunReport::RunReport(const std::filesystem::path& out, const scene::Scene& scene
       folder_(out, {summary_file, page_file, trace_file, periods_file}),
       findings_(scene, design) {
   if (!scene.run.record.empty()) {
-    periods_.emplace(open(folder_, periods_file));
+    periods_.emplace(open(folder_, periods_file), amplitude_unit(scene));
     trace_.emplace(open(folder_, trace_file), scene.run.record);
   } else {
     folder_.withdraw(periods_file);
@@ -254,14 +268,17 @@ std::string pause_line(const report::PauseMetrics& metrics) {
       metrics.pauses, 100.0 * metrics.time_fraction, metrics.ratio_cost);
 }
 
-std::string step_lines(const loop::RunResult& result, const RunFindings& findings) {
+std::string step_lines(const scene::Scene& scene, const loop::RunResult& result,
+                       const RunFindings& findings) {
+  const AmplitudeUnit unit = amplitude_unit(scene);
   std::string text = fmt::format("{:>11} {:>7} {:>11} {:>10} {:>8} {:>10}  {}\n", "from", "target",
                                  "settles in", "error", "ripple", "drive", "limit");
   for (const report::StepMetrics& step : findings.steps()) {
-    text += fmt::format("{:>8.3f} ms {:>7.3f} {:>11} {:>10} {:>8} {:>8} N  {}\n", step.time_s * 1e3,
-                        step.target, settling(step.settling_time_s),
+    text += fmt::format("{:>8.3f} ms {:>7.3f} {:>11} {:>10} {:>8} {:>8} {}  {}\n",
+                        step.time_s * 1e3, step.target, settling(step.settling_time_s),
                         figure("{:+.5f}", step.steady_error), figure("{:.5f}", step.ripple),
-                        figure("{:.1f}", step.drive_amplitude_N), limit_text(step));
+                        figure("{:.1f}", step.drive_amplitude_N * unit.per_N), unit.name,
+                        limit_text(step));
   }
   if (result.control->design.relearns) {
     text += pause_line(findings.pauses());
@@ -271,6 +288,16 @@ std::string step_lines(const loop::RunResult& result, const RunFindings& finding
                         event.time_s * 1e3, fault_name(event.fault));
   }
   return text;
+}
+
+std::string electrical_line(const loop::RunResult& result) {
+  if (!result.electrical) {
+    return {};
+  }
+  const loop::ElectricalFigures figures = loop::electrical_figures(*result.electrical);
+  return fmt::format("{:.4g} V and {:.4g} A at most; {:.4g} W of {:.4g} VA, power factor {}\n",
+                     figures.voltage_peak_V, figures.current_peak_A, figures.active_power_W,
+                     figures.apparent_power_VA, figure("{:.3g}", figures.power_factor));
 }
 
 std::string ratio_line(const scene::Scene& scene, const loop::RunResult& result) {
@@ -288,7 +315,8 @@ std::string ratio_line(const scene::Scene& scene, const loop::RunResult& result)
 std::string run_text(const scene::Scene& scene, const loop::RunResult& result,
                      const RunFindings& findings, const std::filesystem::path& out) {
   const std::string lines =
-      scene.controller ? step_lines(result, findings) : ratio_line(scene, result);
+      (scene.controller ? step_lines(scene, result, findings) : ratio_line(scene, result)) +
+      electrical_line(result);
   return fmt::format("{}{}{:.6g} ms simulated in {:.3g} ms, {:.3g} times real time\nreport: {}\n",
                      lines, result.image ? image_lines(*result.image) : "",
                      result.final_time_s * 1e3, result.wall_s * 1e3,

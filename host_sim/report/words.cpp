@@ -8,6 +8,18 @@
 
 namespace sonoglide::report {
 
+AmplitudeUnit amplitude_unit(const scene::Scene& scene) {
+  return scene.transducer ? AmplitudeUnit{"V", 1.0 / scene.transducer->force_factor_N_per_V}
+                          : AmplitudeUnit{"N", 1.0};
+}
+
+std::vector<double> AmplitudeUnit::of(std::vector<double> forces_N) const {
+  for (double& force : forces_N) {
+    force *= per_N;
+  }
+  return forces_N;
+}
+
 std::string limit_name(control::Limit limit) {
   return control::name(limit);
 }

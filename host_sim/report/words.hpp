@@ -5,11 +5,13 @@
 
 #include <cmath>
 #include <string>
+#include <vector>
 
 #include "firmware/control/drive_command.hpp"
 #include "host_sim/loop/run_result.hpp"
 #include "host_sim/output/page.hpp"
 #include "host_sim/report/step_metrics.hpp"
+#include "host_sim/scene/scene.hpp"
 
 namespace sonoglide::report {
 
@@ -17,6 +19,15 @@ namespace sonoglide::report {
 inline std::string figure(fmt::format_string<const double&> format, double value) {
   return std::isnan(value) ? "-" : fmt::format(format, value);
 }
+
+/// In which the amplitude of a drive is told.
+struct AmplitudeUnit {
+  const char* name;  ///< "N", with a transducer "V"
+  double per_N;
+
+  std::vector<double> of(std::vector<double> forces_N) const;
+};
+AmplitudeUnit amplitude_unit(const scene::Scene& scene);
 
 std::string limit_name(control::Limit limit);
 std::string fault_name(control::Fault fault);

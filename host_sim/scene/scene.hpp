@@ -13,9 +13,11 @@
 
 namespace sonoglide::scene {
 
+/// Where the profile holds anything, the stiffness is its value at 0 s.
 struct Plant {
   double mass_kg = 0.0;
   double stiffness_N_per_m = 0.0;
+  TimedProfile stiffness_profile;
   double damping_N_s_per_m = 0.0;
   double initial_displacement_m = 0.0;
   double initial_velocity_m_per_s = 0.0;
@@ -29,11 +31,6 @@ struct Friction : ContactValues {
 
   bool has_profile() const {
     return !coefficient_profile.empty() || !normal_force_profile_N.empty();
-  }
-  /// The one that is there, `table.key`.
-  const char* profile_key() const {
-    return coefficient_profile.empty() ? "friction.normal_force_profile_N"
-                                       : "friction.coefficient_profile";
   }
 };
 
@@ -51,15 +48,28 @@ struct Sliding {
 /// triangle falls to -A at half a period and rises again, the sawtooth falls over the whole period.
 enum class Waveform { cosine, square, triangle, sawtooth };
 
-/// Piezo force of amplitude A; A is fixed in open loop, the controller's in closed loop.
+/// Piezo force of amplitude A; A is fixed in open loop, the controller's in closed loop. With a
+/// transducer the forces are what the voltages amount to.
 struct Drive {
   double frequency_Hz = 0.0;
-  double force_amplitude_N = 0.0;                ///< open loop
-  double max_force_amplitude_N = 0.0;            ///< closed loop: the actuator's limit
+  TimedProfile frequency_profile;        ///< open loop: the frequency, taken at each phase 0
+  double frequency_resolution_Hz = 0.0;  ///< the frequency is a multiple of it; 0: any
+  double force_amplitude_N = 0.0;        ///< open loop
+  double voltage_amplitude_V = 0.0;      ///< the same, with a transducer
+  double max_force_amplitude_N = 0.0;    ///< closed loop: the actuator's limit
+  double max_voltage_amplitude_V = 0.0;  ///< the same, with a transducer
   std::optional<double> max_force_slew_N_per_s;  ///< closed loop: absent, no slew limit
   Waveform waveform = Waveform::cosine;
   /// Closed loop: from the end of a sampled period to where its answer acts.
   int delay_periods = 1;
+};
+
+/// Turns a voltage into a force, and takes a current for it: i = Nf x' + C0 V' + V/R0, with
+/// R0 = 1/(ω C0 tan δ).
+struct Transducer {
+  double force_factor_N_per_V = 0.0;   ///< Nf
+  double clamped_capacitance_F = 0.0;  ///< C0
+  double loss_tangent = 0.0;           ///< tan δ of C0
 };
 
 /// A solver by its place in the list of configure/solver_methods.hpp.
@@ -144,12 +154,16 @@ struct Scene {
   Plant plant;
   Friction friction;
   Sliding sliding;
+  std::optional<Transducer> transducer;  ///< absent: the drive is a force
   std::optional<Drive> drive;
   Solver solver;
   Run run;
   std::optional<Controller> controller;  ///< absent: open loop
   Sensor sensor;
   ModelError model_error;
+
+  /// The key `table.key` of a profile beside that of the sliding; null where there is none.
+  const char* profile_key() const;
 };
 
 }  // namespace sonoglide::scene

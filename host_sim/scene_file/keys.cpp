@@ -29,6 +29,9 @@ constexpr double largest_speed_m_per_s = 1e6;
 constexpr Range time_range{0.0, 1e9, "s"};
 constexpr Range speed_range{-largest_speed_m_per_s, largest_speed_m_per_s, "m/s"};
 constexpr Range force_range{0.0, largest_force_N, "N"};
+constexpr Range stiffness_range{0.0, 1e18, "N/m"};
+constexpr Range frequency_range{1e-3, 1e9, "Hz"};
+constexpr double largest_voltage_V = 1e9;
 constexpr Range either_force_range{-largest_force_N, largest_force_N, "N"};
 constexpr Range sensor_gain_range{-100.0, 100.0};
 constexpr Range coefficient_range{0.0, 100.0};
@@ -36,6 +39,8 @@ constexpr Range normal_force_range{0.0, 1e9, "N"};
 
 const char* const open_loop = "open loop";
 const char* const closed_loop_only = "closed loop";
+const char* const open_loop_volts = "open loop with [transducer]";
+const char* const closed_loop_volts = "closed loop with [transducer]";
 
 template <class Value, std::size_t Count>
 Words words_of(const std::array<scene::Named<Value>, Count>& names) {
@@ -80,8 +85,10 @@ std::vector<Key> plant_keys() {
   const scene::Plant plant;
   return {
       {"mass_kg", Number{{1e-12, 1e6, "kg"}}, Required{}, "mass that vibrates"},
-      {"stiffness_N_per_m", Number{{0.0, 1e18, "N/m"}}, Required{},
+      {"stiffness_N_per_m", Number{stiffness_range}, Instead{"stiffness_profile"},
        "stiffness of the spring that holds the mass"},
+      {"stiffness_profile", Profile{time_range, stiffness_range}, Instead{"stiffness_N_per_m"},
+       "the same over time, linear between the pairs; two pairs at the same time are a jump"},
       {"damping_N_s_per_m", Number{{0.0, 1e12, "N s/m"}}, plant.damping_N_s_per_m,
        "viscous damping of the vibration"},
       {"initial_displacement_m", Number{{-1e3, 1e3, "m"}}, plant.initial_displacement_m,
@@ -142,12 +149,33 @@ std::vector<Key> sliding_keys() {
   };
 }
 
+std::vector<Key> transducer_keys() {
+  const scene::Transducer transducer;
+  return {
+      {"force_factor_N_per_V", Number{{1e-12, 1e12, "N/V"}}, Required{},
+       "force on the mass over the voltage"},
+      {"clamped_capacitance_F", Number{{0.0, 1.0, "F"}}, Required{},
+       "capacitance while the mass is held"},
+      {"loss_tangent", Number{{0.0, 10.0}}, transducer.loss_tangent,
+       "dielectric losses of this capacitance: active over reactive current"},
+  };
+}
+
 std::vector<Key> drive_keys() {
   const scene::Drive drive;
   return {
-      {"frequency_Hz", Number{{1e-3, 1e9, "Hz"}}, Required{}, "carrier frequency"},
+      {"frequency_Hz", Number{frequency_range}, Required{},
+       "carrier frequency; with frequency_profile only the unit of the keys in carrier periods"},
+      {"frequency_profile", Profile{time_range, frequency_range}, Rule{"frequency_Hz, constant"},
+       "carrier frequency over time, linear between the pairs; a carrier period has that of its "
+       "beginning",
+       open_loop},
+      {"frequency_resolution_Hz", Number{{0.0, 1e9, "Hz"}}, drive.frequency_resolution_Hz,
+       "step of the frequency word: the drive has the nearest multiple of it; 0: any frequency"},
       {"force_amplitude_N", Number{force_range}, Instead{"max_force_amplitude_N"},
-       "amplitude of the drive force", open_loop},
+       "amplitude of the drive force", "open loop without [transducer]"},
+      {"voltage_amplitude_V", Number{{0.0, largest_voltage_V, "V"}},
+       Instead{"max_voltage_amplitude_V"}, "amplitude of the drive voltage", open_loop_volts},
       {"waveform", Word{words_of(scene::waveforms)},
        scene::name_of(scene::waveforms, drive.waveform),
        fmt::format("shape of the drive force, with its peak at phase 0; a shape other than cosine "
@@ -156,9 +184,14 @@ std::vector<Key> drive_keys() {
                      return !decltype(described)::straight_orders.empty();
                    }))},
       {"max_force_amplitude_N", Number{{1e-12, largest_force_N, "N"}}, Instead{"force_amplitude_N"},
-       "limit of the actuator: largest amplitude of the drive force", closed_loop_only},
+       "limit of the actuator: largest amplitude of the drive force",
+       "closed loop without [transducer]"},
+      {"max_voltage_amplitude_V", Number{{1e-12, largest_voltage_V, "V"}},
+       Instead{"voltage_amplitude_V"}, "limit of the amplifier: largest amplitude of the voltage",
+       closed_loop_volts},
       {"max_force_slew_N_per_s", Number{{1e-12, 1e21, "N/s"}}, Rule{"no limit"},
-       "limit of the actuator: fastest change of the amplitude", closed_loop_only},
+       "limit of the actuator: fastest change of the amplitude",
+       "closed loop without [transducer]"},
       {"delay_periods", Integer{0, 16, "periods"}, static_cast<double>(drive.delay_periods),
        "carrier periods from the end of a sampled period to the phase 0 at which the command that "
        "answers it acts; 0 stands for a board that computes in no time",
@@ -340,6 +373,9 @@ const std::vector<KeyTable>& key_tables() {
       {"plant", true, "the mass that vibrates, on a spring and a damper", plant_keys()},
       {"friction", true, "the contact and its friction law", friction_keys()},
       {"sliding", true, "how the body slides over the contact", sliding_keys()},
+      {"transducer", false,
+       "the piezo transducer between amplifier and mass; without this table the drive is a force",
+       transducer_keys()},
       {"drive", false, "the force that drives the vibration; needed in closed loop", drive_keys()},
       {"solver", false, "how the motion is computed", solver_keys()},
       {"run", true, "how long to simulate and what to record", run_keys()},

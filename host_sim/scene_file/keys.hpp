@@ -63,7 +63,8 @@ using Allowed = std::variant<Number, Integer, Word, WordList, Profile>;
 /// The key must be there wherever it is used.
 struct Required {};
 
-/// Exactly one of this key and the other must be there.
+/// Of all keys of a table that stand in for another, exactly one must be there; which pair, depends
+/// on the rest of the scene.
 struct Instead {
   std::string_view other;
 };

@@ -92,7 +92,8 @@ scene::Scene read(const Document& document, const std::vector<VariedValue>& valu
   scene.plant = read_plant(variant);
   scene.friction = read_friction(variant, scene.plant);
   scene.sliding = read_sliding(variant, scene.friction);
-  scene.drive = read_drive(variant);
+  scene.transducer = read_transducer(variant);
+  scene.drive = read_drive(variant, scene.transducer);
   scene.solver = read_solver(variant);
   require_solvable(scene, document);
   settle_waveform(scene, document);

@@ -21,6 +21,9 @@ struct Level {
   scene::TimedProfile& profile;
 };
 
+/// Whether a profile in place of a value may hold a 0, as the value may.
+enum class ZeroIn { profile, value_only };
+
 // Each visitor takes a `Keys` and calls, in the order of the list of keys:
 //   keys.value(key, value)           a number; absent, what the list of keys says
 //   keys.value(key, value, absent)   the same; absent, a number that follows from other keys
@@ -30,7 +33,8 @@ struct Level {
 //   keys.words(key, values, names)   a list of them; empty where absent
 //   keys.one_of(key, value, allowed) one of a few integers
 //   keys.time(key, periods_key, value, drive)  in seconds, or under the other key in periods
-//   keys.level(level, absent, law)   required where `absent` is nullopt
+//   keys.level(level, zero, absent)   required where `absent` is nullopt
+//   keys.profile(key, profile)       empty where absent
 //   keys.speed(key, profile_key, points)  one speed, or its profile in place of it
 //   keys.targets(key, steps)
 // and, of a friction law, what scene::laws::None lists.
@@ -38,7 +42,9 @@ struct Level {
 template <class Keys>
 void visit_plant(Keys& keys, scene::Plant& plant, scene::Start start) {
   keys.value("mass_kg", plant.mass_kg);
-  keys.value("stiffness_N_per_m", plant.stiffness_N_per_m);
+  keys.level(Level{"stiffness_N_per_m", "stiffness_profile", plant.stiffness_N_per_m,
+                   plant.stiffness_profile},
+             ZeroIn::profile, std::nullopt);
   keys.value("damping_N_s_per_m", plant.damping_N_s_per_m);
   if (start == scene::Start::given) {
     keys.value("initial_displacement_m", plant.initial_displacement_m);
@@ -66,12 +72,13 @@ void visit_friction(Keys& keys, scene::Friction& friction, const scene::Plant& p
   if (scene::is<scene::laws::None>(friction.law)) {
     return;
   }
+  const ZeroIn zero = scene::is_bounded(friction.law) ? ZeroIn::profile : ZeroIn::value_only;
   keys.level(Level{"coefficient", "coefficient_profile", friction.coefficient,
                    friction.coefficient_profile},
-             std::nullopt, friction.law);
+             zero, std::nullopt);
   keys.level(Level{"normal_force_N", "normal_force_profile_N", friction.normal_force_N,
                    friction.normal_force_profile_N},
-             plant.mass_kg * standard_gravity_m_per_s2, friction.law);
+             zero, plant.mass_kg * standard_gravity_m_per_s2);
   if (scene::is_elastic(friction.law)) {
     keys.value("contact_stiffness_N_per_m", friction.contact_stiffness_N_per_m);
     if (start == scene::Start::given) {
@@ -93,16 +100,45 @@ void visit_sliding(Keys& keys, scene::Sliding& sliding) {
 }
 
 template <class Keys>
-void visit_drive(Keys& keys, scene::Drive& drive, bool closed_loop) {
-  keys.value("frequency_Hz", drive.frequency_Hz);
-  if (!closed_loop) {
+void visit_transducer(Keys& keys, scene::Transducer& transducer) {
+  keys.value("force_factor_N_per_V", transducer.force_factor_N_per_V);
+  keys.value("clamped_capacitance_F", transducer.clamped_capacitance_F);
+  keys.value("loss_tangent", transducer.loss_tangent);
+}
+
+template <class Keys>
+void visit_open_loop_drive(Keys& keys, scene::Drive& drive, bool in_volts) {
+  keys.profile("frequency_profile", drive.frequency_profile);
+  keys.value_or_0("frequency_resolution_Hz", drive.frequency_resolution_Hz);
+  if (in_volts) {
+    keys.value("voltage_amplitude_V", drive.voltage_amplitude_V);
+  } else {
     keys.value("force_amplitude_N", drive.force_amplitude_N);
   }
   keys.word("waveform", drive.waveform, scene::waveforms);
-  if (closed_loop) {
+}
+
+template <class Keys>
+void visit_closed_loop_drive(Keys& keys, scene::Drive& drive, bool in_volts) {
+  keys.value_or_0("frequency_resolution_Hz", drive.frequency_resolution_Hz);
+  keys.word("waveform", drive.waveform, scene::waveforms);
+  if (in_volts) {
+    keys.value("max_voltage_amplitude_V", drive.max_voltage_amplitude_V);
+  } else {
     keys.value("max_force_amplitude_N", drive.max_force_amplitude_N);
     keys.value("max_force_slew_N_per_s", drive.max_force_slew_N_per_s);
-    keys.value("delay_periods", drive.delay_periods);
+  }
+  keys.value("delay_periods", drive.delay_periods);
+}
+
+/// @param in_volts  with a transducer
+template <class Keys>
+void visit_drive(Keys& keys, scene::Drive& drive, bool closed_loop, bool in_volts) {
+  keys.value("frequency_Hz", drive.frequency_Hz);
+  if (closed_loop) {
+    visit_closed_loop_drive(keys, drive, in_volts);
+  } else {
+    visit_open_loop_drive(keys, drive, in_volts);
   }
 }
 

@@ -66,16 +66,52 @@ void require_slip(TableCursor& cursor, std::string_view key, const scene::Slidin
   }
 }
 
+/// Amplitudes are voltages with a transducer, and forces without.
+void reject_other_amplitudes(const TableCursor& cursor, bool closed, bool in_volts) {
+  const auto refuse = [&](std::initializer_list<std::string_view> keys, std::string_view finding,
+                          std::string_view open_key, std::string_view closed_key) {
+    for (const std::string_view key : keys) {
+      if (cursor.has(key)) {
+        cursor.fail(key, fmt::format("{}; allowed: {}", finding, closed ? closed_key : open_key));
+      }
+    }
+  };
+  if (in_volts) {
+    refuse({"force_amplitude_N", "max_force_amplitude_N", "max_force_slew_N_per_s"},
+           "is a force, but with a [transducer] the drive is a voltage", "voltage_amplitude_V",
+           "max_voltage_amplitude_V");
+  } else {
+    refuse({"voltage_amplitude_V", "max_voltage_amplitude_V"},
+           "is a voltage, but without a [transducer] the drive is a force", "force_amplitude_N",
+           "max_force_amplitude_N");
+  }
+}
+
+/// The current into a capacitance has no bound where the voltage jumps.
+void require_cosine(const TableCursor& cursor, scene::Waveform waveform) {
+  if (waveform != scene::Waveform::cosine) {
+    cursor.fail("waveform", fmt::format("\"{}\" is not for a [transducer]; allowed: \"cosine\"",
+                                        scene::name_of(scene::waveforms, waveform)));
+  }
+}
+
 // Days of writing: more is a mistyped unit.
 constexpr double most_fixed_steps = 1e11;
 constexpr double most_recorded_rows = 1e9;
 
+double largest(double value, const scene::TimedProfile& in_its_place) {
+  return in_its_place.empty() ? value : scene::largest_value(in_its_place);
+}
+
 /// Bounds what a mistyped unit can cost.
 void check_work(const TableCursor& cursor, std::string_view key, const scene::Run& run,
                 const scene::Scene& so_far) {
-  const double drive_Hz = so_far.drive ? so_far.drive->frequency_Hz : 0.0;
+  const scene::Plant& plant = so_far.plant;
+  const double drive_Hz =
+      so_far.drive ? largest(so_far.drive->frequency_Hz, so_far.drive->frequency_profile) : 0.0;
   const double natural_Hz =
-      std::sqrt(so_far.plant.stiffness_N_per_m / so_far.plant.mass_kg) / numeric::two_pi;
+      std::sqrt(largest(plant.stiffness_N_per_m, plant.stiffness_profile) / plant.mass_kg) /
+      numeric::two_pi;
   const double periods = run.duration_s * std::max(drive_Hz, natural_Hz);
   // The conversion of periods to seconds and back may round up.
   if (periods > most_periods * (1.0 + 1e-12)) {
@@ -118,9 +154,8 @@ void require_steady_conditions(const TableCursor& cursor, const Variant& variant
   if (so_far.sliding.profile.size() != 1) {
     cursor.fail("start", "nothing is steady under a sliding.profile; allowed: \"given\"");
   }
-  if (so_far.friction.has_profile()) {
-    cursor.fail("start", fmt::format("nothing is steady under a {}; allowed: \"given\"",
-                                     so_far.friction.profile_key()));
+  if (const char* key = so_far.profile_key()) {
+    cursor.fail("start", fmt::format("nothing is steady under a {}; allowed: \"given\"", key));
   }
   reject_initial_state(variant, "plant", {"initial_displacement_m", "initial_velocity_m_per_s"});
   reject_initial_state(variant, "friction", {"initial_force_N"});
@@ -184,7 +219,22 @@ scene::Sliding read_sliding(const Variant& variant, const scene::Friction& frict
   return sliding;
 }
 
-std::optional<scene::Drive> read_drive(const Variant& variant) {
+std::optional<scene::Transducer> read_transducer(const Variant& variant) {
+  TableCursor cursor(variant, "transducer");
+  if (!cursor.present()) {
+    return std::nullopt;
+  }
+  if (variant.find("drive") == nullptr) {
+    cursor.fail("not used without a table [drive]; remove it");
+  }
+  ValueReader reader(cursor);
+  scene::Transducer transducer;
+  visit_transducer(reader, transducer);
+  return transducer;
+}
+
+std::optional<scene::Drive> read_drive(const Variant& variant,
+                                       const std::optional<scene::Transducer>& transducer) {
   TableCursor cursor(variant, "drive");
   const bool closed = closed_loop(variant);
   if (!cursor.present()) {
@@ -193,9 +243,15 @@ std::optional<scene::Drive> read_drive(const Variant& variant) {
     }
     return std::nullopt;
   }
+  reject_other_amplitudes(cursor, closed, transducer.has_value());
   ValueReader reader(cursor);
   scene::Drive drive;
-  visit_drive(reader, drive, closed);
+  visit_drive(reader, drive, closed, transducer.has_value());
+  if (transducer) {
+    require_cosine(cursor, drive.waveform);
+    drive.force_amplitude_N = transducer->force_factor_N_per_V * drive.voltage_amplitude_V;
+    drive.max_force_amplitude_N = transducer->force_factor_N_per_V * drive.max_voltage_amplitude_V;
+  }
   cursor.reject_unread(closed ? "in closed loop: the controller sets the amplitude" : in_open_loop);
   return drive;
 }

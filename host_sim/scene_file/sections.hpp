@@ -11,7 +11,9 @@ namespace sonoglide::scene_file {
 scene::Plant read_plant(const Variant& variant);
 scene::Friction read_friction(const Variant& variant, const scene::Plant& plant);
 scene::Sliding read_sliding(const Variant& variant, const scene::Friction& friction);
-std::optional<scene::Drive> read_drive(const Variant& variant);
+std::optional<scene::Transducer> read_transducer(const Variant& variant);
+std::optional<scene::Drive> read_drive(const Variant& variant,
+                                       const std::optional<scene::Transducer>& transducer);
 scene::Solver read_solver(const Variant& variant);
 scene::Run read_run(const Variant& variant, const scene::Scene& so_far);
 std::optional<scene::Controller> read_controller(const Variant& variant,

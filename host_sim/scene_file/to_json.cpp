@@ -61,13 +61,15 @@ class ValueEcho {
             const std::optional<scene::Drive>& /*drive*/) {
     value(key, time_s);
   }
-  void level(const Level& level, std::optional<double> /*absent*/,
-             const scene::FrictionLaw& /*law*/) {
+  void level(const Level& level, ZeroIn /*zero*/, std::optional<double> /*absent*/) {
     if (level.profile.empty()) {
       value(level.key, level.value);
     }
-    for (const scene::TimedValue& row : level.profile) {
-      add_pair(level.profile_key, row.time_s, row.value);
+    profile(level.profile_key, level.profile);
+  }
+  void profile(std::string_view key, const scene::TimedProfile& profile) {
+    for (const scene::TimedValue& row : profile) {
+      add_pair(key, row.time_s, row.value);
     }
   }
   void speed(std::string_view key, std::string_view profile_key,
@@ -128,8 +130,13 @@ ordered_json to_json(scene::Scene scene) {
   root["friction"] =
       echo([&](auto& keys) { visit_friction(keys, scene.friction, scene.plant, start); });
   root["sliding"] = echo([&](auto& keys) { visit_sliding(keys, scene.sliding); });
+  if (scene.transducer) {
+    root["transducer"] = echo([&](auto& keys) { visit_transducer(keys, *scene.transducer); });
+  }
   if (scene.drive) {
-    root["drive"] = echo([&](auto& keys) { visit_drive(keys, *scene.drive, closed_loop); });
+    root["drive"] = echo([&](auto& keys) {
+      visit_drive(keys, *scene.drive, closed_loop, scene.transducer.has_value());
+    });
   }
   root["solver"] = echo([&](auto& keys) { visit_solver(keys, scene.solver); });
   root["run"] = echo([&](auto& keys) { visit_run(keys, scene.run, scene.drive, closed_loop); });

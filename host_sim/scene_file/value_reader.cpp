@@ -23,18 +23,23 @@ void ValueReader::time(std::string_view key, std::string_view periods_key, doubl
   time_s = cursor_.real(found) / drive->frequency_Hz;
 }
 
-void ValueReader::level(const Level& level, std::optional<double> absent,
-                        const scene::FrictionLaw& law) {
+scene::TimedProfile ValueReader::timed(std::string_view key, const Profile& allowed) {
+  scene::TimedProfile profile;
+  for (const auto& [time_s, value] :
+       cursor_.timed_values_in(key, allowed, TableCursor::Times::jump)) {
+    profile.push_back({time_s, value});
+  }
+  return profile;
+}
+
+void ValueReader::level(const Level& level, ZeroIn zero, std::optional<double> absent) {
   if (cursor_.one_of(level.key, level.profile_key) == level.key) {
     level.value = cursor_.real_in(level.key, cursor_.allowed<Number>(level.key).range, absent);
     return;
   }
   Profile allowed = cursor_.allowed<Profile>(level.profile_key);
-  allowed.value.low_open = !scene::is_bounded(law);
-  for (const auto& [time_s, value] :
-       cursor_.timed_values_in(level.profile_key, allowed, TableCursor::Times::jump)) {
-    level.profile.push_back({time_s, value});
-  }
+  allowed.value.low_open = zero == ZeroIn::value_only;
+  level.profile = timed(level.profile_key, allowed);
   level.value = scene::value_at(level.profile, 0.0);
 }
 

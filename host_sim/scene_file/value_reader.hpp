@@ -64,7 +64,12 @@ class ValueReader {
   /// Leaves the value as it is where both keys are absent and the first need not be there.
   void time(std::string_view key, std::string_view periods_key, double& time_s,
             const std::optional<scene::Drive>& drive);
-  void level(const Level& level, std::optional<double> absent, const scene::FrictionLaw& law);
+  void level(const Level& level, ZeroIn zero, std::optional<double> absent);
+  void profile(std::string_view key, scene::TimedProfile& profile) {
+    if (cursor_.has(key)) {
+      profile = timed(key, cursor_.allowed<Profile>(key));
+    }
+  }
   void speed(std::string_view key, std::string_view profile_key,
              std::vector<scene::SpeedPoint>& points);
   void targets(std::string_view key, std::vector<scene::TargetStep>& steps);
@@ -85,6 +90,7 @@ class ValueReader {
               std::string_view rest);
 
  private:
+  scene::TimedProfile timed(std::string_view key, const Profile& allowed);
   [[noreturn]] void refuse_integer(std::string_view key, int value,
                                    const std::vector<int>& allowed) const;
 

@@ -27,11 +27,10 @@ void require_steady_vibration(const scene::Scene& scene) {
                     "allowed: \"dahl\", \"coulomb\", \"stribeck\"",
                     scene::name_of(scene.friction.law)));
   }
-  if (scene.friction.has_profile()) {
-    throw configure::ConfigurationError(
-        scene.friction.profile_key(),
-        "a design is for a friction that does not change; allowed: coefficient and "
-        "normal_force_N");
+  if (const char* key = scene.profile_key()) {
+    throw configure::ConfigurationError(key,
+                                        "a design is for a plant that does not change; allowed: a "
+                                        "constant value in place of a profile");
   }
   if (scene.friction.sign_convention == scene::SignConvention::as_printed) {
     throw configure::ConfigurationError(

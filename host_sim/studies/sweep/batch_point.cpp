@@ -20,7 +20,7 @@ bool suits_lanes(const scene::Scene& scene) {
   return !scene.controller && scene.run.start == scene::Start::given && scene.drive &&
          scene.drive->waveform == scene::Waveform::cosine &&
          scene::is<scene::laws::Dahl>(scene.friction.law) && scene.friction.limit_N() > 0.0 &&
-         !scene.friction.has_profile() && scene.sliding.profile.size() == 1 &&
+         scene.profile_key() == nullptr && scene.sliding.profile.size() == 1 &&
          solver.method == configure::method_of<configure::solvers::EventTaylor> && !solver.order &&
          solver.tolerance >= fine_tolerance;
 }

@@ -34,10 +34,11 @@ void require_comparable(const scene::Scene& scene) {
         "friction.law", fmt::format("\"{}\" is not solved by every method here; allowed: \"dahl\"",
                                     scene::name_of(scene.friction.law)));
   }
-  if (scene.friction.has_profile()) {
-    throw ConfigurationError(scene.friction.profile_key(),
-                             "solvers are compared at a friction that does not change; allowed: "
-                             "coefficient and normal_force_N");
+  if (const char* key = scene.profile_key()) {
+    throw ConfigurationError(
+        key,
+        "solvers are compared on a plant and a drive that do not change; allowed: "
+        "a constant value in place of a profile");
   }
   if (!(scene.friction.limit_N() > 0.0)) {
     throw ConfigurationError("friction.coefficient",

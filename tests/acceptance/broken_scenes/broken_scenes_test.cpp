@@ -79,7 +79,8 @@ const std::vector<BrokenScene> broken_scenes = {
     {"unknown_table_near", open_loop, "[friction]", "[fricton]",
      "4:2: fricton: unknown table; did you mean friction?"},
     {"unknown_table_far", open_loop, "[friction]", "[weather]",
-     "4:2: weather: unknown table; allowed: plant, friction, sliding, drive, solver, run, "
+     "4:2: weather: unknown table; allowed: plant, friction, sliding, transducer, drive, solver, "
+     "run, "
      "controller, sensor, model_error"},
     {"first_unknown_key_in_file_order", open_loop, "coefficient = 0.1",
      "zeta = 1\nalpha = 2\ncoefficient = 0.1",
@@ -91,7 +92,8 @@ const std::vector<BrokenScene> broken_scenes = {
     {"control_character_in_key", open_loop, "mass_kg = 0.02", "\"mass\\nkg\" = 0.02",
      "2:1: plant.mass\\x0akg: unknown key; did you mean mass_kg?"},
     {"sub_table", open_loop, "[friction]", "[plant.mount]\nx = 1\n[friction]",
-     "4:8: plant.mount: unknown key; allowed: mass_kg, stiffness_N_per_m, damping_N_s_per_m, "
+     "4:8: plant.mount: unknown key; allowed: mass_kg, stiffness_N_per_m, stiffness_profile, "
+     "damping_N_s_per_m, "
      "initial_displacement_m, initial_velocity_m_per_s"},
     // Types
     {"string_for_number", open_loop, "mass_kg = 0.02", "mass_kg = \"0.02\"",
@@ -174,6 +176,38 @@ const std::vector<BrokenScene> broken_scenes = {
     {"unknown_waveform", open_loop, "[solver]", "waveform = \"pulse\"\n[solver]",
      "14:12: drive.waveform: \"pulse\" is unknown; allowed: \"cosine\", \"square\", \"triangle\", "
      "\"sawtooth\""},
+    {"force_into_a_transducer", open_loop, "[drive]",
+     "[transducer]\nforce_factor_N_per_V = 16\nclamped_capacitance_F = 2e-6\n[drive]",
+     "16:21: drive.force_amplitude_N: is a force, but with a [transducer] the drive is a voltage; "
+     "allowed: voltage_amplitude_V"},
+    {"limit_of_force_into_a_transducer", closed_loop, "[drive]",
+     "[transducer]\nforce_factor_N_per_V = 16\nclamped_capacitance_F = 2e-6\n[drive]",
+     "15:25: drive.max_force_amplitude_N: is a force, but with a [transducer] the drive is a "
+     "voltage; allowed: max_voltage_amplitude_V"},
+    {"voltage_without_a_transducer", open_loop, "force_amplitude_N = 384.0",
+     "voltage_amplitude_V = 10",
+     "13:23: drive.voltage_amplitude_V: is a voltage, but without a [transducer] the drive is a "
+     "force; allowed: force_amplitude_N"},
+    {"transducer_without_a_drive", open_loop,
+     "[drive]\nfrequency_Hz = 60e3\nforce_amplitude_N = 384.0",
+     "[transducer]\nforce_factor_N_per_V = 16\nclamped_capacitance_F = 2e-6",
+     "11:2: transducer: not used without a table [drive]; remove it"},
+    {"transducer_under_a_square_wave", open_loop,
+     "[drive]\nfrequency_Hz = 60e3\nforce_amplitude_N = 384.0",
+     "[transducer]\nforce_factor_N_per_V = 16\nclamped_capacitance_F = 2e-6\n[drive]\n"
+     "frequency_Hz = 60e3\nvoltage_amplitude_V = 10\nwaveform = \"square\"",
+     "17:12: drive.waveform: \"square\" is not for a [transducer]; allowed: \"cosine\""},
+    {"steady_while_the_frequency_changes", open_loop,
+     "[solver]\nmethod = \"event_taylor\"\ntolerance = 1e-10\n[run]",
+     "frequency_profile = [[0, 60e3], [1e-3, 61e3]]\n[run]\nstart = \"steady\"",
+     "16:9: run.start: nothing is steady under a drive.frequency_profile; allowed: \"given\""},
+    {"frequency_profile_in_closed_loop", closed_loop, "frequency_Hz = 60e3",
+     "frequency_Hz = 60e3\nfrequency_profile = [[0, 60e3]]",
+     "12:1: drive.frequency_profile: not used in closed loop: the controller sets the amplitude; "
+     "remove it"},
+    {"spring_told_twice", open_loop, "stiffness_N_per_m = 133e6",
+     "stiffness_N_per_m = 133e6\nstiffness_profile = [[0, 133e6]]",
+     "4:1: plant.stiffness_profile: excludes stiffness_N_per_m; allowed: one of the two"},
     {"method_for_another_waveform", open_loop,
      "[solver]\nmethod = \"event_taylor\"\ntolerance = 1e-10",
      "waveform = \"square\"\n[solver]\nmethod = \"strang\"\nstep_s = 1e-7",

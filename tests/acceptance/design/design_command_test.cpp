@@ -73,7 +73,7 @@ TEST(DesignCommand, ContactsWithoutASteadyOrbitAreRejected) {
                      "--set:1:1: friction.sign_convention: is \"as_printed\"");
   expect_scene_error("--set drive.waveform=square", "--set:1:1: drive.waveform: ");
   expect_scene_error("--set 'friction.normal_force_profile_N=[[0,0.2],[1e-3,0.3]]'",
-                     "--set:1:1: friction.normal_force_profile_N: a design is for a friction");
+                     "--set:1:1: friction.normal_force_profile_N: a design is for a plant");
   expect_scene_error(
       "--set friction.law=lugre --set friction.static_coefficient=0.1 --set "
       "friction.stribeck_velocity_m_per_s=0.01 --set friction.bristle_damping_N_s_per_m=0 --set "

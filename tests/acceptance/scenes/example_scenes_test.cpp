@@ -33,7 +33,7 @@ TEST_P(ExampleSceneTest, RunsAndEchoesItself) {
       folder.run("run '" SONOGLIDE_SCENES "/" + GetParam() + ".toml' --out out --quiet");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   const nlohmann::json summary = nlohmann::json::parse(folder.read("out/summary.json"));
-  EXPECT_EQ(summary.at("scene").at("plant").at("mass_kg"), 0.02);
+  EXPECT_GT(summary.at("scene").at("plant").at("mass_kg"), 0.0);
   const bool open_loop = GetParam().find("open_loop") != std::string::npos;
   EXPECT_EQ(summary.at("scene").contains("controller"), !open_loop);
 }
@@ -60,6 +60,25 @@ double window_ratio(const std::string& scene, const std::string& options = "") {
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   const nlohmann::json summary = nlohmann::json::parse(folder.read("out/summary.json"));
   return summary.at("friction_ratio").at("window");
+}
+
+// Voltage and current hardly have harmonics, so that P^2 + Q^2 = S^2.
+TEST(ExampleSceneTest, ATransducerTakesThePowersOfItsCircuit) {
+  const ScratchFolder folder;
+  const Outcome outcome =
+      folder.run("run '" SONOGLIDE_SCENES "/wire_bonder_open_loop.toml' --out out --quiet");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const nlohmann::json summary = nlohmann::json::parse(folder.read("out/summary.json"));
+  const nlohmann::json& electrical = summary.at("electrical");
+  const double active_W = electrical.at("active_power_W");
+  const double apparent_VA = electrical.at("apparent_power_VA");
+  EXPECT_NEAR(std::hypot(active_W, electrical.at("reactive_power_var").get<double>()), apparent_VA,
+              1e-5 * apparent_VA);
+  EXPECT_NEAR(electrical.at("power_factor"), active_W / apparent_VA, 1e-12);
+  EXPECT_NEAR(apparent_VA, 0.5 * 10.0 * electrical.at("current_peak_A").get<double>(),
+              1e-3 * apparent_VA);
+  EXPECT_EQ(electrical.at("voltage_peak_V"), 10.0);
+  EXPECT_LE(electrical.at("balance_residual"), 1e-9);
 }
 
 TEST(ExampleSceneTest, VibrationAcrossTheSlidingLeavesThePublishedRatio) {

@@ -35,8 +35,8 @@ TEST(PlantHeader, NamesWhatIsAllowed) {
             "sliding.profile: changes, but the plant of an image slides at one velocity; allowed: "
             "velocity_m_per_s");
   EXPECT_EQ(refusal("target_step", {"friction.normal_force_profile_N=[[0,0.2],[1e-3,0.3]]"}),
-            "friction.normal_force_profile_N: changes, but the plant of an image has one friction; "
-            "allowed: coefficient and normal_force_N");
+            "friction.normal_force_profile_N: changes, but the plant of an image does not; "
+            "allowed: a constant value in place of a profile");
   const std::string ideal = ": the sensor of a plant in an image is ideal; ";
   EXPECT_EQ(refusal("target_step", {"sensor.adc_bits=12"}),
             "sensor.adc_bits" + ideal + "remove it");

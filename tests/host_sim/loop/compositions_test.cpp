@@ -86,12 +86,29 @@ const std::vector<Profile> slidings = {
     {{0.0, 0.025}, {4.5e-5, -0.02}},
 };
 
+/// Carrier periods of a drive whose frequency follows a line, and of a spring that follows another.
+constexpr double first_frequency_Hz = 57e3;
+constexpr double last_frequency_Hz = 64e3;
+constexpr double last_stiffness_N_per_m = 1.001 * undamped_mass.stiffness_N_per_m;
+
+double chirp_Hz(double time_s) {
+  return first_frequency_Hz + (last_frequency_Hz - first_frequency_Hz) * time_s / duration_s;
+}
+std::vector<double> chirp_periods_s() {
+  std::vector<double> begins = {0.0};
+  while (begins.back() < duration_s) {
+    begins.push_back(begins.back() + 1.0 / chirp_Hz(begins.back()));
+  }
+  return begins;
+}
+
 /// As a scene names it.
 struct Composition {
   scene::FrictionLaw law;
   bool damped;
   const scene::Waveform* waveform;  ///< null without a drive
   Profile sliding;
+  bool changing = false;  ///< carrier frequency and spring
 
   equations::Mass mass() const {
     equations::Mass mass = undamped_mass;
@@ -106,10 +123,15 @@ struct Composition {
 };
 
 std::string Composition::text(const std::string& solver) const {
+  const double stiffness_N_per_m = mass().stiffness_N_per_m;
+  const std::string spring =
+      changing ? fmt::format("stiffness_profile = [[0, {:.17g}], [{}, {:.17g}]]", stiffness_N_per_m,
+                             duration_s, last_stiffness_N_per_m)
+               : fmt::format("stiffness_N_per_m = {:.17g}", stiffness_N_per_m);
   std::string text = fmt::format(
-      "[plant]\nmass_kg = {}\nstiffness_N_per_m = {:.17g}\ndamping_N_s_per_m = {}\n"
+      "[plant]\nmass_kg = {}\n{}\ndamping_N_s_per_m = {}\n"
       "initial_displacement_m = {}\ninitial_velocity_m_per_s = {}\n",
-      mass().mass_kg, mass().stiffness_N_per_m, mass().damping_N_s_per_m, first_displacement_m,
+      mass().mass_kg, spring, mass().damping_N_s_per_m, first_displacement_m,
       first_velocity_m_per_s);
   text += fmt::format("[friction]\nlaw = \"{}\"\n", scene::name_of(law));
   if (!scene::is<scene::laws::None>(law)) {
@@ -130,6 +152,10 @@ std::string Composition::text(const std::string& solver) const {
   if (waveform != nullptr) {
     text += fmt::format("[drive]\nfrequency_Hz = {}\nforce_amplitude_N = {}\nwaveform = \"{}\"\n",
                         frequency_Hz, drive_N, drive_name());
+  }
+  if (changing) {
+    text += fmt::format("frequency_profile = [[0, {}], [{}, {}]]\n", first_frequency_Hz, duration_s,
+                        last_frequency_Hz);
   }
   return text + fmt::format("[solver]\n{}[run]\nduration_s = {}\n", solver, duration_s);
 }
@@ -183,6 +209,15 @@ std::pair<double, double> slide(const Profile& sliding, double time_s, double pi
   return {sliding.back().second, 0.0};
 }
 
+/// The drive and the spring of a composition in which both change, on the carrier period that has
+/// begun at `begin_s`.
+equations::Instant changing_instant(const Composition& composition, double begin_s, double time_s) {
+  const double phase = two_pi * chirp_Hz(begin_s) * (time_s - begin_s);
+  const double change_N_per_m = last_stiffness_N_per_m - undamped_mass.stiffness_N_per_m;
+  return {drive_N * std::cos(phase), composition.sliding.front().second, 0.0,
+          change_N_per_m * time_s / duration_s};
+}
+
 equations::State expected_state(const Composition& composition) {
   const auto friction =
       equations::make_equations(scene::name_of(composition.law), composition.mass(), contact);
@@ -193,17 +228,22 @@ equations::State expected_state(const Composition& composition) {
   }
   state[0] = first_displacement_m;
   state[1] = first_velocity_m_per_s;
-  const std::vector<double> joints = joints_s(composition.sliding);
+  const std::vector<double> joints =
+      composition.changing ? chirp_periods_s() : joints_s(composition.sliding);
   for (std::size_t i = 1; i < joints.size(); ++i) {
     const double piece_s = 0.5 * (joints[i - 1] + joints[i]);
     const auto forcing = [&](double time_s) {
+      if (composition.changing) {
+        return changing_instant(composition, joints[i - 1], time_s);
+      }
       const auto [velocity, slope] = slide(composition.sliding, time_s, piece_s);
       const double force_N = composition.waveform == nullptr
                                  ? 0.0
                                  : drive_N * wave(*composition.waveform, time_s, piece_s);
       return equations::Instant{force_N, velocity, slope};
     };
-    equations::follow(*friction, forcing, joints[i - 1], joints[i], period_s / 500.0, state);
+    equations::follow(*friction, forcing, joints[i - 1], std::min(joints[i], duration_s),
+                      period_s / 500.0, state);
   }
   return state;
 }
@@ -311,6 +351,11 @@ TEST_P(CompositionsTest, AgreeWithTheEquations) {
       }
     }
   }
+}
+
+TEST_P(CompositionsTest, FollowACarrierAndASpringThatChange) {
+  const scene::Waveform cosine = scene::Waveform::cosine;
+  try_every_solver({GetParam(), true, &cosine, slidings.front(), true});
 }
 
 INSTANTIATE_TEST_SUITE_P(Laws, CompositionsTest, testing::ValuesIn(scene::every_law),

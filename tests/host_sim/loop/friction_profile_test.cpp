@@ -17,7 +17,7 @@
 #include "host_sim/configure/plant_scales.hpp"
 #include "host_sim/configure/solver_facts.hpp"
 #include "host_sim/configure/solver_methods.hpp"
-#include "host_sim/loop/moving_friction_plant.hpp"
+#include "host_sim/loop/changing_plant.hpp"
 #include "tests/common/lugre.hpp"
 #include "tests/common/table_1.hpp"
 #include "tests/host_sim/loop/logs/logged_run.hpp"
@@ -185,7 +185,7 @@ TEST(FrictionProfileTest, JumpsAreThePeers) {
 
 /// The bound of the pieces, of the mean friction, and what it makes of the motion.
 TEST(FrictionProfileTest, SlopesAreThePeersWithinTheStatedError) {
-  constexpr double allowed = MovingFrictionPlant::largest_ratio_error;
+  constexpr double allowed = ChangingPlant::largest_ratio_error;
   for (const scene::FrictionLaw& law :
        {scene::FrictionLaw(scene::laws::Dahl{}), scene::FrictionLaw(scene::laws::Coulomb{})}) {
     expect_peers_motion(with_coefficient(heavy(law), slopes), allowed);
@@ -199,7 +199,7 @@ TEST(FrictionProfileTest, SlopesAreThePeersWithinTheStatedError) {
 TEST(FrictionProfileTest, AShortSlopeIsThePeers) {
   const TimedProfile steep = {{3.1 * period_s, 0.1}, {3.4 * period_s, 0.3}};
   expect_peers_motion(with_coefficient(heavy(scene::laws::Dahl{}), steep),
-                      MovingFrictionPlant::largest_ratio_error);
+                      ChangingPlant::largest_ratio_error);
 }
 
 Scene recorded(Scene scene) {

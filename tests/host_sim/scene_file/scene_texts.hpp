@@ -129,6 +129,49 @@ velocity_m_per_s = 0.0267
 duration_s = 2e-3
 )";
 
+inline constexpr const char* transducer_open_loop = R"([plant]
+mass_kg = 0.02
+stiffness_profile = [[0, 133e6], [1e-3, 134e6], [1e-3, 132e6]]
+[friction]
+law = "dahl"
+coefficient = 0.1
+contact_stiffness_N_per_m = 0.056e6
+[sliding]
+velocity_m_per_s = 0.0267
+[transducer]
+force_factor_N_per_V = 16
+clamped_capacitance_F = 2e-6
+loss_tangent = 0.004
+[drive]
+frequency_Hz = 60e3
+frequency_profile = [[0, 60e3], [1e-3, 61e3]]
+frequency_resolution_Hz = 2.5
+voltage_amplitude_V = 10
+[run]
+duration_s = 2e-3
+)";
+
+inline constexpr const char* transducer_closed_loop = R"([plant]
+mass_kg = 0.02
+stiffness_N_per_m = 133e6
+[friction]
+law = "coulomb"
+coefficient = 0.1
+[sliding]
+velocity_m_per_s = 0.0267
+[transducer]
+force_factor_N_per_V = 16
+clamped_capacitance_F = 2e-6
+[drive]
+frequency_Hz = 60e3
+max_voltage_amplitude_V = 120
+[run]
+duration_s = 2e-3
+[controller]
+arithmetic = "q31"
+target_friction_ratio = [[0, 1]]
+)";
+
 /// Nothing that has a default.
 inline constexpr const char* shortest_closed_loop = R"([plant]
 mass_kg = 0.02

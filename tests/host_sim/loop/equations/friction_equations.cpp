@@ -275,7 +275,8 @@ constexpr std::array<NamedLaw, 8> laws = {{{"none", make<NoFriction>},
 }  // namespace
 
 double FrictionEquations::free_force_N(const State& state, const Instant& now) const {
-  return now.drive_N - mass_.damping_N_s_per_m * state[1] - mass_.stiffness_N_per_m * state[0];
+  const double stiffness_N_per_m = mass_.stiffness_N_per_m + now.added_stiffness_N_per_m;
+  return now.drive_N - mass_.damping_N_s_per_m * state[1] - stiffness_N_per_m * state[0];
 }
 
 State FrictionEquations::rate(const State& state, const Instant& now, double sliding_sign) const {

@@ -43,6 +43,7 @@ struct Instant {
   double drive_N;
   double sliding_m_per_s;
   double sliding_m_per_s2;
+  double added_stiffness_N_per_m = 0.0;  ///< to that of the spring
 };
 
 /// A contact that is in one piece of its law at a time: sliding one way, holding, lifted off.

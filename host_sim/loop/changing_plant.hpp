@@ -1,22 +1,26 @@
-/// A plant whose friction limit changes in time.
+/// A plant whose friction limit, spring or carrier frequency changes in time.
 #pragma once
 
-#include <memory>
+#include <cstddef>
 #include <vector>
 
+#include "host_sim/loop/changing_spring.hpp"
+#include "host_sim/loop/held_plant.hpp"
 #include "host_sim/loop/plant_port.hpp"
 #include "host_sim/scene/scene.hpp"
 
 namespace sonoglide::loop {
 
-/// Follows the profiles of a scene's friction by plants whose limit holds, one after the other.
+/// Follows the profiles of a scene by plants in which nothing changes, one after the other.
 ///
-/// Displacement and velocity go over from one to the next, and so do the contact's forces, in
-/// newtons; what is above a new limit is cut to it, so that |F| <= Fc(t) of a law with that bound.
+/// The carrier frequency is that of each stretch. A slope of the spring is followed in pieces, see
+/// ChangingSpring.
+///
+/// A friction force above a new limit is cut to it, so that |F| <= Fc(t) of a law with that bound.
 /// A cut takes from what the contact has stored, not from the oscillator: the energy identity,
 /// whose friction work is the integral of F V dt, holds across it.
 ///
-/// A slope is followed in equal pieces, in each the limit of its middle. What a piece of length h
+/// A slope of the limit is followed in equal pieces, in each the limit of its middle. What a piece of length h
 /// misses of the limit, s (t - middle), has the integral s (t - begin)(t - end)/2, at most s h^2/8,
 /// which is nothing at its ends. The limit enters the mean friction with a weight (sgn V under
 /// Coulomb friction) whose variation is at most 4 in a period with two reversals, so that the mean
@@ -31,13 +35,13 @@ namespace sonoglide::loop {
 /// within a period.
 /// n = sqrt(c/largest_ratio_error) keeps both together below that; Fc is that at the higher end of
 /// the slope.
-class MovingFrictionPlant final : public PlantPort {
+class ChangingPlant final : public PlantPort {
  public:
-  /// In friction ratio, of a carrier period on a slope.
+  /// In friction ratio, of a carrier period on a slope of the friction.
   static constexpr double largest_ratio_error = 1e-7;
 
-  /// @param scene  whose friction changes; stretches end where its profiles have a row
-  explicit MovingFrictionPlant(const scene::Scene& scene);
+  /// @param scene  stretches end where its profiles have a row
+  explicit ChangingPlant(const scene::Scene& scene);
 
   plant::Outcome<double> advance(const Stretch& stretch, EnergyBalance& energy) override {
     return follow(stretch, nullptr, energy);
@@ -46,20 +50,15 @@ class MovingFrictionPlant final : public PlantPort {
                                          const std::vector<double>& offsets_s,
                                          EnergyBalance& energy,
                                          std::vector<PlantState>& seen) override;
-  std::vector<double> memory() const override { return held_->memory(); }
-  std::vector<double> memory_limits_N() const override { return held_->memory_limits_N(); }
+  std::vector<double> memory() const override { return held_.plant().memory(); }
+  std::vector<double> memory_limits_N() const override { return held_.plant().memory_limits_N(); }
   void begin_at(const PlantState& state, const std::vector<double>& memory) override {
-    held_->begin_at(state, memory);
+    held_.plant().begin_at(state, memory);
   }
-  PlantState state() const override { return within_limit(held_->state(), time_s_); }
-  plant::Cost cost() const override;
+  PlantState state() const override { return within_limit(held_.plant().state(), time_s_); }
+  plant::Cost cost() const override { return held_.cost(); }
 
  private:
-  /// What goes over from one plant to the next.
-  struct Carried {
-    PlantState state;
-    std::vector<double> forces_N;  ///< that the contact remembers
-  };
   /// What a stretch shows, on its way through the pieces.
   struct Sight {
     const std::vector<double>& offsets_s;
@@ -67,26 +66,32 @@ class MovingFrictionPlant final : public PlantPort {
     double begin_s = 0.0;
     std::size_t next = 0;
   };
+  /// A part of a stretch. The spring holds in it, and the friction in parts of it.
+  struct Piece {
+    Stretch stretch;
+    double stiffness_N_per_m;
+    scene::SolverMethod method;
+    bool last;  ///< of the stretch
+  };
 
   plant::Outcome<double> follow(const Stretch& stretch, Sight* sight, EnergyBalance& energy);
-  plant::Outcome<double> follow_piece(const Stretch& piece, const Carried& begin, int halvings,
-                                      bool last, Sight* sight, EnergyBalance& energy);
-  plant::Outcome<double> hold_piece(const Stretch& piece, bool last, Sight* sight,
-                                    EnergyBalance& energy);
-  double pieces_per_period(const Stretch& stretch) const;
-  Carried carried() const;
-  void put(const Carried& from);
-  void hold(const scene::ContactValues& contact, const Carried& from);
+  plant::Outcome<double> follow_friction(const Piece& piece, const HeldPlant::Carried& begin,
+                                         int halvings, Sight* sight, EnergyBalance& energy);
+  plant::Outcome<double> halve(const Piece& piece, const HeldPlant::Carried& begin, int halvings,
+                               Sight* sight, EnergyBalance& energy);
+  plant::Outcome<double> advance_piece(const Piece& piece, Sight* sight, EnergyBalance& energy);
+  void hold(const Piece& piece, const scene::ContactValues& contact,
+            const HeldPlant::Carried& from);
+  double friction_pieces_per_period(const Stretch& stretch) const;
   PlantState within_limit(PlantState state, double time_s) const;
 
   scene::Friction friction_;
-  scene::Scene scene_;  ///< its friction as it is held now
+  ChangingSpring spring_;
   scene::SolverMethod asked_method_;
-  scene::SolverMethod method_;  ///< of the stretch
-  double reversing_s_;          ///< in which V reverses twice
+  double reversing_s_;           ///< in which V reverses twice
+  double drive_rate_rad_per_s_;  ///< of the last stretch
   double time_s_ = 0.0;
-  plant::Cost spent_;  ///< by the plants before this one
-  std::unique_ptr<PlantPort> held_;
+  HeldPlant held_;
 };
 
 }  // namespace sonoglide::loop

@@ -1,0 +1,59 @@
+/// What a transducer takes from its amplifier, in SI units.
+#pragma once
+
+#include <complex>
+
+#include "host_sim/loop/energy.hpp"
+#include "host_sim/loop/plant_port.hpp"
+#include "host_sim/scene/scene.hpp"
+
+namespace sonoglide::loop {
+
+/// Integrals over stretches of a run.
+///
+/// The current is i = Nf x' + C0 V' + V/R0, R0 = 1/(ω C0 tan δ). Identity:
+///   input = mechanical work + change of C0 V²/2 + losses.
+/// A voltage that jumps at a phase 0 charges C0 at once. This charge and its energy, which comes back
+/// when the voltage returns, are not in the account.
+struct ElectricalBalance {
+  double duration_s = 0.0;
+  double input_J = 0.0;       ///< ∫V i dt, by quadrature of the motion
+  double mechanical_J = 0.0;  ///< ∫Fe x' dt, by the solver's account
+  double stored_change_J = 0.0;
+  double losses_J = 0.0;             ///< ∫V²/R0 dt
+  double reactive_J = 0.0;           ///< ∫Q dt, Q of the fundamental; below 0: capacitive
+  double voltage_square_V2_s = 0.0;  ///< ∫V² dt
+  double current_square_A2_s = 0.0;  ///< ∫i² dt
+  double voltage_peak_V = 0.0;       ///< largest amplitude of a carrier period
+  double current_peak_A = 0.0;       ///< likewise, of the fundamental
+
+  void append(const ElectricalBalance& next);
+};
+
+struct ElectricalFigures {
+  double voltage_peak_V;
+  double current_peak_A;
+  double active_power_W;
+  double reactive_power_var;
+  double apparent_power_VA;  ///< effective voltage times effective current
+  double power_factor;       ///< active over apparent power; NaN without a voltage
+  double balance_residual;   ///< of the identity, relative to its largest term
+};
+
+ElectricalFigures electrical_figures(const ElectricalBalance& balance);
+
+/// Y = jω C0 (1 - j tan δ) [S]: the transducer's admittance while its mass is held.
+std::complex<double> clamped_admittance_S(const scene::Transducer& transducer,
+                                          double rate_rad_per_s);
+
+/// Of one stretch under a cosine.
+/// @param energy  of it, demodulated
+ElectricalBalance electrical_balance(const scene::Transducer& transducer, const Stretch& stretch,
+                                     const EnergyBalance& energy);
+
+/// Amplitude of the current's fundamental over a carrier period.
+/// @param vibration_m_per_s  z of x' = Re(z e^jθ)
+double current_amplitude_A(const scene::Transducer& transducer, double drive_amplitude_N,
+                           double frequency_Hz, std::complex<double> vibration_m_per_s);
+
+}  // namespace sonoglide::loop
