@@ -67,6 +67,11 @@ double peak_vibration_m_per_s(const scene::Plant& plant, double frequency_Hz,
   return force_amplitude_N * omega / dynamic_stiffness_N_per_m(plant, omega);
 }
 
+bool frequency_changes(const scene::Scene& scene) {
+  return scene.drive &&
+         (!scene.drive->frequency_profile.empty() || scene.drive->frequency_resolution_Hz > 0.0);
+}
+
 double carrier_frequency_Hz(const scene::Drive& drive, double time_s) {
   const double asked_Hz = drive.frequency_profile.empty()
                               ? drive.frequency_Hz

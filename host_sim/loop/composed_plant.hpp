@@ -143,8 +143,10 @@ class ComposedPlant final : public PlantPort {
     }
     plant::Outcome<double> outcome = solver_.advance(interval, state_, account, reader);
     energy = balance(stretch, account, before);
-    energy.velocity_in_phase_m = demodulator.in_phase() * scales_.length_m;
-    energy.velocity_quadrature_m = demodulator.quadrature() * scales_.length_m;
+    if (stretch.demodulated) {
+      energy.velocity_in_phase_m = demodulator.in_phase() * scales_.length_m;
+      energy.velocity_quadrature_m = demodulator.quadrature() * scales_.length_m;
+    }
     outcome.offset /= omega;
     return outcome;
   }

@@ -13,8 +13,7 @@ namespace {
 
 /// Beside the sliding, which every plant follows.
 bool changes(const scene::Scene& scene) {
-  return scene.profile_key() != nullptr ||
-         (scene.drive && scene.drive->frequency_resolution_Hz > 0.0);
+  return scene.profile_key() != nullptr || configure::frequency_changes(scene);
 }
 
 /// Where the friction is none, event_gauss has nothing to cut at reversals, and event_taylor's one

@@ -41,6 +41,7 @@ class Simulation {
         clock_(scene),
         plant_(scene, clock_, watch, result),
         control_(make_control(scene, controller, result)),
+        frequency_changes_(configure::frequency_changes(scene)),
         friction_N_(configure::largest_friction_limit_N(scene.friction)),
         open_loop_amplitude_N_(scene.drive ? scene.drive->force_amplitude_N : 0.0) {}
 
@@ -61,7 +62,7 @@ class Simulation {
 
  private:
   void advance() {
-    if (scene_.drive) {
+    if (frequency_changes_) {
       clock_.set_frequency_Hz(configure::carrier_frequency_Hz(*scene_.drive, clock_.begin_s()));
     }
     const double begin_s = clock_.begin_s();
@@ -72,8 +73,9 @@ class Simulation {
     const double end_velocity_m_per_s = plant_.sliding_velocity_m_per_s();
     if (!watch_.periods.empty()) {
       show({begin_s, end_s, friction_ratio(energy), begin_velocity_m_per_s, end_velocity_m_per_s,
-            amplitude_N, clock_.frequency_Hz(), energy.vibration_m_per_s(), undefined,
-            control::State::off, control::Limit::none, control::Settling::pending, undefined});
+            amplitude_N, clock_.frequency_Hz(),
+            scene_.transducer ? energy.vibration_m_per_s() : 0.0, undefined, control::State::off,
+            control::Limit::none, control::Settling::pending, undefined});
     }
     if (control_ && clock_.is_whole()) {
       control_->step(end_s, energy.friction_impulse_N_s / energy.duration_s, end_velocity_m_per_s);
@@ -101,6 +103,7 @@ class Simulation {
   CarrierClock clock_;
   PlantRun plant_;
   std::optional<ControlRun> control_;
+  bool frequency_changes_;
   double friction_N_;
   double open_loop_amplitude_N_;
 };
