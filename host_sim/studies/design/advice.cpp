@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host_sim/studies/design/electrical.hpp"
 #include "host_sim/studies/design/report.hpp"
 
 namespace sonoglide::design {
@@ -92,7 +93,7 @@ Advice closed_form(const std::vector<DesignPoint>& points) {
                       worst.ratio, speed(worst.sliding_m_per_s), worst.closed_form_error)};
 }
 
-Advice power(const std::vector<DesignPoint>& points) {
+Advice power(const DesignStudy& study, const std::vector<DesignPoint>& points) {
   const Requirement& point = std::max_element(points.begin(), points.end(),
                                               [](const DesignPoint& a, const DesignPoint& b) {
                                                 return a.requirement.motion.drive_power_W <
@@ -102,13 +103,14 @@ Advice power(const std::vector<DesignPoint>& points) {
   const SteadyMotion& motion = point.motion;
   const auto watts = [](double value_W) { return quantity(value_W, "W"); };
   return {"Power",
-          fmt::format("The drive puts in most for ratio {:g} at {}: {}, of which damping takes {}; "
-                      "friction takes {}, undriven {}. On another spring these stay; what passes "
-                      "to and fro between drive and mass, Fe v/2 = {}, falls towards resonance. "
-                      "The piezo's electrical side is not modelled.",
-                      point.ratio, speed(point.sliding_m_per_s), watts(motion.drive_power_W),
-                      watts(motion.damping_power_W), watts(motion.friction_power_W),
-                      watts(motion.undriven_friction_power_W), watts(motion.apparent_power_W))};
+          fmt::format(
+              "The drive puts in most for ratio {:g} at {}: {}, of which damping takes {}; "
+              "friction takes {}, undriven {}. On another spring these stay; what passes "
+              "to and fro between drive and mass, Fe v/2 = {}, falls towards resonance.{}",
+              point.ratio, speed(point.sliding_m_per_s), watts(motion.drive_power_W),
+              watts(motion.damping_power_W), watts(motion.friction_power_W),
+              watts(motion.undriven_friction_power_W), watts(motion.apparent_power_W),
+              study.task.scene.transducer ? "" : " The piezo's electrical side is not modelled.")};
 }
 
 double total_change(const DesignPoint& point) {
@@ -196,6 +198,48 @@ Advice tuning_reach(const Detuning& detuning) {
                       band.low > smallest_tuning ? "" : ", and for less")};
 }
 
+Advice amplifier(const DesignStudy& study, const Requirement& point) {
+  const scene::Scene& scene = study.task.scene;
+  const loop::ElectricalFigures& figures = *point.motion.electrical;
+  return {
+      "Amplifier",
+      fmt::format("It must give most for ratio {:g} at {}: {} and {}, {} for {} (power factor "
+                  "{:.2g}). The clamped capacitance alone takes {}. k_eff = {:.3f}, series "
+                  "resonance {}, parallel resonance {}.",
+                  point.ratio, speed(point.sliding_m_per_s), quantity(figures.voltage_peak_V, "V"),
+                  quantity(figures.current_peak_A, "A"), quantity(figures.apparent_power_VA, "VA"),
+                  quantity(figures.active_power_W, "W"), figures.power_factor,
+                  quantity(clamped_power_VA(scene, figures.voltage_peak_V), "VA"),
+                  std::sqrt(coupling_square(scene)), quantity(series_resonance_Hz(scene), "Hz"),
+                  quantity(parallel_resonance_Hz(scene), "Hz"))};
+}
+
+/// What an inductor and a spring would save.
+Advice relief(const DesignStudy& study, const Requirement& point) {
+  const loop::ElectricalFigures& figures = *point.motion.electrical;
+  const double inductance_H = matching_inductance_H(study.task.scene, figures);
+  std::string sentence =
+      std::isfinite(inductance_H)
+          ? fmt::format(
+                "An inductor of {} beside the transducer takes its reactive power at the "
+                "carrier, and leaves the amplifier {} and its own losses. ",
+                quantity(inductance_H, "H"), quantity(figures.active_power_W, "W"))
+          : std::string("The transducer is not capacitive: an inductor would not help. ");
+  const ResonantSpring& spring = *study.resonant_spring;
+  sentence += fmt::format("A spring of {} puts the resonance on the carrier",
+                          quantity(spring.stiffness_N_per_m, "N/m"));
+  if (const auto& resonant = spring.requirement.motion.electrical) {
+    sentence += fmt::format(
+        ": the same ratio then takes {}, {} and {}, and must be held by "
+        "feedback.",
+        quantity(resonant->voltage_peak_V, "V"), quantity(resonant->current_peak_A, "A"),
+        quantity(resonant->apparent_power_VA, "VA"));
+  } else {
+    sentence += ", where no steady vibration of this ratio was found.";
+  }
+  return {"Matching", sentence};
+}
+
 }  // namespace
 
 std::vector<std::string> shortfalls(const DesignStudy& study) {
@@ -221,8 +265,12 @@ std::vector<Advice> advice(const DesignStudy& study) {
   const std::vector<DesignPoint> points = moving_points(study);
   if (!points.empty()) {
     all.push_back(closed_form(points));
-    all.push_back(power(points));
+    all.push_back(power(study, points));
     all.push_back(accuracy(study, points));
+  }
+  if (const Requirement* most = most_electrical(study)) {
+    all.push_back(amplifier(study, *most));
+    all.push_back(relief(study, *most));
   }
   if (!study.detunings.empty()) {
     const Detuning& lowest = study.detunings.front();

@@ -14,7 +14,7 @@ struct Advice {
 };
 
 /// Whether each ratio is within reach and how far, what the closed form is worth, power, accuracy,
-/// and which way resonance lies.
+/// and which way resonance lies; with a transducer, what the amplifier must give and what would help.
 std::vector<Advice> advice(const DesignStudy& study);
 
 /// What cannot be had, and the nearest that can; empty where everything is within reach.

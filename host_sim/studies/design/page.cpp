@@ -67,6 +67,23 @@ output::Table power_table(const std::vector<DesignPoint>& points) {
   return table;
 }
 
+output::Table electrical_table(const std::vector<DesignPoint>& points) {
+  output::Table table{
+      "Transducer",
+      {"Sliding", "Ratio", "Voltage", "Current", "Active", "Reactive", "Apparent", "Power factor"},
+      {}};
+  for (const DesignPoint& point : points) {
+    if (const auto& figures = point.requirement.motion.electrical) {
+      table.rows.push_back(
+          {quantity(point.requirement.sliding_m_per_s, "m/s"), number(point.requirement.ratio),
+           quantity(figures->voltage_peak_V, "V"), quantity(figures->current_peak_A, "A"),
+           quantity(figures->active_power_W, "W"), quantity(figures->reactive_power_var, "var"),
+           quantity(figures->apparent_power_VA, "VA"), number(figures->power_factor)});
+    }
+  }
+  return table;
+}
+
 output::Section drive_section(const DesignStudy& study, const std::vector<DesignPoint>& moving) {
   output::Section section;
   section.title = "Required drive";
@@ -79,6 +96,9 @@ output::Section drive_section(const DesignStudy& study, const std::vector<Design
   section.tables = {drive_table(study)};
   if (!moving.empty()) {
     section.tables.push_back(power_table(moving));
+    if (study.task.scene.transducer) {
+      section.tables.push_back(electrical_table(moving));
+    }
   }
   section.pictures = {{"Force and power over the sliding velocity", "", draw_requirements(study)}};
   return section;

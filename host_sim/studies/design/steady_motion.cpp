@@ -31,6 +31,7 @@ scene::Scene steady_scene(const scene::Scene& scene, double sliding_m_per_s, dou
   steady.plant.initial_velocity_m_per_s = 0.0;
   steady.friction = scene.friction;
   steady.friction.initial_force_N = 0.0;
+  steady.transducer = scene.transducer;
   steady.sliding.profile = {{0.0, sliding_m_per_s}};
   steady.drive.emplace();
   steady.drive->frequency_Hz = scene.drive->frequency_Hz;
@@ -50,7 +51,8 @@ SteadyMotion steady_motion(const scene::Scene& steady_scene) {
   loop::Recording recording;
   loop::Watch watch;
   watch.samples.push_back({{0.0, period_s, period_s / samples_per_period}, &recording});
-  const loop::EnergyBalance energy = loop::run(steady_scene, watch).whole;
+  const loop::RunResult result = loop::run(steady_scene, watch);
+  const loop::EnergyBalance& energy = result.whole;
   const double force_N = steady_scene.drive->force_amplitude_N;
   const double velocity_m_per_s = amplitude(recording.state, &loop::PlantState::velocity_m_per_s);
   const double sliding_m_per_s = steady_scene.sliding.profile.front().velocity_m_per_s;
@@ -64,7 +66,9 @@ SteadyMotion steady_motion(const scene::Scene& steady_scene) {
           0.5 * force_N * velocity_m_per_s,
           energy.friction_work_J / period_s,
           undriven_N * std::abs(sliding_m_per_s),
-          energy.damping_work_J / period_s};
+          energy.damping_work_J / period_s,
+          result.electrical ? std::optional(loop::electrical_figures(*result.electrical))
+                            : std::nullopt};
 }
 
 }  // namespace sonoglide::design

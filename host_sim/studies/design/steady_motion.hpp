@@ -2,7 +2,9 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 
+#include "host_sim/loop/electrical.hpp"
 #include "host_sim/scene/scene.hpp"
 
 namespace sonoglide::design {
@@ -21,6 +23,7 @@ struct SteadyMotion {
   double friction_power_W = undefined;            ///< mean F V: dissipated in the contact
   double undriven_friction_power_W = undefined;   ///< the same at this speed without vibration
   double damping_power_W = undefined;             ///< mean c x'²
+  std::optional<loop::ElectricalFigures> electrical = std::nullopt;  ///< with a transducer
 };
 
 /// The open loop that a drive of constant amplitude makes of a scene: one carrier period on the

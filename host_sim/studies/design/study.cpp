@@ -116,9 +116,21 @@ std::vector<DesignPoint> moving_points(const DesignStudy& study) {
   return points;
 }
 
+const Requirement* most_electrical(const DesignStudy& study) {
+  const Requirement* most = nullptr;
+  for (const DesignPoint& point : study.points) {
+    const auto& electrical = point.requirement.motion.electrical;
+    if (electrical && (most == nullptr || electrical->apparent_power_VA >
+                                              most->motion.electrical->apparent_power_VA)) {
+      most = &point.requirement;
+    }
+  }
+  return most;
+}
+
 DesignStudy study(const Task& task, const Progress& progress) {
   const std::vector<double> speeds_m_per_s = curve_speeds_m_per_s(task.speeds);
-  DesignStudy study{task, tuning(task.scene), {}, {}, {}};
+  DesignStudy study{task, tuning(task.scene), {}, {}, {}, {}};
   for (const double ratio : task.ratios) {
     study.curves.push_back(ratio_curve(task, ratio, speeds_m_per_s));
     progress(0.5 * static_cast<double>(study.curves.size()) /
@@ -127,6 +139,9 @@ DesignStudy study(const Task& task, const Progress& progress) {
   study.points = design_points(task, study.curves);
   require_an_orbit(study.points);
   study.detunings = detunings(task, study.curves);
+  if (const Requirement* most = most_electrical(study)) {
+    study.resonant_spring = on_resonance(task.scene, *most);
+  }
   progress(1.0);
   return study;
 }

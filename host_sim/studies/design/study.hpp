@@ -2,9 +2,11 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "host_sim/studies/design/detuning.hpp"
+#include "host_sim/studies/design/electrical.hpp"
 #include "host_sim/studies/design/requirement.hpp"
 #include "host_sim/studies/design/sensitivity.hpp"
 #include "host_sim/studies/design/task.hpp"
@@ -32,7 +34,13 @@ struct DesignStudy {
   std::vector<RatioRequirements> curves;
   std::vector<DesignPoint> points;  ///< slowest speed first, ratios rising; one speed is once
   std::vector<Detuning> detunings;  ///< each ratio at the fastest speed, where it has a motion
+  /// With a transducer: of the point that takes the most power from the amplifier.
+  std::optional<ResonantSpring> resonant_spring;
 };
+
+/// The point that takes the most apparent power from the amplifier; null without a transducer, and
+/// without a motion.
+const Requirement* most_electrical(const DesignStudy& study);
 
 /// The design points that have a motion.
 std::vector<DesignPoint> moving_points(const DesignStudy& study);

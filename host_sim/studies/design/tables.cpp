@@ -17,7 +17,17 @@ std::string cell(double value) {
   return output::csv_number(value, digits);
 }
 
-std::string row(const Requirement& point) {
+std::string electrical_cells(const SteadyMotion& motion) {
+  if (!motion.electrical) {
+    return fmt::format(",{0},{0},{0},{0},{0}", cell(undefined));
+  }
+  const loop::ElectricalFigures& figures = *motion.electrical;
+  return fmt::format(",{},{},{},{},{}", cell(figures.voltage_peak_V), cell(figures.current_peak_A),
+                     cell(figures.active_power_W), cell(figures.reactive_power_var),
+                     cell(figures.apparent_power_VA));
+}
+
+std::string row(const Requirement& point, bool has_transducer) {
   const SteadyMotion& motion = point.motion;
   std::string text = cell(point.sliding_m_per_s);
   for (const double value :
@@ -27,7 +37,8 @@ std::string row(const Requirement& point) {
         point.closed_form_force_N, point.closed_form_error, point.reachable_ratio}) {
     text += ',' + cell(value);
   }
-  return fmt::format("{},{}\n", text, name(point.limit));
+  return fmt::format("{},{}{}\n", text, name(point.limit),
+                     has_transducer ? electrical_cells(motion) : "");
 }
 
 ordered_json json_number(double value) {
@@ -42,7 +53,36 @@ ordered_json sensitivity_json(const Sensitivity& sensitivity) {
           {"ratio_change_by_1_percent_less", json_number(sensitivity.change_by_less)}};
 }
 
-ordered_json point_json(const DesignPoint& point) {
+ordered_json electrical_json(const scene::Scene& scene, const loop::ElectricalFigures& figures) {
+  return {{"voltage_V", figures.voltage_peak_V},
+          {"current_A", figures.current_peak_A},
+          {"active_power_W", figures.active_power_W},
+          {"reactive_power_var", figures.reactive_power_var},
+          {"apparent_power_VA", figures.apparent_power_VA},
+          {"power_factor", json_number(figures.power_factor)},
+          {"clamped_power_VA", clamped_power_VA(scene, figures.voltage_peak_V)},
+          {"matching_inductance_H", json_number(matching_inductance_H(scene, figures))}};
+}
+
+ordered_json transducer_json(const DesignStudy& study) {
+  const scene::Scene& scene = study.task.scene;
+  ordered_json json = {{"coupling", std::sqrt(coupling_square(scene))},
+                       {"series_resonance_Hz", series_resonance_Hz(scene)},
+                       {"parallel_resonance_Hz", json_number(parallel_resonance_Hz(scene))}};
+  if (study.resonant_spring) {
+    const Requirement& requirement = study.resonant_spring->requirement;
+    json["on_resonance"] = {{"stiffness_N_per_m", study.resonant_spring->stiffness_N_per_m},
+                            {"friction_ratio", requirement.ratio},
+                            {"sliding_velocity_m_per_s", requirement.sliding_m_per_s},
+                            {"limit", name(requirement.limit)}};
+    if (const auto& electrical = requirement.motion.electrical) {
+      json["on_resonance"]["electrical"] = electrical_json(scene, *electrical);
+    }
+  }
+  return json;
+}
+
+ordered_json point_json(const scene::Scene& scene, const DesignPoint& point) {
   const Requirement& each = point.requirement;
   ordered_json json = {
       {"sliding_velocity_m_per_s", each.sliding_m_per_s},
@@ -61,6 +101,9 @@ ordered_json point_json(const DesignPoint& point) {
        {{"drive_force_N", json_number(each.closed_form_force_N)},
         {"friction_ratio_error", json_number(each.closed_form_error)}}},
       {"sensitivities", ordered_json::array()}};
+  if (each.motion.electrical) {
+    json["electrical"] = electrical_json(scene, *each.motion.electrical);
+  }
   if (!each.reason.empty()) {
     json["reason"] = each.reason;
   }
@@ -90,10 +133,14 @@ std::string requirements_csv(const DesignStudy& study) {
       "sliding_velocity_m_per_s,friction_ratio,drive_force_N,displacement_amplitude_m,"
       "velocity_amplitude_m_per_s,drive_power_W,apparent_power_W,friction_power_W,"
       "undriven_friction_power_W,damping_power_W,closed_form_force_N,closed_form_ratio_error,"
-      "reachable_friction_ratio,limit\n";
+      "reachable_friction_ratio,limit";
+  const bool has_transducer = study.task.scene.transducer.has_value();
+  csv += has_transducer ? ",voltage_V,current_A,active_power_W,reactive_power_var,"
+                          "electrical_apparent_power_VA\n"
+                        : "\n";
   for (const RatioRequirements& curve : study.curves) {
     for (const Requirement& point : curve.requirements) {
-      csv += row(point);
+      csv += row(point, has_transducer);
     }
   }
   return csv;
@@ -118,9 +165,12 @@ ordered_json to_json(const DesignStudy& study) {
   json["scene"] = scene_file::to_json(study.task.scene);
   json["tuning"] = study.tuning;
   json["speed_floor_m_per_s"] = speed_floor_m_per_s(study.task.scene);
+  if (study.task.scene.transducer) {
+    json["transducer"] = transducer_json(study);
+  }
   json["points"] = ordered_json::array();
   for (const DesignPoint& point : study.points) {
-    json["points"].push_back(point_json(point));
+    json["points"].push_back(point_json(study.task.scene, point));
   }
   json["reach"] = ordered_json::array();
   for (const RatioRequirements& curve : study.curves) {

@@ -1,0 +1,59 @@
+#include "host_sim/studies/design/electrical.hpp"
+
+#include <cmath>
+#include <complex>
+
+#include "firmware/numeric/turn.hpp"
+
+namespace sonoglide::design {
+namespace {
+
+double carrier_rad_per_s(const scene::Scene& scene) {
+  return numeric::two_pi * scene.drive->frequency_Hz;
+}
+
+/// Cm/C0 times the stiffness: Nf²/C0.
+double stiffening_N_per_m(const scene::Transducer& transducer) {
+  return transducer.force_factor_N_per_V * transducer.force_factor_N_per_V /
+         transducer.clamped_capacitance_F;
+}
+
+}  // namespace
+
+double coupling_square(const scene::Scene& scene) {
+  const double stiffening = stiffening_N_per_m(*scene.transducer);
+  return std::isfinite(stiffening) ? stiffening / (scene.plant.stiffness_N_per_m + stiffening)
+                                   : 1.0;
+}
+
+double series_resonance_Hz(const scene::Scene& scene) {
+  return std::sqrt(scene.plant.stiffness_N_per_m / scene.plant.mass_kg) / numeric::two_pi;
+}
+
+double parallel_resonance_Hz(const scene::Scene& scene) {
+  return std::sqrt((scene.plant.stiffness_N_per_m + stiffening_N_per_m(*scene.transducer)) /
+                   scene.plant.mass_kg) /
+         numeric::two_pi;
+}
+
+double clamped_power_VA(const scene::Scene& scene, double voltage_V) {
+  return 0.5 * voltage_V * voltage_V *
+         std::abs(loop::clamped_admittance_S(*scene.transducer, carrier_rad_per_s(scene)));
+}
+
+double matching_inductance_H(const scene::Scene& scene, const loop::ElectricalFigures& figures) {
+  return figures.reactive_power_var < 0.0
+             ? -figures.voltage_peak_V * figures.voltage_peak_V /
+                   (2.0 * carrier_rad_per_s(scene) * figures.reactive_power_var)
+             : undefined;
+}
+
+ResonantSpring on_resonance(const scene::Scene& scene, const Requirement& requirement) {
+  scene::Scene resonant = scene;
+  const double omega = carrier_rad_per_s(scene);
+  resonant.plant.stiffness_N_per_m = scene.plant.mass_kg * omega * omega;
+  return {resonant.plant.stiffness_N_per_m,
+          require_ratio(resonant, requirement.sliding_m_per_s, requirement.ratio)};
+}
+
+}  // namespace sonoglide::design
