@@ -242,33 +242,50 @@ TEST(TransducerTest, FrictionAtResonanceMeetsItsDescribingFunction) {
 using Exact = long double;
 using ExactState = std::array<Exact, 4>;  ///< x, x', F, ∫F dt
 
-/// The motion of a Dahl contact under a carrier whose frequency is taken at the beginning of each
-/// period, in long double and in SI units.
+/// A Dahl contact on a damped spring, in long double and in SI units.
+struct ExactPlant {
+  Exact mass_kg;
+  Exact stiffness_N_per_m;
+  Exact damping_N_s_per_m;
+  Exact limit_N;
+  Exact contact_stiffness_N_per_m;
+  Exact sliding_m_per_s;
+
+  ExactState rate(const ExactState& at, Exact drive_N) const {
+    const Exact slip_m_per_s = sliding_m_per_s + at[1];
+    const Exact force_N = drive_N - damping_N_s_per_m * at[1] - stiffness_N_per_m * at[0] - at[2];
+    return {at[1], force_N / mass_kg,
+            contact_stiffness_N_per_m * (slip_m_per_s - std::abs(slip_m_per_s) * at[2] / limit_N),
+            at[2]};
+  }
+};
+
+ExactPlant exact(const Scene& scene) {
+  return {static_cast<Exact>(scene.plant.mass_kg),
+          static_cast<Exact>(scene.plant.stiffness_N_per_m),
+          static_cast<Exact>(scene.plant.damping_N_s_per_m),
+          static_cast<Exact>(scene.friction.limit_N()),
+          static_cast<Exact>(scene.friction.contact_stiffness_N_per_m),
+          static_cast<Exact>(scene.sliding.profile.front().velocity_m_per_s)};
+}
+
+/// Its motion under a carrier whose frequency is taken at the beginning of each period.
 ExactState chirped(const Scene& scene) {
-  const scene::Plant& plant = scene.plant;
-  const Exact limit_N = scene.friction.limit_N();
-  const Exact sliding_m_per_s = scene.sliding.profile.front().velocity_m_per_s;
   namespace odeint = boost::numeric::odeint;
   const auto formula = odeint::make_controlled(Exact(1e-24), Exact(1e-19),
                                                odeint::runge_kutta_fehlberg78<ExactState, Exact>());
+  const ExactPlant plant = exact(scene);
+  const auto amplitude_N = static_cast<Exact>(scene.drive->force_amplitude_N);
+  const auto duration_s = static_cast<Exact>(scene.run.duration_s);
   ExactState state{};
-  Exact begin_s = 0;
-  while (begin_s < scene.run.duration_s) {
-    const Exact frequency_Hz =
-        configure::carrier_frequency_Hz(*scene.drive, static_cast<double>(begin_s));
+  for (Exact begin_s = 0; begin_s < duration_s;) {
+    const auto frequency_Hz = static_cast<Exact>(
+        configure::carrier_frequency_Hz(*scene.drive, static_cast<double>(begin_s)));
     const auto system = [&](const ExactState& at, ExactState& rate, Exact time_s) {
-      const Exact drive_N = scene.drive->force_amplitude_N *
-                            std::cos(2 * tests::long_pi * frequency_Hz * (time_s - begin_s));
-      const Exact slip_m_per_s = sliding_m_per_s + at[1];
-      rate[0] = at[1];
-      rate[1] =
-          (drive_N - plant.damping_N_s_per_m * at[1] - plant.stiffness_N_per_m * at[0] - at[2]) /
-          plant.mass_kg;
-      rate[2] = scene.friction.contact_stiffness_N_per_m *
-                (slip_m_per_s - std::abs(slip_m_per_s) * at[2] / limit_N);
-      rate[3] = at[2];
+      const Exact phase = 2 * tests::long_pi * frequency_Hz * (time_s - begin_s);
+      rate = plant.rate(at, amplitude_N * std::cos(phase));
     };
-    const Exact end_s = std::min(begin_s + 1 / frequency_Hz, Exact(scene.run.duration_s));
+    const Exact end_s = std::min(begin_s + 1 / frequency_Hz, duration_s);
     odeint::integrate_adaptive(formula, system, state, begin_s, end_s, Exact(1e-7));
     begin_s = end_s;
   }
