@@ -69,9 +69,9 @@ class ChangingPlant final : public PlantPort {
   /// A part of a stretch. The spring holds in it, and the friction in parts of it.
   struct Piece {
     Stretch stretch;
-    double stiffness_N_per_m;
+    double stiffness_N_per_m = 0.0;
     scene::SolverMethod method;
-    bool last;  ///< of the stretch
+    bool last = false;  ///< of the stretch
   };
 
   plant::Outcome<double> follow(const Stretch& stretch, Sight* sight, EnergyBalance& energy);

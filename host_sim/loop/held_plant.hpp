@@ -12,8 +12,8 @@ namespace sonoglide::loop {
 /// What holds for a while of all that may change.
 struct Held {
   scene::ContactValues contact;
-  double stiffness_N_per_m;
-  double drive_rate_rad_per_s;  ///< 2π f; 0 without a drive
+  double stiffness_N_per_m = 0.0;
+  double drive_rate_rad_per_s = 0.0;  ///< 2π f; 0 without a drive
   scene::SolverMethod method;
 };
 
