@@ -67,17 +67,15 @@ double peak_vibration_m_per_s(const scene::Plant& plant, double frequency_Hz,
   return force_amplitude_N * omega / dynamic_stiffness_N_per_m(plant, omega);
 }
 
-bool frequency_changes(const scene::Scene& scene) {
-  return scene.drive &&
-         (!scene.drive->frequency_profile.empty() || scene.drive->frequency_resolution_Hz > 0.0);
+double nearest_frequency_Hz(const scene::Drive& drive, double asked_Hz) {
+  const double step_Hz = drive.frequency_resolution_Hz;
+  return step_Hz > 0.0 ? step_Hz * std::max(1.0, std::round(asked_Hz / step_Hz)) : asked_Hz;
 }
 
 double carrier_frequency_Hz(const scene::Drive& drive, double time_s) {
-  const double asked_Hz = drive.frequency_profile.empty()
-                              ? drive.frequency_Hz
-                              : scene::value_at(drive.frequency_profile, time_s);
-  const double step_Hz = drive.frequency_resolution_Hz;
-  return step_Hz > 0.0 ? step_Hz * std::max(1.0, std::round(asked_Hz / step_Hz)) : asked_Hz;
+  return drive.frequency_profile.empty()
+             ? drive.frequency_Hz
+             : nearest_frequency_Hz(drive, scene::value_at(drive.frequency_profile, time_s));
 }
 
 scene::ContactValues contact_at(const scene::Friction& friction, double time_s) {

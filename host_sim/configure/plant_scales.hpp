@@ -41,8 +41,9 @@ double dynamic_stiffness_N_per_m(const scene::Plant& plant, double omega_rad_per
 double peak_vibration_m_per_s(const scene::Plant& plant, double frequency_Hz,
                               double force_amplitude_N);
 
-/// Whether the drive may have another carrier frequency than drive.frequency_Hz.
-bool frequency_changes(const scene::Scene& scene);
+/// The nearest multiple of drive.frequency_resolution_Hz, at least one; without a resolution the
+/// frequency itself.
+double nearest_frequency_Hz(const scene::Drive& drive, double asked_Hz);
 
 /// The carrier frequency that a drive of open loop has from a phase 0 at this time on.
 double carrier_frequency_Hz(const scene::Drive& drive, double time_s);

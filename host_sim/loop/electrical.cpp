@@ -37,8 +37,8 @@ void ElectricalBalance::append(const ElectricalBalance& next) {
   reactive_J += next.reactive_J;
   voltage_square_V2_s += next.voltage_square_V2_s;
   current_square_A2_s += next.current_square_A2_s;
-  voltage_peak_V = std::max(voltage_peak_V, next.voltage_peak_V);
-  current_peak_A = std::max(current_peak_A, next.current_peak_A);
+  voltage_peak_V = std::fmax(voltage_peak_V, next.voltage_peak_V);
+  current_peak_A = std::fmax(current_peak_A, next.current_peak_A);
 }
 
 ElectricalFigures electrical_figures(const ElectricalBalance& balance) {

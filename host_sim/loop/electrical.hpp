@@ -2,6 +2,7 @@
 #pragma once
 
 #include <complex>
+#include <limits>
 
 #include "host_sim/loop/energy.hpp"
 #include "host_sim/loop/plant_port.hpp"
@@ -24,8 +25,10 @@ struct ElectricalBalance {
   double reactive_J = 0.0;           ///< ∫Q dt, Q of the fundamental; below 0: capacitive
   double voltage_square_V2_s = 0.0;  ///< ∫V² dt
   double current_square_A2_s = 0.0;  ///< ∫i² dt
-  double voltage_peak_V = 0.0;       ///< largest amplitude of a carrier period
-  double current_peak_A = 0.0;       ///< likewise, of the fundamental
+  /// Largest amplitudes of the carrier periods that reach into the stretches; of the current's
+  /// fundamental, in periods that are not cut short. NaN where there is none.
+  double voltage_peak_V = std::numeric_limits<double>::quiet_NaN();
+  double current_peak_A = std::numeric_limits<double>::quiet_NaN();
 
   void append(const ElectricalBalance& next);
 };

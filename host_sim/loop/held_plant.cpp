@@ -15,7 +15,6 @@ scene::Scene held(scene::Scene scene) {
   scene.friction.normal_force_profile_N.clear();
   if (scene.drive) {
     scene.drive->frequency_profile.clear();
-    scene.drive->frequency_resolution_Hz = 0.0;
   }
   scene.controller.reset();
   scene.run.record.clear();

@@ -11,11 +11,6 @@
 namespace sonoglide::loop {
 namespace {
 
-/// Beside the sliding, which every plant follows.
-bool changes(const scene::Scene& scene) {
-  return scene.profile_key() != nullptr || configure::frequency_changes(scene);
-}
-
 /// Where the friction is none, event_gauss has nothing to cut at reversals, and event_taylor's one
 /// step in a period takes its place.
 scene::Scene with_acting_solver(scene::Scene scene) {
@@ -30,7 +25,7 @@ scene::Scene with_acting_solver(scene::Scene scene) {
 }  // namespace
 
 std::unique_ptr<PlantPort> make_plant_port(const scene::Scene& scene) {
-  if (changes(scene)) {
+  if (scene.profile_key() != nullptr) {
     return std::make_unique<ChangingPlant>(scene);
   }
   const scene::Scene acting = with_acting_solver(scene);

@@ -61,7 +61,7 @@ EnergyBalance PlantRun::advance(double amplitude_N) {
     total = piece(begin_s, 0.0, duration_s, end_s, amplitude_N);
   }
   result_.whole.append(total);
-  note_peaks(begin_s, amplitude_N, total);
+  note_peaks(end_s, amplitude_N, total);
   return total;
 }
 
@@ -69,14 +69,17 @@ bool PlantRun::in_window(double begin_s) const {
   return begin_s >= scene_.run.window_start_s - clock_.rounding_s(begin_s);
 }
 
-void PlantRun::note_peaks(double begin_s, double amplitude_N, const EnergyBalance& period) {
-  if (scene_.transducer && in_window(begin_s)) {
-    ElectricalBalance peaks;
-    peaks.voltage_peak_V = std::abs(amplitude_N) / scene_.transducer->force_factor_N_per_V;
+void PlantRun::note_peaks(double end_s, double amplitude_N, const EnergyBalance& period) {
+  if (!scene_.transducer || !(end_s > scene_.run.window_start_s + clock_.rounding_s(end_s))) {
+    return;
+  }
+  ElectricalBalance peaks;
+  peaks.voltage_peak_V = std::abs(amplitude_N) / scene_.transducer->force_factor_N_per_V;
+  if (clock_.is_whole()) {
     peaks.current_peak_A = current_amplitude_A(*scene_.transducer, amplitude_N,
                                                clock_.frequency_Hz(), period.vibration_m_per_s());
-    result_.electrical->append(peaks);
   }
+  result_.electrical->append(peaks);
 }
 
 /// One piece of the waveform, which ends until_s after its period began, at end_s.

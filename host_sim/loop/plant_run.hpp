@@ -42,7 +42,7 @@ class PlantRun {
                         double amplitude_N);
   plant::Outcome<double> solve(double begin_s, double end_s, const Stretch& stretch,
                                EnergyBalance& energy);
-  void note_peaks(double begin_s, double amplitude_N, const EnergyBalance& period);
+  void note_peaks(double end_s, double amplitude_N, const EnergyBalance& period);
   bool in_window(double begin_s) const;
   [[noreturn]] void fail(plant::Error error, double time_s) const;
 

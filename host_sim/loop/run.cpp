@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <complex>
 #include <cstdint>
 #include <limits>
 #include <memory>
@@ -41,7 +42,7 @@ class Simulation {
         clock_(scene),
         plant_(scene, clock_, watch, result),
         control_(make_control(scene, controller, result)),
-        frequency_changes_(configure::frequency_changes(scene)),
+        frequency_changes_(scene.drive && !scene.drive->frequency_profile.empty()),
         friction_N_(configure::largest_friction_limit_N(scene.friction)),
         open_loop_amplitude_N_(scene.drive ? scene.drive->force_amplitude_N : 0.0) {}
 
@@ -73,9 +74,8 @@ class Simulation {
     const double end_velocity_m_per_s = plant_.sliding_velocity_m_per_s();
     if (!watch_.periods.empty()) {
       show({begin_s, end_s, friction_ratio(energy), begin_velocity_m_per_s, end_velocity_m_per_s,
-            amplitude_N, clock_.frequency_Hz(),
-            scene_.transducer ? energy.vibration_m_per_s() : 0.0, undefined, control::State::off,
-            control::Limit::none, control::Settling::pending, undefined});
+            amplitude_N, clock_.frequency_Hz(), vibration_m_per_s(energy), undefined,
+            control::State::off, control::Limit::none, control::Settling::pending, undefined});
     }
     if (control_ && clock_.is_whole()) {
       control_->step(end_s, energy.friction_impulse_N_s / energy.duration_s, end_velocity_m_per_s);
@@ -85,6 +85,11 @@ class Simulation {
   double friction_ratio(const EnergyBalance& energy) const {
     const double undriven_N_s = friction_N_ * energy.undriven_s;
     return undriven_N_s > 0.0 ? energy.resistance_impulse_N_s / undriven_N_s : undefined;
+  }
+
+  /// Of a period that is cut short there is no fundamental.
+  std::complex<double> vibration_m_per_s(const EnergyBalance& energy) const {
+    return scene_.transducer && clock_.is_whole() ? energy.vibration_m_per_s() : undefined;
   }
 
   void show(Period period) const {

@@ -19,7 +19,8 @@ struct Period {
   double end_velocity_m_per_s;
   double drive_amplitude_N;  ///< in force during it
   double frequency_Hz;       ///< likewise, of the carrier; 0 without a drive
-  /// z [m/s]: the vibration velocity is Re(z e^jθ), θ the phase of the drive; 0 without a transducer.
+  /// z [m/s]: the vibration velocity is Re(z e^jθ), θ the phase of the drive; NaN without a
+  /// transducer, and of a period that is cut short.
   std::complex<double> vibration_m_per_s;
   double target;               ///< that its drive was picked for; NaN in open loop
   control::State state;        ///< of the command in force during it

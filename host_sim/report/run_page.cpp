@@ -170,9 +170,8 @@ output::Table electrical_table(const loop::ElectricalBalance& balance) {
   return {
       "Transducer, window",
       {},
-      {{"Largest voltage amplitude [V]", fmt::format("{:.6g}", figures.voltage_peak_V)},
-       {"Largest current amplitude, fundamental [A]",
-        fmt::format("{:.6g}", figures.current_peak_A)},
+      {{"Largest voltage amplitude [V]", figure("{:.6g}", figures.voltage_peak_V)},
+       {"Largest current amplitude, fundamental [A]", figure("{:.6g}", figures.current_peak_A)},
        {"Active power [W]", fmt::format("{:.6g}", figures.active_power_W)},
        {"Reactive power, below 0 capacitive [var]",
         fmt::format("{:.6g}", figures.reactive_power_var)},

@@ -36,8 +36,8 @@ ordered_json power(const loop::PowerRatios& window) {
 }
 
 ordered_json electrical(const loop::ElectricalFigures& figures) {
-  return {{"voltage_peak_V", figures.voltage_peak_V},
-          {"current_peak_A", figures.current_peak_A},
+  return {{"voltage_peak_V", number(figures.voltage_peak_V)},
+          {"current_peak_A", number(figures.current_peak_A)},
           {"active_power_W", number(figures.active_power_W)},
           {"reactive_power_var", number(figures.reactive_power_var)},
           {"apparent_power_VA", number(figures.apparent_power_VA)},
@@ -295,8 +295,9 @@ std::string electrical_line(const loop::RunResult& result) {
     return {};
   }
   const loop::ElectricalFigures figures = loop::electrical_figures(*result.electrical);
-  return fmt::format("{:.4g} V and {:.4g} A at most; {:.4g} W of {:.4g} VA, power factor {}\n",
-                     figures.voltage_peak_V, figures.current_peak_A, figures.active_power_W,
+  return fmt::format("{} V and {} A at most; {:.4g} W of {:.4g} VA, power factor {}\n",
+                     figure("{:.4g}", figures.voltage_peak_V),
+                     figure("{:.4g}", figures.current_peak_A), figures.active_power_W,
                      figures.apparent_power_VA, figure("{:.3g}", figures.power_factor));
 }
 

@@ -95,6 +95,19 @@ void require_cosine(const TableCursor& cursor, scene::Waveform waveform) {
   }
 }
 
+/// A coarser word would have no frequency near the one that is asked for.
+void settle_frequency(const TableCursor& cursor, scene::Drive& drive) {
+  const double lowest_Hz = drive.frequency_profile.empty()
+                               ? drive.frequency_Hz
+                               : scene::smallest_value(drive.frequency_profile);
+  if (drive.frequency_resolution_Hz > lowest_Hz) {
+    cursor.fail("frequency_resolution_Hz",
+                fmt::format("{:g} Hz is above the carrier frequency; allowed: at most {:g} Hz",
+                            drive.frequency_resolution_Hz, lowest_Hz));
+  }
+  drive.frequency_Hz = configure::nearest_frequency_Hz(drive, drive.frequency_Hz);
+}
+
 // Days of writing: more is a mistyped unit.
 constexpr double most_fixed_steps = 1e11;
 constexpr double most_recorded_rows = 1e9;
@@ -247,6 +260,7 @@ std::optional<scene::Drive> read_drive(const Variant& variant,
   ValueReader reader(cursor);
   scene::Drive drive;
   visit_drive(reader, drive, closed, transducer.has_value());
+  settle_frequency(cursor, drive);
   if (transducer) {
     require_cosine(cursor, drive.waveform);
     drive.force_amplitude_N = transducer->force_factor_N_per_V * drive.voltage_amplitude_V;

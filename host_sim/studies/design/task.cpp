@@ -17,7 +17,8 @@ void require_steady_vibration(const scene::Scene& scene) {
     throw configure::ConfigurationError(
         "controller",
         "missing: a design takes its ratios and the drive's limit from a closed "
-        "loop; required: a table [controller], and drive.max_force_amplitude_N");
+        "loop; required: a table [controller], and drive.max_force_amplitude_N or, with a "
+        "[transducer], drive.max_voltage_amplitude_V");
   }
   if (!scene::has_own_map(scene.friction.law) &&
       !scene::is<scene::laws::Stribeck>(scene.friction.law)) {

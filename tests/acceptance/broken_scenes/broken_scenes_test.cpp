@@ -201,6 +201,10 @@ const std::vector<BrokenScene> broken_scenes = {
      "[solver]\nmethod = \"event_taylor\"\ntolerance = 1e-10\n[run]",
      "frequency_profile = [[0, 60e3], [1e-3, 61e3]]\n[run]\nstart = \"steady\"",
      "16:9: run.start: nothing is steady under a drive.frequency_profile; allowed: \"given\""},
+    {"frequency_word_coarser_than_the_carrier", open_loop, "frequency_Hz = 60e3",
+     "frequency_Hz = 60e3\nfrequency_resolution_Hz = 1e6",
+     "13:27: drive.frequency_resolution_Hz: 1e+06 Hz is above the carrier frequency; allowed: at "
+     "most 60000 Hz"},
     {"frequency_profile_in_closed_loop", closed_loop, "frequency_Hz = 60e3",
      "frequency_Hz = 60e3\nfrequency_profile = [[0, 60e3]]",
      "12:1: drive.frequency_profile: not used in closed loop: the controller sets the amplitude; "

@@ -321,6 +321,31 @@ TEST(TransducerTest, AFrequencyThatChangesEveryPeriodIsFollowedToTheTolerance) {
               static_cast<double>(expected[3]) / limit_N_s, 1e-9);
 }
 
+// Over a part of a carrier period a product with the carrier is no fundamental.
+TEST(TransducerTest, APeriodThatIsCutShortHasNoFundamental) {
+  const Circuit circuit = circuits.front();
+  Scene scene = scene_of(circuit, circuit.series_resonance_Hz());
+  scene.run.start = scene::Start::steady;
+  const double peak_A = electrical_figures(*run(scene).electrical).current_peak_A;
+  scene.run.duration_s = 10.1 / scene.drive->frequency_Hz;
+  const LoggedRun longer = run_logged(scene);
+  EXPECT_NEAR(electrical_figures(*longer.result.electrical).current_peak_A, peak_A, 1e-9 * peak_A);
+  EXPECT_TRUE(std::isnan(longer.periods.back().vibration_m_per_s.real()));
+  scene.run.duration_s = 0.5 / scene.drive->frequency_Hz;
+  const ElectricalFigures shorter = electrical_figures(*run(scene).electrical);
+  EXPECT_TRUE(std::isnan(shorter.current_peak_A));
+  EXPECT_NEAR(shorter.voltage_peak_V, voltage_V, 1e-12);
+}
+
+TEST(TransducerTest, AWindowInsideAPeriodSeesItsPeaks) {
+  const Circuit circuit = circuits.front();
+  Scene scene = scene_of(circuit, circuit.series_resonance_Hz());
+  scene.run.window_start_s = 9.5 / scene.drive->frequency_Hz;
+  const ElectricalFigures figures = electrical_figures(*run(scene).electrical);
+  EXPECT_NEAR(figures.voltage_peak_V, voltage_V, 1e-12);
+  EXPECT_GT(figures.current_peak_A, 0.0);
+}
+
 TEST(TransducerTest, ElectricalEnergyIsAccountedFor) {
   const Circuit circuit = circuits.back();
   for (const double normal_force_N : {0.0, 1.0, 100.0}) {
