@@ -70,6 +70,39 @@ constexpr Split<Q15<Overflow>> product(const Split<Q15<Overflow>>& a,
   return {Q15<Overflow>::from_raw(raw), below_half ? exponent - 1 : exponent};
 }
 
+/// f 2^n: in floating point as scale_by_power_of_two, in fixed point exact.
+template <class Float, std::enable_if_t<std::is_floating_point_v<Float>, int> = 0>
+constexpr Float rescaled(Float f, int n) {
+  return scale_by_power_of_two(f, n);
+}
+template <class Scalar>
+constexpr Split<Scalar> rescaled(const Split<Scalar>& f, int n) {
+  return {f.mantissa, f.exponent + n};
+}
+
+/// x f, f of any magnitude. In floating point rounded by IEEE-754.
+template <class Float, std::enable_if_t<std::is_floating_point_v<Float>, int> = 0>
+constexpr Float limited_product(Float x, Float f) {
+  return x * f;
+}
+
+/// x f, rounded once where f < 1, else the mantissa's product rounded and shifted; limited to
+/// [-1, 1), which is not an overflow.
+template <class Overflow>
+constexpr Q31<Overflow> limited_product(Q31<Overflow> x, const Split<Q31<Overflow>>& f) {
+  const std::int32_t part = rounded_q31_product(x.raw(), f.mantissa.raw());
+  if (f.exponent <= 0) {
+    return scale_by_power_of_two(Q31<Overflow>::from_raw(part), f.exponent);
+  }
+  if (f.exponent < 31) {
+    const std::int32_t most = INT32_MAX >> f.exponent;
+    if (-most <= part && part <= most) {
+      return Q31<Overflow>::from_raw(part * (std::int32_t{1} << f.exponent));
+    }
+  }
+  return Q31<Overflow>::from_raw(part < 0 ? -INT32_MAX : (part > 0 ? INT32_MAX : 0));
+}
+
 namespace detail {
 
 /// n/d, 2^30 <= n, d < 2^31, with 28 fraction bits; too small by at most 2^-24.
