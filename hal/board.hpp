@@ -16,6 +16,17 @@ struct Sample {
   bool fresh;                     ///< false where no sample arrived since the last one
 };
 
+/// With the vibration, of a unit that holds it at resonance. The vibration velocity is the real part
+/// of (in_phase + j quadrature) e^jθ, θ the phase of the drive: from the demodulated velocity
+/// pick-up, or from the current of the transducer less that of its clamped capacitance, over the
+/// force factor. The sliding velocity has the full scale of the vibration sensor.
+struct VibrationSample : Sample {
+  std::int32_t in_phase;    ///< mean over the last carrier period; full scale: the sensor's
+  std::int32_t quadrature;  ///< likewise
+  bool vibration_at_rail;   ///< a converter of the vibration stood at either end of its range
+  bool vibration_fresh;     ///< false where no vibration sample arrived since the last one
+};
+
 /// Answer to a sample. The amplitude takes effect at a drive phase 0. The design states how many
 /// carrier periods this is after the end of the sampled period (drive.delay_periods of a scene, 1
 /// by default).
@@ -29,6 +40,13 @@ struct Drive {
   std::uint8_t settling;  ///< control::Settling
 };
 
+/// Of a unit that holds the vibration at resonance. Its amplitude is from -2^31 + 1 on; below 0 the
+/// phase of the drive is turned by half a turn. Its sliding velocity has the full scale of the
+/// vibration sensor.
+struct ResonantDrive : Drive {
+  std::int32_t frequency;  ///< steps of the frequency word above that of the start
+};
+
 /// A board is a class of this shape. It needs no base class; the app is compiled for one board:
 ///
 ///   class Board {
@@ -36,6 +54,9 @@ struct Drive {
 ///     bool sample(Sample& sample);     // waits for the next carrier period; false: shut down
 ///     void drive(const Drive& drive);  // acts at the drive phase 0 that the design states
 ///   };
+///
+/// The board of a unit that holds the vibration at resonance takes VibrationSample and ResonantDrive
+/// in their place.
 ///
 /// A board whose own timer makes the carrier periods (app::TimedLoop) keeps the drive at zero from
 /// reset until the first drive(), and also offers:
@@ -72,13 +93,13 @@ struct Drive {
 /// wider words shows each as one of 32 bits.
 namespace detail {
 
-template <class Board, class = void>
+template <class Board, class SampleT, class DriveT, class = void>
 struct IsBoard : std::false_type {};
-template <class Board>
-struct IsBoard<Board,
-               std::void_t<decltype(std::declval<Board&>().sample(std::declval<Sample&>())),
-                           decltype(std::declval<Board&>().drive(std::declval<const Drive&>()))>>
-    : std::is_same<decltype(std::declval<Board&>().sample(std::declval<Sample&>())), bool> {};
+template <class Board, class SampleT, class DriveT>
+struct IsBoard<Board, SampleT, DriveT,
+               std::void_t<decltype(std::declval<Board&>().sample(std::declval<SampleT&>())),
+                           decltype(std::declval<Board&>().drive(std::declval<const DriveT&>()))>>
+    : std::is_same<decltype(std::declval<Board&>().sample(std::declval<SampleT&>())), bool> {};
 
 template <class Board, class = void>
 struct KeepsPeriods : std::false_type {};
@@ -89,8 +110,8 @@ struct KeepsPeriods<Board, std::void_t<decltype(std::declval<Board&>().period())
 }  // namespace detail
 
 /// Whether a class has the shape of a board.
-template <class Board>
-inline constexpr bool is_board = detail::IsBoard<Board>::value;
+template <class Board, class SampleT = Sample, class DriveT = Drive>
+inline constexpr bool is_board = detail::IsBoard<Board, SampleT, DriveT>::value;
 
 /// Whether a board makes the carrier periods itself.
 template <class Board>

@@ -8,9 +8,9 @@
 namespace sonoglide::hal {
 
 /// 64-bit FNV-1a over every drive command (amplitude, commanded_ratio, state, limit, fault,
-/// settling), or over every sample (friction_force, sliding_velocity, force_at_rail, fresh); a code
-/// is four bytes, lowest first, a flag is a byte, 1 or 0. Source: Fowler, Noll and Vo,
-/// draft-eastlake-fnv.
+/// settling; of a resonant one the frequency after them), or over every sample (friction_force,
+/// sliding_velocity, force_at_rail, fresh); a code is four bytes, lowest first, a flag is a byte, 1
+/// or 0. Source: Fowler, Noll and Vo, draft-eastlake-fnv.
 class TraceHash {
  public:
   void add(const Drive& drive) {
@@ -20,6 +20,11 @@ class TraceHash {
     add_byte(drive.limit);
     add_byte(drive.fault);
     add_byte(drive.settling);
+  }
+
+  void add(const ResonantDrive& drive) {
+    add(static_cast<const Drive&>(drive));
+    add_code(drive.frequency);
   }
 
   void add(const Sample& sample) {

@@ -1,6 +1,8 @@
 /// The loop that an image runs: sample, step, drive.
 #pragma once
 
+#include <type_traits>
+
 #include "firmware/app/exchange.hpp"
 #include "hal/board.hpp"
 
@@ -9,7 +11,10 @@ namespace sonoglide::app {
 /// Joins a controller to a board. The same code runs in an image and in the simulation.
 template <class ControllerT, class BoardT>
 class ControlLoop {
-  static_assert(hal::is_board<BoardT>, "a board has sample() and drive(): see hal/board.hpp");
+  using Sample = std::conditional_t<ControllerT::observed, hal::VibrationSample, hal::Sample>;
+  using Drive = std::conditional_t<ControllerT::observed, hal::ResonantDrive, hal::Drive>;
+  static_assert(hal::is_board<BoardT, Sample, Drive>,
+                "a board has sample() and drive(): see hal/board.hpp");
 
  public:
   using Scalar = typename ControllerT::Scalar;
@@ -18,7 +23,7 @@ class ControlLoop {
 
   /// Serves one carrier period; false when the board shuts down.
   bool serve() {
-    hal::Sample sample{};
+    Sample sample{};
     if (!board_.sample(sample)) {
       return false;
     }

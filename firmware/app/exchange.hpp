@@ -24,12 +24,31 @@ control::Measurement<Scalar> measurement_of(const hal::Sample& sample) {
           numeric::from_code<Scalar>(sample.sliding_velocity), quality};
 }
 
+/// The same with the vibration.
+template <class Scalar>
+control::VibrationMeasurement<Scalar> measurement_of(const hal::VibrationSample& sample) {
+  control::Quality quality = control::Quality::good;
+  if (!sample.vibration_fresh) {
+    quality = control::Quality::missing;
+  } else if (sample.vibration_at_rail) {
+    quality = control::Quality::saturated;
+  }
+  return {measurement_of<Scalar>(static_cast<const hal::Sample&>(sample)),
+          numeric::from_code<Scalar>(sample.in_phase),
+          numeric::from_code<Scalar>(sample.quadrature), quality};
+}
+
 /// Per-unit numbers as codes, rounded and limited as numeric::to_code.
 template <class Scalar>
 hal::Drive drive_of(const control::DriveCommand<Scalar>& command) {
   return {numeric::to_code(command.amplitude),      numeric::to_code(command.commanded_ratio),
           static_cast<std::uint8_t>(command.state), static_cast<std::uint8_t>(command.limit),
           static_cast<std::uint8_t>(command.fault), static_cast<std::uint8_t>(command.settling)};
+}
+
+template <class Scalar>
+hal::ResonantDrive drive_of(const control::ResonantCommand<Scalar>& command) {
+  return {drive_of(static_cast<const control::DriveCommand<Scalar>&>(command)), command.frequency};
 }
 
 }  // namespace sonoglide::app

@@ -103,12 +103,14 @@ constexpr Scalar fraction(std::uint32_t count, std::uint32_t whole) {
 template <class PartsT>
 class FieldDesign {
  public:
+  static_assert(!PartsT::Vibration::observed, "a timed unit has no vibration sensor");
   using Scalar = typename PartsT::Scalar;
   /// The designed parts, with a drive limit and a tolerance of unusable samples.
-  using Parts = control::Parts<Scalar, typename PartsT::Friction, typename PartsT::Feedforward,
-                               typename PartsT::Slew, typename PartsT::Shaper,
-                               typename PartsT::Regulator, typename PartsT::Relearning,
-                               control::DriveLimit<Scalar>, control::TolerantSamples>;
+  using Parts =
+      control::Parts<Scalar, typename PartsT::Friction, typename PartsT::Feedforward,
+                     typename PartsT::Slew, typename PartsT::Shaper, typename PartsT::Regulator,
+                     typename PartsT::Relearning, typename PartsT::Vibration,
+                     typename PartsT::Force, control::DriveLimit<Scalar>, control::TolerantSamples>;
   using Controller = control::Controller<Parts>;
   using Designed = typename control::Controller<PartsT>::Parameters;
 
@@ -185,6 +187,7 @@ class FieldDesign {
         designed_.shaper,
         designed_.regulator,
         designed_.relearning,
+        designed_.vibration,
         designed_.standstill,
         designed_.stuck,
         designed_.plausibility,

@@ -33,4 +33,9 @@ class TargetSchedule {
   std::uint32_t period_ = 0;
 };
 
+template <class Scalar, std::size_t Count>
+TargetSchedule<Scalar, Count> schedule_of(const TargetStep<Scalar> (&steps)[Count]) {
+  return TargetSchedule<Scalar, Count>(steps);
+}
+
 }  // namespace sonoglide::app

@@ -2,8 +2,11 @@
 #pragma once
 
 #include <cstdint>
+#include <type_traits>
 
 #include "firmware/control/drive_command.hpp"
+#include "firmware/control/fed_forward.hpp"
+#include "firmware/control/force_sensing.hpp"
 #include "firmware/control/friction_level.hpp"
 #include "firmware/control/full_drive.hpp"
 #include "firmware/control/measurement.hpp"
@@ -26,6 +29,7 @@ namespace sonoglide::control {
 /// Parameters::fields(parameters, visit) calls visit(name, field) for each, in order.
 template <class ScalarT, class FrictionT, class FeedforwardT, class SlewT, class ShaperT,
           class RegulatorT, class RelearningT = NoRelearning<ScalarT>,
+          class VibrationT = FedForward<ScalarT>, class ForceT = ForceSensor,
           class CeilingT = FullDrive<ScalarT>, class SamplesT = StrictSamples>
 struct Parts {
   using Scalar = ScalarT;
@@ -35,6 +39,8 @@ struct Parts {
   using Shaper = ShaperT;            ///< NoShaping | NotchShaper
   using Regulator = RegulatorT;      ///< NoFeedback | IntegralRegulator
   using Relearning = RelearningT;    ///< NoRelearning | PeriodicRelearning
+  using Vibration = VibrationT;      ///< FedForward | ResonantVibration
+  using Force = ForceT;              ///< ForceSensor | NoForceSensor
   using Ceiling = CeilingT;          ///< FullDrive | DriveLimit
   using Samples = SamplesT;          ///< StrictSamples | TolerantSamples
 };
@@ -42,16 +48,30 @@ struct Parts {
 /// Smallest usable speed floor, per unit: where the controller's resolution ends.
 inline constexpr double smallest_speed_floor = 1e-4;
 
-/// Picks the drive amplitude so that the friction ratio reaches a target; one step per carrier
-/// period. A pure function of its state and the measurement: no clock, no I/O, no heap.
+/// Picks the drive so that the friction ratio reaches a target; one step per carrier period. A pure
+/// function of its state and the measurement: no clock, no I/O, no heap.
 ///
-/// Per unit: force on the sensor's full scale, speed on the peak vibration velocity at full drive,
-/// amplitude on the actuator's limit, friction ratios on base 2.
+/// Per unit: force on the sensor's full scale, amplitude on the actuator's limit, friction ratios on
+/// base 2. A drive that is fed forward is asked for an amplitude; speed is on the peak vibration
+/// velocity at full drive, so that the number is that of the vibration velocity too. A vibration
+/// that is observed is asked for its velocity; that and the speed are on the range of its sensor.
 template <class PartsT>
 class Controller {
  public:
   using Scalar = typename PartsT::Scalar;
+  using Measurement = typename PartsT::Vibration::Measurement;
+  using Command = typename PartsT::Vibration::Command;
+  static constexpr bool observed = PartsT::Vibration::observed;  ///< the vibration
+  // A vibration is foreseen from one sample to the next, so that none may be left out.
+  static_assert(!observed || std::is_same_v<typename PartsT::Samples, StrictSamples>);
 
+ private:
+  using Force = typename PartsT::Force;
+  using Stuck = typename Force::template Judge<StuckDetector<Scalar>>;
+  using Plausible = typename Force::template Judge<Plausibility<Scalar>>;
+  using Watch = typename Force::template Judge<SettlingWatch<Scalar>>;
+
+ public:
   struct Parameters {
     Scalar friction_force;     ///< believed Fc
     Scalar smallest_friction;  ///< of a usable Fc, at least FrictionLevel::smallest()
@@ -63,10 +83,11 @@ class Controller {
     [[no_unique_address]] typename PartsT::Shaper::Parameters shaper;
     [[no_unique_address]] typename PartsT::Regulator::Parameters regulator;
     [[no_unique_address]] typename PartsT::Relearning::Parameters relearning;
+    [[no_unique_address]] typename PartsT::Vibration::Parameters vibration;
     typename StandstillHold<Scalar>::Parameters standstill;
-    typename StuckDetector<Scalar>::Parameters stuck;
-    typename Plausibility<Scalar>::Parameters plausibility;
-    typename SettlingWatch<Scalar>::Parameters watch;
+    [[no_unique_address]] typename Stuck::Parameters stuck;
+    [[no_unique_address]] typename Plausible::Parameters plausibility;
+    [[no_unique_address]] typename Watch::Parameters watch;
     [[no_unique_address]] typename PartsT::Ceiling::Parameters ceiling{};
     [[no_unique_address]] typename PartsT::Samples::Parameters samples{};
 
@@ -82,6 +103,7 @@ class Controller {
       visit("shaper", self.shaper);
       visit("regulator", self.regulator);
       visit("relearning", self.relearning);
+      visit("vibration", self.vibration);
       visit("standstill", self.standstill);
       visit("stuck", self.stuck);
       visit("plausibility", self.plausibility);
@@ -102,6 +124,7 @@ class Controller {
         shaper_(parameters.shaper),
         regulator_(parameters.regulator),
         relearning_(parameters.relearning),
+        vibration_(parameters.vibration),
         standstill_(parameters.standstill),
         stuck_(parameters.stuck),
         plausibility_(parameters.plausibility),
@@ -124,6 +147,9 @@ class Controller {
     samples_.restart();
     if constexpr (relearns) {
       relearning_.restart();
+    }
+    if constexpr (observed) {
+      vibration_.restart();
     }
     backwards_ = false;
     requested_ = Scalar{};
@@ -158,8 +184,26 @@ class Controller {
     }
   }
 
+  /// Frequency of the period whose sample comes next, in steps of its word from the start.
+  std::int32_t next_frequency() const { return vibration_.next_frequency(); }
+
   /// Answer to one carrier period, valid for the next.
-  DriveCommand<Scalar> step(const Measurement<Scalar>& measurement) {
+  Command step(const Measurement& measurement) {
+    const DriveCommand<Scalar> command = answer(measurement);
+    if constexpr (observed) {
+      return {command, vibration_.take(command.amplitude)};
+    } else {
+      return command;
+    }
+  }
+
+ private:
+  struct Request {
+    Scalar amplitude;  ///< or vibration velocity
+    Limit limit;
+  };
+
+  DriveCommand<Scalar> answer(const Measurement& measurement) {
     if (state_ == State::off || state_ == State::fault) {
       return undriven(Limit::none);
     }
@@ -170,6 +214,13 @@ class Controller {
     }
     if (unusable != Fault::none) {
       return state_ == State::calibrating ? undriven(Limit::bad_sample) : apply(bridge());
+    }
+    if constexpr (observed) {
+      const Fault unsound = vibration_.observe(measurement);
+      if (unsound != Fault::none) {
+        trip(unsound);
+        return undriven(Limit::none);
+      }
     }
     const Scalar velocity = measurement.sliding_velocity;
     const Scalar speed = foresight_.speed(velocity);
@@ -184,25 +235,39 @@ class Controller {
     return state_ == State::fault ? undriven(Limit::none) : apply(wanted);
   }
 
- private:
-  struct Request {
-    Scalar amplitude;
-    Limit limit;
-  };
-
   static constexpr bool relearns = PartsT::Relearning::relearns;
+
+  static constexpr Limit at_full_drive = PartsT::Vibration::at_full_drive;
 
   static constexpr Scalar whole_ratio() { return numeric::from_real<Scalar>(0.5); }
 
-  static Fault inspect(const Measurement<Scalar>& measurement) {
+  static Fault inspect(const Measurement& measurement) {
     if (measurement.quality == Quality::missing) {
       return Fault::measurement_missing;
     }
-    if (measurement.quality == Quality::saturated) {
+    if constexpr (observed) {
+      const Fault unusable = inspect_vibration(measurement);
+      if (unusable != Fault::none) {
+        return unusable;
+      }
+    }
+    if (Force::present && measurement.quality == Quality::saturated) {
       return Fault::measurement_saturated;
     }
-    const bool finite = numeric::is_finite(measurement.friction_force) &&
+    const bool finite = (!Force::present || numeric::is_finite(measurement.friction_force)) &&
                         numeric::is_finite(measurement.sliding_velocity);
+    return finite ? Fault::none : Fault::measurement_not_finite;
+  }
+
+  static Fault inspect_vibration(const Measurement& measurement) {
+    if (measurement.vibration_quality == Quality::missing) {
+      return Fault::vibration_missing;
+    }
+    if (measurement.vibration_quality == Quality::saturated) {
+      return Fault::vibration_saturated;
+    }
+    const bool finite =
+        numeric::is_finite(measurement.in_phase) && numeric::is_finite(measurement.quadrature);
     return finite ? Fault::none : Fault::measurement_not_finite;
   }
 
@@ -224,7 +289,7 @@ class Controller {
   }
 
   /// Learns one sample of the undriven friction. The drive begins a period after the last one.
-  DriveCommand<Scalar> calibrate(const Measurement<Scalar>& measurement) {
+  DriveCommand<Scalar> calibrate(const Measurement& measurement) {
     const bool slow = numeric::abs(measurement.sliding_velocity) < speed_floor_;
     const DriveCommand<Scalar> silent = undriven(slow ? Limit::speed_floor : Limit::none);
     backwards_ = measurement.sliding_velocity < Scalar{};
@@ -272,8 +337,16 @@ class Controller {
   }
 
   /// Answer at a sliding that is fast enough for a friction ratio.
-  Request slide(const Measurement<Scalar>& measurement, Scalar speed) {
+  Request slide(const Measurement& measurement, Scalar speed) {
     standstill_.restart();
+    if constexpr (!Force::present) {
+      return regulate(target_, speed);
+    } else {
+      return slide_by_force(measurement, speed);
+    }
+  }
+
+  Request slide_by_force(const Measurement& measurement, Scalar speed) {
     const Scalar force = friction_.without_offset(measurement.friction_force);
     const Scalar along = backwards_ ? -force : force;
     const Scalar measured = level_.half_ratio(along);
@@ -345,12 +418,17 @@ class Controller {
     if (whole_ratio() <= target_) {
       regulator_.hold();  // no drive can bring an undriven reading to its target
     }
+    if constexpr (observed) {
+      if (!vibration_.settled()) {
+        regulator_.hold();
+      }
+    }
     const Scalar ratio = regulator_.propose(target_, measured);
     const Request wanted = feedforward(ratio, speed);
     const Scalar amplitude = slew_.limit(wanted.amplitude, requested_);
     const bool held_below = amplitude < wanted.amplitude;
     const bool held_above = wanted.amplitude < amplitude;
-    const bool at_most = wanted.limit == Limit::actuator || held_below;
+    const bool at_most = wanted.limit == at_full_drive || held_below;
     const bool at_least = whole_ratio() <= ratio || held_above;
     regulator_.accept(at_most, at_least);
     commanded_ = ratio;
@@ -365,14 +443,16 @@ class Controller {
 
   /// Judges the measured ratio. In a pause, and without a drive, there is nothing to judge.
   void judge(Scalar measured, bool clamped) {
-    if (pausing()) {
-      return;
+    if constexpr (Force::present) {
+      if (pausing()) {
+        return;
+      }
+      if (whole_ratio() <= target_) {
+        watch_.restart();
+        return;
+      }
+      watch_.judge(target_, measured, commanded_, clamped);
     }
-    if (whole_ratio() <= target_) {
-      watch_.restart();
-      return;
-    }
-    watch_.judge(target_, measured, commanded_, clamped);
   }
 
   bool pausing() const {
@@ -390,28 +470,42 @@ class Controller {
     const Scalar amplitude = feedforward_.amplitude(half_ratio, speed);
     const Scalar highest = ceiling_.highest();
     if (!(amplitude < highest)) {
-      return {highest, Limit::actuator};
+      return {highest, at_full_drive};
     }
     return {amplitude, whole_ratio() <= half_ratio ? Limit::ratio_end : Limit::none};
   }
 
   DriveCommand<Scalar> apply(const Request& request) {
-    requested_ = numeric::observe<signal::RequestedAmplitude>(request.amplitude);
-    const Scalar shaped = numeric::observe<signal::ShapedAmplitude>(shaper_.shape(requested_));
-    const Scalar highest = ceiling_.highest();
-    const Scalar amplitude = numeric::clamp(shaped, Scalar{}, highest);
-    const bool clipped = shaped < Scalar{} || (highest <= shaped && requested_ < highest);
-    Limit limit = clipped && request.limit == Limit::none ? Limit::actuator : request.limit;
-    followed_ = limit == Limit::none || limit == Limit::ratio_end;
-    const bool judged = limit == Limit::none && !pausing();
-    if (judged) {
-      limit = watch_.limit_named();
+    if constexpr (observed) {
+      requested_ = numeric::observe<signal::RequestedVelocity>(request.amplitude);
+      const auto [amplitude, limit] = vibration_.drive(requested_);
+      return conclude(amplitude, request.limit == Limit::none ? limit : request.limit,
+                      vibration_.settled());
+    } else {
+      requested_ = numeric::observe<signal::RequestedAmplitude>(request.amplitude);
+      const Scalar shaped = numeric::observe<signal::ShapedAmplitude>(shaper_.shape(requested_));
+      const Scalar highest = ceiling_.highest();
+      const Scalar amplitude = numeric::clamp(shaped, Scalar{}, highest);
+      const bool clipped = shaped < Scalar{} || (highest <= shaped && requested_ < highest);
+      return conclude(amplitude,
+                      clipped && request.limit == Limit::none ? Limit::actuator : request.limit,
+                      true);
+    }
+  }
+
+  /// @param reached  nothing but the limit keeps the drive from what was asked for
+  DriveCommand<Scalar> conclude(Scalar amplitude, Limit limit, bool reached) {
+    followed_ = reached && (limit == Limit::none || limit == Limit::ratio_end);
+    const bool judged = Force::present && limit == Limit::none && !pausing();
+    Settling settling = Settling::pending;
+    if constexpr (Force::present) {
+      limit = judged ? watch_.limit_named() : limit;
+      settling = judged ? watch_.settling() : settling;
     }
     state_ = limit == Limit::none ? State::running : State::limited;
     if (pausing()) {
       state_ = State::relearning;
     }
-    const Settling settling = judged ? watch_.settling() : Settling::pending;
     return {amplitude, commanded_, state_, limit, fault_, settling};
   }
 
@@ -425,16 +519,17 @@ class Controller {
   [[no_unique_address]] typename PartsT::Shaper shaper_;
   [[no_unique_address]] typename PartsT::Regulator regulator_;
   [[no_unique_address]] typename PartsT::Relearning relearning_;
+  [[no_unique_address]] typename PartsT::Vibration vibration_;
   StandstillHold<Scalar> standstill_;
-  StuckDetector<Scalar> stuck_;
-  Plausibility<Scalar> plausibility_;
-  SettlingWatch<Scalar> watch_;
+  [[no_unique_address]] Stuck stuck_;
+  [[no_unique_address]] Plausible plausibility_;
+  [[no_unique_address]] Watch watch_;
   [[no_unique_address]] typename PartsT::Ceiling ceiling_;
   [[no_unique_address]] typename PartsT::Samples samples_;
   FrictionLevel<Scalar> level_;
   Scalar target_ = whole_ratio();
   Scalar commanded_ = whole_ratio();  ///< friction ratio, target and feedback together, on base 2
-  Scalar requested_{};                ///< amplitude before shaping
+  Scalar requested_{};                ///< amplitude before shaping, or vibration velocity
   bool backwards_ = false;            ///< the sliding
   bool followed_ = true;              ///< the drive could follow the last command
   State state_ = State::off;

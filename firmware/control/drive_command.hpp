@@ -26,9 +26,12 @@ enum class Limit : std::uint8_t {
   mismatch,     ///< settled, but the friction force is not the believed one: the true ratio is off
   not_settling,  ///< outside its band for longer than the stated time; see Settling for why
   bad_sample,    ///< the sample was unusable, the last request stands
+  voltage,       ///< as actuator, of a resonant drive: its amplitude stands at the largest voltage
+  current,       ///< the amplitude stands at the largest current
+  frequency_range,  ///< the resonance seems to lie at an end of the frequency range, or beyond
 };
 
-inline constexpr std::size_t limit_count = 8;
+inline constexpr std::size_t limit_count = 11;
 
 /// How the measured ratio stands to its target.
 enum class Settling : std::uint8_t {
@@ -50,6 +53,9 @@ enum class Fault : std::uint8_t {
   friction_not_learnt,      ///< too small a friction force, learnt or configured
   measurement_implausible,  ///< a ratio that no contact has, or friction that pulls: wired
                             ///< backwards
+  vibration_missing,        ///< no fresh vibration sample, or none that shows the drive
+  vibration_saturated,      ///< the vibration converter stood at a rail
+  resonance_lost,  ///< the vibration does not follow the drive as that of a resonator would
 };
 
 template <class Scalar>
@@ -61,6 +67,13 @@ struct DriveCommand {
   Limit limit;
   Fault fault;
   Settling settling;
+};
+
+/// Of a drive that follows the resonance. Its amplitude is in [-1, 1]: below 0 the phase is turned
+/// by half a turn.
+template <class Scalar>
+struct ResonantCommand : DriveCommand<Scalar> {
+  std::int32_t frequency;  ///< steps of the frequency word from the start
 };
 
 }  // namespace sonoglide::control

@@ -19,4 +19,13 @@ struct Measurement {
   Quality quality = Quality::good;
 };
 
+/// With the vibration: its velocity is Re(z e^jθ), θ the phase of the drive, and z = in_phase + j
+/// quadrature the mean over the last carrier period.
+template <class Scalar>
+struct VibrationMeasurement : Measurement<Scalar> {
+  Scalar in_phase;    ///< on the base of the sliding velocity
+  Scalar quadrature;  ///< likewise
+  Quality vibration_quality = Quality::good;
+};
+
 }  // namespace sonoglide::control

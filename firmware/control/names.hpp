@@ -39,6 +39,12 @@ constexpr const char* name(Limit limit) {
       return "not_settling";
     case Limit::bad_sample:
       return "bad_sample";
+    case Limit::voltage:
+      return "voltage";
+    case Limit::current:
+      return "current";
+    case Limit::frequency_range:
+      return "frequency_range";
     case Limit::none:
       break;
   }
@@ -75,6 +81,12 @@ constexpr const char* name(Fault fault) {
       return "friction_not_learnt";
     case Fault::measurement_implausible:
       return "measurement_implausible";
+    case Fault::vibration_missing:
+      return "vibration_missing";
+    case Fault::vibration_saturated:
+      return "vibration_saturated";
+    case Fault::resonance_lost:
+      return "resonance_lost";
     case Fault::none:
       break;
   }

@@ -21,6 +21,12 @@ struct CommandedRatio {
 struct RequestedAmplitude {
   static constexpr const char* name = "requested_amplitude";  ///< base: the actuator's limit
 };
+struct RequestedVelocity {
+  static constexpr const char* name = "requested_velocity";  ///< base: the vibration sensor's range
+};
+struct VibrationVelocity {
+  static constexpr const char* name = "vibration_velocity";  ///< likewise
+};
 struct ShapedAmplitude {
   static constexpr const char* name = "shaped_amplitude";  ///< base: the actuator's limit
 };

@@ -4,6 +4,7 @@
 #include "controller_configuration.hpp"
 #include "firmware/app/control_loop.hpp"
 #include "firmware/app/target_schedule.hpp"
+#include "firmware/app/timed_targets.hpp"
 #include "firmware/control/controller.hpp"
 
 int main() {
@@ -12,7 +13,7 @@ int main() {
   controller.start();
   SONOGLIDE_BOARD_CLASS board;
   sonoglide::app::ControlLoop loop(controller, board);
-  sonoglide::app::TargetSchedule targets(configuration::target_steps);
+  auto targets = sonoglide::app::schedule_of(configuration::target_steps);
   // For who measures the image: symbols of the size of what each part keeps, which is on the stack.
   // They stand where there is no memory.
   asm volatile inline(

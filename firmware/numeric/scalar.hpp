@@ -102,8 +102,8 @@ template <class Scalar>
 constexpr Scalar half(Scalar x) {
   if constexpr (is_fixed_point_v<Scalar>) {
     using Raw = typename Scalar::Raw;
-    using Wide = typename Scalar::Wide;
-    return Scalar::from_raw(static_cast<Raw>(shift_right_rounded<Wide>(x.raw(), 1)));
+    const Raw raw = x.raw();
+    return Scalar::from_raw(static_cast<Raw>((raw >> 1) + (raw & 1)));
   } else {
     return x * static_cast<Scalar>(0.5);
   }

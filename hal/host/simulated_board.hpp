@@ -7,25 +7,29 @@ namespace sonoglide::hal::host {
 
 /// A mailbox between plant and controller: the simulation posts a sample, serves one step of the
 /// control loop and reads the drive back. No thread, no clock.
+///
+/// @tparam SampleT  Sample | VibrationSample
+/// @tparam DriveT   Drive | ResonantDrive
+template <class SampleT = Sample, class DriveT = Drive>
 class SimulatedBoard {
  public:
-  void post(const Sample& sample) {
+  void post(const SampleT& sample) {
     sample_ = sample;
     posted_ = true;
   }
-  const Drive& latest_drive() const { return drive_; }
+  const DriveT& latest_drive() const { return drive_; }
 
-  bool sample(Sample& sample) {
+  bool sample(SampleT& sample) {
     const bool posted = posted_;
     sample = sample_;
     posted_ = false;
     return posted;
   }
-  void drive(const Drive& drive) { drive_ = drive; }
+  void drive(const DriveT& drive) { drive_ = drive; }
 
  private:
-  Sample sample_{};
-  Drive drive_{};
+  SampleT sample_{};
+  DriveT drive_{};
   bool posted_ = false;
 };
 

@@ -18,8 +18,17 @@ namespace sonoglide::hal::lockstep {
 /// | 12   | force_at_rail, fresh, 0, 0  | state, limit, fault, settling |
 /// | 16   |                             | cost of the step, u32         |
 /// | 20   |                             | cost of the answer, u32       |
+///
+/// The frames of a unit that holds the vibration at resonance are longer:
+///
+/// | byte | sample frame                               | drive frame    |
+/// |------|--------------------------------------------|----------------|
+/// | 16   | in_phase, i32                              |                |
+/// | 20   | quadrature, i32                            |                |
+/// | 24   | vibration_at_rail, vibration_fresh, 0, 0   | frequency, i32 |
 inline constexpr std::size_t sample_frame_size = 16;
 inline constexpr std::size_t drive_frame_size = 24;
+inline constexpr std::size_t resonant_frame_size = 28;  ///< of either
 
 /// Cost of an answer on the board, in the unit of its counter, the reading of the counter excluded.
 /// 0 from a board without a counter.
@@ -34,6 +43,9 @@ inline constexpr std::uint8_t greeting = 0xa5;
 /// Aligned, so that a processor without unaligned access takes it by words.
 struct alignas(std::uint32_t) SampleFrame : std::array<std::uint8_t, sample_frame_size> {};
 struct alignas(std::uint32_t) DriveFrame : std::array<std::uint8_t, drive_frame_size> {};
+struct alignas(std::uint32_t) VibrationSampleFrame : std::array<std::uint8_t, resonant_frame_size> {
+};
+struct alignas(std::uint32_t) ResonantDriveFrame : std::array<std::uint8_t, resonant_frame_size> {};
 
 namespace detail {
 
@@ -57,18 +69,19 @@ std::uint32_t period(const Frame& frame) {
   return detail::get(frame.data());
 }
 
-inline SampleFrame encode(std::uint32_t period, const Sample& sample) {
-  SampleFrame frame{};
-  detail::put(period, frame.data());
+namespace detail {
+
+template <class Frame>
+void put_sample(std::uint32_t period, const Sample& sample, Frame& frame) {
+  put(period, frame.data());
   detail::put(static_cast<std::uint32_t>(sample.friction_force), frame.data() + 4);
   detail::put(static_cast<std::uint32_t>(sample.sliding_velocity), frame.data() + 8);
   frame[12] = sample.force_at_rail ? 1 : 0;
   frame[13] = sample.fresh ? 1 : 0;
-  return frame;
 }
 
-inline DriveFrame encode(std::uint32_t period, const Drive& drive) {
-  DriveFrame frame{};
+template <class Frame>
+void put_drive(std::uint32_t period, const Drive& drive, Frame& frame) {
   detail::put(period, frame.data());
   detail::put(static_cast<std::uint32_t>(drive.amplitude), frame.data() + 4);
   detail::put(static_cast<std::uint32_t>(drive.commanded_ratio), frame.data() + 8);
@@ -76,30 +89,106 @@ inline DriveFrame encode(std::uint32_t period, const Drive& drive) {
   frame[13] = drive.limit;
   frame[14] = drive.fault;
   frame[15] = drive.settling;
+}
+
+}  // namespace detail
+
+inline SampleFrame encode(std::uint32_t period, const Sample& sample) {
+  SampleFrame frame{};
+  detail::put_sample(period, sample, frame);
   return frame;
 }
 
-inline void put_cost(const AnswerCost& cost, DriveFrame& frame) {
+inline VibrationSampleFrame encode(std::uint32_t period, const VibrationSample& sample) {
+  VibrationSampleFrame frame{};
+  detail::put_sample(period, sample, frame);
+  detail::put(static_cast<std::uint32_t>(sample.in_phase), frame.data() + 16);
+  detail::put(static_cast<std::uint32_t>(sample.quadrature), frame.data() + 20);
+  frame[24] = sample.vibration_at_rail ? 1 : 0;
+  frame[25] = sample.vibration_fresh ? 1 : 0;
+  return frame;
+}
+
+inline DriveFrame encode(std::uint32_t period, const Drive& drive) {
+  DriveFrame frame{};
+  detail::put_drive(period, drive, frame);
+  return frame;
+}
+
+inline ResonantDriveFrame encode(std::uint32_t period, const ResonantDrive& drive) {
+  ResonantDriveFrame frame{};
+  detail::put_drive(period, drive, frame);
+  detail::put(static_cast<std::uint32_t>(drive.frequency), frame.data() + 24);
+  return frame;
+}
+
+template <class Frame>
+void put_cost(const AnswerCost& cost, Frame& frame) {
   detail::put(cost.step, frame.data() + 16);
   detail::put(cost.answer, frame.data() + 20);
 }
 
-inline AnswerCost cost_of(const DriveFrame& frame) {
+template <class Frame>
+AnswerCost cost_of(const Frame& frame) {
   return {detail::get(frame.data() + 16), detail::get(frame.data() + 20)};
 }
 
-inline Sample sample_of(const SampleFrame& frame) {
-  return {static_cast<std::int32_t>(detail::get(frame.data() + 4)),
-          static_cast<std::int32_t>(detail::get(frame.data() + 8)), frame[12] != 0, frame[13] != 0};
+namespace detail {
+
+template <class Frame>
+Sample get_sample(const Frame& frame) {
+  return {static_cast<std::int32_t>(get(frame.data() + 4)),
+          static_cast<std::int32_t>(get(frame.data() + 8)), frame[12] != 0, frame[13] != 0};
 }
 
-inline Drive drive_of(const DriveFrame& frame) {
-  return {static_cast<std::int32_t>(detail::get(frame.data() + 4)),
-          static_cast<std::int32_t>(detail::get(frame.data() + 8)),
+template <class Frame>
+Drive get_drive(const Frame& frame) {
+  return {static_cast<std::int32_t>(get(frame.data() + 4)),
+          static_cast<std::int32_t>(get(frame.data() + 8)),
           frame[12],
           frame[13],
           frame[14],
           frame[15]};
 }
+
+}  // namespace detail
+
+inline Sample sample_of(const SampleFrame& frame) {
+  return detail::get_sample(frame);
+}
+
+inline VibrationSample sample_of(const VibrationSampleFrame& frame) {
+  return {detail::get_sample(frame), static_cast<std::int32_t>(detail::get(frame.data() + 16)),
+          static_cast<std::int32_t>(detail::get(frame.data() + 20)), frame[24] != 0,
+          frame[25] != 0};
+}
+
+inline Drive drive_of(const DriveFrame& frame) {
+  return detail::get_drive(frame);
+}
+
+inline ResonantDrive drive_of(const ResonantDriveFrame& frame) {
+  return {detail::get_drive(frame), static_cast<std::int32_t>(detail::get(frame.data() + 24))};
+}
+
+// Which frame carries what.
+template <class Signal>
+struct FrameOf;
+template <>
+struct FrameOf<Sample> {
+  using Type = SampleFrame;
+};
+template <>
+struct FrameOf<VibrationSample> {
+  using Type = VibrationSampleFrame;
+};
+template <>
+struct FrameOf<Drive> {
+  using Type = DriveFrame;
+};
+template <>
+struct FrameOf<ResonantDrive> {
+  using Type = ResonantDriveFrame;
+};
 
 }  // namespace sonoglide::hal::lockstep

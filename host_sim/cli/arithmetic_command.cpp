@@ -10,6 +10,7 @@
 
 #include "host_sim/cli/options.hpp"
 #include "host_sim/cli/progress_bar.hpp"
+#include "host_sim/configure/configuration_error.hpp"
 #include "host_sim/emulated/controller_header.hpp"
 #include "host_sim/output/gnuplot.hpp"
 #include "host_sim/process/interruption.hpp"
@@ -37,6 +38,15 @@ Boards chosen(const std::vector<std::string>& names) {
   return boards;
 }
 
+void require_every_arithmetic(const scene::Scene& scene) {
+  if (scene.resonant()) {
+    throw configure::ConfigurationError(
+        "controller.vibration",
+        "\"resonant\" is not built in q15, and all arithmetics are compared; allowed: a scene "
+        "without this key");
+  }
+}
+
 arithmetic::ArithmeticComparison compute(const scene::Scene& scene, const Boards& boards,
                                          bool quiet) {
   const process::Interruption interruption;
@@ -50,7 +60,10 @@ arithmetic::ArithmeticComparison compute(const scene::Scene& scene, const Boards
 void arithmetic(const ArithmeticOptions& options) {
   const SceneInput input(options.scene);
   const scene::Scene scene = input.read();
-  input.with_places([&] { return emulated::controller_header(scene); });
+  input.with_places([&] {
+    require_every_arithmetic(scene);
+    return emulated::controller_header(scene);
+  });
   const Boards boards = chosen(options.boards);
   const std::filesystem::path out = output_folder(options.out, scene.name, "_arithmetic");
   output::require_gnuplot();

@@ -13,7 +13,9 @@
 #include "firmware/control/friction_level.hpp"
 #include "firmware/numeric/float_elementary.hpp"
 #include "firmware/numeric/turn.hpp"
+#include "host_sim/configure/believed_plant.hpp"
 #include "host_sim/configure/configuration_error.hpp"
+#include "host_sim/configure/design_periods.hpp"
 #include "host_sim/configure/plant_scales.hpp"
 
 namespace sonoglide::configure {
@@ -24,30 +26,6 @@ namespace {
 
 /// The controller's resolution ends here, per unit.
 constexpr double smallest_friction = control::FrictionLevel<double>::smallest();
-
-/// What the controller takes the plant to be.
-struct BelievedPlant : scene::Plant {
-  double friction_N;
-  double contact_stiffness_N_per_m;
-};
-
-/// The friction force that the first slide of the scene meets without vibration.
-double first_undriven_friction_N(const scene::Scene& scene) {
-  const auto& profile = scene.sliding.profile;
-  const auto moves = [](const scene::SpeedPoint& point) { return point.velocity_m_per_s != 0.0; };
-  const auto first = std::find_if(profile.begin(), profile.end(), moves);
-  return scene::undriven_friction_N(scene.friction.law, scene.friction,
-                                    first == profile.end() ? 0.0 : first->velocity_m_per_s);
-}
-
-BelievedPlant believed_plant(const scene::Scene& scene) {
-  const scene::ModelError& error = scene.model_error;
-  BelievedPlant plant{scene.plant, first_undriven_friction_N(scene) * error.coefficient,
-                      scene.friction.contact_stiffness_N_per_m * error.contact_stiffness};
-  plant.mass_kg *= error.mass;
-  plant.stiffness_N_per_m *= error.stiffness;
-  return plant;
-}
 
 /// The natural mode over one carrier period: decay and rotation of its free motion.
 struct Mode {
@@ -87,23 +65,6 @@ void design_shaper(const scene::Scene& scene, const Mode& mode, ControlDesign& d
   }
 }
 
-/// Time constant of the sensor's low-pass, in carrier periods.
-double filter_periods(const scene::Scene& scene, const ControlScales& scales) {
-  return scene.sensor.force_bandwidth_Hz
-             ? 1.0 / (numeric::two_pi * *scene.sensor.force_bandwidth_Hz * scales.carrier_period_s)
-             : 0.0;
-}
-
-std::uint16_t whole_periods(double periods) {
-  constexpr double most = 60000.0;
-  return static_cast<std::uint16_t>(std::min(most, std::ceil(periods)));
-}
-
-/// From a request to the reading of the period that it acts in.
-double latency_periods(const scene::Scene& scene) {
-  return 1.0 + scene.drive->delay_periods + scene.sensor.delay_periods;
-}
-
 /// Force of one code of the converter; 0 of an ideal one.
 double code_N(const scene::Sensor& sensor) {
   return sensor.adc_bits ? 2.0 * sensor.force_full_scale_N * std::exp2(-*sensor.adc_bits) : 0.0;
@@ -121,29 +82,60 @@ double gain_beside_free_mode(const scene::Scene& scene, const Mode& mode) {
              : std::min(slow, part_of_decay * (1.0 - mode.decay));
 }
 
+/// An integrator behind a delay of D periods oscillates at a gain of 2 sin(π/(4D+2)); a third of it
+/// leaves room for a contact twice as steep as believed.
+double gain_behind_delay(double periods) {
+  return std::min(0.25, 2.0 / 3.0 * numeric::sin(numeric::two_pi / (8.0 * periods + 4.0)));
+}
+
+/// How long the integral waits for a changed target, and then does not.
+void set_waiting(double delay, double filter, ControlDesign& design) {
+  constexpr double contact_settling = 2.0;  // carrier periods until the contact has forgotten
+  constexpr double filter_settling = 4.0;   // time constants more: 0.7 % of a step is left
+  constexpr double rest_per_hold = 1.25;    // in which feedback acts
+  design.hold_periods = whole_periods(delay + contact_settling + filter_settling * filter);
+  design.rest_periods = whole_periods(rest_per_hold * design.hold_periods);
+}
+
 void design_regulator(const scene::Scene& scene, const Mode& mode, ControlDesign& design) {
   const double filter = filter_periods(scene, design.scales);
   const double shaping = 2.0 * design.notch_spacing;
   // From a command to the reading that shows it.
   const double latency = latency_periods(scene);
   const double delay = latency + shaping + filter;
-  // An integrator behind a delay of D periods oscillates at a gain of 2 sin(π/(4D+2)); a third of
-  // it leaves room for a contact twice as steep as believed.
-  const double behind_delay =
-      std::min(0.25, 2.0 / 3.0 * numeric::sin(numeric::two_pi / (8.0 * delay + 4.0)));
+  const double behind_delay = gain_behind_delay(delay);
   design.free_mode = mode.rotation > 0.0 && !design.shaped;
   design.integral_gain =
       design.free_mode ? std::min(behind_delay, gain_beside_free_mode(scene, mode)) : behind_delay;
-
-  constexpr double contact_settling = 2.0;  // carrier periods until the contact has forgotten
-  constexpr double filter_settling = 4.0;   // time constants more: 0.7 % of a step is left
-  design.hold_periods = whole_periods(delay + contact_settling + filter_settling * filter);
-  // Time between two holds in which feedback acts.
-  constexpr double rest_per_hold = 1.25;
-  design.rest_periods = whole_periods(rest_per_hold * design.hold_periods);
+  set_waiting(delay, filter, design);
   design.reference_delay_periods = static_cast<std::uint8_t>(latency + design.notch_spacing);
   design.reference_keep = filter / (1.0 + filter);
   design.lead_periods = 0.5 + design.notch_spacing + scene.drive->delay_periods;
+}
+
+/// The inner loop follows a small change of its velocity within a few periods; while it follows a
+/// large one the integral waits.
+void design_resonant_regulator(const scene::Scene& scene, ControlDesign& design) {
+  constexpr double following = 3.0;
+  const double filter = filter_periods(scene, design.scales);
+  const double latency = latency_periods(scene);
+  design.integral_gain = gain_behind_delay(latency + following + filter);
+  set_waiting(latency + following, filter, design);
+  design.reference_delay_periods = static_cast<std::uint8_t>(latency);
+  design.reference_keep = (filter + 1.0) / (filter + 2.0);
+  design.lead_periods = 1.5 + scene.drive->delay_periods;
+}
+
+/// Until a change of the request has become one of the vibration: through the notch, or at
+/// resonance as fast as full drive builds it up.
+double changing_periods(const ControlDesign& design) {
+  if (!design.resonance) {
+    return 2.0 * design.notch_spacing;
+  }
+  constexpr double latency = 8.0;
+  const double head_room = std::max(1.01, design.resonance->head_room);
+  const double constants = -numeric::log2(1.0 - 1.0 / head_room) * 0.69314718055994531;
+  return latency + constants * 2.0 * design.resonance->quality_factor / numeric::two_pi;
 }
 
 /// What the controller is to notice, and after how long.
@@ -158,7 +150,9 @@ void design_supervision(const scene::Scene& scene, const BelievedPlant& plant,
   design.stuck_periods =
       supervised ? whole_periods(delay + filter_settling * filter + stuck_margin) : 0;
   constexpr double implausible_margin = 16.0;
-  design.implausible_periods = whole_periods(design.hold_periods + implausible_margin);
+  // A friction that has jumped shows in full while a pause takes the vibration away.
+  const double pause = design.relearns ? 2.0 * changing_periods(design) : 0.0;
+  design.implausible_periods = whole_periods(design.hold_periods + implausible_margin + pause);
 
   constexpr double fall_periods = 128.0;
   design.standstill_hold_periods = static_cast<std::uint32_t>(std::min(
@@ -172,7 +166,10 @@ void design_supervision(const scene::Scene& scene, const BelievedPlant& plant,
   design.settling_band = 0.5 * std::min(widest_band, scene.run.settling_band + reading);
   constexpr double holds = 4.0;
   constexpr double patience_margin = 40.0;
-  design.settling_patience_periods = whole_periods(holds * design.hold_periods + patience_margin);
+  // Twice the quality factor in periods is six time constants of a resonance.
+  const double building_up = design.resonance ? 2.0 * design.resonance->quality_factor : 0.0;
+  design.settling_patience_periods =
+      whole_periods(holds * design.hold_periods + patience_margin + building_up);
   design.agreement = tells_mismatch(scene) ? 1.0 / scene.controller->mismatch_warning : 0.0;
 }
 
@@ -313,10 +310,9 @@ void design_relearning(const scene::Scene& scene, const BelievedPlant& plant,
   constexpr double error = 0.0025;            // rms, of the force
   constexpr double most_averaged = 16.0;
   const ControlScales& scales = design.scales;
-  const double shaping = 2.0 * design.notch_spacing;
+  const double shaping = changing_periods(design);
   const double slewing = design.slew_limited ? 1.0 / design.slew_per_period : 0.0;
   const double noise = scene.sensor.force_noise_N / (error * plant.friction_N);
-  design.relearns = true;
   design.relearn_quiet_periods =
       whole_periods(shaping + slewing + filter_settling * filter_periods(scene, scales));
   design.relearn_reading_periods = whole_periods(latency_periods(scene));
@@ -357,6 +353,59 @@ void check_converter(const scene::Scene& scene, const BelievedPlant& plant) {
   }
 }
 
+/// @return displacement amplitude at the velocity that is the base of all
+double set_resonant_scales(const scene::Scene& scene, const BelievedPlant& plant,
+                           ControlDesign& design) {
+  const double fastest_m_per_s = fastest_sliding_m_per_s(scene.sliding);
+  if (fastest_m_per_s == 0.0) {
+    throw ConfigurationError("sliding.velocity_m_per_s",
+                             "is 0 all the time, where no vibration changes the friction; allowed: "
+                             "another velocity with controller.vibration = \"resonant\"");
+  }
+  const double full_scale_m_per_s = vibration_full_scale_m_per_s(scene, plant);
+  const double force_N = scene.sensor.force ? scene.sensor.force_full_scale_N
+                                            : 2.0 * largest_friction_limit_N(scene.friction);
+  design.scales = {1.0 / scene.drive->frequency_Hz, force_N, full_scale_m_per_s,
+                   scene.drive->max_force_amplitude_N};
+  if (2.0 * control::smallest_speed_floor * full_scale_m_per_s > fastest_m_per_s) {
+    throw ConfigurationError(
+        "sensor.vibration_full_scale_m_per_s",
+        fmt::format("{:g} m/s is too much beside the fastest sliding, which has the same range; "
+                    "allowed: at most {:g} m/s",
+                    full_scale_m_per_s, 0.5 * fastest_m_per_s / control::smallest_speed_floor));
+  }
+  if (!(fastest_m_per_s < full_scale_m_per_s)) {
+    throw ConfigurationError(
+        "sensor.vibration_full_scale_m_per_s",
+        fmt::format("{:g} m/s is below the fastest sliding, which the vibration has to exceed; "
+                    "allowed: above {:g} m/s",
+                    full_scale_m_per_s, fastest_m_per_s));
+  }
+  return full_scale_m_per_s / (numeric::two_pi * scene.drive->frequency_Hz);
+}
+
+/// @return displacement amplitude at the velocity that is the base of all
+double set_scales(const scene::Scene& scene, const BelievedPlant& plant, ControlDesign& design) {
+  if (scene.resonant()) {
+    return set_resonant_scales(scene, plant, design);
+  }
+  const double omega = numeric::two_pi * scene.drive->frequency_Hz;
+  const double compliance = 1.0 / dynamic_stiffness_N_per_m(plant, omega);
+  // At resonance the vibration takes about as many radians to build up as it is amplified.
+  constexpr double largest_amplification = 1000.0;
+  if (!(compliance * plant.mass_kg * omega * omega <= largest_amplification)) {
+    throw ConfigurationError(
+        "drive.frequency_Hz",
+        "is the plant's natural frequency, and with so little damping the vibration never settles; "
+        "allowed: another frequency, more plant.damping_N_s_per_m, or with a [transducer] "
+        "controller.vibration = \"resonant\"");
+  }
+  const double displacement_m = scene.drive->max_force_amplitude_N * compliance;
+  design.scales = {1.0 / scene.drive->frequency_Hz, scene.sensor.force_full_scale_N,
+                   displacement_m * omega, scene.drive->max_force_amplitude_N};
+  return displacement_m;
+}
+
 /// The slew limit holds behind the shaper, whose taps may add up.
 void design_slew(const scene::Drive& drive, ControlDesign& design) {
   if (!drive.max_force_slew_N_per_s) {
@@ -377,21 +426,11 @@ void design_slew(const scene::Drive& drive, ControlDesign& design) {
 
 ControlDesign design_control(const scene::Scene& scene) {
   const BelievedPlant plant = believed_plant(scene);
-  const double omega = numeric::two_pi * scene.drive->frequency_Hz;
-  const double compliance = 1.0 / dynamic_stiffness_N_per_m(plant, omega);
-  // At resonance the vibration takes about as many radians to build up as it is amplified.
-  constexpr double largest_amplification = 1000.0;
-  if (!(compliance * plant.mass_kg * omega * omega <= largest_amplification)) {
-    throw ConfigurationError(
-        "drive.frequency_Hz",
-        "is the plant's natural frequency, and with so little damping the vibration never settles; "
-        "allowed: another frequency, or more plant.damping_N_s_per_m");
-  }
   ControlDesign design;
   design.map = scene::friction_map(scene.friction.law);
-  const double displacement_m = scene.drive->max_force_amplitude_N * compliance;
-  design.scales = {1.0 / scene.drive->frequency_Hz, scene.sensor.force_full_scale_N,
-                   displacement_m * omega, scene.drive->max_force_amplitude_N};
+  design.senses_force = scene.sensor.force;
+  design.relearns = scene.controller->relearn_every_s.has_value();
+  const double displacement_m = set_scales(scene, plant, design);
   design.friction_force = per_unit(plant.friction_N, design.scales.force_N, smallest_friction,
                                    "sensor.force_full_scale_N",
                                    "makes the believed friction force {:.3g} of full scale");
@@ -400,9 +439,14 @@ ControlDesign design_control(const scene::Scene& scene) {
   check_converter(scene, plant);
   design.smallest_friction =
       std::max(smallest_friction, fewest_codes * code_N(scene.sensor) / design.scales.force_N);
-  const Mode mode = natural_mode(plant, design.scales.carrier_period_s);
-  design_shaper(scene, mode, design);
-  design_regulator(scene, mode, design);
+  if (scene.resonant()) {
+    design.resonance = design_resonance(scene, plant, design.scales.velocity_m_per_s);
+    design_resonant_regulator(scene, design);
+  } else {
+    const Mode mode = natural_mode(plant, design.scales.carrier_period_s);
+    design_shaper(scene, mode, design);
+    design_regulator(scene, mode, design);
+  }
   design_supervision(scene, plant, design);
   design_calibration(scene, plant, design);
   design_slew(*scene.drive, design);

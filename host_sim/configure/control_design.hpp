@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "host_sim/configure/resonant_design.hpp"
 #include "host_sim/scene/scene.hpp"
 
 namespace sonoglide::configure {
@@ -15,13 +16,17 @@ namespace sonoglide::configure {
 /// What the controller's per-unit numbers are multiples of.
 struct ControlScales {
   double carrier_period_s;
-  double force_N;            ///< the sensor's full scale
-  double velocity_m_per_s;   ///< believed peak vibration velocity at full drive
+  double force_N;  ///< the sensor's full scale
+  /// Believed peak vibration velocity at full drive; where the vibration is observed, the range of
+  /// its sensor.
+  double velocity_m_per_s;
   double drive_amplitude_N;  ///< the actuator's limit
 };
 
 /// The largest tap spacing that a designed shaper may have, in carrier periods.
 inline constexpr int max_notch_spacing = 32;
+/// drive.delay_periods at its longest.
+inline constexpr int max_drive_delay = 16;
 /// The longest delay of a target to its reading: drive and sensor at their longest, and the notch.
 inline constexpr int max_reference_delay = 1 + 16 + 64 + max_notch_spacing;
 
@@ -47,6 +52,9 @@ struct ControlDesign {
   std::uint16_t settling_patience_periods = 0;
   double agreement = 0.0;  ///< 1 / controller.mismatch_warning; 0: see tells_mismatch()
 
+  bool senses_force = true;
+  std::optional<ResonantDesign> resonance;  ///< of a loop that holds the vibration at resonance
+
   bool free_mode = false;  ///< the plant has a natural mode that no notch takes care of
 
   bool shaped = false;  ///< the members below hold where the flag is set
@@ -69,6 +77,9 @@ struct ControlDesign {
   double relearn_weight = 0.0;  ///< of a sample averaged
 
   double speed_floor_m_per_s() const { return speed_floor * scales.velocity_m_per_s; }
+  VibrationMap vibration_map() const {
+    return {map, scales.velocity_m_per_s, contact_force / friction_force};
+  }
 };
 
 /// Designs the controller of a closed-loop scene from what it believes (the scene through

@@ -2,15 +2,18 @@
 /// simulation and for an image alike.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <type_traits>
 
 #include "firmware/control/controller.hpp"
+#include "firmware/control/current_limit.hpp"
 #include "firmware/control/dahl_feedforward.hpp"
 #include "firmware/control/integral_regulator.hpp"
 #include "firmware/control/learnt_friction.hpp"
 #include "firmware/control/notch_shaper.hpp"
 #include "firmware/control/periodic_relearning.hpp"
+#include "firmware/control/resonant_vibration.hpp"
 #include "firmware/control/slew_limit.hpp"
 #include "firmware/numeric/accumulator.hpp"
 #include "firmware/numeric/scalar.hpp"
@@ -27,6 +30,13 @@ struct Type {
 template <class Scalar>
 Scalar scaled(double value) {
   return numeric::from_real<Scalar>(value);
+}
+
+/// A positive number of any magnitude.
+template <class Scalar>
+numeric::Split<Scalar> split(double value) {
+  const numeric::Split<double> parts = numeric::split(value);
+  return {scaled<Scalar>(parts.mantissa), parts.exponent};
 }
 
 /// A target friction ratio as a controller takes it, on base 2.
@@ -53,8 +63,7 @@ typename control::LearntFriction<Scalar>::Parameters parameters(
 template <class Scalar>
 typename control::DahlFeedforward<Scalar>::Parameters parameters(
     const ControlDesign& design, Type<control::DahlFeedforward<Scalar>> /*part*/) {
-  const numeric::Split<double> force = numeric::split(design.contact_force);
-  return {{scaled<Scalar>(force.mantissa), force.exponent}};
+  return {split<Scalar>(design.contact_force)};
 }
 
 /// Wide open where the design has none.
@@ -96,6 +105,78 @@ typename control::PeriodicRelearning<Scalar>::Parameters parameters(
           scaled<numeric::Accumulator<Scalar>>(design.relearn_weight)};
 }
 
+/// Wide open where the design has none.
+template <class Scalar>
+typename control::CurrentLimit<Scalar>::Parameters parameters(
+    const ControlDesign& design, Type<control::CurrentLimit<Scalar>> /*part*/) {
+  const ResonantDesign& resonance = *design.resonance;
+  constexpr double nothing = 1e-9;
+  const double motional = resonance.current_limited ? resonance.motional : nothing;
+  const double capacitive = resonance.current_limited ? resonance.capacitive : nothing;
+  const double tangent = resonance.current_limited ? resonance.loss_tangent : 0.0;
+  constexpr double regulated = 0.99;  // of the limit
+  const double small = 0.25 / std::max({1.0, motional, capacitive});
+  return {split<Scalar>(motional),
+          split<Scalar>(1.0 / ((1.0 + tangent * tangent) * capacitive)),
+          scaled<Scalar>(0.5 * tangent),
+          scaled<Scalar>(small * motional),
+          scaled<Scalar>(small * capacitive),
+          scaled<Scalar>(small * regulated)};
+}
+
+/// A number that fixed point limits to its range.
+template <class Scalar>
+Scalar scaled_within(double value) {
+  if constexpr (numeric::is_fixed_point_v<Scalar>) {
+    return value < 1.0 ? scaled<Scalar>(value) : Scalar::largest();
+  }
+  return scaled<Scalar>(value);
+}
+
+template <class Scalar>
+typename control::ResonanceEstimate<Scalar>::Parameters parameters(
+    const ControlDesign& design, Type<control::ResonanceEstimate<Scalar>> /*part*/) {
+  const ResonantDesign& resonance = *design.resonance;
+  return {split<Scalar>(resonance.rate),
+          scaled_within<Scalar>(resonance.losses / 16.0),
+          scaled<Scalar>(8.0 * resonance.natural),
+          scaled<Scalar>(8.0 * resonance.lowest),
+          scaled<Scalar>(8.0 * resonance.highest),
+          scaled_within<Scalar>(2.0 * resonance.rate_gain),
+          scaled<Scalar>(0.125 * resonance.losses_gain),
+          scaled<Scalar>(resonance.natural_gain),
+          scaled_within<Scalar>(resonance.audible),
+          scaled_within<Scalar>(0.5 * resonance.surprise),
+          scaled_within<Scalar>(0.5 * resonance.unrest)};
+}
+
+template <class Scalar, int MaxDelay, class Current>
+typename control::ResonantVibration<Scalar, MaxDelay, Current>::Parameters parameters(
+    const ControlDesign& design,
+    Type<control::ResonantVibration<Scalar, MaxDelay, Current>> /*part*/) {
+  constexpr double base = 8.0;  // of a deviation
+  constexpr double turn = 6.283185307179586;
+  const ResonantDesign& resonance = *design.resonance;
+  return {parameters(design, Type<control::ResonanceEstimate<Scalar>>{}),
+          {split<Scalar>(resonance.start_word / base), split<Scalar>(base / resonance.start_word)},
+          parameters(design, Type<Current>{}),
+          scaled<Scalar>(resonance.velocity_gain),
+          scaled<Scalar>(base / turn * resonance.phase_gain),
+          scaled<Scalar>(resonance.settled),
+          scaled<Scalar>(std::min(0.5, resonance.missing)),
+          resonance.delay_periods};
+}
+
+/// Of a part that judges readings of the force, where there are any.
+template <class Parts, class Judge, class... Values>
+typename Parts::Force::template Judge<Judge>::Parameters judge(Values... values) {
+  if constexpr (Parts::Force::present) {
+    return {values...};
+  } else {
+    return {};
+  }
+}
+
 /// @tparam Parts  control::Parts: those that the design needs, or such as do their work
 template <class Parts>
 typename control::Controller<Parts>::Parameters controller_parameters(const ControlDesign& design) {
@@ -110,11 +191,13 @@ typename control::Controller<Parts>::Parameters controller_parameters(const Cont
           parameters(design, Type<typename Parts::Shaper>{}),
           parameters(design, Type<typename Parts::Regulator>{}),
           parameters(design, Type<typename Parts::Relearning>{}),
+          parameters(design, Type<typename Parts::Vibration>{}),
           {design.standstill_hold_periods, scaled<Scalar>(design.standstill_fall)},
-          {design.stuck_periods},
-          {design.implausible_periods},
-          {scaled<Scalar>(design.settling_band), design.settling_patience_periods,
-           scaled<Scalar>(design.agreement)},
+          judge<Parts, control::StuckDetector<Scalar>>(design.stuck_periods),
+          judge<Parts, control::Plausibility<Scalar>>(design.implausible_periods),
+          judge<Parts, control::SettlingWatch<Scalar>>(scaled<Scalar>(design.settling_band),
+                                                       design.settling_patience_periods,
+                                                       scaled<Scalar>(design.agreement)),
           {},
           {}};
 }

@@ -1,10 +1,15 @@
 /// The parts of a designed controller, chosen among at run time.
 #pragma once
 
+#include <type_traits>
 #include <variant>
 
 #include "firmware/control/coulomb_feedforward.hpp"
+#include "firmware/control/current_limit.hpp"
 #include "firmware/control/dahl_feedforward.hpp"
+#include "firmware/control/fed_forward.hpp"
+#include "firmware/control/force_sensing.hpp"
+#include "firmware/control/full_current.hpp"
 #include "firmware/control/integral_regulator.hpp"
 #include "firmware/control/learnt_friction.hpp"
 #include "firmware/control/no_feedback.hpp"
@@ -13,6 +18,7 @@
 #include "firmware/control/no_slew_limit.hpp"
 #include "firmware/control/notch_shaper.hpp"
 #include "firmware/control/periodic_relearning.hpp"
+#include "firmware/control/resonant_vibration.hpp"
 #include "firmware/control/slew_limit.hpp"
 #include "firmware/control/trusted_friction.hpp"
 #include "host_sim/configure/control_design.hpp"
@@ -33,6 +39,32 @@ ChoiceOfTwo choose(bool second) {
   return std::variant_alternative_t<0, ChoiceOfTwo>{};
 }
 
+/// Q15 is too coarse for a resonance.
+template <class Scalar>
+inline constexpr bool can_resonate = sizeof(Scalar) >= 4;
+
+/// How the drive acts on the vibration.
+template <class Scalar>
+struct VibrationParts {
+  template <template <class> class Current>
+  using Resonant = control::ResonantVibration<Scalar, max_drive_delay, Current<Scalar>>;
+  using Part =
+      std::conditional_t<can_resonate<Scalar>,
+                         Choice<control::FedForward<Scalar>, Resonant<control::FullCurrent>,
+                                Resonant<control::CurrentLimit>>,
+                         Choice<control::FedForward<Scalar>>>;
+
+  static Part chosen(const ControlDesign& design) {
+    if constexpr (can_resonate<Scalar>) {
+      if (design.resonance) {
+        return design.resonance->current_limited ? Part(Type<Resonant<control::CurrentLimit>>{})
+                                                 : Part(Type<Resonant<control::FullCurrent>>{});
+      }
+    }
+    return Part(Type<control::FedForward<Scalar>>{});
+  }
+};
+
 /// The leanest parts that do what a design asks for; notch and regulator hold the longest that a
 /// design may have. The members are called as those of control::Controller::Parameters.
 template <class Scalar>
@@ -44,16 +76,23 @@ struct ControllerParts {
   Choice<control::NoFeedback<Scalar>, control::IntegralRegulator<Scalar, max_reference_delay>>
       regulator;
   Choice<control::NoRelearning<Scalar>, control::PeriodicRelearning<Scalar>> relearning;
+  typename VibrationParts<Scalar>::Part vibration;
+  Choice<control::ForceSensor, control::NoForceSensor> force;
+  bool resonant;
 
   explicit ControllerParts(const ControlDesign& design)
       : friction(choose<decltype(friction)>(design.calibrated)),
         feedforward(choose<decltype(feedforward)>(design.map == scene::FrictionMap::dahl)),
         slew(choose<decltype(slew)>(design.slew_limited)),
         shaper(choose<decltype(shaper)>(design.shaped)),
-        regulator(choose<decltype(regulator)>(design.integral_gain != 0.0)),
-        relearning(choose<decltype(relearning)>(design.relearns)) {}
+        regulator(choose<decltype(regulator)>(design.senses_force && design.integral_gain != 0.0)),
+        relearning(choose<decltype(relearning)>(design.relearns)),
+        vibration(VibrationParts<Scalar>::chosen(design)),
+        force(choose<decltype(force)>(!design.senses_force)),
+        resonant(design.resonance.has_value()) {}
 
-  /// Calls visit(name, choice) for each, in the order of control::Parts.
+  /// Calls visit(name, choice) for each, in the order of control::Parts; a drive that is fed forward
+  /// has a force sensor, and names neither.
   template <class Visitor>
   void fields(Visitor&& visit) const {
     visit("friction", friction);
@@ -62,6 +101,10 @@ struct ControllerParts {
     visit("shaper", shaper);
     visit("regulator", regulator);
     visit("relearning", relearning);
+    if (resonant) {
+      visit("vibration", vibration);
+      visit("force", force);
+    }
   }
 };
 

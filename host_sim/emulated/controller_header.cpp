@@ -76,7 +76,7 @@ struct ScalarName<Q15> {
 /// initialiser of its parameters.
 struct PartText {
   std::string slot;
-  const char* header;
+  std::vector<std::string> headers;
   std::string type;
   std::string parameters;
 };
@@ -93,7 +93,11 @@ struct PartTexts {
         [&](auto part) {
           const auto parameters = configure::parameters(design, part);
           const PartName name = part_name(part, parameters);
-          texts.push_back({slot, name.header, name.type, Initialiser<Scalar>::of(parameters)});
+          std::vector<std::string> headers{name.header};
+          if (name.inner_header != nullptr) {
+            headers.emplace_back(name.inner_header);
+          }
+          texts.push_back({slot, headers, name.type, Initialiser<Scalar>::of(parameters)});
         },
         choice);
   }
@@ -136,12 +140,13 @@ struct ParameterLines {
 };
 
 /// The parameters that are no part's are the same with any parts.
-template <class Scalar>
+template <class Scalar, class Force>
 std::string parameter_lines(const configure::ControlDesign& design,
                             const std::vector<PartText>& parts) {
   using Parts = control::Parts<Scalar, control::TrustedFriction<Scalar>,
                                control::CoulombFeedforward<Scalar>, control::NoSlewLimit<Scalar>,
-                               control::NoShaping<Scalar>, control::NoFeedback<Scalar>>;
+                               control::NoShaping<Scalar>, control::NoFeedback<Scalar>,
+                               control::NoRelearning<Scalar>, control::FedForward<Scalar>, Force>;
   ParameterLines<Scalar> lines{parts, design.scales, {}};
   const auto parameters = configure::controller_parameters<Parts>(design);
   control::Controller<Parts>::Parameters::fields(parameters, lines);
@@ -151,7 +156,7 @@ std::string parameter_lines(const configure::ControlDesign& design,
 /// @throws configure::ConfigurationError  an image cannot count so far
 void require_reach(const loop::ScheduledTarget& step, const loop::CarrierGrid& grid) {
   constexpr std::uint64_t most_periods = 0xffffffff;
-  if (step.period > most_periods) {
+  if (step.place > most_periods) {
     throw configure::ConfigurationError(
         "controller.target_friction_ratio",
         fmt::format("a step at {:g} s is out of an image's reach; allowed: up to {:g} s",
@@ -164,20 +169,42 @@ std::string target_steps(const scene::Scene& scene) {
   const loop::CarrierGrid grid(scene);
   std::string text;
   for (const loop::ScheduledTarget& step : loop::target_schedule(scene, grid)) {
-    require_reach(step, grid);
+    if (!scene.resonant()) {
+      require_reach(step, grid);
+    }
     text +=
-        fmt::format("    {{{}, {}}},  // {}\n", step.period,
+        fmt::format("    {{{}, {}}},  // {}\n", step.place,
                     Initialiser<Scalar>::of(configure::half_target<Scalar>(step.friction_ratio)),
                     step.friction_ratio);
   }
   return text;
 }
 
-std::string includes(const std::vector<PartText>& parts, const char* scalar_header) {
-  std::vector<std::string> headers{"firmware/app/target_schedule.hpp",
-                                   "firmware/control/controller.hpp"};
+/// The targets as an image declares them; in a resonant loop with the word of the start and the
+/// step of the frequency.
+template <class Scalar>
+std::string target_lines(const scene::Scene& scene, const configure::ControlDesign& design) {
+  const std::string steps = target_steps<Scalar>(scene);
+  if (!design.resonance) {
+    return fmt::format("inline constexpr TargetStep<Scalar> target_steps[] = {{\n{}}};\n", steps);
+  }
+  return fmt::format(
+      "inline constexpr TimedTargets<Scalar, {}> target_steps = {{{}, {{\n{}}}}};\n\n"
+      "/// The frequency of a command is this step times the word of the start, which is the first "
+      "number\n/// above, and the command's steps together.\n"
+      "inline constexpr double frequency_step_Hz = {:a};\n",
+      scene.controller->target_friction_ratio.size(), design.resonance->start_word, steps,
+      design.resonance->step_Hz);
+}
+
+std::string includes(const std::vector<PartText>& parts, const char* scalar_header, bool resonant) {
+  std::vector<std::string> headers{
+      resonant ? "firmware/app/timed_targets.hpp" : "firmware/app/target_schedule.hpp",
+      "firmware/control/controller.hpp"};
   for (const PartText& part : parts) {
-    headers.push_back(fmt::format("firmware/control/{}.hpp", part.header));
+    for (const std::string& header : part.headers) {
+      headers.push_back(fmt::format("firmware/control/{}.hpp", header));
+    }
   }
   if (scalar_header != nullptr) {
     headers.emplace_back(scalar_header);
@@ -222,10 +249,8 @@ using Parts = control::Parts<Scalar{}>;
 inline constexpr control::Controller<Parts>::Parameters parameters{{
 {}}};
 
-inline constexpr TargetStep<Scalar> target_steps[] = {{
-{}}};
-
-/// Of the drive; a step answers each.
+{}
+/// Of the drive{}; a step answers each.
 inline constexpr double carrier_period_s = {:a};
 
 /// Of the controller and its units; FieldDesign keeps stored parameters to it.
@@ -233,10 +258,13 @@ inline constexpr std::uint32_t design = {:#010x};
 
 }}  // namespace sonoglide::app::configuration
 )",
-      process::printable(scene.name), includes(parts, ScalarName<Scalar>::header),
-      ScalarName<Scalar>::type, types, parameter_lines<Scalar>(design, parts),
-      target_steps<Scalar>(scene), design.scales.carrier_period_s,
-      design_number(types, parts, design.scales));
+      process::printable(scene.name),
+      includes(parts, ScalarName<Scalar>::header, design.resonance.has_value()),
+      ScalarName<Scalar>::type, types,
+      design.senses_force ? parameter_lines<Scalar, control::ForceSensor>(design, parts)
+                          : parameter_lines<Scalar, control::NoForceSensor>(design, parts),
+      target_lines<Scalar>(scene, design), design.resonance ? " at the start" : "",
+      design.scales.carrier_period_s, design_number(types, parts, design.scales));
 }
 
 }  // namespace

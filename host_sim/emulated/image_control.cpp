@@ -33,8 +33,9 @@ ImageControl::ImageControl(const emulated::EmulatedBoard& board, const std::file
 
 void ImageControl::set_target(double /*friction_ratio*/) {}
 
-hal::Drive ImageControl::exchange(const hal::Sample& sample) {
-  const hal::Drive drive = image_.exchange(sample);
+template <class Sample>
+auto ImageControl::ask(const Sample& sample) {
+  const auto drive = image_.exchange(sample);
   if (exchanges_ == 0) {
     first_answer_ = Clock::now();
   }
@@ -43,6 +44,14 @@ hal::Drive ImageControl::exchange(const hal::Sample& sample) {
   step_.add(instructions(cost.step, board_));
   answer_.add(instructions(cost.answer, board_));
   return drive;
+}
+
+hal::Drive ImageControl::exchange(const hal::Sample& sample) {
+  return ask(sample);
+}
+
+hal::ResonantDrive ImageControl::exchange(const hal::VibrationSample& sample) {
+  return ask(sample);
 }
 
 std::vector<numeric::SignalRecord> ImageControl::signals() const {

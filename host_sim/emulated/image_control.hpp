@@ -42,6 +42,8 @@ class ImageControl final : public loop::ControlPort {
 
   /// @throws EmulatorError
   hal::Drive exchange(const hal::Sample& sample) override;
+  /// @throws EmulatorError
+  hal::ResonantDrive exchange(const hal::VibrationSample& sample) override;
 
   /// None: an image does not watch its signals.
   std::vector<numeric::SignalRecord> signals() const override;
@@ -54,6 +56,9 @@ class ImageControl final : public loop::ControlPort {
 
  private:
   using Clock = std::chrono::steady_clock;
+
+  template <class Sample>
+  auto ask(const Sample& sample);
 
   const emulated::EmulatedBoard& board_;
   process::OneCore core_;

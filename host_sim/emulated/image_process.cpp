@@ -41,9 +41,18 @@ void ImageProcess::await_greeting() {
 }
 
 hal::Drive ImageProcess::exchange(const hal::Sample& sample) {
-  const lockstep::SampleFrame question = lockstep::encode(period_, sample);
+  return ask<hal::Drive>(sample);
+}
+
+hal::ResonantDrive ImageProcess::exchange(const hal::VibrationSample& sample) {
+  return ask<hal::ResonantDrive>(sample);
+}
+
+template <class Drive, class Sample>
+Drive ImageProcess::ask(const Sample& sample) {
+  const auto question = lockstep::encode(period_, sample);
   send(question.data(), question.size());
-  lockstep::DriveFrame answer{};
+  typename lockstep::FrameOf<Drive>::Type answer{};
   receive(answer.data(), answer.size());
   if (lockstep::period(answer) != period_) {
     fail(fmt::format("answered as for carrier period {}", lockstep::period(answer)));

@@ -41,6 +41,8 @@ class ImageProcess {
   /// One carrier period.
   /// @throws EmulatorError
   hal::Drive exchange(const hal::Sample& sample);
+  /// The same of a unit that observes the vibration.
+  hal::ResonantDrive exchange(const hal::VibrationSample& sample);
 
   /// What the latest answer cost, in the unit of the board's counter.
   hal::lockstep::AnswerCost latest_cost() const { return cost_; }
@@ -58,6 +60,8 @@ class ImageProcess {
   pid_t process() const { return child_->id(); }
 
  private:
+  template <class Drive, class Sample>
+  Drive ask(const Sample& sample);
   void receive(std::uint8_t* bytes, std::size_t size);
   void wait_for_answer();
   [[noreturn]] void fail(const std::string& what) const;

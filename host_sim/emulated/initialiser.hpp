@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <string>
@@ -18,6 +19,7 @@ namespace sonoglide::emulated {
 struct PartName {
   const char* header;  ///< in firmware/control, without .hpp
   std::string type;
+  const char* inner_header = nullptr;  ///< of a part of the part
 };
 
 // Of each part; what a type is told beside its scalar is a parameter of the design.
@@ -95,6 +97,48 @@ template <class Scalar, class Parameters>
 PartName part_name(configure::Type<control::PeriodicRelearning<Scalar>> /*part*/,
                    const Parameters& /*parameters*/) {
   return {"periodic_relearning", "PeriodicRelearning<Scalar>"};
+}
+
+template <class Scalar, class Parameters>
+PartName part_name(configure::Type<control::FedForward<Scalar>> /*part*/,
+                   const Parameters& /*parameters*/) {
+  return {"fed_forward", "FedForward<Scalar>"};
+}
+
+template <class Scalar, int MaxDelay>
+PartName part_name(
+    configure::Type<
+        control::ResonantVibration<Scalar, MaxDelay, control::FullCurrent<Scalar>>> /*part*/,
+    const typename control::ResonantVibration<
+        Scalar, MaxDelay, control::FullCurrent<Scalar>>::Parameters& parameters) {
+  return {
+      "resonant_vibration",
+      fmt::format("ResonantVibration<Scalar, {}, control::FullCurrent<Scalar>>", parameters.delay),
+      "full_current"};
+}
+
+template <class Scalar, int MaxDelay>
+PartName part_name(
+    configure::Type<
+        control::ResonantVibration<Scalar, MaxDelay, control::CurrentLimit<Scalar>>> /*part*/,
+    const typename control::ResonantVibration<
+        Scalar, MaxDelay, control::CurrentLimit<Scalar>>::Parameters& parameters) {
+  return {
+      "resonant_vibration",
+      fmt::format("ResonantVibration<Scalar, {}, control::CurrentLimit<Scalar>>", parameters.delay),
+      "current_limit"};
+}
+
+template <class Parameters>
+PartName part_name(configure::Type<control::ForceSensor> /*part*/,
+                   const Parameters& /*parameters*/) {
+  return {"force_sensing", "ForceSensor"};
+}
+
+template <class Parameters>
+PartName part_name(configure::Type<control::NoForceSensor> /*part*/,
+                   const Parameters& /*parameters*/) {
+  return {"force_sensing", "NoForceSensor"};
 }
 
 /// Writes a value as the initialiser of a variable of its type, bit for bit: a number, an array, a

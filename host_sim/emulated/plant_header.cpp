@@ -277,6 +277,8 @@ std::string plant_header(const scene::Scene& scene,
           "profile");
   require(scene.drive->waveform == scene::Waveform::cosine, "drive.waveform",
           "the plant of an image is driven by a cosine; allowed: \"cosine\"");
+  require(!scene.resonant(), "controller.vibration",
+          "the plant of an image has a drive of one frequency; allowed: a scene without this key");
   require_ideal(scene.sensor);
   const PlantText text = plant_text(SceneNumbers(scene, design->scales), arithmetic);
   return fmt::format(

@@ -9,9 +9,9 @@ namespace sonoglide::loop {
 Actuator::Actuator(int delay_periods, double full_scale_N)
     : full_scale_N_(full_scale_N), queue_(static_cast<std::size_t>(delay_periods) + 1) {}
 
-void Actuator::take(const hal::Drive& drive, double target) {
+void Actuator::take(const hal::Drive& drive, double target, std::int32_t frequency) {
   queue_.pop_front();
-  queue_.push_back({numeric::from_code<double>(drive.amplitude) * full_scale_N_, target,
+  queue_.push_back({numeric::from_code<double>(drive.amplitude) * full_scale_N_, frequency, target,
                     2.0 * numeric::from_code<double>(drive.commanded_ratio),  // on base 2
                     static_cast<control::State>(drive.state),
                     static_cast<control::Limit>(drive.limit),

@@ -13,6 +13,7 @@ namespace sonoglide::loop {
 /// What drives one carrier period.
 struct Command {
   double amplitude_N = 0.0;
+  std::int32_t frequency = 0;  ///< of a resonant drive: steps of its word from the start
   double target = std::numeric_limits<double>::quiet_NaN();  ///< that it was picked for
   double commanded_ratio = std::numeric_limits<double>::quiet_NaN();
   control::State state = control::State::off;
@@ -29,7 +30,7 @@ class Actuator {
   Actuator(int delay_periods, double full_scale_N);
 
   /// The answer to the period that has just passed; target: friction ratio it was picked for.
-  void take(const hal::Drive& drive, double target);
+  void take(const hal::Drive& drive, double target, std::int32_t frequency = 0);
 
   /// In force during the next carrier period; off until the first answer acts.
   const Command& in_force() const { return queue_.front(); }

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <type_traits>
 #include <variant>
 #include <vector>
 
@@ -19,9 +20,14 @@ namespace compose {
 using configure::ControlDesign;
 
 template <class Parts>
-class InProcessControl final : public ControlPort {
+class InProcess : public ControlPort {
+  using Controller = control::Controller<Parts>;
+
  public:
-  explicit InProcessControl(const ControlDesign& design)
+  using Sample = std::conditional_t<Controller::observed, hal::VibrationSample, hal::Sample>;
+  using Drive = std::conditional_t<Controller::observed, hal::ResonantDrive, hal::Drive>;
+
+  explicit InProcess(const ControlDesign& design)
       : controller_(configure::controller_parameters<Parts>(design)), loop_(controller_, board_) {
     controller_.start();
   }
@@ -30,29 +36,41 @@ class InProcessControl final : public ControlPort {
     controller_.set_target(configure::half_target<typename Parts::Scalar>(friction_ratio));
   }
 
-  hal::Drive exchange(const hal::Sample& sample) override {
+  std::vector<numeric::SignalRecord> signals() const override {
+    return {ledger_.signals.begin(),
+            ledger_.signals.begin() + static_cast<std::ptrdiff_t>(ledger_.size)};
+  }
+
+ protected:
+  Drive answer(const Sample& sample) {
     const numeric::LedgerScope scope(ledger_);
     board_.post(sample);
     loop_.serve();
     return board_.latest_drive();
   }
 
-  std::vector<numeric::SignalRecord> signals() const override {
-    return {ledger_.signals.begin(),
-            ledger_.signals.begin() + static_cast<std::ptrdiff_t>(ledger_.size)};
-  }
-
  private:
-  using Controller = control::Controller<Parts>;
+  using Board = hal::host::SimulatedBoard<Sample, Drive>;
 
   Controller controller_;
-  hal::host::SimulatedBoard board_;
-  app::ControlLoop<Controller, hal::host::SimulatedBoard> loop_;
+  Board board_;
+  app::ControlLoop<Controller, Board> loop_;
   numeric::SignalLedger ledger_;
 };
 
+template <class Parts>
+class InProcessControl final : public InProcess<Parts> {
+ public:
+  using InProcess<Parts>::InProcess;
+  using typename InProcess<Parts>::Sample;
+  using typename InProcess<Parts>::Drive;
+  using ControlPort::exchange;
+
+  Drive exchange(const Sample& sample) override { return this->answer(sample); }
+};
+
 /// Few scenes name a slew limit or relearning: they share compositions that have both, the one that
-/// a scene does not name being wide open. Every composition has a regulator, whose gain is 0 where
+/// a scene does not name being wide open. Every composition off resonance has a regulator, whose gain is 0 where
 /// there is no feedback. The commands are those of the leanest parts, bit for bit.
 template <class SlewT, class RelearningT>
 struct Extras {
@@ -64,11 +82,48 @@ using ExtrasChoice =
     configure::Choice<Extras<control::NoSlewLimit<Scalar>, control::NoRelearning<Scalar>>,
                       Extras<control::SlewLimit<Scalar>, control::PeriodicRelearning<Scalar>>>;
 
+/// A resonant loop's relearning and current limit are wide open where a scene does not name them.
+template <class Scalar, class Friction, class Feedforward, class Regulator, class Force>
+using ResonantParts = control::Parts<
+    Scalar, Friction, Feedforward, control::NoSlewLimit<Scalar>, control::NoShaping<Scalar>,
+    Regulator,
+    std::conditional_t<Force::present, control::PeriodicRelearning<Scalar>,
+                       control::NoRelearning<Scalar>>,
+    control::ResonantVibration<Scalar, configure::max_drive_delay, control::CurrentLimit<Scalar>>,
+    Force>;
+
+template <class Scalar>
+std::unique_ptr<ControlPort> make_resonant_control(const ControlDesign& design) {
+  using control::IntegralRegulator;
+  const configure::ControllerParts<Scalar> parts(design);
+  return std::visit(
+      [&](auto friction, auto feedforward) -> std::unique_ptr<ControlPort> {
+        using Friction = typename decltype(friction)::type;
+        using Feedforward = typename decltype(feedforward)::type;
+        if (design.senses_force) {
+          return std::make_unique<InProcessControl<ResonantParts<
+              Scalar, Friction, Feedforward,
+              IntegralRegulator<Scalar, configure::max_reference_delay>, control::ForceSensor>>>(
+              design);
+        }
+        return std::make_unique<
+            InProcessControl<ResonantParts<Scalar, control::TrustedFriction<Scalar>, Feedforward,
+                                           control::NoFeedback<Scalar>, control::NoForceSensor>>>(
+            design);
+      },
+      parts.friction, parts.feedforward);
+}
+
 }  // namespace compose
 
 template <class Scalar>
 std::unique_ptr<ControlPort> make_control(const configure::ControlDesign& design) {
   using namespace compose;
+  if constexpr (configure::can_resonate<Scalar>) {
+    if (design.resonance) {
+      return make_resonant_control<Scalar>(design);
+    }
+  }
   const configure::ControllerParts<Scalar> parts(design);
   return std::visit(
       [&](auto friction, auto feedforward, auto shaper,

@@ -1,8 +1,18 @@
 #include "host_sim/loop/control_port.hpp"
 
+#include <stdexcept>
+
 #include "firmware/numeric/fixed.hpp"
 
 namespace sonoglide::loop {
+
+hal::Drive ControlPort::exchange(const hal::Sample& /*sample*/) {
+  throw std::logic_error("a controller that observes the vibration needs a sample of it");
+}
+
+hal::ResonantDrive ControlPort::exchange(const hal::VibrationSample& /*sample*/) {
+  throw std::logic_error("a controller that observes no vibration has no use for a sample of it");
+}
 
 std::unique_ptr<ControlPort> make_control_port(const scene::Scene& scene,
                                                const configure::ControlDesign& design) {

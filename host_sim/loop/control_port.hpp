@@ -17,8 +17,10 @@ class ControlPort {
   virtual ~ControlPort() = default;
   /// Sets the target friction ratio, in (0, 1].
   virtual void set_target(double friction_ratio) = 0;
-  /// One control step.
-  virtual hal::Drive exchange(const hal::Sample& sample) = 0;
+  /// One control step. A controller overrides the one of the two that it answers.
+  virtual hal::Drive exchange(const hal::Sample& sample);
+  /// The same of a controller that observes the vibration.
+  virtual hal::ResonantDrive exchange(const hal::VibrationSample& sample);
   /// What the fixed-point signals did so far; empty for floating point.
   virtual std::vector<numeric::SignalRecord> signals() const = 0;
 };

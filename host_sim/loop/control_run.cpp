@@ -1,15 +1,34 @@
 #include "host_sim/loop/control_run.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace sonoglide::loop {
+
+namespace {
+
+double vibration_gain(const scene::Scene& scene) {
+  return scene.sensor.vibration == scene::VibrationSensor::motional_current
+             ? 1.0 / scene.model_error.force_factor
+             : 1.0;
+}
+
+std::optional<app::ElapsedPeriods> elapsed_of(const configure::ControlDesign& design) {
+  return design.resonance ? std::optional(app::ElapsedPeriods(design.resonance->start_word))
+                          : std::nullopt;
+}
+
+}  // namespace
 
 std::vector<ScheduledTarget> target_schedule(const scene::Scene& scene, const CarrierGrid& grid) {
   std::vector<ScheduledTarget> schedule;
   for (const scene::TargetStep& step : scene.controller->target_friction_ratio) {
     // The sample of a period is taken at its end.
     const std::uint64_t period = std::max<std::uint64_t>(1, grid.at_or_after(step.time_s)) - 1;
-    schedule.push_back({period, step.time_s, step.friction_ratio});
+    const double elapsed =
+        std::ldexp(step.time_s / grid.period_s(), app::ElapsedPeriods::fraction_bits);
+    schedule.push_back({scene.resonant() ? static_cast<std::uint64_t>(std::round(elapsed)) : period,
+                        step.time_s, step.friction_ratio});
   }
   return schedule;
 }
@@ -19,8 +38,19 @@ ControlRun::ControlRun(const scene::Scene& scene, const CarrierGrid& grid, Contr
     : schedule_(target_schedule(scene, grid)),
       port_(port),
       record_(record),
-      sensor_(scene.sensor, record.design.scales),
-      actuator_(scene.drive->delay_periods, record.design.scales.drive_amplitude_N) {}
+      sensor_(scene.sensor, record.design.scales, vibration_gain(scene)),
+      actuator_(scene.drive->delay_periods, record.design.scales.drive_amplitude_N),
+      start_frequency_Hz_(scene.drive->frequency_Hz),
+      elapsed_(elapsed_of(record.design)) {}
+
+double ControlRun::frequency_Hz() const {
+  const std::int32_t steps = actuator_.in_force().frequency;
+  if (steps == 0) {
+    return start_frequency_Hz_;
+  }
+  const configure::ResonantDesign& resonance = *record_.design.resonance;
+  return resonance.step_Hz * (static_cast<double>(resonance.start_word) + steps);
+}
 
 void ControlRun::label(Period& period) const {
   const Command& command = actuator_.in_force();
@@ -29,13 +59,27 @@ void ControlRun::label(Period& period) const {
   period.limit = command.limit;
   period.settling = command.settling;
   period.commanded_ratio = command.commanded_ratio;
+  const bool held =
+      command.state == control::State::running || command.state == control::State::limited;
+  if (record_.design.resonance && held && period.target < 1.0) {
+    period.wanted_vibration_m_per_s = record_.design.vibration_map().velocity_m_per_s(
+        command.commanded_ratio, period.begin_velocity_m_per_s);
+  }
 }
 
-void ControlRun::step(double time_s, double mean_force_N, double sliding_velocity_m_per_s) {
+void ControlRun::step(double time_s, double mean_force_N, double sliding_velocity_m_per_s,
+                      std::complex<double> vibration_m_per_s) {
   follow_target();
-  const hal::Drive drive = port_.exchange(sensor_.sample(mean_force_N, sliding_velocity_m_per_s));
-  actuator_.take(drive, target_);
-  account_for(drive, time_s);
+  if (record_.design.resonance) {
+    const hal::ResonantDrive drive =
+        port_.exchange(sensor_.sample(mean_force_N, sliding_velocity_m_per_s, vibration_m_per_s));
+    actuator_.take(drive, target_, drive.frequency);
+    account_for(drive, time_s);
+  } else {
+    const hal::Drive drive = port_.exchange(sensor_.sample(mean_force_N, sliding_velocity_m_per_s));
+    actuator_.take(drive, target_);
+    account_for(drive, time_s);
+  }
 }
 
 void ControlRun::finish() {
@@ -44,14 +88,19 @@ void ControlRun::finish() {
 }
 
 void ControlRun::follow_target() {
-  for (; next_step_ < schedule_.size() && schedule_[next_step_].period <= period_; ++next_step_) {
+  if (elapsed_) {
+    elapsed_->add(actuator_.in_force().frequency);
+  }
+  const std::uint64_t now = elapsed_ ? elapsed_->value() : period_;
+  for (; next_step_ < schedule_.size() && schedule_[next_step_].place <= now; ++next_step_) {
     target_ = schedule_[next_step_].friction_ratio;
     port_.set_target(target_);
   }
   ++period_;
 }
 
-void ControlRun::account_for(const hal::Drive& drive, double time_s) {
+template <class Drive>
+void ControlRun::account_for(const Drive& drive, double time_s) {
   const auto fault = static_cast<control::Fault>(drive.fault);
   if (fault != control::Fault::none && fault != fault_) {
     record_.faults.push_back({time_s, fault});
@@ -60,7 +109,9 @@ void ControlRun::account_for(const hal::Drive& drive, double time_s) {
   hash_.add(drive);
   ++record_.commands;
   const auto limit = static_cast<control::Limit>(drive.limit);
-  record_.saturated_commands += limit == control::Limit::actuator ? 1 : 0;
+  const bool at_most = limit == control::Limit::actuator || limit == control::Limit::voltage ||
+                       limit == control::Limit::current;
+  record_.saturated_commands += at_most ? 1 : 0;
 }
 
 }  // namespace sonoglide::loop

@@ -2,11 +2,14 @@
 /// it.
 #pragma once
 
+#include <complex>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <vector>
 
+#include "firmware/app/timed_targets.hpp"
 #include "firmware/control/drive_command.hpp"
 #include "hal/trace_hash.hpp"
 #include "host_sim/loop/actuator.hpp"
@@ -21,8 +24,10 @@ namespace sonoglide::loop {
 
 /// A target step on the grid of the samples.
 struct ScheduledTarget {
-  std::uint64_t period;  ///< in force from the sample of this carrier period on, counted from 0
-  double time_s;         ///< as the scene has it
+  /// In force from the sample of this carrier period on, counted from 0; of a resonant loop from the
+  /// first sample at this time or after, as app::ElapsedPeriods counts it.
+  std::uint64_t place;
+  double time_s;  ///< as the scene has it
   double friction_ratio;
 };
 
@@ -37,19 +42,23 @@ class ControlRun {
 
   /// In force during the next carrier period.
   double amplitude_N() const { return actuator_.in_force().amplitude_N; }
+  double frequency_Hz() const;
 
   /// Notes in the period that has just passed what drove it.
   void label(Period& period) const;
 
   /// One control step, at the end of a carrier period.
-  void step(double time_s, double mean_force_N, double sliding_velocity_m_per_s);
+  /// @param vibration_m_per_s  of the period, see Sensor; of use to a resonant loop
+  void step(double time_s, double mean_force_N, double sliding_velocity_m_per_s,
+            std::complex<double> vibration_m_per_s = {});
 
   /// Fills in what the run ends with.
   void finish();
 
  private:
   void follow_target();
-  void account_for(const hal::Drive& drive, double time_s);
+  template <class Drive>
+  void account_for(const Drive& drive, double time_s);
 
   std::vector<ScheduledTarget> schedule_;
   ControlPort& port_;
@@ -59,6 +68,8 @@ class ControlRun {
   hal::TraceHash hash_;
   std::size_t next_step_ = 0;
   std::uint64_t period_ = 0;  ///< whose sample comes next
+  double start_frequency_Hz_;
+  std::optional<app::ElapsedPeriods> elapsed_;  ///< of a resonant loop
   double target_ = std::numeric_limits<double>::quiet_NaN();
   control::Fault fault_ = control::Fault::none;
 };

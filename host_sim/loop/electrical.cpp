@@ -99,12 +99,12 @@ ElectricalBalance electrical_balance(const scene::Transducer& transducer, const 
   return balance;
 }
 
-double current_amplitude_A(const scene::Transducer& transducer, double drive_amplitude_N,
-                           double frequency_Hz, std::complex<double> vibration_m_per_s) {
+std::complex<double> current_A(const scene::Transducer& transducer, double drive_amplitude_N,
+                               double frequency_Hz, std::complex<double> vibration_m_per_s) {
   const double factor = transducer.force_factor_N_per_V;
   const double rate_rad_per_s = numeric::two_pi * frequency_Hz;
-  return std::abs(factor * vibration_m_per_s +
-                  drive_amplitude_N / factor * clamped_admittance_S(transducer, rate_rad_per_s));
+  return factor * vibration_m_per_s +
+         drive_amplitude_N / factor * clamped_admittance_S(transducer, rate_rad_per_s);
 }
 
 }  // namespace sonoglide::loop

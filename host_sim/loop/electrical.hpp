@@ -54,9 +54,9 @@ std::complex<double> clamped_admittance_S(const scene::Transducer& transducer,
 ElectricalBalance electrical_balance(const scene::Transducer& transducer, const Stretch& stretch,
                                      const EnergyBalance& energy);
 
-/// Amplitude of the current's fundamental over a carrier period.
+/// The current's fundamental over a carrier period: i = Re(current e^jθ).
 /// @param vibration_m_per_s  z of x' = Re(z e^jθ)
-double current_amplitude_A(const scene::Transducer& transducer, double drive_amplitude_N,
-                           double frequency_Hz, std::complex<double> vibration_m_per_s);
+std::complex<double> current_A(const scene::Transducer& transducer, double drive_amplitude_N,
+                               double frequency_Hz, std::complex<double> vibration_m_per_s);
 
 }  // namespace sonoglide::loop

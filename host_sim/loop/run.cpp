@@ -10,6 +10,7 @@
 #include <optional>
 #include <utility>
 
+#include "firmware/numeric/turn.hpp"
 #include "host_sim/configure/plant_scales.hpp"
 #include "host_sim/loop/carrier_clock.hpp"
 #include "host_sim/loop/control_run.hpp"
@@ -63,7 +64,9 @@ class Simulation {
 
  private:
   void advance() {
-    if (frequency_changes_) {
+    if (scene_.resonant()) {
+      clock_.set_frequency_Hz(control_->frequency_Hz());
+    } else if (frequency_changes_) {
       clock_.set_frequency_Hz(configure::carrier_frequency_Hz(*scene_.drive, clock_.begin_s()));
     }
     const double begin_s = clock_.begin_s();
@@ -74,11 +77,13 @@ class Simulation {
     const double end_velocity_m_per_s = plant_.sliding_velocity_m_per_s();
     if (!watch_.periods.empty()) {
       show({begin_s, end_s, friction_ratio(energy), begin_velocity_m_per_s, end_velocity_m_per_s,
-            amplitude_N, clock_.frequency_Hz(), vibration_m_per_s(energy), undefined,
-            control::State::off, control::Limit::none, control::Settling::pending, undefined});
+            amplitude_N, clock_.frequency_Hz(), clock_.is_whole(), vibration_m_per_s(energy),
+            natural_Hz(0.5 * (begin_s + end_s)), undefined, undefined, control::State::off,
+            control::Limit::none, control::Settling::pending, undefined});
     }
     if (control_ && clock_.is_whole()) {
-      control_->step(end_s, energy.friction_impulse_N_s / energy.duration_s, end_velocity_m_per_s);
+      control_->step(end_s, energy.friction_impulse_N_s / energy.duration_s, end_velocity_m_per_s,
+                     vibration_m_per_s(energy));
     }
   }
 
@@ -90,6 +95,13 @@ class Simulation {
   /// Of a period that is cut short there is no fundamental.
   std::complex<double> vibration_m_per_s(const EnergyBalance& energy) const {
     return scene_.transducer && clock_.is_whole() ? energy.vibration_m_per_s() : undefined;
+  }
+
+  double natural_Hz(double time_s) const {
+    const double stiffness_N_per_m = scene_.plant.stiffness_profile.empty()
+                                         ? scene_.plant.stiffness_N_per_m
+                                         : scene::value_at(scene_.plant.stiffness_profile, time_s);
+    return std::sqrt(stiffness_N_per_m / scene_.plant.mass_kg) / numeric::two_pi;
   }
 
   void show(Period period) const {

@@ -55,8 +55,8 @@ struct ControlRecord {
   configure::ControlDesign design;
   std::uint64_t trace_hash = 0;  ///< FNV-1a over every drive command, bit for bit
   std::uint64_t commands = 0;
-  std::uint64_t saturated_commands = 0;        ///< at the actuator's limit
-  std::vector<FaultEvent> faults;              ///< a fault lasts: few
+  std::uint64_t saturated_commands = 0;  ///< at the actuator's limit, a voltage's or a current's
+  std::vector<FaultEvent> faults;        ///< a fault lasts: few
   std::vector<numeric::SignalRecord> signals;  ///< fixed point only
 };
 

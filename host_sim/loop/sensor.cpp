@@ -34,9 +34,11 @@ constexpr int ideal_bits = 32;
 
 }  // namespace
 
-Sensor::Sensor(const scene::Sensor& sensor, const configure::ControlScales& scales)
+Sensor::Sensor(const scene::Sensor& sensor, const configure::ControlScales& scales,
+               double vibration_gain)
     : sensor_(sensor),
       scales_(scales),
+      vibration_gain_(vibration_gain),
       pipeline_N_(static_cast<std::size_t>(sensor.delay_periods), 0.0),
       generator_(sensor.seed) {
   if (sensor.force_bandwidth_Hz) {
@@ -47,13 +49,26 @@ Sensor::Sensor(const scene::Sensor& sensor, const configure::ControlScales& scal
 }
 
 hal::Sample Sensor::sample(double mean_force_N, double sliding_velocity_m_per_s) {
-  const double force_N =
-      sensor_.force_gain * delayed(filtered(mean_force_N)) + sensor_.force_offset_N + noise();
+  const double force_N = sensor_.force ? sensor_.force_gain * delayed(filtered(mean_force_N)) +
+                                             sensor_.force_offset_N + noise(sensor_.force_noise_N)
+                                       : 0.0;
   const double velocity_m_per_s =
       sensor_.velocity_gain * sliding_velocity_m_per_s + sensor_.velocity_offset_m_per_s;
   const Conversion force = convert(force_N, scales_.force_N, sensor_.adc_bits.value_or(ideal_bits));
   const Conversion velocity = convert(velocity_m_per_s, scales_.velocity_m_per_s, ideal_bits);
   return {force.code, velocity.code, force.at_rail, true};
+}
+
+hal::VibrationSample Sensor::sample(double mean_force_N, double sliding_velocity_m_per_s,
+                                    std::complex<double> vibration_m_per_s) {
+  const auto converted = [&](double component_m_per_s) {
+    return convert(vibration_gain_ * component_m_per_s + noise(sensor_.vibration_noise_m_per_s),
+                   scales_.velocity_m_per_s, sensor_.vibration_bits.value_or(ideal_bits));
+  };
+  const hal::Sample sample = this->sample(mean_force_N, sliding_velocity_m_per_s);
+  const Conversion in_phase = converted(vibration_m_per_s.real());
+  const Conversion quadrature = converted(vibration_m_per_s.imag());
+  return {sample, in_phase.code, quadrature.code, in_phase.at_rail || quadrature.at_rail, true};
 }
 
 /// First-order lag, exact for an input that runs linearly from the last sample to this one.
@@ -72,8 +87,8 @@ double Sensor::delayed(double force_N) {
   return out;
 }
 
-double Sensor::noise() {
-  if (sensor_.force_noise_N == 0.0) {
+double Sensor::noise(double rms) {
+  if (rms == 0.0) {
     return 0.0;
   }
   constexpr double ln_2 = 0.69314718055994530942;
@@ -81,7 +96,7 @@ double Sensor::noise() {
   const double radius_draw = (static_cast<double>(generator_() >> 11) + 1.0) * unit;
   const double angle_draw = static_cast<double>(generator_() >> 11) * unit;
   const double radius = numeric::sqrt(-2.0 * ln_2 * numeric::log2(radius_draw));
-  return sensor_.force_noise_N * radius * numeric::sin_pi(2.0 * angle_draw - 1.0);
+  return rms * radius * numeric::sin_pi(2.0 * angle_draw - 1.0);
 }
 
 }  // namespace sonoglide::loop

@@ -1,6 +1,7 @@
-/// The sensors of friction force and sliding velocity between plant and controller.
+/// The sensors of friction force, sliding velocity and vibration between plant and controller.
 #pragma once
 
+#include <complex>
 #include <cstdint>
 #include <deque>
 #include <random>
@@ -15,6 +16,9 @@ namespace sonoglide::loop {
 /// first-order low-pass, delay, gain and offset, noise, converter. The sliding velocity goes
 /// through its gain and offset, and a converter of 32 bits.
 ///
+/// The vibration is seen as its velocity, or as the motional current over the believed force factor:
+/// with noise, in converters of its own. Without a force sensor the force reads 0.
+///
 /// Gain and offset are those of the wiring: before the delay's first reading has arrived, the
 /// sensor reads its offset.
 ///
@@ -24,18 +28,27 @@ namespace sonoglide::loop {
 /// machine.
 class Sensor {
  public:
-  Sensor(const scene::Sensor& sensor, const configure::ControlScales& scales);
+  /// @param vibration_gain  vibration read over the true one
+  Sensor(const scene::Sensor& sensor, const configure::ControlScales& scales,
+         double vibration_gain = 1.0);
 
   /// @param mean_force_N  true mean over the carrier period just ended
   hal::Sample sample(double mean_force_N, double sliding_velocity_m_per_s);
 
+  /// The same with the vibration.
+  /// @param vibration_m_per_s  z of the period: the vibration velocity is Re(z e^jθ), θ the phase of
+  ///                           the drive
+  hal::VibrationSample sample(double mean_force_N, double sliding_velocity_m_per_s,
+                              std::complex<double> vibration_m_per_s);
+
  private:
   double filtered(double force_N);
   double delayed(double force_N);
-  double noise();
+  double noise(double rms);
 
   scene::Sensor sensor_;
   configure::ControlScales scales_;
+  double vibration_gain_;
   double filter_decay_ = 0.0;       ///< exp(−T/τ)
   double filter_new_weight_ = 1.0;  ///< of the sample that ends the period
   double filter_state_N_ = 0.0;

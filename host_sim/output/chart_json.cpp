@@ -58,8 +58,9 @@ const char* boolean(bool value) {
 }
 
 void append_series(std::string& json, const Series& series) {
-  json += fmt::format(R"({{"label":{},"stepped":{},"connectGaps":{},"y":)", quoted(series.label),
-                      boolean(series.stepped), boolean(series.connect_gaps));
+  json += fmt::format(R"({{"label":{},"stepped":{},"connectGaps":{},"marked":{},"y":)",
+                      quoted(series.label), boolean(series.stepped), boolean(series.connect_gaps),
+                      boolean(series.marked));
   append_numbers(json, series.y, kOrdinateDigits);
   json += '}';
 }

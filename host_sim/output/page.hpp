@@ -12,7 +12,8 @@ struct Series {
   std::vector<double> y;
   bool stepped = false;  ///< held until the next point instead of joined to it
   bool connect_gaps =
-      false;  ///< joined across NaN: a branch of a loop that shares its x with others
+      false;            ///< joined across NaN: a branch of a loop that shares its x with others
+  bool marked = false;  ///< each point is a dot
 };
 
 /// One chart; every series has one value for each entry of x, which never decreases.

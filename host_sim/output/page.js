@@ -271,6 +271,8 @@
     {
       stepPlot: series.stepped,
       connectSeparatedPoints: series.connectGaps,
+      drawPoints: series.marked,
+      ...(series.marked ? {pointSize: 6} : {}),
       strokePattern: isSecondRound(i) ? secondRoundDashes : null,
     },
   ]));

@@ -10,6 +10,9 @@
 
 namespace sonoglide::report {
 
+/// Where a curve has a gap.
+inline constexpr double gap = std::numeric_limits<double>::quiet_NaN();
+
 /// Several ordinates over one rising abscissa. Complete up to `most_points` points; beyond, every
 /// 2, 4, 8, … successive points are one piece, of which the smallest and the largest value of each
 /// ordinate are kept: no excursion is lost, however short. NaN is passed over where a piece has

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "firmware/numeric/turn.hpp"
 #include "host_sim/loop/electrical.hpp"
 
 namespace sonoglide::report {
@@ -19,17 +20,39 @@ constexpr std::uint64_t ending_periods = 256;
 }  // namespace
 
 void Course::take(const loop::Period& period) {
-  curve_.add(period.begin_s, {period.friction_ratio, period.target, period.drive_amplitude_N,
-                              period.begin_velocity_m_per_s});
+  // A mean over part of a period is no friction ratio; a run without a drive has parts alone.
+  const bool mean = period.whole || period.frequency_Hz == 0.0;
+  curve_.add(period.begin_s, {mean ? period.friction_ratio : gap, period.target,
+                              period.drive_amplitude_N, period.begin_velocity_m_per_s});
   ++periods_in_[static_cast<std::size_t>(period.limit)];
 }
 
 void VibrationCourse::take(const loop::Period& period) {
+  const double voltage_V = period.drive_amplitude_N / transducer_.force_factor_N_per_V;
+  const std::complex<double> taken_A = loop::current_A(
+      transducer_, period.drive_amplitude_N, period.frequency_Hz, period.vibration_m_per_s);
+  constexpr double degrees = 360.0 / numeric::two_pi;
   curve_.add(period.begin_s,
-             {std::abs(period.vibration_m_per_s),
-              loop::current_amplitude_A(transducer_, period.drive_amplitude_N, period.frequency_Hz,
-                                        period.vibration_m_per_s),
-              period.frequency_Hz});
+             {std::abs(period.vibration_m_per_s), period.wanted_vibration_m_per_s,
+              std::abs(taken_A), period.frequency_Hz, period.natural_Hz,
+              voltage_V == 0.0 ? gap : degrees * std::arg(period.vibration_m_per_s)});
+  if (period.whole && voltage_V != 0.0) {
+    constexpr double kept = 1.0 - 1.0 / operating_periods;
+    recent_.periods = kept * recent_.periods + 1.0;
+    recent_.frequency_Hz = kept * recent_.frequency_Hz + period.frequency_Hz;
+    recent_.voltage_V = kept * recent_.voltage_V + voltage_V;
+    recent_.either_voltage_V = kept * recent_.either_voltage_V + std::abs(voltage_V);
+    recent_.current_A = kept * recent_.current_A + taken_A;
+  }
+}
+
+std::optional<VibrationCourse::OperatingPoint> VibrationCourse::operating_point() const {
+  constexpr double least_part = 0.25;
+  if (!(std::abs(recent_.voltage_V) > least_part * recent_.either_voltage_V)) {
+    return std::nullopt;
+  }
+  return OperatingPoint{recent_.frequency_Hz / recent_.periods,
+                        recent_.current_A / recent_.voltage_V};
 }
 
 RunFindings::RunFindings(const scene::Scene& scene,

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <complex>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -41,7 +42,17 @@ class Course final : public loop::PeriodSink {
 /// The fundamental of vibration and current, carrier period by carrier period.
 class VibrationCourse final : public loop::PeriodSink {
  public:
-  enum Ordinate { vibration_m_per_s, current_A, frequency_Hz, ordinates };
+  /// The phase is that of the vibration velocity before the carrier, in degrees. A voltage below 0
+  /// does not turn it.
+  enum Ordinate {
+    vibration_m_per_s,
+    wanted_m_per_s,
+    current_A,
+    frequency_Hz,
+    natural_Hz,
+    phase_deg,
+    ordinates
+  };
   using Curve = report::ExtremesCurve<ordinates>;
 
   explicit VibrationCourse(const scene::Transducer& transducer) : transducer_(transducer) {}
@@ -50,11 +61,28 @@ class VibrationCourse final : public loop::PeriodSink {
 
   const Curve& curve() const { return curve_; }
 
+  /// Mean of about the last `operating_periods` whole periods with a voltage: noise leaves it.
+  struct OperatingPoint {
+    double frequency_Hz;
+    std::complex<double> admittance_S;
+  };
+  static constexpr double operating_periods = 64.0;
+  /// None where the voltage was mostly to change the vibration.
+  std::optional<OperatingPoint> operating_point() const;
+
  private:
   static constexpr std::size_t most_points = 20000;
 
   scene::Transducer transducer_;
   Curve curve_{most_points};
+  /// Sums that forget.
+  struct {
+    double periods = 0.0;
+    double frequency_Hz = 0.0;
+    double voltage_V = 0.0;
+    double either_voltage_V = 0.0;
+    std::complex<double> current_A;
+  } recent_;
 };
 
 class RunFindings {

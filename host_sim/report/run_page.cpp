@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
+#include <optional>
+#include <string>
 #include <utility>
 
 #include "host_sim/configure/plant_scales.hpp"
@@ -19,8 +21,6 @@
 namespace sonoglide::report {
 namespace {
 
-/// Where a curve has a gap.
-constexpr double gap = std::numeric_limits<double>::quiet_NaN();
 constexpr const char* time_label = "Time [s]";
 
 std::string percent(double part) {
@@ -42,13 +42,37 @@ std::string lead(const scene::Scene& scene, const loop::RunResult& result) {
 /// Of the limits that no other warning speaks of.
 void append_limits(const Course& course, std::vector<std::string>& warnings) {
   using control::Limit;
-  for (const Limit limit :
-       {Limit::slew, Limit::ratio_end, Limit::mismatch, Limit::not_settling, Limit::bad_sample}) {
+  for (const Limit limit : {Limit::slew, Limit::ratio_end, Limit::mismatch, Limit::not_settling,
+                            Limit::bad_sample, Limit::frequency_range}) {
     if (const std::uint64_t periods = course.periods_in(limit); periods > 0) {
       warnings.push_back(fmt::format("The limit {} was named in {} carrier {}.", limit_name(limit),
                                      periods, periods == 1 ? "period" : "periods"));
     }
   }
+}
+
+void append_drive_limit(const scene::Scene& scene, const loop::ControlRecord& control,
+                        std::vector<std::string>& warnings) {
+  if (control.saturated_commands == 0) {
+    return;
+  }
+  const AmplitudeUnit unit = amplitude_unit(scene);
+  const std::string part = percent(static_cast<double>(control.saturated_commands) /
+                                   static_cast<double>(control.commands));
+  const double most = scene.drive->max_force_amplitude_N * unit.per_N;
+  if (!scene.resonant()) {
+    warnings.push_back(
+        fmt::format("The actuator's range of 0 to {:.6g} {} limited the drive in {} of the control "
+                    "steps.",
+                    most, unit.name, part));
+    return;
+  }
+  const auto& current_A = scene.drive->max_current_amplitude_A;
+  warnings.push_back(
+      fmt::format("The amplifier's {:.6g} V{} limited the drive in {} of the control steps, as "
+                  "they do whenever "
+                  "the vibration changes by much.",
+                  most, current_A ? fmt::format(" and {:.6g} A", *current_A) : "", part));
 }
 
 std::vector<std::string> warnings(const scene::Scene& scene, const loop::RunResult& result,
@@ -74,14 +98,11 @@ std::vector<std::string> warnings(const scene::Scene& scene, const loop::RunResu
     all.push_back(fmt::format("Fault at {:.6g} ms: {}. The drive is off from there on.",
                               event.time_s * 1e3, fault_name(event.fault)));
   }
-  const AmplitudeUnit unit = amplitude_unit(scene);
-  if (result.control->saturated_commands > 0) {
-    all.push_back(
-        fmt::format("The actuator's range of 0 to {:.6g} {} limited the drive in {} of the "
-                    "control steps.",
-                    scene.drive->max_force_amplitude_N * unit.per_N, unit.name,
-                    percent(static_cast<double>(result.control->saturated_commands) /
-                            static_cast<double>(result.control->commands))));
+  append_drive_limit(scene, *result.control, all);
+  if (!scene.sensor.force) {
+    all.emplace_back(
+        "There is no force sensor: the friction ratio rests on the friction that the controller "
+        "believes. It is as wrong as that is, and the controller does not see it.");
   }
   append_limits(findings.course(), all);
   for (std::string& note : configure::design_notes(result.control->design)) {
@@ -122,6 +143,24 @@ output::Table step_table(const scene::Scene& scene, const RunFindings& findings)
          figure("{:.5f}", step.overshoot), figure("{:+.5f}", step.steady_error),
          figure("{:.5f}", step.ripple), figure("{:.1f}", step.drive_amplitude_N * unit.per_N),
          limit_text(step)});
+  }
+  return table;
+}
+
+output::Table resonance_table(const RunFindings& findings) {
+  output::Table table{"Vibration at resonance",
+                      {"From [ms]", "Velocity [mm/s]", "Settles to 2 % in [µs]", "Frequency [Hz]",
+                       "Largest deviation from the resonance"},
+                      {}};
+  for (const report::StepMetrics& step : findings.steps()) {
+    const report::ResonanceMetrics& metrics = *step.resonance;
+    table.rows.push_back({fmt::format("{:.3f}", step.time_s * 1e3),
+                          figure("{:.4f}", metrics.vibration_velocity_m_per_s * 1e3),
+                          metrics.velocity_settling_time_s
+                              ? fmt::format("{:.1f}", *metrics.velocity_settling_time_s * 1e6)
+                              : "never",
+                          figure("{:.3f}", metrics.frequency_Hz),
+                          figure("{:.2g}", metrics.frequency_error)});
   }
   return table;
 }
@@ -212,6 +251,11 @@ std::vector<double> limits_N(const scene::Friction& friction, const std::vector<
   return limits;
 }
 
+/// A line at a value.
+output::Series level(const char* label, const std::vector<double>& x, double value) {
+  return {label, std::vector<double>(x.size(), value), false, false};
+}
+
 output::Section course(const scene::Scene& scene, const Course::Curve& curve) {
   const std::vector<double> time = curve.x();
   const auto series = [&curve](const char* label, Course::Ordinate ordinate) {
@@ -257,6 +301,13 @@ output::Section course(const scene::Scene& scene, const Course::Curve& curve) {
          {{"amplitude", unit.of(curve.y(Course::drive_amplitude_N)), true, false}},
          false,
          "course"});
+    if (scene.resonant()) {
+      output::Panel& panel = section.panels.back();
+      panel.note = "Below 0 the phase is turned by half a turn.";
+      const double most = scene.drive->max_force_amplitude_N * unit.per_N;
+      panel.series.push_back(level("limit", time, most));
+      panel.series.push_back(level("limit, phase turned", time, -most));
+    }
   }
   if (scene.sliding.profile.size() > 1) {
     section.panels.push_back({"Sliding velocity",
@@ -274,23 +325,92 @@ output::Section course(const scene::Scene& scene, const Course::Curve& curve) {
 output::Section vibration_section(const scene::Scene& scene, const VibrationCourse::Curve& curve) {
   const std::vector<double> time = curve.x();
   output::Section section{"Vibration and current", "Fundamental of each carrier period.", {}};
-  const auto panel = [&](const char* title, const char* label, VibrationCourse::Ordinate ordinate) {
-    section.panels.push_back({title,
-                              "",
-                              time_label,
-                              label,
-                              time,
-                              {{"fundamental", curve.y(ordinate), true, false}},
-                              false,
-                              "course"});
+  const auto panel = [&](const char* title, const char* label, VibrationCourse::Ordinate ordinate,
+                         std::vector<output::Series> beside) {
+    const bool drive = ordinate == VibrationCourse::frequency_Hz;
+    beside.push_back({drive ? "drive" : "fundamental", curve.y(ordinate), true, false});
+    section.panels.push_back(
+        {title, "", time_label, label, time, std::move(beside), false, "course"});
   };
-  panel("Vibration velocity", "Vibration velocity, amplitude [m/s]",
-        VibrationCourse::vibration_m_per_s);
-  panel("Current", "Current, amplitude [A]", VibrationCourse::current_A);
-  if (!scene.drive->frequency_profile.empty()) {
-    panel("Carrier frequency", "Carrier frequency [Hz]", VibrationCourse::frequency_Hz);
+  const auto series = [&](const char* label, VibrationCourse::Ordinate ordinate) {
+    return std::vector<output::Series>{{label, curve.y(ordinate), true, false}};
+  };
+  const bool resonant = scene.resonant();
+  panel(
+      "Vibration velocity", "Vibration velocity, amplitude [m/s]",
+      VibrationCourse::vibration_m_per_s,
+      resonant ? series("wanted", VibrationCourse::wanted_m_per_s) : std::vector<output::Series>());
+  std::vector<output::Series> limit;
+  if (scene.drive->max_current_amplitude_A) {
+    limit.push_back(level("limit", time, *scene.drive->max_current_amplitude_A));
+  }
+  panel("Current", "Current, amplitude [A]", VibrationCourse::current_A, std::move(limit));
+  if (resonant) {
+    panel("Frequency", "Frequency of the drive [Hz]", VibrationCourse::frequency_Hz,
+          series("resonance", VibrationCourse::natural_Hz));
+    panel("Phase", "Vibration velocity before the carrier [deg]", VibrationCourse::phase_deg, {});
+  } else if (!scene.drive->frequency_profile.empty()) {
+    panel("Carrier frequency", "Carrier frequency [Hz]", VibrationCourse::frequency_Hz, {});
   }
   return section;
+}
+
+/// The circle that the admittance runs through near the resonance, without friction, and where the
+/// run ended.
+output::Panel admittance_panel(const scene::Scene& scene,
+                               const std::optional<VibrationCourse::OperatingPoint>& point) {
+  struct Place {
+    double conductance_S;
+    double susceptance_S;
+    std::size_t branch;
+  };
+  constexpr int points = 400;
+  constexpr double widths = 8.0;  // of the resonance, to either side
+  const scene::Plant& plant = scene.plant;
+  const double natural_rad_per_s = std::sqrt(plant.stiffness_N_per_m / plant.mass_kg);
+  const double width = plant.damping_N_s_per_m / plant.mass_kg / natural_rad_per_s;
+  const double factor = scene.transducer->force_factor_N_per_V;
+  std::vector<Place> places;
+  for (int k = -points; k <= points; ++k) {
+    const double part = static_cast<double>(k) / points;
+    const double rate_rad_per_s =
+        natural_rad_per_s * std::max(0.01, 1.0 + widths * width * part * std::abs(part));
+    const std::complex<double> motional = factor * factor *
+                                          std::complex<double>(0.0, rate_rad_per_s) /
+                                          configure::dynamic_stiffness(plant, rate_rad_per_s);
+    const std::complex<double> whole =
+        motional + loop::clamped_admittance_S(*scene.transducer, rate_rad_per_s);
+    places.push_back({whole.real(), whole.imag(), k < 0 ? std::size_t{0} : std::size_t{1}});
+  }
+  std::string note = fmt::format(
+      "Of the transducer without friction, to {:g} widths of the resonance on either side.",
+      widths);
+  if (point) {
+    places.push_back({point->admittance_S.real(), point->admittance_S.imag(), 2});
+    note += fmt::format(
+        " The operating point is a mean of about the last {:g} carrier periods, at {:.6g} Hz.",
+        VibrationCourse::operating_periods, point->frequency_Hz);
+  }
+  std::stable_sort(places.begin(), places.end(), [](const Place& a, const Place& b) {
+    return a.conductance_S < b.conductance_S;
+  });
+  output::Panel panel{"Admittance",
+                      std::move(note),
+                      "Conductance [S]",
+                      "Susceptance [S]",
+                      {},
+                      {{"below the resonance", {}, false, true},
+                       {"above the resonance", {}, false, true},
+                       {"operating point", {}, false, false, true}},
+                      false,
+                      ""};
+  for (const Place& place : places) {
+    panel.x.push_back(place.conductance_S);
+    for (std::size_t i = 0; i < panel.series.size(); ++i) {
+      panel.series[i].y.push_back(i == place.branch ? place.susceptance_S : gap);
+    }
+  }
+  return panel;
 }
 
 output::Section close_up(const scene::Scene& scene, const loop::Recording& recording,
@@ -418,6 +538,9 @@ output::Page run_page(const scene::Scene& scene, const loop::RunResult& result,
   if (scene.controller) {
     page.tables.push_back(step_table(scene, findings));
   }
+  if (scene.resonant()) {
+    page.tables.push_back(resonance_table(findings));
+  }
   page.tables.push_back(run_table(scene, result));
   if (result.electrical) {
     page.tables.push_back(electrical_table(*result.electrical));
@@ -431,6 +554,9 @@ output::Page run_page(const scene::Scene& scene, const loop::RunResult& result,
   page.sections.push_back(course(scene, findings.course().curve()));
   if (const VibrationCourse* vibration = findings.vibration()) {
     page.sections.push_back(vibration_section(scene, vibration->curve()));
+    if (scene.resonant()) {
+      page.sections.back().panels.push_back(admittance_panel(scene, vibration->operating_point()));
+    }
   }
   for (std::size_t i = 0; i < findings.close_ups().size(); ++i) {
     page.sections.push_back(close_up(scene, findings.close_ups()[i], i));

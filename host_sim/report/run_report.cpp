@@ -65,19 +65,30 @@ ordered_json cause(const report::StepMetrics& metrics) {
                                                      : ordered_json(settling_name(metrics.cause));
 }
 
+void add_resonance(const report::ResonanceMetrics& metrics, ordered_json& json) {
+  json["vibration_velocity_m_per_s"] = number(metrics.vibration_velocity_m_per_s);
+  json["velocity_settling_time_s"] = number(metrics.velocity_settling_time_s);
+  json["frequency_Hz"] = number(metrics.frequency_Hz);
+  json["frequency_error"] = number(metrics.frequency_error);
+}
+
 ordered_json step(const report::StepMetrics& metrics, const AmplitudeUnit& unit) {
-  return {{"time_s", metrics.time_s},
-          {"target", metrics.target},
-          {"settling_time_s", number(metrics.settling_time_s)},
-          {"overshoot", number(metrics.overshoot)},
-          {"steady_error", number(metrics.steady_error)},
-          {"ripple", number(metrics.ripple)},
-          {fmt::format("drive_amplitude_{}", unit.name),
-           number(metrics.drive_amplitude_N * unit.per_N)},
-          {"limit", limit_name(metrics.limit)},
-          {"limit_seen_by", limit_seen_by(metrics)},
-          {"cause", cause(metrics)},
-          {"mismatch", number(metrics.mismatch)}};
+  ordered_json json = {{"time_s", metrics.time_s},
+                       {"target", metrics.target},
+                       {"settling_time_s", number(metrics.settling_time_s)},
+                       {"overshoot", number(metrics.overshoot)},
+                       {"steady_error", number(metrics.steady_error)},
+                       {"ripple", number(metrics.ripple)},
+                       {fmt::format("drive_amplitude_{}", unit.name),
+                        number(metrics.drive_amplitude_N * unit.per_N)},
+                       {"limit", limit_name(metrics.limit)},
+                       {"limit_seen_by", limit_seen_by(metrics)},
+                       {"cause", cause(metrics)},
+                       {"mismatch", number(metrics.mismatch)}};
+  if (metrics.resonance) {
+    add_resonance(*metrics.resonance, json);
+  }
+  return json;
 }
 
 ordered_json pauses(const report::PauseMetrics& metrics) {
@@ -130,8 +141,11 @@ ordered_json control(const scene::Scene& scene, const loop::RunResult& result,
       {"steps", steps},
       {"largest_tracking_error", number(findings.largest_tracking_error())},
       {"speed_floor_m_per_s", design.speed_floor * design.scales.velocity_m_per_s},
-      {"integral_gain", design.integral_gain},
+      {"integral_gain", design.senses_force ? design.integral_gain : 0.0},
       {"signals", signals}};
+  if (design.resonance) {
+    json["vibration_full_scale_m_per_s"] = design.scales.velocity_m_per_s;
+  }
   if (design.relearns) {
     json["relearning"] = pauses(findings.pauses());
   }

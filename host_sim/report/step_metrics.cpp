@@ -7,6 +7,7 @@
 
 #include "firmware/control/drive_command.hpp"
 #include "host_sim/configure/control_design.hpp"
+#include "host_sim/scene/friction_laws.hpp"
 
 namespace sonoglide::report {
 namespace {
@@ -31,10 +32,14 @@ control::Limit prevailing_limit(std::array<std::uint64_t, control::limit_count> 
 StepMeter::StepMeter(const scene::Scene& scene)
     : cursor_(scene),
       band_(scene.run.settling_band),
-      tells_mismatch_(configure::tells_mismatch(scene)) {
+      tells_mismatch_(scene.sensor.force && configure::tells_mismatch(scene)),
+      senses_force_(scene.sensor.force),
+      has_map_(scene::has_own_map(scene.friction.law)),
+      resonant_(scene.resonant()) {
   for (const TargetSpan& span : cursor_.spans()) {
     Tally tally;
     tally.settled_s = span.begin_s;
+    tally.velocity_settled_s = span.begin_s;
     tallies_.push_back(tally);
   }
 }
@@ -91,6 +96,13 @@ void StepMeter::take_any(const loop::Period& period, const TargetSpan& span, Tal
   if (period.target == span.target) {  // else still driven for the target before
     tally.overshoot = std::max(tally.overshoot, span.target < span.previous ? -error : error);
   }
+  constexpr double velocity_band = 0.02;
+  const double wanted_m_per_s = period.wanted_vibration_m_per_s;
+  tally.velocity_wanted = tally.velocity_wanted || wanted_m_per_s > 0.0;
+  if (!(std::abs(std::abs(period.vibration_m_per_s) - wanted_m_per_s) <=
+        velocity_band * wanted_m_per_s)) {
+    tally.velocity_settled_s = period.end_s;
+  }
   tally.last_end_s = period.end_s;
   ++tally.periods;
 }
@@ -109,7 +121,17 @@ void StepMeter::take_steady(const loop::Period& period, Tally& tally) {
   if (period.limit == control::Limit::not_settling) {
     tally.cause = period.settling;
   }
+  tally.velocity_sum_m_per_s += std::abs(period.vibration_m_per_s);
+  tally.frequency_sum_Hz += period.frequency_Hz;
+  tally.frequency_error =
+      std::max(tally.frequency_error, std::abs(period.frequency_Hz / period.natural_Hz - 1.0));
   ++tally.steady_periods;
+}
+
+/// Without a force sensor the controller takes a held vibration for a ratio on target.
+bool StepMeter::holds_blindly(const Tally& tally) const {
+  return !senses_force_ && has_map_ && tally.velocity_wanted &&
+         tally.velocity_settled_s < tally.last_end_s;
 }
 
 StepMetrics StepMeter::metrics(const TargetSpan& span, const Tally& tally) const {
@@ -131,11 +153,26 @@ StepMetrics StepMeter::metrics(const TargetSpan& span, const Tally& tally) const
     metrics.mismatch = tally.mismatch_sum / static_cast<double>(tally.settled_periods);
   }
   if (!settled && metrics.limit == control::Limit::none && !tally.fault) {
-    const bool believed = 2 * tally.settled_periods > tally.steady_periods;
+    const bool believed = 2 * tally.settled_periods > tally.steady_periods || holds_blindly(tally);
     const bool off = std::abs(metrics.steady_error) > band_;
     metrics.limit = believed && off ? control::Limit::mismatch : control::Limit::not_settling;
     metrics.limit_seen_by_controller = false;
   }
+  if (resonant_) {
+    metrics.resonance = resonance_metrics(span, tally);
+  }
+  return metrics;
+}
+
+ResonanceMetrics StepMeter::resonance_metrics(const TargetSpan& span, const Tally& tally) {
+  const auto count = static_cast<double>(tally.steady_periods);
+  ResonanceMetrics metrics;
+  metrics.vibration_velocity_m_per_s = tally.velocity_sum_m_per_s / count;
+  if (tally.velocity_wanted && tally.velocity_settled_s < tally.last_end_s) {
+    metrics.velocity_settling_time_s = tally.velocity_settled_s - span.begin_s;
+  }
+  metrics.frequency_Hz = tally.frequency_sum_Hz / count;
+  metrics.frequency_error = tally.steady_periods > 0 ? tally.frequency_error : undefined;
   return metrics;
 }
 
@@ -147,7 +184,9 @@ bool is_free(const loop::Period& period) {
   const bool driven =
       period.state == control::State::running || period.state == control::State::limited;
   const bool limited =
-      period.limit == control::Limit::actuator || period.limit == control::Limit::slew;
+      period.limit == control::Limit::actuator || period.limit == control::Limit::slew ||
+      period.limit == control::Limit::voltage || period.limit == control::Limit::current ||
+      period.limit == control::Limit::frequency_range;
   return driven && !limited;
 }
 

@@ -15,6 +15,17 @@
 
 namespace sonoglide::report {
 
+/// How a resonant loop held the vibration in a target step. A figure for which there is no carrier
+/// period is NaN.
+struct ResonanceMetrics {
+  double vibration_velocity_m_per_s = 0.0;  ///< mean amplitude of the steady part
+  /// From where settling counts until the amplitude is within 2 % of the wanted one for the rest of
+  /// the step; absent if it never is.
+  std::optional<double> velocity_settling_time_s;
+  double frequency_Hz = 0.0;     ///< mean of the steady part
+  double frequency_error = 0.0;  ///< largest of it, relative to the natural frequency
+};
+
 /// One target step. "Steady" means the last quarter of the step, or of what calibration leaves of
 /// it. A figure for which there is no carrier period is NaN. Pauses in which the controller learns
 /// the friction force anew are left out; what they cost is in PauseMetrics.
@@ -39,6 +50,7 @@ struct StepMetrics {
   /// Mean of commanded over target ratio where the controller took the ratio for settled: believed
   /// over true friction force, as it sees it.
   std::optional<double> mismatch;
+  std::optional<ResonanceMetrics> resonance;  ///< of a resonant loop
 };
 
 /// What the pauses cost in which the friction force is learnt anew.
@@ -80,16 +92,26 @@ class StepMeter final : public loop::PeriodSink {
     double mismatch_sum = 0.0;
     control::Settling cause = control::Settling::pending;
     bool fault = false;
+    double velocity_settled_s = 0.0;  ///< end of the last period outside 2 % of the wanted velocity
+    bool velocity_wanted = false;
+    double velocity_sum_m_per_s = 0.0;
+    double frequency_sum_Hz = 0.0;
+    double frequency_error = 0.0;
   };
 
   void take_pause(const loop::Period& period);
   void take_any(const loop::Period& period, const TargetSpan& span, Tally& tally) const;
   static void take_steady(const loop::Period& period, Tally& tally);
+  bool holds_blindly(const Tally& tally) const;
   StepMetrics metrics(const TargetSpan& span, const Tally& tally) const;
+  static ResonanceMetrics resonance_metrics(const TargetSpan& span, const Tally& tally);
 
   SpanCursor cursor_;
   double band_;
   bool tells_mismatch_;
+  bool senses_force_;
+  bool has_map_;
+  bool resonant_;
   std::vector<Tally> tallies_;
   bool pausing_ = false;
   std::uint64_t pauses_ = 0;

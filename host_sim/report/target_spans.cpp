@@ -26,16 +26,14 @@ std::vector<TargetSpan> target_spans(const scene::Scene& scene) {
 }
 
 SpanCursor::SpanCursor(const scene::Scene& scene)
-    : spans_(target_spans(scene)),
-      period_s_(1.0 / scene.drive->frequency_Hz),
-      rounding_s_(1e-6 * period_s_) {}
+    : spans_(target_spans(scene)), rounding_s_(1e-6 / scene.drive->frequency_Hz) {}
 
 std::size_t SpanCursor::span_of(const loop::Period& period) {
   while (current_ < spans_.size() && spans_[current_].end_s + rounding_s_ < period.end_s) {
     ++current_;
   }
   if (current_ == spans_.size() || period.begin_s < spans_[current_].begin_s - rounding_s_ ||
-      period.end_s - period.begin_s < period_s_ - rounding_s_) {
+      !period.whole) {
     return none;
   }
   return current_;

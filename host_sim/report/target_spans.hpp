@@ -41,7 +41,6 @@ class SpanCursor {
 
  private:
   std::vector<TargetSpan> spans_;
-  double period_s_;
   double rounding_s_;
   std::size_t current_ = 0;
 };

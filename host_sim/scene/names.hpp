@@ -59,6 +59,15 @@ inline constexpr std::array<Named<Shaping>, 2> shapings = {{
     {"none", Shaping::none},
 }};
 
+inline constexpr std::array<Named<VibrationControl>, 1> vibration_controls = {{
+    {"resonant", VibrationControl::resonant},
+}};
+
+inline constexpr std::array<Named<VibrationSensor>, 2> vibration_sensors = {{
+    {"velocity", VibrationSensor::velocity},
+    {"motional_current", VibrationSensor::motional_current},
+}};
+
 inline constexpr std::array<Named<Waveform>, 4> waveforms = {{
     {"cosine", Waveform::cosine},
     {"square", Waveform::square},

@@ -58,6 +58,8 @@ struct Drive {
   double voltage_amplitude_V = 0.0;      ///< the same, with a transducer
   double max_force_amplitude_N = 0.0;    ///< closed loop: the actuator's limit
   double max_voltage_amplitude_V = 0.0;  ///< the same, with a transducer
+  /// Resonant closed loop: of the fundamental; absent, no limit.
+  std::optional<double> max_current_amplitude_A;
   std::optional<double> max_force_slew_N_per_s;  ///< closed loop: absent, no slew limit
   Waveform waveform = Waveform::cosine;
   /// Closed loop: from the end of a sampled period to where its answer acts.
@@ -115,8 +117,19 @@ struct TargetStep {
   double friction_ratio = 0.0;
 };
 
+/// How a controller holds the vibration that it observes. resonant: at the plant's resonance, which
+/// the frequency of the drive follows.
+enum class VibrationControl { resonant };
+
+struct FrequencyRange {
+  double lowest_Hz = 0.0;
+  double highest_Hz = 0.0;
+};
+
 struct Controller {
   Arithmetic arithmetic = Arithmetic::float64;
+  std::optional<VibrationControl> vibration;         ///< absent: fed forward, without observing it
+  std::optional<FrequencyRange> frequency_range_Hz;  ///< resonant; absent: the default
   std::vector<TargetStep> target_friction_ratio;
   double calibration_s = 0.0;
   Shaping shaping = Shaping::notch;
@@ -126,9 +139,14 @@ struct Controller {
   double mismatch_warning = 1.25;  ///< believed over true friction, or its inverse, that is named
 };
 
+/// What the vibration is seen by: a pick-up of its velocity, or the transducer's current less that
+/// of its clamped capacitance.
+enum class VibrationSensor { velocity, motional_current };
+
 /// Absent members leave that part of the sensor ideal. Of offsets and gains the controller knows
 /// nothing.
 struct Sensor {
+  bool force = true;  ///< there is a force sensor; false only where the vibration is observed
   std::optional<int> adc_bits;
   double force_full_scale_N = 0.0;  ///< the converter spans ± this
   double force_noise_N = 0.0;       ///< rms, each sample
@@ -139,6 +157,10 @@ struct Sensor {
   double velocity_offset_m_per_s = 0.0;
   double velocity_gain = 1.0;
   std::uint64_t seed = 1;
+  std::optional<VibrationSensor> vibration;
+  std::optional<int> vibration_bits;
+  double vibration_noise_m_per_s = 0.0;  ///< rms, each sample, in phase and in quadrature alike
+  std::optional<double> vibration_full_scale_m_per_s;  ///< absent: what the design takes
 };
 
 /// What the controller believes divided by what is true.
@@ -147,6 +169,8 @@ struct ModelError {
   double stiffness = 1.0;
   double coefficient = 1.0;
   double contact_stiffness = 1.0;
+  double force_factor = 1.0;
+  double damping = 1.0;
 };
 
 struct Scene {
@@ -164,6 +188,11 @@ struct Scene {
 
   /// The key `table.key` of a profile beside that of the sliding; null where there is none.
   const char* profile_key() const;
+
+  /// A controller holds the vibration at the plant's resonance.
+  bool resonant() const {
+    return controller && controller->vibration == VibrationControl::resonant;
+  }
 };
 
 }  // namespace sonoglide::scene

@@ -41,6 +41,15 @@ struct ValueSchema {
         ordered_json::array({number_schema(profile.time), number_schema(profile.value)});
     return {{"type", "array"}, {"minItems", 1}, {"items", pair}};
   }
+  ordered_json operator()(const Interval& interval) const {
+    return {{"type", "array"},
+            {"minItems", 2},
+            {"maxItems", 2},
+            {"items", number_schema(interval.range)}};
+  }
+  ordered_json operator()(const Truth& /*truth*/) const {
+    return {{"type", "boolean"}, {"default", true}};
+  }
 };
 
 void add_default(ordered_json& schema, const Key& key) {

@@ -28,6 +28,10 @@ struct AllowedText {
     return fmt::format("`[[time in s, value], ...]`; time {}, value {}", bounds(profile.time),
                        bounds(profile.value));
   }
+  std::string operator()(const Interval& interval) const {
+    return fmt::format("`[lowest, highest]`, {}", bounds(interval.range));
+  }
+  std::string operator()(const Truth& /*truth*/) const { return "true, false"; }
 };
 
 struct AbsentText {

@@ -41,6 +41,9 @@ const char* const open_loop = "open loop";
 const char* const closed_loop_only = "closed loop";
 const char* const open_loop_volts = "open loop with [transducer]";
 const char* const closed_loop_volts = "closed loop with [transducer]";
+const char* const at_resonance = "controller.vibration = \"resonant\"";
+const char* const fed_forward = "every controller.vibration but \"resonant\"";
+const char* const with_force = "sensor.force = true";
 
 template <class Value, std::size_t Count>
 Words words_of(const std::array<scene::Named<Value>, Count>& names) {
@@ -189,6 +192,8 @@ std::vector<Key> drive_keys() {
       {"max_voltage_amplitude_V", Number{{1e-12, largest_voltage_V, "V"}},
        Instead{"voltage_amplitude_V"}, "limit of the amplifier: largest amplitude of the voltage",
        closed_loop_volts},
+      {"max_current_amplitude_A", Number{{1e-12, 1e9, "A"}}, Rule{"no limit"},
+       "limit of the amplifier: largest amplitude of the current's fundamental", at_resonance},
       {"max_force_slew_N_per_s", Number{{1e-12, 1e21, "N/s"}}, Rule{"no limit"},
        "limit of the actuator: fastest change of the amplitude",
        "closed loop without [transducer]"},
@@ -292,14 +297,25 @@ std::vector<Key> controller_keys() {
   return {
       {"arithmetic", Word{words_of(scene::arithmetics)}, Required{},
        "number type in which the controller computes"},
+      {"vibration", Word{words_of(scene::vibration_controls)},
+       Rule{"the drive is fed forward, at a fixed frequency"},
+       "resonant: the controller observes the vibration, follows the plant's resonance with the "
+       "frequency of the drive and holds the vibration velocity",
+       closed_loop_volts},
+      {"frequency_range_Hz", Interval{frequency_range},
+       Rule{"5 % below to 5 % above drive.frequency_Hz"},
+       "lowest and highest frequency of the drive; both within 6 % of drive.frequency_Hz",
+       at_resonance},
       {"target_friction_ratio", Profile{time_range, {0.0, 1.0, "", true}}, Required{},
        "target friction ratio, constant from each time to the next; the first time is 0"},
       {"calibration_s", Number{time_range}, controller.calibration_s,
        "time with the drive off in which the friction force is learnt; 0: the controller believes "
-       "the scene's"},
+       "the scene's",
+       with_force},
       {"shaping", Word{words_of(scene::shapings)},
        scene::name_of(scene::shapings, controller.shaping),
-       "filter between target and drive; the notch cancels the ringing of the natural mode"},
+       "filter between target and drive; the notch cancels the ringing of the natural mode",
+       fed_forward},
       {"speed_floor_m_per_s", Number{{1e-12, largest_speed_m_per_s, "m/s"}},
        Rule{
            "velocity at which the presliding distance takes three carrier periods; at most half of "
@@ -308,36 +324,57 @@ std::vector<Key> controller_keys() {
       {"standstill_hold_s", Number{time_range}, controller.standstill_hold_s,
        "time for which the drive is held below the speed floor before it falls to 0"},
       {"relearn_every_s", Number{{1e-9, 1e9, "s"}}, Rule{"never"},
-       "time between two pauses of the drive in which the friction force is learnt again"},
+       "time between two pauses of the drive in which the friction force is learnt again",
+       with_force},
       {"mismatch_warning", Number{{1.01, 100.0}}, controller.mismatch_warning,
        "the limit mismatch is reported once believed over true friction, or its inverse, reaches "
-       "this value"},
+       "this value",
+       with_force},
   };
 }
 
 std::vector<Key> sensor_keys() {
   const scene::Sensor sensor;
   return {
-      {"adc_bits", Integer{4, 32, "bits"}, Rule{"ideal"}, "resolution of the converter"},
+      {"force", Truth{}, Rule{"true"},
+       "whether there is a sensor of the friction force; false: the ratio is held by the vibration "
+       "alone, and rests on the friction that the controller believes",
+       at_resonance},
+      {"adc_bits", Integer{4, 32, "bits"}, Rule{"ideal"}, "resolution of the force converter",
+       with_force},
       {"force_full_scale_N", Number{{1e-15, largest_force_N, "N"}},
        Rule{"2 * coefficient * normal_force_N, of profiles the largest"},
-       "largest force that the converter reads, in both directions"},
+       "largest force that the converter reads, in both directions", with_force},
       {"force_noise_N", Number{force_range}, sensor.force_noise_N,
-       "noise of each sample of the force, rms"},
+       "noise of each sample of the force, rms", with_force},
       {"force_bandwidth_Hz", Number{{1e-3, 1e12, "Hz"}}, Rule{"no limit"},
-       "bandwidth of the force sensor, a low-pass of first order"},
+       "bandwidth of the force sensor, a low-pass of first order", with_force},
       {"delay_periods", Integer{0, 64, "periods"}, static_cast<double>(sensor.delay_periods),
-       "carrier periods by which the force reading is late"},
+       "carrier periods by which the force reading is late", with_force},
       {"force_offset_N", Number{either_force_range}, sensor.force_offset_N,
-       "force read while the true force is 0"},
+       "force read while the true force is 0", with_force},
       {"force_gain", Number{sensor_gain_range}, sensor.force_gain,
-       "force read over true force; -1: wired backwards, 0: dead"},
+       "force read over true force; -1: wired backwards, 0: dead", with_force},
       {"velocity_offset_m_per_s", Number{speed_range}, sensor.velocity_offset_m_per_s,
        "sliding velocity read at standstill"},
       {"velocity_gain", Number{sensor_gain_range}, sensor.velocity_gain,
        "sliding velocity read over the true one; -1: wired backwards, 0: dead"},
       {"seed", Integer{0, std::numeric_limits<std::int64_t>::max()},
        static_cast<double>(sensor.seed), "seed of the noise; the same seed gives the same noise"},
+      {"vibration", Word{words_of(scene::vibration_sensors)}, Required{},
+       "what the vibration is seen by, once per carrier period: a pick-up of its velocity, or the "
+       "current of the transducer less that of its clamped capacitance",
+       at_resonance},
+      {"vibration_bits", Integer{4, 32, "bits"}, Rule{"ideal"},
+       "resolution of the vibration converters, one in phase with the drive and one in quadrature",
+       at_resonance},
+      {"vibration_noise_m_per_s", Number{{0.0, largest_speed_m_per_s, "m/s"}},
+       sensor.vibration_noise_m_per_s,
+       "noise of each vibration sample, rms, in phase and in quadrature alike", at_resonance},
+      {"vibration_full_scale_m_per_s", Number{{1e-12, largest_speed_m_per_s, "m/s"}},
+       Rule{"four times the velocity of the lowest target, or of the fastest sliding if that is "
+            "larger"},
+       "largest vibration velocity that the converters read, in both directions", at_resonance},
   };
 }
 
@@ -352,6 +389,10 @@ std::vector<Key> model_error_keys() {
        "believed over true friction.coefficient"},
       {"contact_stiffness", Number{quotient}, model_error.contact_stiffness,
        "believed over true friction.contact_stiffness_N_per_m", laws_where(scene::is_elastic)},
+      {"force_factor", Number{quotient}, model_error.force_factor,
+       "believed over true transducer.force_factor_N_per_V", at_resonance},
+      {"damping", Number{quotient}, model_error.damping,
+       "believed over true plant.damping_N_s_per_m", at_resonance},
   };
 }
 
@@ -361,6 +402,9 @@ std::string_view unit_in(const Allowed& allowed) {
   }
   if (const auto* integer = std::get_if<Integer>(&allowed)) {
     return integer->unit;
+  }
+  if (const auto* interval = std::get_if<Interval>(&allowed)) {
+    return interval->range.unit;
   }
   const auto* profile = std::get_if<Profile>(&allowed);
   return profile != nullptr ? profile->value.unit : "";

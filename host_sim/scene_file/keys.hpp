@@ -58,7 +58,15 @@ struct Profile {
   Range value;
 };
 
-using Allowed = std::variant<Number, Integer, Word, WordList, Profile>;
+/// `[lowest, highest]`, the one below the other.
+struct Interval {
+  Range range;
+};
+
+/// true or false; true where absent.
+struct Truth {};
+
+using Allowed = std::variant<Number, Integer, Word, WordList, Profile, Interval, Truth>;
 
 /// The key must be there wherever it is used.
 struct Required {};

@@ -99,8 +99,8 @@ scene::Scene read(const Document& document, const std::vector<VariedValue>& valu
   settle_waveform(scene, document);
   scene.run = read_run(variant, scene);
   scene.controller = read_controller(variant, scene);
-  scene.sensor = read_sensor(variant, scene.friction);
-  scene.model_error = read_model_error(variant, scene.friction);
+  scene.sensor = read_sensor(variant, scene);
+  scene.model_error = read_model_error(variant, scene);
   if (scene.controller) {
     require_controller(scene, document);
   }

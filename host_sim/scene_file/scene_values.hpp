@@ -30,6 +30,9 @@ enum class ZeroIn { profile, value_only };
 //   keys.value_in(key, value, range) the same in a range that follows from other keys
 //   keys.value_or_0(key, value)      a number that is 0 where the key is absent
 //   keys.word(key, value, names)     one of the named values
+//   keys.optional_word(key, value, names)  the same, or none
+//   keys.truth(key, value)           true or false
+//   keys.range(key, range)           two frequencies, or none
 //   keys.words(key, values, names)   a list of them; empty where absent
 //   keys.one_of(key, value, allowed) one of a few integers
 //   keys.time(key, periods_key, value, drive)  in seconds, or under the other key in periods
@@ -124,6 +127,7 @@ void visit_closed_loop_drive(Keys& keys, scene::Drive& drive, bool in_volts) {
   keys.word("waveform", drive.waveform, scene::waveforms);
   if (in_volts) {
     keys.value("max_voltage_amplitude_V", drive.max_voltage_amplitude_V);
+    keys.value("max_current_amplitude_A", drive.max_current_amplitude_A);
   } else {
     keys.value("max_force_amplitude_N", drive.max_force_amplitude_N);
     keys.value("max_force_slew_N_per_s", drive.max_force_slew_N_per_s);
@@ -183,21 +187,31 @@ void visit_run(Keys& keys, scene::Run& run, const std::optional<scene::Drive>& d
   }
 }
 
+/// @param force  there is a force sensor
 template <class Keys>
-void visit_controller(Keys& keys, scene::Controller& controller) {
+void visit_controller(Keys& keys, scene::Controller& controller, bool force) {
   keys.word("arithmetic", controller.arithmetic, scene::arithmetics);
+  keys.optional_word("vibration", controller.vibration, scene::vibration_controls);
+  if (controller.vibration) {
+    keys.range("frequency_range_Hz", controller.frequency_range_Hz);
+  }
   keys.targets("target_friction_ratio", controller.target_friction_ratio);
-  keys.value("calibration_s", controller.calibration_s);
-  keys.word("shaping", controller.shaping, scene::shapings);
+  if (force) {
+    keys.value("calibration_s", controller.calibration_s);
+  }
+  if (!controller.vibration) {
+    keys.word("shaping", controller.shaping, scene::shapings);
+  }
   keys.value("speed_floor_m_per_s", controller.speed_floor_m_per_s);
   keys.value("standstill_hold_s", controller.standstill_hold_s);
-  keys.value("relearn_every_s", controller.relearn_every_s);
-  keys.value("mismatch_warning", controller.mismatch_warning);
+  if (force) {
+    keys.value("relearn_every_s", controller.relearn_every_s);
+    keys.value("mismatch_warning", controller.mismatch_warning);
+  }
 }
 
-/// @param full_scale_N  of the force, where the scene does not say
 template <class Keys>
-void visit_sensor(Keys& keys, scene::Sensor& sensor, double full_scale_N) {
+void visit_force_sensor(Keys& keys, scene::Sensor& sensor, double full_scale_N) {
   keys.value("adc_bits", sensor.adc_bits);
   keys.value("force_full_scale_N", sensor.force_full_scale_N, full_scale_N);
   keys.value("force_noise_N", sensor.force_noise_N);
@@ -205,18 +219,41 @@ void visit_sensor(Keys& keys, scene::Sensor& sensor, double full_scale_N) {
   keys.value("delay_periods", sensor.delay_periods);
   keys.value("force_offset_N", sensor.force_offset_N);
   keys.value("force_gain", sensor.force_gain);
+}
+
+/// @param full_scale_N  of the force, where the scene does not say
+/// @param resonant      the controller observes the vibration
+template <class Keys>
+void visit_sensor(Keys& keys, scene::Sensor& sensor, double full_scale_N, bool resonant) {
+  if (resonant) {
+    keys.truth("force", sensor.force);
+  }
+  if (sensor.force) {
+    visit_force_sensor(keys, sensor, full_scale_N);
+  }
   keys.value("velocity_offset_m_per_s", sensor.velocity_offset_m_per_s);
   keys.value("velocity_gain", sensor.velocity_gain);
   keys.value("seed", sensor.seed);
+  if (resonant) {
+    keys.optional_word("vibration", sensor.vibration, scene::vibration_sensors);
+    keys.value("vibration_bits", sensor.vibration_bits);
+    keys.value("vibration_noise_m_per_s", sensor.vibration_noise_m_per_s);
+    keys.value("vibration_full_scale_m_per_s", sensor.vibration_full_scale_m_per_s);
+  }
 }
 
 template <class Keys>
-void visit_model_error(Keys& keys, scene::ModelError& model_error, const scene::FrictionLaw& law) {
+void visit_model_error(Keys& keys, scene::ModelError& model_error, const scene::FrictionLaw& law,
+                       bool resonant) {
   keys.value("mass", model_error.mass);
   keys.value("stiffness", model_error.stiffness);
   keys.value("coefficient", model_error.coefficient);
   if (scene::is_elastic(law)) {
     keys.value("contact_stiffness", model_error.contact_stiffness);
+  }
+  if (resonant) {
+    keys.value("force_factor", model_error.force_factor);
+    keys.value("damping", model_error.damping);
   }
 }
 

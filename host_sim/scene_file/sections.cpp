@@ -108,6 +108,84 @@ void settle_frequency(const TableCursor& cursor, scene::Drive& drive) {
   drive.frequency_Hz = configure::nearest_frequency_Hz(drive, drive.frequency_Hz);
 }
 
+constexpr std::string_view without_resonance = "without controller.vibration = \"resonant\"";
+
+/// The frequency of a resonant drive is told by its deviation from the start.
+constexpr double largest_deviation = 0.06;
+
+void check_frequency_range(const TableCursor& cursor, const scene::FrequencyRange& range,
+                           double start_Hz) {
+  if (!(range.lowest_Hz < start_Hz && start_Hz < range.highest_Hz)) {
+    cursor.fail("frequency_range_Hz",
+                fmt::format("drive.frequency_Hz, where the drive starts, is {:g} Hz; allowed: a "
+                            "range with it inside",
+                            start_Hz));
+  }
+  const double lowest_Hz = (1.0 - largest_deviation) * start_Hz;
+  const double highest_Hz = (1.0 + largest_deviation) * start_Hz;
+  if (range.lowest_Hz < lowest_Hz || range.highest_Hz > highest_Hz) {
+    cursor.fail("frequency_range_Hz",
+                fmt::format("[{:g}, {:g}] leaves the range that the controller can follow; "
+                            "allowed: {:g} to {:g} Hz, 6 % about drive.frequency_Hz",
+                            range.lowest_Hz, range.highest_Hz, lowest_Hz, highest_Hz));
+  }
+}
+
+/// What only the resonant loop has, and what it does not have.
+void check_resonance(const TableCursor& cursor, const Variant& variant,
+                     const scene::Controller& controller, const scene::Scene& so_far) {
+  const TableCursor drive(variant, "drive");
+  if (!controller.vibration) {
+    if (drive.has("max_current_amplitude_A")) {
+      drive.reject("max_current_amplitude_A", without_resonance);
+    }
+    cursor.reject_unread(without_resonance);
+    return;
+  }
+  if (!so_far.transducer) {
+    cursor.fail("vibration",
+                "\"resonant\" needs a table [transducer], whose voltage drives the resonance");
+  }
+  if (controller.arithmetic == scene::Arithmetic::q15) {
+    cursor.fail("arithmetic",
+                "\"q15\" is too coarse for controller.vibration = \"resonant\"; allowed: "
+                "\"float32\", \"q31\", \"float64\"");
+  }
+  // A word has 28 bits at the most.
+  const double finest_Hz = so_far.drive->frequency_Hz * 0x1p-28;
+  const double coarsest_Hz = so_far.drive->frequency_Hz / 64.0;
+  const double resolution_Hz = so_far.drive->frequency_resolution_Hz;
+  if (resolution_Hz > coarsest_Hz || (resolution_Hz > 0.0 && resolution_Hz < finest_Hz)) {
+    drive.fail("frequency_resolution_Hz",
+               fmt::format("{:g} Hz is too {} to follow a resonance; allowed: 0, or {:.3g} to {:g} "
+                           "Hz",
+                           resolution_Hz, resolution_Hz < finest_Hz ? "fine" : "coarse", finest_Hz,
+                           coarsest_Hz));
+  }
+  if (controller.frequency_range_Hz) {
+    check_frequency_range(cursor, *controller.frequency_range_Hz, so_far.drive->frequency_Hz);
+  }
+  cursor.reject_unread("with controller.vibration = \"resonant\"");
+}
+
+/// The vibration must be seen, and without a force sensor nothing tells of the friction.
+void check_sensing(const TableCursor& cursor, const Variant& variant, const scene::Sensor& sensor) {
+  if (!sensor.vibration) {
+    cursor.fail("vibration",
+                "missing: controller.vibration = \"resonant\" observes the vibration; required: "
+                "\"velocity\" or \"motional_current\"");
+  }
+  if (sensor.force) {
+    return;
+  }
+  const TableCursor controller(variant, "controller");
+  for (const std::string_view key : {"calibration_s", "relearn_every_s", "mismatch_warning"}) {
+    if (controller.has(key)) {
+      controller.reject(key, "with sensor.force = false");
+    }
+  }
+}
+
 // Days of writing: more is a mistyped unit.
 constexpr double most_fixed_steps = 1e11;
 constexpr double most_recorded_rows = 1e9;
@@ -266,6 +344,9 @@ std::optional<scene::Drive> read_drive(const Variant& variant,
     drive.force_amplitude_N = transducer->force_factor_N_per_V * drive.voltage_amplitude_V;
     drive.max_force_amplitude_N = transducer->force_factor_N_per_V * drive.max_voltage_amplitude_V;
   }
+  if (!transducer && cursor.has("max_current_amplitude_A")) {
+    cursor.reject("max_current_amplitude_A", "without a [transducer]");
+  }
   cursor.reject_unread(closed ? "in closed loop: the controller sets the amplitude" : in_open_loop);
   return drive;
 }
@@ -312,7 +393,8 @@ std::optional<scene::Controller> read_controller(const Variant& variant,
   }
   ValueReader reader(cursor);
   scene::Controller controller;
-  visit_controller(reader, controller);
+  visit_controller(reader, controller, true);
+  check_resonance(cursor, variant, controller, so_far);
   if (!(controller.calibration_s < so_far.run.duration_s)) {
     cursor.fail("calibration_s",
                 fmt::format("{} s is not before the end of the run; allowed: less than {} s",
@@ -321,20 +403,30 @@ std::optional<scene::Controller> read_controller(const Variant& variant,
   return controller;
 }
 
-scene::Sensor read_sensor(const Variant& variant, const scene::Friction& friction) {
+scene::Sensor read_sensor(const Variant& variant, const scene::Scene& so_far) {
   TableCursor cursor = closed_loop_table(variant, "sensor");
   ValueReader reader(cursor);
   scene::Sensor sensor;
-  visit_sensor(reader, sensor, 2.0 * configure::largest_friction_limit_N(friction));
+  visit_sensor(reader, sensor, 2.0 * configure::largest_friction_limit_N(so_far.friction),
+               so_far.resonant());
+  if (so_far.resonant()) {
+    check_sensing(cursor, variant, sensor);
+  }
+  cursor.reject_unread(sensor.force ? without_resonance : "with sensor.force = false");
   return sensor;
 }
 
-scene::ModelError read_model_error(const Variant& variant, const scene::Friction& friction) {
+scene::ModelError read_model_error(const Variant& variant, const scene::Scene& so_far) {
   TableCursor cursor = closed_loop_table(variant, "model_error");
   ValueReader reader(cursor);
   scene::ModelError model_error;
-  visit_model_error(reader, model_error, friction.law);
-  cursor.reject_unread_with("friction.law", scene::name_of(friction.law));
+  visit_model_error(reader, model_error, so_far.friction.law, so_far.resonant());
+  for (const std::string_view key : {"force_factor", "damping"}) {
+    if (cursor.has(key) && !so_far.resonant()) {
+      cursor.reject(key, without_resonance);
+    }
+  }
+  cursor.reject_unread_with("friction.law", scene::name_of(so_far.friction.law));
   return model_error;
 }
 

@@ -18,7 +18,7 @@ scene::Solver read_solver(const Variant& variant);
 scene::Run read_run(const Variant& variant, const scene::Scene& so_far);
 std::optional<scene::Controller> read_controller(const Variant& variant,
                                                  const scene::Scene& so_far);
-scene::Sensor read_sensor(const Variant& variant, const scene::Friction& friction);
-scene::ModelError read_model_error(const Variant& variant, const scene::Friction& friction);
+scene::Sensor read_sensor(const Variant& variant, const scene::Scene& so_far);
+scene::ModelError read_model_error(const Variant& variant, const scene::Scene& so_far);
 
 }  // namespace sonoglide::scene_file

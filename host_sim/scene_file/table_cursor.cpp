@@ -307,6 +307,42 @@ void TableCursor::check_time(const GivenValue& entry, const toml::node& node, co
   }
 }
 
+bool TableCursor::truth(std::string_view key) {
+  const GivenValue* entry = take(key);
+  if (entry == nullptr) {
+    return true;
+  }
+  const toml::node& node = variant_.value(*entry);
+  const toml::value<bool>* value = node.as_boolean();
+  if (value == nullptr) {
+    fail(key, fmt::format("is {}; allowed: true or false", kind_of(node)));
+  }
+  return value->get();
+}
+
+std::optional<TableCursor::Pair> TableCursor::optional_interval(std::string_view key) {
+  const GivenValue* entry = take(key);
+  if (entry == nullptr) {
+    return std::nullopt;
+  }
+  const Range& range = allowed<Interval>(key).range;
+  const toml::node& node = variant_.value(*entry);
+  const toml::array* pair = node.as_array();
+  if (pair == nullptr || pair->size() != 2) {
+    fail(key, fmt::format("is {}; allowed: two numbers [lowest, highest], {}",
+                          pair == nullptr ? std::string(kind_of(node))
+                                          : fmt::format("an array of {}", pair->size()),
+                          range.text()));
+  }
+  const Pair found{number_in(*entry, (*pair)[0], {key, 0}, range),
+                   number_in(*entry, (*pair)[1], {key, 1}, range)};
+  if (!(found[0] < found[1])) {
+    fail(key, fmt::format("{} is not below {}; allowed: the lowest, then the highest", found[0],
+                          found[1]));
+  }
+  return found;
+}
+
 std::vector<TableCursor::Pair> TableCursor::timed_values(std::string_view key, Times times) {
   return timed_values_in(key, allowed<Profile>(key), times);
 }

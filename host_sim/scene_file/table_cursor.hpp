@@ -57,7 +57,16 @@ class TableCursor {
     return values;
   }
 
+  /// The index of the word; absent with the key.
+  std::optional<std::size_t> optional_word(std::string_view key) {
+    return has(key) ? std::optional(word(key)) : std::nullopt;
+  }
+  /// True where absent.
+  bool truth(std::string_view key);
+
   using Pair = std::array<double, 2>;
+  /// `[lowest, highest]`.
+  std::optional<Pair> optional_interval(std::string_view key);
   /// rise: each is after the one before. jump: two in succession may be one, at a jump.
   enum class Times { rise, jump };
   /// `[[time_s, value], …]`: at least one pair.

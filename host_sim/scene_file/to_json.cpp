@@ -52,6 +52,20 @@ class ValueEcho {
       table_[std::string(key)].push_back(scene::name_of(names, each));
     }
   }
+  template <class Value, std::size_t Count>
+  void optional_word(std::string_view key, const std::optional<Value>& chosen,
+                     const std::array<scene::Named<Value>, Count>& names) {
+    if (chosen) {
+      word(key, *chosen, names);
+    }
+  }
+  void truth(std::string_view key, bool value) { table_[std::string(key)] = value; }
+  void range(std::string_view key, const std::optional<scene::FrequencyRange>& range) {
+    if (range) {
+      table_[std::string(key)] = ordered_json::array({range->lowest_Hz, range->highest_Hz});
+    }
+  }
+
   template <class Integers>
   void one_of(std::string_view key, std::optional<int> chosen, const Integers& /*allowed*/) {
     value(key, chosen);
@@ -141,11 +155,15 @@ ordered_json to_json(scene::Scene scene) {
   root["solver"] = echo([&](auto& keys) { visit_solver(keys, scene.solver); });
   root["run"] = echo([&](auto& keys) { visit_run(keys, scene.run, scene.drive, closed_loop); });
   if (closed_loop) {
-    root["controller"] = echo([&](auto& keys) { visit_controller(keys, *scene.controller); });
-    root["sensor"] = echo(
-        [&](auto& keys) { visit_sensor(keys, scene.sensor, scene.sensor.force_full_scale_N); });
-    root["model_error"] =
-        echo([&](auto& keys) { visit_model_error(keys, scene.model_error, scene.friction.law); });
+    const bool resonant = scene.resonant();
+    root["controller"] =
+        echo([&](auto& keys) { visit_controller(keys, *scene.controller, scene.sensor.force); });
+    root["sensor"] = echo([&](auto& keys) {
+      visit_sensor(keys, scene.sensor, scene.sensor.force_full_scale_N, resonant);
+    });
+    root["model_error"] = echo([&](auto& keys) {
+      visit_model_error(keys, scene.model_error, scene.friction.law, resonant);
+    });
   }
   return root;
 }

@@ -53,6 +53,19 @@ class ValueReader {
     values = cursor_.choices(key, names);
   }
 
+  template <class Value, std::size_t Count>
+  void optional_word(std::string_view key, std::optional<Value>& value,
+                     const std::array<scene::Named<Value>, Count>& names) {
+    const std::optional<std::size_t> index = cursor_.optional_word(key);
+    value = index ? std::optional(names[*index].value) : std::nullopt;
+  }
+  void truth(std::string_view key, bool& value) { value = cursor_.truth(key); }
+  void range(std::string_view key, std::optional<scene::FrequencyRange>& range) {
+    if (const auto found = cursor_.optional_interval(key)) {
+      range = {(*found)[0], (*found)[1]};
+    }
+  }
+
   template <class Integers>
   void one_of(std::string_view key, std::optional<int>& chosen, const Integers& allowed) {
     value(key, chosen);

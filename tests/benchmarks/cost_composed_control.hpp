@@ -50,8 +50,8 @@ template <class Solver, class Number>
 Result run_controlled(const Scene& scene) {
   using Controller = ControllerOf<Number>;
   Controller controller = controller_of<Number>(control_numbers);
-  hal::host::SimulatedBoard board;
-  app::ControlLoop<Controller, hal::host::SimulatedBoard> loop(controller, board);
+  hal::host::SimulatedBoard<> board;
+  app::ControlLoop<Controller, hal::host::SimulatedBoard<>> loop(controller, board);
   Solver solver;
   solver.configure(model_of(scene, typename Solver::Model()), tolerance);
   plant::Interval<double> period = {0.0, two_pi, 0.0, scene.sliding_velocity, 0.0};

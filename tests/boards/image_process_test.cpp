@@ -28,7 +28,7 @@ std::vector<std::string> running() {
 
 std::string failure(ImageProcess& board) {
   try {
-    board.exchange({});
+    board.exchange(hal::Sample{});
   } catch (const EmulatorError& error) {
     return error.what();
   }
@@ -59,8 +59,8 @@ TEST(ImageProcessTest, ReportsAnEmulatorThatIsMissing) {
 
 TEST(ImageProcessTest, ReportsAnEmulatorThatIsKilledInTheMiddle) {
   ImageProcess board(running(), 60s);
-  board.exchange({});
-  board.exchange({});
+  board.exchange(hal::Sample{});
+  board.exchange(hal::Sample{});
   kill(board.process(), SIGKILL);
   const std::string words = failure(board);
   EXPECT_NE(words.find("carrier period 2: the emulator ended with signal 9"), std::string::npos)
@@ -79,7 +79,7 @@ TEST(ImageProcessTest, LeavesNoProcessBehind) {
   pid_t process = 0;
   {
     ImageProcess board(running(), 60s);
-    board.exchange({});
+    board.exchange(hal::Sample{});
     process = board.process();
     EXPECT_TRUE(alive(process));
   }
@@ -92,7 +92,7 @@ TEST(ImageProcessTest, ListensToItsOwnerWhileItWaits) {
     ImageProcess board(running(), 60s, [] { throw std::runtime_error("enough"); });
     process = board.process();
     kill(process, SIGSTOP);
-    board.exchange({});
+    board.exchange(hal::Sample{});
   };
   EXPECT_THROW(wait_for_a_frozen_one(), std::runtime_error);
   EXPECT_FALSE(alive(process));

@@ -144,7 +144,7 @@ TEST_P(Image, AnswersAnyConverterCodeAsTheHostDoes) {
 }
 
 TEST_P(Image, FaultsOnASampleThatDidNotArrive) {
-  const hal::Drive drive = board_.exchange({1, 1, false, false});
+  const hal::Drive drive = board_.exchange(hal::Sample{1, 1, false, false});
   EXPECT_EQ(drive.amplitude, 0);
   EXPECT_EQ(drive.state, static_cast<std::uint8_t>(control::State::fault));
   EXPECT_EQ(drive.fault, static_cast<std::uint8_t>(control::Fault::measurement_missing));
@@ -179,6 +179,51 @@ INSTANTIATE_TEST_SUITE_P(Boards, Image,
                          testing::Combine(testing::ValuesIn(board_names()),
                                           testing::Values("target_step", "target_step_q31",
                                                           "target_step_q15", "other_parts")),
+                         [](const auto& parameter) {
+                           return test_name_of(std::get<0>(parameter.param)) + "_" +
+                                  std::get<1>(parameter.param);
+                         });
+
+/// A unit that holds the vibration at resonance: (board, controller).
+class ResonantImage : public Image {};
+
+TEST_P(ResonantImage, AnswersAnyConverterCodeAsTheHostDoes) {
+  const auto host = loop::make_control_port(scene_, configure::design_control(scene_));
+  host->set_target(scene_.controller->target_friction_ratio[0].friction_ratio);
+  std::mt19937 generator(1);
+  const auto code = [&](int k) { return static_cast<std::int32_t>(generator()) >> (k % 12); };
+  constexpr int periods = 100;
+  for (int k = 0; k < periods; ++k) {
+    const bool last = k + 1 == periods;
+    const hal::VibrationSample sample{
+        {code(k), code(k), false, true}, code(k / 2), code(k / 2), last, true};
+    const hal::ResonantDrive expected = host->exchange(sample);
+    const hal::ResonantDrive drive = board_.exchange(sample);
+    ASSERT_EQ(drive.amplitude, expected.amplitude) << "carrier period " << k;
+    ASSERT_EQ(drive.frequency, expected.frequency) << "carrier period " << k;
+    ASSERT_EQ(drive.limit, expected.limit) << "carrier period " << k;
+    ASSERT_EQ(drive.fault, expected.fault) << "carrier period " << k;
+  }
+}
+
+TEST_P(ResonantImage, FaultsOnAVibrationThatDidNotArrive) {
+  const hal::ResonantDrive drive =
+      board_.exchange(hal::VibrationSample{{1, 1, false, true}, 0, 0, false, false});
+  EXPECT_EQ(drive.amplitude, 0);
+  EXPECT_EQ(drive.fault, static_cast<std::uint8_t>(control::Fault::vibration_missing));
+}
+
+TEST_P(ResonantImage, FaultsOnAVibrationAtTheRail) {
+  const hal::ResonantDrive drive =
+      board_.exchange(hal::VibrationSample{{1, 1, false, true}, 0, 0, true, true});
+  EXPECT_EQ(drive.amplitude, 0);
+  EXPECT_EQ(drive.fault, static_cast<std::uint8_t>(control::Fault::vibration_saturated));
+}
+
+INSTANTIATE_TEST_SUITE_P(Boards, ResonantImage,
+                         testing::Combine(testing::ValuesIn(board_names()),
+                                          testing::Values("wire_bonder", "wire_bonder_q31",
+                                                          "haptic_plate", "haptic_plate_q31")),
                          [](const auto& parameter) {
                            return test_name_of(std::get<0>(parameter.param)) + "_" +
                                   std::get<1>(parameter.param);

@@ -26,8 +26,10 @@ class LockstepBoard {
  public:
   // Neither call is inlined: the compiler would move work across the readings of the counter.
 
-  [[gnu::noinline]] bool sample(Sample& sample) {
-    SampleFrame frame{};
+  /// @tparam SampleT  Sample | VibrationSample
+  template <class SampleT>
+  [[gnu::noinline]] bool sample(SampleT& sample) {
+    typename FrameOf<SampleT>::Type frame{};
     const std::size_t received = link_.read(frame.data(), frame.size());
     arrival_ = counter_.read();
     if (received == 0) {
@@ -39,9 +41,11 @@ class LockstepBoard {
     return true;
   }
 
-  [[gnu::noinline]] void drive(const Drive& drive) {
+  /// @tparam DriveT  Drive | ResonantDrive
+  template <class DriveT>
+  [[gnu::noinline]] void drive(const DriveT& drive) {
     const std::uint32_t taken = counter_.read();
-    DriveFrame frame = encode(period_, drive);
+    typename FrameOf<DriveT>::Type frame = encode(period_, drive);
     put_cost({taken - handed_over_ - reading_, counter_.read() - arrival_ - 3 * reading_}, frame);
     require(link_.write(frame.data(), frame.size()));
     ++period_;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "firmware/numeric/turn.hpp"
 #include "host_sim/configure/configuration_error.hpp"
 #include "host_sim/configure/control_design.hpp"
 #include "host_sim/configure/plant_scales.hpp"
@@ -85,10 +86,23 @@ double speed_floor_m_per_s(const scene::Scene& scene) {
   return configure::design_control(scene).speed_floor_m_per_s();
 }
 
+namespace {
+
+/// A resonant loop is designed at the resonance, which its drive follows.
+scene::Scene at_its_carrier(scene::Scene scene) {
+  if (scene.resonant()) {
+    scene.drive->frequency_Hz =
+        std::sqrt(scene.plant.stiffness_N_per_m / scene.plant.mass_kg) / numeric::two_pi;
+  }
+  return scene;
+}
+
+}  // namespace
+
 Task make_task(const scene::Scene& scene, const std::vector<double>& ratios,
                const std::optional<SpeedRange>& speeds) {
   require_steady_vibration(scene);
-  Task task{scene, ratios.empty() ? targets(*scene.controller) : ratios,
+  Task task{at_its_carrier(scene), ratios.empty() ? targets(*scene.controller) : ratios,
             speeds ? *speeds : speeds_of(scene)};
   if (!(task.speeds.slowest_m_per_s > 0.0)) {
     throw configure::ConfigurationError(

@@ -1,4 +1,4 @@
-/// Four good scenes, from which the broken ones differ by one edit.
+/// Five good scenes, from which the broken ones differ by one edit.
 #pragma once
 
 #include <string>
@@ -57,6 +57,32 @@ stiffness = 1.04
 )";
 
 inline const std::string closed_loop = table_1_closed_loop + control_of_1_ms;
+
+inline const std::string resonant_loop = R"([plant]
+mass_kg = 0.02
+stiffness_N_per_m = 2842446067.7
+damping_N_s_per_m = 37.7
+[friction]
+law = "dahl"
+coefficient = 0.1
+contact_stiffness_N_per_m = 0.056e6
+[sliding]
+velocity_m_per_s = 0.0267
+[transducer]
+force_factor_N_per_V = 1.0
+clamped_capacitance_F = 2e-9
+[drive]
+frequency_Hz = 60e3
+max_voltage_amplitude_V = 8
+[run]
+duration_s = 2e-3
+[controller]
+arithmetic = "float32"
+vibration = "resonant"
+target_friction_ratio = [[0.0, 0.5]]
+[sensor]
+vibration = "velocity"
+)";
 
 inline const std::string coulomb_closed_loop = R"([plant]
 mass_kg = 0.02

@@ -39,7 +39,8 @@ const std::vector<BrokenScene> broken_scenes = {
     // No controller can be designed
     {"undamped_resonance", closed_loop, "frequency_Hz = 60e3", "frequency_Hz = 13235.7",
      "11:16: drive.frequency_Hz: is the plant's natural frequency, and with so little damping the "
-     "vibration never settles; allowed: another frequency, or more plant.damping_N_s_per_m"},
+     "vibration never settles; allowed: another frequency, more plant.damping_N_s_per_m, or with "
+     "a [transducer] controller.vibration = \"resonant\""},
     {"full_scale_far_above_friction", closed_loop, "adc_bits = 12",
      "adc_bits = 12\nforce_full_scale_N = 100",
      "20:22: sensor.force_full_scale_N: makes the believed friction force 0.000196 of full scale; "
@@ -208,6 +209,122 @@ const std::vector<BrokenScene> broken_scenes = {
     {"frequency_profile_in_closed_loop", closed_loop, "frequency_Hz = 60e3",
      "frequency_Hz = 60e3\nfrequency_profile = [[0, 60e3]]",
      "12:1: drive.frequency_profile: not used in closed loop: the controller sets the amplitude; "
+     "remove it"},
+    {"vibration_unknown", resonant_loop, "\"resonant\"", "\"resonating\"",
+     "21:13: controller.vibration: \"resonating\" is unknown; allowed: \"resonant\""},
+    {"resonance_without_a_transducer", resonant_loop,
+     "[transducer]\nforce_factor_N_per_V = 1.0\nclamped_capacitance_F = "
+     "2e-9\n[drive]\nfrequency_Hz = 60e3\nmax_voltage_amplitude_V = 8",
+     "[drive]\nfrequency_Hz = 60e3\nmax_force_amplitude_N = 8",
+     "18:13: controller.vibration: \"resonant\" needs a table [transducer], whose voltage drives "
+     "the resonance"},
+    {"resonance_with_a_force_limit", resonant_loop, "max_voltage_amplitude_V = 8",
+     "max_force_amplitude_N = 8",
+     "16:25: drive.max_force_amplitude_N: is a force, but with a [transducer] the drive is a "
+     "voltage; allowed: max_voltage_amplitude_V"},
+    {"resonance_unseen", resonant_loop, "[sensor]\nvibration = \"velocity\"\n", "",
+     "1:1: sensor.vibration: missing: controller.vibration = \"resonant\" observes the vibration; "
+     "required: \"velocity\" or \"motional_current\""},
+    {"resonance_in_q15", resonant_loop, "\"float32\"", "\"q15\"",
+     "20:14: controller.arithmetic: \"q15\" is too coarse for controller.vibration = \"resonant\"; "
+     "allowed: \"float32\", \"q31\", \"float64\""},
+    {"resonance_without_losses", resonant_loop, "damping_N_s_per_m = 37.7\n", "",
+     "1:2: plant.damping_N_s_per_m: is 0, and a resonance without losses has no steady vibration; "
+     "allowed: above 0 with controller.vibration = \"resonant\""},
+    {"frequency_range_without_the_start", resonant_loop, "vibration = \"resonant\"",
+     "vibration = \"resonant\"\nfrequency_range_Hz = [61e3, 62e3]",
+     "22:22: controller.frequency_range_Hz: drive.frequency_Hz, where the drive starts, is 60000 "
+     "Hz; allowed: a range with it inside"},
+    {"frequency_range_too_wide", resonant_loop, "vibration = \"resonant\"",
+     "vibration = \"resonant\"\nfrequency_range_Hz = [50e3, 62e3]",
+     "22:22: controller.frequency_range_Hz: [50000, 62000] leaves the range that the controller "
+     "can follow; allowed: 56400 to 63600 Hz, 6 % about drive.frequency_Hz"},
+    {"frequency_range_turned_round", resonant_loop, "vibration = \"resonant\"",
+     "vibration = \"resonant\"\nfrequency_range_Hz = [62e3, 58e3]",
+     "22:22: controller.frequency_range_Hz: 62000 is not below 58000; allowed: the lowest, then "
+     "the highest"},
+    {"frequency_range_of_one_number", resonant_loop, "vibration = \"resonant\"",
+     "vibration = \"resonant\"\nfrequency_range_Hz = [60e3]",
+     "22:22: controller.frequency_range_Hz: is an array of 1; allowed: two numbers [lowest, "
+     "highest], 0.001 to 1e+09 Hz"},
+    {"frequency_range_is_no_list", resonant_loop, "vibration = \"resonant\"",
+     "vibration = \"resonant\"\nfrequency_range_Hz = 60e3",
+     "22:22: controller.frequency_range_Hz: is a real number; allowed: two numbers [lowest, "
+     "highest], 0.001 to 1e+09 Hz"},
+    {"frequency_range_fed_forward", resonant_loop, "vibration = \"resonant\"",
+     "frequency_range_Hz = [58e3, 62e3]",
+     "21:1: controller.frequency_range_Hz: not used without controller.vibration = \"resonant\"; "
+     "remove it"},
+    {"shaping_at_resonance", resonant_loop, "vibration = \"resonant\"",
+     "vibration = \"resonant\"\nshaping = \"none\"",
+     "22:1: controller.shaping: not used with controller.vibration = \"resonant\"; remove it"},
+    {"current_limit_below_the_capacitance", resonant_loop, "[run]",
+     "max_current_amplitude_A = 1e-3\n[run]",
+     "17:27: drive.max_current_amplitude_A: 0.001 A is less than what the clamped capacitance "
+     "alone takes at the 2.759 V that the easiest target needs; allowed: above 0.00208 A"},
+    {"current_limit_fed_forward", resonant_loop,
+     "frequency_Hz = 60e3\nmax_voltage_amplitude_V = 8\n[run]\nduration_s = "
+     "2e-3\n[controller]\narithmetic = \"float32\"\nvibration = \"resonant\"",
+     "frequency_Hz = 50e3\nmax_voltage_amplitude_V = 8\nmax_current_amplitude_A = "
+     "1\n[run]\nduration_s = 2e-3\n[controller]\narithmetic = \"float32\"",
+     "17:1: drive.max_current_amplitude_A: not used without controller.vibration = \"resonant\"; "
+     "remove it"},
+    {"vibration_sensor_fed_forward", resonant_loop,
+     "frequency_Hz = 60e3\nmax_voltage_amplitude_V = 8\n[run]\nduration_s = "
+     "2e-3\n[controller]\narithmetic = \"float32\"\nvibration = \"resonant\"",
+     "frequency_Hz = 50e3\nmax_voltage_amplitude_V = 800\n[run]\nduration_s = "
+     "2e-3\n[controller]\narithmetic = \"float32\"",
+     "23:1: sensor.vibration: not used without controller.vibration = \"resonant\"; remove it"},
+    {"force_noise_without_a_force_sensor", resonant_loop, "[sensor]",
+     "[sensor]\nforce = false\nforce_noise_N = 1e-4",
+     "25:1: sensor.force_noise_N: not used with sensor.force = false; remove it"},
+    {"calibration_without_a_force_sensor", resonant_loop, "[sensor]\n",
+     "calibration_s = 1e-3\n[sensor]\nforce = false\n",
+     "23:1: controller.calibration_s: not used with sensor.force = false; remove it"},
+    {"force_sensor_by_a_word", resonant_loop, "[sensor]", "[sensor]\nforce = \"no\"",
+     "24:9: sensor.force: is a string; allowed: true or false"},
+    {"frequency_word_too_coarse_for_a_resonance", resonant_loop, "[run]",
+     "frequency_resolution_Hz = 2e3\n[run]",
+     "17:27: drive.frequency_resolution_Hz: 2000 Hz is too coarse to follow a resonance; allowed: "
+     "0, or 0.000224 to 937.5 Hz"},
+    {"frequency_word_too_fine_for_a_resonance", resonant_loop, "[run]",
+     "frequency_resolution_Hz = 1e-6\n[run]",
+     "17:27: drive.frequency_resolution_Hz: 1e-06 Hz is too fine to follow a resonance; allowed: "
+     "0, "
+     "or 0.000224 to 937.5 Hz"},
+    {"resonance_without_a_spring", resonant_loop, "stiffness_N_per_m = 2842446067.7",
+     "stiffness_N_per_m = 0",
+     "3:21: plant.stiffness_N_per_m: is 0, and a mass without a spring has no resonance; allowed: "
+     "above 0 with controller.vibration = \"resonant\""},
+    {"drive_too_strong_for_a_resonance", resonant_loop, "max_voltage_amplitude_V = 8",
+     "max_voltage_amplitude_V = 8000",
+     "16:27: drive.max_voltage_amplitude_V: adds 11.4 times the vibration sensor's range of 0.2927 "
+     "m/s in a carrier period; allowed: at most 351.3 V, or a larger "
+     "sensor.vibration_full_scale_m_per_s"},
+    {"vibration_full_scale_too_wide", resonant_loop, "[sensor]",
+     "[sensor]\nvibration_full_scale_m_per_s = 1e3",
+     "24:32: sensor.vibration_full_scale_m_per_s: 1000 m/s is too much beside the fastest sliding, "
+     "which has the same range; allowed: at most 133.5 m/s"},
+    {"vibration_full_scale_below_the_sliding", resonant_loop, "[sensor]",
+     "[sensor]\nvibration_full_scale_m_per_s = 0.01",
+     "24:32: sensor.vibration_full_scale_m_per_s: 0.01 m/s is below the fastest sliding, which the "
+     "vibration has to exceed; allowed: above 0.0267 m/s"},
+    {"vibration_hidden_by_noise", resonant_loop, "[sensor]",
+     "[sensor]\nvibration_noise_m_per_s = 0.02",
+     "24:27: sensor.vibration_noise_m_per_s: and the converter hide a vibration below 0.32 m/s, "
+     "and "
+     "a target needs 0.0732 m/s; allowed: together at most 0.229 of it, or a lower target"},
+    {"resonance_at_standstill", resonant_loop, "velocity_m_per_s = 0.0267", "velocity_m_per_s = 0",
+     "10:20: sliding.velocity_m_per_s: is 0 all the time, where no vibration changes the friction; "
+     "allowed: another velocity with controller.vibration = \"resonant\""},
+    {"current_limit_of_a_force", resonant_loop,
+     "[transducer]\nforce_factor_N_per_V = 1.0\nclamped_capacitance_F = 2e-9\n[drive]\n"
+     "frequency_Hz = 60e3\nmax_voltage_amplitude_V = 8",
+     "[drive]\nfrequency_Hz = 50e3\nmax_force_amplitude_N = 8\nmax_current_amplitude_A = 1",
+     "14:1: drive.max_current_amplitude_A: not used without a [transducer]; remove it"},
+    {"frequency_profile_at_resonance", resonant_loop, "frequency_Hz = 60e3",
+     "frequency_Hz = 60e3\nfrequency_profile = [[0, 60e3]]",
+     "16:1: drive.frequency_profile: not used in closed loop: the controller sets the amplitude; "
      "remove it"},
     {"spring_told_twice", open_loop, "stiffness_N_per_m = 133e6",
      "stiffness_N_per_m = 133e6\nstiffness_profile = [[0, 133e6]]",

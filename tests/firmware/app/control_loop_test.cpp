@@ -27,6 +27,7 @@ template <class ScalarT>
 class RecordingController {
  public:
   using Scalar = ScalarT;
+  static constexpr bool observed = false;
 
   control::DriveCommand<Scalar> step(const control::Measurement<Scalar>& measurement) {
     told.push_back(measurement);

@@ -36,9 +36,10 @@ TEST(TolerantSamplesTest, AcceptsWhatCountingAllows) {
 }
 
 template <class S>
-using TolerantParts = Parts<S, TrustedFriction<S>, DahlFeedforward<S>, NoSlewLimit<S>,
-                            NotchShaper<S, longest_spacing>, IntegralRegulator<S, longest_delay>,
-                            NoRelearning<S>, FullDrive<S>, TolerantSamples>;
+using TolerantParts =
+    Parts<S, TrustedFriction<S>, DahlFeedforward<S>, NoSlewLimit<S>,
+          NotchShaper<S, longest_spacing>, IntegralRegulator<S, longest_delay>, NoRelearning<S>,
+          FedForward<S>, ForceSensor, FullDrive<S>, TolerantSamples>;
 
 template <class Scalar>
 class ToleratedSamples : public testing::Test {

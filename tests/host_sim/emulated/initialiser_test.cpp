@@ -85,13 +85,20 @@ class Change {
 
   template <class Structure>
   std::enable_if_t<std::is_class_v<Structure>> operator()(const char* name, Structure& structure) {
+    if constexpr (!std::is_empty_v<Structure>) {
+      list_fields(name, structure);
+    }
+  }
+
+ private:
+  template <class Structure>
+  void list_fields(const char* name, Structure& structure) {
     std::size_t fields = 0;
     Structure::fields(structure, [&](const char* /*name*/, auto& /*field*/) { ++fields; });
     EXPECT_EQ(fields, member_count<Structure>()) << "not every field is listed: " << name;
     Structure::fields(structure, *this);
   }
 
- private:
   std::size_t which_;
   std::size_t seen_ = 0;
 };
@@ -113,10 +120,10 @@ std::size_t expect_every_number_in_text() {
 }
 
 template <class S>
-using EveryPart = control::Parts<S, control::LearntFriction<S>, control::DahlFeedforward<S>,
-                                 control::SlewLimit<S>, control::NotchShaper<S, 4>,
-                                 control::IntegralRegulator<S, 4>, control::PeriodicRelearning<S>,
-                                 control::DriveLimit<S>, control::TolerantSamples>;
+using EveryPart = control::Parts<
+    S, control::LearntFriction<S>, control::DahlFeedforward<S>, control::SlewLimit<S>,
+    control::NotchShaper<S, 4>, control::IntegralRegulator<S, 4>, control::PeriodicRelearning<S>,
+    control::FedForward<S>, control::ForceSensor, control::DriveLimit<S>, control::TolerantSamples>;
 
 template <class Scalar>
 class InitialiserOf : public testing::Test {};

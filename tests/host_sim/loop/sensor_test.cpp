@@ -200,6 +200,43 @@ TEST(SensorTest, ADeadSensorReadsItsOffset) {
   EXPECT_FALSE(sample.force_at_rail);
 }
 
+TEST(SensorTest, TheVibrationHasItsOwnGainNoiseAndConverters) {
+  scene::Sensor plain;
+  plain.vibration_bits = 12;
+  Sensor sensor(plain, scales, 0.8);
+  const double code = std::ldexp(1.0, -11);
+  for (const double part : {-0.9, -0.3, 0.0, 0.4, 1.1}) {
+    const hal::VibrationSample sample =
+        sensor.sample(0.0, 0.0, {part * full_speed_m_per_s, -0.5 * part * full_speed_m_per_s});
+    EXPECT_NEAR(sample.in_phase * unit, 0.8 * part, 0.501 * code);
+    EXPECT_NEAR(sample.quadrature * unit, -0.4 * part, 0.501 * code);
+    EXPECT_EQ(std::remainder(sample.in_phase * unit, code), 0.0);
+    EXPECT_FALSE(sample.vibration_at_rail);
+    EXPECT_TRUE(sample.vibration_fresh);
+  }
+  EXPECT_TRUE(sensor.sample(0.0, 0.0, {0.0, -1.3 * full_speed_m_per_s}).vibration_at_rail);
+
+  scene::Sensor noisy;
+  noisy.vibration_noise_m_per_s = 0.01 * full_speed_m_per_s;
+  Sensor noise(noisy, scales);
+  double square = 0.0;
+  double product = 0.0;
+  constexpr int count = 20'000;
+  for (int i = 0; i < count; ++i) {
+    const hal::VibrationSample sample = noise.sample(0.0, 0.0, {0.0, 0.0});
+    square += std::pow(sample.in_phase * unit, 2) / count;
+    product += sample.in_phase * unit * (sample.quadrature * unit) / count;
+  }
+  EXPECT_NEAR(std::sqrt(square), 0.01, 0.0003);
+  EXPECT_NEAR(product, 0.0, 5e-6);
+}
+
+TEST(SensorTest, WithoutAForceSensorTheForceReadsZero) {
+  scene::Sensor none;
+  none.force = false;
+  EXPECT_EQ(Sensor(none, scales).sample(0.5 * full_scale_N, 0.0).friction_force, 0);
+}
+
 constexpr double noise_N = 1e-4;
 
 std::vector<double> noise_samples(std::uint64_t seed, int count, double offset_N = 0.0) {

@@ -37,6 +37,7 @@ inline std::vector<loop::Period> made_up_run(const scene::Scene& scene,
     loop::Period period{};
     period.begin_s = k * made_up_period_s;
     period.end_s = std::min((k + 1) * made_up_period_s, end_s);  // the last one may be cut short
+    period.whole = period.end_s - period.begin_s > 0.999 * made_up_period_s;
     period.friction_ratio = ratio(k);
     period.begin_velocity_m_per_s = 1.0;
     period.end_velocity_m_per_s = 1.0;

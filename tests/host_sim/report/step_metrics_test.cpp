@@ -52,6 +52,41 @@ TEST(StepMetricsTest, ALaterExcursionPutsSettlingOff) {
   EXPECT_NEAR(*step.settling_time_s, 42e-3, 1e-12);
 }
 
+/// A resonant loop that vibrates at 0.1 m/s, wanted and reached but for the first periods.
+std::vector<loop::Period> resonant_run(Scene& scene, double ratio) {
+  scene.controller->vibration = scene::VibrationControl::resonant;
+  std::vector<loop::Period> periods = made_up_run(scene, [ratio](int) { return ratio; });
+  for (std::size_t k = 0; k < periods.size(); ++k) {
+    periods[k].wanted_vibration_m_per_s = 0.1;
+    periods[k].vibration_m_per_s = {k < 7 ? 0.097 : 0.0, k < 7 ? 0.0 : 0.101};
+    periods[k].natural_Hz = 1000.0;
+    periods[k].frequency_Hz = k == 80 ? 999.0 : 1000.5;
+  }
+  return periods;
+}
+
+TEST(StepMetricsTest, TellsHowAResonantLoopHeldTheVibration) {
+  Scene scene = made_up_scene({{0.0, 0.5}}, 0.1);
+  const std::vector<loop::Period> periods = resonant_run(scene, 0.5);
+  const StepMetrics step = only_step(scene, periods);
+  ASSERT_TRUE(step.resonance);
+  EXPECT_NEAR(step.resonance->vibration_velocity_m_per_s, 0.101, 1e-12);
+  ASSERT_TRUE(step.resonance->velocity_settling_time_s);
+  EXPECT_NEAR(*step.resonance->velocity_settling_time_s, 7e-3, 1e-12);
+  EXPECT_NEAR(step.resonance->frequency_error, 1e-3, 1e-12);
+  EXPECT_NEAR(step.resonance->frequency_Hz, (24.0 * 1000.5 + 999.0) / 25.0, 1e-9);
+}
+
+TEST(StepMetricsTest, AHeldVibrationOffTargetWithoutAForceSensorIsAMismatch) {
+  Scene scene = made_up_scene({{0.0, 0.5}}, 0.1);
+  const std::vector<loop::Period> periods = resonant_run(scene, 0.6);
+  EXPECT_EQ(only_step(scene, periods).limit, control::Limit::not_settling);
+  scene.sensor.force = false;
+  const StepMetrics step = only_step(scene, periods);
+  EXPECT_EQ(step.limit, control::Limit::mismatch);
+  EXPECT_FALSE(step.limit_seen_by_controller);
+}
+
 TEST(StepMetricsTest, TheBandsEdgeIsInside) {
   const StepMetrics step = one_step(0.5, [](int k) { return k % 2 == 0 ? 0.5099999 : 0.4900001; });
   ASSERT_TRUE(step.settling_time_s);

@@ -49,7 +49,8 @@ std::vector<Scene> whole_scenes() {
   std::vector<Scene> scenes;
   for (const char* text :
        {fullest_open_loop, curve_open_loop, bristles_open_loop, springs_open_loop, normal_open_loop,
-        profiles_open_loop, transducer_open_loop, transducer_closed_loop, fullest_closed_loop}) {
+        profiles_open_loop, transducer_open_loop, transducer_closed_loop, resonant_closed_loop,
+        fullest_closed_loop}) {
     const ordered_json echo = to_json(read_text(text, "s"));
     scenes.push_back({text, as_json(text)});
     scenes.push_back({as_toml(echo), echo});
@@ -88,6 +89,14 @@ struct WrongValues {
     }
     return values;
   }
+  std::vector<std::string> operator()(const Interval& interval) const {
+    std::vector<std::string> values = {"1", "[]", "[1]", "[1, 2, 3]", "['1', 2]"};
+    for (const std::string& value : wrong_numbers(interval.range)) {
+      values.push_back(fmt::format("[{}, 1]", value));
+    }
+    return values;
+  }
+  std::vector<std::string> operator()(const Truth& /*truth*/) const { return {"1", "'true'"}; }
 
  private:
   static std::vector<std::string> wrong_numbers(const Range& range) {

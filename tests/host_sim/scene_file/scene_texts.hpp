@@ -3,6 +3,42 @@
 
 namespace sonoglide::scene_file {
 
+/// Every key of a loop that holds the vibration at resonance.
+inline constexpr const char* resonant_closed_loop = R"([plant]
+mass_kg = 0.02
+stiffness_N_per_m = 2842446067.7
+damping_N_s_per_m = 37.7
+[friction]
+law = "coulomb"
+coefficient = 0.1
+[sliding]
+velocity_m_per_s = 0.0267
+[transducer]
+force_factor_N_per_V = 1
+clamped_capacitance_F = 2e-9
+[drive]
+frequency_Hz = 60e3
+frequency_resolution_Hz = 2.5
+max_voltage_amplitude_V = 12
+max_current_amplitude_A = 0.3
+[run]
+duration_s = 2e-3
+[controller]
+arithmetic = "q31"
+vibration = "resonant"
+frequency_range_Hz = [58e3, 62e3]
+target_friction_ratio = [[0, 0.5]]
+[sensor]
+force = true
+vibration = "motional_current"
+vibration_bits = 12
+vibration_noise_m_per_s = 1e-4
+vibration_full_scale_m_per_s = 0.25
+[model_error]
+force_factor = 1.1
+damping = 0.9
+)";
+
 /// Nothing that has a default.
 inline constexpr const char* shortest_open_loop = R"([plant]
 mass_kg = 0.02

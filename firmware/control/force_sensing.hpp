@@ -1,0 +1,32 @@
+/// Whether a sensor tells the friction force.
+#pragma once
+
+#include <type_traits>
+
+namespace sonoglide::control {
+
+/// In place of a part that judges readings of the friction force.
+struct NothingToJudge {
+  struct Parameters {};
+
+  explicit NothingToJudge(const Parameters&) {}
+  static constexpr void restart() {}
+  static constexpr void retarget() {}
+};
+
+struct ForceSensor {
+  struct Parameters {};
+  static constexpr bool present = true;
+  template <class Part>
+  using Judge = Part;
+};
+
+/// The ratio rests on the vibration and on the friction that the controller believes.
+struct NoForceSensor {
+  struct Parameters {};
+  static constexpr bool present = false;
+  template <class Part>
+  using Judge = NothingToJudge;
+};
+
+}  // namespace sonoglide::control

@@ -1,0 +1,30 @@
+#include "host_sim/configure/believed_plant.hpp"
+
+#include <algorithm>
+
+namespace sonoglide::configure {
+namespace {
+
+/// The friction force that the first slide of the scene meets without vibration.
+double first_undriven_friction_N(const scene::Scene& scene) {
+  const auto& profile = scene.sliding.profile;
+  const auto moves = [](const scene::SpeedPoint& point) { return point.velocity_m_per_s != 0.0; };
+  const auto first = std::find_if(profile.begin(), profile.end(), moves);
+  return scene::undriven_friction_N(scene.friction.law, scene.friction,
+                                    first == profile.end() ? 0.0 : first->velocity_m_per_s);
+}
+
+}  // namespace
+
+BelievedPlant believed_plant(const scene::Scene& scene) {
+  const scene::ModelError& error = scene.model_error;
+  BelievedPlant plant{scene.plant, first_undriven_friction_N(scene) * error.coefficient,
+                      scene.friction.contact_stiffness_N_per_m * error.contact_stiffness,
+                      error.force_factor};
+  plant.mass_kg *= error.mass;
+  plant.stiffness_N_per_m *= error.stiffness;
+  plant.damping_N_s_per_m *= error.damping;
+  return plant;
+}
+
+}  // namespace sonoglide::configure

@@ -1,0 +1,17 @@
+/// What a controller takes the plant to be.
+#pragma once
+
+#include "host_sim/scene/scene.hpp"
+
+namespace sonoglide::configure {
+
+/// The scene through [model_error].
+struct BelievedPlant : scene::Plant {
+  double friction_N = 0.0;  ///< that the first slide of the scene meets without vibration
+  double contact_stiffness_N_per_m = 0.0;
+  double force_factor = 1.0;  ///< believed over true
+};
+
+BelievedPlant believed_plant(const scene::Scene& scene);
+
+}  // namespace sonoglide::configure

@@ -1,0 +1,31 @@
+/// What a controller's design waits for, in carrier periods.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include "firmware/numeric/turn.hpp"
+#include "host_sim/configure/control_design.hpp"
+#include "host_sim/scene/scene.hpp"
+
+namespace sonoglide::configure {
+
+/// Time constant of the sensor's low-pass, in carrier periods.
+inline double filter_periods(const scene::Scene& scene, const ControlScales& scales) {
+  return scene.sensor.force_bandwidth_Hz
+             ? 1.0 / (numeric::two_pi * *scene.sensor.force_bandwidth_Hz * scales.carrier_period_s)
+             : 0.0;
+}
+
+inline std::uint16_t whole_periods(double periods) {
+  constexpr double most = 60000.0;
+  return static_cast<std::uint16_t>(std::min(most, std::ceil(periods)));
+}
+
+/// From a request to the reading of the period that it acts in.
+inline double latency_periods(const scene::Scene& scene) {
+  return 1.0 + scene.drive->delay_periods + scene.sensor.delay_periods;
+}
+
+}  // namespace sonoglide::configure

@@ -1,0 +1,64 @@
+/// The numbers of a loop that holds the vibration at the plant's resonance.
+#pragma once
+
+#include <cstdint>
+
+#include "host_sim/configure/believed_plant.hpp"
+#include "host_sim/scene/scene.hpp"
+
+namespace sonoglide::configure {
+
+/// Real numbers, per unit of ControlScales, on the bases of control::ResonantVibration and its
+/// parts; a frequency is a deviation from the start, relative to it.
+struct ResonantDesign {
+  double rate = 0.0;            ///< velocity that full drive adds in a carrier period
+  double losses = 0.0;          ///< amplitude that holds a velocity of 1
+  double quality_factor = 0.0;  ///< believed
+  double head_room = 0.0;       ///< velocity at full drive over that of the lowest target; believed
+  double natural = 0.0;
+  double lowest = 0.0;
+  double highest = 0.0;
+  double noise = 0.0;  ///< of a vibration sample, converter included, rms
+  double rate_gain = 0.0;
+  double losses_gain = 0.0;
+  double natural_gain = 0.0;
+  double audible = 0.0;
+  double surprise = 0.0;  ///< drive that a period may seem to have missed
+  double unrest = 0.0;    ///< drive that noise alone may ask for
+  double velocity_gain = 0.0;
+  double phase_gain = 0.0;  ///< radians of phase taken away in a period, per radian
+  double settled = 0.0;
+  double missing = 0.0;
+  std::uint8_t delay_periods = 1;
+
+  double step_Hz = 0.0;          ///< of the frequency word
+  std::uint32_t start_word = 0;  ///< frequency of the start in such steps
+
+  bool current_limited = false;
+  double motional = 0.0;    ///< current of a velocity of 1 over the limit
+  double capacitive = 0.0;  ///< that of the clamped capacitance at full drive, likewise
+  double loss_tangent = 0.0;
+};
+
+/// The inverse friction-ratio map of a feedforward, in SI units.
+struct VibrationMap {
+  scene::FrictionMap kind = scene::FrictionMap::dahl;
+  double largest_m_per_s = 0.0;
+  double contact = 0.0;  ///< Kt X/Fc at the largest velocity
+
+  /// Vibration velocity at which the ratio is reached; the largest where no smaller one reaches it,
+  /// 0 for a ratio of 1 and at standstill.
+  double velocity_m_per_s(double friction_ratio, double sliding_velocity_m_per_s) const;
+};
+
+/// The range of the vibration sensor.
+double vibration_full_scale_m_per_s(const scene::Scene& scene, const BelievedPlant& plant);
+
+/// @param full_scale_m_per_s  of the vibration sensor
+/// @throws ConfigurationError  no spring, no damping; a drive too strong for the sensor's range; a
+///                             vibration that noise hides; a current limit that no target's
+///                             voltage keeps, or that a lossy capacitance makes no sense of
+ResonantDesign design_resonance(const scene::Scene& scene, const BelievedPlant& plant,
+                                double full_scale_m_per_s);
+
+}  // namespace sonoglide::configure
