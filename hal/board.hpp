@@ -41,8 +41,7 @@ struct Drive {
 };
 
 /// Of a unit that holds the vibration at resonance. Its amplitude is from -2^31 + 1 on; below 0 the
-/// phase of the drive is turned by half a turn. Its sliding velocity has the full scale of the
-/// vibration sensor.
+/// phase of the drive is turned by π.
 struct ResonantDrive : Drive {
   std::int32_t frequency;  ///< steps of the frequency word above that of the start
 };

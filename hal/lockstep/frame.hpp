@@ -74,17 +74,17 @@ namespace detail {
 template <class Frame>
 void put_sample(std::uint32_t period, const Sample& sample, Frame& frame) {
   put(period, frame.data());
-  detail::put(static_cast<std::uint32_t>(sample.friction_force), frame.data() + 4);
-  detail::put(static_cast<std::uint32_t>(sample.sliding_velocity), frame.data() + 8);
+  put(static_cast<std::uint32_t>(sample.friction_force), frame.data() + 4);
+  put(static_cast<std::uint32_t>(sample.sliding_velocity), frame.data() + 8);
   frame[12] = sample.force_at_rail ? 1 : 0;
   frame[13] = sample.fresh ? 1 : 0;
 }
 
 template <class Frame>
 void put_drive(std::uint32_t period, const Drive& drive, Frame& frame) {
-  detail::put(period, frame.data());
-  detail::put(static_cast<std::uint32_t>(drive.amplitude), frame.data() + 4);
-  detail::put(static_cast<std::uint32_t>(drive.commanded_ratio), frame.data() + 8);
+  put(period, frame.data());
+  put(static_cast<std::uint32_t>(drive.amplitude), frame.data() + 4);
+  put(static_cast<std::uint32_t>(drive.commanded_ratio), frame.data() + 8);
   frame[12] = drive.state;
   frame[13] = drive.limit;
   frame[14] = drive.fault;

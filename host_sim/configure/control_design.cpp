@@ -363,8 +363,10 @@ double set_resonant_scales(const scene::Scene& scene, const BelievedPlant& plant
                              "another velocity with controller.vibration = \"resonant\"");
   }
   const double full_scale_m_per_s = vibration_full_scale_m_per_s(scene, plant);
-  const double force_N = scene.sensor.force ? scene.sensor.force_full_scale_N
-                                            : 2.0 * largest_friction_limit_N(scene.friction);
+  const double force_N =
+      scene.sensor.force
+          ? scene.sensor.force_full_scale_N
+          : 2.0 * std::max(plant.friction_N, largest_friction_limit_N(scene.friction));
   design.scales = {1.0 / scene.drive->frequency_Hz, force_N, full_scale_m_per_s,
                    scene.drive->max_force_amplitude_N};
   if (2.0 * control::smallest_speed_floor * full_scale_m_per_s > fastest_m_per_s) {
@@ -380,6 +382,13 @@ double set_resonant_scales(const scene::Scene& scene, const BelievedPlant& plant
         fmt::format("{:g} m/s is below the fastest sliding, which the vibration has to exceed; "
                     "allowed: above {:g} m/s",
                     full_scale_m_per_s, fastest_m_per_s));
+  }
+  const double needed_m_per_s = needed_vibration_m_per_s(scene, plant);
+  if (!(needed_m_per_s < full_scale_m_per_s)) {
+    throw ConfigurationError(
+        "sensor.vibration_full_scale_m_per_s",
+        fmt::format("{:g} m/s is below the {:.4g} m/s that a target needs; allowed: above that",
+                    full_scale_m_per_s, needed_m_per_s));
   }
   return full_scale_m_per_s / (numeric::two_pi * scene.drive->frequency_Hz);
 }
@@ -472,6 +481,17 @@ std::vector<std::string> design_notes(const ControlDesign& design) {
         fmt::format("No notch is on the natural mode: each change of the drive makes it ring. The "
                     "feedback gain is {:.3g} per carrier period.",
                     design.integral_gain));
+  }
+  if (design.resonance && design.resonance->natural != design.resonance->believed_natural) {
+    const ResonantDesign& resonance = *design.resonance;
+    const auto frequency_Hz = [&](double deviation) {
+      return (1.0 + deviation) / design.scales.carrier_period_s;
+    };
+    notes.push_back(fmt::format(
+        "The believed natural frequency of {:.6g} Hz is outside the frequency range of {:.6g} to "
+        "{:.6g} Hz: the controller begins at the nearest end.",
+        frequency_Hz(resonance.believed_natural), frequency_Hz(resonance.lowest),
+        frequency_Hz(resonance.highest)));
   }
   constexpr int longest_span = 16;  // carrier periods, in which a step is over at Table 1
   if (design.shaped && 2 * design.notch_spacing > longest_span) {

@@ -66,11 +66,17 @@ TargetVelocities target_velocities(const scene::Scene& scene, const BelievedPlan
   return velocities;
 }
 
-double noise_m_per_s(const scene::Sensor& sensor, double full_scale_m_per_s) {
+/// Rms of what the converter's codes leave out; 0 of an ideal one.
+double rounding_m_per_s(const scene::Sensor& sensor, double full_scale_m_per_s) {
   const double code_m_per_s =
       sensor.vibration_bits ? 2.0 * full_scale_m_per_s * std::exp2(-*sensor.vibration_bits) : 0.0;
+  return code_m_per_s / numeric::sqrt(12.0);
+}
+
+double noise_m_per_s(const scene::Sensor& sensor, double full_scale_m_per_s) {
   const double noise = sensor.vibration_noise_m_per_s;
-  return numeric::sqrt(noise * noise + code_m_per_s * code_m_per_s / 12.0);
+  const double rounding = rounding_m_per_s(sensor, full_scale_m_per_s);
+  return numeric::sqrt(noise * noise + rounding * rounding);
 }
 
 /// Of what a period at full drive adds: friction that sets in moves the mass as well, by less.
@@ -123,7 +129,8 @@ void design_word(const scene::Scene& scene, const BelievedPlant& plant, Resonant
   design.highest = range ? std::max(0.0, deviation(range->highest_Hz) - inside) : default_range;
   const double natural_Hz =
       numeric::sqrt(plant.stiffness_N_per_m / plant.mass_kg) / numeric::two_pi;
-  design.natural = std::clamp(deviation(natural_Hz), design.lowest, design.highest);
+  design.believed_natural = deviation(natural_Hz);
+  design.natural = std::clamp(design.believed_natural, design.lowest, design.highest);
 }
 
 /// @param least_m_per_s  of the targets
@@ -169,12 +176,13 @@ void require_audible_targets(const scene::Scene& scene, double lowest_m_per_s,
   }
   const double allowed = lowest_m_per_s / audible_m_per_s;
   if (design.audible > least_audible * design.rate) {
+    const bool coarse =
+        scene.sensor.vibration_noise_m_per_s < rounding_m_per_s(scene.sensor, full_scale_m_per_s);
     throw ConfigurationError(
-        "sensor.vibration_noise_m_per_s",
-        fmt::format(
-            "and the converter hide a vibration below {:.3g} m/s, and a target needs {:.3g} "
-            "m/s; allowed: together at most {:.3g} of it, or a lower target",
-            audible_m_per_s, lowest_m_per_s, allowed));
+        coarse ? "sensor.vibration_bits" : "sensor.vibration_noise_m_per_s",
+        fmt::format("noise and converter hide a vibration below {:.3g} m/s, and a target needs "
+                    "{:.3g} m/s; allowed: at most {:.3g} times the {}, or a lower target",
+                    audible_m_per_s, lowest_m_per_s, allowed, coarse ? "code" : "noise"));
   }
   throw ConfigurationError(
       "drive.max_voltage_amplitude_V",
@@ -203,16 +211,17 @@ double VibrationMap::velocity_m_per_s(double friction_ratio,
   return largest_m_per_s * std::min(1.0, map.amplitude(0.5 * friction_ratio, speed));
 }
 
+double needed_vibration_m_per_s(const scene::Scene& scene, const BelievedPlant& plant) {
+  return target_velocities(scene, plant, full_drive_m_per_s(scene, plant)).highest_m_per_s;
+}
+
 double vibration_full_scale_m_per_s(const scene::Scene& scene, const BelievedPlant& plant) {
-  const double full_m_per_s = full_drive_m_per_s(scene, plant);
   if (scene.sensor.vibration_full_scale_m_per_s) {
     return *scene.sensor.vibration_full_scale_m_per_s;
   }
   constexpr double room = 4.0;  // for what feedback may ask for, and for what a knock adds
-  const double needed_m_per_s =
-      std::max(target_velocities(scene, plant, full_m_per_s).highest_m_per_s,
-               fastest_sliding_m_per_s(scene.sliding));
-  return room * needed_m_per_s;
+  return room *
+         std::max(needed_vibration_m_per_s(scene, plant), fastest_sliding_m_per_s(scene.sliding));
 }
 
 ResonantDesign design_resonance(const scene::Scene& scene, const BelievedPlant& plant,

@@ -16,6 +16,7 @@ struct ResonantDesign {
   double quality_factor = 0.0;  ///< believed
   double head_room = 0.0;       ///< velocity at full drive over that of the lowest target; believed
   double natural = 0.0;
+  double believed_natural = 0.0;  ///< deviation; `natural` is in the range
   double lowest = 0.0;
   double highest = 0.0;
   double noise = 0.0;  ///< of a vibration sample, converter included, rms
@@ -50,6 +51,9 @@ struct VibrationMap {
   /// 0 for a ratio of 1 and at standstill.
   double velocity_m_per_s(double friction_ratio, double sliding_velocity_m_per_s) const;
 };
+
+/// Largest vibration velocity of a target that full drive reaches.
+double needed_vibration_m_per_s(const scene::Scene& scene, const BelievedPlant& plant);
 
 /// The range of the vibration sensor.
 double vibration_full_scale_m_per_s(const scene::Scene& scene, const BelievedPlant& plant);

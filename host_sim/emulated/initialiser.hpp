@@ -105,28 +105,13 @@ PartName part_name(configure::Type<control::FedForward<Scalar>> /*part*/,
   return {"fed_forward", "FedForward<Scalar>"};
 }
 
-template <class Scalar, int MaxDelay>
-PartName part_name(
-    configure::Type<
-        control::ResonantVibration<Scalar, MaxDelay, control::FullCurrent<Scalar>>> /*part*/,
-    const typename control::ResonantVibration<
-        Scalar, MaxDelay, control::FullCurrent<Scalar>>::Parameters& parameters) {
-  return {
-      "resonant_vibration",
-      fmt::format("ResonantVibration<Scalar, {}, control::FullCurrent<Scalar>>", parameters.delay),
-      "full_current"};
-}
-
-template <class Scalar, int MaxDelay>
-PartName part_name(
-    configure::Type<
-        control::ResonantVibration<Scalar, MaxDelay, control::CurrentLimit<Scalar>>> /*part*/,
-    const typename control::ResonantVibration<
-        Scalar, MaxDelay, control::CurrentLimit<Scalar>>::Parameters& parameters) {
-  return {
-      "resonant_vibration",
-      fmt::format("ResonantVibration<Scalar, {}, control::CurrentLimit<Scalar>>", parameters.delay),
-      "current_limit"};
+template <class Scalar, int MaxDelay, class Current, class Parameters>
+PartName part_name(configure::Type<control::ResonantVibration<Scalar, MaxDelay, Current>> /*part*/,
+                   const Parameters& parameters) {
+  return {"resonant_vibration",
+          fmt::format("ResonantVibration<Scalar, {}, control::{}<Scalar>>", parameters.delay,
+                      Current::limits ? "CurrentLimit" : "FullCurrent"),
+          Current::limits ? "current_limit" : "full_current"};
 }
 
 template <class Parameters>

@@ -42,7 +42,7 @@ class Course final : public loop::PeriodSink {
 /// The fundamental of vibration and current, carrier period by carrier period.
 class VibrationCourse final : public loop::PeriodSink {
  public:
-  /// The phase is that of the vibration velocity before the carrier, in degrees. A voltage below 0
+  /// The phase is that of the vibration velocity ahead of the carrier, in degrees. A voltage below 0
   /// does not turn it.
   enum Ordinate {
     vibration_m_per_s,

@@ -69,10 +69,23 @@ void append_drive_limit(const scene::Scene& scene, const loop::ControlRecord& co
   }
   const auto& current_A = scene.drive->max_current_amplitude_A;
   warnings.push_back(
-      fmt::format("The amplifier's {:.6g} V{} limited the drive in {} of the control steps, as "
-                  "they do whenever "
-                  "the vibration changes by much.",
-                  most, current_A ? fmt::format(" and {:.6g} A", *current_A) : "", part));
+      fmt::format("The amplifier's {:.6g} V{} limited the drive in {} of the control steps. In a "
+                  "large change of "
+                  "the vibration this is meant to be.",
+                  most, current_A ? fmt::format(" or {:.6g} A", *current_A) : "", part));
+}
+
+/// The controller foresees the current from what it believes and from a noisy vibration.
+void append_current_excess(const scene::Scene& scene, const loop::RunResult& result,
+                           std::vector<std::string>& warnings) {
+  const auto& limit_A = scene.drive->max_current_amplitude_A;
+  constexpr double told_from = 1.001;
+  if (limit_A && result.electrical->current_peak_A > told_from * *limit_A) {
+    warnings.push_back(fmt::format(
+        "The current reached {:.4g} A, above its limit of {:.6g} A: the controller does "
+        "not measure it, it foresees it.",
+        result.electrical->current_peak_A, *limit_A));
+  }
 }
 
 std::vector<std::string> warnings(const scene::Scene& scene, const loop::RunResult& result,
@@ -99,6 +112,7 @@ std::vector<std::string> warnings(const scene::Scene& scene, const loop::RunResu
                               event.time_s * 1e3, fault_name(event.fault)));
   }
   append_drive_limit(scene, *result.control, all);
+  append_current_excess(scene, result, all);
   if (!scene.sensor.force) {
     all.emplace_back(
         "There is no force sensor: the friction ratio rests on the friction that the controller "
@@ -150,7 +164,7 @@ output::Table step_table(const scene::Scene& scene, const RunFindings& findings)
 output::Table resonance_table(const RunFindings& findings) {
   output::Table table{"Vibration at resonance",
                       {"From [ms]", "Velocity [mm/s]", "Settles to 2 % in [µs]", "Frequency [Hz]",
-                       "Largest deviation from the resonance"},
+                       "Largest deviation from the natural frequency"},
                       {}};
   for (const report::StepMetrics& step : findings.steps()) {
     const report::ResonanceMetrics& metrics = *step.resonance;
@@ -160,7 +174,7 @@ output::Table resonance_table(const RunFindings& findings) {
                               ? fmt::format("{:.1f}", *metrics.velocity_settling_time_s * 1e6)
                               : "never",
                           figure("{:.3f}", metrics.frequency_Hz),
-                          figure("{:.2g}", metrics.frequency_error)});
+                          figure("{:.1e}", metrics.frequency_error)});
   }
   return table;
 }
@@ -303,7 +317,7 @@ output::Section course(const scene::Scene& scene, const Course::Curve& curve) {
          "course"});
     if (scene.resonant()) {
       output::Panel& panel = section.panels.back();
-      panel.note = "Below 0 the phase is turned by half a turn.";
+      panel.note = "Below 0 the phase is turned by π.";
       const double most = scene.drive->max_force_amplitude_N * unit.per_N;
       panel.series.push_back(level("limit", time, most));
       panel.series.push_back(level("limit, phase turned", time, -most));
@@ -346,9 +360,9 @@ output::Section vibration_section(const scene::Scene& scene, const VibrationCour
   }
   panel("Current", "Current, amplitude [A]", VibrationCourse::current_A, std::move(limit));
   if (resonant) {
-    panel("Frequency", "Frequency of the drive [Hz]", VibrationCourse::frequency_Hz,
-          series("resonance", VibrationCourse::natural_Hz));
-    panel("Phase", "Vibration velocity before the carrier [deg]", VibrationCourse::phase_deg, {});
+    panel("Frequency", "Frequency [Hz]", VibrationCourse::frequency_Hz,
+          series("natural, without contact", VibrationCourse::natural_Hz));
+    panel("Phase", "Vibration velocity ahead of the carrier [deg]", VibrationCourse::phase_deg, {});
   } else if (!scene.drive->frequency_profile.empty()) {
     panel("Carrier frequency", "Carrier frequency [Hz]", VibrationCourse::frequency_Hz, {});
   }

@@ -93,7 +93,7 @@ std::vector<Key> plant_keys() {
       {"stiffness_profile", Profile{time_range, stiffness_range}, Instead{"stiffness_N_per_m"},
        "the same over time, linear between the pairs; two pairs at the same time are a jump"},
       {"damping_N_s_per_m", Number{{0.0, 1e12, "N s/m"}}, plant.damping_N_s_per_m,
-       "viscous damping of the vibration"},
+       "viscous damping of the vibration; above 0 with controller.vibration = \"resonant\""},
       {"initial_displacement_m", Number{{-1e3, 1e3, "m"}}, plant.initial_displacement_m,
        "displacement at 0 s", "run.start = \"given\""},
       {"initial_velocity_m_per_s", Number{speed_range}, plant.initial_velocity_m_per_s,
@@ -168,7 +168,9 @@ std::vector<Key> drive_keys() {
   const scene::Drive drive;
   return {
       {"frequency_Hz", Number{frequency_range}, Required{},
-       "carrier frequency; with frequency_profile only the unit of the keys in carrier periods"},
+       "carrier frequency; with frequency_profile only the unit of the keys in carrier periods; "
+       "with controller.vibration = \"resonant\" that of the first periods, before the believed "
+       "natural frequency"},
       {"frequency_profile", Profile{time_range, frequency_range}, Rule{"frequency_Hz, constant"},
        "carrier frequency over time, linear between the pairs; a carrier period has that of its "
        "beginning",
@@ -296,7 +298,8 @@ std::vector<Key> controller_keys() {
   const scene::Controller controller;
   return {
       {"arithmetic", Word{words_of(scene::arithmetics)}, Required{},
-       "number type in which the controller computes"},
+       "number type in which the controller computes; not q15 with controller.vibration = "
+       "\"resonant\""},
       {"vibration", Word{words_of(scene::vibration_controls)},
        Rule{"the drive is fed forward, at a fixed frequency"},
        "resonant: the controller observes the vibration, follows the plant's resonance with the "
@@ -304,7 +307,8 @@ std::vector<Key> controller_keys() {
        closed_loop_volts},
       {"frequency_range_Hz", Interval{frequency_range},
        Rule{"5 % below to 5 % above drive.frequency_Hz"},
-       "lowest and highest frequency of the drive; both within 6 % of drive.frequency_Hz",
+       "lowest and highest frequency of the drive, below and above drive.frequency_Hz, within 6 % "
+       "of it",
        at_resonance},
       {"target_friction_ratio", Profile{time_range, {0.0, 1.0, "", true}}, Required{},
        "target friction ratio, constant from each time to the next; the first time is 0"},

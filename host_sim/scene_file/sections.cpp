@@ -118,7 +118,7 @@ void check_frequency_range(const TableCursor& cursor, const scene::FrequencyRang
   if (!(range.lowest_Hz < start_Hz && start_Hz < range.highest_Hz)) {
     cursor.fail("frequency_range_Hz",
                 fmt::format("drive.frequency_Hz, where the drive starts, is {:g} Hz; allowed: a "
-                            "range with it inside",
+                            "range that begins below and ends above it",
                             start_Hz));
   }
   const double lowest_Hz = (1.0 - largest_deviation) * start_Hz;
@@ -156,11 +156,11 @@ void check_resonance(const TableCursor& cursor, const Variant& variant,
   const double coarsest_Hz = so_far.drive->frequency_Hz / 64.0;
   const double resolution_Hz = so_far.drive->frequency_resolution_Hz;
   if (resolution_Hz > coarsest_Hz || (resolution_Hz > 0.0 && resolution_Hz < finest_Hz)) {
-    drive.fail("frequency_resolution_Hz",
-               fmt::format("{:g} Hz is too {} to follow a resonance; allowed: 0, or {:.3g} to {:g} "
-                           "Hz",
-                           resolution_Hz, resolution_Hz < finest_Hz ? "fine" : "coarse", finest_Hz,
-                           coarsest_Hz));
+    drive.fail(
+        "frequency_resolution_Hz",
+        fmt::format("{:g} Hz is too {} to follow a resonance; allowed: 0, or {:.3g} Hz to "
+                    "1/64 of drive.frequency_Hz",
+                    resolution_Hz, resolution_Hz < finest_Hz ? "fine" : "coarse", finest_Hz));
   }
   if (controller.frequency_range_Hz) {
     check_frequency_range(cursor, *controller.frequency_range_Hz, so_far.drive->frequency_Hz);

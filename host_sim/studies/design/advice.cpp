@@ -222,11 +222,14 @@ Advice relief(const DesignStudy& study, const Requirement& point) {
       std::isfinite(inductance_H)
           ? fmt::format(
                 "An inductor of {} beside the transducer takes its reactive power at the "
-                "carrier, and leaves the amplifier {} and its own losses. ",
+                "carrier, and leaves the amplifier {} and its own losses.",
                 quantity(inductance_H, "H"), quantity(figures.active_power_W, "W"))
-          : std::string("The transducer is not capacitive: an inductor would not help. ");
+          : std::string("The transducer is not capacitive: an inductor would not help.");
+  if (study.task.scene.resonant()) {
+    return {"Matching", sentence};
+  }
   const ResonantSpring& spring = *study.resonant_spring;
-  sentence += fmt::format("A spring of {} puts the resonance on the carrier",
+  sentence += fmt::format(" A spring of {} puts the resonance on the carrier",
                           quantity(spring.stiffness_N_per_m, "N/m"));
   if (const auto& resonant = spring.requirement.motion.electrical) {
     sentence += fmt::format(
@@ -272,7 +275,7 @@ std::vector<Advice> advice(const DesignStudy& study) {
     all.push_back(amplifier(study, *most));
     all.push_back(relief(study, *most));
   }
-  if (!study.detunings.empty()) {
+  if (!study.detunings.empty() && !study.task.scene.resonant()) {
     const Detuning& lowest = study.detunings.front();
     all.push_back(resonance(study, lowest));
     if (lowest.reachable) {

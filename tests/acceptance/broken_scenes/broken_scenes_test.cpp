@@ -234,7 +234,7 @@ const std::vector<BrokenScene> broken_scenes = {
     {"frequency_range_without_the_start", resonant_loop, "vibration = \"resonant\"",
      "vibration = \"resonant\"\nfrequency_range_Hz = [61e3, 62e3]",
      "22:22: controller.frequency_range_Hz: drive.frequency_Hz, where the drive starts, is 60000 "
-     "Hz; allowed: a range with it inside"},
+     "Hz; allowed: a range that begins below and ends above it"},
     {"frequency_range_too_wide", resonant_loop, "vibration = \"resonant\"",
      "vibration = \"resonant\"\nfrequency_range_Hz = [50e3, 62e3]",
      "22:22: controller.frequency_range_Hz: [50000, 62000] leaves the range that the controller "
@@ -286,12 +286,11 @@ const std::vector<BrokenScene> broken_scenes = {
     {"frequency_word_too_coarse_for_a_resonance", resonant_loop, "[run]",
      "frequency_resolution_Hz = 2e3\n[run]",
      "17:27: drive.frequency_resolution_Hz: 2000 Hz is too coarse to follow a resonance; allowed: "
-     "0, or 0.000224 to 937.5 Hz"},
+     "0, or 0.000224 Hz to 1/64 of drive.frequency_Hz"},
     {"frequency_word_too_fine_for_a_resonance", resonant_loop, "[run]",
      "frequency_resolution_Hz = 1e-6\n[run]",
      "17:27: drive.frequency_resolution_Hz: 1e-06 Hz is too fine to follow a resonance; allowed: "
-     "0, "
-     "or 0.000224 to 937.5 Hz"},
+     "0, or 0.000224 Hz to 1/64 of drive.frequency_Hz"},
     {"resonance_without_a_spring", resonant_loop, "stiffness_N_per_m = 2842446067.7",
      "stiffness_N_per_m = 0",
      "3:21: plant.stiffness_N_per_m: is 0, and a mass without a spring has no resonance; allowed: "
@@ -309,11 +308,17 @@ const std::vector<BrokenScene> broken_scenes = {
      "[sensor]\nvibration_full_scale_m_per_s = 0.01",
      "24:32: sensor.vibration_full_scale_m_per_s: 0.01 m/s is below the fastest sliding, which the "
      "vibration has to exceed; allowed: above 0.0267 m/s"},
+    {"vibration_hidden_by_coarse_codes", resonant_loop, "[sensor]", "[sensor]\nvibration_bits = 4",
+     "24:18: sensor.vibration_bits: noise and converter hide a vibration below 0.169 m/s, and a "
+     "target needs 0.0732 m/s; allowed: at most 0.433 times the code, or a lower target"},
+    {"vibration_full_scale_below_a_target", resonant_loop, "[sensor]",
+     "[sensor]\nvibration_full_scale_m_per_s = 0.05",
+     "24:32: sensor.vibration_full_scale_m_per_s: 0.05 m/s is below the 0.07318 m/s that a target "
+     "needs; allowed: above that"},
     {"vibration_hidden_by_noise", resonant_loop, "[sensor]",
      "[sensor]\nvibration_noise_m_per_s = 0.02",
-     "24:27: sensor.vibration_noise_m_per_s: and the converter hide a vibration below 0.32 m/s, "
-     "and "
-     "a target needs 0.0732 m/s; allowed: together at most 0.229 of it, or a lower target"},
+     "24:27: sensor.vibration_noise_m_per_s: noise and converter hide a vibration below 0.32 m/s, "
+     "and a target needs 0.0732 m/s; allowed: at most 0.229 times the noise, or a lower target"},
     {"resonance_at_standstill", resonant_loop, "velocity_m_per_s = 0.0267", "velocity_m_per_s = 0",
      "10:20: sliding.velocity_m_per_s: is 0 all the time, where no vibration changes the friction; "
      "allowed: another velocity with controller.vibration = \"resonant\""},

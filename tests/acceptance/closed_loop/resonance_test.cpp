@@ -172,6 +172,22 @@ TEST_P(Resonance, FromRestWithinFourPeriodsOfTheBound) {
   }
 }
 
+// What the controller's README says, to a tenth of a period.
+TEST_P(Resonance, FromRestAtAHeadRoomOfThree) {
+  struct Case {
+    double quality;
+    double beyond_bound_periods;
+  };
+  for (const Case& each : {Case{50.0, 2.6}, Case{200.0, 1.3}, Case{1000.0, -1.0}}) {
+    Loop given = loop();
+    given.quality = each.quality;
+    const double velocity = velocity_for_ratio(0.5, 60e3);
+    EXPECT_LE((settled_s(run(given), velocity, 0.0) - bound_s(given, 0.0, velocity)) * 60e3,
+              each.beyond_bound_periods)
+        << each.quality;
+  }
+}
+
 TEST_P(Resonance, ChangesOfTheTargetWithinFourPeriodsOfTheBound) {
   for (const double quality : {50.0, 200.0, 1000.0}) {
     Loop given = loop();

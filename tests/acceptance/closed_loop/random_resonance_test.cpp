@@ -1,0 +1,129 @@
+// Random loops at resonance: each that can be designed holds its vibration, and what keeps a friction
+// ratio from its target has a name.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "host_sim/loop/run.hpp"
+#include "host_sim/report/step_metrics.hpp"
+#include "host_sim/scene_file/reader.hpp"
+#include "host_sim/scene_file/scene_error.hpp"
+#include "tests/common/constants/pi.hpp"
+#include "tests/host_sim/loop/logs/logged_run.hpp"
+
+namespace sonoglide::resonance_test {
+namespace {
+
+using tests::two_pi;
+
+struct RandomLoop {
+  double natural_Hz;
+  double time_constant_s;
+  std::string text;
+};
+
+class Draw {
+ public:
+  double between(double low, double high) {
+    return low + (high - low) * std::uniform_real_distribution<double>()(random_);
+  }
+  double decades(double low, double high) {
+    return std::exp(between(std::log(low), std::log(high)));
+  }
+  template <class T, std::size_t Count>
+  T one_of(const T (&all)[Count]) {
+    return all[random_() % Count];
+  }
+
+ private:
+  std::mt19937_64 random_{2013};
+};
+
+RandomLoop draw_loop(Draw& draw) {
+  const double natural_Hz = draw.decades(15e3, 150e3);
+  const double rate_rad_per_s = two_pi * natural_Hz;
+  const double quality = draw.decades(20.0, 3000.0);
+  const double mass_kg = draw.decades(1e-4, 1.0);
+  const double damping = mass_kg * rate_rad_per_s / quality;
+  const double speed = draw.decades(3e-3, 0.3);
+  const double sliding = speed * draw.one_of({1.0, -1.0});
+  const double coefficient = draw.between(0.05, 0.5);
+  const double normal_N = mass_kg * 9.81 * draw.decades(1.0, 30.0);
+  const double friction_N = coefficient * normal_N;
+  const double presliding_m = speed / rate_rad_per_s / draw.decades(0.05, 15.0);
+  const double fastest = 3.0 * speed;
+  const double most_V = draw.decades(1.4, 16.0) * (damping * fastest + 1.2 * friction_N);
+  const double beside = draw.one_of({0.0, draw.between(-0.03, 0.03)});
+  const double time_constant_s = 2.0 * quality / rate_rad_per_s;
+  const double step_s = std::max(12.0 * time_constant_s, 150.0 / natural_Hz);
+  std::string text = fmt::format(
+      "[plant]\nmass_kg = {}\nstiffness_N_per_m = {:.17g}\ndamping_N_s_per_m = {}\n"
+      "[friction]\nlaw = \"dahl\"\ncoefficient = {}\nnormal_force_N = {}\n"
+      "contact_stiffness_N_per_m = {}\n"
+      "[sliding]\nvelocity_m_per_s = {}\n"
+      "[transducer]\nforce_factor_N_per_V = 1.0\nclamped_capacitance_F = 1e-12\n"
+      "[drive]\nfrequency_Hz = {:.17g}\nmax_voltage_amplitude_V = {}\n"
+      "[run]\nduration_s = {}\n[controller]\nvibration = \"resonant\"\n",
+      mass_kg, mass_kg * rate_rad_per_s * rate_rad_per_s, damping, coefficient, normal_N,
+      friction_N / presliding_m, sliding, natural_Hz * (1.0 + beside), most_V, 3.0 * step_s);
+  text += fmt::format("arithmetic = \"{}\"\n", draw.one_of({"float32", "q31", "float64"}));
+  text += fmt::format("target_friction_ratio = [[0.0, {}], ", draw.between(0.35, 0.9));
+  text += fmt::format("[{}, {}], ", step_s, draw.between(0.35, 0.9));
+  text += fmt::format("[{}, {}]]\n", 2.0 * step_s, draw.between(0.35, 0.9));
+  text += fmt::format("[sensor]\nvibration = \"velocity\"\nforce = {}\n",
+                      draw.one_of({"true", "false"}));
+  text += fmt::format("vibration_noise_m_per_s = {}\n", draw.one_of({0.0, 1e-3 * fastest}));
+  text += draw.one_of({"", "vibration_bits = 12\n", "vibration_bits = 14\n"});
+  text += fmt::format("[model_error]\nstiffness = {}\n",
+                      draw.one_of({1.0, (1.0 + beside) * (1.0 + beside), 1.01}));
+  text += fmt::format("mass = {}\n", draw.one_of({1.0, 0.85, 1.2}));
+  text += fmt::format("damping = {}\n", draw.one_of({1.0, 0.5, 0.7, 2.0}));
+  return {natural_Hz, time_constant_s, text};
+}
+
+std::vector<report::StepMetrics> steps_of(const scene::Scene& scene, loop::LoggedRun& ran) {
+  ran = loop::run_logged(scene);
+  report::StepMeter meter(scene);
+  for (const loop::Period& period : ran.periods) {
+    meter.take(period);
+  }
+  return meter.steps();
+}
+
+TEST(RandomResonance, HoldsItsVibrationAndNamesWhatIsOffTarget) {
+  constexpr int loops = 100;
+  Draw draw;
+  int refused = 0;
+  for (int i = 0; i < loops; ++i) {
+    const RandomLoop given = draw_loop(draw);
+    scene::Scene scene;
+    try {
+      scene = scene_file::read_text(given.text, "random.toml");
+    } catch (const scene_file::SceneError& error) {
+      EXPECT_NE(std::string(error.what()).find("drive.max_voltage_amplitude_V: adds"),
+                std::string::npos)
+          << error.what();
+      ++refused;
+      continue;
+    }
+    loop::LoggedRun ran;
+    for (const report::StepMetrics& step : steps_of(scene, ran)) {
+      ASSERT_TRUE(step.resonance->velocity_settling_time_s) << given.text;
+      EXPECT_LE(*step.resonance->velocity_settling_time_s,
+                6.0 * given.time_constant_s + 30.0 / given.natural_Hz)
+          << given.text;
+      EXPECT_TRUE(step.settling_time_s || step.limit != control::Limit::none) << given.text;
+    }
+    EXPECT_TRUE(ran.result.control->faults.empty()) << given.text;
+  }
+  EXPECT_LE(refused, loops / 10);
+}
+
+}  // namespace
+}  // namespace sonoglide::resonance_test
