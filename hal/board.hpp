@@ -16,7 +16,7 @@ struct Sample {
   bool fresh;                     ///< false where no sample arrived since the last one
 };
 
-/// With the vibration, of a unit that holds it at resonance. The vibration velocity is the real part
+/// With the vibration, of a unit that observes it. The vibration velocity is the real part
 /// of (in_phase + j quadrature) e^jθ, θ the phase of the drive: from the demodulated velocity
 /// pick-up, or from the current of the transducer less that of its clamped capacitance, over the
 /// force factor. The sliding velocity has the full scale of the vibration sensor.
@@ -40,10 +40,10 @@ struct Drive {
   std::uint8_t settling;  ///< control::Settling
 };
 
-/// Of a unit that holds the vibration at resonance. Its amplitude is from -2^31 + 1 on; below 0 the
+/// Of a unit that observes the vibration. At resonance its amplitude is from -2^31 + 1 on; below 0 the
 /// phase of the drive is turned by π.
 struct ResonantDrive : Drive {
-  std::int32_t frequency;  ///< steps of the frequency word above that of the start
+  std::int32_t frequency;  ///< steps of the frequency word above that of the start; else 0
 };
 
 /// A board is a class of this shape. It needs no base class; the app is compiled for one board:
@@ -54,8 +54,8 @@ struct ResonantDrive : Drive {
 ///     void drive(const Drive& drive);  // acts at the drive phase 0 that the design states
 ///   };
 ///
-/// The board of a unit that holds the vibration at resonance takes VibrationSample and ResonantDrive
-/// in their place.
+/// The board of a unit that observes the vibration takes VibrationSample and ResonantDrive in their
+/// place.
 ///
 /// A board whose own timer makes the carrier periods (app::TimedLoop) keeps the drive at zero from
 /// reset until the first drive(), and also offers:

@@ -39,7 +39,7 @@ struct Parts {
   using Shaper = ShaperT;            ///< NoShaping | NotchShaper
   using Regulator = RegulatorT;      ///< NoFeedback | IntegralRegulator
   using Relearning = RelearningT;    ///< NoRelearning | PeriodicRelearning
-  using Vibration = VibrationT;      ///< FedForward | ResonantVibration
+  using Vibration = VibrationT;      ///< FedForward | DampedVibration | ResonantVibration
   using Force = ForceT;              ///< ForceSensor | NoForceSensor
   using Ceiling = CeilingT;          ///< FullDrive | DriveLimit
   using Samples = SamplesT;          ///< StrictSamples | TolerantSamples
@@ -113,6 +113,7 @@ class Controller {
     }
   };
 
+  /// @param parameters  outlive this: a part may leave a table where it is
   explicit Controller(const Parameters& parameters)
       : configured_friction_(parameters.friction_force),
         smallest_friction_(parameters.smallest_friction),
@@ -191,7 +192,7 @@ class Controller {
   Command step(const Measurement& measurement) {
     const DriveCommand<Scalar> command = answer(measurement);
     if constexpr (observed) {
-      return {command, vibration_.take(command.amplitude)};
+      return vibration_.answer(command);
     } else {
       return command;
     }
@@ -428,7 +429,10 @@ class Controller {
     const Scalar amplitude = slew_.limit(wanted.amplitude, requested_);
     const bool held_below = amplitude < wanted.amplitude;
     const bool held_above = wanted.amplitude < amplitude;
-    const bool at_most = wanted.limit == at_full_drive || held_below;
+    bool at_most = wanted.limit == at_full_drive || held_below;
+    if constexpr (observed) {
+      at_most = at_most || vibration_.at_most();
+    }
     const bool at_least = whole_ratio() <= ratio || held_above;
     regulator_.accept(at_most, at_least);
     commanded_ = ratio;

@@ -69,8 +69,8 @@ struct DriveCommand {
   Settling settling;
 };
 
-/// Of a drive that follows the resonance. Its amplitude is in [-1, 1]: below 0 the phase is turned
-/// by half a turn.
+/// Of a unit that observes the vibration. At resonance its amplitude is in [-1, 1]: below 0 the phase
+/// is turned by π.
 template <class Scalar>
 struct ResonantCommand : DriveCommand<Scalar> {
   std::int32_t frequency;  ///< steps of the frequency word from the start

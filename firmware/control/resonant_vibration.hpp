@@ -115,15 +115,15 @@ class ResonantVibration {
     }
   }
 
-  /// One call for each step, with the amplitude of its answer.
-  /// @return the answer's frequency, in steps of the word from the start
-  std::int32_t take(Scalar amplitude) {
+  /// One call for each step, with its answer.
+  /// @return the answer with its frequency, in steps of the word from the start
+  Command answer(const DriveCommand<Scalar>& command) {
     const Scalar turned = resonance_.cosine() < Scalar{} ? -resonance_.sine() : resonance_.sine();
     const Scalar wanted =
         resonance_.in_range(resonance_.natural() + parameters_.phase_gain * turned);
     const Scalar deviation = word_.approach(wanted);
-    past_.append({amplitude, deviation, word_.steps()});
-    return word_.steps();
+    past_.append({command.amplitude, deviation, word_.steps()});
+    return {command, word_.steps()};
   }
 
   /// Frequency of the period whose sample comes next.
@@ -131,6 +131,8 @@ class ResonantVibration {
 
   /// The velocity is the one that was last asked for.
   bool settled() const { return settled_; }
+  /// No more of a drive would help; a velocity that is not settled says so too.
+  static constexpr bool at_most() { return false; }
 
  private:
   static constexpr Scalar whole() { return numeric::from_code<Scalar>(INT32_MAX); }

@@ -17,6 +17,7 @@
 #include "host_sim/configure/configuration_error.hpp"
 #include "host_sim/configure/design_periods.hpp"
 #include "host_sim/configure/plant_scales.hpp"
+#include "host_sim/scene/names.hpp"
 
 namespace sonoglide::configure {
 namespace {
@@ -115,8 +116,8 @@ void design_regulator(const scene::Scene& scene, const Mode& mode, ControlDesign
 
 /// The inner loop follows a small change of its velocity within a few periods; while it follows a
 /// large one the integral waits.
-void design_resonant_regulator(const scene::Scene& scene, ControlDesign& design) {
-  constexpr double following = 3.0;
+void design_outer_regulator(const scene::Scene& scene, ControlDesign& design) {
+  const double following = scene.resonant() ? 3.0 : 6.0;
   const double filter = filter_periods(scene, design.scales);
   const double latency = latency_periods(scene);
   design.integral_gain = gain_behind_delay(latency + following + filter);
@@ -126,11 +127,12 @@ void design_resonant_regulator(const scene::Scene& scene, ControlDesign& design)
   design.lead_periods = 1.5 + scene.drive->delay_periods;
 }
 
-/// Until a change of the request has become one of the vibration: through the notch, or at
-/// resonance as fast as full drive builds it up.
+/// Until a change of the request has become one of the vibration: through the notch, until the
+/// natural mode is quiet, or at resonance as fast as full drive builds it up.
 double changing_periods(const ControlDesign& design) {
+  constexpr double quieting = 16.0;
   if (!design.resonance) {
-    return 2.0 * design.notch_spacing;
+    return design.damping ? quieting : 2.0 * design.notch_spacing;
   }
   constexpr double latency = 8.0;
   const double head_room = std::max(1.01, design.resonance->head_room);
@@ -353,22 +355,22 @@ void check_converter(const scene::Scene& scene, const BelievedPlant& plant) {
   }
 }
 
-/// @return displacement amplitude at the velocity that is the base of all
-double set_resonant_scales(const scene::Scene& scene, const BelievedPlant& plant,
-                           ControlDesign& design) {
-  const double fastest_m_per_s = fastest_sliding_m_per_s(scene.sliding);
-  if (fastest_m_per_s == 0.0) {
-    throw ConfigurationError("sliding.velocity_m_per_s",
-                             "is 0 all the time, where no vibration changes the friction; allowed: "
-                             "another velocity with controller.vibration = \"resonant\"");
+/// At a fixed frequency.
+void require_settling(const BelievedPlant& plant, double omega_rad_per_s) {
+  // At resonance the vibration takes about as many radians to build up as it is amplified.
+  constexpr double largest_amplification = 1000.0;
+  const double inertia_N_per_m = plant.mass_kg * omega_rad_per_s * omega_rad_per_s;
+  if (!(inertia_N_per_m <=
+        largest_amplification * dynamic_stiffness_N_per_m(plant, omega_rad_per_s))) {
+    throw ConfigurationError(
+        "drive.frequency_Hz",
+        "is the plant's natural frequency, and with so little damping the vibration never settles; "
+        "allowed: another frequency, more plant.damping_N_s_per_m, or with a [transducer] "
+        "controller.vibration = \"resonant\"");
   }
-  const double full_scale_m_per_s = vibration_full_scale_m_per_s(scene, plant);
-  const double force_N =
-      scene.sensor.force
-          ? scene.sensor.force_full_scale_N
-          : 2.0 * std::max(plant.friction_N, largest_friction_limit_N(scene.friction));
-  design.scales = {1.0 / scene.drive->frequency_Hz, force_N, full_scale_m_per_s,
-                   scene.drive->max_force_amplitude_N};
+}
+
+void require_wide_range(double full_scale_m_per_s, double fastest_m_per_s) {
   if (2.0 * control::smallest_speed_floor * full_scale_m_per_s > fastest_m_per_s) {
     throw ConfigurationError(
         "sensor.vibration_full_scale_m_per_s",
@@ -383,33 +385,51 @@ double set_resonant_scales(const scene::Scene& scene, const BelievedPlant& plant
                     "allowed: above {:g} m/s",
                     full_scale_m_per_s, fastest_m_per_s));
   }
-  const double needed_m_per_s = needed_vibration_m_per_s(scene, plant);
-  if (!(needed_m_per_s < full_scale_m_per_s)) {
-    throw ConfigurationError(
-        "sensor.vibration_full_scale_m_per_s",
-        fmt::format("{:g} m/s is below the {:.4g} m/s that a target needs; allowed: above that",
-                    full_scale_m_per_s, needed_m_per_s));
+}
+
+/// The range of the vibration sensor.
+double full_scale_m_per_s(const scene::Scene& scene, const BelievedPlant& plant) {
+  if (scene.resonant()) {
+    return resonant_full_scale_m_per_s(scene, plant);
   }
-  return full_scale_m_per_s / (numeric::two_pi * scene.drive->frequency_Hz);
+  require_settling(plant, numeric::two_pi * scene.drive->frequency_Hz);
+  return damped_full_scale_m_per_s(scene, plant);
+}
+
+/// @return displacement amplitude at the velocity that is the base of all
+double set_observed_scales(const scene::Scene& scene, const BelievedPlant& plant,
+                           ControlDesign& design) {
+  const double fastest_m_per_s = fastest_sliding_m_per_s(scene.sliding);
+  if (fastest_m_per_s == 0.0) {
+    throw ConfigurationError(
+        "sliding.velocity_m_per_s",
+        fmt::format("is 0 all the time, where no vibration changes the friction; allowed: another "
+                    "velocity with controller.vibration = \"{}\"",
+                    scene::name_of(scene::vibration_controls, *scene.controller->vibration)));
+  }
+  const double velocity_m_per_s = full_scale_m_per_s(scene, plant);
+  const double force_N =
+      scene.sensor.force
+          ? scene.sensor.force_full_scale_N
+          : 2.0 * std::max(plant.friction_N, largest_friction_limit_N(scene.friction));
+  design.scales = {1.0 / scene.drive->frequency_Hz, force_N, velocity_m_per_s,
+                   scene.drive->max_force_amplitude_N};
+  require_wide_range(velocity_m_per_s, fastest_m_per_s);
+  if (scene.resonant()) {
+    require_needed_range(scene, plant, velocity_m_per_s);
+  }
+  return velocity_m_per_s / (numeric::two_pi * scene.drive->frequency_Hz);
 }
 
 /// @return displacement amplitude at the velocity that is the base of all
 double set_scales(const scene::Scene& scene, const BelievedPlant& plant, ControlDesign& design) {
-  if (scene.resonant()) {
-    return set_resonant_scales(scene, plant, design);
+  if (scene.observes_vibration()) {
+    return set_observed_scales(scene, plant, design);
   }
   const double omega = numeric::two_pi * scene.drive->frequency_Hz;
-  const double compliance = 1.0 / dynamic_stiffness_N_per_m(plant, omega);
-  // At resonance the vibration takes about as many radians to build up as it is amplified.
-  constexpr double largest_amplification = 1000.0;
-  if (!(compliance * plant.mass_kg * omega * omega <= largest_amplification)) {
-    throw ConfigurationError(
-        "drive.frequency_Hz",
-        "is the plant's natural frequency, and with so little damping the vibration never settles; "
-        "allowed: another frequency, more plant.damping_N_s_per_m, or with a [transducer] "
-        "controller.vibration = \"resonant\"");
-  }
-  const double displacement_m = scene.drive->max_force_amplitude_N * compliance;
+  require_settling(plant, omega);
+  const double displacement_m =
+      scene.drive->max_force_amplitude_N / dynamic_stiffness_N_per_m(plant, omega);
   design.scales = {1.0 / scene.drive->frequency_Hz, scene.sensor.force_full_scale_N,
                    displacement_m * omega, scene.drive->max_force_amplitude_N};
   return displacement_m;
@@ -450,7 +470,10 @@ ControlDesign design_control(const scene::Scene& scene) {
       std::max(smallest_friction, fewest_codes * code_N(scene.sensor) / design.scales.force_N);
   if (scene.resonant()) {
     design.resonance = design_resonance(scene, plant, design.scales.velocity_m_per_s);
-    design_resonant_regulator(scene, design);
+    design_outer_regulator(scene, design);
+  } else if (scene.observes_vibration()) {
+    design.damping = design_damping(scene, plant, design.scales.velocity_m_per_s);
+    design_outer_regulator(scene, design);
   } else {
     const Mode mode = natural_mode(plant, design.scales.carrier_period_s);
     design_shaper(scene, mode, design);

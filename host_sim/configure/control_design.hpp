@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "host_sim/configure/damped_design.hpp"
 #include "host_sim/configure/resonant_design.hpp"
 #include "host_sim/scene/scene.hpp"
 
@@ -54,6 +55,7 @@ struct ControlDesign {
 
   bool senses_force = true;
   std::optional<ResonantDesign> resonance;  ///< of a loop that holds the vibration at resonance
+  std::optional<DampedDesign> damping;      ///< of a loop that damps the natural mode
 
   bool free_mode = false;  ///< the plant has a natural mode that no notch takes care of
 
@@ -77,8 +79,9 @@ struct ControlDesign {
   double relearn_weight = 0.0;  ///< of a sample averaged
 
   double speed_floor_m_per_s() const { return speed_floor * scales.velocity_m_per_s; }
-  VibrationMap vibration_map() const {
-    return {map, scales.velocity_m_per_s, contact_force / friction_force};
+  bool observes_vibration() const { return resonance || damping; }
+  VibrationMap vibration_map(double believed_friction_N) const {
+    return {map, scales.velocity_m_per_s, contact_force * scales.force_N / believed_friction_N};
   }
 };
 

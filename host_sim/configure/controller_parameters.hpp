@@ -3,12 +3,16 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <type_traits>
 
 #include "firmware/control/controller.hpp"
 #include "firmware/control/current_limit.hpp"
 #include "firmware/control/dahl_feedforward.hpp"
+#include "firmware/control/damped_vibration.hpp"
 #include "firmware/control/integral_regulator.hpp"
 #include "firmware/control/learnt_friction.hpp"
 #include "firmware/control/notch_shaper.hpp"
@@ -165,6 +169,57 @@ typename control::ResonantVibration<Scalar, MaxDelay, Current>::Parameters param
           scaled<Scalar>(resonance.settled),
           scaled<Scalar>(std::min(0.5, resonance.missing)),
           resonance.delay_periods};
+}
+
+/// Smallest n > 0 with which 2^n is above twice these numbers of the rows: then the differences of
+/// neighbours fit.
+inline std::uint8_t exponent_above(const control::ModeTable<double>& table, std::size_t begin,
+                                   std::size_t end) {
+  int exponent = 0;
+  for (const control::ModeRow<double>& row : table) {
+    for (std::size_t i = begin; i < end; ++i) {
+      exponent = std::max(exponent, numeric::split(std::abs(row[i])).exponent);
+    }
+  }
+  return static_cast<std::uint8_t>(exponent + 1);
+}
+
+template <class Scalar>
+typename control::ModeObserver<Scalar>::Parameters parameters(
+    const ControlDesign& design, Type<control::ModeObserver<Scalar>> /*part*/) {
+  namespace mode = control::mode;
+  const DampedDesign& damping = *design.damping;
+  typename control::ModeObserver<Scalar>::Parameters parameters{};
+  std::array<int, mode::numbers> exponents{};
+  const auto rebase = [&](std::size_t begin, std::size_t end) {
+    const std::uint8_t exponent = exponent_above(damping.table, begin, end);
+    std::fill(exponents.begin() + begin, exponents.begin() + end, exponent);
+    return exponent;
+  };
+  if constexpr (numeric::is_fixed_point_v<Scalar>) {
+    parameters.seen_base = rebase(mode::seen, mode::mode_gain);
+    parameters.gain_base = rebase(mode::mode_gain, mode::feedback);
+    parameters.feedback_base = rebase(mode::feedback, mode::inverse);
+    parameters.inverse_base = rebase(mode::inverse, mode::numbers);
+  }
+  for (std::size_t row = 0; row < mode::rows; ++row) {
+    for (std::size_t i = 0; i < mode::numbers; ++i) {
+      parameters.table[row][i] = scaled_within<Scalar>(
+          numeric::scale_by_power_of_two(damping.table[row][i], -exponents[i]));
+    }
+  }
+  constexpr double finest = 0x1p-12;  // its square must not be lost in fixed point
+  parameters.audible = scaled_within<Scalar>(std::max(finest, damping.audible));
+  return parameters;
+}
+
+template <class Scalar, int MaxDelay>
+typename control::DampedVibration<Scalar, MaxDelay>::Parameters parameters(
+    const ControlDesign& design, Type<control::DampedVibration<Scalar, MaxDelay>> /*part*/) {
+  const DampedDesign& damping = *design.damping;
+  return {parameters(design, Type<control::ModeObserver<Scalar>>{}),
+          scaled_within<Scalar>(damping.settled), scaled_within<Scalar>(damping.missing),
+          damping.delay_periods};
 }
 
 /// Of a part that judges readings of the force, where there are any.

@@ -7,6 +7,7 @@
 #include "firmware/control/coulomb_feedforward.hpp"
 #include "firmware/control/current_limit.hpp"
 #include "firmware/control/dahl_feedforward.hpp"
+#include "firmware/control/damped_vibration.hpp"
 #include "firmware/control/fed_forward.hpp"
 #include "firmware/control/force_sensing.hpp"
 #include "firmware/control/full_current.hpp"
@@ -39,23 +40,27 @@ ChoiceOfTwo choose(bool second) {
   return std::variant_alternative_t<0, ChoiceOfTwo>{};
 }
 
-/// Q15 is too coarse for a resonance.
+/// Q15 is too coarse for it.
 template <class Scalar>
-inline constexpr bool can_resonate = sizeof(Scalar) >= 4;
+inline constexpr bool can_observe_vibration = sizeof(Scalar) >= 4;
 
 /// How the drive acts on the vibration.
 template <class Scalar>
 struct VibrationParts {
   template <template <class> class Current>
   using Resonant = control::ResonantVibration<Scalar, max_drive_delay, Current<Scalar>>;
+  using Damped = control::DampedVibration<Scalar, max_drive_delay>;
   using Part =
-      std::conditional_t<can_resonate<Scalar>,
+      std::conditional_t<can_observe_vibration<Scalar>,
                          Choice<control::FedForward<Scalar>, Resonant<control::FullCurrent>,
-                                Resonant<control::CurrentLimit>>,
+                                Resonant<control::CurrentLimit>, Damped>,
                          Choice<control::FedForward<Scalar>>>;
 
   static Part chosen(const ControlDesign& design) {
-    if constexpr (can_resonate<Scalar>) {
+    if constexpr (can_observe_vibration<Scalar>) {
+      if (design.damping) {
+        return Part(Type<Damped>{});
+      }
       if (design.resonance) {
         return design.resonance->current_limited ? Part(Type<Resonant<control::CurrentLimit>>{})
                                                  : Part(Type<Resonant<control::FullCurrent>>{});
@@ -78,7 +83,7 @@ struct ControllerParts {
   Choice<control::NoRelearning<Scalar>, control::PeriodicRelearning<Scalar>> relearning;
   typename VibrationParts<Scalar>::Part vibration;
   Choice<control::ForceSensor, control::NoForceSensor> force;
-  bool resonant;
+  bool observes_vibration;
 
   explicit ControllerParts(const ControlDesign& design)
       : friction(choose<decltype(friction)>(design.calibrated)),
@@ -89,7 +94,7 @@ struct ControllerParts {
         relearning(choose<decltype(relearning)>(design.relearns)),
         vibration(VibrationParts<Scalar>::chosen(design)),
         force(choose<decltype(force)>(!design.senses_force)),
-        resonant(design.resonance.has_value()) {}
+        observes_vibration(design.observes_vibration()) {}
 
   /// Calls visit(name, choice) for each, in the order of control::Parts; a drive that is fed forward
   /// has a force sensor, and names neither.
@@ -101,7 +106,7 @@ struct ControllerParts {
     visit("shaper", shaper);
     visit("regulator", regulator);
     visit("relearning", relearning);
-    if (resonant) {
+    if (observes_vibration) {
       visit("vibration", vibration);
       visit("force", force);
     }

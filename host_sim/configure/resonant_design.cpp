@@ -13,6 +13,7 @@
 #include "firmware/numeric/turn.hpp"
 #include "host_sim/configure/configuration_error.hpp"
 #include "host_sim/configure/plant_scales.hpp"
+#include "host_sim/configure/sensor_noise.hpp"
 
 namespace sonoglide::configure {
 namespace {
@@ -64,19 +65,6 @@ TargetVelocities target_velocities(const scene::Scene& scene, const BelievedPlan
     velocities.highest_m_per_s = std::max(velocities.highest_m_per_s, velocity_m_per_s);
   }
   return velocities;
-}
-
-/// Rms of what the converter's codes leave out; 0 of an ideal one.
-double rounding_m_per_s(const scene::Sensor& sensor, double full_scale_m_per_s) {
-  const double code_m_per_s =
-      sensor.vibration_bits ? 2.0 * full_scale_m_per_s * std::exp2(-*sensor.vibration_bits) : 0.0;
-  return code_m_per_s / numeric::sqrt(12.0);
-}
-
-double noise_m_per_s(const scene::Sensor& sensor, double full_scale_m_per_s) {
-  const double noise = sensor.vibration_noise_m_per_s;
-  const double rounding = rounding_m_per_s(sensor, full_scale_m_per_s);
-  return numeric::sqrt(noise * noise + rounding * rounding);
 }
 
 /// Of what a period at full drive adds: friction that sets in moves the mass as well, by less.
@@ -176,8 +164,8 @@ void require_audible_targets(const scene::Scene& scene, double lowest_m_per_s,
   }
   const double allowed = lowest_m_per_s / audible_m_per_s;
   if (design.audible > least_audible * design.rate) {
-    const bool coarse =
-        scene.sensor.vibration_noise_m_per_s < rounding_m_per_s(scene.sensor, full_scale_m_per_s);
+    const bool coarse = scene.sensor.vibration_noise_m_per_s <
+                        vibration_rounding_m_per_s(scene.sensor, full_scale_m_per_s);
     throw ConfigurationError(
         coarse ? "sensor.vibration_bits" : "sensor.vibration_noise_m_per_s",
         fmt::format("noise and converter hide a vibration below {:.3g} m/s, and a target needs "
@@ -189,6 +177,11 @@ void require_audible_targets(const scene::Scene& scene, double lowest_m_per_s,
       fmt::format("is too strong for a vibration below {:.3g} m/s, and a target needs {:.3g} m/s; "
                   "allowed: at most {:.4g} V, or a lower target",
                   audible_m_per_s, lowest_m_per_s, allowed * scene.drive->max_voltage_amplitude_V));
+}
+
+/// Largest vibration velocity of a target that full drive reaches.
+double needed_vibration_m_per_s(const scene::Scene& scene, const BelievedPlant& plant) {
+  return target_velocities(scene, plant, full_drive_m_per_s(scene, plant)).highest_m_per_s;
 }
 
 }  // namespace
@@ -211,17 +204,24 @@ double VibrationMap::velocity_m_per_s(double friction_ratio,
   return largest_m_per_s * std::min(1.0, map.amplitude(0.5 * friction_ratio, speed));
 }
 
-double needed_vibration_m_per_s(const scene::Scene& scene, const BelievedPlant& plant) {
-  return target_velocities(scene, plant, full_drive_m_per_s(scene, plant)).highest_m_per_s;
-}
-
-double vibration_full_scale_m_per_s(const scene::Scene& scene, const BelievedPlant& plant) {
+double resonant_full_scale_m_per_s(const scene::Scene& scene, const BelievedPlant& plant) {
   if (scene.sensor.vibration_full_scale_m_per_s) {
     return *scene.sensor.vibration_full_scale_m_per_s;
   }
   constexpr double room = 4.0;  // for what feedback may ask for, and for what a knock adds
   return room *
          std::max(needed_vibration_m_per_s(scene, plant), fastest_sliding_m_per_s(scene.sliding));
+}
+
+void require_needed_range(const scene::Scene& scene, const BelievedPlant& plant,
+                          double full_scale_m_per_s) {
+  const double needed_m_per_s = needed_vibration_m_per_s(scene, plant);
+  if (!(needed_m_per_s < full_scale_m_per_s)) {
+    throw ConfigurationError(
+        "sensor.vibration_full_scale_m_per_s",
+        fmt::format("{:g} m/s is below the {:.4g} m/s that a target needs; allowed: above that",
+                    full_scale_m_per_s, needed_m_per_s));
+  }
 }
 
 ResonantDesign design_resonance(const scene::Scene& scene, const BelievedPlant& plant,
@@ -245,7 +245,7 @@ ResonantDesign design_resonance(const scene::Scene& scene, const BelievedPlant& 
   design.losses = full_scale_m_per_s / full_m_per_s;
   design.quality_factor = plant.mass_kg * natural_rad_per_s / plant.damping_N_s_per_m;
   design.head_room = full_m_per_s / targets.highest_m_per_s;
-  design.noise = noise_m_per_s(scene.sensor, full_scale_m_per_s) / full_scale_m_per_s;
+  design.noise = vibration_noise_m_per_s(scene.sensor, full_scale_m_per_s) / full_scale_m_per_s;
   design.delay_periods = static_cast<std::uint8_t>(scene.drive->delay_periods);
   design_word(scene, plant, design);
   design_estimate(design);

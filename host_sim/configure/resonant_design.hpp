@@ -52,11 +52,12 @@ struct VibrationMap {
   double velocity_m_per_s(double friction_ratio, double sliding_velocity_m_per_s) const;
 };
 
-/// Largest vibration velocity of a target that full drive reaches.
-double needed_vibration_m_per_s(const scene::Scene& scene, const BelievedPlant& plant);
-
 /// The range of the vibration sensor.
-double vibration_full_scale_m_per_s(const scene::Scene& scene, const BelievedPlant& plant);
+double resonant_full_scale_m_per_s(const scene::Scene& scene, const BelievedPlant& plant);
+
+/// @throws ConfigurationError  a target needs more than the vibration sensor reads
+void require_needed_range(const scene::Scene& scene, const BelievedPlant& plant,
+                          double full_scale_m_per_s);
 
 /// @param full_scale_m_per_s  of the vibration sensor
 /// @throws ConfigurationError  no spring, no damping; a drive too strong for the sensor's range; a

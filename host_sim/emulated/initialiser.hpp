@@ -114,6 +114,12 @@ PartName part_name(configure::Type<control::ResonantVibration<Scalar, MaxDelay, 
           Current::limits ? "current_limit" : "full_current"};
 }
 
+template <class Scalar, int MaxDelay, class Parameters>
+PartName part_name(configure::Type<control::DampedVibration<Scalar, MaxDelay>> /*part*/,
+                   const Parameters& parameters) {
+  return {"damped_vibration", fmt::format("DampedVibration<Scalar, {}>", parameters.delay)};
+}
+
 template <class Parameters>
 PartName part_name(configure::Type<control::ForceSensor> /*part*/,
                    const Parameters& /*parameters*/) {

@@ -28,7 +28,9 @@ class InProcess : public ControlPort {
   using Drive = std::conditional_t<Controller::observed, hal::ResonantDrive, hal::Drive>;
 
   explicit InProcess(const ControlDesign& design)
-      : controller_(configure::controller_parameters<Parts>(design)), loop_(controller_, board_) {
+      : parameters_(configure::controller_parameters<Parts>(design)),
+        controller_(parameters_),
+        loop_(controller_, board_) {
     controller_.start();
   }
 
@@ -52,6 +54,7 @@ class InProcess : public ControlPort {
  private:
   using Board = hal::host::SimulatedBoard<Sample, Drive>;
 
+  typename Controller::Parameters parameters_;
   Controller controller_;
   Board board_;
   app::ControlLoop<Controller, Board> loop_;
@@ -70,8 +73,8 @@ class InProcessControl final : public InProcess<Parts> {
 };
 
 /// Few scenes name a slew limit or relearning: they share compositions that have both, the one that
-/// a scene does not name being wide open. Every composition off resonance has a regulator, whose gain is 0 where
-/// there is no feedback. The commands are those of the leanest parts, bit for bit.
+/// a scene does not name being wide open. Every composition that is fed forward has a regulator, whose
+/// gain is 0 where there is no feedback. The commands are those of the leanest parts, bit for bit.
 template <class SlewT, class RelearningT>
 struct Extras {
   using Slew = SlewT;
@@ -82,34 +85,32 @@ using ExtrasChoice =
     configure::Choice<Extras<control::NoSlewLimit<Scalar>, control::NoRelearning<Scalar>>,
                       Extras<control::SlewLimit<Scalar>, control::PeriodicRelearning<Scalar>>>;
 
-/// A resonant loop's relearning and current limit are wide open where a scene does not name them.
-template <class Scalar, class Friction, class Feedforward, class Regulator, class Force>
-using ResonantParts = control::Parts<
-    Scalar, Friction, Feedforward, control::NoSlewLimit<Scalar>, control::NoShaping<Scalar>,
-    Regulator,
-    std::conditional_t<Force::present, control::PeriodicRelearning<Scalar>,
-                       control::NoRelearning<Scalar>>,
-    control::ResonantVibration<Scalar, configure::max_drive_delay, control::CurrentLimit<Scalar>>,
-    Force>;
+/// Relearning, and the current limit of a resonant loop, are wide open where a scene does not name
+/// them.
+template <class Scalar, class Friction, class Feedforward, class Regulator, class Vibration,
+          class Force>
+using ObservedParts =
+    control::Parts<Scalar, Friction, Feedforward, control::NoSlewLimit<Scalar>,
+                   control::NoShaping<Scalar>, Regulator,
+                   std::conditional_t<Force::present, control::PeriodicRelearning<Scalar>,
+                                      control::NoRelearning<Scalar>>,
+                   Vibration, Force>;
 
-template <class Scalar>
-std::unique_ptr<ControlPort> make_resonant_control(const ControlDesign& design) {
-  using control::IntegralRegulator;
+template <class Scalar, class Vibration>
+std::unique_ptr<ControlPort> make_observing_control(const ControlDesign& design) {
   const configure::ControllerParts<Scalar> parts(design);
   return std::visit(
       [&](auto friction, auto feedforward) -> std::unique_ptr<ControlPort> {
         using Friction = typename decltype(friction)::type;
         using Feedforward = typename decltype(feedforward)::type;
         if (design.senses_force) {
-          return std::make_unique<InProcessControl<ResonantParts<
-              Scalar, Friction, Feedforward,
-              IntegralRegulator<Scalar, configure::max_reference_delay>, control::ForceSensor>>>(
-              design);
+          using Regulator = control::IntegralRegulator<Scalar, configure::max_reference_delay>;
+          return std::make_unique<InProcessControl<ObservedParts<
+              Scalar, Friction, Feedforward, Regulator, Vibration, control::ForceSensor>>>(design);
         }
-        return std::make_unique<
-            InProcessControl<ResonantParts<Scalar, control::TrustedFriction<Scalar>, Feedforward,
-                                           control::NoFeedback<Scalar>, control::NoForceSensor>>>(
-            design);
+        return std::make_unique<InProcessControl<
+            ObservedParts<Scalar, control::TrustedFriction<Scalar>, Feedforward,
+                          control::NoFeedback<Scalar>, Vibration, control::NoForceSensor>>>(design);
       },
       parts.friction, parts.feedforward);
 }
@@ -119,9 +120,17 @@ std::unique_ptr<ControlPort> make_resonant_control(const ControlDesign& design) 
 template <class Scalar>
 std::unique_ptr<ControlPort> make_control(const configure::ControlDesign& design) {
   using namespace compose;
-  if constexpr (configure::can_resonate<Scalar>) {
+  if constexpr (configure::can_observe_vibration<Scalar>) {
+    using configure::max_drive_delay;
     if (design.resonance) {
-      return make_resonant_control<Scalar>(design);
+      using Current = control::CurrentLimit<Scalar>;
+      return make_observing_control<Scalar,
+                                    control::ResonantVibration<Scalar, max_drive_delay, Current>>(
+          design);
+    }
+    if (design.damping) {
+      return make_observing_control<Scalar, control::DampedVibration<Scalar, max_drive_delay>>(
+          design);
     }
   }
   const configure::ControllerParts<Scalar> parts(design);

@@ -41,6 +41,7 @@ ControlRun::ControlRun(const scene::Scene& scene, const CarrierGrid& grid, Contr
       sensor_(scene.sensor, record.design.scales, vibration_gain(scene)),
       actuator_(scene.drive->delay_periods, record.design.scales.drive_amplitude_N),
       start_frequency_Hz_(scene.drive->frequency_Hz),
+      believed_friction_N_(record.design.friction_force * record.design.scales.force_N),
       elapsed_(elapsed_of(record.design)) {}
 
 double ControlRun::frequency_Hz() const {
@@ -61,16 +62,18 @@ void ControlRun::label(Period& period) const {
   period.commanded_ratio = command.commanded_ratio;
   const bool held =
       command.state == control::State::running || command.state == control::State::limited;
-  if (record_.design.resonance && held && period.target < 1.0) {
-    period.wanted_vibration_m_per_s = record_.design.vibration_map().velocity_m_per_s(
-        command.commanded_ratio, period.begin_velocity_m_per_s);
+  if (record_.design.observes_vibration() && held && period.target < 1.0) {
+    period.wanted_vibration_m_per_s =
+        record_.design.vibration_map(believed_friction_N_)
+            .velocity_m_per_s(command.commanded_ratio, period.begin_velocity_m_per_s);
   }
 }
 
 void ControlRun::step(double time_s, double mean_force_N, double sliding_velocity_m_per_s,
                       std::complex<double> vibration_m_per_s) {
   follow_target();
-  if (record_.design.resonance) {
+  learn(mean_force_N);
+  if (record_.design.observes_vibration()) {
     const hal::ResonantDrive drive =
         port_.exchange(sensor_.sample(mean_force_N, sliding_velocity_m_per_s, vibration_m_per_s));
     actuator_.take(drive, target_, drive.frequency);
@@ -85,6 +88,16 @@ void ControlRun::step(double time_s, double mean_force_N, double sliding_velocit
 void ControlRun::finish() {
   record_.trace_hash = hash_.value();
   record_.signals = port_.signals();
+}
+
+/// The friction force of the last undriven period of a calibration, or of a pause.
+void ControlRun::learn(double mean_force_N) {
+  const Command& command = actuator_.in_force();
+  const bool learning =
+      command.state == control::State::calibrating || command.state == control::State::relearning;
+  if (learning && command.amplitude_N == 0.0 && mean_force_N != 0.0) {
+    believed_friction_N_ = std::abs(mean_force_N);
+  }
 }
 
 void ControlRun::follow_target() {

@@ -48,7 +48,7 @@ class ControlRun {
   void label(Period& period) const;
 
   /// One control step, at the end of a carrier period.
-  /// @param vibration_m_per_s  of the period, see Sensor; of use to a resonant loop
+  /// @param vibration_m_per_s  of the period, see Sensor; of use to a loop that observes it
   void step(double time_s, double mean_force_N, double sliding_velocity_m_per_s,
             std::complex<double> vibration_m_per_s = {});
 
@@ -57,6 +57,7 @@ class ControlRun {
 
  private:
   void follow_target();
+  void learn(double mean_force_N);
   template <class Drive>
   void account_for(const Drive& drive, double time_s);
 
@@ -69,6 +70,7 @@ class ControlRun {
   std::size_t next_step_ = 0;
   std::uint64_t period_ = 0;  ///< whose sample comes next
   double start_frequency_Hz_;
+  double believed_friction_N_;  ///< as the controller learns it, but for noise
   std::optional<app::ElapsedPeriods> elapsed_;  ///< of a resonant loop
   double target_ = std::numeric_limits<double>::quiet_NaN();
   control::Fault fault_ = control::Fault::none;

@@ -115,7 +115,7 @@ EnergyBalance PlantRun::stretch(double begin_s, double duration_s, double drive_
   const double last = sliding_.velocity_m_per_s(end_s);
   const Stretch stretch{duration_s,  drive_phase_rad, clock_.drive_rate_rad_per_s(),
                         amplitude_N, first,           (last - first) / duration_s,
-                        waveform_,   begin_s,         scene_.transducer.has_value()};
+                        waveform_,   begin_s,         scene_.demodulates()};
   EnergyBalance energy;
   const plant::Outcome<double> outcome = solve(begin_s, end_s, stretch, energy);
   if (outcome.error != plant::Error::none) {

@@ -94,7 +94,7 @@ class Simulation {
 
   /// Of a period that is cut short there is no fundamental.
   std::complex<double> vibration_m_per_s(const EnergyBalance& energy) const {
-    return scene_.transducer && clock_.is_whole() ? energy.vibration_m_per_s() : undefined;
+    return scene_.demodulates() && clock_.is_whole() ? energy.vibration_m_per_s() : undefined;
   }
 
   double natural_Hz(double time_s) const {

@@ -20,11 +20,11 @@ struct Period {
   double drive_amplitude_N;  ///< in force during it
   double frequency_Hz;       ///< likewise, of the carrier; 0 without a drive
   bool whole;                ///< not cut short by the end of the run
-  /// z [m/s]: the vibration velocity is Re(z e^jθ), θ the phase of the drive; NaN without a
-  /// transducer, and of a period that is cut short.
+  /// z [m/s]: the vibration velocity is Re(z e^jθ), θ the phase of the drive; NaN where
+  /// nobody asks for it, and of a period that is cut short.
   std::complex<double> vibration_m_per_s;
   double natural_Hz;  ///< of the plant without its damping, in the middle of the period
-  /// Velocity that the controller of a resonant loop means to hold; NaN where it holds none.
+  /// Velocity that the controller means to hold; NaN where it holds none.
   double wanted_vibration_m_per_s;
   double target;               ///< that its drive was picked for; NaN in open loop
   control::State state;        ///< of the command in force during it

@@ -28,15 +28,25 @@ void Course::take(const loop::Period& period) {
 }
 
 void VibrationCourse::take(const loop::Period& period) {
-  const double voltage_V = period.drive_amplitude_N / transducer_.force_factor_N_per_V;
-  const std::complex<double> taken_A = loop::current_A(
-      transducer_, period.drive_amplitude_N, period.frequency_Hz, period.vibration_m_per_s);
+  const std::complex<double> taken_A = current_of(period);
   constexpr double degrees = 360.0 / numeric::two_pi;
-  curve_.add(period.begin_s,
-             {std::abs(period.vibration_m_per_s), period.wanted_vibration_m_per_s,
-              std::abs(taken_A), period.frequency_Hz, period.natural_Hz,
-              voltage_V == 0.0 ? gap : degrees * std::arg(period.vibration_m_per_s)});
-  if (period.whole && voltage_V != 0.0) {
+  curve_.add(
+      period.begin_s,
+      {std::abs(period.vibration_m_per_s), period.wanted_vibration_m_per_s, std::abs(taken_A),
+       period.frequency_Hz, period.natural_Hz,
+       period.drive_amplitude_N == 0.0 ? gap : degrees * std::arg(period.vibration_m_per_s)});
+  remember(period, taken_A);
+}
+
+std::complex<double> VibrationCourse::current_of(const loop::Period& period) const {
+  return transducer_ ? loop::current_A(*transducer_, period.drive_amplitude_N, period.frequency_Hz,
+                                       period.vibration_m_per_s)
+                     : gap;
+}
+
+void VibrationCourse::remember(const loop::Period& period, std::complex<double> taken_A) {
+  if (transducer_ && period.whole && period.drive_amplitude_N != 0.0) {
+    const double voltage_V = period.drive_amplitude_N / transducer_->force_factor_N_per_V;
     constexpr double kept = 1.0 - 1.0 / operating_periods;
     recent_.periods = kept * recent_.periods + 1.0;
     recent_.frequency_Hz = kept * recent_.frequency_Hz + period.frequency_Hz;
@@ -62,8 +72,8 @@ RunFindings::RunFindings(const scene::Scene& scene,
     step_meter_.emplace(scene);
     tracking_meter_.emplace(scene, design->speed_floor_m_per_s());
   }
-  if (scene.transducer) {
-    vibration_.emplace(*scene.transducer);
+  if (scene.demodulates()) {
+    vibration_.emplace(scene.transducer);
   }
   close_ups_.resize(std::min(target_steps_s().size(), most_close_ups));
 }

@@ -39,10 +39,11 @@ class Course final : public loop::PeriodSink {
   std::array<std::uint64_t, control::limit_count> periods_in_{};
 };
 
-/// The fundamental of vibration and current, carrier period by carrier period.
+/// The fundamental of vibration and, with a transducer, of the current, carrier period by carrier
+/// period.
 class VibrationCourse final : public loop::PeriodSink {
  public:
-  /// The phase is that of the vibration velocity ahead of the carrier, in degrees. A voltage below 0
+  /// The phase is that of the vibration velocity ahead of the carrier, in degrees. A drive below 0
   /// does not turn it.
   enum Ordinate {
     vibration_m_per_s,
@@ -55,7 +56,8 @@ class VibrationCourse final : public loop::PeriodSink {
   };
   using Curve = report::ExtremesCurve<ordinates>;
 
-  explicit VibrationCourse(const scene::Transducer& transducer) : transducer_(transducer) {}
+  explicit VibrationCourse(const std::optional<scene::Transducer>& transducer)
+      : transducer_(transducer) {}
 
   void take(const loop::Period& period) override;
 
@@ -73,7 +75,10 @@ class VibrationCourse final : public loop::PeriodSink {
  private:
   static constexpr std::size_t most_points = 20000;
 
-  scene::Transducer transducer_;
+  std::complex<double> current_of(const loop::Period& period) const;
+  void remember(const loop::Period& period, std::complex<double> taken_A);
+
+  std::optional<scene::Transducer> transducer_;
   Curve curve_{most_points};
   /// Sums that forget.
   struct {

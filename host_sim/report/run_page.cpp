@@ -161,20 +161,26 @@ output::Table step_table(const scene::Scene& scene, const RunFindings& findings)
   return table;
 }
 
-output::Table resonance_table(const RunFindings& findings) {
-  output::Table table{"Vibration at resonance",
-                      {"From [ms]", "Velocity [mm/s]", "Settles to 2 % in [µs]", "Frequency [Hz]",
-                       "Largest deviation from the natural frequency"},
-                      {}};
+output::Table vibration_table(const scene::Scene& scene, const RunFindings& findings) {
+  output::Table table{"Vibration", {"From [ms]", "Velocity [mm/s]", "Settles to 2 % in [µs]"}, {}};
+  if (scene.resonant()) {
+    table.title = "Vibration at resonance";
+    table.header.insert(table.header.end(),
+                        {"Frequency [Hz]", "Largest deviation from the natural frequency"});
+  }
   for (const report::StepMetrics& step : findings.steps()) {
-    const report::ResonanceMetrics& metrics = *step.resonance;
-    table.rows.push_back({fmt::format("{:.3f}", step.time_s * 1e3),
-                          figure("{:.4f}", metrics.vibration_velocity_m_per_s * 1e3),
-                          metrics.velocity_settling_time_s
-                              ? fmt::format("{:.1f}", *metrics.velocity_settling_time_s * 1e6)
-                              : "never",
-                          figure("{:.3f}", metrics.frequency_Hz),
-                          figure("{:.1e}", metrics.frequency_error)});
+    const report::VibrationMetrics& vibration = *step.vibration;
+    const char* unsettled = step.target < 1.0 ? "never" : "-";  // at 1 no vibration is wanted
+    std::vector<std::string> row{fmt::format("{:.3f}", step.time_s * 1e3),
+                                 figure("{:.4f}", vibration.velocity_m_per_s * 1e3),
+                                 vibration.settling_time_s
+                                     ? fmt::format("{:.1f}", *vibration.settling_time_s * 1e6)
+                                     : unsettled};
+    if (step.resonance) {
+      row.push_back(figure("{:.3f}", step.resonance->frequency_Hz));
+      row.push_back(figure("{:.1e}", step.resonance->frequency_error));
+    }
+    table.rows.push_back(std::move(row));
   }
   return table;
 }
@@ -338,7 +344,9 @@ output::Section course(const scene::Scene& scene, const Course::Curve& curve) {
 
 output::Section vibration_section(const scene::Scene& scene, const VibrationCourse::Curve& curve) {
   const std::vector<double> time = curve.x();
-  output::Section section{"Vibration and current", "Fundamental of each carrier period.", {}};
+  output::Section section{scene.transducer ? "Vibration and current" : "Vibration",
+                          "Fundamental of each carrier period.",
+                          {}};
   const auto panel = [&](const char* title, const char* label, VibrationCourse::Ordinate ordinate,
                          std::vector<output::Series> beside) {
     const bool drive = ordinate == VibrationCourse::frequency_Hz;
@@ -350,15 +358,17 @@ output::Section vibration_section(const scene::Scene& scene, const VibrationCour
     return std::vector<output::Series>{{label, curve.y(ordinate), true, false}};
   };
   const bool resonant = scene.resonant();
-  panel(
-      "Vibration velocity", "Vibration velocity, amplitude [m/s]",
-      VibrationCourse::vibration_m_per_s,
-      resonant ? series("wanted", VibrationCourse::wanted_m_per_s) : std::vector<output::Series>());
-  std::vector<output::Series> limit;
-  if (scene.drive->max_current_amplitude_A) {
-    limit.push_back(level("limit", time, *scene.drive->max_current_amplitude_A));
+  panel("Vibration velocity", "Vibration velocity, amplitude [m/s]",
+        VibrationCourse::vibration_m_per_s,
+        scene.observes_vibration() ? series("wanted", VibrationCourse::wanted_m_per_s)
+                                   : std::vector<output::Series>());
+  if (scene.transducer) {
+    std::vector<output::Series> limit;
+    if (scene.drive->max_current_amplitude_A) {
+      limit.push_back(level("limit", time, *scene.drive->max_current_amplitude_A));
+    }
+    panel("Current", "Current, amplitude [A]", VibrationCourse::current_A, std::move(limit));
   }
-  panel("Current", "Current, amplitude [A]", VibrationCourse::current_A, std::move(limit));
   if (resonant) {
     panel("Frequency", "Frequency [Hz]", VibrationCourse::frequency_Hz,
           series("natural, without contact", VibrationCourse::natural_Hz));
@@ -552,8 +562,8 @@ output::Page run_page(const scene::Scene& scene, const loop::RunResult& result,
   if (scene.controller) {
     page.tables.push_back(step_table(scene, findings));
   }
-  if (scene.resonant()) {
-    page.tables.push_back(resonance_table(findings));
+  if (scene.observes_vibration()) {
+    page.tables.push_back(vibration_table(scene, findings));
   }
   page.tables.push_back(run_table(scene, result));
   if (result.electrical) {

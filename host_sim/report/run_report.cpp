@@ -65,11 +65,15 @@ ordered_json cause(const report::StepMetrics& metrics) {
                                                      : ordered_json(settling_name(metrics.cause));
 }
 
-void add_resonance(const report::ResonanceMetrics& metrics, ordered_json& json) {
-  json["vibration_velocity_m_per_s"] = number(metrics.vibration_velocity_m_per_s);
-  json["velocity_settling_time_s"] = number(metrics.velocity_settling_time_s);
-  json["frequency_Hz"] = number(metrics.frequency_Hz);
-  json["frequency_error"] = number(metrics.frequency_error);
+void add_vibration(const report::StepMetrics& step, ordered_json& json) {
+  if (step.vibration) {
+    json["vibration_velocity_m_per_s"] = number(step.vibration->velocity_m_per_s);
+    json["velocity_settling_time_s"] = number(step.vibration->settling_time_s);
+  }
+  if (step.resonance) {
+    json["frequency_Hz"] = number(step.resonance->frequency_Hz);
+    json["frequency_error"] = number(step.resonance->frequency_error);
+  }
 }
 
 ordered_json step(const report::StepMetrics& metrics, const AmplitudeUnit& unit) {
@@ -85,9 +89,7 @@ ordered_json step(const report::StepMetrics& metrics, const AmplitudeUnit& unit)
                        {"limit_seen_by", limit_seen_by(metrics)},
                        {"cause", cause(metrics)},
                        {"mismatch", number(metrics.mismatch)}};
-  if (metrics.resonance) {
-    add_resonance(*metrics.resonance, json);
-  }
+  add_vibration(metrics, json);
   return json;
 }
 
@@ -143,7 +145,7 @@ ordered_json control(const scene::Scene& scene, const loop::RunResult& result,
       {"speed_floor_m_per_s", design.speed_floor * design.scales.velocity_m_per_s},
       {"integral_gain", design.senses_force ? design.integral_gain : 0.0},
       {"signals", signals}};
-  if (design.resonance) {
+  if (design.observes_vibration()) {
     json["vibration_full_scale_m_per_s"] = design.scales.velocity_m_per_s;
   }
   if (design.relearns) {

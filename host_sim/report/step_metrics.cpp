@@ -35,6 +35,7 @@ StepMeter::StepMeter(const scene::Scene& scene)
       tells_mismatch_(scene.sensor.force && configure::tells_mismatch(scene)),
       senses_force_(scene.sensor.force),
       has_map_(scene::has_own_map(scene.friction.law)),
+      observes_vibration_(scene.observes_vibration()),
       resonant_(scene.resonant()) {
   for (const TargetSpan& span : cursor_.spans()) {
     Tally tally;
@@ -158,20 +159,27 @@ StepMetrics StepMeter::metrics(const TargetSpan& span, const Tally& tally) const
     metrics.limit = believed && off ? control::Limit::mismatch : control::Limit::not_settling;
     metrics.limit_seen_by_controller = false;
   }
+  if (observes_vibration_) {
+    metrics.vibration = vibration_metrics(span, tally);
+  }
   if (resonant_) {
-    metrics.resonance = resonance_metrics(span, tally);
+    metrics.resonance = resonance_metrics(tally);
   }
   return metrics;
 }
 
-ResonanceMetrics StepMeter::resonance_metrics(const TargetSpan& span, const Tally& tally) {
-  const auto count = static_cast<double>(tally.steady_periods);
-  ResonanceMetrics metrics;
-  metrics.vibration_velocity_m_per_s = tally.velocity_sum_m_per_s / count;
+VibrationMetrics StepMeter::vibration_metrics(const TargetSpan& span, const Tally& tally) {
+  VibrationMetrics metrics;
+  metrics.velocity_m_per_s = tally.velocity_sum_m_per_s / static_cast<double>(tally.steady_periods);
   if (tally.velocity_wanted && tally.velocity_settled_s < tally.last_end_s) {
-    metrics.velocity_settling_time_s = tally.velocity_settled_s - span.begin_s;
+    metrics.settling_time_s = tally.velocity_settled_s - span.begin_s;
   }
-  metrics.frequency_Hz = tally.frequency_sum_Hz / count;
+  return metrics;
+}
+
+ResonanceMetrics StepMeter::resonance_metrics(const Tally& tally) {
+  ResonanceMetrics metrics;
+  metrics.frequency_Hz = tally.frequency_sum_Hz / static_cast<double>(tally.steady_periods);
   metrics.frequency_error = tally.steady_periods > 0 ? tally.frequency_error : undefined;
   return metrics;
 }

@@ -15,13 +15,17 @@
 
 namespace sonoglide::report {
 
-/// How a resonant loop held the vibration in a target step. A figure for which there is no carrier
-/// period is NaN.
-struct ResonanceMetrics {
-  double vibration_velocity_m_per_s = 0.0;  ///< mean amplitude of the steady part
+/// How a loop that observes the vibration held it in a target step. A figure for which there is no
+/// carrier period is NaN.
+struct VibrationMetrics {
+  double velocity_m_per_s = 0.0;  ///< mean amplitude of the steady part
   /// From where settling counts until the amplitude is within 2 % of the wanted one for the rest of
   /// the step; absent if it never is.
-  std::optional<double> velocity_settling_time_s;
+  std::optional<double> settling_time_s;
+};
+
+/// How a resonant loop followed the resonance in the same step.
+struct ResonanceMetrics {
   double frequency_Hz = 0.0;     ///< mean of the steady part
   double frequency_error = 0.0;  ///< largest of it, relative to the natural frequency
 };
@@ -50,6 +54,7 @@ struct StepMetrics {
   /// Mean of commanded over target ratio where the controller took the ratio for settled: believed
   /// over true friction force, as it sees it.
   std::optional<double> mismatch;
+  std::optional<VibrationMetrics> vibration;  ///< of a loop that observes it
   std::optional<ResonanceMetrics> resonance;  ///< of a resonant loop
 };
 
@@ -104,13 +109,15 @@ class StepMeter final : public loop::PeriodSink {
   static void take_steady(const loop::Period& period, Tally& tally);
   bool holds_blindly(const Tally& tally) const;
   StepMetrics metrics(const TargetSpan& span, const Tally& tally) const;
-  static ResonanceMetrics resonance_metrics(const TargetSpan& span, const Tally& tally);
+  static VibrationMetrics vibration_metrics(const TargetSpan& span, const Tally& tally);
+  static ResonanceMetrics resonance_metrics(const Tally& tally);
 
   SpanCursor cursor_;
   double band_;
   bool tells_mismatch_;
   bool senses_force_;
   bool has_map_;
+  bool observes_vibration_;
   bool resonant_;
   std::vector<Tally> tallies_;
   bool pausing_ = false;

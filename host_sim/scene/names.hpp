@@ -59,8 +59,9 @@ inline constexpr std::array<Named<Shaping>, 2> shapings = {{
     {"none", Shaping::none},
 }};
 
-inline constexpr std::array<Named<VibrationControl>, 1> vibration_controls = {{
+inline constexpr std::array<Named<VibrationControl>, 2> vibration_controls = {{
     {"resonant", VibrationControl::resonant},
+    {"damped", VibrationControl::damped},
 }};
 
 inline constexpr std::array<Named<VibrationSensor>, 2> vibration_sensors = {{

@@ -118,8 +118,8 @@ struct TargetStep {
 };
 
 /// How a controller holds the vibration that it observes. resonant: at the plant's resonance, which
-/// the frequency of the drive follows.
-enum class VibrationControl { resonant };
+/// the frequency of the drive follows. damped: at a fixed frequency, the natural mode damped.
+enum class VibrationControl { resonant, damped };
 
 struct FrequencyRange {
   double lowest_Hz = 0.0;
@@ -193,6 +193,12 @@ struct Scene {
   bool resonant() const {
     return controller && controller->vibration == VibrationControl::resonant;
   }
+
+  /// A controller observes the vibration.
+  bool observes_vibration() const { return controller && controller->vibration; }
+
+  /// Somebody asks for the vibration's fundamental.
+  bool demodulates() const { return transducer || observes_vibration(); }
 };
 
 }  // namespace sonoglide::scene

@@ -42,7 +42,9 @@ const char* const closed_loop_only = "closed loop";
 const char* const open_loop_volts = "open loop with [transducer]";
 const char* const closed_loop_volts = "closed loop with [transducer]";
 const char* const at_resonance = "controller.vibration = \"resonant\"";
-const char* const fed_forward = "every controller.vibration but \"resonant\"";
+const char* const observed = "controller.vibration";
+const char* const observed_volts = "controller.vibration with [transducer]";
+const char* const fed_forward = "without controller.vibration";
 const char* const with_force = "sensor.force = true";
 
 template <class Value, std::size_t Count>
@@ -298,13 +300,13 @@ std::vector<Key> controller_keys() {
   const scene::Controller controller;
   return {
       {"arithmetic", Word{words_of(scene::arithmetics)}, Required{},
-       "number type in which the controller computes; not q15 with controller.vibration = "
-       "\"resonant\""},
+       "number type in which the controller computes; not q15 with controller.vibration"},
       {"vibration", Word{words_of(scene::vibration_controls)},
        Rule{"the drive is fed forward, at a fixed frequency"},
        "resonant: the controller observes the vibration, follows the plant's resonance with the "
-       "frequency of the drive and holds the vibration velocity",
-       closed_loop_volts},
+       "frequency of the drive and holds the vibration velocity; needs [transducer]. damped: the "
+       "same at a fixed frequency off resonance, with the natural mode damped by feedback",
+       closed_loop_only},
       {"frequency_range_Hz", Interval{frequency_range},
        Rule{"5 % below to 5 % above drive.frequency_Hz"},
        "lowest and highest frequency of the drive, below and above drive.frequency_Hz, within 6 % "
@@ -343,7 +345,7 @@ std::vector<Key> sensor_keys() {
       {"force", Truth{}, Rule{"true"},
        "whether there is a sensor of the friction force; false: the ratio is held by the vibration "
        "alone, and rests on the friction that the controller believes",
-       at_resonance},
+       observed},
       {"adc_bits", Integer{4, 32, "bits"}, Rule{"ideal"}, "resolution of the force converter",
        with_force},
       {"force_full_scale_N", Number{{1e-15, largest_force_N, "N"}},
@@ -367,18 +369,18 @@ std::vector<Key> sensor_keys() {
        static_cast<double>(sensor.seed), "seed of the noise; the same seed gives the same noise"},
       {"vibration", Word{words_of(scene::vibration_sensors)}, Required{},
        "what the vibration is seen by, once per carrier period: a pick-up of its velocity, or the "
-       "current of the transducer less that of its clamped capacitance",
-       at_resonance},
+       "current of the transducer less that of its clamped capacitance, with [transducer]",
+       observed},
       {"vibration_bits", Integer{4, 32, "bits"}, Rule{"ideal"},
        "resolution of the vibration converters, one in phase with the drive and one in quadrature",
-       at_resonance},
+       observed},
       {"vibration_noise_m_per_s", Number{{0.0, largest_speed_m_per_s, "m/s"}},
        sensor.vibration_noise_m_per_s,
-       "noise of each vibration sample, rms, in phase and in quadrature alike", at_resonance},
+       "noise of each vibration sample, rms, in phase and in quadrature alike", observed},
       {"vibration_full_scale_m_per_s", Number{{1e-12, largest_speed_m_per_s, "m/s"}},
-       Rule{"four times the velocity of the lowest target, or of the fastest sliding if that is "
-            "larger"},
-       "largest vibration velocity that the converters read, in both directions", at_resonance},
+       Rule{"resonant: four times the velocity of the lowest target; damped: of full drive; or of "
+            "the fastest sliding if that is larger"},
+       "largest vibration velocity that the converters read, in both directions", observed},
   };
 }
 
@@ -394,9 +396,9 @@ std::vector<Key> model_error_keys() {
       {"contact_stiffness", Number{quotient}, model_error.contact_stiffness,
        "believed over true friction.contact_stiffness_N_per_m", laws_where(scene::is_elastic)},
       {"force_factor", Number{quotient}, model_error.force_factor,
-       "believed over true transducer.force_factor_N_per_V", at_resonance},
+       "believed over true transducer.force_factor_N_per_V", observed_volts},
       {"damping", Number{quotient}, model_error.damping,
-       "believed over true plant.damping_N_s_per_m", at_resonance},
+       "believed over true plant.damping_N_s_per_m", observed},
   };
 }
 

@@ -192,7 +192,7 @@ template <class Keys>
 void visit_controller(Keys& keys, scene::Controller& controller, bool force) {
   keys.word("arithmetic", controller.arithmetic, scene::arithmetics);
   keys.optional_word("vibration", controller.vibration, scene::vibration_controls);
-  if (controller.vibration) {
+  if (controller.vibration == scene::VibrationControl::resonant) {
     keys.range("frequency_range_Hz", controller.frequency_range_Hz);
   }
   keys.targets("target_friction_ratio", controller.target_friction_ratio);
@@ -222,10 +222,10 @@ void visit_force_sensor(Keys& keys, scene::Sensor& sensor, double full_scale_N) 
 }
 
 /// @param full_scale_N  of the force, where the scene does not say
-/// @param resonant      the controller observes the vibration
+/// @param observes      the controller observes the vibration
 template <class Keys>
-void visit_sensor(Keys& keys, scene::Sensor& sensor, double full_scale_N, bool resonant) {
-  if (resonant) {
+void visit_sensor(Keys& keys, scene::Sensor& sensor, double full_scale_N, bool observes) {
+  if (observes) {
     keys.truth("force", sensor.force);
   }
   if (sensor.force) {
@@ -234,7 +234,7 @@ void visit_sensor(Keys& keys, scene::Sensor& sensor, double full_scale_N, bool r
   keys.value("velocity_offset_m_per_s", sensor.velocity_offset_m_per_s);
   keys.value("velocity_gain", sensor.velocity_gain);
   keys.value("seed", sensor.seed);
-  if (resonant) {
+  if (observes) {
     keys.optional_word("vibration", sensor.vibration, scene::vibration_sensors);
     keys.value("vibration_bits", sensor.vibration_bits);
     keys.value("vibration_noise_m_per_s", sensor.vibration_noise_m_per_s);
@@ -242,17 +242,21 @@ void visit_sensor(Keys& keys, scene::Sensor& sensor, double full_scale_N, bool r
   }
 }
 
+/// @param observes  the controller observes the vibration
+/// @param in_volts  there is a transducer
 template <class Keys>
 void visit_model_error(Keys& keys, scene::ModelError& model_error, const scene::FrictionLaw& law,
-                       bool resonant) {
+                       bool observes, bool in_volts) {
   keys.value("mass", model_error.mass);
   keys.value("stiffness", model_error.stiffness);
   keys.value("coefficient", model_error.coefficient);
   if (scene::is_elastic(law)) {
     keys.value("contact_stiffness", model_error.contact_stiffness);
   }
-  if (resonant) {
+  if (observes && in_volts) {
     keys.value("force_factor", model_error.force_factor);
+  }
+  if (observes) {
     keys.value("damping", model_error.damping);
   }
 }

@@ -109,6 +109,7 @@ void settle_frequency(const TableCursor& cursor, scene::Drive& drive) {
 }
 
 constexpr std::string_view without_resonance = "without controller.vibration = \"resonant\"";
+constexpr std::string_view unobserved = "without controller.vibration";
 
 /// The frequency of a resonant drive is told by its deviation from the start.
 constexpr double largest_deviation = 0.06;
@@ -131,25 +132,11 @@ void check_frequency_range(const TableCursor& cursor, const scene::FrequencyRang
   }
 }
 
-/// What only the resonant loop has, and what it does not have.
-void check_resonance(const TableCursor& cursor, const Variant& variant,
+void check_resonance(const TableCursor& cursor, const TableCursor& drive,
                      const scene::Controller& controller, const scene::Scene& so_far) {
-  const TableCursor drive(variant, "drive");
-  if (!controller.vibration) {
-    if (drive.has("max_current_amplitude_A")) {
-      drive.reject("max_current_amplitude_A", without_resonance);
-    }
-    cursor.reject_unread(without_resonance);
-    return;
-  }
   if (!so_far.transducer) {
     cursor.fail("vibration",
                 "\"resonant\" needs a table [transducer], whose voltage drives the resonance");
-  }
-  if (controller.arithmetic == scene::Arithmetic::q15) {
-    cursor.fail("arithmetic",
-                "\"q15\" is too coarse for controller.vibration = \"resonant\"; allowed: "
-                "\"float32\", \"q31\", \"float64\"");
   }
   // A word has 28 bits at the most.
   const double finest_Hz = so_far.drive->frequency_Hz * 0x1p-28;
@@ -165,15 +152,62 @@ void check_resonance(const TableCursor& cursor, const Variant& variant,
   if (controller.frequency_range_Hz) {
     check_frequency_range(cursor, *controller.frequency_range_Hz, so_far.drive->frequency_Hz);
   }
-  cursor.reject_unread("with controller.vibration = \"resonant\"");
+}
+
+/// The observer foresees the vibration of a cosine whose amplitude changes at once.
+void check_damping(const TableCursor& drive, const scene::Drive& values) {
+  if (drive.has("max_force_slew_N_per_s")) {
+    drive.reject("max_force_slew_N_per_s", "with controller.vibration = \"damped\"");
+  }
+  if (values.waveform != scene::Waveform::cosine) {
+    drive.fail("waveform", fmt::format("\"{}\" is not for controller.vibration = \"damped\"; "
+                                       "allowed: \"cosine\"",
+                                       scene::name_of(scene::waveforms, values.waveform)));
+  }
+}
+
+/// What only a loop that observes the vibration has, and what it does not have.
+void check_vibration_control(const TableCursor& cursor, const Variant& variant,
+                             const scene::Controller& controller, const scene::Scene& so_far) {
+  const TableCursor drive(variant, "drive");
+  const bool resonant = controller.vibration == scene::VibrationControl::resonant;
+  if (!resonant && drive.has("max_current_amplitude_A")) {
+    drive.reject("max_current_amplitude_A", without_resonance);
+  }
+  if (!controller.vibration) {
+    cursor.reject_unread(without_resonance);
+    return;
+  }
+  const std::string name(scene::name_of(scene::vibration_controls, *controller.vibration));
+  if (controller.arithmetic == scene::Arithmetic::q15) {
+    cursor.fail("arithmetic",
+                fmt::format("\"q15\" is too coarse for controller.vibration = \"{}\"; allowed: "
+                            "\"float32\", \"q31\", \"float64\"",
+                            name));
+  }
+  if (resonant) {
+    check_resonance(cursor, drive, controller, so_far);
+  } else {
+    check_damping(drive, *so_far.drive);
+  }
+  cursor.reject_unread(fmt::format("with controller.vibration = \"{}\"", name));
 }
 
 /// The vibration must be seen, and without a force sensor nothing tells of the friction.
-void check_sensing(const TableCursor& cursor, const Variant& variant, const scene::Sensor& sensor) {
+void check_sensing(const TableCursor& cursor, const Variant& variant, const scene::Sensor& sensor,
+                   const scene::Scene& so_far) {
   if (!sensor.vibration) {
+    cursor.fail(
+        "vibration",
+        fmt::format("missing: controller.vibration = \"{}\" observes the vibration; "
+                    "required: \"velocity\"{}",
+                    scene::name_of(scene::vibration_controls, *so_far.controller->vibration),
+                    so_far.transducer ? " or \"motional_current\"" : ""));
+  }
+  if (sensor.vibration == scene::VibrationSensor::motional_current && !so_far.transducer) {
     cursor.fail("vibration",
-                "missing: controller.vibration = \"resonant\" observes the vibration; required: "
-                "\"velocity\" or \"motional_current\"");
+                "\"motional_current\" needs a table [transducer], whose current it "
+                "is; allowed: \"velocity\"");
   }
   if (sensor.force) {
     return;
@@ -394,7 +428,7 @@ std::optional<scene::Controller> read_controller(const Variant& variant,
   ValueReader reader(cursor);
   scene::Controller controller;
   visit_controller(reader, controller, true);
-  check_resonance(cursor, variant, controller, so_far);
+  check_vibration_control(cursor, variant, controller, so_far);
   if (!(controller.calibration_s < so_far.run.duration_s)) {
     cursor.fail("calibration_s",
                 fmt::format("{} s is not before the end of the run; allowed: less than {} s",
@@ -408,11 +442,11 @@ scene::Sensor read_sensor(const Variant& variant, const scene::Scene& so_far) {
   ValueReader reader(cursor);
   scene::Sensor sensor;
   visit_sensor(reader, sensor, 2.0 * configure::largest_friction_limit_N(so_far.friction),
-               so_far.resonant());
-  if (so_far.resonant()) {
-    check_sensing(cursor, variant, sensor);
+               so_far.observes_vibration());
+  if (so_far.observes_vibration()) {
+    check_sensing(cursor, variant, sensor, so_far);
   }
-  cursor.reject_unread(sensor.force ? without_resonance : "with sensor.force = false");
+  cursor.reject_unread(sensor.force ? unobserved : "with sensor.force = false");
   return sensor;
 }
 
@@ -420,11 +454,15 @@ scene::ModelError read_model_error(const Variant& variant, const scene::Scene& s
   TableCursor cursor = closed_loop_table(variant, "model_error");
   ValueReader reader(cursor);
   scene::ModelError model_error;
-  visit_model_error(reader, model_error, so_far.friction.law, so_far.resonant());
+  visit_model_error(reader, model_error, so_far.friction.law, so_far.observes_vibration(),
+                    so_far.transducer.has_value());
   for (const std::string_view key : {"force_factor", "damping"}) {
-    if (cursor.has(key) && !so_far.resonant()) {
-      cursor.reject(key, without_resonance);
+    if (cursor.has(key) && !so_far.observes_vibration()) {
+      cursor.reject(key, unobserved);
     }
+  }
+  if (cursor.has("force_factor") && !so_far.transducer) {
+    cursor.reject("force_factor", "without a [transducer]");
   }
   cursor.reject_unread_with("friction.law", scene::name_of(so_far.friction.law));
   return model_error;

@@ -155,14 +155,15 @@ ordered_json to_json(scene::Scene scene) {
   root["solver"] = echo([&](auto& keys) { visit_solver(keys, scene.solver); });
   root["run"] = echo([&](auto& keys) { visit_run(keys, scene.run, scene.drive, closed_loop); });
   if (closed_loop) {
-    const bool resonant = scene.resonant();
+    const bool observes = scene.observes_vibration();
     root["controller"] =
         echo([&](auto& keys) { visit_controller(keys, *scene.controller, scene.sensor.force); });
     root["sensor"] = echo([&](auto& keys) {
-      visit_sensor(keys, scene.sensor, scene.sensor.force_full_scale_N, resonant);
+      visit_sensor(keys, scene.sensor, scene.sensor.force_full_scale_N, observes);
     });
     root["model_error"] = echo([&](auto& keys) {
-      visit_model_error(keys, scene.model_error, scene.friction.law, resonant);
+      visit_model_error(keys, scene.model_error, scene.friction.law, observes,
+                        scene.transducer.has_value());
     });
   }
   return root;

@@ -184,10 +184,10 @@ INSTANTIATE_TEST_SUITE_P(Boards, Image,
                                   std::get<1>(parameter.param);
                          });
 
-/// A unit that holds the vibration at resonance: (board, controller).
-class ResonantImage : public Image {};
+/// A unit that observes the vibration: (board, controller).
+class ObservingImage : public Image {};
 
-TEST_P(ResonantImage, AnswersAnyConverterCodeAsTheHostDoes) {
+TEST_P(ObservingImage, AnswersAnyConverterCodeAsTheHostDoes) {
   const auto host = loop::make_control_port(scene_, configure::design_control(scene_));
   host->set_target(scene_.controller->target_friction_ratio[0].friction_ratio);
   std::mt19937 generator(1);
@@ -206,24 +206,25 @@ TEST_P(ResonantImage, AnswersAnyConverterCodeAsTheHostDoes) {
   }
 }
 
-TEST_P(ResonantImage, FaultsOnAVibrationThatDidNotArrive) {
+TEST_P(ObservingImage, FaultsOnAVibrationThatDidNotArrive) {
   const hal::ResonantDrive drive =
       board_.exchange(hal::VibrationSample{{1, 1, false, true}, 0, 0, false, false});
   EXPECT_EQ(drive.amplitude, 0);
   EXPECT_EQ(drive.fault, static_cast<std::uint8_t>(control::Fault::vibration_missing));
 }
 
-TEST_P(ResonantImage, FaultsOnAVibrationAtTheRail) {
+TEST_P(ObservingImage, FaultsOnAVibrationAtTheRail) {
   const hal::ResonantDrive drive =
       board_.exchange(hal::VibrationSample{{1, 1, false, true}, 0, 0, true, true});
   EXPECT_EQ(drive.amplitude, 0);
   EXPECT_EQ(drive.fault, static_cast<std::uint8_t>(control::Fault::vibration_saturated));
 }
 
-INSTANTIATE_TEST_SUITE_P(Boards, ResonantImage,
+INSTANTIATE_TEST_SUITE_P(Boards, ObservingImage,
                          testing::Combine(testing::ValuesIn(board_names()),
                                           testing::Values("wire_bonder", "wire_bonder_q31",
-                                                          "haptic_plate", "haptic_plate_q31")),
+                                                          "haptic_plate", "haptic_plate_q31",
+                                                          "damped_step", "damped_step_q31")),
                          [](const auto& parameter) {
                            return test_name_of(std::get<0>(parameter.param)) + "_" +
                                   std::get<1>(parameter.param);

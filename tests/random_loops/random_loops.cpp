@@ -21,12 +21,18 @@ namespace {
 namespace random_loops = sonoglide::random_loops;
 using random_loops::Verdict;
 
+const std::map<std::string, random_loops::Vibration> vibrations = {
+    {"unseen", random_loops::Vibration::unseen},
+    {"damped", random_loops::Vibration::damped},
+    {"alone", random_loops::Vibration::damped_alone}};
+
 struct Options {
   std::uint32_t seed = 1;
   std::vector<std::uint32_t> counts = {1000};
   std::string listed;
   std::string table;
   std::optional<std::uint32_t> scene;
+  std::string vibration = "unseen";
 };
 
 std::string listing(const std::string& listed, const std::vector<random_loops::Outcome>& outcomes) {
@@ -46,11 +52,13 @@ std::string listing(const std::string& listed, const std::vector<random_loops::O
 }
 
 std::string answer(const Options& options) {
+  const random_loops::Vibration vibration = vibrations.at(options.vibration);
   if (options.scene) {
-    return random_loops::scene_text(random_loops::random_loop(options.seed, *options.scene));
+    return random_loops::scene_text(random_loops::random_loop(options.seed, *options.scene),
+                                    vibration);
   }
   const auto most = *std::max_element(options.counts.begin(), options.counts.end());
-  const auto outcomes = random_loops::outcomes(options.seed, most);
+  const auto outcomes = random_loops::outcomes(options.seed, most, vibration);
   return options.listed.empty() ? random_loops::table_csv(outcomes, options.counts)
                                 : listing(options.listed, outcomes);
 }
@@ -86,6 +94,12 @@ int main(int argument_count, char** arguments) {
           CLI::IsMember({"all", "unnamed", "never", "late", "prompt", "named-settled", "refused"}));
   program.add_option("--table", options.table, "Where to write the table [standard output]");
   program.add_option("--scene", options.scene, "In place of the table, this loop as TOML");
+  program
+      .add_option("--vibration", options.vibration,
+                  "The same loops with a vibration sensor by which the natural mode is damped, and "
+                  "without a force sensor (alone)")
+      ->check(CLI::IsMember({"unseen", "damped", "alone"}))
+      ->capture_default_str();
   CLI11_PARSE(program, argument_count, arguments);
   try {
     give(answer(options), options.table);

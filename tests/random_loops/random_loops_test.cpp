@@ -2,6 +2,7 @@
 /// table, neither worse nor better.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <map>
 #include <string>
@@ -18,10 +19,22 @@ namespace {
 constexpr std::uint32_t seed = 1;
 constexpr std::uint32_t count = SONOGLIDE_RANDOM_LOOPS;
 
-const std::vector<Outcome>& all() {
-  static const std::vector<Outcome> once = outcomes(seed, count);
-  return once;
+struct Kind {
+  Vibration vibration;
+  const char* name;  ///< of the table too
+};
+
+constexpr std::array<Kind, 3> kinds = {
+    {{Vibration::unseen, "unseen"}, {Vibration::damped, "damped"}, {Vibration::damped_alone, "alone"}}};
+
+const std::vector<Outcome>& all(Vibration vibration) {
+  static const std::array<std::vector<Outcome>, kinds.size()> once = {
+      outcomes(seed, count, kinds[0].vibration), outcomes(seed, count, kinds[1].vibration),
+      outcomes(seed, count, kinds[2].vibration)};
+  return once[static_cast<std::size_t>(vibration)];
 }
+
+class RandomLoopsOfAKindTest : public testing::TestWithParam<Kind> {};
 
 /// The rows of a table that are about so many loops.
 std::vector<csv::Cells> rows(const csv::Table& table) {
@@ -34,9 +47,11 @@ std::vector<csv::Cells> rows(const csv::Table& table) {
   return found;
 }
 
-TEST(RandomLoopsTest, EndAsRecorded) {
-  const csv::Table recorded = csv::read_file(SONOGLIDE_RANDOM_LOOPS_TABLE);
-  const csv::Table computed(table_csv(all(), {count}));
+TEST_P(RandomLoopsOfAKindTest, EndAsRecorded) {
+  const std::string path =
+      std::string(SONOGLIDE_RANDOM_LOOPS_TABLES) + "/" + GetParam().name + ".csv";
+  const csv::Table recorded = csv::read_file(path.c_str());
+  const csv::Table computed(table_csv(all(GetParam().vibration), {count}));
   EXPECT_EQ(computed.columns(), recorded.columns());
   const std::vector<csv::Cells> recorded_rows = rows(recorded);
   const std::vector<csv::Cells> computed_rows = rows(computed);
@@ -49,9 +64,9 @@ TEST(RandomLoopsTest, EndAsRecorded) {
   }
 }
 
-TEST(RandomLoopsTest, HaveAVerdictForEachStep) {
+TEST_P(RandomLoopsOfAKindTest, HaveAVerdictForEachStep) {
   std::size_t steps = 0;
-  for (const Outcome& outcome : all()) {
+  for (const Outcome& outcome : all(GetParam().vibration)) {
     EXPECT_EQ(outcome.failed, "") << outcome.loop.index;
     EXPECT_EQ(outcome.steps.size(), outcome.refused.empty() ? steps_per_loop : 0U)
         << outcome.loop.index;
@@ -64,6 +79,28 @@ TEST(RandomLoopsTest, HaveAVerdictForEachStep) {
     steps += outcome.steps.size();
   }
   EXPECT_GE(steps, steps_per_loop * count / 2);
+}
+
+INSTANTIATE_TEST_SUITE_P(Kinds, RandomLoopsOfAKindTest, testing::ValuesIn(kinds),
+                         [](const testing::TestParamInfo<Kind>& each) { return each.param.name; });
+
+/// A vibration that the drive can reach, with the stiffness off by up to 5 %.
+TEST(RandomLoopsTest, BringADampedVibrationToItsVelocityWithinAMillisecond) {
+  int reached = 0;
+  int prompt = 0;
+  int never = 0;
+  for (const Outcome& outcome : all(Vibration::damped_alone)) {
+    for (const StepOutcome& step : outcome.steps) {
+      if (outcome.loop.model_error && step.metrics.limit != control::Limit::actuator) {
+        ++reached;
+        prompt += step.velocity_verdict == Verdict::prompt ? 1 : 0;
+        never += step.metrics.vibration->settling_time_s ? 0 : 1;
+      }
+    }
+  }
+  EXPECT_GE(reached, 8 * static_cast<int>(count) / 10);
+  EXPECT_GE(prompt, 0.98 * reached);
+  EXPECT_LE(never, 0.005 * reached);
 }
 
 TEST(RandomLoopsTest, DependOnSeedAndNumberAlone) {

@@ -1,4 +1,4 @@
-/// Five good scenes, from which the broken ones differ by one edit.
+/// Six good scenes, from which the broken ones differ by one edit.
 #pragma once
 
 #include <string>
@@ -79,6 +79,29 @@ duration_s = 2e-3
 [controller]
 arithmetic = "float32"
 vibration = "resonant"
+target_friction_ratio = [[0.0, 0.5]]
+[sensor]
+vibration = "velocity"
+)";
+
+inline const std::string damped_loop = R"([plant]
+mass_kg = 0.02
+stiffness_N_per_m = 133e6
+damping_N_s_per_m = 1
+[friction]
+law = "dahl"
+coefficient = 0.1
+contact_stiffness_N_per_m = 0.056e6
+[sliding]
+velocity_m_per_s = 0.0267
+[drive]
+frequency_Hz = 60e3
+max_force_amplitude_N = 1920.0
+[run]
+duration_s = 2e-3
+[controller]
+arithmetic = "float32"
+vibration = "damped"
 target_friction_ratio = [[0.0, 0.5]]
 [sensor]
 vibration = "velocity"

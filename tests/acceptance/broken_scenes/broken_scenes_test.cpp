@@ -211,7 +211,8 @@ const std::vector<BrokenScene> broken_scenes = {
      "12:1: drive.frequency_profile: not used in closed loop: the controller sets the amplitude; "
      "remove it"},
     {"vibration_unknown", resonant_loop, "\"resonant\"", "\"resonating\"",
-     "21:13: controller.vibration: \"resonating\" is unknown; allowed: \"resonant\""},
+     "21:13: controller.vibration: \"resonating\" is unknown; allowed: \"resonant\", "
+     "\"damped\""},
     {"resonance_without_a_transducer", resonant_loop,
      "[transducer]\nforce_factor_N_per_V = 1.0\nclamped_capacitance_F = "
      "2e-9\n[drive]\nfrequency_Hz = 60e3\nmax_voltage_amplitude_V = 8",
@@ -274,7 +275,7 @@ const std::vector<BrokenScene> broken_scenes = {
      "2e-3\n[controller]\narithmetic = \"float32\"\nvibration = \"resonant\"",
      "frequency_Hz = 50e3\nmax_voltage_amplitude_V = 800\n[run]\nduration_s = "
      "2e-3\n[controller]\narithmetic = \"float32\"",
-     "23:1: sensor.vibration: not used without controller.vibration = \"resonant\"; remove it"},
+     "23:1: sensor.vibration: not used without controller.vibration; remove it"},
     {"force_noise_without_a_force_sensor", resonant_loop, "[sensor]",
      "[sensor]\nforce = false\nforce_noise_N = 1e-4",
      "25:1: sensor.force_noise_N: not used with sensor.force = false; remove it"},
@@ -322,6 +323,56 @@ const std::vector<BrokenScene> broken_scenes = {
     {"resonance_at_standstill", resonant_loop, "velocity_m_per_s = 0.0267", "velocity_m_per_s = 0",
      "10:20: sliding.velocity_m_per_s: is 0 all the time, where no vibration changes the friction; "
      "allowed: another velocity with controller.vibration = \"resonant\""},
+    {"damped_unseen", damped_loop, "[sensor]\nvibration = \"velocity\"\n", "",
+     "1:1: sensor.vibration: missing: controller.vibration = \"damped\" observes the vibration; "
+     "required: \"velocity\""},
+    {"damped_by_a_current_that_is_none", damped_loop, "\"velocity\"", "\"motional_current\"",
+     "21:13: sensor.vibration: \"motional_current\" needs a table [transducer], whose current it "
+     "is; allowed: \"velocity\""},
+    {"damped_in_q15", damped_loop, "\"float32\"", "\"q15\"",
+     "17:14: controller.arithmetic: \"q15\" is too coarse for controller.vibration = \"damped\"; "
+     "allowed: \"float32\", \"q31\", \"float64\""},
+    {"damped_with_shaping", damped_loop, "\"damped\"", "\"damped\"\nshaping = \"notch\"",
+     "19:1: controller.shaping: not used with controller.vibration = \"damped\"; remove it"},
+    {"damped_in_a_frequency_range", damped_loop, "\"damped\"",
+     "\"damped\"\nfrequency_range_Hz = [58e3, 62e3]",
+     "19:1: controller.frequency_range_Hz: not used with controller.vibration = \"damped\"; remove "
+     "it"},
+    {"damped_with_a_slew_limit", damped_loop, "[run]", "max_force_slew_N_per_s = 1e8\n[run]",
+     "14:1: drive.max_force_slew_N_per_s: not used with controller.vibration = \"damped\"; remove "
+     "it"},
+    {"damped_under_a_square_wave", damped_loop, "[run]", "waveform = \"square\"\n[run]",
+     "14:12: drive.waveform: \"square\" is not for controller.vibration = \"damped\"; allowed: "
+     "\"cosine\""},
+    {"damped_force_factor_of_a_force", damped_loop, "vibration = \"velocity\"\n",
+     "vibration = \"velocity\"\n[model_error]\nforce_factor = 1.1\n",
+     "23:1: model_error.force_factor: not used without a [transducer]; remove it"},
+    {"damped_without_a_spring", damped_loop, "133e6", "0",
+     "3:21: plant.stiffness_N_per_m: is 0, and a mass without a spring has no natural mode; "
+     "allowed: "
+     "above 0 with controller.vibration = \"damped\""},
+    {"damped_already", damped_loop, "damping_N_s_per_m = 1\n", "damping_N_s_per_m = 4000\n",
+     "4:21: plant.damping_N_s_per_m: leaves no natural mode to damp; allowed: below 2.94e+03 N s/m "
+     "with controller.vibration = \"damped\""},
+    {"damped_on_its_resonance", damped_loop,
+     "damping_N_s_per_m = 1\n[friction]\nlaw = \"dahl\"\ncoefficient = 0.1\n"
+     "contact_stiffness_N_per_m = 0.056e6\n[sliding]\nvelocity_m_per_s = 0.0267\n[drive]\n"
+     "frequency_Hz = 60e3",
+     "[friction]\nlaw = \"dahl\"\ncoefficient = 0.1\ncontact_stiffness_N_per_m = 0.056e6\n"
+     "[sliding]\nvelocity_m_per_s = 0.0267\n[drive]\nfrequency_Hz = 12978.7",
+     "11:16: drive.frequency_Hz: is the plant's natural frequency, and with so little damping the "
+     "vibration never settles; allowed: another frequency, more plant.damping_N_s_per_m, or with a "
+     "[transducer] controller.vibration = \"resonant\""},
+    {"damped_at_standstill", damped_loop, "velocity_m_per_s = 0.0267", "velocity_m_per_s = 0",
+     "10:20: sliding.velocity_m_per_s: is 0 all the time, where no vibration changes the friction; "
+     "allowed: another velocity with controller.vibration = \"damped\""},
+    {"damped_full_scale_below_the_drive", damped_loop, "vibration = \"velocity\"\n",
+     "vibration = \"velocity\"\nvibration_full_scale_m_per_s = 0.3\n",
+     "22:32: sensor.vibration_full_scale_m_per_s: 0.3 m/s does not suit full drive, whose steady "
+     "vibration is 0.2671 m/s; allowed: 0.5343 to 17.1 m/s"},
+    {"damped_drive_too_weak", damped_loop, "1920.0", "1",
+     "13:25: drive.max_force_amplitude_N: vibrates at 0.000139 m/s, too little for a sliding of "
+     "0.0267 m/s; allowed: at least 0.00167 m/s with controller.vibration = \"damped\""},
     {"current_limit_of_a_force", resonant_loop,
      "[transducer]\nforce_factor_N_per_V = 1.0\nclamped_capacitance_F = 2e-9\n[drive]\n"
      "frequency_Hz = 60e3\nmax_voltage_amplitude_V = 8",

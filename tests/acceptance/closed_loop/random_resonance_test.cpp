@@ -114,8 +114,8 @@ TEST(RandomResonance, HoldsItsVibrationAndNamesWhatIsOffTarget) {
     }
     loop::LoggedRun ran;
     for (const report::StepMetrics& step : steps_of(scene, ran)) {
-      ASSERT_TRUE(step.resonance->velocity_settling_time_s) << given.text;
-      EXPECT_LE(*step.resonance->velocity_settling_time_s,
+      ASSERT_TRUE(step.vibration->settling_time_s) << given.text;
+      EXPECT_LE(*step.vibration->settling_time_s,
                 6.0 * given.time_constant_s + 30.0 / given.natural_Hz)
           << given.text;
       EXPECT_TRUE(step.settling_time_s || step.limit != control::Limit::none) << given.text;

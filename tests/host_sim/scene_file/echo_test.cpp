@@ -68,7 +68,7 @@ TEST(EchoTest, KnowsEveryKeyOfTheSchema) {
   for (const char* text :
        {fullest_open_loop, curve_open_loop, bristles_open_loop, springs_open_loop, normal_open_loop,
         profiles_open_loop, transducer_open_loop, transducer_closed_loop, resonant_closed_loop,
-        fullest_closed_loop}) {
+        damped_closed_loop, fullest_closed_loop}) {
     const nlohmann::ordered_json echo = to_json(read_text(text, "s"));
     for (const auto& [table, values] : echo.items()) {
       for (const auto& [key, value] : values.items()) {

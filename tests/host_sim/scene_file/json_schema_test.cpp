@@ -50,7 +50,7 @@ std::vector<Scene> whole_scenes() {
   for (const char* text :
        {fullest_open_loop, curve_open_loop, bristles_open_loop, springs_open_loop, normal_open_loop,
         profiles_open_loop, transducer_open_loop, transducer_closed_loop, resonant_closed_loop,
-        fullest_closed_loop}) {
+        damped_closed_loop, fullest_closed_loop}) {
     const ordered_json echo = to_json(read_text(text, "s"));
     scenes.push_back({text, as_json(text)});
     scenes.push_back({as_toml(echo), echo});

@@ -39,6 +39,32 @@ force_factor = 1.1
 damping = 0.9
 )";
 
+/// A loop that damps the natural mode under a drive that is a force.
+inline constexpr const char* damped_closed_loop = R"([plant]
+mass_kg = 0.02
+stiffness_N_per_m = 133e6
+[friction]
+law = "coulomb"
+coefficient = 0.1
+[sliding]
+velocity_m_per_s = 0.0267
+[drive]
+frequency_Hz = 60e3
+max_force_amplitude_N = 1920
+[run]
+duration_s = 2e-3
+[controller]
+arithmetic = "q31"
+vibration = "damped"
+target_friction_ratio = [[0, 0.5]]
+[sensor]
+force = false
+vibration = "velocity"
+vibration_bits = 14
+[model_error]
+damping = 0.9
+)";
+
 /// Nothing that has a default.
 inline constexpr const char* shortest_open_loop = R"([plant]
 mass_kg = 0.02

@@ -3,6 +3,7 @@
 #include <tbb/parallel_for.h>
 
 #include <limits>
+#include <optional>
 
 #include "firmware/control/names.hpp"
 #include "host_sim/loop/failure.hpp"
@@ -24,9 +25,9 @@ std::string fault_at(const loop::ControlRecord& record, double time_s) {
   return name;
 }
 
-Verdict verdict(const StepOutcome& step) {
-  if (step.settled()) {
-    return *step.metrics.settling_time_s <= prompt_s ? Verdict::prompt : Verdict::late;
+Verdict verdict(const StepOutcome& step, const std::optional<double>& settling_time_s) {
+  if (settling_time_s) {
+    return *settling_time_s <= prompt_s ? Verdict::prompt : Verdict::late;
   }
   return step.named() ? Verdict::never_named : Verdict::never_unnamed;
 }
@@ -40,7 +41,10 @@ void run_scene(const scene::Scene& scene, Outcome& outcome) {
   const std::vector<report::TargetSpan> spans = report::target_spans(scene);
   for (std::size_t i = 0; i < steps.size(); ++i) {
     StepOutcome step{steps[i], fault_at(*result.control, spans[i].end_s)};
-    step.verdict = verdict(step);
+    step.verdict = verdict(step, steps[i].settling_time_s);
+    if (steps[i].vibration) {
+      step.velocity_verdict = verdict(step, steps[i].vibration->settling_time_s);
+    }
     step.at_end =
         step.settled() && spans[i].begin_s + *steps[i].settling_time_s > spans[i].quarter_s;
     outcome.steps.push_back(step);
@@ -53,11 +57,11 @@ bool StepOutcome::named() const {
   return metrics.limit != control::Limit::none || !fault.empty();
 }
 
-Outcome outcome(std::uint32_t seed, std::uint32_t index) {
+Outcome outcome(std::uint32_t seed, std::uint32_t index, Vibration vibration) {
   Outcome outcome;
   outcome.loop = random_loop(seed, index);
   try {
-    run_scene(scene_file::read_text(scene_text(outcome.loop), "random.toml"), outcome);
+    run_scene(scene_file::read_text(scene_text(outcome.loop, vibration), "random.toml"), outcome);
   } catch (const scene_file::SceneError& error) {
     outcome.refused = error.what();
     outcome.refused_key = error.key();
@@ -67,10 +71,10 @@ Outcome outcome(std::uint32_t seed, std::uint32_t index) {
   return outcome;
 }
 
-std::vector<Outcome> outcomes(std::uint32_t seed, std::uint32_t count) {
+std::vector<Outcome> outcomes(std::uint32_t seed, std::uint32_t count, Vibration vibration) {
   std::vector<Outcome> all(count);
   tbb::parallel_for(std::uint32_t{0}, count,
-                    [&](std::uint32_t index) { all[index] = outcome(seed, index); });
+                    [&](std::uint32_t index) { all[index] = outcome(seed, index, vibration); });
   return all;
 }
 

@@ -26,6 +26,7 @@ struct StepOutcome {
   report::StepMetrics metrics;
   std::string fault;  ///< that the controller is in at the step's end; empty: none
   Verdict verdict = Verdict::never_unnamed;
+  Verdict velocity_verdict = Verdict::never_unnamed;  ///< of the vibration, where it is damped
   bool at_end = false;  ///< settled, but only in the last quarter: a swing may have ended inside
 
   bool named() const;
@@ -41,9 +42,10 @@ struct Outcome {
 };
 
 /// Draws a loop, reads its scene and runs it.
-Outcome outcome(std::uint32_t seed, std::uint32_t index);
+Outcome outcome(std::uint32_t seed, std::uint32_t index, Vibration vibration);
 
 /// Of the loops 0 to count - 1, in their order, computed on all cores.
-std::vector<Outcome> outcomes(std::uint32_t seed, std::uint32_t count);
+std::vector<Outcome> outcomes(std::uint32_t seed, std::uint32_t count,
+                              Vibration vibration = Vibration::unseen);
 
 }  // namespace sonoglide::random_loops

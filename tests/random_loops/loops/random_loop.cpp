@@ -275,7 +275,7 @@ void write_friction(SceneText& text, const RandomLoop& loop) {
   text.number_unless_zero("normal_contact_stiffness_N_per_m", own.normal_contact_stiffness_N_per_m);
 }
 
-void write_controller(SceneText& text, const RandomLoop& loop) {
+void write_controller(SceneText& text, const RandomLoop& loop, Vibration vibration) {
   std::string targets;
   double begin_s = 0.0;
   for (std::size_t i = 0; i < steps_per_loop; ++i) {
@@ -285,17 +285,32 @@ void write_controller(SceneText& text, const RandomLoop& loop) {
   text.table("run");
   text.number("duration_s", begin_s);
   text.table("controller");
-  text.word("arithmetic", loop.arithmetic);
+  const bool damped = vibration != Vibration::unseen;
+  text.word("arithmetic", damped && loop.arithmetic == "q15" ? "q31" : loop.arithmetic);
+  if (damped) {
+    text.word("vibration", "damped");
+  }
   text.line(fmt::format("target_friction_ratio = [{}]", targets));
-  text.number_unless_zero("calibration_s", loop.calibration_s);
+  if (vibration != Vibration::damped_alone) {
+    text.number_unless_zero("calibration_s", loop.calibration_s);
+  }
 }
 
-void write_sensor(SceneText& text, const RandomLoop& loop) {
+void write_sensor(SceneText& text, const RandomLoop& loop, Vibration vibration) {
   const SensorNumbers& sensor = loop.sensor;
-  if (sensor.ideal()) {
+  const bool damped = vibration != Vibration::unseen;
+  if (sensor.ideal() && !damped) {
     return;
   }
   text.table("sensor");
+  if (damped) {
+    text.word("vibration", "velocity");
+    text.line("vibration_bits = 14");
+  }
+  if (vibration == Vibration::damped_alone) {
+    text.line("force = false");
+    return;
+  }
   if (sensor.adc_bits) {
     text.line(fmt::format("adc_bits = {}", *sensor.adc_bits));
   }
@@ -334,7 +349,7 @@ RandomLoop random_loop(std::uint32_t seed, std::uint32_t index) {
   return loop;
 }
 
-std::string scene_text(const RandomLoop& loop) {
+std::string scene_text(const RandomLoop& loop, Vibration vibration) {
   SceneText text;
   text.table("plant");
   text.number("mass_kg", loop.mass_kg);
@@ -348,8 +363,8 @@ std::string scene_text(const RandomLoop& loop) {
   text.number("max_force_amplitude_N", loop.max_force_amplitude_N);
   text.table("solver");
   text.number("tolerance", 1e-8);
-  write_controller(text, loop);
-  write_sensor(text, loop);
+  write_controller(text, loop, vibration);
+  write_sensor(text, loop, vibration);
   write_model_error(text, loop);
   return text.take();
 }

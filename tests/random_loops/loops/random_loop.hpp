@@ -93,7 +93,15 @@ struct RandomLoop {
 /// wrong by up to 5 % in stiffness, 30 % in friction and 50 % in contact stiffness.
 RandomLoop random_loop(std::uint32_t seed, std::uint32_t index);
 
+/// What a loop knows of its vibration.
+enum class Vibration {
+  unseen,  ///< the drive is fed forward
+  /// controller.vibration = "damped", seen by a pick-up of 14 bits; q31 in place of q15
+  damped,
+  damped_alone,  ///< the same without a force sensor
+};
+
 /// Its scene, TOML that the program reads.
-std::string scene_text(const RandomLoop& loop);
+std::string scene_text(const RandomLoop& loop, Vibration vibration = Vibration::unseen);
 
 }  // namespace sonoglide::random_loops

@@ -64,30 +64,39 @@ struct Counts {
   std::size_t steps = 0;
   std::array<std::size_t, verdicts> of_verdict{};
   std::size_t at_end = 0;
+  std::size_t out_of_reach = 0;
   std::size_t named_settled = 0;
   std::vector<double> ripples;
 };
 
-void count(const Outcome& outcome, Counts& counts) {
+bool out_of_reach(const StepOutcome& step, Verdict verdict) {
+  return verdict == Verdict::never_named && step.metrics.limit == control::Limit::actuator;
+}
+
+enum class Judged { ratio, velocity };
+
+void count(const Outcome& outcome, Judged judged, Counts& counts) {
   ++counts.drawn;
   counts.refused += outcome.refused.empty() ? 0 : 1;
   counts.failed += outcome.failed.empty() ? 0 : 1;
   for (const StepOutcome& step : outcome.steps) {
     ++counts.steps;
-    ++counts.of_verdict[static_cast<std::size_t>(step.verdict)];
-    counts.at_end += step.at_end ? 1 : 0;
-    counts.named_settled += step.settled() && step.named() ? 1 : 0;
+    const bool ratio = judged == Judged::ratio;
+    ++counts.of_verdict[static_cast<std::size_t>(ratio ? step.verdict : step.velocity_verdict)];
+    counts.at_end += ratio && step.at_end ? 1 : 0;
+    counts.out_of_reach += out_of_reach(step, ratio ? step.verdict : step.velocity_verdict) ? 1 : 0;
+    counts.named_settled += ratio && step.settled() && step.named() ? 1 : 0;
     counts.ripples.push_back(step.metrics.ripple);
   }
 }
 
 /// Of the first so many outcomes.
-Counts counts_of(const std::vector<Outcome>& all, std::size_t loops, bool wrong,
+Counts counts_of(const std::vector<Outcome>& all, std::size_t loops, bool wrong, Judged judged,
                  const Class& each) {
   Counts counts;
   for (std::size_t i = 0; i < std::min(loops, all.size()); ++i) {
     if (all[i].loop.model_error.has_value() == wrong && each.holds(all[i].loop)) {
-      count(all[i], counts);
+      count(all[i], judged, counts);
     }
   }
   return counts;
@@ -108,12 +117,22 @@ std::string quantiles(std::vector<double> values) {
                      quantile(values, 0.99));
 }
 
-std::string row(std::size_t loops, const char* model, const Class& each, const Counts& counts) {
-  return fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", loops, model, each.of,
-                     each.name, counts.drawn, counts.refused, counts.failed, counts.steps,
+std::string row(std::size_t loops, const char* model, Judged judged, const Class& each,
+                const Counts& counts) {
+  return fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", loops, model,
+                     judged == Judged::ratio ? "ratio" : "velocity", each.of, each.name,
+                     counts.drawn, counts.refused, counts.failed, counts.steps,
                      counts.of_verdict[0], counts.of_verdict[1], counts.at_end,
-                     counts.of_verdict[2], counts.of_verdict[3], counts.named_settled,
-                     quantiles(counts.ripples));
+                     counts.of_verdict[2], counts.out_of_reach, counts.of_verdict[3],
+                     counts.named_settled, quantiles(counts.ripples));
+}
+
+std::vector<Judged> judgements(const std::vector<Outcome>& all) {
+  const bool observed = std::any_of(all.begin(), all.end(), [](const Outcome& outcome) {
+    return !outcome.steps.empty() && outcome.steps.front().metrics.vibration;
+  });
+  return observed ? std::vector<Judged>{Judged::ratio, Judged::velocity}
+                  : std::vector<Judged>{Judged::ratio};
 }
 
 std::string optional_number(double value) {
@@ -141,7 +160,8 @@ constexpr const char* list_header =
     "sliding_velocity_m_per_s,full_velocity_ratio,full_dahl_number,friction_ringing,adc_bits,noise_"
     "per_friction,"
     "force_bandwidth_Hz,delay_periods,calibration_s,error_stiffness,error_coefficient,"
-    "error_contact_stiffness,target,limit,fault,verdict,settling_time_s,steady_error,ripple,drive_"
+    "error_contact_stiffness,target,limit,fault,verdict,velocity_verdict,settling_time_s,steady_"
+    "error,ripple,drive_"
     "part\n";
 
 std::string list(const std::vector<Outcome>& all,
@@ -152,13 +172,14 @@ std::string list(const std::vector<Outcome>& all,
       const StepOutcome& step = outcome.steps[i];
       if (wanted(step)) {
         const report::StepMetrics& metrics = step.metrics;
-        text +=
-            fmt::format("{},{},{},{:.6g},{},{},{},{:.4g},{:.4g},{:.4g},{:.4g}\n",
-                        outcome.loop.index, i, loop_cells(outcome.loop), metrics.target,
-                        control::name(metrics.limit), step.fault.empty() ? "none" : step.fault,
-                        verdict_names[static_cast<std::size_t>(step.verdict)],
-                        metrics.settling_time_s.value_or(NAN), metrics.steady_error, metrics.ripple,
-                        metrics.drive_amplitude_N / outcome.loop.max_force_amplitude_N);
+        text += fmt::format(
+            "{},{},{},{:.6g},{},{},{},{},{:.4g},{:.4g},{:.4g},{:.4g}\n", outcome.loop.index, i,
+            loop_cells(outcome.loop), metrics.target, control::name(metrics.limit),
+            step.fault.empty() ? "none" : step.fault,
+            verdict_names[static_cast<std::size_t>(step.verdict)],
+            metrics.vibration ? verdict_names[static_cast<std::size_t>(step.velocity_verdict)] : "",
+            metrics.settling_time_s.value_or(NAN), metrics.steady_error, metrics.ripple,
+            metrics.drive_amplitude_N / outcome.loop.max_force_amplitude_N);
       }
     }
   }
@@ -169,12 +190,16 @@ std::string list(const std::vector<Outcome>& all,
 
 std::string table_csv(const std::vector<Outcome>& all, const std::vector<std::uint32_t>& counts) {
   std::string text =
-      "loops,model,class_of,class,drawn,refused,failed,steps,prompt,late,at_end,never_named,"
+      "loops,model,judged_by,class_of,class,drawn,refused,failed,steps,prompt,late,at_end,never_"
+      "named,out_of_reach,"
       "never_unnamed,named_settled,ripple_p50,ripple_p90,ripple_p99\n";
   for (const std::uint32_t loops : counts) {
-    for (const bool wrong : {false, true}) {
-      for (const Class& each : classes()) {
-        text += row(loops, wrong ? "wrong" : "exact", each, counts_of(all, loops, wrong, each));
+    for (const Judged judged : judgements(all)) {
+      for (const bool wrong : {false, true}) {
+        for (const Class& each : classes()) {
+          text += row(loops, wrong ? "wrong" : "exact", judged, each,
+                      counts_of(all, loops, wrong, judged, each));
+        }
       }
     }
   }

@@ -14,6 +14,8 @@ namespace sonoglide::random_loops {
 ///
 ///     loops           how many were drawn, of all classes
 ///     model           of the controller: exact or wrong
+///     judged_by       what settles, ends late or never: the friction ratio or, where it is damped,
+///                     the amplitude of the vibration velocity
 ///     class_of, class what the class has in common
 ///     drawn           loops in it; of these
 ///     refused         no controller can be designed, or the reader says no
@@ -22,10 +24,12 @@ namespace sonoglide::random_loops {
 ///     prompt, late    settled within 1 ms, or after
 ///     at_end          of these, settled only in the step's last quarter
 ///     never_named     not settled, with a limit or a fault
+///     out_of_reach    of these, with the limit actuator
 ///     never_unnamed   not settled, without
 ///     named_settled   settled although a limit or a fault is named
 ///     ripple_p50 …    quantiles, in friction ratio
 ///
+/// @param all     of one Vibration
 /// @param counts  a table of its own for the first so many outcomes, one below the other
 std::string table_csv(const std::vector<Outcome>& all, const std::vector<std::uint32_t>& counts);
 

@@ -1,0 +1,172 @@
+/// A vibration velocity that is held off resonance, its natural mode damped by feedback.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "firmware/control/drive_command.hpp"
+#include "firmware/control/measurement.hpp"
+#include "firmware/control/mode_observer.hpp"
+#include "firmware/numeric/fixed_elementary.hpp"
+#include "firmware/numeric/float_sqrt.hpp"
+#include "firmware/numeric/scalar.hpp"
+
+namespace sonoglide::control {
+
+/// One step per carrier period, at a fixed frequency. The steady amplitude u* is what brings the
+/// vibration |H u* + o| to the wanted velocity v. The answer is
+///   u' = u − K (w, u − u*), limited to [0, 1],
+/// with the linear-quadratic gain K, u the latest command and w the mode foreseen at the phase 0
+/// where it acts (ModeObserver).
+///
+/// @tparam MaxDelay  largest delay: carrier periods from the end of a sampled period to the phase 0
+///                   at which its answer acts
+template <class ScalarT, int MaxDelay>
+class DampedVibration {
+ public:
+  using Scalar = ScalarT;
+  using Measurement = VibrationMeasurement<Scalar>;
+  using Command = ResonantCommand<Scalar>;
+  static constexpr bool observed = true;
+  static constexpr Limit at_full_drive = Limit::actuator;
+  /// Samples in a row in which a drive of a quarter or more shows no vibration, until
+  /// Fault::vibration_missing.
+  static constexpr int missing_samples = 16;
+  /// Samples in a row that are mostly offset under such a drive, until Fault::resonance_lost.
+  static constexpr int lost_samples = 64;
+
+  struct Parameters {
+    typename ModeObserver<Scalar>::Parameters observer;
+    Scalar settled;      ///< what noise adds to the error of a settled velocity
+    Scalar missing;      ///< velocity that a drive of a quarter shows at least
+    std::uint8_t delay;  ///< 0 … MaxDelay
+
+    template <class Self, class Visitor>
+    static constexpr void fields(Self& self, Visitor&& visit) {
+      visit("observer", self.observer);
+      visit("settled", self.settled);
+      visit("missing", self.missing);
+      visit("delay", self.delay);
+    }
+  };
+
+  struct Drive {
+    Scalar amplitude;  ///< base: the largest
+    Limit limit;
+  };
+
+  /// @param parameters  outlive this, see ModeObserver
+  explicit DampedVibration(const Parameters& parameters)
+      : observer_(parameters.observer),
+        noise_(parameters.settled),
+        missing_below_(parameters.missing),
+        delay_(parameters.delay) {}
+
+  void restart() {
+    observer_.restart();
+    missing_ = 0;
+    lost_ = 0;
+    settled_ = false;
+    at_most_ = false;
+  }
+
+  /// Takes a sample of usable numbers.
+  Fault observe(const Measurement& measurement) {
+    const Pair<Scalar> sample{measurement.in_phase, measurement.quadrature};
+    observer_.observe(sample, amplitudes_[0], amplitudes_[1]);
+    const bool hard = numeric::from_real<Scalar>(0.25) <= amplitudes_[1];
+    missing_ = hard && magnitude(sample) < missing_below_ ? missing_ + 1 : 0;
+    const Scalar most = numeric::from_real<Scalar>(0.1875) * amplitudes_[1];  // 3/4 of a quarter
+    lost_ = hard && most < magnitude(observer_.quarter_offset()) ? lost_ + 1 : 0;
+    if (missing_ >= missing_samples) {
+      return Fault::vibration_missing;
+    }
+    return lost_ >= lost_samples ? Fault::resonance_lost : Fault::none;
+  }
+
+  /// The drive that brings the velocity to a wanted one in [0, 1].
+  Drive drive(Scalar velocity) {
+    constexpr Scalar largest = numeric::from_code<Scalar>(INT32_MAX);
+    const Scalar quarter = steady_quarter(velocity);
+    at_most_ = numeric::from_real<Scalar>(0.25) <= quarter;
+    const Scalar steady = at_most_ ? largest : numeric::scale_by_power_of_two(quarter, 2);
+    const Scalar latest = amplitudes_[last()];
+    const Scalar error = latest - steady;
+    settled_ = settled(velocity, steady, error);
+    if (velocity == Scalar{} && settled_) {
+      return {Scalar{}, Limit::none};  // at rest, as far as the sensor tells
+    }
+    const Scalar less =
+        numeric::clamp(observer_.feedback(foreseen_mode(), error), latest - largest, latest);
+    return {latest - less, at_most_ ? Limit::actuator : Limit::none};
+  }
+
+  /// One call for each step, with its answer.
+  /// @return the answer; its frequency stays that of the start
+  Command answer(const DriveCommand<Scalar>& command) {
+    for (std::size_t i = 0; i < last(); ++i) {
+      amplitudes_[i] = amplitudes_[i + 1];
+    }
+    amplitudes_[last()] = command.amplitude;
+    return {command, 0};
+  }
+
+  /// The velocity is the one that was last asked for, or the nearest one that the drive reaches.
+  bool settled() const { return settled_; }
+  /// No more of a drive would help.
+  bool at_most() const { return at_most_; }
+
+ private:
+  static Scalar magnitude(const Pair<Scalar>& pair) {
+    return numeric::max(numeric::abs(pair.first), numeric::abs(pair.second));
+  }
+
+  /// Mode and amplitude are within 1/32, but for what noise adds, and for 1/256 of full drive.
+  bool settled(Scalar velocity, Scalar steady, Scalar error) const {
+    constexpr int band = -5;
+    const Scalar mode = numeric::scale_by_power_of_two(velocity, band) + noise_;
+    const Scalar amplitude =
+        numeric::scale_by_power_of_two(steady, band) + numeric::from_real<Scalar>(0x1p-8);
+    return magnitude(observer_.visible()) <= mode && numeric::abs(error) <= amplitude;
+  }
+
+  /// Of the newest command.
+  std::size_t last() const {
+    return (MaxDelay <= 1 ? std::size_t{MaxDelay} : std::size_t{delay_}) + 1;
+  }
+
+  /// u*/4: √((v/|H|)² − o⊥²) − o∥, o as an amplitude along H and across it.
+  Scalar steady_quarter(Scalar velocity) const {
+    if (velocity == Scalar{}) {
+      return {};
+    }
+    const Pair<Scalar> offset = observer_.quarter_offset();
+    const Scalar amplitude = observer_.quarter_amplitude(velocity);
+    const Scalar square = amplitude * amplitude - offset.second * offset.second;
+    const Scalar along = square < Scalar{} ? Scalar{} : numeric::sqrt(square);
+    const Scalar half = numeric::half(along) - numeric::half(offset.first);
+    return numeric::twice(numeric::clamp(half, Scalar{}, numeric::from_real<Scalar>(0.25)));
+  }
+
+  /// In the last period under way.
+  Pair<Scalar> foreseen_mode() const {
+    Pair<Scalar> mode = observer_.mode();
+    for (std::size_t i = 1; i < last(); ++i) {
+      mode = observer_.next(mode, amplitudes_[i + 1] - amplitudes_[i]);
+    }
+    return mode;
+  }
+
+  ModeObserver<Scalar> observer_;
+  Scalar noise_;
+  Scalar missing_below_;
+  std::uint8_t delay_;
+  std::array<Scalar, MaxDelay + 2> amplitudes_{};  ///< from the period before the sampled one on
+  int missing_ = 0;
+  int lost_ = 0;
+  bool settled_ = false;
+  bool at_most_ = false;
+};
+
+}  // namespace sonoglide::control

@@ -1,0 +1,207 @@
+/// What the vibration shows of a natural mode beside the drive.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "firmware/control/mode_table.hpp"
+#include "firmware/numeric/floating.hpp"
+#include "firmware/numeric/scalar.hpp"
+
+namespace sonoglide::control {
+
+/// Two numbers: of a mode, of a vibration, or of a product with a matrix.
+template <class Scalar>
+struct Pair {
+  Scalar first{};
+  Scalar second{};
+};
+
+template <class Scalar>
+constexpr Pair<Scalar> operator+(const Pair<Scalar>& a, const Pair<Scalar>& b) {
+  return {a.first + b.first, a.second + b.second};
+}
+template <class Scalar>
+constexpr Pair<Scalar> operator-(const Pair<Scalar>& a, const Pair<Scalar>& b) {
+  return {a.first - b.first, a.second - b.second};
+}
+template <class Scalar>
+constexpr Pair<Scalar> operator*(const Pair<Scalar>& a, Scalar b) {
+  return {a.first * b, a.second * b};
+}
+
+/// Observer of the natural mode, of a constant beside it and of the natural frequency, from the
+/// vibration z demodulated over a carrier period, u the amplitude of the drive:
+///   w' = M w + b (u' - u),   z = H u + E w + o,
+/// w the mode at drive phase 0, in two coordinates that turn by θ = ωd T and decay by d = exp(−σT)
+/// in a period, o what friction and a wrong model leave. What was not foreseen, e, corrects w and o
+/// by the gains of a steady Kalman filter, and before that the place p in the table of natural
+/// frequencies: p + ψ·e/S, S the sum of ψ² with forgetting, ψ the slope of the forecast over p
+/// (recursive least squares, Ljung 1999, README.md). ψ leaves out H u: a constant error is o's.
+///
+/// z, o, w: on one base each; amplitudes: base the largest.
+template <class Scalar>
+class ModeObserver {
+ public:
+  struct Parameters {
+    ModeTable<Scalar> table;
+    std::uint8_t seen_base;  ///< fixed point: exponents of what E, the gains, the feedback and
+    std::uint8_t gain_base;  ///< H/|H|² are multiples of; 0 in floating point
+    std::uint8_t feedback_base;
+    std::uint8_t inverse_base;
+    Scalar audible;  ///< least slope of a forecast that a sample shows
+
+    template <class Self, class Visitor>
+    static constexpr void fields(Self& self, Visitor&& visit) {
+      visit("table", self.table);
+      visit("seen_base", self.seen_base);
+      visit("gain_base", self.gain_base);
+      visit("feedback_base", self.feedback_base);
+      visit("inverse_base", self.inverse_base);
+      visit("audible", self.audible);
+    }
+  };
+
+  /// @param parameters  of which the table stays where it is: it outlives this
+  explicit ModeObserver(const Parameters& parameters)
+      : table_(parameters.table),
+        seen_base_(parameters.seen_base),
+        gain_base_(parameters.gain_base),
+        feedback_base_(parameters.feedback_base),
+        inverse_base_(parameters.inverse_base),
+        audible_(parameters.audible) {
+    restart();
+  }
+
+  /// At rest, and as it was believed at first.
+  void restart() {
+    mode_ = {};
+    offset_ = {};
+    weight_ = {};
+    place_ = {};
+    row_.go(table_, place_);
+  }
+
+  /// One call for each sample.
+  /// @param before, now  amplitudes in the period before the sampled one and in that one
+  void observe(const Pair<Scalar>& sample, Scalar before, Scalar now) {
+    const Scalar change = now - before;
+    Pair<Scalar> slope = turned(mode_, slope_of(mode::turn)) + slope_of(mode::kick) * change;
+    Pair<Scalar> miss = sample - value_of(mode::forced) * now - offset_;
+    mode_ = next(mode_, change);
+    Pair<Scalar> tilt = seen(mode_, [this](std::size_t i) { return row_.slope(i); }) +
+                        seen(slope, [this](std::size_t i) { return row_[i]; }) +
+                        slope_of(mode::forced) * change;
+    miss = miss - visible();
+    if (audible_ < numeric::max(numeric::abs(tilt.first), numeric::abs(tilt.second))) {
+      const Scalar moved = correct_place(tilt, miss);
+      mode_ = mode_ + slope * moved;
+      miss = miss - tilt * moved;
+    }
+    mode_ = mode_ + gained(mode::mode_gain, miss);
+    offset_ = offset_ + gained(mode::offset_gain, miss);
+  }
+
+  const Pair<Scalar>& mode() const { return mode_; }  ///< w, in the sampled period
+  Scalar place() const { return place_; }             ///< p, from -1 to 1
+
+  /// w a period later, in which the amplitude is another by this.
+  Pair<Scalar> next(const Pair<Scalar>& mode, Scalar change) const {
+    return turned(mode, value_of(mode::turn)) + value_of(mode::kick) * change;
+  }
+
+  /// E w: what the mode adds to a sample.
+  Pair<Scalar> visible() const {
+    return seen(mode_, [this](std::size_t i) { return row_[i]; });
+  }
+
+  /// o as an amplitude, a quarter of it: along H and across it.
+  Pair<Scalar> quarter_offset() const {
+    const Pair<Scalar> inverse = value_of(mode::inverse);
+    const int base = inverse_base_ - 2;
+    return {lowered(inverse.first * offset_.first + inverse.second * offset_.second, base),
+            lowered(inverse.first * offset_.second - inverse.second * offset_.first, base)};
+  }
+
+  /// v/|H|: the amplitude of a velocity without a mode and an offset, a quarter of it.
+  Scalar quarter_amplitude(Scalar velocity) const {
+    return lowered(row_[mode::per_velocity] * velocity, inverse_base_ - 2);
+  }
+
+  /// K (w, u - u*)
+  Scalar feedback(const Pair<Scalar>& mode, Scalar error) const {
+    return lifted(product(mode::feedback, mode) + row_[mode::feedback + 2] * error, feedback_base_);
+  }
+
+ private:
+  Pair<Scalar> value_of(std::size_t i) const { return {row_[i], row_[i + 1]}; }
+  Pair<Scalar> slope_of(std::size_t i) const { return {row_.slope(i), row_.slope(i + 1)}; }
+  Scalar product(std::size_t i, const Pair<Scalar>& pair) const {
+    return row_[i] * pair.first + row_[i + 1] * pair.second;
+  }
+
+  Pair<Scalar> gained(std::size_t i, const Pair<Scalar>& miss) const {
+    return {lifted(product(i, miss), gain_base_), lifted(product(i + 2, miss), gain_base_)};
+  }
+
+  static Pair<Scalar> turned(const Pair<Scalar>& mode, const Pair<Scalar>& turn) {
+    return {turn.first * mode.first - turn.second * mode.second,
+            turn.second * mode.first + turn.first * mode.second};
+  }
+
+  /// x/4 on base 1 of an x on base 2^(n + 2).
+  static Scalar lowered(Scalar x, int n) {
+    if constexpr (numeric::is_fixed_point_v<Scalar>) {
+      return n < 0 ? numeric::scale_by_power_of_two(x, n) : lifted(x, n);
+    } else {
+      return x * static_cast<Scalar>(0.25);
+    }
+  }
+
+  template <class Entry>
+  Pair<Scalar> seen(const Pair<Scalar>& mode, const Entry& entry) const {
+    return {
+        lifted(entry(mode::seen) * mode.first + entry(mode::seen + 1) * mode.second, seen_base_),
+        lifted(entry(mode::seen + 2) * mode.first + entry(mode::seen + 3) * mode.second,
+               seen_base_)};
+  }
+
+  /// @return by how much the place has moved
+  Scalar correct_place(const Pair<Scalar>& tilt, const Pair<Scalar>& miss) {
+    // In fixed point the sum is on base 64.
+    constexpr int base = numeric::is_fixed_point_v<Scalar> ? 6 : 0;
+    constexpr Scalar keep = numeric::from_real<Scalar>(0.97);
+    constexpr Scalar end = numeric::from_code<Scalar>(INT32_MAX - 1);
+    weight_ = keep * weight_ + numeric::scale_by_power_of_two(
+                                   tilt.first * tilt.first + tilt.second * tilt.second, -base);
+    if (!(Scalar{} < weight_)) {
+      return {};
+    }
+    const auto one_half = numeric::floating(numeric::from_real<Scalar>(0.5));
+    const auto inverse =
+        numeric::rescaled(numeric::quotient(one_half, numeric::floating(weight_)), 1 - base);
+    const Scalar gradient = tilt.first * miss.first + tilt.second * miss.second;
+    constexpr Scalar farthest = numeric::from_real<Scalar>(0.999);
+    const Scalar move =
+        numeric::clamp(numeric::limited_product(gradient, inverse), -farthest, farthest);
+    const Scalar half = numeric::half(place_) + numeric::half(move);
+    const Scalar before = place_;
+    place_ = numeric::twice(numeric::clamp(half, -numeric::half(end), numeric::half(end)));
+    row_.go(table_, place_);
+    return place_ - before;
+  }
+
+  const ModeTable<Scalar>& table_;
+  std::uint8_t seen_base_;
+  std::uint8_t gain_base_;
+  std::uint8_t feedback_base_;
+  std::uint8_t inverse_base_;
+  Scalar audible_;
+  ModePlace<Scalar> row_;
+  Pair<Scalar> mode_;
+  Pair<Scalar> offset_;
+  Scalar weight_{};  ///< S
+  Scalar place_{};
+};
+
+}  // namespace sonoglide::control

@@ -1,0 +1,201 @@
+#include "host_sim/configure/damped_design.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/SVD>
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include "firmware/numeric/float_elementary.hpp"
+#include "firmware/numeric/turn.hpp"
+#include "host_sim/configure/configuration_error.hpp"
+#include "host_sim/configure/mode_model.hpp"
+#include "host_sim/configure/plant_scales.hpp"
+#include "host_sim/configure/sensor_noise.hpp"
+
+namespace sonoglide::configure {
+namespace {
+
+namespace mode = control::mode;
+
+/// How far the believed stiffness may be off, relative: no farther than a third of the way to the
+/// carrier is left, nor that the mode's angle would be known to less than 3/4 of a radian.
+double stiffness_range(double stiffness) {
+  constexpr double widest = 0.06;
+  constexpr double towards_carrier = 2.0 / 3.0;
+  constexpr double radians = 0.72;
+  const double carrier = numeric::two_pi * numeric::two_pi;
+  return std::min({widest, towards_carrier * std::abs(1.0 - carrier / stiffness),
+                   2.0 * radians / numeric::sqrt(stiffness)});
+}
+
+/// The modulus of a 2 x 2 matrix: its largest singular value.
+double norm_of(const Eigen::Matrix2d& matrix) {
+  return Eigen::JacobiSVD<Eigen::Matrix2d>(matrix).singularValues()(0);
+}
+
+ObserverGains observer_gains_of(const ModeModel& model, double noise) {
+  constexpr double process = 1e-3;  // of full drive's velocity: friction, and what is not modelled
+  constexpr double doubt = 3e-3;
+  const double velocity = model.forced.norm();
+  const double variance = std::max(doubt * velocity, noise);
+  return observer_gains(model, process * process * velocity * velocity, variance * variance);
+}
+
+/// As quick as it may be without making much of what the observer only believes; slow where the
+/// vibration hardly shows the mode.
+Eigen::RowVector3d feedback_of(const ModeModel& model) {
+  constexpr double quickest = 1.15;
+  constexpr double slower = 0.6;
+  constexpr double quick_enough = 1.01;
+  constexpr double visible = 0.05;      // of full drive's velocity, after a full kick
+  constexpr double largest_kick = 2.0;  // amplitude for a full kick's mode
+  const double kick = model.kick.norm();
+  double stability = norm_of(model.seen) * kick < visible * model.forced.norm() ? 1.0 : quickest;
+  while (true) {
+    const Eigen::RowVector3d gains = feedback_gains(model, stability);
+    if (stability == 1.0 || gains.head<2>().norm() * kick < largest_kick) {
+      return gains;
+    }
+    stability = 1.0 + slower * (stability - 1.0);
+    stability = stability < quick_enough ? 1.0 : stability;
+  }
+}
+
+template <class Matrix>
+void put(const Matrix& matrix, std::size_t place, control::ModeRow<double>& row) {
+  for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
+    for (Eigen::Index k = 0; k < matrix.cols(); ++k) {
+      row[place++] = matrix(i, k);
+    }
+  }
+}
+
+control::ModeRow<double> row_of(const ModeModel& model, double noise) {
+  const ObserverGains observer = observer_gains_of(model, noise);
+  const double velocity = model.forced.norm();
+  control::ModeRow<double> row{};
+  put(Eigen::Vector2d(model.turn.col(0)), mode::turn, row);
+  put(model.kick, mode::kick, row);
+  put(model.forced, mode::forced, row);
+  put(model.seen, mode::seen, row);
+  put(observer.mode, mode::mode_gain, row);
+  put(observer.offset, mode::offset_gain, row);
+  put(feedback_of(model), mode::feedback, row);
+  put(Eigen::Vector2d(model.forced / (velocity * velocity)), mode::inverse, row);
+  row[mode::per_velocity] = 1.0 / velocity;
+  return row;
+}
+
+/// Largest magnitude of these numbers of a row, in all rows.
+double largest(const control::ModeTable<double>& table, std::size_t begin, std::size_t end) {
+  double most = 0.0;
+  for (const control::ModeRow<double>& row : table) {
+    for (std::size_t i = begin; i < end; ++i) {
+      most = std::max(most, std::abs(row[i]));
+    }
+  }
+  return most;
+}
+
+/// The table in multiples of a mode that leaves the kicks an eighth.
+void scale_mode(control::ModeTable<double>& table) {
+  const double unit = 8.0 * largest(table, mode::kick, mode::forced);
+  const auto scale = [&](std::size_t begin, std::size_t end, double factor) {
+    for (control::ModeRow<double>& row : table) {
+      for (std::size_t i = begin; i < end; ++i) {
+        row[i] *= factor;
+      }
+    }
+  };
+  scale(mode::kick, mode::forced, 1.0 / unit);
+  scale(mode::seen, mode::mode_gain, unit);
+  scale(mode::mode_gain, mode::offset_gain, 1.0 / unit);
+  scale(mode::feedback, mode::feedback + 2, unit);
+}
+
+void require_mode(const BelievedPlant& plant) {
+  if (!(plant.stiffness_N_per_m > 0.0)) {
+    throw ConfigurationError(
+        "plant.stiffness_N_per_m",
+        "is 0, and a mass without a spring has no natural mode; allowed: above "
+        "0 with controller.vibration = \"damped\"");
+  }
+  constexpr double most = 0.9;  // of the critical damping
+  const double critical =
+      2.0 * numeric::sqrt(plant.stiffness_N_per_m) * numeric::sqrt(plant.mass_kg);
+  if (!(plant.damping_N_s_per_m < most * critical)) {
+    throw ConfigurationError(
+        "plant.damping_N_s_per_m",
+        fmt::format("leaves no natural mode to damp; allowed: below {:.3g} N s/m with "
+                    "controller.vibration = \"damped\"",
+                    most * critical));
+  }
+}
+
+}  // namespace
+
+double damped_full_scale_m_per_s(const scene::Scene& scene, const BelievedPlant& plant) {
+  constexpr double room = 4.0;  // for what feedback may ask for, and for what a knock adds
+  constexpr double least_room = 2.0;
+  constexpr double most_room = 64.0;
+  const scene::Drive& drive = *scene.drive;
+  const double full_m_per_s = peak_vibration_m_per_s(
+      plant, drive.frequency_Hz, drive.max_force_amplitude_N * plant.force_factor);
+  if (const auto& given_m_per_s = scene.sensor.vibration_full_scale_m_per_s) {
+    const double least_m_per_s = least_room * full_m_per_s;
+    const double most_m_per_s = most_room * full_m_per_s;
+    if (*given_m_per_s < least_m_per_s || *given_m_per_s > most_m_per_s) {
+      throw ConfigurationError(
+          "sensor.vibration_full_scale_m_per_s",
+          fmt::format("{:g} m/s does not suit full drive, whose steady vibration is {:.4g} m/s; "
+                      "allowed: {:.4g} to {:.4g} m/s",
+                      *given_m_per_s, full_m_per_s, least_m_per_s, most_m_per_s));
+    }
+    return *given_m_per_s;
+  }
+  const double fastest_m_per_s = fastest_sliding_m_per_s(scene.sliding);
+  const double full_scale_m_per_s = room * std::max(full_m_per_s, fastest_m_per_s);
+  if (full_scale_m_per_s > most_room * full_m_per_s) {
+    throw ConfigurationError(
+        scene.transducer ? "drive.max_voltage_amplitude_V" : "drive.max_force_amplitude_N",
+        fmt::format("vibrates at {:.3g} m/s, too little for a sliding of {:g} m/s; allowed: at "
+                    "least {:.3g} m/s with controller.vibration = \"damped\"",
+                    full_m_per_s, fastest_m_per_s, room / most_room * fastest_m_per_s));
+  }
+  return full_scale_m_per_s;
+}
+
+DampedDesign design_damping(const scene::Scene& scene, const BelievedPlant& plant,
+                            double full_scale_m_per_s) {
+  require_mode(plant);
+  const double period_s = 1.0 / scene.drive->frequency_Hz;
+  const double push = scene.drive->max_force_amplitude_N * plant.force_factor * period_s /
+                      (plant.mass_kg * full_scale_m_per_s);
+  const Resonator middle{plant.stiffness_N_per_m / plant.mass_kg * period_s * period_s,
+                         plant.damping_N_s_per_m / plant.mass_kg * period_s, push};
+  DampedDesign design;
+  design.stiffness_range = stiffness_range(middle.stiffness);
+  design.noise = vibration_noise_m_per_s(scene.sensor, full_scale_m_per_s) / full_scale_m_per_s;
+  for (std::size_t i = 0; i < mode::rows; ++i) {
+    const double place = 2.0 * static_cast<double>(i) / (mode::rows - 1) - 1.0;
+    Resonator resonator = middle;
+    resonator.stiffness *= 1.0 + place * design.stiffness_range;
+    design.table[i] = row_of(mode_model(resonator), design.noise);
+  }
+  scale_mode(design.table);
+  const double velocity = mode_model(middle).forced.norm();
+  constexpr double heard = 6.0;
+  constexpr double inaudible = 1e-5;
+  constexpr double deviations = 4.0;
+  constexpr double quiet = 1e-3;
+  constexpr double missing = 0.25 * 0.25;  // of a quarter of the drive a quarter
+  design.audible = heard * std::max(design.noise, inaudible * velocity);
+  design.settled = std::max(deviations * design.noise, quiet * velocity);
+  design.missing = missing * velocity;
+  design.delay_periods = static_cast<std::uint8_t>(scene.drive->delay_periods);
+  return design;
+}
+
+}  // namespace sonoglide::configure

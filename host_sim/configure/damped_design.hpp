@@ -1,0 +1,34 @@
+/// The numbers of a loop that observes the plant's natural mode and damps it.
+#pragma once
+
+#include <cstdint>
+
+#include "firmware/control/mode_table.hpp"
+#include "host_sim/configure/believed_plant.hpp"
+#include "host_sim/scene/scene.hpp"
+
+namespace sonoglide::configure {
+
+/// Real numbers, per unit of ControlScales.
+struct DampedDesign {
+  /// Of the believed plant in the middle row; the stiffness of the first row is `stiffness_range`
+  /// lower, that of the last one as much higher. A mode of 1 is eight times the largest kick.
+  control::ModeTable<double> table{};
+  double stiffness_range = 0.0;  ///< relative
+  double noise = 0.0;            ///< of a vibration sample, converter included, rms
+  double audible = 0.0;
+  double settled = 0.0;
+  double missing = 0.0;
+  std::uint8_t delay_periods = 1;
+};
+
+/// The range of the vibration sensor.
+/// @throws ConfigurationError  full drive vibrates at less than 1/64 of it, or at more than half
+double damped_full_scale_m_per_s(const scene::Scene& scene, const BelievedPlant& plant);
+
+/// @param full_scale_m_per_s  of the vibration sensor
+/// @throws ConfigurationError  a plant without a natural mode
+DampedDesign design_damping(const scene::Scene& scene, const BelievedPlant& plant,
+                            double full_scale_m_per_s);
+
+}  // namespace sonoglide::configure

@@ -1,0 +1,119 @@
+#include "host_sim/configure/mode_model.hpp"
+
+#include <Eigen/LU>
+#include <complex>
+
+#include "firmware/numeric/float_elementary.hpp"
+#include "firmware/numeric/turn.hpp"
+
+namespace sonoglide::configure {
+namespace {
+
+using Complex = std::complex<double>;
+
+constexpr Complex j{0.0, 1.0};
+
+Complex exponential(Complex exponent) {
+  return numeric::exp(exponent.real()) *
+         Complex{numeric::cos(exponent.imag()), numeric::sin(exponent.imag())};
+}
+
+/// Mean of exp(rate t) over t from 0 to 1.
+Complex mean_of_exponential(Complex rate) {
+  constexpr double few = 1e-5;
+  return std::abs(rate) < few ? 1.0 + 0.5 * rate : (exponential(rate) - 1.0) / rate;
+}
+
+Eigen::Vector2d parts(Complex z) {
+  return {z.real(), z.imag()};
+}
+
+/// What X = A' X (I + B B' X)^-1 A + Q leads to from X = Q in 128 carrier periods, by the doubling
+/// algorithm (Chu, Fan, Lin and Wang 2004): each turn does as many steps as all before it. In that
+/// time a target is long settled; more would only let an observer doubt more and more what a mode
+/// next to a multiple of the carrier never shows.
+template <class Matrix>
+Matrix riccati(Matrix a, Matrix b_squared, const Matrix& q) {
+  constexpr int doublings = 7;
+  Matrix x = q;
+  for (int i = 0; i < doublings; ++i) {
+    const Matrix inverse = (Matrix::Identity() + b_squared * x).inverse();
+    const Matrix step = inverse * a;
+    const Matrix x_next = x + a.transpose() * x * step;
+    b_squared += a * inverse * b_squared * a.transpose();
+    a *= step;
+    x = 0.5 * (x_next + x_next.transpose());
+  }
+  return x;
+}
+
+/// The mode turns by at least 0.4 radians in a period: one that turns less, next to a multiple of the
+/// carrier, is moved by where the amplitude is and hardly by the way there.
+bool is_quick(const ModeModel& model) {
+  constexpr double quick = 0.4;
+  return (model.turn - Eigen::Matrix2d::Identity()).col(0).norm() >= quick;
+}
+
+}  // namespace
+
+ModeModel mode_model(const Resonator& resonator) {
+  const double omega = numeric::two_pi;
+  const double decay = 0.5 * resonator.damping;
+  const double rotation = numeric::sqrt(resonator.stiffness - decay * decay);
+  const Complex rate{-decay, rotation};
+  const Complex displacement =
+      resonator.push / Complex(resonator.stiffness - omega * omega, resonator.damping * omega);
+  // The free motion begins where the steady one, changed, would have to be.
+  const double x = displacement.real();
+  const double v = -omega * displacement.imag();
+  const Complex kick = -(v + j * (resonator.stiffness * x + decay * v) / rotation);
+  const Complex along = mean_of_exponential(rate - j * omega);
+  const Complex against = mean_of_exponential(std::conj(rate) - j * omega);
+  const Complex turn = exponential(rate);
+  ModeModel model;
+  model.turn << turn.real(), -turn.imag(), turn.imag(), turn.real();
+  model.kick = parts(kick);
+  model.forced = parts(j * omega * displacement);
+  model.seen.col(0) = parts(along + against);
+  model.seen.col(1) = parts(j * (along - against));
+  const double fading = mean_of_exponential(2.0 * rate.real()).real();
+  const Complex beating = mean_of_exponential(2.0 * rate);
+  model.square << fading + beating.real(), -beating.imag(), -beating.imag(),
+      fading - beating.real();
+  return model;
+}
+
+ObserverGains observer_gains(const ModeModel& model, double process, double noise) {
+  using Matrix = Eigen::Matrix4d;
+  Matrix dynamics = Matrix::Identity();
+  dynamics.topLeftCorner<2, 2>() = model.turn;
+  Eigen::Matrix<double, 2, 4> sample;
+  sample << model.seen, Eigen::Matrix2d::Identity();
+  const Matrix shown = sample.transpose() * sample / noise;
+  const Matrix before = riccati<Matrix>(dynamics.transpose(), shown, process * Matrix::Identity());
+  const Eigen::Matrix2d seen_variance =
+      sample * before * sample.transpose() + noise * Eigen::Matrix2d::Identity();
+  const Eigen::Matrix<double, 4, 2> gains = before * sample.transpose() * seen_variance.inverse();
+  return {gains.topRows<2>(), gains.bottomRows<2>()};
+}
+
+Eigen::RowVector3d feedback_gains(const ModeModel& model, double stability) {
+  using Matrix = Eigen::Matrix3d;
+  Matrix dynamics = Matrix::Identity();
+  dynamics.topLeftCorner<2, 2>() = model.turn;
+  dynamics *= stability;
+  Eigen::Vector3d change;
+  change << model.kick, 1.0;
+  change *= stability;
+  const double price = model.forced.squaredNorm();
+  Matrix error;
+  error.topLeftCorner<2, 2>() =
+      is_quick(model) ? model.square : Eigen::Matrix2d(model.seen.transpose() * model.seen);
+  error.topRightCorner<2, 1>() = model.seen.transpose() * model.forced;
+  error.bottomLeftCorner<1, 2>() = error.topRightCorner<2, 1>().transpose();
+  error(2, 2) = price;
+  const Matrix cost = riccati<Matrix>(dynamics, change * change.transpose() / price, error);
+  return change.transpose() * cost * dynamics / (price + change.dot(cost * change));
+}
+
+}  // namespace sonoglide::configure

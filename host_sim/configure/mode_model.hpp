@@ -1,0 +1,49 @@
+/// A resonator under a carrier whose amplitude changes from period to period, as its vibration shows
+/// it once per carrier period.
+#pragma once
+
+#include <Eigen/Core>
+
+namespace sonoglide::configure {
+
+/// Time in carrier periods, velocities in any unit U, amplitudes per full drive.
+struct Resonator {
+  double stiffness;  ///< (ωn T)²
+  double damping;    ///< c T/m
+  double push;       ///< F T/m of full drive, in U
+};
+
+/// w the free velocity as a phasor at the carrier's phase 0, in (real, imaginary) parts: the free
+/// motion is Re(w exp(λ t)), λ = −c/2m + j ωd. z the vibration demodulated over a period, in phase
+/// with the drive and in quadrature:
+///   w' = turn w + kick (u' − u),   z = forced u + seen w.
+/// Twice the mean square of the free velocity over a period is w·square w.
+struct ModeModel {
+  Eigen::Matrix2d turn;
+  Eigen::Vector2d kick;
+  Eigen::Vector2d forced;
+  Eigen::Matrix2d seen;
+  Eigen::Matrix2d square;
+};
+
+/// @param resonator  with a natural mode: damping²/4 < stiffness; not undamped on the carrier
+ModeModel mode_model(const Resonator& resonator);
+
+/// Of a linear observer of w and of a constant o beside it: z = forced u + seen w + o.
+struct ObserverGains {
+  Eigen::Matrix2d mode;
+  Eigen::Matrix2d offset;
+};
+
+/// Kalman filter that has been at rest for 128 periods.
+/// @param process  variance that a period adds to each of w and o
+/// @param noise    variance of each part of a sample
+ObserverGains observer_gains(const ModeModel& model, double process, double noise);
+
+/// Linear-quadratic feedback of (w, u − u*) on the change of the amplitude. What it costs: the mean
+/// square of what the velocity has beside the steady vibration of u*, of a mode next to a multiple of
+/// the carrier what z shows of it, and as much for a change of the amplitude as for an error of the
+/// same size. The poles have a modulus below 1/`stability`.
+Eigen::RowVector3d feedback_gains(const ModeModel& model, double stability);
+
+}  // namespace sonoglide::configure

@@ -1,0 +1,201 @@
+// Closed loops off resonance whose natural mode is seen by a vibration sensor and damped, as a scene
+// describes them: with a stiffness that is believed wrong, with a mass that rings already, and in
+// every arithmetic.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "host_sim/loop/run.hpp"
+#include "host_sim/report/step_metrics.hpp"
+#include "host_sim/scene_file/reader.hpp"
+#include "tests/common/constants/pi.hpp"
+#include "tests/host_sim/loop/logs/logged_run.hpp"
+
+namespace sonoglide::damping_test {
+namespace {
+
+using tests::two_pi;
+
+/// The contact of Table 1 on springs of any stiffness, under a drive of the same strength.
+struct Loop {
+  double mode_per_carrier = 0.2163;  ///< Table 1's
+  double stiffness_error = 1.0;
+  std::string arithmetic = "float32";
+  std::string vibration = "vibration = \"damped\"";
+  std::string sensor = "[sensor]\nvibration = \"velocity\"\n";
+  std::string targets = "[[0.0, 0.4], [2e-3, 0.6], [4e-3, 0.5]]";
+  std::string plant;
+  std::string friction;
+  std::string drive;
+};
+
+constexpr double carrier_Hz = 60e3;
+constexpr double mass_kg = 0.02;
+constexpr double full_velocity_m_per_s = 0.267;  ///< ten times the sliding
+
+double stiffness_N_per_m(const Loop& loop) {
+  return mass_kg * std::pow(two_pi * carrier_Hz * loop.mode_per_carrier, 2);
+}
+
+double largest_force_N(const Loop& loop) {
+  const double omega = two_pi * carrier_Hz;
+  return full_velocity_m_per_s * std::abs(stiffness_N_per_m(loop) / omega - mass_kg * omega);
+}
+
+std::string text_of(const Loop& loop) {
+  const bool profile = loop.plant.find("stiffness_profile") != std::string::npos;
+  return fmt::format(
+      "[plant]\nmass_kg = {}\n{}{}\n"
+      "[friction]\nlaw = \"dahl\"\ncoefficient = 0.1\ncontact_stiffness_N_per_m = 0.056e6\n{}\n"
+      "[sliding]\nvelocity_m_per_s = 0.0267\n"
+      "[drive]\nfrequency_Hz = {}\nmax_force_amplitude_N = {:.17g}\n{}\n"
+      "[run]\nduration_s = 6e-3\n"
+      "[controller]\narithmetic = \"{}\"\n{}\ntarget_friction_ratio = {}\n"
+      "{}\n[model_error]\nstiffness = {}\n",
+      mass_kg, profile ? "" : fmt::format("stiffness_N_per_m = {:.17g}\n", stiffness_N_per_m(loop)),
+      loop.plant, loop.friction, carrier_Hz, largest_force_N(loop), loop.drive, loop.arithmetic,
+      loop.vibration, loop.targets, loop.sensor, loop.stiffness_error);
+}
+
+struct Ran {
+  loop::LoggedRun run;
+  std::vector<report::StepMetrics> steps;
+};
+
+Ran run(const Loop& loop) {
+  const scene::Scene scene = scene_file::read_text(text_of(loop), "damping.toml");
+  Ran ran{loop::run_logged(scene), {}};
+  report::StepMeter meter(scene);
+  for (const loop::Period& period : ran.run.periods) {
+    meter.take(period);
+  }
+  ran.steps = meter.steps();
+  return ran;
+}
+
+class Damping : public testing::TestWithParam<std::string> {
+ protected:
+  static Loop loop() {
+    Loop loop;
+    loop.arithmetic = GetParam();
+    return loop;
+  }
+};
+
+INSTANTIATE_TEST_SUITE_P(Arithmetics, Damping, testing::Values("float64", "float32", "q31"),
+                         [](const auto& arithmetic) { return arithmetic.param; });
+
+TEST_P(Damping, SettlesWithAStiffnessThatIsBelievedWrong) {
+  for (const double mode : {0.2163, 0.45, 0.7, 0.88, 1.2, 1.55, 2.3}) {
+    for (const double error : {0.95, 0.98, 1.0, 1.03, 1.05}) {
+      Loop given = loop();
+      given.mode_per_carrier = mode;
+      given.stiffness_error = error;
+      const Ran ran = run(given);
+      EXPECT_TRUE(ran.run.result.control->faults.empty());
+      for (const report::StepMetrics& step : ran.steps) {
+        ASSERT_TRUE(step.settling_time_s) << mode << ' ' << error << ' ' << step.target;
+        EXPECT_LE(*step.settling_time_s, 1e-3) << mode << ' ' << error << ' ' << step.target;
+        ASSERT_TRUE(step.vibration->settling_time_s);
+        EXPECT_LE(*step.vibration->settling_time_s, 1e-3) << mode << ' ' << error;
+        EXPECT_LE(std::abs(step.steady_error), 1e-3) << mode << ' ' << error;
+        EXPECT_EQ(step.limit, control::Limit::none) << mode << ' ' << error;
+        EXPECT_FALSE(step.resonance);
+      }
+    }
+  }
+}
+
+TEST_P(Damping, QuietsAMassThatRingsAtFirst) {
+  Loop given = loop();
+  given.plant = "initial_velocity_m_per_s = 0.05";
+  const Ran ran = run(given);
+  ASSERT_TRUE(ran.steps[0].settling_time_s);
+  EXPECT_LE(*ran.steps[0].settling_time_s, 1e-3);
+  // Fed forward it rings for ever.
+  given.vibration = "";
+  given.sensor = "";
+  EXPECT_FALSE(run(given).steps[0].settling_time_s);
+}
+
+TEST_P(Damping, QuietsAMassThatIsKnocked) {
+  Loop given = loop();
+  given.targets = "[[0.0, 0.4], [3e-3, 0.401]]";
+  given.friction = "normal_force_profile_N = [[0, 0.1962], [3e-3, 0.1962], [3e-3, 0.25]]";
+  given.plant =
+      fmt::format("stiffness_profile = [[0, {0:.17g}], [3e-3, {0:.17g}], [3e-3, {1:.17g}]]",
+                  stiffness_N_per_m(given), 1.02 * stiffness_N_per_m(given));
+  const Ran ran = run(given);
+  ASSERT_TRUE(ran.steps[1].vibration->settling_time_s);
+  EXPECT_LE(*ran.steps[1].vibration->settling_time_s, 1e-3);
+}
+
+TEST_P(Damping, NeedsNoForceSensor) {
+  Loop given = loop();
+  given.stiffness_error = 1.05;
+  given.sensor = "[sensor]\nvibration = \"velocity\"\nvibration_bits = 14\nforce = false\n";
+  for (const report::StepMetrics& step : run(given).steps) {
+    ASSERT_TRUE(step.settling_time_s);
+    EXPECT_LE(*step.settling_time_s, 1e-3);
+  }
+}
+
+TEST_P(Damping, KeepsToACommandThatActsLater) {
+  for (const int delay : {0, 1, 2, 4}) {
+    Loop given = loop();
+    given.stiffness_error = 0.97;
+    given.mode_per_carrier = 0.7;
+    given.drive = fmt::format("delay_periods = {}", delay);
+    for (const report::StepMetrics& step : run(given).steps) {
+      ASSERT_TRUE(step.settling_time_s) << delay;
+      EXPECT_LE(*step.settling_time_s, 1e-3) << delay;
+    }
+  }
+}
+
+TEST_P(Damping, NamesATargetOutOfReach) {
+  Loop given = loop();
+  given.targets = "[[0.0, 0.03]]";
+  const Ran ran = run(given);
+  EXPECT_EQ(ran.steps[0].limit, control::Limit::actuator);
+  EXPECT_TRUE(ran.steps[0].limit_seen_by_controller);
+}
+
+TEST_P(Damping, GivesNoDriveForATargetOfOne) {
+  Loop given = loop();
+  given.targets = "[[0.0, 0.5], [3e-3, 1.0]]";
+  const Ran ran = run(given);
+  EXPECT_EQ(ran.steps[1].drive_amplitude_N, 0.0);
+  ASSERT_TRUE(ran.steps[1].settling_time_s);
+  EXPECT_LE(*ran.steps[1].settling_time_s, 1e-3);
+}
+
+TEST(DampingTest, FixedPointAgreesWithFloatInEveryPeriod) {
+  for (const double mode : {0.2163, 0.8, 1.3, 2.6}) {
+    for (const double error : {0.95, 1.0, 1.04}) {
+      Loop given;
+      given.mode_per_carrier = mode;
+      given.stiffness_error = error;
+      given.arithmetic = "float64";
+      const Ran exact = run(given);
+      given.arithmetic = "q31";
+      const Ran fixed = run(given);
+      ASSERT_EQ(exact.run.periods.size(), fixed.run.periods.size());
+      for (std::size_t k = 0; k < exact.run.periods.size(); ++k) {
+        ASSERT_NEAR(exact.run.periods[k].friction_ratio, fixed.run.periods[k].friction_ratio, 0.002)
+            << mode << ' ' << error << ' ' << k;
+      }
+      EXPECT_EQ(fixed.run.result.control->signals.empty(), false);
+      for (const auto& signal : fixed.run.result.control->signals) {
+        EXPECT_EQ(signal.saturations, 0U) << signal.name;
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace sonoglide::damping_test
