@@ -24,8 +24,9 @@ struct Kind {
   const char* name;  ///< of the table too
 };
 
-constexpr std::array<Kind, 3> kinds = {
-    {{Vibration::unseen, "unseen"}, {Vibration::damped, "damped"}, {Vibration::damped_alone, "alone"}}};
+constexpr std::array<Kind, 3> kinds = {{{Vibration::unseen, "unseen"},
+                                        {Vibration::damped, "damped"},
+                                        {Vibration::damped_alone, "alone"}}};
 
 const std::vector<Outcome>& all(Vibration vibration) {
   static const std::array<std::vector<Outcome>, kinds.size()> once = {
