@@ -57,7 +57,9 @@ class ModePlace {
   void go(const ModeTable<Scalar>& table, Scalar place) {
     constexpr int shift = 32 - mode::row_bits;
     const std::int32_t code = numeric::to_code(place);
-    const auto row = static_cast<std::size_t>((code >> shift) + (1 << (mode::row_bits - 1)));
+    constexpr int middle = 1 << (mode::row_bits - 1);
+    const int below = (code >> shift) + middle;
+    const auto row = static_cast<std::size_t>(below);
     const Scalar along = numeric::from_code<Scalar>(
         static_cast<std::int32_t>((static_cast<std::uint32_t>(code) << mode::row_bits) >> 1));
     const ModeRow<Scalar>& low = table[row];

@@ -505,6 +505,13 @@ std::vector<std::string> design_notes(const ControlDesign& design) {
                     "feedback gain is {:.3g} per carrier period.",
                     design.integral_gain));
   }
+  if (design.damping && !design.damping->quick) {
+    notes.push_back(
+        "The natural mode is so near 0 or a multiple of the carrier frequency that no change of "
+        "the "
+        "amplitude quiets it quickly: the vibration velocity is held, and the friction ratio may "
+        "swing about its target.");
+  }
   if (design.resonance && design.resonance->natural != design.resonance->believed_natural) {
     const ResonantDesign& resonance = *design.resonance;
     const auto frequency_Hz = [&](double deviation) {

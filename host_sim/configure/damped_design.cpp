@@ -54,7 +54,7 @@ Eigen::RowVector3d feedback_of(const ModeModel& model) {
   const double kick = model.kick.norm();
   double stability = norm_of(model.seen) * kick < visible * model.forced.norm() ? 1.0 : quickest;
   while (true) {
-    const Eigen::RowVector3d gains = feedback_gains(model, stability);
+    Eigen::RowVector3d gains = feedback_gains(model, stability);
     if (stability == 1.0 || gains.head<2>().norm() * kick < largest_kick) {
       return gains;
     }
@@ -185,7 +185,9 @@ DampedDesign design_damping(const scene::Scene& scene, const BelievedPlant& plan
     design.table[i] = row_of(mode_model(resonator), design.noise);
   }
   scale_mode(design.table);
-  const double velocity = mode_model(middle).forced.norm();
+  const ModeModel model = mode_model(middle);
+  const double velocity = model.forced.norm();
+  design.quick = is_quick(model);
   constexpr double heard = 6.0;
   constexpr double inaudible = 1e-5;
   constexpr double deviations = 4.0;

@@ -15,6 +15,7 @@ struct DampedDesign {
   /// lower, that of the last one as much higher. A mode of 1 is eight times the largest kick.
   control::ModeTable<double> table{};
   double stiffness_range = 0.0;  ///< relative
+  bool quick = true;             ///< the mode can be quieted, see is_quick()
   double noise = 0.0;            ///< of a vibration sample, converter included, rms
   double audible = 0.0;
   double settled = 0.0;

@@ -47,13 +47,6 @@ Matrix riccati(Matrix a, Matrix b_squared, const Matrix& q) {
   return x;
 }
 
-/// The mode turns by at least 0.4 radians in a period: one that turns less, next to a multiple of the
-/// carrier, is moved by where the amplitude is and hardly by the way there.
-bool is_quick(const ModeModel& model) {
-  constexpr double quick = 0.4;
-  return (model.turn - Eigen::Matrix2d::Identity()).col(0).norm() >= quick;
-}
-
 }  // namespace
 
 ModeModel mode_model(const Resonator& resonator) {
@@ -81,6 +74,11 @@ ModeModel mode_model(const Resonator& resonator) {
   model.square << fading + beating.real(), -beating.imag(), -beating.imag(),
       fading - beating.real();
   return model;
+}
+
+bool is_quick(const ModeModel& model) {
+  constexpr double quick = 0.4;
+  return (model.turn - Eigen::Matrix2d::Identity()).col(0).norm() >= quick;
 }
 
 ObserverGains observer_gains(const ModeModel& model, double process, double noise) {

@@ -29,6 +29,10 @@ struct ModeModel {
 /// @param resonator  with a natural mode: damping²/4 < stiffness; not undamped on the carrier
 ModeModel mode_model(const Resonator& resonator);
 
+/// The mode turns by at least 0.4 radians in a period: one that turns less, next to a multiple of the
+/// carrier, is moved by where the amplitude is and hardly by the way there.
+bool is_quick(const ModeModel& model);
+
 /// Of a linear observer of w and of a constant o beside it: z = forced u + seen w + o.
 struct ObserverGains {
   Eigen::Matrix2d mode;

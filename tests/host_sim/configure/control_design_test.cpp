@@ -280,5 +280,40 @@ TEST(ControlDesignTest, CalibrationIsCountedInCarrierPeriods) {
   EXPECT_GT(design.calibration_average_periods, 0U);
 }
 
+scene::Scene damped(double part) {
+  scene::Scene scene = with_natural_frequency(part);
+  scene.controller->vibration = scene::VibrationControl::damped;
+  scene.sensor.vibration = scene::VibrationSensor::velocity;
+  return scene;
+}
+
+TEST(ControlDesignTest, ADampedModeIsLookedForWhereItMayBe) {
+  for (const double part : {0.3, 0.7, 1.08, 2.4, 5.0}) {
+    const ControlDesign design = design_control(damped(part));
+    ASSERT_TRUE(design.damping);
+    const double range = design.damping->stiffness_range;
+    EXPECT_GT(range, 0.0);
+    EXPECT_LE(range, 0.06);
+    // The carrier stays outside.
+    EXPECT_LE(range, 0.67 * std::abs(1.0 - 1.0 / (part * part))) << part;
+    EXPECT_LE(0.5 * range * 2.0 * pi * part, 0.7201) << part;
+    const auto& rows = design.damping->table;
+    for (const auto& row : rows) {
+      EXPECT_NEAR(std::hypot(row[control::mode::turn], row[control::mode::turn + 1]), 1.0, 1e-12);
+    }
+    const double angle = 2.0 * pi * part * std::sqrt(1.0 - range);
+    EXPECT_NEAR(rows.front()[control::mode::turn], std::cos(angle), 1e-12) << part;
+  }
+}
+
+TEST(ControlDesignTest, NotesADampedModeThatNothingQuietsQuickly) {
+  for (const double part : {0.03, 0.96, 1.03, 1.97, 3.0}) {
+    EXPECT_EQ(design_notes(design_control(damped(part))).size(), 1U) << part;
+  }
+  for (const double part : {0.2163, 0.9, 1.1, 2.5}) {
+    EXPECT_TRUE(design_notes(design_control(damped(part))).empty()) << part;
+  }
+}
+
 }  // namespace
 }  // namespace sonoglide::configure::control_design_test
