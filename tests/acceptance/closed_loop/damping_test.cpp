@@ -4,16 +4,13 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <string>
-#include <vector>
 
-#include "host_sim/loop/run.hpp"
 #include "host_sim/report/step_metrics.hpp"
 #include "host_sim/scene_file/reader.hpp"
+#include "measured_run.hpp"
 #include "tests/common/constants/pi.hpp"
-#include "tests/host_sim/loop/logs/logged_run.hpp"
 
 namespace sonoglide::damping_test {
 namespace {
@@ -61,20 +58,10 @@ std::string text_of(const Loop& loop) {
       loop.vibration, loop.targets, loop.sensor, loop.stiffness_error);
 }
 
-struct Ran {
-  loop::LoggedRun run;
-  std::vector<report::StepMetrics> steps;
-};
+using Ran = acceptance::MeasuredRun;
 
 Ran run(const Loop& loop) {
-  const scene::Scene scene = scene_file::read_text(text_of(loop), "damping.toml");
-  Ran ran{loop::run_logged(scene), {}};
-  report::StepMeter meter(scene);
-  for (const loop::Period& period : ran.run.periods) {
-    meter.take(period);
-  }
-  ran.steps = meter.steps();
-  return ran;
+  return acceptance::run_measured(scene_file::read_text(text_of(loop), "damping.toml"));
 }
 
 class Damping : public testing::TestWithParam<std::string> {

@@ -8,14 +8,12 @@
 #include <cstddef>
 #include <random>
 #include <string>
-#include <vector>
 
-#include "host_sim/loop/run.hpp"
 #include "host_sim/report/step_metrics.hpp"
 #include "host_sim/scene_file/reader.hpp"
 #include "host_sim/scene_file/scene_error.hpp"
+#include "measured_run.hpp"
 #include "tests/common/constants/pi.hpp"
-#include "tests/host_sim/loop/logs/logged_run.hpp"
 
 namespace sonoglide::resonance_test {
 namespace {
@@ -87,15 +85,6 @@ RandomLoop draw_loop(Draw& draw) {
   return {natural_Hz, time_constant_s, text};
 }
 
-std::vector<report::StepMetrics> steps_of(const scene::Scene& scene, loop::LoggedRun& ran) {
-  ran = loop::run_logged(scene);
-  report::StepMeter meter(scene);
-  for (const loop::Period& period : ran.periods) {
-    meter.take(period);
-  }
-  return meter.steps();
-}
-
 TEST(RandomResonance, HoldsItsVibrationAndNamesWhatIsOffTarget) {
   constexpr int loops = 100;
   Draw draw;
@@ -112,15 +101,15 @@ TEST(RandomResonance, HoldsItsVibrationAndNamesWhatIsOffTarget) {
       ++refused;
       continue;
     }
-    loop::LoggedRun ran;
-    for (const report::StepMetrics& step : steps_of(scene, ran)) {
+    const acceptance::MeasuredRun ran = acceptance::run_measured(scene);
+    for (const report::StepMetrics& step : ran.steps) {
       ASSERT_TRUE(step.vibration->settling_time_s) << given.text;
       EXPECT_LE(*step.vibration->settling_time_s,
                 6.0 * given.time_constant_s + 30.0 / given.natural_Hz)
           << given.text;
       EXPECT_TRUE(step.settling_time_s || step.limit != control::Limit::none) << given.text;
     }
-    EXPECT_TRUE(ran.result.control->faults.empty()) << given.text;
+    EXPECT_TRUE(ran.run.result.control->faults.empty()) << given.text;
   }
   EXPECT_LE(refused, loops / 10);
 }

@@ -13,6 +13,7 @@
 #include "host_sim/loop/run.hpp"
 #include "host_sim/report/step_metrics.hpp"
 #include "host_sim/scene_file/reader.hpp"
+#include "measured_run.hpp"
 #include "tests/common/constants/pi.hpp"
 #include "tests/host_sim/loop/logs/logged_run.hpp"
 
@@ -106,20 +107,10 @@ scene::Scene scene_of(const Loop& loop) {
   return scene_file::read_text(text_of(loop), "resonance.toml");
 }
 
-struct Ran {
-  loop::LoggedRun run;
-  std::vector<report::StepMetrics> steps;
-};
+using Ran = acceptance::MeasuredRun;
 
 Ran run(const Loop& loop) {
-  const scene::Scene scene = scene_of(loop);
-  Ran ran{loop::run_logged(scene), {}};
-  report::StepMeter meter(scene);
-  for (const loop::Period& period : ran.run.periods) {
-    meter.take(period);
-  }
-  ran.steps = meter.steps();
-  return ran;
+  return acceptance::run_measured(scene_of(loop));
 }
 
 /// The last end of a period from a time on whose velocity is not within 2 % of one; from that time.
