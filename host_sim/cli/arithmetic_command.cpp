@@ -14,6 +14,7 @@
 #include "host_sim/emulated/controller_header.hpp"
 #include "host_sim/output/gnuplot.hpp"
 #include "host_sim/process/interruption.hpp"
+#include "host_sim/scene/names.hpp"
 #include "host_sim/studies/arithmetic/comparison.hpp"
 #include "host_sim/studies/arithmetic/report.hpp"
 
@@ -39,11 +40,13 @@ Boards chosen(const std::vector<std::string>& names) {
 }
 
 void require_every_arithmetic(const scene::Scene& scene) {
-  if (scene.resonant()) {
+  if (scene.observes_vibration()) {
     throw configure::ConfigurationError(
         "controller.vibration",
-        "\"resonant\" is not built in q15, and all arithmetics are compared; allowed: a scene "
-        "without this key");
+        fmt::format(
+            "\"{}\" is not built in q15, and all arithmetics are compared; allowed: a scene "
+            "without this key",
+            scene::name_of(scene::vibration_controls, *scene.controller->vibration)));
   }
 }
 

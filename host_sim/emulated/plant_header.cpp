@@ -277,8 +277,10 @@ std::string plant_header(const scene::Scene& scene,
           "profile");
   require(scene.drive->waveform == scene::Waveform::cosine, "drive.waveform",
           "the plant of an image is driven by a cosine; allowed: \"cosine\"");
-  require(!scene.resonant(), "controller.vibration",
-          "the plant of an image has a drive of one frequency; allowed: a scene without this key");
+  require(
+      !scene.observes_vibration(), "controller.vibration",
+      "the plant of an image shows no vibration, and its drive has one frequency; allowed: a scene "
+      "without this key");
   require_ideal(scene.sensor);
   const PlantText text = plant_text(SceneNumbers(scene, design->scales), arithmetic);
   return fmt::format(

@@ -101,6 +101,13 @@ TEST_F(ArithmeticCommandTest, RefusesWhatItCannotCompare) {
   EXPECT_EQ(board.exit_code, 2);
   EXPECT_NE(board.err.find("\"uno\" is no board; allowed: microbit, "), std::string::npos)
       << board.err;
+  for (const char* scene : {"wire_bonder", "damped_step"}) {
+    const Outcome observing =
+        folder.run("arithmetic '" SONOGLIDE_SCENES "/" + std::string(scene) + ".toml'");
+    EXPECT_EQ(observing.exit_code, 2);
+    EXPECT_NE(observing.err.find("controller.vibration: "), std::string::npos) << observing.err;
+    EXPECT_NE(observing.err.find(" is not built in q15"), std::string::npos) << observing.err;
+  }
   EXPECT_TRUE(folder.entries().empty());
 }
 

@@ -37,6 +37,12 @@ TEST(PlantHeader, NamesWhatIsAllowed) {
   EXPECT_EQ(refusal("target_step", {"friction.normal_force_profile_N=[[0,0.2],[1e-3,0.3]]"}),
             "friction.normal_force_profile_N: changes, but the plant of an image does not; "
             "allowed: a constant value in place of a profile");
+  for (const char* observing : {"wire_bonder", "damped_step"}) {
+    EXPECT_EQ(
+        refusal(observing, {}),
+        "controller.vibration: the plant of an image shows no vibration, and its drive has one "
+        "frequency; allowed: a scene without this key");
+  }
   const std::string ideal = ": the sensor of a plant in an image is ideal; ";
   EXPECT_EQ(refusal("target_step", {"sensor.adc_bits=12"}),
             "sensor.adc_bits" + ideal + "remove it");
