@@ -35,11 +35,13 @@ constexpr Pair<Scalar> operator*(const Pair<Scalar>& a, Scalar b) {
 ///   w' = M w + b (u' - u),   z = H u + E w + o,
 /// w the mode at drive phase 0, in two coordinates that turn by θ = ωd T and decay by d = exp(−σT)
 /// in a period, o what friction and a wrong model leave. What was not foreseen, e, corrects w and o
-/// by the gains of a steady Kalman filter, and before that the place p in the table of natural
+/// by the gains of a Kalman filter, and before that the place p in the table of natural
 /// frequencies: p + ψ·e/S, S the sum of ψ² with forgetting, ψ the slope of the forecast over p
 /// (recursive least squares, Ljung 1999, README.md). ψ leaves out H u: a constant error is o's.
 ///
-/// z, o, w: on one base each; amplitudes: base the largest.
+/// z, o: base the sensor's range; w: base eight times the largest kick; amplitudes: base the largest;
+/// p: from -1 to 1. In fixed point what a gain lifts is limited to its base; a sum overflows by
+/// policy, and only where a vibration or a mode leaves its base.
 template <class Scalar>
 class ModeObserver {
  public:
@@ -103,7 +105,6 @@ class ModeObserver {
   }
 
   const Pair<Scalar>& mode() const { return mode_; }  ///< w, in the sampled period
-  Scalar place() const { return place_; }             ///< p, from -1 to 1
 
   /// w a period later, in which the amplitude is another by this.
   Pair<Scalar> next(const Pair<Scalar>& mode, Scalar change) const {
@@ -201,7 +202,7 @@ class ModeObserver {
   Pair<Scalar> mode_;
   Pair<Scalar> offset_;
   Scalar weight_{};  ///< S
-  Scalar place_{};
+  Scalar place_{};   ///< p
 };
 
 }  // namespace sonoglide::control
