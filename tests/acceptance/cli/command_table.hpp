@@ -102,6 +102,7 @@ inline const std::vector<Command> command_table = {
      {"design.csv", "design.json", "detuning.csv", "report.html"},
      {"design.json"}},
     {"schema", "", "", {}, "", {}, {}},
+    {"completion", "", "bash", {}, "", {}, {}},
 };
 
 }  // namespace sonoglide::acceptance
