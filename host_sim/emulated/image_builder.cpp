@@ -43,10 +43,21 @@ const char* environment(const char* name) {
   return value != nullptr && *value != '\0' ? value : nullptr;
 }
 
+bool has_sources(const fs::path& tree) {
+  return fs::exists(tree / "firmware/image/main.cpp");
+}
+
+/// Beside the program where it is installed; else what it was built from.
+fs::path own_source_tree() {
+  const fs::path program = fs::read_symlink("/proc/self/exe");
+  const fs::path installed = program.parent_path().parent_path() / "share/sonoglide/source";
+  return has_sources(installed) ? installed : fs::path(SONOGLIDE_SOURCE);
+}
+
 fs::path source_tree() {
   const char* named = environment("SONOGLIDE_SOURCE");
-  fs::path tree = fs::absolute(named != nullptr ? named : SONOGLIDE_SOURCE);
-  if (!fs::exists(tree / "firmware/image/main.cpp")) {
+  fs::path tree = named != nullptr ? fs::absolute(named) : own_source_tree();
+  if (!has_sources(tree)) {
     fail(tree,
          "has no Sonoglide sources to build an image from; allowed: SONOGLIDE_SOURCE=FOLDER in "
          "the environment, with the source tree");

@@ -1,0 +1,56 @@
+# The Debian packages: made, judged by lintian, unpacked and removed by dpkg in a root of their own, and
+# used there. Their manual pages are silent under `man --warnings`.
+include("${CMAKE_CURRENT_LIST_DIR}/run.cmake")
+
+set(root "${FOLDER}/debian_root")
+file(REMOVE_RECURSE "${root}" "${FOLDER}/packages")
+run("${CMAKE_COMMAND}" "-DPROGRAM=${BUILD}/bin/sonoglide" "-DHELP2MAN=${HELP2MAN}"
+  "-DVERSION=${VERSION}" "-DSOURCE=${SOURCE}" "-DFOLDER=${BUILD}/debian"
+  -P "${SOURCE}/tools/debian/prepare.cmake")
+run("${CMAKE_CPACK_COMMAND}" --config "${BUILD}/CPackConfig.cmake" -B "${FOLDER}/packages")
+file(GLOB packages "${FOLDER}/packages/*.deb")
+list(LENGTH packages count)
+if(NOT count EQUAL 2)
+  message(FATAL_ERROR "Expected two packages: ${packages}")
+endif()
+run(lintian --allow-root --fail-on error ${packages})
+
+run("${BUILD}/bin/sonoglide" --help)
+string(REGEX REPLACE "^.*\nSubcommands:\n" "" commands "${output}")
+string(REGEX MATCHALL "\n  [a-z][a-z-]*" commands "\n${commands}")
+foreach(command IN ITEMS "" ${commands})
+  string(STRIP "${command}" command)
+  string(JOIN "-" page sonoglide ${command})
+  set(pages ${pages} "${page}.1.gz")
+  run("${CMAKE_COMMAND}" -E env LC_ALL=C.UTF-8 MANROFFSEQ= MANWIDTH=80
+    man --warnings --local-file --troff-device=utf8 --ditroff "${BUILD}/debian/man/${page}.1.gz")
+  expect("${output}" HAS_NO "warning")
+  expect("${output}" HAS "Sonoglide")
+endforeach()
+
+# dpkg as it is on a machine that has nothing: what the packages depend on is looked up on this one.
+file(MAKE_DIRECTORY "${root}/var/lib/dpkg/updates" "${root}/var/lib/dpkg/info")
+file(WRITE "${root}/var/lib/dpkg/status" "")
+set(dpkg dpkg "--root=${root}" --force-depends --force-not-root --force-script-chrootless)
+run(${dpkg} --install ${packages})
+foreach(page IN LISTS pages)
+  if(NOT EXISTS "${root}/usr/share/man/man1/${page}")
+    message(FATAL_ERROR "${page} is not installed")
+  endif()
+endforeach()
+run("${root}/usr/bin/sonoglide" run "${root}/usr/share/sonoglide/scenes/target_step.toml"
+  --out "${FOLDER}/debian_run")
+expect("${output}" HAS "0.600")
+if(BOARDS)
+  # From the sources of the package alone.
+  run("${CMAKE_COMMAND}" -E env "XDG_CACHE_HOME=${FOLDER}/debian_cache"
+    "${root}/usr/bin/sonoglide" pil "${root}/usr/share/sonoglide/scenes/target_step.toml"
+    --board mps2-an386 --out "${FOLDER}/debian_pil")
+  expect("${output}" HAS "bit for bit")
+endif()
+
+run(${dpkg} --remove sonoglide libsonoglide-dev)
+file(GLOB_RECURSE left RELATIVE "${root}" "${root}/usr/*")
+if(left)
+  message(FATAL_ERROR "dpkg leaves behind: ${left}")
+endif()
