@@ -1,6 +1,7 @@
 #include "host_sim/cli/commands.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <cstdio>
 #include <filesystem>
@@ -14,6 +15,8 @@
 #include "host_sim/configure/control_design.hpp"
 #include "host_sim/loop/run.hpp"
 #include "host_sim/process/interruption.hpp"
+#include "host_sim/process/printable.hpp"
+#include "host_sim/report/run_csv.hpp"
 #include "host_sim/report/run_findings.hpp"
 #include "host_sim/report/run_report.hpp"
 
@@ -42,6 +45,16 @@ std::string compute_summary(const scene::Scene& scene, const Design& design, boo
   return report::summary_text(scene, result, findings);
 }
 
+/// On a terminal somebody waits, and may think again.
+void announce_recording(const scene::Scene& scene) {
+  const auto size = report::recording_size(scene);
+  if (size && isatty(fileno(stderr)) == 1) {
+    process::show_on_stderr(
+        fmt::format("trace.csv and periods.csv: {:.0f} and {:.0f} rows, about {:.2g} MB together",
+                    size->trace_rows, size->period_rows, size->bytes * 1e-6));
+  }
+}
+
 /// @return what is printed
 std::string compute_report(const scene::Scene& scene, const Design& design,
                            const std::filesystem::path& out, const RunOptions& options) {
@@ -65,6 +78,9 @@ void run(const RunOptions& options) {
     print_design_notes(design);
   }
   const bool written = !options.json || !options.out.empty();
+  if (written && !options.quiet) {
+    announce_recording(scene);
+  }
   fmt::print(
       "{}", written ? compute_report(scene, design, output_folder(options.out, scene.name), options)
                     : compute_summary(scene, design, options.quiet));

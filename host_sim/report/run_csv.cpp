@@ -105,4 +105,17 @@ void TraceCsv::take(const loop::PlantSample& sample) {
   file_.finish_row();
 }
 
+std::optional<RecordingSize> recording_size(const scene::Scene& scene) {
+  if (scene.run.record.empty()) {
+    return std::nullopt;
+  }
+  constexpr double time_bytes = 12.0;
+  constexpr double number_bytes = 22.0;
+  constexpr double period_bytes = 75.0;
+  const double rows = std::floor(scene.run.duration_s / scene.run.record_interval_s) + 1.0;
+  const double periods = scene.drive ? scene.run.duration_s * scene.drive->frequency_Hz : 1000.0;
+  const double row_bytes = time_bytes + number_bytes * static_cast<double>(scene.run.record.size());
+  return RecordingSize{rows, periods, rows * row_bytes + periods * period_bytes};
+}
+
 }  // namespace sonoglide::report

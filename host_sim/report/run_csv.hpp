@@ -1,6 +1,7 @@
 /// The tables of a run, written while it goes.
 #pragma once
 
+#include <optional>
 #include <ostream>
 #include <string>
 #include <vector>
@@ -65,5 +66,16 @@ class TraceCsv final : public loop::SampleSink {
   CsvFile file_;
   std::vector<scene::Channel> channels_;
 };
+
+struct RecordingSize {
+  double trace_rows;
+  double period_rows;
+  double bytes;  ///< of trace.csv and periods.csv together
+};
+
+/// How large the tables of a run will be. The rows follow from the scene; their length is that of
+/// measured runs, so that the bytes are within a third (tested).
+/// @return nothing where the scene records nothing
+std::optional<RecordingSize> recording_size(const scene::Scene& scene);
 
 }  // namespace sonoglide::report

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -64,6 +65,20 @@ TEST_F(RunOutputTest, TablesHaveARowForEachSampleAndEachPeriod) {
                           0),
             0U);
   EXPECT_EQ(std::count(periods.begin(), periods.end(), '\n'), 1 + 20);
+}
+
+TEST_F(RunOutputTest, ATerminalIsToldHowLargeTheTablesWillBe) {
+  const std::string command = shell_word(SONOGLIDE_PROGRAM) + " run scene.toml";
+  const Outcome outcome = folder_.run_program("script", "-qec " + shell_word(command) + " said");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  const std::string said = "trace.csv and periods.csv: 334 and 20 rows, about ";
+  const std::size_t at = outcome.out.find(said);
+  ASSERT_NE(at, std::string::npos) << outcome.out;
+  const double bytes = 1e6 * std::stod(outcome.out.substr(at + said.size()));
+  const double true_bytes = static_cast<double>(folder_.read("out/scene/trace.csv").size() +
+                                                folder_.read("out/scene/periods.csv").size());
+  EXPECT_LT(std::abs(bytes - true_bytes), true_bytes / 3.0);
+  EXPECT_EQ(folder_.run("run scene.toml").err, "");
 }
 
 TEST_F(RunOutputTest, OverridesReplaceAndAddAndTheLastOneWins) {
