@@ -2,31 +2,37 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <utility>
 
 #include "firmware/control/notch_rounding.hpp"
 
 namespace sonoglide::control {
 
-/// Three taps on the drive amplitude, with zeros on the natural mode:
-///   N(z) = h0 + h1 z^-M + h2 z^-2M,
+/// Taps on the drive amplitude, with zeros on the natural mode or about it:
+///   N(z) = h0 + h1 z^-M + h2 z^-2M + ...
+/// Three taps have one pair of zeros, on the mode:
 ///   h = (1, −2 e^(−σMT) cos(ωd M T), e^(−2σMT)) / sum,
-/// −σ ± iωd the natural mode, T the carrier period.
+/// −σ ± iωd the natural mode, T the carrier period. Five taps are two such filters in a row, each
+/// with zeros of its own: for a mode that is not known exactly.
 ///
 /// The amplitude changes at drive phase 0 only. So the free response is linear in the steps of the
-/// amplitude, and vanishes 2M periods after the last one. M is the smallest spacing for which every
-/// tap is within ±1.
+/// amplitude, and vanishes (TapCount − 1) M periods after the last one where the mode is on a zero.
+/// No partial sum of the taps leaves [0, 1]: the shaped step does not overshoot.
 /// Source: Singer 1990 (input shaping), Tuttle 1994 (zeros placed on the mode), see README.md.
 ///
-/// @tparam MaxSpacing  largest M; the delay line holds 2·MaxSpacing amplitudes.
-template <class ScalarT, int MaxSpacing>
+/// @tparam MaxSpacing  largest M; the delay line holds (TapCount − 1)·MaxSpacing amplitudes.
+/// @tparam TapCount    3 or 5
+template <class ScalarT, int MaxSpacing, std::size_t TapCount = 3>
 class NotchShaper {
  public:
   using Scalar = ScalarT;
   static constexpr int max_spacing = MaxSpacing;
+  static constexpr std::size_t tap_count = TapCount;
 
   struct Parameters {
-    std::array<Scalar, 3> taps;
+    std::array<Scalar, TapCount> taps;
     std::uint8_t spacing;  ///< M, 1 … MaxSpacing
 
     template <class Self, class Visitor>
@@ -45,26 +51,35 @@ class NotchShaper {
     oldest_ = 0;
   }
 
-  /// Shaped amplitude; may leave [0, 1] where the input varies within 2M periods.
-  Scalar shape(Scalar amplitude) {
-    const std::uint32_t depth = 2 * spacing();
+  /// Shaped amplitude; may leave [0, 1] where the input varies within (TapCount − 1) M periods.
+  Scalar shape(Scalar amplitude) { return shape(amplitude, std::make_index_sequence<delays>{}); }
+
+ private:
+  static constexpr std::uint32_t delays = TapCount - 1;
+  static constexpr std::size_t length = std::size_t{delays} * MaxSpacing;
+
+  /// A constant where the delay line leaves no choice.
+  std::uint32_t spacing() const { return MaxSpacing == 1 ? 1 : parameters_.spacing; }
+
+  template <std::size_t... I>
+  Scalar shape(Scalar amplitude, std::index_sequence<I...> /*delays*/) {
+    const std::uint32_t depth = delays * spacing();
     const std::uint32_t oldest = oldest_;
-    const std::uint32_t ahead = oldest + spacing();
-    const std::uint32_t middle = ahead < depth ? ahead : ahead - depth;
-    const std::array<Scalar, 3> inputs{amplitude, past_[middle], past_[oldest]};
-    const Scalar shaped = rounding_.sum(parameters_.taps, inputs, middle, oldest);
+    // Where the delay line holds what is M, 2M, ... periods old.
+    const std::array<std::uint32_t, delays> ahead{
+        oldest + static_cast<std::uint32_t>(delays - 1 - I) * spacing()...};
+    const std::array<std::uint32_t, delays> places{
+        (I + 1 == delays || ahead[I] < depth ? ahead[I] : ahead[I] - depth)...};
+    const std::array<Scalar, TapCount> inputs{amplitude, past_[places[I]]...};
+    const Scalar shaped = rounding_.sum(parameters_.taps, inputs, places);
     past_[oldest] = amplitude;
     oldest_ = oldest + 1 < depth ? oldest + 1 : 0;
     return shaped;
   }
 
- private:
-  /// A constant where the delay line leaves no choice.
-  std::uint32_t spacing() const { return MaxSpacing == 1 ? 1 : parameters_.spacing; }
-
   Parameters parameters_;
-  [[no_unique_address]] NotchRounding<Scalar, 2 * MaxSpacing> rounding_;
-  std::array<Scalar, 2 * MaxSpacing> past_{};
+  [[no_unique_address]] NotchRounding<Scalar, length, TapCount> rounding_;
+  std::array<Scalar, length> past_{};
   std::uint32_t oldest_ = 0;
 };
 

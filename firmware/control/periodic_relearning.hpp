@@ -12,7 +12,7 @@ namespace sonoglide::control {
 /// needs to slide through its presliding distance. It comes back before the last undriven reading
 /// has arrived. A pause in which the sliding reverses or becomes too slow teaches nothing.
 ///
-/// Periods of a pause, shaper over 2M periods, latency and sensor R, presliding slid through in n,
+/// Periods of a pause, shaper over its span, latency and sensor R, presliding slid through in n,
 /// readings averaged a:
 ///   request zero     2M + n + a
 ///   drive disturbed  4M + n + a, longer where the friction force has changed

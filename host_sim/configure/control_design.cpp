@@ -28,41 +28,20 @@ namespace {
 /// The controller's resolution ends here, per unit.
 constexpr double smallest_friction = control::FrictionLevel<double>::smallest();
 
-/// The natural mode over one carrier period: decay and rotation of its free motion.
-struct Mode {
-  double decay;     ///< exp(−σT)
-  double rotation;  ///< ωd T, 0 where overdamped
-};
-
-Mode natural_mode(const BelievedPlant& plant, double period_s) {
-  const double sigma = 0.5 * plant.damping_N_s_per_m / plant.mass_kg;
-  const double natural_squared = plant.stiffness_N_per_m / plant.mass_kg;
-  const double damped_squared = std::max(0.0, natural_squared - sigma * sigma);
-  return {numeric::exp(-sigma * period_s), numeric::sqrt(damped_squared) * period_s};
+/// How far the natural frequency may be off; 0 where the scene takes it as known, or has no notch.
+double shaping_range(const scene::Controller& controller) {
+  constexpr double stiffness_off_by_a_fifth = 0.1;
+  return controller.shaping == scene::Shaping::robust
+             ? controller.shaping_range.value_or(stiffness_off_by_a_fifth)
+             : 0.0;
 }
 
-/// Taps of the notch at a spacing; false where one of them would leave ±1.
-bool place_notch(const Mode& mode, int spacing, ControlDesign& design) {
-  double decay = 1.0;
-  for (int i = 0; i < spacing; ++i) {
-    decay *= mode.decay;
-  }
-  const double middle = -2.0 * decay * numeric::cos(mode.rotation * spacing);
-  const double sum = 1.0 + middle + decay * decay;
-  if (sum <= 1.0 || std::abs(middle) >= sum) {
-    return false;
-  }
-  design.notch_taps = {1.0 / sum, middle / sum, decay * decay / sum};
-  design.notch_spacing = static_cast<std::uint8_t>(spacing);
-  return true;
-}
-
-void design_shaper(const scene::Scene& scene, const Mode& mode, ControlDesign& design) {
-  if (scene.controller->shaping == scene::Shaping::none || mode.rotation == 0.0) {
-    return;
-  }
-  for (int spacing = 1; spacing <= max_notch_spacing && !design.shaped; ++spacing) {
-    design.shaped = place_notch(mode, spacing, design);
+void design_shaper(const scene::Controller& controller, const NaturalMode& mode,
+                   ControlDesign& design) {
+  design.shaping_range = shaping_range(controller);
+  if (controller.shaping != scene::Shaping::none) {
+    design.notch = design.shaping_range > 0.0 ? design_robust_notch(mode, design.shaping_range)
+                                              : design_notch(mode);
   }
 }
 
@@ -75,7 +54,7 @@ double code_N(const scene::Sensor& sensor) {
 /// it further: by less than its own damping takes away, if the gain is small against that. Without
 /// damping there is no such gain, and feedforward is left alone. A scene that leaves the notch out
 /// on purpose gets slow feedback all the same, to show what becomes of it.
-double gain_beside_free_mode(const scene::Scene& scene, const Mode& mode) {
+double gain_beside_free_mode(const scene::Scene& scene, const NaturalMode& mode) {
   constexpr double slow = 0.005;
   constexpr double part_of_decay = 0.2;
   return scene.controller->shaping == scene::Shaping::none
@@ -98,20 +77,20 @@ void set_waiting(double delay, double filter, ControlDesign& design) {
   design.rest_periods = whole_periods(rest_per_hold * design.hold_periods);
 }
 
-void design_regulator(const scene::Scene& scene, const Mode& mode, ControlDesign& design) {
+void design_regulator(const scene::Scene& scene, const NaturalMode& mode, ControlDesign& design) {
   const double filter = filter_periods(scene, design.scales);
-  const double shaping = 2.0 * design.notch_spacing;
+  const double shaping = design.notch_span();
   // From a command to the reading that shows it.
   const double latency = latency_periods(scene);
   const double delay = latency + shaping + filter;
   const double behind_delay = gain_behind_delay(delay);
-  design.free_mode = mode.rotation > 0.0 && !design.shaped;
+  design.free_mode = mode.rotation > 0.0 && !design.notch;
   design.integral_gain =
       design.free_mode ? std::min(behind_delay, gain_beside_free_mode(scene, mode)) : behind_delay;
   set_waiting(delay, filter, design);
-  design.reference_delay_periods = static_cast<std::uint8_t>(latency + design.notch_spacing);
+  design.reference_delay_periods = static_cast<std::uint8_t>(latency + 0.5 * design.notch_span());
   design.reference_keep = filter / (1.0 + filter);
-  design.lead_periods = 0.5 + design.notch_spacing + scene.drive->delay_periods;
+  design.lead_periods = 0.5 + 0.5 * design.notch_span() + scene.drive->delay_periods;
 }
 
 /// The inner loop follows a small change of its velocity within a few periods; while it follows a
@@ -132,7 +111,7 @@ void design_outer_regulator(const scene::Scene& scene, ControlDesign& design) {
 double changing_periods(const ControlDesign& design) {
   constexpr double quieting = 16.0;
   if (!design.resonance) {
-    return design.damping ? quieting : 2.0 * design.notch_spacing;
+    return design.damping ? quieting : design.notch_span();
   }
   constexpr double latency = 8.0;
   const double head_room = std::max(1.01, design.resonance->head_room);
@@ -144,7 +123,7 @@ double changing_periods(const ControlDesign& design) {
 void design_supervision(const scene::Scene& scene, const BelievedPlant& plant,
                         ControlDesign& design) {
   const double filter = filter_periods(scene, design.scales);
-  const double delay = latency_periods(scene) + 2.0 * design.notch_spacing + filter;
+  const double delay = latency_periods(scene) + design.notch_span() + filter;
   constexpr double filter_settling = 4.0;
   constexpr double stuck_margin = 8.0;
   // Normal vibration may leave the ratio where it is, whatever the drive.
@@ -440,15 +419,42 @@ void design_slew(const scene::Drive& drive, ControlDesign& design) {
   if (!drive.max_force_slew_N_per_s) {
     return;
   }
-  double gain = 0.0;
-  for (const double tap : design.notch_taps) {
-    gain += std::abs(tap);
+  double gain = design.notch ? 0.0 : 1.0;
+  if (design.notch) {
+    for (const double tap : design.notch->taps) {
+      gain += std::abs(tap);
+    }
   }
-  gain = design.shaped ? gain : 1.0;
   const double per_period = *drive.max_force_slew_N_per_s * design.scales.carrier_period_s /
                             design.scales.drive_amplitude_N;
   design.slew_limited = per_period < gain;
   design.slew_per_period = per_period / gain;
+}
+
+void add_notch_notes(const NotchDesign& notch, std::vector<std::string>& notes) {
+  constexpr int longest_span = 16;  // carrier periods, in which a step is over at Table 1
+  if (notch.ripple > robust_ripple) {
+    notes.push_back(fmt::format(
+        "The robust notch leaves up to {:.2g} % of the ringing of each step where the natural "
+        "frequency is off by up to {:.3g} %. A smaller controller.shaping_range leaves less.",
+        100.0 * notch.ripple, 100.0 * notch.range));
+  }
+  if (notch.span() <= longest_span) {
+    return;
+  }
+  if (notch.range > 0.0) {
+    notes.push_back(
+        fmt::format("The robust notch spans {} carrier periods. Targets, speeds and sensors that "
+                    "change faster are not followed.",
+                    notch.span()));
+    return;
+  }
+  notes.push_back(fmt::format(
+      "The natural mode is so near a multiple of the carrier frequency that its notch spans {} "
+      "carrier periods: {} of them after each change the drive stands at {:.0f} % of it, then {} "
+      "at {:.0f} %. Targets, speeds and sensors that change faster are not followed.",
+      notch.span(), notch.spacing, 100.0 * notch.taps[0], notch.spacing,
+      100.0 * (notch.taps[0] + notch.taps[1])));
 }
 
 }  // namespace
@@ -475,8 +481,8 @@ ControlDesign design_control(const scene::Scene& scene) {
     design.damping = design_damping(scene, plant, design.scales.velocity_m_per_s);
     design_outer_regulator(scene, design);
   } else {
-    const Mode mode = natural_mode(plant, design.scales.carrier_period_s);
-    design_shaper(scene, mode, design);
+    const NaturalMode mode = natural_mode(plant, design.scales.carrier_period_s);
+    design_shaper(*scene.controller, mode, design);
     design_regulator(scene, mode, design);
   }
   design_supervision(scene, plant, design);
@@ -505,11 +511,18 @@ std::vector<std::string> design_notes(const ControlDesign& design) {
                     "feedback gain is {:.3g} per carrier period.",
                     design.integral_gain));
   }
+  if (design.free_mode && design.shaping_range > 0.0) {
+    notes.push_back(
+        fmt::format("No robust notch quiets a natural mode that may be off by {:.3g} % in "
+                    "frequency. A smaller controller.shaping_range, or another carrier frequency, "
+                    "may leave room for one.",
+                    100.0 * design.shaping_range));
+  }
   if (design.damping && !design.damping->quick) {
     notes.push_back(
         "The natural mode is so near 0 or a multiple of the carrier frequency that no change of "
-        "the "
-        "amplitude quiets it quickly: the vibration velocity is held, and the friction ratio may "
+        "the amplitude quiets it quickly: the vibration velocity is held, and the friction ratio "
+        "may "
         "swing about its target.");
   }
   if (design.resonance && design.resonance->natural != design.resonance->believed_natural) {
@@ -523,15 +536,8 @@ std::vector<std::string> design_notes(const ControlDesign& design) {
         frequency_Hz(resonance.believed_natural), frequency_Hz(resonance.lowest),
         frequency_Hz(resonance.highest)));
   }
-  constexpr int longest_span = 16;  // carrier periods, in which a step is over at Table 1
-  if (design.shaped && 2 * design.notch_spacing > longest_span) {
-    const int spacing = design.notch_spacing;
-    notes.push_back(fmt::format(
-        "The natural mode is so near a multiple of the carrier frequency that its notch spans {} "
-        "carrier periods: {} of them after each change the drive stands at {:.0f} % of it, then {} "
-        "at {:.0f} %. Targets, speeds and sensors that change faster are not followed.",
-        2 * spacing, spacing, 100.0 * design.notch_taps[0], spacing,
-        100.0 * (design.notch_taps[0] + design.notch_taps[1])));
+  if (design.notch) {
+    add_notch_notes(*design.notch, notes);
   }
   return notes;
 }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "host_sim/configure/damped_design.hpp"
+#include "host_sim/configure/notch_design.hpp"
 #include "host_sim/configure/resonant_design.hpp"
 #include "host_sim/scene/scene.hpp"
 
@@ -24,12 +25,10 @@ struct ControlScales {
   double drive_amplitude_N;  ///< the actuator's limit
 };
 
-/// The largest tap spacing that a designed shaper may have, in carrier periods.
-inline constexpr int max_notch_spacing = 32;
 /// drive.delay_periods at its longest.
 inline constexpr int max_drive_delay = 16;
 /// The longest delay of a target to its reading: drive and sensor at their longest, and the notch.
-inline constexpr int max_reference_delay = 1 + 16 + 64 + max_notch_spacing;
+inline constexpr int max_reference_delay = 1 + 16 + 64 + max_notch_span / 2;
 
 /// A controller's parameters as real numbers, per unit of ControlScales; friction ratios on base 2.
 struct ControlDesign {
@@ -59,10 +58,10 @@ struct ControlDesign {
 
   bool free_mode = false;  ///< the plant has a natural mode that no notch takes care of
 
-  bool shaped = false;  ///< the members below hold where the flag is set
-  std::array<double, 3> notch_taps{};
-  std::uint8_t notch_spacing = 0;
-  bool slew_limited = false;
+  double shaping_range = 0.0;  ///< by which the natural frequency may be off; 0: known exactly
+  std::optional<NotchDesign> notch;
+
+  bool slew_limited = false;  ///< the members below hold where the flag is set
   double slew_per_period = 0.0;
   bool calibrated = false;
   std::uint32_t calibration_settle_periods = 0;
@@ -79,6 +78,8 @@ struct ControlDesign {
   double relearn_weight = 0.0;  ///< of a sample averaged
 
   double speed_floor_m_per_s() const { return speed_floor * scales.velocity_m_per_s; }
+  /// Carrier periods from the first tap of the notch to its last.
+  int notch_span() const { return notch ? notch->span() : 0; }
   bool observes_vibration() const { return resonance || damping; }
   VibrationMap vibration_map(double believed_friction_N) const {
     return {map, scales.velocity_m_per_s, contact_force * scales.force_N / believed_friction_N};

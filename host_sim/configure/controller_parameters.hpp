@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <type_traits>
 
 #include "firmware/control/controller.hpp"
@@ -78,12 +79,31 @@ typename control::SlewLimit<Scalar>::Parameters parameters(
                               : numeric::from_code<Scalar>(INT32_MAX)};
 }
 
+/// Binary digits behind the point of a number just below 1.
+template <class Scalar>
+constexpr int fraction_digits() {
+  if constexpr (numeric::is_fixed_point_v<Scalar>) {
+    return Scalar::fraction_bits;
+  } else {
+    return std::numeric_limits<Scalar>::digits;
+  }
+}
+
 template <class Scalar, int MaxSpacing>
-typename control::NotchShaper<Scalar, MaxSpacing>::Parameters parameters(
-    const ControlDesign& design, Type<control::NotchShaper<Scalar, MaxSpacing>> /*part*/) {
-  const auto& taps = design.notch_taps;
+typename control::NotchShaper<Scalar, MaxSpacing, 3>::Parameters parameters(
+    const ControlDesign& design, Type<control::NotchShaper<Scalar, MaxSpacing, 3>> /*part*/) {
+  const auto& taps = design.notch->taps;
   return {{scaled<Scalar>(taps[0]), scaled<Scalar>(taps[1]), scaled<Scalar>(taps[2])},
-          design.notch_spacing};
+          design.notch->spacing};
+}
+
+template <class Scalar, int MaxSpacing>
+typename control::NotchShaper<Scalar, MaxSpacing, 5>::Parameters parameters(
+    const ControlDesign& design, Type<control::NotchShaper<Scalar, MaxSpacing, 5>> /*part*/) {
+  const auto taps = rounded_taps(*design.notch, fraction_digits<Scalar>());
+  return {{scaled<Scalar>(taps[0]), scaled<Scalar>(taps[1]), scaled<Scalar>(taps[2]),
+           scaled<Scalar>(taps[3]), scaled<Scalar>(taps[4])},
+          design.notch->spacing};
 }
 
 template <class Scalar, int MaxDelay>

@@ -70,6 +70,21 @@ struct VibrationParts {
   }
 };
 
+/// What stands between request and drive; it holds the longest notch that a design may have.
+template <class Scalar>
+struct ShaperParts {
+  using Three = control::NotchShaper<Scalar, max_notch_spacing, 3>;
+  using Five = control::NotchShaper<Scalar, max_robust_spacing, 5>;
+  using Part = Choice<control::NoShaping<Scalar>, Three, Five>;
+
+  static Part chosen(const ControlDesign& design) {
+    if (!design.notch) {
+      return Part(Type<control::NoShaping<Scalar>>{});
+    }
+    return design.notch->tap_count == Three::tap_count ? Part(Type<Three>{}) : Part(Type<Five>{});
+  }
+};
+
 /// The leanest parts that do what a design asks for; notch and regulator hold the longest that a
 /// design may have. The members are called as those of control::Controller::Parameters.
 template <class Scalar>
@@ -77,7 +92,7 @@ struct ControllerParts {
   Choice<control::TrustedFriction<Scalar>, control::LearntFriction<Scalar>> friction;
   Choice<control::CoulombFeedforward<Scalar>, control::DahlFeedforward<Scalar>> feedforward;
   Choice<control::NoSlewLimit<Scalar>, control::SlewLimit<Scalar>> slew;
-  Choice<control::NoShaping<Scalar>, control::NotchShaper<Scalar, max_notch_spacing>> shaper;
+  typename ShaperParts<Scalar>::Part shaper;
   Choice<control::NoFeedback<Scalar>, control::IntegralRegulator<Scalar, max_reference_delay>>
       regulator;
   Choice<control::NoRelearning<Scalar>, control::PeriodicRelearning<Scalar>> relearning;
@@ -89,7 +104,7 @@ struct ControllerParts {
       : friction(choose<decltype(friction)>(design.calibrated)),
         feedforward(choose<decltype(feedforward)>(design.map == scene::FrictionMap::dahl)),
         slew(choose<decltype(slew)>(design.slew_limited)),
-        shaper(choose<decltype(shaper)>(design.shaped)),
+        shaper(ShaperParts<Scalar>::chosen(design)),
         regulator(choose<decltype(regulator)>(design.senses_force && design.integral_gain != 0.0)),
         relearning(choose<decltype(relearning)>(design.relearns)),
         vibration(VibrationParts<Scalar>::chosen(design)),

@@ -66,11 +66,12 @@ PartName part_name(configure::Type<control::NoShaping<Scalar>> /*part*/,
   return {"no_shaping", "NoShaping<Scalar>"};
 }
 
-template <class Scalar, int MaxSpacing>
-PartName part_name(
-    configure::Type<control::NotchShaper<Scalar, MaxSpacing>> /*part*/,
-    const typename control::NotchShaper<Scalar, MaxSpacing>::Parameters& parameters) {
-  return {"notch_shaper", fmt::format("NotchShaper<Scalar, {}>", parameters.spacing)};
+template <class Scalar, int MaxSpacing, std::size_t TapCount, class Parameters>
+PartName part_name(configure::Type<control::NotchShaper<Scalar, MaxSpacing, TapCount>> /*part*/,
+                   const Parameters& parameters) {
+  return {"notch_shaper",
+          TapCount == 3 ? fmt::format("NotchShaper<Scalar, {}>", parameters.spacing)
+                        : fmt::format("NotchShaper<Scalar, {}, {}>", parameters.spacing, TapCount)};
 }
 
 template <class Scalar, class Parameters>

@@ -54,8 +54,9 @@ inline constexpr std::array<Named<Arithmetic>, 4> arithmetics = {{
     {"float64", Arithmetic::float64},
 }};
 
-inline constexpr std::array<Named<Shaping>, 2> shapings = {{
+inline constexpr std::array<Named<Shaping>, 3> shapings = {{
     {"notch", Shaping::notch},
+    {"robust", Shaping::robust},
     {"none", Shaping::none},
 }};
 

@@ -110,7 +110,8 @@ struct Run {
 };
 
 enum class Arithmetic { float64, float32, q31, q15 };
-enum class Shaping { notch, none };
+/// robust: a notch for a natural frequency that is known within a range.
+enum class Shaping { notch, robust, none };
 
 struct TargetStep {
   double time_s = 0.0;
@@ -133,6 +134,7 @@ struct Controller {
   std::vector<TargetStep> target_friction_ratio;
   double calibration_s = 0.0;
   Shaping shaping = Shaping::notch;
+  std::optional<double> shaping_range;        ///< robust: of the natural frequency, relative
   std::optional<double> speed_floor_m_per_s;  ///< absent: the controller's own default
   double standstill_hold_s = 0.02;            ///< for which the drive is held below the speed floor
   std::optional<double> relearn_every_s;      ///< absent: the friction force is not learnt again

@@ -45,6 +45,7 @@ const char* const at_resonance = "controller.vibration = \"resonant\"";
 const char* const observed = "controller.vibration";
 const char* const observed_volts = "controller.vibration with [transducer]";
 const char* const fed_forward = "without controller.vibration";
+const char* const with_robust_notch = "controller.shaping = \"robust\"";
 const char* const with_force = "sensor.force = true";
 
 template <class Value, std::size_t Count>
@@ -320,8 +321,13 @@ std::vector<Key> controller_keys() {
        with_force},
       {"shaping", Word{words_of(scene::shapings)},
        scene::name_of(scene::shapings, controller.shaping),
-       "filter between target and drive; the notch cancels the ringing of the natural mode",
+       "filter between target and drive. notch: cancels the ringing of the natural mode. robust: "
+       "the same for a mode that is only known within shaping_range",
        fed_forward},
+      {"shaping_range", Number{{1e-4, 0.5}}, Rule{"0.1, for a stiffness that is 20 % off"},
+       "how far the natural frequency may be off, relative to the believed one; the robust notch "
+       "has its zeros in this range",
+       with_robust_notch},
       {"speed_floor_m_per_s", Number{{1e-12, largest_speed_m_per_s, "m/s"}},
        Rule{
            "velocity at which the presliding distance takes three carrier periods; at most half of "

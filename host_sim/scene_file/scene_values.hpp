@@ -201,6 +201,9 @@ void visit_controller(Keys& keys, scene::Controller& controller, bool force) {
   }
   if (!controller.vibration) {
     keys.word("shaping", controller.shaping, scene::shapings);
+    if (controller.shaping == scene::Shaping::robust) {
+      keys.value("shaping_range", controller.shaping_range);
+    }
   }
   keys.value("speed_floor_m_per_s", controller.speed_floor_m_per_s);
   keys.value("standstill_hold_s", controller.standstill_hold_s);

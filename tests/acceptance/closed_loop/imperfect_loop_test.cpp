@@ -1,8 +1,10 @@
 /// A controller that is wrong about its plant, and a sensor that is not ideal.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <string>
 #include <tuple>
+#include <vector>
 
 #include "tests/acceptance/closed_loop/runs/closed_loop.hpp"
 
@@ -29,6 +31,49 @@ INSTANTIATE_TEST_SUITE_P(Corners, ModelErrorTest,
                                           testing::Values("0.7", "1.3"),
                                           testing::Values("0.5", "1.5"),
                                           testing::ValuesIn(arithmetics)));
+
+/// True over believed stiffness; arithmetic.
+using WrongMode = std::tuple<double, std::string>;
+
+class RobustNotchTest : public testing::TestWithParam<WrongMode> {};
+
+/// What five taps at Table 1, for a natural frequency that is up to a tenth off, leave of a step: the
+/// product of the distances of cos θ from the two zeros, of that at rest.
+double left_by_five_taps(double stiffness) {
+  const double believed = std::sqrt(133e6 / 0.02) / 60e3;
+  const double low = std::cos(1.1 * believed);
+  const double high = std::cos(0.9 * believed);
+  const double middle = 0.5 * (high + low);
+  const double half = 0.5 * (high - low);
+  const auto product = [&](double cosine) {
+    return (cosine - middle) * (cosine - middle) - 0.5 * half * half;
+  };
+  return std::abs(product(std::cos(believed * std::sqrt(stiffness)))) / product(1.0);
+}
+
+// Without a notch the ripple is all of the ringing. A little more ripple is there without any.
+TEST_P(RobustNotchTest, LeavesThePartOfTheRingingThatItsTapsSay) {
+  const auto& [stiffness, arithmetic] = GetParam();
+  const Settings wrong = {"model_error.stiffness=" + std::to_string(1.0 / stiffness),
+                          "controller.arithmetic=" + arithmetic};
+  Settings unshaped = wrong;
+  unshaped.insert(unshaped.end(), {"controller.shaping=\"none\"", "controller.shaping_range="});
+  const nlohmann::json summary = summary_of("robust_step", wrong);
+  expect_steps_within(summary, {12.001 / 60e3, 0.0005, 0.005});
+  const std::vector<Step> shaped = steps_of(summary);
+  const std::vector<Step> ringing = steps_of(summary_of("robust_step", unshaped));
+  ASSERT_EQ(shaped.size(), 3U);
+  ASSERT_EQ(ringing.size(), 3U);
+  for (std::size_t i = 0; i < shaped.size(); ++i) {
+    constexpr double without_ringing = 0.0005;
+    EXPECT_GT(ringing[i].ripple, 0.2);
+    EXPECT_LT(shaped[i].ripple, left_by_five_taps(stiffness) * ringing[i].ripple + without_ringing);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Stiffness, RobustNotchTest,
+                         testing::Combine(testing::Values(0.8, 0.9, 1.0, 1.1, 1.2),
+                                          testing::Values("float64", "float32", "q31", "q15")));
 
 class NoisySensorTest : public testing::TestWithParam<std::tuple<std::string, int>> {};
 

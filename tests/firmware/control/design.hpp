@@ -32,6 +32,10 @@ using FullParts = Parts<S, LearntFriction<S>, DahlFeedforward<S>, SlewLimit<S>,
 template <class S>
 using ShapedParts = Parts<S, TrustedFriction<S>, DahlFeedforward<S>, NoSlewLimit<S>,
                           NotchShaper<S, longest_spacing>, IntegralRegulator<S, longest_delay>>;
+/// With a notch for a mode that is not known exactly.
+template <class S>
+using RobustParts = Parts<S, TrustedFriction<S>, DahlFeedforward<S>, NoSlewLimit<S>,
+                          NotchShaper<S, longest_spacing, 5>, IntegralRegulator<S, longest_delay>>;
 template <class S>
 using LearningParts = Parts<S, LearntFriction<S>, DahlFeedforward<S>, NoSlewLimit<S>,
                             NotchShaper<S, longest_spacing>, IntegralRegulator<S, longest_delay>>;
@@ -72,6 +76,7 @@ struct Design {
   std::uint16_t settling_patience_periods = 60;
   double agreement = 0.8;
   std::array<double, 3> taps = {0.6323, -0.2646, 0.6323};
+  std::array<double, 5> robust_taps = {0.4044, -0.3367, 0.8646, -0.3367, 0.4044};
   std::uint8_t spacing = 1;
   double slew_per_period = 0.02;
   std::uint32_t settle_periods = 20;
@@ -121,6 +126,15 @@ template <class S>
 void fill(const Design& design, typename NotchShaper<S, longest_spacing>::Parameters& parameters) {
   for (std::size_t i = 0; i < design.taps.size(); ++i) {
     parameters.taps[i] = numeric::from_real<S>(design.taps[i]);
+  }
+  parameters.spacing = design.spacing;
+}
+
+template <class S>
+void fill(const Design& design,
+          typename NotchShaper<S, longest_spacing, 5>::Parameters& parameters) {
+  for (std::size_t i = 0; i < design.robust_taps.size(); ++i) {
+    parameters.taps[i] = numeric::from_real<S>(design.robust_taps[i]);
   }
   parameters.spacing = design.spacing;
 }

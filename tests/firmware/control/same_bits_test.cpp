@@ -48,6 +48,13 @@ TEST(SameBits, ShapedController) {
   EXPECT_EQ(hash_of_commands<ShapedParts<ShortTrapped>>(), 0xEC9426E48F3AB19EU);
 }
 
+TEST(SameBits, ControllerWithFiveTaps) {
+  EXPECT_EQ(hash_of_commands<RobustParts<double>>(), 0x2235481823380820U);
+  EXPECT_EQ(hash_of_commands<RobustParts<float>>(), 0xCAF4BD9ECFA5B746U);
+  EXPECT_EQ(hash_of_commands<RobustParts<Saturated>>(), 0x448EAC552CC331F8U);
+  EXPECT_EQ(hash_of_commands<RobustParts<ShortTrapped>>(), 0xBCB7DE58A167A5D0U);
+}
+
 TEST(SameBits, FullController) {
   EXPECT_EQ(hash_of_commands<FullParts<double>>(), 0xF38DCD2237A2EAE9U);
   EXPECT_EQ(hash_of_commands<FullParts<float>>(), 0xA53C95B30ADAAEC9U);

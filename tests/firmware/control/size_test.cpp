@@ -63,9 +63,11 @@ TYPED_TEST(ControllerSize, EachPartLeftOutSavesItsState) {
 }
 
 // An image is built for its plant: the delay line is as long as the notch needs, not longer.
-TYPED_TEST(ControllerSize, TheDelayLineIsTwoSpacings) {
+TYPED_TEST(ControllerSize, TheDelayLineIsAsLongAsTheNotch) {
   EXPECT_EQ(sizeof(NotchShaper<TypeParam, 9>) - sizeof(NotchShaper<TypeParam, 1>),
             16 * sizeof(TypeParam));
+  EXPECT_EQ((sizeof(NotchShaper<TypeParam, 9, 5>) - sizeof(NotchShaper<TypeParam, 1, 5>)),
+            32 * sizeof(TypeParam));
 }
 
 }  // namespace

@@ -64,6 +64,17 @@ TEST(ControllerHeader, KeepsTheWeightsOfCalibrationIn32Bits) {
       << header;
 }
 
+TEST(ControllerHeader, ARobustNotchHasFiveTapsThatAddUpToOne) {
+  EXPECT_TRUE(has(controller_header(read("target_step")), "NotchShaper<Scalar, 1>"));
+  const std::string header =
+      controller_header(read("target_step_q15", {"controller.shaping=\"robust\""}));
+  EXPECT_TRUE(has(header, "NotchShaper<Scalar, 1, 5>")) << header;
+  EXPECT_TRUE(has(header,
+                  "{{Scalar::from_raw(13250), Scalar::from_raw(-11032), Scalar::from_raw(28332), "
+                  "Scalar::from_raw(-11032), Scalar::from_raw(13250)}, 1}"))
+      << header;
+}
+
 TEST(ControllerHeader, HoldsNoPartThatTheSceneDoesNotName) {
   const std::string shaped = controller_header(read("target_step"));
   const std::string unshaped = controller_header(read("target_step_unshaped"));

@@ -136,6 +136,11 @@ TYPED_TEST(InitialiserOf, WritesEveryParameterOfAController) {
   EXPECT_EQ((expect_every_number_in_text<TypeParam, Parameters>()), 37U);
 }
 
+TYPED_TEST(InitialiserOf, WritesEveryTapOfARobustNotch) {
+  using Parameters = typename control::NotchShaper<TypeParam, 4, 5>::Parameters;
+  EXPECT_EQ((expect_every_number_in_text<TypeParam, Parameters>()), 6U);
+}
+
 TEST(Initialiser, WritesEveryParameterOfAPlantInIntegers) {
   EXPECT_EQ((expect_every_number_in_text<std::int32_t, plant::FixedStrangParameters>()),
             4U + 2U * 32U + 6U + 3U);

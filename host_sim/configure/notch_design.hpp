@@ -1,0 +1,65 @@
+/// Where a notch on the natural mode puts its taps.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+
+#include "host_sim/configure/believed_plant.hpp"
+
+namespace sonoglide::configure {
+
+/// From the first tap of a designed notch to its last, in carrier periods.
+inline constexpr int max_notch_span = 64;
+/// From tap to tap: of three taps, and of five.
+inline constexpr int max_notch_spacing = max_notch_span / 2;
+inline constexpr int max_robust_spacing = max_notch_span / 4;
+inline constexpr std::size_t max_notch_taps = 5;
+
+/// The free motion of the plant over one carrier period T, −σ ± iωd its natural mode.
+struct NaturalMode {
+  double decay;     ///< exp(−σT)
+  double rotation;  ///< ωd T; 0 where overdamped
+};
+
+NaturalMode natural_mode(const BelievedPlant& plant, double period_s);
+
+using NotchTaps = std::array<double, max_notch_taps>;
+
+struct NotchDesign {
+  NotchTaps taps{};  ///< 0 from tap_count on
+  std::size_t tap_count = 0;
+  std::uint8_t spacing = 0;  ///< carrier periods from one tap to the next
+  double range = 0.0;   ///< by which the natural frequency may be off, relative; 0: known exactly
+  double ripple = 0.0;  ///< the largest within that range, see notch_ripple()
+
+  int span() const { return static_cast<int>(tap_count - 1) * spacing; }
+};
+
+/// Three taps with zeros on the mode, at the smallest spacing for which every tap is within ±1. Then
+/// no partial sum of the taps leaves [0, 1] either: the drive changes without overshoot.
+/// @return nothing where no spacing serves, or where there is no mode
+std::optional<NotchDesign> design_notch(const NaturalMode& mode);
+
+/// A ripple that is small enough to look no further for a better notch.
+inline constexpr double robust_ripple = 0.05;
+
+/// Five taps, for a mode whose frequency is off by up to `range`, relative. The two pairs of zeros
+/// are at the nodes of the Chebyshev polynomial on that range of cos(ωd M T). Without damping no
+/// other pairs leave less of the largest ripple. The spacing M is the smallest with which that is at
+/// most `robust_ripple`, and else the one of the least ripple. No partial sum of the taps leaves
+/// [0, 1], and their magnitudes add up to at most 2.9 (see control::NotchRounding).
+/// @param range  above 0, below 1
+/// @return nothing where every spacing leaves half of the ringing or more, or where there is no mode
+std::optional<NotchDesign> design_robust_notch(const NaturalMode& mode, double range);
+
+/// The largest part of the free motion of a step that is left at the end of the notch, where the
+/// frequency of the mode is off by up to `range`, relative; seen at 65 frequencies.
+double notch_ripple(const NotchDesign& notch, const NaturalMode& mode, double range);
+
+/// The taps in units of 2^-fraction_digits, each of them below 1. Their sum is 1 exactly, and no
+/// partial sum leaves [0, 1]. Error: at most one and a half units.
+NotchTaps rounded_taps(const NotchDesign& notch, int fraction_digits);
+
+}  // namespace sonoglide::configure
