@@ -10,12 +10,14 @@ Actuator::Actuator(int delay_periods, double full_scale_N)
     : full_scale_N_(full_scale_N), queue_(static_cast<std::size_t>(delay_periods) + 1) {}
 
 void Actuator::take(const hal::Drive& drive, double target, std::int32_t frequency) {
-  queue_.pop_front();
-  queue_.push_back({numeric::from_code<double>(drive.amplitude) * full_scale_N_, frequency, target,
+  queue_[first_] = {numeric::from_code<double>(drive.amplitude) * full_scale_N_,
+                    frequency,
+                    target,
                     2.0 * numeric::from_code<double>(drive.commanded_ratio),  // on base 2
                     static_cast<control::State>(drive.state),
                     static_cast<control::Limit>(drive.limit),
-                    static_cast<control::Settling>(drive.settling)});
+                    static_cast<control::Settling>(drive.settling)};
+  first_ = first_ + 1 == queue_.size() ? 0 : first_ + 1;
 }
 
 }  // namespace sonoglide::loop

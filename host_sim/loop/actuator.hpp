@@ -1,9 +1,10 @@
 /// The actuator between controller and plant.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
-#include <deque>
 #include <limits>
+#include <vector>
 
 #include "firmware/control/drive_command.hpp"
 #include "hal/board.hpp"
@@ -33,11 +34,12 @@ class Actuator {
   void take(const hal::Drive& drive, double target, std::int32_t frequency = 0);
 
   /// In force during the next carrier period; off until the first answer acts.
-  const Command& in_force() const { return queue_.front(); }
+  const Command& in_force() const { return queue_[first_]; }
 
  private:
   double full_scale_N_;
-  std::deque<Command> queue_;
+  std::vector<Command> queue_;  ///< a ring
+  std::size_t first_ = 0;       ///< in it
 };
 
 }  // namespace sonoglide::loop

@@ -1,9 +1,8 @@
 #include "host_sim/loop/sensor.hpp"
 
-#include <cmath>
+#include <utility>
 
 #include "firmware/numeric/float_elementary.hpp"
-#include "firmware/numeric/scalar.hpp"
 #include "firmware/numeric/turn.hpp"
 
 namespace sonoglide::loop {
@@ -14,9 +13,15 @@ struct Conversion {
   bool at_rail;
 };
 
+/// Of a number that an integer can hold. std::floor is a call without SSE4.1.
+std::int64_t floored(double value) {
+  const auto towards_zero = static_cast<std::int64_t>(value);
+  return towards_zero - (value < static_cast<double>(towards_zero) ? 1 : 0);
+}
+
 /// A two's-complement converter of the given width that spans ± full scale, rounding to nearest.
 Conversion convert(double value, double full_scale, int bits) {
-  const double levels = numeric::scale_by_power_of_two(1.0, bits - 1);
+  const auto levels = static_cast<double>(std::int64_t{1} << (bits - 1));
   const double scaled = value / full_scale * levels;
   const bool high = !(scaled < levels - 1.5);
   const bool low = !high && scaled < -levels + 0.5;
@@ -25,7 +30,7 @@ Conversion convert(double value, double full_scale, int bits) {
   if (high || low) {
     code = high ? top : -top - 1;
   } else {
-    code = static_cast<std::int64_t>(std::floor(scaled + 0.5));
+    code = floored(scaled + 0.5);
   }
   return {static_cast<std::int32_t>(code * (std::int64_t{1} << (32 - bits))), high || low};
 }
@@ -81,9 +86,11 @@ double Sensor::filtered(double force_N) {
 }
 
 double Sensor::delayed(double force_N) {
-  pipeline_N_.push_back(force_N);
-  const double out = pipeline_N_.front();
-  pipeline_N_.pop_front();
+  if (pipeline_N_.empty()) {
+    return force_N;
+  }
+  const double out = std::exchange(pipeline_N_[oldest_], force_N);
+  oldest_ = oldest_ + 1 == pipeline_N_.size() ? 0 : oldest_ + 1;
   return out;
 }
 

@@ -2,9 +2,10 @@
 #pragma once
 
 #include <complex>
+#include <cstddef>
 #include <cstdint>
-#include <deque>
 #include <random>
+#include <vector>
 
 #include "hal/board.hpp"
 #include "host_sim/configure/control_design.hpp"
@@ -53,7 +54,8 @@ class Sensor {
   double filter_new_weight_ = 1.0;  ///< of the sample that ends the period
   double filter_state_N_ = 0.0;
   double filter_input_N_ = 0.0;
-  std::deque<double> pipeline_N_;
+  std::vector<double> pipeline_N_;  ///< a ring
+  std::size_t oldest_ = 0;          ///< in it
   std::mt19937_64 generator_;
 };
 
