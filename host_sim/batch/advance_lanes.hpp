@@ -52,7 +52,18 @@ Scalar certain_reversal(std::array<Scalar, Count> p, Scalar end) {
 /// to the first reversal of V and to the end of the lane's last period. Friction follows the
 /// displacement exactly, so |phi| <= 1.
 ///
-/// Setting: Scalar, order, tolerance, negligible_deficit, longest_step (rad, < 2 pi).
+/// Setting:
+///   Scalar                 of the lanes
+///   order                  of the power series
+///   reversal_samples       of V in a step, to find its reversals; fewer leave more to single lanes
+///   root_corrections       of such a reversal
+///   node_count             of the quadrature of the friction in a step
+///   decay_degree           of its exponential
+///   tolerance              of the last two terms of a step
+///   least_friction_weight  of the friction in these terms
+///   negligible_deficit     below which the friction counts as settled
+///   longest_step           [rad], < 2 pi
+///   counts_work            the friction work is integrated too
 template <class D, class Setting>
 class StepLanes {
  public:
@@ -68,7 +79,7 @@ class StepLanes {
     const V remaining = left_of_period(d, motion) / instant_.unit;
     const V longest = Min(tolerated(d), remaining);
     const CurvatureBound<D> bound(d, plant, motion, instant_, longest);
-    const ReversalLanes<D, order, Setting::root_corrections> reversal(
+    const ReversalLanes<D, order, Setting::reversal_samples, Setting::root_corrections> reversal(
         d, instant_, series_, plant.vibration_sign, bound, longest);
     V extent = reversal.root;
     M reverses = reversal.reverses;
@@ -159,8 +170,10 @@ class StepLanes {
         MulAdd(instant_.direction, length - deficit_integral(d, extent), motion.friction_integral);
 
     const V slid = travelled(d, extent, displacement);
-    const V relaxed = Neg(instant_.deficit * Expm1(d, Neg(plant_.contact_stiffness * slid)));
-    motion.friction_work = motion.friction_work + (slid - relaxed / plant_.contact_stiffness);
+    const V relaxed = instant_.deficit * settled(d, plant_.contact_stiffness * slid);
+    if constexpr (Setting::counts_work) {
+      motion.friction_work = motion.friction_work + (slid - relaxed / plant_.contact_stiffness);
+    }
     motion.friction = Clamp(MulAdd(instant_.direction, relaxed, motion.friction), Neg(one), one);
 
     const V phase = motion.phase + length;
@@ -168,6 +181,14 @@ class StepLanes {
     motion.phase = IfThenZeroElse(last, IfThenElse(wraps, phase - broadcast(d, two_pi), phase));
     motion.periods_left = motion.periods_left - IfThenElseZero(wraps, one);
     motion.steps_left = motion.steps_left - one;
+  }
+
+  /// 1 - exp(-z). The work needs the digits of a small one, the friction its error alone.
+  static HWY_INLINE V settled(D d, V z) {
+    if constexpr (Setting::counts_work) {
+      return Neg(Expm1(d, Neg(z)));
+    }
+    return broadcast(d, Scalar(1)) - decay<9>(d, z);
   }
 
   /// Distance that the contact has slid at x, from (y(x) - y(0)) / x: an increment, for a

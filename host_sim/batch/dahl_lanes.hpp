@@ -1,4 +1,4 @@
-/// The batch's two settings of order and step control. Compiled once for each instruction set.
+/// The two settings of order and step control of runs under one drive. Compiled once for each instruction set.
 #if defined(SONOGLIDE_BATCH_DAHL_LANES) == defined(HWY_TARGET_TOGGLE)
 #ifdef SONOGLIDE_BATCH_DAHL_LANES
 #undef SONOGLIDE_BATCH_DAHL_LANES
@@ -18,6 +18,7 @@ namespace sonoglide::batch::HWY_NAMESPACE {
 struct MapSetting {
   using Scalar = float;
   static constexpr int order = 12;
+  static constexpr int reversal_samples = 5;
   static constexpr int root_corrections = 2;
   static constexpr int node_count = 6;
   static constexpr int decay_degree = 5;
@@ -25,12 +26,14 @@ struct MapSetting {
   static constexpr float least_friction_weight = 1e-4F;
   static constexpr float negligible_deficit = 1e-6F;
   static constexpr float longest_step = 2.5F;
+  static constexpr bool counts_work = true;
 };
 
 /// Good for 1e-8.
 struct FineSetting {
   using Scalar = double;
   static constexpr int order = 16;
+  static constexpr int reversal_samples = 5;
   static constexpr int root_corrections = 3;
   static constexpr int node_count = 8;
   static constexpr int decay_degree = 9;
@@ -38,6 +41,7 @@ struct FineSetting {
   static constexpr double tolerance = 2e-9;
   static constexpr double negligible_deficit = 1e-11;
   static constexpr double longest_step = 3.0;
+  static constexpr bool counts_work = true;
 };
 
 inline const char* target_name() {
@@ -45,11 +49,11 @@ inline const char* target_name() {
 }
 
 inline void run_map(RunQueue& queue) {
-  LaneSchedule<MapSetting>(queue).run();
+  LaneSchedule<MapSetting, RunQueue>(queue).run();
 }
 
 inline void run_fine(RunQueue& queue) {
-  LaneSchedule<FineSetting>(queue).run();
+  LaneSchedule<FineSetting, RunQueue>(queue).run();
 }
 
 }  // namespace sonoglide::batch::HWY_NAMESPACE

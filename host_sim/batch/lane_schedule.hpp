@@ -12,8 +12,8 @@
 
 #include "host_sim/batch/advance_lanes.hpp"
 #include "host_sim/batch/lane_pack.hpp"
+#include "host_sim/batch/lane_plant.hpp"
 #include "host_sim/batch/plant_lanes.hpp"
-#include "host_sim/batch/run_queue.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace sonoglide::batch::HWY_NAMESPACE {
@@ -21,10 +21,10 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 /// Runs the plants of a queue to their end. A lane is given the next one as soon as it is free, and
 /// what it does depends on its own plant alone.
-template <class Setting>
+template <class Setting, class Queue>
 class LaneSchedule {
  public:
-  explicit LaneSchedule(RunQueue& queue) : queue_(queue) {}
+  explicit LaneSchedule(Queue& queue) : queue_(queue) {}
 
   void run() {
     const D d;
@@ -64,7 +64,7 @@ class LaneSchedule {
       }
       const bool decided = lane_of(is_undecided, lane) == Scalar(0);
       if (decided && queue_.goes_on(lane, progress(lane))) {
-        begin_stretch(lane, queue_.stretch_periods(lane));
+        begin_stretch(lane, queue_.stretch(lane));
       } else {
         load(lane, decided ? queue_.next(lane) : queue_.give_up(lane));
       }
@@ -80,7 +80,6 @@ class LaneSchedule {
 
   void load(std::size_t lane, const LanePlant& next) {
     const DahlPlant& plant = next.plant;
-    set(plant_.drive_amplitude, lane, plant.drive_amplitude);
     set(plant_.damping, lane, plant.damping);
     set(plant_.stiffness, lane, plant.stiffness);
     set(plant_.friction_force, lane, plant.friction_force);
@@ -92,13 +91,14 @@ class LaneSchedule {
     set(motion_.displacement, lane, plant.initial.displacement);
     set(motion_.velocity, lane, plant.initial.velocity);
     set(motion_.friction, lane, plant.initial.friction);
-    begin_stretch(lane, queue_.stretch_periods(lane));
+    begin_stretch(lane, queue_.stretch(lane));
   }
 
-  void begin_stretch(std::size_t lane, double periods) {
+  void begin_stretch(std::size_t lane, const LaneStretch& stretch) {
+    set(plant_.drive_amplitude, lane, stretch.drive_amplitude);
     set(motion_.phase, lane, 0.0);
-    set(motion_.periods_left, lane, periods);
-    set(motion_.steps_left, lane, periods * most_steps_per_period);
+    set(motion_.periods_left, lane, stretch.periods);
+    set(motion_.steps_left, lane, stretch.periods * most_steps_per_period);
     set(motion_.friction_integral, lane, 0.0);
     set(motion_.friction_work, lane, 0.0);
   }
@@ -110,7 +110,7 @@ class LaneSchedule {
     set_lane(v, lane, static_cast<Scalar>(value));
   }
 
-  RunQueue& queue_;
+  Queue& queue_;
   PlantLanes<D> plant_ = {};
   MotionLanes<D> motion_ = {};
 };

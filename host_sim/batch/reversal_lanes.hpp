@@ -61,7 +61,7 @@ struct CurvatureBound {
 /// Halley refine it. Both are certified by a bound of the curvature: that no pair of zeros lies
 /// between samples of one sign, and that no other zero precedes the one found. A lane where the
 /// bound does not suffice, as it may near a grazing zero, is left to the caller.
-template <class D, int Order, int Corrections>
+template <class D, int Order, int Samples, int Corrections>
 class ReversalLanes {
  public:
   using V = Pack<D>;
@@ -76,7 +76,7 @@ class ReversalLanes {
       : series_(series),
         start_(Abs(instant.contact_velocity)),
         orientation_(instant.direction * vibration_sign),
-        spacing_(extent * broadcast(d, Scalar(1) / samples)) {
+        spacing_(extent * broadcast(d, Scalar(1) / Samples)) {
     const V zero = zeros(d);
     from_rest_ = instant.contact_velocity == zero;
     scan(d, bound);
@@ -103,7 +103,6 @@ class ReversalLanes {
 
  private:
   using Scalar = hn::TFromD<D>;
-  static constexpr int samples = 5;
   /// Largest last correction, relative to the root and to the distance on which p is nearly
   /// straight: what is left after it is smaller by the square of the latter.
   static constexpr Scalar root_tolerance =
@@ -135,7 +134,7 @@ class ReversalLanes {
     V x = zero;
     V before = start_;
     HWY_UNROLL(1)
-    for (int j = 1; j <= samples; ++j) {
+    for (int j = 1; j <= Samples; ++j) {
       const V end = broadcast(d, static_cast<Scalar>(j)) * spacing_;
       const V slope = slope_from_start(end);
       const V value = MulAdd(end, slope, start_);

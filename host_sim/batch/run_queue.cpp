@@ -10,30 +10,6 @@ namespace sonoglide::batch {
 namespace {
 
 constexpr std::uint32_t longest_stretch_periods = 64;
-constexpr double softest_contact = 1e-9;
-constexpr double stiffest_contact = 1e9;
-
-/// Slides on for ever at phi = 1, with nothing to resolve.
-constexpr LanePlant idling = {{0.0, 0.0, 0.0, 0.0, 1.0, 1.0, 1.0, {0.0, 0.0, 1.0}}, 0.0, 0.5};
-
-bool lies_within(double value, double lowest, double highest) {
-  return lowest <= value && value <= highest;
-}
-
-bool suits_lanes(const DahlPlant& plant) {
-  return std::abs(plant.drive_amplitude) < farthest && lies_within(plant.damping, 0.0, farthest) &&
-         lies_within(plant.stiffness, 0.0, farthest) &&
-         lies_within(plant.friction_force, 0.0, farthest) &&
-         lies_within(plant.contact_stiffness, softest_contact, stiffest_contact) &&
-         std::abs(plant.sliding_velocity) < farthest && std::abs(plant.vibration_sign) == 1.0 &&
-         plant::is_finite(plant.initial) && std::abs(plant.initial.friction) <= 1.0;
-}
-
-LanePlant prepare(const DahlPlant& plant) {
-  const double natural_frequency = std::sqrt(plant.stiffness);
-  const double contact_frequency = std::sqrt(plant.friction_force * plant.contact_stiffness);
-  return {plant, natural_frequency, 0.5 + natural_frequency + plant.damping + contact_frequency};
-}
 
 }  // namespace
 
@@ -61,18 +37,16 @@ bool RunQueue::goes_on(std::size_t at, const Progress& progress) {
   if (lane.idle) {
     return false;
   }
-  const bool lost =
-      !plant::is_finite(progress.state) ||
-      std::abs(progress.state.displacement) + std::abs(progress.state.velocity) >= farthest;
-  if (lost || progress.periods_left > 0.0) {
-    end(lane, lost ? RunStatus::not_finite : RunStatus::too_many_steps);
+  const RunStatus status = status_of(progress);
+  if (status != RunStatus::solved) {
+    end(lane, status);
     return false;
   }
   const bool in_window = lane.periods_done >= length_.window_start_periods;
   FrictionAverages& sums = in_window ? lane.window : lane.before_window;
   sums.friction_ratio += progress.integrals.friction_ratio;
   sums.friction_work += progress.integrals.friction_work;
-  lane.periods_done += static_cast<std::uint32_t>(stretch_periods(at));
+  lane.periods_done += stretch_periods(lane);
   if (lane.periods_done < length_.periods) {
     return true;
   }
@@ -80,8 +54,14 @@ bool RunQueue::goes_on(std::size_t at, const Progress& progress) {
   return false;
 }
 
-double RunQueue::stretch_periods(std::size_t at) const {
+LaneStretch RunQueue::stretch(std::size_t at) const {
   const Lane& lane = lanes_[at];
+  return lane.idle ? endless
+                   : LaneStretch{static_cast<double>(stretch_periods(lane)),
+                                 plants_[lane.point].drive_amplitude};
+}
+
+std::uint32_t RunQueue::stretch_periods(const Lane& lane) const {
   const std::uint32_t goal = lane.periods_done < length_.window_start_periods
                                  ? length_.window_start_periods
                                  : length_.periods;

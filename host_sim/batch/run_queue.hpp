@@ -6,31 +6,10 @@
 #include <cstdint>
 
 #include "firmware/plant/state.hpp"
+#include "host_sim/batch/lane_plant.hpp"
 #include "host_sim/batch/run_dahl_plants.hpp"
 
 namespace sonoglide::batch {
-
-/// Beyond this displacement or velocity a motion counts as lost.
-inline constexpr double farthest = 1e15;
-
-inline constexpr double most_steps_per_period = 1024.0;
-
-/// As many lanes as the widest instruction set has.
-inline constexpr std::size_t most_lanes = 64;
-
-/// A plant with what its lane needs besides.
-struct LanePlant {
-  DahlPlant plant;
-  double natural_frequency = 0.0;  ///< sqrt(k)
-  double own_rate = 0.5;           ///< the fastest that the plant moves by itself; at least 1/2
-};
-
-/// What a lane has to show when it stops.
-struct Progress {
-  plant::State<double> state;
-  FrictionAverages integrals;  ///< of phi and of phi V since the stretch began
-  double periods_left = 0.0;   ///< of the stretch
-};
 
 /// Hands out plants and takes results in. A run is divided into stretches, so that a lane's sums
 /// stay short and its phase exact; the window begins with one.
@@ -50,8 +29,8 @@ class RunQueue {
   /// Takes the lane's stretch in. False where the run has ended, well or not.
   bool goes_on(std::size_t lane, const Progress& progress);
 
-  /// How far the lane goes until it stops again.
-  double stretch_periods(std::size_t lane) const;
+  /// What the lane does until it stops again.
+  LaneStretch stretch(std::size_t lane) const;
 
  private:
   struct Lane {
@@ -62,6 +41,7 @@ class RunQueue {
     FrictionAverages window;
   };
 
+  std::uint32_t stretch_periods(const Lane& lane) const;
   void end(Lane& lane, RunStatus status);
   void finish(Lane& lane, const plant::State<double>& state);
 
