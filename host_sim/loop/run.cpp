@@ -5,7 +5,6 @@
 #include <cmath>
 #include <complex>
 #include <cstdint>
-#include <limits>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -78,8 +77,7 @@ class Simulation {
     if (!watch_.periods.empty()) {
       show({begin_s, end_s, friction_ratio(energy), begin_velocity_m_per_s, end_velocity_m_per_s,
             amplitude_N, clock_.frequency_Hz(), clock_.is_whole(), vibration_m_per_s(energy),
-            natural_Hz(0.5 * (begin_s + end_s)), undefined, undefined, control::State::off,
-            control::Limit::none, control::Settling::pending, undefined});
+            natural_Hz(0.5 * (begin_s + end_s))});
     }
     if (control_ && clock_.is_whole()) {
       control_->step(end_s, energy.friction_impulse_N_s / energy.duration_s, end_velocity_m_per_s,
@@ -89,12 +87,13 @@ class Simulation {
 
   double friction_ratio(const EnergyBalance& energy) const {
     const double undriven_N_s = friction_N_ * energy.undriven_s;
-    return undriven_N_s > 0.0 ? energy.resistance_impulse_N_s / undriven_N_s : undefined;
+    return undriven_N_s > 0.0 ? energy.resistance_impulse_N_s / undriven_N_s : Period::undefined;
   }
 
   /// Of a period that is cut short there is no fundamental.
   std::complex<double> vibration_m_per_s(const EnergyBalance& energy) const {
-    return scene_.demodulates() && clock_.is_whole() ? energy.vibration_m_per_s() : undefined;
+    return scene_.demodulates() && clock_.is_whole() ? energy.vibration_m_per_s()
+                                                     : Period::undefined;
   }
 
   double natural_Hz(double time_s) const {
@@ -112,8 +111,6 @@ class Simulation {
       sink->take(period);
     }
   }
-
-  static constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
 
   const scene::Scene& scene_;
   const Watch& watch_;

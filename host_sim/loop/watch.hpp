@@ -3,6 +3,7 @@
 
 #include <complex>
 #include <functional>
+#include <limits>
 #include <vector>
 
 #include "firmware/control/drive_command.hpp"
@@ -12,25 +13,27 @@ namespace sonoglide::loop {
 
 /// One carrier period (where there is no drive: one thousandth of the run).
 struct Period {
-  double begin_s;
-  double end_s;
-  double friction_ratio;          ///< ρ, see PowerRatios; NaN without friction
-  double begin_velocity_m_per_s;  ///< sliding
-  double end_velocity_m_per_s;
-  double drive_amplitude_N;  ///< in force during it
-  double frequency_Hz;       ///< likewise, of the carrier; 0 without a drive
-  bool whole;                ///< not cut short by the end of the run
+  static constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
+
+  double begin_s = 0.0;
+  double end_s = 0.0;
+  double friction_ratio = undefined;    ///< ρ, see PowerRatios; NaN without friction
+  double begin_velocity_m_per_s = 0.0;  ///< sliding
+  double end_velocity_m_per_s = 0.0;
+  double drive_amplitude_N = 0.0;  ///< in force during it
+  double frequency_Hz = 0.0;       ///< likewise, of the carrier; 0 without a drive
+  bool whole = true;               ///< not cut short by the end of the run
   /// z [m/s]: the vibration velocity is Re(z e^jθ), θ the phase of the drive; NaN where
   /// nobody asks for it, and of a period that is cut short.
-  std::complex<double> vibration_m_per_s;
-  double natural_Hz;  ///< of the plant without its damping, in the middle of the period
+  std::complex<double> vibration_m_per_s = undefined;
+  double natural_Hz = 0.0;  ///< of the plant without its damping, in the middle of the period
   /// Velocity that the controller means to hold; NaN where it holds none.
-  double wanted_vibration_m_per_s;
-  double target;               ///< that its drive was picked for; NaN in open loop
-  control::State state;        ///< of the command in force during it
-  control::Limit limit;        ///< likewise
-  control::Settling settling;  ///< likewise
-  double commanded_ratio;      ///< likewise: friction ratio, target and feedback together
+  double wanted_vibration_m_per_s = undefined;
+  double target = undefined;                    ///< that its drive was picked for; NaN in open loop
+  control::State state = control::State::off;   ///< of the command in force during it
+  control::Limit limit = control::Limit::none;  ///< likewise
+  control::Settling settling = control::Settling::pending;  ///< likewise
+  double commanded_ratio = undefined;  ///< likewise: friction ratio, target and feedback together
 };
 
 /// Takes the carrier periods of a run, in order, as soon as each is over.

@@ -4,9 +4,7 @@
 #include <cstdint>
 
 #include "firmware/numeric/turn.hpp"
-#include "firmware/plant/taylor/step_share.hpp"
-#include "host_sim/configure/plant_scales.hpp"
-#include "host_sim/configure/solver_methods.hpp"
+#include "host_sim/lanes/lane_scene.hpp"
 #include "host_sim/loop/carrier_grid.hpp"
 
 namespace sonoglide::sweep {
@@ -15,41 +13,11 @@ namespace {
 constexpr double map_tolerance = 1e-4;
 constexpr double fine_tolerance = 1e-8;
 
-bool suits_lanes(const scene::Scene& scene) {
-  const scene::Solver& solver = scene.solver;
-  return !scene.controller && scene.run.start == scene::Start::given && scene.drive &&
-         scene.drive->waveform == scene::Waveform::cosine &&
-         scene::is<scene::laws::Dahl>(scene.friction.law) && scene.friction.limit_N() > 0.0 &&
-         scene.profile_key() == nullptr && scene.sliding.profile.size() == 1 &&
-         solver.method == configure::method_of<configure::solvers::EventTaylor> && !solver.order &&
-         solver.tolerance >= fine_tolerance;
-}
-
-/// The lanes take steps of one share of their tolerance.
-bool adds_up_errors(const batch::DahlPlant& plant) {
-  return plant::step_share(plant.stiffness, plant::Drift::of_velocity) < 1.0;
-}
-
-batch::DahlPlant plant_of(const scene::Scene& scene) {
-  const scene::PlantScales scales = configure::plant_scales(scene);
-  const configure::PlantNumbers numbers = configure::plant_numbers(scene, scales);
-  batch::DahlPlant plant;
-  plant.drive_amplitude = scene.drive->force_amplitude_N / scales.force_N;
-  plant.damping = numbers.damping;
-  plant.stiffness = numbers.stiffness;
-  plant.friction_force = numbers.friction_force;
-  plant.contact_stiffness = numbers.contact_stiffness;
-  plant.sliding_velocity =
-      scene.sliding.profile.front().velocity_m_per_s / scales.velocity_m_per_s();
-  plant.vibration_sign = configure::vibration_sign(scene.friction.sign_convention);
-  plant.initial = configure::initial_state(scene, scales);
-  return plant;
-}
-
 }  // namespace
 
 std::optional<BatchPoint> batch_point(const scene::Scene& scene) {
-  if (!suits_lanes(scene)) {
+  const std::optional<batch::DahlPlant> plant = lanes::lane_plant(scene);
+  if (!plant || scene.controller || scene.solver.tolerance < fine_tolerance) {
     return std::nullopt;
   }
   const loop::CarrierGrid grid(scene);
@@ -59,12 +27,8 @@ std::optional<BatchPoint> batch_point(const scene::Scene& scene) {
   if (!periods || !window_start || *window_start >= *periods || *periods > most_periods) {
     return std::nullopt;
   }
-  const batch::DahlPlant plant = plant_of(scene);
-  if (adds_up_errors(plant)) {
-    return std::nullopt;
-  }
   return BatchPoint{
-      plant,
+      *plant,
       {static_cast<std::uint32_t>(*periods), static_cast<std::uint32_t>(*window_start)},
       scene.solver.tolerance >= map_tolerance ? batch::Accuracy::map : batch::Accuracy::fine};
 }
