@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <random>
 #include <thread>
 #include <vector>
 
@@ -14,6 +13,7 @@
 #include "host_sim/loop/run.hpp"
 #include "host_sim/report/step_metrics.hpp"
 #include "tests/common/table_1.hpp"
+#include "tests/host_sim/lanes/plants/plants_near.hpp"
 
 namespace sonoglide::lanes::closed_loops_test {
 namespace {
@@ -24,26 +24,6 @@ scene::Scene told_scene(scene::Arithmetic arithmetic) {
   scene::Scene scene = table_1_closed_loop(arithmetic);
   scene.solver.tolerance = closed_loop_tolerance;
   return scene;
-}
-
-/// Plants near the one that the controller is designed for.
-std::vector<scene::Scene> plants_near(const scene::Scene& told, std::size_t count,
-                                      double stiffness_tolerance) {
-  std::mt19937_64 generator(5);
-  const auto within = [&generator](double tolerance) {
-    return 1.0 + tolerance * (2.0 * static_cast<double>(generator() >> 11) * 0x1p-53 - 1.0);
-  };
-  std::vector<scene::Scene> plants(count, told);
-  for (scene::Scene& plant : plants) {
-    plant.plant.stiffness_N_per_m *= within(stiffness_tolerance);
-    plant.plant.mass_kg *= within(stiffness_tolerance);
-    plant.plant.damping_N_s_per_m = 50.0 * within(1.0);
-    plant.friction.coefficient *= within(0.02);
-    plant.friction.contact_stiffness_N_per_m *= within(0.1);
-    plant.sliding.profile.front().velocity_m_per_s *= within(0.02);
-    plant.drive->frequency_Hz *= within(0.25 * stiffness_tolerance);
-  }
-  return plants;
 }
 
 struct Measured {
@@ -145,8 +125,8 @@ TEST(ClosedLoops, FarFromTheDesignTheyAreMeasuredAlike) {
   const scene::Scene told = told_scene(scene::Arithmetic::float32);
   const Differences differences =
       compare(plants_near(told, 40, 0.1), configure::design_control(told));
-  EXPECT_LT(differences.steady_error, 5e-6);
-  EXPECT_LT(differences.ripple, 2e-5);
+  EXPECT_LT(differences.steady_error, 1e-7);
+  EXPECT_LT(differences.ripple, 1e-6);
 }
 
 TEST(ClosedLoops, HaveTheSensorOfTheScene) {
@@ -160,8 +140,8 @@ TEST(ClosedLoops, HaveTheSensorOfTheScene) {
   const Differences differences =
       compare(plants_near(told, 20, 0.002), configure::design_control(told));
   EXPECT_LT(differences.settling_periods, 1e-6);
-  EXPECT_LT(differences.steady_error, 5e-7);
-  EXPECT_LT(differences.ripple, 2e-6);
+  EXPECT_LT(differences.steady_error, 1e-7);
+  EXPECT_LT(differences.ripple, 1e-6);
 }
 
 TEST(ClosedLoops, HaveItsNoiseAndItsConverter) {
