@@ -179,8 +179,8 @@ INSTANTIATE_TEST_SUITE_P(Boards, Image,
                          testing::Combine(testing::ValuesIn(board_names()),
                                           testing::Values("target_step", "target_step_q31",
                                                           "target_step_q15", "other_parts",
-                                                          "robust_step", "robust_step_q31",
-                                                          "robust_step_q15")),
+                                                          "robust_notch", "robust_notch_q31",
+                                                          "robust_notch_q15")),
                          [](const auto& parameter) {
                            return test_name_of(std::get<0>(parameter.param)) + "_" +
                                   std::get<1>(parameter.param);

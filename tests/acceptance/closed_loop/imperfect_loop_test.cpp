@@ -58,10 +58,10 @@ TEST_P(RobustNotchTest, LeavesThePartOfTheRingingThatItsTapsSay) {
                           "controller.arithmetic=" + arithmetic};
   Settings unshaped = wrong;
   unshaped.insert(unshaped.end(), {"controller.shaping=\"none\"", "controller.shaping_range="});
-  const nlohmann::json summary = summary_of("robust_step", wrong);
+  const nlohmann::json summary = summary_of("robust_notch", wrong);
   expect_steps_within(summary, {12.001 / 60e3, 0.0005, 0.005});
   const std::vector<Step> shaped = steps_of(summary);
-  const std::vector<Step> ringing = steps_of(summary_of("robust_step", unshaped));
+  const std::vector<Step> ringing = steps_of(summary_of("robust_notch", unshaped));
   ASSERT_EQ(shaped.size(), 3U);
   ASSERT_EQ(ringing.size(), 3U);
   for (std::size_t i = 0; i < shaped.size(); ++i) {
