@@ -103,6 +103,7 @@ bool runs_in_lanes(const scene::Scene& closed_loop) {
 
 std::vector<LoopRun> run_closed_loops(const std::vector<ClosedLoop>& loops) {
   std::vector<batch::DahlPlant> plants;
+  plants.reserve(loops.size());
   for (const ClosedLoop& loop : loops) {
     plants.push_back(lane_plant(loop.scene).value());
   }

@@ -144,6 +144,15 @@ TEST(ClosedLoops, HaveTheSensorOfTheScene) {
   EXPECT_LT(differences.ripple, 1e-6);
 }
 
+TEST(ClosedLoops, MayHaveATransducer) {
+  scene::Scene told = told_scene(scene::Arithmetic::float32);
+  told.transducer = {16.0, 2e-6, 0.0};
+  const Differences differences =
+      compare(plants_near(told, 10, 0.002), configure::design_control(told));
+  EXPECT_LT(differences.steady_error, 1e-7);
+  EXPECT_LT(differences.ripple, 1e-6);
+}
+
 TEST(ClosedLoops, HaveItsNoiseAndItsConverter) {
   scene::Scene told = told_scene(scene::Arithmetic::float32);
   told.sensor.adc_bits = 12;
