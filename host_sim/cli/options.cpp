@@ -74,6 +74,23 @@ std::filesystem::path output_folder(const std::string& out, const std::string& s
                      : std::filesystem::path(out);
 }
 
+std::string check_whole(const std::string& text, std::uint64_t least, std::uint64_t most) {
+  constexpr std::size_t most_digits = 19;
+  const bool whole = !text.empty() && text.size() <= most_digits &&
+                     text.find_first_not_of("0123456789") == std::string::npos;
+  const std::uint64_t value = whole ? std::stoull(text) : 0;
+  return whole && value >= least && value <= most
+             ? std::string()
+             : fmt::format("\"{}\"; allowed: a whole number, {} to {}", text, least, most);
+}
+
+void add_threads_option(CLI::App& command, unsigned& threads) {
+  constexpr std::uint64_t most_threads = 1024;
+  command.add_option("--threads", threads, "At most so many threads [one for each core]")
+      ->type_name("N")
+      ->check([](const std::string& number) { return check_whole(number, 1, most_threads); });
+}
+
 void require_writable(const std::filesystem::path& out, const std::vector<std::string>& names) {
   const output::OutputFolder probe(out, names);
 }

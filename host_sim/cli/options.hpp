@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -61,6 +62,12 @@ void add_output_option(CLI::App& command, std::string& out, const std::string& c
 ///             its checksum at the end
 std::filesystem::path output_folder(const std::string& out, const std::string& scene_name,
                                     const std::string& suffix = "");
+
+/// Adds `--threads N`, 1 to 1024; 0 where it is not given: one for each core.
+void add_threads_option(CLI::App& command, unsigned& threads);
+
+/// What is wrong with a text as a whole number in these bounds; empty for one.
+std::string check_whole(const std::string& text, std::uint64_t least, std::uint64_t most);
 
 /// Finds out, before results are computed, that an output cannot be written: stages and removes an
 /// empty folder.

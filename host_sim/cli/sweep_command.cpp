@@ -24,8 +24,6 @@ struct SweepOptions {
   bool quiet = false;
 };
 
-constexpr unsigned most_threads = 1024;
-
 sweep::Summary compute(const sweep::Plan& plan, const std::filesystem::path& out,
                        const SweepOptions& options) {
   ProgressBar bar(stderr, !options.quiet);
@@ -89,16 +87,7 @@ void add_sweep_command(CLI::App& program) {
   add_output_option(*command, options->out,
                     "sweep.csv, sweep.svg (one or two keys) and report.html [out/<scene "
                     "name>_sweep]");
-  command->add_option("--threads", options->threads, "At most so many threads [one for each core]")
-      ->type_name("N")
-      ->check([](const std::string& number) {
-        const bool whole = !number.empty() && number.size() <= 4 &&
-                           number.find_first_not_of("0123456789") == std::string::npos;
-        const unsigned long value = whole ? std::stoul(number) : 0;
-        return value >= 1 && value <= most_threads
-                   ? std::string()
-                   : fmt::format("\"{}\"; allowed: a whole number, 1 to {}", number, most_threads);
-      });
+  add_threads_option(*command, options->threads);
   command->add_flag("--quiet", options->quiet, "No progress bar and no printed summary");
   command->callback([options] { sweep(*options); });
 }

@@ -292,4 +292,13 @@ void OutputFolder::replace_files() {
   moves.keep();
 }
 
+void create_folder(const std::filesystem::path& target, const std::vector<std::string>& names) {
+  { const OutputFolder probe(target, names); }
+  std::error_code error;
+  std::filesystem::create_directories(target, error);
+  if (error) {
+    fail(target, error);
+  }
+}
+
 }  // namespace sonoglide::output

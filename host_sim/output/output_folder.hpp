@@ -75,4 +75,8 @@ class OutputFolder {
   std::set<std::string> withdrawn_;
 };
 
+/// Creates a folder once it is known that files of these names can be written to it.
+/// @throws OutputError
+void create_folder(const std::filesystem::path& target, const std::vector<std::string>& names);
+
 }  // namespace sonoglide::output

@@ -3,35 +3,18 @@
 
 #include <cstddef>
 #include <filesystem>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "host_sim/long_work/journal.hpp"
 #include "host_sim/studies/sweep/row.hpp"
 
 namespace sonoglide::sweep {
 
-/// What decides every row of a sweep: a journal serves no other.
-struct Identity {
-  std::string program;  ///< name, version and whatever else decides the last bit
-  std::string scene;    ///< of the first point, in full
-  std::string vary;     ///< the axes
+using long_work::ForeignJournal;
+/// The options are the axes, the scene that of the first point.
+using long_work::Identity;
 
-  bool operator==(const Identity& other) const {
-    return program == other.program && scene == other.scene && vary == other.vary;
-  }
-};
-
-/// The journal in the folder is that of another sweep.
-class ForeignJournal : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
-
-/// Appends finished points to a file. The first line is the identity, every further one a record;
-/// each carries its own checksum. A kill can tear the last record only, which is dropped, and all
-/// that follows a damaged one. Points already handed to append() survive a kill of the program;
-/// those more than about a second old survive a power failure.
 class Journal {
  public:
   /// Opens the journal of this folder, or begins one; nobody else can until this is destroyed.
@@ -39,9 +22,6 @@ class Journal {
   /// @param points  records of points from here on count as damaged
   /// @throws ForeignJournal, output::OutputError
   Journal(const std::filesystem::path& folder, const Identity& identity, std::size_t points);
-  ~Journal();
-  Journal(const Journal&) = delete;
-  Journal& operator=(const Journal&) = delete;
 
   /// What was found on opening, in no particular order.
   const std::vector<Record>& finished() const { return finished_; }
@@ -51,23 +31,14 @@ class Journal {
 
   /// @param text  from text_of()
   /// @throws output::OutputError
-  void append(const std::string& text);
+  void append(const std::string& text) { journal_.append(text); }
 
   /// The sweep is whole: removes the file.
-  void remove();
+  void remove() { journal_.remove(); }
 
  private:
-  void lock();
-  void recover(const Identity& identity, std::size_t points);
-  void write(const std::string& text);
-  void sync_now_and_then();
-  [[noreturn]] void fail(const std::string& reason) const;
-  [[noreturn]] void refuse(const std::string& contents) const;
-
-  std::filesystem::path path_;
-  int file_;
-  double last_sync_s_;
   std::vector<Record> finished_;
+  long_work::Journal journal_;
 };
 
 }  // namespace sonoglide::sweep

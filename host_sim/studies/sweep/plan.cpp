@@ -106,7 +106,7 @@ scene::Scene Plan::scene(std::size_t point) const {
   }
 }
 
-void Plan::visit_all(const Visit& visit, Pace* pace) const {
+void Plan::visit_all(const Visit& visit, long_work::Pace* pace) const {
   constexpr std::size_t points_per_task = 1024;  // milliseconds
   std::atomic<std::size_t> lowest{grid_.size()};
   const auto visit_range = [&](const tbb::blocked_range<std::size_t>& range) {

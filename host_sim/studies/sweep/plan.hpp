@@ -7,13 +7,13 @@
 #include <string>
 #include <vector>
 
+#include "host_sim/long_work/pace.hpp"
 #include "host_sim/scene/scene.hpp"
 #include "host_sim/scene_file/document.hpp"
 #include "host_sim/scene_file/scene_error.hpp"
 #include "host_sim/scene_file/source.hpp"
 #include "host_sim/scene_file/variant.hpp"
 #include "host_sim/studies/sweep/axis.hpp"
-#include "host_sim/studies/sweep/pace.hpp"
 
 namespace sonoglide::sweep {
 
@@ -48,7 +48,7 @@ class Plan {
   /// Reads the scenes of all points, on all threads.
   /// @param pace  its stage is the reading; may be null
   /// @throws scene_file::SceneError  the error of the first unusable point
-  void visit_all(const Visit& visit, Pace* pace = nullptr) const;
+  void visit_all(const Visit& visit, long_work::Pace* pace = nullptr) const;
 
   /// `KEY=VALUE, KEY=VALUE`, in the order of the axes.
   std::string describe(std::size_t point) const;

@@ -119,7 +119,8 @@ GroupKey key_of(const BatchPoint& point) {
 
 }  // namespace
 
-Solve::Solve(const Plan& plan, Pace& pace) : plan_(plan), batch_points_(plan.grid().size()) {
+Solve::Solve(const Plan& plan, long_work::Pace& pace)
+    : plan_(plan), batch_points_(plan.grid().size()) {
   pace.begin(plan.grid().size(), expected_solving_cost(plan));
   plan.visit_all([this](std::size_t point,
                         const scene::Scene& scene) { batch_points_[point] = batch_point(scene); },

@@ -35,7 +35,7 @@ class Solve {
   /// The plan outlives this.
   /// @param pace  told of the points read
   /// @throws scene_file::SceneError  a point is unusable
-  Solve(const Plan& plan, Pace& pace);
+  Solve(const Plan& plan, long_work::Pace& pace);
 
   /// These points as calls that are worth making: those that suit SIMD lanes together, up to some
   /// hundreds that have their length and accuracy in common, the others alone.

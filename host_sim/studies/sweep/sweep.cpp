@@ -12,7 +12,6 @@
 #include <mutex>
 #include <optional>
 #include <string>
-#include <system_error>
 #include <utility>
 
 #include "host_sim/batch/run_dahl_plants.hpp"
@@ -30,7 +29,7 @@ namespace {
 /// Where the threads hand in what they have finished.
 class Collection {
  public:
-  Collection(std::size_t points, Journal& journal, Pace& pace)
+  Collection(std::size_t points, Journal& journal, long_work::Pace& pace)
       : rows_(points), known_(points), journal_(journal), pace_(pace) {
     for (const Record& record : journal.finished()) {
       take(record);
@@ -72,13 +71,13 @@ class Collection {
   std::vector<PointResult> rows_;
   std::vector<bool> known_;
   Journal& journal_;
-  Pace& pace_;
+  long_work::Pace& pace_;
 };
 
 }  // namespace
 
 std::vector<PointResult> compute(const Solve& solve, std::size_t points, Journal& journal,
-                                 Pace& pace) {
+                                 long_work::Pace& pace) {
   Collection collection(points, journal, pace);
   const Points open = collection.open_points();
   pace.begin(open.size(), 0.0);
@@ -129,16 +128,6 @@ Identity identity_of(const Plan& plan, const std::string& program) {
   return {program, scenes, vary};
 }
 
-/// Creates the folder once it is known that it can be written to.
-void create_folder(const fs::path& out) {
-  { const output::OutputFolder probe(out, {table_file, page_file, picture_file}); }
-  std::error_code error;
-  fs::create_directories(out, error);
-  if (error) {
-    output::fail(out, error);
-  }
-}
-
 /// Interrupted, it is carried through first: it takes a second at most.
 void write_files(const Plan& plan, const std::vector<PointResult>& rows, const fs::path& out) {
   const std::optional<std::string> picture = draw(plan, rows);
@@ -157,17 +146,17 @@ void write_files(const Plan& plan, const std::vector<PointResult>& rows, const f
 }  // namespace
 
 Summary run_sweep(const Plan& plan, const fs::path& out, const std::string& program,
-                  unsigned threads, const Progress& progress) {
+                  unsigned threads, const long_work::Progress& progress) {
   const tbb::global_control limit(
       tbb::global_control::max_allowed_parallelism,
       threads > 0 ? threads : static_cast<std::size_t>(tbb::info::default_concurrency()));
   const auto begin = std::chrono::steady_clock::now();
-  Pace pace(progress);
+  long_work::Pace pace(progress);
   const Solve solve(plan, pace);
   if (!drawn_axes(plan.grid()).empty() && drawn_axes(plan.grid()).size() <= 2) {
     output::require_gnuplot();
   }
-  create_folder(out);
+  output::create_folder(out, {table_file, page_file, picture_file});
   // The lanes of another instruction set differ in the last bit: rows of both do not mix.
   const std::string decisive = fmt::format("{}, {}", program, batch::instruction_set());
   Journal journal(out, identity_of(plan, decisive), plan.grid().size());

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "host_sim/long_work/pace.hpp"
 #include "host_sim/studies/sweep/journal.hpp"
-#include "host_sim/studies/sweep/pace.hpp"
 #include "host_sim/studies/sweep/plan.hpp"
 #include "host_sim/studies/sweep/row.hpp"
 #include "host_sim/studies/sweep/solve.hpp"
@@ -20,7 +20,7 @@ namespace sonoglide::sweep {
 /// @param pace    told of the points computed
 /// @throws output::OutputError  the journal cannot be written
 std::vector<PointResult> compute(const Solve& solve, std::size_t points, Journal& journal,
-                                 Pace& pace);
+                                 long_work::Pace& pace);
 
 struct Summary {
   std::size_t points;
@@ -39,6 +39,6 @@ struct Summary {
 /// @throws scene_file::SceneError  nothing was written
 /// @throws ForeignJournal, output::OutputError, process::ProcessError
 Summary run_sweep(const Plan& plan, const std::filesystem::path& out, const std::string& program,
-                  unsigned threads, const Progress& progress);
+                  unsigned threads, const long_work::Progress& progress);
 
 }  // namespace sonoglide::sweep

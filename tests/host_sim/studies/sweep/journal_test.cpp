@@ -89,9 +89,10 @@ TEST_F(JournalTest, APointBeyondTheGridIsDamage) {
 TEST_F(JournalTest, ServesNoOtherSweepAndSaysWhy) {
   write_points(0, 3);
   const std::string before = content();
-  EXPECT_NE(refusal({"sonoglide 2", ours.scene, ours.vary}).find("of sonoglide 1;"),
+  EXPECT_NE(refusal({"sonoglide 2", ours.scene, ours.options}).find("of sonoglide 1;"),
             std::string::npos);
-  EXPECT_NE(refusal({ours.program, "{}", ours.vary}).find("of another scene;"), std::string::npos);
+  EXPECT_NE(refusal({ours.program, "{}", ours.options}).find("of another scene;"),
+            std::string::npos);
   EXPECT_NE(refusal({ours.program, ours.scene, ""}).find("of other --vary;"), std::string::npos);
   EXPECT_EQ(content(), before);
   set_content("mine, a line without an end");

@@ -72,8 +72,8 @@ TEST(PlanTest, ReadingTellsOfItsProgress) {
   const Plan plan(scene_file::read_source(scratch.file()), {},
                   {"friction.coefficient=0.1:0.2:5000"});
   std::vector<double> fractions;
-  const Progress progress = [&](double fraction) { fractions.push_back(fraction); };
-  Pace pace(progress);
+  const long_work::Progress progress = [&](double fraction) { fractions.push_back(fraction); };
+  long_work::Pace pace(progress);
   pace.begin(plan.grid().size(), 0.0);
   plan.visit_all([](std::size_t, const scene::Scene&) {}, &pace);
   EXPECT_GE(fractions.size(), 5U);

@@ -42,8 +42,8 @@ class SolveTest : public testing::Test {
   }
 
   ScratchScene scratch_{open_loop};
-  Progress nobody_;
-  Pace pace_{nobody_};
+  long_work::Progress nobody_;
+  long_work::Pace pace_{nobody_};
   std::optional<Plan> plan_;
   std::optional<Solve> solve_;
   Points all_;

@@ -1,8 +1,8 @@
-#include "host_sim/studies/sweep/pace.hpp"
+#include "host_sim/long_work/pace.hpp"
 
 #include <utility>
 
-namespace sonoglide::sweep {
+namespace sonoglide::long_work {
 
 Pace::Pace(const Progress& progress, std::function<double()> now_s)
     : progress_(progress), now_s_(std::move(now_s)), start_s_(now_s_()), stage_start_s_(start_s_) {}
@@ -28,4 +28,4 @@ void Pace::add(std::size_t points) {
   progress_(gone_s > 0.0 ? gone_s / (gone_s + left_s) : 0.0);
 }
 
-}  // namespace sonoglide::sweep
+}  // namespace sonoglide::long_work

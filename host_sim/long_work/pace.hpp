@@ -6,7 +6,7 @@
 #include <functional>
 #include <mutex>
 
-namespace sonoglide::sweep {
+namespace sonoglide::long_work {
 
 /// Called now and then with the part of the time that is gone, in [0, 1], by one thread at a time:
 /// time gone × (1 − fraction) / fraction is the time left. It falls where the rest turns out to
@@ -19,7 +19,7 @@ inline double steady_time_s() {
 }
 
 /// Follows work done in stages. Within a stage every point is taken to cost the same; points that
-/// were finished before do not count, so that a sweep that goes on is not thought a fast one.
+/// were finished before do not count, so that work that goes on is not thought fast.
 class Pace {
  public:
   /// Begins to take the time.
@@ -45,4 +45,4 @@ class Pace {
   std::mutex mutex_;
 };
 
-}  // namespace sonoglide::sweep
+}  // namespace sonoglide::long_work

@@ -1,8 +1,8 @@
-#include "host_sim/studies/sweep/pace.hpp"
+#include "host_sim/long_work/pace.hpp"
 
 #include <gtest/gtest.h>
 
-namespace sonoglide::sweep::pace_test {
+namespace sonoglide::long_work::pace_test {
 namespace {
 
 /// A clock that stands until it is told to go on.
@@ -84,4 +84,4 @@ TEST(QuietPaceTest, NeedsNoListener) {
 }
 
 }  // namespace
-}  // namespace sonoglide::sweep::pace_test
+}  // namespace sonoglide::long_work::pace_test

@@ -1,0 +1,168 @@
+#include "host_sim/long_work/journal.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <system_error>
+#include <utility>
+
+#include "host_sim/long_work/pace.hpp"
+#include "host_sim/long_work/record_text.hpp"
+#include "host_sim/output/output_folder.hpp"
+#include "host_sim/process/printable.hpp"
+
+namespace sonoglide::long_work {
+namespace {
+
+constexpr double sync_interval_s = 1.0;
+
+std::string last_reason() {
+  return std::generic_category().message(errno);
+}
+
+std::string format_name(const JournalKind& kind) {
+  return fmt::format("sonoglide {} journal, format 2", kind.work);
+}
+
+}  // namespace
+
+Journal::Journal(const std::filesystem::path& folder, const JournalKind& kind,
+                 const Identity& identity, const Take& take)
+    : kind_(kind), path_(folder / kind.file), last_sync_s_(steady_time_s()) {
+  constexpr mode_t mode = 0666;
+  file_ = open(path_.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, mode);
+  if (file_ < 0) {
+    fail(last_reason());
+  }
+  try {
+    lock();
+    recover(identity, take);
+  } catch (...) {
+    close(file_);
+    throw;
+  }
+}
+
+Journal::~Journal() {
+  close(file_);
+}
+
+std::string Journal::line_of(std::string_view record) {
+  return sealed(record) + '\n';
+}
+
+void Journal::append(const std::string& lines) {
+  write(lines);
+  sync_now_and_then();
+}
+
+void Journal::remove() {
+  std::error_code error;
+  if (!std::filesystem::remove(path_, error) && error) {
+    fail(error.message());
+  }
+}
+
+void Journal::lock() {
+  if (flock(file_, LOCK_EX | LOCK_NB) != 0) {
+    fail(errno == EWOULDBLOCK ? fmt::format("another {} is at work in this folder", kind_.work)
+                              : last_reason());
+  }
+}
+
+std::string Journal::header_text(const Identity& identity) const {
+  return nlohmann::ordered_json{{"format", format_name(kind_)},
+                                {"program", identity.program},
+                                {"scene", identity.scene},
+                                {"options", identity.options}}
+      .dump();
+}
+
+/// What an existing journal differs in.
+std::string Journal::difference(std::string_view header, const Identity& identity) const {
+  const auto found = nlohmann::ordered_json::parse(header, nullptr, false);
+  const auto differs = [&found](const char* key, const std::string& value) {
+    return !found.is_object() || found.value(key, "") != value;
+  };
+  if (differs("format", format_name(kind_))) {
+    return "another format of journal";
+  }
+  if (differs("program", identity.program)) {
+    return found.value("program", "");
+  }
+  return differs("scene", identity.scene) ? "another scene"
+                                          : fmt::format("other {}", kind_.options);
+}
+
+/// Takes what is whole and cuts off the rest.
+void Journal::recover(const Identity& identity, const Take& take) {
+  std::ifstream journal(path_, std::ios::binary);
+  std::string line;
+  const std::string first_line = sealed(header_text(identity)) + '\n';
+  // Without the end of its first line the journal holds no point yet.
+  if (!std::getline(journal, line) || journal.eof()) {
+    if (first_line.compare(0, line.size(), line) != 0) {
+      refuse("another format of journal");
+    }
+    if (ftruncate(file_, 0) != 0) {
+      fail(last_reason());
+    }
+    write(first_line);
+    return;
+  }
+  const auto header = unsealed(line);
+  if (!header || *header != header_text(identity)) {
+    refuse(difference(header.value_or(""), identity));
+  }
+  std::streamoff whole = journal.tellg();
+  while (std::getline(journal, line) && !journal.eof()) {
+    const auto record = unsealed(line);
+    if (!record || !take(*record)) {
+      break;
+    }
+    whole = journal.tellg();
+  }
+  if (ftruncate(file_, whole) != 0) {
+    fail(last_reason());
+  }
+}
+
+void Journal::refuse(const std::string& contents) const {
+  throw ForeignJournal(
+      fmt::format("{}: holds an unfinished {} of {}; allowed: finish that one, remove the file, "
+                  "or choose another folder",
+                  process::printable(path_.string()), kind_.work, contents));
+}
+
+void Journal::write(const std::string& text) {
+  std::size_t written = 0;
+  while (written < text.size()) {
+    const ssize_t count = ::write(file_, text.data() + written, text.size() - written);
+    if (count < 0 && errno != EINTR) {
+      fail(last_reason());
+    }
+    written += count > 0 ? static_cast<std::size_t>(count) : 0;
+  }
+}
+
+/// As often as a record that costs nothing can bear.
+void Journal::sync_now_and_then() {
+  if (steady_time_s() - last_sync_s_ < sync_interval_s) {
+    return;
+  }
+  if (fdatasync(file_) != 0) {
+    fail(last_reason());
+  }
+  last_sync_s_ = steady_time_s();
+}
+
+void Journal::fail(const std::string& reason) const {
+  output::fail(path_, reason);
+}
+
+}  // namespace sonoglide::long_work

@@ -1,0 +1,79 @@
+/// What a long computation has finished, on disk, so that one that was killed can go on.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <functional>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace sonoglide::long_work {
+
+/// Whose journal it is, in the words of messages.
+struct JournalKind {
+  const char* file;     ///< in the folder
+  const char* work;     ///< `sweep`
+  const char* options;  ///< `--vary`: what decides the work besides the scene
+};
+
+/// What decides every record: a journal serves no other work.
+struct Identity {
+  std::string program;  ///< name, version and whatever else decides the last bit
+  std::string scene;    ///< in full
+  std::string options;
+};
+
+/// The journal in the folder is that of other work.
+class ForeignJournal : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// Appends records to a file. The first line is the identity, every further one a record; each
+/// carries its own checksum. A kill can tear the last record only, which is dropped, and all that
+/// follows a damaged one. Records already handed to append() survive a kill of the program; those
+/// more than about a second old survive a power failure.
+class Journal {
+ public:
+  /// Takes a record that was found; false if it is none.
+  using Take = std::function<bool(std::string_view record)>;
+
+  /// Opens the journal of this folder, or begins one; nobody else can until this is destroyed.
+  /// @param folder  exists
+  /// @param take    called with each record that is there; what it does not take counts as damaged
+  /// @throws ForeignJournal, output::OutputError
+  Journal(const std::filesystem::path& folder, const JournalKind& kind, const Identity& identity,
+          const Take& take);
+  ~Journal();
+  Journal(const Journal&) = delete;
+  Journal& operator=(const Journal&) = delete;
+
+  /// A record as append() takes it, one or more.
+  static std::string line_of(std::string_view record);
+
+  /// @param lines  from line_of()
+  /// @throws output::OutputError
+  void append(const std::string& lines);
+
+  /// The work is whole: removes the file.
+  void remove();
+
+ private:
+  void lock();
+  void recover(const Identity& identity, const Take& take);
+  std::string header_text(const Identity& identity) const;
+  std::string difference(std::string_view header, const Identity& identity) const;
+  void write(const std::string& text);
+  void sync_now_and_then();
+  [[noreturn]] void fail(const std::string& reason) const;
+  [[noreturn]] void refuse(const std::string& contents) const;
+
+  JournalKind kind_;
+  std::filesystem::path path_;
+  int file_;
+  double last_sync_s_;
+};
+
+}  // namespace sonoglide::long_work

@@ -1,0 +1,62 @@
+#include "host_sim/long_work/record_text.hpp"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cstring>
+#include <system_error>
+
+#include "host_sim/process/checksum.hpp"
+
+namespace sonoglide::long_work {
+namespace {
+
+constexpr std::size_t checksum_digits = 16;
+
+}  // namespace
+
+std::string sealed(std::string_view text) {
+  return fmt::format("{:016x} {}", process::checksum(text), text);
+}
+
+std::optional<std::string_view> unsealed(std::string_view line) {
+  if (line.size() <= checksum_digits) {
+    return std::nullopt;
+  }
+  const std::string_view text = line.substr(checksum_digits + 1);
+  if (line.substr(0, checksum_digits + 1) != fmt::format("{:016x} ", process::checksum(text))) {
+    return std::nullopt;
+  }
+  return text;
+}
+
+std::string bits_text(double value) {
+  std::uint64_t bits = 0;
+  std::memcpy(&bits, &value, sizeof bits);
+  return fmt::format("{:x}", bits);
+}
+
+std::uint64_t RecordNumbers::whole() {
+  constexpr int decimal = 10;
+  return next(decimal);
+}
+
+double RecordNumbers::real() {
+  constexpr int hexadecimal = 16;
+  const std::uint64_t bits = next(hexadecimal);
+  double value = 0.0;
+  std::memcpy(&value, &bits, sizeof value);
+  return value;
+}
+
+/// Up to the next blank, which goes too.
+std::uint64_t RecordNumbers::next(int base) {
+  std::uint64_t value = 0;
+  const auto [end, error] = std::from_chars(rest_.data(), rest_.data() + rest_.size(), value, base);
+  const auto length = static_cast<std::size_t>(end - rest_.data());
+  good_ = good_ && error == std::errc() && length < rest_.size() && rest_[length] == ' ';
+  rest_.remove_prefix(good_ ? length + 1 : rest_.size());
+  return value;
+}
+
+}  // namespace sonoglide::long_work
