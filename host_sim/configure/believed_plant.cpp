@@ -16,7 +16,8 @@ double first_undriven_friction_N(const scene::Scene& scene) {
 
 }  // namespace
 
-BelievedPlant believed_plant(const scene::Scene& scene) {
+BelievedPlant believed_plant(const scene::Scene& any_scene) {
+  const scene::Scene& scene = any_scene.believed();
   const scene::ModelError& error = scene.model_error;
   BelievedPlant plant{scene.plant, first_undriven_friction_N(scene) * error.coefficient,
                       scene.friction.contact_stiffness_N_per_m * error.contact_stiffness,
@@ -25,6 +26,16 @@ BelievedPlant believed_plant(const scene::Scene& scene) {
   plant.stiffness_N_per_m *= error.stiffness;
   plant.damping_N_s_per_m *= error.damping;
   return plant;
+}
+
+double vibration_gain(const scene::Scene& scene) {
+  if (scene.sensor.vibration != scene::VibrationSensor::motional_current) {
+    return 1.0;
+  }
+  const double believed_over_told = scene.model_error.force_factor;
+  return scene.told ? scene.transducer->force_factor_N_per_V /
+                          (scene.told->transducer->force_factor_N_per_V * believed_over_told)
+                    : 1.0 / believed_over_told;
 }
 
 }  // namespace sonoglide::configure

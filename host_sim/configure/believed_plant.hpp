@@ -5,7 +5,7 @@
 
 namespace sonoglide::configure {
 
-/// The scene through [model_error].
+/// The scene, without its true values, through [model_error].
 struct BelievedPlant : scene::Plant {
   double friction_N = 0.0;  ///< that the first slide of the scene meets without vibration
   double contact_stiffness_N_per_m = 0.0;
@@ -13,5 +13,8 @@ struct BelievedPlant : scene::Plant {
 };
 
 BelievedPlant believed_plant(const scene::Scene& scene);
+
+/// Vibration read over the true one: a motional current is taken over the believed force factor.
+double vibration_gain(const scene::Scene& scene);
 
 }  // namespace sonoglide::configure

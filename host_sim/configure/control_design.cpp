@@ -459,7 +459,8 @@ void add_notch_notes(const NotchDesign& notch, std::vector<std::string>& notes) 
 
 }  // namespace
 
-ControlDesign design_control(const scene::Scene& scene) {
+ControlDesign design_control(const scene::Scene& any_scene) {
+  const scene::Scene& scene = any_scene.believed();
   const BelievedPlant plant = believed_plant(scene);
   ControlDesign design;
   design.map = scene::friction_map(scene.friction.law);
@@ -500,7 +501,8 @@ bool tells_mismatch(const scene::Scene& scene) {
   constexpr double light_friction = 0.02;  // of the drive
   return scene::has_own_map(scene.friction.law) &&
          scene.drive->waveform == scene::Waveform::cosine &&
-         believed_plant(scene).friction_N < light_friction * scene.drive->max_force_amplitude_N;
+         believed_plant(scene).friction_N <
+             light_friction * scene.believed().drive->max_force_amplitude_N;
 }
 
 std::vector<std::string> design_notes(const ControlDesign& design) {

@@ -86,8 +86,8 @@ struct ControlDesign {
   }
 };
 
-/// Designs the controller of a closed-loop scene from what it believes (the scene through
-/// [model_error]).
+/// Designs the controller of a closed-loop scene from what it believes (the scene without its true
+/// values, through [model_error]).
 /// @throws ConfigurationError where no controller exists: resonance with next to no damping, speeds
 ///         or forces outside the per-unit range.
 ControlDesign design_control(const scene::Scene& scene);

@@ -3,15 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host_sim/configure/believed_plant.hpp"
+
 namespace sonoglide::loop {
 
 namespace {
-
-double vibration_gain(const scene::Scene& scene) {
-  return scene.sensor.vibration == scene::VibrationSensor::motional_current
-             ? 1.0 / scene.model_error.force_factor
-             : 1.0;
-}
 
 std::optional<app::ElapsedPeriods> elapsed_of(const configure::ControlDesign& design) {
   return design.resonance ? std::optional(app::ElapsedPeriods(design.resonance->start_word))
@@ -38,9 +34,10 @@ ControlRun::ControlRun(const scene::Scene& scene, const CarrierGrid& grid, Contr
     : schedule_(target_schedule(scene, grid)),
       port_(port),
       record_(record),
-      sensor_(scene.sensor, record.design.scales, vibration_gain(scene)),
-      actuator_(scene.drive->delay_periods, record.design.scales.drive_amplitude_N),
+      sensor_(scene.sensor, record.design.scales, configure::vibration_gain(scene)),
+      actuator_(scene.drive->delay_periods, scene.drive->max_force_amplitude_N),
       start_frequency_Hz_(scene.drive->frequency_Hz),
+      clock_ratio_(scene.drive->frequency_Hz / scene.believed().drive->frequency_Hz),
       believed_friction_N_(record.design.friction_force * record.design.scales.force_N),
       elapsed_(elapsed_of(record.design)) {}
 
@@ -50,7 +47,7 @@ double ControlRun::frequency_Hz() const {
     return start_frequency_Hz_;
   }
   const configure::ResonantDesign& resonance = *record_.design.resonance;
-  return resonance.step_Hz * (static_cast<double>(resonance.start_word) + steps);
+  return clock_ratio_ * (resonance.step_Hz * (static_cast<double>(resonance.start_word) + steps));
 }
 
 void ControlRun::label(Period& period) const {

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -10,6 +11,7 @@
 #include "host_sim/scene/contact.hpp"
 #include "host_sim/scene/friction_laws.hpp"
 #include "host_sim/scene/timed_profile.hpp"
+#include "host_sim/scene/tolerance.hpp"
 
 namespace sonoglide::scene {
 
@@ -187,6 +189,12 @@ struct Scene {
   std::optional<Controller> controller;  ///< absent: open loop
   Sensor sensor;
   ModelError model_error;
+  std::vector<Tolerance> tolerances;   ///< for `robust`
+  std::vector<TrueValue> true_values;  ///< with them, all above is the truth
+  std::shared_ptr<const Scene> told;   ///< with them, the scene without them; else null
+
+  /// What the controller's design knows: the scene without its true values.
+  const Scene& believed() const { return told ? *told : *this; }
 
   /// The key `table.key` of a profile beside that of the sliding; null where there is none.
   const char* profile_key() const;

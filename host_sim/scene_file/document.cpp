@@ -55,11 +55,17 @@ Document::Document(const Source& source, const std::vector<std::string>& overrid
   for (std::size_t i = 0; i < varied.size(); ++i) {
     vary(varied[i], overrides.size() + i + 1, i);
   }
+  place_true_values();
 }
 
 const SceneTable* Document::find(std::string_view name) const {
   const auto found = tables_.find(name);
   return found == tables_.end() ? nullptr : &found->second;
+}
+
+const SceneTable* Document::find_true(std::string_view name) const {
+  const auto found = true_tables_.find(name);
+  return found == true_tables_.end() ? find(name) : &found->second;
 }
 
 Location Document::place_of(std::string_view dotted_key) const {
@@ -126,6 +132,25 @@ void Document::remove(const OverriddenKey& target) {
 
 void Document::vary(const std::string& path, std::size_t ordinal, std::size_t index) {
   overridden_entry(parse_overridden_key(path, ordinal)).varied = index;
+}
+
+void Document::place_true_values() {
+  const SceneTable* true_values = find("true_values");
+  if (true_values == nullptr) {
+    return;
+  }
+  for (const auto& [path, given] : true_values->entries) {
+    const std::size_t dot = path.find('.');
+    const std::string name = path.substr(0, dot);
+    const SceneTable* stated = find_true(name);
+    SceneTable table = stated != nullptr ? *stated : SceneTable{name, given.key_place, {}};
+    const std::string key = path.substr(dot + 1);
+    const KeyTable& described = key_table(name);
+    GivenValue entry = given;
+    entry.position = position_of(described, key_of(described, key));
+    table.entries[key] = std::move(entry);
+    true_tables_[name] = std::move(table);
+  }
 }
 
 /// The entry, without a value yet.

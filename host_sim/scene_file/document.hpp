@@ -56,6 +56,8 @@ class Document {
 
   /// The table of this name; null where the scene has none.
   const SceneTable* find(std::string_view name) const;
+  /// The same with the values of [true_values] in the place of those that they stand for.
+  const SceneTable* find_true(std::string_view name) const;
 
   /// Where the value of `TABLE.KEY` stands, or a whole table; what is left to its default stands
   /// where its table does, or at the beginning of the file.
@@ -73,6 +75,7 @@ class Document {
   void apply_override(const std::string& text, std::size_t ordinal);
   void remove(const OverriddenKey& target);
   void vary(const std::string& path, std::size_t ordinal, std::size_t index);
+  void place_true_values();
   GivenValue& overridden_entry(const OverriddenKey& target);
 
   std::string file_;
@@ -80,6 +83,7 @@ class Document {
   toml::table root_;
   std::deque<toml::table> override_values_;  ///< never moved once in
   std::map<std::string, SceneTable, std::less<>> tables_;
+  std::map<std::string, SceneTable, std::less<>> true_tables_;  ///< those that differ
 };
 
 }  // namespace sonoglide::scene_file

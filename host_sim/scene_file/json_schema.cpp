@@ -50,6 +50,28 @@ struct ValueSchema {
   ordered_json operator()(const Truth& /*truth*/) const {
     return {{"type", "boolean"}, {"default", true}};
   }
+  ordered_json operator()(const Spread& spread) const {
+    ordered_json bound = number_schema(spread.range);
+    if (spread.whole) {
+      bound["type"] = "integer";
+    }
+    const ordered_json range = single_key(
+        "range", {{"type", "array"}, {"minItems", 2}, {"maxItems", 2}, {"items", bound}});
+    if (spread.whole) {
+      return range;
+    }
+    const ordered_json amount = number_schema(spread_range);
+    return {{"anyOf", ordered_json::array({amount, single_key("normal", amount), range})}};
+  }
+
+ private:
+  /// A table with this key alone.
+  static ordered_json single_key(const char* key, const ordered_json& value) {
+    return {{"type", "object"},
+            {"additionalProperties", false},
+            {"required", ordered_json::array({key})},
+            {"properties", {{key, value}}}};
+  }
 };
 
 void add_default(ordered_json& schema, const Key& key) {

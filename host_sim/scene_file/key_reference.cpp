@@ -32,6 +32,12 @@ struct AllowedText {
     return fmt::format("`[lowest, highest]`, {}", bounds(interval.range));
   }
   std::string operator()(const Truth& /*truth*/) const { return "true, false"; }
+  std::string operator()(const Spread& spread) const {
+    const std::string range = fmt::format("`{{ range = [lowest, highest] }}`, {}", bounds(spread.range));
+    return spread.whole ? range
+                        : fmt::format("half width, {0}; `{{ normal = deviation }}`, {0}; {1}",
+                                      bounds(spread_range), range);
+  }
 };
 
 struct AbsentText {
@@ -86,9 +92,39 @@ std::string row(const Key& key) {
                      allowed_text(key), absent_text(key), key.meaning, key.used);
 }
 
+std::string list_of(const KeyTable& table, bool whole) {
+  std::vector<std::string_view> names;
+  for (const Key& key : table.keys) {
+    const auto* spread = std::get_if<Spread>(&key.allowed);
+    const bool is_whole = spread != nullptr ? spread->whole
+                                            : std::holds_alternative<Integer>(key.allowed);
+    if (is_whole == whole) {
+      names.push_back(key.name);
+    }
+  }
+  return fmt::format("`\"{}\"`", fmt::join(names, "\"`, `\""));
+}
+
+/// What the values may be, and which keys there are.
+std::string keys_in_words(const KeyTable& table) {
+  const bool spreads = std::holds_alternative<Spread>(table.keys.front().allowed);
+  std::string text = "A key has quotes, since it is `TABLE.KEY` of another table, where the scene has to have a value of it. ";
+  text += spreads ? fmt::format(
+                        "Its value is a half width relative to the scene's value, {0}; or "
+                        "`{{ normal = deviation }}`, a standard deviation relative to it, {0}; or "
+                        "`{{ range = [lowest, highest] }}`, two values that the key may have.",
+                        bounds(spread_range))
+                  : std::string("Its value is one that the key may have there.");
+  return text + fmt::format("\n\nReal numbers: {}.\n\nIntegers{}: {}.\n", list_of(table, false),
+                            spreads ? ", with a range alone" : "", list_of(table, true));
+}
+
 std::string section(const KeyTable& table) {
   std::string text = fmt::format("\n## `[{}]`\n\n{}{}\n\n", table.name, sentence(table.meaning),
                                  table.required ? " Required." : "");
+  if (table.of_others) {
+    return text + keys_in_words(table);
+  }
   text += "| key | unit | allowed | default | meaning | used with |\n|---|---|---|---|---|---|\n";
   for (const Key& key : table.keys) {
     text += row(key);

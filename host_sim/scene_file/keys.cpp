@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <deque>
 #include <limits>
 #include <stdexcept>
 #include <utility>
@@ -418,14 +419,15 @@ std::string_view unit_in(const Allowed& allowed) {
   if (const auto* interval = std::get_if<Interval>(&allowed)) {
     return interval->range.unit;
   }
+  if (const auto* spread = std::get_if<Spread>(&allowed)) {
+    return spread->range.unit;
+  }
   const auto* profile = std::get_if<Profile>(&allowed);
   return profile != nullptr ? profile->value.unit : "";
 }
 
-}  // namespace
-
-const std::vector<KeyTable>& key_tables() {
-  static const std::vector<KeyTable> tables = {
+std::vector<KeyTable> plain_tables() {
+  return {
       {"plant", true, "the mass that vibrates, on a spring and a damper", plant_keys()},
       {"friction", true, "the contact and its friction law", friction_keys()},
       {"sliding", true, "how the body slides over the contact", sliding_keys()},
@@ -446,6 +448,93 @@ const std::vector<KeyTable>& key_tables() {
        "loop; 1 without this table",
        model_error_keys()},
   };
+}
+
+/// Of these the controller alone knows: the plant has no other value of them.
+constexpr std::array settings = {"drive.frequency_resolution_Hz", "drive.max_current_amplitude_A",
+                                 "drive.max_force_slew_N_per_s", "sensor.force_full_scale_N",
+                                 "sensor.vibration_full_scale_m_per_s"};
+
+/// An integer that a double holds.
+constexpr std::int64_t largest_integer = std::int64_t{1} << 53;
+
+Allowed varied_range(const Allowed& allowed) {
+  const auto* integer = std::get_if<Integer>(&allowed);
+  return integer == nullptr ? allowed
+                            : Integer{integer->low, std::min(integer->high, largest_integer),
+                                      integer->unit};
+}
+
+/// A number that a plant may have otherwise than its scene says.
+struct Variable {
+  std::string_view name;  ///< `table.key`; lives for good
+  Allowed allowed;        ///< Number or Integer
+  std::string used;
+};
+
+std::vector<Variable> variables(const std::vector<KeyTable>& tables) {
+  static std::deque<std::string> names;
+  std::vector<Variable> all;
+  for (const KeyTable& table : tables) {
+    constexpr std::array varied = {"plant", "friction", "transducer", "drive", "sensor"};
+    if (std::find(varied.begin(), varied.end(), table.name) == varied.end()) {
+      continue;
+    }
+    for (const Key& key : table.keys) {
+      const bool numeric = std::holds_alternative<Number>(key.allowed) ||
+                           std::holds_alternative<Integer>(key.allowed);
+      std::string name = fmt::format("{}.{}", table.name, key.name);
+      if (numeric && std::find(settings.begin(), settings.end(), name) == settings.end()) {
+        names.push_back(std::move(name));
+        all.push_back({names.back(), varied_range(key.allowed), key.used});
+      }
+    }
+  }
+  return all;
+}
+
+Spread spread_of(const Allowed& allowed) {
+  if (const auto* number = std::get_if<Number>(&allowed)) {
+    return {number->range};
+  }
+  const auto& integer = std::get<Integer>(allowed);
+  return {{static_cast<double>(integer.low), static_cast<double>(integer.high), integer.unit},
+          true};
+}
+
+void add_tables_of_others(std::vector<KeyTable>& tables) {
+  KeyTable tolerance{"tolerance",
+                     false,
+                     "how far the true value of a number may be from the scene's, which the "
+                     "controller believes; for the command robust, every other one takes the scene "
+                     "as it is",
+                     {},
+                     true};
+  KeyTable true_values{"true_values",
+                       false,
+                       "true value of a number where that is known to be another than the scene's, "
+                       "which the controller believes; what follows from that number by default "
+                       "stays as it is",
+                       {},
+                       true};
+  for (const Variable& each : variables(tables)) {
+    tolerance.keys.push_back({each.name, spread_of(each.allowed), Rule{"the scene's value"},
+                              fmt::format("true value of {}", each.name), each.used});
+    true_values.keys.push_back({each.name, each.allowed, Rule{"the scene's value"},
+                                fmt::format("true value of {}", each.name), each.used});
+  }
+  tables.push_back(std::move(tolerance));
+  tables.push_back(std::move(true_values));
+}
+
+}  // namespace
+
+const std::vector<KeyTable>& key_tables() {
+  static const std::vector<KeyTable> tables = [] {
+    std::vector<KeyTable> all = plain_tables();
+    add_tables_of_others(all);
+    return all;
+  }();
   return tables;
 }
 

@@ -66,7 +66,18 @@ struct Interval {
 /// true or false; true where absent.
 struct Truth {};
 
-using Allowed = std::variant<Number, Integer, Word, WordList, Profile, Interval, Truth>;
+/// How far the true value of another key may be from the scene's: a relative half width,
+/// `{ normal = deviation }`, relative too, or `{ range = [lowest, highest] }`; of integers the range
+/// alone.
+struct Spread {
+  Range range;         ///< of the other key
+  bool whole = false;  ///< that one holds integers
+};
+
+using Allowed = std::variant<Number, Integer, Word, WordList, Profile, Interval, Truth, Spread>;
+
+/// Of a relative half width or standard deviation.
+inline constexpr Range spread_range{0.0, 100.0, "", true};
 
 /// The key must be there wherever it is used.
 struct Required {};
@@ -94,13 +105,15 @@ struct Key {
 };
 
 /// A table has fewer keys than this.
-inline constexpr std::size_t most_keys = 64;
+inline constexpr std::size_t most_keys = 128;
 
 struct KeyTable {
   std::string_view name;
   bool required;
   std::string meaning;
   std::vector<Key> keys;
+  /// The keys are those of other tables: `"table.key"`, in quotes since TOML takes a dot for more.
+  bool of_others = false;
 };
 
 /// Every table with its keys, in the order in which scenes are read and echoed.

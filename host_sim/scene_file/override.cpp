@@ -38,11 +38,14 @@ void check_names(const OverriddenKey& target, const std::string& path) {
 
 /// Fills in table and key.
 void split_path(OverriddenKey& target, const std::string& path) {
-  if (path.find('[') != std::string::npos || std::count(path.begin(), path.end(), '.') > 1) {
-    throw SceneError(target.place, path, fmt::format("a part of a value cannot be set; {}", form));
-  }
   const std::size_t dot = path.find('.');
   target.table = path.substr(0, dot);
+  const KeyTable* table = find_table(target.table);
+  const int most_dots = table != nullptr && table->of_others ? 2 : 1;
+  if (path.find('[') != std::string::npos ||
+      std::count(path.begin(), path.end(), '.') > most_dots) {
+    throw SceneError(target.place, path, fmt::format("a part of a value cannot be set; {}", form));
+  }
   if (dot == std::string::npos) {
     throw SceneError(target.place, path,
                      find_table(path) != nullptr

@@ -2,12 +2,16 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <utility>
+
 #include "host_sim/configure/configuration_error.hpp"
 #include "host_sim/configure/control_design.hpp"
 #include "host_sim/configure/solver_facts.hpp"
 #include "host_sim/configure/solver_methods.hpp"
 #include "host_sim/scene/names.hpp"
 #include "host_sim/scene_file/sections.hpp"
+#include "host_sim/scene_file/tolerances.hpp"
 #include "host_sim/scene_file/variant.hpp"
 
 namespace sonoglide::scene_file {
@@ -82,11 +86,9 @@ void require_controller(const scene::Scene& scene, const Document& document) {
   }
 }
 
-}  // namespace
-
-scene::Scene read(const Document& document, const std::vector<VariedValue>& values,
-                  UnusedKeys* unused) {
-  const Variant variant(document, values, unused);
+/// All but what the truth is beside.
+scene::Scene read_values(const Variant& variant) {
+  const Document& document = variant.document();
   scene::Scene scene;
   scene.name = document.name();
   scene.plant = read_plant(variant);
@@ -101,9 +103,48 @@ scene::Scene read(const Document& document, const std::vector<VariedValue>& valu
   scene.controller = read_controller(variant, scene);
   scene.sensor = read_sensor(variant, scene);
   scene.model_error = read_model_error(variant, scene);
+  return scene;
+}
+
+bool has(const std::vector<scene::TrueValue>& values, std::string_view key) {
+  return std::any_of(values.begin(), values.end(),
+                     [key](const scene::TrueValue& each) { return each.key == key; });
+}
+
+/// What follows by default from a value that has a true one beside it follows from the stated one.
+void keep_what_follows(scene::Scene& truth, const scene::Scene& told) {
+  if (!has(truth.true_values, "friction.normal_force_N")) {
+    truth.friction.normal_force_N = told.friction.normal_force_N;
+  }
+  truth.sensor.force_full_scale_N = told.sensor.force_full_scale_N;
+  truth.run = told.run;
+}
+
+}  // namespace
+
+scene::Scene read(const Document& document, const std::vector<VariedValue>& values,
+                  UnusedKeys* unused) {
+  const Variant variant(document, values, unused);
+  scene::Scene scene = read_values(variant);
   if (scene.controller) {
     require_controller(scene, document);
   }
+  scene.tolerances = read_tolerances(variant, scene);
+  if (read_true_values(variant, scene).empty()) {
+    return scene;
+  }
+  return read_truth(document, values, std::make_shared<const scene::Scene>(std::move(scene)));
+}
+
+scene::Scene read_truth(const Document& document, const std::vector<VariedValue>& values,
+                        std::shared_ptr<const scene::Scene> told) {
+  UnusedKeys unused_too;
+  const Variant variant(document, values, &unused_too, Values::truth);
+  scene::Scene scene = read_values(variant);
+  scene.true_values = given_true_values(variant);
+  scene.tolerances = told->tolerances;
+  keep_what_follows(scene, *told);
+  scene.told = std::move(told);
   return scene;
 }
 

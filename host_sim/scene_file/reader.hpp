@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -44,5 +45,13 @@ scene::Scene read_text(std::string_view text, const std::string& file,
 /// @throws SceneError
 scene::Scene read(const Document& document, const std::vector<VariedValue>& values = {},
                   UnusedKeys* unused = nullptr);
+
+/// The scene of a document with its true values, where only they are varied: the other values are
+/// not checked again, and no controller is designed.
+///
+/// @param told  the scene without the true values, as read() has it
+/// @throws SceneError  together the values are those of no plant
+scene::Scene read_truth(const Document& document, const std::vector<VariedValue>& values,
+                        std::shared_ptr<const scene::Scene> told);
 
 }  // namespace sonoglide::scene_file

@@ -343,6 +343,94 @@ std::optional<TableCursor::Pair> TableCursor::optional_interval(std::string_view
   return found;
 }
 
+void TableCursor::fail_spread(std::string_view key, const std::string& found, bool whole) const {
+  constexpr const char* range = "{ range = [lowest, highest] }";
+  fail(key, fmt::format("is {}; allowed: {}", found,
+                        whole ? fmt::format("{} of integers", range)
+                              : fmt::format("a half width relative to the value, {}, {{ normal = "
+                                            "deviation }} or {}",
+                                            spread_range.text(), range)));
+}
+
+TableCursor::Pair TableCursor::ends_in(std::string_view key, const GivenValue& entry,
+                                       const toml::node& node, const Spread& allowed) const {
+  const toml::array* pair = node.as_array();
+  if (pair == nullptr || pair->size() != 2) {
+    fail_spread(key,
+                pair == nullptr ? fmt::format("a range that is {}", kind_of(node))
+                                : fmt::format("a range of {} values", pair->size()),
+                allowed.whole);
+  }
+  Pair ends{};
+  for (std::size_t i = 0; i < ends.size(); ++i) {
+    const toml::node& end = (*pair)[i];
+    if (allowed.whole && !end.is_integer()) {
+      fail_spread(key, fmt::format("a range with {}", kind_of(end)), true);
+    }
+    ends[i] = number_in(entry, end, {key, i}, allowed.range);
+  }
+  if (!(ends[0] < ends[1])) {
+    fail(key, fmt::format("{} is not below {}; allowed: the lowest, then the highest", ends[0],
+                          ends[1]));
+  }
+  return ends;
+}
+
+scene::Tolerance TableCursor::spread_in(std::string_view key, const GivenValue& entry,
+                                        const toml::table& table) const {
+  const auto& spread = allowed<Spread>(key);
+  const toml::node* normal = table.get("normal");
+  const toml::node* range = table.get("range");
+  if (table.size() != 1 || (normal == nullptr && range == nullptr)) {
+    fail_spread(key, "another table", spread.whole);
+  }
+  scene::Tolerance tolerance{std::string(key), scene::Spread::range, 0.0, 0.0, 0.0, 0.0,
+                             spread.whole};
+  if (range != nullptr) {
+    const Pair ends = ends_in(key, entry, *range, spread);
+    tolerance.lowest = ends[0];
+    tolerance.highest = ends[1];
+    return tolerance;
+  }
+  if (spread.whole) {
+    fail_spread(key, "a standard deviation of integers", true);
+  }
+  tolerance.spread = scene::Spread::normal;
+  tolerance.amount = number_in(entry, *normal, {key}, spread_range);
+  tolerance.lowest = spread.range.low;
+  tolerance.highest = spread.range.high;
+  return tolerance;
+}
+
+scene::Tolerance TableCursor::spread(std::string_view key) {
+  const auto& spread = allowed<Spread>(key);
+  const GivenValue& entry = *take(key);
+  const toml::node& node = variant_.value(entry);
+  if (const toml::table* table = node.as_table()) {
+    return spread_in(key, entry, *table);
+  }
+  if (spread.whole || !node.is_number()) {
+    fail_spread(key, std::string(kind_of(node)), spread.whole);
+  }
+  return {std::string(key), scene::Spread::half_width, number_in(entry, node, {key}, spread_range)};
+}
+
+std::vector<std::string> TableCursor::given_keys() const {
+  std::vector<const std::pair<const std::string, GivenValue>*> items;
+  if (table_ != nullptr) {
+    for (const auto& item : table_->entries) {
+      items.push_back(&item);
+    }
+  }
+  std::sort(items.begin(), items.end(),
+            [](const auto* a, const auto* b) { return earlier(a->second, b->second); });
+  std::vector<std::string> keys;
+  for (const auto* item : items) {
+    keys.push_back(item->first);
+  }
+  return keys;
+}
+
 std::vector<TableCursor::Pair> TableCursor::timed_values(std::string_view key, Times times) {
   return timed_values_in(key, allowed<Profile>(key), times);
 }

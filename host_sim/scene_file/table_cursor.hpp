@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "host_sim/scene/names.hpp"
+#include "host_sim/scene/tolerance.hpp"
 #include "host_sim/scene_file/keys.hpp"
 #include "host_sim/scene_file/variant.hpp"
 
@@ -73,6 +74,11 @@ class TableCursor {
   std::vector<Pair> timed_values(std::string_view key, Times times = Times::rise);
   std::vector<Pair> timed_values_in(std::string_view key, const Profile& profile, Times times);
 
+  /// A key of [tolerance]; its nominal value is left open, and so are the ends that follow from it.
+  scene::Tolerance spread(std::string_view key);
+  /// Every key of the table that is there: in the order of the file, options after it.
+  std::vector<std::string> given_keys() const;
+
   /// What the description of the key allows.
   template <class Kind>
   const Kind& allowed(std::string_view key) const {
@@ -125,6 +131,12 @@ class TableCursor {
   std::vector<std::size_t> words(std::string_view key);
   Pair pair_in(const GivenValue& entry, const toml::node& node, const Part& part,
                const Profile& profile) const;
+  scene::Tolerance spread_in(std::string_view key, const GivenValue& entry,
+                             const toml::table& table) const;
+  Pair ends_in(std::string_view key, const GivenValue& entry, const toml::node& node,
+               const Spread& allowed) const;
+  [[noreturn]] void fail_spread(std::string_view key, const std::string& found,
+                                bool whole) const;
   void check_time(const GivenValue& entry, const toml::node& node, const Part& part,
                   const std::vector<Pair>& earlier, double time_s, Times times) const;
 

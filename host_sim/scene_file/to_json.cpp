@@ -134,9 +134,34 @@ ordered_json echo(const Visit& visit) {
   return keys.take();
 }
 
-}  // namespace
+ordered_json number(double value, bool whole) {
+  return whole ? ordered_json(static_cast<std::int64_t>(value)) : ordered_json(value);
+}
 
-ordered_json to_json(scene::Scene scene) {
+ordered_json spread(const scene::Tolerance& tolerance) {
+  switch (tolerance.spread) {
+    case scene::Spread::half_width:
+      return tolerance.amount;
+    case scene::Spread::normal:
+      return {{"normal", tolerance.amount}};
+    case scene::Spread::range:
+      break;
+  }
+  return {{"range", ordered_json::array({number(tolerance.lowest, tolerance.whole),
+                                         number(tolerance.highest, tolerance.whole)})}};
+}
+
+void add_truth(ordered_json& root, const scene::Scene& scene) {
+  for (const scene::Tolerance& each : scene.tolerances) {
+    root["tolerance"][each.key] = spread(each);
+  }
+  for (const scene::TrueValue& each : scene.true_values) {
+    root["true_values"][each.key] = number(each.value, each.whole);
+  }
+}
+
+/// @param scene  a copy, for the visitors of scene_values.hpp may write too
+ordered_json stated(scene::Scene scene) {
   const bool closed_loop = scene.controller.has_value();
   const scene::Start start = scene.run.start;
   ordered_json root;
@@ -166,6 +191,14 @@ ordered_json to_json(scene::Scene scene) {
                         scene.transducer.has_value());
     });
   }
+  return root;
+}
+
+}  // namespace
+
+ordered_json to_json(const scene::Scene& scene) {
+  ordered_json root = stated(scene.believed());
+  add_truth(root, scene);
   return root;
 }
 

@@ -8,8 +8,8 @@
 namespace sonoglide::scene_file {
 
 /// Holds what the scene uses and nothing else, so that the echo, written as TOML, is a scene again,
-/// and the same one. Times are in seconds, a constant sliding velocity is under its own key.
-/// @param scene  a copy, for the visitors of scene_values.hpp may write too
-nlohmann::ordered_json to_json(scene::Scene scene);
+/// and the same one. Times are in seconds, a constant sliding velocity is under its own key. With true values the
+/// other tables have what the controller believes.
+nlohmann::ordered_json to_json(const scene::Scene& scene);
 
 }  // namespace sonoglide::scene_file

@@ -40,6 +40,12 @@ class VariedValue {
 /// Keys of a scene, `table.key` each, that it has no use for.
 using UnusedKeys = std::set<std::string>;
 
+/// Whose values a scene is read with.
+enum class Values {
+  stated,  ///< those of the tables that the controller believes
+  truth,   ///< with the true values in their place
+};
+
 /// A document with a value for each of its varied keys; cheap against the document. What it is made
 /// of outlives it.
 class Variant {
@@ -47,10 +53,12 @@ class Variant {
   /// @param values  of the varied keys, in their order
   /// @param unused  takes the keys that the scene cannot use; null: each of them is an error
   Variant(const Document& document, const std::vector<VariedValue>& values,
-          UnusedKeys* unused = nullptr)
-      : document_(document), values_(values), unused_(unused) {}
+          UnusedKeys* unused = nullptr, Values whose = Values::stated)
+      : document_(document), values_(values), unused_(unused), whose_(whose) {}
 
-  const SceneTable* find(std::string_view name) const { return document_.find(name); }
+  const SceneTable* find(std::string_view name) const {
+    return whose_ == Values::truth ? document_.find_true(name) : document_.find(name);
+  }
   const Document& document() const { return document_; }
 
   const toml::node& value(const GivenValue& entry) const {
@@ -63,6 +71,7 @@ class Variant {
   const Document& document_;
   const std::vector<VariedValue>& values_;
   UnusedKeys* unused_;
+  Values whose_;
 };
 
 }  // namespace sonoglide::scene_file

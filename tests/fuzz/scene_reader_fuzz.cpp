@@ -9,19 +9,9 @@
 
 #include "host_sim/scene_file/reader.hpp"
 #include "host_sim/scene_file/to_json.hpp"
+#include "host_sim/scene_file/to_toml.hpp"
 
 namespace {
-
-std::string as_toml(const nlohmann::ordered_json& echo) {
-  std::string text;
-  for (const auto& [table, values] : echo.items()) {
-    text += "[" + table + "]\n";
-    for (const auto& [key, value] : values.items()) {
-      text += key + " = " + value.dump() + "\n";
-    }
-  }
-  return text;
-}
 
 std::vector<std::string> pieces_of(const std::string& bytes) {
   std::vector<std::string> pieces;
@@ -57,7 +47,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     check_one_line(error);
     return 0;
   }
-  if (to_json(read_text(as_toml(echo), "echo.toml")) != echo) {
+  if (to_json(read_text(to_toml(echo), "echo.toml")) != echo) {
     std::abort();
   }
   return 0;

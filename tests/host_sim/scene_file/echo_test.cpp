@@ -9,10 +9,11 @@
 #include <set>
 #include <string>
 
-#include "as_toml.hpp"
+#include "every_scene.hpp"
 #include "host_sim/scene_file/keys.hpp"
 #include "host_sim/scene_file/reader.hpp"
 #include "host_sim/scene_file/to_json.hpp"
+#include "host_sim/scene_file/to_toml.hpp"
 #include "scene_texts.hpp"
 
 namespace sonoglide::scene_file::echo_test {
@@ -20,7 +21,7 @@ namespace {
 
 void expect_same_scene_again(const scene::Scene& scene) {
   const nlohmann::ordered_json echo = to_json(scene);
-  const std::string text = as_toml(echo);
+  const std::string text = to_toml(echo);
   EXPECT_EQ(to_json(read_text(text, "echo")), echo) << text;
 }
 
@@ -65,10 +66,7 @@ TEST(EchoTest, HoldsTheValuesOfTheFile) {
 
 TEST(EchoTest, KnowsEveryKeyOfTheSchema) {
   std::set<std::string> echoed;
-  for (const char* text :
-       {fullest_open_loop, curve_open_loop, bristles_open_loop, springs_open_loop, normal_open_loop,
-        profiles_open_loop, transducer_open_loop, transducer_closed_loop, resonant_closed_loop,
-        damped_closed_loop, fullest_closed_loop}) {
+  for (const std::string& text : every_scene()) {
     const nlohmann::ordered_json echo = to_json(read_text(text, "s"));
     for (const auto& [table, values] : echo.items()) {
       for (const auto& [key, value] : values.items()) {
@@ -105,7 +103,7 @@ TEST(EchoTest, KeepsEveryBitOfEveryNumber) {
     echo["friction"]["coefficient"] = magnitude(1.0, 100.0);
     echo["friction"]["contact_stiffness_N_per_m"] = magnitude(1e-6, 1e18);
     echo["drive"]["force_amplitude_N"] = magnitude(1e-12, 1e12);
-    RC_ASSERT(to_json(read_text(as_toml(echo), "s")) == echo);
+    RC_ASSERT(to_json(read_text(to_toml(echo), "s")) == echo);
   }));
 }
 
@@ -119,7 +117,7 @@ TEST(EchoTest, KeepsEveryBitOfAControllersNumbers) {
     echo["sensor"]["force_offset_N"] = -magnitude(1e-300, 1e12);
     echo["sensor"]["velocity_gain"] = magnitude(1e-300, 100.0);
     echo["model_error"]["stiffness"] = magnitude(0.01, 10.0);
-    RC_ASSERT(to_json(read_text(as_toml(echo), "s")) == echo);
+    RC_ASSERT(to_json(read_text(to_toml(echo), "s")) == echo);
   }));
 }
 

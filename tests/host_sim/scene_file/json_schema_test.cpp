@@ -19,12 +19,12 @@
 #include <string>
 #include <vector>
 
-#include "as_toml.hpp"
+#include "every_scene.hpp"
 #include "host_sim/scene_file/keys.hpp"
 #include "host_sim/scene_file/reader.hpp"
 #include "host_sim/scene_file/to_json.hpp"
+#include "host_sim/scene_file/to_toml.hpp"
 #include "host_sim/scene_file/toml_text.hpp"
-#include "scene_texts.hpp"
 
 namespace sonoglide::scene_file::json_schema_test {
 namespace {
@@ -47,13 +47,10 @@ struct Scene {
 /// Together they have every key.
 std::vector<Scene> whole_scenes() {
   std::vector<Scene> scenes;
-  for (const char* text :
-       {fullest_open_loop, curve_open_loop, bristles_open_loop, springs_open_loop, normal_open_loop,
-        profiles_open_loop, transducer_open_loop, transducer_closed_loop, resonant_closed_loop,
-        damped_closed_loop, fullest_closed_loop}) {
+  for (const std::string& text : every_scene()) {
     const ordered_json echo = to_json(read_text(text, "s"));
     scenes.push_back({text, as_json(text)});
-    scenes.push_back({as_toml(echo), echo});
+    scenes.push_back({to_toml(echo), echo});
   }
   return scenes;
 }
@@ -97,6 +94,26 @@ struct WrongValues {
     return values;
   }
   std::vector<std::string> operator()(const Truth& /*truth*/) const { return {"1", "'true'"}; }
+  std::vector<std::string> operator()(const Spread& spread) const {
+    std::vector<std::string> values = {"true",
+                                       "'0.1'",
+                                       "[0, 1]",
+                                       "{}",
+                                       "{ width = 0.1 }",
+                                       "{ normal = -0.1 }",
+                                       "{ normal = 'a' }",
+                                       "{ range = 1 }",
+                                       "{ range = [1] }",
+                                       "{ normal = 0.1, range = [1, 2] }"};
+    values.insert(values.end(), {"0", "-0.1", "101"});
+    if (spread.whole) {
+      values.insert(values.end(), {"1", "{ normal = 0.1 }", "{ range = [1.5, 2.5] }"});
+    }
+    for (const std::string& number : wrong_numbers(spread.range)) {
+      values.push_back(fmt::format("{{ range = [{}, 1] }}", number));
+    }
+    return values;
+  }
 
  private:
   static std::vector<std::string> wrong_numbers(const Range& range) {

@@ -1,0 +1,132 @@
+#include "host_sim/scene_file/tolerances.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+
+#include "host_sim/scene_file/table_cursor.hpp"
+#include "host_sim/scene_file/to_json.hpp"
+
+namespace sonoglide::scene_file {
+namespace {
+
+/// The numbers that a scene has, by `table.key`.
+class ScenesNumbers {
+ public:
+  explicit ScenesNumbers(const scene::Scene& scene) : echo_(to_json(scene)) {}
+
+  std::optional<double> find(const std::string& path) const {
+    const std::size_t dot = path.find('.');
+    const auto table = echo_.find(path.substr(0, dot));
+    if (table == echo_.end()) {
+      return std::nullopt;
+    }
+    const auto value = table->find(path.substr(dot + 1));
+    return value != table->end() && value->is_number() ? std::optional(value->get<double>())
+                                                       : std::nullopt;
+  }
+
+ private:
+  nlohmann::ordered_json echo_;
+};
+
+constexpr std::string_view no_value = "here: the scene has no value of it";
+
+/// Largest relative half width that stays in the range.
+double widest(const Range& range, double value) {
+  return std::min(value - range.low, range.high - value) / std::abs(value);
+}
+
+/// Fills in what follows from the scene's value.
+void settle(const TableCursor& cursor, scene::Tolerance& tolerance) {
+  if (tolerance.spread == scene::Spread::range) {
+    return;
+  }
+  if (tolerance.nominal == 0.0) {
+    cursor.fail(tolerance.key,
+                fmt::format("is relative to {}, which is 0; allowed: {{ range = [lowest, highest] }}",
+                            tolerance.key));
+  }
+  if (tolerance.spread == scene::Spread::normal) {
+    return;
+  }
+  const Range& range = cursor.allowed<Spread>(tolerance.key).range;
+  const double half_width = tolerance.amount * std::abs(tolerance.nominal);
+  tolerance.lowest = tolerance.nominal - half_width;
+  tolerance.highest = tolerance.nominal + half_width;
+  if (!range.contains(tolerance.lowest) || !range.contains(tolerance.highest)) {
+    cursor.fail(tolerance.key,
+                fmt::format("{} leaves the range of {}, {}; allowed: {} {:.6g}", tolerance.amount,
+                            tolerance.key, range.text(), range.low_open ? "below" : "at most",
+                            widest(range, tolerance.nominal)));
+  }
+}
+
+}  // namespace
+
+std::vector<scene::Tolerance> read_tolerances(const Variant& variant, const scene::Scene& so_far) {
+  TableCursor cursor(variant, "tolerance");
+  std::vector<scene::Tolerance> tolerances;
+  if (!cursor.present()) {
+    return tolerances;
+  }
+  const TableCursor true_values(variant, "true_values");
+  const ScenesNumbers numbers(so_far);
+  for (const std::string& key : cursor.given_keys()) {
+    scene::Tolerance tolerance = cursor.spread(key);
+    const std::optional<double> nominal = numbers.find(key);
+    if (!nominal) {
+      cursor.reject(key, no_value);
+      continue;
+    }
+    if (true_values.has(key)) {
+      cursor.fail(key, fmt::format("excludes true_values.{}; allowed: one of the two", key));
+    }
+    tolerance.nominal = *nominal;
+    settle(cursor, tolerance);
+    tolerances.push_back(std::move(tolerance));
+  }
+  return tolerances;
+}
+
+namespace {
+
+constexpr std::string_view true_values_table = "true_values";
+
+}  // namespace
+
+std::vector<scene::TrueValue> given_true_values(const Variant& variant) {
+  TableCursor cursor(variant, true_values_table);
+  std::vector<scene::TrueValue> values;
+  for (const std::string& key : cursor.given_keys()) {
+    const Key& described = key_of(key_table(true_values_table), key);
+    const bool whole = std::holds_alternative<Integer>(described.allowed);
+    values.push_back(
+        {key, whole ? static_cast<double>(*cursor.optional_integer(key)) : cursor.real(key), whole});
+  }
+  return values;
+}
+
+std::vector<scene::TrueValue> read_true_values(const Variant& variant, const scene::Scene& so_far) {
+  const TableCursor cursor(variant, true_values_table);
+  if (!cursor.present()) {
+    return {};
+  }
+  std::vector<scene::TrueValue> values = given_true_values(variant);
+  const ScenesNumbers numbers(so_far);
+  const auto has_none = [&](const scene::TrueValue& each) {
+    const bool none = !numbers.find(each.key);
+    if (none) {
+      cursor.reject(each.key, no_value);
+    }
+    return none;
+  };
+  values.erase(std::remove_if(values.begin(), values.end(), has_none), values.end());
+  return values;
+}
+
+}  // namespace sonoglide::scene_file
