@@ -28,6 +28,7 @@ struct Stretch {
   scene::Waveform drive_waveform = scene::Waveform::cosine;
   double begin_s = 0.0;      ///< since the run began: what changes in time is looked up by it
   bool demodulated = false;  ///< the account is to have velocity_in_phase_m and its quadrature
+  bool energies = true;      ///< false: what depends on them is left open
 };
 
 class PlantPort {

@@ -34,6 +34,7 @@ PlantRun::PlantRun(const scene::Scene& scene, const CarrierClock& clock, const W
       sliding_(scene.sliding),
       undriven_(scene),
       waveform_(scene.drive ? scene.drive->waveform : scene::Waveform::cosine),
+      energies_(watch.energies || scene.transducer.has_value()),
       sliding_velocity_m_per_s_(sliding_.velocity_m_per_s(0.0)),
       cuts_s_(cuts_of(scene, sliding_)),
       sampler_(watch.samples) {
@@ -115,7 +116,8 @@ EnergyBalance PlantRun::stretch(double begin_s, double duration_s, double drive_
   const double last = sliding_.velocity_m_per_s(end_s);
   const Stretch stretch{duration_s,  drive_phase_rad, clock_.drive_rate_rad_per_s(),
                         amplitude_N, first,           (last - first) / duration_s,
-                        waveform_,   begin_s,         scene_.demodulates()};
+                        waveform_,   begin_s,         scene_.demodulates(),
+                        energies_};
   EnergyBalance energy;
   const plant::Outcome<double> outcome = solve(begin_s, end_s, stretch, energy);
   if (outcome.error != plant::Error::none) {

@@ -53,6 +53,7 @@ class PlantRun {
   SlidingProfile sliding_;
   UndrivenFriction undriven_;
   scene::Waveform waveform_;
+  bool energies_;
   double sliding_velocity_m_per_s_;
   std::vector<double> cuts_s_;  ///< times inside carrier periods at which a stretch must end
   std::size_t next_cut_ = 0;

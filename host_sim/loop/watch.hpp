@@ -94,6 +94,9 @@ struct Watch {
   std::vector<PeriodSink*> periods;
   std::vector<Sampling> samples;
   Progress progress;
+  /// Energies of the result; false: they are left open, and whoever asks for the friction ratio alone
+  /// gets it the sooner.
+  bool energies = true;
 };
 
 }  // namespace sonoglide::loop
