@@ -139,7 +139,7 @@ TEST_P(ClosedLoopCommandTest, SaysWhereASceneHasNoController) {
 
 INSTANTIATE_TEST_SUITE_P(Commands, ClosedLoopCommandTest,
                          testing::ValuesIn(commands_that([](auto& c) {
-                           return c.scene == "closed.toml" && runs_here(c);
+                           return !c.scene.empty() && c.scene != "open.toml" && runs_here(c);
                          })),
                          test_name);
 
@@ -193,7 +193,7 @@ TEST_P(WritingCommandTest, KeepsAFileOfSomebodyElse) {
     const Entries before = folder.entries();
     const Outcome outcome = folder.run(words(command()) + " --out .");
     // A journal that is not the program's is an error of usage.
-    EXPECT_EQ(outcome.exit_code, file == "sweep.journal" ? 2 : 1) << file;
+    EXPECT_EQ(outcome.exit_code, file.find(".journal") != std::string::npos ? 2 : 1) << file;
     EXPECT_NE(outcome.err.find(file), std::string::npos) << outcome.err;
     EXPECT_NE(outcome.err.find("; allowed: "), std::string::npos) << outcome.err;
     EXPECT_EQ(outcome.out, "");

@@ -13,15 +13,20 @@ inline const std::string recorded_open_loop = short_open_loop + R"(record = ["di
 record_interval_s = 1e-6
 )";
 
+inline const std::string uncertain_closed_loop =
+    short_closed_loop + "[tolerance]\n\"plant.stiffness_N_per_m\" = 0.02\n";
+
 /// The text of a scene of the table.
 inline const std::string& text_of_scene(const std::string& file) {
-  return file == "closed.toml" ? short_closed_loop : recorded_open_loop;
+  return file == "closed.toml"      ? short_closed_loop
+         : file == "uncertain.toml" ? uncertain_closed_loop
+                                    : recorded_open_loop;
 }
 
 class SceneFolder : public ScratchFolder {
  public:
   SceneFolder() {
-    for (const char* file : {"open.toml", "closed.toml"}) {
+    for (const char* file : {"open.toml", "closed.toml", "uncertain.toml"}) {
       write(file, text_of_scene(file));
     }
   }

@@ -1,0 +1,149 @@
+#include "host_sim/cli/commands.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdio>
+#include <filesystem>
+#include <limits>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "host_sim/cli/options.hpp"
+#include "host_sim/cli/progress_bar.hpp"
+#include "host_sim/process/printable.hpp"
+#include "host_sim/studies/robust/report.hpp"
+#include "host_sim/studies/robust/robust.hpp"
+
+namespace sonoglide::cli {
+namespace {
+
+struct RobustOptions {
+  SceneOptions scene;
+  std::string out;  ///< empty: out/<scene name>_robust
+  robust::Counts counts;
+  unsigned threads = 0;  ///< 0: one for each core
+  bool quiet = false;
+};
+
+robust::Outcome compute(const robust::Task& task, const std::filesystem::path& out,
+                        const RobustOptions& options) {
+  ProgressBar bar(stderr, !options.quiet);
+  try {
+    return robust::run_robust(task, out, "sonoglide " SONOGLIDE_VERSION, options.threads,
+                              [&bar](double fraction) { bar.update(fraction); });
+  } catch (const long_work::ForeignJournal& error) {
+    throw CLI::ValidationError("--out", error.what());
+  }
+}
+
+std::string text(double value, const char* undefined) {
+  return std::isnan(value) ? undefined : fmt::format("{:.3g}", value);
+}
+
+/// Of each figure its quantiles over the samples, and what the worst plant has.
+std::string figure_lines(const robust::Study& study) {
+  constexpr const char* line = "{:>15} {:>9} {:>9} {:>9} {:>9} {:>12}\n";
+  std::string lines = fmt::format(line, "", "median", "95 %", "99 %", "worst", "worst plant");
+  for (const robust::Figure& figure : robust::figures()) {
+    const robust::Quantiles found = robust::quantiles(robust::values_of(study, figure));
+    const char* undefined = figure.value == &robust::PlantRow::settling_time_s ? "never" : "-";
+    lines +=
+        fmt::format(line, figure.key, text(found.median, undefined), text(found.p95, undefined),
+                    text(found.p99, undefined), text(found.worst, undefined),
+                    text(study.worst.row.*figure.value, undefined));
+  }
+  return lines;
+}
+
+std::string worst_lines(const robust::Task& task, const robust::WorstPlant& worst) {
+  std::string lines = fmt::format("worst plant, found by {}:\n", worst.found_by);
+  for (std::size_t i = 0; i < worst.factors.size(); ++i) {
+    lines += fmt::format("  {} = {:.6g}\n", task.tolerances()[i].key, worst.factors[i]);
+  }
+  std::vector<std::string> names = robust::limit_names(worst.row);
+  for (std::string& fault : robust::fault_names(worst.row)) {
+    names.push_back(std::move(fault));
+  }
+  if (!worst.row.computed()) {
+    names.push_back(worst.row.status);
+  }
+  return names.empty() ? lines : lines + fmt::format("  {}\n", fmt::join(names, ", "));
+}
+
+std::string text(const robust::Task& task, const robust::Outcome& outcome,
+                 const std::filesystem::path& out) {
+  const robust::Study& study = outcome.study;
+  const std::size_t runs = study.samples.size() + study.search.size();
+  const std::size_t computed = runs - std::min(runs, outcome.found_finished);
+  std::string lines =
+      fmt::format("{} plants and {} runs of the search", study.samples.size(), study.search.size());
+  if (outcome.found_finished > 0) {
+    lines += fmt::format(", {} of them finished before", outcome.found_finished);
+  }
+  lines += fmt::format("\n{} loops in {:.3g} s, {:.3g} loops/s\n", computed, outcome.wall_s,
+                       static_cast<double>(computed) / outcome.wall_s);
+  const std::size_t failures = study.failures();
+  lines +=
+      fmt::format("{} failed: probability of failure at most {:.3g} % (at 95 %)\n", failures,
+                  100.0 * robust::failure_probability_upper(failures, study.samples.size(), 0.95));
+  if (study.search_failures() > 0) {
+    lines += fmt::format("{} runs of the search failed\n", study.search_failures());
+  }
+  lines += figure_lines(study) + worst_lines(task, study.worst);
+  const auto shown = [&](const char* file) { return process::printable((out / file).string()); };
+  return lines + fmt::format("rows: {}\nworst plant: {}\nreport: {}\n", shown("robust.csv"),
+                             shown("worst.toml"), shown("report.html"));
+}
+
+/// Throws scene_file::SceneError and CLI::ValidationError, nothing was written then;
+/// output::OutputError.
+void robust(const RobustOptions& options) {
+  const robust::Task task(scene_file::read_source(options.scene.path), options.scene.overrides,
+                          options.counts);
+  const std::filesystem::path out = output_folder(options.out, task.nominal().name, "_robust");
+  const robust::Outcome outcome = compute(task, out, options);
+  if (!options.quiet) {
+    fmt::print("{}", text(task, outcome, out));
+  }
+}
+
+template <class Number>
+void add_count(CLI::App& command, const char* name, Number& number, const std::string& meaning,
+               std::uint64_t least, std::uint64_t most) {
+  command.add_option(name, number, fmt::format("{} [{}]", meaning, number))
+      ->type_name("N")
+      ->check([=](const std::string& text) { return check_whole(text, least, most); });
+}
+
+}  // namespace
+
+void add_robust_command(CLI::App& program) {
+  const auto options = std::make_shared<RobustOptions>();
+  CLI::App* command = program.add_subcommand(
+      "robust",
+      "Run a closed loop on many plants inside the scene's [tolerance], on all cores, and search "
+      "for the worst of them; interrupted, the same command goes on from there");
+  add_scene_options(*command, options->scene);
+  robust::Counts& counts = options->counts;
+  add_count(*command, "--samples", counts.samples,
+            "Plants to draw; a power of two fills the tolerances best", 1, robust::most_samples);
+  add_count(*command, "--search", counts.search,
+            "Runs that the search for the worst plant may take; 0: no search", 0,
+            robust::most_samples);
+  add_count(*command, "--seed", counts.seed, "Seed of the draw: the same seed, the same plants", 0,
+            static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max()));
+  add_output_option(*command, options->out,
+                    "robust.csv, search.csv, robust.json, worst.toml and report.html [out/<scene "
+                    "name>_robust]");
+  add_threads_option(*command, options->threads);
+  command->add_flag("--quiet", options->quiet, "No progress bar and no printed summary");
+  command->callback([options] { robust(*options); });
+}
+
+}  // namespace sonoglide::cli

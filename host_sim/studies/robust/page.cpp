@@ -1,0 +1,281 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include <numeric>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "host_sim/loop/run.hpp"
+#include "host_sim/report/extremes_curve.hpp"
+#include "host_sim/report/words.hpp"
+#include "host_sim/studies/robust/report.hpp"
+
+namespace sonoglide::robust {
+namespace {
+
+constexpr std::size_t most_points_drawn = 2000;
+
+std::string lead(const Task& task, const Study& study) {
+  return fmt::format(
+      "The loop of {} on {} plants inside its tolerances, and a search of {} runs for the worst of "
+      "them. The controller is the same on all: it believes the scene.",
+      task.nominal().name, study.samples.size(), study.search.size());
+}
+
+std::vector<std::string> warnings(const Study& study) {
+  std::vector<std::string> all;
+  const std::size_t failures = study.failures();
+  if (failures > 0) {
+    all.push_back(
+        fmt::format("The loop fails on {} of {} plants: a fault, a step that never "
+                    "settles, or no result.",
+                    failures, study.samples.size()));
+  } else if (study.search_failures() > 0) {
+    all.emplace_back("No sample fails, but the search has found a plant on which the loop fails.");
+  }
+  return all;
+}
+
+output::Table findings_table(const Task& task, const Study& study) {
+  const std::size_t failures = study.failures();
+  output::Table table{"Findings", {}, {}};
+  table.rows.push_back(
+      {"Plants", fmt::format("{}, seed {}", study.samples.size(), task.counts().seed)});
+  table.rows.push_back({"Failures", fmt::format("{}", failures)});
+  for (const auto& [confidence, text] :
+       {std::pair{0.95, "95 %"}, {0.99, "99 %"}, {0.999, "99.9 %"}}) {
+    table.rows.push_back(
+        {fmt::format("Probability of failure, at most, at {}", text),
+         fmt::format("{:.3g} %", 100.0 * failure_probability_upper(failures, study.samples.size(),
+                                                                   confidence))});
+  }
+  for (const NameCount& each : count_names(study, limit_names)) {
+    table.rows.push_back({"Limit " + each.name, fmt::format("in {} plants", each.count)});
+  }
+  for (const NameCount& each : count_names(study, fault_names)) {
+    table.rows.push_back({"Fault " + each.name, fmt::format("in {} plants", each.count)});
+  }
+  return table;
+}
+
+output::Table quantile_table(const Study& study) {
+  output::Table table{"Of each figure the worst target step of a plant",
+                      {"Figure", "Median", "95 %", "99 %", "Worst", "Worst plant"},
+                      {}};
+  for (const Figure& figure : figures()) {
+    const Quantiles found = quantiles(values_of(study, figure));
+    const auto cell = [](double value) { return report::figure("{:.4g}", value); };
+    table.rows.push_back({figure.label, cell(found.median), cell(found.p95), cell(found.p99),
+                          cell(found.worst), cell(study.worst.row.*figure.value)});
+  }
+  return table;
+}
+
+output::Table factor_table(const Task& task, const Study& study) {
+  output::Table table{"True values",
+                      {"Key", "The scene's", "Lowest sample", "Highest sample", "Worst plant",
+                       "Worst over the scene's"},
+                      {}};
+  for (std::size_t i = 0; i < task.tolerances().size(); ++i) {
+    const scene::Tolerance& each = task.tolerances()[i];
+    const std::vector<double> values = factors_of(task, i);
+    const auto [lowest, highest] = std::minmax_element(values.begin(), values.end());
+    const double worst = study.worst.factors[i];
+    table.rows.push_back({each.key, fmt::format("{:.6g}", each.nominal),
+                          fmt::format("{:.6g}", *lowest), fmt::format("{:.6g}", *highest),
+                          fmt::format("{:.6g}", worst),
+                          each.nominal != 0.0 ? fmt::format("{:.5f}", worst / each.nominal) : "-"});
+  }
+  return table;
+}
+
+/// Indices in rising order of the values, at most so many, evenly picked.
+std::vector<std::size_t> drawn_order(const std::vector<double>& values) {
+  std::vector<std::size_t> order(values.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return values[a] < values[b]; });
+  if (order.size() <= most_points_drawn) {
+    return order;
+  }
+  std::vector<std::size_t> picked;
+  for (std::size_t i = 0; i < most_points_drawn; ++i) {
+    picked.push_back(order[i * (order.size() - 1) / (most_points_drawn - 1)]);
+  }
+  return picked;
+}
+
+/// Part of the plants that stay at or below a value.
+std::optional<output::Panel> distribution(const Study& study, const Figure& figure) {
+  std::vector<double> values = values_of(study, figure);
+  const auto all = static_cast<double>(values.size());
+  values.erase(std::remove_if(values.begin(), values.end(), [](double v) { return std::isnan(v); }),
+               values.end());
+  if (values.empty()) {
+    return std::nullopt;
+  }
+  std::sort(values.begin(), values.end());
+  output::Panel panel;
+  panel.title = figure.label;
+  panel.x_label = figure.label;
+  panel.y_label = "Part of the plants at or below [-]";
+  output::Series series{"Plants", {}, true};
+  const std::size_t step = (values.size() - 1) / most_points_drawn + 1;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (i % step == 0 || i + 1 == values.size()) {
+      panel.x.push_back(values[i]);
+      series.y.push_back(static_cast<double>(i + 1) / all);
+    }
+  }
+  panel.series.push_back(std::move(series));
+  return panel;
+}
+
+output::Section distribution_section(const Study& study) {
+  output::Section section{
+      "Distributions",
+      "A curve that ends below 1 leaves out the plants that have no such figure: "
+      "a step never settles, or the loop could not be computed.",
+      {}};
+  for (const Figure& figure : figures()) {
+    if (auto panel = distribution(study, figure)) {
+      section.panels.push_back(std::move(*panel));
+    }
+  }
+  return section;
+}
+
+output::Table importance_table(const Task& task, const Study& study, const char* title,
+                               double (*measure)(const std::vector<double>&,
+                                                 const std::vector<double>&)) {
+  output::Table table{title, {"Key"}, {}};
+  for (const Figure& figure : figures()) {
+    table.header.emplace_back(figure.label);
+  }
+  for (std::size_t i = 0; i < task.tolerances().size(); ++i) {
+    const std::vector<double> factors = factors_of(task, i);
+    std::vector<std::string> row = {task.tolerances()[i].key};
+    for (const Figure& figure : figures()) {
+      row.push_back(report::figure("{:.3f}", measure(factors, values_of(study, figure))));
+    }
+    table.rows.push_back(std::move(row));
+  }
+  return table;
+}
+
+output::Panel scatter(const Task& task, const Study& study, std::size_t tolerance) {
+  const std::vector<double> factors = factors_of(task, tolerance);
+  output::Panel panel;
+  panel.title = task.tolerances()[tolerance].key;
+  panel.x_label = fmt::format("{} [-]", task.tolerances()[tolerance].key);
+  panel.y_label = "|Steady error| + ripple [-]";
+  output::Series passed{"Settled", {}};
+  output::Series failed{"Failed", {}};
+  passed.marked = true;
+  failed.marked = true;
+  for (const std::size_t i : drawn_order(factors)) {
+    const PlantRow& row = study.samples[i];
+    panel.x.insert(panel.x.end(), 2, factors[i]);
+    // A gap behind each dot: no line joins them.
+    passed.y.insert(passed.y.end(),
+                    {row.failed() ? PlantRow::undefined : row.deviation, PlantRow::undefined});
+    failed.y.insert(failed.y.end(),
+                    {row.failed() ? row.deviation : PlantRow::undefined, PlantRow::undefined});
+  }
+  panel.series = {std::move(passed), std::move(failed)};
+  return panel;
+}
+
+/// By what they explain of the deviation, the most first.
+std::vector<std::size_t> by_importance(const Task& task, const Study& study) {
+  const std::vector<double> deviations = values_of(study, {"deviation", "", &PlantRow::deviation});
+  std::vector<double> effects;
+  for (std::size_t i = 0; i < task.tolerances().size(); ++i) {
+    const double effect = main_effect(factors_of(task, i), deviations);
+    effects.push_back(std::isnan(effect) ? 0.0 : effect);
+  }
+  std::vector<std::size_t> order(effects.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return effects[a] > effects[b]; });
+  return order;
+}
+
+output::Section importance_section(const Task& task, const Study& study) {
+  constexpr std::size_t most_scatters = 4;
+  output::Section section{
+      "What matters",
+      "The rank correlation tells whether a figure rises (towards 1) or falls (towards -1) with "
+      "the "
+      "key. The main effect is the part of the variance of the ranks that the key explains alone, "
+      "also where the figure turns: 1 is all of it.",
+      {}};
+  section.tables = {importance_table(task, study, "Rank correlation", rank_correlation),
+                    importance_table(task, study, "Main effect", main_effect)};
+  const std::vector<std::size_t> order = by_importance(task, study);
+  for (std::size_t i = 0; i < std::min(order.size(), most_scatters); ++i) {
+    section.panels.push_back(scatter(task, study, order[i]));
+  }
+  return section;
+}
+
+/// Target and friction ratio of the carrier periods.
+struct Course final : loop::PeriodSink {
+  static constexpr std::size_t most_points = 4000;
+  report::ExtremesCurve<2> curve{most_points};
+
+  void take(const loop::Period& period) override {
+    curve.add(period.end_s, {period.target, period.friction_ratio});
+  }
+};
+
+output::Panel loop_panel(const std::string& title, const scene::Scene& scene,
+                         const configure::ControlDesign& design) {
+  Course course;
+  loop::Watch watch;
+  watch.periods.push_back(&course);
+  output::Panel panel;
+  panel.title = title;
+  panel.x_label = "Time [s]";
+  panel.y_label = "Friction ratio [-]";
+  panel.group = "loops";
+  try {
+    loop::run(scene, design, watch);
+  } catch (const loop::ComputationError& error) {
+    panel.note = fmt::format("Ends early: {}.", error.what());
+  }
+  panel.x = course.curve.x();
+  panel.series = {{"Target", course.curve.y(0), true}, {"Friction ratio", course.curve.y(1)}};
+  return panel;
+}
+
+output::Section worst_section(const Task& task, const Study& study) {
+  output::Section section{
+      "The worst loop",
+      fmt::format(
+          "Found by {}: {}. It is the plant with the largest |steady error| + ripple; one on "
+          "which the loop fails comes before all others. sonoglide run worst.toml gives the "
+          "same loop.",
+          study.worst.found_by, task.describe(study.worst.factors)),
+      {}};
+  section.panels.push_back(
+      loop_panel("Worst plant", task.plant(study.worst.factors), task.design()));
+  section.panels.push_back(loop_panel("The scene's own plant", task.nominal(), task.design()));
+  return section;
+}
+
+}  // namespace
+
+output::Page robust_page(const Task& task, const Study& study) {
+  return {
+      fmt::format("Robustness of {}", task.nominal().name),
+      lead(task, study),
+      warnings(study),
+      {findings_table(task, study), quantile_table(study), factor_table(task, study)},
+      {worst_section(task, study), distribution_section(study), importance_section(task, study)}};
+}
+
+}  // namespace sonoglide::robust

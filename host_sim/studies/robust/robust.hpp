@@ -1,0 +1,32 @@
+/// A whole robustness study: from a task to files.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+
+#include "host_sim/long_work/journal.hpp"
+#include "host_sim/long_work/pace.hpp"
+#include "host_sim/studies/robust/study.hpp"
+#include "host_sim/studies/robust/task.hpp"
+
+namespace sonoglide::robust {
+
+struct Outcome {
+  Study study;
+  std::size_t found_finished;  ///< runs of an earlier, interrupted study
+  double wall_s;               ///< to compute those that were left
+};
+
+/// Checks every sample's plant, computes what the journal in the folder does not hold yet, and
+/// writes robust.csv, search.csv, robust.json, worst.toml and report.html, all or none; the journal
+/// goes last. The files of an interrupted study that is run again are those of one that was not.
+///
+/// @param program  name and version: a journal of another program is refused
+/// @param threads  0: one for each core
+/// @throws scene_file::SceneError  nothing was written
+/// @throws long_work::ForeignJournal, output::OutputError
+Outcome run_robust(const Task& task, const std::filesystem::path& out, const std::string& program,
+                   unsigned threads, const long_work::Progress& progress);
+
+}  // namespace sonoglide::robust

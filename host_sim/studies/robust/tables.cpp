@@ -1,0 +1,195 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "host_sim/output/csv.hpp"
+#include "host_sim/scene_file/to_json.hpp"
+#include "host_sim/studies/robust/report.hpp"
+
+namespace sonoglide::robust {
+
+const std::vector<Figure>& figures() {
+  static const std::vector<Figure> all = {
+      {"settling_time_s", "Settling time [s]", &PlantRow::settling_time_s},
+      {"overshoot", "Overshoot [-]", &PlantRow::overshoot},
+      {"steady_error", "Steady error [-]", &PlantRow::steady_error},
+      {"ripple", "Ripple [-]", &PlantRow::ripple}};
+  return all;
+}
+
+std::vector<double> values_of(const Study& study, const Figure& figure) {
+  std::vector<double> values;
+  values.reserve(study.samples.size());
+  for (const PlantRow& row : study.samples) {
+    values.push_back(row.*figure.value);
+  }
+  return values;
+}
+
+std::vector<double> factors_of(const Task& task, std::size_t tolerance) {
+  std::vector<double> values;
+  values.reserve(task.counts().samples);
+  for (std::size_t i = 0; i < task.counts().samples; ++i) {
+    values.push_back(task.sample(i)[tolerance]);
+  }
+  return values;
+}
+
+std::vector<NameCount> count_names(const Study& study,
+                                   std::vector<std::string> (*names)(const PlantRow&)) {
+  std::map<std::string, std::size_t> counts;
+  for (const PlantRow& row : study.samples) {
+    for (const std::string& name : names(row)) {
+      ++counts[name];
+    }
+  }
+  std::vector<NameCount> all;
+  for (const auto& [name, count] : counts) {
+    all.push_back({name, count});
+  }
+  std::stable_sort(all.begin(), all.end(),
+                   [](const NameCount& a, const NameCount& b) { return a.count > b.count; });
+  return all;
+}
+
+namespace {
+
+std::string number(double value) {
+  constexpr int every_bit = 17;
+  return output::csv_number(value, every_bit);
+}
+
+std::string words(const std::vector<std::string>& names) {
+  return names.empty() ? "none" : fmt::format("{}", fmt::join(names, " "));
+}
+
+void write_heading(std::ostream& out, const Task& task) {
+  for (const scene::Tolerance& each : task.tolerances()) {
+    out << each.key << ',';
+  }
+  for (const Figure& figure : figures()) {
+    out << figure.key << ',';
+  }
+  out << "deviation,never_settled,limits,faults,failed,trace_hash,status\n";
+}
+
+void write_line(std::ostream& out, const Factors& factors, const PlantRow& row) {
+  for (const double factor : factors) {
+    out << number(factor) << ',';
+  }
+  for (const Figure& figure : figures()) {
+    out << number(row.*figure.value) << ',';
+  }
+  out << fmt::format("{},{},{},{},{},{:016x},{}\n", number(row.deviation), row.unsettled,
+                     words(limit_names(row)), words(fault_names(row)), row.failed() ? "yes" : "no",
+                     row.trace_hash, output::csv_cell(row.status));
+}
+
+}  // namespace
+
+void write_samples(std::ostream& out, const Task& task, const Study& study) {
+  out << "sample,";
+  write_heading(out, task);
+  for (std::size_t i = 0; i < study.samples.size(); ++i) {
+    out << i << ',';
+    write_line(out, task.sample(i), study.samples[i]);
+  }
+}
+
+void write_search(std::ostream& out, const Task& task, const Study& study) {
+  out << "climb,";
+  write_heading(out, task);
+  for (const SearchRun& each : study.search) {
+    out << each.climb << ',';
+    write_line(out, each.factors, each.row);
+  }
+}
+
+namespace {
+
+using nlohmann::ordered_json;
+
+/// JSON has no NaN.
+ordered_json defined(double value) {
+  return std::isnan(value) ? ordered_json() : ordered_json(value);
+}
+
+ordered_json counts_json(const std::vector<NameCount>& names) {
+  ordered_json json = ordered_json::object();
+  for (const NameCount& each : names) {
+    json[each.name] = each.count;
+  }
+  return json;
+}
+
+ordered_json worst_json(const Task& task, const WorstPlant& worst) {
+  ordered_json json;
+  json["found_by"] = worst.found_by;
+  for (std::size_t i = 0; i < worst.factors.size(); ++i) {
+    json["factors"][task.tolerances()[i].key] = worst.factors[i];
+  }
+  for (const Figure& figure : figures()) {
+    json[figure.key] = defined(worst.row.*figure.value);
+  }
+  json["deviation"] = defined(worst.row.deviation);
+  json["never_settled"] = worst.row.unsettled;
+  json["limits"] = limit_names(worst.row);
+  json["faults"] = fault_names(worst.row);
+  json["failed"] = worst.row.failed();
+  json["trace_hash"] = fmt::format("{:016x}", worst.row.trace_hash);
+  json["status"] = worst.row.status;
+  return json;
+}
+
+void add_importance(ordered_json& json, const Task& task, const Study& study) {
+  for (std::size_t i = 0; i < task.tolerances().size(); ++i) {
+    const std::vector<double> factors = factors_of(task, i);
+    ordered_json& of_key = json[task.tolerances()[i].key];
+    for (const Figure& figure : figures()) {
+      const std::vector<double> values = values_of(study, figure);
+      of_key[figure.key] = {{"rank_correlation", defined(rank_correlation(factors, values))},
+                            {"main_effect", defined(main_effect(factors, values))}};
+    }
+  }
+}
+
+std::size_t count_if(const Study& study, bool (*holds)(const PlantRow&)) {
+  return static_cast<std::size_t>(std::count_if(study.samples.begin(), study.samples.end(), holds));
+}
+
+}  // namespace
+
+ordered_json to_json(const Task& task, const Study& study) {
+  const std::size_t samples = study.samples.size();
+  const std::size_t failures = study.failures();
+  ordered_json json;
+  json["scene"] = scene_file::to_json(task.nominal());
+  json["seed"] = task.counts().seed;
+  json["samples"] = samples;
+  json["failures"] = failures;
+  json["failure_fraction"] = static_cast<double>(failures) / static_cast<double>(samples);
+  json["failure_probability_upper_95"] = failure_probability_upper(failures, samples, 0.95);
+  json["failure_probability_upper_99"] = failure_probability_upper(failures, samples, 0.99);
+  json["failure_probability_upper_99_9"] = failure_probability_upper(failures, samples, 0.999);
+  json["with_fault"] = count_if(study, [](const PlantRow& row) { return row.faults != 0; });
+  json["never_settled"] = count_if(study, [](const PlantRow& row) { return row.unsettled != 0; });
+  json["not_computed"] = count_if(study, [](const PlantRow& row) { return !row.computed(); });
+  for (const Figure& figure : figures()) {
+    const Quantiles found = quantiles(values_of(study, figure));
+    json[figure.key] = {{"median", defined(found.median)},
+                        {"p95", defined(found.p95)},
+                        {"p99", defined(found.p99)},
+                        {"worst", defined(found.worst)}};
+  }
+  json["limits"] = counts_json(count_names(study, limit_names));
+  json["faults"] = counts_json(count_names(study, fault_names));
+  add_importance(json["importance"], task, study);
+  json["search"] = {{"runs", study.search.size()}, {"failures", study.search_failures()}};
+  json["worst"] = worst_json(task, study.worst);
+  return json;
+}
+
+}  // namespace sonoglide::robust

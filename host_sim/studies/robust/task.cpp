@@ -1,0 +1,114 @@
+#include "host_sim/studies/robust/task.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "host_sim/scene_file/reader.hpp"
+#include "host_sim/scene_file/to_json.hpp"
+#include "host_sim/scene_file/to_toml.hpp"
+#include "host_sim/studies/robust/sobol.hpp"
+#include "host_sim/studies/robust/spread.hpp"
+
+namespace sonoglide::robust {
+namespace {
+
+std::shared_ptr<const scene::Scene> read_nominal(const scene_file::Document& document) {
+  auto scene = std::make_shared<const scene::Scene>(scene_file::read(document));
+  if (!scene->controller) {
+    throw scene_file::SceneError(document.start(), "controller",
+                                 "missing; required: a table [controller], whose loop is to hold "
+                                 "inside the tolerances");
+  }
+  if (scene->tolerances.empty()) {
+    throw scene_file::SceneError(
+        document.place_of("tolerance"), "tolerance",
+        "no key may vary; required: a table [tolerance] with at least one of them, such as "
+        "\"plant.stiffness_N_per_m\" = 0.04");
+  }
+  return scene;
+}
+
+/// Varied keys of a document.
+std::vector<std::string> true_keys(const scene::Scene& nominal) {
+  std::vector<std::string> keys;
+  for (const scene::Tolerance& each : nominal.tolerances) {
+    keys.push_back("true_values." + each.key);
+  }
+  return keys;
+}
+
+}  // namespace
+
+Task::Task(const scene_file::Source& source, const std::vector<std::string>& overrides,
+           const Counts& counts)
+    : counts_(counts),
+      stated_(source, overrides),
+      nominal_(read_nominal(stated_)),
+      design_(configure::design_control(*nominal_)),
+      points_(scrambled_sobol(nominal_->tolerances.size(), counts.samples, counts.seed)) {
+  // The echo, so that a plant written as a scene file is the same one.
+  document_.emplace(
+      scene_file::Source{source.file, scene_file::to_toml(scene_file::to_json(*nominal_))},
+      std::vector<std::string>{}, true_keys(*nominal_));
+}
+
+Factors Task::sample(std::size_t index) const {
+  Factors factors;
+  factors.reserve(tolerances().size());
+  for (const scene::Tolerance& each : tolerances()) {
+    factors.push_back(quantile(each, points_[index * tolerances().size() + factors.size()]));
+  }
+  return factors;
+}
+
+namespace {
+
+std::vector<scene_file::VariedValue> varied_values(const Factors& factors) {
+  return {factors.begin(), factors.end()};
+}
+
+}  // namespace
+
+/// Errors come with the place of the option --set that a varied value counts as.
+void Task::fail_at(const scene_file::SceneError& error, const Factors& factors) const {
+  const std::string key = error.file() == "--set"
+                              ? "tolerance." + tolerances()[error.line() - 1].key
+                              : std::string("tolerance");
+  throw scene_file::SceneError(
+      stated_.place_of(key), key,
+      fmt::format("{}: {} (at {})", error.key(), error.message(), describe(factors)));
+}
+
+scene::Scene Task::read_plant(const Factors& factors) const {
+  // What true values the scene has already are beside those that vary.
+  const auto told = nominal_->told ? nominal_->told : nominal_;
+  try {
+    return scene_file::read_truth(*document_, varied_values(factors), told);
+  } catch (const scene_file::SceneError& error) {
+    fail_at(error, factors);
+  }
+}
+
+scene::Scene Task::plant(const Factors& factors) const {
+  scene::Scene plant = read_plant(factors);
+  plant.run.record.clear();
+  plant.run.record_interval_s = 0.0;
+  return plant;
+}
+
+std::string Task::describe(const Factors& factors) const {
+  std::string text;
+  for (std::size_t i = 0; i < factors.size(); ++i) {
+    text += fmt::format("{}{} = {}", i == 0 ? "" : ", ", tolerances()[i].key, factors[i]);
+  }
+  return text;
+}
+
+std::string Task::plant_text(const Factors& factors) const {
+  scene::Scene plant = read_plant(factors);
+  plant.tolerances.clear();
+  return scene_file::to_toml(scene_file::to_json(plant));
+}
+
+}  // namespace sonoglide::robust
