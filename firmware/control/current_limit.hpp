@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "firmware/numeric/floating.hpp"
+#include "firmware/numeric/headroom.hpp"
 #include "firmware/numeric/near_root.hpp"
 #include "firmware/numeric/polar.hpp"
 #include "firmware/numeric/scalar.hpp"
@@ -24,6 +25,7 @@ class CurrentLimit {
     Scalar loss_tangent;              ///< t/2
     Scalar small_motional;            ///< a s, at most 1/4
     Scalar small_capacitive;          ///< b s, likewise
+    Scalar small_whole;               ///< s
     Scalar small_limit;               ///< s, less what regulation needs
 
     template <class Self, class Visitor>
@@ -33,6 +35,7 @@ class CurrentLimit {
       visit("loss_tangent", self.loss_tangent);
       visit("small_motional", self.small_motional);
       visit("small_capacitive", self.small_capacitive);
+      visit("small_whole", self.small_whole);
       visit("small_limit", self.small_limit);
     }
   };
@@ -46,13 +49,22 @@ class CurrentLimit {
   /// The part of a velocity that the limit lets be held, less what regulation needs.
   /// @param holding  amplitude that holds the velocity
   Scalar velocity(Scalar velocity, Scalar holding) const {
-    const Scalar across = parameters_.small_capacitive * holding;
-    const Scalar along =
-        parameters_.small_motional * velocity + numeric::twice(parameters_.loss_tangent * across);
-    const numeric::Polar<Scalar> current = numeric::polar(along, across);
-    return current.modulus < parameters_.small_limit
-               ? velocity
-               : numeric::limited_product(parameters_.small_limit * velocity, current.inverse);
+    const Scalar across = numeric::rough_product(parameters_.small_capacitive, holding);
+    const Scalar along = this->along(velocity, across);
+    if (within(along, across, parameters_.small_limit)) {
+      return velocity;
+    }
+    return numeric::limited_product(parameters_.small_limit * velocity,
+                                    numeric::polar(along, across).inverse);
+  }
+
+  /// Whether the limit lets an amplitude of the drive pass at a velocity. Quicker to tell than the
+  /// largest one.
+  bool allows(Scalar amplitude, Scalar velocity) const {
+    const Scalar across =
+        numeric::rough_product(parameters_.small_capacitive, numeric::abs(amplitude));
+    const Scalar along = this->along(velocity, across);
+    return within(along, across, parameters_.small_whole);
   }
 
   /// Largest amplitude of the drive at a velocity, (√(1 + t² − a² r²) − t a r)/((1 + t²) b); 0 where
@@ -69,6 +81,18 @@ class CurrentLimit {
 
  private:
   static constexpr Scalar whole() { return numeric::from_code<Scalar>(INT32_MAX); }
+
+  /// s (a r + t b u)
+  /// @param across  s b u
+  Scalar along(Scalar velocity, Scalar across) const {
+    return numeric::rough_product(parameters_.small_motional, velocity) +
+           numeric::twice(numeric::rough_product(parameters_.loss_tangent, across));
+  }
+
+  static bool within(Scalar along, Scalar across, Scalar limit) {
+    return numeric::rough_product(along, along) + numeric::rough_product(across, across) <
+           numeric::rough_product(limit, limit);
+  }
 
   Parameters parameters_;
   numeric::Floating<Scalar> motional_;

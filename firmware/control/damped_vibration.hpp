@@ -8,8 +8,7 @@
 #include "firmware/control/drive_command.hpp"
 #include "firmware/control/measurement.hpp"
 #include "firmware/control/mode_observer.hpp"
-#include "firmware/numeric/fixed_elementary.hpp"
-#include "firmware/numeric/float_sqrt.hpp"
+#include "firmware/numeric/near_root.hpp"
 #include "firmware/numeric/scalar.hpp"
 
 namespace sonoglide::control {
@@ -65,6 +64,7 @@ class DampedVibration {
 
   void restart() {
     observer_.restart();
+    quarter_offset_ = {};
     missing_ = 0;
     lost_ = 0;
     settled_ = false;
@@ -77,8 +77,10 @@ class DampedVibration {
     observer_.observe(sample, amplitudes_[0], amplitudes_[1]);
     const bool hard = numeric::from_real<Scalar>(0.25) <= amplitudes_[1];
     missing_ = hard && magnitude(sample) < missing_below_ ? missing_ + 1 : 0;
-    const Scalar most = numeric::from_real<Scalar>(0.1875) * amplitudes_[1];  // 3/4 of a quarter
-    lost_ = hard && most < magnitude(observer_.quarter_offset()) ? lost_ + 1 : 0;
+    quarter_offset_ = observer_.quarter_offset();
+    const Scalar most = numeric::rough_product(numeric::from_real<Scalar>(0.1875),
+                                               amplitudes_[1]);  // 3/4 of a quarter
+    lost_ = hard && most < magnitude(quarter_offset_) ? lost_ + 1 : 0;
     if (missing_ >= missing_samples) {
       return Fault::vibration_missing;
     }
@@ -141,11 +143,11 @@ class DampedVibration {
     if (velocity == Scalar{}) {
       return {};
     }
-    const Pair<Scalar> offset = observer_.quarter_offset();
+    const Scalar across = quarter_offset_.second;
     const Scalar amplitude = observer_.quarter_amplitude(velocity);
-    const Scalar square = amplitude * amplitude - offset.second * offset.second;
-    const Scalar along = square < Scalar{} ? Scalar{} : numeric::sqrt(square);
-    const Scalar half = numeric::half(along) - numeric::half(offset.first);
+    const Scalar square = numeric::difference_of_products(amplitude, amplitude, across, across);
+    const Scalar along = square < Scalar{} ? Scalar{} : numeric::near_root(square);
+    const Scalar half = numeric::half_difference(along, quarter_offset_.first);
     return numeric::twice(numeric::clamp(half, Scalar{}, numeric::from_real<Scalar>(0.25)));
   }
 
@@ -163,6 +165,7 @@ class DampedVibration {
   Scalar missing_below_;
   std::uint8_t delay_;
   std::array<Scalar, MaxDelay + 2> amplitudes_{};  ///< from the period before the sampled one on
+  Pair<Scalar> quarter_offset_{};                  ///< of the observer
   int missing_ = 0;
   int lost_ = 0;
   bool settled_ = false;

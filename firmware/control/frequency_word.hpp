@@ -66,7 +66,7 @@ class FrequencyWord {
   Scalar deviation() const {
     if constexpr (numeric::is_fixed_point_v<Scalar>) {
       const std::int64_t product = std::int64_t{count_} * deviation_.mantissa.raw();
-      return Scalar::from_wide(numeric::shift_right_rounded(product, -deviation_.exponent));
+      return Scalar::from_raw(static_cast<typename Scalar::Raw>(product >> -deviation_.exponent));
     } else {
       return static_cast<Scalar>(count_) * deviation_;
     }

@@ -6,6 +6,7 @@
 
 #include "firmware/control/mode_table.hpp"
 #include "firmware/numeric/floating.hpp"
+#include "firmware/numeric/headroom.hpp"
 #include "firmware/numeric/scalar.hpp"
 
 namespace sonoglide::control {
@@ -27,7 +28,7 @@ constexpr Pair<Scalar> operator-(const Pair<Scalar>& a, const Pair<Scalar>& b) {
 }
 template <class Scalar>
 constexpr Pair<Scalar> operator*(const Pair<Scalar>& a, Scalar b) {
-  return {a.first * b, a.second * b};
+  return {numeric::rough_product(a.first, b), numeric::rough_product(a.second, b)};
 }
 
 /// Observer of the natural mode, of a constant beside it and of the natural frequency, from the
@@ -120,8 +121,12 @@ class ModeObserver {
   Pair<Scalar> quarter_offset() const {
     const Pair<Scalar> inverse = value_of(mode::inverse);
     const int base = inverse_base_ - 2;
-    return {lowered(inverse.first * offset_.first + inverse.second * offset_.second, base),
-            lowered(inverse.first * offset_.second - inverse.second * offset_.first, base)};
+    return {lowered(numeric::sum_of_products(inverse.first, offset_.first, inverse.second,
+                                             offset_.second),
+                    base),
+            lowered(numeric::difference_of_products(inverse.first, offset_.second, inverse.second,
+                                                    offset_.first),
+                    base)};
   }
 
   /// v/|H|: the amplitude of a velocity without a mode and an offset, a quarter of it.
@@ -131,29 +136,34 @@ class ModeObserver {
 
   /// K (w, u - u*)
   Scalar feedback(const Pair<Scalar>& mode, Scalar error) const {
-    return lifted(product(mode::feedback, mode) + row_[mode::feedback + 2] * error, feedback_base_);
+    const Scalar sum =
+        product(mode::feedback, mode) + numeric::rough_product(row_[mode::feedback + 2], error);
+    return numeric::lifted(sum, feedback_base_);
   }
 
  private:
   Pair<Scalar> value_of(std::size_t i) const { return {row_[i], row_[i + 1]}; }
   Pair<Scalar> slope_of(std::size_t i) const { return {row_.slope(i), row_.slope(i + 1)}; }
   Scalar product(std::size_t i, const Pair<Scalar>& pair) const {
-    return row_[i] * pair.first + row_[i + 1] * pair.second;
+    return numeric::sum_of_products(row_[i], pair.first, row_[i + 1], pair.second);
   }
 
   Pair<Scalar> gained(std::size_t i, const Pair<Scalar>& miss) const {
-    return {lifted(product(i, miss), gain_base_), lifted(product(i + 2, miss), gain_base_)};
+    return {lifted_product(i, miss, gain_base_), lifted_product(i + 2, miss, gain_base_)};
+  }
+  Scalar lifted_product(std::size_t i, const Pair<Scalar>& pair, int base) const {
+    return numeric::lifted_sum(row_[i], pair.first, row_[i + 1], pair.second, base);
   }
 
   static Pair<Scalar> turned(const Pair<Scalar>& mode, const Pair<Scalar>& turn) {
-    return {turn.first * mode.first - turn.second * mode.second,
-            turn.second * mode.first + turn.first * mode.second};
+    return {numeric::difference_of_products(turn.first, mode.first, turn.second, mode.second),
+            numeric::sum_of_products(turn.second, mode.first, turn.first, mode.second)};
   }
 
   /// x/4 on base 1 of an x on base 2^(n + 2).
   static Scalar lowered(Scalar x, int n) {
     if constexpr (numeric::is_fixed_point_v<Scalar>) {
-      return n < 0 ? numeric::scale_by_power_of_two(x, n) : lifted(x, n);
+      return n < 0 ? numeric::scale_by_power_of_two(x, n) : numeric::lifted(x, n);
     } else {
       return x * static_cast<Scalar>(0.25);
     }
@@ -161,10 +171,10 @@ class ModeObserver {
 
   template <class Entry>
   Pair<Scalar> seen(const Pair<Scalar>& mode, const Entry& entry) const {
-    return {
-        lifted(entry(mode::seen) * mode.first + entry(mode::seen + 1) * mode.second, seen_base_),
-        lifted(entry(mode::seen + 2) * mode.first + entry(mode::seen + 3) * mode.second,
-               seen_base_)};
+    return {numeric::lifted_sum(entry(mode::seen), mode.first, entry(mode::seen + 1), mode.second,
+                                seen_base_),
+            numeric::lifted_sum(entry(mode::seen + 2), mode.first, entry(mode::seen + 3),
+                                mode.second, seen_base_)};
   }
 
   /// @return by how much the place has moved
@@ -181,13 +191,14 @@ class ModeObserver {
     const auto one_half = numeric::floating(numeric::from_real<Scalar>(0.5));
     const auto inverse =
         numeric::rescaled(numeric::quotient(one_half, numeric::floating(weight_)), 1 - base);
-    const Scalar gradient = tilt.first * miss.first + tilt.second * miss.second;
+    const Scalar gradient =
+        numeric::sum_of_products(tilt.first, miss.first, tilt.second, miss.second);
     constexpr Scalar farthest = numeric::from_real<Scalar>(0.999);
     const Scalar move =
-        numeric::clamp(numeric::limited_product(gradient, inverse), -farthest, farthest);
+        numeric::clamp_magnitude(numeric::limited_product(gradient, inverse), farthest);
     const Scalar half = numeric::half(place_) + numeric::half(move);
     const Scalar before = place_;
-    place_ = numeric::twice(numeric::clamp(half, -numeric::half(end), numeric::half(end)));
+    place_ = numeric::twice(numeric::clamp_magnitude(half, numeric::half(end)));
     row_.go(table_, place_);
     return place_ - before;
   }

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "firmware/numeric/headroom.hpp"
 #include "firmware/numeric/scalar.hpp"
 
 namespace sonoglide::control {
@@ -35,18 +36,6 @@ template <class Scalar>
 using ModeRow = std::array<Scalar, mode::numbers>;
 template <class Scalar>
 using ModeTable = std::array<ModeRow<Scalar>, mode::rows>;
-
-/// x 2^n, n >= 0: in floating point x itself, whose numbers are on base 1; in fixed point limited to
-/// [-1, 1), which is not an overflow.
-template <class Scalar>
-constexpr Scalar lifted(Scalar x, int n) {
-  if constexpr (numeric::is_fixed_point_v<Scalar>) {
-    const Scalar most = numeric::from_code<Scalar>(INT32_MAX >> n);
-    return numeric::scale_by_power_of_two(numeric::clamp(x, -most, most), n);
-  } else {
-    return x;
-  }
-}
 
 /// A table at a place between its rows: linear interpolation, to 2^-27 of the way from one to the
 /// next, and the slope there.
@@ -82,7 +71,7 @@ class ModePlace {
   static Scalar slope_of(Scalar rise) {
     constexpr int steep = mode::row_bits - 1;
     if constexpr (numeric::is_fixed_point_v<Scalar>) {
-      return lifted(rise, steep);
+      return numeric::lifted(rise, steep);
     } else {
       return rise * numeric::power_of_two<Scalar>(steep);
     }

@@ -5,6 +5,7 @@
 
 #include "firmware/control/past_drive.hpp"
 #include "firmware/numeric/floating.hpp"
+#include "firmware/numeric/headroom.hpp"
 #include "firmware/numeric/polar.hpp"
 #include "firmware/numeric/scalar.hpp"
 
@@ -66,7 +67,7 @@ class ResonanceEstimate {
   void restart() {
     rate_factor_ = numeric::from_real<Scalar>(0.25);
     losses_ = parameters_.losses;
-    natural_ = parameters_.natural;
+    take_natural(parameters_.natural);
     take_rate();
     modulus_ = {};
     cosine_ = whole();
@@ -82,7 +83,7 @@ class ResonanceEstimate {
                const PastCommand<Scalar>& now) {
     const numeric::Polar<Scalar> seen = numeric::polar(in_phase, quadrature);
     // z is a mean over its period, and shows half of either command.
-    const Scalar amplitude = numeric::half(before.amplitude) + numeric::half(now.amplitude);
+    const Scalar amplitude = numeric::half_sum(before.amplitude, now.amplitude);
     // Without a drive there is nothing to foresee but the decay: what moves then is not of the drive.
     const bool driven = before.amplitude != Scalar{} || now.amplitude != Scalar{};
     const bool known = driven && !first_;
@@ -90,9 +91,8 @@ class ResonanceEstimate {
     const bool grew = !known || follow_growth(seen, amplitude);
     bool turned = true;
     if (known && parameters_.audible < modulus_ && parameters_.audible < seen.modulus) {
-      turned = follow_turn(
-          seen, amplitude,
-          numeric::half(natural_ - before.deviation) + numeric::half(natural_ - now.deviation));
+      turned = follow_turn(seen, amplitude,
+                           natural_ - numeric::half_sum(before.deviation, now.deviation));
     } else {
       natural_gain_ = whole();
     }
@@ -112,7 +112,7 @@ class ResonanceEstimate {
   bool is_audible(Scalar velocity) const { return parameters_.audible < velocity; }
 
   /// The natural frequency seems to lie at an end of the range, or beyond.
-  bool at_end() const { return !(parameters_.lowest < natural_ && natural_ < parameters_.highest); }
+  bool at_end() const { return at_end_; }
   Scalar in_range(Scalar deviation) const {
     return numeric::clamp(deviation, parameters_.lowest, parameters_.highest);
   }
@@ -120,18 +120,16 @@ class ResonanceEstimate {
   /// h r; in fixed point at most 1.
   Scalar holding(Scalar velocity) const {
     constexpr int base = 4;
-    const Scalar part = losses_ * velocity;
-    if constexpr (!numeric::is_fixed_point_v<Scalar>) {
-      return numeric::scale_by_power_of_two(part, base);
+    if constexpr (numeric::is_fixed_point_v<Scalar>) {
+      return numeric::lifted(numeric::half_product(losses_, velocity), base + 1);
+    } else {
+      return numeric::scale_by_power_of_two(losses_ * velocity, base);
     }
-    return part < numeric::scale_by_power_of_two(whole(), -base)
-               ? numeric::scale_by_power_of_two(part, base)
-               : whole();
   }
 
   /// q (u c − h r), c the present one.
   Scalar growth(Scalar amplitude, Scalar velocity) const {
-    return gained(half_surplus(amplitude * cosine_, velocity));
+    return gained(half_surplus(amplitude, cosine_, velocity));
   }
 
   const numeric::Floating<Scalar>& inverse_rate() const { return inverse_rate_; }  ///< 1/q
@@ -140,11 +138,16 @@ class ResonanceEstimate {
   static constexpr Scalar whole() { return numeric::from_code<Scalar>(INT32_MAX); }
 
   /// (u c − h r)/2
-  Scalar half_surplus(Scalar in_phase_amplitude, Scalar velocity) const {
-    return numeric::half(in_phase_amplitude) - numeric::half(holding(velocity));
+  Scalar half_surplus(Scalar amplitude, Scalar cosine, Scalar velocity) const {
+    return numeric::half_difference(numeric::rough_product(amplitude, cosine), holding(velocity));
   }
   Scalar gained(Scalar half_surplus) const {
     return numeric::limited_product(half_surplus, twice_rate_);
+  }
+
+  void take_natural(Scalar deviation) {
+    at_end_ = !(parameters_.lowest < deviation && deviation < parameters_.highest);
+    natural_ = at_end_ ? in_range(deviation) : deviation;
   }
 
   bool follow_turn(const numeric::Polar<Scalar>& seen, Scalar amplitude, Scalar beside) {
@@ -152,15 +155,20 @@ class ResonanceEstimate {
     constexpr Scalar from_radians = numeric::from_real<Scalar>(0.63661977236758134);  // 8/2π/2
     constexpr Scalar third = numeric::from_real<Scalar>(1.0 / 3.0);
     constexpr Scalar foreseen = numeric::from_real<Scalar>(0.125);
-    const Scalar turned = seen.sine * cosine_ - seen.cosine * sine_;
+    const Scalar half_turned =
+        numeric::half_product(seen.sine, cosine_) - numeric::half_product(seen.cosine, sine_);
     const Scalar pull = numeric::limited_product(
         numeric::limited_product(numeric::half(amplitude), twice_rate_), seen.inverse);
-    const Scalar half_miss = numeric::half(turned) - numeric::half(radians * beside) +
-                             numeric::half(numeric::clamp(pull, -whole(), whole()) * seen.sine);
-    natural_ = in_range(
-        natural_ + numeric::scale_by_power_of_two(natural_gain_ * half_miss * from_radians, 2));
-    natural_gain_ = numeric::max(parameters_.natural_gain,
-                                 natural_gain_ - natural_gain_ * natural_gain_ * third);
+    const Scalar half_miss =
+        half_turned - numeric::half_product(radians, beside) +
+        numeric::half_product(numeric::clamp_magnitude(pull, whole()), seen.sine);
+    const Scalar quarter =
+        numeric::rough_product(numeric::rough_product(natural_gain_, half_miss), from_radians);
+    take_natural(natural_ + numeric::scale_by_power_of_two(quarter, 2));
+    natural_gain_ = numeric::max(
+        parameters_.natural_gain,
+        natural_gain_ -
+            numeric::rough_product(numeric::rough_product(natural_gain_, natural_gain_), third));
     if (numeric::abs(half_miss) < foreseen) {
       return true;
     }
@@ -169,11 +177,10 @@ class ResonanceEstimate {
   }
 
   bool follow_growth(const numeric::Polar<Scalar>& seen, Scalar amplitude) {
-    const Scalar surplus = half_surplus(amplitude * seen.cosine, modulus_);
-    const Scalar half_miss =
-        numeric::half(seen.modulus - modulus_) - numeric::half(gained(surplus));
+    const Scalar surplus = half_surplus(amplitude, seen.cosine, modulus_);
+    const Scalar half_miss = numeric::half_difference(seen.modulus - modulus_, gained(surplus));
     const Scalar half_drive = numeric::limited_product(half_miss, inverse_rate_);
-    const Scalar quarter_grown = numeric::half(surplus) + numeric::half(half_drive);
+    const Scalar quarter_grown = numeric::half_sum(surplus, half_drive);
     if (parts_from_losses(numeric::half(surplus)) && parts_from_losses(quarter_grown)) {
       correct_rate(surplus * half_drive);
     } else if (parameters_.audible < modulus_) {
@@ -195,7 +202,7 @@ class ResonanceEstimate {
     constexpr Scalar most = numeric::from_real<Scalar>(0.125);
     constexpr Scalar least_factor = numeric::from_real<Scalar>(0.0625);
     const Scalar part =
-        numeric::twice(numeric::clamp(parameters_.rate_gain * gradient, -most, most));
+        numeric::twice(numeric::clamp_magnitude(parameters_.rate_gain * gradient, most));
     const Scalar room = whole() - rate_factor_;
     rate_factor_ =
         numeric::max(least_factor, rate_factor_ + numeric::min(room, rate_factor_ * part));
@@ -212,7 +219,8 @@ class ResonanceEstimate {
   void correct_losses(Scalar part) {
     constexpr Scalar least = numeric::from_real<Scalar>(0x1p-20);
     constexpr Scalar most = numeric::from_real<Scalar>(0.999);
-    losses_ = numeric::clamp(losses_ - parameters_.losses_gain * part, least, most);
+    losses_ = numeric::clamp(losses_ - numeric::rough_product(parameters_.losses_gain, part), least,
+                             most);
   }
 
   Parameters parameters_;
@@ -226,6 +234,7 @@ class ResonanceEstimate {
   Scalar modulus_{};
   Scalar cosine_{};
   Scalar sine_{};
+  bool at_end_ = false;
   bool first_ = true;  ///< no sample has come yet
 };
 

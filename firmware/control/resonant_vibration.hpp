@@ -11,6 +11,7 @@
 #include "firmware/control/resonance_estimate.hpp"
 #include "firmware/control/signals.hpp"
 #include "firmware/numeric/floating.hpp"
+#include "firmware/numeric/headroom.hpp"
 #include "firmware/numeric/scalar.hpp"
 
 namespace sonoglide::control {
@@ -119,8 +120,8 @@ class ResonantVibration {
   /// @return the answer with its frequency, in steps of the word from the start
   Command answer(const DriveCommand<Scalar>& command) {
     const Scalar turned = resonance_.cosine() < Scalar{} ? -resonance_.sine() : resonance_.sine();
-    const Scalar wanted =
-        resonance_.in_range(resonance_.natural() + parameters_.phase_gain * turned);
+    const Scalar wanted = resonance_.in_range(
+        resonance_.natural() + numeric::rough_product(parameters_.phase_gain, turned));
     const Scalar deviation = word_.approach(wanted);
     past_.append({command.amplitude, deviation, word_.steps()});
     return {command, word_.steps()};
@@ -151,10 +152,10 @@ class ResonantVibration {
   Scalar wanted_amplitude(Scalar velocity, Scalar miss) const {
     constexpr Scalar most = numeric::from_real<Scalar>(0.7499);
     const Scalar correcting = numeric::limited_product(
-        numeric::scale_by_power_of_two(parameters_.velocity_gain * miss, -2),
+        numeric::scale_by_power_of_two(numeric::rough_product(parameters_.velocity_gain, miss), -2),
         resonance_.inverse_rate());
     return numeric::scale_by_power_of_two(resonance_.holding(velocity), -2) +
-           numeric::clamp(correcting, -most, most);
+           numeric::clamp_magnitude(correcting, most);
   }
 
   /// The velocity is kept to what the current lets be held, and the amplitude to what it lets pass
@@ -163,8 +164,12 @@ class ResonantVibration {
     const Scalar held = current_.velocity(velocity, resonance_.holding(velocity));
     const Scalar wanted = towards_vibration(wanted_amplitude(held, held - foreseen));
     const Scalar growth = numeric::max(resonance_.growth(wanted, foreseen), Scalar{});
-    const Scalar most = current_.highest(foreseen + numeric::half(growth));
-    const Scalar amplitude = numeric::clamp(wanted, -most, most);
+    const Scalar middle = foreseen + numeric::half(growth);
+    Scalar amplitude = wanted;
+    if (!current_.allows(wanted, middle)) {
+      const Scalar most = current_.highest(middle);
+      amplitude = numeric::clamp_magnitude(wanted, most);
+    }
     const bool limited = held < velocity || amplitude != wanted;
     return {amplitude,
             limit_of(limited || at_full(wanted), limited ? Limit::current : Limit::voltage)};
@@ -173,17 +178,17 @@ class ResonantVibration {
   /// u = 4 quarter/c, limited to ±1. With d = 1 − |c|: 1/|c| = (1 + d)(1 + d²)(1 + d⁴) within
   /// d⁸, which no drive within its limits needs to see.
   Scalar towards_vibration(Scalar quarter) const {
-    const Scalar half = numeric::from_real<Scalar>(0.5);
     const Scalar cosine = resonance_.cosine();
     // One code below 1, so that the sums below stay within 1.
-    const Scalar d = numeric::from_code<Scalar>(INT32_MAX - 1) - numeric::abs(cosine);
-    const Scalar d2 = d * d;
-    const Scalar secant = (half + numeric::half(d)) * (half + numeric::half(d2)) *
-                          (half + numeric::half(d2 * d2));  // base 8
-    const Scalar small = quarter * secant;                  // base 32
-    constexpr int base = 5;
-    constexpr Scalar end = numeric::from_code<Scalar>(INT32_MAX >> base);
-    const Scalar along = numeric::scale_by_power_of_two(numeric::clamp(small, -end, end), base);
+    constexpr Scalar one = numeric::from_code<Scalar>(INT32_MAX - 1);
+    const Scalar d = one - numeric::abs(cosine);
+    const Scalar d2 = numeric::rough_product(d, d);
+    const Scalar d4 = numeric::rough_product(d2, d2);
+    const Scalar secant = numeric::rough_product(
+        numeric::rough_product(numeric::half_sum(one, d), numeric::half_sum(one, d2)),
+        numeric::half_sum(one, d4));                               // base 8
+    const Scalar small = numeric::rough_product(quarter, secant);  // base 32
+    const Scalar along = numeric::limited_lift(small, 5);
     return cosine < Scalar{} ? -along : along;
   }
 

@@ -65,8 +65,8 @@ class SettlingWatch {
       --count_;
       count_ = count_ + 1 == limit() ? 0 : count_;
     }
-    const Scalar least = parameters_.agreement * (commanded < target ? target : commanded);
-    const bool disagrees = commanded < least || target < least;
+    const bool disagrees = commanded < target ? commanded < parameters_.agreement * target
+                                              : target < parameters_.agreement * commanded;
     if (disagrees) {
       doubt_ += doubt_ < 2 * doubtful ? 1 : 0;
     } else {

@@ -3,6 +3,7 @@
 
 #include "firmware/control/signals.hpp"
 #include "firmware/numeric/accumulator.hpp"
+#include "firmware/numeric/headroom.hpp"
 #include "firmware/numeric/scalar.hpp"
 
 namespace sonoglide::control {
@@ -31,8 +32,7 @@ class SpeedForesight {
   /// @return the foreseen speed, >= 0; fixed point saturates at full scale
   Scalar speed(Scalar velocity) {
     const Scalar change = begun_ ? velocity - last_velocity_ : Scalar{};
-    const bool opposite = (change < Scalar{} && Scalar{} < last_change_) ||
-                          (Scalar{} < change && last_change_ < Scalar{});
+    const bool opposite = numeric::opposite_signs(change, last_change_);
     const Scalar agreed = opposite ? Scalar{} : smaller(change, last_change_);
     last_velocity_ = velocity;
     last_change_ = change;
@@ -40,11 +40,10 @@ class SpeedForesight {
     Scalar foreseen = velocity + ahead(agreed);
     if (change != agreed && !opposite) {
       const Scalar most = numeric::scale_by_power_of_two(numeric::abs(velocity), -3);
-      foreseen += numeric::clamp(ahead(change - agreed), -most, most);
+      foreseen += numeric::clamp_magnitude(ahead(change - agreed), most);
     }
     numeric::observe<signal::ForeseenVelocity>(foreseen);
-    const bool turned = (velocity < Scalar{}) != (foreseen < Scalar{});
-    return turned || velocity == Scalar{} ? Scalar{} : numeric::abs(foreseen);
+    return numeric::same_sign(velocity, foreseen) ? numeric::abs(foreseen) : Scalar{};
   }
 
  private:

@@ -117,6 +117,10 @@ class Fixed {
       // Of all products only this one leaves the range.
       return a == lowest() && b == lowest() ? beyond(false)
                                             : from_raw(product_of_halves(a.raw_, b.raw_));
+    } else if constexpr (is_q31) {
+      // Of all products only that of -1 and -1 leaves the range, and no other one gives -1.
+      const auto raw = static_cast<Storage>(rounded_product(a, b));
+      return raw == std::numeric_limits<Storage>::min() ? beyond(false) : from_raw(raw);
     } else {
       return from_wide(rounded_product(a, b));
     }

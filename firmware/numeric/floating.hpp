@@ -5,6 +5,7 @@
 #include <type_traits>
 
 #include "firmware/numeric/fixed.hpp"
+#include "firmware/numeric/headroom.hpp"
 #include "firmware/numeric/scalar.hpp"
 #include "firmware/numeric/word.hpp"
 
@@ -86,21 +87,16 @@ constexpr Float limited_product(Float x, Float f) {
   return x * f;
 }
 
-/// x f, rounded once where f < 1, else the mantissa's product rounded and shifted; limited to
-/// [-1, 1), which is not an overflow.
+/// x f, f of any magnitude. Where f < 1 too small by less than two units of the last place, else the
+/// mantissa's product rounded and shifted; limited to [-1, 1), which is not an overflow.
 template <class Overflow>
 constexpr Q31<Overflow> limited_product(Q31<Overflow> x, const Split<Q31<Overflow>>& f) {
+  if (f.exponent < 0) {
+    const std::int32_t part = high_word(x.raw(), f.mantissa.raw());
+    return Q31<Overflow>::from_raw(part >> min(-1 - f.exponent, 31));
+  }
   const std::int32_t part = rounded_q31_product(x.raw(), f.mantissa.raw());
-  if (f.exponent <= 0) {
-    return scale_by_power_of_two(Q31<Overflow>::from_raw(part), f.exponent);
-  }
-  if (f.exponent < 31) {
-    const std::int32_t most = INT32_MAX >> f.exponent;
-    if (-most <= part && part <= most) {
-      return Q31<Overflow>::from_raw(part * (std::int32_t{1} << f.exponent));
-    }
-  }
-  return Q31<Overflow>::from_raw(part < 0 ? -INT32_MAX : (part > 0 ? INT32_MAX : 0));
+  return lifted(Q31<Overflow>::from_raw(part), min(f.exponent, 31));
 }
 
 namespace detail {

@@ -8,6 +8,7 @@
 #include "firmware/numeric/fixed.hpp"
 #include "firmware/numeric/float_format.hpp"
 #include "firmware/numeric/scalar.hpp"
+#include "firmware/numeric/word.hpp"
 
 namespace sonoglide::numeric {
 
@@ -24,25 +25,28 @@ constexpr Float near_inverse_root(Float x) {
       static_cast<Float>(0.045) * power_of_two<Float>(FloatFormat<Float>::fraction_bits));
   Float root = from_bits<Float>(one + one / 2 - least_error - to_bits(x) / 2);
   const Float half_x = half(x);
-  constexpr int iterations = std::is_same_v<Float, double> ? 5 : 3;
-  for (int i = 0; i < iterations; ++i) {
-    root = root * (static_cast<Float>(1.5) - half_x * root * root);
+  // Written out, as a loop of so few steps is slower on small processors.
+  const auto improved = [half_x](Float y) {
+    return y * (static_cast<Float>(1.5) - half_x * y * y);
+  };
+  root = improved(improved(improved(root)));
+  if constexpr (std::is_same_v<Float, double>) {
+    root = improved(improved(root));
   }
   return root;
 }
 
 /// 1/sqrt(m) with 30 fraction bits, m in [1/4, 1) with 32; within 2^-23.5 of it.
 constexpr std::uint32_t near_inverse_root_of_bits(std::uint32_t m) {
-  constexpr std::uint64_t three = std::uint64_t{3} << 30;
+  constexpr std::uint32_t three = std::uint32_t{3} << 28;
   // 2.15 - 1.24 m is within 9.1 % of 1/sqrt(m).
-  constexpr std::uint64_t intercept = (std::uint64_t{215} << 30) / 100;
-  constexpr std::uint64_t slope = (std::uint64_t{124} << 30) / 100;
-  std::uint64_t inverse = intercept - ((slope * m) >> 32);
-  for (int i = 0; i < 3; ++i) {
-    const std::uint64_t square = (inverse * inverse) >> 30;
-    inverse = (inverse * (three - ((m * square) >> 32))) >> 31;
-  }
-  return static_cast<std::uint32_t>(inverse);
+  constexpr auto intercept = static_cast<std::uint32_t>((std::uint64_t{215} << 30) / 100);
+  constexpr auto slope = static_cast<std::uint32_t>((std::uint64_t{124} << 30) / 100);
+  const auto improved = [m](std::uint32_t inverse) {
+    const std::uint32_t square = high_word(m, high_word(inverse, inverse));  // 28 fraction bits
+    return high_word(inverse, (three - square) << 2) << 1;
+  };
+  return improved(improved(improved(intercept - high_word(slope, m))));
 }
 
 /// sqrt(x), x >= 0; 0 below the normal numbers. Error: 3 units of the last place.

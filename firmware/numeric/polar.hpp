@@ -6,8 +6,10 @@
 
 #include "firmware/numeric/fixed.hpp"
 #include "firmware/numeric/floating.hpp"
+#include "firmware/numeric/headroom.hpp"
 #include "firmware/numeric/near_root.hpp"
 #include "firmware/numeric/scalar.hpp"
+#include "firmware/numeric/word.hpp"
 
 namespace sonoglide::numeric {
 
@@ -26,11 +28,13 @@ struct Polar {
 template <class Float, std::enable_if_t<std::is_floating_point_v<Float>, int> = 0>
 constexpr Polar<Float> polar(Float x, Float y) {
   const Float square = x * x + y * y;
-  if (!(square > Float(0))) {
-    return {Float(0), Float(1), Float(0), Float(0)};
+  Float inverse(0);
+  Float cosine(1);
+  if (square > Float(0)) {
+    inverse = near_inverse_root(square);
+    cosine = x * inverse;
   }
-  const Float inverse = near_inverse_root(square);
-  return {square * inverse, x * inverse, y * inverse, inverse};
+  return {square * inverse, cosine, y * inverse, inverse};
 }
 
 /// The same in fixed point. Of 0 the direction is 1 and the inverse 1/2.
@@ -48,16 +52,18 @@ constexpr Polar<Q31<Overflow>> polar(Q31<Overflow> x, Q31<Overflow> y) {
   const int shift = __builtin_clzll(square) / 2;
   const auto leading = static_cast<std::uint32_t>((square << (2 * shift)) >> 32);
   const std::uint32_t inverse = near_inverse_root_of_bits(leading);
-  const auto limited = [](std::int64_t raw) {
-    return Scalar::from_raw(
-        static_cast<std::int32_t>(clamp<std::int64_t>(raw, -INT32_MAX, INT32_MAX)));
+  const auto limited_inverse = static_cast<std::int32_t>(inverse - (inverse >> 31));
+  const Scalar quarter_inverse = Scalar::from_raw(static_cast<std::int32_t>(inverse >> 1));
+  const auto along = [&](Scalar part) {
+    const std::int32_t raw = part.raw();
+    const std::int32_t up = shift > 0 ? raw * (std::int32_t{1} << (shift - 1)) : raw >> 1;
+    return lifted(half_product(Scalar::from_raw(up), quarter_inverse), 3);
   };
-  const auto along = [&](std::int32_t part) {
-    const std::int64_t lifted = shift > 0 ? part * (std::int32_t{1} << (shift - 1)) : part >> 1;
-    return limited((lifted * inverse + (1 << 29)) >> 30);
-  };
-  const auto modulus = static_cast<std::int64_t>((std::uint64_t{leading} * inverse) >> 30) >> shift;
-  return {limited(modulus), along(x.raw()), along(y.raw()), {limited(inverse), shift}};
+  const std::uint32_t root = high_word(leading, inverse);  // half of the modulus, lifted by shift
+  const Scalar modulus = shift > 0
+                             ? Scalar::from_raw(static_cast<std::int32_t>((root << 2) >> shift))
+                             : Scalar::largest();
+  return {modulus, along(x), along(y), {Scalar::from_raw(limited_inverse), shift}};
 }
 
 }  // namespace sonoglide::numeric

@@ -46,6 +46,30 @@ constexpr std::int32_t rounded_q31_product(std::int32_t a, std::int32_t b) {
   }
 }
 
+/// a b / 2^32, rounded down, from four products of halves; every sum fits a word.
+constexpr std::int32_t high_word_of_halves(std::int32_t a, std::int32_t b) {
+  const std::int32_t a_low = a & 0xffff;
+  const std::int32_t b_low = b & 0xffff;
+  const std::int32_t a_high = a >> 16;
+  const std::int32_t b_high = b >> 16;
+  const std::uint32_t low = static_cast<std::uint32_t>(a_low) * static_cast<std::uint32_t>(b_low);
+  const std::int32_t middle = a_high * b_low + static_cast<std::int32_t>(low >> 16);
+  const std::int32_t rest = a_low * b_high + (middle & 0xffff);
+  return a_high * b_high + (middle >> 16) + (rest >> 16);
+}
+
+/// As high_word_of_halves(), by a wide product where the processor has one.
+constexpr std::int32_t high_word(std::int32_t a, std::int32_t b) {
+  if constexpr (has_wide_product) {
+    return static_cast<std::int32_t>((std::int64_t{a} * b) >> 32);
+  } else {
+    return high_word_of_halves(a, b);
+  }
+}
+constexpr std::uint32_t high_word(std::uint32_t a, std::uint32_t b) {
+  return static_cast<std::uint32_t>((std::uint64_t{a} * b) >> 32);
+}
+
 /// Bits up to the leading one of x > 0, by halving.
 constexpr int width_by_halving(std::uint32_t x) {
   int width = 1;

@@ -145,6 +145,7 @@ typename control::CurrentLimit<Scalar>::Parameters parameters(
           scaled<Scalar>(0.5 * tangent),
           scaled<Scalar>(small * motional),
           scaled<Scalar>(small * capacitive),
+          scaled<Scalar>(small),
           scaled<Scalar>(small * regulated)};
 }
 

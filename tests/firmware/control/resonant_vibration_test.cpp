@@ -347,6 +347,7 @@ TYPED_TEST(ResonantVibrationOf, CurrentStaysBelowItsLimit) {
                        scaled<TypeParam>(0.5 * tangent),
                        scaled<TypeParam>(small * motional),
                        scaled<TypeParam>(small * capacitive),
+                       scaled<TypeParam>(small),
                        scaled<TypeParam>(0.99 * small)};
         Bench<TypeParam, Current> bench(told, {200.0, 60e3}, all);
         double largest = 0.0;
