@@ -157,7 +157,7 @@ TEST(ServiceTest, CostsWhatIsRecorded) {
   }
 }
 
-/// Of the bytes of an image: those of a part of the controller, and whether a symbol names it.
+/// Of the bytes of an image: those of a part of the controller, and whether a name tells of it.
 struct Trace {
   std::uint64_t bytes;
   bool named;
@@ -166,7 +166,7 @@ struct Trace {
 Trace trace_of(const Feature& feature, const ImageParts& parts) {
   const auto found = parts.files.find("firmware/control/" + feature.file);
   return {found == parts.files.end() ? 0 : found->second,
-          parts.symbols.find(feature.type) != std::string::npos};
+          parts.names.find(feature.type) != std::string::npos};
 }
 
 TEST_P(FeatureTest, LeavesNothingInAnImageWithoutIt) {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <set>
 #include <sstream>
 #include <vector>
 
@@ -78,16 +79,23 @@ std::string file_of(const std::string& place) {
   return "";
 }
 
-void add_code(const std::string& prefix, const std::string& image, FileBytes& files) {
+void add_code(const std::string& prefix, const std::string& image, ImageParts& parts) {
   const Text text =
       text_of(process::run_tool({prefix + "size", "--format=sysv", "--radix=10", image}, {}));
-  std::vector<std::string> command{prefix + "addr2line", "--exe=" + image};
+  std::vector<std::string> command{prefix + "addr2line", "--functions", "--demangle",
+                                   "--exe=" + image};
   for (std::uint64_t at = 0; at < text.bytes; at += granule_bytes) {
     command.push_back(fmt::format("{:#x}", text.begin + at));
   }
   std::istringstream places(process::run_tool(command, {}));
-  for (std::string place; std::getline(places, place);) {
-    files[file_of(place)] += granule_bytes;
+  std::set<std::string> functions;
+  std::string place;
+  for (std::string function; std::getline(places, function) && std::getline(places, place);) {
+    functions.insert(function);
+    parts.files[file_of(place)] += granule_bytes;
+  }
+  for (const std::string& function : functions) {
+    parts.names += function + "\n";
   }
 }
 
@@ -153,10 +161,10 @@ ImageParts image_parts(const emulated::EmulatedBoard& board, const std::filesyst
                        std::uint64_t flash_bytes) {
   const std::string prefix = emulated::cross_tools(board).prefix;
   ImageParts parts;
-  parts.symbols = process::run_tool(
+  parts.names = process::run_tool(
       {prefix + "nm", "--print-size", "--demangle", "--defined-only", image.string()}, {});
-  const std::vector<Symbol> symbols = symbols_in(parts.symbols);
-  add_code(prefix, image.string(), parts.files);
+  const std::vector<Symbol> symbols = symbols_in(parts.names);
+  add_code(prefix, image.string(), parts);
   add_constants(symbols, parts.files);
   std::uint64_t known = 0;
   for (const auto& [file, bytes] : parts.files) {

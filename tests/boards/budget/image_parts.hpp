@@ -34,7 +34,7 @@ struct ImageParts {
   FileBytes files;
   Parts flash;
   StateBytes state;
-  std::string symbols;  ///< all of them, demangled, as GNU nm lists them
+  std::string names;  ///< of its symbols and of its functions, inlined or not, demangled
 };
 
 /// @param flash_bytes  of the whole image
