@@ -197,7 +197,7 @@ TEST_F(SameBits, InAnyOrder) {
 
 TEST_F(SameBits, OnAnyNumberOfThreads) {
   const std::vector<Measured> together = in_lanes(plants, design);
-  for (const std::size_t count : {2, 3, 5}) {
+  for (const std::size_t count : {2U, 3U, 5U}) {
     std::vector<std::vector<Measured>> parts(count);
     std::vector<std::thread> threads;
     for (std::size_t part = 0; part < count; ++part) {
