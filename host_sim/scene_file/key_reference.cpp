@@ -33,7 +33,8 @@ struct AllowedText {
   }
   std::string operator()(const Truth& /*truth*/) const { return "true, false"; }
   std::string operator()(const Spread& spread) const {
-    const std::string range = fmt::format("`{{ range = [lowest, highest] }}`, {}", bounds(spread.range));
+    const std::string range =
+        fmt::format("`{{ range = [lowest, highest] }}`, {}", bounds(spread.range));
     return spread.whole ? range
                         : fmt::format("half width, {0}; `{{ normal = deviation }}`, {0}; {1}",
                                       bounds(spread_range), range);
@@ -96,8 +97,8 @@ std::string list_of(const KeyTable& table, bool whole) {
   std::vector<std::string_view> names;
   for (const Key& key : table.keys) {
     const auto* spread = std::get_if<Spread>(&key.allowed);
-    const bool is_whole = spread != nullptr ? spread->whole
-                                            : std::holds_alternative<Integer>(key.allowed);
+    const bool is_whole =
+        spread != nullptr ? spread->whole : std::holds_alternative<Integer>(key.allowed);
     if (is_whole == whole) {
       names.push_back(key.name);
     }
@@ -108,7 +109,9 @@ std::string list_of(const KeyTable& table, bool whole) {
 /// What the values may be, and which keys there are.
 std::string keys_in_words(const KeyTable& table) {
   const bool spreads = std::holds_alternative<Spread>(table.keys.front().allowed);
-  std::string text = "A key has quotes, since it is `TABLE.KEY` of another table, where the scene has to have a value of it. ";
+  std::string text =
+      "A key has quotes, since it is `TABLE.KEY` of another table, where the scene has to have a "
+      "value of it. ";
   text += spreads ? fmt::format(
                         "Its value is a half width relative to the scene's value, {0}; or "
                         "`{{ normal = deviation }}`, a standard deviation relative to it, {0}; or "

@@ -460,9 +460,9 @@ constexpr std::int64_t largest_integer = std::int64_t{1} << 53;
 
 Allowed varied_range(const Allowed& allowed) {
   const auto* integer = std::get_if<Integer>(&allowed);
-  return integer == nullptr ? allowed
-                            : Integer{integer->low, std::min(integer->high, largest_integer),
-                                      integer->unit};
+  return integer == nullptr
+             ? allowed
+             : Integer{integer->low, std::min(integer->high, largest_integer), integer->unit};
 }
 
 /// A number that a plant may have otherwise than its scene says.

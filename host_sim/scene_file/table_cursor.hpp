@@ -135,8 +135,7 @@ class TableCursor {
                              const toml::table& table) const;
   Pair ends_in(std::string_view key, const GivenValue& entry, const toml::node& node,
                const Spread& allowed) const;
-  [[noreturn]] void fail_spread(std::string_view key, const std::string& found,
-                                bool whole) const;
+  [[noreturn]] void fail_spread(std::string_view key, const std::string& found, bool whole) const;
   void check_time(const GivenValue& entry, const toml::node& node, const Part& part,
                   const std::vector<Pair>& earlier, double time_s, Times times) const;
 

@@ -47,9 +47,10 @@ void settle(const TableCursor& cursor, scene::Tolerance& tolerance) {
     return;
   }
   if (tolerance.nominal == 0.0) {
-    cursor.fail(tolerance.key,
-                fmt::format("is relative to {}, which is 0; allowed: {{ range = [lowest, highest] }}",
-                            tolerance.key));
+    cursor.fail(
+        tolerance.key,
+        fmt::format("is relative to {}, which is 0; allowed: {{ range = [lowest, highest] }}",
+                    tolerance.key));
   }
   if (tolerance.spread == scene::Spread::normal) {
     return;
@@ -105,8 +106,9 @@ std::vector<scene::TrueValue> given_true_values(const Variant& variant) {
   for (const std::string& key : cursor.given_keys()) {
     const Key& described = key_of(key_table(true_values_table), key);
     const bool whole = std::holds_alternative<Integer>(described.allowed);
-    values.push_back(
-        {key, whole ? static_cast<double>(*cursor.optional_integer(key)) : cursor.real(key), whole});
+    values.push_back({key,
+                      whole ? static_cast<double>(*cursor.optional_integer(key)) : cursor.real(key),
+                      whole});
   }
   return values;
 }

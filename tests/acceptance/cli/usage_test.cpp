@@ -53,8 +53,8 @@ TEST(UsageTest, SeveralComeInTheirOrder) {
 TEST(UsageTest, AnUnknownCommandIsNamed) {
   expect_refused("swep a.toml",
                  "swep is no command; did you mean sweep?\n"
-                 "a.toml is no command; allowed: run, pil, configure, ratio, sweep, "
-                 "paper, work-precision, stability, arithmetic, design, schema");
+                 "a.toml is no command; allowed: run, pil, configure, ratio, sweep, robust, "
+                 "paper, work-precision, stability, arithmetic, design, schema, completion");
 }
 
 TEST(UsageTest, ValuesThatLookLikeOptionsAreValues) {

@@ -33,10 +33,10 @@ inline std::string with_every_number(const std::string& text, const char* table)
     const auto* integer = std::get_if<Integer>(&key.allowed);
     added += integer != nullptr  ? std::to_string(integer->low)
              : spread == nullptr ? of_table->at(path.substr(dot + 1)).dump()
-             : spread->whole   ? fmt::format("{{ range = [{:.0f}, {:.0f}] }}", spread->range.low,
-                                             spread->range.low + 1.0)
-                               : fmt::format("{{ range = [{:.17g}, {:.17g}] }}", spread->range.low,
-                                             spread->range.high);
+             : spread->whole     ? fmt::format("{{ range = [{:.0f}, {:.0f}] }}", spread->range.low,
+                                               spread->range.low + 1.0)
+                             : fmt::format("{{ range = [{:.17g}, {:.17g}] }}", spread->range.low,
+                                           spread->range.high);
     added += '\n';
   }
   return added;
@@ -44,8 +44,8 @@ inline std::string with_every_number(const std::string& text, const char* table)
 
 inline std::vector<std::string> every_scene() {
   std::vector<std::string> texts = {
-      fullest_open_loop,  curve_open_loop,      bristles_open_loop,     springs_open_loop,
-      normal_open_loop,   profiles_open_loop,   transducer_open_loop,   transducer_closed_loop,
+      fullest_open_loop,    curve_open_loop,    bristles_open_loop,   springs_open_loop,
+      normal_open_loop,     profiles_open_loop, transducer_open_loop, transducer_closed_loop,
       resonant_closed_loop, damped_closed_loop, fullest_closed_loop};
   const std::vector<std::string> plain = texts;
   for (const std::string& text : plain) {
