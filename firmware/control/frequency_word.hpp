@@ -36,7 +36,7 @@ class FrequencyWord {
   std::int32_t steps() const { return count_; }
 
   /// Takes the nearest word to a wanted deviation, in [-1, 1].
-  /// @return its own deviation
+  /// @return its own deviation; in fixed point too small by less than a unit of the last place
   Scalar approach(Scalar wanted) {
     const std::int32_t fine = fine_steps(wanted);
     const std::int32_t away = fine - count_ * unit;
