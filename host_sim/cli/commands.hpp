@@ -23,6 +23,8 @@ void add_work_precision_command(CLI::App& program);
 void add_stability_command(CLI::App& program);
 void add_arithmetic_command(CLI::App& program);
 void add_design_command(CLI::App& program);
+/// A group: what it identifies are commands of their own.
+void add_identify_command(CLI::App& program);
 /// Prints the JSON Schema of scenes alone.
 void add_schema_command(CLI::App& program);
 /// Prints a shell's completion script alone.
@@ -35,7 +37,8 @@ inline constexpr std::array commands = {
     add_sweep_command,      add_robust_command,
     add_paper_command,      add_work_precision_command,
     add_stability_command,  add_arithmetic_command,
-    add_design_command,     add_schema_command,
+    add_design_command,     add_identify_command,
+    add_schema_command,
     add_completion_command,
 };
 

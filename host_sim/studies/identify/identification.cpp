@@ -1,0 +1,87 @@
+#include "host_sim/studies/identify/identification.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <utility>
+
+namespace sonoglide::identify {
+namespace {
+
+using nlohmann::ordered_json;
+
+ordered_json number(double value) {
+  return std::isfinite(value) ? ordered_json(value) : ordered_json(nullptr);
+}
+
+/// Of a name that ends with one of these; empty for a pure number.
+std::string unit_of(const std::string& name) {
+  static constexpr std::pair<const char*, const char*> units[] = {{"_ohm", "ohm"},
+                                                                  {"_F", "F"},
+                                                                  {"_H", "H"},
+                                                                  {"_Hz", "Hz"},
+                                                                  {"_N_per_V", "N/V"},
+                                                                  {"_N_per_m", "N/m"},
+                                                                  {"_N_s_per_m", "N s/m"},
+                                                                  {"_kg", "kg"},
+                                                                  {"_m_per_s", "m/s"},
+                                                                  {"_N", "N"},
+                                                                  {"_m", "m"},
+                                                                  {"_s", "s"}};
+  for (const auto& [ending, unit] : units) {
+    const std::string end = ending;
+    if (name.size() > end.size() && name.compare(name.size() - end.size(), end.size(), end) == 0) {
+      return unit;
+    }
+  }
+  return {};
+}
+
+}  // namespace
+
+ordered_json to_json(const Identification& identification) {
+  ordered_json json;
+  json["subject"] = identification.subject;
+  json["model"] = identification.model;
+  json["parameters"] = ordered_json::object();
+  for (const Estimate& each : identification.parameters) {
+    json["parameters"][each.name] = {{"value", number(each.value)},
+                                     {"low_95", number(each.low_95)},
+                                     {"high_95", number(each.high_95)}};
+  }
+  json["residual_rms"] = number(identification.residual_rms);
+  json["misfit"] = number(identification.misfit);
+  json["correlations"]["names"] = identification.correlations.names;
+  json["correlations"]["rows"] = ordered_json::array();
+  for (const std::vector<double>& row : identification.correlations.rows) {
+    ordered_json cells = ordered_json::array();
+    for (const double each : row) {
+      cells.push_back(number(each));
+    }
+    json["correlations"]["rows"].push_back(std::move(cells));
+  }
+  json["warnings"] = identification.warnings;
+  json["cannot_tell"] = identification.cannot_tell;
+  return json;
+}
+
+std::string shown(const std::string& name, double value) {
+  const std::string unit = unit_of(name);
+  if (!std::isfinite(value)) {
+    return "-";
+  }
+  if (unit.empty() || value == 0.0) {
+    return fmt::format("{:.5g}{}{}", value, unit.empty() ? "" : " ", unit);
+  }
+  static constexpr const char* prefixes[] = {"f", "p", "n", "u", "m", "", "k", "M", "G", "T"};
+  constexpr int without = 5;
+  const double thousands = std::floor(std::log10(std::abs(value) * (1.0 + 5e-6)) / 3.0);
+  const int index = std::clamp(static_cast<int>(thousands) + without, 0,
+                               static_cast<int>(std::size(prefixes)) - 1);
+  return fmt::format("{:.5g} {}{}", value * std::pow(1000.0, without - index), prefixes[index],
+                     unit);
+}
+
+}  // namespace sonoglide::identify

@@ -1,0 +1,46 @@
+/// What every identification tells, and its file identify.json.
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include <string>
+#include <vector>
+
+namespace sonoglide::identify {
+
+/// A value with the ends of its 95 % interval.
+struct Estimate {
+  std::string name;  ///< with its unit, as `motional_resistance_ohm`
+  double value;
+  double low_95;
+  double high_95;
+};
+
+/// Correlations of the fitted parameters: row and column in the order of the names.
+struct Correlations {
+  std::vector<std::string> names;
+  std::vector<std::vector<double>> rows;
+};
+
+struct Identification {
+  std::string subject;  ///< "impedance" or "friction"
+  std::string model;    ///< in words
+  std::vector<Estimate> parameters;
+  double residual_rms;  ///< relative to the measured value
+  /// Root mean square of what the residuals have that is no scatter from reading to reading,
+  /// relative to the measured value; 0 where none is seen.
+  double misfit;
+  Correlations correlations;
+  std::vector<std::string> warnings;  ///< each a sentence
+  std::vector<std::string>
+      cannot_tell;  ///< each a sentence: what the data leave open, and what would tell
+};
+
+/// As it stands in identify.json; what is not finite becomes null.
+nlohmann::ordered_json to_json(const Identification& identification);
+
+/// A value with its interval as a table shows it: `52.68 mH`; five digits with the prefix that
+/// suits. The unit is the last word of the name.
+std::string shown(const std::string& name, double value);
+
+}  // namespace sonoglide::identify
