@@ -72,16 +72,17 @@ std::string shown(const std::string& name, double value) {
   if (!std::isfinite(value)) {
     return "-";
   }
-  if (unit.empty() || value == 0.0) {
+  if (unit.empty() || unit == "kg" || value == 0.0) {
     return fmt::format("{:.5g}{}{}", value, unit.empty() ? "" : " ", unit);
   }
+  const int digits = unit == "Hz" ? 7 : 5;
   static constexpr const char* prefixes[] = {"f", "p", "n", "u", "m", "", "k", "M", "G", "T"};
   constexpr int without = 5;
   const double thousands = std::floor(std::log10(std::abs(value) * (1.0 + 5e-6)) / 3.0);
   const int index = std::clamp(static_cast<int>(thousands) + without, 0,
                                static_cast<int>(std::size(prefixes)) - 1);
-  return fmt::format("{:.5g} {}{}", value * std::pow(1000.0, without - index), prefixes[index],
-                     unit);
+  return fmt::format("{:.{}g} {}{}", value * std::pow(1000.0, without - index), digits,
+                     prefixes[index], unit);
 }
 
 }  // namespace sonoglide::identify

@@ -39,8 +39,8 @@ struct Identification {
 /// As it stands in identify.json; what is not finite becomes null.
 nlohmann::ordered_json to_json(const Identification& identification);
 
-/// A value with its interval as a table shows it: `52.68 mH`; five digits with the prefix that
-/// suits. The unit is the last word of the name.
+/// A value as a table shows it, `52.675 mH`: five digits, of a frequency seven, with the prefix that
+/// suits. The unit is that of the name's ending; of a mass, without prefix.
 std::string shown(const std::string& name, double value);
 
 }  // namespace sonoglide::identify

@@ -1,0 +1,59 @@
+/// The equivalent circuit of a transducer: a lossy clamped capacitance beside series branches of
+/// resistance, inductance and capacitance, a branch a mode (Butterworth–Van Dyke).
+#pragma once
+
+#include <Eigen/Core>
+
+#include <complex>
+#include <vector>
+
+namespace sonoglide::identify::impedance {
+
+inline constexpr double two_pi = 6.283185307179586;
+
+/// G/(1 + j (f² − fs²)/(f Δ)): a branch by what is seen of it.
+struct Mode {
+  double conductance_S;  ///< largest, G = 1/R
+  double resonance_Hz;   ///< fs = 1/(2π√(L C))
+  double bandwidth_Hz;   ///< Δ = R/(2π L)
+
+  double resistance_ohm() const { return 1.0 / conductance_S; }
+  double inductance_H() const;
+  double capacitance_F() const;
+  double quality() const { return resonance_Hz / bandwidth_Hz; }
+};
+
+struct Circuit {
+  double clamped_capacitance_F;
+  double loss_tangent;      ///< of the clamped capacitance; 0 where the circuit has none
+  std::vector<Mode> modes;  ///< the first is the one that is identified
+
+  std::complex<double> admittance_S(double frequency_Hz) const;
+  /// fs √(1 + C1/C0)
+  double antiresonance_Hz() const;
+  /// √(C1/(C0 + C1))
+  double coupling() const;
+};
+
+/// Which parts of a circuit are fitted.
+struct Parts {
+  bool loss_tangent;
+  int modes;
+};
+
+/// A circuit as a vector: ln C0, tan δ where it is fitted, then ln G, ln fs and ln Δ of each mode.
+Eigen::VectorXd to_vector(const Circuit& circuit, Parts parts);
+Circuit to_circuit(const Eigen::VectorXd& p, Parts parts);
+inline Eigen::Index parameters(Parts parts) {
+  return 1 + (parts.loss_tangent ? 1 : 0) + 3 * parts.modes;
+}
+/// Of the first mode's ln G in the vector.
+inline Eigen::Index first_mode(Parts parts) {
+  return parts.loss_tangent ? 2 : 1;
+}
+
+/// The admittance, and its derivatives to the vector's elements.
+std::complex<double> admittance_S(const Circuit& circuit, Parts parts, double frequency_Hz,
+                                  Eigen::VectorXcd& derivatives);
+
+}  // namespace sonoglide::identify::impedance

@@ -1,0 +1,35 @@
+/// A circuit fitted to a sweep.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "host_sim/studies/identify/impedance/circuit.hpp"
+#include "host_sim/studies/identify/impedance/noise.hpp"
+#include "host_sim/studies/identify/impedance/sweep.hpp"
+
+namespace sonoglide::identify::impedance {
+
+struct CircuitFit {
+  Parts parts;
+  Circuit circuit;
+  Eigen::VectorXd p;  ///< the circuit as a vector
+  Noise noise;
+  Linearisation at;
+  double variance;             ///< σ² of the whitened residuals
+  Eigen::MatrixXd covariance;  ///< of p, with that variance
+  double deviance;             ///< −2 ln likelihood, comparable between circuits of one sweep
+  bool converged;
+};
+
+/// Relative residuals and their Jacobian.
+Linearisation linearise(const Sweep& sweep, Parts parts, const Circuit& circuit);
+
+/// Least squares of the whitened relative residuals, weighted by the circuit that the fit before
+/// gave, so that weights do not pull at it.
+CircuitFit fit_circuit(const Sweep& sweep, Parts parts, const Circuit& start, const Noise& noise);
+
+/// The same with the noise estimated in turn, until neither changes.
+CircuitFit fit_circuit_and_noise(const Sweep& sweep, Parts parts, const Circuit& start,
+                                 const Noise& noise);
+
+}  // namespace sonoglide::identify::impedance

@@ -1,0 +1,17 @@
+/// What a fitted circuit tells, each figure with its 95 % interval.
+#pragma once
+
+#include <vector>
+
+#include "host_sim/studies/identify/identification.hpp"
+#include "host_sim/studies/identify/impedance/circuit_fit.hpp"
+
+namespace sonoglide::identify::impedance {
+
+/// The names of the contract, in its order; then, where they are fitted, `loss_tangent`.
+///
+/// Positive figures have intervals that are symmetric in their logarithm: those are linear in the
+/// fitted vector, but for parallel resonance and coupling, which are linearised.
+std::vector<Estimate> figures(const CircuitFit& fit);
+
+}  // namespace sonoglide::identify::impedance

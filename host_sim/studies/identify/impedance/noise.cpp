@@ -1,0 +1,159 @@
+#include "host_sim/studies/identify/impedance/noise.hpp"
+
+#include <Eigen/Cholesky>
+#include <boost/math/tools/minima.hpp>
+
+#include <cmath>
+#include <limits>
+
+namespace sonoglide::identify::impedance {
+
+double whiten(const Noise& noise, const Eigen::VectorXd& log_magnitude,
+              Eigen::Ref<Eigen::MatrixXd> columns) {
+  const Eigen::Index readings = log_magnitude.size();
+  const double white = 1.0 - noise.correlated_share;
+  const double forgetting = noise.memory * noise.memory;
+  double log_determinant = 0.0;
+  Eigen::RowVectorXd state(columns.cols());
+  Eigen::RowVectorXd innovation(columns.cols());
+  for (Eigen::Index begin = 0; begin < columns.rows(); begin += readings) {
+    const double log_scale = begin == 0 ? 0.0 : std::log(noise.phase_scale);
+    state.setZero();
+    double variance = noise.correlated_share;  // of the state, before the reading
+    for (Eigen::Index i = 0; i < readings; ++i) {
+      const double log_deviation = (noise.exponent - 1.0) * log_magnitude(i) + log_scale;
+      const double seen = variance + white;
+      innovation = columns.row(begin + i) * std::exp(-log_deviation) - state;
+      columns.row(begin + i) = innovation / std::sqrt(seen);
+      log_determinant += std::log(seen) + 2.0 * log_deviation;
+      const double gain = variance / seen;
+      state = noise.memory * (state + gain * innovation);
+      variance = forgetting * variance * white / seen + (1.0 - forgetting) * noise.correlated_share;
+    }
+  }
+  return log_determinant;
+}
+
+double restricted_deviance(const Linearisation& at, const Noise& noise) {
+  const Eigen::Index p = at.jacobian.cols();
+  Eigen::MatrixXd columns(at.residuals.size(), p + 1);
+  columns << at.jacobian, at.residuals;
+  // Columns of length 1: the determinant changes by a constant alone.
+  columns.leftCols(p).array().rowwise() /= at.jacobian.colwise().norm().array();
+  const double log_determinant = whiten(noise, at.log_magnitude, columns);
+  const Eigen::MatrixXd normal = columns.transpose() * columns;
+  const Eigen::LDLT<Eigen::MatrixXd> solver(normal.topLeftCorner(p, p));
+  const Eigen::VectorXd right = normal.topRightCorner(p, 1);
+  const double left = normal(p, p) - right.dot(solver.solve(right));
+  const auto freedom = static_cast<double>(at.residuals.size() - p);
+  return log_determinant + solver.vectorD().array().abs().log().sum() + freedom * std::log(left);
+}
+
+namespace {
+
+/// A property of the noise, as the search varies it.
+struct Property {
+  double least;
+  double most;
+  void (*set)(Noise& noise, double value);
+};
+
+constexpr double most_memory = 0.999;
+
+const Property exponent = {-0.5, 2.5, [](Noise& noise, double value) { noise.exponent = value; }};
+const Property phase_scale = {
+    -4.6, 4.6, [](Noise& noise, double value) { noise.phase_scale = std::exp(value); }};
+const Property share = {0.0, 0.999,
+                        [](Noise& noise, double value) { noise.correlated_share = value; }};
+/// By its distance from 1.
+const Property memory = {-6.9, -0.1, [](Noise& noise, double value) {
+                           noise.memory = std::min(1.0 - std::exp(value), most_memory);
+                         }};
+
+/// The best value of one property; the others stay.
+void improve(const Linearisation& at, Noise& noise, double& deviance, const Property& property) {
+  constexpr int bits = 14;
+  std::uintmax_t evaluations = 24;
+  Noise tried = noise;
+  const auto [value, found] = boost::math::tools::brent_find_minima(
+      [&](double x) {
+        property.set(tried, x);
+        return restricted_deviance(at, tried);
+      },
+      property.least, property.most, bits, evaluations);
+  if (found < deviance) {
+    property.set(noise, value);
+    deviance = found;
+  }
+}
+
+/// The simplest of what the likelihood does not tell apart: an exponent of 0, 1 or 2, the same scale
+/// for magnitude and phase. Anything else has to pay for its parameter, by as much as makes it
+/// certain: an exponent that follows a few quiet readings makes the intervals too short.
+constexpr double price = 6.0;
+
+void improve_if_worth_it(const Linearisation& at, Noise& noise, double& deviance,
+                         const Property& property) {
+  Noise tried = noise;
+  double found = deviance;
+  improve(at, tried, found, property);
+  if (deviance - found > price) {
+    noise = tried;
+    deviance = found;
+  }
+}
+
+void improve_white(const Linearisation& at, Noise& noise, double& deviance) {
+  for (const double each : {0.0, 1.0, 2.0}) {
+    Noise tried = noise;
+    tried.exponent = each;
+    const double found = restricted_deviance(at, tried);
+    if (found < deviance) {
+      noise = tried;
+      deviance = found;
+    }
+  }
+  improve_if_worth_it(at, noise, deviance, exponent);
+  if (at.residuals.size() > at.log_magnitude.size()) {
+    improve_if_worth_it(at, noise, deviance, phase_scale);
+  }
+}
+
+/// The likelihood has several maxima in the correlation: the best of a few is improved.
+void improve_correlation(const Linearisation& at, Noise& noise, double& deviance) {
+  const Noise white = noise;
+  for (const double each_memory : {0.3, 0.7, 0.9, 0.97}) {
+    for (const double each_share : {0.2, 0.6, 0.95}) {
+      Noise tried = white;
+      tried.memory = each_memory;
+      tried.correlated_share = each_share;
+      const double found = restricted_deviance(at, tried);
+      if (found < deviance) {
+        noise = tried;
+        deviance = found;
+      }
+    }
+  }
+  if (noise.correlated_share > 0.0) {
+    improve(at, noise, deviance, share);
+    improve(at, noise, deviance, memory);
+  }
+}
+
+}  // namespace
+
+Noise estimate_noise(const Linearisation& at) {
+  Noise white;
+  double white_deviance = restricted_deviance(at, white);
+  improve_white(at, white, white_deviance);
+  Noise noise = white;
+  double deviance = white_deviance;
+  improve_correlation(at, noise, deviance);
+  if (white_deviance - deviance < price) {
+    return white;
+  }
+  improve_white(at, noise, deviance);
+  return noise;
+}
+
+}  // namespace sonoglide::identify::impedance

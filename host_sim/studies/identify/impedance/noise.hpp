@@ -1,0 +1,44 @@
+/// What the residuals of a sweep look like: how large they are for which admittance, and how they
+/// hang together along the sweep.
+#pragma once
+
+#include <Eigen/Core>
+
+namespace sonoglide::identify::impedance {
+
+/// Covariance of the residuals, up to its scale σ²: that of the relative residual (measured −
+/// fitted)/fitted, whose real part is an error of magnitude and whose imaginary part one of phase.
+///
+/// Standard deviation |Y|^(exponent − 1), of the imaginary part `phase_scale` times that. The
+/// correlation of two readings i apart in the sweep is correlated_share · memory^i, and 1 for i = 0.
+struct Noise {
+  double exponent = 1.0;  ///< 0: of equal size in the admittance; 1: relative; 2: in Z
+  double phase_scale = 1.0;
+  double correlated_share = 0.0;  ///< [0, 1)
+  double memory = 0.0;            ///< [0, 1)
+};
+
+/// Relative residuals at a fit and their Jacobian: the real parts of all readings, then, of a sweep
+/// with phase, the imaginary parts.
+struct Linearisation {
+  Eigen::VectorXd residuals;
+  Eigen::MatrixXd jacobian;
+  Eigen::VectorXd log_magnitude;  ///< ln(|Y|/geometric mean), one a reading
+};
+
+/// Makes columns white, in place: multiplies them by an inverse square root of the covariance. O(n)
+/// by the innovations of a Kalman filter: a first-order process seen through white noise.
+/// @param log_magnitude  as in Linearisation; the columns have one or two rows for each
+/// @return the logarithm of the covariance's determinant
+double whiten(const Noise& noise, const Eigen::VectorXd& log_magnitude,
+              Eigen::Ref<Eigen::MatrixXd> columns);
+
+/// Restricted likelihood, −2 ln of it up to a constant: of the residuals with σ² at its best and the
+/// parameters integrated out.
+/// Source: Patterson and Thompson, Biometrika 58 (1971).
+double restricted_deviance(const Linearisation& at, const Noise& noise);
+
+/// The noise that is most likely, by the restricted likelihood.
+Noise estimate_noise(const Linearisation& at);
+
+}  // namespace sonoglide::identify::impedance

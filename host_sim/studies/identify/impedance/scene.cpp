@@ -1,0 +1,81 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "host_sim/studies/identify/impedance/report.hpp"
+
+namespace sonoglide::identify::impedance {
+namespace {
+
+double value_of(const Identification& identification, const std::string& name) {
+  const auto& all = identification.parameters;
+  return std::find_if(all.begin(), all.end(),
+                      [&](const Estimate& each) { return each.name == name; })
+      ->value;
+}
+
+}  // namespace
+
+std::string scene_toml(const ImpedanceStudy& study) {
+  const Identification& identification = study.identification;
+  const double mass_kg = value_of(identification, "mass_kg");
+  const double stiffness_N_per_m = value_of(identification, "stiffness_N_per_m");
+  const double damping_N_s_per_m = value_of(identification, "damping_N_s_per_m");
+  const double force_factor_N_per_V = value_of(identification, "force_factor_N_per_V");
+  const Mode& mode = study.fit.circuit.modes.front();
+  const double resonance_Hz = mode.resonance_Hz;
+  // A contact that takes a tenth of the vibration's own losses, and a spring that does not tune it.
+  constexpr double sliding_m_per_s = 0.02;
+  constexpr double vibration_m_per_s = 0.05;
+  constexpr double coefficient = 0.2;
+  const double friction_N = 0.1 * damping_N_s_per_m * vibration_m_per_s;
+  const double amplitude_m = vibration_m_per_s / (two_pi * resonance_Hz);
+  const double contact_N_per_m = 10.0 * friction_N / amplitude_m;
+  const double voltage_V =
+      4.0 * (damping_N_s_per_m * vibration_m_per_s + friction_N) / force_factor_N_per_V;
+  const double settling_s = 2.0 * mode.quality() / (two_pi * resonance_Hz);
+  const double step_s = std::max(20.0 * settling_s, 100.0 / resonance_Hz);
+  const double loss = std::max(study.fit.circuit.loss_tangent, 0.0);
+  return fmt::format(
+      "# The transducer of {}, from a measured sweep of its impedance.\n"
+      "# Identified: [transducer] but for what is given below, resonance and quality factor "
+      "{:.5g}.\n"
+      "# Given by hand: {}.\n"
+      "# Assumed, since no sweep tells it: contact, sliding, amplifier and targets.\n"
+      "[plant]\n"
+      "mass_kg = {:.17g}\n"
+      "stiffness_N_per_m = {:.17g}\n"
+      "damping_N_s_per_m = {:.17g}\n\n"
+      "[friction]\n"
+      "law = \"dahl\"\n"
+      "coefficient = {:.17g}               # assumed\n"
+      "normal_force_N = {:.6g}             # assumed: friction a tenth of the damping at 0.05 m/s\n"
+      "contact_stiffness_N_per_m = {:.6g}  # assumed: Dahl number 10 there\n\n"
+      "[sliding]\n"
+      "velocity_m_per_s = {:.17g}          # assumed\n\n"
+      "[transducer]\n"
+      "force_factor_N_per_V = {:.17g}\n"
+      "clamped_capacitance_F = {:.17g}\n"
+      "loss_tangent = {:.17g}\n\n"
+      "[drive]\n"
+      "frequency_Hz = {:.17g}\n"
+      "max_voltage_amplitude_V = {:.6g}    # assumed: four times what 0.05 m/s takes\n\n"
+      "[run]\n"
+      "duration_s = {:.6g}\n\n"
+      "[controller]\n"
+      "arithmetic = \"float32\"\n"
+      "vibration = \"resonant\"\n"
+      "target_friction_ratio = [[0.0, 0.4], [{:.6g}, 0.6]]\n\n"
+      "[sensor]\n"
+      "vibration = \"motional_current\"     # assumed: no force sensor\n"
+      "force = false\n",
+      study.name, mode.quality(),
+      study.fact.mass_kg ? fmt::format("the mass, {:g} kg", mass_kg)
+                         : fmt::format("the force factor, {:g} N/V", force_factor_N_per_V),
+      mass_kg, stiffness_N_per_m, damping_N_s_per_m, coefficient, friction_N / coefficient,
+      contact_N_per_m, sliding_m_per_s, force_factor_N_per_V,
+      study.fit.circuit.clamped_capacitance_F, loss, resonance_Hz, voltage_V, 2.0 * step_s, step_s);
+}
+
+}  // namespace sonoglide::identify::impedance

@@ -1,0 +1,207 @@
+#include "host_sim/studies/identify/impedance/start_values.hpp"
+
+#include <Eigen/Dense>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace sonoglide::identify::impedance {
+namespace {
+
+using Complex = std::complex<double>;
+
+struct Ranked {
+  double misfit;
+  Circuit circuit;
+};
+
+/// The best ones, each of another resonance or bandwidth.
+std::vector<Circuit> best_of(std::vector<Ranked> all, std::size_t most) {
+  std::sort(all.begin(), all.end(),
+            [](const Ranked& a, const Ranked& b) { return a.misfit < b.misfit; });
+  std::vector<Circuit> best;
+  for (const Ranked& each : all) {
+    const Mode& mode = each.circuit.modes.back();
+    const bool near = std::any_of(best.begin(), best.end(), [&](const Circuit& other) {
+      const Mode& taken = other.modes.back();
+      return std::abs(mode.resonance_Hz - taken.resonance_Hz) <
+             0.5 * std::max(mode.bandwidth_Hz, taken.bandwidth_Hz);
+    });
+    if (!near) {
+      best.push_back(each.circuit);
+    }
+    if (best.size() == most) {
+      break;
+    }
+  }
+  return best;
+}
+
+/// Where a resonance may be: the readings with the largest local maxima, and the middles beside.
+std::vector<double> places(const Sweep& sweep) {
+  const std::size_t n = sweep.frequency_Hz.size();
+  std::vector<std::pair<double, std::size_t>> maxima;
+  const auto height = [&](std::size_t i) {
+    const Complex y = sweep.admittance_S[i];
+    return (sweep.has_phase ? y.real() : std::abs(y)) / sweep.frequency_Hz[i];
+  };
+  for (std::size_t i = 0; i < n; ++i) {
+    const bool rises = i == 0 || height(i) >= height(i - 1);
+    const bool falls = i + 1 == n || height(i) >= height(i + 1);
+    if (rises && falls) {
+      maxima.emplace_back(-height(i), i);
+    }
+  }
+  std::sort(maxima.begin(), maxima.end());
+  constexpr std::size_t most = 8;
+  maxima.resize(std::min(maxima.size(), most));
+  std::vector<double> found;
+  for (const auto& [minus_height, i] : maxima) {
+    const double f = sweep.frequency_Hz[i];
+    found.push_back(f);
+    if (i > 0) {
+      found.push_back(0.5 * (f + sweep.frequency_Hz[i - 1]));
+    }
+    if (i + 1 < n) {
+      found.push_back(0.5 * (f + sweep.frequency_Hz[i + 1]));
+    }
+  }
+  return found;
+}
+
+std::vector<double> geometric(double from, double factor, int count) {
+  std::vector<double> values(static_cast<std::size_t>(count), from);
+  for (std::size_t i = 1; i < values.size(); ++i) {
+    values[i] = values[i - 1] * factor;
+  }
+  return values;
+}
+
+Complex shape(double frequency_Hz, double resonance_Hz, double bandwidth_Hz) {
+  return 1.0 / Complex(1.0, (frequency_Hz - resonance_Hz) * (frequency_Hz + resonance_Hz) /
+                                (frequency_Hz * bandwidth_Hz));
+}
+
+/// Capacitance, loss and conductance by linear least squares of the relative residuals.
+void try_complex(const Sweep& sweep, double resonance_Hz, double bandwidth_Hz,
+                 std::vector<Ranked>& found) {
+  Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d right = Eigen::Vector3d::Zero();
+  for (std::size_t i = 0; i < sweep.frequency_Hz.size(); ++i) {
+    const double f = sweep.frequency_Hz[i];
+    const Complex measured = sweep.admittance_S[i];
+    const Complex scale = 1.0 / measured;
+    const Complex columns[] = {Complex(0.0, f) * scale, f * scale,
+                               shape(f, resonance_Hz, bandwidth_Hz) * scale};
+    for (int a = 0; a < 3; ++a) {
+      right(a) += columns[a].real();
+      for (int b = 0; b <= a; ++b) {
+        normal(a, b) += (std::conj(columns[a]) * columns[b]).real();
+      }
+    }
+  }
+  normal = Eigen::Matrix3d(normal.selfadjointView<Eigen::Lower>());
+  const Eigen::Vector3d scales = normal.diagonal().cwiseSqrt().cwiseInverse();
+  const Eigen::Matrix3d scaled = scales.asDiagonal() * normal * scales.asDiagonal();
+  const Eigen::Vector3d solution =
+      scales.asDiagonal() * scaled.ldlt().solve(scales.asDiagonal() * right);
+  if (!solution.allFinite() || solution(0) <= 0.0 || solution(2) <= 0.0) {
+    return;
+  }
+  const double misfit = static_cast<double>(sweep.frequency_Hz.size()) - right.dot(solution);
+  found.push_back({misfit,
+                   {solution(0) / two_pi,
+                    std::max(solution(1), 0.0) / solution(0),
+                    {{solution(2), resonance_Hz, bandwidth_Hz}}}});
+}
+
+/// Of magnitudes: the ratio G/(ω C0) at resonance is tried, the scale follows.
+void try_magnitude(const Sweep& sweep, double resonance_Hz, double bandwidth_Hz, double ratio,
+                   std::vector<Ranked>& found) {
+  double sum = 0.0;
+  double squares = 0.0;
+  for (std::size_t i = 0; i < sweep.frequency_Hz.size(); ++i) {
+    const double f = sweep.frequency_Hz[i];
+    const Complex unit =
+        Complex(0.0, f / resonance_Hz) + ratio * shape(f, resonance_Hz, bandwidth_Hz);
+    const double difference = std::log(std::abs(sweep.admittance_S[i]) / std::abs(unit));
+    sum += difference;
+    squares += difference * difference;
+  }
+  const auto n = static_cast<double>(sweep.frequency_Hz.size());
+  const double scale = std::exp(sum / n);
+  found.push_back(
+      {squares - sum * sum / n,
+       {scale / (two_pi * resonance_Hz), 0.0, {{scale * ratio, resonance_Hz, bandwidth_Hz}}}});
+}
+
+}  // namespace
+
+std::vector<Circuit> start_circuits(const Sweep& sweep, std::size_t most) {
+  std::vector<Ranked> found;
+  for (const double resonance_Hz : places(sweep)) {
+    for (const double bandwidth_Hz : geometric(resonance_Hz / 3.0, 0.35, 12)) {
+      if (sweep.has_phase) {
+        try_complex(sweep, resonance_Hz, bandwidth_Hz, found);
+        continue;
+      }
+      // From G/(ω C0) = Q C1/C0 with C1/C0 between 1e-5 and 2.
+      for (const double capacitances : geometric(2.0, 0.3, 11)) {
+        try_magnitude(sweep, resonance_Hz, bandwidth_Hz, capacitances * resonance_Hz / bandwidth_Hz,
+                      found);
+      }
+    }
+  }
+  return best_of(std::move(found), most);
+}
+
+std::vector<Circuit> circuits_with_another_mode(const Sweep& sweep, const CircuitFit& fit,
+                                                std::size_t most) {
+  const auto n = static_cast<Eigen::Index>(sweep.frequency_Hz.size());
+  Eigen::MatrixXd jacobian = fit.at.jacobian;
+  Eigen::VectorXd residuals = fit.at.residuals;
+  whiten(fit.noise, fit.at.log_magnitude, jacobian);
+  whiten(fit.noise, fit.at.log_magnitude, residuals);
+  for (Eigen::Index i = 0; i < jacobian.cols(); ++i) {
+    jacobian.col(i).normalize();
+  }
+  const Eigen::MatrixXd base = Eigen::HouseholderQR<Eigen::MatrixXd>(jacobian).householderQ() *
+                               Eigen::MatrixXd::Identity(jacobian.rows(), jacobian.cols());
+  constexpr Eigen::Index most_places = 60;
+  const Eigen::Index stride = std::max<Eigen::Index>(1, n / most_places);
+  std::vector<Ranked> found;
+  Eigen::VectorXd column(residuals.size());
+  for (Eigen::Index place = 0; place < n; place += stride) {
+    const double resonance_Hz = sweep.frequency_Hz[static_cast<std::size_t>(place)];
+    const auto low = static_cast<std::size_t>(std::max<Eigen::Index>(0, place - stride));
+    const auto high = static_cast<std::size_t>(std::min<Eigen::Index>(n - 1, place + stride));
+    const double spacing_Hz = sweep.frequency_Hz[high] - sweep.frequency_Hz[low];
+    for (const double bandwidth_Hz : geometric(std::max(spacing_Hz, 1e-9 * resonance_Hz), 3.0, 6)) {
+      if (bandwidth_Hz > resonance_Hz) {
+        break;
+      }
+      for (Eigen::Index i = 0; i < n; ++i) {
+        const double f = sweep.frequency_Hz[static_cast<std::size_t>(i)];
+        const Complex part = shape(f, resonance_Hz, bandwidth_Hz) / fit.circuit.admittance_S(f);
+        column(i) = part.real();
+        if (sweep.has_phase) {
+          column(n + i) = part.imag();
+        }
+      }
+      whiten(fit.noise, fit.at.log_magnitude, column);
+      column -= base * (base.transpose() * column);
+      const double length = column.squaredNorm();
+      const double along = column.dot(residuals);
+      if (length > 0.0 && along > 0.0) {
+        Circuit circuit = fit.circuit;
+        circuit.modes.push_back({along / length, resonance_Hz, bandwidth_Hz});
+        found.push_back({-along * along / length, std::move(circuit)});
+      }
+    }
+  }
+  return best_of(std::move(found), most);
+}
+
+}  // namespace sonoglide::identify::impedance

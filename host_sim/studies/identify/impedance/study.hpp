@@ -1,0 +1,29 @@
+/// Identification of a transducer's circuit from a sweep.
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+#include "host_sim/studies/identify/identification.hpp"
+#include "host_sim/studies/identify/impedance/circuit_fit.hpp"
+#include "host_sim/studies/identify/impedance/mechanics.hpp"
+#include "host_sim/studies/identify/impedance/sweep.hpp"
+
+namespace sonoglide::identify::impedance {
+
+/// Of a longer sweep every so manieth reading is used, and all about its largest conductance.
+inline constexpr std::size_t most_readings = 6000;
+
+struct ImpedanceStudy {
+  std::string name;  ///< of the file
+  Sweep sweep;       ///< what was fitted
+  CircuitFit fit;
+  MechanicalFact fact;
+  Identification identification;
+};
+
+/// @param name  of the file, for the titles
+/// @throws loop::ComputationError  see select_circuit
+ImpedanceStudy study(const std::string& name, const Sweep& sweep, const MechanicalFact& fact);
+
+}  // namespace sonoglide::identify::impedance
