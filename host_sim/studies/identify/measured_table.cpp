@@ -211,10 +211,11 @@ void MeasuredTable::find_heading(const std::vector<std::string_view>& lines,
       last_comment = i;
       continue;
     }
-    const std::vector<Cell> cells =
-        cells_of(lines[i], names_.empty() ? separator_of(line) : separator_);
-    if (cells.size() >= 2 && numeric_cells(cells, separator_of(line)) > 0 &&
-        (names_.empty() || names_.size() == cells.size() || numeric_cells(cells, ' ') > 1)) {
+    const char separator = names_.empty() ? separator_of(line) : separator_;
+    const std::vector<Cell> cells = cells_of(lines[i], separator);
+    const bool begins_with_number = is_numeric(cells.front().text, separator != ',');
+    const bool like_heading = cells.size() == names_.size() && numeric_cells(cells, separator) > 0;
+    if (cells.size() >= 2 && (begins_with_number || like_heading)) {
       first_row = i;
       break;
     }

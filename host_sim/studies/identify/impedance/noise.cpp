@@ -3,8 +3,14 @@
 #include <Eigen/Cholesky>
 #include <boost/math/tools/minima.hpp>
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
+#include <utility>
+#include <vector>
+
+#include "host_sim/studies/identify/least_squares.hpp"
 
 namespace sonoglide::identify::impedance {
 
@@ -103,7 +109,7 @@ void improve_if_worth_it(const Linearisation& at, Noise& noise, double& deviance
   }
 }
 
-void improve_white(const Linearisation& at, Noise& noise, double& deviance) {
+void take_best_whole_exponent(const Linearisation& at, Noise& noise, double& deviance) {
   for (const double each : {0.0, 1.0, 2.0}) {
     Noise tried = noise;
     tried.exponent = each;
@@ -112,10 +118,6 @@ void improve_white(const Linearisation& at, Noise& noise, double& deviance) {
       noise = tried;
       deviance = found;
     }
-  }
-  improve_if_worth_it(at, noise, deviance, exponent);
-  if (at.residuals.size() > at.log_magnitude.size()) {
-    improve_if_worth_it(at, noise, deviance, phase_scale);
   }
 }
 
@@ -143,17 +145,81 @@ void improve_correlation(const Linearisation& at, Noise& noise, double& deviance
 }  // namespace
 
 Noise estimate_noise(const Linearisation& at) {
-  Noise white;
-  double white_deviance = restricted_deviance(at, white);
-  improve_white(at, white, white_deviance);
-  Noise noise = white;
-  double deviance = white_deviance;
-  improve_correlation(at, noise, deviance);
-  if (white_deviance - deviance < price) {
-    return white;
+  Noise noise;
+  double deviance = restricted_deviance(at, noise);
+  take_best_whole_exponent(at, noise, deviance);
+  Noise correlated = noise;
+  double correlated_deviance = deviance;
+  improve_correlation(at, correlated, correlated_deviance);
+  take_best_whole_exponent(at, correlated, correlated_deviance);
+  if (deviance - correlated_deviance > price) {
+    noise = correlated;
+    deviance = correlated_deviance;
   }
-  improve_white(at, noise, deviance);
+  // Last, since residuals that hang together look like ones of uneven size.
+  improve_if_worth_it(at, noise, deviance, exponent);
+  if (at.residuals.size() > at.log_magnitude.size()) {
+    improve_if_worth_it(at, noise, deviance, phase_scale);
+  }
   return noise;
+}
+
+namespace {
+
+/// A fit under one correlation.
+struct Supposition {
+  double log_weight;
+  double share;
+  Eigen::MatrixXd covariance;
+  Eigen::VectorXd step;  ///< to its best parameters
+};
+
+Supposition suppose(const Linearisation& at, const Noise& noise, double log_prior) {
+  Eigen::MatrixXd jacobian = at.jacobian;
+  Eigen::VectorXd residuals = at.residuals;
+  whiten(noise, at.log_magnitude, jacobian);
+  whiten(noise, at.log_magnitude, residuals);
+  const Eigen::MatrixXd normal = inverse_normal_matrix(jacobian);
+  Eigen::VectorXd step = -(normal * (jacobian.transpose() * residuals));
+  const auto freedom = static_cast<double>(at.residuals.size() - at.jacobian.cols());
+  const double variance = (residuals + jacobian * step).squaredNorm() / freedom;
+  return {log_prior - 0.5 * restricted_deviance(at, noise), noise.correlated_share,
+          variance * normal, std::move(step)};
+}
+
+}  // namespace
+
+Allowance allow_for_correlation(const Linearisation& at, const Noise& noise) {
+  constexpr double prior_of_none = 0.8;
+  constexpr double memories[] = {0.2, 0.5, 0.7, 0.8, 0.88, 0.93, 0.96, 0.98};
+  constexpr double shares[] = {0.05, 0.15, 0.3, 0.5, 0.7, 0.85, 0.95, 0.995};
+  Noise tried = noise;
+  tried.correlated_share = 0.0;
+  tried.memory = 0.0;
+  std::vector<Supposition> all = {suppose(at, tried, std::log(prior_of_none))};
+  const double each_prior = std::log((1.0 - prior_of_none) /
+                                     static_cast<double>(std::size(memories) * std::size(shares)));
+  for (const double memory_value : memories) {
+    for (const double share_value : shares) {
+      tried.memory = memory_value;
+      tried.correlated_share = share_value;
+      all.push_back(suppose(at, tried, each_prior));
+    }
+  }
+  const double most = std::max_element(all.begin(), all.end(), [](const auto& a, const auto& b) {
+                        return a.log_weight < b.log_weight;
+                      })->log_weight;
+  double sum = 0.0;
+  Allowance allowance{Eigen::MatrixXd::Zero(at.jacobian.cols(), at.jacobian.cols()), 0.0};
+  for (const Supposition& each : all) {
+    const double weight = std::exp(each.log_weight - most);
+    sum += weight;
+    allowance.covariance += weight * (each.covariance + each.step * each.step.transpose());
+    allowance.correlated_share += weight * each.share;
+  }
+  allowance.covariance /= sum;
+  allowance.correlated_share /= sum;
+  return allowance;
 }
 
 }  // namespace sonoglide::identify::impedance

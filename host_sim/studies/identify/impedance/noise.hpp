@@ -41,4 +41,17 @@ double restricted_deviance(const Linearisation& at, const Noise& noise);
 /// The noise that is most likely, by the restricted likelihood.
 Noise estimate_noise(const Linearisation& at);
 
+/// What an error in the noise's correlation adds to the covariance of the parameters.
+struct Allowance {
+  Eigen::MatrixXd covariance;  ///< of the parameters, averaged over the correlations
+  double correlated_share;     ///< likewise
+};
+
+/// Averages over the correlations along the sweep that the residuals allow, since the likeliest one
+/// alone makes the intervals too short: of each the covariance, and the square of the step by which
+/// its best parameters differ, weighted by its restricted likelihood. No correlation has 0.8
+/// of the weight beforehand, the others the rest evenly.
+/// Source: Hoeting, Madigan, Raftery and Volinsky, Statistical Science 14 (1999).
+Allowance allow_for_correlation(const Linearisation& at, const Noise& noise);
+
 }  // namespace sonoglide::identify::impedance

@@ -58,27 +58,53 @@ bool plausible(const Sweep& sweep, const CircuitFit& fit) {
          readings_near(sweep, added) >= fewest;
 }
 
-/// Another mode, if the residuals ask for it.
-bool add_mode(const Sweep& sweep, CircuitFit& fit) {
+/// The fit with the mode that its residuals ask for most, where there is a plausible one.
+std::optional<CircuitFit> with_another_mode(const Sweep& sweep, const CircuitFit& fit) {
   constexpr std::size_t tries = 3;
   Parts parts = fit.parts;
   ++parts.modes;
-  if (2 * parameters(parts) > fit.at.residuals.size()) {
-    return false;
+  if (parts.modes > most_modes || 2 * parameters(parts) > fit.at.residuals.size()) {
+    return std::nullopt;
   }
   std::optional<CircuitFit> larger =
       best_fit(sweep, parts, circuits_with_another_mode(sweep, fit, tries), fit.noise);
-  if (!larger) {
-    return false;
+  if (larger) {
+    *larger = fit_circuit_and_noise(sweep, parts, larger->circuit, larger->noise);
   }
-  *larger = fit_circuit_and_noise(sweep, parts, larger->circuit, larger->noise);
-  const auto searched = static_cast<double>(sweep.frequency_Hz.size());
-  if (!larger->converged || !plausible(sweep, *larger) ||
-      chance(fit, *larger) * searched > mode_significance) {
-    return false;
+  return larger && larger->converged && plausible(sweep, *larger) ? larger : std::nullopt;
+}
+
+bool is_seen(const Sweep& sweep, const CircuitFit& fit, const CircuitFit& larger) {
+  return chance(fit, larger) * static_cast<double>(sweep.frequency_Hz.size()) <= mode_significance;
+}
+
+/// Whether the last mode is a smaller one beside the others: two that overlap are one to any sweep.
+bool stands_apart(const CircuitFit& fit) {
+  const std::vector<Mode>& modes = fit.circuit.modes;
+  const Mode& last = modes.back();
+  return std::all_of(modes.begin(), modes.end() - 1, [&](const Mode& other) {
+    return last.conductance_S < 0.5 * other.conductance_S &&
+           std::abs(last.resonance_Hz - other.resonance_Hz) >
+               std::max(last.bandwidth_Hz, other.bandwidth_Hz);
+  });
+}
+
+/// What a mode that is not certain adds to the covariance: the larger fit counts by its likelihood
+/// against the smaller one's, less what its parameters cost (Schwarz), with its own covariance and
+/// the square of the step to it.
+/// Source: Kass and Raftery, Journal of the American Statistical Association 90 (1995).
+void allow_for_mode(const CircuitFit& larger, CircuitFit& fit) {
+  const Eigen::Index size = fit.p.size();
+  const auto rows = static_cast<double>(fit.at.residuals.size());
+  const double log_odds = 0.5 * (fit.deviance - larger.deviance) -
+                          0.5 * static_cast<double>(larger.p.size() - size) * std::log(rows);
+  const double weight = 1.0 / (1.0 + std::exp(-log_odds));
+  const Eigen::VectorXd step = larger.p.head(size) - fit.p;
+  const Eigen::MatrixXd other =
+      larger.covariance.topLeftCorner(size, size) + step * step.transpose();
+  if (other.allFinite()) {
+    fit.covariance = (1.0 - weight) * fit.covariance + weight * other;
   }
-  fit = *std::move(larger);
-  return true;
 }
 
 double median(std::vector<double> values) {
@@ -87,31 +113,36 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
-/// Readings whose whitened residual alone is far off those on both sides.
+/// The lesser of the distances of each value to those beside it.
+std::vector<double> distances_to_neighbours(const Eigen::VectorXd& r) {
+  std::vector<double> apart;
+  for (Eigen::Index i = 0; i < r.size(); ++i) {
+    const double before = r(i > 0 ? i - 1 : 1);
+    const double after = r(i + 1 < r.size() ? i + 1 : i - 1);
+    apart.push_back(std::min(std::abs(r(i) - before), std::abs(r(i) - after)));
+  }
+  return apart;
+}
+
+/// Readings whose relative residual alone is far off those on both sides, measured by what is usual
+/// around them.
 std::vector<std::size_t> find_strays(const CircuitFit& fit) {
   const Eigen::Index n = fit.at.log_magnitude.size();
-  const Eigen::Index series = fit.at.residuals.size() / n;
-  Noise white = fit.noise;
-  white.correlated_share = 0.0;
-  Eigen::VectorXd scaled = fit.at.residuals;
-  whiten(white, fit.at.log_magnitude, scaled);
   constexpr double far = 8.0;
   constexpr double deviation_of_median = 1.4826;
+  constexpr std::ptrdiff_t around = 15;
   std::vector<std::size_t> strays;
-  for (Eigen::Index part = 0; part < series; ++part) {
-    const auto r = scaled.segment(part * n, n);
-    std::vector<double> apart;
-    for (Eigen::Index i = 0; i < n; ++i) {
-      const double before =
-          r(std::max<Eigen::Index>(i - 1, 0) == i ? 1 : std::max<Eigen::Index>(i - 1, 0));
-      const double after = r(i + 1 < n ? i + 1 : n - 2);
-      apart.push_back(std::min(std::abs(r(i) - before), std::abs(r(i) - after)));
-    }
-    const double limit = far * deviation_of_median * std::max(median(apart), 1e-300);
+  for (Eigen::Index begin = 0; begin < fit.at.residuals.size(); begin += n) {
+    const Eigen::VectorXd r = fit.at.residuals.segment(begin, n);
+    const std::vector<double> apart = distances_to_neighbours(r);
     for (std::size_t i = 0; i < apart.size(); ++i) {
-      const auto at = static_cast<Eigen::Index>(i);
+      const auto at = static_cast<std::ptrdiff_t>(i);
+      const auto size = static_cast<std::ptrdiff_t>(apart.size());
+      const double usual = median({apart.begin() + std::max<std::ptrdiff_t>(at - around, 0),
+                                   apart.begin() + std::min(at + around + 1, size)});
       // Beside a stray the distance to it is large too, the own residual is not.
-      if (apart[i] > limit && std::abs(r(at)) > 0.5 * apart[i]) {
+      if (apart[i] > far * deviation_of_median * std::max(usual, 1e-300) &&
+          std::abs(r(at)) > 0.5 * apart[i]) {
         strays.push_back(i);
       }
     }
@@ -152,7 +183,9 @@ void require_resonance(const Sweep& sweep, const CircuitFit& fit) {
 }
 
 void require_inside(const Sweep& sweep, const CircuitFit& fit) {
-  const Mode& mode = fit.circuit.modes.front();
+  const Mode& mode = *std::max_element(
+      fit.circuit.modes.begin(), fit.circuit.modes.end(),
+      [](const Mode& a, const Mode& b) { return a.conductance_S < b.conductance_S; });
   const double low_Hz = sweep.frequency_Hz.front();
   const double high_Hz = sweep.frequency_Hz.back();
   if (mode.resonance_Hz < low_Hz || mode.resonance_Hz > high_Hz) {
@@ -179,14 +212,26 @@ void require_inside(const Sweep& sweep, const CircuitFit& fit) {
   }
 }
 
-/// The mode of the largest conductance first.
-void order_modes(const Sweep& sweep, CircuitFit& fit) {
-  Circuit ordered = fit.circuit;
-  std::sort(ordered.modes.begin(), ordered.modes.end(),
-            [](const Mode& a, const Mode& b) { return a.conductance_S > b.conductance_S; });
-  if (ordered.modes.front().resonance_Hz != fit.circuit.modes.front().resonance_Hz) {
-    fit = fit_circuit(sweep, fit.parts, ordered, fit.noise);
+/// Changes places with the first mode.
+void put_largest_first(CircuitFit& fit) {
+  std::vector<Mode>& modes = fit.circuit.modes;
+  const auto largest = std::max_element(
+      modes.begin(), modes.end(),
+      [](const Mode& a, const Mode& b) { return a.conductance_S < b.conductance_S; });
+  const Eigen::Index first = first_mode(fit.parts);
+  const Eigen::Index other = first + 3 * (largest - modes.begin());
+  if (other == first) {
+    return;
   }
+  Eigen::PermutationMatrix<Eigen::Dynamic> swap(fit.p.size());
+  swap.setIdentity();
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    std::swap(swap.indices()(first + i), swap.indices()(other + i));
+  }
+  std::swap(modes.front(), *largest);
+  fit.p = swap * fit.p;
+  fit.at.jacobian = fit.at.jacobian * swap.transpose();
+  fit.covariance = swap * fit.covariance * swap.transpose();
 }
 
 CircuitFit first_fit(const Sweep& sweep) {
@@ -230,13 +275,21 @@ Selection select_circuit(const Sweep& sweep) {
   } else {
     selected.left_out.clear();
   }
-  while (selected.fit.parts.modes < most_modes && add_mode(selected.sweep, selected.fit)) {
+  std::optional<CircuitFit> larger = with_another_mode(selected.sweep, selected.fit);
+  while (larger && is_seen(selected.sweep, selected.fit, *larger)) {
+    selected.fit = *std::move(larger);
+    larger = with_another_mode(selected.sweep, selected.fit);
   }
-  order_modes(selected.sweep, selected.fit);
   if (!sweep.has_phase) {
     add_loss(selected.sweep, selected.fit);
   }
   require_inside(selected.sweep, selected.fit);
+  selected.fit.covariance = allow_for_correlation(selected.fit.at, selected.fit.noise).covariance;
+  if (larger && larger->parts.loss_tangent == selected.fit.parts.loss_tangent &&
+      stands_apart(*larger)) {
+    allow_for_mode(*larger, selected.fit);
+  }
+  put_largest_first(selected.fit);
   return selected;
 }
 

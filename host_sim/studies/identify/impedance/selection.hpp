@@ -15,7 +15,7 @@ inline constexpr int most_modes = 4;
 
 /// A further mode is taken where an F test on the whitened residuals would see it by chance in fewer
 /// sweeps than this share; each reading counts as a place where it was looked for.
-inline constexpr double mode_significance = 1e-3;
+inline constexpr double mode_significance = 1e-2;
 
 /// The same for the loss tangent in magnitudes alone.
 inline constexpr double loss_significance = 1e-3;
@@ -30,6 +30,9 @@ struct Selection {
 /// phase, the loss tangent is always fitted: to leave out a loss that the sweep does not rule out
 /// would make resistance and quality factor too sure. The first mode is the one of the largest
 /// conductance.
+///
+/// The covariance allows for correlation along the sweep (allow_for_correlation) and for a further
+/// mode that is likely but not certain, by how likely it is.
 ///
 /// Readings that alone stand 8 robust standard deviations off the middle of their neighbours'
 /// residuals are left out.

@@ -56,9 +56,22 @@ std::size_t readings_in_band(const Sweep& sweep, const Mode& mode) {
       [&](double f) { return std::abs(f - mode.resonance_Hz) <= 0.5 * mode.bandwidth_Hz; }));
 }
 
+/// Deviation of a phase residual from the one before it: what is no misfit.
+double reading_to_reading(const CircuitFit& fit) {
+  const Eigen::Index n = fit.at.log_magnitude.size();
+  std::vector<double> steps;
+  for (Eigen::Index i = n + 1; i < fit.at.residuals.size(); ++i) {
+    steps.push_back(std::abs(fit.at.residuals(i) - fit.at.residuals(i - 1)));
+  }
+  constexpr double deviation_of_median = 1.4826;
+  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
+  std::nth_element(steps.begin(), middle, steps.end());
+  return deviation_of_median * *middle / std::sqrt(2.0);
+}
+
 /// Readings whose phase is beyond ±90° by more than the scatter explains.
 std::size_t impossible_phases(const Sweep& sweep, const CircuitFit& fit) {
-  const double scatter = 3.0 * root_mean_square(fit);
+  const double scatter = 4.0 * reading_to_reading(fit);
   return static_cast<std::size_t>(std::count_if(
       sweep.admittance_S.begin(), sweep.admittance_S.end(),
       [&](std::complex<double> y) { return y.real() < -std::abs(y) * std::max(scatter, 1e-3); }));

@@ -1,0 +1,68 @@
+#include "host_sim/studies/identify/impedance/circuit.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "synthetic.hpp"
+
+namespace sonoglide::identify::impedance {
+namespace {
+
+using Complex = std::complex<double>;
+
+/// jωC0(1 − j tan δ) + 1/(R + jωL + 1/(jωC)), written out.
+TEST(Circuit, IsTheAdmittanceOfItsElements) {
+  Circuit circuit = published_piece();
+  circuit.loss_tangent = 0.01;
+  const Complex j(0.0, 1.0);
+  for (const double f : {1e3, 112e3, 112.72e3, 114e3, 5e6}) {
+    const double w = two_pi * f;
+    const Complex expected =
+        j * w * 1.53668657e-9 * (1.0 - 0.01 * j) +
+        1.0 / (106.327685 + j * w * 52.6754086e-3 + 1.0 / (j * w * 37.8469081e-12));
+    EXPECT_NEAR(std::abs(circuit.admittance_S(f) - expected), 0.0, 1e-9 * std::abs(expected)) << f;
+  }
+}
+
+TEST(Circuit, HasThePublishedFiguresOfAPiece) {
+  const Circuit circuit = published_piece();
+  EXPECT_NEAR(circuit.modes.front().quality(), 350.866897, 1e-5);
+  EXPECT_NEAR(circuit.modes.front().inductance_H(), 52.6754086e-3, 1e-14);
+  EXPECT_NEAR(circuit.modes.front().capacitance_F(), 37.8469081e-12, 1e-23);
+}
+
+/// A Langevin transducer of 38.62 and 39.77 kHz has k_eff = √(1 − (fs/fp)²) = 0.239, as published.
+TEST(Circuit, HasThePublishedCouplingOfALangevinTransducer) {
+  const double ratio = std::pow(39.77 / 38.62, 2) - 1.0;  // C1/C0
+  const double quality = 500.0;
+  const Circuit circuit{
+      3e-9, 0.0, {{two_pi * 38620.0 * ratio * 3e-9 * quality, 38620.0, 38620.0 / quality}}};
+  EXPECT_NEAR(circuit.antiresonance_Hz(), 39770.0, 1e-6);
+  EXPECT_NEAR(circuit.coupling(), 0.239, 5e-4);
+}
+
+TEST(Circuit, DerivativesAreThoseOfDifferences) {
+  Circuit circuit = published_piece();
+  circuit.loss_tangent = 0.01;
+  circuit.modes.push_back({1e-4, 113.5e3, 500.0});
+  const Parts parts{true, 2};
+  const Eigen::VectorXd p = to_vector(circuit, parts);
+  Eigen::VectorXcd derivatives(p.size());
+  const double f = 112.8e3;
+  admittance_S(circuit, parts, f, derivatives);
+  for (Eigen::Index i = 0; i < p.size(); ++i) {
+    constexpr double step = 1e-6;
+    Eigen::VectorXd more = p;
+    Eigen::VectorXd less = p;
+    more(i) += step;
+    less(i) -= step;
+    const Complex difference =
+        (to_circuit(more, parts).admittance_S(f) - to_circuit(less, parts).admittance_S(f)) /
+        (2.0 * step);
+    EXPECT_NEAR(std::abs(derivatives(i) - difference), 0.0, 1e-5 * std::abs(difference)) << i;
+  }
+}
+
+}  // namespace
+}  // namespace sonoglide::identify::impedance

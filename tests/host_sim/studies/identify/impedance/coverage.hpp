@@ -1,0 +1,36 @@
+/// How often the 95 % intervals of an identification hold the truth.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "synthetic.hpp"
+
+namespace sonoglide::identify::impedance {
+
+inline constexpr Kind kinds[] = {
+    {"complex_relative", true, Error::relative, 0.0, Second::none},
+    {"complex_admittance", true, Error::admittance, 0.0, Second::none},
+    {"complex_impedance", true, Error::impedance, 0.0, Second::none},
+    {"complex_loss", true, Error::relative, 0.02, Second::none},
+    {"complex_second_mode", true, Error::relative, 0.0, Second::strong},
+    {"complex_correlated", true, Error::correlated, 0.0, Second::none},
+    {"complex_misfit", true, Error::relative, 0.0, Second::weak},
+    {"magnitude_relative", false, Error::relative, 0.0, Second::none},
+    {"magnitude_admittance", false, Error::admittance, 0.0, Second::none},
+    {"magnitude_second_mode", false, Error::relative, 0.0, Second::strong},
+    {"magnitude_correlated", false, Error::correlated, 0.0, Second::none},
+    {"magnitude_misfit", false, Error::relative, 0.0, Second::weak},
+};
+
+struct Coverage {
+  std::string parameter;
+  int sweeps = 0;
+  int covered = 0;
+};
+
+/// Of the eight parameters of the contract, over so many random sweeps; a refused sweep covers
+/// nothing.
+std::vector<Coverage> coverage(const Kind& kind, int sweeps, unsigned seed);
+
+}  // namespace sonoglide::identify::impedance

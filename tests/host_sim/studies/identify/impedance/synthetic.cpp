@@ -1,0 +1,108 @@
+#include "synthetic.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sonoglide::identify::impedance {
+namespace {
+
+using Complex = std::complex<double>;
+
+Mode mode_of(double resistance_ohm, double inductance_H, double capacitance_F) {
+  return {1.0 / resistance_ohm, 1.0 / (two_pi * std::sqrt(inductance_H * capacitance_F)),
+          resistance_ohm / (two_pi * inductance_H)};
+}
+
+/// Errors of a sweep, reading after reading.
+class Errors {
+ public:
+  Errors(const Kind& kind, double typical_S, std::mt19937_64& random)
+      : kind_(kind), typical_S_(typical_S), random_(random), slow_(draw()) {}
+
+  Complex disturbed(Complex admittance_S) {
+    constexpr double level = 0.01;
+    const Complex error = level * next();
+    switch (kind_.error) {
+      case Error::admittance:
+        return admittance_S + typical_S_ * error;
+      case Error::impedance:
+        return 1.0 / (1.0 / admittance_S + error / typical_S_);
+      default:
+        return admittance_S * (1.0 + error);
+    }
+  }
+
+ private:
+  Complex draw() { return {normal_(random_), normal_(random_)}; }
+
+  Complex next() {
+    if (kind_.error != Error::correlated) {
+      return draw();
+    }
+    constexpr double memory = 0.9;
+    slow_ = memory * slow_ + std::sqrt(1.0 - memory * memory) * draw();
+    return std::sqrt(0.5) * (slow_ + draw());
+  }
+
+  const Kind& kind_;
+  double typical_S_;
+  std::mt19937_64& random_;
+  std::normal_distribution<double> normal_;
+  Complex slow_;
+};
+
+}  // namespace
+
+Circuit published_piece() {
+  return {1.53668657e-9, 0.0, {mode_of(106.327685, 52.6754086e-3, 37.8469081e-12)}};
+}
+
+Sweep exact_sweep(const Circuit& circuit, double low_Hz, double high_Hz, int readings) {
+  Sweep sweep{"", {}, {}, true, {}};
+  for (int i = 0; i < readings; ++i) {
+    const double f = low_Hz + (high_Hz - low_Hz) * i / (readings - 1);
+    sweep.frequency_Hz.push_back(f);
+    sweep.admittance_S.push_back(circuit.admittance_S(f));
+  }
+  return sweep;
+}
+
+Synthetic synthetic(const Kind& kind, int readings, std::mt19937_64& random) {
+  std::uniform_real_distribution<double> even(0.0, 1.0);
+  const double resonance_Hz = 20e3 * std::pow(10.0, even(random));
+  const double quality = 20.0 * std::pow(10.0, even(random));
+  const double clamped_F = 3e-9;
+  const double motional_F = clamped_F * 0.01 * std::pow(10.0, even(random));
+  const double bandwidth_Hz = resonance_Hz / quality;
+  Circuit truth{clamped_F,
+                kind.loss_tangent,
+                {{two_pi * resonance_Hz * motional_F * quality, resonance_Hz, bandwidth_Hz}}};
+  const double parallel_Hz = truth.antiresonance_Hz();
+  const double margin_Hz = std::max(6.0 * bandwidth_Hz, 0.3 * (parallel_Hz - resonance_Hz));
+  const double low_Hz = std::max(resonance_Hz - margin_Hz, 0.3 * resonance_Hz);
+  const double high_Hz = parallel_Hz + margin_Hz;
+  Circuit measured = truth;
+  if (kind.second != Second::none) {
+    constexpr double apart = 2.5;
+    double place_Hz = resonance_Hz;
+    while (std::abs(place_Hz - resonance_Hz) < apart * bandwidth_Hz ||
+           std::abs(place_Hz - parallel_Hz) < apart * bandwidth_Hz) {
+      place_Hz = low_Hz + (high_Hz - low_Hz) * even(random);
+    }
+    const double share = kind.second == Second::strong ? 0.1 : 0.001 * std::pow(10.0, even(random));
+    measured.modes.push_back({share * truth.modes.front().conductance_S, place_Hz,
+                              bandwidth_Hz * (0.7 + 0.6 * even(random))});
+  }
+  Sweep sweep = exact_sweep(measured, low_Hz, high_Hz, readings);
+  Errors errors(kind, std::abs(measured.admittance_S(0.9 * resonance_Hz)), random);
+  for (Complex& each : sweep.admittance_S) {
+    each = errors.disturbed(each);
+    if (!kind.has_phase) {
+      each = std::abs(each);
+    }
+  }
+  sweep.has_phase = kind.has_phase;
+  return {truth, sweep};
+}
+
+}  // namespace sonoglide::identify::impedance

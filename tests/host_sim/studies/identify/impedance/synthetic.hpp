@@ -1,0 +1,50 @@
+/// Sweeps of circuits that are known, with errors of a known kind.
+#pragma once
+
+#include <cstdint>
+#include <random>
+
+#include "host_sim/studies/identify/impedance/circuit.hpp"
+#include "host_sim/studies/identify/impedance/sweep.hpp"
+
+namespace sonoglide::identify::impedance {
+
+enum class Error {
+  relative,    ///< of equal relative size
+  admittance,  ///< of equal size in the admittance
+  impedance,   ///< of equal size in the impedance
+  correlated,  ///< relative; half of the variance hangs together, by 0.9 from reading to reading
+};
+
+/// A second mode, at least 2.5 band widths from both resonances.
+enum class Second {
+  none,
+  strong,  ///< a tenth of the first one's conductance: the fit must find it
+  weak,    ///< 0.1 to 1 % of it: the fit may miss it
+};
+
+struct Kind {
+  const char* name;
+  bool has_phase;
+  Error error;
+  double loss_tangent;
+  Second second;
+};
+
+/// The published set of a piece at 112.7 kHz: C0 1.53668657 nF, R1 106.327685 ohm, L1 52.6754086 mH,
+/// C1 37.8469081 pF.
+Circuit published_piece();
+
+struct Synthetic {
+  Circuit truth;
+  Sweep sweep;
+};
+
+/// A random circuit (fs 20 to 200 kHz, Q 20 to 200, C1/C0 0.01 to 0.1) swept in equal steps across
+/// both resonances, with errors of 1 %.
+Synthetic synthetic(const Kind& kind, int readings, std::mt19937_64& random);
+
+/// The circuit at even steps, without errors.
+Sweep exact_sweep(const Circuit& circuit, double low_Hz, double high_Hz, int readings);
+
+}  // namespace sonoglide::identify::impedance

@@ -1,0 +1,17 @@
+/// Writes host_sim/studies/identify/impedance/coverage.csv on standard output.
+
+#include <cstdio>
+
+#include "coverage.hpp"
+
+int main() {
+  using namespace sonoglide::identify::impedance;
+  constexpr int sweeps = 1000;
+  std::printf("kind,parameter,sweeps,covered\n");
+  for (const Kind& kind : kinds) {
+    for (const Coverage& each : coverage(kind, sweeps, 1)) {
+      std::printf("%s,%s,%d,%d\n", kind.name, each.parameter.c_str(), each.sweeps, each.covered);
+    }
+    std::fflush(stdout);
+  }
+}

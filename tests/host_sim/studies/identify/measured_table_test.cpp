@@ -1,0 +1,71 @@
+#include "host_sim/studies/identify/measured_table.hpp"
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+namespace sonoglide::identify {
+namespace {
+
+using Names = std::vector<std::string>;
+using Numbers = std::vector<double>;
+
+std::string error_of(const std::string& text) {
+  const scene_file::Source source{"m.csv", text};
+  try {
+    const MeasuredTable table(source);
+    for (std::size_t column = 0; column < table.names().size(); ++column) {
+      table.numbers(column);
+    }
+  } catch (const scene_file::SceneError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+void expect_two_rows(const std::string& text, const Names& names) {
+  const scene_file::Source source{"m.csv", text};
+  const MeasuredTable table(source);
+  EXPECT_EQ(table.names(), names) << text;
+  EXPECT_EQ(table.numbers(0), (Numbers{1.0, 2.5})) << text;
+  EXPECT_EQ(table.numbers(1), (Numbers{-3e3, 4.0})) << text;
+}
+
+TEST(MeasuredTable, ReadsWhatSpreadsheetsWrite) {
+  expect_two_rows("a,b\n1,-3e3\n2.5,4\n", {"a", "b"});
+  expect_two_rows("a,b\r\n1,-3e3\r\n2.5,+4", {"a", "b"});
+  expect_two_rows("a,b\r1,-3e3\r2.5,4\r", {"a", "b"});
+  expect_two_rows("a;b\n1,0;-3,0e3\n2,5;4\n", {"a", "b"});
+  expect_two_rows("a\tb\n1\t-3000\n2.5\t4\n\n", {"a", "b"});
+  expect_two_rows("\"a\",\"b, c\"\n\"1\",\"-3e3\"\n2.5 , 4\n", {"a", "b, c"});
+  expect_two_rows("a b\n  1   -3e3\n2.5\t4\n", {"a", "b"});
+}
+
+TEST(MeasuredTable, PassesOverWhatIsNoTable) {
+  expect_two_rows("!Model,X1\nPoints,2\na,b\n1,-3e3\n# note\n2.5,4\nEND\n", {"a", "b"});
+  expect_two_rows("# a,b\n1,-3e3\n2.5,4\n", {"a", "b"});
+  expect_two_rows("a,b\n(Hz),(ohm)\n1,-3e3\n2.5,4\n", {"a (Hz)", "b (ohm)"});
+}
+
+TEST(MeasuredTable, NamesThePlaceOfWhatIsWrong) {
+  EXPECT_EQ(error_of("a,b\n1,2\n3,x\n"),
+            "m.csv:3:3: b: \"x\" is no number; allowed: a finite number");
+  EXPECT_EQ(error_of("a,b\n1,nan\n"),
+            "m.csv:2:3: b: \"nan\" is no number; allowed: a finite number");
+  EXPECT_EQ(error_of("a,b\n1,inf\n"),
+            "m.csv:2:3: b: \"inf\" is no number; allowed: a finite number");
+  EXPECT_EQ(error_of("a,b\n1,2\n3\n"),
+            "m.csv:3:2: b: the line has 1 cells; allowed: one for each of the 2 columns");
+  EXPECT_EQ(error_of("a,b\n").substr(0, 20), "m.csv:1:1: heading: ");
+  EXPECT_EQ(error_of("1,2\n3,4\n").substr(0, 20), "m.csv:1:1: heading: ");
+}
+
+TEST(MeasuredTable, RefusesAFileThatIsNoText) {
+  EXPECT_THROW(read_text("/"), scene_file::SceneError);
+  EXPECT_THROW(read_text("/dev/null"), scene_file::SceneError);
+  EXPECT_THROW(read_text("/nowhere/at/all"), scene_file::SceneError);
+}
+
+}  // namespace
+}  // namespace sonoglide::identify
