@@ -32,7 +32,7 @@ std::string unit_of(const std::string& name) {
                                                                   {"_s", "s"}};
   for (const auto& [ending, unit] : units) {
     const std::string end = ending;
-    if (name.size() > end.size() && name.compare(name.size() - end.size(), end.size(), end) == 0) {
+    if (name.size() >= end.size() && name.compare(name.size() - end.size(), end.size(), end) == 0) {
       return unit;
     }
   }
