@@ -57,6 +57,7 @@ class Words {
         app_->get_subcommands([&](const CLI::App* each) { return each->get_name() == word; });
     if (!commands.empty()) {
       app_ = commands.front();
+      name_ += (name_.empty() ? "" : " ") + word;
       arguments_ = 0;
       return;
     }
@@ -77,7 +78,7 @@ class Words {
     std::error_code unknown;
     const bool is_file = std::filesystem::exists(word, unknown);
     const std::string allowed = fmt::format("allowed: --{}", fmt::join(names, ", --"));
-    add(fmt::format("{} is no option of {}; {}", word, app_->get_name(),
+    add(fmt::format("{} is no option of {}; {}", word, shown_name(),
                     is_file
                         ? fmt::format("the file of that name is ./{}", word)
                         : nearest(word.substr(word.find_first_not_of('-')), names, "--", allowed)));
@@ -89,7 +90,7 @@ class Words {
       names.push_back(command->get_name());
     }
     if (names.empty()) {
-      add(fmt::format("{} is one argument too many for {}", word, app_->get_name()));
+      add(fmt::format("{} is one argument too many for {}", word, shown_name()));
     } else {
       add(fmt::format(
           "{} is no command; {}", word,
@@ -103,12 +104,16 @@ class Words {
     return found ? fmt::format("did you mean {}{}?", before, *found) : otherwise;
   }
 
+  /// Of the command, with its group; of none, the program's.
+  std::string shown_name() const { return name_.empty() ? app_->get_name() : name_; }
+
   /// One line, whatever the word.
   void add(const std::string& error) {
     errors_ += (errors_.empty() ? "" : "\n") + process::printable(error);
   }
 
   const CLI::App* app_;
+  std::string name_;
   std::size_t arguments_ = 0;
   std::string errors_;
 };

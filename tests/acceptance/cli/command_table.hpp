@@ -11,7 +11,7 @@ namespace sonoglide::acceptance {
 enum class Effort { instant, seconds, minutes, emulator };
 
 struct Command {
-  std::string name;
+  std::string name;                  ///< behind that of its group, where it is in one
   std::string scene;                 ///< a file of SceneFolder; empty: it takes none
   std::string arguments;             ///< that it needs besides
   std::vector<std::string> options;  ///< in the order of its help, after --help
@@ -108,6 +108,13 @@ inline const std::vector<Command> command_table = {
      "out/closed_design",
      {"design.csv", "design.json", "detuning.csv", "report.html"},
      {"design.json"}},
+    {"identify impedance",
+     "",
+     "measured.csv",
+     {"--mass-kg", "--force-factor-N-per-V", "--out", "--quiet"},
+     "out/measured_impedance",
+     {"fit.csv", "identify.json", "report.html"},
+     {"identify.json", "scene.toml"}},
     {"schema", "", "", {}, "", {}, {}},
     {"completion", "", "bash", {}, "", {}, {}},
 };

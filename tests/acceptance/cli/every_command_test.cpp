@@ -34,6 +34,7 @@ std::vector<Command> commands_that(const std::function<bool(const Command&)>& co
 std::string test_name(const testing::TestParamInfo<Command>& info) {
   std::string name = info.param.name;
   std::replace(name.begin(), name.end(), '-', '_');
+  std::replace(name.begin(), name.end(), ' ', '_');
   return name;
 }
 

@@ -23,9 +23,25 @@ inline const std::string& text_of_scene(const std::string& file) {
                                     : recorded_open_loop;
 }
 
+/// A sweep of a transducer of 3 nF with a resonance at 40 kHz, Q 50.
+inline std::string measured_sweep() {
+  std::string text = "frequency_Hz,conductance_S,susceptance_S\n";
+  for (int i = 0; i <= 60; ++i) {
+    const double f = 38e3 + 100.0 * i;
+    const double detuning = (f / 40e3 - 40e3 / f) * 50.0;
+    const double share = 2e-3 / (1.0 + detuning * detuning);
+    // Errors of the last digit that an instrument shows.
+    const double susceptance_S = 6.283185307179586 * f * 3e-9 - share * detuning;
+    text += std::to_string(f) + "," + std::to_string(share) + "," + std::to_string(susceptance_S) +
+            "\n";
+  }
+  return text;
+}
+
 class SceneFolder : public ScratchFolder {
  public:
   SceneFolder() {
+    write("measured.csv", measured_sweep());
     for (const char* file : {"open.toml", "closed.toml", "uncertain.toml"}) {
       write(file, text_of_scene(file));
     }
