@@ -62,6 +62,14 @@ double gain_beside_free_mode(const scene::Scene& scene, const NaturalMode& mode)
              : std::min(slow, part_of_decay * (1.0 - mode.decay));
 }
 
+/// Feedback drives what a notch leaves of the free mode, to grow or to decay as the delays of the
+/// loop have it, and at a rate below a quarter of gain times ripple per carrier period (an eighth
+/// was seen at Table 1, at the worst of several delays).
+double missing_damping_ratio(const NotchDesign& notch, const NaturalMode& mode, double gain) {
+  const double growth = 0.25 * gain * notch.ripple;
+  return growth > 1.0 - mode.decay ? growth / mode.rotation : 0.0;
+}
+
 /// An integrator behind a delay of D periods oscillates at a gain of 2 sin(π/(4D+2)); a third of it
 /// leaves room for a contact twice as steep as believed.
 double gain_behind_delay(double periods) {
@@ -87,6 +95,9 @@ void design_regulator(const scene::Scene& scene, const NaturalMode& mode, Contro
   design.free_mode = mode.rotation > 0.0 && !design.notch;
   design.integral_gain =
       design.free_mode ? std::min(behind_delay, gain_beside_free_mode(scene, mode)) : behind_delay;
+  if (design.notch) {
+    design.missing_damping_ratio = missing_damping_ratio(*design.notch, mode, design.integral_gain);
+  }
   set_waiting(delay, filter, design);
   design.reference_delay_periods = static_cast<std::uint8_t>(latency + 0.5 * design.notch_span());
   design.reference_keep = filter / (1.0 + filter);
@@ -540,6 +551,13 @@ std::vector<std::string> design_notes(const ControlDesign& design) {
   }
   if (design.notch) {
     add_notch_notes(*design.notch, notes);
+  }
+  if (design.missing_damping_ratio > 0.0) {
+    notes.push_back(fmt::format(
+        "The natural mode hardly decays. Where its frequency is off, feedback may make "
+        "what the robust notch leaves grow over thousands of carrier periods. A damping "
+        "ratio of {:.2g} prevents it.",
+        design.missing_damping_ratio));
   }
   return notes;
 }

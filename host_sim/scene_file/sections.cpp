@@ -175,6 +175,9 @@ void check_vibration_control(const TableCursor& cursor, const Variant& variant,
     drive.reject("max_current_amplitude_A", without_resonance);
   }
   if (!controller.vibration) {
+    if (controller.shaping != scene::Shaping::robust && cursor.has("shaping_range")) {
+      cursor.reject("shaping_range", "without controller.shaping = \"robust\"");
+    }
     cursor.reject_unread(without_resonance);
     return;
   }

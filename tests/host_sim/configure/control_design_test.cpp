@@ -126,9 +126,9 @@ TEST(ControlDesignTest, NothingIsShapedWhereTheSceneSaysSo) {
   EXPECT_LT(design_control(scene).integral_gain, 0.01);
 }
 
-/// Table 1 with a notch for a natural frequency within this range.
+/// A plant with a notch for a natural frequency within this range.
 scene::Scene robust(double range, double part) {
-  scene::Scene scene = with_natural_frequency(part);
+  scene::Scene scene = with_natural_frequency(part, 0.002);
   scene.controller->shaping = scene::Shaping::robust;
   scene.controller->shaping_range = range;
   return scene;
@@ -147,7 +147,20 @@ TEST(ControlDesignTest, ARobustNotchTakesItsSpanIntoTheDelays) {
   EXPECT_EQ(design.lead_periods, known.lead_periods + 1.0);
   EXPECT_GT(design.hold_periods, known.hold_periods);
   EXPECT_NEAR(design.integral_gain, 2.0 / 3.0 * std::sin(pi / (4.0 * (4.0 + 2.0) + 2.0)), 1e-12);
-  EXPECT_TRUE(design_notes(design).empty());
+}
+
+TEST(ControlDesignTest, NotesAModeThatFeedbackMayBuildUp) {
+  EXPECT_TRUE(design_notes(design_control(robust(0.1, 0.2163))).empty());
+  scene::Scene scene = table_1_closed_loop();
+  EXPECT_TRUE(design_notes(design_control(scene)).empty());
+  scene.controller->shaping = scene::Shaping::robust;
+  const ControlDesign undamped = design_control(scene);
+  ASSERT_EQ(design_notes(undamped).size(), 1U);
+  EXPECT_NE(design_notes(undamped)[0].find("damping ratio of 0.00021 prevents"), std::string::npos)
+      << design_notes(undamped)[0];
+  scene.plant.damping_N_s_per_m = 2.0 * 1.01 * undamped.missing_damping_ratio *
+                                  std::sqrt(scene.plant.stiffness_N_per_m * scene.plant.mass_kg);
+  EXPECT_TRUE(design_notes(design_control(scene)).empty());
 }
 
 TEST(ControlDesignTest, NotesWhatARobustNotchCannotDo) {

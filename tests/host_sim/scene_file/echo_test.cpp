@@ -58,7 +58,8 @@ TEST(EchoTest, HoldsTheValuesOfTheFile) {
   EXPECT_EQ(echo.at("sliding").at("velocity_m_per_s"), -0.0267);
   EXPECT_EQ(echo.at("drive").at("waveform"), "cosine");
   EXPECT_EQ(echo.at("controller").at("target_friction_ratio").at(1).at(1), 0.6);
-  EXPECT_EQ(echo.at("controller").at("shaping"), "none");
+  EXPECT_EQ(echo.at("controller").at("shaping"), "robust");
+  EXPECT_EQ(echo.at("controller").at("shaping_range"), 0.2);
   EXPECT_EQ(echo.at("sensor").at("adc_bits"), 12);
   EXPECT_EQ(echo.at("sensor").at("seed"), 9223372036854775807);
   EXPECT_EQ(echo.at("model_error").at("contact_stiffness"), 1.5);
@@ -112,6 +113,7 @@ TEST(EchoTest, KeepsEveryBitOfAControllersNumbers) {
     nlohmann::ordered_json echo = to_json(read_text(fullest_closed_loop, "s"));
     echo["solver"]["tolerance"] = magnitude(1e-15, 1e-2);
     echo["controller"]["target_friction_ratio"][0][1] = magnitude(1e-300, 1.0);
+    echo["controller"]["shaping_range"] = magnitude(1e-4, 0.5);
     echo["sensor"]["force_full_scale_N"] = magnitude(0.03, 5.0);  // from 6.6 on too coarse
     echo["sensor"]["force_noise_N"] = magnitude(1e-300, 1.0);
     echo["sensor"]["force_offset_N"] = -magnitude(1e-300, 1e12);

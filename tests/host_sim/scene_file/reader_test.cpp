@@ -134,7 +134,8 @@ TEST(ReaderTest, EveryKeyOfClosedLoop) {
   EXPECT_EQ(scene.controller->target_friction_ratio[1].time_s, 2e-3);
   EXPECT_EQ(scene.controller->target_friction_ratio[1].friction_ratio, 0.6);
   EXPECT_EQ(scene.controller->calibration_s, 0.5e-3);
-  EXPECT_EQ(scene.controller->shaping, scene::Shaping::none);
+  EXPECT_EQ(scene.controller->shaping, scene::Shaping::robust);
+  EXPECT_EQ(scene.controller->shaping_range, 0.2);
   EXPECT_EQ(scene.controller->speed_floor_m_per_s, 1e-4);
   EXPECT_EQ(scene.sensor.adc_bits, 12);
   EXPECT_EQ(scene.sensor.force_full_scale_N, 0.04);

@@ -280,7 +280,8 @@ arithmetic = "float32"
 target_friction_ratio = [[0.0, 0.4], [2e-3, 0.6]]
 calibration_s = 0.5e-3
 relearn_every_s = 0.1
-shaping = "none"
+shaping = "robust"
+shaping_range = 0.2
 speed_floor_m_per_s = 1e-4
 [sensor]
 adc_bits = 12
