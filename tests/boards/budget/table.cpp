@@ -93,7 +93,7 @@ std::vector<Row> measure_scenes(const emulated::EmulatedBoard& board,
 const std::vector<Feature>& features() {
   static const std::vector<Feature> all = {
       {"shaping", "every_part", "no_shaping", "notch_shaper.hpp", "NotchShaper"},
-      {"robust notch", "robust_notch", "no_shaping", "notch_shaper.hpp", "NotchShaper"},
+      {"robust notch", "five_taps", "no_shaping", "notch_shaper.hpp", "NotchShaper"},
       {"feedback", "no_shaping", "no_feedback", "integral_regulator.hpp", "IntegralRegulator"},
       {"calibration", "every_part", "no_calibration", "learnt_friction.hpp", "LearntFriction"},
       {"relearning", "relearning", "every_part", "periodic_relearning.hpp", "PeriodicRelearning"},
