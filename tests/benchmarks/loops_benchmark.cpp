@@ -49,6 +49,7 @@ void one_by_one(benchmark::State& state, scene::SolverMethod method, double tole
     for (std::size_t i = 0; i < plants.size(); ++i) {
       loop::Watch watch;
       watch.periods.push_back(&meters[i]);
+      watch.energies = false;
       benchmark::DoNotOptimize(loop::run(plants[i], design, watch));
     }
   });

@@ -1,10 +1,12 @@
 #include "host_sim/studies/robust/robust.hpp"
 
+#include <fmt/format.h>
 #include <tbb/global_control.h>
 #include <tbb/info.h>
 
 #include <chrono>
 
+#include "host_sim/batch/run_dahl_plants.hpp"
 #include "host_sim/output/output_folder.hpp"
 #include "host_sim/output/page.hpp"
 #include "host_sim/process/interruption.hpp"
@@ -41,7 +43,8 @@ Outcome run_robust(const Task& task, const fs::path& out, const std::string& pro
       threads > 0 ? threads : static_cast<std::size_t>(tbb::info::default_concurrency()));
   check_samples(task);
   output::create_folder(out, {samples_file, search_file, figures_file, worst_file, page_file});
-  Solver solver(task, out, program);
+  // The lanes of another instruction set differ in the last bit: rows of both do not mix.
+  Solver solver(task, out, fmt::format("{}, {}", program, batch::instruction_set()));
   const auto begin = std::chrono::steady_clock::now();
   long_work::Pace pace(progress);
   Outcome outcome{solver.solve(pace), solver.found_finished(), 0.0};

@@ -111,8 +111,8 @@ Study Solver::solve(long_work::Pace& pace) {
 }
 
 std::vector<PlantRow> Solver::run_samples(long_work::Pace& pace) {
-  // One call to a task: lanes may take so many, and threads wait for no more.
-  constexpr std::size_t samples_per_call = 16;
+  // Keeps the lanes busy until few are left, and threads wait for no more.
+  constexpr std::size_t samples_per_call = 128;
   const std::size_t count = task_.counts().samples;
   std::vector<std::size_t> open;
   std::vector<PlantRow> rows(count);
