@@ -29,17 +29,15 @@ namespace {
 constexpr double smallest_friction = control::FrictionLevel<double>::smallest();
 
 /// How far the natural frequency may be off; 0 where the scene takes it as known, or has no notch.
-double shaping_range(const scene::Controller& controller) {
-  constexpr double stiffness_off_by_a_fifth = 0.1;
-  return controller.shaping == scene::Shaping::robust
-             ? controller.shaping_range.value_or(stiffness_off_by_a_fifth)
+double shaping_range(const scene::Scene& scene) {
+  return scene.controller->shaping == scene::Shaping::robust
+             ? scene.controller->shaping_range.value_or(default_shaping_range(scene.tolerances))
              : 0.0;
 }
 
-void design_shaper(const scene::Controller& controller, const NaturalMode& mode,
-                   ControlDesign& design) {
-  design.shaping_range = shaping_range(controller);
-  if (controller.shaping != scene::Shaping::none) {
+void design_shaper(const scene::Scene& scene, const NaturalMode& mode, ControlDesign& design) {
+  design.shaping_range = shaping_range(scene);
+  if (scene.controller->shaping != scene::Shaping::none) {
     design.notch = design.shaping_range > 0.0 ? design_robust_notch(mode, design.shaping_range)
                                               : design_notch(mode);
   }
@@ -494,7 +492,7 @@ ControlDesign design_control(const scene::Scene& any_scene) {
     design_outer_regulator(scene, design);
   } else {
     const NaturalMode mode = natural_mode(plant, design.scales.carrier_period_s);
-    design_shaper(*scene.controller, mode, design);
+    design_shaper(scene, mode, design);
     design_regulator(scene, mode, design);
   }
   design_supervision(scene, plant, design);

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 
 #include "firmware/numeric/float_elementary.hpp"
 #include "firmware/numeric/scalar.hpp"
 #include "firmware/numeric/turn.hpp"
+#include "host_sim/scene/scene.hpp"
 
 namespace sonoglide::configure {
 namespace {
@@ -182,6 +184,40 @@ NotchTaps rounded_taps(const NotchDesign& notch, int fraction_digits) {
     before = partial;
   }
   return taps;
+}
+
+namespace {
+
+struct Factors {
+  double least = 1.0;
+  double most = 1.0;
+};
+
+/// Of the true value over the scene's.
+Factors factors_of(const std::vector<scene::Tolerance>& tolerances, std::string_view key) {
+  constexpr double deviations = 3.0;
+  for (const scene::Tolerance& each : tolerances) {
+    if (each.key == key) {
+      const bool normal = each.spread == scene::Spread::normal;
+      const double reach = deviations * each.amount * each.nominal;
+      const double lowest = normal ? std::max(each.lowest, each.nominal - reach) : each.lowest;
+      const double highest = normal ? std::min(each.highest, each.nominal + reach) : each.highest;
+      return {lowest / each.nominal, highest / each.nominal};
+    }
+  }
+  return {};
+}
+
+}  // namespace
+
+double default_shaping_range(const std::vector<scene::Tolerance>& tolerances) {
+  constexpr double stiffness_off_by_a_fifth = 0.1;
+  const Factors stiffness = factors_of(tolerances, "plant.stiffness_N_per_m");
+  const Factors mass = factors_of(tolerances, "plant.mass_kg");
+  const double range = std::max(numeric::sqrt(stiffness.most / mass.least) - 1.0,
+                                1.0 - numeric::sqrt(stiffness.least / mass.most));
+  return range > 0.0 ? std::clamp(range, scene::least_shaping_range, scene::most_shaping_range)
+                     : stiffness_off_by_a_fifth;
 }
 
 }  // namespace sonoglide::configure

@@ -5,8 +5,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "host_sim/configure/believed_plant.hpp"
+#include "host_sim/scene/tolerance.hpp"
 
 namespace sonoglide::configure {
 
@@ -61,5 +63,11 @@ double notch_ripple(const NotchDesign& notch, const NaturalMode& mode, double ra
 /// The taps in units of 2^-fraction_digits, each of them below 1. Their sum is 1 exactly, and no
 /// partial sum leaves [0, 1]. Error: at most one and a half units.
 NotchTaps rounded_taps(const NotchDesign& notch, int fraction_digits);
+
+/// Of a robust notch whose scene does not give one: how far the natural frequency √(Ks/m) may be off,
+/// relative, within the tolerances of stiffness and mass: to the ends of a half width or a range, to
+/// three standard deviations of a normal. Limited to what the key allows.
+/// @return 0.1, for a stiffness that is 20 % off, where neither has a tolerance
+double default_shaping_range(const std::vector<scene::Tolerance>& tolerances);
 
 }  // namespace sonoglide::configure

@@ -112,6 +112,11 @@ struct Run {
 };
 
 enum class Arithmetic { float64, float32, q31, q15 };
+
+/// Of Controller::shaping_range.
+inline constexpr double least_shaping_range = 1e-4;
+inline constexpr double most_shaping_range = 0.5;
+
 /// robust: a notch for a natural frequency that is known within a range.
 enum class Shaping { notch, robust, none };
 

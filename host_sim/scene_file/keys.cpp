@@ -325,7 +325,9 @@ std::vector<Key> controller_keys() {
        "filter between target and drive. notch: cancels the ringing of the natural mode. robust: "
        "the same for a mode that is only known within shaping_range",
        fed_forward},
-      {"shaping_range", Number{{1e-4, 0.5}}, Rule{"0.1, for a stiffness that is 20 % off"},
+      {"shaping_range", Number{{scene::least_shaping_range, scene::most_shaping_range}},
+       Rule{"as far as the tolerances of stiffness and mass go; without these 0.1, for a stiffness "
+            "that is 20 % off"},
        "how far the natural frequency may be off, relative to the believed one; the robust notch "
        "has its zeros in this range",
        with_robust_notch},

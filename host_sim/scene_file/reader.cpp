@@ -7,6 +7,7 @@
 
 #include "host_sim/configure/configuration_error.hpp"
 #include "host_sim/configure/control_design.hpp"
+#include "host_sim/configure/notch_design.hpp"
 #include "host_sim/configure/solver_facts.hpp"
 #include "host_sim/configure/solver_methods.hpp"
 #include "host_sim/scene/names.hpp"
@@ -76,6 +77,14 @@ void settle_waveform(scene::Scene& scene, const Document& document) {
   solver.order = only;
 }
 
+/// How wide a robust notch is made.
+void settle_shaping(scene::Controller& controller,
+                    const std::vector<scene::Tolerance>& tolerances) {
+  if (controller.shaping == scene::Shaping::robust && !controller.shaping_range) {
+    controller.shaping_range = configure::default_shaping_range(tolerances);
+  }
+}
+
 /// A closed loop needs a controller that can be designed: told here, where a key has its place in
 /// the file. The design is not kept, for whoever reads a scene may change it.
 void require_controller(const scene::Scene& scene, const Document& document) {
@@ -126,10 +135,11 @@ scene::Scene read(const Document& document, const std::vector<VariedValue>& valu
                   UnusedKeys* unused) {
   const Variant variant(document, values, unused);
   scene::Scene scene = read_values(variant);
+  scene.tolerances = read_tolerances(variant, scene);
   if (scene.controller) {
+    settle_shaping(*scene.controller, scene.tolerances);
     require_controller(scene, document);
   }
-  scene.tolerances = read_tolerances(variant, scene);
   if (read_true_values(variant, scene).empty()) {
     return scene;
   }

@@ -226,5 +226,37 @@ TEST(NotchDesignTest, NothingServesWithoutAModeOrOneThatMayBeOnTheCarrier) {
   EXPECT_TRUE(design_robust_notch({1.0, 2.0 * pi / 75.0}, 0.01));
 }
 
+scene::Tolerance tolerance_of(const char* key, double nominal, double amount) {
+  return {key,     scene::Spread::half_width, amount,
+          nominal, nominal * (1.0 - amount),  nominal * (1.0 + amount)};
+}
+
+TEST(NotchDesignTest, ItsRangeHoldsEveryFrequencyThatTheTolerancesLeave) {
+  EXPECT_EQ(default_shaping_range({}), 0.1);
+  EXPECT_EQ(default_shaping_range({tolerance_of("friction.coefficient", 0.1, 0.3)}), 0.1);
+  rc::check([] {
+    const double stiffness = *rc::gen::inRange(0, 60) / 100.0;
+    const double mass = *rc::gen::inRange(1, 30) / 100.0;
+    const double range =
+        default_shaping_range({tolerance_of("plant.stiffness_N_per_m", 133e6, stiffness),
+                               tolerance_of("plant.mass_kg", 0.02, mass)});
+    double widest = 0.0;
+    for (const double k : {1.0 - stiffness, 1.0 + stiffness}) {
+      for (const double m : {1.0 - mass, 1.0 + mass}) {
+        widest = std::max(widest, std::abs(std::sqrt(k / m) - 1.0));
+      }
+    }
+    RC_ASSERT(std::abs(range - std::min(widest, 0.5)) < 1e-12);
+  });
+}
+
+TEST(NotchDesignTest, ANormalToleranceCountsForThreeDeviations) {
+  scene::Tolerance normal = tolerance_of("plant.stiffness_N_per_m", 133e6, 0.02);
+  normal.spread = scene::Spread::normal;
+  normal.lowest = 0.0;
+  normal.highest = 1e12;
+  EXPECT_NEAR(default_shaping_range({normal}), 1.0 - std::sqrt(0.94), 1e-12);
+}
+
 }  // namespace
 }  // namespace sonoglide::configure::notch_design_test
