@@ -46,7 +46,7 @@ TEST(TaskTest, PlantsAreInsideTheTolerancesAndTheControllerBelievesTheScene) {
     EXPECT_LE(plant.friction.contact_stiffness_N_per_m, 0.06e6);
     EXPECT_EQ(plant.friction.normal_force_N, task.nominal().friction.normal_force_N);
     EXPECT_EQ(plant.believed().plant.stiffness_N_per_m, 133e6);
-    EXPECT_EQ(configure::design_control(plant).notch_taps, task.design().notch_taps);
+    EXPECT_EQ(configure::design_control(plant).notch_span(), task.design().notch_span());
   }
 }
 
