@@ -11,6 +11,7 @@ void add_identify_command(CLI::App& program) {
       "identify", "Parameters of a plant from measurements, each with its 95 % interval");
   group->require_subcommand(1);
   add_identify_impedance_command(*group);
+  add_identify_friction_command(*group);
 }
 
 }  // namespace sonoglide::cli

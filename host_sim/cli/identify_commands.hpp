@@ -8,5 +8,6 @@ class App;
 namespace sonoglide::cli {
 
 void add_identify_impedance_command(CLI::App& group);
+void add_identify_friction_command(CLI::App& group);
 
 }  // namespace sonoglide::cli

@@ -27,6 +27,8 @@ std::string unit_of(const std::string& name) {
                                                                   {"_N_s_per_m", "N s/m"},
                                                                   {"_kg", "kg"},
                                                                   {"_m_per_s", "m/s"},
+                                                                  {"_s_per_m", "s/m"},
+                                                                  {"_per_m", "1/m"},
                                                                   {"_N", "N"},
                                                                   {"_m", "m"},
                                                                   {"_s", "s"}};
@@ -72,7 +74,8 @@ std::string shown(const std::string& name, double value) {
   if (!std::isfinite(value)) {
     return "-";
   }
-  if (unit.empty() || unit == "kg" || value == 0.0) {
+  const bool takes_no_prefix = unit.empty() || unit == "kg" || unit == "1/m" || unit == "s/m";
+  if (takes_no_prefix || value == 0.0) {
     return fmt::format("{:.5g}{}{}", value, unit.empty() ? "" : " ", unit);
   }
   const int digits = unit == "Hz" ? 7 : 5;

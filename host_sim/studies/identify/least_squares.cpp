@@ -31,11 +31,12 @@ struct Functor {
 
 }  // namespace
 
-LeastSquaresFit minimise(const LeastSquares& problem, const Eigen::VectorXd& start) {
+LeastSquaresFit minimise(const LeastSquares& problem, const Eigen::VectorXd& start,
+                         double accuracy) {
   Functor functor{problem};
   Eigen::LevenbergMarquardt<Functor, double> solver(functor);
-  solver.parameters.ftol = 1e-12;
-  solver.parameters.xtol = 1e-12;
+  solver.parameters.ftol = accuracy;
+  solver.parameters.xtol = accuracy;
   solver.parameters.maxfev = 400;
   Eigen::VectorXd p = start;
   const Eigen::LevenbergMarquardtSpace::Status status = solver.minimize(p);

@@ -29,10 +29,11 @@ struct LeastSquaresFit {
 
 /// Levenberg–Marquardt (Eigen's, after MINPACK's lmder: scaled by the columns of the Jacobian).
 ///
-/// Converged: the step or the decrease of the sum is below 1e-12, relatively, or the residuals are
+/// Converged: the step or the decrease of the sum is below the accuracy, relatively, or the residuals are
 /// perpendicular to the columns.
 /// Source: Moré, "The Levenberg-Marquardt algorithm: implementation and theory" (1978).
-LeastSquaresFit minimise(const LeastSquares& problem, const Eigen::VectorXd& start);
+LeastSquaresFit minimise(const LeastSquares& problem, const Eigen::VectorXd& start,
+                         double accuracy = 1e-12);
 
 /// (JᵀJ)⁻¹ by a singular value decomposition of the Jacobian with its columns scaled to length 1. A
 /// direction that the residuals do not feel, below 1e-12 of the largest, gets an infinite variance.

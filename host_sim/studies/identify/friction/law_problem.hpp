@@ -1,0 +1,75 @@
+/// A law against the readings as a problem of least squares.
+#pragma once
+
+#include <Eigen/Core>
+
+#include <optional>
+#include <vector>
+
+#include "host_sim/studies/identify/friction/candidate.hpp"
+#include "host_sim/studies/identify/friction/readings.hpp"
+#include "host_sim/studies/identify/friction/scatter.hpp"
+#include "host_sim/studies/identify/least_squares.hpp"
+
+namespace sonoglide::identify::friction {
+
+/// Parameters are logarithms: of the shape parameters, which keep to their ranges, and of the
+/// friction limit where the readings are forces.
+class LawProblem {
+ public:
+  /// @param readings, candidate  outlive this
+  LawProblem(const Readings& readings, const Candidate& candidate);
+
+  Eigen::Index readings() const { return static_cast<Eigen::Index>(readings_.rows.size()); }
+  Eigen::Index parameters() const { return static_cast<Eigen::Index>(ranges_.size()); }
+
+  struct Range {
+    double least;
+    double most;
+  };
+  /// Of the logarithm.
+  const Range& range(Eigen::Index parameter) const {
+    return ranges_[static_cast<std::size_t>(parameter)];
+  }
+
+  /// Friction that the law gives for a reading, of its kind.
+  double friction(const Reading& row, const Eigen::VectorXd& logs) const;
+  Eigen::VectorXd friction(const Eigen::VectorXd& logs) const;
+
+  /// Measured less given, weighted by the standard errors if there are any: the mean weight is 1.
+  Eigen::VectorXd residuals(const Eigen::VectorXd& logs) const;
+  Eigen::MatrixXd jacobian(const Eigen::VectorXd& logs) const;
+
+  struct Solution {
+    Eigen::VectorXd logs;
+    double sum_of_squares;  ///< of whitened residuals
+  };
+
+  /// For white scatter: the best of a coarse grid, made better.
+  Solution solve() const;
+  /// Under a scatter, from a start; one parameter may be held. Where the friction limit is free it
+  /// is no part of the search: it is linear, and each shape has its best one.
+  Solution solve(const Scatter& scatter, const Eigen::VectorXd& start,
+                 std::optional<Eigen::Index> held = {}) const;
+
+ private:
+  /// Residuals at some parameters, and those parameters with the friction limit that was found.
+  struct Residuals {
+    Eigen::VectorXd whitened;
+    Eigen::VectorXd logs;
+  };
+
+  Residuals whitened(const Scatter& scatter, Eigen::VectorXd logs, bool limit_is_free) const;
+  Eigen::VectorXd shape_friction(const Eigen::VectorXd& logs) const;
+  double shape_friction(const Reading& row, const Eigen::VectorXd& logs) const;
+  std::vector<Eigen::VectorXd> starts() const;
+
+  const Readings& readings_;
+  const Candidate& candidate_;
+  std::vector<Range> ranges_;
+  Eigen::VectorXd measured_;
+  Eigen::VectorXd weights_;
+  Scatter white_;
+};
+
+}  // namespace sonoglide::identify::friction

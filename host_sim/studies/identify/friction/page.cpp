@@ -1,0 +1,216 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <map>
+#include <vector>
+
+#include "host_sim/studies/identify/friction/report.hpp"
+
+namespace sonoglide::identify::friction {
+namespace {
+
+constexpr double gap = std::numeric_limits<double>::quiet_NaN();
+constexpr std::size_t most_groups = 6;
+
+/// Readings that share one of the two velocities, the vibration's or the sliding's.
+struct Group {
+  double held;
+  std::vector<Reading> rows;
+};
+
+struct Groups {
+  bool vibration_is_held;
+  std::vector<Group> all;  ///< the largest first
+
+  double other(const Reading& row) const {
+    return vibration_is_held ? row.sliding_m_per_s : row.vibration_m_per_s;
+  }
+};
+
+std::vector<Group> grouped(const Readings& readings, double Reading::*held) {
+  std::map<std::string, Group> by_value;
+  for (const Reading& row : readings.rows) {
+    // Three digits: set and measured velocities differ in the fourth.
+    Group& group = by_value[fmt::format("{:.3g}", row.*held)];
+    group.held = row.*held;
+    group.rows.push_back(row);
+  }
+  std::vector<Group> groups;
+  for (auto& [text, group] : by_value) {
+    groups.push_back(std::move(group));
+  }
+  std::stable_sort(groups.begin(), groups.end(),
+                   [](const Group& a, const Group& b) { return a.rows.size() > b.rows.size(); });
+  return groups;
+}
+
+Groups groups_of(const Readings& readings) {
+  std::vector<Group> by_vibration = grouped(readings, &Reading::vibration_m_per_s);
+  std::vector<Group> by_sliding = grouped(readings, &Reading::sliding_m_per_s);
+  const bool vibration = by_vibration.size() <= by_sliding.size();
+  return {vibration, vibration ? std::move(by_vibration) : std::move(by_sliding)};
+}
+
+const char* friction_label(const Comparison& comparison) {
+  return comparison.readings.are_forces ? "Mean friction [N]" : "Friction ratio [-]";
+}
+
+/// Velocities at which curves are drawn, the readings' own among them.
+std::vector<Reading> places(const Groups& groups, const Group& group) {
+  std::vector<Reading> all = group.rows;
+  double fastest = 0.0;
+  for (const Reading& row : group.rows) {
+    fastest = std::max(fastest, groups.other(row));
+  }
+  constexpr int points = 120;
+  for (int i = 1; i <= points; ++i) {
+    Reading place = group.rows.front();
+    const double velocity = 1.1 * fastest * i / points;
+    (groups.vibration_is_held ? place.sliding_m_per_s : place.vibration_m_per_s) = velocity;
+    place.friction = gap;
+    all.push_back(place);
+  }
+  std::stable_sort(all.begin(), all.end(), [&](const Reading& a, const Reading& b) {
+    return groups.other(a) < groups.other(b);
+  });
+  return all;
+}
+
+output::Panel fit_panel(const Comparison& comparison, const Groups& groups, const Group& group) {
+  output::Panel panel;
+  panel.title = fmt::format("{} at {:.4g} m/s", groups.vibration_is_held ? "Vibration" : "Sliding",
+                            group.held);
+  panel.x_label =
+      groups.vibration_is_held ? "Sliding velocity [m/s]" : "Peak vibration velocity [m/s]";
+  panel.y_label = friction_label(comparison);
+  const std::vector<Reading> rows = places(groups, group);
+  output::Series measured{"measured", {}, false, false, true};
+  for (const Reading& row : rows) {
+    panel.x.push_back(groups.other(row));
+    measured.y.push_back(row.friction);
+  }
+  panel.series.push_back(std::move(measured));
+  for (const LawFit& each : comparison.laws) {
+    output::Series curve{each.law.title, {}};
+    for (const Reading& row : rows) {
+      curve.y.push_back(friction_of(comparison.readings, each, row));
+    }
+    panel.series.push_back(std::move(curve));
+  }
+  return panel;
+}
+
+output::Section fit_section(const Comparison& comparison) {
+  output::Section section;
+  section.title = "Readings and fits";
+  const Groups groups = groups_of(comparison.readings);
+  section.text = fmt::format(
+      "Readings with the same {} velocity are in one panel{}. Curves are the fitted laws at the "
+      "panel's {} velocity.",
+      groups.vibration_is_held ? "vibration" : "sliding",
+      groups.all.size() > most_groups
+          ? fmt::format("; of {} such velocities those {} with the most readings are shown",
+                        groups.all.size(), most_groups)
+          : std::string(),
+      groups.vibration_is_held ? "vibration" : "sliding");
+  for (std::size_t i = 0; i < std::min(groups.all.size(), most_groups); ++i) {
+    section.panels.push_back(fit_panel(comparison, groups, groups.all[i]));
+  }
+  return section;
+}
+
+/// Over the order of the readings, in which runs are counted.
+output::Section residual_section(const Comparison& comparison) {
+  output::Section section;
+  section.title = "Residuals";
+  section.text =
+      "Measured less fitted, in the order of the velocity ratio. Scatter changes its sign from "
+      "reading to reading; a law that is wrong leaves long runs of one sign.";
+  for (const LawFit& each : comparison.laws) {
+    output::Panel panel;
+    panel.title = each.law.title;
+    panel.note =
+        fmt::format("Runs: probability {:.2g} of so few; correlation of neighbours {:.2f}.",
+                    each.runs_probability, each.autocorrelation);
+    panel.x_label = "Reading, by rising velocity ratio [-]";
+    panel.y_label = comparison.readings.are_forces ? "Residual [N]" : "Residual [-]";
+    output::Series series{"residual", each.residuals, false, false, true};
+    for (std::size_t i = 0; i < each.residuals.size(); ++i) {
+      panel.x.push_back(static_cast<double>(i + 1));
+    }
+    panel.series.push_back(std::move(series));
+    panel.group = "residuals";
+    section.panels.push_back(std::move(panel));
+  }
+  return section;
+}
+
+output::Table law_table(const Comparison& comparison) {
+  output::Table table{
+      "Laws, the best first",
+      {"Law", "Vibration", "Parameters", "AICc, difference", "Residual rms", "Misfit",
+       "Runs, probability", "Correlation", "Chi square, probability", "Verdict"},
+      {}};
+  const auto cell = [](double value) {
+    return std::isfinite(value) ? fmt::format("{:.3g}", value) : std::string("-");
+  };
+  for (const LawFit& each : comparison.laws) {
+    table.rows.push_back(
+        {each.law.title, each.law.direction, fmt::format("{}", each.parameter_count()),
+         cell(comparison.difference(each)), cell(each.residual_rms), cell(each.misfit),
+         cell(each.runs_probability), cell(each.autocorrelation), cell(each.chi_square_probability),
+         verdict(comparison, each)});
+  }
+  return table;
+}
+
+output::Table parameter_table(const Comparison& comparison) {
+  output::Table table{"Parameters", {"Law", "Parameter", "Value", "95 % from", "to"}, {}};
+  const auto cell = [](const Estimate& each, double value, const char* open) {
+    return std::isfinite(value) ? shown(each.name, value) : std::string(open);
+  };
+  for (const LawFit& law : comparison.laws) {
+    for (const Estimate& each : law.parameters) {
+      table.rows.push_back({law.law.title, each.name, cell(each, each.value, "at its bound"),
+                            cell(each, each.low_95, "open"), cell(each, each.high_95, "open")});
+    }
+  }
+  return table;
+}
+
+output::Section open_section(const Comparison& comparison) {
+  output::Section section;
+  section.title = "What the readings cannot tell";
+  section.text =
+      "An open end means that the residuals hardly grow as far as that parameter may go. A value "
+      "at its bound is the law's way to become a simpler one.";
+  output::Table table{"", {}, {}};
+  for (const std::string& each : comparison.cannot_tell) {
+    table.rows.push_back({each});
+  }
+  section.tables = {table};
+  return section;
+}
+
+}  // namespace
+
+output::Page page(const Comparison& comparison, const std::string& name) {
+  output::Page page;
+  page.title = fmt::format("Friction of {}", name);
+  page.lead = fmt::format(
+      "{} readings of {} against {} laws. Residuals and misfit are friction ratios. AICc is "
+      "Akaike's criterion for small samples: laws less than {:g} apart are not told apart. "
+      "Intervals are of profile likelihood, with a term for misfit.",
+      comparison.readings.rows.size(),
+      comparison.readings.are_forces ? "mean friction" : "the friction ratio",
+      comparison.laws.size(), told_apart_from);
+  page.warnings = comparison.warnings;
+  page.tables = {law_table(comparison), parameter_table(comparison)};
+  page.sections = {open_section(comparison), fit_section(comparison), residual_section(comparison)};
+  return page;
+}
+
+}  // namespace sonoglide::identify::friction

@@ -1,0 +1,226 @@
+#include "host_sim/studies/identify/friction/readings.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <string_view>
+#include <tuple>
+
+#include "firmware/numeric/turn.hpp"
+#include "host_sim/scene_file/suggestion.hpp"
+#include "host_sim/studies/identify/measured_table.hpp"
+
+namespace sonoglide::identify::friction {
+namespace {
+
+/// A column that a file may have, and what its numbers may be.
+struct Known {
+  std::string_view name;
+  double least;
+  double most;
+  bool above_least;  ///< the least itself is not allowed
+  std::string_view hint;
+};
+
+constexpr std::array known = {
+    Known{"sliding_velocity_m_per_s", 0.0, 100.0, true,
+          "m/s; at rest friction has no mean over a period"},
+    Known{"vibration_velocity_m_per_s", 0.0, 100.0, false, "m/s, peak; 0 without vibration"},
+    Known{"velocity_ratio", 0.0, 1e9, true, "sliding velocity over peak vibration velocity"},
+    Known{"vibration_amplitude_m", 0.0, 0.01, false, "m; 0 without vibration"},
+    Known{"frequency_Hz", 1.0, 1e9, false, "Hz"},
+    Known{"friction_ratio", -0.5, 1.5, false,
+          "friction with vibration over friction without, neither percent nor reduction"},
+    Known{"friction_force_N", -1e9, 1e9, false, "N"},
+    Known{"friction_ratio_standard_error", 0.0, 1.0, true, "that of the friction ratio"},
+    Known{"friction_force_standard_error_N", 0.0, 1e9, true, "N"}};
+
+std::vector<std::string_view> known_names() {
+  std::vector<std::string_view> names;
+  for (const Known& each : known) {
+    names.push_back(each.name);
+  }
+  return names;
+}
+
+/// The columns of a file by the names that are known.
+class Columns {
+ public:
+  explicit Columns(const MeasuredTable& table) : table_(table) {
+    for (std::size_t i = 0; i < table.names().size(); ++i) {
+      take(table.names()[i], i);
+    }
+  }
+
+  bool has(std::string_view name) const { return find(name) != nullptr; }
+
+  /// Every number of the column, each in its range.
+  std::vector<double> numbers(std::string_view name) const {
+    const Column& column = *find(name);
+    std::vector<double> values = table_.numbers(column.index);
+    for (std::size_t row = 0; row < values.size(); ++row) {
+      const Known& range = *column.known;
+      const bool low = range.above_least ? values[row] <= range.least : values[row] < range.least;
+      if (low || values[row] > range.most) {
+        throw table_.error(
+            row, column.index,
+            fmt::format("is out of range; allowed: {} {:g} up to {:g} ({})",
+                        range.above_least ? "above" : "from", range.least, range.most, range.hint));
+      }
+    }
+    return values;
+  }
+
+  /// The one that is there.
+  std::string_view one_of(std::initializer_list<std::string_view> names) const {
+    std::string_view found;
+    std::string list;
+    for (const std::string_view name : names) {
+      list += fmt::format("{}{}", list.empty() ? "" : ", ", name);
+      if (has(name)) {
+        if (!found.empty()) {
+          throw table_.heading_error(
+              fmt::format("has both {} and {}; allowed: one of them", found, name));
+        }
+        found = name;
+      }
+    }
+    if (found.empty()) {
+      throw table_.heading_error(fmt::format("a column is missing; allowed: {}{}",
+                                             names.size() > 1 ? "one of " : "", list));
+    }
+    return found;
+  }
+
+ private:
+  struct Column {
+    const Known* known;
+    std::size_t index;
+  };
+
+  const Column* find(std::string_view name) const {
+    for (const Column& each : columns_) {
+      if (each.known->name == name) {
+        return &each;
+      }
+    }
+    return nullptr;
+  }
+
+  void take(const std::string& name, std::size_t index) {
+    const auto* each = std::find_if(known.begin(), known.end(),
+                                    [&](const Known& any) { return any.name == name; });
+    if (each == known.end()) {
+      throw unknown(name);
+    }
+    if (has(name)) {
+      throw table_.heading_error(fmt::format("names {} twice; allowed: once", name));
+    }
+    columns_.push_back({each, index});
+  }
+
+  scene_file::SceneError unknown(const std::string& name) const {
+    if (const auto near = scene_file::nearest_name(name, known_names())) {
+      return table_.heading_error(
+          fmt::format("unknown column \"{}\"; did you mean {}?", name, *near));
+    }
+    return table_.heading_error(
+        fmt::format("unknown column \"{}\"; allowed: {}", name, fmt::join(known_names(), ", ")));
+  }
+
+  const MeasuredTable& table_;
+  std::vector<Column> columns_;
+};
+
+/// Peak vibration velocities, from whichever column the file has.
+std::vector<double> vibrations(const Columns& columns, const std::vector<double>& sliding_m_per_s,
+                               const std::vector<double>& frequency_Hz,
+                               const MeasuredTable& table) {
+  const std::string_view name =
+      columns.one_of({"vibration_velocity_m_per_s", "velocity_ratio", "vibration_amplitude_m"});
+  std::vector<double> values = columns.numbers(name);
+  if (name == "velocity_ratio") {
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      values[i] = sliding_m_per_s[i] / values[i];
+    }
+  } else if (name == "vibration_amplitude_m") {
+    if (frequency_Hz.empty()) {
+      throw table.heading_error(
+          "vibration_amplitude_m tells no velocity alone; allowed: with frequency_Hz");
+    }
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      values[i] *= numeric::two_pi * frequency_Hz[i];
+    }
+  }
+  return values;
+}
+
+void warn(Readings& readings) {
+  if (readings.are_forces) {
+    return;
+  }
+  const auto outside =
+      std::count_if(readings.rows.begin(), readings.rows.end(),
+                    [](const auto& row) { return row.friction > 1.0 || row.friction < 0.0; });
+  if (outside > 0) {
+    readings.warnings.push_back(fmt::format(
+        "{} of {} friction ratios are outside of 0 to 1, where no law without a Stribeck curve "
+        "has them: by scatter, or by an undriven friction that was not that of the same speed.",
+        outside, readings.rows.size()));
+  }
+}
+
+}  // namespace
+
+Readings read_readings(const scene_file::Source& source) {
+  const MeasuredTable table(source);
+  if (table.rows() > most_readings) {
+    throw table.heading_error(
+        fmt::format("{} rows below it; allowed: up to {}, means of readings at one velocity count "
+                    "as much",
+                    table.rows(), most_readings));
+  }
+  const Columns columns(table);
+  columns.one_of({"sliding_velocity_m_per_s"});
+  const std::string_view friction = columns.one_of({"friction_ratio", "friction_force_N"});
+  Readings readings;
+  readings.are_forces = friction == "friction_force_N";
+  readings.have_frequency = columns.has("frequency_Hz");
+  const std::string_view error =
+      readings.are_forces ? "friction_force_standard_error_N" : "friction_ratio_standard_error";
+  const std::string_view other =
+      readings.are_forces ? "friction_ratio_standard_error" : "friction_force_standard_error_N";
+  if (columns.has(other)) {
+    throw table.heading_error(
+        fmt::format("{} does not belong to {}; allowed: {}", other, friction, error));
+  }
+  readings.have_standard_errors = columns.has(error);
+  const std::vector<double> sliding = columns.numbers("sliding_velocity_m_per_s");
+  const std::vector<double> frequency =
+      readings.have_frequency ? columns.numbers("frequency_Hz") : std::vector<double>();
+  const std::vector<double> vibration = vibrations(columns, sliding, frequency, table);
+  const std::vector<double> values = columns.numbers(friction);
+  const std::vector<double> errors =
+      readings.have_standard_errors ? columns.numbers(error) : std::vector<double>();
+  if (table.rows() < 2) {
+    throw table.heading_error("one row below it; allowed: at least 2");
+  }
+  if (std::all_of(vibration.begin(), vibration.end(), [](double v) { return v == 0.0; })) {
+    throw table.heading_error("no row has a vibration; allowed: at least one");
+  }
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    readings.rows.push_back({sliding[i], vibration[i], readings.have_frequency ? frequency[i] : 0.0,
+                             values[i], readings.have_standard_errors ? errors[i] : 0.0});
+  }
+  std::stable_sort(readings.rows.begin(), readings.rows.end(),
+                   [](const Reading& a, const Reading& b) {
+                     return std::make_tuple(a.velocity_ratio(), a.sliding_m_per_s) <
+                            std::make_tuple(b.velocity_ratio(), b.sliding_m_per_s);
+                   });
+  warn(readings);
+  return readings;
+}
+
+}  // namespace sonoglide::identify::friction

@@ -1,0 +1,151 @@
+#include "host_sim/studies/identify/friction/scene_text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "firmware/numeric/turn.hpp"
+
+namespace sonoglide::identify::friction {
+namespace {
+
+constexpr double assumed_coefficient = 0.1;
+constexpr double assumed_limit_N = 0.01962;
+constexpr double assumed_frequency_Hz = 60e3;
+/// Ks/(m w²) of Table 1 of the paper.
+constexpr double assumed_tuning = 0.0467904;
+
+/// What the scene is made of, measured or assumed.
+struct Numbers {
+  double frequency_Hz;
+  double limit_N;
+  double normal_force_N;
+  double mass_kg;
+  double stiffness_N_per_m;
+  double force_amplitude_N;
+  /// Of what is known per amplitude, or per vibration velocity where the carrier is not known.
+  double per_m;
+};
+
+Numbers numbers(const Comparison& comparison, const Reading& row) {
+  Numbers all{};
+  const bool has_frequency = row.frequency_Hz > 0.0;
+  all.frequency_Hz = has_frequency ? row.frequency_Hz : assumed_frequency_Hz;
+  const LawFit& best = comparison.best();
+  all.limit_N =
+      comparison.readings.are_forces ? std::exp(best.logs(best.logs.size() - 1)) : assumed_limit_N;
+  all.normal_force_N = all.limit_N / assumed_coefficient;
+  const double omega = numeric::two_pi * all.frequency_Hz;
+  // So heavy that the contact's forces do not bend the vibration.
+  constexpr double least_kg = 0.02;
+  constexpr double heavier = 1000.0;
+  all.mass_kg = std::max(least_kg, heavier * all.normal_force_N / (omega * row.vibration_m_per_s));
+  const double inertia = all.mass_kg * omega * omega;
+  all.stiffness_N_per_m = assumed_tuning * inertia;
+  all.force_amplitude_N = row.vibration_m_per_s * (inertia - all.stiffness_N_per_m) / omega;
+  all.per_m = has_frequency ? 1.0 : omega;
+  return all;
+}
+
+std::string elastic_keys(const std::vector<double>& values, const Numbers& all) {
+  return fmt::format("contact_stiffness_N_per_m = {:.9g}   # Kt/Fc times Fc\n",
+                     values[0] * all.per_m * all.limit_N);
+}
+
+std::string stribeck_keys(const std::vector<double>& values) {
+  // At 1 the least friction is 0, which rounding must not pass.
+  const double drop = std::min(values[0], 0.9999);
+  const double speed = values[1];
+  return fmt::format("fall_s_per_m = {:.9g}\nrise_s3_per_m3 = {:.9g}\n",
+                     assumed_coefficient * 1.5 * drop / speed,
+                     assumed_coefficient * 0.5 * drop / (speed * speed * speed));
+}
+
+std::string lugre_keys(const std::vector<double>& values, const Numbers& all) {
+  return elastic_keys(values, all) +
+         fmt::format(
+             "static_coefficient = {:.9g}\nstribeck_velocity_m_per_s = {:.9g}\n"
+             "viscous_friction_N_s_per_m = {:.9g}\n"
+             "bristle_damping_N_s_per_m = 0.0   # no mean friction tells it\n",
+             assumed_coefficient * (1.0 + values[1]), values[2], values[3] * all.limit_N);
+}
+
+std::string normal_keys(const std::vector<double>& values, const Numbers& all) {
+  const double normal_N_per_m = values[0] * all.per_m * all.normal_force_N;
+  return fmt::format(
+      "normal_contact_stiffness_N_per_m = {:.9g}   # kz/N0 times N0\n"
+      "contact_stiffness_N_per_m = {:.9g}   # kx, so that mu kz/kx is the fitted one\n",
+      normal_N_per_m, assumed_coefficient * normal_N_per_m / values[1]);
+}
+
+/// The keys that the law has of its own.
+std::string law_keys(const LawFit& fit, const Numbers& all) {
+  std::vector<double> values;
+  for (std::size_t i = 0; i < fit.law.shape.size(); ++i) {
+    values.push_back(std::exp(fit.logs(static_cast<Eigen::Index>(i))));
+  }
+  const std::string& law = fit.law.law;
+  if (law == "dahl") {
+    return elastic_keys(values, all);
+  }
+  if (law == "iwan") {
+    return elastic_keys(values, all) + fmt::format("elements = {}\n", fit.law.elements);
+  }
+  if (law == "stribeck") {
+    return stribeck_keys(values);
+  }
+  if (law == "lugre") {
+    return lugre_keys(values, all);
+  }
+  return law == "normal_coulomb" ? normal_keys(values, all) : std::string();
+}
+
+}  // namespace
+
+const Reading& scene_reading(const Comparison& comparison) {
+  std::vector<const Reading*> vibrating;
+  for (const Reading& row : comparison.readings.rows) {
+    if (row.vibration_m_per_s > 0.0) {
+      vibrating.push_back(&row);
+    }
+  }
+  return *vibrating[vibrating.size() / 2];
+}
+
+std::string scene_text(const Comparison& comparison) {
+  const LawFit& best = comparison.best();
+  const Reading& row = scene_reading(comparison);
+  const Numbers all = numbers(comparison, row);
+  const bool forces = comparison.readings.are_forces;
+  std::string text = fmt::format(
+      "# {} as fitted to measured friction, at the reading with a velocity ratio of {:.4g}, a "
+      "peak\n"
+      "# vibration velocity of {:.4g} m/s. Assumed, because mean friction does not depend on it:\n"
+      "# mass, spring, drive force (together they give that vibration), and the coefficient.\n",
+      best.law.title, row.velocity_ratio(), row.vibration_m_per_s);
+  for (const std::string& each : best.open) {
+    text += fmt::format("# Open: {}\n", each);
+  }
+  text += fmt::format(
+      "[plant]\nmass_kg = {:.9g}   # assumed: so heavy that friction does not bend the vibration\n"
+      "stiffness_N_per_m = {:.9g}   # assumed: resonance far below the carrier\n\n",
+      all.mass_kg, all.stiffness_N_per_m);
+  text += fmt::format(
+      "[friction]\nlaw = \"{}\"\ncoefficient = {:.9g}   # assumed: {}\n"
+      "normal_force_N = {:.9g}   # {}\n{}\n",
+      best.law.law, assumed_coefficient,
+      forces ? "only its product with the normal force is fitted"
+             : "a friction ratio does not depend on it",
+      all.normal_force_N, forces ? "the fitted friction limit over the coefficient" : "assumed",
+      law_keys(best, all));
+  text += fmt::format("[sliding]\nvelocity_m_per_s = {:.9g}\n\n", row.sliding_m_per_s);
+  text += fmt::format(
+      "[drive]\nfrequency_Hz = {:.9g}{}\nforce_amplitude_N = {:.9g}   # assumed, with the mass\n\n",
+      all.frequency_Hz, row.frequency_Hz > 0.0 ? "" : "   # assumed: the file has none",
+      all.force_amplitude_N);
+  return text + "[run]\nstart = \"steady\"\nduration_periods = 20\n";
+}
+
+}  // namespace sonoglide::identify::friction
