@@ -1,0 +1,129 @@
+/// Laws fitted to data whose law is known from elsewhere.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "host_sim/studies/identify/friction/comparison.hpp"
+#include "host_sim/studies/identify/friction/report.hpp"
+#include "host_sim/studies/identify/friction/scene_text.hpp"
+#include "host_sim/studies/identify/measured_table.hpp"
+
+namespace sonoglide::identify::friction::fit_test {
+namespace {
+
+void silent(double /*fraction*/) {}
+
+Comparison compared(
+    const std::string& rows, const std::vector<std::string>& laws,
+    const std::string& columns = "velocity_ratio,sliding_velocity_m_per_s,friction_ratio\n") {
+  const scene_file::Source source{"f.csv", columns + rows};
+  return compare(read_readings(source), laws, silent);
+}
+
+const LawFit& law(const Comparison& comparison, const std::string& title) {
+  return *std::find_if(comparison.laws.begin(), comparison.laws.end(),
+                       [&](const LawFit& each) { return each.law.title == title; });
+}
+
+const Estimate& parameter(const LawFit& fit, const std::string& name) {
+  return *std::find_if(fit.parameters.begin(), fit.parameters.end(),
+                       [&](const Estimate& each) { return each.name == name; });
+}
+
+/// (2/pi) asin of the ratio, known to five digits.
+const std::string coulomb_rows =
+    "0.1,0.01,0.06377\n0.3,0.03,0.19397\n0.5,0.05,0.33333\n0.8,0.08,0.59033\n"
+    "0.95,0.095,0.79783\n";
+
+TEST(FrictionFit, CoulombsTableIsCoulombs) {
+  const Comparison comparison = compared(coulomb_rows, {});
+  EXPECT_LT(law(comparison, "Coulomb").residual_rms, 5e-6);
+  // A stiff Dahl contact is one: its stiffness has no upper end.
+  const LawFit& dahl = law(comparison, "Dahl");
+  EXPECT_LT(dahl.residual_rms, 1e-3);
+  EXPECT_TRUE(std::isnan(parameter(dahl, "dahl_number_at_largest_vibration").high_95));
+}
+
+TEST(FrictionFit, TransverseTableIsTransverse) {
+  const Comparison comparison = compared("0.1,0.01,0.23442\n0.5,0.05,0.64264\n1.0,0.1,0.83463\n",
+                                         {"coulomb", "transverse_coulomb", "dahl"});
+  EXPECT_EQ(comparison.best().law.law, "transverse_coulomb");
+  EXPECT_LT(comparison.best().residual_rms, 5e-6);
+}
+
+/// At a Dahl number of 2.023, known to five digits; noise is rounding.
+TEST(FrictionFit, DahlsTableGivesItsDahlNumber) {
+  const Comparison comparison =
+      compared("0.1,0.01,0.08814\n0.5,0.05,0.48927\n0.9,0.09,0.94541\n", {"dahl", "coulomb"});
+  const Estimate& number = parameter(comparison.best(), "dahl_number_at_largest_vibration");
+  EXPECT_EQ(comparison.best().law.law, "dahl");
+  EXPECT_NEAR(number.value, 2.023, 0.001);
+  EXPECT_LT(number.low_95, 2.0235);
+  EXPECT_GT(number.high_95, 2.0225);
+}
+
+/// Forces give the friction limit; without frequency no stiffness.
+TEST(FrictionFit, ForcesGiveTheFrictionLimit) {
+  const Comparison comparison =
+      compared("0.1,0.01,0.17628\n0.5,0.05,0.97854\n0.9,0.09,1.89082\n0.4,0.1,0.78\n", {"dahl"},
+               "velocity_ratio,sliding_velocity_m_per_s,friction_force_N\n");
+  EXPECT_NEAR(parameter(comparison.best(), "friction_limit_N").value, 2.0, 0.1);
+  EXPECT_EQ(comparison.best().parameters.front().name,
+            "dahl_number_per_vibration_velocity_s_per_m");
+}
+
+TEST(FrictionFit, RunsAreCountedExactly) {
+  // 2 runs of 4 + 4: 2 of C(8, 4) = 70 arrangements.
+  EXPECT_NEAR(runs_probability({1, 1, 1, 1, -1, -1, -1, -1}), 2.0 / 70.0, 1e-12);
+  EXPECT_NEAR(runs_probability({1, -1, 1, -1, 1, -1, 1, -1}), 1.0, 1e-12);
+  // 3 runs of 2 + 1: all but the 2 of 3 arrangements with 2.
+  EXPECT_NEAR(runs_probability({1, 1, -1}), 2.0 / 3.0, 1e-12);
+}
+
+TEST(FrictionFit, ConstantReadingsAndAlikeOnesAreNoTrap) {
+  const Comparison constant =
+      compared("2,0.2,1\n3,0.3,1\n4,0.4,1\n5,0.5,1\n6,0.6,1\n", {"dahl", "coulomb"});
+  EXPECT_LT(constant.best().residual_rms, 1e-12);
+  const LawFit& dahl = law(constant, "Dahl");
+  EXPECT_TRUE(std::isnan(dahl.parameters.front().low_95));
+  EXPECT_TRUE(std::isnan(dahl.parameters.front().high_95));
+  const Comparison alike = compared("0.5,0.05,0.5\n0.5,0.05,0.5\n0.5,0.05,0.5\n", {"dahl"});
+  EXPECT_NEAR(alike.best().residual_rms, 0.0, 1e-6);
+}
+
+Comparison of_example(const std::string& name, const std::vector<std::string>& laws) {
+  const scene_file::Source source = read_text(std::string(EXAMPLES) + "/" + name);
+  return compare(read_readings(source), laws, silent);
+}
+
+/// Coulomb, Dahl and Stribeck leave next to nothing at 0.1 mm/s, whatever their parameters.
+TEST(FrictionFit, OfLuoNoLawFitsButAnElasticStick) {
+  const std::vector<std::string> along = {"coulomb", "dahl", "iwan", "stribeck"};
+  const Comparison comparison = of_example("luo_2024.csv", along);
+  for (const char* title : {"Coulomb", "Dahl", "Stribeck"}) {
+    EXPECT_TRUE(law(comparison, title).exceeds_standard_errors()) << title;
+    EXPECT_GT(law(comparison, title).residual_rms, 0.1) << title;
+  }
+  EXPECT_EQ(comparison.best().law.law, "iwan");
+  EXPECT_FALSE(comparison.best().exceeds_standard_errors());
+  EXPECT_NE(comparison.cannot_tell.front().find("Which law it is"), std::string::npos);
+}
+
+/// As many parameters as readings: met exactly, and no test.
+TEST(FrictionFit, TwoReadingsOfDongAreNoTestOfTheNormalLaw) {
+  const Comparison comparison = of_example("dong_dapino_2015.csv", {"normal_coulomb"});
+  EXPECT_LT(comparison.best().residual_rms, 1e-6);
+  for (const Estimate& each : comparison.best().parameters) {
+    EXPECT_TRUE(std::isnan(each.low_95) && std::isnan(each.high_95)) << each.name;
+  }
+  const nlohmann::ordered_json json = to_json(comparison);
+  EXPECT_EQ(json["law"], "normal_coulomb");
+  EXPECT_TRUE(json["parameters"]["amplitude_ratio_at_largest_vibration"]["low_95"].is_null());
+  EXPECT_NE(json["cannot_tell"].dump().find("no test of the law"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace sonoglide::identify::friction::fit_test

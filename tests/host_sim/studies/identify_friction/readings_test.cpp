@@ -1,0 +1,114 @@
+/// Files of measured friction, good and bad.
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <string>
+
+#include "host_sim/studies/identify/friction/readings.hpp"
+
+namespace sonoglide::identify::friction::readings_test {
+namespace {
+
+const std::string heading = "sliding_velocity_m_per_s,vibration_velocity_m_per_s,friction_ratio\n";
+
+/// The message that a text is refused with.
+std::string refusal(const std::string& text) {
+  const scene_file::Source source{"f.csv", text};
+  try {
+    read_readings(source);
+  } catch (const scene_file::SceneError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+void expect_refused(const std::string& text, const std::string& place, const std::string& part) {
+  const std::string message = refusal(text);
+  EXPECT_EQ(message.rfind("f.csv:" + place + ":", 0), 0U) << message;
+  EXPECT_NE(message.find(part), std::string::npos) << message;
+  EXPECT_NE(message.find("allowed"), std::string::npos) << message;
+}
+
+TEST(Readings, AreSortedByVelocityRatio) {
+  const scene_file::Source source{
+      "f.csv",
+      "# from a bench\n" + heading + "0.05,0.1,0.6\n0.01,0.1,0.2\n0.2,0,1\n0.01,0.1,0.21\n"};
+  const Readings readings = read_readings(source);
+  ASSERT_EQ(readings.rows.size(), 4U);
+  EXPECT_EQ(readings.rows[0].friction, 0.2);
+  EXPECT_EQ(readings.rows[1].friction, 0.21);
+  EXPECT_EQ(readings.rows[2].friction, 0.6);
+  EXPECT_EQ(readings.rows[3].velocity_ratio(), std::numeric_limits<double>::infinity());
+  EXPECT_FALSE(readings.are_forces);
+  EXPECT_TRUE(readings.warnings.empty());
+}
+
+TEST(Readings, ComeFromRatiosAndAmplitudesToo) {
+  const scene_file::Source ratios{
+      "f.csv",
+      "velocity_ratio,sliding_velocity_m_per_s,friction_force_N\n0.5,0.05,2\n0.25,0.05,1\n"};
+  EXPECT_DOUBLE_EQ(read_readings(ratios).rows[1].vibration_m_per_s, 0.1);
+  EXPECT_TRUE(read_readings(ratios).are_forces);
+  const scene_file::Source amplitudes{
+      "f.csv",
+      "sliding_velocity_m_per_s,vibration_amplitude_m,frequency_Hz,friction_ratio\n"
+      "0.01,0.35e-6,26e3,0.2\n0.02,0.35e-6,26e3,0.3\n"};
+  EXPECT_NEAR(read_readings(amplitudes).rows[0].vibration_m_per_s, 0.0571770, 1e-7);
+}
+
+TEST(Readings, OutsideOfZeroToOneAreSaid) {
+  const scene_file::Source source{"f.csv", heading + "0.01,0.1,0.1\n0.2,0.1,1.02\n"};
+  EXPECT_EQ(read_readings(source).warnings.size(), 1U);
+}
+
+TEST(Readings, AreRefusedWithTheirPlace) {
+  expect_refused(heading + "0.01,0.1,0.2\n0.02,0.1,76\n", "3:10", "neither percent nor reduction");
+  expect_refused(heading + "0.01,0.1,0.2\n0.02,0.1,-0.7\n", "3:10", "out of range");
+  expect_refused(heading + "0.01,0.1,0.2\n0.02,0.1,nan\n", "3:10", "no number");
+  expect_refused(heading + "0.01,0.1,0.2\n0.02,0.1,inf\n", "3:10", "no number");
+  expect_refused(heading + "0.01,0.1,0.2\n0.02,0.1\n", "3:9", "2 cells");
+  expect_refused(heading + "0.01,0.1,0.2\n0,0.1,0.1\n", "3:1", "at rest");
+  expect_refused(heading + "0.01,0.1,0.2\n-0.02,0.1,0.1\n", "3:1", "out of range");
+  expect_refused(heading + "20.3,0.1,0.2\n870,0.1,0.1\n", "3:1", "m/s");
+  expect_refused(heading + "0.01,-0.1,0.2\n0.02,0.1,0.1\n", "2:6", "out of range");
+  expect_refused(heading + "0.01,0.1,0.2\n", "1:1", "one row");
+  expect_refused(heading, "1:1", "no row");
+  expect_refused(heading + "0.01,0,1\n0.02,0,1\n", "1:1", "no row has a vibration");
+}
+
+TEST(Readings, HeadingsAreRefusedWithWhatIsAllowed) {
+  expect_refused("sliding_velocity_m_per_s,friction_ratio\n0.01,0.2\n", "1:1",
+                 "vibration_velocity_m_per_s");
+  expect_refused("sliding_velocity_m_per_s,vibration_velocity_m_per_s\n0.01,0.2\n", "1:1",
+                 "friction_ratio");
+  expect_refused("vibration_velocity_m_per_s,friction_ratio\n0.01,0.2\n", "1:1",
+                 "sliding_velocity_m_per_s");
+  expect_refused("sliding_velocity_m_per_s,vibration_amplitude_m,friction_ratio\n0.01,1e-6,0.2\n",
+                 "1:1", "frequency_Hz");
+  expect_refused(
+      "sliding_velocity_m_per_s,vibration_velocity_m_per_s,friction_ratio,"
+      "friction_force_N\n0.01,0.1,0.2,1\n",
+      "1:1", "both");
+  expect_refused(
+      "sliding_velocity_m_per_s,vibration_velocity_m_per_s,friction_ratio,"
+      "friction_force_standard_error_N\n0.01,0.1,0.2,1\n",
+      "1:1", "does not belong");
+  expect_refused("sliding_velocity_m_per_s,sliding_velocity_m_per_s,friction_ratio\n0.01,0.1,0.2\n",
+                 "1:1", "twice");
+  EXPECT_NE(refusal("sliding_velocity_mm_per_s,vibration_velocity_m_per_s,friction_ratio\n"
+                    "10,0.1,0.2\n")
+                .find("did you mean sliding_velocity_m_per_s?"),
+            std::string::npos);
+}
+
+TEST(Readings, AreNotEndless) {
+  std::string text = heading;
+  for (int i = 0; i < 501; ++i) {
+    text += "0.01,0.1,0.2\n";
+  }
+  expect_refused(text, "1:1", "501 rows");
+}
+
+}  // namespace
+}  // namespace sonoglide::identify::friction::readings_test
