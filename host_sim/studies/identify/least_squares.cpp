@@ -31,13 +31,13 @@ struct Functor {
 
 }  // namespace
 
-LeastSquaresFit minimise(const LeastSquares& problem, const Eigen::VectorXd& start,
-                         double accuracy) {
+LeastSquaresFit minimise(const LeastSquares& problem, const Eigen::VectorXd& start, double accuracy,
+                         int most_evaluations) {
   Functor functor{problem};
   Eigen::LevenbergMarquardt<Functor, double> solver(functor);
   solver.parameters.ftol = accuracy;
   solver.parameters.xtol = accuracy;
-  solver.parameters.maxfev = 400;
+  solver.parameters.maxfev = most_evaluations;
   Eigen::VectorXd p = start;
   const Eigen::LevenbergMarquardtSpace::Status status = solver.minimize(p);
   LeastSquaresFit fit{p, Eigen::VectorXd(problem.residuals),

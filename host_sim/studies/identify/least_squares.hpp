@@ -33,7 +33,7 @@ struct LeastSquaresFit {
 /// perpendicular to the columns.
 /// Source: Moré, "The Levenberg-Marquardt algorithm: implementation and theory" (1978).
 LeastSquaresFit minimise(const LeastSquares& problem, const Eigen::VectorXd& start,
-                         double accuracy = 1e-12);
+                         double accuracy = 1e-12, int most_evaluations = 400);
 
 /// (JᵀJ)⁻¹ by a singular value decomposition of the Jacobian with its columns scaled to length 1. A
 /// direction that the residuals do not feel, below 1e-12 of the largest, gets an infinite variance.

@@ -134,6 +134,12 @@ double misfit_part(const std::vector<Scatter>& scatters, const std::vector<doubl
   return part;
 }
 
+/// Readings from which a law with one shape parameter has a criterion. With fewer only laws without
+/// one would, and they would win.
+std::size_t least_compared(const Readings& readings) {
+  return readings.are_forces ? 5 : 4;
+}
+
 }  // namespace
 
 bool LawFit::exceeds_standard_errors() const {
@@ -199,8 +205,10 @@ LawFit fit(const Readings& readings, const Candidate& law) {
   // Residuals of rounding alone do not compare laws.
   constexpr double rounding = 1e-9;
   const double least = n * rounding * rounding * limit * limit;
-  fit.akaike = corrected_akaike(std::max(best.sum_of_squares, least), problem.readings(),
-                                problem.parameters());
+  fit.akaike = readings.rows.size() < least_compared(readings)
+                   ? std::numeric_limits<double>::infinity()
+                   : corrected_akaike(std::max(best.sum_of_squares, least), problem.readings(),
+                                      problem.parameters());
   fit.runs_probability = runs_probability(fit.residuals);
   fit.autocorrelation = autocorrelation(fit.residuals);
   fit.chi_square_probability = chi_square_probability(readings, fit);

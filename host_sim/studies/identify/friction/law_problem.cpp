@@ -165,7 +165,9 @@ LawProblem::Solution LawProblem::solve(const Scatter& scatter, const Eigen::Vect
   }
   // Of the sum of squares, far below what an interval feels.
   constexpr double accuracy = 1e-6;
-  const LeastSquaresFit fit = minimise(problem, bent, accuracy);
+  // In a valley that is flat the search does not end.
+  constexpr int most_evaluations = 40;
+  const LeastSquaresFit fit = minimise(problem, bent, accuracy, most_evaluations);
   return {at(fit.parameters).logs, fit.sum_of_squares};
 }
 

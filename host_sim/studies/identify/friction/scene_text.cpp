@@ -130,8 +130,9 @@ std::string scene_text(const Comparison& comparison) {
   }
   text += fmt::format(
       "[plant]\nmass_kg = {:.9g}   # assumed: so heavy that friction does not bend the vibration\n"
-      "stiffness_N_per_m = {:.9g}   # assumed: resonance far below the carrier\n\n",
-      all.mass_kg, all.stiffness_N_per_m);
+      "stiffness_N_per_m = {:.9g}   # assumed: resonance far below the carrier\n"
+      "damping_N_s_per_m = {:.9g}   # assumed: 1 % of critical damping\n\n",
+      all.mass_kg, all.stiffness_N_per_m, 0.02 * std::sqrt(all.stiffness_N_per_m * all.mass_kg));
   text += fmt::format(
       "[friction]\nlaw = \"{}\"\ncoefficient = {:.9g}   # assumed: {}\n"
       "normal_force_N = {:.9g}   # {}\n{}\n",

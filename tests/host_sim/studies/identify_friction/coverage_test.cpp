@@ -7,7 +7,7 @@
 #include <string>
 
 #include "tests/common/csv/csv.hpp"
-#include "tests/host_sim/studies/identify_friction/synthetic.hpp"
+#include "tests/host_sim/studies/identify_friction/synthetic/synthetic.hpp"
 
 namespace sonoglide::identify::friction::coverage_test {
 namespace {
@@ -18,7 +18,8 @@ csv::Table recorded() {
 }
 
 TEST(FrictionCoverage, OfAThousandSetsOfEachKindIsWithinItsBand) {
-  for (const csv::Row& row : recorded().rows()) {
+  const csv::Table table = recorded();
+  for (const csv::Row& row : table.rows()) {
     const std::string kind = row.text("kind");
     const std::string sets = row.text("sets");
     EXPECT_EQ(sets.size(), 1000U) << kind;

@@ -68,9 +68,9 @@ TEST(FrictionFit, DahlsTableGivesItsDahlNumber) {
 /// Forces give the friction limit; without frequency no stiffness.
 TEST(FrictionFit, ForcesGiveTheFrictionLimit) {
   const Comparison comparison =
-      compared("0.1,0.01,0.17628\n0.5,0.05,0.97854\n0.9,0.09,1.89082\n0.4,0.1,0.78\n", {"dahl"},
+      compared("0.1,0.01,0.17628\n0.5,0.05,0.97854\n0.9,0.09,1.89082\n", {"dahl"},
                "velocity_ratio,sliding_velocity_m_per_s,friction_force_N\n");
-  EXPECT_NEAR(parameter(comparison.best(), "friction_limit_N").value, 2.0, 0.1);
+  EXPECT_NEAR(parameter(comparison.best(), "friction_limit_N").value, 2.0, 1e-3);
   EXPECT_EQ(comparison.best().parameters.front().name,
             "dahl_number_per_vibration_velocity_s_per_m");
 }
