@@ -134,6 +134,14 @@ class Controller {
         samples_(parameters.samples),
         level_(parameters.friction_force) {}
 
+  /// Makes a copy, or the bytes, of a controller that stood elsewhere its own.
+  /// @param parameters  equal to the other's; outlive this
+  void settle_at(const Parameters& parameters) {
+    if constexpr (PartsT::Vibration::observed) {
+      vibration_.settle_at(parameters.vibration);
+    }
+  }
+
   /// Begins afresh, from any state, with calibration where there is one.
   void start() {
     const bool driven = state_ == State::running || state_ == State::limited;

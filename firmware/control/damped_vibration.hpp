@@ -62,6 +62,9 @@ class DampedVibration {
         missing_below_(parameters.missing),
         delay_(parameters.delay) {}
 
+  /// See Controller::settle_at.
+  void settle_at(const Parameters& parameters) { observer_.settle_at(parameters.observer); }
+
   void restart() {
     observer_.restart();
     quarter_offset_ = {};

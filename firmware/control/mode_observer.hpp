@@ -67,7 +67,7 @@ class ModeObserver {
 
   /// @param parameters  of which the table stays where it is: it outlives this
   explicit ModeObserver(const Parameters& parameters)
-      : table_(parameters.table),
+      : table_(&parameters.table),
         seen_base_(parameters.seen_base),
         gain_base_(parameters.gain_base),
         feedback_base_(parameters.feedback_base),
@@ -76,13 +76,16 @@ class ModeObserver {
     restart();
   }
 
+  /// After a copy from elsewhere. @param parameters  equal ones, as in the constructor
+  void settle_at(const Parameters& parameters) { table_ = &parameters.table; }
+
   /// At rest, and as it was believed at first.
   void restart() {
     mode_ = {};
     offset_ = {};
     weight_ = {};
     place_ = {};
-    row_.go(table_, place_);
+    row_.go(*table_, place_);
   }
 
   /// One call for each sample.
@@ -199,11 +202,11 @@ class ModeObserver {
     const Scalar half = numeric::half(place_) + numeric::half(move);
     const Scalar before = place_;
     place_ = numeric::twice(numeric::clamp_magnitude(half, numeric::half(end)));
-    row_.go(table_, place_);
+    row_.go(*table_, place_);
     return place_ - before;
   }
 
-  const ModeTable<Scalar>& table_;
+  const ModeTable<Scalar>* table_;
   std::uint8_t seen_base_;
   std::uint8_t gain_base_;
   std::uint8_t feedback_base_;

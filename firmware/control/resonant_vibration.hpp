@@ -76,6 +76,9 @@ class ResonantVibration {
         current_(parameters.current),
         past_(parameters.delay) {}
 
+  /// See Controller::settle_at: nothing of the parameters stays where it is.
+  void settle_at(const Parameters& /*parameters*/) {}
+
   void restart() {
     resonance_.restart();
     missing_ = 0;

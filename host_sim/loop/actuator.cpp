@@ -20,4 +20,18 @@ void Actuator::take(const hal::Drive& drive, double target, std::int32_t frequen
   first_ = first_ + 1 == queue_.size() ? 0 : first_ + 1;
 }
 
+void Actuator::save(SnapshotWriter& state) const {
+  for (const Command& command : queue_) {
+    state.put(command);
+  }
+  state.put(first_);
+}
+
+void Actuator::restore(SnapshotReader& state) {
+  for (Command& command : queue_) {
+    state.get(command);
+  }
+  state.get(first_);
+}
+
 }  // namespace sonoglide::loop

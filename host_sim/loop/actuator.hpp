@@ -8,6 +8,7 @@
 
 #include "firmware/control/drive_command.hpp"
 #include "hal/board.hpp"
+#include "host_sim/loop/snapshot.hpp"
 
 namespace sonoglide::loop {
 
@@ -35,6 +36,9 @@ class Actuator {
 
   /// In force during the next carrier period; off until the first answer acts.
   const Command& in_force() const { return queue_[first_]; }
+
+  void save(SnapshotWriter& state) const;
+  void restore(SnapshotReader& state);
 
  private:
   double full_scale_N_;

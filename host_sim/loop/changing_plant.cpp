@@ -75,6 +75,20 @@ ChangingPlant::ChangingPlant(const scene::Scene& scene)
       drive_rate_rad_per_s_(scene.drive ? numeric::two_pi * scene.drive->frequency_Hz : 0.0),
       held_(scene) {}
 
+void ChangingPlant::save(SnapshotWriter& state) const {
+  state.put(drive_rate_rad_per_s_);
+  state.put(time_s_);
+  spring_.save(state);
+  held_.save(state);
+}
+
+void ChangingPlant::restore(SnapshotReader& state) {
+  state.get(drive_rate_rad_per_s_);
+  state.get(time_s_);
+  spring_.restore(state);
+  held_.restore(state);
+}
+
 plant::Outcome<double> ChangingPlant::advance_sampled(const Stretch& stretch,
                                                       const std::vector<double>& offsets_s,
                                                       EnergyBalance& energy,

@@ -57,6 +57,8 @@ class ChangingPlant final : public PlantPort {
   }
   PlantState state() const override { return within_limit(held_.plant().state(), time_s_); }
   plant::Cost cost() const override { return held_.cost(); }
+  void save(SnapshotWriter& state) const override;
+  void restore(SnapshotReader& state) override;
 
  private:
   /// What a stretch shows, on its way through the pieces.

@@ -5,6 +5,7 @@
 
 #include "host_sim/loop/energy.hpp"
 #include "host_sim/loop/plant_port.hpp"
+#include "host_sim/loop/snapshot.hpp"
 #include "host_sim/scene/scene.hpp"
 
 namespace sonoglide::loop {
@@ -49,6 +50,9 @@ class ChangingSpring {
   /// @param begin_m, end_m  displacements
   void settle(const Stretch& stretch, const Line& line, double count, double begin_m, double end_m,
               EnergyBalance& energy);
+
+  void save(SnapshotWriter& state) const { state.put(reached_N_per_m_); }
+  void restore(SnapshotReader& state) { state.get(reached_N_per_m_); }
 
  private:
   scene::TimedProfile profile_;

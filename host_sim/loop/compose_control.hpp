@@ -43,6 +43,12 @@ class InProcess : public ControlPort {
             ledger_.signals.begin() + static_cast<std::ptrdiff_t>(ledger_.size)};
   }
 
+  void save(SnapshotWriter& state) const override { state.put(controller_); }
+  void restore(SnapshotReader& state) override {
+    state.get(controller_);
+    controller_.settle_at(parameters_);
+  }
+
  protected:
   Drive answer(const Sample& sample) {
     const numeric::LedgerScope scope(ledger_);

@@ -140,6 +140,15 @@ class ComposedPlant final : public PlantPort {
   PlantState state() const override { return in_si_units(state_); }
   plant::Cost cost() const override { return solver_.cost(); }
 
+  void save(SnapshotWriter& state) const override {
+    state.put(solver_);
+    state.put(state_);
+  }
+  void restore(SnapshotReader& state) override {
+    state.get(solver_);
+    state.get(state_);
+  }
+
  private:
   plant::Outcome<double> advance(const Stretch& stretch, StepReader& reader,
                                  EnergyBalance& energy) {

@@ -14,6 +14,14 @@ hal::ResonantDrive ControlPort::exchange(const hal::VibrationSample& /*sample*/)
   throw std::logic_error("a controller that observes no vibration has no use for a sample of it");
 }
 
+void ControlPort::save(SnapshotWriter& /*state*/) const {
+  throw std::logic_error("the state of this controller is out of reach");
+}
+
+void ControlPort::restore(SnapshotReader& /*state*/) {
+  throw std::logic_error("the state of this controller is out of reach");
+}
+
 std::unique_ptr<ControlPort> make_control_port(const scene::Scene& scene,
                                                const configure::ControlDesign& design) {
   switch (scene.controller->arithmetic) {

@@ -7,6 +7,7 @@
 #include "firmware/numeric/signal_ledger.hpp"
 #include "hal/board.hpp"
 #include "host_sim/configure/control_design.hpp"
+#include "host_sim/loop/snapshot.hpp"
 #include "host_sim/scene/scene.hpp"
 
 namespace sonoglide::loop {
@@ -23,6 +24,10 @@ class ControlPort {
   virtual hal::ResonantDrive exchange(const hal::VibrationSample& sample);
   /// What the fixed-point signals did so far; empty for floating point.
   virtual std::vector<numeric::SignalRecord> signals() const = 0;
+  /// The state, but for signals(), to go on from in a port that was made for the same design.
+  /// @throws std::logic_error  the controller is out of reach
+  virtual void save(SnapshotWriter& state) const;
+  virtual void restore(SnapshotReader& state);
 };
 
 /// The controller of a scene, in this process: the image's control loop on a simulated board.

@@ -82,6 +82,44 @@ void ControlRun::step(double time_s, double mean_force_N, double sliding_velocit
   }
 }
 
+void ControlRun::aim_at(double friction_ratio) {
+  next_step_ = schedule_.size();
+  target_ = friction_ratio;
+  port_.set_target(target_);
+}
+
+void ControlRun::save(SnapshotWriter& state) const {
+  state.put(hash_);
+  state.put(answer_);
+  state.put(next_step_);
+  state.put(period_);
+  state.put(believed_friction_N_);
+  state.put(elapsed_);
+  state.put(target_);
+  state.put(fault_);
+  state.put(record_.commands);
+  state.put(record_.saturated_commands);
+  sensor_.save(state);
+  actuator_.save(state);
+  port_.save(state);
+}
+
+void ControlRun::restore(SnapshotReader& state) {
+  state.get(hash_);
+  state.get(answer_);
+  state.get(next_step_);
+  state.get(period_);
+  state.get(believed_friction_N_);
+  state.get(elapsed_);
+  state.get(target_);
+  state.get(fault_);
+  state.get(record_.commands);
+  state.get(record_.saturated_commands);
+  sensor_.restore(state);
+  actuator_.restore(state);
+  port_.restore(state);
+}
+
 void ControlRun::finish() {
   record_.trace_hash = hash_.value();
   record_.signals = port_.signals();
@@ -116,6 +154,7 @@ void ControlRun::account_for(const Drive& drive, double time_s) {
     record_.faults.push_back({time_s, fault});
   }
   fault_ = fault;
+  answer_ = drive;
   hash_.add(drive);
   ++record_.commands;
   const auto limit = static_cast<control::Limit>(drive.limit);

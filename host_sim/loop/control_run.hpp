@@ -52,6 +52,19 @@ class ControlRun {
   void step(double time_s, double mean_force_N, double sliding_velocity_m_per_s,
             std::complex<double> vibration_m_per_s = {});
 
+  /// Of the sample that comes next and of those after it, in place of the scene's steps.
+  /// @param friction_ratio  in (0, 1]
+  void aim_at(double friction_ratio);
+
+  /// The controller's last one; all 0 before the first.
+  const hal::Drive& answer() const { return answer_; }
+  /// Of the answers so far.
+  std::uint64_t trace_hash() const { return hash_.value(); }
+
+  /// All that the loop goes on from, with the counts of the record but for its faults.
+  void save(SnapshotWriter& state) const;
+  void restore(SnapshotReader& state);
+
   /// Fills in what the run ends with.
   void finish();
 
@@ -67,6 +80,7 @@ class ControlRun {
   Sensor sensor_;
   Actuator actuator_;
   hal::TraceHash hash_;
+  hal::Drive answer_{};
   std::size_t next_step_ = 0;
   std::uint64_t period_ = 0;  ///< whose sample comes next
   double start_frequency_Hz_;

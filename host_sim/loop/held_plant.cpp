@@ -38,8 +38,13 @@ void HeldPlant::hold(const Held& wanted, const Carried& from) {
     return;
   }
   spent_ = cost();
-  friction.coefficient = wanted.contact.coefficient;
-  friction.normal_force_N = wanted.contact.normal_force_N;
+  make(wanted);
+  put(from);
+}
+
+void HeldPlant::make(const Held& wanted) {
+  scene_.friction.coefficient = wanted.contact.coefficient;
+  scene_.friction.normal_force_N = wanted.contact.normal_force_N;
   scene_.plant.stiffness_N_per_m = wanted.stiffness_N_per_m;
   drive_rate_rad_per_s_ = wanted.drive_rate_rad_per_s;
   if (scene_.drive) {
@@ -47,7 +52,33 @@ void HeldPlant::hold(const Held& wanted, const Carried& from) {
   }
   scene_.solver.method = wanted.method;
   plant_ = make_plant_port(scene_);
-  put(from);
+}
+
+void HeldPlant::save(SnapshotWriter& state) const {
+  state.put(scene_.friction.coefficient);
+  state.put(scene_.friction.normal_force_N);
+  state.put(scene_.plant.stiffness_N_per_m);
+  state.put(scene_.drive ? scene_.drive->frequency_Hz : 0.0);
+  state.put(scene_.solver.method);
+  state.put(drive_rate_rad_per_s_);
+  state.put(spent_);
+  plant_->save(state);
+}
+
+void HeldPlant::restore(SnapshotReader& state) {
+  state.get(scene_.friction.coefficient);
+  state.get(scene_.friction.normal_force_N);
+  state.get(scene_.plant.stiffness_N_per_m);
+  double frequency_Hz = 0.0;
+  state.get(frequency_Hz);
+  if (scene_.drive) {
+    scene_.drive->frequency_Hz = frequency_Hz;
+  }
+  state.get(scene_.solver.method);
+  state.get(drive_rate_rad_per_s_);
+  state.get(spent_);
+  plant_ = make_plant_port(scene_);
+  plant_->restore(state);
 }
 
 HeldPlant::Carried HeldPlant::carried() const {

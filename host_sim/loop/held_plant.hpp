@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "host_sim/loop/plant_port.hpp"
+#include "host_sim/loop/snapshot.hpp"
 #include "host_sim/scene/scene.hpp"
 
 namespace sonoglide::loop {
@@ -43,7 +44,12 @@ class HeldPlant {
   /// Of this plant and of those before it.
   plant::Cost cost() const;
 
+  void save(SnapshotWriter& state) const;
+  void restore(SnapshotReader& state);
+
  private:
+  void make(const Held& wanted);
+
   scene::Scene scene_;
   double drive_rate_rad_per_s_;
   plant::Cost spent_;  ///< by the plants before this one

@@ -6,6 +6,7 @@
 
 #include "firmware/plant/outcome.hpp"
 #include "host_sim/loop/energy.hpp"
+#include "host_sim/loop/snapshot.hpp"
 #include "host_sim/scene/scene.hpp"
 
 namespace sonoglide::loop {
@@ -58,6 +59,10 @@ class PlantPort {
 
   virtual PlantState state() const = 0;
   virtual plant::Cost cost() const = 0;
+
+  /// All that the motion goes on from, in a plant that was made for the same scene.
+  virtual void save(SnapshotWriter& state) const = 0;
+  virtual void restore(SnapshotReader& state) = 0;
 };
 
 /// The plant of a scene, composed of exactly what the scene names, in its initial state.

@@ -103,6 +103,18 @@ EnergyBalance PlantRun::piece(double begin_s, double from_s, double until_s, dou
   return total;
 }
 
+void PlantRun::save(SnapshotWriter& state) const {
+  state.put(sliding_velocity_m_per_s_);
+  state.put(next_cut_);
+  plant_->save(state);
+}
+
+void PlantRun::restore(SnapshotReader& state) {
+  state.get(sliding_velocity_m_per_s_);
+  state.get(next_cut_);
+  plant_->restore(state);
+}
+
 void PlantRun::finish() {
   result_.final_state = plant_->state();
   result_.final_time_s = scene_.run.duration_s;

@@ -32,6 +32,13 @@ class PlantRun {
   /// @throws ComputationError
   EnergyBalance advance(double amplitude_N);
 
+  /// Now, where the last call of advance() ended.
+  PlantState state() const { return plant_->state(); }
+
+  /// All that the motion goes on from, but for the clock and the samples that a watch wants.
+  void save(SnapshotWriter& state) const;
+  void restore(SnapshotReader& state);
+
   /// Fills in what the run ends with.
   void finish();
 

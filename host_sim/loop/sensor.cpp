@@ -76,6 +76,26 @@ hal::VibrationSample Sensor::sample(double mean_force_N, double sliding_velocity
   return {sample, in_phase.code, quadrature.code, in_phase.at_rail || quadrature.at_rail, true};
 }
 
+void Sensor::save(SnapshotWriter& state) const {
+  state.put(filter_state_N_);
+  state.put(filter_input_N_);
+  for (const double force_N : pipeline_N_) {
+    state.put(force_N);
+  }
+  state.put(oldest_);
+  state.put(generator_);
+}
+
+void Sensor::restore(SnapshotReader& state) {
+  state.get(filter_state_N_);
+  state.get(filter_input_N_);
+  for (double& force_N : pipeline_N_) {
+    state.get(force_N);
+  }
+  state.get(oldest_);
+  state.get(generator_);
+}
+
 /// First-order lag, exact for an input that runs linearly from the last sample to this one.
 double Sensor::filtered(double force_N) {
   const double old_weight = 1.0 - filter_decay_ - filter_new_weight_;

@@ -9,6 +9,7 @@
 
 #include "hal/board.hpp"
 #include "host_sim/configure/control_design.hpp"
+#include "host_sim/loop/snapshot.hpp"
 #include "host_sim/scene/scene.hpp"
 
 namespace sonoglide::loop {
@@ -41,6 +42,9 @@ class Sensor {
   ///                           the drive
   hal::VibrationSample sample(double mean_force_N, double sliding_velocity_m_per_s,
                               std::complex<double> vibration_m_per_s);
+
+  void save(SnapshotWriter& state) const;
+  void restore(SnapshotReader& state);
 
  private:
   double filtered(double force_N);
