@@ -1,5 +1,6 @@
 # Debian packages: cmake --build --preset release --target packages
-# sonoglide: the program, its manual, scenes, documents, and the sources that `pil` builds images from;
+# sonoglide: the program, its manual, scenes, documents, and the sources that `pil` builds images from
+# and that an FMU carries;
 # libsonoglide-dev: the core for somebody else's firmware. Included after every install rule.
 find_program(SONOGLIDE_HELP2MAN help2man)
 if(NOT SONOGLIDE_HELP2MAN)
@@ -18,7 +19,8 @@ add_custom_target(packages
 set(shares "${CMAKE_INSTALL_DATADIR}")
 install(FILES "${PROJECT_SOURCE_DIR}/CMakeLists.txt"
   DESTINATION "${SONOGLIDE_DATA_FOLDER}/source" COMPONENT images EXCLUDE_FROM_ALL)
-foreach(folder firmware hal tools/cmake tools/toolchains)
+foreach(folder firmware hal tools/cmake tools/toolchains host_sim/fmi host_sim/loop host_sim/configure
+    host_sim/scene host_sim/scene_file host_sim/process)
   cmake_path(GET folder PARENT_PATH inside)
   install(DIRECTORY "${PROJECT_SOURCE_DIR}/${folder}"
     DESTINATION "${SONOGLIDE_DATA_FOLDER}/source/${inside}" COMPONENT images EXCLUDE_FROM_ALL

@@ -85,5 +85,7 @@ function(sonoglide_install)
   sonoglide_install_data()
   if(TARGET sonoglide)
     install(TARGETS sonoglide RUNTIME COMPONENT program OPTIONAL)
+    # Where the program looks for it.
+    install(TARGETS sonoglide_fmu LIBRARY DESTINATION lib/sonoglide COMPONENT program OPTIONAL)
   endif()
 endfunction()

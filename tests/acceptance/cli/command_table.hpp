@@ -115,6 +115,13 @@ inline const std::vector<Command> command_table = {
      "out/measured_impedance",
      {"fit.csv", "identify.json", "report.html"},
      {"identify.json", "scene.toml"}},
+    {"fmu",
+     "closed.toml",
+     "--kind loop --out closed.fmu",
+     {"--set", "--kind", "--fmi", "--out", "--quiet"},
+     "",
+     {},
+     {}},
     {"schema", "", "", {}, "", {}, {}},
     {"completion", "", "bash", {}, "", {}, {}},
 };

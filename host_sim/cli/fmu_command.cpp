@@ -1,0 +1,82 @@
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "host_sim/cli/commands.hpp"
+#include "host_sim/cli/options.hpp"
+#include "host_sim/fmi/archive/make_fmu.hpp"
+#include "host_sim/fmi/engine.hpp"
+#include "host_sim/output/output_folder.hpp"
+#include "host_sim/process/printable.hpp"
+
+namespace sonoglide::cli {
+namespace {
+
+struct FmuOptions {
+  SceneOptions scene;
+  std::string kind;
+  int version = 3;
+  std::string out;
+  bool quiet = false;
+};
+
+fmi::Kind kind_of(const std::string& name) {
+  for (const scene::Named<fmi::Kind>& each : fmi::kinds) {
+    if (each.name == name) {
+      return each.value;
+    }
+  }
+  return fmi::Kind::loop;
+}
+
+void write(const FmuOptions& options) {
+  const SceneInput input(options.scene);
+  const scene::Scene scene = input.read();
+  const fmi::Kind kind = kind_of(options.kind);
+  input.with_places([&] {
+    fmi::require_usable(scene, kind);
+    return 0;
+  });
+  const std::filesystem::path out = std::filesystem::absolute(options.out);
+  output::OutputFolder folder(out.parent_path(), {out.filename().string()});
+  folder.write(
+      out.filename().string(),
+      fmi::make_fmu(scene, kind, options.version == 2 ? fmi::Version::fmi2 : fmi::Version::fmi3,
+                    fmi::find_parts(), "sonoglide " SONOGLIDE_VERSION));
+  folder.commit();
+  if (!options.quiet) {
+    fmt::print("fmu:  {}\nstep: {} s, one carrier period\n", process::printable(options.out),
+               1.0 / scene.drive->frequency_Hz);
+  }
+}
+
+}  // namespace
+
+void add_fmu_command(CLI::App& program) {
+  const auto options = std::make_shared<FmuOptions>();
+  CLI::App* command = program.add_subcommand(
+      "fmu", "Write a scene's plant, controller or closed loop as an FMU for co-simulation");
+  add_scene_options(*command, options->scene);
+  command->add_option("--kind", options->kind, "What of the scene the FMU holds")
+      ->required()
+      ->type_name("plant|controller|loop")
+      ->check(CLI::IsMember({"plant", "controller", "loop"}));
+  command->add_option("--fmi", options->version, "Version of the interface [3]")
+      ->type_name("3|2")
+      ->check(CLI::IsMember({2, 3}));
+  command->add_option("--out", options->out, "The FMU")
+      ->required()
+      ->type_name("FILE.fmu")
+      ->check([](const std::string& file) {
+        return std::filesystem::path(file).extension() == ".fmu"
+                   ? std::string()
+                   : std::string("is no name of an FMU; allowed: a file that ends in .fmu");
+      });
+  command->add_flag("--quiet", options->quiet, "No word on where the FMU is");
+  command->callback([options] { write(*options); });
+}
+
+}  // namespace sonoglide::cli

@@ -1,0 +1,25 @@
+/// modelDescription.xml of an FMU.
+#pragma once
+
+#include <string>
+
+#include "host_sim/fmi/kind.hpp"
+#include "host_sim/scene/scene.hpp"
+
+namespace sonoglide::fmi {
+
+enum class Version { fmi2, fmi3 };
+
+struct ModelFacts {
+  std::string name;        ///< of the scene
+  std::string identifier;  ///< of the shared library, without its ending
+  std::string token;
+  std::string tool;  ///< that wrote it, with its version
+};
+
+/// @param scene  as the FMU holds it, see variables()
+/// Source: Functional Mock-up Interface Specification 3.0, section 2.4, and 2.0.4, section 2.2.
+std::string model_description(const scene::Scene& scene, Kind kind, Version version,
+                              const ModelFacts& facts);
+
+}  // namespace sonoglide::fmi

@@ -1,0 +1,117 @@
+/// Functional Mock-up Interface 2.0, the functions of co-simulation and those of both interface types.
+///
+/// Source: Modelica Association, Functional Mock-up Interface Specification 2.0.4, sections 2.1 and
+/// 4.2. Declared here after the text of the specification; types and names are the specification's.
+#pragma once
+
+#include <cstddef>
+
+#include "host_sim/fmi/binary/export.hpp"
+
+using fmi2Component = void*;
+using fmi2ComponentEnvironment = void*;
+using fmi2FMUstate = void*;
+using fmi2ValueReference = unsigned int;
+using fmi2Real = double;
+using fmi2Integer = int;
+using fmi2Boolean = int;
+using fmi2Char = char;
+using fmi2String = const fmi2Char*;
+using fmi2Byte = char;
+
+enum fmi2Status { fmi2OK, fmi2Warning, fmi2Discard, fmi2Error, fmi2Fatal, fmi2Pending };
+enum fmi2Type { fmi2ModelExchange, fmi2CoSimulation };
+enum fmi2StatusKind { fmi2DoStepStatus, fmi2PendingStatus, fmi2LastSuccessfulTime, fmi2Terminated };
+
+using fmi2CallbackLogger = void (*)(fmi2ComponentEnvironment environment, fmi2String name,
+                                    fmi2Status status, fmi2String category, fmi2String message,
+                                    ...);
+using fmi2CallbackAllocateMemory = void* (*)(std::size_t count, std::size_t size);
+using fmi2CallbackFreeMemory = void (*)(void* memory);
+using fmi2StepFinished = void (*)(fmi2ComponentEnvironment environment, fmi2Status status);
+
+struct fmi2CallbackFunctions {
+  fmi2CallbackLogger logger;
+  fmi2CallbackAllocateMemory allocateMemory;
+  fmi2CallbackFreeMemory freeMemory;
+  fmi2StepFinished stepFinished;
+  fmi2ComponentEnvironment componentEnvironment;
+};
+
+SONOGLIDE_FMI const char* fmi2GetTypesPlatform();
+SONOGLIDE_FMI const char* fmi2GetVersion();
+SONOGLIDE_FMI fmi2Status fmi2SetDebugLogging(fmi2Component component, fmi2Boolean logging_on,
+                                             std::size_t count, const fmi2String categories[]);
+
+SONOGLIDE_FMI fmi2Component fmi2Instantiate(fmi2String name, fmi2Type type, fmi2String guid,
+                                            fmi2String resource_location,
+                                            const fmi2CallbackFunctions* functions,
+                                            fmi2Boolean visible, fmi2Boolean logging_on);
+SONOGLIDE_FMI void fmi2FreeInstance(fmi2Component component);
+
+SONOGLIDE_FMI fmi2Status fmi2SetupExperiment(fmi2Component component, fmi2Boolean tolerance_defined,
+                                             fmi2Real tolerance, fmi2Real start_time,
+                                             fmi2Boolean stop_time_defined, fmi2Real stop_time);
+SONOGLIDE_FMI fmi2Status fmi2EnterInitializationMode(fmi2Component component);
+SONOGLIDE_FMI fmi2Status fmi2ExitInitializationMode(fmi2Component component);
+SONOGLIDE_FMI fmi2Status fmi2Terminate(fmi2Component component);
+SONOGLIDE_FMI fmi2Status fmi2Reset(fmi2Component component);
+
+SONOGLIDE_FMI fmi2Status fmi2GetReal(fmi2Component component, const fmi2ValueReference references[],
+                                     std::size_t n, fmi2Real values[]);
+SONOGLIDE_FMI fmi2Status fmi2GetInteger(fmi2Component component,
+                                        const fmi2ValueReference references[], std::size_t n,
+                                        fmi2Integer values[]);
+SONOGLIDE_FMI fmi2Status fmi2GetBoolean(fmi2Component component,
+                                        const fmi2ValueReference references[], std::size_t n,
+                                        fmi2Boolean values[]);
+SONOGLIDE_FMI fmi2Status fmi2GetString(fmi2Component component,
+                                       const fmi2ValueReference references[], std::size_t n,
+                                       fmi2String values[]);
+SONOGLIDE_FMI fmi2Status fmi2SetReal(fmi2Component component, const fmi2ValueReference references[],
+                                     std::size_t n, const fmi2Real values[]);
+SONOGLIDE_FMI fmi2Status fmi2SetInteger(fmi2Component component,
+                                        const fmi2ValueReference references[], std::size_t n,
+                                        const fmi2Integer values[]);
+SONOGLIDE_FMI fmi2Status fmi2SetBoolean(fmi2Component component,
+                                        const fmi2ValueReference references[], std::size_t n,
+                                        const fmi2Boolean values[]);
+SONOGLIDE_FMI fmi2Status fmi2SetString(fmi2Component component,
+                                       const fmi2ValueReference references[], std::size_t n,
+                                       const fmi2String values[]);
+
+SONOGLIDE_FMI fmi2Status fmi2GetFMUstate(fmi2Component component, fmi2FMUstate* state);
+SONOGLIDE_FMI fmi2Status fmi2SetFMUstate(fmi2Component component, fmi2FMUstate state);
+SONOGLIDE_FMI fmi2Status fmi2FreeFMUstate(fmi2Component component, fmi2FMUstate* state);
+SONOGLIDE_FMI fmi2Status fmi2SerializedFMUstateSize(fmi2Component component, fmi2FMUstate state,
+                                                    std::size_t* size);
+SONOGLIDE_FMI fmi2Status fmi2SerializeFMUstate(fmi2Component component, fmi2FMUstate state,
+                                               fmi2Byte bytes[], std::size_t size);
+SONOGLIDE_FMI fmi2Status fmi2DeSerializeFMUstate(fmi2Component component, const fmi2Byte bytes[],
+                                                 std::size_t size, fmi2FMUstate* state);
+
+SONOGLIDE_FMI fmi2Status fmi2GetDirectionalDerivative(
+    fmi2Component component, const fmi2ValueReference unknowns[], std::size_t unknown_count,
+    const fmi2ValueReference knowns[], std::size_t known_count, const fmi2Real known_changes[],
+    fmi2Real unknown_changes[]);
+SONOGLIDE_FMI fmi2Status fmi2SetRealInputDerivatives(fmi2Component component,
+                                                     const fmi2ValueReference references[],
+                                                     std::size_t n, const fmi2Integer orders[],
+                                                     const fmi2Real values[]);
+SONOGLIDE_FMI fmi2Status fmi2GetRealOutputDerivatives(fmi2Component component,
+                                                      const fmi2ValueReference references[],
+                                                      std::size_t n, const fmi2Integer orders[],
+                                                      fmi2Real values[]);
+SONOGLIDE_FMI fmi2Status fmi2DoStep(fmi2Component component, fmi2Real point, fmi2Real size,
+                                    fmi2Boolean no_state_prior);
+SONOGLIDE_FMI fmi2Status fmi2CancelStep(fmi2Component component);
+SONOGLIDE_FMI fmi2Status fmi2GetStatus(fmi2Component component, fmi2StatusKind kind,
+                                       fmi2Status* value);
+SONOGLIDE_FMI fmi2Status fmi2GetRealStatus(fmi2Component component, fmi2StatusKind kind,
+                                           fmi2Real* value);
+SONOGLIDE_FMI fmi2Status fmi2GetIntegerStatus(fmi2Component component, fmi2StatusKind kind,
+                                              fmi2Integer* value);
+SONOGLIDE_FMI fmi2Status fmi2GetBooleanStatus(fmi2Component component, fmi2StatusKind kind,
+                                              fmi2Boolean* value);
+SONOGLIDE_FMI fmi2Status fmi2GetStringStatus(fmi2Component component, fmi2StatusKind kind,
+                                             fmi2String* value);

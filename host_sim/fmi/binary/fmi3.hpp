@@ -1,0 +1,201 @@
+/// Functional Mock-up Interface 3.0, the functions of co-simulation and those of all interface types.
+///
+/// Source: Modelica Association, Functional Mock-up Interface Specification 3.0, sections 2.2 and 4.2.
+/// Declared here after the text of the specification; types and names are the specification's.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "host_sim/fmi/binary/export.hpp"
+
+using fmi3Instance = void*;
+using fmi3InstanceEnvironment = void*;
+using fmi3FMUState = void*;
+using fmi3ValueReference = std::uint32_t;
+using fmi3Float32 = float;
+using fmi3Float64 = double;
+using fmi3Int8 = std::int8_t;
+using fmi3UInt8 = std::uint8_t;
+using fmi3Int16 = std::int16_t;
+using fmi3UInt16 = std::uint16_t;
+using fmi3Int32 = std::int32_t;
+using fmi3UInt32 = std::uint32_t;
+using fmi3Int64 = std::int64_t;
+using fmi3UInt64 = std::uint64_t;
+using fmi3Boolean = bool;
+using fmi3String = const char*;
+using fmi3Byte = std::uint8_t;
+using fmi3Binary = const fmi3Byte*;
+using fmi3Clock = bool;
+
+enum fmi3Status { fmi3OK, fmi3Warning, fmi3Discard, fmi3Error, fmi3Fatal };
+enum fmi3DependencyKind {
+  fmi3Independent,
+  fmi3Constant,
+  fmi3Fixed,
+  fmi3Tunable,
+  fmi3Discrete,
+  fmi3Dependent
+};
+enum fmi3IntervalQualifier { fmi3IntervalNotYetKnown, fmi3IntervalUnchanged, fmi3IntervalChanged };
+
+using fmi3LogMessageCallback = void (*)(fmi3InstanceEnvironment environment, fmi3Status status,
+                                        fmi3String category, fmi3String message);
+using fmi3IntermediateUpdateCallback = void (*)(fmi3InstanceEnvironment environment,
+                                                fmi3Float64 time, fmi3Boolean set_requested,
+                                                fmi3Boolean get_allowed, fmi3Boolean step_finished,
+                                                fmi3Boolean can_return_early,
+                                                fmi3Boolean* early_return_requested,
+                                                fmi3Float64* early_return_time);
+using fmi3ClockUpdateCallback = void (*)(fmi3InstanceEnvironment environment);
+using fmi3LockPreemptionCallback = void (*)();
+using fmi3UnlockPreemptionCallback = void (*)();
+
+// Whoever asks, and what with.
+SONOGLIDE_FMI const char* fmi3GetVersion();
+SONOGLIDE_FMI fmi3Status fmi3SetDebugLogging(fmi3Instance instance, fmi3Boolean logging_on,
+                                             std::size_t count, const fmi3String categories[]);
+
+// Creation and destruction.
+SONOGLIDE_FMI fmi3Instance fmi3InstantiateModelExchange(fmi3String name, fmi3String token,
+                                                        fmi3String resource_path,
+                                                        fmi3Boolean visible, fmi3Boolean logging_on,
+                                                        fmi3InstanceEnvironment environment,
+                                                        fmi3LogMessageCallback log);
+SONOGLIDE_FMI fmi3Instance fmi3InstantiateCoSimulation(
+    fmi3String name, fmi3String token, fmi3String resource_path, fmi3Boolean visible,
+    fmi3Boolean logging_on, fmi3Boolean event_mode_used, fmi3Boolean early_return_allowed,
+    const fmi3ValueReference intermediate_variables[], std::size_t count,
+    fmi3InstanceEnvironment environment, fmi3LogMessageCallback log,
+    fmi3IntermediateUpdateCallback update);
+SONOGLIDE_FMI fmi3Instance fmi3InstantiateScheduledExecution(
+    fmi3String name, fmi3String token, fmi3String resource_path, fmi3Boolean visible,
+    fmi3Boolean logging_on, fmi3InstanceEnvironment environment, fmi3LogMessageCallback log,
+    fmi3ClockUpdateCallback clock_update, fmi3LockPreemptionCallback lock,
+    fmi3UnlockPreemptionCallback unlock);
+SONOGLIDE_FMI void fmi3FreeInstance(fmi3Instance instance);
+
+// The way from one mode to the next.
+SONOGLIDE_FMI fmi3Status fmi3EnterInitializationMode(fmi3Instance instance,
+                                                     fmi3Boolean tolerance_defined,
+                                                     fmi3Float64 tolerance, fmi3Float64 start_time,
+                                                     fmi3Boolean stop_time_defined,
+                                                     fmi3Float64 stop_time);
+SONOGLIDE_FMI fmi3Status fmi3ExitInitializationMode(fmi3Instance instance);
+SONOGLIDE_FMI fmi3Status fmi3EnterEventMode(fmi3Instance instance);
+SONOGLIDE_FMI fmi3Status fmi3Terminate(fmi3Instance instance);
+SONOGLIDE_FMI fmi3Status fmi3Reset(fmi3Instance instance);
+SONOGLIDE_FMI fmi3Status fmi3EnterConfigurationMode(fmi3Instance instance);
+SONOGLIDE_FMI fmi3Status fmi3ExitConfigurationMode(fmi3Instance instance);
+
+// Values. n of them are wanted, and as many numbers handed over, for no variable is an array.
+#define SONOGLIDE_FMI3_VALUES(Type)                                                            \
+  SONOGLIDE_FMI fmi3Status fmi3Get##Type(fmi3Instance instance,                                \
+                                         const fmi3ValueReference references[], std::size_t n, \
+                                         fmi3##Type values[], std::size_t value_count);        \
+  SONOGLIDE_FMI fmi3Status fmi3Set##Type(fmi3Instance instance,                                \
+                                         const fmi3ValueReference references[], std::size_t n, \
+                                         const fmi3##Type values[], std::size_t value_count);
+SONOGLIDE_FMI3_VALUES(Float32)
+SONOGLIDE_FMI3_VALUES(Float64)
+SONOGLIDE_FMI3_VALUES(Int8)
+SONOGLIDE_FMI3_VALUES(UInt8)
+SONOGLIDE_FMI3_VALUES(Int16)
+SONOGLIDE_FMI3_VALUES(UInt16)
+SONOGLIDE_FMI3_VALUES(Int32)
+SONOGLIDE_FMI3_VALUES(UInt32)
+SONOGLIDE_FMI3_VALUES(Int64)
+SONOGLIDE_FMI3_VALUES(UInt64)
+SONOGLIDE_FMI3_VALUES(Boolean)
+SONOGLIDE_FMI3_VALUES(String)
+#undef SONOGLIDE_FMI3_VALUES
+SONOGLIDE_FMI fmi3Status fmi3GetBinary(fmi3Instance instance, const fmi3ValueReference references[],
+                                       std::size_t n, std::size_t sizes[], fmi3Binary values[],
+                                       std::size_t value_count);
+SONOGLIDE_FMI fmi3Status fmi3SetBinary(fmi3Instance instance, const fmi3ValueReference references[],
+                                       std::size_t n, const std::size_t sizes[],
+                                       const fmi3Binary values[], std::size_t value_count);
+SONOGLIDE_FMI fmi3Status fmi3GetClock(fmi3Instance instance, const fmi3ValueReference references[],
+                                      std::size_t n, fmi3Clock values[]);
+SONOGLIDE_FMI fmi3Status fmi3SetClock(fmi3Instance instance, const fmi3ValueReference references[],
+                                      std::size_t n, const fmi3Clock values[]);
+
+// What depends on what.
+SONOGLIDE_FMI fmi3Status fmi3GetNumberOfVariableDependencies(fmi3Instance instance,
+                                                             fmi3ValueReference reference,
+                                                             std::size_t* count);
+SONOGLIDE_FMI fmi3Status fmi3GetVariableDependencies(fmi3Instance instance,
+                                                     fmi3ValueReference dependent,
+                                                     std::size_t dependent_elements[],
+                                                     fmi3ValueReference independents[],
+                                                     std::size_t independent_elements[],
+                                                     fmi3DependencyKind kinds[], std::size_t count);
+SONOGLIDE_FMI fmi3Status fmi3GetDirectionalDerivative(
+    fmi3Instance instance, const fmi3ValueReference unknowns[], std::size_t unknown_count,
+    const fmi3ValueReference knowns[], std::size_t known_count, const fmi3Float64 seed[],
+    std::size_t seed_count, fmi3Float64 sensitivity[], std::size_t sensitivity_count);
+SONOGLIDE_FMI fmi3Status fmi3GetAdjointDerivative(
+    fmi3Instance instance, const fmi3ValueReference unknowns[], std::size_t unknown_count,
+    const fmi3ValueReference knowns[], std::size_t known_count, const fmi3Float64 seed[],
+    std::size_t seed_count, fmi3Float64 sensitivity[], std::size_t sensitivity_count);
+
+// State.
+SONOGLIDE_FMI fmi3Status fmi3GetFMUState(fmi3Instance instance, fmi3FMUState* state);
+SONOGLIDE_FMI fmi3Status fmi3SetFMUState(fmi3Instance instance, fmi3FMUState state);
+SONOGLIDE_FMI fmi3Status fmi3FreeFMUState(fmi3Instance instance, fmi3FMUState* state);
+SONOGLIDE_FMI fmi3Status fmi3SerializedFMUStateSize(fmi3Instance instance, fmi3FMUState state,
+                                                    std::size_t* size);
+SONOGLIDE_FMI fmi3Status fmi3SerializeFMUState(fmi3Instance instance, fmi3FMUState state,
+                                               fmi3Byte bytes[], std::size_t size);
+SONOGLIDE_FMI fmi3Status fmi3DeserializeFMUState(fmi3Instance instance, const fmi3Byte bytes[],
+                                                 std::size_t size, fmi3FMUState* state);
+
+// Clocks and events.
+SONOGLIDE_FMI fmi3Status fmi3GetIntervalDecimal(fmi3Instance instance,
+                                                const fmi3ValueReference references[],
+                                                std::size_t n, fmi3Float64 intervals[],
+                                                fmi3IntervalQualifier qualifiers[]);
+SONOGLIDE_FMI fmi3Status fmi3GetIntervalFraction(fmi3Instance instance,
+                                                 const fmi3ValueReference references[],
+                                                 std::size_t n, fmi3UInt64 counters[],
+                                                 fmi3UInt64 resolutions[],
+                                                 fmi3IntervalQualifier qualifiers[]);
+SONOGLIDE_FMI fmi3Status fmi3GetShiftDecimal(fmi3Instance instance,
+                                             const fmi3ValueReference references[], std::size_t n,
+                                             fmi3Float64 shifts[]);
+SONOGLIDE_FMI fmi3Status fmi3GetShiftFraction(fmi3Instance instance,
+                                              const fmi3ValueReference references[], std::size_t n,
+                                              fmi3UInt64 counters[], fmi3UInt64 resolutions[]);
+SONOGLIDE_FMI fmi3Status fmi3SetIntervalDecimal(fmi3Instance instance,
+                                                const fmi3ValueReference references[],
+                                                std::size_t n, const fmi3Float64 intervals[]);
+SONOGLIDE_FMI fmi3Status fmi3SetIntervalFraction(fmi3Instance instance,
+                                                 const fmi3ValueReference references[],
+                                                 std::size_t n, const fmi3UInt64 counters[],
+                                                 const fmi3UInt64 resolutions[]);
+SONOGLIDE_FMI fmi3Status fmi3SetShiftDecimal(fmi3Instance instance,
+                                             const fmi3ValueReference references[], std::size_t n,
+                                             const fmi3Float64 shifts[]);
+SONOGLIDE_FMI fmi3Status fmi3SetShiftFraction(fmi3Instance instance,
+                                              const fmi3ValueReference references[], std::size_t n,
+                                              const fmi3UInt64 counters[],
+                                              const fmi3UInt64 resolutions[]);
+SONOGLIDE_FMI fmi3Status fmi3EvaluateDiscreteStates(fmi3Instance instance);
+SONOGLIDE_FMI fmi3Status fmi3UpdateDiscreteStates(fmi3Instance instance, fmi3Boolean* needs_update,
+                                                  fmi3Boolean* terminate,
+                                                  fmi3Boolean* nominals_changed,
+                                                  fmi3Boolean* values_changed,
+                                                  fmi3Boolean* next_event_time_defined,
+                                                  fmi3Float64* next_event_time);
+
+// Co-simulation.
+SONOGLIDE_FMI fmi3Status fmi3EnterStepMode(fmi3Instance instance);
+SONOGLIDE_FMI fmi3Status fmi3GetOutputDerivatives(fmi3Instance instance,
+                                                  const fmi3ValueReference references[],
+                                                  std::size_t n, const fmi3Int32 orders[],
+                                                  fmi3Float64 values[], std::size_t value_count);
+SONOGLIDE_FMI fmi3Status fmi3DoStep(fmi3Instance instance, fmi3Float64 point, fmi3Float64 size,
+                                    fmi3Boolean no_state_prior, fmi3Boolean* event_needed,
+                                    fmi3Boolean* terminate, fmi3Boolean* early_return,
+                                    fmi3Float64* last_time);

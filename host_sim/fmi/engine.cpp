@@ -1,0 +1,130 @@
+#include "host_sim/fmi/engine.hpp"
+
+#include <complex>
+
+#include "host_sim/configure/configuration_error.hpp"
+#include "host_sim/configure/control_design.hpp"
+#include "host_sim/configure/plant_scales.hpp"
+
+namespace sonoglide::fmi {
+namespace {
+
+scene::Scene without_end(scene::Scene scene) {
+  scene.run.duration_s = endless_periods / scene.drive->frequency_Hz;
+  return scene;
+}
+
+}  // namespace
+
+void require_usable(const scene::Scene& scene, Kind kind) {
+  using configure::ConfigurationError;
+  if (!scene.drive) {
+    throw ConfigurationError("drive.frequency_Hz",
+                             "is missing; allowed in an FMU: a scene with a carrier, whose period "
+                             "is the step");
+  }
+  if (!scene.drive->frequency_profile.empty()) {
+    throw ConfigurationError("drive.frequency_profile",
+                             "changes the carrier period; allowed in an FMU: one frequency, "
+                             "drive.frequency_Hz");
+  }
+  if (scene.resonant()) {
+    throw ConfigurationError("controller.vibration",
+                             "\"resonant\" changes the carrier period; allowed in an FMU: "
+                             "\"damped\", or no such key");
+  }
+  if (has_controller(kind) && !scene.controller) {
+    throw ConfigurationError("controller",
+                             "is missing; allowed without it: an FMU of the kind plant");
+  }
+}
+
+Engine::Engine(const scene::Scene& scene, Kind kind) : scene_(without_end(scene)), clock_(scene_) {
+  watch_.energies = false;
+  if (has_plant(kind)) {
+    plant_.emplace(scene_, clock_, watch_, result_);
+    plant_outputs_.sliding_velocity_m_per_s = plant_->sliding_velocity_m_per_s();
+    show_plant();
+  }
+  if (has_controller(kind)) {
+    record_.design = configure::design_control(scene);
+    port_ = loop::make_control_port(scene_, record_.design);
+    controller_.emplace(scene_, loop::CarrierGrid(scene_), *port_, record_);
+    show_controller();
+  }
+}
+
+void Engine::advance(const Inputs& inputs) {
+  if (plant_) {
+    advance_plant(controller_ ? controller_->amplitude_N() : inputs.drive_force_amplitude_N);
+  }
+  if (controller_) {
+    advance_controller(plant_ ? plant_outputs_ : inputs.seen, inputs.target_friction_ratio);
+  }
+  clock_.next();
+}
+
+void Engine::advance_plant(double amplitude_N) {
+  const loop::EnergyBalance energy = plant_->advance(amplitude_N);
+  plant_outputs_.mean_friction_force_N = energy.friction_impulse_N_s / energy.duration_s;
+  plant_outputs_.sliding_velocity_m_per_s = plant_->sliding_velocity_m_per_s();
+  if (scene_.demodulates()) {
+    const std::complex<double> vibration = energy.vibration_m_per_s();
+    plant_outputs_.vibration_in_phase_m_per_s = vibration.real();
+    plant_outputs_.vibration_quadrature_m_per_s = vibration.imag();
+  }
+  const double undriven_N_s =
+      configure::largest_friction_limit_N(scene_.friction) * energy.undriven_s;
+  plant_outputs_.friction_ratio =
+      undriven_N_s > 0.0 ? energy.resistance_impulse_N_s / undriven_N_s : 0.0;
+  show_plant();
+}
+
+void Engine::advance_controller(const PlantOutputs& seen, double target) {
+  if (target > 0.0) {
+    controller_->aim_at(target);
+  }
+  const std::uint8_t fault = controller_outputs_.answer.fault;
+  controller_->step(clock_.end_s(), seen.mean_friction_force_N, seen.sliding_velocity_m_per_s,
+                    {seen.vibration_in_phase_m_per_s, seen.vibration_quadrature_m_per_s});
+  show_controller();
+  fault_began_ = controller_outputs_.answer.fault != 0 && controller_outputs_.answer.fault != fault;
+}
+
+void Engine::show_plant() {
+  const loop::PlantState state = plant_->state();
+  plant_outputs_.displacement_m = state.displacement_m;
+  plant_outputs_.velocity_m_per_s = state.velocity_m_per_s;
+  plant_outputs_.friction_force_N = state.friction_force_N;
+}
+
+void Engine::show_controller() {
+  controller_outputs_ = {controller_->amplitude_N(), controller_->answer(),
+                         controller_->trace_hash()};
+}
+
+void Engine::save(loop::SnapshotWriter& state) const {
+  state.put(clock_);
+  state.put(plant_outputs_);
+  state.put(controller_outputs_);
+  if (plant_) {
+    plant_->save(state);
+  }
+  if (controller_) {
+    controller_->save(state);
+  }
+}
+
+void Engine::restore(loop::SnapshotReader& state) {
+  state.get(clock_);
+  state.get(plant_outputs_);
+  state.get(controller_outputs_);
+  if (plant_) {
+    plant_->restore(state);
+  }
+  if (controller_) {
+    controller_->restore(state);
+  }
+}
+
+}  // namespace sonoglide::fmi

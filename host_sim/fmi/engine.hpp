@@ -1,0 +1,93 @@
+/// A scene's plant, its controller or both, advanced from outside by whole carrier periods.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+
+#include "hal/board.hpp"
+#include "host_sim/fmi/kind.hpp"
+#include "host_sim/loop/carrier_clock.hpp"
+#include "host_sim/loop/control_port.hpp"
+#include "host_sim/loop/control_run.hpp"
+#include "host_sim/loop/plant_run.hpp"
+#include "host_sim/loop/run_result.hpp"
+#include "host_sim/loop/snapshot.hpp"
+#include "host_sim/loop/watch.hpp"
+#include "host_sim/scene/scene.hpp"
+
+namespace sonoglide::fmi {
+
+/// What the plant shows at the end of a carrier period. Before the first period the means are 0.
+struct PlantOutputs {
+  double mean_friction_force_N = 0.0;     ///< over the period
+  double sliding_velocity_m_per_s = 0.0;  ///< at its end
+  double vibration_in_phase_m_per_s = 0.0;
+  double vibration_quadrature_m_per_s = 0.0;
+  double friction_ratio = 0.0;  ///< of the period; 0 where there is no friction to relate it to
+  double displacement_m = 0.0;
+  double velocity_m_per_s = 0.0;
+  double friction_force_N = 0.0;
+};
+
+/// What the controller answers at the end of a carrier period.
+struct ControllerOutputs {
+  double drive_force_amplitude_N = 0.0;  ///< in force during the period that comes next
+  hal::Drive answer{};                   ///< to the sample of the last period
+  std::uint64_t trace_hash = 0;          ///< of all answers, as in summary.json
+};
+
+/// What holds during a carrier period.
+struct Inputs {
+  double drive_force_amplitude_N = 0.0;  ///< of a plant without its controller
+  PlantOutputs seen;                     ///< by a controller without its plant
+  double target_friction_ratio = 0.0;    ///< 0: the scene's own steps
+};
+
+/// What of a scene cannot be in an FMU of this kind.
+/// @throws configure::ConfigurationError
+void require_usable(const scene::Scene& scene, Kind kind);
+
+/// Carrier periods that no simulation reaches: an engine counts to no more.
+inline constexpr double endless_periods = 1e12;
+
+class Engine {
+ public:
+  /// @param scene  usable for the kind; its run has no end here
+  /// @throws configure::ConfigurationError, loop::ComputationError
+  Engine(const scene::Scene& scene, Kind kind);
+
+  /// One carrier period.
+  /// @throws loop::ComputationError
+  void advance(const Inputs& inputs);
+
+  const PlantOutputs& plant() const { return plant_outputs_; }
+  const ControllerOutputs& controller() const { return controller_outputs_; }
+  /// The controller names another fault than in the period before.
+  bool fault_began() const { return fault_began_; }
+
+  void save(loop::SnapshotWriter& state) const;
+  /// @param state  of an engine of an equal scene and the same kind
+  /// @throws std::invalid_argument  it cannot be that
+  void restore(loop::SnapshotReader& state);
+
+ private:
+  void advance_plant(double amplitude_N);
+  void advance_controller(const PlantOutputs& seen, double target);
+  void show_plant();
+  void show_controller();
+
+  scene::Scene scene_;
+  loop::Watch watch_;
+  loop::RunResult result_;
+  loop::CarrierClock clock_;
+  std::optional<loop::PlantRun> plant_;
+  loop::ControlRecord record_;
+  std::unique_ptr<loop::ControlPort> port_;
+  std::optional<loop::ControlRun> controller_;
+  PlantOutputs plant_outputs_;
+  ControllerOutputs controller_outputs_;
+  bool fault_began_ = false;
+};
+
+}  // namespace sonoglide::fmi

@@ -1,0 +1,94 @@
+/// An instance of an FMU, whatever the version of the interface.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "host_sim/fmi/engine.hpp"
+#include "host_sim/fmi/resources.hpp"
+#include "host_sim/fmi/variables.hpp"
+#include "host_sim/loop/snapshot.hpp"
+
+namespace sonoglide::fmi {
+
+/// A call that the instance refuses; nothing has changed.
+class CallError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// A step that the instance refuses: another one may follow.
+class StepError : public CallError {
+ public:
+  using CallError::CallError;
+};
+
+/// Where an instance is on its way.
+enum class Phase { instantiated, initialization, step, terminated };
+
+/// All of an instance but its place in memory.
+struct State {
+  Phase phase = Phase::instantiated;
+  double start_s = 0.0;
+  std::uint64_t periods = 0;
+  Inputs inputs;
+  std::map<std::uint32_t, double> parameters;  ///< that were set, by their value references
+  std::optional<loop::Snapshot> engine;
+};
+
+class Instance {
+ public:
+  /// @throws scene_file::SceneError, configure::ConfigurationError, CallError  these are no
+  ///         resources of a usable FMU, or not those that the token tells of
+  Instance(Resources resources, std::string_view token);
+
+  const std::vector<Variable>& variables() const { return variables_; }
+  /// @throws CallError  there is none
+  const Variable& variable(std::uint32_t reference) const;
+
+  void set(std::uint32_t reference, double value);
+  /// Where nothing was computed yet, the initial value.
+  Value get(std::uint32_t reference);
+  /// The text of a get() that stays until the next one of the same variable.
+  const std::string& get_text(std::uint32_t reference);
+
+  void enter_initialization(double start_s);
+  void exit_initialization();
+  void terminate();
+  void reset();
+
+  /// @param may_stop_early  when a fault begins
+  /// @return  whether it did so: time_s() is then before the end that was asked for
+  /// @throws StepError  it is no whole number of carrier periods, or does not begin here
+  /// @throws loop::ComputationError
+  bool advance(double time_s, double duration_s, bool may_stop_early);
+  double time_s() const;
+  double period_s() const { return period_s_; }
+
+  State save();
+  void restore(const State& state);
+  /// As bytes for this FMU alone.
+  std::vector<std::uint8_t> bytes_of(const State& state) const;
+  /// @throws CallError  they are damaged, or of another FMU
+  State state_of(const std::uint8_t* bytes, std::size_t count) const;
+
+ private:
+  Engine& engine();
+  scene::Scene scene_with_parameters() const;
+  void require(bool allowed, const char* what) const;
+
+  Resources resources_;
+  scene::Scene scene_;
+  std::vector<Variable> variables_;
+  double period_s_;
+  State now_;  ///< but for its engine
+  std::optional<Engine> engine_;
+  std::map<std::uint32_t, std::string> texts_;
+};
+
+}  // namespace sonoglide::fmi

@@ -1,0 +1,48 @@
+#include "host_sim/fmi/resources.hpp"
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <iterator>
+#include <stdexcept>
+
+#include "host_sim/process/checksum.hpp"
+#include "host_sim/scene_file/to_json.hpp"
+#include "host_sim/scene_file/to_toml.hpp"
+
+namespace sonoglide::fmi {
+namespace {
+
+std::string content_of(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::string text((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+  if (!file) {
+    throw std::runtime_error(path.string() + ": cannot be read");
+  }
+  return text;
+}
+
+}  // namespace
+
+Resources make_resources(const scene::Scene& scene, Kind kind, const std::string& engine) {
+  Resources made{scene_file::to_toml(scene_file::to_json(scene)), kind, {}};
+  process::ContentHash hash;
+  hash.add(engine);
+  hash.add(made.scene);
+  hash.add(scene::name_of(kinds, kind));
+  made.token = fmt::format("{{sonoglide-{:016x}}}", hash.value());
+  return made;
+}
+
+Resources read_resources(const std::filesystem::path& folder) {
+  const std::string name = content_of(folder / Resources::kind_name);
+  for (const scene::Named<Kind>& each : kinds) {
+    if (each.name == name) {
+      return {content_of(folder / Resources::scene_name), each.value,
+              content_of(folder / Resources::token_name)};
+    }
+  }
+  throw std::runtime_error((folder / Resources::kind_name).string() + ": names no kind of FMU");
+}
+
+}  // namespace sonoglide::fmi

@@ -1,0 +1,241 @@
+#include "host_sim/fmi/variables.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cstddef>
+#include <limits>
+#include <string_view>
+#include <utility>
+
+#include "firmware/numeric/scalar.hpp"
+#include "host_sim/scene_file/to_json.hpp"
+
+namespace sonoglide::fmi {
+namespace {
+
+struct PlantSignal {
+  const char* name;
+  const char* unit;
+  const char* description;
+  double PlantOutputs::*member;
+  Value (*read)(const Engine&);
+};
+
+template <double PlantOutputs::*Member>
+Value plant_output(const Engine& engine) {
+  return engine.plant().*Member;
+}
+
+template <double PlantOutputs::*Member>
+constexpr PlantSignal signal(const char* name, const char* unit, const char* description) {
+  return {name, unit, description, Member, plant_output<Member>};
+}
+
+/// What goes from the plant to the controller.
+constexpr std::array measured = {
+    signal<&PlantOutputs::mean_friction_force_N>("mean_friction_force_N", "N",
+                                                 "Friction force, mean over the carrier period"),
+    signal<&PlantOutputs::sliding_velocity_m_per_s>(
+        "sliding_velocity_m_per_s", "m/s", "Sliding velocity at the end of the carrier period")};
+/// Of a scene in which the vibration is demodulated.
+constexpr std::array demodulated = {
+    signal<&PlantOutputs::vibration_in_phase_m_per_s>(
+        "vibration_in_phase_m_per_s", "m/s",
+        "Vibration velocity in phase with the drive, mean over the carrier period"),
+    signal<&PlantOutputs::vibration_quadrature_m_per_s>(
+        "vibration_quadrature_m_per_s", "m/s",
+        "Vibration velocity in quadrature, mean over the carrier period")};
+constexpr std::array shown = {
+    signal<&PlantOutputs::friction_ratio>(
+        "friction_ratio", "1", "Friction ratio of the carrier period; 0 without friction"),
+    signal<&PlantOutputs::displacement_m>("displacement_m", "m",
+                                          "Displacement at the end of the carrier period"),
+    signal<&PlantOutputs::velocity_m_per_s>("velocity_m_per_s", "m/s",
+                                            "Velocity at the end of the carrier period"),
+    signal<&PlantOutputs::friction_force_N>("friction_force_N", "N",
+                                            "Friction force at the end of the carrier period")};
+
+class List {
+ public:
+  List() { add({"time", Role::time, "s", "Simulation time", 0.0}); }
+
+  void add(Variable variable) { variables_.push_back(std::move(variable)); }
+
+  template <std::size_t Count>
+  void outputs(const std::array<PlantSignal, Count>& signals) {
+    for (const PlantSignal& each : signals) {
+      output(each.name, each.unit, each.description, 0.0, each.read);
+    }
+  }
+  template <std::size_t Count>
+  void inputs(const std::array<PlantSignal, Count>& signals) {
+    for (const PlantSignal& each : signals) {
+      Variable variable{each.name, Role::input, each.unit, each.description, 0.0};
+      variable.seen = each.member;
+      add(variable);
+    }
+  }
+  void input(const char* name, const char* unit, const char* description, double start,
+             double Inputs::*member) {
+    Variable variable{name, Role::input, unit, description, start};
+    variable.input = member;
+    add(variable);
+  }
+  void output(const char* name, const char* unit, const char* description, const Value& type,
+              Value (*read)(const Engine&)) {
+    Variable variable{name, Role::output, unit, description, type};
+    variable.output = read;
+    add(variable);
+  }
+
+  std::vector<Variable> take() { return std::move(variables_); }
+
+ private:
+  std::vector<Variable> variables_;
+};
+
+constexpr double whole_code = 0x1p-31;
+
+void add_answer(List& list, scene::Arithmetic arithmetic) {
+  if (arithmetic == scene::Arithmetic::float32) {
+    list.output("drive_amplitude", "1", "Last answer: drive amplitude, of the largest", 0.0F,
+                [](const Engine& engine) -> Value {
+                  return static_cast<float>(engine.controller().answer.amplitude * whole_code);
+                });
+    list.output(
+        "commanded_friction_ratio", "1",
+        "Last answer: friction ratio, target and feedback together", 0.0F,
+        [](const Engine& engine) -> Value {
+          return static_cast<float>(engine.controller().answer.commanded_ratio * 2.0 * whole_code);
+        });
+  }
+  list.output("drive_amplitude_code", "", "Last answer: drive amplitude; 2^31 is the largest",
+              std::int32_t{},
+              [](const Engine& engine) -> Value { return engine.controller().answer.amplitude; });
+  list.output("commanded_ratio_code", "",
+              "Last answer: friction ratio, target and feedback together; 2^31 is a ratio of 2",
+              std::int32_t{}, [](const Engine& engine) -> Value {
+                return engine.controller().answer.commanded_ratio;
+              });
+}
+
+void add_controller_outputs(List& list, scene::Arithmetic arithmetic) {
+  list.output(
+      "drive_force_amplitude_N", "N",
+      "Drive amplitude in force during the carrier period that comes next", 0.0,
+      [](const Engine& engine) -> Value { return engine.controller().drive_force_amplitude_N; });
+  add_answer(list, arithmetic);
+  list.output("state", "", "0 off, 1 calibrating, 2 running, 3 limited, 4 fault, 5 relearning",
+              std::int32_t{}, [](const Engine& engine) -> Value {
+                return std::int32_t{engine.controller().answer.state};
+              });
+  list.output(
+      "limit", "", "Number of the limit that is active; 0 for none", std::int32_t{},
+      [](const Engine& engine) -> Value { return std::int32_t{engine.controller().answer.limit}; });
+  list.output(
+      "fault", "", "Number of the fault; 0 for none", std::int32_t{},
+      [](const Engine& engine) -> Value { return std::int32_t{engine.controller().answer.fault}; });
+  list.output("trace_hash", "", "FNV-1a of all answers so far, as in summary.json", std::string(),
+              [](const Engine& engine) -> Value {
+                return fmt::format("{:016x}", engine.controller().trace_hash);
+              });
+}
+
+/// Of the endings of names.
+std::string unit_of(std::string_view key) {
+  constexpr std::array<std::pair<std::string_view, const char*>, 15> units = {{
+      {"_N_s_per_m", "N.s/m"},
+      {"_N_per_m", "N/m"},
+      {"_N_per_V", "N/V"},
+      {"_N_per_s", "N/s"},
+      {"_m_per_s", "m/s"},
+      {"_s_per_m", "s/m"},
+      {"_per_m", "1/m"},
+      {"_kg", "kg"},
+      {"_Hz", "Hz"},
+      {"_N", "N"},
+      {"_V", "V"},
+      {"_A", "A"},
+      {"_F", "F"},
+      {"_m", "m"},
+      {"_s", "s"},
+  }};
+  for (const auto& [ending, unit] : units) {
+    if (key.size() > ending.size() && key.substr(key.size() - ending.size()) == ending) {
+      return unit;
+    }
+  }
+  return {};
+}
+
+bool is_parameter(const std::string& table, const std::string& key, Kind kind) {
+  if (table == "run" || table == "tolerance" || table == "true_values" ||
+      (table == "drive" && key == "frequency_Hz")) {
+    return false;
+  }
+  const bool of_controller = table == "controller" || table == "sensor" || table == "model_error";
+  if (kind == Kind::plant) {
+    return !of_controller && table + "." + key != "drive.force_amplitude_N";
+  }
+  return kind == Kind::loop || table != "solver";
+}
+
+/// The numbers of the scene that can be set before a simulation begins.
+void add_parameters(List& list, const scene::Scene& scene, Kind kind) {
+  const auto add = [&list](std::string name, const std::string& key, const Value& start) {
+    std::string description = "Key " + name + " of the scene";
+    list.add({std::move(name), Role::parameter, unit_of(key), std::move(description), start});
+  };
+  const auto echo = scene_file::to_json(scene);
+  for (const auto& [table, values] : echo.items()) {
+    for (const auto& [key, value] : values.items()) {
+      if (!is_parameter(table, key, kind)) {
+        continue;
+      }
+      if (value.is_number_float()) {
+        add(table + "." + key, key, value.template get<double>());
+      } else if (value.is_number_integer() &&
+                 value.template get<std::uint64_t>() <= std::numeric_limits<std::int32_t>::max()) {
+        add(table + "." + key, key, value.template get<std::int32_t>());
+      }
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<Variable> variables(const scene::Scene& scene, Kind kind) {
+  List list;
+  if (kind == Kind::plant) {
+    list.input("drive_force_amplitude_N", "N", "Amplitude of the drive during a carrier period",
+               scene.drive->force_amplitude_N, &Inputs::drive_force_amplitude_N);
+  }
+  if (kind == Kind::controller) {
+    list.inputs(measured);
+    if (scene.observes_vibration()) {
+      list.inputs(demodulated);
+    }
+  }
+  if (has_controller(kind)) {
+    list.input(
+        "target_friction_ratio", "1",
+        "Target from the next sample on, in (0, 1]; 0: the steps of the scene, as long as no "
+        "other target was given",
+        0.0, &Inputs::target_friction_ratio);
+  }
+  if (has_plant(kind)) {
+    list.outputs(measured);
+    if (scene.demodulates()) {
+      list.outputs(demodulated);
+    }
+    list.outputs(shown);
+  }
+  if (has_controller(kind)) {
+    add_controller_outputs(list, scene.controller->arithmetic);
+  }
+  add_parameters(list, scene, kind);
+  return list.take();
+}
+
+}  // namespace sonoglide::fmi

@@ -1,0 +1,38 @@
+/// The variables of an FMU: the one place that names them, for its description and for its binary.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "host_sim/fmi/engine.hpp"
+#include "host_sim/fmi/kind.hpp"
+#include "host_sim/scene/scene.hpp"
+
+namespace sonoglide::fmi {
+
+/// Alternatives in the order of Type.
+using Value = std::variant<double, float, std::int32_t, std::string>;
+enum class Type { float64, float32, int32, string };
+
+enum class Role { time, parameter, input, output };
+
+/// Its value reference is its place among variables().
+struct Variable {
+  std::string name;  ///< of a parameter the scene's key, `table.key`
+  Role role;
+  std::string unit;  ///< empty where it has none
+  std::string description;
+  Value start;                               ///< of an output only its type counts
+  double Inputs::*input = nullptr;           ///< of an input, unless it is seen
+  double PlantOutputs::*seen = nullptr;      ///< of an input of a controller
+  Value (*output)(const Engine&) = nullptr;  ///< of an output
+
+  Type type() const { return static_cast<Type>(start.index()); }
+};
+
+/// @param scene  as the FMU holds it: a scene that was read from its own echo
+std::vector<Variable> variables(const scene::Scene& scene, Kind kind);
+
+}  // namespace sonoglide::fmi
