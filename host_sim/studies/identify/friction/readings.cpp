@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <numeric>
 #include <optional>
 #include <string_view>
 #include <tuple>
@@ -209,6 +210,10 @@ Readings read_readings(const scene_file::Source& source) {
   }
   if (std::all_of(vibration.begin(), vibration.end(), [](double v) { return v == 0.0; })) {
     throw table.heading_error("no row has a vibration; allowed: at least one");
+  }
+  if (!(std::accumulate(values.begin(), values.end(), 0.0) > 0.0)) {
+    throw table.heading_error(fmt::format(
+        "{} is not above 0 in the mean; allowed: positive against the sliding", friction));
   }
   for (std::size_t i = 0; i < values.size(); ++i) {
     readings.rows.push_back({sliding[i], vibration[i], readings.have_frequency ? frequency[i] : 0.0,

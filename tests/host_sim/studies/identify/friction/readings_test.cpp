@@ -75,6 +75,7 @@ TEST(Readings, AreRefusedWithTheirPlace) {
   expect_refused(heading + "0.01,0.1,0.2\n", "1:1", "one row");
   expect_refused(heading, "1:1", "no row");
   expect_refused(heading + "0.01,0,1\n0.02,0,1\n", "1:1", "no row has a vibration");
+  expect_refused(heading + "0.01,0.1,-0.2\n0.02,0.1,-0.3\n", "1:1", "not above 0");
 }
 
 TEST(Readings, HeadingsAreRefusedWithWhatIsAllowed) {

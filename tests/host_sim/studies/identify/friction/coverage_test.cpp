@@ -7,7 +7,7 @@
 #include <string>
 
 #include "tests/common/csv/csv.hpp"
-#include "tests/host_sim/studies/identify_friction/synthetic/synthetic.hpp"
+#include "tests/host_sim/studies/identify/friction/synthetic/synthetic.hpp"
 
 namespace sonoglide::identify::friction::coverage_test {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "tests/host_sim/studies/identify_friction/synthetic/synthetic.hpp"
+#include "tests/host_sim/studies/identify/friction/synthetic/synthetic.hpp"
 
 int main() {
   namespace synthetic = sonoglide::identify::friction::synthetic;

@@ -1,4 +1,4 @@
-#include "tests/host_sim/studies/identify_friction/synthetic/synthetic.hpp"
+#include "tests/host_sim/studies/identify/friction/synthetic/synthetic.hpp"
 
 #include <Eigen/Cholesky>
 
