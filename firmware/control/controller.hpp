@@ -39,10 +39,11 @@ struct Parts {
   using Shaper = ShaperT;            ///< NoShaping | NotchShaper
   using Regulator = RegulatorT;      ///< NoFeedback | IntegralRegulator
   using Relearning = RelearningT;    ///< NoRelearning | PeriodicRelearning
-  using Vibration = VibrationT;      ///< FedForward | DampedVibration | ResonantVibration
-  using Force = ForceT;              ///< ForceSensor | NoForceSensor
-  using Ceiling = CeilingT;          ///< FullDrive | DriveLimit
-  using Samples = SamplesT;          ///< StrictSamples | TolerantSamples
+  using Vibration =
+      VibrationT;            ///< FedForward | FeltVibration | DampedVibration | ResonantVibration
+  using Force = ForceT;      ///< ForceSensor | NoForceSensor
+  using Ceiling = CeilingT;  ///< FullDrive | DriveLimit
+  using Samples = SamplesT;  ///< StrictSamples | TolerantSamples
 };
 
 /// Smallest usable speed floor, per unit: where the controller's resolution ends.
@@ -62,6 +63,7 @@ class Controller {
   using Measurement = typename PartsT::Vibration::Measurement;
   using Command = typename PartsT::Vibration::Command;
   static constexpr bool observed = PartsT::Vibration::observed;  ///< the vibration
+  static constexpr bool felt = PartsT::Vibration::felt;          ///< in the friction
   // A vibration is foreseen from one sample to the next, so that none may be left out.
   static_assert(!observed || std::is_same_v<typename PartsT::Samples, StrictSamples>);
 
@@ -157,7 +159,7 @@ class Controller {
     if constexpr (relearns) {
       relearning_.restart();
     }
-    if constexpr (observed) {
+    if constexpr (observed || felt) {
       vibration_.restart();
     }
     backwards_ = false;
@@ -198,7 +200,13 @@ class Controller {
 
   /// Answer to one carrier period, valid for the next.
   Command step(const Measurement& measurement) {
+    if constexpr (felt) {
+      vibration_.pass();
+    }
     const DriveCommand<Scalar> command = answer(measurement);
+    if constexpr (felt) {
+      vibration_.answer(command.amplitude);
+    }
     if constexpr (observed) {
       return vibration_.answer(command);
     } else {
@@ -365,6 +373,9 @@ class Controller {
     if (stuck_.stuck(measurement.friction_force, measured, commanded_, followed_)) {
       return trip(Fault::measurement_stuck);
     }
+    if constexpr (felt) {
+      feel(measured, numeric::abs(measurement.sliding_velocity));
+    }
     if constexpr (relearns) {
       if (target_ < whole_ratio()) {
         return relearn(measured, along, speed);
@@ -372,6 +383,14 @@ class Controller {
       interrupt_relearning();
     }
     return regulate(measured, speed);
+  }
+
+  /// @param speed  of the sample
+  void feel(Scalar measured, Scalar speed) {
+    const Scalar ratio = numeric::clamp(vibration_.sharpened(measured), Scalar{}, whole_ratio());
+    if (Scalar{} < speed) {
+      vibration_.feel(feedforward_.amplitude(ratio, speed), speed, backwards_);
+    }
   }
 
   void interrupt_relearning() {
@@ -438,14 +457,37 @@ class Controller {
     const bool held_below = amplitude < wanted.amplitude;
     const bool held_above = wanted.amplitude < amplitude;
     bool at_most = wanted.limit == at_full_drive || held_below;
-    if constexpr (observed) {
+    if constexpr (observed || felt) {
       at_most = at_most || vibration_.at_most();
     }
     const bool at_least = whole_ratio() <= ratio || held_above;
     regulator_.accept(at_most, at_least);
     commanded_ = ratio;
-    judge(measured, at_most || at_least);
+    if constexpr (felt) {
+      judge(measured, shown_ratio(speed), at_most || at_least);
+    } else {
+      judge(measured, commanded_, at_most || at_least);
+    }
     return {amplitude, held_below || held_above ? Limit::slew : wanted.limit};
+  }
+
+  /// The target, or 0 where the steady drive makes another velocity than a ratio that agrees with the
+  /// target would need.
+  Scalar shown_ratio(Scalar speed) const {
+    if constexpr (Force::present) {
+      const Scalar velocity = vibration_.believed_velocity();
+      if (requested_ < velocity) {
+        return feedforward_.amplitude(watch_.agreement() * target_, speed) < velocity ? Scalar{}
+                                                                                      : target_;
+      }
+      const Scalar highest = whole_ratio() * watch_.agreement();
+      if (target_ < highest) {
+        const Scalar agreeing = numeric::half(target_) / watch_.agreement();
+        return velocity < feedforward_.amplitude(numeric::twice(agreeing), speed) ? Scalar{}
+                                                                                  : target_;
+      }
+    }
+    return target_;
   }
 
   /// An amplitude that no feedback asks for, as fast as the actuator may change.
@@ -454,7 +496,8 @@ class Controller {
   }
 
   /// Judges the measured ratio. In a pause, and without a drive, there is nothing to judge.
-  void judge(Scalar measured, bool clamped) {
+  /// @param shown  the true ratio, as far as the drive tells it
+  void judge(Scalar measured, Scalar shown, bool clamped) {
     if constexpr (Force::present) {
       if (pausing()) {
         return;
@@ -463,7 +506,7 @@ class Controller {
         watch_.restart();
         return;
       }
-      watch_.judge(target_, measured, commanded_, clamped);
+      watch_.judge(target_, measured, shown, clamped);
     }
   }
 
@@ -480,7 +523,8 @@ class Controller {
       return {Scalar{}, Limit::none};
     }
     const Scalar amplitude = feedforward_.amplitude(half_ratio, speed);
-    const Scalar highest = ceiling_.highest();
+    const Scalar highest =
+        felt ? numeric::from_code<Scalar>(INT32_MAX) : ceiling_.highest();  // of a velocity
     if (!(amplitude < highest)) {
       return {highest, at_full_drive};
     }
@@ -493,6 +537,14 @@ class Controller {
       const auto [amplitude, limit] = vibration_.drive(requested_);
       return conclude(amplitude, request.limit == Limit::none ? limit : request.limit,
                       vibration_.settled());
+    } else if constexpr (felt) {
+      requested_ = numeric::observe<signal::RequestedVelocity>(request.amplitude);
+      const auto [amplitude, limit] = vibration_.drive(requested_);
+      const Scalar highest = ceiling_.highest();
+      const bool clipped = highest < amplitude;
+      const Limit named = clipped ? Limit::actuator : limit;
+      return conclude(clipped ? highest : amplitude,
+                      request.limit == Limit::none ? named : request.limit, true);
     } else {
       requested_ = numeric::observe<signal::RequestedAmplitude>(request.amplitude);
       const Scalar shaped = numeric::observe<signal::ShapedAmplitude>(shaper_.shape(requested_));

@@ -28,6 +28,7 @@ class DampedVibration {
   using Measurement = VibrationMeasurement<Scalar>;
   using Command = ResonantCommand<Scalar>;
   static constexpr bool observed = true;
+  static constexpr bool felt = false;
   static constexpr Limit at_full_drive = Limit::actuator;
   /// Samples in a row in which a drive of a quarter or more shows no vibration, until
   /// Fault::vibration_missing.

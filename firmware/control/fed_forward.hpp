@@ -12,6 +12,7 @@ class FedForward {
   using Measurement = control::Measurement<ScalarT>;
   using Command = DriveCommand<ScalarT>;
   static constexpr bool observed = false;
+  static constexpr bool felt = false;
   static constexpr Limit at_full_drive = Limit::actuator;
 
   struct Parameters {};

@@ -5,7 +5,7 @@
 #include <cstdint>
 
 #include "firmware/control/mode_table.hpp"
-#include "firmware/numeric/floating.hpp"
+#include "firmware/control/place_estimate.hpp"
 #include "firmware/numeric/headroom.hpp"
 #include "firmware/numeric/scalar.hpp"
 
@@ -83,9 +83,8 @@ class ModeObserver {
   void restart() {
     mode_ = {};
     offset_ = {};
-    weight_ = {};
-    place_ = {};
-    row_.go(*table_, place_);
+    place_.restart();
+    row_.go(*table_, place_.place());
   }
 
   /// One call for each sample.
@@ -163,15 +162,6 @@ class ModeObserver {
             numeric::sum_of_products(turn.second, mode.first, turn.first, mode.second)};
   }
 
-  /// x/4 on base 1 of an x on base 2^(n + 2).
-  static Scalar lowered(Scalar x, int n) {
-    if constexpr (numeric::is_fixed_point_v<Scalar>) {
-      return n < 0 ? numeric::scale_by_power_of_two(x, n) : numeric::lifted(x, n);
-    } else {
-      return x * static_cast<Scalar>(0.25);
-    }
-  }
-
   template <class Entry>
   Pair<Scalar> seen(const Pair<Scalar>& mode, const Entry& entry) const {
     return {numeric::lifted_sum(entry(mode::seen), mode.first, entry(mode::seen + 1), mode.second,
@@ -182,28 +172,12 @@ class ModeObserver {
 
   /// @return by how much the place has moved
   Scalar correct_place(const Pair<Scalar>& tilt, const Pair<Scalar>& miss) {
-    // In fixed point the sum is on base 64.
-    constexpr int base = numeric::is_fixed_point_v<Scalar> ? 6 : 0;
-    constexpr Scalar keep = numeric::from_real<Scalar>(0.97);
-    constexpr Scalar end = numeric::from_code<Scalar>(INT32_MAX - 1);
-    weight_ = keep * weight_ + numeric::scale_by_power_of_two(
-                                   tilt.first * tilt.first + tilt.second * tilt.second, -base);
-    if (!(Scalar{} < weight_)) {
-      return {};
-    }
-    const auto one_half = numeric::floating(numeric::from_real<Scalar>(0.5));
-    const auto inverse =
-        numeric::rescaled(numeric::quotient(one_half, numeric::floating(weight_)), 1 - base);
-    const Scalar gradient =
-        numeric::sum_of_products(tilt.first, miss.first, tilt.second, miss.second);
-    constexpr Scalar farthest = numeric::from_real<Scalar>(0.999);
-    const Scalar move =
-        numeric::clamp_magnitude(numeric::limited_product(gradient, inverse), farthest);
-    const Scalar half = numeric::half(place_) + numeric::half(move);
-    const Scalar before = place_;
-    place_ = numeric::twice(numeric::clamp_magnitude(half, numeric::half(end)));
-    row_.go(*table_, place_);
-    return place_ - before;
+    const Scalar moved = place_.move(
+        numeric::scale_by_power_of_two(tilt.first * tilt.first + tilt.second * tilt.second,
+                                       -PlaceEstimate<Scalar>::base),
+        numeric::sum_of_products(tilt.first, miss.first, tilt.second, miss.second));
+    row_.go(*table_, place_.place());
+    return moved;
   }
 
   const ModeTable<Scalar>* table_;
@@ -215,8 +189,7 @@ class ModeObserver {
   ModePlace<Scalar> row_;
   Pair<Scalar> mode_;
   Pair<Scalar> offset_;
-  Scalar weight_{};  ///< S
-  Scalar place_{};   ///< p
+  PlaceEstimate<Scalar> place_;  ///< p
 };
 
 }  // namespace sonoglide::control

@@ -37,6 +37,16 @@ using ModeRow = std::array<Scalar, mode::numbers>;
 template <class Scalar>
 using ModeTable = std::array<ModeRow<Scalar>, mode::rows>;
 
+/// x/4 on base 1 of an x on base 2^(n + 2).
+template <class Scalar>
+constexpr Scalar lowered(Scalar x, int n) {
+  if constexpr (numeric::is_fixed_point_v<Scalar>) {
+    return n < 0 ? numeric::scale_by_power_of_two(x, n) : numeric::lifted(x, n);
+  } else {
+    return x * static_cast<Scalar>(0.25);
+  }
+}
+
 /// A table at a place between its rows: linear interpolation, to 2^-27 of the way from one to the
 /// next, and the slope there.
 template <class Scalar>

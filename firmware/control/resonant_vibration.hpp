@@ -33,6 +33,7 @@ class ResonantVibration {
   using Command = ResonantCommand<Scalar>;
   using Resonance = ResonanceEstimate<Scalar>;
   static constexpr bool observed = true;
+  static constexpr bool felt = false;
   static constexpr Limit at_full_drive = Limit::voltage;
   /// Samples in a row in which a drive of a quarter or more shows no vibration, until
   /// Fault::vibration_missing.

@@ -74,6 +74,9 @@ class SettlingWatch {
     }
   }
 
+  /// Of ratios: what lies between this part of the target and its inverse is not warned of.
+  Scalar agreement() const { return parameters_.agreement; }
+
   Settling settling() const {
     if (count_ == 0) {
       return Settling::settled;

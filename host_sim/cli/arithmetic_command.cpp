@@ -40,7 +40,7 @@ Boards chosen(const std::vector<std::string>& names) {
 }
 
 void require_every_arithmetic(const scene::Scene& scene) {
-  if (scene.observes_vibration()) {
+  if (scene.holds_vibration()) {
     throw configure::ConfigurationError(
         "controller.vibration",
         fmt::format(

@@ -120,7 +120,7 @@ void design_outer_regulator(const scene::Scene& scene, ControlDesign& design) {
 double changing_periods(const ControlDesign& design) {
   constexpr double quieting = 16.0;
   if (!design.resonance) {
-    return design.damping ? quieting : design.notch_span();
+    return design.damping || design.feeling ? quieting : design.notch_span();
   }
   constexpr double latency = 8.0;
   const double head_room = std::max(1.01, design.resonance->head_room);
@@ -384,10 +384,7 @@ double full_scale_m_per_s(const scene::Scene& scene, const BelievedPlant& plant)
   return damped_full_scale_m_per_s(scene, plant);
 }
 
-/// @return displacement amplitude at the velocity that is the base of all
-double set_observed_scales(const scene::Scene& scene, const BelievedPlant& plant,
-                           ControlDesign& design) {
-  const double fastest_m_per_s = fastest_sliding_m_per_s(scene.sliding);
+void require_sliding(const scene::Scene& scene, double fastest_m_per_s) {
   if (fastest_m_per_s == 0.0) {
     throw ConfigurationError(
         "sliding.velocity_m_per_s",
@@ -395,6 +392,13 @@ double set_observed_scales(const scene::Scene& scene, const BelievedPlant& plant
                     "velocity with controller.vibration = \"{}\"",
                     scene::name_of(scene::vibration_controls, *scene.controller->vibration)));
   }
+}
+
+/// @return displacement amplitude at the velocity that is the base of all
+double set_observed_scales(const scene::Scene& scene, const BelievedPlant& plant,
+                           ControlDesign& design) {
+  const double fastest_m_per_s = fastest_sliding_m_per_s(scene.sliding);
+  require_sliding(scene, fastest_m_per_s);
   const double velocity_m_per_s = full_scale_m_per_s(scene, plant);
   const double force_N =
       scene.sensor.force
@@ -416,8 +420,13 @@ double set_scales(const scene::Scene& scene, const BelievedPlant& plant, Control
   }
   const double omega = numeric::two_pi * scene.drive->frequency_Hz;
   require_settling(plant, omega);
+  double room = 1.0;
+  if (scene.feels_vibration()) {
+    require_sliding(scene, fastest_sliding_m_per_s(scene.sliding));
+    room = felt_room;
+  }
   const double displacement_m =
-      scene.drive->max_force_amplitude_N / dynamic_stiffness_N_per_m(plant, omega);
+      room * scene.drive->max_force_amplitude_N / dynamic_stiffness_N_per_m(plant, omega);
   design.scales = {1.0 / scene.drive->frequency_Hz, scene.sensor.force_full_scale_N,
                    displacement_m * omega, scene.drive->max_force_amplitude_N};
   return displacement_m;
@@ -490,6 +499,10 @@ ControlDesign design_control(const scene::Scene& any_scene) {
   } else if (scene.observes_vibration()) {
     design.damping = design_damping(scene, plant, design.scales.velocity_m_per_s);
     design_outer_regulator(scene, design);
+  } else if (scene.feels_vibration()) {
+    design.feeling = design_felt(scene, plant, design.scales.velocity_m_per_s);
+    design_outer_regulator(scene, design);
+    design.integral_gain = 0.0;  // the observer's constant is the integral
   } else {
     const NaturalMode mode = natural_mode(plant, design.scales.carrier_period_s);
     design_shaper(scene, mode, design);
@@ -529,7 +542,7 @@ std::vector<std::string> design_notes(const ControlDesign& design) {
                     "may leave room for one.",
                     100.0 * design.shaping_range));
   }
-  if (design.damping && !design.damping->quick) {
+  if ((design.damping && !design.damping->quick) || (design.feeling && !design.feeling->quick)) {
     notes.push_back(
         "The natural mode is so near 0 or a multiple of the carrier frequency that no change of "
         "the amplitude quiets it quickly: the vibration velocity is held, and the friction ratio "

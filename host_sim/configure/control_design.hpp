@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "host_sim/configure/damped_design.hpp"
+#include "host_sim/configure/felt_design.hpp"
 #include "host_sim/configure/notch_design.hpp"
 #include "host_sim/configure/resonant_design.hpp"
 #include "host_sim/scene/scene.hpp"
@@ -20,13 +21,15 @@ struct ControlScales {
   double carrier_period_s;
   double force_N;  ///< the sensor's full scale
   /// Believed peak vibration velocity at full drive; where the vibration is observed, the range of
-  /// its sensor.
+  /// its sensor; where it is felt, felt_room times as much.
   double velocity_m_per_s;
   double drive_amplitude_N;  ///< the actuator's limit
 };
 
 /// drive.delay_periods at its longest.
 inline constexpr int max_drive_delay = 16;
+/// The same with sensor.delay_periods at its longest: from a period to the answer to its reading.
+inline constexpr int max_reading_delay = max_drive_delay + 64;
 /// The longest delay of a target to its reading: drive and sensor at their longest, and the notch.
 inline constexpr int max_reference_delay = 1 + 16 + 64 + max_notch_span / 2;
 
@@ -55,6 +58,7 @@ struct ControlDesign {
   bool senses_force = true;
   std::optional<ResonantDesign> resonance;  ///< of a loop that holds the vibration at resonance
   std::optional<DampedDesign> damping;      ///< of a loop that damps the natural mode
+  std::optional<FeltDesign> feeling;        ///< of one that feels it in the friction alone
 
   bool free_mode = false;  ///< the plant has a natural mode that no notch takes care of
 

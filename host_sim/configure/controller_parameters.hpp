@@ -14,6 +14,7 @@
 #include "firmware/control/current_limit.hpp"
 #include "firmware/control/dahl_feedforward.hpp"
 #include "firmware/control/damped_vibration.hpp"
+#include "firmware/control/felt_vibration.hpp"
 #include "firmware/control/integral_regulator.hpp"
 #include "firmware/control/learnt_friction.hpp"
 #include "firmware/control/notch_shaper.hpp"
@@ -194,10 +195,10 @@ typename control::ResonantVibration<Scalar, MaxDelay, Current>::Parameters param
 
 /// Smallest n > 0 with which 2^n is above twice these numbers of the rows: then the differences of
 /// neighbours fit.
-inline std::uint8_t exponent_above(const control::ModeTable<double>& table, std::size_t begin,
-                                   std::size_t end) {
+template <class Table>
+std::uint8_t exponent_above(const Table& table, std::size_t begin, std::size_t end) {
   int exponent = 0;
-  for (const control::ModeRow<double>& row : table) {
+  for (const auto& row : table) {
     for (std::size_t i = begin; i < end; ++i) {
       exponent = std::max(exponent, numeric::split(std::abs(row[i])).exponent);
     }
@@ -241,6 +242,68 @@ typename control::DampedVibration<Scalar, MaxDelay>::Parameters parameters(
   return {parameters(design, Type<control::ModeObserver<Scalar>>{}),
           scaled_within<Scalar>(damping.settled), scaled_within<Scalar>(damping.missing),
           damping.delay_periods};
+}
+
+template <class Scalar>
+typename control::LaggingReading<Scalar>::Parameters parameters(
+    const ControlDesign& design, Type<control::LaggingReading<Scalar>> /*part*/) {
+  const auto lead = [](double memory) {
+    return memory > 0.0 ? split<Scalar>(memory / (1.0 - memory)) : numeric::Split<Scalar>{};
+  };
+  return {lead(design.feeling->sensor_memory), lead(design.feeling->contact_memory)};
+}
+
+/// Exponents of the numbers of a row, so that each fits; see FeltObserver::Parameters.
+inline std::array<int, control::felt::numbers> felt_exponents(
+    const control::FeltTable<double>& table, std::uint8_t& seen, std::uint8_t& gains,
+    std::uint8_t& feedback, std::uint8_t& inverse) {
+  namespace felt = control::felt;
+  std::array<int, felt::numbers> exponents{};
+  feedback = exponent_above(table, felt::feedback, felt::per_velocity);
+  inverse = exponent_above(table, felt::per_velocity, felt::plain);
+  seen = 0;
+  gains = 0;
+  for (std::size_t node = 0; node < felt::nodes; ++node) {
+    const std::size_t first = felt::plain + node * felt::per_node;
+    seen = std::max(seen, exponent_above(table, first, first + felt::mode_gain));
+    gains = std::max(gains, exponent_above(table, first + felt::mode_gain, first + felt::noise));
+  }
+  std::fill(&exponents[felt::feedback], &exponents[felt::per_velocity], feedback);
+  exponents[felt::per_velocity] = inverse;
+  for (std::size_t node = 0; node < felt::nodes; ++node) {
+    int* const numbers = &exponents[felt::plain + node * felt::per_node];
+    std::fill(numbers, numbers + felt::mode_gain, seen);
+    std::fill(numbers + felt::mode_gain, numbers + felt::noise, gains);
+  }
+  return exponents;
+}
+
+template <class Scalar>
+typename control::FeltObserver<Scalar>::Parameters parameters(
+    const ControlDesign& design, Type<control::FeltObserver<Scalar>> /*part*/) {
+  const FeltDesign& feeling = *design.feeling;
+  typename control::FeltObserver<Scalar>::Parameters parameters{};
+  std::array<int, control::felt::numbers> exponents{};
+  if constexpr (numeric::is_fixed_point_v<Scalar>) {
+    exponents = felt_exponents(feeling.table, parameters.seen_base, parameters.gain_base,
+                               parameters.feedback_base, parameters.inverse_base);
+  }
+  for (std::size_t row = 0; row < control::felt::rows; ++row) {
+    for (std::size_t i = 0; i < control::felt::numbers; ++i) {
+      parameters.table[row][i] = scaled_within<Scalar>(
+          numeric::scale_by_power_of_two(feeling.table[row][i], -exponents[i]));
+    }
+  }
+  parameters.linear = split<Scalar>(feeling.linear);
+  return parameters;
+}
+
+template <class Scalar, int MaxDelay, class Reading>
+typename control::FeltVibration<Scalar, MaxDelay, Reading>::Parameters parameters(
+    const ControlDesign& design, Type<control::FeltVibration<Scalar, MaxDelay, Reading>> /*part*/) {
+  return {parameters(design, Type<control::FeltObserver<Scalar>>{}),
+          parameters(design, Type<Reading>{}), design.feeling->backwards,
+          design.feeling->delay_periods};
 }
 
 /// Of a part that judges readings of the force, where there are any.

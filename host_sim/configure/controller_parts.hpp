@@ -9,6 +9,7 @@
 #include "firmware/control/dahl_feedforward.hpp"
 #include "firmware/control/damped_vibration.hpp"
 #include "firmware/control/fed_forward.hpp"
+#include "firmware/control/felt_vibration.hpp"
 #include "firmware/control/force_sensing.hpp"
 #include "firmware/control/full_current.hpp"
 #include "firmware/control/integral_regulator.hpp"
@@ -19,6 +20,7 @@
 #include "firmware/control/no_slew_limit.hpp"
 #include "firmware/control/notch_shaper.hpp"
 #include "firmware/control/periodic_relearning.hpp"
+#include "firmware/control/reading_lag.hpp"
 #include "firmware/control/resonant_vibration.hpp"
 #include "firmware/control/slew_limit.hpp"
 #include "firmware/control/trusted_friction.hpp"
@@ -50,16 +52,23 @@ struct VibrationParts {
   template <template <class> class Current>
   using Resonant = control::ResonantVibration<Scalar, max_drive_delay, Current<Scalar>>;
   using Damped = control::DampedVibration<Scalar, max_drive_delay>;
+  template <template <class> class Reading>
+  using Felt = control::FeltVibration<Scalar, max_reading_delay, Reading<Scalar>>;
   using Part =
       std::conditional_t<can_observe_vibration<Scalar>,
                          Choice<control::FedForward<Scalar>, Resonant<control::FullCurrent>,
-                                Resonant<control::CurrentLimit>, Damped>,
+                                Resonant<control::CurrentLimit>, Damped,
+                                Felt<control::PromptReading>, Felt<control::LaggingReading>>,
                          Choice<control::FedForward<Scalar>>>;
 
   static Part chosen(const ControlDesign& design) {
     if constexpr (can_observe_vibration<Scalar>) {
       if (design.damping) {
         return Part(Type<Damped>{});
+      }
+      if (design.feeling) {
+        return design.feeling->lags() ? Part(Type<Felt<control::LaggingReading>>{})
+                                      : Part(Type<Felt<control::PromptReading>>{});
       }
       if (design.resonance) {
         return design.resonance->current_limited ? Part(Type<Resonant<control::CurrentLimit>>{})
@@ -99,6 +108,7 @@ struct ControllerParts {
   typename VibrationParts<Scalar>::Part vibration;
   Choice<control::ForceSensor, control::NoForceSensor> force;
   bool observes_vibration;
+  bool feels_vibration;
 
   explicit ControllerParts(const ControlDesign& design)
       : friction(choose<decltype(friction)>(design.calibrated)),
@@ -109,10 +119,11 @@ struct ControllerParts {
         relearning(choose<decltype(relearning)>(design.relearns)),
         vibration(VibrationParts<Scalar>::chosen(design)),
         force(choose<decltype(force)>(!design.senses_force)),
-        observes_vibration(design.observes_vibration()) {}
+        observes_vibration(design.observes_vibration()),
+        feels_vibration(design.feeling.has_value()) {}
 
   /// Calls visit(name, choice) for each, in the order of control::Parts; a drive that is fed forward
-  /// has a force sensor, and names neither.
+  /// has a force sensor, and names neither, nor does one whose vibration is felt name the sensor.
   template <class Visitor>
   void fields(Visitor&& visit) const {
     visit("friction", friction);
@@ -121,8 +132,10 @@ struct ControllerParts {
     visit("shaper", shaper);
     visit("regulator", regulator);
     visit("relearning", relearning);
-    if (observes_vibration) {
+    if (observes_vibration || feels_vibration) {
       visit("vibration", vibration);
+    }
+    if (observes_vibration) {
       visit("force", force);
     }
   }

@@ -19,8 +19,13 @@ namespace {
 
 namespace mode = control::mode;
 
-/// How far the believed stiffness may be off, relative: no farther than a third of the way to the
-/// carrier is left, nor that the mode's angle would be known to less than 3/4 of a radian.
+/// The modulus of a 2 x 2 matrix: its largest singular value.
+double norm_of(const Eigen::Matrix2d& matrix) {
+  return Eigen::JacobiSVD<Eigen::Matrix2d>(matrix).singularValues()(0);
+}
+
+}  // namespace
+
 double stiffness_range(double stiffness) {
   constexpr double widest = 0.06;
   constexpr double towards_carrier = 2.0 / 3.0;
@@ -30,21 +35,6 @@ double stiffness_range(double stiffness) {
                    2.0 * radians / numeric::sqrt(stiffness)});
 }
 
-/// The modulus of a 2 x 2 matrix: its largest singular value.
-double norm_of(const Eigen::Matrix2d& matrix) {
-  return Eigen::JacobiSVD<Eigen::Matrix2d>(matrix).singularValues()(0);
-}
-
-ObserverGains observer_gains_of(const ModeModel& model, double noise) {
-  constexpr double process = 1e-3;  // of full drive's velocity: friction, and what is not modelled
-  constexpr double doubt = 3e-3;
-  const double velocity = model.forced.norm();
-  const double variance = std::max(doubt * velocity, noise);
-  return observer_gains(model, process * process * velocity * velocity, variance * variance);
-}
-
-/// As quick as it may be without making much of what the observer only believes; slow where the
-/// vibration hardly shows the mode.
 Eigen::RowVector3d feedback_of(const ModeModel& model) {
   constexpr double quickest = 1.15;
   constexpr double slower = 0.6;
@@ -61,6 +51,16 @@ Eigen::RowVector3d feedback_of(const ModeModel& model) {
     stability = 1.0 + slower * (stability - 1.0);
     stability = stability < quick_enough ? 1.0 : stability;
   }
+}
+
+namespace {
+
+ObserverGains observer_gains_of(const ModeModel& model, double noise) {
+  constexpr double process = 1e-3;  // of full drive's velocity: friction, and what is not modelled
+  constexpr double doubt = 3e-3;
+  const double velocity = model.forced.norm();
+  const double variance = std::max(doubt * velocity, noise);
+  return observer_gains(model, process * process * velocity * velocity, variance * variance);
 }
 
 template <class Matrix>
@@ -115,6 +115,8 @@ void scale_mode(control::ModeTable<double>& table) {
   scale(mode::feedback, mode::feedback + 2, unit);
 }
 
+}  // namespace
+
 void require_mode(const BelievedPlant& plant) {
   if (!(plant.stiffness_N_per_m > 0.0)) {
     throw ConfigurationError(
@@ -133,8 +135,6 @@ void require_mode(const BelievedPlant& plant) {
                     most * critical));
   }
 }
-
-}  // namespace
 
 double damped_full_scale_m_per_s(const scene::Scene& scene, const BelievedPlant& plant) {
   constexpr double room = 4.0;  // for what feedback may ask for, and for what a knock adds

@@ -5,6 +5,7 @@
 
 #include "firmware/control/mode_table.hpp"
 #include "host_sim/configure/believed_plant.hpp"
+#include "host_sim/configure/mode_model.hpp"
 #include "host_sim/scene/scene.hpp"
 
 namespace sonoglide::configure {
@@ -22,6 +23,18 @@ struct DampedDesign {
   double missing = 0.0;
   std::uint8_t delay_periods = 1;
 };
+
+/// @throws ConfigurationError  there is no natural mode to damp
+void require_mode(const BelievedPlant& plant);
+
+/// How far the believed stiffness may be off, relative: no farther than a third of the way to the
+/// carrier is left, nor that the mode's angle would be known to less than 3/4 of a radian.
+/// @param stiffness  of a Resonator
+double stiffness_range(double stiffness);
+
+/// As quick as it may be without making much of what an observer only believes; slow where the
+/// vibration hardly shows the mode. See feedback_gains().
+Eigen::RowVector3d feedback_of(const ModeModel& model);
 
 /// The range of the vibration sensor.
 /// @throws ConfigurationError  full drive vibrates at less than 1/64 of it, or at more than half

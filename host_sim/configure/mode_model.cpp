@@ -5,6 +5,7 @@
 
 #include "firmware/numeric/float_elementary.hpp"
 #include "firmware/numeric/turn.hpp"
+#include "host_sim/configure/complex_exponential.hpp"
 
 namespace sonoglide::configure {
 namespace {
@@ -12,11 +13,6 @@ namespace {
 using Complex = std::complex<double>;
 
 constexpr Complex j{0.0, 1.0};
-
-Complex exponential(Complex exponent) {
-  return numeric::exp(exponent.real()) *
-         Complex{numeric::cos(exponent.imag()), numeric::sin(exponent.imag())};
-}
 
 /// Mean of exp(rate t) over t from 0 to 1.
 Complex mean_of_exponential(Complex rate) {
@@ -93,6 +89,22 @@ ObserverGains observer_gains(const ModeModel& model, double process, double nois
       sample * before * sample.transpose() + noise * Eigen::Matrix2d::Identity();
   const Eigen::Matrix<double, 4, 2> gains = before * sample.transpose() * seen_variance.inverse();
   return {gains.topRows<2>(), gains.bottomRows<2>()};
+}
+
+FeltGains felt_gains(const Eigen::Matrix2d& turn, const Eigen::RowVector2d& seen,
+                     const FeltProcess& process, double noise) {
+  using Matrix = Eigen::Matrix3d;
+  Matrix dynamics = Matrix::Identity();
+  dynamics.topLeftCorner<2, 2>() = turn;
+  const Eigen::RowVector3d sample(seen(0), seen(1), 1.0);
+  const Matrix shown = sample.transpose() * sample / (noise * noise);
+  const double mode = process.mode * process.mode;
+  const double offset = process.offset * process.offset;
+  const Eigen::Vector3d variance(mode, mode, offset);
+  const Matrix before = riccati<Matrix>(dynamics.transpose(), shown, Matrix(variance.asDiagonal()));
+  const Eigen::Vector3d gains =
+      before * sample.transpose() / (sample * before * sample.transpose() + noise * noise);
+  return {gains.head<2>(), gains(2)};
 }
 
 Eigen::RowVector3d feedback_gains(const ModeModel& model, double stability) {

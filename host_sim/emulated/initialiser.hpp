@@ -121,6 +121,16 @@ PartName part_name(configure::Type<control::DampedVibration<Scalar, MaxDelay>> /
   return {"damped_vibration", fmt::format("DampedVibration<Scalar, {}>", parameters.delay)};
 }
 
+template <class Scalar, int MaxDelay, class Reading, class Parameters>
+PartName part_name(configure::Type<control::FeltVibration<Scalar, MaxDelay, Reading>> /*part*/,
+                   const Parameters& parameters) {
+  const bool lags = std::is_same_v<Reading, control::LaggingReading<Scalar>>;
+  return {"felt_vibration",
+          fmt::format("FeltVibration<Scalar, {}, control::{}<Scalar>>", parameters.delay,
+                      lags ? "LaggingReading" : "PromptReading"),
+          "reading_lag"};
+}
+
 template <class Parameters>
 PartName part_name(configure::Type<control::ForceSensor> /*part*/,
                    const Parameters& /*parameters*/) {

@@ -121,6 +121,24 @@ std::unique_ptr<ControlPort> make_observing_control(const ControlDesign& design)
       parts.friction, parts.feedforward);
 }
 
+/// Relearning, and the lead of a reading, are wide open where a scene does not name them.
+template <class Scalar>
+std::unique_ptr<ControlPort> make_feeling_control(const ControlDesign& design) {
+  const configure::ControllerParts<Scalar> parts(design);
+  return std::visit(
+      [&](auto friction, auto feedforward) -> std::unique_ptr<ControlPort> {
+        using Vibration = control::FeltVibration<Scalar, configure::max_reading_delay,
+                                                 control::LaggingReading<Scalar>>;
+        using Parts =
+            control::Parts<Scalar, typename decltype(friction)::type,
+                           typename decltype(feedforward)::type, control::NoSlewLimit<Scalar>,
+                           control::NoShaping<Scalar>, control::NoFeedback<Scalar>,
+                           control::PeriodicRelearning<Scalar>, Vibration>;
+        return std::make_unique<InProcessControl<Parts>>(design);
+      },
+      parts.friction, parts.feedforward);
+}
+
 }  // namespace compose
 
 template <class Scalar>
@@ -133,6 +151,9 @@ std::unique_ptr<ControlPort> make_control(const configure::ControlDesign& design
       return make_observing_control<Scalar,
                                     control::ResonantVibration<Scalar, max_drive_delay, Current>>(
           design);
+    }
+    if (design.feeling) {
+      return make_feeling_control<Scalar>(design);
     }
     if (design.damping) {
       return make_observing_control<Scalar, control::DampedVibration<Scalar, max_drive_delay>>(

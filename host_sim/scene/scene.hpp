@@ -209,8 +209,14 @@ struct Scene {
     return controller && controller->vibration == VibrationControl::resonant;
   }
 
-  /// A controller observes the vibration.
-  bool observes_vibration() const { return controller && controller->vibration; }
+  /// A controller holds the vibration, however it knows of it.
+  bool holds_vibration() const { return controller && controller->vibration; }
+
+  /// A controller observes the vibration by a sensor of its own.
+  bool observes_vibration() const { return holds_vibration() && sensor.vibration; }
+
+  /// A controller feels the vibration in the friction.
+  bool feels_vibration() const { return holds_vibration() && !sensor.vibration; }
 
   /// Somebody asks for the vibration's fundamental.
   bool demodulates() const { return transducer || observes_vibration(); }

@@ -44,6 +44,7 @@ const char* const open_loop_volts = "open loop with [transducer]";
 const char* const closed_loop_volts = "closed loop with [transducer]";
 const char* const at_resonance = "controller.vibration = \"resonant\"";
 const char* const observed = "controller.vibration";
+const char* const seen_vibration = "sensor.vibration";
 const char* const observed_volts = "controller.vibration with [transducer]";
 const char* const fed_forward = "without controller.vibration";
 const char* const with_robust_notch = "controller.shaping = \"robust\"";
@@ -307,7 +308,8 @@ std::vector<Key> controller_keys() {
        Rule{"the drive is fed forward, at a fixed frequency"},
        "resonant: the controller observes the vibration, follows the plant's resonance with the "
        "frequency of the drive and holds the vibration velocity; needs [transducer]. damped: the "
-       "same at a fixed frequency off resonance, with the natural mode damped by feedback",
+       "same at a fixed frequency off resonance, with the natural mode damped by feedback: as "
+       "sensor.vibration sees it, or without one as the friction shows it",
        closed_loop_only},
       {"frequency_range_Hz", Interval{frequency_range},
        Rule{"5 % below to 5 % above drive.frequency_Hz"},
@@ -376,20 +378,21 @@ std::vector<Key> sensor_keys() {
        "sliding velocity read over the true one; -1: wired backwards, 0: dead"},
       {"seed", Integer{0, std::numeric_limits<std::int64_t>::max()},
        static_cast<double>(sensor.seed), "seed of the noise; the same seed gives the same noise"},
-      {"vibration", Word{words_of(scene::vibration_sensors)}, Required{},
+      {"vibration", Word{words_of(scene::vibration_sensors)},
+       Rule{"required with resonant; with damped the vibration is felt in the friction"},
        "what the vibration is seen by, once per carrier period: a pick-up of its velocity, or the "
        "current of the transducer less that of its clamped capacitance, with [transducer]",
        observed},
       {"vibration_bits", Integer{4, 32, "bits"}, Rule{"ideal"},
        "resolution of the vibration converters, one in phase with the drive and one in quadrature",
-       observed},
+       seen_vibration},
       {"vibration_noise_m_per_s", Number{{0.0, largest_speed_m_per_s, "m/s"}},
        sensor.vibration_noise_m_per_s,
-       "noise of each vibration sample, rms, in phase and in quadrature alike", observed},
+       "noise of each vibration sample, rms, in phase and in quadrature alike", seen_vibration},
       {"vibration_full_scale_m_per_s", Number{{1e-12, largest_speed_m_per_s, "m/s"}},
        Rule{"resonant: four times the velocity of the lowest target; damped: of full drive; or of "
             "the fastest sliding if that is larger"},
-       "largest vibration velocity that the converters read, in both directions", observed},
+       "largest vibration velocity that the converters read, in both directions", seen_vibration},
   };
 }
 

@@ -225,10 +225,10 @@ void visit_force_sensor(Keys& keys, scene::Sensor& sensor, double full_scale_N) 
 }
 
 /// @param full_scale_N  of the force, where the scene does not say
-/// @param observes      the controller observes the vibration
+/// @param holds         the controller holds the vibration
 template <class Keys>
-void visit_sensor(Keys& keys, scene::Sensor& sensor, double full_scale_N, bool observes) {
-  if (observes) {
+void visit_sensor(Keys& keys, scene::Sensor& sensor, double full_scale_N, bool holds) {
+  if (holds) {
     keys.truth("force", sensor.force);
   }
   if (sensor.force) {
@@ -237,29 +237,31 @@ void visit_sensor(Keys& keys, scene::Sensor& sensor, double full_scale_N, bool o
   keys.value("velocity_offset_m_per_s", sensor.velocity_offset_m_per_s);
   keys.value("velocity_gain", sensor.velocity_gain);
   keys.value("seed", sensor.seed);
-  if (observes) {
+  if (holds) {
     keys.optional_word("vibration", sensor.vibration, scene::vibration_sensors);
+  }
+  if (sensor.vibration) {
     keys.value("vibration_bits", sensor.vibration_bits);
     keys.value("vibration_noise_m_per_s", sensor.vibration_noise_m_per_s);
     keys.value("vibration_full_scale_m_per_s", sensor.vibration_full_scale_m_per_s);
   }
 }
 
-/// @param observes  the controller observes the vibration
+/// @param holds     the controller holds the vibration
 /// @param in_volts  there is a transducer
 template <class Keys>
 void visit_model_error(Keys& keys, scene::ModelError& model_error, const scene::FrictionLaw& law,
-                       bool observes, bool in_volts) {
+                       bool holds, bool in_volts) {
   keys.value("mass", model_error.mass);
   keys.value("stiffness", model_error.stiffness);
   keys.value("coefficient", model_error.coefficient);
   if (scene::is_elastic(law)) {
     keys.value("contact_stiffness", model_error.contact_stiffness);
   }
-  if (observes && in_volts) {
+  if (holds && in_volts) {
     keys.value("force_factor", model_error.force_factor);
   }
-  if (observes) {
+  if (holds) {
     keys.value("damping", model_error.damping);
   }
 }

@@ -196,16 +196,15 @@ void check_vibration_control(const TableCursor& cursor, const Variant& variant,
   cursor.reject_unread(fmt::format("with controller.vibration = \"{}\"", name));
 }
 
-/// The vibration must be seen, and without a force sensor nothing tells of the friction.
+/// The vibration must be seen or felt, and without a force sensor nothing tells of the friction.
 void check_sensing(const TableCursor& cursor, const Variant& variant, const scene::Sensor& sensor,
                    const scene::Scene& so_far) {
-  if (!sensor.vibration) {
+  if (!sensor.vibration && so_far.resonant()) {
     cursor.fail(
         "vibration",
         fmt::format("missing: controller.vibration = \"{}\" observes the vibration; "
-                    "required: \"velocity\"{}",
-                    scene::name_of(scene::vibration_controls, *so_far.controller->vibration),
-                    so_far.transducer ? " or \"motional_current\"" : ""));
+                    "required: \"velocity\" or \"motional_current\"",
+                    scene::name_of(scene::vibration_controls, *so_far.controller->vibration)));
   }
   if (sensor.vibration == scene::VibrationSensor::motional_current && !so_far.transducer) {
     cursor.fail("vibration",
@@ -214,6 +213,11 @@ void check_sensing(const TableCursor& cursor, const Variant& variant, const scen
   }
   if (sensor.force) {
     return;
+  }
+  if (!sensor.vibration) {
+    cursor.fail("force",
+                "false, and without sensor.vibration nothing tells of the vibration; required: one "
+                "of the two");
   }
   const TableCursor controller(variant, "controller");
   for (const std::string_view key : {"calibration_s", "relearn_every_s", "mismatch_warning"}) {
@@ -445,11 +449,13 @@ scene::Sensor read_sensor(const Variant& variant, const scene::Scene& so_far) {
   ValueReader reader(cursor);
   scene::Sensor sensor;
   visit_sensor(reader, sensor, 2.0 * configure::largest_friction_limit_N(so_far.friction),
-               so_far.observes_vibration());
-  if (so_far.observes_vibration()) {
+               so_far.holds_vibration());
+  if (so_far.holds_vibration()) {
     check_sensing(cursor, variant, sensor, so_far);
   }
-  cursor.reject_unread(sensor.force ? unobserved : "with sensor.force = false");
+  cursor.reject_unread(!sensor.force              ? "with sensor.force = false"
+                       : so_far.holds_vibration() ? "without sensor.vibration"
+                                                  : unobserved);
   return sensor;
 }
 
@@ -457,10 +463,10 @@ scene::ModelError read_model_error(const Variant& variant, const scene::Scene& s
   TableCursor cursor = closed_loop_table(variant, "model_error");
   ValueReader reader(cursor);
   scene::ModelError model_error;
-  visit_model_error(reader, model_error, so_far.friction.law, so_far.observes_vibration(),
+  visit_model_error(reader, model_error, so_far.friction.law, so_far.holds_vibration(),
                     so_far.transducer.has_value());
   for (const std::string_view key : {"force_factor", "damping"}) {
-    if (cursor.has(key) && !so_far.observes_vibration()) {
+    if (cursor.has(key) && !so_far.holds_vibration()) {
       cursor.reject(key, unobserved);
     }
   }

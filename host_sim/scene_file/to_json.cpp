@@ -180,14 +180,14 @@ ordered_json stated(scene::Scene scene) {
   root["solver"] = echo([&](auto& keys) { visit_solver(keys, scene.solver); });
   root["run"] = echo([&](auto& keys) { visit_run(keys, scene.run, scene.drive, closed_loop); });
   if (closed_loop) {
-    const bool observes = scene.observes_vibration();
+    const bool holds = scene.holds_vibration();
     root["controller"] =
         echo([&](auto& keys) { visit_controller(keys, *scene.controller, scene.sensor.force); });
     root["sensor"] = echo([&](auto& keys) {
-      visit_sensor(keys, scene.sensor, scene.sensor.force_full_scale_N, observes);
+      visit_sensor(keys, scene.sensor, scene.sensor.force_full_scale_N, holds);
     });
     root["model_error"] = echo([&](auto& keys) {
-      visit_model_error(keys, scene.model_error, scene.friction.law, observes,
+      visit_model_error(keys, scene.model_error, scene.friction.law, holds,
                         scene.transducer.has_value());
     });
   }

@@ -23,6 +23,7 @@ using random_loops::Verdict;
 
 const std::map<std::string, random_loops::Vibration> vibrations = {
     {"unseen", random_loops::Vibration::unseen},
+    {"felt", random_loops::Vibration::felt},
     {"damped", random_loops::Vibration::damped},
     {"alone", random_loops::Vibration::damped_alone}};
 
@@ -95,10 +96,11 @@ int main(int argument_count, char** arguments) {
   program.add_option("--table", options.table, "Where to write the table [standard output]");
   program.add_option("--scene", options.scene, "In place of the table, this loop as TOML");
   program
-      .add_option("--vibration", options.vibration,
-                  "The same loops with a vibration sensor by which the natural mode is damped, and "
-                  "without a force sensor (alone)")
-      ->check(CLI::IsMember({"unseen", "damped", "alone"}))
+      .add_option(
+          "--vibration", options.vibration,
+          "The same loops with their natural mode damped: felt in the friction (felt), seen by a "
+          "vibration sensor (damped), and without a force sensor (alone)")
+      ->check(CLI::IsMember({"unseen", "felt", "damped", "alone"}))
       ->capture_default_str();
   CLI11_PARSE(program, argument_count, arguments);
   try {

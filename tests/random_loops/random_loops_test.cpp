@@ -24,14 +24,15 @@ struct Kind {
   const char* name;  ///< of the table too
 };
 
-constexpr std::array<Kind, 3> kinds = {{{Vibration::unseen, "unseen"},
+constexpr std::array<Kind, 4> kinds = {{{Vibration::unseen, "unseen"},
+                                        {Vibration::felt, "felt"},
                                         {Vibration::damped, "damped"},
                                         {Vibration::damped_alone, "alone"}}};
 
 const std::vector<Outcome>& all(Vibration vibration) {
   static const std::array<std::vector<Outcome>, kinds.size()> once = {
       outcomes(seed, count, kinds[0].vibration), outcomes(seed, count, kinds[1].vibration),
-      outcomes(seed, count, kinds[2].vibration)};
+      outcomes(seed, count, kinds[2].vibration), outcomes(seed, count, kinds[3].vibration)};
   return once[static_cast<std::size_t>(vibration)];
 }
 

@@ -334,9 +334,11 @@ const std::vector<BrokenScene> broken_scenes = {
     {"resonance_at_standstill", resonant_loop, "velocity_m_per_s = 0.0267", "velocity_m_per_s = 0",
      "10:20: sliding.velocity_m_per_s: is 0 all the time, where no vibration changes the friction; "
      "allowed: another velocity with controller.vibration = \"resonant\""},
-    {"damped_unseen", damped_loop, "[sensor]\nvibration = \"velocity\"\n", "",
-     "1:1: sensor.vibration: missing: controller.vibration = \"damped\" observes the vibration; "
-     "required: \"velocity\""},
+    {"damped_by_nothing", damped_loop, "vibration = \"velocity\"\n", "force = false\n",
+     "21:9: sensor.force: false, and without sensor.vibration nothing tells of the vibration; "
+     "required: one of the two"},
+    {"damped_by_bits_alone", damped_loop, "vibration = \"velocity\"\n", "vibration_bits = 12\n",
+     "21:1: sensor.vibration_bits: not used without sensor.vibration; remove it"},
     {"damped_by_a_current_that_is_none", damped_loop, "\"velocity\"", "\"motional_current\"",
      "21:13: sensor.vibration: \"motional_current\" needs a table [transducer], whose current it "
      "is; allowed: \"velocity\""},

@@ -1,5 +1,5 @@
-// Closed loops off resonance whose natural mode is seen by a vibration sensor and damped, as a scene
-// describes them: with a stiffness that is believed wrong, with a mass that rings already, and in
+// Closed loops off resonance whose natural mode is seen by a vibration sensor, or felt in the friction,
+// and damped, as a scene describes them: with a stiffness that is believed wrong, with a mass that rings already, and in
 // every arithmetic.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -179,6 +179,83 @@ TEST(DampingTest, FixedPointAgreesWithFloatInEveryPeriod) {
       EXPECT_EQ(fixed.run.result.control->signals.empty(), false);
       for (const auto& signal : fixed.run.result.control->signals) {
         EXPECT_EQ(signal.saturations, 0U) << signal.name;
+      }
+    }
+  }
+}
+
+/// The same without a vibration sensor: the mode is felt in the friction.
+class Feeling : public Damping {
+ protected:
+  static Loop loop() {
+    Loop loop = Damping::loop();
+    loop.sensor = "";
+    return loop;
+  }
+};
+
+INSTANTIATE_TEST_SUITE_P(Arithmetics, Feeling, testing::Values("float64", "float32", "q31"),
+                         [](const auto& arithmetic) { return arithmetic.param; });
+
+void expect_prompt(const Loop& given) {
+  const Ran ran = run(given);
+  EXPECT_TRUE(ran.run.result.control->faults.empty());
+  for (const report::StepMetrics& step : ran.steps) {
+    ASSERT_TRUE(step.settling_time_s) << given.mode_per_carrier << ' ' << given.stiffness_error;
+    EXPECT_LE(*step.settling_time_s, 1e-3)
+        << given.mode_per_carrier << ' ' << given.stiffness_error << ' ' << step.target;
+    EXPECT_LE(std::abs(step.steady_error), 1e-3) << given.mode_per_carrier;
+    EXPECT_EQ(step.limit, control::Limit::none) << given.mode_per_carrier;
+  }
+}
+
+/// Below the carrier, above half of it and above the carrier, where the mode is seen aliased.
+TEST_P(Feeling, SettlesWithAStiffnessThatIsBelievedWrong) {
+  Loop given = loop();
+  for (const double mode : {0.2163, 0.45, 0.7, 0.88, 1.2, 1.55, 2.3}) {
+    for (const double error : {0.98, 1.0, 1.03}) {
+      given.mode_per_carrier = mode;
+      given.stiffness_error = error;
+      expect_prompt(given);
+    }
+  }
+  for (const double mode : {0.2163, 0.45, 0.7, 1.2}) {
+    for (const double error : {0.95, 1.05}) {
+      given.mode_per_carrier = mode;
+      given.stiffness_error = error;
+      expect_prompt(given);
+    }
+  }
+}
+
+/// At nearly twice the sliding speed, which the friction does not follow linearly.
+TEST_P(Feeling, QuietsAMassThatRingsAtFirst) {
+  Loop given = loop();
+  given.plant = "initial_velocity_m_per_s = 0.05";
+  const Ran ran = run(given);
+  ASSERT_TRUE(ran.steps[0].settling_time_s);
+  EXPECT_LE(*ran.steps[0].settling_time_s, 1.5e-3);
+}
+
+/// The corners of Table 1: stiffness ±5 %, friction ±30 % and learnt, contact ±50 %, 12 bits.
+TEST_P(Feeling, SettlesInEveryCornerOfTable1) {
+  Loop given = loop();
+  given.vibration += "\ncalibration_s = 1e-3";
+  given.targets = "[[0.0, 0.4], [3e-3, 0.6], [4.5e-3, 0.5]]";
+  given.sensor = "[sensor]\nadc_bits = 12\n";
+  for (const double stiffness : {0.95, 0.98, 1.0, 1.02, 1.05}) {
+    for (const double coefficient : {0.7, 1.0, 1.3}) {
+      for (const double contact : {0.5, 1.0, 1.5}) {
+        given.stiffness_error = stiffness;
+        const std::string text =
+            text_of(given) +
+            fmt::format("coefficient = {}\ncontact_stiffness = {}\n", coefficient, contact);
+        const Ran ran = acceptance::run_measured(scene_file::read_text(text, "felt.toml"));
+        for (const report::StepMetrics& step : ran.steps) {
+          ASSERT_TRUE(step.settling_time_s) << text;
+          EXPECT_LE(*step.settling_time_s, 0.3e-3) << text;
+          EXPECT_LE(step.ripple, 0.002) << text;
+        }
       }
     }
   }

@@ -355,6 +355,21 @@ TEST(ControlDesignTest, ADampedModeIsLookedForWhereItMayBe) {
   }
 }
 
+TEST(ControlDesignTest, AFeltModeNeedsALongitudinalVibrationAndOneDirection) {
+  scene::Scene felt = with_natural_frequency(0.2, 0.0);
+  felt.controller->vibration = scene::VibrationControl::damped;
+  const ControlDesign design = design_control(felt);
+  ASSERT_TRUE(design.feeling);
+  EXPECT_FALSE(design.shaped);
+  EXPECT_FALSE(design.damping);
+  scene::Scene turning = felt;
+  turning.sliding.profile = {{0.0, 0.02}, {1.0, -0.02}};
+  EXPECT_THROW(design_control(turning), ConfigurationError);
+  scene::Scene across = felt;
+  across.friction.law = scene::laws::TransverseCoulomb{};
+  EXPECT_THROW(design_control(across), ConfigurationError);
+}
+
 TEST(ControlDesignTest, NotesADampedModeThatNothingQuietsQuickly) {
   for (const double part : {0.03, 0.96, 1.03, 1.97, 3.0}) {
     EXPECT_EQ(design_notes(design_control(damped(part))).size(), 1U) << part;

@@ -298,7 +298,7 @@ void write_controller(SceneText& text, const RandomLoop& loop, Vibration vibrati
 
 void write_sensor(SceneText& text, const RandomLoop& loop, Vibration vibration) {
   const SensorNumbers& sensor = loop.sensor;
-  const bool damped = vibration != Vibration::unseen;
+  const bool damped = vibration != Vibration::unseen && vibration != Vibration::felt;
   if (sensor.ideal() && !damped) {
     return;
   }
@@ -335,6 +335,33 @@ void write_model_error(SceneText& text, const RandomLoop& loop) {
 }
 
 }  // namespace
+
+Cause cause_of(const RandomLoop& loop) {
+  constexpr double beside = 0.13;
+  constexpr double slow_s = 0.5e-3;
+  constexpr double forgets = 4.6 / 1.3;  // presliding times until 1 % is left, under vibration
+  constexpr double noisy = 2e-3;
+  const double nearest = std::round(loop.mode_per_carrier);
+  const bool near = nearest != 1.0 && std::abs(loop.mode_per_carrier - nearest) < beside;
+  const SensorNumbers& sensor = loop.sensor;
+  if (loop.model_error && loop.calibration_s == 0.0) {
+    return Cause::trusted_friction;
+  }
+  if (near) {
+    return Cause::multiple;
+  }
+  if (forgets * presliding_s(loop) > slow_s) {
+    return Cause::slow_contact;
+  }
+  if (sensor.adc_bits.value_or(32) <= 9 || sensor.force_bandwidth_Hz.value_or(1e9) < 5e3 ||
+      sensor.force_noise_N >= noisy * friction_N(loop)) {
+    return Cause::coarse_sensor;
+  }
+  return loop.law == "dahl" || loop.law == "coulomb" || loop.law == "transverse_coulomb" ||
+                 loop.law == "normal_coulomb"
+             ? Cause::none
+             : Cause::foreign_map;
+}
 
 RandomLoop random_loop(std::uint32_t seed, std::uint32_t index) {
   Dice dice(seed, index);

@@ -93,11 +93,27 @@ struct RandomLoop {
 /// wrong by up to 5 % in stiffness, 30 % in friction and 50 % in contact stiffness.
 RandomLoop random_loop(std::uint32_t seed, std::uint32_t index);
 
+/// What is most likely to keep a loop from its targets, by what was drawn alone: the first of these that
+/// holds. A step that is out of the drive's reach is counted beside that.
+enum class Cause {
+  trusted_friction,  ///< believed wrong, and never learnt
+  multiple,          ///< the mode is within 0.13 of the carrier of zero or of a multiple
+  slow_contact,      ///< the contact takes half a millisecond or more to forget
+  coarse_sensor,     ///< 8 or 9 bits, below 5 kHz, or noise of 0.2 % of the friction or more
+  foreign_map,       ///< the law has no map of its own
+  none
+};
+inline constexpr std::array<std::string_view, 6> cause_names = {
+    "friction trusted but wrong", "mode next to a multiple", "slow contact",
+    "coarse or slow sensor",      "map of another law",      "none of these"};
+Cause cause_of(const RandomLoop& loop);
+
 /// What a loop knows of its vibration.
 enum class Vibration {
   unseen,  ///< the drive is fed forward
   /// controller.vibration = "damped", seen by a pick-up of 14 bits; q31 in place of q15
   damped,
+  felt,          ///< damped as it is felt in the friction, without a sensor of its own
   damped_alone,  ///< the same without a force sensor
 };
 

@@ -50,6 +50,11 @@ std::vector<Class> classes() {
     all.push_back({"arithmetic", arithmetic,
                    [arithmetic](const RandomLoop& loop) { return loop.arithmetic == arithmetic; }});
   }
+  for (std::size_t i = 0; i < cause_names.size(); ++i) {
+    all.push_back({"cause", std::string(cause_names[i]), [i](const RandomLoop& loop) {
+                     return cause_of(loop) == static_cast<Cause>(i);
+                   }});
+  }
   all.push_back({"friction level", "trusted",
                  [](const RandomLoop& loop) { return loop.calibration_s == 0.0; }});
   all.push_back({"friction level", "learnt",

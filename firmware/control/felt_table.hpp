@@ -1,0 +1,131 @@
+/// What a controller knows of a natural mode that it feels in the friction alone.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "firmware/numeric/headroom.hpp"
+#include "firmware/numeric/scalar.hpp"
+
+namespace sonoglide::control {
+
+/// Places of the numbers of a row of the table.
+namespace felt {
+
+inline constexpr std::size_t turn = 0;          ///< d cos θ and d sin θ, of a period
+inline constexpr std::size_t kick = 2;          ///< b: what a change of the amplitude adds
+inline constexpr std::size_t forced = 4;        ///< |H|: steady velocity at full drive
+inline constexpr std::size_t sloped = 5;        ///< the slopes of those before this one are of use
+inline constexpr std::size_t feedback = 5;      ///< K: on the mode and on the amplitude's error
+inline constexpr std::size_t per_velocity = 8;  ///< 1/|H|
+inline constexpr std::size_t plain = 9;         ///< those of the nodes follow
+/// Nodes of the velocity ratio, whose numbers follow each other: 1/8, 2/8 … 1.
+inline constexpr int node_bits = 3;
+inline constexpr std::size_t nodes = std::size_t{1} << node_bits;
+
+/// Places of the numbers of a node.
+inline constexpr std::size_t seen = 0;           ///< e: what a reading shows of a mode of 1
+inline constexpr std::size_t last_change = 2;    ///< the same of the last change of the amplitude
+inline constexpr std::size_t change_before = 3;  ///< of the one before
+inline constexpr std::size_t mode_gain = 4;      ///< of the observer
+inline constexpr std::size_t offset_gain = 6;    ///< likewise
+inline constexpr std::size_t noise = 7;          ///< of a reading, rms
+inline constexpr std::size_t per_node = 8;
+/// The slopes of those of a node before this one are of use.
+inline constexpr std::size_t sloped_of_node = mode_gain;
+
+inline constexpr std::size_t numbers = plain + nodes * per_node;
+
+/// Over the range of natural frequencies, equally far apart.
+inline constexpr int row_bits = 3;
+inline constexpr std::size_t rows = (std::size_t{1} << row_bits) + 1;
+
+}  // namespace felt
+
+template <class Scalar>
+using FeltRow = std::array<Scalar, felt::numbers>;
+template <class Scalar>
+using FeltTable = std::array<FeltRow<Scalar>, felt::rows>;
+
+/// A table at a place between its rows and at a velocity ratio between its nodes, and the slopes over
+/// the place: linear interpolation.
+template <class Scalar>
+class FeltPlace {
+ public:
+  /// @param table  stays where it is: it outlives this
+  explicit FeltPlace(const FeltTable<Scalar>& table) : table_(&table) {}
+
+  /// @param place  from -1 at the first row to 1 at the last
+  void go(Scalar place) {
+    constexpr int shift = 32 - felt::row_bits;
+    const std::int32_t code = numeric::to_code(place);
+    row_ = static_cast<std::size_t>((code >> shift) + (1 << (felt::row_bits - 1)));
+    along_ = fraction(code, felt::row_bits);
+    for (std::size_t i = 0; i < felt::plain; ++i) {
+      const Scalar low = (*table_)[row_][i];
+      const Scalar rise = (*table_)[row_ + 1][i] - low;
+      values_[i] = low + rise * along_;
+      if (i < felt::sloped) {
+        slopes_[i] = slope_of(rise);
+      }
+    }
+  }
+
+  /// @param ratio  velocity ratio; below 1/8 as at 1/8
+  void look(Scalar ratio) {
+    const std::int32_t code = numeric::to_code(ratio);
+    const auto eighths = static_cast<std::size_t>(code >> (31 - felt::node_bits));
+    const std::size_t node = eighths == 0 ? 0 : eighths - 1;
+    const Scalar part = eighths == 0
+                            ? Scalar{}
+                            : fraction(code & (INT32_MAX >> felt::node_bits), felt::node_bits + 1);
+    const std::size_t first = felt::plain + node * felt::per_node;
+    for (std::size_t i = 0; i < felt::per_node; ++i) {
+      const Scalar low = between((*table_)[row_], first + i, part);
+      const Scalar rise = between((*table_)[row_ + 1], first + i, part) - low;
+      node_values_[i] = low + rise * along_;
+      if (i < felt::sloped_of_node) {
+        node_slopes_[i] = slope_of(rise);
+      }
+    }
+  }
+
+  Scalar operator[](std::size_t i) const { return values_[i]; }
+  /// Over the place.
+  Scalar slope(std::size_t i) const { return slopes_[i]; }
+  /// At the velocity ratio that was looked for last.
+  Scalar of_node(std::size_t i) const { return node_values_[i]; }
+  Scalar slope_of_node(std::size_t i) const { return node_slopes_[i]; }
+
+ private:
+  /// What a code has below its leading bits, the sign among them.
+  static Scalar fraction(std::int32_t code, int leading) {
+    return numeric::from_code<Scalar>(
+        static_cast<std::int32_t>((static_cast<std::uint32_t>(code) << leading) >> 1));
+  }
+
+  static Scalar between(const FeltRow<Scalar>& row, std::size_t i, Scalar part) {
+    return row[i] + part * (row[i + felt::per_node] - row[i]);
+  }
+
+  /// From one row to the next the place moves by 2/8.
+  static Scalar slope_of(Scalar rise) {
+    constexpr int steep = felt::row_bits - 1;
+    if constexpr (numeric::is_fixed_point_v<Scalar>) {
+      return numeric::lifted(rise, steep);
+    } else {
+      return rise * numeric::power_of_two<Scalar>(steep);
+    }
+  }
+
+  const FeltTable<Scalar>* table_;
+  std::size_t row_ = 0;
+  Scalar along_{};
+  std::array<Scalar, felt::plain> values_{};
+  std::array<Scalar, felt::sloped> slopes_{};
+  std::array<Scalar, felt::per_node> node_values_{};
+  std::array<Scalar, felt::sloped_of_node> node_slopes_{};
+};
+
+}  // namespace sonoglide::control

@@ -1,0 +1,144 @@
+/// A vibration velocity that is held off resonance by the friction alone, its natural mode damped by
+/// feedback.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "firmware/control/drive_command.hpp"
+#include "firmware/control/felt_observer.hpp"
+#include "firmware/control/measurement.hpp"
+#include "firmware/control/reading_lag.hpp"
+#include "firmware/numeric/scalar.hpp"
+
+namespace sonoglide::control {
+
+/// One step per carrier period. The steady amplitude u* = (v − o)/|H| brings the felt velocity to the
+/// wanted one, v. The answer is
+///   u' = u − K (w, u − u*), limited to [0, 1],
+/// with the linear-quadratic gain K, u the latest command and w the mode foreseen at the phase 0 where
+/// it acts (FeltObserver). As o takes up what the map and the model have wrong, the measured ratio
+/// settles on its target without an integral.
+///
+/// @tparam MaxDelay  largest delay: carrier periods from the end of the period that a reading describes
+///                   to the phase 0 at which its answer acts
+/// @tparam ReadingT  PromptReading | LaggingReading
+template <class ScalarT, int MaxDelay, class ReadingT>
+class FeltVibration {
+ public:
+  using Scalar = ScalarT;
+  using Measurement = control::Measurement<Scalar>;
+  using Command = DriveCommand<Scalar>;
+  using Reading = ReadingT;
+  static constexpr bool observed = false;
+  static constexpr bool felt = true;
+  static constexpr Limit at_full_drive = Limit::actuator;
+
+  struct Parameters {
+    typename FeltObserver<Scalar>::Parameters observer;
+    [[no_unique_address]] typename Reading::Parameters reading;
+    bool backwards;      ///< the direction of sliding that the table is of
+    std::uint8_t delay;  ///< 0 … MaxDelay
+
+    template <class Self, class Visitor>
+    static constexpr void fields(Self& self, Visitor&& visit) {
+      visit("observer", self.observer);
+      visit("reading", self.reading);
+      visit("backwards", self.backwards);
+      visit("delay", self.delay);
+    }
+  };
+
+  struct Drive {
+    Scalar amplitude;  ///< base: the largest
+    Limit limit;
+  };
+
+  /// @param parameters  outlive this, see FeltObserver
+  explicit FeltVibration(const Parameters& parameters)
+      : observer_(parameters.observer),
+        reading_(parameters.reading),
+        backwards_(parameters.backwards),
+        delay_(parameters.delay) {}
+
+  void restart() {
+    observer_.restart();
+    reading_.restart();
+    wanted_ = {};
+    at_most_ = false;
+  }
+
+  /// One call for each period, before its reading.
+  void pass() { observer_.pass(amplitudes_[sampled] - amplitudes_[sampled - 1]); }
+
+  /// A measured ratio on base 2 without the lag of sensor and contact.
+  Scalar sharpened(Scalar half_ratio) { return reading_.sharpened(half_ratio); }
+
+  /// @param velocity  that the sharpened ratio stands for
+  /// @param speed     |Vt| > 0
+  void feel(Scalar velocity, Scalar speed, bool backwards) {
+    if (backwards == backwards_) {
+      observer_.observe(velocity, speed,
+                        {amplitudes_[sampled], amplitudes_[sampled - 1], amplitudes_[sampled - 2]},
+                        wanted_);
+    }
+  }
+
+  /// The drive that brings the velocity to a wanted one in [0, 1].
+  Drive drive(Scalar velocity) {
+    constexpr Scalar largest = numeric::from_code<Scalar>(INT32_MAX);
+    wanted_ = velocity;
+    const Scalar quarter = velocity == Scalar{} ? Scalar{} : observer_.quarter_amplitude(velocity);
+    at_most_ = numeric::from_real<Scalar>(0.25) <= quarter;
+    steady_ = largest;
+    if (!at_most_) {
+      steady_ = numeric::scale_by_power_of_two(numeric::max(quarter, Scalar{}), 2);
+    }
+    const Scalar latest = amplitudes_[last()];
+    const Scalar less = numeric::clamp(observer_.feedback(foreseen_mode(), latest - steady_),
+                                       latest - largest, latest);
+    return {latest - less, at_most_ ? Limit::actuator : Limit::none};
+  }
+
+  /// One call for each step, with the amplitude that it answers.
+  void answer(Scalar amplitude) {
+    for (std::size_t i = 0; i < last(); ++i) {
+      amplitudes_[i] = amplitudes_[i + 1];
+    }
+    amplitudes_[last()] = amplitude;
+  }
+
+  /// No more of a drive would help.
+  bool at_most() const { return at_most_; }
+  /// What the steady drive makes of the velocity, by the model alone.
+  Scalar believed_velocity() const { return observer_.believed_velocity(steady_); }
+
+ private:
+  static constexpr std::size_t sampled = 2;
+
+  /// Of the newest command.
+  std::size_t last() const {
+    return (MaxDelay <= 1 ? std::size_t{MaxDelay} : std::size_t{delay_}) + sampled;
+  }
+
+  /// In the last period under way.
+  Pair<Scalar> foreseen_mode() const {
+    Pair<Scalar> mode = observer_.mode();
+    for (std::size_t i = sampled; i < last(); ++i) {
+      mode = observer_.next(mode, amplitudes_[i + 1] - amplitudes_[i]);
+    }
+    return mode;
+  }
+
+  FeltObserver<Scalar> observer_;
+  [[no_unique_address]] Reading reading_;
+  bool backwards_;
+  std::uint8_t delay_;
+  std::array<Scalar, MaxDelay + sampled + 1> amplitudes_{};  ///< from two before the sampled one on
+  Scalar wanted_{};
+  Scalar steady_{};  ///< u*
+  bool at_most_ = false;
+};
+
+}  // namespace sonoglide::control

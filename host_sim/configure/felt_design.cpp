@@ -1,0 +1,269 @@
+#include "host_sim/configure/felt_design.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <cstddef>
+#include <limits>
+
+#include "firmware/numeric/float_elementary.hpp"
+#include "firmware/numeric/turn.hpp"
+#include "host_sim/configure/configuration_error.hpp"
+#include "host_sim/configure/damped_design.hpp"
+#include "host_sim/configure/friction_response.hpp"
+#include "host_sim/configure/mode_model.hpp"
+#include "host_sim/configure/plant_scales.hpp"
+#include "host_sim/scene/friction_laws.hpp"
+#include "host_sim/scene/names.hpp"
+
+namespace sonoglide::configure {
+namespace {
+
+namespace felt = control::felt;
+using Complex = std::complex<double>;
+
+bool slides_backwards(const scene::Sliding& sliding) {
+  return std::any_of(sliding.profile.begin(), sliding.profile.end(),
+                     [](const auto& point) { return point.velocity_m_per_s < 0.0; });
+}
+
+void require_feeling(const scene::Scene& scene) {
+  if (!scene::vibrates_along(scene.friction.law)) {
+    throw ConfigurationError(
+        "friction.law",
+        fmt::format("\"{}\" does not show the vibration along the sliding; allowed with "
+                    "controller.vibration = \"damped\" and no sensor.vibration: a law of "
+                    "longitudinal vibration",
+                    scene::name_of(scene.friction.law)));
+  }
+  const auto& profile = scene.sliding.profile;
+  const bool forwards = std::any_of(profile.begin(), profile.end(),
+                                    [](const auto& point) { return point.velocity_m_per_s > 0.0; });
+  if (forwards && slides_backwards(scene.sliding)) {
+    throw ConfigurationError(
+        "sliding.profile",
+        "turns, and the natural mode shows itself differently in the friction of either direction; "
+        "allowed: one direction, or a sensor.vibration with controller.vibration = \"damped\"");
+  }
+}
+
+/// What is the same for every place in the table.
+struct Felt {
+  double speed;     ///< fastest |Vt|, per unit
+  double lambda;    ///< Kt Vt/(ω Fc); infinite for Coulomb friction
+  double sign;      ///< of the vibration in the velocity along the sliding
+  double noise;     ///< of a sharpened ratio, rms
+  double doubtful;  ///< by how much sharpening lifts what the model has wrong
+  ReadingChain chain;
+
+  VibratedContact contact(double ratio, double phase) const {
+    return {ratio, lambda / ratio, phase};
+  }
+};
+
+constexpr double largest_ratio = 0.985;  // of a node; at 1 the friction ratio has no slope
+
+ReadingChain chain_of(const scene::Sensor& sensor, double period_s) {
+  ReadingChain chain;
+  if (sensor.force_bandwidth_Hz) {
+    const double periods = numeric::two_pi * *sensor.force_bandwidth_Hz * period_s;
+    chain.fade = numeric::exp(-periods);
+    chain.fresh = 1.0 + numeric::expm1(-periods) / periods;
+    chain.old = 1.0 - chain.fade - chain.fresh;
+  }
+  return chain;
+}
+
+/// Rms of a measured ratio.
+double reading_noise(const scene::Sensor& sensor, double friction_N) {
+  const double code_N =
+      sensor.adc_bits ? 2.0 * sensor.force_full_scale_N * std::exp2(-*sensor.adc_bits) : 0.0;
+  const double noise_N = sensor.force_noise_N;
+  return numeric::sqrt(noise_N * noise_N + code_N * code_N / 12.0) / friction_N;
+}
+
+Felt felt_of(const scene::Scene& scene, const BelievedPlant& plant, double velocity_m_per_s) {
+  const double period_s = 1.0 / scene.drive->frequency_Hz;
+  const double speed_m_per_s = fastest_sliding_m_per_s(scene.sliding);
+  Felt felt;
+  felt.speed = speed_m_per_s / velocity_m_per_s;
+  const bool dahl = scene::friction_map(scene.friction.law) == scene::FrictionMap::dahl;
+  felt.lambda = dahl ? plant.contact_stiffness_N_per_m * speed_m_per_s * period_s /
+                           (numeric::two_pi * plant.friction_N)
+                     : std::numeric_limits<double>::infinity();
+  const bool backwards = slides_backwards(scene.sliding);
+  felt.sign = (backwards ? -1.0 : 1.0) * vibration_sign(scene.friction.sign_convention);
+  felt.chain = chain_of(scene.sensor, period_s);
+  constexpr double usual_ratio = 0.6;
+  constexpr double short_memory = 0.1;
+  constexpr double longest_memory = 0.9;  // more would make too much of noise
+  const double memory = friction_response(felt.contact(usual_ratio, 0.0)).memory;
+  felt.chain.contact_memory = memory > short_memory ? std::min(memory, longest_memory) : 0.0;
+  felt.noise = reading_noise(scene.sensor, plant.friction_N);
+  felt.doubtful = 1.0;
+  constexpr double lifted = 0.2;
+  for (const double kept : {felt.chain.fade, felt.chain.contact_memory}) {
+    felt.noise *= numeric::sqrt(1.0 + kept * kept) / (1.0 - kept);
+    felt.doubtful *= 1.0 + lifted * kept / (1.0 - kept);
+  }
+  return felt;
+}
+
+/// Re(c w) of a phasor w in its two parts.
+Eigen::RowVector2d row_of(Complex c) {
+  return {c.real(), -c.imag()};
+}
+
+/// A model with a mode that is seen in a reading.
+struct Place {
+  ModeModel model;
+  Complex rate;          ///< of its free motion, per period
+  Eigen::Matrix2d back;  ///< the mode a period before
+  double phase;          ///< of the steady vibration, along the sliding
+};
+
+Place place_of(const Resonator& resonator, double sign) {
+  Place place;
+  place.model = mode_model(resonator);
+  const double decay = 0.5 * resonator.damping;
+  place.rate = {-decay, numeric::sqrt(resonator.stiffness - decay * decay)};
+  place.back = place.model.turn.inverse();
+  const Eigen::Vector2d forced = sign * place.model.forced;
+  const double angle = numeric::acos(std::clamp(forced(0) / forced.norm(), -1.0, 1.0));
+  place.phase = forced(1) < 0.0 ? -angle : angle;
+  return place;
+}
+
+struct Node {
+  Eigen::RowVector2d seen;
+  double last_change;
+  double change_before;
+};
+
+Node node_of(const Place& place, double ratio, const Felt& felt) {
+  const ReadingResponse response =
+      reading_response(felt.contact(ratio, place.phase), place.rate, felt.chain);
+  const double forced = place.model.forced.norm();
+  // A mode that dies within a period is not worth a look.
+  constexpr double fading = 1.0;
+  if (-place.rate.real() > fading) {
+    return {Eigen::RowVector2d::Zero(), -forced * (response.forced[1] + response.forced[2]),
+            -forced * response.forced[2]};
+  }
+  const Eigen::RowVector2d earlier = felt.sign * row_of(response.mode[2]) * place.back;
+  const Eigen::RowVector2d before = (felt.sign * row_of(response.mode[1]) + earlier) * place.back;
+  return {felt.sign * row_of(response.mode[0]) + before,
+          -before * place.model.kick - forced * (response.forced[1] + response.forced[2]),
+          -earlier * place.model.kick - forced * response.forced[2]};
+}
+
+void put_node(const Place& place, std::size_t index, const Felt& felt,
+              control::FeltRow<double>& row) {
+  constexpr double process = 0.01;         // of the mode, per sliding velocity: friction
+  constexpr double offset_process = 0.02;  // likewise of the constant
+  constexpr double doubt = 0.02;           // of the velocity: map and contact
+  constexpr double rest = 0.005;           // the same of a settled loop
+  const double ratio =
+      std::min(largest_ratio, static_cast<double>(index + 1) / static_cast<double>(felt::nodes));
+  const Node node = node_of(place, ratio, felt);
+  // Of Coulomb friction: a velocity per ratio, per sliding velocity.
+  const double steepness =
+      0.25 * numeric::two_pi * numeric::sqrt(1.0 - ratio * ratio) / (ratio * ratio);
+  const auto rms = [&](double wrong) {
+    const double model = wrong * felt.doubtful / ratio;
+    const double sensor = felt.noise * steepness;
+    return felt.speed * numeric::sqrt(model * model + sensor * sensor);
+  };
+  const double noise = rms(doubt);
+  const FeltGains gains = felt_gains(place.model.turn, node.seen,
+                                     {process * felt.speed, offset_process * felt.speed}, noise);
+  double* const numbers = &row[felt::plain + index * felt::per_node];
+  numbers[felt::seen] = node.seen(0);
+  numbers[felt::seen + 1] = node.seen(1);
+  numbers[felt::last_change] = node.last_change;
+  numbers[felt::change_before] = node.change_before;
+  const bool seen = !node.seen.isZero();
+  numbers[felt::mode_gain] = seen ? gains.mode(0) : 0.0;
+  numbers[felt::mode_gain + 1] = seen ? gains.mode(1) : 0.0;
+  numbers[felt::offset_gain] = gains.offset;
+  numbers[felt::noise] = rms(rest);
+}
+
+control::FeltRow<double> row_of(const Resonator& resonator, const Felt& felt) {
+  const Place place = place_of(resonator, felt.sign);
+  const ModeModel& model = place.model;
+  const double forced = model.forced.norm();
+  const Eigen::RowVector3d feedback = feedback_of(model);
+  control::FeltRow<double> row{};
+  row[felt::turn] = model.turn(0, 0);
+  row[felt::turn + 1] = model.turn(1, 0);
+  row[felt::kick] = model.kick(0);
+  row[felt::kick + 1] = model.kick(1);
+  row[felt::forced] = forced;
+  for (std::size_t i = 0; i < 3; ++i) {
+    row[felt::feedback + i] = feedback(static_cast<Eigen::Index>(i));
+  }
+  row[felt::per_velocity] = 1.0 / forced;
+  for (std::size_t i = 0; i < felt::nodes; ++i) {
+    put_node(place, i, felt, row);
+  }
+  return row;
+}
+
+/// The table in multiples of a mode that leaves the kicks an eighth.
+/// @return that mode
+double scale_mode(control::FeltTable<double>& table) {
+  double largest = 0.0;
+  for (const control::FeltRow<double>& row : table) {
+    largest = std::max({largest, std::abs(row[felt::kick]), std::abs(row[felt::kick + 1])});
+  }
+  const double unit = 8.0 * largest;
+  for (control::FeltRow<double>& row : table) {
+    for (std::size_t i = 0; i < 2; ++i) {
+      row[felt::kick + i] /= unit;
+      row[felt::feedback + i] *= unit;
+      for (std::size_t node = 0; node < felt::nodes; ++node) {
+        double* const numbers = &row[felt::plain + node * felt::per_node];
+        numbers[felt::seen + i] *= unit;
+        numbers[felt::mode_gain + i] /= unit;
+      }
+    }
+  }
+  return unit;
+}
+
+}  // namespace
+
+FeltDesign design_felt(const scene::Scene& scene, const BelievedPlant& plant,
+                       double velocity_m_per_s) {
+  require_mode(plant);
+  require_feeling(scene);
+  const double period_s = 1.0 / scene.drive->frequency_Hz;
+  const double push = scene.drive->max_force_amplitude_N * plant.force_factor * period_s /
+                      (plant.mass_kg * velocity_m_per_s);
+  const Resonator middle{plant.stiffness_N_per_m / plant.mass_kg * period_s * period_s,
+                         plant.damping_N_s_per_m / plant.mass_kg * period_s, push};
+  const Felt felt = felt_of(scene, plant, velocity_m_per_s);
+  FeltDesign design;
+  design.stiffness_range = stiffness_range(middle.stiffness);
+  design.quick = is_quick(mode_model(middle));
+  for (std::size_t i = 0; i < felt::rows; ++i) {
+    const double place = 2.0 * static_cast<double>(i) / (felt::rows - 1) - 1.0;
+    Resonator resonator = middle;
+    resonator.stiffness *= 1.0 + place * design.stiffness_range;
+    design.table[i] = row_of(resonator, felt);
+  }
+  constexpr double linear = 0.5;
+  design.linear = linear / scale_mode(design.table);
+  design.sensor_memory = felt.chain.fade;
+  design.contact_memory = felt.chain.contact_memory;
+  design.backwards = slides_backwards(scene.sliding);
+  design.delay_periods =
+      static_cast<std::uint8_t>(scene.drive->delay_periods + scene.sensor.delay_periods);
+  return design;
+}
+
+}  // namespace sonoglide::configure

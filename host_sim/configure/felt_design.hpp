@@ -1,0 +1,38 @@
+/// The numbers of a loop that feels the plant's natural mode in the friction and damps it.
+#pragma once
+
+#include <cstdint>
+
+#include "firmware/control/felt_table.hpp"
+#include "host_sim/configure/believed_plant.hpp"
+#include "host_sim/scene/scene.hpp"
+
+namespace sonoglide::configure {
+
+/// The base of all velocities of such a loop, per peak vibration velocity at full drive: room for what
+/// the model has wrong and for what a mode adds.
+inline constexpr double felt_room = 4.0;
+
+/// Real numbers, per unit of ControlScales.
+struct FeltDesign {
+  /// Of the believed plant in the middle row; the stiffness of the first row is `stiffness_range`
+  /// lower, that of the last one as much higher. A mode of 1 is eight times the largest kick.
+  control::FeltTable<double> table{};
+  double stiffness_range = 0.0;  ///< relative
+  bool quick = true;             ///< the mode can be quieted, see is_quick()
+  double linear = 0.0;           ///< mode per velocity up to which the friction follows it linearly
+  double sensor_memory = 0.0;    ///< what its low-pass keeps of the past in a period
+  double contact_memory = 0.0;   ///< likewise
+  bool backwards = false;        ///< the direction of sliding
+  std::uint8_t delay_periods = 1;  ///< of drive and sensor
+
+  bool lags() const { return sensor_memory > 0.0 || contact_memory > 0.0; }
+};
+
+/// @param velocity_m_per_s  base of all velocities
+/// @throws ConfigurationError  a plant without a natural mode, a law whose friction does not show the
+///         velocity along the sliding, a sliding in both directions
+FeltDesign design_felt(const scene::Scene& scene, const BelievedPlant& plant,
+                       double velocity_m_per_s);
+
+}  // namespace sonoglide::configure

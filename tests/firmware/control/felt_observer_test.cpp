@@ -1,0 +1,187 @@
+/// The observer of a mode that is felt in one number a period: the mode that it finds, and the natural
+/// frequency against the Cramér–Rao bound. With a plant: tests/acceptance/closed_loop/damping_test.cpp.
+
+#include "firmware/control/felt_observer.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <complex>
+#include <cstddef>
+#include <cstdint>
+#include <random>
+
+#include "scalars.hpp"
+
+namespace sonoglide::control::felt_observer_test {
+namespace {
+
+constexpr double speed = 0.1;
+constexpr double forced = 0.25;  ///< velocity at full drive
+constexpr double amplitude = 0.6;
+constexpr double middle = 1.36;  ///< angle of a period, of the row in the middle
+constexpr double per_place = 0.04;
+constexpr double kick = 0.125;
+constexpr double seen = 0.4;
+
+/// The angle at a place.
+double angle(double place) {
+  return middle + per_place * place;
+}
+
+/// A mode whose first coordinate is felt, and no more.
+template <class S>
+typename FeltObserver<S>::Parameters parameters(double noise, double mode_gain = 0.5,
+                                                double offset_gain = 0.1) {
+  typename FeltObserver<S>::Parameters all{};
+  for (std::size_t i = 0; i < felt::rows; ++i) {
+    const double place = 2.0 * static_cast<double>(i) / (felt::rows - 1) - 1.0;
+    FeltRow<S>& row = all.table[i];
+    row[felt::turn] = scaled<S>(std::cos(angle(place)));
+    row[felt::turn + 1] = scaled<S>(std::sin(angle(place)));
+    row[felt::kick + 1] = scaled<S>(kick);
+    row[felt::forced] = scaled<S>(forced);
+    for (std::size_t node = 0; node < felt::nodes; ++node) {
+      S* const numbers = &row[felt::plain + node * felt::per_node];
+      numbers[felt::seen] = scaled<S>(seen);
+      numbers[felt::mode_gain] = scaled<S>(mode_gain);
+      numbers[felt::offset_gain] = scaled<S>(offset_gain);
+      numbers[felt::noise] = scaled<S>(noise);
+    }
+  }
+  all.linear = {scaled<S>(0.5), 3};
+  return all;
+}
+
+/// What the observer is told of a mode that turns by its own angle.
+template <class S>
+struct Ringing {
+  FeltObserver<S>& observer;
+  double angle;
+  std::complex<double> mode;
+  double before = amplitude;
+
+  void pass(double now, double offset, double noise) {
+    const double change = now - before;
+    mode = mode * std::polar(1.0, angle) + std::complex<double>(0.0, kick * change);
+    observer.pass(scaled<S>(change));
+    const double velocity = forced * now + offset + seen * mode.real() + noise;
+    observer.observe(scaled<S>(velocity), scaled<S>(speed),
+                     {scaled<S>(now), scaled<S>(before), scaled<S>(before)}, scaled<S>(0.5));
+    before = now;
+  }
+};
+
+template <class S>
+class FeltObserverTest : public testing::Test {};
+TYPED_TEST_SUITE(FeltObserverTest, Scalars);
+
+TYPED_TEST(FeltObserverTest, FindsAModeThatRingsAlready) {
+  const auto told = parameters<TypeParam>(0.001);
+  FeltObserver<TypeParam> observer(told);
+  Ringing<TypeParam> ringing{observer, angle(0.0), {0.03, -0.05}};
+  for (int k = 0; k < 60; ++k) {
+    ringing.pass(amplitude, 0.01, 0.0);
+  }
+  EXPECT_NEAR(numeric::to_real(observer.mode().first), ringing.mode.real(), 0.002);
+  EXPECT_NEAR(numeric::to_real(observer.mode().second), ringing.mode.imag(), 0.002);
+}
+
+TYPED_TEST(FeltObserverTest, ForeseesWhatAChangeOfTheAmplitudeKicks) {
+  const auto told = parameters<TypeParam>(0.001);
+  FeltObserver<TypeParam> observer(told);
+  Ringing<TypeParam> ringing{observer, angle(0.0), {}};
+  ringing.pass(0.9, 0.0, 0.0);
+  EXPECT_NEAR(numeric::to_real(observer.mode().second), kick * 0.3, 1e-6);
+  for (int k = 0; k < 10; ++k) {
+    ringing.pass(0.9, 0.0, 0.0);
+    EXPECT_NEAR(numeric::to_real(observer.mode().first), ringing.mode.real(), 1e-5) << k;
+  }
+  EXPECT_NEAR(numeric::to_real(observer.place()), 0.0, 1e-5);
+}
+
+TYPED_TEST(FeltObserverTest, FindsTheNaturalFrequencyOfWhatItKicks) {
+  for (const double place : {-0.8, -0.3, 0.5, 0.9}) {
+    const auto told = parameters<TypeParam>(0.0005);
+    FeltObserver<TypeParam> observer(told);
+    Ringing<TypeParam> ringing{observer, angle(place), {}};
+    for (int k = 0; k < 200; ++k) {
+      ringing.pass(k / 20 % 2 == 0 ? 0.6 : 0.9, 0.0, 0.0);
+    }
+    EXPECT_NEAR(numeric::to_real(observer.place()), place, 0.05);
+  }
+}
+
+/// A quiet mode tells nothing of its frequency, however loud the noise.
+TYPED_TEST(FeltObserverTest, LeavesTheFrequencyOfAQuietModeAlone) {
+  const double noise = 0.002;
+  const auto told = parameters<TypeParam>(noise, 0.1);
+  FeltObserver<TypeParam> observer(told);
+  std::mt19937_64 generator(1);
+  std::normal_distribution<double> normal(0.0, noise);
+  Ringing<TypeParam> ringing{observer, angle(0.0), {}};
+  for (int k = 0; k < 500; ++k) {
+    ringing.pass(amplitude, 0.0, normal(generator));
+  }
+  EXPECT_NEAR(numeric::to_real(observer.place()), 0.0, 0.1);
+}
+
+/// At a velocity below that of the sliding friction shows nothing.
+TYPED_TEST(FeltObserverTest, FeelsNothingBelowTheSpeedOfTheSliding) {
+  const auto told = parameters<TypeParam>(0.001);
+  FeltObserver<TypeParam> observer(told);
+  observer.pass({});
+  const TypeParam weak = scaled<TypeParam>(0.3);  // 0.075 of velocity
+  observer.observe(scaled<TypeParam>(0.3), scaled<TypeParam>(speed), {weak, weak, weak},
+                   scaled<TypeParam>(0.5));
+  EXPECT_EQ(numeric::to_real(observer.mode().first), 0.0);
+}
+
+struct Spread {
+  double bias;
+  double rms;
+};
+
+/// Of the place, after so many periods of a mode that was kicked from rest: the observer knows the kick,
+/// which the bound below does not.
+Spread spread_of_place(double place, double noise, int periods, int runs) {
+  const auto told = parameters<double>(noise, 0.2, 0.02);
+  std::mt19937_64 generator(7);
+  std::normal_distribution<double> normal(0.0, noise);
+  double sum = 0.0;
+  double squares = 0.0;
+  for (int run = 0; run < runs; ++run) {
+    FeltObserver<double> observer(told);
+    Ringing<double> ringing{observer, angle(place), {}};
+    for (int k = 0; k < periods; ++k) {
+      ringing.pass(1.0, 0.0, normal(generator));
+    }
+    const double error = observer.place() - place;
+    sum += error;
+    squares += error * error;
+  }
+  return {sum / runs, std::sqrt(squares / runs)};
+}
+
+/// Least standard deviation of an unbiased estimate of the angle of a sinusoid of unknown amplitude and
+/// phase: var ≥ 12/(η n (n² − 1)), η = A²/2σ² (Rife and Boorstyn 1974), over the angle of a place.
+double bound_of_place(double noise, int periods) {
+  const double heard = seen * kick * (1.0 - amplitude);
+  const double ratio = heard * heard / (2.0 * noise * noise);
+  const double n = periods;
+  return std::sqrt(12.0 / (ratio * n * (n * n - 1.0))) / per_place;
+}
+
+TEST(FeltObserverTest, ItsFrequencyIsNearTheCramerRaoBound) {
+  for (const double noise : {0.0002, 0.0005}) {
+    for (const int periods : {24, 40}) {
+      const Spread spread = spread_of_place(0.3, noise, periods, 400);
+      const double bound = bound_of_place(noise, periods);
+      EXPECT_LT(spread.rms, 1.6 * bound) << noise << ", " << periods;
+      EXPECT_LT(std::abs(spread.bias), 0.6 * bound) << noise << ", " << periods;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace sonoglide::control::felt_observer_test

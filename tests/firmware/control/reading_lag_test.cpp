@@ -1,0 +1,47 @@
+/// The lag of a reading, and what takes it away.
+
+#include "firmware/control/reading_lag.hpp"
+
+#include <gtest/gtest.h>
+
+#include "scalars.hpp"
+
+namespace sonoglide::control::reading_lag_test {
+namespace {
+
+template <class S>
+class LaggingReadingTest : public testing::Test {};
+TYPED_TEST_SUITE(LaggingReadingTest, Scalars);
+
+/// A sensor of first order behind a contact of first order.
+TYPED_TEST(LaggingReadingTest, ShowsWhatTwoLagsFollow) {
+  constexpr double sensor = 0.6;
+  constexpr double contact = 0.3;
+  const typename LaggingReading<TypeParam>::Parameters told{
+      numeric::split(scaled<TypeParam>(0.75)), numeric::split(scaled<TypeParam>(0.75))};
+  auto given = told;
+  given.sensor.exponent += 1;  // 1.5 = 0.6/0.4
+  given.contact = numeric::split(scaled<TypeParam>(contact / (1.0 - contact)));
+  LaggingReading<TypeParam> reading(given);
+  double felt = 0.3;
+  double shown = 0.3;
+  for (int k = 0; k < 60; ++k) {
+    const double ratio = k / 10 % 2 == 0 ? 0.3 : 0.34;
+    felt = contact * felt + (1.0 - contact) * ratio;
+    shown = sensor * shown + (1.0 - sensor) * felt;
+    EXPECT_NEAR(numeric::to_real(reading.sharpened(scaled<TypeParam>(shown))), ratio, 1e-5) << k;
+  }
+}
+
+TYPED_TEST(LaggingReadingTest, TakesItsFirstReadingForSettledAndNoNewOneTooFar) {
+  const typename LaggingReading<TypeParam>::Parameters told{{scaled<TypeParam>(0.5), 4},
+                                                            {scaled<TypeParam>(0.0), 0}};
+  LaggingReading<TypeParam> reading(told);
+  EXPECT_EQ(numeric::to_real(reading.sharpened(scaled<TypeParam>(0.25))), 0.25);
+  EXPECT_EQ(numeric::to_real(reading.sharpened(scaled<TypeParam>(0.375))), 0.625);
+  reading.restart();
+  EXPECT_EQ(numeric::to_real(reading.sharpened(scaled<TypeParam>(0.125))), 0.125);
+}
+
+}  // namespace
+}  // namespace sonoglide::control::reading_lag_test
