@@ -20,7 +20,7 @@ void require_usable(const scene::Scene& scene, Kind kind) {
   using configure::ConfigurationError;
   if (!scene.drive) {
     throw ConfigurationError("drive.frequency_Hz",
-                             "is missing; allowed in an FMU: a scene with a carrier, whose period "
+                             "missing; allowed in an FMU: a scene with a carrier, whose period "
                              "is the step");
   }
   if (!scene.drive->frequency_profile.empty()) {
@@ -34,8 +34,7 @@ void require_usable(const scene::Scene& scene, Kind kind) {
                              "\"damped\", or no such key");
   }
   if (has_controller(kind) && !scene.controller) {
-    throw ConfigurationError("controller",
-                             "is missing; allowed without it: an FMU of the kind plant");
+    throw ConfigurationError("controller", "missing; allowed without it: an FMU of the kind plant");
   }
 }
 

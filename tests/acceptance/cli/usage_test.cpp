@@ -54,7 +54,7 @@ TEST(UsageTest, AnUnknownCommandIsNamed) {
   expect_refused("swep a.toml",
                  "swep is no command; did you mean sweep?\n"
                  "a.toml is no command; allowed: run, pil, configure, ratio, sweep, robust, "
-                 "paper, work-precision, stability, arithmetic, design, identify, schema, "
+                 "paper, work-precision, stability, arithmetic, design, identify, fmu, schema, "
                  "completion");
 }
 
