@@ -38,10 +38,18 @@ inline std::string measured_sweep() {
   return text;
 }
 
+/// A Dahl contact with Kt X/Fc near 2.
+inline std::string measured_friction() {
+  return "velocity_ratio,sliding_velocity_m_per_s,frequency_Hz,friction_ratio\n"
+         "0.1,0.01,26e3,0.0886\n0.3,0.03,26e3,0.271\n0.5,0.05,26e3,0.4899\n"
+         "0.7,0.07,26e3,0.735\n0.9,0.09,26e3,0.9449\n";
+}
+
 class SceneFolder : public ScratchFolder {
  public:
   SceneFolder() {
     write("measured.csv", measured_sweep());
+    write("friction.csv", measured_friction());
     for (const char* file : {"open.toml", "closed.toml", "uncertain.toml"}) {
       write(file, text_of_scene(file));
     }

@@ -174,7 +174,8 @@ LawProblem::Solution LawProblem::solve(const Scatter& scatter, const Eigen::Vect
 /// Of a grid over the shape parameters.
 std::vector<Eigen::VectorXd> LawProblem::starts() const {
   const std::size_t shapes = candidate_.shape.size();
-  const int steps = shapes > 2 ? 4 : 9;
+  // A finer grid of one parameter: its valleys may be narrow.
+  const int steps = shapes > 2 ? 4 : shapes == 2 ? 9 : 28;
   std::vector<Eigen::VectorXd> points = {Eigen::VectorXd::Zero(parameters())};
   for (std::size_t parameter = 0; parameter < shapes; ++parameter) {
     std::vector<Eigen::VectorXd> more;
@@ -200,7 +201,7 @@ LawProblem::Solution LawProblem::solve() const {
   std::sort(tries.begin(), tries.end(), [](const Solution& a, const Solution& b) {
     return a.sum_of_squares < b.sum_of_squares;
   });
-  constexpr std::size_t most_tries = 3;
+  constexpr std::size_t most_tries = 4;
   tries.resize(std::min(tries.size(), most_tries));
   for (Solution& each : tries) {
     const Solution better = solve(white_, each.logs);

@@ -24,6 +24,7 @@ struct Numbers {
   double normal_force_N;
   double mass_kg;
   double stiffness_N_per_m;
+  double damping_N_s_per_m;
   double force_amplitude_N;
   /// Of what is known per amplitude, or per vibration velocity where the carrier is not known.
   double per_m;
@@ -44,7 +45,11 @@ Numbers numbers(const Comparison& comparison, const Reading& row) {
   all.mass_kg = std::max(least_kg, heavier * all.normal_force_N / (omega * row.vibration_m_per_s));
   const double inertia = all.mass_kg * omega * omega;
   all.stiffness_N_per_m = assumed_tuning * inertia;
-  all.force_amplitude_N = row.vibration_m_per_s * (inertia - all.stiffness_N_per_m) / omega;
+  // A tenth of critical damping: the steady vibration is found at once.
+  all.damping_N_s_per_m = 0.2 * std::sqrt(all.stiffness_N_per_m * all.mass_kg);
+  all.force_amplitude_N =
+      row.vibration_m_per_s *
+      std::hypot((inertia - all.stiffness_N_per_m) / omega, all.damping_N_s_per_m);
   all.per_m = has_frequency ? 1.0 : omega;
   return all;
 }
@@ -123,7 +128,8 @@ std::string scene_text(const Comparison& comparison) {
       "# {} as fitted to measured friction, at the reading with a velocity ratio of {:.4g}, a "
       "peak\n"
       "# vibration velocity of {:.4g} m/s. Assumed, because mean friction does not depend on it:\n"
-      "# mass, spring, drive force (together they give that vibration), and the coefficient.\n",
+      "# mass, spring, damping and drive force (together they give that vibration), and the "
+      "coefficient.\n",
       best.law.title, row.velocity_ratio(), row.vibration_m_per_s);
   for (const std::string& each : best.open) {
     text += fmt::format("# Open: {}\n", each);
@@ -131,8 +137,8 @@ std::string scene_text(const Comparison& comparison) {
   text += fmt::format(
       "[plant]\nmass_kg = {:.9g}   # assumed: so heavy that friction does not bend the vibration\n"
       "stiffness_N_per_m = {:.9g}   # assumed: resonance far below the carrier\n"
-      "damping_N_s_per_m = {:.9g}   # assumed: 1 % of critical damping\n\n",
-      all.mass_kg, all.stiffness_N_per_m, 0.02 * std::sqrt(all.stiffness_N_per_m * all.mass_kg));
+      "damping_N_s_per_m = {:.9g}   # assumed: 10 % of critical damping\n\n",
+      all.mass_kg, all.stiffness_N_per_m, all.damping_N_s_per_m);
   text += fmt::format(
       "[friction]\nlaw = \"{}\"\ncoefficient = {:.9g}   # assumed: {}\n"
       "normal_force_N = {:.9g}   # {}\n{}\n",
