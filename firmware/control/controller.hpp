@@ -139,7 +139,7 @@ class Controller {
   /// Makes a copy, or the bytes, of a controller that stood elsewhere its own.
   /// @param parameters  equal to the other's; outlive this
   void settle_at(const Parameters& parameters) {
-    if constexpr (PartsT::Vibration::observed) {
+    if constexpr (observed || felt) {
       vibration_.settle_at(parameters.vibration);
     }
   }

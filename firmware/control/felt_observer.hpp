@@ -67,6 +67,9 @@ class FeltObserver {
     restart();
   }
 
+  /// After a copy from elsewhere. @param parameters  equal ones, as in the constructor
+  void settle_at(const Parameters& parameters) { row_.settle_at(parameters.table); }
+
   /// At rest, and as it was believed at first.
   void restart() {
     mode_ = {};
@@ -134,9 +137,10 @@ class FeltObserver {
 
   /// K (w, u − u*)
   Scalar feedback(const Pair<Scalar>& mode, Scalar error) const {
-    return numeric::lifted(row_[felt::feedback] * mode.first + row_[felt::feedback + 1] * mode.second +
-                      row_[felt::feedback + 2] * error,
-                  feedback_base_);
+    return numeric::lifted(row_[felt::feedback] * mode.first +
+                               row_[felt::feedback + 1] * mode.second +
+                               row_[felt::feedback + 2] * error,
+                           feedback_base_);
   }
 
  private:
@@ -169,10 +173,10 @@ class FeltObserver {
 
   Scalar slope_of_forecast(Scalar last, Scalar before) const {
     const Scalar of_table = numeric::lifted(row_.slope_of_node(felt::seen) * mode_.first +
-                                       row_.slope_of_node(felt::seen + 1) * mode_.second +
-                                       row_.slope_of_node(felt::last_change) * last +
-                                       row_.slope_of_node(felt::change_before) * before,
-                                   seen_base_);
+                                                row_.slope_of_node(felt::seen + 1) * mode_.second +
+                                                row_.slope_of_node(felt::last_change) * last +
+                                                row_.slope_of_node(felt::change_before) * before,
+                                            seen_base_);
     return of_table + seen(mode_slope_, Scalar{}, Scalar{}) + offset_slope_;
   }
 

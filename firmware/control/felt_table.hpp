@@ -56,6 +56,9 @@ class FeltPlace {
   /// @param table  stays where it is: it outlives this
   explicit FeltPlace(const FeltTable<Scalar>& table) : table_(&table) {}
 
+  /// After a copy from elsewhere. @param table  an equal one, as in the constructor
+  void settle_at(const FeltTable<Scalar>& table) { table_ = &table; }
+
   /// @param place  from -1 at the first row to 1 at the last
   void go(Scalar place) {
     constexpr int shift = 32 - felt::row_bits;

@@ -62,6 +62,9 @@ class FeltVibration {
         backwards_(parameters.backwards),
         delay_(parameters.delay) {}
 
+  /// See Controller::settle_at.
+  void settle_at(const Parameters& parameters) { observer_.settle_at(parameters.observer); }
+
   void restart() {
     observer_.restart();
     reading_.restart();
