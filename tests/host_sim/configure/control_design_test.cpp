@@ -360,7 +360,7 @@ TEST(ControlDesignTest, AFeltModeNeedsALongitudinalVibrationAndOneDirection) {
   felt.controller->vibration = scene::VibrationControl::damped;
   const ControlDesign design = design_control(felt);
   ASSERT_TRUE(design.feeling);
-  EXPECT_FALSE(design.shaped);
+  EXPECT_FALSE(design.notch);
   EXPECT_FALSE(design.damping);
   scene::Scene turning = felt;
   turning.sliding.profile = {{0.0, 0.02}, {1.0, -0.02}};
