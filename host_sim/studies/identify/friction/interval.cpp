@@ -62,7 +62,8 @@ class Profile {
     start(parameter) = log;
     const LawProblem::Solution solution = problem_.solve(*branch.scatter, start, parameter);
     branch.last = solution.logs;
-    const double variance = branch.best.sum_of_squares / student_.degrees_of_freedom();
+    const double variance = std::max(branch.best.sum_of_squares / student_.degrees_of_freedom(),
+                                     problem_.stated_variance());
     const double more = std::max(0.0, solution.sum_of_squares - branch.best.sum_of_squares);
     const double t = std::sqrt(more / std::max(variance, 1e-300));
     return log < branch.best.logs(parameter) ? -t : t;

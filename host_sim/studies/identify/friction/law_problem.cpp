@@ -38,7 +38,9 @@ LawProblem::LawProblem(const Readings& readings, const Candidate& candidate)
     weights_(i) = readings.have_standard_errors ? 1.0 / row.standard_error : 1.0;
     inverses += weights_(i);
   }
-  weights_ *= static_cast<double>(weights_.size()) / inverses;
+  const double mean = inverses / static_cast<double>(weights_.size());
+  weights_ /= mean;
+  stated_variance_ = readings.have_standard_errors ? 1.0 / (mean * mean) : 0.0;
   if (readings.are_forces) {
     const double largest = std::log(measured_.cwiseAbs().maxCoeff());
     ranges_.push_back({largest - 7.0, largest + 7.0});

@@ -40,6 +40,9 @@ class LawProblem {
   Eigen::VectorXd residuals(const Eigen::VectorXd& logs) const;
   Eigen::MatrixXd jacobian(const Eigen::VectorXd& logs) const;
 
+  /// Variance that the stated standard errors give residuals(); 0 without any.
+  double stated_variance() const { return stated_variance_; }
+
   struct Solution {
     Eigen::VectorXd logs;
     double sum_of_squares;  ///< of whitened residuals
@@ -69,6 +72,7 @@ class LawProblem {
   std::vector<Range> ranges_;
   Eigen::VectorXd measured_;
   Eigen::VectorXd weights_;
+  double stated_variance_ = 0.0;
   Scatter white_;
 };
 

@@ -149,33 +149,33 @@ output::Section residual_section(const Comparison& comparison) {
 }
 
 output::Table law_table(const Comparison& comparison) {
-  output::Table table{
-      "Laws, the best first",
-      {"Law", "Vibration", "Parameters", "AICc, difference", "Residual rms", "Misfit",
-       "Runs, probability", "Correlation", "Chi square, probability", "Verdict"},
-      {}};
+  output::Table table{"Laws, the best first",
+                      {"Law", "Verdict", "Vibration", "Parameters", "AICc, difference",
+                       "Residual rms", "Misfit", "Runs, probability", "Chi square, probability"},
+                      {}};
   const auto cell = [](double value) {
     return std::isfinite(value) ? fmt::format("{:.3g}", value) : std::string("-");
   };
   for (const LawFit& each : comparison.laws) {
-    table.rows.push_back(
-        {each.law.title, each.law.direction, fmt::format("{}", each.parameter_count()),
-         cell(comparison.difference(each)), cell(each.residual_rms), cell(each.misfit),
-         cell(each.runs_probability), cell(each.autocorrelation), cell(each.chi_square_probability),
-         verdict(comparison, each)});
+    table.rows.push_back({each.law.title, verdict(comparison, each), each.law.direction,
+                          fmt::format("{}", each.parameter_count()),
+                          cell(comparison.difference(each)), cell(each.residual_rms),
+                          cell(each.misfit), cell(each.runs_probability),
+                          cell(each.chi_square_probability)});
   }
   return table;
 }
 
 output::Table parameter_table(const Comparison& comparison) {
   output::Table table{"Parameters", {"Law", "Parameter", "Value", "95 % from", "to"}, {}};
-  const auto cell = [](const Estimate& each, double value, const char* open) {
-    return std::isfinite(value) ? shown(each.name, value) : std::string(open);
+  const auto cell = [](const Estimate& each, double value, const char* otherwise) {
+    return std::isfinite(value) ? shown(each.name, value) : std::string(otherwise);
   };
   for (const LawFit& law : comparison.laws) {
+    const char* no_end = comparison.is_possible(law) ? "open" : "-";
     for (const Estimate& each : law.parameters) {
       table.rows.push_back({law.law.title, each.name, cell(each, each.value, "at its bound"),
-                            cell(each, each.low_95, "open"), cell(each, each.high_95, "open")});
+                            cell(each, each.low_95, no_end), cell(each, each.high_95, no_end)});
     }
   }
   return table;
@@ -186,7 +186,8 @@ output::Section open_section(const Comparison& comparison) {
   section.title = "What the readings cannot tell";
   section.text =
       "An open end means that the residuals hardly grow as far as that parameter may go. A value "
-      "at its bound is the law's way to become a simpler one.";
+      "at its bound is the law's way to become a simpler one. Laws that are not possible get no "
+      "intervals.";
   output::Table table{"", {}, {}};
   for (const std::string& each : comparison.cannot_tell) {
     table.rows.push_back({each});
