@@ -60,6 +60,6 @@ sonoglide_feature_image(no_feedback ${on_a_multiple})
 sonoglide_feature_image(no_calibration "calibration_s = 0.5e-3" "calibration_s = 0.0")
 sonoglide_feature_image(relearning "[controller]" "[controller]\nrelearn_every_s = 10e-3")
 sonoglide_feature_image(no_slew_limit "max_force_slew_N_per_s = 10e6" "")
-set(felt "max_force_slew_N_per_s = 10e6" "" "[controller]" "[controller]\nvibration = \"damped\"")
-sonoglide_feature_image(felt_mode ${felt})
+sonoglide_feature_image(felt_mode "max_force_slew_N_per_s = 10e6" ""
+  "[controller]" "[controller]\nvibration = \"damped\"")
 sonoglide_feature_image(coulomb "\"dahl\"" "\"coulomb\"" "contact_stiffness_N_per_m = 0.056e6" "")
