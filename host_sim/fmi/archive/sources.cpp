@@ -102,13 +102,13 @@ std::vector<SourceText> engine_sources(const fs::path& tree) {
 
 std::string build_description(const std::vector<SourceText>& sources,
                               const std::string& identifier) {
-  using Tree = boost::property_tree::ptree;
+  using Node = boost::property_tree::ptree;
   const auto named = [](const std::string& name) {
-    Tree element;
+    Node element;
     element.put("<xmlattr>.name", name);
     return element;
   };
-  Tree set;
+  Node set;
   set.put("<xmlattr>.language", "C++17");
   set.put("<xmlattr>.compiler", "gcc");
   set.put("<xmlattr>.compilerOptions", "-O3 -ffp-contract=off -fPIC -fvisibility=hidden");
@@ -117,18 +117,18 @@ std::string build_description(const std::vector<SourceText>& sources,
       set.add_child("SourceFile", named(source.name));
     }
   }
-  Tree header_only = named("TOML_HEADER_ONLY");
+  Node header_only = named("TOML_HEADER_ONLY");
   header_only.put("<xmlattr>.value", "0");
   set.add_child("PreprocessorDefinition", header_only);
   set.add_child("IncludeDirectory", named("."));
   set.add_child("IncludeDirectory", named("/usr/include/eigen3"));
-  Tree configuration;
+  Node configuration;
   configuration.put("<xmlattr>.modelIdentifier", identifier);
   configuration.put("<xmlattr>.description",
                     "Headers of fmt 9, toml++ 3.3, nlohmann-json 3.11 and Eigen 3.4 are needed: in "
                     "Debian 12 libfmt-dev, libtomlplusplus-dev, nlohmann-json3-dev, libeigen3-dev");
   configuration.add_child("SourceFileSet", set);
-  Tree root;
+  Node root;
   root.put("fmiBuildDescription.<xmlattr>.fmiVersion", "3.0");
   root.get_child("fmiBuildDescription").add_child("BuildConfiguration", configuration);
   std::ostringstream text;

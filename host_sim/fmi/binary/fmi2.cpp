@@ -53,7 +53,7 @@ bool is_real(const Variable& variable) {
 
 double real_of(const Value& value) {
   const float* single = std::get_if<float>(&value);
-  return single != nullptr ? double{*single} : std::get<double>(value);
+  return single != nullptr ? static_cast<double>(*single) : std::get<double>(value);
 }
 
 int digit_of(char digit) {

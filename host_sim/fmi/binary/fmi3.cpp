@@ -74,7 +74,7 @@ fmi3Status set(fmi3Instance instance, const char* name, const fmi3ValueReference
     require_as_many(n, value_count);
     for (std::size_t i = 0; i < n; ++i) {
       require_type(each.variable(references[i]), type_of<Number>(), name);
-      each.set(references[i], values[i]);
+      each.set(references[i], static_cast<double>(values[i]));
     }
   });
 }

@@ -82,7 +82,7 @@ const std::vector<BrokenScene> broken_scenes = {
     {"unknown_table_far", open_loop, "[friction]", "[weather]",
      "4:2: weather: unknown table; allowed: plant, friction, sliding, transducer, drive, solver, "
      "run, "
-     "controller, sensor, model_error"},
+     "controller, sensor, model_error, tolerance, true_values"},
     {"first_unknown_key_in_file_order", open_loop, "coefficient = 0.1",
      "zeta = 1\nalpha = 2\ncoefficient = 0.1",
      "6:1: friction.zeta: unknown key; allowed: law, coefficient, coefficient_profile, "

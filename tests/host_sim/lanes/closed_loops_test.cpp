@@ -253,7 +253,10 @@ TEST(RunsInLanes, OnlyWhatTheLanesAreMadeFor) {
   EXPECT_TRUE(refused([](Scene& s) { s.plant.stiffness_profile = {{0.0, 133e6}, {1e-3, 130e6}}; }));
   EXPECT_TRUE(refused([](Scene& s) { s.plant.stiffness_N_per_m *= 30.0; }));
   EXPECT_TRUE(refused([](Scene& s) { s.run.duration_s = 0.5 * tests::period_s; }));
-  EXPECT_TRUE(refused([](Scene& s) { s.controller->vibration = scene::VibrationControl::damped; }));
+  EXPECT_TRUE(refused([](Scene& s) {
+    s.controller->vibration = scene::VibrationControl::damped;
+    s.sensor.vibration = scene::VibrationSensor::velocity;
+  }));
 }
 
 }  // namespace

@@ -55,6 +55,7 @@ TEST(StepMetricsTest, ALaterExcursionPutsSettlingOff) {
 /// A resonant loop that vibrates at 0.1 m/s, wanted and reached but for the first periods.
 std::vector<loop::Period> resonant_run(Scene& scene, double ratio) {
   scene.controller->vibration = scene::VibrationControl::resonant;
+  scene.sensor.vibration = scene::VibrationSensor::velocity;
   std::vector<loop::Period> periods = made_up_run(scene, [ratio](int) { return ratio; });
   for (std::size_t k = 0; k < periods.size(); ++k) {
     periods[k].wanted_vibration_m_per_s = 0.1;
