@@ -269,7 +269,9 @@ TEST(ImageTest, LeavesOnATrapOfARiscV) {
       emulate("riscv32-virt", image("riscv32-virt", "target_step_q31"));
   command.insert(command.end(), {"-cpu", "rv32,m=false"});  // cannot multiply
   ImageProcess board(command, 60s);
-  const hal::lockstep::SampleFrame frame = hal::lockstep::encode(0, hal::Sample{});
+  // The answer to a sample that is not fresh takes no product.
+  const hal::lockstep::SampleFrame frame =
+      hal::lockstep::encode(0, hal::Sample{1 << 29, 1 << 26, false, true});
   board.send(frame.data(), frame.size());
   EXPECT_EQ(board.shut_down(), processor_fault);
 }
