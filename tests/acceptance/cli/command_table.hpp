@@ -124,7 +124,7 @@ inline const std::vector<Command> command_table = {
      {"identify.json", "scene.toml"}},
     {"fmu",
      "closed.toml",
-     "--kind loop --out closed.fmu",
+     "--kind loop --out out/closed.fmu",
      {"--set", "--kind", "--fmi", "--out", "--quiet"},
      "",
      {},

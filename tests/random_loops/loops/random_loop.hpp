@@ -111,9 +111,9 @@ Cause cause_of(const RandomLoop& loop);
 /// What a loop knows of its vibration.
 enum class Vibration {
   unseen,  ///< the drive is fed forward
-  /// controller.vibration = "damped", seen by a pick-up of 14 bits; q31 in place of q15
+  felt,    ///< controller.vibration = "damped", felt in the friction; q31 in place of q15
+  /// The same, seen by a pick-up of 14 bits.
   damped,
-  felt,          ///< damped as it is felt in the friction, without a sensor of its own
   damped_alone,  ///< the same without a force sensor
 };
 

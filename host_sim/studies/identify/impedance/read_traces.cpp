@@ -161,13 +161,13 @@ Sweep read_traces(const scene_file::Source& source) {
   sweep.has_phase = two || has_imaginary_parts(a);
   const auto [first, second] = two ? pair_of(found, sweep.warnings)
                                    : std::pair(a.named.value_or(NamedColumn()), NamedColumn());
-  const double degrees = two_pi / 360.0;
+  const double radians = two_pi / 360.0;
   for (std::size_t i = 0; i < a.values.size(); ++i) {
     Complex value = a.values[i];
     if (two) {
       const double other = found.traces[1].values[i].real();
       value = first.role == Role::real ? Complex(value.real(), other)
-                                       : std::polar(std::abs(value.real()), other * degrees);
+                                       : std::polar(std::abs(value.real()), other * radians);
     }
     const Complex admittance_S = first.is_admittance ? value : 1.0 / value;
     if (!std::isfinite(std::abs(admittance_S)) || std::abs(admittance_S) == 0.0) {
