@@ -63,7 +63,9 @@ class FeltPlace {
   void go(Scalar place) {
     constexpr int shift = 32 - felt::row_bits;
     const std::int32_t code = numeric::to_code(place);
-    row_ = static_cast<std::size_t>((code >> shift) + (1 << (felt::row_bits - 1)));
+    constexpr int middle = 1 << (felt::row_bits - 1);
+    const int below = (code >> shift) + middle;
+    row_ = static_cast<std::size_t>(below);
     along_ = fraction(code, felt::row_bits);
     for (std::size_t i = 0; i < felt::plain; ++i) {
       const Scalar low = (*table_)[row_][i];

@@ -52,11 +52,11 @@ void require_feeling(const scene::Scene& scene) {
 
 /// What is the same for every place in the table.
 struct Felt {
-  double speed;     ///< fastest |Vt|, per unit
-  double lambda;    ///< Kt Vt/(ω Fc); infinite for Coulomb friction
-  double sign;      ///< of the vibration in the velocity along the sliding
-  double noise;     ///< of a sharpened ratio, rms
-  double doubtful;  ///< by how much sharpening lifts what the model has wrong
+  double speed = 0.0;     ///< fastest |Vt|, per unit
+  double lambda = 0.0;    ///< Kt Vt/(ω Fc); infinite for Coulomb friction
+  double sign = 1.0;      ///< of the vibration in the velocity along the sliding
+  double noise = 0.0;     ///< of a sharpened ratio, rms
+  double doubtful = 0.0;  ///< by how much sharpening lifts what the model has wrong
   ReadingChain chain;
 
   VibratedContact contact(double ratio, double phase) const {
@@ -122,7 +122,7 @@ struct Place {
   ModeModel model;
   Complex rate;          ///< of its free motion, per period
   Eigen::Matrix2d back;  ///< the mode a period before
-  double phase;          ///< of the steady vibration, along the sliding
+  double phase = 0.0;    ///< of the steady vibration, along the sliding
 };
 
 Place place_of(const Resonator& resonator, double sign) {

@@ -45,7 +45,7 @@ struct ReadingChain {
 /// phase); these add up to 1.
 struct ReadingResponse {
   std::array<std::complex<double>, 3> mode;
-  std::array<double, 3> forced;
+  std::array<double, 3> forced{};
 };
 
 /// @param rate  λ, per carrier period

@@ -193,11 +193,12 @@ void add_parameters(List& list, const scene::Scene& scene, Kind kind) {
       if (!is_parameter(table, key, kind)) {
         continue;
       }
+      const std::string name = fmt::format("{}.{}", table, key);
       if (value.is_number_float()) {
-        add(table + "." + key, key, value.template get<double>());
+        add(name, key, value.template get<double>());
       } else if (value.is_number_integer() &&
                  value.template get<std::uint64_t>() <= std::numeric_limits<std::int32_t>::max()) {
-        add(table + "." + key, key, value.template get<std::int32_t>());
+        add(name, key, value.template get<std::int32_t>());
       }
     }
   }

@@ -154,7 +154,7 @@ void ControlRun::account_for(const Drive& drive, double time_s) {
     record_.faults.push_back({time_s, fault});
   }
   fault_ = fault;
-  answer_ = drive;
+  answer_ = static_cast<const hal::Drive&>(drive);
   hash_.add(drive);
   ++record_.commands;
   const auto limit = static_cast<control::Limit>(drive.limit);

@@ -55,7 +55,7 @@ struct ValueSchema {
     if (spread.whole) {
       bound["type"] = "integer";
     }
-    const ordered_json range = single_key(
+    ordered_json range = single_key(
         "range", {{"type", "array"}, {"minItems", 2}, {"maxItems", 2}, {"items", bound}});
     if (spread.whole) {
       return range;

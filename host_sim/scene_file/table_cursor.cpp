@@ -425,6 +425,7 @@ std::vector<std::string> TableCursor::given_keys() const {
   std::sort(items.begin(), items.end(),
             [](const auto* a, const auto* b) { return earlier(a->second, b->second); });
   std::vector<std::string> keys;
+  keys.reserve(items.size());
   for (const auto* item : items) {
     keys.push_back(item->first);
   }

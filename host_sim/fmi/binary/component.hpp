@@ -29,7 +29,7 @@ class Component {
  public:
   /// @return null, after a message, where there can be no instance
   static std::unique_ptr<Component> create(const std::filesystem::path& resources,
-                                           std::string_view token, Log log) noexcept {
+                                           std::string_view token, const Log& log) noexcept {
     const OwnFloatingPoint own;
     try {
       return std::make_unique<Component>(read_resources(resources), token, log);

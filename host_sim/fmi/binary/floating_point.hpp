@@ -19,7 +19,7 @@ class OwnFloatingPoint {
   OwnFloatingPoint& operator=(const OwnFloatingPoint&) = delete;
 
  private:
-  std::fenv_t kept_;
+  std::fenv_t kept_{};
 };
 
 }  // namespace sonoglide::fmi

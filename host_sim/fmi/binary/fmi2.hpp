@@ -19,6 +19,7 @@ using fmi2Char = char;
 using fmi2String = const fmi2Char*;
 using fmi2Byte = char;
 
+// NOLINTBEGIN(readability-identifier-naming): the names are those of the specification.
 enum fmi2Status { fmi2OK, fmi2Warning, fmi2Discard, fmi2Error, fmi2Fatal, fmi2Pending };
 enum fmi2Type { fmi2ModelExchange, fmi2CoSimulation };
 enum fmi2StatusKind { fmi2DoStepStatus, fmi2PendingStatus, fmi2LastSuccessfulTime, fmi2Terminated };
@@ -115,3 +116,4 @@ SONOGLIDE_FMI fmi2Status fmi2GetBooleanStatus(fmi2Component component, fmi2Statu
                                               fmi2Boolean* value);
 SONOGLIDE_FMI fmi2Status fmi2GetStringStatus(fmi2Component component, fmi2StatusKind kind,
                                              fmi2String* value);
+// NOLINTEND(readability-identifier-naming)

@@ -29,6 +29,7 @@ using fmi3Byte = std::uint8_t;
 using fmi3Binary = const fmi3Byte*;
 using fmi3Clock = bool;
 
+// NOLINTBEGIN(readability-identifier-naming): the names are those of the specification.
 enum fmi3Status { fmi3OK, fmi3Warning, fmi3Discard, fmi3Error, fmi3Fatal };
 enum fmi3DependencyKind {
   fmi3Independent,
@@ -199,3 +200,4 @@ SONOGLIDE_FMI fmi3Status fmi3DoStep(fmi3Instance instance, fmi3Float64 point, fm
                                     fmi3Boolean no_state_prior, fmi3Boolean* event_needed,
                                     fmi3Boolean* terminate, fmi3Boolean* early_return,
                                     fmi3Float64* last_time);
+// NOLINTEND(readability-identifier-naming)

@@ -14,8 +14,8 @@ namespace sonoglide::robust {
 
 struct Outcome {
   Study study;
-  std::size_t found_finished;  ///< runs of an earlier, interrupted study
-  double wall_s;               ///< to compute those that were left
+  std::size_t found_finished = 0;  ///< runs of an earlier, interrupted study
+  double wall_s = 0.0;             ///< to compute those that were left
 };
 
 /// Checks every sample's plant, computes what the journal in the folder does not hold yet, and

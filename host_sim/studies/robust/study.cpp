@@ -232,7 +232,7 @@ PlantRow Solver::run(std::size_t place, const Factors& factors) {
   if (known != known_.end()) {
     return known->second;
   }
-  const PlantRow row = run_plants({task_.plant(factors)}, task_.design()).front();
+  PlantRow row = run_plants({task_.plant(factors)}, task_.design()).front();
   hand_in(place, row);
   return row;
 }

@@ -47,6 +47,7 @@ std::vector<NameCount> count_names(const Study& study,
     }
   }
   std::vector<NameCount> all;
+  all.reserve(counts.size());
   for (const auto& [name, count] : counts) {
     all.push_back({name, count});
   }

@@ -44,10 +44,10 @@ struct Candidate {
   std::string law;        ///< as a scene names it
   std::string title;      ///< as a person does
   std::string direction;  ///< of the vibration, seen from the sliding: along, across, normal
-  int elements;           ///< Iwan: springs; else 0
+  int elements = 0;       ///< Iwan: springs; else 0
   std::vector<ShapeParameter> shape;
   MeanFriction (*mean)(const Candidate& self, const Reading& row,
-                       const std::vector<double>& values);
+                       const std::vector<double>& values) = nullptr;
 };
 
 /// Every law that has a mean friction, in the order of the report.

@@ -20,13 +20,13 @@ struct LawFit {
   std::vector<Estimate> parameters;
   std::vector<double> residuals;  ///< measured less fitted friction, of the readings' kind
   /// Both over the friction limit: as friction ratios.
-  double residual_rms;
-  double misfit;
-  double akaike;            ///< corrected_akaike(); infinite with too few readings
-  double runs_probability;  ///< of so few runs of residuals of one sign, were they white
-  double autocorrelation;   ///< of neighbouring residuals
+  double residual_rms = 0.0;
+  double misfit = 0.0;
+  double akaike = 0.0;            ///< corrected_akaike(); infinite with too few readings
+  double runs_probability = 0.0;  ///< of so few runs of residuals of one sign, were they white
+  double autocorrelation = 0.0;   ///< of neighbouring residuals
   /// Of residuals so large, were the stated standard errors all; not a number without them.
-  double chi_square_probability;
+  double chi_square_probability = 0.0;
   std::vector<std::string> open;  ///< what of this law the data leave open, each a sentence
 
   Eigen::Index parameter_count() const { return logs.size(); }

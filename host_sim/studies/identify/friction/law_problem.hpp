@@ -45,7 +45,7 @@ class LawProblem {
 
   struct Solution {
     Eigen::VectorXd logs;
-    double sum_of_squares;  ///< of whitened residuals
+    double sum_of_squares = 0.0;  ///< of whitened residuals
   };
 
   /// For white scatter: the best of a coarse grid, made better.

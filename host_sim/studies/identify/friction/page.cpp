@@ -17,7 +17,7 @@ constexpr std::size_t most_groups = 6;
 
 /// Readings that share one of the two velocities, the vibration's or the sliding's.
 struct Group {
-  double held;
+  double held = 0.0;
   std::vector<Reading> rows;
 };
 
@@ -39,6 +39,7 @@ std::vector<Group> grouped(const Readings& readings, double Reading::*held) {
     group.rows.push_back(row);
   }
   std::vector<Group> groups;
+  groups.reserve(by_value.size());
   for (auto& [text, group] : by_value) {
     groups.push_back(std::move(group));
   }

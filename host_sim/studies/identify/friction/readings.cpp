@@ -40,6 +40,7 @@ constexpr std::array known = {
 
 std::vector<std::string_view> known_names() {
   std::vector<std::string_view> names;
+  names.reserve(std::size(known));
   for (const Known& each : known) {
     names.push_back(each.name);
   }

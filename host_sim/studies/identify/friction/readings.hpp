@@ -23,9 +23,9 @@ struct Reading {
 
 struct Readings {
   std::vector<Reading> rows;  ///< by rising velocity ratio, then sliding velocity
-  bool are_forces;            ///< in N; otherwise ratios to the undriven friction
-  bool have_frequency;
-  bool have_standard_errors;
+  bool are_forces = false;    ///< in N; otherwise ratios to the undriven friction
+  bool have_frequency = false;
+  bool have_standard_errors = false;
   std::vector<std::string> warnings;  ///< each a sentence
 };
 

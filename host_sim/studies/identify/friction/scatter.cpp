@@ -42,6 +42,8 @@ Scatter::Scatter(const Readings& readings, double share, double length, double p
   log_determinant_ = 2.0 * factor_.diagonal().array().log().sum();
 }
 
+// By value: a reference to the caller's matrix, as Eigen has it.
+// NOLINTNEXTLINE(performance-unnecessary-value-param)
 void Scatter::whiten(Eigen::Ref<Eigen::MatrixXd> columns) const {
   if (share_ > 0.0) {
     factor_.triangularView<Eigen::Lower>().solveInPlace(columns);

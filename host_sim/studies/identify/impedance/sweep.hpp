@@ -13,7 +13,7 @@ struct Sweep {
   std::string format;  ///< what the file was taken for, in words
   std::vector<double> frequency_Hz;
   std::vector<std::complex<double>> admittance_S;
-  bool has_phase;
+  bool has_phase = false;
   std::vector<std::string> warnings;  ///< what was assumed, each a sentence
 };
 

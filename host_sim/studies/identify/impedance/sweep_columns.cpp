@@ -77,8 +77,8 @@ constexpr UnitName impedance_units[] = {{"ohm", 1.0}, {"ohms", 1.0}, {"kohm", 1e
 constexpr UnitName admittance_units[] = {{"s", 1.0},   {"siemens", 1.0}, {"ms", 1e-3}, {"us", 1e-6},
                                          {"ns", 1e-9}, {"mho", 1.0},     {"ks", 1e3}};
 
-template <std::size_t count>
-bool take_unit(const std::string& word, const UnitName (&units)[count], NamedColumn& column) {
+template <std::size_t Count>
+bool take_unit(const std::string& word, const UnitName (&units)[Count], NamedColumn& column) {
   for (const UnitName& each : units) {
     if (lower(word) == each.name) {
       column.scale = each.scale;
