@@ -124,7 +124,7 @@ fmi2Component fmi2Instantiate(fmi2String name, fmi2Type type, fmi2String guid,
     };
   }
   auto component = Component::create(path_of(resource_location == nullptr ? "" : resource_location),
-                                     guid == nullptr ? "" : guid, std::move(log));
+                                     guid == nullptr ? "" : guid, log);
   return component == nullptr ? nullptr : new Component2{std::move(component)};
 }
 

@@ -139,7 +139,7 @@ fmi3Instance fmi3InstantiateCoSimulation(fmi3String /*name*/, fmi3String token,
     told(Status::warning, "logStatusWarning", "this FMU has no event mode");
   }
   auto component = Component::create(resource_path == nullptr ? "" : resource_path,
-                                     token == nullptr ? "" : token, std::move(told));
+                                     token == nullptr ? "" : token, told);
   if (component == nullptr) {
     return nullptr;
   }
