@@ -570,7 +570,7 @@ class Controller {
     if (pausing()) {
       state_ = State::relearning;
     }
-    return {amplitude, commanded_, state_, limit, fault_, settling};
+    return {amplitude, felt ? Scalar{} : commanded_, state_, limit, fault_, settling};
   }
 
   Scalar configured_friction_;

@@ -60,9 +60,11 @@ enum class Fault : std::uint8_t {
 
 template <class Scalar>
 struct DriveCommand {
-  Scalar amplitude;        ///< base: the actuator's limit; in [0, 1]
-  Scalar commanded_ratio;  ///< friction ratio, target and feedback together, base 2; over the
-                           ///< target it is believed over true friction force, once settled
+  Scalar amplitude;  ///< base: the actuator's limit; in [0, 1]
+  /// Friction ratio, target and feedback together, base 2; over the target it is believed over true
+  /// friction force, once settled. 0 from a controller that feels the vibration in the friction: it
+  /// sees no more than whether the two forces agree.
+  Scalar commanded_ratio;
   State state;
   Limit limit;
   Fault fault;

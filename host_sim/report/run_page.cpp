@@ -99,6 +99,11 @@ std::vector<std::string> warnings(const scene::Scene& scene, const loop::RunResu
   if (!result.control) {
     return all;
   }
+  if (!scene.tolerances.empty()) {
+    all.emplace_back(
+        "This is one plant: [tolerance] varies nothing here. The command robust runs the loop over "
+        "the plants that it allows.");
+  }
   const bool cosine = scene.drive->waveform == scene::Waveform::cosine;
   if (!scene::has_own_map(scene.friction.law) || !cosine) {
     all.push_back(fmt::format(

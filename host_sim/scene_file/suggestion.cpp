@@ -40,6 +40,17 @@ const KeyTable* find_owner(std::string_view key) {
   return nullptr;
 }
 
+/// Whether this is `table.key` of a scene, as the tables name their keys whose keys are those of
+/// others.
+bool is_dotted_key(std::string_view name) {
+  const std::size_t dot = name.find('.');
+  if (dot == std::string_view::npos) {
+    return false;
+  }
+  const KeyTable* table = find_table(name.substr(0, dot));
+  return table != nullptr && find_key(*table, name.substr(dot + 1)) != nullptr;
+}
+
 }  // namespace
 
 std::size_t edit_distance(std::string_view a, std::string_view b) {
@@ -98,6 +109,10 @@ std::string unknown_table(std::string_view name) {
 
 std::string unknown_key(const KeyTable& table, std::string_view key) {
   const std::vector<std::string_view> names = names_of(table.keys);
+  if (is_dotted_key(key)) {
+    return fmt::format("is no number that the true plant may have otherwise; allowed: {}",
+                       fmt::join(names, ", "));
+  }
   if (const auto nearest = nearest_name(key, names)) {
     return fmt::format("unknown key; did you mean {}?", *nearest);
   }

@@ -1,6 +1,7 @@
 /// [tolerance] and [true_values]: what they give, and how they fail.
 #include "host_sim/scene_file/tolerances.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <string>
@@ -131,7 +132,14 @@ TEST(ToleranceTest, IsOfANumberThatTheSceneHas) {
   EXPECT_EQ(tolerance_error("\"plant.stiffnes_N_per_m\" = 0.1"),
             "s.toml:22:1: tolerance.plant.stiffnes_N_per_m: unknown key; did you mean "
             "plant.stiffness_N_per_m?");
-  EXPECT_NE(tolerance_error("\"friction.law\" = 0.1").find(": unknown key; "), std::string::npos);
+  for (const char* fixed : {"friction.law", "sensor.force_full_scale_N", "controller.arithmetic"}) {
+    EXPECT_NE(tolerance_error(fmt::format("\"{}\" = 0.1", fixed))
+                  .find(fmt::format("tolerance.{}: is no number that the true plant may have "
+                                    "otherwise; allowed: plant.mass_kg, ",
+                                    fixed)),
+              std::string::npos)
+        << fixed;
+  }
   EXPECT_NE(
       tolerance_error("plant.mass_kg = 0.1").find("s.toml:22:1: tolerance.plant: unknown key"),
       std::string::npos);
