@@ -185,5 +185,48 @@ TEST(Documents, TheQuickCommandsOfTheReferenceRun) {
   EXPECT_GT(ran, 3);
 }
 
+/// A program that reads our files, and a line in its language that says what it read.
+struct Reader {
+  std::string language;
+  std::string program;  ///< takes its commands as the last word
+  std::string is_there;
+  std::string question;
+  std::string answer;
+};
+
+const Reader readers[] = {
+    {"python", shell_word(SONOGLIDE_PYTHON) + " -c",
+     shell_word(SONOGLIDE_PYTHON) + " -c 'import pandas'",
+     "print(len(periods), periods['friction_ratio'].dtype)", "360 float64"},
+    // Octave has the same function.
+    {"matlab", "octave-cli --eval", "command -v octave-cli",
+     "printf('%d %s', size(trace.data, 2), trace.colheaders{3})", "4 friction_force_N"},
+    {"sql",
+     "NODE_PATH=" + shell_word(SONOGLIDE_NODE_MODULES) + " node " + shell_word(SONOGLIDE_DUCKDB),
+     "test -d " + shell_word(SONOGLIDE_NODE_MODULES) + "/@duckdb",
+     "; SELECT count(*), typeof(any_value(friction_ratio)) FROM 'periods.parquet'", "360 DOUBLE"},
+};
+
+class ReadersOfCsv : public testing::TestWithParam<Reader> {};
+INSTANTIATE_TEST_SUITE_P(Documents, ReadersOfCsv, testing::ValuesIn(readers),
+                         [](const auto& reader) { return reader.param.language; });
+
+TEST_P(ReadersOfCsv, ReadWithTheLineOfTheReference) {
+  const Reader& reader = GetParam();
+  const BuiltRepository repository;
+  if (repository.run(reader.is_there).exit_code != 0) {
+    GTEST_SKIP() << "not there: " << reader.is_there;
+  }
+  std::string commands;
+  for (const Block& block : blocks_of(source / "host_sim/README.md")) {
+    commands += block.language == reader.language ? joined(block.lines) : "";
+  }
+  const Outcome outcome =
+      repository.run("sonoglide run --quiet host_sim/scenes/target_step.toml\n" + reader.program +
+                     " " + shell_word(commands + reader.question) + "\n");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.out;
+  EXPECT_NE(outcome.out.find(reader.answer), std::string::npos) << outcome.out;
+}
+
 }  // namespace
 }  // namespace sonoglide::acceptance::documents_test
