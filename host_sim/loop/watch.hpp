@@ -79,6 +79,13 @@ struct Recording final : SampleSink {
   }
 };
 
+/// Keeps every carrier period that it is given.
+struct PeriodRecording final : PeriodSink {
+  std::vector<Period> periods;
+
+  void take(const Period& period) override { periods.push_back(period); }
+};
+
 /// Called now and then with the fraction done, in [0, 1].
 using Progress = std::function<void(double fraction)>;
 

@@ -1,0 +1,59 @@
+#include "host_sim/python/controller_unit.hpp"
+
+#include <fmt/format.h>
+
+#include <stdexcept>
+
+#include "host_sim/configure/configuration_error.hpp"
+
+namespace sonoglide::python {
+namespace {
+
+const scene::Scene& with_controller(const scene::Scene& scene) {
+  if (!scene.controller) {
+    throw configure::ConfigurationError("controller", "missing; allowed: a scene in closed loop");
+  }
+  return scene;
+}
+
+}  // namespace
+
+ControllerUnit::ControllerUnit(const scene::Scene& scene)
+    : scene_(with_controller(scene)),
+      design_(configure::design_control(scene_)),
+      port_(loop::make_control_port(scene_, design_)) {
+  set_target(scene_.controller->target_friction_ratio.front().friction_ratio);
+}
+
+ControllerUnit::ControllerUnit(const ControllerUnit& other) : ControllerUnit(other.scene_) {
+  restore(other.save());
+}
+
+void ControllerUnit::set_target(double friction_ratio) {
+  if (!(friction_ratio > 0.0 && friction_ratio <= 1.0)) {
+    throw std::invalid_argument(
+        fmt::format("target is {}; allowed: a friction ratio above 0, at most 1", friction_ratio));
+  }
+  target_ = friction_ratio;
+  port_->set_target(friction_ratio);
+}
+
+loop::Snapshot ControllerUnit::save() const {
+  loop::SnapshotWriter writer;
+  writer.put(target_);
+  writer.put(answer_);
+  port_->save(writer);
+  return writer.take();
+}
+
+void ControllerUnit::restore(const loop::Snapshot& state) {
+  loop::SnapshotReader reader(state);
+  reader.get(target_);
+  reader.get(answer_);
+  port_->restore(reader);
+  if (!reader.over()) {
+    throw std::invalid_argument("the state that is to be restored is too long");
+  }
+}
+
+}  // namespace sonoglide::python

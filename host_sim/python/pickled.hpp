@@ -1,0 +1,41 @@
+/// States of the simulation as Python pickles and copies them.
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+#include <cstring>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+#include "host_sim/loop/snapshot.hpp"
+#include "host_sim/process/checksum.hpp"
+
+namespace sonoglide::python {
+
+/// With a checksum, for a state that is damaged must not be gone on from.
+inline pybind11::bytes bytes_of(const loop::Snapshot& state) {
+  std::string bytes(reinterpret_cast<const char*>(state.data()), state.size());
+  const std::uint64_t sum = process::checksum(bytes);
+  bytes.append(reinterpret_cast<const char*>(&sum), sizeof(sum));
+  return bytes;
+}
+
+/// @throws std::invalid_argument  they are damaged
+inline loop::Snapshot snapshot_of(const pybind11::bytes& pickled) {
+  const std::string bytes = pickled;
+  std::uint64_t sum = 0;
+  if (bytes.size() < sizeof(sum)) {
+    throw std::invalid_argument("the pickled state is too short");
+  }
+  const std::size_t size = bytes.size() - sizeof(sum);
+  std::memcpy(&sum, bytes.data() + size, sizeof(sum));
+  if (sum != process::checksum(std::string_view(bytes).substr(0, size))) {
+    throw std::invalid_argument("the pickled state is damaged");
+  }
+  loop::Snapshot state(size);
+  std::memcpy(state.data(), bytes.data(), size);
+  return state;
+}
+
+}  // namespace sonoglide::python

@@ -1,0 +1,25 @@
+/// A scene as Python holds it.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "host_sim/scene/scene.hpp"
+#include "host_sim/scene_file/source.hpp"
+
+namespace sonoglide::python {
+
+/// With the text that it was read from, so that it can be read again elsewhere.
+struct Scene {
+  /// @throws scene_file::SceneError
+  Scene(scene_file::Source text, std::vector<std::string> changes);
+
+  /// With more overrides, which win over those before.
+  Scene with(const std::vector<std::string>& more) const;
+
+  scene_file::Source source;
+  std::vector<std::string> overrides;
+  scene::Scene values;
+};
+
+}  // namespace sonoglide::python

@@ -1,0 +1,79 @@
+#include "host_sim/python/stepped_loop.hpp"
+
+#include <fmt/format.h>
+
+#include <stdexcept>
+
+#include "host_sim/fmi/kind.hpp"
+#include "host_sim/loop/carrier_grid.hpp"
+
+namespace sonoglide::python {
+namespace {
+
+const scene::Scene& usable(const scene::Scene& scene) {
+  fmi::require_usable(scene, fmi::Kind::loop);
+  return scene;
+}
+
+}  // namespace
+
+SteppedLoop::SteppedLoop(const scene::Scene& scene)
+    : scene_(usable(scene)),
+      period_s_(1.0 / scene.drive->frequency_Hz),
+      scene_periods_(loop::CarrierGrid(scene).count()),
+      schedule_(loop::target_schedule(scene, loop::CarrierGrid(scene))) {
+  reset(std::nullopt);
+}
+
+SteppedLoop::SteppedLoop(const SteppedLoop& other) : SteppedLoop(other.scene_) {
+  restore(other.save());
+}
+
+void SteppedLoop::reset(std::optional<std::uint64_t> seed) {
+  scene_.sensor.seed = seed.value_or(scene_.sensor.seed);
+  engine_ = std::make_unique<fmi::Engine>(scene_, fmi::Kind::loop);
+  periods_ = 0;
+  wanted_ratio_ = wanted_now();
+}
+
+void SteppedLoop::step(double target) {
+  if (!(target >= 0.0 && target <= 1.0)) {
+    throw std::invalid_argument(
+        fmt::format("target is {}; allowed: a friction ratio above 0, at most 1, or None", target));
+  }
+  fmi::Inputs inputs;
+  inputs.target_friction_ratio = target;
+  wanted_ratio_ = wanted_now();
+  engine_->advance(inputs);
+  ++periods_;
+}
+
+double SteppedLoop::wanted_now() const {
+  double wanted = schedule_.front().friction_ratio;
+  for (const loop::ScheduledTarget& each : schedule_) {
+    if (each.place <= periods_) {
+      wanted = each.friction_ratio;
+    }
+  }
+  return wanted;
+}
+
+loop::Snapshot SteppedLoop::save() const {
+  loop::SnapshotWriter writer;
+  writer.put(periods_);
+  writer.put(wanted_ratio_);
+  engine_->save(writer);
+  return writer.take();
+}
+
+void SteppedLoop::restore(const loop::Snapshot& state) {
+  loop::SnapshotReader reader(state);
+  reader.get(periods_);
+  reader.get(wanted_ratio_);
+  engine_->restore(reader);
+  if (!reader.over()) {
+    throw std::invalid_argument("the state that is to be restored is too long");
+  }
+}
+
+}  // namespace sonoglide::python

@@ -1,0 +1,198 @@
+#include <fmt/format.h>
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "host_sim/python/answer.hpp"
+#include "host_sim/python/bindings.hpp"
+#include "host_sim/python/controller_unit.hpp"
+#include "host_sim/python/in_use.hpp"
+#include "host_sim/python/pickled.hpp"
+#include "host_sim/python/scene.hpp"
+
+namespace sonoglide::python {
+namespace {
+
+namespace py = pybind11;
+
+using Codes = py::array_t<std::int32_t, py::array::c_style>;
+
+struct Unit {
+  Scene scene;  ///< what it is pickled as
+  ControllerUnit controller;
+  bool used = false;
+};
+
+Unit make_unit(const Scene& scene, const std::optional<std::string>& arithmetic) {
+  const Scene taken =
+      arithmetic ? scene.with({"controller.arithmetic=\"" + *arithmetic + "\""}) : scene;
+  return {taken, ControllerUnit(taken.values)};
+}
+
+std::int32_t code(long long value, const char* name) {
+  using Limits = std::numeric_limits<std::int32_t>;
+  if (value < Limits::min() || value > Limits::max()) {
+    throw py::value_error(
+        fmt::format("{} is {}; allowed: {} to {}", name, value, Limits::min(), Limits::max()));
+  }
+  return static_cast<std::int32_t>(value);
+}
+
+void require_vibration(const Unit& unit, bool given) {
+  if (unit.controller.observes_vibration() != given) {
+    throw py::value_error(given ? "this unit observes no vibration; allowed: no in_phase_code, no "
+                                  "quadrature_code"
+                                : "this unit observes the vibration; in_phase_code and "
+                                  "quadrature_code are missing");
+  }
+}
+
+std::int32_t step_once(Unit& unit, long long force, long long velocity,
+                       const std::optional<long long>& in_phase,
+                       const std::optional<long long>& quadrature, bool fresh, bool at_rail) {
+  require_vibration(unit, in_phase && quadrature);
+  const InUse use(unit.used);
+  const hal::VibrationSample sample{
+      {code(force, "force_code"), code(velocity, "velocity_code"), at_rail, fresh},
+      code(in_phase.value_or(0), "in_phase_code"),
+      code(quadrature.value_or(0), "quadrature_code"),
+      false,
+      fresh};
+  return unit.controller.step(sample).amplitude;
+}
+
+/// @param codes  absent: `otherwise` for every sample
+const std::int32_t* data_of(const std::optional<Codes>& codes, const Codes& force,
+                            const char* name) {
+  if (!codes) {
+    return nullptr;
+  }
+  if (codes->ndim() != 1 || codes->size() != force.size()) {
+    throw py::value_error(fmt::format("{} has {} codes in {} dimensions; allowed: {} in one", name,
+                                      codes->size(), codes->ndim(), force.size()));
+  }
+  return codes->data();
+}
+
+Codes array_for(const std::optional<Codes>& out, const Codes& force) {
+  if (!out) {
+    return Codes(force.size());
+  }
+  data_of(out, force, "out");
+  return *out;
+}
+
+Codes step_all(Unit& unit, const Codes& force, const Codes& velocity,
+               const std::optional<Codes>& in_phase, const std::optional<Codes>& quadrature,
+               const std::optional<Codes>& out) {
+  require_vibration(unit, in_phase && quadrature);
+  const std::int32_t* forces = data_of(force, force, "force_codes");
+  const std::int32_t* velocities = data_of(velocity, force, "velocity_codes");
+  const std::int32_t* in_phases = data_of(in_phase, force, "in_phase_codes");
+  const std::int32_t* quadratures = data_of(quadrature, force, "quadrature_codes");
+  Codes amplitudes = array_for(out, force);
+  std::int32_t* answers = amplitudes.mutable_data();
+  const py::ssize_t count = force.size();
+  const InUse use(unit.used);
+  const py::gil_scoped_release released;
+  for (py::ssize_t i = 0; i < count; ++i) {
+    const hal::VibrationSample sample{{forces[i], velocities[i], false, true},
+                                      in_phases != nullptr ? in_phases[i] : 0,
+                                      quadratures != nullptr ? quadratures[i] : 0,
+                                      false,
+                                      true};
+    answers[i] = unit.controller.step(sample).amplitude;
+  }
+  return amplitudes;
+}
+
+py::dict answer_of(const Unit& unit) {
+  const hal::ResonantDrive& answer = unit.controller.answer();
+  py::dict fields;
+  add_answer(fields, answer);
+  fields["frequency_steps"] = answer.frequency;
+  return fields;
+}
+
+py::tuple state_of_unit(const Unit& unit) {
+  return py::make_tuple(unit.scene, bytes_of(unit.controller.save()));
+}
+
+Unit unit_of(const py::tuple& state) {
+  const auto& scene = py::cast<const Scene&>(state[0]);
+  Unit unit{scene, ControllerUnit(scene.values)};
+  unit.controller.restore(snapshot_of(py::cast<py::bytes>(state[1])));
+  return unit;
+}
+
+}  // namespace
+
+void add_unit(py::module_& module) {
+  py::class_<Unit> unit(
+      module, "Unit",
+      "The controller of a scene as it is shipped: the control loop of the firmware image, codes\n"
+      "in, codes out. Codes are left-justified integers of 32 bits: 2**31 is full scale. Copies\n"
+      "and pickles go on from where it is, bit for bit; a pickle serves the same build of the\n"
+      "module. One thread at a time may use a unit.");
+  unit.def(py::init(&make_unit), py::arg("scene"), py::arg("arithmetic") = py::none(),
+           "__init__(self, scene, arithmetic=None)\n--\n\n"
+           "scene       in closed loop; its first target is set\n"
+           "arithmetic  'float64', 'float32', 'q31' or 'q15'; None: the scene's");
+  unit.def(
+      "step", &step_once, py::arg("force_code"), py::arg("velocity_code"),
+      py::arg("in_phase_code") = py::none(), py::arg("quadrature_code") = py::none(), py::kw_only(),
+      py::arg("fresh") = true, py::arg("force_at_rail") = false,
+      "step(self, force_code, velocity_code, in_phase_code=None, quadrature_code=None, *, "
+      "fresh=True, force_at_rail=False)\n--\n\n"
+      "One carrier period. -> amplitude code of the drive, 2**31 being the actuator's limit\n\n"
+      "force_code       mean friction force of the period, over force_full_scale_N\n"
+      "velocity_code    sliding velocity, over velocity_full_scale_m_per_s\n"
+      "in_phase_code, quadrature_code\n"
+      "                 vibration velocity, over velocity_full_scale_m_per_s; of a unit that\n"
+      "                 observes it\n"
+      "fresh            False: no sample has arrived since the last one\n"
+      "force_at_rail    True: the force converter stands at an end of its range");
+  unit.def("steps", &step_all, py::arg("force_codes"), py::arg("velocity_codes"),
+           py::arg("in_phase_codes") = py::none(), py::arg("quadrature_codes") = py::none(),
+           py::kw_only(), py::arg("out") = py::none(),
+           "steps(self, force_codes, velocity_codes, in_phase_codes=None, quadrature_codes=None, "
+           "*, out=None)\n--\n\n"
+           "The same for arrays, a sample each, while other threads run. -> amplitude codes\n\n"
+           "out  int32 array that takes them; None: a new one");
+  unit.def_property_readonly(
+      "answer", &answer_of,
+      "All of the last answer: amplitude_code, commanded_ratio_code (2**31 is a ratio of 2),\n"
+      "state, limit, fault, settling; frequency_steps of a resonant unit.");
+  unit.def_property(
+      "target", [](const Unit& self) { return self.controller.target(); },
+      [](Unit& self, double ratio) {
+        const InUse use(self.used);
+        self.controller.set_target(ratio);
+      },
+      "Target friction ratio, above 0, at most 1.");
+  unit.def_property_readonly(
+      "force_full_scale_N", [](const Unit& self) { return self.controller.scales().force_N; },
+      "Friction force of code 2**31 [N].");
+  unit.def_property_readonly(
+      "velocity_full_scale_m_per_s",
+      [](const Unit& self) { return self.controller.scales().velocity_m_per_s; },
+      "Sliding or vibration velocity of code 2**31 [m/s].");
+  unit.def_property_readonly(
+      "amplitude_full_scale_N",
+      [](const Unit& self) { return self.controller.scales().drive_amplitude_N; },
+      "Drive amplitude of code 2**31 [N].");
+  unit.def(
+      "__copy__", [](const Unit& self) { return self; }, "__copy__(self)\n--\n\n");
+  unit.def(
+      "__deepcopy__", [](const Unit& self, const py::dict& /*memo*/) { return self; },
+      py::arg("memo"), "__deepcopy__(self, memo)\n--\n\n");
+  unit.def(py::pickle(&state_of_unit, &unit_of));
+}
+
+}  // namespace sonoglide::python

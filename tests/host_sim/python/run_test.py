@@ -1,0 +1,83 @@
+import threading
+
+import numpy
+import pytest
+
+import sonoglide
+
+
+@pytest.mark.parametrize("name", ["target_step", "target_step_q31", "target_step_q15", "target_step_float64"])
+def test_commands_are_those_of_the_program_bit_for_bit(scene, program, name):
+    assert sonoglide.run(scene(name)).trace_hash == program(name)["control"]["trace_hash"]
+
+
+def test_the_summary_is_that_of_the_program(scene, program):
+    mine = sonoglide.run(scene("target_step")).summary
+    theirs = program("target_step")
+    for summary in (mine, theirs):
+        del summary["run"]["wall_s"], summary["run"]["real_time_factor"]
+    assert mine == theirs
+
+
+def test_open_loop_meets_the_reference(scene):
+    # Twenty digits of another method: tests/firmware/plant/data/reference_open_loop.csv.
+    run = sonoglide.run(scene("table_1_open_loop"))
+    assert run.trace_hash is None
+    assert run.summary["friction_ratio"]["whole_run"] == pytest.approx(0.656900288709659, abs=1e-9)
+    assert run.summary["final"]["displacement_m"] == pytest.approx(-2.363445520920056e-7, rel=1e-7)
+
+
+def test_columns_are_read_only_views(scene):
+    run = sonoglide.run(scene("target_step"))
+    columns = {**run.trace, **run.periods}
+    assert set(run.trace) == {"time_s", "displacement_m", "friction_force_N", "drive_force_N"}
+    for column in columns.values():
+        assert not column.flags.owndata
+        assert not column.flags.writeable
+        with pytest.raises(ValueError):
+            column.setflags(write=True)
+    again = run.trace["displacement_m"]
+    assert numpy.shares_memory(again, columns["displacement_m"])
+
+
+def test_columns_outlive_the_run(scene):
+    run = sonoglide.run(scene("target_step"))
+    ratio = run.periods["friction_ratio"]
+    before = ratio.copy()
+    del run
+    assert numpy.array_equal(ratio, before)
+
+
+def test_columns_have_what_the_scene_tells(scene):
+    run = sonoglide.run(scene("target_step"))
+    assert len(run.periods["time_s"]) == 360
+    assert run.trace["time_s"][-1] == pytest.approx(6e-3)
+    late = run.periods["friction_ratio"][-30:]
+    assert late == pytest.approx(0.5, abs=1e-3)
+    assert sonoglide.states[run.periods["state"][-1]] == "running"
+    assert sonoglide.limits[run.periods["limit"][-1]] == "none"
+    assert sonoglide.settlings[run.periods["settling"][-1]] == "settled"
+
+
+def test_a_scene_that_records_nothing_has_empty_columns(scene):
+    run = sonoglide.run(scene("target_step", {"run.record": None, "run.record_interval_s": None}))
+    assert list(run.trace) == ["time_s"]
+    assert all(len(column) == 0 for column in run.periods.values())
+
+
+def test_runs_in_threads_are_those_of_one(scene):
+    read = scene("target_step_q31")
+    hashes = []
+    threads = [threading.Thread(target=lambda: hashes.append(sonoglide.run(read).trace_hash)) for _ in range(4)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert hashes == [sonoglide.run(read).trace_hash] * 4
+
+
+def test_a_failed_computation_says_where(scene):
+    too_hard = scene("stiff_contact_open_loop", {"solver.method": "rk4", "solver.step_s": 1.667e-6,
+                                                 "solver.tolerance": None})
+    with pytest.raises(sonoglide.ComputationError, match="the step is too long"):
+        sonoglide.run(too_hard)

@@ -1,0 +1,85 @@
+import copy
+import math
+import pathlib
+import pickle
+
+import numpy
+import pytest
+
+import sonoglide
+
+
+def test_values_have_the_defaults_filled_in(scene):
+    read = scene("table_1_open_loop")
+    assert read.name == "table_1_open_loop"
+    assert read.values["friction"]["normal_force_N"] == 0.02 * 9.81
+    assert read.values["solver"] == {"method": "event_taylor", "tolerance": 1e-10}
+
+
+def test_the_text_of_a_scene_is_the_same_scene(scene):
+    read = scene("target_step")
+    assert sonoglide.Scene.from_text(read.toml).values == read.values
+
+
+@pytest.mark.parametrize(
+    "value",
+    [400, 400.5, numpy.float64(400.5), numpy.int32(400), numpy.float64(0.1) * 3],
+)
+def test_overrides_keep_every_bit_of_a_number(scene, value):
+    read = scene("table_1_open_loop", {"drive.force_amplitude_N": value})
+    assert read.values["drive"]["force_amplitude_N"] == value
+
+
+def test_overrides_of_every_kind(scene):
+    targets = numpy.array([[0.0, 0.4], [1e-3, 0.7]])
+    read = scene(
+        "target_step",
+        {
+            "controller.arithmetic": "q31",
+            "controller.target_friction_ratio": targets,
+            "run.record": None,
+            "run.record_interval_s": None,
+        },
+    )
+    assert read.values["controller"]["arithmetic"] == "q31"
+    assert read.values["controller"]["target_friction_ratio"] == targets.tolist()
+    assert "record" not in read.values["run"]
+
+
+def test_a_replaced_value_wins_and_leaves_the_other_scene(scene):
+    first = scene("table_1_open_loop", {"drive.force_amplitude_N": 100.0})
+    second = first.replace({"drive.force_amplitude_N": 200.0})
+    assert first.values["drive"]["force_amplitude_N"] == 100.0
+    assert second.values["drive"]["force_amplitude_N"] == 200.0
+
+
+def test_errors_carry_line_and_column(tmp_path):
+    path = tmp_path / "typo.toml"
+    path.write_text("[plant]\nmass_kg = 0.02\n  stifness_N_per_m = 1.0\n")
+    with pytest.raises(sonoglide.SceneError) as caught:
+        sonoglide.Scene(path)
+    error = caught.value
+    assert (error.file, error.line, error.column) == (str(path), 3, 3)
+    assert error.key == "plant.stifness_N_per_m"
+    assert "stiffness_N_per_m" in error.reason
+    assert str(error) == f"{path}:3:3: {error.key}: {error.reason}"
+    assert isinstance(error, ValueError)
+
+
+def test_errors_of_overrides_name_their_place(scene):
+    with pytest.raises(sonoglide.SceneError) as caught:
+        scene("target_step", {"plant.mass_kg": 0.02, "friction.coefficient": math.nan})
+    assert (caught.value.file, caught.value.line) == ("--set", 2)
+    assert caught.value.key == "friction.coefficient"
+
+
+def test_a_missing_file_is_an_error_of_the_scene():
+    with pytest.raises(sonoglide.SceneError, match="nowhere.toml"):
+        sonoglide.Scene(pathlib.Path("nowhere.toml"))
+
+
+@pytest.mark.parametrize("made_again", [copy.copy, copy.deepcopy, lambda s: pickle.loads(pickle.dumps(s))])
+def test_copies_and_pickles_are_the_same_scene(scene, made_again):
+    read = scene("target_step", {"controller.arithmetic": "q15"})
+    again = made_again(read)
+    assert (again.name, again.values) == (read.name, read.values)
