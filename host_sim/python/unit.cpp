@@ -160,7 +160,7 @@ void add_unit(py::module_& module) {
       "force_at_rail    True: the force converter stands at an end of its range");
   unit.def("steps", &step_all, py::arg("force_codes"), py::arg("velocity_codes"),
            py::arg("in_phase_codes") = py::none(), py::arg("quadrature_codes") = py::none(),
-           py::kw_only(), py::arg("out") = py::none(),
+           py::kw_only(), py::arg("out").noconvert() = py::none(),
            "steps(self, force_codes, velocity_codes, in_phase_codes=None, quadrature_codes=None, "
            "*, out=None)\n--\n\n"
            "The same for arrays, a sample each, while other threads run. -> amplitude codes\n\n"

@@ -13,4 +13,5 @@ PYBIND11_MODULE(_core, module) {
   python::add_friction_ratio(module);
   python::add_loop(module);
   python::add_unit(module);
+  python::add_rollout(module);
 }

@@ -1,5 +1,5 @@
 # Types of the compiled part; its documentation has the units. mypy's stubtest holds both together.
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from os import PathLike
 from typing import Any, ClassVar
 
@@ -92,3 +92,11 @@ class Unit:
     def amplitude_full_scale_N(self) -> float: ...
     def __copy__(self) -> Unit: ...
     def __deepcopy__(self, memo: dict[int, Any]) -> Unit: ...
+
+def rollout(
+    scenes: Scene | Iterable[Scene],
+    targets: ArrayLike | None = None,
+    *,
+    out: NDArray[np.float64] | None = None,
+    threads: int = 0,
+) -> NDArray[np.float64]: ...

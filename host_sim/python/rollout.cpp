@@ -1,0 +1,104 @@
+#include <fmt/format.h>
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "host_sim/python/bindings.hpp"
+#include "host_sim/python/scene.hpp"
+#include "host_sim/rollouts/rollouts.hpp"
+
+namespace sonoglide::python {
+namespace {
+
+namespace py = pybind11;
+
+using Table = py::array_t<double, py::array::c_style>;
+using GivenTable = py::array_t<double, py::array::c_style | py::array::forcecast>;
+using Scenes = std::vector<const scene::Scene*>;
+
+/// One scene serves every row of the targets.
+Scenes scenes_of(const py::object& scenes, const std::optional<GivenTable>& targets) {
+  if (py::isinstance<Scene>(scenes)) {
+    const std::size_t count =
+        targets && targets->ndim() == 2 ? static_cast<std::size_t>(targets->shape(0)) : 1;
+    return Scenes(count, &py::cast<const Scene&>(scenes).values);
+  }
+  Scenes each;
+  for (const py::handle scene : scenes) {
+    each.push_back(&py::cast<const Scene&>(scene).values);
+  }
+  return each;
+}
+
+std::size_t periods_of_all(const Scenes& scenes) {
+  if (scenes.empty()) {
+    return 0;
+  }
+  const std::size_t periods = rollouts::whole_periods(*scenes.front());
+  for (std::size_t i = 1; i < scenes.size(); ++i) {
+    const std::size_t others = rollouts::whole_periods(*scenes[i]);
+    if (others != periods) {
+      throw py::value_error(fmt::format(
+          "scene {} has {} whole carrier periods; allowed: {}, as scene 0", i, others, periods));
+    }
+  }
+  return periods;
+}
+
+template <class Array>
+void require_shape(const Array& array, const char* name, std::size_t rows, std::size_t columns) {
+  const auto is = [&](int axis, std::size_t size) {
+    return array.shape(axis) == static_cast<py::ssize_t>(size);
+  };
+  if (array.ndim() != 2 || !is(0, rows) || !is(1, columns)) {
+    throw py::value_error(
+        fmt::format("{} has another shape; allowed: {} rows, a rollout each, of {} carrier periods",
+                    name, rows, columns));
+  }
+}
+
+Table rollout(const py::object& scenes, const std::optional<GivenTable>& targets,
+              const std::optional<Table>& out, unsigned threads) {
+  const Scenes each = scenes_of(scenes, targets);
+  const std::size_t periods = periods_of_all(each);
+  if (targets) {
+    require_shape(*targets, "targets", each.size(), periods);
+  }
+  if (out) {
+    require_shape(*out, "out", each.size(), periods);
+  }
+  Table ratios = out ? *out : Table(std::vector<std::size_t>{each.size(), periods});
+  std::vector<rollouts::Rollout> all;
+  for (std::size_t i = 0; i < each.size(); ++i) {
+    all.push_back({*each[i], targets ? targets->data() + i * periods : nullptr,
+                   ratios.mutable_data() + i * periods});
+  }
+  const py::gil_scoped_release released;
+  rollouts::run_rollouts(all, threads);
+  return ratios;
+}
+
+}  // namespace
+
+void add_rollout(py::module_& module) {
+  module.def(
+      "rollout", &rollout, py::arg("scenes"), py::arg("targets") = py::none(), py::kw_only(),
+      py::arg("out").noconvert() = py::none(), py::arg("threads") = 0,
+      "rollout(scenes, targets=None, *, out=None, threads=0)\n--\n\n"
+      "Runs many scenes, or one scene with many courses of its target, on several threads, while\n"
+      "other threads run. -> the friction ratio of each carrier period, a row for each rollout\n\n"
+      "scenes   a Scene, or several that last equally many carrier periods. Closed loops that the\n"
+      "         scene's solver.tolerance of 1e-6 or more allows run in SIMD lanes.\n"
+      "targets  a row for each rollout, a target friction ratio for each carrier period, 0 to 1;\n"
+      "         0: as before, and until the first other one the steps of the scene. None: those\n"
+      "out      float64 array that takes the ratios; None: a new one\n"
+      "threads  0: one for each core\n\n"
+      "A row does not depend on the number of threads, to the bit. Raises ComputationError where\n"
+      "a solver fails; the content of out is then of no use.");
+}
+
+}  // namespace sonoglide::python
