@@ -88,4 +88,12 @@ function(sonoglide_install)
     # Where the program looks for it.
     install(TARGETS sonoglide_fmu LIBRARY DESTINATION lib/sonoglide COMPONENT program OPTIONAL)
   endif()
+  if(TARGET sonoglide_python_module)
+    # Where Debian's interpreter looks for it.
+    set(folder lib/python3/dist-packages/sonoglide)
+    install(TARGETS sonoglide_python_module LIBRARY DESTINATION "${folder}"
+      COMPONENT python OPTIONAL)
+    install(DIRECTORY "${PROJECT_SOURCE_DIR}/host_sim/python/sonoglide/" DESTINATION "${folder}"
+      COMPONENT python)
+  endif()
 endfunction()

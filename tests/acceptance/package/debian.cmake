@@ -10,8 +10,13 @@ run("${CMAKE_COMMAND}" "-DPROGRAM=${BUILD}/bin/sonoglide" "-DHELP2MAN=${HELP2MAN
 run("${CMAKE_CPACK_COMMAND}" --config "${BUILD}/CPackConfig.cmake" -B "${FOLDER}/packages")
 file(GLOB packages "${FOLDER}/packages/*.deb")
 list(LENGTH packages count)
-if(NOT count EQUAL 2)
-  message(FATAL_ERROR "Expected two packages: ${packages}")
+set(names sonoglide libsonoglide-dev)
+if(PYTHON)
+  list(APPEND names python3-sonoglide)
+endif()
+list(LENGTH names expected)
+if(NOT count EQUAL expected)
+  message(FATAL_ERROR "Expected ${names}: ${packages}")
 endif()
 run(lintian --allow-root --fail-on error ${packages})
 
@@ -41,6 +46,13 @@ endforeach()
 run("${root}/usr/bin/sonoglide" run "${root}/usr/share/sonoglide/scenes/target_step.toml"
   --out "${FOLDER}/debian_run")
 expect("${output}" HAS "0.600")
+if(PYTHON)
+  run("${CMAKE_COMMAND}" -E env "PYTHONPATH=${root}/usr/lib/python3/dist-packages" "${PYTHON}" -B -c "
+import sonoglide
+run = sonoglide.run(sonoglide.Scene('${root}/usr/share/sonoglide/scenes/target_step.toml'))
+print(sonoglide.__file__, run.summary['control']['steps'][1]['target'])")
+  expect("${output}" HAS "${root}/usr/lib/python3/dist-packages/sonoglide/__init__.py 0.6")
+endif()
 if(BOARDS)
   # From the sources of the package alone.
   run("${CMAKE_COMMAND}" -E env "XDG_CACHE_HOME=${FOLDER}/debian_cache"
@@ -49,7 +61,7 @@ if(BOARDS)
   expect("${output}" HAS "bit for bit")
 endif()
 
-run(${dpkg} --remove sonoglide libsonoglide-dev)
+run(${dpkg} --remove ${names})
 file(GLOB_RECURSE left RELATIVE "${root}" "${root}/usr/*")
 if(left)
   message(FATAL_ERROR "dpkg leaves behind: ${left}")
