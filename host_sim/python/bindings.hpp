@@ -14,6 +14,7 @@ void add_friction_ratio(pybind11::module_& module);
 void add_loop(pybind11::module_& module);
 void add_unit(pybind11::module_& module);
 void add_rollout(pybind11::module_& module);
+void add_studies(pybind11::module_& module);
 
 /// JSON as Python has it: dictionaries, lists, numbers, None.
 pybind11::object to_python(const nlohmann::ordered_json& json);

@@ -14,4 +14,5 @@ PYBIND11_MODULE(_core, module) {
   python::add_loop(module);
   python::add_unit(module);
   python::add_rollout(module);
+  python::add_studies(module);
 }

@@ -12,11 +12,14 @@ from ._core import (
     SceneError,
     Unit,
     friction_ratio,
+    identify_friction,
+    identify_impedance,
     limits,
     rollout,
     run,
     settlings,
     states,
+    sweep,
 )
 
 __all__ = [
@@ -27,9 +30,12 @@ __all__ = [
     "SceneError",
     "Unit",
     "friction_ratio",
+    "identify_friction",
+    "identify_impedance",
     "limits",
     "rollout",
     "run",
     "settlings",
     "states",
+    "sweep",
 ]

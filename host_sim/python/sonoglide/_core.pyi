@@ -1,5 +1,5 @@
 # Types of the compiled part; its documentation has the units. mypy's stubtest holds both together.
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from os import PathLike
 from typing import Any, ClassVar
 
@@ -100,3 +100,14 @@ def rollout(
     out: NDArray[np.float64] | None = None,
     threads: int = 0,
 ) -> NDArray[np.float64]: ...
+def sweep(
+    scene: Scene, vary: Mapping[str, Any], *, threads: int = 0
+) -> dict[str, NDArray[np.float64] | list[str]]: ...
+def identify_friction(
+    path: str | PathLike[str], laws: Sequence[str] = []
+) -> dict[str, Any]: ...
+def identify_impedance(
+    path: str | PathLike[str],
+    mass_kg: float | None = None,
+    force_factor_N_per_V: float | None = None,
+) -> dict[str, Any]: ...
