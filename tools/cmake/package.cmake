@@ -95,5 +95,7 @@ function(sonoglide_install)
       COMPONENT python OPTIONAL)
     install(DIRECTORY "${PROJECT_SOURCE_DIR}/host_sim/python/sonoglide/" DESTINATION "${folder}"
       COMPONENT python)
+    install(DIRECTORY "${PROJECT_SOURCE_DIR}/host_sim/python/notebooks"
+      DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/python3-sonoglide" COMPONENT python)
   endif()
 endfunction()

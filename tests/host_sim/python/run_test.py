@@ -1,3 +1,4 @@
+import _thread
 import threading
 
 import numpy
@@ -74,6 +75,15 @@ def test_runs_in_threads_are_those_of_one(scene):
     for thread in threads:
         thread.join()
     assert hashes == [sonoglide.run(read).trace_hash] * 4
+
+
+def test_an_interrupt_from_the_keyboard_ends_a_run(scene):
+    long = scene("target_step", {"run.record": None, "run.record_interval_s": None, "run.duration_s": 60.0})
+    timer = threading.Timer(0.2, _thread.interrupt_main)
+    timer.start()
+    with pytest.raises(KeyboardInterrupt):
+        sonoglide.run(long)
+    timer.join()
 
 
 def test_a_failed_computation_says_where(scene):

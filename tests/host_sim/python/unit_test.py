@@ -130,6 +130,22 @@ def test_two_units_step_at_the_same_time(scene):
     assert numpy.array_equal(answers[0], answers[1])
 
 
+def test_a_unit_in_use_says_so(scene):
+    unit = sonoglide.Unit(scene("target_step_q31"))
+    force = numpy.full(4_000_000, 2**29, numpy.int32)
+    thread = threading.Thread(target=unit.steps, args=(force, force))
+    thread.start()
+    refused = 0
+    while thread.is_alive():
+        try:
+            unit.step(0, 0)
+        except RuntimeError as error:
+            assert str(error) == "in use by another thread"
+            refused += 1
+    thread.join()
+    assert refused > 0
+
+
 def test_a_word_that_names_no_arithmetic_is_refused(scene):
     with pytest.raises(sonoglide.SceneError, match="q32"):
         sonoglide.Unit(scene("target_step"), "q32")
