@@ -18,6 +18,7 @@ class ControllerUnit {
   /// @throws configure::ConfigurationError  the scene has no controller
   explicit ControllerUnit(const scene::Scene& scene);
   ControllerUnit(const ControllerUnit& other);
+  ControllerUnit(ControllerUnit&&) = default;
   ControllerUnit& operator=(const ControllerUnit&) = delete;
 
   /// One control step: the answer to the sample of a carrier period. Of a unit that observes no

@@ -1,6 +1,8 @@
 #include <pybind11/pybind11.h>
 
 #include <exception>
+#include <string>
+#include <utility>
 
 #include "host_sim/configure/configuration_error.hpp"
 #include "host_sim/loop/failure.hpp"
@@ -38,7 +40,7 @@ void raise(const scene_file::SceneError& error) {
 
 void translate(std::exception_ptr thrown) {
   try {
-    std::rethrow_exception(thrown);
+    std::rethrow_exception(std::move(thrown));
   } catch (const scene_file::SceneError& error) {
     raise(error);
   } catch (const configure::ConfigurationError& error) {

@@ -6,6 +6,8 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "host_sim/loop/watch.hpp"
 #include "host_sim/python/answer.hpp"
@@ -22,6 +24,10 @@ namespace {
 namespace py = pybind11;
 
 struct Run {
+  explicit Run(scene::Scene from) : scene(std::move(from)) {}
+  Run(const Run&) = delete;
+  Run& operator=(const Run&) = delete;
+
   scene::Scene scene;
   loop::PeriodRecording periods;
   loop::Recording trace;
@@ -37,8 +43,7 @@ void check_signals() {
 }
 
 std::unique_ptr<Run> run(const Scene& scene) {
-  auto made = std::make_unique<Run>();
-  made->scene = scene.values;
+  auto made = std::make_unique<Run>(scene.values);
   const py::gil_scoped_release released;
   const auto design = configure::design_if_closed(made->scene);
   report::RunFindings findings(made->scene, design);

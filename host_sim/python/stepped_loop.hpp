@@ -19,6 +19,7 @@ class SteppedLoop {
   /// @throws configure::ConfigurationError  the scene has no controller, or its carrier period changes
   explicit SteppedLoop(const scene::Scene& scene);
   SteppedLoop(const SteppedLoop& other);
+  SteppedLoop(SteppedLoop&&) = default;
   SteppedLoop& operator=(const SteppedLoop&) = delete;
 
   /// To the beginning of the scene.

@@ -31,7 +31,7 @@ std::string listed(const py::handle& value) {
   if (py::isinstance<py::bool_>(value)) {
     return py::cast<bool>(value) ? "true" : "false";
   }
-  const std::string text = py::str(value);
+  std::string text = py::str(value);
   if (text.empty() || text.find_first_of(",:") != std::string::npos) {
     throw py::value_error(
         fmt::format("a value is \"{}\"; allowed: numbers, words, truth values, or FROM:TO:COUNT in "
