@@ -20,7 +20,9 @@
 #include "host_sim/studies/identify/impedance/read_sweep.hpp"
 #include "host_sim/studies/identify/impedance/study.hpp"
 #include "host_sim/studies/identify/measured_table.hpp"
-#include "host_sim/studies/sweep/sweep.hpp"
+#include "host_sim/studies/sweep/plan.hpp"
+#include "host_sim/studies/sweep/row.hpp"
+#include "host_sim/studies/sweep/rows.hpp"
 
 namespace sonoglide::python {
 namespace {
@@ -122,7 +124,7 @@ py::dict sweep_scene(const Scene& scene, const py::dict& vary, unsigned threads)
   {
     const py::gil_scoped_release released;
     plan.emplace(scene.source, scene.overrides, options);
-    rows = sweep::compute(*plan, threads);
+    rows = sweep::compute_rows(*plan, threads);
   }
   return sweep_columns(*plan, rows);
 }

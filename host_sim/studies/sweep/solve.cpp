@@ -1,6 +1,9 @@
 #include "host_sim/studies/sweep/solve.hpp"
 
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
 #include <tbb/parallel_for_each.h>
+#include <tbb/partitioner.h>
 
 #include <algorithm>
 #include <cmath>
@@ -173,6 +176,19 @@ Points Solve::over_lanes(const Points& call, const Sink& sink) const {
   }
   sink(std::move(records));
   return given_up;
+}
+
+void solve_all(const Solve& solve, const Points& points, const Sink& sink) {
+  const std::vector<Points> calls = solve.calls(points);
+  // One call to a task: those that take long leave the rest to others.
+  tbb::parallel_for(
+      tbb::blocked_range<std::size_t>(0, calls.size(), 1),
+      [&](const tbb::blocked_range<std::size_t>& range) {
+        for (std::size_t index = range.begin(); index < range.end(); ++index) {
+          solve(calls[index], sink);
+        }
+      },
+      tbb::simple_partitioner());
 }
 
 }  // namespace sonoglide::sweep

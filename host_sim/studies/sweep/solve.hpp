@@ -53,4 +53,7 @@ class Solve {
   std::vector<std::optional<BatchPoint>> batch_points_;  ///< of each point; absent: no lanes
 };
 
+/// Solves these points on all threads.
+void solve_all(const Solve& solve, const Points& points, const Sink& sink);
+
 }  // namespace sonoglide::sweep

@@ -1,16 +1,12 @@
 #include "host_sim/studies/sweep/sweep.hpp"
 
 #include <fmt/format.h>
-#include <tbb/blocked_range.h>
 #include <tbb/global_control.h>
 #include <tbb/info.h>
-#include <tbb/parallel_for.h>
-#include <tbb/partitioner.h>
 
 #include <algorithm>
 #include <chrono>
 #include <mutex>
-#include <numeric>
 #include <optional>
 #include <string>
 #include <utility>
@@ -77,52 +73,14 @@ class Collection {
 
 }  // namespace
 
-namespace {
-
-/// On all threads. One call to a task: those that take long leave the rest to others.
-void solve_points(const Solve& solve, const Points& points, const Sink& sink) {
-  const std::vector<Points> calls = solve.calls(points);
-  tbb::parallel_for(
-      tbb::blocked_range<std::size_t>(0, calls.size(), 1),
-      [&](const tbb::blocked_range<std::size_t>& range) {
-        for (std::size_t index = range.begin(); index < range.end(); ++index) {
-          solve(calls[index], sink);
-        }
-      },
-      tbb::simple_partitioner());
-}
-
-tbb::global_control limit_to(unsigned threads) {
-  return {tbb::global_control::max_allowed_parallelism,
-          threads > 0 ? threads : static_cast<std::size_t>(tbb::info::default_concurrency())};
-}
-
-}  // namespace
-
 std::vector<PointResult> compute(const Solve& solve, std::size_t points, Journal& journal,
                                  long_work::Pace& pace) {
   Collection collection(points, journal, pace);
   const Points open = collection.open_points();
   pace.begin(open.size(), 0.0);
-  solve_points(solve, open,
-               [&](std::vector<Record> records) { collection.hand_in(std::move(records)); });
+  solve_all(solve, open,
+            [&](std::vector<Record> records) { collection.hand_in(std::move(records)); });
   return collection.take_rows();
-}
-
-std::vector<PointResult> compute(const Plan& plan, unsigned threads) {
-  const tbb::global_control limit = limit_to(threads);
-  const long_work::Progress untold;
-  long_work::Pace pace(untold);
-  const Solve solve(plan, pace);
-  std::vector<PointResult> rows(plan.grid().size());
-  Points all(rows.size());
-  std::iota(all.begin(), all.end(), std::size_t{0});
-  solve_points(solve, all, [&](std::vector<Record> records) {
-    for (Record& record : records) {
-      rows[record.point] = std::move(record.row);
-    }
-  });
-  return rows;
 }
 
 namespace {
@@ -177,7 +135,9 @@ void write_files(const Plan& plan, const std::vector<PointResult>& rows, const f
 
 Summary run_sweep(const Plan& plan, const fs::path& out, const std::string& program,
                   unsigned threads, const long_work::Progress& progress) {
-  const tbb::global_control limit = limit_to(threads);
+  const tbb::global_control limit(
+      tbb::global_control::max_allowed_parallelism,
+      threads > 0 ? threads : static_cast<std::size_t>(tbb::info::default_concurrency()));
   const auto begin = std::chrono::steady_clock::now();
   long_work::Pace pace(progress);
   const Solve solve(plan, pace);

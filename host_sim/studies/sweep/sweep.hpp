@@ -22,11 +22,6 @@ namespace sonoglide::sweep {
 std::vector<PointResult> compute(const Solve& solve, std::size_t points, Journal& journal,
                                  long_work::Pace& pace);
 
-/// The same of a whole plan, without any file.
-/// @param threads  0: one for each core
-/// @throws scene_file::SceneError  a point is unusable; nothing was computed
-std::vector<PointResult> compute(const Plan& plan, unsigned threads);
-
 struct Summary {
   std::size_t points;
   std::size_t failed;
