@@ -8,9 +8,9 @@
 #include "host_sim/cli/commands.hpp"
 #include "host_sim/cli/options.hpp"
 #include "host_sim/fmi/archive/make_fmu.hpp"
-#include "host_sim/fmi/engine.hpp"
 #include "host_sim/output/output_folder.hpp"
 #include "host_sim/process/printable.hpp"
+#include "host_sim/stepped/engine.hpp"
 
 namespace sonoglide::cli {
 namespace {
@@ -23,21 +23,21 @@ struct FmuOptions {
   bool quiet = false;
 };
 
-fmi::Kind kind_of(const std::string& name) {
-  for (const scene::Named<fmi::Kind>& each : fmi::kinds) {
+stepped::Kind kind_of(const std::string& name) {
+  for (const scene::Named<stepped::Kind>& each : stepped::kinds) {
     if (each.name == name) {
       return each.value;
     }
   }
-  return fmi::Kind::loop;
+  return stepped::Kind::loop;
 }
 
 void write(const FmuOptions& options) {
   const SceneInput input(options.scene);
   const scene::Scene scene = input.read();
-  const fmi::Kind kind = kind_of(options.kind);
+  const stepped::Kind kind = kind_of(options.kind);
   input.with_places([&] {
-    fmi::require_usable(scene, kind);
+    stepped::require_usable(scene, kind);
     return 0;
   });
   const std::filesystem::path out = std::filesystem::absolute(options.out);

@@ -43,7 +43,7 @@ Instance::Instance(Resources resources, std::string_view token)
     throw CallError(
         fmt::format("the token is \"{}\"; that of this FMU is \"{}\"", token, resources_.token));
   }
-  require_usable(scene_, resources_.kind);
+  stepped::require_usable(scene_, resources_.kind);
   variables_ = fmi::variables(scene_, resources_.kind);
   period_s_ = 1.0 / scene_.drive->frequency_Hz;
   now_.inputs = initial_inputs(variables_);
@@ -144,7 +144,7 @@ double Instance::time_s() const {
 bool Instance::advance(double time_s, double duration_s, bool may_stop_early) {
   require(now_.phase == Phase::step, "a step");
   const double periods = std::round(duration_s / period_s_);
-  const double left = endless_periods - 1.0 - static_cast<double>(now_.periods);
+  const double left = stepped::endless_periods - 1.0 - static_cast<double>(now_.periods);
   if (!(periods >= 1.0 && periods <= left) ||
       std::abs(duration_s / period_s_ - periods) > step_tolerance * periods) {
     throw StepError(fmt::format(

@@ -9,10 +9,10 @@
 #include <string_view>
 #include <vector>
 
-#include "host_sim/fmi/engine.hpp"
 #include "host_sim/fmi/resources.hpp"
 #include "host_sim/fmi/variables.hpp"
 #include "host_sim/loop/snapshot.hpp"
+#include "host_sim/stepped/engine.hpp"
 
 namespace sonoglide::fmi {
 

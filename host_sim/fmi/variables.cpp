@@ -169,20 +169,20 @@ std::string unit_of(std::string_view key) {
   return {};
 }
 
-bool is_parameter(const std::string& table, const std::string& key, Kind kind) {
+bool is_parameter(const std::string& table, const std::string& key, stepped::Kind kind) {
   if (table == "run" || table == "tolerance" || table == "true_values" ||
       (table == "drive" && key == "frequency_Hz")) {
     return false;
   }
   const bool of_controller = table == "controller" || table == "sensor" || table == "model_error";
-  if (kind == Kind::plant) {
+  if (kind == stepped::Kind::plant) {
     return !of_controller && table + "." + key != "drive.force_amplitude_N";
   }
-  return kind == Kind::loop || table != "solver";
+  return kind == stepped::Kind::loop || table != "solver";
 }
 
 /// The numbers of the scene that can be set before a simulation begins.
-void add_parameters(List& list, const scene::Scene& scene, Kind kind) {
+void add_parameters(List& list, const scene::Scene& scene, stepped::Kind kind) {
   const auto add = [&list](std::string name, const std::string& key, const Value& start) {
     std::string description = "Key " + name + " of the scene";
     list.add({std::move(name), Role::parameter, unit_of(key), std::move(description), start});
@@ -206,33 +206,33 @@ void add_parameters(List& list, const scene::Scene& scene, Kind kind) {
 
 }  // namespace
 
-std::vector<Variable> variables(const scene::Scene& scene, Kind kind) {
+std::vector<Variable> variables(const scene::Scene& scene, stepped::Kind kind) {
   List list;
-  if (kind == Kind::plant) {
+  if (kind == stepped::Kind::plant) {
     list.input("drive_force_amplitude_N", "N", "Amplitude of the drive during a carrier period",
                scene.drive->force_amplitude_N, &Inputs::drive_force_amplitude_N);
   }
-  if (kind == Kind::controller) {
+  if (kind == stepped::Kind::controller) {
     list.inputs(measured);
     if (scene.observes_vibration()) {
       list.inputs(demodulated);
     }
   }
-  if (has_controller(kind)) {
+  if (stepped::has_controller(kind)) {
     list.input(
         "target_friction_ratio", "1",
         "Target from the next sample on, in (0, 1]; 0: the steps of the scene, as long as no "
         "other target was given",
         0.0, &Inputs::target_friction_ratio);
   }
-  if (has_plant(kind)) {
+  if (stepped::has_plant(kind)) {
     list.outputs(measured);
     if (scene.demodulates()) {
       list.outputs(demodulated);
     }
     list.outputs(shown);
   }
-  if (has_controller(kind)) {
+  if (stepped::has_controller(kind)) {
     add_controller_outputs(list, scene.controller->arithmetic);
   }
   add_parameters(list, scene, kind);

@@ -6,11 +6,15 @@
 #include <variant>
 #include <vector>
 
-#include "host_sim/fmi/engine.hpp"
-#include "host_sim/fmi/kind.hpp"
 #include "host_sim/scene/scene.hpp"
+#include "host_sim/stepped/engine.hpp"
+#include "host_sim/stepped/kind.hpp"
 
 namespace sonoglide::fmi {
+
+using stepped::Engine;
+using stepped::Inputs;
+using stepped::PlantOutputs;
 
 /// Alternatives in the order of Type.
 using Value = std::variant<double, float, std::int32_t, std::string>;
@@ -33,6 +37,6 @@ struct Variable {
 };
 
 /// @param scene  as the FMU holds it: a scene that was read from its own echo
-std::vector<Variable> variables(const scene::Scene& scene, Kind kind);
+std::vector<Variable> variables(const scene::Scene& scene, stepped::Kind kind);
 
 }  // namespace sonoglide::fmi

@@ -4,14 +4,14 @@
 
 #include <stdexcept>
 
-#include "host_sim/fmi/kind.hpp"
 #include "host_sim/loop/carrier_grid.hpp"
+#include "host_sim/stepped/kind.hpp"
 
 namespace sonoglide::python {
 namespace {
 
 const scene::Scene& usable(const scene::Scene& scene) {
-  fmi::require_usable(scene, fmi::Kind::loop);
+  stepped::require_usable(scene, stepped::Kind::loop);
   return scene;
 }
 
@@ -31,7 +31,7 @@ SteppedLoop::SteppedLoop(const SteppedLoop& other) : SteppedLoop(other.scene_) {
 
 void SteppedLoop::reset(std::optional<std::uint64_t> seed) {
   scene_.sensor.seed = seed.value_or(scene_.sensor.seed);
-  engine_ = std::make_unique<fmi::Engine>(scene_, fmi::Kind::loop);
+  engine_ = std::make_unique<stepped::Engine>(scene_, stepped::Kind::loop);
   periods_ = 0;
   wanted_ratio_ = wanted_now();
 }
@@ -41,7 +41,7 @@ void SteppedLoop::step(double target) {
     throw std::invalid_argument(
         fmt::format("target is {}; allowed: a friction ratio above 0, at most 1, or None", target));
   }
-  fmi::Inputs inputs;
+  stepped::Inputs inputs;
   inputs.target_friction_ratio = target;
   wanted_ratio_ = wanted_now();
   engine_->advance(inputs);

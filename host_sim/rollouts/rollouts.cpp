@@ -11,10 +11,10 @@
 #include <deque>
 #include <stdexcept>
 
-#include "host_sim/fmi/engine.hpp"
 #include "host_sim/lanes/closed_loops.hpp"
 #include "host_sim/loop/carrier_grid.hpp"
 #include "host_sim/loop/run.hpp"
+#include "host_sim/stepped/engine.hpp"
 
 namespace sonoglide::rollouts {
 namespace {
@@ -37,7 +37,7 @@ void require_targets(const Rollout& rollout, std::size_t place) {
   if (rollout.targets == nullptr) {
     return;
   }
-  fmi::require_usable(rollout.scene, fmi::Kind::loop);
+  stepped::require_usable(rollout.scene, stepped::Kind::loop);
   for (std::size_t i = 0; i < periods; ++i) {
     if (!(rollout.targets[i] >= 0.0 && rollout.targets[i] <= 1.0)) {
       throw std::invalid_argument(
@@ -48,8 +48,8 @@ void require_targets(const Rollout& rollout, std::size_t place) {
 }
 
 void step_through(const Rollout& rollout) {
-  fmi::Engine engine(rollout.scene, fmi::Kind::loop);
-  fmi::Inputs inputs;
+  stepped::Engine engine(rollout.scene, stepped::Kind::loop);
+  stepped::Inputs inputs;
   const std::size_t periods = whole_periods(rollout.scene);
   for (std::size_t i = 0; i < periods; ++i) {
     inputs.target_friction_ratio = rollout.targets[i];
@@ -123,7 +123,7 @@ void run_in_lanes(const std::vector<Rollout>& rollouts, const std::vector<std::s
 }  // namespace
 
 std::size_t whole_periods(const scene::Scene& scene) {
-  fmi::require_usable(scene, fmi::Kind::plant);
+  stepped::require_usable(scene, stepped::Kind::plant);
   const loop::CarrierGrid grid(scene);
   return grid.count() - (grid.is_whole(grid.count() - 1) ? 0 : 1);
 }

@@ -23,8 +23,8 @@ std::string platform(Version version) {
 }
 
 /// A C name, for the functions of an FMU in source form begin with it.
-std::string identifier_of(Kind kind) {
-  return fmt::format("sonoglide_{}", scene::name_of(kinds, kind));
+std::string identifier_of(stepped::Kind kind) {
+  return fmt::format("sonoglide_{}", scene::name_of(stepped::kinds, kind));
 }
 
 void add_sources(ZipWriter& archive, const fs::path& tree, const std::string& identifier) {
@@ -35,7 +35,7 @@ void add_sources(ZipWriter& archive, const fs::path& tree, const std::string& id
   archive.add("sources/buildDescription.xml", build_description(sources, identifier));
 }
 
-void pack(const fs::path& path, const scene::Scene& given, Kind kind, Version version,
+void pack(const fs::path& path, const scene::Scene& given, stepped::Kind kind, Version version,
           const Parts& parts, const std::string& tool) {
   const std::string engine = file_content(parts.engine);
   const Resources resources = make_resources(given, kind, engine);
@@ -48,7 +48,7 @@ void pack(const fs::path& path, const scene::Scene& given, Kind kind, Version ve
   archive.add(fmt::format("binaries/{}/{}.so", platform(version), identifier), engine);
   archive.add(std::string("resources/") + Resources::scene_name, resources.scene);
   archive.add(std::string("resources/") + Resources::kind_name,
-              std::string(scene::name_of(kinds, kind)));
+              std::string(scene::name_of(stepped::kinds, kind)));
   archive.add(std::string("resources/") + Resources::token_name, resources.token);
   add_sources(archive, parts.sources, identifier);
   archive.close();
@@ -71,8 +71,8 @@ Parts find_parts() {
   return parts;
 }
 
-std::string make_fmu(const scene::Scene& scene, Kind kind, Version version, const Parts& parts,
-                     const std::string& tool) {
+std::string make_fmu(const scene::Scene& scene, stepped::Kind kind, Version version,
+                     const Parts& parts, const std::string& tool) {
   const process::ScratchFolder scratch(fs::temp_directory_path());
   const fs::path whole = scratch.path() / "whole.fmu";
   pack(whole, scene, kind, version, parts, tool);

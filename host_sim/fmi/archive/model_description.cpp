@@ -155,9 +155,10 @@ class Fmi3 {
   static constexpr const char* token_name = "instantiationToken";
   static constexpr const char* state_name = "FMUState";
 
-  static void describe_stepping(Tree& element, const scene::Scene& scene, Kind kind) {
+  static void describe_stepping(Tree& element, const scene::Scene& scene, stepped::Kind kind) {
     attribute(element, "fixedInternalStepSize", exact(1.0 / scene.drive->frequency_Hz));
-    attribute(element, "mightReturnEarlyFromDoStep", has_controller(kind) ? "true" : "false");
+    attribute(element, "mightReturnEarlyFromDoStep",
+              stepped::has_controller(kind) ? "true" : "false");
   }
 
   static void add(Tree& list, const Variable& variable, std::size_t reference) {
@@ -193,7 +194,8 @@ class Fmi2 {
   static constexpr const char* token_name = "guid";
   static constexpr const char* state_name = "FMUstate";
 
-  static void describe_stepping(Tree& /*element*/, const scene::Scene& /*scene*/, Kind /*kind*/) {}
+  static void describe_stepping(Tree& /*element*/, const scene::Scene& /*scene*/,
+                                stepped::Kind /*kind*/) {}
 
   static void add(Tree& list, const Variable& variable, std::size_t reference) {
     constexpr std::array names = {"Real", "Real", "Integer", "String"};
@@ -226,7 +228,7 @@ class Fmi2 {
 };
 
 template <class Interface>
-Tree describe(const scene::Scene& scene, Kind kind, const ModelFacts& facts) {
+Tree describe(const scene::Scene& scene, stepped::Kind kind, const ModelFacts& facts) {
   const std::vector<Variable> list = variables(scene, kind);
   Tree model;
   attribute(model, "fmiVersion", Interface::version);
@@ -257,7 +259,7 @@ Tree describe(const scene::Scene& scene, Kind kind, const ModelFacts& facts) {
 
 }  // namespace
 
-std::string model_description(const scene::Scene& scene, Kind kind, Version version,
+std::string model_description(const scene::Scene& scene, stepped::Kind kind, Version version,
                               const ModelFacts& facts) {
   const Tree root = version == Version::fmi3 ? describe<Fmi3>(scene, kind, facts)
                                              : describe<Fmi2>(scene, kind, facts);

@@ -24,7 +24,8 @@ constexpr std::array whole_folders = {
     "firmware/control",    "firmware/app",       "firmware/link",
     "firmware/store",      "firmware/encoding",  "hal/host",
     "host_sim/scene",      "host_sim/configure", "host_sim/loop",
-    "host_sim/scene_file", "host_sim/process",   "host_sim/fmi/binary"};
+    "host_sim/scene_file", "host_sim/process",   "host_sim/stepped",
+    "host_sim/fmi/binary"};
 /// Folders without the folders inside them.
 constexpr std::array plain_folders = {"hal", "host_sim/fmi"};
 

@@ -249,9 +249,11 @@ TEST_F(FmuArchive, WhatAnFmuCannotHoldIsRefusedAtItsPlace) {
   refused("--kind loop --fmi 1", "--fmi");
   refused("--kind plant --out a.zip", "--out");
   folder_.write("scene.toml", table_1_open_loop + "[run]\nduration_s = 1e-3\n");
-  refused("--kind loop", "controller: missing; allowed without it: an FMU of the kind plant");
+  refused("--kind loop",
+          "controller: missing; allowed: a scene in closed loop, or the plant alone");
   refused("--kind plant --set 'drive.frequency_profile=[[0.0, 60e3], [1e-3, 61e3]]'",
-          "drive.frequency_profile: changes the carrier period; allowed in an FMU: one frequency");
+          "drive.frequency_profile: changes the carrier period, which is the step; allowed: one "
+          "frequency");
 }
 
 TEST_F(FmuArchive, AFileOfSomebodyElseStays) {

@@ -6,7 +6,6 @@
 #include <optional>
 
 #include "hal/board.hpp"
-#include "host_sim/fmi/kind.hpp"
 #include "host_sim/loop/carrier_clock.hpp"
 #include "host_sim/loop/control_port.hpp"
 #include "host_sim/loop/control_run.hpp"
@@ -15,8 +14,9 @@
 #include "host_sim/loop/snapshot.hpp"
 #include "host_sim/loop/watch.hpp"
 #include "host_sim/scene/scene.hpp"
+#include "host_sim/stepped/kind.hpp"
 
-namespace sonoglide::fmi {
+namespace sonoglide::stepped {
 
 /// What the plant shows at the end of a carrier period. Before the first period the means are 0.
 struct PlantOutputs {
@@ -44,7 +44,7 @@ struct Inputs {
   double target_friction_ratio = 0.0;    ///< 0: the scene's own steps
 };
 
-/// What of a scene cannot be in an FMU of this kind.
+/// What of a scene cannot be stepped.
 /// @throws configure::ConfigurationError
 void require_usable(const scene::Scene& scene, Kind kind);
 
@@ -90,4 +90,4 @@ class Engine {
   bool fault_began_ = false;
 };
 
-}  // namespace sonoglide::fmi
+}  // namespace sonoglide::stepped

@@ -1,4 +1,4 @@
-#include "host_sim/fmi/engine.hpp"
+#include "host_sim/stepped/engine.hpp"
 
 #include <complex>
 
@@ -6,7 +6,7 @@
 #include "host_sim/configure/control_design.hpp"
 #include "host_sim/configure/plant_scales.hpp"
 
-namespace sonoglide::fmi {
+namespace sonoglide::stepped {
 namespace {
 
 scene::Scene without_end(scene::Scene scene) {
@@ -20,21 +20,21 @@ void require_usable(const scene::Scene& scene, Kind kind) {
   using configure::ConfigurationError;
   if (!scene.drive) {
     throw ConfigurationError("drive.frequency_Hz",
-                             "missing; allowed in an FMU: a scene with a carrier, whose period "
-                             "is the step");
+                             "missing; allowed: a scene with a carrier, whose period is the step");
   }
   if (!scene.drive->frequency_profile.empty()) {
     throw ConfigurationError("drive.frequency_profile",
-                             "changes the carrier period; allowed in an FMU: one frequency, "
-                             "drive.frequency_Hz");
+                             "changes the carrier period, which is the step; allowed: one "
+                             "frequency, drive.frequency_Hz");
   }
   if (scene.resonant()) {
     throw ConfigurationError("controller.vibration",
-                             "\"resonant\" changes the carrier period; allowed in an FMU: "
+                             "\"resonant\" changes the carrier period, which is the step; allowed: "
                              "\"damped\", or no such key");
   }
   if (has_controller(kind) && !scene.controller) {
-    throw ConfigurationError("controller", "missing; allowed without it: an FMU of the kind plant");
+    throw ConfigurationError("controller",
+                             "missing; allowed: a scene in closed loop, or the plant alone");
   }
 }
 
@@ -126,4 +126,4 @@ void Engine::restore(loop::SnapshotReader& state) {
   }
 }
 
-}  // namespace sonoglide::fmi
+}  // namespace sonoglide::stepped

@@ -1,11 +1,11 @@
-/// What of a closed loop an FMU holds.
+/// What of a closed loop is stepped from outside.
 #pragma once
 
 #include <array>
 
 #include "host_sim/scene/names.hpp"
 
-namespace sonoglide::fmi {
+namespace sonoglide::stepped {
 
 enum class Kind {
   plant,       ///< oscillator and contact
@@ -24,4 +24,4 @@ constexpr bool has_controller(Kind kind) {
   return kind != Kind::plant;
 }
 
-}  // namespace sonoglide::fmi
+}  // namespace sonoglide::stepped
