@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "host_sim/python/bindings.hpp"
@@ -20,15 +21,26 @@ using Table = py::array_t<double, py::array::c_style>;
 using GivenTable = py::array_t<double, py::array::c_style | py::array::forcecast>;
 using Scenes = std::vector<const scene::Scene*>;
 
-/// One scene serves every row of the targets.
-Scenes scenes_of(const py::object& scenes, const std::optional<GivenTable>& targets) {
-  if (py::isinstance<Scene>(scenes)) {
-    const std::size_t count =
-        targets && targets->ndim() == 2 ? static_cast<std::size_t>(targets->shape(0)) : 1;
-    return Scenes(count, &py::cast<const Scene&>(scenes).values);
+/// A tuple of them, which keeps them alive. One scene serves every row of the targets.
+py::tuple tuple_of(const py::object& scenes, const std::optional<GivenTable>& targets) {
+  if (!py::isinstance<Scene>(scenes)) {
+    return py::tuple(scenes);
   }
+  const py::ssize_t count = targets && targets->ndim() == 2 ? targets->shape(0) : 1;
+  py::tuple same(count);
+  for (py::ssize_t i = 0; i < count; ++i) {
+    same[static_cast<std::size_t>(i)] = scenes;
+  }
+  return same;
+}
+
+Scenes scenes_of(const py::tuple& kept) {
   Scenes each;
-  for (const py::handle scene : scenes) {
+  for (const py::handle scene : kept) {
+    if (!py::isinstance<Scene>(scene)) {
+      throw py::type_error("scenes holds " + std::string(py::repr(scene)) +
+                           "; allowed: a Scene, or several");
+    }
     each.push_back(&py::cast<const Scene&>(scene).values);
   }
   return each;
@@ -63,7 +75,8 @@ void require_shape(const Array& array, const char* name, std::size_t rows, std::
 
 Table rollout(const py::object& scenes, const std::optional<GivenTable>& targets,
               const std::optional<Table>& out, unsigned threads) {
-  const Scenes each = scenes_of(scenes, targets);
+  const py::tuple kept = tuple_of(scenes, targets);
+  const Scenes each = scenes_of(kept);
   const std::size_t periods = periods_of_all(each);
   if (targets) {
     require_shape(*targets, "targets", each.size(), periods);

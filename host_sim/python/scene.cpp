@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "host_sim/python/bindings.hpp"
+#include "host_sim/python/key.hpp"
 #include "host_sim/scene_file/reader.hpp"
 #include "host_sim/scene_file/to_json.hpp"
 #include "host_sim/scene_file/to_toml.hpp"
@@ -34,8 +35,8 @@ std::string toml_of(const py::handle& value);
 std::string toml_table(const py::dict& table) {
   std::string text;
   for (const auto& [key, value] : table) {
-    text += (text.empty() ? "" : ", ") + nlohmann::json(py::cast<std::string>(key)).dump() + " = " +
-            toml_of(value);
+    text +=
+        (text.empty() ? "" : ", ") + nlohmann::json(key_of(key)).dump() + " = " + toml_of(value);
   }
   return "{ " + text + " }";
 }
@@ -72,8 +73,7 @@ std::string toml_of(const py::handle& value) {
 std::vector<std::string> overrides_of(const py::dict& values) {
   std::vector<std::string> overrides;
   for (const auto& [key, value] : values) {
-    overrides.push_back(py::cast<std::string>(key) + "=" +
-                        (value.is_none() ? std::string() : toml_of(value)));
+    overrides.push_back(key_of(key) + "=" + (value.is_none() ? std::string() : toml_of(value)));
   }
   return overrides;
 }

@@ -14,6 +14,7 @@
 
 #include "firmware/control/names.hpp"
 #include "host_sim/python/bindings.hpp"
+#include "host_sim/python/key.hpp"
 #include "host_sim/python/scene.hpp"
 #include "host_sim/studies/identify/friction/comparison.hpp"
 #include "host_sim/studies/identify/friction/report.hpp"
@@ -57,7 +58,7 @@ std::vector<std::string> vary_of(const py::dict& axes) {
         values += (values.empty() ? "" : ",") + listed(value);
       }
     }
-    vary.push_back(py::cast<std::string>(key) + "=" + values);
+    vary.push_back(key_of(key) + "=" + values);
   }
   return vary;
 }

@@ -17,6 +17,18 @@ def test_scenes_are_run_as_one_by_one(scene):
         assert numpy.array_equal(row, run_ratios(each))
 
 
+def test_scenes_that_nobody_else_keeps_live_long_enough(scene):
+    ratios = sonoglide.rollout(scene("target_step", {"friction.coefficient": mu}) for mu in (0.08, 0.13))
+    assert numpy.array_equal(ratios[1], run_ratios(scene("target_step", {"friction.coefficient": 0.13})))
+
+
+def test_what_is_no_scene_is_refused(scene):
+    with pytest.raises(TypeError, match="allowed: a Scene"):
+        sonoglide.rollout([scene("target_step"), "target_step"])
+    with pytest.raises(TypeError):
+        sonoglide.rollout(7)
+
+
 def test_targets_of_0_leave_those_of_the_scene(scene):
     read = scene("target_step")
     ratios = sonoglide.rollout(read, numpy.zeros((1, 360)))

@@ -66,6 +66,12 @@ def test_errors_carry_line_and_column(tmp_path):
     assert isinstance(error, ValueError)
 
 
+@pytest.mark.parametrize("overrides", [{7: 1.0}, {"plant.mass_kg": object()}])
+def test_overrides_of_other_types_are_refused(scene, overrides):
+    with pytest.raises(TypeError):
+        scene("target_step", overrides)
+
+
 def test_errors_of_overrides_name_their_place(scene):
     with pytest.raises(sonoglide.SceneError) as caught:
         scene("target_step", {"plant.mass_kg": 0.02, "friction.coefficient": math.nan})
