@@ -195,8 +195,8 @@ struct Reader {
 };
 
 const Reader readers[] = {
-    {"python", shell_word(SONOGLIDE_PYTHON) + " -c",
-     shell_word(SONOGLIDE_PYTHON) + " -c 'import pandas'",
+    {"python", shell_word(SONOGLIDE_INTERPRETER) + " -c",
+     shell_word(SONOGLIDE_INTERPRETER) + " -c 'import pandas'",
      "print(len(periods), periods['friction_ratio'].dtype)", "360 float64"},
     // Octave has the same function.
     {"matlab", "octave-cli --eval", "command -v octave-cli",

@@ -188,7 +188,7 @@ class Cases {
         fs::path(testing::TempDir()) / fmt::format("scene_cases_{}.json", getpid());
     std::ofstream(file) << ordered_json{{"schema", ordered_json::parse(json_schema())},
                                         {"cases", list_}};
-    expect_agreement(fmt::format("'{}' '{}'", SONOGLIDE_PYTHON, SONOGLIDE_SCHEMA_CHECK), file);
+    expect_agreement(fmt::format("'{}' '{}'", SONOGLIDE_INTERPRETER, SONOGLIDE_SCHEMA_CHECK), file);
     if (editors_are_here()) {
       expect_agreement(
           fmt::format("NODE_PATH='{}' node '{}'", node_modules.string(), SONOGLIDE_EDITORS_CHECK),
