@@ -62,8 +62,10 @@ void is_that_of_the_patient_search(Met& met) {
   // Next to a double zero both may stop within rounding of it, or pass.
   const double slope =
       std::abs(value(quotient, patient + 1e-6) - value(quotient, patient - 1e-6)) / 2e-6;
-  RC_PRE(patient == end || slope > 1e-4);
-  RC_PRE(patient < end || std::abs(value(quotient, end)) > 1e-9);
+  const bool told = patient < end ? slope > 1e-4 : std::abs(value(quotient, end)) > 1e-9;
+  if (!told) {
+    return;
+  }
   RC_ASSERT(std::abs(quick - patient) <= 1e-9);
   ++(patient < end ? met.reversals : met.none);
 }
@@ -71,9 +73,11 @@ void is_that_of_the_patient_search(Met& met) {
 TEST(FirstReversal, IsThatOfThePatientSearch) {
   Met met;
   // One motion in some fifteen reverses.
-  for (int round = 0; round < 20; ++round) {
-    EXPECT_TRUE(rc::check([&met] { is_that_of_the_patient_search(met); }));
-  }
+  EXPECT_TRUE(rc::check([&met] {
+    for (int motion = 0; motion < 20; ++motion) {
+      is_that_of_the_patient_search(met);
+    }
+  }));
   EXPECT_GE(met.reversals, 40);
   EXPECT_GE(met.none, 400);
 }
