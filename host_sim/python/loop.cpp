@@ -91,9 +91,8 @@ void add_loop(py::module_& module) {
              return Loop{scene, SteppedLoop(scene.values)};
            }),
            py::arg("scene"), "__init__(self, scene)\n--\n\n");
-  loop.def("reset", &reset, py::kw_only(), py::arg("seed") = py::none(),
-           py::arg("options") = py::none(),
-           "reset(self, *, seed=None, options=None)\n--\n\n"
+  loop.def("reset", &reset, py::arg("seed") = py::none(), py::arg("options") = py::none(),
+           "reset(self, seed=None, options=None)\n--\n\n"
            "To the beginning. -> observation, info\n\n"
            "seed     of the sensor's noise; None: the scene's, or the last one given\n"
            "options  not used");

@@ -50,7 +50,7 @@ class Loop:
     observation_names: ClassVar[list[str]]
     def __init__(self, scene: Scene) -> None: ...
     def reset(
-        self, *, seed: int | None = None, options: Any = None
+        self, seed: int | None = None, options: Any = None
     ) -> tuple[NDArray[np.float64], dict[str, Any]]: ...
     def step(
         self, target: float | None = None

@@ -62,7 +62,7 @@ def test_the_seed_decides_the_noise(scene):
     loop = sonoglide.Loop(scene("noisy_sensor"))
     hashes = []
     for seed in (1, 2, 1, None):
-        loop.reset(seed=seed)
+        loop.reset(seed)
         for _ in range(200):
             loop.step(0.5)
         hashes.append(loop.trace_hash)
