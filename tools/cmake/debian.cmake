@@ -93,6 +93,8 @@ if(python3-sonoglide IN_LIST packages)
   set(CPACK_DEBIAN_PYTHON3-SONOGLIDE_PACKAGE_DEPENDS "python3 (>= 3.${Python_VERSION_MINOR}), \
 python3 (<< 3.${next_minor}), python3-numpy")
 endif()
+set(CPACK_DEBIAN_PYTHON3-SONOGLIDE_PACKAGE_RECOMMENDS "sonoglide")
+set(CPACK_DEBIAN_PYTHON3-SONOGLIDE_PACKAGE_SUGGESTS "python3-matplotlib, python3-scipy")
 set(CPACK_COMPONENT_PYTHON3-SONOGLIDE_DESCRIPTION
   "Simulates a resonator that slides with friction under a piezo drive, one scene
 or thousands, from Python. The controller that is shipped as firmware can be

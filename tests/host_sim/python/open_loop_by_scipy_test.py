@@ -47,6 +47,6 @@ def test_table_1_from_rest(scene):
     states, last = from_reversal_to_reversal(equations, velocity, end, [0.0] * 4, run.trace["time_s"])
     for name, expected in zip(("displacement_m", "velocity_m_per_s", "friction_force_N"), states):
         largest = numpy.abs(expected).max()
-        assert run.trace[name] == pytest.approx(expected, abs=1e-8 * largest)
+        assert run.trace[name] == pytest.approx(expected, abs=1e-9 * largest)
     ratio = run.summary["friction_ratio"]["whole_run"]
-    assert ratio == pytest.approx(last[3] / (limit_N * end), abs=1e-9)
+    assert ratio == pytest.approx(last[3] / (limit_N * end), abs=1e-10)
