@@ -168,6 +168,11 @@ bool take_electrical_unit(const std::string& word, NamedColumn& column) {
   return true;
 }
 
+/// Units of what is neither an impedance nor an admittance, an angle or a frequency, in small
+/// letters.
+constexpr std::initializer_list<const char*> foreign_units = {
+    "v", "mv", "ma", "ua", "w", "mw", "va", "uf", "nf", "pf", "mh", "uh", "mm"};
+
 /// What stands in the last brackets, or behind the last oblique; empty where nothing does.
 std::string unit_in_brackets(const std::string& name) {
   const std::size_t open = name.find_last_of("([");
@@ -217,6 +222,11 @@ NamedColumn read_name(const std::string& name, std::string& unknown_unit) {
   }
   if (column.role == Role::imaginary && !name.empty() && name.front() == '-') {
     column.scale = -column.scale;
+  }
+  if (column.role != Role::none && !column.has_unit && !column.decibel && words.size() > 1 &&
+      is_one_of(lower(words.back()), foreign_units)) {
+    unknown_unit = words.back();
+    return column;
   }
   const std::vector<std::string> unit = words_of(unit_in_brackets(name));
   const bool recognised = column.has_unit || column.decibel || unit.empty() ||

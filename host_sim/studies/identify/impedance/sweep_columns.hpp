@@ -27,7 +27,7 @@ struct NamedColumn {
 
 /// Reads a name: `Frequency(Hz)`, `impedance_magnitude_ohm`, `|Z| [kOhm]`, `theta-z(deg)`, `Re(Y)`,
 /// `-Im(Z)`, `G (S)`. Case does not matter, but for the m and M of a unit.
-/// @param unknown_unit  the word in brackets that is no unit of what is named; else empty
+/// @param unknown_unit  the word in brackets, or the last one, that is no unit of what is named; else empty
 NamedColumn read_name(const std::string& name, std::string& unknown_unit);
 
 struct SweepColumns {

@@ -1,8 +1,15 @@
 #include "coverage.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <fstream>
+#include <iterator>
+#include <string>
+
+#include "tests/common/csv/csv.hpp"
 
 namespace sonoglide::identify::impedance {
 namespace {
@@ -25,6 +32,37 @@ TEST_P(CoverageTest, IntervalsHoldTheTruth) {
     EXPECT_GE(each.covered, short_ones ? 28 : 31) << each.parameter;
   }
   EXPECT_GE(covered, (short_ones ? 0.75 : 0.85) * 8 * sweeps);
+}
+
+std::string text_of(const std::string& name) {
+  std::ifstream file(std::string(IMPEDANCE) + "/" + name);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+/// What the README tells of a thousand sweeps of each kind.
+TEST(RecordedCoverage, IsAsTheReadmeSays) {
+  const csv::Table table(text_of("coverage.csv"), "coverage.csv");
+  const std::string readme = text_of("README.md");
+  for (const Kind& kind : kinds) {
+    double least = 100.0;
+    double most = 0.0;
+    double sum = 0.0;
+    int parameters = 0;
+    for (const csv::Row& row : table.rows()) {
+      if (row.text("kind") == kind.name) {
+        EXPECT_EQ(row.number("sweeps"), 1000.0) << kind.name;
+        const double percent = row.number("covered") / 10.0;
+        least = std::min(least, percent);
+        most = std::max(most, percent);
+        sum += percent;
+        ++parameters;
+      }
+    }
+    EXPECT_EQ(parameters, 8) << kind.name;
+    const std::string line =
+        fmt::format("| `{}` | {:.1f} % | {:.1f} % | {:.1f} % |", kind.name, least, sum / 8.0, most);
+    EXPECT_NE(readme.find(line), std::string::npos) << line;
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Kinds, CoverageTest, testing::ValuesIn(kinds),

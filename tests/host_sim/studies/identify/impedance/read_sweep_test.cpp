@@ -153,6 +153,8 @@ TEST(ReadSweep, NamesThePlaceOfWhatIsWrong) {
   begins("time_s,|Z|\n1,2\n", "m.csv:1:1: heading: no column is a frequency");
   begins("f,colour\n1,2\n", "m.csv:1:1: heading: no columns of an impedance");
   begins("f,|Z| (V)\n1,2\n", "m.csv:1:1: heading: \"|Z| (V)\": \"V\" is no unit");
+  begins("f,impedance_magnitude_mV\n1,2\n",
+         "m.csv:1:1: heading: \"impedance_magnitude_mV\": \"mV\" is no unit");
   begins("f,|Z|\n1,2\n2,3\n", "m.csv:1:1: sweep: has readings at 2 frequencies");
   begins("# Hz S RI R 50\n1 2\n", "m.csv:2:3: touchstone: 2 numbers");
   begins("# Hz S RI R 50\n1 -1 0\n", "m.csv:2:3: touchstone: has an admittance");
