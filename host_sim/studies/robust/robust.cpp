@@ -43,8 +43,8 @@ Outcome run_robust(const Task& task, const fs::path& out, const std::string& pro
       threads > 0 ? threads : static_cast<std::size_t>(tbb::info::default_concurrency()));
   check_samples(task);
   output::create_folder(out, {samples_file, search_file, figures_file, worst_file, page_file});
-  // The lanes of another instruction set differ in the last bit: rows of both do not mix.
-  Solver solver(task, out, fmt::format("{}, {}", program, batch::instruction_set()));
+  // Rows of another arithmetic, which an earlier program had, do not mix with these.
+  Solver solver(task, out, fmt::format("{}, {}", program, batch::arithmetic));
   const auto begin = std::chrono::steady_clock::now();
   long_work::Pace pace(progress);
   Outcome outcome{solver.solve(pace), solver.found_finished(), 0.0};

@@ -21,8 +21,7 @@
 namespace sonoglide::robust {
 namespace {
 
-constexpr long_work::JournalKind kind = {"robust.journal", "study",
-                                         "--samples, --search or --seed"};
+constexpr long_work::JournalKind kind = {"study", "--samples, --search or --seed"};
 
 long_work::Identity identity_of(const Task& task, const std::string& program) {
   const Counts& counts = task.counts();
@@ -70,7 +69,7 @@ void check_samples(const Task& task) {
 
 Solver::Solver(const Task& task, const std::filesystem::path& folder, const std::string& program)
     : task_(task),
-      journal_(folder, kind, identity_of(task, program),
+      journal_(folder / "robust.journal", kind, identity_of(task, program),
                [this](std::string_view text) { return take(text); }) {
   found_finished_ = known_.size();
 }
