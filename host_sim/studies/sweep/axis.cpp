@@ -11,6 +11,7 @@
 #include "host_sim/scene_file/override.hpp"
 #include "host_sim/scene_file/scene_error.hpp"
 #include "host_sim/scene_file/toml_text.hpp"
+#include "host_sim/studies/sweep/decades.hpp"
 
 namespace sonoglide::sweep {
 namespace {
@@ -152,9 +153,10 @@ double Axis::number(std::size_t index) const {
                                       : from * (1.0 - step / intervals) + to * (step / intervals);
   }
   // By decades: powers of ten come out exactly.
-  const double first = std::log10(std::abs(from));
-  const double last = std::log10(std::abs(to));
-  return std::copysign(std::pow(10.0, first + (last - first) * step / intervals), from);
+  const double first = logarithm_to_ten(std::abs(from));
+  const double last = logarithm_to_ten(std::abs(to));
+  const double value = std::copysign(power_of_ten(first + (last - first) * step / intervals), from);
+  return std::clamp(value, std::min(from, to), std::max(from, to));
 }
 
 scene_file::VariedValue Axis::value(std::size_t index) const {
