@@ -158,6 +158,7 @@ void Journal::recover(const Identity& identity, const Take& take) {
       fail(last_reason());
     }
     write(first_line);
+    sync();
     return;
   }
   const auto header = unsealed(line);
@@ -200,6 +201,10 @@ void Journal::sync_now_and_then() {
   if (steady_time_s() - last_sync_s_ < sync_interval_s) {
     return;
   }
+  sync();
+}
+
+void Journal::sync() {
   if (fdatasync(file_) != 0) {
     fail(last_reason());
   }

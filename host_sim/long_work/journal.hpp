@@ -81,6 +81,7 @@ class Journal {
   std::string difference(std::string_view header, const Identity& identity) const;
   void write(std::string_view text);
   void sync_now_and_then();
+  void sync();
   [[noreturn]] void fail(const std::string& reason) const;
   [[noreturn]] void refuse(const std::filesystem::path& journal, const std::string& contents) const;
 

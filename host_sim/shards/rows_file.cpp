@@ -63,7 +63,7 @@ bool RowsReader::next(std::string& record) {
 RowsWriter::RowsWriter(const std::filesystem::path& folder, const ShardHeader& header,
                        const std::string& copy)
     : target_(folder / rows_name(header.shard())),
-      staged_(folder / fmt::format(".{}.{}", rows_name(header.shard()), copy)) {
+      staged_(folder / staged_name(header.shard(), copy)) {
   constexpr mode_t mode = 0666;
   file_ =
       process::Descriptor(open(staged_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, mode));

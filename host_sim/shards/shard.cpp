@@ -61,6 +61,15 @@ std::string journal_name(const Shard& shard, const std::string& copy) {
   return fmt::format("{}.{}{}", stem(shard), copy, journal_ending);
 }
 
+std::string staged_name(const Shard& shard, const std::string& copy) {
+  return fmt::format(".{}.{}", rows_name(shard), copy);
+}
+
+std::string copy_of(const Shard& shard, const std::string& name) {
+  const std::size_t begin = stem(shard).size() + 1;
+  return name.substr(begin, name.size() - journal_ending.size() - begin);
+}
+
 std::optional<ShardFileName> parse_file_name(std::string_view name) {
   if (!take(name, "shard_")) {
     return std::nullopt;

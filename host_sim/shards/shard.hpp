@@ -45,7 +45,13 @@ std::string rows_name(const Shard& shard);
 /// `shard_3_of_8.NODE.journal`: an unfinished one, by the copy that writes it.
 std::string journal_name(const Shard& shard, const std::string& copy);
 
-/// Absent for a file that is none of the two.
+/// `.shard_3_of_8.rows.NODE`: a finished one that this copy is about to publish.
+std::string staged_name(const Shard& shard, const std::string& copy);
+
+/// The copy that writes a journal of the shard. @param name  from journal_name()
+std::string copy_of(const Shard& shard, const std::string& name);
+
+/// Absent for a file that is none of the first two.
 std::optional<ShardFileName> parse_file_name(std::string_view name);
 
 /// Of shards, as Slurm's sbatch takes it: `--array=3,7-9`. @param numbers  rising, one at least

@@ -109,6 +109,7 @@ void remove_journals(const fs::path& folder, const Shard& shard) {
   for (const fs::path& journal : journals_of(folder, shard)) {
     const process::Descriptor file(open(journal.c_str(), O_RDWR | O_CLOEXEC));
     if (file.number() >= 0 && flock(file.number(), LOCK_EX | LOCK_NB) == 0) {
+      unlink((folder / staged_name(shard, copy_of(shard, journal.filename().string()))).c_str());
       unlink(journal.c_str());
     }
   }

@@ -45,7 +45,8 @@ class ShardJournal {
   std::optional<long_work::Journal> journal_;  ///< from the constructor on
 };
 
-/// The shard is published: removes its journals, but for those of other copies that live.
+/// The shard is published: removes its journals and what a killed copy was about to publish, but for
+/// those of other copies that live.
 void remove_journals(const std::filesystem::path& folder, const Shard& shard);
 
 }  // namespace sonoglide::shards

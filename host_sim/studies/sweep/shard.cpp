@@ -49,7 +49,7 @@ class ShardRun {
       create(folder_);
       journal_.emplace(folder_, header_, [this](std::string_view text) { return take(text); });
       summary.found_finished = progress_.finished();
-      summary.was_there = !compute(pace) || !publish(summary);
+      summary.was_there = !compute_and_publish(pace, summary);
     }
     journal_.reset();
     shards::remove_journals(folder_, header_.shard());
@@ -105,6 +105,22 @@ class ShardRun {
     return record && progress_.take(record->point);
   }
 
+  /// @return false where another copy was faster; it may have removed what this one works with
+  bool compute_and_publish(long_work::Pace& pace, ShardSummary& summary) {
+    try {
+      if (!compute(pace)) {
+        return false;
+      }
+      publish(summary);
+      return true;
+    } catch (const output::OutputError&) {
+      if (published()) {
+        return false;
+      }
+      throw;
+    }
+  }
+
   /// @return false where another copy was faster
   bool compute(long_work::Pace& pace) {
     pace.begin(range().size() - progress_.finished(), 0.0);
@@ -133,8 +149,7 @@ class ShardRun {
   }
 
   /// Brings the journal in order, a block at a time.
-  /// @return false where another copy was faster
-  bool publish(ShardSummary& summary) const {
+  void publish(ShardSummary& summary) const {
     shards::RowsWriter rows(folder_, header_, journal_->copy());
     std::ifstream journal(journal_->path(), std::ios::binary);
     std::string line;
@@ -159,7 +174,6 @@ class ShardRun {
       }
     }
     rows.publish();
-    return true;
   }
 
   const Plan& plan_;

@@ -316,7 +316,7 @@ TEST_F(ShardsTest, ABillionPointsTakeTheMemoryOfAHundredThousand) {
                              "--vary friction.contact_stiffness_N_per_m=1e4:1e6:1000:log");
   const long many = memory_kB(
       folder_, scene +
-                   "--out many --shard 617/5000 --vary friction.coefficient=0.1:0.2:1000000 "
+                   "--out many --shard 6170/10000 --vary friction.coefficient=0.1:0.2:1000000 "
                    "--vary friction.contact_stiffness_N_per_m=1e4:1e6:1000:log");
   EXPECT_LT(static_cast<double>(many), 1.1 * static_cast<double>(few));
 }

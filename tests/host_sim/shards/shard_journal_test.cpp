@@ -78,6 +78,13 @@ TEST_F(ShardJournalTest, ThoseOfCopiesThatLiveStayBehind) {
   EXPECT_EQ(journals_of(folder_.path(), {3, 4}).size(), 1U);
 }
 
+TEST_F(ShardJournalTest, WhatAKilledCopyWasAboutToPublishGoesToo) {
+  const std::string copy = open().copy();
+  folder_.write(staged_name({2, 4}, copy), "half of it");
+  remove_journals(folder_.path(), {2, 4});
+  EXPECT_TRUE(folder_.has_no_shard());
+}
+
 TEST_F(ShardJournalTest, OtherWorkIsRefusedByName) {
   {
     const ShardJournal journal = open();

@@ -51,6 +51,8 @@ TEST(ShardTest, FilesHaveNamesThatReadBack) {
   const auto journal = parse_file_name(journal_name({3, 8}, "node-7"));
   ASSERT_TRUE(journal);
   EXPECT_EQ(journal->kind, ShardFileName::Kind::journal);
+  EXPECT_EQ(copy_of({3, 8}, journal_name({3, 8}, "node-7")), "node-7");
+  EXPECT_FALSE(parse_file_name(staged_name({3, 8}, "node-7")));
   for (const char* name :
        {"shard_3_of_8", "shard_3_of_8.rows~", ".shard_3_of_8.rows.node", "shard_9_of_8.rows",
         "shard_3_of_8.journal", "shard__of_8.rows", "shard_03_of_8.rows", "sweep.csv", ""}) {
