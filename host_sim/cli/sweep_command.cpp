@@ -65,7 +65,7 @@ std::string text(const sweep::Summary& summary, const std::filesystem::path& out
                      shown(out / sweep::page_file));
 }
 
-std::string text(const sweep::ShardSummary& summary, const std::filesystem::path& rows) {
+std::string text(const shards::ShardSummary& summary, const std::filesystem::path& rows) {
   if (summary.was_there) {
     return fmt::format("{}: is there\n", shown(rows));
   }

@@ -1,22 +1,22 @@
-#include "host_sim/studies/sweep/block_progress.hpp"
+#include "host_sim/shards/block_progress.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cstddef>
 
-namespace sonoglide::sweep::block_progress_test {
+namespace sonoglide::shards::block_progress_test {
 namespace {
 
-constexpr std::size_t first = 1'000'000'007;
+constexpr std::uint64_t first = 1'000'000'007;
 
 TEST(BlockProgressTest, GoesFromBlockToBlock) {
   BlockProgress progress({first, first + 2 * points_per_block + 1});
-  for (const std::size_t size : {points_per_block, points_per_block, std::size_t{1}}) {
+  for (const std::uint64_t size : {points_per_block, points_per_block, std::uint64_t{1}}) {
     EXPECT_FALSE(progress.complete());
     const PointRange block = progress.block();
     EXPECT_EQ(block.size(), size);
     EXPECT_EQ(progress.open_points().size(), size);
-    for (std::size_t point = block.end; point-- > block.first;) {
+    for (std::uint64_t point = block.end; point-- > block.first;) {
       EXPECT_TRUE(progress.take(point));
     }
   }
@@ -43,4 +43,4 @@ TEST(BlockProgressTest, OfNoPointsItIsComplete) {
 }
 
 }  // namespace
-}  // namespace sonoglide::sweep::block_progress_test
+}  // namespace sonoglide::shards::block_progress_test
