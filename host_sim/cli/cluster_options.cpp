@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include "host_sim/cli/options.hpp"
+#include "host_sim/output/output_folder.hpp"
 #include "host_sim/process/printable.hpp"
+#include "host_sim/shards/slurm_script.hpp"
 
 namespace sonoglide::cli {
 namespace {
@@ -66,6 +68,44 @@ void require(const CLI::App& command, const std::string& option) {
   if (command.get_option(option)->empty()) {
     throw CLI::RequiredError(option);
   }
+}
+
+std::string shown(const std::filesystem::path& path) {
+  return process::printable(path.string());
+}
+
+std::string shard_text(const shards::ShardSummary& summary, const std::filesystem::path& rows) {
+  if (summary.was_there) {
+    return fmt::format("{}: is there\n", shown(rows));
+  }
+  std::string lines = fmt::format("{} points", summary.points.size());
+  if (summary.found_finished > 0) {
+    lines += fmt::format(", {} of them finished before", summary.found_finished);
+  }
+  lines += fmt::format("; {:.3g} s\n", summary.wall_s);
+  if (summary.failed > 0) {
+    lines += fmt::format("{} points failed\n", summary.failed);
+  }
+  return lines + fmt::format("rows: {}\n", shown(rows));
+}
+
+std::string write_job(const Job& job, const std::filesystem::path& out) {
+  namespace fs = std::filesystem;
+  const fs::path folder = fs::weakly_canonical(fs::absolute(out));
+  const std::string scene = output_folder("", job.source.name(), ".toml").filename().string();
+  const std::string script = job.command + ".slurm";
+  std::vector<std::string> command = {fs::read_symlink("/proc/self/exe").string(), job.command,
+                                      (folder / scene).string()};
+  for (const std::string& each : job.overrides) {
+    command.insert(command.end(), {"--set", each});
+  }
+  command.insert(command.end(), job.options.begin(), job.options.end());
+  command.insert(command.end(), {"--out", folder.string(), "--quiet"});
+  output::OutputFolder files(folder);
+  files.write(scene, job.source.text);
+  files.write(script, shards::slurm_script(command, job.shards, folder));
+  files.commit();
+  return fmt::format("job script: {}\n", shown(folder / script));
 }
 
 std::string status_text(const std::filesystem::path& folder) {

@@ -11,9 +11,6 @@
 #include "host_sim/cli/cluster_options.hpp"
 #include "host_sim/cli/options.hpp"
 #include "host_sim/cli/progress_bar.hpp"
-#include "host_sim/output/output_folder.hpp"
-#include "host_sim/process/printable.hpp"
-#include "host_sim/shards/slurm_script.hpp"
 #include "host_sim/studies/sweep/merge.hpp"
 #include "host_sim/studies/sweep/shard.hpp"
 #include "host_sim/studies/sweep/sweep.hpp"
@@ -30,9 +27,6 @@ struct SweepOptions {
   bool quiet = false;
 };
 
-constexpr const char* program_version = "sonoglide " SONOGLIDE_VERSION;
-constexpr const char* job_file = "sweep.slurm";
-
 /// Calls with a progress bar; the journal or shard of another sweep is an error of --out.
 template <class Call>
 auto computed(const SweepOptions& options, const Call& call) {
@@ -42,10 +36,6 @@ auto computed(const SweepOptions& options, const Call& call) {
   } catch (const sweep::ForeignJournal& error) {
     throw CLI::ValidationError("--out", error.what());
   }
-}
-
-std::string shown(const std::filesystem::path& path) {
-  return process::printable(path.string());
 }
 
 std::string failures_text(std::size_t failed) {
@@ -63,18 +53,6 @@ std::string text(const sweep::Summary& summary, const std::filesystem::path& out
   return lines + failures_text(summary.failed) +
          fmt::format("rows: {}\nreport: {}\n", shown(out / sweep::table_file),
                      shown(out / sweep::page_file));
-}
-
-std::string text(const shards::ShardSummary& summary, const std::filesystem::path& rows) {
-  if (summary.was_there) {
-    return fmt::format("{}: is there\n", shown(rows));
-  }
-  std::string lines = fmt::format("{} points", summary.points.size());
-  if (summary.found_finished > 0) {
-    lines += fmt::format(", {} of them finished before", summary.found_finished);
-  }
-  return lines + fmt::format("; {:.3g} s\n", summary.wall_s) + failures_text(summary.failed) +
-         fmt::format("rows: {}\n", shown(rows));
 }
 
 std::string text(const sweep::MergeSummary& summary, const std::filesystem::path& out) {
@@ -102,54 +80,35 @@ std::string run_shard(const SweepOptions& options) {
                          options.vary, sweep::most_points_in_shards);
   const std::filesystem::path out = output_folder(options.out, plan.first().name, "_sweep");
   const shards::Shard shard = *shards::parse_shard(options.cluster.shard);
-  return text(computed(options,
-                       [&](const long_work::Progress& progress) {
-                         return sweep::run_shard(plan, shard, out, program_version, options.threads,
-                                                 progress);
-                       }),
-              out / shards::rows_name(shard));
+  return shard_text(computed(options,
+                             [&](const long_work::Progress& progress) {
+                               return sweep::run_shard(plan, shard, out, program_version,
+                                                       options.threads, progress);
+                             }),
+                    out / shards::rows_name(shard));
 }
 
-/// What is missing is printed to standard output too, for scripts.
 std::string merge(const SweepOptions& options) {
   const std::filesystem::path folder = options.cluster.merge;
   const std::filesystem::path out =
       options.out.empty() ? folder : std::filesystem::path(options.out);
-  try {
-    return with_usable_shards("--merge", [&] {
-      ProgressBar bar(stderr, !options.quiet);
-      return text(sweep::merge_shards(folder, out, program_version,
-                                      [&bar](double fraction) { bar.update(fraction); }),
-                  out);
-    });
-  } catch (const shards::Incomplete& error) {
-    fmt::print("{}\n", shards::array_text(error.missing()));
-    throw;
-  }
+  return merged([&] {
+    ProgressBar bar(stderr, !options.quiet);
+    return text(sweep::merge_shards(folder, out, program_version,
+                                    [&bar](double fraction) { bar.update(fraction); }),
+                out);
+  });
 }
 
-/// The shards read a copy of the scene, which no later edit reaches.
-std::string write_job(const SweepOptions& options) {
+std::string write_sweep_job(const SweepOptions& options) {
   const sweep::Plan plan(scene_file::read_source(options.scene.path), options.scene.overrides,
                          options.vary, sweep::most_points_in_shards);
-  const std::filesystem::path out = std::filesystem::weakly_canonical(
-      std::filesystem::absolute(output_folder(options.out, plan.first().name, "_sweep")));
-  const std::filesystem::path scene =
-      out / output_folder("", plan.source().name(), ".toml").filename();
-  std::vector<std::string> command = {std::filesystem::read_symlink("/proc/self/exe").string(),
-                                      "sweep", scene.string()};
-  for (const std::string& override_text : plan.overrides()) {
-    command.insert(command.end(), {"--set", override_text});
-  }
+  std::vector<std::string> words;
   for (const std::string& vary : plan.vary()) {
-    command.insert(command.end(), {"--vary", vary});
+    words.insert(words.end(), {"--vary", vary});
   }
-  command.insert(command.end(), {"--out", out.string(), "--quiet"});
-  output::OutputFolder folder(out);
-  folder.write(scene.filename().string(), plan.source().text);
-  folder.write(job_file, shards::slurm_script(command, options.cluster.slurm, out));
-  folder.commit();
-  return fmt::format("job script: {}\n", shown(out / job_file));
+  return write_job({"sweep", plan.source(), plan.overrides(), words, options.cluster.slurm},
+                   output_folder(options.out, plan.first().name, "_sweep"));
 }
 
 /// Throws scene_file::SceneError and CLI::ParseError, nothing was written then; shards::Incomplete,
@@ -167,7 +126,7 @@ void sweep(const CLI::App& command, const SweepOptions& options) {
     require(command, "scene");
     require(command, "--vary");
     text = !options.cluster.shard.empty() ? run_shard(options)
-           : options.cluster.slurm > 0    ? write_job(options)
+           : options.cluster.slurm > 0    ? write_sweep_job(options)
                                           : run_whole(options);
   }
   if (!options.quiet) {
@@ -198,7 +157,7 @@ void add_sweep_command(CLI::App& program) {
       ->allow_extra_args(false);
   add_output_option(*command, options->out,
                     "sweep.csv, sweep.svg (one or two keys) and report.html [out/<scene "
-                    "name>_sweep]");
+                    "name>_sweep; of --merge the folder of the shards]");
   add_threads_option(*command, options->threads);
   add_cluster_options(*command, options->cluster, {"scene", "--set", "--vary", "--threads"});
   command->add_flag("--quiet", options->quiet, "No progress bar and no printed summary");
