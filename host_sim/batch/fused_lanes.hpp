@@ -1,7 +1,7 @@
 /// Products with a sum, rounded once. An instruction set without a fused multiply-add would round
-/// twice, and the last bit would tell which machine has computed a point: there each lane goes
-/// through the C library, which takes long and has the same bits. Compiled once for each
-/// instruction set.
+/// twice, and the last bit would tell which machine has computed a point: there each lane is put
+/// together from parts, which takes long and has the same bits. Compiled once for each instruction
+/// set.
 #if defined(SONOGLIDE_BATCH_FUSED_LANES) == defined(HWY_TARGET_TOGGLE)
 #ifdef SONOGLIDE_BATCH_FUSED_LANES
 #undef SONOGLIDE_BATCH_FUSED_LANES
@@ -12,8 +12,8 @@
 #include <hwy/highway.h>
 
 #include <array>
-#include <cmath>
-#include <cstddef>
+
+#include "host_sim/batch/fused_by_parts.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace sonoglide::batch::HWY_NAMESPACE {
@@ -36,10 +36,8 @@ HWY_INLINE V fused(V a, V b, V c) {
     hn::StoreU(a, d, lanes.data());
     hn::StoreU(b, d, factors.data());
     hn::StoreU(c, d, sums.data());
-    for (std::size_t i = 0; i < lanes.size(); ++i) {
-      lanes[i] = std::fma(lanes[i], factors[i], sums[i]);
-    }
-    return hn::LoadU(d, lanes.data());
+    fuse(lanes.data(), factors.data(), sums.data(), lanes.size());
+    return hn::LoadU(d, sums.data());
   }
 }
 /// c - a b

@@ -36,7 +36,7 @@ std::optional<Shard> parse_shard(std::string_view text);
 struct ShardFileName {
   enum class Kind { rows, journal };
   Shard shard;
-  Kind kind;
+  Kind kind = Kind::rows;
 };
 
 /// `shard_3_of_8.rows`: a finished shard.
