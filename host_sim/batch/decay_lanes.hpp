@@ -40,15 +40,15 @@ HWY_INLINE hn::Vec<D> decay(D d, hn::Vec<D> z) {
   // Adding it rounds to an integer, which the lowest bits then hold.
   const auto rounder = hn::Set(d, narrow ? Scalar(0x1.8p23) : Scalar(0x1.8p52));
   const auto bounded = hn::Min(z, hn::Set(d, Scalar(80)));
-  const auto shifted = hn::NegMulAdd(bounded, hn::Set(d, Scalar(1.4426950408889634)), rounder);
+  const auto shifted = fused_negative(bounded, hn::Set(d, Scalar(1.4426950408889634)), rounder);
   const auto exponent = hn::ShiftLeft<mantissa_bits>(hn::BitCast(integers, shifted));
-  const auto rest = hn::Neg(
-      hn::MulAdd(hn::Sub(shifted, rounder), hn::Set(d, Scalar(0.6931471805599453)), bounded));
+  const auto rest =
+      hn::Neg(fused(hn::Sub(shifted, rounder), hn::Set(d, Scalar(0.6931471805599453)), bounded));
   auto sum = hn::Set(d, static_cast<Scalar>(reciprocal_factorials[Degree]));
   HWY_UNROLL(16)
   for (int n = Degree - 1; n >= 0; --n) {
     const double coefficient = reciprocal_factorials[static_cast<std::size_t>(n)];
-    sum = hn::MulAdd(sum, rest, hn::Set(d, static_cast<Scalar>(coefficient)));
+    sum = fused(sum, rest, hn::Set(d, static_cast<Scalar>(coefficient)));
   }
   return hn::BitCast(d, hn::Add(hn::BitCast(integers, sum), exponent));
 }

@@ -7,7 +7,8 @@
 #define SONOGLIDE_BATCH_LANE_PACK
 #endif
 
-#include <hwy/contrib/math/math-inl.h>
+#include "host_sim/batch/fused_lanes.hpp"
+
 #include <hwy/highway.h>
 
 #include <cstddef>
@@ -66,11 +67,11 @@ HWY_INLINE Pack<D> operator/(Pack<D> a, Pack<D> b) {
 }
 template <class D>
 HWY_INLINE Pack<D> MulAdd(Pack<D> a, Pack<D> b, Pack<D> c) {
-  return {hn::MulAdd(a.first, b.first, c.first), hn::MulAdd(a.second, b.second, c.second)};
+  return {fused(a.first, b.first, c.first), fused(a.second, b.second, c.second)};
 }
 template <class D>
 HWY_INLINE Pack<D> NegMulAdd(Pack<D> a, Pack<D> b, Pack<D> c) {
-  return {hn::NegMulAdd(a.first, b.first, c.first), hn::NegMulAdd(a.second, b.second, c.second)};
+  return {fused_negative(a.first, b.first, c.first), fused_negative(a.second, b.second, c.second)};
 }
 template <class D>
 HWY_INLINE Pack<D> Neg(Pack<D> a) {

@@ -58,7 +58,10 @@ enum class Accuracy {
   fine,  ///< 1e-8: float64 lanes
 };
 
-/// The instruction set of this machine that the lanes use: it decides the last bit.
+/// What decides the last bit of a lane, by name: the same on every machine.
+inline constexpr const char* arithmetic = "lanes with fused multiply-add";
+
+/// The instruction set of this machine that the lanes use: it decides the time.
 std::string instruction_set();
 
 /// Runs `count` plants by the event-located Taylor method; runs[i] is that of plants[i].
@@ -66,8 +69,8 @@ std::string instruction_set();
 /// Steps end at the reversals of V, and none is passed over. Between them friction follows the
 /// displacement exactly: |phi| <= 1 always, and the friction work is exact for the path taken.
 /// A point's result is the same, bit for bit, whatever its lane, its neighbours and the way a
-/// caller divides the points among threads; from one instruction set to another only the rounding
-/// differs (a fused multiply-add where there is one). A point that the lanes give up says so in its
+/// caller divides the points among threads, and on every instruction set: one without a fused
+/// multiply-add takes many times as long instead. A point that the lanes give up says so in its
 /// status, in time, and disturbs no other: let plant::EventTaylor solve it.
 void run_dahl_plants(const DahlPlant* plants, std::size_t count, const RunLength& length,
                      Accuracy accuracy, DahlRun* runs);

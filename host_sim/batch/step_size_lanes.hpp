@@ -27,7 +27,7 @@ HWY_INLINE hn::Vec<D> quick_root(D d, hn::Vec<D> x) {
     constexpr float bits_of_one = 0x3F800000p0F;
     const auto logarithm = hn::ConvertTo(d, hn::BitCast(integers, x));
     const auto root =
-        hn::MulAdd(logarithm, hn::Set(d, share), hn::Set(d, bits_of_one - bits_of_one * share));
+        fused(logarithm, hn::Set(d, share), hn::Set(d, bits_of_one - bits_of_one * share));
     return hn::BitCast(d, hn::ConvertTo(integers, root));
   } else {
     // An integer below 2^52 in the mantissa of 2^52 is converted without an instruction for it.
@@ -40,7 +40,7 @@ HWY_INLINE hn::Vec<D> quick_root(D d, hn::Vec<D> x) {
     const auto bits = hn::ShiftRight<dropped>(hn::BitCast(integers, x));
     const auto logarithm = hn::Sub(hn::BitCast(d, hn::Or(bits, carrier_bits)), carrier);
     const auto root =
-        hn::MulAdd(logarithm, hn::Set(d, share), hn::Set(d, bits_of_one - bits_of_one * share));
+        fused(logarithm, hn::Set(d, share), hn::Set(d, bits_of_one - bits_of_one * share));
     const auto root_bits = hn::BitCast(integers, hn::Add(root, carrier));
     return hn::BitCast(d, hn::ShiftLeft<dropped>(hn::Xor(root_bits, carrier_bits)));
   }

@@ -13,6 +13,7 @@
 #include "host_sim/output/output_folder.hpp"
 #include "host_sim/process/printable.hpp"
 #include "host_sim/scene_file/scene_error.hpp"
+#include "host_sim/shards/collection.hpp"
 
 namespace sonoglide::cli {
 namespace {
@@ -69,6 +70,8 @@ int run_program(int argument_count, const char* const* arguments,
   } catch (const scene_file::SceneError& error) {
     return fail(bad_input, error.what());
   } catch (const loop::ComputationError& error) {
+    return fail(computation_failed, error.what());
+  } catch (const shards::Incomplete& error) {
     return fail(computation_failed, error.what());
   } catch (const std::exception& error) {
     return fail(system_failed, error.what());

@@ -14,9 +14,9 @@
 #include <utility>
 #include <vector>
 
+#include "host_sim/cli/cluster_options.hpp"
 #include "host_sim/cli/options.hpp"
 #include "host_sim/cli/progress_bar.hpp"
-#include "host_sim/process/printable.hpp"
 #include "host_sim/studies/robust/report.hpp"
 #include "host_sim/studies/robust/robust.hpp"
 
@@ -27,16 +27,17 @@ struct RobustOptions {
   SceneOptions scene;
   std::string out;  ///< empty: out/<scene name>_robust
   robust::Counts counts;
+  ClusterOptions cluster;
   unsigned threads = 0;  ///< 0: one for each core
   bool quiet = false;
 };
 
-robust::Outcome compute(const robust::Task& task, const std::filesystem::path& out,
-                        const RobustOptions& options) {
+/// Calls with a progress bar; the journal or shard of another study is an error of --out.
+template <class Call>
+auto computed(const RobustOptions& options, const Call& call) {
   ProgressBar bar(stderr, !options.quiet);
   try {
-    return robust::run_robust(task, out, "sonoglide " SONOGLIDE_VERSION, options.threads,
-                              [&bar](double fraction) { bar.update(fraction); });
+    return call([&bar](double fraction) { bar.update(fraction); });
   } catch (const long_work::ForeignJournal& error) {
     throw CLI::ValidationError("--out", error.what());
   }
@@ -96,20 +97,90 @@ std::string text(const robust::Task& task, const robust::Outcome& outcome,
     lines += fmt::format("{} runs of the search failed\n", study.search_failures());
   }
   lines += figure_lines(study) + worst_lines(task, study.worst);
-  const auto shown = [&](const char* file) { return process::printable((out / file).string()); };
-  return lines + fmt::format("rows: {}\nworst plant: {}\nreport: {}\n", shown("robust.csv"),
-                             shown("worst.toml"), shown("report.html"));
+  return lines + fmt::format("rows: {}\nworst plant: {}\nreport: {}\n", shown(out / "robust.csv"),
+                             shown(out / "worst.toml"), shown(out / "report.html"));
 }
 
-/// Throws scene_file::SceneError and CLI::ValidationError, nothing was written then;
+robust::Task task_of(const RobustOptions& options) {
+  return {scene_file::read_source(options.scene.path), options.scene.overrides, options.counts};
+}
+
+std::filesystem::path folder_of(const RobustOptions& options, const robust::Task& task) {
+  return output_folder(options.out, task.nominal().name, "_robust");
+}
+
+std::string run_whole(const RobustOptions& options) {
+  const robust::Task task = task_of(options);
+  const std::filesystem::path out = folder_of(options, task);
+  return text(task,
+              computed(options,
+                       [&](const long_work::Progress& progress) {
+                         return robust::run_robust(task, out, program_version, options.threads,
+                                                   progress);
+                       }),
+              out);
+}
+
+std::string run_shard(const RobustOptions& options) {
+  const robust::Task task = task_of(options);
+  const std::filesystem::path out = folder_of(options, task);
+  const shards::Shard shard = *shards::parse_shard(options.cluster.shard);
+  return shard_text(computed(options,
+                             [&](const long_work::Progress& progress) {
+                               return robust::run_shard(task, shard, out, program_version,
+                                                        options.threads, progress);
+                             }),
+                    out / shards::rows_name(shard));
+}
+
+std::string merge(const RobustOptions& options) {
+  const std::filesystem::path folder = options.cluster.merge;
+  const std::filesystem::path out =
+      options.out.empty() ? folder : std::filesystem::path(options.out);
+  return merged([&] {
+    const shards::Collection found(folder);
+    const robust::Task task = robust::task_of(found, program_version);
+    return text(task,
+                computed(options,
+                         [&](const long_work::Progress& progress) {
+                           return robust::merge_shards(found, task, out, program_version,
+                                                       options.threads, progress);
+                         }),
+                out);
+  });
+}
+
+std::string write_robust_job(const RobustOptions& options) {
+  const robust::Task task = task_of(options);
+  const robust::Counts& counts = task.counts();
+  return write_job({"robust",
+                    task.source(),
+                    task.overrides(),
+                    {"--samples", fmt::format("{}", counts.samples), "--search",
+                     fmt::format("{}", counts.search), "--seed", fmt::format("{}", counts.seed)},
+                    options.cluster.slurm},
+                   folder_of(options, task));
+}
+
+/// Throws scene_file::SceneError and CLI::ParseError, nothing was written then; shards::Incomplete,
 /// output::OutputError.
-void robust(const RobustOptions& options) {
-  const robust::Task task(scene_file::read_source(options.scene.path), options.scene.overrides,
-                          options.counts);
-  const std::filesystem::path out = output_folder(options.out, task.nominal().name, "_robust");
-  const robust::Outcome outcome = compute(task, out, options);
+void robust(const CLI::App& command, const RobustOptions& options) {
+  std::string text;
+  if (!options.cluster.status.empty()) {
+    fmt::print("{}",
+               with_usable_shards("--status", [&] { return status_text(options.cluster.status); }));
+    return;
+  }
+  if (!options.cluster.merge.empty()) {
+    text = merge(options);
+  } else {
+    require(command, "scene");
+    text = !options.cluster.shard.empty() ? run_shard(options)
+           : options.cluster.slurm > 0    ? write_robust_job(options)
+                                          : run_whole(options);
+  }
   if (!options.quiet) {
-    fmt::print("{}", text(task, outcome, out));
+    fmt::print("{}", text);
   }
 }
 
@@ -130,6 +201,7 @@ void add_robust_command(CLI::App& program) {
       "Run a closed loop on many plants inside the scene's [tolerance], on all cores, and search "
       "for the worst of them; interrupted, the same command goes on from there");
   add_scene_options(*command, options->scene);
+  command->get_option("scene")->required(false);
   robust::Counts& counts = options->counts;
   add_count(*command, "--samples", counts.samples,
             "Plants to draw; a power of two fills the tolerances best", 1, robust::most_samples);
@@ -142,8 +214,10 @@ void add_robust_command(CLI::App& program) {
                     "robust.csv, search.csv, robust.json, worst.toml and report.html [out/<scene "
                     "name>_robust]");
   add_threads_option(*command, options->threads);
+  add_cluster_options(*command, options->cluster,
+                      {"scene", "--set", "--samples", "--search", "--seed"});
   command->add_flag("--quiet", options->quiet, "No progress bar and no printed summary");
-  command->callback([options] { robust(*options); });
+  command->callback([command, options] { robust(*command, *options); });
 }
 
 }  // namespace sonoglide::cli

@@ -8,9 +8,11 @@
 #include <string>
 #include <vector>
 
+#include "host_sim/cli/cluster_options.hpp"
 #include "host_sim/cli/options.hpp"
 #include "host_sim/cli/progress_bar.hpp"
-#include "host_sim/process/printable.hpp"
+#include "host_sim/studies/sweep/merge.hpp"
+#include "host_sim/studies/sweep/shard.hpp"
 #include "host_sim/studies/sweep/sweep.hpp"
 
 namespace sonoglide::cli {
@@ -20,19 +22,24 @@ struct SweepOptions {
   SceneOptions scene;
   std::string out;  ///< empty: out/<scene name>_sweep
   std::vector<std::string> vary;
+  ClusterOptions cluster;
   unsigned threads = 0;  ///< 0: one for each core
   bool quiet = false;
 };
 
-sweep::Summary compute(const sweep::Plan& plan, const std::filesystem::path& out,
-                       const SweepOptions& options) {
+/// Calls with a progress bar; the journal or shard of another sweep is an error of --out.
+template <class Call>
+auto computed(const SweepOptions& options, const Call& call) {
   ProgressBar bar(stderr, !options.quiet);
   try {
-    return sweep::run_sweep(plan, out, "sonoglide " SONOGLIDE_VERSION, options.threads,
-                            [&bar](double fraction) { bar.update(fraction); });
+    return call([&bar](double fraction) { bar.update(fraction); });
   } catch (const sweep::ForeignJournal& error) {
     throw CLI::ValidationError("--out", error.what());
   }
+}
+
+std::string failures_text(std::size_t failed) {
+  return failed > 0 ? fmt::format("{} points failed: see the column status\n", failed) : "";
 }
 
 std::string text(const sweep::Summary& summary, const std::filesystem::path& out) {
@@ -43,23 +50,87 @@ std::string text(const sweep::Summary& summary, const std::filesystem::path& out
   }
   lines += fmt::format("; {} computed in {:.3g} s, {:.3g} points/s\n", computed, summary.wall_s,
                        static_cast<double>(computed) / summary.wall_s);
-  if (summary.failed > 0) {
-    lines += fmt::format("{} points failed: see the column status\n", summary.failed);
-  }
-  return lines + fmt::format("rows: {}\nreport: {}\n",
-                             process::printable((out / "sweep.csv").string()),
-                             process::printable((out / "report.html").string()));
+  return lines + failures_text(summary.failed) +
+         fmt::format("rows: {}\nreport: {}\n", shown(out / sweep::table_file),
+                     shown(out / sweep::page_file));
 }
 
-/// Throws scene_file::SceneError and CLI::ValidationError, nothing was written then;
-/// output::OutputError, process::ProcessError.
-void sweep(const SweepOptions& options) {
+std::string text(const sweep::MergeSummary& summary, const std::filesystem::path& out) {
+  return fmt::format("{} points\n", summary.points) + failures_text(summary.failed) +
+         fmt::format("rows: {}\n", shown(out / sweep::table_file)) +
+         (summary.drawn
+              ? fmt::format("report: {}\n", shown(out / sweep::page_file))
+              : fmt::format("no picture and no report: more than {} points\n", sweep::most_points));
+}
+
+std::string run_whole(const SweepOptions& options) {
   const sweep::Plan plan(scene_file::read_source(options.scene.path), options.scene.overrides,
                          options.vary);
   const std::filesystem::path out = output_folder(options.out, plan.first().name, "_sweep");
-  const sweep::Summary summary = compute(plan, out, options);
+  return text(computed(options,
+                       [&](const long_work::Progress& progress) {
+                         return sweep::run_sweep(plan, out, program_version, options.threads,
+                                                 progress);
+                       }),
+              out);
+}
+
+std::string run_shard(const SweepOptions& options) {
+  const sweep::Plan plan(scene_file::read_source(options.scene.path), options.scene.overrides,
+                         options.vary, sweep::most_points_in_shards);
+  const std::filesystem::path out = output_folder(options.out, plan.first().name, "_sweep");
+  const shards::Shard shard = *shards::parse_shard(options.cluster.shard);
+  return shard_text(computed(options,
+                             [&](const long_work::Progress& progress) {
+                               return sweep::run_shard(plan, shard, out, program_version,
+                                                       options.threads, progress);
+                             }),
+                    out / shards::rows_name(shard));
+}
+
+std::string merge(const SweepOptions& options) {
+  const std::filesystem::path folder = options.cluster.merge;
+  const std::filesystem::path out =
+      options.out.empty() ? folder : std::filesystem::path(options.out);
+  return merged([&] {
+    ProgressBar bar(stderr, !options.quiet);
+    return text(sweep::merge_shards(folder, out, program_version,
+                                    [&bar](double fraction) { bar.update(fraction); }),
+                out);
+  });
+}
+
+std::string write_sweep_job(const SweepOptions& options) {
+  const sweep::Plan plan(scene_file::read_source(options.scene.path), options.scene.overrides,
+                         options.vary, sweep::most_points_in_shards);
+  std::vector<std::string> words;
+  for (const std::string& vary : plan.vary()) {
+    words.insert(words.end(), {"--vary", vary});
+  }
+  return write_job({"sweep", plan.source(), plan.overrides(), words, options.cluster.slurm},
+                   output_folder(options.out, plan.first().name, "_sweep"));
+}
+
+/// Throws scene_file::SceneError and CLI::ParseError, nothing was written then; shards::Incomplete,
+/// output::OutputError, process::ProcessError.
+void sweep(const CLI::App& command, const SweepOptions& options) {
+  std::string text;
+  if (!options.cluster.status.empty()) {
+    fmt::print("{}",
+               with_usable_shards("--status", [&] { return status_text(options.cluster.status); }));
+    return;
+  }
+  if (!options.cluster.merge.empty()) {
+    text = merge(options);
+  } else {
+    require(command, "scene");
+    require(command, "--vary");
+    text = !options.cluster.shard.empty() ? run_shard(options)
+           : options.cluster.slurm > 0    ? write_sweep_job(options)
+                                          : run_whole(options);
+  }
   if (!options.quiet) {
-    fmt::print("{}", text(summary, out));
+    fmt::print("{}", text);
   }
 }
 
@@ -72,6 +143,7 @@ void add_sweep_command(CLI::App& program) {
       "Run a scene for every combination of the values of some keys, on all cores; "
       "interrupted, the same command goes on from there");
   add_scene_options(*command, options->scene);
+  command->get_option("scene")->required(false);
   command
       ->add_option("--vary", options->vary,
                    "A key and its values, evenly spaced or, with :log, by equal factors, e.g. "
@@ -81,15 +153,15 @@ void add_sweep_command(CLI::App& program) {
                    "first key changes slowest. velocity_ratio stands for sliding velocity over "
                    "peak vibration velocity of the steady state without friction, "
                    "Fe w / |Ks - m w^2 + i c w|")
-      ->required()
       ->type_name("KEY=FROM:TO:COUNT[:log]|KEY=A,B,...")
       ->allow_extra_args(false);
   add_output_option(*command, options->out,
                     "sweep.csv, sweep.svg (one or two keys) and report.html [out/<scene "
-                    "name>_sweep]");
+                    "name>_sweep; of --merge the folder of the shards]");
   add_threads_option(*command, options->threads);
+  add_cluster_options(*command, options->cluster, {"scene", "--set", "--vary", "--threads"});
   command->add_flag("--quiet", options->quiet, "No progress bar and no printed summary");
-  command->callback([options] { sweep(*options); });
+  command->callback([command, options] { sweep(*command, *options); });
 }
 
 }  // namespace sonoglide::cli

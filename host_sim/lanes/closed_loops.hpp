@@ -34,9 +34,7 @@ bool runs_in_lanes(const scene::Scene& closed_loop);
 /// plants in lanes. Result i is that of loops[i].
 ///
 /// A loop's result is the same, bit for bit, whatever its lane, its neighbours and the way a caller
-/// divides the loops among threads. From one instruction set to another the plant differs by
-/// rounding (batch::instruction_set() names the one in use), and so does what the controller makes of
-/// it.
+/// divides the loops among threads, and on every instruction set.
 /// Error of the friction ratio of a carrier period against loop::run at tolerance 1e-10: 1e-6 of
 /// Table 1 and near it. A loop that the lanes give up says so in its status and disturbs no other:
 /// let loop::run have it.

@@ -31,9 +31,9 @@ std::string format_name(const JournalKind& kind) {
 
 }  // namespace
 
-Journal::Journal(const std::filesystem::path& folder, const JournalKind& kind,
-                 const Identity& identity, const Take& take)
-    : kind_(kind), path_(folder / kind.file), last_sync_s_(steady_time_s()) {
+Journal::Journal(std::filesystem::path path, const JournalKind& kind, const Identity& identity,
+                 const Take& take, const std::filesystem::path& another)
+    : kind_(kind), path_(std::move(path)), last_sync_s_(steady_time_s()) {
   constexpr mode_t mode = 0666;
   file_ = open(path_.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, mode);
   if (file_ < 0) {
@@ -41,6 +41,9 @@ Journal::Journal(const std::filesystem::path& folder, const JournalKind& kind,
   }
   try {
     lock();
+    if (!another.empty()) {
+      begin_with(another, identity);
+    }
     recover(identity, take);
   } catch (...) {
     close(file_);
@@ -69,10 +72,14 @@ void Journal::remove() {
 }
 
 void Journal::lock() {
-  if (flock(file_, LOCK_EX | LOCK_NB) != 0) {
-    fail(errno == EWOULDBLOCK ? fmt::format("another {} is at work in this folder", kind_.work)
-                              : last_reason());
+  if (flock(file_, LOCK_EX | LOCK_NB) == 0) {
+    return;
   }
+  if (errno == EWOULDBLOCK) {
+    throw JournalInUse(fmt::format("{}: another {} is at work in this folder",
+                                   process::printable(path_.string()), kind_.work));
+  }
+  fail(last_reason());
 }
 
 std::string Journal::header_text(const Identity& identity) const {
@@ -81,6 +88,44 @@ std::string Journal::header_text(const Identity& identity) const {
                                 {"scene", identity.scene},
                                 {"options", identity.options}}
       .dump();
+}
+
+std::optional<Identity> Journal::identity_in(std::string_view first_line) {
+  const auto header = unsealed(first_line);
+  const auto found =
+      nlohmann::ordered_json::parse(header.value_or(std::string_view()), nullptr, false);
+  return found.is_object()
+             ? std::optional<Identity>({found.value("program", ""), found.value("scene", ""),
+                                        found.value("options", "")})
+             : std::nullopt;
+}
+
+/// Its torn end comes along, and is cut off as that of one's own.
+void Journal::begin_with(const std::filesystem::path& another, const Identity& identity) {
+  std::ifstream from(another, std::ios::binary);
+  std::string line;
+  if (!std::getline(from, line) || from.eof()) {
+    return;
+  }
+  const std::optional<std::string_view> header = unsealed(line);
+  if (!header || *header != header_text(identity)) {
+    refuse(another, difference(header.value_or(""), identity));
+  }
+  std::error_code gone;
+  const auto theirs = std::filesystem::file_size(another, gone);
+  if (gone || theirs <= std::filesystem::file_size(path_)) {
+    return;
+  }
+  if (ftruncate(file_, 0) != 0) {
+    fail(last_reason());
+  }
+  constexpr std::size_t part_bytes = std::size_t{1} << 20U;
+  std::string part(part_bytes, '\0');
+  from.seekg(0);
+  while (from) {
+    from.read(part.data(), static_cast<std::streamsize>(part_bytes));
+    write({part.data(), static_cast<std::size_t>(from.gcount())});
+  }
 }
 
 /// What an existing journal differs in.
@@ -107,17 +152,18 @@ void Journal::recover(const Identity& identity, const Take& take) {
   // Without the end of its first line the journal holds no point yet.
   if (!std::getline(journal, line) || journal.eof()) {
     if (first_line.compare(0, line.size(), line) != 0) {
-      refuse("another format of journal");
+      refuse(path_, "another format of journal");
     }
     if (ftruncate(file_, 0) != 0) {
       fail(last_reason());
     }
     write(first_line);
+    sync();
     return;
   }
   const auto header = unsealed(line);
   if (!header || *header != header_text(identity)) {
-    refuse(difference(header.value_or(""), identity));
+    refuse(path_, difference(header.value_or(""), identity));
   }
   std::streamoff whole = journal.tellg();
   while (std::getline(journal, line) && !journal.eof()) {
@@ -132,14 +178,14 @@ void Journal::recover(const Identity& identity, const Take& take) {
   }
 }
 
-void Journal::refuse(const std::string& contents) const {
+void Journal::refuse(const std::filesystem::path& journal, const std::string& contents) const {
   throw ForeignJournal(
       fmt::format("{}: holds an unfinished {} of {}; allowed: finish that one, remove the file, "
                   "or choose another folder",
-                  process::printable(path_.string()), kind_.work, contents));
+                  process::printable(journal.string()), kind_.work, contents));
 }
 
-void Journal::write(const std::string& text) {
+void Journal::write(std::string_view text) {
   std::size_t written = 0;
   while (written < text.size()) {
     const ssize_t count = ::write(file_, text.data() + written, text.size() - written);
@@ -155,6 +201,10 @@ void Journal::sync_now_and_then() {
   if (steady_time_s() - last_sync_s_ < sync_interval_s) {
     return;
   }
+  sync();
+}
+
+void Journal::sync() {
   if (fdatasync(file_) != 0) {
     fail(last_reason());
   }

@@ -4,16 +4,18 @@
 #include <cstddef>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "host_sim/output/written_files.hpp"
+
 namespace sonoglide::long_work {
 
 /// Whose journal it is, in the words of messages.
 struct JournalKind {
-  const char* file;     ///< in the folder
   const char* work;     ///< `sweep`
   const char* options;  ///< `--vary`: what decides the work besides the scene
 };
@@ -31,6 +33,12 @@ class ForeignJournal : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// Somebody else has the journal open.
+class JournalInUse : public output::OutputError {
+ public:
+  using OutputError::OutputError;
+};
+
 /// Appends records to a file. The first line is the identity, every further one a record; each
 /// carries its own checksum. A kill can tear the last record only, which is dropped, and all that
 /// follows a damaged one. Records already handed to append() survive a kill of the program; those
@@ -40,18 +48,23 @@ class Journal {
   /// Takes a record that was found; false if it is none.
   using Take = std::function<bool(std::string_view record)>;
 
-  /// Opens the journal of this folder, or begins one; nobody else can until this is destroyed.
-  /// @param folder  exists
-  /// @param take    called with each record that is there; what it does not take counts as damaged
-  /// @throws ForeignJournal, output::OutputError
-  Journal(const std::filesystem::path& folder, const JournalKind& kind, const Identity& identity,
-          const Take& take);
+  /// Opens the journal, or begins it; nobody else can until this is destroyed.
+  /// @param path     its folder exists
+  /// @param take     called with each record that is there; what it does not take counts as damaged
+  /// @param another  a journal of the same work, left as it is: what it holds, this one begins
+  ///                 with, if that is more; empty: none
+  /// @throws ForeignJournal, JournalInUse, output::OutputError
+  Journal(std::filesystem::path path, const JournalKind& kind, const Identity& identity,
+          const Take& take, const std::filesystem::path& another = {});
   ~Journal();
   Journal(const Journal&) = delete;
   Journal& operator=(const Journal&) = delete;
 
   /// A record as append() takes it, one or more.
   static std::string line_of(std::string_view record);
+
+  /// What the first line of a journal says, without the end of the line; absent if it is none.
+  static std::optional<Identity> identity_in(std::string_view first_line);
 
   /// @param lines  from line_of()
   /// @throws output::OutputError
@@ -62,13 +75,15 @@ class Journal {
 
  private:
   void lock();
+  void begin_with(const std::filesystem::path& another, const Identity& identity);
   void recover(const Identity& identity, const Take& take);
   std::string header_text(const Identity& identity) const;
   std::string difference(std::string_view header, const Identity& identity) const;
-  void write(const std::string& text);
+  void write(std::string_view text);
   void sync_now_and_then();
+  void sync();
   [[noreturn]] void fail(const std::string& reason) const;
-  [[noreturn]] void refuse(const std::string& contents) const;
+  [[noreturn]] void refuse(const std::filesystem::path& journal, const std::string& contents) const;
 
   JournalKind kind_;
   std::filesystem::path path_;

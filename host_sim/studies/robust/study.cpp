@@ -21,8 +21,7 @@
 namespace sonoglide::robust {
 namespace {
 
-constexpr long_work::JournalKind kind = {"robust.journal", "study",
-                                         "--samples, --search or --seed"};
+constexpr long_work::JournalKind kind = {"study", "--samples, --search or --seed"};
 
 long_work::Identity identity_of(const Task& task, const std::string& program) {
   const Counts& counts = task.counts();
@@ -45,12 +44,11 @@ std::size_t Study::search_failures() const {
       search.begin(), search.end(), [](const SearchRun& each) { return each.row.failed(); }));
 }
 
-void check_samples(const Task& task) {
+void check_samples(const Task& task, const shards::PointRange& samples) {
   constexpr std::size_t samples_per_task = 256;
-  const std::size_t count = task.counts().samples;
-  std::atomic<std::size_t> lowest{count};
+  std::atomic<std::size_t> lowest{samples.end};
   tbb::parallel_for(
-      tbb::blocked_range<std::size_t>(0, count, samples_per_task),
+      tbb::blocked_range<std::size_t>(samples.first, samples.end, samples_per_task),
       [&](const tbb::blocked_range<std::size_t>& range) {
         for (std::size_t i = range.begin(); i < std::min(range.end(), lowest.load()); ++i) {
           try {
@@ -63,15 +61,34 @@ void check_samples(const Task& task) {
         }
       },
       tbb::simple_partitioner());
-  if (lowest < count) {
+  if (lowest < samples.end) {
     task.plant(task.sample(lowest));
   }
 }
 
-Solver::Solver(const Task& task, const std::filesystem::path& folder, const std::string& program)
+void run_samples(const Task& task, const std::vector<std::size_t>& samples, const TakeRows& take) {
+  // Keeps the lanes busy until few are left, and threads wait for no more.
+  constexpr std::size_t samples_per_call = 128;
+  tbb::parallel_for(
+      tbb::blocked_range<std::size_t>(0, samples.size(), samples_per_call),
+      [&](const tbb::blocked_range<std::size_t>& range) {
+        std::vector<scene::Scene> plants;
+        for (std::size_t i = range.begin(); i != range.end(); ++i) {
+          plants.push_back(task.plant(task.sample(samples[i])));
+        }
+        take(range.begin(), run_plants(plants, task.design()));
+      },
+      tbb::simple_partitioner());
+}
+
+Solver::Solver(const Task& task, const std::filesystem::path& folder, const std::string& program,
+               const std::vector<PlantRow>& samples)
     : task_(task),
-      journal_(folder, kind, identity_of(task, program),
+      journal_(folder / "robust.journal", kind, identity_of(task, program),
                [this](std::string_view text) { return take(text); }) {
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    known_.insert_or_assign(i, samples[i]);
+  }
   found_finished_ = known_.size();
 }
 
@@ -93,7 +110,7 @@ void Solver::hand_in(std::size_t place, const PlantRow& row) {
 
 Study Solver::solve(long_work::Pace& pace) {
   Study study;
-  study.samples = run_samples(pace);
+  study.samples = all_samples(pace);
   if (task_.counts().search > 0) {
     study.search = search(study.samples, pace);
   }
@@ -110,9 +127,7 @@ Study Solver::solve(long_work::Pace& pace) {
   return study;
 }
 
-std::vector<PlantRow> Solver::run_samples(long_work::Pace& pace) {
-  // Keeps the lanes busy until few are left, and threads wait for no more.
-  constexpr std::size_t samples_per_call = 128;
+std::vector<PlantRow> Solver::all_samples(long_work::Pace& pace) {
   const std::size_t count = task_.counts().samples;
   std::vector<std::size_t> open;
   std::vector<PlantRow> rows(count);
@@ -126,21 +141,13 @@ std::vector<PlantRow> Solver::run_samples(long_work::Pace& pace) {
   }
   pace.begin(open.size(), static_cast<double>(task_.counts().search) /
                               std::max(1.0, static_cast<double>(open.size())));
-  tbb::parallel_for(
-      tbb::blocked_range<std::size_t>(0, open.size(), samples_per_call),
-      [&](const tbb::blocked_range<std::size_t>& range) {
-        std::vector<scene::Scene> plants;
-        for (std::size_t i = range.begin(); i != range.end(); ++i) {
-          plants.push_back(task_.plant(task_.sample(open[i])));
-        }
-        std::vector<PlantRow> found = run_plants(plants, task_.design());
-        for (std::size_t i = range.begin(); i != range.end(); ++i) {
-          rows[open[i]] = std::move(found[i - range.begin()]);
-          hand_in(open[i], rows[open[i]]);
-        }
-        pace.add(range.size());
-      },
-      tbb::simple_partitioner());
+  run_samples(task_, open, [&](std::size_t first, const std::vector<PlantRow>& found) {
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      rows[open[first + i]] = found[i];
+      hand_in(open[first + i], found[i]);
+    }
+    pace.add(found.size());
+  });
   return rows;
 }
 

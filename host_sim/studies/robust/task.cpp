@@ -40,16 +40,17 @@ std::vector<std::string> true_keys(const scene::Scene& nominal) {
 
 }  // namespace
 
-Task::Task(const scene_file::Source& source, const std::vector<std::string>& overrides,
-           const Counts& counts)
-    : counts_(counts),
-      stated_(source, overrides),
+Task::Task(scene_file::Source source, std::vector<std::string> overrides, const Counts& counts)
+    : source_(std::move(source)),
+      overrides_(std::move(overrides)),
+      counts_(counts),
+      stated_(source_, overrides_),
       nominal_(read_nominal(stated_)),
       design_(configure::design_control(*nominal_)),
       points_(scrambled_sobol(nominal_->tolerances.size(), counts.samples, counts.seed)) {
   // The echo, so that a plant written as a scene file is the same one.
   document_.emplace(
-      scene_file::Source{source.file, scene_file::to_toml(scene_file::to_json(*nominal_))},
+      scene_file::Source{source_.file, scene_file::to_toml(scene_file::to_json(*nominal_))},
       std::vector<std::string>{}, true_keys(*nominal_));
 }
 

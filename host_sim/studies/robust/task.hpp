@@ -30,9 +30,10 @@ class Task {
  public:
   /// @param overrides  `TABLE.KEY=VALUE` each
   /// @throws scene_file::SceneError  the scene is unusable, open loop, or without a tolerance
-  Task(const scene_file::Source& source, const std::vector<std::string>& overrides,
-       const Counts& counts);
+  Task(scene_file::Source source, std::vector<std::string> overrides, const Counts& counts);
 
+  const scene_file::Source& source() const { return source_; }
+  const std::vector<std::string>& overrides() const { return overrides_; }
   const Counts& counts() const { return counts_; }
   const scene::Scene& nominal() const { return *nominal_; }
   const std::vector<scene::Tolerance>& tolerances() const { return nominal_->tolerances; }
@@ -55,6 +56,8 @@ class Task {
   scene::Scene read_plant(const Factors& factors) const;
   [[noreturn]] void fail_at(const scene_file::SceneError& error, const Factors& factors) const;
 
+  scene_file::Source source_;
+  std::vector<std::string> overrides_;
   Counts counts_;
   scene_file::Document stated_;
   std::shared_ptr<const scene::Scene> nominal_;

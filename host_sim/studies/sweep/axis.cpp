@@ -11,6 +11,7 @@
 #include "host_sim/scene_file/override.hpp"
 #include "host_sim/scene_file/scene_error.hpp"
 #include "host_sim/scene_file/toml_text.hpp"
+#include "host_sim/studies/sweep/decades.hpp"
 
 namespace sonoglide::sweep {
 namespace {
@@ -54,12 +55,13 @@ double bound(const std::string& text, const char* name, const Place& place) {
 }
 
 std::size_t count_of(const std::string& text, const Place& place) {
-  constexpr std::size_t most_digits = 8;
+  constexpr std::size_t most_digits = 13;
   const bool digits = !text.empty() && text.find_first_not_of("0123456789") == std::string::npos;
   const std::size_t count =
       digits && text.size() <= most_digits ? std::strtoul(text.c_str(), nullptr, 10) : 0;
-  if (count < 1 || count > most_points) {
-    place.fail(fmt::format("COUNT \"{}\"; allowed: a whole number, 1 to {}", text, most_points));
+  if (count < 1 || count > most_points_in_shards) {
+    place.fail(
+        fmt::format("COUNT \"{}\"; allowed: a whole number, 1 to {}", text, most_points_in_shards));
   }
   return count;
 }
@@ -151,9 +153,10 @@ double Axis::number(std::size_t index) const {
                                       : from * (1.0 - step / intervals) + to * (step / intervals);
   }
   // By decades: powers of ten come out exactly.
-  const double first = std::log10(std::abs(from));
-  const double last = std::log10(std::abs(to));
-  return std::copysign(std::pow(10.0, first + (last - first) * step / intervals), from);
+  const double first = logarithm_to_ten(std::abs(from));
+  const double last = logarithm_to_ten(std::abs(to));
+  const double value = std::copysign(power_of_ten(first + (last - first) * step / intervals), from);
+  return std::clamp(value, std::min(from, to), std::max(from, to));
 }
 
 scene_file::VariedValue Axis::value(std::size_t index) const {
@@ -211,17 +214,21 @@ namespace {
 
 }  // namespace
 
-Grid::Grid(std::vector<Axis> axes) : axes_(std::move(axes)), strides_(axes_.size()) {
+Grid::Grid(std::vector<Axis> axes, std::size_t most)
+    : axes_(std::move(axes)), strides_(axes_.size()) {
   if (axes_.empty()) {
     fail(0, "--vary", "nothing is varied; allowed: at least one --vary");
   }
   for (std::size_t axis = axes_.size(); axis-- > 0;) {
     strides_[axis] = size_;
-    size_ *= axes_[axis].count;
-    if (size_ > most_points) {
+    if (axes_[axis].count > most / size_) {
       fail(axis, axes_[axis].key,
-           fmt::format("more than {0} points in all; allowed: at most {0}", most_points));
+           fmt::format("more than {0} points in all; allowed: at most {0}{1}", most,
+                       most < most_points_in_shards
+                           ? fmt::format(", in shards at most {}", most_points_in_shards)
+                           : ""));
     }
+    size_ *= axes_[axis].count;
   }
 }
 

@@ -15,7 +15,10 @@ namespace sonoglide::sweep {
 /// sliding.velocity_m_per_s.
 inline constexpr std::string_view velocity_ratio_key = "velocity_ratio";
 
+/// Of a sweep in one piece, which holds all its rows.
 inline constexpr std::size_t most_points = 1'000'000;
+/// Of a sweep in shards, and of one axis.
+inline constexpr std::size_t most_points_in_shards = 1'000'000'000'000;
 
 /// A value that is named, not one of a range.
 struct ListedValue {
@@ -53,7 +56,7 @@ struct Axis {
 /// `KEY=A,B,C`: words, truth values and numbers, each as `--set` takes it.
 ///
 /// @param ordinal  1 for the first --vary option: the line of the errors' place
-/// @throws scene_file::SceneError  not of either form, COUNT not in [1, most_points], a bound that
+/// @throws scene_file::SceneError  not of either form, COUNT not in [1, most_points_in_shards], a bound that
 ///         is not finite, a logarithmic axis whose bounds are zero or differ in sign, one value of
 ///         a range with two ends, a value that is listed twice. Whether a scene has the key is not
 ///         looked at here.
@@ -66,8 +69,9 @@ std::string number_text(double value);
 /// Cartesian product; the first axis changes slowest.
 class Grid {
  public:
-  /// @throws scene_file::SceneError  no axis, or more than most_points points
-  explicit Grid(std::vector<Axis> axes);
+  /// @param most  points, at most most_points_in_shards
+  /// @throws scene_file::SceneError  no axis, or more points
+  explicit Grid(std::vector<Axis> axes, std::size_t most = most_points);
 
   const std::vector<Axis>& axes() const { return axes_; }
   std::size_t size() const { return size_; }

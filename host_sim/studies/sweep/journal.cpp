@@ -7,12 +7,12 @@
 namespace sonoglide::sweep {
 namespace {
 
-constexpr long_work::JournalKind kind = {"sweep.journal", "sweep", "--vary"};
+constexpr long_work::JournalKind kind = {"sweep", "--vary"};
 
 }  // namespace
 
 Journal::Journal(const std::filesystem::path& folder, const Identity& identity, std::size_t points)
-    : journal_(folder, kind, identity, [&](std::string_view text) {
+    : journal_(folder / "sweep.journal", kind, identity, [&](std::string_view text) {
         std::optional<Record> record = parse_record(text);
         if (!record || record->point >= points) {
           return false;

@@ -41,8 +41,11 @@ std::vector<Axis> parse_axes(const std::vector<std::string>& vary) {
 }  // namespace
 
 Plan::Plan(scene_file::Source source, std::vector<std::string> overrides,
-           const std::vector<std::string>& vary)
-    : source_(std::move(source)), overrides_(std::move(overrides)), grid_(parse_axes(vary)) {
+           std::vector<std::string> vary, std::size_t most)
+    : source_(std::move(source)),
+      overrides_(std::move(overrides)),
+      vary_(std::move(vary)),
+      grid_(parse_axes(vary_), most) {
   require_varied_once();
   try {
     document_.emplace(source_, overrides_, varied_keys());
@@ -57,16 +60,18 @@ Plan::Plan(scene_file::Source source, std::vector<std::string> overrides,
 }
 
 std::vector<std::size_t> Plan::wordings() const {
-  std::vector<std::size_t> points;
-  for (std::size_t point = 0; point < grid_.size(); ++point) {
-    bool at_first_numbers = true;
-    for (std::size_t axis = 0; axis < grid_.axes().size(); ++axis) {
-      at_first_numbers =
-          at_first_numbers && (grid_.axes()[axis].has_words() || grid_.index(point, axis) == 0);
+  std::vector<std::size_t> points = {0};
+  for (std::size_t axis = 0; axis < grid_.axes().size(); ++axis) {
+    if (!grid_.axes()[axis].has_words()) {
+      continue;
     }
-    if (at_first_numbers) {
-      points.push_back(point);
+    std::vector<std::size_t> further;
+    for (const std::size_t point : points) {
+      for (std::size_t index = 0; index < grid_.axes()[axis].count; ++index) {
+        further.push_back(point + index * grid_.stride(axis));
+      }
     }
+    points = std::move(further);
   }
   return points;
 }
@@ -106,9 +111,9 @@ scene::Scene Plan::scene(std::size_t point) const {
   }
 }
 
-void Plan::visit_all(const Visit& visit, long_work::Pace* pace) const {
+void Plan::visit(const PointRange& points, const Visit& visit, long_work::Pace* pace) const {
   constexpr std::size_t points_per_task = 1024;  // milliseconds
-  std::atomic<std::size_t> lowest{grid_.size()};
+  std::atomic<std::size_t> lowest{points.end};
   const auto visit_range = [&](const tbb::blocked_range<std::size_t>& range) {
     for (std::size_t point = range.begin(); point < std::min(range.end(), lowest.load()); ++point) {
       try {
@@ -123,9 +128,9 @@ void Plan::visit_all(const Visit& visit, long_work::Pace* pace) const {
       pace->add(range.size());
     }
   };
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, grid_.size(), points_per_task), visit_range,
-                    tbb::simple_partitioner());
-  if (lowest < grid_.size()) {
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(points.first, points.end, points_per_task),
+                    visit_range, tbb::simple_partitioner());
+  if (lowest < points.end) {
     scene(lowest);
   }
 }

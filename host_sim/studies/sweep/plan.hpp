@@ -13,21 +13,30 @@
 #include "host_sim/scene_file/scene_error.hpp"
 #include "host_sim/scene_file/source.hpp"
 #include "host_sim/scene_file/variant.hpp"
+#include "host_sim/shards/shard.hpp"
 #include "host_sim/studies/sweep/axis.hpp"
 
 namespace sonoglide::sweep {
+
+using shards::PointRange;
 
 /// The scene file is read once: a later edit of it does not reach into a sweep under way.
 class Plan {
  public:
   /// @param overrides  `TABLE.KEY=VALUE` each, for every point
   /// @param vary       `KEY=FROM:TO:COUNT[:log]` or `KEY=A,B,...` each, see parse_axis()
+  /// @param most       points
   /// @throws scene_file::SceneError  a bad option, a key both varied and set, an unusable first
   ///         point, where words are varied, a key that is of no use with any of them
-  Plan(scene_file::Source source, std::vector<std::string> overrides,
-       const std::vector<std::string>& vary);
+  Plan(scene_file::Source source, std::vector<std::string> overrides, std::vector<std::string> vary,
+       std::size_t most = most_points);
+
+  const scene_file::Source& source() const { return source_; }
+  const std::vector<std::string>& overrides() const { return overrides_; }
+  const std::vector<std::string>& vary() const { return vary_; }
 
   const Grid& grid() const { return grid_; }
+  PointRange all() const { return {0, grid_.size()}; }
   /// The scene of the first point.
   const scene::Scene& first() const { return first_; }
   bool closed_loop() const { return first_.controller.has_value(); }
@@ -45,10 +54,10 @@ class Plan {
   /// Takes the scene of a point; called by several threads.
   using Visit = std::function<void(std::size_t point, const scene::Scene& scene)>;
 
-  /// Reads the scenes of all points, on all threads.
+  /// Reads the scenes of these points, on all threads.
   /// @param pace  its stage is the reading; may be null
   /// @throws scene_file::SceneError  the error of the first unusable point
-  void visit_all(const Visit& visit, long_work::Pace* pace = nullptr) const;
+  void visit(const PointRange& points, const Visit& visit, long_work::Pace* pace = nullptr) const;
 
   /// `KEY=VALUE, KEY=VALUE`, in the order of the axes.
   std::string describe(std::size_t point) const;
@@ -65,6 +74,7 @@ class Plan {
 
   scene_file::Source source_;
   std::vector<std::string> overrides_;
+  std::vector<std::string> vary_;
   Grid grid_;
   bool has_words_ = false;
   std::optional<scene_file::Document> document_;  ///< from the constructor on

@@ -46,10 +46,18 @@ std::string line(const Plan& plan, std::size_t point, const PointResult& row) {
 
 }  // namespace
 
-void write_csv(std::ostream& out, const Plan& plan, const std::vector<PointResult>& rows) {
+void write_heading(std::ostream& out, const Plan& plan) {
   out << heading(plan);
+}
+
+void write_row(std::ostream& out, const Plan& plan, std::size_t point, const PointResult& row) {
+  out << line(plan, point, row);
+}
+
+void write_csv(std::ostream& out, const Plan& plan, const std::vector<PointResult>& rows) {
+  write_heading(out, plan);
   for (std::size_t point = 0; point < rows.size(); ++point) {
-    out << line(plan, point, rows[point]);
+    write_row(out, plan, point, rows[point]);
   }
 }
 

@@ -18,6 +18,8 @@ namespace sonoglide::sweep {
 /// Numbers read back the same to the bit; what is not defined is `nan`. A status with a comma is
 /// quoted (RFC 4180).
 void write_csv(std::ostream& out, const Plan& plan, const std::vector<PointResult>& rows);
+void write_heading(std::ostream& out, const Plan& plan);
+void write_row(std::ostream& out, const Plan& plan, std::size_t point, const PointResult& row);
 
 /// The axes with more than one value.
 std::vector<std::size_t> drawn_axes(const Grid& grid);

@@ -15,9 +15,7 @@ std::vector<PointResult> compute_rows(const Plan& plan, unsigned threads) {
   const tbb::global_control limit(
       tbb::global_control::max_allowed_parallelism,
       threads > 0 ? threads : static_cast<std::size_t>(tbb::info::default_concurrency()));
-  const long_work::Progress untold;
-  long_work::Pace pace(untold);
-  const Solve solve(plan, pace);
+  const Solve solve(plan, plan.all(), nullptr);
   std::vector<PointResult> rows(plan.grid().size());
   Points all(rows.size());
   std::iota(all.begin(), all.end(), std::size_t{0});

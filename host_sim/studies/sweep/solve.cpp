@@ -51,15 +51,15 @@ double expected_solving_cost(const scene::Scene& scene) {
   return plant_cost(scene) + (scene.controller ? control_period * periods_of(scene) : 0.0);
 }
 
-double expected_solving_cost(const Plan& plan) try {
+double expected_solving_cost(const Plan& plan, const PointRange& points) try {
   constexpr int samples = 32;
   // Multiples of the golden section fall into step with no axis.
   constexpr double golden = 0.61803398874989485;
   double sum = 0.0;
   for (int i = 0; i < samples; ++i) {
     const double part = std::fmod(golden * i, 1.0);
-    sum += expected_solving_cost(
-        plan.scene(static_cast<std::size_t>(part * static_cast<double>(plan.grid().size()))));
+    const auto offset = static_cast<std::size_t>(part * static_cast<double>(points.size()));
+    sum += expected_solving_cost(plan.scene(points.first + offset));
   }
   return sum / samples;
 } catch (const scene_file::SceneError&) {
@@ -122,12 +122,17 @@ GroupKey key_of(const BatchPoint& point) {
 
 }  // namespace
 
-Solve::Solve(const Plan& plan, long_work::Pace& pace)
-    : plan_(plan), batch_points_(plan.grid().size()) {
-  pace.begin(plan.grid().size(), expected_solving_cost(plan));
-  plan.visit_all([this](std::size_t point,
-                        const scene::Scene& scene) { batch_points_[point] = batch_point(scene); },
-                 &pace);
+Solve::Solve(const Plan& plan, const PointRange& points, long_work::Pace* pace)
+    : plan_(plan), first_(points.first), batch_points_(points.size()) {
+  if (pace != nullptr) {
+    pace->begin(points.size(), expected_solving_cost(plan, points));
+  }
+  plan.visit(
+      points,
+      [this](std::size_t point, const scene::Scene& scene) {
+        batch_points_[point - first_] = batch_point(scene);
+      },
+      pace);
 }
 
 std::vector<Points> Solve::calls(const Points& points) const {
@@ -135,8 +140,8 @@ std::vector<Points> Solve::calls(const Points& points) const {
   std::vector<Points> calls;
   std::map<GroupKey, Points> groups;
   for (const std::size_t point : points) {
-    const auto& batch = batch_points_[point];
-    Points& group = batch ? groups[key_of(*batch)] : calls.emplace_back();
+    const auto& in_lanes = batch(point);
+    Points& group = in_lanes ? groups[key_of(*in_lanes)] : calls.emplace_back();
     group.push_back(point);
     if (group.size() == lanes_many_times_over) {
       calls.push_back(std::exchange(group, {}));
@@ -151,7 +156,7 @@ std::vector<Points> Solve::calls(const Points& points) const {
 }
 
 void Solve::operator()(const Points& call, const Sink& sink) const {
-  const Points singles = batch_points_[call.front()] ? over_lanes(call, sink) : call;
+  const Points singles = batch(call.front()) ? over_lanes(call, sink) : call;
   tbb::parallel_for_each(singles, [&](std::size_t point) {
     sink({{point, solve_scalar_point(plan_.scene(point))}});
   });
@@ -161,15 +166,15 @@ void Solve::operator()(const Points& call, const Sink& sink) const {
 Points Solve::over_lanes(const Points& call, const Sink& sink) const {
   std::vector<batch::DahlPlant> plants;
   for (const std::size_t point : call) {
-    plants.push_back(batch_points_[point]->plant);
+    plants.push_back(batch(point)->plant);
   }
-  const BatchPoint& any = *batch_points_[call.front()];
+  const BatchPoint& any = *batch(call.front());
   const std::vector<batch::DahlRun> runs = batch::run_dahl_plants(plants, any.length, any.accuracy);
   std::vector<Record> records;
   Points given_up;
   for (std::size_t i = 0; i < runs.size(); ++i) {
     if (runs[i].status == batch::RunStatus::solved) {
-      records.push_back({call[i], row_of(*batch_points_[call[i]], runs[i])});
+      records.push_back({call[i], row_of(*batch(call[i]), runs[i])});
     } else {
       given_up.push_back(call[i]);
     }

@@ -17,8 +17,8 @@ namespace sonoglide::sweep {
 /// progress shown while the points of a sweep are read, and nothing else.
 double expected_solving_cost(const scene::Scene& scene);
 
-/// The mean of all points, as a few from all over the sweep have it.
-double expected_solving_cost(const Plan& plan);
+/// The mean of these points, as a few from all over them have it.
+double expected_solving_cost(const Plan& plan, const PointRange& points);
 
 /// A computation that fails gives a row whose status says why.
 PointResult solve_scalar_point(const scene::Scene& scene);
@@ -29,13 +29,13 @@ using Points = std::vector<std::size_t>;
 /// Takes finished points, from any thread.
 using Sink = std::function<void(std::vector<Record>)>;
 
-/// Every point of a sweep read and checked, and divided among the solvers.
+/// Points of a sweep read and checked, and divided among the solvers.
 class Solve {
  public:
   /// The plan outlives this.
-  /// @param pace  told of the points read
+  /// @param pace  told of the points read; may be null
   /// @throws scene_file::SceneError  a point is unusable
-  Solve(const Plan& plan, long_work::Pace& pace);
+  Solve(const Plan& plan, const PointRange& points, long_work::Pace* pace);
 
   /// These points as calls that are worth making: those that suit SIMD lanes together, up to some
   /// hundreds that have their length and accuracy in common, the others alone.
@@ -47,10 +47,14 @@ class Solve {
   void operator()(const Points& call, const Sink& sink) const;
 
  private:
+  const std::optional<BatchPoint>& batch(std::size_t point) const {
+    return batch_points_[point - first_];
+  }
   Points over_lanes(const Points& call, const Sink& sink) const;
 
   const Plan& plan_;
-  std::vector<std::optional<BatchPoint>> batch_points_;  ///< of each point; absent: no lanes
+  std::size_t first_;
+  std::vector<std::optional<BatchPoint>> batch_points_;  ///< from the first on; absent: no lanes
 };
 
 /// Solves these points on all threads.

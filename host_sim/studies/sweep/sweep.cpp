@@ -87,10 +87,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* table_file = "sweep.csv";
-constexpr const char* page_file = "report.html";
-constexpr const char* picture_file = "sweep.svg";
-
 std::string values_of(const Axis& axis) {
   if (axis.list.empty()) {
     return fmt::format("{}:{}:{}{}", axis.from, axis.to, axis.count,
@@ -116,7 +112,8 @@ Identity identity_of(const Plan& plan, const std::string& program) {
   return {program, scenes, vary};
 }
 
-/// Interrupted, it is carried through first: it takes a second at most.
+}  // namespace
+
 void write_files(const Plan& plan, const std::vector<PointResult>& rows, const fs::path& out) {
   const std::optional<std::string> picture = draw(plan, rows);
   const std::string page = output::to_html(sweep_page(plan, rows, picture));
@@ -131,8 +128,6 @@ void write_files(const Plan& plan, const std::vector<PointResult>& rows, const f
   folder.commit();
 }
 
-}  // namespace
-
 Summary run_sweep(const Plan& plan, const fs::path& out, const std::string& program,
                   unsigned threads, const long_work::Progress& progress) {
   const tbb::global_control limit(
@@ -140,13 +135,13 @@ Summary run_sweep(const Plan& plan, const fs::path& out, const std::string& prog
       threads > 0 ? threads : static_cast<std::size_t>(tbb::info::default_concurrency()));
   const auto begin = std::chrono::steady_clock::now();
   long_work::Pace pace(progress);
-  const Solve solve(plan, pace);
+  const Solve solve(plan, plan.all(), &pace);
   if (!drawn_axes(plan.grid()).empty() && drawn_axes(plan.grid()).size() <= 2) {
     output::require_gnuplot();
   }
   output::create_folder(out, {table_file, page_file, picture_file});
-  // The lanes of another instruction set differ in the last bit: rows of both do not mix.
-  const std::string decisive = fmt::format("{}, {}", program, batch::instruction_set());
+  // Rows of another arithmetic, which an earlier program had, do not mix with these.
+  const std::string decisive = fmt::format("{}, {}", program, batch::arithmetic);
   Journal journal(out, identity_of(plan, decisive), plan.grid().size());
   const std::size_t found = journal.finished().size();
   const std::vector<PointResult> rows = compute(solve, plan.grid().size(), journal, pace);

@@ -22,6 +22,16 @@ namespace sonoglide::sweep {
 std::vector<PointResult> compute(const Solve& solve, std::size_t points, Journal& journal,
                                  long_work::Pace& pace);
 
+inline constexpr const char* table_file = "sweep.csv";
+inline constexpr const char* page_file = "report.html";
+inline constexpr const char* picture_file = "sweep.svg";
+
+/// The table, the picture and the page of all rows, all or none. Interrupted, it is to be carried
+/// through: it takes a second at most.
+/// @throws output::OutputError, process::ProcessError
+void write_files(const Plan& plan, const std::vector<PointResult>& rows,
+                 const std::filesystem::path& out);
+
 struct Summary {
   std::size_t points;
   std::size_t failed;

@@ -35,12 +35,12 @@ TEST(UsageTest, WithNoneNearItNamesAll) {
 TEST(UsageTest, ItComesBeforeWhatIsMissing) {
   expect_refused("sweep a.toml --jobs=3",
                  "--jobs is no option of sweep; allowed: --help, --set, --vary, --out, --threads, "
-                 "--quiet");
+                 "--shard, --merge, --status, --slurm, --quiet");
   expect_refused("pil --bord microbit a.toml", "--bord is no option of pil; did you mean --board?");
   expect_refused("sweep a.toml b.toml --jobs 3 c.toml",
                  "b.toml is one argument too many for sweep\n"
                  "--jobs is no option of sweep; allowed: --help, --set, --vary, --out, --threads, "
-                 "--quiet\n"
+                 "--shard, --merge, --status, --slurm, --quiet\n"
                  "c.toml is one argument too many for sweep");
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <csignal>
 #include <cstddef>
+#include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
@@ -188,6 +189,31 @@ TEST_F(RobustCommandTest, KilledItGoesOnWithTheSameFiles) {
         << file;
   }
   EXPECT_EQ(folder_.read("o/robust.journal"), "");
+}
+
+TEST_F(RobustCommandTest, InShardsItHasTheSameFiles) {
+  const std::string study = "uncertain.toml --samples 50 --search 12 --seed 3 --quiet --out ";
+  ASSERT_EQ(run(study + "whole").exit_code, 0);
+  ASSERT_EQ(run(study + "o --shard 1/3").exit_code, 0);
+  const Outcome incomplete = run("--merge o");
+  EXPECT_EQ(incomplete.exit_code, 3);
+  EXPECT_EQ(incomplete.out, "--array=2-3\n");
+  EXPECT_EQ(run("--status o").out.find("1 of 3 shards are there, 0 begun; 16 of 50 points"), 0U);
+  ASSERT_EQ(run(study + "o --slurm 3").exit_code, 0);
+  for (const char* task : {"2", "3"}) {
+    const std::string job = "SLURM_ARRAY_TASK_ID=" + std::string(task) + " bash " +
+                            shell_word((folder_.path() / "o/robust.slurm").string());
+    EXPECT_EQ(std::system(job.c_str()), 0) << folder_.read("o/slurm_2.log");
+  }
+  EXPECT_EQ(run("--merge o --quiet").exit_code, 0);
+  for (const char* file :
+       {"robust.csv", "search.csv", "robust.json", "worst.toml", "report.html"}) {
+    EXPECT_EQ(folder_.read(std::string("o/") + file), folder_.read(std::string("whole/") + file))
+        << file;
+  }
+  const Outcome foreign = folder_.run("sweep --merge o");
+  EXPECT_EQ(foreign.exit_code, 2);
+  EXPECT_NE(foreign.err.find("has kind robust, this command kind sweep"), std::string::npos);
 }
 
 TEST_F(RobustCommandTest, AFailureIsNamedAndCounted) {

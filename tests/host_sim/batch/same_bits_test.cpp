@@ -44,6 +44,15 @@ TEST_P(SameBits, APointAloneAndAmongOthers) {
   });
 }
 
+TEST_P(SameBits, OnEveryInstructionSet) {
+  const std::vector<DahlPlant> plants = random_plants(200, 14);
+  const std::vector<DahlRun> here = run_dahl_plants(plants, length, GetParam());
+  on_each_instruction_set([&](const char* name) {
+    SCOPED_TRACE(name);
+    expect_same_bits(run_dahl_plants(plants, length, GetParam()), here);
+  });
+}
+
 TEST_P(SameBits, InAnyOrder) {
   std::vector<DahlPlant> plants = random_plants(75, 12);
   std::vector<DahlRun> runs = run_dahl_plants(plants, length, GetParam());

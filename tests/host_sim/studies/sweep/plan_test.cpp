@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <complex>
 #include <string>
 #include <vector>
@@ -21,8 +22,8 @@ using Texts = std::vector<std::string>;
 std::string error_of(const std::string& text, const Texts& vary, const Texts& overrides = {}) {
   const ScratchScene scratch(text);
   try {
-    Plan(scene_file::read_source(scratch.file()), overrides, vary)
-        .visit_all([](std::size_t, const scene::Scene&) {});
+    const Plan plan(scene_file::read_source(scratch.file()), overrides, vary);
+    plan.visit(plan.all(), [](std::size_t, const scene::Scene&) {});
   } catch (const scene_file::SceneError& error) {
     std::string what = error.what();
     const std::string folder = scratch.folder().string() + "/";
@@ -56,7 +57,7 @@ TEST(PlanTest, EveryPointIsTheSceneThatItsOptionsGive) {
   const Plan plan(
       scene_file::read_source(scratch.file()), {"solver.tolerance=1e-8"},
       {"friction.contact_stiffness_N_per_m=1:1e17:35:log", "sliding.velocity_m_per_s=-0.1:0.2:7"});
-  plan.visit_all([&](std::size_t point, const scene::Scene& scene) {
+  plan.visit(plan.all(), [&](std::size_t point, const scene::Scene& scene) {
     const auto option = [&](const char* key, std::size_t axis) {
       return key + ('=' + plan.grid().text(point, axis));
     };
@@ -75,9 +76,26 @@ TEST(PlanTest, ReadingTellsOfItsProgress) {
   const long_work::Progress progress = [&](double fraction) { fractions.push_back(fraction); };
   long_work::Pace pace(progress);
   pace.begin(plan.grid().size(), 0.0);
-  plan.visit_all([](std::size_t, const scene::Scene&) {}, &pace);
+  plan.visit(
+      plan.all(), [](std::size_t, const scene::Scene&) {}, &pace);
   EXPECT_GE(fractions.size(), 5U);
   EXPECT_EQ(fractions.back(), 1.0);
+}
+
+TEST(PlanTest, VisitsThePointsOfARangeAndNoOther) {
+  const ScratchScene scratch(open_loop);
+  const Plan plan(scene_file::read_source(scratch.file()), {},
+                  {"friction.coefficient=99:101:1000000000"}, most_points_in_shards);
+  std::atomic<std::size_t> visits{0};
+  const auto visit = [&](std::size_t point, const scene::Scene&) {
+    EXPECT_GE(point, 1000U);
+    EXPECT_LT(point, 3000U);
+    ++visits;
+  };
+  plan.visit({1000, 3000}, visit);
+  EXPECT_EQ(visits, 2000U);
+  EXPECT_THROW(plan.visit({499'999'999, 500'000'001}, [](std::size_t, const scene::Scene&) {}),
+               scene_file::SceneError);
 }
 
 TEST(PlanTest, RecordsNothing) {

@@ -1,0 +1,131 @@
+#include "host_sim/shards/rows_file.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstddef>
+#include <optional>
+#include <string_view>
+#include <system_error>
+
+#include "host_sim/long_work/record_text.hpp"
+#include "host_sim/output/written_files.hpp"
+
+namespace sonoglide::shards {
+namespace {
+
+std::string end_text(std::uint64_t records, const process::Checksum& sum) {
+  return fmt::format("end {} {:016x}", records, sum.value());
+}
+
+std::string last_reason() {
+  return std::generic_category().message(errno);
+}
+
+}  // namespace
+
+RowsReader::RowsReader(const std::filesystem::path& file) : stream_(file, std::ios::binary) {
+  if (!stream_) {
+    throw NoRows("cannot be read");
+  }
+  std::optional<std::string_view> text;
+  if (std::getline(stream_, line_) && !stream_.eof()) {
+    text = long_work::unsealed(line_);
+  }
+  const auto header = text ? parse_header(*text) : std::nullopt;
+  if (!header) {
+    throw NoRows("does not begin as a shard of this format does");
+  }
+  header_ = *header;
+  sum_.add(line_);
+}
+
+bool RowsReader::next(std::string& record) {
+  const bool whole = std::getline(stream_, line_) && !stream_.eof();
+  const auto text = whole ? long_work::unsealed(line_) : std::nullopt;
+  if (!text) {
+    throw DamagedRows(fmt::format("is damaged in line {}", records_ + 2));
+  }
+  if (records_ < range().size()) {
+    sum_.add(line_);
+    ++records_;
+    record = *text;
+    return true;
+  }
+  if (*text != end_text(records_, sum_) || stream_.peek() != std::ifstream::traits_type::eof()) {
+    throw DamagedRows("is damaged at its end");
+  }
+  return false;
+}
+
+RowsWriter::RowsWriter(const std::filesystem::path& folder, const ShardHeader& header,
+                       const std::string& copy)
+    : target_(folder / rows_name(header.shard())),
+      staged_(folder / staged_name(header.shard(), copy)) {
+  constexpr mode_t mode = 0666;
+  file_ =
+      process::Descriptor(open(staged_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, mode));
+  if (file_.number() < 0) {
+    output::fail(staged_, last_reason());
+  }
+  put(header_text(header));
+}
+
+RowsWriter::~RowsWriter() {
+  if (!published_) {
+    unlink(staged_.c_str());
+  }
+}
+
+void RowsWriter::add(const std::string& record) {
+  put(record);
+  ++records_;
+}
+
+void RowsWriter::publish() {
+  put(end_text(records_, sum_));
+  flush();
+  if (fsync(file_.number()) != 0) {
+    output::fail(staged_, last_reason());
+  }
+  file_.close();
+  std::error_code error;
+  std::filesystem::rename(staged_, target_, error);
+  if (error) {
+    output::fail(target_, error);
+  }
+  published_ = true;
+  // The name too survives a power failure; a file system that cannot promise it says so in vain.
+  const process::Descriptor folder(
+      open(target_.parent_path().c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  if (folder.number() >= 0) {
+    fsync(folder.number());
+  }
+}
+
+void RowsWriter::put(const std::string& text) {
+  constexpr std::size_t worth_a_write = std::size_t{1} << 20U;
+  const std::string line = long_work::sealed(text);
+  sum_.add(line);
+  buffer_ += line;
+  buffer_ += '\n';
+  if (buffer_.size() >= worth_a_write) {
+    flush();
+  }
+}
+
+void RowsWriter::flush() {
+  for (std::size_t written = 0; written < buffer_.size();) {
+    const ssize_t count =
+        ::write(file_.number(), buffer_.data() + written, buffer_.size() - written);
+    if (count < 0 && errno != EINTR) {
+      output::fail(staged_, last_reason());
+    }
+    written += count > 0 ? static_cast<std::size_t>(count) : 0;
+  }
+  buffer_.clear();
+}
+
+}  // namespace sonoglide::shards

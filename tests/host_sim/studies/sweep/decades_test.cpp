@@ -1,0 +1,38 @@
+/// Against the C library's functions in extended precision.
+#include "host_sim/studies/sweep/decades.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <string>
+
+namespace sonoglide::sweep::decades_test {
+namespace {
+
+TEST(DecadesTest, WholePowersAreExact) {
+  for (int n = -307; n <= 308; ++n) {
+    const double power = std::strtod(("1e" + std::to_string(n)).c_str(), nullptr);
+    EXPECT_EQ(power_of_ten(n), power);
+    EXPECT_EQ(logarithm_to_ten(power), n);
+  }
+}
+
+TEST(DecadesTest, AreAsGoodAsTheySay) {
+  for (int i = 1; i < 20000; ++i) {
+    const double x = -300.0 + 600.0 * std::fmod(i * 0.61803398874989485, 1.0);
+    const double power = power_of_ten(x);
+    EXPECT_LE(std::abs(static_cast<double>(power / std::pow(10.0L, x) - 1.0L)), 1e-15) << x;
+    EXPECT_LE(std::abs(static_cast<double>(logarithm_to_ten(power) - std::log10(1.0L * power))),
+              4e-16 * (1.0 + std::abs(x)))
+        << power;
+  }
+}
+
+TEST(DecadesTest, BeyondTheRangeTheyAreNothingOrInfinite) {
+  EXPECT_EQ(power_of_ten(-400.0), 0.0);
+  EXPECT_EQ(power_of_ten(400.0), HUGE_VAL);
+}
+
+}  // namespace
+}  // namespace sonoglide::sweep::decades_test
