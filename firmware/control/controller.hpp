@@ -72,6 +72,7 @@ class Controller {
   using Stuck = typename Force::template Judge<StuckDetector<Scalar>>;
   using Plausible = typename Force::template Judge<Plausibility<Scalar>>;
   using Watch = typename Force::template Judge<SettlingWatch<Scalar>>;
+  using Map = typename Force::template Map<typename PartsT::Feedforward>;
 
  public:
   struct Parameters {
@@ -336,6 +337,7 @@ class Controller {
   void believe(Scalar force) {
     take_friction_force(force);
     feedforward_.set_friction(level_);
+    map_.forget();
   }
 
   /// The sliding has turned. Readings that are still on their way belong to the other direction.
@@ -521,11 +523,11 @@ class Controller {
   }
 
   /// Amplitude for a commanded ratio, from the inverse map.
-  Request feedforward(Scalar half_ratio, Scalar speed) const {
+  Request feedforward(Scalar half_ratio, Scalar speed) {
     if (whole_ratio() <= target_) {
       return {Scalar{}, Limit::none};
     }
-    const Scalar amplitude = feedforward_.amplitude(half_ratio, speed);
+    const Scalar amplitude = map_.amplitude(feedforward_, half_ratio, speed);
     const Scalar highest =
         felt ? numeric::from_code<Scalar>(INT32_MAX) : ceiling_.highest();  // of a velocity
     if (!(amplitude < highest)) {
@@ -582,6 +584,7 @@ class Controller {
   SpeedForesight<Scalar> foresight_;
   [[no_unique_address]] typename PartsT::Friction friction_;
   [[no_unique_address]] typename PartsT::Feedforward feedforward_;
+  [[no_unique_address]] Map map_;
   [[no_unique_address]] typename PartsT::Slew slew_;
   [[no_unique_address]] typename PartsT::Shaper shaper_;
   [[no_unique_address]] typename PartsT::Regulator regulator_;

@@ -5,6 +5,7 @@
 
 #include "firmware/control/signals.hpp"
 #include "firmware/numeric/accumulator.hpp"
+#include "firmware/numeric/headroom.hpp"
 #include "firmware/numeric/scalar.hpp"
 
 namespace sonoglide::control {
@@ -84,7 +85,7 @@ class IntegralRegulator {
   /// Commanded ratio, with the new error counted in; the integral stays as it is before accept().
   Scalar propose(Scalar target, Scalar measured) {
     const Scalar past = delayed(target);
-    reference_ = past + parameters_.keep * (reference_ - past);
+    reference_ = past + numeric::rough_product(parameters_.keep, reference_ - past);
     error_ = numeric::observe<signal::RatioError>(reference_ - measured);
     proposed_ =
         held_ == 0 ? integral_ + numeric::accumulated_product(parameters_.gain, error_) : integral_;
