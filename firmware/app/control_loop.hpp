@@ -27,7 +27,8 @@ class ControlLoop {
     if (!board_.sample(sample)) {
       return false;
     }
-    board_.drive(drive_of(controller_.step(measurement_of<Scalar>(sample))));
+    board_.drive(drive_of(
+        controller_.template step<control::Numbers::finite>(measurement_of<Scalar>(sample))));
     return true;
   }
 

@@ -10,7 +10,7 @@
 
 namespace sonoglide::app {
 
-/// Codes as per-unit numbers, rounded as numeric::from_code. A sample that is not fresh is missing,
+/// Codes as per-unit numbers, finite and rounded as numeric::from_code. A sample that is not fresh is missing,
 /// even if its force is at a rail.
 template <class Scalar>
 control::Measurement<Scalar> measurement_of(const hal::Sample& sample) {

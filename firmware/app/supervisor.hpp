@@ -66,7 +66,8 @@ class Supervisor {
     ++periods_;
     sample_ = sample;
     if (running()) {
-      drive_ = drive_of(controller_.step(measurement_of<Scalar>(sample)));
+      drive_ = drive_of(
+          controller_.template step<control::Numbers::finite>(measurement_of<Scalar>(sample)));
       if (!running()) {
         log_.add({drive_.fault, periods_});
       }

@@ -72,6 +72,7 @@ class Controller {
   using Stuck = typename Force::template Judge<StuckDetector<Scalar>>;
   using Plausible = typename Force::template Judge<Plausibility<Scalar>>;
   using Watch = typename Force::template Judge<SettlingWatch<Scalar>>;
+  using Map = typename Force::template Map<typename PartsT::Feedforward>;
 
  public:
   struct Parameters {
@@ -199,11 +200,12 @@ class Controller {
   std::int32_t next_frequency() const { return vibration_.next_frequency(); }
 
   /// Answer to one carrier period, valid for the next.
+  template <Numbers Known = Numbers::any>
   Command step(const Measurement& measurement) {
     if constexpr (felt) {
       vibration_.pass();
     }
-    const DriveCommand<Scalar> command = answer(measurement);
+    const DriveCommand<Scalar> command = answer(measurement, inspect<Known>(measurement));
     if constexpr (felt) {
       vibration_.answer(command.amplitude);
     }
@@ -220,11 +222,10 @@ class Controller {
     Limit limit;
   };
 
-  DriveCommand<Scalar> answer(const Measurement& measurement) {
+  DriveCommand<Scalar> answer(const Measurement& measurement, Fault unusable) {
     if (state_ == State::off || state_ == State::fault) {
       return undriven(Limit::none);
     }
-    const Fault unusable = inspect(measurement);
     if (!samples_.accept(unusable == Fault::none)) {
       trip(unusable);
       return undriven(Limit::none);
@@ -258,12 +259,13 @@ class Controller {
 
   static constexpr Scalar whole_ratio() { return numeric::from_real<Scalar>(0.5); }
 
+  template <Numbers Known>
   static Fault inspect(const Measurement& measurement) {
     if (measurement.quality == Quality::missing) {
       return Fault::measurement_missing;
     }
     if constexpr (observed) {
-      const Fault unusable = inspect_vibration(measurement);
+      const Fault unusable = inspect_vibration<Known>(measurement);
       if (unusable != Fault::none) {
         return unusable;
       }
@@ -271,11 +273,13 @@ class Controller {
     if (Force::present && measurement.quality == Quality::saturated) {
       return Fault::measurement_saturated;
     }
-    const bool finite = (!Force::present || numeric::is_finite(measurement.friction_force)) &&
-                        numeric::is_finite(measurement.sliding_velocity);
+    const bool finite = Known == Numbers::finite ||
+                        ((!Force::present || numeric::is_finite(measurement.friction_force)) &&
+                         numeric::is_finite(measurement.sliding_velocity));
     return finite ? Fault::none : Fault::measurement_not_finite;
   }
 
+  template <Numbers Known>
   static Fault inspect_vibration(const Measurement& measurement) {
     if (measurement.vibration_quality == Quality::missing) {
       return Fault::vibration_missing;
@@ -283,8 +287,8 @@ class Controller {
     if (measurement.vibration_quality == Quality::saturated) {
       return Fault::vibration_saturated;
     }
-    const bool finite =
-        numeric::is_finite(measurement.in_phase) && numeric::is_finite(measurement.quadrature);
+    const bool finite = Known == Numbers::finite || (numeric::is_finite(measurement.in_phase) &&
+                                                     numeric::is_finite(measurement.quadrature));
     return finite ? Fault::none : Fault::measurement_not_finite;
   }
 
@@ -333,6 +337,7 @@ class Controller {
   void believe(Scalar force) {
     take_friction_force(force);
     feedforward_.set_friction(level_);
+    map_.forget();
   }
 
   /// The sliding has turned. Readings that are still on their way belong to the other direction.
@@ -518,11 +523,11 @@ class Controller {
   }
 
   /// Amplitude for a commanded ratio, from the inverse map.
-  Request feedforward(Scalar half_ratio, Scalar speed) const {
+  Request feedforward(Scalar half_ratio, Scalar speed) {
     if (whole_ratio() <= target_) {
       return {Scalar{}, Limit::none};
     }
-    const Scalar amplitude = feedforward_.amplitude(half_ratio, speed);
+    const Scalar amplitude = map_.amplitude(feedforward_, half_ratio, speed);
     const Scalar highest =
         felt ? numeric::from_code<Scalar>(INT32_MAX) : ceiling_.highest();  // of a velocity
     if (!(amplitude < highest)) {
@@ -579,6 +584,7 @@ class Controller {
   SpeedForesight<Scalar> foresight_;
   [[no_unique_address]] typename PartsT::Friction friction_;
   [[no_unique_address]] typename PartsT::Feedforward feedforward_;
+  [[no_unique_address]] Map map_;
   [[no_unique_address]] typename PartsT::Slew slew_;
   [[no_unique_address]] typename PartsT::Shaper shaper_;
   [[no_unique_address]] typename PartsT::Regulator regulator_;

@@ -11,9 +11,11 @@
 namespace sonoglide::control {
 
 /// r = sin(πρ/2): independent of speed, contact stiffness and friction force.
-template <class Scalar>
+template <class ScalarT>
 class CoulombFeedforward {
  public:
+  using Scalar = ScalarT;
+
   struct Parameters {};
 
   explicit CoulombFeedforward(const Parameters&) {}

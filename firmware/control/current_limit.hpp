@@ -46,16 +46,18 @@ class CurrentLimit {
         motional_(numeric::floating(parameters.motional)),
         twice_inverse_(numeric::rescaled(numeric::floating(parameters.inverse), 1)) {}
 
-  /// The part of a velocity that the limit lets be held, less what regulation needs.
+  /// Whether the limit lets a velocity be held, less what regulation needs.
   /// @param holding  amplitude that holds the velocity
+  bool allows_holding(Scalar velocity, Scalar holding) const {
+    const Scalar across = numeric::rough_product(parameters_.small_capacitive, holding);
+    return within(along(velocity, across), across, parameters_.small_limit);
+  }
+
+  /// The part of a velocity that the limit lets be held, where it does not allow all of it.
   Scalar velocity(Scalar velocity, Scalar holding) const {
     const Scalar across = numeric::rough_product(parameters_.small_capacitive, holding);
-    const Scalar along = this->along(velocity, across);
-    if (within(along, across, parameters_.small_limit)) {
-      return velocity;
-    }
-    return numeric::limited_product(parameters_.small_limit * velocity,
-                                    numeric::polar(along, across).inverse);
+    return numeric::multiplied(parameters_.small_limit * velocity,
+                               numeric::polar(along(velocity, across), across).inverse);
   }
 
   /// Whether the limit lets an amplitude of the drive pass at a velocity. Quicker to tell than the
@@ -90,8 +92,7 @@ class CurrentLimit {
   }
 
   static bool within(Scalar along, Scalar across, Scalar limit) {
-    return numeric::rough_product(along, along) + numeric::rough_product(across, across) <
-           numeric::rough_product(limit, limit);
+    return numeric::kept_square_sum(along, across) < numeric::kept_square_sum(limit, Scalar{});
   }
 
   Parameters parameters_;

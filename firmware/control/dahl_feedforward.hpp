@@ -10,9 +10,11 @@ namespace sonoglide::control {
 
 /// Inverse Dahl map at λ = Kt·Vt/(ω·Fc), the travel of the sliding per radian of the carrier over
 /// the presliding distance.
-template <class Scalar>
+template <class ScalarT>
 class DahlFeedforward {
  public:
+  using Scalar = ScalarT;
+
   struct Parameters {
     /// Kt·X̂ / force full scale, X̂ the vibration amplitude at full drive.
     numeric::Split<Scalar> contact_force;

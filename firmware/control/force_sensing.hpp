@@ -1,7 +1,7 @@
 /// Whether a sensor tells the friction force.
 #pragma once
 
-#include <type_traits>
+#include "firmware/control/remembered_map.hpp"
 
 namespace sonoglide::control {
 
@@ -19,6 +19,8 @@ struct ForceSensor {
   static constexpr bool present = true;
   template <class Part>
   using Judge = Part;
+  template <class Feedforward>
+  using Map = EvaluatedMap<Feedforward>;
 };
 
 /// The ratio rests on the vibration and on the friction that the controller believes.
@@ -27,6 +29,8 @@ struct NoForceSensor {
   static constexpr bool present = false;
   template <class Part>
   using Judge = NothingToJudge;
+  template <class Feedforward>
+  using Map = RememberedMap<Feedforward>;
 };
 
 }  // namespace sonoglide::control

@@ -29,7 +29,7 @@ class FrequencyWord {
   };
 
   explicit FrequencyWord(const Parameters& parameters)
-      : steps_(numeric::floating(parameters.steps)),
+      : fine_steps_(numeric::rescaled(numeric::floating(parameters.steps), fine_bits)),
         deviation_(numeric::floating(parameters.deviation)) {}
 
   /// Steps from the start.
@@ -48,18 +48,17 @@ class FrequencyWord {
   }
 
  private:
-  static constexpr int fine_bits = 4;
+  static constexpr int fine_bits = 5;
   static constexpr std::int32_t unit = std::int32_t{1} << fine_bits;
 
-  /// In sixteenths of a step.
+  /// In 1/32 of a step; what is left of one is cut off.
   std::int32_t fine_steps(Scalar wanted) const {
     if constexpr (numeric::is_fixed_point_v<Scalar>) {
-      constexpr int bits = 2 * Scalar::fraction_bits - fine_bits;
-      const std::int64_t product = std::int64_t{wanted.raw()} * steps_.mantissa.raw();
-      return static_cast<std::int32_t>(
-          numeric::shift_right_rounded(product, bits - steps_.exponent));
+      constexpr int bits = 2 * Scalar::fraction_bits;
+      const std::int64_t product = std::int64_t{wanted.raw()} * fine_steps_.mantissa.raw();
+      return static_cast<std::int32_t>(product >> (bits - fine_steps_.exponent));
     } else {
-      return numeric::round_half_up<std::int32_t>(wanted * steps_ * Scalar{unit});
+      return static_cast<std::int32_t>(wanted * fine_steps_);
     }
   }
 
@@ -72,7 +71,7 @@ class FrequencyWord {
     }
   }
 
-  numeric::Floating<Scalar> steps_;
+  numeric::Floating<Scalar> fine_steps_;
   numeric::Floating<Scalar> deviation_;
   std::int32_t count_ = 0;
 };

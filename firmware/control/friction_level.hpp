@@ -1,10 +1,14 @@
 /// The undriven friction force Fc, by which measured forces are divided.
 #pragma once
 
+#include <type_traits>
+
 #include "firmware/control/signals.hpp"
 #include "firmware/numeric/accumulator.hpp"
 #include "firmware/numeric/floating.hpp"
+#include "firmware/numeric/headroom.hpp"
 #include "firmware/numeric/scalar.hpp"
+#include "firmware/numeric/word.hpp"
 
 namespace sonoglide::control {
 
@@ -23,7 +27,12 @@ class FrictionLevel {
 
   /// F/Fc on base 2; saturates outside ±2 in fixed point.
   Scalar half_ratio(Scalar force) const {
-    if constexpr (numeric::is_fixed_point_v<Scalar>) {
+    if constexpr (std::is_same_v<numeric::Accumulator<Scalar>, Scalar> &&
+                  numeric::is_fixed_point_v<Scalar>) {
+      return numeric::observe<signal::MeasuredRatio>(numeric::raised(
+          Scalar::from_raw(numeric::rounded_q31_product(force.raw(), inverse_.raw())),
+          1 - level_.exponent));
+    } else if constexpr (numeric::is_fixed_point_v<Scalar>) {
       return numeric::observe<signal::MeasuredRatio>(
           numeric::rounded<Scalar>(numeric::scale_by_power_of_two(
               numeric::accumulated_product(force, inverse_), 1 - level_.exponent)));

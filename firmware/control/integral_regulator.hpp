@@ -1,12 +1,11 @@
 /// Integral feedback on the friction ratio.
 #pragma once
 
-#include <array>
-#include <cstddef>
 #include <cstdint>
 
 #include "firmware/control/signals.hpp"
 #include "firmware/numeric/accumulator.hpp"
+#include "firmware/numeric/headroom.hpp"
 #include "firmware/numeric/scalar.hpp"
 
 namespace sonoglide::control {
@@ -56,7 +55,9 @@ class IntegralRegulator {
   /// @param target  from here on
   void restart(Scalar target) {
     integral_ = {};
-    past_.fill(target);
+    for (Scalar& past : past_) {
+      past = target;
+    }
     reference_ = target;
     rest_ = 0;
     hold();
@@ -84,7 +85,7 @@ class IntegralRegulator {
   /// Commanded ratio, with the new error counted in; the integral stays as it is before accept().
   Scalar propose(Scalar target, Scalar measured) {
     const Scalar past = delayed(target);
-    reference_ = past + parameters_.keep * (reference_ - past);
+    reference_ = past + numeric::rough_product(parameters_.keep, reference_ - past);
     error_ = numeric::observe<signal::RatioError>(reference_ - measured);
     proposed_ =
         held_ == 0 ? integral_ + numeric::accumulated_product(parameters_.gain, error_) : integral_;
@@ -112,10 +113,23 @@ class IntegralRegulator {
  private:
   /// The target of delay_periods ago; this one takes its place.
   Scalar delayed(Scalar target) {
-    const std::size_t place = MaxDelay == 1 ? 0 : place_;
-    const Scalar before = past_[place];
-    past_[place] = target;
-    place_ = static_cast<std::uint8_t>(place + 1 < parameters_.delay_periods ? place + 1 : 0);
+    if constexpr (MaxDelay <= 4) {
+      return shifted(target);
+    } else {
+      const Scalar before = past_[place_];
+      past_[place_] = target;
+      place_ = static_cast<std::uint8_t>(place_ + 1 < parameters_.delay_periods ? place_ + 1 : 0);
+      return before;
+    }
+  }
+
+  /// The same, the oldest target first: quicker where there are few.
+  Scalar shifted(Scalar target) {
+    const Scalar before = past_[MaxDelay - parameters_.delay_periods];
+    for (int i = 1; i < MaxDelay; ++i) {
+      past_[i - 1] = past_[i];
+    }
+    past_[MaxDelay - 1] = target;
     return before;
   }
 
@@ -124,7 +138,8 @@ class IntegralRegulator {
   numeric::Accumulator<Scalar> proposed_{};
   Scalar reference_{};
   Scalar error_{};
-  std::array<Scalar, MaxDelay> past_{};
+  // No std::array: with it a compiler forgets the parameters at each store to a place that varies.
+  Scalar past_[MaxDelay]{};
   std::uint16_t held_ = 0;
   std::uint16_t rest_ = 0;
   std::uint8_t place_ = 0;  ///< of the oldest target

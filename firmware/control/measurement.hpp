@@ -11,6 +11,12 @@ enum class Quality : std::uint8_t {
   missing,    ///< no fresh sample since the last step
 };
 
+/// What is known of the numbers of a sample.
+enum class Numbers : std::uint8_t {
+  any,
+  finite,  ///< as numbers made of codes are
+};
+
 /// One sample, per unit.
 template <class Scalar>
 struct Measurement {

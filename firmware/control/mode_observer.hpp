@@ -53,6 +53,7 @@ class ModeObserver {
     std::uint8_t feedback_base;
     std::uint8_t inverse_base;
     Scalar audible;  ///< least slope of a forecast that a sample shows
+    Scalar quiet;    ///< mode and change of the amplitude up to which no slope is that large
 
     template <class Self, class Visitor>
     static constexpr void fields(Self& self, Visitor&& visit) {
@@ -62,6 +63,7 @@ class ModeObserver {
       visit("feedback_base", self.feedback_base);
       visit("inverse_base", self.inverse_base);
       visit("audible", self.audible);
+      visit("quiet", self.quiet);
     }
   };
 
@@ -72,7 +74,8 @@ class ModeObserver {
         gain_base_(parameters.gain_base),
         feedback_base_(parameters.feedback_base),
         inverse_base_(parameters.inverse_base),
-        audible_(parameters.audible) {
+        audible_(parameters.audible),
+        quiet_(parameters.quiet) {
     restart();
   }
 
@@ -83,6 +86,7 @@ class ModeObserver {
   void restart() {
     mode_ = {};
     offset_ = {};
+    visible_ = {};
     place_.restart();
     row_.go(*table_, place_.place());
   }
@@ -91,17 +95,12 @@ class ModeObserver {
   /// @param before, now  amplitudes in the period before the sampled one and in that one
   void observe(const Pair<Scalar>& sample, Scalar before, Scalar now) {
     const Scalar change = now - before;
-    Pair<Scalar> slope = turned(mode_, slope_of(mode::turn)) + slope_of(mode::kick) * change;
-    Pair<Scalar> miss = sample - value_of(mode::forced) * now - offset_;
+    const Pair<Scalar> last = mode_;
     mode_ = next(mode_, change);
-    Pair<Scalar> tilt = seen(mode_, [this](std::size_t i) { return row_.slope(i); }) +
-                        seen(slope, [this](std::size_t i) { return row_[i]; }) +
-                        slope_of(mode::forced) * change;
-    miss = miss - visible();
-    if (audible_ < numeric::max(numeric::abs(tilt.first), numeric::abs(tilt.second))) {
-      const Scalar moved = correct_place(tilt, miss);
-      mode_ = mode_ + slope * moved;
-      miss = miss - tilt * moved;
+    visible_ = seen(mode_, [this](std::size_t i) { return row_[i]; });
+    Pair<Scalar> miss = sample - value_of(mode::forced) * now - offset_ - visible_;
+    if (!is_quiet(last, change)) {
+      listen(last, change, miss);
     }
     mode_ = mode_ + gained(mode::mode_gain, miss);
     offset_ = offset_ + gained(mode::offset_gain, miss);
@@ -114,10 +113,8 @@ class ModeObserver {
     return turned(mode, value_of(mode::turn)) + value_of(mode::kick) * change;
   }
 
-  /// E w: what the mode adds to a sample.
-  Pair<Scalar> visible() const {
-    return seen(mode_, [this](std::size_t i) { return row_[i]; });
-  }
+  /// E w: what the mode was foreseen to add to the latest sample.
+  const Pair<Scalar>& visible() const { return visible_; }
 
   /// o as an amplitude, a quarter of it: along H and across it.
   Pair<Scalar> quarter_offset() const {
@@ -170,6 +167,27 @@ class ModeObserver {
                                 mode.second, seen_base_)};
   }
 
+  bool is_quiet(const Pair<Scalar>& last, Scalar change) const {
+    return numeric::abs(last.first) <= quiet_ && numeric::abs(last.second) <= quiet_ &&
+           numeric::abs(change) <= quiet_;
+  }
+
+  /// Corrects the place where the forecast depends on it.
+  /// @param last    w in the period before
+  /// @param change  of the amplitude from then on
+  /// @param miss    of the forecast; becomes that of the corrected one
+  void listen(const Pair<Scalar>& last, Scalar change, Pair<Scalar>& miss) {
+    const Pair<Scalar> slope = turned(last, slope_of(mode::turn)) + slope_of(mode::kick) * change;
+    const Pair<Scalar> tilt = seen(mode_, [this](std::size_t i) { return row_.slope(i); }) +
+                              seen(slope, [this](std::size_t i) { return row_[i]; }) +
+                              slope_of(mode::forced) * change;
+    if (audible_ < numeric::max(numeric::abs(tilt.first), numeric::abs(tilt.second))) {
+      const Scalar moved = correct_place(tilt, miss);
+      mode_ = mode_ + slope * moved;
+      miss = miss - tilt * moved;
+    }
+  }
+
   /// @return by how much the place has moved
   Scalar correct_place(const Pair<Scalar>& tilt, const Pair<Scalar>& miss) {
     const Scalar moved = place_.move(
@@ -186,9 +204,11 @@ class ModeObserver {
   std::uint8_t feedback_base_;
   std::uint8_t inverse_base_;
   Scalar audible_;
+  Scalar quiet_;
   ModePlace<Scalar> row_;
   Pair<Scalar> mode_;
   Pair<Scalar> offset_;
+  Pair<Scalar> visible_;
   PlaceEstimate<Scalar> place_;  ///< p
 };
 

@@ -46,7 +46,9 @@ class NotchShaper {
       : parameters_(parameters), rounding_(parameters.taps) {}
 
   void restart() {
-    past_ = {};
+    for (Scalar& past : past_) {
+      past = {};
+    }
     rounding_.restart();
     oldest_ = 0;
   }
@@ -79,7 +81,8 @@ class NotchShaper {
 
   Parameters parameters_;
   [[no_unique_address]] NotchRounding<Scalar, length, TapCount> rounding_;
-  std::array<Scalar, length> past_{};
+  // No std::array: with it a compiler forgets the parameters at each store to a place that varies.
+  Scalar past_[length]{};
   std::uint32_t oldest_ = 0;
 };
 

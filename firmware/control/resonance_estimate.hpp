@@ -23,7 +23,8 @@ namespace sonoglide::control {
 /// otherwise h.
 ///
 /// Velocities on one base, r at most 1. Amplitudes: base the largest. Frequencies: deviation from
-/// the start, relative to it, base 1/8. h: base 16.
+/// the start, relative to it, base 1/8. In fixed point h is on base 16, q at most 1/2, and what
+/// needs headroom is kept by halves (kept()).
 template <class Scalar>
 class ResonanceEstimate {
  public:
@@ -59,14 +60,19 @@ class ResonanceEstimate {
   explicit ResonanceEstimate(const Parameters& parameters)
       : parameters_(parameters),
         // The factor of q is on base 4.
-        twice_believed_rate_(numeric::rescaled(numeric::floating(parameters.rate), 3)) {
+        believed_rate_(numeric::rescaled(numeric::floating(parameters.rate), 2 + kept_bits)),
+        // Products of two kept numbers, or one, and where h is on another base.
+        rate_gain_(on_base(parameters.rate_gain, -2)),
+        losses_gain_(on_base(parameters.losses_gain, losses_bits - 1)),
+        surprise_(on_base(parameters.surprise, 1)),
+        unrest_(on_base(parameters.unrest, 1)) {
     restart();
   }
 
   /// Believes what it was told at first; the next sample has none before it.
   void restart() {
     rate_factor_ = numeric::from_real<Scalar>(0.25);
-    losses_ = parameters_.losses;
+    losses_ = on_base(parameters_.losses, losses_bits);
     take_natural(parameters_.natural);
     take_rate();
     modulus_ = {};
@@ -119,31 +125,33 @@ class ResonanceEstimate {
 
   /// h r; in fixed point at most 1.
   Scalar holding(Scalar velocity) const {
-    constexpr int base = 4;
-    if constexpr (numeric::is_fixed_point_v<Scalar>) {
-      return numeric::lifted(numeric::half_product(losses_, velocity), base + 1);
-    } else {
-      return numeric::scale_by_power_of_two(losses_ * velocity, base);
-    }
+    return numeric::lifted(numeric::kept_product(losses_, velocity), losses_bits + 1);
   }
 
   /// q (u c − h r), c the present one.
   Scalar growth(Scalar amplitude, Scalar velocity) const {
-    return gained(half_surplus(amplitude, cosine_, velocity));
+    return gained(surplus(amplitude, cosine_, velocity));
   }
 
-  const numeric::Floating<Scalar>& inverse_rate() const { return inverse_rate_; }  ///< 1/q
+  const numeric::Multiple<Scalar>& inverse_rate() const { return inverse_rate_; }  ///< 1/q
 
  private:
+  static constexpr int kept_bits = numeric::is_fixed_point_v<Scalar> ? 1 : 0;
+  static constexpr int losses_bits = 4;  ///< of the base of h, in the parameters and in fixed point
+
   static constexpr Scalar whole() { return numeric::from_code<Scalar>(INT32_MAX); }
 
-  /// (u c − h r)/2
-  Scalar half_surplus(Scalar amplitude, Scalar cosine, Scalar velocity) const {
-    return numeric::half_difference(numeric::rough_product(amplitude, cosine), holding(velocity));
+  /// x 2^bits in floating point, whose numbers are on base 1.
+  static constexpr Scalar on_base(Scalar x, int bits) {
+    return numeric::is_fixed_point_v<Scalar> ? x : numeric::scale_by_power_of_two(x, bits);
   }
-  Scalar gained(Scalar half_surplus) const {
-    return numeric::limited_product(half_surplus, twice_rate_);
+
+  /// u c − h r, kept
+  Scalar surplus(Scalar amplitude, Scalar cosine, Scalar velocity) const {
+    return numeric::difference_with_lifted(amplitude, cosine, losses_, velocity, losses_bits);
   }
+  /// @param surplus  kept
+  Scalar gained(Scalar surplus) const { return numeric::rough_product(surplus, rate_); }
 
   void take_natural(Scalar deviation) {
     at_end_ = !(parameters_.lowest < deviation && deviation < parameters_.highest);
@@ -152,24 +160,27 @@ class ResonanceEstimate {
 
   bool follow_turn(const numeric::Polar<Scalar>& seen, Scalar amplitude, Scalar beside) {
     constexpr Scalar radians = numeric::from_real<Scalar>(0.78539816339744831);       // 2π/8
-    constexpr Scalar from_radians = numeric::from_real<Scalar>(0.63661977236758134);  // 8/2π/2
+    constexpr Scalar from_radians = numeric::from_real<Scalar>(0.63661977236758134);  // 4/2π
     constexpr Scalar third = numeric::from_real<Scalar>(1.0 / 3.0);
-    constexpr Scalar foreseen = numeric::from_real<Scalar>(0.125);
-    const Scalar half_turned =
-        numeric::half_product(seen.sine, cosine_) - numeric::half_product(seen.cosine, sine_);
-    const Scalar pull = numeric::limited_product(
-        numeric::limited_product(numeric::half(amplitude), twice_rate_), seen.inverse);
-    const Scalar half_miss =
-        half_turned - numeric::half_product(radians, beside) +
-        numeric::half_product(numeric::clamp_magnitude(pull, whole()), seen.sine);
-    const Scalar quarter =
-        numeric::rough_product(numeric::rough_product(natural_gain_, half_miss), from_radians);
-    take_natural(natural_ + numeric::scale_by_power_of_two(quarter, 2));
-    natural_gain_ = numeric::max(
-        parameters_.natural_gain,
-        natural_gain_ -
-            numeric::rough_product(numeric::rough_product(natural_gain_, natural_gain_), third));
-    if (numeric::abs(half_miss) < foreseen) {
+    constexpr Scalar foreseen = numeric::kept<Scalar>(0.25);
+    const Scalar turned =
+        numeric::kept_product(seen.sine, cosine_) - numeric::kept_product(seen.cosine, sine_);
+    const Scalar pull = numeric::clamp_magnitude(
+        numeric::multiplied(numeric::rough_product(numeric::kept_of(amplitude), rate_),
+                            seen.inverse),
+        whole());
+    const Scalar miss =
+        turned - numeric::kept_product(radians, beside) + numeric::kept_product(pull, seen.sine);
+    const Scalar change =
+        numeric::rough_product(numeric::rough_product(natural_gain_, miss), from_radians);
+    take_natural(natural_ + numeric::scale_by_power_of_two(change, 1 + kept_bits));
+    if (parameters_.natural_gain < natural_gain_) {
+      natural_gain_ = numeric::max(
+          parameters_.natural_gain,
+          natural_gain_ -
+              numeric::rough_product(numeric::rough_product(natural_gain_, natural_gain_), third));
+    }
+    if (numeric::abs(miss) < foreseen) {
       return true;
     }
     natural_gain_ = numeric::max(natural_gain_, numeric::from_real<Scalar>(0.25));
@@ -177,32 +188,34 @@ class ResonanceEstimate {
   }
 
   bool follow_growth(const numeric::Polar<Scalar>& seen, Scalar amplitude) {
-    const Scalar surplus = half_surplus(amplitude, seen.cosine, modulus_);
-    const Scalar half_miss = numeric::half_difference(seen.modulus - modulus_, gained(surplus));
-    const Scalar half_drive = numeric::limited_product(half_miss, inverse_rate_);
-    const Scalar quarter_grown = numeric::half_sum(surplus, half_drive);
-    if (parts_from_losses(numeric::half(surplus)) && parts_from_losses(quarter_grown)) {
-      correct_rate(surplus * half_drive);
+    const Scalar drive = surplus(amplitude, seen.cosine, modulus_);
+    const Scalar miss = numeric::kept_difference(seen.modulus - modulus_, gained(drive));
+    const Scalar missed = numeric::multiplied(miss, inverse_rate_);
+    if (parts_from_losses(numeric::kept_of(drive)) &&
+        parts_from_losses(numeric::kept_sum(drive, missed))) {
+      correct_rate(drive * missed);
     } else if (parameters_.audible < modulus_) {
-      correct_losses(numeric::limited_product(half_drive, seen.inverse));
+      correct_losses(numeric::multiplied(missed, seen.inverse));
     }
-    return numeric::abs(half_drive) <= parameters_.surprise;
+    return numeric::abs(missed) <= surprise_;
   }
 
   /// Whether a wrong h would hardly show in it, and noise would not.
-  /// @param quarter  of a drive beyond the losses
-  bool parts_from_losses(Scalar quarter) const {
-    constexpr Scalar most = numeric::from_real<Scalar>(0.245);  // four times that is full drive
-    return numeric::max(numeric::min(most, holding(modulus_)), numeric::half(parameters_.unrest)) <
-           numeric::abs(quarter);
+  /// @param drive  beyond the losses, kept twice
+  bool parts_from_losses(Scalar drive) const {
+    constexpr Scalar most = numeric::kept_of(numeric::kept<Scalar>(0.98));
+    if (!(numeric::kept_of(unrest_) < numeric::abs(drive))) {
+      return false;
+    }
+    const Scalar losses = numeric::scale_by_power_of_two(holding(modulus_), 2 - 2 * kept_bits);
+    return numeric::min(most, losses) < numeric::abs(drive);
   }
 
-  /// @param gradient  a quarter of surplus times missed drive
+  /// @param gradient  surplus, kept, times missed drive, kept
   void correct_rate(Scalar gradient) {
     constexpr Scalar most = numeric::from_real<Scalar>(0.125);
     constexpr Scalar least_factor = numeric::from_real<Scalar>(0.0625);
-    const Scalar part =
-        numeric::twice(numeric::clamp_magnitude(parameters_.rate_gain * gradient, most));
+    const Scalar part = numeric::twice(numeric::clamp_magnitude(rate_gain_ * gradient, most));
     const Scalar room = whole() - rate_factor_;
     rate_factor_ =
         numeric::max(least_factor, rate_factor_ + numeric::min(room, rate_factor_ * part));
@@ -210,23 +223,28 @@ class ResonanceEstimate {
   }
 
   void take_rate() {
-    twice_rate_ = numeric::product(twice_believed_rate_, numeric::floating(rate_factor_));
-    const auto quarter = numeric::floating(numeric::from_real<Scalar>(0.5));
-    inverse_rate_ = numeric::rescaled(numeric::quotient(quarter, twice_rate_), 2);
+    const auto rate = numeric::product(believed_rate_, numeric::floating(rate_factor_));
+    const auto one_half = numeric::floating(numeric::from_real<Scalar>(0.5));
+    rate_ = numeric::limited_value(rate);
+    inverse_rate_ =
+        numeric::multiple(numeric::rescaled(numeric::quotient(one_half, rate), 1 + kept_bits));
   }
 
-  /// @param part  half of the missed drive over the velocity
+  /// @param part  missed drive over the velocity, kept
   void correct_losses(Scalar part) {
-    constexpr Scalar least = numeric::from_real<Scalar>(0x1p-20);
-    constexpr Scalar most = numeric::from_real<Scalar>(0.999);
-    losses_ = numeric::clamp(losses_ - numeric::rough_product(parameters_.losses_gain, part), least,
-                             most);
+    constexpr Scalar least = on_base(numeric::from_real<Scalar>(0x1p-20), losses_bits);
+    constexpr Scalar most = on_base(numeric::from_real<Scalar>(0.999), losses_bits);
+    losses_ = numeric::clamp(losses_ - numeric::rough_product(losses_gain_, part), least, most);
   }
 
   Parameters parameters_;
-  numeric::Floating<Scalar> twice_believed_rate_;
-  numeric::Floating<Scalar> twice_rate_{};    ///< 2q
-  numeric::Floating<Scalar> inverse_rate_{};  ///< 1/q
+  numeric::Floating<Scalar> believed_rate_;  ///< of kept numbers, as rate_; a quarter of q
+  Scalar rate_gain_;
+  Scalar losses_gain_;
+  Scalar surprise_;
+  Scalar unrest_;
+  Scalar rate_{};                             ///< q of kept numbers: 2q in fixed point
+  numeric::Multiple<Scalar> inverse_rate_{};  ///< 1/q
   Scalar rate_factor_{};                      ///< q over what it was believed to be, base 4
   Scalar losses_{};                           ///< h
   Scalar natural_{};                          ///< n

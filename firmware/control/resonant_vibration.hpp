@@ -95,11 +95,15 @@ class ResonantVibration {
     const bool hard = numeric::from_real<Scalar>(0.25) <= numeric::abs(past_.sampled().amplitude);
     const bool silent = hard && resonance_.modulus() < parameters_.missing;
     missing_ = silent ? missing_ + 1 : 0;
-    lost_ = foreseen ? lost_ - (lost_ > 0 ? 1 : 0) : lost_ + 4;
-    if (missing_ >= missing_samples) {
+    if (silent && missing_ >= missing_samples) {
       return Fault::vibration_missing;
     }
-    return lost_ >= 4 * lost_samples ? Fault::resonance_lost : Fault::none;
+    if (!foreseen) {
+      lost_ += 4;
+      return lost_ >= 4 * lost_samples ? Fault::resonance_lost : Fault::none;
+    }
+    lost_ -= lost_ > 0 ? 1 : 0;
+    return Fault::none;
   }
 
   /// The drive that brings the velocity to a wanted one in [0, 1].
@@ -152,37 +156,61 @@ class ResonantVibration {
     return velocity;
   }
 
-  /// A quarter of u c.
+  /// u c; in fixed point a quarter of it.
   Scalar wanted_amplitude(Scalar velocity, Scalar miss) const {
-    constexpr Scalar most = numeric::from_real<Scalar>(0.7499);
-    const Scalar correcting = numeric::limited_product(
-        numeric::scale_by_power_of_two(numeric::rough_product(parameters_.velocity_gain, miss), -2),
-        resonance_.inverse_rate());
-    return numeric::scale_by_power_of_two(resonance_.holding(velocity), -2) +
-           numeric::clamp_magnitude(correcting, most);
+    const Scalar gained = numeric::rough_product(parameters_.velocity_gain, miss);
+    const Scalar holding = resonance_.holding(velocity);
+    if constexpr (numeric::is_fixed_point_v<Scalar>) {
+      constexpr Scalar most = numeric::from_real<Scalar>(0.7499);
+      const Scalar correcting = numeric::multiplied(numeric::scale_by_power_of_two(gained, -2),
+                                                    resonance_.inverse_rate());
+      return numeric::scale_by_power_of_two(holding, -2) +
+             numeric::clamp_magnitude(correcting, most);
+    } else {
+      return holding + numeric::multiplied(gained, resonance_.inverse_rate());
+    }
   }
 
   /// The velocity is kept to what the current lets be held, and the amplitude to what it lets pass
   /// while the velocity changes.
   Drive drive_below_current(Scalar velocity, Scalar foreseen) const {
-    const Scalar held = current_.velocity(velocity, resonance_.holding(velocity));
+    Scalar held = velocity;
+    bool limited = false;
+    const Scalar holding = resonance_.holding(velocity);
+    if (!current_.allows_holding(velocity, holding)) {
+      held = current_.velocity(velocity, holding);
+      limited = held < velocity;
+    }
     const Scalar wanted = towards_vibration(wanted_amplitude(held, held - foreseen));
     const Scalar growth = numeric::max(resonance_.growth(wanted, foreseen), Scalar{});
     const Scalar middle = foreseen + numeric::half(growth);
     Scalar amplitude = wanted;
     if (!current_.allows(wanted, middle)) {
-      const Scalar most = current_.highest(middle);
-      amplitude = numeric::clamp_magnitude(wanted, most);
+      amplitude = numeric::clamp_magnitude(wanted, current_.highest(middle));
+      limited = limited || amplitude != wanted;
     }
-    const bool limited = held < velocity || amplitude != wanted;
     return {amplitude,
             limit_of(limited || at_full(wanted), limited ? Limit::current : Limit::voltage)};
   }
 
-  /// u = 4 quarter/c, limited to ±1. With d = 1 − |c|: 1/|c| = (1 + d)(1 + d²)(1 + d⁴) within
-  /// d⁸, which no drive within its limits needs to see.
-  Scalar towards_vibration(Scalar quarter) const {
+  /// u, limited to ±1; where c is small a drive of 8 u c at most. In fixed point without a division,
+  /// d = 1 − |c|: 1/|c| = (1 + d)(1 + d²)(1 + d⁴) within d⁸, which no drive within its limits needs
+  /// to see.
+  /// @param wanted  of wanted_amplitude()
+  Scalar towards_vibration(Scalar wanted) const {
     const Scalar cosine = resonance_.cosine();
+    if constexpr (numeric::is_fixed_point_v<Scalar>) {
+      return quarter_towards(wanted, cosine);
+    } else {
+      constexpr Scalar least = numeric::from_real<Scalar>(0.125);
+      Scalar divisor = cosine;
+      if (numeric::abs(cosine) < least) {
+        divisor = cosine < Scalar{} ? -least : least;
+      }
+      return numeric::clamp_magnitude(wanted / divisor, Scalar{1});
+    }
+  }
+  static Scalar quarter_towards(Scalar quarter, Scalar cosine) {
     // One code below 1, so that the sums below stay within 1.
     constexpr Scalar one = numeric::from_code<Scalar>(INT32_MAX - 1);
     const Scalar d = one - numeric::abs(cosine);

@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "firmware/control/drive_command.hpp"
+#include "firmware/numeric/headroom.hpp"
 #include "firmware/numeric/scalar.hpp"
 
 namespace sonoglide::control {
@@ -51,15 +52,14 @@ class SettlingWatch {
   /// @param commanded  ratio that the drive is picked for
   /// @param clamped    the command stands at an end of its range
   void judge(Scalar target, Scalar measured, Scalar commanded, bool clamped) {
-    const bool above = target + parameters_.band < measured;
-    const bool below = measured < target - parameters_.band;
-    if (count_ <= limit() / 2) {
-      above_ = below_ = clamped_ = false;
-    }
-    if (above || below) {
+    const Scalar error = numeric::kept_difference(measured, target);
+    if (numeric::kept_of(parameters_.band) < numeric::abs(error)) {
+      if (count_ <= limit() / 2) {
+        above_ = below_ = clamped_ = false;
+      }
       count_ = count_ + step < limit() ? count_ + step : limit() + afterwards;
-      above_ = above_ || above;
-      below_ = below_ || below;
+      above_ = above_ || Scalar{} < error;
+      below_ = below_ || error < Scalar{};
       clamped_ = clamped_ || clamped;
     } else if (count_ > 0) {
       --count_;

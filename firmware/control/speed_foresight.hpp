@@ -14,7 +14,7 @@ namespace sonoglide::control {
 /// foreseen = |v + lead · s|, s the last change of v. The part of s beyond the change before is
 /// extrapolated by at most |v|/8. If the two changes have opposite signs, nothing is extrapolated.
 /// So a ramp is followed, and a step or a single wrong sample is hardly extrapolated. An
-/// extrapolation through 0 gives 0.
+/// extrapolation through 0 gives 0. A velocity that has not changed by a code is the foreseen one.
 ///
 /// Base: the peak vibration velocity at full drive.
 template <class Scalar>
@@ -31,6 +31,10 @@ class SpeedForesight {
   /// One call for each sample.
   /// @return the foreseen speed, >= 0; fixed point saturates at full scale
   Scalar speed(Scalar velocity) {
+    if (begun_ && velocity == last_velocity_) {
+      last_change_ = {};
+      return numeric::abs(numeric::observe<signal::ForeseenVelocity>(velocity));
+    }
     const Scalar change = begun_ ? velocity - last_velocity_ : Scalar{};
     const bool opposite = numeric::opposite_signs(change, last_change_);
     const Scalar agreed = opposite ? Scalar{} : smaller(change, last_change_);

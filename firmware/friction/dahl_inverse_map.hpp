@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <type_traits>
 
 #include "firmware/friction/dahl_inverse_grid.hpp"
@@ -9,6 +10,7 @@
 #include "firmware/numeric/fixed.hpp"
 #include "firmware/numeric/float_format.hpp"
 #include "firmware/numeric/floating.hpp"
+#include "firmware/numeric/headroom.hpp"
 #include "firmware/numeric/scalar.hpp"
 #include "firmware/numeric/word.hpp"
 
@@ -19,16 +21,15 @@ namespace dahl_inverse_map_detail {
 using Grid = DahlInverseGrid;
 
 /// A place between grid lines index and index + 1.
-template <class Scalar>
 struct GridPosition {
   int index;
-  Scalar fraction;  ///< in [0, 1]
+  std::int32_t fraction;  ///< in [0, 1), with 31 fraction bits
 };
 
-/// Position of x >= 0 on an axis, clamped at the upper end. Floating-point numbers of one sign have
-/// the order of their bits, and integers are compared faster.
+/// Position of x >= 0 on an axis, clamped at the upper end. The bits of a floating-point number above
+/// 0 are in order, and their leading ones tell the grid line.
 template <class Axis, class Float, std::enable_if_t<std::is_floating_point_v<Float>, int> = 0>
-GridPosition<Float> position(Float x) {
+GridPosition position(Float x) {
   using Format = numeric::FloatFormat<Float>;
   using Bits = numeric::FloatBits<Float>;
   constexpr int quarter_bits = Format::fraction_bits - 2;
@@ -36,72 +37,77 @@ GridPosition<Float> position(Float x) {
   constexpr Bits end = numeric::to_bits(numeric::power_of_two<Float>(Axis::end_octave));
   const Bits bits = numeric::to_bits(x);
   if (bits < begin) {
-    return {0, x * numeric::power_of_two<Float>(-Axis::first_octave)};
+    return {0,
+            static_cast<std::int32_t>(x * numeric::power_of_two<Float>(31 - Axis::first_octave))};
   }
   if (bits >= end) {
-    return {Axis::lines - 2, Float{1}};
+    return {Axis::lines - 2, INT32_MAX};
   }
-  const Bits rest = bits & ((Bits{1} << quarter_bits) - 1);
+  // All that is above the rest is shifted out.
+  constexpr int above_rest = std::numeric_limits<Bits>::digits - quarter_bits;
+  const auto rest = static_cast<Bits>(bits << above_rest) >> 1;
   return {1 + static_cast<int>((bits - begin) >> quarter_bits),
-          numeric::from_bits<Float>(numeric::to_bits(Float{1}) | rest << 2) - Float{1}};
+          static_cast<std::int32_t>(rest >> (std::numeric_limits<Bits>::digits - 32))};
 }
 
 template <class Axis, class Storage, int Bits, class Overflow>
-GridPosition<numeric::Fixed<Storage, Bits, Overflow>> position(
-    const numeric::Split<numeric::Fixed<Storage, Bits, Overflow>>& x) {
-  using Scalar = numeric::Fixed<Storage, Bits, Overflow>;
+GridPosition position(const numeric::Split<numeric::Fixed<Storage, Bits, Overflow>>& x) {
   constexpr int quarter_bits = Bits - 3;
   const std::int32_t raw = x.mantissa.raw();
   const int octave = x.exponent - 1 - Axis::first_octave;
   if (octave < 0) {
-    return {0, Scalar::from_raw(static_cast<Storage>(octave > -32 ? raw >> (-1 - octave) : 0))};
+    return {0, octave > -32 ? (raw << (31 - Bits)) >> (-1 - octave) : 0};
   }
   if (x.exponent > Axis::end_octave) {
-    return {Axis::lines - 2, Scalar::largest()};
+    return {Axis::lines - 2, INT32_MAX};
   }
-  const std::int32_t rest = raw & ((1 << quarter_bits) - 1);
+  const auto rest = static_cast<std::uint32_t>(raw) << (32 - quarter_bits) >> 1;
   // The leading bit of the mantissa stands for one octave.
   return {1 + (octave - 1) * Axis::cells_per_octave + (raw >> quarter_bits),
-          Scalar::from_raw(static_cast<Storage>(rest * 8))};
+          static_cast<std::int32_t>(rest)};
 }
 
-/// Half of z between two entries.
-template <class Scalar>
-Scalar between(std::uint16_t begin, std::uint16_t end, Scalar fraction) {
+/// Half of z between two entries, with 31 fraction bits; rounded down.
+inline std::int32_t between(std::uint16_t begin, std::uint16_t end, std::int32_t fraction) {
+  constexpr int bits = 30 - Grid::entry_bits;
   const std::int32_t rise = std::int32_t{end} - begin;
-  if constexpr (std::is_floating_point_v<Scalar>) {
-    constexpr Scalar unit = numeric::power_of_two<Scalar>(-Grid::entry_bits - 1);
-    return (static_cast<Scalar>(begin) + fraction * static_cast<Scalar>(rise)) * unit;
-  } else if constexpr (Scalar::fraction_bits == Grid::entry_bits) {
-    const std::int32_t more = (rise * fraction.raw()) >> Grid::entry_bits;
-    return Scalar::from_raw(static_cast<std::int16_t>((begin + more) >> 1));
+  std::int32_t more = 0;
+  if constexpr (numeric::has_wide_product) {
+    more = numeric::high_word(rise * (1 << (bits + 1)), fraction);
   } else {
-    // Two products that fit a word, of the upper and the lower half of the fraction.
-    constexpr int bits = Grid::entry_bits;
-    const std::int32_t upper = fraction.raw() >> (bits + 1);
-    const std::int32_t lower = (fraction.raw() >> 1) & ((1 << bits) - 1);
-    return Scalar::from_raw((std::int32_t{begin} << bits) + rise * upper +
-                            ((rise * lower) >> bits));
+    // The same from two products that fit a word.
+    more = rise * (fraction >> 16) + ((rise * (fraction & 0xffff)) >> 16);
   }
+  return (std::int32_t{begin} << bits) + more;
 }
 
-/// Half of z by bilinear interpolation.
-template <class Scalar>
-Scalar interpolate(const GridPosition<Scalar>& row, const GridPosition<Scalar>& column) {
+/// Half of z by bilinear interpolation, with 31 fraction bits.
+inline std::int32_t interpolate(const GridPosition& row, const GridPosition& column) {
   const std::uint16_t* const lower = &dahl_inverse_table[row.index][column.index];
   const std::uint16_t* const upper = lower + Grid::columns;
-  const Scalar at_lower = between(lower[0], lower[1], column.fraction);
-  const Scalar at_upper = between(upper[0], upper[1], column.fraction);
-  return at_lower + row.fraction * (at_upper - at_lower);
+  const std::int32_t at_lower = between(lower[0], lower[1], column.fraction);
+  const std::int32_t at_upper = between(upper[0], upper[1], column.fraction);
+  return at_lower + 2 * numeric::high_word(at_upper - at_lower, row.fraction);
+}
+
+/// x², x with 31 fraction bits.
+template <class Scalar>
+Scalar square(std::int32_t x) {
+  if constexpr (numeric::is_fixed_point_v<Scalar>) {
+    return numeric::from_code<Scalar>(2 * numeric::high_word(x, x));
+  } else {
+    const auto real = numeric::from_code<Scalar>(x);
+    return real * real;
+  }
 }
 
 /// Column of 1 - ρ, for ρ on base 2 in (0, 1/2].
 template <class Scalar>
-GridPosition<Scalar> column(Scalar half_ratio) {
+GridPosition column(Scalar half_ratio) {
   const Scalar half_gap = numeric::from_real<Scalar>(0.5) - half_ratio;
   if constexpr (numeric::is_fixed_point_v<Scalar>) {
     if (half_gap == Scalar{}) {
-      return {0, Scalar{}};
+      return {0, 0};
     }
     numeric::Split<Scalar> gap = numeric::split(half_gap);
     ++gap.exponent;
@@ -124,16 +130,11 @@ numeric::Q31<Overflow> limited_sum(numeric::Q31<Overflow> x,
                                    const numeric::Split<numeric::Q31<Overflow>>& a,
                                    numeric::Q31<Overflow> b) {
   using Scalar = numeric::Q31<Overflow>;
-  const std::int32_t room = INT32_MAX - x.raw();
-  const std::int32_t product = numeric::rounded_q31_product(a.mantissa.raw(), b.raw());
-  const int up = a.exponent + 1;
-  std::int32_t more = room;
-  if (up < 0) {
-    more = up > -32 ? product >> -up : 0;
-  } else if (up < 32 && product <= room >> up) {
-    more = product << up;
-  }
-  return Scalar::from_raw(x.raw() + numeric::min(more, room));
+  const Scalar product = numeric::half_product(a.mantissa, b);
+  const int up = a.exponent + 2;
+  const std::int32_t more = up < 0 ? product.raw() >> numeric::min(-up, 31)
+                                   : numeric::lifted(product, numeric::min(up, 31)).raw();
+  return Scalar::from_raw(x.raw() + numeric::min(more, INT32_MAX - x.raw()));
 }
 
 template <class Overflow>
@@ -178,9 +179,8 @@ Scalar dahl_vibration_velocity(Scalar half_ratio, Scalar speed,
   }
   const numeric::Floating<Scalar> stretched =
       numeric::quotient(numeric::floating(speed), numeric::floating(half_ratio));
-  const GridPosition<Scalar> row = position<Grid::Row>(numeric::product(half_travel, stretched));
-  const Scalar half_z = interpolate(row, column(half_ratio));
-  return limited_sum(speed, stretched, half_z * half_z);
+  const GridPosition row = position<Grid::Row>(numeric::product(half_travel, stretched));
+  return limited_sum(speed, stretched, square<Scalar>(interpolate(row, column(half_ratio))));
 }
 
 }  // namespace sonoglide::friction

@@ -42,4 +42,26 @@ constexpr Float sqrt(Float x) {
   return static_cast<Float>(candidate) * power_of_two<Float>(exponent - fraction_bits);
 }
 
+/// sqrt(x), x >= 0, with the same bits by an instruction where the processor has one.
+template <class Float, std::enable_if_t<std::is_floating_point_v<Float>, int> = 0>
+Float quick_sqrt(Float x) {
+#if defined(__ARM_FP)
+  // In C it would be a call where the compiler has to set errno.
+  if constexpr (std::is_same_v<Float, float>) {
+    Float root;
+    asm("vsqrt.f32 %0, %1" : "=t"(root) : "t"(x));
+    return root;
+  }
+#endif
+#if defined(__SSE2__)
+  if constexpr (std::is_same_v<Float, float>) {
+    return __builtin_sqrtf(x);
+  } else {
+    return __builtin_sqrt(x);
+  }
+#else
+  return sqrt(x);
+#endif
+}
+
 }  // namespace sonoglide::numeric

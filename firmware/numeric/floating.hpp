@@ -101,19 +101,63 @@ constexpr Q31<Overflow> limited_product(Q31<Overflow> x, const Split<Q31<Overflo
 
 namespace detail {
 
+/// mantissa 2^up
+template <class Scalar>
+struct FixedMultiple {
+  Scalar mantissa;
+  int up;
+};
+
+}  // namespace detail
+
+/// A factor of at least 1/2, ready for product after product; itself in floating point.
+template <class Scalar>
+using Multiple =
+    std::conditional_t<is_fixed_point_v<Scalar>, detail::FixedMultiple<Scalar>, Scalar>;
+
+template <class Float, std::enable_if_t<std::is_floating_point_v<Float>, int> = 0>
+constexpr Float multiple(Float f) {
+  return f;
+}
+/// f >= 1/2, its exponent limited to 30.
+template <class Scalar>
+constexpr detail::FixedMultiple<Scalar> multiple(const Split<Scalar>& f) {
+  return {f.mantissa, min(f.exponent, 30)};
+}
+
+template <class Float, std::enable_if_t<std::is_floating_point_v<Float>, int> = 0>
+constexpr Float multiplied(Float x, Float multiple) {
+  return x * multiple;
+}
+/// x f, too small by less than 2^(up + 1) units of the last place; limited to [-1, 1), which is not
+/// an overflow.
+template <class Overflow>
+constexpr Q31<Overflow> multiplied(Q31<Overflow> x, const detail::FixedMultiple<Q31<Overflow>>& f) {
+  return lifted(half_product(x, f.mantissa), f.up + 1);
+}
+
+/// f itself; in fixed point rounded down to a unit of the last place and limited to below 1.
+template <class Float, std::enable_if_t<std::is_floating_point_v<Float>, int> = 0>
+constexpr Float limited_value(Float f) {
+  return f;
+}
+template <class Scalar>
+constexpr Scalar limited_value(const Split<Scalar>& f) {
+  using Raw = typename Scalar::Raw;
+  return f.exponent > 0
+             ? Scalar::largest()
+             : Scalar::from_raw(static_cast<Raw>(f.mantissa.raw() >> min(-f.exponent, 31)));
+}
+
+namespace detail {
+
 /// n/d, 2^30 <= n, d < 2^31, with 28 fraction bits; too small by at most 2^-24.
 ///
 /// Long division by two digits of 12 and 16 bits, each from a reciprocal of 15 bits. So every
 /// product fits a word; on small processors a wide product or a division is a call.
 constexpr std::uint32_t mantissa_quotient(std::uint32_t n, std::uint32_t d) {
-  const std::uint32_t leading = (d >> 15) + 1;  // 1/2 to 1 with 16 bits, and not too small
-  // 48/17 - 32/17 m is within 1/17 of 1/m; two steps of Newton's iteration square that twice.
-  std::uint32_t inverse = 92521 - ((leading * 61681) >> 16);  // 15 fraction bits
-  for (int i = 0; i < 2; ++i) {
-    const auto rest = static_cast<std::int32_t>((1U << 31) - leading * inverse);
-    inverse +=
-        static_cast<std::uint32_t>((static_cast<std::int32_t>(inverse) * (rest >> 16)) >> 15);
-  }
+  const std::uint32_t leading = (d >> 15) + 1;        // 1/2 to 1 with 16 bits, and not too small
+  const std::uint32_t inverse = reciprocal(leading);  // 15 fraction bits
   const std::uint32_t first = ((n >> 16) * inverse) >> 18;
   const std::uint32_t rest = (n << 12) - first * d;  // below 2 d, though n << 12 wraps
   return (first << 16) + (((rest >> 16) * inverse) >> 14);

@@ -43,6 +43,32 @@ constexpr Scalar half_product(Scalar a, Scalar b) {
   }
 }
 
+/// What is kept of a quantity that needs headroom: half of it in fixed point; floating point needs
+/// none.
+template <class Scalar>
+constexpr Scalar kept(double value) {
+  return from_real<Scalar>(is_fixed_point_v<Scalar> ? value / 2.0 : value);
+}
+template <class Scalar>
+constexpr Scalar kept_of(Scalar x) {
+  return is_fixed_point_v<Scalar> ? half(x) : x;
+}
+/// a + b, kept: as half_sum().
+template <class Scalar>
+constexpr Scalar kept_sum(Scalar a, Scalar b) {
+  return is_fixed_point_v<Scalar> ? half_sum(a, b) : a + b;
+}
+/// a - b, kept: as half_difference().
+template <class Scalar>
+constexpr Scalar kept_difference(Scalar a, Scalar b) {
+  return is_fixed_point_v<Scalar> ? half_difference(a, b) : a - b;
+}
+/// a b, kept: as half_product().
+template <class Scalar>
+constexpr Scalar kept_product(Scalar a, Scalar b) {
+  return is_fixed_point_v<Scalar> ? half_product(a, b) : a * b;
+}
+
 /// a b, a and b not both -1. In fixed point too small by less than two units of the last place.
 template <class Scalar>
 constexpr Scalar rough_product(Scalar a, Scalar b) {
@@ -91,6 +117,15 @@ constexpr Scalar lifted(Scalar x, int n) {
   }
 }
 
+/// x 2^n, 0 <= n < 32; overflow by policy.
+template <class Storage, int Bits, class Policy>
+constexpr Fixed<Storage, Bits, Policy> raised(Fixed<Storage, Bits, Policy> x, int n) {
+  const Storage raw = x.raw();
+  const auto shifted = static_cast<Storage>(static_cast<std::uint32_t>(raw) << n);
+  return shifted >> n == raw ? Fixed<Storage, Bits, Policy>::from_raw(shifted)
+                             : Fixed<Storage, Bits, Policy>::beyond(raw < 0);
+}
+
 /// x 2^n limited to [-1, 1], in fixed point to [-1, 1), which is not an overflow; 0 <= n < 32.
 template <class Scalar>
 constexpr Scalar limited_lift(Scalar x, int n) {
@@ -109,6 +144,34 @@ constexpr Scalar lifted_sum(Scalar a, Scalar b, Scalar c, Scalar d, int n) {
     return lifted(half_product(a, b) + half_product(c, d), n + 1);
   } else {
     return a * b + c * d;
+  }
+}
+
+/// a b - c d 2^n, kept. In fixed point c d 2^n is limited to [-1, 1), which is not an overflow; within
+/// 2^(n + 1) units of the last place.
+template <class Scalar>
+constexpr Scalar difference_with_lifted(Scalar a, Scalar b, Scalar c, Scalar d, int n) {
+  if constexpr (is_fixed_point_v<Scalar>) {
+    using Raw = typename Scalar::Raw;
+    // A limit that is a power of two is an instruction.
+    const auto limit = static_cast<Raw>((Scalar::largest().raw() >> (n + 1)) + 1);
+    const Raw limited =
+        clamp<Raw>(half_product(c, d).raw(), static_cast<Raw>(-limit), static_cast<Raw>(limit - 1));
+    return Scalar::from_raw(static_cast<Raw>(half_product(a, b).raw() - limited * (Raw{1} << n)));
+  } else {
+    return a * b - c * d;
+  }
+}
+
+/// a² + b², kept, which cannot overflow; a and b not both -1. In fixed point too small by less than two
+/// units of the last place.
+template <class Scalar>
+constexpr Scalar kept_square_sum(Scalar a, Scalar b) {
+  if constexpr (is_fixed_point_v<Scalar>) {
+    return Scalar::from_raw(
+        static_cast<typename Scalar::Raw>(half_product(a, a).raw() + half_product(b, b).raw()));
+  } else {
+    return a * a + b * b;
   }
 }
 

@@ -60,6 +60,11 @@ constexpr Scalar sign(Scalar x) {
   return static_cast<Scalar>(static_cast<int>(x > Scalar(0)) - static_cast<int>(x < Scalar(0)));
 }
 
+/// For the order of the code: the condition mostly holds.
+constexpr bool likely(bool condition) {
+  return __builtin_expect(condition, 1) != 0;
+}
+
 /// The smaller of a and b; a if one of them is NaN.
 template <class Scalar>
 constexpr Scalar min(Scalar a, Scalar b) {
@@ -84,10 +89,10 @@ constexpr Scalar clamp(Scalar x, Scalar low, Scalar high) {
 /// x limited to [-most, most], most >= 0; NaN stays NaN. Quicker than clamp() where x is inside.
 template <class Scalar>
 constexpr Scalar clamp_magnitude(Scalar x, Scalar most) {
-  if (most < abs(x)) {
-    return x < Scalar{} ? -most : most;
+  if (likely(!(most < abs(x)))) {
+    return x;
   }
-  return x;
+  return x < Scalar{} ? -most : most;
 }
 
 /// False for NaN and the infinities; a fixed-point number is always finite.
@@ -239,7 +244,7 @@ constexpr std::int32_t to_code(Scalar x) {
   } else {
     using Code = std::numeric_limits<std::int32_t>;
     const Scalar scaled = x * power_of_two<Scalar>(31);
-    if (detail::has_whole_code(x)) {
+    if (likely(detail::has_whole_code(x))) {
       return static_cast<std::int32_t>(scaled);
     }
     if (scaled >= static_cast<Scalar>(2147483647.5)) {

@@ -19,6 +19,36 @@ inline constexpr bool has_leading_zeros = false;
 inline constexpr bool has_leading_zeros = true;
 #endif
 
+/// Whether a division is an instruction.
+#if (defined(__thumb__) && !defined(__thumb2__)) || (defined(__riscv) && !defined(__riscv_div))
+inline constexpr bool has_division = false;
+#else
+inline constexpr bool has_division = true;
+#endif
+
+/// 2^31 / d, rounded down, 2^15 < d <= 2^16: from Newton's iteration.
+constexpr std::uint32_t reciprocal_by_newton(std::uint32_t d) {
+  // 48/17 - 32/17 m is within 1/17 of 1/m; two steps square that twice.
+  std::uint32_t inverse = 92521 - ((d * 61681) >> 16);  // 15 fraction bits
+  for (int i = 0; i < 2; ++i) {
+    const auto rest = static_cast<std::int32_t>((1U << 31) - d * inverse);
+    inverse +=
+        static_cast<std::uint32_t>((static_cast<std::int32_t>(inverse) * (rest >> 16)) >> 15);
+  }
+  while (d * inverse > 1U << 31) {
+    --inverse;
+  }
+  while ((1U << 31) - d * inverse >= d) {
+    ++inverse;
+  }
+  return inverse;
+}
+
+/// As reciprocal_by_newton(), by an instruction where the processor has one.
+constexpr std::uint32_t reciprocal(std::uint32_t d) {
+  return has_division ? (1U << 31) / d : reciprocal_by_newton(d);
+}
+
 /// (a b + 2^30) / 2^31, rounded down: the product of two numbers with 31 fraction bits, to nearest,
 /// ties toward +infinity. a and b are not both -2^31.
 ///

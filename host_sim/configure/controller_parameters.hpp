@@ -232,6 +232,7 @@ typename control::ModeObserver<Scalar>::Parameters parameters(
   }
   constexpr double finest = 0x1p-12;  // its square must not be lost in fixed point
   parameters.audible = scaled_within<Scalar>(std::max(finest, damping.audible));
+  parameters.quiet = scaled_within<Scalar>(damping.quiet);
   return parameters;
 }
 

@@ -99,6 +99,33 @@ double largest(const control::ModeTable<double>& table, std::size_t begin, std::
   return most;
 }
 
+/// Bound of the magnitude that the slope of a forecast over the place has where neither part of the
+/// mode, nor the change of the amplitude, is larger than 1. From one row to the next the place moves
+/// by 2/(rows - 1), and the numbers are straight.
+double steepest(const control::ModeTable<double>& table) {
+  double most = 0.0;
+  for (std::size_t k = 0; k + 1 < mode::rows; ++k) {
+    const auto value = [&](std::size_t i) {
+      return std::max(std::abs(table[k][i]), std::abs(table[k + 1][i]));
+    };
+    const auto slope = [&](std::size_t i) {
+      return std::abs(table[k + 1][i] - table[k][i]) * (mode::rows - 1) / 2.0;
+    };
+    const double turned = value(mode::turn) + value(mode::turn + 1);
+    const double turned_slope = slope(mode::turn) + slope(mode::turn + 1);
+    for (std::size_t part = 0; part < 2; ++part) {
+      double tilt = slope(mode::forced + part);
+      for (std::size_t i = 0; i < 2; ++i) {
+        const std::size_t seen = mode::seen + 2 * part + i;
+        tilt += slope(seen) * (turned + value(mode::kick + i)) +
+                value(seen) * (turned_slope + slope(mode::kick + i));
+      }
+      most = std::max(most, tilt);
+    }
+  }
+  return most;
+}
+
 /// The table in multiples of a mode that leaves the kicks an eighth.
 void scale_mode(control::ModeTable<double>& table) {
   const double unit = 8.0 * largest(table, mode::kick, mode::forced);
@@ -194,6 +221,8 @@ DampedDesign design_damping(const scene::Scene& scene, const BelievedPlant& plan
   constexpr double quiet = 1e-3;
   constexpr double missing = 0.25 * 0.25;  // of a quarter of the drive a quarter
   design.audible = heard * std::max(design.noise, inaudible * velocity);
+  constexpr double rounded = 0.99;
+  design.quiet = std::min(0.5, rounded * design.audible / steepest(design.table));
   design.settled = std::max(deviations * design.noise, quiet * velocity);
   design.missing = missing * velocity;
   design.delay_periods = static_cast<std::uint8_t>(scene.drive->delay_periods);

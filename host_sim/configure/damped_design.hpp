@@ -19,6 +19,7 @@ struct DampedDesign {
   bool quick = true;             ///< the mode can be quieted, see is_quick()
   double noise = 0.0;            ///< of a vibration sample, converter included, rms
   double audible = 0.0;
+  double quiet = 0.0;  ///< mode and change of the amplitude up to which no slope is audible
   double settled = 0.0;
   double missing = 0.0;
   std::uint8_t delay_periods = 1;

@@ -38,6 +38,7 @@ typename DampedVibration<S, 2>::Parameters parameters(std::uint8_t delay = 1) {
   }
   all.observer.inverse_base = inverse_base<S>;
   all.observer.audible = scaled<S>(0.01);
+  all.observer.quiet = scaled<S>(0.0);
   all.settled = scaled<S>(1e-4);
   all.missing = scaled<S>(response / 16.0);
   all.delay = delay;

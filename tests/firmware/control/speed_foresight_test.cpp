@@ -81,6 +81,15 @@ TYPED_TEST(SpeedForesightTest, NeverForeseesMoreThanTheSpeedWhileItFalls) {
   }
 }
 
+TYPED_TEST(SpeedForesightTest, AVelocityThatStaysIsTheForeseenOne) {
+  this->speed(0.1);
+  this->speed(0.15);
+  const double once = this->speed(0.15);
+  EXPECT_EQ(once, numeric::to_real(scaled<TypeParam>(0.15)));
+  EXPECT_EQ(this->speed(0.15), once);
+  EXPECT_NEAR(this->speed(0.2), 1.125 * 0.2, this->allowance());  // as a step
+}
+
 TYPED_TEST(SpeedForesightTest, ARestartForgetsTheSlope) {
   this->speed(0.1);
   this->speed(0.15);

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <random>
@@ -93,11 +94,50 @@ TEST(FloatingFixed, QuotientsAreTooSmallByAtMostTheStatedPart) {
   }
 }
 
+TEST(FloatingFixed, ReciprocalIsTheQuotientRoundedDown) {
+  for (std::uint32_t d = (1U << 15) + 1; d <= 1U << 16; ++d) {
+    ASSERT_EQ(reciprocal_by_newton(d), (1U << 31) / d);
+  }
+}
+
+TEST(FloatingFixed, MultiplesAreTooSmallByTheStatedUnitsOrLimited) {
+  Words words;
+  for (int i = 0; i < 300'000; ++i) {
+    const Split<Number> factor{words.mantissa(), i % 40};
+    const Number x = Number::from_raw((i % 2 == 0 ? 1 : -1) * (words.mantissa().raw() >> (i % 29)));
+    const auto ready = multiple(factor);
+    const long double largest = static_cast<long double>(Number::largest().to_real());
+    const long double exact = std::ldexp(
+        static_cast<long double>(x.to_real()) * static_cast<long double>(factor.mantissa.to_real()),
+        std::min(factor.exponent, 30));
+    const long double short_by = std::clamp(exact, -largest, largest) -
+                                 static_cast<long double>(multiplied(x, ready).to_real());
+    ASSERT_GE(short_by, -0x1p-31L);
+    ASSERT_LT(short_by, std::ldexp(1.0L, ready.up + 1 - 31));
+  }
+}
+
+TEST(FloatingFixed, LimitedValueIsRoundedDownToAUnit) {
+  Words words;
+  for (int i = 0; i < 10'000; ++i) {
+    const Split<Number> factor{words.mantissa(), i % 50 - 45};
+    const auto found = static_cast<long double>(limited_value(factor).to_real());
+    if (factor.exponent > 0) {
+      ASSERT_EQ(found, static_cast<long double>(Number::largest().to_real()));
+    } else {
+      ASSERT_LE(found, value(factor));
+      ASSERT_LT(value(factor) - found, 0x1p-31L);
+    }
+  }
+}
+
 TEST(FloatingFloat, IsTheNumberItself) {
   EXPECT_EQ(floating(0.375F), 0.375F);
   EXPECT_EQ(floating(Split<double>{0.75, 4}), 12.0);
   EXPECT_EQ(product(3.0, 0.5), 1.5);
   EXPECT_EQ(quotient(3.0F, 2.0F), 1.5F);
+  EXPECT_EQ(multiplied(0.75F, multiple(16.0F)), 12.0F);
+  EXPECT_EQ(limited_value(3.0), 3.0);
 }
 
 }  // namespace

@@ -108,6 +108,61 @@ TYPED_TEST(HeadroomOf, SumsOfProductsAreWithinTheirRounding) {
   }
 }
 
+TYPED_TEST(HeadroomOf, WhatIsKeptIsHalf) {
+  Codes<TypeParam> codes;
+  for (int i = 0; i < draws; ++i) {
+    const TypeParam a = codes.next();
+    const TypeParam b = codes.next();
+    ASSERT_EQ(kept_sum(a, b), half_sum(a, b));
+    ASSERT_EQ(kept_difference(a, b), half_difference(a, b));
+    ASSERT_EQ(kept_product(a, b), half_product(a, b));
+    if (a != TypeParam::lowest() || b != TypeParam::lowest()) {
+      const long double squares =
+          (product(a, a) + product(b, b)) / 2 - units(kept_square_sum(a, b));
+      ASSERT_TRUE(squares >= 0.0L && squares < 2.0L) << a.raw() << ' ' << b.raw();
+    }
+  }
+  EXPECT_EQ(kept<TypeParam>(0.5), from_real<TypeParam>(0.25));
+  EXPECT_EQ(kept_of(from_real<TypeParam>(0.5)), from_real<TypeParam>(0.25));
+}
+
+TYPED_TEST(HeadroomOf, DifferenceWithALiftedProductIsLimitedAndWithinItsRounding) {
+  Codes<TypeParam> codes;
+  for (int i = 0; i < draws; ++i) {
+    const TypeParam a = codes.next();
+    const TypeParam b = codes.next();
+    const TypeParam c = codes.next();
+    const TypeParam d = codes.next();
+    const int n = i % 12;
+    const long double lift = std::ldexp(1.0L, n);
+    const long double one = -units(TypeParam::lowest());
+    const long double exact = (product(a, b) - std::clamp(lift * product(c, d), -one, one)) / 2;
+    const long double found = units(difference_with_lifted(a, b, c, d, n));
+    ASSERT_LE(std::abs(exact - found), 2.0L * lift) << n;
+  }
+}
+
+TYPED_TEST(HeadroomOf, RaisedIsExactOrOverflowsByPolicy) {
+  using Saturated = Fixed<typename TypeParam::Raw, TypeParam::fraction_bits, Saturating>;
+  Codes<Saturated> codes;
+  for (int i = 0; i < draws; ++i) {
+    const Saturated x = codes.next();
+    const int n = i % (TypeParam::fraction_bits + 1);
+    ASSERT_EQ(units(raised(x, n)), std::clamp(std::ldexp(units(x), n), units(Saturated::lowest()),
+                                              units(Saturated::largest())));
+  }
+}
+
+TEST(HeadroomOfFloats, KeepsAllOfANumber) {
+  EXPECT_EQ(kept<float>(0.5), 0.5F);
+  EXPECT_EQ(kept_of(0.5F), 0.5F);
+  EXPECT_EQ(kept_sum(0.5F, 0.25F), 0.75F);
+  EXPECT_EQ(kept_difference(0.5, 0.25), 0.25);
+  EXPECT_EQ(kept_product(0.5, 0.25), 0.125);
+  EXPECT_EQ(kept_square_sum(3.0, 4.0), 25.0);
+  EXPECT_EQ(difference_with_lifted(3.0, 4.0, 5.0, 2.0, 7), 2.0);
+}
+
 TYPED_TEST(HeadroomOf, LiftedIsExactOrAnEndOfTheRange) {
   Codes<TypeParam> codes;
   for (int i = 0; i < draws; ++i) {
