@@ -29,6 +29,7 @@ class RecordingController {
   using Scalar = ScalarT;
   static constexpr bool observed = false;
 
+  template <control::Numbers Known>
   control::DriveCommand<Scalar> step(const control::Measurement<Scalar>& measurement) {
     told.push_back(measurement);
     return answer;
