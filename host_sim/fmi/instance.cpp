@@ -43,9 +43,12 @@ Instance::Instance(Resources resources, std::string_view token)
     throw CallError(
         fmt::format("the token is \"{}\"; that of this FMU is \"{}\"", token, resources_.token));
   }
-  stepped::require_usable(scene_, resources_.kind);
-  variables_ = fmi::variables(scene_, resources_.kind);
+  stepped::require_usable(scene_, resources_.content.kind);
+  variables_ = fmi::variables(scene_, resources_.content);
   period_s_ = 1.0 / scene_.drive->frequency_Hz;
+  if (has_clock()) {
+    resolution_Hz_ = fmi::clock_resolution_Hz(scene_);
+  }
   now_.inputs = initial_inputs(variables_);
 }
 
@@ -62,7 +65,8 @@ void Instance::require(bool allowed, const char* what) const {
     throw CallError(fmt::format("{} is not allowed {}", what,
                                 now_.phase == Phase::instantiated     ? "before initialization"
                                 : now_.phase == Phase::initialization ? "in initialization mode"
-                                : now_.phase == Phase::step           ? "after initialization"
+                                : now_.phase == Phase::event          ? "in event mode"
+                                : now_.phase == Phase::step           ? "in step mode"
                                                                       : "after the end"));
   }
 }
@@ -79,14 +83,26 @@ void Instance::set(std::uint32_t reference, double value) {
   if (wanted.role != Role::input) {
     throw CallError(fmt::format("{} cannot be set", wanted.name));
   }
-  require(now_.phase != Phase::terminated, "to set an input");
-  if (!std::isfinite(value)) {
-    throw CallError(fmt::format("{} is {}; allowed: a finite number", wanted.name, value));
-  }
-  if (wanted.input == &Inputs::target_friction_ratio && !(value >= 0.0 && value <= 1.0)) {
-    throw CallError(fmt::format("{} is {}; allowed: 0 to 1", wanted.name, value));
-  }
+  require_input(wanted, value);
+  take_back_answer();
   (wanted.input != nullptr ? now_.inputs.*wanted.input : now_.inputs.seen.*wanted.seen) = value;
+}
+
+void Instance::require_input(const Variable& input, double value) const {
+  require(now_.phase != Phase::terminated, "to set an input");
+  const bool may_change = now_.phase < Phase::event || now_.tick.active;
+  if (has_clock() && !may_change) {
+    throw CallError(fmt::format(
+        "{} belongs to the clock; allowed: to set it before the end of initialization mode, or "
+        "while the clock is active",
+        input.name));
+  }
+  if (!std::isfinite(value)) {
+    throw CallError(fmt::format("{} is {}; allowed: a finite number", input.name, value));
+  }
+  if (input.input == &Inputs::target_friction_ratio && !(value >= 0.0 && value <= 1.0)) {
+    throw CallError(fmt::format("{} is {}; allowed: 0 to 1", input.name, value));
+  }
 }
 
 Value Instance::get(std::uint32_t reference) {
@@ -104,8 +120,13 @@ Value Instance::get(std::uint32_t reference) {
     }
     case Role::input:
       return wanted.input != nullptr ? now_.inputs.*wanted.input : now_.inputs.seen.*wanted.seen;
+    case Role::clock:
+      return now_.tick.active;
     case Role::output:
       break;
+  }
+  if (wanted.clocked == Clocked::answer && awaits_answer()) {
+    answer();
   }
   return wanted.output(engine());
 }
@@ -123,11 +144,82 @@ void Instance::enter_initialization(double start_s) {
 void Instance::exit_initialization() {
   require(now_.phase == Phase::initialization, "to leave initialization mode");
   engine();
+  now_.phase = has_clock() ? Phase::event : Phase::step;
+}
+
+void Instance::require_clock(std::uint32_t reference) const {
+  if (variable(reference).role != Role::clock) {
+    throw CallError(fmt::format("{} is no Clock", variable(reference).name));
+  }
+}
+
+void Instance::enter_event_mode() {
+  if (!has_clock()) {
+    throw CallError("event mode: this FMU has none");
+  }
+  require(now_.phase == Phase::step, "to enter event mode");
+  now_.phase = Phase::event;
+  now_.tick.settled = false;
+}
+
+void Instance::set_clock(std::uint32_t reference, bool active) {
+  require_clock(reference);
+  require(now_.phase == Phase::event, "to set the clock");
+  if (active && !now_.tick.due) {
+    throw CallError(fmt::format(
+        "the clock has ticked at {} s; allowed: once at each communication point", time_s()));
+  }
+  if (!active) {
+    take_back_answer();
+  }
+  now_.tick.active = active;
+  now_.tick.settled = false;
+}
+
+bool Instance::get_clock(std::uint32_t reference) const {
+  require_clock(reference);
+  return now_.tick.active;
+}
+
+void Instance::update_discrete_states() {
+  require(now_.phase == Phase::event, "to update discrete states");
+  if (now_.tick.active) {
+    if (awaits_answer()) {
+      engine().run_controller(now_.inputs);
+    }
+    unanswered_.reset();
+    now_.tick.due = false;
+    now_.tick.active = false;
+  }
+  now_.tick.settled = true;
+}
+
+void Instance::enter_step_mode() {
+  require(now_.phase == Phase::event, "to enter step mode");
+  if (!now_.tick.settled) {
+    throw CallError("to enter step mode is not allowed before fmi3UpdateDiscreteStates");
+  }
   now_.phase = Phase::step;
 }
 
+bool Instance::awaits_answer() const {
+  return now_.tick.active && !unanswered_ && now_.periods > 0;
+}
+
+void Instance::answer() {
+  unanswered_ = engine_snapshot();
+  engine().run_controller(now_.inputs);
+}
+
+void Instance::take_back_answer() {
+  if (unanswered_) {
+    restore_engine(*unanswered_);
+    unanswered_.reset();
+  }
+}
+
 void Instance::terminate() {
-  require(now_.phase == Phase::step, "to terminate");
+  require(now_.phase == Phase::event || now_.phase == Phase::step, "to terminate");
   now_.phase = Phase::terminated;
 }
 
@@ -135,21 +227,28 @@ void Instance::reset() {
   now_ = State();
   now_.inputs = initial_inputs(variables_);
   engine_.reset();
+  unanswered_.reset();
 }
 
 double Instance::time_s() const {
   return now_.start_s + static_cast<double>(now_.periods) * period_s_;
 }
 
-bool Instance::advance(double time_s, double duration_s, bool may_stop_early) {
+void Instance::require_step(double time_s, double duration_s) const {
   require(now_.phase == Phase::step, "a step");
+  if (has_clock() && now_.tick.due) {
+    throw CallError(fmt::format("the clock has not ticked at {} s; allowed: a step after the tick",
+                                this->time_s()));
+  }
   const double periods = std::round(duration_s / period_s_);
-  const double left = stepped::endless_periods - 1.0 - static_cast<double>(now_.periods);
+  const double left =
+      has_clock() ? 1.0 : stepped::endless_periods - 1.0 - static_cast<double>(now_.periods);
   if (!(periods >= 1.0 && periods <= left) ||
       std::abs(duration_s / period_s_ - periods) > step_tolerance * periods) {
-    throw StepError(fmt::format(
-        "the communication step of {} s is {} carrier periods; allowed: a whole number of {} s",
-        duration_s, duration_s / period_s_, period_s_));
+    throw StepError(
+        fmt::format("the communication step of {} s is {} carrier periods; allowed: {} {} s",
+                    duration_s, duration_s / period_s_,
+                    has_clock() ? "the clock's interval," : "a whole number of", period_s_));
   }
   if (!(std::abs(time_s - this->time_s()) <= point_tolerance * period_s_)) {
     throw StepError(
@@ -157,7 +256,17 @@ bool Instance::advance(double time_s, double duration_s, bool may_stop_early) {
                     "step ended",
                     time_s, this->time_s()));
   }
-  const auto count = static_cast<std::uint64_t>(periods);
+}
+
+bool Instance::advance(double time_s, double duration_s, bool may_stop_early) {
+  require_step(time_s, duration_s);
+  if (has_clock()) {
+    engine().run_plant(now_.inputs);
+    ++now_.periods;
+    now_.tick.due = true;
+    return false;
+  }
+  const auto count = static_cast<std::uint64_t>(std::round(duration_s / period_s_));
   for (std::uint64_t done = 1; done <= count; ++done) {
     engine().advance(now_.inputs);
     ++now_.periods;
@@ -170,27 +279,38 @@ bool Instance::advance(double time_s, double duration_s, bool may_stop_early) {
 
 State Instance::save() {
   State state = now_;
-  if (engine_) {
-    loop::SnapshotWriter writer;
-    engine_->save(writer);
-    state.engine = writer.take();
+  if (unanswered_) {
+    state.engine = unanswered_;  // Whoever restores it answers the tick anew.
+  } else if (engine_) {
+    state.engine = engine_snapshot();
   }
   return state;
+}
+
+loop::Snapshot Instance::engine_snapshot() {
+  loop::SnapshotWriter writer;
+  engine().save(writer);
+  return writer.take();
+}
+
+void Instance::restore_engine(const loop::Snapshot& snapshot) {
+  loop::SnapshotReader reader(snapshot);
+  engine().restore(reader);
+  if (!reader.over()) {
+    throw CallError("the state that is to be restored is too long");
+  }
 }
 
 void Instance::restore(const State& state) {
   const bool same_numbers = state.parameters == now_.parameters;
   now_ = state;
   now_.engine.reset();
+  unanswered_.reset();
   if (!state.engine || !same_numbers) {
     engine_.reset();
   }
   if (state.engine) {
-    loop::SnapshotReader reader(*state.engine);
-    engine().restore(reader);
-    if (!reader.over()) {
-      throw CallError("the state that is to be restored is too long");
-    }
+    restore_engine(*state.engine);
   }
 }
 
@@ -200,6 +320,7 @@ std::vector<std::uint8_t> Instance::bytes_of(const State& state) const {
   writer.put(state.phase);
   writer.put(state.start_s);
   writer.put(state.periods);
+  writer.put(state.tick);
   writer.put(state.inputs);
   writer.put(state.parameters.size());
   for (const auto& [reference, value] : state.parameters) {
@@ -243,6 +364,7 @@ State Instance::state_of(const std::uint8_t* bytes, std::size_t count) const {
   reader.get(state.phase);
   reader.get(state.start_s);
   reader.get(state.periods);
+  reader.get(state.tick);
   reader.get(state.inputs);
   std::size_t parameters = 0;
   reader.get(parameters);
@@ -266,7 +388,7 @@ State Instance::state_of(const std::uint8_t* bytes, std::size_t count) const {
 
 Engine& Instance::engine() {
   if (!engine_) {
-    engine_.emplace(scene_with_parameters(), resources_.kind);
+    engine_.emplace(scene_with_parameters(), resources_.content.kind);
   }
   return *engine_;
 }

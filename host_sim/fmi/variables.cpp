@@ -63,9 +63,9 @@ class List {
   void add(Variable variable) { variables_.push_back(std::move(variable)); }
 
   template <std::size_t Count>
-  void outputs(const std::array<PlantSignal, Count>& signals) {
+  void outputs(const std::array<PlantSignal, Count>& signals, Clocked clocked) {
     for (const PlantSignal& each : signals) {
-      output(each.name, each.unit, each.description, 0.0, each.read);
+      add_output(each.name, each.unit, each.description, 0.0, each.read, clocked);
     }
   }
   template <std::size_t Count>
@@ -82,16 +82,23 @@ class List {
     variable.input = member;
     add(variable);
   }
+  /// Of the controller.
   void output(const char* name, const char* unit, const char* description, const Value& type,
               Value (*read)(const Engine&)) {
-    Variable variable{name, Role::output, unit, description, type};
-    variable.output = read;
-    add(variable);
+    add_output(name, unit, description, type, read, Clocked::answer);
   }
 
   std::vector<Variable> take() { return std::move(variables_); }
 
  private:
+  void add_output(const char* name, const char* unit, const char* description, const Value& type,
+                  Value (*read)(const Engine&), Clocked clocked) {
+    Variable variable{name, Role::output, unit, description, type};
+    variable.output = read;
+    variable.clocked = clocked;
+    add(variable);
+  }
+
   std::vector<Variable> variables_;
 };
 
@@ -206,7 +213,8 @@ void add_parameters(List& list, const scene::Scene& scene, stepped::Kind kind) {
 
 }  // namespace
 
-std::vector<Variable> variables(const scene::Scene& scene, stepped::Kind kind) {
+std::vector<Variable> variables(const scene::Scene& scene, Content content) {
+  const stepped::Kind kind = content.kind;
   List list;
   if (kind == stepped::Kind::plant) {
     list.input("drive_force_amplitude_N", "N", "Amplitude of the drive during a carrier period",
@@ -226,16 +234,20 @@ std::vector<Variable> variables(const scene::Scene& scene, stepped::Kind kind) {
         0.0, &Inputs::target_friction_ratio);
   }
   if (stepped::has_plant(kind)) {
-    list.outputs(measured);
+    list.outputs(measured, Clocked::measured);
     if (scene.demodulates()) {
-      list.outputs(demodulated);
+      list.outputs(demodulated, Clocked::measured);
     }
-    list.outputs(shown);
+    list.outputs(shown, Clocked::no);
   }
   if (stepped::has_controller(kind)) {
     add_controller_outputs(list, scene.controller->arithmetic);
   }
   add_parameters(list, scene, kind);
+  if (content.clock) {
+    list.add({"carrier_clock", Role::clock, "", "Ticks once a carrier period, first at the start",
+              false});
+  }
   return list.take();
 }
 

@@ -54,9 +54,17 @@ Engine::Engine(const scene::Scene& scene, Kind kind) : scene_(without_end(scene)
 }
 
 void Engine::advance(const Inputs& inputs) {
+  run_plant(inputs);
+  run_controller(inputs);
+}
+
+void Engine::run_plant(const Inputs& inputs) {
   if (plant_) {
     advance_plant(controller_ ? controller_->amplitude_N() : inputs.drive_force_amplitude_N);
   }
+}
+
+void Engine::run_controller(const Inputs& inputs) {
   if (controller_) {
     advance_controller(plant_ ? plant_outputs_ : inputs.seen, inputs.target_friction_ratio);
   }

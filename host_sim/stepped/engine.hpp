@@ -57,9 +57,14 @@ class Engine {
   /// @throws configure::ConfigurationError, loop::ComputationError
   Engine(const scene::Scene& scene, Kind kind);
 
-  /// One carrier period.
+  /// One carrier period: run_plant(), then run_controller().
   /// @throws loop::ComputationError
   void advance(const Inputs& inputs);
+  /// The plant's part of a carrier period, if there is a plant.
+  /// @throws loop::ComputationError
+  void run_plant(const Inputs& inputs);
+  /// The controller's part, at the end of the period; the next period comes then.
+  void run_controller(const Inputs& inputs);
 
   const PlantOutputs& plant() const { return plant_outputs_; }
   const ControllerOutputs& controller() const { return controller_outputs_; }

@@ -35,20 +35,19 @@ void add_sources(ZipWriter& archive, const fs::path& tree, const std::string& id
   archive.add("sources/buildDescription.xml", build_description(sources, identifier));
 }
 
-void pack(const fs::path& path, const scene::Scene& given, stepped::Kind kind, Version version,
+void pack(const fs::path& path, const scene::Scene& given, Content content, Version version,
           const Parts& parts, const std::string& tool) {
   const std::string engine = file_content(parts.engine);
-  const Resources resources = make_resources(given, kind, engine);
+  const Resources resources = make_resources(given, content, engine);
   const scene::Scene scene = scene_file::read_text(resources.scene, Resources::scene_name);
-  const std::string identifier = identifier_of(kind);
+  const std::string identifier = identifier_of(content.kind);
   ZipWriter archive(path);
   archive.add(
       "modelDescription.xml",
-      model_description(scene, kind, version, {given.name, identifier, resources.token, tool}));
+      model_description(scene, content, version, {given.name, identifier, resources.token, tool}));
   archive.add(fmt::format("binaries/{}/{}.so", platform(version), identifier), engine);
   archive.add(std::string("resources/") + Resources::scene_name, resources.scene);
-  archive.add(std::string("resources/") + Resources::kind_name,
-              std::string(scene::name_of(stepped::kinds, kind)));
+  archive.add(std::string("resources/") + Resources::kind_name, words_of(content));
   archive.add(std::string("resources/") + Resources::token_name, resources.token);
   add_sources(archive, parts.sources, identifier);
   archive.close();
@@ -71,11 +70,11 @@ Parts find_parts() {
   return parts;
 }
 
-std::string make_fmu(const scene::Scene& scene, stepped::Kind kind, Version version,
+std::string make_fmu(const scene::Scene& scene, Content content, Version version,
                      const Parts& parts, const std::string& tool) {
   const process::ScratchFolder scratch(fs::temp_directory_path());
   const fs::path whole = scratch.path() / "whole.fmu";
-  pack(whole, scene, kind, version, parts, tool);
+  pack(whole, scene, content, version, parts, tool);
   return file_content(whole);
 }
 

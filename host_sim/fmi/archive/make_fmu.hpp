@@ -5,8 +5,8 @@
 #include <string>
 
 #include "host_sim/fmi/archive/model_description.hpp"
+#include "host_sim/fmi/content.hpp"
 #include "host_sim/scene/scene.hpp"
-#include "host_sim/stepped/kind.hpp"
 
 namespace sonoglide::fmi {
 
@@ -20,10 +20,11 @@ struct Parts {
 Parts find_parts();
 
 /// The content of the archive, the same bytes for one scene each time.
-/// @param scene  usable, see require_usable()
-/// @param tool   that makes it, with its version
+/// @param scene    usable, see require_usable() and, with a clock, clock_resolution_Hz()
+/// @param content  a clock only of FMI 3.0
+/// @param tool     that makes it, with its version
 /// @throws output::OutputError
-std::string make_fmu(const scene::Scene& scene, stepped::Kind kind, Version version,
+std::string make_fmu(const scene::Scene& scene, Content content, Version version,
                      const Parts& parts, const std::string& tool);
 
 }  // namespace sonoglide::fmi

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <set>
 #include <sstream>
 #include <string_view>
@@ -109,6 +110,7 @@ const char* causality(Role role) {
     case Role::parameter:
       return "parameter";
     case Role::input:
+    case Role::clock:
       return "input";
     case Role::output:
       break;
@@ -155,36 +157,79 @@ class Fmi3 {
   static constexpr const char* token_name = "instantiationToken";
   static constexpr const char* state_name = "FMUState";
 
-  static void describe_stepping(Tree& element, const scene::Scene& scene, stepped::Kind kind) {
+  static void describe_stepping(Tree& element, const scene::Scene& scene, Content content) {
     attribute(element, "fixedInternalStepSize", exact(1.0 / scene.drive->frequency_Hz));
-    attribute(element, "mightReturnEarlyFromDoStep",
-              stepped::has_controller(kind) ? "true" : "false");
+    if (content.clock) {
+      attribute(element, "hasEventMode", "true");
+    } else {
+      attribute(element, "mightReturnEarlyFromDoStep",
+                stepped::has_controller(content.kind) ? "true" : "false");
+    }
   }
 
-  static void add(Tree& list, const Variable& variable, std::size_t reference) {
-    constexpr std::array names = {"Float64", "Float32", "Int32", "String"};
+  /// @param clock  the reference of the clock, where there is one
+  static void add(Tree& list, const Variable& variable, std::size_t reference,
+                  const scene::Scene& scene, std::optional<std::size_t> clock) {
+    constexpr std::array names = {"Float64", "Float32", "Int32", "String", "Clock"};
     Tree element;
     describe(element, variable, reference);
+    if (clock && is_clocked(variable)) {
+      attribute(element, "clocks", *clock);
+    }
+    if (variable.role == Role::clock) {
+      add_interval(element, scene);
+    }
     add_unit_and_start(element, variable);
     list.add_child(names[static_cast<std::size_t>(variable.type())], element);
   }
 
-  static Tree structure(const std::vector<Variable>& variables) {
+  static Tree structure(const std::vector<Variable>& variables, std::optional<std::size_t> clock) {
     Tree structure;
-    for (const char* name : {"Output", "InitialUnknown"}) {
-      for (std::size_t i = 0; i < variables.size(); ++i) {
-        if (variables[i].role == Role::output) {
-          Tree element;
-          attribute(element, "valueReference", i);
-          // Of no input of the same moment; in the beginning of every parameter.
-          if (std::string_view(name) == "Output") {
-            attribute(element, "dependencies", "");
-          }
-          structure.add_child(name, element);
-        }
+    for (std::size_t i = 0; i < variables.size(); ++i) {
+      if (variables[i].role == Role::output) {
+        Tree element;
+        attribute(element, "valueReference", i);
+        attribute(element, "dependencies", dependencies(variables, variables[i], clock));
+        structure.add_child("Output", element);
+      }
+    }
+    for (std::size_t i = 0; i < variables.size(); ++i) {
+      if (variables[i].role == Role::output && !(clock && is_clocked(variables[i]))) {
+        Tree element;  // In the beginning it depends on every parameter.
+        attribute(element, "valueReference", i);
+        structure.add_child("InitialUnknown", element);
       }
     }
     return structure;
+  }
+
+ private:
+  static bool is_clocked(const Variable& variable) {
+    return variable.role == Role::input || variable.clocked != Clocked::no;
+  }
+
+  static void add_interval(Tree& element, const scene::Scene& scene) {
+    attribute(element, "canBeDeactivated", "true");
+    attribute(element, "intervalVariability", "constant");
+    attribute(element, "intervalDecimal", exact(1.0 / scene.drive->frequency_Hz));
+    attribute(element, "shiftDecimal", "0");
+    attribute(element, "supportsFraction", "true");
+    attribute(element, "resolution", clock_resolution_Hz(scene));
+    attribute(element, "intervalCounter", "1");
+    attribute(element, "shiftCounter", "0");
+  }
+
+  /// What an output depends on at one communication point. Without a clock that is nothing.
+  static std::string dependencies(const std::vector<Variable>& variables, const Variable& output,
+                                  std::optional<std::size_t> clock) {
+    std::string list;
+    for (std::size_t i = 0; clock && i < variables.size(); ++i) {
+      if ((output.clocked == Clocked::answer && variables[i].role == Role::input) ||
+          (output.clocked != Clocked::no && i == *clock)) {
+        list += fmt::format("{}{}", list.empty() ? "" : " ", i);
+      }
+    }
+    return list;
   }
 };
 
@@ -195,9 +240,10 @@ class Fmi2 {
   static constexpr const char* state_name = "FMUstate";
 
   static void describe_stepping(Tree& /*element*/, const scene::Scene& /*scene*/,
-                                stepped::Kind /*kind*/) {}
+                                Content /*content*/) {}
 
-  static void add(Tree& list, const Variable& variable, std::size_t reference) {
+  static void add(Tree& list, const Variable& variable, std::size_t reference,
+                  const scene::Scene& /*scene*/, std::optional<std::size_t> /*clock*/) {
     constexpr std::array names = {"Real", "Real", "Integer", "String"};
     Tree element;
     describe(element, variable, reference);
@@ -207,7 +253,8 @@ class Fmi2 {
     list.add_child("ScalarVariable", element);
   }
 
-  static Tree structure(const std::vector<Variable>& variables) {
+  static Tree structure(const std::vector<Variable>& variables,
+                        std::optional<std::size_t> /*clock*/) {
     Tree structure;
     for (const char* name : {"Outputs", "InitialUnknowns"}) {
       Tree unknowns;
@@ -228,8 +275,9 @@ class Fmi2 {
 };
 
 template <class Interface>
-Tree describe(const scene::Scene& scene, stepped::Kind kind, const ModelFacts& facts) {
-  const std::vector<Variable> list = variables(scene, kind);
+Tree describe(const scene::Scene& scene, Content content, const ModelFacts& facts) {
+  const std::vector<Variable> list = variables(scene, content);
+  const auto clock = content.clock ? std::optional(list.size() - 1) : std::nullopt;
   Tree model;
   attribute(model, "fmiVersion", Interface::version);
   attribute(model, "modelName", facts.name);
@@ -238,20 +286,20 @@ Tree describe(const scene::Scene& scene, stepped::Kind kind, const ModelFacts& f
   attribute(model, "variableNamingConvention", "structured");
   Tree stepping;
   attribute(stepping, "modelIdentifier", facts.identifier);
-  attribute(stepping, "canHandleVariableCommunicationStepSize", "true");
+  attribute(stepping, "canHandleVariableCommunicationStepSize", content.clock ? "false" : "true");
   attribute(stepping, std::string("canGetAndSet") + Interface::state_name, "true");
   attribute(stepping, std::string("canSerialize") + Interface::state_name, "true");
-  Interface::describe_stepping(stepping, scene, kind);
+  Interface::describe_stepping(stepping, scene, content);
   model.add_child("CoSimulation", stepping);
   model.add_child("UnitDefinitions", unit_definitions(list));
   model.add_child("LogCategories", log_categories());
   model.add_child("DefaultExperiment", default_experiment(scene));
   Tree elements;
   for (std::size_t i = 0; i < list.size(); ++i) {
-    Interface::add(elements, list[i], i);
+    Interface::add(elements, list[i], i, scene, clock);
   }
   model.add_child("ModelVariables", elements);
-  model.add_child("ModelStructure", Interface::structure(list));
+  model.add_child("ModelStructure", Interface::structure(list, clock));
   Tree root;
   root.add_child("fmiModelDescription", model);
   return root;
@@ -259,10 +307,10 @@ Tree describe(const scene::Scene& scene, stepped::Kind kind, const ModelFacts& f
 
 }  // namespace
 
-std::string model_description(const scene::Scene& scene, stepped::Kind kind, Version version,
+std::string model_description(const scene::Scene& scene, Content content, Version version,
                               const ModelFacts& facts) {
-  const Tree root = version == Version::fmi3 ? describe<Fmi3>(scene, kind, facts)
-                                             : describe<Fmi2>(scene, kind, facts);
+  const Tree root = version == Version::fmi3 ? describe<Fmi3>(scene, content, facts)
+                                             : describe<Fmi2>(scene, content, facts);
   std::ostringstream text;
   boost::property_tree::write_xml(
       text, root, boost::property_tree::xml_writer_make_settings<std::string>(' ', 2));

@@ -57,6 +57,8 @@ class Component {
     }
   }
 
+  bool has_clock() const { return instance_.has_clock(); }
+
   bool may_stop_early = false;
 
  private:

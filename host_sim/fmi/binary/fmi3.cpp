@@ -84,6 +84,30 @@ fmi3Status none_of(fmi3Instance instance, const char* type, std::size_t n) {
   return n == 0 ? fmi3OK : refused(instance, type);
 }
 
+/// The interval of the clock, and its shift, are constant.
+fmi3Status constant(fmi3Instance instance, std::size_t n) {
+  return none_of(instance, "Clock whose interval or shift can be set", n);
+}
+
+/// @param get  takes the instance and a place among the clocks that are asked for
+template <class Get>
+fmi3Status each_clock(fmi3Instance instance, const fmi3ValueReference* references, std::size_t n,
+                      const Get& get) {
+  return attempt(instance, [&](const Instance& each) {
+    for (std::size_t i = 0; i < n; ++i) {
+      each.require_clock(references[i]);
+      get(each, i);
+    }
+  });
+}
+
+/// As the specification demands it of who instantiates.
+void require_event_mode(const Instance& instance, bool used) {
+  if (instance.has_clock() && !used) {
+    throw CallError("this FMU has a clock; allowed: eventModeUsed = true, or an FMU without one");
+  }
+}
+
 }  // namespace
 }  // namespace sonoglide::fmi
 
@@ -135,13 +159,15 @@ fmi3Instance fmi3InstantiateCoSimulation(fmi3String /*name*/, fmi3String token,
       log(environment, status_of(status), category, message.c_str());
     };
   }
-  if (event_mode_used && told) {
-    told(Status::warning, "logStatusWarning", "this FMU has no event mode");
-  }
   auto component = Component::create(resource_path == nullptr ? "" : resource_path,
                                      token == nullptr ? "" : token, told);
-  if (component == nullptr) {
+  if (component == nullptr || component->attempt([event_mode_used](const Instance& each) {
+        require_event_mode(each, event_mode_used);
+      }) != Status::ok) {
     return nullptr;
+  }
+  if (event_mode_used && told && !component->has_clock()) {
+    told(Status::warning, "logStatusWarning", "this FMU has no event mode");
   }
   component->may_stop_early = early_return_allowed;
   return component.release();
@@ -163,7 +189,7 @@ fmi3Status fmi3ExitInitializationMode(fmi3Instance instance) {
 }
 
 fmi3Status fmi3EnterEventMode(fmi3Instance instance) {
-  return refused(instance, "event mode");
+  return attempt(instance, [](Instance& each) { each.enter_event_mode(); });
 }
 
 fmi3Status fmi3Terminate(fmi3Instance instance) {
@@ -243,14 +269,22 @@ fmi3Status fmi3SetBinary(fmi3Instance instance, const fmi3ValueReference /*refer
   return none_of(instance, "Binary", n);
 }
 
-fmi3Status fmi3GetClock(fmi3Instance instance, const fmi3ValueReference /*references*/[],
-                        std::size_t n, fmi3Clock /*values*/[]) {
-  return none_of(instance, "Clock", n);
+fmi3Status fmi3GetClock(fmi3Instance instance, const fmi3ValueReference references[], std::size_t n,
+                        fmi3Clock values[]) {
+  return attempt(instance, [&](const Instance& each) {
+    for (std::size_t i = 0; i < n; ++i) {
+      values[i] = each.get_clock(references[i]);
+    }
+  });
 }
 
-fmi3Status fmi3SetClock(fmi3Instance instance, const fmi3ValueReference /*references*/[],
-                        std::size_t n, const fmi3Clock /*values*/[]) {
-  return none_of(instance, "Clock", n);
+fmi3Status fmi3SetClock(fmi3Instance instance, const fmi3ValueReference references[], std::size_t n,
+                        const fmi3Clock values[]) {
+  return attempt(instance, [&](Instance& each) {
+    for (std::size_t i = 0; i < n; ++i) {
+      each.set_clock(references[i], values[i]);
+    }
+  });
 }
 
 fmi3Status fmi3GetNumberOfVariableDependencies(fmi3Instance instance, fmi3ValueReference reference,
@@ -315,66 +349,79 @@ fmi3Status fmi3DeserializeFMUState(fmi3Instance instance, const fmi3Byte bytes[]
   return attempt(instance, [&](Instance& each) { *state = new State(each.state_of(bytes, size)); });
 }
 
-fmi3Status fmi3GetIntervalDecimal(fmi3Instance instance, const fmi3ValueReference /*references*/[],
-                                  std::size_t n, fmi3Float64 /*intervals*/[],
-                                  fmi3IntervalQualifier /*qualifiers*/[]) {
-  return none_of(instance, "Clock", n);
+fmi3Status fmi3GetIntervalDecimal(fmi3Instance instance, const fmi3ValueReference references[],
+                                  std::size_t n, fmi3Float64 intervals[],
+                                  fmi3IntervalQualifier qualifiers[]) {
+  return each_clock(instance, references, n, [&](const Instance& each, std::size_t i) {
+    intervals[i] = each.period_s();
+    qualifiers[i] = fmi3IntervalUnchanged;
+  });
 }
 
-fmi3Status fmi3GetIntervalFraction(fmi3Instance instance, const fmi3ValueReference /*references*/[],
-                                   std::size_t n, fmi3UInt64 /*counters*/[],
-                                   fmi3UInt64 /*resolutions*/[],
-                                   fmi3IntervalQualifier /*qualifiers*/[]) {
-  return none_of(instance, "Clock", n);
+fmi3Status fmi3GetIntervalFraction(fmi3Instance instance, const fmi3ValueReference references[],
+                                   std::size_t n, fmi3UInt64 counters[], fmi3UInt64 resolutions[],
+                                   fmi3IntervalQualifier qualifiers[]) {
+  return each_clock(instance, references, n, [&](const Instance& each, std::size_t i) {
+    counters[i] = 1;
+    resolutions[i] = each.clock_resolution_Hz();
+    qualifiers[i] = fmi3IntervalUnchanged;
+  });
 }
 
-fmi3Status fmi3GetShiftDecimal(fmi3Instance instance, const fmi3ValueReference /*references*/[],
-                               std::size_t n, fmi3Float64 /*shifts*/[]) {
-  return none_of(instance, "Clock", n);
+fmi3Status fmi3GetShiftDecimal(fmi3Instance instance, const fmi3ValueReference references[],
+                               std::size_t n, fmi3Float64 shifts[]) {
+  return each_clock(instance, references, n,
+                    [&](const Instance& /*each*/, std::size_t i) { shifts[i] = 0.0; });
 }
 
-fmi3Status fmi3GetShiftFraction(fmi3Instance instance, const fmi3ValueReference /*references*/[],
-                                std::size_t n, fmi3UInt64 /*counters*/[],
-                                fmi3UInt64 /*resolutions*/[]) {
-  return none_of(instance, "Clock", n);
+fmi3Status fmi3GetShiftFraction(fmi3Instance instance, const fmi3ValueReference references[],
+                                std::size_t n, fmi3UInt64 counters[], fmi3UInt64 resolutions[]) {
+  return each_clock(instance, references, n, [&](const Instance& each, std::size_t i) {
+    counters[i] = 0;
+    resolutions[i] = each.clock_resolution_Hz();
+  });
 }
 
 fmi3Status fmi3SetIntervalDecimal(fmi3Instance instance, const fmi3ValueReference /*references*/[],
                                   std::size_t n, const fmi3Float64 /*intervals*/[]) {
-  return none_of(instance, "Clock", n);
+  return constant(instance, n);
 }
 
 fmi3Status fmi3SetIntervalFraction(fmi3Instance instance, const fmi3ValueReference /*references*/[],
                                    std::size_t n, const fmi3UInt64 /*counters*/[],
                                    const fmi3UInt64 /*resolutions*/[]) {
-  return none_of(instance, "Clock", n);
+  return constant(instance, n);
 }
 
 fmi3Status fmi3SetShiftDecimal(fmi3Instance instance, const fmi3ValueReference /*references*/[],
                                std::size_t n, const fmi3Float64 /*shifts*/[]) {
-  return none_of(instance, "Clock", n);
+  return constant(instance, n);
 }
 
 fmi3Status fmi3SetShiftFraction(fmi3Instance instance, const fmi3ValueReference /*references*/[],
                                 std::size_t n, const fmi3UInt64 /*counters*/[],
                                 const fmi3UInt64 /*resolutions*/[]) {
-  return none_of(instance, "Clock", n);
+  return constant(instance, n);
 }
 
 fmi3Status fmi3EvaluateDiscreteStates(fmi3Instance instance) {
-  return refused(instance, "event mode");
+  return refused(instance, "evaluation of discrete states");
 }
 
-fmi3Status fmi3UpdateDiscreteStates(fmi3Instance instance, fmi3Boolean* /*needs_update*/,
-                                    fmi3Boolean* /*terminate*/, fmi3Boolean* /*nominals_changed*/,
-                                    fmi3Boolean* /*values_changed*/,
-                                    fmi3Boolean* /*next_event_time_defined*/,
+fmi3Status fmi3UpdateDiscreteStates(fmi3Instance instance, fmi3Boolean* needs_update,
+                                    fmi3Boolean* terminate, fmi3Boolean* nominals_changed,
+                                    fmi3Boolean* values_changed,
+                                    fmi3Boolean* next_event_time_defined,
                                     fmi3Float64* /*next_event_time*/) {
-  return refused(instance, "event mode");
+  for (fmi3Boolean* each :
+       {needs_update, terminate, nominals_changed, values_changed, next_event_time_defined}) {
+    *each = false;
+  }
+  return attempt(instance, [](Instance& each) { each.update_discrete_states(); });
 }
 
 fmi3Status fmi3EnterStepMode(fmi3Instance instance) {
-  return refused(instance, "event mode");
+  return attempt(instance, [](Instance& each) { each.enter_step_mode(); });
 }
 
 fmi3Status fmi3GetOutputDerivatives(fmi3Instance instance,

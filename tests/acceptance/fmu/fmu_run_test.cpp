@@ -4,8 +4,11 @@
 
 #include <cmath>
 #include <cstdint>
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <ostream>
+#include <sstream>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -45,14 +48,28 @@ const std::vector<Case> cases = {
 class FmuRun : public testing::TestWithParam<Case> {
  protected:
   void SetUp() override {
-    const Outcome ran = folder_.run("run " + GetParam().words() + " --json --set 'run.record=[]'" +
-                                    " --set run.record_interval_s=");
-    ASSERT_EQ(ran.exit_code, 0) << ran.err;
-    const auto summary = nlohmann::json::parse(ran.out);
+    const nlohmann::json summary = run(GetParam().words());
     hash_ = summary["control"]["trace_hash"];
     const double periods = summary["scene"]["run"]["duration_s"].get<double>() *
                            summary["scene"]["drive"]["frequency_Hz"].get<double>();
     periods_ = static_cast<std::uint64_t>(std::floor(periods + 1e-6));
+  }
+
+  nlohmann::json run(const std::string& words) const {
+    const Outcome ran = folder_.run("run " + words + " --json --set 'run.record=[]'" +
+                                    " --set run.record_interval_s=");
+    if (ran.exit_code != 0) {
+      throw std::runtime_error(ran.err);
+    }
+    return nlohmann::json::parse(ran.out);
+  }
+  /// Of a loop in which a number is another one than the controller believes.
+  std::string hash_with_true_value(const std::string& value) const {
+    std::ifstream file(SONOGLIDE_SCENES "/" + GetParam().scene + ".toml");
+    std::ostringstream scene;
+    scene << file.rdbuf() << "\n[true_values]\n" << value << "\n";
+    folder_.write("true.toml", scene.str());
+    return run("true.toml " + GetParam().options)["control"]["trace_hash"];
   }
 
   void make(const std::string& kind, const std::string& options = "") const {
@@ -79,16 +96,7 @@ std::vector<std::uint8_t> serialized_state(const Fmu3& fmu, double until_s) {
   Instance3 first(fmu);
   first.initialize();
   EXPECT_EQ(first.step(0.0, until_s).status, fmi3OK);
-  fmi3FMUState state = nullptr;
-  EXPECT_EQ(SONOGLIDE_CALL3(first, fmi3GetFMUState)(first.get(), &state), fmi3OK);
-  std::size_t size = 0;
-  EXPECT_EQ(SONOGLIDE_CALL3(first, fmi3SerializedFMUStateSize)(first.get(), state, &size), fmi3OK);
-  std::vector<std::uint8_t> bytes(size);
-  EXPECT_EQ(SONOGLIDE_CALL3(first, fmi3SerializeFMUState)(first.get(), state, bytes.data(), size),
-            fmi3OK);
-  EXPECT_EQ(SONOGLIDE_CALL3(first, fmi3FreeFMUState)(first.get(), &state), fmi3OK);
-  EXPECT_EQ(state, nullptr);
-  return bytes;
+  return first.serialized_state();
 }
 
 TEST_P(FmuRun, ALoopGivesTheHashOfRunAlsoFromAStateInMidRun) {
@@ -147,6 +155,38 @@ TEST_P(FmuRun, PlantAndControllerOneAfterTheOtherGiveTheHashOfRun) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, FmuRun, testing::ValuesIn(cases),
+                         [](const auto& tested) { return tested.param.name; });
+
+class FmuRunJacobi : public FmuRun {};
+
+/// Both step at once with the outputs of the communication point before: the controller then is one
+/// whose force reading is one carrier period later than it believes. The sliding velocity, which
+/// is late too, is constant in these scenes.
+TEST_P(FmuRunJacobi, AJacobiMasterMakesTheForceReadingOnePeriodLate) {
+  make("plant");
+  make("controller");
+  const Fmu3 plant_fmu(folder_, "plant");
+  const Fmu3 controller_fmu(folder_, "controller");
+  Instance3 plant(plant_fmu);
+  Instance3 controller(controller_fmu);
+  plant.initialize();
+  controller.initialize();
+  const double step_s = plant_fmu.description().step_s();
+  co_simulate(step_s, periods_, [&](double time_s) {
+    plant.set("drive_force_amplitude_N", controller.real("drive_force_amplitude_N"));
+    for (const char* each : {"mean_friction_force_N", "sliding_velocity_m_per_s"}) {
+      controller.set(each, plant.real(each));
+    }
+    ASSERT_EQ(plant.step(time_s, step_s).status, fmi3OK) << plant.messages();
+    ASSERT_EQ(controller.step(time_s, step_s).status, fmi3OK) << controller.messages();
+  });
+  const std::string hash = controller.text("trace_hash");
+  EXPECT_NE(hash, hash_);
+  EXPECT_EQ(hash, hash_with_true_value("\"sensor.delay_periods\" = 1"));
+  EXPECT_NE(hash, hash_with_true_value("\"drive.delay_periods\" = 2")) << "another trace";
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, FmuRunJacobi, testing::Values(cases[0], cases[3]),
                          [](const auto& tested) { return tested.param.name; });
 
 class FmuRun2 : public FmuRun {};
