@@ -299,6 +299,42 @@ TEST_F(FmuArchive, EverySourceThatTheBuildNamesIsThere) {
   EXPECT_GT(units, 40U);
 }
 
+/// What the build description says of how a source is compiled, for g++.
+std::string compiler_words(const Tree& build) {
+  const Tree& set = build.get_child("fmiBuildDescription.BuildConfiguration.SourceFileSet");
+  EXPECT_EQ(attribute_of(set, "language"), "C++17");
+  EXPECT_EQ(attribute_of(set, "compiler"), "gcc");
+  std::string words = "-std=c++17 " + attribute_of(set, "compilerOptions");
+  for (const auto& [name, element] : set) {
+    if (name == "PreprocessorDefinition") {
+      words += " -D" + attribute_of(element, "name") + "=" + attribute_of(element, "value");
+    } else if (name == "IncludeDirectory") {
+      words += " -I" + attribute_of(element, "name");
+    }
+  }
+  return words;
+}
+
+/// All sources take minutes: the one with the functions of the interface stands for them here.
+TEST_F(FmuArchive, TheInterfaceCompilesAsTheBuildDescriptionSays) {
+  if (SONOGLIDE_SANITIZED) {
+    GTEST_SKIP() << "the compiler is no part of what sanitizers watch";
+  }
+  make_fmu(folder_, "scene.toml", "--kind loop", "fmu");
+  std::istringstream text(folder_.read("fmu/sources/buildDescription.xml"));
+  Tree build;
+  boost::property_tree::read_xml(text, build);
+  const Outcome compiled = folder_.run_program(
+      "g++", compiler_words(build) + " -c host_sim/fmi/binary/fmi3.cpp -o fmi3.o", "fmu/sources");
+  ASSERT_EQ(compiled.exit_code, 0) << compiled.err;
+  std::istringstream symbols(folder_.run_program("nm", "-g --defined-only fmu/sources/fmi3.o").out);
+  std::size_t functions = 0;
+  for (std::string line; std::getline(symbols, line);) {
+    functions += std::regex_match(line, std::regex("[0-9a-f]+ T fmi3[A-Z].*")) ? 1U : 0U;
+  }
+  EXPECT_EQ(functions, 64U);
+}
+
 TEST_F(FmuArchive, EveryHeaderThatASourceIncludesIsThere) {
   make_fmu(folder_, "scene.toml", "--kind loop", "fmu");
   const std::vector<std::string> entries = folder_.entries();
