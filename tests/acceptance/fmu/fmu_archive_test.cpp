@@ -10,8 +10,6 @@
 #include <boost/property_tree/xml_parser.hpp>
 #include <cstddef>
 #include <filesystem>
-#include <iterator>
-#include <map>
 #include <regex>
 #include <set>
 #include <sstream>
@@ -19,6 +17,7 @@
 #include <vector>
 
 #include "tests/acceptance/fmu/importer/description.hpp"
+#include "tests/acceptance/fmu/importer/description_rules.hpp"
 #include "tests/acceptance/program/program.hpp"
 #include "tests/common/scenes.hpp"
 
@@ -34,16 +33,6 @@ target_friction_ratio = [[0.0, 0.4]]
 seed = 3
 )";
 
-std::vector<std::string> children(const Tree& element) {
-  std::vector<std::string> names;
-  for (const auto& [name, child] : element) {
-    if (name != "<xmlattr>") {
-      names.push_back(name);
-    }
-  }
-  return names;
-}
-
 using Names = std::vector<std::string>;
 
 class FmuArchive : public testing::Test {
@@ -54,54 +43,6 @@ class FmuArchive : public testing::Test {
 };
 
 class FmuDescription : public FmuArchive, public testing::WithParamInterface<std::string> {};
-
-/// Names, references, causality, variability, start values and units of the variables.
-void check_variables(const Tree& root, bool version_2) {
-  std::set<std::string> names;
-  std::set<std::string> references;
-  std::set<std::string> units;
-  for (const auto& [name, unit] : root.get_child("UnitDefinitions")) {
-    EXPECT_TRUE(units.insert(attribute_of(unit, "name")).second);
-  }
-  int independents = 0;
-  for (const auto& [type, variable] : root.get_child("ModelVariables")) {
-    const std::string name = attribute_of(variable, "name");
-    SCOPED_TRACE(name);
-    EXPECT_TRUE(names.insert(name).second);
-    EXPECT_TRUE(references.insert(attribute_of(variable, "valueReference")).second);
-    EXPECT_TRUE(std::regex_match(name, std::regex("[A-Za-z_][A-Za-z0-9_]*(\\.[A-Za-z_]\\w*)*")));
-    const Tree& typed = version_2 ? variable.get_child(children(variable).at(0)) : variable;
-    const std::string real_type = version_2 ? children(variable).at(0) : type;
-    EXPECT_TRUE(
-        version_2 ? (std::set<std::string>{"Real", "Integer", "String"}.count(real_type) == 1)
-                  : (std::set<std::string>{"Float64", "Float32", "Int32", "String", "Clock"}.count(
-                         real_type) == 1));
-    const std::string causality = attribute_of(variable, "causality");
-    const std::string variability = attribute_of(variable, "variability");
-    const std::string start = attribute_of(typed, "start");
-    if (causality == "independent") {
-      ++independents;
-      EXPECT_EQ(variability, "continuous");
-      EXPECT_EQ(start, "");
-    } else if (causality == "parameter") {
-      EXPECT_EQ(variability, "fixed");
-      EXPECT_NE(start, "");
-    } else if (causality == "input") {
-      EXPECT_EQ(variability, "discrete");
-      EXPECT_EQ(start.empty(), real_type == "Clock");
-    } else {
-      EXPECT_EQ(causality, "output");
-      EXPECT_EQ(variability, "discrete");
-      EXPECT_EQ(start, "") << "it is calculated";
-    }
-    EXPECT_EQ(attribute_of(variable, "initial"), "") << "the default is right";
-    if (!attribute_of(typed, "unit").empty()) {
-      EXPECT_EQ(units.count(attribute_of(typed, "unit")), 1U);
-      EXPECT_TRUE(real_type != "Int32" && real_type != "Integer" && real_type != "String");
-    }
-  }
-  EXPECT_EQ(independents, 1);
-}
 
 /// The references, or the places counted from 1, of the outputs.
 Names outputs_of(const Tree& root, bool version_2) {
@@ -156,95 +97,6 @@ TEST_P(FmuDescription, TheDescriptionOfVersion2KeepsTheRules) {
       places.push_back(attribute_of(element, "index"));
     }
     EXPECT_EQ(places, outputs_of(root, true)) << part;
-  }
-}
-
-/// The references in a list such as `clocks` and `dependencies`.
-std::set<std::string> references_in(const Tree& element, const std::string& attribute) {
-  std::istringstream list(attribute_of(element, attribute));
-  return {std::istream_iterator<std::string>(list), {}};
-}
-
-/// Sections 2.2.8 and 2.4.7 of FMI 3.0.
-TEST_P(FmuDescription, AClockKeepsTheRules) {
-  make_fmu(folder_, "scene.toml", "--clock --kind " + GetParam(), "fmu");
-  const Description description(folder_, "fmu");
-  const Tree& root = description.root();
-  check_variables(root, false);
-  EXPECT_EQ(description.stepping("hasEventMode"), "true");
-  EXPECT_EQ(description.stepping("canHandleVariableCommunicationStepSize"), "false");
-  const Tree& clock = description.variable("carrier_clock");
-  for (const auto& [name, value] :
-       std::map<std::string, std::string>{{"causality", "input"},
-                                          {"variability", "discrete"},
-                                          {"intervalVariability", "constant"},
-                                          {"intervalDecimal", "1.6666666666666667e-05"},
-                                          {"shiftDecimal", "0"},
-                                          {"supportsFraction", "true"},
-                                          {"resolution", "60000"},
-                                          {"intervalCounter", "1"},
-                                          {"shiftCounter", "0"},
-                                          {"clocks", ""},
-                                          {"unit", ""}}) {
-    EXPECT_EQ(attribute_of(clock, name), value) << name;
-  }
-  const std::string reference = attribute_of(clock, "valueReference");
-  std::set<std::string> inputs = {reference};
-  std::map<std::string, bool> outputs;  // whether they are clocked
-  int clocks = 0;
-  for (const auto& [type, variable] : root.get_child("ModelVariables")) {
-    clocks += type == "Clock" ? 1 : 0;
-    const std::string each = attribute_of(variable, "valueReference");
-    const std::string causality = attribute_of(variable, "causality");
-    const std::set<std::string> named = references_in(variable, "clocks");
-    EXPECT_TRUE(named.empty() || named == std::set<std::string>{reference}) << each;
-    if (causality == "input") {
-      inputs.insert(each);
-      EXPECT_EQ(named.empty(), type == "Clock") << each;
-    } else if (causality == "output") {
-      outputs[each] = !named.empty();
-    } else {
-      EXPECT_TRUE(named.empty()) << "clocked variables are discrete";
-    }
-  }
-  EXPECT_EQ(clocks, 1);
-  std::set<std::string> listed;
-  std::set<std::string> initial;
-  for (const auto& [name, element] : root.get_child("ModelStructure")) {
-    const std::string each = attribute_of(element, "valueReference");
-    ASSERT_EQ(outputs.count(each), 1U) << "every output is there";
-    EXPECT_TRUE((name == "Output" ? listed : initial).insert(each).second) << "once";
-    if (name == "Output") {
-      const std::set<std::string> dependencies = references_in(element, "dependencies");
-      EXPECT_EQ(dependencies.count(reference) == 1, outputs[each]) << each;
-      EXPECT_TRUE(
-          std::includes(inputs.begin(), inputs.end(), dependencies.begin(), dependencies.end()))
-          << each;
-    } else {
-      EXPECT_FALSE(outputs[each]) << "clocked variables have their first value at a tick";
-    }
-  }
-  EXPECT_EQ(listed.size(), outputs.size());
-  EXPECT_EQ(initial.size() + static_cast<std::size_t>(
-                                 std::count_if(outputs.begin(), outputs.end(),
-                                               [](const auto& output) { return output.second; })),
-            outputs.size());
-}
-
-/// A plant's measured values do not depend on its drive in the same tick, or who connects it to a
-/// controller would see an algebraic loop.
-TEST_F(FmuArchive, OnlyTheControllersAnswersDependOnInputsOfTheSameTick) {
-  for (const std::string& kind : Names{"plant", "controller"}) {
-    make_fmu(folder_, "scene.toml", "--clock --kind " + kind, kind);
-    const Description description(folder_, kind);
-    const std::string output =
-        kind == "plant" ? "mean_friction_force_N" : "drive_force_amplitude_N";
-    for (const auto& [name, element] : description.root().get_child("ModelStructure")) {
-      if (name == "Output" && attribute_of(element, "valueReference") ==
-                                  std::to_string(description.reference(output))) {
-        EXPECT_EQ(references_in(element, "dependencies").size(), kind == "plant" ? 1U : 4U);
-      }
-    }
   }
 }
 

@@ -5,12 +5,19 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
+#include <iterator>
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <set>
+#include <sstream>
 #include <string>
 #include <vector>
 
+#include "tests/acceptance/fmu/importer/description_rules.hpp"
 #include "tests/acceptance/fmu/importer/fmu3.hpp"
 #include "tests/acceptance/program/program.hpp"
 #include "tests/common/scenes.hpp"
@@ -33,14 +40,15 @@ seed = 3
 
 /// What the scenes here are made of.
 struct Fmus {
-  explicit Fmus(const std::string& words) {
+  explicit Fmus(const std::string& words) : words_(words) {
     folder.write("scene.toml", scene);
-    for (const char* kind : {"plant", "controller", "loop"}) {
-      make_fmu(folder, words, std::string("--clock --kind ") + kind, kind);
-    }
-    plant = std::make_unique<Fmu3>(folder, "plant");
-    controller = std::make_unique<Fmu3>(folder, "controller");
-    loop = std::make_unique<Fmu3>(folder, "loop");
+    plant = make("plant");
+    controller = make("controller");
+  }
+
+  std::unique_ptr<Fmu3> make(const std::string& kind) const {
+    make_fmu(folder, words_, "--clock --kind " + kind, kind);
+    return std::make_unique<Fmu3>(folder, kind);
   }
 
   std::string hash_of_run(const std::string& words) const {
@@ -52,7 +60,10 @@ struct Fmus {
   ScratchFolder folder;
   std::unique_ptr<Fmu3> plant;
   std::unique_ptr<Fmu3> controller;
-  std::unique_ptr<Fmu3> loop;
+  std::unique_ptr<Fmu3> loop;  ///< where a test makes it
+
+ private:
+  std::string words_;
 };
 
 Names inputs_of(const Fmu3& fmu) {
@@ -122,7 +133,10 @@ class Master {
 
 class FmuClock : public testing::Test {
  protected:
-  static void SetUpTestSuite() { fmus = new Fmus("scene.toml"); }
+  static void SetUpTestSuite() {
+    fmus = new Fmus("scene.toml");
+    fmus->loop = fmus->make("loop");
+  }
   static void TearDownTestSuite() { delete fmus; }
 
   static std::string hash_of_run() { return fmus->hash_of_run("scene.toml"); }
@@ -350,6 +364,102 @@ TEST_F(FmuClock, WhatHasNoClockIsRefused) {
   refused("--set drive.frequency_Hz=60000.5",
           "drive.frequency_Hz: is 60000.5, and the interval of a clock is a fraction of whole "
           "numbers; allowed with a clock: a whole number of Hz");
+}
+
+/// The references in a list such as `clocks` and `dependencies`.
+std::set<std::string> references_in(const Tree& element, const std::string& attribute) {
+  std::istringstream list(attribute_of(element, attribute));
+  return {std::istream_iterator<std::string>(list), {}};
+}
+
+/// Sections 2.2.8 and 2.4.7 of FMI 3.0.
+void check_clock(const Description& description) {
+  const Tree& root = description.root();
+  check_variables(root, false);
+  EXPECT_EQ(description.stepping("hasEventMode"), "true");
+  EXPECT_EQ(description.stepping("canHandleVariableCommunicationStepSize"), "false");
+  const Tree& clock = description.variable("carrier_clock");
+  for (const auto& [name, value] :
+       std::map<std::string, std::string>{{"causality", "input"},
+                                          {"variability", "discrete"},
+                                          {"intervalVariability", "constant"},
+                                          {"intervalDecimal", "1.6666666666666667e-05"},
+                                          {"shiftDecimal", "0"},
+                                          {"supportsFraction", "true"},
+                                          {"resolution", "60000"},
+                                          {"intervalCounter", "1"},
+                                          {"shiftCounter", "0"},
+                                          {"clocks", ""},
+                                          {"unit", ""}}) {
+    EXPECT_EQ(attribute_of(clock, name), value) << name;
+  }
+  const std::string reference = attribute_of(clock, "valueReference");
+  std::set<std::string> inputs = {reference};
+  std::map<std::string, bool> outputs;  // whether they are clocked
+  int clocks = 0;
+  for (const auto& [type, variable] : root.get_child("ModelVariables")) {
+    clocks += type == "Clock" ? 1 : 0;
+    const std::string each = attribute_of(variable, "valueReference");
+    const std::string causality = attribute_of(variable, "causality");
+    const std::set<std::string> named = references_in(variable, "clocks");
+    EXPECT_TRUE(named.empty() || named == std::set<std::string>{reference}) << each;
+    if (causality == "input") {
+      inputs.insert(each);
+      EXPECT_EQ(named.empty(), type == "Clock") << each;
+    } else if (causality == "output") {
+      outputs[each] = !named.empty();
+    } else {
+      EXPECT_TRUE(named.empty()) << "clocked variables are discrete";
+    }
+  }
+  EXPECT_EQ(clocks, 1);
+  std::set<std::string> listed;
+  std::set<std::string> initial;
+  for (const auto& [name, element] : root.get_child("ModelStructure")) {
+    const std::string each = attribute_of(element, "valueReference");
+    ASSERT_EQ(outputs.count(each), 1U) << "every output is there";
+    EXPECT_TRUE((name == "Output" ? listed : initial).insert(each).second) << "once";
+    if (name == "Output") {
+      const std::set<std::string> dependencies = references_in(element, "dependencies");
+      EXPECT_EQ(dependencies.count(reference) == 1, outputs[each]) << each;
+      EXPECT_TRUE(
+          std::includes(inputs.begin(), inputs.end(), dependencies.begin(), dependencies.end()))
+          << each;
+    } else {
+      EXPECT_FALSE(outputs[each]) << "clocked variables have their first value at a tick";
+    }
+  }
+  EXPECT_EQ(listed.size(), outputs.size());
+  EXPECT_EQ(initial.size() + static_cast<std::size_t>(
+                                 std::count_if(outputs.begin(), outputs.end(),
+                                               [](const auto& output) { return output.second; })),
+            outputs.size());
+}
+
+TEST_F(FmuClock, ItsDescriptionKeepsTheRules) {
+  for (const Fmu3* fmu : {fmus->plant.get(), fmus->controller.get(), fmus->loop.get()}) {
+    SCOPED_TRACE(fmu->description().stepping("modelIdentifier"));
+    check_clock(fmu->description());
+  }
+}
+
+/// If a plant's measured values depended on its drive in the same tick, whoever connects it to a
+/// controller would see an algebraic loop.
+TEST_F(FmuClock, OnlyTheControllersAnswersDependOnInputsOfTheSameTick) {
+  const auto dependencies = [](const Fmu3& fmu, const std::string& output) {
+    const std::string reference = std::to_string(fmu.description().reference(output));
+    for (const auto& [name, element] : fmu.description().root().get_child("ModelStructure")) {
+      if (name == "Output" && attribute_of(element, "valueReference") == reference) {
+        return references_in(element, "dependencies").size();
+      }
+    }
+    return std::size_t{0};
+  };
+  EXPECT_EQ(dependencies(*fmus->plant, "mean_friction_force_N"), 1U) << "the clock";
+  EXPECT_EQ(dependencies(*fmus->plant, "displacement_m"), 0U);
+  EXPECT_EQ(dependencies(*fmus->controller, "drive_force_amplitude_N"), 4U) << "and all inputs";
+  EXPECT_EQ(dependencies(*fmus->loop, "mean_friction_force_N"), 1U);
+  EXPECT_EQ(dependencies(*fmus->loop, "drive_force_amplitude_N"), 2U) << "and the target";
 }
 
 /// An example scene whose vibration is observed.
