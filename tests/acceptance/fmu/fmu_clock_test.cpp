@@ -375,7 +375,7 @@ std::set<std::string> references_in(const Tree& element, const std::string& attr
 /// Sections 2.2.8 and 2.4.7 of FMI 3.0.
 void check_clock(const Description& description) {
   const Tree& root = description.root();
-  check_variables(root, false);
+  check_description(root, false);
   EXPECT_EQ(description.stepping("hasEventMode"), "true");
   EXPECT_EQ(description.stepping("canHandleVariableCommunicationStepSize"), "false");
   const Tree& clock = description.variable("carrier_clock");

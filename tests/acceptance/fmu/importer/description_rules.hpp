@@ -11,8 +11,9 @@ namespace sonoglide::acceptance {
 /// The names of the elements inside one.
 std::vector<std::string> children(const Tree& element);
 
-/// Names, references, causality, variability, start values and units of the variables.
+/// The elements with the attributes that they must and may have; names, references, causality,
+/// variability, start values and units of the variables.
 /// @param root  fmiModelDescription
-void check_variables(const Tree& root, bool version_2);
+void check_description(const Tree& root, bool version_2);
 
 }  // namespace sonoglide::acceptance
