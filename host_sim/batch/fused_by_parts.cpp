@@ -64,12 +64,18 @@ inline double odd_sum(double a, double b) {
 inline bool has_room(double a, double b, double c) {
   constexpr double large = 0x1p900;
   const double size = std::abs(a * b);
+  const double size_a = std::abs(a);
+  const double size_b = std::abs(b);
+  const double size_c = std::abs(c);
   const bool is_zero = (a == 0.0) | (b == 0.0);
-  return (is_zero ? c != 0.0 : size >= 0x1p-900) & (size <= large) & (std::abs(a) <= large) &
-         (std::abs(b) <= large) & (std::abs(c) <= large);
+  return (is_zero ? c != 0.0 : size >= 0x1p-900) & (size <= large) & (size_a <= large) &
+         (size_b <= large) & (size_c <= large);
 }
 inline bool has_room(float a, float b, float c) {
-  return std::isfinite(a) & std::isfinite(b) & std::isfinite(c);
+  const bool finite_a = std::isfinite(a);
+  const bool finite_b = std::isfinite(b);
+  const bool finite_c = std::isfinite(c);
+  return finite_a & finite_b & finite_c;
 }
 
 /// @param a, b, c  with room
