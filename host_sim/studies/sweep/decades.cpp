@@ -39,7 +39,8 @@ double power_of_ten(double x) {
 
 double logarithm_to_ten(double x) {
   // Of few digits, so that 10^first is x but for a small rest, and x itself for a power of ten.
-  const double first = static_cast<float>(numeric::log2(x) * log10_of_2);
+  const auto few_digits = static_cast<float>(numeric::log2(x) * log10_of_2);
+  const auto first = static_cast<double>(few_digits);
   const double rest = x / power_of_ten(first) - 1.0;
   return first + (rest - 0.5 * rest * rest) / ln10;
 }
