@@ -22,9 +22,10 @@ TEST(DecadesTest, AreAsGoodAsTheySay) {
   for (int i = 1; i < 20000; ++i) {
     const double x = -300.0 + 600.0 * std::fmod(i * 0.61803398874989485, 1.0);
     const double power = power_of_ten(x);
-    EXPECT_LE(std::abs(static_cast<double>(power / std::pow(10.0L, x) - 1.0L)), 1e-15) << x;
-    EXPECT_LE(std::abs(static_cast<double>(logarithm_to_ten(power) - std::log10(1.0L * power))),
-              4e-16 * (1.0 + std::abs(x)))
+    const auto exact_power = static_cast<double>(std::pow(10.0L, static_cast<long double>(x)));
+    const auto exact_logarithm = static_cast<double>(std::log10(static_cast<long double>(power)));
+    EXPECT_LE(std::abs(power / exact_power - 1.0), 1e-15) << x;
+    EXPECT_LE(std::abs(logarithm_to_ten(power) - exact_logarithm), 4e-16 * (1.0 + std::abs(x)))
         << power;
   }
 }
