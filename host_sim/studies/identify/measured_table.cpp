@@ -235,7 +235,7 @@ Cell MeasuredTable::cell(std::size_t row, std::size_t column) const {
   const std::vector<Cell> cells = cells_of(rows_[row].line, separator_);
   if (column >= cells.size()) {
     throw SceneError({source_.file, rows_[row].number, rows_[row].line.size() + 1}, names_[column],
-                     fmt::format("the line has {} cells; allowed: one for each of the {} columns",
+                     fmt::format("cells on this line: {}; allowed: one for each of the {} columns",
                                  cells.size(), names_.size()));
   }
   return cells[column];

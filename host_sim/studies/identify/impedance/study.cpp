@@ -203,7 +203,7 @@ ImpedanceStudy study(const std::string& name, const Sweep& measured, const Mecha
   identification.warnings = result.sweep.warnings;
   if (!selected.left_out.empty()) {
     identification.warnings.push_back(
-        fmt::format("{} readings stand alone, far off those beside them, and are left out.",
+        fmt::format("Left out, as standing alone far off the readings beside them: {}.",
                     selected.left_out.size()));
   }
   warn_of_phases(result.sweep, result.fit, identification.warnings);

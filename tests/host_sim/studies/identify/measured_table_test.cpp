@@ -56,7 +56,7 @@ TEST(MeasuredTable, NamesThePlaceOfWhatIsWrong) {
   EXPECT_EQ(error_of("a,b\n1,inf\n"),
             "m.csv:2:3: b: \"inf\" is no number; allowed: a finite number");
   EXPECT_EQ(error_of("a,b\n1,2\n3\n"),
-            "m.csv:3:2: b: the line has 1 cells; allowed: one for each of the 2 columns");
+            "m.csv:3:2: b: cells on this line: 1; allowed: one for each of the 2 columns");
   EXPECT_EQ(error_of("a,b\n").substr(0, 20), "m.csv:1:1: heading: ");
   EXPECT_EQ(error_of("1,2\n3,4\n").substr(0, 20), "m.csv:1:1: heading: ");
 }
