@@ -5,6 +5,7 @@
 #include "host_sim/cli/options.hpp"
 #include "host_sim/output/output_folder.hpp"
 #include "host_sim/process/printable.hpp"
+#include "host_sim/shards/collection.hpp"
 #include "host_sim/shards/slurm_script.hpp"
 
 namespace sonoglide::cli {
@@ -19,7 +20,85 @@ CLI::Option* add_folder(CLI::App& command, const char* name, std::string& folder
       });
 }
 
+/// Calls; what shards that do not belong together throw becomes an error of the option.
+/// @throws CLI::ValidationError
+std::string with_usable_shards(const char* option, const std::function<std::string()>& call) {
+  try {
+    return call();
+  } catch (const shards::UnusableShards& error) {
+    throw CLI::ValidationError(option, error.what());
+  }
+}
+
+/// Calls what merges; the shards that are missing are printed to standard output, for scripts.
+/// @throws CLI::ValidationError, shards::Incomplete
+std::string merged(const std::function<std::string()>& call) {
+  try {
+    return with_usable_shards("--merge", call);
+  } catch (const shards::Incomplete& error) {
+    fmt::print("{}\n", shards::array_text(error.missing()));
+    throw;
+  }
+}
+
+/// How far the shards in a folder are, with every one that is begun and all that are missing.
+std::string status_text(const std::filesystem::path& folder) {
+  const shards::Collection found(folder);
+  const std::vector<std::uint64_t> missing = found.missing();
+  const std::vector<shards::BegunShard> begun = found.begun();
+  std::uint64_t points = found.points_there();
+  std::string lines;
+  for (const shards::BegunShard& shard : begun) {
+    points += shard.finished;
+    lines += fmt::format("shard {}: {} of {} points, the last {:.0f} s ago\n", shard.number,
+                         shard.finished, shard.points, shard.idle_s);
+  }
+  const std::uint64_t all = found.work().points;
+  const std::uint64_t count = found.work().shards;
+  std::string text = fmt::format("{} of {} shards are there, {} begun; {} of {} points, {:.1f} %\n",
+                                 count - missing.size(), count, begun.size(), points, all,
+                                 100.0 * static_cast<double>(points) / static_cast<double>(all));
+  text += lines;
+  return missing.empty() ? text : text + fmt::format("missing: {}\n", shards::array_text(missing));
+}
+
+/// @throws CLI::RequiredError  the command needs one of the options, and it was not given
+void require(const CLI::App& command, const std::vector<std::string>& needed) {
+  for (const std::string& option : needed) {
+    if (command.get_option(option)->empty()) {
+      throw CLI::RequiredError(option);
+    }
+  }
+}
+
+std::string computed_part(const ClusterOptions& options, const Divisible& divisible) {
+  if (!options.shard.empty()) {
+    return divisible.shard();
+  }
+  return options.slurm > 0 ? divisible.job() : divisible.whole();
+}
+
 }  // namespace
+
+void run_divisible(const CLI::App& command, const ClusterOptions& options,
+                   const std::vector<std::string>& needed, const Divisible& divisible, bool quiet) {
+  if (!options.status.empty()) {
+    fmt::print("{}", with_usable_shards("--status", [&] { return status_text(options.status); }));
+    return;
+  }
+  if (options.merge.empty()) {
+    require(command, needed);
+  }
+  const std::string text =
+      options.merge.empty() ? computed_part(options, divisible) : merged(divisible.merge);
+  if (!quiet) {
+    fmt::print("{}", text);
+  }
+}
+
+std::filesystem::path merged_folder(const ClusterOptions& options, const std::string& out) {
+  return out.empty() ? options.merge : out;
+}
 
 void add_cluster_options(CLI::App& command, ClusterOptions& options,
                          const std::vector<std::string>& of_the_work) {
@@ -64,12 +143,6 @@ void add_cluster_options(CLI::App& command, ClusterOptions& options,
   }
 }
 
-void require(const CLI::App& command, const std::string& option) {
-  if (command.get_option(option)->empty()) {
-    throw CLI::RequiredError(option);
-  }
-}
-
 std::string shown(const std::filesystem::path& path) {
   return process::printable(path.string());
 }
@@ -106,26 +179,6 @@ std::string write_job(const Job& job, const std::filesystem::path& out) {
   files.write(script, shards::slurm_script(command, job.shards, folder));
   files.commit();
   return fmt::format("job script: {}\n", shown(folder / script));
-}
-
-std::string status_text(const std::filesystem::path& folder) {
-  const shards::Collection found(folder);
-  const std::vector<std::uint64_t> missing = found.missing();
-  const std::vector<shards::BegunShard> begun = found.begun();
-  std::uint64_t points = found.points_there();
-  std::string lines;
-  for (const shards::BegunShard& shard : begun) {
-    points += shard.finished;
-    lines += fmt::format("shard {}: {} of {} points, the last {:.0f} s ago\n", shard.number,
-                         shard.finished, shard.points, shard.idle_s);
-  }
-  const std::uint64_t all = found.work().points;
-  const std::uint64_t count = found.work().shards;
-  std::string text = fmt::format("{} of {} shards are there, {} begun; {} of {} points, {:.1f} %\n",
-                                 count - missing.size(), count, begun.size(), points, all,
-                                 100.0 * static_cast<double>(points) / static_cast<double>(all));
-  text += lines;
-  return missing.empty() ? text : text + fmt::format("missing: {}\n", shards::array_text(missing));
 }
 
 }  // namespace sonoglide::cli

@@ -5,12 +5,15 @@
 #include <CLI/CLI.hpp>
 
 #include <cstdint>
+#include <cstdio>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
+#include "host_sim/cli/progress_bar.hpp"
+#include "host_sim/long_work/journal.hpp"
 #include "host_sim/scene_file/source.hpp"
-#include "host_sim/shards/collection.hpp"
 #include "host_sim/shards/run_shard.hpp"
 #include "host_sim/shards/shard.hpp"
 
@@ -25,41 +28,40 @@ struct ClusterOptions {
   std::string merge;
   std::string status;
   std::uint64_t slurm = 0;  ///< shards
-
-  /// Whether the folder of the shards is all that the command needs.
-  bool of_a_folder() const { return !merge.empty() || !status.empty(); }
 };
+
+/// What a command does that several machines can divide among themselves; each gives what to print.
+struct Divisible {
+  std::function<std::string()> whole;
+  std::function<std::string()> shard;
+  std::function<std::string()> merge;
+  std::function<std::string()> job;
+};
+
+/// Does what the options ask for. What is computed needs these options of the command besides.
+/// @throws CLI::RequiredError  one of them was not given
+void run_divisible(const CLI::App& command, const ClusterOptions& options,
+                   const std::vector<std::string>& needed, const Divisible& divisible, bool quiet);
 
 /// Adds --shard, --merge, --status and --slurm. The scene, and the other options that say what is
 /// computed, go with none of --merge and --status.
 void add_cluster_options(CLI::App& command, ClusterOptions& options,
                          const std::vector<std::string>& of_the_work);
 
-/// @throws CLI::RequiredError  the command needs the option, and it was not given
-void require(const CLI::App& command, const std::string& option);
-
-/// Calls; what shards that do not belong together throw becomes an error of the option.
+/// Calls with a progress bar; the journal or shard of other work is an error of --out.
 /// @throws CLI::ValidationError
 template <class Call>
-auto with_usable_shards(const char* option, const Call& call) {
+auto computed(bool quiet, const Call& call) {
+  ProgressBar bar(stderr, !quiet);
   try {
-    return call();
-  } catch (const shards::UnusableShards& error) {
-    throw CLI::ValidationError(option, error.what());
+    return call([&bar](double fraction) { bar.update(fraction); });
+  } catch (const long_work::ForeignJournal& error) {
+    throw CLI::ValidationError("--out", error.what());
   }
 }
 
-/// Calls what merges; the shards that are missing are printed to standard output, for scripts.
-/// @throws CLI::ValidationError, shards::Incomplete
-template <class Call>
-auto merged(const Call& call) {
-  try {
-    return with_usable_shards("--merge", call);
-  } catch (const shards::Incomplete& error) {
-    fmt::print("{}\n", shards::array_text(error.missing()));
-    throw;
-  }
-}
+/// Where what is merged goes: to the folder of --out, else to that of the shards.
+std::filesystem::path merged_folder(const ClusterOptions& options, const std::string& out);
 
 /// A path as messages show it.
 std::string shown(const std::filesystem::path& path);
@@ -80,8 +82,5 @@ struct Job {
 /// @return what to tell
 /// @throws output::OutputError
 std::string write_job(const Job& job, const std::filesystem::path& out);
-
-/// How far the shards in a folder are, with every one that is begun and all that are missing.
-std::string status_text(const std::filesystem::path& folder);
 
 }  // namespace sonoglide::cli

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <cstdio>
 #include <filesystem>
 #include <limits>
 #include <memory>
@@ -16,7 +15,7 @@
 
 #include "host_sim/cli/cluster_options.hpp"
 #include "host_sim/cli/options.hpp"
-#include "host_sim/cli/progress_bar.hpp"
+#include "host_sim/shards/collection.hpp"
 #include "host_sim/studies/robust/report.hpp"
 #include "host_sim/studies/robust/robust.hpp"
 
@@ -31,17 +30,6 @@ struct RobustOptions {
   unsigned threads = 0;  ///< 0: one for each core
   bool quiet = false;
 };
-
-/// Calls with a progress bar; the journal or shard of another study is an error of --out.
-template <class Call>
-auto computed(const RobustOptions& options, const Call& call) {
-  ProgressBar bar(stderr, !options.quiet);
-  try {
-    return call([&bar](double fraction) { bar.update(fraction); });
-  } catch (const long_work::ForeignJournal& error) {
-    throw CLI::ValidationError("--out", error.what());
-  }
-}
 
 std::string text(double value, const char* undefined) {
   return std::isnan(value) ? undefined : fmt::format("{:.3g}", value);
@@ -113,7 +101,7 @@ std::string run_whole(const RobustOptions& options) {
   const robust::Task task = task_of(options);
   const std::filesystem::path out = folder_of(options, task);
   return text(task,
-              computed(options,
+              computed(options.quiet,
                        [&](const long_work::Progress& progress) {
                          return robust::run_robust(task, out, program_version, options.threads,
                                                    progress);
@@ -125,7 +113,7 @@ std::string run_shard(const RobustOptions& options) {
   const robust::Task task = task_of(options);
   const std::filesystem::path out = folder_of(options, task);
   const shards::Shard shard = *shards::parse_shard(options.cluster.shard);
-  return shard_text(computed(options,
+  return shard_text(computed(options.quiet,
                              [&](const long_work::Progress& progress) {
                                return robust::run_shard(task, shard, out, program_version,
                                                         options.threads, progress);
@@ -134,20 +122,16 @@ std::string run_shard(const RobustOptions& options) {
 }
 
 std::string merge(const RobustOptions& options) {
-  const std::filesystem::path folder = options.cluster.merge;
-  const std::filesystem::path out =
-      options.out.empty() ? folder : std::filesystem::path(options.out);
-  return merged([&] {
-    const shards::Collection found(folder);
-    const robust::Task task = robust::task_of(found, program_version);
-    return text(task,
-                computed(options,
-                         [&](const long_work::Progress& progress) {
-                           return robust::merge_shards(found, task, out, program_version,
-                                                       options.threads, progress);
-                         }),
-                out);
-  });
+  const std::filesystem::path out = merged_folder(options.cluster, options.out);
+  const shards::Collection found(options.cluster.merge);
+  const robust::Task task = robust::task_of(found, program_version);
+  return text(task,
+              computed(options.quiet,
+                       [&](const long_work::Progress& progress) {
+                         return robust::merge_shards(found, task, out, program_version,
+                                                     options.threads, progress);
+                       }),
+              out);
 }
 
 std::string write_robust_job(const RobustOptions& options) {
@@ -165,23 +149,10 @@ std::string write_robust_job(const RobustOptions& options) {
 /// Throws scene_file::SceneError and CLI::ParseError, nothing was written then; shards::Incomplete,
 /// output::OutputError.
 void robust(const CLI::App& command, const RobustOptions& options) {
-  std::string text;
-  if (!options.cluster.status.empty()) {
-    fmt::print("{}",
-               with_usable_shards("--status", [&] { return status_text(options.cluster.status); }));
-    return;
-  }
-  if (!options.cluster.merge.empty()) {
-    text = merge(options);
-  } else {
-    require(command, "scene");
-    text = !options.cluster.shard.empty() ? run_shard(options)
-           : options.cluster.slurm > 0    ? write_robust_job(options)
-                                          : run_whole(options);
-  }
-  if (!options.quiet) {
-    fmt::print("{}", text);
-  }
+  run_divisible(command, options.cluster, {"scene"},
+                {[&] { return run_whole(options); }, [&] { return run_shard(options); },
+                 [&] { return merge(options); }, [&] { return write_robust_job(options); }},
+                options.quiet);
 }
 
 template <class Number>

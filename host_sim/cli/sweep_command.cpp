@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -10,7 +9,6 @@
 
 #include "host_sim/cli/cluster_options.hpp"
 #include "host_sim/cli/options.hpp"
-#include "host_sim/cli/progress_bar.hpp"
 #include "host_sim/studies/sweep/merge.hpp"
 #include "host_sim/studies/sweep/shard.hpp"
 #include "host_sim/studies/sweep/sweep.hpp"
@@ -26,17 +24,6 @@ struct SweepOptions {
   unsigned threads = 0;  ///< 0: one for each core
   bool quiet = false;
 };
-
-/// Calls with a progress bar; the journal or shard of another sweep is an error of --out.
-template <class Call>
-auto computed(const SweepOptions& options, const Call& call) {
-  ProgressBar bar(stderr, !options.quiet);
-  try {
-    return call([&bar](double fraction) { bar.update(fraction); });
-  } catch (const sweep::ForeignJournal& error) {
-    throw CLI::ValidationError("--out", error.what());
-  }
-}
 
 std::string failures_text(std::size_t failed) {
   return failed > 0 ? fmt::format("{} points failed: see the column status\n", failed) : "";
@@ -67,7 +54,7 @@ std::string run_whole(const SweepOptions& options) {
   const sweep::Plan plan(scene_file::read_source(options.scene.path), options.scene.overrides,
                          options.vary);
   const std::filesystem::path out = output_folder(options.out, plan.first().name, "_sweep");
-  return text(computed(options,
+  return text(computed(options.quiet,
                        [&](const long_work::Progress& progress) {
                          return sweep::run_sweep(plan, out, program_version, options.threads,
                                                  progress);
@@ -80,7 +67,7 @@ std::string run_shard(const SweepOptions& options) {
                          options.vary, sweep::most_points_in_shards);
   const std::filesystem::path out = output_folder(options.out, plan.first().name, "_sweep");
   const shards::Shard shard = *shards::parse_shard(options.cluster.shard);
-  return shard_text(computed(options,
+  return shard_text(computed(options.quiet,
                              [&](const long_work::Progress& progress) {
                                return sweep::run_shard(plan, shard, out, program_version,
                                                        options.threads, progress);
@@ -89,15 +76,13 @@ std::string run_shard(const SweepOptions& options) {
 }
 
 std::string merge(const SweepOptions& options) {
-  const std::filesystem::path folder = options.cluster.merge;
-  const std::filesystem::path out =
-      options.out.empty() ? folder : std::filesystem::path(options.out);
-  return merged([&] {
-    ProgressBar bar(stderr, !options.quiet);
-    return text(sweep::merge_shards(folder, out, program_version,
-                                    [&bar](double fraction) { bar.update(fraction); }),
-                out);
-  });
+  const std::filesystem::path out = merged_folder(options.cluster, options.out);
+  return text(computed(options.quiet,
+                       [&](const long_work::Progress& progress) {
+                         return sweep::merge_shards(options.cluster.merge, out, program_version,
+                                                    progress);
+                       }),
+              out);
 }
 
 std::string write_sweep_job(const SweepOptions& options) {
@@ -114,24 +99,10 @@ std::string write_sweep_job(const SweepOptions& options) {
 /// Throws scene_file::SceneError and CLI::ParseError, nothing was written then; shards::Incomplete,
 /// output::OutputError, process::ProcessError.
 void sweep(const CLI::App& command, const SweepOptions& options) {
-  std::string text;
-  if (!options.cluster.status.empty()) {
-    fmt::print("{}",
-               with_usable_shards("--status", [&] { return status_text(options.cluster.status); }));
-    return;
-  }
-  if (!options.cluster.merge.empty()) {
-    text = merge(options);
-  } else {
-    require(command, "scene");
-    require(command, "--vary");
-    text = !options.cluster.shard.empty() ? run_shard(options)
-           : options.cluster.slurm > 0    ? write_sweep_job(options)
-                                          : run_whole(options);
-  }
-  if (!options.quiet) {
-    fmt::print("{}", text);
-  }
+  run_divisible(command, options.cluster, {"scene", "--vary"},
+                {[&] { return run_whole(options); }, [&] { return run_shard(options); },
+                 [&] { return merge(options); }, [&] { return write_sweep_job(options); }},
+                options.quiet);
 }
 
 }  // namespace
