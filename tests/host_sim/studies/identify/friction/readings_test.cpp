@@ -67,7 +67,7 @@ TEST(Readings, AreRefusedWithTheirPlace) {
   expect_refused(heading + "0.01,0.1,0.2\n0.02,0.1,-0.7\n", "3:10", "out of range");
   expect_refused(heading + "0.01,0.1,0.2\n0.02,0.1,nan\n", "3:10", "no number");
   expect_refused(heading + "0.01,0.1,0.2\n0.02,0.1,inf\n", "3:10", "no number");
-  expect_refused(heading + "0.01,0.1,0.2\n0.02,0.1\n", "3:9", "2 cells");
+  expect_refused(heading + "0.01,0.1,0.2\n0.02,0.1\n", "3:9", "on this line: 2");
   expect_refused(heading + "0.01,0.1,0.2\n0,0.1,0.1\n", "3:1", "at rest");
   expect_refused(heading + "0.01,0.1,0.2\n-0.02,0.1,0.1\n", "3:1", "out of range");
   expect_refused(heading + "20.3,0.1,0.2\n870,0.1,0.1\n", "3:1", "m/s");
