@@ -148,18 +148,16 @@ output::Section distribution_section(const Study& study) {
   return section;
 }
 
-output::Table importance_table(const Task& task, const Study& study, const char* title,
-                               double (*measure)(const std::vector<double>&,
-                                                 const std::vector<double>&)) {
+output::Table importance_table(const Task& task, const std::vector<std::vector<Importance>>& found,
+                               const char* title, double Importance::*measure) {
   output::Table table{title, {"Key"}, {}};
   for (const Figure& figure : figures()) {
     table.header.emplace_back(figure.label);
   }
-  for (std::size_t i = 0; i < task.tolerances().size(); ++i) {
-    const std::vector<double> factors = factors_of(task, i);
+  for (std::size_t i = 0; i < found.size(); ++i) {
     std::vector<std::string> row = {task.tolerances()[i].key};
-    for (const Figure& figure : figures()) {
-      row.push_back(report::figure("{:.3f}", measure(factors, values_of(study, figure))));
+    for (const Importance& each : found[i]) {
+      row.push_back(report::figure("{:.3f}", each.*measure));
     }
     table.rows.push_back(std::move(row));
   }
@@ -191,10 +189,10 @@ output::Panel scatter(const Task& task, const Study& study, std::size_t toleranc
 
 /// By what they explain of the deviation, the most first.
 std::vector<std::size_t> by_importance(const Task& task, const Study& study) {
-  const std::vector<double> deviations = values_of(study, {"deviation", "", &PlantRow::deviation});
+  const Ranks deviations(values_of(study, {"deviation", "", &PlantRow::deviation}));
   std::vector<double> effects;
   for (std::size_t i = 0; i < task.tolerances().size(); ++i) {
-    const double effect = main_effect(factors_of(task, i), deviations);
+    const double effect = main_effect(Ranks(factors_of(task, i)), deviations);
     effects.push_back(std::isnan(effect) ? 0.0 : effect);
   }
   std::vector<std::size_t> order(effects.size());
@@ -213,8 +211,10 @@ output::Section importance_section(const Task& task, const Study& study) {
       "key. The main effect is the part of the variance of the ranks that the key explains alone, "
       "also where the figure turns: 1 is all of it.",
       {}};
-  section.tables = {importance_table(task, study, "Rank correlation", rank_correlation),
-                    importance_table(task, study, "Main effect", main_effect)};
+  const std::vector<std::vector<Importance>> found = importance(task, study);
+  section.tables = {
+      importance_table(task, found, "Rank correlation", &Importance::rank_correlation),
+      importance_table(task, found, "Main effect", &Importance::main_effect)};
   const std::vector<std::size_t> order = by_importance(task, study);
   for (std::size_t i = 0; i < std::min(order.size(), most_scatters); ++i) {
     section.panels.push_back(scatter(task, study, order[i]));

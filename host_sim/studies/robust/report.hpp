@@ -28,6 +28,14 @@ std::vector<double> values_of(const Study& study, const Figure& figure);
 /// True values of one tolerance, of every sample.
 std::vector<double> factors_of(const Task& task, std::size_t tolerance);
 
+/// What one tolerance does to one figure.
+struct Importance {
+  double rank_correlation;
+  double main_effect;
+};
+/// Of each tolerance, on each figure.
+std::vector<std::vector<Importance>> importance(const Task& task, const Study& study);
+
 /// One line for each sample, in their order: the true values, the figures, steps that never settle,
 /// limits and faults by name, a blank between them, and whether the plant has failed. Numbers read
 /// back the same to the bit; what is not defined is `nan`.

@@ -41,28 +41,26 @@ double failure_probability_upper(std::size_t failures, std::size_t runs, double 
                                 static_cast<double>(runs - failures), confidence);
 }
 
-std::vector<double> ranks(const std::vector<double>& values) {
+Ranks::Ranks(const std::vector<double>& values) : places(values.size()) {
   std::vector<std::size_t> order(values.size());
   std::iota(order.begin(), order.end(), 0);
   std::sort(order.begin(), order.end(),
             [&](std::size_t a, std::size_t b) { return below(values[a], values[b]); });
-  std::vector<double> ranks(values.size());
   for (std::size_t begin = 0; begin < order.size();) {
     std::size_t end = begin + 1;
     while (end < order.size() && !below(values[order[begin]], values[order[end]])) {
       ++end;
     }
     for (std::size_t i = begin; i < end; ++i) {
-      ranks[order[i]] = 0.5 * static_cast<double>(begin + end - 1);
+      places[order[i]] = 0.5 * static_cast<double>(begin + end - 1);
     }
     begin = end;
   }
-  return ranks;
 }
 
-double rank_correlation(const std::vector<double>& a, const std::vector<double>& b) {
-  const std::vector<double> x = ranks(a);
-  const std::vector<double> y = ranks(b);
+double rank_correlation(const Ranks& a, const Ranks& b) {
+  const std::vector<double>& x = a.places;
+  const std::vector<double>& y = b.places;
   const double x_mean = mean(x);
   const double y_mean = mean(y);
   double xx = 0.0;
@@ -76,17 +74,17 @@ double rank_correlation(const std::vector<double>& a, const std::vector<double>&
   return xx > 0.0 && yy > 0.0 ? xy / std::sqrt(xx * yy) : undefined;
 }
 
-double main_effect(const std::vector<double>& x, const std::vector<double>& y) {
+double main_effect(const Ranks& x, const Ranks& y) {
   constexpr std::size_t fewest = 32;
   constexpr std::size_t most_classes = 32;
-  const std::size_t count = x.size();
+  const std::vector<double>& x_rank = x.places;
+  const std::vector<double>& y_rank = y.places;
+  const std::size_t count = x_rank.size();
   if (count < fewest) {
     return undefined;
   }
   const auto classes =
       std::min(most_classes, static_cast<std::size_t>(std::sqrt(static_cast<double>(count))));
-  const std::vector<double> x_rank = ranks(x);
-  const std::vector<double> y_rank = ranks(y);
   std::vector<double> sum(classes, 0.0);
   std::vector<double> size(classes, 0.0);
   for (std::size_t i = 0; i < count; ++i) {

@@ -27,15 +27,18 @@ Quantiles quantiles(std::vector<double> values);
 double failure_probability_upper(std::size_t failures, std::size_t runs, double confidence);
 
 /// Rank of each value in rising order, from 0; equal ones share their mean rank, NaN is largest.
-std::vector<double> ranks(const std::vector<double>& values);
+struct Ranks {
+  explicit Ranks(const std::vector<double>& values);
+  std::vector<double> places;
+};
 
 /// Correlation of Spearman (1904), in [-1, 1]: of the ranks. NaN if one of them does not vary.
-double rank_correlation(const std::vector<double>& a, const std::vector<double>& b);
+double rank_correlation(const Ranks& a, const Ranks& b);
 
 /// Part of the variance of the ranks of y that x explains alone, whether it rises, falls or turns:
 /// the first-order index of Sobol (1993) of the ranks, by the means of y in classes of x, with the
 /// part that chance gives to such means taken off, and not below 0. NaN if y does not vary.
 /// @param x, y  of equal size; fewer than 32 tell nothing: NaN
-double main_effect(const std::vector<double>& x, const std::vector<double>& y);
+double main_effect(const Ranks& x, const Ranks& y);
 
 }  // namespace sonoglide::robust

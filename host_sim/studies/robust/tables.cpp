@@ -38,6 +38,22 @@ std::vector<double> factors_of(const Task& task, std::size_t tolerance) {
   return values;
 }
 
+std::vector<std::vector<Importance>> importance(const Task& task, const Study& study) {
+  std::vector<Ranks> ranks_of_figures;
+  for (const Figure& figure : figures()) {
+    ranks_of_figures.emplace_back(values_of(study, figure));
+  }
+  std::vector<std::vector<Importance>> result;
+  for (std::size_t i = 0; i < task.tolerances().size(); ++i) {
+    const Ranks factors(factors_of(task, i));
+    std::vector<Importance>& of_key = result.emplace_back();
+    for (const Ranks& values : ranks_of_figures) {
+      of_key.push_back({rank_correlation(factors, values), main_effect(factors, values)});
+    }
+  }
+  return result;
+}
+
 std::vector<NameCount> count_names(const Study& study,
                                    std::vector<std::string> (*names)(const PlantRow&)) {
   std::map<std::string, std::size_t> counts;
@@ -146,13 +162,12 @@ ordered_json worst_json(const Task& task, const WorstPlant& worst) {
 }
 
 void add_importance(ordered_json& json, const Task& task, const Study& study) {
-  for (std::size_t i = 0; i < task.tolerances().size(); ++i) {
-    const std::vector<double> factors = factors_of(task, i);
+  const std::vector<std::vector<Importance>> found = importance(task, study);
+  for (std::size_t i = 0; i < found.size(); ++i) {
     ordered_json& of_key = json[task.tolerances()[i].key];
-    for (const Figure& figure : figures()) {
-      const std::vector<double> values = values_of(study, figure);
-      of_key[figure.key] = {{"rank_correlation", defined(rank_correlation(factors, values))},
-                            {"main_effect", defined(main_effect(factors, values))}};
+    for (std::size_t k = 0; k < found[i].size(); ++k) {
+      of_key[figures()[k].key] = {{"rank_correlation", defined(found[i][k].rank_correlation)},
+                                  {"main_effect", defined(found[i][k].main_effect)}};
     }
   }
 }

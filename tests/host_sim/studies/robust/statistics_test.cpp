@@ -77,14 +77,16 @@ TEST(RankCorrelationTest, SeesAnyRiseAndFall) {
     rise.push_back(std::exp(0.3 * i));
     fall.push_back(i == 0 ? never : 1.0 / i);
   }
-  EXPECT_DOUBLE_EQ(rank_correlation(x, rise), 1.0);
-  EXPECT_DOUBLE_EQ(rank_correlation(x, fall), -1.0) << "never is more than any number";
-  EXPECT_TRUE(std::isnan(rank_correlation(x, std::vector<double>(50, 1.0))));
+  EXPECT_DOUBLE_EQ(rank_correlation(Ranks(x), Ranks(rise)), 1.0);
+  EXPECT_DOUBLE_EQ(rank_correlation(Ranks(x), Ranks(fall)), -1.0)
+      << "never is more than any number";
+  EXPECT_TRUE(std::isnan(rank_correlation(Ranks(x), Ranks(std::vector<double>(50, 1.0)))));
 }
 
 // Student's example of ties: ranks 1, 2.5, 2.5, 4 against 1, 2, 3, 4 give 9/sqrt(90).
 TEST(RankCorrelationTest, SharesTheRanksOfTies) {
-  EXPECT_NEAR(rank_correlation({1, 2, 2, 3}, {1, 2, 3, 4}), 9.0 / std::sqrt(90.0), 1e-15);
+  EXPECT_NEAR(rank_correlation(Ranks({1, 2, 2, 3}), Ranks({1, 2, 3, 4})), 9.0 / std::sqrt(90.0),
+              1e-15);
 }
 
 TEST(MainEffectTest, SeesATurnThatTheCorrelationDoesNot) {
@@ -97,11 +99,11 @@ TEST(MainEffectTest, SeesATurnThatTheCorrelationDoesNot) {
     z.push_back(std::fmod(0.6180339887 * i, 1.0));
     turn.push_back(x.back() * x.back());
   }
-  EXPECT_LT(std::abs(rank_correlation(x, turn)), 0.01);
-  EXPECT_GT(main_effect(x, turn), 0.95);
-  EXPECT_LT(main_effect(z, turn), 0.05);
-  EXPECT_TRUE(std::isnan(main_effect(x, std::vector<double>(count, 2.0))));
-  EXPECT_TRUE(std::isnan(main_effect({1.0, 2.0}, {1.0, 2.0})));
+  EXPECT_LT(std::abs(rank_correlation(Ranks(x), Ranks(turn))), 0.01);
+  EXPECT_GT(main_effect(Ranks(x), Ranks(turn)), 0.95);
+  EXPECT_LT(main_effect(Ranks(z), Ranks(turn)), 0.05);
+  EXPECT_TRUE(std::isnan(main_effect(Ranks(x), Ranks(std::vector<double>(count, 2.0)))));
+  EXPECT_TRUE(std::isnan(main_effect(Ranks({1.0, 2.0}), Ranks({1.0, 2.0}))));
 }
 
 /// Two keys with equal shares of a sum explain half of it each.
@@ -114,8 +116,8 @@ TEST(MainEffectTest, OfASumAreItsShares) {
     z.push_back(std::fmod(0.569840291 * i, 1.0));
     sum.push_back(x.back() + z.back());
   }
-  EXPECT_NEAR(main_effect(x, sum), 0.5, 0.03);
-  EXPECT_NEAR(main_effect(z, sum), 0.5, 0.03);
+  EXPECT_NEAR(main_effect(Ranks(x), Ranks(sum)), 0.5, 0.03);
+  EXPECT_NEAR(main_effect(Ranks(z), Ranks(sum)), 0.5, 0.03);
 }
 
 }  // namespace
