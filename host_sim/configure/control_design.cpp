@@ -63,9 +63,10 @@ double gain_beside_free_mode(const scene::Scene& scene, const NaturalMode& mode)
 /// Feedback drives what a notch leaves of the free mode, to grow or to decay as the delays of the
 /// loop have it, and at a rate below a quarter of gain times ripple per carrier period (an eighth
 /// was seen at Table 1, at the worst of several delays).
-double missing_damping_ratio(const NotchDesign& notch, const NaturalMode& mode, double gain) {
-  const double growth = 0.25 * gain * notch.ripple;
-  return growth > 1.0 - mode.decay ? growth / mode.rotation : 0.0;
+double missing_damping_N_s_per_m(const NotchDesign& notch, const NaturalMode& mode, double mass_kg,
+                                 const ControlDesign& design) {
+  const double growth = 0.25 * design.integral_gain * notch.ripple;
+  return growth > 1.0 - mode.decay ? 2.0 * mass_kg * growth / design.scales.carrier_period_s : 0.0;
 }
 
 /// An integrator behind a delay of D periods oscillates at a gain of 2 sin(π/(4D+2)); a third of it
@@ -83,7 +84,8 @@ void set_waiting(double delay, double filter, ControlDesign& design) {
   design.rest_periods = whole_periods(rest_per_hold * design.hold_periods);
 }
 
-void design_regulator(const scene::Scene& scene, const NaturalMode& mode, ControlDesign& design) {
+void design_regulator(const scene::Scene& scene, const NaturalMode& mode, double mass_kg,
+                      ControlDesign& design) {
   const double filter = filter_periods(scene, design.scales);
   const double shaping = design.notch_span();
   // From a command to the reading that shows it.
@@ -94,7 +96,8 @@ void design_regulator(const scene::Scene& scene, const NaturalMode& mode, Contro
   design.integral_gain =
       design.free_mode ? std::min(behind_delay, gain_beside_free_mode(scene, mode)) : behind_delay;
   if (design.notch) {
-    design.missing_damping_ratio = missing_damping_ratio(*design.notch, mode, design.integral_gain);
+    design.missing_damping_N_s_per_m =
+        missing_damping_N_s_per_m(*design.notch, mode, mass_kg, design);
   }
   set_waiting(delay, filter, design);
   design.reference_delay_periods = static_cast<std::uint8_t>(latency + 0.5 * design.notch_span());
@@ -506,7 +509,7 @@ ControlDesign design_control(const scene::Scene& any_scene) {
   } else {
     const NaturalMode mode = natural_mode(plant, design.scales.carrier_period_s);
     design_shaper(scene, mode, design);
-    design_regulator(scene, mode, design);
+    design_regulator(scene, mode, plant.mass_kg, design);
   }
   design_supervision(scene, plant, design);
   design_calibration(scene, plant, design);
@@ -563,12 +566,13 @@ std::vector<std::string> design_notes(const ControlDesign& design) {
   if (design.notch) {
     add_notch_notes(*design.notch, notes);
   }
-  if (design.missing_damping_ratio > 0.0) {
+  if (design.missing_damping_N_s_per_m > 0.0) {
+    constexpr double never_rounded_down = 1.005;  // to three digits
     notes.push_back(fmt::format(
-        "The natural mode hardly decays. Where its frequency is off, feedback may make "
-        "what the robust notch leaves grow over thousands of carrier periods. A damping "
-        "ratio of {:.2g} prevents it.",
-        design.missing_damping_ratio));
+        "The natural mode hardly decays. Feedback may make what the robust notch leaves of its "
+        "ringing grow over thousands of carrier periods, also where the stiffness is known "
+        "exactly. A plant.damping_N_s_per_m of {:.3g} or more prevents it.",
+        never_rounded_down * design.missing_damping_N_s_per_m));
   }
   return notes;
 }

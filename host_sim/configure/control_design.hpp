@@ -63,7 +63,7 @@ struct ControlDesign {
   bool free_mode = false;  ///< the plant has a natural mode that no notch takes care of
 
   /// With which feedback cannot build up what the notch leaves; 0: the mode has as much.
-  double missing_damping_ratio = 0.0;
+  double missing_damping_N_s_per_m = 0.0;
   double shaping_range = 0.0;  ///< by which the natural frequency may be off; 0: known exactly
   std::optional<NotchDesign> notch;
 

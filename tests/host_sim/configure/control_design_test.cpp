@@ -156,11 +156,16 @@ TEST(ControlDesignTest, NotesAModeThatFeedbackMayBuildUp) {
   scene.controller->shaping = scene::Shaping::robust;
   const ControlDesign undamped = design_control(scene);
   ASSERT_EQ(design_notes(undamped).size(), 1U);
-  EXPECT_NE(design_notes(undamped)[0].find("damping ratio of 0.00021 prevents"), std::string::npos)
-      << design_notes(undamped)[0];
-  scene.plant.damping_N_s_per_m = 2.0 * 1.01 * undamped.missing_damping_ratio *
-                                  std::sqrt(scene.plant.stiffness_N_per_m * scene.plant.mass_kg);
+  const std::string note = design_notes(undamped)[0];
+  const std::size_t key = note.find("A plant.damping_N_s_per_m of ");
+  ASSERT_NE(key, std::string::npos) << note;
+  const double told = std::stod(note.substr(note.find(" of ", key) + 4));
+  EXPECT_NEAR(told / (2.0 * std::sqrt(scene.plant.stiffness_N_per_m * scene.plant.mass_kg)), 2.1e-4,
+              1e-5);
+  scene.plant.damping_N_s_per_m = told;
   EXPECT_TRUE(design_notes(design_control(scene)).empty());
+  scene.plant.damping_N_s_per_m = 0.98 * told;
+  EXPECT_EQ(design_notes(design_control(scene)).size(), 1U);
 }
 
 TEST(ControlDesignTest, NotesWhatARobustNotchCannotDo) {
