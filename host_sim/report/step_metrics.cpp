@@ -130,14 +130,21 @@ void StepMeter::take_steady(const loop::Period& period, Tally& tally) {
   ++tally.steady_periods;
 }
 
+/// Whether what is in its band from this time on has settled: that lasts for a tenth of the span.
+bool StepMeter::stays(double since_s, const TargetSpan& span, const Tally& tally) {
+  constexpr double least_part = 0.1 * (1.0 - 1e-9);  // times are sums of periods, rounded
+  return tally.periods > 0 && since_s < tally.last_end_s &&
+         tally.last_end_s - since_s >= least_part * (span.end_s - span.begin_s);
+}
+
 /// Without a force sensor the controller takes a held vibration for a ratio on target.
-bool StepMeter::holds_blindly(const Tally& tally) const {
+bool StepMeter::holds_blindly(const TargetSpan& span, const Tally& tally) const {
   return !senses_force_ && has_map_ && tally.velocity_wanted &&
-         tally.velocity_settled_s < tally.last_end_s;
+         stays(tally.velocity_settled_s, span, tally);
 }
 
 StepMetrics StepMeter::metrics(const TargetSpan& span, const Tally& tally) const {
-  const bool settled = tally.periods > 0 && tally.settled_s < tally.last_end_s;
+  const bool settled = stays(tally.settled_s, span, tally);
   const auto count = static_cast<double>(tally.steady_periods);  // none: the means are NaN
   StepMetrics metrics;
   metrics.time_s = span.step_s;
@@ -150,15 +157,14 @@ StepMetrics StepMeter::metrics(const TargetSpan& span, const Tally& tally) const
   metrics.ripple = tally.lowest <= tally.highest ? 0.5 * (tally.highest - tally.lowest) : undefined;
   metrics.drive_amplitude_N = tally.drive_sum_N / count;
   metrics.limit = prevailing_limit(tally.limit_count, settled);
-  metrics.cause = tally.cause;
+  if (metrics.limit == control::Limit::not_settling) {
+    metrics.cause = tally.cause;
+  }
   if (tally.settled_periods > 0 && tells_mismatch_) {
     metrics.mismatch = tally.mismatch_sum / static_cast<double>(tally.settled_periods);
   }
   if (!settled && metrics.limit == control::Limit::none && !tally.fault) {
-    const bool believed = 2 * tally.settled_periods > tally.steady_periods || holds_blindly(tally);
-    const bool off = std::abs(metrics.steady_error) > band_;
-    metrics.limit = believed && off ? control::Limit::mismatch : control::Limit::not_settling;
-    metrics.limit_seen_by_controller = false;
+    name_unseen_limit(span, tally, metrics);
   }
   if (observes_vibration_) {
     metrics.vibration = vibration_metrics(span, tally);
@@ -169,10 +175,33 @@ StepMetrics StepMeter::metrics(const TargetSpan& span, const Tally& tally) const
   return metrics;
 }
 
+void StepMeter::name_unseen_limit(const TargetSpan& span, const Tally& tally,
+                                  StepMetrics& metrics) const {
+  const bool read_settled = 2 * tally.settled_periods > tally.steady_periods;
+  const bool off = std::abs(metrics.steady_error) > band_;
+  const bool mismatch = (read_settled || holds_blindly(span, tally)) && off;
+  metrics.limit = mismatch ? control::Limit::mismatch : control::Limit::not_settling;
+  metrics.limit_seen_by_controller = false;
+  metrics.controller_undecided = senses_force_ && !read_settled;
+  if (!mismatch) {
+    metrics.cause = true_cause(span, tally, off);
+  }
+}
+
+control::Settling StepMeter::true_cause(const TargetSpan& span, const Tally& tally,
+                                        bool off) const {
+  const bool above = tally.highest > span.target + band_;
+  const bool below = tally.lowest < span.target - band_;
+  if (above && below) {
+    return control::Settling::ringing;
+  }
+  return off ? control::Settling::offset : control::Settling::pending;
+}
+
 VibrationMetrics StepMeter::vibration_metrics(const TargetSpan& span, const Tally& tally) {
   VibrationMetrics metrics;
   metrics.velocity_m_per_s = tally.velocity_sum_m_per_s / static_cast<double>(tally.steady_periods);
-  if (tally.velocity_wanted && tally.velocity_settled_s < tally.last_end_s) {
+  if (tally.velocity_wanted && stays(tally.velocity_settled_s, span, tally)) {
     metrics.settling_time_s = tally.velocity_settled_s - span.begin_s;
   }
   return metrics;

@@ -20,7 +20,7 @@ namespace sonoglide::report {
 struct VibrationMetrics {
   double velocity_m_per_s = 0.0;  ///< mean amplitude of the steady part
   /// From where settling counts until the amplitude is within 2 % of the wanted one for the rest of
-  /// the step; absent if it never is.
+  /// the step, a tenth of it at least; absent if it never is.
   std::optional<double> settling_time_s;
 };
 
@@ -30,14 +30,14 @@ struct ResonanceMetrics {
   double frequency_error = 0.0;  ///< largest of it, relative to the natural frequency
 };
 
-/// One target step. "Steady" means the last quarter of the step, or of what calibration leaves of
-/// it. A figure for which there is no carrier period is NaN. Pauses in which the controller learns
+/// One target step, or what calibration leaves of it. "Steady" means the last quarter. A figure for which there is no carrier period is NaN. Pauses in which the controller learns
 /// the friction force anew are left out; what they cost is in PauseMetrics.
 struct StepMetrics {
   double time_s = 0.0;
   double target = 0.0;
   /// From the later of the step's time and the end of calibration until the per-period ratio is
-  /// inside target ± band for the rest of the step; absent if it never is.
+  /// inside target ± band for the rest of the step, which is a tenth of it at least; absent if it
+  /// never is. A ratio that enters the band later may be in the middle of a swing.
   std::optional<double> settling_time_s;
   double overshoot =
       0.0;  ///< farthest beyond the target, seen from where the ratio came from; >= 0
@@ -49,8 +49,13 @@ struct StepMetrics {
   /// see: mismatch where the controller takes its reading for settled, else not_settling.
   control::Limit limit = control::Limit::none;
   bool limit_seen_by_controller = true;
-  control::Settling cause =
-      control::Settling::pending;  ///< of not_settling, if the controller knows
+  /// Of a limit that the simulation names: the controller senses the force and has not yet found out
+  /// whether its reading settles.
+  bool controller_undecided = false;
+  /// Of not_settling, as far as it is known; pending where it is not, and of every other limit. Where
+  /// the simulation names the limit, the steady part is ringing if it leaves the band to both sides,
+  /// else offset if its mean is outside.
+  control::Settling cause = control::Settling::pending;
   /// Mean of commanded over target ratio where the controller took the ratio for settled: believed
   /// over true friction force, as it sees it.
   std::optional<double> mismatch;
@@ -107,8 +112,11 @@ class StepMeter final : public loop::PeriodSink {
   void take_pause(const loop::Period& period);
   void take_any(const loop::Period& period, const TargetSpan& span, Tally& tally) const;
   static void take_steady(const loop::Period& period, Tally& tally);
-  bool holds_blindly(const Tally& tally) const;
+  static bool stays(double since_s, const TargetSpan& span, const Tally& tally);
+  bool holds_blindly(const TargetSpan& span, const Tally& tally) const;
   StepMetrics metrics(const TargetSpan& span, const Tally& tally) const;
+  void name_unseen_limit(const TargetSpan& span, const Tally& tally, StepMetrics& metrics) const;
+  control::Settling true_cause(const TargetSpan& span, const Tally& tally, bool off) const;
   static VibrationMetrics vibration_metrics(const TargetSpan& span, const Tally& tally);
   static ResonanceMetrics resonance_metrics(const Tally& tally);
 

@@ -41,7 +41,8 @@ std::string limit_text(const report::StepMetrics& step) {
     text += fmt::format(" (believed/true friction {:.3g})", *step.mismatch);
   }
   if (!step.limit_seen_by_controller) {
-    text += ", unseen by the controller";
+    text += step.controller_undecided ? ", not yet judged by the controller"
+                                      : ", unseen by the controller";
   }
   return text;
 }

@@ -290,7 +290,7 @@ std::vector<Key> run_keys() {
        "the same in carrier periods, in place of window_start_s", "[drive]"},
       {"settling_band", Number{{0.0, 1.0, "", true}}, run.settling_band,
        "half width of the band around a target, in friction ratio; a step has settled once the "
-       "ratio stays in the band",
+       "ratio stays in the band, at least for the last tenth of the step",
        closed_loop_only},
       {"record", WordList{words_of(scene::channels)}, Rule{"nothing is recorded"},
        "channels that trace.csv records"},

@@ -6,6 +6,7 @@
 #include <functional>
 #include <vector>
 
+#include "host_sim/report/words.hpp"
 #include "periods.hpp"
 
 namespace sonoglide::report::step_metrics_test {
@@ -98,6 +99,86 @@ TEST(StepMetricsTest, NeverSettlesWhereTheLastPeriodIsOutside) {
   EXPECT_FALSE(one_step(0.5, [](int k) { return k == 99 ? 0.52 : 0.5; }).settling_time_s);
   EXPECT_FALSE(one_step(0.5, [](int) { return 0.7; }).settling_time_s);
   EXPECT_FALSE(one_step(0.5, [](int) { return std::nan(""); }).settling_time_s);
+}
+
+TEST(StepMetricsTest, SettlesOnlyWhereATenthOfTheStepIsInsideTheBand) {
+  const StepMetrics late = one_step(0.5, [](int k) { return k < 90 ? 0.52 : 0.5; });
+  ASSERT_TRUE(late.settling_time_s);
+  EXPECT_NEAR(*late.settling_time_s, 90e-3, 1e-12);
+  const StepMetrics too_late = one_step(0.5, [](int k) { return k < 91 ? 0.52 : 0.5; });
+  EXPECT_FALSE(too_late.settling_time_s);
+  EXPECT_EQ(too_late.limit, control::Limit::not_settling);
+  EXPECT_FALSE(too_late.limit_seen_by_controller);
+}
+
+TEST(StepMetricsTest, ATenthIsOfWhatCalibrationLeavesOfTheStep) {
+  Scene scene = made_up_scene({{0.0, 0.5}}, 0.1);
+  scene.controller->calibration_s = 50e-3;
+  const auto step_inside_from = [&scene](int first) {
+    return only_step(scene, made_up_run(scene, [first](int k) { return k < first ? 0.52 : 0.5; }));
+  };
+  EXPECT_TRUE(step_inside_from(95).settling_time_s);
+  EXPECT_FALSE(step_inside_from(96).settling_time_s);
+}
+
+/// A step of this course in which the controller takes its reading for settled, or has not decided.
+StepMetrics judged_step(control::Settling judgement, const std::function<double(int)>& ratio) {
+  const Scene scene = made_up_scene({{0.0, 0.5}}, 0.1);
+  std::vector<loop::Period> periods = made_up_run(scene, ratio);
+  for (loop::Period& period : periods) {
+    period.settling = judgement;
+  }
+  return only_step(scene, periods);
+}
+
+TEST(StepMetricsTest, TellsWhyTheTrueRatioDoesNotSettle) {
+  for (const control::Settling judgement :
+       {control::Settling::settled, control::Settling::pending}) {
+    const StepMetrics rings =
+        judged_step(judgement, [](int k) { return k % 2 == 0 ? 0.48 : 0.52; });
+    EXPECT_EQ(rings.limit, control::Limit::not_settling);
+    EXPECT_EQ(rings.cause, control::Settling::ringing);
+    EXPECT_EQ(rings.controller_undecided, judgement == control::Settling::pending);
+  }
+  const StepMetrics stays_outside =
+      judged_step(control::Settling::pending, [](int k) { return k < 95 ? 0.513 : 0.505; });
+  EXPECT_EQ(stays_outside.cause, control::Settling::offset);
+  const StepMetrics leaves_once =
+      judged_step(control::Settling::settled, [](int k) { return k == 95 ? 0.511 : 0.5; });
+  EXPECT_EQ(leaves_once.limit, control::Limit::not_settling);
+  EXPECT_EQ(leaves_once.cause, control::Settling::pending) << "none is known";
+}
+
+TEST(StepMetricsTest, AnOffsetIsAMismatchOnlyWhereTheReadingHasSettled) {
+  const auto off = [](int) { return 0.6; };
+  const StepMetrics settled = judged_step(control::Settling::settled, off);
+  EXPECT_EQ(settled.limit, control::Limit::mismatch);
+  EXPECT_EQ(settled.cause, control::Settling::pending);
+  EXPECT_EQ(limit_text(settled), "mismatch, unseen by the controller");
+  const StepMetrics pending = judged_step(control::Settling::pending, off);
+  EXPECT_EQ(pending.limit, control::Limit::not_settling);
+  EXPECT_EQ(limit_text(pending), "not_settling (offset), not yet judged by the controller");
+}
+
+TEST(StepMetricsTest, ALateStepKeepsTheLimitThatTheControllerNames) {
+  const Scene scene = made_up_scene({{0.0, 0.5}}, 0.1);
+  std::vector<loop::Period> periods = made_up_run(scene, [](int k) { return k < 95 ? 0.52 : 0.5; });
+  for (std::size_t k = 75; k < 80; ++k) {
+    periods[k].limit = control::Limit::actuator;
+  }
+  const StepMetrics step = only_step(scene, periods);
+  EXPECT_FALSE(step.settling_time_s);
+  EXPECT_EQ(step.limit, control::Limit::actuator);
+  EXPECT_TRUE(step.limit_seen_by_controller);
+}
+
+TEST(StepMetricsTest, TheVibrationSettlesOnlyForATenthOfTheStep) {
+  Scene scene = made_up_scene({{0.0, 0.5}}, 0.1);
+  std::vector<loop::Period> periods = resonant_run(scene, 0.5);
+  periods[89].vibration_m_per_s = 0.09;
+  EXPECT_TRUE(only_step(scene, periods).vibration->settling_time_s);
+  periods[90].vibration_m_per_s = 0.09;
+  EXPECT_FALSE(only_step(scene, periods).vibration->settling_time_s);
 }
 
 TEST(StepMetricsTest, OvershootIsBeyondTheTargetOnTheWayDown) {
