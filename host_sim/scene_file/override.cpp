@@ -36,6 +36,31 @@ void check_names(const OverriddenKey& target, const std::string& path) {
   }
 }
 
+/// The names that a dotted key of TOML joins, without their quotes, joined by dots.
+/// @throws SceneError  no TOML key
+std::string unquoted(const std::string& path, const Location& place) {
+  if (path.find_first_of("\"'") == std::string::npos) {
+    return path;
+  }
+  toml::table holder;
+  try {
+    holder = parse_toml(path + " = 0", place.file);
+  } catch (const SceneError& error) {
+    throw SceneError(place, path, fmt::format("{}; {}", error.message(), form));
+  }
+  std::string names;
+  const toml::table* table = &holder;
+  while (table != nullptr && table->size() == 1) {
+    const auto only = table->begin();
+    names += fmt::format("{}{}", names.empty() ? "" : ".", only->first.str());
+    table = only->second.as_table();
+  }
+  if (table != nullptr) {
+    throw SceneError(place, path, fmt::format("more than one key; {}", form));
+  }
+  return names;
+}
+
 /// Fills in table and key.
 void split_path(OverriddenKey& target, const std::string& path) {
   const std::size_t dot = path.find('.');
@@ -74,12 +99,13 @@ toml::table parse_value(const std::string& value, const std::string& key, const 
   return holder;
 }
 
-OverriddenKey parse_overridden_key(const std::string& path, std::size_t ordinal) {
+OverriddenKey parse_overridden_key(const std::string& text, std::size_t ordinal) {
   OverriddenKey target;
   target.place = {"--set", ordinal, 1};
-  if (path.empty()) {
+  if (text.empty()) {
     throw SceneError(target.place, "--set", fmt::format("no key; {}", form));
   }
+  const std::string path = unquoted(text, target.place);
   split_path(target, path);
   check_names(target, path);
   return target;

@@ -28,11 +28,12 @@ struct Override {
 /// @throws SceneError  neither TOML nor a bare word, or more than one value
 toml::table parse_value(const std::string& value, const std::string& key, const Location& place);
 
-/// TABLE.KEY alone.
+/// TABLE.KEY alone, each in quotes or not, as in TOML. The quotes about a key of [tolerance] or
+/// [true_values], which has a dot, may be left out.
 ///
 /// @param ordinal  1 for the first option
 /// @throws SceneError  not of that form, or a table or key that no scene has
-OverriddenKey parse_overridden_key(const std::string& path, std::size_t ordinal);
+OverriddenKey parse_overridden_key(const std::string& text, std::size_t ordinal);
 
 /// VALUE is TOML; a bare word that is not (`q31`) is a string. Without VALUE the key is to be
 /// removed, so that another can take its place.

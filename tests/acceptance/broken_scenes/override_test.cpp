@@ -38,6 +38,14 @@ const std::vector<BadOverride> bad_overrides = {
     {"third_level", "--set run.record.0=3",
      "--set:1:1: run.record.0: a part of a value cannot be set; allowed: TABLE.KEY=VALUE, or "
      "TABLE.KEY= to remove the key"},
+    {"open_quote", "--set 'plant.\"mass_kg=3'",
+     "--set:1:1: plant.\"mass_kg: Error while parsing string: encountered end-of-file; allowed: "
+     "TABLE.KEY=VALUE, or TABLE.KEY= to remove the key"},
+    {"two_keys", "--set '[\"plant\"]\n[friction]\nx=3'",
+     "--set:1:1: [\"plant\"]\\x0a[friction]\\x0ax: more than one key; allowed: TABLE.KEY=VALUE, or "
+     "TABLE.KEY= to remove the key"},
+    {"unknown_quoted_key", "--set 'plant.\"mass\"=3'",
+     "--set:1:1: plant.mass: unknown key; did you mean mass_kg?"},
     {"unknown_key", "--set plant.mass=3",
      "--set:1:1: plant.mass: unknown key; did you mean mass_kg?"},
     {"unknown_table", "--set plan.mass_kg=3",

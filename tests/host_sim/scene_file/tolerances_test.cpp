@@ -85,6 +85,12 @@ TEST(ToleranceTest, TakesOverridesAndMayBeRemoved) {
   EXPECT_EQ(scene.tolerances[0].amount, 0.02);
   EXPECT_TRUE(with("[tolerance]\n\"plant.mass_kg\" = 0.04\n", {"tolerance.plant.mass_kg="})
                   .tolerances.empty());
+  const scene::Scene quoted =
+      with("[tolerance]\n\"plant.mass_kg\" = 0.04\n",
+           {"tolerance.\"plant.mass_kg\"=", "tolerance . 'plant.stiffness_N_per_m' =0.03"});
+  ASSERT_EQ(quoted.tolerances.size(), 1U);
+  EXPECT_EQ(quoted.tolerances[0].key, "plant.stiffness_N_per_m");
+  EXPECT_EQ(quoted.tolerances[0].amount, 0.03);
 }
 
 TEST(ToleranceTest, FollowsTheValueThatAnOptionGives) {
