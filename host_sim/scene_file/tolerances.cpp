@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "host_sim/scene_file/table_cursor.hpp"
 #include "host_sim/scene_file/to_json.hpp"
@@ -19,22 +21,46 @@ class ScenesNumbers {
  public:
   explicit ScenesNumbers(const scene::Scene& scene) : echo_(to_json(scene)) {}
 
-  std::optional<double> find(const std::string& path) const {
-    const std::size_t dot = path.find('.');
-    const auto table = echo_.find(path.substr(0, dot));
-    if (table == echo_.end()) {
-      return std::nullopt;
-    }
-    const auto value = table->find(path.substr(dot + 1));
-    return value != table->end() && value->is_number() ? std::optional(value->get<double>())
-                                                       : std::nullopt;
+  bool has(std::string_view path) const { return value_of(path) != nullptr; }
+
+  std::optional<double> find(std::string_view path) const {
+    const nlohmann::ordered_json* value = value_of(path);
+    return value != nullptr && value->is_number() ? std::optional(value->get<double>())
+                                                  : std::nullopt;
   }
 
  private:
+  const nlohmann::ordered_json* value_of(std::string_view path) const {
+    const std::size_t dot = path.find('.');
+    const auto table = echo_.find(path.substr(0, dot));
+    if (table == echo_.end()) {
+      return nullptr;
+    }
+    const auto value = table->find(path.substr(dot + 1));
+    return value != table->end() ? &*value : nullptr;
+  }
+
   nlohmann::ordered_json echo_;
 };
 
-constexpr std::string_view no_value = "here: the scene has no value of it";
+struct ProfiledKey {
+  std::string_view number;
+  std::string_view profile;
+};
+constexpr std::array<ProfiledKey, 3> profiled_keys = {
+    {{"plant.stiffness_N_per_m", "plant.stiffness_profile"},
+     {"friction.coefficient", "friction.coefficient_profile"},
+     {"friction.normal_force_N", "friction.normal_force_profile_N"}}};
+
+/// Why a key has no number that a plant could have otherwise.
+std::string no_value(const ScenesNumbers& numbers, std::string_view key) {
+  for (const ProfiledKey& each : profiled_keys) {
+    if (each.number == key && numbers.has(each.profile)) {
+      return fmt::format("here: the scene has {} in its place, which stays as it is", each.profile);
+    }
+  }
+  return "here: the scene has no value of it";
+}
 
 /// Largest relative half width that stays in the range.
 double widest(const Range& range, double value) {
@@ -81,7 +107,7 @@ std::vector<scene::Tolerance> read_tolerances(const Variant& variant, const scen
     scene::Tolerance tolerance = cursor.spread(key);
     const std::optional<double> nominal = numbers.find(key);
     if (!nominal) {
-      cursor.reject(key, no_value);
+      cursor.reject(key, no_value(numbers, key));
       continue;
     }
     if (true_values.has(key)) {
@@ -123,7 +149,7 @@ std::vector<scene::TrueValue> read_true_values(const Variant& variant, const sce
   const auto has_none = [&](const scene::TrueValue& each) {
     const bool none = !numbers.find(each.key);
     if (none) {
-      cursor.reject(each.key, no_value);
+      cursor.reject(each.key, no_value(numbers, each.key));
     }
     return none;
   };

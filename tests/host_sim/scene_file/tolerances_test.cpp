@@ -135,6 +135,10 @@ TEST(ToleranceTest, IsOfANumberThatTheSceneHas) {
   EXPECT_EQ(tolerance_error("\"transducer.force_factor_N_per_V\" = 0.1"),
             "s.toml:22:1: tolerance.transducer.force_factor_N_per_V: not used here: the scene has "
             "no value of it; remove it");
+  EXPECT_EQ(error_of("[tolerance]\n\"plant.stiffness_N_per_m\" = 0.1\n",
+                     {"plant.stiffness_N_per_m=", "plant.stiffness_profile=[[0, 133e6]]"}),
+            "s.toml:22:1: tolerance.plant.stiffness_N_per_m: not used here: the scene has "
+            "plant.stiffness_profile in its place, which stays as it is; remove it");
   EXPECT_EQ(tolerance_error("\"plant.stiffnes_N_per_m\" = 0.1"),
             "s.toml:22:1: tolerance.plant.stiffnes_N_per_m: unknown key; did you mean "
             "plant.stiffness_N_per_m?");
