@@ -10,11 +10,11 @@
 #include <limits>
 #include <memory>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "host_sim/cli/cluster_options.hpp"
 #include "host_sim/cli/options.hpp"
+#include "host_sim/cli/run_watch.hpp"
 #include "host_sim/shards/collection.hpp"
 #include "host_sim/studies/robust/report.hpp"
 #include "host_sim/studies/robust/robust.hpp"
@@ -31,8 +31,8 @@ struct RobustOptions {
   bool quiet = false;
 };
 
-std::string text(double value, const char* undefined) {
-  return std::isnan(value) ? undefined : fmt::format("{:.3g}", value);
+std::string text(double value, const robust::Figure& figure) {
+  return std::isnan(value) ? figure.undefined : fmt::format("{:.3g}", value);
 }
 
 /// Of each figure its quantiles over the samples, and what the worst plant has.
@@ -41,13 +41,15 @@ std::string figure_lines(const robust::Study& study) {
   std::string lines = fmt::format(line, "", "median", "95 %", "99 %", "worst", "worst plant");
   for (const robust::Figure& figure : robust::figures()) {
     const robust::Quantiles found = robust::quantiles(robust::values_of(study, figure));
-    const char* undefined = figure.value == &robust::PlantRow::settling_time_s ? "never" : "-";
-    lines +=
-        fmt::format(line, figure.key, text(found.median, undefined), text(found.p95, undefined),
-                    text(found.p99, undefined), text(found.worst, undefined),
-                    text(study.worst.row.*figure.value, undefined));
+    lines += fmt::format(line, figure.key, text(found.median, figure), text(found.p95, figure),
+                         text(found.p99, figure), text(found.worst, figure),
+                         text(study.worst.row.*figure.value, figure));
   }
   return lines;
+}
+
+std::string name_line(const char* title, const std::vector<std::string>& names) {
+  return names.empty() ? std::string() : fmt::format("  {}: {}\n", title, fmt::join(names, ", "));
 }
 
 std::string worst_lines(const robust::Task& task, const robust::WorstPlant& worst) {
@@ -55,14 +57,9 @@ std::string worst_lines(const robust::Task& task, const robust::WorstPlant& wors
   for (std::size_t i = 0; i < worst.factors.size(); ++i) {
     lines += fmt::format("  {} = {:.6g}\n", task.tolerances()[i].key, worst.factors[i]);
   }
-  std::vector<std::string> names = robust::limit_names(worst.row);
-  for (std::string& fault : robust::fault_names(worst.row)) {
-    names.push_back(std::move(fault));
-  }
-  if (!worst.row.computed()) {
-    names.push_back(worst.row.status);
-  }
-  return names.empty() ? lines : lines + fmt::format("  {}\n", fmt::join(names, ", "));
+  lines += name_line("limits", robust::limit_names(worst.row));
+  lines += name_line("faults", robust::fault_names(worst.row));
+  return worst.row.computed() ? lines : lines + fmt::format("  no result: {}\n", worst.row.status);
 }
 
 std::string text(const robust::Task& task, const robust::Outcome& outcome,
@@ -71,18 +68,20 @@ std::string text(const robust::Task& task, const robust::Outcome& outcome,
   const std::size_t runs = study.samples.size() + study.search.size();
   const std::size_t computed = runs - std::min(runs, outcome.found_finished);
   std::string lines =
-      fmt::format("{} plants and {} runs of the search", study.samples.size(), study.search.size());
+      fmt::format("{} and {} of the search", robust::counted(study.samples.size(), "plant"),
+                  robust::counted(study.search.size(), "run"));
   if (outcome.found_finished > 0) {
     lines += fmt::format(", {} of them finished before", outcome.found_finished);
   }
-  lines += fmt::format("\n{} loops in {:.3g} s, {:.3g} loops/s\n", computed, outcome.wall_s,
-                       static_cast<double>(computed) / outcome.wall_s);
+  lines += fmt::format("\n{} in {:.3g} s, {:.3g} loops/s\n", robust::counted(computed, "loop"),
+                       outcome.wall_s, static_cast<double>(computed) / outcome.wall_s);
   const std::size_t failures = study.failures();
   lines +=
       fmt::format("{} failed: probability of failure at most {:.3g} % (at 95 %)\n", failures,
                   100.0 * robust::failure_probability_upper(failures, study.samples.size(), 0.95));
   if (study.search_failures() > 0) {
-    lines += fmt::format("{} runs of the search failed\n", study.search_failures());
+    lines += fmt::format("the loop fails in {} of the search\n",
+                         robust::counted(study.search_failures(), "run"));
   }
   lines += figure_lines(study) + worst_lines(task, study.worst);
   return lines + fmt::format("rows: {}\nworst plant: {}\nreport: {}\n", shown(out / "robust.csv"),
@@ -97,9 +96,16 @@ std::filesystem::path folder_of(const RobustOptions& options, const robust::Task
   return output_folder(options.out, task.nominal().name, "_robust");
 }
 
+void tell_notes(const RobustOptions& options, const robust::Task& task) {
+  if (!options.quiet) {
+    print_notes(task.notes());
+  }
+}
+
 std::string run_whole(const RobustOptions& options) {
   const robust::Task task = task_of(options);
   const std::filesystem::path out = folder_of(options, task);
+  tell_notes(options, task);
   return text(task,
               computed(options.quiet,
                        [&](const long_work::Progress& progress) {
@@ -125,6 +131,7 @@ std::string merge(const RobustOptions& options) {
   const std::filesystem::path out = merged_folder(options.cluster, options.out);
   const shards::Collection found(options.cluster.merge);
   const robust::Task task = robust::task_of(found, program_version);
+  tell_notes(options, task);
   return text(task,
               computed(options.quiet,
                        [&](const long_work::Progress& progress) {
@@ -187,7 +194,7 @@ void add_robust_command(CLI::App& program) {
   add_threads_option(*command, options->threads);
   add_cluster_options(*command, options->cluster,
                       {"scene", "--set", "--samples", "--search", "--seed"});
-  command->add_flag("--quiet", options->quiet, "No progress bar and no printed summary");
+  command->add_flag("--quiet", options->quiet, "No progress bar, no notes, no printed summary");
   command->callback([command, options] { robust(*command, *options); });
 }
 

@@ -1,17 +1,18 @@
 #include "host_sim/cli/run_watch.hpp"
 
-#include <string>
-
 #include "host_sim/process/printable.hpp"
 
 namespace sonoglide::cli {
 
-void print_design_notes(const std::optional<configure::ControlDesign>& design) {
-  if (!design) {
-    return;
-  }
-  for (const std::string& note : configure::design_notes(*design)) {
+void print_notes(const std::vector<std::string>& notes) {
+  for (const std::string& note : notes) {
     process::show_on_stderr("note: " + note);
+  }
+}
+
+void print_design_notes(const std::optional<configure::ControlDesign>& design) {
+  if (design) {
+    print_notes(configure::design_notes(*design));
   }
 }
 

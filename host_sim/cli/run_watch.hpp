@@ -2,6 +2,8 @@
 #pragma once
 
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "host_sim/cli/progress_bar.hpp"
 #include "host_sim/configure/control_design.hpp"
@@ -11,7 +13,10 @@
 
 namespace sonoglide::cli {
 
-/// Prints the notes of a controller's design on standard error; none in open loop.
+/// Prints notes on standard error, each in a line.
+void print_notes(const std::vector<std::string>& notes);
+
+/// Prints the notes of a controller's design; none in open loop.
 void print_design_notes(const std::optional<configure::ControlDesign>& design);
 
 /// The progress bar, and an end to the run when somebody interrupts it. Both outlive it.

@@ -20,19 +20,19 @@ constexpr std::size_t most_points_drawn = 2000;
 
 std::string lead(const Task& task, const Study& study) {
   return fmt::format(
-      "The loop of {} on {} plants inside its tolerances, and a search of {} runs for the worst of "
-      "them. The controller is the same on all: it believes the scene.",
-      task.nominal().name, study.samples.size(), study.search.size());
+      "The loop of {} on {} inside its tolerances, and a search of {} for the worst of them. The "
+      "controller is the same on all: it believes the scene.",
+      task.nominal().name, counted(study.samples.size(), "plant"),
+      counted(study.search.size(), "run"));
 }
 
-std::vector<std::string> warnings(const Study& study) {
-  std::vector<std::string> all;
+std::vector<std::string> warnings(const Task& task, const Study& study) {
+  std::vector<std::string> all = task.notes();
   const std::size_t failures = study.failures();
   if (failures > 0) {
     all.push_back(
-        fmt::format("The loop fails on {} of {} plants: a fault, a step that never "
-                    "settles, or no result.",
-                    failures, study.samples.size()));
+        fmt::format("The loop fails on {} of {}: a fault, a step that never settles, or no result.",
+                    failures, counted(study.samples.size(), "plant")));
   } else if (study.search_failures() > 0) {
     all.emplace_back("No sample fails, but the search has found a plant on which the loop fails.");
   }
@@ -53,10 +53,10 @@ output::Table findings_table(const Task& task, const Study& study) {
                                                                    confidence))});
   }
   for (const NameCount& each : count_names(study, limit_names)) {
-    table.rows.push_back({"Limit " + each.name, fmt::format("in {} plants", each.count)});
+    table.rows.push_back({"Limit " + each.name, "on " + counted(each.count, "plant")});
   }
   for (const NameCount& each : count_names(study, fault_names)) {
-    table.rows.push_back({"Fault " + each.name, fmt::format("in {} plants", each.count)});
+    table.rows.push_back({"Fault " + each.name, "on " + counted(each.count, "plant")});
   }
   return table;
 }
@@ -67,7 +67,9 @@ output::Table quantile_table(const Study& study) {
                       {}};
   for (const Figure& figure : figures()) {
     const Quantiles found = quantiles(values_of(study, figure));
-    const auto cell = [](double value) { return report::figure("{:.4g}", value); };
+    const auto cell = [&figure](double value) {
+      return std::isnan(value) ? figure.undefined : fmt::format("{:.4g}", value);
+    };
     table.rows.push_back({figure.label, cell(found.median), cell(found.p95), cell(found.p99),
                           cell(found.worst), cell(study.worst.row.*figure.value)});
   }
@@ -189,7 +191,7 @@ output::Panel scatter(const Task& task, const Study& study, std::size_t toleranc
 
 /// By what they explain of the deviation, the most first.
 std::vector<std::size_t> by_importance(const Task& task, const Study& study) {
-  const Ranks deviations(values_of(study, {"deviation", "", &PlantRow::deviation}));
+  const Ranks deviations(values_of(study, {"deviation", "", &PlantRow::deviation, ""}));
   std::vector<double> effects;
   for (std::size_t i = 0; i < task.tolerances().size(); ++i) {
     const double effect = main_effect(Ranks(factors_of(task, i)), deviations);
@@ -273,7 +275,7 @@ output::Page robust_page(const Task& task, const Study& study) {
   return {
       fmt::format("Robustness of {}", task.nominal().name),
       lead(task, study),
-      warnings(study),
+      warnings(task, study),
       {findings_table(task, study), quantile_table(study), factor_table(task, study)},
       {worst_section(task, study), distribution_section(study), importance_section(task, study)}};
 }

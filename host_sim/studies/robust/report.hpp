@@ -18,10 +18,14 @@ struct Figure {
   const char* key;    ///< `settling_time_s`
   const char* label;  ///< with its unit
   double PlantRow::*value;
+  const char* undefined;  ///< what tables show of a plant that has none
 };
 
 /// Those of robust.json.
 const std::vector<Figure>& figures();
+
+/// `1 plant`, `2 plants`.
+std::string counted(std::size_t count, const char* noun);
 
 /// Of every sample.
 std::vector<double> values_of(const Study& study, const Figure& figure);

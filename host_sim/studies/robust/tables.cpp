@@ -13,11 +13,15 @@ namespace sonoglide::robust {
 
 const std::vector<Figure>& figures() {
   static const std::vector<Figure> all = {
-      {"settling_time_s", "Settling time [s]", &PlantRow::settling_time_s},
-      {"overshoot", "Overshoot [-]", &PlantRow::overshoot},
-      {"steady_error", "Steady error [-]", &PlantRow::steady_error},
-      {"ripple", "Ripple [-]", &PlantRow::ripple}};
+      {"settling_time_s", "Settling time [s]", &PlantRow::settling_time_s, "never"},
+      {"overshoot", "Overshoot [-]", &PlantRow::overshoot, "-"},
+      {"steady_error", "Steady error [-]", &PlantRow::steady_error, "-"},
+      {"ripple", "Ripple [-]", &PlantRow::ripple, "-"}};
   return all;
+}
+
+std::string counted(std::size_t count, const char* noun) {
+  return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
 }
 
 std::vector<double> values_of(const Study& study, const Figure& figure) {
@@ -203,6 +207,7 @@ ordered_json to_json(const Task& task, const Study& study) {
   json["limits"] = counts_json(count_names(study, limit_names));
   json["faults"] = counts_json(count_names(study, fault_names));
   add_importance(json["importance"], task, study);
+  json["notes"] = task.notes();
   json["search"] = {{"runs", study.search.size()}, {"failures", study.search_failures()}};
   json["worst"] = worst_json(task, study.worst);
   return json;

@@ -54,6 +54,19 @@ Task::Task(scene_file::Source source, std::vector<std::string> overrides, const 
       std::vector<std::string>{}, true_keys(*nominal_));
 }
 
+std::vector<std::string> Task::notes() const {
+  std::vector<std::string> all = configure::design_notes(design_);
+  for (const scene::Tolerance& each : tolerances()) {
+    if (each.nominal < each.lowest || each.nominal > each.highest) {
+      all.push_back(
+          fmt::format("The range of {0}, {1:.6g} to {2:.6g}, does not contain the scene's value of "
+                      "{3:.6g}, for which the controller is designed.",
+                      each.key, each.lowest, each.highest, each.nominal));
+    }
+  }
+  return all;
+}
+
 Factors Task::sample(std::size_t index) const {
   Factors factors;
   factors.reserve(tolerances().size());

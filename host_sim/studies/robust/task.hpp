@@ -38,6 +38,9 @@ class Task {
   const scene::Scene& nominal() const { return *nominal_; }
   const std::vector<scene::Tolerance>& tolerances() const { return nominal_->tolerances; }
   const configure::ControlDesign& design() const { return design_; }
+  /// What a user should know of the controller's design and of the tolerances, a sentence or more
+  /// each.
+  std::vector<std::string> notes() const;
 
   /// Of a sample, in [0, samples).
   Factors sample(std::size_t index) const;

@@ -218,6 +218,55 @@ TEST_F(RobustCommandTest, InShardsItHasTheSameFiles) {
   EXPECT_NE(foreign.err.find("has kind robust, this command kind sweep"), std::string::npos);
 }
 
+TEST_F(RobustCommandTest, TellsTheNotesOfTheSceneOnce) {
+  const std::string study =
+      "uncertain.toml --samples 2 --search 2 --out o "
+      "--set controller.shaping=robust";
+  const Outcome outcome = run(study);
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const Outcome single = folder_.run("run uncertain.toml --set controller.shaping=robust --out s");
+  EXPECT_EQ(outcome.err, single.err);
+  EXPECT_EQ(outcome.err.find("note: The natural mode hardly decays."), 0U) << outcome.err;
+  EXPECT_NE(folder_.read("o/report.html").find("The natural mode hardly decays."),
+            std::string::npos);
+  EXPECT_EQ(json::parse(folder_.read("o/robust.json")).at("notes").size(), 1U);
+  EXPECT_EQ(run(study + " --quiet").err, "");
+}
+
+/// A step whose ratio still rings in its last periods has not settled, though it may be inside the
+/// band at the very end by chance.
+TEST_F(RobustCommandTest, CountsAPlantThatRingsUpToTheEnd) {
+  const Outcome outcome = run("'" SONOGLIDE_SCENES
+                              "/robust_step.toml' --samples 64 --search 0 --out o --set "
+                              "tolerance.friction.coefficient= --set "
+                              "tolerance.friction.contact_stiffness_N_per_m= --set "
+                              "tolerance.sensor.velocity_gain= --set "
+                              "tolerance.sensor.force_offset_N= --set "
+                              "'tolerance.\"plant.stiffness_N_per_m\"=0.06'");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const Rows rows = rows_of(folder_.read("o/robust.csv"));
+  int ringing = 0;
+  for (std::size_t i = 1; i < rows.size(); ++i) {
+    const double band = 0.01;
+    if (std::stod(rows[i][column(rows, "ripple")]) > 1.1 * band) {
+      ++ringing;
+      EXPECT_EQ(rows[i][column(rows, "failed")], "yes") << i;
+      EXPECT_EQ(rows[i][column(rows, "limits")], "not_settling") << i;
+      EXPECT_EQ(rows[i][column(rows, "settling_time_s")], "nan") << i;
+    }
+  }
+  EXPECT_GE(ringing, 10);
+  EXPECT_NE(outcome.out.find("\n  limits: not_settling\n"), std::string::npos) << outcome.out;
+  EXPECT_NE(outcome.out.find(" never "), std::string::npos);
+  EXPECT_NE(folder_.read("o/report.html").find("never"), std::string::npos);
+}
+
+TEST_F(RobustCommandTest, SaysOneOfOne) {
+  const Outcome outcome = run("uncertain.toml --samples 1 --search 1 --out o");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_EQ(outcome.out.find("1 plant and 1 run of the search\n2 loops in "), 0U) << outcome.out;
+}
+
 TEST_F(RobustCommandTest, AFailureIsNamedAndCounted) {
   const Outcome outcome =
       run("uncertain.toml --samples 16 --search 0 --out o "

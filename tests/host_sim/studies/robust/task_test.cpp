@@ -50,6 +50,20 @@ TEST(TaskTest, PlantsAreInsideTheTolerancesAndTheControllerBelievesTheScene) {
   }
 }
 
+TEST(TaskTest, NotesWhatTheDesignAndTheTolerancesGiveToThinkAbout) {
+  EXPECT_TRUE(task_of(uncertain_step).notes().empty());
+  const std::vector<std::string> notes =
+      task_of(uncertain_step,
+              {"controller.shaping=robust",
+               "tolerance.friction.contact_stiffness_N_per_m={ range = [0.06e6, 0.07e6] }"})
+          .notes();
+  ASSERT_EQ(notes.size(), 2U);
+  EXPECT_EQ(notes[0].find("The natural mode hardly decays."), 0U) << notes[0];
+  EXPECT_EQ(notes[1],
+            "The range of friction.contact_stiffness_N_per_m, 60000 to 70000, does not contain the "
+            "scene's value of 56000, for which the controller is designed.");
+}
+
 /// The file of a plant is the same plant, to the last command of its controller.
 TEST(TaskTest, TheTextOfAPlantIsThatPlant) {
   for (const std::string more :
