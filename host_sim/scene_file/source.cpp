@@ -34,8 +34,17 @@ std::string bytes_of(std::istream& stream, const std::string& file) {
 }  // namespace
 
 std::string Source::name() const {
-  return file == standard_input ? "stdin"
-                                : process::printable(std::filesystem::path(file).stem().string());
+  if (file == standard_input) {
+    return "stdin";
+  }
+  const std::filesystem::path path(file);
+  std::string name = path.stem().string();
+  const std::string folder = path.parent_path().filename().string();
+  const bool named_by_a_study = name == "scene" || name == "worst";
+  if (named_by_a_study && folder.find_first_not_of('.') != std::string::npos) {
+    name = fmt::format("{}_{}", folder, name);
+  }
+  return process::printable(name);
 }
 
 Source read_source(const std::filesystem::path& path) {

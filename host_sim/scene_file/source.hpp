@@ -17,7 +17,8 @@ struct Source {
   std::string text;
 
   /// The scene's name: the file's, printable and without folder and ending; `stdin` for a scene
-  /// from there.
+  /// from there. `scene` and `worst`, as studies call the scenes that they write, are the same in
+  /// every folder, so that the name of the folder comes before them: `FOLDER_scene`.
   std::string name() const;
 };
 

@@ -26,6 +26,16 @@ TEST(SourceTest, ASceneIsNamedAfterItsFilePrintably) {
   EXPECT_EQ(name_of_file("...toml"), "..");
 }
 
+TEST(SourceTest, ASceneThatAStudyWroteIsNamedAfterItsFolderToo) {
+  EXPECT_EQ(name_of_file("out/langevin_impedance/scene.toml"), "langevin_impedance_scene");
+  EXPECT_EQ(name_of_file("/out/robust_step_robust/worst.toml"), "robust_step_robust_worst");
+  EXPECT_EQ(name_of_file("worst.toml"), "worst");
+  EXPECT_EQ(name_of_file("./scene.toml"), "scene");
+  EXPECT_EQ(name_of_file("../scene.toml"), "scene");
+  EXPECT_EQ(name_of_file("/scene.toml"), "scene");
+  EXPECT_EQ(name_of_file("a/my_scene.toml"), "my_scene");
+}
+
 /// Standard input holds a text while it lives.
 class StandardInput {
  public:

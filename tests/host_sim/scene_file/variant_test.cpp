@@ -149,11 +149,11 @@ TEST(VariantTest, UnusedKeysGoToWhoTakesThem) {
 }
 
 TEST(VariantTest, OneDocumentServesManyReadings) {
-  const Document document({"dir/scene.toml", fullest_closed_loop}, {},
+  const Document document({"dir/step.toml", fullest_closed_loop}, {},
                           {"model_error.mass", "sensor.seed"});
   for (int i = 1; i <= 100; ++i) {
     const scene::Scene scene = read(document, values({0.9 + 1e-3 * i, static_cast<double>(i)}));
-    EXPECT_EQ(scene.name, "scene");
+    EXPECT_EQ(scene.name, "step");
     EXPECT_EQ(scene.model_error.mass, 0.9 + 1e-3 * i);
     EXPECT_EQ(scene.sensor.seed, static_cast<std::uint64_t>(i));
   }
