@@ -104,6 +104,40 @@ TEST(IdentifyImpedanceCommand, WithAMassWritesASceneThatRuns) {
   }
 }
 
+/// The stiffness as wide as the resonance allows, the mass fixed, whichever fact is given.
+TEST(IdentifyImpedanceCommand, ItsSceneHasTheIntervalsAsTolerances) {
+  for (const char* fact : {"--mass-kg 0.01", "--force-factor-N-per-V 0.5"}) {
+    ScratchFolder folder;
+    folder.write("z.csv", as_table());
+    ASSERT_EQ(folder.run(std::string("identify impedance z.csv --quiet --out o ") + fact).exit_code,
+              0);
+    const Outcome study = folder.run("robust o/scene.toml --samples 8 --search 0 --quiet --out r");
+    ASSERT_EQ(study.exit_code, 0) << study.err;
+    const auto parameters = nlohmann::json::parse(folder.read("o/identify.json"))["parameters"];
+    const auto figures = nlohmann::json::parse(folder.read("r/robust.json"));
+    EXPECT_EQ(figures["failures"], 0);
+    const auto& tolerance = figures["scene"]["tolerance"];
+    EXPECT_FALSE(tolerance.contains("plant.mass_kg"));
+    const auto expect_interval = [&](const char* key, const char* name, double power) {
+      const auto& found = parameters[name];
+      const double value = figures["scene"][nlohmann::json::json_pointer(key)];
+      std::string path = std::string(key).substr(1);
+      path.replace(path.find('/'), 1, ".");
+      const auto& range = tolerance[path]["range"];
+      for (const auto& [end, index] : {std::pair{"low_95", 0}, {"high_95", 1}}) {
+        const double relative = found[end].get<double>() / found["value"].get<double>();
+        EXPECT_NEAR(range[index].get<double>() / value, std::pow(relative, power), 1e-12) << key;
+      }
+    };
+    expect_interval("/plant/stiffness_N_per_m", "resonance_frequency_Hz", 2.0);
+    expect_interval("/plant/damping_N_s_per_m", "damping_N_s_per_m", 1.0);
+    expect_interval("/transducer/clamped_capacitance_F", "clamped_capacitance_F", 1.0);
+    EXPECT_EQ(tolerance.contains("transducer.force_factor_N_per_V"),
+              parameters["force_factor_N_per_V"]["low_95"] !=
+                  parameters["force_factor_N_per_V"]["high_95"]);
+  }
+}
+
 TEST(IdentifyImpedanceCommand, WithoutAMechanicalFactSaysWhatIsMissing) {
   ScratchFolder folder;
   folder.write("z.s1p", as_touchstone());

@@ -8,11 +8,43 @@
 namespace sonoglide::identify::impedance {
 namespace {
 
-double value_of(const Identification& identification, const std::string& name) {
+const Estimate& estimate_of(const Identification& identification, const std::string& name) {
   const auto& all = identification.parameters;
-  return std::find_if(all.begin(), all.end(),
-                      [&](const Estimate& each) { return each.name == name; })
-      ->value;
+  return *std::find_if(all.begin(), all.end(),
+                       [&](const Estimate& each) { return each.name == name; });
+}
+
+double value_of(const Identification& identification, const std::string& name) {
+  return estimate_of(identification, name).value;
+}
+
+/// A line of [tolerance]; none where the interval has no width or an end is open.
+std::string tolerance_line(const char* key, double low, double high) {
+  return low < high && std::isfinite(low) && std::isfinite(high)
+             ? fmt::format("\"{}\" = {{ range = [{:.17g}, {:.17g}] }}\n", key, low, high)
+             : std::string();
+}
+
+/// The 95 % intervals of what is identified. Mass and stiffness have errors in common that leave the
+/// resonance as it is; keys that vary independently would not, so that the mass keeps its value and
+/// the stiffness has the interval of the resonance.
+std::string tolerance_toml(const Identification& identification) {
+  const double stiffness_N_per_m = value_of(identification, "stiffness_N_per_m");
+  const Estimate& resonance = estimate_of(identification, "resonance_frequency_Hz");
+  const auto stiffness_at = [&](double frequency_Hz) {
+    const double ratio = frequency_Hz / resonance.value;
+    return stiffness_N_per_m * ratio * ratio;
+  };
+  const auto line = [&](const char* key, const char* name) {
+    const Estimate& found = estimate_of(identification, name);
+    return tolerance_line(key, std::max(found.low_95, 0.0), found.high_95);
+  };
+  return "\n[tolerance]                           # 95 % intervals, for sonoglide robust\n" +
+         tolerance_line("plant.stiffness_N_per_m", stiffness_at(resonance.low_95),
+                        stiffness_at(resonance.high_95)) +
+         line("plant.damping_N_s_per_m", "damping_N_s_per_m") +
+         line("transducer.force_factor_N_per_V", "force_factor_N_per_V") +
+         line("transducer.clamped_capacitance_F", "clamped_capacitance_F");
 }
 
 }  // namespace
@@ -37,7 +69,7 @@ std::string scene_toml(const ImpedanceStudy& study) {
   const double settling_s = 2.0 * mode.quality() / (two_pi * resonance_Hz);
   const double step_s = std::max(20.0 * settling_s, 100.0 / resonance_Hz);
   const double loss = std::max(study.fit.circuit.loss_tangent, 0.0);
-  return fmt::format(
+  const std::string measured = fmt::format(
       "# The transducer of {}, from a measured sweep of its impedance.\n"
       "# Identified: [transducer] but for what is given below, resonance and quality factor "
       "{:.5g}.\n"
@@ -76,6 +108,7 @@ std::string scene_toml(const ImpedanceStudy& study) {
       mass_kg, stiffness_N_per_m, damping_N_s_per_m, coefficient, friction_N / coefficient,
       contact_N_per_m, sliding_m_per_s, force_factor_N_per_V,
       study.fit.circuit.clamped_capacitance_F, loss, resonance_Hz, voltage_V, 2.0 * step_s, step_s);
+  return measured + tolerance_toml(identification);
 }
 
 }  // namespace sonoglide::identify::impedance
