@@ -34,6 +34,9 @@ TEST(IdentifyFrictionCommand, WritesALawWithIntervalsAndASceneThatRuns) {
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_EQ(outcome.err, "") << "no progress bar on a pipe";
   EXPECT_NE(outcome.out.find("report: out/f_friction/report.html"), std::string::npos);
+  EXPECT_NE(outcome.out.find("\nCoulomb                coulomb            along "),
+            std::string::npos)
+      << "as --law takes it: " << outcome.out;
   const auto json = nlohmann::json::parse(folder.read("out/f_friction/identify.json"));
   EXPECT_EQ(json["law"], "dahl");
   EXPECT_EQ(json["laws"].size(), 2U);

@@ -77,8 +77,8 @@ ordered_json law_json(const Comparison& comparison, const LawFit& fit) {
 std::string law_line(const Comparison& comparison, const LawFit& fit) {
   const double difference = comparison.difference(fit);
   return fmt::format(
-      "{:<22} {:<7} {:>2} {:>9} {:>9.2g} {:>8.2g} {:>7.2g}  {}\n", fit.law.title, fit.law.direction,
-      fit.parameter_count(),
+      "{:<22} {:<18} {:<7} {:>2} {:>9} {:>9.2g} {:>8.2g} {:>7.2g}  {}\n", fit.law.title,
+      fit.law.law, fit.law.direction, fit.parameter_count(),
       std::isfinite(difference) ? fmt::format("{:.1f}", difference) : std::string("-"),
       fit.residual_rms, fit.misfit, fit.runs_probability, verdict(comparison, fit));
 }
@@ -108,8 +108,9 @@ void write(const std::filesystem::path& out, const Comparison& comparison,
 }
 
 std::string text(const Comparison& comparison, const std::filesystem::path& out) {
-  std::string lines = fmt::format("{:<22} {:<7} {:>2} {:>9} {:>9} {:>8} {:>7}\n", "law", "vibr.",
-                                  "p", "AICc diff", "residual", "misfit", "runs p");
+  std::string lines =
+      fmt::format("{:<22} {:<18} {:<7} {:>2} {:>9} {:>9} {:>8} {:>7}\n", "law", "--law", "vibr.",
+                  "p", "AICc diff", "residual", "misfit", "runs p");
   for (const LawFit& each : comparison.laws) {
     lines += law_line(comparison, each);
   }
