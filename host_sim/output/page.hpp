@@ -29,6 +29,7 @@ struct Panel {
   std::vector<Series> series;
   bool logarithmic_y = false;
   std::string group;  ///< panels of one non-empty group zoom and hover together
+  bool logarithmic_x = false;  ///< every x is above 0
 };
 
 /// A column of which at least half the cells are numbers is set flush right.

@@ -112,9 +112,22 @@
     return ticks;
   };
 
+  // Over decades, powers of ten without a prefix.
+  const logarithmicTicks = (panel, scaleName, unit, min, max, count) => {
+    if (max / min >= 1e3) {
+      panel[scaleName] = {exponent: 0, unit};
+      return decadeTicks(min, max, 1.5 * count);
+    }
+    const ticks = oneTwoFiveTicks(min, max, panel[scaleName]);
+    return ticks.length >= 2 ? ticks : linearTicks(min, max, Math.max(2, count), panel[scaleName]);
+  };
+
   // Each ticker also settles the scale of its axis, which names the axis after the drawing.
   const xTicker = (panel) => (min, max, pixels) => {
     panel.xScale = scaleFor(largestOf([min, max]), panel.xQuantity.unit);
+    if (panel.data.logarithmicX) {
+      return logarithmicTicks(panel, 'xScale', panel.xQuantity.unit, min, max, pixels / 90);
+    }
     let ticks = linearTicks(min, max, Math.max(2, pixels / 90), panel.xScale);
     const width = 8 * Math.max(...ticks.map((tick) => tick.label.length)) + 24;
     if (width > 90) ticks = linearTicks(min, max, Math.max(2, pixels / width), panel.xScale);
@@ -128,12 +141,7 @@
     const count = Math.max(2, pixels / 36);
     panel.yScale = scaleFor(largestOf([min, max]), unit);
     if (!panel.data.logarithmicY) return linearTicks(min, max, count, panel.yScale);
-    if (max / min >= 1e3) {
-      panel.yScale = {exponent: 0, unit};
-      return decadeTicks(min, max, pixels / 24);
-    }
-    const ticks = oneTwoFiveTicks(min, max, panel.yScale);
-    return ticks.length >= 2 ? ticks : linearTicks(min, max, count, panel.yScale);
+    return logarithmicTicks(panel, 'yScale', unit, min, max, count);
   };
 
   // ---- Reading values -----------------------------------------------------------------------
@@ -163,8 +171,9 @@
   const showReading = (panel, row) => {
     const x = panel.data.x[row];
     const range = panel.chart.xAxisRange();
+    const xRange = panel.data.logarithmicX ? [0, x] : range;
     panel.abscissa.textContent =
-        `${panel.xQuantity.name} ${reading(x, range, panel.xQuantity.unit)}`;
+        `${panel.xQuantity.name} ${reading(x, xRange, panel.xQuantity.unit)}`;
     panel.data.series.forEach((series, i) => {
       const y = valueAt(series, row);
       const yRange = panel.data.logarithmicY ? [0, y] : panel.chart.yAxisRange();
@@ -292,7 +301,7 @@
     gridLineWidth: 1,
     axisLabelFontSize: 13,
     axes: {
-      x: {ticker: xTicker(panel), axisLabelWidth: 40},
+      x: {ticker: xTicker(panel), axisLabelWidth: 40, logscale: panel.data.logarithmicX},
       y: {ticker: yTicker(panel), axisLabelWidth: 64},
     },
     highlightCallback: (event, x, points, row) => hover(panel, row),

@@ -121,12 +121,14 @@ TEST(PageHtml, ResolvesAShortWindowFarFromZero) {
 }
 
 TEST(PageHtml, PassesOnHowToDraw) {
-  Panel drawn = panel({0.0, 1.0}, {1.0, 2.0});
+  Panel drawn = panel({1.0, 10.0}, {1.0, 2.0});
+  drawn.logarithmic_x = true;
   drawn.series[0].stepped = true;
   drawn.series.push_back({"loop", {kNaN, 1.0}, false, true});
   drawn.logarithmic_y = true;
   drawn.group = "zoom";
   const nlohmann::json chart = only_chart(page_of(drawn));
+  EXPECT_EQ(chart.at("logarithmicX"), true);
   EXPECT_EQ(chart.at("logarithmicY"), true);
   EXPECT_EQ(chart.at("group"), "zoom");
   EXPECT_EQ(chart.at("series").at(0).at("stepped"), true);
