@@ -71,6 +71,28 @@ void sort_by_frequency(Sweep& sweep) {
   sweep = std::move(sorted);
 }
 
+/// One reading a frequency, the mean of those that a sorted sweep has there.
+void average_repeated(Sweep& sweep) {
+  const std::size_t given = sweep.frequency_Hz.size();
+  std::size_t kept = 0;
+  for (std::size_t begin = 0, end = 0; begin < given; begin = end) {
+    Complex sum = 0.0;
+    while (end < given && sweep.frequency_Hz[end] == sweep.frequency_Hz[begin]) {
+      sum += sweep.admittance_S[end++];
+    }
+    sweep.frequency_Hz[kept] = sweep.frequency_Hz[begin];
+    sweep.admittance_S[kept] = sum / static_cast<double>(end - begin);
+    ++kept;
+  }
+  if (kept < given) {
+    sweep.frequency_Hz.resize(kept);
+    sweep.admittance_S.resize(kept);
+    sweep.warnings.push_back(fmt::format(
+        "The file has {} readings at {} frequencies: those of one frequency are averaged.", given,
+        kept));
+  }
+}
+
 }  // namespace
 
 Sweep read_sweep(const scene_file::Source& source) {
@@ -78,15 +100,12 @@ Sweep read_sweep(const scene_file::Source& source) {
                 : is_trace_export(source) ? read_traces(source)
                                           : read_table(source);
   sort_by_frequency(sweep);
+  average_repeated(sweep);
   constexpr std::size_t fewest = 8;
-  std::size_t distinct = 1;
-  for (std::size_t i = 1; i < sweep.frequency_Hz.size(); ++i) {
-    distinct += sweep.frequency_Hz[i] > sweep.frequency_Hz[i - 1] ? 1 : 0;
-  }
-  if (distinct < fewest) {
-    throw scene_file::SceneError(
-        {source.file, 1, 1}, "sweep",
-        fmt::format("has readings at {} frequencies; allowed: at least {}", distinct, fewest));
+  if (sweep.frequency_Hz.size() < fewest) {
+    throw scene_file::SceneError({source.file, 1, 1}, "sweep",
+                                 fmt::format("has readings at {} frequencies; allowed: at least {}",
+                                             sweep.frequency_Hz.size(), fewest));
   }
   return sweep;
 }

@@ -11,7 +11,8 @@ namespace sonoglide::identify::impedance {
 /// - Touchstone, version 1, one port (option line `#`): S, Y or Z as RI, MA or DB;
 /// - a table with named columns (see MeasuredTable): a frequency, and magnitude and phase, real and
 ///   imaginary part, or the magnitude alone, of an impedance or an admittance.
-/// Rows may come in any order; of a frequency that is there several times each reading counts.
+/// Rows may come in any order. Of a frequency that is there several times the mean admittance is
+/// taken, and a warning says so.
 /// @throws scene_file::SceneError  at the place of what is wrong
 Sweep read_sweep(const scene_file::Source& source);
 

@@ -64,7 +64,7 @@ bool parse_options(std::string_view line, TouchstoneOptions& options) {
     }
     i += word == "r" ? 1 : 0;
   }
-  return !words.empty();
+  return true;
 }
 
 bool has_ending(std::string_view file, std::string_view ending) {
@@ -97,11 +97,13 @@ bool is_touchstone(const scene_file::Source& source) {
     return true;
   }
   const std::string_view text = source.text;
-  TouchstoneOptions options;
   for (std::size_t at = text.find('#'); at != std::string_view::npos; at = text.find('#', at + 1)) {
     const bool begins_line = at == 0 || text[at - 1] == '\n' || text[at - 1] == '\r';
-    if (begins_line &&
-        parse_options(text.substr(at, text.find_first_of("\r\n", at) - at), options)) {
+    const std::string_view line = text.substr(at, text.find_first_of("\r\n", at) - at);
+    // A bare # begins an empty comment of a table.
+    TouchstoneOptions options;
+    if (begins_line && line.find_first_not_of("# \t") != std::string_view::npos &&
+        parse_options(line, options)) {
       return true;
     }
   }
@@ -162,6 +164,11 @@ Sweep read_touchstone(const scene_file::Source& source) {
     }
     sweep.frequency_Hz.push_back(numbers[0] * options.frequency_scale);
     sweep.admittance_S.push_back(admittance_S);
+  }
+  if (!has_options) {
+    sweep.warnings.emplace_back(
+        "The file has no option line; it is taken for frequencies in GHz and S11 as magnitude and "
+        "degrees over 50 ohm, as the standard has it.");
   }
   sweep.format = fmt::format("a Touchstone file of {} ({}) over {:g} ohm",
                              static_cast<char>(std::toupper(options.parameter)), options.format,

@@ -30,6 +30,26 @@ struct Traces {
   std::vector<Trace> traces;
 };
 
+/// Refuses a line as `"MEASUREMENT PARAMETER: CP-D"`: traces of what is neither an impedance nor an
+/// admittance.
+void refuse_foreign(const scene_file::Source& source, std::string_view line, std::size_t number) {
+  const bool names = line.find("PARAMETER:") != std::string_view::npos ||
+                     line.find("FORMAT:") != std::string_view::npos;
+  const std::size_t colon = line.find(':');
+  const std::size_t first =
+      names ? line.find_first_not_of(" \"", colon + 1) : std::string_view::npos;
+  if (first == std::string_view::npos) {
+    return;
+  }
+  const std::string_view rest = line.substr(first, line.find('"', first) - first);
+  const std::string word(rest.substr(0, rest.find_first_of("-/, ")));
+  if (is_equivalent_element(word)) {
+    throw SceneError(
+        {source.file, number, first + 1}, "trace",
+        fmt::format("\"{}\" is no impedance; allowed: |Z|-theta, R-X, |Y|-theta, G-B", rest));
+  }
+}
+
 /// What a line as `"FORMAT: |Z|"` names, if it names a part of an impedance.
 void take_names(std::string_view line, std::vector<NamedColumn>& named) {
   const std::size_t colon = line.find(':');
@@ -79,6 +99,9 @@ Traces split(const scene_file::Source& source) {
   for (std::size_t i = 0; i < lines.size(); ++i) {
     const std::string_view line = lines[i];
     const bool blank = line.find_first_not_of(" \t") == std::string_view::npos;
+    if (!in_rows) {
+      refuse_foreign(source, line, i + 1);
+    }
     if (line.find("TRACE:") != std::string_view::npos) {
       found.traces.emplace_back();
       in_rows = false;

@@ -183,6 +183,38 @@ std::string unit_in_brackets(const std::string& name) {
   return name.substr(open + 1, close == std::string::npos ? close : close - open - 1);
 }
 
+}  // namespace
+
+bool is_equivalent_element(const std::string& word) {
+  return is_one_of(lower(word), {"cp", "cs", "lp", "ls", "rp", "q", "d"});
+}
+
+namespace {
+
+/// S11, s_11, S21.
+bool is_scattering_parameter(const std::string& name) {
+  for (std::size_t i = 0; i < name.size(); ++i) {
+    const bool begins = i == 0 || std::isalnum(static_cast<unsigned char>(name[i - 1])) == 0;
+    if (begins && std::tolower(static_cast<unsigned char>(name[i])) == 's') {
+      const std::size_t next = name.find_first_not_of('_', i + 1);
+      return next != std::string::npos && std::isdigit(static_cast<unsigned char>(name[next])) != 0;
+    }
+  }
+  return false;
+}
+
+/// Whether a name is of what a network analyser measures beside impedances: S11, a gain, a
+/// reflection.
+bool is_foreign(const std::string& name, const std::vector<std::string>& words) {
+  return is_scattering_parameter(name) ||
+         std::any_of(words.begin(), words.end(), [](const std::string& each) {
+           return is_equivalent_element(each) ||
+                  is_one_of(lower(each), {"gain", "transmission", "reflection", "gamma", "loss",
+                                          "vswr", "swr", "attenuation", "voltage", "current",
+                                          "power", "capacitance", "inductance"});
+         });
+}
+
 bool is_frequency(const std::vector<std::string>& words) {
   const std::string first = words.empty() ? std::string() : lower(words.front());
   return is_one_of(first, {"f", "freq", "frequency", "hz", "khz", "mhz", "ghz"}) ||
@@ -202,6 +234,10 @@ NamedColumn read_name(const std::string& name, std::string& unknown_unit) {
   NamedColumn column;
   const std::vector<std::string> words = words_of(name);
   const bool frequency = is_frequency(words);
+  unknown_unit.clear();
+  if (!frequency && is_foreign(name, words)) {
+    return column;
+  }
   for (const std::string& word : words) {
     const std::string small = lower(word);
     if (frequency) {
@@ -219,6 +255,9 @@ NamedColumn read_name(const std::string& name, std::string& unknown_unit) {
   const bool bare_subject = column.role == Role::none && column.names_its_subject;
   if (bare_subject) {
     column.role = Role::magnitude;
+  }
+  if (column.decibel && !column.names_its_subject) {
+    column.role = Role::none;  // of what, is not said
   }
   if (column.role == Role::imaginary && !name.empty() && name.front() == '-') {
     column.scale = -column.scale;
@@ -314,11 +353,12 @@ SweepColumns find_columns(const MeasuredTable& table) {
               fmt::format("the magnitude of {}", admittance ? "an admittance" : "an impedance")};
     }
   }
-  throw table.heading_error(
-      fmt::format("no columns of an impedance or admittance among {}; allowed: magnitude with or "
-                  "without phase, "
-                  "or real and imaginary part, as impedance_magnitude_ohm,impedance_phase_deg",
-                  fmt::join(table.names(), ", ")));
+  throw table.heading_error(fmt::format(
+      "no columns of an impedance or admittance among {}; allowed: magnitude with or "
+      "without phase, "
+      "or real and imaginary part, as impedance_magnitude_ohm,impedance_phase_deg; S11 is "
+      "read from Touchstone files, .s1p",
+      fmt::join(table.names(), ", ")));
 }
 
 }  // namespace sonoglide::identify::impedance

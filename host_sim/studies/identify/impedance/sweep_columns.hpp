@@ -26,9 +26,14 @@ struct NamedColumn {
 };
 
 /// Reads a name: `Frequency(Hz)`, `impedance_magnitude_ohm`, `|Z| [kOhm]`, `theta-z(deg)`, `Re(Y)`,
-/// `-Im(Z)`, `G (S)`. Case does not matter, but for the m and M of a unit.
+/// `-Im(Z)`, `G (S)`. Case does not matter, but for the m and M of a unit. `S11 (dB)`, gains,
+/// reflections, capacitances and decibels of what is not named have no role.
 /// @param unknown_unit  the word in brackets, or the last one, that is no unit of what is named; else empty
 NamedColumn read_name(const std::string& name, std::string& unknown_unit);
+
+/// Whether a word names an element of an equivalent circuit, or its quality, that an analyser shows
+/// instead of an impedance: Cp, Cs, Lp, Ls, Rp, Q, D.
+bool is_equivalent_element(const std::string& word);
 
 struct SweepColumns {
   NamedColumn frequency;

@@ -102,6 +102,18 @@ TEST(ReadSweep, KnowsTouchstone) {
   }));
 }
 
+TEST(ReadSweep, TouchstoneWithoutOptionsIsAsTheStandardHasIt) {
+  const auto lines = [](double f, Complex z) {
+    const Complex s = (z - 50.0) / (z + 50.0);
+    return fmt::format("{:.15g} {:.15g} {:.15g}\n", f / 1e9, std::abs(s), std::arg(s) * degrees);
+  };
+  expect_piece(file_of("#\n", lines), "x.s1p");
+  EXPECT_TRUE(read_sweep({"x.s1p", file_of("#\n", lines)}).warnings.empty());
+  const Sweep bare = read_sweep({"x.s1p", file_of("", lines)});
+  ASSERT_EQ(bare.warnings.size(), 1U);
+  EXPECT_NE(bare.warnings.front().find("no option line"), std::string::npos);
+}
+
 TEST(ReadSweep, KnowsTheExportOfA4294A) {
   const char* heading = "\"Frequency\"\t\"Data Trace Real\"\t\"Data Trace Imag\"\r\n";
   const std::string a = file_of(
@@ -122,16 +134,19 @@ TEST(ReadSweep, KnowsTheExportOfA4294A) {
   expect_piece(complex_trace);
 }
 
-TEST(ReadSweep, SortsAndKeepsReadingsOfOneFrequency) {
-  std::string text = "f_Hz,|Z|\n";
-  for (const int f : {9, 1, 3, 2, 5, 4, 6, 8, 7, 3}) {
+TEST(ReadSweep, SortsAndAveragesReadingsOfOneFrequency) {
+  std::string text = "f_Hz,|Y|\n";
+  for (const int f : {9, 1, 3, 2, 5, 4, 6, 8, 7}) {
     text += fmt::format("{},{}\n", f, 100 + f);
   }
-  const Sweep sweep = read_sweep({"m.csv", text});
-  ASSERT_EQ(sweep.frequency_Hz.size(), 10U);
+  EXPECT_TRUE(read_sweep({"m.csv", text}).warnings.empty());
+  const Sweep sweep = read_sweep({"m.csv", text + "3,105\n"});
+  ASSERT_EQ(sweep.frequency_Hz.size(), 9U);
   EXPECT_EQ(sweep.frequency_Hz[2], 3.0);
-  EXPECT_EQ(sweep.frequency_Hz[3], 3.0);
+  EXPECT_EQ(sweep.admittance_S[2].real(), 104.0);
   EXPECT_EQ(sweep.frequency_Hz.back(), 9.0);
+  ASSERT_EQ(sweep.warnings.size(), 1U);
+  EXPECT_NE(sweep.warnings.front().find("10 readings at 9 frequencies"), std::string::npos);
 }
 
 std::string error_of(const std::string& text) {
@@ -155,6 +170,12 @@ TEST(ReadSweep, NamesThePlaceOfWhatIsWrong) {
   begins("f,|Z| (V)\n1,2\n", "m.csv:1:1: heading: \"|Z| (V)\": \"V\" is no unit");
   begins("f,impedance_magnitude_mV\n1,2\n",
          "m.csv:1:1: heading: \"impedance_magnitude_mV\": \"mV\" is no unit");
+  for (const char* heading : {"f,S11 (dB)", "f,S11 mag,S11 phase", "f,s_11 (dB)", "f,Gain (dB)",
+                              "f,Magnitude (dB)", "f,Reflection magnitude", "f,Cp (F)"}) {
+    begins(std::string(heading) + "\n1,2\n", "m.csv:1:1: heading: no columns of an impedance");
+  }
+  begins("\"MEASUREMENT PARAMETER: CP-D\"\n\"TRACE: A\"\n",
+         "m.csv:1:25: trace: \"CP-D\" is no impedance; allowed: |Z|-theta");
   begins("f,|Z|\n1,2\n2,3\n", "m.csv:1:1: sweep: has readings at 2 frequencies");
   begins("# Hz S RI R 50\n1 2\n", "m.csv:2:3: touchstone: 2 numbers");
   begins("# Hz S RI R 50\n1 -1 0\n", "m.csv:2:3: touchstone: has an admittance");
