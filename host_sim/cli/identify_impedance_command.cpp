@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
-#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <memory>
@@ -29,12 +28,20 @@ struct ImpedanceOptions {
   bool quiet = false;
 };
 
-std::string check_positive(const std::string& text) {
+std::string check_range(const std::string& text, const impedance::Range& range) {
   char* end = nullptr;
   const double value = std::strtod(text.c_str(), &end);
-  return !text.empty() && *end == '\0' && std::isfinite(value) && value > 0.0
+  return !text.empty() && *end == '\0' && value >= range.least && value <= range.most
              ? std::string()
-             : fmt::format("\"{}\"; allowed: a number above 0", text);
+             : fmt::format("\"{}\"; allowed: {:g} to {:g}", text, range.least, range.most);
+}
+
+std::string check_mass(const std::string& text) {
+  return check_range(text, impedance::mass_range_kg);
+}
+
+std::string check_force_factor(const std::string& text) {
+  return check_range(text, impedance::force_factor_range_N_per_V);
 }
 
 /// Throws scene_file::SceneError, loop::ComputationError, output::OutputError,
@@ -69,12 +76,12 @@ void add_identify_impedance_command(CLI::App& group) {
                           ->add_option("--mass-kg", options->mass_kg,
                                        "The moving mass, from which the force factor follows")
                           ->type_name("M")
-                          ->check(check_positive);
+                          ->check(check_mass);
   command
       ->add_option("--force-factor-N-per-V", options->force_factor_N_per_V,
                    "The force factor, from which the moving mass follows")
       ->type_name("N")
-      ->check(check_positive)
+      ->check(check_force_factor)
       ->excludes(mass);
   add_output_option(*command, options->out,
                     "report.html, identify.json, fit.csv and, with a mechanical fact, scene.toml "

@@ -150,6 +150,39 @@ TEST(IdentifyImpedanceCommand, WithoutAMechanicalFactSaysWhatIsMissing) {
   }
 }
 
+/// Phases that are 2 degrees off: on the terminal, on the page and in the file.
+TEST(IdentifyImpedanceCommand, WarnsThatTheCircuitDoesNotDescribeTheSweep) {
+  ScratchFolder folder;
+  std::string table = "frequency_Hz,impedance_ohm,phase_deg\n";
+  for (const auto& [frequency_Hz, value] : readings()) {
+    table += text(frequency_Hz) + "," + text(std::abs(value)) + "," +
+             text(std::arg(value) * 180.0 / pi + 2.0) + "\n";
+  }
+  folder.write("z.csv", table);
+  const Outcome outcome = folder.run("identify impedance z.csv");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const std::string warning = "The circuit does not describe the sweep";
+  EXPECT_NE((outcome.out + outcome.err).find("WARNING: " + warning), std::string::npos)
+      << outcome.out;
+  EXPECT_NE(folder.read("out/z_impedance/report.html").find(warning), std::string::npos);
+  const auto identified = nlohmann::json::parse(folder.read("out/z_impedance/identify.json"));
+  EXPECT_EQ(identified["warnings"][0].get<std::string>().rfind(warning, 0), 0U);
+}
+
+TEST(IdentifyImpedanceCommand, ASweepThatNoCircuitFitsEndsWithThree) {
+  ScratchFolder folder;
+  std::string table = "frequency_Hz,impedance_ohm,phase_deg\n";
+  for (const auto& [frequency_Hz, value] : readings()) {
+    table += text(frequency_Hz) + "," + text(std::abs(value)) + "," +
+             text(-std::arg(value) * 180.0 / pi) + "\n";
+  }
+  folder.write("z.csv", table);
+  const Outcome outcome = folder.run("identify impedance z.csv");
+  EXPECT_EQ(outcome.exit_code, 3);
+  EXPECT_NE(outcome.err.find("is the sign of the phase"), std::string::npos) << outcome.err;
+  EXPECT_EQ(folder.entries(), (Entries{"z.csv"}));
+}
+
 TEST(IdentifyImpedanceCommand, BadInputEndsWithTwoAndWritesNothing) {
   ScratchFolder folder;
   const std::string table = as_table();
@@ -166,6 +199,7 @@ TEST(IdentifyImpedanceCommand, BadInputEndsWithTwoAndWritesNothing) {
   refused("empty.csv", "empty.csv:1:1: file: is empty");
   refused("none.csv", "none.csv:1:1: file: ");
   refused("cut.csv --mass-kg -1", "--mass-kg");
+  refused("cut.csv --mass-kg 1e-300", "allowed: 1e-12 to 1e+06");
   refused("cut.csv --mass-kg 1 --force-factor-N-per-V 1", "--force-factor-N-per-V");
   EXPECT_EQ(folder.entries(), (Entries{"cut.csv", "empty.csv", "short.csv"}));
 }

@@ -21,6 +21,14 @@ Complex clamped_S(const Circuit& circuit, double frequency_Hz) {
   return two_pi * frequency_Hz * circuit.clamped_capacitance_F * Complex(circuit.loss_tangent, 1.0);
 }
 
+Complex behind_lead_S(const Circuit& circuit, double frequency_Hz) {
+  Complex sum = clamped_S(circuit, frequency_Hz);
+  for (const Mode& mode : circuit.modes) {
+    sum += branch_S(mode, frequency_Hz);
+  }
+  return sum;
+}
+
 }  // namespace
 
 double Mode::inductance_H() const {
@@ -31,12 +39,19 @@ double Mode::capacitance_F() const {
   return 1.0 / (two_pi * two_pi * resonance_Hz * resonance_Hz * inductance_H());
 }
 
+Complex Lead::impedance_ohm(double frequency_Hz) const {
+  return {resistance_ohm, two_pi * frequency_Hz * inductance_H};
+}
+
 Complex Circuit::admittance_S(double frequency_Hz) const {
-  Complex sum = clamped_S(*this, frequency_Hz);
-  for (const Mode& mode : modes) {
-    sum += branch_S(mode, frequency_Hz);
-  }
-  return sum;
+  const Complex behind_S = behind_lead_S(*this, frequency_Hz);
+  return behind_S / (1.0 + lead.impedance_ohm(frequency_Hz) * behind_S);
+}
+
+Complex Circuit::share_behind_lead(double frequency_Hz) const {
+  const Complex divider =
+      1.0 + lead.impedance_ohm(frequency_Hz) * behind_lead_S(*this, frequency_Hz);
+  return 1.0 / (divider * divider);
 }
 
 double Circuit::antiresonance_Hz() const {
@@ -55,6 +70,12 @@ Eigen::VectorXd to_vector(const Circuit& circuit, Parts parts) {
   if (parts.loss_tangent) {
     p(1) = circuit.loss_tangent;
   }
+  if (parts.lead != LeadModel::none) {
+    p(first_of_lead(parts)) = circuit.lead.resistance_ohm;
+  }
+  if (parts.lead == LeadModel::resistance_and_inductance) {
+    p(first_of_lead(parts) + 1) = circuit.lead.inductance_H / microhenry_H;
+  }
   Eigen::Index at = first_mode(parts);
   for (const Mode& mode : circuit.modes) {
     p.segment<3>(at) << std::log(mode.conductance_S), std::log(mode.resonance_Hz),
@@ -66,6 +87,12 @@ Eigen::VectorXd to_vector(const Circuit& circuit, Parts parts) {
 
 Circuit to_circuit(const Eigen::VectorXd& p, Parts parts) {
   Circuit circuit{std::exp(p(0)), parts.loss_tangent ? p(1) : 0.0, {}};
+  if (parts.lead != LeadModel::none) {
+    circuit.lead.resistance_ohm = p(first_of_lead(parts));
+  }
+  if (parts.lead == LeadModel::resistance_and_inductance) {
+    circuit.lead.inductance_H = microhenry_H * p(first_of_lead(parts) + 1);
+  }
   for (Eigen::Index at = first_mode(parts); at < p.size(); at += 3) {
     circuit.modes.push_back({std::exp(p(at)), std::exp(p(at + 1)), std::exp(p(at + 2))});
   }
@@ -76,6 +103,7 @@ Complex admittance_S(const Circuit& circuit, Parts parts, double frequency_Hz,
                      Eigen::VectorXcd& derivatives) {
   constexpr Complex j(0.0, 1.0);
   Complex sum = clamped_S(circuit, frequency_Hz);
+  derivatives.setZero();
   derivatives(0) = sum;
   if (parts.loss_tangent) {
     derivatives(1) = two_pi * frequency_Hz * circuit.clamped_capacitance_F;
@@ -92,7 +120,17 @@ Complex admittance_S(const Circuit& circuit, Parts parts, double frequency_Hz,
     sum += y;
     at += 3;
   }
-  return sum;
+  if (parts.lead == LeadModel::none) {
+    return sum;
+  }
+  const Complex divider = 1.0 + circuit.lead.impedance_ohm(frequency_Hz) * sum;
+  const Complex y = sum / divider;
+  derivatives /= divider * divider;
+  derivatives(first_of_lead(parts)) = -y * y;
+  if (parts.lead == LeadModel::resistance_and_inductance) {
+    derivatives(first_of_lead(parts) + 1) = -j * two_pi * frequency_Hz * microhenry_H * y * y;
+  }
+  return y;
 }
 
 }  // namespace sonoglide::identify::impedance

@@ -88,6 +88,15 @@ Linearisation linearise(const Sweep& sweep, Parts parts, const Circuit& circuit)
   return linearise(sweep, parts, circuit, frame_of(sweep, circuit));
 }
 
+Sweep with_logarithmic_residuals(const Sweep& sweep, const Circuit& fitted) {
+  Sweep moved = sweep;
+  for (std::size_t i = 0; i < moved.frequency_Hz.size(); ++i) {
+    const Complex y = fitted.admittance_S(moved.frequency_Hz[i]);
+    moved.admittance_S[i] = y * (1.0 + std::log(moved.admittance_S[i] / y));
+  }
+  return moved;
+}
+
 CircuitFit fit_circuit(const Sweep& sweep, Parts parts, const Circuit& start, const Noise& noise) {
   CircuitFit fit{parts, start, to_vector(start, parts), noise, {}, 0.0, {}, 0.0, false};
   constexpr int most_rounds = 6;
@@ -97,12 +106,14 @@ CircuitFit fit_circuit(const Sweep& sweep, Parts parts, const Circuit& start, co
       fit.converged = false;
       break;
     }
-    const LeastSquaresFit solved = minimise(whitened_problem(sweep, parts, frame, noise), fit.p);
+    constexpr double accuracy = 1e-9;
+    const LeastSquaresFit solved =
+        minimise(whitened_problem(sweep, parts, frame, noise), fit.p, accuracy);
     const double moved = (solved.parameters - fit.p).norm();
     fit.p = solved.parameters;
     fit.circuit = to_circuit(fit.p, parts);
     fit.converged = solved.converged;
-    constexpr double small = 1e-8;
+    constexpr double small = 1e-7;
     if (!solved.converged || moved < small) {
       break;
     }
@@ -127,11 +138,11 @@ CircuitFit fit_circuit(const Sweep& sweep, Parts parts, const Circuit& start, co
 }
 
 CircuitFit fit_circuit_and_noise(const Sweep& sweep, Parts parts, const Circuit& start,
-                                 const Noise& noise) {
+                                 const Noise& noise, Correlation correlation) {
   CircuitFit fit = fit_circuit(sweep, parts, start, noise);
   constexpr int rounds = 2;
   for (int round = 0; round < rounds && fit.converged; ++round) {
-    fit = fit_circuit(sweep, parts, fit.circuit, estimate_noise(fit.at));
+    fit = fit_circuit(sweep, parts, fit.circuit, estimate_noise(fit.at, correlation));
   }
   return fit;
 }

@@ -1,9 +1,12 @@
 #include "host_sim/studies/identify/impedance/figures.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <string>
 
+#include "host_sim/loop/failure.hpp"
 #include "host_sim/studies/identify/impedance/mechanics.hpp"
 #include "host_sim/studies/identify/least_squares.hpp"
 
@@ -48,6 +51,23 @@ Estimate estimate(const CircuitFit& fit, const Figure& figure) {
   return {figure.name, figure.value, figure.value * std::exp(-half), figure.value * std::exp(half)};
 }
 
+/// One that is an element of the vector, in other units.
+Estimate linear_estimate(const CircuitFit& fit, const std::string& name, Eigen::Index element,
+                         double unit) {
+  const double half = t_of(fit) * std::sqrt(fit.covariance(element, element));
+  const double value = fit.p(element);
+  return {name, unit * value, unit * (value - half), unit * (value + half)};
+}
+
+void require_in_range(const char* what, double value, const Range& range, const char* unit) {
+  if (value < range.least || value > range.most) {
+    throw loop::ComputationError(
+        fmt::format("identify impedance: a {} of {:.3g} {} follows from what is given; allowed: "
+                    "{:g} to {:g}",
+                    what, value, unit, range.least, range.most));
+  }
+}
+
 }  // namespace
 
 std::vector<Estimate> figures(const CircuitFit& fit) {
@@ -56,9 +76,14 @@ std::vector<Estimate> figures(const CircuitFit& fit) {
     estimates.push_back(estimate(fit, each));
   }
   if (fit.parts.loss_tangent) {
-    const double half = t_of(fit) * std::sqrt(fit.covariance(1, 1));
-    estimates.push_back({"loss_tangent", fit.circuit.loss_tangent, fit.circuit.loss_tangent - half,
-                         fit.circuit.loss_tangent + half});
+    estimates.push_back(linear_estimate(fit, "loss_tangent", 1, 1.0));
+  }
+  const Eigen::Index lead = first_of_lead(fit.parts);
+  if (fit.parts.lead != LeadModel::none) {
+    estimates.push_back(linear_estimate(fit, "lead_resistance_ohm", lead, 1.0));
+  }
+  if (fit.parts.lead == LeadModel::resistance_and_inductance) {
+    estimates.push_back(linear_estimate(fit, "lead_inductance_H", lead + 1, microhenry_H));
   }
   return estimates;
 }
@@ -73,6 +98,8 @@ std::vector<Estimate> mechanical_figures(const CircuitFit& fit, const Mechanical
   const double squared =
       fact.mass_kg ? *fact.mass_kg / mode.inductance_H()
                    : fact.force_factor_N_per_V.value() * fact.force_factor_N_per_V.value();
+  require_in_range("mass", squared * mode.inductance_H(), mass_range_kg, "kg");
+  require_in_range("force factor", std::sqrt(squared), force_factor_range_N_per_V, "N/V");
   // d ln Nf²: of a known mass −d ln L1.
   const Eigen::VectorXd factor =
       fact.mass_kg ? Eigen::VectorXd(g + bandwidth) : Eigen::VectorXd(Eigen::VectorXd::Zero(size));

@@ -9,6 +9,15 @@
 
 namespace sonoglide::identify::impedance {
 
+struct Range {
+  double least;
+  double most;
+};
+
+/// What a scene may have.
+inline constexpr Range mass_range_kg = {1e-12, 1e6};
+inline constexpr Range force_factor_range_N_per_V = {1e-12, 1e12};
+
 /// What the user knows: one of the two.
 struct MechanicalFact {
   std::optional<double> mass_kg;
@@ -19,6 +28,7 @@ struct MechanicalFact {
 
 /// m = Nf² L1, Ks = Nf²/C1, c = Nf² R1: mass, stiffness, damping and force factor, each with its
 /// interval; the known one is exact.
+/// @throws loop::ComputationError  mass or force factor is not in its range
 std::vector<Estimate> mechanical_figures(const CircuitFit& fit, const MechanicalFact& fact);
 
 }  // namespace sonoglide::identify::impedance

@@ -142,12 +142,7 @@ void improve_correlation(const Linearisation& at, Noise& noise, double& deviance
   }
 }
 
-}  // namespace
-
-Noise estimate_noise(const Linearisation& at) {
-  Noise noise;
-  double deviance = restricted_deviance(at, noise);
-  take_best_whole_exponent(at, noise, deviance);
+void take_correlation_if_worth_it(const Linearisation& at, Noise& noise, double& deviance) {
   Noise correlated = noise;
   double correlated_deviance = deviance;
   improve_correlation(at, correlated, correlated_deviance);
@@ -155,6 +150,17 @@ Noise estimate_noise(const Linearisation& at) {
   if (deviance - correlated_deviance > price) {
     noise = correlated;
     deviance = correlated_deviance;
+  }
+}
+
+}  // namespace
+
+Noise estimate_noise(const Linearisation& at, Correlation correlation) {
+  Noise noise;
+  double deviance = restricted_deviance(at, noise);
+  take_best_whole_exponent(at, noise, deviance);
+  if (correlation == Correlation::estimated) {
+    take_correlation_if_worth_it(at, noise, deviance);
   }
   // Last, since residuals that hang together look like ones of uneven size.
   improve_if_worth_it(at, noise, deviance, exponent);

@@ -38,8 +38,11 @@ double whiten(const Noise& noise, const Eigen::VectorXd& log_magnitude,
 /// Source: Patterson and Thompson, Biometrika 58 (1971).
 double restricted_deviance(const Linearisation& at, const Noise& noise);
 
+/// Whether a correlation along the sweep is looked for.
+enum class Correlation { none, estimated };
+
 /// The noise that is most likely, by the restricted likelihood.
-Noise estimate_noise(const Linearisation& at);
+Noise estimate_noise(const Linearisation& at, Correlation correlation = Correlation::estimated);
 
 /// What an error in the noise's correlation adds to the covariance of the parameters.
 struct Allowance {

@@ -73,6 +73,12 @@ Overlay overlay(const ImpedanceStudy& study, const Figure& figure) {
   return result;
 }
 
+/// A sweep of more than a decade and a half is drawn over the logarithm of the frequency.
+bool is_wide(const ImpedanceStudy& study) {
+  constexpr double ratio = 30.0;
+  return study.sweep.frequency_Hz.back() > ratio * study.sweep.frequency_Hz.front();
+}
+
 output::Panel overlay_panel(const std::string& title, const std::string& y_label,
                             const Overlay& data) {
   output::Panel panel;
@@ -204,6 +210,9 @@ output::Page page(const ImpedanceStudy& study) {
                       overlay(study, [](Complex y) { return -std::arg(y) * degrees; })));
   }
   curves.panels.push_back(residual_panel(study));
+  for (output::Panel& each : curves.panels) {
+    each.logarithmic_x = is_wide(study);
+  }
   curves.pictures.push_back(
       {"Admittance circle", "Within 15 band widths of the resonance.", draw_circle(study)});
   output::Section correlation;

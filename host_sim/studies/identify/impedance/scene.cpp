@@ -47,6 +47,13 @@ std::string tolerance_toml(const Identification& identification) {
          line("transducer.clamped_capacitance_F", "clamped_capacitance_F");
 }
 
+std::string remark_on_loss(double tangent) {
+  return tangent < 0.0
+             ? fmt::format("                    # fitted: {:.3g}; no capacitor has less than 0",
+                           tangent)
+             : std::string();
+}
+
 }  // namespace
 
 std::string scene_toml(const ImpedanceStudy& study) {
@@ -68,7 +75,8 @@ std::string scene_toml(const ImpedanceStudy& study) {
       4.0 * (damping_N_s_per_m * vibration_m_per_s + friction_N) / force_factor_N_per_V;
   const double settling_s = 2.0 * mode.quality() / (two_pi * resonance_Hz);
   const double step_s = std::max(20.0 * settling_s, 100.0 / resonance_Hz);
-  const double loss = std::max(study.fit.circuit.loss_tangent, 0.0);
+  const double tangent = study.fit.circuit.loss_tangent;
+  const double loss = std::max(tangent, 0.0);
   const std::string measured = fmt::format(
       "# The transducer of {}, from a measured sweep of its impedance.\n"
       "# Identified: [transducer] but for what is given below, resonance and quality factor "
@@ -89,7 +97,7 @@ std::string scene_toml(const ImpedanceStudy& study) {
       "[transducer]\n"
       "force_factor_N_per_V = {:.17g}\n"
       "clamped_capacitance_F = {:.17g}\n"
-      "loss_tangent = {:.17g}\n\n"
+      "loss_tangent = {:.17g}{}\n\n"
       "[drive]\n"
       "frequency_Hz = {:.17g}\n"
       "max_voltage_amplitude_V = {:.6g}    # assumed: four times what 0.05 m/s takes\n\n"
@@ -107,7 +115,8 @@ std::string scene_toml(const ImpedanceStudy& study) {
                          : fmt::format("the force factor, {:g} N/V", force_factor_N_per_V),
       mass_kg, stiffness_N_per_m, damping_N_s_per_m, coefficient, friction_N / coefficient,
       contact_N_per_m, sliding_m_per_s, force_factor_N_per_V,
-      study.fit.circuit.clamped_capacitance_F, loss, resonance_Hz, voltage_V, 2.0 * step_s, step_s);
+      study.fit.circuit.clamped_capacitance_F, loss, remark_on_loss(tangent), resonance_Hz,
+      voltage_V, 2.0 * step_s, step_s);
   return measured + tolerance_toml(identification);
 }
 

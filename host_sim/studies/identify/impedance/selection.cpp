@@ -1,46 +1,35 @@
 #include "host_sim/studies/identify/impedance/selection.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <boost/math/distributions/fisher_f.hpp>
 #include <cmath>
-#include <limits>
+#include <numeric>
 #include <optional>
+#include <utility>
 
-#include "host_sim/loop/failure.hpp"
+#include "host_sim/studies/identify/impedance/description.hpp"
+#include "host_sim/studies/identify/impedance/evidence.hpp"
+#include "host_sim/studies/identify/impedance/refusal.hpp"
 #include "host_sim/studies/identify/impedance/start_values.hpp"
-#include "host_sim/studies/identify/least_squares.hpp"
+#include "host_sim/studies/identify/impedance/strays.hpp"
 
 namespace sonoglide::identify::impedance {
 namespace {
 
-[[noreturn]] void refuse(const std::string& reason) {
-  throw loop::ComputationError("identify impedance: " + reason);
-}
-
-/// The converged fit of the least deviance.
+/// The converged fit of the least deviance; one whose resonance is sharper than any only where there
+/// is no other.
 std::optional<CircuitFit> best_fit(const Sweep& sweep, Parts parts,
                                    const std::vector<Circuit>& starts, const Noise& noise) {
+  const auto rank = [](const CircuitFit& fit) {
+    return std::pair(fit.circuit.modes.front().quality() > most_quality, fit.deviance);
+  };
   std::optional<CircuitFit> best;
   for (const Circuit& start : starts) {
     CircuitFit fit = fit_circuit(sweep, parts, start, noise);
-    if (fit.converged && (!best || fit.deviance < best->deviance)) {
+    if (fit.converged && (!best || rank(fit) < rank(*best))) {
       best = std::move(fit);
     }
   }
   return best;
-}
-
-/// How likely chance alone lowers the deviance as much.
-double chance(const CircuitFit& smaller, const CircuitFit& larger) {
-  const auto rows = static_cast<double>(larger.at.residuals.size());
-  const double freedom = rows - static_cast<double>(larger.p.size());
-  const auto more = static_cast<double>(larger.p.size() - smaller.p.size());
-  const double f = std::expm1((smaller.deviance - larger.deviance) / rows) * freedom / more;
-  return f > 0.0 && std::isfinite(f)
-             ? boost::math::cdf(boost::math::complement(boost::math::fisher_f(more, freedom), f))
-             : (f > 0.0 ? 0.0 : 1.0);
 }
 
 /// Readings in the band width of a mode, twice as wide as that.
@@ -50,32 +39,66 @@ std::size_t readings_near(const Sweep& sweep, const Mode& mode) {
                     [&](double f) { return std::abs(f - mode.resonance_Hz) < mode.bandwidth_Hz; }));
 }
 
-bool plausible(const Sweep& sweep, const CircuitFit& fit) {
-  const Mode& added = fit.circuit.modes.back();
-  constexpr std::size_t fewest = 3;
-  return added.resonance_Hz > 0.5 * sweep.frequency_Hz.front() &&
-         added.resonance_Hz < 2.0 * sweep.frequency_Hz.back() && added.quality() > 0.5 &&
+/// A mode outside the sweep, or wider than it, is a slope that a mode can imitate; one between two
+/// readings is seen by none.
+bool is_plausible(const Sweep& sweep, const Mode& added) {
+  constexpr std::size_t fewest = 2;
+  const double low_Hz = sweep.frequency_Hz.front();
+  const double high_Hz = sweep.frequency_Hz.back();
+  return added.resonance_Hz > low_Hz && added.resonance_Hz < high_Hz &&
+         added.bandwidth_Hz < high_Hz - low_Hz && added.quality() > 0.5 &&
          readings_near(sweep, added) >= fewest;
 }
 
+/// Passive, and small beside the motional resistance: an error of the phase looks like a large one.
+bool has_plausible_lead(const CircuitFit& fit) {
+  constexpr double most_share = 0.25;
+  const Lead& lead = fit.circuit.lead;
+  return fit.parts.lead == LeadModel::none ||
+         (lead.resistance_ohm > 0.0 && lead.inductance_H >= 0.0 &&
+          std::all_of(fit.circuit.modes.begin(), fit.circuit.modes.end(), [&](const Mode& mode) {
+            return lead.resistance_ohm < most_share * mode.resistance_ohm();
+          }));
+}
+
+/// Whether least squares found a minimum with a plausible lead and, of several modes, plausible ones.
+bool is_sound(const Sweep& sweep, const CircuitFit& fit) {
+  const std::vector<Mode>& modes = fit.circuit.modes;
+  return fit.converged && has_plausible_lead(fit) &&
+         (modes.size() == 1 || std::all_of(modes.begin(), modes.end(), [&](const Mode& mode) {
+            return is_plausible(sweep, mode);
+          }));
+}
+
 /// The fit with the mode that its residuals ask for most, where there is a plausible one.
-std::optional<CircuitFit> with_another_mode(const Sweep& sweep, const CircuitFit& fit) {
+std::optional<CircuitFit> with_another_mode(const Sweep& sweep, const CircuitFit& fit,
+                                            Correlation correlation) {
   constexpr std::size_t tries = 3;
   Parts parts = fit.parts;
   ++parts.modes;
   if (parts.modes > most_modes || 2 * parameters(parts) > fit.at.residuals.size()) {
     return std::nullopt;
   }
-  std::optional<CircuitFit> larger =
-      best_fit(sweep, parts, circuits_with_another_mode(sweep, fit, tries), fit.noise);
-  if (larger) {
-    *larger = fit_circuit_and_noise(sweep, parts, larger->circuit, larger->noise);
+  std::optional<CircuitFit> best;
+  for (const Circuit& start : circuits_with_another_mode(sweep, fit, tries)) {
+    CircuitFit larger = fit_circuit(sweep, parts, start, fit.noise);
+    if (larger.converged && is_plausible(sweep, larger.circuit.modes.back()) &&
+        (!best || larger.deviance < best->deviance)) {
+      best = std::move(larger);
+    }
   }
-  return larger && larger->converged && plausible(sweep, *larger) ? larger : std::nullopt;
+  if (best) {
+    *best = fit_circuit_and_noise(sweep, parts, best->circuit, best->noise, correlation);
+  }
+  return best && best->converged && is_plausible(sweep, best->circuit.modes.back()) ? best
+                                                                                    : std::nullopt;
 }
 
+/// Whether an F test sees the modes that the larger fit has more, each looked for at every reading.
 bool is_seen(const Sweep& sweep, const CircuitFit& fit, const CircuitFit& larger) {
-  return chance(fit, larger) * static_cast<double>(sweep.frequency_Hz.size()) <= mode_significance;
+  const auto places = static_cast<double>(sweep.frequency_Hz.size());
+  return chance(fit, larger) * std::pow(places, larger.parts.modes - fit.parts.modes) <=
+         mode_significance;
 }
 
 /// Whether the last mode is a smaller one beside the others: two that overlap are one to any sweep.
@@ -89,127 +112,26 @@ bool stands_apart(const CircuitFit& fit) {
   });
 }
 
-/// What a mode that is not certain adds to the covariance: the larger fit counts by its likelihood
-/// against the smaller one's, less what its parameters cost (Schwarz), with its own covariance and
-/// the square of the step to it.
+/// What a part that is not certain adds to the covariance: the larger fit counts by its likelihood
+/// against the smaller one's, less a cost, with its own covariance and the square of the step to it.
+/// @param kept  where in the larger fit the parameters of the smaller one are
+/// @param cost  in the logarithm of the likelihood
 /// Source: Kass and Raftery, Journal of the American Statistical Association 90 (1995).
-void allow_for_mode(const CircuitFit& larger, CircuitFit& fit) {
-  const Eigen::Index size = fit.p.size();
-  const auto rows = static_cast<double>(fit.at.residuals.size());
-  const double log_odds = 0.5 * (fit.deviance - larger.deviance) -
-                          0.5 * static_cast<double>(larger.p.size() - size) * std::log(rows);
+void allow_for(const CircuitFit& larger, const std::vector<Eigen::Index>& kept, double cost,
+               CircuitFit& fit) {
+  const double log_odds = 0.5 * (fit.deviance - larger.deviance) - cost;
   const double weight = 1.0 / (1.0 + std::exp(-log_odds));
-  const Eigen::VectorXd step = larger.p.head(size) - fit.p;
-  const Eigen::MatrixXd other =
-      larger.covariance.topLeftCorner(size, size) + step * step.transpose();
+  const Eigen::VectorXd step = larger.p(kept) - fit.p;
+  const Eigen::MatrixXd other = larger.covariance(kept, kept) + step * step.transpose();
   if (other.allFinite()) {
     fit.covariance = (1.0 - weight) * fit.covariance + weight * other;
   }
 }
 
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
-/// The lesser of the distances of each value to those beside it.
-std::vector<double> distances_to_neighbours(const Eigen::VectorXd& r) {
-  std::vector<double> apart;
-  for (Eigen::Index i = 0; i < r.size(); ++i) {
-    const double before = r(i > 0 ? i - 1 : 1);
-    const double after = r(i + 1 < r.size() ? i + 1 : i - 1);
-    apart.push_back(std::min(std::abs(r(i) - before), std::abs(r(i) - after)));
-  }
-  return apart;
-}
-
-/// Readings whose relative residual alone is far off those on both sides, measured by what is usual
-/// around them.
-std::vector<std::size_t> find_strays(const CircuitFit& fit) {
-  const Eigen::Index n = fit.at.log_magnitude.size();
-  constexpr double far = 8.0;
-  constexpr double deviation_of_median = 1.4826;
-  constexpr std::ptrdiff_t around = 15;
-  std::vector<std::size_t> strays;
-  for (Eigen::Index begin = 0; begin < fit.at.residuals.size(); begin += n) {
-    const Eigen::VectorXd r = fit.at.residuals.segment(begin, n);
-    const std::vector<double> apart = distances_to_neighbours(r);
-    for (std::size_t i = 0; i < apart.size(); ++i) {
-      const auto at = static_cast<std::ptrdiff_t>(i);
-      const auto size = static_cast<std::ptrdiff_t>(apart.size());
-      const double usual = median({apart.begin() + std::max<std::ptrdiff_t>(at - around, 0),
-                                   apart.begin() + std::min(at + around + 1, size)});
-      // Beside a stray the distance to it is large too, the own residual is not.
-      if (apart[i] > far * deviation_of_median * std::max(usual, 1e-300) &&
-          std::abs(r(at)) > 0.5 * apart[i]) {
-        strays.push_back(i);
-      }
-    }
-  }
-  std::sort(strays.begin(), strays.end());
-  strays.erase(std::unique(strays.begin(), strays.end()), strays.end());
-  return strays;
-}
-
-Sweep without(const Sweep& sweep, const std::vector<std::size_t>& strays) {
-  Sweep left = sweep;
-  for (auto each = strays.rbegin(); each != strays.rend(); ++each) {
-    left.frequency_Hz.erase(left.frequency_Hz.begin() + static_cast<std::ptrdiff_t>(*each));
-    left.admittance_S.erase(left.admittance_S.begin() + static_cast<std::ptrdiff_t>(*each));
-  }
-  return left;
-}
-
-/// A capacitor with loss, its value such that the mean deviation is nothing.
-Circuit capacitor(const Sweep& sweep) {
-  double sum = 0.0;
-  for (std::size_t i = 0; i < sweep.frequency_Hz.size(); ++i) {
-    sum += std::log(std::abs(sweep.admittance_S[i]) / (two_pi * sweep.frequency_Hz[i]));
-  }
-  return {std::exp(sum / static_cast<double>(sweep.frequency_Hz.size())), 0.0, {}};
-}
-
-void require_resonance(const Sweep& sweep, const CircuitFit& fit) {
-  const CircuitFit none =
-      fit_circuit_and_noise(sweep, {fit.parts.loss_tangent, 0}, capacitor(sweep), Noise{});
-  const auto searched = static_cast<double>(sweep.frequency_Hz.size());
-  if (none.converged && chance(none, fit) * searched > mode_significance) {
-    refuse(fmt::format(
-        "no resonance is seen from {:.6g} to {:.6g} Hz: a capacitance of {:.4g} F alone "
-        "fits as well",
-        sweep.frequency_Hz.front(), sweep.frequency_Hz.back(), none.circuit.clamped_capacitance_F));
-  }
-}
-
-void require_inside(const Sweep& sweep, const CircuitFit& fit) {
-  const Mode& mode = *std::max_element(
-      fit.circuit.modes.begin(), fit.circuit.modes.end(),
-      [](const Mode& a, const Mode& b) { return a.conductance_S < b.conductance_S; });
-  const double low_Hz = sweep.frequency_Hz.front();
-  const double high_Hz = sweep.frequency_Hz.back();
-  if (mode.resonance_Hz < low_Hz || mode.resonance_Hz > high_Hz) {
-    refuse(
-        fmt::format("the fit ends at a bound: its resonance at {:.6g} Hz is not in the sweep, "
-                    "which goes from {:.6g} to {:.6g} Hz; measure across the resonance",
-                    mode.resonance_Hz, low_Hz, high_Hz));
-  }
-  constexpr double least_quality = 0.5;
-  constexpr double most_quality = 1e7;
-  if (mode.quality() < least_quality || mode.quality() > most_quality) {
-    refuse(
-        fmt::format("the fit ends at a bound: a quality factor of {:.3g}, allowed: {:g} to {:g}; "
-                    "the sweep does not tell the resistance",
-                    mode.quality(), least_quality, most_quality));
-  }
-  constexpr double most_ratio = 1e3;
-  const double ratio = mode.capacitance_F() / fit.circuit.clamped_capacitance_F;
-  if (ratio < 1e-9 || ratio > most_ratio) {
-    refuse(
-        fmt::format("the fit ends at a bound: motional over clamped capacitance of {:.3g}, "
-                    "allowed: 1e-9 to {:g}; the sweep does not tell them apart",
-                    ratio, most_ratio));
-  }
+std::vector<Eigen::Index> counted(Eigen::Index from, Eigen::Index to) {
+  std::vector<Eigen::Index> all(static_cast<std::size_t>(to - from));
+  std::iota(all.begin(), all.end(), from);
+  return all;
 }
 
 /// Changes places with the first mode.
@@ -234,15 +156,108 @@ void put_largest_first(CircuitFit& fit) {
   fit.covariance = swap * fit.covariance * swap.transpose();
 }
 
-CircuitFit first_fit(const Sweep& sweep) {
+CircuitFit first_fit(const Sweep& sweep, Correlation correlation) {
   constexpr std::size_t tries = 4;
   std::optional<CircuitFit> fit =
       best_fit(sweep, {sweep.has_phase, 1}, start_circuits(sweep, tries), Noise{});
   if (!fit) {
-    refuse("no circuit fits the sweep: the least squares do not converge from any start");
+    refuse_without_fit(sweep);
   }
-  CircuitFit noisy = fit_circuit_and_noise(sweep, fit->parts, fit->circuit, Noise{});
+  CircuitFit noisy = fit_circuit_and_noise(sweep, fit->parts, fit->circuit, Noise{}, correlation);
   return noisy.converged ? noisy : *fit;
+}
+
+/// Fits of one mode more each, as far as an F test sees them that takes all misfit for modes.
+std::vector<CircuitFit> fits_of_rising_modes(const Sweep& sweep) {
+  std::vector<CircuitFit> fits = {first_fit(sweep, Correlation::none)};
+  while (true) {
+    std::optional<CircuitFit> larger = with_another_mode(sweep, fits.back(), Correlation::none);
+    if (!larger || !is_seen(sweep, fits.back(), *larger)) {
+      return fits;
+    }
+    fits.push_back(*std::move(larger));
+  }
+}
+
+/// The fits with as many modes as the residuals ask for, the last, and with fewer, before it.
+///
+/// A mode that is not fitted looks like noise that hangs together, and several of them hide each
+/// other: so all that may be modes are fitted first, and then each number of them, with the noise
+/// that is likeliest for it, is tested against the smaller numbers.
+std::vector<CircuitFit> fits_up_to_number_of_modes(const Sweep& sweep) {
+  std::vector<CircuitFit> fits = fits_of_rising_modes(sweep);
+  fits.front() = first_fit(sweep, Correlation::estimated);
+  std::size_t chosen = 0;
+  for (std::size_t i = 1; i < fits.size(); ++i) {
+    CircuitFit noisy =
+        fit_circuit(sweep, fits[i].parts, fits[i].circuit, estimate_noise(fits[i].at));
+    if (noisy.converged) {
+      fits[i] = std::move(noisy);
+    }
+    if (is_sound(sweep, fits[i]) && is_seen(sweep, fits[chosen], fits[i])) {
+      chosen = i;
+    }
+  }
+  fits.resize(chosen + 1, fits.front());
+  return fits;
+}
+
+CircuitFit with_lead(const Sweep& sweep, const CircuitFit& fit, LeadModel model) {
+  Parts parts = fit.parts;
+  parts.lead = model;
+  return fit_circuit_and_noise(sweep, parts, fit.circuit, fit.noise);
+}
+
+/// The fit with the lead that an F test sees, resistance alone or with inductance.
+std::optional<CircuitFit> with_lead_that_is_seen(const Sweep& sweep, const CircuitFit& fit) {
+  std::optional<CircuitFit> best;
+  for (const LeadModel model : {LeadModel::resistance, LeadModel::resistance_and_inductance}) {
+    CircuitFit larger = with_lead(sweep, fit, model);
+    if (is_sound(sweep, larger) && chance(best ? *best : fit, larger) < lead_significance) {
+      best = std::move(larger);
+    }
+  }
+  return best;
+}
+
+/// The last of the fits or, where a lead is seen, the fit with it. Modes can imitate a lead: one that
+/// describes the sweep as well with fewer modes takes their place.
+CircuitFit with_lead_if_seen(const Sweep& sweep, const std::vector<CircuitFit>& fits) {
+  const CircuitFit& last = fits.back();
+  for (const CircuitFit& each : fits) {
+    Parts parts = each.parts;
+    parts.lead = LeadModel::resistance_and_inductance;
+    const bool may_do =
+        each.parts.modes == last.parts.modes ||
+        fit_circuit(sweep, parts, each.circuit, last.noise).deviance <= last.deviance;
+    if (may_do) {
+      std::optional<CircuitFit> larger = with_lead_that_is_seen(sweep, each);
+      if (larger && larger->deviance <= last.deviance) {
+        return *std::move(larger);
+      }
+    }
+  }
+  return last;
+}
+
+/// What a lead that is not seen adds to the covariance.
+/// @return the resistance up to which the sweep may have one, where a fit with one converges
+std::optional<double> allow_for_lead(const Sweep& sweep, CircuitFit& fit) {
+  const CircuitFit larger = with_lead(sweep, fit, LeadModel::resistance);
+  if (!larger.converged) {
+    return std::nullopt;
+  }
+  const Eigen::Index lead = first_of_lead(larger.parts);
+  if (is_sound(sweep, larger)) {
+    std::vector<Eigen::Index> kept = counted(0, lead);
+    const std::vector<Eigen::Index> behind = counted(lead + 1, larger.p.size());
+    kept.insert(kept.end(), behind.begin(), behind.end());
+    // Akaike's: leads are always there, and no place is searched for them.
+    constexpr double akaike = 1.0;
+    allow_for(larger, kept, akaike, fit);
+  }
+  constexpr double deviations = 2.0;
+  return std::max(larger.p(lead), 0.0) + deviations * std::sqrt(larger.covariance(lead, lead));
 }
 
 /// Takes no energy out of nothing, at any frequency of the sweep.
@@ -263,33 +278,79 @@ void add_loss(const Sweep& sweep, CircuitFit& fit) {
   }
 }
 
+/// Adds the weak modes that an F test sees beside the noise as it is now.
+/// @return the fit with one mode more, which is not seen
+std::optional<CircuitFit> add_modes(const Sweep& sweep, CircuitFit& fit) {
+  while (true) {
+    std::optional<CircuitFit> larger = with_another_mode(sweep, fit, Correlation::estimated);
+    if (!larger || !is_sound(sweep, *larger)) {
+      return std::nullopt;
+    }
+    if (!is_seen(sweep, fit, *larger)) {
+      return larger;
+    }
+    fit = *std::move(larger);
+  }
+}
+
+/// Takes out strays, where they are few.
+void leave_out_strays(Selection& selected) {
+  Sweep& sweep = selected.sweep;
+  const std::vector<std::size_t> strays = find_strays(first_fit(sweep, Correlation::estimated));
+  constexpr std::size_t least_share = 20;
+  if (strays.size() * least_share >= sweep.frequency_Hz.size()) {
+    return;
+  }
+  for (auto each = strays.rbegin(); each != strays.rend(); ++each) {
+    const auto at = static_cast<std::ptrdiff_t>(*each);
+    selected.left_out_Hz.insert(selected.left_out_Hz.begin(), sweep.frequency_Hz[*each]);
+    sweep.frequency_Hz.erase(sweep.frequency_Hz.begin() + at);
+    sweep.admittance_S.erase(sweep.admittance_S.begin() + at);
+  }
+}
+
+/// The sweep as it is fitted once its noise is known.
+Sweep fitted_sweep(const Sweep& sweep, const CircuitFit& fit) {
+  return sweep.has_phase && fit.noise.phase_scale > 1.0
+             ? with_logarithmic_residuals(sweep, fit.circuit)
+             : sweep;
+}
+
+/// @param larger  with one mode more, which is not seen
+void allow_for_what_is_not_certain(const Sweep& sweep, const std::optional<CircuitFit>& larger,
+                                   Selection& selected) {
+  CircuitFit& fit = selected.fit;
+  fit.covariance = allow_for_correlation(fit.at, fit.noise).covariance;
+  if (larger && larger->parts.loss_tangent == fit.parts.loss_tangent && stands_apart(*larger)) {
+    const double schwarz = 0.5 * static_cast<double>(larger->p.size() - fit.p.size()) *
+                           std::log(static_cast<double>(fit.at.residuals.size()));
+    allow_for(*larger, counted(0, fit.p.size()), schwarz, fit);
+  }
+  if (sweep.has_phase && fit.parts.lead == LeadModel::none) {
+    selected.unseen_lead_ohm = allow_for_lead(sweep, fit);
+  }
+  allow_for_misfit(fit);
+}
+
 }  // namespace
 
 Selection select_circuit(const Sweep& sweep) {
-  Selection selected{first_fit(sweep), sweep, {}};
-  require_resonance(sweep, selected.fit);
-  selected.left_out = find_strays(selected.fit);
-  if (!selected.left_out.empty() && selected.left_out.size() * 20 < sweep.frequency_Hz.size()) {
-    selected.sweep = without(sweep, selected.left_out);
-    selected.fit = first_fit(selected.sweep);
-  } else {
-    selected.left_out.clear();
-  }
-  std::optional<CircuitFit> larger = with_another_mode(selected.sweep, selected.fit);
-  while (larger && is_seen(selected.sweep, selected.fit, *larger)) {
-    selected.fit = *std::move(larger);
-    larger = with_another_mode(selected.sweep, selected.fit);
-  }
+  Selection selected{{}, sweep, {}};
+  leave_out_strays(selected);
+  const std::vector<CircuitFit> fits = fits_up_to_number_of_modes(selected.sweep);
+  require_resonance(selected.sweep, fits.back(), mode_significance);
+  CircuitFit& fit = selected.fit;
+  fit = sweep.has_phase ? with_lead_if_seen(selected.sweep, fits) : fits.back();
+  const Sweep fitted = fitted_sweep(selected.sweep, fit);
+  fit = fit_circuit_and_noise(fitted, fit.parts, fit.circuit, fit.noise);
+  const std::optional<CircuitFit> larger = add_modes(fitted, fit);
   if (!sweep.has_phase) {
-    add_loss(selected.sweep, selected.fit);
+    add_loss(fitted, fit);
   }
-  require_inside(selected.sweep, selected.fit);
-  selected.fit.covariance = allow_for_correlation(selected.fit.at, selected.fit.noise).covariance;
-  if (larger && larger->parts.loss_tangent == selected.fit.parts.loss_tangent &&
-      stands_apart(*larger)) {
-    allow_for_mode(*larger, selected.fit);
-  }
-  put_largest_first(selected.fit);
+  require_inside(fitted, fit);
+  require_description(fitted, fit);
+  allow_for_what_is_not_certain(fitted, larger, selected);
+  put_largest_first(fit);
   return selected;
 }
 

@@ -137,6 +137,58 @@ void try_magnitude(const Sweep& sweep, double resonance_Hz, double bandwidth_Hz,
        {scale / (two_pi * resonance_Hz), 0.0, {{scale * ratio, resonance_Hz, bandwidth_Hz}}}});
 }
 
+/// The circuit with modes that are much narrower than the readings are apart widened to that, their
+/// L and C kept: a fit that lacks modes may lose the bandwidth of those it has.
+Circuit seen_by_readings(const Sweep& sweep, const Circuit& circuit) {
+  const std::vector<double>& all = sweep.frequency_Hz;
+  Circuit seen = circuit;
+  for (Mode& mode : seen.modes) {
+    const auto above = std::upper_bound(all.begin() + 1, all.end() - 1, mode.resonance_Hz);
+    const double spacing_Hz = *above - *(above - 1);
+    if (mode.bandwidth_Hz < 0.1 * spacing_Hz) {
+      mode.conductance_S *= mode.bandwidth_Hz / spacing_Hz;
+      mode.bandwidth_Hz = spacing_Hz;
+    }
+  }
+  return seen;
+}
+
+/// Where a further mode may be, and from how many readings on either side its bandwidth goes up.
+struct Place {
+  Eigen::Index reading;
+  Eigen::Index around;
+};
+
+/// All over the sweep, and where the residuals are largest: a mode may be narrower than the places are
+/// apart.
+std::vector<Place> places_of_another_mode(const Eigen::VectorXd& residuals, Eigen::Index readings) {
+  constexpr Eigen::Index most_places = 60;
+  constexpr std::size_t most_peaks = 6;
+  const Eigen::Index stride = std::max<Eigen::Index>(1, readings / most_places);
+  std::vector<Place> found;
+  for (Eigen::Index reading = 0; reading < readings; reading += stride) {
+    found.push_back({reading, stride});
+  }
+  if (stride == 1) {
+    return found;
+  }
+  const auto size = [&](Eigen::Index i) {
+    return residuals.size() > readings ? std::hypot(residuals(i), residuals(readings + i))
+                                       : std::abs(residuals(i));
+  };
+  std::vector<std::pair<double, Eigen::Index>> peaks;
+  for (Eigen::Index i = 1; i + 1 < readings; ++i) {
+    if (size(i) >= size(i - 1) && size(i) >= size(i + 1)) {
+      peaks.emplace_back(-size(i), i);
+    }
+  }
+  std::sort(peaks.begin(), peaks.end());
+  for (std::size_t i = 0; i < std::min(most_peaks, peaks.size()); ++i) {
+    found.push_back({peaks[i].second, 1});
+  }
+  return found;
+}
+
 }  // namespace
 
 std::vector<Circuit> start_circuits(const Sweep& sweep, std::size_t most) {
@@ -169,14 +221,20 @@ std::vector<Circuit> circuits_with_another_mode(const Sweep& sweep, const Circui
   }
   const Eigen::MatrixXd base = Eigen::HouseholderQR<Eigen::MatrixXd>(jacobian).householderQ() *
                                Eigen::MatrixXd::Identity(jacobian.rows(), jacobian.cols());
-  constexpr Eigen::Index most_places = 60;
-  const Eigen::Index stride = std::max<Eigen::Index>(1, n / most_places);
+  const std::vector<Place> tried = places_of_another_mode(residuals, n);
+  Eigen::VectorXcd seen(n);  // the relative change at the terminals for one of 1 S behind the lead
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const double f = sweep.frequency_Hz[static_cast<std::size_t>(i)];
+    seen(i) = fit.circuit.share_behind_lead(f) / fit.circuit.admittance_S(f);
+  }
   std::vector<Ranked> found;
   Eigen::VectorXd column(residuals.size());
-  for (Eigen::Index place = 0; place < n; place += stride) {
-    const double resonance_Hz = sweep.frequency_Hz[static_cast<std::size_t>(place)];
-    const auto low = static_cast<std::size_t>(std::max<Eigen::Index>(0, place - stride));
-    const auto high = static_cast<std::size_t>(std::min<Eigen::Index>(n - 1, place + stride));
+  for (const Place& place : tried) {
+    const double resonance_Hz = sweep.frequency_Hz[static_cast<std::size_t>(place.reading)];
+    const auto low =
+        static_cast<std::size_t>(std::max<Eigen::Index>(0, place.reading - place.around));
+    const auto high =
+        static_cast<std::size_t>(std::min<Eigen::Index>(n - 1, place.reading + place.around));
     const double spacing_Hz = sweep.frequency_Hz[high] - sweep.frequency_Hz[low];
     for (const double bandwidth_Hz : geometric(std::max(spacing_Hz, 1e-9 * resonance_Hz), 3.0, 6)) {
       if (bandwidth_Hz > resonance_Hz) {
@@ -184,7 +242,7 @@ std::vector<Circuit> circuits_with_another_mode(const Sweep& sweep, const Circui
       }
       for (Eigen::Index i = 0; i < n; ++i) {
         const double f = sweep.frequency_Hz[static_cast<std::size_t>(i)];
-        const Complex part = shape(f, resonance_Hz, bandwidth_Hz) / fit.circuit.admittance_S(f);
+        const Complex part = shape(f, resonance_Hz, bandwidth_Hz) * seen(i);
         column(i) = part.real();
         if (sweep.has_phase) {
           column(n + i) = part.imag();
@@ -195,7 +253,7 @@ std::vector<Circuit> circuits_with_another_mode(const Sweep& sweep, const Circui
       const double length = column.squaredNorm();
       const double along = column.dot(residuals);
       if (length > 0.0 && along > 0.0) {
-        Circuit circuit = fit.circuit;
+        Circuit circuit = seen_by_readings(sweep, fit.circuit);
         circuit.modes.push_back({along / length, resonance_Hz, bandwidth_Hz});
         found.push_back({-along * along / length, std::move(circuit)});
       }

@@ -1,7 +1,6 @@
 /// Identification of a transducer's circuit from a sweep.
 #pragma once
 
-#include <cstddef>
 #include <string>
 
 #include "host_sim/studies/identify/identification.hpp"
@@ -10,9 +9,6 @@
 #include "host_sim/studies/identify/impedance/sweep.hpp"
 
 namespace sonoglide::identify::impedance {
-
-/// Of a longer sweep every so manieth reading is used, and all about its largest conductance.
-inline constexpr std::size_t most_readings = 6000;
 
 struct ImpedanceStudy {
   std::string name;  ///< of the file

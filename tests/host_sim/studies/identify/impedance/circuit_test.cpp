@@ -25,6 +25,15 @@ TEST(Circuit, IsTheAdmittanceOfItsElements) {
   }
 }
 
+TEST(Circuit, HasItsLeadInSeries) {
+  Circuit circuit = published_langevin();
+  const double f = 28.4e3;
+  const Complex behind_ohm = 1.0 / circuit.admittance_S(f);
+  circuit.lead = {5.0, 1e-6};
+  const Complex expected = behind_ohm + Complex(5.0, two_pi * f * 1e-6);
+  EXPECT_NEAR(std::abs(1.0 / circuit.admittance_S(f) - expected), 0.0, 1e-9 * std::abs(expected));
+}
+
 TEST(Circuit, HasThePublishedFiguresOfAPiece) {
   const Circuit circuit = published_piece();
   EXPECT_NEAR(circuit.modes.front().quality(), 350.866897, 1e-5);
@@ -46,7 +55,8 @@ TEST(Circuit, DerivativesAreThoseOfDifferences) {
   Circuit circuit = published_piece();
   circuit.loss_tangent = 0.01;
   circuit.modes.push_back({1e-4, 113.5e3, 500.0});
-  const Parts parts{true, 2};
+  circuit.lead = {5.0, 2e-6};
+  const Parts parts{true, 2, LeadModel::resistance_and_inductance};
   const Eigen::VectorXd p = to_vector(circuit, parts);
   Eigen::VectorXcd derivatives(p.size());
   const double f = 112.8e3;

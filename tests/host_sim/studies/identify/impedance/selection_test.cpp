@@ -2,11 +2,17 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <optional>
 #include <random>
+#include <utility>
 
 #include "host_sim/loop/failure.hpp"
+#include "host_sim/studies/identify/impedance/figures.hpp"
+#include "host_sim/studies/identify/impedance/report.hpp"
 #include "host_sim/studies/identify/impedance/study.hpp"
+#include "host_sim/studies/identify/impedance/thinning.hpp"
 #include "synthetic.hpp"
 
 namespace sonoglide::identify::impedance {
@@ -84,12 +90,188 @@ TEST(Selection, RefusesASweepWithoutAResonance) {
   EXPECT_NE(refusal(flank).find("not in the sweep"), std::string::npos) << refusal(flank);
 }
 
+TEST(Selection, FindsThePublishedLangevinTransducer) {
+  Sweep sweep = exact_sweep(published_langevin(), 27e3, 31.5e3, 201);
+  disturb(sweep, 5e-3, 5e-3, 1);
+  const Selection selected = select_circuit(sweep);
+  expect_near(selected.fit.circuit, published_langevin(), 1e-2);
+  EXPECT_EQ(selected.fit.parts.modes, 1);
+  EXPECT_EQ(selected.fit.parts.lead, LeadModel::none);
+}
+
+/// Several modes hide each other: each is misfit to the fits without it.
+TEST(Selection, SeesModesBesideEachOtherInAWideSweep) {
+  Circuit two = published_langevin();
+  two.modes.push_back({1.0 / 300.0, 40e3, 40e3 / 30.0});
+  Circuit six{12e-9, 0.004, {}};
+  for (int i = 0; i < 6; ++i) {
+    six.modes.push_back({1.0 / 200.0, 30e3 + 1.5e3 * i, 200.0 / (two_pi * 20e-3)});
+  }
+  for (const auto& [truth, high_Hz] : {std::pair(two, 100e3), std::pair(six, 42e3)}) {
+    Sweep sweep = exact_sweep(truth, truth.modes.size() == 2 ? 20e3 : 28e3, high_Hz, 600);
+    disturb(sweep, 5e-3, 5e-3, 1);
+    const CircuitFit fit = select_circuit(sweep).fit;
+    ASSERT_EQ(fit.circuit.modes.size(), truth.modes.size());
+    for (const Mode& each : truth.modes) {
+      EXPECT_TRUE(std::any_of(fit.circuit.modes.begin(), fit.circuit.modes.end(),
+                              [&](const Mode& m) {
+                                return std::abs(m.resonance_Hz / each.resonance_Hz - 1.0) < 1e-3 &&
+                                       std::abs(m.conductance_S / each.conductance_S - 1.0) < 0.03;
+                              }))
+          << each.resonance_Hz;
+    }
+  }
+}
+
+Estimate figure(const CircuitFit& fit, const std::string& name) {
+  for (const Estimate& each : figures(fit)) {
+    if (each.name == name) {
+      return each;
+    }
+  }
+  return {};
+}
+
+bool holds(const Estimate& estimate, double truth) {
+  return estimate.low_95 <= truth && truth <= estimate.high_95;
+}
+
+TEST(Selection, SeesALead) {
+  Circuit truth = published_langevin();
+  truth.lead = {5.0, 1e-6};
+  Sweep sweep = exact_sweep(truth, 27e3, 31.5e3, 200);
+  disturb(sweep, 1e-3, 1e-3, 1);
+  const CircuitFit fit = select_circuit(sweep).fit;
+  EXPECT_TRUE(holds(figure(fit, "lead_resistance_ohm"), 5.0));
+  EXPECT_TRUE(holds(figure(fit, "motional_resistance_ohm"), 175.0));
+  EXPECT_NEAR(fit.circuit.lead.resistance_ohm, 5.0, 0.5);
+  EXPECT_EQ(fit.parts.modes, 1);
+}
+
+TEST(Selection, SeesTheInductanceOfALeadWhereItMatters) {
+  Circuit truth = published_langevin();
+  truth.lead = {2.0, 3e-6};
+  Sweep sweep{"", {}, {}, true, {}};
+  for (int i = 0; i < 600; ++i) {
+    const double f = 5e3 * std::pow(200.0, i / 599.0);
+    sweep.frequency_Hz.push_back(f);
+    sweep.admittance_S.push_back(truth.admittance_S(f));
+  }
+  disturb(sweep, 3e-3, 3e-3, 2);
+  const CircuitFit fit = select_circuit(sweep).fit;
+  EXPECT_NEAR(fit.circuit.lead.inductance_H, 3e-6, 0.2e-6);
+  EXPECT_NEAR(fit.circuit.lead.resistance_ohm, 2.0, 0.2);
+}
+
+/// How many of 20 sweeps of 200 readings have the motional resistance in its interval.
+int holding_resistance(const Circuit& truth, double magnitude, double phase_rad) {
+  int held = 0;
+  for (unsigned seed = 1; seed <= 20; ++seed) {
+    Sweep sweep = exact_sweep(truth, 27e3, 31.5e3, 200);
+    disturb(sweep, magnitude, phase_rad, seed);
+    const Estimate found = figure(select_circuit(sweep).fit, "motional_resistance_ohm");
+    held += holds(found, truth.modes.front().resistance_ohm()) ? 1 : 0;
+  }
+  return held;
+}
+
+/// One that readings of 1 % hardly tell from 0.
+TEST(Selection, AllowsForALeadThatIsNotSeen) {
+  Circuit truth = published_langevin();
+  truth.lead = {1.0, 0.0};
+  EXPECT_GE(holding_resistance(truth, 0.01, 0.01), 14);
+  Sweep sweep = exact_sweep(published_langevin(), 27e3, 31.5e3, 200);
+  disturb(sweep, 0.01, 0.01, 1);
+  const std::optional<double> unseen_ohm = select_circuit(sweep).unseen_lead_ohm;
+  ASSERT_TRUE(unseen_ohm);
+  EXPECT_GT(*unseen_ohm, 0.5);
+  EXPECT_LT(*unseen_ohm, 5.0);
+}
+
+TEST(Selection, APhaseThatScattersDoesNotShiftTheMagnitude) {
+  int held = 0;
+  for (unsigned seed = 1; seed <= 20; ++seed) {
+    Sweep sweep = exact_sweep(published_langevin(), 27e3, 31.5e3, 200);
+    disturb(sweep, 0.003, 0.052, seed);
+    held += holds(figure(select_circuit(sweep).fit, "clamped_capacitance_F"), 3.2e-9) ? 1 : 0;
+  }
+  EXPECT_GE(held, 17);
+}
+
+TEST(Selection, LeavesOutNothingOfGaussianErrors) {
+  for (unsigned seed = 1; seed <= 20; ++seed) {
+    Sweep sweep = exact_sweep(published_langevin(), 20e3, 40e3, 401);
+    disturb(sweep, 0.01, 0.01, seed);
+    EXPECT_TRUE(select_circuit(sweep).left_out_Hz.empty()) << seed;
+  }
+}
+
+/// A second mode across seven readings of a sweep over four decades.
+TEST(Selection, ARunOfReadingsIsAModeAndNoStray) {
+  Circuit truth = published_langevin();
+  truth.modes.push_back({1.0 / 800.0, 85e3, 85e3 / 26.7});
+  Sweep sweep{"", {}, {}, true, {}};
+  for (int i = 0; i <= 800; ++i) {
+    const double f = 1e3 * std::pow(1e4, i / 800.0);
+    sweep.frequency_Hz.push_back(f);
+    sweep.admittance_S.push_back(truth.admittance_S(f));
+  }
+  disturb(sweep, 5e-3, 5e-3, 1);
+  const Selection selected = select_circuit(sweep);
+  EXPECT_TRUE(selected.left_out_Hz.empty());
+  ASSERT_EQ(selected.fit.parts.modes, 2);
+  EXPECT_NEAR(selected.fit.circuit.modes[1].resonance_Hz, 85e3, 100.0);
+}
+
+/// A series lead bends the sweep as a mode outside of it would.
+TEST(Selection, InventsNoModeOutsideTheSweep) {
+  Circuit truth = published_piece();
+  truth.lead = {3.0, 0.0};
+  Sweep sweep = exact_sweep(truth, 110e3, 118e3, 200);
+  disturb(sweep, 1e-3, 1e-3, 1);
+  for (auto& each : sweep.admittance_S) {
+    each = std::abs(each);
+  }
+  sweep.has_phase = false;
+  for (const Mode& each : select_circuit(sweep).fit.circuit.modes) {
+    EXPECT_GT(each.resonance_Hz, 110e3);
+    EXPECT_LT(each.resonance_Hz, 118e3);
+  }
+}
+
+TEST(Selection, RefusesASweepThatTheCircuitDoesNotDescribe) {
+  Sweep sweep = exact_sweep(published_langevin(), 27e3, 31.5e3, 400);
+  disturb(sweep, 1e-3, 1e-3, 1);
+  for (std::size_t i = 0; i < sweep.frequency_Hz.size(); ++i) {
+    sweep.admittance_S[i] *= std::exp(0.9 * std::sin(0.3 * static_cast<double>(i)));
+  }
+  EXPECT_NE(refusal(sweep).find("the circuit does not describe the sweep"), std::string::npos)
+      << refusal(sweep);
+}
+
+TEST(Selection, SaysWhatAReversedSignAndAResistanceLookLike) {
+  Sweep reversed = exact_sweep(published_langevin(), 27e3, 31.5e3, 200);
+  disturb(reversed, 1e-3, 1e-3, 1);
+  for (auto& each : reversed.admittance_S) {
+    each = std::conj(each);
+  }
+  EXPECT_NE(refusal(reversed).find("the sign of the phase"), std::string::npos)
+      << refusal(reversed);
+  Sweep resistance = exact_sweep(published_langevin(), 27e3, 31.5e3, 200);
+  for (auto& each : resistance.admittance_S) {
+    each = 1.0 / 50.0;
+  }
+  disturb(resistance, 0.01, 0.01, 1);
+  EXPECT_NE(refusal(resistance).find("those of a resistance"), std::string::npos)
+      << refusal(resistance);
+}
+
 TEST(Selection, LeavesOutAReadingThatStandsAlone) {
   Sweep sweep = exact_sweep(published_piece(), 110e3, 117e3, 201);
   add_noise(sweep, 1e-3);
   sweep.admittance_S[60] *= 3.0;
   const Selection selected = select_circuit(sweep);
-  EXPECT_EQ(selected.left_out, std::vector<std::size_t>{60});
+  EXPECT_EQ(selected.left_out_Hz, std::vector<double>{110e3 + 60 * 35.0});
   expect_near(selected.fit.circuit, published_piece(), 5e-3);
 }
 
@@ -105,6 +287,100 @@ TEST(Study, WarnsOfAPhaseThatNoPassivePartHas) {
     warned = warned || each.find("beyond 90 degrees") != std::string::npos;
   }
   EXPECT_TRUE(warned);
+}
+
+bool warns(const ImpedanceStudy& result, const std::string& of) {
+  const std::vector<std::string>& all = result.identification.warnings;
+  return std::any_of(all.begin(), all.end(),
+                     [&](const std::string& each) { return each.find(of) != std::string::npos; });
+}
+
+/// Phases that are all 5 degrees off.
+TEST(Study, WarnsOfMisfitAndAllowsForIt) {
+  Sweep sweep = exact_sweep(published_langevin(), 27e3, 31.5e3, 200);
+  disturb(sweep, 3e-3, 3e-3, 1);
+  for (auto& each : sweep.admittance_S) {
+    each *= std::polar(1.0, 5.0 * two_pi / 360.0);
+  }
+  const ImpedanceStudy result = study("x", sweep, {});
+  EXPECT_TRUE(warns(result, "The circuit does not describe the sweep: what it leaves is 8."));
+  EXPECT_GT(result.identification.misfit, 0.05);
+  EXPECT_TRUE(holds(figure(result.fit, "motional_resistance_ohm"), 175.0));
+  EXPECT_TRUE(holds(figure(result.fit, "motional_inductance_H"), 71e-3));
+  EXPECT_TRUE(holds(figure(result.fit, "clamped_capacitance_F"), 3.2e-9));
+}
+
+/// Without a lead, phases that are 2 degrees off look like one of 38 ohm and a motional resistance of
+/// 12 ohm.
+TEST(Study, TakesNoErrorOfThePhaseForALead) {
+  const Circuit truth{1.2e-9, 0.0, {mode_of(50.0, 40e-3, 0.1759e-9)}};
+  Sweep sweep = exact_sweep(truth, 58e3, 66e3, 401);
+  disturb(sweep, 1e-3, 1e-3, 1);
+  for (auto& each : sweep.admittance_S) {
+    each *= std::polar(1.0, -2.0 * two_pi / 360.0);
+  }
+  const ImpedanceStudy result = study("x", sweep, {});
+  EXPECT_TRUE(warns(result, "The circuit does not describe the sweep"));
+  EXPECT_TRUE(holds(figure(result.fit, "motional_resistance_ohm"), 50.0));
+}
+
+TEST(Study, SaysThatALeadAndAnErrorOfThePhaseLookAlike) {
+  Circuit truth = published_langevin();
+  truth.lead = {5.0, 0.0};
+  Sweep sweep = exact_sweep(truth, 27e3, 31.5e3, 200);
+  disturb(sweep, 1e-3, 1e-3, 1);
+  const std::vector<std::string> open = study("x", sweep, {}).identification.cannot_tell;
+  EXPECT_TRUE(std::any_of(open.begin(), open.end(), [](const std::string& each) {
+    return each.find("leads and contacts or an error of the phase: one of about 0.3") !=
+           std::string::npos;
+  }));
+}
+
+TEST(Study, NamesTheReadingsThatAreLeftOut) {
+  Sweep sweep = exact_sweep(published_piece(), 110e3, 117e3, 201);
+  add_noise(sweep, 1e-3);
+  sweep.admittance_S[60] *= 3.0;
+  EXPECT_TRUE(warns(study("x", sweep, {}), "off the readings beside: 112.1 kHz."));
+}
+
+/// 20000 readings of which the mode with the largest G/f is not the one that is identified.
+TEST(Study, UsesAllReadingsAboutTheResonanceOfALongSweep) {
+  Circuit truth = published_langevin();
+  truth.modes.push_back({1.0 / 250.0, 9e3, 50.0});
+  Sweep sweep = exact_sweep(truth, 5e3, 45e3, 20000);
+  disturb(sweep, 5e-3, 5e-3, 1);
+  const ImpedanceStudy result = study("x", sweep, {});
+  EXPECT_TRUE(warns(result, "all about 28.3"));
+  EXPECT_LE(result.sweep.frequency_Hz.size(), most_readings);
+  EXPECT_TRUE(holds(figure(result.fit, "motional_resistance_ohm"), 175.0));
+}
+
+TEST(Study, ARefusalSaysWhatWasAssumedOfTheFile) {
+  Sweep capacitor = exact_sweep({2e-9, 0.01, {}}, 10e3, 20e3, 101);
+  add_noise(capacitor, 1e-3);
+  capacitor.warnings = {"The phase is taken for degrees."};
+  try {
+    study("x", capacitor, {});
+    FAIL();
+  } catch (const loop::ComputationError& error) {
+    EXPECT_NE(std::string(error.what()).find("The phase is taken for degrees"), std::string::npos);
+  }
+}
+
+TEST(Study, RefusesMassesThatNoSceneHas) {
+  Sweep sweep = exact_sweep(published_langevin(), 27e3, 31.5e3, 200);
+  add_noise(sweep, 1e-3);
+  EXPECT_THROW(study("x", sweep, {std::nullopt, 1e-8}), loop::ComputationError);
+}
+
+TEST(Study, TheSceneTellsOfANegativeLossTangent) {
+  Circuit truth = published_langevin();
+  truth.loss_tangent = -0.003;
+  Sweep sweep = exact_sweep(truth, 27e3, 31.5e3, 200);
+  add_noise(sweep, 1e-3);
+  const std::string scene = scene_toml(study("x", sweep, {0.1, std::nullopt}));
+  EXPECT_NE(scene.find("loss_tangent = 0                    # fitted: -0.00"), std::string::npos)
+      << scene;
 }
 
 TEST(Study, SaysWhatElectricalDataNeverTell) {

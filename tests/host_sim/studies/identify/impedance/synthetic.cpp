@@ -8,11 +8,6 @@ namespace {
 
 using Complex = std::complex<double>;
 
-Mode mode_of(double resistance_ohm, double inductance_H, double capacitance_F) {
-  return {1.0 / resistance_ohm, 1.0 / (two_pi * std::sqrt(inductance_H * capacitance_F)),
-          resistance_ohm / (two_pi * inductance_H)};
-}
-
 /// Errors of a sweep, reading after reading.
 class Errors {
  public:
@@ -53,6 +48,15 @@ class Errors {
 
 }  // namespace
 
+Mode mode_of(double resistance_ohm, double inductance_H, double capacitance_F) {
+  return {1.0 / resistance_ohm, 1.0 / (two_pi * std::sqrt(inductance_H * capacitance_F)),
+          resistance_ohm / (two_pi * inductance_H)};
+}
+
+Circuit published_langevin() {
+  return {3.2e-9, 0.004, {mode_of(175.0, 71e-3, 0.445e-9)}};
+}
+
 Circuit published_piece() {
   return {1.53668657e-9, 0.0, {mode_of(106.327685, 52.6754086e-3, 37.8469081e-12)}};
 }
@@ -65,6 +69,15 @@ Sweep exact_sweep(const Circuit& circuit, double low_Hz, double high_Hz, int rea
     sweep.admittance_S.push_back(circuit.admittance_S(f));
   }
   return sweep;
+}
+
+void disturb(Sweep& sweep, double magnitude, double phase_rad, unsigned seed) {
+  std::mt19937_64 random(seed);
+  std::normal_distribution<double> normal;
+  for (Complex& each : sweep.admittance_S) {
+    const double louder = 1.0 + magnitude * normal(random);
+    each *= std::polar(louder, phase_rad * normal(random));
+  }
 }
 
 Synthetic synthetic(const Kind& kind, int readings, std::mt19937_64& random) {

@@ -35,6 +35,14 @@ struct Kind {
 /// C1 37.8469081 pF.
 Circuit published_piece();
 
+/// The middle of published figures of a Langevin transducer at 28.3 kHz (C0 3.1 to 3.35 nF, R1 170 to
+/// 179 ohm, L1 70 to 72 mH, C1 0.44 to 0.45 nF, Q 70 to 75): C0 3.2 nF, tan δ 0.004, R1 175 ohm, L1
+/// 71 mH, C1 0.445 nF.
+Circuit published_langevin();
+
+/// A mode by its elements.
+Mode mode_of(double resistance_ohm, double inductance_H, double capacitance_F);
+
 struct Synthetic {
   Circuit truth;
   Sweep sweep;
@@ -46,5 +54,8 @@ Synthetic synthetic(const Kind& kind, int readings, std::mt19937_64& random);
 
 /// The circuit at even steps, without errors.
 Sweep exact_sweep(const Circuit& circuit, double low_Hz, double high_Hz, int readings);
+
+/// Gaussian errors of magnitude and phase, the same for the same seed.
+void disturb(Sweep& sweep, double magnitude, double phase_rad, unsigned seed);
 
 }  // namespace sonoglide::identify::impedance
