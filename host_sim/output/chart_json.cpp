@@ -68,10 +68,10 @@ void append_series(std::string& json, const Series& series) {
 }  // namespace
 
 std::string chart_json(const Panel& panel) {
-  std::string json =
-      fmt::format(R"({{"title":{},"xLabel":{},"yLabel":{},"logarithmicX":{},"logarithmicY":{},"group":{},"x":)",
-                  quoted(panel.title), quoted(panel.x_label), quoted(panel.y_label),
-                  boolean(panel.logarithmic_x), boolean(panel.logarithmic_y), quoted(panel.group));
+  std::string json = fmt::format(
+      R"({{"title":{},"xLabel":{},"yLabel":{},"logarithmicX":{},"logarithmicY":{},"group":{},"x":)",
+      quoted(panel.title), quoted(panel.x_label), quoted(panel.y_label),
+      boolean(panel.logarithmic_x), boolean(panel.logarithmic_y), quoted(panel.group));
   append_numbers(json, panel.x, abscissa_digits(panel.x));
   json += R"(,"series":[)";
   for (std::size_t i = 0; i < panel.series.size(); ++i) {
