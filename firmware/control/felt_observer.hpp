@@ -4,9 +4,9 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "firmware/control/felt_doubt.hpp"
 #include "firmware/control/felt_table.hpp"
 #include "firmware/control/mode_observer.hpp"
-#include "firmware/control/place_estimate.hpp"
 #include "firmware/numeric/floating.hpp"
 #include "firmware/numeric/headroom.hpp"
 #include "firmware/numeric/scalar.hpp"
@@ -24,44 +24,51 @@ struct PastAmplitudes {
 /// Observer of the natural mode, of a constant beside it and of the natural frequency, from one number
 /// a period: the vibration velocity y that the measured friction ratio stands for (README.md):
 ///   w' = M w + b Δu,   y = |H| u + o + e·w + g Δu + h Δu₋₁,
-/// Δu the last change of the amplitude u, Δu₋₁ the one before. M, b and H are those of ModeObserver.
-/// e, g and h depend on the velocity ratio r = Vt/(|H| u + o). What was not foreseen corrects w and o
-/// by the gains of a Kalman filter, and before that the place p in the table of natural frequencies
-/// (PlaceEstimate), with the slope of the forecast carried along.
+/// Δu the last change of the amplitude u, Δu₋₁ the one before. M, b and H are those of ModeObserver,
+/// at the place p in the table of natural frequencies. e, g and h depend on the velocity ratio
+/// r = Vt/(|H| u + o). What was not foreseen corrects w, o and p as an extended Kalman filter does
+/// (FeltDoubt).
 ///
 /// y, o, speeds: on the base of the sliding velocity; w: base eight times the largest kick; amplitudes:
-/// base the largest. In fixed point what a gain lifts is limited to its base; a sum overflows by policy,
-/// and only where a velocity or a mode leaves its base.
+/// base the largest. In fixed point what a correction lifts is limited to its base; a sum overflows by
+/// policy, and only where a velocity or a mode leaves its base.
 template <class Scalar>
 class FeltObserver {
  public:
   struct Parameters {
     FeltTable<Scalar> table;
-    std::uint8_t
-        seen_base;  ///< fixed point: exponents of what e, g and h, the gains, the feedback and
-    std::uint8_t gain_base;  ///< 1/|H| are multiples of; 0 in floating point
+    typename FeltDoubt<Scalar>::Parameters doubt;
+    /// Fixed point: exponents of what e, g and h, the feedback and 1/|H| are multiples of. 0 in
+    /// floating point, as the two exponents below.
+    std::uint8_t seen_base;
     std::uint8_t feedback_base;
     std::uint8_t inverse_base;
+    std::uint8_t slower;   ///< FeltDoubt has velocities on a base smaller by 2^-this
+    std::uint8_t quieter;  ///< likewise the mode; at most seen_base + slower
     numeric::Split<Scalar>
         linear;  ///< mode, per velocity |H| u + o, up to which readings are believed
 
     template <class Self, class Visitor>
     static constexpr void fields(Self& self, Visitor&& visit) {
       visit("table", self.table);
+      visit("doubt", self.doubt);
       visit("seen_base", self.seen_base);
-      visit("gain_base", self.gain_base);
       visit("feedback_base", self.feedback_base);
       visit("inverse_base", self.inverse_base);
+      visit("slower", self.slower);
+      visit("quieter", self.quieter);
       visit("linear", self.linear);
     }
   };
 
   /// @param parameters  of which the table stays where it is: it outlives this
   explicit FeltObserver(const Parameters& parameters)
-      : seen_base_(parameters.seen_base),
-        gain_base_(parameters.gain_base),
+      : doubt_(parameters.doubt),
+        seen_base_(parameters.seen_base),
         feedback_base_(parameters.feedback_base),
         inverse_base_(parameters.inverse_base),
+        slower_(parameters.slower),
+        quieter_(parameters.quieter),
         linear_(numeric::floating(parameters.linear)),
         row_(parameters.table) {
     restart();
@@ -72,19 +79,18 @@ class FeltObserver {
 
   /// At rest, and as it was believed at first.
   void restart() {
+    doubt_.restart();
     mode_ = {};
-    mode_slope_ = {};
     offset_ = {};
-    offset_slope_ = {};
-    place_.restart();
-    row_.go(place_.place());
+    place_ = {};
+    row_.go(place_);
   }
 
   /// A period passes, in which the amplitude is another by this.
   void pass(Scalar change) {
-    constexpr Scalar keep = numeric::from_real<Scalar>(0.9);  // an old slope is no longer linear
-    const Pair<Scalar> slope = turned(mode_slope_, value_of(felt::turn)) * keep;
-    mode_slope_ = slope + turned(mode_, slope_of(felt::turn)) + slope_of(felt::kick) * change;
+    const Pair<Scalar> mode = lifted(mode_, quieter_);
+    const Pair<Scalar> kick = lifted(slope_of(felt::kick) * change, quieter_);
+    doubt_.pass(value_of(felt::turn), turned(mode, slope_of(felt::turn)) + kick, mode);
     mode_ = next(mode_, change);
   }
 
@@ -102,25 +108,20 @@ class FeltObserver {
     row_.look(ratio(speed, driven));
     const Scalar last = u.now - u.before;
     const Scalar before_last = u.before - u.earlier;
-    const Scalar forecast = driven + seen(mode_, last, before_last);
+    const Scalar forecast = driven + numeric::lifted(seen(last, before_last), seen_base_);
     constexpr Scalar highest = numeric::from_code<Scalar>(INT32_MAX);
     if (!(velocity < highest) && !(forecast < highest)) {
       return;
     }
     const Scalar most = numeric::from_real<Scalar>(0.3) * speed;
-    Scalar miss = numeric::clamp(velocity - forecast, -most, most);
-    const Scalar tilt = slope_of_forecast(last, before_last);
-    const Scalar noise = row_.of_node(felt::noise);
-    if (numeric::twice(noise) + noise < numeric::abs(tilt)) {
-      miss = miss - correct_place(tilt, miss, noise);
-    }
-    correct(miss, tilt, numeric::abs(miss) < numeric::twice(noise) + noise);
+    const Scalar miss = numeric::clamp_magnitude(velocity - forecast, most);
+    correct(miss, view(u.now, last, before_last), variance(driven));
     offset_ = numeric::clamp(offset_, numeric::from_real<Scalar>(-0.5),
                              numeric::from_real<Scalar>(0.6) * wanted);
   }
 
   const Pair<Scalar>& mode() const { return mode_; }  ///< w, in the sampled period
-  Scalar place() const { return place_.place(); }     ///< p
+  Scalar place() const { return place_; }             ///< p
 
   /// w a period later, in which the amplitude is another by this.
   Pair<Scalar> next(const Pair<Scalar>& mode, Scalar change) const {
@@ -163,54 +164,58 @@ class FeltObserver {
     return !(numeric::limited_product(driven, linear_) < size);
   }
 
-  /// e·w + g Δu + h Δu₋₁
-  Scalar seen(const Pair<Scalar>& mode, Scalar last, Scalar before) const {
-    return numeric::lifted(
-        row_.of_node(felt::seen) * mode.first + row_.of_node(felt::seen + 1) * mode.second +
-            row_.of_node(felt::last_change) * last + row_.of_node(felt::change_before) * before,
-        seen_base_);
+  /// e·w + g Δu + h Δu₋₁, on the base of e
+  Scalar seen(Scalar last, Scalar before) const {
+    return row_.of_node(felt::seen) * mode_.first + row_.of_node(felt::seen + 1) * mode_.second +
+           row_.of_node(felt::last_change) * last + row_.of_node(felt::change_before) * before;
   }
 
-  Scalar slope_of_forecast(Scalar last, Scalar before) const {
-    const Scalar of_table = numeric::lifted(row_.slope_of_node(felt::seen) * mode_.first +
-                                                row_.slope_of_node(felt::seen + 1) * mode_.second +
-                                                row_.slope_of_node(felt::last_change) * last +
-                                                row_.slope_of_node(felt::change_before) * before,
-                                            seen_base_);
-    return of_table + seen(mode_slope_, Scalar{}, Scalar{}) + offset_slope_;
+  /// The slopes of the forecast over w, o and p, so far lowered that e is on its own base.
+  typename FeltDoubt<Scalar>::State view(Scalar amplitude, Scalar last, Scalar before) const {
+    const Scalar seen_slope = row_.slope_of_node(felt::seen) * mode_.first +
+                              row_.slope_of_node(felt::seen + 1) * mode_.second +
+                              row_.slope_of_node(felt::last_change) * last +
+                              row_.slope_of_node(felt::change_before) * before;
+    const Scalar driven_slope = numeric::lifted(row_.slope(felt::forced) * amplitude, slower_);
+    return {{row_.of_node(felt::seen), row_.of_node(felt::seen + 1)},
+            lowered_view(numeric::from_code<Scalar>(INT32_MAX)),
+            numeric::lifted(seen_slope, quieter_) + lowered_view(driven_slope)};
   }
 
-  /// @return what the forecast rises by
-  Scalar correct_place(Scalar tilt, Scalar miss, Scalar noise) {
-    constexpr int base = PlaceEstimate<Scalar>::base;
-    // As if the place were known to be 0 within a quarter or so.
-    constexpr Scalar prior =
-        numeric::from_real<Scalar>(20.0 / static_cast<double>(std::int32_t{1} << base));
-    const Scalar most = numeric::scale_by_power_of_two(noise, 2);
-    place_.weigh(prior * (noise * noise));
-    const Scalar moved = place_.move(numeric::scale_by_power_of_two(tilt * tilt, -base),
-                                     tilt * numeric::clamp(miss, -most, most));
-    row_.go(place_.place());
-    mode_ = mode_ + mode_slope_ * moved;
-    offset_ = offset_ + offset_slope_ * moved;
-    return tilt * moved;
+  /// Of a reading, on the base of view().
+  Scalar variance(Scalar driven) const {
+    constexpr Scalar doubt = numeric::from_real<Scalar>(0.015);  // of the map
+    const Scalar wrong = lowered_view(doubt * numeric::lifted(driven, slower_));
+    const Scalar noise = lowered_view(numeric::lifted(row_.of_node(felt::noise), slower_));
+    return wrong * wrong + noise * noise;
   }
 
-  /// @param quiet  no more than noise: a quarter of the gain
-  void correct(Scalar miss, Scalar tilt, bool quiet) {
-    const int less = quiet ? -2 : 0;
-    const Scalar error = numeric::scale_by_power_of_two(miss, less);
-    const Scalar slope = numeric::scale_by_power_of_two(tilt, less);
+  /// A velocity of FeltDoubt where view() has it.
+  Scalar lowered_view(Scalar x) const { return down(x, seen_base_ + slower_ - quieter_); }
+
+  /// x 2^-n; in floating point x, where n is 0.
+  static Scalar down(Scalar x, int n) {
+    if constexpr (numeric::is_fixed_point_v<Scalar>) {
+      return numeric::scale_by_power_of_two(x, -n);
+    } else {
+      return x;
+    }
+  }
+
+  void correct(Scalar miss, const typename FeltDoubt<Scalar>::State& view, Scalar variance) {
+    const typename FeltDoubt<Scalar>::State moved =
+        doubt_.weigh(view, variance, lowered_view(numeric::lifted(miss, slower_)));
     mode_ =
-        mode_ + Pair<Scalar>{gained(felt::mode_gain, error), gained(felt::mode_gain + 1, error)};
-    mode_slope_ = mode_slope_ -
-                  Pair<Scalar>{gained(felt::mode_gain, slope), gained(felt::mode_gain + 1, slope)};
-    offset_ = offset_ + gained(felt::offset_gain, error);
-    offset_slope_ = offset_slope_ - gained(felt::offset_gain, slope);
+        mode_ + Pair<Scalar>{down(moved.mode.first, quieter_), down(moved.mode.second, quieter_)};
+    offset_ = offset_ + down(moved.offset, slower_);
+    constexpr Scalar end = numeric::from_code<Scalar>(INT32_MAX - 1);
+    const Scalar half = numeric::half(place_) + numeric::half(moved.place);
+    place_ = numeric::twice(numeric::clamp_magnitude(half, numeric::half(end)));
+    row_.go(place_);
   }
 
-  Scalar gained(std::size_t i, Scalar miss) const {
-    return numeric::lifted(row_.of_node(i) * miss, gain_base_);
+  static Pair<Scalar> lifted(const Pair<Scalar>& pair, int n) {
+    return {numeric::lifted(pair.first, n), numeric::lifted(pair.second, n)};
   }
 
   static Pair<Scalar> turned(const Pair<Scalar>& mode, const Pair<Scalar>& turn) {
@@ -218,17 +223,17 @@ class FeltObserver {
             turn.second * mode.first + turn.first * mode.second};
   }
 
+  FeltDoubt<Scalar> doubt_;
   std::uint8_t seen_base_;
-  std::uint8_t gain_base_;
   std::uint8_t feedback_base_;
   std::uint8_t inverse_base_;
+  std::uint8_t slower_;
+  std::uint8_t quieter_;
   numeric::Floating<Scalar> linear_;
   FeltPlace<Scalar> row_;
   Pair<Scalar> mode_;
-  Pair<Scalar> mode_slope_;  ///< over p
   Scalar offset_{};
-  Scalar offset_slope_{};  ///< over p
-  PlaceEstimate<Scalar> place_;
+  Scalar place_{};
 };
 
 }  // namespace sonoglide::control

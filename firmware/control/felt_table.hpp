@@ -28,12 +28,10 @@ inline constexpr std::size_t nodes = std::size_t{1} << node_bits;
 inline constexpr std::size_t seen = 0;           ///< e: what a reading shows of a mode of 1
 inline constexpr std::size_t last_change = 2;    ///< the same of the last change of the amplitude
 inline constexpr std::size_t change_before = 3;  ///< of the one before
-inline constexpr std::size_t mode_gain = 4;      ///< of the observer
-inline constexpr std::size_t offset_gain = 6;    ///< likewise
-inline constexpr std::size_t noise = 7;          ///< of a reading, rms
-inline constexpr std::size_t per_node = 8;
+inline constexpr std::size_t noise = 4;          ///< of a reading, rms
+inline constexpr std::size_t per_node = 5;
 /// The slopes of those of a node before this one are of use.
-inline constexpr std::size_t sloped_of_node = mode_gain;
+inline constexpr std::size_t sloped_of_node = noise;
 
 inline constexpr std::size_t numbers = plain + nodes * per_node;
 

@@ -256,27 +256,46 @@ typename control::LaggingReading<Scalar>::Parameters parameters(
 
 /// Exponents of the numbers of a row, so that each fits; see FeltObserver::Parameters.
 inline std::array<int, control::felt::numbers> felt_exponents(
-    const control::FeltTable<double>& table, std::uint8_t& seen, std::uint8_t& gains,
-    std::uint8_t& feedback, std::uint8_t& inverse) {
+    const control::FeltTable<double>& table, std::uint8_t& seen, std::uint8_t& feedback,
+    std::uint8_t& inverse) {
   namespace felt = control::felt;
   std::array<int, felt::numbers> exponents{};
   feedback = exponent_above(table, felt::feedback, felt::per_velocity);
   inverse = exponent_above(table, felt::per_velocity, felt::plain);
   seen = 0;
-  gains = 0;
   for (std::size_t node = 0; node < felt::nodes; ++node) {
     const std::size_t first = felt::plain + node * felt::per_node;
-    seen = std::max(seen, exponent_above(table, first, first + felt::mode_gain));
-    gains = std::max(gains, exponent_above(table, first + felt::mode_gain, first + felt::noise));
+    seen = std::max(seen, exponent_above(table, first, first + felt::noise));
   }
   std::fill(&exponents[felt::feedback], &exponents[felt::per_velocity], feedback);
   exponents[felt::per_velocity] = inverse;
   for (std::size_t node = 0; node < felt::nodes; ++node) {
     int* const numbers = &exponents[felt::plain + node * felt::per_node];
-    std::fill(numbers, numbers + felt::mode_gain, seen);
-    std::fill(numbers + felt::mode_gain, numbers + felt::noise, gains);
+    std::fill(numbers, numbers + felt::noise, seen);
   }
   return exponents;
+}
+
+/// The powers of two in x >= 1; 0 below.
+inline std::uint8_t powers_of_two_in(double x) {
+  return static_cast<std::uint8_t>(std::max(0, numeric::split(x).exponent - 1));
+}
+
+/// @param velocity, mode  bases of FeltDoubt
+template <class Scalar>
+typename control::FeltDoubt<Scalar>::Parameters felt_doubt(double speed, double swing,
+                                                           double velocity, double mode) {
+  constexpr double at_start = 0.03;  // all of them rms, per sliding velocity
+  constexpr double mode_per_period = 0.002;
+  constexpr double offset_per_period = 0.007;
+  constexpr double at_most = 2.0;
+  const auto variance = [speed](double part, double base) {
+    return scaled_within<Scalar>(part * part * speed * speed / (base * base));
+  };
+  return {variance(at_start, mode),      variance(mode_per_period, mode),
+          scaled<Scalar>(swing * swing), variance(at_most, mode),
+          variance(at_start, velocity),  variance(offset_per_period, velocity),
+          variance(at_most, velocity)};
 }
 
 template <class Scalar>
@@ -286,8 +305,13 @@ typename control::FeltObserver<Scalar>::Parameters parameters(
   typename control::FeltObserver<Scalar>::Parameters parameters{};
   std::array<int, control::felt::numbers> exponents{};
   if constexpr (numeric::is_fixed_point_v<Scalar>) {
-    exponents = felt_exponents(feeling.table, parameters.seen_base, parameters.gain_base,
-                               parameters.feedback_base, parameters.inverse_base);
+    exponents = felt_exponents(feeling.table, parameters.seen_base, parameters.feedback_base,
+                               parameters.inverse_base);
+    parameters.slower = powers_of_two_in(0.25 / feeling.speed);
+    const double velocity = numeric::scale_by_power_of_two(1.0, -parameters.slower);
+    parameters.quieter =
+        std::min(powers_of_two_in(feeling.mode_unit / velocity),
+                 static_cast<std::uint8_t>(parameters.seen_base + parameters.slower));
   }
   for (std::size_t row = 0; row < control::felt::rows; ++row) {
     for (std::size_t i = 0; i < control::felt::numbers; ++i) {
@@ -295,6 +319,9 @@ typename control::FeltObserver<Scalar>::Parameters parameters(
           numeric::scale_by_power_of_two(feeling.table[row][i], -exponents[i]));
     }
   }
+  parameters.doubt = felt_doubt<Scalar>(
+      feeling.speed, feeling.swing, numeric::scale_by_power_of_two(1.0, -parameters.slower),
+      feeling.mode_unit * numeric::scale_by_power_of_two(1.0, -parameters.quieter));
   parameters.linear = split<Scalar>(feeling.linear);
   return parameters;
 }

@@ -162,34 +162,21 @@ Node node_of(const Place& place, double ratio, const Felt& felt) {
 
 void put_node(const Place& place, std::size_t index, const Felt& felt,
               control::FeltRow<double>& row) {
-  constexpr double process = 0.01;         // of the mode, per sliding velocity: friction
-  constexpr double offset_process = 0.02;  // likewise of the constant
-  constexpr double doubt = 0.02;           // of the velocity: map and contact
-  constexpr double rest = 0.005;           // the same of a settled loop
+  constexpr double rest = 0.001;  // of the velocity: map and contact, in a settled loop
   const double ratio =
       std::min(largest_ratio, static_cast<double>(index + 1) / static_cast<double>(felt::nodes));
   const Node node = node_of(place, ratio, felt);
   // Of Coulomb friction: a velocity per ratio, per sliding velocity.
   const double steepness =
       0.25 * numeric::two_pi * numeric::sqrt(1.0 - ratio * ratio) / (ratio * ratio);
-  const auto rms = [&](double wrong) {
-    const double model = wrong * felt.doubtful / ratio;
-    const double sensor = felt.noise * steepness;
-    return felt.speed * numeric::sqrt(model * model + sensor * sensor);
-  };
-  const double noise = rms(doubt);
-  const FeltGains gains = felt_gains(place.model.turn, node.seen,
-                                     {process * felt.speed, offset_process * felt.speed}, noise);
+  const double model = rest * felt.doubtful / ratio;
+  const double sensor = felt.noise * steepness;
   double* const numbers = &row[felt::plain + index * felt::per_node];
   numbers[felt::seen] = node.seen(0);
   numbers[felt::seen + 1] = node.seen(1);
   numbers[felt::last_change] = node.last_change;
   numbers[felt::change_before] = node.change_before;
-  const bool seen = !node.seen.isZero();
-  numbers[felt::mode_gain] = seen ? gains.mode(0) : 0.0;
-  numbers[felt::mode_gain + 1] = seen ? gains.mode(1) : 0.0;
-  numbers[felt::offset_gain] = gains.offset;
-  numbers[felt::noise] = rms(rest);
+  numbers[felt::noise] = felt.speed * numeric::sqrt(model * model + sensor * sensor);
 }
 
 control::FeltRow<double> row_of(const Resonator& resonator, const Felt& felt) {
@@ -197,15 +184,16 @@ control::FeltRow<double> row_of(const Resonator& resonator, const Felt& felt) {
   const ModeModel& model = place.model;
   const double forced = model.forced.norm();
   const Eigen::RowVector3d feedback = feedback_of(model);
+  constexpr double calm = 0.85;  // slower than optimal: the natural frequency is not yet known
   control::FeltRow<double> row{};
   row[felt::turn] = model.turn(0, 0);
   row[felt::turn + 1] = model.turn(1, 0);
   row[felt::kick] = model.kick(0);
   row[felt::kick + 1] = model.kick(1);
   row[felt::forced] = forced;
-  for (std::size_t i = 0; i < 3; ++i) {
-    row[felt::feedback + i] = feedback(static_cast<Eigen::Index>(i));
-  }
+  row[felt::feedback] = feedback(0);
+  row[felt::feedback + 1] = feedback(1);
+  row[felt::feedback + 2] = calm * feedback(2);
   row[felt::per_velocity] = 1.0 / forced;
   for (std::size_t i = 0; i < felt::nodes; ++i) {
     put_node(place, i, felt, row);
@@ -228,7 +216,6 @@ double scale_mode(control::FeltTable<double>& table) {
       for (std::size_t node = 0; node < felt::nodes; ++node) {
         double* const numbers = &row[felt::plain + node * felt::per_node];
         numbers[felt::seen + i] *= unit;
-        numbers[felt::mode_gain + i] /= unit;
       }
     }
   }
@@ -256,8 +243,14 @@ FeltDesign design_felt(const scene::Scene& scene, const BelievedPlant& plant,
     resonator.stiffness *= 1.0 + place * design.stiffness_range;
     design.table[i] = row_of(resonator, felt);
   }
+  design.speed = felt.speed;
+  constexpr double nonlinear = 0.04;  // of friction under a mode
+  constexpr double unknown = 0.12;    // of the angle by which the range turns a mode
+  design.swing =
+      nonlinear + unknown * 0.5 * design.stiffness_range * numeric::sqrt(middle.stiffness);
+  design.mode_unit = scale_mode(design.table);
   constexpr double linear = 0.5;
-  design.linear = linear / scale_mode(design.table);
+  design.linear = linear / design.mode_unit;
   design.sensor_memory = felt.chain.fade;
   design.contact_memory = felt.chain.contact_memory;
   design.backwards = slides_backwards(scene.sliding);

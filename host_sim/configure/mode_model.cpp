@@ -91,22 +91,6 @@ ObserverGains observer_gains(const ModeModel& model, double process, double nois
   return {gains.topRows<2>(), gains.bottomRows<2>()};
 }
 
-FeltGains felt_gains(const Eigen::Matrix2d& turn, const Eigen::RowVector2d& seen,
-                     const FeltProcess& process, double noise) {
-  using Matrix = Eigen::Matrix3d;
-  Matrix dynamics = Matrix::Identity();
-  dynamics.topLeftCorner<2, 2>() = turn;
-  const Eigen::RowVector3d sample(seen(0), seen(1), 1.0);
-  const Matrix shown = sample.transpose() * sample / (noise * noise);
-  const double mode = process.mode * process.mode;
-  const double offset = process.offset * process.offset;
-  const Eigen::Vector3d variance(mode, mode, offset);
-  const Matrix before = riccati<Matrix>(dynamics.transpose(), shown, Matrix(variance.asDiagonal()));
-  const Eigen::Vector3d gains =
-      before * sample.transpose() / (sample * before * sample.transpose() + noise * noise);
-  return {gains.head<2>(), gains(2)};
-}
-
 Eigen::RowVector3d feedback_gains(const ModeModel& model, double stability) {
   using Matrix = Eigen::Matrix3d;
   Matrix dynamics = Matrix::Identity();

@@ -44,24 +44,6 @@ struct ObserverGains {
 /// @param noise    variance of each part of a sample
 ObserverGains observer_gains(const ModeModel& model, double process, double noise);
 
-/// Of a linear observer of w and of a constant o beside it, from one number: y = seen w + o.
-struct FeltGains {
-  Eigen::Vector2d mode;
-  double offset;
-};
-
-/// What a period adds to each part of w and to o, rms.
-struct FeltProcess {
-  double mode;
-  double offset;
-};
-
-/// Kalman filter that has been at rest for 128 periods.
-/// @param turn   of ModeModel
-/// @param noise  of y, rms
-FeltGains felt_gains(const Eigen::Matrix2d& turn, const Eigen::RowVector2d& seen,
-                     const FeltProcess& process, double noise);
-
 /// Linear-quadratic feedback of (w, u − u*) on the change of the amplitude. What it costs: the mean
 /// square of what the velocity has beside the steady vibration of u*, of a mode next to a multiple of
 /// the carrier what z shows of it, and as much for a change of the amplitude as for an error of the

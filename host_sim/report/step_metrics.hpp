@@ -30,8 +30,9 @@ struct ResonanceMetrics {
   double frequency_error = 0.0;  ///< largest of it, relative to the natural frequency
 };
 
-/// One target step, or what calibration leaves of it. "Steady" means the last quarter. A figure for which there is no carrier period is NaN. Pauses in which the controller learns
-/// the friction force anew are left out; what they cost is in PauseMetrics.
+/// One target step, or what calibration leaves of it. "Steady" means the last quarter. A figure for
+/// which there is no carrier period is NaN. Pauses in which the controller learns the friction force
+/// anew are left out; what they cost is in PauseMetrics.
 struct StepMetrics {
   double time_s = 0.0;
   double target = 0.0;

@@ -1,0 +1,183 @@
+/// How sure an observer is of a natural mode that it feels in one number a period.
+#pragma once
+
+#include <cstdint>
+
+#include "firmware/control/mode_observer.hpp"
+#include "firmware/numeric/floating.hpp"
+#include "firmware/numeric/headroom.hpp"
+#include "firmware/numeric/near_root.hpp"
+#include "firmware/numeric/scalar.hpp"
+
+namespace sonoglide::control {
+
+/// Covariance P of the errors of the mode w, of the constant o and of the place p: that of an extended
+/// Kalman filter (README.md). In a period P' = F P Fᵀ + Q, F the slope of (w', o, p) over (w, o, p). A
+/// reading that shows c·(w, o, p) with the variance R takes t tᵀ off P:
+///   t = P c/√S,  S = c·P c + R,
+/// and moves (w, o, p) by t e/√S, e what it shows beyond the forecast, e/√S limited to ±3. Q of the mode
+/// grows with the mode, as what the model has wrong does. After a reading beyond the limit the mode is
+/// as uncertain again as at the start: something has knocked it.
+///
+/// In fixed point velocities are on a base of four to eight times the fastest sliding, on which a mode
+/// of 1 is a velocity of 1 to 2: no number here reaches 1. Products are rounded, which Q makes good. A
+/// variance above its `most`, as after a long time without readings, has P quartered.
+template <class Scalar>
+class FeltDoubt {
+ public:
+  /// Variances.
+  struct Parameters {
+    Scalar mode_at_start;  ///< and what a knock adds
+    Scalar mode_per_period;
+    Scalar mode_swing;  ///< per period, of a mode of 1
+    Scalar mode_at_most;
+    Scalar offset_at_start;
+    Scalar offset_per_period;
+    Scalar offset_at_most;
+
+    template <class Self, class Visitor>
+    static constexpr void fields(Self& self, Visitor&& visit) {
+      visit("mode_at_start", self.mode_at_start);
+      visit("mode_per_period", self.mode_per_period);
+      visit("mode_swing", self.mode_swing);
+      visit("mode_at_most", self.mode_at_most);
+      visit("offset_at_start", self.offset_at_start);
+      visit("offset_per_period", self.offset_per_period);
+      visit("offset_at_most", self.offset_at_most);
+    }
+  };
+
+  /// One number each for w, o and p.
+  struct State {
+    Pair<Scalar> mode;
+    Scalar offset;
+    Scalar place;
+  };
+
+  explicit FeltDoubt(const Parameters& parameters) : parameters_(parameters) { restart(); }
+
+  void restart() {
+    first_ = parameters_.mode_at_start;
+    second_ = parameters_.mode_at_start;
+    both_ = {};
+    of_offset_ = {};
+    of_place_ = {};
+    offset_ = parameters_.offset_at_start;
+    place_ = numeric::from_real<Scalar>(0.2);
+    offset_and_place_ = {};
+  }
+
+  /// @param turn   d cos θ and d sin θ of M
+  /// @param slope  of w' over p
+  /// @param mode   w
+  void pass(const Pair<Scalar>& turn, const Pair<Scalar>& slope, const Pair<Scalar>& mode) {
+    const Pair<Scalar> before = turned(of_place_, turn);
+    of_place_ = before + slope * place_;
+    of_offset_ = turned(of_offset_, turn) + slope * offset_and_place_;
+    const Pair<Scalar> left = turned({first_, both_}, turn);
+    const Pair<Scalar> right = turned({both_, second_}, turn);
+    const Pair<Scalar> upper = turned({left.first, right.first}, turn);
+    const Scalar lower = turn.second * left.second + turn.first * right.second;
+    const Scalar more =
+        parameters_.mode_per_period +
+        parameters_.mode_swing * (mode.first * mode.first + mode.second * mode.second);
+    first_ = upper.first + slope.first * (before.first + of_place_.first) + more;
+    both_ = upper.second + slope.second * before.first + slope.first * of_place_.second;
+    second_ = lower + slope.second * (before.second + of_place_.second) + more;
+    offset_ = offset_ + parameters_.offset_per_period;
+    place_ = place_ + numeric::from_real<Scalar>(1e-6);
+    limit();
+  }
+
+  /// @param view      c
+  /// @param variance  R
+  /// @param miss      e
+  /// @return what it moves; in fixed point limited to ±1
+  State weigh(const State& view, Scalar variance, Scalar miss) {
+    const State seen = product(view);
+    const Scalar sum = seen.mode.first * view.mode.first + seen.mode.second * view.mode.second +
+                       seen.offset * view.offset + seen.place * view.place + variance;
+    const auto one_half = numeric::floating(numeric::from_real<Scalar>(0.5));
+    const auto root = numeric::floating(numeric::near_root(numeric::max(sum, least)));
+    const auto inverse = numeric::rescaled(numeric::quotient(one_half, root), 1);
+    const State step{{numeric::limited_product(seen.mode.first, inverse),
+                      numeric::limited_product(seen.mode.second, inverse)},
+                     numeric::limited_product(seen.offset, inverse),
+                     numeric::limited_product(seen.place, inverse)};
+    constexpr double share = numeric::is_fixed_point_v<Scalar> ? 0.25 : 1.0;
+    constexpr Scalar most = numeric::from_real<Scalar>(3.0 * share);
+    take_off(step);
+    const Scalar deviations =
+        numeric::limited_product(numeric::from_real<Scalar>(share) * miss, inverse);
+    const Scalar part = numeric::clamp_magnitude(deviations, most);
+    if (!(numeric::abs(deviations) < most)) {
+      first_ = first_ + parameters_.mode_at_start;
+      second_ = second_ + parameters_.mode_at_start;
+    }
+    const auto moved = [part](Scalar x) { return numeric::lifted(x * part, 2); };
+    return {
+        {moved(step.mode.first), moved(step.mode.second)}, moved(step.offset), moved(step.place)};
+  }
+
+ private:
+  /// Of S: in fixed point 64 units of the last place.
+  static constexpr Scalar least = numeric::is_fixed_point_v<Scalar>
+                                      ? numeric::from_code<Scalar>(64)
+                                      : numeric::from_real<Scalar>(1e-18);
+
+  static Pair<Scalar> turned(const Pair<Scalar>& mode, const Pair<Scalar>& turn) {
+    return {turn.first * mode.first - turn.second * mode.second,
+            turn.second * mode.first + turn.first * mode.second};
+  }
+
+  /// P c
+  State product(const State& view) const {
+    const Pair<Scalar>& mode = view.mode;
+    return {{first_ * mode.first + both_ * mode.second + of_offset_.first * view.offset +
+                 of_place_.first * view.place,
+             both_ * mode.first + second_ * mode.second + of_offset_.second * view.offset +
+                 of_place_.second * view.place},
+            of_offset_.first * mode.first + of_offset_.second * mode.second +
+                offset_ * view.offset + offset_and_place_ * view.place,
+            of_place_.first * mode.first + of_place_.second * mode.second +
+                offset_and_place_ * view.offset + place_ * view.place};
+  }
+
+  /// t tᵀ
+  void take_off(const State& t) {
+    first_ = first_ - t.mode.first * t.mode.first;
+    both_ = both_ - t.mode.first * t.mode.second;
+    second_ = second_ - t.mode.second * t.mode.second;
+    of_offset_ = of_offset_ - t.mode * t.offset;
+    of_place_ = of_place_ - t.mode * t.place;
+    offset_ = offset_ - t.offset * t.offset;
+    offset_and_place_ = offset_and_place_ - t.offset * t.place;
+    place_ = place_ - t.place * t.place;
+  }
+
+  void limit() {
+    constexpr Scalar place_at_most = numeric::from_real<Scalar>(0.25);
+    if (first_ < parameters_.mode_at_most && second_ < parameters_.mode_at_most &&
+        offset_ < parameters_.offset_at_most && place_ < place_at_most) {
+      return;
+    }
+    constexpr Scalar quarter = numeric::from_real<Scalar>(0.25);
+    for (Scalar* const variance :
+         {&first_, &both_, &second_, &of_offset_.first, &of_offset_.second, &of_place_.first,
+          &of_place_.second, &offset_, &offset_and_place_, &place_}) {
+      *variance = *variance * quarter;
+    }
+  }
+
+  Parameters parameters_;
+  Scalar first_{};  ///< of w, with itself
+  Scalar both_{};
+  Scalar second_{};
+  Pair<Scalar> of_offset_;  ///< of w with o
+  Pair<Scalar> of_place_;   ///< of w with p
+  Scalar offset_{};
+  Scalar offset_and_place_{};
+  Scalar place_{};
+};
+
+}  // namespace sonoglide::control
