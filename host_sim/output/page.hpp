@@ -28,7 +28,7 @@ struct Panel {
   std::vector<double> x;
   std::vector<Series> series;
   bool logarithmic_y = false;
-  std::string group;  ///< panels of one non-empty group zoom and hover together
+  std::string group;           ///< panels of one non-empty group zoom and hover together
   bool logarithmic_x = false;  ///< every x is above 0
 };
 
