@@ -26,10 +26,10 @@ struct Identification {
   std::string subject;  ///< "impedance" or "friction"
   std::string model;    ///< in words
   std::vector<Estimate> parameters;
-  double residual_rms;  ///< relative to the measured value
+  double residual_rms = 0.0;  ///< relative to the measured value
   /// Root mean square of what the residuals have that is no scatter from reading to reading,
   /// relative to the measured value; 0 where none is seen.
-  double misfit;
+  double misfit = 0.0;
   Correlations correlations;
   std::vector<std::string> warnings;  ///< each a sentence
   std::vector<std::string>
