@@ -1,4 +1,4 @@
-/// The covariance of an observer of a felt mode, against the same in long double, as matrices.
+/// The covariance of an observer of a felt mode, against the same as matrices.
 
 #include "firmware/control/felt_doubt.hpp"
 
@@ -17,7 +17,7 @@
 namespace sonoglide::control {
 namespace {
 
-using Vector = std::array<long double, 4>;
+using Vector = std::array<double, 4>;
 using Matrix = std::array<Vector, 4>;
 
 Matrix product(const Matrix& a, const Matrix& b) {
@@ -71,35 +71,34 @@ struct Oracle {
     p[3][3] = 0.2;
   }
 
-  void pass(long double c, long double s, const Vector& slope, const Vector& mode) {
+  void pass(double c, double s, const Vector& slope, const Vector& mode) {
     const Matrix f{{{c, -s, 0, slope[0]}, {s, c, 0, slope[1]}, {0, 0, 1, 0}, {0, 0, 0, 1}}};
     p = product(product(f, p), transposed(f));
-    const long double more =
+    const double more =
         all.mode_per_period + all.mode_swing * (mode[0] * mode[0] + mode[1] * mode[1]);
     p[0][0] += more;
     p[1][1] += more;
     p[2][2] += all.offset_per_period;
-    p[3][3] += 1e-6L;
+    p[3][3] += 1e-6;
     if (p[0][0] >= all.mode_at_most || p[1][1] >= all.mode_at_most ||
-        p[2][2] >= all.offset_at_most || p[3][3] >= 0.25L) {
+        p[2][2] >= all.offset_at_most || p[3][3] >= 0.25) {
       for (Vector& row : p) {
-        std::transform(row.begin(), row.end(), row.begin(),
-                       [](long double x) { return 0.25L * x; });
+        std::transform(row.begin(), row.end(), row.begin(), [](double x) { return 0.25 * x; });
       }
     }
   }
 
   Vector weigh(const Vector& view, double variance, double miss) {
     Vector seen{};
-    long double sum = variance;
+    double sum = variance;
     for (std::size_t i = 0; i < 4; ++i) {
       for (std::size_t j = 0; j < 4; ++j) {
         seen[i] += p[i][j] * view[j];
       }
       sum += view[i] * seen[i];
     }
-    const long double deviations = miss / std::sqrt(sum);
-    const long double limited = std::clamp(deviations, -3.0L, 3.0L);
+    const double deviations = miss / std::sqrt(sum);
+    const double limited = std::clamp(deviations, -3.0, 3.0);
     Vector moved{};
     for (std::size_t i = 0; i < 4; ++i) {
       moved[i] = seen[i] / std::sqrt(sum) * limited;
@@ -107,7 +106,7 @@ struct Oracle {
         p[i][j] -= seen[i] * seen[j] / sum;
       }
     }
-    if (std::abs(deviations) >= 3.0L) {
+    if (std::abs(deviations) >= 3.0) {
       p[0][0] += all.mode_at_start;
       p[1][1] += all.mode_at_start;
     }
@@ -156,10 +155,10 @@ struct Together {
         oracle.weigh({numeric::to_real(view.mode.first), numeric::to_real(view.mode.second),
                       numeric::to_real(view.offset), numeric::to_real(view.place)},
                      numeric::to_real(variance), numeric::to_real(miss));
-    EXPECT_NEAR(numeric::to_real(moved.mode.first), static_cast<double>(expected[0]), tolerance);
-    EXPECT_NEAR(numeric::to_real(moved.mode.second), static_cast<double>(expected[1]), tolerance);
-    EXPECT_NEAR(numeric::to_real(moved.offset), static_cast<double>(expected[2]), tolerance);
-    const double place = static_cast<double>(expected[3]);
+    EXPECT_NEAR(numeric::to_real(moved.mode.first), expected[0], tolerance);
+    EXPECT_NEAR(numeric::to_real(moved.mode.second), expected[1], tolerance);
+    EXPECT_NEAR(numeric::to_real(moved.offset), expected[2], tolerance);
+    const double place = expected[3];
     EXPECT_NEAR(numeric::to_real(moved.place),
                 numeric::is_fixed_point_v<S> ? std::clamp(place, -1.0, 1.0) : place, tolerance);
   }
