@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <complex>
+#include <cstddef>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
@@ -124,7 +125,8 @@ TEST(IdentifyImpedanceCommand, ItsSceneHasTheIntervalsAsTolerances) {
       std::string path = std::string(key).substr(1);
       path.replace(path.find('/'), 1, ".");
       const auto& range = tolerance[path]["range"];
-      for (const auto& [end, index] : {std::pair{"low_95", 0}, {"high_95", 1}}) {
+      for (const auto& [end, index] :
+           {std::pair{"low_95", std::size_t{0}}, {"high_95", std::size_t{1}}}) {
         const double relative = found[end].get<double>() / found["value"].get<double>();
         EXPECT_NEAR(range[index].get<double>() / value, std::pow(relative, power), 1e-12) << key;
       }
