@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "firmware/control/mode_observer.hpp"
+#include "firmware/control/pair.hpp"
 #include "firmware/numeric/floating.hpp"
 #include "firmware/numeric/headroom.hpp"
 #include "firmware/numeric/near_root.hpp"
@@ -17,7 +17,7 @@ namespace sonoglide::control {
 ///   t = P c/√S,  S = c·P c + R,
 /// and moves (w, o, p) by t e/√S, e what it shows beyond the forecast, e/√S limited to ±3. Q of the mode
 /// grows with the mode, as what the model has wrong does. After a reading beyond the limit the mode is
-/// as uncertain again as at the start: something has knocked it.
+/// as uncertain again as at the start, or more: something has knocked it.
 ///
 /// In fixed point velocities are on a base of four to eight times the fastest sliding, on which a mode
 /// of 1 is a velocity of 1 to 2: no number here reaches 1. Products are rounded, which Q makes good. A
@@ -124,11 +124,6 @@ class FeltDoubt {
   static constexpr Scalar least = numeric::is_fixed_point_v<Scalar>
                                       ? numeric::from_code<Scalar>(64)
                                       : numeric::from_real<Scalar>(1e-18);
-
-  static Pair<Scalar> turned(const Pair<Scalar>& mode, const Pair<Scalar>& turn) {
-    return {turn.first * mode.first - turn.second * mode.second,
-            turn.second * mode.first + turn.first * mode.second};
-  }
 
   /// P c
   State product(const State& view) const {

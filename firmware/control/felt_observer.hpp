@@ -6,7 +6,8 @@
 
 #include "firmware/control/felt_doubt.hpp"
 #include "firmware/control/felt_table.hpp"
-#include "firmware/control/mode_observer.hpp"
+#include "firmware/control/mode_table.hpp"
+#include "firmware/control/pair.hpp"
 #include "firmware/numeric/floating.hpp"
 #include "firmware/numeric/headroom.hpp"
 #include "firmware/numeric/scalar.hpp"
@@ -216,11 +217,6 @@ class FeltObserver {
 
   static Pair<Scalar> lifted(const Pair<Scalar>& pair, int n) {
     return {numeric::lifted(pair.first, n), numeric::lifted(pair.second, n)};
-  }
-
-  static Pair<Scalar> turned(const Pair<Scalar>& mode, const Pair<Scalar>& turn) {
-    return {turn.first * mode.first - turn.second * mode.second,
-            turn.second * mode.first + turn.first * mode.second};
   }
 
   FeltDoubt<Scalar> doubt_;

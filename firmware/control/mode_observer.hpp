@@ -5,31 +5,12 @@
 #include <cstdint>
 
 #include "firmware/control/mode_table.hpp"
+#include "firmware/control/pair.hpp"
 #include "firmware/control/place_estimate.hpp"
 #include "firmware/numeric/headroom.hpp"
 #include "firmware/numeric/scalar.hpp"
 
 namespace sonoglide::control {
-
-/// Two numbers: of a mode, of a vibration, or of a product with a matrix.
-template <class Scalar>
-struct Pair {
-  Scalar first{};
-  Scalar second{};
-};
-
-template <class Scalar>
-constexpr Pair<Scalar> operator+(const Pair<Scalar>& a, const Pair<Scalar>& b) {
-  return {a.first + b.first, a.second + b.second};
-}
-template <class Scalar>
-constexpr Pair<Scalar> operator-(const Pair<Scalar>& a, const Pair<Scalar>& b) {
-  return {a.first - b.first, a.second - b.second};
-}
-template <class Scalar>
-constexpr Pair<Scalar> operator*(const Pair<Scalar>& a, Scalar b) {
-  return {numeric::rough_product(a.first, b), numeric::rough_product(a.second, b)};
-}
 
 /// Observer of the natural mode, of a constant beside it and of the natural frequency, from the
 /// vibration z demodulated over a carrier period, u the amplitude of the drive:
@@ -154,6 +135,7 @@ class ModeObserver {
     return numeric::lifted_sum(row_[i], pair.first, row_[i + 1], pair.second, base);
   }
 
+  /// As control::turned(), in fewer instructions of fixed point.
   static Pair<Scalar> turned(const Pair<Scalar>& mode, const Pair<Scalar>& turn) {
     return {numeric::difference_of_products(turn.first, mode.first, turn.second, mode.second),
             numeric::sum_of_products(turn.second, mode.first, turn.first, mode.second)};

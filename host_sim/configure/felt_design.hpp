@@ -22,7 +22,7 @@ struct FeltDesign {
   bool quick = true;             ///< the mode can be quieted, see is_quick()
   double speed = 0.0;            ///< of the fastest sliding
   double mode_unit = 0.0;        ///< velocity of a mode of 1
-  double swing = 0.0;            ///< of a mode, what the model has wrong in a period, rms, of 1
+  double swing = 0.0;            ///< rms of what the model has wrong of a mode of 1, in a period
   double linear = 0.0;           ///< mode per velocity up to which the friction follows it linearly
   double sensor_memory = 0.0;    ///< what its low-pass keeps of the past in a period
   double contact_memory = 0.0;   ///< likewise

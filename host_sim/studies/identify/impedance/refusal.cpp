@@ -114,8 +114,7 @@ void require_described(const Sweep& sweep, const CircuitFit& fit, const char* ot
     refuse(sweep,
            fmt::format("{}: what is left is {:.3g} % of the readings, root mean square, where "
                        "they scatter by {:.2g} % from one to the next. Narrow the sweep to one "
-                       "resonance and its "
-                       "antiresonance",
+                       "resonance and its antiresonance",
                        otherwise, 100.0 * description.residual, 100.0 * description.scatter));
   }
 }

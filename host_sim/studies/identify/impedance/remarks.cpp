@@ -6,8 +6,10 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "host_sim/studies/identify/impedance/description.hpp"
+#include "host_sim/studies/identify/impedance/scatter.hpp"
 
 namespace sonoglide::identify::impedance {
 namespace {
@@ -25,10 +27,7 @@ double reading_to_reading(const CircuitFit& fit) {
   for (Eigen::Index i = n + 1; i < fit.at.residuals.size(); ++i) {
     steps.push_back(std::abs(fit.at.residuals(i) - fit.at.residuals(i - 1)));
   }
-  constexpr double deviation_of_median = 1.4826;
-  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-  std::nth_element(steps.begin(), middle, steps.end());
-  return deviation_of_median * *middle / std::sqrt(2.0);
+  return deviation_of_steps(std::move(steps));
 }
 
 /// Readings whose phase is beyond ±90° by more than the scatter explains.
@@ -135,8 +134,7 @@ std::string open_phase(const Circuit& circuit) {
       2.0 * lead_ohm * two_pi * mode.resonance_Hz * circuit.clamped_capacitance_F;
   return fmt::format(
       "Whether the {} in series are leads and contacts or an error of the phase: one of about "
-      "{:.2g} "
-      "degrees would look alike, and the motional resistance would be about {}.",
+      "{:.2g} degrees would look alike, and the motional resistance would be about {}.",
       shown("_ohm", lead_ohm), phase_rad * 360.0 / two_pi,
       shown("_ohm", mode.resistance_ohm() + lead_ohm));
 }
@@ -173,8 +171,7 @@ std::vector<std::string> open_questions(const std::vector<Estimate>& estimates,
   if (!fact.known()) {
     open.emplace_back(
         "Mass, stiffness, damping and force factor: electrical data give m/Nf^2, Nf^2/Ks and "
-        "c/Nf^2 "
-        "alone. One mechanical fact tells them: --mass-kg, or --force-factor-N-per-V.");
+        "c/Nf^2 alone. One mechanical fact tells them: --mass-kg, or --force-factor-N-per-V.");
   }
   if (!sweep.has_phase) {
     open.emplace_back(

@@ -32,7 +32,7 @@ std::optional<CircuitFit> best_fit(const Sweep& sweep, Parts parts,
   return best;
 }
 
-/// Readings in the band width of a mode, twice as wide as that.
+/// Readings less than a band width off the resonance of a mode.
 std::size_t readings_near(const Sweep& sweep, const Mode& mode) {
   return static_cast<std::size_t>(
       std::count_if(sweep.frequency_Hz.begin(), sweep.frequency_Hz.end(),

@@ -5,17 +5,13 @@
 #include <cmath>
 #include <utility>
 
+#include "host_sim/studies/identify/impedance/scatter.hpp"
+
 namespace sonoglide::identify::impedance {
 namespace {
 
 constexpr double far = 8.0;
-constexpr double near = 4.0;
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
+constexpr double close_by = 4.0;
 
 /// One residual a reading, of magnitude or of phase.
 class Residuals {
@@ -40,11 +36,13 @@ class Residuals {
 
   /// Whether the readings next to it are where the others are.
   bool neighbours_fit_in(Eigen::Index i) const {
-    return std::all_of(offsets.begin(), offsets.end(), [&](Eigen::Index offset) {
-      const Eigen::Index at = i + offset;
-      return std::abs(offset) > 1 || at < 0 || at >= r_.size() ||
-             std::abs(r_(at) - around(i)) < near * deviation(i);
-    });
+    for (const Eigen::Index next : {i - 1, i + 1}) {
+      if (next >= 0 && next < r_.size() &&
+          std::abs(r_(next) - around(i)) >= close_by * deviation(i)) {
+        return false;
+      }
+    }
+    return true;
   }
 
  private:
@@ -61,15 +59,15 @@ class Residuals {
   }
 
   double deviation(Eigen::Index i) const {
-    constexpr double deviation_of_median = 1.4826;
     double usual = 1e-300;
     for (const std::ptrdiff_t half : {15, 50}) {
       const auto size = static_cast<std::ptrdiff_t>(steps_.size());
       const auto at = static_cast<std::ptrdiff_t>(i);
-      usual = std::max(usual, median({steps_.begin() + std::max<std::ptrdiff_t>(at - half, 0),
-                                      steps_.begin() + std::min(at + half, size)}));
+      usual = std::max(usual,
+                       deviation_of_steps({steps_.begin() + std::max<std::ptrdiff_t>(at - half, 0),
+                                           steps_.begin() + std::min(at + half, size)}));
     }
-    return deviation_of_median * usual / std::sqrt(2.0);
+    return usual;
   }
 
   Eigen::VectorXd r_;

@@ -183,14 +183,6 @@ std::string unit_in_brackets(const std::string& name) {
   return name.substr(open + 1, close == std::string::npos ? close : close - open - 1);
 }
 
-}  // namespace
-
-bool is_equivalent_element(const std::string& word) {
-  return is_one_of(lower(word), {"cp", "cs", "lp", "ls", "rp", "q", "d"});
-}
-
-namespace {
-
 /// S11, s_11, S21.
 bool is_scattering_parameter(const std::string& name) {
   for (std::size_t i = 0; i < name.size(); ++i) {
@@ -224,6 +216,10 @@ bool is_frequency(const std::vector<std::string>& words) {
 }
 
 }  // namespace
+
+bool is_equivalent_element(const std::string& word) {
+  return is_one_of(lower(word), {"cp", "cs", "lp", "ls", "rp", "q", "d"});
+}
 
 double NamedColumn::value(double cell) const {
   constexpr double decibels_a_decade = 20.0;
@@ -353,12 +349,12 @@ SweepColumns find_columns(const MeasuredTable& table) {
               fmt::format("the magnitude of {}", admittance ? "an admittance" : "an impedance")};
     }
   }
-  throw table.heading_error(fmt::format(
-      "no columns of an impedance or admittance among {}; allowed: magnitude with or "
-      "without phase, "
-      "or real and imaginary part, as impedance_magnitude_ohm,impedance_phase_deg; S11 is "
-      "read from Touchstone files, .s1p",
-      fmt::join(table.names(), ", ")));
+  throw table.heading_error(
+      fmt::format("no columns of an impedance or admittance among {}; allowed: magnitude with or "
+                  "without phase, or real and imaginary part, as "
+                  "impedance_magnitude_ohm,impedance_phase_deg; S11 is "
+                  "read from Touchstone files, .s1p",
+                  fmt::join(table.names(), ", ")));
 }
 
 }  // namespace sonoglide::identify::impedance
