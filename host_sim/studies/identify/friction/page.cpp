@@ -151,18 +151,18 @@ output::Section residual_section(const Comparison& comparison) {
 
 output::Table law_table(const Comparison& comparison) {
   output::Table table{"Laws, the best first",
-                      {"Law", "--law", "Verdict", "Vibration", "Parameters", "AICc, difference",
-                       "Residual rms", "Misfit", "Runs, probability", "Chi square, probability"},
+                      {"Law (--law)", "Verdict", "Vibration", "Parameters", "AICc, difference",
+                       "Residual rms", "Misfit", "P(runs)", "P(chi²)"},
                       {}};
   const auto cell = [](double value) {
     return std::isfinite(value) ? fmt::format("{:.3g}", value) : std::string("-");
   };
   for (const LawFit& each : comparison.laws) {
-    table.rows.push_back({each.law.title, each.law.law, verdict(comparison, each),
-                          each.law.direction, fmt::format("{}", each.parameter_count()),
-                          cell(comparison.difference(each)), cell(each.residual_rms),
-                          cell(each.misfit), cell(each.runs_probability),
-                          cell(each.chi_square_probability)});
+    table.rows.push_back(
+        {fmt::format("{} ({})", each.law.title, each.law.law), verdict(comparison, each),
+         each.law.direction, fmt::format("{}", each.parameter_count()),
+         cell(comparison.difference(each)), cell(each.residual_rms), cell(each.misfit),
+         cell(each.runs_probability), cell(each.chi_square_probability)});
   }
   return table;
 }
