@@ -16,7 +16,8 @@ ordered_json number(double value) {
   return std::isfinite(value) ? ordered_json(value) : ordered_json(nullptr);
 }
 
-/// Of a name that ends with one of these; empty for a pure number.
+}  // namespace
+
 std::string unit_of(const std::string& name) {
   static constexpr std::pair<const char*, const char*> units[] = {{"_ohm", "ohm"},
                                                                   {"_F", "F"},
@@ -40,8 +41,6 @@ std::string unit_of(const std::string& name) {
   }
   return {};
 }
-
-}  // namespace
 
 ordered_json to_json(const Identification& identification) {
   ordered_json json;

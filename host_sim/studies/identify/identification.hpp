@@ -39,6 +39,9 @@ struct Identification {
 /// As it stands in identify.json; what is not finite becomes null.
 nlohmann::ordered_json to_json(const Identification& identification);
 
+/// The unit that a name ends with, as `m/s` of `sliding_velocity_m_per_s`; empty of a pure number.
+std::string unit_of(const std::string& name);
+
 /// A value as a table shows it, `52.675 mH`: five digits, of a frequency seven, with the prefix that
 /// suits. The unit is that of the name's ending; of a mass, without prefix.
 std::string shown(const std::string& name, double value);

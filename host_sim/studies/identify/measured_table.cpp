@@ -68,7 +68,38 @@ std::size_t numeric_cells(const std::vector<Cell>& cells, char separator) {
   }));
 }
 
+/// A cell of the line of units as it stands behind a name.
+std::string in_brackets(std::string_view unit) {
+  return unit.find_first_of("([") == std::string_view::npos ? fmt::format("[{}]", unit)
+                                                            : std::string(unit);
+}
+
+/// The mark of a number's fraction; 0 where it has none.
+char decimal_mark(std::string_view cell) {
+  const std::size_t at = cell.find_first_of(".,");
+  return at == std::string_view::npos || !is_numeric(cell, true) ? '\0' : cell[at];
+}
+
 }  // namespace
+
+std::string unit_in_brackets(const std::string& name) {
+  const std::size_t open = name.find_last_of("([");
+  if (open == std::string::npos) {
+    return {};
+  }
+  const std::size_t close = name.find_first_of(")]", open);
+  return name.substr(open + 1, close == std::string::npos ? close : close - open - 1);
+}
+
+std::string warning_of_cut(const scene_file::Source& source) {
+  const std::string_view last = lines_of(source.text).back();
+  const bool ends = source.text.find_last_of("\r\n") + 1 == source.text.size();
+  if (ends || trimmed(last) == "END") {
+    return {};
+  }
+  return fmt::format("The last line, \"{}\", has no line end: if the file was cut, it is wrong.",
+                     trimmed(last).substr(0, 60));
+}
 
 scene_file::Source read_text(const std::filesystem::path& path) {
   const std::string file = path.string();
@@ -176,10 +207,54 @@ MeasuredTable::MeasuredTable(const scene_file::Source& source) : source_(source)
   if (rows_.empty()) {
     throw heading_error("no row of numbers below the heading; allowed: at least one");
   }
+  require_no_surplus();
+  require_one_decimal_mark();
 }
 
-/// Whether the line is a heading: at least two cells, all of words; the one above, if that is of as
-/// many words, is joined to it.
+void MeasuredTable::require_no_surplus() const {
+  for (const Row& row : rows_) {
+    const std::vector<Cell> cells = cells_of(row.line, separator_);
+    for (std::size_t i = names_.size(); i < cells.size(); ++i) {
+      if (!cells[i].text.empty()) {
+        throw SceneError(
+            {source_.file, row.number, cells[i].column}, "row",
+            fmt::format("cells on this line: {}; allowed: one for each of the {} columns{}",
+                        cells.size(), names_.size(),
+                        separator_ == ',' ? "; numbers with decimal commas need semicolons or tabs "
+                                            "between them"
+                                          : ""));
+      }
+    }
+  }
+}
+
+void MeasuredTable::require_one_decimal_mark() const {
+  if (separator_ == ',') {
+    return;
+  }
+  char mark = '\0';
+  std::size_t line_of_mark = 0;
+  for (const Row& row : rows_) {
+    for (const Cell& each : cells_of(row.line, separator_)) {
+      const char found = decimal_mark(each.text);
+      if (found != '\0' && mark != '\0' && found != mark) {
+        throw SceneError(
+            {source_.file, row.number, each.column}, "row",
+            fmt::format("\"{}\" has a decimal {}, and line {} has decimal {}; allowed: "
+                        "one of them in a file, and nothing between thousands",
+                        each.text.substr(0, 40), found == ',' ? "comma" : "point", line_of_mark,
+                        mark == ',' ? "commas" : "points"));
+      }
+      if (found != '\0' && mark == '\0') {
+        mark = found;
+        line_of_mark = row.number;
+      }
+    }
+  }
+}
+
+/// Whether the line is a heading: at least two cells, all of words; joined to the one above, if that
+/// is of as many words.
 bool MeasuredTable::take_heading(std::string_view line, std::size_t number) {
   const char separator = separator_of(line);
   const std::vector<Cell> cells = cells_of(line, separator);
@@ -194,7 +269,9 @@ bool MeasuredTable::take_heading(std::string_view line, std::size_t number) {
     separator_ = separator;
   }
   for (std::size_t i = 0; i < cells.size(); ++i) {
-    names_[i] += (units && !cells[i].text.empty() ? " " : "") + std::string(cells[i].text);
+    names_[i] += !units                  ? std::string(cells[i].text)
+                 : cells[i].text.empty() ? std::string()
+                                         : " " + in_brackets(cells[i].text);
   }
   return true;
 }

@@ -34,15 +34,23 @@ struct Cell {
 /// @param separator  a blank stands for any number of blanks and tabs
 std::vector<Cell> cells_of(std::string_view line, char separator);
 
+/// What stands in the last brackets of a name; empty where nothing does.
+std::string unit_in_brackets(const std::string& name);
+
+/// A warning of a text whose last line has no end, and so may be cut; empty for any other.
+std::string warning_of_cut(const scene_file::Source& source);
+
 /// Columns of numbers under a heading. The separator is a tab, a semicolon, a comma or blanks,
 /// whichever the heading has first in this order. With any but a comma the numbers may have decimal
-/// commas. Lines that begin with `#`, `!` or `%` are comments; the last of them is the heading where
-/// no other line is one. What stands above the heading is passed over. A second line of words below
-/// it, as of units, is joined to it. The rows end at a line `END` or at the end of the text.
+/// commas, and then none has a decimal point. Lines that begin with `#`, `!` or `%` are comments; the
+/// last of them is the heading where no other line is one. What stands above the heading is passed
+/// over. A second line of words below it, as of units, is joined to it in brackets. The rows end at a
+/// line `END` or at the end of the text.
 class MeasuredTable {
  public:
   /// @param source  outlives the table
-  /// @throws scene_file::SceneError  no heading, or no row
+  /// @throws scene_file::SceneError  no heading, no row, a row of more cells than the heading, or
+  ///         decimal points beside decimal commas
   explicit MeasuredTable(const scene_file::Source& source);
 
   const std::vector<std::string>& names() const { return names_; }
@@ -69,6 +77,8 @@ class MeasuredTable {
   };
 
   Cell cell(std::size_t row, std::size_t column) const;
+  void require_no_surplus() const;
+  void require_one_decimal_mark() const;
   void find_heading(const std::vector<std::string_view>& lines, std::size_t& first_row);
   bool take_heading(std::string_view line, std::size_t number);
 

@@ -11,6 +11,7 @@
 
 #include "firmware/numeric/turn.hpp"
 #include "host_sim/scene_file/suggestion.hpp"
+#include "host_sim/studies/identify/identification.hpp"
 #include "host_sim/studies/identify/measured_table.hpp"
 
 namespace sonoglide::identify::friction {
@@ -111,7 +112,12 @@ class Columns {
     return nullptr;
   }
 
-  void take(const std::string& name, std::size_t index) {
+  /// A name may have its unit behind it, in brackets or on a line of units.
+  void take(const std::string& title, std::size_t index) {
+    const std::string unit = unit_in_brackets(title);
+    const std::string name =
+        unit.empty() ? title
+                     : title.substr(0, title.find_last_not_of(" ([", title.find_last_of("([")) + 1);
     const auto* each = std::find_if(known.begin(), known.end(),
                                     [&](const Known& any) { return any.name == name; });
     if (each == known.end()) {
@@ -119,6 +125,11 @@ class Columns {
     }
     if (has(name)) {
       throw table_.heading_error(fmt::format("names {} twice; allowed: once", name));
+    }
+    const std::string own = unit_of(name).empty() ? "-" : unit_of(name);
+    if (!unit.empty() && unit != own) {
+      throw table_.heading_error(
+          fmt::format("\"{}\" is no unit of {}; allowed: {}", unit, name, own));
     }
     columns_.push_back({each, index});
   }
@@ -226,6 +237,9 @@ Readings read_readings(const scene_file::Source& source) {
                             std::make_tuple(b.velocity_ratio(), b.sliding_m_per_s);
                    });
   warn(readings);
+  if (const std::string cut = warning_of_cut(source); !cut.empty()) {
+    readings.warnings.push_back(cut);
+  }
   return readings;
 }
 

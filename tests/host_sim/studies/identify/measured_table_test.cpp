@@ -61,6 +61,44 @@ TEST(MeasuredTable, NamesThePlaceOfWhatIsWrong) {
   EXPECT_EQ(error_of("1,2\n3,4\n").substr(0, 20), "m.csv:1:1: heading: ");
 }
 
+/// A surplus cell is a decimal comma, or a separator of thousands, that was taken for a separator.
+TEST(MeasuredTable, RefusesRowsOfMoreCellsThanTheHeading) {
+  EXPECT_EQ(
+      error_of("a,b\n1,2\n39000,1011,2\n"),
+      "m.csv:3:12: row: cells on this line: 3; allowed: one for each of the 2 columns; numbers "
+      "with decimal commas need semicolons or tabs between them");
+  EXPECT_EQ(error_of("a;b\n1;2\n3;4;5\n"),
+            "m.csv:3:5: row: cells on this line: 3; allowed: one for each of the 2 columns");
+  // Spreadsheets end rows with separators.
+  EXPECT_EQ(error_of("a,b\n1,2,,\n3,4,\n"), "no error");
+}
+
+TEST(MeasuredTable, RefusesDecimalPointsBesideDecimalCommas) {
+  EXPECT_EQ(
+      error_of("a;b\n39,000;1011.2\n"),
+      "m.csv:2:8: row: \"1011.2\" has a decimal point, and line 2 has decimal commas; allowed: "
+      "one of them in a file, and nothing between thousands");
+  EXPECT_EQ(error_of("a b\n1 2\n1.5 2\n1 2,5\n"),
+            "m.csv:4:3: row: \"2,5\" has a decimal comma, and line 3 has decimal points; allowed: "
+            "one of them in a file, and nothing between thousands");
+  EXPECT_EQ(error_of("a;b\n1,5;2\n1;-2,5e-3\n"), "no error");
+}
+
+TEST(MeasuredTable, PutsUnitsOfTheLineBelowIntoBrackets) {
+  const scene_file::Source source{"m.csv", "a;b;c\nkHz;;(ohm)\n1;2;3\n"};
+  EXPECT_EQ(MeasuredTable(source).names(), (Names{"a [kHz]", "b", "c (ohm)"}));
+  EXPECT_EQ(unit_in_brackets("a [kHz]"), "kHz");
+  EXPECT_EQ(unit_in_brackets("a"), "");
+}
+
+TEST(MeasuredTable, ALastLineWithoutAnEndMayBeCut) {
+  EXPECT_EQ(warning_of_cut({"m.csv", "a,b\n1,2\n"}), "");
+  EXPECT_EQ(warning_of_cut({"m.csv", "a,b\r1,2\r"}), "");
+  EXPECT_EQ(warning_of_cut({"m.csv", "a,b\n1,2\nEND"}), "");
+  EXPECT_EQ(warning_of_cut({"m.csv", "a,b\n1,-86"}),
+            "The last line, \"1,-86\", has no line end: if the file was cut, it is wrong.");
+}
+
 TEST(MeasuredTable, RefusesAFileThatIsNoText) {
   EXPECT_THROW(read_text("/"), scene_file::SceneError);
   EXPECT_THROW(read_text("/dev/null"), scene_file::SceneError);

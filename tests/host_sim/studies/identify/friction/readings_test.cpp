@@ -103,6 +103,26 @@ TEST(Readings, HeadingsAreRefusedWithWhatIsAllowed) {
             std::string::npos);
 }
 
+TEST(Readings, MayHaveTheirUnitsInBracketsOrOnALineBelow) {
+  const std::string rows = "0.01;0.1;0.2\n0.02;0.1;0.3\n";
+  const std::string names = "sliding_velocity_m_per_s;vibration_velocity_m_per_s;friction_ratio\n";
+  for (const std::string& text :
+       {names + "m/s;m/s;-\n" + rows, names + "(m/s);;\n" + rows,
+        "sliding_velocity_m_per_s [m/s];vibration_velocity_m_per_s (m/s);friction_ratio\n" +
+            rows}) {
+    const scene_file::Source source{"f.csv", text};
+    EXPECT_EQ(read_readings(source).rows.at(1).sliding_m_per_s, 0.02) << text;
+  }
+  expect_refused(names + "mm/s;m/s;-\n" + rows, "1:1",
+                 "\"mm/s\" is no unit of sliding_velocity_m_per_s; allowed: m/s");
+  expect_refused(names + "m/s;m/s;%\n" + rows, "1:1", "\"%\" is no unit of friction_ratio");
+}
+
+TEST(Readings, OfAFileThatMayBeCutAreWarnedOf) {
+  const scene_file::Source source{"f.csv", heading + "0.01,0.1,0.2\n0.02,0.1,0.3"};
+  EXPECT_NE(read_readings(source).warnings.at(0).find("has no line end"), std::string::npos);
+}
+
 TEST(Readings, AreNotEndless) {
   std::string text = heading;
   for (int i = 0; i < 501; ++i) {
