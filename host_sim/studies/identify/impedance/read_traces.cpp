@@ -18,8 +18,12 @@ namespace {
 using Complex = std::complex<double>;
 using scene_file::SceneError;
 
+constexpr std::string_view allowed_traces = "allowed: |Z|-theta, R-X, |Y|-theta, G-B";
+
 struct Trace {
   std::optional<NamedColumn> named;
+  std::string format;  ///< the name as it stands in the file
+  std::size_t line_of_format = 0;
   std::vector<double> frequency_Hz;
   std::vector<Complex> values;
   std::vector<std::size_t> lines;
@@ -44,9 +48,8 @@ void refuse_foreign(const scene_file::Source& source, std::string_view line, std
   const std::string_view rest = line.substr(first, line.find('"', first) - first);
   const std::string word(rest.substr(0, rest.find_first_of("-/, ")));
   if (is_equivalent_element(word)) {
-    throw SceneError(
-        {source.file, number, first + 1}, "trace",
-        fmt::format("\"{}\" is no impedance; allowed: |Z|-theta, R-X, |Y|-theta, G-B", rest));
+    throw SceneError({source.file, number, first + 1}, "trace",
+                     fmt::format("\"{}\" is no impedance; {}", rest, allowed_traces));
   }
 }
 
@@ -68,6 +71,18 @@ void take_names(std::string_view line, std::vector<NamedColumn>& named) {
       named.push_back(column);
     }
     begin = end + 1;
+  }
+}
+
+/// What a line as `"FORMAT: |Z|"` below `"TRACE: A"` says of that trace.
+void take_format(std::string_view line, std::size_t number, Trace& trace) {
+  std::vector<NamedColumn> named;
+  take_names(line, named);
+  if (named.size() == 1 && !trace.named) {
+    trace.named = named.front();
+    const std::size_t from = line.find_first_not_of(": ", line.find(':'));
+    trace.format = line.substr(from, line.find('"', from) - from);
+    trace.line_of_format = number;
   }
 }
 
@@ -114,11 +129,7 @@ Traces split(const scene_file::Source& source) {
     } else if (found.traces.empty()) {
       take_names(line, found.named);
     } else {
-      std::vector<NamedColumn> named;
-      take_names(line, named);
-      if (named.size() == 1 && !found.traces.back().named) {
-        found.traces.back().named = named.front();
-      }
+      take_format(line, i + 1, found.traces.back());
     }
   }
   return found;
@@ -140,23 +151,44 @@ NamedColumn column(Role role) {
   return named;
 }
 
-/// What the two traces are.
-std::pair<NamedColumn, NamedColumn> pair_of(const Traces& found,
-                                            std::vector<std::string>& warnings) {
+/// What trace A is of a pair.
+NamedColumn first_of_pair(const scene_file::Source& source, const Traces& found,
+                          std::vector<std::string>& warnings) {
   const Trace& a = found.traces[0];
   const Trace& b = found.traces[1];
   if (a.named && b.named && is_pair(*a.named, *b.named)) {
-    return {*a.named, *b.named};
+    return *a.named;
   }
   for (std::size_t i = 0; i + 1 < found.named.size(); ++i) {
     if (is_pair(found.named[i], found.named[i + 1])) {
-      return {found.named[i], found.named[i + 1]};
+      return found.named[i];
     }
+  }
+  if (a.named || b.named) {
+    throw SceneError({source.file, std::max(a.line_of_format, b.line_of_format), 1}, "trace",
+                     fmt::format("\"{}\" and \"{}\" are no pair of traces that is known; {}",
+                                 a.format, b.format, allowed_traces));
   }
   warnings.emplace_back(
       "The file does not name what its traces are; A is taken for |Z| in ohm, B for its phase in "
       "degrees.");
-  return {column(Role::magnitude), column(Role::phase)};
+  return column(Role::magnitude);
+}
+
+/// What trace A is where there is no other: complex, or magnitudes.
+NamedColumn single(const scene_file::Source& source, const Trace& a,
+                   std::vector<std::string>& warnings) {
+  const NamedColumn named = a.named.value_or(column(Role::magnitude));
+  if (has_imaginary_parts(a)) {
+    return named;
+  }
+  if (named.role != Role::magnitude) {
+    throw SceneError({source.file, a.line_of_format, 1}, "trace",
+                     fmt::format("\"{}\" alone, without trace B; {}", a.format, allowed_traces));
+  }
+  warnings.emplace_back(
+      "The file has no readings of trace B: the magnitudes of A are fitted alone.");
+  return named;
 }
 
 }  // namespace
@@ -182,8 +214,8 @@ Sweep read_traces(const scene_file::Source& source) {
   }
   sweep.frequency_Hz = a.frequency_Hz;
   sweep.has_phase = two || has_imaginary_parts(a);
-  const auto [first, second] = two ? pair_of(found, sweep.warnings)
-                                   : std::pair(a.named.value_or(NamedColumn()), NamedColumn());
+  const NamedColumn first =
+      two ? first_of_pair(source, found, sweep.warnings) : single(source, a, sweep.warnings);
   const double radians = two_pi / 360.0;
   for (std::size_t i = 0; i < a.values.size(); ++i) {
     Complex value = a.values[i];

@@ -77,8 +77,16 @@ constexpr UnitName impedance_units[] = {{"ohm", 1.0}, {"ohms", 1.0}, {"kohm", 1e
 constexpr UnitName admittance_units[] = {{"s", 1.0},   {"siemens", 1.0}, {"ms", 1e-3}, {"us", 1e-6},
                                          {"ns", 1e-9}, {"mho", 1.0},     {"ks", 1e3}};
 
+/// Units that a wrong capital makes out of others, 10⁹ off.
+bool is_ambiguous_unit(const std::string& word) {
+  return word == "mHz" || word == "MS";
+}
+
 template <std::size_t Count>
 bool take_unit(const std::string& word, const UnitName (&units)[Count], NamedColumn& column) {
+  if (is_ambiguous_unit(word)) {
+    return false;
+  }
   for (const UnitName& each : units) {
     if (lower(word) == each.name) {
       column.scale = each.scale;
@@ -127,7 +135,7 @@ Role role_of(const std::string& word) {
   if (is_one_of(word, {"abs", "mag", "magnitude", "modulus", "mod"})) {
     return Role::magnitude;
   }
-  if (is_one_of(word, {"phase", "theta", "phi", "arg", "argument", "angle", "ang"})) {
+  if (is_one_of(word, {"phase", "theta", "th", "phi", "arg", "argument", "angle", "ang"})) {
     return Role::phase;
   }
   if (is_one_of(word, {"re", "real"})) {
@@ -172,16 +180,6 @@ bool take_electrical_unit(const std::string& word, NamedColumn& column) {
 /// letters.
 constexpr std::initializer_list<const char*> foreign_units = {
     "v", "mv", "ma", "ua", "w", "mw", "va", "uf", "nf", "pf", "mh", "uh", "mm"};
-
-/// What stands in the last brackets, or behind the last oblique; empty where nothing does.
-std::string unit_in_brackets(const std::string& name) {
-  const std::size_t open = name.find_last_of("([");
-  if (open == std::string::npos) {
-    return {};
-  }
-  const std::size_t close = name.find_first_of(")]", open);
-  return name.substr(open + 1, close == std::string::npos ? close : close - open - 1);
-}
 
 /// S11, s_11, S21.
 bool is_scattering_parameter(const std::string& name) {
@@ -259,7 +257,7 @@ NamedColumn read_name(const std::string& name, std::string& unknown_unit) {
     column.scale = -column.scale;
   }
   if (column.role != Role::none && !column.has_unit && !column.decibel && words.size() > 1 &&
-      is_one_of(lower(words.back()), foreign_units)) {
+      (is_ambiguous_unit(words.back()) || is_one_of(lower(words.back()), foreign_units))) {
     unknown_unit = words.back();
     return column;
   }
@@ -288,7 +286,9 @@ double SweepColumns::phase_scale(const std::vector<double>& phases,
   return radians ? 1.0 : two_pi / 360.0;
 }
 
-SweepColumns find_columns(const MeasuredTable& table) {
+namespace {
+
+std::vector<NamedColumn> named_columns(const MeasuredTable& table) {
   std::vector<NamedColumn> columns;
   for (std::size_t i = 0; i < table.names().size(); ++i) {
     std::string unknown_unit;
@@ -301,60 +301,80 @@ SweepColumns find_columns(const MeasuredTable& table) {
                       table.names()[i], unknown_unit));
     }
   }
-  const auto find = [&](Role role, std::optional<bool> admittance) -> std::optional<NamedColumn> {
-    for (const NamedColumn& each : columns) {
-      // A phase need not say of what.
-      const bool subject = !admittance || each.is_admittance == *admittance ||
-                           (role == Role::phase && !each.names_its_subject);
-      if (each.role == role && subject &&
-          (each.names_its_subject || role == Role::phase || role == Role::frequency ||
-           !admittance.value_or(false))) {
-        return each;
+  return columns;
+}
+
+void require_different(const MeasuredTable& table, const std::vector<NamedColumn>& columns) {
+  for (const NamedColumn& one : columns) {
+    for (std::size_t i = 0; i < one.index; ++i) {
+      const NamedColumn& other = columns[i];
+      if (one.role != Role::none && one.role == other.role &&
+          one.is_admittance == other.is_admittance) {
+        throw table.heading_error(
+            fmt::format("\"{}\" and \"{}\" are the same; allowed: one of them", table.names()[i],
+                        table.names()[one.index]));
       }
     }
-    return std::nullopt;
-  };
-  const auto frequency = find(Role::frequency, std::nullopt);
+  }
+}
+
+std::optional<NamedColumn> find(const std::vector<NamedColumn>& columns, Role role,
+                                std::optional<bool> admittance) {
+  for (const NamedColumn& each : columns) {
+    // A phase need not say of what.
+    const bool subject = !admittance || each.is_admittance == *admittance ||
+                         (role == Role::phase && !each.names_its_subject);
+    if (each.role == role && subject &&
+        (each.names_its_subject || role == Role::phase || role == Role::frequency ||
+         !admittance.value_or(false))) {
+      return each;
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::vector<SweepColumns> find_columns(const MeasuredTable& table) {
+  const std::vector<NamedColumn> columns = named_columns(table);
+  require_different(table, columns);
+  const auto frequency = find(columns, Role::frequency, std::nullopt);
   if (!frequency) {
     throw table.heading_error(
         fmt::format("no column is a frequency among {}; allowed: a name as frequency_Hz",
                     fmt::join(table.names(), ", ")));
   }
+  std::vector<SweepColumns> found;
   for (const bool admittance : {false, true}) {
     const char* subject = admittance ? "an admittance" : "an impedance";
-    for (const auto& [first, second] :
-         {std::pair(Role::magnitude, Role::phase), std::pair(Role::real, Role::imaginary)}) {
-      const auto one = find(first, admittance);
-      const auto other = find(second, admittance);
+    for (const bool rectangular : {false, true}) {
+      const auto one = find(columns, rectangular ? Role::real : Role::magnitude, admittance);
+      const auto other = find(columns, rectangular ? Role::imaginary : Role::phase, admittance);
       if (one && other) {
-        const bool rectangular = first == Role::real;
-        return {
-            *frequency,
-            *one,
-            other,
-            rectangular,
-            admittance,
-            fmt::format("{} of {}", rectangular ? "real and imaginary part" : "magnitude and phase",
-                        subject)};
+        found.push_back(
+            {*frequency, *one, other, rectangular, admittance,
+             fmt::format("{} of {}",
+                         rectangular ? "real and imaginary part" : "magnitude and phase",
+                         subject)});
       }
     }
   }
   for (const bool admittance : {false, true}) {
-    if (const auto one = find(Role::magnitude, admittance)) {
-      return {*frequency,
-              *one,
-              std::nullopt,
-              false,
-              admittance,
-              fmt::format("the magnitude of {}", admittance ? "an admittance" : "an impedance")};
+    if (const auto one = find(columns, Role::magnitude, admittance)) {
+      found.push_back(
+          {*frequency, *one, std::nullopt, false, admittance,
+           fmt::format("the magnitude of {}", admittance ? "an admittance" : "an impedance")});
     }
   }
-  throw table.heading_error(
-      fmt::format("no columns of an impedance or admittance among {}; allowed: magnitude with or "
-                  "without phase, or real and imaginary part, as "
-                  "impedance_magnitude_ohm,impedance_phase_deg; S11 is "
-                  "read from Touchstone files, .s1p",
-                  fmt::join(table.names(), ", ")));
+  if (found.empty()) {
+    throw table.heading_error(
+        fmt::format("no columns of an impedance or admittance among {}; allowed: magnitude with or "
+                    "without phase, or real and imaginary part, as "
+                    "impedance_magnitude_ohm,impedance_phase_deg; S11 is "
+                    "read from Touchstone files, .s1p",
+                    fmt::join(table.names(), ", ")));
+  }
+  return found;
 }
 
 }  // namespace sonoglide::identify::impedance

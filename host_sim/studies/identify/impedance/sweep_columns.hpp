@@ -48,9 +48,10 @@ struct SweepColumns {
   double phase_scale(const std::vector<double>& phases, std::vector<std::string>& warnings) const;
 };
 
-/// The first of these that the table has: magnitude and phase of an impedance, its parts, magnitude
-/// and phase of an admittance, its parts, the magnitude of either.
-/// @throws scene_file::SceneError  there is no frequency or none of these, or a unit is not known
-SweepColumns find_columns(const MeasuredTable& table);
+/// All of these that the table has, in this order: magnitude and phase of an impedance, its parts,
+/// magnitude and phase of an admittance, its parts, the magnitude of either.
+/// @throws scene_file::SceneError  there is no frequency or none of these, a unit is not known, or two
+///         columns are the same
+std::vector<SweepColumns> find_columns(const MeasuredTable& table);
 
 }  // namespace sonoglide::identify::impedance

@@ -43,6 +43,15 @@ void expect_piece(const std::string& text, const std::string& file = "m.csv") {
   }
 }
 
+std::string error_of(const std::string& text) {
+  try {
+    read_sweep({"m.csv", text});
+  } catch (const scene_file::SceneError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
 TEST(ReadSweep, KnowsColumnsByTheirNames) {
   const auto polar = [](double f, Complex z) {
     return fmt::format("{:.12g},{:.12g},{:.12g}\n", f, std::abs(z), std::arg(z) * degrees);
@@ -127,11 +136,62 @@ TEST(ReadSweep, KnowsTheExportOfA4294A) {
   expect_piece(a + b);
   EXPECT_TRUE(read_sweep({"m.txt", a + b}).warnings.empty());
   expect_piece(a);
+  EXPECT_NE(read_sweep({"m.txt", a}).warnings.at(0).find("no readings of trace B"),
+            std::string::npos);
   const std::string complex_trace =
       file_of(std::string("\"TRACE: A\"\r\n") + heading, [](double f, Complex z) {
         return fmt::format("{:.12g}\t{:.12g}\t{:.12g}\r\n", f, z.real(), z.imag());
       });
   expect_piece(complex_trace);
+}
+
+TEST(ReadSweep, KnowsOrRefusesTheNamesOfTraces) {
+  const auto traces = [](const std::string& one, const std::string& other) {
+    const std::string heading = "\"\n\"Frequency\"\t\"Real\"\n";
+    return file_of("\"TRACE: A\"\n\"FORMAT: " + one + heading,
+                   [](double f, Complex z) {
+                     return fmt::format("{:.12g}\t{:.12g}\n", f, 1.0 / std::abs(z));
+                   }) +
+           file_of("\n\"TRACE: B\"\n\"FORMAT: " + other + heading, [](double f, Complex z) {
+             return fmt::format("{:.12g}\t{:.12g}\n", f, -std::arg(z) * degrees);
+           });
+  };
+  expect_piece(traces("|Y|", "TH"));
+  EXPECT_EQ(error_of(traces("|Y|", "X")),
+            "m.csv:16:1: trace: \"|Y|\" and \"X\" are no pair of traces that is known; allowed: "
+            "|Z|-theta, R-X, |Y|-theta, G-B");
+  EXPECT_EQ(
+      error_of("\"TRACE: A\"\n\"FORMAT: R\"\n\"Frequency\"\n1\t2\n"),
+      "m.csv:2:1: trace: \"R\" alone, without trace B; allowed: |Z|-theta, R-X, |Y|-theta, G-B");
+}
+
+TEST(ReadSweep, ColumnsThatSayTheSameAgree) {
+  const auto file = [](const char* names, double factor, double sign) {
+    return file_of(std::string("f_Hz,|Z|,phase_deg,") + names + "\n", [&](double f, Complex z) {
+      return fmt::format("{:.12g},{:.12g},{:.12g},{:.3g},{:.3g}\n", f, std::abs(z),
+                         std::arg(z) * degrees, factor * z.real(), sign * factor * z.imag());
+    });
+  };
+  expect_piece(file("R_ohm,X_ohm", 1.0, 1.0));
+  for (const auto& text : {file("R_ohm,X_ohm", 3.0, 1.0), file("R_ohm,X_ohm", 1.0, -1.0)}) {
+    EXPECT_NE(error_of(text).find("m.csv:2:"), std::string::npos) << error_of(text);
+    EXPECT_NE(error_of(text).find("contradicts magnitude and phase of an impedance"),
+              std::string::npos)
+        << error_of(text);
+  }
+  EXPECT_EQ(
+      error_of("f,|Z| (ohm),|Z| (kohm)\n1,2,3\n"),
+      "m.csv:1:1: heading: \"|Z| (ohm)\" and \"|Z| (kohm)\" are the same; allowed: one of them");
+}
+
+TEST(ReadSweep, WarnsOfAFileThatMayBeCut) {
+  std::string text = "f,|Z|\n";
+  for (int i = 1; i <= 8; ++i) {
+    text += fmt::format("{},{}\n", i, 100 + i);
+  }
+  EXPECT_TRUE(read_sweep({"m.csv", text}).warnings.empty());
+  text.pop_back();
+  EXPECT_NE(read_sweep({"m.csv", text}).warnings.at(0).find("has no line end"), std::string::npos);
 }
 
 TEST(ReadSweep, SortsAndAveragesReadingsOfOneFrequency) {
@@ -149,15 +209,6 @@ TEST(ReadSweep, SortsAndAveragesReadingsOfOneFrequency) {
   EXPECT_NE(sweep.warnings.front().find("10 readings at 9 frequencies"), std::string::npos);
 }
 
-std::string error_of(const std::string& text) {
-  try {
-    read_sweep({"m.csv", text});
-  } catch (const scene_file::SceneError& error) {
-    return error.what();
-  }
-  return "no error";
-}
-
 TEST(ReadSweep, NamesThePlaceOfWhatIsWrong) {
   const auto begins = [](const std::string& text, const std::string& error) {
     EXPECT_EQ(error_of(text).substr(0, error.size()), error) << error_of(text);
@@ -170,6 +221,12 @@ TEST(ReadSweep, NamesThePlaceOfWhatIsWrong) {
   begins("f,|Z| (V)\n1,2\n", "m.csv:1:1: heading: \"|Z| (V)\": \"V\" is no unit");
   begins("f,impedance_magnitude_mV\n1,2\n",
          "m.csv:1:1: heading: \"impedance_magnitude_mV\": \"mV\" is no unit");
+  begins("Frequency (mHz),|Z|\n1,2\n",
+         "m.csv:1:1: heading: \"Frequency (mHz)\": \"mHz\" is no unit");
+  begins("f_mHz,|Z|\n1,2\n", "m.csv:1:1: heading: \"f_mHz\": \"mHz\" is no unit");
+  begins("f,G (MS),B (MS)\n1,2,3\n", "m.csv:1:1: heading: \"G (MS)\": \"MS\" is no unit");
+  begins("f;|Z|\nkHz;furlong\n1;2\n",
+         "m.csv:1:1: heading: \"|Z| [furlong]\": \"furlong\" is no unit");
   for (const char* heading : {"f,S11 (dB)", "f,S11 mag,S11 phase", "f,s_11 (dB)", "f,Gain (dB)",
                               "f,Magnitude (dB)", "f,Reflection magnitude", "f,Cp (F)"}) {
     begins(std::string(heading) + "\n1,2\n", "m.csv:1:1: heading: no columns of an impedance");
@@ -177,6 +234,7 @@ TEST(ReadSweep, NamesThePlaceOfWhatIsWrong) {
   begins("\"MEASUREMENT PARAMETER: CP-D\"\n\"TRACE: A\"\n",
          "m.csv:1:25: trace: \"CP-D\" is no impedance; allowed: |Z|-theta");
   begins("f,|Z|\n1,2\n2,3\n", "m.csv:1:1: sweep: has readings at 2 frequencies");
+  begins("f,|Z|\n1,2\n1,3\n", "m.csv:1:1: sweep: has readings at 1 frequency;");
   begins("# Hz S RI R 50\n1 2\n", "m.csv:2:3: touchstone: 2 numbers");
   begins("# Hz S RI R 50\n1 -1 0\n", "m.csv:2:3: touchstone: has an admittance");
   begins("[Version] 2.0\n# Hz S RI R 50\n", "m.csv:1:1: touchstone: has keywords");
