@@ -98,6 +98,9 @@ MeanFriction lugre(const Candidate& /*self*/, const Reading& row, const Values& 
   return {vibrates(row) ? core::lugre_mean_friction(r, contact) : undriven, undriven};
 }
 
+/// Of a law whose ranges end short of a contact that sticks and of Coulomb's.
+constexpr double end_of_range = 5e-4;
+
 /// Kt/Fc, or Kt/(w Fc) where the frequency is not known.
 ShapeParameter stiffness(const Extent& extent) {
   return {extent.have_frequency ? "contact_stiffness_per_friction_limit_per_m"
@@ -118,15 +121,16 @@ Candidate lugre_candidate(const Extent& extent) {
       "along",
       0,
       {stiffness(extent),
-       {"static_over_sliding_friction", 1e-3, 10.0,
+       {"static_over_sliding_friction", 1e-4, 10.0,
         "static friction is no more than sliding friction",
         "a static friction of eleven times the sliding one or more", 1.0},
        {"stribeck_velocity_m_per_s", 1e-3 * extent.fastest_m_per_s, 10.0 * extent.fastest_m_per_s,
         "static friction falls at once",
         "static friction falls beyond the speeds that were measured"},
-       {"viscous_friction_per_friction_limit_s_per_m", 1e-3 / extent.fastest_m_per_s,
+       {"viscous_friction_per_friction_limit_s_per_m", 1e-4 / extent.fastest_m_per_s,
         10.0 / extent.fastest_m_per_s, "no viscous friction is seen", "friction is viscous alone"}},
-      lugre};
+      lugre,
+      3e-3};
 }
 
 Candidate normal_candidate(const Extent& extent) {
@@ -151,21 +155,22 @@ Candidate stribeck_candidate(const Extent& extent) {
           "Stribeck",
           "along",
           0,
-          {{"friction_drop", 1e-3, 1.0, "friction does not fall with the speed",
+          {{"friction_drop", 1e-4, 1.0, "friction does not fall with the speed",
             "friction falls to nothing, as far as a passive contact may"},
            {"least_friction_velocity_m_per_s", 1e-2 * extent.fastest_m_per_s,
             1e2 * extent.fastest_m_per_s, "friction is least at a speed far below those measured",
             "friction is least at a speed far beyond those measured"}},
-          stribeck};
+          stribeck,
+          end_of_range};
 }
 
 }  // namespace
 
 std::vector<Candidate> candidates(const Extent& extent) {
   return {{"coulomb", "Coulomb", "along", 0, {}, coulomb},
-          {"dahl", "Dahl", "along", 0, {stiffness(extent)}, dahl},
-          {"iwan", "Iwan, 1 spring", "along", 1, {stiffness(extent)}, iwan},
-          {"iwan", "Iwan, 8 springs", "along", 8, {stiffness(extent)}, iwan},
+          {"dahl", "Dahl", "along", 0, {stiffness(extent)}, dahl, end_of_range},
+          {"iwan", "Iwan, 1 spring", "along", 1, {stiffness(extent)}, iwan, end_of_range},
+          {"iwan", "Iwan, 8 springs", "along", 8, {stiffness(extent)}, iwan, end_of_range},
           stribeck_candidate(extent),
           lugre_candidate(extent),
           {"transverse_coulomb", "Coulomb across", "across", 0, {}, transverse},

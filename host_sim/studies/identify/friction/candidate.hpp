@@ -48,6 +48,9 @@ struct Candidate {
   std::vector<ShapeParameter> shape;
   MeanFriction (*mean)(const Candidate& self, const Reading& row,
                        const std::vector<double>& values) = nullptr;
+  /// Residuals up to this, as a friction ratio, are no fault of the law: rounding, the error of its
+  /// map, and how far the ends of its ranges are from the simpler laws that it becomes there.
+  double accuracy = 1e-9;
 };
 
 /// Every law that has a mean friction, in the order of the report.

@@ -201,7 +201,10 @@ LawFit fit(const Readings& readings, const Candidate& law) {
   const double limit = readings.are_forces ? std::exp(best.logs(best.logs.size() - 1)) : 1.0;
   fit.residual_rms = std::sqrt(squares / n) / limit;
   const std::vector<Scatter> all = scatters(readings);
-  fit.misfit = fit.residual_rms * std::sqrt(misfit_part(all, probabilities_of(problem, fit, all)));
+  const bool is_exact = fit.residual_rms <= law.accuracy;
+  fit.misfit = is_exact ? 0.0
+                        : fit.residual_rms *
+                              std::sqrt(misfit_part(all, probabilities_of(problem, fit, all)));
   // Residuals of rounding alone do not compare laws.
   constexpr double rounding = 1e-9;
   const double least = n * rounding * rounding * limit * limit;
@@ -209,7 +212,7 @@ LawFit fit(const Readings& readings, const Candidate& law) {
                    ? std::numeric_limits<double>::infinity()
                    : corrected_akaike(std::max(best.sum_of_squares, least), problem.readings(),
                                       problem.parameters());
-  fit.runs_probability = runs_probability(fit.residuals);
+  fit.runs_probability = is_exact ? 1.0 : runs_probability(fit.residuals);
   fit.autocorrelation = autocorrelation(fit.residuals);
   fit.chi_square_probability = chi_square_probability(readings, fit);
   return fit;

@@ -22,9 +22,10 @@ struct LawFit {
   /// Both over the friction limit: as friction ratios.
   double residual_rms = 0.0;
   double misfit = 0.0;
-  double akaike = 0.0;            ///< corrected_akaike(); infinite with too few readings
-  double runs_probability = 0.0;  ///< of so few runs of residuals of one sign, were they white
-  double autocorrelation = 0.0;   ///< of neighbouring residuals
+  double akaike = 0.0;  ///< corrected_akaike(); infinite with too few readings
+  /// Of so few runs of residuals of one sign, were they white; 1 within the law's accuracy.
+  double runs_probability = 0.0;
+  double autocorrelation = 0.0;  ///< of neighbouring residuals
   /// Of residuals so large, were the stated standard errors all; not a number without them.
   double chi_square_probability = 0.0;
   std::vector<std::string> open;  ///< what of this law the data leave open, each a sentence

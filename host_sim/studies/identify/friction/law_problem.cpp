@@ -173,18 +173,17 @@ LawProblem::Solution LawProblem::solve(const Scatter& scatter, const Eigen::Vect
   return {at(fit.parameters).logs, fit.sum_of_squares};
 }
 
-/// Of a grid over the shape parameters.
-std::vector<Eigen::VectorXd> LawProblem::starts() const {
-  const std::size_t shapes = candidate_.shape.size();
-  // A finer grid of one parameter: its valleys may be narrow.
-  const int steps = shapes > 2 ? 4 : shapes == 2 ? 9 : 28;
+/// A grid over the shape parameters, their ends among them.
+/// @param first, others  steps of the first one and of each other; 0: it keeps its least
+std::vector<Eigen::VectorXd> LawProblem::grid(int first, int others) const {
   std::vector<Eigen::VectorXd> points = {Eigen::VectorXd::Zero(parameters())};
-  for (std::size_t parameter = 0; parameter < shapes; ++parameter) {
+  for (std::size_t parameter = 0; parameter < candidate_.shape.size(); ++parameter) {
+    const auto at = static_cast<Eigen::Index>(parameter);
+    const int steps = parameter == 0 ? first : others;
     std::vector<Eigen::VectorXd> more;
     for (const Eigen::VectorXd& each : points) {
-      for (int step = 1; step <= steps; ++step) {
-        const auto at = static_cast<Eigen::Index>(parameter);
-        const double part = static_cast<double>(step) / (steps + 1);
+      for (int step = 0; step <= steps; ++step) {
+        const double part = static_cast<double>(step) / std::max(steps, 1);
         more.push_back(each);
         more.back()(at) = range(at).least + part * (range(at).most - range(at).least);
       }
@@ -194,26 +193,38 @@ std::vector<Eigen::VectorXd> LawProblem::starts() const {
   return points;
 }
 
-LawProblem::Solution LawProblem::solve() const {
+/// The best of some points, made better.
+LawProblem::Solution LawProblem::best_from(const std::vector<Eigen::VectorXd>& points,
+                                           std::size_t most_tries) const {
   std::vector<Solution> tries;
-  for (const Eigen::VectorXd& each : starts()) {
+  for (const Eigen::VectorXd& each : points) {
     const Residuals at_start = whitened(white_, each, readings_.are_forces);
     tries.push_back({at_start.logs, at_start.whitened.squaredNorm()});
   }
-  std::sort(tries.begin(), tries.end(), [](const Solution& a, const Solution& b) {
+  const auto is_better = [](const Solution& a, const Solution& b) {
     return a.sum_of_squares < b.sum_of_squares;
-  });
-  constexpr std::size_t most_tries = 4;
+  };
+  std::sort(tries.begin(), tries.end(), is_better);
   tries.resize(std::min(tries.size(), most_tries));
   for (Solution& each : tries) {
     const Solution better = solve(white_, each.logs);
-    if (better.sum_of_squares < each.sum_of_squares) {
+    if (is_better(better, each)) {
       each = better;
     }
   }
-  return *std::min_element(tries.begin(), tries.end(), [](const Solution& a, const Solution& b) {
-    return a.sum_of_squares < b.sum_of_squares;
-  });
+  return *std::min_element(tries.begin(), tries.end(), is_better);
+}
+
+LawProblem::Solution LawProblem::solve() const {
+  const std::size_t shapes = candidate_.shape.size();
+  // Its valleys may be narrow. With the others at their least a law is a simpler one.
+  constexpr int fine = 28;
+  Solution simple = best_from(grid(fine, 0), 4);
+  if (shapes < 2) {
+    return simple;
+  }
+  Solution full = best_from(shapes > 2 ? grid(8, 4) : grid(8, 8), 10);
+  return simple.sum_of_squares < full.sum_of_squares ? simple : full;
 }
 
 }  // namespace sonoglide::identify::friction

@@ -48,7 +48,8 @@ class LawProblem {
     double sum_of_squares = 0.0;  ///< of whitened residuals
   };
 
-  /// For white scatter: the best of a coarse grid, made better.
+  /// For white scatter: the best of grids, made better. The edges on which the law is a simpler one
+  /// are in them, so that it fits no worse.
   Solution solve() const;
   /// Under a scatter, from a start; one parameter may be held. Where the friction limit is free it
   /// is no part of the search: it is linear, and each shape has its best one.
@@ -65,7 +66,8 @@ class LawProblem {
   Residuals whitened(const Scatter& scatter, Eigen::VectorXd logs, bool limit_is_free) const;
   Eigen::VectorXd shape_friction(const Eigen::VectorXd& logs) const;
   double shape_friction(const Reading& row, const Eigen::VectorXd& logs) const;
-  std::vector<Eigen::VectorXd> starts() const;
+  std::vector<Eigen::VectorXd> grid(int first, int others) const;
+  Solution best_from(const std::vector<Eigen::VectorXd>& points, std::size_t most_tries) const;
 
   const Readings& readings_;
   const Candidate& candidate_;

@@ -203,12 +203,14 @@ output::Page page(const Comparison& comparison, const std::string& name) {
   output::Page page;
   page.title = fmt::format("Friction of {}", name);
   page.lead = fmt::format(
-      "{} readings of {} against {} laws. Residuals and misfit are friction ratios. AICc is "
+      "{} readings of {} against {}. Residuals and misfit are friction ratios. AICc is "
       "Akaike's criterion for small samples: laws less than {:g} apart are not told apart. "
       "Intervals are of profile likelihood, with a term for misfit.",
       comparison.readings.rows.size(),
       comparison.readings.are_forces ? "mean friction" : "the friction ratio",
-      comparison.laws.size(), told_apart_from);
+      comparison.laws.size() == 1 ? std::string("one law")
+                                  : fmt::format("{} laws", comparison.laws.size()),
+      told_apart_from);
   page.warnings = comparison.warnings;
   page.tables = {law_table(comparison), parameter_table(comparison)};
   page.sections = {open_section(comparison), fit_section(comparison), residual_section(comparison)};

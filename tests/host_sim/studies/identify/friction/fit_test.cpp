@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <random>
 #include <string>
+#include <vector>
 
 #include "host_sim/studies/identify/friction/comparison.hpp"
 #include "host_sim/studies/identify/friction/report.hpp"
@@ -92,6 +94,82 @@ TEST(FrictionFit, ConstantReadingsAndAlikeOnesAreNoTrap) {
   EXPECT_TRUE(std::isnan(dahl.parameters.front().high_95));
   const Comparison alike = compared("0.5,0.05,0.5\n0.5,0.05,0.5\n0.5,0.05,0.5\n", {"dahl"});
   EXPECT_NEAR(alike.best().residual_rms, 0.0, 1e-6);
+}
+
+Candidate candidate(const Readings& readings, const std::string& title) {
+  const std::vector<Candidate> all = candidates(extent_of(readings));
+  return *std::find_if(all.begin(), all.end(),
+                       [&](const Candidate& each) { return each.title == title; });
+}
+
+/// A law on 20 velocity ratios from 0.05 to 1.2 and 25 kHz, with Gaussian noise.
+Readings readings_of(const std::string& title, const std::vector<double>& shape, double noise) {
+  Readings readings;
+  readings.have_frequency = true;
+  std::mt19937_64 random(1);
+  std::normal_distribution<double> normal;
+  for (int i = 0; i < 20; ++i) {
+    constexpr double vibration_m_per_s = 0.2;
+    const double ratio = 0.05 + (1.2 - 0.05) * i / 19.0;
+    readings.rows.push_back({ratio * vibration_m_per_s, vibration_m_per_s, 25e3, 0.0, 0.0});
+  }
+  const Candidate law = candidate(readings, title);
+  for (Reading& row : readings.rows) {
+    const MeanFriction mean = law.mean(law, row, shape);
+    row.friction = mean.driven / mean.undriven + noise * normal(random);
+  }
+  return readings;
+}
+
+constexpr double per_amplitude_per_m = 25e3 * 6.283185307179586 / 0.2;
+
+/// LuGre with Fs/Fc = 1 and no viscous friction is Dahl, and all that are stiff are Coulomb.
+TEST(FrictionFit, ALawThatContainsAnotherFitsNoWorse) {
+  const std::vector<double> dahl = {2.0 * per_amplitude_per_m};
+  const std::vector<double> stribeck = {0.3, 1.0};
+  for (const double noise : {0.0, 0.01}) {
+    for (const Readings& readings :
+         {readings_of("Dahl", dahl, noise), readings_of("Coulomb", {}, noise),
+          readings_of("Stribeck", stribeck, noise)}) {
+      const auto rms = [&](const std::string& title) {
+        return fit(readings, candidate(readings, title)).residual_rms;
+      };
+      constexpr double ends_of_ranges = 2e-4;
+      EXPECT_LE(rms("LuGre"), rms("Dahl") + ends_of_ranges) << noise;
+      for (const char* title : {"Dahl", "Iwan, 1 spring", "Iwan, 8 springs", "Stribeck"}) {
+        EXPECT_LE(rms(title), rms("Coulomb") + ends_of_ranges) << title << noise;
+      }
+    }
+  }
+}
+
+TEST(FrictionFit, LuGreIsFittedToItsNoise) {
+  for (const std::vector<double>& shape :
+       {std::vector<double>{2.0 * per_amplitude_per_m, 0.5, 0.05, 1e-6},
+        std::vector<double>{0.5 * per_amplitude_per_m, 1.0, 0.1, 1.0},
+        std::vector<double>{20.0 * per_amplitude_per_m, 0.3, 0.02, 1e-6}}) {
+    const Readings readings = readings_of("LuGre", shape, 0.003);
+    const LawFit found = fit(readings, candidate(readings, "LuGre"));
+    EXPECT_LT(found.residual_rms, 0.004) << shape.front();
+    EXPECT_FALSE(found.fails());
+  }
+}
+
+/// Residuals of rounding are no pattern, whatever their signs.
+TEST(FrictionFit, AnExactFitDoesNotFail) {
+  const std::string ones =
+      "1.5,0.3,1\n1.6,0.32,1\n1.7,0.34,1\n1.8,0.36,1\n1.9,0.38,1\n2,0.4,1\n2.1,0.42,1\n"
+      "2.2,0.44,1\n2.3,0.46,1\n2.4,0.48,1\n";
+  const Comparison comparison = compared(ones, {"coulomb", "dahl", "iwan", "stribeck"});
+  for (const LawFit& each : comparison.laws) {
+    EXPECT_FALSE(each.fails()) << each.law.title;
+    EXPECT_EQ(each.misfit, 0.0) << each.law.title;
+  }
+  EXPECT_TRUE(comparison.warnings.empty());
+  const Readings exact = readings_of("Dahl", {2.0 * per_amplitude_per_m}, 0.0);
+  for (const char* title : {"Dahl", "LuGre"}) {
+    EXPECT_FALSE(fit(exact, candidate(exact, title)).fails()) << title;
+  }
 }
 
 Comparison of_example(const std::string& name, const std::vector<std::string>& laws) {
