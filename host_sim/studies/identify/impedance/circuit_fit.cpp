@@ -1,5 +1,6 @@
 #include "host_sim/studies/identify/impedance/circuit_fit.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "host_sim/studies/identify/least_squares.hpp"
@@ -127,10 +128,12 @@ CircuitFit fit_circuit(const Sweep& sweep, Parts parts, const Circuit& start, co
   fit.converged = fit.converged && residuals.allFinite() && jacobian.allFinite();
   const auto rows = static_cast<double>(residuals.size());
   const double freedom = rows - static_cast<double>(fit.p.size());
-  fit.variance = residuals.squaredNorm() / freedom;
+  const double least = rounding * rounding;
+  fit.variance = std::max(residuals.squaredNorm() / freedom, least);
   // In the admittance itself, not relative to a fit.
   const double log_units = 2.0 * rows * frame.mean_log_magnitude;
-  fit.deviance = log_determinant + log_units + rows * std::log(residuals.squaredNorm() / rows);
+  fit.deviance = log_determinant + log_units +
+                 rows * std::log(std::max(residuals.squaredNorm() / rows, least));
   if (fit.converged) {
     fit.covariance = fit.variance * inverse_normal_matrix(jacobian);
   }

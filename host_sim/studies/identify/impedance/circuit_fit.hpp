@@ -15,7 +15,7 @@ struct CircuitFit {
   Eigen::VectorXd p;  ///< the circuit as a vector
   Noise noise;
   Linearisation at;
-  double variance;             ///< σ² of the whitened residuals
+  double variance;             ///< σ² of the whitened residuals, at least that of rounding
   Eigen::MatrixXd covariance;  ///< of p, with that variance
   double deviance;             ///< −2 ln likelihood, comparable between circuits of one sweep
   bool converged;

@@ -14,6 +14,11 @@
 
 namespace sonoglide::identify::impedance {
 
+bool is_rounding(const Linearisation& at) {
+  return at.residuals.squaredNorm() <=
+         rounding * rounding * static_cast<double>(at.residuals.size());
+}
+
 double whiten(const Noise& noise, const Eigen::VectorXd& log_magnitude,
               Eigen::Ref<Eigen::MatrixXd> columns) {
   const Eigen::Index readings = log_magnitude.size();
@@ -157,6 +162,9 @@ void take_correlation_if_worth_it(const Linearisation& at, Noise& noise, double&
 
 Noise estimate_noise(const Linearisation& at, Correlation correlation) {
   Noise noise;
+  if (is_rounding(at)) {
+    return noise;
+  }
   double deviance = restricted_deviance(at, noise);
   take_best_whole_exponent(at, noise, deviance);
   if (correlation == Correlation::estimated) {
@@ -196,6 +204,9 @@ Supposition suppose(const Linearisation& at, const Noise& noise, double log_prio
 }  // namespace
 
 Allowance allow_for_correlation(const Linearisation& at, const Noise& noise) {
+  if (is_rounding(at)) {
+    return {rounding * rounding * inverse_normal_matrix(at.jacobian), 0.0};
+  }
   constexpr double prior_of_none = 0.8;
   constexpr double memories[] = {0.2, 0.5, 0.7, 0.8, 0.88, 0.93, 0.96, 0.98};
   constexpr double shares[] = {0.05, 0.15, 0.3, 0.5, 0.7, 0.85, 0.95, 0.995};

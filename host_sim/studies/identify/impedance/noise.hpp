@@ -26,6 +26,12 @@ struct Linearisation {
   Eigen::VectorXd log_magnitude;  ///< ln(|Y|/geometric mean), one a reading
 };
 
+/// Relative residuals of a root mean square up to this are taken for rounding of computed readings.
+inline constexpr double rounding = 1e-9;
+
+/// Whether the residuals are no more than rounding: they tell nothing of noise.
+bool is_rounding(const Linearisation& at);
+
 /// Makes columns white, in place: multiplies them by an inverse square root of the covariance. O(n)
 /// by the innovations of a Kalman filter: a first-order process seen through white noise.
 /// @param log_magnitude  as in Linearisation; the columns have one or two rows for each
@@ -41,7 +47,7 @@ double restricted_deviance(const Linearisation& at, const Noise& noise);
 /// Whether a correlation along the sweep is looked for.
 enum class Correlation { none, estimated };
 
-/// The noise that is most likely, by the restricted likelihood.
+/// The noise that is most likely, by the restricted likelihood; white of rounding.
 Noise estimate_noise(const Linearisation& at, Correlation correlation = Correlation::estimated);
 
 /// What an error in the noise's correlation adds to the covariance of the parameters.
