@@ -70,11 +70,11 @@ Eigen::VectorXd to_vector(const Circuit& circuit, Parts parts) {
   if (parts.loss_tangent) {
     p(1) = circuit.loss_tangent;
   }
-  if (parts.lead != LeadModel::none) {
+  if (has_resistance(parts.lead)) {
     p(first_of_lead(parts)) = circuit.lead.resistance_ohm;
   }
-  if (parts.lead == LeadModel::resistance_and_inductance) {
-    p(first_of_lead(parts) + 1) = circuit.lead.inductance_H / microhenry_H;
+  if (has_inductance(parts.lead)) {
+    p(inductance_of_lead(parts)) = circuit.lead.inductance_H / microhenry_H;
   }
   Eigen::Index at = first_mode(parts);
   for (const Mode& mode : circuit.modes) {
@@ -87,11 +87,11 @@ Eigen::VectorXd to_vector(const Circuit& circuit, Parts parts) {
 
 Circuit to_circuit(const Eigen::VectorXd& p, Parts parts) {
   Circuit circuit{std::exp(p(0)), parts.loss_tangent ? p(1) : 0.0, {}};
-  if (parts.lead != LeadModel::none) {
+  if (has_resistance(parts.lead)) {
     circuit.lead.resistance_ohm = p(first_of_lead(parts));
   }
-  if (parts.lead == LeadModel::resistance_and_inductance) {
-    circuit.lead.inductance_H = microhenry_H * p(first_of_lead(parts) + 1);
+  if (has_inductance(parts.lead)) {
+    circuit.lead.inductance_H = microhenry_H * p(inductance_of_lead(parts));
   }
   for (Eigen::Index at = first_mode(parts); at < p.size(); at += 3) {
     circuit.modes.push_back({std::exp(p(at)), std::exp(p(at + 1)), std::exp(p(at + 2))});
@@ -126,9 +126,11 @@ Complex admittance_S(const Circuit& circuit, Parts parts, double frequency_Hz,
   const Complex divider = 1.0 + circuit.lead.impedance_ohm(frequency_Hz) * sum;
   const Complex y = sum / divider;
   derivatives /= divider * divider;
-  derivatives(first_of_lead(parts)) = -y * y;
-  if (parts.lead == LeadModel::resistance_and_inductance) {
-    derivatives(first_of_lead(parts) + 1) = -j * two_pi * frequency_Hz * microhenry_H * y * y;
+  if (has_resistance(parts.lead)) {
+    derivatives(first_of_lead(parts)) = -y * y;
+  }
+  if (has_inductance(parts.lead)) {
+    derivatives(inductance_of_lead(parts)) = -j * two_pi * frequency_Hz * microhenry_H * y * y;
   }
   return y;
 }

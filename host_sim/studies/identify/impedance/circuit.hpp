@@ -52,7 +52,14 @@ struct Circuit {
 /// The unit of the lead's inductance in the vector.
 inline constexpr double microhenry_H = 1e-6;
 
-enum class LeadModel { none, resistance, resistance_and_inductance };
+enum class LeadModel { none, resistance, inductance, resistance_and_inductance };
+
+inline bool has_resistance(LeadModel lead) {
+  return lead == LeadModel::resistance || lead == LeadModel::resistance_and_inductance;
+}
+inline bool has_inductance(LeadModel lead) {
+  return lead == LeadModel::inductance || lead == LeadModel::resistance_and_inductance;
+}
 
 /// Which parts of a circuit are fitted.
 struct Parts {
@@ -69,9 +76,13 @@ Circuit to_circuit(const Eigen::VectorXd& p, Parts parts);
 inline Eigen::Index first_of_lead(Parts parts) {
   return parts.loss_tangent ? 2 : 1;
 }
+/// Of the lead's inductance in the vector, where it is fitted.
+inline Eigen::Index inductance_of_lead(Parts parts) {
+  return first_of_lead(parts) + (has_resistance(parts.lead) ? 1 : 0);
+}
 /// Of the first mode's ln G in the vector.
 inline Eigen::Index first_mode(Parts parts) {
-  return first_of_lead(parts) + static_cast<Eigen::Index>(parts.lead);
+  return inductance_of_lead(parts) + (has_inductance(parts.lead) ? 1 : 0);
 }
 inline Eigen::Index parameters(Parts parts) {
   return first_mode(parts) + 3 * parts.modes;

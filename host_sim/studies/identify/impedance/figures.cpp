@@ -78,12 +78,12 @@ std::vector<Estimate> figures(const CircuitFit& fit) {
   if (fit.parts.loss_tangent) {
     estimates.push_back(linear_estimate(fit, "loss_tangent", 1, 1.0));
   }
-  const Eigen::Index lead = first_of_lead(fit.parts);
-  if (fit.parts.lead != LeadModel::none) {
-    estimates.push_back(linear_estimate(fit, "lead_resistance_ohm", lead, 1.0));
+  if (has_resistance(fit.parts.lead)) {
+    estimates.push_back(linear_estimate(fit, "lead_resistance_ohm", first_of_lead(fit.parts), 1.0));
   }
-  if (fit.parts.lead == LeadModel::resistance_and_inductance) {
-    estimates.push_back(linear_estimate(fit, "lead_inductance_H", lead + 1, microhenry_H));
+  if (has_inductance(fit.parts.lead)) {
+    estimates.push_back(
+        linear_estimate(fit, "lead_inductance_H", inductance_of_lead(fit.parts), microhenry_H));
   }
   return estimates;
 }

@@ -1,6 +1,7 @@
 #include "host_sim/studies/identify/impedance/refusal.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -93,6 +94,21 @@ std::string range(const Sweep& sweep) {
   return fmt::format("{:.6g} to {:.6g} Hz", sweep.frequency_Hz.front(), sweep.frequency_Hz.back());
 }
 
+/// What helps where a sweep has more than one mode.
+std::string advice(const CircuitFit& fit) {
+  if (fit.parts.modes == 1) {
+    return {};
+  }
+  std::vector<std::string> places;
+  for (const Mode& each : fit.circuit.modes) {
+    places.push_back(fmt::format("{:.6g}", each.resonance_Hz));
+  }
+  return fmt::format(
+      ". The fit has modes at {} Hz: narrow the sweep to the resonance that is meant and its "
+      "antiresonance",
+      fmt::join(places, ", "));
+}
+
 void require_resonance_inside(const Sweep& sweep, const Mode& mode) {
   const double low_Hz = sweep.frequency_Hz.front();
   const double high_Hz = sweep.frequency_Hz.back();
@@ -146,15 +162,15 @@ void require_inside(const Sweep& sweep, const CircuitFit& fit) {
   constexpr double least_quality = 0.5;
   if (mode.quality() < least_quality || mode.quality() > most_quality) {
     refuse(sweep, fmt::format("the fit ends at a bound: a quality factor of {:.3g}, allowed: {:g} "
-                              "to {:g}; the sweep does not tell the resistance",
-                              mode.quality(), least_quality, most_quality));
+                              "to {:g}; the sweep does not tell the resistance{}",
+                              mode.quality(), least_quality, most_quality, advice(fit)));
   }
   constexpr double most_ratio = 1e3;
   const double ratio = mode.capacitance_F() / fit.circuit.clamped_capacitance_F;
   if (ratio < 1e-9 || ratio > most_ratio) {
     refuse(sweep, fmt::format("the fit ends at a bound: motional over clamped capacitance of "
-                              "{:.3g}, allowed: 1e-9 to {:g}; the sweep does not tell them apart",
-                              ratio, most_ratio));
+                              "{:.3g}, allowed: 1e-9 to {:g}; the sweep does not tell them apart{}",
+                              ratio, most_ratio, advice(fit)));
   }
 }
 

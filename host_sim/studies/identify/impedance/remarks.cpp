@@ -139,7 +139,7 @@ std::string open_phase(const Circuit& circuit) {
       shown("_ohm", mode.resistance_ohm() + lead_ohm));
 }
 
-std::string open_lead(const Selection& selected) {
+std::string open_resistance(const Selection& selected) {
   const std::string question = "Whether leads and contacts have a series resistance";
   const std::string consequence = "The motional resistance is larger by what there is.";
   if (!selected.sweep.has_phase) {
@@ -152,11 +152,55 @@ std::string open_lead(const Selection& selected) {
                      shown("_ohm", *selected.unseen_lead_ohm), consequence);
 }
 
+std::string open_inductance(const Selection& selected) {
+  const std::string question = "Whether leads and contacts have a series inductance";
+  if (!selected.unseen_inductance) {
+    return question + ": " +
+           (selected.sweep.has_phase ? "no circuit with one fits."
+                                     : "magnitudes alone do not tell.") +
+           " It would lower the resonance and change all other figures.";
+  }
+  const UnseenInductance& unseen = *selected.unseen_inductance;
+  const double resonance_Hz = selected.fit.circuit.modes.front().resonance_Hz;
+  constexpr double percent = 100.0;
+  return fmt::format(
+      "{} up to {}: none is seen, so the circuit has none, and the intervals do not allow for one. "
+      "Each microhenry, about a metre of cable, makes the resonance come out {:+.2g} Hz off, the "
+      "motional resistance {:+.2g} %, the motional capacitance {:+.2g} % and the clamped "
+      "capacitance "
+      "{:+.2g} %. A compensation with a short takes it out.",
+      question, shown("_H", unseen.most_H), unseen.resonance_per_uH * resonance_Hz,
+      percent * unseen.motional_resistance_per_uH, percent * unseen.motional_capacitance_per_uH,
+      percent * unseen.clamped_capacitance_per_uH);
+}
+
+void warn_of_rounding(const CircuitFit& fit, std::vector<std::string>& warnings) {
+  if (is_rounding(fit.at)) {
+    warnings.push_back(
+        fmt::format("The readings follow the circuit to {:.1g}, as computed ones do: the intervals "
+                    "are those of "
+                    "readings rounded to {:.1g}.",
+                    rounding, rounding));
+  }
+}
+
+void warn_of_mode_too_many(const Selection& selected, std::vector<std::string>& warnings) {
+  if (selected.mode_too_many_Hz) {
+    warnings.push_back(fmt::format(
+        "The limit of {} modes is reached, and another one is seen at {}: the circuit does not "
+        "describe the sweep. The intervals allow for that one mode. Narrow the sweep to the "
+        "resonance that is meant and its antiresonance.",
+        most_modes, shown("_Hz", *selected.mode_too_many_Hz)));
+  }
+}
+
 }  // namespace
 
 std::vector<std::string> warnings_of(const Selection& selected) {
   std::vector<std::string> warnings = selected.sweep.warnings;
   warn_of_misfit(describe(selected.fit), warnings);
+  warn_of_mode_too_many(selected, warnings);
+  warn_of_rounding(selected.fit, warnings);
   warn_of_left_out(selected.left_out_Hz, warnings);
   warn_of_phases(selected.sweep, selected.fit, warnings);
   warn_of_sweep(selected.sweep, selected.fit, warnings);
@@ -178,10 +222,11 @@ std::vector<std::string> open_questions(const std::vector<Estimate>& estimates,
         "Losses of the dielectric: magnitudes alone hardly part them from the motional resistance. "
         "A sweep with phase does.");
   }
-  if (selected.fit.parts.lead == LeadModel::none) {
-    open.push_back(open_lead(selected));
-  } else {
-    open.push_back(open_phase(selected.fit.circuit));
+  const LeadModel lead = selected.fit.parts.lead;
+  open.push_back(has_resistance(lead) ? open_phase(selected.fit.circuit)
+                                      : open_resistance(selected));
+  if (!has_inductance(lead)) {
+    open.push_back(open_inductance(selected));
   }
   for (const Estimate& each : estimates) {
     constexpr double twice = 2.0;

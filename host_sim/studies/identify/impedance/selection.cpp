@@ -50,15 +50,21 @@ bool is_plausible(const Sweep& sweep, const Mode& added) {
          readings_near(sweep, added) >= fewest;
 }
 
-/// Passive, and small beside the motional resistance: an error of the phase looks like a large one.
+/// Passive, and small: an error of the phase looks like a large resistance, and no lead is in resonance
+/// with the clamped capacitance near a mode.
 bool has_plausible_lead(const CircuitFit& fit) {
   constexpr double most_share = 0.25;
+  constexpr double most_of_resonance = 0.1;
   const Lead& lead = fit.circuit.lead;
-  return fit.parts.lead == LeadModel::none ||
-         (lead.resistance_ohm > 0.0 && lead.inductance_H >= 0.0 &&
-          std::all_of(fit.circuit.modes.begin(), fit.circuit.modes.end(), [&](const Mode& mode) {
-            return lead.resistance_ohm < most_share * mode.resistance_ohm();
-          }));
+  const LeadModel model = fit.parts.lead;
+  return (!has_resistance(model) || lead.resistance_ohm > 0.0) &&
+         (!has_inductance(model) || lead.inductance_H > 0.0) &&
+         std::all_of(fit.circuit.modes.begin(), fit.circuit.modes.end(), [&](const Mode& mode) {
+           const double omega = two_pi * mode.resonance_Hz;
+           return lead.resistance_ohm < most_share * mode.resistance_ohm() &&
+                  omega * omega * lead.inductance_H * fit.circuit.clamped_capacitance_F <
+                      most_of_resonance;
+         });
 }
 
 /// Whether least squares found a minimum with a plausible lead and, of several modes, plausible ones.
@@ -72,11 +78,11 @@ bool is_sound(const Sweep& sweep, const CircuitFit& fit) {
 
 /// The fit with the mode that its residuals ask for most, where there is a plausible one.
 std::optional<CircuitFit> with_another_mode(const Sweep& sweep, const CircuitFit& fit,
-                                            Correlation correlation) {
+                                            Correlation correlation, int most = most_modes) {
   constexpr std::size_t tries = 3;
   Parts parts = fit.parts;
   ++parts.modes;
-  if (parts.modes > most_modes || 2 * parameters(parts) > fit.at.residuals.size()) {
+  if (parts.modes > most || 2 * parameters(parts) > fit.at.residuals.size()) {
     return std::nullopt;
   }
   std::optional<CircuitFit> best;
@@ -208,14 +214,20 @@ CircuitFit with_lead(const Sweep& sweep, const CircuitFit& fit, LeadModel model)
   return fit_circuit_and_noise(sweep, parts, fit.circuit, fit.noise);
 }
 
-/// The fit with the lead that an F test sees, resistance alone or with inductance.
+/// The fit with the lead that an F test sees: resistance or inductance, the likelier, or both where
+/// they are seen beside it.
 std::optional<CircuitFit> with_lead_that_is_seen(const Sweep& sweep, const CircuitFit& fit) {
   std::optional<CircuitFit> best;
-  for (const LeadModel model : {LeadModel::resistance, LeadModel::resistance_and_inductance}) {
+  for (const LeadModel model : {LeadModel::resistance, LeadModel::inductance}) {
     CircuitFit larger = with_lead(sweep, fit, model);
-    if (is_sound(sweep, larger) && chance(best ? *best : fit, larger) < lead_significance) {
+    if (is_sound(sweep, larger) && chance(fit, larger) < lead_significance &&
+        (!best || larger.deviance < best->deviance)) {
       best = std::move(larger);
     }
+  }
+  CircuitFit both = with_lead(sweep, fit, LeadModel::resistance_and_inductance);
+  if (is_sound(sweep, both) && chance(best ? *best : fit, both) < lead_significance) {
+    best = std::move(both);
   }
   return best;
 }
@@ -240,10 +252,36 @@ CircuitFit with_lead_if_seen(const Sweep& sweep, const std::vector<CircuitFit>& 
   return last;
 }
 
-/// What a lead that is not seen adds to the covariance.
+/// Up to which value an element of a fit may be.
+double most_of(const CircuitFit& fit, Eigen::Index element) {
+  constexpr double deviations = 2.0;
+  return std::max(fit.p(element), 0.0) + deviations * std::sqrt(fit.covariance(element, element));
+}
+
+/// @param fit  without an inductance of the lead
+std::optional<UnseenInductance> unseen_inductance(const Sweep& sweep, const CircuitFit& fit) {
+  const CircuitFit larger =
+      with_lead(sweep, fit,
+                has_resistance(fit.parts.lead) ? LeadModel::resistance_and_inductance
+                                               : LeadModel::inductance);
+  if (!larger.converged) {
+    return std::nullopt;
+  }
+  const Eigen::Index lead = inductance_of_lead(larger.parts);
+  // How the elements go with the inductance; without it they are off by as much the other way.
+  const Eigen::VectorXd off = -larger.covariance.col(lead) / larger.covariance(lead, lead);
+  const Eigen::Index first = first_mode(larger.parts);
+  return UnseenInductance{microhenry_H * most_of(larger, lead), off(first + 1), -off(first),
+                          off(first) + off(first + 2) - 2.0 * off(first + 1), off(0)};
+}
+
+/// What a resistance of the lead that is not seen adds to the covariance.
 /// @return the resistance up to which the sweep may have one, where a fit with one converges
 std::optional<double> allow_for_lead(const Sweep& sweep, CircuitFit& fit) {
-  const CircuitFit larger = with_lead(sweep, fit, LeadModel::resistance);
+  const CircuitFit larger =
+      with_lead(sweep, fit,
+                has_inductance(fit.parts.lead) ? LeadModel::resistance_and_inductance
+                                               : LeadModel::resistance);
   if (!larger.converged) {
     return std::nullopt;
   }
@@ -256,8 +294,7 @@ std::optional<double> allow_for_lead(const Sweep& sweep, CircuitFit& fit) {
     constexpr double akaike = 1.0;
     allow_for(larger, kept, akaike, fit);
   }
-  constexpr double deviations = 2.0;
-  return std::max(larger.p(lead), 0.0) + deviations * std::sqrt(larger.covariance(lead, lead));
+  return most_of(larger, lead);
 }
 
 /// Takes no energy out of nothing, at any frequency of the sweep.
@@ -316,6 +353,20 @@ Sweep fitted_sweep(const Sweep& sweep, const CircuitFit& fit) {
              : sweep;
 }
 
+/// The figures of the most modes may be off by as much as another one that is seen shifts them.
+void allow_for_mode_too_many(const Sweep& sweep, Selection& selected) {
+  CircuitFit& fit = selected.fit;
+  if (fit.parts.modes < most_modes) {
+    return;
+  }
+  const std::optional<CircuitFit> larger =
+      with_another_mode(sweep, fit, Correlation::estimated, most_modes + 1);
+  if (larger && is_seen(sweep, fit, *larger)) {
+    selected.mode_too_many_Hz = larger->circuit.modes.back().resonance_Hz;
+    allow_for(*larger, counted(0, fit.p.size()), 0.0, fit);
+  }
+}
+
 /// @param larger  with one mode more, which is not seen
 void allow_for_what_is_not_certain(const Sweep& sweep, const std::optional<CircuitFit>& larger,
                                    Selection& selected) {
@@ -326,7 +377,11 @@ void allow_for_what_is_not_certain(const Sweep& sweep, const std::optional<Circu
                            std::log(static_cast<double>(fit.at.residuals.size()));
     allow_for(*larger, counted(0, fit.p.size()), schwarz, fit);
   }
-  if (sweep.has_phase && fit.parts.lead == LeadModel::none) {
+  allow_for_mode_too_many(sweep, selected);
+  if (sweep.has_phase && !has_inductance(fit.parts.lead)) {
+    selected.unseen_inductance = unseen_inductance(sweep, fit);
+  }
+  if (sweep.has_phase && !has_resistance(fit.parts.lead)) {
     selected.unseen_lead_ohm = allow_for_lead(sweep, fit);
   }
   allow_for_misfit(fit);

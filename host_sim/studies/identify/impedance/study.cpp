@@ -40,10 +40,10 @@ Correlations correlations_of(const CircuitFit& fit) {
   if (fit.parts.loss_tangent) {
     result.names.emplace_back("loss_tangent");
   }
-  if (fit.parts.lead != LeadModel::none) {
+  if (has_resistance(fit.parts.lead)) {
     result.names.emplace_back("lead_resistance_ohm");
   }
-  if (fit.parts.lead == LeadModel::resistance_and_inductance) {
+  if (has_inductance(fit.parts.lead)) {
     result.names.emplace_back("lead_inductance_H");
   }
   for (int mode = 1; mode <= fit.parts.modes; ++mode) {
@@ -62,6 +62,7 @@ Correlations correlations_of(const CircuitFit& fit) {
 
 std::string model_of(const CircuitFit& fit) {
   constexpr const char* leads[] = {"", ", behind a lead of resistance",
+                                   ", behind a lead of inductance",
                                    ", behind a lead of resistance and inductance"};
   return fmt::format("clamped capacitance{} beside {}{}",
                      fit.parts.loss_tangent ? " with a loss tangent" : "",

@@ -10,6 +10,7 @@
 
 #include "host_sim/loop/failure.hpp"
 #include "host_sim/studies/identify/impedance/figures.hpp"
+#include "host_sim/studies/identify/impedance/refusal.hpp"
 #include "host_sim/studies/identify/impedance/report.hpp"
 #include "host_sim/studies/identify/impedance/study.hpp"
 #include "host_sim/studies/identify/impedance/thinning.hpp"
@@ -161,6 +162,52 @@ TEST(Selection, SeesTheInductanceOfALeadWhereItMatters) {
   const CircuitFit fit = select_circuit(sweep).fit;
   EXPECT_NEAR(fit.circuit.lead.inductance_H, 3e-6, 0.2e-6);
   EXPECT_NEAR(fit.circuit.lead.resistance_ohm, 2.0, 0.2);
+}
+
+/// 40 kHz, Q 200, 300 uH in series without a resistance.
+TEST(Selection, SeesTheInductanceOfALeadAlone) {
+  const double f = 40e3;
+  Circuit truth{2e-9, 0.004, {{two_pi * f * 1e-10 * 200.0, f, f / 200.0}}};
+  truth.lead = {0.0, 300e-6};
+  int seen = 0;
+  int held = 0;
+  for (unsigned seed = 1; seed <= 20; ++seed) {
+    Sweep sweep = exact_sweep(truth, 39e3, 42e3, 301);
+    disturb(sweep, 5e-3, 5e-3, seed);
+    const CircuitFit fit = select_circuit(sweep).fit;
+    if (fit.parts.lead == LeadModel::inductance) {
+      ++seen;
+      held += holds(figure(fit, "resonance_frequency_Hz"), f) &&
+                      holds(figure(fit, "lead_inductance_H"), 300e-6)
+                  ? 1
+                  : 0;
+    }
+  }
+  EXPECT_GE(seen, 17);
+  EXPECT_GE(held, seen - 3);
+}
+
+/// One that is not seen shifts the figures as the selection tells.
+TEST(Selection, TellsWhatAnInductanceThatIsNotSeenDoes) {
+  const double f = 40e3;
+  Circuit truth{2e-9, 0.004, {{two_pi * f * 1e-10 * 200.0, f, f / 200.0}}};
+  truth.lead = {20.0, 50e-6};
+  Sweep sweep = exact_sweep(truth, 39e3, 42e3, 301);
+  disturb(sweep, 5e-3, 5e-3, 1);
+  const Selection selected = select_circuit(sweep);
+  ASSERT_EQ(selected.fit.parts.lead, LeadModel::resistance);
+  ASSERT_TRUE(selected.unseen_inductance);
+  const UnseenInductance& unseen = *selected.unseen_inductance;
+  EXPECT_GT(unseen.most_H, 50e-6);
+  const Mode& found = selected.fit.circuit.modes.front();
+  constexpr double microhenries = 50.0;
+  EXPECT_NEAR(found.resonance_Hz / f - 1.0, microhenries * unseen.resonance_per_uH, 2e-5);
+  EXPECT_NEAR(found.capacitance_F() / 1e-10 - 1.0,
+              microhenries * unseen.motional_capacitance_per_uH, 3e-3);
+  EXPECT_NEAR(found.resistance_ohm() * truth.modes.front().conductance_S - 1.0,
+              microhenries * unseen.motional_resistance_per_uH, 6e-3);
+  EXPECT_NEAR(selected.fit.circuit.clamped_capacitance_F / 2e-9 - 1.0,
+              microhenries * unseen.clamped_capacitance_per_uH, 3e-3);
 }
 
 /// How many of 20 sweeps of 200 readings have the motional resistance in its interval.
@@ -334,6 +381,72 @@ TEST(Study, SaysThatALeadAndAnErrorOfThePhaseLookAlike) {
     return each.find("leads and contacts or an error of the phase: one of about 0.3") !=
            std::string::npos;
   }));
+}
+
+bool leaves_open(const ImpedanceStudy& result, const std::string& what) {
+  const std::vector<std::string>& all = result.identification.cannot_tell;
+  return std::any_of(all.begin(), all.end(),
+                     [&](const std::string& each) { return each.find(what) != std::string::npos; });
+}
+
+TEST(Study, SaysThatAnInductanceInSeriesMayGoUnseen) {
+  Sweep sweep = exact_sweep(published_langevin(), 27e3, 31.5e3, 200);
+  disturb(sweep, 3e-3, 3e-3, 1);
+  EXPECT_TRUE(leaves_open(study("x", sweep, {}), "makes the resonance come out -"));
+  for (auto& each : sweep.admittance_S) {
+    each = std::abs(each);
+  }
+  sweep.has_phase = false;
+  EXPECT_TRUE(
+      leaves_open(study("x", sweep, {}), "series inductance: magnitudes alone do not tell"));
+}
+
+/// The ninth is 200 Hz beside the one that is identified.
+TEST(Study, WarnsOfMoreModesThanItFits) {
+  Circuit truth{2e-9, 0.004, {mode_of(132.6, 158.3e-3, 0.1e-9)}};
+  for (int i = 0; i < 8; ++i) {
+    const double f = 37.5e3 + 2.3e3 * i;
+    truth.modes.push_back({two_pi * f * 2e-11 * 200.0, f, f / 200.0});
+  }
+  Sweep sweep = exact_sweep(truth, 35e3, 60e3, 1000);
+  disturb(sweep, 5e-3, 5e-3, 1);
+  const ImpedanceStudy result = study("x", sweep, {});
+  EXPECT_TRUE(warns(result, "The limit of 8 modes is reached, and another one is seen at"));
+  EXPECT_TRUE(holds(figure(result.fit, "motional_resistance_ohm"), 132.6));
+  EXPECT_TRUE(holds(figure(result.fit, "motional_capacitance_F"), 0.1e-9));
+  EXPECT_TRUE(
+      holds(figure(result.fit, "resonance_frequency_Hz"), truth.modes.front().resonance_Hz));
+}
+
+/// Of 17 digits, as another program computes them.
+TEST(Study, OfComputedReadingsHasOneModeAndFiniteIntervals) {
+  const ImpedanceStudy result =
+      study("x", exact_sweep(published_langevin(), 27e3, 31.5e3, 301), {});
+  EXPECT_EQ(result.fit.parts.modes, 1);
+  EXPECT_EQ(result.fit.parts.lead, LeadModel::none);
+  EXPECT_TRUE(warns(result, "as computed ones do"));
+  EXPECT_FALSE(leaves_open(result, "its interval goes from"));
+  for (const Estimate& each : result.identification.parameters) {
+    EXPECT_LT(each.low_95, each.value) << each.name;
+    EXPECT_GT(each.high_95, each.value) << each.name;
+    EXPECT_LT(each.high_95 - each.low_95, 1e-5 * each.value) << each.name;
+  }
+}
+
+/// A motional capacitance of 10000 times the clamped one.
+TEST(Study, ARefusalOfSeveralModesAdvisesToNarrowTheSweep) {
+  CircuitFit fit;
+  fit.parts = {true, 2};
+  fit.circuit = {1e-13, 0.0, {mode_of(100.0, 30e-3, 1e-9), mode_of(300.0, 30e-3, 0.6e-9)}};
+  try {
+    require_inside(exact_sweep(fit.circuit, 25e3, 45e3, 100), fit);
+    FAIL();
+  } catch (const loop::ComputationError& error) {
+    EXPECT_NE(std::string(error.what())
+                  .find("has modes at 29057.6, 37513.2 Hz: narrow the sweep to the resonance"),
+              std::string::npos)
+        << error.what();
+  }
 }
 
 TEST(Study, NamesTheReadingsThatAreLeftOut) {
