@@ -150,19 +150,26 @@ output::Section residual_section(const Comparison& comparison) {
 }
 
 output::Table law_table(const Comparison& comparison) {
+  const bool has_errors = comparison.readings.have_standard_errors;
   output::Table table{"Laws, the best first",
-                      {"Law (--law)", "Verdict", "Vibration", "Parameters", "AICc, difference",
-                       "Residual rms", "Misfit", "P(runs)", "P(chi²)"},
+                      {"Law (--law)", "Verdict", "Vibration", "p", "AICc, difference",
+                       "Residual rms", "Misfit", "P(runs)"},
                       {}};
+  if (has_errors) {
+    table.header.emplace_back("P(chi²)");
+  }
   const auto cell = [](double value) {
     return std::isfinite(value) ? fmt::format("{:.3g}", value) : std::string("-");
   };
   for (const LawFit& each : comparison.laws) {
-    table.rows.push_back(
-        {fmt::format("{} ({})", each.law.title, each.law.law), verdict(comparison, each),
-         each.law.direction, fmt::format("{}", each.parameter_count()),
-         cell(comparison.difference(each)), cell(each.residual_rms), cell(each.misfit),
-         cell(each.runs_probability), cell(each.chi_square_probability)});
+    table.rows.push_back({fmt::format("{} ({})", each.law.title, each.law.law),
+                          verdict(comparison, each), each.law.direction,
+                          fmt::format("{}", each.parameter_count()),
+                          cell(comparison.difference(each)), cell(each.residual_rms),
+                          cell(each.misfit), cell(each.runs_probability)});
+    if (has_errors) {
+      table.rows.back().push_back(cell(each.chi_square_probability));
+    }
   }
   return table;
 }
@@ -203,7 +210,8 @@ output::Page page(const Comparison& comparison, const std::string& name) {
   output::Page page;
   page.title = fmt::format("Friction of {}", name);
   page.lead = fmt::format(
-      "{} readings of {} against {}. Residuals and misfit are friction ratios. AICc is "
+      "{} readings of {} against {}. Residuals and misfit are friction ratios; p is the number "
+      "of parameters. AICc is "
       "Akaike's criterion for small samples: laws less than {:g} apart are not told apart. "
       "Intervals are of profile likelihood, with a term for misfit.",
       comparison.readings.rows.size(),

@@ -172,6 +172,20 @@ TEST(FrictionFit, AnExactFitDoesNotFail) {
   }
 }
 
+/// The verdict has room: chi square is a column only where standard errors are stated.
+TEST(FrictionPage, HasOneLawAndNoColumnOfDashes) {
+  const output::Page without = page(compared(coulomb_rows, {"coulomb"}), "x");
+  EXPECT_NE(without.lead.find("against one law."), std::string::npos) << without.lead;
+  EXPECT_EQ(without.tables.at(0).header.back(), "P(runs)");
+  const output::Page with =
+      page(compared("0.1,0.01,0.06,0.01\n0.5,0.05,0.33,0.01\n0.9,0.09,0.71,0.01\n", {"coulomb"},
+                    "velocity_ratio,sliding_velocity_m_per_s,friction_ratio,"
+                    "friction_ratio_standard_error\n"),
+           "x");
+  EXPECT_EQ(with.tables.at(0).header.back(), "P(chi²)");
+  EXPECT_EQ(with.tables.at(0).rows.at(0).size(), with.tables.at(0).header.size());
+}
+
 Comparison of_example(const std::string& name, const std::vector<std::string>& laws) {
   const scene_file::Source source = read_text(std::string(EXAMPLES) + "/" + name);
   return compare(read_readings(source), laws, silent);
