@@ -64,10 +64,9 @@ std::string explanation(const Sweep& sweep) {
         100.0 * resistive);
   }
   return fits_better_with_other_sign(sweep)
-             ? ". With the other sign of the phase a circuit fits far better: the sign of the "
-               "phase or "
-               "of the imaginary part may be reversed, an admittance read as an impedance, or the "
-               "fixture shorted"
+             ? ". With the other sign of the phase a circuit fits far better: is the sign of the "
+               "phase or of the imaginary part reversed, is an admittance read as an impedance, or "
+               "is the fixture shorted?"
              : "";
 }
 

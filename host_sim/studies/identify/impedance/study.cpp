@@ -22,7 +22,8 @@ Selection select_or_say_what_was_assumed(const Sweep& sweep) {
   } catch (const loop::ComputationError& error) {
     std::string reason = error.what();
     for (const std::string& each : sweep.warnings) {
-      reason += ". " + each.substr(0, each.find_last_not_of('.') + 1);
+      reason +=
+          (reason.back() == '?' ? " " : ". ") + each.substr(0, each.find_last_not_of('.') + 1);
     }
     throw loop::ComputationError(reason);
   }

@@ -480,6 +480,24 @@ TEST(Study, ARefusalSaysWhatWasAssumedOfTheFile) {
   }
 }
 
+/// Behind a question no full stop.
+TEST(Study, ARefusalThatAsksGoesOnWithASentence) {
+  Sweep reversed = exact_sweep(published_langevin(), 27e3, 31.5e3, 200);
+  disturb(reversed, 1e-3, 1e-3, 1);
+  for (auto& each : reversed.admittance_S) {
+    each = std::conj(each);
+  }
+  reversed.warnings = {"The phase is taken for degrees."};
+  try {
+    study("x", reversed, {});
+    FAIL();
+  } catch (const loop::ComputationError& error) {
+    EXPECT_NE(std::string(error.what()).find("shorted? The phase is taken for degrees"),
+              std::string::npos)
+        << error.what();
+  }
+}
+
 TEST(Study, RefusesMassesThatNoSceneHas) {
   Sweep sweep = exact_sweep(published_langevin(), 27e3, 31.5e3, 200);
   add_noise(sweep, 1e-3);
