@@ -50,20 +50,16 @@ bool is_plausible(const Sweep& sweep, const Mode& added) {
          readings_near(sweep, added) >= fewest;
 }
 
-/// Passive, and small: an error of the phase looks like a large resistance, and no lead is in resonance
-/// with the clamped capacitance near a mode.
+/// Passive, and its resistance small beside the motional one: an error of the phase looks like a large
+/// one.
 bool has_plausible_lead(const CircuitFit& fit) {
   constexpr double most_share = 0.25;
-  constexpr double most_of_resonance = 0.1;
   const Lead& lead = fit.circuit.lead;
   const LeadModel model = fit.parts.lead;
   return (!has_resistance(model) || lead.resistance_ohm > 0.0) &&
          (!has_inductance(model) || lead.inductance_H > 0.0) &&
          std::all_of(fit.circuit.modes.begin(), fit.circuit.modes.end(), [&](const Mode& mode) {
-           const double omega = two_pi * mode.resonance_Hz;
-           return lead.resistance_ohm < most_share * mode.resistance_ohm() &&
-                  omega * omega * lead.inductance_H * fit.circuit.clamped_capacitance_F <
-                      most_of_resonance;
+           return lead.resistance_ohm < most_share * mode.resistance_ohm();
          });
 }
 
