@@ -19,7 +19,8 @@ inline constexpr std::size_t forced = 4;        ///< |H|: steady velocity at ful
 inline constexpr std::size_t sloped = 5;        ///< the slopes of those before this one are of use
 inline constexpr std::size_t feedback = 5;      ///< K: on the mode and on the amplitude's error
 inline constexpr std::size_t per_velocity = 8;  ///< 1/|H|
-inline constexpr std::size_t plain = 9;         ///< those of the nodes follow
+inline constexpr std::size_t bend = 9;          ///< half the square of the angle to the next row
+inline constexpr std::size_t plain = 10;        ///< those of the nodes follow
 /// Nodes of the velocity ratio, whose numbers follow each other: 1/8, 2/8 … 1.
 inline constexpr int node_bits = 3;
 inline constexpr std::size_t nodes = std::size_t{1} << node_bits;
@@ -47,7 +48,9 @@ template <class Scalar>
 using FeltTable = std::array<FeltRow<Scalar>, felt::rows>;
 
 /// A table at a place between its rows and at a velocity ratio between its nodes, and the slopes over
-/// the place: linear interpolation.
+/// the place: linear interpolation. Between two turns it would fall short of the modulus, and a mode
+/// would seem to decay: so a turn is lengthened by bend x (1 - x), x the part of the way to the next
+/// row. What is left of the shortfall is below the fourth power of the angle between the rows.
 template <class Scalar>
 class FeltPlace {
  public:
@@ -72,6 +75,11 @@ class FeltPlace {
       if (i < felt::sloped) {
         slopes_[i] = slope_of(rise);
       }
+    }
+    constexpr Scalar whole = numeric::from_code<Scalar>(INT32_MAX);
+    const Scalar longer = values_[felt::bend] * (along_ * (whole - along_));
+    for (std::size_t i = 0; i < 2; ++i) {
+      values_[felt::turn + i] = values_[felt::turn + i] + values_[felt::turn + i] * longer;
     }
   }
 

@@ -168,7 +168,8 @@ void design_supervision(const scene::Scene& scene, const BelievedPlant& plant,
 
 /// value/scale, or an error in the name of the key that one should change.
 /// @param finding  what is wrong, with a place for the ratio
-double per_unit(double value, double scale, double smallest, const char* key, const char* finding) {
+double per_unit(double value, double scale, double smallest, const char* key,
+                const std::string& finding) {
   const double ratio = value / scale;
   if (!(ratio >= smallest && ratio < 1.0)) {
     throw ConfigurationError(key, fmt::format(fmt::runtime(finding), ratio) +
@@ -490,7 +491,9 @@ ControlDesign design_control(const scene::Scene& any_scene) {
   const double displacement_m = set_scales(scene, plant, design);
   design.friction_force = per_unit(plant.friction_N, design.scales.force_N, smallest_friction,
                                    "sensor.force_full_scale_N",
-                                   "makes the believed friction force {:.3g} of full scale");
+                                   fmt::format("is {:.4g} N, of which the believed friction force "
+                                               "of {:.4g} N makes {{:.3g}}",
+                                               design.scales.force_N, plant.friction_N));
   design.contact_force = plant.contact_stiffness_N_per_m * displacement_m / design.scales.force_N;
   design.speed_floor = speed_floor(scene, plant, design.scales);
   check_converter(scene, plant);
@@ -530,6 +533,29 @@ bool tells_mismatch(const scene::Scene& scene) {
              light_friction * scene.believed().drive->max_force_amplitude_N;
 }
 
+namespace {
+
+void add_feeling_notes(const FeltDesign& design, std::vector<std::string>& notes) {
+  constexpr double usual_range = 0.05;
+  if (design.stiffness_range < usual_range) {
+    notes.push_back(
+        fmt::format("The natural mode is looked for only where the stiffness is within {:.2g} % of "
+                    "the believed one: it turns by much in a carrier period, or is close to the "
+                    "carrier frequency.",
+                    100.0 * design.stiffness_range));
+  }
+  constexpr double usual_blur = 0.02;
+  if (design.blur > usual_blur) {
+    notes.push_back(fmt::format(
+        "The force sensor shows little of the natural mode: without its lag a reading is "
+        "uncertain by {:.2g} % of the vibration velocity. A quicker one, or one with "
+        "less noise, shows more; so does a sensor.vibration.",
+        100.0 * design.blur));
+  }
+}
+
+}  // namespace
+
 std::vector<std::string> design_notes(const ControlDesign& design) {
   std::vector<std::string> notes;
   if (design.free_mode) {
@@ -551,6 +577,9 @@ std::vector<std::string> design_notes(const ControlDesign& design) {
         "the amplitude quiets it quickly: the vibration velocity is held, and the friction ratio "
         "may "
         "swing about its target.");
+  }
+  if (design.feeling) {
+    add_feeling_notes(*design.feeling, notes);
   }
   if (design.resonance && design.resonance->natural != design.resonance->believed_natural) {
     const ResonantDesign& resonance = *design.resonance;

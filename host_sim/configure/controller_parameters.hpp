@@ -261,7 +261,7 @@ inline std::array<int, control::felt::numbers> felt_exponents(
   namespace felt = control::felt;
   std::array<int, felt::numbers> exponents{};
   feedback = exponent_above(table, felt::feedback, felt::per_velocity);
-  inverse = exponent_above(table, felt::per_velocity, felt::plain);
+  inverse = exponent_above(table, felt::per_velocity, felt::bend);
   seen = 0;
   for (std::size_t node = 0; node < felt::nodes; ++node) {
     const std::size_t first = felt::plain + node * felt::per_node;

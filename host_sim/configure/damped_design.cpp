@@ -35,7 +35,7 @@ double stiffness_range(double stiffness) {
                    2.0 * radians / numeric::sqrt(stiffness)});
 }
 
-Eigen::RowVector3d feedback_of(const ModeModel& model) {
+Eigen::RowVector3d feedback_of(const ModeModel& model, const Eigen::Matrix3d& error) {
   constexpr double quickest = 1.15;
   constexpr double slower = 0.6;
   constexpr double quick_enough = 1.01;
@@ -44,7 +44,7 @@ Eigen::RowVector3d feedback_of(const ModeModel& model) {
   const double kick = model.kick.norm();
   double stability = norm_of(model.seen) * kick < visible * model.forced.norm() ? 1.0 : quickest;
   while (true) {
-    Eigen::RowVector3d gains = feedback_gains(model, stability);
+    Eigen::RowVector3d gains = feedback_gains(model, error, stability);
     if (stability == 1.0 || gains.head<2>().norm() * kick < largest_kick) {
       return gains;
     }
@@ -82,7 +82,7 @@ control::ModeRow<double> row_of(const ModeModel& model, double noise) {
   put(model.seen, mode::seen, row);
   put(observer.mode, mode::mode_gain, row);
   put(observer.offset, mode::offset_gain, row);
-  put(feedback_of(model), mode::feedback, row);
+  put(feedback_of(model, vibration_error(model)), mode::feedback, row);
   put(Eigen::Vector2d(model.forced / (velocity * velocity)), mode::inverse, row);
   row[mode::per_velocity] = 1.0 / velocity;
   return row;

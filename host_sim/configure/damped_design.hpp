@@ -35,7 +35,8 @@ double stiffness_range(double stiffness);
 
 /// As quick as it may be without making much of what an observer only believes; slow where the
 /// vibration hardly shows the mode. See feedback_gains().
-Eigen::RowVector3d feedback_of(const ModeModel& model);
+/// @param error  what (w, u − u*) costs
+Eigen::RowVector3d feedback_of(const ModeModel& model, const Eigen::Matrix3d& error);
 
 /// The range of the vibration sensor.
 /// @throws ConfigurationError  full drive vibrates at less than 1/64 of it, or at more than half

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
@@ -160,31 +161,58 @@ Node node_of(const Place& place, double ratio, const Felt& felt) {
           -earlier * place.model.kick - forced * response.forced[2]};
 }
 
-void put_node(const Place& place, std::size_t index, const Felt& felt,
-              control::FeltRow<double>& row) {
+/// Rms of a reading, per sliding velocity.
+double noise_of(double ratio, const Felt& felt) {
   constexpr double rest = 0.001;  // of the velocity: map and contact, in a settled loop
-  const double ratio =
-      std::min(largest_ratio, static_cast<double>(index + 1) / static_cast<double>(felt::nodes));
-  const Node node = node_of(place, ratio, felt);
   // Of Coulomb friction: a velocity per ratio, per sliding velocity.
   const double steepness =
       0.25 * numeric::two_pi * numeric::sqrt(1.0 - ratio * ratio) / (ratio * ratio);
   const double model = rest * felt.doubtful / ratio;
   const double sensor = felt.noise * steepness;
+  return numeric::sqrt(model * model + sensor * sensor);
+}
+
+void put_node(const Place& place, std::size_t index, const Felt& felt,
+              control::FeltRow<double>& row) {
+  const double ratio =
+      std::min(largest_ratio, static_cast<double>(index + 1) / static_cast<double>(felt::nodes));
+  const Node node = node_of(place, ratio, felt);
   double* const numbers = &row[felt::plain + index * felt::per_node];
   numbers[felt::seen] = node.seen(0);
   numbers[felt::seen + 1] = node.seen(1);
   numbers[felt::last_change] = node.last_change;
   numbers[felt::change_before] = node.change_before;
-  numbers[felt::noise] = felt.speed * numeric::sqrt(model * model + sensor * sensor);
+  numbers[felt::noise] = felt.speed * noise_of(ratio, felt);
 }
 
-control::FeltRow<double> row_of(const Resonator& resonator, const Felt& felt) {
+/// A mode next to zero or to a multiple of the carrier costs what the friction shows of it, and a little
+/// of its own: a slow one acts as another sliding speed, which the vibration at the carrier hardly
+/// shows.
+Eigen::RowVector3d feedback_of(const Place& place, const Felt& felt) {
+  const ModeModel& model = place.model;
+  if (is_quick(model)) {
+    constexpr double slower = 0.85;  // the natural frequency is not yet known
+    Eigen::RowVector3d feedback = feedback_of(model, vibration_error(model));
+    feedback(2) *= slower;
+    return feedback;
+  }
+  constexpr double usual_ratio = 0.7;
+  constexpr double own = 0.2;
+  Felt bare = felt;
+  bare.chain = {};
+  Eigen::RowVector3d shown;
+  shown << node_of(place, usual_ratio, bare).seen, model.forced.norm();
+  Eigen::Matrix3d error = shown.transpose() * shown;
+  error.topLeftCorner<2, 2>() += own * model.square;
+  return feedback_of(model, error);
+}
+
+/// @param spacing  of the rows, a difference of the stiffness
+control::FeltRow<double> row_of(const Resonator& resonator, double spacing, const Felt& felt) {
   const Place place = place_of(resonator, felt.sign);
   const ModeModel& model = place.model;
   const double forced = model.forced.norm();
-  const Eigen::RowVector3d feedback = feedback_of(model);
-  constexpr double calm = 0.85;  // slower than optimal: the natural frequency is not yet known
+  const Eigen::RowVector3d feedback = feedback_of(place, felt);
   control::FeltRow<double> row{};
   row[felt::turn] = model.turn(0, 0);
   row[felt::turn + 1] = model.turn(1, 0);
@@ -193,12 +221,76 @@ control::FeltRow<double> row_of(const Resonator& resonator, const Felt& felt) {
   row[felt::forced] = forced;
   row[felt::feedback] = feedback(0);
   row[felt::feedback + 1] = feedback(1);
-  row[felt::feedback + 2] = calm * feedback(2);
+  row[felt::feedback + 2] = feedback(2);
   row[felt::per_velocity] = 1.0 / forced;
+  const double angle = 0.5 * spacing / place.rate.imag();
+  row[felt::bend] = 0.5 * angle * angle;
   for (std::size_t i = 0; i < felt::nodes; ++i) {
     put_node(place, i, felt, row);
   }
   return row;
+}
+
+/// Largest modulus of the poles of a mode under a feedback.
+double slowest_pole(const ModeModel& model, const Eigen::RowVector3d& feedback) {
+  Eigen::Matrix3d loop = Eigen::Matrix3d::Identity();
+  loop.topLeftCorner<2, 2>() = model.turn;
+  Eigen::Vector3d change;
+  change << model.kick, 1.0;
+  loop -= change * feedback;
+  return loop.eigenvalues().cwiseAbs().maxCoeff();
+}
+
+using Feedback = Eigen::Map<Eigen::RowVector3d>;
+
+/// Whether no mode between two rows grows under the feedback between them.
+bool quiets(const Resonator& first, double spacing, const Feedback& low, const Feedback& high) {
+  constexpr int parts = 8;
+  for (int i = 0; i <= parts; ++i) {
+    const double part = static_cast<double>(i) / parts;
+    Resonator resonator = first;
+    resonator.stiffness += part * spacing;
+    const ModeModel model = mode_model(resonator);
+    if (is_quick(model) && slowest_pole(model, (1.0 - part) * low + part * high) > 1.0) {
+      return false;
+    }
+  }
+  return true;
+}
+
+/// Less feedback of the part of the mode that a change of the amplitude does not move.
+void calm(control::FeltRow<double>& row) {
+  constexpr double left = 0.7;
+  const Eigen::RowVector2d kick =
+      Eigen::RowVector2d(row[felt::kick], row[felt::kick + 1]).normalized();
+  Eigen::Map<Eigen::RowVector2d> gains(&row[felt::feedback]);
+  const Eigen::RowVector2d moved = gains.dot(kick) * kick;
+  gains = moved + left * (gains - moved);
+}
+
+/// Next to half a turn in a period a change of the amplitude moves one part of the mode, and the
+/// feedback of the other part changes its sign within a fraction of a row, which a straight line from
+/// row to row cannot follow.
+void calm_between_rows(const Resonator& lowest, double spacing, control::FeltTable<double>& table) {
+  constexpr int most_turns = 12;
+  std::array<bool, felt::rows> loud{true};
+  for (int turn = 0; turn < most_turns && std::count(loud.begin(), loud.end(), true) > 0; ++turn) {
+    loud = {};
+    for (std::size_t i = 0; i + 1 < felt::rows; ++i) {
+      Resonator first = lowest;
+      first.stiffness += static_cast<double>(i) * spacing;
+      const Feedback low(&table[i][felt::feedback]);
+      const Feedback high(&table[i + 1][felt::feedback]);
+      if (!quiets(first, spacing, low, high)) {
+        loud[i] = loud[i + 1] = true;
+      }
+    }
+    for (std::size_t i = 0; i < felt::rows; ++i) {
+      if (loud[i]) {
+        calm(table[i]);
+      }
+    }
+  }
 }
 
 /// The table in multiples of a mode that leaves the kicks an eighth.
@@ -237,12 +329,18 @@ FeltDesign design_felt(const scene::Scene& scene, const BelievedPlant& plant,
   FeltDesign design;
   design.stiffness_range = stiffness_range(middle.stiffness);
   design.quick = is_quick(mode_model(middle));
+  const double range = design.stiffness_range * middle.stiffness;
+  const double spacing = 2.0 / (felt::rows - 1) * range;
+  Resonator lowest = middle;
+  lowest.stiffness -= range;
   for (std::size_t i = 0; i < felt::rows; ++i) {
-    const double place = 2.0 * static_cast<double>(i) / (felt::rows - 1) - 1.0;
-    Resonator resonator = middle;
-    resonator.stiffness *= 1.0 + place * design.stiffness_range;
-    design.table[i] = row_of(resonator, felt);
+    Resonator resonator = lowest;
+    resonator.stiffness += static_cast<double>(i) * spacing;
+    design.table[i] = row_of(resonator, spacing, felt);
   }
+  calm_between_rows(lowest, spacing, design.table);
+  constexpr double usual_ratio = 0.6;
+  design.blur = usual_ratio * noise_of(usual_ratio, felt);
   design.speed = felt.speed;
   constexpr double nonlinear = 0.04;  // of friction under a mode
   constexpr double unknown = 0.12;    // of the angle by which the range turns a mode

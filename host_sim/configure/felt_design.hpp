@@ -20,6 +20,7 @@ struct FeltDesign {
   control::FeltTable<double> table{};
   double stiffness_range = 0.0;  ///< relative
   bool quick = true;             ///< the mode can be quieted, see is_quick()
+  double blur = 0.0;             ///< rms of a reading at a velocity of 1, usually
   double speed = 0.0;            ///< of the fastest sliding
   double mode_unit = 0.0;        ///< velocity of a mode of 1
   double swing = 0.0;            ///< rms of what the model has wrong of a mode of 1, in a period

@@ -91,7 +91,18 @@ ObserverGains observer_gains(const ModeModel& model, double process, double nois
   return {gains.topRows<2>(), gains.bottomRows<2>()};
 }
 
-Eigen::RowVector3d feedback_gains(const ModeModel& model, double stability) {
+Eigen::Matrix3d vibration_error(const ModeModel& model) {
+  Eigen::Matrix3d error;
+  error.topLeftCorner<2, 2>() =
+      is_quick(model) ? model.square : Eigen::Matrix2d(model.seen.transpose() * model.seen);
+  error.topRightCorner<2, 1>() = model.seen.transpose() * model.forced;
+  error.bottomLeftCorner<1, 2>() = error.topRightCorner<2, 1>().transpose();
+  error(2, 2) = model.forced.squaredNorm();
+  return error;
+}
+
+Eigen::RowVector3d feedback_gains(const ModeModel& model, const Eigen::Matrix3d& error,
+                                  double stability) {
   using Matrix = Eigen::Matrix3d;
   Matrix dynamics = Matrix::Identity();
   dynamics.topLeftCorner<2, 2>() = model.turn;
@@ -100,12 +111,6 @@ Eigen::RowVector3d feedback_gains(const ModeModel& model, double stability) {
   change << model.kick, 1.0;
   change *= stability;
   const double price = model.forced.squaredNorm();
-  Matrix error;
-  error.topLeftCorner<2, 2>() =
-      is_quick(model) ? model.square : Eigen::Matrix2d(model.seen.transpose() * model.seen);
-  error.topRightCorner<2, 1>() = model.seen.transpose() * model.forced;
-  error.bottomLeftCorner<1, 2>() = error.topRightCorner<2, 1>().transpose();
-  error(2, 2) = price;
   const Matrix cost = riccati<Matrix>(dynamics, change * change.transpose() / price, error);
   return change.transpose() * cost * dynamics / (price + change.dot(cost * change));
 }

@@ -44,10 +44,14 @@ struct ObserverGains {
 /// @param noise    variance of each part of a sample
 ObserverGains observer_gains(const ModeModel& model, double process, double noise);
 
-/// Linear-quadratic feedback of (w, u − u*) on the change of the amplitude. What it costs: the mean
-/// square of what the velocity has beside the steady vibration of u*, of a mode next to a multiple of
-/// the carrier what z shows of it, and as much for a change of the amplitude as for an error of the
-/// same size. The poles have a modulus below 1/`stability`.
-Eigen::RowVector3d feedback_gains(const ModeModel& model, double stability);
+/// Quadratic form of (w, u − u*), u* the amplitude to come to: the mean square of what the velocity has
+/// beside the steady vibration of u*, of a mode next to a multiple of the carrier what z shows of it.
+Eigen::Matrix3d vibration_error(const ModeModel& model);
+
+/// Linear-quadratic feedback of (w, u − u*) on the change of the amplitude. A change costs as much as
+/// an error of the amplitude of the same size. The poles have a modulus below 1/`stability`.
+/// @param error  what (w, u − u*) costs
+Eigen::RowVector3d feedback_gains(const ModeModel& model, const Eigen::Matrix3d& error,
+                                  double stability);
 
 }  // namespace sonoglide::configure

@@ -231,6 +231,26 @@ TEST_P(Feeling, SettlesWithAStiffnessThatIsBelievedWrong) {
   }
 }
 
+/// A change of the amplitude moves one part of such a mode, which turns by half a turn in a period.
+TEST_P(Feeling, SettlesWithAModeOfHalfATurn) {
+  Loop given = loop();
+  for (const double mode : {0.5, 1.5, 2.5, 3.4966, 3.5, 3.505, 10.5}) {
+    given.mode_per_carrier = mode;
+    expect_prompt(given);
+  }
+}
+
+/// A slow mode acts as another sliding speed.
+TEST_P(Feeling, HoldsTheRatioWithAModeMuchSlowerThanTheCarrier) {
+  Loop given = loop();
+  for (const double mode : {0.03, 0.045, 0.06}) {
+    given.mode_per_carrier = mode;
+    for (const report::StepMetrics& step : run(given).steps) {
+      EXPECT_LE(step.ripple, 0.014) << mode << ' ' << step.target;
+    }
+  }
+}
+
 /// At nearly twice the sliding speed, which the friction does not follow linearly.
 TEST_P(Feeling, QuietsAMassThatRingsAtFirst) {
   Loop given = loop();

@@ -5,7 +5,9 @@
 #include <cmath>
 #include <complex>
 #include <string>
+#include <vector>
 
+#include "host_sim/configure/believed_plant.hpp"
 #include "host_sim/configure/configuration_error.hpp"
 #include "tests/common/constants/pi.hpp"
 #include "tests/common/constants/table_1_numbers.hpp"
@@ -166,6 +168,31 @@ TEST(ControlDesignTest, NotesAModeThatFeedbackMayBuildUp) {
   EXPECT_TRUE(design_notes(design_control(scene)).empty());
   scene.plant.damping_N_s_per_m = 0.98 * told;
   EXPECT_EQ(design_notes(design_control(scene)).size(), 1U);
+}
+
+TEST(ControlDesignTest, NotesWhatItMayFailToFeel) {
+  const auto feeling = [](double frequency) {
+    scene::Scene scene = with_natural_frequency(frequency);
+    scene.controller->vibration = scene::VibrationControl::damped;
+    return scene;
+  };
+  EXPECT_TRUE(design_notes(design_control(feeling(0.2163))).empty());
+  for (const double frequency : {1.02, 5.2}) {
+    const std::vector<std::string> notes = design_notes(design_control(feeling(frequency)));
+    ASSERT_FALSE(notes.empty()) << frequency;
+    EXPECT_NE(notes.back().find("only where the stiffness is within"), std::string::npos);
+  }
+  scene::Scene slow = feeling(0.2163);
+  slow.sensor.force_bandwidth_Hz = 2000.0;
+  EXPECT_TRUE(design_notes(design_control(slow)).empty());
+  slow.sensor.force_bandwidth_Hz = 100.0;
+  scene::Scene noisy = feeling(0.2163);
+  noisy.sensor.force_noise_N = 0.05 * believed_plant(noisy).friction_N;
+  for (const scene::Scene& scene : {slow, noisy}) {
+    const std::vector<std::string> notes = design_notes(design_control(scene));
+    ASSERT_EQ(notes.size(), 1U);
+    EXPECT_NE(notes.front().find("shows little of the natural mode"), std::string::npos);
+  }
 }
 
 TEST(ControlDesignTest, NotesWhatARobustNotchCannotDo) {

@@ -1,0 +1,80 @@
+#include "host_sim/configure/felt_design.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+
+#include "firmware/control/felt_table.hpp"
+#include "host_sim/configure/believed_plant.hpp"
+#include "host_sim/configure/mode_model.hpp"
+#include "tests/common/constants/pi.hpp"
+#include "tests/common/constants/table_1_numbers.hpp"
+#include "tests/common/table_1.hpp"
+
+namespace sonoglide::configure::felt_design_test {
+namespace {
+
+namespace felt = control::felt;
+
+using tests::carrier_Hz;
+using tests::pi;
+using tests::table_1_closed_loop;
+
+constexpr double velocity_m_per_s = 4.0;
+
+scene::Scene scene_of(double mode_per_carrier) {
+  scene::Scene scene = table_1_closed_loop();
+  const double omega = 2.0 * pi * carrier_Hz * mode_per_carrier;
+  scene.plant.stiffness_N_per_m = scene.plant.mass_kg * omega * omega;
+  return scene;
+}
+
+/// Largest modulus of the poles of a mode under the feedback that the table has at its place.
+double slowest_pole(const FeltDesign& design, double place, double stiffness) {
+  control::FeltPlace<double> row(design.table);
+  row.go(place);
+  const ModeModel model =
+      mode_model({stiffness * (1.0 + place * design.stiffness_range), 0.0, 1.0});
+  Eigen::Vector3d change;
+  change << row[felt::kick], row[felt::kick + 1], 1.0;
+  Eigen::RowVector3d feedback;
+  feedback << row[felt::feedback], row[felt::feedback + 1], row[felt::feedback + 2];
+  Eigen::Matrix3d loop = Eigen::Matrix3d::Identity();
+  loop.topLeftCorner<2, 2>() = model.turn;
+  loop -= change * feedback;
+  return loop.eigenvalues().cwiseAbs().maxCoeff();
+}
+
+/// Next to half a turn in a period the feedback changes faster than the rows lie.
+TEST(FeltDesignTest, NoModeGrowsAtOrBetweenTheRows) {
+  for (const double mode : {0.2163, 0.5, 0.7, 1.48, 1.5, 2.5, 3.46, 3.469, 3.5, 3.52, 10.5}) {
+    const scene::Scene scene = scene_of(mode);
+    const FeltDesign design = design_felt(scene, believed_plant(scene), velocity_m_per_s);
+    const double angle = 2.0 * pi * mode;
+    for (int i = -200; i <= 200; ++i) {
+      const double place = 0.00499 * i;
+      ASSERT_LT(slowest_pole(design, place, angle * angle), 1.001) << mode << ' ' << place;
+    }
+  }
+}
+
+TEST(FeltDesignTest, AModeWithoutDampingKeepsItsSizeBetweenTheRows) {
+  for (const double mode : {0.2163, 1.3, 3.469, 10.5}) {
+    const scene::Scene scene = scene_of(mode);
+    const FeltDesign design = design_felt(scene, believed_plant(scene), velocity_m_per_s);
+    control::FeltPlace<double> row(design.table);
+    for (int i = -200; i <= 200; ++i) {
+      const double place = 0.00499 * i;
+      row.go(place);
+      const double angle = 2.0 * pi * mode * std::sqrt(1.0 + place * design.stiffness_range);
+      EXPECT_NEAR(row[felt::turn], std::cos(angle), 4e-3) << mode << ' ' << place;
+      EXPECT_NEAR(row[felt::turn + 1], std::sin(angle), 4e-3) << mode << ' ' << place;
+      EXPECT_NEAR(std::hypot(row[felt::turn], row[felt::turn + 1]), 1.0, 2e-4)
+          << mode << ' ' << place;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace sonoglide::configure::felt_design_test
