@@ -85,9 +85,12 @@ class Simulation {
     }
   }
 
+  /// A mean over part of a carrier period is no friction ratio; a run without a drive has parts alone.
   double friction_ratio(const EnergyBalance& energy) const {
     const double undriven_N_s = friction_N_ * energy.undriven_s;
-    return undriven_N_s > 0.0 ? energy.resistance_impulse_N_s / undriven_N_s : Period::undefined;
+    const bool mean = clock_.is_whole() || clock_.frequency_Hz() == 0.0;
+    return mean && undriven_N_s > 0.0 ? energy.resistance_impulse_N_s / undriven_N_s
+                                      : Period::undefined;
   }
 
   /// Of a period that is cut short there is no fundamental.

@@ -17,7 +17,8 @@ struct Period {
 
   double begin_s = 0.0;
   double end_s = 0.0;
-  double friction_ratio = undefined;    ///< ρ, see PowerRatios; NaN without friction
+  /// ρ, see PowerRatios; NaN without friction, and of a carrier period that is cut short.
+  double friction_ratio = undefined;
   double begin_velocity_m_per_s = 0.0;  ///< sliding
   double end_velocity_m_per_s = 0.0;
   double drive_amplitude_N = 0.0;  ///< in force during it

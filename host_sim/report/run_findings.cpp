@@ -20,10 +20,8 @@ constexpr std::uint64_t ending_periods = 256;
 }  // namespace
 
 void Course::take(const loop::Period& period) {
-  // A mean over part of a period is no friction ratio; a run without a drive has parts alone.
-  const bool mean = period.whole || period.frequency_Hz == 0.0;
-  curve_.add(period.begin_s, {mean ? period.friction_ratio : gap, period.target,
-                              period.drive_amplitude_N, period.begin_velocity_m_per_s});
+  curve_.add(period.begin_s, {period.friction_ratio, period.target, period.drive_amplitude_N,
+                              period.begin_velocity_m_per_s});
   ++periods_in_[static_cast<std::size_t>(period.limit)];
 }
 

@@ -43,6 +43,8 @@ std::string limit_text(const report::StepMetrics& step) {
   if (!step.limit_seen_by_controller) {
     text += step.controller_undecided ? ", not yet judged by the controller"
                                       : ", unseen by the controller";
+  } else if (step.limit == control::Limit::not_settling && step.settling_time_s) {
+    text += ", for the controller alone";
   }
   return text;
 }

@@ -62,9 +62,11 @@ std::string no_value(const ScenesNumbers& numbers, std::string_view key) {
   return "here: the scene has no value of it";
 }
 
-/// Largest relative half width that stays in the range.
+/// Largest relative half width that stays in the range, rounded down.
 double widest(const Range& range, double value) {
-  return std::min(value - range.low, range.high - value) / std::abs(value);
+  constexpr double steps = 1e6;
+  return std::floor(steps * std::min(value - range.low, range.high - value) / std::abs(value)) /
+         steps;
 }
 
 /// Fills in what follows from the scene's value.

@@ -120,8 +120,12 @@ std::optional<output::Panel> distribution(const Study& study, const Figure& figu
     return std::nullopt;
   }
   std::sort(values.begin(), values.end());
+  if (is_one_value(values.front(), values.back())) {
+    return std::nullopt;
+  }
   output::Panel panel;
-  panel.title = figure.label;
+  const std::string label = figure.label;
+  panel.title = label.substr(0, label.find(" ["));
   panel.x_label = figure.label;
   panel.y_label = "Part of the plants at or below [-]";
   output::Series series{"Plants", {}, true};
@@ -140,7 +144,8 @@ output::Section distribution_section(const Study& study) {
   output::Section section{
       "Distributions",
       "A curve that ends below 1 leaves out the plants that have no such figure: "
-      "a step never settles, or the loop could not be computed.",
+      "a step never settles, or the loop could not be computed. A figure that is the same on all "
+      "plants has no curve.",
       {}};
   for (const Figure& figure : figures()) {
     if (auto panel = distribution(study, figure)) {
@@ -170,7 +175,7 @@ output::Panel scatter(const Task& task, const Study& study, std::size_t toleranc
   const std::vector<double> factors = factors_of(task, tolerance);
   output::Panel panel;
   panel.title = task.tolerances()[tolerance].key;
-  panel.x_label = fmt::format("{} [-]", task.tolerances()[tolerance].key);
+  panel.x_label = task.tolerances()[tolerance].key;
   panel.y_label = "|Steady error| + ripple [-]";
   output::Series passed{"Settled", {}};
   output::Series failed{"Failed", {}};

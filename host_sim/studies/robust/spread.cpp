@@ -23,8 +23,12 @@ double between(double lowest, double highest, double part) {
                     : highest - (1.0 - part) * (highest - lowest);
 }
 
+/// In double: four times as quick as by way of long double, and good to the last digits.
+using Normal = boost::math::normal_distribution<
+    double, boost::math::policies::policy<boost::math::policies::promote_double<false>>>;
+
 double normal_quantile(const scene::Tolerance& tolerance, double probability) {
-  const boost::math::normal_distribution<double> normal(tolerance.nominal, deviation(tolerance));
+  const Normal normal(tolerance.nominal, deviation(tolerance));
   const double below = boost::math::cdf(normal, tolerance.lowest);
   const double above = boost::math::cdf(boost::math::complement(normal, tolerance.highest));
   const double inside = 1.0 - below - above;

@@ -16,6 +16,9 @@ bool below(double a, double b) {
   return std::isnan(b) ? !std::isnan(a) : a < b;
 }
 
+/// Largest difference that is rounding, relative.
+constexpr double rounding = 1e-12;
+
 double at(const std::vector<double>& rising, double part) {
   const auto place =
       static_cast<std::size_t>(std::ceil(part * static_cast<double>(rising.size()) - 1e-9));
@@ -41,6 +44,10 @@ double failure_probability_upper(std::size_t failures, std::size_t runs, double 
                                 static_cast<double>(runs - failures), confidence);
 }
 
+bool is_one_value(double lowest, double highest) {
+  return highest - lowest <= rounding * std::max(std::abs(lowest), std::abs(highest));
+}
+
 Ranks::Ranks(const std::vector<double>& values) : places(values.size()) {
   std::vector<std::size_t> order(values.size());
   std::iota(order.begin(), order.end(), 0);
@@ -48,7 +55,8 @@ Ranks::Ranks(const std::vector<double>& values) : places(values.size()) {
             [&](std::size_t a, std::size_t b) { return below(values[a], values[b]); });
   for (std::size_t begin = 0; begin < order.size();) {
     std::size_t end = begin + 1;
-    while (end < order.size() && !below(values[order[begin]], values[order[end]])) {
+    while (end < order.size() && (!below(values[order[begin]], values[order[end]]) ||
+                                  is_one_value(values[order[begin]], values[order[end]]))) {
       ++end;
     }
     for (std::size_t i = begin; i < end; ++i) {

@@ -26,7 +26,12 @@ Quantiles quantiles(std::vector<double> values);
 /// @param confidence  in (0, 1)
 double failure_probability_upper(std::size_t failures, std::size_t runs, double confidence);
 
-/// Rank of each value in rising order, from 0; equal ones share their mean rank, NaN is largest.
+/// Whether two values are equal but for rounding: by 1e-12.
+/// @param lowest  not above the highest
+bool is_one_value(double lowest, double highest);
+
+/// Rank of each value in rising order, from 0; equal ones, but for rounding, share their mean rank, NaN
+/// is largest.
 struct Ranks {
   explicit Ranks(const std::vector<double>& values);
   std::vector<double> places;

@@ -43,11 +43,15 @@ const std::vector<BrokenScene> broken_scenes = {
      "a [transducer] controller.vibration = \"resonant\""},
     {"full_scale_far_above_friction", closed_loop, "adc_bits = 12",
      "adc_bits = 12\nforce_full_scale_N = 100",
-     "20:22: sensor.force_full_scale_N: makes the believed friction force 0.000196 of full scale; "
+     "20:22: sensor.force_full_scale_N: is 100 N, of which the believed friction force of 0.01962 "
+     "N "
+     "makes 0.000196; "
      "allowed: 0.000977 to below 1"},
     {"full_scale_below_friction", closed_loop, "adc_bits = 12",
      "adc_bits = 12\nforce_full_scale_N = 0.01",
-     "20:22: sensor.force_full_scale_N: makes the believed friction force 1.96 of full scale; "
+     "20:22: sensor.force_full_scale_N: is 0.01 N, of which the believed friction force of 0.01962 "
+     "N "
+     "makes 1.96; "
      "allowed: 0.000977 to below 1"},
     {"speed_floor_too_high", closed_loop, "arithmetic = \"float32\"",
      "arithmetic = \"float32\"\nspeed_floor_m_per_s = 0.5",

@@ -457,6 +457,9 @@ TEST(ResonanceArithmetic, FixedPointIsWithinTwoThousandthsOfDouble) {
     const Ran rounded = run(given);
     ASSERT_EQ(rounded.run.periods.size(), exact.run.periods.size());
     for (std::size_t i = 0; i < exact.run.periods.size(); ++i) {
+      if (!exact.run.periods[i].whole) {
+        continue;
+      }
       EXPECT_NEAR(rounded.run.periods[i].friction_ratio, exact.run.periods[i].friction_ratio, 0.002)
           << quality << ' ' << i;
     }

@@ -47,6 +47,17 @@ Scene recording(Scene scene, double interval_s) {
   return scene;
 }
 
+TEST(RunTest, APeriodThatIsCutShortHasNoFrictionRatio) {
+  Scene scene = table_1_closed_loop();
+  scene.run.duration_s = 10.25 * period_s;
+  const std::vector<Period> periods = run_logged(scene).periods;
+  ASSERT_EQ(periods.size(), 11U);
+  for (const Period& period : periods) {
+    EXPECT_EQ(std::isnan(period.friction_ratio), !period.whole) << period.begin_s;
+  }
+  EXPECT_FALSE(periods.back().whole);
+}
+
 TEST(RecordingTest, DoesNotChangeABitOfAnOpenLoop) {
   for (const double tolerance : {1e-4, 1e-10, 1e-13}) {
     Scene scene = table_1();

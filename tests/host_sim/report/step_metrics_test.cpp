@@ -172,6 +172,17 @@ TEST(StepMetricsTest, ALateStepKeepsTheLimitThatTheControllerNames) {
   EXPECT_TRUE(step.limit_seen_by_controller);
 }
 
+TEST(StepMetricsTest, ASettledStepThatTheControllerDoubtsIsToldSo) {
+  StepMetrics step;
+  step.settling_time_s = 1e-3;
+  step.limit = control::Limit::not_settling;
+  step.cause = control::Settling::offset;
+  step.limit_seen_by_controller = true;
+  EXPECT_EQ(limit_text(step), "not_settling (offset), for the controller alone");
+  step.settling_time_s.reset();
+  EXPECT_EQ(limit_text(step), "not_settling (offset)");
+}
+
 TEST(StepMetricsTest, TheVibrationSettlesOnlyForATenthOfTheStep) {
   Scene scene = made_up_scene({{0.0, 0.5}}, 0.1);
   std::vector<loop::Period> periods = resonant_run(scene, 0.5);

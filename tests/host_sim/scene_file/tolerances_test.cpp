@@ -120,6 +120,9 @@ TEST(ToleranceTest, SaysWhereItIsWrongAndWhatIsAllowed) {
   EXPECT_EQ(of_stiffness("1.5"), place +
                                      "1.5 leaves the range of plant.stiffness_N_per_m, 0 to 1e+18 "
                                      "N/m; allowed: at most 1");
+  EXPECT_EQ(tolerance_error("\"plant.mass_kg\" = 1"),
+            "s.toml:22:19: tolerance.plant.mass_kg: 1 leaves the range of plant.mass_kg, 1e-12 to "
+            "1e+06 kg; allowed: at most 0.999999");
   EXPECT_EQ(of_stiffness("{ range = [-1, 2] }"),
             "s.toml:22:40: tolerance.plant.stiffness_N_per_m[0]: -1 is out of range; allowed: 0 to "
             "1e+18 N/m");

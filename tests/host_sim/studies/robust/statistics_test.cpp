@@ -89,6 +89,15 @@ TEST(RankCorrelationTest, SharesTheRanksOfTies) {
               1e-15);
 }
 
+TEST(RankCorrelationTest, RoundingIsNoDifference) {
+  EXPECT_TRUE(
+      std::isnan(rank_correlation(Ranks({1, 2, 3}), Ranks({0.4, 0.4 + 1e-16, 0.4 - 1e-15}))));
+  EXPECT_TRUE(is_one_value(-0.3, -0.3 + 1e-16));
+  EXPECT_TRUE(is_one_value(0.0, 0.0));
+  EXPECT_FALSE(is_one_value(0.0, 1e-20));
+  EXPECT_FALSE(is_one_value(1.0, 1.0 + 1e-9));
+}
+
 TEST(MainEffectTest, SeesATurnThatTheCorrelationDoesNot) {
   std::vector<double> x;
   std::vector<double> z;
