@@ -20,8 +20,9 @@ namespace sonoglide::control {
 /// as uncertain again as at the start, or more: something has knocked it.
 ///
 /// In fixed point velocities are on a base of four to eight times the fastest sliding, on which a mode
-/// of 1 is a velocity of 1 to 2: no number here reaches 1. Products are rounded, which Q makes good. A
-/// variance above its `most`, as after a long time without readings, has P quartered.
+/// of 1 is a velocity of 1 to 2: no number here reaches 1. Products are too small by less than two units
+/// of the last place, which Q makes good. A variance above its `most`, as after a long time without
+/// readings, has P quartered.
 template <class Scalar>
 class FeltDoubt {
  public:
@@ -71,19 +72,19 @@ class FeltDoubt {
   /// @param slope  of w' over p
   /// @param mode   w
   void pass(const Pair<Scalar>& turn, const Pair<Scalar>& slope, const Pair<Scalar>& mode) {
-    const Pair<Scalar> before = turned(of_place_, turn);
+    const Pair<Scalar> before = roughly_turned(of_place_, turn);
     of_place_ = before + slope * place_;
-    of_offset_ = turned(of_offset_, turn) + slope * offset_and_place_;
-    const Pair<Scalar> left = turned({first_, both_}, turn);
-    const Pair<Scalar> right = turned({both_, second_}, turn);
-    const Pair<Scalar> upper = turned({left.first, right.first}, turn);
-    const Scalar lower = turn.second * left.second + turn.first * right.second;
-    const Scalar more =
-        parameters_.mode_per_period +
-        parameters_.mode_swing * (mode.first * mode.first + mode.second * mode.second);
-    first_ = upper.first + slope.first * (before.first + of_place_.first) + more;
-    both_ = upper.second + slope.second * before.first + slope.first * of_place_.second;
-    second_ = lower + slope.second * (before.second + of_place_.second) + more;
+    of_offset_ = roughly_turned(of_offset_, turn) + slope * offset_and_place_;
+    const Pair<Scalar> left = roughly_turned({first_, both_}, turn);
+    const Pair<Scalar> right = roughly_turned({both_, second_}, turn);
+    const Pair<Scalar> upper = roughly_turned({left.first, right.first}, turn);
+    const Scalar lower = times(turn.second, left.second) + times(turn.first, right.second);
+    const Scalar more = parameters_.mode_per_period +
+                        times(parameters_.mode_swing,
+                              times(mode.first, mode.first) + times(mode.second, mode.second));
+    first_ = upper.first + times(slope.first, before.first + of_place_.first) + more;
+    both_ = upper.second + times(slope.second, before.first) + times(slope.first, of_place_.second);
+    second_ = lower + times(slope.second, before.second + of_place_.second) + more;
     offset_ = offset_ + parameters_.offset_per_period;
     place_ = place_ + numeric::from_real<Scalar>(1e-6);
     limit();
@@ -95,8 +96,9 @@ class FeltDoubt {
   /// @return what it moves; in fixed point limited to ±1
   State weigh(const State& view, Scalar variance, Scalar miss) {
     const State seen = product(view);
-    const Scalar sum = seen.mode.first * view.mode.first + seen.mode.second * view.mode.second +
-                       seen.offset * view.offset + seen.place * view.place + variance;
+    const Scalar sum = times(seen.mode.first, view.mode.first) +
+                       times(seen.mode.second, view.mode.second) + times(seen.offset, view.offset) +
+                       times(seen.place, view.place) + variance;
     const auto one_half = numeric::floating(numeric::from_real<Scalar>(0.5));
     const auto root = numeric::floating(numeric::near_root(numeric::max(sum, least)));
     const auto inverse = numeric::rescaled(numeric::quotient(one_half, root), 1);
@@ -114,7 +116,7 @@ class FeltDoubt {
       first_ = first_ + parameters_.mode_at_start;
       second_ = second_ + parameters_.mode_at_start;
     }
-    const auto moved = [part](Scalar x) { return numeric::lifted(x * part, 2); };
+    const auto moved = [part](Scalar x) { return numeric::lifted(times(x, part), 2); };
     return {
         {moved(step.mode.first), moved(step.mode.second)}, moved(step.offset), moved(step.place)};
   }
@@ -125,29 +127,37 @@ class FeltDoubt {
                                       ? numeric::from_code<Scalar>(64)
                                       : numeric::from_real<Scalar>(1e-18);
 
+  static Scalar times(Scalar a, Scalar b) { return numeric::rough_product(a, b); }
+
+  /// As turned().
+  static Pair<Scalar> roughly_turned(const Pair<Scalar>& pair, const Pair<Scalar>& turn) {
+    return {times(turn.first, pair.first) - times(turn.second, pair.second),
+            times(turn.second, pair.first) + times(turn.first, pair.second)};
+  }
+
   /// P c
   State product(const State& view) const {
     const Pair<Scalar>& mode = view.mode;
-    return {{first_ * mode.first + both_ * mode.second + of_offset_.first * view.offset +
-                 of_place_.first * view.place,
-             both_ * mode.first + second_ * mode.second + of_offset_.second * view.offset +
-                 of_place_.second * view.place},
-            of_offset_.first * mode.first + of_offset_.second * mode.second +
-                offset_ * view.offset + offset_and_place_ * view.place,
-            of_place_.first * mode.first + of_place_.second * mode.second +
-                offset_and_place_ * view.offset + place_ * view.place};
+    return {{times(first_, mode.first) + times(both_, mode.second) +
+                 times(of_offset_.first, view.offset) + times(of_place_.first, view.place),
+             times(both_, mode.first) + times(second_, mode.second) +
+                 times(of_offset_.second, view.offset) + times(of_place_.second, view.place)},
+            times(of_offset_.first, mode.first) + times(of_offset_.second, mode.second) +
+                times(offset_, view.offset) + times(offset_and_place_, view.place),
+            times(of_place_.first, mode.first) + times(of_place_.second, mode.second) +
+                times(offset_and_place_, view.offset) + times(place_, view.place)};
   }
 
   /// t tᵀ
   void take_off(const State& t) {
-    first_ = first_ - t.mode.first * t.mode.first;
-    both_ = both_ - t.mode.first * t.mode.second;
-    second_ = second_ - t.mode.second * t.mode.second;
+    first_ = first_ - times(t.mode.first, t.mode.first);
+    both_ = both_ - times(t.mode.first, t.mode.second);
+    second_ = second_ - times(t.mode.second, t.mode.second);
     of_offset_ = of_offset_ - t.mode * t.offset;
     of_place_ = of_place_ - t.mode * t.place;
-    offset_ = offset_ - t.offset * t.offset;
-    offset_and_place_ = offset_and_place_ - t.offset * t.place;
-    place_ = place_ - t.place * t.place;
+    offset_ = offset_ - times(t.offset, t.offset);
+    offset_and_place_ = offset_and_place_ - times(t.offset, t.place);
+    place_ = place_ - times(t.place, t.place);
   }
 
   void limit() {

@@ -50,7 +50,8 @@ using FeltTable = std::array<FeltRow<Scalar>, felt::rows>;
 /// A table at a place between its rows and at a velocity ratio between its nodes, and the slopes over
 /// the place: linear interpolation. Between two turns it would fall short of the modulus, and a mode
 /// would seem to decay: so a turn is lengthened by bend x (1 - x), x the part of the way to the next
-/// row. What is left of the shortfall is below the fourth power of the angle between the rows.
+/// row. What is left of the shortfall is below the fourth power of the angle between the rows. In fixed
+/// point products are too small by less than two units of the last place.
 template <class Scalar>
 class FeltPlace {
  public:
@@ -71,15 +72,17 @@ class FeltPlace {
     for (std::size_t i = 0; i < felt::plain; ++i) {
       const Scalar low = (*table_)[row_][i];
       const Scalar rise = (*table_)[row_ + 1][i] - low;
-      values_[i] = low + rise * along_;
+      values_[i] = low + numeric::rough_product(rise, along_);
       if (i < felt::sloped) {
         slopes_[i] = slope_of(rise);
       }
     }
     constexpr Scalar whole = numeric::from_code<Scalar>(INT32_MAX);
-    const Scalar longer = values_[felt::bend] * (along_ * (whole - along_));
+    const Scalar longer =
+        numeric::rough_product(values_[felt::bend], numeric::rough_product(along_, whole - along_));
     for (std::size_t i = 0; i < 2; ++i) {
-      values_[felt::turn + i] = values_[felt::turn + i] + values_[felt::turn + i] * longer;
+      values_[felt::turn + i] =
+          values_[felt::turn + i] + numeric::rough_product(values_[felt::turn + i], longer);
     }
   }
 
@@ -95,7 +98,7 @@ class FeltPlace {
     for (std::size_t i = 0; i < felt::per_node; ++i) {
       const Scalar low = between((*table_)[row_], first + i, part);
       const Scalar rise = between((*table_)[row_ + 1], first + i, part) - low;
-      node_values_[i] = low + rise * along_;
+      node_values_[i] = low + numeric::rough_product(rise, along_);
       if (i < felt::sloped_of_node) {
         node_slopes_[i] = slope_of(rise);
       }
@@ -117,7 +120,7 @@ class FeltPlace {
   }
 
   static Scalar between(const FeltRow<Scalar>& row, std::size_t i, Scalar part) {
-    return row[i] + part * (row[i + felt::per_node] - row[i]);
+    return row[i] + numeric::rough_product(part, row[i + felt::per_node] - row[i]);
   }
 
   /// From one row to the next the place moves by 2/8.
