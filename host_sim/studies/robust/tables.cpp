@@ -25,12 +25,12 @@ std::string counted(std::size_t count, const char* noun) {
 }
 
 std::vector<double> values_of(const Study& study, const Figure& figure) {
-  constexpr double rounding = 1e-14;  // of a friction ratio; times are far longer
+  constexpr double nothing = 1e-14;  // of a friction ratio; times are far longer
   std::vector<double> values;
   values.reserve(study.samples.size());
   for (const PlantRow& row : study.samples) {
     const double value = row.*figure.value;
-    values.push_back(std::abs(value) < rounding ? 0.0 : value);
+    values.push_back(std::abs(value) < nothing ? 0.0 : value);
   }
   return values;
 }
