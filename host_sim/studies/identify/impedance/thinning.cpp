@@ -59,8 +59,8 @@ Selection select_of_any_length(const Sweep& sweep) {
   const std::size_t largest = largest_reading(sweep);
   Selection selected = select_circuit(thinned(sweep, largest));
   const std::size_t resonance = reading_at(sweep, selected.fit.circuit.modes.front().resonance_Hz);
-  constexpr std::size_t close_by = most_readings / 12;
-  const bool is_near = resonance + close_by >= largest && largest + close_by >= resonance;
+  constexpr std::size_t margin = most_readings / 12;
+  const bool is_near = resonance + margin >= largest && largest + margin >= resonance;
   return is_near ? selected : select_circuit(thinned(sweep, resonance));
 }
 
