@@ -268,22 +268,31 @@ void calm(control::FeltRow<double>& row) {
   gains = moved + left * (gains - moved);
 }
 
+/// The rows between which a mode grows.
+std::array<bool, felt::rows> loud_rows(const Resonator& lowest, double spacing,
+                                       control::FeltTable<double>& table) {
+  std::array<bool, felt::rows> loud{};
+  for (std::size_t i = 0; i + 1 < felt::rows; ++i) {
+    Resonator first = lowest;
+    first.stiffness += static_cast<double>(i) * spacing;
+    const Feedback low(&table[i][felt::feedback]);
+    const Feedback high(&table[i + 1][felt::feedback]);
+    if (!quiets(first, spacing, low, high)) {
+      loud[i] = loud[i + 1] = true;
+    }
+  }
+  return loud;
+}
+
 /// Next to half a turn in a period a change of the amplitude moves one part of the mode, and the
 /// feedback of the other part changes its sign within a fraction of a row, which a straight line from
 /// row to row cannot follow.
 void calm_between_rows(const Resonator& lowest, double spacing, control::FeltTable<double>& table) {
   constexpr int most_turns = 12;
-  std::array<bool, felt::rows> loud{true};
-  for (int turn = 0; turn < most_turns && std::count(loud.begin(), loud.end(), true) > 0; ++turn) {
-    loud = {};
-    for (std::size_t i = 0; i + 1 < felt::rows; ++i) {
-      Resonator first = lowest;
-      first.stiffness += static_cast<double>(i) * spacing;
-      const Feedback low(&table[i][felt::feedback]);
-      const Feedback high(&table[i + 1][felt::feedback]);
-      if (!quiets(first, spacing, low, high)) {
-        loud[i] = loud[i + 1] = true;
-      }
+  for (int turn = 0; turn < most_turns; ++turn) {
+    const std::array<bool, felt::rows> loud = loud_rows(lowest, spacing, table);
+    if (std::count(loud.begin(), loud.end(), true) == 0) {
+      return;
     }
     for (std::size_t i = 0; i < felt::rows; ++i) {
       if (loud[i]) {

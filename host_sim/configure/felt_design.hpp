@@ -20,14 +20,14 @@ struct FeltDesign {
   control::FeltTable<double> table{};
   double stiffness_range = 0.0;  ///< relative
   bool quick = true;             ///< the mode can be quieted, see is_quick()
-  double blur = 0.0;             ///< rms of a reading at a velocity of 1, usually
-  double speed = 0.0;            ///< of the fastest sliding
-  double mode_unit = 0.0;        ///< velocity of a mode of 1
-  double swing = 0.0;            ///< rms of what the model has wrong of a mode of 1, in a period
-  double linear = 0.0;           ///< mode per velocity up to which the friction follows it linearly
-  double sensor_memory = 0.0;    ///< what its low-pass keeps of the past in a period
-  double contact_memory = 0.0;   ///< likewise
-  bool backwards = false;        ///< the direction of sliding
+  double blur = 0.0;       ///< rms of a reading without its lag, per vibration velocity, at r = 0.6
+  double speed = 0.0;      ///< of the fastest sliding
+  double mode_unit = 0.0;  ///< velocity of a mode of 1
+  double swing = 0.0;      ///< rms of what the model has wrong of a mode of 1, in a period
+  double linear = 0.0;     ///< mode per velocity up to which the friction follows it linearly
+  double sensor_memory = 0.0;      ///< what its low-pass keeps of the past in a period
+  double contact_memory = 0.0;     ///< likewise
+  bool backwards = false;          ///< the direction of sliding
   std::uint8_t delay_periods = 1;  ///< of drive and sensor
 
   bool lags() const { return sensor_memory > 0.0 || contact_memory > 0.0; }

@@ -64,4 +64,14 @@ inline scene::Scene table_1_closed_loop(scene::Arithmetic arithmetic = scene::Ar
   return scene;
 }
 
+/// The closed loop of a plant whose natural frequency is the given part of the carrier's.
+inline scene::Scene with_natural_frequency(double part, double damping_ratio = 0.0) {
+  scene::Scene scene = table_1_closed_loop();
+  scene::Plant& plant = scene.plant;
+  const double omega = 2.0 * pi * carrier_Hz;
+  plant.stiffness_N_per_m = plant.mass_kg * part * part * omega * omega;
+  plant.damping_N_s_per_m = 2.0 * damping_ratio * plant.mass_kg * part * omega;
+  return scene;
+}
+
 }  // namespace sonoglide::tests

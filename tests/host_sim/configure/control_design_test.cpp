@@ -21,6 +21,7 @@ using tests::long_pi;
 using tests::period_s;
 using tests::pi;
 using tests::table_1_closed_loop;
+using tests::with_natural_frequency;
 
 const double omega = 2.0 * pi * carrier_Hz;
 
@@ -33,15 +34,6 @@ std::string refused_key(const scene::Scene& scene) {
     return error.key();
   }
   return "none";
-}
-
-/// A plant whose natural frequency is the given part of the carrier's.
-scene::Scene with_natural_frequency(double part, double damping_ratio = 0.0) {
-  scene::Scene scene = table_1_closed_loop();
-  scene::Plant& plant = scene.plant;
-  plant.stiffness_N_per_m = plant.mass_kg * part * part * omega * omega;
-  plant.damping_N_s_per_m = 2.0 * damping_ratio * plant.mass_kg * part * omega;
-  return scene;
 }
 
 /// The natural mode over one carrier period, exp((−σ ± iωd) T).

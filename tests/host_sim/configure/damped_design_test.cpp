@@ -9,8 +9,6 @@
 
 #include "firmware/control/mode_table.hpp"
 #include "host_sim/configure/believed_plant.hpp"
-#include "tests/common/constants/pi.hpp"
-#include "tests/common/constants/table_1_numbers.hpp"
 #include "tests/common/table_1.hpp"
 
 namespace sonoglide::configure::damped_design_test {
@@ -18,9 +16,7 @@ namespace {
 
 namespace mode = control::mode;
 
-using tests::carrier_Hz;
-using tests::pi;
-using tests::table_1_closed_loop;
+using tests::with_natural_frequency;
 
 /// Larger part of the slope that a forecast has over the place, as control::ModeObserver has it.
 double slope_of_forecast(const control::ModePlace<double>& row, double real, double imaginary,
@@ -49,10 +45,8 @@ TEST(DampedDesign, NoSlopeIsAudibleUpToTheQuietMode) {
   std::mt19937 random(20141);
   std::uniform_real_distribution<double> part(-1.0, 1.0);
   for (const double frequency : {0.21, 0.3, 0.63, 1.4, 2.35}) {
-    scene::Scene scene = table_1_closed_loop();
-    const double omega = 2.0 * pi * carrier_Hz * frequency;
-    scene.plant.stiffness_N_per_m = scene.plant.mass_kg * omega * omega;
-    BelievedPlant plant = believed_plant(scene);
+    const scene::Scene scene = with_natural_frequency(frequency);
+    const BelievedPlant plant = believed_plant(scene);
     const DampedDesign design = design_damping(scene, plant, 4.0);
     ASSERT_GT(design.quiet, 0.0);
     double loudest = 0.0;

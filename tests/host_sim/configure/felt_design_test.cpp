@@ -9,7 +9,6 @@
 #include "host_sim/configure/believed_plant.hpp"
 #include "host_sim/configure/mode_model.hpp"
 #include "tests/common/constants/pi.hpp"
-#include "tests/common/constants/table_1_numbers.hpp"
 #include "tests/common/table_1.hpp"
 
 namespace sonoglide::configure::felt_design_test {
@@ -17,18 +16,10 @@ namespace {
 
 namespace felt = control::felt;
 
-using tests::carrier_Hz;
 using tests::pi;
-using tests::table_1_closed_loop;
+using tests::with_natural_frequency;
 
 constexpr double velocity_m_per_s = 4.0;
-
-scene::Scene scene_of(double mode_per_carrier) {
-  scene::Scene scene = table_1_closed_loop();
-  const double omega = 2.0 * pi * carrier_Hz * mode_per_carrier;
-  scene.plant.stiffness_N_per_m = scene.plant.mass_kg * omega * omega;
-  return scene;
-}
 
 /// Largest modulus of the poles of a mode under the feedback that the table has at its place.
 double slowest_pole(const FeltDesign& design, double place, double stiffness) {
@@ -49,7 +40,7 @@ double slowest_pole(const FeltDesign& design, double place, double stiffness) {
 /// Next to half a turn in a period the feedback changes faster than the rows lie.
 TEST(FeltDesignTest, NoModeGrowsAtOrBetweenTheRows) {
   for (const double mode : {0.2163, 0.5, 0.7, 1.48, 1.5, 2.5, 3.46, 3.469, 3.5, 3.52, 10.5}) {
-    const scene::Scene scene = scene_of(mode);
+    const scene::Scene scene = with_natural_frequency(mode);
     const FeltDesign design = design_felt(scene, believed_plant(scene), velocity_m_per_s);
     const double angle = 2.0 * pi * mode;
     for (int i = -200; i <= 200; ++i) {
@@ -61,7 +52,7 @@ TEST(FeltDesignTest, NoModeGrowsAtOrBetweenTheRows) {
 
 TEST(FeltDesignTest, AModeWithoutDampingKeepsItsSizeBetweenTheRows) {
   for (const double mode : {0.2163, 1.3, 3.469, 10.5}) {
-    const scene::Scene scene = scene_of(mode);
+    const scene::Scene scene = with_natural_frequency(mode);
     const FeltDesign design = design_felt(scene, believed_plant(scene), velocity_m_per_s);
     control::FeltPlace<double> row(design.table);
     for (int i = -200; i <= 200; ++i) {

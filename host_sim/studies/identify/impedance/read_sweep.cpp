@@ -16,6 +16,10 @@
 namespace sonoglide::identify::impedance {
 namespace {
 
+std::string counted_frequencies(std::size_t count) {
+  return count == 1 ? "1 frequency" : fmt::format("{} frequencies", count);
+}
+
 using Complex = std::complex<double>;
 
 /// Of a form with phase the admittances, of one without their magnitudes.
@@ -131,7 +135,7 @@ void average_repeated(Sweep& sweep) {
     sweep.admittance_S.resize(kept);
     sweep.warnings.push_back(
         fmt::format("The file has {} readings at {}: those of one frequency are averaged.", given,
-                    kept == 1 ? "1 frequency" : fmt::format("{} frequencies", kept)));
+                    counted_frequencies(kept)));
   }
 }
 
@@ -151,10 +155,7 @@ Sweep read_sweep(const scene_file::Source& source) {
     throw scene_file::SceneError(
         {source.file, 1, 1}, "sweep",
         fmt::format("has readings at {}; allowed: at least {} frequencies",
-                    sweep.frequency_Hz.size() == 1
-                        ? "1 frequency"
-                        : fmt::format("{} frequencies", sweep.frequency_Hz.size()),
-                    fewest));
+                    counted_frequencies(sweep.frequency_Hz.size()), fewest));
   }
   return sweep;
 }
