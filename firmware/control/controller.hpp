@@ -192,6 +192,9 @@ class Controller {
     if (target != target_) {
       regulator_.target_changes(target - target_);
       watch_.retarget();
+      if constexpr (felt) {
+        vibration_.retarget(target - target_);
+      }
       target_ = target;
     }
   }

@@ -68,6 +68,13 @@ class FeltDoubt {
     offset_and_place_ = {};
   }
 
+  /// What the map has wrong is another at another ratio: o is less certain by a part, in [0, 1], of
+  /// what it is uncertain by at the start, and within its `most`.
+  void doubt_offset(Scalar part) {
+    offset_ = numeric::min(offset_ + times(part, parameters_.offset_at_start),
+                           parameters_.offset_at_most);
+  }
+
   /// @param turn   d cos θ and d sin θ of M
   /// @param slope  of w' over p
   /// @param mode   w

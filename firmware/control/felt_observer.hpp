@@ -103,7 +103,11 @@ class FeltObserver {
     const Scalar driven = row_[felt::forced] * u.now + offset_;
     const Scalar before = row_[felt::forced] * numeric::min(u.before, u.earlier) + offset_;
     // At a velocity below that of the sliding nothing is felt.
-    if (!(speed < driven && speed < before) || !believed(driven)) {
+    if (!(speed < driven && speed < before)) {
+      forget();
+      return;
+    }
+    if (!believed(driven)) {
       return;
     }
     row_.look(ratio(speed, driven));
@@ -120,6 +124,9 @@ class FeltObserver {
     offset_ = numeric::clamp(offset_, numeric::from_real<Scalar>(-0.5),
                              numeric::from_real<Scalar>(0.6) * wanted);
   }
+
+  /// See FeltDoubt.
+  void doubt_offset(Scalar part) { doubt_.doubt_offset(part); }
 
   const Pair<Scalar>& mode() const { return mode_; }  ///< w, in the sampled period
   Scalar place() const { return place_; }             ///< p
@@ -163,6 +170,14 @@ class FeltObserver {
   bool believed(Scalar driven) const {
     const Scalar size = numeric::max(numeric::abs(mode_.first), numeric::abs(mode_.second));
     return !(numeric::limited_product(driven, linear_) < size);
+  }
+
+  /// A mode that no reading shows is held for less and less, as its feedback may keep the drive from
+  /// showing it.
+  void forget() {
+    constexpr int slowly = -5;
+    mode_ = mode_ - Pair<Scalar>{numeric::scale_by_power_of_two(mode_.first, slowly),
+                                 numeric::scale_by_power_of_two(mode_.second, slowly)};
   }
 
   /// e·w + g Δu + h Δu₋₁, on the base of e

@@ -10,6 +10,7 @@
 #include "firmware/control/felt_observer.hpp"
 #include "firmware/control/measurement.hpp"
 #include "firmware/control/reading_lag.hpp"
+#include "firmware/numeric/headroom.hpp"
 #include "firmware/numeric/scalar.hpp"
 
 namespace sonoglide::control {
@@ -74,6 +75,12 @@ class FeltVibration {
 
   /// One call for each period, before its reading.
   void pass() { observer_.pass(amplitudes_[sampled] - amplitudes_[sampled - 1]); }
+
+  /// The target is another. A change by a quarter of the friction makes o as uncertain as at the start.
+  /// @param change  in friction ratio, on base 2
+  void retarget(Scalar change) {
+    observer_.doubt_offset(numeric::limited_lift(numeric::abs(change), 3));
+  }
 
   /// A measured ratio on base 2 without the lag of sensor and contact.
   Scalar sharpened(Scalar half_ratio) { return reading_.sharpened(half_ratio); }

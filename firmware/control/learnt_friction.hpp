@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "firmware/numeric/accumulator.hpp"
+#include "firmware/numeric/headroom.hpp"
 #include "firmware/numeric/scalar.hpp"
 
 namespace sonoglide::control {
@@ -12,6 +13,10 @@ namespace sonoglide::control {
 /// Mean of the undriven friction force along the sliding. It begins once the contact has slid
 /// through its presliding distance and the sensor has settled. Its sign shows a sensor that is
 /// wired backwards.
+///
+/// A mass that rings faster than the sliding makes the friction of a period smaller, and of each period
+/// by another part. So where the readings differ by more than twice `half_steady`, the largest one is
+/// taken for the mean.
 ///
 /// The sensor's offset is separated from friction if the calibration allows it. If the sliding goes
 /// both ways, friction is half of the difference of the two means. If the contact stands still
@@ -26,6 +31,7 @@ class LearntFriction {
     std::uint32_t average_periods;        ///< samples averaged after them, at least 1
     numeric::Accumulator<Scalar> weight;  ///< 1 / average_periods
     std::uint32_t total_periods;          ///< least length of the calibration
+    Scalar half_steady;                   ///< half the largest difference of readings at rest
 
     template <class Self, class Visitor>
     static constexpr void fields(Self& self, Visitor&& visit) {
@@ -33,6 +39,7 @@ class LearntFriction {
       visit("average_periods", self.average_periods);
       visit("weight", self.weight);
       visit("total_periods", self.total_periods);
+      visit("half_steady", self.half_steady);
     }
   };
 
@@ -43,6 +50,7 @@ class LearntFriction {
     slid_ = false;
     tared_ = false;
     known_ = {};
+    range_ = {};
     offset_ = {};
     begin(false);
   }
@@ -87,9 +95,21 @@ class LearntFriction {
   /// Slower than this nothing slides: 2^-15 of the peak vibration velocity at full drive.
   static constexpr Scalar standing() { return numeric::from_real<Scalar>(1.0 / 32768.0); }
 
+  /// Of the readings averaged in a direction; none yet: the smallest is above the largest.
+  struct Range {
+    Scalar smallest = numeric::from_code<Scalar>(INT32_MAX);
+    Scalar largest = -numeric::from_code<Scalar>(INT32_MAX);
+  };
+
   std::size_t direction() const { return backwards_ ? 1 : 0; }
-  Scalar forward() const { return numeric::rounded<Scalar>(mean_[0]); }
-  Scalar backward() const { return numeric::rounded<Scalar>(mean_[1]); }
+  Scalar forward() const { return friction_of(0); }
+  Scalar backward() const { return friction_of(1); }
+  Scalar friction_of(std::size_t direction) const {
+    const Range& range = range_[direction];
+    return parameters_.half_steady < numeric::half_difference(range.largest, range.smallest)
+               ? range.largest
+               : numeric::rounded<Scalar>(mean_[direction]);
+  }
   Scalar tare() const { return numeric::rounded<Scalar>(offset_); }
 
   void begin(bool backwards) {
@@ -97,12 +117,16 @@ class LearntFriction {
     if (!known_[direction()]) {
       samples_ = 0;
       mean_[direction()] = {};
+      range_[direction()] = {};
     }
   }
 
   void average(Scalar along) {
     if (samples_ >= parameters_.settle_periods) {
       mean_[direction()] += numeric::accumulate(along) * parameters_.weight;
+      Range& range = range_[direction()];
+      range.smallest = numeric::min(range.smallest, along);
+      range.largest = numeric::max(range.largest, along);
     }
     ++samples_;
     known_[direction()] = samples_ >= parameters_.settle_periods + parameters_.average_periods;
@@ -121,7 +145,8 @@ class LearntFriction {
   std::uint32_t periods_ = 0;
   std::uint32_t samples_ = 0;
   std::array<numeric::Accumulator<Scalar>, 2> mean_{};  ///< sliding forwards, backwards
-  numeric::Accumulator<Scalar> offset_{};               ///< as tared
+  std::array<Range, 2> range_{};
+  numeric::Accumulator<Scalar> offset_{};  ///< as tared
   std::array<bool, 2> known_{};
   bool backwards_ = false;
   bool slid_ = false;

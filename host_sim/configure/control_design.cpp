@@ -163,7 +163,8 @@ void design_supervision(const scene::Scene& scene, const BelievedPlant& plant,
   const double building_up = design.resonance ? 2.0 * design.resonance->quality_factor : 0.0;
   design.settling_patience_periods =
       whole_periods(holds * design.hold_periods + patience_margin + building_up);
-  design.agreement = tells_mismatch(scene) ? 1.0 / scene.controller->mismatch_warning : 0.0;
+  const bool tells = tells_mismatch(scene) && (!design.feeling || design.feeling->apart);
+  design.agreement = tells ? 1.0 / scene.controller->mismatch_warning : 0.0;
 }
 
 /// value/scale, or an error in the name of the key that one should change.
@@ -253,6 +254,34 @@ SlidingSpells sliding_spells(const scene::Scene& scene, const ControlDesign& des
   return {length, longest[backwards ? 0 : 1]};
 }
 
+/// Carrier periods in which the contact slides through its presliding travel, so many times, and the
+/// sensor settles.
+double settling_periods(const scene::Scene& scene, const BelievedPlant& plant,
+                        const ControlDesign& design, double presliding_travels) {
+  constexpr double filter_settling = 5.0;  // 0.7 % of the force is left
+  const ControlScales& scales = design.scales;
+  const double speed_m_per_s = std::max(std::abs(scene.sliding.profile.front().velocity_m_per_s),
+                                        design.speed_floor * scales.velocity_m_per_s);
+  return std::ceil(presliding_travels * presliding_m(plant) /
+                       (speed_m_per_s * scales.carrier_period_s) +
+                   filter_settling * filter_periods(scene, scales) + scene.sensor.delay_periods);
+}
+
+/// Half of the largest difference of readings of a mass at rest. Of many the noise alone, of which
+/// nobody may have told, sets some far apart: there nothing is too much.
+double half_steady_difference(const scene::Scene& scene, const ControlDesign& design,
+                              double readings) {
+  constexpr double few = 16.0;
+  constexpr double part = 0.4;  // of the friction
+  constexpr double noise_deviations = 10.0;
+  constexpr double anything = 1.0;
+  const double told = part * design.friction_force +
+                      noise_deviations * scene.sensor.force_noise_N / design.scales.force_N;
+  return readings > few ? anything : std::min(0.5 * told, anything);
+}
+
+constexpr double least_presliding_travels = 7.0;  // 0.1 % of the force is left
+
 /// The contact must slide through its presliding travel, and the sensor settle, before the friction
 /// force can be learnt; in both directions where the sliding turns meanwhile.
 void design_calibration(const scene::Scene& scene, const BelievedPlant& plant,
@@ -260,14 +289,8 @@ void design_calibration(const scene::Scene& scene, const BelievedPlant& plant,
   if (scene.controller->calibration_s <= 0.0) {
     return;
   }
-  constexpr double presliding_travels = 7.0;  // 0.1 % of the force is left
-  constexpr double filter_settling = 5.0;     // 0.7 % of it
   const ControlScales& scales = design.scales;
-  const double speed_m_per_s = std::max(std::abs(scene.sliding.profile.front().velocity_m_per_s),
-                                        design.speed_floor * scales.velocity_m_per_s);
-  const double settling = std::ceil(
-      presliding_travels * presliding_m(plant) / (speed_m_per_s * scales.carrier_period_s) +
-      filter_settling * filter_periods(scene, scales) + scene.sensor.delay_periods);
+  const double settling = settling_periods(scene, plant, design, least_presliding_travels);
   const double total = std::round(scene.controller->calibration_s / scales.carrier_period_s) - 1.0;
   if (total < settling + 1.0) {
     throw ConfigurationError(
@@ -290,6 +313,7 @@ void design_calibration(const scene::Scene& scene, const BelievedPlant& plant,
   design.calibration_average_periods = static_cast<std::uint32_t>(averaged);
   design.calibration_settle_periods = static_cast<std::uint32_t>(available - averaged);
   design.calibration_weight = mean_weight(averaged);
+  design.calibration_half_steady = half_steady_difference(scene, design, averaged);
 }
 
 /// A pause long enough for the presliding travel, and for as many readings as their noise asks for.
@@ -525,6 +549,28 @@ std::optional<ControlDesign> design_if_closed(const scene::Scene& scene) {
   return scene.controller ? std::optional<ControlDesign>(design_control(scene)) : std::nullopt;
 }
 
+double shortest_calibration_s(const scene::Scene& scene, const ControlDesign& design) {
+  constexpr double error = 0.0025;  // rms of the noise left, relative
+  constexpr double most_averaged = 16.0;
+  constexpr double largest_part = 0.5;  // of the time of the first target
+  const BelievedPlant plant = believed_plant(scene);
+  const double noise = scene.sensor.force_noise_N / (error * plant.friction_N);
+  const double averaged = std::clamp(std::ceil(noise * noise), 1.0, most_averaged);
+  const auto periods = [&](double travels) {
+    return settling_periods(scene, plant, design, travels) + averaged + 2.0;
+  };
+  const auto& targets = scene.controller->target_friction_ratio;
+  const double first_s =
+      targets.size() > 1 ? std::min(targets[1].time_s, scene.run.duration_s) : scene.run.duration_s;
+  const double period_s = design.scales.carrier_period_s;
+  const double most = std::floor(largest_part * first_s / period_s);
+  const double chosen = std::min(periods(2.0 * least_presliding_travels), most);
+  const double least = periods(least_presliding_travels);
+  const auto begun = static_cast<std::uint32_t>(std::max(0.0, chosen));
+  return chosen < least || sliding_spells(scene, design, begun).last < least ? 0.0
+                                                                             : chosen * period_s;
+}
+
 bool tells_mismatch(const scene::Scene& scene) {
   constexpr double light_friction = 0.02;  // of the drive
   return scene::has_own_map(scene.friction.law) &&
@@ -537,7 +583,13 @@ namespace {
 
 void add_feeling_notes(const FeltDesign& design, std::vector<std::string>& notes) {
   constexpr double usual_range = 0.05;
-  if (design.stiffness_range < usual_range) {
+  if (!design.apart) {
+    notes.push_back(
+        "The natural mode is beside zero or a multiple of the carrier frequency, within 0.5 % of "
+        "that frequency: it cannot be told from the vibration and rings with it. The friction "
+        "ratio is fed back alone, and stays off its target where the stiffness is not the believed "
+        "one or what rings from the last target is too loud.");
+  } else if (design.stiffness_range < usual_range) {
     notes.push_back(
         fmt::format("The natural mode is looked for only where the stiffness is within {:.2g} % of "
                     "the believed one: it turns by much in a carrier period, or is close to the "
@@ -571,12 +623,17 @@ std::vector<std::string> design_notes(const ControlDesign& design) {
                     "may leave room for one.",
                     100.0 * design.shaping_range));
   }
-  if ((design.damping && !design.damping->quick) || (design.feeling && !design.feeling->quick)) {
+  if ((design.damping && !design.damping->quick) ||
+      (design.feeling && design.feeling->apart && !design.feeling->quick)) {
     notes.push_back(
         "The natural mode is so near 0 or a multiple of the carrier frequency that no change of "
         "the amplitude quiets it quickly: the vibration velocity is held, and the friction ratio "
-        "may "
-        "swing about its target.");
+        "may swing about its target.");
+  }
+  if (design.feeling && !design.calibrated) {
+    notes.push_back(
+        "The friction force of the scene is believed: where it is another, the friction ratio is "
+        "off by as much. A controller.calibration_s learns it.");
   }
   if (design.feeling) {
     add_feeling_notes(*design.feeling, notes);

@@ -73,7 +73,8 @@ struct ControlDesign {
   std::uint32_t calibration_settle_periods = 0;
   std::uint32_t calibration_average_periods = 0;
   std::uint32_t calibration_total_periods = 0;
-  double calibration_weight = 0.0;  ///< of a sample averaged
+  double calibration_weight = 0.0;       ///< of a sample averaged
+  double calibration_half_steady = 1.0;  ///< half the largest difference of samples at rest
   bool relearns = false;
   std::uint32_t relearn_every_periods = 0;
   std::uint16_t relearn_quiet_periods = 0;
@@ -100,6 +101,13 @@ ControlDesign design_control(const scene::Scene& scene);
 
 /// The same for a scene of either kind: an open loop has none.
 std::optional<ControlDesign> design_if_closed(const scene::Scene& scene);
+
+/// Shortest time in which the friction force can be learnt before the first drive, with noise and, if
+/// half of the first target's time allows it, with a contact half as stiff as believed; 0 where that
+/// half is too short, or no sliding goes on for long enough in it. A default of
+/// controller.calibration_s.
+/// @param design  of the scene, however it is calibrated
+double shortest_calibration_s(const scene::Scene& scene, const ControlDesign& design);
 
 /// Whether commanded over target ratio tells believed over true friction: the feedforward's map is
 /// the law's own, and friction too light to slow the vibration.

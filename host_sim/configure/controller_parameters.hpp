@@ -38,6 +38,15 @@ Scalar scaled(double value) {
   return numeric::from_real<Scalar>(value);
 }
 
+/// A number that fixed point limits to its range.
+template <class Scalar>
+Scalar scaled_within(double value) {
+  if constexpr (numeric::is_fixed_point_v<Scalar>) {
+    return value < 1.0 ? scaled<Scalar>(value) : Scalar::largest();
+  }
+  return scaled<Scalar>(value);
+}
+
 /// A positive number of any magnitude.
 template <class Scalar>
 numeric::Split<Scalar> split(double value) {
@@ -63,7 +72,7 @@ typename control::LearntFriction<Scalar>::Parameters parameters(
     const ControlDesign& design, Type<control::LearntFriction<Scalar>> /*part*/) {
   return {design.calibration_settle_periods, design.calibration_average_periods,
           scaled<numeric::Accumulator<Scalar>>(design.calibration_weight),
-          design.calibration_total_periods};
+          design.calibration_total_periods, scaled_within<Scalar>(design.calibration_half_steady)};
 }
 
 template <class Scalar>
@@ -148,15 +157,6 @@ typename control::CurrentLimit<Scalar>::Parameters parameters(
           scaled<Scalar>(small * capacitive),
           scaled<Scalar>(small),
           scaled<Scalar>(small * regulated)};
-}
-
-/// A number that fixed point limits to its range.
-template <class Scalar>
-Scalar scaled_within(double value) {
-  if constexpr (numeric::is_fixed_point_v<Scalar>) {
-    return value < 1.0 ? scaled<Scalar>(value) : Scalar::largest();
-  }
-  return scaled<Scalar>(value);
 }
 
 template <class Scalar>
@@ -285,16 +285,17 @@ inline std::uint8_t powers_of_two_in(double x) {
 template <class Scalar>
 typename control::FeltDoubt<Scalar>::Parameters felt_doubt(double speed, double swing,
                                                            double velocity, double mode) {
-  constexpr double at_start = 0.03;  // all of them rms, per sliding velocity
+  constexpr double mode_at_start = 0.03;  // all of them rms, per sliding velocity
+  constexpr double offset_at_start = 0.05;
   constexpr double mode_per_period = 0.002;
   constexpr double offset_per_period = 0.007;
   constexpr double at_most = 2.0;
   const auto variance = [speed](double part, double base) {
     return scaled_within<Scalar>(part * part * speed * speed / (base * base));
   };
-  return {variance(at_start, mode),      variance(mode_per_period, mode),
-          scaled<Scalar>(swing * swing), variance(at_most, mode),
-          variance(at_start, velocity),  variance(offset_per_period, velocity),
+  return {variance(mode_at_start, mode),       variance(mode_per_period, mode),
+          scaled<Scalar>(swing * swing),       variance(at_most, mode),
+          variance(offset_at_start, velocity), variance(offset_per_period, velocity),
           variance(at_most, velocity)};
 }
 

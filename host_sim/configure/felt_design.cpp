@@ -172,10 +172,13 @@ double noise_of(double ratio, const Felt& felt) {
   return numeric::sqrt(model * model + sensor * sensor);
 }
 
+double ratio_of_node(std::size_t index) {
+  return std::min(largest_ratio, static_cast<double>(index + 1) / static_cast<double>(felt::nodes));
+}
+
 void put_node(const Place& place, std::size_t index, const Felt& felt,
               control::FeltRow<double>& row) {
-  const double ratio =
-      std::min(largest_ratio, static_cast<double>(index + 1) / static_cast<double>(felt::nodes));
+  const double ratio = ratio_of_node(index);
   const Node node = node_of(place, ratio, felt);
   double* const numbers = &row[felt::plain + index * felt::per_node];
   numbers[felt::seen] = node.seen(0);
@@ -229,6 +232,42 @@ control::FeltRow<double> row_of(const Resonator& resonator, double spacing, cons
     put_node(place, i, felt, row);
   }
   return row;
+}
+
+/// The mode turns so little in a period, against zero or a multiple of the carrier, that it cannot be
+/// told from the vibration. A mode next to a multiple that dies within 20 periods is told by that.
+bool is_one_with_vibration(const Resonator& resonator) {
+  constexpr double apart = 1.0 / 192.0;
+  constexpr double decay = 0.05;
+  const double turns = numeric::sqrt(resonator.stiffness) / numeric::two_pi;
+  const double nearest = std::round(turns);
+  return nearest != 1.0 && std::abs(turns - nearest) < apart &&
+         (nearest == 0.0 || 0.5 * resonator.damping < decay);
+}
+
+/// Of such a mode: it rings with the drive, so what it adds counts as a gain. The first row has the
+/// steady vibration alone, the last one a mode that rings with 1.2 times its displacement.
+control::FeltTable<double> table_of_gains(const Resonator& resonator, const Felt& felt) {
+  constexpr double largest = 1.2;
+  constexpr double slower = 0.85;
+  const double turns = numeric::sqrt(resonator.stiffness) / numeric::two_pi;
+  const double gain = std::max(1.0, largest * numeric::sqrt(1.0 + turns * turns));
+  static_assert(felt::rows == 9);
+  const double step = numeric::sqrt(numeric::sqrt(numeric::sqrt(gain)));
+  double forced = mode_model(resonator).forced.norm();
+  control::FeltTable<double> table{};
+  for (control::FeltRow<double>& row : table) {
+    row[felt::turn] = 1.0;
+    row[felt::forced] = forced;
+    forced *= step;
+    row[felt::feedback + 2] = slower;
+    row[felt::per_velocity] = 1.0 / row[felt::forced];
+    for (std::size_t node = 0; node < felt::nodes; ++node) {
+      row[felt::plain + node * felt::per_node + felt::noise] =
+          felt.speed * noise_of(ratio_of_node(node), felt);
+    }
+  }
+  return table;
 }
 
 /// Largest modulus of the poles of a mode under a feedback.
@@ -302,6 +341,17 @@ void calm_between_rows(const Resonator& lowest, double spacing, control::FeltTab
   }
 }
 
+control::FeltTable<double> table_of(const Resonator& lowest, double spacing, const Felt& felt) {
+  control::FeltTable<double> table{};
+  for (std::size_t i = 0; i < felt::rows; ++i) {
+    Resonator resonator = lowest;
+    resonator.stiffness += static_cast<double>(i) * spacing;
+    table[i] = row_of(resonator, spacing, felt);
+  }
+  calm_between_rows(lowest, spacing, table);
+  return table;
+}
+
 /// The table in multiples of a mode that leaves the kicks an eighth.
 /// @return that mode
 double scale_mode(control::FeltTable<double>& table) {
@@ -309,7 +359,7 @@ double scale_mode(control::FeltTable<double>& table) {
   for (const control::FeltRow<double>& row : table) {
     largest = std::max({largest, std::abs(row[felt::kick]), std::abs(row[felt::kick + 1])});
   }
-  const double unit = 8.0 * largest;
+  const double unit = largest > 0.0 ? 8.0 * largest : 1.0;
   for (control::FeltRow<double>& row : table) {
     for (std::size_t i = 0; i < 2; ++i) {
       row[felt::kick + i] /= unit;
@@ -340,14 +390,10 @@ FeltDesign design_felt(const scene::Scene& scene, const BelievedPlant& plant,
   design.quick = is_quick(mode_model(middle));
   const double range = design.stiffness_range * middle.stiffness;
   const double spacing = 2.0 / (felt::rows - 1) * range;
+  design.apart = !is_one_with_vibration(middle);
   Resonator lowest = middle;
   lowest.stiffness -= range;
-  for (std::size_t i = 0; i < felt::rows; ++i) {
-    Resonator resonator = lowest;
-    resonator.stiffness += static_cast<double>(i) * spacing;
-    design.table[i] = row_of(resonator, spacing, felt);
-  }
-  calm_between_rows(lowest, spacing, design.table);
+  design.table = design.apart ? table_of(lowest, spacing, felt) : table_of_gains(middle, felt);
   constexpr double usual_ratio = 0.6;
   design.blur = usual_ratio * noise_of(usual_ratio, felt);
   design.speed = felt.speed;
@@ -356,7 +402,7 @@ FeltDesign design_felt(const scene::Scene& scene, const BelievedPlant& plant,
   design.swing =
       nonlinear + unknown * 0.5 * design.stiffness_range * numeric::sqrt(middle.stiffness);
   design.mode_unit = scale_mode(design.table);
-  constexpr double linear = 0.5;
+  const double linear = design.quick ? 0.5 : 0.2;
   design.linear = linear / design.mode_unit;
   design.sensor_memory = felt.chain.fade;
   design.contact_memory = felt.chain.contact_memory;

@@ -19,7 +19,8 @@ struct FeltDesign {
   /// lower, that of the last one as much higher. A mode of 1 is eight times the largest kick.
   control::FeltTable<double> table{};
   double stiffness_range = 0.0;  ///< relative
-  bool quick = true;             ///< the mode can be quieted, see is_quick()
+  bool apart = true;       ///< the mode can be told from the vibration; else the rows are of a gain
+  bool quick = true;       ///< the mode can be quieted, see is_quick()
   double blur = 0.0;       ///< rms of a reading without its lag, per vibration velocity, at r = 0.6
   double speed = 0.0;      ///< of the fastest sliding
   double mode_unit = 0.0;  ///< velocity of a mode of 1

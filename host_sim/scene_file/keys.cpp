@@ -318,7 +318,8 @@ std::vector<Key> controller_keys() {
        at_resonance},
       {"target_friction_ratio", Profile{time_range, {0.0, 1.0, "", true}}, Required{},
        "target friction ratio, constant from each time to the next; the first time is 0"},
-      {"calibration_s", Number{time_range}, controller.calibration_s,
+      {"calibration_s", Number{time_range},
+       Rule{"0; where the vibration is felt in the friction, as short as contact and sensor allow"},
        "time with the drive off in which the friction force is learnt; 0: the controller believes "
        "the scene's",
        with_force},

@@ -12,6 +12,7 @@
 #include "host_sim/configure/solver_methods.hpp"
 #include "host_sim/scene/names.hpp"
 #include "host_sim/scene_file/sections.hpp"
+#include "host_sim/scene_file/table_cursor.hpp"
 #include "host_sim/scene_file/tolerances.hpp"
 #include "host_sim/scene_file/variant.hpp"
 
@@ -85,11 +86,19 @@ void settle_shaping(scene::Controller& controller,
   }
 }
 
+/// A vibration that is felt in the friction is known as well as the friction is.
+void settle_calibration(scene::Scene& scene, const configure::ControlDesign& design,
+                        const Variant& variant) {
+  if (scene.feels_vibration() && !TableCursor(variant, "controller").has("calibration_s")) {
+    scene.controller->calibration_s = configure::shortest_calibration_s(scene, design);
+  }
+}
+
 /// A closed loop needs a controller that can be designed: told here, where a key has its place in
-/// the file. The design is not kept, for whoever reads a scene may change it.
-void require_controller(const scene::Scene& scene, const Document& document) {
+/// the file. The design is not kept with it, for whoever reads a scene may change it.
+configure::ControlDesign required_controller(const scene::Scene& scene, const Document& document) {
   try {
-    configure::design_control(scene);
+    return configure::design_control(scene);
   } catch (const configure::ConfigurationError& error) {
     throw SceneError(document.place_of(error.key()), error.key(), error.what());
   }
@@ -127,6 +136,9 @@ void keep_what_follows(scene::Scene& truth, const scene::Scene& told) {
   }
   truth.sensor.force_full_scale_N = told.sensor.force_full_scale_N;
   truth.run = told.run;
+  if (truth.controller) {
+    truth.controller->calibration_s = told.controller->calibration_s;
+  }
 }
 
 }  // namespace
@@ -138,7 +150,7 @@ scene::Scene read(const Document& document, const std::vector<VariedValue>& valu
   scene.tolerances = read_tolerances(variant, scene);
   if (scene.controller) {
     settle_shaping(*scene.controller, scene.tolerances);
-    require_controller(scene, document);
+    settle_calibration(scene, required_controller(scene, document), variant);
   }
   if (read_true_values(variant, scene).empty()) {
     return scene;

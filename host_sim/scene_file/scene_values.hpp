@@ -197,7 +197,7 @@ void visit_controller(Keys& keys, scene::Controller& controller, bool force) {
   }
   keys.targets("target_friction_ratio", controller.target_friction_ratio);
   if (force) {
-    keys.value("calibration_s", controller.calibration_s);
+    keys.value("calibration_s", controller.calibration_s, 0.0);
   }
   if (!controller.vibration) {
     keys.word("shaping", controller.shaping, scene::shapings);

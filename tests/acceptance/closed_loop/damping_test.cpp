@@ -30,6 +30,7 @@ struct Loop {
   std::string friction;
   std::string drive;
   std::string model_error;
+  double duration_s = 6e-3;
 };
 
 constexpr double carrier_Hz = 60e3;
@@ -52,13 +53,13 @@ std::string text_of(const Loop& loop) {
       "[friction]\nlaw = \"dahl\"\ncoefficient = 0.1\ncontact_stiffness_N_per_m = {}\n{}\n"
       "[sliding]\nvelocity_m_per_s = 0.0267\n"
       "[drive]\nfrequency_Hz = {}\nmax_force_amplitude_N = {:.17g}\n{}\n"
-      "[run]\nduration_s = 6e-3\n"
+      "[run]\nduration_s = {}\n"
       "[controller]\narithmetic = \"{}\"\n{}\ntarget_friction_ratio = {}\n"
       "{}\n[model_error]\nstiffness = {}\n{}\n",
       mass_kg, profile ? "" : fmt::format("stiffness_N_per_m = {:.17g}\n", stiffness_N_per_m(loop)),
       loop.plant, loop.contact_stiffness_N_per_m, loop.friction, carrier_Hz, largest_force_N(loop),
-      loop.drive, loop.arithmetic, loop.vibration, loop.targets, loop.sensor, loop.stiffness_error,
-      loop.model_error);
+      loop.drive, loop.duration_s, loop.arithmetic, loop.vibration, loop.targets, loop.sensor,
+      loop.stiffness_error, loop.model_error);
 }
 
 using Ran = acceptance::MeasuredRun;
@@ -260,6 +261,30 @@ TEST_P(Feeling, QuietsAMassThatRingsAtFirst) {
   EXPECT_LE(*ran.steps[0].settling_time_s, 1.5e-3);
 }
 
+/// By default: the drive begins once the contact has slid.
+TEST_P(Feeling, LearnsTheFrictionBeforeTheFirstDrive) {
+  Loop given = loop();
+  for (const char* const coefficient : {"coefficient = 0.7", "coefficient = 1.3"}) {
+    given.model_error = coefficient;
+    expect_prompt(given);
+  }
+  // Without calibration the ratio is off by as much as the friction.
+  given.vibration += "\ncalibration_s = 0";
+  EXPECT_NEAR(run(given).steps[0].steady_error, 0.3 * 0.4, 0.01);
+}
+
+/// Next to a multiple of the carrier and without damping a mode rings with the drive, and from then on
+/// adds to what the friction shows.
+TEST_P(Feeling, HoldsTheRatioWithAModeThatIsOneWithTheVibration) {
+  Loop given = loop();
+  for (const double mode : {0.0005, 2.0005, 2.9999, 3.9995}) {
+    given.mode_per_carrier = mode;
+    const report::StepMetrics step = run(given).steps[0];
+    ASSERT_TRUE(step.settling_time_s) << mode;
+    EXPECT_LE(*step.settling_time_s, 1e-3) << mode;
+  }
+}
+
 /// The corners of Table 1: stiffness ±5 %, friction ±30 % and learnt, contact ±50 %, 12 bits.
 TEST_P(Feeling, SettlesInEveryCornerOfTable1) {
   Loop given = loop();
@@ -274,7 +299,7 @@ TEST_P(Feeling, SettlesInEveryCornerOfTable1) {
             fmt::format("coefficient = {}\ncontact_stiffness = {}", coefficient, contact);
         for (const report::StepMetrics& step : run(given).steps) {
           ASSERT_TRUE(step.settling_time_s) << stiffness << ' ' << given.model_error;
-          EXPECT_LE(*step.settling_time_s, 0.3e-3) << stiffness << ' ' << given.model_error;
+          EXPECT_LE(*step.settling_time_s, 0.25e-3 + 1e-9) << stiffness << ' ' << given.model_error;
           EXPECT_LE(step.ripple, 0.002) << stiffness << ' ' << given.model_error;
         }
       }
@@ -300,7 +325,9 @@ TEST_P(Feeling, SettlesWithAModeThatTheContactShifts) {
 TEST_P(Feeling, NamesAFrictionThatIsBelievedWrong) {
   for (const double coefficient : {0.6, 0.75, 1.0, 1.3, 1.6}) {
     Loop given = loop();
+    given.vibration += "\ncalibration_s = 0";
     given.targets = "[[0.0, 0.5]]";
+    given.duration_s = 8e-3;  // the larger the error, the later the ratio comes into its band
     given.model_error = fmt::format("coefficient = {}", coefficient);
     const report::StepMetrics step = run(given).steps.front();
     const bool right = coefficient == 1.0;

@@ -96,7 +96,7 @@ template <class S>
 void fill(const Design& design, typename LearntFriction<S>::Parameters& parameters) {
   parameters = {design.settle_periods, design.average_periods,
                 numeric::from_real<numeric::Accumulator<S>>(1.0 / design.average_periods),
-                design.total_periods};
+                design.total_periods, numeric::from_code<S>(INT32_MAX)};
 }
 
 template <class S>

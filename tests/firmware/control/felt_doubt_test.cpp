@@ -131,6 +131,13 @@ struct Together {
   }
 
   void pass() {
+    if (between(0.0, 1.0) < 0.02) {
+      const S part = scaled<S>(between(0.0, 0.9));
+      doubt.doubt_offset(part);
+      oracle.p[2][2] =
+          std::min(oracle.p[2][2] + numeric::to_real(part) * oracle.all.offset_at_start,
+                   oracle.all.offset_at_most);
+    }
     const double angle = between(-3.1, 3.1);
     constexpr double decay = 0.9999;
     const Pair<S> turn{scaled<S>(decay * std::cos(angle)), scaled<S>(decay * std::sin(angle))};

@@ -154,6 +154,19 @@ TYPED_TEST(FeltObserverTest, FeelsNothingBelowTheSpeedOfTheSliding) {
   EXPECT_EQ(numeric::to_real(observer.mode().first), 0.0);
 }
 
+/// A mode that no reading shows, and by which a feedback might keep the drive down for ever.
+TYPED_TEST(FeltObserverTest, ForgetsAModeThatNothingShows) {
+  const auto told = parameters<TypeParam>(0.001);
+  FeltObserver<TypeParam> observer(told);
+  observer.pass(scaled<TypeParam>(0.9));
+  const double kicked = numeric::to_real(observer.mode().second);
+  ASSERT_NEAR(kicked, 0.9 * kick, 1e-6);
+  for (int k = 0; k < 32; ++k) {
+    observer.observe(scaled<TypeParam>(0.1), scaled<TypeParam>(speed), {}, scaled<TypeParam>(0.5));
+  }
+  EXPECT_NEAR(numeric::to_real(observer.mode().second), kicked * std::pow(31.0 / 32.0, 32), 1e-6);
+}
+
 /// Of the place, after so many periods of a mode that was kicked from rest: the observer knows the kick
 /// and about where the place is, which the bound below does not.
 double rms_of_place(double place, double noise, int periods, int runs) {

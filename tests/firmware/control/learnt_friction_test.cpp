@@ -14,9 +14,11 @@ namespace {
 template <class Scalar>
 class LearntFrictionTest : public testing::Test {
  protected:
-  static LearntFriction<Scalar> learner(std::uint32_t settle, std::uint32_t average) {
-    LearntFriction<Scalar> friction(
-        {settle, average, scaled<numeric::Accumulator<Scalar>>(1.0 / average), 0});
+  static LearntFriction<Scalar> learner(std::uint32_t settle, std::uint32_t average,
+                                        std::uint32_t total = 0) {
+    LearntFriction<Scalar> friction({settle, average,
+                                     scaled<numeric::Accumulator<Scalar>>(1.0 / average), total,
+                                     scaled<Scalar>(0.05)});
     friction.restart();
     return friction;
   }
@@ -40,11 +42,23 @@ TYPED_TEST(LearntFrictionTest, IsTheMean) {
   auto friction = this->learner(0, count);
   long double sum = 0.0L;
   for (std::uint32_t i = 0; i < count; ++i) {
-    const double force = 0.4 + 0.3 * std::sin(1.7 * i);
+    const double force = 0.4 + 0.04 * std::sin(1.7 * i);
     sum += static_cast<long double>(force);
     this->learn(friction, force);
   }
   EXPECT_NEAR(this->learnt(friction), static_cast<double>(sum / count), this->allowance(count));
+}
+
+/// Ringing makes the friction of a period smaller, never larger.
+TYPED_TEST(LearntFrictionTest, IsTheLargestReadingWhereTheMassRings) {
+  for (const double least : {0.31, 0.29}) {
+    auto friction = this->learner(0, 4);
+    for (const double force : {0.4, least, 0.36, 0.38}) {
+      this->learn(friction, force);
+    }
+    const double mean = (0.4 + least + 0.36 + 0.38) / 4.0;
+    EXPECT_NEAR(this->learnt(friction), least < 0.3 ? 0.4 : mean, this->allowance(4)) << least;
+  }
 }
 
 TYPED_TEST(LearntFrictionTest, PassesOverTheSettlingPart) {
@@ -102,8 +116,7 @@ TYPED_TEST(LearntFrictionTest, IsNegativeWhereTheSensorIsWiredBackwards) {
 }
 
 TYPED_TEST(LearntFrictionTest, GoesOnForTheStatedTotal) {
-  LearntFriction<TypeParam> friction({1, 2, scaled<numeric::Accumulator<TypeParam>>(0.5), 10});
-  friction.restart();
+  auto friction = this->learner(1, 2, 10);
   for (int i = 0; i < 10; ++i) {
     ASSERT_TRUE(friction.learning()) << "after " << i;
     this->learn(friction,
@@ -114,8 +127,7 @@ TYPED_TEST(LearntFrictionTest, GoesOnForTheStatedTotal) {
 }
 
 TYPED_TEST(LearntFrictionTest, TellsAnOffsetFromFrictionByAReversal) {
-  LearntFriction<TypeParam> friction({2, 4, scaled<numeric::Accumulator<TypeParam>>(0.25), 12});
-  friction.restart();
+  auto friction = this->learner(2, 4, 12);
   for (int i = 0; i < 12; ++i) {
     this->learn(friction, i < 6 ? 0.5 + 0.125 : -0.5 + 0.125, i < 6 ? 0.1 : -0.1);
   }

@@ -166,15 +166,27 @@ TEST(ControlDesignTest, NotesWhatItMayFailToFeel) {
   const auto feeling = [](double frequency) {
     scene::Scene scene = with_natural_frequency(frequency);
     scene.controller->vibration = scene::VibrationControl::damped;
+    scene.controller->calibration_s = shortest_calibration_s(scene, design_control(scene));
     return scene;
   };
   EXPECT_TRUE(design_notes(design_control(feeling(0.2163))).empty());
+  scene::Scene trusting = feeling(0.2163);
+  trusting.controller->calibration_s = 0.0;
+  ASSERT_EQ(design_notes(design_control(trusting)).size(), 1U);
+  EXPECT_NE(design_notes(design_control(trusting))[0].find("The friction force of the scene is "),
+            std::string::npos);
+  const std::vector<std::string> next_to_a_multiple = design_notes(design_control(feeling(2.001)));
+  ASSERT_EQ(next_to_a_multiple.size(), 1U);
+  EXPECT_NE(next_to_a_multiple[0].find("cannot be told from the vibration"), std::string::npos);
+  EXPECT_EQ(design_control(feeling(2.001)).agreement, 0.0);
+  EXPECT_GT(design_control(feeling(0.2163)).agreement, 0.0);
   for (const double frequency : {1.02, 5.2}) {
     const std::vector<std::string> notes = design_notes(design_control(feeling(frequency)));
     ASSERT_FALSE(notes.empty()) << frequency;
     EXPECT_NE(notes.back().find("only where the stiffness is within"), std::string::npos);
   }
   scene::Scene slow = feeling(0.2163);
+  slow.controller->calibration_s = 20e-3;
   slow.sensor.force_bandwidth_Hz = 2000.0;
   EXPECT_TRUE(design_notes(design_control(slow)).empty());
   slow.sensor.force_bandwidth_Hz = 100.0;
@@ -351,6 +363,32 @@ TEST(ControlDesignTest, CalibrationIsCountedInCarrierPeriods) {
   EXPECT_EQ(design.calibration_total_periods, 29U);
   EXPECT_EQ(design.calibration_settle_periods + design.calibration_average_periods, 29U);
   EXPECT_GT(design.calibration_average_periods, 0U);
+}
+
+TEST(ControlDesignTest, TheShortestCalibrationIsForAContactHalfAsStiff) {
+  scene::Scene scene = table_1_closed_loop();
+  const auto periods = [&] {
+    return std::round(shortest_calibration_s(scene, design_control(scene)) * carrier_Hz);
+  };
+  // 14 travels of 0.350 um at 0.445 um in a period, and one reading.
+  EXPECT_EQ(periods(), 12.0 + 1.0 + 2.0);
+  scene.sensor.force_noise_N = 0.01 * 0.01962;
+  EXPECT_EQ(periods(), 12.0 + 16.0 + 2.0);
+  scene.controller->calibration_s = shortest_calibration_s(scene, design_control(scene));
+  EXPECT_TRUE(design_control(scene).calibrated);
+  // Of many readings noise alone sets some far apart.
+  EXPECT_NEAR(design_control(scene).calibration_half_steady, 0.5 * (0.4 * 0.5 + 10.0 * 0.005),
+              1e-9);
+  scene.controller->calibration_s = 1e-3;
+  EXPECT_EQ(design_control(scene).calibration_half_steady, 1.0);
+  // At most half of the first target's time; not where that is less than 7 travels take.
+  scene.sensor.force_noise_N = 0.0;
+  scene.controller->target_friction_ratio = {{0.0, 0.4}, {20.0 / carrier_Hz, 0.6}};
+  EXPECT_EQ(periods(), 10.0);
+  scene.controller->calibration_s = shortest_calibration_s(scene, design_control(scene));
+  EXPECT_TRUE(design_control(scene).calibrated);
+  scene.controller->target_friction_ratio = {{0.0, 0.4}, {16.0 / carrier_Hz, 0.6}};
+  EXPECT_EQ(periods(), 0.0);
 }
 
 scene::Scene damped(double part) {

@@ -67,5 +67,30 @@ TEST(FeltDesignTest, AModeWithoutDampingKeepsItsSizeBetweenTheRows) {
   }
 }
 
+/// From the steady vibration alone to a mode that rings with 1.2 times its displacement.
+TEST(FeltDesignTest, AModeThatIsOneWithTheVibrationCountsAsAGain) {
+  for (const double mode : {1.996, 2.0, 3.004}) {
+    scene::Scene scene = with_natural_frequency(mode);
+    const FeltDesign design = design_felt(scene, believed_plant(scene), velocity_m_per_s);
+    ASSERT_FALSE(design.apart) << mode;
+    const control::FeltRow<double>& first = design.table[0];
+    const control::FeltRow<double>& last = design.table[felt::rows - 1];
+    EXPECT_NEAR(last[felt::forced] / first[felt::forced], 1.2 * std::hypot(1.0, mode), 1e-9);
+    for (const control::FeltRow<double>& row : design.table) {
+      EXPECT_EQ(row[felt::kick], 0.0);
+      EXPECT_EQ(row[felt::kick + 1], 0.0);
+      EXPECT_EQ(row[felt::plain + felt::seen], 0.0);
+      EXPECT_NEAR(row[felt::per_velocity] * row[felt::forced], 1.0, 1e-12);
+    }
+    // Damping tells it: it dies within fewer than 20 periods.
+    scene.plant.damping_N_s_per_m = 0.1 * scene.plant.mass_kg * scene.drive->frequency_Hz * 1.01;
+    EXPECT_TRUE(design_felt(scene, believed_plant(scene), velocity_m_per_s).apart) << mode;
+  }
+  for (const double mode : {0.995, 1.994, 2.006}) {
+    const scene::Scene scene = with_natural_frequency(mode);
+    EXPECT_TRUE(design_felt(scene, believed_plant(scene), velocity_m_per_s).apart) << mode;
+  }
+}
+
 }  // namespace
 }  // namespace sonoglide::configure::felt_design_test

@@ -60,7 +60,7 @@ TEST(ControllerHeader, HoldsTheParametersThatTheSimulationRuns) {
 TEST(ControllerHeader, KeepsTheWeightsOfCalibrationIn32Bits) {
   const std::string header =
       controller_header(read("target_step_q15", {"controller.calibration_s=1e-3"}));
-  EXPECT_TRUE(has(header, "{29, 30, numeric::Accumulator<Scalar>::from_raw(71582788), 59}"))
+  EXPECT_TRUE(has(header, "{29, 30, numeric::Accumulator<Scalar>::from_raw(71582788), 59, "))
       << header;
 }
 

@@ -133,7 +133,7 @@ TYPED_TEST_SUITE(InitialiserOf, Scalars);
 
 TYPED_TEST(InitialiserOf, WritesEveryParameterOfAController) {
   using Parameters = typename control::Controller<EveryPart<TypeParam>>::Parameters;
-  EXPECT_EQ((expect_every_number_in_text<TypeParam, Parameters>()), 37U);
+  EXPECT_EQ((expect_every_number_in_text<TypeParam, Parameters>()), 38U);
 }
 
 TYPED_TEST(InitialiserOf, WritesEveryTapOfARobustNotch) {

@@ -51,6 +51,15 @@ TEST(EchoTest, OfTheExamplesIsTheSameSceneAgain) {
   }
 }
 
+/// Absent it would not be 0.
+TEST(EchoTest, HoldsACalibrationOf0) {
+  const scene::Scene trusting =
+      read_file(std::filesystem::path(SONOGLIDE_SCENES) / "damped_by_force.toml",
+                {"controller.calibration_s=0"});
+  EXPECT_EQ(to_json(trusting).at("controller").at("calibration_s"), 0.0);
+  expect_same_scene_again(trusting);
+}
+
 TEST(EchoTest, HoldsTheValuesOfTheFile) {
   const nlohmann::ordered_json echo = to_json(read_text(fullest_closed_loop, "s"));
   EXPECT_EQ(echo.at("plant").at("stiffness_N_per_m"), 133e6);

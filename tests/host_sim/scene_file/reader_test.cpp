@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "host_sim/configure/control_design.hpp"
 #include "host_sim/configure/plant_scales.hpp"
 #include "host_sim/configure/solver_methods.hpp"
 #include "scene_texts.hpp"
@@ -117,6 +118,45 @@ TEST(ReaderTest, DefaultsOfClosedLoop) {
   EXPECT_EQ(scene.model_error.stiffness, 1.0);
   EXPECT_EQ(scene.model_error.coefficient, 1.0);
   EXPECT_EQ(scene.model_error.contact_stiffness, 1.0);
+}
+
+/// @param key  of [controller], a line or none
+std::string felt_in_the_friction(const std::string& sliding, const std::string& key) {
+  return "[plant]\nmass_kg = 0.02\nstiffness_N_per_m = 133e6\n"
+         "[friction]\nlaw = \"dahl\"\ncoefficient = 0.1\ncontact_stiffness_N_per_m = 0.056e6\n"
+         "[sliding]\n" +
+         sliding +
+         "\n[drive]\nfrequency_Hz = 60e3\nmax_force_amplitude_N = 1920\n"
+         "[run]\nduration_s = 4e-3\n"
+         "[controller]\narithmetic = \"q31\"\ntarget_friction_ratio = [[0, 0.5]]\n"
+         "vibration = \"damped\"\n" +
+         key;
+}
+
+/// Where the vibration is felt in the friction, that is learnt first; 0 trusts the scene there too.
+TEST(ReaderTest, DefaultOfCalibrationWhereTheFrictionShowsTheVibration) {
+  const std::string steady = "velocity_m_per_s = 0.0267";
+  const auto calibration_s = [](const std::string& text) {
+    return read_text(text, "s").controller->calibration_s;
+  };
+  const scene::Scene absent = read_text(felt_in_the_friction(steady, ""), "s");
+  const double by_default_s =
+      configure::shortest_calibration_s(absent, configure::design_control(absent));
+  EXPECT_GT(by_default_s, 0.0);
+  EXPECT_EQ(absent.controller->calibration_s, by_default_s);
+  EXPECT_EQ(calibration_s(felt_in_the_friction(steady, "calibration_s = 0\n")), 0.0);
+  // A sliding that begins at rest goes on for too short a time within half of that of the target, or
+  // for long enough.
+  const auto from_rest = [](const char* begins_s) {
+    return felt_in_the_friction("profile = [[0.0, 0.0], [" + std::string(begins_s) + ", 0.0267]]",
+                                "");
+  };
+  EXPECT_EQ(calibration_s(from_rest("3.9e-3")), 0.0);
+  EXPECT_GT(calibration_s(from_rest("1e-4")), by_default_s);
+  // The truth is not known to the controller.
+  EXPECT_EQ(calibration_s(
+                felt_in_the_friction(steady, "[true_values]\n\"friction.coefficient\" = 0.2\n")),
+            by_default_s);
 }
 
 TEST(ReaderTest, EveryKeyOfClosedLoop) {

@@ -61,7 +61,12 @@ Outcome outcome(std::uint32_t seed, std::uint32_t index, Vibration vibration) {
   Outcome outcome;
   outcome.loop = random_loop(seed, index);
   try {
-    run_scene(scene_file::read_text(scene_text(outcome.loop, vibration), "random.toml"), outcome);
+    const scene::Scene scene =
+        scene_file::read_text(scene_text(outcome.loop, vibration), "random.toml");
+    if (vibration == Vibration::felt) {
+      outcome.loop.calibration_s = scene.controller->calibration_s;  // absent: by default
+    }
+    run_scene(scene, outcome);
   } catch (const scene_file::SceneError& error) {
     outcome.refused = error.what();
     outcome.refused_key = error.key();
