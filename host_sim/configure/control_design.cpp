@@ -316,6 +316,14 @@ void design_calibration(const scene::Scene& scene, const BelievedPlant& plant,
   design.calibration_half_steady = half_steady_difference(scene, design, averaged);
 }
 
+/// Of the undriven force, whose mean their noise moves by no more than 0.25 % rms; at most 16.
+double readings_for_mean(const scene::Scene& scene, const BelievedPlant& plant) {
+  constexpr double error = 0.0025;
+  constexpr double most = 16.0;
+  const double noise = scene.sensor.force_noise_N / (error * plant.friction_N);
+  return std::clamp(std::ceil(noise * noise), 1.0, most);
+}
+
 /// A pause long enough for the presliding travel, and for as many readings as their noise asks for.
 void design_relearning(const scene::Scene& scene, const BelievedPlant& plant,
                        ControlDesign& design) {
@@ -325,18 +333,14 @@ void design_relearning(const scene::Scene& scene, const BelievedPlant& plant,
   constexpr double presliding_travels = 6.0;  // 0.15 % of the force is left
   constexpr double filter_settling = 5.0;     // 0.7 % of it
   constexpr double contact_settling = 2.0;    // carrier periods until the contact has forgotten
-  constexpr double error = 0.0025;            // rms, of the force
-  constexpr double most_averaged = 16.0;
   const ControlScales& scales = design.scales;
   const double shaping = changing_periods(design);
   const double slewing = design.slew_limited ? 1.0 / design.slew_per_period : 0.0;
-  const double noise = scene.sensor.force_noise_N / (error * plant.friction_N);
   design.relearn_quiet_periods =
       whole_periods(shaping + slewing + filter_settling * filter_periods(scene, scales));
   design.relearn_reading_periods = whole_periods(latency_periods(scene));
   design.relearn_return_periods = whole_periods(shaping + slewing + contact_settling);
-  design.relearn_average_periods =
-      static_cast<std::uint8_t>(std::clamp(std::ceil(noise * noise), 1.0, most_averaged));
+  design.relearn_average_periods = static_cast<std::uint8_t>(readings_for_mean(scene, plant));
   design.relearn_weight = mean_weight(design.relearn_average_periods);
   design.relearn_travel = presliding_travels * presliding_m(plant) /
                           (64.0 * scales.velocity_m_per_s * scales.carrier_period_s);
@@ -550,14 +554,10 @@ std::optional<ControlDesign> design_if_closed(const scene::Scene& scene) {
 }
 
 double shortest_calibration_s(const scene::Scene& scene, const ControlDesign& design) {
-  constexpr double error = 0.0025;  // rms of the noise left, relative
-  constexpr double most_averaged = 16.0;
   constexpr double largest_part = 0.5;  // of the time of the first target
   const BelievedPlant plant = believed_plant(scene);
-  const double noise = scene.sensor.force_noise_N / (error * plant.friction_N);
-  const double averaged = std::clamp(std::ceil(noise * noise), 1.0, most_averaged);
   const auto periods = [&](double travels) {
-    return settling_periods(scene, plant, design, travels) + averaged + 2.0;
+    return settling_periods(scene, plant, design, travels) + readings_for_mean(scene, plant) + 2.0;
   };
   const auto& targets = scene.controller->target_friction_ratio;
   const double first_s =

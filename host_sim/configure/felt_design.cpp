@@ -65,6 +65,7 @@ struct Felt {
   }
 };
 
+constexpr double slower_rise = 0.85;     // of the amplitude: what it kicks is not yet known
 constexpr double largest_ratio = 0.985;  // of a node; at 1 the friction ratio has no slope
 
 ReadingChain chain_of(const scene::Sensor& sensor, double period_s) {
@@ -194,9 +195,8 @@ void put_node(const Place& place, std::size_t index, const Felt& felt,
 Eigen::RowVector3d feedback_of(const Place& place, const Felt& felt) {
   const ModeModel& model = place.model;
   if (is_quick(model)) {
-    constexpr double slower = 0.85;  // the natural frequency is not yet known
     Eigen::RowVector3d feedback = feedback_of(model, vibration_error(model));
-    feedback(2) *= slower;
+    feedback(2) *= slower_rise;
     return feedback;
   }
   constexpr double usual_ratio = 0.7;
@@ -249,7 +249,6 @@ bool is_one_with_vibration(const Resonator& resonator) {
 /// steady vibration alone, the last one a mode that rings with 1.2 times its displacement.
 control::FeltTable<double> table_of_gains(const Resonator& resonator, const Felt& felt) {
   constexpr double largest = 1.2;
-  constexpr double slower = 0.85;
   const double turns = numeric::sqrt(resonator.stiffness) / numeric::two_pi;
   const double gain = std::max(1.0, largest * numeric::sqrt(1.0 + turns * turns));
   static_assert(felt::rows == 9);
@@ -260,7 +259,7 @@ control::FeltTable<double> table_of_gains(const Resonator& resonator, const Felt
     row[felt::turn] = 1.0;
     row[felt::forced] = forced;
     forced *= step;
-    row[felt::feedback + 2] = slower;
+    row[felt::feedback + 2] = slower_rise;
     row[felt::per_velocity] = 1.0 / row[felt::forced];
     for (std::size_t node = 0; node < felt::nodes; ++node) {
       row[felt::plain + node * felt::per_node + felt::noise] =
@@ -353,7 +352,7 @@ control::FeltTable<double> table_of(const Resonator& lowest, double spacing, con
 }
 
 /// The table in multiples of a mode that leaves the kicks an eighth.
-/// @return that mode
+/// @return that mode; 1 where nothing kicks one
 double scale_mode(control::FeltTable<double>& table) {
   double largest = 0.0;
   for (const control::FeltRow<double>& row : table) {

@@ -86,7 +86,8 @@ void settle_shaping(scene::Controller& controller,
   }
 }
 
-/// A vibration that is felt in the friction is known as well as the friction is.
+/// A vibration that is felt in the friction is known no better than the friction, which is therefore
+/// learnt first.
 void settle_calibration(scene::Scene& scene, const configure::ControlDesign& design,
                         const Variant& variant) {
   if (scene.feels_vibration() && !TableCursor(variant, "controller").has("calibration_s")) {
