@@ -319,7 +319,10 @@ std::vector<Key> controller_keys() {
       {"target_friction_ratio", Profile{time_range, {0.0, 1.0, "", true}}, Required{},
        "target friction ratio, constant from each time to the next; the first time is 0"},
       {"calibration_s", Number{time_range},
-       Rule{"0; where the vibration is felt in the friction, as short as contact and sensor allow"},
+       Rule{
+           "0; where the vibration is felt in the friction, as long as a contact half as stiff as "
+           "believed and the sensor take to settle, at most half of the first target's time, and 0 "
+           "where that is too short"},
        "time with the drive off in which the friction force is learnt; 0: the controller believes "
        "the scene's",
        with_force},
