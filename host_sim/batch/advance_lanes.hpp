@@ -76,7 +76,7 @@ class StepLanes {
       : plant_(plant),
         instant_(d, plant, motion, broadcast(d, Setting::negligible_deficit)),
         series_(d, plant, motion, instant_) {
-    const V remaining = left_of_period(d, motion) / instant_.unit;
+    const V remaining = left_of_period(d, motion) * instant_.rate;
     const V longest = Min(tolerated(d), remaining);
     const CurvatureBound<D> bound(d, plant, motion, instant_, longest);
     const ReversalLanes<D, order, Setting::reversal_samples, Setting::root_corrections> reversal(
@@ -104,15 +104,14 @@ class StepLanes {
   }
 
   HWY_INLINE V tolerated(D d) const {
-    const V smallest = broadcast(d, std::numeric_limits<Scalar>::min());
     const V rounding =
         broadcast(d, std::numeric_limits<Scalar>::epsilon()) * Abs(series_.velocity[0]);
     const V allowed = Max(broadcast(d, Setting::tolerance), rounding);
     const V last = magnitude(d, order);
     const V last_but_one = magnitude(d, order - 1);
-    const V extent = Min(quick_root<order>(d, allowed / Max(last, smallest)),
-                         quick_root<order - 1>(d, allowed / Max(last_but_one, smallest)));
-    return Min(extent, broadcast(d, Setting::longest_step) / instant_.unit);
+    const V extent = Min(quick_root_of_quotient<order>(d, allowed, last),
+                         quick_root_of_quotient<order - 1>(d, allowed, last_but_one));
+    return Min(extent, broadcast(d, Setting::longest_step) * instant_.rate);
   }
 
   /// The deficit enters the velocity times beta alone; its own integral is not taken from the

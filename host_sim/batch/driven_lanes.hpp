@@ -18,13 +18,13 @@ namespace sonoglide::batch::HWY_NAMESPACE {
 /// Good for 1e-6 of the mean friction of one period.
 struct PeriodSetting {
   using Scalar = double;
-  static constexpr int order = 11;
-  static constexpr int reversal_samples = 3;
+  static constexpr int order = 10;
+  static constexpr int reversal_samples = 2;
   static constexpr int root_corrections = 2;
   static constexpr int node_count = 4;
   static constexpr int decay_degree = 6;
   static constexpr double least_friction_weight = 1e-3;
-  static constexpr double tolerance = 1e-6;
+  static constexpr double tolerance = 5e-7;
   static constexpr double negligible_deficit = 1e-8;
   static constexpr double longest_step = 3.0;
   static constexpr bool counts_work = false;

@@ -102,20 +102,8 @@ HWY_INLINE Pack<D> Sqrt(Pack<D> a) {
   return {hn::Sqrt(a.first), hn::Sqrt(a.second)};
 }
 template <class D>
-HWY_INLINE Pack<D> Exp(D d, Pack<D> x) {
-  return {hn::Exp(d, x.first), hn::Exp(d, x.second)};
-}
-template <class D>
 HWY_INLINE Pack<D> Expm1(D d, Pack<D> x) {
   return {hn::Expm1(d, x.first), hn::Expm1(d, x.second)};
-}
-template <class D>
-HWY_INLINE Pack<D> Sin(D d, Pack<D> x) {
-  return {hn::Sin(d, x.first), hn::Sin(d, x.second)};
-}
-template <class D>
-HWY_INLINE Pack<D> Cos(D d, Pack<D> x) {
-  return {hn::Cos(d, x.first), hn::Cos(d, x.second)};
 }
 
 template <class D>

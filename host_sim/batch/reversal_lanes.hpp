@@ -90,7 +90,7 @@ class ReversalLanes {
     HWY_UNROLL(1)
     for (int pass = 0; pass < Corrections; ++pass) {
       p = jet(d, x);
-      const V step = correction(d, x, p);
+      const V step = correction(p);
       change = Abs(step);  // not what the bracket leaves of it
       x = Clamp(x + step, low_, low_ + spacing_);
     }
@@ -166,15 +166,17 @@ class ReversalLanes {
 
   /// From rest the zero at the beginning is divided out.
   HWY_INLINE V secant() const {
-    const V low_value = IfThenElse(from_start_, orientation_ * series_.velocity[1], low_value_);
-    const V high_value = IfThenElse(from_start_, high_value_ / spacing_, high_value_);
-    return low_ + spacing_ * (low_value / (low_value - high_value));
+    const V initial_rise = orientation_ * series_.velocity[1] * spacing_;
+    const V low_value = IfThenElse(from_start_, initial_rise, low_value_);
+    return low_ + spacing_ * (low_value / (low_value - high_value_));
   }
 
+  /// Of p at a place, and of what has the zero sought: p or, from rest, p / x.
   struct Jet {
-    V value;
     V slope;
-    V half_curvature;
+    V sought;
+    V sought_slope;
+    V sought_half_curvature;
   };
 
   HWY_INLINE Jet jet(D d, V x) const {
@@ -187,16 +189,18 @@ class ReversalLanes {
       slope = MulAdd(slope, x, value);
       value = MulAdd(value, x, series_.velocity[n]);
     }
-    return {MulAdd(orientation_ * x, value, start_), orientation_ * MulAdd(x, slope, value),
-            orientation_ * MulAdd(x, half_curvature, slope)};
+    const V p = MulAdd(orientation_ * x, value, start_);
+    const V p_slope = MulAdd(x, slope, value);
+    const V p_half_curvature = MulAdd(x, half_curvature, slope);
+    return {orientation_ * p_slope, IfThenElse(from_rest_, orientation_ * value, p),
+            orientation_ * IfThenElse(from_rest_, slope, p_slope),
+            orientation_ * IfThenElse(from_rest_, half_curvature, p_half_curvature)};
   }
 
-  /// Halley's, for p or, from rest, for p / x.
-  HWY_INLINE V correction(D d, V x, const Jet& p) const {
-    const V inverse = IfThenElseZero(from_rest_, broadcast(d, Scalar(1)) / x);
-    const V slope = NegMulAdd(p.value, inverse, p.slope);
-    const V half_curvature = NegMulAdd(slope, inverse, p.half_curvature);
-    return Neg(p.value * slope / NegMulAdd(p.value, half_curvature, slope * slope));
+  /// Halley's.
+  static HWY_INLINE V correction(const Jet& p) {
+    const V divisor = NegMulAdd(p.sought, p.sought_half_curvature, p.sought_slope * p.sought_slope);
+    return Neg(p.sought * p.sought_slope / divisor);
   }
 
   /// No zero between the sample before it and the one at x. Divided by its known zeros, p keeps one
@@ -207,8 +211,8 @@ class ReversalLanes {
     const V sixth = broadcast(d, Scalar(1.0 / 6.0));
     const V width = x - low_;
     const V spread = bound.second * change;
-    const V chord = low_value_ / width - slope - spread;
-    const M alone = chord > bound.second * width * half;
+    const V steepest = MulAdd(bound.second * half, width, slope + spread);
+    const M alone = low_value_ > width * steepest;
     const V arch = orientation_ * series_.velocity[1] - slope - spread;
     const M alone_after_rest = arch > bound.third * x * x * sixth;
     return Or(AndNot(from_start_, alone), And(from_start_, alone_after_rest));

@@ -13,6 +13,7 @@
 #include "firmware/numeric/power_series.hpp"
 #include "host_sim/batch/lane_pack.hpp"
 #include "host_sim/batch/plant_lanes.hpp"
+#include "host_sim/batch/trigonometric_lanes.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace sonoglide::batch::HWY_NAMESPACE {
@@ -36,19 +37,21 @@ struct InstantLanes {
   V direction;         ///< s = sgn V; where V = 0, that of its derivative
   V deficit;           ///< e = 1 - s phi
   V resolved_deficit;  ///< the same, or 0 where it is too small to matter within the step
-  V unit;              ///< of the power series, in tau: no faster than anything that moves
+  V rate;              ///< no slower than anything that moves
+  V unit;              ///< of the power series, in tau: 1 / rate
 
   HWY_INLINE InstantLanes(D d, const PlantLanes<D>& plant, const MotionLanes<D>& motion,
                           V negligible_deficit) {
     const V one = broadcast(d, 1);
-    in_phase = plant.drive_amplitude * Cos(d, motion.phase);
-    quadrature = plant.drive_amplitude * Sin(d, motion.phase);
+    const SineAndCosine<V> turn = sine_and_cosine(d, motion.phase);
+    in_phase = plant.drive_amplitude * turn.cosine;
+    quadrature = plant.drive_amplitude * turn.sine;
     acceleration = NegMulAdd(plant.friction_force, motion.friction,
                              NegMulAdd(plant.stiffness, motion.displacement,
                                        NegMulAdd(plant.damping, motion.velocity, in_phase)));
     contact_velocity = MulAdd(plant.vibration_sign, motion.velocity, plant.sliding_velocity);
-    const V rate = plant.vibration_sign * acceleration;
-    const V leading = IfThenElse(contact_velocity == zeros(d), rate, contact_velocity);
+    const V leading = IfThenElse(contact_velocity == zeros(d), plant.vibration_sign * acceleration,
+                                 contact_velocity);
     direction = CopySign(one, leading);
     deficit = NegMulAdd(direction, motion.friction, one);
     const auto relaxes = deficit > negligible_deficit;
@@ -56,7 +59,8 @@ struct InstantLanes {
     const V stiffness = IfThenElseZero(relaxes, plant.contact_stiffness);
     const V relaxation =
         MulAdd(stiffness, Abs(contact_velocity), Sqrt(stiffness * Abs(acceleration)));
-    unit = one / (plant.own_rate + relaxation);
+    rate = plant.own_rate + relaxation;
+    unit = one / rate;
   }
 };
 
@@ -77,7 +81,7 @@ struct SeriesLanes {
     const V friction = plant.friction_force * instant.unit * instant.direction;
     const V decay = Neg(plant.contact_stiffness * instant.unit * instant.direction);
     velocity[0] = motion.velocity;
-    displacement[0] = motion.displacement / instant.unit;
+    displacement[0] = motion.displacement * instant.rate;
     deficit[0] = instant.resolved_deficit;
     velocity[1] = instant.acceleration * instant.unit;
     displacement[1] = velocity[0];
