@@ -107,20 +107,21 @@ class FeltObserver {
       forget();
       return;
     }
-    if (!believed(driven)) {
+    const Scalar size = relative_size(driven);
+    constexpr Scalar highest = numeric::from_code<Scalar>(INT32_MAX);
+    if (!(size < highest)) {
       return;
     }
     row_.look(ratio(speed, driven));
     const Scalar last = u.now - u.before;
     const Scalar before_last = u.before - u.earlier;
     const Scalar forecast = driven + numeric::lifted(seen(last, before_last), seen_base_);
-    constexpr Scalar highest = numeric::from_code<Scalar>(INT32_MAX);
     if (!(velocity < highest) && !(forecast < highest)) {
       return;
     }
     const Scalar most = numeric::from_real<Scalar>(0.3) * speed;
     const Scalar miss = numeric::clamp_magnitude(velocity - forecast, most);
-    correct(miss, view(u.now, last, before_last), variance(driven));
+    correct(miss, view(u.now, last, before_last), variance(driven, size));
     offset_ = numeric::clamp(offset_, numeric::from_real<Scalar>(-0.5),
                              numeric::from_real<Scalar>(0.6) * wanted);
   }
@@ -166,10 +167,12 @@ class FeltObserver {
     }
   }
 
-  /// The friction of a contact follows a large mode no longer linearly.
-  bool believed(Scalar driven) const {
+  /// Of the mode, over that up to which readings are believed: the friction of a contact follows a
+  /// large mode no longer linearly. At most 1.
+  Scalar relative_size(Scalar driven) const {
     const Scalar size = numeric::max(numeric::abs(mode_.first), numeric::abs(mode_.second));
-    return !(numeric::limited_product(driven, linear_) < size);
+    const Scalar most = numeric::limited_product(driven, linear_);
+    return size < most ? ratio(size, most) : numeric::from_code<Scalar>(INT32_MAX);
   }
 
   /// A mode that no reading shows is held for less and less, as its feedback may keep the drive from
@@ -198,9 +201,11 @@ class FeltObserver {
             numeric::lifted(seen_slope, quieter_) + lowered_view(driven_slope)};
   }
 
-  /// Of a reading, on the base of view().
-  Scalar variance(Scalar driven) const {
-    constexpr Scalar doubt = numeric::from_real<Scalar>(0.015);  // of the map
+  /// Of a reading, on the base of view(): of the velocity 1.5 % are doubted for the map, and up to an
+  /// eighth for what follows the square of the mode. @param size  see relative_size()
+  Scalar variance(Scalar driven, Scalar size) const {
+    const Scalar doubt =
+        numeric::from_real<Scalar>(0.015) + numeric::scale_by_power_of_two(size * size, -3);
     const Scalar wrong = lowered_view(doubt * numeric::lifted(driven, slower_));
     const Scalar noise = lowered_view(numeric::lifted(row_.of_node(felt::noise), slower_));
     return wrong * wrong + noise * noise;

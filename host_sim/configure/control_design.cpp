@@ -589,11 +589,16 @@ void add_feeling_notes(const FeltDesign& design, std::vector<std::string>& notes
         "that frequency: it cannot be told from the vibration and rings with it. The friction "
         "ratio is fed back alone, and stays off its target where the stiffness is not the believed "
         "one or what rings from the last target is too loud.");
+  } else if (design.sure_range < design.stiffness_range && design.sure_range < usual_range) {
+    notes.push_back(
+        fmt::format("A stiffness that is off by more than {:.2g} % may keep the friction ratio "
+                    "from settling: the natural mode then turns by more than 0.3 rad otherwise "
+                    "than believed in a carrier period.",
+                    100.0 * design.sure_range));
   } else if (design.stiffness_range < usual_range) {
     notes.push_back(
         fmt::format("The natural mode is looked for only where the stiffness is within {:.2g} % of "
-                    "the believed one: it turns by much in a carrier period, or is close to the "
-                    "carrier frequency.",
+                    "the believed one: it is close to the carrier frequency.",
                     100.0 * design.stiffness_range));
   }
   constexpr double usual_blur = 0.02;

@@ -2,12 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <complex>
 #include <cstddef>
+#include <cstdlib>
 #include <limits>
 
 #include "firmware/numeric/float_elementary.hpp"
@@ -210,12 +210,27 @@ Eigen::RowVector3d feedback_of(const Place& place, const Felt& felt) {
   return feedback_of(model, error);
 }
 
+/// A row stands for the modes as far as the next rows: the mean of theirs, each with the part that the
+/// row has in what is interpolated there. Next to half a turn in a period a change of the amplitude
+/// moves one part of the mode, and the feedback of the other part changes its sign within a fraction of
+/// a row.
+Eigen::RowVector3d feedback_around(const Resonator& resonator, double spacing, const Felt& felt) {
+  constexpr int parts = 8;
+  Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
+  for (int part = 1 - parts; part < parts; ++part) {
+    Resonator near = resonator;
+    near.stiffness += spacing * part / parts;
+    sum += (parts - std::abs(part)) * feedback_of(place_of(near, felt.sign), felt);
+  }
+  return sum / (parts * parts);
+}
+
 /// @param spacing  of the rows, a difference of the stiffness
 control::FeltRow<double> row_of(const Resonator& resonator, double spacing, const Felt& felt) {
   const Place place = place_of(resonator, felt.sign);
   const ModeModel& model = place.model;
   const double forced = model.forced.norm();
-  const Eigen::RowVector3d feedback = feedback_of(place, felt);
+  const Eigen::RowVector3d feedback = feedback_around(resonator, spacing, felt);
   control::FeltRow<double> row{};
   row[felt::turn] = model.turn(0, 0);
   row[felt::turn + 1] = model.turn(1, 0);
@@ -269,77 +284,6 @@ control::FeltTable<double> table_of_gains(const Resonator& resonator, const Felt
   return table;
 }
 
-/// Largest modulus of the poles of a mode under a feedback.
-double slowest_pole(const ModeModel& model, const Eigen::RowVector3d& feedback) {
-  Eigen::Matrix3d loop = Eigen::Matrix3d::Identity();
-  loop.topLeftCorner<2, 2>() = model.turn;
-  Eigen::Vector3d change;
-  change << model.kick, 1.0;
-  loop -= change * feedback;
-  return loop.eigenvalues().cwiseAbs().maxCoeff();
-}
-
-using Feedback = Eigen::Map<Eigen::RowVector3d>;
-
-/// Whether no mode between two rows grows under the feedback between them.
-bool quiets(const Resonator& first, double spacing, const Feedback& low, const Feedback& high) {
-  constexpr int parts = 8;
-  for (int i = 0; i <= parts; ++i) {
-    const double part = static_cast<double>(i) / parts;
-    Resonator resonator = first;
-    resonator.stiffness += part * spacing;
-    const ModeModel model = mode_model(resonator);
-    if (is_quick(model) && slowest_pole(model, (1.0 - part) * low + part * high) > 1.0) {
-      return false;
-    }
-  }
-  return true;
-}
-
-/// Less feedback of the part of the mode that a change of the amplitude does not move.
-void calm(control::FeltRow<double>& row) {
-  constexpr double left = 0.7;
-  const Eigen::RowVector2d kick =
-      Eigen::RowVector2d(row[felt::kick], row[felt::kick + 1]).normalized();
-  Eigen::Map<Eigen::RowVector2d> gains(&row[felt::feedback]);
-  const Eigen::RowVector2d moved = gains.dot(kick) * kick;
-  gains = moved + left * (gains - moved);
-}
-
-/// The rows between which a mode grows.
-std::array<bool, felt::rows> loud_rows(const Resonator& lowest, double spacing,
-                                       control::FeltTable<double>& table) {
-  std::array<bool, felt::rows> loud{};
-  for (std::size_t i = 0; i + 1 < felt::rows; ++i) {
-    Resonator first = lowest;
-    first.stiffness += static_cast<double>(i) * spacing;
-    const Feedback low(&table[i][felt::feedback]);
-    const Feedback high(&table[i + 1][felt::feedback]);
-    if (!quiets(first, spacing, low, high)) {
-      loud[i] = loud[i + 1] = true;
-    }
-  }
-  return loud;
-}
-
-/// Next to half a turn in a period a change of the amplitude moves one part of the mode, and the
-/// feedback of the other part changes its sign within a fraction of a row, which a straight line from
-/// row to row cannot follow.
-void calm_between_rows(const Resonator& lowest, double spacing, control::FeltTable<double>& table) {
-  constexpr int most_turns = 12;
-  for (int turn = 0; turn < most_turns; ++turn) {
-    const std::array<bool, felt::rows> loud = loud_rows(lowest, spacing, table);
-    if (std::count(loud.begin(), loud.end(), true) == 0) {
-      return;
-    }
-    for (std::size_t i = 0; i < felt::rows; ++i) {
-      if (loud[i]) {
-        calm(table[i]);
-      }
-    }
-  }
-}
-
 control::FeltTable<double> table_of(const Resonator& lowest, double spacing, const Felt& felt) {
   control::FeltTable<double> table{};
   for (std::size_t i = 0; i < felt::rows; ++i) {
@@ -347,7 +291,6 @@ control::FeltTable<double> table_of(const Resonator& lowest, double spacing, con
     resonator.stiffness += static_cast<double>(i) * spacing;
     table[i] = row_of(resonator, spacing, felt);
   }
-  calm_between_rows(lowest, spacing, table);
   return table;
 }
 
@@ -386,6 +329,9 @@ FeltDesign design_felt(const scene::Scene& scene, const BelievedPlant& plant,
   const Felt felt = felt_of(scene, plant, velocity_m_per_s);
   FeltDesign design;
   design.stiffness_range = stiffness_range(middle.stiffness);
+  constexpr double sure_rad = 0.3;  // by which a mode turns otherwise than believed in a period
+  design.sure_range =
+      std::min(design.stiffness_range, 2.0 * sure_rad / numeric::sqrt(middle.stiffness));
   design.quick = is_quick(mode_model(middle));
   const double range = design.stiffness_range * middle.stiffness;
   const double spacing = 2.0 / (felt::rows - 1) * range;

@@ -19,6 +19,7 @@ struct FeltDesign {
   /// lower, that of the last one as much higher. A mode of 1 is eight times the largest kick.
   control::FeltTable<double> table{};
   double stiffness_range = 0.0;  ///< relative
+  double sure_range = 0.0;       ///< likewise: of stiffnesses that seldom keep it from settling
   bool apart = true;       ///< the mode can be told from the vibration; else the rows are of a gain
   bool quick = true;       ///< the mode can be quieted, see is_quick()
   double blur = 0.0;       ///< rms of a reading without its lag, per vibration velocity, at r = 0.6

@@ -334,6 +334,12 @@ void write_model_error(SceneText& text, const RandomLoop& loop) {
   }
 }
 
+/// By how much the mode turns otherwise than believed in a carrier period.
+double turn_error_rad(const RandomLoop& loop) {
+  const double believed = loop.model_error ? std::sqrt(loop.model_error->stiffness) : 1.0;
+  return numeric::two_pi * loop.mode_per_carrier * std::abs(believed - 1.0);
+}
+
 }  // namespace
 
 Cause cause_of(const RandomLoop& loop) {
@@ -341,6 +347,7 @@ Cause cause_of(const RandomLoop& loop) {
   constexpr double slow_s = 0.5e-3;
   constexpr double forgets = 4.6 / 1.3;  // presliding times until 1 % is left, under vibration
   constexpr double noisy = 2e-3;
+  constexpr double far_rad = 0.3;
   const double nearest = std::round(loop.mode_per_carrier);
   const bool near = nearest != 1.0 && std::abs(loop.mode_per_carrier - nearest) < beside;
   const SensorNumbers& sensor = loop.sensor;
@@ -357,10 +364,11 @@ Cause cause_of(const RandomLoop& loop) {
       sensor.force_noise_N >= noisy * friction_N(loop)) {
     return Cause::coarse_sensor;
   }
-  return loop.law == "dahl" || loop.law == "coulomb" || loop.law == "transverse_coulomb" ||
-                 loop.law == "normal_coulomb"
-             ? Cause::none
-             : Cause::foreign_map;
+  if (loop.law != "dahl" && loop.law != "coulomb" && loop.law != "transverse_coulomb" &&
+      loop.law != "normal_coulomb") {
+    return Cause::foreign_map;
+  }
+  return turn_error_rad(loop) < far_rad ? Cause::none : Cause::far_stiffness;
 }
 
 RandomLoop random_loop(std::uint32_t seed, std::uint32_t index) {
