@@ -7,6 +7,7 @@
 #include <string>
 
 #include "host_sim/cli/options.hpp"
+#include "host_sim/cli/run_watch.hpp"
 #include "host_sim/configure/control_design.hpp"
 #include "host_sim/emulated/controller_header.hpp"
 #include "host_sim/emulated/plant_header.hpp"
@@ -43,6 +44,7 @@ void configure(const ConfigureOptions& options) {
   }
   folder.commit();
   if (!options.quiet) {
+    print_design_notes(design);
     fmt::print("header: {}\n",
                process::printable((out / emulated::controller_header_name).string()));
     if (!options.plant.empty()) {
@@ -67,7 +69,7 @@ void add_configure_command(CLI::App& program) {
                                emulated::plant_header_name))
       ->type_name("float32|q31")
       ->check(CLI::IsMember({"float32", "q31"}));
-  command->add_flag("--quiet", options->quiet, "No word on where the header is");
+  command->add_flag("--quiet", options->quiet, "No notes, and no word on where the header is");
   command->callback([options] { configure(*options); });
 }
 

@@ -7,6 +7,7 @@
 
 #include "host_sim/cli/commands.hpp"
 #include "host_sim/cli/options.hpp"
+#include "host_sim/cli/run_watch.hpp"
 #include "host_sim/fmi/archive/make_fmu.hpp"
 #include "host_sim/output/output_folder.hpp"
 #include "host_sim/process/printable.hpp"
@@ -52,6 +53,9 @@ void write(const FmuOptions& options) {
                     fmi::find_parts(), "sonoglide " SONOGLIDE_VERSION));
   folder.commit();
   if (!options.quiet) {
+    if (content.kind != stepped::Kind::plant) {
+      print_design_notes(configure::design_if_closed(scene));
+    }
     fmt::print("fmu:  {}\nstep: {} s, one carrier period\n", process::printable(options.out),
                1.0 / scene.drive->frequency_Hz);
   }
@@ -81,7 +85,7 @@ void add_fmu_command(CLI::App& program) {
                    ? std::string()
                    : std::string("is no name of an FMU; allowed: a file that ends in .fmu");
       });
-  command->add_flag("--quiet", options->quiet, "No word on where the FMU is");
+  command->add_flag("--quiet", options->quiet, "No notes, and no word on where the FMU is");
   command->callback([options] { write(*options); });
 }
 

@@ -5,6 +5,7 @@
 
 #include <cstdio>
 #include <exception>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -50,16 +51,36 @@ int fail(ExitCode code, std::string_view message) {
   return code;
 }
 
-int fail_usage(std::string_view message) {
-  return fail(
-      bad_input,
-      fmt::format("sonoglide: {}\nsonoglide --help lists the commands and their options", message));
+/// Where the command that the arguments name is explained, or all of them.
+std::string hint(int argument_count, const char* const* arguments,
+                 const std::vector<AddCommand>& command_list) {
+  CLI::App program;
+  for (const AddCommand add_command : command_list) {
+    add_command(program);
+  }
+  std::string name = "sonoglide";
+  const CLI::App* command = &program;
+  for (int i = 1; i < argument_count; ++i) {
+    const auto named = command->get_subcommands(
+        [&](const CLI::App* each) { return each->get_name() == arguments[i]; });
+    if (named.empty()) {
+      break;
+    }
+    command = named.front();
+    name += ' ' + command->get_name();
+  }
+  return fmt::format("{} --help lists {}", name,
+                     command == &program ? "the commands" : "its options");
 }
 
 }  // namespace
 
 int run_program(int argument_count, const char* const* arguments,
                 const std::vector<AddCommand>& command_list) {
+  const auto fail_usage = [&](std::string_view message) {
+    return fail(bad_input, fmt::format("sonoglide: {}\n{}", message,
+                                       hint(argument_count, arguments, command_list)));
+  };
   try {
     parse_and_run(argument_count, arguments, command_list);
     return done;

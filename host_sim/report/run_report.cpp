@@ -144,7 +144,8 @@ ordered_json control(const scene::Scene& scene, const loop::RunResult& result,
       {"largest_tracking_error", number(findings.largest_tracking_error())},
       {"speed_floor_m_per_s", design.speed_floor * design.scales.velocity_m_per_s},
       {"integral_gain", design.senses_force ? design.integral_gain : 0.0},
-      {"signals", signals}};
+      {"signals", signals},
+      {"notes", configure::design_notes(design)}};
   if (design.observes_vibration()) {
     json["vibration_full_scale_m_per_s"] = design.scales.velocity_m_per_s;
   }
@@ -287,8 +288,15 @@ std::string pause_line(const report::PauseMetrics& metrics) {
 std::string step_lines(const scene::Scene& scene, const loop::RunResult& result,
                        const RunFindings& findings) {
   const AmplitudeUnit unit = amplitude_unit(scene);
-  std::string text = fmt::format("{:>11} {:>7} {:>11} {:>10} {:>8} {:>10}  {}\n", "from", "target",
-                                 "settles in", "error", "ripple", "drive", "limit");
+  std::string text;
+  if (scene.controller->calibration_s > 0.0) {
+    text = fmt::format(
+        "friction force learnt with the drive off until {:.3f} ms: the first settling time counts "
+        "from there\n",
+        scene.controller->calibration_s * 1e3);
+  }
+  text += fmt::format("{:>11} {:>7} {:>11} {:>10} {:>8} {:>10}  {}\n", "from", "target",
+                      "settles in", "error", "ripple", "drive", "limit");
   for (const report::StepMetrics& step : findings.steps()) {
     text += fmt::format("{:>8.3f} ms {:>7.3f} {:>11} {:>10} {:>8} {:>8} {}  {}\n",
                         step.time_s * 1e3, step.target, settling(step.settling_time_s),

@@ -14,8 +14,6 @@
 namespace sonoglide::acceptance::command_line_test {
 namespace {
 
-constexpr const char* hint = "sonoglide --help lists the commands and their options\n";
-
 Outcome run(const std::string& arguments) {
   const ScratchFolder folder;
   const Outcome outcome = folder.run(arguments);
@@ -27,7 +25,8 @@ void expect_usage_error(const std::string& arguments, const std::string& error) 
   const Outcome outcome = run(arguments);
   EXPECT_EQ(outcome.exit_code, 2) << arguments;
   EXPECT_EQ(outcome.out, "") << arguments;
-  EXPECT_EQ(outcome.err, "sonoglide: " + error + "\n" + hint);
+  EXPECT_EQ(outcome.err,
+            "sonoglide: " + error + "\n" + usage_hint(arguments.substr(0, arguments.find(' '))));
 }
 
 TEST(CommandLineTest, VersionIsPrintedAlone) {

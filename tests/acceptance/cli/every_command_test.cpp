@@ -18,8 +18,6 @@ namespace {
 namespace fs = std::filesystem;
 using Entries = std::vector<std::string>;
 
-const std::string hint = "\nsonoglide --help lists the commands and their options\n";
-
 bool runs_here(const Command& command) {
   constexpr bool has_emulators = SONOGLIDE_BOARD_TESTS != 0;
   return has_emulators || command.effort != Effort::emulator;
@@ -50,7 +48,7 @@ class CommandTest : public testing::TestWithParam<Command> {
     EXPECT_EQ(folder_.entries(), before) << arguments;
   }
   void expect_usage_error(const std::string& arguments, const std::string& error) const {
-    expect_refused(arguments, 2, "sonoglide: " + error + hint);
+    expect_refused(arguments, 2, "sonoglide: " + error + "\n" + usage_hint(command().name));
   }
   const Command& command() const { return GetParam(); }
 

@@ -1,21 +1,29 @@
 /// Words that the program does not know are named, and what is nearest to them.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <string>
 
+#include "command_table.hpp"
 #include "tests/acceptance/program/odd_names.hpp"
 #include "tests/acceptance/program/program.hpp"
 
 namespace sonoglide::acceptance::usage_test {
 namespace {
 
+bool is_command(const std::string& word) {
+  return std::any_of(command_table.begin(), command_table.end(),
+                     [&](const Command& command) { return command.name == word; });
+}
+
 void expect_refused(const std::string& arguments, const std::string& errors) {
   const ScratchFolder folder;
   const Outcome outcome = folder.run(arguments);
   EXPECT_EQ(outcome.exit_code, 2) << arguments;
   EXPECT_EQ(outcome.out, "") << arguments;
+  const std::string first = arguments.substr(0, arguments.find(' '));
   EXPECT_EQ(outcome.err,
-            "sonoglide: " + errors + "\nsonoglide --help lists the commands and their options\n");
+            "sonoglide: " + errors + "\n" + usage_hint(is_command(first) ? first : std::string()));
   EXPECT_TRUE(folder.entries().empty());
 }
 

@@ -94,7 +94,7 @@ TEST(DesignCommand, BadUsageIsRejected) {
   for (const char* options : {"--ratio 0", "--ratio 1", "--ratio half", "--ratio nan",
                               "--velocity 0.1", "--velocity 0:0.1", "--velocity 0.2:0.1",
                               "--velocity 0.1:0.2:3", "--velocity nan:1", "--velocity 0.1:inf"}) {
-    expect_scene_error(options, "sonoglide --help");
+    expect_scene_error(options, "sonoglide design --help");
   }
 }
 

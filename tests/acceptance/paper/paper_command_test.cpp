@@ -38,7 +38,7 @@ TEST(PaperCommand, BadUsageIsRejected) {
     const Outcome outcome = folder.run(arguments);
     EXPECT_EQ(outcome.exit_code, 2) << arguments;
     EXPECT_EQ(outcome.out, "") << arguments;
-    EXPECT_NE(outcome.err.find("sonoglide --help"), std::string::npos) << arguments;
+    EXPECT_NE(outcome.err.find("sonoglide paper --help"), std::string::npos) << arguments;
   }
   EXPECT_TRUE(folder.entries().empty());
 }

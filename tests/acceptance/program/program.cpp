@@ -28,6 +28,11 @@ fs::path make_folder() {
 
 }  // namespace
 
+std::string usage_hint(const std::string& command) {
+  return command.empty() ? "sonoglide --help lists the commands\n"
+                         : "sonoglide " + command + " --help lists its options\n";
+}
+
 std::string shell_word(const std::string& text) {
   std::string word = "'";
   for (const char each : text) {

@@ -13,6 +13,9 @@ struct Outcome {
   std::string err;
 };
 
+/// The last line of an error of usage. @param command  empty: none was named
+std::string usage_hint(const std::string& command);
+
 /// Any text as one word of a shell.
 std::string shell_word(const std::string& text);
 
