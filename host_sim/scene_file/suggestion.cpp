@@ -51,6 +51,21 @@ bool is_dotted_key(std::string_view name) {
   return table != nullptr && find_key(*table, name.substr(dot + 1)) != nullptr;
 }
 
+/// Dotted keys whose part behind the dot is this one, but for its unit.
+std::vector<std::string> dotted_keys_of(std::string_view key,
+                                        const std::vector<std::string_view>& names) {
+  std::vector<std::string> found;
+  for (const std::string_view name : names) {
+    const std::size_t dot = name.find('.');
+    const std::string_view end =
+        dot == std::string_view::npos ? std::string_view() : name.substr(dot + 1);
+    if (end == key || lacks_only_unit(key, end)) {
+      found.push_back(fmt::format("\"{}\"", name));
+    }
+  }
+  return found;
+}
+
 }  // namespace
 
 std::size_t edit_distance(std::string_view a, std::string_view b) {
@@ -112,6 +127,9 @@ std::string unknown_key(const KeyTable& table, std::string_view key) {
   if (is_dotted_key(key)) {
     return fmt::format("is no number that the true plant may have otherwise; allowed: {}",
                        fmt::join(names, ", "));
+  }
+  if (const auto dotted = dotted_keys_of(key, names); !dotted.empty()) {
+    return fmt::format("unknown key; did you mean {}?", fmt::join(dotted, " or "));
   }
   if (const auto nearest = nearest_name(key, names)) {
     return fmt::format("unknown key; did you mean {}?", *nearest);

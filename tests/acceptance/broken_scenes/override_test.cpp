@@ -48,6 +48,11 @@ const std::vector<BadOverride> bad_overrides = {
      "--set:1:1: plant.mass: unknown key; did you mean mass_kg?"},
     {"unknown_key", "--set plant.mass=3",
      "--set:1:1: plant.mass: unknown key; did you mean mass_kg?"},
+    {"dotted_key_without_its_table", "--set tolerance.stiffness=0.01",
+     "--set:1:1: tolerance.stiffness: unknown key; did you mean \"plant.stiffness_N_per_m\"?"},
+    {"dotted_key_of_several_tables", "--set tolerance.delay_periods=0.01",
+     "--set:1:1: tolerance.delay_periods: unknown key; did you mean \"drive.delay_periods\" or "
+     "\"sensor.delay_periods\"?"},
     {"unknown_table", "--set plan.mass_kg=3",
      "--set:1:1: plan.mass_kg: unknown table; did you mean plant?"},
     {"key_without_table", "--set mass_kg=3",
