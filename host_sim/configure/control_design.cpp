@@ -281,6 +281,7 @@ double half_steady_difference(const scene::Scene& scene, const ControlDesign& de
 }
 
 constexpr double least_presliding_travels = 7.0;  // 0.1 % of the force is left
+constexpr double usual_presliding_travels = 2.0 * least_presliding_travels;
 
 /// The contact must slide through its presliding travel, and the sensor settle, before the friction
 /// force can be learnt; in both directions where the sliding turns meanwhile.
@@ -322,6 +323,12 @@ double readings_for_mean(const scene::Scene& scene, const BelievedPlant& plant) 
   constexpr double most = 16.0;
   const double noise = scene.sensor.force_noise_N / (error * plant.friction_N);
   return std::clamp(std::ceil(noise * noise), 1.0, most);
+}
+
+/// Of a calibration that the contact slides through so many of its presliding travels.
+double calibration_periods(const scene::Scene& scene, const BelievedPlant& plant,
+                           const ControlDesign& design, double travels) {
+  return settling_periods(scene, plant, design, travels) + readings_for_mean(scene, plant) + 2.0;
 }
 
 /// A pause long enough for the presliding travel, and for as many readings as their noise asks for.
@@ -544,6 +551,8 @@ ControlDesign design_control(const scene::Scene& any_scene) {
   }
   design_supervision(scene, plant, design);
   design_calibration(scene, plant, design);
+  design.usual_calibration_s = calibration_periods(scene, plant, design, usual_presliding_travels) *
+                               design.scales.carrier_period_s;
   design_slew(*scene.drive, design);
   design_relearning(scene, plant, design);
   return design;
@@ -556,16 +565,14 @@ std::optional<ControlDesign> design_if_closed(const scene::Scene& scene) {
 double shortest_calibration_s(const scene::Scene& scene, const ControlDesign& design) {
   constexpr double largest_part = 0.5;  // of the time of the first target
   const BelievedPlant plant = believed_plant(scene);
-  const auto periods = [&](double travels) {
-    return settling_periods(scene, plant, design, travels) + readings_for_mean(scene, plant) + 2.0;
-  };
   const auto& targets = scene.controller->target_friction_ratio;
   const double first_s =
       targets.size() > 1 ? std::min(targets[1].time_s, scene.run.duration_s) : scene.run.duration_s;
   const double period_s = design.scales.carrier_period_s;
   const double most = std::floor(largest_part * first_s / period_s);
-  const double chosen = std::min(periods(2.0 * least_presliding_travels), most);
-  const double least = periods(least_presliding_travels);
+  const double chosen =
+      std::min(calibration_periods(scene, plant, design, usual_presliding_travels), most);
+  const double least = calibration_periods(scene, plant, design, least_presliding_travels);
   const auto begun = static_cast<std::uint32_t>(std::max(0.0, chosen));
   return chosen < least || sliding_spells(scene, design, begun).last < least ? 0.0
                                                                              : chosen * period_s;
@@ -636,9 +643,11 @@ std::vector<std::string> design_notes(const ControlDesign& design) {
         "may swing about its target.");
   }
   if (design.feeling && !design.calibrated) {
-    notes.push_back(
-        "The friction force of the scene is believed: where it is another, the friction ratio is "
-        "off by as much. A controller.calibration_s learns it.");
+    notes.push_back(fmt::format(
+        "The friction force of the scene is believed: where it is another, the friction "
+        "ratio is off by as much. A controller.calibration_s of {:.2g} s learns it; by default it "
+        "is learnt where the contact slides for so long and the first target leaves the time.",
+        design.usual_calibration_s));
   }
   if (design.feeling) {
     add_feeling_notes(*design.feeling, notes);

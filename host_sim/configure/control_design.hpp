@@ -59,6 +59,7 @@ struct ControlDesign {
   std::optional<ResonantDesign> resonance;  ///< of a loop that holds the vibration at resonance
   std::optional<DampedDesign> damping;      ///< of a loop that damps the natural mode
   std::optional<FeltDesign> feeling;        ///< of one that feels it in the friction alone
+  double usual_calibration_s = 0.0;         ///< in which contact and sensor settle
 
   bool free_mode = false;  ///< the plant has a natural mode that no notch takes care of
 
