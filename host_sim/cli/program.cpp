@@ -69,8 +69,8 @@ std::string hint(int argument_count, const char* const* arguments,
     command = named.front();
     name += ' ' + command->get_name();
   }
-  return fmt::format("{} --help lists {}", name,
-                     command == &program ? "the commands" : "its options");
+  const bool is_group = !command->get_subcommands([](const CLI::App*) { return true; }).empty();
+  return fmt::format("{} --help lists the {}", name, is_group ? "commands" : "options");
 }
 
 }  // namespace

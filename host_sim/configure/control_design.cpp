@@ -588,31 +588,52 @@ bool tells_mismatch(const scene::Scene& scene) {
 
 namespace {
 
-void add_feeling_notes(const FeltDesign& design, std::vector<std::string>& notes) {
+/// How far the stiffness may be off, where that is less than usual and not told by another note.
+void add_stiffness_note(const FeltDesign& design, std::vector<std::string>& notes) {
   constexpr double usual_range = 0.05;
+  const double least = std::min({design.stiffness_range, design.turn_range, design.multiple_range});
+  if (least >= usual_range || design.multiple_range <= 0.0) {
+    return;
+  }
+  if (least == design.stiffness_range) {
+    notes.push_back(
+        fmt::format("The natural mode is looked for only where the stiffness is within {:.2g} % of "
+                    "the believed one: it is close to the carrier frequency.",
+                    100.0 * least));
+    return;
+  }
+  notes.push_back(fmt::format(
+      "A stiffness that is off by more than {:.2g} % may keep the friction ratio from settling: "
+      "the "
+      "natural mode {}.",
+      100.0 * least,
+      least == design.turn_range
+          ? "then turns by more than 0.3 rad otherwise than believed in a carrier period"
+          : "may then be within 0.06 carrier frequencies of zero or of a multiple of the carrier"));
+}
+
+void add_feeling_notes(const FeltDesign& design, std::vector<std::string>& notes) {
   if (!design.apart) {
     notes.push_back(
         "The natural mode is beside zero or a multiple of the carrier frequency, within 0.5 % of "
         "that frequency: it cannot be told from the vibration and rings with it. The friction "
         "ratio is fed back alone, and stays off its target where the stiffness is not the believed "
         "one or what rings from the last target is too loud.");
-  } else if (design.sure_range < design.stiffness_range && design.sure_range < usual_range) {
-    notes.push_back(
-        fmt::format("A stiffness that is off by more than {:.2g} % may keep the friction ratio "
-                    "from settling: the natural mode then turns by more than 0.3 rad otherwise "
-                    "than believed in a carrier period.",
-                    100.0 * design.sure_range));
-  } else if (design.stiffness_range < usual_range) {
-    notes.push_back(
-        fmt::format("The natural mode is looked for only where the stiffness is within {:.2g} % of "
-                    "the believed one: it is close to the carrier frequency.",
-                    100.0 * design.stiffness_range));
+  } else {
+    if (!design.quick) {
+      notes.push_back(
+          "The natural mode is so near 0 or a multiple of the carrier frequency that no change of "
+          "the amplitude quiets it quickly: the friction ratio may swing about its target or stay "
+          "off it, most of all where the stiffness is not the believed one. Another carrier "
+          "frequency is surer.");
+    }
+    add_stiffness_note(design, notes);
   }
   constexpr double usual_blur = 0.02;
   if (design.blur > usual_blur) {
     notes.push_back(fmt::format(
-        "The force sensor shows little of the natural mode: without its lag a reading is "
-        "uncertain by {:.2g} % of the vibration velocity. A quicker one, or one with "
+        "The force sensor shows little of the natural mode: a reading whose lag is taken out is "
+        "uncertain by {:.3g} % of the vibration velocity. A quicker one, or one with "
         "less noise, shows more; so does a sensor.vibration.",
         100.0 * design.blur));
   }
@@ -635,8 +656,7 @@ std::vector<std::string> design_notes(const ControlDesign& design) {
                     "may leave room for one.",
                     100.0 * design.shaping_range));
   }
-  if ((design.damping && !design.damping->quick) ||
-      (design.feeling && design.feeling->apart && !design.feeling->quick)) {
+  if (design.damping && !design.damping->quick) {
     notes.push_back(
         "The natural mode is so near 0 or a multiple of the carrier frequency that no change of "
         "the amplitude quiets it quickly: the vibration velocity is held, and the friction ratio "
@@ -644,9 +664,10 @@ std::vector<std::string> design_notes(const ControlDesign& design) {
   }
   if (design.feeling && !design.calibrated) {
     notes.push_back(fmt::format(
-        "The friction force of the scene is believed: where it is another, the friction "
-        "ratio is off by as much. A controller.calibration_s of {:.2g} s learns it; by default it "
-        "is learnt where the contact slides for so long and the first target leaves the time.",
+        "The friction force of the scene is believed: where it is another, the friction ratio is "
+        "off by as much. A controller.calibration_s of {:.3g} s learns it with the drive off; the "
+        "first target has to hold for twice as long. Without that key it is learnt where the first "
+        "target does.",
         design.usual_calibration_s));
   }
   if (design.feeling) {

@@ -260,6 +260,15 @@ bool is_one_with_vibration(const Resonator& resonator) {
          (nearest == 0.0 || 0.5 * resonator.damping < decay);
 }
 
+/// By how much the stiffness may be off until a mode is next to zero or a multiple of the carrier,
+/// where it is hardly quieted; relative.
+double multiple_range(const Resonator& resonator) {
+  constexpr double beside = 0.06;
+  const double turns = numeric::sqrt(resonator.stiffness) / numeric::two_pi;
+  const double nearest = std::round(turns);
+  return nearest == 1.0 ? 1.0 : 2.0 * (std::abs(turns - nearest) - beside) / turns;
+}
+
 /// Of such a mode: it rings with the drive, so what it adds counts as a gain. The first row has the
 /// steady vibration alone, the last one a mode that rings with 1.2 times its displacement.
 control::FeltTable<double> table_of_gains(const Resonator& resonator, const Felt& felt) {
@@ -329,9 +338,9 @@ FeltDesign design_felt(const scene::Scene& scene, const BelievedPlant& plant,
   const Felt felt = felt_of(scene, plant, velocity_m_per_s);
   FeltDesign design;
   design.stiffness_range = stiffness_range(middle.stiffness);
-  constexpr double sure_rad = 0.3;  // by which a mode turns otherwise than believed in a period
-  design.sure_range =
-      std::min(design.stiffness_range, 2.0 * sure_rad / numeric::sqrt(middle.stiffness));
+  constexpr double nearly_rad = 0.3;
+  design.turn_range = 2.0 * nearly_rad / numeric::sqrt(middle.stiffness);
+  design.multiple_range = multiple_range(middle);
   design.quick = is_quick(mode_model(middle));
   const double range = design.stiffness_range * middle.stiffness;
   const double spacing = 2.0 / (felt::rows - 1) * range;

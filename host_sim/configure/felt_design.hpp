@@ -19,7 +19,9 @@ struct FeltDesign {
   /// lower, that of the last one as much higher. A mode of 1 is eight times the largest kick.
   control::FeltTable<double> table{};
   double stiffness_range = 0.0;  ///< relative
-  double sure_range = 0.0;       ///< likewise: of stiffnesses that seldom keep it from settling
+  double turn_range = 0.0;  ///< likewise, in which the mode turns nearly as believed in a period
+  double multiple_range =
+      0.0;                 ///< likewise, in which it stays away from zero and multiples; or < 0
   bool apart = true;       ///< the mode can be told from the vibration; else the rows are of a gain
   bool quick = true;       ///< the mode can be quieted, see is_quick()
   double blur = 0.0;       ///< rms of a reading without its lag, per vibration velocity, at r = 0.6

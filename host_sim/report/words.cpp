@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <utility>
 
 #include "firmware/control/names.hpp"
@@ -34,6 +35,9 @@ std::string settling_name(control::Settling settling) {
 
 std::string limit_text(const report::StepMetrics& step) {
   std::string text = limit_name(step.limit);
+  if (std::isnan(step.steady_error)) {
+    return text + ", no carrier period of it to judge by";
+  }
   if (step.limit == control::Limit::not_settling && step.cause != control::Settling::pending) {
     text += fmt::format(" ({})", settling_name(step.cause));
   }

@@ -66,6 +66,16 @@ std::vector<std::string> dotted_keys_of(std::string_view key,
   return found;
 }
 
+/// The first of the dotted keys of a table.
+std::optional<std::string_view> first_of_table(std::string_view table,
+                                               const std::vector<std::string_view>& names) {
+  const auto found = std::find_if(names.begin(), names.end(), [table](std::string_view name) {
+    const std::size_t dot = name.find('.');
+    return dot != std::string_view::npos && name.substr(0, dot) == table;
+  });
+  return found == names.end() ? std::nullopt : std::optional(*found);
+}
+
 }  // namespace
 
 std::size_t edit_distance(std::string_view a, std::string_view b) {
@@ -130,6 +140,10 @@ std::string unknown_key(const KeyTable& table, std::string_view key) {
   }
   if (const auto dotted = dotted_keys_of(key, names); !dotted.empty()) {
     return fmt::format("unknown key; did you mean {}?", fmt::join(dotted, " or "));
+  }
+  if (const auto of_table = first_of_table(key, names)) {
+    return fmt::format("unknown key; one of another table stands in quotes here, as \"{}\"",
+                       *of_table);
   }
   if (const auto nearest = nearest_name(key, names)) {
     return fmt::format("unknown key; did you mean {}?", *nearest);

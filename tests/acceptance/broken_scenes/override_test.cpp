@@ -53,6 +53,9 @@ const std::vector<BadOverride> bad_overrides = {
     {"dotted_key_of_several_tables", "--set tolerance.delay_periods=0.01",
      "--set:1:1: tolerance.delay_periods: unknown key; did you mean \"drive.delay_periods\" or "
      "\"sensor.delay_periods\"?"},
+    {"key_of_another_table_without_quotes", "--set tolerance.plant=0.01",
+     "--set:1:1: tolerance.plant: unknown key; one of another table stands in quotes here, as "
+     "\"plant.mass_kg\""},
     {"unknown_table", "--set plan.mass_kg=3",
      "--set:1:1: plan.mass_kg: unknown table; did you mean plant?"},
     {"key_without_table", "--set mass_kg=3",

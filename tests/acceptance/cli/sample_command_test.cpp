@@ -52,7 +52,7 @@ TEST_F(SampleCommandTest, FailsAsTheOthersDo) {
     EXPECT_EQ(outcome.err, error + "\n");
     EXPECT_EQ(folder_.entries(), Entries{"scene.toml"});
   };
-  const std::string hint = "\nsonoglide natural-mode --help lists its options";
+  const std::string hint = "\nsonoglide natural-mode --help lists the options";
   expect_refused("", 2, "sonoglide: scene is required" + hint);
   expect_refused("scene.toml --quite", 2,
                  "sonoglide: --quite is no option of natural-mode; did you mean --quiet?" + hint);

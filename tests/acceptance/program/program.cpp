@@ -30,7 +30,7 @@ fs::path make_folder() {
 
 std::string usage_hint(const std::string& command) {
   return command.empty() ? "sonoglide --help lists the commands\n"
-                         : "sonoglide " + command + " --help lists its options\n";
+                         : "sonoglide " + command + " --help lists the options\n";
 }
 
 std::string shell_word(const std::string& text) {

@@ -183,7 +183,7 @@ TEST_F(SweepCommandTest, BadInputIsFoundBeforeAnythingRuns) {
   expect_refused("open.toml --vary velocity_ratio=0.1:1:3 --vary friction.coefficient=99:101:3",
                  "--vary:2:1: friction.coefficient: 101 is out of range; allowed: 0 to "
                  "100 (at velocity_ratio=0.1, friction.coefficient=101)");
-  const std::string hint = "\nsonoglide sweep --help lists its options";
+  const std::string hint = "\nsonoglide sweep --help lists the options";
   expect_refused("open.toml", "sonoglide: --vary is required" + hint);
   expect_refused("open.toml --vary velocity_ratio=0.1:1:3 --threads 0",
                  "sonoglide: --threads: \"0\"; allowed: a whole number, 1 to 1024" + hint);

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <vector>
 
 #include "host_sim/report/words.hpp"
@@ -158,6 +159,9 @@ TEST(StepMetricsTest, AnOffsetIsAMismatchOnlyWhereTheReadingHasSettled) {
   const StepMetrics pending = judged_step(control::Settling::pending, off);
   EXPECT_EQ(pending.limit, control::Limit::not_settling);
   EXPECT_EQ(limit_text(pending), "not_settling (offset), not yet judged by the controller");
+  StepMetrics swallowed = pending;
+  swallowed.steady_error = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(limit_text(swallowed), "not_settling, no carrier period of it to judge by");
 }
 
 TEST(StepMetricsTest, ALateStepKeepsTheLimitThatTheControllerNames) {
