@@ -604,8 +604,7 @@ void add_stiffness_note(const FeltDesign& design, std::vector<std::string>& note
   }
   notes.push_back(fmt::format(
       "A stiffness that is off by more than {:.2g} % may keep the friction ratio from settling: "
-      "the "
-      "natural mode {}.",
+      "the natural mode {}.",
       100.0 * least,
       least == design.turn_range
           ? "then turns by more than 0.3 rad otherwise than believed in a carrier period"
