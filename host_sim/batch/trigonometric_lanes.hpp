@@ -54,8 +54,10 @@ HWY_INLINE SineAndCosine<hn::Vec<D>> sine_and_cosine(D d, hn::Vec<D> x) {
   const auto r =
       fused_negative(hn::Sub(shifted, rounder), hn::Set(d, static_cast<Scalar>(quarter_turn)), x);
   const auto square = hn::Mul(r, r);
-  const auto sine = hn::Mul(r, alternating_series < 1, narrow ? 9 : 13 > (d, square));
-  const auto cosine = alternating_series < 0, narrow ? 8 : 14 > (d, square);
+  constexpr int last_of_sine = narrow ? 9 : 13;
+  constexpr int last_of_cosine = narrow ? 8 : 14;
+  const auto sine = hn::Mul(r, alternating_series<1, last_of_sine>(d, square));
+  const auto cosine = alternating_series<0, last_of_cosine>(d, square);
 
   const auto quadrant = hn::BitCast(integers, shifted);
   const auto one = hn::Set(integers, Bits{1});
