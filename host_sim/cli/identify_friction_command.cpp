@@ -12,7 +12,7 @@
 #include "host_sim/cli/options.hpp"
 #include "host_sim/cli/progress_bar.hpp"
 #include "host_sim/studies/identify/friction/report.hpp"
-#include "host_sim/studies/identify/measured_table.hpp"
+#include "host_sim/studies/identify/text_file.hpp"
 
 namespace sonoglide::cli {
 namespace {

@@ -13,7 +13,7 @@
 #include "host_sim/studies/identify/impedance/read_sweep.hpp"
 #include "host_sim/studies/identify/impedance/report.hpp"
 #include "host_sim/studies/identify/impedance/study.hpp"
-#include "host_sim/studies/identify/measured_table.hpp"
+#include "host_sim/studies/identify/text_file.hpp"
 
 namespace sonoglide::cli {
 namespace {

@@ -20,7 +20,7 @@
 #include "host_sim/studies/identify/friction/report.hpp"
 #include "host_sim/studies/identify/impedance/read_sweep.hpp"
 #include "host_sim/studies/identify/impedance/study.hpp"
-#include "host_sim/studies/identify/measured_table.hpp"
+#include "host_sim/studies/identify/text_file.hpp"
 #include "host_sim/studies/sweep/plan.hpp"
 #include "host_sim/studies/sweep/row.hpp"
 #include "host_sim/studies/sweep/rows.hpp"

@@ -3,49 +3,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <charconv>
-#include <cmath>
-#include <fstream>
-#include <system_error>
+#include <cctype>
+#include <optional>
+#include <tuple>
+#include <utility>
+
+#include "host_sim/studies/identify/plain_text.hpp"
+#include "host_sim/studies/identify/unit.hpp"
 
 namespace sonoglide::identify {
 namespace {
 
 using scene_file::SceneError;
-
-constexpr std::string_view blanks = " \t\r\v\f";
-
-std::string_view trimmed(std::string_view text) {
-  const std::size_t begin = text.find_first_not_of(blanks);
-  if (begin == std::string_view::npos) {
-    return {};
-  }
-  return text.substr(begin, text.find_last_not_of(blanks) - begin + 1);
-}
-
-[[noreturn]] void refuse(const std::string& file, const std::string& message) {
-  throw SceneError({file, 1, 1}, "file", message);
-}
-
-void require_text(const std::string& file, std::string_view text) {
-  constexpr std::string_view allowed = "allowed: a text file of measurements, ASCII or UTF-8";
-  const auto starts_with = [&](std::string_view mark) { return text.substr(0, 2) == mark; };
-  if (starts_with("\xff\xfe") || starts_with("\xfe\xff")) {
-    refuse(file, fmt::format("is text in UTF-16; {}", allowed));
-  }
-  const std::size_t zero = text.find('\0');
-  if (zero != std::string_view::npos) {
-    refuse(file, fmt::format("is no text, byte {} is 0; {}", zero, allowed));
-  }
-  if (text.find_first_not_of(" \t\r\n") == std::string_view::npos) {
-    refuse(file, fmt::format("is empty; {}", allowed));
-  }
-}
-
-bool is_comment(std::string_view line) {
-  return !line.empty() && (line.front() == '#' || line.front() == '!' || line.front() == '%');
-}
 
 /// The one that a heading is split at.
 char separator_of(std::string_view heading) {
@@ -57,21 +26,208 @@ char separator_of(std::string_view heading) {
   return ' ';
 }
 
-bool is_numeric(std::string_view cell, bool decimal_comma) {
-  double value = 0.0;
-  return parse_number(cell, decimal_comma, value) || cell == "nan" || cell == "NaN";
+bool is_numeric_in(std::string_view cell, char separator) {
+  return is_numeric(cell, separator != ',');
 }
 
-std::size_t numeric_cells(const std::vector<Cell>& cells, char separator) {
-  return static_cast<std::size_t>(std::count_if(cells.begin(), cells.end(), [&](const Cell& each) {
-    return is_numeric(each.text, separator != ',');
-  }));
+std::string shortened(std::string_view text) {
+  constexpr std::size_t most = 40;
+  return std::string(trimmed(text).substr(0, most));
 }
 
-/// A cell of the line of units as it stands behind a name.
-std::string in_brackets(std::string_view unit) {
-  return unit.find_first_of("([") == std::string_view::npos ? fmt::format("[{}]", unit)
-                                                            : std::string(unit);
+std::string counted(const std::vector<Cell>& cells) {
+  return cells.size() > most_cells ? fmt::format("more than {}", most_cells)
+                                   : fmt::format("{}", cells.size());
+}
+
+/// The line as a heading: at least two cells, none of them a number.
+std::optional<Heading> heading_of(const Line& line) {
+  std::string_view text = line.text;
+  if (is_comment(text)) {
+    text.remove_prefix(text.find_first_of("#!%") + 1);
+  }
+  Heading heading;
+  heading.line = line.number;
+  heading.separator = separator_of(text);
+  std::vector<Cell> cells = cells_of(text, heading.separator);
+  while (!cells.empty() && cells.back().text.empty()) {
+    cells.pop_back();
+  }
+  if (cells.size() < 2 || cells.size() > most_cells ||
+      std::any_of(cells.begin(), cells.end(),
+                  [&](const Cell& each) { return is_numeric_in(each.text, heading.separator); })) {
+    return std::nullopt;
+  }
+  for (const Cell& each : cells) {
+    heading.names.emplace_back(each.text);
+    heading.places.push_back(each.column + (line.text.size() - text.size()));
+  }
+  return heading;
+}
+
+bool has_brackets(std::string_view text) {
+  return text.find_first_of("([") != std::string_view::npos;
+}
+
+/// Whether a line of words below a heading has its units.
+bool is_line_of_units(const Heading& units, const Heading& heading,
+                      const MeasuredTable::IsWanted& is_wanted) {
+  if (units.names.size() > heading.names.size() || units.separator != heading.separator ||
+      units.line != heading.line + 1) {
+    return false;
+  }
+  const bool has_unit =
+      std::any_of(units.names.begin(), units.names.end(), [](const std::string& each) {
+        const bool bracketed = !each.empty() && has_brackets(each.substr(0, 1));
+        return bracketed || unit_of_text(plain_text(each)).has_value();
+      });
+  return has_unit || (is_wanted(heading.names) && !is_wanted(units.names));
+}
+
+void join(Heading& heading, const Heading& units) {
+  for (std::size_t i = 0; i < units.names.size(); ++i) {
+    const std::string& unit = units.names[i];
+    if (!unit.empty()) {
+      heading.names[i] += has_brackets(unit) ? " " + unit : fmt::format(" [{}]", unit);
+    }
+  }
+}
+
+/// Lines of numbers below a heading.
+class Rows {
+ public:
+  Rows(const std::vector<Line>& lines, std::size_t begin, const Heading& heading)
+      : lines_(lines), heading_(heading) {
+    for (end_ = begin; end_ < lines.size() && trimmed(lines[end_].text) != "END"; ++end_) {
+      if (is_comment(lines[end_].text)) {
+        continue;
+      }
+      if (found_.empty()) {
+        labelled_ = !begins_with_number(lines[end_]) && is_labelled(lines[end_]);
+      }
+      if (!is_row(lines[end_])) {
+        break;
+      }
+      found_.push_back(lines[end_]);
+    }
+  }
+
+  const std::vector<Line>& found() const { return found_; }
+
+  bool fits() const {
+    if (found_.empty()) {
+      return false;
+    }
+    const std::vector<Cell> cells = cells_of(found_.front().text, heading_.separator);
+    return cells.size() >= heading_.names.size() &&
+           std::all_of(cells.begin() + static_cast<std::ptrdiff_t>(heading_.names.size()),
+                       cells.end(), [](const Cell& each) { return each.text.empty(); });
+  }
+
+  /// The line that ends them, if it is neither `END` nor the end of the text.
+  const Line* line_below() const {
+    return end_ < lines_.size() && trimmed(lines_[end_].text) != "END" ? &lines_[end_] : nullptr;
+  }
+
+  bool has_rows_below() const {
+    return std::any_of(lines_.begin() + static_cast<std::ptrdiff_t>(end_), lines_.end(),
+                       [&](const Line& each) {
+                         return !is_comment(each.text) && is_row(each) &&
+                                cells_of(each.text, heading_.separator).size() > 1;
+                       });
+  }
+
+ private:
+  bool begins_with_number(const Line& line) const {
+    const std::vector<Cell> cells = cells_of(line.text, heading_.separator);
+    const auto first = std::find_if(cells.begin(), cells.end(),
+                                    [](const Cell& each) { return !each.text.empty(); });
+    return first != cells.end() && is_numeric_in(first->text, heading_.separator);
+  }
+
+  /// As many cells as the heading, the first of them a word with a digit, as a time has; one of the
+  /// others a number.
+  bool is_labelled(const Line& line) const {
+    const std::vector<Cell> cells = cells_of(line.text, heading_.separator);
+    const std::string_view label = cells.front().text;
+    return cells.size() == heading_.names.size() &&
+           std::any_of(label.begin(), label.end(),
+                       [](unsigned char each) { return std::isdigit(each) != 0; }) &&
+           std::any_of(cells.begin() + 1, cells.end(), [&](const Cell& each) {
+             return is_numeric_in(each.text, heading_.separator);
+           });
+  }
+
+  bool is_row(const Line& line) const {
+    return labelled_ ? is_labelled(line) : begins_with_number(line);
+  }
+
+  const std::vector<Line>& lines_;
+  const Heading& heading_;
+  std::vector<Line> found_;
+  std::size_t end_;
+  bool labelled_ = false;
+};
+
+struct Found {
+  Heading heading;
+  std::size_t first_row = 0;  ///< its place among the lines
+  std::size_t rows = 0;
+};
+
+void require_one_table(const scene_file::Source& source, const std::vector<Found>& wanted,
+                       const Found& best) {
+  for (const Found& each : wanted) {
+    // Settings may stand as one row below their names.
+    if (each.heading.line != best.heading.line && each.rows > 1) {
+      throw SceneError({source.file, std::max(each.heading.line, best.heading.line), 1}, "heading",
+                       fmt::format("a second table, beside that of line {}; allowed: one table in "
+                                   "a file",
+                                   std::min(each.heading.line, best.heading.line)));
+    }
+  }
+}
+
+Found find_heading(const scene_file::Source& source, const std::vector<Line>& lines,
+                   const MeasuredTable::IsWanted& is_wanted) {
+  std::optional<Found> best;
+  std::vector<Found> all_wanted;
+  std::tuple<bool, bool, bool, std::size_t> best_rank;
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    std::optional<Heading> heading = heading_of(lines[i]);
+    if (!heading) {
+      continue;
+    }
+    if (i + 1 < lines.size()) {
+      const auto units = heading_of(lines[i + 1]);
+      if (units && is_line_of_units(*units, *heading, is_wanted)) {
+        join(*heading, *units);
+        ++i;
+      }
+    }
+    const bool wanted = is_wanted(heading->names);
+    // A remark may stand between the heading and its rows.
+    const bool has_remark = wanted && i + 2 < lines.size() &&
+                            cells_of(lines[i + 1].text, heading->separator).size() == 1 &&
+                            Rows(lines, i + 1, *heading).found().empty();
+    const std::size_t first_row = i + (has_remark ? 2 : 1);
+    const Rows rows(lines, first_row, *heading);
+    const std::tuple rank(!rows.found().empty(), wanted, rows.fits(), rows.found().size());
+    if (wanted) {
+      all_wanted.push_back({*heading, first_row, rows.found().size()});
+    }
+    if (!best || rank >= best_rank) {
+      best_rank = rank;
+      best = Found{std::move(*heading), first_row, rows.found().size()};
+    }
+  }
+  if (!best) {
+    throw SceneError({source.file, 1, 1}, "heading",
+                     "no line names the columns; allowed: a heading of at least two names, as "
+                     "frequency_Hz,impedance_magnitude_ohm,impedance_phase_deg");
+  }
+  require_one_table(source, all_wanted, *best);
+  return std::move(*best);
 }
 
 /// The mark of a number's fraction; 0 where it has none.
@@ -91,119 +247,35 @@ std::string unit_in_brackets(const std::string& name) {
   return name.substr(open + 1, close == std::string::npos ? close : close - open - 1);
 }
 
-std::string warning_of_cut(const scene_file::Source& source) {
-  const std::string_view last = lines_of(source.text).back();
-  const bool ends = source.text.find_last_of("\r\n") + 1 == source.text.size();
-  if (ends || trimmed(last) == "END") {
-    return {};
-  }
-  return fmt::format("The last line, \"{}\", has no line end: if the file was cut, it is wrong.",
-                     trimmed(last).substr(0, 60));
-}
-
-scene_file::Source read_text(const std::filesystem::path& path) {
-  const std::string file = path.string();
-  constexpr std::string_view allowed = "allowed: a readable file of measurements";
-  std::error_code error;
-  if (std::filesystem::is_directory(path, error)) {
-    refuse(file, fmt::format("is a directory; {}", allowed));
-  }
-  errno = 0;
-  std::ifstream stream(path, std::ios::binary);
-  if (!stream) {
-    refuse(file, fmt::format("{}; {}", std::generic_category().message(errno), allowed));
-  }
-  std::string text;
-  constexpr std::size_t piece = std::size_t{1} << 20U;
-  while (stream && text.size() <= most_bytes) {
-    const std::size_t size = text.size();
-    text.resize(size + piece);
-    stream.read(text.data() + size, static_cast<std::streamsize>(piece));
-    text.resize(size + static_cast<std::size_t>(stream.gcount()));
-  }
-  if (stream.bad()) {
-    refuse(file, fmt::format("cannot be read; {}", allowed));
-  }
-  if (text.size() > most_bytes) {
-    refuse(file, fmt::format("is too large; allowed: up to {} MB", most_bytes >> 20U));
-  }
-  require_text(file, text);
-  constexpr std::string_view mark = "\xef\xbb\xbf";
-  if (text.compare(0, mark.size(), mark) == 0) {
-    text.erase(0, mark.size());
-  }
-  return {file, std::move(text)};
-}
-
-bool parse_number(std::string_view cell, bool decimal_comma, double& value) {
-  if (!cell.empty() && cell.front() == '+') {
-    cell.remove_prefix(1);
-  }
-  std::string with_point;
-  if (decimal_comma && cell.find(',') != std::string_view::npos &&
-      cell.find('.') == std::string_view::npos) {
-    with_point = cell;
-    with_point[cell.find(',')] = '.';
-    cell = with_point;
-  }
-  const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
-  return error == std::errc() && end == cell.data() + cell.size() && std::isfinite(value);
-}
-
-std::vector<std::string_view> lines_of(std::string_view text) {
-  std::vector<std::string_view> lines;
-  while (!text.empty()) {
-    // Instruments of old end their lines with CR alone.
-    const std::size_t end = std::min(text.find_first_of("\r\n"), text.size());
-    lines.push_back(text.substr(0, end));
-    const bool both = text.substr(end, 2) == "\r\n";
-    text.remove_prefix(std::min(end + (both ? 2 : 1), text.size()));
-  }
-  return lines;
-}
-
-std::vector<Cell> cells_of(std::string_view line, char separator) {
-  std::vector<Cell> cells;
-  std::size_t at = 0;
-  while (true) {
-    if (separator == ' ') {
-      at = line.find_first_not_of(blanks, at);
-      if (at == std::string_view::npos) {
-        return cells;
-      }
+MeasuredTable::MeasuredTable(const scene_file::Source& source, const IsWanted& is_wanted)
+    : source_(source) {
+  const std::vector<Line> lines = lines_of(source);
+  Found found = find_heading(source, lines, is_wanted);
+  heading_ = std::move(found.heading);
+  const Rows rows(lines, found.first_row, heading_);
+  rows_ = rows.found();
+  if (const Line* below = rows.line_below()) {
+    if (rows.has_rows_below()) {
+      throw SceneError({source.file, below->number, 1}, "row",
+                       fmt::format("\"{}\" ends the table, and rows stand below it; allowed: one "
+                                   "table in a file, its rows without a break",
+                                   shortened(below->text)));
     }
-    const std::size_t first = std::min(line.find_first_not_of(" \v\f", at), line.size());
-    const bool quoted = first < line.size() && line[first] == '"';
-    const std::size_t closing = quoted ? line.find('"', first + 1) : std::string_view::npos;
-    const std::size_t from = closing == std::string_view::npos ? at : closing;
-    const std::size_t end =
-        std::min(separator == ' ' ? line.find_first_of(blanks, from) : line.find(separator, from),
-                 line.size());
-    std::string_view text = trimmed(line.substr(at, end - at));
-    if (text.size() >= 2 && text.front() == '"' && text.back() == '"') {
-      text = trimmed(text.substr(1, text.size() - 2));
-    }
-    cells.push_back({text, std::min(first, end) + 1});
-    if (end == line.size()) {
-      return cells;
-    }
-    at = end + 1;
-  }
-}
-
-MeasuredTable::MeasuredTable(const scene_file::Source& source) : source_(source) {
-  const std::vector<std::string_view> lines = lines_of(source.text);
-  std::size_t first_row = lines.size();
-  find_heading(lines, first_row);
-  for (std::size_t i = first_row; i < lines.size(); ++i) {
-    const std::string_view line = trimmed(lines[i]);
-    if (line == "END") {
-      break;
-    }
-    if (!line.empty() && !is_comment(line)) {
-      rows_.push_back({lines[i], i + 1});
+    if (!rows_.empty()) {
+      warnings_.push_back(fmt::format("Line {}, \"{}\", stands below the table and is not read.",
+                                      below->number, shortened(below->text)));
     }
   }
+  check();
+}
+
+MeasuredTable::MeasuredTable(const scene_file::Source& source, Heading heading,
+                             std::vector<Line> rows)
+    : source_(source), heading_(std::move(heading)), rows_(std::move(rows)) {
+  check();
+}
+
+void MeasuredTable::check() const {
   if (rows_.empty()) {
     throw heading_error("no row of numbers below the heading; allowed: at least one");
   }
@@ -212,37 +284,38 @@ MeasuredTable::MeasuredTable(const scene_file::Source& source) : source_(source)
 }
 
 void MeasuredTable::require_no_surplus() const {
-  for (const Row& row : rows_) {
-    const std::vector<Cell> cells = cells_of(row.line, separator_);
-    for (std::size_t i = names_.size(); i < cells.size(); ++i) {
-      if (!cells[i].text.empty()) {
+  for (const Line& row : rows_) {
+    const std::vector<Cell> cells = cells_of(row.text, heading_.separator);
+    for (std::size_t i = names().size(); i < cells.size(); ++i) {
+      if (!cells[i].text.empty() || i == most_cells) {
         throw SceneError(
             {source_.file, row.number, cells[i].column}, "row",
             fmt::format("cells on this line: {}; allowed: one for each of the {} columns{}",
-                        cells.size(), names_.size(),
-                        separator_ == ',' ? "; numbers with decimal commas need semicolons or tabs "
-                                            "between them"
-                                          : ""));
+                        counted(cells), names().size(),
+                        heading_.separator == ','
+                            ? "; numbers with decimal commas need semicolons or tabs "
+                              "between them"
+                            : ""));
       }
     }
   }
 }
 
 void MeasuredTable::require_one_decimal_mark() const {
-  if (separator_ == ',') {
+  if (heading_.separator == ',') {
     return;
   }
   char mark = '\0';
   std::size_t line_of_mark = 0;
-  for (const Row& row : rows_) {
-    for (const Cell& each : cells_of(row.line, separator_)) {
+  for (const Line& row : rows_) {
+    for (const Cell& each : cells_of(row.text, heading_.separator)) {
       const char found = decimal_mark(each.text);
       if (found != '\0' && mark != '\0' && found != mark) {
         throw SceneError(
             {source_.file, row.number, each.column}, "row",
             fmt::format("\"{}\" has a decimal {}, and line {} has decimal {}; allowed: "
                         "one of them in a file, and nothing between thousands",
-                        each.text.substr(0, 40), found == ',' ? "comma" : "point", line_of_mark,
+                        shortened(each.text), found == ',' ? "comma" : "point", line_of_mark,
                         mark == ',' ? "commas" : "points"));
       }
       if (found != '\0' && mark == '\0') {
@@ -253,79 +326,20 @@ void MeasuredTable::require_one_decimal_mark() const {
   }
 }
 
-/// Whether the line is a heading: at least two cells, all of words; joined to the one above, if that
-/// is of as many words.
-bool MeasuredTable::take_heading(std::string_view line, std::size_t number) {
-  const char separator = separator_of(line);
-  const std::vector<Cell> cells = cells_of(line, separator);
-  if (cells.size() < 2 || numeric_cells(cells, separator) != 0) {
-    return false;
-  }
-  const bool units =
-      names_.size() == cells.size() && separator == separator_ && number == heading_line_ + 1;
-  if (!units) {
-    names_.assign(cells.size(), "");
-    heading_line_ = number;
-    separator_ = separator;
-  }
-  for (std::size_t i = 0; i < cells.size(); ++i) {
-    names_[i] += !units                  ? std::string(cells[i].text)
-                 : cells[i].text.empty() ? std::string()
-                                         : " " + in_brackets(cells[i].text);
-  }
-  return true;
-}
-
-void MeasuredTable::find_heading(const std::vector<std::string_view>& lines,
-                                 std::size_t& first_row) {
-  std::size_t last_comment = lines.size();
-  for (std::size_t i = 0; i < lines.size(); ++i) {
-    const std::string_view line = trimmed(lines[i]);
-    if (line.empty()) {
-      continue;
-    }
-    if (is_comment(line)) {
-      last_comment = i;
-      continue;
-    }
-    const char separator = names_.empty() ? separator_of(line) : separator_;
-    const std::vector<Cell> cells = cells_of(lines[i], separator);
-    const bool begins_with_number = is_numeric(cells.front().text, separator != ',');
-    const bool like_heading = cells.size() == names_.size() && numeric_cells(cells, separator) > 0;
-    if (cells.size() >= 2 && (begins_with_number || like_heading)) {
-      first_row = i;
-      break;
-    }
-    take_heading(lines[i], i + 1);
-  }
-  if (names_.empty() && last_comment < first_row) {
-    take_heading(trimmed(lines[last_comment]).substr(1), last_comment + 1);
-  }
-  if (names_.empty()) {
-    throw SceneError({source_.file, 1, 1}, "heading",
-                     "no line names the columns; allowed: a heading of at least two names, as "
-                     "frequency_Hz,impedance_magnitude_ohm,impedance_phase_deg");
-  }
-}
-
 Cell MeasuredTable::cell(std::size_t row, std::size_t column) const {
-  const std::vector<Cell> cells = cells_of(rows_[row].line, separator_);
+  const std::vector<Cell> cells = cells_of(rows_[row].text, heading_.separator);
   if (column >= cells.size()) {
-    throw SceneError({source_.file, rows_[row].number, rows_[row].line.size() + 1}, names_[column],
+    throw SceneError({source_.file, rows_[row].number, rows_[row].text.size() + 1}, names()[column],
                      fmt::format("cells on this line: {}; allowed: one for each of the {} columns",
-                                 cells.size(), names_.size()));
+                                 cells.size(), names().size()));
   }
   return cells[column];
-}
-
-std::string_view MeasuredTable::text(std::size_t row, std::size_t column) const {
-  return cell(row, column).text;
 }
 
 std::vector<double> MeasuredTable::numbers(std::size_t column) const {
   std::vector<double> values(rows_.size());
   for (std::size_t row = 0; row < rows_.size(); ++row) {
-    if (!parse_number(cell(row, column).text, separator_ != ',', values[row])) {
+    if (!parse_number(cell(row, column).text, heading_.separator != ',', values[row])) {
       throw error(row, column, "is no number; allowed: a finite number");
     }
   }
@@ -336,12 +350,16 @@ SceneError MeasuredTable::error(std::size_t row, std::size_t column,
                                 const std::string& message) const {
   const Cell at = cell(row, column);
   return {{source_.file, rows_[row].number, at.column},
-          names_[column],
-          fmt::format("\"{}\" {}", at.text.substr(0, 40), message)};
+          names()[column],
+          fmt::format("\"{}\" {}", shortened(at.text), message)};
 }
 
 SceneError MeasuredTable::heading_error(const std::string& message) const {
-  return {{source_.file, heading_line_, 1}, "heading", message};
+  return {{source_.file, heading_.line, 1}, "heading", message};
+}
+
+SceneError MeasuredTable::heading_error(std::size_t column, const std::string& message) const {
+  return {{source_.file, heading_.line, heading_.places[column]}, "heading", message};
 }
 
 }  // namespace sonoglide::identify

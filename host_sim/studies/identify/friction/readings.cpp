@@ -48,6 +48,26 @@ std::vector<std::string_view> known_names() {
   return names;
 }
 
+const Known* find_known(std::string_view name) {
+  const auto* const each =
+      std::find_if(known.begin(), known.end(), [&](const Known& any) { return any.name == name; });
+  return each == known.end() ? nullptr : each;
+}
+
+/// Without the unit in brackets that ends it.
+std::string name_of(const std::string& title) {
+  const std::size_t open = title.find_last_of("([");
+  const bool ends = !title.empty() && (title.back() == ')' || title.back() == ']');
+  return open == std::string::npos || !ends
+             ? title
+             : title.substr(0, title.find_last_not_of(" ([", open) + 1);
+}
+
+bool are_names_of_readings(const std::vector<std::string>& names) {
+  return std::any_of(names.begin(), names.end(),
+                     [](const std::string& each) { return find_known(name_of(each)) != nullptr; });
+}
+
 /// The columns of a file by the names that are known.
 class Columns {
  public:
@@ -114,33 +134,30 @@ class Columns {
 
   /// A name may have its unit behind it, in brackets or on a line of units.
   void take(const std::string& title, std::size_t index) {
-    const std::string unit = unit_in_brackets(title);
-    const std::string name =
-        unit.empty() ? title
-                     : title.substr(0, title.find_last_not_of(" ([", title.find_last_of("([")) + 1);
-    const auto* each = std::find_if(known.begin(), known.end(),
-                                    [&](const Known& any) { return any.name == name; });
-    if (each == known.end()) {
-      throw unknown(name);
+    const std::string name = name_of(title);
+    const Known* each = find_known(name);
+    if (each == nullptr) {
+      throw unknown(name, index);
     }
     if (has(name)) {
-      throw table_.heading_error(fmt::format("names {} twice; allowed: once", name));
+      throw table_.heading_error(index, fmt::format("names {} twice; allowed: once", name));
     }
+    const std::string unit = unit_in_brackets(title);
     const std::string own = unit_of(name).empty() ? "-" : unit_of(name);
     if (!unit.empty() && unit != own) {
       throw table_.heading_error(
-          fmt::format("\"{}\" is no unit of {}; allowed: {}", unit, name, own));
+          index, fmt::format("\"{}\" is no unit of {}; allowed: {}", unit, name, own));
     }
     columns_.push_back({each, index});
   }
 
-  scene_file::SceneError unknown(const std::string& name) const {
+  scene_file::SceneError unknown(const std::string& name, std::size_t index) const {
     if (const auto near = scene_file::nearest_name(name, known_names())) {
       return table_.heading_error(
-          fmt::format("unknown column \"{}\"; did you mean {}?", name, *near));
+          index, fmt::format("unknown column \"{}\"; did you mean {}?", name, *near));
     }
-    return table_.heading_error(
-        fmt::format("unknown column \"{}\"; allowed: {}", name, fmt::join(known_names(), ", ")));
+    return table_.heading_error(index, fmt::format("unknown column \"{}\"; allowed: {}", name,
+                                                   fmt::join(known_names(), ", ")));
   }
 
   const MeasuredTable& table_;
@@ -188,7 +205,7 @@ void warn(Readings& readings) {
 }  // namespace
 
 Readings read_readings(const scene_file::Source& source) {
-  const MeasuredTable table(source);
+  const MeasuredTable table(source, are_names_of_readings);
   if (table.rows() > most_readings) {
     throw table.heading_error(
         fmt::format("{} rows below it; allowed: up to {}, means of readings at one velocity count "
@@ -237,6 +254,8 @@ Readings read_readings(const scene_file::Source& source) {
                             std::make_tuple(b.velocity_ratio(), b.sliding_m_per_s);
                    });
   warn(readings);
+  readings.warnings.insert(readings.warnings.end(), table.warnings().begin(),
+                           table.warnings().end());
   if (const std::string cut = warning_of_cut(source); !cut.empty()) {
     readings.warnings.push_back(cut);
   }

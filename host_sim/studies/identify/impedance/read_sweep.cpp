@@ -5,68 +5,30 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <string_view>
 
-#include "host_sim/studies/identify/impedance/circuit.hpp"
 #include "host_sim/studies/identify/impedance/read_touchstone.hpp"
 #include "host_sim/studies/identify/impedance/read_traces.hpp"
+#include "host_sim/studies/identify/impedance/readings.hpp"
 #include "host_sim/studies/identify/impedance/sweep_columns.hpp"
-#include "host_sim/studies/identify/measured_table.hpp"
 
 namespace sonoglide::identify::impedance {
 namespace {
+
+using Complex = std::complex<double>;
 
 std::string counted_frequencies(std::size_t count) {
   return count == 1 ? "1 frequency" : fmt::format("{} frequencies", count);
 }
 
-using Complex = std::complex<double>;
-
-/// Of a form with phase the admittances, of one without their magnitudes.
-std::vector<Complex> admittances_S(const MeasuredTable& table, const SweepColumns& columns,
-                                   std::vector<std::string>& warnings) {
-  const bool has_phase = columns.second.has_value();
-  const std::vector<double> first = table.numbers(columns.first.index);
-  const std::vector<double> second =
-      has_phase ? table.numbers(columns.second->index) : std::vector<double>(first.size());
-  const double to_radians = columns.phase_scale(second, warnings);
-  std::vector<Complex> result(table.rows());
-  for (std::size_t row = 0; row < table.rows(); ++row) {
-    const bool polar = !columns.rectangular;
-    const double value = columns.first.value(first[row]);
-    if (polar && value <= 0.0) {
-      throw table.error(row, columns.first.index, "is no magnitude; allowed: above 0");
-    }
-    const Complex given = polar ? std::polar(value, has_phase ? second[row] * to_radians : 0.0)
-                                : Complex(value, columns.second->value(second[row]));
-    result[row] = columns.is_admittance ? given : 1.0 / given;
-    if (!std::isfinite(std::abs(result[row])) || std::abs(result[row]) == 0.0) {
-      throw table.error(row, columns.first.index,
-                        "has an admittance of 0 or without end; allowed: one of a capacitance");
-    }
-  }
-  return result;
-}
-
-std::vector<double> frequencies_Hz(const MeasuredTable& table, const NamedColumn& column) {
-  std::vector<double> result = table.numbers(column.index);
-  for (std::size_t row = 0; row < result.size(); ++row) {
-    result[row] *= column.scale;
-    if (result[row] <= 0.0) {
-      throw table.error(row, column.index, "is no frequency; allowed: above 0");
-    }
-  }
-  return result;
-}
-
-/// Of a second form that the table has, against the one that is read. A phase may be of either.
-void require_agreement(const MeasuredTable& table, const SweepColumns& other, const Sweep& sweep) {
+/// Of a second form that the table has, against the one that is read.
+void require_agreement(const MeasuredTable& table, SweepColumns other, const Sweep& sweep) {
   std::vector<std::string> ignored;
-  const std::vector<Complex> all_S = admittances_S(table, other, ignored);
+  const std::vector<Complex> all_S = admittances_S({&table, &table}, other, ignored);
   std::vector<std::size_t> off;
   for (std::size_t row = 0; row < table.rows(); ++row) {
     const Complex read_S = sweep.admittance_S[row];
-    const double difference_S = sweep.has_phase && other.rectangular
+    // A phase may be of either form.
+    const double difference_S = other.rectangular()
                                     ? std::abs(all_S[row] - read_S)
                                     : std::abs(std::abs(all_S[row]) - std::abs(read_S));
     // Few digits are no contradiction.
@@ -84,16 +46,17 @@ void require_agreement(const MeasuredTable& table, const SweepColumns& other, co
 }
 
 Sweep read_table(const scene_file::Source& source) {
-  const MeasuredTable table(source);
-  const std::vector<SweepColumns> forms = find_columns(table);
-  const SweepColumns& columns = forms.front();
+  const MeasuredTable table(source, are_names_of_a_sweep);
+  FoundColumns found = find_columns(table);
   Sweep sweep;
-  sweep.format = columns.description;
-  sweep.has_phase = columns.second.has_value();
-  sweep.frequency_Hz = frequencies_Hz(table, columns.frequency);
-  sweep.admittance_S = admittances_S(table, columns, sweep.warnings);
-  for (std::size_t i = 1; i < forms.size(); ++i) {
-    require_agreement(table, forms[i], sweep);
+  sweep.format = found.forms.front().description();
+  sweep.has_phase = found.forms.front().second.has_value();
+  sweep.warnings = found.warnings;
+  sweep.warnings.insert(sweep.warnings.end(), table.warnings().begin(), table.warnings().end());
+  sweep.frequency_Hz = frequencies_Hz(table, found.frequency);
+  sweep.admittance_S = admittances_S({&table, &table}, found.forms.front(), sweep.warnings);
+  for (std::size_t i = 1; i < found.forms.size(); ++i) {
+    require_agreement(table, found.forms[i], sweep);
   }
   sweep.format = "a table of " + sweep.format;
   return sweep;
@@ -101,20 +64,16 @@ Sweep read_table(const scene_file::Source& source) {
 
 /// By frequency; readings of one frequency stay in their order.
 void sort_by_frequency(Sweep& sweep) {
-  if (std::is_sorted(sweep.frequency_Hz.begin(), sweep.frequency_Hz.end())) {
-    return;
-  }
   std::vector<std::size_t> order(sweep.frequency_Hz.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
     return sweep.frequency_Hz[a] < sweep.frequency_Hz[b];
   });
-  Sweep sorted = sweep;
+  const Sweep given = sweep;
   for (std::size_t i = 0; i < order.size(); ++i) {
-    sorted.frequency_Hz[i] = sweep.frequency_Hz[order[i]];
-    sorted.admittance_S[i] = sweep.admittance_S[order[i]];
+    sweep.frequency_Hz[i] = given.frequency_Hz[order[i]];
+    sweep.admittance_S[i] = given.admittance_S[order[i]];
   }
-  sweep = std::move(sorted);
 }
 
 /// One reading a frequency, the mean of those that a sorted sweep has there.

@@ -3,236 +3,275 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
+#include <deque>
 #include <optional>
-#include <string_view>
-#include <vector>
 
-#include "host_sim/studies/identify/impedance/circuit.hpp"
-#include "host_sim/studies/identify/impedance/sweep_columns.hpp"
-#include "host_sim/studies/identify/measured_table.hpp"
+#include "host_sim/studies/identify/impedance/readings.hpp"
+#include "host_sim/studies/identify/plain_text.hpp"
 
 namespace sonoglide::identify::impedance {
 namespace {
 
-using Complex = std::complex<double>;
 using scene_file::SceneError;
 
-constexpr std::string_view allowed_traces = "allowed: |Z|-theta, R-X, |Y|-theta, G-B";
+constexpr std::string_view allowed_traces =
+    "allowed: |Z|-theta, R-X, |Y|-theta, G-B, complex Z, complex Y";
 
-struct Trace {
-  std::optional<NamedColumn> named;
-  std::string format;  ///< the name as it stands in the file
-  std::size_t line_of_format = 0;
-  std::vector<double> frequency_Hz;
-  std::vector<Complex> values;
-  std::vector<std::size_t> lines;
+/// What stands behind a colon in a line as `"FORMAT: |Z|"`.
+struct Setting {
+  std::string text;
+  std::size_t line = 0;
+  std::size_t column = 1;
 };
 
-struct Traces {
-  std::vector<NamedColumn> named;  ///< in the lines above the traces
+struct Trace {
+  std::optional<Setting> format;
+  Heading heading;
+  std::vector<Line> rows;
+};
+
+struct Export {
+  std::optional<Setting> parameter;
   std::vector<Trace> traces;
 };
 
-/// Refuses a line as `"MEASUREMENT PARAMETER: CP-D"`: traces of what is neither an impedance nor an
-/// admittance.
-void refuse_foreign(const scene_file::Source& source, std::string_view line, std::size_t number) {
-  const bool names = line.find("PARAMETER:") != std::string_view::npos ||
-                     line.find("FORMAT:") != std::string_view::npos;
-  const std::size_t colon = line.find(':');
-  const std::size_t first =
-      names ? line.find_first_not_of(" \"", colon + 1) : std::string_view::npos;
-  if (first == std::string_view::npos) {
-    return;
+SceneError error(const scene_file::Source& source, const Setting& at, const std::string& message) {
+  return {{source.file, at.line, at.column}, "trace", fmt::format("\"{}\" {}", at.text, message)};
+}
+
+/// The setting of a line that names it.
+std::optional<Setting> setting_of(const Line& line, std::string_view name) {
+  const std::size_t at = line.text.find(name);
+  if (at == std::string_view::npos) {
+    return std::nullopt;
   }
-  const std::string_view rest = line.substr(first, line.find('"', first) - first);
-  const std::string word(rest.substr(0, rest.find_first_of("-/, ")));
+  const std::size_t from =
+      std::min(line.text.find_first_not_of(' ', at + name.size()), line.text.size());
+  std::string_view text = line.text.substr(from);
+  text = trimmed(text.substr(0, text.find('"')));
+  return Setting{std::string(text), line.number, from + 1};
+}
+
+/// Refuses a setting as `CP-D`: traces of what is neither an impedance nor an admittance.
+void refuse_equivalent(const scene_file::Source& source, const Setting& setting) {
+  const std::string word = lower_case(setting.text.substr(0, setting.text.find_first_of("-/, ")));
   if (is_equivalent_element(word)) {
-    throw SceneError({source.file, number, first + 1}, "trace",
-                     fmt::format("\"{}\" is no impedance; {}", rest, allowed_traces));
+    throw error(source, setting, fmt::format("is no impedance; {}", allowed_traces));
   }
 }
 
-/// What a line as `"FORMAT: |Z|"` names, if it names a part of an impedance.
-void take_names(std::string_view line, std::vector<NamedColumn>& named) {
-  const std::size_t colon = line.find(':');
-  if (colon == std::string_view::npos) {
-    return;
-  }
-  std::string text(line.substr(colon + 1));
-  text.erase(std::remove(text.begin(), text.end(), '"'), text.end());
-  // |Z|-theta, R-X: two names.
-  std::size_t begin = 0;
-  while (begin <= text.size()) {
-    const std::size_t end = std::min(text.find_first_of("-/,", begin), text.size());
-    std::string unknown_unit;
-    const NamedColumn column = read_name(text.substr(begin, end - begin), unknown_unit);
-    if (column.role != Role::none && column.role != Role::frequency) {
-      named.push_back(column);
-    }
-    begin = end + 1;
-  }
+/// How the screen shows a trace says nothing of it.
+bool is_of_screen(const std::string& format) {
+  const std::string small = lower_case(format);
+  return small.rfind("log", 0) == 0 || small.rfind("lin", 0) == 0 || small.empty();
 }
 
-/// What a line as `"FORMAT: |Z|"` below `"TRACE: A"` says of that trace.
-void take_format(std::string_view line, std::size_t number, Trace& trace) {
-  std::vector<NamedColumn> named;
-  take_names(line, named);
-  if (named.size() == 1 && !trace.named) {
-    trace.named = named.front();
-    const std::size_t from = line.find_first_not_of(": ", line.find(':'));
-    trace.format = line.substr(from, line.find('"', from) - from);
-    trace.line_of_format = number;
+Heading heading_of(const Line& line) {
+  Heading heading;
+  heading.line = line.number;
+  heading.separator = line.text.find('\t') != std::string_view::npos  ? '\t'
+                      : line.text.find(',') != std::string_view::npos ? ','
+                                                                      : ' ';
+  for (const Cell& each : cells_of(line.text, heading.separator)) {
+    heading.names.emplace_back(each.text);
+    heading.places.push_back(each.column);
   }
+  return heading;
 }
 
-void take_reading(const scene_file::Source& source, std::string_view line, std::size_t number,
-                  Trace& trace) {
-  const std::vector<Cell> cells =
-      cells_of(line, line.find('\t') == std::string_view::npos ? ',' : '\t');
-  double numbers[3] = {};
-  for (std::size_t i = 0; i < std::min<std::size_t>(cells.size(), 3); ++i) {
-    if (!parse_number(cells[i].text, false, numbers[i])) {
-      throw SceneError({source.file, number, cells[i].column}, "trace",
-                       fmt::format("\"{}\" is no number; allowed: a finite number",
-                                   cells[i].text.substr(0, 40)));
-    }
-  }
-  if (cells.size() < 2 || numbers[0] <= 0.0) {
-    throw SceneError({source.file, number, 1}, "trace",
-                     "is no reading; allowed: a frequency above 0, a real and an imaginary part");
-  }
-  trace.frequency_Hz.push_back(numbers[0]);
-  trace.values.emplace_back(numbers[1], numbers[2]);
-  trace.lines.push_back(number);
-}
-
-Traces split(const scene_file::Source& source) {
-  Traces found;
+Export split(const scene_file::Source& source) {
+  Export found;
   bool in_rows = false;
-  const std::vector<std::string_view> lines = lines_of(source.text);
-  for (std::size_t i = 0; i < lines.size(); ++i) {
-    const std::string_view line = lines[i];
-    const bool blank = line.find_first_not_of(" \t") == std::string_view::npos;
-    if (!in_rows) {
-      refuse_foreign(source, line, i + 1);
-    }
-    if (line.find("TRACE:") != std::string_view::npos) {
+  for (const Line& line : lines_of(source)) {
+    const bool is_row = in_rows && line.text.find('"') == std::string_view::npos;
+    if (line.text.find("TRACE:") != std::string_view::npos) {
       found.traces.emplace_back();
       in_rows = false;
-    } else if (blank) {
-      in_rows = in_rows && found.traces.back().values.empty();
-    } else if (in_rows) {
-      take_reading(source, line, i + 1, found.traces.back());
-    } else if (!found.traces.empty() && line.find("Frequency") != std::string_view::npos) {
-      in_rows = true;
     } else if (found.traces.empty()) {
-      take_names(line, found.named);
-    } else {
-      take_format(line, i + 1, found.traces.back());
+      if (auto parameter = setting_of(line, "PARAMETER:")) {
+        refuse_equivalent(source, *parameter);
+        found.parameter = std::move(parameter);
+      }
+    } else if (is_row) {
+      found.traces.back().rows.push_back(line);
+    } else if (line.text.find("Frequency") != std::string_view::npos) {
+      found.traces.back().heading = heading_of(line);
+      in_rows = true;
+    } else if (auto format = setting_of(line, "FORMAT:"); format && !is_of_screen(format->text)) {
+      refuse_equivalent(source, *format);
+      found.traces.back().format = std::move(format);
     }
   }
   return found;
 }
 
-bool has_imaginary_parts(const Trace& trace) {
-  return std::any_of(trace.values.begin(), trace.values.end(),
-                     [](Complex value) { return value.imag() != 0.0; });
-}
-
-bool is_pair(const NamedColumn& one, const NamedColumn& other) {
+bool is_pair(const ColumnName& one, const ColumnName& other) {
   return (one.role == Role::magnitude && other.role == Role::phase) ||
          (one.role == Role::real && other.role == Role::imaginary);
 }
 
-NamedColumn column(Role role) {
-  NamedColumn named;
-  named.role = role;
-  return named;
-}
-
-/// What trace A is of a pair.
-NamedColumn first_of_pair(const scene_file::Source& source, const Traces& found,
-                          std::vector<std::string>& warnings) {
-  const Trace& a = found.traces[0];
-  const Trace& b = found.traces[1];
-  if (a.named && b.named && is_pair(*a.named, *b.named)) {
-    return *a.named;
-  }
-  for (std::size_t i = 0; i + 1 < found.named.size(); ++i) {
-    if (is_pair(found.named[i], found.named[i + 1])) {
-      return found.named[i];
+/// The two names of which a text is made, as `R-X` or `ADMITTANCE MAG PHASE (DEG)`.
+std::optional<SweepColumns> pair_of(const std::string& text) {
+  for (std::size_t i = 1; i + 1 < text.size(); ++i) {
+    if (std::string_view("-/, ").find(text[i]) == std::string_view::npos) {
+      continue;
+    }
+    const ColumnName one = read_name(text.substr(0, i));
+    ColumnName other = read_name(text.substr(i + 1));
+    if (is_pair(one, other)) {
+      return SweepColumns{{one, 1}, SweepColumn{other, 1}};
     }
   }
-  if (a.named || b.named) {
-    throw SceneError({source.file, std::max(a.line_of_format, b.line_of_format), 1}, "trace",
-                     fmt::format("\"{}\" and \"{}\" are no pair of traces that is known; {}",
-                                 a.format, b.format, allowed_traces));
-  }
-  warnings.emplace_back(
-      "The file does not name what its traces are; A is taken for |Z| in ohm, B for its phase in "
-      "degrees.");
-  return column(Role::magnitude);
+  return std::nullopt;
 }
 
-/// What trace A is where there is no other: complex, or magnitudes.
-NamedColumn single(const scene_file::Source& source, const Trace& a,
-                   std::vector<std::string>& warnings) {
-  const NamedColumn named = a.named.value_or(column(Role::magnitude));
-  if (has_imaginary_parts(a)) {
-    return named;
-  }
-  if (named.role != Role::magnitude) {
-    throw SceneError({source.file, a.line_of_format, 1}, "trace",
-                     fmt::format("\"{}\" alone, without trace B; {}", a.format, allowed_traces));
-  }
-  warnings.emplace_back(
-      "The file has no readings of trace B: the magnitudes of A are fitted alone.");
-  return named;
+/// `COMPLEX Z-Y`: the first letter counts.
+Subject subject_of(const std::optional<Setting>& setting) {
+  std::string text = lower_case(setting ? setting->text : std::string());
+  text = text.rfind("complex", 0) == 0 ? text.substr(7) : text;
+  text = std::string(trimmed(text));
+  const ColumnName name = read_name(text.substr(0, text.find_first_of("-/, ")));
+  return name.subject;
 }
+
+ColumnName name_of(Role role, Subject subject, bool has_unit) {
+  ColumnName name;
+  name.role = role;
+  name.subject = subject;
+  name.has_unit = has_unit;
+  return name;
+}
+
+class TraceReader {
+ public:
+  explicit TraceReader(const scene_file::Source& source) : source_(source), found_(split(source)) {
+    for (const Trace& each : found_.traces) {
+      if (!each.rows.empty()) {
+        tables_.emplace_back(source, each.heading, each.rows);
+      }
+    }
+    if (tables_.empty()) {
+      throw SceneError({source.file, 1, 1}, "trace",
+                       "has no readings below \"Frequency\"; allowed: at least one");
+    }
+  }
+
+  Sweep read() {
+    Sweep sweep;
+    const MeasuredTable& a = tables_.front();
+    sweep.frequency_Hz = frequencies_Hz(a, {name_of(Role::frequency, Subject::unknown, true), 0});
+    const bool two = tables_.size() > 1;
+    const bool complex = is_complex(a);
+    const MeasuredTable& b = two && !complex ? tables_[1] : a;
+    if (b.numbers(0) != a.numbers(0)) {
+      throw SceneError({source_.file, found_.traces[1].rows.back().number, 1}, "trace",
+                       "trace B has other frequencies than trace A; allowed: the same");
+    }
+    SweepColumns columns = complex ? complex_trace(sweep) : two ? pair(sweep) : alone(sweep);
+    sweep.has_phase = columns.second.has_value();
+    sweep.admittance_S = admittances_S({&a, &b}, columns, sweep.warnings);
+    sweep.format = fmt::format("an analyser's export of {}", columns.description());
+    return sweep;
+  }
+
+ private:
+  static bool is_complex(const MeasuredTable& table) {
+    if (table.names().size() < 3) {
+      return false;
+    }
+    const std::vector<double> parts = table.numbers(2);
+    return std::any_of(parts.begin(), parts.end(), [](double each) { return each != 0.0; });
+  }
+
+  SweepColumns complex_trace(Sweep& sweep) const {
+    const auto& named = found_.parameter ? found_.parameter : found_.traces.front().format;
+    const Subject subject = subject_of(named);
+    if (named && subject == Subject::unknown) {
+      throw error(source_, *named,
+                  fmt::format("is no complex trace that is known; {}", allowed_traces));
+    }
+    if (subject == Subject::unknown) {
+      sweep.warnings.emplace_back(
+          "The file does not name what its complex trace is; it is taken for an impedance in ohm.");
+    }
+    if (tables_.size() > 1) {
+      sweep.warnings.emplace_back("Trace A is complex and is read; trace B is not read.");
+    }
+    return {{name_of(Role::real, subject, true), 1},
+            SweepColumn{name_of(Role::imaginary, subject, true), 2}};
+  }
+
+  SweepColumns pair(Sweep& sweep) const {
+    const auto& a = found_.traces[0].format;
+    const auto& b = found_.traces[1].format;
+    if (found_.parameter) {
+      return pair_of_parameter();
+    }
+    if (!a && !b) {
+      sweep.warnings.emplace_back(
+          "The file does not name what its traces are; A is taken for |Z| in ohm, B for its phase "
+          "in degrees.");
+      return {{name_of(Role::magnitude, Subject::impedance, true), 1}, SweepColumn{degrees(), 1}};
+    }
+    const ColumnName one = read_name(a ? a->text : std::string());
+    const ColumnName other = read_name(b ? b->text : std::string());
+    if (!is_pair(one, other)) {
+      throw SceneError({source_.file, (b ? b : a)->line, (b ? b : a)->column}, "trace",
+                       fmt::format("\"{}\" and \"{}\" are no pair of traces that is known; {}",
+                                   a ? a->text : "", b ? b->text : "", allowed_traces));
+    }
+    return in_degrees({{one, 1}, SweepColumn{other, 1}});
+  }
+
+  SweepColumns pair_of_parameter() const {
+    const auto found = pair_of(found_.parameter->text);
+    if (!found) {
+      throw error(source_, *found_.parameter,
+                  fmt::format("is no pair of traces that is known; {}", allowed_traces));
+    }
+    return in_degrees(*found);
+  }
+
+  /// A phase whose unit is not named is in degrees, as the instrument has them.
+  static SweepColumns in_degrees(SweepColumns columns) {
+    if (!columns.rectangular() && !columns.second->name.has_unit) {
+      columns.second->name.scale *= degrees().scale;
+      columns.second->name.has_unit = true;
+    }
+    return columns;
+  }
+
+  SweepColumns alone(Sweep& sweep) const {
+    const auto& named =
+        found_.traces.front().format ? found_.traces.front().format : found_.parameter;
+    SweepColumns columns{{name_of(Role::magnitude, Subject::impedance, true), 1}, std::nullopt};
+    if (named) {
+      const auto pair = pair_of(named->text);
+      columns.first.name = pair ? pair->first.name : read_name(named->text);
+      if (columns.first.name.role != Role::magnitude) {
+        throw error(source_, *named, fmt::format("alone, without trace B; {}", allowed_traces));
+      }
+    }
+    sweep.warnings.emplace_back(
+        "The file has no readings of trace B: the magnitudes of A are fitted alone.");
+    return columns;
+  }
+
+  static ColumnName degrees() { return read_name("phase (deg)"); }
+
+  const scene_file::Source& source_;
+  Export found_;
+  std::deque<MeasuredTable> tables_;
+};
 
 }  // namespace
 
 bool is_trace_export(const scene_file::Source& source) {
-  return source.text.find("\"TRACE: A\"") != std::string::npos;
+  return source.text.find("TRACE: A\"") != std::string::npos;
 }
 
 Sweep read_traces(const scene_file::Source& source) {
-  const Traces found = split(source);
-  Sweep sweep;
-  const auto fail = [&](std::size_t line, const std::string& message) {
-    return SceneError({source.file, line, 1}, "trace", message);
-  };
-  if (found.traces.empty() || found.traces.front().values.empty()) {
-    throw fail(1, "has no readings below \"Frequency\"; allowed: at least one");
-  }
-  const Trace& a = found.traces.front();
-  const bool two = found.traces.size() > 1 && !found.traces[1].values.empty();
-  if (two && a.frequency_Hz != found.traces[1].frequency_Hz) {
-    throw fail(found.traces[1].lines.back(),
-               "trace B has other frequencies than trace A; allowed: the same");
-  }
-  sweep.frequency_Hz = a.frequency_Hz;
-  sweep.has_phase = two || has_imaginary_parts(a);
-  const NamedColumn first =
-      two ? first_of_pair(source, found, sweep.warnings) : single(source, a, sweep.warnings);
-  const double radians = two_pi / 360.0;
-  for (std::size_t i = 0; i < a.values.size(); ++i) {
-    Complex value = a.values[i];
-    if (two) {
-      const double other = found.traces[1].values[i].real();
-      value = first.role == Role::real ? Complex(value.real(), other)
-                                       : std::polar(std::abs(value.real()), other * radians);
-    }
-    const Complex admittance_S = first.is_admittance ? value : 1.0 / value;
-    if (!std::isfinite(std::abs(admittance_S)) || std::abs(admittance_S) == 0.0) {
-      throw fail(a.lines[i],
-                 "has an admittance of 0 or without end; allowed: one of a capacitance");
-    }
-    sweep.admittance_S.push_back(admittance_S);
-  }
-  sweep.format = fmt::format("an analyser's export of {}", two ? "two traces" : "one trace");
-  return sweep;
+  return TraceReader(source).read();
 }
 
 }  // namespace sonoglide::identify::impedance

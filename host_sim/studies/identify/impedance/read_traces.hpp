@@ -11,9 +11,10 @@ bool is_trace_export(const scene_file::Source& source);
 
 /// Blocks `"TRACE: A"` and `"TRACE: B"`, each with a heading that begins with "Frequency" and, below
 /// it, lines of frequency, real and imaginary part of the trace, with or without those of the memory
-/// trace. Two traces are what the lines above them name, as |Z| and theta, R and X, G and B, |Y| and
-/// theta; where nothing is named they are taken for |Z| in ohm and its phase in degrees, and a
-/// warning says so. One trace alone is a complex impedance where it has imaginary parts, else |Z|.
+/// trace. What the traces are says a line as `"MEASURE PARAMETER: ADMITTANCE MAG PHASE (DEG)"`, or
+/// `"FORMAT: |Z|"` of each; `FORMAT: LOG` and `LIN` are of the screen. Where nothing is named they
+/// are taken for |Z| in ohm and its phase in degrees, and a warning says so. A trace with imaginary
+/// parts is a complex impedance or admittance; one trace alone without is a magnitude.
 /// @throws scene_file::SceneError  at the place of what is wrong
 /// Source: files of others, as several public readers of them take them.
 Sweep read_traces(const scene_file::Source& source);

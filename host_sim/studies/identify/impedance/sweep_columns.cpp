@@ -4,275 +4,212 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
-#include <initializer_list>
-#include <string_view>
-#include <utility>
 
 #include "host_sim/studies/identify/impedance/circuit.hpp"
+#include "host_sim/studies/identify/unit.hpp"
 
 namespace sonoglide::identify::impedance {
 namespace {
 
-void replace_all(std::string& text, std::string_view from, std::string_view to) {
-  for (std::size_t at = text.find(from); at != std::string::npos;
-       at = text.find(from, at + to.size())) {
-    text.replace(at, from.size(), to);
-  }
+constexpr const char* what_is_read =
+    "magnitude and phase, real and imaginary part, or a magnitude alone, as "
+    "impedance_magnitude_ohm,impedance_phase_deg; S11 is read from Touchstone files, .s1p";
+
+const char* subject_in_words(Subject subject) {
+  return subject == Subject::admittance ? "an admittance" : "an impedance";
 }
 
-/// Words of letters, their case kept, with names for signs that stand for words.
-std::vector<std::string> words_of(std::string name) {
-  for (const auto& [sign, word] :
-       std::initializer_list<std::pair<const char*, const char*>>{{"\u03a9", " ohm "},
-                                                                  {"\u2126", " ohm "},
-                                                                  {"\u03b8", " theta "},
-                                                                  {"\u03c6", " phi "},
-                                                                  {"\u00b0", " deg "},
-                                                                  {"\u00b5", "u"},
-                                                                  {"\u03bc", "u"},
-                                                                  {"''", " im "},
-                                                                  {"|", " abs "}}) {
-    replace_all(name, sign, word);
-  }
-  replace_all(name, "'", " re ");
-  std::vector<std::string> words;
-  bool inside = false;
-  for (const char each : name) {
-    const bool letter = std::isalpha(static_cast<unsigned char>(each)) != 0;
-    if (letter && !inside) {
-      words.emplace_back();
+/// The columns of a table by what their names say.
+class Columns {
+ public:
+  explicit Columns(const MeasuredTable& table) : table_(table) {
+    for (std::size_t i = 0; i < table.names().size(); ++i) {
+      columns_.push_back({read_name(table.names()[i]), i});
+      has_ratio_ = has_ratio_ || is_of_ratio(table.names()[i]);
     }
-    if (letter) {
-      words.back() += each;
+  }
+
+  SweepColumn frequency() const {
+    const std::vector<SweepColumn> found = of(Role::frequency, Subject::unknown);
+    if (found.empty()) {
+      refuse_what_is_not_understood();
+      throw table_.heading_error(
+          fmt::format("no column is a frequency among {}; allowed: a name as frequency_Hz",
+                      fmt::join(table_.names(), ", ")));
     }
-    inside = letter;
+    require_one(found);
+    return found.front();
   }
-  return words;
-}
 
-std::string lower(std::string_view text) {
-  std::string lower_text(text);
-  for (char& each : lower_text) {
-    each = static_cast<char>(std::tolower(static_cast<unsigned char>(each)));
+  /// Every pair that is there once.
+  std::vector<SweepColumns> pairs() const {
+    std::vector<SweepColumns> found;
+    for (const Subject subject : {Subject::impedance, Subject::admittance}) {
+      add_pair(candidates(Role::magnitude, subject), phases(subject), found);
+      add_pair(candidates(Role::real, subject), candidates(Role::imaginary, subject), found);
+    }
+    if (found.empty()) {
+      // |Z| beside a phase of Y.
+      add_pair(candidates(Role::magnitude, Subject::impedance), phases(Subject::admittance), found);
+      add_pair(candidates(Role::magnitude, Subject::admittance), phases(Subject::impedance), found);
+    }
+    return found;
   }
-  return lower_text;
-}
 
-struct UnitName {
-  const char* name;  ///< in small letters
-  double scale;
+  /// Of a magnitude that stands beside a pair of others.
+  void add_further_magnitudes(std::vector<SweepColumns>& forms) const {
+    for (const Subject subject : {Subject::impedance, Subject::admittance}) {
+      const std::vector<SweepColumn> found = of(Role::magnitude, subject);
+      if (found.size() == 1 && !found.front().name.is_bare_unit &&
+          std::none_of(forms.begin(), forms.end(), [&](const SweepColumns& each) {
+            return each.first.index == found.front().index;
+          })) {
+        forms.push_back({found.front(), std::nullopt});
+      }
+    }
+  }
+
+  SweepColumns magnitude_alone() const {
+    refuse_what_is_not_understood();
+    for (const Role role : {Role::magnitude, Role::phase, Role::real, Role::imaginary}) {
+      for (const Subject subject : {Subject::impedance, Subject::admittance, Subject::unknown}) {
+        require_one(of(role, subject));
+      }
+    }
+    const auto is_phase = [](const SweepColumn& each) { return each.name.role == Role::phase; };
+    const auto phase = std::find_if(columns_.begin(), columns_.end(), is_phase);
+    for (const Subject subject : {Subject::impedance, Subject::admittance}) {
+      const std::vector<SweepColumn> found = candidates(Role::magnitude, subject);
+      if (found.empty()) {
+        continue;
+      }
+      if (phase != columns_.end()) {
+        throw error(*phase,
+                    "may be the phase of another column; allowed: a name that says of what, "
+                    "as impedance_phase_deg");
+      }
+      if (found.front().name.is_bare_unit) {
+        throw error(found.front(), fmt::format("is a unit and no name; allowed: {}", what_is_read));
+      }
+      return {found.front(), std::nullopt};
+    }
+    throw table_.heading_error(
+        fmt::format("no columns of an impedance or admittance among {}; allowed: {}",
+                    fmt::join(table_.names(), ", "), what_is_read));
+  }
+
+  /// Of columns that a person may think are read.
+  std::string warning_of_unread(const FoundColumns& read) const {
+    std::vector<std::string> unread;
+    for (const SweepColumn& each : columns_) {
+      const auto has = [&](const SweepColumns& form) {
+        return form.first.index == each.index || (form.second && form.second->index == each.index);
+      };
+      const bool is_of_sweep = each.name.role != Role::none || !each.name.not_understood.empty();
+      if (is_of_sweep && each.index != read.frequency.index &&
+          std::none_of(read.forms.begin(), read.forms.end(), has)) {
+        unread.push_back(fmt::format("\"{}\"", table_.names()[each.index]));
+      }
+    }
+    return unread.empty() ? std::string()
+                          : fmt::format("Read is {}. Not read: {}.",
+                                        read.forms.front().description(), fmt::join(unread, ", "));
+  }
+
+  scene_file::SceneError error(const SweepColumn& column, const std::string& message) const {
+    return table_.heading_error(column.index,
+                                fmt::format("\"{}\" {}", table_.names()[column.index], message));
+  }
+
+ private:
+  std::vector<SweepColumn> of(Role role, Subject subject) const {
+    std::vector<SweepColumn> found;
+    std::copy_if(columns_.begin(), columns_.end(), std::back_inserter(found),
+                 [&](const SweepColumn& each) {
+                   return each.name.role == role && each.name.subject == subject;
+                 });
+    return found;
+  }
+
+  /// Those that say of what they are; else, of an impedance, those that do not.
+  std::vector<SweepColumn> candidates(Role role, Subject subject) const {
+    std::vector<SweepColumn> found = of(role, subject);
+    return found.empty() && subject == Subject::impedance ? of(role, Subject::unknown) : found;
+  }
+
+  /// A phase need not say of what, if nothing else has one.
+  std::vector<SweepColumn> phases(Subject subject) const {
+    std::vector<SweepColumn> found = of(Role::phase, subject);
+    return found.empty() && !has_ratio_ ? of(Role::phase, Subject::unknown) : found;
+  }
+
+  static void add_pair(const std::vector<SweepColumn>& first,
+                       const std::vector<SweepColumn>& second, std::vector<SweepColumns>& found) {
+    if (first.size() == 1 && second.size() == 1) {
+      found.push_back({first.front(), second.front()});
+    }
+  }
+
+  void require_one(const std::vector<SweepColumn>& found) const {
+    if (found.size() > 1) {
+      throw table_.heading_error(
+          found[1].index,
+          fmt::format("\"{}\" and \"{}\" are the same; allowed: one of them",
+                      table_.names()[found[0].index], table_.names()[found[1].index]));
+    }
+  }
+
+  void refuse_what_is_not_understood() const {
+    for (const SweepColumn& each : columns_) {
+      if (!each.name.not_understood.empty()) {
+        throw error(each, fmt::format("is not understood: \"{}\" is no unit of it and no name; "
+                                      "allowed: {}; units are {}",
+                                      each.name.not_understood, what_is_read, known_units()));
+      }
+    }
+  }
+
+  const MeasuredTable& table_;
+  std::vector<SweepColumn> columns_;
+  bool has_ratio_ = false;
 };
 
-constexpr UnitName frequency_units[] = {{"hz", 1.0}, {"khz", 1e3}, {"mhz", 1e6}, {"ghz", 1e9}};
-constexpr UnitName angle_units[] = {{"deg", two_pi / 360.0},
-                                    {"degree", two_pi / 360.0},
-                                    {"degrees", two_pi / 360.0},
-                                    {"rad", 1.0},
-                                    {"radian", 1.0},
-                                    {"radians", 1.0},
-                                    {"mrad", 1e-3}};
-constexpr UnitName impedance_units[] = {{"ohm", 1.0}, {"ohms", 1.0}, {"kohm", 1e3}, {"kohms", 1e3}};
-constexpr UnitName admittance_units[] = {{"s", 1.0},   {"siemens", 1.0}, {"ms", 1e-3}, {"us", 1e-6},
-                                         {"ns", 1e-9}, {"mho", 1.0},     {"ks", 1e3}};
-
-/// Units that a wrong capital makes out of others, 10⁹ off.
-bool is_ambiguous_unit(const std::string& word) {
-  return word == "mHz" || word == "MS";
-}
-
-template <std::size_t Count>
-bool take_unit(const std::string& word, const UnitName (&units)[Count], NamedColumn& column) {
-  if (is_ambiguous_unit(word)) {
-    return false;
-  }
-  for (const UnitName& each : units) {
-    if (lower(word) == each.name) {
-      column.scale = each.scale;
-      column.has_unit = true;
-      return true;
-    }
-  }
-  return false;
-}
-
-bool is_one_of(const std::string& word, std::initializer_list<const char*> names) {
-  return std::any_of(names.begin(), names.end(), [&](const char* each) { return word == each; });
-}
-
-void set(NamedColumn& column, Role role, bool is_admittance) {
-  column.role = role;
-  column.is_admittance = is_admittance;
-  column.names_its_subject = true;
-}
-
-/// A word that names a part of an impedance or an admittance by itself.
-bool take_part(const std::string& word, NamedColumn& column) {
-  if (is_one_of(word, {"r", "rs", "resistance", "zre", "zreal", "rez"})) {
-    set(column, Role::real, false);
-  } else if (is_one_of(word, {"x", "xs", "reactance", "zim", "zimag", "imz"})) {
-    set(column, Role::imaginary, false);
-  } else if (is_one_of(word, {"g", "gp", "conductance", "yre", "yreal", "rey"})) {
-    set(column, Role::real, true);
-  } else if (is_one_of(word, {"b", "bp", "susceptance", "yim", "yimag", "imy"})) {
-    set(column, Role::imaginary, true);
-  } else if (is_one_of(word, {"zmag", "zmod", "zabs", "absz"})) {
-    set(column, Role::magnitude, false);
-  } else if (is_one_of(word, {"ymag", "ymod", "yabs", "absy"})) {
-    set(column, Role::magnitude, true);
-  } else if (is_one_of(word, {"zphase", "zang", "zarg", "zphi", "ztheta", "zphz"})) {
-    set(column, Role::phase, false);
-  } else if (is_one_of(word, {"yphase", "yang", "yarg", "yphi", "ytheta"})) {
-    set(column, Role::phase, true);
-  } else {
-    return false;
-  }
-  return true;
-}
-
-Role role_of(const std::string& word) {
-  if (is_one_of(word, {"abs", "mag", "magnitude", "modulus", "mod"})) {
-    return Role::magnitude;
-  }
-  if (is_one_of(word, {"phase", "theta", "th", "phi", "arg", "argument", "angle", "ang"})) {
-    return Role::phase;
-  }
-  if (is_one_of(word, {"re", "real"})) {
-    return Role::real;
-  }
-  if (is_one_of(word, {"im", "imag", "imaginary"})) {
-    return Role::imaginary;
-  }
-  return Role::none;
-}
-
-bool take_subject(const std::string& word, NamedColumn& column) {
-  if (is_one_of(word, {"z", "impedance", "imp"})) {
-    column.names_its_subject = true;
-    return true;
-  }
-  if (is_one_of(word, {"y", "admittance", "adm"})) {
-    column.names_its_subject = true;
-    column.is_admittance = true;
-    return true;
-  }
-  return false;
-}
-
-bool take_electrical_unit(const std::string& word, NamedColumn& column) {
-  if (word == "MOhm" || word == "Mohm" || word == "MOHM" || word == "MOhms") {
-    column.scale = 1e6;
-  } else if (word == "mOhm" || word == "mohm") {
-    column.scale = 1e-3;
-  } else if (!take_unit(word, impedance_units, column)) {
-    if (!take_unit(word, admittance_units, column)) {
-      return false;
-    }
-    column.is_admittance = true;
-  }
-  column.has_unit = true;
-  column.names_its_subject = true;
-  return true;
-}
-
-/// Units of what is neither an impedance nor an admittance, an angle or a frequency, in small
-/// letters.
-constexpr std::initializer_list<const char*> foreign_units = {
-    "v", "mv", "ma", "ua", "w", "mw", "va", "uf", "nf", "pf", "mh", "uh", "mm"};
-
-/// S11, s_11, S21.
-bool is_scattering_parameter(const std::string& name) {
-  for (std::size_t i = 0; i < name.size(); ++i) {
-    const bool begins = i == 0 || std::isalnum(static_cast<unsigned char>(name[i - 1])) == 0;
-    if (begins && std::tolower(static_cast<unsigned char>(name[i])) == 's') {
-      const std::size_t next = name.find_first_not_of('_', i + 1);
-      return next != std::string::npos && std::isdigit(static_cast<unsigned char>(name[next])) != 0;
-    }
-  }
-  return false;
-}
-
-/// Whether a name is of what a network analyser measures beside impedances: S11, a gain, a
-/// reflection.
-bool is_foreign(const std::string& name, const std::vector<std::string>& words) {
-  return is_scattering_parameter(name) ||
-         std::any_of(words.begin(), words.end(), [](const std::string& each) {
-           return is_equivalent_element(each) ||
-                  is_one_of(lower(each), {"gain", "transmission", "reflection", "gamma", "loss",
-                                          "vswr", "swr", "attenuation", "voltage", "current",
-                                          "power", "capacitance", "inductance"});
-         });
-}
-
-bool is_frequency(const std::vector<std::string>& words) {
-  const std::string first = words.empty() ? std::string() : lower(words.front());
-  return is_one_of(first, {"f", "freq", "frequency", "hz", "khz", "mhz", "ghz"}) ||
-         std::any_of(words.begin(), words.end(), [](const std::string& each) {
-           return is_one_of(lower(each), {"freq", "frequency"});
-         });
+std::string sentence_of_assumed_subject(const MeasuredTable& table, const SweepColumns& form) {
+  return form.first.name.subject != Subject::unknown
+             ? std::string()
+             : fmt::format(
+                   "\"{}\" does not say of what it is: it is taken for an impedance in ohm.",
+                   table.names()[form.first.index]);
 }
 
 }  // namespace
 
-bool is_equivalent_element(const std::string& word) {
-  return is_one_of(lower(word), {"cp", "cs", "lp", "ls", "rp", "q", "d"});
+std::string SweepColumns::description() const {
+  const std::string subject = subject_in_words(first.name.subject);
+  return !second         ? "the magnitude of " + subject
+         : rectangular() ? "real and imaginary part of " + subject
+                         : "magnitude and phase of " + subject;
 }
 
-double NamedColumn::value(double cell) const {
-  constexpr double decibels_a_decade = 20.0;
-  return scale * (decibel ? std::pow(10.0, cell / decibels_a_decade) : cell);
+std::complex<double> SweepColumns::admittance_S(double first_cell, double second_cell) const {
+  const bool is_admittance = first.name.subject == Subject::admittance;
+  const double value = first.name.value(first_cell);
+  if (rectangular()) {
+    const std::complex<double> given(value, second->name.value(second_cell));
+    return is_admittance ? given : 1.0 / given;
+  }
+  const double magnitude_S = is_admittance ? value : 1.0 / value;
+  const Subject of_phase = !second                                    ? Subject::unknown
+                           : second->name.subject == Subject::unknown ? first.name.subject
+                                                                      : second->name.subject;
+  const double angle = second ? second->name.value(second_cell) : 0.0;
+  return std::polar(std::abs(magnitude_S), of_phase == Subject::admittance ? angle : -angle);
 }
 
-NamedColumn read_name(const std::string& name, std::string& unknown_unit) {
-  NamedColumn column;
-  const std::vector<std::string> words = words_of(name);
-  const bool frequency = is_frequency(words);
-  unknown_unit.clear();
-  if (!frequency && is_foreign(name, words)) {
-    return column;
-  }
-  for (const std::string& word : words) {
-    const std::string small = lower(word);
-    if (frequency) {
-      column.role = Role::frequency;
-      take_unit(word, frequency_units, column);
-    } else if (role_of(small) != Role::none) {
-      column.role = role_of(small);
-    } else if (small == "db") {
-      column.decibel = true;
-    } else if (!take_subject(small, column) && !take_part(small, column) &&
-               !take_unit(word, angle_units, column)) {
-      take_electrical_unit(word, column);
-    }
-  }
-  const bool bare_subject = column.role == Role::none && column.names_its_subject;
-  if (bare_subject) {
-    column.role = Role::magnitude;
-  }
-  if (column.decibel && !column.names_its_subject) {
-    column.role = Role::none;  // of what, is not said
-  }
-  if (column.role == Role::imaginary && !name.empty() && name.front() == '-') {
-    column.scale = -column.scale;
-  }
-  if (column.role != Role::none && !column.has_unit && !column.decibel && words.size() > 1 &&
-      (is_ambiguous_unit(words.back()) || is_one_of(lower(words.back()), foreign_units))) {
-    unknown_unit = words.back();
-    return column;
-  }
-  const std::vector<std::string> unit = words_of(unit_in_brackets(name));
-  const bool recognised = column.has_unit || column.decibel || unit.empty() ||
-                          column.role == Role::none || role_of(lower(unit.front())) != Role::none ||
-                          is_one_of(lower(unit.front()), {"z", "y", "x", "r", "g", "b"});
-  unknown_unit = recognised ? std::string() : unit_in_brackets(name);
-  return column;
-}
-
-double SweepColumns::phase_scale(const std::vector<double>& phases,
-                                 std::vector<std::string>& warnings) const {
-  if (rectangular || !second || second->has_unit) {
-    return second ? second->scale : 1.0;
+std::string SweepColumns::complete_unit(const std::vector<double>& phases) {
+  if (!second || rectangular() || second->name.has_unit) {
+    return {};
   }
   double most = 0.0;
   for (const double each : phases) {
@@ -280,99 +217,38 @@ double SweepColumns::phase_scale(const std::vector<double>& phases,
   }
   constexpr double most_in_radians = 3.2;
   const bool radians = most <= most_in_radians;
-  warnings.push_back(fmt::format(
+  second->name.scale *= radians ? 1.0 : two_pi / 360.0;
+  second->name.has_unit = true;
+  return fmt::format(
       "The phase has no unit in its name; as its largest value is {:.4g} it is taken for {}.", most,
-      radians ? "radians" : "degrees"));
-  return radians ? 1.0 : two_pi / 360.0;
+      radians ? "radians" : "degrees");
 }
 
-namespace {
-
-std::vector<NamedColumn> named_columns(const MeasuredTable& table) {
-  std::vector<NamedColumn> columns;
-  for (std::size_t i = 0; i < table.names().size(); ++i) {
-    std::string unknown_unit;
-    columns.push_back(read_name(table.names()[i], unknown_unit));
-    columns.back().index = i;
-    if (!unknown_unit.empty()) {
-      throw table.heading_error(
-          fmt::format("\"{}\": \"{}\" is no unit of it; allowed: Hz, kHz, MHz, GHz; deg, rad; ohm, "
-                      "kohm, Mohm, S, mS, uS, dB",
-                      table.names()[i], unknown_unit));
-    }
+bool are_names_of_a_sweep(const std::vector<std::string>& names) {
+  bool has_frequency = false;
+  bool has_other = false;
+  for (const std::string& each : names) {
+    const ColumnName name = read_name(each);
+    const bool is_frequency = name.role == Role::frequency;
+    has_frequency = has_frequency || is_frequency;
+    has_other =
+        has_other || (!is_frequency && (name.role != Role::none || !name.not_understood.empty()));
   }
-  return columns;
+  return has_frequency && has_other;
 }
 
-void require_different(const MeasuredTable& table, const std::vector<NamedColumn>& columns) {
-  for (const NamedColumn& one : columns) {
-    for (std::size_t i = 0; i < one.index; ++i) {
-      const NamedColumn& other = columns[i];
-      if (one.role != Role::none && one.role == other.role &&
-          one.is_admittance == other.is_admittance) {
-        throw table.heading_error(
-            fmt::format("\"{}\" and \"{}\" are the same; allowed: one of them", table.names()[i],
-                        table.names()[one.index]));
-      }
+FoundColumns find_columns(const MeasuredTable& table) {
+  const Columns columns(table);
+  FoundColumns found{columns.frequency(), columns.pairs(), {}};
+  if (found.forms.empty()) {
+    found.forms = {columns.magnitude_alone()};
+  }
+  columns.add_further_magnitudes(found.forms);
+  for (const std::string& each : {sentence_of_assumed_subject(table, found.forms.front()),
+                                  columns.warning_of_unread(found)}) {
+    if (!each.empty()) {
+      found.warnings.push_back(each);
     }
-  }
-}
-
-std::optional<NamedColumn> find(const std::vector<NamedColumn>& columns, Role role,
-                                std::optional<bool> admittance) {
-  for (const NamedColumn& each : columns) {
-    // A phase need not say of what.
-    const bool subject = !admittance || each.is_admittance == *admittance ||
-                         (role == Role::phase && !each.names_its_subject);
-    if (each.role == role && subject &&
-        (each.names_its_subject || role == Role::phase || role == Role::frequency ||
-         !admittance.value_or(false))) {
-      return each;
-    }
-  }
-  return std::nullopt;
-}
-
-}  // namespace
-
-std::vector<SweepColumns> find_columns(const MeasuredTable& table) {
-  const std::vector<NamedColumn> columns = named_columns(table);
-  require_different(table, columns);
-  const auto frequency = find(columns, Role::frequency, std::nullopt);
-  if (!frequency) {
-    throw table.heading_error(
-        fmt::format("no column is a frequency among {}; allowed: a name as frequency_Hz",
-                    fmt::join(table.names(), ", ")));
-  }
-  std::vector<SweepColumns> found;
-  for (const bool admittance : {false, true}) {
-    const char* subject = admittance ? "an admittance" : "an impedance";
-    for (const bool rectangular : {false, true}) {
-      const auto one = find(columns, rectangular ? Role::real : Role::magnitude, admittance);
-      const auto other = find(columns, rectangular ? Role::imaginary : Role::phase, admittance);
-      if (one && other) {
-        found.push_back(
-            {*frequency, *one, other, rectangular, admittance,
-             fmt::format("{} of {}",
-                         rectangular ? "real and imaginary part" : "magnitude and phase",
-                         subject)});
-      }
-    }
-  }
-  for (const bool admittance : {false, true}) {
-    if (const auto one = find(columns, Role::magnitude, admittance)) {
-      found.push_back(
-          {*frequency, *one, std::nullopt, false, admittance,
-           fmt::format("the magnitude of {}", admittance ? "an admittance" : "an impedance")});
-    }
-  }
-  if (found.empty()) {
-    throw table.heading_error(
-        fmt::format("no columns of an impedance or admittance among {}; allowed: magnitude with or "
-                    "without phase, or real and imaginary part, as "
-                    "impedance_magnitude_ohm,impedance_phase_deg; S11 is "
-                    "read from Touchstone files, .s1p",
-                    fmt::join(table.names(), ", ")));
   }
   return found;
 }

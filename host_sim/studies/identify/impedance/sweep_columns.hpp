@@ -1,57 +1,51 @@
 /// Which columns of a table are a sweep, by their names.
 #pragma once
 
+#include <complex>
 #include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "host_sim/studies/identify/impedance/column_name.hpp"
 #include "host_sim/studies/identify/measured_table.hpp"
 
 namespace sonoglide::identify::impedance {
 
-/// What the name of a column says.
-enum class Role { none, frequency, magnitude, phase, real, imaginary };
-
-struct NamedColumn {
-  Role role = Role::none;
-  bool is_admittance = false;
-  bool names_its_subject = false;  ///< impedance or admittance
-  bool decibel = false;
-  double scale = 1.0;  ///< to Hz, ohm, S or radians
-  bool has_unit = false;
+struct SweepColumn {
+  ColumnName name;
   std::size_t index = 0;
-
-  double value(double cell) const;
 };
 
-/// Reads a name: `Frequency(Hz)`, `impedance_magnitude_ohm`, `|Z| [kOhm]`, `theta-z(deg)`, `Re(Y)`,
-/// `-Im(Z)`, `G (S)`. Case does not matter, but for the m and M of a unit. `S11 (dB)`, gains,
-/// reflections, capacitances and decibels of what is not named have no role.
-/// @param unknown_unit  the word in brackets, or the last one, that is no unit of what is named; else empty
-NamedColumn read_name(const std::string& name, std::string& unknown_unit);
-
-/// Whether a word names an element of an equivalent circuit, or its quality, that an analyser shows
-/// instead of an impedance: Cp, Cs, Lp, Ls, Rp, Q, D.
-bool is_equivalent_element(const std::string& word);
-
+/// Magnitude and phase, real and imaginary part, or a magnitude alone.
 struct SweepColumns {
-  NamedColumn frequency;
-  NamedColumn first;                  ///< magnitude or real part
-  std::optional<NamedColumn> second;  ///< phase or imaginary part
-  bool rectangular;
-  bool is_admittance;
-  std::string description;
+  SweepColumn first;
+  std::optional<SweepColumn> second;
 
-  /// To radians. A phase without a unit is in radians where no value is beyond ±3.2, else in
-  /// degrees; a warning says so.
-  double phase_scale(const std::vector<double>& phases, std::vector<std::string>& warnings) const;
+  bool rectangular() const { return first.name.role == Role::real; }
+  /// As in "magnitude and phase of an impedance".
+  std::string description() const;
+  /// The admittance of a row; of a magnitude alone its magnitude. Not finite or 0: it is none.
+  std::complex<double> admittance_S(double first_cell, double second_cell) const;
+  /// Gives a phase without a unit one: radians where no value is beyond ±3.2, else degrees.
+  /// @return a sentence that says so; empty where the phase has a unit
+  std::string complete_unit(const std::vector<double>& phases);
 };
 
-/// All of these that the table has, in this order: magnitude and phase of an impedance, its parts,
-/// magnitude and phase of an admittance, its parts, the magnitude of either.
-/// @throws scene_file::SceneError  there is no frequency or none of these, a unit is not known, or two
-///         columns are the same
-std::vector<SweepColumns> find_columns(const MeasuredTable& table);
+struct FoundColumns {
+  SweepColumn frequency;
+  /// All that the table has of these, in this order: magnitude and phase of an impedance, its parts,
+  /// magnitude and phase of an admittance, its parts, magnitudes alone. The first is the sweep.
+  std::vector<SweepColumns> forms;
+  std::vector<std::string> warnings;  ///< what was assumed, and which columns are not read
+};
+
+/// Whether one of the names is a frequency and another may be of an impedance or admittance.
+bool are_names_of_a_sweep(const std::vector<std::string>& names);
+
+/// @throws scene_file::SceneError  there is no frequency or none of the forms; a name of a sweep is
+///         not understood whole, or two columns are the same, and no pair stands beside them; or a
+///         magnitude has a phase beside it that cannot be read
+FoundColumns find_columns(const MeasuredTable& table);
 
 }  // namespace sonoglide::identify::impedance

@@ -11,7 +11,7 @@
 #include "host_sim/studies/identify/friction/comparison.hpp"
 #include "host_sim/studies/identify/friction/report.hpp"
 #include "host_sim/studies/identify/friction/scene_text.hpp"
-#include "host_sim/studies/identify/measured_table.hpp"
+#include "host_sim/studies/identify/text_file.hpp"
 
 namespace sonoglide::identify::friction::fit_test {
 namespace {

@@ -3,9 +3,12 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
+#include <random>
 #include <string>
+#include <vector>
 
 #include "host_sim/studies/identify/impedance/circuit.hpp"
 #include "synthetic.hpp"
@@ -158,11 +161,230 @@ TEST(ReadSweep, KnowsOrRefusesTheNamesOfTraces) {
   };
   expect_piece(traces("|Y|", "TH"));
   EXPECT_EQ(error_of(traces("|Y|", "X")),
-            "m.csv:16:1: trace: \"|Y|\" and \"X\" are no pair of traces that is known; allowed: "
-            "|Z|-theta, R-X, |Y|-theta, G-B");
+            "m.csv:16:10: trace: \"|Y|\" and \"X\" are no pair of traces that is known; allowed: "
+            "|Z|-theta, R-X, |Y|-theta, G-B, complex Z, complex Y");
   EXPECT_EQ(
-      error_of("\"TRACE: A\"\n\"FORMAT: R\"\n\"Frequency\"\n1\t2\n"),
-      "m.csv:2:1: trace: \"R\" alone, without trace B; allowed: |Z|-theta, R-X, |Y|-theta, G-B");
+      error_of("\"TRACE: A\"\n\"FORMAT: R\"\n\"Frequency\"\t\"Real\"\n1\t2\n"),
+      "m.csv:2:10: trace: \"R\" alone, without trace B; allowed: |Z|-theta, R-X, |Y|-theta, G-B, "
+      "complex Z, complex Y");
+}
+
+/// The lines that the instrument itself writes above its traces.
+TEST(ReadSweep, KnowsTheOwnLinesOfA4294A) {
+  const auto file = [](const std::string& parameter, const std::function<double(Complex z)>& a,
+                       const std::function<double(Complex z)>& b) {
+    const auto trace = [](const std::string& name, const std::function<double(Complex z)>& value) {
+      return file_of(
+          name +
+              "\"FORMAT: LOG\"\n\"LIST BIAS MODE: FREQUENCY\"\n\n\"Frequency\"\t\"Data "
+              "Trace Real\"\t\"Data Trace Imag\"\n",
+          [&](double f, Complex z) { return fmt::format("{:.12g}\t{:.12g}\t0.0\n", f, value(z)); });
+    };
+    return "\"4294A REV1.11\"\n\"DATE: Oct 26 2026\"\n\n\"MEASURE PARAMETER: " + parameter +
+           "\"\n\"NUMBER of POINTS: 10\"\n\n" + trace("\"TRACE: A\"\n", a) +
+           trace("\n\"TRACE: B\"\n", b);
+  };
+  const auto magnitude = [](Complex z) { return std::abs(z); };
+  const auto phase_deg = [](Complex z) { return std::arg(z) * degrees; };
+  const std::string files[] = {
+      file("IMPEDANCE MAG PHASE (DEG)", magnitude, phase_deg),
+      file("IMPEDANCE MAG PHASE (RAD)", magnitude, [](Complex z) { return std::arg(z); }),
+      file(
+          "ADMITTANCE MAG PHASE (DEG)", [](Complex z) { return 1.0 / std::abs(z); },
+          [](Complex z) { return -std::arg(z) * degrees; }),
+      file(
+          "|Y|-\u03b8 (rad)", [](Complex z) { return 1.0 / std::abs(z); },
+          [](Complex z) { return -std::arg(z); }),
+      file(
+          "IMPEDANCE REAL IMAG", [](Complex z) { return z.real(); },
+          [](Complex z) { return z.imag(); }),
+      file(
+          "G-B", [](Complex z) { return (1.0 / z).real(); },
+          [](Complex z) { return (1.0 / z).imag(); })};
+  for (const std::string& text : files) {
+    expect_piece(text, "m.txt");
+    EXPECT_TRUE(read_sweep({"m.txt", text}).warnings.empty());
+    EXPECT_TRUE(read_sweep({"m.txt", text}).has_phase);
+  }
+  EXPECT_EQ(
+      error_of(file("LS-RS", magnitude, phase_deg)),
+      "m.csv:4:21: trace: \"LS-RS\" is no impedance; allowed: |Z|-theta, R-X, |Y|-theta, G-B, "
+      "complex Z, complex Y");
+  EXPECT_EQ(error_of(file("MAG FURLONG", magnitude, phase_deg)).substr(0, 64),
+            "m.csv:4:21: trace: \"MAG FURLONG\" is no pair of traces that is kn");
+}
+
+TEST(ReadSweep, KnowsComplexTraces) {
+  const auto file = [](const std::string& parameter, bool admittance) {
+    return "\"MEASURE PARAMETER: " + parameter + "\"\n" +
+           file_of(
+               "\"TRACE: A\"\n\"FORMAT: COMPLEX\"\n\"Frequency\"\t\"Data Trace Real\"\t\"Data "
+               "Trace "
+               "Imag\"\n",
+               [&](double f, Complex z) {
+                 const Complex value = admittance ? 1.0 / z : z;
+                 return fmt::format("{:.12g}\t{:.12g}\t{:.12g}\n", f, value.real(), value.imag());
+               });
+  };
+  expect_piece(file("COMPLEX Z-Y", false), "m.txt");
+  expect_piece(file("COMPLEX Y-Z", true), "m.txt");
+  expect_piece(file("ADMITTANCE", true), "m.txt");
+}
+
+/// Touchstone 2 does not normalise Y and Z.
+TEST(ReadSweep, KnowsTouchstone2AndOtherSpellingsOfItsOptions) {
+  const auto rows = [](const std::string& head, const std::function<Complex(Complex z)>& value,
+                       const char* between = " ", const std::string& end = "") {
+    return file_of(
+        head,
+        [&](double f, Complex z) {
+          const Complex v = value(z);
+          return fmt::format("{:.15g}{}{:.15g}{}{:.15g}\n", f, between, v.real(), between,
+                             v.imag());
+        },
+        end);
+  };
+  const auto scattering = [](double reference) {
+    return [=](Complex z) { return (z - reference) / (z + reference); };
+  };
+  const std::string version = "! one port\n[Version] 2.0\n# Hz ";
+  const std::string counts = "[Number of Ports] 1\n[Number of Frequencies] 10\n";
+  expect_piece(rows(version + "S RI\n" + counts + "[Reference] 75\n[Network Data]\n",
+                    scattering(75.0), " ", "[End]\n"));
+  expect_piece(rows(version + "S RI R 75\n" + counts + "[Reference]\n75.0\n[Network Data]\n",
+                    scattering(75.0), " ", "[End]\n"));
+  expect_piece(rows(
+      version + "Z RI R 75\n" + counts +
+          "[Begin Information]\n1 2 3\n[End Information]\n[Network Data]\n",
+      [](Complex z) { return z; }, " ", "[End]\n"));
+  expect_piece(rows(
+      version + "Y RI R 75\n" + counts + "[Network Data]\n", [](Complex z) { return 1.0 / z; },
+      "\t", "[End]\nanything\n"));
+  for (const char* resistance :
+       {"R75", "R 75 Ohm", "R75 ohm", "R 75\u03a9", "R 75,0", "R 0.075 kOhm"}) {
+    expect_piece(rows("# Hz S RI " + std::string(resistance) + "\n", scattering(75.0)));
+  }
+  expect_piece(rows("# Hz, S, RI, R 50\n", scattering(50.0), ","));
+  expect_piece(rows("# Hz S RI R 50\n", scattering(50.0), ", "));
+  std::string commas = rows("", scattering(50.0), ";");
+  std::replace(commas.begin(), commas.end(), '.', ',');
+  expect_piece("# Hz S RI R 50\n" + commas);
+}
+
+std::string polar_lines(const std::string& heading, double sign = 1.0) {
+  return file_of(heading, [=](double f, Complex z) {
+    return fmt::format("{:.12g};{:.12g};{:.12g}\n", f, std::abs(z), sign * std::arg(z) * degrees);
+  });
+}
+
+/// A phase that is there is read, or refused with its place; never dropped.
+TEST(ReadSweep, NoPhaseIsDropped) {
+  for (const char* heading :
+       {"f;absz;phasez (deg)\n", "f[Hz];Z[Ohm];P[deg]\n", "Hz;Ohm;deg\n",
+        "\u9891\u7387(Hz);\u963b\u6297(\u03a9);\u76f8\u4f4d(\u00b0)\n",
+        "f (Hz);Trace |Z| (Ohm);Trace \u03b8 (deg)\n", "FrequencyHz;ImpedanceOhm;PhaseDeg\n",
+        "f_Hz;Z_ohm;phase in \xb0\n"}) {
+    const std::string text = polar_lines(heading);
+    expect_piece(text);
+    EXPECT_TRUE(read_sweep({"m.csv", text}).has_phase) << heading;
+  }
+  for (const char* heading :
+       {"f;|Z|;-phase (deg)\n", "f;|Z|;\u2212\u03b8 (\u00b0)\n", "f;|Z|;neg. phase (deg)\n",
+        "f;|Z|;negative phase_deg\n", "f;|Z|;phase (-deg)\n", "f;|Z|;phase of Y (deg)\n"}) {
+    const std::string text = polar_lines(heading, -1.0);
+    expect_piece(text);
+    EXPECT_TRUE(read_sweep({"m.csv", text}).has_phase) << heading;
+  }
+  EXPECT_EQ(
+      error_of(polar_lines("f;|Z|;phase furlong\n")).substr(0, 84),
+      "m.csv:1:7: heading: \"phase furlong\" is not understood: \"furlong\" is no unit of it an");
+  EXPECT_NE(error_of(polar_lines("f;|Z|;phase (current to voltage) (deg)\n")).find("m.csv:1:7"),
+            std::string::npos);
+  // It may be that of the return loss.
+  const std::string ambiguous =
+      file_of("f,Return loss (dB),Phase (deg),|Z|\n",
+              [](double f, Complex z) { return fmt::format("{},1,2,{}\n", f, std::abs(z)); });
+  EXPECT_EQ(error_of(ambiguous).substr(0, 65),
+            "m.csv:1:20: heading: \"Phase (deg)\" may be the phase of another co");
+}
+
+/// Columns beside a complete pair are no reason to refuse it, and are named where they are of a sweep.
+TEST(ReadSweep, SurplusColumnsBesideAPairAreNotRead) {
+  const auto rows = [](const std::string& heading, const char* format) {
+    return file_of(heading, [&](double f, Complex z) {
+      return fmt::format(fmt::runtime(format), f, z.real(), z.imag(), std::abs(z),
+                         std::arg(z) * degrees);
+    });
+  };
+  const std::string antenna = rows("Freq(MHz),Return Loss(dB),Phase(deg),Rs,SWR,Xs,|Z|,Theta\n",
+                                   "{0:.12g},9,9,{1:.12g},9,{2:.12g},9,9\n");
+  EXPECT_NE(error_of(antenna).find("contradicts"), std::string::npos) << error_of(antenna);
+  const std::string good = rows(
+      "f (Hz),Return Loss(dB),Phase(deg),Rs,SWR,Xs,|V| (V),|I| (A),Temperature (\u00b0C),time_s\n",
+      "{0:.12g},9,9,{1:.12g},9,{2:.12g},1,2,3,4\n");
+  expect_piece(good);
+  EXPECT_EQ(read_sweep({"m.csv", good}).warnings,
+            (std::vector<std::string>{
+                "Read is real and imaginary part of an impedance. Not read: \"Phase(deg)\"."}));
+  const std::string discovery = rows(
+      "Frequency (Hz),Trace \u03b8 (deg),Trace |Z| (Ohm),Trace Rs (Ohm),Trace Xs (Ohm),Trace Cp "
+      "(F)\n",
+      "{0:.12g},{4:.12g},{3:.12g},{1:.12g},{2:.12g},7\n");
+  expect_piece(discovery);
+  EXPECT_TRUE(read_sweep({"m.csv", discovery}).warnings.empty());
+  EXPECT_EQ(read_sweep({"m.csv", rows("f,R,X,Z_furlong\n", "{0:.12g},{1:.12g},{2:.12g},1\n")})
+                .warnings.at(0),
+            "Read is real and imaginary part of an impedance. Not read: \"Z_furlong\".");
+}
+
+TEST(ReadSweep, SettingsAboveAndASummaryBelowAreNoRows) {
+  const std::string table = polar_lines("f (Hz);|Z| (Ohm);phase (deg)\n");
+  std::string with_commas = table;
+  std::replace(with_commas.begin(), with_commas.end(), ';', ',');
+  expect_piece("Model,X1\nPoints,201\nStart frequency (Hz),112000\n" + with_commas);
+  expect_piece("Start frequency,Stop frequency,Points\n112000,114000,10\n" + with_commas);
+  expect_piece("Operator,Smith,Lab 2\n" + with_commas);
+  for (const char* summary : {"Mean,1000,-45\n", "\nResonance: 112.9 kHz\n", "fs;112900;3\n"}) {
+    const Sweep sweep = read_sweep({"m.csv", with_commas + summary});
+    EXPECT_EQ(sweep.frequency_Hz.size(), 10U);
+    ASSERT_EQ(sweep.warnings.size(), 1U);
+    EXPECT_NE(sweep.warnings.front().find("stands below the table and is not read"),
+              std::string::npos);
+  }
+  EXPECT_EQ(error_of(with_commas + with_commas),
+            "m.csv:12:1: heading: a second table, beside that of line 1; allowed: one table in a "
+            "file");
+}
+
+TEST(ReadSweep, KnowsTheMinusAndTheSpacesOfUnicode) {
+  const std::string text = file_of("f [Hz]\t|Z| [Ohm]\tphase [deg]\n", [](double f, Complex z) {
+    std::string number = fmt::format("{}", f);
+    number.insert(3, "\u2009");
+    return fmt::format("\u00a0{}\t{:.9f}\u202f\t{}{:.9f}\n", number, std::abs(z),
+                       std::arg(z) < 0.0 ? "\u2212" : "", std::abs(std::arg(z)) * degrees);
+  });
+  expect_piece(text);
+}
+
+/// Half of a pair tells no impedance, and a unit alone not which half it is.
+TEST(ReadSweep, RefusesHalfOfAPair) {
+  EXPECT_NE(error_of("f_kHz,G_S\n1,2\n").find("m.csv:1:1: heading: no columns of an impedance"),
+            std::string::npos);
+  EXPECT_EQ(error_of("kHz;S\n1;2\n").substr(0, 62),
+            "m.csv:1:5: heading: \"S\" is a unit and no name; allowed: magnit");
+}
+
+/// A million commas, blanks and lines are refused, and take no memory of a cell each.
+TEST(ReadSweep, RefusesMoreCellsAndLinesThanATableHas) {
+  const std::string commas(4U << 20U, ',');
+  EXPECT_NE(error_of(commas), "no error");
+  EXPECT_NE(error_of("f,|Z|\n1,2\n3," + commas).find("row: cells on this line: more than 1000"),
+            std::string::npos);
+  std::string lines;
+  for (int i = 0; i <= 1'000'000; ++i) {
+    lines += "a\n";
+  }
+  EXPECT_NE(error_of(lines).find("has too many lines; allowed: up to 1000000"), std::string::npos);
 }
 
 TEST(ReadSweep, ColumnsThatSayTheSameAgree) {
@@ -181,7 +403,7 @@ TEST(ReadSweep, ColumnsThatSayTheSameAgree) {
   }
   EXPECT_EQ(
       error_of("f,|Z| (ohm),|Z| (kohm)\n1,2,3\n"),
-      "m.csv:1:1: heading: \"|Z| (ohm)\" and \"|Z| (kohm)\" are the same; allowed: one of them");
+      "m.csv:1:13: heading: \"|Z| (ohm)\" and \"|Z| (kohm)\" are the same; allowed: one of them");
 }
 
 TEST(ReadSweep, WarnsOfAFileThatMayBeCut) {
@@ -218,15 +440,6 @@ TEST(ReadSweep, NamesThePlaceOfWhatIsWrong) {
   begins("f,|Z|\n1,2\n2,NaN\n", "m.csv:3:3: |Z|: \"NaN\" is no number");
   begins("time_s,|Z|\n1,2\n", "m.csv:1:1: heading: no column is a frequency");
   begins("f,colour\n1,2\n", "m.csv:1:1: heading: no columns of an impedance");
-  begins("f,|Z| (V)\n1,2\n", "m.csv:1:1: heading: \"|Z| (V)\": \"V\" is no unit");
-  begins("f,impedance_magnitude_mV\n1,2\n",
-         "m.csv:1:1: heading: \"impedance_magnitude_mV\": \"mV\" is no unit");
-  begins("Frequency (mHz),|Z|\n1,2\n",
-         "m.csv:1:1: heading: \"Frequency (mHz)\": \"mHz\" is no unit");
-  begins("f_mHz,|Z|\n1,2\n", "m.csv:1:1: heading: \"f_mHz\": \"mHz\" is no unit");
-  begins("f,G (MS),B (MS)\n1,2,3\n", "m.csv:1:1: heading: \"G (MS)\": \"MS\" is no unit");
-  begins("f;|Z|\nkHz;furlong\n1;2\n",
-         "m.csv:1:1: heading: \"|Z| [furlong]\": \"furlong\" is no unit");
   for (const char* heading : {"f,S11 (dB)", "f,S11 mag,S11 phase", "f,s_11 (dB)", "f,Gain (dB)",
                               "f,Magnitude (dB)", "f,Reflection magnitude", "f,Cp (F)"}) {
     begins(std::string(heading) + "\n1,2\n", "m.csv:1:1: heading: no columns of an impedance");
@@ -235,10 +448,43 @@ TEST(ReadSweep, NamesThePlaceOfWhatIsWrong) {
          "m.csv:1:25: trace: \"CP-D\" is no impedance; allowed: |Z|-theta");
   begins("f,|Z|\n1,2\n2,3\n", "m.csv:1:1: sweep: has readings at 2 frequencies");
   begins("f,|Z|\n1,2\n1,3\n", "m.csv:1:1: sweep: has readings at 1 frequency;");
-  begins("# Hz S RI R 50\n1 2\n", "m.csv:2:3: touchstone: 2 numbers");
-  begins("# Hz S RI R 50\n1 -1 0\n", "m.csv:2:3: touchstone: has an admittance");
-  begins("[Version] 2.0\n# Hz S RI R 50\n", "m.csv:1:1: touchstone: has keywords");
-  begins("\"TRACE: A\"\n\"Frequency\"\t\"x\"\n1\tx\t0\n", "m.csv:3:3: trace: \"x\" is no number");
+  begins("# Hz S RI R 50\n1 2\n", "m.csv:2:4: second number: cells on this line: 2");
+  begins("# Hz S RI R 50\n1 -1 0\n", "m.csv:2:3: first number: \"-1\" has an admittance");
+  begins("# Hz H RI R 50\n1 1 0\n", "m.csv:1:1: touchstone: names what one port does not have");
+  begins("[Version] 2.0\n# Hz S RI R 50\n[Number of Ports] 2\n",
+         "m.csv:3:1: touchstone: has 2 ports; allowed: 1");
+  begins("[Version] 2.0\n# Hz S RI R 50\n[Number of Frequencies] 3\n1 0.5 0\n",
+         "m.csv:3:1: touchstone: [Number of Frequencies] is 3, and readings are 1");
+  begins("[Version] 2.0\n# Hz S RI R 50\n[Mixed-Mode Order] D2,3\n",
+         "m.csv:3:1: touchstone: [mixed-mode order] is not known; allowed: ");
+  begins("\"TRACE: A\"\n\"Frequency\"\t\"Real\"\t\"Imag\"\n1\tx\t0\n",
+         "m.csv:3:3: Real: \"x\" is no number");
+}
+
+/// Files with bytes changed, doubled and left out are read or refused with a place and what is
+/// allowed; nothing else is thrown.
+TEST(ReadSweep, ADamagedFileIsReadOrRefused) {
+  const std::string whole[] = {
+      polar_lines("Points;10\nf (10^3 Hz);|Z| [k\u03a9];\u2212\u03b8 (\u00b0)\n"),
+      polar_lines("[Version] 2.0\n# kHz Z MA R 50 Ohm\n[Number of Frequencies] 10\n"),
+      polar_lines(
+          "\"MEASURE PARAMETER: IMPEDANCE MAG PHASE (DEG)\"\n\"TRACE: A\"\n\"FORMAT: LOG\"\n"
+          "\"Frequency\"\t\"Real\"\t\"Imag\"\n")};
+  std::mt19937 random(1);
+  const std::string bytes = "0123456789.,;-+e|()[]/_'\"# \t\n\xce\xa9\xe2\x81\xbbZYfkMS%!";
+  for (int i = 0; i < 3000; ++i) {
+    std::string text = whole[i % 3];
+    for (int change = 0; change <= i % 5; ++change) {
+      // Mostly in the heading.
+      const std::size_t at = random() % (change % 2 == 0 ? 80 : text.size());
+      const std::size_t size = random() % 4;
+      text.replace(at, size, std::string(random() % 3, bytes[random() % bytes.size()]));
+    }
+    const std::string error = error_of(text);
+    EXPECT_TRUE(error == "no error" ||
+                (error.rfind("m.csv:", 0) == 0 && error.find("allowed: ") != std::string::npos))
+        << error;
+  }
 }
 
 /// Cut anywhere, a file is read or refused with a place.

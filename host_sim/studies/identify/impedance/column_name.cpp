@@ -1,0 +1,371 @@
+#include "host_sim/studies/identify/impedance/column_name.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "host_sim/studies/identify/impedance/vocabulary.hpp"
+#include "host_sim/studies/identify/plain_text.hpp"
+#include "host_sim/studies/identify/unit.hpp"
+
+namespace sonoglide::identify::impedance {
+namespace {
+
+/// S11, s_21.
+bool is_scattering(const std::string& plain) {
+  for (std::size_t i = 0; i + 1 < plain.size(); ++i) {
+    const bool begins = i == 0 || std::isalnum(static_cast<unsigned char>(plain[i - 1])) == 0;
+    if (begins && (plain[i] == 's' || plain[i] == 'S')) {
+      const std::size_t next = plain.find_first_not_of('_', i + 1);
+      if (next != std::string::npos && std::isdigit(static_cast<unsigned char>(plain[next])) != 0) {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
+/// Goes through a name from its beginning to its end and takes every part of it, or says which it
+/// does not understand.
+class Reader {
+ public:
+  explicit Reader(std::string text) : text_(std::move(text)) {
+    while (at_ < text_.size()) {
+      take_next();
+    }
+    conclude();
+  }
+
+  ColumnName result() const { return result_; }
+
+ private:
+  void take_next() {
+    const char each = text_[at_];
+    if (std::isalpha(static_cast<unsigned char>(each)) != 0 || each == '%') {
+      take_word();
+    } else if (each == '(' || each == '[' || each == '{' || each == '<') {
+      take_brackets();
+    } else if (each == '/' || each == ',') {
+      take_behind_slash();
+    } else if (each == '|') {
+      bars_ = true;
+      set_role(Role::magnitude, "|");
+      ++at_;
+    } else if (each == '\'') {
+      const bool twice = text_.compare(at_, 2, "''") == 0;
+      set_role(twice ? Role::imaginary : Role::real, twice ? "''" : "'");
+      at_ += twice ? 2 : 1;
+    } else if (each == '-') {
+      take_minus();
+    } else if (std::string_view(" _.:;)]}>").find(each) != std::string_view::npos) {
+      ++at_;
+    } else {
+      std::size_t end = at_ + 1;
+      while (end < text_.size() && text_[end] != ' ') {
+        ++end;
+      }
+      refuse(text_.substr(at_, end - at_));
+      at_ = end;
+    }
+  }
+
+  /// Of letters and digits; behind it may stand the rest of a unit.
+  void take_word() {
+    std::size_t end = at_ + 1;
+    while (end < text_.size() && std::isalnum(static_cast<unsigned char>(text_[end])) != 0) {
+      ++end;
+    }
+    const std::string word = text_.substr(at_, end - at_);
+    at_ = end;
+    if (!take(word) && !take_prefix(word) && !take_parts(word)) {
+      refuse(word);
+    }
+  }
+
+  bool take(const std::string& word) {
+    const std::string small = lower_case(word);
+    if (small == "neg" || small == "negative" || small == "minus") {
+      negative_ = !negative_;
+      return true;
+    }
+    const auto unit = unit_of_word(word);
+    const auto meaning = meaning_of(small);
+    // THz is no theta of Z; a capital F behind a name is no frequency, but a farad.
+    const bool is_unit =
+        unit && (!meaning || (unit->dimension != Dimension::other && word.size() > 1) ||
+                 (unit->dimension == Dimension::other && words_ > 0 && small != word));
+    if (meaning && !is_unit) {
+      ++words_;
+      take_meaning(*meaning, word);
+      return true;
+    }
+    if (small == "p" && words_ == 0) {
+      is_letter_p_ = true;
+      return true;
+    }
+    if (unit) {
+      take_unit(*unit, word);
+      return true;
+    }
+    return is_filler(small);
+  }
+
+  /// `k Ohm`, `kilo-ohm`.
+  bool take_prefix(const std::string& word) {
+    const std::size_t next = at_ + 1;
+    const bool joins =
+        at_ < text_.size() && (text_[at_] == ' ' || text_[at_] == '-' || text_[at_] == '_') &&
+        next < text_.size() && std::isalpha(static_cast<unsigned char>(text_[next])) != 0;
+    if (!scale_of_prefix(word) || !joins) {
+      return false;
+    }
+    std::size_t end = next;
+    while (end < text_.size() && std::isalpha(static_cast<unsigned char>(text_[end])) != 0) {
+      ++end;
+    }
+    const auto unit = unit_of_word(word + text_.substr(next, end - next));
+    if (!unit || unit->dimension == Dimension::other) {
+      return false;
+    }
+    take_unit(*unit, word);
+    at_ = end;
+    return true;
+  }
+
+  /// Words that are told apart by a capital: PhaseDeg, ZmagkOhm.
+  bool take_parts(const std::string& word) {
+    for (std::size_t i = 1; i < word.size(); ++i) {
+      const bool capital = std::isupper(static_cast<unsigned char>(word[i])) != 0 &&
+                           std::islower(static_cast<unsigned char>(word[i - 1])) != 0;
+      if (!capital) {
+        continue;
+      }
+      const std::string rest = word.substr(i);
+      const Reader before(*this);
+      const bool refused = !result_.not_understood.empty();
+      if (take(word.substr(0, i)) && (take(rest) || take_parts(rest)) &&
+          result_.not_understood.empty() != refused) {
+        return true;
+      }
+      *this = before;
+    }
+    return false;
+  }
+
+  /// A unit and nothing else, or words.
+  void take_brackets() {
+    const std::size_t open = at_++;
+    const std::size_t close = std::min(text_.find_first_of(")]}>", open), text_.size());
+    std::string inside(trimmed(std::string_view(text_).substr(at_, close - at_)));
+    const bool minus = inside.size() > 1 && inside.front() == '-';
+    if (minus) {
+      inside.erase(0, 1);
+    }
+    if (const auto unit = unit_of_text(inside)) {
+      const bool is_word = meaning_of(lower_case(inside)) && unit->dimension == Dimension::other;
+      if (!is_word || inside.size() > 1 ||
+          std::isupper(static_cast<unsigned char>(inside[0])) != 0) {
+        negative_ = negative_ != minus;
+        take_unit(*unit, inside);
+        at_ = std::min(close + 1, text_.size());
+        return;
+      }
+    }
+    const bool words = std::all_of(inside.begin(), inside.end(), [](unsigned char each) {
+      return std::isalpha(each) != 0 || each == ' ' || each == '|' || each == '\'';
+    });
+    if (!words && !minus) {
+      refuse(inside);
+      at_ = std::min(close + 1, text_.size());
+    }
+  }
+
+  /// `Z / kOhm`, `Z, 10^3 Ohm`; words may stand there too.
+  void take_behind_slash() {
+    const std::size_t from = at_ + 1;
+    const std::size_t end = std::min(text_.find_first_of("([{<", from), text_.size());
+    const std::string inside(trimmed(std::string_view(text_).substr(from, end - from)));
+    if (const auto unit = unit_of_text(inside)) {
+      take_unit(*unit, inside);
+      at_ = end;
+      return;
+    }
+    const bool again = text_.find_first_of("/*^0123456789", from) < end;
+    if (again || inside.empty()) {
+      refuse(inside.empty() ? text_.substr(at_, 1) : inside);
+      at_ = end;
+      return;
+    }
+    at_ = from;
+  }
+
+  /// At the beginning, also behind a bracket, it turns the sign; between words it joins them.
+  void take_minus() {
+    const bool leads = std::all_of(text_.begin(), text_.begin() + static_cast<std::ptrdiff_t>(at_),
+                                   [](char each) { return each == ' ' || each == '('; });
+    const char before = at_ > 0 ? text_[at_ - 1] : ' ';
+    const char behind = at_ + 1 < text_.size() ? text_[at_ + 1] : ' ';
+    if (leads) {
+      negative_ = !negative_;
+    } else if ((before == ' ' || before == '(') != (behind == ' ')) {
+      refuse(text_.substr(at_));
+    }
+    ++at_;
+  }
+
+  void take_meaning(const Meaning& word, const std::string& as_it_stands) {
+    if (word.role != Role::none) {
+      set_role(word.role, as_it_stands);
+    }
+    if (word.subject != Subject::unknown) {
+      if (result_.subject != Subject::unknown && result_.subject != word.subject) {
+        refuse(as_it_stands);
+      }
+      result_.subject = word.subject;
+    }
+  }
+
+  void set_role(Role role, const std::string& as_it_stands) {
+    result_.may_be_phase = result_.may_be_phase || role == Role::phase;
+    if (result_.role != Role::none && result_.role != role) {
+      refuse(as_it_stands);
+    }
+    result_.role = role;
+  }
+
+  void take_unit(const Unit& unit, const std::string& as_it_stands) {
+    if (unit.dimension == Dimension::level && unit.scale == 1.0) {
+      result_.decibel = true;
+      return;
+    }
+    if (unit_ && (unit_->dimension != unit.dimension || unit_->scale != unit.scale)) {
+      refuse(as_it_stands);
+    }
+    unit_ = unit;
+    unit_text_ = as_it_stands;
+  }
+
+  void refuse(const std::string& part) {
+    if (result_.not_understood.empty()) {
+      result_.not_understood = part;
+    }
+  }
+
+  /// The role that a unit gives, and whether the unit is one of what is named.
+  void conclude() {
+    const bool named = result_.role != Role::none || result_.subject != Subject::unknown;
+    const bool only_bars = bars_ && words_ == 0;
+    const bool is_other = unit_ && unit_->dimension == Dimension::other;
+    const bool level_of_unknown = (is_other || (result_.decibel && !unit_)) &&
+                                  result_.role == Role::magnitude &&
+                                  result_.subject == Subject::unknown;
+    if ((!named && !unit_) || (is_other && (!named || only_bars)) || level_of_unknown ||
+        (only_bars && !result_.not_understood.empty())) {
+      result_ = {};
+      return;
+    }
+    if (is_letter_p_) {
+      const bool is_angle = unit_ && unit_->dimension == Dimension::angle && !named;
+      is_angle ? set_role(Role::phase, "p") : refuse("p");
+    }
+    if (unit_) {
+      take_role_of_unit(named);
+    }
+    if (result_.role == Role::none && result_.subject != Subject::unknown) {
+      result_.role = Role::magnitude;
+    }
+    if (result_.decibel &&
+        (result_.role != Role::magnitude || result_.subject == Subject::unknown)) {
+      refuse("dB");
+    }
+    if (negative_ && result_.role != Role::phase && result_.role != Role::imaginary) {
+      refuse("-");
+    }
+    result_.scale = (unit_ ? unit_->scale : 1.0) * (negative_ ? -1.0 : 1.0);
+    result_.has_unit = unit_.has_value();
+    if (!result_.not_understood.empty()) {
+      // A name of which nothing is a sweep's but a unit is of something else.
+      if (!named && !is_letter_p_) {
+        result_.not_understood.clear();
+      }
+      result_.role = Role::none;
+    }
+  }
+
+  void take_role_of_unit(bool named) {
+    const Dimension dimension = unit_->dimension;
+    result_.is_bare_unit = !named;
+    const bool electrical = dimension == Dimension::impedance || dimension == Dimension::admittance;
+    const Subject subject = dimension == Dimension::impedance    ? Subject::impedance
+                            : dimension == Dimension::admittance ? Subject::admittance
+                                                                 : Subject::unknown;
+    if (!named) {
+      result_.role = dimension == Dimension::frequency ? Role::frequency
+                     : dimension == Dimension::angle   ? Role::phase
+                                                       : Role::magnitude;
+      result_.may_be_phase = result_.role == Role::phase;
+    }
+    const bool right = result_.role == Role::frequency ? dimension == Dimension::frequency
+                       : result_.role == Role::phase   ? dimension == Dimension::angle
+                                                       : electrical;
+    if (!right ||
+        (electrical && result_.subject != Subject::unknown && result_.subject != subject)) {
+      refuse(unit_text_);
+    } else if (electrical) {
+      result_.subject = subject;
+    }
+  }
+
+  std::string text_;
+  std::size_t at_ = 0;
+  ColumnName result_;
+  std::optional<Unit> unit_;
+  std::string unit_text_;
+  bool negative_ = false;
+  bool bars_ = false;
+  bool is_letter_p_ = false;
+  int words_ = 0;  ///< of the vocabulary
+};
+
+/// The words of a name, in small letters.
+std::vector<std::string> words_of(const std::string& plain) {
+  std::vector<std::string> words;
+  bool inside = false;
+  for (const char each : plain) {
+    const bool letter = std::isalnum(static_cast<unsigned char>(each)) != 0;
+    if (letter && !inside) {
+      words.emplace_back();
+    }
+    if (letter) {
+      words.back() += static_cast<char>(std::tolower(static_cast<unsigned char>(each)));
+    }
+    inside = letter;
+  }
+  return words;
+}
+
+}  // namespace
+
+double ColumnName::value(double cell) const {
+  constexpr double decibels_a_decade = 20.0;
+  return scale * (decibel ? std::pow(10.0, cell / decibels_a_decade) : cell);
+}
+
+bool is_of_ratio(std::string_view name) {
+  const std::string plain = plain_text(translated(name));
+  const std::vector<std::string> words = words_of(plain);
+  return is_scattering(plain) || std::any_of(words.begin(), words.end(), is_word_of_ratio);
+}
+
+ColumnName read_name(std::string_view name) {
+  const std::string plain = plain_text(translated(name));
+  const std::vector<std::string> words = words_of(plain);
+  if (is_of_ratio(name) || std::any_of(words.begin(), words.end(), is_equivalent_element)) {
+    return {};
+  }
+  return Reader(plain).result();
+}
+
+}  // namespace sonoglide::identify::impedance

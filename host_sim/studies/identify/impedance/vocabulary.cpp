@@ -1,0 +1,127 @@
+#include "host_sim/studies/identify/impedance/vocabulary.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <utility>
+
+namespace sonoglide::identify::impedance {
+namespace {
+
+struct Words {
+  Meaning meaning;
+  std::string_view words;  ///< in small letters, between blanks
+};
+
+constexpr Words vocabulary[] = {
+    {{Role::frequency, Subject::unknown},
+     " f freq frequency frequencies frequenz frequence frecuencia frequenza "},
+    {{Role::none, Subject::impedance}, " z zin z11 imp impedance impedanz impedancia impedenza "},
+    {{Role::none, Subject::admittance}, " y yin y11 adm admittance admittanz "},
+    {{Role::magnitude, Subject::unknown},
+     " abs mag magnitude modulus module mod betrag amplitude "},
+    {{Role::phase, Subject::unknown},
+     " phase theta th phi phz arg argument angle ang fase phasenwinkel "},
+    {{Role::real, Subject::unknown}, " re real realteil "},
+    {{Role::imaginary, Subject::unknown}, " im imag img imaginary "},
+    {{Role::real, Subject::impedance}, " r rs resistance "},
+    {{Role::imaginary, Subject::impedance}, " x xs reactance "},
+    {{Role::real, Subject::admittance}, " g gp conductance "},
+    {{Role::imaginary, Subject::admittance}, " b bp susceptance "}};
+
+/// Words of other scripts, and what they are in the vocabulary.
+constexpr std::pair<std::string_view, std::string_view> translations[] = {{"频率", " frequency "},
+                                                                          {"頻率", " frequency "},
+                                                                          {"周波数", " frequency "},
+                                                                          {"阻抗", " impedance "},
+                                                                          {"导纳", " admittance "},
+                                                                          {"導納", " admittance "},
+                                                                          {"相位角", " phase "},
+                                                                          {"相位", " phase "},
+                                                                          {"相角", " phase "},
+                                                                          {"位相", " phase "},
+                                                                          {"电阻", " resistance "},
+                                                                          {"電阻", " resistance "},
+                                                                          {"电抗", " reactance "},
+                                                                          {"電抗", " reactance "},
+                                                                          {"电导", " conductance "},
+                                                                          {"電導", " conductance "},
+                                                                          {"电纳", " susceptance "},
+                                                                          {"電納", " susceptance "},
+                                                                          {"幅值", " magnitude "},
+                                                                          {"模值", " magnitude "},
+                                                                          {"欧姆", " Ohm "},
+                                                                          {"歐姆", " Ohm "},
+                                                                          {"赫兹", " Hz "},
+                                                                          {"度", " deg "},
+                                                                          {"é", "e"}};
+
+constexpr std::string_view fillers =
+    " trace data meas measured value values the of in for part component series ";
+constexpr std::string_view ratios =
+    " gain transmission reflection gamma loss vswr swr attenuation ";
+constexpr std::string_view elements = " cp cs lp ls rp q d ";
+
+bool is_among(std::string_view word, std::string_view words) {
+  return words.find(' ' + std::string(word) + ' ') != std::string_view::npos;
+}
+
+const Meaning* find_word(std::string_view word) {
+  const auto* const found =
+      std::find_if(std::begin(vocabulary), std::end(vocabulary),
+                   [&](const Words& each) { return is_among(word, each.words); });
+  return found == std::end(vocabulary) ? nullptr : &found->meaning;
+}
+
+}  // namespace
+
+std::string lower_case(std::string_view text) {
+  std::string small(text);
+  std::transform(small.begin(), small.end(), small.begin(),
+                 [](unsigned char each) { return static_cast<char>(std::tolower(each)); });
+  return small;
+}
+
+std::optional<Meaning> meaning_of(std::string_view any_case) {
+  const std::string word = lower_case(any_case);
+  if (const Meaning* found = find_word(word)) {
+    return *found;
+  }
+  for (const auto& [letter, subject] :
+       {std::pair('z', Subject::impedance), std::pair('y', Subject::admittance)}) {
+    for (const bool before : {true, false}) {
+      if (word.size() < 3 || (before ? word.front() : word.back()) != letter) {
+        continue;
+      }
+      const Meaning* part = find_word(before ? word.substr(1) : word.substr(0, word.size() - 1));
+      if (part != nullptr && part->subject == Subject::unknown && part->role != Role::frequency) {
+        return Meaning{part->role, subject};
+      }
+    }
+  }
+  return std::nullopt;
+}
+
+bool is_filler(std::string_view word) {
+  return is_among(word, fillers);
+}
+
+bool is_word_of_ratio(std::string_view word) {
+  return is_among(word, ratios);
+}
+
+bool is_equivalent_element(std::string_view word) {
+  return is_among(word, elements);
+}
+
+std::string translated(std::string_view text) {
+  std::string english(text);
+  for (const auto& [word, translation] : translations) {
+    for (std::size_t at = english.find(word); at != std::string::npos;
+         at = english.find(word, at + translation.size())) {
+      english.replace(at, word.size(), translation);
+    }
+  }
+  return english;
+}
+
+}  // namespace sonoglide::identify::impedance

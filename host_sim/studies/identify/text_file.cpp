@@ -1,0 +1,111 @@
+#include "host_sim/studies/identify/text_file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <fstream>
+#include <system_error>
+
+#include "host_sim/studies/identify/plain_text.hpp"
+
+namespace sonoglide::identify {
+namespace {
+
+using scene_file::SceneError;
+
+[[noreturn]] void refuse(const std::string& file, const std::string& message) {
+  throw SceneError({file, 1, 1}, "file", message);
+}
+
+void require_text(const std::string& file, std::string_view text) {
+  constexpr std::string_view allowed = "allowed: a text file of measurements, ASCII or UTF-8";
+  const auto starts_with = [&](std::string_view mark) { return text.substr(0, 2) == mark; };
+  if (starts_with("\xff\xfe") || starts_with("\xfe\xff")) {
+    refuse(file, fmt::format("is text in UTF-16; {}", allowed));
+  }
+  const std::size_t zero = text.find('\0');
+  if (zero != std::string_view::npos) {
+    refuse(file, fmt::format("is no text, byte {} is 0; {}", zero, allowed));
+  }
+  if (text.find_first_not_of(" \t\r\n") == std::string_view::npos) {
+    refuse(file, fmt::format("is empty; {}", allowed));
+  }
+}
+
+}  // namespace
+
+scene_file::Source read_text(const std::filesystem::path& path) {
+  const std::string file = path.string();
+  constexpr std::string_view allowed = "allowed: a readable file of measurements";
+  std::error_code error;
+  if (std::filesystem::is_directory(path, error)) {
+    refuse(file, fmt::format("is a directory; {}", allowed));
+  }
+  errno = 0;
+  std::ifstream stream(path, std::ios::binary);
+  if (!stream) {
+    refuse(file, fmt::format("{}; {}", std::generic_category().message(errno), allowed));
+  }
+  std::string text;
+  constexpr std::size_t piece = std::size_t{1} << 20U;
+  while (stream && text.size() <= most_bytes) {
+    const std::size_t size = text.size();
+    text.resize(size + piece);
+    stream.read(text.data() + size, static_cast<std::streamsize>(piece));
+    text.resize(size + static_cast<std::size_t>(stream.gcount()));
+  }
+  if (stream.bad()) {
+    refuse(file, fmt::format("cannot be read; {}", allowed));
+  }
+  if (text.size() > most_bytes) {
+    refuse(file, fmt::format("is too large; allowed: up to {} MB", most_bytes >> 20U));
+  }
+  require_text(file, text);
+  constexpr std::string_view mark = "\xef\xbb\xbf";
+  if (text.compare(0, mark.size(), mark) == 0) {
+    text.erase(0, mark.size());
+  }
+  return {file, std::move(text)};
+}
+
+std::vector<Line> lines_of(const scene_file::Source& source) {
+  std::string_view text = source.text;
+  std::vector<Line> lines;
+  for (std::size_t number = 1; !text.empty(); ++number) {
+    // Instruments of old end their lines with CR alone.
+    const std::size_t end = std::min(text.find_first_of("\r\n"), text.size());
+    const std::string_view line = text.substr(0, end);
+    if (line.find_first_not_of(" \t\v\f") != std::string_view::npos) {
+      lines.push_back({line, number});
+    }
+    if (lines.size() > most_lines) {
+      throw SceneError({source.file, number, 1}, "file",
+                       fmt::format("has too many lines; allowed: up to {}", most_lines));
+    }
+    const bool both = text.substr(end, 2) == "\r\n";
+    text.remove_prefix(std::min(end + (both ? 2 : 1), text.size()));
+  }
+  return lines;
+}
+
+bool is_comment(std::string_view line) {
+  // A tab before it is an empty first cell.
+  const std::size_t first = line.find_first_not_of(' ');
+  return first != std::string_view::npos &&
+         std::string_view("#!%").find(line[first]) != std::string_view::npos;
+}
+
+std::string warning_of_cut(const scene_file::Source& source) {
+  const std::string_view text = source.text;
+  const std::size_t end = text.find_last_of("\r\n");
+  const std::string_view last =
+      trimmed(end == std::string_view::npos ? text : text.substr(end + 1));
+  if (last.empty() || last == "END") {
+    return {};
+  }
+  return fmt::format("The last line, \"{}\", has no line end: if the file was cut, it is wrong.",
+                     last.substr(0, 60));
+}
+
+}  // namespace sonoglide::identify

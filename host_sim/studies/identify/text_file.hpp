@@ -1,0 +1,39 @@
+/// Files of measurements as lines of text.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "host_sim/scene_file/scene_error.hpp"
+#include "host_sim/scene_file/source.hpp"
+
+namespace sonoglide::identify {
+
+/// The largest file that is read, and the most lines that are no blank ones.
+inline constexpr std::size_t most_bytes = std::size_t{256} << 20U;
+inline constexpr std::size_t most_lines = 1'000'000;
+
+/// The text of a file of measurements, without a byte order mark.
+/// @throws scene_file::SceneError  it cannot be read, is empty, larger than most_bytes, in UTF-16,
+///         or no text at all
+scene_file::Source read_text(const std::filesystem::path& path);
+
+struct Line {
+  std::string_view text;
+  std::size_t number;  ///< from 1
+};
+
+/// The lines that are not blank, without their ends: LF, CR LF or CR. Views of the text.
+/// @throws scene_file::SceneError  they are more than most_lines
+std::vector<Line> lines_of(const scene_file::Source& source);
+
+/// Whether a line begins with `#`, `!` or `%`.
+bool is_comment(std::string_view line);
+
+/// A warning of a text whose last line has no end, and so may be cut; empty for any other.
+std::string warning_of_cut(const scene_file::Source& source);
+
+}  // namespace sonoglide::identify
