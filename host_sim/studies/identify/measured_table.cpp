@@ -40,8 +40,8 @@ std::string counted(const std::vector<Cell>& cells) {
                                    : fmt::format("{}", cells.size());
 }
 
-/// The line as a heading: at least two cells, none of them a number.
-std::optional<Heading> heading_of(const Line& line) {
+/// The line as a heading: as many cells at least, none of them a number.
+std::optional<Heading> heading_of(const Line& line, std::size_t least_cells) {
   std::string_view text = line.text;
   if (is_comment(text)) {
     text.remove_prefix(text.find_first_of("#!%") + 1);
@@ -53,7 +53,7 @@ std::optional<Heading> heading_of(const Line& line) {
   while (!cells.empty() && cells.back().text.empty()) {
     cells.pop_back();
   }
-  if (cells.size() < 2 || cells.size() > most_cells ||
+  if (cells.size() < least_cells || cells.size() > most_cells ||
       std::any_of(cells.begin(), cells.end(),
                   [&](const Cell& each) { return is_numeric_in(each.text, heading.separator); })) {
     return std::nullopt;
@@ -194,12 +194,12 @@ Found find_heading(const scene_file::Source& source, const std::vector<Line>& li
   std::vector<Found> all_wanted;
   std::tuple<bool, bool, bool, std::size_t> best_rank;
   for (std::size_t i = 0; i < lines.size(); ++i) {
-    std::optional<Heading> heading = heading_of(lines[i]);
+    std::optional<Heading> heading = heading_of(lines[i], 2);
     if (!heading) {
       continue;
     }
     if (i + 1 < lines.size()) {
-      const auto units = heading_of(lines[i + 1]);
+      const auto units = heading_of(lines[i + 1], 1);
       if (units && is_line_of_units(*units, *heading, is_wanted)) {
         join(*heading, *units);
         ++i;

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "host_sim/studies/identify/friction/candidate.hpp"
+#include "host_sim/studies/identify/friction/scene_text.hpp"
 
 namespace sonoglide::identify::friction {
 namespace {
@@ -130,7 +131,8 @@ void sort_laws(Comparison& comparison) {
     const Eigen::Index freedom = n - fit.parameter_count();
     const double deviation =
         fit.residual_rms / std::sqrt(static_cast<double>(std::max<Eigen::Index>(freedom, 1)));
-    return std::make_tuple(fit.exceeds_standard_errors(), fit.akaike, freedom <= 0, deviation);
+    return std::make_tuple(fit.exceeds_standard_errors(), fit.akaike, !fit.is_determined,
+                           freedom <= 0, deviation);
   };
   std::stable_sort(comparison.laws.begin(), comparison.laws.end(),
                    [&](const LawFit& a, const LawFit& b) { return rank(a) < rank(b); });
@@ -169,6 +171,11 @@ Comparison compare(Readings readings, const std::vector<std::string>& laws,
       comparison.cannot_tell.insert(comparison.cannot_tell.end(), each.open.begin(),
                                     each.open.end());
     }
+  }
+  if (const std::string refusal = scene_refusal(comparison); !refusal.empty()) {
+    comparison.has_scene = false;
+    comparison.warnings.push_back("No scene.toml is written, because run would refuse it: " +
+                                  refusal);
   }
   return comparison;
 }

@@ -62,10 +62,11 @@ class Profile {
     start(parameter) = log;
     const LawProblem::Solution solution = problem_.solve(*branch.scatter, start, parameter);
     branch.last = solution.logs;
-    const double variance = std::max(branch.best.sum_of_squares / student_.degrees_of_freedom(),
-                                     problem_.stated_variance());
+    const double variance = std::max({branch.best.sum_of_squares / student_.degrees_of_freedom(),
+                                      problem_.stated_variance(), problem_.least_variance()});
     const double more = std::max(0.0, solution.sum_of_squares - branch.best.sum_of_squares);
-    const double t = std::sqrt(more / std::max(variance, 1e-300));
+    constexpr double most = 1e9;
+    const double t = std::min(std::sqrt(more / variance), most);
     return log < branch.best.logs(parameter) ? -t : t;
   }
 
@@ -123,7 +124,7 @@ std::vector<LogInterval> intervals(const LawProblem& problem, const Eigen::Vecto
                                    const std::vector<Scatter>& scatters,
                                    const std::vector<double>& probabilities) {
   const auto count = static_cast<std::size_t>(problem.parameters());
-  if (problem.readings() <= problem.parameters() || count == 0) {
+  if (problem.readings() <= problem.parameters() || !problem.is_determined() || count == 0) {
     return std::vector<LogInterval>(count, {open_end, open_end});
   }
   Profile profile(problem, best, scatters, probabilities);
@@ -134,8 +135,12 @@ std::vector<LogInterval> intervals(const LawProblem& problem, const Eigen::Vecto
   for (Eigen::Index i = 0; i < problem.parameters(); ++i) {
     const double width = problem.range(i).most - problem.range(i).least;
     const double step = 2.0 * std::sqrt(covariance(i, i));
-    all.push_back(profile.of(
-        i, std::isfinite(step) ? std::clamp(step, 1e-6 * width, 0.1 * width) : 0.1 * width));
+    LogInterval ends = profile.of(
+        i, std::isfinite(step) ? std::clamp(step, 1e-6 * width, 0.1 * width) : 0.1 * width);
+    // The best for white scatter may be at an end of the mixture; an open end stays open.
+    ends.low = ends.low > best(i) ? best(i) : ends.low;
+    ends.high = ends.high < best(i) ? best(i) : ends.high;
+    all.push_back(ends);
   }
   return all;
 }

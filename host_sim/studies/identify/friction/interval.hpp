@@ -16,7 +16,8 @@ struct LogInterval {
 };
 
 /// Profile likelihood: at a value x of one parameter the others are fitted again, and
-///   t(x) = ± sqrt((S(x) - S_min)/s²),  s² = S_min/(n - p), at least that of the stated errors,
+///   t(x) = ± sqrt((S(x) - S_min)/s²),  s² = S_min/(n - p), at least that of the stated errors and
+/// of the last digit of the values,
 /// is taken for Student's t with n - p degrees of freedom. So no interval rests on the law being
 /// linear, and a parameter that the data do not bound has an open end. What counts is the mean of
 /// the distribution functions over the scatters, each by its probability, so that misfit widens the
@@ -24,8 +25,8 @@ struct LogInterval {
 ///
 /// @param best           parameters, the best for white scatter
 /// @param probabilities  of the scatters
-/// @return one for each parameter; open on both sides where there are no more readings than
-///         parameters
+/// @return one for each parameter, with the best value in it; open on both sides where there are no
+///         more readings than parameters, or fewer different ones
 std::vector<LogInterval> intervals(const LawProblem& problem, const Eigen::VectorXd& best,
                                    const std::vector<Scatter>& scatters,
                                    const std::vector<double>& probabilities);

@@ -52,7 +52,8 @@ std::vector<Estimate> estimates(const LawFit& fit, const Readings& readings,
   for (std::size_t i = 0; i < fit.law.shape.size(); ++i) {
     const ShapeParameter& shape = fit.law.shape[i];
     const double log = fit.logs(static_cast<Eigen::Index>(i));
-    const bool inside = end_of(problem.range(static_cast<Eigen::Index>(i)), log) == End::none;
+    const bool inside =
+        fit.is_determined && end_of(problem.range(static_cast<Eigen::Index>(i)), log) == End::none;
     const auto value = [&](double any) { return shape.offset + std::exp(any); };
     all.push_back({shape.name, inside ? value(log) : unknown, value(intervals[i].low),
                    value(intervals[i].high)});
@@ -63,7 +64,8 @@ std::vector<Estimate> estimates(const LawFit& fit, const Readings& readings,
     }
   }
   if (readings.are_forces) {
-    all.push_back({"friction_limit_N", std::exp(fit.logs(fit.logs.size() - 1)),
+    all.push_back({"friction_limit_N",
+                   fit.is_determined ? std::exp(fit.logs(fit.logs.size() - 1)) : unknown,
                    std::exp(intervals.back().low), std::exp(intervals.back().high)});
   }
   return all;
@@ -72,6 +74,13 @@ std::vector<Estimate> estimates(const LawFit& fit, const Readings& readings,
 /// What a law leaves open.
 std::vector<std::string> open_ends(const LawFit& fit, const LawProblem& problem,
                                    const std::vector<LogInterval>& intervals) {
+  if (!fit.is_determined) {
+    return {fmt::format(
+        "{}: {} parameters are not determined by {}; any of many values fit as well.",
+        fit.law.title, problem.parameters(),
+        fit.different == 1 ? std::string("readings of one velocity")
+                           : fmt::format("readings of {} different velocities", fit.different))};
+  }
   if (problem.parameters() > 0 && problem.readings() <= problem.parameters()) {
     return {fmt::format(
         "{}: {} parameters from {} readings are no test of the law and have no intervals.",
@@ -118,7 +127,10 @@ double chi_square_probability(const Readings& readings, const LawFit& fit) {
     const double part = fit.residuals[i] / readings.rows[i].standard_error;
     sum += part * part;
   }
-  return boost::math::cdf(boost::math::complement(boost::math::chi_squared(freedom), sum));
+  constexpr double most = 1e6;
+  return sum < most * freedom
+             ? boost::math::cdf(boost::math::complement(boost::math::chi_squared(freedom), sum))
+             : 0.0;
 }
 
 /// Part of the residuals' variance that is misfit; 0 where none is more likely than some.
@@ -138,6 +150,38 @@ double misfit_part(const std::vector<Scatter>& scatters, const std::vector<doubl
 /// one would, and they would win.
 std::size_t least_compared(const Readings& readings) {
   return readings.are_forces ? 5 : 4;
+}
+
+/// By how much each parameter would be off, were the vibrations larger than stated.
+std::string effect_of_scale(const Readings& readings, const LawFit& fit) {
+  constexpr double larger = 1.01;
+  Readings scaled = readings;
+  for (Reading& row : scaled.rows) {
+    row.vibration_m_per_s *= larger;
+  }
+  const LawProblem problem(scaled, fit.law);
+  const LawProblem::Solution solution = problem.solve(Scatter(scaled, 0.0, 1.0, 1.0), fit.logs);
+  const std::vector<LogInterval> none(static_cast<std::size_t>(fit.logs.size()),
+                                      {unknown, unknown});
+  LawFit other = fit;
+  other.logs = solution.logs;
+  const std::vector<Estimate> moved = estimates(other, readings, problem, none);
+  std::string effects;
+  for (std::size_t i = 0; i < moved.size(); ++i) {
+    const double percent = 100.0 * (moved[i].value / fit.parameters[i].value - 1.0);
+    constexpr double least = 0.05;
+    if (std::abs(percent) >= least) {
+      effects +=
+          fmt::format("{}{} {:.2g} % {}", effects.empty() ? "" : ", ", fit.parameters[i].name,
+                      std::abs(percent), percent > 0.0 ? "larger" : "smaller");
+    }
+  }
+  return effects.empty()
+             ? std::string()
+             : fmt::format(
+                   "{}: the intervals hold no error of the vibration's scale, which all readings "
+                   "share. Were the vibrations 1 % larger than stated: {}.",
+                   fit.law.title, effects);
 }
 
 }  // namespace
@@ -188,6 +232,8 @@ LawFit fit(const Readings& readings, const Candidate& law) {
   LawFit fit;
   fit.law = law;
   fit.logs = best.logs;
+  fit.different = readings.distinct();
+  fit.is_determined = problem.is_determined();
   fit.parameters = estimates(
       fit, readings, problem,
       std::vector<LogInterval>(static_cast<std::size_t>(problem.parameters()), {unknown, unknown}));
@@ -208,7 +254,7 @@ LawFit fit(const Readings& readings, const Candidate& law) {
   // Residuals of rounding alone do not compare laws.
   constexpr double rounding = 1e-9;
   const double least = n * rounding * rounding * limit * limit;
-  fit.akaike = readings.rows.size() < least_compared(readings)
+  fit.akaike = readings.rows.size() < least_compared(readings) || !fit.is_determined
                    ? std::numeric_limits<double>::infinity()
                    : corrected_akaike(std::max(best.sum_of_squares, least), problem.readings(),
                                       problem.parameters());
@@ -225,6 +271,10 @@ void add_intervals(const Readings& readings, LawFit& fit) {
       intervals(problem, fit.logs, all, probabilities_of(problem, fit, all));
   fit.parameters = estimates(fit, readings, problem, ends);
   fit.open = open_ends(fit, problem, ends);
+  if (const std::string effect = effect_of_scale(readings, fit);
+      fit.is_determined && !effect.empty()) {
+    fit.open.push_back(effect);
+  }
 }
 
 double friction_of(const Readings& readings, const LawFit& fit, const Reading& row) {

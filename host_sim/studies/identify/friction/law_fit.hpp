@@ -28,6 +28,8 @@ struct LawFit {
   double autocorrelation = 0.0;  ///< of neighbouring residuals
   /// Of residuals so large, were the stated standard errors all; not a number without them.
   double chi_square_probability = 0.0;
+  std::size_t different = 0;      ///< readings; see Readings::distinct()
+  bool is_determined = true;      ///< as many different readings as parameters, at least
   std::vector<std::string> open;  ///< what of this law the data leave open, each a sentence
 
   Eigen::Index parameter_count() const { return logs.size(); }

@@ -42,6 +42,12 @@ class LawProblem {
 
   /// Variance that the stated standard errors give residuals(); 0 without any.
   double stated_variance() const { return stated_variance_; }
+  /// Least variance of residuals(): that of the values' last digit, and what the fits are exact to.
+  double least_variance() const { return least_variance_; }
+  /// Whether the readings are of at least as many different velocities as there are parameters.
+  bool is_determined() const {
+    return static_cast<Eigen::Index>(readings_.distinct()) >= parameters();
+  }
 
   struct Solution {
     Eigen::VectorXd logs;
@@ -75,6 +81,7 @@ class LawProblem {
   Eigen::VectorXd measured_;
   Eigen::VectorXd weights_;
   double stated_variance_ = 0.0;
+  double least_variance_ = 0.0;
   Scatter white_;
 };
 

@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <numeric>
 #include <optional>
+#include <set>
 #include <string_view>
 #include <tuple>
 
@@ -27,17 +29,22 @@ struct Known {
 };
 
 constexpr std::array known = {
-    Known{"sliding_velocity_m_per_s", 0.0, 100.0, true,
+    Known{"sliding_velocity_m_per_s", 1e-12, 100.0, false,
           "m/s; at rest friction has no mean over a period"},
     Known{"vibration_velocity_m_per_s", 0.0, 100.0, false, "m/s, peak; 0 without vibration"},
-    Known{"velocity_ratio", 0.0, 1e9, true, "sliding velocity over peak vibration velocity"},
+    Known{"velocity_ratio", 1e-9, 1e9, false, "sliding velocity over peak vibration velocity"},
     Known{"vibration_amplitude_m", 0.0, 0.01, false, "m; 0 without vibration"},
     Known{"frequency_Hz", 1.0, 1e9, false, "Hz"},
     Known{"friction_ratio", -0.5, 1.5, false,
           "friction with vibration over friction without, neither percent nor reduction"},
     Known{"friction_force_N", -1e9, 1e9, false, "N"},
-    Known{"friction_ratio_standard_error", 0.0, 1.0, true, "that of the friction ratio"},
-    Known{"friction_force_standard_error_N", 0.0, 1e9, true, "N"}};
+    Known{"friction_ratio_standard_error", 1e-12, 1.0, false, "that of the friction ratio"},
+    Known{"friction_force_standard_error_N", 1e-24, 1e9, false, "N"}};
+
+/// A vibration is none, or at least this.
+constexpr double least_vibration_m_per_s = 1e-15;
+/// Values that are all below are no measurement.
+constexpr double least_friction = 1e-12;
 
 std::vector<std::string_view> known_names() {
   std::vector<std::string_view> names;
@@ -94,6 +101,11 @@ class Columns {
       }
     }
     return values;
+  }
+
+  scene_file::SceneError error(std::size_t row, std::string_view name,
+                               const std::string& message) const {
+    return table_.error(row, find(name)->index, message);
   }
 
   /// The one that is there.
@@ -184,6 +196,13 @@ std::vector<double> vibrations(const Columns& columns, const std::vector<double>
       values[i] *= numeric::two_pi * frequency_Hz[i];
     }
   }
+  for (std::size_t row = 0; row < values.size(); ++row) {
+    if (values[row] > 0.0 && values[row] < least_vibration_m_per_s) {
+      throw columns.error(row, name,
+                          fmt::format("is a vibration of {:g} m/s; allowed: 0, or from {:g} m/s",
+                                      values[row], least_vibration_m_per_s));
+    }
+  }
   return values;
 }
 
@@ -203,6 +222,37 @@ void warn(Readings& readings) {
 }
 
 }  // namespace
+
+std::size_t Readings::distinct() const {
+  std::set<std::tuple<double, double, double>> different;
+  for (const Reading& row : rows) {
+    different.emplace(row.sliding_m_per_s, row.vibration_m_per_s, row.frequency_Hz);
+  }
+  return different.size();
+}
+
+double Readings::rounding() const {
+  double largest = 0.0;
+  for (const Reading& row : rows) {
+    largest = std::max(largest, std::abs(row.friction));
+  }
+  constexpr double most = 0.01;
+  double digit = most * largest;
+  const auto is_written_with = [&](double value) {
+    constexpr double of_binary = 1e-13;
+    return std::abs(value - std::round(value / digit) * digit) <= of_binary * largest;
+  };
+  digit = std::pow(10.0, std::floor(std::log10(digit)));
+  constexpr int most_digits = 15;
+  for (int i = 0; i < most_digits; ++i) {
+    if (std::all_of(rows.begin(), rows.end(),
+                    [&](const Reading& row) { return is_written_with(row.friction); })) {
+      break;
+    }
+    digit /= 10.0;
+  }
+  return digit / std::sqrt(12.0);
+}
 
 Readings read_readings(const scene_file::Source& source) {
   const MeasuredTable table(source, are_names_of_readings);
@@ -240,7 +290,9 @@ Readings read_readings(const scene_file::Source& source) {
   if (std::all_of(vibration.begin(), vibration.end(), [](double v) { return v == 0.0; })) {
     throw table.heading_error("no row has a vibration; allowed: at least one");
   }
-  if (!(std::accumulate(values.begin(), values.end(), 0.0) > 0.0)) {
+  const auto is_above = [](double value) { return std::abs(value) > least_friction; };
+  if (!(std::accumulate(values.begin(), values.end(), 0.0) > 0.0) ||
+      std::none_of(values.begin(), values.end(), is_above)) {
     throw table.heading_error(fmt::format(
         "{} is not above 0 in the mean; allowed: positive against the sliding", friction));
   }

@@ -27,6 +27,12 @@ struct Readings {
   bool have_frequency = false;
   bool have_standard_errors = false;
   std::vector<std::string> warnings;  ///< each a sentence
+
+  /// Readings of different velocities or frequencies: repeated ones tell no further parameter.
+  std::size_t distinct() const;
+  /// Standard deviation of rounding to the last digit that the values were written with, at most
+  /// 1 % of the largest of them. Their scatter is no less.
+  double rounding() const;
 };
 
 /// More are refused: a mean of readings at one velocity tells a fit as much.

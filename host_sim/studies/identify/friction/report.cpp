@@ -13,6 +13,9 @@ namespace sonoglide::identify::friction {
 
 std::string verdict(const Comparison& comparison, const LawFit& fit) {
   std::string text;
+  if (!fit.is_determined) {
+    return "not determined: fewer different readings than parameters";
+  }
   if (fit.exceeds_standard_errors()) {
     text = "fails: larger than the standard errors";
   } else if (fit.runs_probability < fails_below) {
@@ -103,7 +106,9 @@ void write(const std::filesystem::path& out, const Comparison& comparison,
   output::OutputFolder folder(out);
   folder.write("report.html", html);
   folder.write("identify.json", to_json(comparison).dump(2) + '\n');
-  folder.write("scene.toml", scene_text(comparison));
+  if (comparison.has_scene) {
+    folder.write("scene.toml", scene_text(comparison));
+  }
   folder.commit();
 }
 

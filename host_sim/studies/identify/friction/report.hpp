@@ -17,7 +17,7 @@ nlohmann::ordered_json to_json(const Comparison& comparison);
 /// @param name  of the file of readings
 output::Page page(const Comparison& comparison, const std::string& name);
 
-/// Writes report.html, identify.json and scene.toml; all or none.
+/// Writes report.html, identify.json and, where there is one, scene.toml; all or none.
 /// @throws output::OutputError
 void write(const std::filesystem::path& out, const Comparison& comparison, const std::string& name);
 

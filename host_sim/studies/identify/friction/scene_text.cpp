@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "firmware/numeric/turn.hpp"
+#include "host_sim/scene_file/reader.hpp"
 
 namespace sonoglide::identify::friction {
 namespace {
@@ -153,6 +154,15 @@ std::string scene_text(const Comparison& comparison) {
       all.frequency_Hz, row.frequency_Hz > 0.0 ? "" : "   # assumed: the file has none",
       all.force_amplitude_N);
   return text + "[run]\nstart = \"steady\"\nduration_periods = 20\n";
+}
+
+std::string scene_refusal(const Comparison& comparison) {
+  try {
+    scene_file::read_text(scene_text(comparison), "scene.toml");
+  } catch (const scene_file::SceneError& error) {
+    return fmt::format("{}: {}.", error.key(), error.message());
+  }
+  return {};
 }
 
 }  // namespace sonoglide::identify::friction

@@ -16,4 +16,7 @@ const Reading& scene_reading(const Comparison& comparison);
 /// the file does not have them.
 std::string scene_text(const Comparison& comparison);
 
+/// Why scene_text() is no scene, in one line; empty where it is one.
+std::string scene_refusal(const Comparison& comparison);
+
 }  // namespace sonoglide::identify::friction

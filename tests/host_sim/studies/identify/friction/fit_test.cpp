@@ -1,5 +1,6 @@
 /// Laws fitted to data whose law is known from elsewhere.
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -96,6 +97,82 @@ TEST(FrictionFit, ConstantReadingsAndAlikeOnesAreNoTrap) {
   EXPECT_NEAR(alike.best().residual_rms, 0.0, 1e-6);
 }
 
+/// Readings that agree to their last digit have an interval that holds their own value.
+TEST(FrictionFit, ReadingsWithoutScatterHaveAnIntervalAroundTheirValue) {
+  for (const char* rows :
+       {"0.5,0.05,0.4\n0.5,0.05,0.4\n0.5,0.05,0.4\n0.5,0.05,0.4\n",
+        "0.5,0.05,0.41234567890123456\n0.5,0.05,0.41234567890123456\n0.5,0.05,0."
+        "41234567890123456\n",
+        "0.1,0.01,0.08814\n0.1,0.01,0.08814\n0.5,0.05,0.48927\n0.5,0.05,0.48927\n"}) {
+    const Comparison comparison = compared(rows, {"dahl", "iwan"});
+    for (const LawFit& each : comparison.laws) {
+      for (const Estimate& estimate : each.parameters) {
+        if (std::isfinite(estimate.value)) {
+          EXPECT_FALSE(estimate.low_95 > estimate.value) << rows << estimate.name;
+          EXPECT_FALSE(estimate.high_95 < estimate.value) << rows << estimate.name;
+        }
+      }
+    }
+    const Estimate& best = comparison.best().parameters.front();
+    EXPECT_LT(best.low_95, best.value) << rows;
+    EXPECT_GT(best.high_95, best.value) << rows;
+  }
+}
+
+/// Eight times one reading tell one number, whatever their scatter.
+TEST(FrictionFit, RepeatedReadingsDetermineNoMoreParameters) {
+  std::string rows;
+  for (const char* force : {"0.50", "0.51", "0.49", "0.50", "0.52", "0.48", "0.50", "0.51"}) {
+    rows += std::string("0.5,0.05,") + force + "\n";
+  }
+  const Comparison comparison =
+      compared(rows, {"coulomb", "dahl", "stribeck", "lugre"},
+               "velocity_ratio,sliding_velocity_m_per_s,friction_force_N\n");
+  EXPECT_EQ(comparison.best().law.law, "coulomb");
+  EXPECT_TRUE(std::isfinite(comparison.best().parameters.front().low_95));
+  for (const char* title : {"Dahl", "Stribeck", "LuGre"}) {
+    const LawFit& each = law(comparison, title);
+    EXPECT_FALSE(each.is_determined) << title;
+    EXPECT_EQ(verdict(comparison, each),
+              "not determined: fewer different readings than parameters");
+    for (const Estimate& estimate : each.parameters) {
+      EXPECT_TRUE(std::isnan(estimate.value)) << estimate.name;
+      EXPECT_TRUE(std::isnan(estimate.low_95) && std::isnan(estimate.high_95)) << estimate.name;
+    }
+  }
+  const Comparison alone =
+      compared(rows, {"lugre"}, "velocity_ratio,sliding_velocity_m_per_s,friction_force_N\n");
+  EXPECT_NE(to_json(alone)["cannot_tell"].dump().find(
+                "LuGre: 5 parameters are not determined by readings of one velocity"),
+            std::string::npos);
+}
+
+/// Residuals beyond any scale of the standard errors are told as that, by no library's words.
+TEST(FrictionFit, TinyStandardErrorsAreExceeded) {
+  const std::string columns =
+      "velocity_ratio,sliding_velocity_m_per_s,friction_ratio,friction_ratio_standard_error\n";
+  const Comparison comparison = compared(
+      "0.1,0.01,0.06,1e-12\n0.5,0.05,0.40,1e-12\n0.9,0.09,0.71,1e-12\n", {"coulomb"}, columns);
+  EXPECT_EQ(comparison.best().chi_square_probability, 0.0);
+  EXPECT_TRUE(comparison.best().exceeds_standard_errors());
+  EXPECT_THROW(compared("0.1,0.01,0.06,1e-200\n0.5,0.05,0.4,1e-200\n", {"coulomb"}, columns),
+               scene_file::SceneError);
+}
+
+TEST(FrictionFit, ASceneThatRunWouldRefuseIsNotWritten) {
+  const std::string columns =
+      "sliding_velocity_m_per_s,vibration_velocity_m_per_s,frequency_Hz,friction_ratio\n";
+  const Comparison comparison =
+      compared("1e-10,2e-10,1,0.33\n1e-10,3e-10,1,0.22\n", {"coulomb"}, columns);
+  EXPECT_FALSE(comparison.has_scene);
+  EXPECT_NE(
+      comparison.warnings.back().find("No scene.toml is written, because run would refuse it: "
+                                      "plant.mass_kg: "),
+      std::string::npos)
+      << comparison.warnings.back();
+  EXPECT_TRUE(compared(coulomb_rows, {"coulomb"}).has_scene);
+}
+
 Candidate candidate(const Readings& readings, const std::string& title) {
   const std::vector<Candidate> all = candidates(extent_of(readings));
   return *std::find_if(all.begin(), all.end(),
@@ -122,6 +199,62 @@ Readings readings_of(const std::string& title, const std::vector<double>& shape,
 }
 
 constexpr double per_amplitude_per_m = 25e3 * 6.283185307179586 / 0.2;
+
+/// What cannot be told names by how much vibrations that are larger than stated move Kt/Fc.
+TEST(FrictionFit, AnErrorOfTheVibrationsScaleIsTold) {
+  const double truth = 2.0 * per_amplitude_per_m;
+  Readings readings = readings_of("Dahl", {truth}, 0.002);
+  for (Reading& row : readings.rows) {
+    row.vibration_m_per_s /= 1.03;
+  }
+  const Comparison comparison = compare(readings, {"dahl"}, silent);
+  const Estimate& found = comparison.best().parameters.front();
+  EXPECT_GT(found.value, 1.05 * truth);
+  const std::string told = comparison.best().open.back();
+  const std::string before = "Were the vibrations 1 % larger than stated: " + found.name + " ";
+  const std::size_t at = told.find(before);
+  ASSERT_NE(at, std::string::npos) << told;
+  EXPECT_NE(told.find("smaller", at), std::string::npos) << told;
+  const double percent = std::stod(told.substr(at + before.size()));
+  EXPECT_NEAR(found.value * (1.0 - 0.03 * percent), truth, 0.02 * truth) << told;
+}
+
+/// Readings at random, far beyond what is measured: a fit, or a refusal with its place.
+TEST(FrictionFit, RandomReadingsAreFittedOrRefused) {
+  std::mt19937_64 random(3);
+  const auto within = [&](double low, double high) {
+    return low + (high - low) * std::uniform_real_distribution<double>(0.0, 1.0)(random);
+  };
+  const auto number = [&](double low, double high) {
+    return random() % 8 == 0 ? std::pow(10.0, within(-310.0, 10.0)) : within(low, high);
+  };
+  const std::vector<std::string> laws = {"coulomb", "dahl", "iwan", "stribeck", "normal_coulomb"};
+  int fitted = 0;
+  for (int set = 0; set < 240; ++set) {
+    const bool forces = set % 2 == 0;
+    std::string text =
+        std::string("sliding_velocity_m_per_s;vibration_velocity_m_per_s;friction_") +
+        (forces ? "force_N;friction_force_standard_error_N\n"
+                : "ratio;friction_ratio_standard_error\n");
+    for (int row = 0; row <= set % 7; ++row) {
+      text += fmt::format("{};{};{};{}\n", number(0.01, 0.2),
+                          random() % 6 == 0 ? 0.0 : number(0.1, 0.2), number(0.1, 1.0),
+                          number(1e-3, 0.1));
+    }
+    const scene_file::Source source{"f.csv", text};
+    try {
+      const Comparison comparison = compare(
+          read_readings(source), {laws[static_cast<std::size_t>(set) % laws.size()]}, silent);
+      ++fitted;
+      for (const Estimate& each : comparison.best().parameters) {
+        EXPECT_FALSE(each.low_95 > each.value || each.high_95 < each.value) << each.name << text;
+      }
+    } catch (const scene_file::SceneError& error) {
+      EXPECT_NE(std::string(error.what()).find("; allowed: "), std::string::npos) << error.what();
+    }
+  }
+  EXPECT_GT(fitted, 30);
+}
 
 /// LuGre with Fs/Fc = 1 and no viscous friction is Dahl, and all that are stiff are Coulomb.
 TEST(FrictionFit, ALawThatContainsAnotherFitsNoWorse) {

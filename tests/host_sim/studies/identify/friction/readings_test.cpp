@@ -96,7 +96,7 @@ TEST(Readings, HeadingsAreRefusedWithWhatIsAllowed) {
       "friction_force_standard_error_N\n0.01,0.1,0.2,1\n",
       "1:1", "does not belong");
   expect_refused("sliding_velocity_m_per_s,sliding_velocity_m_per_s,friction_ratio\n0.01,0.1,0.2\n",
-                 "1:1", "twice");
+                 "1:26", "twice");
   EXPECT_NE(refusal("sliding_velocity_mm_per_s,vibration_velocity_m_per_s,friction_ratio\n"
                     "10,0.1,0.2\n")
                 .find("did you mean sliding_velocity_m_per_s?"),
@@ -113,9 +113,12 @@ TEST(Readings, MayHaveTheirUnitsInBracketsOrOnALineBelow) {
     const scene_file::Source source{"f.csv", text};
     EXPECT_EQ(read_readings(source).rows.at(1).sliding_m_per_s, 0.02) << text;
   }
+  expect_refused(
+      "sliding_velocity_m_per_s;vibration_velocity_m_per_s;friction_ratio (-) percent\n" + rows,
+      "1:53", "unknown column \"friction_ratio (-) percent\"");
   expect_refused(names + "mm/s;m/s;-\n" + rows, "1:1",
                  "\"mm/s\" is no unit of sliding_velocity_m_per_s; allowed: m/s");
-  expect_refused(names + "m/s;m/s;%\n" + rows, "1:1", "\"%\" is no unit of friction_ratio");
+  expect_refused(names + "m/s;m/s;%\n" + rows, "1:53", "\"%\" is no unit of friction_ratio");
 }
 
 TEST(Readings, OfAFileThatMayBeCutAreWarnedOf) {
