@@ -65,6 +65,11 @@ bool is_control(char32_t code) {
   return code < 0x20 || (code >= 0x7f && code < 0xa0) || code == 0x2028 || code == 0x2029;
 }
 
+/// The two code points of the first plane that XML has no characters for, not even escaped.
+bool is_no_xml(char32_t code) {
+  return code == 0xfffe || code == 0xffff;
+}
+
 bool turns_direction(char32_t code) {
   return code == 0x061c || code == 0x200e || code == 0x200f || (code >= 0x202a && code <= 0x202e) ||
          (code >= 0x2066 && code <= 0x2069);
@@ -77,8 +82,8 @@ std::string shown(std::string_view text, std::string_view kept) {
     const Character character = first_of(text);
     const std::string_view bytes = text.substr(0, character.bytes);
     text.remove_prefix(character.bytes);
-    const bool plain =
-        character.valid && !is_control(character.code) && !turns_direction(character.code);
+    const bool plain = character.valid && !is_control(character.code) &&
+                       !turns_direction(character.code) && !is_no_xml(character.code);
     if (plain || kept.find(bytes) != std::string_view::npos) {
       result += bytes;
       continue;

@@ -7,9 +7,9 @@
 namespace sonoglide::process {
 
 /// The text in valid UTF-8 on one line: every byte of a control character (C0, DEL, C1, the line
-/// and paragraph separators), of a character that turns the direction of writing, and every byte
-/// that is not UTF-8 stands as `\xNN`. What is printable already is not changed, so that a second
-/// call changes nothing.
+/// and paragraph separators), of a character that turns the direction of writing, of U+FFFE and
+/// U+FFFF, which XML cannot hold, and every byte that is not UTF-8 stands as `\xNN`. What is
+/// printable already is not changed, so that a second call changes nothing.
 ///
 /// Names of files may hold anything but `/` and NUL: this is what keeps them from speaking to a
 /// terminal and from breaking a line, JSON, XML or a comment. The quotes of each language come on

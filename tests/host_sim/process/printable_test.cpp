@@ -22,6 +22,7 @@ TEST(PrintableTest, EscapesWhatATerminalWouldObey) {
   EXPECT_EQ(printable("\u009b31m"), "\\xc2\\x9b31m") << "the C1 form of the same";
   EXPECT_EQ(printable("\u2028"), "\\xe2\\x80\\xa8");
   EXPECT_EQ(printable("a\u202eb"), "a\\xe2\\x80\\xaeb") << "turns the direction of writing";
+  EXPECT_EQ(printable("a\uffff\ufffe"), "a\\xef\\xbf\\xbf\\xef\\xbf\\xbe") << "XML has neither";
 }
 
 // Unicode 15.0, table 3-7 and its text: what is not well-formed.
