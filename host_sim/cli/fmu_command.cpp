@@ -20,7 +20,6 @@ struct FmuOptions {
   SceneOptions scene;
   std::string kind;
   int version = 3;
-  bool clock = false;
   std::string out;
   bool quiet = false;
 };
@@ -35,29 +34,29 @@ stepped::Kind kind_of(const std::string& name) {
 }
 
 void write(const FmuOptions& options) {
-  if (options.clock && options.version != 3) {
-    throw CLI::ValidationError("--clock", "is of FMI 3 alone; allowed: --fmi 3");
-  }
   const SceneInput input(options.scene);
   const scene::Scene scene = input.read();
-  const fmi::Content content{kind_of(options.kind), options.clock};
-  input.with_places([&] {
-    stepped::require_usable(scene, content.kind);
-    return options.clock ? fmi::clock_resolution_Hz(scene) : 0;
-  });
+  const stepped::Kind kind = kind_of(options.kind);
+  input.with_places([&] { stepped::require_usable(scene, kind); });
   const std::filesystem::path out = std::filesystem::absolute(options.out);
   output::OutputFolder folder(out.parent_path(), {out.filename().string()});
+  const fmi::Parts parts = fmi::find_parts();
   folder.write(
       out.filename().string(),
-      fmi::make_fmu(scene, content, options.version == 2 ? fmi::Version::fmi2 : fmi::Version::fmi3,
-                    fmi::find_parts(), "sonoglide " SONOGLIDE_VERSION));
+      fmi::make_fmu(scene, kind, options.version == 2 ? fmi::Version::fmi2 : fmi::Version::fmi3,
+                    parts, "sonoglide " SONOGLIDE_VERSION));
   folder.commit();
   if (!options.quiet) {
-    if (content.kind != stepped::Kind::plant) {
+    if (kind != stepped::Kind::plant) {
       print_design_notes(configure::design_if_closed(scene));
     }
-    fmt::print("fmu:  {}\nstep: {} s, one carrier period\n", process::printable(options.out),
-               1.0 / scene.drive->frequency_Hz);
+    fmt::print("fmu:  {}\nstep: {} s, one carrier period{}\n", process::printable(options.out),
+               1.0 / scene.drive->frequency_Hz,
+               stepped::carrier_changes(scene) ? " at the start" : "");
+    if (!parts.windows_engine) {
+      fmt::print(
+          "note: without a binary for Windows, for the program was built without mingw-w64\n");
+    }
   }
 }
 
@@ -75,8 +74,6 @@ void add_fmu_command(CLI::App& program) {
   command->add_option("--fmi", options->version, "Version of the interface [3]")
       ->type_name("3|2")
       ->check(CLI::IsMember({2, 3}));
-  command->add_flag("--clock", options->clock,
-                    "With event mode and a clock that ticks once a carrier period");
   command->add_option("--out", options->out, "The FMU")
       ->required()
       ->type_name("FILE.fmu")

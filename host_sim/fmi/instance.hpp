@@ -22,28 +22,14 @@ class CallError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// A step that the instance refuses: another one may follow.
-class StepError : public CallError {
- public:
-  using CallError::CallError;
-};
-
 /// Where an instance is on its way.
-enum class Phase { instantiated, initialization, event, step, terminated };
-
-/// The clock at a communication point; unused where the FMU has none.
-struct Tick {
-  bool due = true;       ///< it has not ticked here yet
-  bool active = false;   ///< it ticks
-  bool settled = false;  ///< what happened in this event mode has been taken over
-};
+enum class Phase { instantiated, initialization, step, terminated };
 
 /// All of an instance but its place in memory.
 struct State {
   Phase phase = Phase::instantiated;
   double start_s = 0.0;
-  std::uint64_t periods = 0;
-  Tick tick;
+  double time_s = 0.0;  ///< of the last communication point
   Inputs inputs;
   std::map<std::uint32_t, double> parameters;  ///< that were set, by their value references
   std::optional<loop::Snapshot> engine;
@@ -65,34 +51,21 @@ class Instance {
   /// The text of a get() that stays until the next one of the same variable.
   const std::string& get_text(std::uint32_t reference);
 
+  /// @throws CallError  no carrier period can be counted from that time on
+  void require_start(double start_s) const;
+  /// @throws CallError  see require_start()
   void enter_initialization(double start_s);
   void exit_initialization();
   void terminate();
   void reset();
 
-  // Event mode, of an FMU with a clock.
-
-  bool has_clock() const { return resources_.content.clock; }
-  std::uint64_t clock_resolution_Hz() const { return resolution_Hz_; }
-  /// @throws CallError  the variable is no clock
-  void require_clock(std::uint32_t reference) const;
-  void enter_event_mode();
-  /// @param active  false takes a tick back, with what it has done
-  void set_clock(std::uint32_t reference, bool active);
-  bool get_clock(std::uint32_t reference) const;
-  /// Takes over what the tick has done, and ends the tick.
-  void update_discrete_states();
-  void enter_step_mode();
-
-  /// With a clock a step is one carrier period, and the controller answers at the tick after it.
+  /// Carries out the carrier periods that end in this step, be it none: the outputs then hold.
   /// @param may_stop_early  when a fault begins
   /// @return  whether it did so: time_s() is then before the end that was asked for
-  /// @throws StepError  it is no whole number of carrier periods, or does not begin here
-  /// @throws CallError  the clock has not ticked
+  /// @throws CallError  it does not begin here, or has no length
   /// @throws loop::ComputationError
   bool advance(double time_s, double duration_s, bool may_stop_early);
-  double time_s() const;
-  double period_s() const { return period_s_; }
+  double time_s() const { return now_.time_s; }
 
   State save();
   void restore(const State& state);
@@ -107,23 +80,12 @@ class Instance {
   void require(bool allowed, const char* what) const;
   void require_step(double time_s, double duration_s) const;
   void require_input(const Variable& input, double value) const;
-  loop::Snapshot engine_snapshot();
-  void restore_engine(const loop::Snapshot& snapshot);
-  /// The clock ticks, and the engine has not answered yet the period that ended here.
-  bool awaits_answer() const;
-  /// Such that it can be taken back.
-  void answer();
-  /// The engine as it was before its answer.
-  void take_back_answer();
 
   Resources resources_;
   scene::Scene scene_;
   std::vector<Variable> variables_;
-  double period_s_;
-  std::uint64_t resolution_Hz_ = 0;  ///< with a clock
-  State now_;                        ///< but for its engine
+  State now_;  ///< but for its engine
   std::optional<Engine> engine_;
-  std::optional<loop::Snapshot> unanswered_;  ///< the engine before its answer to this tick
   std::map<std::uint32_t, std::string> texts_;
 };
 

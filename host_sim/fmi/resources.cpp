@@ -24,30 +24,22 @@ std::string content_of(const std::filesystem::path& path) {
 
 }  // namespace
 
-std::string words_of(Content content) {
-  return std::string(scene::name_of(stepped::kinds, content.kind)) +
-         (content.clock ? " clock" : "");
-}
-
-Resources make_resources(const scene::Scene& scene, Content content, const std::string& engine) {
-  Resources made{scene_file::to_toml(scene_file::to_json(scene)), content, {}};
+Resources make_resources(const scene::Scene& scene, stepped::Kind kind, const std::string& engine) {
+  Resources made{scene_file::to_toml(scene_file::to_json(scene)), kind, {}};
   process::ContentHash hash;
   hash.add(engine);
   hash.add(made.scene);
-  hash.add(words_of(content));
+  hash.add(scene::name_of(stepped::kinds, kind));
   made.token = fmt::format("{{sonoglide-{:016x}}}", hash.value());
   return made;
 }
 
 Resources read_resources(const std::filesystem::path& folder) {
-  const std::string words = content_of(folder / Resources::kind_name);
+  const std::string name = content_of(folder / Resources::kind_name);
   for (const scene::Named<stepped::Kind>& each : stepped::kinds) {
-    for (const bool clock : {false, true}) {
-      const Content content{each.value, clock};
-      if (words_of(content) == words) {
-        return {content_of(folder / Resources::scene_name), content,
-                content_of(folder / Resources::token_name)};
-      }
+    if (each.name == name) {
+      return {content_of(folder / Resources::scene_name), each.value,
+              content_of(folder / Resources::token_name)};
     }
   }
   throw std::runtime_error((folder / Resources::kind_name).string() + ": names no kind of FMU");

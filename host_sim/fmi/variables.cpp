@@ -63,9 +63,9 @@ class List {
   void add(Variable variable) { variables_.push_back(std::move(variable)); }
 
   template <std::size_t Count>
-  void outputs(const std::array<PlantSignal, Count>& signals, Clocked clocked) {
+  void outputs(const std::array<PlantSignal, Count>& signals) {
     for (const PlantSignal& each : signals) {
-      add_output(each.name, each.unit, each.description, 0.0, each.read, clocked);
+      output(each.name, each.unit, each.description, 0.0, each.read);
     }
   }
   template <std::size_t Count>
@@ -82,23 +82,16 @@ class List {
     variable.input = member;
     add(variable);
   }
-  /// Of the controller.
   void output(const char* name, const char* unit, const char* description, const Value& type,
               Value (*read)(const Engine&)) {
-    add_output(name, unit, description, type, read, Clocked::answer);
+    Variable variable{name, Role::output, unit, description, type};
+    variable.output = read;
+    add(variable);
   }
 
   std::vector<Variable> take() { return std::move(variables_); }
 
  private:
-  void add_output(const char* name, const char* unit, const char* description, const Value& type,
-                  Value (*read)(const Engine&), Clocked clocked) {
-    Variable variable{name, Role::output, unit, description, type};
-    variable.output = read;
-    variable.clocked = clocked;
-    add(variable);
-  }
-
   std::vector<Variable> variables_;
 };
 
@@ -127,12 +120,17 @@ void add_answer(List& list, scene::Arithmetic arithmetic) {
               });
 }
 
-void add_controller_outputs(List& list, scene::Arithmetic arithmetic) {
+void add_controller_outputs(List& list, const scene::Scene& scene) {
   list.output(
       "drive_force_amplitude_N", "N",
       "Drive amplitude in force during the carrier period that comes next", 0.0,
       [](const Engine& engine) -> Value { return engine.controller().drive_force_amplitude_N; });
-  add_answer(list, arithmetic);
+  if (stepped::carrier_changes(scene)) {
+    list.output(
+        "drive_frequency_Hz", "Hz", "Carrier frequency of the carrier period that comes next", 0.0,
+        [](const Engine& engine) -> Value { return engine.controller().drive_frequency_Hz; });
+  }
+  add_answer(list, scene.controller->arithmetic);
   list.output("state", "", "0 off, 1 calibrating, 2 running, 3 limited, 4 fault, 5 relearning",
               std::int32_t{}, [](const Engine& engine) -> Value {
                 return std::int32_t{engine.controller().answer.state};
@@ -213,12 +211,16 @@ void add_parameters(List& list, const scene::Scene& scene, stepped::Kind kind) {
 
 }  // namespace
 
-std::vector<Variable> variables(const scene::Scene& scene, Content content) {
-  const stepped::Kind kind = content.kind;
+std::vector<Variable> variables(const scene::Scene& scene, stepped::Kind kind) {
   List list;
   if (kind == stepped::Kind::plant) {
     list.input("drive_force_amplitude_N", "N", "Amplitude of the drive during a carrier period",
                scene.drive->force_amplitude_N, &Inputs::drive_force_amplitude_N);
+    if (stepped::carrier_changes(scene)) {
+      list.input("drive_frequency_Hz", "Hz",
+                 "Carrier frequency during a carrier period; no frequency_profile is followed",
+                 scene.drive->frequency_Hz, &Inputs::drive_frequency_Hz);
+    }
   }
   if (kind == stepped::Kind::controller) {
     list.inputs(measured);
@@ -234,20 +236,16 @@ std::vector<Variable> variables(const scene::Scene& scene, Content content) {
         0.0, &Inputs::target_friction_ratio);
   }
   if (stepped::has_plant(kind)) {
-    list.outputs(measured, Clocked::measured);
+    list.outputs(measured);
     if (scene.demodulates()) {
-      list.outputs(demodulated, Clocked::measured);
+      list.outputs(demodulated);
     }
-    list.outputs(shown, Clocked::no);
+    list.outputs(shown);
   }
   if (stepped::has_controller(kind)) {
-    add_controller_outputs(list, scene.controller->arithmetic);
+    add_controller_outputs(list, scene);
   }
   add_parameters(list, scene, kind);
-  if (content.clock) {
-    list.add({"carrier_clock", Role::clock, "", "Ticks once a carrier period, first at the start",
-              false});
-  }
   return list.take();
 }
 

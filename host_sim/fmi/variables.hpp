@@ -6,9 +6,9 @@
 #include <variant>
 #include <vector>
 
-#include "host_sim/fmi/content.hpp"
 #include "host_sim/scene/scene.hpp"
 #include "host_sim/stepped/engine.hpp"
+#include "host_sim/stepped/kind.hpp"
 
 namespace sonoglide::fmi {
 
@@ -17,17 +17,10 @@ using stepped::Inputs;
 using stepped::PlantOutputs;
 
 /// Alternatives in the order of Type.
-using Value = std::variant<double, float, std::int32_t, std::string, bool>;
-enum class Type { float64, float32, int32, string, clock };
+using Value = std::variant<double, float, std::int32_t, std::string>;
+enum class Type { float64, float32, int32, string };
 
-enum class Role { time, parameter, input, output, clock };
-
-/// What an output has to do with the clock, where the FMU has one. Every input belongs to it.
-enum class Clocked {
-  no,
-  measured,  ///< it belongs to the clock, whatever the inputs are
-  answer     ///< it belongs to the clock, and depends on the inputs of the same tick
-};
+enum class Role { time, parameter, input, output };
 
 /// Its value reference is its place among variables().
 struct Variable {
@@ -39,13 +32,11 @@ struct Variable {
   double Inputs::*input = nullptr;           ///< of an input, unless it is seen
   double PlantOutputs::*seen = nullptr;      ///< of an input of a controller
   Value (*output)(const Engine&) = nullptr;  ///< of an output
-  Clocked clocked = Clocked::no;             ///< of an output
 
   Type type() const { return static_cast<Type>(start.index()); }
 };
 
 /// @param scene  as the FMU holds it: a scene that was read from its own echo
-/// @return  with a clock it is the last one
-std::vector<Variable> variables(const scene::Scene& scene, Content content);
+std::vector<Variable> variables(const scene::Scene& scene, stepped::Kind kind);
 
 }  // namespace sonoglide::fmi

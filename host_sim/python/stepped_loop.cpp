@@ -12,6 +12,7 @@ namespace {
 
 const scene::Scene& usable(const scene::Scene& scene) {
   stepped::require_usable(scene, stepped::Kind::loop);
+  stepped::require_constant_carrier(scene);
   return scene;
 }
 

@@ -38,6 +38,7 @@ void require_targets(const Rollout& rollout, std::size_t place) {
     return;
   }
   stepped::require_usable(rollout.scene, stepped::Kind::loop);
+  stepped::require_constant_carrier(rollout.scene);
   for (std::size_t i = 0; i < periods; ++i) {
     if (!(rollout.targets[i] >= 0.0 && rollout.targets[i] <= 1.0)) {
       throw std::invalid_argument(
@@ -124,6 +125,7 @@ void run_in_lanes(const std::vector<Rollout>& rollouts, const std::vector<std::s
 
 std::size_t whole_periods(const scene::Scene& scene) {
   stepped::require_usable(scene, stepped::Kind::plant);
+  stepped::require_constant_carrier(scene);
   const loop::CarrierGrid grid(scene);
   return grid.count() - (grid.is_whole(grid.count() - 1) ? 0 : 1);
 }

@@ -22,6 +22,14 @@ void require_usable(const scene::Scene& scene, Kind kind) {
     throw ConfigurationError("drive.frequency_Hz",
                              "missing; allowed: a scene with a carrier, whose period is the step");
   }
+  if (has_controller(kind) && !scene.controller) {
+    throw ConfigurationError("controller",
+                             "missing; allowed: a scene in closed loop, or the plant alone");
+  }
+}
+
+void require_constant_carrier(const scene::Scene& scene) {
+  using configure::ConfigurationError;
   if (!scene.drive->frequency_profile.empty()) {
     throw ConfigurationError("drive.frequency_profile",
                              "changes the carrier period, which is the step; allowed: one "
@@ -32,13 +40,14 @@ void require_usable(const scene::Scene& scene, Kind kind) {
                              "\"resonant\" changes the carrier period, which is the step; allowed: "
                              "\"damped\", or no such key");
   }
-  if (has_controller(kind) && !scene.controller) {
-    throw ConfigurationError("controller",
-                             "missing; allowed: a scene in closed loop, or the plant alone");
-  }
 }
 
-Engine::Engine(const scene::Scene& scene, Kind kind) : scene_(without_end(scene)), clock_(scene_) {
+bool carrier_changes(const scene::Scene& scene) {
+  return scene.resonant() || !scene.drive->frequency_profile.empty();
+}
+
+Engine::Engine(const scene::Scene& scene, Kind kind)
+    : scene_(without_end(scene)), carrier_changes_(carrier_changes(scene_)), clock_(scene_) {
   watch_.energies = false;
   if (has_plant(kind)) {
     plant_.emplace(scene_, clock_, watch_, result_);
@@ -53,18 +62,19 @@ Engine::Engine(const scene::Scene& scene, Kind kind) : scene_(without_end(scene)
   }
 }
 
-void Engine::advance(const Inputs& inputs) {
-  run_plant(inputs);
-  run_controller(inputs);
+loop::CarrierClock Engine::next_period(const Inputs& inputs) const {
+  loop::CarrierClock period = clock_;
+  if (carrier_changes_) {
+    period.set_frequency_Hz(controller_ ? controller_->frequency_Hz() : inputs.drive_frequency_Hz);
+  }
+  return period;
 }
 
-void Engine::run_plant(const Inputs& inputs) {
+void Engine::advance(const Inputs& inputs) {
+  clock_ = next_period(inputs);
   if (plant_) {
     advance_plant(controller_ ? controller_->amplitude_N() : inputs.drive_force_amplitude_N);
   }
-}
-
-void Engine::run_controller(const Inputs& inputs) {
   if (controller_) {
     advance_controller(plant_ ? plant_outputs_ : inputs.seen, inputs.target_friction_ratio);
   }
@@ -106,8 +116,8 @@ void Engine::show_plant() {
 }
 
 void Engine::show_controller() {
-  controller_outputs_ = {controller_->amplitude_N(), controller_->answer(),
-                         controller_->trace_hash()};
+  controller_outputs_ = {controller_->amplitude_N(), controller_->frequency_Hz(),
+                         controller_->answer(), controller_->trace_hash()};
 }
 
 void Engine::save(loop::SnapshotWriter& state) const {

@@ -33,6 +33,7 @@ struct PlantOutputs {
 /// What the controller answers at the end of a carrier period.
 struct ControllerOutputs {
   double drive_force_amplitude_N = 0.0;  ///< in force during the period that comes next
+  double drive_frequency_Hz = 0.0;       ///< likewise, of the carrier
   hal::Drive answer{};                   ///< to the sample of the last period
   std::uint64_t trace_hash = 0;          ///< of all answers, as in summary.json
 };
@@ -40,6 +41,7 @@ struct ControllerOutputs {
 /// What holds during a carrier period.
 struct Inputs {
   double drive_force_amplitude_N = 0.0;  ///< of a plant without its controller
+  double drive_frequency_Hz = 0.0;       ///< likewise, where the scene's carrier changes
   PlantOutputs seen;                     ///< by a controller without its plant
   double target_friction_ratio = 0.0;    ///< 0: the scene's own steps
 };
@@ -47,6 +49,15 @@ struct Inputs {
 /// What of a scene cannot be stepped.
 /// @throws configure::ConfigurationError
 void require_usable(const scene::Scene& scene, Kind kind);
+
+/// For what counts in carrier periods of one length.
+/// @param scene  with a drive
+/// @throws configure::ConfigurationError
+void require_constant_carrier(const scene::Scene& scene);
+
+/// Carrier periods may have different lengths: the controller says which, or a profile, in whose
+/// place the inputs of a plant then stand.
+bool carrier_changes(const scene::Scene& scene);
 
 /// Carrier periods that no simulation reaches: an engine counts to no more.
 inline constexpr double endless_periods = 1e12;
@@ -57,14 +68,11 @@ class Engine {
   /// @throws configure::ConfigurationError, loop::ComputationError
   Engine(const scene::Scene& scene, Kind kind);
 
-  /// One carrier period: run_plant(), then run_controller().
+  /// The carrier period that comes next.
+  loop::CarrierClock next_period(const Inputs& inputs) const;
+  /// Carries it out: first the plant, then, at its end, the controller.
   /// @throws loop::ComputationError
   void advance(const Inputs& inputs);
-  /// The plant's part of a carrier period, if there is a plant.
-  /// @throws loop::ComputationError
-  void run_plant(const Inputs& inputs);
-  /// The controller's part, at the end of the period; the next period comes then.
-  void run_controller(const Inputs& inputs);
 
   const PlantOutputs& plant() const { return plant_outputs_; }
   const ControllerOutputs& controller() const { return controller_outputs_; }
@@ -83,6 +91,7 @@ class Engine {
   void show_controller();
 
   scene::Scene scene_;
+  bool carrier_changes_;
   loop::Watch watch_;
   loop::RunResult result_;
   loop::CarrierClock clock_;

@@ -1,6 +1,6 @@
 # Debian packages: cmake --build --preset release --target packages
-# sonoglide: the program, its manual, scenes, documents, and the sources that `pil` builds images from
-# and that an FMU carries;
+# sonoglide: the program, its manual, scenes, documents, and the sources that `pil` builds images
+# from;
 # libsonoglide-dev: the core for somebody else's firmware;
 # python3-sonoglide: the Python module, where it is built. Included after every install rule.
 find_program(SONOGLIDE_HELP2MAN help2man)

@@ -87,6 +87,8 @@ function(sonoglide_install)
     install(TARGETS sonoglide RUNTIME COMPONENT program OPTIONAL)
     # Where the program looks for it.
     install(TARGETS sonoglide_fmu LIBRARY DESTINATION lib/sonoglide COMPONENT program OPTIONAL)
+    install(FILES "${PROJECT_BINARY_DIR}/lib/sonoglide/fmu.dll"
+      DESTINATION lib/sonoglide COMPONENT program OPTIONAL)
   endif()
   if(TARGET sonoglide_python_module)
     # Where Debian's interpreter looks for it.

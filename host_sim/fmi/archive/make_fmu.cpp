@@ -2,14 +2,17 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cctype>
+#include <fstream>
+#include <iterator>
+#include <string_view>
 #include <vector>
 
-#include "host_sim/fmi/archive/file_content.hpp"
-#include "host_sim/fmi/archive/sources.hpp"
+#include "host_sim/fmi/archive/licences.hpp"
 #include "host_sim/fmi/archive/zip_writer.hpp"
 #include "host_sim/fmi/resources.hpp"
 #include "host_sim/output/written_files.hpp"
-#include "host_sim/process/scratch_folder.hpp"
 #include "host_sim/scene_file/reader.hpp"
 
 namespace sonoglide::fmi {
@@ -18,64 +21,95 @@ namespace {
 namespace fs = std::filesystem;
 
 /// As the versions of the interface name this machine.
-std::string platform(Version version) {
+std::string linux_platform(Version version) {
   return version == Version::fmi3 ? SONOGLIDE_PROCESSOR "-linux" : "linux64";
 }
 
-/// A C name, for the functions of an FMU in source form begin with it.
-std::string identifier_of(stepped::Kind kind) {
-  return fmt::format("sonoglide_{}", scene::name_of(stepped::kinds, kind));
+const char* windows_platform(Version version) {
+  return version == Version::fmi3 ? "x86_64-windows" : "win64";
 }
 
-void add_sources(ZipWriter& archive, const fs::path& tree, const std::string& identifier) {
-  const std::vector<SourceText> sources = engine_sources(tree);
-  for (const SourceText& source : sources) {
-    archive.add("sources/" + source.name, source.text);
+std::string content_of(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::string content((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+  if (!file) {
+    output::fail(path, "cannot be read");
   }
-  archive.add("sources/buildDescription.xml", build_description(sources, identifier));
+  return content;
 }
 
-void pack(const fs::path& path, const scene::Scene& given, Content content, Version version,
-          const Parts& parts, const std::string& tool) {
-  const std::string engine = file_content(parts.engine);
-  const Resources resources = make_resources(given, content, engine);
-  const scene::Scene scene = scene_file::read_text(resources.scene, Resources::scene_name);
-  const std::string identifier = identifier_of(content.kind);
-  ZipWriter archive(path);
-  archive.add(
-      "modelDescription.xml",
-      model_description(scene, content, version, {given.name, identifier, resources.token, tool}));
-  archive.add(fmt::format("binaries/{}/{}.so", platform(version), identifier), engine);
-  archive.add(std::string("resources/") + Resources::scene_name, resources.scene);
-  archive.add(std::string("resources/") + Resources::kind_name, words_of(content));
-  archive.add(std::string("resources/") + Resources::token_name, resources.token);
-  add_sources(archive, parts.sources, identifier);
-  archive.close();
+/// The newest version of glibc whose symbols a shared library asks for, such as 2.34; as the library
+/// names it, `GLIBC_2.34`.
+std::string needed_glibc(std::string_view library) {
+  constexpr std::string_view prefix = "GLIBC_";
+  std::vector<int> newest;
+  for (std::size_t at = library.find(prefix); at != std::string_view::npos;
+       at = library.find(prefix, at)) {
+    std::vector<int> version;
+    do {
+      at += version.empty() ? prefix.size() : 1;
+      version.push_back(0);
+      for (; at < library.size() && std::isdigit(static_cast<unsigned char>(library[at])) != 0;
+           ++at) {
+        version.back() = 10 * version.back() + (library[at] - '0');
+      }
+    } while (at < library.size() && library[at] == '.');
+    newest = std::max(newest, version);
+  }
+  return fmt::format("{}", fmt::join(newest, "."));
+}
+
+std::string external_dependencies(Version version, const std::string& engine, bool has_windows) {
+  std::string text = fmt::format("binaries/{}: glibc {} or newer (libc and libm).\n",
+                                 linux_platform(version), needed_glibc(engine));
+  if (has_windows) {
+    text += fmt::format("binaries/{}: Windows 7 or newer; nothing that Windows does not bring.\n",
+                        windows_platform(version));
+  }
+  return text;
 }
 
 }  // namespace
 
 Parts find_parts() {
-  const fs::path prefix = fs::read_symlink("/proc/self/exe").parent_path().parent_path();
-  Parts parts{prefix / "lib/sonoglide/fmu.so", prefix / "share/sonoglide/source"};
+  const fs::path folder =
+      fs::read_symlink("/proc/self/exe").parent_path().parent_path() / "lib/sonoglide";
+  Parts parts{folder / "fmu.so", folder / "fmu.dll"};
   if (!fs::exists(parts.engine)) {
     output::fail(parts.engine, "is missing; every FMU holds it, and it is built with the program");
   }
-  if (!fs::exists(parts.sources / "host_sim/fmi")) {
-    parts.sources = SONOGLIDE_SOURCE;
-  }
-  if (!fs::exists(parts.sources / "host_sim/fmi")) {
-    output::fail(parts.sources, "has no sources of an FMU");
+  if (!fs::exists(*parts.windows_engine)) {
+    parts.windows_engine.reset();
   }
   return parts;
 }
 
-std::string make_fmu(const scene::Scene& scene, Content content, Version version,
+std::string make_fmu(const scene::Scene& given, stepped::Kind kind, Version version,
                      const Parts& parts, const std::string& tool) {
-  const process::ScratchFolder scratch(fs::temp_directory_path());
-  const fs::path whole = scratch.path() / "whole.fmu";
-  pack(whole, scene, content, version, parts, tool);
-  return file_content(whole);
+  const std::string engine = content_of(parts.engine);
+  const std::string windows_engine =
+      parts.windows_engine ? content_of(*parts.windows_engine) : std::string();
+  const Resources resources = make_resources(given, kind, engine + windows_engine);
+  const scene::Scene scene = scene_file::read_text(resources.scene, Resources::scene_name);
+  const std::string identifier = fmt::format("sonoglide_{}", scene::name_of(stepped::kinds, kind));
+  ZipWriter archive;
+  archive.add(
+      "modelDescription.xml",
+      model_description(scene, kind, version, {given.name, identifier, resources.token, tool}));
+  archive.add(fmt::format("binaries/{}/{}.so", linux_platform(version), identifier), engine);
+  if (parts.windows_engine) {
+    archive.add(fmt::format("binaries/{}/{}.dll", windows_platform(version), identifier),
+                windows_engine);
+  }
+  archive.add("documentation/externalDependencies.txt",
+              external_dependencies(version, engine, parts.windows_engine.has_value()));
+  archive.add("documentation/licenses/license.txt", our_licence());
+  archive.add("documentation/licenses/compiled_in.txt", compiled_in_licences());
+  archive.add(std::string("resources/") + Resources::scene_name, resources.scene);
+  archive.add(std::string("resources/") + Resources::kind_name,
+              scene::name_of(stepped::kinds, kind));
+  archive.add(std::string("resources/") + Resources::token_name, resources.token);
+  return archive.close();
 }
 
 }  // namespace sonoglide::fmi

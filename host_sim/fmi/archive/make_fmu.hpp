@@ -1,30 +1,30 @@
-/// An FMU: a scene packed with the engine, the description and the sources.
+/// An FMU: a scene packed with the engine, the description and the licences.
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include "host_sim/fmi/archive/model_description.hpp"
-#include "host_sim/fmi/content.hpp"
 #include "host_sim/scene/scene.hpp"
+#include "host_sim/stepped/kind.hpp"
 
 namespace sonoglide::fmi {
 
-/// What stands beside the program.
+/// What stands beside the program: the engine of every FMU.
 struct Parts {
-  std::filesystem::path engine;   ///< the shared library of every FMU
-  std::filesystem::path sources;  ///< the source tree
+  std::filesystem::path engine;                         ///< for this machine
+  std::optional<std::filesystem::path> windows_engine;  ///< absent where it was not built
 };
 
-/// @throws output::OutputError  they are not there
+/// @throws output::OutputError  the engine for this machine is not there
 Parts find_parts();
 
 /// The content of the archive, the same bytes for one scene each time.
-/// @param scene    usable, see require_usable() and, with a clock, clock_resolution_Hz()
-/// @param content  a clock only of FMI 3.0
-/// @param tool     that makes it, with its version
+/// @param scene  usable, see require_usable()
+/// @param tool   that makes it, with its version
 /// @throws output::OutputError
-std::string make_fmu(const scene::Scene& scene, Content content, Version version,
+std::string make_fmu(const scene::Scene& scene, stepped::Kind kind, Version version,
                      const Parts& parts, const std::string& tool);
 
 }  // namespace sonoglide::fmi

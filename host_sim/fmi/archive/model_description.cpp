@@ -4,12 +4,13 @@
 #include <boost/property_tree/ptree.hpp>
 #include <boost/property_tree/xml_parser.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
-#include <optional>
 #include <set>
 #include <sstream>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "host_sim/fmi/variables.hpp"
@@ -84,22 +85,29 @@ Tree unit_definitions(const std::vector<Variable>& variables) {
 
 Tree log_categories() {
   Tree categories;
-  for (const auto& [name, description] :
-       {std::pair("logStatusError", "A call that failed, and why"),
-        std::pair("logStatusDiscard", "A step that is not possible, and which are")}) {
-    Tree category;
-    attribute(category, "name", name);
-    attribute(category, "description", description);
-    categories.add_child("Category", category);
-  }
+  Tree category;
+  attribute(category, "name", "logStatusError");
+  attribute(category, "description", "A call that failed, and why");
+  categories.add_child("Category", category);
   return categories;
+}
+
+/// No carrier period of the scene is shorter: at most one ends in each step. What a controller
+/// follows stays within 6 % of the start, and a frequency is rounded by 1/128 of itself at most.
+double shortest_period_s(const scene::Scene& scene) {
+  constexpr double margin = 1.07;
+  double highest_Hz = scene.drive->frequency_Hz;
+  for (const scene::TimedValue& row : scene.drive->frequency_profile) {
+    highest_Hz = std::max(highest_Hz, row.value);
+  }
+  return 1.0 / (stepped::carrier_changes(scene) ? margin * highest_Hz : highest_Hz);
 }
 
 Tree default_experiment(const scene::Scene& scene) {
   Tree experiment;
   attribute(experiment, "startTime", "0");
   attribute(experiment, "stopTime", exact(scene.run.duration_s));
-  attribute(experiment, "stepSize", exact(1.0 / scene.drive->frequency_Hz));
+  attribute(experiment, "stepSize", exact(shortest_period_s(scene)));
   return experiment;
 }
 
@@ -110,7 +118,6 @@ const char* causality(Role role) {
     case Role::parameter:
       return "parameter";
     case Role::input:
-    case Role::clock:
       return "input";
     case Role::output:
       break;
@@ -151,85 +158,59 @@ void add_unit_and_start(Tree& element, const Variable& variable) {
   }
 }
 
+/// Outputs hold from one carrier period to the next: they depend on nothing at the same time. Their
+/// first values depend on the parameters.
+/// @param place  name of the attribute that tells a variable, counted from `first` on
+std::vector<Tree> unknowns(const std::vector<Variable>& variables, std::string_view structure,
+                           const char* place, std::size_t first) {
+  std::string parameters;
+  for (std::size_t i = 0; i < variables.size(); ++i) {
+    if (variables[i].role == Role::parameter) {
+      parameters += fmt::format("{}{}", parameters.empty() ? "" : " ", first + i);
+    }
+  }
+  std::vector<Tree> elements;
+  for (std::size_t i = 0; i < variables.size(); ++i) {
+    if (variables[i].role == Role::output) {
+      Tree element;
+      attribute(element, place, first + i);
+      attribute(element, "dependencies", structure == "Output" ? std::string() : parameters);
+      elements.push_back(element);
+    }
+  }
+  return elements;
+}
+
 class Fmi3 {
  public:
   static constexpr const char* version = "3.0";
   static constexpr const char* token_name = "instantiationToken";
   static constexpr const char* state_name = "FMUState";
 
-  static void describe_stepping(Tree& element, const scene::Scene& scene, Content content) {
-    attribute(element, "fixedInternalStepSize", exact(1.0 / scene.drive->frequency_Hz));
-    if (content.clock) {
-      attribute(element, "hasEventMode", "true");
-    } else {
-      attribute(element, "mightReturnEarlyFromDoStep",
-                stepped::has_controller(content.kind) ? "true" : "false");
+  static void describe_stepping(Tree& element, const scene::Scene& scene, stepped::Kind kind) {
+    if (!stepped::carrier_changes(scene)) {
+      attribute(element, "fixedInternalStepSize", exact(1.0 / scene.drive->frequency_Hz));
     }
+    attribute(element, "mightReturnEarlyFromDoStep",
+              stepped::has_controller(kind) ? "true" : "false");
   }
 
-  /// @param clock  the reference of the clock, where there is one
-  static void add(Tree& list, const Variable& variable, std::size_t reference,
-                  const scene::Scene& scene, std::optional<std::size_t> clock) {
-    constexpr std::array names = {"Float64", "Float32", "Int32", "String", "Clock"};
+  static void add(Tree& list, const Variable& variable, std::size_t reference) {
+    constexpr std::array names = {"Float64", "Float32", "Int32", "String"};
     Tree element;
     describe(element, variable, reference);
-    if (clock && is_clocked(variable)) {
-      attribute(element, "clocks", *clock);
-    }
-    if (variable.role == Role::clock) {
-      add_interval(element, scene);
-    }
     add_unit_and_start(element, variable);
     list.add_child(names[static_cast<std::size_t>(variable.type())], element);
   }
 
-  static Tree structure(const std::vector<Variable>& variables, std::optional<std::size_t> clock) {
+  static Tree structure(const std::vector<Variable>& variables) {
     Tree structure;
-    for (std::size_t i = 0; i < variables.size(); ++i) {
-      if (variables[i].role == Role::output) {
-        Tree element;
-        attribute(element, "valueReference", i);
-        attribute(element, "dependencies", dependencies(variables, variables[i], clock));
-        structure.add_child("Output", element);
-      }
-    }
-    for (std::size_t i = 0; i < variables.size(); ++i) {
-      if (variables[i].role == Role::output && !(clock && is_clocked(variables[i]))) {
-        Tree element;  // In the beginning it depends on every parameter.
-        attribute(element, "valueReference", i);
-        structure.add_child("InitialUnknown", element);
+    for (const char* name : {"Output", "InitialUnknown"}) {
+      for (const Tree& unknown : unknowns(variables, name, "valueReference", 0)) {
+        structure.add_child(name, unknown);
       }
     }
     return structure;
-  }
-
- private:
-  static bool is_clocked(const Variable& variable) {
-    return variable.role == Role::input || variable.clocked != Clocked::no;
-  }
-
-  static void add_interval(Tree& element, const scene::Scene& scene) {
-    attribute(element, "canBeDeactivated", "true");
-    attribute(element, "intervalVariability", "constant");
-    attribute(element, "intervalDecimal", exact(1.0 / scene.drive->frequency_Hz));
-    attribute(element, "shiftDecimal", "0");
-    attribute(element, "supportsFraction", "true");
-    attribute(element, "resolution", clock_resolution_Hz(scene));
-    attribute(element, "intervalCounter", "1");
-    attribute(element, "shiftCounter", "0");
-  }
-
-  /// What an output depends on at one communication point. Without a clock that is nothing.
-  static std::string dependencies(const std::vector<Variable>& variables, const Variable& output,
-                                  std::optional<std::size_t> clock) {
-    std::string list;
-    for (std::size_t i = 0; clock && i < variables.size(); ++i) {
-      if ((output.clocked == Clocked::answer && variables[i].role == Role::input) ||
-          (output.clocked != Clocked::no && i == *clock)) {
-        list += fmt::format("{}{}", list.empty() ? "" : " ", i);
-      }
-    }
-    return list;
   }
 };
 
@@ -240,10 +221,9 @@ class Fmi2 {
   static constexpr const char* state_name = "FMUstate";
 
   static void describe_stepping(Tree& /*element*/, const scene::Scene& /*scene*/,
-                                Content /*content*/) {}
+                                stepped::Kind /*kind*/) {}
 
-  static void add(Tree& list, const Variable& variable, std::size_t reference,
-                  const scene::Scene& /*scene*/, std::optional<std::size_t> /*clock*/) {
+  static void add(Tree& list, const Variable& variable, std::size_t reference) {
     constexpr std::array names = {"Real", "Real", "Integer", "String"};
     Tree element;
     describe(element, variable, reference);
@@ -253,31 +233,23 @@ class Fmi2 {
     list.add_child("ScalarVariable", element);
   }
 
-  static Tree structure(const std::vector<Variable>& variables,
-                        std::optional<std::size_t> /*clock*/) {
+  static Tree structure(const std::vector<Variable>& variables) {
     Tree structure;
-    for (const char* name : {"Outputs", "InitialUnknowns"}) {
-      Tree unknowns;
-      for (std::size_t i = 0; i < variables.size(); ++i) {
-        if (variables[i].role == Role::output) {
-          Tree element;
-          attribute(element, "index", i + 1);
-          if (std::string_view(name) == "Outputs") {
-            attribute(element, "dependencies", "");
-          }
-          unknowns.add_child("Unknown", element);
-        }
+    for (const auto& [list, name] :
+         {std::pair("Outputs", "Output"), std::pair("InitialUnknowns", "InitialUnknown")}) {
+      Tree elements;
+      for (const Tree& unknown : unknowns(variables, name, "index", 1)) {
+        elements.add_child("Unknown", unknown);
       }
-      structure.add_child(name, unknowns);
+      structure.add_child(list, elements);
     }
     return structure;
   }
 };
 
 template <class Interface>
-Tree describe(const scene::Scene& scene, Content content, const ModelFacts& facts) {
-  const std::vector<Variable> list = variables(scene, content);
-  const auto clock = content.clock ? std::optional(list.size() - 1) : std::nullopt;
+Tree describe(const scene::Scene& scene, stepped::Kind kind, const ModelFacts& facts) {
+  const std::vector<Variable> list = variables(scene, kind);
   Tree model;
   attribute(model, "fmiVersion", Interface::version);
   attribute(model, "modelName", facts.name);
@@ -286,20 +258,20 @@ Tree describe(const scene::Scene& scene, Content content, const ModelFacts& fact
   attribute(model, "variableNamingConvention", "structured");
   Tree stepping;
   attribute(stepping, "modelIdentifier", facts.identifier);
-  attribute(stepping, "canHandleVariableCommunicationStepSize", content.clock ? "false" : "true");
+  attribute(stepping, "canHandleVariableCommunicationStepSize", "true");
   attribute(stepping, std::string("canGetAndSet") + Interface::state_name, "true");
   attribute(stepping, std::string("canSerialize") + Interface::state_name, "true");
-  Interface::describe_stepping(stepping, scene, content);
+  Interface::describe_stepping(stepping, scene, kind);
   model.add_child("CoSimulation", stepping);
   model.add_child("UnitDefinitions", unit_definitions(list));
   model.add_child("LogCategories", log_categories());
   model.add_child("DefaultExperiment", default_experiment(scene));
   Tree elements;
   for (std::size_t i = 0; i < list.size(); ++i) {
-    Interface::add(elements, list[i], i, scene, clock);
+    Interface::add(elements, list[i], i);
   }
   model.add_child("ModelVariables", elements);
-  model.add_child("ModelStructure", Interface::structure(list, clock));
+  model.add_child("ModelStructure", Interface::structure(list));
   Tree root;
   root.add_child("fmiModelDescription", model);
   return root;
@@ -307,10 +279,10 @@ Tree describe(const scene::Scene& scene, Content content, const ModelFacts& fact
 
 }  // namespace
 
-std::string model_description(const scene::Scene& scene, Content content, Version version,
+std::string model_description(const scene::Scene& scene, stepped::Kind kind, Version version,
                               const ModelFacts& facts) {
-  const Tree root = version == Version::fmi3 ? describe<Fmi3>(scene, content, facts)
-                                             : describe<Fmi2>(scene, content, facts);
+  const Tree root = version == Version::fmi3 ? describe<Fmi3>(scene, kind, facts)
+                                             : describe<Fmi2>(scene, kind, facts);
   std::ostringstream text;
   boost::property_tree::write_xml(
       text, root, boost::property_tree::xml_writer_make_settings<std::string>(' ', 2));

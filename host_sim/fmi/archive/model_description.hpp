@@ -3,24 +3,23 @@
 
 #include <string>
 
-#include "host_sim/fmi/content.hpp"
 #include "host_sim/scene/scene.hpp"
+#include "host_sim/stepped/kind.hpp"
 
 namespace sonoglide::fmi {
 
 enum class Version { fmi2, fmi3 };
 
 struct ModelFacts {
-  std::string name;        ///< of the scene
+  std::string name;        ///< of the scene, printable
   std::string identifier;  ///< of the shared library, without its ending
   std::string token;
   std::string tool;  ///< that wrote it, with its version
 };
 
 /// @param scene  as the FMU holds it, see variables()
-/// @param content  a clock only of FMI 3.0
 /// Source: Functional Mock-up Interface Specification 3.0, section 2.4, and 2.0.4, section 2.2.
-std::string model_description(const scene::Scene& scene, Content content, Version version,
+std::string model_description(const scene::Scene& scene, stepped::Kind kind, Version version,
                               const ModelFacts& facts);
 
 }  // namespace sonoglide::fmi

@@ -2,12 +2,67 @@
 
 #include <minizip/zip.h>
 
-#include "host_sim/output/written_files.hpp"
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
 
 namespace sonoglide::fmi {
+namespace {
 
-ZipWriter::ZipWriter(const std::filesystem::path& path)
-    : path_(path), file_(zipOpen64(path.c_str(), APPEND_STATUS_CREATE)) {
+void require(bool good) {
+  if (!good) {
+    throw std::runtime_error("an FMU cannot be packed");
+  }
+}
+
+ZipWriter::Bytes& bytes_of(void* stream) {
+  return *static_cast<ZipWriter::Bytes*>(stream);
+}
+
+// What minizip does with a file, done with memory.
+
+void* open_bytes(void* opaque, const void* /*name*/, int /*mode*/) {
+  return opaque;
+}
+
+uLong read_bytes(void* /*opaque*/, void* stream, void* target, uLong size) {
+  ZipWriter::Bytes& bytes = bytes_of(stream);
+  const std::size_t count = bytes.text.copy(static_cast<char*>(target), size, bytes.place);
+  bytes.place += count;
+  return count;
+}
+
+uLong write_bytes(void* /*opaque*/, void* stream, const void* source, uLong size) {
+  ZipWriter::Bytes& bytes = bytes_of(stream);
+  bytes.text.resize(std::max(bytes.text.size(), bytes.place + size));
+  bytes.text.replace(bytes.place, size, static_cast<const char*>(source), size);
+  bytes.place += size;
+  return size;
+}
+
+ZPOS64_T tell_bytes(void* /*opaque*/, void* stream) {
+  return bytes_of(stream).place;
+}
+
+long seek_bytes(void* /*opaque*/, void* stream, ZPOS64_T offset, int origin) {
+  ZipWriter::Bytes& bytes = bytes_of(stream);
+  const std::size_t from = origin == ZLIB_FILEFUNC_SEEK_SET   ? 0
+                           : origin == ZLIB_FILEFUNC_SEEK_CUR ? bytes.place
+                                                              : bytes.text.size();
+  bytes.place = from + offset;
+  return bytes.place <= bytes.text.size() ? 0 : -1;
+}
+
+int nothing_of_bytes(void* /*opaque*/, void* /*stream*/) {
+  return 0;
+}
+
+}  // namespace
+
+ZipWriter::ZipWriter() {
+  zlib_filefunc64_def functions{open_bytes, read_bytes,       write_bytes,      tell_bytes,
+                                seek_bytes, nothing_of_bytes, nothing_of_bytes, &bytes_};
+  file_ = zipOpen2_64("", APPEND_STATUS_CREATE, nullptr, &functions);
   require(file_ != nullptr);
 }
 
@@ -28,16 +83,10 @@ void ZipWriter::add(const std::string& name, std::string_view content) {
   require(zipCloseFileInZip(file_) == ZIP_OK);
 }
 
-void ZipWriter::close() {
-  const bool good = zipClose(file_, nullptr) == ZIP_OK;
-  file_ = nullptr;
+std::string ZipWriter::close() {
+  const bool good = zipClose(std::exchange(file_, nullptr), nullptr) == ZIP_OK;
   require(good);
-}
-
-void ZipWriter::require(bool good) const {
-  if (!good) {
-    output::fail(path_, "cannot be written as an archive");
-  }
+  return std::move(bytes_.text);
 }
 
 }  // namespace sonoglide::fmi

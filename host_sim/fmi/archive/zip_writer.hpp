@@ -1,7 +1,7 @@
-/// A ZIP archive, file by file.
+/// A ZIP archive in memory, file by file.
 #pragma once
 
-#include <filesystem>
+#include <cstddef>
 #include <string>
 #include <string_view>
 
@@ -10,23 +10,27 @@ namespace sonoglide::fmi {
 /// Two archives of the same files are the same bytes: no file has a time.
 class ZipWriter {
  public:
-  /// @throws output::OutputError  it cannot be created
-  explicit ZipWriter(const std::filesystem::path& path);
+  ZipWriter();
   ~ZipWriter();
   ZipWriter(const ZipWriter&) = delete;
   ZipWriter& operator=(const ZipWriter&) = delete;
 
   /// @param name  with / between folders
-  /// @throws output::OutputError  it cannot be written
+  /// @throws std::runtime_error
   void add(const std::string& name, std::string_view content);
 
-  /// To be called once, last. @throws output::OutputError
-  void close();
+  /// The archive; to be called once, last.
+  /// @throws std::runtime_error
+  std::string close();
+
+  /// What has been written, and where the next byte goes.
+  struct Bytes {
+    std::string text;
+    std::size_t place = 0;
+  };
 
  private:
-  void require(bool good) const;
-
-  std::filesystem::path path_;
+  Bytes bytes_;
   void* file_;
 };
 

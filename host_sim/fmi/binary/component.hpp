@@ -20,7 +20,7 @@
 namespace sonoglide::fmi {
 
 /// As both versions of the interface number them.
-enum class Status { ok = 0, warning = 1, discard = 2, error = 3 };
+enum class Status { ok = 0, error = 3 };
 
 /// Takes the messages of an instance; empty where nobody wants them.
 using Log = std::function<void(Status status, const char* category, const std::string& message)>;
@@ -34,7 +34,7 @@ class Component {
     try {
       return std::make_unique<Component>(read_resources(resources), token, log);
     } catch (const std::exception& error) {
-      tell(log, Status::error, error);
+      tell(log, error);
       return nullptr;
     }
   }
@@ -50,33 +50,71 @@ class Component {
     try {
       call(instance_);
       return Status::ok;
-    } catch (const StepError& error) {
-      return tell(log_, Status::discard, error);
     } catch (const std::exception& error) {
-      return tell(log_, Status::error, error);
+      return tell(log_, error);
     }
   }
-
-  bool has_clock() const { return instance_.has_clock(); }
 
   bool may_stop_early = false;
 
  private:
-  static Status tell(const Log& log, Status status, const std::exception& error) noexcept {
+  static Status tell(const Log& log, const std::exception& error) noexcept {
     try {
       if (log) {
-        log(status, status == Status::discard ? "logStatusDiscard" : "logStatusError",
-            error.what());
+        log(Status::error, "logStatusError", error.what());
       }
     } catch (const std::exception&) {
       return Status::error;  // Nobody can be told.
     }
-    return status;
+    return Status::error;
   }
 
   Log log_;
   Instance instance_;
 };
+
+/// For what the description of the model says that there is none.
+[[noreturn]] inline void refuse(const char* what) {
+  throw CallError(std::string(what) + ": this FMU has none");
+}
+
+/// The same where there is no instance.
+inline void tell_refusal(const Log& log, const char* what) noexcept {
+  try {
+    if (log) {
+      log(Status::error, "logStatusError", std::string(what) + ": this FMU has none");
+    }
+  } catch (const std::exception&) {
+    return;  // Nobody can be told.
+  }
+}
+
+// What importers hand over.
+
+template <class... Targets>
+void require_pointers(const Targets*... pointers) {
+  if ((... || (pointers == nullptr))) {
+    throw CallError("a pointer is null; allowed: the address of what is read or written");
+  }
+}
+
+/// @param n  elements in each
+template <class... Elements>
+void require_arrays(std::size_t n, const Elements*... arrays) {
+  if (n > 0) {
+    require_pointers(arrays...);
+  }
+}
+
+inline void require_categories(std::size_t count, const char* const* categories) {
+  require_arrays(count, categories);
+  for (std::size_t i = 0; i < count; ++i) {
+    require_pointers(categories[i]);
+    if (std::string_view(categories[i]).substr(0, 9) != "logStatus") {
+      throw CallError(std::string(categories[i]) + " is no log category; allowed: logStatusError");
+    }
+  }
+}
 
 // States as importers hold them.
 
@@ -87,12 +125,13 @@ inline State& state_at(void* state) {
   return *static_cast<State*>(state);
 }
 
-/// @param state  null, or one that is written over
-inline void save_into(Instance& instance, void*& state) {
-  if (state == nullptr) {
-    state = new State(instance.save());
+/// @param state  points to null, or to a state that is written over
+inline void save_into(Instance& instance, void** state) {
+  require_pointers(state);
+  if (*state == nullptr) {
+    *state = new State(instance.save());
   } else {
-    *static_cast<State*>(state) = instance.save();
+    *static_cast<State*>(*state) = instance.save();
   }
 }
 
@@ -108,7 +147,15 @@ inline void serialize(const Instance& instance, const State& state, void* bytes,
   if (size < serialized.size()) {
     throw CallError("there is no room for the serialized state");
   }
+  require_pointers(static_cast<const std::uint8_t*>(bytes));
   std::memcpy(bytes, serialized.data(), serialized.size());
+}
+
+inline void deserialize(const Instance& instance, const std::uint8_t* bytes, std::size_t size,
+                        void** state) {
+  require_pointers(state);
+  require_arrays(size, bytes);
+  *state = new State(instance.state_of(bytes, size));
 }
 
 }  // namespace sonoglide::fmi

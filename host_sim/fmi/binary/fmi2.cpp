@@ -1,7 +1,5 @@
 #include "host_sim/fmi/binary/fmi2.hpp"
 
-#include <cstdlib>
-#include <cstring>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -9,37 +7,11 @@
 #include <variant>
 
 #include "host_sim/fmi/binary/component.hpp"
+#include "host_sim/fmi/binary/fmi2_call.hpp"
+#include "host_sim/fmi/binary/resource_path.hpp"
 
 namespace sonoglide::fmi {
 namespace {
-
-/// What this version of the interface asks for besides.
-struct Component2 {
-  std::unique_ptr<Component> component;
-  double start_s = 0.0;
-};
-
-fmi2Status status_of(Status status) {
-  return static_cast<fmi2Status>(status);
-}
-
-template <class Call>
-fmi2Status attempt(fmi2Component component, const Call& call) {
-  if (component == nullptr) {
-    return fmi2Error;
-  }
-  return status_of(static_cast<Component2*>(component)->component->attempt(call));
-}
-
-fmi2Status refused(fmi2Component component, const char* what) {
-  return attempt(component, [what](Instance& /*each*/) {
-    throw CallError(std::string(what) + ": this FMU has none");
-  });
-}
-
-fmi2Status none_of(fmi2Component component, const char* type, std::size_t n) {
-  return n == 0 ? fmi2OK : refused(component, type);
-}
 
 void require(const Variable& variable, bool right, const char* type) {
   if (!right) {
@@ -54,34 +26,6 @@ bool is_real(const Variable& variable) {
 double real_of(const Value& value) {
   const float* single = std::get_if<float>(&value);
   return single != nullptr ? static_cast<double>(*single) : std::get<double>(value);
-}
-
-int digit_of(char digit) {
-  return digit >= '0' && digit <= '9'   ? digit - '0'
-         : digit >= 'a' && digit <= 'f' ? digit - 'a' + 10
-         : digit >= 'A' && digit <= 'F' ? digit - 'A' + 10
-                                        : -1;
-}
-
-/// The folder that a URI file:/…, file:///… or file://localhost/… names; a plain path is one too.
-/// Source: RFC 3986, 2.1, and RFC 8089.
-std::string path_of(std::string_view uri) {
-  constexpr std::string_view scheme = "file:";
-  if (uri.substr(0, scheme.size()) != scheme) {
-    return std::string(uri);
-  }
-  uri.remove_prefix(scheme.size());
-  if (uri.substr(0, 2) == "//") {
-    uri.remove_prefix(uri.find('/', 2) == std::string_view::npos ? 2 : uri.find('/', 2));
-  }
-  std::string path;
-  for (std::size_t i = 0; i < uri.size(); ++i) {
-    const bool escaped = uri[i] == '%' && i + 2 < uri.size() && digit_of(uri[i + 1]) >= 0 &&
-                         digit_of(uri[i + 2]) >= 0;
-    path += escaped ? static_cast<char>(digit_of(uri[i + 1]) * 16 + digit_of(uri[i + 2])) : uri[i];
-    i += escaped ? 2 : 0;
-  }
-  return path;
 }
 
 }  // namespace
@@ -100,28 +44,17 @@ const char* fmi2GetVersion() {
 fmi2Status fmi2SetDebugLogging(fmi2Component component, fmi2Boolean logging_on, std::size_t count,
                                const fmi2String categories[]) {
   return attempt(component, [&](Instance& /*each*/) {
-    for (std::size_t i = 0; logging_on != 0 && i < count; ++i) {
-      if (std::strncmp(categories[i], "logStatus", 9) != 0) {
-        throw CallError(std::string(categories[i]) +
-                        " is no log category; allowed: logStatusError, logStatusDiscard");
-      }
-    }
+    require_categories(logging_on != 0 ? count : 0, categories);
   });
 }
 
 fmi2Component fmi2Instantiate(fmi2String name, fmi2Type type, fmi2String guid,
                               fmi2String resource_location, const fmi2CallbackFunctions* functions,
                               fmi2Boolean /*visible*/, fmi2Boolean /*logging_on*/) {
+  const Log log = log_of(name, functions);
   if (type != fmi2CoSimulation) {
+    tell_refusal(log, model_exchange);
     return nullptr;
-  }
-  Log log;
-  if (functions != nullptr && functions->logger != nullptr) {
-    log = [environment = functions->componentEnvironment, logger = functions->logger,
-           called = std::string(name == nullptr ? "" : name)](Status status, const char* category,
-                                                              const std::string& message) {
-      logger(environment, called.c_str(), status_of(status), category, "%s", message.c_str());
-    };
   }
   auto component = Component::create(path_of(resource_location == nullptr ? "" : resource_location),
                                      guid == nullptr ? "" : guid, log);
@@ -135,7 +68,8 @@ void fmi2FreeInstance(fmi2Component component) {
 fmi2Status fmi2SetupExperiment(fmi2Component component, fmi2Boolean /*tolerance_defined*/,
                                fmi2Real /*tolerance*/, fmi2Real start_time,
                                fmi2Boolean /*stop_time_defined*/, fmi2Real /*stop_time*/) {
-  return attempt(component, [&](Instance& /*each*/) {
+  return attempt(component, [&](const Instance& each) {
+    each.require_start(start_time);
     static_cast<Component2*>(component)->start_s = start_time;
   });
 }
@@ -164,6 +98,7 @@ fmi2Status fmi2Reset(fmi2Component component) {
 fmi2Status fmi2GetReal(fmi2Component component, const fmi2ValueReference references[],
                        std::size_t n, fmi2Real values[]) {
   return attempt(component, [&](Instance& each) {
+    require_arrays(n, references, values);
     for (std::size_t i = 0; i < n; ++i) {
       require(each.variable(references[i]), is_real(each.variable(references[i])), "Real");
       values[i] = real_of(each.get(references[i]));
@@ -174,6 +109,7 @@ fmi2Status fmi2GetReal(fmi2Component component, const fmi2ValueReference referen
 fmi2Status fmi2GetInteger(fmi2Component component, const fmi2ValueReference references[],
                           std::size_t n, fmi2Integer values[]) {
   return attempt(component, [&](Instance& each) {
+    require_arrays(n, references, values);
     for (std::size_t i = 0; i < n; ++i) {
       const Variable& variable = each.variable(references[i]);
       require(variable, variable.type() == Type::int32, "Integer");
@@ -182,14 +118,10 @@ fmi2Status fmi2GetInteger(fmi2Component component, const fmi2ValueReference refe
   });
 }
 
-fmi2Status fmi2GetBoolean(fmi2Component component, const fmi2ValueReference /*references*/[],
-                          std::size_t n, fmi2Boolean /*values*/[]) {
-  return none_of(component, "Boolean", n);
-}
-
 fmi2Status fmi2GetString(fmi2Component component, const fmi2ValueReference references[],
                          std::size_t n, fmi2String values[]) {
   return attempt(component, [&](Instance& each) {
+    require_arrays(n, references, values);
     for (std::size_t i = 0; i < n; ++i) {
       const Variable& variable = each.variable(references[i]);
       require(variable, variable.type() == Type::string, "String");
@@ -201,6 +133,7 @@ fmi2Status fmi2GetString(fmi2Component component, const fmi2ValueReference refer
 fmi2Status fmi2SetReal(fmi2Component component, const fmi2ValueReference references[],
                        std::size_t n, const fmi2Real values[]) {
   return attempt(component, [&](Instance& each) {
+    require_arrays(n, references, values);
     for (std::size_t i = 0; i < n; ++i) {
       require(each.variable(references[i]), is_real(each.variable(references[i])), "Real");
       each.set(references[i], values[i]);
@@ -211,6 +144,7 @@ fmi2Status fmi2SetReal(fmi2Component component, const fmi2ValueReference referen
 fmi2Status fmi2SetInteger(fmi2Component component, const fmi2ValueReference references[],
                           std::size_t n, const fmi2Integer values[]) {
   return attempt(component, [&](Instance& each) {
+    require_arrays(n, references, values);
     for (std::size_t i = 0; i < n; ++i) {
       const Variable& variable = each.variable(references[i]);
       require(variable, variable.type() == Type::int32, "Integer");
@@ -219,18 +153,8 @@ fmi2Status fmi2SetInteger(fmi2Component component, const fmi2ValueReference refe
   });
 }
 
-fmi2Status fmi2SetBoolean(fmi2Component component, const fmi2ValueReference /*references*/[],
-                          std::size_t n, const fmi2Boolean /*values*/[]) {
-  return none_of(component, "Boolean", n);
-}
-
-fmi2Status fmi2SetString(fmi2Component component, const fmi2ValueReference /*references*/[],
-                         std::size_t n, const fmi2String /*values*/[]) {
-  return none_of(component, "String that can be set", n);
-}
-
 fmi2Status fmi2GetFMUstate(fmi2Component component, fmi2FMUstate* state) {
-  return attempt(component, [&](Instance& each) { save_into(each, *state); });
+  return attempt(component, [&](Instance& each) { save_into(each, state); });
 }
 
 fmi2Status fmi2SetFMUstate(fmi2Component component, fmi2FMUstate state) {
@@ -243,7 +167,10 @@ fmi2Status fmi2FreeFMUstate(fmi2Component component, fmi2FMUstate* state) {
 
 fmi2Status fmi2SerializedFMUstateSize(fmi2Component component, fmi2FMUstate state,
                                       std::size_t* size) {
-  return attempt(component, [&](Instance& each) { *size = each.bytes_of(state_at(state)).size(); });
+  return attempt(component, [&](Instance& each) {
+    require_pointers(size);
+    *size = each.bytes_of(state_at(state)).size();
+  });
 }
 
 fmi2Status fmi2SerializeFMUstate(fmi2Component component, fmi2FMUstate state, fmi2Byte bytes[],
@@ -254,28 +181,8 @@ fmi2Status fmi2SerializeFMUstate(fmi2Component component, fmi2FMUstate state, fm
 fmi2Status fmi2DeSerializeFMUstate(fmi2Component component, const fmi2Byte bytes[],
                                    std::size_t size, fmi2FMUstate* state) {
   return attempt(component, [&](Instance& each) {
-    *state = new State(each.state_of(reinterpret_cast<const std::uint8_t*>(bytes), size));
+    deserialize(each, reinterpret_cast<const std::uint8_t*>(bytes), size, state);
   });
-}
-
-fmi2Status fmi2GetDirectionalDerivative(
-    fmi2Component component, const fmi2ValueReference /*unknowns*/[], std::size_t /*unknown_count*/,
-    const fmi2ValueReference /*knowns*/[], std::size_t /*known_count*/,
-    const fmi2Real /*known_changes*/[], fmi2Real /*unknown_changes*/[]) {
-  return refused(component, "directional derivatives");
-}
-
-fmi2Status fmi2SetRealInputDerivatives(fmi2Component component,
-                                       const fmi2ValueReference /*references*/[], std::size_t n,
-                                       const fmi2Integer /*orders*/[],
-                                       const fmi2Real /*values*/[]) {
-  return none_of(component, "derivatives of inputs", n);
-}
-
-fmi2Status fmi2GetRealOutputDerivatives(fmi2Component component,
-                                        const fmi2ValueReference /*references*/[], std::size_t n,
-                                        const fmi2Integer /*orders*/[], fmi2Real /*values*/[]) {
-  return none_of(component, "derivatives of outputs", n);
 }
 
 fmi2Status fmi2DoStep(fmi2Component component, fmi2Real point, fmi2Real size,
@@ -283,34 +190,22 @@ fmi2Status fmi2DoStep(fmi2Component component, fmi2Real point, fmi2Real size,
   return attempt(component, [&](Instance& each) { each.advance(point, size, false); });
 }
 
-fmi2Status fmi2CancelStep(fmi2Component component) {
-  return refused(component, "steps in the background");
-}
-
-fmi2Status fmi2GetStatus(fmi2Component component, fmi2StatusKind /*kind*/, fmi2Status* /*value*/) {
-  return refused(component, "steps in the background");
-}
-
 fmi2Status fmi2GetRealStatus(fmi2Component component, fmi2StatusKind kind, fmi2Real* value) {
   if (kind != fmi2LastSuccessfulTime) {
     return refused(component, "such a status");
   }
-  return attempt(component, [&](Instance& each) { *value = each.time_s(); });
-}
-
-fmi2Status fmi2GetIntegerStatus(fmi2Component component, fmi2StatusKind /*kind*/,
-                                fmi2Integer* /*value*/) {
-  return refused(component, "such a status");
+  return attempt(component, [&](const Instance& each) {
+    require_pointers(value);
+    *value = each.time_s();
+  });
 }
 
 fmi2Status fmi2GetBooleanStatus(fmi2Component component, fmi2StatusKind kind, fmi2Boolean* value) {
   if (kind != fmi2Terminated) {
     return refused(component, "such a status");
   }
-  return attempt(component, [&](Instance& /*each*/) { *value = 0; });
-}
-
-fmi2Status fmi2GetStringStatus(fmi2Component component, fmi2StatusKind /*kind*/,
-                               fmi2String* /*value*/) {
-  return refused(component, "steps in the background");
+  return attempt(component, [&](const Instance& /*each*/) {
+    require_pointers(value);
+    *value = 0;
+  });
 }

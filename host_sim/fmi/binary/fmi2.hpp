@@ -1,7 +1,7 @@
-/// Functional Mock-up Interface 2.0, the functions of co-simulation and those of both interface types.
+/// Functional Mock-up Interface 2.0: all functions of its headers.
 ///
-/// Source: Modelica Association, Functional Mock-up Interface Specification 2.0.4, sections 2.1 and
-/// 4.2. Declared here after the text of the specification; types and names are the specification's.
+/// Source: Modelica Association, Functional Mock-up Interface Specification 2.0.4, sections 2.1, 3.2
+/// and 4.2. Declared here after the text of the specification; types and names are the specification's.
 #pragma once
 
 #include <cstddef>
@@ -37,6 +37,15 @@ struct fmi2CallbackFunctions {
   fmi2CallbackFreeMemory freeMemory;
   fmi2StepFinished stepFinished;
   fmi2ComponentEnvironment componentEnvironment;
+};
+
+struct fmi2EventInfo {
+  fmi2Boolean newDiscreteStatesNeeded;
+  fmi2Boolean terminateSimulation;
+  fmi2Boolean nominalsOfContinuousStatesChanged;
+  fmi2Boolean valuesOfContinuousStatesChanged;
+  fmi2Boolean nextEventTimeDefined;
+  fmi2Real nextEventTime;
 };
 
 SONOGLIDE_FMI const char* fmi2GetTypesPlatform();
@@ -116,4 +125,24 @@ SONOGLIDE_FMI fmi2Status fmi2GetBooleanStatus(fmi2Component component, fmi2Statu
                                               fmi2Boolean* value);
 SONOGLIDE_FMI fmi2Status fmi2GetStringStatus(fmi2Component component, fmi2StatusKind kind,
                                              fmi2String* value);
+
+// Model exchange.
+SONOGLIDE_FMI fmi2Status fmi2EnterEventMode(fmi2Component component);
+SONOGLIDE_FMI fmi2Status fmi2NewDiscreteStates(fmi2Component component, fmi2EventInfo* info);
+SONOGLIDE_FMI fmi2Status fmi2EnterContinuousTimeMode(fmi2Component component);
+SONOGLIDE_FMI fmi2Status fmi2CompletedIntegratorStep(fmi2Component component,
+                                                     fmi2Boolean no_state_prior,
+                                                     fmi2Boolean* enter_event_mode,
+                                                     fmi2Boolean* terminate);
+SONOGLIDE_FMI fmi2Status fmi2SetTime(fmi2Component component, fmi2Real time);
+SONOGLIDE_FMI fmi2Status fmi2SetContinuousStates(fmi2Component component, const fmi2Real states[],
+                                                 std::size_t n);
+SONOGLIDE_FMI fmi2Status fmi2GetDerivatives(fmi2Component component, fmi2Real derivatives[],
+                                            std::size_t n);
+SONOGLIDE_FMI fmi2Status fmi2GetEventIndicators(fmi2Component component, fmi2Real indicators[],
+                                                std::size_t n);
+SONOGLIDE_FMI fmi2Status fmi2GetContinuousStates(fmi2Component component, fmi2Real states[],
+                                                 std::size_t n);
+SONOGLIDE_FMI fmi2Status fmi2GetNominalsOfContinuousStates(fmi2Component component,
+                                                           fmi2Real nominals[], std::size_t n);
 // NOLINTEND(readability-identifier-naming)

@@ -1,6 +1,6 @@
-/// Functional Mock-up Interface 3.0, the functions of co-simulation and those of all interface types.
+/// Functional Mock-up Interface 3.0: all functions of its header.
 ///
-/// Source: Modelica Association, Functional Mock-up Interface Specification 3.0, sections 2.2 and 4.2.
+/// Source: Modelica Association, Functional Mock-up Interface Specification 3.0, sections 2.2, 3.2, 4.2 and 5.2.
 /// Declared here after the text of the specification; types and names are the specification's.
 #pragma once
 
@@ -200,4 +200,27 @@ SONOGLIDE_FMI fmi3Status fmi3DoStep(fmi3Instance instance, fmi3Float64 point, fm
                                     fmi3Boolean no_state_prior, fmi3Boolean* event_needed,
                                     fmi3Boolean* terminate, fmi3Boolean* early_return,
                                     fmi3Float64* last_time);
+
+// Model exchange and scheduled execution.
+SONOGLIDE_FMI fmi3Status fmi3EnterContinuousTimeMode(fmi3Instance instance);
+SONOGLIDE_FMI fmi3Status fmi3CompletedIntegratorStep(fmi3Instance instance,
+                                                     fmi3Boolean no_state_prior,
+                                                     fmi3Boolean* enter_event_mode,
+                                                     fmi3Boolean* terminate);
+SONOGLIDE_FMI fmi3Status fmi3SetTime(fmi3Instance instance, fmi3Float64 time);
+SONOGLIDE_FMI fmi3Status fmi3SetContinuousStates(fmi3Instance instance, const fmi3Float64 states[],
+                                                 std::size_t n);
+SONOGLIDE_FMI fmi3Status fmi3GetContinuousStateDerivatives(fmi3Instance instance,
+                                                           fmi3Float64 derivatives[],
+                                                           std::size_t n);
+SONOGLIDE_FMI fmi3Status fmi3GetEventIndicators(fmi3Instance instance, fmi3Float64 indicators[],
+                                                std::size_t n);
+SONOGLIDE_FMI fmi3Status fmi3GetContinuousStates(fmi3Instance instance, fmi3Float64 states[],
+                                                 std::size_t n);
+SONOGLIDE_FMI fmi3Status fmi3GetNominalsOfContinuousStates(fmi3Instance instance,
+                                                           fmi3Float64 nominals[], std::size_t n);
+SONOGLIDE_FMI fmi3Status fmi3GetNumberOfEventIndicators(fmi3Instance instance, std::size_t* n);
+SONOGLIDE_FMI fmi3Status fmi3GetNumberOfContinuousStates(fmi3Instance instance, std::size_t* n);
+SONOGLIDE_FMI fmi3Status fmi3ActivateModelPartition(fmi3Instance instance, fmi3ValueReference clock,
+                                                    fmi3Float64 time);
 // NOLINTEND(readability-identifier-naming)

@@ -127,7 +127,7 @@ inline const std::vector<Command> command_table = {
     {"fmu",
      "closed.toml",
      "--kind loop --out out/closed.fmu",
-     {"--set", "--kind", "--fmi", "--clock", "--out", "--quiet"},
+     {"--set", "--kind", "--fmi", "--out", "--quiet"},
      "",
      {},
      {}},

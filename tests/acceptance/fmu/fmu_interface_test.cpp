@@ -4,18 +4,15 @@
 
 #include <fenv.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <string>
 #include <vector>
 
-#include <nlohmann/json.hpp>
-
-#include "tests/acceptance/fmu/importer/fmu2.hpp"
-#include "tests/acceptance/fmu/importer/fmu3.hpp"
-#include "tests/acceptance/program/program.hpp"
-#include "tests/common/scenes.hpp"
+#include "tests/acceptance/fmu/importer/one_loop.hpp"
 
 #if defined(__SSE2__)
 #include <xmmintrin.h>
@@ -24,43 +21,9 @@
 namespace sonoglide::acceptance::fmu_interface_test {
 namespace {
 
-constexpr std::uint64_t periods = 120;
+using one_loop::periods;
 
-const std::string scene = table_1_closed_loop + R"([run]
-duration_s = 2e-3
-[controller]
-arithmetic = "float32"
-target_friction_ratio = [[0.0, 0.4], [1e-3, 0.6]]
-)";
-
-/// One FMU for all tests here: they do not change it.
-class FmuInterface : public testing::Test {
- protected:
-  static void SetUpTestSuite() {
-    folder = new ScratchFolder();
-    folder->write("scene.toml", scene);
-    make_fmu(*folder, "scene.toml", "--kind loop", "loop");
-    fmu = new Fmu3(*folder, "loop");
-  }
-  static void TearDownTestSuite() {
-    delete fmu;
-    delete folder;
-  }
-
-  static std::string hash_of_run(const std::string& options = "") {
-    const Outcome ran = folder->run("run scene.toml --json " + options);
-    EXPECT_EQ(ran.exit_code, 0) << ran.err;
-    return nlohmann::json::parse(ran.out)["control"]["trace_hash"];
-  }
-
-  static double step_s() { return fmu->description().step_s(); }
-
-  static ScratchFolder* folder;
-  static Fmu3* fmu;
-};
-
-ScratchFolder* FmuInterface::folder = nullptr;
-Fmu3* FmuInterface::fmu = nullptr;
+class FmuInterface : public one_loop::OneLoop {};
 
 TEST_F(FmuInterface, AStepIsAnyWholeNumberOfPeriods) {
   Instance3 loop(*fmu);
@@ -77,25 +40,52 @@ TEST_F(FmuInterface, AStepIsAnyWholeNumberOfPeriods) {
   EXPECT_EQ(loop.text("trace_hash"), hash_of_run());
 }
 
-TEST_F(FmuInterface, AnyOtherStepIsRefusedAndChangesNothing) {
+/// Lengths of steps in carrier periods, over and over until the run is over; the last one is cut.
+template <class Step>
+void step_by(const std::vector<double>& lengths, double period_s, const Step& step) {
+  const double end_s = periods * period_s;
+  double time_s = 0.0;
+  for (std::size_t i = 0; time_s < end_s; ++i) {
+    const double size_s = std::min(lengths[i % lengths.size()] * period_s, end_s - time_s);
+    step(time_s, size_s);
+    time_s += size_s;
+  }
+}
+
+/// Steps of less than a period, of some and a part of one, and remnants as rounding leaves them.
+const std::vector<std::vector<double>> odd_lengths = {
+    {0.3}, {0.7}, {2.5}, {3.14159265358979, 1e-12, 0.01}, {1.0 - 1e-5}, {1.0 + 1e-5}, {1e3}};
+
+TEST_F(FmuInterface, AnyStepsGiveTheCommandsOfRun) {
+  const std::string hash = hash_of_run();
+  for (const std::vector<double>& lengths : odd_lengths) {
+    Instance3 loop(*fmu);
+    loop.initialize();
+    step_by(lengths, step_s(), [&](double time_s, double size_s) {
+      const Stepped stepped = loop.step(time_s, size_s);
+      ASSERT_EQ(stepped.status, fmi3OK) << loop.messages();
+      EXPECT_FALSE(stepped.early);
+      EXPECT_EQ(stepped.time_s, time_s + size_s);
+      EXPECT_EQ(loop.real("time"), stepped.time_s);
+    });
+    EXPECT_EQ(loop.text("trace_hash"), hash) << lengths.front();
+    EXPECT_EQ(loop.step(periods * step_s(), 1e-17).status, fmi3OK) << "a remnant";
+    EXPECT_EQ(loop.text("trace_hash"), hash);
+  }
+}
+
+TEST_F(FmuInterface, OutputsHoldUntilACarrierPeriodEnds) {
   Instance3 loop(*fmu);
   loop.initialize();
-  for (const double part :
-       {0.0, -1.0, 0.5, 1.5, 1.0 + 1e-5, 100.01, std::numeric_limits<double>::quiet_NaN(),
-        std::numeric_limits<double>::infinity()}) {
-    const Stepped stepped = loop.step(0.0, part * step_s());
-    EXPECT_EQ(stepped.status, fmi3Discard) << part;
-    EXPECT_EQ(stepped.time_s, 0.0);
-  }
-  EXPECT_NE(loop.messages().find("2 logStatusDiscard: the communication step of "
-                                 "8.333333333333334e-06 s is 0.5 carrier periods; allowed: a whole "
-                                 "number of 1.6666666666666667e-05 s"),
-            std::string::npos)
-      << loop.messages();
-  EXPECT_EQ(loop.step(5.0 * step_s(), step_s()).status, fmi3Discard);
-  EXPECT_NE(loop.messages().find("the communication point is"), std::string::npos);
-  ASSERT_EQ(loop.step(0.0, periods * step_s()).status, fmi3OK);
-  EXPECT_EQ(loop.text("trace_hash"), hash_of_run());
+  ASSERT_EQ(loop.step(0.0, 1.5 * step_s()).status, fmi3OK);
+  const double displacement_m = loop.real("displacement_m");
+  const std::string hash = loop.text("trace_hash");
+  ASSERT_EQ(loop.step(1.5 * step_s(), 0.48 * step_s()).status, fmi3OK);
+  EXPECT_EQ(loop.real("displacement_m"), displacement_m);
+  EXPECT_EQ(loop.text("trace_hash"), hash);
+  ASSERT_EQ(loop.step(1.98 * step_s(), 0.02 * step_s()).status, fmi3OK);
+  EXPECT_NE(loop.real("displacement_m"), displacement_m);
+  EXPECT_NE(loop.text("trace_hash"), hash);
 }
 
 TEST_F(FmuInterface, ManyRoundedStepsStayOnTheGrid) {
@@ -128,21 +118,6 @@ TEST_F(FmuInterface, TwoInstancesInterleavedDoNotDisturbEachOther) {
             hash_of_run("--set friction.coefficient=0.12 --set drive.delay_periods=2 --set "
                         "sensor.force_full_scale_N=" +
                         full_scale));
-}
-
-TEST_F(FmuInterface, AParameterOutOfRangeIsNamedWithItsPlaceAndCanBeMended) {
-  Instance3 loop(*fmu);
-  ASSERT_EQ(loop.set("plant.mass_kg", -1.0), fmi3OK);
-  ASSERT_EQ(loop.enter(), fmi3OK);
-  EXPECT_EQ(loop.exit(), fmi3Error);
-  EXPECT_NE(loop.messages().find("logStatusError: --set:1:1: plant.mass_kg: "), std::string::npos)
-      << loop.messages();
-  ASSERT_EQ(loop.set("plant.mass_kg", 0.02), fmi3OK);
-  ASSERT_EQ(loop.exit(), fmi3OK) << loop.messages();
-  EXPECT_EQ(loop.real("plant.mass_kg"), 0.02);
-  EXPECT_EQ(loop.set("plant.mass_kg", 0.03), fmi3Error) << "a fixed parameter";
-  ASSERT_EQ(loop.step(0.0, periods * step_s()).status, fmi3OK);
-  EXPECT_EQ(loop.text("trace_hash"), hash_of_run());
 }
 
 TEST_F(FmuInterface, ResetBeginsAnew) {
@@ -198,44 +173,6 @@ TEST_F(FmuInterface, NativeTypesAreTheControllersOwnNumbers) {
   EXPECT_EQ(loop.single("drive_amplitude"), std::ldexp(static_cast<float>(code), -31));
   EXPECT_EQ(loop.single("commanded_friction_ratio"),
             std::ldexp(static_cast<float>(loop.integer("commanded_ratio_code")), -30));
-}
-
-TEST_F(FmuInterface, WhatIsNotThereIsRefusedByName) {
-  Instance3 loop(*fmu);
-  loop.initialize();
-  EXPECT_EQ(loop.set("friction_ratio", 0.5), fmi3Error);
-  const unsigned none = 100000;
-  double value = 0.0;
-  EXPECT_EQ(SONOGLIDE_CALL3(loop, fmi3GetFloat64)(loop.get(), &none, 1, &value, 1), fmi3Error);
-  EXPECT_NE(loop.messages().find("no variable of value reference 100000"), std::string::npos);
-  const unsigned fault = fmu->description().reference("fault");
-  EXPECT_EQ(SONOGLIDE_CALL3(loop, fmi3GetFloat64)(loop.get(), &fault, 1, &value, 1), fmi3Error);
-  EXPECT_NE(loop.messages().find("fault is no Float64"), std::string::npos);
-  EXPECT_EQ(SONOGLIDE_CALL3(loop, fmi3EnterEventMode)(loop.get()), fmi3Error);
-  EXPECT_FALSE(Instance3(*fmu, false, "{another}").exists());
-}
-
-TEST_F(FmuInterface, DamagedAndForeignStatesAreRefused) {
-  Instance3 loop(*fmu);
-  loop.initialize();
-  fmi3FMUState state = nullptr;
-  ASSERT_EQ(SONOGLIDE_CALL3(loop, fmi3GetFMUState)(loop.get(), &state), fmi3OK);
-  std::size_t size = 0;
-  ASSERT_EQ(SONOGLIDE_CALL3(loop, fmi3SerializedFMUStateSize)(loop.get(), state, &size), fmi3OK);
-  std::vector<std::uint8_t> bytes(size);
-  ASSERT_EQ(SONOGLIDE_CALL3(loop, fmi3SerializeFMUState)(loop.get(), state, bytes.data(), size),
-            fmi3OK);
-  ASSERT_EQ(SONOGLIDE_CALL3(loop, fmi3FreeFMUState)(loop.get(), &state), fmi3OK);
-  const auto read = [&](std::size_t count) {
-    return SONOGLIDE_CALL3(loop, fmi3DeserializeFMUState)(loop.get(), bytes.data(), count, &state);
-  };
-  EXPECT_EQ(read(size - 1), fmi3Error);
-  EXPECT_EQ(read(3), fmi3Error);
-  EXPECT_EQ(read(0), fmi3Error);
-  bytes[size / 2] ^= 1U;
-  EXPECT_EQ(read(size), fmi3Error);
-  EXPECT_EQ(state, nullptr);
-  EXPECT_NE(loop.messages().find("the serialized state is damaged"), std::string::npos);
 }
 
 /// Rounding upwards and, where the processor has it, flush-to-zero.

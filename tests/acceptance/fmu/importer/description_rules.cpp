@@ -82,11 +82,6 @@ Elements elements_of_version_3() {
       {"Float32", {required, real}},
       {"Int32", {required, any + of_a_number + Names{"initial"}}},
       {"String", {required, any + Names{"declaredType", "initial"}}},
-      {"Clock",
-       {required + Names{"intervalVariability"},
-        any + Names{"declaredType", "canBeDeactivated", "priority", "intervalDecimal",
-                    "shiftDecimal", "supportsFraction", "resolution", "intervalCounter",
-                    "shiftCounter"}}},
       {"Output", unknown},
       {"InitialUnknown", unknown}});
   return elements;
@@ -169,10 +164,10 @@ void check_variables(const Tree& root, bool version_2) {
     EXPECT_TRUE(std::regex_match(name, std::regex("[A-Za-z_][A-Za-z0-9_]*(\\.[A-Za-z_]\\w*)*")));
     const Tree& typed = version_2 ? variable.get_child(children(variable).at(0)) : variable;
     const std::string real_type = version_2 ? children(variable).at(0) : type;
-    EXPECT_TRUE(
-        version_2 ? (std::set<std::string>{"Real", "Integer", "String"}.count(real_type) == 1)
-                  : (std::set<std::string>{"Float64", "Float32", "Int32", "String", "Clock"}.count(
-                         real_type) == 1));
+    EXPECT_TRUE(version_2
+                    ? (std::set<std::string>{"Real", "Integer", "String"}.count(real_type) == 1)
+                    : (std::set<std::string>{"Float64", "Float32", "Int32", "String"}.count(
+                           real_type) == 1));
     const std::string causality = attribute_of(variable, "causality");
     const std::string variability = attribute_of(variable, "variability");
     const std::string start = attribute_of(typed, "start");
@@ -186,7 +181,7 @@ void check_variables(const Tree& root, bool version_2) {
       EXPECT_NE(start, "");
     } else if (causality == "input") {
       EXPECT_EQ(variability, "discrete");
-      EXPECT_EQ(start.empty(), real_type == "Clock");
+      EXPECT_NE(start, "");
     } else {
       EXPECT_EQ(causality, "output");
       EXPECT_EQ(variability, "discrete");

@@ -26,9 +26,8 @@ Instance3::Instance3(const Fmu3& fmu, bool early_return_allowed, const std::stri
   const std::string shown =
       token.empty() ? fmu.description().attribute("instantiationToken") : token;
   instance_ = SONOGLIDE_CALL3(*this, fmi3InstantiateCoSimulation)(
-      "tested", shown.c_str(), fmu.resources().c_str(), false, true,
-      fmu.description().stepping("hasEventMode") == "true", early_return_allowed, nullptr, 0,
-      &messages_, note, nullptr);
+      "tested", shown.c_str(), fmu.resources().c_str(), false, true, false, early_return_allowed,
+      nullptr, 0, &messages_, note, nullptr);
 }
 
 Instance3::~Instance3() {
@@ -106,41 +105,6 @@ Stepped Instance3::step(double point_s, double size_s) {
     throw std::runtime_error("the FMU asks for an event or for the end");
   }
   return stepped;
-}
-
-fmi3Status Instance3::enter_event_mode() {
-  return SONOGLIDE_CALL3(*this, fmi3EnterEventMode)(instance_);
-}
-
-fmi3Status Instance3::set_clock(bool active) {
-  const unsigned reference = fmu_.description().reference("carrier_clock");
-  return SONOGLIDE_CALL3(*this, fmi3SetClock)(instance_, &reference, 1, &active);
-}
-
-bool Instance3::clock() {
-  const unsigned reference = fmu_.description().reference("carrier_clock");
-  bool active = false;
-  if (SONOGLIDE_CALL3(*this, fmi3GetClock)(instance_, &reference, 1, &active) != fmi3OK) {
-    throw std::runtime_error(messages());
-  }
-  return active;
-}
-
-fmi3Status Instance3::update_discrete_states() {
-  bool asked[5] = {true, true, true, true, true};
-  double event_time_s = 0.0;
-  const fmi3Status status = SONOGLIDE_CALL3(*this, fmi3UpdateDiscreteStates)(
-      instance_, &asked[0], &asked[1], &asked[2], &asked[3], &asked[4], &event_time_s);
-  for (const bool each : asked) {
-    if (each) {
-      throw std::runtime_error("the FMU asks for more than an update");
-    }
-  }
-  return status;
-}
-
-fmi3Status Instance3::enter_step_mode() {
-  return SONOGLIDE_CALL3(*this, fmi3EnterStepMode)(instance_);
 }
 
 std::vector<std::uint8_t> Instance3::serialized_state() {

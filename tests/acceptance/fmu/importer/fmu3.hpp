@@ -40,8 +40,7 @@ class Fmu3 {
 
 class Instance3 {
  public:
-  /// @param token  empty: that of the description.
-  /// Event mode is used where the FMU has it.
+  /// @param token  empty: that of the description
   explicit Instance3(const Fmu3& fmu, bool early_return_allowed = false,
                      const std::string& token = "");
   ~Instance3();
@@ -61,14 +60,6 @@ class Instance3 {
   std::int32_t integer(const std::string& variable);
   std::string text(const std::string& variable);
   Stepped step(double point_s, double size_s);
-
-  // Of an FMU with event mode, whose clock is `carrier_clock`.
-
-  fmi3Status enter_event_mode();
-  fmi3Status set_clock(bool active);
-  bool clock();
-  fmi3Status update_discrete_states();
-  fmi3Status enter_step_mode();
 
   /// The state as bytes.
   std::vector<std::uint8_t> serialized_state();

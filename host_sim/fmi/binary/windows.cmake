@@ -1,0 +1,67 @@
+# fmu.dll, the same library for Windows, by the cross compiler mingw-w64. Without the compiler FMUs
+# hold no binary for Windows.
+find_program(SONOGLIDE_MINGW x86_64-w64-mingw32-g++-posix)
+if(NOT SONOGLIDE_MINGW OR SONOGLIDE_SANITIZE)
+  message(STATUS "FMUs without a binary for Windows (it needs mingw-w64)")
+  return()
+endif()
+
+# The headers of libraries, without those of this system in the folders around them.
+set(folder "${CMAKE_CURRENT_BINARY_DIR}/windows")
+file(MAKE_DIRECTORY "${folder}/include")
+foreach(header fmt/format.h toml++/toml.h nlohmann/json.hpp)
+  find_path(place ${header} NO_CACHE REQUIRED)
+  cmake_path(GET header PARENT_PATH library)
+  file(CREATE_LINK "${place}/${library}" "${folder}/include/${library}" SYMBOLIC)
+  unset(place)
+endforeach()
+get_target_property(eigen Eigen3::Eigen INTERFACE_INCLUDE_DIRECTORIES)
+
+# What CMake has made is compiled as it is, and each room's other files as one.
+set(units "${CMAKE_CURRENT_SOURCE_DIR}/libraries/fmt_here.cpp"
+  "${CMAKE_CURRENT_SOURCE_DIR}/libraries/toml_here.cpp"
+  "${PROJECT_SOURCE_DIR}/host_sim/process/printable.cpp")
+set(rooms ${shared_rooms} fmi_binary)
+list(REMOVE_ITEM rooms process)  # the rest of which is of this system
+foreach(room IN LISTS rooms)
+  get_target_property(sources sonoglide_${room} SOURCES)
+  set(united ${sources})
+  list(FILTER sources INCLUDE REGEX "^${PROJECT_BINARY_DIR}/")
+  list(FILTER united EXCLUDE REGEX "^${PROJECT_BINARY_DIR}/")
+  list(APPEND units ${sources})
+  if(room STREQUAL fmi_binary)
+    list(APPEND units ${united})
+  else()
+    list(TRANSFORM united REPLACE "(.+)" "#include \"\\1\"\n" OUTPUT_VARIABLE includes)
+    list(JOIN includes "" text)
+    file(CONFIGURE OUTPUT "${folder}/${room}.cpp" CONTENT "${text}" @ONLY)
+    list(APPEND units "${folder}/${room}.cpp")
+  endif()
+endforeach()
+
+set(objects "")
+foreach(unit IN LISTS units)
+  cmake_path(GET unit STEM name)
+  set(object "${folder}/${name}.o")
+  add_custom_command(
+    OUTPUT "${object}"
+    COMMAND ${CMAKE_CXX_COMPILER_LAUNCHER} "${SONOGLIDE_MINGW}" -std=c++17 -O2 -ffp-contract=off
+      -ffunction-sections -fdata-sections -DTOML_HEADER_ONLY=0
+      "-I${PROJECT_SOURCE_DIR}" "-I${folder}/include" "-I${eigen}"
+      -MD -MF "${object}.d" -c "${unit}" -o "${object}"
+    DEPENDS "${unit}"
+    DEPFILE "${object}.d"
+    COMMENT "Compiling ${name} for Windows"
+    VERBATIM)
+  list(APPEND objects "${object}")
+endforeach()
+set(library "${PROJECT_BINARY_DIR}/lib/sonoglide/fmu.dll")
+add_custom_command(
+  OUTPUT "${library}"
+  COMMAND "${SONOGLIDE_MINGW}" -shared -static -s -Wl,--gc-sections -Wl,--no-insert-timestamp
+    ${objects} -o "${library}"
+  DEPENDS ${objects}
+  COMMENT "Linking ${library}"
+  VERBATIM)
+add_custom_target(sonoglide_fmu_windows DEPENDS "${library}")
+add_dependencies(sonoglide_fmu sonoglide_fmu_windows)

@@ -1,0 +1,69 @@
+/// The engine for Windows, under Wine: the commands of `run`, bit for bit.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <ostream>
+#include <stdexcept>
+#include <string>
+
+#include "tests/acceptance/fmu/importer/description.hpp"
+#include "tests/acceptance/program/program.hpp"
+
+namespace sonoglide::acceptance::fmu_windows_test {
+namespace {
+
+/// An example scene and what makes another of it.
+struct Case {
+  std::string name;
+  std::string scene;
+  std::string options;
+};
+
+void PrintTo(const Case& tested, std::ostream* out) {
+  *out << tested.name;
+}
+
+class FmuWindows : public testing::TestWithParam<Case> {};
+
+TEST_P(FmuWindows, ALoopGivesTheHashOfRun) {
+  if (!SONOGLIDE_WINDOWS || std::string(SONOGLIDE_WINE).empty()) {
+    GTEST_SKIP() << "needs mingw-w64 and Wine, of tools/setup test";
+  }
+  const ScratchFolder folder;
+  const std::string words = SONOGLIDE_SCENES "/" + GetParam().scene + ".toml " +
+                            GetParam().options +
+                            " --set 'run.record=[]' --set run.record_interval_s=";
+  const Outcome ran = folder.run("run " + words + " --json");
+  ASSERT_EQ(ran.exit_code, 0) << ran.err;
+  const nlohmann::json summary = nlohmann::json::parse(ran.out);
+  make_fmu(folder, words, "--kind loop", "fmu");
+  const Description description(folder, "fmu");
+  const double duration_s = summary["scene"]["run"]["duration_s"];
+  const double steps = std::ceil(duration_s / description.step_s() - 1e-6);
+  const std::string arguments =
+      SONOGLIDE_STEP_LOOP " fmu/binaries/x86_64-windows/sonoglide_loop.dll fmu/resources " +
+      shell_word(description.attribute("instantiationToken")) + " " +
+      std::to_string(description.reference("trace_hash")) + " " +
+      nlohmann::json(duration_s / steps).dump() + " " + std::to_string(std::lround(steps));
+  // A prefix of its own, which Wine makes once.
+  const Outcome stepped = folder.run_program("env", "WINEPREFIX=" SONOGLIDE_WINE_PREFIX
+                                                    " WINEDEBUG=-all DISPLAY= " SONOGLIDE_WINE " " +
+                                                        arguments);
+  ASSERT_EQ(stepped.exit_code, 0) << stepped.err;
+  EXPECT_EQ(stepped.out.substr(0, 16), summary["control"]["trace_hash"].get<std::string>());
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Scenes, FmuWindows,
+    testing::Values(Case{"float32", "target_step", "--set solver.tolerance=1e-6"},
+                    Case{"q31", "target_step_q31", "--set solver.tolerance=1e-6"},
+                    Case{"damped", "damped_step", ""}, Case{"resonant", "wire_bonder", ""},
+                    Case{"lugre", "target_step",
+                         "--set friction.law=lugre --set friction.static_coefficient=0.12 --set "
+                         "friction.stribeck_velocity_m_per_s=0.03 --set run.duration_s=1e-3"}),
+    [](const auto& tested) { return tested.param.name; });
+
+}  // namespace
+}  // namespace sonoglide::acceptance::fmu_windows_test
