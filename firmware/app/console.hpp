@@ -29,8 +29,8 @@ namespace sonoglide::app {
 /// It greets after a reset, so that no reset goes unseen. Answers are made in pieces, a word and a
 /// number at most, so that the work of a carrier period is bounded. Lines that come meanwhile wait,
 /// as far as TypedAhead holds them. A line that ends with "stop" takes the drive to zero in the
-/// period after its last character, whatever is being answered or saved. Every character is a sign
-/// of life.
+/// period after its last character, whatever is being answered or saved. A fault cancels what was
+/// typed before it and waits, and a line that is being typed. Every character is a sign of life.
 ///
 /// @tparam ByteLink  see hal/board.hpp.
 template <class UnitT, class ByteLink>
@@ -44,6 +44,7 @@ class Console {
   /// makes one piece of an answer, carries out one command, or takes one step of a save.
   void serve() {
     unit_.count_silence();
+    heed_faults();
     receive();
     if (*text_ != '\0') {
       text_ += send(*text_) ? 1 : 0;
@@ -86,6 +87,15 @@ class Console {
   };
 
   bool send(char character) { return bytes_.send(static_cast<std::uint8_t>(character)); }
+
+  void heed_faults() {
+    const std::uint32_t faults = unit_.supervisor().faults().count();
+    if (faults != faults_ && (size_ > 0 || line_ended_ || typed_.waits())) {
+      typed_.spoil();
+      begin_line();
+    }
+    faults_ = faults;
+  }
 
   // The line that is typed; its words are found as they come.
 
@@ -292,7 +302,7 @@ class Console {
             "NAME VALUE\r\n");
         break;
       case Reply::line_lost:
-        say_last("the line is too long, or came too fast\r\n");
+        say_last("not done: the line is too long, it came too fast, or a fault came first\r\n");
         break;
       case Reply::none:
         break;
@@ -423,7 +433,8 @@ class Console {
 
   StopWord stop_word_;
   TypedAhead typed_;
-  bool stopped_ = false;  ///< on request, and that is not yet answered
+  bool stopped_ = false;      ///< on request, and that is not yet answered
+  std::uint32_t faults_ = 0;  ///< since reset, in the last period
   std::array<char, most_line_characters> line_{};
   std::size_t size_ = 0;
   std::array<Word, most_words + 1> words_{};  ///< one more than a command has

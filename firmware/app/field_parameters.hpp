@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 
 #include "firmware/control/controller.hpp"
 #include "firmware/control/drive_limit.hpp"
@@ -97,6 +98,21 @@ constexpr Scalar fraction(std::uint32_t count, std::uint32_t whole) {
   }
 }
 
+/// count / whole rounded down, to a number whose code is exact; count below whole.
+template <class Scalar>
+constexpr Scalar fraction_below(std::uint32_t count, std::uint32_t whole) {
+  const std::uint64_t code = (std::uint64_t{count} << 31) / whole;
+  std::uint64_t last_digit = 1;
+  if constexpr (numeric::is_fixed_point_v<Scalar>) {
+    last_digit <<= 31 - Scalar::fraction_bits;
+  } else {
+    while (code / last_digit >= std::uint64_t{1} << std::numeric_limits<Scalar>::digits) {
+      last_digit <<= 1;
+    }
+  }
+  return numeric::from_code<Scalar>(static_cast<std::int32_t>(code - code % last_digit));
+}
+
 /// A controller as it was designed, and the parameters that may differ from it.
 ///
 /// To be made at compile time: it takes double.
@@ -168,10 +184,14 @@ class FieldDesign {
 
   /// Carrier periods for which the host may be silent, rounded up; 0: for ever.
   constexpr std::uint32_t timeout_periods(const ParameterValues& values) const {
-    const std::uint64_t periods =
-        std::uint64_t{value(values, Parameter::host_timeout)} * periods_per_ms_;
-    return static_cast<std::uint32_t>((periods + one_in_fraction - 1) / one_in_fraction);
+    return periods(value(values, Parameter::host_timeout));
   }
+
+  /// Carrier periods that a save may take: 10 s.
+  constexpr std::uint32_t save_periods() const { return periods(longest_save_ms); }
+
+  /// See Controller::settle_at.
+  constexpr const Designed& designed() const { return designed_; }
 
   /// The designed controller; where nothing was changed, bit for bit.
   constexpr typename Controller::Parameters controller_parameters(
@@ -195,7 +215,8 @@ class FieldDesign {
         {control::FullDrive<Scalar>::highest()},
         {static_cast<std::uint8_t>(value(values, Parameter::bad_samples)), sample_window}};
     if (changed(values, Parameter::drive_limit)) {
-      result.ceiling.highest = millionths_of(values, Parameter::drive_limit);
+      result.ceiling.highest =
+          fraction_below<Scalar>(value(values, Parameter::drive_limit), one_in_millionths);
     }
     if (changed(values, Parameter::gain_scale)) {
       PartsT::Regulator::scale_gain(result.regulator, millionths_of(values, Parameter::gain_scale));
@@ -219,7 +240,14 @@ class FieldDesign {
 
  private:
   static constexpr std::uint32_t longest_timeout_ms = 60'000;
+  static constexpr std::uint32_t longest_save_ms = 10'000;
   static constexpr std::uint32_t one_in_fraction = 1U << 16;
+
+  /// Rounded up.
+  constexpr std::uint32_t periods(std::uint32_t time_ms) const {
+    const std::uint64_t periods = std::uint64_t{time_ms} * periods_per_ms_;
+    return static_cast<std::uint32_t>((periods + one_in_fraction - 1) / one_in_fraction);
+  }
 
   static constexpr std::uint32_t millionths(double value) {
     return numeric::round_half_up<std::uint32_t>(value * one_in_millionths);

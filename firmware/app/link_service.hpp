@@ -17,6 +17,9 @@ namespace sonoglide::app {
 /// lost. A stop never waits: the drive is at zero in the carrier period after its last byte, and
 /// the stop is answered after the request at hand.
 ///
+/// A fault overtakes the requests whose first byte came before it: they are refused. So a restart
+/// that was sent before the fault does not end it.
+///
 /// A request that comes again is not carried out again: its answer is sent again. A request that is
 /// older than the last, or has its number but other content, is refused with the number of the
 /// last, from which a host that has lost count can go on. Damaged frames are counted and not
@@ -57,6 +60,7 @@ class LinkService {
   struct Received {
     link::Frame frame;
     std::uint32_t checksum;
+    std::uint32_t faults;  ///< since reset, when its first byte came
   };
 
   /// @return whether a frame came to its end, whole or not.
@@ -64,6 +68,9 @@ class LinkService {
     std::uint8_t byte = 0;
     if (!bytes_.receive(byte)) {
       return false;
+    }
+    if (!decoder_.begun()) {
+      faults_ = faults();
     }
     switch (decoder_.take(byte)) {
       case link::Reception::nothing:
@@ -88,7 +95,7 @@ class LinkService {
       unit_.stop();
       overtake(frame.sequence);
     } else if (waiting_ < most_waiting) {
-      requests_[(first_ + waiting_) % most_waiting] = {frame, decoder_.checksum()};
+      requests_[(first_ + waiting_) % most_waiting] = {frame, decoder_.checksum(), faults_};
       ++waiting_;
     } else {
       ++lost_frames_;
@@ -117,9 +124,15 @@ class LinkService {
     } else {
       checksum_ = request.checksum;
       sequence_ = frame.sequence;
-      dispatch(frame);
+      if (request.faults == faults()) {
+        dispatch(frame);
+      } else {
+        refuse(frame.kind, link::Reason::overtaken_by_fault);
+      }
     }
   }
+
+  std::uint32_t faults() const { return unit_.supervisor().faults().count(); }
 
   void dispatch(const link::Frame& request) {
     if (request.kind == link::Stop::kind) {
@@ -280,6 +293,7 @@ class LinkService {
   std::array<Received, most_waiting> requests_{};  ///< that wait, from first_ on
   std::size_t first_ = 0;
   std::size_t waiting_ = 0;
+  std::uint32_t faults_ = 0;  ///< since reset, when the frame that is being received began
   link::SequenceWatch turns_;
   std::uint32_t checksum_ = 0;       ///< of the last request
   std::uint16_t sequence_ = 0;       ///< of the request at hand

@@ -35,6 +35,12 @@ class Supervisor {
   explicit Supervisor(const typename Controller::Parameters& parameters)
       : controller_(parameters) {}
 
+  /// @param parameters  see Controller::settle_at
+  template <class EqualParameters>
+  void settle_at(const EqualParameters& parameters) {
+    controller_.settle_at(parameters);
+  }
+
   /// From any state: the drive begins afresh. The log is kept.
   void restart() {
     host_.clear();
@@ -83,7 +89,7 @@ class Supervisor {
   /// @param half_ratio  see Controller::set_target.
   void set_target(Scalar half_ratio) { controller_.set_target(half_ratio); }
 
-  /// Another controller in its place, for the next restart; not while driving.
+  /// Another controller in its place, for the next restart; not while driving. settle_at() follows.
   void reconfigure(const typename Controller::Parameters& parameters) {
     controller_ = Controller(parameters);
   }

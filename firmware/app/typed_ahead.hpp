@@ -14,11 +14,16 @@ class TypedAhead {
   static constexpr char spoilt = '\x18';
 
   void put(char character) {
+    const bool ends_line = character == '\r' || character == '\n';
+    if (ends_line && !line_begun_) {
+      return;  // an empty line, or the second character of a line's end
+    }
+    line_begun_ = !ends_line;
     if (!spoiling_ && count_ + 2 < characters_.size()) {
       append(character);
       return;
     }
-    spoiling_ = character != '\r' && character != '\n';
+    spoiling_ = line_begun_;
     // Where not even the end fits, that of the spoilt line before it is still there to be told.
     if (!spoiling_ && count_ + 2 <= characters_.size()) {
       append(spoilt);
@@ -27,6 +32,8 @@ class TypedAhead {
   }
 
   bool empty() const { return count_ == 0; }
+  /// Something was typed that take() has not given, be it spoilt.
+  bool waits() const { return count_ > 0 || spoiling_; }
 
   /// The first of them; not where it is empty.
   char take() {
@@ -39,6 +46,17 @@ class TypedAhead {
   void clear() {
     count_ = 0;
     spoiling_ = false;
+    line_begun_ = false;
+  }
+
+  /// Forgets what waits. One spoilt line takes its place: the one that is being typed, if any.
+  void spoil() {
+    count_ = 0;
+    spoiling_ = line_begun_;
+    if (!line_begun_) {
+      append(spoilt);
+      append('\n');
+    }
   }
 
  private:
@@ -50,7 +68,8 @@ class TypedAhead {
   std::array<char, 64> characters_{};
   std::size_t first_ = 0;
   std::size_t count_ = 0;
-  bool spoiling_ = false;  ///< characters of the last line were left out
+  bool spoiling_ = false;    ///< characters of the last line were left out
+  bool line_begun_ = false;  ///< the last character ended no line
 };
 
 }  // namespace sonoglide::app

@@ -46,6 +46,7 @@ class Unit {
         timeout_periods_(design.timeout_periods(values_)),
         target_(value(Parameter::target)),
         supervisor_(design.controller_parameters(values_)) {
+    supervisor_.settle_at(design_.designed());
     supervisor_.set_target(design_.half_target(target_));
     begin();
   }
@@ -133,9 +134,13 @@ class Unit {
     return Answer::taken;
   }
 
-  /// The next step of a save; of the flash, at most one operation.
+  /// The next step of a save, once in each carrier period; of the flash, at most one operation. A
+  /// flash that takes longer than FieldDesign::save_periods() has failed.
   store::Saving proceed() {
-    const store::Saving saving = store_.proceed();
+    store::Saving saving = store_.proceed();
+    if (saving == store::Saving::busy && --save_periods_left_ == 0) {
+      saving = store_.abandon();
+    }
     if (saving == store::Saving::saved) {
       adopt();
     }
@@ -193,6 +198,7 @@ class Unit {
       record[i] = {design_.identity(i), pending_[i]};
     }
     store_.save(record);
+    save_periods_left_ = design_.save_periods();
   }
 
   void adopt() {
@@ -201,6 +207,7 @@ class Unit {
     confirmed_ = true;
     timeout_periods_ = design_.timeout_periods(values_);
     supervisor_.reconfigure(design_.controller_parameters(values_));
+    supervisor_.settle_at(design_.designed());
     if (pending_parameter_ == static_cast<std::size_t>(Parameter::target)) {
       target_ = value(Parameter::target);
     }
@@ -217,6 +224,7 @@ class Unit {
   std::uint32_t target_;
   ParameterValues pending_{};
   std::size_t pending_parameter_ = 0;
+  std::uint32_t save_periods_left_ = 0;
   Supervisor supervisor_;
 };
 

@@ -138,16 +138,20 @@ class Controller {
         level_(parameters.friction_force) {}
 
   /// Makes a copy, or the bytes, of a controller that stood elsewhere its own.
-  /// @param parameters  equal to the other's; outlive this
-  void settle_at(const Parameters& parameters) {
+  /// @param parameters  of a controller with the same vibration, and equal to its own; outlive this
+  template <class EqualParameters>
+  void settle_at(const EqualParameters& parameters) {
     if constexpr (observed || felt) {
       vibration_.settle_at(parameters.vibration);
     }
   }
 
-  /// Begins afresh, from any state, with calibration where there is one.
+  /// Begins afresh, from any state, with calibration where there is one. A target that is set
+  /// already becomes one here, as if it were set next: until then no drive is asked for.
   void start() {
     const bool driven = state_ == State::running || state_ == State::limited;
+    const Scalar target = target_;
+    target_ = whole_ratio();
     friction_.restart();
     shaper_.restart();
     regulator_.restart(target_);
@@ -163,6 +167,11 @@ class Controller {
     if constexpr (observed || felt) {
       vibration_.restart();
     }
+    if constexpr (felt) {
+      if (state_ == State::off || state_ == State::fault) {
+        vibration_.rest();
+      }
+    }
     backwards_ = false;
     requested_ = Scalar{};
     if (!driven || friction_.learning()) {
@@ -174,6 +183,7 @@ class Controller {
     if (!friction_.learning()) {
       believe(friction_.friction_force(configured_friction_));
     }
+    set_target(target);
   }
 
   /// Drive to zero until the next start(). Forgets the cause of a fault.

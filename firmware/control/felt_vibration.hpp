@@ -73,6 +73,9 @@ class FeltVibration {
     at_most_ = false;
   }
 
+  /// The drive has been at zero for long.
+  void rest() { amplitudes_ = {}; }
+
   /// One call for each period, before its reading.
   void pass() { observer_.pass(amplitudes_[sampled] - amplitudes_[sampled - 1]); }
 

@@ -63,6 +63,9 @@ class CobsDecoder {
     idle,     ///< a delimiter that no record stood before
   };
 
+  /// A record has begun that has not ended.
+  bool begun() const { return begun_; }
+
   Event take(std::uint8_t received, std::uint8_t& byte) {
     if (received == cobs_delimiter) {
       return finish();

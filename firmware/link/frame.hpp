@@ -131,6 +131,9 @@ enum class Reception : std::uint8_t {
 /// Finds frames in a stream of bytes. Work and memory are bounded for each byte, whatever comes.
 class FrameDecoder {
  public:
+  /// A frame has begun that has not ended.
+  bool begun() const { return stuffing_.begun(); }
+
   Reception take(std::uint8_t received) {
     std::uint8_t byte = 0;
     switch (stuffing_.take(received, byte)) {

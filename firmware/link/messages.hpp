@@ -194,6 +194,7 @@ enum class Reason : std::uint8_t {
   not_saved,    ///< the store could not be written; the old value stands
   out_of_turn,  ///< an older frame than the last, whose sequence number is in lowest and highest
   parameters_not_confirmed,  ///< confirm them, or write one
+  overtaken_by_fault,        ///< a fault came after the first byte of the request
 };
 
 struct Refusal {

@@ -21,7 +21,7 @@ enum class Saving : std::uint8_t {
   idle,
   busy,
   saved,   ///< what was written is in force from the next load() on
-  failed,  ///< the flash did not keep what was programmed; the old record stands
+  failed,  ///< the flash did not keep what was programmed, or stayed busy; the old record stands
 };
 
 struct Entry {
@@ -128,6 +128,14 @@ class TwoPageStore {
     }
     ++step_;
     return Saving::busy;
+  }
+
+  /// Gives up the save at hand. The flash may still end the operation that keeps it busy, so that a
+  /// reset finds the old record or, if that was the last one, the new.
+  /// @return failed
+  Saving abandon() {
+    step_ = idle;
+    return Saving::failed;
   }
 
  private:

@@ -186,7 +186,8 @@ TEST_F(ConsoleTest, EmptyLinesAreNotAnsweredAndBlanksNotCounted) {
 }
 
 TEST_F(ConsoleTest, ALineThatIsTooLongIsNotCarriedOut) {
-  const std::string answer = "the line is too long, or came too fast\r\n";
+  const std::string answer =
+      "not done: the line is too long, it came too fast, or a fault came first\r\n";
   terminal.line(std::string(22, ' ') + "target 0.5");
   EXPECT_EQ(terminal.unit.target(), 500000U);
   EXPECT_EQ(terminal.line(std::string(23, ' ') + "target 0.6"), answer);
@@ -249,6 +250,47 @@ TEST(ConsoleStop, OvertakesARestartThatWaitsInEveryPhaseOfASave) {
   }
 }
 
+constexpr const char* not_done =
+    "not done: the line is too long, it came too fast, or a fault came first\r\n";
+
+// With every character of the second restart, while it waits, and after it.
+TEST(ConsoleFault, CancelsARestartThatWasTypedBeforeIt) {
+  const std::string first = "restart\r\n";
+  const std::string both = first + "restart\r\n";
+  int cancelled = 0;
+  for (int when = static_cast<int>(first.size()) + 1; when < 400; ++when) {
+    SimulatedFlash flash;
+    Terminal terminal(flash);
+    terminal.put(both);
+    terminal.serve(when);
+    terminal.board.fresh = false;
+    terminal.serve(1);
+    terminal.board.fresh = true;
+    const std::string answer = terminal.type("");
+    ASSERT_EQ(terminal.board.latest_drive().state, static_cast<std::uint8_t>(control::State::fault))
+        << when;
+    ASSERT_EQ(terminal.board.latest_drive().amplitude, 0) << when;
+    ASSERT_EQ(terminal.unit.supervisor().faults().count(), 1U) << when;
+    const bool said = answer.find(not_done) != std::string::npos;
+    cancelled += said ? 1 : 0;
+    // Carried out before the fault or cancelled by it: one answer for each line.
+    ASSERT_EQ(std::count(answer.begin(), answer.end(), '\n'), 2) << when << ": " << answer;
+  }
+  EXPECT_GT(cancelled, 50);
+}
+
+TEST(ConsoleFault, WithNothingTypedSaysNothing) {
+  SimulatedFlash flash;
+  Terminal terminal(flash);
+  terminal.line("restart");
+  terminal.board.fresh = false;
+  terminal.serve(1);
+  terminal.board.fresh = true;
+  EXPECT_EQ(terminal.type(""), "");
+  EXPECT_EQ(terminal.line("status").substr(0, 11), "state fault");
+  EXPECT_EQ(terminal.line("restart").substr(0, 17), "state calibrating");
+}
+
 TEST_F(ConsoleTest, AStopActsBehindAnyFragment) {
   for (const std::string before : {"", "  ", "tar", "stostop", "ss", "set gain_scale ", "\x80\xff",
                                    "restart\rrestart\r", "stop"}) {
@@ -269,21 +311,35 @@ TEST_F(ConsoleTest, LinesTypedAheadWaitTheirTurn) {
   EXPECT_EQ(answer.substr(answer.size() - 27), "target: allowed is 0 to 1\r\n");
 }
 
+/// Blank lines, which are kept and not answered.
+std::string blank_lines(std::size_t characters) {
+  std::string lines = characters % 2 == 1 ? "  \r" : "";
+  while (lines.size() < characters) {
+    lines += " \r";
+  }
+  return lines;
+}
+
 // What is cut off is not carried out in part: 0.95 is not 0.9.
 TEST_F(ConsoleTest, ALineThatDoesNotWaitInFullIsLostAndThatIsSaid) {
-  for (std::size_t empty_lines = 30; empty_lines < 90; ++empty_lines) {
+  for (std::size_t blank = 30; blank < 90; ++blank) {
     terminal.line("target 0.4");
     terminal.put("params\r");
     terminal.serve(40);
-    const std::string answer =
-        terminal.type(std::string(empty_lines, '\r') + "target 0.95\rtarget 0.94\r");
-    const std::uint32_t expected = empty_lines <= 62 - 24   ? 940000
-                                   : empty_lines <= 62 - 12 ? 950000
-                                                            : 400000;
-    EXPECT_EQ(terminal.unit.target(), expected) << empty_lines;
-    EXPECT_EQ(answer.find("came too fast\r\n") != std::string::npos, expected != 940000);
+    const std::string answer = terminal.type(blank_lines(blank) + "target 0.95\rtarget 0.94\r");
+    const std::uint32_t expected = blank <= 62 - 24 ? 940000 : blank <= 62 - 12 ? 950000 : 400000;
+    EXPECT_EQ(terminal.unit.target(), expected) << blank;
+    EXPECT_EQ(answer.find(not_done) != std::string::npos, expected != 940000);
     EXPECT_EQ(terminal.line("faults"), "faults since reset: 0\r\n");
   }
+}
+
+// However many there are: they take no room.
+TEST_F(ConsoleTest, EmptyLinesCostNoLineThatFollows) {
+  terminal.put("params\r");
+  terminal.serve(40);
+  terminal.type(std::string(200, '\n') + "target 0.95\r\n\r\ntarget 0.94\r\n");
+  EXPECT_EQ(terminal.unit.target(), 940000U);
 }
 
 TEST_F(ConsoleTest, WhereAHostTimeoutIsSetEveryCharacterIsLife) {
@@ -298,7 +354,7 @@ TEST_F(ConsoleTest, WhereAHostTimeoutIsSetEveryCharacterIsLife) {
   EXPECT_EQ(terminal.board.latest_drive().state,
             static_cast<std::uint8_t>(control::State::running));
   terminal.serve(200);
-  EXPECT_NE(terminal.line("").find("unknown"), std::string::npos);
+  EXPECT_NE(terminal.line("").find(not_done), std::string::npos);
   EXPECT_NE(terminal.line("status").find("state fault, target 0.4, drive 0, limit none, fault "
                                          "host_silent, parameters stored"),
             std::string::npos);

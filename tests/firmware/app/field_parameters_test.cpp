@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include <cmath>
 #include <cstdint>
+#include <limits>
 #include <set>
 
 #include "firmware/control/coulomb_feedforward.hpp"
@@ -13,6 +15,7 @@
 #include "firmware/control/no_slew_limit.hpp"
 #include "firmware/control/trusted_friction.hpp"
 #include "firmware/numeric/fixed.hpp"
+#include "tests/firmware/app/unit/simulated_unit.hpp"
 
 namespace sonoglide::app::field_parameters_test {
 namespace {
@@ -94,6 +97,50 @@ TYPED_TEST(FieldParametersTest, MillionthsAreRoundedOnce) {
     ASSERT_TRUE(fraction<TypeParam>(i, 2 * one_in_millionths) == this->real(i / 2e6)) << i;
   }
   EXPECT_TRUE(fraction<TypeParam>(1, 1) == control::FullDrive<TypeParam>::highest());
+}
+
+/// Of the largest code that count / 10^6 allows, as far below as the scalar's last digit.
+template <class S>
+void expect_rounded_down(std::uint32_t count) {
+  const auto highest = static_cast<std::int32_t>((std::uint64_t{count} << 31) / one_in_millionths);
+  const S value = fraction_below<S>(count, one_in_millionths);
+  const std::int32_t code = numeric::to_code(value);
+  ASSERT_LE(code, highest) << count;
+  ASSERT_EQ(numeric::to_real(value) * 0x1p31, code) << count;
+  if constexpr (numeric::is_fixed_point_v<S>) {
+    ASSERT_LT(highest - code, 1 << (31 - S::fraction_bits)) << count;
+  } else {
+    ASSERT_LE(highest - code, std::ldexp(highest, 1 - std::numeric_limits<S>::digits)) << count;
+  }
+}
+
+// A limit that is a hair above what was allowed is no limit.
+TEST(DriveLimit, IsRoundedDownInEveryArithmetic) {
+  for (std::uint32_t i = 0; i < one_in_millionths; ++i) {
+    expect_rounded_down<float>(i);
+    expect_rounded_down<double>(i);
+    expect_rounded_down<numeric::Q31<numeric::Saturating>>(i);
+    expect_rounded_down<numeric::Q15<numeric::Saturating>>(i);
+  }
+}
+
+TYPED_TEST(FieldParametersTest, TheDriveLimitIsRoundedDown) {
+  for (std::uint32_t i = 0; i < one_in_millionths; i += 997) {
+    const auto values = TestFixture::with(Parameter::drive_limit, i);
+    const auto highest = TestFixture::design.controller_parameters(values).ceiling.highest;
+    ASSERT_TRUE(highest == fraction_below<TypeParam>(i, one_in_millionths)) << i;
+  }
+}
+
+// Stores in the field hold these: another number, and a parameter or the whole store is not found.
+TEST(ParameterIdentity, StaysWhatItWas) {
+  const std::uint32_t identities[parameter_count] = {0x65EDB271, 0x13371804, 0x642F8C86,
+                                                     0xF9CE71CD, 0x89D3878E, 0x053AC4F5,
+                                                     0xC774790D, 0x57351E83, 0x09F1B95E};
+  for (std::size_t i = 0; i < parameter_count; ++i) {
+    EXPECT_EQ(field_design.identity(i), identities[i]) << field_design.info(i).name;
+  }
+  EXPECT_EQ(field_design.design(), 0x9822E9D7U);
 }
 
 TYPED_TEST(FieldParametersTest, PresetsAndTheEndsOfRangesAreAllowed) {

@@ -277,6 +277,35 @@ TEST(LinkServiceTest, FlashThatDoesNotKeepAValueIsReported) {
   EXPECT_EQ(powered.read(Parameter::gain_scale), one_in_millionths);
 }
 
+// In every step of a save: the answer comes after 10 s, and the link goes on.
+TEST(LinkServiceTest, AFlashThatStaysBusyIsReportedAndDoesNotMuteTheLink) {
+  constexpr int save_periods = 600'000;
+  for (const int when : {0, 30, 60}) {
+    SimulatedFlash flash;
+    PoweredUnit powered(flash);
+    const std::uint32_t before = powered.read(Parameter::gain_scale);
+    powered.put(link::frame_of(PoweredUnit::writing(Parameter::gain_scale, 111), 1000));
+    powered.serve(16 + when);
+    flash.hang();
+    powered.serve(save_periods - 700 - when);
+    ASSERT_TRUE(powered.answers().empty()) << when;
+    powered.serve(when + 100);
+    const std::vector<link::Frame> frames = powered.answers();
+    ASSERT_EQ(frames.size(), 1U) << when;
+    expect_refusal(frames.front(), link::WriteParameter::kind, Reason::not_saved, 0, 0);
+    powered.sequence = 1000;
+    EXPECT_EQ(powered.read(Parameter::gain_scale), before);
+    powered.ask<link::Restarted>(link::Restart{});
+    EXPECT_EQ(powered.telemetry().state, running);
+    powered.ask<link::Stopped>(link::Stop{});
+    flash.hang(false);
+    EXPECT_EQ(
+        powered.ask<link::ParameterWritten>(PoweredUnit::writing(Parameter::gain_scale, 222)).value,
+        222U);
+    EXPECT_EQ(PoweredUnit(flash).read(Parameter::gain_scale), 222U);
+  }
+}
+
 TEST(LinkServiceTest, APowerCutWhileWritingLeavesTheOldValueOrTheNew) {
   for (int operation = 0; operation < operations_of_a_save; ++operation) {
     for (const Torn torn : every_tear) {
@@ -452,6 +481,60 @@ TEST(LinkServiceTest, AStopOvertakesARestartThatWaitsInEveryPhaseOfASave) {
     ASSERT_EQ(powered.board.latest_drive().state, off) << when;
     ASSERT_EQ(powered.unit.value(Parameter::gain_scale), 111U) << when;
     ASSERT_FALSE(flash.misused());
+  }
+}
+
+// With every byte of the second restart, while it waits, and after it: the drive stays at zero.
+TEST(LinkServiceTest, AFaultCancelsTheRestartThatWasSentBeforeIt) {
+  const std::size_t restart_bytes = wire_size(link::frame_of(link::Restart{}, 0));
+  int refused = 0;
+  for (int when = static_cast<int>(restart_bytes) + 2; when < 100; ++when) {
+    SimulatedFlash flash;
+    PoweredUnit powered(flash);
+    powered.put(link::frame_of(link::Restart{}, 1));
+    powered.put(link::frame_of(link::Restart{}, 2));
+    powered.serve(when);
+    powered.board.fresh = false;
+    powered.serve(1);
+    powered.board.fresh = true;
+    const std::vector<link::Frame> frames = powered.answers();
+    ASSERT_EQ(frames.size(), 2U) << when;
+    ASSERT_EQ(powered.board.latest_drive().state, faulted) << when;
+    ASSERT_EQ(powered.board.latest_drive().amplitude, 0) << when;
+    ASSERT_EQ(powered.unit.supervisor().faults().count(), 1U) << when;
+    if (frames[1].kind == link::Refusal::kind) {
+      expect_refusal(frames[1], link::Restart::kind, Reason::overtaken_by_fault, 0, 0);
+      ++refused;
+      // A repetition gets the same answer, a new request is carried out.
+      powered.put(link::frame_of(link::Restart{}, 2));
+      expect_refusal(powered.answers().at(0), link::Restart::kind, Reason::overtaken_by_fault, 0,
+                     0);
+    }
+    powered.ask<link::Restarted>(link::Restart{});
+    ASSERT_EQ(powered.telemetry().state, running) << when;
+  }
+  EXPECT_GE(refused, static_cast<int>(restart_bytes));
+}
+
+// Two faults in a row, and what was sent before the second.
+TEST(LinkServiceTest, EveryFaultCancelsWhatWasSentBeforeIt) {
+  SimulatedFlash flash;
+  PoweredUnit powered(flash);
+  for (std::uint32_t fault = 1; fault <= 2; ++fault) {
+    powered.ask<link::Restarted>(link::Restart{});
+    powered.put(link::frame_of(link::SetTarget{600000}, ++powered.sequence));
+    powered.put(link::frame_of(link::Restart{}, ++powered.sequence));
+    powered.serve(5);
+    powered.board.fresh = false;
+    powered.serve(1);
+    powered.board.fresh = true;
+    const std::vector<link::Frame> frames = powered.answers();
+    ASSERT_EQ(frames.size(), 2U);
+    expect_refusal(frames[0], link::SetTarget::kind, Reason::overtaken_by_fault, 0, 0);
+    EXPECT_EQ(frames[1].kind, link::Restarted::kind);  // its first byte came later
+    powered.ask<link::Stopped>(link::Stop{});
+    EXPECT_EQ(powered.unit.supervisor().faults().count(), fault);
+    EXPECT_EQ(powered.telemetry().target, 400000U);
   }
 }
 

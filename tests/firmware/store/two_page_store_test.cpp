@@ -118,6 +118,67 @@ TEST(TwoPageStoreTest, ASaveIsOneEraseAndAWordAtATime) {
 
 constexpr std::size_t words_used = 3 + 2 * count + 1;
 
+/// Flash with `saves` whole saves behind it.
+app::SimulatedFlash used(std::uint32_t saves) {
+  app::SimulatedFlash flash;
+  for (std::uint32_t i = 0; i < saves; ++i) {
+    save(flash, values(i));
+  }
+  return flash;
+}
+
+// What firmware that is in use has written, the checksum by zlib.
+TEST(TwoPageStoreTest, APageIsLaidOutAsDocumented) {
+  using Words = std::array<std::uint32_t, words_used>;
+  app::SimulatedFlash flash;
+  save(flash, values(3));
+  save(flash, values(4));
+  const Words expected[2] = {
+      {0x534E4706, 0x00000000, 0x00000007, 0x10000001, 0x00000003, 0x20000002, 0xFFFFFFFF,
+       0x30000003, 0x00000000, 0x40000004, 0x03000000, 0x50000005, 0xFFFFFFFC, 0x60000006,
+       0x5A5A5A5A, 0xC9B28B61},
+      {0x534E4706, 0x00000001, 0x00000007, 0x10000001, 0x00000004, 0x20000002, 0xFFFFFFFF,
+       0x30000003, 0x00000000, 0x40000004, 0x04000000, 0x50000005, 0xFFFFFFFB, 0x60000006,
+       0x5A5A5A5A, 0x56F5A45C}};
+  for (const std::size_t page : {0U, 1U}) {
+    for (std::size_t i = 0; i < app::SimulatedFlash::page_words; ++i) {
+      EXPECT_EQ(flash.read(page, i), i < words_used ? expected[page][i] : 0xFFFFFFFFU)
+          << page << ", " << i;
+    }
+  }
+  app::SimulatedFlash written;
+  for (std::size_t i = 0; i < words_used; ++i) {
+    written.page(1)[i] = expected[1][i];
+  }
+  EXPECT_EQ(loaded(written).origin, Origin::stored);
+  EXPECT_EQ(loaded(written).values, values(4));
+}
+
+TEST(TwoPageStoreTest, ASaveThatIsGivenUpLeavesTheOldRecordAndTheNextSaveIsWhole) {
+  for (int steps = 0; steps < 100; ++steps) {
+    app::SimulatedFlash flash = used(2);
+    Store store(flash, design);
+    store.load();
+    store.save(record(values(20)));
+    Saving saving = Saving::busy;
+    for (int i = 0; i < steps && saving == Saving::busy; ++i) {
+      saving = store.proceed();
+    }
+    if (saving == Saving::busy) {
+      EXPECT_EQ(store.abandon(), Saving::failed);
+      EXPECT_EQ(store.proceed(), Saving::idle);
+    }
+    const Values found = loaded(flash).values;
+    EXPECT_TRUE(found == values(1) || found == values(20)) << steps;
+    store.save(record(values(30)));
+    while ((saving = store.proceed()) == Saving::busy) {
+    }
+    EXPECT_EQ(saving, Saving::saved) << steps;
+    EXPECT_EQ(loaded(flash).values, values(30)) << steps;
+    EXPECT_FALSE(flash.misused());
+  }
+}
+
 TEST(TwoPageStoreTest, SequenceNumbersWrap) {
   app::SimulatedFlash flash;
   save(flash, values(0));
@@ -136,15 +197,6 @@ TEST(TwoPageStoreTest, SequenceNumbersWrap) {
     ASSERT_EQ(loaded(flash).values, values(i - 1));
     save(flash, values(i));
   }
-}
-
-/// Flash with `saves` whole saves behind it.
-app::SimulatedFlash used(std::uint32_t saves) {
-  app::SimulatedFlash flash;
-  for (std::uint32_t i = 0; i < saves; ++i) {
-    save(flash, values(i));
-  }
-  return flash;
 }
 
 TEST(TwoPageStoreTest, ACutLeavesTheOldRecordOrTheNewAndSoDoesTheNextCut) {

@@ -61,7 +61,7 @@ class SimulatedFlash {
     }
   }
 
-  bool busy() const { return busy_calls_ > 0 && busy_calls_-- > 0; }
+  bool busy() const { return hung_ || (busy_calls_ > 0 && busy_calls_-- > 0); }
 
   /// Cuts the power in the operation after `operations` more.
   void cut_after(int operations, Torn torn) {
@@ -77,6 +77,8 @@ class SimulatedFlash {
 
   /// Programs no more.
   void wear_out() { worn_ = true; }
+  /// Stays busy, or answers again.
+  void hang(bool hangs = true) { hung_ = hangs; }
   /// Operations begun.
   int operations() const { return operations_; }
   /// A word was programmed twice, or an operation begun while another was going on.
@@ -153,6 +155,7 @@ class SimulatedFlash {
   Torn torn_ = Torn::done;
   bool powered_ = true;
   bool worn_ = false;
+  bool hung_ = false;
   bool misused_ = false;
   std::minstd_rand generator_{1};
 };

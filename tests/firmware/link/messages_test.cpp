@@ -1,0 +1,132 @@
+/// Every message byte for byte: what hosts of other makes rely on. The bytes were made by a program
+/// of its own, from the tables of firmware/link/README.md and the CRC-32 of zlib.
+#include "firmware/link/messages.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+
+namespace sonoglide::link::messages_test {
+namespace {
+
+std::string hexadecimal(const Frame& frame) {
+  constexpr const char* digits = "0123456789abcdef";
+  const WireFrame wire = encode(frame);
+  std::string text;
+  for (std::size_t i = 0; i < wire.size; ++i) {
+    const std::uint8_t byte = wire.bytes.at(i);
+    text += {digits[byte >> 4], digits[byte & 15]};
+  }
+  return text;
+}
+
+// Fields are set by name: their order is what is tested.
+
+Telemetry telemetry() {
+  Telemetry message{};
+  message.period = 0x01020304;
+  message.friction_force = -2;
+  message.sliding_velocity = 0x11121314;
+  message.amplitude = 0x21222324;
+  message.target = 400000;
+  message.state = 3;
+  message.limit = 5;
+  message.fault = 16;
+  message.parameters = 2;
+  message.lost_frames = 0x3132;
+  message.settling = 1;
+  message.mismatch = 1250;
+  return message;
+}
+
+ParameterValue parameter_value() {
+  ParameterValue message{};
+  message.parameter = 7;
+  message.decimal_places = 3;
+  message.value = 100;
+  message.lowest = 0;
+  message.highest = 60000;
+  message.preset = 250;
+  return message;
+}
+
+template <class Message>
+Message of_target() {
+  Message message{};
+  message.ratio = 450000;
+  return message;
+}
+
+template <class Message>
+Message of_parameter() {
+  Message message{};
+  message.parameter = 1;
+  message.value = 800000;
+  return message;
+}
+
+LoggedFault logged_fault() {
+  LoggedFault message{};
+  message.age = 15;
+  message.fault = 34;
+  message.period = 0x01020304;
+  message.count = 77;
+  return message;
+}
+
+Refusal refusal() {
+  Refusal message{};
+  message.request = 4;
+  message.reason = 3;
+  message.lowest = 977;
+  message.highest = 1000000;
+  return message;
+}
+
+TEST(MessageBytes, AreThoseOfTheReference) {
+  const struct {
+    Frame frame;
+    const char* bytes;
+  } rows[] = {
+      {frame_of(ReadTelemetry{}, 0x1234), "0009020134121fff1cc200"},
+      {frame_of(telemetry(), 0x1234),
+       "00180281341204030201feffffff1413121124232221801a060e03051002323101e2045d70dda500"},
+      {frame_of(of_target<SetTarget>(), 0x0203), "000802020302d0dd06058f5093b900"},
+      {frame_of(of_target<TargetSet>(), 0x0203), "000802820302d0dd06057dba853100"},
+      {frame_of(ReadParameter{7}, 1), "0004020301060707f4f13100"},
+      {frame_of(parameter_value(), 1),
+       "0004028301040703640101010101010360ea0102fa010105a763976b00"},
+      {frame_of(of_parameter<WriteParameter>(), 0xFFFF), "00060204ffff0103350c05e992328900"},
+      {frame_of(of_parameter<ParameterWritten>(), 0xFFFF), "00060284ffff0103350c05331709da00"},
+      {frame_of(Restart{}, 5), "0004020505053921f1f000"},
+      {frame_of(Restarted{}, 5), "000402850505b93ac41100"},
+      {frame_of(Stop{}, 6), "000402060605a3cc9ad900"},
+      {frame_of(Stopped{}, 6), "00040286060523d7af3800"},
+      {frame_of(ReadFault{15}, 7), "0004020707060fd097c5b400"},
+      {frame_of(logged_fault(), 7), "0004028707080f22040302014d0101053e9a2c6800"},
+      {frame_of(Confirm{}, 8), "00040208080527cc874d00"},
+      {frame_of(Confirmed{}, 8), "000402880805a7d7b2ac00"},
+      {frame_of(refusal(), 9), "000402ff09050403d103010440420f05a1e6393400"},
+  };
+  for (const auto& row : rows) {
+    EXPECT_EQ(hexadecimal(row.frame), row.bytes) << int{row.frame.kind};
+  }
+}
+
+TEST(MessageBytes, ReasonsHaveTheNumbersOfTheReference) {
+  const Reason reasons[] = {
+      Reason::unknown_request,    Reason::wrong_length,  Reason::out_of_range,
+      Reason::unknown_parameter,  Reason::no_such_fault, Reason::drive_not_stopped,
+      Reason::not_saved,          Reason::out_of_turn,   Reason::parameters_not_confirmed,
+      Reason::overtaken_by_fault,
+  };
+  int number = 0;
+  for (const Reason reason : reasons) {
+    EXPECT_EQ(static_cast<int>(reason), ++number);
+  }
+}
+
+}  // namespace
+}  // namespace sonoglide::link::messages_test
