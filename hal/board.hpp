@@ -14,6 +14,7 @@ struct Sample {
   std::int32_t sliding_velocity;  ///< full scale: peak vibration velocity at full drive
   bool force_at_rail;             ///< the force converter stood at either end of its range
   bool fresh;                     ///< false where no sample arrived since the last one
+  bool velocity_at_rail = false;  ///< the velocity converter stood at either end of its range
 };
 
 /// With the vibration, of a unit that observes it. The vibration velocity is the real part

@@ -21,7 +21,7 @@ control::Measurement<Scalar> measurement_of(const hal::Sample& sample) {
     quality = control::Quality::saturated;
   }
   return {numeric::from_code<Scalar>(sample.friction_force),
-          numeric::from_code<Scalar>(sample.sliding_velocity), quality};
+          numeric::from_code<Scalar>(sample.sliding_velocity), quality, sample.velocity_at_rail};
 }
 
 /// The same with the vibration.

@@ -253,6 +253,9 @@ class Controller {
         return undriven(Limit::none);
       }
     }
+    if (measurement.velocity_at_rail && state_ != State::calibrating) {
+      return apply(stand(Limit::velocity_at_rail));  // no velocity to go on from
+    }
     const Scalar velocity = measurement.sliding_velocity;
     const Scalar speed = foresight_.speed(velocity);
     if (state_ == State::calibrating) {
@@ -262,7 +265,8 @@ class Controller {
     if (backwards != backwards_) {
       turn(backwards);
     }
-    const Request wanted = speed < speed_floor_ ? stand() : slide(measurement, speed);
+    const Request wanted =
+        speed < speed_floor_ ? stand(Limit::speed_floor) : slide(measurement, speed);
     return state_ == State::fault ? undriven(Limit::none) : apply(wanted);
   }
 
@@ -361,13 +365,15 @@ class Controller {
     interrupt_relearning();
   }
 
-  /// Answer below the speed floor: feedback waits, and the last request stands for a while. A
-  /// target of no drive gives no drive here either.
-  Request stand() {
+  /// Answer below the speed floor, or where the speed is above the range of its converter and so of
+  /// every vibration: feedback waits, and the last request stands for a while. A target of no drive
+  /// gives no drive here either.
+  /// @param limit  that is named
+  Request stand(Limit limit) {
     regulator_.hold();
     plausibility_.restart();
     interrupt_relearning();
-    return target_ < whole_ratio() ? slewed({standstill_.request(requested_), Limit::speed_floor})
+    return target_ < whole_ratio() ? slewed({standstill_.request(requested_), limit})
                                    : slewed({Scalar{}, Limit::none});
   }
 
@@ -385,8 +391,10 @@ class Controller {
     const Scalar force = friction_.without_offset(measurement.friction_force);
     const Scalar along = backwards_ ? -force : force;
     const Scalar measured = level_.half_ratio(along);
-    if (plausibility_.implausible(measured)) {
-      return trip(Fault::measurement_implausible);
+    if (plausibility_.implausible(measured, measurement.sliding_velocity)) {
+      return trip(plausibility_.stood_still(measured, measurement.sliding_velocity)
+                      ? Fault::velocity_stuck
+                      : Fault::measurement_implausible);
     }
     if (stuck_.stuck(measurement.friction_force, measured, commanded_, followed_)) {
       return trip(Fault::measurement_stuck);

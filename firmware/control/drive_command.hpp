@@ -28,10 +28,12 @@ enum class Limit : std::uint8_t {
   bad_sample,    ///< the sample was unusable, the last request stands
   voltage,       ///< as actuator, of a resonant drive: its amplitude stands at the largest voltage
   current,       ///< the amplitude stands at the largest current
-  frequency_range,  ///< the resonance seems to lie at an end of the frequency range, or beyond
+  frequency_range,   ///< the resonance seems to lie at an end of the frequency range, or beyond
+  velocity_at_rail,  ///< sliding as fast as the largest vibration, or a velocity converter that
+                     ///< stands at its end; the drive is held as below the speed floor
 };
 
-inline constexpr std::size_t limit_count = 11;
+inline constexpr std::size_t limit_count = 12;
 
 /// How the measured ratio stands to its target.
 enum class Settling : std::uint8_t {
@@ -56,6 +58,7 @@ enum class Fault : std::uint8_t {
   vibration_missing,        ///< no fresh vibration sample, or none that shows the drive
   vibration_saturated,      ///< the vibration converter stood at a rail
   resonance_lost,  ///< the vibration does not follow the drive as that of a resonator would
+  velocity_stuck,  ///< friction has come to pull while the velocity stood still to the code
 };
 
 template <class Scalar>

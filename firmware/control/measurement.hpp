@@ -23,6 +23,7 @@ struct Measurement {
   Scalar friction_force;    ///< mean over the last carrier period; base: the force full scale
   Scalar sliding_velocity;  ///< base: peak vibration velocity at full drive
   Quality quality = Quality::good;
+  bool velocity_at_rail = false;  ///< the speed is at least that of sliding_velocity
 };
 
 /// With the vibration: its velocity is Re(z e^jθ), θ the phase of the drive, and z = in_phase + j

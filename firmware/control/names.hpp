@@ -45,6 +45,8 @@ constexpr const char* name(Limit limit) {
       return "current";
     case Limit::frequency_range:
       return "frequency_range";
+    case Limit::velocity_at_rail:
+      return "velocity_at_rail";
     case Limit::none:
       break;
   }
@@ -87,6 +89,8 @@ constexpr const char* name(Fault fault) {
       return "vibration_saturated";
     case Fault::resonance_lost:
       return "resonance_lost";
+    case Fault::velocity_stuck:
+      return "velocity_stuck";
     case Fault::none:
       break;
   }

@@ -10,6 +10,10 @@ namespace sonoglide::control {
 /// Friction resists the sliding and vibration lowers it, so the true ratio is in [0, 1]. A measured
 /// ratio outside (−0.15, 1.3) for longer than the sensor lags shows a sensor that is wired
 /// backwards, has lost its zero, or measures something else.
+///
+/// If friction resisted the sliding before, pulls now, and the velocity has not changed by a code
+/// since, the sliding has turned and the velocity did not show it: a velocity sensor that stands
+/// still. A force sensor that loses its zero by more than the friction looks the same.
 template <class Scalar>
 class Plausibility {
  public:
@@ -27,14 +31,19 @@ class Plausibility {
 
   explicit Plausibility(const Parameters& parameters) : parameters_(parameters) {}
 
-  void restart() { outside_ = 0; }
+  void restart() {
+    outside_ = 0;
+    velocity_ = {};
+  }
 
   /// One call for each reading at a sliding that is fast enough.
   /// @param half_ratio  measured friction ratio on base 2
+  /// @param velocity    of the same sample, not 0
   /// @return true once more readings in a row than are granted were outside
-  bool implausible(Scalar half_ratio) {
+  bool implausible(Scalar half_ratio, Scalar velocity) {
     if (lowest() < half_ratio && half_ratio < highest()) {
       outside_ = 0;
+      velocity_ = velocity;
       return false;
     }
     if (outside_ < parameters_.periods) {
@@ -44,9 +53,15 @@ class Plausibility {
     return true;
   }
 
+  /// Of an implausible reading: friction pulls at the very velocity at which it resisted.
+  bool stood_still(Scalar half_ratio, Scalar velocity) const {
+    return half_ratio < Scalar{} && velocity == velocity_;
+  }
+
  private:
   Parameters parameters_;
   std::uint16_t outside_ = 0;
+  Scalar velocity_{};  ///< of the last plausible reading; 0: none since restart
 };
 
 }  // namespace sonoglide::control

@@ -15,7 +15,8 @@ namespace sonoglide::hal::lockstep {
 /// | 0    | period, u32, from 0         | period of the sample          |
 /// | 4    | friction_force, i32         | amplitude, i32                |
 /// | 8    | sliding_velocity, i32       | commanded_ratio, i32          |
-/// | 12   | force_at_rail, fresh, 0, 0  | state, limit, fault, settling |
+/// | 12   | force_at_rail, fresh,       | state, limit, fault, settling |
+/// |      | velocity_at_rail, 0         |                               |
 /// | 16   |                             | cost of the step, u32         |
 /// | 20   |                             | cost of the answer, u32       |
 ///
@@ -78,6 +79,7 @@ void put_sample(std::uint32_t period, const Sample& sample, Frame& frame) {
   put(static_cast<std::uint32_t>(sample.sliding_velocity), frame.data() + 8);
   frame[12] = sample.force_at_rail ? 1 : 0;
   frame[13] = sample.fresh ? 1 : 0;
+  frame[14] = sample.velocity_at_rail ? 1 : 0;
 }
 
 template <class Frame>
@@ -138,7 +140,8 @@ namespace detail {
 template <class Frame>
 Sample get_sample(const Frame& frame) {
   return {static_cast<std::int32_t>(get(frame.data() + 4)),
-          static_cast<std::int32_t>(get(frame.data() + 8)), frame[12] != 0, frame[13] != 0};
+          static_cast<std::int32_t>(get(frame.data() + 8)), frame[12] != 0, frame[13] != 0,
+          frame[14] != 0};
 }
 
 template <class Frame>

@@ -61,7 +61,7 @@ hal::Sample Sensor::sample(double mean_force_N, double sliding_velocity_m_per_s)
       sensor_.velocity_gain * sliding_velocity_m_per_s + sensor_.velocity_offset_m_per_s;
   const Conversion force = convert(force_N, scales_.force_N, sensor_.adc_bits.value_or(ideal_bits));
   const Conversion velocity = convert(velocity_m_per_s, scales_.velocity_m_per_s, ideal_bits);
-  return {force.code, velocity.code, force.at_rail, true};
+  return {force.code, velocity.code, force.at_rail, true, velocity.at_rail};
 }
 
 hal::VibrationSample Sensor::sample(double mean_force_N, double sliding_velocity_m_per_s,

@@ -55,15 +55,16 @@ void require_vibration(const Unit& unit, bool given) {
 
 std::int32_t step_once(Unit& unit, long long force, long long velocity,
                        const std::optional<long long>& in_phase,
-                       const std::optional<long long>& quadrature, bool fresh, bool at_rail) {
+                       const std::optional<long long>& quadrature, bool fresh, bool force_at_rail,
+                       bool velocity_at_rail) {
   require_vibration(unit, in_phase && quadrature);
   const InUse use(unit.used);
-  const hal::VibrationSample sample{
-      {code(force, "force_code"), code(velocity, "velocity_code"), at_rail, fresh},
-      code(in_phase.value_or(0), "in_phase_code"),
-      code(quadrature.value_or(0), "quadrature_code"),
-      false,
-      fresh};
+  const hal::VibrationSample sample{{code(force, "force_code"), code(velocity, "velocity_code"),
+                                     force_at_rail, fresh, velocity_at_rail},
+                                    code(in_phase.value_or(0), "in_phase_code"),
+                                    code(quadrature.value_or(0), "quadrature_code"),
+                                    false,
+                                    fresh};
   return unit.controller.step(sample).amplitude;
 }
 
@@ -148,8 +149,9 @@ void add_unit(py::module_& module) {
       "step", &step_once, py::arg("force_code"), py::arg("velocity_code"),
       py::arg("in_phase_code") = py::none(), py::arg("quadrature_code") = py::none(), py::kw_only(),
       py::arg("fresh") = true, py::arg("force_at_rail") = false,
+      py::arg("velocity_at_rail") = false,
       "step(self, force_code, velocity_code, in_phase_code=None, quadrature_code=None, *, "
-      "fresh=True, force_at_rail=False)\n--\n\n"
+      "fresh=True, force_at_rail=False, velocity_at_rail=False)\n--\n\n"
       "One carrier period. -> amplitude code of the drive, 2**31 being the actuator's limit\n\n"
       "force_code       mean friction force of the period, over force_full_scale_N\n"
       "velocity_code    sliding velocity, over velocity_full_scale_m_per_s\n"
@@ -157,7 +159,8 @@ void add_unit(py::module_& module) {
       "                 vibration velocity, over velocity_full_scale_m_per_s; of a unit that\n"
       "                 observes it\n"
       "fresh            False: no sample has arrived since the last one\n"
-      "force_at_rail    True: the force converter stands at an end of its range");
+      "force_at_rail    True: the force converter stands at an end of its range\n"
+      "velocity_at_rail True: the velocity converter does");
   unit.def("steps", &step_all, py::arg("force_codes"), py::arg("velocity_codes"),
            py::arg("in_phase_codes") = py::none(), py::arg("quadrature_codes") = py::none(),
            py::kw_only(), py::arg("out").noconvert() = py::none(),

@@ -146,6 +146,12 @@ std::vector<std::string> warnings(const scene::Scene& scene, const loop::RunResu
                     "the friction ratio is undefined.",
                     1e3 * design.speed_floor * design.scales.velocity_m_per_s));
   }
+  if (findings.course().periods_in(control::Limit::velocity_at_rail) > 0) {
+    all.push_back(fmt::format(
+        "The drive was held, and then taken to zero, while the velocity sensor stood at the end of "
+        "its range, {:.3g} m/s. No vibration of this drive is faster.",
+        result.control->design.scales.velocity_m_per_s));
+  }
   return all;
 }
 

@@ -224,7 +224,8 @@ bool is_free(const loop::Period& period) {
   const bool limited =
       period.limit == control::Limit::actuator || period.limit == control::Limit::slew ||
       period.limit == control::Limit::voltage || period.limit == control::Limit::current ||
-      period.limit == control::Limit::frequency_range;
+      period.limit == control::Limit::frequency_range ||
+      period.limit == control::Limit::velocity_at_rail;
   return driven && !limited;
 }
 

@@ -90,6 +90,14 @@ hal::Sample dead_velocity(hal::Sample sample, const hal::Sample& /*first*/,
 hal::Sample velocity_at_rail(hal::Sample sample, const hal::Sample& /*first*/,
                              std::uint32_t /*period*/) {
   sample.sliding_velocity = largest;
+  sample.velocity_at_rail = true;
+  return sample;
+}
+/// The sliding has turned, and the velocity does not show it.
+hal::Sample turned_friction(hal::Sample sample, const hal::Sample& first,
+                            std::uint32_t /*period*/) {
+  sample.friction_force = -sample.friction_force;
+  sample.sliding_velocity = first.sliding_velocity;
   return sample;
 }
 
@@ -111,7 +119,8 @@ constexpr Script scripts[] = {
     {"force_noisy", 40, 10, noisy_force, no_fault, no_limit, 0},
     {"velocity_noisy", 40, 10, noisy_velocity, no_fault, no_limit, 0},
     {"velocity_dead", 40, 10, dead_velocity, no_fault, control::Limit::speed_floor, 3},
-    {"velocity_at_rail", 40, 10, velocity_at_rail, no_fault, control::Limit::actuator, 0},
+    {"velocity_at_rail", 40, 10, velocity_at_rail, no_fault, control::Limit::velocity_at_rail, 0},
+    {"velocity_stuck", 60, for_good, turned_friction, control::Fault::velocity_stuck, no_limit, 22},
 };
 
 /// A controller behind a sensor that follows a script; keeps what it answers.

@@ -71,6 +71,7 @@ class Unit:
         *,
         fresh: bool = True,
         force_at_rail: bool = False,
+        velocity_at_rail: bool = False,
     ) -> int: ...
     def steps(
         self,

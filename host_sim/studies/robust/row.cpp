@@ -111,7 +111,7 @@ std::optional<Record> parse_record(std::string_view text) {
   for (const auto count : kept_counts) {
     record.row.*count = numbers.whole();
   }
-  constexpr auto last_fault = static_cast<unsigned>(control::Fault::resonance_lost);
+  constexpr auto last_fault = static_cast<unsigned>(control::Fault::velocity_stuck);
   if (!numbers.good() || numbers.rest().empty() || record.row.limits >> control::limit_count != 0 ||
       record.row.faults >> (last_fault + 1) != 0) {
     return std::nullopt;

@@ -30,7 +30,7 @@ std::string record_text(const Record& record) {
 }
 
 std::optional<Record> parse_record(std::string_view text) {
-  constexpr auto last_fault = static_cast<std::uint64_t>(control::Fault::resonance_lost);
+  constexpr auto last_fault = static_cast<std::uint64_t>(control::Fault::velocity_stuck);
   long_work::RecordNumbers numbers(text);
   Record record{static_cast<std::size_t>(numbers.whole()), {}};
   for (const auto figure : figure_members) {

@@ -92,14 +92,15 @@ TEST(ActuatorLimitTest, OfAWeakActuatorHoldsOnlyWhereItMust) {
   expect_step_within(steps[2], {10.001 * period_s, 0.001, 0.002});
 }
 
-TEST(ActuatorLimitTest, IsNamedWhereSlidingOutrunsTheVibration) {
+TEST(VelocityAtRailTest, IsNamedWhereSlidingOutrunsTheVibration) {
   for (const char* velocity : {"0.3", "-1.0"}) {
     const nlohmann::json summary =
         summary_of("target_step", {std::string("sliding.velocity_m_per_s=") + velocity});
     expect_no_fault(summary);
     for (const Step& step : steps_of(summary)) {
-      EXPECT_EQ(step.limit, "actuator");
+      EXPECT_EQ(step.limit, "velocity_at_rail");
       EXPECT_NEAR(step.steady_error, 1.0 - step.target, 1e-6);
+      EXPECT_EQ(step.drive_amplitude_N, 0.0);
     }
   }
 }

@@ -101,6 +101,17 @@ TYPED_TEST(ControlLoopTest, AForceAtTheRailIsSaturated) {
   EXPECT_EQ(this->told({highest, 0, true, true}).quality, control::Quality::saturated);
 }
 
+TYPED_TEST(ControlLoopTest, AVelocityAtTheRailIsNamedBesideTheForce) {
+  for (const bool force_at_rail : {false, true}) {
+    for (const bool velocity_at_rail : {false, true}) {
+      const auto measured = this->told({0, highest, force_at_rail, true, velocity_at_rail});
+      EXPECT_EQ(measured.velocity_at_rail, velocity_at_rail);
+      EXPECT_EQ(measured.quality,
+                force_at_rail ? control::Quality::saturated : control::Quality::good);
+    }
+  }
+}
+
 TYPED_TEST(ControlLoopTest, ASampleThatIsNotFreshIsMissing) {
   EXPECT_EQ(this->told({1 << 30, 0, false, false}).quality, control::Quality::missing);
   EXPECT_EQ(this->told({highest, 0, true, false}).quality, control::Quality::missing);

@@ -244,6 +244,49 @@ TYPED_TEST(ControllerLimits, TheDriveNeverStartsBelowTheSpeedFloor) {
   }
 }
 
+// A velocity converter at its end: the drive is held, for as long as below the speed floor, then
+// falls to zero; and comes back with the velocity.
+TYPED_TEST(ControllerLimits, AVelocityAtItsRailIsNamedAndDoesNotRaiseTheDrive) {
+  Design design;
+  design.standstill_hold_periods = 100;
+  for (const double sign : {1.0, -1.0}) {
+    ClosedLoop<ShapedParts<TypeParam>> loop(design);
+    loop.set_target(0.4);
+    loop.run(400, sign * 0.1);
+    const double held = loop.amplitude();
+    for (int i = 0; i < 300; ++i) {
+      // The contact slides on as before.
+      auto measured = loop.measurement(sign * 0.1);
+      measured.sliding_velocity = numeric::from_real<TypeParam>(sign * full_drive);
+      measured.velocity_at_rail = true;
+      const auto& command = loop.answer(measured);
+      ASSERT_EQ(command.state, State::limited) << i;
+      ASSERT_EQ(command.limit, Limit::velocity_at_rail) << i;
+      ASSERT_EQ(command.fault, Fault::none) << i;
+      ASSERT_LE(loop.amplitude(), held + 1e-4) << i;
+      if (i < 100) {
+        ASSERT_NEAR(loop.amplitude(), held, 1e-4) << i;
+      }
+    }
+    EXPECT_EQ(loop.amplitude(), 0.0);
+    loop.run(400, sign * 0.1);
+    EXPECT_EQ(loop.command().limit, Limit::none);
+    EXPECT_NEAR(loop.ratio(), 0.4, 1e-3);
+  }
+}
+
+TYPED_TEST(ControllerLimits, TheDriveDoesNotStartWithTheVelocityAtItsRail) {
+  ClosedLoop<ShapedParts<TypeParam>> loop({});
+  loop.set_target(0.5);
+  for (int i = 0; i < 50; ++i) {
+    auto measured = loop.measurement(0.1);
+    measured.velocity_at_rail = true;
+    const auto& command = loop.answer(measured);
+    ASSERT_EQ(command.amplitude, TypeParam{});
+    ASSERT_EQ(command.limit, Limit::velocity_at_rail);
+  }
+}
+
 // The codes one inside either end; the lowest itself has no magnitude in fixed point.
 TYPED_TEST(ControllerLimits, AnyTargetIsOutOfReachAtFullSpeed) {
   for (const double velocity : {full_drive, -full_drive}) {

@@ -12,7 +12,12 @@ class PlausibilityTest : public testing::Test {
  protected:
   static constexpr int periods = 7;
 
-  bool implausible(double ratio) { return plausibility_.implausible(scaled<Scalar>(0.5 * ratio)); }
+  bool implausible(double ratio, double velocity = 0.1) {
+    return plausibility_.implausible(scaled<Scalar>(0.5 * ratio), scaled<Scalar>(velocity));
+  }
+  bool stood_still(double ratio, double velocity) const {
+    return plausibility_.stood_still(scaled<Scalar>(0.5 * ratio), scaled<Scalar>(velocity));
+  }
 
   Plausibility<Scalar> plausibility_{{periods}};
 };
@@ -41,6 +46,21 @@ TYPED_TEST(PlausibilityTest, ContactsStayInside) {
       ASSERT_FALSE(this->implausible(ratio)) << ratio;
     }
   }
+}
+
+// Friction that pulls at the velocity at which it resisted: not at another, not from the start, and
+// not too much of it.
+TYPED_TEST(PlausibilityTest, AVelocityThatStoodStillWhileFrictionTurnedIsTold) {
+  EXPECT_FALSE(this->stood_still(-0.4, 0.1));
+  this->implausible(0.4, 0.1);
+  this->implausible(-0.4, 0.1);
+  EXPECT_TRUE(this->stood_still(-0.4, 0.1));
+  EXPECT_FALSE(this->stood_still(-0.4, 0.11));
+  EXPECT_FALSE(this->stood_still(1.4, 0.1));
+  this->implausible(0.4, 0.2);
+  EXPECT_FALSE(this->stood_still(-0.4, 0.1));
+  this->plausibility_.restart();
+  EXPECT_FALSE(this->stood_still(-0.4, 0.2));
 }
 
 }  // namespace

@@ -43,6 +43,7 @@ TEST(SensorTest, IdealOnePassesTheNearestCode) {
     EXPECT_NEAR(sample.sliding_velocity * unit, std::clamp(-value, -1.0, 1.0 - unit),
                 0.5001 * unit);
     EXPECT_EQ(sample.force_at_rail, value <= -1.0 || value >= 1.0) << value;
+    EXPECT_EQ(sample.velocity_at_rail, value <= -1.0 || value >= 1.0) << value;
     EXPECT_TRUE(sample.fresh);
   }
 }
@@ -71,10 +72,12 @@ TEST(SensorTest, SaturatesFarOutsideItsRange) {
   EXPECT_EQ(high.friction_force, INT32_MAX);
   EXPECT_EQ(high.sliding_velocity, INT32_MAX);
   EXPECT_TRUE(high.force_at_rail);
+  EXPECT_TRUE(high.velocity_at_rail);
   const hal::Sample low = sensor.sample(-1e9, -1e9);
   EXPECT_EQ(low.friction_force, INT32_MIN);
   EXPECT_EQ(low.sliding_velocity, INT32_MIN);
   EXPECT_TRUE(low.force_at_rail);
+  EXPECT_TRUE(low.velocity_at_rail);
 }
 
 TEST(SensorTest, LowPassAnswersARampExactly) {
