@@ -9,6 +9,7 @@
 #include "firmware/plant/strang/fixed_point_strang.hpp"
 #include "hal/board.hpp"
 #include "hal/simulated/drive_latency.hpp"
+#include "hal/simulated/rail.hpp"
 
 namespace sonoglide::hal::simulated {
 
@@ -33,7 +34,8 @@ class FixedPlantBoard {
     const std::int64_t force = numeric::shift_right_rounded(
         plant_.advance(amplitude_.in_force()) * force_per_friction_, fraction_bits);
     const std::int64_t code = numeric::clamp<std::int64_t>(force, INT32_MIN, INT32_MAX);
-    sample = {static_cast<std::int32_t>(code), sliding_code_, code != force, true};
+    sample = {static_cast<std::int32_t>(code), sliding_code_, code != force, true,
+              at_rail(sliding_code_)};
     return plant_.saturations() == 0;
   }
 

@@ -12,6 +12,7 @@
 #include "firmware/plant/state.hpp"
 #include "hal/board.hpp"
 #include "hal/simulated/drive_latency.hpp"
+#include "hal/simulated/rail.hpp"
 
 namespace sonoglide::hal::simulated {
 
@@ -56,7 +57,7 @@ class PlantBoard {
                         state_, account, nobody);
     const Scalar force = force_per_friction_ * account.friction_integral;
     const bool in_range = force > Scalar(-1) && force < Scalar(1);
-    sample = {numeric::to_code(force), sliding_code_, !in_range, true};
+    sample = {numeric::to_code(force), sliding_code_, !in_range, true, at_rail(sliding_code_)};
     return outcome.error == plant::Error::none;
   }
 

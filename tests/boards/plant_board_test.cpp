@@ -93,6 +93,15 @@ TEST_F(PlantBoardTest, SamplesAsTheSimulationAboutTheRailsAndZero) {
   }
 }
 
+TEST_F(PlantBoardTest, NamesAVelocityAtTheEndOfItsRange) {
+  for (const std::int32_t code : {INT32_MIN, INT32_MIN + 1, -1, 0, INT32_MAX - 1, INT32_MAX}) {
+    PlantBoard<ToldSolver, 0> board({{}, 1.0F, {}, 2.0F, 1.0F, 0.25F, code});
+    Sample sample{};
+    board.sample(sample);
+    EXPECT_EQ(sample.velocity_at_rail, code == INT32_MIN || code == INT32_MAX) << code;
+  }
+}
+
 TEST_F(PlantBoardTest, LivesThroughOnePeriodUnderTheLatestDrive) {
   Sample sample{};
   board_.sample(sample);
