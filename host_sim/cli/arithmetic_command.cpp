@@ -10,10 +10,10 @@
 
 #include "host_sim/cli/options.hpp"
 #include "host_sim/cli/progress_bar.hpp"
+#include "host_sim/cli/run_watch.hpp"
 #include "host_sim/configure/configuration_error.hpp"
 #include "host_sim/emulated/controller_header.hpp"
 #include "host_sim/output/gnuplot.hpp"
-#include "host_sim/process/interruption.hpp"
 #include "host_sim/scene/names.hpp"
 #include "host_sim/studies/arithmetic/comparison.hpp"
 #include "host_sim/studies/arithmetic/report.hpp"
@@ -52,10 +52,8 @@ void require_every_arithmetic(const scene::Scene& scene) {
 
 arithmetic::ArithmeticComparison compute(const scene::Scene& scene, const Boards& boards,
                                          bool quiet) {
-  const process::Interruption interruption;
   ProgressBar bar(stderr, !quiet);
-  return arithmetic::compare(
-      scene, boards, [&] { interruption.check(); }, [&](double fraction) { bar.update(fraction); });
+  return arithmetic::compare(scene, boards, watching(bar));
 }
 
 /// Throws what pil() throws, and process::ProcessError; in each case nothing was written and no

@@ -61,7 +61,6 @@ std::string check_ratio(const std::string& text) {
              : fmt::format("\"{}\"; allowed: a number, {} to below 1", text, design::least_ratio);
 }
 
-/// A signal ends it at once: nothing is written yet.
 design::DesignStudy compute(const design::Task& task, bool quiet) {
   ProgressBar bar(stderr, !quiet);
   return design::study(task, [&](double fraction) { bar.update(fraction); });

@@ -12,7 +12,6 @@
 #include "host_sim/cli/progress_bar.hpp"
 #include "host_sim/cli/run_watch.hpp"
 #include "host_sim/output/gnuplot.hpp"
-#include "host_sim/process/interruption.hpp"
 #include "host_sim/process/printable.hpp"
 #include "host_sim/studies/paper/figures.hpp"
 #include "host_sim/studies/paper/paper.hpp"
@@ -39,9 +38,8 @@ std::string check_figure(const std::string& text) {
 }
 
 void compute(const PaperOptions& options) {
-  const process::Interruption interruption;
   ProgressBar bar(stderr, !options.quiet);
-  paper::write_paper(options.out, options.figure, watching(bar, interruption));
+  paper::write_paper(options.out, options.figure, watching(bar));
 }
 
 /// Throws output::OutputError, process::ProcessError, loop::ComputationError; in each case nothing

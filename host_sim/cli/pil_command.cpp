@@ -16,7 +16,6 @@
 #include "host_sim/emulated/controller_header.hpp"
 #include "host_sim/emulated/run_image.hpp"
 #include "host_sim/loop/run.hpp"
-#include "host_sim/process/interruption.hpp"
 #include "host_sim/report/run_report.hpp"
 
 namespace sonoglide::cli {
@@ -31,11 +30,9 @@ struct PilOptions {
 
 loop::RunResult compute(const scene::Scene& scene, const configure::ControlDesign& design,
                         const emulated::EmulatedBoard& board, const std::string& header,
-                        report::RunReport& report, bool quiet,
-                        const process::Interruption& interruption) {
+                        report::RunReport& report, bool quiet) {
   ProgressBar bar(stderr, !quiet);
-  return emulated::run_image(scene, design, board, header, run_watch(report, bar, interruption),
-                             [&] { interruption.check(); });
+  return emulated::run_image(scene, design, board, header, run_watch(report, bar));
 }
 
 std::string header_for(const SceneInput& input, const scene::Scene& scene,
@@ -61,10 +58,8 @@ void pil(const PilOptions& options) {
   }
   const std::filesystem::path out = output_folder(options.out, scene.name, "_" + options.board);
   require_emulator(board);
-  const process::Interruption interruption;
   report::RunReport report(out, scene, design);
-  const loop::RunResult result =
-      compute(scene, *design, board, header, report, options.quiet, interruption);
+  const loop::RunResult result = compute(scene, *design, board, header, report, options.quiet);
   report.finish(result);
   if (!options.quiet) {
     fmt::print("{}", report::run_text(scene, result, report.findings(), out));

@@ -12,6 +12,7 @@
 #include "host_sim/cli/usage.hpp"
 #include "host_sim/loop/run.hpp"
 #include "host_sim/output/output_folder.hpp"
+#include "host_sim/process/ending.hpp"
 #include "host_sim/process/printable.hpp"
 #include "host_sim/scene_file/scene_error.hpp"
 #include "host_sim/shards/collection.hpp"
@@ -77,6 +78,7 @@ std::string hint(int argument_count, const char* const* arguments,
 
 int run_program(int argument_count, const char* const* arguments,
                 const std::vector<AddCommand>& command_list) {
+  const process::SignalWatch signals;
   const auto fail_usage = [&](std::string_view message) {
     return fail(bad_input, fmt::format("sonoglide: {}\n{}", message,
                                        hint(argument_count, arguments, command_list)));

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
+#include <string_view>
 
 namespace sonoglide::cli {
 namespace {
@@ -69,12 +70,21 @@ std::string progress_line(double fraction, double elapsed_s, int columns) {
 
 ProgressBar::ProgressBar(std::FILE* stream, bool wanted)
     : stream_(stream),
-      shown_(wanted && isatty(fileno(stream)) == 1 && can_erase_a_line(std::getenv("TERM"))) {}
+      shown_(wanted && isatty(fileno(stream)) == 1 && can_erase_a_line(std::getenv("TERM"))),
+      erased_([this] { erase_at_once(); }) {}
 
 ProgressBar::~ProgressBar() {
   if (drawn_) {
     std::fputs(erase_line, stream_);
     std::fflush(stream_);
+  }
+}
+
+/// Past the stream, whose lock the drawing thread may hold.
+void ProgressBar::erase_at_once() const {
+  const std::string_view line = erase_line;
+  if (drawn_ && ::write(fileno(stream_), line.data(), line.size()) < 0) {
+    return;  // nobody can be told
   }
 }
 

@@ -1,9 +1,12 @@
 /// How far a long computation is, on a terminal.
 #pragma once
 
+#include <atomic>
 #include <chrono>
 #include <cstdio>
 #include <string>
+
+#include "host_sim/process/ending.hpp"
 
 namespace sonoglide::cli {
 
@@ -15,7 +18,8 @@ namespace sonoglide::cli {
 /// @param columns    of the terminal; the line takes one less, which no terminal wraps
 std::string progress_line(double fraction, double elapsed_s, int columns = 80);
 
-/// Redraws its line at most ten times a second and clears it when destroyed. Silent unless the
+/// Redraws its line at most ten times a second and clears it when destroyed, or when a signal ends
+/// the program. Silent unless the
 /// stream is a terminal that can erase a line: one of no name or `dumb` (TERM) cannot.
 class ProgressBar {
  public:
@@ -31,11 +35,14 @@ class ProgressBar {
  private:
   using Clock = std::chrono::steady_clock;
 
+  void erase_at_once() const;
+
   std::FILE* stream_;
   bool shown_;
-  bool drawn_ = false;
+  std::atomic<bool> drawn_{false};
   Clock::time_point start_ = Clock::now();
   Clock::time_point last_drawn_ = start_;
+  process::Undo erased_;
 };
 
 }  // namespace sonoglide::cli

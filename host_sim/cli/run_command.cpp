@@ -14,7 +14,6 @@
 #include "host_sim/cli/run_watch.hpp"
 #include "host_sim/configure/control_design.hpp"
 #include "host_sim/loop/run.hpp"
-#include "host_sim/process/interruption.hpp"
 #include "host_sim/process/printable.hpp"
 #include "host_sim/report/run_csv.hpp"
 #include "host_sim/report/run_findings.hpp"
@@ -30,17 +29,15 @@ struct RunOptions {
   bool quiet = false;
 };
 
-using process::Interruption;
 using Design = std::optional<configure::ControlDesign>;
 
 /// The summary alone, nothing written.
 std::string compute_summary(const scene::Scene& scene, const Design& design, bool quiet) {
-  const Interruption interruption;
   report::RunFindings findings(scene, design);
   ProgressBar bar(stderr, !quiet);
   loop::Watch watch;
   findings.join(watch);
-  watch.progress = watching(bar, interruption);
+  watch.progress = watching(bar);
   const loop::RunResult result = loop::run(scene, design, watch);
   return report::summary_text(scene, result, findings);
 }
@@ -58,10 +55,9 @@ void announce_recording(const scene::Scene& scene) {
 /// @return what is printed
 std::string compute_report(const scene::Scene& scene, const Design& design,
                            const std::filesystem::path& out, const RunOptions& options) {
-  const Interruption interruption;
   report::RunReport report(out, scene, design);
   ProgressBar bar(stderr, !options.quiet);
-  const loop::RunResult result = loop::run(scene, design, run_watch(report, bar, interruption));
+  const loop::RunResult result = loop::run(scene, design, run_watch(report, bar));
   report.finish(result);
   if (options.json) {
     return report::summary_text(scene, result, report.findings());

@@ -16,18 +16,14 @@ void print_design_notes(const std::optional<configure::ControlDesign>& design) {
   }
 }
 
-loop::Progress watching(ProgressBar& bar, const process::Interruption& interruption) {
-  return [&bar, &interruption](double fraction) {
-    interruption.check();
-    bar.update(fraction);
-  };
+loop::Progress watching(ProgressBar& bar) {
+  return [&bar](double fraction) { bar.update(fraction); };
 }
 
-loop::Watch run_watch(report::RunReport& report, ProgressBar& bar,
-                      const process::Interruption& interruption) {
+loop::Watch run_watch(report::RunReport& report, ProgressBar& bar) {
   loop::Watch watch;
   report.join(watch);
-  watch.progress = watching(bar, interruption);
+  watch.progress = watching(bar);
   return watch;
 }
 

@@ -8,7 +8,6 @@
 #include "host_sim/cli/progress_bar.hpp"
 #include "host_sim/configure/control_design.hpp"
 #include "host_sim/loop/watch.hpp"
-#include "host_sim/process/interruption.hpp"
 #include "host_sim/report/run_report.hpp"
 
 namespace sonoglide::cli {
@@ -19,12 +18,10 @@ void print_notes(const std::vector<std::string>& notes);
 /// Prints the notes of a controller's design; none in open loop.
 void print_design_notes(const std::optional<configure::ControlDesign>& design);
 
-/// The progress bar, and an end to the run when somebody interrupts it. Both outlive it.
-loop::Progress watching(ProgressBar& bar, const process::Interruption& interruption);
+/// The progress bar, which outlives it.
+loop::Progress watching(ProgressBar& bar);
 
-/// The report's sinks, the progress bar, and an end to the run when somebody interrupts it. All
-/// three outlive the watch.
-loop::Watch run_watch(report::RunReport& report, ProgressBar& bar,
-                      const process::Interruption& interruption);
+/// The report's sinks and the progress bar. Both outlive the watch.
+loop::Watch run_watch(report::RunReport& report, ProgressBar& bar);
 
 }  // namespace sonoglide::cli

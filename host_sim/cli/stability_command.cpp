@@ -13,7 +13,6 @@
 #include "host_sim/cli/progress_bar.hpp"
 #include "host_sim/cli/run_watch.hpp"
 #include "host_sim/output/gnuplot.hpp"
-#include "host_sim/process/interruption.hpp"
 #include "host_sim/process/printable.hpp"
 #include "host_sim/studies/stability/report.hpp"
 #include "host_sim/studies/stability/study.hpp"
@@ -34,18 +33,16 @@ void require_output(const std::filesystem::path& out) {
             "stability_map_float32.svg", "extremes.csv", "extremes_worst.csv"});
 }
 
-stability::StabilityStudy compute(const StabilityWork& work, bool quiet,
-                                  const process::Interruption& interruption) {
+stability::StabilityStudy compute(const StabilityWork& work, bool quiet) {
   ProgressBar bar(stderr, !quiet);
-  return stability::study(work.grid, work.random_scenes, watching(bar, interruption));
+  return stability::study(work.grid, work.random_scenes, watching(bar));
 }
 
 /// Throws output::OutputError, process::ProcessError; in each case nothing was written.
 void stability(const StabilityOptions& options, const StabilityWork& work) {
   const std::filesystem::path out = options.out;
   require_output(out);
-  const process::Interruption interruption;
-  const stability::StabilityStudy study = compute(work, options.quiet, interruption);
+  const stability::StabilityStudy study = compute(work, options.quiet);
   stability::write_study(out, study);
   if (!options.quiet) {
     fmt::print("{}report: {}\n", stability::study_text(study.extremes),

@@ -11,7 +11,6 @@
 #include "host_sim/cli/progress_bar.hpp"
 #include "host_sim/cli/run_watch.hpp"
 #include "host_sim/output/gnuplot.hpp"
-#include "host_sim/process/interruption.hpp"
 #include "host_sim/studies/work_precision/comparison.hpp"
 #include "host_sim/studies/work_precision/report.hpp"
 #include "host_sim/studies/work_precision/scene_problem.hpp"
@@ -25,11 +24,9 @@ struct WorkPrecisionOptions {
   bool quiet = false;
 };
 
-work_precision::SolverComparison compute(const peers::Problem& problem, bool quiet,
-                                         const process::Interruption& interruption) {
+work_precision::SolverComparison compute(const peers::Problem& problem, bool quiet) {
   ProgressBar bar(stderr, !quiet);
-  return work_precision::compare(problem, work_precision::solvers(), {},
-                                 watching(bar, interruption));
+  return work_precision::compare(problem, work_precision::solvers(), {}, watching(bar));
 }
 
 /// Throws scene_file::SceneError, loop::ComputationError, output::OutputError,
@@ -42,8 +39,7 @@ void work_precision(const WorkPrecisionOptions& options) {
   const std::filesystem::path out = output_folder(options.out, scene.name, "_work_precision");
   output::require_gnuplot();
   require_writable(out, {"report.html", "work_precision.csv", "work_precision.svg"});
-  const process::Interruption interruption;
-  const work_precision::SolverComparison comparison = compute(problem, options.quiet, interruption);
+  const work_precision::SolverComparison comparison = compute(problem, options.quiet);
   work_precision::write(out, scene, comparison);
   if (!options.quiet) {
     fmt::print("{}", work_precision::text(comparison, out));

@@ -120,7 +120,7 @@ std::string key_of(const emulated::EmulatedBoard& board, const std::string& head
 }
 
 void compile(const emulated::EmulatedBoard& board, const std::string& header, const fs::path& tree,
-             const fs::path& folder, const process::Attention& attention) {
+             const fs::path& folder) {
   const fs::path controller = folder / controller_name;
   fs::create_directory(controller);
   std::ofstream(controller / controller_header_name, std::ios::binary) << header;
@@ -129,15 +129,13 @@ void compile(const emulated::EmulatedBoard& board, const std::string& header, co
   process::run_tool({"cmake", "-G", "Ninja", "-S", tree.string(), "-B", build,
                      "-DCMAKE_TOOLCHAIN_FILE=" + toolchain.string(),
                      fmt::format("-DSONOGLIDE_BOARD={}", board.name),
-                     "-DSONOGLIDE_CONTROLLERS=" + controller.string()},
-                    attention);
-  process::run_tool({"cmake", "--build", build, "--target", controller_name}, attention);
+                     "-DSONOGLIDE_CONTROLLERS=" + controller.string()});
+  process::run_tool({"cmake", "--build", build, "--target", controller_name});
 }
 
 }  // namespace
 
-fs::path build_image(const emulated::EmulatedBoard& board, const std::string& header,
-                     const process::Attention& attention) try {
+fs::path build_image(const emulated::EmulatedBoard& board, const std::string& header) try {
   const fs::path tree = source_tree();
   const CrossTools tools = cross_tools(board);
   process::require_program("cmake", "cmake");
@@ -152,7 +150,7 @@ fs::path build_image(const emulated::EmulatedBoard& board, const std::string& he
   if (content(seal) != seal_of(key, content(image))) {
     fs::create_directories(cache);
     const process::ScratchFolder folder(cache);  // beside its target: the move there is a renaming
-    compile(board, header, tree, folder.path(), attention);
+    compile(board, header, tree, folder.path());
     const fs::path built = folder.path() / "build/bin" / fmt::format("{}.elf", controller_name);
     const fs::path sealed = folder.path() / "seal";
     std::ofstream(sealed, std::ios::binary) << seal_of(key, content(built));

@@ -5,7 +5,6 @@
 #include <string>
 
 #include "host_sim/emulated/board_list.hpp"
-#include "host_sim/process/pipe.hpp"
 
 namespace sonoglide::emulated {
 
@@ -15,14 +14,11 @@ namespace sonoglide::emulated {
 /// again by what they are made of: header, board, sources, compiler. Each has a seal beside it, a
 /// hash of that and of the image: one that is cut short, or another, is built anew.
 ///
-/// @param header     as controller_header() writes it
-/// @param attention  called now and then during the build
+/// @param header  as controller_header() writes it
 /// @return the image, an ELF file
 /// @throws process::ProcessError  the compiler, CMake or the sources are missing, a path is none
 ///         that CMake takes, or the build failed; what() says what to install, or has the build's
 ///         own words
-/// @throws what `attention` throws
-std::filesystem::path build_image(const emulated::EmulatedBoard& board, const std::string& header,
-                                  const process::Attention& attention);
+std::filesystem::path build_image(const emulated::EmulatedBoard& board, const std::string& header);
 
 }  // namespace sonoglide::emulated

@@ -26,10 +26,8 @@ loop::InstructionRange InstructionCount::over(std::uint64_t periods) const {
   return {least_, static_cast<double>(sum_) / static_cast<double>(periods), most_};
 }
 
-ImageControl::ImageControl(const emulated::EmulatedBoard& board, const std::filesystem::path& image,
-                           const process::Attention& attention)
-    : board_(board),
-      image_(emulated::emulator_command(board, image.string()), longest_silence, attention) {}
+ImageControl::ImageControl(const emulated::EmulatedBoard& board, const std::filesystem::path& image)
+    : board_(board), image_(emulated::emulator_command(board, image.string()), longest_silence) {}
 
 void ImageControl::set_target(double /*friction_ratio*/) {}
 

@@ -32,10 +32,8 @@ class ImageControl final : public loop::ControlPort {
  public:
   /// @param board      outlives this
   /// @param image      built for it, in lockstep over semihosting
-  /// @param attention  called now and then while waiting; what it throws ends the wait
   /// @throws process::ProcessError  the emulator cannot be started
-  ImageControl(const emulated::EmulatedBoard& board, const std::filesystem::path& image,
-               const process::Attention& attention);
+  ImageControl(const emulated::EmulatedBoard& board, const std::filesystem::path& image);
 
   /// Nothing to do: the image has its targets compiled in, by carrier period.
   void set_target(double friction_ratio) override;

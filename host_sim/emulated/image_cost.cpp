@@ -62,12 +62,11 @@ std::uint64_t exception_frame_bytes(std::string_view elf) {
   return integer_registers + (float_unit ? float_registers : 0) + alignment;
 }
 
-ImageCost measure_image(const std::filesystem::path& image, const emulated::EmulatedBoard& board,
-                        const process::Attention& attention) {
+ImageCost measure_image(const std::filesystem::path& image, const emulated::EmulatedBoard& board) {
   std::ifstream file(image, std::ios::binary);
   const std::string elf{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-  const std::string disassembly = process::run_tool(
-      {cross_tools(board).prefix + "objdump", "--disassemble", image.string()}, attention);
+  const std::string disassembly =
+      process::run_tool({cross_tools(board).prefix + "objdump", "--disassemble", image.string()});
   ImageCost cost{image_size(elf), stack_bound(disassembly, "reset")};
   const StackBound exception = stack_bound(disassembly, "take_exception");
   cost.stack.bytes += exception_frame_bytes(elf) + exception.bytes;

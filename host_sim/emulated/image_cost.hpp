@@ -31,9 +31,7 @@ struct ImageCost {
   StackBound stack;
 };
 
-/// @param attention  called now and then meanwhile
 /// @throws process::ProcessError  the file is no image, or the board's binutils are missing
-ImageCost measure_image(const std::filesystem::path& image, const emulated::EmulatedBoard& board,
-                        const process::Attention& attention);
+ImageCost measure_image(const std::filesystem::path& image, const emulated::EmulatedBoard& board);
 
 }  // namespace sonoglide::emulated

@@ -1,15 +1,11 @@
 #include "host_sim/emulated/image_process.hpp"
 
 #include <fmt/format.h>
-#include <sys/mman.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <algorithm>
-#include <array>
 #include <cerrno>
 #include <cstring>
-#include <utility>
 
 #include "hal/lockstep/frame.hpp"
 
@@ -18,13 +14,12 @@ namespace sonoglide::emulated {
 namespace lockstep = hal::lockstep;
 
 ImageProcess::ImageProcess(const std::vector<std::string>& command,
-                           std::chrono::milliseconds patience, process::Attention attention)
+                           std::chrono::milliseconds patience)
     : patience_(patience),
-      attention_(std::move(attention)),
       samples_(process::make_pipe()),
       drives_(process::make_pipe()),
       // In memory: a pipe that nobody empties would stop a talkative emulator.
-      complaints_(memfd_create("emulator", MFD_CLOEXEC)) {
+      complaints_(process::make_memory_file()) {
   child_.emplace(command, process::Streams{samples_.read_end.number(), drives_.write_end.number(),
                                            complaints_.number()});
   // The reading end of the samples stays open here: writing to an emulator that has died is then no
@@ -101,8 +96,8 @@ void ImageProcess::receive(std::uint8_t* bytes, std::size_t size) {
 }
 
 void ImageProcess::wait_for_answer() {
-  if (!process::wait_for_input(drives_.read_end.number(), patience_, attention_)) {
-    child_->kill();
+  if (!process::wait_for_input(drives_.read_end.number(), patience_)) {
+    child_->end();
     fail(fmt::format("hung for {} ms and was ended", patience_.count()));
   }
 }
@@ -113,11 +108,8 @@ void ImageProcess::fail(const std::string& what) const {
 }
 
 std::string ImageProcess::last_words() const {
-  std::array<char, 2000> tail{};
-  const off_t size = lseek(complaints_.number(), 0, SEEK_END);
-  const off_t from = std::max<off_t>(0, size - static_cast<off_t>(tail.size()));
-  const ssize_t count = pread(complaints_.number(), tail.data(), tail.size(), from);
-  const std::string text(tail.data(), static_cast<std::size_t>(std::max<ssize_t>(0, count)));
+  constexpr std::size_t most_bytes = 2000;
+  const std::string text = process::memory_file_text(complaints_, most_bytes);
   return text.empty() ? ", without a word" : "; its last words:\n" + text;
 }
 

@@ -27,12 +27,10 @@ class EmulatorError : public std::runtime_error {
 /// with its owner, or with the owner's process.
 class ImageProcess {
  public:
-  /// @param command    the emulator and its arguments
-  /// @param patience   an answer that takes longer never comes
-  /// @param attention  called now and then while waiting; what it throws ends the wait
+  /// @param command   the emulator and its arguments
+  /// @param patience  an answer that takes longer never comes
   /// @throws process::ProcessError  the emulator cannot be started
-  ImageProcess(const std::vector<std::string>& command, std::chrono::milliseconds patience,
-               process::Attention attention = {});
+  ImageProcess(const std::vector<std::string>& command, std::chrono::milliseconds patience);
 
   /// Waits for the greeting of a board on a serial line.
   /// @throws EmulatorError
@@ -68,7 +66,6 @@ class ImageProcess {
   std::string last_words() const;
 
   std::chrono::milliseconds patience_;
-  process::Attention attention_;
   process::Pipe samples_;
   process::Pipe drives_;
   process::Descriptor complaints_;

@@ -46,10 +46,10 @@ loop::WorkstationRun run_on_workstation(const scene::Scene& scene,
 
 loop::RunResult run_image(const scene::Scene& scene, const configure::ControlDesign& design,
                           const emulated::EmulatedBoard& board, const std::string& header,
-                          const loop::Watch& watch, const process::Attention& attention) {
-  const std::filesystem::path image = emulated::build_image(board, header, attention);
-  const emulated::ImageCost cost = emulated::measure_image(image, board, attention);
-  ImageControl controller(board, image, attention);
+                          const loop::Watch& watch) {
+  const std::filesystem::path image = emulated::build_image(board, header);
+  const emulated::ImageCost cost = emulated::measure_image(image, board);
+  ImageControl controller(board, image);
   loop::RunResult result = loop::run(scene, design, controller, of_the_image(watch));
   result.image = controller.shut_down();
   add_cost(cost, *result.image);

@@ -16,14 +16,13 @@ namespace sonoglide::emulated {
 ///
 /// @param design     of the scene's controller
 /// @param header     of the same, as emulated::controller_header() writes it
-/// @param attention  called now and then while waiting; what it throws ends the wait
 /// @return with the image's record
 /// @throws process::ProcessError  a tool is missing, or the build failed
 /// @throws EmulatorError          the image did not answer, or not in order
 /// @throws what loop::run() throws, besides
 loop::RunResult run_image(const scene::Scene& scene, const configure::ControlDesign& design,
                           const emulated::EmulatedBoard& board, const std::string& header,
-                          const loop::Watch& watch, const process::Attention& attention);
+                          const loop::Watch& watch);
 
 /// @param result  of run_image()
 /// @throws loop::ComputationError  the image's drive commands are not the workstation's

@@ -4,12 +4,10 @@
 
 #include <cctype>
 #include <filesystem>
-#include <fstream>
 #include <iterator>
 
 #include "host_sim/process/printable.hpp"
 #include "host_sim/process/run_tool.hpp"
-#include "host_sim/process/scratch_folder.hpp"
 
 namespace sonoglide::output {
 
@@ -32,20 +30,18 @@ std::string quoted(std::string_view text) {
 }
 
 std::string draw_svg(const std::string& script, int width_px, int height_px) {
-  const std::filesystem::path gnuplot = require_gnuplot();
-  const process::ScratchFolder folder(std::filesystem::temp_directory_path());
-  const std::filesystem::path script_file = folder.path() / "script";
-  const std::filesystem::path picture_file = folder.path() / "picture";
-  std::ofstream(script_file, std::ios::binary)
-      << fmt::format(
-             "set terminal svg size {},{} dynamic background rgb 'white' font 'sans-serif,13'\n"
-             "set encoding utf8\n"
-             "set output ARG1\n",
-             width_px, height_px)
-      << script;
-  process::run_tool({gnuplot.string(), "-c", script_file.string(), picture_file.string()}, {});
-  std::ifstream picture(picture_file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(picture), std::istreambuf_iterator<char>()};
+  const std::string terminal = fmt::format(
+      "set terminal svg size {},{} dynamic background rgb 'white' font 'sans-serif,13'\n"
+      "set encoding utf8\n",
+      width_px, height_px);
+  // With -d it reads no settings of the user's or the machine's.
+  std::string picture =
+      process::run_tool({require_gnuplot().string(), "-d", "-"}, terminal + script);
+  constexpr std::string_view end = "</svg>";
+  if (picture.find(end) == std::string::npos) {
+    throw process::ProcessError("gnuplot drew no whole picture");
+  }
+  return picture;
 }
 
 }  // namespace sonoglide::output

@@ -18,7 +18,7 @@ std::filesystem::path require_gnuplot();
 /// process::printable(); write `noenhanced` after it where no mark-up is meant.
 std::string quoted(std::string_view text);
 
-/// Draws one SVG picture on a white ground.
+/// Draws one SVG picture on a white ground, without files, and by no settings of the user's.
 ///
 /// @param script  gnuplot commands, the data in them ("$name << EOD" blocks); terminal and output
 ///                are set already

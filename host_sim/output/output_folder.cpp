@@ -3,12 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <stdexcept>
 #include <system_error>
 #include <utility>
 
+#include "host_sim/output/list_lock.hpp"
 #include "host_sim/output/written_files.hpp"
+#include "host_sim/process/ending.hpp"
 
 namespace sonoglide::output {
 namespace {
@@ -121,15 +122,6 @@ std::error_code OutputFolder::clear(Moves& moves, const fs::path& place, const f
                                                        : std::error_code();
 }
 
-namespace {
-
-/// What the last failed system call said.
-std::string last_reason() {
-  return errno == 0 ? "cannot be written" : std::generic_category().message(errno);
-}
-
-}  // namespace
-
 OutputFolder::OutputFolder(const fs::path& target, const std::vector<std::string>& names)
     : target_(normal(target)) {
   const fs::path parent = nearest_folder(target_);
@@ -151,13 +143,9 @@ OutputFolder::~OutputFolder() {
 }
 
 void OutputFolder::write(const std::string& name, std::string_view content) {
-  std::ofstream& file = stage(name);
-  errno = 0;
-  file.write(content.data(), static_cast<std::streamsize>(content.size()));
+  StagedFile& file = stage(name);
+  file << content;
   file.close();
-  if (!file) {
-    fail(target_ / name, last_reason());
-  }
 }
 
 std::ostream& OutputFolder::open(const std::string& name) {
@@ -182,6 +170,11 @@ void OutputFolder::require_usable(const std::string& name) const {
 }
 
 void OutputFolder::require_ours(const std::string& name) const {
+  const ListLock held(target_, ListLock::Kind::shared);
+  require_listed(name);
+}
+
+void OutputFolder::require_listed(const std::string& name) const {
   const fs::path place = target_ / name;
   std::error_code absent;
   const fs::file_status status = fs::symlink_status(place, absent);
@@ -192,58 +185,48 @@ void OutputFolder::require_ours(const std::string& name) const {
   }
 }
 
-std::ofstream& OutputFolder::stage(const std::string& name) {
+StagedFile& OutputFolder::stage(const std::string& name) {
   require_usable(name);
-  std::ofstream& file = files_[name];
-  errno = 0;
-  file.open(staging_->path() / kNewFiles / name, std::ios::binary);
-  if (!file) {
-    fail(target_ / name, last_reason());
-  }
-  return file;
+  return *files_.try_emplace(name, std::make_unique<StagedFile>(new_file(name), target_ / name))
+              .first->second;
+}
+
+fs::path OutputFolder::new_file(const std::string& name) const {
+  return staging_->path() / kNewFiles / name;
 }
 
 void OutputFolder::commit() {
-  close_files();
-  list_files();
-  std::error_code error;
-  if (fs::exists(target_, error)) {
-    replace_files();
-  } else {
-    place_new_folder();
-  }
-}
-
-void OutputFolder::close_files() {
   for (auto& [name, file] : files_) {
-    if (file.is_open()) {
-      file.close();
-    }
-    if (!file) {
-      fail(target_ / name, "could not be written in full");
-    }
+    file->close();
+  }
+  std::error_code unknown;
+  while (fs::exists(target_, unknown) ? !replace_files() : !place_new_folder()) {
   }
 }
 
 /// Puts the list beside the new files.
-void OutputFolder::list_files() {
+void OutputFolder::list_files() const {
   WrittenFiles list(target_);
   for (const auto& [name, file] : files_) {
-    list.add(name, staging_->path() / kNewFiles / name);
+    list.add(name, new_file(name));
   }
-  errno = 0;
-  std::ofstream file(staging_->path() / kNewFiles / WrittenFiles::file_name, std::ios::binary);
+  std::error_code absent;
+  fs::remove(new_file(WrittenFiles::file_name), absent);
+  StagedFile file(new_file(WrittenFiles::file_name), target_ / WrittenFiles::file_name);
   file << list.text();
   file.close();
-  if (!file) {
-    fail(target_ / WrittenFiles::file_name, last_reason());
-  }
 }
 
-void OutputFolder::place_new_folder() {
+/// @return false where somebody else has made the folder meanwhile
+bool OutputFolder::place_new_folder() {
+  list_files();
+  const process::Undisturbed now;
   const std::vector<fs::path> created = create_parents(target_.parent_path());
   std::error_code error;
   fs::rename(staging_->path() / kNewFiles, target_, error);
+  if (error == std::errc::directory_not_empty || error == std::errc::file_exists) {
+    return false;
+  }
   if (error) {
     for (auto path = created.rbegin(); path != created.rend(); ++path) {
       std::error_code ignored;
@@ -251,45 +234,54 @@ void OutputFolder::place_new_folder() {
     }
     fail(target_, error);
   }
+  return true;
 }
 
 /// First of all, and in one step: it speaks of the old files as well as of the new ones.
-void OutputFolder::place_list(Moves& moves) const {
-  const fs::path from = staging_->path() / kNewFiles / WrittenFiles::file_name;
+void OutputFolder::place_list(Moves& moves, bool is_first) const {
+  const fs::path from = new_file(WrittenFiles::file_name);
   const fs::path to = target_ / WrittenFiles::file_name;
   std::error_code error;
-  if (fs::exists(to, error)) {
-    fs::rename(from, to, error);
-  } else {
+  if (is_first) {
     error = moves.move(from, to);
+  } else {
+    fs::rename(from, to, error);
   }
   if (error) {
     fail(to, error);
   }
 }
 
-void OutputFolder::replace_files() {
+/// @return false where somebody else has removed the folder meanwhile
+bool OutputFolder::replace_files() {
+  ListLock held(target_, ListLock::Kind::alone);
+  std::error_code unknown;
+  if (!fs::exists(target_, unknown)) {
+    return false;
+  }
+  list_files();
+  held.hold_next(new_file(WrittenFiles::file_name));
+  const process::Undisturbed now;
   Moves moves;
-  place_list(moves);
+  place_list(moves, held.began());
   const auto clear_place = [&](const std::string& name) {
+    require_listed(name);
     if (const std::error_code error =
             clear(moves, target_ / name, staging_->path() / kOldFiles / name)) {
       fail(target_ / name, error);
     }
   };
   for (const std::string& name : withdrawn_) {
-    require_ours(name);
     clear_place(name);
   }
   for (const auto& [name, file] : files_) {
-    require_ours(name);
     clear_place(name);
-    if (const std::error_code error =
-            moves.move(staging_->path() / kNewFiles / name, target_ / name)) {
+    if (const std::error_code error = moves.move(new_file(name), target_ / name)) {
       fail(target_ / name, error);
     }
   }
   moves.keep();
+  return true;
 }
 
 void create_folder(const std::filesystem::path& target, const std::vector<std::string>& names) {

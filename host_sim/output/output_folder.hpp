@@ -2,8 +2,8 @@
 #pragma once
 
 #include <filesystem>
-#include <fstream>
 #include <map>
+#include <memory>
 #include <optional>
 #include <ostream>
 #include <set>
@@ -12,6 +12,7 @@
 #include <system_error>
 #include <vector>
 
+#include "host_sim/output/staged_file.hpp"
 #include "host_sim/output/written_files.hpp"
 #include "host_sim/process/scratch_folder.hpp"
 
@@ -40,8 +41,8 @@ class OutputFolder {
   ///         std::invalid_argument for any other name.
   void write(const std::string& name, std::string_view content);
 
-  /// Stages a file that is written piece by piece, until commit(). Throws as write() does; a
-  /// failure to write later is found by commit().
+  /// Stages a file that is written piece by piece, until commit(). Throws as write() does, and so
+  /// does the stream, at once.
   std::ostream& open(const std::string& name);
 
   /// Says that a file is not written this time: commit() takes away an older one of this name,
@@ -49,7 +50,8 @@ class OutputFolder {
   void withdraw(const std::string& name);
 
   /// Moves the staged files into place, creating missing parents; to be called once, last. An old
-  /// file of the same name is replaced. The list of what this program wrote there goes with them.
+  /// file of the same name is replaced. The list of what this program wrote there goes with them. Of
+  /// several programs that do so at once one is the last, in every file.
   /// @throws OutputError if a file could not be written or moved; the target is then as before.
   void commit();
 
@@ -62,16 +64,17 @@ class OutputFolder {
                                const std::filesystem::path& aside);
   void require_usable(const std::string& name) const;
   void require_ours(const std::string& name) const;
-  std::ofstream& stage(const std::string& name);
-  void close_files();
-  void list_files();
-  void place_new_folder();
-  void place_list(Moves& moves) const;
-  void replace_files();
+  void require_listed(const std::string& name) const;
+  std::filesystem::path new_file(const std::string& name) const;
+  StagedFile& stage(const std::string& name);
+  void list_files() const;
+  bool place_new_folder();
+  void place_list(Moves& moves, bool is_first) const;
+  bool replace_files();
 
   std::filesystem::path target_;
   std::optional<process::ScratchFolder> staging_;  ///< from the constructor on
-  std::map<std::string, std::ofstream> files_;
+  std::map<std::string, std::unique_ptr<StagedFile>> files_;
   std::set<std::string> withdrawn_;
 };
 

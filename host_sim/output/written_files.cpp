@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <fstream>
 #include <sstream>
+#include <string_view>
 #include <system_error>
 #include <utility>
 
@@ -21,13 +23,24 @@ constexpr const char* heading =
 }  // namespace
 
 WrittenFiles::WrittenFiles(const std::filesystem::path& folder) : folder_(folder) {
-  std::ifstream list(folder / file_name, std::ios::binary);
-  std::string line;
-  if (!std::getline(list, line)) {
+  const std::filesystem::path place = folder / file_name;
+  std::error_code absent;
+  const bool regular = std::filesystem::is_regular_file(place, absent);
+  if (!regular && !std::filesystem::exists(std::filesystem::symlink_status(place, absent))) {
     return;
   }
-  if (line != heading) {
-    fail(folder / file_name,
+  std::ifstream list;
+  std::string line;
+  if (regular) {
+    list.open(place, std::ios::binary);
+    if (list.peek() == std::ifstream::traits_type::eof()) {
+      return;
+    }
+    line.resize(std::string_view(heading).size() + 1);
+    list.read(line.data(), static_cast<std::streamsize>(line.size()));
+  }
+  if (line != std::string(heading) + '\n') {
+    fail(place,
          "is not a list of files that this program wrote; allowed: another "
          "folder, or that file out of the way");
   }
@@ -74,6 +87,7 @@ std::string WrittenFiles::text() const {
 }
 
 WrittenFiles::Content WrittenFiles::content_of(const std::filesystem::path& file) {
+  errno = 0;
   std::ifstream stream(file, std::ios::binary);
   std::array<char, 1U << 16U> part{};
   Content content{};
@@ -85,7 +99,7 @@ WrittenFiles::Content WrittenFiles::content_of(const std::filesystem::path& file
     content.bytes += count;
   }
   if (!stream.eof()) {
-    fail(file, "cannot be read");
+    fail(file, "cannot be read: " + std::generic_category().message(errno));
   }
   content.checksum = sum.value();
   return content;

@@ -6,22 +6,37 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <chrono>
 #include <csignal>
+#include <cstdlib>
 #include <cstring>
+#include <thread>
 
 #include "host_sim/process/pipe.hpp"
 
 namespace sonoglide::process {
 namespace {
 
-std::vector<char*> argument_list(const std::vector<std::string>& command) {
-  std::vector<char*> arguments;
-  arguments.reserve(command.size() + 1);
-  for (const std::string& argument : command) {
-    arguments.push_back(const_cast<char*>(argument.c_str()));
+/// As exec takes texts; they outlive the list.
+std::vector<char*> list_of(const std::vector<std::string>& texts) {
+  std::vector<char*> list;
+  list.reserve(texts.size() + 1);
+  for (const std::string& text : texts) {
+    list.push_back(const_cast<char*>(text.c_str()));
   }
-  arguments.push_back(nullptr);
-  return arguments;
+  list.push_back(nullptr);
+  return list;
+}
+
+std::vector<std::string> tool_environment() {
+  std::vector<std::string> variables{"LC_ALL=C.UTF-8"};
+  for (const char* name : {"PATH", "HOME", "TMPDIR", "LD_LIBRARY_PATH", "CCACHE_DIR",
+                           "CMAKE_C_COMPILER_LAUNCHER", "CMAKE_CXX_COMPILER_LAUNCHER"}) {
+    if (const char* value = std::getenv(name)) {
+      variables.push_back(fmt::format("{}={}", name, value));
+    }
+  }
+  return variables;
 }
 
 /// An ignored signal stays ignored in a new program, and a blocked one blocked: none of that is the
@@ -30,40 +45,66 @@ void clear_signals() {
   sigset_t none;
   sigemptyset(&none);
   sigprocmask(SIG_SETMASK, &none, nullptr);
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGPIPE}) {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGPIPE, SIGXFSZ}) {
     std::signal(signal, SIG_DFL);
   }
 }
 
 /// Only what is safe between fork and exec.
-[[noreturn]] void become(char* const* arguments, const Streams& streams, int complaints,
-                         pid_t parent) {
+[[noreturn]] void become(char* const* arguments, char* const* environment, const Streams& streams,
+                         int complaints, pid_t parent) {
   clear_signals();
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   const bool connected =
       setpgid(0, 0) == 0 && getppid() == parent && dup2(streams.input, STDIN_FILENO) >= 0 &&
       dup2(streams.output, STDOUT_FILENO) >= 0 && dup2(streams.errors, STDERR_FILENO) >= 0;
   if (connected) {
-    execvp(arguments[0], arguments);
+    execvpe(arguments[0], arguments, environment);
   }
   const int reason = errno;
   const ssize_t told = write(complaints, &reason, sizeof reason);
   _exit(told == sizeof reason ? 127 : 126);
 }
 
+/// A build tool ends what it has started when it is asked to, not when it is killed.
+void end_group(pid_t id) {
+  constexpr std::chrono::seconds grace{2};
+  constexpr std::chrono::milliseconds between_looks{5};
+  // Who loses its parent in the group becomes a child of this process, and is waited for.
+  prctl(PR_SET_CHILD_SUBREAPER, 1);
+  kill(-id, SIGTERM);
+  kill(-id, SIGCONT);
+  for (auto waited = between_looks.zero(); waited < grace; waited += between_looks) {
+    pid_t gone = 0;
+    while ((gone = waitpid(-id, nullptr, WNOHANG)) > 0) {
+    }
+    if (gone < 0 && errno == ECHILD) {
+      return;
+    }
+    std::this_thread::sleep_for(between_looks);
+  }
+  kill(-id, SIGKILL);
+  while (waitpid(-id, nullptr, 0) > 0 || errno == EINTR) {
+  }
+}
+
 }  // namespace
 
 ChildProcess::ChildProcess(const std::vector<std::string>& command, const Streams& streams) {
-  const std::vector<char*> arguments = argument_list(command);
+  const std::vector<char*> arguments = list_of(command);
+  const std::vector<std::string> variables = tool_environment();
+  const std::vector<char*> environment = list_of(variables);
   Pipe complaints = make_pipe();
   const pid_t self = getpid();
+  const Undisturbed now;
   id_ = fork();
   if (id_ == 0) {
-    become(arguments.data(), streams, complaints.write_end.number(), self);
+    become(arguments.data(), environment.data(), streams, complaints.write_end.number(), self);
   }
   if (id_ < 0) {
     throw ProcessError(fmt::format("{}: {}", command.front(), std::strerror(errno)));
   }
+  undo_.emplace([id = id_] { end_group(id); });
   complaints.write_end.close();
   // The pipe closes when the program has been started.
   int reason = 0;
@@ -79,21 +120,27 @@ ChildProcess::ChildProcess(const std::vector<std::string>& command, const Stream
 }
 
 ChildProcess::~ChildProcess() {
-  kill();
+  end();
 }
 
 int ChildProcess::wait() {
-  int status = 0;
-  while (waitpid(id_, &status, 0) < 0 && errno == EINTR) {
+  siginfo_t ended{};
+  while (waitid(P_PID, static_cast<id_t>(id_), &ended, WEXITED | WNOWAIT) < 0 && errno == EINTR) {
   }
+  const Undisturbed now;
+  int status = 0;
+  waitpid(id_, &status, 0);
   id_ = -1;
+  undo_.reset();
   return status;
 }
 
-void ChildProcess::kill() {
+void ChildProcess::end() {
   if (id_ > 0) {
-    ::kill(-id_, SIGKILL);
-    wait();
+    const Undisturbed now;
+    end_group(id_);
+    id_ = -1;
+    undo_.reset();
   }
 }
 

@@ -4,8 +4,11 @@
 #include <sched.h>
 #include <sys/types.h>
 
+#include <optional>
 #include <string>
 #include <vector>
+
+#include "host_sim/process/ending.hpp"
 
 namespace sonoglide::process {
 
@@ -17,8 +20,12 @@ struct Streams {
 };
 
 /// Starts a program in a process group of its own, so that a Ctrl-C reaches this process alone,
-/// which then ends the other. The destructor kills the whole group. Should this process be killed
-/// itself, the system kills the child.
+/// which then ends the other. The destructor ends the whole group, and so does a signal that ends
+/// this process. Should this process be killed itself, the system kills the child.
+///
+/// Of the environment the program gets what it needs to be found and to find its own parts (PATH,
+/// HOME, TMPDIR, LD_LIBRARY_PATH, and what caches compilations), in the locale C.UTF-8: what it does
+/// depends on no other setting of the user.
 class ChildProcess {
  public:
   /// @param command  the program, looked for in PATH, and its arguments
@@ -35,11 +42,12 @@ class ChildProcess {
   /// @return the status as of waitpid
   int wait();
 
-  /// Ends the child and what it has started, if it still runs.
-  void kill();
+  /// Ends the child and what it has started, if it still runs: asks, and after two seconds kills.
+  void end();
 
  private:
   pid_t id_ = -1;
+  std::optional<Undo> undo_;  ///< while it has not been waited for
 };
 
 /// "exit code 1" or "signal 9", from a status of waitpid.

@@ -4,8 +4,10 @@
 #include <unistd.h>
 
 #include <chrono>
-#include <functional>
+#include <filesystem>
 #include <stdexcept>
+#include <string>
+#include <string_view>
 #include <utility>
 
 namespace sonoglide::process {
@@ -50,12 +52,22 @@ struct Pipe {
 /// @throws ProcessError  no descriptors are left
 Pipe make_pipe();
 
-/// Called a few times a second while waiting, and whenever a signal has come; what it throws ends
-/// the wait.
-using Attention = std::function<void()>;
+/// Whether an open file still stands under its name.
+bool stands(const Descriptor& file, const std::filesystem::path& path);
+
+/// Takes a lock on an open file, as flock does. @return false where it has none, or another has it
+bool lock(const Descriptor& file, int operation);
+
+/// A file that only this process and its children have, in memory, to be read from its beginning.
+/// Unlike a pipe it takes everything at once.
+/// @throws ProcessError  no memory or no descriptors are left
+Descriptor make_memory_file(std::string_view content = {});
+
+/// What stands in such a file, its last `most_bytes` bytes at most.
+std::string memory_file_text(const Descriptor& file, std::size_t most_bytes);
 
 /// @param limit  waits this long at most
 /// @return whether there is something to read, the end included
-bool wait_for_input(int descriptor, std::chrono::milliseconds limit, const Attention& attention);
+bool wait_for_input(int descriptor, std::chrono::milliseconds limit);
 
 }  // namespace sonoglide::process

@@ -1,13 +1,11 @@
 #include "host_sim/process/run_tool.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <chrono>
-#include <csignal>
 #include <cstdlib>
 #include <sstream>
 
@@ -34,12 +32,12 @@ namespace {
 /// A tool that has nothing to say for so long has hung.
 constexpr std::chrono::minutes patience{10};
 
-std::string read_to_the_end(const std::string& tool, int descriptor, const Attention& attention) {
+std::string read_to_the_end(const std::string& tool, int descriptor) {
   std::string text;
   std::array<char, 4096> part{};
   ssize_t count = 0;
   do {
-    if (!wait_for_input(descriptor, patience, attention)) {
+    if (!wait_for_input(descriptor, patience)) {
       throw ProcessError(fmt::format("{} hung:\n{}", tool, text));
     }
     count = read(descriptor, part.data(), part.size());
@@ -48,34 +46,21 @@ std::string read_to_the_end(const std::string& tool, int descriptor, const Atten
   return text;
 }
 
-/// A build tool ends what it has started when it is asked to, not when it is killed. The pipe
-/// closes when the last of them is gone.
-void ask_to_end(const ChildProcess& tool, int descriptor) {
-  constexpr std::chrono::seconds grace{2};
-  std::array<char, 4096> rest{};
-  kill(-tool.id(), SIGTERM);
-  while (wait_for_input(descriptor, grace, {}) && read(descriptor, rest.data(), rest.size()) > 0) {
-  }
-}
-
 }  // namespace
 
-std::string run_tool(const std::vector<std::string>& command, const Attention& attention) {
-  const Descriptor nothing(open("/dev/null", O_RDONLY | O_CLOEXEC));
+std::string run_tool(const std::vector<std::string>& command, std::string_view input) {
+  constexpr std::size_t most_errors = 1U << 20U;
+  const Descriptor asked = make_memory_file(input);
+  const Descriptor errors = make_memory_file();
   Pipe said = make_pipe();
-  ChildProcess tool(command, {nothing.number(), said.write_end.number(), said.write_end.number()});
+  ChildProcess tool(command, {asked.number(), said.write_end.number(), errors.number()});
   said.write_end.close();
-  std::string text;
-  try {
-    text = read_to_the_end(command.front(), said.read_end.number(), attention);
-  } catch (...) {
-    ask_to_end(tool, said.read_end.number());
-    throw;
-  }
+  std::string text = read_to_the_end(command.front(), said.read_end.number());
   const int status = tool.wait();
   if (status != 0) {
-    throw ProcessError(
-        fmt::format("{} failed with {}:\n{}", command.front(), describe_end(status), text));
+    throw ProcessError(fmt::format("{} failed with {}:\n{}{}", command.front(),
+                                   describe_end(status), text,
+                                   memory_file_text(errors, most_errors)));
   }
   return text;
 }

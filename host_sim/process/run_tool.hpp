@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "host_sim/process/pipe.hpp"
@@ -14,11 +15,11 @@ namespace sonoglide::process {
 /// @throws ProcessError  it has none
 std::filesystem::path require_program(const std::string& program, const std::string& package);
 
-/// Runs a tool with no input.
-/// @return all that it wrote, errors included
+/// Runs a tool to its end.
+/// @param input  on its standard input
+/// @return what it wrote on its standard output
 /// @throws ProcessError  it cannot be started, or did not end with exit code 0; what() has all that
-///         it wrote
-/// @throws what `attention` throws; the tool and what it has started are ended then
-std::string run_tool(const std::vector<std::string>& command, const Attention& attention);
+///         it wrote, errors last
+std::string run_tool(const std::vector<std::string>& command, std::string_view input = {});
 
 }  // namespace sonoglide::process

@@ -5,12 +5,15 @@
 #include <sys/stat.h>
 
 #include <cerrno>
+#include <chrono>
+#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <string>
 #include <string_view>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 #include "host_sim/process/printable.hpp"
 
@@ -20,45 +23,95 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view name_end = "XXXXXX";
-constexpr const char* mark = ".scratch";
+/// Of a folder that is not locked yet.
+constexpr std::string_view unlocked_begin = ".sonoglide_new-";
+constexpr const char* lock_file = ".lock";
 
-Descriptor open_folder(const fs::path& path) {
-  return Descriptor(open(path.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC));
-}
-
-/// Whether the open folder still stands under its name.
-bool stands(const Descriptor& folder, const fs::path& path) {
-  struct stat opened {};
-  struct stat named {};
-  return fstat(folder.number(), &opened) == 0 && lstat(path.c_str(), &named) == 0 &&
-         opened.st_dev == named.st_dev && opened.st_ino == named.st_ino;
-}
-
-bool has_the_name(const fs::path& path) {
+/// Whether a name is this beginning and six characters.
+bool begins(const fs::path& path, std::string_view begin) {
   const std::string name = path.filename().string();
-  const std::string_view begin = ScratchFolder::name_begin;
   return name.size() == begin.size() + name_end.size() && name.rfind(begin, 0) == 0;
 }
 
-/// Whoever was killed before it left its mark had put nothing else in.
-bool is_ours(const fs::path& path) {
+bool has_lock_file(const fs::path& folder) {
   std::error_code unknown;
-  return fs::exists(path / mark, unknown) || fs::is_empty(path, unknown);
+  return fs::is_regular_file(fs::symlink_status(folder / lock_file, unknown));
+}
+
+std::vector<fs::path> entries_of(const fs::path& folder) {
+  std::vector<fs::path> paths;
+  std::error_code error;
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
+       entry.increment(error)) {
+    paths.push_back(entry->path());
+  }
+  return paths;
+}
+
+/// The lock file goes last: what is left of a removal that is cut short is still an orphan.
+void remove_folder(const fs::path& folder) {
+  std::error_code ignored;
+  for (const fs::path& path : entries_of(folder)) {
+    if (path.filename() != lock_file) {
+      fs::remove_all(path, ignored);
+    }
+  }
+  fs::remove_all(folder, ignored);
+}
+
+/// While others still write there.
+void remove_in_use(const fs::path& folder) {
+  constexpr int most_tries = 100;
+  std::error_code unknown;
+  for (int i = 0; i < most_tries && fs::exists(folder, unknown); ++i) {
+    remove_folder(folder);
+  }
+}
+
+bool has_owner(const fs::path& folder) {
+  const Descriptor file(open((folder / lock_file).c_str(), O_RDWR | O_NOFOLLOW | O_CLOEXEC));
+  return file.number() < 0 || !lock(file, LOCK_EX | LOCK_NB);
+}
+
+/// Nobody takes so long between making a folder and locking it.
+bool is_old(const fs::path& folder) {
+  struct stat facts {};
+  const auto now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
+  return lstat(folder.c_str(), &facts) == 0 &&
+         std::chrono::seconds(now - facts.st_ctime) > std::chrono::hours(1);
 }
 
 /// What killed processes have left.
 void remove_orphans(const fs::path& parent) {
-  std::error_code ignored;
-  for (const fs::directory_entry& entry : fs::directory_iterator(parent, ignored)) {
-    if (!has_the_name(entry.path())) {
+  std::error_code unknown;
+  for (const fs::path& path : entries_of(parent)) {
+    const bool locked = begins(path, ScratchFolder::name_begin);
+    if (!locked && !begins(path, unlocked_begin)) {
       continue;
     }
-    const Descriptor folder = open_folder(entry.path());
-    if (folder.number() >= 0 && flock(folder.number(), LOCK_EX | LOCK_NB) == 0 &&
-        is_ours(entry.path())) {
-      fs::remove_all(entry.path(), ignored);
+    const bool orphan = has_lock_file(path) ? (locked || is_old(path)) && !has_owner(path)
+                                            : is_old(path) && fs::is_empty(path, unknown);
+    if (orphan) {
+      remove_folder(path);
     }
   }
+}
+
+[[noreturn]] void fail(const fs::path& path, int error) {
+  throw ScratchError(path.string(), std::strerror(error));
+}
+
+/// @return with the lock
+Descriptor make_lock_file(const fs::path& folder) {
+  constexpr mode_t mode = 0600;
+  Descriptor file(open((folder / lock_file).c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, mode));
+  if (file.number() < 0) {
+    const int error = errno;
+    remove_folder(folder);
+    fail(folder, error);
+  }
+  lock(file, LOCK_EX | LOCK_NB);
+  return file;
 }
 
 }  // namespace
@@ -69,25 +122,26 @@ ScratchError::ScratchError(const std::string& path, std::string reason)
 
 ScratchFolder::ScratchFolder(const fs::path& parent) {
   remove_orphans(parent);
-  do {
-    std::string name = (parent / ScratchFolder::name_begin).string() + std::string(name_end);
-    if (mkdtemp(name.data()) == nullptr) {
-      throw ScratchError(name, std::strerror(errno));
-    }
-    path_ = name;
-    lock_ = open_folder(path_);
-    if (lock_.number() < 0) {
-      throw ScratchError(name, std::strerror(errno));
-    }
-    flock(lock_.number(), LOCK_EX);
-    // Until it was locked, another process could take it for an orphan.
-  } while (!stands(lock_, path_));
-  const Descriptor file(open((path_ / mark).c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0600));
+  std::string name = (parent / unlocked_begin).string() + std::string(name_end);
+  const Undisturbed now;
+  if (mkdtemp(name.data()) == nullptr) {
+    fail(name, errno);
+  }
+  lock_ = make_lock_file(name);
+  path_ = parent / (name_begin + name.substr(name.size() - name_end.size()));
+  // Should a folder of this name be there, it is not empty, and stays.
+  if (rename(name.c_str(), path_.c_str()) != 0) {
+    const int error = errno;
+    remove_folder(name);
+    fail(path_, error);
+  }
+  undo_.emplace([path = path_] { remove_in_use(path); });
 }
 
 ScratchFolder::~ScratchFolder() {
-  std::error_code ignored;
-  fs::remove_all(path_, ignored);
+  const Undisturbed now;
+  remove_folder(path_);
+  undo_.reset();
 }
 
 }  // namespace sonoglide::process

@@ -2,9 +2,10 @@
 #pragma once
 
 #include <filesystem>
-
+#include <optional>
 #include <string>
 
+#include "host_sim/process/ending.hpp"
 #include "host_sim/process/pipe.hpp"
 
 namespace sonoglide::process {
@@ -20,12 +21,15 @@ class ScratchError : public ProcessError {
   std::string reason_;
 };
 
-/// A hidden folder of its own in another one, gone with its owner and all that is left in it.
+/// A hidden folder of its own in another one, gone with its owner and all that is left in it, and
+/// where a signal ends the program.
 ///
 /// A process that is killed leaves its folder behind: the next ScratchFolder in the same parent
-/// removes it. Which of them has an owner that lives is told by a lock on the folder, which the
-/// system takes back at a process's end; that a folder is one of these, by its name and a mark in
-/// it. Where the file system has no locks, nothing is cleaned up after the killed.
+/// removes it. A folder is one of these by its name and by a lock file in it; whether its owner lives
+/// is told by a lock on that file, which the system takes back at a process's end. A folder gets
+/// its name only when it is locked, so that no moment of an owner that lives looks like an orphan.
+/// What is killed before or after that leaves an empty folder, which is removed after an hour. Where the file system has
+/// no locks, nothing is cleaned up after the killed.
 class ScratchFolder {
  public:
   /// What the names of these folders begin with; six letters and digits follow.
@@ -43,6 +47,7 @@ class ScratchFolder {
  private:
   std::filesystem::path path_;
   Descriptor lock_;
+  std::optional<Undo> undo_;  ///< from the constructor on
 };
 
 }  // namespace sonoglide::process

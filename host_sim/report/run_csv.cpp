@@ -48,9 +48,6 @@ void CsvFile::finish_row() {
   row_.push_back('\n');
   stream_.write(row_.data(), static_cast<std::streamsize>(row_.size()));
   row_.clear();
-  if (!stream_) {
-    throw output::OutputError(path_ + ": could not be written in full");
-  }
 }
 
 void RepeatingNumber::append_to(fmt::memory_buffer& row, double value) {

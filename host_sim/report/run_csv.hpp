@@ -17,17 +17,16 @@ namespace sonoglide::report {
 /// A stream that takes whole rows.
 class CsvFile {
  public:
-  /// @param path  what an error shows; @param stream  outlives this
-  CsvFile(std::string path, std::ostream& stream) : path_(std::move(path)), stream_(stream) {}
+  /// @param stream  outlives this
+  explicit CsvFile(std::ostream& stream) : stream_(stream) {}
 
   /// The row being written; cleared by finish_row().
   fmt::memory_buffer& row() { return row_; }
 
-  /// @throws OutputError as soon as the stream has failed, not when the run is over
+  /// @throws what the stream throws
   void finish_row();
 
  private:
-  std::string path_;
   std::ostream& stream_;
   fmt::memory_buffer row_;
 };

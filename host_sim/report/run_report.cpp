@@ -238,10 +238,6 @@ constexpr const char* page_file = "report.html";
 constexpr const char* trace_file = "trace.csv";
 constexpr const char* periods_file = "periods.csv";
 
-CsvFile open(output::OutputFolder& folder, const char* name) {
-  return {(folder.target() / name).string(), folder.open(name)};
-}
-
 }  // namespace
 
 RunReport::RunReport(const std::filesystem::path& out, const scene::Scene& scene,
@@ -250,8 +246,8 @@ RunReport::RunReport(const std::filesystem::path& out, const scene::Scene& scene
       folder_(out, {summary_file, page_file, trace_file, periods_file}),
       findings_(scene, design) {
   if (!scene.run.record.empty()) {
-    periods_.emplace(open(folder_, periods_file), amplitude_unit(scene));
-    trace_.emplace(open(folder_, trace_file), scene.run.record);
+    periods_.emplace(CsvFile(folder_.open(periods_file)), amplitude_unit(scene));
+    trace_.emplace(CsvFile(folder_.open(trace_file)), scene.run.record);
   } else {
     folder_.withdraw(periods_file);
     folder_.withdraw(trace_file);

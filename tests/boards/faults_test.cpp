@@ -3,12 +3,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <cstdint>
 #include <limits>
 #include <memory>
 #include <ostream>
 #include <string>
+#include <thread>
 #include <tuple>
 #include <vector>
 
@@ -362,22 +364,19 @@ TEST_P(ResetInMidRun, EndsTheImage) {
   std::vector<std::string> command = emulate(GetParam(), "target_step");
   const std::vector<std::string> more = monitor.arguments();
   command.insert(command.end(), more.begin(), more.end());
-  std::uint32_t period = 0;
-  bool reset = false;
-  ImageProcess* asked = nullptr;
-  const auto ask_again = [&] {
-    if (reset) {
-      const std::vector<std::uint8_t> frame = frame_of(period);
-      asked->send(frame.data(), frame.size());
-    }
-  };
-  ImageProcess image(command, 60s, ask_again);
-  asked = &image;
+  std::atomic<std::uint32_t> period = 0;
+  std::atomic<bool> over = false;
+  ImageProcess image(command, 60s);
   for (; period < good_periods; ++period) {
     image.exchange(good_sample(period));
   }
   monitor.request_reset();
-  reset = true;
+  std::thread asking_again([&] {
+    for (; !over; std::this_thread::sleep_for(100ms)) {
+      const std::vector<std::uint8_t> frame = frame_of(period);
+      image.send(frame.data(), frame.size());
+    }
+  });
   try {
     for (;; ++period) {
       image.exchange(good_sample(period));
@@ -386,6 +385,8 @@ TEST_P(ResetInMidRun, EndsTheImage) {
     EXPECT_NE(std::string(error.what()).find("ended with exit code 1"), std::string::npos)
         << error.what();
   }
+  over = true;
+  asking_again.join();
 }
 
 INSTANTIATE_TEST_SUITE_P(Boards, ResetInMidRun, testing::Values("microbit", "mps2-an386"),

@@ -86,17 +86,5 @@ TEST(ImageProcessTest, LeavesNoProcessBehind) {
   EXPECT_FALSE(alive(process));
 }
 
-TEST(ImageProcessTest, ListensToItsOwnerWhileItWaits) {
-  pid_t process = 0;
-  const auto wait_for_a_frozen_one = [&] {
-    ImageProcess board(running(), 60s, [] { throw std::runtime_error("enough"); });
-    process = board.process();
-    kill(process, SIGSTOP);
-    board.exchange(hal::Sample{});
-  };
-  EXPECT_THROW(wait_for_a_frozen_one(), std::runtime_error);
-  EXPECT_FALSE(alive(process));
-}
-
 }  // namespace
 }  // namespace sonoglide::emulated::image_process_test

@@ -191,7 +191,7 @@ ClosedLoop closed_loop_of(const std::string& controller) {
 /// What an image says, by name; numbers as it writes them.
 std::map<std::string, std::string> words_of(const emulated::EmulatedBoard& board,
                                             const std::string& image) {
-  std::istringstream output(process::run_tool(emulated::emulator_command(board, image), [] {}));
+  std::istringstream output(process::run_tool(emulated::emulator_command(board, image)));
   std::map<std::string, std::string> words;
   for (std::string name, value; output >> name >> value;) {
     words[name] = value;
@@ -231,7 +231,7 @@ TEST_P(PlantImage, CostsTheSameInEveryRun) {
     return std::lround(std::stod(words[side + "_counts_sum"]) / std::stod(words["periods"]) /
                        board_.counts_per_instruction);
   };
-  const emulated::ImageCost cost = emulated::measure_image(image_, board_, [] {});
+  const emulated::ImageCost cost = emulated::measure_image(image_, board_);
   std::cout << board_.name << ' ' << controller_ << ": " << mean("plant")
             << " instructions of plant and " << mean("controller")
             << " of controller in a carrier period, " << cost.size.flash_bytes << " B flash, "

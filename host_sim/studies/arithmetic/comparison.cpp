@@ -64,32 +64,29 @@ control::Fault first_fault(const loop::RunResult& result) {
   return faults.empty() ? control::Fault::none : faults.front().fault;
 }
 
-loop::Watch watch(Course& course, const process::Attention& attention) {
-  return {{&course}, {}, [&attention](double) { attention(); }};
+loop::Watch watch(Course& course) {
+  return {{&course}, {}, {}};
 }
 
 ImageRow image_row(const scene::Scene& scene, const emulated::EmulatedBoard& board,
-                   const Course& exact, const process::Attention& attention) {
+                   const Course& exact) {
   Course course(scene);
   const configure::ControlDesign design = configure::design_control(scene);
-  const loop::RunResult result =
-      emulated::run_image(scene, design, board, emulated::controller_header(scene, design),
-                          watch(course, attention), attention);
+  const loop::RunResult result = emulated::run_image(
+      scene, design, board, emulated::controller_header(scene, design), watch(course));
   emulated::require_same(result);
   return {&board, scene.controller->arithmetic, precision(course, exact), first_fault(result),
           *result.image};
 }
 
-std::vector<TargetRow> rows_at(const scene::Scene& scene, double target,
-                               const process::Attention& attention) {
+std::vector<TargetRow> rows_at(const scene::Scene& scene, double target) {
   const scene::Scene steady = at_target(scene, target);
   Course exact(steady);
-  loop::run(in_arithmetic(steady, scene::Arithmetic::float64), watch(exact, attention));
+  loop::run(in_arithmetic(steady, scene::Arithmetic::float64), watch(exact));
   std::vector<TargetRow> rows;
   for (const scene::Arithmetic arithmetic : all_arithmetics) {
     Course course(steady);
-    const loop::RunResult result =
-        loop::run(in_arithmetic(steady, arithmetic), watch(course, attention));
+    const loop::RunResult result = loop::run(in_arithmetic(steady, arithmetic), watch(course));
     rows.push_back({target, arithmetic, precision(course, exact), course.steps().front().limit,
                     first_fault(result)});
   }
@@ -100,10 +97,9 @@ std::vector<TargetRow> rows_at(const scene::Scene& scene, double target,
 
 ArithmeticComparison compare(const scene::Scene& scene,
                              const std::vector<const emulated::EmulatedBoard*>& boards,
-                             const process::Attention& attention,
                              const std::function<void(double)>& progress) {
   Course exact(scene);
-  loop::run(in_arithmetic(scene, scene::Arithmetic::float64), watch(exact, attention));
+  loop::run(in_arithmetic(scene, scene::Arithmetic::float64), watch(exact));
   ArithmeticComparison comparison;
   const auto steps = static_cast<double>(boards.size() * all_arithmetics.size() + 1);
   double done = 0.0;
@@ -111,13 +107,12 @@ ArithmeticComparison compare(const scene::Scene& scene,
     for (const scene::Arithmetic arithmetic : all_arithmetics) {
       progress(done++ / steps);
       if (arithmetic != scene::Arithmetic::float64 || board->computes_double) {
-        comparison.images.push_back(
-            image_row(in_arithmetic(scene, arithmetic), *board, exact, attention));
+        comparison.images.push_back(image_row(in_arithmetic(scene, arithmetic), *board, exact));
       }
     }
   }
   for (int i = 1; i <= last_target; ++i) {
-    for (const TargetRow& row : rows_at(scene, i * target_spacing, attention)) {
+    for (const TargetRow& row : rows_at(scene, i * target_spacing)) {
       comparison.targets.push_back(row);
     }
   }

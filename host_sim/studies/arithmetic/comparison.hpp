@@ -10,7 +10,6 @@
 #include "host_sim/emulated/board_list.hpp"
 #include "host_sim/loop/run.hpp"
 #include "host_sim/loop/run_result.hpp"
-#include "host_sim/process/pipe.hpp"
 #include "host_sim/report/step_metrics.hpp"
 #include "host_sim/scene/scene.hpp"
 
@@ -76,12 +75,10 @@ struct ArithmeticComparison {
 
 /// @param scene      in closed loop; its own arithmetic plays no part
 /// @param boards     float64 is left out on those that compute it in software
-/// @param attention  called now and then; what it throws ends the comparison
 /// @param progress   called with the fraction done
 /// @throws what emulated::run_image() and emulated::controller_header() throw
 ArithmeticComparison compare(const scene::Scene& scene,
                              const std::vector<const emulated::EmulatedBoard*>& boards,
-                             const process::Attention& attention,
                              const std::function<void(double)>& progress);
 
 }  // namespace sonoglide::arithmetic

@@ -14,7 +14,7 @@
 #include "host_sim/batch/run_dahl_plants.hpp"
 #include "host_sim/output/output_folder.hpp"
 #include "host_sim/output/page.hpp"
-#include "host_sim/process/interruption.hpp"
+#include "host_sim/process/ending.hpp"
 #include "host_sim/studies/robust/report.hpp"
 
 namespace sonoglide::robust {
@@ -55,8 +55,8 @@ Outcome run(const Task& task, const fs::path& out, const std::string& program, u
   const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - begin;
   outcome.wall_s = wall.count();
   const std::string page = output::to_html(robust_page(task, outcome.study));
-  // Interrupted, it is carried through first: it takes a second at most.
-  const process::Interruption held;
+  // Files that are written, beside the journal of what they came from, would pass for older ones.
+  const process::Undisturbed now;
   write_files(task, outcome.study, page, out);
   solver.remove_journal();
   return outcome;

@@ -9,7 +9,6 @@
 
 #include "host_sim/batch/run_dahl_plants.hpp"
 #include "host_sim/output/output_folder.hpp"
-#include "host_sim/process/interruption.hpp"
 #include "host_sim/shards/collection.hpp"
 #include "host_sim/studies/sweep/plan.hpp"
 #include "host_sim/studies/sweep/report.hpp"
@@ -53,12 +52,8 @@ MergeSummary merge_shards(const fs::path& folder, const fs::path& out, const std
   found.require_of("sweep", program, batch::arithmetic);
   const Plan plan = plan_of(found.work());
   long_work::Pace pace(progress);
-  const process::Interruption interruption;
   MergeSummary summary{plan.grid().size(), 0, plan.grid().size() <= most_points};
-  const auto count = [&](const PointResult& row) {
-    interruption.check();
-    summary.failed += row.ok() ? 0 : 1;
-  };
+  const auto count = [&](const PointResult& row) { summary.failed += row.ok() ? 0 : 1; };
   if (summary.drawn) {
     std::vector<PointResult> rows;
     for_each_row(found, pace, [&](std::size_t, PointResult row) {
@@ -74,9 +69,6 @@ MergeSummary merge_shards(const fs::path& folder, const fs::path& out, const std
   for_each_row(found, pace, [&](std::size_t point, const PointResult& row) {
     count(row);
     write_row(table, plan, point, row);
-    if (!table) {
-      output::fail(out / table_file, "could not be written in full");
-    }
   });
   files.withdraw(page_file);
   files.withdraw(picture_file);

@@ -22,7 +22,7 @@ struct MergeSummary {
 /// @param program  name and version: shards of another program are refused
 /// @throws shards::Incomplete  shards are missing or damaged; nothing was written
 /// @throws shards::UnusableShards  of several works or of another program; nothing was written
-/// @throws output::OutputError, process::ProcessError, process::Interrupted
+/// @throws output::OutputError, process::ProcessError
 MergeSummary merge_shards(const std::filesystem::path& folder, const std::filesystem::path& out,
                           const std::string& program, const long_work::Progress& progress);
 

@@ -15,7 +15,7 @@
 #include "host_sim/output/gnuplot.hpp"
 #include "host_sim/output/output_folder.hpp"
 #include "host_sim/output/page.hpp"
-#include "host_sim/process/interruption.hpp"
+#include "host_sim/process/ending.hpp"
 #include "host_sim/scene_file/to_json.hpp"
 #include "host_sim/studies/sweep/journal.hpp"
 #include "host_sim/studies/sweep/report.hpp"
@@ -114,7 +114,8 @@ Identity identity_of(const Plan& plan, const std::string& program) {
 
 }  // namespace
 
-void write_files(const Plan& plan, const std::vector<PointResult>& rows, const fs::path& out) {
+void write_files(const Plan& plan, const std::vector<PointResult>& rows, const fs::path& out,
+                 const std::function<void()>& then) {
   const std::optional<std::string> picture = draw(plan, rows);
   const std::string page = output::to_html(sweep_page(plan, rows, picture));
   output::OutputFolder folder(out);
@@ -125,7 +126,9 @@ void write_files(const Plan& plan, const std::vector<PointResult>& rows, const f
   } else {
     folder.withdraw(picture_file);
   }
+  const process::Undisturbed now;
   folder.commit();
+  then();
 }
 
 Summary run_sweep(const Plan& plan, const fs::path& out, const std::string& program,
@@ -146,9 +149,7 @@ Summary run_sweep(const Plan& plan, const fs::path& out, const std::string& prog
   const std::size_t found = journal.finished().size();
   const std::vector<PointResult> rows = compute(solve, plan.grid().size(), journal, pace);
   const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - begin;
-  const process::Interruption held;
-  write_files(plan, rows, out);
-  journal.remove();
+  write_files(plan, rows, out, [&] { journal.remove(); });
   const auto failed =
       std::count_if(rows.begin(), rows.end(), [](const PointResult& row) { return !row.ok(); });
   return {rows.size(), static_cast<std::size_t>(failed), found, wall.count()};

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -26,11 +27,12 @@ inline constexpr const char* table_file = "sweep.csv";
 inline constexpr const char* page_file = "report.html";
 inline constexpr const char* picture_file = "sweep.svg";
 
-/// The table, the picture and the page of all rows, all or none. Interrupted, it is to be carried
-/// through: it takes a second at most.
+/// The table, the picture and the page of all rows, all or none.
+/// @param then  what belongs to it: no signal ends the program between
 /// @throws output::OutputError, process::ProcessError
-void write_files(const Plan& plan, const std::vector<PointResult>& rows,
-                 const std::filesystem::path& out);
+void write_files(
+    const Plan& plan, const std::vector<PointResult>& rows, const std::filesystem::path& out,
+    const std::function<void()>& then = [] {});
 
 struct Summary {
   std::size_t points;

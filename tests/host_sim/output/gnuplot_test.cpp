@@ -6,6 +6,7 @@
 
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
 #include <string>
 #include <vector>
 
@@ -32,15 +33,27 @@ TEST(Gnuplot, SaysWhatItDidNotUnderstand) {
   }
 }
 
-TEST(Gnuplot, DrawsWhereverTemporaryFilesAre) {
-  const process::ScratchFolder home(std::filesystem::temp_directory_path());
-  const std::filesystem::path odd = home.path() / "it's a $(false) \"folder\"";
-  std::filesystem::create_directory(odd);
-  setenv("TMPDIR", odd.c_str(), 1);
+TEST(Gnuplot, DrawsWithoutAPlaceForTemporaryFiles) {
+  setenv("TMPDIR", "/nowhere", 1);
   const std::string svg = draw_svg("plot x\n", 640, 480);
   unsetenv("TMPDIR");
   EXPECT_NE(svg.find("</svg>"), std::string::npos);
-  EXPECT_TRUE(std::filesystem::is_empty(odd));
+}
+
+// The picture is the same whatever the user has told gnuplot, and in any locale.
+TEST(Gnuplot, KnowsNoSettingOfTheUsers) {
+  const std::string plain = draw_svg("plot x\n", 640, 480);
+  const process::ScratchFolder home(std::filesystem::temp_directory_path());
+  std::ofstream(home.path() / ".gnuplot") << "set title 'mine'\nset grid\nunset key\n";
+  const std::string usual_home = std::getenv("HOME");
+  setenv("HOME", home.path().c_str(), 1);
+  setenv("GNUTERM", "nonsense", 1);
+  setenv("LC_ALL", "de_DE.UTF-8", 1);
+  const std::string mine = draw_svg("plot x\n", 640, 480);
+  setenv("HOME", usual_home.c_str(), 1);
+  unsetenv("GNUTERM");
+  unsetenv("LC_ALL");
+  EXPECT_EQ(mine, plain);
 }
 
 // None is a command, ends its string, or is taken for mark-up.

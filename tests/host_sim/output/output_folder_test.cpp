@@ -2,14 +2,18 @@
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <csignal>
+#include <cstdio>
 #include <fstream>
 #include <iterator>
 #include <set>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 namespace sonoglide::output::output_folder_test {
 namespace {
@@ -267,17 +271,6 @@ TEST_F(OutputFolderTest, DotsAfterALinkMeanWhereItLeads) {
   EXPECT_TRUE(fs::exists(root_ / "deep" / "out"));
 }
 
-TEST_F(OutputFolderTest, AStreamThatFailedIsReportedByCommit) {
-  {
-    OutputFolder output(root_ / "out");
-    output.write("summary.json", "{}");
-    output.open("trace.csv").setstate(std::ios::badbit);
-    const std::string message = message_of([&] { output.commit(); });
-    EXPECT_NE(message.find("trace.csv"), std::string::npos) << message;
-  }
-  EXPECT_EQ(names_in(root_), Names{});
-}
-
 /// Files may not grow past a limit, as on a disk that is full.
 class FullDisk {
  public:
@@ -297,21 +290,84 @@ class FullDisk {
   rlimit before_{};
 };
 
+/// At once and with the reason, whether a file is written whole or piece by piece.
 TEST_F(OutputFolderTest, AWriteThatTheSystemRefusesIsReported) {
-  std::string whole;
-  std::string streamed;
+  const FullDisk limited;
   {
     OutputFolder output(root_ / "out");
-    output.open("trace.csv") << std::string(20000, 'x');
-    {
-      const FullDisk limited;
-      whole = message_of([&] { output.write("report.html", std::string(100000, 'x')); });
-      streamed = message_of([&] { output.commit(); });
+    const std::string whole =
+        message_of([&] { output.write("report.html", std::string(100000, 'x')); });
+    const std::string streamed = message_of([&] {
+      std::ostream& trace = output.open("trace.csv");
+      for (int i = 0; i < 100000; ++i) {
+        trace << i << '\n';
+      }
+      ADD_FAILURE() << "the stream went on";
+    });
+    std::ostream& few = output.open("few.csv");
+    few << std::string(5000, 'x');
+    const std::string committed = message_of([&] { output.commit(); });
+    for (const std::string& message : {whole, streamed, committed}) {
+      EXPECT_NE(message.find("could not be written in full: File too large"), std::string::npos)
+          << message;
+    }
+    EXPECT_EQ(whole.find((root_ / "out/report.html").string()), 0U);
+    EXPECT_EQ(streamed.find((root_ / "out/trace.csv").string()), 0U);
+  }
+  EXPECT_EQ(names_in(root_), Names{});
+}
+
+/// Runs a commit of three files of one content in each of so many processes at once.
+/// @return those that failed
+int failures_of_commits(const fs::path& target, int processes) {
+  std::vector<pid_t> running;
+  for (int i = 0; i < processes; ++i) {
+    running.push_back(fork());
+    if (running.back() == 0) {
+      try {
+        for (int round = 0; round < 5; ++round) {
+          OutputFolder output(target, {"a", "b", "c"});
+          for (const char* name : {"a", "b", "c"}) {
+            output.write(name, std::to_string(i) + std::string(1000, ' '));
+          }
+          output.commit();
+        }
+        _exit(0);
+      } catch (const std::exception& error) {
+        std::fprintf(stderr, "%s\n", error.what());
+        _exit(1);
+      }
     }
   }
-  EXPECT_NE(whole.find("report.html: File too large"), std::string::npos) << whole;
-  EXPECT_NE(streamed.find("could not be written in full"), std::string::npos) << streamed;
-  EXPECT_EQ(names_in(root_), Names{});
+  int failed = 0;
+  for (const pid_t each : running) {
+    int status = 0;
+    waitpid(each, &status, 0);
+    failed += status == 0 ? 0 : 1;
+  }
+  return failed;
+}
+
+/// One of them is the last, in every file, and none takes another's files for somebody else's.
+TEST_F(OutputFolderTest, SeveralProgramsMayWriteToOneFolderAtOnce) {
+  fs::create_directory(root_ / "there");
+  put(root_ / "there" / "other", "mine");
+  for (const char* target : {"fresh", "there"}) {
+    EXPECT_EQ(failures_of_commits(root_ / target, 16), 0) << target;
+    const std::string last = text_of(root_ / target / "a");
+    EXPECT_EQ(text_of(root_ / target / "b"), last);
+    EXPECT_EQ(text_of(root_ / target / "c"), last);
+  }
+  EXPECT_EQ(names_in(root_), (Names{"fresh", "there"}));
+  EXPECT_EQ(names_in(root_ / "fresh"), (Names{list, "a", "b", "c"}));
+  EXPECT_EQ(names_in(root_ / "there"), (Names{list, "a", "b", "c", "other"}));
+}
+
+TEST_F(OutputFolderTest, AListThatIsNoFileIsRefused) {
+  ASSERT_EQ(mkfifo((root_ / list).c_str(), 0600), 0);
+  put(root_ / "a", "mine");
+  EXPECT_NE(message_of([&] { OutputFolder(root_, {"a"}); }).find("is not a list of files"),
+            std::string::npos);
 }
 
 TEST_F(OutputFolderTest, NamesArePlainAndUsedOnce) {

@@ -72,6 +72,77 @@ TEST_F(ScratchFolderTest, TheLivingKeepTheirs) {
   EXPECT_TRUE(fs::exists(first.path() / "file"));
 }
 
+/// Makes and drops folders beside others that do nothing but that, until the parent ends it.
+[[noreturn]] void sweep_for_good(const fs::path& home) {
+  while (true) {
+    try {
+      const ScratchFolder folder(home);
+    } catch (const ScratchError&) {
+      _exit(1);
+    }
+  }
+}
+
+// A sweeper looks at a folder at every moment between its making and its end, an empty one or one
+// with files in it. The owners are slowed by nothing but each other.
+TEST_F(ScratchFolderTest, NobodyLosesItsFolderToASweeper) {
+  constexpr int sweepers = 6;
+  constexpr int owners = 200;
+  std::vector<pid_t> sweeping;
+  for (int i = 0; i < sweepers; ++i) {
+    sweeping.push_back(fork());
+    if (sweeping.back() == 0) {
+      sweep_for_good(home_);
+    }
+  }
+  std::vector<pid_t> owning;
+  for (int i = 0; i < owners; ++i) {
+    owning.push_back(fork());
+    if (owning.back() == 0) {
+      try {
+        const ScratchFolder folder(home_);
+        fs::create_directory(folder.path() / "new");
+        std::ofstream(folder.path() / "new/file") << "text";
+        _exit(fs::exists(folder.path() / "new/file") ? 0 : 2);
+      } catch (const std::exception&) {
+        _exit(1);
+      }
+    }
+  }
+  for (const pid_t each : owning) {
+    int status = 0;
+    waitpid(each, &status, 0);
+    EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0) << status;
+  }
+  for (const pid_t each : sweeping) {
+    int status = 0;
+    kill(each, SIGKILL);
+    waitpid(each, &status, 0);
+    EXPECT_TRUE(WIFSIGNALED(status)) << "a sweeper could make no folder";
+  }
+  { const ScratchFolder last(home_); }
+  for (const std::string& name : names()) {
+    // Of a sweeper that was killed before it had locked its folder, or behind the last of its files.
+    EXPECT_TRUE(name.rfind(".sonoglide_new-", 0) == 0 || fs::is_empty(home_ / name)) << name;
+  }
+}
+
+/// A folder that is made and not locked yet is no orphan, however empty; one of an hour ago is.
+TEST_F(ScratchFolderTest, AFolderThatIsBeingMadeStays) {
+  fs::create_directory(home_ / ".sonoglide_new-abcdef");
+  fs::create_directory(home_ / ".sonoglide-abcdef");
+  { const ScratchFolder folder(home_); }
+  EXPECT_EQ(names(), (std::vector<std::string>{".sonoglide-abcdef", ".sonoglide_new-abcdef"}));
+}
+
+TEST_F(ScratchFolderTest, ARemovalThatIsCutShortLeavesAnOrphan) {
+  leave_an_orphan();
+  const fs::path orphan = home_ / names().front();
+  fs::remove_all(orphan / "deep");
+  { const ScratchFolder folder(home_); }
+  EXPECT_TRUE(names().empty());
+}
+
 TEST_F(ScratchFolderTest, WhatOnlyLooksLikeOneStays) {
   fs::create_directories(home_ / ".sonoglide-abcdef/mine");
   fs::create_directories(home_ / ".sonoglide-longer-than-that");
