@@ -17,7 +17,7 @@ std::string content_of(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
   std::string text((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
   if (!file) {
-    throw std::runtime_error(path.string() + ": cannot be read");
+    throw std::runtime_error(path.u8string() + ": cannot be read");
   }
   return text;
 }
@@ -42,7 +42,7 @@ Resources read_resources(const std::filesystem::path& folder) {
               content_of(folder / Resources::token_name)};
     }
   }
-  throw std::runtime_error((folder / Resources::kind_name).string() + ": names no kind of FMU");
+  throw std::runtime_error((folder / Resources::kind_name).u8string() + ": names no kind of FMU");
 }
 
 }  // namespace sonoglide::fmi

@@ -27,12 +27,14 @@ using Log = std::function<void(Status status, const char* category, const std::s
 
 class Component {
  public:
+  /// @param resources  in UTF-8, as importers name folders on every system
   /// @return null, after a message, where there can be no instance
-  static std::unique_ptr<Component> create(const std::filesystem::path& resources,
-                                           std::string_view token, const Log& log) noexcept {
+  static std::unique_ptr<Component> create(const std::string& resources, std::string_view token,
+                                           const Log& log) noexcept {
     const OwnFloatingPoint own;
     try {
-      return std::make_unique<Component>(read_resources(resources), token, log);
+      return std::make_unique<Component>(read_resources(std::filesystem::u8path(resources)), token,
+                                         log);
     } catch (const std::exception& error) {
       tell(log, error);
       return nullptr;

@@ -38,19 +38,21 @@ TEST_P(FmuWindows, ALoopGivesTheHashOfRun) {
   const Outcome ran = folder.run("run " + words + " --json");
   ASSERT_EQ(ran.exit_code, 0) << ran.err;
   const nlohmann::json summary = nlohmann::json::parse(ran.out);
-  make_fmu(folder, words, "--kind loop", "fmu");
-  const Description description(folder, "fmu");
+  make_fmu(folder, words, "--kind loop", "fm\u00fc");
+  const Description description(folder, "fm\u00fc");
   const double duration_s = summary["scene"]["run"]["duration_s"];
   const double steps = std::ceil(duration_s / description.step_s() - 1e-6);
   const std::string arguments =
-      SONOGLIDE_STEP_LOOP " fmu/binaries/x86_64-windows/sonoglide_loop.dll fmu/resources " +
+      SONOGLIDE_STEP_LOOP
+      " fm\u00fc/binaries/x86_64-windows/sonoglide_loop.dll fm\u00fc/resources " +
       shell_word(description.attribute("instantiationToken")) + " " +
       std::to_string(description.reference("trace_hash")) + " " +
       nlohmann::json(duration_s / steps).dump() + " " + std::to_string(std::lround(steps));
   // A prefix of its own, which Wine makes once.
-  const Outcome stepped = folder.run_program("env", "WINEPREFIX=" SONOGLIDE_WINE_PREFIX
-                                                    " WINEDEBUG=-all DISPLAY= " SONOGLIDE_WINE " " +
-                                                        arguments);
+  const Outcome stepped =
+      folder.run_program("env", "WINEPREFIX=" SONOGLIDE_WINE_PREFIX
+                                " WINEDEBUG=-all DISPLAY= LC_ALL=C.UTF-8 " SONOGLIDE_WINE " " +
+                                    arguments);
   ASSERT_EQ(stepped.exit_code, 0) << stepped.err;
   EXPECT_EQ(stepped.out.substr(0, 16), summary["control"]["trace_hash"].get<std::string>());
 }

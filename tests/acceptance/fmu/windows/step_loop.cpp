@@ -6,6 +6,7 @@
 
 #include <cstdio>
 #include <cstdlib>
+#include <string>
 
 #include "host_sim/fmi/binary/fmi3.hpp"
 
@@ -14,6 +15,14 @@ namespace {
 void note(fmi3InstanceEnvironment /*environment*/, fmi3Status /*status*/, fmi3String /*category*/,
           fmi3String message) {
   std::fprintf(stderr, "%s\n", message);
+}
+
+/// As the interface wants every text.
+std::string utf8(const wchar_t* text) {
+  const int size = WideCharToMultiByte(CP_UTF8, 0, text, -1, nullptr, 0, nullptr, nullptr);
+  std::string bytes(static_cast<std::size_t>(size), '\0');
+  WideCharToMultiByte(CP_UTF8, 0, text, -1, bytes.data(), size, nullptr, nullptr);
+  return bytes;
 }
 
 template <class Function>
@@ -31,22 +40,23 @@ Function* find(HMODULE library, const char* name) {
 
 #define SONOGLIDE_FIND(name) find<decltype(name)>(library, #name)
 
-int main(int argc, char** argv) {
-  HMODULE library = argc == 7 ? LoadLibraryA(argv[1]) : nullptr;
+int wmain(int argc, wchar_t** argv) {
+  HMODULE library = argc == 7 ? LoadLibraryW(argv[1]) : nullptr;
   if (library == nullptr) {
     std::fprintf(stderr, "cannot be loaded\n");
     return 1;
   }
   fmi3Instance const instance = SONOGLIDE_FIND(fmi3InstantiateCoSimulation)(
-      "tested", argv[3], argv[2], false, false, false, false, nullptr, 0, nullptr, note, nullptr);
+      "tested", utf8(argv[3]).c_str(), utf8(argv[2]).c_str(), false, false, false, false, nullptr,
+      0, nullptr, note, nullptr);
   if (SONOGLIDE_FIND(fmi3EnterInitializationMode)(instance, false, 0.0, 0.0, false, 0.0) !=
           fmi3OK ||
       SONOGLIDE_FIND(fmi3ExitInitializationMode)(instance) != fmi3OK) {
     return 1;
   }
-  const double step_s = std::strtod(argv[5], nullptr);
+  const double step_s = std::wcstod(argv[5], nullptr);
   double time_s = 0.0;
-  for (long k = std::strtol(argv[6], nullptr, 10); k > 0; --k) {
+  for (long k = std::wcstol(argv[6], nullptr, 10); k > 0; --k) {
     bool event = false;
     bool end = false;
     bool early = false;
@@ -57,7 +67,7 @@ int main(int argc, char** argv) {
     }
     time_s = last_s;
   }
-  const auto reference = static_cast<fmi3ValueReference>(std::strtoul(argv[4], nullptr, 10));
+  const auto reference = static_cast<fmi3ValueReference>(std::wcstoul(argv[4], nullptr, 10));
   fmi3String hash = nullptr;
   if (SONOGLIDE_FIND(fmi3GetString)(instance, &reference, 1, &hash, 1) != fmi3OK) {
     return 1;
