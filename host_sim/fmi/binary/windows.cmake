@@ -17,7 +17,8 @@ foreach(header fmt/format.h toml++/toml.h nlohmann/json.hpp)
 endforeach()
 get_target_property(eigen Eigen3::Eigen INTERFACE_INCLUDE_DIRECTORIES)
 
-# What CMake has made is compiled as it is, and each room's other files as one.
+# What CMake has made and the two versions of the interface are compiled one by one, the other files
+# of each room as one.
 set(units "${CMAKE_CURRENT_SOURCE_DIR}/libraries/fmt_here.cpp"
   "${CMAKE_CURRENT_SOURCE_DIR}/libraries/toml_here.cpp"
   "${PROJECT_SOURCE_DIR}/host_sim/process/printable.cpp")
@@ -25,16 +26,17 @@ set(rooms ${shared_rooms} fmi_binary)
 list(REMOVE_ITEM rooms process)  # the rest of which is of this system
 foreach(room IN LISTS rooms)
   get_target_property(sources sonoglide_${room} SOURCES)
-  set(united ${sources})
-  list(FILTER sources INCLUDE REGEX "^${PROJECT_BINARY_DIR}/")
-  list(FILTER united EXCLUDE REGEX "^${PROJECT_BINARY_DIR}/")
-  list(APPEND units ${sources})
-  if(room STREQUAL fmi_binary)
-    list(APPEND units ${united})
-  else()
-    list(TRANSFORM united REPLACE "(.+)" "#include \"\\1\"\n" OUTPUT_VARIABLE includes)
-    list(JOIN includes "" text)
-    file(CONFIGURE OUTPUT "${folder}/${room}.cpp" CONTENT "${text}" @ONLY)
+  set(united "")
+  foreach(source IN LISTS sources)
+    cmake_path(IS_PREFIX PROJECT_BINARY_DIR "${source}" made)
+    if(made OR room STREQUAL fmi_binary)
+      list(APPEND units "${source}")
+    else()
+      string(APPEND united "#include \"${source}\"\n")
+    endif()
+  endforeach()
+  if(united)
+    file(CONFIGURE OUTPUT "${folder}/${room}.cpp" CONTENT "${united}" @ONLY)
     list(APPEND units "${folder}/${room}.cpp")
   endif()
 endforeach()
