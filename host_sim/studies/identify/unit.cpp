@@ -108,7 +108,8 @@ std::optional<double> scale_before(std::string_view prefix, std::string_view uni
         symbol == "k" || symbol == "K" || symbol == "M" || symbol == "G" || symbol == "T";
     return is_known && prefix.size() == 1 ? scale_among(symbol, symbols) : std::nullopt;
   }
-  if (unit == "s" && lower(symbol) != symbol) {
+  const bool is_angle = dimension == Dimension::angle;  // Grad is no gigaradian.
+  if ((unit == "s" || is_angle) && (lower(symbol) != symbol || (is_angle && symbol == "k"))) {
     return std::nullopt;
   }
   if (unit == "S" && (symbol == "M" || symbol == "G" || symbol == "T" || symbol == "P")) {

@@ -242,6 +242,7 @@ class Reader {
     }
     if (unit_ && (unit_->dimension != unit.dimension || unit_->scale != unit.scale)) {
       refuse(as_it_stands);
+      has_two_units_ = true;
     }
     unit_ = unit;
     unit_text_ = as_it_stands;
@@ -286,8 +287,9 @@ class Reader {
     result_.scale = (unit_ ? unit_->scale : 1.0) * (negative_ ? -1.0 : 1.0);
     result_.has_unit = unit_.has_value();
     if (!result_.not_understood.empty()) {
-      // A name of which nothing is a sweep's but a unit is of something else.
-      if (!named && !is_letter_p_) {
+      // A name of which nothing is a sweep's but a unit is of something else, if not of an angle.
+      const bool may_be_phase = unit_ && unit_->dimension == Dimension::angle && !has_two_units_;
+      if (!named && !is_letter_p_ && !may_be_phase) {
         result_.not_understood.clear();
       }
       result_.role = Role::none;
@@ -326,6 +328,7 @@ class Reader {
   bool negative_ = false;
   bool bars_ = false;
   bool is_letter_p_ = false;
+  bool has_two_units_ = false;
   int words_ = 0;  ///< of the vocabulary
 };
 

@@ -99,14 +99,15 @@ class Columns {
                     fmt::join(table_.names(), ", "), what_is_read));
   }
 
-  /// Of columns that a person may think are read.
+  /// Of columns that a person may think are read; beside a magnitude alone, of all others.
   std::string warning_of_unread(const FoundColumns& read) const {
     std::vector<std::string> unread;
     for (const SweepColumn& each : columns_) {
       const auto has = [&](const SweepColumns& form) {
         return form.first.index == each.index || (form.second && form.second->index == each.index);
       };
-      const bool is_of_sweep = each.name.role != Role::none || !each.name.not_understood.empty();
+      const bool is_of_sweep = !read.forms.front().second || each.name.role != Role::none ||
+                               !each.name.not_understood.empty();
       if (is_of_sweep && each.index != read.frequency.index &&
           std::none_of(read.forms.begin(), read.forms.end(), has)) {
         unread.push_back(fmt::format("\"{}\"", table_.names()[each.index]));

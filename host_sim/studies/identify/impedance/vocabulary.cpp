@@ -20,11 +20,11 @@ constexpr Words vocabulary[] = {
     {{Role::magnitude, Subject::unknown},
      " abs mag magnitude modulus module mod betrag amplitude "},
     {{Role::phase, Subject::unknown},
-     " phase theta th phi phz arg argument angle ang fase phasenwinkel "},
+     " phase theta th phi phz arg argument angle ang fase winkel phasenwinkel "},
     {{Role::real, Subject::unknown}, " re real realteil "},
     {{Role::imaginary, Subject::unknown}, " im imag img imaginary "},
-    {{Role::real, Subject::impedance}, " r rs resistance "},
-    {{Role::imaginary, Subject::impedance}, " x xs reactance "},
+    {{Role::real, Subject::impedance}, " r rs resistance zr "},
+    {{Role::imaginary, Subject::impedance}, " x xs reactance zi "},
     {{Role::real, Subject::admittance}, " g gp conductance "},
     {{Role::imaginary, Subject::admittance}, " b bp susceptance "}};
 

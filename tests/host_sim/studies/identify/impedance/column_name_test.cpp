@@ -210,7 +210,7 @@ TEST(ColumnName, WhatIsNoUnitIsRefusedInEveryPlace) {
   for (const char* unit : {"MS", "GS", "Ohm", "kOhm", "A"}) {
     expect_refused("f\t", "conductance", unit, "\tB (S)");
   }
-  for (const char* unit : {"Hz", "Ohm", "ms", "\u00b0C", "gon", "rad/pi"}) {
+  for (const char* unit : {"Hz", "Ohm", "ms", "\u00b0C", "gon", "Grad", "krad", "rad/pi"}) {
     expect_refused("f\t|Z|\t", "phase", unit, "");
   }
 }

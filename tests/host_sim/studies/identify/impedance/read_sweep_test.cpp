@@ -300,6 +300,10 @@ TEST(ReadSweep, NoPhaseIsDropped) {
       "m.csv:1:7: heading: \"phase furlong\" is not understood: \"furlong\" is no unit of it an");
   EXPECT_NE(error_of(polar_lines("f;|Z|;phase (current to voltage) (deg)\n")).find("m.csv:1:7"),
             std::string::npos);
+  EXPECT_EQ(error_of(polar_lines("f;|Z|;Neigung (\u00b0)\n")).substr(0, 59),
+            "m.csv:1:7: heading: \"Neigung (\u00b0)\" is not understood: \"Neig");
+  EXPECT_EQ(read_sweep({"m.csv", polar_lines("f;|Z|;Neigung\n")}).warnings.at(0),
+            "Read is the magnitude of an impedance. Not read: \"Neigung\".");
   // It may be that of the return loss.
   const std::string ambiguous =
       file_of("f,Return loss (dB),Phase (deg),|Z|\n",
