@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -10,17 +9,10 @@
 #include "host_sim/scene_file/scene_error.hpp"
 #include "host_sim/scene_file/source.hpp"
 #include "host_sim/studies/identify/cell.hpp"
+#include "host_sim/studies/identify/table_search.hpp"
 #include "host_sim/studies/identify/text_file.hpp"
 
 namespace sonoglide::identify {
-
-/// The names of the columns.
-struct Heading {
-  std::vector<std::string> names;
-  std::vector<std::size_t> places;  ///< of the names in their line, from 1
-  std::size_t line = 1;
-  char separator = ',';
-};
 
 /// What stands in the last brackets of a name; empty where nothing does.
 std::string unit_in_brackets(const std::string& name);
@@ -28,18 +20,13 @@ std::string unit_in_brackets(const std::string& name);
 /// Columns of numbers under a heading. The separator is a tab, a semicolon, a comma or blanks,
 /// whichever the heading has first in this order. With any but a comma the numbers may have decimal
 /// commas, and then none has a decimal point. Lines that begin with `#`, `!` or `%` are comments; one
-/// of them may be the heading. A line of units below the heading is joined to it in brackets. The
-/// rows end at a line `END`, at a line that does not begin with a number, or at the end of the text.
+/// of them may be the heading.
 class MeasuredTable {
  public:
-  /// Whether names are those of the table that is wanted.
-  using IsWanted = std::function<bool(const std::vector<std::string>& names)>;
-
-  /// The heading is the line of words above rows of numbers that is wanted; of several the one with
-  /// as many names as its rows have cells, then the one with the most rows, then the last.
+  /// The table that find_table() finds.
   /// @param source  outlives the table
-  /// @throws scene_file::SceneError  no heading, no row, a row of more cells than the heading,
-  ///         decimal points beside decimal commas, or rows below the end of the table
+  /// @throws scene_file::SceneError  as find_table(); no row, a row of more cells than the heading, or
+  ///         decimal points beside decimal commas
   MeasuredTable(const scene_file::Source& source, const IsWanted& is_wanted);
 
   /// Of rows that were found otherwise.

@@ -4,7 +4,6 @@
 #include <cctype>
 #include <cmath>
 #include <utility>
-#include <vector>
 
 #include "host_sim/studies/identify/impedance/vocabulary.hpp"
 #include "host_sim/studies/identify/plain_text.hpp"
@@ -13,19 +12,7 @@
 namespace sonoglide::identify::impedance {
 namespace {
 
-/// S11, s_21.
-bool is_scattering(const std::string& plain) {
-  for (std::size_t i = 0; i + 1 < plain.size(); ++i) {
-    const bool begins = i == 0 || std::isalnum(static_cast<unsigned char>(plain[i - 1])) == 0;
-    if (begins && (plain[i] == 's' || plain[i] == 'S')) {
-      const std::size_t next = plain.find_first_not_of('_', i + 1);
-      if (next != std::string::npos && std::isdigit(static_cast<unsigned char>(plain[next])) != 0) {
-        return true;
-      }
-    }
-  }
-  return false;
-}
+constexpr std::string_view letters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ";
 
 /// Goes through a name from its beginning to its end and takes every part of it, or says which it
 /// does not understand.
@@ -62,10 +49,7 @@ class Reader {
     } else if (std::string_view(" _.:;)]}>").find(each) != std::string_view::npos) {
       ++at_;
     } else {
-      std::size_t end = at_ + 1;
-      while (end < text_.size() && text_[end] != ' ') {
-        ++end;
-      }
+      const std::size_t end = std::min(text_.find(' ', at_), text_.size());
       refuse(text_.substr(at_, end - at_));
       at_ = end;
     }
@@ -73,10 +57,8 @@ class Reader {
 
   /// Of letters and digits; behind it may stand the rest of a unit.
   void take_word() {
-    std::size_t end = at_ + 1;
-    while (end < text_.size() && std::isalnum(static_cast<unsigned char>(text_[end])) != 0) {
-      ++end;
-    }
+    const std::size_t end = std::min(
+        text_.find_first_not_of(std::string(letters) + "0123456789", at_ + 1), text_.size());
     const std::string word = text_.substr(at_, end - at_);
     at_ = end;
     if (!take(word) && !take_prefix(word) && !take_parts(word)) {
@@ -114,18 +96,12 @@ class Reader {
 
   /// `k Ohm`, `kilo-ohm`.
   bool take_prefix(const std::string& word) {
-    const std::size_t next = at_ + 1;
-    const bool joins =
-        at_ < text_.size() && (text_[at_] == ' ' || text_[at_] == '-' || text_[at_] == '_') &&
-        next < text_.size() && std::isalpha(static_cast<unsigned char>(text_[next])) != 0;
-    if (!scale_of_prefix(word) || !joins) {
+    if (!scale_of_prefix(word) || at_ >= text_.size() ||
+        std::string_view(" -_").find(text_[at_]) == std::string_view::npos) {
       return false;
     }
-    std::size_t end = next;
-    while (end < text_.size() && std::isalpha(static_cast<unsigned char>(text_[end])) != 0) {
-      ++end;
-    }
-    const auto unit = unit_of_word(word + text_.substr(next, end - next));
+    const std::size_t end = std::min(text_.find_first_not_of(letters, at_ + 1), text_.size());
+    const auto unit = unit_of_word(word + text_.substr(at_ + 1, end - at_ - 1));
     if (!unit || unit->dimension == Dimension::other) {
       return false;
     }
@@ -156,27 +132,20 @@ class Reader {
 
   /// A unit and nothing else, or words.
   void take_brackets() {
-    const std::size_t open = at_++;
-    const std::size_t close = std::min(text_.find_first_of(")]}>", open), text_.size());
-    std::string inside(trimmed(std::string_view(text_).substr(at_, close - at_)));
+    const std::size_t close = std::min(text_.find_first_of(")]}>", at_), text_.size());
+    std::string inside(trimmed(std::string_view(text_).substr(at_ + 1, close - at_ - 1)));
     const bool minus = inside.size() > 1 && inside.front() == '-';
-    if (minus) {
-      inside.erase(0, 1);
-    }
-    if (const auto unit = unit_of_text(inside)) {
-      const bool is_word = meaning_of(lower_case(inside)) && unit->dimension == Dimension::other;
-      if (!is_word || inside.size() > 1 ||
-          std::isupper(static_cast<unsigned char>(inside[0])) != 0) {
-        negative_ = negative_ != minus;
-        take_unit(*unit, inside);
-        at_ = std::min(close + 1, text_.size());
-        return;
-      }
-    }
-    const bool words = std::all_of(inside.begin(), inside.end(), [](unsigned char each) {
-      return std::isalpha(each) != 0 || each == ' ' || each == '|' || each == '\'';
-    });
-    if (!words && !minus) {
+    inside.erase(0, minus ? 1 : 0);
+    const auto unit = unit_of_text(inside);
+    const bool is_word = meaning_of(inside) && lower_case(inside) == inside;
+    const bool words = inside.find_first_not_of(std::string(letters) + " |'") == std::string::npos;
+    if (unit && (unit->dimension != Dimension::other || !is_word)) {
+      negative_ = negative_ != minus;
+      take_unit(*unit, inside);
+      at_ = std::min(close + 1, text_.size());
+    } else if (words || minus) {
+      ++at_;
+    } else {
       refuse(inside);
       at_ = std::min(close + 1, text_.size());
     }
@@ -184,27 +153,20 @@ class Reader {
 
   /// `Z / kOhm`, `Z, 10^3 Ohm`; words may stand there too.
   void take_behind_slash() {
-    const std::size_t from = at_ + 1;
-    const std::size_t end = std::min(text_.find_first_of("([{<", from), text_.size());
-    const std::string inside(trimmed(std::string_view(text_).substr(from, end - from)));
-    if (const auto unit = unit_of_text(inside)) {
-      take_unit(*unit, inside);
-      at_ = end;
+    const std::size_t end = std::min(text_.find_first_of("([{<", at_), text_.size());
+    const std::string inside(trimmed(std::string_view(text_).substr(at_ + 1, end - at_ - 1)));
+    const auto unit = unit_of_text(inside);
+    if (!unit && !inside.empty() && inside.find_first_of("/*^0123456789") == std::string::npos) {
+      ++at_;
       return;
     }
-    const bool again = text_.find_first_of("/*^0123456789", from) < end;
-    if (again || inside.empty()) {
-      refuse(inside.empty() ? text_.substr(at_, 1) : inside);
-      at_ = end;
-      return;
-    }
-    at_ = from;
+    unit ? take_unit(*unit, inside) : refuse(inside.empty() ? text_.substr(at_, 1) : inside);
+    at_ = end;
   }
 
   /// At the beginning, also behind a bracket, it turns the sign; between words it joins them.
   void take_minus() {
-    const bool leads = std::all_of(text_.begin(), text_.begin() + static_cast<std::ptrdiff_t>(at_),
-                                   [](char each) { return each == ' ' || each == '('; });
+    const bool leads = text_.find_first_not_of(" (") == at_;
     const char before = at_ > 0 ? text_[at_ - 1] : ' ';
     const char behind = at_ + 1 < text_.size() ? text_[at_ + 1] : ' ';
     if (leads) {
@@ -298,24 +260,23 @@ class Reader {
 
   void take_role_of_unit(bool named) {
     const Dimension dimension = unit_->dimension;
-    result_.is_bare_unit = !named;
-    const bool electrical = dimension == Dimension::impedance || dimension == Dimension::admittance;
     const Subject subject = dimension == Dimension::impedance    ? Subject::impedance
                             : dimension == Dimension::admittance ? Subject::admittance
                                                                  : Subject::unknown;
+    result_.is_bare_unit = !named;
     if (!named) {
-      result_.role = dimension == Dimension::frequency ? Role::frequency
-                     : dimension == Dimension::angle   ? Role::phase
-                                                       : Role::magnitude;
-      result_.may_be_phase = result_.role == Role::phase;
+      set_role(dimension == Dimension::frequency ? Role::frequency
+               : dimension == Dimension::angle   ? Role::phase
+                                                 : Role::magnitude,
+               unit_text_);
     }
     const bool right = result_.role == Role::frequency ? dimension == Dimension::frequency
                        : result_.role == Role::phase   ? dimension == Dimension::angle
-                                                       : electrical;
-    if (!right ||
-        (electrical && result_.subject != Subject::unknown && result_.subject != subject)) {
+                                                       : subject != Subject::unknown;
+    if (!right || (subject != Subject::unknown && result_.subject != Subject::unknown &&
+                   result_.subject != subject)) {
       refuse(unit_text_);
-    } else if (electrical) {
+    } else if (subject != Subject::unknown) {
       result_.subject = subject;
     }
   }
@@ -332,23 +293,6 @@ class Reader {
   int words_ = 0;  ///< of the vocabulary
 };
 
-/// The words of a name, in small letters.
-std::vector<std::string> words_of(const std::string& plain) {
-  std::vector<std::string> words;
-  bool inside = false;
-  for (const char each : plain) {
-    const bool letter = std::isalnum(static_cast<unsigned char>(each)) != 0;
-    if (letter && !inside) {
-      words.emplace_back();
-    }
-    if (letter) {
-      words.back() += static_cast<char>(std::tolower(static_cast<unsigned char>(each)));
-    }
-    inside = letter;
-  }
-  return words;
-}
-
 }  // namespace
 
 double ColumnName::value(double cell) const {
@@ -356,19 +300,8 @@ double ColumnName::value(double cell) const {
   return scale * (decibel ? std::pow(10.0, cell / decibels_a_decade) : cell);
 }
 
-bool is_of_ratio(std::string_view name) {
-  const std::string plain = plain_text(translated(name));
-  const std::vector<std::string> words = words_of(plain);
-  return is_scattering(plain) || std::any_of(words.begin(), words.end(), is_word_of_ratio);
-}
-
 ColumnName read_name(std::string_view name) {
-  const std::string plain = plain_text(translated(name));
-  const std::vector<std::string> words = words_of(plain);
-  if (is_of_ratio(name) || std::any_of(words.begin(), words.end(), is_equivalent_element)) {
-    return {};
-  }
-  return Reader(plain).result();
+  return is_of_other_quantity(name) ? ColumnName() : Reader(plain_text(translated(name))).result();
 }
 
 }  // namespace sonoglide::identify::impedance

@@ -31,7 +31,4 @@ struct ColumnName {
 /// voltage, a time, S11, a gain or a capacitance, are no names of a sweep.
 ColumnName read_name(std::string_view name);
 
-/// Whether a name is of a reflection, a transmission or a gain, whose phase may stand beside it.
-bool is_of_ratio(std::string_view name);
-
 }  // namespace sonoglide::identify::impedance

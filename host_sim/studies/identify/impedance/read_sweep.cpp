@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include "host_sim/studies/identify/impedance/read_touchstone.hpp"
 #include "host_sim/studies/identify/impedance/read_traces.hpp"
@@ -21,7 +22,7 @@ std::string counted_frequencies(std::size_t count) {
 }
 
 /// Of a second form that the table has, against the one that is read.
-void require_agreement(const MeasuredTable& table, SweepColumns other, const Sweep& sweep) {
+void require_agreement(const MeasuredTable& table, const SweepColumns& other, const Sweep& sweep) {
   std::vector<std::string> ignored;
   const std::vector<Complex> all_S = admittances_S({&table, &table}, other, ignored);
   std::vector<std::size_t> off;
@@ -47,7 +48,7 @@ void require_agreement(const MeasuredTable& table, SweepColumns other, const Swe
 
 Sweep read_table(const scene_file::Source& source) {
   const MeasuredTable table(source, are_names_of_a_sweep);
-  FoundColumns found = find_columns(table);
+  const FoundColumns found = find_columns(table);
   Sweep sweep;
   sweep.format = found.forms.front().description();
   sweep.has_phase = found.forms.front().second.has_value();
@@ -69,11 +70,14 @@ void sort_by_frequency(Sweep& sweep) {
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
     return sweep.frequency_Hz[a] < sweep.frequency_Hz[b];
   });
-  const Sweep given = sweep;
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    sweep.frequency_Hz[i] = given.frequency_Hz[order[i]];
-    sweep.admittance_S[i] = given.admittance_S[order[i]];
+  std::vector<double> frequency_Hz;
+  std::vector<Complex> admittance_S;
+  for (const std::size_t each : order) {
+    frequency_Hz.push_back(sweep.frequency_Hz[each]);
+    admittance_S.push_back(sweep.admittance_S[each]);
   }
+  sweep.frequency_Hz = std::move(frequency_Hz);
+  sweep.admittance_S = std::move(admittance_S);
 }
 
 /// One reading a frequency, the mean of those that a sorted sweep has there.

@@ -71,9 +71,8 @@ std::optional<Options> options_of(std::string_view line) {
   const std::vector<std::string> words = words_of(line.substr(mark + 1));
   for (std::size_t i = 0; i < words.size(); ++i) {
     const std::string word = lower_case(words[i]);
-    const auto unit = unit_of_word(
-        word == "hz" || word == "khz" || word == "mhz" || word == "ghz" ? word : std::string());
-    if (unit) {
+    const auto unit = unit_of_word(word);
+    if (unit && unit->dimension == Dimension::frequency) {
       options.frequency_scale = unit->scale;
     } else if (word.size() == 1 && std::string_view("syzgh").find(word) != std::string_view::npos) {
       options.parameter = word.front();
@@ -84,11 +83,6 @@ std::optional<Options> options_of(std::string_view line) {
     }
   }
   return options;
-}
-
-bool has_ending(std::string_view file, std::string_view ending) {
-  return file.size() > ending.size() &&
-         lower_case(file.substr(file.size() - ending.size())) == ending;
 }
 
 class TouchstoneReader {
@@ -275,7 +269,9 @@ class TouchstoneReader {
 }  // namespace
 
 bool is_touchstone(const scene_file::Source& source) {
-  if (has_ending(source.file, ".s1p")) {
+  constexpr std::string_view ending = ".s1p";
+  const std::string file = lower_case(source.file);
+  if (file.size() > ending.size() && file.substr(file.size() - ending.size()) == ending) {
     return true;
   }
   const std::string_view text = source.text;

@@ -167,7 +167,7 @@ class TraceReader {
       throw SceneError({source_.file, found_.traces[1].rows.back().number, 1}, "trace",
                        "trace B has other frequencies than trace A; allowed: the same");
     }
-    SweepColumns columns = complex ? complex_trace(sweep) : two ? pair(sweep) : alone(sweep);
+    const SweepColumns columns = complex ? complex_trace(sweep) : two ? pair(sweep) : alone(sweep);
     sweep.has_phase = columns.second.has_value();
     sweep.admittance_S = admittances_S({&a, &b}, columns, sweep.warnings);
     sweep.format = fmt::format("an analyser's export of {}", columns.description());

@@ -16,7 +16,7 @@ std::vector<double> frequencies_Hz(const MeasuredTable& table, const SweepColumn
 }
 
 std::vector<std::complex<double>> admittances_S(const std::array<const MeasuredTable*, 2>& tables,
-                                                SweepColumns& columns,
+                                                SweepColumns columns,
                                                 std::vector<std::string>& warnings) {
   const MeasuredTable& table = *tables[0];
   const std::vector<double> first = table.numbers(columns.first.index);

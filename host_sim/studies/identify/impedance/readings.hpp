@@ -18,7 +18,7 @@ std::vector<double> frequencies_Hz(const MeasuredTable& table, const SweepColumn
 /// @param tables  that of the first and that of the second column, of as many rows
 /// @throws scene_file::SceneError  a magnitude is not above 0, or an admittance 0 or without end
 std::vector<std::complex<double>> admittances_S(const std::array<const MeasuredTable*, 2>& tables,
-                                                SweepColumns& columns,
+                                                SweepColumns columns,
                                                 std::vector<std::string>& warnings);
 
 }  // namespace sonoglide::identify::impedance

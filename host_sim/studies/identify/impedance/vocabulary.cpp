@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cctype>
 #include <utility>
+#include <vector>
+
+#include "host_sim/studies/identify/plain_text.hpp"
 
 namespace sonoglide::identify::impedance {
 namespace {
@@ -72,6 +75,37 @@ const Meaning* find_word(std::string_view word) {
   return found == std::end(vocabulary) ? nullptr : &found->meaning;
 }
 
+/// S11, s_21.
+bool is_scattering(const std::string& plain) {
+  for (std::size_t i = 0; i + 1 < plain.size(); ++i) {
+    const bool begins = i == 0 || std::isalnum(static_cast<unsigned char>(plain[i - 1])) == 0;
+    if (begins && (plain[i] == 's' || plain[i] == 'S')) {
+      const std::size_t next = plain.find_first_not_of('_', i + 1);
+      if (next != std::string::npos && std::isdigit(static_cast<unsigned char>(plain[next])) != 0) {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
+/// The words of a name, in small letters.
+std::vector<std::string> words_of(const std::string& plain) {
+  std::vector<std::string> words;
+  bool inside = false;
+  for (const char each : plain) {
+    const bool letter = std::isalnum(static_cast<unsigned char>(each)) != 0;
+    if (letter && !inside) {
+      words.emplace_back();
+    }
+    if (letter) {
+      words.back() += static_cast<char>(std::tolower(static_cast<unsigned char>(each)));
+    }
+    inside = letter;
+  }
+  return words;
+}
+
 }  // namespace
 
 std::string lower_case(std::string_view text) {
@@ -105,12 +139,21 @@ bool is_filler(std::string_view word) {
   return is_among(word, fillers);
 }
 
-bool is_word_of_ratio(std::string_view word) {
-  return is_among(word, ratios);
-}
-
 bool is_equivalent_element(std::string_view word) {
   return is_among(word, elements);
+}
+
+bool is_of_ratio(std::string_view name) {
+  const std::string plain = plain_text(translated(name));
+  const std::vector<std::string> words = words_of(plain);
+  return is_scattering(plain) || std::any_of(words.begin(), words.end(), [](const auto& each) {
+           return is_among(each, ratios);
+         });
+}
+
+bool is_of_other_quantity(std::string_view name) {
+  const std::vector<std::string> words = words_of(plain_text(translated(name)));
+  return is_of_ratio(name) || std::any_of(words.begin(), words.end(), is_equivalent_element);
 }
 
 std::string translated(std::string_view text) {

@@ -22,12 +22,16 @@ std::optional<Meaning> meaning_of(std::string_view word);
 /// A word that says nothing, as `data` or `of`. In small letters, as all below.
 bool is_filler(std::string_view word);
 
-/// A word of a quantity that is neither: gain, loss, reflection …
-bool is_word_of_ratio(std::string_view word);
-
 /// Whether a word names an element of an equivalent circuit, or its quality, that an analyser shows
 /// instead of an impedance: cp, cs, lp, ls, rp, q, d.
 bool is_equivalent_element(std::string_view word);
+
+/// Whether a name is of a reflection, a transmission or a gain, whose phase may stand beside it: S11,
+/// return loss …
+bool is_of_ratio(std::string_view name);
+
+/// Whether a name is of such a ratio or of an element of an equivalent circuit.
+bool is_of_other_quantity(std::string_view name);
 
 std::string lower_case(std::string_view text);
 
