@@ -135,12 +135,8 @@ std::vector<LogInterval> intervals(const LawProblem& problem, const Eigen::Vecto
   for (Eigen::Index i = 0; i < problem.parameters(); ++i) {
     const double width = problem.range(i).most - problem.range(i).least;
     const double step = 2.0 * std::sqrt(covariance(i, i));
-    LogInterval ends = profile.of(
-        i, std::isfinite(step) ? std::clamp(step, 1e-6 * width, 0.1 * width) : 0.1 * width);
-    // The best for white scatter may be at an end of the mixture; an open end stays open.
-    ends.low = ends.low > best(i) ? best(i) : ends.low;
-    ends.high = ends.high < best(i) ? best(i) : ends.high;
-    all.push_back(ends);
+    all.push_back(profile.of(
+        i, std::isfinite(step) ? std::clamp(step, 1e-6 * width, 0.1 * width) : 0.1 * width));
   }
   return all;
 }

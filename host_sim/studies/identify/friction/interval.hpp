@@ -25,8 +25,8 @@ struct LogInterval {
 ///
 /// @param best           parameters, the best for white scatter
 /// @param probabilities  of the scatters
-/// @return one for each parameter, with the best value in it; open on both sides where there are no
-///         more readings than parameters, or fewer different ones
+/// @return one for each parameter; open on both sides where there are no more readings than
+///         parameters, or fewer different ones
 std::vector<LogInterval> intervals(const LawProblem& problem, const Eigen::VectorXd& best,
                                    const std::vector<Scatter>& scatters,
                                    const std::vector<double>& probabilities);

@@ -267,8 +267,14 @@ LawFit fit(const Readings& readings, const Candidate& law) {
 void add_intervals(const Readings& readings, LawFit& fit) {
   const LawProblem problem(readings, fit.law);
   const std::vector<Scatter> all = scatters(readings);
-  const std::vector<LogInterval> ends =
+  std::vector<LogInterval> ends =
       intervals(problem, fit.logs, all, probabilities_of(problem, fit, all));
+  for (std::size_t i = 0; i < ends.size(); ++i) {
+    // The value is the best for white scatter, which may lie beyond the mixture's interval.
+    const double log = fit.logs(static_cast<Eigen::Index>(i));
+    ends[i].low = ends[i].low > log ? log : ends[i].low;
+    ends[i].high = ends[i].high < log ? log : ends[i].high;
+  }
   fit.parameters = estimates(fit, readings, problem, ends);
   fit.open = open_ends(fit, problem, ends);
   if (const std::string effect = effect_of_scale(readings, fit);
