@@ -102,7 +102,8 @@ void MeasuredTable::require_one_decimal_mark() const {
 Cell MeasuredTable::cell(std::size_t row, std::size_t column) const {
   const std::vector<Cell> cells = cells_of(rows_[row].text, heading_.separator);
   if (column >= cells.size()) {
-    throw SceneError({source_.file, rows_[row].number, rows_[row].text.size() + 1}, names()[column],
+    throw SceneError({source_.file, rows_[row].number, rows_[row].text.size() + 1},
+                     shortened(names()[column]),
                      fmt::format("cells on this line: {}; allowed: one for each of the {} columns",
                                  cells.size(), names().size()));
   }
@@ -123,7 +124,7 @@ SceneError MeasuredTable::error(std::size_t row, std::size_t column,
                                 const std::string& message) const {
   const Cell at = cell(row, column);
   return {{source_.file, rows_[row].number, at.column},
-          names()[column],
+          shortened(names()[column]),
           fmt::format("\"{}\" {}", shortened(at.text), message)};
 }
 

@@ -43,6 +43,7 @@ constexpr std::array known = {
 
 /// A vibration is none, or at least this.
 constexpr double least_vibration_m_per_s = 1e-15;
+constexpr std::size_t longest_name = 100;
 /// Values that are all below are no measurement.
 constexpr double least_friction = 1e-12;
 
@@ -146,7 +147,7 @@ class Columns {
 
   /// A name may have its unit behind it, in brackets or on a line of units.
   void take(const std::string& title, std::size_t index) {
-    const std::string name = name_of(title);
+    const std::string name = name_of(title.size() > longest_name ? shortened(title) : title);
     const Known* each = find_known(name);
     if (each == nullptr) {
       throw unknown(name, index);

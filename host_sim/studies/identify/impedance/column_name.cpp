@@ -7,6 +7,7 @@
 
 #include "host_sim/studies/identify/impedance/vocabulary.hpp"
 #include "host_sim/studies/identify/plain_text.hpp"
+#include "host_sim/studies/identify/table_search.hpp"
 #include "host_sim/studies/identify/unit.hpp"
 
 namespace sonoglide::identify::impedance {
@@ -301,6 +302,12 @@ double ColumnName::value(double cell) const {
 }
 
 ColumnName read_name(std::string_view name) {
+  constexpr std::size_t longest = 200;
+  if (name.size() > longest) {
+    ColumnName unknown;
+    unknown.not_understood = shortened(name);
+    return unknown;
+  }
   return is_of_other_quantity(name) ? ColumnName() : Reader(plain_text(translated(name))).result();
 }
 

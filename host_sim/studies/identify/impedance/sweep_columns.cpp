@@ -20,6 +20,15 @@ const char* subject_in_words(Subject subject) {
   return subject == Subject::admittance ? "an admittance" : "an impedance";
 }
 
+std::string listed(const std::vector<std::string>& names) {
+  constexpr std::size_t most = 20;
+  std::string list;
+  for (std::size_t i = 0; i < std::min(names.size(), most); ++i) {
+    list += fmt::format("{}{}", i == 0 ? "" : ", ", shortened(names[i]));
+  }
+  return names.size() > most ? list + fmt::format(" and {} more", names.size() - most) : list;
+}
+
 /// The columns of a table by what their names say.
 class Columns {
  public:
@@ -36,7 +45,7 @@ class Columns {
       refuse_what_is_not_understood();
       throw table_.heading_error(
           fmt::format("no column is a frequency among {}; allowed: a name as frequency_Hz",
-                      fmt::join(table_.names(), ", ")));
+                      listed(table_.names())));
     }
     require_one(found);
     return found.front();
@@ -96,7 +105,7 @@ class Columns {
     }
     throw table_.heading_error(
         fmt::format("no columns of an impedance or admittance among {}; allowed: {}",
-                    fmt::join(table_.names(), ", "), what_is_read));
+                    listed(table_.names()), what_is_read));
   }
 
   /// Of columns that a person may think are read; beside a magnitude alone, of all others.
@@ -110,7 +119,7 @@ class Columns {
                                !each.name.not_understood.empty();
       if (is_of_sweep && each.index != read.frequency.index &&
           std::none_of(read.forms.begin(), read.forms.end(), has)) {
-        unread.push_back(fmt::format("\"{}\"", table_.names()[each.index]));
+        unread.push_back(fmt::format("\"{}\"", shortened(table_.names()[each.index])));
       }
     }
     return unread.empty() ? std::string()
@@ -119,8 +128,8 @@ class Columns {
   }
 
   scene_file::SceneError error(const SweepColumn& column, const std::string& message) const {
-    return table_.heading_error(column.index,
-                                fmt::format("\"{}\" {}", table_.names()[column.index], message));
+    return table_.heading_error(
+        column.index, fmt::format("\"{}\" {}", shortened(table_.names()[column.index]), message));
   }
 
  private:

@@ -384,6 +384,8 @@ TEST(ReadSweep, RefusesMoreCellsAndLinesThanATableHas) {
   EXPECT_NE(error_of(commas), "no error");
   EXPECT_NE(error_of("f,|Z|\n1,2\n3," + commas).find("row: cells on this line: more than 1000"),
             std::string::npos);
+  const std::string long_name(1U << 20U, 'x');
+  EXPECT_LT(error_of("f," + long_name + "\n1,2\n").size(), 1000U);
   std::string lines;
   for (int i = 0; i <= 1'000'000; ++i) {
     lines += "a\n";
