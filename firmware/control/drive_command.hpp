@@ -31,9 +31,10 @@ enum class Limit : std::uint8_t {
   frequency_range,   ///< the resonance seems to lie at an end of the frequency range, or beyond
   velocity_at_rail,  ///< sliding as fast as the largest vibration, or a velocity converter that
                      ///< stands at its end; the drive is held as below the speed floor
+  contact_lost,      ///< a normal vibration opens the contact; only a simulation sees it
 };
 
-inline constexpr std::size_t limit_count = 12;
+inline constexpr std::size_t limit_count = 13;
 
 /// How the measured ratio stands to its target.
 enum class Settling : std::uint8_t {

@@ -47,6 +47,8 @@ constexpr const char* name(Limit limit) {
       return "frequency_range";
     case Limit::velocity_at_rail:
       return "velocity_at_rail";
+    case Limit::contact_lost:
+      return "contact_lost";
     case Limit::none:
       break;
   }

@@ -6,12 +6,14 @@
 #include <cstddef>
 #include <vector>
 
+#include "firmware/friction/vibration.hpp"
 #include "firmware/plant/account.hpp"
 #include "firmware/plant/demodulator.hpp"
 #include "firmware/plant/outcome.hpp"
 #include "firmware/plant/solver.hpp"
 #include "firmware/plant/state.hpp"
 #include "host_sim/configure/plant_scales.hpp"
+#include "host_sim/loop/contact_load.hpp"
 #include "host_sim/loop/contact_memory.hpp"
 #include "host_sim/loop/plant_port.hpp"
 
@@ -38,6 +40,11 @@ class StepReader {
     demodulator_ = &demodulator;
     reads_ = true;
   }
+  /// @param load  outlives the reader
+  void weigh(ContactLoad& load) {
+    load_ = &load;
+    reads_ = true;
+  }
 
   template <class Step>
   void operator()(const Step& step) {
@@ -52,6 +59,9 @@ class StepReader {
     if (demodulator_ != nullptr) {
       (*demodulator_)(step);
     }
+    if (load_ != nullptr) {
+      (*load_)(step);
+    }
     const double end = step.begin() + step.length();
     for (; next_ != end_; ++next_) {
       const double offset = *next_ * angular_frequency_rad_per_s_;
@@ -64,6 +74,7 @@ class StepReader {
 
   bool reads_ = false;
   plant::Demodulator<double>* demodulator_ = nullptr;
+  ContactLoad* load_ = nullptr;
   const double* next_ = nullptr;
   const double* end_ = nullptr;
   double angular_frequency_rad_per_s_ = 0.0;
@@ -150,6 +161,16 @@ class ComposedPlant final : public PlantPort {
   }
 
  private:
+  static constexpr bool is_normal = Model::FrictionLaw::vibration == friction::Vibration::normal;
+
+  double normal_stiffness() const {
+    if constexpr (is_normal) {
+      return model_.law.normal_stiffness;
+    } else {
+      return 0.0;
+    }
+  }
+
   plant::Outcome<double> advance(const Stretch& stretch, StepReader& reader,
                                  EnergyBalance& energy) {
     const double omega = scales_.angular_frequency_rad_per_s;
@@ -165,8 +186,14 @@ class ComposedPlant final : public PlantPort {
     if (stretch.demodulated) {
       reader.demodulate(demodulator);
     }
+    ContactLoad load(normal_stiffness());
+    if constexpr (is_normal) {
+      reader.weigh(load);
+    }
     plant::Outcome<double> outcome = solver_.advance(interval, state_, account, reader);
     energy = balance(stretch, account, before);
+    energy.load_s = load.load() / omega;
+    energy.open_s = load.open() / omega;
     if (stretch.demodulated) {
       energy.velocity_in_phase_m = demodulator.in_phase() * scales_.length_m;
       energy.velocity_quadrature_m = demodulator.quadrature() * scales_.length_m;

@@ -48,6 +48,9 @@ void EnergyBalance::append(const EnergyBalance& next) {
   velocity_square_m2_per_s += next.velocity_square_m2_per_s;
   velocity_in_phase_m += next.velocity_in_phase_m;
   velocity_quadrature_m += next.velocity_quadrature_m;
+  load_s += next.load_s;
+  normal_impulse_N_s += next.normal_impulse_N_s;
+  open_s += next.open_s;
 }
 
 std::complex<double> EnergyBalance::vibration_m_per_s() const {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host_sim/configure/plant_scales.hpp"
 #include "host_sim/loop/failure.hpp"
 
 namespace sonoglide::loop {
@@ -71,7 +72,7 @@ bool PlantRun::in_window(double begin_s) const {
 }
 
 void PlantRun::note_peaks(double end_s, double amplitude_N, const EnergyBalance& period) {
-  if (!scene_.transducer || !(end_s > scene_.run.window_start_s + clock_.rounding_s(end_s))) {
+  if (!scene_.transducer) {
     return;
   }
   ElectricalBalance peaks;
@@ -79,8 +80,11 @@ void PlantRun::note_peaks(double end_s, double amplitude_N, const EnergyBalance&
   if (clock_.is_whole()) {
     peaks.current_peak_A = std::abs(current_A(*scene_.transducer, amplitude_N,
                                               clock_.frequency_Hz(), period.vibration_m_per_s()));
+    result_.current_peak_A = std::max(result_.current_peak_A, peaks.current_peak_A);
   }
-  result_.electrical->append(peaks);
+  if (end_s > scene_.run.window_start_s + clock_.rounding_s(end_s)) {
+    result_.electrical->append(peaks);
+  }
 }
 
 /// One piece of the waveform, which ends until_s after its period began, at end_s.
@@ -136,6 +140,9 @@ EnergyBalance PlantRun::stretch(double begin_s, double duration_s, double drive_
     fail(outcome.error, begin_s + outcome.offset);
   }
   undriven_.complete(stretch, energy);
+  energy.normal_impulse_N_s =
+      energy.load_s *
+      configure::contact_at(scene_.friction, begin_s + 0.5 * duration_s).normal_force_N;
   sliding_velocity_m_per_s_ = last;
   if (in_window(begin_s)) {
     result_.window.append(energy);

@@ -77,7 +77,7 @@ class Simulation {
     if (!watch_.periods.empty()) {
       show({begin_s, end_s, friction_ratio(energy), begin_velocity_m_per_s, end_velocity_m_per_s,
             amplitude_N, clock_.frequency_Hz(), clock_.is_whole(), vibration_m_per_s(energy),
-            natural_Hz(0.5 * (begin_s + end_s))});
+            energy.open_s / energy.duration_s, natural_Hz(0.5 * (begin_s + end_s))});
     }
     if (control_ && clock_.is_whole()) {
       control_->step(end_s, energy.friction_impulse_N_s / energy.duration_s, end_velocity_m_per_s,

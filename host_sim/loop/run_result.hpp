@@ -70,7 +70,10 @@ struct RunResult {
   EnergyBalance whole;
   EnergyBalance window;
   std::optional<ElectricalBalance> electrical;  ///< of the window; where there is a transducer
-  std::optional<SteadyOrbit> steady_orbit;      ///< where the run began on it
+  /// Largest amplitude of the current's fundamental in a whole carrier period of the run; 0 without
+  /// a transducer.
+  double current_peak_A = 0.0;
+  std::optional<SteadyOrbit> steady_orbit;  ///< where the run began on it
   std::optional<ControlRecord> control;
   std::optional<ImageRecord> image;  ///< whoever made the image fills it in
 };

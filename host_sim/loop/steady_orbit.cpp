@@ -10,6 +10,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "firmware/numeric/turn.hpp"
@@ -49,31 +50,72 @@ std::vector<Stretch> period_of(const scene::Scene& scene) {
   return {whole, second};
 }
 
+/// The force of a contact that vibrates normally as a number in [-1, 1]. Its part of the limit, which
+/// is what the plant takes, says nothing where the contact is about to open at drive phase 0.
+class NormalForce {
+ public:
+  explicit NormalForce(const scene::Scene& scene)
+      : limit_N_(scene.friction.limit_N()),
+        law_(std::get_if<scene::laws::NormalCoulomb>(&scene.friction.law)) {
+    if (law_ != nullptr) {
+      indentation_m_ = scene.friction.normal_force_N / law_->normal_contact_stiffness_N_per_m;
+    }
+  }
+
+  bool is_it() const { return law_ != nullptr && limit_N_ > 0.0; }
+  double number(double force_N) const { return force_N / (limit_N_ + std::abs(force_N)); }
+  double part_of_limit(double number, double displacement_m) const {
+    const double over_resting = number / (1.0 - std::abs(number));
+    const double limit = 1.0 + displacement_m / indentation_m_;
+    return limit > 0.0 ? std::clamp(over_resting / limit, -1.0, 1.0) : 0.0;
+  }
+
+ private:
+  double limit_N_;
+  const scene::laws::NormalCoulomb* law_;
+  double indentation_m_ = 1.0;
+};
+
 /// The plant over one carrier period after another, from any state at drive phase 0.
 class PeriodMap {
  public:
-  explicit PeriodMap(const scene::Scene& scene)
-      : plant_(make_plant_port(scene)),
+  PeriodMap(const scene::Scene& scene, std::uint64_t most_steps)
+      : most_steps_(most_steps),
+        plant_(make_plant_port(scene)),
         rate_rad_per_s_(numeric::two_pi * scene.drive->frequency_Hz),
         length_m_(std::max(configure::plant_scales(scene).length_m,
                            sliding_m_per_s(scene) / rate_rad_per_s_)),
-        period_(period_of(scene)) {}
+        period_(period_of(scene)),
+        normal_force_(scene) {}
 
-  /// Nothing where the solver fails.
+  /// Nothing where the solver fails, and when it has taken all its steps.
   std::optional<Vector> operator()(const Vector& from) {
+    if (plant_->cost().steps > most_steps_) {
+      return std::nullopt;
+    }
     plant_->begin_at(motion(from), memory(from));
     ++periods_;
+    energy_ = EnergyBalance();
     for (const Stretch& stretch : period_) {
-      EnergyBalance energy;
-      if (plant_->advance(stretch, energy).error != plant::Error::none) {
+      EnergyBalance part;
+      if (plant_->advance(stretch, part).error != plant::Error::none) {
         return std::nullopt;
       }
+      energy_.append(part);
     }
     return state();
   }
 
+  /// Of the last call.
+  const EnergyBalance& energy() const { return energy_; }
+
   /// Where the last call has led.
-  Vector state() const { return scaled(plant_->state(), plant_->memory()); }
+  Vector state() const {
+    const PlantState state = plant_->state();
+    return scaled(state, normal_force_.is_it()
+                             ? std::vector<double>{normal_force_.number(state.friction_force_N)}
+                             : plant_->memory());
+  }
   PlantState plant_state() const { return plant_->state(); }
   std::vector<double> plant_memory() const { return plant_->memory(); }
   std::uint64_t periods() const { return periods_; }
@@ -97,15 +139,22 @@ class PeriodMap {
   PlantState motion(const Vector& vector) const {
     return {vector[0] * length_m_, vector[1] * length_m_ * rate_rad_per_s_, 0.0};
   }
-  static std::vector<double> memory(const Vector& vector) {
+  std::vector<double> memory(const Vector& vector) const {
+    if (normal_force_.is_it()) {
+      return {
+          normal_force_.part_of_limit(vector[motion_components], motion(vector).displacement_m)};
+    }
     return {vector.begin() + motion_components, vector.end()};
   }
 
+  std::uint64_t most_steps_;
   std::unique_ptr<PlantPort> plant_;
   double rate_rad_per_s_;
   double length_m_;  ///< of the vibration, or of one that reverses the contact where that is larger
   std::vector<Stretch> period_;
+  NormalForce normal_force_;
   std::uint64_t periods_ = 0;
+  EnergyBalance energy_;
 };
 
 /// The nearest state that the contact can be in.
@@ -246,28 +295,34 @@ std::optional<Vector> closed_orbit(PeriodMap& map, Shooting& shooting, const sce
 
 }  // namespace
 
-SteadyOrbit find_steady_orbit(const scene::Scene& scene) {
-  PeriodMap map(scene);
+SteadyOrbit find_orbit(const scene::Scene& scene, std::uint64_t most_steps) {
+  PeriodMap map(scene, most_steps);
   Shooting shooting(map,
                     configure::is_adaptive(scene.solver.method) ? scene.solver.tolerance : 0.0);
   const auto orbit = closed_orbit(map, shooting, scene);
   if (!orbit) {
-    fail(fmt::format("none of the drive's period found in {} carrier periods; the drive may put in "
-                     "more than friction and damping take out",
-                     map.periods()),
+    fail(fmt::format("none of the drive's period found in {} carrier periods; {}", map.periods(),
+                     scene.plant.stiffness_N_per_m > 0.0
+                         ? "the drive may put in more than friction and damping take out"
+                         : "no spring holds the mass in its place"),
          map.plant_state());
   }
   const auto slope = derivative(map, *orbit, shooting.difference());
   if (!slope || !map(*orbit)) {
     fail("found, but the solver fails beside it", map.plant_state());
   }
-  const double multiplier = slope->eigenvalues().cwiseAbs().maxCoeff();
-  if (multiplier > 1.0 + largest_rounding) {
+  return {map.plant_state(), map.plant_memory(), slope->eigenvalues().cwiseAbs().maxCoeff(),
+          map.periods(), map.energy()};
+}
+
+SteadyOrbit find_steady_orbit(const scene::Scene& scene, std::uint64_t most_steps) {
+  SteadyOrbit orbit = find_orbit(scene, most_steps);
+  if (orbit.repels()) {
     fail(fmt::format("it repels, a deviation grows by a factor of {:.9g} in each carrier period",
-                     multiplier),
-         map.plant_state());
+                     orbit.multiplier),
+         orbit.state);
   }
-  return {map.plant_state(), map.plant_memory(), multiplier, map.periods()};
+  return orbit;
 }
 
 }  // namespace sonoglide::loop

@@ -27,6 +27,8 @@ struct Period {
   /// z [m/s]: the vibration velocity is Re(z e^jθ), θ the phase of the drive; NaN where
   /// nobody asks for it, and of a period that is cut short.
   std::complex<double> vibration_m_per_s = undefined;
+  /// Part of it in which a contact that vibrates normally is open.
+  double open_fraction = 0.0;
   double natural_Hz = 0.0;  ///< of the plant without its damping, in the middle of the period
   /// Velocity that the controller means to hold; NaN where it holds none.
   double wanted_vibration_m_per_s = undefined;

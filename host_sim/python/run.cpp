@@ -113,7 +113,7 @@ py::object trace_hash_of(const Run& run) {
 
 void add_run(py::module_& module) {
   module.attr("states") = words_to(control::State::relearning);
-  module.attr("limits") = words_to(control::Limit::frequency_range);
+  module.attr("limits") = words_to(control::Limit::contact_lost);
   module.attr("settlings") = words_to(control::Settling::clamped);
   py::class_<Run>(module, "Run", "What a simulated scene comes to.")
       .def_property_readonly(

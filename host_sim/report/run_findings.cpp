@@ -23,6 +23,9 @@ void Course::take(const loop::Period& period) {
   curve_.add(period.begin_s, {period.friction_ratio, period.target, period.drive_amplitude_N,
                               period.begin_velocity_m_per_s});
   ++periods_in_[static_cast<std::size_t>(period.limit)];
+  if (period.open_fraction > 0.0) {
+    ++periods_in_[static_cast<std::size_t>(control::Limit::contact_lost)];
+  }
 }
 
 void VibrationCourse::take(const loop::Period& period) {

@@ -27,7 +27,7 @@ class Course final : public loop::PeriodSink {
   void take(const loop::Period& period) override;
 
   const Curve& curve() const { return curve_; }
-  /// Carrier periods that a limit was in force in.
+  /// Carrier periods that a limit was in force in; of contact_lost those in which the contact opens.
   std::uint64_t periods_in(control::Limit limit) const {
     return periods_in_[static_cast<std::size_t>(limit)];
   }

@@ -14,6 +14,7 @@
 #include "host_sim/configure/plant_scales.hpp"
 #include "host_sim/configure/solver_facts.hpp"
 #include "host_sim/report/hysteresis.hpp"
+#include "host_sim/report/run_notes.hpp"
 #include "host_sim/report/spectrum.hpp"
 #include "host_sim/report/words.hpp"
 #include "host_sim/scene/names.hpp"
@@ -75,19 +76,6 @@ void append_drive_limit(const scene::Scene& scene, const loop::ControlRecord& co
                   most, current_A ? fmt::format(" or {:.6g} A", *current_A) : "", part));
 }
 
-/// The controller foresees the current from what it believes and from a noisy vibration.
-void append_current_excess(const scene::Scene& scene, const loop::RunResult& result,
-                           std::vector<std::string>& warnings) {
-  const auto& limit_A = scene.drive->max_current_amplitude_A;
-  constexpr double told_from = 1.001;
-  if (limit_A && result.electrical->current_peak_A > told_from * *limit_A) {
-    warnings.push_back(fmt::format(
-        "The current reached {:.4g} A, above its limit of {:.6g} A: the controller does "
-        "not measure it, it foresees it.",
-        result.electrical->current_peak_A, *limit_A));
-  }
-}
-
 std::vector<std::string> warnings(const scene::Scene& scene, const loop::RunResult& result,
                                   const RunFindings& findings) {
   std::vector<std::string> all;
@@ -95,6 +83,9 @@ std::vector<std::string> warnings(const scene::Scene& scene, const loop::RunResu
     all.emplace_back(
         "Sign convention as printed in the paper (V = Vt - x'): friction pumps energy into the "
         "vibration. The dissipative convention is V = Vt + x'.");
+  }
+  for (std::string& note : run_notes(scene, result)) {
+    all.push_back(std::move(note));
   }
   if (!result.control) {
     return all;
@@ -117,7 +108,6 @@ std::vector<std::string> warnings(const scene::Scene& scene, const loop::RunResu
                               event.time_s * 1e3, fault_name(event.fault)));
   }
   append_drive_limit(scene, *result.control, all);
-  append_current_excess(scene, result, all);
   if (!scene.sensor.force) {
     all.emplace_back(
         "There is no force sensor: the friction ratio rests on the friction that the controller "
@@ -215,6 +205,11 @@ output::Table run_table(const scene::Scene& scene, const loop::RunResult& result
     row("Drive input ratio, window", fmt::format("{:.6f}", window.drive_input_ratio));
     row("Change of stored energy, window", fmt::format("{:.6f}", window.stored_change_ratio));
     row("Damping, window", fmt::format("{:.6f}", window.damping_ratio));
+  }
+  if (scene::is<scene::laws::NormalCoulomb>(scene.friction.law)) {
+    const ContactLoadFigures load = contact_load(result.window);
+    row("Part of the time without contact, window", fmt::format("{:.6f}", load.open_fraction));
+    row("Mean normal force, window [N]", fmt::format("{:.6g}", load.mean_normal_force_N));
   }
   row("Residual of the energy balance, window", fmt::format("{:.2g}", window.balance_residual));
   if (std::isfinite(window.dissipation_as_printed)) {

@@ -7,6 +7,7 @@
 #include "host_sim/configure/plant_scales.hpp"
 #include "host_sim/configure/solver_facts.hpp"
 #include "host_sim/process/printable.hpp"
+#include "host_sim/report/run_notes.hpp"
 #include "host_sim/report/step_metrics.hpp"
 #include "host_sim/report/words.hpp"
 #include "host_sim/scene/names.hpp"
@@ -116,6 +117,21 @@ ordered_json signal(const numeric::SignalRecord& record) {
           {"saturations", record.saturations}};
 }
 
+std::vector<std::string> notes(const scene::Scene& scene, const loop::RunResult& result) {
+  std::vector<std::string> all = configure::design_notes(result.control->design);
+  for (std::string& note : run_notes(scene, result)) {
+    all.push_back(std::move(note));
+  }
+  return all;
+}
+
+ordered_json contact(const scene::Scene& scene, const loop::RunResult& result) {
+  const ContactLoadFigures load = contact_load(result.window);
+  return {{"open_fraction", load.open_fraction},
+          {"mean_normal_force_N", load.mean_normal_force_N},
+          {"notes", run_notes(scene, result)}};
+}
+
 ordered_json control(const scene::Scene& scene, const loop::RunResult& result,
                      const RunFindings& findings) {
   const loop::ControlRecord& record = *result.control;
@@ -145,7 +161,7 @@ ordered_json control(const scene::Scene& scene, const loop::RunResult& result,
       {"speed_floor_m_per_s", design.speed_floor * design.scales.velocity_m_per_s},
       {"integral_gain", design.senses_force ? design.integral_gain : 0.0},
       {"signals", signals},
-      {"notes", configure::design_notes(design)}};
+      {"notes", notes(scene, result)}};
   if (design.observes_vibration()) {
     json["vibration_full_scale_m_per_s"] = design.scales.velocity_m_per_s;
   }
@@ -208,6 +224,9 @@ ordered_json summary(const scene::Scene& scene, const loop::RunResult& result,
       {"whole_run", number(loop::power_ratios(scene, result.whole).friction_ratio)},
       {"window", number(window.friction_ratio)}};
   json["power"] = power(window);
+  if (scene::is<scene::laws::NormalCoulomb>(scene.friction.law)) {
+    json["contact"] = contact(scene, result);
+  }
   if (result.electrical) {
     json["electrical"] = electrical(loop::electrical_figures(*result.electrical));
   }
@@ -321,6 +340,14 @@ std::string electrical_line(const loop::RunResult& result) {
                      figures.apparent_power_VA, figure("{:.3g}", figures.power_factor));
 }
 
+std::string note_lines(const scene::Scene& scene, const loop::RunResult& result) {
+  std::string lines;
+  for (const std::string& note : run_notes(scene, result)) {
+    lines += fmt::format("WARNING: {}\n", note);
+  }
+  return lines;
+}
+
 std::string ratio_line(const scene::Scene& scene, const loop::RunResult& result) {
   if (configure::largest_friction_limit_N(scene.friction) == 0.0) {
     return "no friction, so no friction ratio\n";
@@ -337,7 +364,7 @@ std::string run_text(const scene::Scene& scene, const loop::RunResult& result,
                      const RunFindings& findings, const std::filesystem::path& out) {
   const std::string lines =
       (scene.controller ? step_lines(scene, result, findings) : ratio_line(scene, result)) +
-      electrical_line(result);
+      electrical_line(result) + note_lines(scene, result);
   return fmt::format("{}{}{:.6g} ms simulated in {:.3g} ms, {:.3g} times real time\nreport: {}\n",
                      lines, result.image ? image_lines(*result.image) : "",
                      result.final_time_s * 1e3, result.wall_s * 1e3,

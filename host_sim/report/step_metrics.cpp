@@ -7,6 +7,8 @@
 
 #include "firmware/control/drive_command.hpp"
 #include "host_sim/configure/control_design.hpp"
+#include "host_sim/loop/electrical.hpp"
+#include "host_sim/report/run_notes.hpp"
 #include "host_sim/scene/friction_laws.hpp"
 
 namespace sonoglide::report {
@@ -37,7 +39,9 @@ StepMeter::StepMeter(const scene::Scene& scene)
       senses_force_(scene.sensor.force),
       has_map_(scene::has_own_map(scene.friction.law)),
       observes_vibration_(scene.observes_vibration()),
-      resonant_(scene.resonant()) {
+      resonant_(scene.resonant()),
+      transducer_(scene.transducer),
+      largest_current_A_(scene.drive->max_current_amplitude_A) {
   for (const TargetSpan& span : cursor_.spans()) {
     Tally tally;
     tally.settled_s = span.begin_s;
@@ -105,6 +109,11 @@ void StepMeter::take_any(const loop::Period& period, const TargetSpan& span, Tal
         velocity_band * wanted_m_per_s)) {
     tally.velocity_settled_s = period.end_s;
   }
+  if (largest_current_A_ && period.whole) {
+    tally.current_A = std::max(
+        tally.current_A, std::abs(loop::current_A(*transducer_, period.drive_amplitude_N,
+                                                  period.frequency_Hz, period.vibration_m_per_s)));
+  }
   tally.last_end_s = period.end_s;
   ++tally.periods;
 }
@@ -116,6 +125,7 @@ void StepMeter::take_steady(const loop::Period& period, Tally& tally) {
   tally.highest = std::max(tally.highest, period.friction_ratio);
   ++tally.limit_count[static_cast<std::size_t>(period.limit)];
   tally.fault = tally.fault || period.state == control::State::fault;
+  tally.open = tally.open || period.open_fraction > 0.0;
   if (period.settling == control::Settling::settled) {
     ++tally.settled_periods;
     tally.mismatch_sum += period.commanded_ratio / period.target;
@@ -166,6 +176,7 @@ StepMetrics StepMeter::metrics(const TargetSpan& span, const Tally& tally) const
   if (!settled && metrics.limit == control::Limit::none && !tally.fault) {
     name_unseen_limit(span, tally, metrics);
   }
+  name_passed_bound(tally, metrics);
   if (observes_vibration_) {
     metrics.vibration = vibration_metrics(span, tally);
   }
@@ -186,6 +197,18 @@ void StepMeter::name_unseen_limit(const TargetSpan& span, const Tally& tally,
   if (!mismatch) {
     metrics.cause = true_cause(span, tally, off);
   }
+}
+
+void StepMeter::name_passed_bound(const Tally& tally, StepMetrics& metrics) const {
+  const bool above =
+      largest_current_A_ && tally.current_A > told_current_excess * *largest_current_A_;
+  if (!tally.open && !(above && metrics.limit == control::Limit::none)) {
+    return;
+  }
+  metrics.limit = tally.open ? control::Limit::contact_lost : control::Limit::current;
+  metrics.cause = control::Settling::pending;
+  metrics.limit_seen_by_controller = false;
+  metrics.controller_undecided = false;
 }
 
 control::Settling StepMeter::true_cause(const TargetSpan& span, const Tally& tally,

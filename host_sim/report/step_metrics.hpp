@@ -47,7 +47,9 @@ struct StepMetrics {
   double drive_amplitude_N = 0.0;  ///< mean
   /// The most frequent one of the steady part. Where the controller names none though the ratio
   /// never settles, and no fault has switched the drive off, the simulation names what only it can
-  /// see: mismatch where the controller takes its reading for settled, else not_settling.
+  /// see: mismatch where the controller takes its reading for settled, else not_settling. It also
+  /// names contact_lost, before any other, where a contact that vibrates normally opens in the steady
+  /// part, and current where nothing else is named and the true current passes its limit in the step.
   control::Limit limit = control::Limit::none;
   bool limit_seen_by_controller = true;
   /// Of a limit that the simulation names: the controller senses the force and has not yet found out
@@ -103,6 +105,8 @@ class StepMeter final : public loop::PeriodSink {
     double mismatch_sum = 0.0;
     control::Settling cause = control::Settling::pending;
     bool fault = false;
+    bool open = false;                ///< the contact, at times
+    double current_A = 0.0;           ///< largest amplitude of any period, as far as a limit is set
     double velocity_settled_s = 0.0;  ///< end of the last period outside 2 % of the wanted velocity
     bool velocity_wanted = false;
     double velocity_sum_m_per_s = 0.0;
@@ -117,6 +121,7 @@ class StepMeter final : public loop::PeriodSink {
   bool holds_blindly(const TargetSpan& span, const Tally& tally) const;
   StepMetrics metrics(const TargetSpan& span, const Tally& tally) const;
   void name_unseen_limit(const TargetSpan& span, const Tally& tally, StepMetrics& metrics) const;
+  void name_passed_bound(const Tally& tally, StepMetrics& metrics) const;
   control::Settling true_cause(const TargetSpan& span, const Tally& tally, bool off) const;
   static VibrationMetrics vibration_metrics(const TargetSpan& span, const Tally& tally);
   static ResonanceMetrics resonance_metrics(const Tally& tally);
@@ -128,6 +133,8 @@ class StepMeter final : public loop::PeriodSink {
   bool has_map_;
   bool observes_vibration_;
   bool resonant_;
+  std::optional<scene::Transducer> transducer_;
+  std::optional<double> largest_current_A_;
   std::vector<Tally> tallies_;
   bool pausing_ = false;
   std::uint64_t pauses_ = 0;

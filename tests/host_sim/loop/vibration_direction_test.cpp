@@ -8,6 +8,7 @@
 #include "firmware/friction/transverse_vibration_ratio.hpp"
 #include "host_sim/configure/solver_methods.hpp"
 #include "host_sim/loop/run.hpp"
+#include "tests/common/constants/pi.hpp"
 #include "tests/common/constants/table_1_numbers.hpp"
 #include "tests/common/table_1.hpp"
 #include "tests/host_sim/loop/logs/logged_run.hpp"
@@ -137,6 +138,43 @@ TEST(NormalSceneTest, SteadyOrbitIsTheClosedForms) {
     EXPECT_NEAR(window_ratios(scene).friction_ratio, friction::normal_vibration_ratio(0.9, 0.5),
                 1e-4);
   }
+}
+
+/// With alpha the amplitude over that which opens the contact: open for acos(1/alpha)/pi of the time,
+/// mean normal force N0 (acos(-1/alpha) + sqrt(alpha^2 - 1))/pi.
+TEST(NormalSceneTest, SaysHowLongTheContactIsOpenAndHowItIsLoaded) {
+  constexpr double pi = tests::pi;
+  for (const double alpha : {0.3, 0.999, 1.001, 1.5, 20.0}) {
+    const scene::Scene scene = normal(on_steady_orbit(table_1()), alpha);
+    const EnergyBalance window = run_logged(scene).result.window;
+    const bool opens = alpha > 1.0;
+    EXPECT_NEAR(window.open_s / window.duration_s, opens ? std::acos(1.0 / alpha) / pi : 0.0, 1e-9);
+    const double load =
+        opens ? (std::acos(-1.0 / alpha) + std::sqrt(alpha * alpha - 1.0)) / pi : 1.0;
+    EXPECT_NEAR(window.normal_impulse_N_s / window.duration_s, load * scene.friction.normal_force_N,
+                1e-9 * load);
+  }
+}
+
+/// The contact just touches the surface at drive phase 0, or hardly opens there.
+TEST(NormalSceneTest, SteadyOrbitOfAContactThatIsAboutToOpen) {
+  for (const double amplitude : {1.0 - 1e-5, 1.0 - 1e-9, 1.0, 1.0 + 1e-9, 1.0 + 1e-5}) {
+    scene::Scene scene = normal(table_1(), amplitude);
+    scene.run.start = scene::Start::steady;
+    scene.run.duration_s = 2.0 * period_s;
+    scene.run.window_start_s = 0.0;
+    EXPECT_NEAR(window_ratios(scene).friction_ratio, friction::normal_vibration_ratio(1.0, 0.5),
+                1e-4);
+  }
+}
+
+TEST(NormalSceneTest, FollowsAProfileOfTheNormalForce) {
+  scene::Scene scene = normal(on_steady_orbit(table_1()), 0.3);
+  scene.run.start = scene::Start::given;
+  scene.friction.normal_force_profile_N = {{0.0, 0.2}, {scene.run.duration_s, 0.4}};
+  scene.run.window_start_s = 0.0;
+  const EnergyBalance whole = run_logged(scene).result.whole;
+  EXPECT_NEAR(whole.normal_impulse_N_s / whole.duration_s, 0.3, 3e-3);
 }
 
 TEST(NormalSceneTest, ClosedLoopReachesItsTargets) {

@@ -271,6 +271,40 @@ TEST(StepMetricsTest, ASettledStepHasTheLimitOfMostPeriods) {
   EXPECT_EQ(only_step(scene, periods).limit, control::Limit::not_settling);
 }
 
+// The controller sees neither: it foresees the current, and the force tells nothing of the contact.
+TEST(StepMetricsTest, TheSimulationNamesATrueCurrentAboveItsLimit) {
+  Scene scene = made_up_scene({{0.0, 0.5}}, 0.1);
+  std::vector<loop::Period> periods = resonant_run(scene, 0.5);
+  scene.transducer = scene::Transducer{2.0, 1e-9, 0.0};
+  const auto limit_with = [&](double largest_A) {
+    scene.drive->max_current_amplitude_A = largest_A;
+    return only_step(scene, periods);
+  };
+  // Nf v = 2 N/V 0.101 m/s, and 2 pi 1 kHz 1 nF 50 V = 0.3 mA through C0.
+  EXPECT_EQ(limit_with(0.2025).limit, control::Limit::none);
+  EXPECT_EQ(limit_with(0.202).limit, control::Limit::current);
+  EXPECT_FALSE(limit_with(0.202).limit_seen_by_controller);
+  for (loop::Period& period : periods) {
+    period.limit = control::Limit::voltage;
+  }
+  EXPECT_EQ(limit_with(0.202).limit, control::Limit::voltage);
+}
+
+TEST(StepMetricsTest, AContactThatOpensIsNamedBeforeAnyOtherLimit) {
+  const Scene scene = made_up_scene({{0.0, 0.5}}, 0.1);
+  std::vector<loop::Period> periods = made_up_run(scene, [](int) { return 0.5; });
+  periods[10].open_fraction = 0.2;
+  EXPECT_EQ(only_step(scene, periods).limit, control::Limit::none);
+  periods[90].open_fraction = 0.2;
+  for (loop::Period& period : periods) {
+    period.limit = control::Limit::actuator;
+  }
+  const StepMetrics step = only_step(scene, periods);
+  EXPECT_EQ(step.limit, control::Limit::contact_lost);
+  EXPECT_FALSE(step.limit_seen_by_controller);
+  EXPECT_EQ(limit_text(step), "contact_lost, unseen by the controller");
+}
+
 TEST(StepMetricsTest, WithoutARatioThereIsNoRipple) {
   EXPECT_TRUE(std::isnan(one_step(0.5, [](int) { return std::nan(""); }).ripple));
 }

@@ -1,0 +1,56 @@
+#include "host_sim/report/run_notes.hpp"
+
+#include <fmt/format.h>
+
+#include "host_sim/configure/plant_scales.hpp"
+
+namespace sonoglide::report {
+namespace {
+
+/// The controller foresees the current from what it believes and from a noisy vibration.
+void append_current_excess(const scene::Scene& scene, const loop::RunResult& result,
+                           std::vector<std::string>& notes) {
+  if (!scene.drive || !scene.drive->max_current_amplitude_A) {
+    return;
+  }
+  const double limit_A = *scene.drive->max_current_amplitude_A;
+  if (result.current_peak_A > told_current_excess * limit_A) {
+    notes.push_back(fmt::format(
+        "The current reached {:.4g} A, {:.2g} % above its limit of {:.6g} A: the controller does "
+        "not measure it, it computes it from the believed plant and the vibration sensor.",
+        result.current_peak_A, 100.0 * (result.current_peak_A / limit_A - 1.0), limit_A));
+  }
+}
+
+void append_contact_loss(const scene::Scene& scene, const loop::RunResult& result,
+                         std::vector<std::string>& notes) {
+  if (!(result.whole.open_s > 0.0)) {
+    return;
+  }
+  const ContactLoadFigures load = contact_load(result.window);
+  const double resting_N =
+      configure::contact_at(scene.friction, scene.run.window_start_s).normal_force_N;
+  notes.push_back(fmt::format(
+      "The vibration opens the contact for {:.3g} % of the time. The law holds the mean gap, not "
+      "the mean load: the mean normal force is {:.4g} N, not the {:.4g} N at rest, and the "
+      "friction "
+      "ratio is over the friction of the latter. What the contact does where it opens, impact "
+      "above "
+      "all, is not modelled.",
+      100.0 * load.open_fraction, load.mean_normal_force_N, resting_N));
+}
+
+}  // namespace
+
+std::vector<std::string> run_notes(const scene::Scene& scene, const loop::RunResult& result) {
+  std::vector<std::string> notes;
+  append_current_excess(scene, result, notes);
+  append_contact_loss(scene, result, notes);
+  return notes;
+}
+
+ContactLoadFigures contact_load(const loop::EnergyBalance& window) {
+  return {window.open_s / window.duration_s, window.normal_impulse_N_s / window.duration_s};
+}
+
+}  // namespace sonoglide::report

@@ -1,0 +1,79 @@
+/// What the simulation of a run sees and no controller says is told everywhere.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "tests/acceptance/closed_loop/runs/closed_loop.hpp"
+#include "tests/acceptance/program/program.hpp"
+
+namespace sonoglide::acceptance::run_notes_test {
+namespace {
+
+struct Told {
+  std::string terminal;
+  nlohmann::json summary;
+  std::string page;
+};
+
+Told run(const std::string& scene, const std::string& settings) {
+  const ScratchFolder folder;
+  const Outcome outcome =
+      folder.run("run " SONOGLIDE_SCENES "/" + scene + ".toml --out out " + settings);
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  return {outcome.out, nlohmann::json::parse(folder.read("out/summary.json")),
+          folder.read("out/report.html")};
+}
+
+/// A limit of a step, and by whom it is named.
+bool names(const nlohmann::json& summary, const std::string& limit, const std::string& by) {
+  for (const nlohmann::json& step : summary["control"]["steps"]) {
+    if (step["limit"] == limit && step["limit_seen_by"] == by) {
+      return true;
+    }
+  }
+  return false;
+}
+
+// At 1500 N the amplitude is 1.51 of the one that opens the contact: open for acos(1/1.51)/pi.
+TEST(RunNotesTest, AnOpenContactIsToldInOpenLoop) {
+  const Told told = run("normal_open_loop", "--set drive.force_amplitude_N=1500");
+  const double open = told.summary["contact"]["open_fraction"];
+  EXPECT_NEAR(open, 0.2686, 1e-3);
+  EXPECT_GT(told.summary["contact"]["mean_normal_force_N"].get<double>(), 3.2);
+  EXPECT_NE(told.terminal.find("WARNING: The vibration opens the contact for 26.9 % of the time"),
+            std::string::npos);
+  EXPECT_NE(told.page.find("The vibration opens the contact for 26.9 %"), std::string::npos);
+  const Told closed = run("normal_open_loop", "");
+  EXPECT_EQ(closed.summary["contact"]["open_fraction"], 0.0);
+  EXPECT_NEAR(closed.summary["contact"]["mean_normal_force_N"].get<double>(), 3.0, 1e-6);
+  EXPECT_EQ(closed.terminal.find("WARNING"), std::string::npos);
+}
+
+TEST(RunNotesTest, AnOpenContactIsALimitInClosedLoop) {
+  const Told told = run(
+      "normal_open_loop",
+      "--set drive.force_amplitude_N= --set run.start= --set drive.max_force_amplitude_N=3000 "
+      "--set controller.arithmetic=float64 --set 'controller.target_friction_ratio=[[0, 0.1]]'");
+  EXPECT_TRUE(names(told.summary, "contact_lost", "simulation")) << told.terminal;
+  EXPECT_GT(told.summary["control"]["limited_periods"]["contact_lost"], 0);
+  EXPECT_NE(told.terminal.find("contact_lost, unseen by the controller"), std::string::npos);
+  EXPECT_NE(told.summary["control"]["notes"].dump().find("opens the contact"), std::string::npos);
+}
+
+// Noise and a stiffness that is 4 % off: the controller computes too small a current.
+TEST(RunNotesTest, ATrueCurrentAboveItsLimitIsToldAndNamed) {
+  const Told told =
+      run("wire_bonder",
+          "--set sensor.vibration_noise_m_per_s=1.4e-4 --set model_error.stiffness=0.961 --set "
+          "drive.max_current_amplitude_A=0.01787");
+  const double peak_A = told.summary["electrical"]["current_peak_A"];
+  ASSERT_GT(peak_A, 1.02 * 0.01787);
+  EXPECT_TRUE(names(told.summary, "current", "simulation")) << told.terminal;
+  EXPECT_NE(told.terminal.find("WARNING: The current reached"), std::string::npos);
+  EXPECT_NE(told.summary["control"]["notes"].dump().find("The current reached"), std::string::npos);
+  EXPECT_NE(told.page.find("The current reached"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace sonoglide::acceptance::run_notes_test
