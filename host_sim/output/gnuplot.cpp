@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <filesystem>
 #include <iterator>
 
@@ -27,6 +29,15 @@ std::string quoted(std::string_view text) {
     }
   }
   return string + '"';
+}
+
+std::string range_command(char axis, const std::vector<double>& values, Scale scale, double about) {
+  const bool any = std::any_of(values.begin(), values.end(), [scale](double value) {
+    return std::isfinite(value) && (scale == Scale::linear || value > 0.0);
+  });
+  constexpr double factor = 10.0;
+  return any ? fmt::format("set {}range [*:*]\n", axis)
+             : fmt::format("set {}range [{:g}:{:g}]\n", axis, about / factor, about * factor);
 }
 
 std::string draw_svg(const std::string& script, int width_px, int height_px) {

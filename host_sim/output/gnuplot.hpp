@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace sonoglide::output {
 
@@ -17,6 +18,17 @@ std::filesystem::path require_gnuplot();
 /// only behind another sign: neither `'a` nor `a''b` can be written so.) Printable, see
 /// process::printable(); write `noenhanced` after it where no mark-up is meant.
 std::string quoted(std::string_view text);
+
+enum class Scale { linear, logarithmic };
+
+/// The command that sets the range of an axis, `x` or `y`: left to gnuplot where it can draw some of
+/// the values, else about a place. Gnuplot refuses a plot of which it can draw nothing on an axis
+/// whose range it is to find.
+///
+/// @param values  of all curves along the axis; those that are not finite, and on a logarithmic axis
+///                those that are not above 0, are not drawn
+/// @param about   > 0
+std::string range_command(char axis, const std::vector<double>& values, Scale scale, double about);
 
 /// Draws one SVG picture on a white ground, without files, and by no settings of the user's.
 ///

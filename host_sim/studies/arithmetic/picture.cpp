@@ -84,6 +84,28 @@ std::string target_block(const ArithmeticComparison& comparison, scene::Arithmet
   return block + "EOD\n";
 }
 
+std::vector<double> instructions(const ArithmeticComparison& comparison) {
+  std::vector<double> means;
+  for (const ImageRow& row : comparison.images) {
+    if (row.image.instructions) {
+      means.push_back(row.image.instructions->step.mean);
+    }
+  }
+  return means;
+}
+
+/// Of the targets in column 2 of their blocks, or in column 3.
+std::vector<double> target_figures(const ArithmeticComparison& comparison, int column) {
+  std::vector<double> all;
+  for (const TargetRow& row : comparison.targets) {
+    const bool shown = column != 2 || row.arithmetic != scene::Arithmetic::float64;
+    all.push_back(!shown        ? 0.0
+                  : column == 2 ? drawn(row.precision.rms_difference)
+                                : row.precision.ripple);
+  }
+  return all;
+}
+
 std::string images_panel(const ArithmeticComparison& comparison) {
   std::string plots;
   for (const scene::Arithmetic arithmetic : all_arithmetics) {
@@ -102,15 +124,17 @@ std::string images_panel(const ArithmeticComparison& comparison) {
              "set logscale xy\nset format x '%g'\nset format y '10^{{%T}}'\n"
              "set xlabel 'Instructions per control step, mean [-]'\n"
              "set ylabel 'Friction ratio, rms difference from float64 [-]'\n"
-             "set yrange [{:g}:1]\nset ytics add ('0' {:g})\n"
+             "set yrange [{:g}:1]\nset ytics add ('0' {:g})\n{}"
              "set offsets graph 0.08, graph 0.08, graph 0, graph 0\n"
              "set key top right Left reverse samplen 2\n",
-             0.3 * smallest_difference, smallest_difference) +
+             0.3 * smallest_difference, smallest_difference,
+             output::range_command('x', instructions(comparison), output::Scale::logarithmic,
+                                   1e3)) +
          plots + "\n";
 }
 
-std::string targets_panel(const char* placement, const char* x_label, const char* y_label,
-                          int column) {
+std::string targets_panel(const ArithmeticComparison& comparison, const char* placement,
+                          const char* x_label, const char* y_label, int column) {
   std::string lines;
   for (const scene::Arithmetic arithmetic : all_arithmetics) {
     const bool reference = arithmetic == scene::Arithmetic::float64;
@@ -121,10 +145,10 @@ std::string targets_panel(const char* placement, const char* x_label, const char
                          lines.empty() ? "plot " : ", \\\n", name(arithmetic), column,
                          colour_of(arithmetic));
   }
-  return fmt::format(
-             "{}set xlabel '{}'\nset ylabel '{}'\nset xrange [0:1]\nset yrange [*:*]\n"
-             "set format x '%g'\n",
-             placement, x_label, y_label) +
+  return fmt::format("{}set xlabel '{}'\nset ylabel '{}'\nset xrange [0:1]\n{}set format x '%g'\n",
+                     placement, x_label, y_label,
+                     output::range_command('y', target_figures(comparison, column),
+                                           output::Scale::logarithmic, smallest_difference)) +
          lines + "\n";
 }
 
@@ -144,10 +168,10 @@ std::string draw(const ArithmeticComparison& comparison, const std::string& titl
   script +=
       "unset logscale x\nset lmargin 11\nunset offsets\nunset key\nset ytics auto\nset format y "
       "'10^{%T}'\n";
-  script += targets_panel("set size 0.48,0.46\nset origin 0.52,0.47\n", "",
+  script += targets_panel(comparison, "set size 0.48,0.46\nset origin 0.52,0.47\n", "",
                           "rms difference from float64 [-]", 2);
-  script += targets_panel("set size 0.48,0.47\nset origin 0.52,0\n", "Target friction ratio [-]",
-                          "Ripple of the ratio [-]", 3);
+  script += targets_panel(comparison, "set size 0.48,0.47\nset origin 0.52,0\n",
+                          "Target friction ratio [-]", "Ripple of the ratio [-]", 3);
   return output::draw_svg(script + "unset multiplot\n", width_px, height_px);
 }
 

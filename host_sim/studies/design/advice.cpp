@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "host_sim/studies/design/electrical.hpp"
 #include "host_sim/studies/design/report.hpp"
@@ -36,6 +37,12 @@ std::string reach(const DesignStudy& study, double ratio) {
              : std::string();
 }
 
+std::string nearest_text(const Requirement& point, const char* where) {
+  return std::isfinite(point.reachable_ratio)
+             ? fmt::format(" The nearest{} is {:.4f}", where, point.reachable_ratio)
+             : std::string(" No nearer ratio was found");
+}
+
 /// Nothing where the ratio is within reach.
 std::string shortfall(const DesignStudy& study, const Requirement& point) {
   const std::string where =
@@ -44,16 +51,20 @@ std::string shortfall(const DesignStudy& study, const Requirement& point) {
     case Obstacle::actuator: {
       const std::string slower = reach(study, point.ratio);
       return fmt::format(
-          "{} is beyond the drive: it takes {}, {:.3g} times the {} that there are. The nearest at "
-          "this speed is {:.4f}{}.",
-          where, force(point.motion.drive_force_N), point.motion.drive_force_N / most_N(study),
-          force(most_N(study)), point.reachable_ratio,
+          "{} is beyond the drive: it takes {}, {:.3g} times the {} that there are.{}{}.", where,
+          force(point.motion.drive_force_N), point.motion.drive_force_N / most_N(study),
+          force(most_N(study)), nearest_text(point, " at this speed"),
           slower.empty() ? "" : fmt::format("; {:g} is {}", point.ratio, slower));
     }
     case Obstacle::amplitude:
+      return fmt::format("{} is not to be had: more vibration raises the friction again.{}.", where,
+                         nearest_text(point, ""));
+    case Obstacle::contact_lost:
       return fmt::format(
-          "{} is not to be had: more vibration raises the friction again. The nearest is {:.4f}.",
-          where, point.reachable_ratio);
+          "{} is not to be had while the contact stays closed.{}; with more vibration it opens, "
+          "and "
+          "the mean normal force rises.",
+          where, nearest_text(point, ""));
     case Obstacle::no_orbit:
       return fmt::format("{} has no steady vibration that was found: {}.", where, point.reason);
     case Obstacle::undriven:
@@ -79,13 +90,20 @@ Advice drive(const DesignStudy& study, const Requirement& point) {
                              further.empty() ? "" : "; " + further)};
 }
 
+/// Of a point: the magnitude; less than any where it is not known.
+double miss(const DesignPoint& point) {
+  const double error = std::abs(point.requirement.closed_form_error);
+  return std::isnan(error) ? -1.0 : error;
+}
+
 Advice closed_form(const std::vector<DesignPoint>& points) {
-  const Requirement& worst = std::max_element(points.begin(), points.end(),
-                                              [](const DesignPoint& a, const DesignPoint& b) {
-                                                return std::abs(a.requirement.closed_form_error) <
-                                                       std::abs(b.requirement.closed_form_error);
-                                              })
-                                 ->requirement;
+  const DesignPoint& most = *std::max_element(
+      points.begin(), points.end(),
+      [](const DesignPoint& a, const DesignPoint& b) { return miss(a) < miss(b); });
+  const Requirement& worst = most.requirement;
+  if (miss(most) < 0.0) {
+    return {"Closed form", "Under its forces the plant settles on no orbit of the drive's period."};
+  }
   return {"Closed form",
           fmt::format("Its force, {} against {}, misses ratio {:g} at {} by {:+.2g}, as friction "
                       "bends the motion that it takes for a sine; nowhere here by more.",
@@ -116,29 +134,47 @@ Advice power(const DesignStudy& study, const std::vector<DesignPoint>& points) {
 double total_change(const DesignPoint& point) {
   double sum = 0.0;
   for (const Sensitivity& each : point.sensitivities) {
-    sum += each.largest_change();
+    sum += std::isnan(each.largest_change()) ? 0.0 : each.largest_change();
   }
   return sum;
+}
+
+/// Parameters of which 1 % leaves the plant without an orbit; empty where there is none.
+std::string lost_orbits(const DesignPoint& point) {
+  std::string symbols;
+  for (const Sensitivity& each : point.sensitivities) {
+    if (std::isnan(each.largest_change())) {
+      symbols += fmt::format("{}{}", symbols.empty() ? "" : ", ", each.parameter.symbol);
+    }
+  }
+  return symbols.empty()
+             ? symbols
+             : fmt::format(" With 1 % more or less of {} the plant settles on no orbit.", symbols);
 }
 
 Advice accuracy(const DesignStudy& study, const std::vector<DesignPoint>& points) {
   const DesignPoint& worst = *std::max_element(
       points.begin(), points.end(),
       [](const DesignPoint& a, const DesignPoint& b) { return total_change(a) < total_change(b); });
-  std::vector<Sensitivity> by_size = worst.sensitivities;
+  std::vector<Sensitivity> by_size;
+  std::copy_if(worst.sensitivities.begin(), worst.sensitivities.end(), std::back_inserter(by_size),
+               [](const Sensitivity& each) { return !std::isnan(each.largest_change()); });
   std::sort(by_size.begin(), by_size.end(), [](const Sensitivity& a, const Sensitivity& b) {
     return a.largest_change() > b.largest_change();
   });
   const double total = total_change(worst);
   const double band = study.task.scene.run.settling_band;
-  return {"Accuracy",
-          fmt::format("Without feedback 1 % in everything at once moves ratio {:g} at {} by up to "
-                      "{:.3f}, {} the settling band of {:g}. Most hangs on {} ({:.4f} for 1 %) and "
-                      "{} ({:.4f}).",
-                      worst.requirement.ratio, speed(worst.requirement.sliding_m_per_s), total,
-                      total > band ? "more than" : "within", band, by_size[0].parameter.symbol,
-                      by_size[0].largest_change(), by_size[1].parameter.symbol,
-                      by_size[1].largest_change())};
+  std::string text = fmt::format(
+      "Without feedback 1 % in everything at once moves ratio {:g} at {} by up to "
+      "{:.3f}, {} the settling band of {:g}.",
+      worst.requirement.ratio, speed(worst.requirement.sliding_m_per_s), total,
+      total > band ? "more than" : "within", band);
+  if (by_size.size() > 1) {
+    text += fmt::format(" Most hangs on {} ({:.4f} for 1 %) and {} ({:.4f}).",
+                        by_size[0].parameter.symbol, by_size[0].largest_change(),
+                        by_size[1].parameter.symbol, by_size[1].largest_change());
+  }
+  return {"Accuracy", text + lost_orbits(worst)};
 }
 
 std::string frequency(const DesignStudy& study, double tuning) {

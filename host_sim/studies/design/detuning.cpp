@@ -6,7 +6,7 @@
 
 #include "firmware/numeric/turn.hpp"
 #include "host_sim/loop/failure.hpp"
-#include "host_sim/studies/design/closed_form.hpp"
+#include "host_sim/studies/design/root.hpp"
 #include "host_sim/studies/design/sensitivity.hpp"
 
 namespace sonoglide::design {
@@ -107,9 +107,10 @@ class Retuning {
       const double tuning = i == 0 ? far_end : 1.0 + (far_end - 1.0) * std::pow(factor, i);
       const double here = figure(tuning);
       if (here > 0.0) {
-        return last_figure < 0.0
-                   ? root_between(figure, std::min(tuning, last), std::max(tuning, last))
-                   : tuning;
+        const double edge =
+            last_figure < 0.0 ? root_between(figure, std::min(tuning, last), std::max(tuning, last))
+                              : undefined;
+        return std::isnan(edge) ? tuning : edge;
       }
       last = tuning;
       last_figure = here;

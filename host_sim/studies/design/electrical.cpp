@@ -4,13 +4,10 @@
 #include <complex>
 
 #include "firmware/numeric/turn.hpp"
+#include "host_sim/studies/design/closed_form.hpp"
 
 namespace sonoglide::design {
 namespace {
-
-double carrier_rad_per_s(const scene::Scene& scene) {
-  return numeric::two_pi * scene.drive->frequency_Hz;
-}
 
 /// Cm/C0 times the stiffness: Nf²/C0.
 double stiffening_N_per_m(const scene::Transducer& transducer) {

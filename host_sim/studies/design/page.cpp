@@ -128,14 +128,11 @@ output::Section sensitivity_section(const DesignStudy& study,
   section.text =
       "One parameter changes, the others and the drive's force stay as they are, the normal force "
       "when the mass changes too. By differences of the simulation.";
-  section.tables = {sensitivity_table(points, "d ln ratio / d ln parameter",
-                                      [](const Sensitivity& each) {
-                                        return fmt::format("{:.3f}", each.logarithmic);
-                                      }),
-                    sensitivity_table(points, "Change of the ratio by 1 % more or less, the larger",
-                                      [](const Sensitivity& each) {
-                                        return fmt::format("{:.5f}", each.largest_change());
-                                      })};
+  section.tables = {
+      sensitivity_table(points, "d ln ratio / d ln parameter",
+                        [](const Sensitivity& each) { return fixed(each.logarithmic, 3); }),
+      sensitivity_table(points, "Change of the ratio by 1 % more or less, the larger",
+                        [](const Sensitivity& each) { return fixed(each.largest_change(), 5); })};
   if (!study.detunings.empty()) {
     section.pictures = {
         {"d ln ratio / d ln parameter, at the fastest sliding", "", draw_sensitivities(study)}};

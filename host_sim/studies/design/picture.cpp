@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <functional>
@@ -73,6 +74,16 @@ std::string requirement_blocks(const DesignStudy& study, const std::string& pref
   return text;
 }
 
+std::vector<double> figures(const DesignStudy& study,
+                            const std::function<double(const Requirement&)>& figure) {
+  std::vector<double> all;
+  for (const RatioRequirements& curve : study.curves) {
+    std::transform(curve.requirements.begin(), curve.requirements.end(), std::back_inserter(all),
+                   figure);
+  }
+  return all;
+}
+
 std::string undriven_block(const DesignStudy& study) {
   std::string lines;
   for (const Requirement& point : study.curves.front().requirements) {
@@ -104,6 +115,16 @@ std::string detuning_blocks(const DesignStudy& study, const std::string& prefix,
     text += block(fmt::format("{}{}", prefix, i), lines);
   }
   return text;
+}
+
+std::vector<double> figures(const DesignStudy& study, double DetunedPoint::*figure) {
+  std::vector<double> all;
+  for (const Detuning& detuning : study.detunings) {
+    for (const DetunedPoint& point : detuning.points) {
+      all.push_back(point.*figure);
+    }
+  }
+  return all;
 }
 
 std::vector<double> ratios_of(const DesignStudy& study) {
@@ -139,21 +160,25 @@ std::vector<DesignPoint> fastest_points(const DesignStudy& study) {
 
 std::string draw_requirements(const DesignStudy& study) {
   const double most_N = study.task.scene.drive->max_force_amplitude_N;
-  std::string script =
-      requirement_blocks(study, "force",
-                         [](const Requirement& each) { return each.motion.drive_force_N; }) +
-      requirement_blocks(study, "power",
-                         [](const Requirement& each) { return each.motion.drive_power_W; }) +
-      undriven_block(study) + design_point_block(study) + style();
-  script +=
-      "set multiplot layout 1,2\nset logscale xy\nset format x '%h'\nset format y '10^{%L}'\n"
-      "set autoscale xfix\n";
-  script += shade_above(most_N) +
+  const auto force = [](const Requirement& each) { return each.motion.drive_force_N; };
+  const auto power = [](const Requirement& each) { return each.motion.drive_power_W; };
+  std::string script = requirement_blocks(study, "force", force) +
+                       requirement_blocks(study, "power", power) + undriven_block(study) +
+                       design_point_block(study) + style();
+  const std::vector<Requirement>& over_speed = study.curves.front().requirements;
+  script += fmt::format(
+      "set multiplot layout 1,2\nset logscale xy\nset format x '%h'\nset format y '10^{{%L}}'\n"
+      "set xrange [{:.9g}:{:.9g}]\n",
+      over_speed.front().sliding_m_per_s, over_speed.back().sliding_m_per_s);
+  const auto y_range = [](const std::vector<double>& values, double about) {
+    return output::range_command('y', values, output::Scale::logarithmic, about);
+  };
+  script += shade_above(most_N) + y_range(figures(study, force), most_N) +
             axes("Required drive force (shaded: more than the drive has)", "sliding velocity [m/s]",
                  "force amplitude [N]") +
             curves(ratios_of(study), "force",
                    ", $points using 1:2 with points pt 7 ps 0.6 lc rgb '#111111' notitle");
-  script += "unset object 1\n" +
+  script += "unset object 1\n" + y_range(figures(study, power), 1.0) +
             axes("Power that the drive puts in", "sliding velocity [m/s]", "power [W]") +
             curves(ratios_of(study), "power",
                    ", $undriven using 1:2 with lines dt 2 lw 2 lc rgb '#111111' title 'friction, "
@@ -167,7 +192,8 @@ std::string draw_sensitivities(const DesignStudy& study) {
   for (std::size_t row = 0; row < points.front().sensitivities.size(); ++row) {
     lines += points.front().sensitivities[row].parameter.symbol;
     for (const DesignPoint& point : points) {
-      lines += fmt::format(" {:.9g}", point.sensitivities[row].logarithmic);
+      const double height = point.sensitivities[row].logarithmic;
+      lines += fmt::format(" {:.9g}", std::isfinite(height) ? height : 0.0);
     }
     lines += '\n';
   }
@@ -195,13 +221,15 @@ std::string draw_detunings(const DesignStudy& study) {
                        detuning_blocks(study, "change", &DetunedPoint::change_by_stiffness) +
                        style();
   script += fmt::format(
-      "set multiplot layout 1,3\nset xrange [0:*]\nset autoscale xfixmax\n"
+      "set multiplot layout 1,3\nset xrange [0:{1:.9g}]\n"
       "set arrow 1 from first {0:.9g}, graph 0 to first {0:.9g}, graph 1 nohead dt 3 lw 1.5 lc rgb "
       "'#606060'\nset label 1 'scene' at first {0:.9g}, graph 0.03 offset 0.4,0 tc rgb '#606060'\n",
-      study.tuning);
+      study.tuning, study.detunings.front().points.back().tuning);
   script += axes("Ratio under the scene's force", tuning_label, "friction ratio [-]") +
             "set yrange [0:1]\n" + curves(ratios, "ratio", "");
-  script += "set logscale y\nset format y '10^{%L}'\nset yrange [*:*]\n" +
+  script += "set logscale y\nset format y '10^{%L}'\n" +
+            output::range_command('y', figures(study, &DetunedPoint::drive_force_N),
+                                  output::Scale::logarithmic, scene.drive->max_force_amplitude_N) +
             shade_above(scene.drive->max_force_amplitude_N) +
             axes("Force that keeps the ratio", tuning_label, "force amplitude [N]") +
             curves(ratios, "force", "");

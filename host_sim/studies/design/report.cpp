@@ -16,6 +16,10 @@ std::string number(double value) {
   return std::isfinite(value) ? fmt::format("{:.4g}", value) : std::string("-");
 }
 
+std::string fixed(double value, int digits) {
+  return std::isfinite(value) ? fmt::format("{:.{}f}", value, digits) : std::string("-");
+}
+
 std::string quantity(double value, const char* unit) {
   if (!std::isfinite(value) || value == 0.0) {
     return std::isfinite(value) ? fmt::format("0 {}", unit) : std::string("-");
@@ -55,7 +59,7 @@ std::string sensitivity_lines(const std::vector<DesignPoint>& points) {
     lines += fmt::format("\n{:>10} {:>6.4g}", quantity(point.requirement.sliding_m_per_s, "m/s"),
                          point.requirement.ratio);
     for (const Sensitivity& each : point.sensitivities) {
-      lines += fmt::format(" {:>7.3f}", each.logarithmic);
+      lines += fmt::format(" {:>7}", fixed(each.logarithmic, 3));
     }
   }
   return lines + '\n';

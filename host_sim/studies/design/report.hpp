@@ -17,6 +17,9 @@ std::string quantity(double value, const char* unit);
 /// Four digits without a prefix.
 std::string number(double value);
 
+/// So many digits behind the point.
+std::string fixed(double value, int digits);
+
 /// One line for each ratio and speed, 17 digits.
 std::string requirements_csv(const DesignStudy& study);
 

@@ -7,17 +7,42 @@
 #include "host_sim/configure/plant_scales.hpp"
 #include "host_sim/loop/failure.hpp"
 #include "host_sim/studies/design/closed_form.hpp"
+#include "host_sim/studies/design/root.hpp"
 
 namespace sonoglide::design {
 namespace {
 
-/// 0 where there is no steady vibration: a drive that puts in more than friction and damping can
-/// take lowers the ratio without end.
-double ratio_or_zero(const scene::Scene& scene, double sliding_m_per_s, double drive_force_N) {
+/// On the orbit under some forces and speeds: NaN where there is none.
+class OrbitRatio {
+ public:
+  explicit OrbitRatio(const scene::Scene& scene) : scene_(scene) {}
+
+  double operator()(double sliding_m_per_s, double drive_force_N) {
+    try {
+      const double ratio = orbit_ratio(steady_scene(scene_, sliding_m_per_s, drive_force_N));
+      any_ = true;
+      return ratio;
+    } catch (const loop::ComputationError& error) {
+      reason_ = error.what();
+      return undefined;
+    }
+  }
+
+  bool any() const { return any_; }                      ///< of the calls has found one
+  const std::string& reason() const { return reason_; }  ///< why the last that has not
+
+ private:
+  const scene::Scene& scene_;
+  bool any_ = false;
+  std::string reason_;
+};
+
+/// NaN where the plant settles on none.
+double settled_ratio(const scene::Scene& scene, double sliding_m_per_s, double drive_force_N) {
   try {
     return friction_ratio(steady_scene(scene, sliding_m_per_s, drive_force_N));
   } catch (const loop::ComputationError&) {
-    return 0.0;
+    return undefined;
   }
 }
 
@@ -35,27 +60,40 @@ double first_guess_N(const scene::Scene& scene, double closed_form_force_N) {
   return std::max(closed_form_force_N, 0.1 * scene.friction.limit_N());
 }
 
-/// Where the closed form's force has no steady vibration, no other is tried.
 void solve(const scene::Scene& scene, double closed_form_force_N, Requirement& found) {
   const double sliding_m_per_s = found.sliding_m_per_s;
+  OrbitRatio orbit_ratio(scene);
   const auto excess = [&](double force_N) {
-    return ratio_or_zero(scene, sliding_m_per_s, force_N) - found.ratio;
+    return orbit_ratio(sliding_m_per_s, force_N) - found.ratio;
   };
   found.limit = Obstacle::no_orbit;
   found.closed_form_force_N = closed_form_force_N;
+  const FallingBracket bracket(excess, first_guess_N(scene, closed_form_force_N));
+  const double force_N = root_in(bracket, excess);
+  found.any_orbit = orbit_ratio.any();
+  if (!found.any_orbit) {
+    found.reason = orbit_ratio.reason();
+    return;
+  }
+  found.closed_form_error =
+      settled_ratio(scene, sliding_m_per_s, closed_form_force_N) - found.ratio;
+  if (!std::isnan(bracket.minimum())) {
+    found.limit = Obstacle::amplitude;
+    found.reachable_ratio = settled_ratio(
+        scene, sliding_m_per_s, std::min(bracket.minimum(), scene.drive->max_force_amplitude_N));
+    return;
+  }
+  found.reason = "no force gives the ratio on an orbit of the drive's period";
   try {
-    found.closed_form_error =
-        friction_ratio(steady_scene(scene, sliding_m_per_s, closed_form_force_N)) - found.ratio;
-    const auto force_N = root_near(excess, first_guess_N(scene, closed_form_force_N), false);
-    const auto motion =
-        force_N ? motion_at(scene, sliding_m_per_s, found.ratio, *force_N) : std::nullopt;
-    if (!motion) {
-      found.reason = "no force gives the ratio on a steady orbit of the drive's period";
-      return;
+    const auto motion = std::isnan(force_N)
+                            ? std::nullopt
+                            : motion_at(scene, sliding_m_per_s, found.ratio, force_N);
+    if (motion) {
+      found.motion = *motion;
+      found.limit = motion->drive_force_N > scene.drive->max_force_amplitude_N ? Obstacle::actuator
+                                                                               : Obstacle::none;
+      found.reason.clear();
     }
-    found.motion = *motion;
-    found.limit = motion->drive_force_N > scene.drive->max_force_amplitude_N ? Obstacle::actuator
-                                                                             : Obstacle::none;
   } catch (const loop::ComputationError& error) {
     found.reason = error.what();
   }
@@ -73,6 +111,8 @@ const char* name(Obstacle limit) {
       return "actuator";
     case Obstacle::amplitude:
       return "amplitude";
+    case Obstacle::contact_lost:
+      return "contact_lost";
     case Obstacle::no_orbit:
       break;
   }
@@ -92,9 +132,12 @@ Requirement require_ratio(const scene::Scene& scene, double sliding_m_per_s, dou
   const RequiredVibration vibration = closed_form_vibration(scene, sliding_m_per_s, ratio);
   const double closed_form_force_N = force_N(scene, vibration.velocity_m_per_s);
   if (vibration.friction_ratio > ratio) {
-    found.limit = Obstacle::amplitude;
-    found.reachable_ratio =
-        ratio_or_zero(scene, sliding_m_per_s, std::min(closed_form_force_N, most_N));
+    const bool opens = scene::is<scene::laws::NormalCoulomb>(scene.friction.law);
+    found.limit = opens ? Obstacle::contact_lost : Obstacle::amplitude;
+    // Just beside the force at which the contact would touch the surface in one point of the period.
+    constexpr double closed = 1.0 - 1e-6;
+    found.reachable_ratio = settled_ratio(
+        scene, sliding_m_per_s, std::min((opens ? closed : 1.0) * closed_form_force_N, most_N));
     return found;
   }
   solve(scene, closed_form_force_N, found);
@@ -102,7 +145,7 @@ Requirement require_ratio(const scene::Scene& scene, double sliding_m_per_s, dou
     found.reachable_ratio = undefined;
   }
   if (found.limit == Obstacle::actuator) {
-    found.reachable_ratio = ratio_or_zero(scene, sliding_m_per_s, most_N);
+    found.reachable_ratio = settled_ratio(scene, sliding_m_per_s, most_N);
   }
   return found;
 }
@@ -112,10 +155,12 @@ double fastest_sliding_m_per_s(const scene::Scene& scene, double ratio) {
   // Somewhere below the speed at which the vibration no longer turns the sliding round.
   const double guess_m_per_s =
       ratio * configure::peak_vibration_m_per_s(scene.plant, scene.drive->frequency_Hz, most_N);
-  const auto excess = [&](double sliding_m_per_s) {
-    return ratio_or_zero(scene, sliding_m_per_s, most_N) - ratio;
+  // The faster the slide, the higher the ratio.
+  OrbitRatio orbit_ratio(scene);
+  const auto shortfall = [&](double sliding_m_per_s) {
+    return ratio - orbit_ratio(sliding_m_per_s, most_N);
   };
-  return root_near(excess, guess_m_per_s, true).value_or(undefined);
+  return root_in(FallingBracket(shortfall, guess_m_per_s), shortfall);
 }
 
 }  // namespace sonoglide::design

@@ -11,10 +11,11 @@ namespace sonoglide::design {
 /// What stands between a ratio and the drive.
 enum class Obstacle {
   none,
-  undriven,   ///< the contact has the ratio without vibration
-  actuator,   ///< the force is more than the drive has
-  amplitude,  ///< no vibration makes the ratio so low
-  no_orbit,   ///< no steady vibration has been found
+  undriven,      ///< the contact has the ratio without vibration
+  actuator,      ///< the force is more than the drive has
+  amplitude,     ///< no vibration makes the ratio so low
+  contact_lost,  ///< none that leaves a contact closed that vibrates normally
+  no_orbit,      ///< no steady vibration has been found
 };
 
 const char* name(Obstacle limit);
@@ -24,8 +25,9 @@ struct Requirement {
   double sliding_m_per_s = 0.0;
   double ratio = 0.0;
   Obstacle limit = Obstacle::none;
-  std::string reason;   ///< of no_orbit
-  SteadyMotion motion;  ///< at the smallest force that gives the ratio
+  std::string reason;     ///< of no_orbit
+  bool any_orbit = true;  ///< false: under no force that was tried is there one
+  SteadyMotion motion;    ///< at the smallest force that gives the ratio
   double closed_form_force_N =
       undefined;  ///< by the closed form, with which the vibration is a sine
   double closed_form_error =
@@ -34,7 +36,8 @@ struct Requirement {
       undefined;  ///< the nearest that the drive can hold at this speed; NaN with no_orbit
 };
 
-/// By the closed form's inverse, put right by a root of the ratio on the steady orbit.
+/// By the closed form's inverse, put right by a root of the ratio on the steady orbit. The search
+/// goes on over forces whose orbit repels, and over those under which there is none.
 /// Error: force 1e-9 of itself where friction hardly bends the motion.
 ///
 /// @param sliding_m_per_s  > 0

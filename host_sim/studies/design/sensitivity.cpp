@@ -3,25 +3,35 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host_sim/loop/failure.hpp"
 #include "host_sim/studies/design/steady_motion.hpp"
 
 namespace sonoglide::design {
 namespace {
+
+double ratio_or_none(const scene::Scene& scene, const SceneParameter& parameter, double factor) {
+  try {
+    return ratio_with(scene, parameter, factor);
+  } catch (const loop::ComputationError&) {
+    return undefined;
+  }
+}
 
 /// d rho/d ln p by central differences of fourth order: beside a resonance the ratio bends within
 /// a hundredth of a parameter.
 double derivative(const scene::Scene& scene, const SceneParameter& parameter) {
   constexpr double h = 2e-4;
   const auto rise = [&](double part) {
-    return ratio_with(scene, parameter, 1.0 + part) - ratio_with(scene, parameter, 1.0 - part);
+    return ratio_or_none(scene, parameter, 1.0 + part) -
+           ratio_or_none(scene, parameter, 1.0 - part);
   };
   return (8.0 * rise(h) - rise(2.0 * h)) / (12.0 * h);
 }
 
 Sensitivity sensitivity(const scene::Scene& scene, const SceneParameter& parameter, double ratio) {
   return {parameter, derivative(scene, parameter) / ratio,
-          ratio_with(scene, parameter, 1.0 + parameter_change) - ratio,
-          ratio_with(scene, parameter, 1.0 - parameter_change) - ratio};
+          ratio_or_none(scene, parameter, 1.0 + parameter_change) - ratio,
+          ratio_or_none(scene, parameter, 1.0 - parameter_change) - ratio};
 }
 
 }  // namespace
@@ -33,7 +43,9 @@ double ratio_with(scene::Scene steady_scene, const SceneParameter& parameter, do
 }
 
 double Sensitivity::largest_change() const {
-  return std::max(std::abs(change_by_more), std::abs(change_by_less));
+  const double more = std::abs(change_by_more);
+  const double less = std::abs(change_by_less);
+  return more > less || std::isnan(more) ? more : less;
 }
 
 SceneParameter stiffness() {

@@ -18,19 +18,20 @@ struct SceneParameter {
 std::vector<SceneParameter> parameters_of(const scene::Scene& steady_scene);
 
 /// Every other parameter and the drive's force stay as they are: feedback that follows the ratio
-/// takes the change out again, feedforward does not.
+/// takes the change out again, feedforward does not. NaN where a plant with the changed parameter
+/// settles on no orbit.
 struct Sensitivity {
   SceneParameter parameter;
   double logarithmic;     ///< d ln rho / d ln p
   double change_by_more;  ///< of the ratio, by 1 % more of the parameter
   double change_by_less;  ///< by 1 % less
 
-  double largest_change() const;  ///< magnitude
+  double largest_change() const;  ///< magnitude; NaN where one of the two is
 };
 
 /// Of every parameter, by differences of the ratio on the steady orbit.
 /// Error: of the derivative 1e-5, of the changes 1e-9.
-/// @throws loop::ComputationError  no steady orbit, or none beside it
+/// @throws loop::ComputationError  no steady orbit
 std::vector<Sensitivity> sensitivities(const scene::Scene& steady_scene);
 
 /// The changes that a Sensitivity holds: relative.

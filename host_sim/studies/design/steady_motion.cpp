@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 #include "host_sim/loop/run.hpp"
+#include "host_sim/loop/steady_orbit.hpp"
 #include "host_sim/loop/watch.hpp"
 #include "host_sim/scene/friction_laws.hpp"
 
@@ -12,6 +14,9 @@ namespace {
 
 constexpr double samples_per_period = 720.0;
 constexpr double solver_tolerance = 1e-12;
+/// Of a search for an orbit: a hundred times what one takes. Under forces far beyond those that a
+/// contact allows for a period may take a million.
+constexpr std::uint64_t most_steps = 200000;
 
 /// Half of peak to peak.
 double amplitude(const std::vector<loop::PlantState>& states, double loop::PlantState::*member) {
@@ -42,8 +47,22 @@ scene::Scene steady_scene(const scene::Scene& scene, double sliding_m_per_s, dou
   return steady;
 }
 
+namespace {
+
+double ratio_on(const scene::Scene& scene, const loop::SteadyOrbit& orbit) {
+  const double undriven_N = scene::undriven_friction_N(
+      scene.friction.law, scene.friction, scene.sliding.profile.front().velocity_m_per_s);
+  return orbit.energy.resistance_impulse_N_s / (undriven_N * orbit.energy.duration_s);
+}
+
+}  // namespace
+
 double friction_ratio(const scene::Scene& steady_scene) {
-  return loop::power_ratios(steady_scene, loop::run(steady_scene).whole).friction_ratio;
+  return ratio_on(steady_scene, loop::find_steady_orbit(steady_scene, most_steps));
+}
+
+double orbit_ratio(const scene::Scene& steady_scene) {
+  return ratio_on(steady_scene, loop::find_orbit(steady_scene, most_steps));
 }
 
 SteadyMotion steady_motion(const scene::Scene& steady_scene) {

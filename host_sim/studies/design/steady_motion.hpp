@@ -35,6 +35,10 @@ scene::Scene steady_scene(const scene::Scene& scene, double sliding_m_per_s, dou
 /// @throws loop::ComputationError  no steady orbit
 double friction_ratio(const scene::Scene& steady_scene);
 
+/// The same on an orbit that may repel: it goes on where the plant does not follow it.
+/// @throws loop::ComputationError  no orbit
+double orbit_ratio(const scene::Scene& steady_scene);
+
 /// Error: amplitudes 1e-5 of themselves (720 samples of a period), powers as the ratio.
 /// @throws loop::ComputationError
 SteadyMotion steady_motion(const scene::Scene& steady_scene);

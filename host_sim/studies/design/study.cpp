@@ -94,10 +94,10 @@ std::vector<Detuning> detunings(const Task& task, const std::vector<RatioRequire
   return all;
 }
 
-/// A design in which nothing can be said is a failure, with the first reason for it.
+/// A plant that no force gives an orbit is a failure, with the first reason for it.
 void require_an_orbit(const std::vector<DesignPoint>& points) {
   const bool none = std::all_of(points.begin(), points.end(), [](const DesignPoint& point) {
-    return point.requirement.limit == Obstacle::no_orbit;
+    return !point.requirement.any_orbit;
   });
   if (none) {
     throw loop::ComputationError(points.front().requirement.reason);

@@ -46,7 +46,7 @@ const Requirement* most_electrical(const DesignStudy& study);
 std::vector<DesignPoint> moving_points(const DesignStudy& study);
 
 /// On every core. Of a single speed the curves go from a tenth to ten times it.
-/// @throws loop::ComputationError  no ratio has a steady vibration at any of the task's speeds
+/// @throws loop::ComputationError  under no force that was tried there is an orbit
 DesignStudy study(const Task& task, const Progress& progress);
 
 }  // namespace sonoglide::design

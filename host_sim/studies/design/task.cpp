@@ -21,14 +21,6 @@ void require_steady_vibration(const scene::Scene& scene) {
         "loop; required: a table [controller], and drive.max_force_amplitude_N or, with a "
         "[transducer], drive.max_voltage_amplitude_V");
   }
-  if (!scene::has_own_map(scene.friction.law) &&
-      !scene::is<scene::laws::Stribeck>(scene.friction.law)) {
-    throw configure::ConfigurationError(
-        "friction.law",
-        fmt::format("is \"{}\", which has no closed form of the friction ratio to design by; "
-                    "allowed: \"dahl\", \"coulomb\", \"stribeck\"",
-                    scene::name_of(scene.friction.law)));
-  }
   if (const char* key = scene.profile_key()) {
     throw configure::ConfigurationError(key,
                                         "a design is for a plant that does not change; allowed: a "

@@ -28,8 +28,8 @@ struct Task {
 ///
 /// @param ratios  in (0, 1); empty: the scene's targets
 /// @throws configure::ConfigurationError  no controller, no ratio from least_ratio to below 1, or a contact without a steady orbit of the
-///         drive's period or without a closed form: a friction.law but Dahl, Coulomb and Stribeck,
-///         sign_convention "as_printed", another waveform than the cosine
+///         drive's period or without a closed form: sign_convention "as_printed", another waveform
+///         than the cosine
 Task make_task(const scene::Scene& scene, const std::vector<double>& ratios,
                const std::optional<SpeedRange>& speeds);
 

@@ -98,7 +98,8 @@ std::string curves(const SolverComparison& comparison) {
         lines.empty() ? "" : ", \\\n", block("best", *solver), style.colour, style.dash,
         style.width, style.marker, solver->name);
   }
-  return "plot " + points + lines + "\n";
+  return lines.empty() ? "set yrange [1:1000]\nplot NaN notitle\n"
+                       : "plot " + points + lines + "\n";
 }
 
 }  // namespace

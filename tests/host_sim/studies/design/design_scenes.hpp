@@ -46,6 +46,45 @@ inline scene::Scene stribeck() {
   return scene;
 }
 
+/// A contact of each law that needs keys of its own, light enough not to bend the motion.
+inline scene::Scene iwan() {
+  scene::Scene scene = table_1();
+  scene.friction.law = scene::laws::Iwan{4};
+  return scene;
+}
+inline scene::Scene lugre() {
+  scene::Scene scene = table_1();
+  scene.friction.law = scene::laws::LuGre{0.15, 0.01, 0.0, 0.01};
+  return scene;
+}
+inline scene::Scene transverse() {
+  scene::Scene scene = coulomb();
+  scene.friction.law = scene::laws::TransverseCoulomb{};
+  return scene;
+}
+/// About to open at 200 mm/s; no gain from a velocity ratio of 1 on.
+inline scene::Scene normal() {
+  scene::Scene scene = table_1();
+  const double opening_m = 0.2 / (tests::two_pi * scene.drive->frequency_Hz);
+  const double kz = scene.friction.normal_force_N / opening_m;
+  scene.friction.law = scene::laws::NormalCoulomb{kz};
+  scene.friction.contact_stiffness_N_per_m = scene.friction.coefficient * kz;
+  return scene;
+}
+
+/// Table 1's mass on a contact that is stiffer than its spring: the mode of a stuck contact is at 2.04
+/// carriers, and the orbits by which the contact begins to slip under a heavy load repel.
+inline scene::Scene heavy_contact(double normal_force_N) {
+  scene::Scene scene = table_1();
+  const double mode = 2.04 * tests::two_pi * scene.drive->frequency_Hz;
+  const double stuck_N_per_m = scene.plant.mass_kg * mode * mode;
+  scene.plant.stiffness_N_per_m = stuck_N_per_m / 2.4;
+  scene.friction.contact_stiffness_N_per_m = stuck_N_per_m * 1.4 / 2.4;
+  scene.friction.normal_force_N = normal_force_N;
+  scene.sensor.force_full_scale_N = 0.2 * normal_force_N;
+  return scene;
+}
+
 /// Natural and drive frequency are one; damping, heavy friction, and little force.
 inline scene::Scene resonant() {
   scene::Scene scene = table_1();

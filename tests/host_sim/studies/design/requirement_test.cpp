@@ -7,6 +7,8 @@
 #include <cmath>
 
 #include "design_scenes.hpp"
+#include "host_sim/loop/failure.hpp"
+#include "host_sim/studies/design/sensitivity.hpp"
 #include "tests/common/constants/pi.hpp"
 #include "tests/common/constants/table_1_numbers.hpp"
 
@@ -48,6 +50,46 @@ TEST(RequireRatioTest, IsMetByTheSteadyOrbit) {
                   1e-9);
     }
   }
+}
+
+// The orbits under 150 to 180 N repel, and 0.9 is on one of them; 0.85 is beyond. Under the heavier
+// load they repel from 150 to 200 N, and the closed form's force for 0.9 is among them.
+TEST(RequireRatioTest, StepsOverForcesWhoseOrbitRepels) {
+  const Requirement on_one = require_ratio(heavy_contact(2000.0), 0.0267, 0.9);
+  EXPECT_EQ(on_one.limit, Obstacle::no_orbit);
+  EXPECT_NE(on_one.reason.find("it repels"), std::string::npos) << on_one.reason;
+  EXPECT_EQ(require_ratio(heavy_contact(2000.0), 0.0267, 0.85).limit, Obstacle::none);
+  const scene::Scene heavier = heavy_contact(3600.0);
+  const Requirement beyond = require_ratio(heavier, 0.0267, 0.9);
+  ASSERT_EQ(beyond.limit, Obstacle::none) << beyond.reason;
+  EXPECT_TRUE(std::isnan(beyond.closed_form_error));
+  for (const double force_N : {150.0, 180.0, 200.0}) {
+    EXPECT_THROW(friction_ratio(steady_scene(heavier, 0.0267, force_N)), loop::ComputationError);
+  }
+  EXPECT_NEAR(friction_ratio(steady_scene(heavier, 0.0267, beyond.motion.drive_force_N)), 0.9,
+              1e-9);
+}
+
+TEST(RequireRatioTest, ServesEveryLaw) {
+  for (const scene::Scene& scene : {iwan(), lugre(), transverse(), normal()}) {
+    for (const double ratio : {0.5, 0.8}) {
+      const Requirement found = require_ratio(scene, 0.02672, ratio);
+      ASSERT_EQ(found.limit, Obstacle::none)
+          << scene::name_of(scene.friction.law) << ' ' << found.reason;
+      EXPECT_NEAR(found.motion.friction_ratio, ratio, 1e-9);
+      EXPECT_LT(std::abs(found.closed_form_error), 5e-3) << scene::name_of(scene.friction.law);
+      EXPECT_EQ(sensitivities(steady_scene(scene, 0.02672, found.motion.drive_force_N)).size(),
+                scene::is_elastic(scene.friction.law) ? 8U : 7U);
+    }
+  }
+}
+
+TEST(RequireRatioTest, SaysWhereTheContactWouldOpen) {
+  const Requirement found = require_ratio(normal(), 0.02672, 0.05);
+  EXPECT_EQ(found.limit, Obstacle::contact_lost);
+  EXPECT_STREQ(name(found.limit), "contact_lost");
+  EXPECT_GT(found.reachable_ratio, 0.05);
+  EXPECT_EQ(require_ratio(normal(), 0.02672, found.reachable_ratio + 0.01).limit, Obstacle::none);
 }
 
 // Friction of 0.02 N does not bend a motion under hundreds of newtons: F = |Ks - m w^2| v/w.

@@ -55,9 +55,6 @@ TEST(MakeTaskTest, DeniesWhatHasNoSteadyVibration) {
   scene.controller.reset();
   expect_denied(scene, "controller");
   scene = table_1();
-  scene.friction.law = scene::laws::LuGre{};
-  expect_denied(scene, "friction.law");
-  scene = table_1();
   scene.friction.sign_convention = scene::SignConvention::as_printed;
   expect_denied(scene, "friction.sign_convention");
   scene = table_1();
@@ -95,6 +92,13 @@ TEST(StudyTest, OfASingleSpeedShowsADecadeToEitherSide) {
   EXPECT_NEAR(found.curves[0].requirements.front().sliding_m_per_s, 0.002672, 1e-12);
   EXPECT_NEAR(found.curves[0].requirements.back().sliding_m_per_s, 0.2672, 1e-10);
   EXPECT_GT(found.curves[0].fastest_m_per_s, 0.1);
+}
+
+// A row, and not the end of the study.
+TEST(StudyTest, GoesOnWhereAnOrbitRepels) {
+  const DesignStudy found = study(make_task(heavy_contact(2000.0), {0.9}, {}), [](double) {});
+  ASSERT_EQ(found.points.size(), 1U);
+  EXPECT_EQ(found.points[0].requirement.limit, Obstacle::no_orbit);
 }
 
 TEST(StudyTest, FailsWhereNothingCanBeSaid) {
