@@ -127,6 +127,14 @@ std::string key_place(Key key) {
   return fmt::format("set key {} Left reverse samplen 2.5\n", place);
 }
 
+std::vector<double> ordinates(const Chart& chart) {
+  std::vector<double> all;
+  for (const Curve& curve : chart.curves) {
+    all.insert(all.end(), curve.y.begin(), curve.y.end());
+  }
+  return all;
+}
+
 std::string script(const Chart& chart) {
   std::string text;
   for (std::size_t i = 0; i < chart.curves.size(); ++i) {
@@ -139,7 +147,9 @@ std::string script(const Chart& chart) {
       chart.logarithmic_y ? "set logscale y\nset format y '10^{{%L}}'\n" : "set format y '%h'\n";
   text += chart.y_span
               ? fmt::format("set yrange [{:.9g}:{:.9g}]\n", chart.y_span->low, chart.y_span->high)
-              : "set yrange [*:*]\n";
+              : output::range_command(
+                    'y', ordinates(chart),
+                    chart.logarithmic_y ? output::Scale::logarithmic : output::Scale::linear, 1.0);
   const char* separator = "plot ";
   for (std::size_t i = 0; i < chart.curves.size(); ++i) {
     const Curve& curve = chart.curves[i];

@@ -75,8 +75,12 @@ Balance balance(const std::string& start, double velocity_ratio, const scene::Sc
 
 }  // namespace
 
+Balance steady_balance(const scene::Scene& scene, double velocity_ratio) {
+  return balance("steady", velocity_ratio, steady(at_velocity_ratio(scene, velocity_ratio)));
+}
+
 Balance steady_balance(double velocity_ratio) {
-  return balance("steady", velocity_ratio, steady(at_velocity_ratio(table_1(), velocity_ratio)));
+  return steady_balance(table_1(), velocity_ratio);
 }
 
 std::vector<Balance> balances() {

@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "host_sim/scene/scene.hpp"
+
 namespace sonoglide::paper {
 
 /// The balances of one carrier period. Energies in J; E as the paper defines it.
@@ -28,7 +30,9 @@ struct Balance {
   double true_residual;     ///< of Efu = pull + Eiu − stored_change, relative to its largest term
 };
 
-/// Table 1 at 384 N, on the steady orbit.
+/// On the steady orbit.
+Balance steady_balance(const scene::Scene& scene, double velocity_ratio);
+/// The same of Table 1 at 384 N.
 Balance steady_balance(double velocity_ratio);
 
 /// The same, from rest and on the steady orbit, at several velocity ratios.

@@ -220,6 +220,24 @@ TEST(PaperTest, TheTrueBalanceClosesAndThePrintedOneDoesNot) {
   EXPECT_NEAR(half.average_potential, 0.25 * 133e6 * std::pow(1.4172e-7, 2), 1e-9);
 }
 
+// Table 1 at a velocity ratio of 0.5: Ks X^2/4 with X = Fe/(m w^2 - Ks), over phi_iu = phi_fu - rho
+// times the work of the friction limit in a period, rho by the closed form.
+TEST(PaperTest, TheSpringHoldsFarMoreThanAPeriodPutsIn) {
+  const Balance b = steady_balance(0.5);
+  const double held_J = 0.25 * 133e6 * std::pow(1.4172638629e-7, 2);
+  EXPECT_NEAR(b.average_potential, held_J, 1e-4 * held_J);
+  const double limit_J = 0.01962 * 0.026714794 / 60e3;
+  const double input_J = limit_J * (b.true_dissipation_ratio - 0.674948666956629);
+  EXPECT_NEAR(b.average_potential / b.ultrasonic_input, held_J / input_J, 0.01 * held_J / input_J);
+  EXPECT_TRUE(has_claim(figure_9(), ClaimStatus::does_not_hold, "the spring holds"));
+}
+
+TEST(PaperTest, StatementsBesideTheFiguresAreJudgedToo) {
+  EXPECT_TRUE(has_claim(figure_3(), ClaimStatus::depends, "1000 Runge-Kutta steps"));
+  EXPECT_TRUE(has_claim(figure_10(), ClaimStatus::does_not_hold, "So less friction"));
+  EXPECT_TRUE(has_claim(figure_12(), ClaimStatus::holds, "takes 1.000000 times as much"));
+}
+
 TEST(PaperTest, TheFaultsHaveTheirKnownEffects) {
   const std::vector<PrintedFault> all = faults();
   ASSERT_EQ(all.size(), 6U);
