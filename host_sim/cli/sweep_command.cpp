@@ -37,6 +37,9 @@ std::string text(const sweep::Summary& summary, const std::filesystem::path& out
   }
   lines += fmt::format("; {} computed in {:.3g} s, {:.3g} points/s\n", computed, summary.wall_s,
                        static_cast<double>(computed) / summary.wall_s);
+  for (const std::string& note : summary.notes) {
+    lines += fmt::format("WARNING: {}\n", note);
+  }
   return lines + failures_text(summary.failed) +
          fmt::format("rows: {}\nreport: {}\n", shown(out / sweep::table_file),
                      shown(out / sweep::page_file));

@@ -17,6 +17,7 @@
 #include "host_sim/output/page.hpp"
 #include "host_sim/process/ending.hpp"
 #include "host_sim/scene_file/to_json.hpp"
+#include "host_sim/studies/sweep/free_vibration.hpp"
 #include "host_sim/studies/sweep/journal.hpp"
 #include "host_sim/studies/sweep/report.hpp"
 
@@ -152,7 +153,7 @@ Summary run_sweep(const Plan& plan, const fs::path& out, const std::string& prog
   write_files(plan, rows, out, [&] { journal.remove(); });
   const auto failed =
       std::count_if(rows.begin(), rows.end(), [](const PointResult& row) { return !row.ok(); });
-  return {rows.size(), static_cast<std::size_t>(failed), found, wall.count()};
+  return {rows.size(), static_cast<std::size_t>(failed), found, wall.count(), start_notes(plan)};
 }
 
 }  // namespace sonoglide::sweep

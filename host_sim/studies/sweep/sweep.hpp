@@ -37,8 +37,9 @@ void write_files(
 struct Summary {
   std::size_t points;
   std::size_t failed;
-  std::size_t found_finished;  ///< by an earlier, interrupted sweep
-  double wall_s;               ///< to read all points and compute those that were left
+  std::size_t found_finished;      ///< by an earlier, interrupted sweep
+  double wall_s;                   ///< to read all points and compute those that were left
+  std::vector<std::string> notes;  ///< start_notes()
 };
 
 /// Checks every point's scene, computes the points that the journal in the folder does not hold

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "host_sim/scene_file/to_json.hpp"
+#include "host_sim/studies/sweep/free_vibration.hpp"
 #include "host_sim/studies/sweep/subject.hpp"
 
 namespace sonoglide::sweep {
@@ -47,6 +48,9 @@ std::vector<std::string> warnings(const Plan& plan, const std::vector<PointResul
     all.emplace_back(
         "Sign convention as printed in the paper (V = Vt - x'): friction pumps energy into the "
         "vibration. The dissipative convention is V = Vt + x'.");
+  }
+  for (std::string& note : start_notes(plan)) {
+    all.push_back(std::move(note));
   }
   const std::size_t failed = failures(rows);
   if (failed > 0) {

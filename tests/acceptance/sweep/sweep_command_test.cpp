@@ -47,6 +47,24 @@ class SweepCommandTest : public testing::Test {
   ScratchFolder folder_;
 };
 
+// Coulomb friction at a velocity ratio of 1 is undiminished; what the start leaves lowers it.
+TEST_F(SweepCommandTest, SaysWhereTheStartIsInTheMeans) {
+  const std::string options =
+      "sweep open.toml --vary friction.law=dahl,coulomb --vary velocity_ratio=1:1:1 ";
+  const auto ratio = [&] {
+    return table("out/open_sweep").numbers("friction_ratio_whole_run").back();
+  };
+  const Outcome from_rest = folder_.run(options);
+  EXPECT_LT(ratio(), 0.9);
+  EXPECT_NE(from_rest.out.find("WARNING: The runs begin at a given state"), std::string::npos);
+  EXPECT_NE(from_rest.out.find("21.6 % of the driven one"), std::string::npos) << from_rest.out;
+  EXPECT_NE(folder_.read("out/open_sweep/report.html").find("The runs begin at a given state"),
+            std::string::npos);
+  const Outcome steady = folder_.run(options + "--set run.start=steady");
+  EXPECT_NEAR(ratio(), 1.0, 1e-3);
+  EXPECT_EQ(steady.out.find("WARNING"), std::string::npos);
+}
+
 TEST_F(SweepCommandTest, LeavesATableAPictureAndAPage) {
   const Outcome outcome = folder_.run(
       "sweep open.toml --vary velocity_ratio=0.2:1:3 "
