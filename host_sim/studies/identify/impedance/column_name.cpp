@@ -13,7 +13,7 @@
 namespace sonoglide::identify::impedance {
 namespace {
 
-constexpr std::string_view letters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ";
+constexpr std::string_view alphabet = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ";
 
 /// Goes through a name from its beginning to its end and takes every part of it, or says which it
 /// does not understand.
@@ -59,7 +59,7 @@ class Reader {
   /// Of letters and digits; behind it may stand the rest of a unit.
   void take_word() {
     const std::size_t end = std::min(
-        text_.find_first_not_of(std::string(letters) + "0123456789", at_ + 1), text_.size());
+        text_.find_first_not_of(std::string(alphabet) + "0123456789", at_ + 1), text_.size());
     const std::string word = text_.substr(at_, end - at_);
     at_ = end;
     if (!take(word) && !take_prefix(word) && !take_parts(word)) {
@@ -101,7 +101,7 @@ class Reader {
         std::string_view(" -_").find(text_[at_]) == std::string_view::npos) {
       return false;
     }
-    const std::size_t end = std::min(text_.find_first_not_of(letters, at_ + 1), text_.size());
+    const std::size_t end = std::min(text_.find_first_not_of(alphabet, at_ + 1), text_.size());
     const auto unit = unit_of_word(word + text_.substr(at_ + 1, end - at_ - 1));
     if (!unit || unit->dimension == Dimension::other) {
       return false;
@@ -139,7 +139,7 @@ class Reader {
     inside.erase(0, minus ? 1 : 0);
     const auto unit = unit_of_text(inside);
     const bool is_word = meaning_of(inside) && lower_case(inside) == inside;
-    const bool words = inside.find_first_not_of(std::string(letters) + " |'") == std::string::npos;
+    const bool words = inside.find_first_not_of(std::string(alphabet) + " |'") == std::string::npos;
     if (unit && (unit->dimension != Dimension::other || !is_word)) {
       negative_ = negative_ != minus;
       take_unit(*unit, inside);
