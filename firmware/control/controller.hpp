@@ -253,11 +253,9 @@ class Controller {
         return undriven(Limit::none);
       }
     }
-    if (measurement.velocity_at_rail && state_ != State::calibrating) {
-      return apply(stand(Limit::velocity_at_rail));  // no velocity to go on from
-    }
     const Scalar velocity = measurement.sliding_velocity;
-    const Scalar speed = foresight_.speed(velocity);
+    // At its rail it is none to go on from.
+    const Scalar speed = measurement.velocity_at_rail ? Scalar{} : foresight_.speed(velocity);
     if (state_ == State::calibrating) {
       return calibrate(measurement);
     }
@@ -266,7 +264,9 @@ class Controller {
       turn(backwards);
     }
     const Request wanted =
-        speed < speed_floor_ ? stand(Limit::speed_floor) : slide(measurement, speed);
+        speed < speed_floor_
+            ? stand(measurement.velocity_at_rail ? Limit::velocity_at_rail : Limit::speed_floor)
+            : slide(measurement, speed);
     return state_ == State::fault ? undriven(Limit::none) : apply(wanted);
   }
 
