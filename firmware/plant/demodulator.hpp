@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstddef>
+#include <type_traits>
+#include <utility>
 
 #include "firmware/numeric/float_elementary.hpp"
 #include "firmware/numeric/gauss_legendre.hpp"
@@ -14,7 +16,8 @@ namespace sonoglide::plant {
 /// period the vibration velocity is Re(z exp(j phase)), z = (in_phase - j quadrature)/pi.
 ///
 /// Error: a few roundings for steps up to 3 rad of a motion whose harmonics above the fourth are
-/// small in a step; a solver's own error comes on top.
+/// small in a step; a solver's own error comes on top. A step that has more in it offers
+/// demodulated(phase), the integrals themselves.
 template <class Scalar>
 class Demodulator {
  public:
@@ -23,6 +26,12 @@ class Demodulator {
 
   template <class Step>
   void operator()(const Step& step) {
+    if constexpr (HasOwn<Step>::value) {
+      const auto own = step.demodulated(phase_begin_ + step.begin());
+      in_phase_ += own.in_phase;
+      quadrature_ += own.quadrature;
+      return;
+    }
     const Rule rule = rule_for(step.length());
     for (std::size_t i = 0; i < rule.count; ++i) {
       const Scalar offset = step.length() * static_cast<Scalar>(rule.node[i]);
@@ -38,6 +47,12 @@ class Demodulator {
   Scalar quadrature() const { return quadrature_; }  ///< of v sin(phase)
 
  private:
+  template <class Step, class = void>
+  struct HasOwn : std::false_type {};
+  template <class Step>
+  struct HasOwn<Step, std::void_t<decltype(std::declval<Step>().demodulated(Scalar(0)))>>
+      : std::true_type {};
+
   struct Rule {
     const double* node;
     const double* weight;

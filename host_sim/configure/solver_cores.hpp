@@ -8,6 +8,7 @@
 #include "firmware/plant/model.hpp"
 #include "firmware/plant/rk4/rk4.hpp"
 #include "firmware/plant/rk4/rk4_event.hpp"
+#include "firmware/plant/stiff/stiff_linear.hpp"
 #include "firmware/plant/strang/strang.hpp"
 #include "firmware/plant/taylor/event_taylor.hpp"
 

@@ -51,6 +51,12 @@ class MeasuredStrangStep {
         numeric::max(numeric::abs(motion_.drive_work), numeric::abs(motion_.damping_work)),
         numeric::abs(contact_work()));
   }
+  /// The same where what the sliding put in and what the contact took count alone.
+  Scalar dragged_energy() const {
+    return numeric::max(passed_energy(),
+                        numeric::abs(contact_scale_) * numeric::max(numeric::abs(friction_work_),
+                                                                    numeric::abs(sliding_work_)));
+  }
   /// What rounding is relative to in energy_defect().
   Scalar energy_terms() const {
     return numeric::abs(gain_.kicks) + numeric::abs(gain_.kinetic) + numeric::abs(gain_.elastic) +

@@ -28,6 +28,10 @@ namespace sonoglide::plant {
 /// so is the rest of the interval: in a steady motion all steps are alike, and the splitting stays
 /// symmetric. The next interval tries steps twice as long where there is room.
 ///
+/// Without a drive the energy that passed is that which the sliding puts into the contact, or the
+/// contact takes: where friction alone sets a mass in motion that was at rest, the kicks of the
+/// first step are all of its kinetic energy, however short it is.
+///
 /// An interval that needs more steps than the limit is declined with Error::too_many_steps. Causes
 /// are a stuck contact that rings, a stiff contact that reverses (first order there), an oscillator
 /// far faster than the drive, and a tolerance below rounding.
@@ -144,7 +148,9 @@ class Strang {
     constexpr Scalar rounding = Scalar(4) * std::numeric_limits<Scalar>::epsilon();
     constexpr Scalar share = numeric::from_real<Scalar>(0.5 / numeric::two_pi);
     const Scalar kick = step.length() * model_.contact_force(Scalar(1));
-    const Scalar energy = share * step.length() * velocity * velocity + step.passed_energy();
+    const bool driven = step.motion_integrals().drive_work != Scalar(0);
+    const Scalar passed = driven ? step.passed_energy() : step.dragged_energy();
+    const Scalar energy = share * step.length() * velocity * velocity + passed;
     return step.velocity_defect() / numeric::max(tolerance_ * velocity, rounding * kick) +
            step.energy_defect() / numeric::max(tolerance_ * energy, rounding * step.energy_terms());
   }

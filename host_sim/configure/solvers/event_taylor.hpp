@@ -11,7 +11,9 @@
 namespace sonoglide::plant {
 template <class Model, std::size_t Order>
 class EventTaylor;
-}
+template <class Solver>
+class StiffLinear;
+}  // namespace sonoglide::plant
 
 namespace sonoglide::configure::solvers {
 
@@ -49,7 +51,7 @@ struct EventTaylor {
   static constexpr bool composed_lean = true;
   static constexpr bool counts_events = true;
   template <class Model, int Order>
-  using Core = plant::EventTaylor<Model, static_cast<std::size_t>(Order)>;
+  using Core = plant::StiffLinear<plant::EventTaylor<Model, static_cast<std::size_t>(Order)>>;
 
   static constexpr Palette palette = Palette::blue;
   static constexpr std::array<Sweep, 4> float64_sweeps = {

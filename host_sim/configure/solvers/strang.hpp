@@ -9,7 +9,9 @@
 namespace sonoglide::plant {
 template <class Model>
 class Strang;
-}
+template <class Solver>
+class StiffLinear;
+}  // namespace sonoglide::plant
 
 namespace sonoglide::configure::solvers {
 
@@ -26,7 +28,7 @@ struct Strang {
   static constexpr bool composed_lean = true;
   static constexpr bool counts_events = true;
   template <class Model, int /*Order*/>
-  using Core = plant::Strang<Model>;
+  using Core = plant::StiffLinear<plant::Strang<Model>>;
 
   static constexpr Palette palette = Palette::green;
   static constexpr std::array<Sweep, 1> float64_sweeps = {{{0, 1, 9}}};

@@ -19,6 +19,7 @@
 #include "firmware/plant/sliding.hpp"
 #include "firmware/plant/solver.hpp"
 #include "firmware/plant/state.hpp"
+#include "firmware/plant/stiff/stiff_linear.hpp"
 #include "host_sim/configure/plant_model.hpp"
 #include "host_sim/configure/solver_methods.hpp"
 #include "host_sim/studies/work_precision/peers/contender.hpp"
