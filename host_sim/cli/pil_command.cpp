@@ -55,6 +55,7 @@ void pil(const PilOptions& options) {
   const std::string header = header_for(input, scene, design, board);
   if (!options.quiet) {
     print_design_notes(design);
+    announce_long_run(scene);
   }
   const std::filesystem::path out = output_folder(options.out, scene.name, "_" + options.board);
   require_emulator(board);

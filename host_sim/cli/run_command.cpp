@@ -72,6 +72,7 @@ void run(const RunOptions& options) {
   const Design design = configure::design_if_closed(scene);
   if (!options.quiet) {
     print_design_notes(design);
+    announce_long_run(scene);
   }
   const bool written = !options.json || !options.out.empty();
   if (written && !options.quiet) {

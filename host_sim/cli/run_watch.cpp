@@ -1,5 +1,8 @@
 #include "host_sim/cli/run_watch.hpp"
 
+#include <fmt/format.h>
+
+#include "host_sim/loop/step_forecast.hpp"
 #include "host_sim/process/printable.hpp"
 
 namespace sonoglide::cli {
@@ -13,6 +16,15 @@ void print_notes(const std::vector<std::string>& notes) {
 void print_design_notes(const std::optional<configure::ControlDesign>& design) {
   if (design) {
     print_notes(configure::design_notes(*design));
+  }
+}
+
+void announce_long_run(const scene::Scene& scene) {
+  constexpr double steps_of_a_minute = 1e8;
+  const double steps = loop::expected_steps(scene);
+  if (steps >= steps_of_a_minute) {
+    process::show_on_stderr(
+        fmt::format("note: about {:.2g} steps are expected, which take minutes", steps));
   }
 }
 

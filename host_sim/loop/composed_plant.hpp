@@ -46,8 +46,19 @@ class StepReader {
     reads_ = true;
   }
 
+  /// @param begin_s  of the stretch, since the run began
+  /// @param meter    outlives the reader
+  void count(double begin_s, double angular_frequency_rad_per_s, StepMeter& meter) {
+    begin_s_ = begin_s;
+    angular_frequency_rad_per_s_ = angular_frequency_rad_per_s;
+    meter_ = &meter;
+  }
+
   template <class Step>
   void operator()(const Step& step) {
+    if (meter_ != nullptr) {
+      meter_->take(begin_s_ + (step.begin() + step.length()) / angular_frequency_rad_per_s_);
+    }
     if (reads_) {
       read(step);
     }
@@ -73,6 +84,8 @@ class StepReader {
   }
 
   bool reads_ = false;
+  StepMeter* meter_ = nullptr;
+  double begin_s_ = 0.0;
   plant::Demodulator<double>* demodulator_ = nullptr;
   ContactLoad* load_ = nullptr;
   const double* next_ = nullptr;
@@ -189,6 +202,9 @@ class ComposedPlant final : public PlantPort {
     ContactLoad load(normal_stiffness());
     if constexpr (is_normal) {
       reader.weigh(load);
+    }
+    if (stretch.meter != nullptr) {
+      reader.count(stretch.begin_s, omega, *stretch.meter);
     }
     plant::Outcome<double> outcome = solver_.advance(interval, state_, account, reader);
     energy = balance(stretch, account, before);

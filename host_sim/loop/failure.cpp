@@ -2,31 +2,120 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <string_view>
 
 #include "firmware/numeric/turn.hpp"
 #include "host_sim/configure/plant_scales.hpp"
+#include "host_sim/configure/solver_facts.hpp"
+#include "host_sim/loop/carrier_grid.hpp"
 
 namespace sonoglide::loop {
 namespace {
 
-/// A contact that sticks is a spring beside the plant's own.
-double stuck_frequency_Hz(const scene::Scene& scene) {
-  const double stiffness = scene.plant.stiffness_N_per_m + scene.friction.contact_stiffness_N_per_m;
-  return std::sqrt(stiffness / scene.plant.mass_kg) / numeric::two_pi;
+std::string_view period_word(const scene::Scene& scene) {
+  return scene.drive ? "carrier period" : "thousandth of the run";
 }
 
-/// What the steps were spent on, where that may be the contact; else nothing.
-std::string ringing(const scene::Scene& scene) {
-  if (!scene::is_elastic(scene.friction.law) ||
-      configure::largest_friction_limit_N(scene.friction) <= 0.0) {
-    return "";
+bool rubs(const scene::Scene& scene) {
+  return configure::largest_friction_limit_N(scene.friction) > 0.0;
+}
+
+/// What the plant does in one carrier period, in radians.
+struct Rates {
+  double mode = 0.0;    ///< of the natural mode
+  double damper = 0.0;  ///< of the decay, in a plant without a spring
+  double stuck = 0.0;   ///< of the mode while the contact sticks: a spring beside the plant's own
+  double slide = 0.0;   ///< of the contact's decay to its limit, as fast as the body slides
+};
+
+double stiffest_N_per_m(const scene::Plant& plant) {
+  return plant.stiffness_profile.empty() ? plant.stiffness_N_per_m
+                                         : scene::largest_value(plant.stiffness_profile);
+}
+
+Rates rates_in(const scene::Scene& scene, double time_s) {
+  const double stiffness_N_per_m = stiffest_N_per_m(scene.plant);
+  const double mass_kg = scene.plant.mass_kg;
+  Rates rates;
+  rates.mode = time_s * std::sqrt(stiffness_N_per_m / mass_kg);
+  rates.damper = time_s * scene.plant.damping_N_s_per_m / mass_kg;
+  if (rubs(scene) && scene::is_elastic(scene.friction.law)) {
+    rates.stuck =
+        time_s *
+        std::sqrt((stiffness_N_per_m + scene.friction.contact_stiffness_N_per_m) / mass_kg);
+    rates.slide = time_s * scene.friction.contact_stiffness_N_per_m *
+                  configure::fastest_sliding_m_per_s(scene.sliding) /
+                  configure::largest_friction_limit_N(scene.friction);
   }
-  const std::string drive =
-      scene.drive ? fmt::format(" under a drive of {:.4g} Hz", scene.drive->frequency_Hz) : "";
+  return rates;
+}
+
+std::string of_mode(const scene::Scene& scene, const Rates& rates, double time_s) {
+  const double turns = rates.mode / numeric::two_pi;
+  const std::string mode =
+      fmt::format("the natural mode, sqrt(Ks/m)/2π = {:.4g} Hz, turns {:.4g} times in one {}",
+                  turns / time_s, turns, period_word(scene));
+  return mode + (rubs(scene)
+                     ? " and the friction changes with it, so that each turn has to be resolved"
+                     : ": its phase is lost in the rounding of the numbers");
+}
+
+std::string of_damper(const scene::Scene& scene, const Rates& rates, double time_s) {
+  return fmt::format("the damper stops the mass within m/c = {:.4g} s, 1/{:.4g} of one {}",
+                     time_s / rates.damper, rates.damper, period_word(scene));
+}
+
+std::string of_stuck_contact(const scene::Scene& scene, const Rates& rates, double time_s) {
+  const double turns = rates.stuck / numeric::two_pi;
   return fmt::format(
-      "; a stuck contact rings at sqrt((Kt + Ks)/m)/2π = {:.4g} Hz{}, which has to be resolved",
-      stuck_frequency_Hz(scene), drive);
+      "a stuck contact rings at sqrt((Kt + Ks)/m)/2π = {:.4g} Hz, {:.4g} times in one {}, which "
+      "has "
+      "to be resolved",
+      turns / time_s, turns, period_word(scene));
+}
+
+std::string of_sliding(const Rates& rates, double time_s) {
+  return fmt::format("the contact slides to its limit within Fc/(Kt Vt) = {:.4g} s",
+                     time_s / rates.slide);
+}
+
+/// Nothing turns so fast, in radians of a period, that it is the cause of a step limit.
+constexpr double slow = 1e-3 * plant::max_steps_per_advance;
+
+/// The fastest of what the steps have to follow. The mode and the damper alone need so many steps
+/// where they are this fast, whatever the contact does.
+std::string fastest(const scene::Scene& scene, double enough_alone) {
+  const double time_s = CarrierGrid(scene).period_s();
+  const Rates rates = rates_in(scene, time_s);
+  const double free = std::max(rates.mode, rates.damper);
+  if (rates.stuck > 2.0 * free && free < enough_alone) {
+    return of_stuck_contact(scene, rates, time_s);
+  }
+  return rates.damper > rates.mode ? of_damper(scene, rates, time_s)
+                                   : of_mode(scene, rates, time_s);
+}
+
+std::string too_many_steps(const scene::Scene& scene, const plant::Cost& cost) {
+  const std::string need =
+      fmt::format("one {} needs more than {} steps ({} were taken since the run began); ",
+                  period_word(scene), plant::max_steps_per_advance, cost.steps);
+  if (!configure::is_adaptive(scene.solver.method)) {
+    return need + fmt::format("solver.step_s = {:.6g} cuts it into {:.4g}", scene.solver.step_s,
+                              CarrierGrid(scene).period_s() / scene.solver.step_s);
+  }
+  const Rates rates = rates_in(scene, CarrierGrid(scene).period_s());
+  if (std::max({rates.mode, rates.damper, rates.stuck}) < slow) {
+    if (rates.slide >= slow) {
+      return need + of_sliding(rates, CarrierGrid(scene).period_s());
+    }
+    return need + fmt::format(
+                      "nothing in the plant is so fast: solver.tolerance = {:.6g} asks for "
+                      "them",
+                      scene.solver.tolerance);
+  }
+  return need + fastest(scene, 10.0 * slow);
 }
 
 std::string reason(const scene::Scene& scene, plant::Error error, const plant::Cost& cost) {
@@ -35,11 +124,10 @@ std::string reason(const scene::Scene& scene, plant::Error error, const plant::C
       return fmt::format("{}, the step is too long for the contact stiffness",
                          scene::broken_bound(scene.friction.law));
     case plant::Error::step_too_long:
-      return "the step is too long for the contact or for the oscillator" + ringing(scene);
+      return "the step is too long; " +
+             fastest(scene, CarrierGrid(scene).period_s() / scene.solver.step_s);
     case plant::Error::too_many_steps:
-      return fmt::format(
-          "more than {} steps in one {}, {} since the run began{}", plant::max_steps_per_advance,
-          scene.drive ? "carrier period" : "thousandth of the run", cost.steps, ringing(scene));
+      return too_many_steps(scene, cost);
     case plant::Error::not_finite:
     case plant::Error::none:
       break;

@@ -7,6 +7,7 @@
 #include "firmware/plant/outcome.hpp"
 #include "host_sim/loop/energy.hpp"
 #include "host_sim/loop/snapshot.hpp"
+#include "host_sim/loop/step_meter.hpp"
 #include "host_sim/scene/scene.hpp"
 
 namespace sonoglide::loop {
@@ -27,9 +28,10 @@ struct Stretch {
   double sliding_acceleration_m_per_s2 = 0.0;
   /// The stretch lies within one straight piece of it.
   scene::Waveform drive_waveform = scene::Waveform::cosine;
-  double begin_s = 0.0;      ///< since the run began: what changes in time is looked up by it
-  bool demodulated = false;  ///< the account is to have velocity_in_phase_m and its quadrature
-  bool energies = true;      ///< false: what depends on them is left open
+  double begin_s = 0.0;        ///< since the run began: what changes in time is looked up by it
+  bool demodulated = false;    ///< the account is to have velocity_in_phase_m and its quadrature
+  bool energies = true;        ///< false: what depends on them is left open
+  StepMeter* meter = nullptr;  ///< counts the steps
 };
 
 class PlantPort {
@@ -38,6 +40,7 @@ class PlantPort {
 
   /// Advances over one stretch. An error leaves the state where it happened, `outcome.offset`
   /// seconds into the stretch.
+  /// @throws what the meter of the stretch throws; the state is that of the last step
   virtual plant::Outcome<double> advance(const Stretch& stretch, EnergyBalance& energy) = 0;
 
   /// The same motion, bit for bit. `seen` gets one state for each of the offsets, which rise and

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "host_sim/configure/plant_scales.hpp"
 #include "host_sim/loop/failure.hpp"
@@ -24,6 +25,15 @@ std::vector<double> cuts_of(const scene::Scene& scene, const SlidingProfile& sli
   return cuts_s;
 }
 
+/// Tells the progress inside a carrier period too, so that a run can be ended there.
+std::function<void()> pulse(const Watch& watch, const CarrierClock& clock, double duration_s) {
+  if (!watch.progress) {
+    return {};
+  }
+  return
+      [&progress = watch.progress, &clock, duration_s] { progress(clock.begin_s() / duration_s); };
+}
+
 }  // namespace
 
 PlantRun::PlantRun(const scene::Scene& scene, const CarrierClock& clock, const Watch& watch,
@@ -31,6 +41,7 @@ PlantRun::PlantRun(const scene::Scene& scene, const CarrierClock& clock, const W
     : scene_(scene),
       clock_(clock),
       result_(result),
+      meter_(plant::max_steps_per_advance, pulse(watch, clock, scene.run.duration_s)),
       plant_(make_plant_port(scene)),
       sliding_(scene.sliding),
       undriven_(scene),
@@ -56,6 +67,7 @@ EnergyBalance PlantRun::advance(double amplitude_N) {
   const bool has_corner =
       waveform_ == scene::Waveform::square || waveform_ == scene::Waveform::triangle;
   EnergyBalance total;
+  meter_.begin_period();
   if (has_corner && corner_s < duration_s - clock_.rounding_s(end_s)) {
     total = piece(begin_s, 0.0, corner_s, begin_s + corner_s, amplitude_N);
     total.append(piece(begin_s, corner_s, duration_s, end_s, amplitude_N));
@@ -133,11 +145,15 @@ EnergyBalance PlantRun::stretch(double begin_s, double duration_s, double drive_
   const Stretch stretch{duration_s,  drive_phase_rad, clock_.drive_rate_rad_per_s(),
                         amplitude_N, first,           (last - first) / duration_s,
                         waveform_,   begin_s,         scene_.demodulates(),
-                        energies_};
+                        energies_,   &meter_};
   EnergyBalance energy;
-  const plant::Outcome<double> outcome = solve(begin_s, end_s, stretch, energy);
-  if (outcome.error != plant::Error::none) {
-    fail(outcome.error, begin_s + outcome.offset);
+  try {
+    const plant::Outcome<double> outcome = solve(begin_s, end_s, stretch, energy);
+    if (outcome.error != plant::Error::none) {
+      fail(outcome.error, begin_s + outcome.offset);
+    }
+  } catch (const StepsRanOut& out) {
+    fail(plant::Error::too_many_steps, out.time_s);
   }
   undriven_.complete(stretch, energy);
   energy.normal_impulse_N_s =

@@ -13,6 +13,7 @@
 #include "host_sim/loop/run_result.hpp"
 #include "host_sim/loop/sampler.hpp"
 #include "host_sim/loop/sliding_profile.hpp"
+#include "host_sim/loop/step_meter.hpp"
 #include "host_sim/loop/undriven_friction.hpp"
 #include "host_sim/scene/scene.hpp"
 
@@ -56,6 +57,7 @@ class PlantRun {
   const scene::Scene& scene_;
   const CarrierClock& clock_;
   RunResult& result_;
+  StepMeter meter_;
   std::unique_ptr<PlantPort> plant_;
   SlidingProfile sliding_;
   UndrivenFriction undriven_;
