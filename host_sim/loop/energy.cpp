@@ -13,15 +13,21 @@ double quotient(double numerator, double denominator) {
   return denominator > 0.0 ? numerator / denominator : std::numeric_limits<double>::quiet_NaN();
 }
 
-double balance_residual(const EnergyBalance& energy, double sign) {
+/// @param scale_J  energy of the motion to come: what the rounding of a work is relative to
+double balance_residual(const EnergyBalance& energy, double sign, double scale_J) {
+  constexpr double rounding = 1e-13;
+  constexpr double least_part_of_stored = 1e-9;
   const double change = energy.stored_end_J - energy.stored_begin_J;
-  const double residual =
+  const double residual = std::abs(
       energy.friction_work_J - energy.pull_work_J -
-      sign * (energy.drive_work_J + energy.spring_work_J - energy.damping_work_J - change);
+      sign * (energy.drive_work_J + energy.spring_work_J - energy.damping_work_J - change));
   const double largest = std::max({std::abs(energy.friction_work_J), std::abs(energy.pull_work_J),
                                    std::abs(energy.drive_work_J), std::abs(energy.spring_work_J),
                                    std::abs(energy.damping_work_J), std::abs(change)});
-  return largest > 0.0 ? std::abs(residual) / largest : 0.0;
+  const double stored = std::max(energy.stored_begin_J, energy.stored_end_J);
+  return quotient(residual, std::max(largest, stored) <= rounding * scale_J ? 0.0
+                            : largest < least_part_of_stored * stored       ? stored
+                                                                            : largest);
 }
 
 }  // namespace
@@ -57,8 +63,10 @@ std::complex<double> EnergyBalance::vibration_m_per_s() const {
   return 2.0 / duration_s * std::complex<double>(velocity_in_phase_m, -velocity_quadrature_m);
 }
 
-PowerRatios power_ratios(const EnergyBalance& energy, double friction_N,
-                         scene::SignConvention convention, double period_s) {
+namespace {
+
+PowerRatios ratios(const EnergyBalance& energy, double friction_N, scene::SignConvention convention,
+                   double period_s, double scale_J) {
   const double sign = configure::vibration_sign(convention);
   const double limit_J = friction_N * energy.limit_distance_m;
   const double drive_input = quotient(energy.drive_work_J, limit_J);
@@ -71,15 +79,23 @@ PowerRatios power_ratios(const EnergyBalance& energy, double friction_N,
           drive_input,
           quotient(change_J, limit_J),
           quotient(energy.damping_work_J, limit_J),
-          balance_residual(energy, sign),
+          balance_residual(energy, sign, scale_J),
           1.0 + drive_input - stored_as_printed};
+}
+
+}  // namespace
+
+PowerRatios power_ratios(const EnergyBalance& energy, double friction_N,
+                         scene::SignConvention convention, double period_s) {
+  return ratios(energy, friction_N, convention, period_s, 0.0);
 }
 
 PowerRatios power_ratios(const scene::Scene& scene, const EnergyBalance& energy) {
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
-  return power_ratios(energy, configure::largest_friction_limit_N(scene.friction),
-                      scene.friction.sign_convention,
-                      scene.drive ? 1.0 / scene.drive->frequency_Hz : none);
+  const scene::PlantScales scales = configure::plant_scales(scene);
+  return ratios(
+      energy, configure::largest_friction_limit_N(scene.friction), scene.friction.sign_convention,
+      scene.drive ? 1.0 / scene.drive->frequency_Hz : none, scales.force_N * scales.length_m);
 }
 
 }  // namespace sonoglide::loop

@@ -211,7 +211,7 @@ output::Table run_table(const scene::Scene& scene, const loop::RunResult& result
     row("Part of the time without contact, window", fmt::format("{:.6f}", load.open_fraction));
     row("Mean normal force, window [N]", fmt::format("{:.6g}", load.mean_normal_force_N));
   }
-  row("Residual of the energy balance, window", fmt::format("{:.2g}", window.balance_residual));
+  row("Residual of the energy balance, window", figure("{:.2g}", window.balance_residual));
   if (std::isfinite(window.dissipation_as_printed)) {
     row("Power dissipation ratio as the paper prints it",
         fmt::format("{:.6g}", window.dissipation_as_printed));

@@ -214,5 +214,31 @@ TEST(EnergyBalanceTest, ResidualTakesTheConventionsSign) {
   EXPECT_DOUBLE_EQ(residual(scene::SignConvention::dissipative), 4.0 / 10.0);
 }
 
+/// What would be relative to a rounding alone is relative to what is stored, or is not defined.
+TEST(EnergyBalanceTest, ResidualHasAScaleThatExists) {
+  EnergyBalance energy;
+  energy.duration_s = 1.0;
+  const auto residual = [&energy] { return power_ratios(table_1(), energy).balance_residual; };
+  EXPECT_TRUE(std::isnan(residual())) << "nothing moves";
+  energy.drive_work_J = 1e-20;
+  energy.stored_end_J = 1e-25;
+  EXPECT_TRUE(std::isnan(residual())) << "a contact at breakaway";
+  energy.drive_work_J = 0.0;
+  energy.stored_begin_J = 2.0;
+  energy.stored_end_J = 2.0 + 1e-12;
+  EXPECT_NEAR(residual(), 0.5e-12, 1e-15) << "nothing is passed on";
+  energy.stored_end_J = 3.0;
+  EXPECT_DOUBLE_EQ(residual(), 1.0) << "energy out of nothing";
+}
+
+TEST(EnergyTest, ResidualOfAnOscillatorAloneIsThatOfItsEnergy) {
+  Scene scene = table_1();
+  scene.friction.law = scene::laws::None{};
+  scene.friction.normal_force_N = 0.0;
+  scene.drive->force_amplitude_N = 0.0;
+  scene.plant.initial_displacement_m = 1e-6;
+  EXPECT_LE(window_ratios(scene).balance_residual, 1e-9);
+}
+
 }  // namespace
 }  // namespace sonoglide::loop::energy_test
