@@ -153,7 +153,7 @@ TEST(IdentifyImpedanceCommand, WithoutAMechanicalFactSaysWhatIsMissing) {
 }
 
 /// Phases that are 2 degrees off: on the terminal, on the page and in the file.
-TEST(IdentifyImpedanceCommand, WarnsThatTheCircuitDoesNotDescribeTheSweep) {
+TEST(IdentifyImpedanceCommand, WarnsOfPhasesThatAreOff) {
   ScratchFolder folder;
   std::string table = "frequency_Hz,impedance_ohm,phase_deg\n";
   for (const auto& [frequency_Hz, value] : readings()) {
@@ -163,7 +163,7 @@ TEST(IdentifyImpedanceCommand, WarnsThatTheCircuitDoesNotDescribeTheSweep) {
   folder.write("z.csv", table);
   const Outcome outcome = folder.run("identify impedance z.csv");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-  const std::string warning = "The circuit does not describe the sweep";
+  const std::string warning = "The phases are off by";
   EXPECT_NE((outcome.out + outcome.err).find("WARNING: " + warning), std::string::npos)
       << outcome.out;
   EXPECT_NE(folder.read("out/z_impedance/report.html").find(warning), std::string::npos);

@@ -1,16 +1,19 @@
 /// The equivalent circuit of a transducer: a lossy clamped capacitance beside series branches of
 /// resistance, inductance and capacitance, a branch a mode (Butterworth–Van Dyke), behind the
-/// resistance and inductance of the leads.
+/// resistance and inductance of the leads, seen by an instrument whose phase may be off.
 #pragma once
 
 #include <Eigen/Core>
 
+#include <bitset>
 #include <complex>
+#include <cstddef>
 #include <vector>
 
 namespace sonoglide::identify::impedance {
 
 inline constexpr double two_pi = 6.283185307179586;
+inline constexpr double degrees_per_rad = 360.0 / two_pi;  ///< in a radian
 
 /// G/(1 + j (f² − fs²)/(f Δ)): a branch by what is seen of it.
 struct Mode {
@@ -37,11 +40,15 @@ struct Circuit {
   double loss_tangent;      ///< of the clamped capacitance; 0 where the circuit has none
   std::vector<Mode> modes;  ///< the first is the one that is identified
   Lead lead = {};
+  double rotation_rad = 0.0;  ///< by which every phase of the admittance is read too large
+  /// By how many band widths the resonance of the first mode is lower at the largest current than at
+  /// a small one: f0 = fs − lean Δ |i/i_max|². Below 0 it is higher. A mode of resistance, mass and a
+  /// spring that softens or stiffens with the square of the displacement (Duffing) has one.
+  double lean = 0.0;
 
   /// Of all, at the terminals.
   std::complex<double> admittance_S(double frequency_Hz) const;
-  /// By how much a small change of the admittance behind the lead shows at the terminals:
-  /// 1/(1 + Z Y')², Z the lead and Y' the admittance behind it; 1 without a lead.
+  /// By how much a small change of the admittance behind the lead shows at the terminals.
   std::complex<double> share_behind_lead(double frequency_Hz) const;
   /// fs √(1 + C1/C0)
   double antiresonance_Hz() const;
@@ -49,47 +56,41 @@ struct Circuit {
   double coupling() const;
 };
 
-/// The unit of the lead's inductance in the vector.
-inline constexpr double microhenry_H = 1e-6;
+/// What a fit may have beside clamped capacitance and modes, in the order of the vector.
+enum class Part : std::size_t { loss_tangent, rotation, lead_resistance, lead_inductance, lean };
 
-enum class LeadModel { none, resistance, inductance, resistance_and_inductance };
+inline constexpr std::size_t part_count = 5;
 
-inline bool has_resistance(LeadModel lead) {
-  return lead == LeadModel::resistance || lead == LeadModel::resistance_and_inductance;
-}
-inline bool has_inductance(LeadModel lead) {
-  return lead == LeadModel::inductance || lead == LeadModel::resistance_and_inductance;
-}
+double& element(Circuit& circuit, Part part);
+/// As identify.json names it.
+const char* name_of(Part part);
 
 /// Which parts of a circuit are fitted.
 struct Parts {
-  bool loss_tangent;
-  int modes;
-  LeadModel lead = LeadModel::none;
+  std::bitset<part_count> fitted;
+  int modes = 1;  ///< in the sweep
+  int beside =
+      0;  ///< modes beside the sweep, behind the others; they have the quality of the first
+
+  bool has(Part part) const { return fitted[static_cast<std::size_t>(part)]; }
+  Parts with(Part part, bool is_fitted = true) const;
+  /// Of a part in the vector, where it is fitted.
+  Eigen::Index index(Part part) const;
+  /// Of the first mode's ln G in the vector.
+  Eigen::Index first_mode() const { return 1 + static_cast<Eigen::Index>(fitted.count()); }
+  Eigen::Index size() const {
+    return first_mode() + 3 * static_cast<Eigen::Index>(modes) +
+           2 * static_cast<Eigen::Index>(beside);
+  }
 };
 
-/// A circuit as a vector: ln C0, tan δ where it is fitted, resistance (ohm) and inductance (µH) of
-/// the lead where they are fitted, then ln G, ln fs and ln Δ of each mode.
-Eigen::VectorXd to_vector(const Circuit& circuit, Parts parts);
-Circuit to_circuit(const Eigen::VectorXd& p, Parts parts);
-/// Of the lead's resistance in the vector, where it is fitted.
-inline Eigen::Index first_of_lead(Parts parts) {
-  return parts.loss_tangent ? 2 : 1;
-}
-/// Of the lead's inductance in the vector, where it is fitted.
-inline Eigen::Index inductance_of_lead(Parts parts) {
-  return first_of_lead(parts) + (has_resistance(parts.lead) ? 1 : 0);
-}
-/// Of the first mode's ln G in the vector.
-inline Eigen::Index first_mode(Parts parts) {
-  return inductance_of_lead(parts) + (has_inductance(parts.lead) ? 1 : 0);
-}
-inline Eigen::Index parameters(Parts parts) {
-  return first_mode(parts) + 3 * parts.modes;
-}
+/// A circuit as a vector: ln C0, the parts that are fitted, then ln G, ln fs and ln Δ of each mode,
+/// and ln G and ln fs of each beside the sweep.
+Eigen::VectorXd to_vector(const Circuit& circuit, const Parts& parts);
+Circuit to_circuit(const Eigen::VectorXd& p, const Parts& parts);
 
 /// The admittance, and its derivatives to the vector's elements.
-std::complex<double> admittance_S(const Circuit& circuit, Parts parts, double frequency_Hz,
+std::complex<double> admittance_S(const Circuit& circuit, const Parts& parts, double frequency_Hz,
                                   Eigen::VectorXcd& derivatives);
 
 }  // namespace sonoglide::identify::impedance

@@ -21,9 +21,6 @@ struct CircuitFit {
   bool converged;
 };
 
-/// Relative residuals and their Jacobian.
-Linearisation linearise(const Sweep& sweep, Parts parts, const Circuit& circuit);
-
 /// The sweep with each reading moved to where its relative residual is the logarithm of measured
 /// over fitted. Of a phase that scatters by s the real part of the relative residual is −s²/2 on
 /// average, which would shift the magnitude; that of the logarithm is 0.
@@ -31,10 +28,11 @@ Sweep with_logarithmic_residuals(const Sweep& sweep, const Circuit& fitted);
 
 /// Least squares of the whitened relative residuals, weighted by the circuit that the fit before
 /// gave, so that weights do not pull at it.
-CircuitFit fit_circuit(const Sweep& sweep, Parts parts, const Circuit& start, const Noise& noise);
+CircuitFit fit_circuit(const Sweep& sweep, const Parts& parts, const Circuit& start,
+                       const Noise& noise);
 
 /// The same with the noise estimated in turn, until neither changes.
-CircuitFit fit_circuit_and_noise(const Sweep& sweep, Parts parts, const Circuit& start,
+CircuitFit fit_circuit_and_noise(const Sweep& sweep, const Parts& parts, const Circuit& start,
                                  const Noise& noise,
                                  Correlation correlation = Correlation::estimated);
 

@@ -20,7 +20,7 @@ Noise sizes(const Noise& noise) {
 /// Residuals over their size.
 Eigen::VectorXd scaled_residuals(const CircuitFit& fit) {
   Eigen::VectorXd scaled = fit.at.residuals;
-  whiten(sizes(fit.noise), fit.at.log_magnitude, scaled);
+  whiten(sizes(fit.noise), fit.at, scaled);
   return scaled;
 }
 
@@ -68,7 +68,7 @@ void allow_for_misfit(CircuitFit& fit) {
     return;
   }
   Eigen::MatrixXd jacobian = fit.at.jacobian;
-  whiten(sizes(fit.noise), fit.at.log_magnitude, jacobian);
+  whiten(sizes(fit.noise), fit.at, jacobian);
   const double share = std::pow(description.misfit() / description.residual, 2);
   const double along_each =
       share * scaled_residuals(fit).squaredNorm() / static_cast<double>(fit.p.size());

@@ -10,7 +10,7 @@ struct Description {
   double residual;
   double scatter;  ///< the part of it from reading to reading; its rest is misfit
 
-  double misfit() const;
+  double misfit() const;  ///< root mean square too
   /// Residuals above three times the scatter, and above 0.1 %.
   bool fails() const;
 };

@@ -15,4 +15,8 @@ double chance(const CircuitFit& smaller, const CircuitFit& larger) {
              : (f > 0.0 ? 0.0 : 1.0);
 }
 
+double penalty(const CircuitFit& fit) {
+  return static_cast<double>(fit.p.size()) * std::log(static_cast<double>(fit.at.residuals.size()));
+}
+
 }  // namespace sonoglide::identify::impedance

@@ -23,7 +23,7 @@ struct Figure {
 std::vector<Figure> positive_figures(const CircuitFit& fit) {
   const Eigen::Index size = fit.p.size();
   const Eigen::VectorXd c0 = Eigen::VectorXd::Unit(size, 0);
-  const Eigen::Index first = first_mode(fit.parts);
+  const Eigen::Index first = fit.parts.first_mode();
   const Eigen::VectorXd g = Eigen::VectorXd::Unit(size, first);
   const Eigen::VectorXd f = Eigen::VectorXd::Unit(size, first + 1);
   const Eigen::VectorXd bandwidth = Eigen::VectorXd::Unit(size, first + 2);
@@ -51,14 +51,6 @@ Estimate estimate(const CircuitFit& fit, const Figure& figure) {
   return {figure.name, figure.value, figure.value * std::exp(-half), figure.value * std::exp(half)};
 }
 
-/// One that is an element of the vector, in other units.
-Estimate linear_estimate(const CircuitFit& fit, const std::string& name, Eigen::Index element,
-                         double unit) {
-  const double half = t_of(fit) * std::sqrt(fit.covariance(element, element));
-  const double value = fit.p(element);
-  return {name, unit * value, unit * (value - half), unit * (value + half)};
-}
-
 void require_in_range(const char* what, double value, const Range& range, const char* unit) {
   if (value < range.least || value > range.most) {
     throw loop::ComputationError(
@@ -75,22 +67,34 @@ std::vector<Estimate> figures(const CircuitFit& fit) {
   for (const Figure& each : positive_figures(fit)) {
     estimates.push_back(estimate(fit, each));
   }
-  if (fit.parts.loss_tangent) {
-    estimates.push_back(linear_estimate(fit, "loss_tangent", 1, 1.0));
-  }
-  if (has_resistance(fit.parts.lead)) {
-    estimates.push_back(linear_estimate(fit, "lead_resistance_ohm", first_of_lead(fit.parts), 1.0));
-  }
-  if (has_inductance(fit.parts.lead)) {
-    estimates.push_back(
-        linear_estimate(fit, "lead_inductance_H", inductance_of_lead(fit.parts), microhenry_H));
+  for (std::size_t i = 0; i < part_count; ++i) {
+    const auto part = static_cast<Part>(i);
+    if (fit.parts.has(part)) {
+      const Eigen::Index at = fit.parts.index(part);
+      const double half = t_of(fit) * std::sqrt(fit.covariance(at, at));
+      estimates.push_back({name_of(part), fit.p(at), fit.p(at) - half, fit.p(at) + half});
+    }
   }
   return estimates;
 }
 
+bool may_be_0(const Estimate& estimate) {
+  for (std::size_t i = 0; i < part_count; ++i) {
+    if (estimate.name == name_of(static_cast<Part>(i))) {
+      return true;
+    }
+  }
+  return false;
+}
+
+bool is_open(const Estimate& estimate) {
+  constexpr double most = 10.0;
+  return !may_be_0(estimate) && !(estimate.high_95 <= most * estimate.low_95);
+}
+
 std::vector<Estimate> mechanical_figures(const CircuitFit& fit, const MechanicalFact& fact) {
   const Eigen::Index size = fit.p.size();
-  const Eigen::Index first = first_mode(fit.parts);
+  const Eigen::Index first = fit.parts.first_mode();
   const Eigen::VectorXd g = Eigen::VectorXd::Unit(size, first);
   const Eigen::VectorXd f = Eigen::VectorXd::Unit(size, first + 1);
   const Eigen::VectorXd bandwidth = Eigen::VectorXd::Unit(size, first + 2);

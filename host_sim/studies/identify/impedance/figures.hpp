@@ -15,4 +15,10 @@ namespace sonoglide::identify::impedance {
 /// fitted vector, but for parallel resonance and coupling, which are linearised.
 std::vector<Estimate> figures(const CircuitFit& fit);
 
+/// Whether a figure can be 0 or less: loss, lead, rotation and lean.
+bool may_be_0(const Estimate& estimate);
+
+/// Whether the data leave a positive figure open by more than a factor of ten.
+bool is_open(const Estimate& estimate);
+
 }  // namespace sonoglide::identify::impedance

@@ -19,29 +19,72 @@ bool is_rounding(const Linearisation& at) {
          rounding * rounding * static_cast<double>(at.residuals.size());
 }
 
-double whiten(const Noise& noise, const Eigen::VectorXd& log_magnitude,
-              Eigen::Ref<Eigen::MatrixXd> columns) {
-  const Eigen::Index readings = log_magnitude.size();
-  const double white = 1.0 - noise.correlated_share;
-  const double forgetting = noise.memory * noise.memory;
+namespace {
+
+/// A row is read and written as a whole.
+using RowWise = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+/// Divides the rows of one reading by the square root of its covariance alone.
+/// @return the logarithm of its determinant
+double scale(const Noise& noise, const Linearisation& at, Eigen::Index reading, RowWise& columns) {
+  const Eigen::Index readings = at.log_magnitude.size();
+  const bool has_phase = columns.rows() > readings;
+  const double log_size = (noise.exponent - 1.0) * at.log_magnitude(reading);
+  const double size = std::exp(-log_size);
+  columns.row(reading) *= size;
+  double log_determinant = 2.0 * log_size;
+  const double along_magnitude = at.slope(reading).real() * size;
+  double along_phase = 0.0;
+  if (has_phase) {
+    columns.row(readings + reading) *= size / noise.phase_scale;
+    log_determinant += 2.0 * (log_size + std::log(noise.phase_scale));
+    along_phase = at.slope(reading).imag() * size / noise.phase_scale;
+  }
+  const double square = along_magnitude * along_magnitude + along_phase * along_phase;
+  const double larger = 1.0 + noise.jitter * noise.jitter * square;
+  if (noise.jitter == 0.0 || square == 0.0) {
+    return log_determinant;
+  }
+  const double share = (1.0 - 1.0 / std::sqrt(larger)) / square;
+  if (has_phase) {
+    const Eigen::RowVectorXd along = share * (along_magnitude * columns.row(reading) +
+                                              along_phase * columns.row(readings + reading));
+    columns.row(reading) -= along_magnitude * along;
+    columns.row(readings + reading) -= along_phase * along;
+  } else {
+    columns.row(reading) *= 1.0 - share * square;
+  }
+  return log_determinant + std::log(larger);
+}
+
+}  // namespace
+
+double whiten(const Noise& noise, const Linearisation& at, Eigen::Ref<Eigen::MatrixXd> white) {
+  RowWise columns = white;
+  const Eigen::Index readings = at.log_magnitude.size();
   double log_determinant = 0.0;
+  for (Eigen::Index i = 0; i < readings; ++i) {
+    log_determinant += scale(noise, at, i, columns);
+  }
+  const double own_share = 1.0 - noise.correlated_share;
+  const double forgetting = noise.memory * noise.memory;
   Eigen::RowVectorXd state(columns.cols());
   Eigen::RowVectorXd innovation(columns.cols());
-  for (Eigen::Index begin = 0; begin < columns.rows(); begin += readings) {
-    const double log_scale = begin == 0 ? 0.0 : std::log(noise.phase_scale);
+  for (Eigen::Index begin = 0; noise.correlated_share > 0.0 && begin < columns.rows();
+       begin += readings) {
     state.setZero();
     double variance = noise.correlated_share;  // of the state, before the reading
     for (Eigen::Index i = 0; i < readings; ++i) {
-      const double log_deviation = (noise.exponent - 1.0) * log_magnitude(i) + log_scale;
-      const double seen = variance + white;
-      innovation = columns.row(begin + i) * std::exp(-log_deviation) - state;
+      const double seen = variance + own_share;
+      innovation = columns.row(begin + i) - state;
       columns.row(begin + i) = innovation / std::sqrt(seen);
-      log_determinant += std::log(seen) + 2.0 * log_deviation;
-      const double gain = variance / seen;
-      state = noise.memory * (state + gain * innovation);
-      variance = forgetting * variance * white / seen + (1.0 - forgetting) * noise.correlated_share;
+      log_determinant += std::log(seen);
+      state = noise.memory * (state + variance / seen * innovation);
+      variance =
+          forgetting * variance * own_share / seen + (1.0 - forgetting) * noise.correlated_share;
     }
   }
+  white = columns;
   return log_determinant;
 }
 
@@ -51,7 +94,7 @@ double restricted_deviance(const Linearisation& at, const Noise& noise) {
   columns << at.jacobian, at.residuals;
   // Columns of length 1: the determinant changes by a constant alone.
   columns.leftCols(p).array().rowwise() /= at.jacobian.colwise().norm().array();
-  const double log_determinant = whiten(noise, at.log_magnitude, columns);
+  const double log_determinant = whiten(noise, at, columns);
   const Eigen::MatrixXd normal = columns.transpose() * columns;
   const Eigen::LDLT<Eigen::MatrixXd> solver(normal.topLeftCorner(p, p));
   const Eigen::VectorXd right = normal.topRightCorner(p, 1);
@@ -71,9 +114,10 @@ struct Property {
 
 constexpr double most_memory = 0.999;
 
-const Property exponent = {-0.5, 2.5, [](Noise& noise, double value) { noise.exponent = value; }};
 const Property phase_scale = {
     -4.6, 4.6, [](Noise& noise, double value) { noise.phase_scale = std::exp(value); }};
+const Property jitter = {-3.0, 7.0,
+                         [](Noise& noise, double value) { noise.jitter = std::exp(value); }};
 const Property share = {0.0, 0.999,
                         [](Noise& noise, double value) { noise.correlated_share = value; }};
 /// By its distance from 1.
@@ -98,9 +142,8 @@ void improve(const Linearisation& at, Noise& noise, double& deviance, const Prop
   }
 }
 
-/// The simplest of what the likelihood does not tell apart: an exponent of 0, 1 or 2, the same scale
-/// for magnitude and phase. Anything else has to pay for its parameter, by as much as makes it
-/// certain: an exponent that follows a few quiet readings makes the intervals too short.
+/// What a further property has to gain, so much that it is certain: sizes that follow a few quiet
+/// readings make the intervals too short.
 constexpr double price = 6.0;
 
 void improve_if_worth_it(const Linearisation& at, Noise& noise, double& deviance,
@@ -167,11 +210,10 @@ Noise estimate_noise(const Linearisation& at, Correlation correlation) {
   }
   double deviance = restricted_deviance(at, noise);
   take_best_whole_exponent(at, noise, deviance);
+  improve_if_worth_it(at, noise, deviance, jitter);
   if (correlation == Correlation::estimated) {
     take_correlation_if_worth_it(at, noise, deviance);
   }
-  // Last, since residuals that hang together look like ones of uneven size.
-  improve_if_worth_it(at, noise, deviance, exponent);
   if (at.residuals.size() > at.log_magnitude.size()) {
     improve_if_worth_it(at, noise, deviance, phase_scale);
   }
@@ -183,7 +225,6 @@ namespace {
 /// A fit under one correlation.
 struct Supposition {
   double log_weight;
-  double share;
   Eigen::MatrixXd covariance;
   Eigen::VectorXd step;  ///< to its best parameters
 };
@@ -191,21 +232,20 @@ struct Supposition {
 Supposition suppose(const Linearisation& at, const Noise& noise, double log_prior) {
   Eigen::MatrixXd jacobian = at.jacobian;
   Eigen::VectorXd residuals = at.residuals;
-  whiten(noise, at.log_magnitude, jacobian);
-  whiten(noise, at.log_magnitude, residuals);
+  whiten(noise, at, jacobian);
+  whiten(noise, at, residuals);
   const Eigen::MatrixXd normal = inverse_normal_matrix(jacobian);
   Eigen::VectorXd step = -(normal * (jacobian.transpose() * residuals));
   const auto freedom = static_cast<double>(at.residuals.size() - at.jacobian.cols());
   const double variance = (residuals + jacobian * step).squaredNorm() / freedom;
-  return {log_prior - 0.5 * restricted_deviance(at, noise), noise.correlated_share,
-          variance * normal, std::move(step)};
+  return {log_prior - 0.5 * restricted_deviance(at, noise), variance * normal, std::move(step)};
 }
 
 }  // namespace
 
-Allowance allow_for_correlation(const Linearisation& at, const Noise& noise) {
+Eigen::MatrixXd allow_for_correlation(const Linearisation& at, const Noise& noise) {
   if (is_rounding(at)) {
-    return {rounding * rounding * inverse_normal_matrix(at.jacobian), 0.0};
+    return rounding * rounding * inverse_normal_matrix(at.jacobian);
   }
   constexpr double prior_of_none = 0.8;
   constexpr double memories[] = {0.2, 0.5, 0.7, 0.8, 0.88, 0.93, 0.96, 0.98};
@@ -227,16 +267,13 @@ Allowance allow_for_correlation(const Linearisation& at, const Noise& noise) {
                         return a.log_weight < b.log_weight;
                       })->log_weight;
   double sum = 0.0;
-  Allowance allowance{Eigen::MatrixXd::Zero(at.jacobian.cols(), at.jacobian.cols()), 0.0};
+  Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(at.jacobian.cols(), at.jacobian.cols());
   for (const Supposition& each : all) {
     const double weight = std::exp(each.log_weight - most);
     sum += weight;
-    allowance.covariance += weight * (each.covariance + each.step * each.step.transpose());
-    allowance.correlated_share += weight * each.share;
+    covariance += weight * (each.covariance + each.step * each.step.transpose());
   }
-  allowance.covariance /= sum;
-  allowance.correlated_share /= sum;
-  return allowance;
+  return covariance / sum;
 }
 
 }  // namespace sonoglide::identify::impedance

@@ -9,11 +9,13 @@ namespace sonoglide::identify::impedance {
 /// Covariance of the residuals, up to its scale σ²: that of the relative residual (measured −
 /// fitted)/fitted, whose real part is an error of magnitude and whose imaginary part one of phase.
 ///
-/// Standard deviation |Y|^(exponent − 1), of the imaginary part `phase_scale` times that. The
-/// correlation of two readings i apart in the sweep is correlated_share · memory^i, and 1 for i = 0.
+/// Standard deviation |Y|^(exponent − 1), of the imaginary part `phase_scale` times that; and an error
+/// of each frequency, `jitter` for each band width. The correlation of two readings i apart in the
+/// sweep is correlated_share · memory^i, and 1 for i = 0.
 struct Noise {
   double exponent = 1.0;  ///< 0: of equal size in the admittance; 1: relative; 2: in Z
   double phase_scale = 1.0;
+  double jitter = 0.0;            ///< of a frequency, in band widths, over σ
   double correlated_share = 0.0;  ///< [0, 1)
   double memory = 0.0;            ///< [0, 1)
 };
@@ -24,6 +26,7 @@ struct Linearisation {
   Eigen::VectorXd residuals;
   Eigen::MatrixXd jacobian;
   Eigen::VectorXd log_magnitude;  ///< ln(|Y|/geometric mean), one a reading
+  Eigen::VectorXcd slope;         ///< d ln Y/df times the band width of the first mode, likewise
 };
 
 /// Relative residuals of a root mean square up to this are taken for rounding of computed readings.
@@ -34,10 +37,10 @@ bool is_rounding(const Linearisation& at);
 
 /// Makes columns white, in place: multiplies them by an inverse square root of the covariance. O(n)
 /// by the innovations of a Kalman filter: a first-order process seen through white noise.
-/// @param log_magnitude  as in Linearisation; the columns have one or two rows for each
+/// @param at       where sizes and slopes of the readings are taken from
+/// @param columns  one or two rows for each reading
 /// @return the logarithm of the covariance's determinant
-double whiten(const Noise& noise, const Eigen::VectorXd& log_magnitude,
-              Eigen::Ref<Eigen::MatrixXd> columns);
+double whiten(const Noise& noise, const Linearisation& at, Eigen::Ref<Eigen::MatrixXd> columns);
 
 /// Restricted likelihood, −2 ln of it up to a constant: of the residuals with σ² at its best and the
 /// parameters integrated out.
@@ -50,17 +53,11 @@ enum class Correlation { none, estimated };
 /// The noise that is most likely, by the restricted likelihood; white of rounding.
 Noise estimate_noise(const Linearisation& at, Correlation correlation = Correlation::estimated);
 
-/// What an error in the noise's correlation adds to the covariance of the parameters.
-struct Allowance {
-  Eigen::MatrixXd covariance;  ///< of the parameters, averaged over the correlations
-  double correlated_share;     ///< likewise
-};
-
-/// Averages over the correlations along the sweep that the residuals allow, since the likeliest one
+/// The covariance of the parameters, averaged over the correlations along the sweep that the residuals allow, since the likeliest one
 /// alone makes the intervals too short: of each the covariance, and the square of the step by which
 /// its best parameters differ, weighted by its restricted likelihood. No correlation has 0.8
 /// of the weight beforehand, the others the rest evenly.
 /// Source: Hoeting, Madigan, Raftery and Volinsky, Statistical Science 14 (1999).
-Allowance allow_for_correlation(const Linearisation& at, const Noise& noise);
+Eigen::MatrixXd allow_for_correlation(const Linearisation& at, const Noise& noise);
 
 }  // namespace sonoglide::identify::impedance

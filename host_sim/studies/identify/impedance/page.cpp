@@ -12,8 +12,6 @@ namespace {
 
 using Complex = std::complex<double>;
 
-constexpr double degrees = 360.0 / two_pi;
-
 /// Frequencies of the curve of the fit, with many about each mode, within the sweep.
 std::vector<double> curve_frequencies(const ImpedanceStudy& study) {
   const double low = study.sweep.frequency_Hz.front();
@@ -207,7 +205,7 @@ output::Page page(const ImpedanceStudy& study) {
   if (study.sweep.has_phase) {
     curves.panels.push_back(
         overlay_panel("Phase of the impedance", "Phase [degrees]",
-                      overlay(study, [](Complex y) { return -std::arg(y) * degrees; })));
+                      overlay(study, [](Complex y) { return -std::arg(y) * degrees_per_rad; })));
   }
   curves.panels.push_back(residual_panel(study));
   for (output::Panel& each : curves.panels) {

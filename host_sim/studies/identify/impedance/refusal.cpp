@@ -142,8 +142,9 @@ void refuse_without_fit(const Sweep& sweep) {
 }
 
 void require_resonance(const Sweep& sweep, const CircuitFit& fit, double significance) {
-  const CircuitFit none =
-      fit_circuit_and_noise(sweep, {fit.parts.loss_tangent, 0}, capacitor(sweep), Noise{});
+  Parts no_mode = Parts{}.with(Part::loss_tangent, sweep.has_phase);
+  no_mode.modes = 0;
+  const CircuitFit none = fit_circuit_and_noise(sweep, no_mode, capacitor(sweep), Noise{});
   const auto searched = static_cast<double>(sweep.frequency_Hz.size());
   if (!none.converged || chance(none, fit) * searched <= significance) {
     return;

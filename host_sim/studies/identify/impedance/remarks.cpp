@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "host_sim/studies/identify/impedance/description.hpp"
+#include "host_sim/studies/identify/impedance/figures.hpp"
 #include "host_sim/studies/identify/impedance/scatter.hpp"
 
 namespace sonoglide::identify::impedance {
@@ -38,6 +39,8 @@ std::size_t impossible_phases(const Sweep& sweep, const CircuitFit& fit) {
       [&](std::complex<double> y) { return y.real() < -std::abs(y) * std::max(scatter, 1e-3); }));
 }
 
+constexpr double microhenry_H = 1e-6;
+
 void warn_of_phases(const Sweep& sweep, const CircuitFit& fit, std::vector<std::string>& warnings) {
   if (!sweep.has_phase) {
     return;
@@ -60,7 +63,7 @@ void warn_of_phases(const Sweep& sweep, const CircuitFit& fit, std::vector<std::
     warnings.push_back(
         fmt::format("The loss tangent comes out negative, {:.3g}: the phase is off by about {:.2g} "
                     "degrees, which is the fixture's error.",
-                    tangent, std::abs(tangent) * 360.0 / two_pi));
+                    tangent, std::abs(tangent) * degrees_per_rad));
   }
 }
 
@@ -119,24 +122,51 @@ void warn_of_left_out(const std::vector<double>& left_out_Hz, std::vector<std::s
 void warn_of_other_modes(const CircuitFit& fit, std::vector<std::string>& warnings) {
   for (std::size_t i = 1; i < fit.circuit.modes.size(); ++i) {
     const Mode& mode = fit.circuit.modes[i];
+    const bool is_beside = i >= static_cast<std::size_t>(fit.parts.modes);
     warnings.push_back(fmt::format(
-        "Another mode at {} (quality factor {:.3g}, {}) is in the sweep; it is fitted and is not "
-        "part of the figures.",
-        shown("_Hz", mode.resonance_Hz), mode.quality(), shown("_ohm", mode.resistance_ohm())));
+        "Another mode at {} ({}) is {} the sweep; it is fitted and is not part of the figures.",
+        shown("_Hz", mode.resonance_Hz),
+        is_beside ? std::string("of the same quality factor")
+                  : fmt::format("quality factor {:.3g}, {}", mode.quality(),
+                                shown("_ohm", mode.resistance_ohm())),
+        is_beside ? "just outside" : "in"));
   }
 }
 
-/// An error φ of the phase turns the admittance as a lead of φ/(2ωC0) does beside a loss tangent of φ/2.
-std::string open_phase(const Circuit& circuit) {
+/// What of a circuit stands between the modes and the reading, and what they would be behind it.
+std::string described_lead(const CircuitFit& fit) {
+  const Circuit& circuit = fit.circuit;
+  std::vector<std::string> parts;
+  if (fit.parts.has(Part::rotation)) {
+    parts.push_back(fmt::format("an error of every phase by {:.3g} degrees",
+                                circuit.rotation_rad * degrees_per_rad));
+  }
+  if (fit.parts.has(Part::lead_resistance)) {
+    parts.push_back(fmt::format("{} in series", shown("_ohm", circuit.lead.resistance_ohm)));
+  }
+  if (fit.parts.has(Part::lead_inductance)) {
+    parts.push_back(fmt::format("{} in series", shown("_H", circuit.lead.inductance_H)));
+  }
   const Mode& mode = circuit.modes.front();
-  const double lead_ohm = circuit.lead.resistance_ohm;
-  const double phase_rad =
-      2.0 * lead_ohm * two_pi * mode.resonance_Hz * circuit.clamped_capacitance_F;
+  return fmt::format("{} (motional resistance {}, resonance {})", fmt::join(parts, " with "),
+                     shown("_ohm", mode.resistance_ohm()), shown("_Hz", mode.resonance_Hz));
+}
+
+std::string open_lead(const Selection& selected) {
+  std::vector<std::string> others;
+  for (const Rival& each : selected.rivals) {
+    constexpr double least = 0.01;
+    if (each.weight > least) {
+      others.push_back(described_lead(each.fit));
+    }
+  }
   return fmt::format(
-      "Whether the {} in series are leads and contacts or an error of the phase: one of about "
-      "{:.2g} degrees would look alike, and the motional resistance would be about {}.",
-      shown("_ohm", lead_ohm), phase_rad * 360.0 / two_pi,
-      shown("_ohm", mode.resistance_ohm() + lead_ohm));
+      "Whether leads or an error of the phase turn the sweep: fitted is {}. {}. A compensation "
+      "of the fixture (open, short, load) takes both out.",
+      described_lead(selected.fit),
+      others.empty() ? "No other is nearly as likely"
+                     : fmt::format("About as likely: {}; the intervals allow for it",
+                                   fmt::join(others, "; or ")));
 }
 
 std::string open_resistance(const Selection& selected) {
@@ -169,9 +199,24 @@ std::string open_inductance(const Selection& selected) {
       "motional resistance {:+.2g} %, the motional capacitance {:+.2g} % and the clamped "
       "capacitance "
       "{:+.2g} %. A compensation with a short takes it out.",
-      question, shown("_H", unseen.most_H), unseen.resonance_per_uH * resonance_Hz,
-      percent * unseen.motional_resistance_per_uH, percent * unseen.motional_capacitance_per_uH,
-      percent * unseen.clamped_capacitance_per_uH);
+      question, shown("_H", unseen.most_H), microhenry_H * unseen.resonance_per_H * resonance_Hz,
+      percent * microhenry_H * unseen.motional_resistance_per_H,
+      percent * microhenry_H * unseen.motional_capacitance_per_H,
+      percent * microhenry_H * unseen.clamped_capacitance_per_H);
+}
+
+/// A drift in step with the sweep stretches the frequencies about the resonance and nothing else.
+std::string open_drift(const Selection& selected) {
+  const std::vector<double>& all = selected.sweep.frequency_Hz;
+  const Mode& mode = selected.fit.circuit.modes.front();
+  constexpr double tenth = 0.1;
+  const double off = tenth * mode.bandwidth_Hz / (all.back() - all.front());
+  return fmt::format(
+      "Whether the resonance drifted while it was swept, by heat or creep: a steady drift of {} "
+      "from the first reading to the last, a tenth of the band width, makes quality factor, "
+      "motional inductance and capacitance come out {:.2g} % off, and the intervals do not allow "
+      "for it. A sweep to lower frequencies beside one to higher ones tells.",
+      shown("_Hz", tenth * mode.bandwidth_Hz), 100.0 * off);
 }
 
 void warn_of_rounding(const CircuitFit& fit, std::vector<std::string>& warnings) {
@@ -184,13 +229,27 @@ void warn_of_rounding(const CircuitFit& fit, std::vector<std::string>& warnings)
   }
 }
 
-void warn_of_mode_too_many(const Selection& selected, std::vector<std::string>& warnings) {
-  if (selected.mode_too_many_Hz) {
+void warn_of_lean(const CircuitFit& fit, std::vector<std::string>& warnings) {
+  if (!fit.parts.has(Part::lean)) {
+    return;
+  }
+  const Mode& mode = fit.circuit.modes.front();
+  const double lean = fit.circuit.lean;
+  warnings.push_back(fmt::format(
+      "The peak is not that of one linear mode: it leans by {:.2g} band widths to {} frequencies, "
+      "from {} at a small current to {} at the largest of the sweep. The figures are those at a "
+      "small current, by a resonance that goes with the square of the current. Sweep with less "
+      "voltage.",
+      std::abs(lean), lean > 0.0 ? "lower" : "higher", shown("_Hz", mode.resonance_Hz),
+      shown("_Hz", mode.resonance_Hz - lean * mode.bandwidth_Hz)));
+}
+
+void warn_of_rotation(const CircuitFit& fit, std::vector<std::string>& warnings) {
+  if (fit.parts.has(Part::rotation)) {
     warnings.push_back(fmt::format(
-        "The limit of {} modes is reached, and another one is seen at {}: the circuit does not "
-        "describe the sweep. The intervals allow for that one mode. Narrow the sweep to the "
-        "resonance that is meant and its antiresonance.",
-        most_modes, shown("_Hz", *selected.mode_too_many_Hz)));
+        "The phases are off by {:.3g} degrees all over the sweep; the fit takes that out. It is "
+        "an error of the instrument or the fixture; compensate it (open, short, load).",
+        fit.circuit.rotation_rad * degrees_per_rad));
   }
 }
 
@@ -199,7 +258,8 @@ void warn_of_mode_too_many(const Selection& selected, std::vector<std::string>& 
 std::vector<std::string> warnings_of(const Selection& selected) {
   std::vector<std::string> warnings = selected.sweep.warnings;
   warn_of_misfit(describe(selected.fit), warnings);
-  warn_of_mode_too_many(selected, warnings);
+  warn_of_lean(selected.fit, warnings);
+  warn_of_rotation(selected.fit, warnings);
   warn_of_rounding(selected.fit, warnings);
   warn_of_left_out(selected.left_out_Hz, warnings);
   warn_of_phases(selected.sweep, selected.fit, warnings);
@@ -222,16 +282,27 @@ std::vector<std::string> open_questions(const std::vector<Estimate>& estimates,
         "Losses of the dielectric: magnitudes alone hardly part them from the motional resistance. "
         "A sweep with phase does.");
   }
-  const LeadModel lead = selected.fit.parts.lead;
-  open.push_back(has_resistance(lead) ? open_phase(selected.fit.circuit)
-                                      : open_resistance(selected));
-  if (!has_inductance(lead)) {
+  const Parts& parts = selected.fit.parts;
+  const bool is_seen = parts.has(Part::rotation) || parts.has(Part::lead_resistance) ||
+                       parts.has(Part::lead_inductance);
+  open.push_back(is_seen ? open_lead(selected) : open_resistance(selected));
+  if (!parts.has(Part::lead_inductance)) {
     open.push_back(open_inductance(selected));
+  }
+  open.push_back(open_drift(selected));
+  if (parts.beside == 0) {
+    open.emplace_back(
+        "Whether another mode lies just outside the sweep: it would shift clamped capacitance, "
+        "parallel resonance and coupling by more than their intervals. A wider sweep tells.");
   }
   for (const Estimate& each : estimates) {
     constexpr double twice = 2.0;
-    const bool may_be_0 = each.name == "loss_tangent" || each.name.rfind("lead_", 0) == 0;
-    if (!may_be_0 && !(each.high_95 < twice * each.value && each.low_95 > each.value / twice)) {
+    if (is_open(each)) {
+      open.push_back(
+          fmt::format("{}: the data leave it open by more than a factor of ten, from {} to {}.",
+                      each.name, shown(each.name, each.low_95), shown(each.name, each.high_95)));
+    } else if (!may_be_0(each) &&
+               !(each.high_95 < twice * each.value && each.low_95 > each.value / twice)) {
       open.push_back(fmt::format("{}: its interval goes from {} to {}.", each.name,
                                  shown(each.name, each.low_95), shown(each.name, each.high_95)));
     }

@@ -39,8 +39,8 @@ void write(const std::filesystem::path& out, const ImpedanceStudy& study) {
   folder.write("report.html", html);
   folder.write("identify.json", to_json(study.identification).dump(2) + '\n');
   folder.write("fit.csv", fit_csv(study));
-  if (study.fact.known()) {
-    folder.write("scene.toml", scene_toml(study));
+  if (!study.scene.empty()) {
+    folder.write("scene.toml", study.scene);
   } else {
     folder.withdraw("scene.toml");
   }

@@ -17,17 +17,17 @@ struct Ranked {
   Circuit circuit;
 };
 
-/// The best ones, each of another resonance or bandwidth.
-std::vector<Circuit> best_of(std::vector<Ranked> all, std::size_t most) {
+/// The best ones, each of another resonance or bandwidth. @param mode  which of the modes is tried
+std::vector<Circuit> best_of(std::vector<Ranked> all, std::size_t mode, std::size_t most) {
   std::sort(all.begin(), all.end(),
             [](const Ranked& a, const Ranked& b) { return a.misfit < b.misfit; });
   std::vector<Circuit> best;
   for (const Ranked& each : all) {
-    const Mode& mode = each.circuit.modes.back();
+    const Mode& tried = each.circuit.modes[mode];
     const bool near = std::any_of(best.begin(), best.end(), [&](const Circuit& other) {
-      const Mode& taken = other.modes.back();
-      return std::abs(mode.resonance_Hz - taken.resonance_Hz) <
-             0.5 * std::max(mode.bandwidth_Hz, taken.bandwidth_Hz);
+      const Mode& taken = other.modes[mode];
+      return std::abs(tried.resonance_Hz - taken.resonance_Hz) <
+             0.5 * std::max(tried.bandwidth_Hz, taken.bandwidth_Hz);
     });
     if (!near) {
       best.push_back(each.circuit);
@@ -153,43 +153,101 @@ Circuit seen_by_readings(const Sweep& sweep, const Circuit& circuit) {
   return seen;
 }
 
-/// Where a further mode may be, and from how many readings on either side its bandwidth goes up.
+/// Where a further mode may be, and from which bandwidth on.
 struct Place {
-  Eigen::Index reading;
-  Eigen::Index around;
+  double resonance_Hz;
+  double bandwidth_Hz;
 };
 
-/// All over the sweep, and where the residuals are largest: a mode may be narrower than the places are
-/// apart.
-std::vector<Place> places_of_another_mode(const Eigen::VectorXd& residuals, Eigen::Index readings) {
+/// All over the sweep, and where the residuals are largest.
+std::vector<Place> places_of_another_mode(const Sweep& sweep, const Eigen::VectorXd& residuals) {
+  const auto readings = static_cast<Eigen::Index>(sweep.frequency_Hz.size());
+  std::vector<Place> found;
+  const auto add = [&](Eigen::Index reading, Eigen::Index around) {
+    const auto at = [&](Eigen::Index i) {
+      return sweep
+          .frequency_Hz[static_cast<std::size_t>(std::clamp<Eigen::Index>(i, 0, readings - 1))];
+    };
+    found.push_back({at(reading), at(reading + around) - at(reading - around)});
+  };
   constexpr Eigen::Index most_places = 60;
   constexpr std::size_t most_peaks = 6;
   const Eigen::Index stride = std::max<Eigen::Index>(1, readings / most_places);
-  std::vector<Place> found;
   for (Eigen::Index reading = 0; reading < readings; reading += stride) {
-    found.push_back({reading, stride});
-  }
-  if (stride == 1) {
-    return found;
+    add(reading, stride);
   }
   const auto size = [&](Eigen::Index i) {
     return residuals.size() > readings ? std::hypot(residuals(i), residuals(readings + i))
                                        : std::abs(residuals(i));
   };
   std::vector<std::pair<double, Eigen::Index>> peaks;
-  for (Eigen::Index i = 1; i + 1 < readings; ++i) {
+  for (Eigen::Index i = 1; stride > 1 && i + 1 < readings; ++i) {
     if (size(i) >= size(i - 1) && size(i) >= size(i + 1)) {
       peaks.emplace_back(-size(i), i);
     }
   }
   std::sort(peaks.begin(), peaks.end());
   for (std::size_t i = 0; i < std::min(most_peaks, peaks.size()); ++i) {
-    found.push_back({peaks[i].second, 1});
+    add(peaks[i].second, 1);
   }
   return found;
 }
 
+/// The best of circuits each of which has a further mode, by what of the residuals the mode takes
+/// away that a change of the circuit does not. Its conductance follows.
+std::vector<Circuit> best_of(const Sweep& sweep, const CircuitFit& fit, std::vector<Circuit> tried,
+                             std::size_t mode, std::size_t most) {
+  const auto n = static_cast<Eigen::Index>(sweep.frequency_Hz.size());
+  Eigen::MatrixXd jacobian = fit.at.jacobian;
+  Eigen::VectorXd residuals = fit.at.residuals;
+  whiten(fit.noise, fit.at, jacobian);
+  whiten(fit.noise, fit.at, residuals);
+  jacobian.colwise().normalize();
+  const Eigen::MatrixXd base = Eigen::HouseholderQR<Eigen::MatrixXd>(jacobian).householderQ() *
+                               Eigen::MatrixXd::Identity(jacobian.rows(), jacobian.cols());
+  Eigen::VectorXcd seen(n);  // the relative change at the terminals for one of 1 S behind the lead
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const double f = sweep.frequency_Hz[static_cast<std::size_t>(i)];
+    seen(i) = fit.circuit.share_behind_lead(f) / fit.circuit.admittance_S(f);
+  }
+  std::vector<Ranked> found;
+  Eigen::VectorXd column(residuals.size());
+  for (Circuit& circuit : tried) {
+    Mode& added = circuit.modes[mode];
+    if (added.bandwidth_Hz > added.resonance_Hz || !is_apart(circuit, mode)) {
+      continue;
+    }
+    for (Eigen::Index i = 0; i < n; ++i) {
+      const double f = sweep.frequency_Hz[static_cast<std::size_t>(i)];
+      const Complex part = shape(f, added.resonance_Hz, added.bandwidth_Hz) * seen(i);
+      column(i) = part.real();
+      if (sweep.has_phase) {
+        column(n + i) = part.imag();
+      }
+    }
+    whiten(fit.noise, fit.at, column);
+    column -= base * (base.transpose() * column);
+    const double length = column.squaredNorm();
+    const double along = column.dot(residuals);
+    if (length > 0.0 && along > 0.0) {
+      added.conductance_S = along / length;
+      found.push_back({-along * along / length, std::move(circuit)});
+    }
+  }
+  return best_of(std::move(found), mode, most);
+}
+
 }  // namespace
+
+bool is_apart(const Circuit& circuit, std::size_t mode) {
+  const Mode& one = circuit.modes[mode];
+  return std::all_of(circuit.modes.begin(), circuit.modes.end(), [&](const Mode& other) {
+    constexpr double bands = 2.0;
+    const Mode& larger = one.conductance_S > other.conductance_S ? one : other;
+    return &one == &other ||
+           std::abs(one.resonance_Hz - other.resonance_Hz) > bands * larger.bandwidth_Hz;
+  });
+}
 
 std::vector<Circuit> start_circuits(const Sweep& sweep, std::size_t most) {
   std::vector<Ranked> found;
@@ -206,60 +264,41 @@ std::vector<Circuit> start_circuits(const Sweep& sweep, std::size_t most) {
       }
     }
   }
-  return best_of(std::move(found), most);
+  return best_of(std::move(found), 0, most);
 }
 
 std::vector<Circuit> circuits_with_another_mode(const Sweep& sweep, const CircuitFit& fit,
                                                 std::size_t most) {
-  const auto n = static_cast<Eigen::Index>(sweep.frequency_Hz.size());
-  Eigen::MatrixXd jacobian = fit.at.jacobian;
   Eigen::VectorXd residuals = fit.at.residuals;
-  whiten(fit.noise, fit.at.log_magnitude, jacobian);
-  whiten(fit.noise, fit.at.log_magnitude, residuals);
-  for (Eigen::Index i = 0; i < jacobian.cols(); ++i) {
-    jacobian.col(i).normalize();
+  whiten(fit.noise, fit.at, residuals);
+  const Circuit seen = seen_by_readings(sweep, fit.circuit);
+  std::vector<Circuit> tried;
+  for (const auto& [resonance_Hz, least_Hz] : places_of_another_mode(sweep, residuals)) {
+    for (const double bandwidth_Hz : geometric(std::max(least_Hz, 1e-9 * resonance_Hz), 3.0, 6)) {
+      tried.push_back(seen);
+      tried.back().modes.insert(tried.back().modes.begin() + fit.parts.modes,
+                                {0.0, resonance_Hz, bandwidth_Hz});
+    }
   }
-  const Eigen::MatrixXd base = Eigen::HouseholderQR<Eigen::MatrixXd>(jacobian).householderQ() *
-                               Eigen::MatrixXd::Identity(jacobian.rows(), jacobian.cols());
-  const std::vector<Place> tried = places_of_another_mode(residuals, n);
-  Eigen::VectorXcd seen(n);  // the relative change at the terminals for one of 1 S behind the lead
-  for (Eigen::Index i = 0; i < n; ++i) {
-    const double f = sweep.frequency_Hz[static_cast<std::size_t>(i)];
-    seen(i) = fit.circuit.share_behind_lead(f) / fit.circuit.admittance_S(f);
-  }
-  std::vector<Ranked> found;
-  Eigen::VectorXd column(residuals.size());
-  for (const Place& place : tried) {
-    const double resonance_Hz = sweep.frequency_Hz[static_cast<std::size_t>(place.reading)];
-    const auto low =
-        static_cast<std::size_t>(std::max<Eigen::Index>(0, place.reading - place.around));
-    const auto high =
-        static_cast<std::size_t>(std::min<Eigen::Index>(n - 1, place.reading + place.around));
-    const double spacing_Hz = sweep.frequency_Hz[high] - sweep.frequency_Hz[low];
-    for (const double bandwidth_Hz : geometric(std::max(spacing_Hz, 1e-9 * resonance_Hz), 3.0, 6)) {
-      if (bandwidth_Hz > resonance_Hz) {
-        break;
-      }
-      for (Eigen::Index i = 0; i < n; ++i) {
-        const double f = sweep.frequency_Hz[static_cast<std::size_t>(i)];
-        const Complex part = shape(f, resonance_Hz, bandwidth_Hz) * seen(i);
-        column(i) = part.real();
-        if (sweep.has_phase) {
-          column(n + i) = part.imag();
-        }
-      }
-      whiten(fit.noise, fit.at.log_magnitude, column);
-      column -= base * (base.transpose() * column);
-      const double length = column.squaredNorm();
-      const double along = column.dot(residuals);
-      if (length > 0.0 && along > 0.0) {
-        Circuit circuit = seen_by_readings(sweep, fit.circuit);
-        circuit.modes.push_back({along / length, resonance_Hz, bandwidth_Hz});
-        found.push_back({-along * along / length, std::move(circuit)});
+  return best_of(sweep, fit, std::move(tried), static_cast<std::size_t>(fit.parts.modes), most);
+}
+
+std::vector<Circuit> circuits_with_mode_beside(const Sweep& sweep, const CircuitFit& fit,
+                                               std::size_t most) {
+  const double low_Hz = sweep.frequency_Hz.front();
+  const double high_Hz = sweep.frequency_Hz.back();
+  std::vector<Circuit> tried;
+  for (const double away : {0.01, 0.03, 0.06, 0.12, 0.25, 0.45}) {
+    const double distance_Hz = away * (high_Hz - low_Hz);
+    for (const double resonance_Hz : {high_Hz + distance_Hz, low_Hz - distance_Hz}) {
+      if (resonance_Hz > 0.0) {
+        tried.push_back(fit.circuit);
+        tried.back().modes.push_back(
+            {0.0, resonance_Hz, resonance_Hz / fit.circuit.modes.front().quality()});
       }
     }
   }
-  return best_of(std::move(found), most);
+  return best_of(sweep, fit, std::move(tried), fit.circuit.modes.size(), most);
 }
 
 }  // namespace sonoglide::identify::impedance

@@ -16,11 +16,18 @@ namespace sonoglide::identify::impedance {
 /// ratio of the capacitances is tried too.
 std::vector<Circuit> start_circuits(const Sweep& sweep, std::size_t most);
 
-/// A further mode that the residuals of a fit ask for most: the fit's circuit with it, at most
-/// `most`, the best first. Each is tried at places all over the sweep and bandwidths of a few
-/// readings and more, by what of the residuals its admittance takes away that a change of the
-/// circuit does not.
+/// Whether a mode is more than two band widths, those of the larger one, off every other: nearer ones
+/// look like a single peak that is not that of a linear mode.
+bool is_apart(const Circuit& circuit, std::size_t mode);
+
+/// A further mode that the residuals of a fit ask for most: the fit's circuit with it behind those in
+/// the sweep, at most `most`, the best first. Each is tried at places all over the sweep, apart from
+/// the other modes, with bandwidths of a few readings and more.
 std::vector<Circuit> circuits_with_another_mode(const Sweep& sweep, const CircuitFit& fit,
                                                 std::size_t most);
+
+/// Likewise one beside the sweep, with the quality of the first mode, behind all.
+std::vector<Circuit> circuits_with_mode_beside(const Sweep& sweep, const CircuitFit& fit,
+                                               std::size_t most);
 
 }  // namespace sonoglide::identify::impedance

@@ -1,14 +1,19 @@
 #include "host_sim/studies/identify/impedance/study.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "host_sim/loop/failure.hpp"
+#include "host_sim/scene_file/reader.hpp"
+#include "host_sim/scene_file/scene_error.hpp"
 #include "host_sim/studies/identify/impedance/description.hpp"
 #include "host_sim/studies/identify/impedance/figures.hpp"
 #include "host_sim/studies/identify/impedance/remarks.hpp"
+#include "host_sim/studies/identify/impedance/report.hpp"
 #include "host_sim/studies/identify/impedance/thinning.hpp"
 #include "host_sim/studies/identify/least_squares.hpp"
 
@@ -38,14 +43,10 @@ double misfit_of(const CircuitFit& fit, const Description& description) {
 Correlations correlations_of(const CircuitFit& fit) {
   Correlations result;
   result.names.emplace_back("ln clamped_capacitance_F");
-  if (fit.parts.loss_tangent) {
-    result.names.emplace_back("loss_tangent");
-  }
-  if (has_resistance(fit.parts.lead)) {
-    result.names.emplace_back("lead_resistance_ohm");
-  }
-  if (has_inductance(fit.parts.lead)) {
-    result.names.emplace_back("lead_inductance_H");
+  for (std::size_t i = 0; i < part_count; ++i) {
+    if (fit.parts.fitted[i]) {
+      result.names.emplace_back(name_of(static_cast<Part>(i)));
+    }
   }
   for (int mode = 1; mode <= fit.parts.modes; ++mode) {
     const std::string number = mode == 1 ? "" : fmt::format(" of mode {}", mode);
@@ -53,6 +54,10 @@ Correlations correlations_of(const CircuitFit& fit) {
          {"ln motional_conductance_S", "ln resonance_frequency_Hz", "ln bandwidth_Hz"}) {
       result.names.push_back(name + number);
     }
+  }
+  for (int mode = fit.parts.modes + 1; mode <= fit.parts.modes + fit.parts.beside; ++mode) {
+    result.names.push_back(fmt::format("ln motional_conductance_S of mode {}", mode));
+    result.names.push_back(fmt::format("ln resonance_frequency_Hz of mode {}", mode));
   }
   const Eigen::MatrixXd matrix = correlations(fit.covariance);
   for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
@@ -62,14 +67,51 @@ Correlations correlations_of(const CircuitFit& fit) {
 }
 
 std::string model_of(const CircuitFit& fit) {
-  constexpr const char* leads[] = {"", ", behind a lead of resistance",
-                                   ", behind a lead of inductance",
-                                   ", behind a lead of resistance and inductance"};
-  return fmt::format("clamped capacitance{} beside {}{}",
-                     fit.parts.loss_tangent ? " with a loss tangent" : "",
-                     fit.parts.modes == 1 ? std::string("one motional branch")
-                                          : fmt::format("{} motional branches", fit.parts.modes),
-                     leads[static_cast<std::size_t>(fit.parts.lead)]);
+  const Parts& parts = fit.parts;
+  std::vector<std::string> seen_through;
+  if (parts.has(Part::lead_resistance) || parts.has(Part::lead_inductance)) {
+    seen_through.push_back(fmt::format(
+        "behind a lead of {}{}{}", parts.has(Part::lead_resistance) ? "resistance" : "",
+        parts.has(Part::lead_resistance) && parts.has(Part::lead_inductance) ? " and " : "",
+        parts.has(Part::lead_inductance) ? "inductance" : ""));
+  }
+  if (parts.has(Part::rotation)) {
+    seen_through.emplace_back("with every phase off by the same angle");
+  }
+  return fmt::format(
+      "clamped capacitance{} beside {}{}{}{}",
+      parts.has(Part::loss_tangent) ? " with a loss tangent" : "",
+      parts.modes == 1 ? std::string("one motional branch")
+                       : fmt::format("{} motional branches", parts.modes),
+      parts.has(Part::lean) ? ", the first with a resonance that goes with its current" : "",
+      seen_through.empty() ? "" : ", ", fmt::join(seen_through, ", "));
+}
+
+/// A figure that is open by more than a factor of ten is none.
+void withhold(std::vector<Estimate>& estimates) {
+  for (Estimate& each : estimates) {
+    if (is_open(each)) {
+      each.value = each.low_95 = each.high_95 = std::numeric_limits<double>::quiet_NaN();
+    }
+  }
+}
+
+/// The scene, or why there is none.
+void add_scene(ImpedanceStudy& study) {
+  std::vector<std::string>& open = study.identification.cannot_tell;
+  const std::vector<Estimate>& all = study.identification.parameters;
+  if (std::any_of(all.begin(), all.end(),
+                  [](const Estimate& each) { return !may_be_0(each) && std::isnan(each.value); })) {
+    open.emplace_back("A scene: it needs the figures that are open.");
+    return;
+  }
+  study.scene = scene_toml(study);
+  try {
+    scene_file::read_text(study.scene, "scene.toml");
+  } catch (const scene_file::SceneError& error) {
+    study.scene.clear();
+    open.push_back(fmt::format("A scene: no scene has what is identified. {}", error.what()));
+  }
 }
 
 }  // namespace
@@ -85,14 +127,19 @@ ImpedanceStudy study(const std::string& name, const Sweep& measured, const Mecha
   identification.misfit = misfit_of(selected.fit, description);
   identification.correlations = correlations_of(selected.fit);
   identification.warnings = warnings_of(selected);
-  identification.cannot_tell = open_questions(identification.parameters, selected, fact);
   if (fact.known()) {
     const std::vector<Estimate> mechanical = mechanical_figures(selected.fit, fact);
     identification.parameters.insert(identification.parameters.end(), mechanical.begin(),
                                      mechanical.end());
   }
-  return {name, std::move(selected.sweep), std::move(selected.fit), fact,
-          std::move(identification)};
+  identification.cannot_tell = open_questions(identification.parameters, selected, fact);
+  withhold(identification.parameters);
+  ImpedanceStudy result{name, std::move(selected.sweep), std::move(selected.fit),
+                        fact, std::move(identification), {}};
+  if (fact.known()) {
+    add_scene(result);
+  }
+  return result;
 }
 
 }  // namespace sonoglide::identify::impedance

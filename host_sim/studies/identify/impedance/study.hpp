@@ -16,6 +16,7 @@ struct ImpedanceStudy {
   CircuitFit fit;
   MechanicalFact fact;
   Identification identification;
+  std::string scene;  ///< the text of scene.toml; empty where there is none
 };
 
 /// @param name  of the file, for the titles

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "synthetic.hpp"
@@ -56,13 +57,17 @@ TEST(Circuit, DerivativesAreThoseOfDifferences) {
   circuit.loss_tangent = 0.01;
   circuit.modes.push_back({1e-4, 113.5e3, 500.0});
   circuit.lead = {5.0, 2e-6};
-  const Parts parts{true, 2, LeadModel::resistance_and_inductance};
+  circuit.rotation_rad = 0.02;
+  circuit.lean = 0.3;
+  circuit.modes.push_back({3e-4, 115e3, 115e3 / circuit.modes.front().quality()});
+  const Parts parts{0b11111, 2, 1};
   const Eigen::VectorXd p = to_vector(circuit, parts);
   Eigen::VectorXcd derivatives(p.size());
   const double f = 112.8e3;
   admittance_S(circuit, parts, f, derivatives);
   for (Eigen::Index i = 0; i < p.size(); ++i) {
-    constexpr double step = 1e-6;
+    // Of the inductance in parts of itself.
+    const double step = 1e-6 * std::min(1.0, i == parts.index(Part::lead_inductance) ? p(i) : 1.0);
     Eigen::VectorXd more = p;
     Eigen::VectorXd less = p;
     more(i) += step;
@@ -71,6 +76,28 @@ TEST(Circuit, DerivativesAreThoseOfDifferences) {
         (to_circuit(more, parts).admittance_S(f) - to_circuit(less, parts).admittance_S(f)) /
         (2.0 * step);
     EXPECT_NEAR(std::abs(derivatives(i) - difference), 0.0, 1e-5 * std::abs(difference)) << i;
+  }
+}
+
+/// f0 = fs − s Δ |i/i_max|², iterated.
+TEST(Circuit, LeansWithTheSquareOfItsCurrent) {
+  Circuit circuit = published_langevin();
+  circuit.clamped_capacitance_F = 1e-30;
+  circuit.loss_tangent = 0.0;
+  const Mode mode = circuit.modes.front();
+  for (const double lean : {0.3, -0.5}) {
+    circuit.lean = lean;
+    for (const double f : {27.5e3, 28.2e3, 28.3e3, 28.4e3, 29e3}) {
+      double power = 0.5;
+      for (int i = 0; i < 2000; ++i) {
+        const double d = (f * f - mode.resonance_Hz * mode.resonance_Hz) / (f * mode.bandwidth_Hz) +
+                         2.0 * lean * power;
+        power += 0.2 * (1.0 / (1.0 + d * d) - power);
+      }
+      EXPECT_NEAR(std::norm(circuit.admittance_S(f)) / (mode.conductance_S * mode.conductance_S),
+                  power, 1e-9)
+          << f;
+    }
   }
 }
 

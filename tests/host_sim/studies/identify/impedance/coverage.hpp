@@ -16,12 +16,23 @@ inline constexpr Kind kinds[] = {
     {"complex_second_mode", true, Error::relative, 0.0, Second::strong},
     {"complex_correlated", true, Error::correlated, 0.0, Second::none},
     {"complex_misfit", true, Error::relative, 0.0, Second::weak},
+    {"complex_softening", true, Error::relative, 0.0, Second::none, Trait::lean},
+    {"complex_phase_error", true, Error::relative, 0.0, Second::none, Trait::phase_error},
+    {"complex_narrow_phase_error", true, Error::relative, 0.0, Second::none, Trait::narrow},
+    {"complex_lead", true, Error::relative, 0.0, Second::none, Trait::lead},
+    {"complex_mode_beside", true, Error::relative, 0.0, Second::beside},
+    {"complex_jitter", true, Error::jitter, 0.0, Second::none},
+    {"complex_drift", true, Error::relative, 0.0, Second::none, Trait::drift},
     {"magnitude_relative", false, Error::relative, 0.0, Second::none},
     {"magnitude_admittance", false, Error::admittance, 0.0, Second::none},
     {"magnitude_second_mode", false, Error::relative, 0.0, Second::strong},
     {"magnitude_correlated", false, Error::correlated, 0.0, Second::none},
     {"magnitude_misfit", false, Error::relative, 0.0, Second::weak},
+    {"magnitude_softening", false, Error::relative, 0.0, Second::none, Trait::lean},
 };
+
+/// Of each kind in coverage.csv.
+inline constexpr int recorded_sweeps = 40;
 
 struct Coverage {
   std::string parameter;

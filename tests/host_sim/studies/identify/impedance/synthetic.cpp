@@ -46,6 +46,69 @@ class Errors {
   Complex slow_;
 };
 
+/// Low and high end of a sweep.
+struct Ends {
+  double low_Hz;
+  double high_Hz;
+};
+
+void add_second(const Kind& kind, Ends ends, Circuit& circuit, std::mt19937_64& random) {
+  if (kind.second == Second::none) {
+    return;
+  }
+  std::uniform_real_distribution<double> even(0.0, 1.0);
+  const Mode first = circuit.modes.front();
+  constexpr double apart = 2.5;
+  double place_Hz = first.resonance_Hz;
+  if (kind.second == Second::beside) {
+    place_Hz = ends.high_Hz + first.resonance_Hz * (0.003 + 0.017 * even(random));
+  } else {
+    while (std::abs(place_Hz - first.resonance_Hz) < apart * first.bandwidth_Hz ||
+           std::abs(place_Hz - circuit.antiresonance_Hz()) < apart * first.bandwidth_Hz) {
+      place_Hz = ends.low_Hz + (ends.high_Hz - ends.low_Hz) * even(random);
+    }
+  }
+  const double share = kind.second == Second::beside   ? 0.1 + 0.4 * even(random)
+                       : kind.second == Second::strong ? 0.1
+                                                       : 0.001 * std::pow(10.0, even(random));
+  circuit.modes.push_back(
+      {share * first.conductance_S, place_Hz, first.bandwidth_Hz * (0.7 + 0.6 * even(random))});
+}
+
+void add_trait(const Kind& kind, Circuit& circuit, std::mt19937_64& random) {
+  std::uniform_real_distribution<double> even(0.0, 1.0);
+  const double sign = even(random) < 0.5 ? -1.0 : 1.0;
+  const double share = even(random);
+  switch (kind.trait) {
+    case Trait::lean:
+      circuit.lean = sign * (0.05 + 0.45 * share);
+      break;
+    case Trait::phase_error:
+    case Trait::narrow:
+      circuit.rotation_rad = sign * (0.5 + 1.5 * share) / degrees_per_rad;
+      break;
+    case Trait::lead: {
+      const double omega = two_pi * circuit.modes.front().resonance_Hz;
+      circuit.lead = {0.1 * circuit.modes.front().resistance_ohm(),
+                      0.01 * share / (omega * omega * circuit.clamped_capacitance_F)};
+      break;
+    }
+    default:
+      break;
+  }
+}
+
+void drift(Circuit circuit, double by_Hz, Sweep& sweep) {
+  const double resonance_Hz = circuit.modes.front().resonance_Hz;
+  const auto last = static_cast<double>(sweep.frequency_Hz.size() - 1);
+  for (std::size_t i = 0; i < sweep.frequency_Hz.size(); ++i) {
+    // The truth is the resonance in the middle.
+    circuit.modes.front().resonance_Hz =
+        resonance_Hz + by_Hz * (0.5 - static_cast<double>(i) / last);
+    sweep.admittance_S[i] = circuit.admittance_S(sweep.frequency_Hz[i]);
+  }
+}
+
 }  // namespace
 
 Mode mode_of(double resistance_ohm, double inductance_H, double capacitance_F) {
@@ -92,21 +155,26 @@ Synthetic synthetic(const Kind& kind, int readings, std::mt19937_64& random) {
                 {{two_pi * resonance_Hz * motional_F * quality, resonance_Hz, bandwidth_Hz}}};
   const double parallel_Hz = truth.antiresonance_Hz();
   const double margin_Hz = std::max(6.0 * bandwidth_Hz, 0.3 * (parallel_Hz - resonance_Hz));
-  const double low_Hz = std::max(resonance_Hz - margin_Hz, 0.3 * resonance_Hz);
-  const double high_Hz = parallel_Hz + margin_Hz;
-  Circuit measured = truth;
-  if (kind.second != Second::none) {
-    constexpr double apart = 2.5;
-    double place_Hz = resonance_Hz;
-    while (std::abs(place_Hz - resonance_Hz) < apart * bandwidth_Hz ||
-           std::abs(place_Hz - parallel_Hz) < apart * bandwidth_Hz) {
-      place_Hz = low_Hz + (high_Hz - low_Hz) * even(random);
-    }
-    const double share = kind.second == Second::strong ? 0.1 : 0.001 * std::pow(10.0, even(random));
-    measured.modes.push_back({share * truth.modes.front().conductance_S, place_Hz,
-                              bandwidth_Hz * (0.7 + 0.6 * even(random))});
+  double low_Hz = std::max(resonance_Hz - margin_Hz, 0.3 * resonance_Hz);
+  double high_Hz = parallel_Hz + margin_Hz;
+  if (kind.trait == Trait::narrow) {
+    low_Hz = resonance_Hz - 3.0 * bandwidth_Hz;
+    high_Hz = resonance_Hz + 3.0 * bandwidth_Hz;
   }
+  Circuit measured = truth;
+  add_second(kind, {low_Hz, high_Hz}, measured, random);
+  add_trait(kind, measured, random);
   Sweep sweep = exact_sweep(measured, low_Hz, high_Hz, readings);
+  if (kind.trait == Trait::drift) {
+    drift(measured, bandwidth_Hz * (0.1 + 0.2 * even(random)), sweep);
+  }
+  if (kind.error == Error::jitter) {
+    std::normal_distribution<double> normal;
+    for (std::size_t i = 0; i < sweep.frequency_Hz.size(); ++i) {
+      sweep.admittance_S[i] =
+          measured.admittance_S(sweep.frequency_Hz[i] + 0.02 * bandwidth_Hz * normal(random));
+    }
+  }
   Errors errors(kind, std::abs(measured.admittance_S(0.9 * resonance_Hz)), random);
   for (Complex& each : sweep.admittance_S) {
     each = errors.disturbed(each);

@@ -14,6 +14,7 @@ enum class Error {
   admittance,  ///< of equal size in the admittance
   impedance,   ///< of equal size in the impedance
   correlated,  ///< relative; half of the variance hangs together, by 0.9 from reading to reading
+  jitter,      ///< relative, and each frequency is off by 2 % of the band width
 };
 
 /// A second mode, at least 2.5 band widths from both resonances.
@@ -21,6 +22,17 @@ enum class Second {
   none,
   strong,  ///< a tenth of the first one's conductance: the fit must find it
   weak,    ///< 0.1 to 1 % of it: the fit may miss it
+  beside,  ///< a tenth to half of it, 0.3 to 2 % of its frequency above the sweep
+};
+
+/// What else a measured sweep has.
+enum class Trait {
+  none,
+  lean,         ///< the resonance falls or rises by 0.05 to 0.5 band widths at the largest current
+  phase_error,  ///< every phase is off by 0.5 to 2 degrees
+  narrow,       ///< likewise, in a sweep of 3 band widths on either side of the resonance
+  lead,         ///< a lead of 0.1 R, whose reactance is up to a hundredth of the capacitance's
+  drift,        ///< the resonance falls by 0.1 to 0.3 band widths from first to last reading
 };
 
 struct Kind {
@@ -29,6 +41,7 @@ struct Kind {
   Error error;
   double loss_tangent;
   Second second;
+  Trait trait = Trait::none;
 };
 
 /// The published set of a piece at 112.7 kHz: C0 1.53668657 nF, R1 106.327685 ohm, L1 52.6754086 mH,

@@ -6,10 +6,9 @@
 
 int main() {
   using namespace sonoglide::identify::impedance;
-  constexpr int sweeps = 1000;
   std::printf("kind,parameter,sweeps,covered\n");
   for (const Kind& kind : kinds) {
-    for (const Coverage& each : coverage(kind, sweeps, 1)) {
+    for (const Coverage& each : coverage(kind, recorded_sweeps, 1)) {
       std::printf("%s,%s,%d,%d\n", kind.name, each.parameter.c_str(), each.sweeps, each.covered);
     }
     std::fflush(stdout);

@@ -1,0 +1,22 @@
+/// What the parts of a circuit can be.
+#pragma once
+
+#include "host_sim/studies/identify/impedance/circuit_fit.hpp"
+#include "host_sim/studies/identify/impedance/sweep.hpp"
+
+namespace sonoglide::identify::impedance {
+
+/// The inductance of a cable: at the resonance, its reactance is up to a twentieth of that of the
+/// clamped capacitance. A larger one would be a part of its own, and in a narrow sweep it looks like
+/// any error of the phase.
+double most_inductance_H(const Circuit& circuit);
+
+/// Whether least squares found a minimum whose parts can be what they are named:
+/// a lead of resistance from 0 to a quarter of the motional one and of inductance from 0 to
+/// most_inductance_H; phases off by up to 15 degrees and no negative loss beside; a lean of up to 3 band widths; in magnitudes
+/// alone a loss above 0 and a passive circuit; further modes apart from the others, in the sweep, no
+/// wider than it and with two readings in the band, or up to half of its span beside it, at most ten
+/// times the first.
+bool is_plausible(const Sweep& sweep, const CircuitFit& fit);
+
+}  // namespace sonoglide::identify::impedance
