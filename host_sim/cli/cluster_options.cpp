@@ -42,8 +42,10 @@ std::string merged(const std::function<std::string()>& call) {
 }
 
 /// How far the shards in a folder are, with every one that is begun and all that are missing.
-std::string status_text(const std::filesystem::path& folder) {
+/// @param kind  of the command
+std::string status_text(const std::filesystem::path& folder, const std::string& kind) {
   const shards::Collection found(folder);
+  found.require_kind(kind);
   const std::vector<std::uint64_t> missing = found.missing();
   const std::vector<shards::BegunShard> begun = found.begun();
   std::uint64_t points = found.points_there();
@@ -83,7 +85,9 @@ std::string computed_part(const ClusterOptions& options, const Divisible& divisi
 void run_divisible(const CLI::App& command, const ClusterOptions& options,
                    const std::vector<std::string>& needed, const Divisible& divisible, bool quiet) {
   if (!options.status.empty()) {
-    fmt::print("{}", with_usable_shards("--status", [&] { return status_text(options.status); }));
+    fmt::print("{}", with_usable_shards("--status", [&] {
+                 return status_text(options.status, command.get_name());
+               }));
     return;
   }
   if (options.merge.empty()) {

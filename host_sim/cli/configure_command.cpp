@@ -68,7 +68,7 @@ void add_configure_command(CLI::App& program) {
                                "that holds both",
                                emulated::plant_header_name))
       ->type_name("float32|q31")
-      ->check(CLI::IsMember({"float32", "q31"}));
+      ->check(one_of({"float32", "q31"}));
   command->add_flag("--quiet", options->quiet, "No notes, and no word on where the header is");
   command->callback([options] { configure(*options); });
 }

@@ -70,10 +70,10 @@ void add_fmu_command(CLI::App& program) {
   command->add_option("--kind", options->kind, "What of the scene the FMU holds")
       ->required()
       ->type_name("plant|controller|loop")
-      ->check(CLI::IsMember({"plant", "controller", "loop"}));
+      ->check(one_of({"plant", "controller", "loop"}));
   command->add_option("--fmi", options->version, "Version of the interface [3]")
       ->type_name("3|2")
-      ->check(CLI::IsMember({2, 3}));
+      ->check(one_of({"3", "2"}));
   command->add_option("--out", options->out, "The FMU")
       ->required()
       ->type_name("FILE.fmu")

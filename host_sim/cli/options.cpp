@@ -1,7 +1,9 @@
 #include "host_sim/cli/options.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cstdint>
 
 #include "host_sim/output/output_folder.hpp"
@@ -72,6 +74,14 @@ std::filesystem::path output_folder(const std::string& out, const std::string& s
                                     const std::string& suffix) {
   return out.empty() ? std::filesystem::path("out") / (folder_name(scene_name) + suffix)
                      : std::filesystem::path(out);
+}
+
+std::function<std::string(const std::string&)> one_of(const std::vector<std::string>& words) {
+  return [words](const std::string& text) {
+    return std::find(words.begin(), words.end(), text) != words.end()
+               ? std::string()
+               : fmt::format("\"{}\"; allowed: {}", text, fmt::join(words, ", "));
+  };
 }
 
 std::string check_whole(const std::string& text, std::uint64_t least, std::uint64_t most) {

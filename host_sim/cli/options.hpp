@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -65,6 +66,9 @@ std::filesystem::path output_folder(const std::string& out, const std::string& s
 
 /// Adds `--threads N`, 1 to 1024; 0 where it is not given: one for each core.
 void add_threads_option(CLI::App& command, unsigned& threads);
+
+/// A check of an option that takes one of these words.
+std::function<std::string(const std::string&)> one_of(const std::vector<std::string>& words);
 
 /// What is wrong with a text as a whole number in these bounds; empty for one.
 std::string check_whole(const std::string& text, std::uint64_t least, std::uint64_t most);

@@ -3,13 +3,18 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
+#include <cerrno>
 #include <cstdio>
 #include <exception>
+#include <filesystem>
+#include <new>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <vector>
 
 #include "host_sim/cli/usage.hpp"
+#include "host_sim/emulated/image_process.hpp"
 #include "host_sim/loop/run.hpp"
 #include "host_sim/output/output_folder.hpp"
 #include "host_sim/process/ending.hpp"
@@ -22,8 +27,11 @@ namespace {
 
 /// A full disk or a closed pipe shows only when the buffer goes out.
 void flush_output() {
+  errno = 0;
   if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
-    throw output::OutputError("standard output: cannot be written");
+    throw output::OutputError(errno == 0 ? "standard output: cannot be written"
+                                         : "standard output: cannot be written: " +
+                                               std::generic_category().message(errno));
   }
 }
 
@@ -46,6 +54,9 @@ void parse_and_run(int argument_count, const char* const* arguments,
   }
   flush_output();
 }
+
+/// Of what no command is known to throw.
+constexpr const char* unexpected = "an error of the program itself, which should be reported";
 
 int fail(ExitCode code, std::string_view message) {
   process::show_on_stderr(message);
@@ -96,8 +107,18 @@ int run_program(int argument_count, const char* const* arguments,
     return fail(computation_failed, error.what());
   } catch (const shards::Incomplete& error) {
     return fail(computation_failed, error.what());
-  } catch (const std::exception& error) {
+  } catch (const output::OutputError& error) {
     return fail(system_failed, error.what());
+  } catch (const process::ProcessError& error) {
+    return fail(system_failed, error.what());
+  } catch (const emulated::EmulatorError& error) {
+    return fail(system_failed, error.what());
+  } catch (const std::filesystem::filesystem_error& error) {
+    return fail(system_failed, error.path1().string() + ": " + error.code().message());
+  } catch (const std::bad_alloc&) {
+    return fail(system_failed, "sonoglide: the memory is not enough; allowed: a smaller task");
+  } catch (const std::exception& error) {
+    return fail(system_failed, fmt::format("sonoglide: {}: {}", unexpected, error.what()));
   }
 }
 

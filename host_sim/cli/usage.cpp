@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <set>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -48,6 +49,9 @@ class Words {
       report_option(word.substr(0, equals));
       // Whatever follows an unknown option may be its value.
       return equals == std::string::npos && !is_option(next);
+    }
+    if (option->get_items_expected_max() == 1 && !given_.insert(option).second) {
+      add(fmt::format("{} is given twice; allowed: once", word.substr(0, equals)));
     }
     return equals == std::string::npos && option->get_items_expected_min() > 0;
   }
@@ -115,6 +119,7 @@ class Words {
   const CLI::App* app_;
   std::string name_;
   std::size_t arguments_ = 0;
+  std::set<const CLI::Option*> given_;
   std::string errors_;
 };
 

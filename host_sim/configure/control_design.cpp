@@ -14,6 +14,7 @@
 #include "firmware/numeric/float_elementary.hpp"
 #include "firmware/numeric/turn.hpp"
 #include "host_sim/configure/believed_plant.hpp"
+#include "host_sim/configure/bound.hpp"
 #include "host_sim/configure/configuration_error.hpp"
 #include "host_sim/configure/design_periods.hpp"
 #include "host_sim/configure/plant_scales.hpp"
@@ -169,12 +170,13 @@ void design_supervision(const scene::Scene& scene, const BelievedPlant& plant,
 
 /// value/scale, or an error in the name of the key that one should change.
 /// @param finding  what is wrong, with a place for the ratio
+/// @param allowed  in the unit of the key
 double per_unit(double value, double scale, double smallest, const char* key,
-                const std::string& finding) {
+                const std::string& finding, const std::string& allowed) {
   const double ratio = value / scale;
   if (!(ratio >= smallest && ratio < 1.0)) {
-    throw ConfigurationError(key, fmt::format(fmt::runtime(finding), ratio) +
-                                      fmt::format("; allowed: {:.3g} to below 1", smallest));
+    throw ConfigurationError(key,
+                             fmt::format(fmt::runtime(finding), ratio) + "; allowed: " + allowed);
   }
   return ratio;
 }
@@ -203,10 +205,15 @@ double default_speed_floor(const scene::Scene& scene, const BelievedPlant& plant
 double speed_floor(const scene::Scene& scene, const BelievedPlant& plant,
                    const ControlScales& scales) {
   const std::optional<double>& chosen_m_per_s = scene.controller->speed_floor_m_per_s;
-  return chosen_m_per_s ? per_unit(*chosen_m_per_s, scales.velocity_m_per_s,
-                                   control::smallest_speed_floor, "controller.speed_floor_m_per_s",
-                                   "is {:.3g} of the peak vibration velocity at full drive")
-                        : default_speed_floor(scene, plant, scales);
+  return chosen_m_per_s
+             ? per_unit(
+                   *chosen_m_per_s, scales.velocity_m_per_s, control::smallest_speed_floor,
+                   "controller.speed_floor_m_per_s",
+                   "is {:.3g} of the peak vibration velocity at full drive",
+                   fmt::format("{} to below {} m/s",
+                               at_least(control::smallest_speed_floor * scales.velocity_m_per_s),
+                               at_most(scales.velocity_m_per_s)))
+             : default_speed_floor(scene, plant, scales);
 }
 
 /// 1/n, below 1: fixed point ends there.
@@ -298,8 +305,8 @@ void design_calibration(const scene::Scene& scene, const BelievedPlant& plant,
         "controller.calibration_s",
         fmt::format(
             "is too short for contact and sensor to settle; allowed: 0 (no calibration), or "
-            "at least {:.3g} s",
-            (settling + 2.0) * scales.carrier_period_s));
+            "at least {} s",
+            at_least((settling + 2.0) * scales.carrier_period_s, 3)));
   }
   design.calibrated = true;
   design.calibration_total_periods = static_cast<std::uint32_t>(total);
@@ -358,9 +365,8 @@ void design_relearning(const scene::Scene& scene, const BelievedPlant& plant,
     throw ConfigurationError(
         "controller.relearn_every_s",
         design.relearn_travel < 1.0
-            ? fmt::format(
-                  "leaves no time between two pauses of the drive; allowed: at least {:.3g} s",
-                  shortest * scales.carrier_period_s)
+            ? fmt::format("leaves no time between two pauses of the drive; allowed: at least {} s",
+                          at_least(shortest * scales.carrier_period_s, 3))
             : "cannot be kept: the presliding travel takes more than 64 carrier periods at the "
               "peak "
               "vibration velocity of full drive; remove it");
@@ -372,13 +378,22 @@ void design_relearning(const scene::Scene& scene, const BelievedPlant& plant,
 constexpr double fewest_codes = 8.0;
 
 void check_converter(const scene::Scene& scene, const BelievedPlant& plant) {
-  if (fewest_codes * code_N(scene.sensor) > plant.friction_N) {
+  const auto too_coarse = [&](int bits) {
+    scene::Sensor sensor = scene.sensor;
+    sensor.adc_bits = bits;
+    return fewest_codes * code_N(sensor) > plant.friction_N;
+  };
+  if (scene.sensor.adc_bits && too_coarse(*scene.sensor.adc_bits)) {
+    int bits = *scene.sensor.adc_bits;
+    while (too_coarse(bits)) {
+      ++bits;
+    }
     throw ConfigurationError(
         "sensor.adc_bits",
         fmt::format(
-            "one code is {:.3g} of the believed friction force; allowed: at most {}, by more "
-            "bits or a smaller sensor.force_full_scale_N",
-            code_N(scene.sensor) / plant.friction_N, 1.0 / fewest_codes));
+            "one code is {:.3g} of the believed friction force; allowed: at least {} bits, or a "
+            "smaller sensor.force_full_scale_N",
+            code_N(scene.sensor) / plant.friction_N, bits));
   }
 }
 
@@ -402,15 +417,16 @@ void require_wide_range(double full_scale_m_per_s, double fastest_m_per_s) {
     throw ConfigurationError(
         "sensor.vibration_full_scale_m_per_s",
         fmt::format("{:g} m/s is too much beside the fastest sliding, which has the same range; "
-                    "allowed: at most {:g} m/s",
-                    full_scale_m_per_s, 0.5 * fastest_m_per_s / control::smallest_speed_floor));
+                    "allowed: at most {} m/s",
+                    full_scale_m_per_s,
+                    at_most(0.5 * fastest_m_per_s / control::smallest_speed_floor)));
   }
   if (!(fastest_m_per_s < full_scale_m_per_s)) {
     throw ConfigurationError(
         "sensor.vibration_full_scale_m_per_s",
         fmt::format("{:g} m/s is below the fastest sliding, which the vibration has to exceed; "
-                    "allowed: above {:g} m/s",
-                    full_scale_m_per_s, fastest_m_per_s));
+                    "allowed: above {} m/s",
+                    full_scale_m_per_s, at_least(fastest_m_per_s)));
   }
 }
 
@@ -445,10 +461,10 @@ double set_observed_scales(const scene::Scene& scene, const BelievedPlant& plant
           : 2.0 * std::max(plant.friction_N, largest_friction_limit_N(scene.friction));
   design.scales = {1.0 / scene.drive->frequency_Hz, force_N, velocity_m_per_s,
                    scene.drive->max_force_amplitude_N};
-  require_wide_range(velocity_m_per_s, fastest_m_per_s);
   if (scene.resonant()) {
     require_needed_range(scene, plant, velocity_m_per_s);
   }
+  require_wide_range(velocity_m_per_s, fastest_m_per_s);
   return velocity_m_per_s / (numeric::two_pi * scene.drive->frequency_Hz);
 }
 
@@ -528,7 +544,9 @@ ControlDesign design_control(const scene::Scene& any_scene) {
                                    "sensor.force_full_scale_N",
                                    fmt::format("is {:.4g} N, of which the believed friction force "
                                                "of {:.4g} N makes {{:.3g}}",
-                                               design.scales.force_N, plant.friction_N));
+                                               design.scales.force_N, plant.friction_N),
+                                   fmt::format("above {}, at most {} N", at_least(plant.friction_N),
+                                               at_most(plant.friction_N / smallest_friction)));
   design.contact_force = plant.contact_stiffness_N_per_m * displacement_m / design.scales.force_N;
   design.speed_floor = speed_floor(scene, plant, design.scales);
   check_converter(scene, plant);

@@ -9,6 +9,7 @@
 
 #include "firmware/numeric/float_elementary.hpp"
 #include "firmware/numeric/turn.hpp"
+#include "host_sim/configure/bound.hpp"
 #include "host_sim/configure/configuration_error.hpp"
 #include "host_sim/configure/mode_model.hpp"
 #include "host_sim/configure/plant_scales.hpp"
@@ -157,9 +158,9 @@ void require_mode(const BelievedPlant& plant) {
   if (!(plant.damping_N_s_per_m < most * critical)) {
     throw ConfigurationError(
         "plant.damping_N_s_per_m",
-        fmt::format("leaves no natural mode to damp; allowed: below {:.3g} N s/m with "
+        fmt::format("leaves no natural mode to damp; allowed: below {} N s/m with "
                     "controller.vibration = \"damped\"",
-                    most * critical));
+                    at_most(most * critical, 3)));
   }
 }
 
@@ -177,19 +178,24 @@ double damped_full_scale_m_per_s(const scene::Scene& scene, const BelievedPlant&
       throw ConfigurationError(
           "sensor.vibration_full_scale_m_per_s",
           fmt::format("{:g} m/s does not suit full drive, whose steady vibration is {:.4g} m/s; "
-                      "allowed: {:.4g} to {:.4g} m/s",
-                      *given_m_per_s, full_m_per_s, least_m_per_s, most_m_per_s));
+                      "allowed: {} to {} m/s",
+                      *given_m_per_s, full_m_per_s, at_least(least_m_per_s, 4),
+                      at_most(most_m_per_s, 4)));
     }
     return *given_m_per_s;
   }
   const double fastest_m_per_s = fastest_sliding_m_per_s(scene.sliding);
   const double full_scale_m_per_s = room * std::max(full_m_per_s, fastest_m_per_s);
   if (full_scale_m_per_s > most_room * full_m_per_s) {
+    const double amplitude =
+        scene.transducer ? drive.max_voltage_amplitude_V : drive.max_force_amplitude_N;
     throw ConfigurationError(
         scene.transducer ? "drive.max_voltage_amplitude_V" : "drive.max_force_amplitude_N",
         fmt::format("vibrates at {:.3g} m/s, too little for a sliding of {:g} m/s; allowed: at "
-                    "least {:.3g} m/s with controller.vibration = \"damped\"",
-                    full_m_per_s, fastest_m_per_s, room / most_room * fastest_m_per_s));
+                    "least {} {} with controller.vibration = \"damped\"",
+                    full_m_per_s, fastest_m_per_s,
+                    at_least(amplitude * room / most_room * fastest_m_per_s / full_m_per_s),
+                    scene.transducer ? "V" : "N"));
   }
   return full_scale_m_per_s;
 }

@@ -11,6 +11,7 @@
 #include "firmware/control/friction_level.hpp"
 #include "firmware/numeric/float_elementary.hpp"
 #include "firmware/numeric/turn.hpp"
+#include "host_sim/configure/bound.hpp"
 #include "host_sim/configure/configuration_error.hpp"
 #include "host_sim/configure/plant_scales.hpp"
 #include "host_sim/configure/sensor_noise.hpp"
@@ -67,15 +68,17 @@ TargetVelocities target_velocities(const scene::Scene& scene, const BelievedPlan
   return velocities;
 }
 
+/// The direction of a vibration is then known to 1/16 radian, rms.
+constexpr double noises_of_audible = 16.0;
+
 /// Of what a period at full drive adds: friction that sets in moves the mass as well, by less.
 constexpr double least_audible = 0.25;
 
 /// The noisier a period's growth against what full drive adds, the less of it is believed.
 void design_estimate(ResonantDesign& design) {
   constexpr double at_once = 0.5;
-  constexpr double believed_rate_error = 0.2;     // relative; of a force factor, of a mass
-  constexpr double believed_losses_error = 0.07;  // relative, of a period to the next
-  constexpr double noises_of_audible = 16.0;      // its direction is then known to 1/16 radian, rms
+  constexpr double believed_rate_error = 0.2;            // relative; of a force factor, of a mass
+  constexpr double believed_losses_error = 0.07;         // relative, of a period to the next
   const double blur = 2.0 * design.noise / design.rate;  // of a growth, as a drive
   const auto gain = [&](double error) { return at_once / (1.0 + blur * blur / (error * error)); };
   design.rate_gain = gain(believed_rate_error);
@@ -150,9 +153,15 @@ void design_current(const scene::Scene& scene, const BelievedPlant& plant,
     throw ConfigurationError(
         "drive.max_current_amplitude_A",
         fmt::format("{:g} A is less than what the clamped capacitance alone takes at the {:.4g} V "
-                    "that the easiest target needs; allowed: above {:.4g} A",
-                    limit_A, held_by_V, least_A));
+                    "that the easiest target needs; allowed: above {} A",
+                    limit_A, held_by_V, at_least(least_A, 4)));
   }
+}
+
+/// What one of two independent errors may be for both to be this rms; half of it where the other is
+/// too large by itself.
+double room_beside(double other, double both) {
+  return other < both ? std::sqrt(both * both - other * other) : std::sqrt(0.5) * both;
 }
 
 /// A target whose vibration has no direction would never be driven.
@@ -164,19 +173,28 @@ void require_audible_targets(const scene::Scene& scene, double lowest_m_per_s,
   }
   const double allowed = lowest_m_per_s / audible_m_per_s;
   if (design.audible > least_audible * design.rate) {
-    const bool coarse = scene.sensor.vibration_noise_m_per_s <
-                        vibration_rounding_m_per_s(scene.sensor, full_scale_m_per_s);
+    const double noise_m_per_s = scene.sensor.vibration_noise_m_per_s;
+    const double rounding_m_per_s = vibration_rounding_m_per_s(scene.sensor, full_scale_m_per_s);
+    const double most_m_per_s = lowest_m_per_s / noises_of_audible;
+    const bool coarse = noise_m_per_s < rounding_m_per_s;
+    const double room_m_per_s =
+        room_beside(coarse ? noise_m_per_s : rounding_m_per_s, most_m_per_s);
     throw ConfigurationError(
         coarse ? "sensor.vibration_bits" : "sensor.vibration_noise_m_per_s",
         fmt::format("noise and converter hide a vibration below {:.3g} m/s, and a target needs "
-                    "{:.3g} m/s; allowed: at most {:.3g} times the {}, or a lower target",
-                    audible_m_per_s, lowest_m_per_s, allowed, coarse ? "code" : "noise"));
+                    "{:.3g} m/s; allowed: {}, or a lower target",
+                    audible_m_per_s, lowest_m_per_s,
+                    coarse ? fmt::format("at least {:.0f} bits",
+                                         *scene.sensor.vibration_bits +
+                                             std::ceil(std::log2(rounding_m_per_s / room_m_per_s)))
+                           : fmt::format("at most {} m/s", at_most(room_m_per_s, 3))));
   }
   throw ConfigurationError(
       "drive.max_voltage_amplitude_V",
       fmt::format("is too strong for a vibration below {:.3g} m/s, and a target needs {:.3g} m/s; "
-                  "allowed: at most {:.4g} V, or a lower target",
-                  audible_m_per_s, lowest_m_per_s, allowed * scene.drive->max_voltage_amplitude_V));
+                  "allowed: at most {} V, or a lower target",
+                  audible_m_per_s, lowest_m_per_s,
+                  at_most(allowed * scene.drive->max_voltage_amplitude_V, 4)));
 }
 
 /// Largest vibration velocity of a target that full drive reaches.
@@ -219,8 +237,8 @@ void require_needed_range(const scene::Scene& scene, const BelievedPlant& plant,
   if (!(needed_m_per_s < full_scale_m_per_s)) {
     throw ConfigurationError(
         "sensor.vibration_full_scale_m_per_s",
-        fmt::format("{:g} m/s is below the {:.4g} m/s that a target needs; allowed: above that",
-                    full_scale_m_per_s, needed_m_per_s));
+        fmt::format("{:g} m/s is below what a target needs; allowed: above {} m/s",
+                    full_scale_m_per_s, at_least(needed_m_per_s, 4)));
   }
 }
 
@@ -237,10 +255,10 @@ ResonantDesign design_resonance(const scene::Scene& scene, const BelievedPlant& 
     throw ConfigurationError(
         "drive.max_voltage_amplitude_V",
         fmt::format("adds {:.3g} times the vibration sensor's range of {:.4g} m/s in a carrier "
-                    "period; allowed: at most {:.4g} V, or a larger "
+                    "period; allowed: at most {} V, or a larger "
                     "sensor.vibration_full_scale_m_per_s",
                     design.rate, full_scale_m_per_s,
-                    scene.drive->max_voltage_amplitude_V * largest_rate / design.rate));
+                    at_most(scene.drive->max_voltage_amplitude_V * largest_rate / design.rate, 4)));
   }
   design.losses = full_scale_m_per_s / full_m_per_s;
   design.quality_factor = plant.mass_kg * natural_rad_per_s / plant.damping_N_s_per_m;

@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
+#include <system_error>
 #include <vector>
 
 #include "host_sim/emulated/board_list.hpp"
@@ -88,6 +90,16 @@ std::string content(const fs::path& path) {
   return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
 }
 
+void write_file(const fs::path& path, const std::string& text) {
+  std::ofstream file(path, std::ios::binary);
+  errno = 0;
+  file << text;
+  file.close();
+  if (!file) {
+    fail(path, "could not be written in full: " + std::generic_category().message(errno));
+  }
+}
+
 std::vector<fs::path> image_sources(const fs::path& tree) {
   std::vector<fs::path> sources{"CMakeLists.txt"};
   for (const char* folder : {"firmware", "hal", "tools/cmake", "tools/toolchains"}) {
@@ -123,7 +135,7 @@ void compile(const emulated::EmulatedBoard& board, const std::string& header, co
              const fs::path& folder) {
   const fs::path controller = folder / controller_name;
   fs::create_directory(controller);
-  std::ofstream(controller / controller_header_name, std::ios::binary) << header;
+  write_file(controller / controller_header_name, header);
   const fs::path toolchain = tree / fmt::format("tools/toolchains/{}.cmake", board.toolchain);
   const std::string build = (folder / "build").string();
   process::run_tool({"cmake", "-G", "Ninja", "-S", tree.string(), "-B", build,
@@ -153,14 +165,17 @@ fs::path build_image(const emulated::EmulatedBoard& board, const std::string& he
     compile(board, header, tree, folder.path());
     const fs::path built = folder.path() / "build/bin" / fmt::format("{}.elf", controller_name);
     const fs::path sealed = folder.path() / "seal";
-    std::ofstream(sealed, std::ios::binary) << seal_of(key, content(built));
+    write_file(sealed, seal_of(key, content(built)));
     // Somebody else may do the same meanwhile: the same image comes of it.
     fs::rename(built, image);
     fs::rename(sealed, seal);
   }
   return image;
 } catch (const fs::filesystem_error& error) {
-  throw process::ProcessError(error.what());
+  fail(error.path2().empty() ? error.path1() : error.path2(),
+       error.code().message() +
+           "; allowed: XDG_CACHE_HOME or HOME in the environment, a folder that can be written to, "
+           "where no other files have the names of images");
 }
 
 }  // namespace sonoglide::emulated

@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -14,6 +15,7 @@
 #include "host_sim/long_work/pace.hpp"
 #include "host_sim/long_work/record_text.hpp"
 #include "host_sim/output/output_folder.hpp"
+#include "host_sim/process/pipe.hpp"
 #include "host_sim/process/printable.hpp"
 
 namespace sonoglide::long_work {
@@ -34,25 +36,28 @@ std::string format_name(const JournalKind& kind) {
 Journal::Journal(std::filesystem::path path, const JournalKind& kind, const Identity& identity,
                  const Take& take, const std::filesystem::path& another)
     : kind_(kind), path_(std::move(path)), last_sync_s_(steady_time_s()) {
-  constexpr mode_t mode = 0666;
-  file_ = open(path_.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, mode);
-  if (file_ < 0) {
-    fail(last_reason());
-  }
-  try {
+  do {
+    open();
     lock();
-    if (!another.empty()) {
-      begin_with(another, identity);
-    }
-    recover(identity, take);
-  } catch (...) {
-    close(file_);
-    throw;
+    // Who held it may have removed it: its work was whole.
+  } while (!process::stands(file_, path_));
+  if (!another.empty()) {
+    begin_with(another, identity);
   }
+  recover(identity, take);
 }
 
-Journal::~Journal() {
-  close(file_);
+void Journal::open() {
+  constexpr mode_t mode = 0666;
+  file_ = process::Descriptor(
+      ::open(path_.c_str(), O_RDWR | O_CREAT | O_APPEND | O_NONBLOCK | O_CLOEXEC, mode));
+  struct stat facts {};
+  if (file_.number() < 0 || fstat(file_.number(), &facts) != 0) {
+    fail(last_reason());
+  }
+  if (!S_ISREG(facts.st_mode)) {
+    fail("is no file that can hold a journal; allowed: that out of the way, or another folder");
+  }
 }
 
 std::string Journal::line_of(std::string_view record) {
@@ -72,7 +77,7 @@ void Journal::remove() {
 }
 
 void Journal::lock() {
-  if (flock(file_, LOCK_EX | LOCK_NB) == 0) {
+  if (process::lock(file_, LOCK_EX | LOCK_NB)) {
     return;
   }
   if (errno == EWOULDBLOCK) {
@@ -116,7 +121,7 @@ void Journal::begin_with(const std::filesystem::path& another, const Identity& i
   if (gone || theirs <= std::filesystem::file_size(path_)) {
     return;
   }
-  if (ftruncate(file_, 0) != 0) {
+  if (ftruncate(file_.number(), 0) != 0) {
     fail(last_reason());
   }
   constexpr std::size_t part_bytes = std::size_t{1} << 20U;
@@ -154,7 +159,7 @@ void Journal::recover(const Identity& identity, const Take& take) {
     if (first_line.compare(0, line.size(), line) != 0) {
       refuse(path_, "another format of journal");
     }
-    if (ftruncate(file_, 0) != 0) {
+    if (ftruncate(file_.number(), 0) != 0) {
       fail(last_reason());
     }
     write(first_line);
@@ -173,7 +178,7 @@ void Journal::recover(const Identity& identity, const Take& take) {
     }
     whole = journal.tellg();
   }
-  if (ftruncate(file_, whole) != 0) {
+  if (ftruncate(file_.number(), whole) != 0) {
     fail(last_reason());
   }
 }
@@ -188,7 +193,7 @@ void Journal::refuse(const std::filesystem::path& journal, const std::string& co
 void Journal::write(std::string_view text) {
   std::size_t written = 0;
   while (written < text.size()) {
-    const ssize_t count = ::write(file_, text.data() + written, text.size() - written);
+    const ssize_t count = ::write(file_.number(), text.data() + written, text.size() - written);
     if (count < 0 && errno != EINTR) {
       fail(last_reason());
     }
@@ -205,7 +210,7 @@ void Journal::sync_now_and_then() {
 }
 
 void Journal::sync() {
-  if (fdatasync(file_) != 0) {
+  if (fdatasync(file_.number()) != 0) {
     fail(last_reason());
   }
   last_sync_s_ = steady_time_s();

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "host_sim/output/written_files.hpp"
+#include "host_sim/process/pipe.hpp"
 
 namespace sonoglide::long_work {
 
@@ -56,7 +57,6 @@ class Journal {
   /// @throws ForeignJournal, JournalInUse, output::OutputError
   Journal(std::filesystem::path path, const JournalKind& kind, const Identity& identity,
           const Take& take, const std::filesystem::path& another = {});
-  ~Journal();
   Journal(const Journal&) = delete;
   Journal& operator=(const Journal&) = delete;
 
@@ -74,6 +74,7 @@ class Journal {
   void remove();
 
  private:
+  void open();
   void lock();
   void begin_with(const std::filesystem::path& another, const Identity& identity);
   void recover(const Identity& identity, const Take& take);
@@ -87,7 +88,7 @@ class Journal {
 
   JournalKind kind_;
   std::filesystem::path path_;
-  int file_;
+  process::Descriptor file_;
   double last_sync_s_;
 };
 

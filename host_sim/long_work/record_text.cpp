@@ -30,6 +30,23 @@ std::optional<std::string_view> unsealed(std::string_view line) {
   return text;
 }
 
+bool next_line(std::ifstream& file, std::string& line) {
+  // A scene in JSON, each of its bytes escaped.
+  constexpr std::size_t longest = std::size_t{16} << 20U;
+  line.clear();
+  std::filebuf& bytes = *file.rdbuf();
+  for (int byte = bytes.sbumpc(); byte != std::filebuf::traits_type::eof(); byte = bytes.sbumpc()) {
+    if (byte == '\n') {
+      return true;
+    }
+    if (line.size() == longest) {
+      return false;
+    }
+    line += static_cast<char>(byte);
+  }
+  return false;
+}
+
 std::string bits_text(double value) {
   std::uint64_t bits = 0;
   std::memcpy(&bits, &value, sizeof bits);

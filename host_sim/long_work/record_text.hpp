@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <fstream>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -15,6 +16,10 @@ std::string sealed(std::string_view text);
 
 /// The TEXT of such a line; absent if the checksum is not that of TEXT.
 std::optional<std::string_view> unsealed(std::string_view line);
+
+/// The next line of a file, without its end.
+/// @return false where there is no whole one, or one that is longer than any of this program's
+bool next_line(std::ifstream& file, std::string& line);
 
 /// Every bit of a number, in hexadecimal digits.
 std::string bits_text(double value);

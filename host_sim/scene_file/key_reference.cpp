@@ -3,6 +3,12 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <string>
+#include <vector>
+
+#include "host_sim/configure/solver_facts.hpp"
+#include "host_sim/configure/solver_methods.hpp"
+#include "host_sim/scene/names.hpp"
 #include "host_sim/scene_file/keys.hpp"
 
 namespace sonoglide::scene_file {
@@ -122,6 +128,21 @@ std::string keys_in_words(const KeyTable& table) {
                             spreads ? ", with a range alone" : "", list_of(table, true));
 }
 
+/// The laws that each method solves.
+std::string methods_of_laws() {
+  std::string text = "\nMethods by friction law:\n\n| law | methods |\n|---|---|\n";
+  for (const auto& law : scene::friction_laws) {
+    std::vector<std::string> methods;
+    for (const auto& method : configure::solver_methods) {
+      if (configure::solves(method.value, law.value)) {
+        methods.push_back(fmt::format("`{}`", method.name));
+      }
+    }
+    text += fmt::format("| `{}` | {} |\n", law.name, fmt::join(methods, ", "));
+  }
+  return text;
+}
+
 std::string section(const KeyTable& table) {
   std::string text = fmt::format("\n## `[{}]`\n\n{}{}\n\n", table.name, sentence(table.meaning),
                                  table.required ? " Required." : "");
@@ -132,7 +153,7 @@ std::string section(const KeyTable& table) {
   for (const Key& key : table.keys) {
     text += row(key);
   }
-  return text;
+  return table.name == "solver" ? text + methods_of_laws() : text;
 }
 
 }  // namespace

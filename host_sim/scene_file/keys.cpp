@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "host_sim/configure/bound.hpp"
 #include "host_sim/configure/solver_facts.hpp"
 #include "host_sim/configure/solver_methods.hpp"
 #include "host_sim/scene/friction_laws.hpp"
@@ -18,8 +19,9 @@
 namespace sonoglide::scene_file {
 
 std::string Range::text() const {
-  const std::string bounds = low_open ? fmt::format("above {:g}, at most {:g}", low, high)
-                                      : fmt::format("{:g} to {:g}", low, high);
+  const std::string bounds =
+      fmt::format(fmt::runtime(low_open ? "above {}, at most {}" : "{} to {}"),
+                  configure::at_least(low), configure::at_most(high));
   return unit.empty() ? bounds : fmt::format("{} {}", bounds, unit);
 }
 

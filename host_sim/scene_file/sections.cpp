@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "firmware/numeric/turn.hpp"
+#include "host_sim/configure/bound.hpp"
 #include "host_sim/configure/plant_scales.hpp"
 #include "host_sim/configure/solver_facts.hpp"
 #include "host_sim/scene/names.hpp"
@@ -102,8 +103,8 @@ void settle_frequency(const TableCursor& cursor, scene::Drive& drive) {
                                : scene::smallest_value(drive.frequency_profile);
   if (drive.frequency_resolution_Hz > lowest_Hz) {
     cursor.fail("frequency_resolution_Hz",
-                fmt::format("{:g} Hz is above the carrier frequency; allowed: at most {:g} Hz",
-                            drive.frequency_resolution_Hz, lowest_Hz));
+                fmt::format("{:g} Hz is above the carrier frequency; allowed: at most {} Hz",
+                            drive.frequency_resolution_Hz, configure::at_most(lowest_Hz)));
   }
   drive.frequency_Hz = configure::nearest_frequency_Hz(drive, drive.frequency_Hz);
 }
@@ -127,8 +128,9 @@ void check_frequency_range(const TableCursor& cursor, const scene::FrequencyRang
   if (range.lowest_Hz < lowest_Hz || range.highest_Hz > highest_Hz) {
     cursor.fail("frequency_range_Hz",
                 fmt::format("[{:g}, {:g}] leaves the range that the controller can follow; "
-                            "allowed: {:g} to {:g} Hz, 6 % about drive.frequency_Hz",
-                            range.lowest_Hz, range.highest_Hz, lowest_Hz, highest_Hz));
+                            "allowed: {} to {} Hz, 6 % about drive.frequency_Hz",
+                            range.lowest_Hz, range.highest_Hz, configure::at_least(lowest_Hz),
+                            configure::at_most(highest_Hz)));
   }
 }
 
@@ -139,15 +141,18 @@ void check_resonance(const TableCursor& cursor, const TableCursor& drive,
                 "\"resonant\" needs a table [transducer], whose voltage drives the resonance");
   }
   // A word has 28 bits at the most.
-  const double finest_Hz = so_far.drive->frequency_Hz * 0x1p-28;
-  const double coarsest_Hz = so_far.drive->frequency_Hz / 64.0;
+  constexpr double finest = 0x1p-28;
+  const double start_Hz = so_far.drive->frequency_Hz;
+  const double finest_Hz = start_Hz * finest;
+  const double coarsest_Hz = start_Hz / 64.0;
   const double resolution_Hz = so_far.drive->frequency_resolution_Hz;
   if (resolution_Hz > coarsest_Hz || (resolution_Hz > 0.0 && resolution_Hz < finest_Hz)) {
-    drive.fail(
-        "frequency_resolution_Hz",
-        fmt::format("{:g} Hz is too {} to follow a resonance; allowed: 0, or {:.3g} Hz to "
-                    "1/64 of drive.frequency_Hz",
-                    resolution_Hz, resolution_Hz < finest_Hz ? "fine" : "coarse", finest_Hz));
+    // The start is a multiple of it, and another one of another resolution.
+    drive.fail("frequency_resolution_Hz",
+               fmt::format("{:g} Hz is too {} to follow a resonance; allowed: 0, or {} to {} Hz",
+                           resolution_Hz, resolution_Hz < finest_Hz ? "fine" : "coarse",
+                           configure::at_least((start_Hz + 0.5 * resolution_Hz) * finest, 3),
+                           configure::at_most((start_Hz - 0.5 * resolution_Hz) / 64.5)));
   }
   if (controller.frequency_range_Hz) {
     check_frequency_range(cursor, *controller.frequency_range_Hz, so_far.drive->frequency_Hz);
@@ -244,17 +249,25 @@ void check_work(const TableCursor& cursor, std::string_view key, const scene::Ru
   const double natural_Hz =
       std::sqrt(largest(plant.stiffness_N_per_m, plant.stiffness_profile) / plant.mass_kg) /
       numeric::two_pi;
-  const double periods = run.duration_s * std::max(drive_Hz, natural_Hz);
   // The conversion of periods to seconds and back may round up.
-  if (periods > most_periods * (1.0 + 1e-12)) {
-    cursor.fail(key, fmt::format("{:g} s is {:g} periods of the {}; allowed: at most {:g} periods",
-                                 run.duration_s, periods,
-                                 drive_Hz >= natural_Hz ? "drive" : "natural mode", most_periods));
+  constexpr double rounding = 1e-12;
+  const auto most = [&](double most_s) {
+    return key == "duration_periods"
+               ? configure::at_most(most_s * so_far.drive->frequency_Hz) + " periods"
+               : configure::at_most(most_s) + " s";
+  };
+  const double quickest_Hz = std::max(drive_Hz, natural_Hz);
+  if (run.duration_s * quickest_Hz > most_periods * (1.0 + rounding)) {
+    cursor.fail(key, fmt::format("{:g} s is {:g} periods of the {}; allowed: at most {}",
+                                 run.duration_s, run.duration_s * quickest_Hz,
+                                 drive_Hz >= natural_Hz ? "drive" : "natural mode",
+                                 most(most_periods / quickest_Hz)));
   }
-  const double steps = so_far.solver.step_s > 0.0 ? run.duration_s / so_far.solver.step_s : 0.0;
-  if (steps > most_fixed_steps) {
-    cursor.fail(key, fmt::format("{:g} s is {:g} steps of solver.step_s; allowed: at most {:g}",
-                                 run.duration_s, steps, most_fixed_steps));
+  const double longest_s = most_fixed_steps * so_far.solver.step_s;
+  if (longest_s > 0.0 && run.duration_s > longest_s * (1.0 + rounding)) {
+    cursor.fail(
+        key, fmt::format("{:g} s is {:g} steps of solver.step_s; allowed: at most {}",
+                         run.duration_s, run.duration_s / so_far.solver.step_s, most(longest_s)));
   }
 }
 
@@ -262,8 +275,11 @@ void check_whole_period(const TableCursor& cursor, std::string_view key, const s
                         const scene::Drive& drive) {
   if (run.duration_s * drive.frequency_Hz < 1.0 - 1e-12) {
     cursor.fail(key, fmt::format("{:g} s is less than a carrier period, in which the controller "
-                                 "acts once; allowed: at least {:g} s",
-                                 run.duration_s, 1.0 / drive.frequency_Hz));
+                                 "acts once; allowed: at least {}",
+                                 run.duration_s,
+                                 key == "duration_periods"
+                                     ? "1 period"
+                                     : configure::at_least(1.0 / drive.frequency_Hz) + " s"));
   }
 }
 
@@ -300,9 +316,12 @@ void check_window(const TableCursor& cursor, std::string_view key, const scene::
   const double rounding_s =
       2e-9 * period_s + 8.0 * std::numeric_limits<double>::epsilon() * run.duration_s;
   if (!(run.window_start_s < run.duration_s - rounding_s)) {
-    cursor.fail(key, fmt::format("{:g} s is not before the end of the run; allowed: less than "
-                                 "{:g} s",
-                                 run.window_start_s, run.duration_s));
+    const bool in_periods = key == "window_start_periods";
+    cursor.fail(key, fmt::format("{:g} s is not before the end of the run; allowed: at most {} {}",
+                                 run.window_start_s,
+                                 configure::at_most((run.duration_s - rounding_s) /
+                                                    (in_periods ? period_s : 1.0)),
+                                 in_periods ? "periods" : "s"));
   }
 }
 
@@ -315,11 +334,12 @@ void check_record(TableCursor& cursor, const scene::Run& run) {
     cursor.optional_real("record_interval_s");
     return;
   }
-  const double rows = run.duration_s / run.record_interval_s;
-  if (rows > most_recorded_rows) {
+  const double shortest_s = run.duration_s / most_recorded_rows;
+  if (run.record_interval_s < shortest_s) {
     cursor.fail("record_interval_s",
-                fmt::format("gives {:g} rows; allowed: at most {:g}, so at least {:g} s", rows,
-                            most_recorded_rows, run.duration_s / most_recorded_rows));
+                fmt::format("gives {:g} rows; allowed: at most {:g}, so at least {} s",
+                            run.duration_s / run.record_interval_s, most_recorded_rows,
+                            configure::at_least(shortest_s)));
   }
 }
 

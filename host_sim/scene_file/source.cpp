@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cerrno>
+#include <cstdio>
 #include <fstream>
 #include <iostream>
 #include <string_view>
@@ -31,6 +32,15 @@ std::string bytes_of(std::istream& stream, const std::string& file) {
   return bytes;
 }
 
+/// The stream of C tells a closed one from an empty one.
+std::string bytes_of_standard_input() {
+  std::string bytes = bytes_of(std::cin, Source::standard_input);
+  if (bytes.empty() && std::fgetc(stdin) == EOF && std::ferror(stdin) != 0) {
+    fail_to_read(Source::standard_input, "is closed or cannot be read");
+  }
+  return bytes;
+}
+
 }  // namespace
 
 std::string Source::name() const {
@@ -49,7 +59,7 @@ std::string Source::name() const {
 
 Source read_source(const std::filesystem::path& path) {
   if (path == "-") {
-    return {Source::standard_input, bytes_of(std::cin, Source::standard_input)};
+    return {Source::standard_input, bytes_of_standard_input()};
   }
   const std::string file = path.string();
   std::error_code error;

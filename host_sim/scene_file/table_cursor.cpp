@@ -21,13 +21,6 @@ std::string allowed_integer(const Integer& range) {
   return fmt::format("an integer, {} to {}", range.low, range.high);
 }
 
-/// A word of the file, short enough for a message.
-std::string quoted(const std::string& text) {
-  constexpr std::size_t longest = 60;
-  return text.size() <= longest ? fmt::format("\"{}\"", text)
-                                : fmt::format("\"{}\"…", text.substr(0, longest));
-}
-
 /// An integer too large for every bit of it to fit is rounded.
 double as_number(const toml::node& node) {
   const toml::value<std::int64_t>* whole = node.as_integer();
@@ -227,7 +220,7 @@ std::size_t TableCursor::word_in(const GivenValue& entry, const toml::node& node
   }
   const auto nearest = nearest_name(text->get(), allowed);
   fail_part(entry, node, part,
-            fmt::format("{} is unknown; {}allowed: {}", quoted(text->get()),
+            fmt::format("{} is unknown; {}allowed: {}", in_quotes(text->get()),
                         nearest ? fmt::format("did you mean \"{}\"? ", *nearest) : "", list));
 }
 

@@ -10,6 +10,7 @@
 #include <string>
 #include <string_view>
 
+#include "host_sim/configure/bound.hpp"
 #include "host_sim/scene_file/table_cursor.hpp"
 #include "host_sim/scene_file/to_json.hpp"
 
@@ -89,9 +90,9 @@ void settle(const TableCursor& cursor, scene::Tolerance& tolerance) {
   tolerance.highest = tolerance.nominal + half_width;
   if (!range.contains(tolerance.lowest) || !range.contains(tolerance.highest)) {
     cursor.fail(tolerance.key,
-                fmt::format("{} leaves the range of {}, {}; allowed: {} {:.6g}", tolerance.amount,
+                fmt::format("{} leaves the range of {}, {}; allowed: {} {}", tolerance.amount,
                             tolerance.key, range.text(), range.low_open ? "below" : "at most",
-                            widest(range, tolerance.nominal)));
+                            configure::at_most(widest(range, tolerance.nominal))));
   }
 }
 

@@ -88,6 +88,12 @@ toml::table parse_toml(std::string_view text, const std::string& file) {
   }
 }
 
+std::string in_quotes(std::string_view text) {
+  constexpr std::size_t longest = 60;
+  return text.size() <= longest ? fmt::format("\"{}\"", text)
+                                : fmt::format("\"{}\"…", text.substr(0, longest));
+}
+
 std::string_view kind_of(const toml::node& node) {
   switch (node.type()) {
     case toml::node_type::table:

@@ -24,6 +24,9 @@ std::optional<std::size_t> find_excess_dot(std::string_view text);
 ///         exhaust the stack.
 toml::table parse_toml(std::string_view text, const std::string& file);
 
+/// A text that somebody gave, in quotes and short enough for a message.
+std::string in_quotes(std::string_view text);
+
 /// The kind of a value with its article: "a string", "an integer", …
 std::string_view kind_of(const toml::node& node);
 

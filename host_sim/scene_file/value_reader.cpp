@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "host_sim/configure/bound.hpp"
+
 namespace sonoglide::scene_file {
 
 void ValueReader::refuse_integer(std::string_view key, int value,
@@ -66,8 +68,8 @@ void ValueReader::targets(std::string_view key, std::vector<scene::TargetStep>& 
 
 void ValueReader::refuse(std::string_view key, double parameter, std::string_view finding,
                          double least, std::string_view rest) {
-  cursor_.fail(key,
-               fmt::format("{} {}; allowed: at least {:.6g} {}", parameter, finding, least, rest));
+  cursor_.fail(key, fmt::format("{} {}; allowed: at least {} {}", parameter, finding,
+                                configure::at_least(least), rest));
 }
 
 }  // namespace sonoglide::scene_file

@@ -91,7 +91,9 @@ Collection::Collection(fs::path folder) : folder_(std::move(folder)) {
 
 void Collection::note(const fs::path& file, const ShardFileName& name) {
   if (name.kind == ShardFileName::Kind::journal) {
-    const std::optional<ShardHeader> header = journal_header(file);
+    std::error_code unknown;
+    const auto header =
+        fs::is_regular_file(file, unknown) ? journal_header(file) : std::optional<ShardHeader>();
     if (header) {
       compare(file, header->work);
       fs::path& longest = journals_[name.shard.number];
@@ -128,6 +130,13 @@ void Collection::compare(const fs::path& file, const Work& work) {
         fmt::format("{} has {} and {} has {}; allowed: shards of one command and "
                     "one program",
                     shown(work_file_), found.of_one, shown(file), found.of_other));
+  }
+}
+
+void Collection::require_kind(const std::string& kind) const {
+  if (work().kind != kind) {
+    throw UnusableShards(fmt::format("{} is of a {}; allowed: shards of a {}", shown(work_file_),
+                                     work().kind, kind));
   }
 }
 

@@ -50,6 +50,9 @@ class Collection {
 
   const Work& work() const { return *work_; }
 
+  /// @throws UnusableShards  the shards are of another kind
+  void require_kind(const std::string& kind) const;
+
   /// @throws UnusableShards  the shards are of another kind, program or arithmetic
   void require_of(const std::string& kind, const std::string& program,
                   const std::string& arithmetic) const;

@@ -26,12 +26,16 @@ std::string last_reason() {
 
 }  // namespace
 
-RowsReader::RowsReader(const std::filesystem::path& file) : stream_(file, std::ios::binary) {
-  if (!stream_) {
-    throw NoRows("cannot be read");
+RowsReader::RowsReader(const std::filesystem::path& file) {
+  std::error_code unknown;
+  if (std::filesystem::is_regular_file(file, unknown)) {
+    stream_.open(file, std::ios::binary);
+  }
+  if (!stream_.is_open()) {
+    throw NoRows("is no file that can be read");
   }
   std::optional<std::string_view> text;
-  if (std::getline(stream_, line_) && !stream_.eof()) {
+  if (long_work::next_line(stream_, line_)) {
     text = long_work::unsealed(line_);
   }
   const auto header = text ? parse_header(*text) : std::nullopt;
@@ -43,7 +47,7 @@ RowsReader::RowsReader(const std::filesystem::path& file) : stream_(file, std::i
 }
 
 bool RowsReader::next(std::string& record) {
-  const bool whole = std::getline(stream_, line_) && !stream_.eof();
+  const bool whole = long_work::next_line(stream_, line_);
   const auto text = whole ? long_work::unsealed(line_) : std::nullopt;
   if (!text) {
     throw DamagedRows(fmt::format("is damaged in line {}", records_ + 2));

@@ -59,12 +59,13 @@ fs::path longest_but(const fs::path& one, const std::vector<fs::path>& journals)
 
 std::vector<fs::path> journals_of(const fs::path& folder, const Shard& shard) {
   std::vector<fs::path> journals;
+  std::error_code unknown;
   std::error_code error;
   for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
        entry.increment(error)) {
     const auto name = parse_file_name(entry->path().filename().string());
-    if (name && name->kind == ShardFileName::Kind::journal && name->shard.number == shard.number &&
-        name->shard.count == shard.count) {
+    if (name && entry->is_regular_file(unknown) && name->kind == ShardFileName::Kind::journal &&
+        name->shard.number == shard.number && name->shard.count == shard.count) {
       journals.push_back(entry->path());
     }
   }
@@ -78,7 +79,7 @@ std::vector<fs::path> journals_of(const fs::path& folder, const Shard& shard) {
 std::optional<ShardHeader> journal_header(const fs::path& journal) {
   std::ifstream stream(journal, std::ios::binary);
   std::string line;
-  if (!std::getline(stream, line) || stream.eof()) {
+  if (!long_work::next_line(stream, line)) {
     return std::nullopt;
   }
   const std::optional<long_work::Identity> identity = long_work::Journal::identity_in(line);
@@ -108,7 +109,8 @@ ShardJournal::ShardJournal(const fs::path& folder, const ShardHeader& header,
 void remove_journals(const fs::path& folder, const Shard& shard) {
   for (const fs::path& journal : journals_of(folder, shard)) {
     const process::Descriptor file(open(journal.c_str(), O_RDWR | O_CLOEXEC));
-    if (file.number() >= 0 && flock(file.number(), LOCK_EX | LOCK_NB) == 0) {
+    if (file.number() >= 0 && process::lock(file, LOCK_EX | LOCK_NB) &&
+        process::stands(file, journal)) {
       unlink((folder / staged_name(shard, copy_of(shard, journal.filename().string()))).c_str());
       unlink(journal.c_str());
     }

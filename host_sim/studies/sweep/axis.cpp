@@ -77,6 +77,10 @@ std::string trimmed(const std::string& text) {
 }
 
 ListedValue listed(const std::string& text, const Place& place) {
+  if (text.find(':') != std::string::npos && text.find('"') == std::string::npos) {
+    place.fail(
+        fmt::format("\"{}\" in a list is a range; numbers have a decimal point; {}", text, form));
+  }
   if (text.empty()) {
     place.fail(fmt::format("an empty value; {}", form));
   }

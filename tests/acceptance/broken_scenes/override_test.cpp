@@ -69,8 +69,11 @@ const std::vector<BadOverride> bad_overrides = {
     {"table_for_number", "--set 'plant.mass_kg={a=1}'",
      "--set:1:1: plant.mass_kg: is a table; allowed: a number, 1e-12 to 1e+06 kg"},
     {"not_toml", "--set plant.mass_kg=1.2.3",
-     "--set:1:1: plant.mass_kg: Error while parsing floating-point: expected decimal digit or "
-     "exponent, saw '.'; allowed: a TOML value or a bare word"},
+     "--set:1:1: plant.mass_kg: \"1.2.3\" is no TOML value; allowed: a number with a decimal "
+     "point, true, false, a list in [ ], a text in \" \" or a bare word"},
+    {"decimal_comma", "--set plant.mass_kg=0,02",
+     "--set:1:1: plant.mass_kg: \"0,02\" is no TOML value; allowed: a number with a decimal "
+     "point, true, false, a list in [ ], a text in \" \" or a bare word"},
     {"second_value", "--set 'plant.mass_kg=1\nstiffness_N_per_m = 2'",
      "--set:1:1: plant.mass_kg: more than one value; allowed: one TOML value or a bare word"},
     {"unknown_word", "--set friction.law=dahll",

@@ -97,6 +97,12 @@ TEST(CommandLineTest, EveryCommandIsInTheTableOfTheTests) {
 TEST(CommandLineTest, BadUsageIsRejected) {
   expect_usage_error("", "a command is required");
   expect_usage_error("run scene.toml --set", "--set: 1 required TABLE.KEY=VALUE missing");
+  expect_usage_error("run scene.toml --out a --out b", "--out is given twice; allowed: once");
+  expect_usage_error("fmu scene.toml --out a.fmu --kind x",
+                     "--kind: \"x\"; allowed: plant, controller, loop");
+  expect_usage_error("fmu scene.toml --out a.fmu --kind loop --fmi 4",
+                     "--fmi: \"4\"; allowed: 3, 2");
+  expect_usage_error("configure scene.toml --plant x", "--plant: \"x\"; allowed: float32, q31");
 }
 
 double ratio_of(const std::string& velocity_ratio, const std::string& dahl_number) {
@@ -161,7 +167,7 @@ TEST(RatioCommandTest, ReportsOutputThatCannotBeWritten) {
   const Outcome outcome =
       folder.run("ratio --velocity-ratio 0.5 --dahl-number 1 >/dev/full 2>err #");
   EXPECT_EQ(outcome.exit_code, 1);
-  EXPECT_EQ(folder.read("err"), "standard output: cannot be written\n");
+  EXPECT_EQ(folder.read("err"), "standard output: cannot be written: No space left on device\n");
 }
 
 /// Nobody can be told, but the exit code is that of the error, and a note stops no run.
@@ -176,6 +182,14 @@ TEST(StandardErrorTest, MayBeClosedOrFull) {
     EXPECT_EQ(folder.run("run --out noted " + shell_word(unshaped) + nowhere).exit_code, 0);
     EXPECT_NE(folder.read("noted/summary.json"), "");
   }
+}
+
+TEST(StandardInputTest, MayBeClosed) {
+  const ScratchFolder folder;
+  const Outcome outcome = folder.run("run - <&-");
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_EQ(outcome.err,
+            "<stdin>:1:1: scene: is closed or cannot be read; allowed: a readable TOML file\n");
 }
 
 }  // namespace

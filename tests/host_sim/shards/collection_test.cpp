@@ -1,9 +1,12 @@
 #include "host_sim/shards/collection.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <algorithm>
 #include <cstdint>
+#include <filesystem>
+#include <fstream>
 #include <functional>
 #include <string>
 #include <vector>
@@ -136,6 +139,30 @@ TEST_F(CollectionTest, KnowsWhatHasBegun) {
   EXPECT_EQ(found.begun()[0].number, 3U);
   EXPECT_EQ(found.begun()[0].finished, 1U);
   EXPECT_EQ(found.begun()[0].points, 2U);
+}
+
+/// None of them is waited for or read to an end that never comes.
+TEST_F(CollectionTest, AFifoOrAnEndlessFileIsADamagedShard) {
+  publish_all_but({2, 3});
+  ASSERT_EQ(mkfifo((folder_.path() / "shard_2_of_4.rows").c_str(), 0600), 0);
+  ASSERT_EQ(mkfifo((folder_.path() / "shard_2_of_4.node.journal").c_str(), 0600), 0);
+  std::filesystem::create_symlink("/dev/zero", folder_.path() / "shard_3_of_4.rows");
+  EXPECT_EQ(Collection(folder_.path()).missing(), (Numbers{2, 3}));
+}
+
+TEST_F(CollectionTest, AnEndlessFirstLineIsNone) {
+  publish_all_but({3});
+  const std::filesystem::path file = folder_.path() / "shard_3_of_4.rows";
+  std::ofstream(file).put('x');
+  std::filesystem::resize_file(file, std::uintmax_t{1} << 40U);  // without blocks
+  EXPECT_EQ(Collection(folder_.path()).missing(), Numbers{3});
+}
+
+TEST_F(CollectionTest, ShardsOfAnotherCommandAreNamed) {
+  publish_all_but({});
+  const Collection found(folder_.path());
+  EXPECT_NO_THROW(found.require_kind(small_work().kind));
+  EXPECT_THROW(found.require_kind("robust"), UnusableShards);
 }
 
 }  // namespace
