@@ -56,16 +56,14 @@ const std::vector<BrokenScene> broken_scenes = {
     {"speed_floor_too_high", closed_loop, "arithmetic = \"float32\"",
      "arithmetic = \"float32\"\nspeed_floor_m_per_s = 0.5",
      "17:23: controller.speed_floor_m_per_s: is 1.87 of the peak vibration velocity at full drive; "
-     "allowed: 0.0001 to below 1"},
+     "allowed: 2.67674e-05 to below 0.267673 m/s"},
     {"converter_too_coarse", closed_loop, "adc_bits = 12", "adc_bits = 8\nforce_full_scale_N = 2",
-     "19:12: sensor.adc_bits: one code is 0.796 of the believed friction force; allowed: at most "
-     "0.125, "
-     "by more bits or a smaller sensor.force_full_scale_N"},
+     "19:12: sensor.adc_bits: one code is 0.796 of the believed friction force; allowed: at least "
+     "11 bits, or a smaller sensor.force_full_scale_N"},
     {"calibration_too_short", closed_loop, "arithmetic = \"float32\"",
      "arithmetic = \"float32\"\ncalibration_s = 20e-6",
      "17:17: controller.calibration_s: is too short for contact and sensor to settle; allowed: 0 "
-     "(no "
-     "calibration), or at least 0.000133 s"},
+     "(no calibration), or at least 0.000134 s"},
     // Names
     {"unknown_key_near", open_loop, "mass_kg = 0.02", "mas_kg = 0.02",
      "2:1: plant.mas_kg: unknown key; did you mean mass_kg?"},
@@ -266,7 +264,7 @@ const std::vector<BrokenScene> broken_scenes = {
     {"current_limit_below_the_capacitance", resonant_loop, "[run]",
      "max_current_amplitude_A = 1e-3\n[run]",
      "17:27: drive.max_current_amplitude_A: 0.001 A is less than what the clamped capacitance "
-     "alone takes at the 2.759 V that the easiest target needs; allowed: above 0.00208 A"},
+     "alone takes at the 2.759 V that the easiest target needs; allowed: above 0.002081 A"},
     {"current_limit_fed_forward", resonant_loop,
      "frequency_Hz = 60e3\nmax_voltage_amplitude_V = 8\n[run]\nduration_s = "
      "2e-3\n[controller]\narithmetic = \"float32\"\nvibration = \"resonant\"",
@@ -314,7 +312,7 @@ const std::vector<BrokenScene> broken_scenes = {
     {"drive_too_strong_for_a_resonance", resonant_loop, "max_voltage_amplitude_V = 8",
      "max_voltage_amplitude_V = 8000",
      "16:27: drive.max_voltage_amplitude_V: adds 11.4 times the vibration sensor's range of 0.2927 "
-     "m/s in a carrier period; allowed: at most 351.3 V, or a larger "
+     "m/s in a carrier period; allowed: at most 351.2 V, or a larger "
      "sensor.vibration_full_scale_m_per_s"},
     {"vibration_full_scale_too_wide", resonant_loop, "[sensor]",
      "[sensor]\nvibration_full_scale_m_per_s = 1e3",
@@ -322,19 +320,19 @@ const std::vector<BrokenScene> broken_scenes = {
      "which has the same range; allowed: at most 133.5 m/s"},
     {"vibration_full_scale_below_the_sliding", resonant_loop, "[sensor]",
      "[sensor]\nvibration_full_scale_m_per_s = 0.01",
-     "24:32: sensor.vibration_full_scale_m_per_s: 0.01 m/s is below the fastest sliding, which the "
-     "vibration has to exceed; allowed: above 0.0267 m/s"},
+     "24:32: sensor.vibration_full_scale_m_per_s: 0.01 m/s is below what a target needs; allowed: "
+     "above 0.07318 m/s"},
     {"vibration_hidden_by_coarse_codes", resonant_loop, "[sensor]", "[sensor]\nvibration_bits = 4",
      "24:18: sensor.vibration_bits: noise and converter hide a vibration below 0.169 m/s, and a "
-     "target needs 0.0732 m/s; allowed: at most 0.433 times the code, or a lower target"},
+     "target needs 0.0732 m/s; allowed: at least 6 bits, or a lower target"},
     {"vibration_full_scale_below_a_target", resonant_loop, "[sensor]",
      "[sensor]\nvibration_full_scale_m_per_s = 0.05",
-     "24:32: sensor.vibration_full_scale_m_per_s: 0.05 m/s is below the 0.07318 m/s that a target "
-     "needs; allowed: above that"},
+     "24:32: sensor.vibration_full_scale_m_per_s: 0.05 m/s is below what a target needs; allowed: "
+     "above 0.07318 m/s"},
     {"vibration_hidden_by_noise", resonant_loop, "[sensor]",
      "[sensor]\nvibration_noise_m_per_s = 0.02",
      "24:27: sensor.vibration_noise_m_per_s: noise and converter hide a vibration below 0.32 m/s, "
-     "and a target needs 0.0732 m/s; allowed: at most 0.229 times the noise, or a lower target"},
+     "and a target needs 0.0732 m/s; allowed: at most 0.00457 m/s, or a lower target"},
     {"resonance_at_standstill", resonant_loop, "velocity_m_per_s = 0.0267", "velocity_m_per_s = 0",
      "10:20: sliding.velocity_m_per_s: is 0 all the time, where no vibration changes the friction; "
      "allowed: another velocity with controller.vibration = \"resonant\""},
@@ -369,7 +367,7 @@ const std::vector<BrokenScene> broken_scenes = {
      "allowed: "
      "above 0 with controller.vibration = \"damped\""},
     {"damped_already", damped_loop, "damping_N_s_per_m = 1\n", "damping_N_s_per_m = 4000\n",
-     "4:21: plant.damping_N_s_per_m: leaves no natural mode to damp; allowed: below 2.94e+03 N s/m "
+     "4:21: plant.damping_N_s_per_m: leaves no natural mode to damp; allowed: below 2.93e+03 N s/m "
      "with controller.vibration = \"damped\""},
     {"damped_on_its_resonance", damped_loop,
      "damping_N_s_per_m = 1\n[friction]\nlaw = \"dahl\"\ncoefficient = 0.1\n"
@@ -386,10 +384,10 @@ const std::vector<BrokenScene> broken_scenes = {
     {"damped_full_scale_below_the_drive", damped_loop, "vibration = \"velocity\"\n",
      "vibration = \"velocity\"\nvibration_full_scale_m_per_s = 0.3\n",
      "22:32: sensor.vibration_full_scale_m_per_s: 0.3 m/s does not suit full drive, whose steady "
-     "vibration is 0.2671 m/s; allowed: 0.5343 to 17.1 m/s"},
+     "vibration is 0.2671 m/s; allowed: 0.5343 to 17.09 m/s"},
     {"damped_drive_too_weak", damped_loop, "1920.0", "1",
      "13:25: drive.max_force_amplitude_N: vibrates at 0.000139 m/s, too little for a sliding of "
-     "0.0267 m/s; allowed: at least 0.00167 m/s with controller.vibration = \"damped\""},
+     "0.0267 m/s; allowed: at least 11.9934 N with controller.vibration = \"damped\""},
     {"current_limit_of_a_force", resonant_loop,
      "[transducer]\nforce_factor_N_per_V = 1.0\nclamped_capacitance_F = 2e-9\n[drive]\n"
      "frequency_Hz = 60e3\nmax_voltage_amplitude_V = 8",

@@ -142,8 +142,8 @@ std::vector<Command> commands_here() {
 }
 
 INSTANTIATE_TEST_SUITE_P(Commands, HostileInputTest, testing::ValuesIn(commands_here()),
-                         [](const auto& info) {
-                           std::string name = info.param.name;
+                         [](const auto& tested) {
+                           std::string name = tested.param.name;
                            std::replace_if(
                                name.begin(), name.end(),
                                [](char c) { return c == '-' || c == ' '; }, '_');
