@@ -1,10 +1,11 @@
 /// A plant whose friction limit, spring or carrier frequency changes in time.
 #pragma once
 
-#include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "host_sim/loop/changing_spring.hpp"
+#include "host_sim/loop/course.hpp"
 #include "host_sim/loop/held_plant.hpp"
 #include "host_sim/loop/plant_port.hpp"
 #include "host_sim/scene/scene.hpp"
@@ -13,33 +14,25 @@ namespace sonoglide::loop {
 
 /// Follows the profiles of a scene by plants in which nothing changes, one after the other.
 ///
-/// The carrier frequency is that of each stretch. A slope of the spring is followed in pieces, see
-/// ChangingSpring.
+/// The carrier frequency is that of each stretch. A jump acts where stretches meet.
 ///
-/// A friction force above a new limit is cut to it, so that |F| <= Fc(t) of a law with that bound.
-/// A cut takes from what the contact has stored, not from the oscillator: the energy identity,
-/// whose friction work is the integral of F V dt, holds across it.
+/// A slope, of the friction or the spring, is followed in pieces: in each the values of its middle
+/// hold, and SlopingContact leads what the contact remembers along the limit. This map is its own
+/// inverse in reversed time, so that where the motion is smooth its error over a piece of length h
+/// is c h^3 + O(h^5). With an adaptive solver a piece is taken once whole and once in halves. Where
+/// both agree within the solver's tolerance the result is
+///   halves + (halves - whole)/3,
+/// of fourth order; else each half is a piece. About a reversal, a release or a slip, where the
+/// error is of first or second order, the pieces so become as short as the tolerance asks for.
+/// What agrees: the ends of the motion in its own size, the forces that the contact remembers and
+/// the impulse of the friction, in a sixteenth of the tolerance; forces in Fc, an impulse in Fc
+/// times the carrier period. Fc is the largest limit of the scene.
 ///
-/// A slope of the limit is followed in equal pieces, in each the limit of its middle. What a piece of length h
-/// misses of the limit, s (t - middle), has the integral s (t - begin)(t - end)/2, at most s h^2/8,
-/// which is nothing at its ends. The limit enters the mean friction with a weight (sgn V under
-/// Coulomb friction) whose variation is at most 4 in a period with two reversals, so that the mean
-/// over a period T errs by at most s h^2/(2 T): c/(2 n^2) of Fc for n pieces a period and a limit
-/// that changes by the part c of itself in one.
-/// A limit that comes down takes the contact's force with it, also where the contact moves back so
-/// slowly that the force alone would fall less: there the piece has a limit that is higher by half
-/// of what the force loses in it, so that its mean is the middle's. Where the contact moves back
-/// faster the force leaves the limit, and what it was then, up to s h/2 wrong, is remembered until
-/// the contact has slid on, twice a period. Such a piece is halved, and again the half in which the
-/// force leaves, to 1/(2 n) of a piece at most: c/(2 n^2) of Fc again, where the memory fades
-/// within a period.
-/// n = sqrt(c/largest_ratio_error) keeps both together below that; Fc is that at the higher end of
-/// the slope.
+/// A solver of fixed steps takes the values of the middle of each step, and nothing is compared.
+///
+/// Sampling follows each sample from the beginning of its piece, beside the motion.
 class ChangingPlant final : public PlantPort {
  public:
-  /// In friction ratio, of a carrier period on a slope of the friction.
-  static constexpr double largest_ratio_error = 1e-7;
-
   /// @param scene  stretches end where its profiles have a row
   explicit ChangingPlant(const scene::Scene& scene);
 
@@ -49,50 +42,73 @@ class ChangingPlant final : public PlantPort {
   plant::Outcome<double> advance_sampled(const Stretch& stretch,
                                          const std::vector<double>& offsets_s,
                                          EnergyBalance& energy,
-                                         std::vector<PlantState>& seen) override;
+                                         std::vector<PlantState>& seen) override {
+    Sight sight{offsets_s, seen};
+    return follow(stretch, &sight, energy);
+  }
   std::vector<double> memory() const override { return held_.plant().memory(); }
   std::vector<double> memory_limits_N() const override { return held_.plant().memory_limits_N(); }
   void begin_at(const PlantState& state, const std::vector<double>& memory) override {
     held_.plant().begin_at(state, memory);
   }
-  PlantState state() const override { return within_limit(held_.plant().state(), time_s_); }
-  plant::Cost cost() const override { return held_.cost(); }
+  PlantState state() const override { return held_.plant().state(); }
+  plant::Cost cost() const override;
   void save(SnapshotWriter& state) const override;
   void restore(SnapshotReader& state) override;
 
  private:
-  /// What a stretch shows, on its way through the pieces.
+  using Carried = HeldPlant::Carried;
+
+  /// What a stretch shows.
   struct Sight {
     const std::vector<double>& offsets_s;
     std::vector<PlantState>& seen;
-    double begin_s = 0.0;
-    std::size_t next = 0;
   };
-  /// A part of a stretch. The spring holds in it, and the friction in parts of it.
+  /// A stretch on a slope.
+  struct Slope {
+    const Stretch& stretch;
+    const Course& course;
+  };
+  /// A part of it: from an offset on, with where it ends once that is known.
   struct Piece {
-    Stretch stretch;
-    double stiffness_N_per_m = 0.0;
-    scene::SolverMethod method;
-    bool last = false;  ///< of the stretch
+    double offset_s = 0.0;
+    double length_s = 0.0;
+    Carried end{};
+    EnergyBalance energy{};
+    std::uint64_t events = 0;
+    plant::Outcome<double> outcome{};
+  };
+
+  struct Doubled {
+    Piece piece;
+    Piece first_half;
   };
 
   plant::Outcome<double> follow(const Stretch& stretch, Sight* sight, EnergyBalance& energy);
-  plant::Outcome<double> follow_friction(const Piece& piece, const HeldPlant::Carried& begin,
-                                         int halvings, Sight* sight, EnergyBalance& energy);
-  plant::Outcome<double> halve(const Piece& piece, const HeldPlant::Carried& begin, int halvings,
-                               Sight* sight, EnergyBalance& energy);
-  plant::Outcome<double> advance_piece(const Piece& piece, Sight* sight, EnergyBalance& energy);
-  void hold(const Piece& piece, const scene::ContactValues& contact,
-            const HeldPlant::Carried& from);
-  double friction_pieces_per_period(const Stretch& stretch) const;
-  PlantState within_limit(PlantState state, double time_s) const;
+  plant::Outcome<double> hold_throughout(const Stretch& stretch, const Course& course, Sight* sight,
+                                         EnergyBalance& energy);
+  plant::Outcome<double> follow_slope(const Stretch& stretch, const Course& course, Sight* sight,
+                                      EnergyBalance& energy);
+  Piece taken(const Slope& slope, const Carried& begin, double offset_s, double length_s);
+  Doubled doubled(const Slope& slope, const Carried& begin, const Piece& whole);
+  Piece refined(const Slope& slope, const Carried& begin, const Doubled& coarse, int halvings,
+                Sight* sight);
+  static Piece joined(const Piece& first, const Piece& second);
+  static void extrapolate(const Piece& coarse, double part, Piece& fine);
+  bool agree(const Piece& coarse, const Piece& fine) const;
+  void look(const Slope& slope, const Carried& begin, const Piece& piece, int halvings,
+            Sight* sight);
+  void arrive(const Slope& slope, const Carried& at, double offset_s);
+  Held values(const Slope& slope, double offset_s) const;
 
   scene::Friction friction_;
+  scene::Plant plant_;
+  scene::Solver solver_;
+  scene::PlantScales scales_;
+  double largest_limit_N_;
   ChangingSpring spring_;
-  scene::SolverMethod asked_method_;
-  double reversing_s_;           ///< in which V reverses twice
   double drive_rate_rad_per_s_;  ///< of the last stretch
-  double time_s_ = 0.0;
+  std::uint64_t tried_events_ = 0;
   HeldPlant held_;
 };
 

@@ -12,6 +12,7 @@
 #include "firmware/plant/outcome.hpp"
 #include "firmware/plant/solver.hpp"
 #include "firmware/plant/state.hpp"
+#include "firmware/plant/velocity_quadrature.hpp"
 #include "host_sim/configure/plant_scales.hpp"
 #include "host_sim/loop/contact_load.hpp"
 #include "host_sim/loop/contact_memory.hpp"
@@ -53,6 +54,11 @@ class StepReader {
     angular_frequency_rad_per_s_ = angular_frequency_rad_per_s;
     meter_ = &meter;
   }
+  /// @param moment  to which the integral of t v, t since the beginning, is added
+  void take_moment(double& moment) {
+    moment_ = &moment;
+    reads_ = true;
+  }
 
   template <class Step>
   void operator()(const Step& step) {
@@ -73,6 +79,11 @@ class StepReader {
     if (load_ != nullptr) {
       (*load_)(step);
     }
+    if (moment_ != nullptr) {
+      plant::integrate_velocity(step, [this, &step](double offset, double weighted) {
+        *moment_ += (step.begin() + offset) * weighted;
+      });
+    }
     const double end = step.begin() + step.length();
     for (; next_ != end_; ++next_) {
       const double offset = *next_ * angular_frequency_rad_per_s_;
@@ -88,6 +99,7 @@ class StepReader {
   double begin_s_ = 0.0;
   plant::Demodulator<double>* demodulator_ = nullptr;
   ContactLoad* load_ = nullptr;
+  double* moment_ = nullptr;
   const double* next_ = nullptr;
   const double* end_ = nullptr;
   double angular_frequency_rad_per_s_ = 0.0;
@@ -199,6 +211,10 @@ class ComposedPlant final : public PlantPort {
     if (stretch.demodulated) {
       reader.demodulate(demodulator);
     }
+    double moment = 0.0;
+    if (stretch.energies && stretch.sliding_acceleration_m_per_s2 != 0.0) {
+      reader.take_moment(moment);
+    }
     ContactLoad load(normal_stiffness());
     if constexpr (is_normal) {
       reader.weigh(load);
@@ -210,6 +226,8 @@ class ComposedPlant final : public PlantPort {
     energy = balance(stretch, account, before);
     energy.load_s = load.load() / omega;
     energy.open_s = load.open() / omega;
+    energy.momentum_integral_J_s +=
+        stretch.sliding_acceleration_m_per_s2 * moment * (inertia_kg() * scales_.length_m / omega);
     if (stretch.demodulated) {
       energy.velocity_in_phase_m = demodulator.in_phase() * scales_.length_m;
       energy.velocity_quadrature_m = demodulator.quadrature() * scales_.length_m;
@@ -232,7 +250,6 @@ class ComposedPlant final : public PlantPort {
     const double omega = scales_.angular_frequency_rad_per_s;
     const double energy_J = scales_.force_N * scales_.length_m;
     const double friction_J = scales_.friction_N * scales_.length_m;
-    const double inertia_kg = scales_.force_N / (scales_.length_m * omega * omega);
     const double travel_m = (state_.displacement - before.displacement) * scales_.length_m;
     const double stored_integral =
         0.5 * (account.velocity_square + model_.stiffness * account.displacement_square);
@@ -249,11 +266,17 @@ class ComposedPlant final : public PlantPort {
     energy.stored_begin_J = model_.stored_energy(before) * energy_J;
     energy.stored_end_J = model_.stored_energy(state_) * energy_J;
     energy.stored_integral_J_s = stored_integral * energy_J / omega;
-    energy.momentum_integral_J_s = inertia_kg * 0.5 * (first + last) * travel_m;
+    // Of the sliding velocity at the beginning; advance() adds what its change makes of it.
+    energy.momentum_integral_J_s = inertia_kg() * first * travel_m;
     const double area_m2 = scales_.length_m * scales_.length_m;
     energy.displacement_square_m2_s = account.displacement_square * area_m2 / omega;
     energy.velocity_square_m2_per_s = account.velocity_square * area_m2 * omega;
     return energy;
+  }
+
+  double inertia_kg() const {
+    const double omega = scales_.angular_frequency_rad_per_s;
+    return scales_.force_N / (scales_.length_m * omega * omega);
   }
 
   scene::PlantScales scales_;

@@ -36,27 +36,31 @@ void EnergyBalance::append(const EnergyBalance& next) {
   if (duration_s == 0.0) {
     stored_begin_J = next.stored_begin_J;
   }
-  duration_s += next.duration_s;
-  sliding_distance_m += next.sliding_distance_m;
-  friction_impulse_N_s += next.friction_impulse_N_s;
-  resistance_impulse_N_s += next.resistance_impulse_N_s;
-  undriven_s += next.undriven_s;
-  limit_distance_m += next.limit_distance_m;
-  friction_work_J += next.friction_work_J;
-  pull_work_J += next.pull_work_J;
-  drive_work_J += next.drive_work_J;
-  damping_work_J += next.damping_work_J;
-  spring_work_J += next.spring_work_J;
   stored_end_J = next.stored_end_J;
-  stored_integral_J_s += next.stored_integral_J_s;
-  momentum_integral_J_s += next.momentum_integral_J_s;
-  displacement_square_m2_s += next.displacement_square_m2_s;
-  velocity_square_m2_per_s += next.velocity_square_m2_per_s;
-  velocity_in_phase_m += next.velocity_in_phase_m;
-  velocity_quadrature_m += next.velocity_quadrature_m;
-  load_s += next.load_s;
-  normal_impulse_N_s += next.normal_impulse_N_s;
-  open_s += next.open_s;
+  add(next, 1.0);
+}
+
+void EnergyBalance::add(const EnergyBalance& other, double times) {
+  duration_s += times * other.duration_s;
+  sliding_distance_m += times * other.sliding_distance_m;
+  friction_impulse_N_s += times * other.friction_impulse_N_s;
+  resistance_impulse_N_s += times * other.resistance_impulse_N_s;
+  undriven_s += times * other.undriven_s;
+  limit_distance_m += times * other.limit_distance_m;
+  friction_work_J += times * other.friction_work_J;
+  pull_work_J += times * other.pull_work_J;
+  drive_work_J += times * other.drive_work_J;
+  damping_work_J += times * other.damping_work_J;
+  spring_work_J += times * other.spring_work_J;
+  stored_integral_J_s += times * other.stored_integral_J_s;
+  momentum_integral_J_s += times * other.momentum_integral_J_s;
+  displacement_square_m2_s += times * other.displacement_square_m2_s;
+  velocity_square_m2_per_s += times * other.velocity_square_m2_per_s;
+  velocity_in_phase_m += times * other.velocity_in_phase_m;
+  velocity_quadrature_m += times * other.velocity_quadrature_m;
+  load_s += times * other.load_s;
+  normal_impulse_N_s += times * other.normal_impulse_N_s;
+  open_s += times * other.open_s;
 }
 
 std::complex<double> EnergyBalance::vibration_m_per_s() const {

@@ -43,6 +43,8 @@ struct EnergyBalance {
 
   /// Appends the stretch that follows.
   void append(const EnergyBalance& next);
+  /// Adds a multiple of another's integrals; what is stored at the ends stays.
+  void add(const EnergyBalance& other, double times);
 };
 
 /// The friction ratio, and energies relative to the limit's work ∫μN |Vt| dt; NaN where what they

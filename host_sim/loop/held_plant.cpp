@@ -34,9 +34,13 @@ void HeldPlant::hold(const Held& wanted, const Carried& from) {
       wanted.contact.normal_force_N == friction.normal_force_N &&
       wanted.stiffness_N_per_m == scene_.plant.stiffness_N_per_m &&
       wanted.drive_rate_rad_per_s == drive_rate_rad_per_s_ &&
-      wanted.method == scene_.solver.method) {
+      wanted.method == scene_.solver.method && wanted.tolerance == scene_.solver.tolerance) {
     return;
   }
+  begin(wanted, from);
+}
+
+void HeldPlant::begin(const Held& wanted, const Carried& from) {
   spent_ = cost();
   make(wanted);
   put(from);
@@ -51,6 +55,7 @@ void HeldPlant::make(const Held& wanted) {
     scene_.drive->frequency_Hz = drive_rate_rad_per_s_ / numeric::two_pi;
   }
   scene_.solver.method = wanted.method;
+  scene_.solver.tolerance = wanted.tolerance;
   plant_ = make_plant_port(scene_);
 }
 
@@ -60,6 +65,7 @@ void HeldPlant::save(SnapshotWriter& state) const {
   state.put(scene_.plant.stiffness_N_per_m);
   state.put(scene_.drive ? scene_.drive->frequency_Hz : 0.0);
   state.put(scene_.solver.method);
+  state.put(scene_.solver.tolerance);
   state.put(drive_rate_rad_per_s_);
   state.put(spent_);
   plant_->save(state);
@@ -75,6 +81,7 @@ void HeldPlant::restore(SnapshotReader& state) {
     scene_.drive->frequency_Hz = frequency_Hz;
   }
   state.get(scene_.solver.method);
+  state.get(scene_.solver.tolerance);
   state.get(drive_rate_rad_per_s_);
   state.get(spent_);
   plant_ = make_plant_port(scene_);
@@ -91,9 +98,11 @@ HeldPlant::Carried HeldPlant::carried() const {
 }
 
 void HeldPlant::put(const Carried& from) {
-  const double limit_N = scene_.friction.limit_N();
   PlantState state = from.state;
-  state.friction_force_N = std::clamp(state.friction_force_N, -limit_N, limit_N);
+  if (scene::is_bounded(scene_.friction.law)) {
+    const double limit_N = scene_.friction.limit_N();
+    state.friction_force_N = std::clamp(state.friction_force_N, -limit_N, limit_N);
+  }
   // The limits of some depend on the displacement, which therefore goes first.
   std::vector<double> parts(plant_->memory().size(), 0.0);
   plant_->begin_at(state, parts);
@@ -107,6 +116,11 @@ void HeldPlant::put(const Carried& from) {
 plant::Cost HeldPlant::cost() const {
   const plant::Cost now = plant_->cost();
   return {spent_.steps + now.steps, spent_.events + now.events};
+}
+
+void HeldPlant::set_cost(const plant::Cost& cost) {
+  const plant::Cost now = plant_->cost();
+  spent_ = {cost.steps - now.steps, cost.events - now.events};
 }
 
 }  // namespace sonoglide::loop

@@ -16,6 +16,7 @@ struct Held {
   double stiffness_N_per_m = 0.0;
   double drive_rate_rad_per_s = 0.0;  ///< 2π f; 0 without a drive
   scene::SolverMethod method;
+  double tolerance = 0.0;  ///< of the solver
 };
 
 /// The plant of a scene whose friction limit, spring, carrier frequency and solver hold. After a
@@ -34,6 +35,8 @@ class HeldPlant {
 
   /// From here on; without a change nothing happens, not even to the state.
   void hold(const Held& wanted, const Carried& from);
+  /// The same with a new plant, change or not, so that nothing of what was solved before matters.
+  void begin(const Held& wanted, const Carried& from);
 
   Carried carried() const;
   /// The contact's forces as far as the limits let them.
@@ -43,6 +46,8 @@ class HeldPlant {
   const PlantPort& plant() const { return *plant_; }
   /// Of this plant and of those before it.
   plant::Cost cost() const;
+  /// As if no more had been spent until now.
+  void set_cost(const plant::Cost& cost);
 
   void save(SnapshotWriter& state) const;
   void restore(SnapshotReader& state);

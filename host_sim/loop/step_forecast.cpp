@@ -51,7 +51,11 @@ double expected_steps(const scene::Scene& scene) {
       }
       const Stretch half = half_period(scene, n, meter);
       EnergyBalance energy;
-      if (plant->advance(half, energy).error != plant::Error::none) {
+      const plant::Outcome<double> outcome = plant->advance(half, energy);
+      if (outcome.error == plant::Error::too_many_steps) {
+        throw StepsRanOut(half.begin_s + outcome.offset);
+      }
+      if (outcome.error != plant::Error::none) {
         return 0.0;
       }
       counted_s += half.duration_s;

@@ -49,6 +49,7 @@ constexpr equations::Contact every_number_of_a_contact() {
   all.fall_s_per_m = 0.8;
   all.rise_s3_per_m3 = 20.0;
   all.normal_contact_stiffness_N_per_m = 4e9;
+  all.elements = 3;
   return all;
 }
 constexpr equations::Contact contact = every_number_of_a_contact();
@@ -64,7 +65,7 @@ std::string own_keys(const scene::FrictionLaw& law) {
         contact.static_coefficient, contact.stribeck_velocity_m_per_s,
         contact.bristle_damping_N_s_per_m, contact.viscous_friction_N_s_per_m);
   } else if (name == "iwan") {
-    keys = fmt::format("elements = {}\n", equations::iwan_elements);
+    keys = fmt::format("elements = {}\n", contact.elements);
   } else if (name == "stribeck") {
     keys = fmt::format("fall_s_per_m = {}\nrise_s3_per_m3 = {}\n", contact.fall_s_per_m,
                        contact.rise_s3_per_m3);

@@ -183,9 +183,8 @@ TEST(FrictionProfileTest, JumpsAreThePeers) {
   expect_peers_motion(with_coefficient(heavy(scene::laws::Coulomb{}), jumps), 1e-8);
 }
 
-/// The bound of the pieces, of the mean friction, and what it makes of the motion.
-TEST(FrictionProfileTest, SlopesAreThePeersWithinTheStatedError) {
-  constexpr double allowed = ChangingPlant::largest_ratio_error;
+TEST(FrictionProfileTest, SlopesAreThePeers) {
+  constexpr double allowed = 1e-9;
   for (const scene::FrictionLaw& law :
        {scene::FrictionLaw(scene::laws::Dahl{}), scene::FrictionLaw(scene::laws::Coulomb{})}) {
     expect_peers_motion(with_coefficient(heavy(law), slopes), allowed);
@@ -195,11 +194,9 @@ TEST(FrictionProfileTest, SlopesAreThePeersWithinTheStatedError) {
   }
 }
 
-/// A ramp within a carrier period has pieces by its own length.
 TEST(FrictionProfileTest, AShortSlopeIsThePeers) {
   const TimedProfile steep = {{3.1 * period_s, 0.1}, {3.4 * period_s, 0.3}};
-  expect_peers_motion(with_coefficient(heavy(scene::laws::Dahl{}), steep),
-                      ChangingPlant::largest_ratio_error);
+  expect_peers_motion(with_coefficient(heavy(scene::laws::Dahl{}), steep), 1e-8);
 }
 
 Scene recorded(Scene scene) {

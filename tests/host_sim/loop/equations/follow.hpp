@@ -49,7 +49,7 @@ void follow(FrictionEquations& equations, const Forcing& forcing, double begin_s
     state = moved(time_s, outside_s);
     time_s += outside_s;
     equations.enter_piece(state, forcing(time_s));
-    if (++pieces > 1000) {
+    if (++pieces > 100000) {
       throw std::runtime_error("the contact leaves one piece after the other");
     }
   }

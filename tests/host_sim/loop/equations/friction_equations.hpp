@@ -9,10 +9,10 @@
 
 namespace sonoglide::equations {
 
-inline constexpr std::size_t iwan_elements = 3;
+inline constexpr std::size_t most_elements = 8;
 
 /// x, x', the integral of F sgn(Vt), and what the contact remembers.
-using State = std::array<double, 3 + iwan_elements>;
+using State = std::array<double, 3 + most_elements>;
 inline constexpr std::size_t impulse = 2;
 inline constexpr std::size_t memory = 3;
 
@@ -34,6 +34,7 @@ struct Contact {
   double fall_s_per_m;
   double rise_s3_per_m3;
   double normal_contact_stiffness_N_per_m;
+  std::size_t elements;  ///< of Iwan's springs, at most most_elements
 
   double limit_N() const { return coefficient * normal_force_N; }
 };
@@ -44,6 +45,10 @@ struct Instant {
   double sliding_m_per_s;
   double sliding_m_per_s2;
   double added_stiffness_N_per_m = 0.0;  ///< to that of the spring
+  double added_coefficient = 0.0;        ///< to that of the contact
+  double added_normal_force_N = 0.0;     ///< likewise
+  double coefficient_per_s = 0.0;
+  double normal_force_N_per_s = 0.0;
 };
 
 /// A contact that is in one piece of its law at a time: sliding one way, holding, lifted off.
@@ -72,6 +77,17 @@ class FrictionEquations {
  protected:
   /// Of the drive, the damper and the spring.
   double free_force_N(const State& state, const Instant& now) const;
+
+  double coefficient(const Instant& now) const {
+    return contact_.coefficient + now.added_coefficient;
+  }
+  double load_N(const Instant& now) const {
+    return contact_.normal_force_N + now.added_normal_force_N;
+  }
+  double limit_N(const Instant& now) const { return coefficient(now) * load_N(now); }
+  double limit_N_per_s(const Instant& now) const {
+    return coefficient(now) * now.normal_force_N_per_s + now.coefficient_per_s * load_N(now);
+  }
 
   Mass mass_;
   Contact contact_;
