@@ -372,7 +372,7 @@ TEST_P(ResetInMidRun, EndsTheImage) {
   }
   monitor.request_reset();
   std::thread asking_again([&] {
-    for (; !over; std::this_thread::sleep_for(100ms)) {
+    for (; !over; std::this_thread::sleep_for(std::chrono::milliseconds(100))) {
       const std::vector<std::uint8_t> frame = frame_of(period);
       image.send(frame.data(), frame.size());
     }

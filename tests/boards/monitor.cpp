@@ -82,7 +82,7 @@ void Monitor::type(const std::string& command) {
 
 char Monitor::next() {
   char character = '\0';
-  if (!process::wait_for_input(from_emulator_.number(), 60s, {}) ||
+  if (!process::wait_for_input(from_emulator_.number(), 60s) ||
       read(from_emulator_.number(), &character, 1) != 1) {
     throw std::runtime_error("the emulator's monitor does not answer");
   }

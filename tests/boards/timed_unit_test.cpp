@@ -114,7 +114,7 @@ class Terminal {
 
   /// @return false at the end
   bool receive(char& character) {
-    if (!process::wait_for_input(shown_.read_end.number(), 60s, {})) {
+    if (!process::wait_for_input(shown_.read_end.number(), 60s)) {
       throw std::runtime_error("the emulator hangs");
     }
     return read(shown_.read_end.number(), &character, 1) == 1;

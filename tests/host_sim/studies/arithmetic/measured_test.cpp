@@ -40,8 +40,8 @@ class MeasuredTest : public testing::TestWithParam<std::string> {};
 TEST_P(MeasuredTest, ErrorsInstructionsAndBytesAreThoseOfThisBuild) {
   setenv("XDG_CACHE_HOME", SONOGLIDE_IMAGE_CACHE, 1);
   const scene::Scene scene = scene_file::read_file(SONOGLIDE_ARITHMETIC_SCENE);
-  const csv::Table computed(images_csv(compare(
-      scene, {emulated::find_board(GetParam())}, [] {}, [](double) {})));
+  const csv::Table computed(
+      images_csv(compare(scene, {emulated::find_board(GetParam())}, [](double) {})));
   const csv::Table recorded = csv::read_file(SONOGLIDE_ARITHMETIC_MEASURED);
   ASSERT_EQ(recorded.columns(), computed.columns()) << renew;
   const std::vector<csv::Row> rows = rows_of(recorded, GetParam());
