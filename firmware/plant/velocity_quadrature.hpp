@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <type_traits>
+#include <utility>
 
 #include "firmware/numeric/gauss_legendre.hpp"
 
@@ -29,6 +30,12 @@ QuadratureRule quadrature_rule_for(Scalar length) {
   return length <= Scalar(1) ? quadrature_rule_of<8>() : quadrature_rule_of<16>();
 }
 
+template <class Step, class = void>
+struct HasVelocityMoment : std::false_type {};
+template <class Step>
+struct HasVelocityMoment<Step, std::void_t<decltype(std::declval<Step>().velocity_moment())>>
+    : std::true_type {};
+
 }  // namespace detail
 
 /// Calls add(t, w v) at each node of a Gauss-Legendre quadrature of the step: t is the time since
@@ -45,6 +52,20 @@ void integrate_velocity(const Step& step, const Add& add) {
   for (std::size_t i = 0; i < rule.count; ++i) {
     const Scalar offset = length * static_cast<Scalar>(rule.node[i]);
     add(offset, length * static_cast<Scalar>(rule.weight[i]) * step.at(offset).velocity);
+  }
+}
+
+/// The integral of t v over the step, t since the step began: by integrate_velocity(), or what a step
+/// offers that has more in it.
+template <class Step>
+auto velocity_moment(const Step& step) {
+  if constexpr (detail::HasVelocityMoment<Step>::value) {
+    return step.velocity_moment();
+  } else {
+    std::decay_t<decltype(step.length())> moment{};
+    integrate_velocity(step,
+                       [&moment](auto offset, auto weighted) { moment += offset * weighted; });
+    return moment;
   }
 }
 

@@ -80,9 +80,8 @@ class StepReader {
       (*load_)(step);
     }
     if (moment_ != nullptr) {
-      plant::integrate_velocity(step, [this, &step](double offset, double weighted) {
-        *moment_ += (step.begin() + offset) * weighted;
-      });
+      const double travel = step.at(step.length()).displacement - step.at(0.0).displacement;
+      *moment_ += step.begin() * travel + plant::velocity_moment(step);
     }
     const double end = step.begin() + step.length();
     for (; next_ != end_; ++next_) {

@@ -91,6 +91,9 @@ class LinearMotion {
   };
   Carried carried(Scalar time) const { return carried(moments(time)); }
 
+  /// Of t v.
+  Scalar velocity_moment(Scalar time) const { return velocity_moment(moments(time)); }
+
   /// From 0 to a time.
   MotionIntegrals<Scalar> integrals(Scalar time) const {
     const Moments m = moments(time);
@@ -98,8 +101,7 @@ class LinearMotion {
     const Carried velocity = carried(m);
     const Scalar travel =
         slope * time + (cosine * (m.cosine - Scalar(1)) + sine * m.sine) + m.free.velocity;
-    const Scalar ramped = slope * m.time_square + (sine * m.time_cosine - cosine * m.time_sine) +
-                          m.free.time_velocity;
+    const Scalar ramped = velocity_moment(m);
     const Squares<Scalar> free = mode_.squares(free_, m.free.end, time);
     MotionIntegrals<Scalar> sum;
     sum.drive_work = drive_.level * travel + drive_.slope * ramped +
@@ -193,6 +195,11 @@ class LinearMotion {
     return {slope * m.sine + sine * m.cosine_square - cosine * m.product + m.free.velocity_cosine,
             slope * (Scalar(1) - m.cosine) + sine * m.product - cosine * m.sine_square +
                 m.free.velocity_sine};
+  }
+
+  Scalar velocity_moment(const Moments& m) const {
+    return forced_.slope * m.time_square +
+           (forced_.sine * m.time_cosine - forced_.cosine * m.time_sine) + m.free.time_velocity;
   }
 
   const FreeMode<Scalar>& mode_;

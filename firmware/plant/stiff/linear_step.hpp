@@ -45,6 +45,9 @@ class LinearStep {
   Scalar sliding_work() const { return friction_ * slid(); }
   MotionIntegrals<Scalar> motion_integrals() const { return motion_.integrals(length()); }
 
+  /// Of t v, t since the step began.
+  Scalar velocity_moment() const { return motion_.velocity_moment(length()); }
+
   /// Of v cos(phase + t) and of v sin(phase + t).
   struct Demodulated {
     Scalar in_phase;
