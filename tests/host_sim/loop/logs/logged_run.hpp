@@ -1,7 +1,6 @@
 /// Runs that are short enough to keep everything of them.
 #pragma once
 
-#include <utility>
 #include <vector>
 
 #include "host_sim/loop/run.hpp"
@@ -22,17 +21,6 @@ struct LoggedRun {
   Recording trace;  ///< as the scene asks
 };
 
-inline LoggedRun run_logged(const scene::Scene& scene) {
-  LoggedRun logged;
-  PeriodLog log;
-  Watch watch;
-  watch.periods = {&log};
-  if (!scene.run.record.empty()) {
-    watch.samples = {{{0.0, scene.run.duration_s, scene.run.record_interval_s}, &logged.trace}};
-  }
-  logged.result = run(scene, watch);
-  logged.periods = std::move(log.periods);
-  return logged;
-}
+LoggedRun run_logged(const scene::Scene& scene);
 
 }  // namespace sonoglide::loop
