@@ -95,7 +95,8 @@ inline void tell_refusal(const Log& log, const char* what) noexcept {
 
 template <class... Targets>
 void require_pointers(const Targets*... pointers) {
-  if ((... || (pointers == nullptr))) {
+  const bool any_is_null = (... || (pointers == nullptr));
+  if (any_is_null) {
     throw CallError("a pointer is null; allowed: the address of what is read or written");
   }
 }

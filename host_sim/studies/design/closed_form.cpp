@@ -110,8 +110,8 @@ RequiredVibration closed_form_vibration(const scene::Scene& scene, double slidin
   constexpr int steps = 120;
   const auto [least_m_per_s, most_m_per_s] = vibrations(scene, sliding_m_per_s);
   const double span = std::log(most_m_per_s / least_m_per_s);
-  const auto vibration_m_per_s = [&](double place) {
-    return most_m_per_s * std::exp(span * (place / steps - 1.0));
+  const auto vibration_m_per_s = [&, most = most_m_per_s](double place) {
+    return most * std::exp(span * (place / steps - 1.0));
   };
   const auto excess_under = [&](double velocity_m_per_s) {
     return closed_form_ratio(scene, sliding_m_per_s, velocity_m_per_s) - ratio;

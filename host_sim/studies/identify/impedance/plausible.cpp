@@ -75,9 +75,9 @@ bool has_plausible_modes(const Sweep& sweep, const CircuitFit& fit) {
 }  // namespace
 
 double most_inductance_H(const Circuit& circuit) {
-  constexpr double share = 0.05;
+  constexpr double largest_part = 0.05;
   const double omega = two_pi * circuit.modes.front().resonance_Hz;
-  return share / (omega * omega * circuit.clamped_capacitance_F);
+  return largest_part / (omega * omega * circuit.clamped_capacitance_F);
 }
 
 bool is_plausible(const Sweep& sweep, const CircuitFit& fit) {
