@@ -188,9 +188,9 @@ TEST(StiffLinear, AnyRatioOfFrequenciesIsThatOfThePhasors) {
   for (const double mode : {1e3, 1e5, 1e7}) {
     const double k = mode * mode + 0.37;
     const Record end = run<Stiff<Plant>>({{}, {0.0}, k}, {{0.0, 5.0, k, 0.0, 0.0}}, {});
-    const auto stiffness = static_cast<long double>(k);
-    const long double w = std::sqrt(stiffness);
-    const long double amplitude = stiffness / (stiffness - 1.0L);
+    const auto exact_k = static_cast<long double>(k);
+    const long double w = std::sqrt(exact_k);
+    const long double amplitude = exact_k / (exact_k - 1.0L);
     const double tolerance = 1e-15 * mode + 1e-14;
     EXPECT_NEAR(end.state.displacement,
                 static_cast<double>(amplitude * (std::cos(5.0L) - std::cos(w * 5.0L))),
