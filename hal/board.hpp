@@ -9,6 +9,7 @@ namespace sonoglide::hal {
 
 /// One sample, taken once per carrier period. Codes are left-justified: ±2^31 is ± full scale,
 /// whatever the converter's width.
+// NOLINTNEXTLINE(cppcoreguidelines-pro-type-member-init): who makes one fills it
 struct Sample {
   std::int32_t friction_force;    ///< mean over the last carrier period; full scale: the sensor's
   std::int32_t sliding_velocity;  ///< full scale: peak vibration velocity at full drive
@@ -21,6 +22,7 @@ struct Sample {
 /// of (in_phase + j quadrature) e^jθ, θ the phase of the drive: from the demodulated velocity
 /// pick-up, or from the current of the transducer less that of its clamped capacitance, over the
 /// force factor. The sliding velocity has the full scale of the vibration sensor.
+// NOLINTNEXTLINE(cppcoreguidelines-pro-type-member-init): likewise
 struct VibrationSample : Sample {
   std::int32_t in_phase;    ///< mean over the last carrier period; full scale: the sensor's
   std::int32_t quadrature;  ///< likewise

@@ -123,6 +123,7 @@ plant::Outcome<double> ChangingPlant::follow(const Stretch& stretch, Sight* sigh
 plant::Outcome<double> ChangingPlant::hold_throughout(const Stretch& stretch, const Course& course,
                                                       Sight* sight, EnergyBalance& energy) {
   const bool new_carrier = stretch.drive_rate_rad_per_s != drive_rate_rad_per_s_;
+  // NOLINTNEXTLINE(cppcoreguidelines-slicing): the values alone are meant
   held_.hold({course.contact_at(0.5 * course.duration_s, friction_),
               course.stiffness_N_per_m.middle, stretch.drive_rate_rad_per_s,
               new_carrier ? method_of_period(solver_.method) : solver_.method, solver_.tolerance},
@@ -298,6 +299,7 @@ void ChangingPlant::arrive(const Slope& slope, const Carried& at, double offset_
 }
 
 Held ChangingPlant::values(const Slope& slope, double offset_s) const {
+  // NOLINTNEXTLINE(cppcoreguidelines-slicing): likewise
   return {slope.course.contact_at(offset_s, friction_), slope.course.stiffness_at(offset_s),
           slope.stretch.drive_rate_rad_per_s, method_of_pieces(solver_.method),
           share_of_tolerance * solver_.tolerance};

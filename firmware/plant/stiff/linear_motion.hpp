@@ -132,6 +132,7 @@ class LinearMotion {
 
   /// Integrals of the free motion, alone and times t, cos t and sin t. Those of y follow from the
   /// equation of motion, integrated by parts; those of v from them.
+  // NOLINTNEXTLINE(cppcoreguidelines-pro-type-member-init): filled at once
   struct FreeMoments {
     Point<Scalar> end;
     Scalar displacement;
