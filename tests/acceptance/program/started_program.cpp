@@ -41,6 +41,12 @@ void StartedProgram::send(int signal) const {
   kill(process_, signal);
 }
 
+bool StartedProgram::has_ended() const {
+  siginfo_t state = {};
+  waitid(P_PID, static_cast<id_t>(process_), &state, WEXITED | WNOHANG | WNOWAIT);
+  return state.si_pid == process_;
+}
+
 int StartedProgram::end() {
   int status = 0;
   waitpid(process_, &status, 0);

@@ -23,6 +23,8 @@ class StartedProgram {
   StartedProgram& operator=(const StartedProgram&) = delete;
 
   void send(int signal) const;
+  /// Whether it has come to an end, at once.
+  bool has_ended() const;
   /// Waits for its end.
   /// @return the status as of waitpid
   int end();
