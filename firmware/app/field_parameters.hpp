@@ -98,19 +98,29 @@ constexpr Scalar fraction(std::uint32_t count, std::uint32_t whole) {
   }
 }
 
-/// count / whole rounded down, to a number whose code is exact; count below whole.
+/// count / whole rounded down, to a number whose code is exact; count below whole, whole at most
+/// 2^31. Digit by digit, as a processor of 32 bits has no quotient of 64 bits.
 template <class Scalar>
 constexpr Scalar fraction_below(std::uint32_t count, std::uint32_t whole) {
-  const std::uint64_t code = (std::uint64_t{count} << 31) / whole;
-  std::uint64_t last_digit = 1;
-  if constexpr (numeric::is_fixed_point_v<Scalar>) {
-    last_digit <<= 31 - Scalar::fraction_bits;
-  } else {
-    while (code / last_digit >= std::uint64_t{1} << std::numeric_limits<Scalar>::digits) {
-      last_digit <<= 1;
+  std::uint32_t code = 0;
+  for (int digit = 0; digit < 31; ++digit) {
+    count *= 2;
+    code *= 2;
+    if (count >= whole) {
+      count -= whole;
+      ++code;
     }
   }
-  return numeric::from_code<Scalar>(static_cast<std::int32_t>(code - code % last_digit));
+  int unused_digits = 0;
+  if constexpr (numeric::is_fixed_point_v<Scalar>) {
+    unused_digits = 31 - Scalar::fraction_bits;
+  } else {
+    while (code >> unused_digits >= std::uint64_t{1} << std::numeric_limits<Scalar>::digits) {
+      ++unused_digits;
+    }
+  }
+  return numeric::from_code<Scalar>(
+      static_cast<std::int32_t>(code >> unused_digits << unused_digits));
 }
 
 /// A controller as it was designed, and the parameters that may differ from it.

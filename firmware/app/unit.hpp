@@ -47,7 +47,7 @@ class Unit {
         target_(value(Parameter::target)),
         supervisor_(design.controller_parameters(values_)) {
     supervisor_.settle_at(design_.designed());
-    supervisor_.set_target(design_.half_target(target_));
+    apply_target();
     begin();
   }
 
@@ -99,7 +99,7 @@ class Unit {
       return Answer::out_of_range;
     }
     target_ = ratio;
-    supervisor_.set_target(design_.half_target(ratio));
+    apply_target();
     return Answer::taken;
   }
 
@@ -192,6 +192,9 @@ class Unit {
     }
   }
 
+  /// Out of line: in the controller it is a lot of code.
+  [[gnu::noinline]] void apply_target() { supervisor_.set_target(design_.half_target(target_)); }
+
   void save() {
     typename Store::Record record{};
     for (std::size_t i = 0; i < parameter_count; ++i) {
@@ -211,7 +214,7 @@ class Unit {
     if (pending_parameter_ == static_cast<std::size_t>(Parameter::target)) {
       target_ = value(Parameter::target);
     }
-    supervisor_.set_target(design_.half_target(target_));
+    apply_target();
   }
 
   const Design& design_;
