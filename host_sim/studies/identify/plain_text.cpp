@@ -1,78 +1,69 @@
 #include "host_sim/studies/identify/plain_text.hpp"
 
 #include <algorithm>
+#include <cctype>
 
 namespace sonoglide::identify {
 namespace {
 
+constexpr std::string_view spaces =
+    "\u00a0 \u2000 \u2001 \u2002 \u2003 \u2004 \u2005 \u2006 \u2007 \u2008 \u2009 \u200a \u200b "
+    "\u202f \u205f \u3000 \ufeff";
+
 struct Spelling {
-  std::string_view sign;
   std::string_view ascii;
+  std::string_view signs;  ///< between blanks
 };
 
-constexpr std::string_view spaces[] = {" ",      "\t",     "\r",     "\v",     "\f",     "\u00a0",
-                                       "\u2000", "\u2001", "\u2002", "\u2003", "\u2004", "\u2005",
-                                       "\u2006", "\u2007", "\u2008", "\u2009", "\u200a", "\u200b",
-                                       "\u202f", "\u205f", "\u3000", "\ufeff"};
-
-constexpr Spelling spellings[] = {{"\u03a9", "Ohm"},
-                                  {"\u2126", "Ohm"},
-                                  {"\u2127", "Mho"},
-                                  {"\u00b5", "u"},
-                                  {"\u03bc", "u"},
-                                  {"\u00b0", " deg "},
-                                  {"\u00ba", " deg "},
-                                  {"\u02da", " deg "},
-                                  {"\u03b8", " theta "},
-                                  {"\u03d1", " theta "},
-                                  {"\u0398", " theta "},
-                                  {"\u03c6", " phi "},
-                                  {"\u03d5", " phi "},
-                                  {"\u03a6", " phi "},
-                                  {"\u2220", " angle "},
-                                  {"\u2221", " angle "},
-                                  {"\u2032", "'"},
-                                  {"\u2019", "'"},
-                                  {"\u2033", "''"},
-                                  {"\u201d", "''"},
-                                  {"\"", "''"},
-                                  {"\u2212", "-"},
-                                  {"\u2010", "-"},
-                                  {"\u2011", "-"},
-                                  {"\u2012", "-"},
-                                  {"\u2013", "-"},
-                                  {"\u2014", "-"},
-                                  {"\u00d7", "*"},
-                                  {"\u00b7", "*"},
-                                  {"\u22c5", "*"},
-                                  {"\u2219", "*"},
-                                  {"\u2215", "/"},
-                                  {"\u2044", "/"},
-                                  {"\u2223", "|"},
-                                  {"\\Omega", "Ohm"},
-                                  {"\\ohm", "Ohm"},
-                                  {"^{\\circ}", " deg "},
-                                  {"^\\circ", " deg "},
-                                  {"\\mu", "u"},
-                                  {"\\theta", " theta "},
-                                  {"\\phi", " phi "},
-                                  {"\\varphi", " phi "},
-                                  {"\\angle", " angle "},
-                                  {"\\times", "*"},
-                                  {"\\cdot", "*"},
-                                  {"\\,", " "},
-                                  {"$", ""}};
+constexpr Spelling spellings[] = {{"Ohm", "\u03a9 \u2126 \\Omega \\ohm"},
+                                  {"Mho", "\u2127"},
+                                  {"u", "\u00b5 \u03bc \\mu"},
+                                  {" deg ", "\u00b0 \u00ba \u02da ^{\\circ} ^\\circ"},
+                                  {" theta ", "\u03b8 \u03d1 \u0398 \\theta"},
+                                  {" phi ", "\u03c6 \u03d5 \u03a6 \\phi \\varphi"},
+                                  {" angle ", "\u2220 \u2221 \\angle"},
+                                  {"'", "\u2032 \u2019"},
+                                  {"''", "\u2033 \u201d \""},
+                                  {"-", "\u2212 \u2010 \u2011 \u2012 \u2013 \u2014"},
+                                  {"*", "\u00d7 \u00b7 \u22c5 \u2219 \\times \\cdot"},
+                                  {"/", "\u2215 \u2044"},
+                                  {"|", "\u2223"},
+                                  {" ", "\\,"},
+                                  {"", "$"}};
 
 /// Of bytes that are no UTF-8.
-constexpr Spelling latin_1[] = {{"\xb5", "u"}, {"\xb0", " deg "}, {"\xd7", "*"}, {"\xa0", " "}};
+constexpr Spelling latin_1[] = {{"u", "\xb5"}, {" deg ", "\xb0"}, {"*", "\xd7"}, {" ", "\xa0"}};
 
-constexpr std::string_view superscripts[] = {"\u2070", "\u00b9", "\u00b2", "\u00b3",
-                                             "\u2074", "\u2075", "\u2076", "\u2077",
-                                             "\u2078", "\u2079", "\u207b", "\u207a"};
-constexpr std::string_view lowered = "0123456789-+";
+constexpr Spelling superscripts[] = {{"0", "\u2070"}, {"1", "\u00b9"}, {"2", "\u00b2"},
+                                     {"3", "\u00b3"}, {"4", "\u2074"}, {"5", "\u2075"},
+                                     {"6", "\u2076"}, {"7", "\u2077"}, {"8", "\u2078"},
+                                     {"9", "\u2079"}, {"-", "\u207b"}, {"+", "\u207a"}};
 
 bool begins(std::string_view text, std::size_t at, std::string_view with) {
   return text.compare(at, with.size(), with) == 0;
+}
+
+/// The sign of a list that begins at a place; empty where none does.
+std::string_view sign_at(std::string_view text, std::size_t at, std::string_view signs) {
+  while (!signs.empty()) {
+    const std::size_t size = std::min(signs.find(' '), signs.size());
+    if (begins(text, at, signs.substr(0, size))) {
+      return signs.substr(0, size);
+    }
+    signs.remove_prefix(std::min(size + 1, signs.size()));
+  }
+  return {};
+}
+
+/// The sign that begins at a place, and what it is in ASCII; no sign where none does.
+template <std::size_t Count>
+Spelling spelling_at(std::string_view text, std::size_t at, const Spelling (&among)[Count]) {
+  for (const Spelling& each : among) {
+    if (const std::string_view sign = sign_at(text, at, each.signs); !sign.empty()) {
+      return {each.ascii, sign};
+    }
+  }
+  return {};
 }
 
 /// Bytes of the character of UTF-8 that begins at a place; 0 where none does.
@@ -91,25 +82,6 @@ std::size_t character_at(std::string_view text, std::size_t at) {
   return size;
 }
 
-template <std::size_t Count>
-const Spelling* spelling_at(std::string_view text, std::size_t at, const Spelling (&among)[Count]) {
-  const auto* const found =
-      std::find_if(std::begin(among), std::end(among),
-                   [&](const Spelling& each) { return begins(text, at, each.sign); });
-  return found == std::end(among) ? nullptr : found;
-}
-
-/// The character that a superscript raises; 0 where none begins.
-char superscript_at(std::string_view text, std::size_t at, std::size_t& size) {
-  for (std::size_t i = 0; i < lowered.size(); ++i) {
-    if (begins(text, at, superscripts[i])) {
-      size = superscripts[i].size();
-      return lowered[i];
-    }
-  }
-  return '\0';
-}
-
 /// U+FF01 to U+FF5E are ASCII in full width; 0 where none begins.
 char full_width_at(std::string_view text, std::size_t at) {
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[at + i]); };
@@ -126,15 +98,13 @@ char full_width_at(std::string_view text, std::size_t at) {
 }  // namespace
 
 std::size_t blank_at(std::string_view text, std::size_t at) {
-  if (text[at] > ' ') {
+  const char first = text[at];
+  if (first > ' ') {
     return 0;
   }
-  for (const std::string_view each : spaces) {
-    if (begins(text, at, each)) {
-      return each.size();
-    }
-  }
-  return 0;
+  return std::string_view(" \t\r\v\f").find(first) != std::string_view::npos
+             ? 1
+             : sign_at(text, at, spaces).size();
 }
 
 std::string_view trimmed(std::string_view text) {
@@ -151,49 +121,50 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(begin, end - begin);
 }
 
+std::string lower_case(std::string_view text) {
+  std::string small(text);
+  std::transform(small.begin(), small.end(), small.begin(),
+                 [](unsigned char each) { return static_cast<char>(std::tolower(each)); });
+  return small;
+}
+
+bool is_among(std::string_view word, std::string_view list) {
+  return list.find(' ' + std::string(word) + ' ') != std::string_view::npos;
+}
+
 std::string plain_text(std::string_view text) {
   std::string plain;
   bool raised = false;
   bool braced = false;
   for (std::size_t at = 0; at < text.size();) {
-    std::size_t size = 0;
-    if (const char low = superscript_at(text, at, size)) {
+    const std::size_t character = character_at(text, at);
+    const Spelling high = spelling_at(text, at, superscripts);
+    const bool opens = begins(text, at, "^{") && !begins(text, at, "^{\\circ}");
+    const Spelling known = character > 0 ? spelling_at(text, at, spellings)  //
+                                         : spelling_at(text, at, latin_1);
+    if (!high.signs.empty()) {
       plain += raised ? "" : "^";
-      plain += low;
-      raised = true;
-      at += size;
-      continue;
-    }
-    raised = false;
-    // LaTeX has powers in braces.
-    if (begins(text, at, "^{") && !begins(text, at, "^{\\circ}")) {
-      plain += '^';
-      braced = true;
-      at += 2;
-      continue;
-    }
-    if (braced && text[at] == '}') {
-      braced = false;
-      ++at;
-      continue;
-    }
-    if (const char ascii = full_width_at(text, at)) {
+      plain += high.ascii;
+      at += high.signs.size();
+    } else if (opens || (braced && text[at] == '}')) {  // LaTeX has powers in braces.
+      plain += opens ? "^" : "";
+      at += opens ? 2 : 1;
+      braced = opens;
+    } else if (const char ascii = full_width_at(text, at)) {
       plain += ascii;
       at += 3;
-      continue;
-    }
-    if (const std::size_t blank = blank_at(text, at)) {
+    } else if (const std::size_t blank = blank_at(text, at)) {
       plain += ' ';
       at += blank;
-      continue;
+    } else if (!known.signs.empty()) {
+      plain += known.ascii;
+      at += known.signs.size();
+    } else {
+      const std::size_t size = std::max<std::size_t>(character, 1);
+      plain += text.substr(at, size);
+      at += size;
     }
-    const std::size_t character = character_at(text, at);
-    const Spelling* found =
-        character > 0 ? spelling_at(text, at, spellings) : spelling_at(text, at, latin_1);
-    const std::string_view sign =
-        found != nullptr ? found->sign : text.substr(at, std::max<std::size_t>(character, 1));
-    plain += found != nullptr ? found->ascii : sign;
-    at += sign.size();
+    raised = !high.signs.empty();
   }
   return plain;
 }

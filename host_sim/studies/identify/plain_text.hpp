@@ -14,6 +14,11 @@ std::size_t blank_at(std::string_view text, std::size_t at);
 /// Without the blanks around it.
 std::string_view trimmed(std::string_view text);
 
+std::string lower_case(std::string_view text);
+
+/// Whether a word is one of a list, each between blanks.
+bool is_among(std::string_view word, std::string_view list);
+
 /// The same text with ASCII words for signs: `Ohm` for both omegas, `u` for both micro signs, `deg`,
 /// `theta`, `phi`, `angle`, `^-6` for superscripts, `*` for multiplication signs, `-` for Unicode's
 /// minus and dashes, a space for its spaces, and ASCII for full-width letters. The words of LaTeX

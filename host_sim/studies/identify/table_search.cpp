@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
+#include <memory>
 #include <optional>
 #include <tuple>
 #include <utility>
@@ -18,10 +18,12 @@ namespace {
 
 using scene_file::SceneError;
 
-/// The one that a heading is split at.
+/// The one that a heading is split at: the first that no quotes enclose.
 char separator_of(std::string_view heading) {
+  const auto opens = [](const Cell& cell) { return cell.text.substr(0, 1) == "\""; };
   for (const char each : {'\t', ';', ','}) {
-    if (heading.find(each) != std::string_view::npos) {
+    const std::vector<Cell> cells = cells_of(heading, each);
+    if (cells.size() > 1 && std::none_of(cells.begin(), cells.end(), opens)) {
       return each;
     }
   }
@@ -84,163 +86,186 @@ void join(Heading& heading, const Heading& units) {
   }
 }
 
-/// Lines of numbers below a heading.
-class Rows {
- public:
-  Rows(const std::vector<Line>& lines, std::size_t begin, const Heading& heading)
-      : lines_(lines), heading_(heading) {
-    for (end_ = begin; end_ < lines.size() && trimmed(lines[end_].text) != "END"; ++end_) {
-      if (is_comment(lines[end_].text)) {
-        continue;
-      }
-      if (found_.empty()) {
-        labelled_ = !begins_with_number(lines[end_]) && is_labelled(lines[end_]);
-      }
-      if (!is_row(lines[end_])) {
-        break;
-      }
-      found_.push_back(lines[end_]);
-    }
-  }
+bool begins_with_number(const Line& line, const Heading& heading) {
+  const std::vector<Cell> cells = cells_of(line.text, heading.separator);
+  const auto first =
+      std::find_if(cells.begin(), cells.end(), [](const Cell& each) { return !each.text.empty(); });
+  return first != cells.end() && is_numeric_in(first->text, heading.separator);
+}
 
-  const std::vector<Line>& found() const { return found_; }
+/// As many cells as the heading, the first of them a word with a digit, as a time has; one of the
+/// others a number.
+bool is_labelled(const Line& line, const Heading& heading) {
+  const std::vector<Cell> cells = cells_of(line.text, heading.separator);
+  return cells.size() == heading.names.size() &&
+         cells.front().text.find_first_of("0123456789") != std::string_view::npos &&
+         std::any_of(cells.begin() + 1, cells.end(),
+                     [&](const Cell& each) { return is_numeric_in(each.text, heading.separator); });
+}
 
-  bool fits() const {
-    if (found_.empty()) {
-      return false;
-    }
-    const std::vector<Cell> cells = cells_of(found_.front().text, heading_.separator);
-    return cells.size() >= heading_.names.size() &&
-           std::all_of(cells.begin() + static_cast<std::ptrdiff_t>(heading_.names.size()),
-                       cells.end(), [](const Cell& each) { return each.text.empty(); });
-  }
+/// Lines of numbers below a heading, without the comments between them.
+struct Rows {
+  std::size_t begin = 0;  ///< among the lines
+  char separator = 0;
+  std::size_t columns = 0;
+  std::vector<Line> found = {};
+  std::size_t end = 0;
+  bool (*is_row)(const Line&, const Heading&) = begins_with_number;
+};
 
-  /// The line that ends them, if it is neither `END` nor the end of the text.
-  const Line* line_below() const {
-    return end_ < lines_.size() && trimmed(lines_[end_].text) != "END" ? &lines_[end_] : nullptr;
-  }
+struct Table {
+  Heading heading;
+  std::shared_ptr<const Rows> rows;
+  bool wanted = false;
 
-  bool has_rows_below() const {
-    return std::any_of(lines_.begin() + static_cast<std::ptrdiff_t>(end_), lines_.end(),
-                       [&](const Line& each) {
-                         return !is_comment(each.text) && is_row(each) &&
-                                cells_of(each.text, heading_.separator).size() > 1;
-                       });
+  /// The one of the largest is read.
+  auto rank() const {
+    return std::make_tuple(!rows->found.empty(), wanted, fits(), rows->found.size());
   }
 
  private:
-  bool begins_with_number(const Line& line) const {
-    const std::vector<Cell> cells = cells_of(line.text, heading_.separator);
-    const auto first = std::find_if(cells.begin(), cells.end(),
-                                    [](const Cell& each) { return !each.text.empty(); });
-    return first != cells.end() && is_numeric_in(first->text, heading_.separator);
+  bool fits() const {
+    if (rows->found.empty()) {
+      return false;
+    }
+    const std::vector<Cell> cells = cells_of(rows->found.front().text, heading.separator);
+    const std::size_t columns = heading.names.size();
+    return cells.size() >= columns &&
+           std::all_of(cells.begin() + static_cast<std::ptrdiff_t>(columns), cells.end(),
+                       [](const Cell& each) { return each.text.empty(); });
   }
-
-  /// As many cells as the heading, the first of them a word with a digit, as a time has; one of the
-  /// others a number.
-  bool is_labelled(const Line& line) const {
-    const std::vector<Cell> cells = cells_of(line.text, heading_.separator);
-    const std::string_view label = cells.front().text;
-    return cells.size() == heading_.names.size() &&
-           std::any_of(label.begin(), label.end(),
-                       [](unsigned char each) { return std::isdigit(each) != 0; }) &&
-           std::any_of(cells.begin() + 1, cells.end(), [&](const Cell& each) {
-             return is_numeric_in(each.text, heading_.separator);
-           });
-  }
-
-  bool is_row(const Line& line) const {
-    return labelled_ ? is_labelled(line) : begins_with_number(line);
-  }
-
-  const std::vector<Line>& lines_;
-  const Heading& heading_;
-  std::vector<Line> found_;
-  std::size_t end_;
-  bool labelled_ = false;
 };
 
-struct Candidate {
-  Heading heading;
-  std::size_t first_row = 0;  ///< its place among the lines
-  std::size_t rows = 0;
-};
-
-void require_one_table(const scene_file::Source& source, const std::vector<Candidate>& wanted,
-                       const Candidate& best) {
-  for (const Candidate& each : wanted) {
-    // Settings may stand as one row below their names.
-    if (each.heading.line != best.heading.line && each.rows > 1) {
-      throw SceneError({source.file, std::max(each.heading.line, best.heading.line), 1}, "heading",
-                       fmt::format("a second table, beside that of line {}; allowed: one table in "
-                                   "a file",
-                                   std::min(each.heading.line, best.heading.line)));
+class TableSearch {
+ public:
+  TableSearch(const scene_file::Source& source, const IsWanted& is_wanted)
+      : source_(source), is_wanted_(is_wanted), lines_(lines_of(source)) {
+    content_.assign(lines_.size() + 2, lines_.size());
+    for (std::size_t i = lines_.size(); i-- > 0;) {
+      content_[i] = is_comment(lines_[i].text) ? content_[i + 1] : i;
     }
   }
-}
 
-Candidate find_heading(const scene_file::Source& source, const std::vector<Line>& lines,
-                       const IsWanted& is_wanted) {
-  std::optional<Candidate> best;
-  std::vector<Candidate> all_wanted;
-  std::tuple<bool, bool, bool, std::size_t> best_rank;
-  for (std::size_t i = 0; i < lines.size(); ++i) {
-    std::optional<Heading> heading = heading_of(lines[i], 2);
-    if (!heading) {
-      continue;
-    }
-    if (i + 1 < lines.size()) {
-      const auto units = heading_of(lines[i + 1], 1);
-      if (units && is_line_of_units(*units, *heading, is_wanted)) {
-        join(*heading, *units);
-        ++i;
+  FoundTable find() {
+    std::optional<Table> best;
+    std::vector<std::size_t> tables;
+    for (std::size_t i = 0; i < lines_.size(); ++i) {
+      std::optional<Table> table = table_at(i);
+      // Settings may stand as one row below their names.
+      if (table && table->wanted && table->rows->found.size() > 1) {
+        tables.push_back(table->heading.line);
+      }
+      if (table && (!best || table->rank() >= best->rank())) {
+        best = std::move(table);
       }
     }
-    const bool wanted = is_wanted(heading->names);
+    if (!best) {
+      throw error(1, "heading",
+                  "no line names the columns; allowed: a heading of at least two names, as "
+                  "frequency_Hz,impedance_magnitude_ohm,impedance_phase_deg");
+    }
+    for (const std::size_t each : tables) {
+      const auto [first, second] = std::minmax(each, best->heading.line);
+      if (first != second) {
+        throw error(second, "heading",
+                    fmt::format("a second table, beside that of line {}; allowed: one table in a "
+                                "file",
+                                first));
+      }
+    }
+    return {best->heading, best->rows->found, warning_of_rest(*best)};
+  }
+
+ private:
+  /// That of the heading at a line, which passes over the line of its units.
+  std::optional<Table> table_at(std::size_t& line) {
+    std::optional<Heading> heading = heading_of(lines_[line], 2);
+    if (!heading) {
+      return std::nullopt;
+    }
+    const bool rows_follow = begins_rows(line + 1, *heading);
+    const bool rows_are_near = begins_rows(line + 2, *heading);
+    const auto below = rows_are_near ? heading_of(lines_[line + 1], 1) : std::nullopt;
+    std::size_t begin = line + 1;
+    if (below && is_line_of_units(*below, *heading, is_wanted_)) {
+      join(*heading, *below);
+      begin = ++line + 1;
+    }
+    const bool wanted = (rows_follow || rows_are_near) && is_wanted_(heading->names);
     // A remark may stand between the heading and its rows.
-    const bool has_remark = wanted && i + 2 < lines.size() &&
-                            cells_of(lines[i + 1].text, heading->separator).size() == 1 &&
-                            Rows(lines, i + 1, *heading).found().empty();
-    const std::size_t first_row = i + (has_remark ? 2 : 1);
-    const Rows rows(lines, first_row, *heading);
-    const std::tuple rank(!rows.found().empty(), wanted, rows.fits(), rows.found().size());
-    if (wanted) {
-      all_wanted.push_back({*heading, first_row, rows.found().size()});
+    if (wanted && !begins_rows(begin, *heading) &&
+        cells_of(lines_[begin].text, heading->separator).size() == 1) {
+      ++begin;
     }
-    if (!best || rank >= best_rank) {
-      best_rank = rank;
-      best = Candidate{std::move(*heading), first_row, rows.found().size()};
+    return Table{*heading, rows_from(begin, *heading), wanted};
+  }
+
+  bool begins_rows(std::size_t at, const Heading& heading) const {
+    const std::size_t first = at < lines_.size() ? content_[at] : lines_.size();
+    return first < lines_.size() &&
+           (begins_with_number(lines_[first], heading) || is_labelled(lines_[first], heading));
+  }
+
+  std::shared_ptr<const Rows> rows_from(std::size_t at, const Heading& heading) {
+    const std::size_t columns = heading.names.size();
+    const std::size_t begin = content_[at];
+    if (rows_ && rows_->begin == begin && rows_->separator == heading.separator &&
+        rows_->columns == columns) {
+      return rows_;  // Of many comments above them each may be the heading.
     }
+    Rows rows{begin, heading.separator, columns};
+    if (begin < lines_.size() && !begins_with_number(lines_[begin], heading)) {
+      rows.is_row = is_labelled;
+    }
+    for (rows.end = begin; rows.end < lines_.size(); rows.end = content_[rows.end + 1]) {
+      const Line& line = lines_[rows.end];
+      if (trimmed(line.text) == "END" || !rows.is_row(line, heading)) {
+        break;
+      }
+      rows.found.push_back(line);
+    }
+    return rows_ = std::make_shared<const Rows>(std::move(rows));
   }
-  if (!best) {
-    throw SceneError({source.file, 1, 1}, "heading",
-                     "no line names the columns; allowed: a heading of at least two names, as "
-                     "frequency_Hz,impedance_magnitude_ohm,impedance_phase_deg");
+
+  /// Of the lines below the rows, if they do not begin with `END`.
+  std::string warning_of_rest(const Table& table) const {
+    const Rows& rows = *table.rows;
+    if (rows.found.empty() || rows.end == lines_.size() ||
+        trimmed(lines_[rows.end].text) == "END") {
+      return {};
+    }
+    const Line& below = lines_[rows.end];
+    const bool has_rows =
+        std::any_of(lines_.begin() + static_cast<std::ptrdiff_t>(rows.end), lines_.end(),
+                    [&](const Line& each) {
+                      return !is_comment(each.text) && rows.is_row(each, table.heading) &&
+                             cells_of(each.text, table.heading.separator).size() > 1;
+                    });
+    if (has_rows) {
+      throw error(below.number, "row",
+                  fmt::format("\"{}\" ends the table, and rows stand below it; allowed: one "
+                              "table in a file, its rows without a break",
+                              shortened(below.text)));
+    }
+    return fmt::format("Line {}, \"{}\", stands below the table and is not read.", below.number,
+                       shortened(below.text));
   }
-  require_one_table(source, all_wanted, *best);
-  return std::move(*best);
-}
+
+  SceneError error(std::size_t line, const char* key, const std::string& message) const {
+    return {{source_.file, line, 1}, key, message};
+  }
+
+  const scene_file::Source& source_;
+  const IsWanted& is_wanted_;
+  std::vector<Line> lines_;
+  std::vector<std::size_t> content_;  ///< of each line, the next that is no comment
+  std::shared_ptr<const Rows> rows_;  ///< the last
+};
 
 }  // namespace
 
 FoundTable find_table(const scene_file::Source& source, const IsWanted& is_wanted) {
-  const std::vector<Line> lines = lines_of(source);
-  Candidate best = find_heading(source, lines, is_wanted);
-  const Rows rows(lines, best.first_row, best.heading);
-  FoundTable found{best.heading, rows.found(), {}};
-  if (const Line* below = rows.line_below()) {
-    if (rows.has_rows_below()) {
-      throw SceneError({source.file, below->number, 1}, "row",
-                       fmt::format("\"{}\" ends the table, and rows stand below it; allowed: one "
-                                   "table in a file, its rows without a break",
-                                   shortened(below->text)));
-    }
-    if (!found.rows.empty()) {
-      found.warning = fmt::format("Line {}, \"{}\", stands below the table and is not read.",
-                                  below->number, shortened(below->text));
-    }
-  }
-  return found;
+  return TableSearch(source, is_wanted).find();
 }
 
 std::string shortened(std::string_view text) {

@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "host_sim/studies/identify/cell.hpp"
 #include "host_sim/studies/identify/plain_text.hpp"
 
 namespace sonoglide::identify {
@@ -12,78 +13,48 @@ namespace {
 
 constexpr double radians_a_degree = 3.14159265358979323846 / 180.0;
 
-struct Name {
-  std::string_view name;  ///< in small letters, but for units of one letter
+struct Names {
   Dimension dimension;
   double scale;
+  std::string_view names;  ///< in small letters, but for units of one letter
 };
 
-/// The longest that ends a word is its unit.
-constexpr Name units[] = {{"siemens", Dimension::admittance, 1.0},
-                          {"decibels", Dimension::level, 1.0},
-                          {"decibel", Dimension::level, 1.0},
-                          {"degrees", Dimension::angle, radians_a_degree},
-                          {"radians", Dimension::angle, 1.0},
-                          {"degree", Dimension::angle, radians_a_degree},
-                          {"radian", Dimension::angle, 1.0},
-                          {"hertz", Dimension::frequency, 1.0},
-                          {"ohms", Dimension::impedance, 1.0},
-                          {"mhos", Dimension::admittance, 1.0},
-                          {"degs", Dimension::angle, radians_a_degree},
-                          {"volts", Dimension::other, 1.0},
-                          {"volt", Dimension::other, 1.0},
-                          {"vpp", Dimension::other, 1.0},
-                          {"vrms", Dimension::other, 1.0},
-                          {"bar", Dimension::other, 1.0},
-                          {"dbm", Dimension::other, 1.0},
-                          {"min", Dimension::other, 1.0},
-                          {"sec", Dimension::other, 1.0},
-                          {"ohm", Dimension::impedance, 1.0},
-                          {"mho", Dimension::admittance, 1.0},
-                          {"deg", Dimension::angle, radians_a_degree},
-                          {"rad", Dimension::angle, 1.0},
-                          {"hz", Dimension::frequency, 1.0},
-                          {"db", Dimension::level, 1.0},
-                          {"va", Dimension::other, 1.0},
-                          {"pa", Dimension::other, 1.0},
-                          {"S", Dimension::admittance, 1.0},
-                          {"s", Dimension::admittance, 1.0},
-                          {"V", Dimension::other, 1.0},
-                          {"A", Dimension::other, 1.0},
-                          {"W", Dimension::other, 1.0},
-                          {"F", Dimension::other, 1.0},
-                          {"H", Dimension::other, 1.0},
-                          {"C", Dimension::other, 1.0},
-                          {"K", Dimension::other, 1.0},
-                          {"N", Dimension::other, 1.0},
-                          {"m", Dimension::other, 1.0},
-                          {"g", Dimension::other, 1.0},
-                          {"%", Dimension::other, 1.0}};
+constexpr Names units[] = {
+    {Dimension::frequency, 1.0, "hz hertz"},
+    {Dimension::impedance, 1.0, "ohm ohms"},
+    {Dimension::admittance, 1.0, "S s siemens mho mhos"},
+    {Dimension::angle, radians_a_degree, "deg degs degree degrees"},
+    {Dimension::angle, 1.0, "rad radian radians"},
+    {Dimension::level, 1.0, "db decibel decibels"},
+    {Dimension::other, 1.0, "V A W F H C K N m g % va pa volt volts vpp vrms bar dbm min sec"}};
 
 struct Prefix {
-  std::string_view name;
   double scale;
+  std::string_view symbols;
+  std::string_view names;  ///< `kil` and `micr` as in kilohm and microhm
 };
 
-constexpr Prefix symbols[] = {{"p", 1e-12}, {"n", 1e-9}, {"u", 1e-6}, {"m", 1e-3}, {"k", 1e3},
-                              {"K", 1e3},   {"M", 1e6},  {"G", 1e9},  {"T", 1e12}};
-/// `kil` and `micr` as in kilohm and microhm.
-constexpr Prefix words[] = {{"pico", 1e-12}, {"nano", 1e-9}, {"micro", 1e-6}, {"micr", 1e-6},
-                            {"milli", 1e-3}, {"kilo", 1e3},  {"kil", 1e3},    {"mega", 1e6},
-                            {"meg", 1e6},    {"giga", 1e9},  {"tera", 1e12}};
+constexpr Prefix prefixes[] = {{1e-12, "p", " pico "},      {1e-9, "n", " nano "},
+                               {1e-6, "u", " micro micr "}, {1e-3, "m", " milli "},
+                               {1e3, "kK", " kilo kil "},   {1e6, "M", " mega meg "},
+                               {1e9, "G", " giga "},        {1e12, "T", " tera "}};
 
-std::string lower(std::string_view text) {
-  std::string small(text);
-  std::transform(small.begin(), small.end(), small.begin(),
-                 [](unsigned char each) { return static_cast<char>(std::tolower(each)); });
-  return small;
+std::optional<double> scale_of_symbol(std::string_view symbol) {
+  for (const Prefix& each : prefixes) {
+    if (symbol.size() == 1 && each.symbols.find(symbol) != std::string_view::npos) {
+      return each.scale;
+    }
+  }
+  return std::nullopt;
 }
 
-template <std::size_t Count>
-std::optional<double> scale_among(std::string_view name, const Prefix (&prefixes)[Count]) {
-  const auto* const found = std::find_if(std::begin(prefixes), std::end(prefixes),
-                                         [&](const Prefix& each) { return each.name == name; });
-  return found == std::end(prefixes) ? std::nullopt : std::optional(found->scale);
+std::optional<double> scale_of_name(std::string_view name) {
+  for (const Prefix& each : prefixes) {
+    if (is_among(lower_case(name), each.names)) {
+      return each.scale;
+    }
+  }
+  return std::nullopt;
 }
 
 /// The scale of `prefix` before `unit`, both as they stand in the word.
@@ -92,11 +63,11 @@ std::optional<double> scale_before(std::string_view prefix, std::string_view uni
   if (prefix.empty()) {
     return 1.0;
   }
-  if (const auto scale = scale_among(lower(prefix), words)) {
+  if (const auto scale = scale_of_name(prefix)) {
     return unit.size() > 1 ? scale : std::nullopt;
   }
-  const bool small = lower(unit) == unit;
-  const bool capital = !small && lower(unit)[0] != unit[0] && unit.size() > 1 &&
+  const bool small = lower_case(unit) == unit;
+  const bool capital = !small && lower_case(unit)[0] != unit[0] && unit.size() > 1 &&
                        std::none_of(unit.begin(), unit.end(),
                                     [](unsigned char each) { return std::islower(each) != 0; });
   std::string symbol(prefix);
@@ -106,19 +77,19 @@ std::optional<double> scale_before(std::string_view prefix, std::string_view uni
                                     : symbol;
     const bool is_known =
         symbol == "k" || symbol == "K" || symbol == "M" || symbol == "G" || symbol == "T";
-    return is_known && prefix.size() == 1 ? scale_among(symbol, symbols) : std::nullopt;
+    return is_known && prefix.size() == 1 ? scale_of_symbol(symbol) : std::nullopt;
   }
   const bool is_angle = dimension == Dimension::angle;  // Grad is no gigaradian.
-  if ((unit == "s" || is_angle) && (lower(symbol) != symbol || (is_angle && symbol == "k"))) {
+  if ((unit == "s" || is_angle) && (lower_case(symbol) != symbol || (is_angle && symbol == "k"))) {
     return std::nullopt;
   }
   if (unit == "S" && (symbol == "M" || symbol == "G" || symbol == "T" || symbol == "P")) {
     return std::nullopt;
   }
   if ((capital || unit == "S") && (symbol == "U" || symbol == "N" || symbol == "P")) {
-    symbol = lower(symbol);
+    symbol = lower_case(symbol);
   }
-  return scale_among(symbol, symbols);
+  return scale_of_symbol(symbol);
 }
 
 std::size_t past_blanks(std::string_view text, std::size_t at) {
@@ -154,25 +125,30 @@ std::optional<double> raised(double base, std::string_view text, std::size_t& at
 }  // namespace
 
 std::optional<double> scale_of_prefix(std::string_view word) {
-  const auto symbol = scale_among(word, symbols);
-  return symbol ? symbol : scale_among(lower(word), words);
+  const auto scale = scale_of_symbol(word);
+  return scale ? scale : scale_of_name(word);
 }
 
 std::optional<Unit> unit_of_word(std::string_view word) {
-  const std::string small = lower(word);
-  for (const Name& each : units) {
-    const std::string_view ending = each.name.size() == 1 ? word : std::string_view(small);
-    if (ending.size() < each.name.size() ||
-        ending.substr(ending.size() - each.name.size()) != each.name) {
-      continue;
-    }
-    const std::size_t prefix = word.size() - each.name.size();
-    if (const auto scale =
-            scale_before(word.substr(0, prefix), word.substr(prefix), each.dimension)) {
-      return Unit{each.dimension, *scale * each.scale};
+  const std::string small = lower_case(word);
+  std::optional<Unit> found;
+  std::size_t longest = 0;
+  for (const Names& each : units) {
+    for (const Cell& name : cells_of(each.names, ' ')) {
+      const std::size_t size = name.text.size();
+      const std::size_t prefix = word.size() - std::min(size, word.size());
+      const std::string_view ending = (size == 1 ? word : std::string_view(small)).substr(prefix);
+      if (size <= longest || ending != name.text) {
+        continue;
+      }
+      if (const auto scale =
+              scale_before(word.substr(0, prefix), word.substr(prefix), each.dimension)) {
+        found = Unit{each.dimension, *scale * each.scale};
+        longest = size;
+      }
     }
   }
-  return std::nullopt;
+  return found;
 }
 
 std::optional<double> power_of_ten(std::string_view text, std::size_t& size) {

@@ -9,7 +9,6 @@
 
 #include "host_sim/studies/identify/impedance/read_touchstone.hpp"
 #include "host_sim/studies/identify/impedance/read_traces.hpp"
-#include "host_sim/studies/identify/impedance/readings.hpp"
 #include "host_sim/studies/identify/impedance/sweep_columns.hpp"
 
 namespace sonoglide::identify::impedance {
@@ -24,7 +23,7 @@ std::string counted_frequencies(std::size_t count) {
 /// Of a second form that the table has, against the one that is read.
 void require_agreement(const MeasuredTable& table, const SweepColumns& other, const Sweep& sweep) {
   std::vector<std::string> ignored;
-  const std::vector<Complex> all_S = admittances_S({&table, &table}, other, ignored);
+  const std::vector<Complex> all_S = admittances_S(table, table, other, ignored);
   std::vector<std::size_t> off;
   for (std::size_t row = 0; row < table.rows(); ++row) {
     const Complex read_S = sweep.admittance_S[row];
@@ -55,7 +54,7 @@ Sweep read_table(const scene_file::Source& source) {
   sweep.warnings = found.warnings;
   sweep.warnings.insert(sweep.warnings.end(), table.warnings().begin(), table.warnings().end());
   sweep.frequency_Hz = frequencies_Hz(table, found.frequency);
-  sweep.admittance_S = admittances_S({&table, &table}, found.forms.front(), sweep.warnings);
+  sweep.admittance_S = admittances_S(table, table, found.forms.front(), sweep.warnings);
   for (std::size_t i = 1; i < found.forms.size(); ++i) {
     require_agreement(table, found.forms[i], sweep);
   }

@@ -3,17 +3,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
+#include <cctype>
 #include <optional>
 
-#include "host_sim/studies/identify/impedance/readings.hpp"
+#include "host_sim/studies/identify/impedance/sweep_columns.hpp"
 #include "host_sim/studies/identify/plain_text.hpp"
 #include "host_sim/studies/identify/unit.hpp"
 
 namespace sonoglide::identify::impedance {
 namespace {
 
-using Complex = std::complex<double>;
 using scene_file::SceneError;
 
 struct Options {
@@ -28,15 +27,18 @@ std::vector<std::string> words_of(std::string_view line) {
   const std::string plain = plain_text(line.substr(0, line.find('!')));
   std::vector<std::string> words;
   for (const Cell& each : cells_of(plain, ' ')) {
-    std::string word(each.text);
-    while (!word.empty() && (word.back() == ',' || word.back() == ';')) {
-      word.pop_back();
-    }
-    if (!word.empty()) {
-      words.push_back(std::move(word));
+    const std::size_t last = each.text.find_last_not_of(",;");
+    if (last != std::string_view::npos) {
+      words.emplace_back(each.text.substr(0, last + 1));
     }
   }
   return words;
+}
+
+std::optional<double> resistance_scale(std::string_view unit) {
+  const auto known = unit_of_word(unit);
+  return known && known->dimension == Dimension::impedance ? std::optional(known->scale)
+                                                           : std::nullopt;
 }
 
 /// A resistance as `R 50`, `R50`, `R 50 Ohm`, beginning at the word `at`, which becomes the last one
@@ -48,35 +50,34 @@ bool take_resistance(const std::vector<std::string>& words, std::size_t& at, Opt
   }
   const std::size_t letters = std::min(number.find_first_of("kMmoO"), number.size());
   std::string unit = number.substr(letters);
-  if (unit.empty() && at + 1 < words.size() && unit_of_word(words[at + 1]) &&
-      unit_of_word(words[at + 1])->dimension == Dimension::impedance) {
-    unit = words[++at];
+  if (unit.empty()) {
+    const bool is_next = at + 1 < words.size() && resistance_scale(words[at + 1]);
+    unit = is_next ? words[++at] : "ohm";
   }
-  const auto known = unit.empty() ? Unit{Dimension::impedance, 1.0} : unit_of_word(unit);
-  if (!known || known->dimension != Dimension::impedance ||
-      !parse_number(number.substr(0, letters), true, options.reference_ohm)) {
+  const auto scale = resistance_scale(unit);
+  if (!scale || !parse_number(number.substr(0, letters), true, options.reference_ohm)) {
     return false;
   }
-  options.reference_ohm *= known->scale;
+  options.reference_ohm *= *scale;
   return true;
 }
 
 /// The options of a line `# ...`; nothing where it is none.
 std::optional<Options> options_of(std::string_view line) {
-  const std::size_t mark = line.find_first_not_of(" \t");
-  if (mark == std::string_view::npos || line[mark] != '#') {
+  line = trimmed(line);
+  if (line.substr(0, 1) != "#") {
     return std::nullopt;
   }
   Options options;
-  const std::vector<std::string> words = words_of(line.substr(mark + 1));
+  const std::vector<std::string> words = words_of(line.substr(1));
   for (std::size_t i = 0; i < words.size(); ++i) {
     const std::string word = lower_case(words[i]);
     const auto unit = unit_of_word(word);
     if (unit && unit->dimension == Dimension::frequency) {
       options.frequency_scale = unit->scale;
-    } else if (word.size() == 1 && std::string_view("syzgh").find(word) != std::string_view::npos) {
+    } else if (is_among(word, " s y z g h ")) {
       options.parameter = word.front();
-    } else if (word == "ri" || word == "ma" || word == "db") {
+    } else if (is_among(word, " ri ma db ")) {
       options.format = word;
     } else if (word.front() != 'r' || !take_resistance(words, i, options)) {
       return std::nullopt;
@@ -89,8 +90,9 @@ class TouchstoneReader {
  public:
   explicit TouchstoneReader(const scene_file::Source& source) : source_(source) {
     for (const Line& line : lines_of(source)) {
-      if (!ended_) {
-        take(line);
+      const std::string_view text = line.text.substr(0, line.text.find('!'));
+      if (!ended_ && !trimmed(text).empty()) {
+        take({text, line.number});
       }
     }
     if (count_ && *count_ != rows_.size()) {
@@ -110,16 +112,7 @@ class TouchstoneReader {
     ColumnName frequency;
     frequency.scale = options_.frequency_scale;
     sweep.frequency_Hz = frequencies_Hz(table, {frequency, 0});
-    const std::vector<double> first = table.numbers(1);
-    const std::vector<double> second = table.numbers(2);
-    for (std::size_t row = 0; row < table.rows(); ++row) {
-      const Complex admittance_S = admittance_of(value_of(first[row], second[row]));
-      if (!std::isfinite(std::abs(admittance_S)) || std::abs(admittance_S) == 0.0) {
-        throw table.error(row, 1,
-                          "has an admittance of 0 or without end; allowed: one of a capacitance");
-      }
-      sweep.admittance_S.push_back(admittance_S);
-    }
+    sweep.admittance_S = admittances_S(table, table, columns(), sweep.warnings);
     if (!has_options_) {
       sweep.warnings.emplace_back(
           "The file has no option line; it is taken for frequencies in GHz and S11 as magnitude "
@@ -133,10 +126,7 @@ class TouchstoneReader {
 
  private:
   void take(const Line& line) {
-    const std::string_view text = trimmed(line.text.substr(0, line.text.find('!')));
-    if (text.empty()) {
-      return;
-    }
+    const std::string_view text = trimmed(line.text);
     if (text.front() == '[') {
       take_keyword(line, text);
     } else if (in_information_) {
@@ -146,15 +136,15 @@ class TouchstoneReader {
     } else if (expects_reference_) {
       take_reference(line, text);
     } else {
-      rows_.push_back({line.text.substr(0, line.text.find('!')), line.number});
+      rows_.push_back(line);
     }
   }
 
   void take_options(const Line& line) {
-    const auto options = options_of(line.text);
     if (has_options_) {
       return;  // Further option lines do not count.
     }
+    const auto options = options_of(line.text);
     if (!options) {
       throw error(line,
                   "is no option line; allowed: # [Hz|kHz|MHz|GHz] [S|Y|Z] [RI|MA|DB] [R ohm]");
@@ -172,9 +162,9 @@ class TouchstoneReader {
     const std::string keyword = lower_case(text.substr(1, close - 1));
     const std::string_view value = trimmed(text.substr(close + 1));
     double number = 0.0;
-    const bool has_number = parse_number(value, false, number);
+    number = parse_number(value, false, number) ? number : 0.0;
     if (keyword == "version") {
-      if (!has_number || number < 2.0 || number >= 3.0) {
+      if (number < 2.0 || number >= 3.0) {
         throw error(line, "is no version that is known; allowed: 2.0, or none for version 1");
       }
       is_version_2_ = true;
@@ -183,7 +173,7 @@ class TouchstoneReader {
         throw error(line, fmt::format("has {} ports; allowed: 1", value));
       }
     } else if (keyword == "number of frequencies") {
-      if (!has_number || number < 1.0) {
+      if (number < 1.0) {
         throw error(line, "is no number of frequencies; allowed: from 1");
       }
       count_ = static_cast<std::size_t>(number);
@@ -208,50 +198,50 @@ class TouchstoneReader {
     if (!parse_number(text, false, options_.reference_ohm) || options_.reference_ohm <= 0.0) {
       throw error(line, fmt::format("\"{}\" is no reference of one port; allowed: a resistance "
                                     "above 0",
-                                    text.substr(0, 40)));
+                                    shortened(text)));
     }
   }
 
   /// The one that parts the first row into three.
   char separator() const {
-    if (!rows_.empty()) {
-      for (const char each : {' ', ';', ','}) {
-        const std::vector<Cell> cells = cells_of(rows_.front().text, each);
-        const bool ends_with_comma = std::any_of(cells.begin(), cells.end(), [](const Cell& cell) {
-          return !cell.text.empty() && (cell.text.back() == ',' || cell.text.back() == ';');
-        });
-        if (cells.size() == 3 && !ends_with_comma) {
-          return each;
-        }
+    for (const char each : {' ', ';', ','}) {
+      const std::vector<Cell> cells =
+          rows_.empty() ? std::vector<Cell>() : cells_of(rows_.front().text, each);
+      if (cells.size() == 3 && std::none_of(cells.begin(), cells.end(), [](const Cell& cell) {
+            return cell.text.find_last_of(",;") + 1 == cell.text.size() && !cell.text.empty();
+          })) {
+        return each;
       }
     }
     return ' ';
   }
 
-  Complex value_of(double first, double second) const {
-    if (options_.format == "ri") {
-      return {first, second};
-    }
-    const double magnitude = options_.format == "db" ? std::pow(10.0, first / 20.0) : first;
-    return magnitude * std::polar(1.0, second * unit_of_word("deg")->scale);
-  }
-
-  Complex admittance_of(Complex value) const {
+  /// Version 1 normalises Y and Z to the reference.
+  SweepColumns columns() const {
     const double reference_ohm = is_version_2_ ? 1.0 : options_.reference_ohm;
-    if (options_.parameter == 'y') {
-      return value / reference_ohm;
+    ColumnName first;
+    first.subject = options_.parameter == 's'   ? Subject::reflection
+                    : options_.parameter == 'y' ? Subject::admittance
+                                                : Subject::impedance;
+    first.scale = options_.parameter == 's'   ? 1.0
+                  : options_.parameter == 'y' ? 1.0 / reference_ohm
+                                              : reference_ohm;
+    first.has_unit = true;
+    first.decibel = options_.format == "db";
+    ColumnName second = first;
+    const bool rectangular = options_.format == "ri";
+    first.role = rectangular ? Role::real : Role::magnitude;
+    second.role = rectangular ? Role::imaginary : Role::phase;
+    if (!rectangular) {
+      second.scale = unit_of_word("deg")->scale;
+      second.decibel = false;
     }
-    if (options_.parameter == 'z') {
-      return 1.0 / (value * reference_ohm);
-    }
-    return (1.0 - value) / ((1.0 + value) * options_.reference_ohm);
+    return {{first, 1}, SweepColumn{second, 2}, options_.reference_ohm};
   }
 
   SceneError error(const Line& line, const std::string& message) const {
-    const std::size_t first = line.text.find_first_not_of(" \t");
-    return {{source_.file, line.number, first == std::string_view::npos ? 1 : first + 1},
-            "touchstone",
-            message};
+    const std::size_t first = std::min(line.text.find_first_not_of(" \t"), line.text.size());
+    return {{source_.file, line.number, first + 1}, "touchstone", message};
   }
 
   const scene_file::Source& source_;
@@ -269,22 +259,18 @@ class TouchstoneReader {
 }  // namespace
 
 bool is_touchstone(const scene_file::Source& source) {
-  constexpr std::string_view ending = ".s1p";
   const std::string file = lower_case(source.file);
-  if (file.size() > ending.size() && file.substr(file.size() - ending.size()) == ending) {
+  if (file.size() > 4 && file.substr(file.size() - 4) == ".s1p") {
     return true;
   }
   const std::string_view text = source.text;
   for (std::size_t at = text.find_first_of("#["); at != std::string_view::npos;
        at = text.find_first_of("#[", at + 1)) {
     const bool begins_line = at == 0 || text[at - 1] == '\n' || text[at - 1] == '\r';
-    if (!begins_line) {
-      continue;
-    }
     const std::string_view line = text.substr(at, text.find_first_of("\r\n", at) - at);
     // A bare # begins an empty comment of a table.
-    const bool has_words = line.find_first_not_of("# \t") != std::string_view::npos;
-    if (lower_case(line.substr(0, 9)) == "[version]" || (has_words && options_of(line))) {
+    const bool has_words = begins_line && line.find_first_not_of("# \t") != std::string_view::npos;
+    if (has_words && (lower_case(line.substr(0, 9)) == "[version]" || options_of(line))) {
       return true;
     }
   }

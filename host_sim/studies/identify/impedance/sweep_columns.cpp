@@ -12,6 +12,8 @@
 namespace sonoglide::identify::impedance {
 namespace {
 
+using Complex = std::complex<double>;
+
 constexpr const char* what_is_read =
     "magnitude and phase, real and imaginary part, or a magnitude alone, as "
     "impedance_magnitude_ohm,impedance_phase_deg; S11 is read from Touchstone files, .s1p";
@@ -193,32 +195,9 @@ std::string sentence_of_assumed_subject(const MeasuredTable& table, const SweepC
                    table.names()[form.first.index]);
 }
 
-}  // namespace
-
-std::string SweepColumns::description() const {
-  const std::string subject = subject_in_words(first.name.subject);
-  return !second         ? "the magnitude of " + subject
-         : rectangular() ? "real and imaginary part of " + subject
-                         : "magnitude and phase of " + subject;
-}
-
-std::complex<double> SweepColumns::admittance_S(double first_cell, double second_cell) const {
-  const bool is_admittance = first.name.subject == Subject::admittance;
-  const double value = first.name.value(first_cell);
-  if (rectangular()) {
-    const std::complex<double> given(value, second->name.value(second_cell));
-    return is_admittance ? given : 1.0 / given;
-  }
-  const double magnitude_S = is_admittance ? value : 1.0 / value;
-  const Subject of_phase = !second                                    ? Subject::unknown
-                           : second->name.subject == Subject::unknown ? first.name.subject
-                                                                      : second->name.subject;
-  const double angle = second ? second->name.value(second_cell) : 0.0;
-  return std::polar(std::abs(magnitude_S), of_phase == Subject::admittance ? angle : -angle);
-}
-
-std::string SweepColumns::complete_unit(const std::vector<double>& phases) {
-  if (!second || rectangular() || second->name.has_unit) {
+/// Gives a phase without a unit one. @return a sentence that says so; empty where it has a unit
+std::string complete_unit(SweepColumn& phase, const std::vector<double>& phases) {
+  if (phase.name.has_unit) {
     return {};
   }
   double most = 0.0;
@@ -227,11 +206,40 @@ std::string SweepColumns::complete_unit(const std::vector<double>& phases) {
   }
   constexpr double most_in_radians = 3.2;
   const bool radians = most <= most_in_radians;
-  second->name.scale *= radians ? 1.0 : two_pi / 360.0;
-  second->name.has_unit = true;
+  phase.name.scale *= radians ? 1.0 : two_pi / 360.0;
   return fmt::format(
       "The phase has no unit in its name; as its largest value is {:.4g} it is taken for {}.", most,
       radians ? "radians" : "degrees");
+}
+
+/// Of a magnitude alone its magnitude. Not finite or 0: it is none.
+Complex admittance_S(const SweepColumns& columns, double first_cell, double second_cell) {
+  const Subject subject = columns.first.name.subject;
+  const double value = columns.first.name.value(first_cell);
+  const double second = columns.second ? columns.second->name.value(second_cell) : 0.0;
+  if (subject == Subject::reflection) {
+    const Complex reflection =
+        columns.rectangular() ? Complex(value, second) : value * std::polar(1.0, second);
+    return (1.0 - reflection) / ((1.0 + reflection) * columns.reference_ohm);
+  }
+  const bool is_admittance = subject == Subject::admittance;
+  if (columns.rectangular()) {
+    const Complex given(value, second);
+    return is_admittance ? given : 1.0 / given;
+  }
+  const Subject named = columns.second ? columns.second->name.subject : Subject::unknown;
+  const Subject of_phase = named == Subject::unknown ? subject : named;
+  return std::polar(std::abs(is_admittance ? value : 1.0 / value),
+                    of_phase == Subject::admittance ? second : -second);
+}
+
+}  // namespace
+
+std::string SweepColumns::description() const {
+  const std::string subject = subject_in_words(first.name.subject);
+  return !second         ? "the magnitude of " + subject
+         : rectangular() ? "real and imaginary part of " + subject
+                         : "magnitude and phase of " + subject;
 }
 
 bool are_names_of_a_sweep(const std::vector<std::string>& names) {
@@ -261,6 +269,43 @@ FoundColumns find_columns(const MeasuredTable& table) {
     }
   }
   return found;
+}
+
+std::vector<double> frequencies_Hz(const MeasuredTable& table, const SweepColumn& column) {
+  std::vector<double> result = table.numbers(column.index);
+  for (std::size_t row = 0; row < result.size(); ++row) {
+    result[row] = column.name.value(result[row]);
+    if (!(result[row] > 0.0) || !std::isfinite(result[row])) {
+      throw table.error(row, column.index, "is no frequency; allowed: above 0");
+    }
+  }
+  return result;
+}
+
+std::vector<Complex> admittances_S(const MeasuredTable& table, const MeasuredTable& second_table,
+                                   SweepColumns columns, std::vector<std::string>& warnings) {
+  const std::vector<double> first = table.numbers(columns.first.index);
+  const std::vector<double> second = columns.second ? second_table.numbers(columns.second->index)
+                                                    : std::vector<double>(first.size());
+  const bool is_magnitude =
+      !columns.rectangular() && columns.first.name.subject != Subject::reflection;
+  if (columns.second && !columns.rectangular()) {
+    if (const std::string assumed = complete_unit(*columns.second, second); !assumed.empty()) {
+      warnings.push_back(assumed);
+    }
+  }
+  std::vector<Complex> result(table.rows());
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    if (is_magnitude && !(columns.first.name.value(first[row]) > 0.0)) {
+      throw table.error(row, columns.first.index, "is no magnitude; allowed: above 0");
+    }
+    result[row] = admittance_S(columns, first[row], second[row]);
+    if (!std::isfinite(std::abs(result[row])) || std::abs(result[row]) == 0.0) {
+      throw table.error(row, columns.first.index,
+                        "has an admittance of 0 or without end; allowed: one of a capacitance");
+    }
+  }
+  return result;
 }
 
 }  // namespace sonoglide::identify::impedance

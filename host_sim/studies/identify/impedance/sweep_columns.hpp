@@ -21,15 +21,11 @@ struct SweepColumn {
 struct SweepColumns {
   SweepColumn first;
   std::optional<SweepColumn> second;
+  double reference_ohm = 1.0;  ///< of a reflection
 
   bool rectangular() const { return first.name.role == Role::real; }
   /// As in "magnitude and phase of an impedance".
   std::string description() const;
-  /// The admittance of a row; of a magnitude alone its magnitude. Not finite or 0: it is none.
-  std::complex<double> admittance_S(double first_cell, double second_cell) const;
-  /// Gives a phase without a unit one: radians where no value is beyond ±3.2, else degrees.
-  /// @return a sentence that says so; empty where the phase has a unit
-  std::string complete_unit(const std::vector<double>& phases);
 };
 
 struct FoundColumns {
@@ -47,5 +43,17 @@ bool are_names_of_a_sweep(const std::vector<std::string>& names);
 ///         not understood whole, or two columns are the same, and no pair stands beside them; or a
 ///         magnitude has a phase beside it that cannot be read
 FoundColumns find_columns(const MeasuredTable& table);
+
+/// @throws scene_file::SceneError  a frequency is not above 0
+std::vector<double> frequencies_Hz(const MeasuredTable& table, const SweepColumn& column);
+
+/// Of a form with phase the admittances, of one without their magnitudes. A phase without a unit is
+/// in radians where none is beyond ±3.2, else in degrees; a warning says so.
+/// @param second_table  that of the second column, of as many rows
+/// @throws scene_file::SceneError  a magnitude is not above 0, or an admittance 0 or without end
+std::vector<std::complex<double>> admittances_S(const MeasuredTable& table,
+                                                const MeasuredTable& second_table,
+                                                SweepColumns columns,
+                                                std::vector<std::string>& warnings);
 
 }  // namespace sonoglide::identify::impedance

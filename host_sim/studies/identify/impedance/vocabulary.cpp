@@ -1,6 +1,7 @@
 #include "host_sim/studies/identify/impedance/vocabulary.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <utility>
 #include <vector>
@@ -32,41 +33,28 @@ constexpr Words vocabulary[] = {
     {{Role::imaginary, Subject::admittance}, " b bp susceptance "}};
 
 /// Words of other scripts, and what they are in the vocabulary.
-constexpr std::pair<std::string_view, std::string_view> translations[] = {{"频率", " frequency "},
-                                                                          {"頻率", " frequency "},
-                                                                          {"周波数", " frequency "},
-                                                                          {"阻抗", " impedance "},
-                                                                          {"导纳", " admittance "},
-                                                                          {"導納", " admittance "},
-                                                                          {"相位角", " phase "},
-                                                                          {"相位", " phase "},
-                                                                          {"相角", " phase "},
-                                                                          {"位相", " phase "},
-                                                                          {"电阻", " resistance "},
-                                                                          {"電阻", " resistance "},
-                                                                          {"电抗", " reactance "},
-                                                                          {"電抗", " reactance "},
-                                                                          {"电导", " conductance "},
-                                                                          {"電導", " conductance "},
-                                                                          {"电纳", " susceptance "},
-                                                                          {"電納", " susceptance "},
-                                                                          {"幅值", " magnitude "},
-                                                                          {"模值", " magnitude "},
-                                                                          {"欧姆", " Ohm "},
-                                                                          {"歐姆", " Ohm "},
-                                                                          {"赫兹", " Hz "},
-                                                                          {"度", " deg "},
-                                                                          {"é", "e"}};
+/// Words of other scripts, behind what they are in the vocabulary.
+constexpr std::array<std::string_view, 4> translations[] = {
+    {" frequency ", "频率", "頻率", "周波数"},
+    {" impedance ", "阻抗"},
+    {" admittance ", "导纳", "導納"},
+    {" phase ", "相位角", "相角", "位相"},
+    {" phase ", "相位"},
+    {" resistance ", "电阻", "電阻"},
+    {" reactance ", "电抗", "電抗"},
+    {" conductance ", "电导", "電導"},
+    {" susceptance ", "电纳", "電納"},
+    {" magnitude ", "幅值", "模值"},
+    {" Ohm ", "欧姆", "歐姆"},
+    {" Hz ", "赫兹"},
+    {" deg ", "度"},
+    {"e", "é"}};
 
 constexpr std::string_view fillers =
     " trace data meas measured value values the of in for part component series ";
 constexpr std::string_view ratios =
     " gain transmission reflection gamma loss vswr swr attenuation ";
 constexpr std::string_view elements = " cp cs lp ls rp q d ";
-
-bool is_among(std::string_view word, std::string_view words) {
-  return words.find(' ' + std::string(word) + ' ') != std::string_view::npos;
-}
 
 const Meaning* find_word(std::string_view word) {
   const auto* const found =
@@ -107,13 +95,6 @@ std::vector<std::string> words_of(const std::string& plain) {
 }
 
 }  // namespace
-
-std::string lower_case(std::string_view text) {
-  std::string small(text);
-  std::transform(small.begin(), small.end(), small.begin(),
-                 [](unsigned char each) { return static_cast<char>(std::tolower(each)); });
-  return small;
-}
 
 std::optional<Meaning> meaning_of(std::string_view any_case) {
   const std::string word = lower_case(any_case);
@@ -158,10 +139,12 @@ bool is_of_other_quantity(std::string_view name) {
 
 std::string translated(std::string_view text) {
   std::string english(text);
-  for (const auto& [word, translation] : translations) {
-    for (std::size_t at = english.find(word); at != std::string::npos;
-         at = english.find(word, at + translation.size())) {
-      english.replace(at, word.size(), translation);
+  for (const auto& each : translations) {
+    for (std::size_t i = 1; i < each.size() && !each[i].empty(); ++i) {
+      for (std::size_t at = english.find(each[i]); at != std::string::npos;
+           at = english.find(each[i], at + each[0].size())) {
+        english.replace(at, each[i].size(), each[0]);
+      }
     }
   }
   return english;

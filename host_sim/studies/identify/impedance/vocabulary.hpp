@@ -8,7 +8,8 @@
 namespace sonoglide::identify::impedance {
 
 enum class Role { none, frequency, magnitude, phase, real, imaginary };
-enum class Subject { unknown, impedance, admittance };
+/// A reflection is that of a Touchstone file.
+enum class Subject { unknown, impedance, admittance, reflection };
 
 struct Meaning {
   Role role;
@@ -32,8 +33,6 @@ bool is_of_ratio(std::string_view name);
 
 /// Whether a name is of such a ratio or of an element of an equivalent circuit.
 bool is_of_other_quantity(std::string_view name);
-
-std::string lower_case(std::string_view text);
 
 /// With English for the words of other scripts: 频率, 阻抗, 相位 …
 std::string translated(std::string_view text);
