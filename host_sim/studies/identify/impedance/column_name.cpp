@@ -139,7 +139,11 @@ class Reader {
     inside.erase(0, minus ? 1 : 0);
     const auto unit = unit_of_text(inside);
     const bool is_word = meaning_of(inside) && lower_case(inside) == inside;
-    const bool words = inside.find_first_not_of(std::string(alphabet) + " |'") == std::string::npos;
+    const bool begins_with_digit =
+        !inside.empty() && std::isdigit(static_cast<unsigned char>(inside[0])) != 0;
+    const bool words =
+        !begins_with_digit &&
+        inside.find_first_not_of(std::string(alphabet) + "0123456789 |'") == std::string::npos;
     if (unit && (unit->dimension != Dimension::other || !is_word)) {
       negative_ = negative_ != minus;
       take_unit(*unit, inside);

@@ -8,7 +8,7 @@ namespace sonoglide::identify::impedance {
 
 /// Reads, by what the text looks like:
 /// - the text export of an Agilent 4294A: blocks `"TRACE: A"` and `"TRACE: B"`;
-/// - Touchstone, version 1, one port (option line `#`): S, Y or Z as RI, MA or DB;
+/// - Touchstone, versions 1 and 2, one port (option line `#`): S, Y or Z as RI, MA or DB;
 /// - a table with named columns (see MeasuredTable): a frequency, and magnitude and phase, real and
 ///   imaginary part, or the magnitude alone, of an impedance or an admittance.
 /// Rows may come in any order. Of a frequency that is there several times the mean admittance is

@@ -105,6 +105,14 @@ class Columns {
       }
       return {found.front(), std::nullopt};
     }
+    for (const SweepColumn& each : columns_) {
+      if (each.name.role == Role::real || each.name.role == Role::imaginary) {
+        throw error(each,
+                    fmt::format("is half of a pair, and does not tell the capacitances alone; "
+                                "allowed: {}",
+                                what_is_read));
+      }
+    }
     throw table_.heading_error(
         fmt::format("no columns of an impedance or admittance among {}; allowed: {}",
                     listed(table_.names()), what_is_read));

@@ -33,7 +33,7 @@ constexpr Words vocabulary[] = {
     {{Role::imaginary, Subject::admittance}, " b bp susceptance "}};
 
 /// Words of other scripts, and what they are in the vocabulary.
-/// Words of other scripts, behind what they are in the vocabulary.
+/// Words of other scripts, and names as programs write them, behind what they are in the vocabulary.
 constexpr std::array<std::string_view, 4> translations[] = {
     {" frequency ", "频率", "頻率", "周波数"},
     {" impedance ", "阻抗"},
@@ -44,9 +44,12 @@ constexpr std::array<std::string_view, 4> translations[] = {
     {" reactance ", "电抗", "電抗"},
     {" conductance ", "电导", "電導"},
     {" susceptance ", "电纳", "電納"},
-    {" magnitude ", "幅值", "模值"},
+    {" magnitude ", "幅值", "模值", "模"},
     {" Ohm ", "欧姆", "歐姆"},
     {" Hz ", "赫兹"},
+    {"", "Trace 1:", "Trace 2:"},  // of a Bode 100
+    {"Z'", "Z'(a)"},               // of ZPlot
+    {"Z''", "Z''(b)"},
     {" deg ", "度"},
     {"e", "é"}};
 

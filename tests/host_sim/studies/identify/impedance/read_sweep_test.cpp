@@ -312,6 +312,41 @@ TEST(ReadSweep, NoPhaseIsDropped) {
             "m.csv:1:20: heading: \"Phase (deg)\" may be the phase of another co");
 }
 
+/// As instruments and programs write them; {0} is the frequency, {1} and {2} R and X, {3} and {4} the
+/// magnitude and the phase in degrees, {5} and {6} G and B.
+TEST(ReadSweep, KnowsTheHeadingsOfInstruments) {
+  const std::pair<const char*, const char*> files[] = {
+      {"Index;Frequency (Hz);Z' (\u03a9);-Z'' (\u03a9);Z (\u03a9);-Phase (\u00b0);Time (s)\n",
+       "1;{0:.12g};{1:.12g};{7:.12g};{3:.12g};{8:.12g};2.5\n"},
+      {"freq / Hz,neg. Phase / \u00b0,Idc / uA,Z / Ohm,Z' / Ohm,-Z'' / Ohm,Cs / F\n",
+       "{0:.12g},{8:.12g},0,{3:.12g},{1:.12g},{7:.12g},1e-9\n"},
+      {"\"NO.\",\"FREQ[Hz]\",\"Z       [ohm]\",\"PHASE   [deg]\"\n",
+       "1,{0:.12g},{3:.12g},{4:.12g}\n"},
+      {"  Freq(Hz)\tAmpl\tBias\tTime(Sec)\tZ'(a)\tZ''(b)\tGD\tErr\tRange\nEnd Comments\n",
+       "{0:.12g}\t1e-2\t0\t2.6\t{1:.12g}\t{2:.12g}\t0\t0\t3\n"},
+      {"Frequency (Hz);Trace 1: Impedance: Magnitude (\u03a9);Trace 2: Impedance: Phase (\u00b0)\n",
+       "{0:.12g};{3:.12g};{4:.12g}\n"},
+      {"\tPt\tTime\tFreq\tZreal\tZimag\tZsig\tZmod\tZphz\n\t#\ts\tHz\tohm\tohm\tV\tohm\t\u00b0\n",
+       "\t0\t1\t{0:.12g}\t{1:.12g}\t{2:.12g}\t1\t{3:.12g}\t{4:.12g}\n"},
+      {"freq/Hz\tRe(Z)/Ohm\t-Im(Z)/Ohm\t<I>/mA\tCs/\xb5"
+       "F\n",
+       "{0:.12g}\t{1:.12g}\t{7:.12g}\t1\t2\n"},
+      {"Freq/Hz, Z'/ohm, Z\"/ohm, Z/ohm, Phase/deg\n",
+       "{0:.12g}, {1:.12g}, {2:.12g}, {3:.12g}, {4:.12g}\n"},
+      {"\"Freq, Hz\" \"G, S\" \"B, S\"\n", "{0:.12g} {5:.12g} {6:.12g}\n"},
+      {"Freq [Hz];Re(Y11) [S];Im(Y11) [S]\n", "{0:.12g};{5:.12g};{6:.12g}\n"},
+      {"\u9891\u7387(Hz),\u7535\u5bfc(S),\u7535\u7eb3(S)\n", "{0:.12g},{5:.12g},{6:.12g}\n"}};
+  for (const auto& [heading, row] : files) {
+    const std::string text = file_of(heading, [&, format = row](double f, Complex z) {
+      return fmt::format(fmt::runtime(format), f, z.real(), z.imag(), std::abs(z),
+                         std::arg(z) * degrees, (1.0 / z).real(), (1.0 / z).imag(), -z.imag(),
+                         -std::arg(z) * degrees);
+    });
+    expect_piece(text);
+    EXPECT_TRUE(read_sweep({"m.csv", text}).has_phase) << heading;
+  }
+}
+
 /// Columns beside a complete pair are no reason to refuse it, and are named where they are of a sweep.
 TEST(ReadSweep, SurplusColumnsBesideAPairAreNotRead) {
   const auto rows = [](const std::string& heading, const char* format) {
@@ -372,8 +407,12 @@ TEST(ReadSweep, KnowsTheMinusAndTheSpacesOfUnicode) {
 
 /// Half of a pair tells no impedance, and a unit alone not which half it is.
 TEST(ReadSweep, RefusesHalfOfAPair) {
-  EXPECT_NE(error_of("f_kHz,G_S\n1,2\n").find("m.csv:1:1: heading: no columns of an impedance"),
-            std::string::npos);
+  EXPECT_EQ(
+      error_of("f_kHz,G_S\n1,2\n").substr(0, 96),
+      "m.csv:1:7: heading: \"G_S\" is half of a pair, and does not tell the capacitances alone; "
+      "allowed: ");
+  EXPECT_EQ(error_of("f (kHz);B (mS)\n1;2\n").substr(0, 43),
+            "m.csv:1:9: heading: \"B (mS)\" is half of a p");
   EXPECT_EQ(error_of("kHz;S\n1;2\n").substr(0, 62),
             "m.csv:1:5: heading: \"S\" is a unit and no name; allowed: magnit");
 }
@@ -386,6 +425,12 @@ TEST(ReadSweep, RefusesMoreCellsAndLinesThanATableHas) {
             std::string::npos);
   const std::string long_name(1U << 20U, 'x');
   EXPECT_LT(error_of("f," + long_name + "\n1,2\n").size(), 1000U);
+  // Each line may be the heading, or the units of that above it.
+  std::string headings;
+  for (int i = 0; i < 100'000; ++i) {
+    headings += i % 2 == 0 ? "f (Hz),|Z| (kOhm)\n" : "# f,Hz,Ohm\n";
+  }
+  EXPECT_NE(error_of(headings).find("no row of numbers below the heading"), std::string::npos);
   std::string lines;
   for (int i = 0; i <= 1'000'000; ++i) {
     lines += "a\n";
