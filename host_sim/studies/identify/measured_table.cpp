@@ -20,6 +20,15 @@ char decimal_mark(std::string_view cell) {
   return at == std::string_view::npos || !is_numeric(cell, true) ? '\0' : cell[at];
 }
 
+/// As `28,000`: 28 with a decimal comma, and a thousand times as much without one.
+bool may_have_thousands(std::string_view cell) {
+  constexpr std::size_t group = 3;
+  const std::size_t first = cell.find_first_of("0123456789");
+  const std::size_t comma = cell.find(',');
+  return comma - first <= group && cell.size() == comma + 1 + group && cell[first] != '0' &&
+         cell.find_first_not_of("0123456789", comma + 1) == std::string_view::npos;
+}
+
 }  // namespace
 
 std::string unit_in_brackets(const std::string& name) {
@@ -48,7 +57,7 @@ MeasuredTable::MeasuredTable(const scene_file::Source& source, Heading heading,
   check();
 }
 
-void MeasuredTable::check() const {
+void MeasuredTable::check() {
   if (rows_.empty()) {
     throw heading_error("no row of numbers below the heading; allowed: at least one");
   }
@@ -74,28 +83,38 @@ void MeasuredTable::require_no_surplus() const {
   }
 }
 
-void MeasuredTable::require_one_decimal_mark() const {
+void MeasuredTable::require_one_decimal_mark() {
   if (heading_.separator == ',') {
     return;
   }
-  char mark = '\0';
-  std::size_t line_of_mark = 0;
+  std::string_view first;
+  std::size_t line_of_first = 0;
+  bool may_be_thousands = true;
   for (const Line& row : rows_) {
     for (const Cell& each : cells_of(row.text, heading_.separator)) {
       const char found = decimal_mark(each.text);
-      if (found != '\0' && mark != '\0' && found != mark) {
+      if (found == '\0') {
+        continue;
+      }
+      if (first.empty()) {
+        first = each.text;
+        line_of_first = row.number;
+      } else if (const char mark = decimal_mark(first); found != mark) {
         throw SceneError(
             {source_.file, row.number, each.column}, "row",
             fmt::format("\"{}\" has a decimal {}, and line {} has decimal {}; allowed: "
                         "one of them in a file, and nothing between thousands",
-                        shortened(each.text), found == ',' ? "comma" : "point", line_of_mark,
+                        shortened(each.text), found == ',' ? "comma" : "point", line_of_first,
                         mark == ',' ? "commas" : "points"));
       }
-      if (found != '\0' && mark == '\0') {
-        mark = found;
-        line_of_mark = row.number;
-      }
+      may_be_thousands = may_be_thousands && found == ',' && may_have_thousands(each.text);
     }
+  }
+  if (!first.empty() && may_be_thousands) {
+    warnings_.push_back(fmt::format(
+        "The commas of numbers as \"{}\" on line {} are taken for decimal commas; where they "
+        "stand between thousands, take them out.",
+        shortened(first), line_of_first));
   }
 }
 

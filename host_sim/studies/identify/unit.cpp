@@ -25,7 +25,7 @@ constexpr Names units[] = {
     {Dimension::admittance, 1.0, "S s siemens mho mhos"},
     {Dimension::angle, radians_a_degree, "deg degs degree degrees"},
     {Dimension::angle, 1.0, "rad radian radians"},
-    {Dimension::level, 1.0, "db decibel decibels"},
+    {Dimension::level, 1.0, "db dbohm decibel decibels"},
     {Dimension::other, 1.0, "V A W F H C K N m g % va pa volt volts vpp vrms bar dbm min sec"}};
 
 struct Prefix {

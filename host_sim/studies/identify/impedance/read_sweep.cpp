@@ -54,6 +54,14 @@ Sweep read_table(const scene_file::Source& source) {
   sweep.warnings = found.warnings;
   sweep.warnings.insert(sweep.warnings.end(), table.warnings().begin(), table.warnings().end());
   sweep.frequency_Hz = frequencies_Hz(table, found.frequency);
+  constexpr double lowest_of_ultrasound_Hz = 1000.0;
+  if (!found.frequency.name.has_unit &&
+      *std::max_element(sweep.frequency_Hz.begin(), sweep.frequency_Hz.end()) <
+          lowest_of_ultrasound_Hz) {
+    sweep.warnings.push_back(
+        fmt::format("\"{}\" has no unit in its name: it is taken for a frequency in Hz.",
+                    shortened(table.names()[found.frequency.index])));
+  }
   sweep.admittance_S = admittances_S(table, table, found.forms.front(), sweep.warnings);
   for (std::size_t i = 1; i < found.forms.size(); ++i) {
     require_agreement(table, found.forms[i], sweep);

@@ -78,9 +78,11 @@ TEST(ReadSweep, KnowsColumnsByTheirNames) {
     const Complex y = 1.0 / z;
     return fmt::format("{:.12g},{:.12g},{:.12g}\n", f, 1e3 * y.real(), 1e6 * y.imag());
   }));
-  expect_piece(file_of("f (Hz),|Z| (dB)\n", [](double f, Complex z) {
-    return fmt::format("{:.12g},{:.12g}\n", f, 20.0 * std::log10(std::abs(z)));
-  }));
+  for (const char* heading : {"f (Hz),|Z| (dB)\n", "f (Hz),|Z| [dB\u03a9]\n"}) {
+    expect_piece(file_of(heading, [](double f, Complex z) {
+      return fmt::format("{:.12g},{:.12g}\n", f, 20.0 * std::log10(std::abs(z)));
+    }));
+  }
   expect_piece(file_of("frequency_Hz,admittance_magnitude_S\n", [](double f, Complex z) {
     return fmt::format("{:.12g},{:.12g}\n", f, 1.0 / std::abs(z));
   }));
@@ -457,8 +459,31 @@ TEST(ReadSweep, ColumnsThatSayTheSameAgree) {
       "m.csv:1:13: heading: \"|Z| (ohm)\" and \"|Z| (kohm)\" are the same; allowed: one of them");
 }
 
+/// 28 is 28 kHz more often than 28 Hz, and "28,000" may be 28 thousand.
+TEST(ReadSweep, WarnsOfNumbersThatMayBeAThousandTimesAsMuch) {
+  const auto warnings = [](const char* heading, const char* row) {
+    const std::string text = file_of(heading, [&](double f, Complex z) {
+      const auto whole = static_cast<int>(std::lround(f));
+      return fmt::format(fmt::runtime(row), whole / 1000, whole % 1000, std::abs(z));
+    });
+    return read_sweep({"m.csv", text}).warnings;
+  };
+  const std::vector<std::string> none;
+  const std::vector<std::string> no_unit = {
+      "\"f\" has no unit in its name: it is taken for a frequency in Hz."};
+  const std::vector<std::string> commas = {
+      "The commas of numbers as \"112,000\" on line 2 are taken for decimal commas; where they "
+      "stand "
+      "between thousands, take them out."};
+  EXPECT_EQ(warnings("f,|Z|\n", "{}.{:03},{}\n"), no_unit);
+  EXPECT_EQ(warnings("f,|Z|\n", "{}{:03},{}\n"), none);
+  EXPECT_EQ(warnings("f_kHz,|Z|\n", "{}.{:03},{}\n"), none);
+  EXPECT_EQ(warnings("f_kHz;|Z|\n", "{},{:03};9\n"), commas);
+  EXPECT_EQ(warnings("f_kHz;|Z|\n", "{},{:03};9,5\n"), none);
+}
+
 TEST(ReadSweep, WarnsOfAFileThatMayBeCut) {
-  std::string text = "f,|Z|\n";
+  std::string text = "f_Hz,|Z|\n";
   for (int i = 1; i <= 8; ++i) {
     text += fmt::format("{},{}\n", i, 100 + i);
   }
