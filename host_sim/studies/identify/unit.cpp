@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cctype>
-#include <charconv>
 #include <cmath>
+#include <regex>
 
 #include "host_sim/studies/identify/cell.hpp"
 #include "host_sim/studies/identify/plain_text.hpp"
@@ -92,34 +92,22 @@ std::optional<double> scale_before(std::string_view prefix, std::string_view uni
   return scale_of_symbol(symbol);
 }
 
-std::size_t past_blanks(std::string_view text, std::size_t at) {
-  while (at < text.size() && text[at] == ' ') {
-    ++at;
-  }
-  return at;
-}
-
-std::size_t past_times(std::string_view text, std::size_t at) {
-  const bool times = at < text.size() && (text[at] == '*' || text[at] == 'x' || text[at] == 'X');
-  return times ? past_blanks(text, at + 1) : at;
-}
-
-/// 10 raised by the whole number behind `^` or `**`; the base alone where none stands there.
-std::optional<double> raised(double base, std::string_view text, std::size_t& at) {
-  const std::size_t mark = text.substr(at, 2) == "**" ? 2 : text.substr(at, 1) == "^" ? 1 : 0;
-  if (mark == 0) {
-    return base;
-  }
-  at += mark;
-  at += text.substr(at, 1) == "+" ? 1 : 0;
-  int power = 0;
-  const auto [end, error] = std::from_chars(text.data() + at, text.data() + text.size(), power);
-  constexpr int most = 15;
-  if (base != 10.0 || error != std::errc() || std::abs(power) > most) {
+/// 10^3, 10**3, 1e3, 1000; nothing of what is no whole power of ten.
+std::optional<double> power_of_ten(const std::string& text) {
+  const std::size_t mark = std::min(text.find_first_of("^*"), text.size());
+  const std::size_t power = std::min(text.find_first_not_of("^*", mark), text.size());
+  double factor = 0.0;
+  double exponent = 1.0;
+  if (!parse_number(text.substr(0, mark), false, factor) ||
+      (power < text.size() &&
+       (factor != 10.0 || !parse_number(text.substr(power), false, exponent)))) {
     return std::nullopt;
   }
-  at = static_cast<std::size_t>(end - text.data());
-  return std::pow(10.0, power);
+  const double digits = std::log10(factor) * exponent;
+  constexpr double most = 15.0;
+  return std::abs(digits - std::round(digits)) < 1e-9 && std::abs(digits) <= most
+             ? std::optional(std::pow(10.0, std::round(digits)))
+             : std::nullopt;
 }
 
 }  // namespace
@@ -151,64 +139,36 @@ std::optional<Unit> unit_of_word(std::string_view word) {
   return found;
 }
 
-std::optional<double> power_of_ten(std::string_view text, std::size_t& size) {
-  std::size_t at = past_times(text, 0);
-  double value = 0.0;
-  const auto [end, error] = std::from_chars(text.data() + at, text.data() + text.size(), value);
-  if (error != std::errc() || !(value > 0.0)) {
-    return std::nullopt;
-  }
-  at = static_cast<std::size_t>(end - text.data());
-  const auto factor = raised(value, text, at);
-  if (!factor || std::abs(std::log10(*factor) - std::round(std::log10(*factor))) > 1e-9) {
-    return std::nullopt;
-  }
-  size = past_times(text, past_blanks(text, at));
-  return std::pow(10.0, std::round(std::log10(*factor)));
-}
-
 std::optional<Unit> unit_of_text(std::string_view text) {
+  // A power of ten or 1/, a word, which a blank or a dash may part from its prefix, and ^-1 or a power.
+  static const std::string power =
+      R"((?:[*xX] *)?([0-9.]+(?:[eE][+-]?[0-9]+)?(?:(?:\^|\*\*)[+-]?[0-9]+)?) *)";
+  static const std::regex form("(?:" + power +
+                               R"((?:[*xX] *)?)?(/ *)?([^- ^*0-9/]+)(?:[- ]([A-Za-z]+))?)" +
+                               R"( *(?:(\^?-1)|)" + power + ")?");
+  constexpr std::size_t longest = 60;
+  std::match_results<std::string_view::const_iterator> part;
   text = trimmed(text);
-  double factor = 1.0;
-  std::size_t size = 0;
-  if (const auto before = power_of_ten(text, size)) {
-    factor = *before;
-    text.remove_prefix(size);
-  }
-  const bool inverse = size > 0 && factor == 1.0 && text.substr(0, 1) == "/";
-  if (inverse) {
-    text.remove_prefix(past_blanks(text, 1));
-  }
-  const std::size_t length = std::min(text.find_first_of(" -^*0123456789"), text.size());
-  std::string word(text.substr(0, length));
-  std::string_view rest = text.substr(length);
-  // k Ohm, kilo-ohm
-  if (scale_of_prefix(word) && rest.size() > 1 &&
-      std::isalpha(static_cast<unsigned char>(rest[1]))) {
-    const std::size_t next = std::min(rest.find_first_of(" -^*0123456789", 1), rest.size());
-    word += rest.substr(1, next - 1);
-    rest.remove_prefix(next);
-  }
-  auto unit = unit_of_word(word);
-  if (!unit) {
+  if (text.size() > longest || !std::regex_match(text.begin(), text.end(), part, form) ||
+      (part[4].matched && !scale_of_prefix(part[3].str()))) {
     return std::nullopt;
   }
-  const bool reciprocal = rest == "^-1" || rest == "-1";
-  if (inverse || reciprocal) {
-    if (unit->dimension != Dimension::impedance || inverse == reciprocal) {
+  auto unit = unit_of_word(part[3].str() + part[4].str());
+  const bool inverse = part[2].matched;
+  const bool reciprocal = part[5].matched;
+  if (unit && (inverse || reciprocal)) {
+    const bool is_alone = inverse ? part[1] == "1" && !reciprocal : !part[1].matched;
+    return unit->dimension == Dimension::impedance && is_alone && !part[6].matched
+               ? std::optional(Unit{Dimension::admittance, 1.0 / unit->scale})
+               : std::nullopt;
+  }
+  for (const auto& each : {part[1], part[6]}) {
+    const auto factor = each.matched ? power_of_ten(each.str()) : 1.0;
+    if (!unit || !factor) {
       return std::nullopt;
     }
-    return Unit{Dimension::admittance, 1.0 / unit->scale};
+    unit->scale *= *factor;
   }
-  rest = trimmed(rest);
-  if (!rest.empty()) {
-    const auto behind = power_of_ten(rest, size);
-    if (!behind || size != rest.size()) {
-      return std::nullopt;
-    }
-    factor *= *behind;
-  }
-  unit->scale *= factor;
   return unit;
 }
 

@@ -29,11 +29,6 @@ std::optional<double> scale_of_prefix(std::string_view word);
 /// @param text  in the spelling of plain_text()
 std::optional<Unit> unit_of_text(std::string_view text);
 
-/// A power of ten at the beginning of a text: `10^3`, `10**3`, `1e3`, `1000`, with `*` or `x` before
-/// or behind it.
-/// @param size  the bytes that it takes, blanks behind it among them
-std::optional<double> power_of_ten(std::string_view text, std::size_t& size);
-
 /// What a message calls allowed.
 std::string_view known_units();
 

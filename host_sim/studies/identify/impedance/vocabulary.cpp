@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <regex>
 #include <utility>
 #include <vector>
 
+#include "host_sim/studies/identify/cell.hpp"
 #include "host_sim/studies/identify/plain_text.hpp"
 
 namespace sonoglide::identify::impedance {
@@ -55,46 +57,18 @@ constexpr std::array<std::string_view, 4> translations[] = {
 
 constexpr std::string_view fillers =
     " trace data meas measured value values the of in for part component series ";
-constexpr std::string_view ratios =
-    " gain transmission reflection gamma loss vswr swr attenuation ";
 constexpr std::string_view elements = " cp cs lp ls rp q d ";
+
+/// A word of a name, or S11 and s_21.
+const char* const ratios =
+    "(^|[^a-z0-9])(s_*[0-9]|"
+    "(gain|transmission|reflection|gamma|loss|v?swr|attenuation)([^a-z0-9]|$))";
 
 const Meaning* find_word(std::string_view word) {
   const auto* const found =
       std::find_if(std::begin(vocabulary), std::end(vocabulary),
                    [&](const Words& each) { return is_among(word, each.words); });
   return found == std::end(vocabulary) ? nullptr : &found->meaning;
-}
-
-/// S11, s_21.
-bool is_scattering(const std::string& plain) {
-  for (std::size_t i = 0; i + 1 < plain.size(); ++i) {
-    const bool begins = i == 0 || std::isalnum(static_cast<unsigned char>(plain[i - 1])) == 0;
-    if (begins && (plain[i] == 's' || plain[i] == 'S')) {
-      const std::size_t next = plain.find_first_not_of('_', i + 1);
-      if (next != std::string::npos && std::isdigit(static_cast<unsigned char>(plain[next])) != 0) {
-        return true;
-      }
-    }
-  }
-  return false;
-}
-
-/// The words of a name, in small letters.
-std::vector<std::string> words_of(const std::string& plain) {
-  std::vector<std::string> words;
-  bool inside = false;
-  for (const char each : plain) {
-    const bool letter = std::isalnum(static_cast<unsigned char>(each)) != 0;
-    if (letter && !inside) {
-      words.emplace_back();
-    }
-    if (letter) {
-      words.back() += static_cast<char>(std::tolower(static_cast<unsigned char>(each)));
-    }
-    inside = letter;
-  }
-  return words;
 }
 
 }  // namespace
@@ -128,16 +102,18 @@ bool is_equivalent_element(std::string_view word) {
 }
 
 bool is_of_ratio(std::string_view name) {
-  const std::string plain = plain_text(translated(name));
-  const std::vector<std::string> words = words_of(plain);
-  return is_scattering(plain) || std::any_of(words.begin(), words.end(), [](const auto& each) {
-           return is_among(each, ratios);
-         });
+  static const std::regex form(ratios, std::regex::icase);
+  return std::regex_search(plain_text(translated(name)), form);
 }
 
 bool is_of_other_quantity(std::string_view name) {
-  const std::vector<std::string> words = words_of(plain_text(translated(name)));
-  return is_of_ratio(name) || std::any_of(words.begin(), words.end(), is_equivalent_element);
+  std::string words = lower_case(plain_text(translated(name)));
+  std::replace_if(
+      words.begin(), words.end(), [](unsigned char each) { return std::isalnum(each) == 0; }, ' ');
+  const std::vector<Cell> cells = cells_of(words, ' ');
+  return is_of_ratio(name) || std::any_of(cells.begin(), cells.end(), [](const Cell& each) {
+           return is_equivalent_element(each.text);
+         });
 }
 
 std::string translated(std::string_view text) {
