@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cctype>
+#include <filesystem>
 #include <optional>
+#include <regex>
 
 #include "host_sim/studies/identify/impedance/sweep_columns.hpp"
 #include "host_sim/studies/identify/plain_text.hpp"
@@ -22,56 +24,28 @@ struct Options {
   double reference_ohm = 50.0;
 };
 
-/// The words of a line without its comment; commas between them are blanks.
-std::vector<std::string> words_of(std::string_view line) {
-  const std::string plain = plain_text(line.substr(0, line.find('!')));
-  std::vector<std::string> words;
-  for (const Cell& each : cells_of(plain, ' ')) {
-    const std::size_t last = each.text.find_last_not_of(",;");
-    if (last != std::string_view::npos) {
-      words.emplace_back(each.text.substr(0, last + 1));
-    }
-  }
-  return words;
-}
-
-std::optional<double> resistance_scale(std::string_view unit) {
-  const auto known = unit_of_word(unit);
-  return known && known->dimension == Dimension::impedance ? std::optional(known->scale)
-                                                           : std::nullopt;
-}
-
-/// A resistance as `R 50`, `R50`, `R 50 Ohm`, beginning at the word `at`, which becomes the last one
-/// that it takes.
-bool take_resistance(const std::vector<std::string>& words, std::size_t& at, Options& options) {
-  std::string number = words[at].substr(1);
-  if (number.empty() && at + 1 < words.size()) {
-    number = words[++at];
-  }
-  const std::size_t letters = std::min(number.find_first_of("kMmoO"), number.size());
-  std::string unit = number.substr(letters);
-  if (unit.empty()) {
-    const bool is_next = at + 1 < words.size() && resistance_scale(words[at + 1]);
-    unit = is_next ? words[++at] : "ohm";
-  }
-  const auto scale = resistance_scale(unit);
-  if (!scale || !parse_number(number.substr(0, letters), true, options.reference_ohm)) {
-    return false;
-  }
-  options.reference_ohm *= *scale;
-  return true;
-}
-
-/// The options of a line `# ...`; nothing where it is none.
+/// The options of a line `# ...`; nothing where it is none. Commas between them are blanks.
 std::optional<Options> options_of(std::string_view line) {
-  line = trimmed(line);
-  if (line.substr(0, 1) != "#") {
+  constexpr std::size_t longest = 200;
+  line = trimmed(line.substr(0, line.find('!')));
+  if (line.substr(0, 1) != "#" || line.size() > longest) {
     return std::nullopt;
   }
   Options options;
-  const std::vector<std::string> words = words_of(line.substr(1));
-  for (std::size_t i = 0; i < words.size(); ++i) {
-    const std::string word = lower_case(words[i]);
+  std::string plain = plain_text(line.substr(1));
+  // R50, R 50 Ohm, R 0,05 kOhm
+  static const std::regex resistance(
+      "(^| )r *([0-9](?:[0-9.,e+-]*[0-9.])?),? *([a-z]*ohms?)?(?=[ ,]|$)", std::regex::icase);
+  if (std::smatch found; std::regex_search(plain, found, resistance)) {
+    const auto unit = unit_of_word(found[3].matched ? found.str(3) : "ohm");
+    if (!unit || !parse_number(found.str(2), true, options.reference_ohm)) {
+      return std::nullopt;
+    }
+    options.reference_ohm *= unit->scale;
+    plain = found.prefix().str() + found.suffix().str();
+  }
+  for (const Cell& each : cells_of(plain, ' ')) {
+    const std::string word = lower_case(each.text.substr(0, each.text.find_last_not_of(",;") + 1));
     const auto unit = unit_of_word(word);
     if (unit && unit->dimension == Dimension::frequency) {
       options.frequency_scale = unit->scale;
@@ -79,7 +53,7 @@ std::optional<Options> options_of(std::string_view line) {
       options.parameter = word.front();
     } else if (is_among(word, " ri ma db ")) {
       options.format = word;
-    } else if (word.front() != 'r' || !take_resistance(words, i, options)) {
+    } else if (!word.empty()) {
       return std::nullopt;
     }
   }
@@ -204,12 +178,8 @@ class TouchstoneReader {
 
   /// The one that parts the first row into three.
   char separator() const {
-    for (const char each : {' ', ';', ','}) {
-      const std::vector<Cell> cells =
-          rows_.empty() ? std::vector<Cell>() : cells_of(rows_.front().text, each);
-      if (cells.size() == 3 && std::none_of(cells.begin(), cells.end(), [](const Cell& cell) {
-            return cell.text.find_last_of(",;") + 1 == cell.text.size() && !cell.text.empty();
-          })) {
+    for (const char each : {';', ','}) {
+      if (!rows_.empty() && cells_of(rows_.front().text, each).size() == 3) {
         return each;
       }
     }
@@ -219,23 +189,19 @@ class TouchstoneReader {
   /// Version 1 normalises Y and Z to the reference.
   SweepColumns columns() const {
     const double reference_ohm = is_version_2_ ? 1.0 : options_.reference_ohm;
-    ColumnName first;
-    first.subject = options_.parameter == 's'   ? Subject::reflection
-                    : options_.parameter == 'y' ? Subject::admittance
-                                                : Subject::impedance;
-    first.scale = options_.parameter == 's'   ? 1.0
-                  : options_.parameter == 'y' ? 1.0 / reference_ohm
-                                              : reference_ohm;
-    first.has_unit = true;
-    first.decibel = options_.format == "db";
-    ColumnName second = first;
     const bool rectangular = options_.format == "ri";
+    ColumnName first;
     first.role = rectangular ? Role::real : Role::magnitude;
-    second.role = rectangular ? Role::imaginary : Role::phase;
-    if (!rectangular) {
-      second.scale = unit_of_word("deg")->scale;
-      second.decibel = false;
+    first.subject = Subject::reflection;
+    first.decibel = options_.format == "db";
+    first.has_unit = true;
+    if (options_.parameter != 's') {
+      const bool is_admittance = options_.parameter == 'y';
+      first.subject = is_admittance ? Subject::admittance : Subject::impedance;
+      first.scale = is_admittance ? 1.0 / reference_ohm : reference_ohm;
     }
+    ColumnName second = rectangular ? first : read_name("phase (deg)");
+    second.role = rectangular ? Role::imaginary : Role::phase;
     return {{first, 1}, SweepColumn{second, 2}, options_.reference_ohm};
   }
 
@@ -259,8 +225,7 @@ class TouchstoneReader {
 }  // namespace
 
 bool is_touchstone(const scene_file::Source& source) {
-  const std::string file = lower_case(source.file);
-  if (file.size() > 4 && file.substr(file.size() - 4) == ".s1p") {
+  if (lower_case(std::filesystem::path(source.file).extension().string()) == ".s1p") {
     return true;
   }
   const std::string_view text = source.text;
