@@ -14,20 +14,48 @@ std::string counted(const std::vector<Cell>& cells) {
                                    : fmt::format("{}", cells.size());
 }
 
-/// The mark of a number's fraction; 0 where it has none.
-char decimal_mark(std::string_view cell) {
-  const std::size_t at = cell.find_first_of(".,");
-  return at == std::string_view::npos || !is_numeric(cell, true) ? '\0' : cell[at];
-}
+/// The mark of the fractions in a file.
+class DecimalMark {
+ public:
+  void take(std::string_view cell, const scene_file::Location& place) {
+    const std::size_t at = cell.find_first_of(".,");
+    if (at == std::string_view::npos || !is_numeric(cell, true)) {
+      return;
+    }
+    if (cell_.empty()) {
+      cell_ = cell;
+      mark_ = cell[at];
+      line_ = place.line;
+    } else if (cell[at] != mark_) {
+      throw SceneError(place, "row",
+                       fmt::format("\"{}\" has a decimal {}, and line {} has decimal {}; allowed: "
+                                   "one of them in a file, and nothing between thousands",
+                                   shortened(cell), cell[at] == ',' ? "comma" : "point", line_,
+                                   mark_ == ',' ? "commas" : "points"));
+    }
+    // As 28,000: three digits behind it, and up to three before it.
+    constexpr std::size_t group = 3;
+    const std::size_t first = cell.find_first_of("0123456789");
+    thousands_ = thousands_ && mark_ == ',' && at - first <= group && cell[first] != '0' &&
+                 cell.find_first_not_of("0123456789", at + 1) == std::string_view::npos &&
+                 cell.size() == at + 1 + group;
+  }
 
-/// As `28,000`: 28 with a decimal comma, and a thousand times as much without one.
-bool may_have_thousands(std::string_view cell) {
-  constexpr std::size_t group = 3;
-  const std::size_t first = cell.find_first_of("0123456789");
-  const std::size_t comma = cell.find(',');
-  return comma - first <= group && cell.size() == comma + 1 + group && cell[first] != '0' &&
-         cell.find_first_not_of("0123456789", comma + 1) == std::string_view::npos;
-}
+  std::string warning() const {
+    return cell_.empty() || !thousands_
+               ? std::string()
+               : fmt::format(
+                     "The commas of numbers as \"{}\" on line {} are taken for decimal "
+                     "commas; where they stand between thousands, take them out.",
+                     shortened(cell_), line_);
+  }
+
+ private:
+  std::string_view cell_;  ///< the first that has one
+  char mark_ = 0;
+  std::size_t line_ = 0;
+  bool thousands_ = true;
+};
 
 }  // namespace
 
@@ -61,60 +89,28 @@ void MeasuredTable::check() {
   if (rows_.empty()) {
     throw heading_error("no row of numbers below the heading; allowed: at least one");
   }
-  require_no_surplus();
-  require_one_decimal_mark();
-}
-
-void MeasuredTable::require_no_surplus() const {
+  DecimalMark mark;
   for (const Line& row : rows_) {
     const std::vector<Cell> cells = cells_of(row.text, heading_.separator);
-    for (std::size_t i = names().size(); i < cells.size(); ++i) {
-      if (!cells[i].text.empty() || i == most_cells) {
+    scene_file::Location place{source_.file, row.number, 1};
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+      place.column = cells[i].column;
+      if (i >= names().size() && (!cells[i].text.empty() || i == most_cells)) {
         throw SceneError(
-            {source_.file, row.number, cells[i].column}, "row",
+            place, "row",
             fmt::format("cells on this line: {}; allowed: one for each of the {} columns{}",
                         counted(cells), names().size(),
                         heading_.separator == ','
-                            ? "; numbers with decimal commas need semicolons or tabs "
-                              "between them"
+                            ? "; numbers with decimal commas need semicolons or tabs between them"
                             : ""));
       }
+      if (heading_.separator != ',') {
+        mark.take(cells[i].text, place);
+      }
     }
   }
-}
-
-void MeasuredTable::require_one_decimal_mark() {
-  if (heading_.separator == ',') {
-    return;
-  }
-  std::string_view first;
-  std::size_t line_of_first = 0;
-  bool may_be_thousands = true;
-  for (const Line& row : rows_) {
-    for (const Cell& each : cells_of(row.text, heading_.separator)) {
-      const char found = decimal_mark(each.text);
-      if (found == '\0') {
-        continue;
-      }
-      if (first.empty()) {
-        first = each.text;
-        line_of_first = row.number;
-      } else if (const char mark = decimal_mark(first); found != mark) {
-        throw SceneError(
-            {source_.file, row.number, each.column}, "row",
-            fmt::format("\"{}\" has a decimal {}, and line {} has decimal {}; allowed: "
-                        "one of them in a file, and nothing between thousands",
-                        shortened(each.text), found == ',' ? "comma" : "point", line_of_first,
-                        mark == ',' ? "commas" : "points"));
-      }
-      may_be_thousands = may_be_thousands && found == ',' && may_have_thousands(each.text);
-    }
-  }
-  if (!first.empty() && may_be_thousands) {
-    warnings_.push_back(fmt::format(
-        "The commas of numbers as \"{}\" on line {} are taken for decimal commas; where they "
-        "stand between thousands, take them out.",
-        shortened(first), line_of_first));
+  if (const std::string warning = mark.warning(); !warning.empty()) {
+    warnings_.push_back(warning);
   }
 }
 

@@ -50,8 +50,6 @@ class MeasuredTable {
  private:
   Cell cell(std::size_t row, std::size_t column) const;
   void check();
-  void require_no_surplus() const;
-  void require_one_decimal_mark();
 
   const scene_file::Source& source_;
   Heading heading_;

@@ -34,31 +34,6 @@ bool is_numeric_in(std::string_view cell, char separator) {
   return is_numeric(cell, separator != ',');
 }
 
-/// The line as a heading: as many cells at least, none of them a number.
-std::optional<Heading> heading_of(const Line& line, std::size_t least_cells) {
-  std::string_view text = line.text;
-  if (is_comment(text)) {
-    text.remove_prefix(text.find_first_of("#!%") + 1);
-  }
-  Heading heading;
-  heading.line = line.number;
-  heading.separator = separator_of(text);
-  std::vector<Cell> cells = cells_of(text, heading.separator);
-  while (!cells.empty() && cells.back().text.empty()) {
-    cells.pop_back();
-  }
-  if (cells.size() < least_cells || cells.size() > most_cells ||
-      std::any_of(cells.begin(), cells.end(),
-                  [&](const Cell& each) { return is_numeric_in(each.text, heading.separator); })) {
-    return std::nullopt;
-  }
-  for (const Cell& each : cells) {
-    heading.names.emplace_back(each.text);
-    heading.places.push_back(each.column + (line.text.size() - text.size()));
-  }
-  return heading;
-}
-
 bool has_brackets(std::string_view text) {
   return text.find_first_of("([") != std::string_view::npos;
 }
@@ -263,6 +238,30 @@ class TableSearch {
 };
 
 }  // namespace
+
+std::optional<Heading> heading_of(const Line& line, std::size_t least_cells) {
+  std::string_view text = line.text;
+  if (is_comment(text)) {
+    text.remove_prefix(text.find_first_of("#!%") + 1);
+  }
+  Heading heading;
+  heading.line = line.number;
+  heading.separator = separator_of(text);
+  std::vector<Cell> cells = cells_of(text, heading.separator);
+  while (!cells.empty() && cells.back().text.empty()) {
+    cells.pop_back();
+  }
+  if (cells.size() < least_cells || cells.size() > most_cells ||
+      std::any_of(cells.begin(), cells.end(),
+                  [&](const Cell& each) { return is_numeric_in(each.text, heading.separator); })) {
+    return std::nullopt;
+  }
+  for (const Cell& each : cells) {
+    heading.names.emplace_back(each.text);
+    heading.places.push_back(each.column + (line.text.size() - text.size()));
+  }
+  return heading;
+}
 
 FoundTable find_table(const scene_file::Source& source, const IsWanted& is_wanted) {
   return TableSearch(source, is_wanted).find();

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -19,6 +20,9 @@ struct Heading {
   std::size_t line = 1;
   char separator = ',';
 };
+
+/// The line as a heading: as many cells at least, none of them a number.
+std::optional<Heading> heading_of(const Line& line, std::size_t least_cells);
 
 /// Whether names are those of the table that is wanted.
 using IsWanted = std::function<bool(const std::vector<std::string>& names)>;

@@ -35,19 +35,6 @@ bool is_of_screen(const std::string& format) {
   return small.rfind("log", 0) == 0 || small.rfind("lin", 0) == 0;
 }
 
-Heading heading_of(const Line& line) {
-  Heading heading;
-  heading.line = line.number;
-  heading.separator = line.text.find('\t') != std::string_view::npos  ? '\t'
-                      : line.text.find(',') != std::string_view::npos ? ','
-                                                                      : ' ';
-  for (const Cell& each : cells_of(line.text, heading.separator)) {
-    heading.names.emplace_back(each.text);
-    heading.places.push_back(each.column);
-  }
-  return heading;
-}
-
 ColumnName name_of(Role role, Subject subject) {
   ColumnName name;
   name.role = role;
@@ -128,7 +115,7 @@ class TraceReader {
       } else if (traces_.empty()) {
         take_setting(line, "PARAMETER:", parameter_);
       } else if (line.text.find("Frequency") != std::string_view::npos) {
-        traces_.back().heading = heading_of(line);
+        traces_.back().heading = identify::heading_of(line, 2).value_or(Heading());
         in_rows = true;
       } else {
         take_setting(line, "FORMAT:", traces_.back().format);
