@@ -33,10 +33,8 @@ class Reader {
     const char each = text_[at_];
     if (std::isalpha(static_cast<unsigned char>(each)) != 0 || each == '%') {
       take_word();
-    } else if (each == '(' || each == '[' || each == '{' || each == '<') {
-      take_brackets();
-    } else if (each == '/' || each == ',') {
-      take_behind_slash();
+    } else if (std::string_view("([{</,").find(each) != std::string_view::npos) {
+      take_enclosed(each != '/' && each != ',');
     } else if (each == '|') {
       bars_ = true;
       set_role(Role::magnitude, "|");
@@ -131,42 +129,27 @@ class Reader {
     return false;
   }
 
-  /// A unit and nothing else, or words.
-  void take_brackets() {
-    const std::size_t close = std::min(text_.find_first_of(")]}>", at_), text_.size());
-    std::string inside(trimmed(std::string_view(text_).substr(at_ + 1, close - at_ - 1)));
-    const bool minus = inside.size() > 1 && inside.front() == '-';
+  /// A unit and nothing else, or words: in brackets, or behind a slash or a comma as in `Z / kOhm`.
+  void take_enclosed(bool in_brackets) {
+    const std::size_t end =
+        std::min(text_.find_first_of(in_brackets ? ")]}>" : "([{<", at_), text_.size());
+    std::string inside(trimmed(std::string_view(text_).substr(at_ + 1, end - at_ - 1)));
+    const bool minus = in_brackets && inside.size() > 1 && inside.front() == '-';
     inside.erase(0, minus ? 1 : 0);
     const auto unit = unit_of_text(inside);
     const bool is_word = meaning_of(inside) && lower_case(inside) == inside;
-    const bool begins_with_digit =
-        !inside.empty() && std::isdigit(static_cast<unsigned char>(inside[0])) != 0;
-    const bool words =
-        !begins_with_digit &&
-        inside.find_first_not_of(std::string(alphabet) + "0123456789 |'") == std::string::npos;
+    const bool words = inside.find_first_of("/*^") == std::string::npos &&
+                       inside.find_first_of("0123456789") != 0 && (in_brackets || !inside.empty());
     if (unit && (unit->dimension != Dimension::other || !is_word)) {
       negative_ = negative_ != minus;
       take_unit(*unit, inside);
-      at_ = std::min(close + 1, text_.size());
     } else if (words || minus) {
       ++at_;
-    } else {
-      refuse(inside);
-      at_ = std::min(close + 1, text_.size());
-    }
-  }
-
-  /// `Z / kOhm`, `Z, 10^3 Ohm`; words may stand there too.
-  void take_behind_slash() {
-    const std::size_t end = std::min(text_.find_first_of("([{<", at_), text_.size());
-    const std::string inside(trimmed(std::string_view(text_).substr(at_ + 1, end - at_ - 1)));
-    const auto unit = unit_of_text(inside);
-    if (!unit && !inside.empty() && inside.find_first_of("/*^0123456789") == std::string::npos) {
-      ++at_;
       return;
+    } else {
+      refuse(inside.empty() ? text_.substr(at_, 1) : inside);
     }
-    unit ? take_unit(*unit, inside) : refuse(inside.empty() ? text_.substr(at_, 1) : inside);
-    at_ = end;
+    at_ = std::min(end + (in_brackets ? 1 : 0), text_.size());
   }
 
   /// At the beginning, also behind a bracket, it turns the sign; between words it joins them.

@@ -49,6 +49,8 @@ constexpr std::array<std::string_view, 4> translations[] = {
     {" magnitude ", "幅值", "模值", "模"},
     {" Ohm ", "欧姆", "歐姆"},
     {" Hz ", "赫兹"},
+    {"Z", "Z(1,1)"},
+    {"Y", "Y(1,1)"},
     {"", "Trace 1:", "Trace 2:"},  // of a Bode 100
     {"Z'", "Z'(a)"},               // of ZPlot
     {"Z''", "Z''(b)"},

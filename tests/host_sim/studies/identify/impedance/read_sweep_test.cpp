@@ -336,6 +336,7 @@ TEST(ReadSweep, KnowsTheHeadingsOfInstruments) {
       {"Freq/Hz, Z'/ohm, Z\"/ohm, Z/ohm, Phase/deg\n",
        "{0:.12g}, {1:.12g}, {2:.12g}, {3:.12g}, {4:.12g}\n"},
       {"\"Freq, Hz\" \"G, S\" \"B, S\"\n", "{0:.12g} {5:.12g} {6:.12g}\n"},
+      {"\"Freq [Hz]\",\"re(Z(1,1)) []\",\"im(Z(1,1)) []\"\n", "{0:.12g},{1:.12g},{2:.12g}\n"},
       {"Freq [Hz];Re(Y11) [S];Im(Y11) [S]\n", "{0:.12g};{5:.12g};{6:.12g}\n"},
       {"\u9891\u7387(Hz),\u7535\u5bfc(S),\u7535\u7eb3(S)\n", "{0:.12g},{5:.12g},{6:.12g}\n"}};
   for (const auto& [heading, row] : files) {
