@@ -38,6 +38,10 @@ bool has_brackets(std::string_view text) {
   return text.find_first_of("([") != std::string_view::npos;
 }
 
+bool is_unit(const std::string& name) {
+  return unit_of_text(plain_text(name)).has_value();
+}
+
 /// Whether a line of words below a heading has its units.
 bool is_line_of_units(const Heading& units, const Heading& heading, const IsWanted& is_wanted) {
   if (units.names.size() > heading.names.size() || units.separator != heading.separator ||
@@ -47,7 +51,7 @@ bool is_line_of_units(const Heading& units, const Heading& heading, const IsWant
   const bool has_unit =
       std::any_of(units.names.begin(), units.names.end(), [](const std::string& each) {
         const bool bracketed = !each.empty() && has_brackets(each.substr(0, 1));
-        return bracketed || unit_of_text(plain_text(each)).has_value();
+        return bracketed || is_unit(each);
       });
   return has_unit || (is_wanted(heading.names) && !is_wanted(units.names));
 }
@@ -165,6 +169,13 @@ class TableSearch {
     if (below && is_line_of_units(*below, *heading, is_wanted_)) {
       join(*heading, *below);
       begin = ++line + 1;
+    }
+    // Seldom they stand above it.
+    const auto above = line > 0 && rows_follow ? heading_of(lines_[line - 1], 2) : std::nullopt;
+    if (above && above->line + 1 == heading->line && above->separator == heading->separator &&
+        above->names.size() == heading->names.size() &&
+        std::all_of(above->names.begin(), above->names.end(), is_unit)) {
+      join(*heading, *above);
     }
     const bool wanted = (rows_follow || rows_are_near) && is_wanted_(heading->names);
     // A remark may stand between the heading and its rows.

@@ -91,6 +91,8 @@ TEST(MeasuredTable, RefusesDecimalPointsBesideDecimalCommas) {
 TEST(MeasuredTable, PutsUnitsOfTheLineBelowIntoBrackets) {
   const scene_file::Source source{"m.csv", "a;b;c\nkHz;;(ohm)\n1;2;3\n"};
   EXPECT_EQ(MeasuredTable(source, any_names).names(), (Names{"a [kHz]", "b", "c (ohm)"}));
+  const scene_file::Source above{"m.csv", "kHz;Ohm\na;b\n1;2\n"};
+  EXPECT_EQ(MeasuredTable(above, any_names).names(), (Names{"a [kHz]", "b [Ohm]"}));
   EXPECT_EQ(unit_in_brackets("a [kHz]"), "kHz");
   EXPECT_EQ(unit_in_brackets("a"), "");
 }
