@@ -11,6 +11,7 @@
 #include "firmware/control/controller.hpp"
 #include "firmware/encoding/crc32.hpp"
 #include "firmware/numeric/fixed.hpp"
+#include "host_sim/configure/bound.hpp"
 #include "host_sim/configure/configuration_error.hpp"
 #include "host_sim/configure/control_design.hpp"
 #include "host_sim/configure/controller_parameters.hpp"
@@ -159,8 +160,9 @@ void require_reach(const loop::ScheduledTarget& step, const loop::CarrierGrid& g
   if (step.place > most_periods) {
     throw configure::ConfigurationError(
         "controller.target_friction_ratio",
-        fmt::format("a step at {:g} s is out of an image's reach; allowed: up to {:g} s",
-                    step.time_s, static_cast<double>(most_periods) * grid.period_s()));
+        fmt::format("a step at {:g} s is out of an image's reach; allowed: at most {} s",
+                    step.time_s,
+                    configure::at_most(static_cast<double>(most_periods) * grid.period_s())));
   }
 }
 

@@ -13,6 +13,7 @@
 #include "firmware/plant/sliding.hpp"
 #include "firmware/plant/state.hpp"
 #include "firmware/plant/strang/fixed_point_strang_design.hpp"
+#include "host_sim/configure/bound.hpp"
 #include "host_sim/configure/configuration_error.hpp"
 #include "host_sim/configure/control_design.hpp"
 #include "host_sim/configure/plant_model.hpp"
@@ -61,8 +62,9 @@ std::uint64_t whole_periods(const scene::Scene& scene) {
   const std::uint64_t periods = grid.is_whole(grid.count() - 1) ? grid.count() : grid.count() - 1;
   constexpr std::uint32_t most = 0xffffffff;
   require(periods <= most, "run.duration_s",
-          fmt::format("has more carrier periods than an image counts; allowed: up to {:g} s",
-                      most * grid.period_s()));
+          fmt::format("has more carrier periods than an image counts; allowed: at most {} of "
+                      "them, {} s",
+                      most, configure::at_most(most * grid.period_s())));
   return periods;
 }
 
@@ -225,8 +227,8 @@ template <template <class> class Damping>
 PlantText fixed_plant(const SceneNumbers& scene) {
   const double force_per_friction = scene.plant.scales.friction_N / scene.codes.force_N;
   require(force_per_friction < 1.0, "sensor.force_full_scale_N",
-          fmt::format("is not above the friction force; allowed: more than {:g} N",
-                      scene.plant.scales.friction_N));
+          fmt::format("is not above the friction force; allowed: above {} N",
+                      configure::at_least(scene.plant.scales.friction_N)));
   const plant::FixedStrangParameters parameters = designed<Damping>(scene);
   SolverLines solver;
   plant::FixedStrangParameters::fields(parameters, solver);

@@ -11,6 +11,7 @@
 #include <iterator>
 #include <utility>
 
+#include "host_sim/configure/bound.hpp"
 #include "host_sim/configure/plant_scales.hpp"
 #include "host_sim/scene_file/reader.hpp"
 
@@ -205,10 +206,11 @@ void Plan::set_velocity(scene::Scene& scene, std::size_t point, std::size_t axis
   }
   const double velocity_m_per_s = ratio * peak_m_per_s;
   if (!(std::abs(velocity_m_per_s) <= largest_speed_m_per_s)) {
-    fail_at_option(axis, key,
-                   fmt::format("the peak vibration velocity is {:g} m/s, at or near an undamped "
-                               "resonance; allowed: sliding velocities up to {:g} m/s",
-                               peak_m_per_s, largest_speed_m_per_s));
+    fail_at_option(
+        axis, key,
+        fmt::format("{} of the peak vibration velocity, {:g} m/s, is too fast; allowed: at "
+                    "most {}, either way",
+                    ratio, peak_m_per_s, configure::at_most(largest_speed_m_per_s / peak_m_per_s)));
   }
   scene.sliding.profile = {{0.0, velocity_m_per_s}};
 }

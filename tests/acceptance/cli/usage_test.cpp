@@ -2,9 +2,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <regex>
 #include <string>
 
-#include "command_table.hpp"
+#include "scene_folder.hpp"
 #include "tests/acceptance/program/odd_names.hpp"
 #include "tests/acceptance/program/program.hpp"
 
@@ -86,6 +87,37 @@ TEST(UsageTest, ValuesOutOfAListNameTheList) {
                  "--figure: \"twelve\" is no figure; allowed: 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12");
   expect_refused("paper --figure 13",
                  "--figure: \"13\" is no figure; allowed: 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12");
+}
+
+/// Both ends of each range that an option is refused with.
+TEST(UsageTest, WhatAMessageAllowsOfAnOptionIsAccepted) {
+  const std::regex range(
+      R"(allowed: (?:a whole number, )?(-?[0-9][0-9.e+-]*) to ([0-9][0-9.e+-]*))");
+  const ScratchFolder folder;
+  int fed_back = 0;
+  for (const Command& command : command_table) {
+    const bool measures = command.name.rfind("identify", 0) == 0;
+    if (command.scene.empty() && !measures && command.name != "ratio") {
+      continue;  // it would begin to compute
+    }
+    const std::string words = measures                ? command.name + " nowhere.csv"
+                              : command.scene.empty() ? command.name + " " + command.arguments
+                                                      : words_with_scene(command, "nowhere.toml");
+    for (const std::string& option : command.options) {
+      const std::string known = words.substr(0, words.find(option));
+      const Outcome refused = folder.run(known + " " + option + " -1e300");
+      std::smatch ends;
+      if (refused.exit_code != 2 || !std::regex_search(refused.err, ends, range)) {
+        continue;
+      }
+      for (const std::string& end : {ends[1].str(), ends[2].str()}) {
+        const Outcome outcome = folder.run(known + " " + option + " " + end);
+        EXPECT_EQ(outcome.err.find(option + ":"), std::string::npos) << known << end << outcome.err;
+        ++fed_back;
+      }
+    }
+  }
+  EXPECT_EQ(fed_back, 22);
 }
 
 TEST(UsageTest, WordsOfTheUserReachTheTerminalPrintable) {

@@ -61,13 +61,12 @@ TEST(PlantHeader, NamesWhatIsAllowed) {
   EXPECT_EQ(refusal("target_step", {"sensor.velocity_gain=1.1"}),
             "sensor.velocity_gain" + ideal + "allowed: 1");
   EXPECT_EQ(refusal("target_step", {"run.duration_s=1e5", "run.record=[]"}),
-            "run.duration_s: has more carrier periods than an image counts; allowed: up to 71582.8 "
-            "s");
+            "run.duration_s: has more carrier periods than an image counts; allowed: at most "
+            "4294967295 of them, 71582.7 s");
   EXPECT_EQ(
       refusal("target_step", {"sensor.force_full_scale_N=0.015", "model_error.coefficient=0.5"},
               scene::Arithmetic::q31),
-      "sensor.force_full_scale_N: is not above the friction force; allowed: more than 0.01962 "
-      "N");
+      "sensor.force_full_scale_N: is not above the friction force; allowed: above 0.0196201 N");
 }
 
 }  // namespace

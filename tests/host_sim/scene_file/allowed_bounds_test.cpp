@@ -1,6 +1,7 @@
 #include "host_sim/configure/bound.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -12,10 +13,12 @@
 #include <random>
 #include <regex>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "host_sim/configure/configuration_error.hpp"
 #include "host_sim/configure/control_design.hpp"
+#include "host_sim/scene_file/keys.hpp"
 #include "host_sim/scene_file/reader.hpp"
 
 namespace sonoglide::configure::allowed_bounds_test {
@@ -75,6 +78,7 @@ std::vector<double> allowed_in(const std::string& message) {
   static const std::regex range(
       R"((-?[0-9.]+(?:e[-+]?[0-9]+)?) to (below )?(-?[0-9.]+(?:e[-+]?[0-9]+)?))");
   constexpr double beside = 1e-9;
+  constexpr double least = 1e-30;  // where above 0 is allowed
   const std::string allowed = message.substr(message.find("allowed: "));
   std::vector<double> values;
   std::smatch found;
@@ -83,7 +87,8 @@ std::vector<double> allowed_in(const std::string& message) {
     values.push_back(read(found[3]) * (found[2].length() > 0 ? 1.0 - beside : 1.0));
   }
   if (std::regex_search(allowed, found, lower)) {
-    values.push_back(read(found[2]) * (found[1] == "above" ? 1.0 + beside : 1.0));
+    values.push_back(read(found[2]) * (found[1] == "above" ? 1.0 + beside : 1.0) +
+                     (found[1] == "above" && read(found[2]) == 0.0 ? least : 0.0));
   }
   if (std::regex_search(allowed, found, upper)) {
     values.push_back(read(found[2]) * (found[1] == "at most" ? 1.0 : 1.0 - beside));
@@ -101,7 +106,65 @@ struct Trial {
   const char* key;
 };
 
-/// Each value that a refusal allows is accepted, or refused for another reason.
+/// Sets a key to a value that it may not take, and then to each that the refusal allows: that is
+/// accepted, or refused for another reason.
+/// @return how many values a refusal allowed
+int feed_back(const scene_file::Source& source, const std::vector<std::string>& overrides,
+              const std::string& key, const std::string& odd, bool whole) {
+  const auto with = [&](const std::string& value) {
+    std::vector<std::string> all = overrides;
+    all.push_back(key + "=" + value);
+    return refusal_of(source, all);
+  };
+  const Refusal refusal = with(odd);
+  if (refusal.key != key || refusal.message.find("allowed: ") == std::string::npos) {
+    return 0;
+  }
+  int fed_back = 0;
+  for (const double value : allowed_in(refusal.message)) {
+    const std::string text = whole ? fmt::format("{:.0f}", value) : fmt::format("{}", value);
+    const Refusal again = with(text);
+    EXPECT_FALSE(again.key == refusal.key &&
+                 finding_of(again.message) == finding_of(refusal.message))
+        << source.name() << ": " << fmt::format("{}", fmt::join(overrides, " ")) << " " << key
+        << "=" << text << "\n"
+        << refusal.message << "\n"
+        << again.message;
+    ++fed_back;
+  }
+  return fed_back;
+}
+
+/// In every example, one key after the other.
+TEST(Bound, WhatAMessageAllowsOfAnyKeyIsAccepted) {
+  std::mt19937_64 random(11);
+  std::uniform_real_distribution<double> decades(-9.0, 12.0);
+  int fed_back = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(SONOGLIDE_SCENES)) {
+    if (entry.path().extension() != ".toml") {
+      continue;
+    }
+    const auto source = scene_file::read_source(entry.path().string());
+    for (const scene_file::KeyTable& table : scene_file::key_tables()) {
+      for (const scene_file::Key& key : table.keys) {
+        const bool whole = std::holds_alternative<scene_file::Integer>(key.allowed);
+        if (table.of_others ||
+            (!whole && !std::holds_alternative<scene_file::Number>(key.allowed))) {
+          continue;
+        }
+        const double size = std::pow(10.0, decades(random));
+        const std::string path = fmt::format("{}.{}", table.name, key.name);
+        for (const double odd : {size, -size}) {
+          fed_back += feed_back(source, {}, path,
+                                whole ? fmt::format("{:.0f}", odd) : fmt::format("{}", odd), whole);
+        }
+      }
+    }
+  }
+  EXPECT_GT(fed_back, 2500);
+}
+
+/// What another key of the scene decides.
 TEST(Bound, WhatAMessageAllowsIsAccepted) {
   const std::vector<Trial> trials = {
       {"target_step", "controller.relearn_every_s"},
@@ -139,23 +202,8 @@ TEST(Bound, WhatAMessageAllowsIsAccepted) {
     for (int i = 0; i < 60; ++i) {
       const std::string plant = "plant.mass_kg=" + std::to_string(0.02 * near(random));
       const double odd = whole ? 1.0 + i % 12 : std::pow(10.0, decades(random)) * near(random);
-      const auto setting = [&](double value) {
-        return std::string(trial.key) + "=" +
-               (whole ? std::to_string(static_cast<int>(value)) : fmt::format("{}", value));
-      };
-      const Refusal refusal = refusal_of(source, {plant, setting(odd)});
-      if (refusal.key != trial.key || refusal.message.find("allowed: ") == std::string::npos) {
-        continue;
-      }
-      for (const double value : allowed_in(refusal.message)) {
-        ++fed_back;
-        const Refusal again = refusal_of(source, {plant, setting(value)});
-        EXPECT_FALSE(again.key == refusal.key &&
-                     finding_of(again.message) == finding_of(refusal.message))
-            << trial.scene << ": " << plant << " " << setting(value) << "\n"
-            << refusal.message << "\n"
-            << again.message;
-      }
+      fed_back += feed_back(source, {plant}, trial.key,
+                            whole ? fmt::format("{:.0f}", odd) : fmt::format("{}", odd), whole);
     }
   }
   EXPECT_GT(fed_back, 400);

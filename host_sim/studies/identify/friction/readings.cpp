@@ -12,6 +12,7 @@
 #include <tuple>
 
 #include "firmware/numeric/turn.hpp"
+#include "host_sim/configure/bound.hpp"
 #include "host_sim/scene_file/suggestion.hpp"
 #include "host_sim/studies/identify/identification.hpp"
 #include "host_sim/studies/identify/measured_table.hpp"
@@ -184,7 +185,9 @@ std::vector<double> vibrations(const Columns& columns, const std::vector<double>
   const std::string_view name =
       columns.one_of({"vibration_velocity_m_per_s", "velocity_ratio", "vibration_amplitude_m"});
   std::vector<double> values = columns.numbers(name);
-  if (name == "velocity_ratio") {
+  const bool as_ratio = name == "velocity_ratio";
+  std::vector<double> m_per_s_each(values.size(), 1.0);
+  if (as_ratio) {
     for (std::size_t i = 0; i < values.size(); ++i) {
       values[i] = sliding_m_per_s[i] / values[i];
     }
@@ -194,14 +197,21 @@ std::vector<double> vibrations(const Columns& columns, const std::vector<double>
           "vibration_amplitude_m tells no velocity alone; allowed: with frequency_Hz");
     }
     for (std::size_t i = 0; i < values.size(); ++i) {
-      values[i] *= numeric::two_pi * frequency_Hz[i];
+      m_per_s_each[i] = numeric::two_pi * frequency_Hz[i];
+      values[i] *= m_per_s_each[i];
     }
   }
+  const auto allowed = [&](std::size_t row) {
+    return as_ratio
+               ? "at most " + configure::at_most(sliding_m_per_s[row] / least_vibration_m_per_s)
+               : "0, or at least " +
+                     configure::at_least(least_vibration_m_per_s / m_per_s_each[row]);
+  };
   for (std::size_t row = 0; row < values.size(); ++row) {
     if (values[row] > 0.0 && values[row] < least_vibration_m_per_s) {
-      throw columns.error(row, name,
-                          fmt::format("is a vibration of {:g} m/s; allowed: 0, or from {:g} m/s",
-                                      values[row], least_vibration_m_per_s));
+      throw columns.error(
+          row, name,
+          fmt::format("is a vibration of {:g} m/s; allowed: {}", values[row], allowed(row)));
     }
   }
   return values;
