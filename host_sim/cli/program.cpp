@@ -18,6 +18,7 @@
 #include "host_sim/loop/run.hpp"
 #include "host_sim/output/output_folder.hpp"
 #include "host_sim/process/ending.hpp"
+#include "host_sim/process/pipe.hpp"
 #include "host_sim/process/printable.hpp"
 #include "host_sim/scene_file/scene_error.hpp"
 #include "host_sim/shards/collection.hpp"
@@ -89,6 +90,7 @@ std::string hint(int argument_count, const char* const* arguments,
 
 int run_program(int argument_count, const char* const* arguments,
                 const std::vector<AddCommand>& command_list) {
+  process::fill_closed_streams();
   const process::SignalWatch signals;
   const auto fail_usage = [&](std::string_view message) {
     return fail(bad_input, fmt::format("sonoglide: {}\n{}", message,
@@ -97,6 +99,8 @@ int run_program(int argument_count, const char* const* arguments,
   try {
     parse_and_run(argument_count, arguments, command_list);
     return done;
+  } catch (const CLI::ExcludesError& error) {
+    return fail_usage(fmt::format("{}; allowed: one of the two", error.what()));
   } catch (const CLI::ParseError& error) {
     return fail_usage(process::printable(error.what()));
   } catch (const UsageError& error) {

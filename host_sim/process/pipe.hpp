@@ -52,6 +52,10 @@ struct Pipe {
 /// @throws ProcessError  no descriptors are left
 Pipe make_pipe();
 
+/// Puts a file that can be neither read nor written, as it should be, in the place of each standard
+/// stream that is closed: else the next file that is opened would be taken for it.
+void fill_closed_streams();
+
 /// Whether an open file still stands under its name.
 bool stands(const Descriptor& file, const std::filesystem::path& path);
 

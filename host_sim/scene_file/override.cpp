@@ -45,8 +45,8 @@ std::string unquoted(const std::string& path, const Location& place) {
   toml::table holder;
   try {
     holder = parse_toml(path + " = 0", place.file);
-  } catch (const SceneError& error) {
-    throw SceneError(place, path, fmt::format("{}; {}", error.message(), form));
+  } catch (const SceneError&) {
+    throw SceneError(place, path, fmt::format("is no name of a key; {}", form));
   }
   std::string names;
   const toml::table* table = &holder;

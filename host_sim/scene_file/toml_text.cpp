@@ -73,6 +73,16 @@ Location place_of(std::string_view text, std::size_t offset, const std::string& 
   return place;
 }
 
+/// Without what the library says of itself.
+std::string finding_of(const toml::parse_error& error) {
+  constexpr std::string_view preface = "Error while parsing ";
+  std::string_view finding = error.description();
+  if (finding.substr(0, preface.size()) == preface) {
+    finding.remove_prefix(preface.size());
+  }
+  return std::string(finding.substr(0, finding.find(" (TOML_")));
+}
+
 }  // namespace
 
 toml::table parse_toml(std::string_view text, const std::string& file) {
@@ -84,7 +94,8 @@ toml::table parse_toml(std::string_view text, const std::string& file) {
     return toml::parse(text, std::string_view(file));
   } catch (const toml::parse_error& error) {
     const toml::source_position& place = error.source().begin;
-    throw SceneError({file, place.line, place.column}, "toml", std::string(error.description()));
+    throw SceneError({file, place.line, place.column}, "toml",
+                     finding_of(error) + "; allowed: TOML 1.0, in UTF-8");
   }
 }
 

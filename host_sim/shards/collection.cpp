@@ -85,7 +85,8 @@ Collection::Collection(fs::path folder) : folder_(std::move(folder)) {
     note(file.path, file.name);
   }
   if (!work_) {
-    throw UnusableShards(fmt::format("{} holds no shard", shown(folder_)));
+    throw UnusableShards(
+        fmt::format("{} holds no shard; allowed: a folder that --shard wrote to", shown(folder_)));
   }
 }
 

@@ -157,8 +157,8 @@ const std::vector<BrokenScene> broken_scenes = {
     {"model_error_out_of_range", closed_loop, "stiffness = 1.04", "stiffness = 0",
      "21:13: model_error.stiffness: 0 is out of range; allowed: 0.01 to 100"},
     {"number_too_large_for_a_double", open_loop, "133e6", "1e400",
-     "3:26: toml: Error while parsing floating-point: '1e400' could not be interpreted as a "
-     "value"},
+     "3:26: toml: floating-point: '1e400' could not be interpreted as a "
+     "value; allowed: TOML 1.0, in UTF-8"},
     {"unknown_word_near", open_loop, "\"dahl\"", "\"dhal\"",
      "5:7: friction.law: \"dhal\" is unknown; did you mean \"dahl\"? allowed: \"dahl\", "
      "\"lugre\", \"iwan\", \"coulomb\", \"stribeck\", \"transverse_coulomb\", "
@@ -627,18 +627,20 @@ const std::vector<BrokenScene> broken_scenes = {
      "than 0.001 s"},
     // Text that is not TOML
     {"duplicate_key", open_loop, "mass_kg = 0.02", "mass_kg = 0.02\nmass_kg = 0.03",
-     "3:11: toml: Error while parsing key-value pair: cannot redefine existing floating-point "
-     "'mass_kg'"},
+     "3:11: toml: key-value pair: cannot redefine existing floating-point "
+     "'mass_kg'; allowed: TOML 1.0, in UTF-8"},
     {"duplicate_table", open_loop, "[friction]", "[plant]",
-     "4:1: toml: Error while parsing table header: cannot redefine existing table 'plant'"},
+     "4:1: toml: table header: cannot redefine existing table 'plant'; allowed: TOML 1.0, in "
+     "UTF-8"},
     {"decimal_comma", open_loop, "0.02", "0,02",
-     "2:12: toml: Error while parsing key-value pair: expected a comment or whitespace, saw ','"},
+     "2:12: toml: key-value pair: expected a comment or whitespace, saw ','; allowed: TOML 1.0, in "
+     "UTF-8"},
     {"not_utf_8", open_loop, "\"dahl\"", "\"dahl\xff\"",
-     "5:11: toml: Encountered invalid utf-8 sequence"},
+     "5:11: toml: Encountered invalid utf-8 sequence; allowed: TOML 1.0, in UTF-8"},
     {"truncated", open_loop, "record_interval_s = 1e-6\n", "record_interval_s = ",
-     "20:21: toml: Error while parsing key-value pair: encountered end-of-file"},
+     "20:21: toml: key-value pair: encountered end-of-file; allowed: TOML 1.0, in UTF-8"},
     {"unclosed_header", open_loop, "[plant]", "[plant",
-     "1:7: toml: Error while parsing table header: expected ']', saw '\\n'"},
+     "1:7: toml: table header: expected ']', saw '\\n'; allowed: TOML 1.0, in UTF-8"},
 };
 
 class BrokenSceneTest : public testing::TestWithParam<BrokenScene> {};

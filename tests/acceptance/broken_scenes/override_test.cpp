@@ -39,8 +39,8 @@ const std::vector<BadOverride> bad_overrides = {
      "--set:1:1: run.record.0: a part of a value cannot be set; allowed: TABLE.KEY=VALUE, or "
      "TABLE.KEY= to remove the key"},
     {"open_quote", "--set 'plant.\"mass_kg=3'",
-     "--set:1:1: plant.\"mass_kg: Error while parsing string: encountered end-of-file; allowed: "
-     "TABLE.KEY=VALUE, or TABLE.KEY= to remove the key"},
+     "--set:1:1: plant.\"mass_kg: is no name of a key; allowed: TABLE.KEY=VALUE, or TABLE.KEY= to "
+     "remove the key"},
     {"two_keys", "--set '[\"plant\"]\n[friction]\nx=3'",
      "--set:1:1: [\"plant\"]\\x0a[friction]\\x0ax: more than one key; allowed: TABLE.KEY=VALUE, or "
      "TABLE.KEY= to remove the key"},

@@ -73,8 +73,8 @@ TEST(SceneFileTest, BinaryNoise) {
                                          "ELF\x02\x01\x01\0\0\0",
                                          10));
   expect_rejected(folder, "noise.toml",
-                  "noise.toml:1:1: toml: Error while parsing root table: expected keys, tables, "
-                  "whitespace or comments, saw '\\u007F'");
+                  "noise.toml:1:1: toml: root table: expected keys, tables, "
+                  "whitespace or comments, saw '\\u007F'; allowed: TOML 1.0, in UTF-8");
 }
 
 TEST(SceneFileTest, TooLarge) {
@@ -103,8 +103,8 @@ TEST(SceneFileTest, DeeplyNestedArray) {
   const ScratchFolder folder;
   folder.write("deep.toml", "plant = " + std::string(100000, '['));
   expect_rejected(folder, "deep.toml",
-                  "deep.toml:1:265: toml: Error while parsing value: exceeded maximum nested value "
-                  "depth of 256 (TOML_MAX_NESTED_VALUES)");
+                  "deep.toml:1:265: toml: value: exceeded maximum nested value "
+                  "depth of 256; allowed: TOML 1.0, in UTF-8");
 }
 
 TEST(SceneFileTest, DeeplyDottedKey) {

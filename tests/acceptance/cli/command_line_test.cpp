@@ -184,6 +184,23 @@ TEST(StandardErrorTest, MayBeClosedOrFull) {
   }
 }
 
+/// Nothing that is opened is taken for a stream that is closed: not by a tool, not for a message.
+TEST(StandardStreamsTest, MayBeClosedWhereAToolIsStarted) {
+  const ScratchFolder folder;
+  const std::string paper = "paper --figure 3 --quiet --out ";
+  EXPECT_EQ(folder.run(paper + "open").exit_code, 0);
+  for (const char* closed : {" <&-", " <&- >&-", " 2>&-", " <&- 2>&-", " <&- >&- 2>&-"}) {
+    EXPECT_EQ(folder
+                  .run_program("sh", "-c " + shell_word("'" SONOGLIDE_PROGRAM "' " + paper +
+                                                        "closed" + closed))
+                  .exit_code,
+              0)
+        << closed;
+    EXPECT_EQ(folder.read("closed/figure_03.svg"), folder.read("open/figure_03.svg")) << closed;
+    EXPECT_EQ(folder.read("closed/figure_03.csv"), folder.read("open/figure_03.csv")) << closed;
+  }
+}
+
 TEST(StandardInputTest, MayBeClosed) {
   const ScratchFolder folder;
   const Outcome outcome = folder.run("run - <&-");
