@@ -49,10 +49,11 @@ Journal::Journal(std::filesystem::path path, const JournalKind& kind, const Iden
 
 void Journal::open() {
   constexpr mode_t mode = 0666;
-  file_ = process::Descriptor(
-      ::open(path_.c_str(), O_RDWR | O_CREAT | O_APPEND | O_NONBLOCK | O_CLOEXEC, mode));
+  constexpr int flags = O_RDWR | O_CREAT | O_APPEND | O_NONBLOCK | O_NOFOLLOW | O_CLOEXEC;
+  file_ = process::Descriptor(::open(path_.c_str(), flags, mode));
+  const bool link = file_.number() < 0 && errno == ELOOP;
   struct stat facts {};
-  if (file_.number() < 0 || fstat(file_.number(), &facts) != 0) {
+  if (!link && (file_.number() < 0 || fstat(file_.number(), &facts) != 0)) {
     fail(last_reason());
   }
   if (!S_ISREG(facts.st_mode)) {

@@ -17,7 +17,7 @@ ListLock::ListLock(const std::filesystem::path& folder, Kind kind)
   do {
     // A lock on the writers of a network's file system takes a file that is open for writing.
     file_ = process::Descriptor(
-        open(list_.c_str(), (alone ? O_RDWR : O_RDONLY) | O_NONBLOCK | O_CLOEXEC));
+        open(list_.c_str(), (alone ? O_RDWR : O_RDONLY) | O_NONBLOCK | O_NOFOLLOW | O_CLOEXEC));
     began_ = false;
     if (file_.number() < 0 && errno == ENOENT && alone) {
       file_ = process::Descriptor(open(list_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, mode));

@@ -18,6 +18,8 @@ namespace fs = std::filesystem;
 
 constexpr const char* kNewFiles = "new";  // in the staging folder
 constexpr const char* kOldFiles = "old";
+/// Other programs remove folders that they have made, where they fail: between a look and a step.
+constexpr int kMostTries = 100;
 
 /// Absolute, links and ".." resolved as far as the path exists, without a trailing separator.
 fs::path normal(const fs::path& path) {
@@ -25,7 +27,11 @@ fs::path normal(const fs::path& path) {
     throw OutputError("the output folder has an empty name");
   }
   std::error_code error;
-  const fs::path result = fs::weakly_canonical(fs::absolute(path, error), error);
+  fs::path result;
+  int tries = 0;
+  do {
+    result = fs::weakly_canonical(fs::absolute(path, error), error);
+  } while (error == std::errc::no_such_file_or_directory && ++tries < kMostTries);
   if (error) {
     fail(path, error);
   }
@@ -58,7 +64,7 @@ fs::path nearest_folder(const fs::path& path) {
 }
 
 /// Creates what is missing of a folder's path; returns the created folders, outermost first.
-std::vector<fs::path> create_parents(const fs::path& folder) {
+std::vector<fs::path> create_parents(const fs::path& folder, int tries = 1) {
   std::vector<fs::path> missing;
   std::error_code unknown;
   for (fs::path path = folder; !fs::exists(path, unknown); path = path.parent_path()) {
@@ -75,6 +81,11 @@ std::vector<fs::path> create_parents(const fs::path& folder) {
       for (auto made = missing.rbegin(); made != missing.rend(); ++made) {
         std::error_code ignored;
         fs::remove(*made, ignored);
+      }
+      const bool went = error == std::errc::no_such_file_or_directory ||
+                        error == std::errc::file_exists;  // when it was made, not when looked at
+      if (went && tries < kMostTries) {
+        return create_parents(folder, tries + 1);
       }
       fail(folder, error);
     }
@@ -124,12 +135,18 @@ std::error_code OutputFolder::clear(Moves& moves, const fs::path& place, const f
 
 OutputFolder::OutputFolder(const fs::path& target, const std::vector<std::string>& names)
     : target_(normal(target)) {
-  const fs::path parent = nearest_folder(target_);
+  fs::path parent = nearest_folder(target_);
+  const WrittenFiles list(target_);  // one that cannot be read is refused before all else
   std::for_each(names.begin(), names.end(), [this](const auto& name) { require_ours(name); });
-  try {
-    staging_.emplace(parent);
-  } catch (const process::ScratchError& error) {
-    fail(target_, "cannot be written: " + error.reason());
+  for (int tries = 1; !staging_; ++tries) {
+    try {
+      staging_.emplace(parent);
+    } catch (const process::ScratchError& error) {
+      if (tries == kMostTries) {
+        fail(target_, "cannot be written: " + error.reason());
+      }
+      parent = nearest_folder(target_);
+    }
   }
   std::error_code error;
   if (!fs::create_directory(staging_->path() / kNewFiles, error) ||
@@ -217,14 +234,17 @@ void OutputFolder::list_files() const {
   file.close();
 }
 
-/// @return false where somebody else has made the folder meanwhile
+/// @return false where somebody else has made the folder, or removed its parent, meanwhile
 bool OutputFolder::place_new_folder() {
   list_files();
   const process::Undisturbed now;
   const std::vector<fs::path> created = create_parents(target_.parent_path());
   std::error_code error;
   fs::rename(staging_->path() / kNewFiles, target_, error);
-  if (error == std::errc::directory_not_empty || error == std::errc::file_exists) {
+  std::error_code unknown;
+  const bool parent_went = error == std::errc::no_such_file_or_directory &&
+                           fs::exists(staging_->path() / kNewFiles, unknown);
+  if (error == std::errc::directory_not_empty || error == std::errc::file_exists || parent_went) {
     return false;
   }
   if (error) {
@@ -286,11 +306,7 @@ bool OutputFolder::replace_files() {
 
 void create_folder(const std::filesystem::path& target, const std::vector<std::string>& names) {
   { const OutputFolder probe(target, names); }
-  std::error_code error;
-  std::filesystem::create_directories(target, error);
-  if (error) {
-    fail(target, error);
-  }
+  create_parents(normal(target));
 }
 
 }  // namespace sonoglide::output

@@ -25,10 +25,11 @@ constexpr const char* heading =
 WrittenFiles::WrittenFiles(const std::filesystem::path& folder) : folder_(folder) {
   const std::filesystem::path place = folder / file_name;
   std::error_code absent;
-  const bool regular = std::filesystem::is_regular_file(place, absent);
-  if (!regular && !std::filesystem::exists(std::filesystem::symlink_status(place, absent))) {
+  const std::filesystem::file_status status = std::filesystem::symlink_status(place, absent);
+  if (!std::filesystem::exists(status)) {
     return;
   }
+  const bool regular = std::filesystem::is_regular_file(status);
   std::ifstream list;
   std::string line;
   if (regular) {

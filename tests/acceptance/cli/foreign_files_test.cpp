@@ -1,6 +1,7 @@
 /// Files that somebody else has put where an output goes.
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <string>
 #include <utility>
 #include <vector>
@@ -31,6 +32,24 @@ TEST(ForeignFileTest, IsKeptWithOtherOptions) {
     EXPECT_EQ(folder.read(file), "mine") << arguments;
     EXPECT_EQ(folder.entries(), before) << arguments;
   }
+}
+
+TEST(ForeignFileTest, ALinkIsNoListAndNoJournal) {
+  const ScratchFolder folder;
+  folder.write("open.toml", short_open_loop);
+  folder.write("file", "mine");
+  for (const std::string name : {".sonoglide", "sweep.journal"}) {
+    for (const char* linked : {"/dev/zero", "file", "nowhere"}) {
+      std::filesystem::create_symlink(linked, folder.path() / name);
+      const Outcome outcome = folder.run("sweep open.toml --out . --vary velocity_ratio=0.1:1:3");
+      EXPECT_EQ(outcome.exit_code, 1) << name << linked << outcome.err;
+      EXPECT_NE(outcome.err.find(name + ": is "), std::string::npos) << outcome.err;
+      EXPECT_NE(outcome.err.find("; allowed: "), std::string::npos) << outcome.err;
+      std::filesystem::remove(folder.path() / name);
+    }
+  }
+  EXPECT_EQ(folder.read("file"), "mine");
+  EXPECT_EQ(folder.entries(), (std::vector<std::string>{"file", "open.toml"}));
 }
 
 TEST(ForeignFileTest, OtherNamesAreNobodysBusiness) {

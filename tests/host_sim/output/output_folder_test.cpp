@@ -6,6 +6,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <csignal>
 #include <cstdio>
 #include <fstream>
@@ -13,6 +14,7 @@
 #include <set>
 #include <stdexcept>
 #include <string>
+#include <thread>
 #include <vector>
 
 namespace sonoglide::output::output_folder_test {
@@ -209,8 +211,9 @@ TEST_F(OutputFolderTest, AFileThatAppearsMeanwhileIsKept) {
 }
 
 TEST_F(OutputFolderTest, AForeignFileInTheListsPlaceIsKept) {
-  put(root_ / list, "mine\n");
   OutputFolder output(root_);
+  put(root_ / list, "mine\n");
+  EXPECT_THROW(OutputFolder(root_, {}), OutputError) << "before anything is computed";
   output.write("file", "ours");
   EXPECT_THROW(output.commit(), OutputError);
   EXPECT_EQ(text_of(root_ / list), "mine\n");
@@ -364,10 +367,43 @@ TEST_F(OutputFolderTest, SeveralProgramsMayWriteToOneFolderAtOnce) {
 }
 
 TEST_F(OutputFolderTest, AListThatIsNoFileIsRefused) {
-  ASSERT_EQ(mkfifo((root_ / list).c_str(), 0600), 0);
+  put_by_us(root_ / "other", {"a"}, "ours");
   put(root_ / "a", "mine");
-  EXPECT_NE(message_of([&] { OutputFolder(root_, {"a"}); }).find("is not a list of files"),
-            std::string::npos);
+  const auto expect_refused = [&] {
+    EXPECT_NE(message_of([&] { put_by_us(root_, {"a"}, "new"); }).find("is not a list of files"),
+              std::string::npos);
+    fs::remove(root_ / list);
+  };
+  ASSERT_EQ(mkfifo((root_ / list).c_str(), 0600), 0);
+  expect_refused();
+  for (const fs::path& linked : {fs::path("/dev/zero"), root_ / "other" / list}) {
+    fs::create_symlink(linked, root_ / list);
+    expect_refused();
+  }
+  EXPECT_EQ(text_of(root_ / "a"), "mine");
+}
+
+/// As programs do that have made them and fail.
+TEST_F(OutputFolderTest, ParentsMayGoWhileTheyAreUsed) {
+  std::atomic<bool> done{false};
+  std::thread other([&] {
+    while (!done) {
+      std::error_code ignored;
+      fs::create_directories(root_ / "a" / "b", ignored);
+      fs::remove(root_ / "a" / "b", ignored);
+      fs::remove(root_ / "a", ignored);
+    }
+  });
+  for (int i = 0; i < 50; ++i) {
+    const fs::path target = root_ / "a" / "b" / "c";
+    EXPECT_NO_THROW(put_by_us(target, {"file"}, "new")) << i;
+    EXPECT_EQ(text_of(target / "file"), "new") << i;
+    fs::remove_all(target);
+    EXPECT_NO_THROW(create_folder(target, {})) << i;
+    fs::remove(target);
+  }
+  done = true;
+  other.join();
 }
 
 TEST_F(OutputFolderTest, NamesArePlainAndUsedOnce) {
