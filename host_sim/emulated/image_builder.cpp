@@ -77,14 +77,6 @@ fs::path cache_folder() {
   fail("the image cache", "has no place; allowed: XDG_CACHE_HOME or HOME in the environment");
 }
 
-/// Says of an image which one it is and that it is whole.
-std::string seal_of(const std::string& key, const std::string& image) {
-  process::ContentHash hash;
-  hash.add(key);
-  hash.add(image);
-  return fmt::format("{:016x}\n", hash.value());
-}
-
 std::string content(const fs::path& path) {
   std::ifstream file(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
@@ -131,6 +123,32 @@ std::string key_of(const emulated::EmulatedBoard& board, const std::string& head
   return fmt::format("{}-{:016x}", board.name, hash.value());
 }
 
+/// Says of an image which one it is and that it is whole.
+std::string name_of(const std::string& key, const fs::path& image) {
+  process::ContentHash hash;
+  hash.add(key);
+  hash.add(content(image));
+  return fmt::format("{}-{:016x}.elf", key, hash.value());
+}
+
+/// Empty where there is none that is whole; others under its key are removed.
+fs::path find_image(const fs::path& cache, const std::string& key) {
+  fs::path found;
+  std::error_code unknown;
+  for (const fs::directory_entry& entry : fs::directory_iterator(cache)) {
+    const std::string name = entry.path().filename().string();
+    if (name.rfind(key + '-', 0) != 0 || !entry.is_regular_file(unknown)) {
+      continue;
+    }
+    if (name == name_of(key, entry.path())) {
+      found = entry.path();
+    } else {
+      fs::remove(entry.path(), unknown);
+    }
+  }
+  return found;
+}
+
 void compile(const emulated::EmulatedBoard& board, const std::string& header, const fs::path& tree,
              const fs::path& folder) {
   const fs::path controller = folder / controller_name;
@@ -157,18 +175,15 @@ fs::path build_image(const emulated::EmulatedBoard& board, const std::string& he
   require_for_cmake(tree);
   require_for_cmake(cache);
   const std::string key = key_of(board, header, tree, compiler);
-  fs::path image = cache / (key + ".elf");
-  const fs::path seal = cache / (key + ".seal");
-  if (content(seal) != seal_of(key, content(image))) {
-    fs::create_directories(cache);
+  fs::create_directories(cache);
+  fs::path image = find_image(cache, key);
+  if (image.empty()) {
     const process::ScratchFolder folder(cache);  // beside its target: the move there is a renaming
     compile(board, header, tree, folder.path());
     const fs::path built = folder.path() / "build/bin" / fmt::format("{}.elf", controller_name);
-    const fs::path sealed = folder.path() / "seal";
-    write_file(sealed, seal_of(key, content(built)));
-    // Somebody else may do the same meanwhile: the same image comes of it.
+    // Somebody else may do the same meanwhile: either image serves.
+    image = cache / name_of(key, built);
     fs::rename(built, image);
-    fs::rename(sealed, seal);
   }
   return image;
 } catch (const fs::filesystem_error& error) {

@@ -11,8 +11,8 @@ namespace sonoglide::emulated {
 /// Builds the image of a controller with the toolchain file of a board, out of the source tree that
 /// this program was built from or, where the environment variable SONOGLIDE_SOURCE names one, out
 /// of that. Ready images are kept under $XDG_CACHE_HOME/sonoglide or ~/.cache/sonoglide and found
-/// again by what they are made of: header, board, sources, compiler. Each has a seal beside it, a
-/// hash of that and of the image: one that is cut short, or another, is built anew.
+/// again by what they are made of: header, board, sources, compiler. The name of each ends with a
+/// hash of that and of the image: one that is cut short, or another, is removed and built anew.
 ///
 /// @param header  as controller_header() writes it
 /// @return the image, an ELF file

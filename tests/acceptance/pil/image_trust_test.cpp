@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -31,20 +32,13 @@ class ImageTrustTest : public testing::Test {
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
     return nlohmann::json::parse(folder_.read("out/summary.json"));
   }
-  std::vector<fs::path> files(const std::string& ending) const {
-    std::vector<fs::path> found;
-    for (const fs::directory_entry& entry : fs::directory_iterator(cache_.path() / "sonoglide")) {
-      if (entry.path().extension() == ending) {
-        found.push_back(entry.path());
-      }
-    }
-    return found;
-  }
+  fs::path images() const { return cache_.path() / "sonoglide"; }
   /// The only one.
   fs::path image() const {
-    EXPECT_EQ(files(".elf").size(), 1U);
-    EXPECT_EQ(files(".seal").size(), 1U);
-    return files(".elf").front();
+    const std::vector<fs::directory_entry> entries{fs::directory_iterator(images()),
+                                                   fs::directory_iterator()};
+    EXPECT_EQ(entries.size(), 1U);
+    return entries.front().path();
   }
 
   ScratchFolder folder_;
@@ -56,29 +50,50 @@ TEST_F(ImageTrustTest, WhatIsCutShortOrForeignIsBuiltAnew) {
   EXPECT_EQ(whole.at("pil").at("same_as_workstation"), true);
   EXPECT_EQ(whole.at("pil").at("trace_hash_workstation"), whole.at("control").at("trace_hash"));
   const fs::path ours = image();
-  const fs::path seal = files(".seal").front();
   const auto bytes = fs::file_size(ours);
-  const fs::path kept_image = cache_.path() / "kept.elf";
-  const fs::path kept_seal = cache_.path() / "kept.seal";
 
+  // Beside it, what is no image under such a name.
+  const std::string stem = ours.stem().string();
+  const fs::path odd_folder = images() / (stem.substr(0, stem.rfind('-') + 1) + "folder.elf");
   fs::resize_file(ours, bytes / 2);
+  fs::create_directory(odd_folder);
   EXPECT_EQ(pil(scene).at("control"), whole.at("control"));
+  EXPECT_TRUE(fs::remove(odd_folder));
   EXPECT_EQ(fs::file_size(image()), bytes);
 
-  fs::copy_file(ours, kept_image);
-  fs::copy_file(seal, kept_seal);
-  fs::remove(ours);
-  fs::remove(seal);
+  const fs::path kept = cache_.path() / "kept.elf";
+  fs::rename(image(), kept);
   const nlohmann::json unlike = pil(other);
   EXPECT_NE(unlike.at("control").at("trace_hash"), whole.at("control").at("trace_hash"));
-  const fs::path foreign = image();
-  const fs::path foreign_seal = files(".seal").front();
-  // The whole image of the other scene, with its own seal, under this one's name.
-  fs::rename(kept_image, foreign.string() + ".old");
-  fs::copy_file(foreign, ours);
-  fs::copy_file(foreign_seal, seal);
+  // The whole image of the other scene under this one's name.
+  fs::rename(image(), ours);
   EXPECT_EQ(pil(scene).at("control"), whole.at("control"));
-  EXPECT_EQ(fs::file_size(ours), bytes);
+  EXPECT_EQ(fs::file_size(image()), bytes);
+}
+
+TEST_F(ImageTrustTest, ACacheThatIsNoFolderIsNamed) {
+  std::ofstream(images()) << "mine";
+  const Outcome outcome = folder_.run("pil " + scene + " --board mps2-an386");
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_NE(outcome.err.find(images().string() + ": "), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find("; allowed: "), std::string::npos) << outcome.err;
+}
+
+/// None of them finds an image at the start.
+TEST_F(ImageTrustTest, SeveralMayBuildOneImageAtOnce) {
+  constexpr int programs = 3;
+  std::string line = "true";
+  for (int i = 0; i < programs; ++i) {
+    line += " & '" SONOGLIDE_PROGRAM "' pil " + scene + " --board mps2-an386 --quiet --out o" +
+            std::to_string(i) + " || touch failed";
+  }
+  EXPECT_EQ(folder_.run_program("sh", "-c " + shell_word(line + " & wait")).exit_code, 0);
+  EXPECT_FALSE(fs::exists(folder_.path() / "failed"));
+  for (int i = 0; i < programs; ++i) {
+    const auto summary =
+        nlohmann::json::parse(folder_.read("o" + std::to_string(i) + "/summary.json"));
+    EXPECT_EQ(summary.at("pil").at("same_as_workstation"), true);
+  }
 }
 
 /// An image that answers otherwise: a cache cannot tell, its seal being in order.
