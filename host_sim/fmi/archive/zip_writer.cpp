@@ -77,7 +77,7 @@ void ZipWriter::add(const std::string& name, std::string_view content) {
   facts.tmz_date.tm_mday = 1;  // 1980, the first year that the format knows
   facts.tmz_date.tm_year = 1980;
   require(zipOpenNewFileInZip(file_, name.c_str(), &facts, nullptr, 0, nullptr, 0, nullptr,
-                              Z_DEFLATED, Z_DEFAULT_COMPRESSION) == ZIP_OK);
+                              Z_DEFLATED, Z_BEST_SPEED) == ZIP_OK);
   require(zipWriteInFileInZip(file_, content.data(), static_cast<unsigned>(content.size())) ==
           ZIP_OK);
   require(zipCloseFileInZip(file_) == ZIP_OK);

@@ -7,6 +7,7 @@
 #include <cstddef>
 
 #include "host_sim/fmi/binary/export.hpp"
+#include "host_sim/fmi/binary/model_exchange.hpp"
 
 using fmi2Component = void*;
 using fmi2ComponentEnvironment = void*;
@@ -127,22 +128,11 @@ SONOGLIDE_FMI fmi2Status fmi2GetStringStatus(fmi2Component component, fmi2Status
                                              fmi2String* value);
 
 // Model exchange.
+#define SONOGLIDE_DECLARED(name, parameters) SONOGLIDE_FMI fmi2Status name parameters;
+SONOGLIDE_FMI_MODEL_EXCHANGE(SONOGLIDE_DECLARED, fmi2, fmi2Component, fmi2Boolean, fmi2Real)
+#undef SONOGLIDE_DECLARED
 SONOGLIDE_FMI fmi2Status fmi2EnterEventMode(fmi2Component component);
 SONOGLIDE_FMI fmi2Status fmi2NewDiscreteStates(fmi2Component component, fmi2EventInfo* info);
-SONOGLIDE_FMI fmi2Status fmi2EnterContinuousTimeMode(fmi2Component component);
-SONOGLIDE_FMI fmi2Status fmi2CompletedIntegratorStep(fmi2Component component,
-                                                     fmi2Boolean no_state_prior,
-                                                     fmi2Boolean* enter_event_mode,
-                                                     fmi2Boolean* terminate);
-SONOGLIDE_FMI fmi2Status fmi2SetTime(fmi2Component component, fmi2Real time);
-SONOGLIDE_FMI fmi2Status fmi2SetContinuousStates(fmi2Component component, const fmi2Real states[],
-                                                 std::size_t n);
 SONOGLIDE_FMI fmi2Status fmi2GetDerivatives(fmi2Component component, fmi2Real derivatives[],
                                             std::size_t n);
-SONOGLIDE_FMI fmi2Status fmi2GetEventIndicators(fmi2Component component, fmi2Real indicators[],
-                                                std::size_t n);
-SONOGLIDE_FMI fmi2Status fmi2GetContinuousStates(fmi2Component component, fmi2Real states[],
-                                                 std::size_t n);
-SONOGLIDE_FMI fmi2Status fmi2GetNominalsOfContinuousStates(fmi2Component component,
-                                                           fmi2Real nominals[], std::size_t n);
 // NOLINTEND(readability-identifier-naming)

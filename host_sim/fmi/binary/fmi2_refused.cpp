@@ -77,41 +77,14 @@ fmi2Status fmi2NewDiscreteStates(fmi2Component component, fmi2EventInfo* /*info*
   return refused(component, model_exchange);
 }
 
-fmi2Status fmi2EnterContinuousTimeMode(fmi2Component component) {
-  return refused(component, model_exchange);
-}
-
-fmi2Status fmi2CompletedIntegratorStep(fmi2Component component, fmi2Boolean /*no_state_prior*/,
-                                       fmi2Boolean* /*enter_event_mode*/,
-                                       fmi2Boolean* /*terminate*/) {
-  return refused(component, model_exchange);
-}
-
-fmi2Status fmi2SetTime(fmi2Component component, fmi2Real /*time*/) {
-  return refused(component, model_exchange);
-}
-
-fmi2Status fmi2SetContinuousStates(fmi2Component component, const fmi2Real /*states*/[],
-                                   std::size_t /*n*/) {
-  return refused(component, model_exchange);
-}
-
 fmi2Status fmi2GetDerivatives(fmi2Component component, fmi2Real /*derivatives*/[],
                               std::size_t /*n*/) {
   return refused(component, model_exchange);
 }
 
-fmi2Status fmi2GetEventIndicators(fmi2Component component, fmi2Real /*indicators*/[],
-                                  std::size_t /*n*/) {
-  return refused(component, model_exchange);
-}
-
-fmi2Status fmi2GetContinuousStates(fmi2Component component, fmi2Real /*states*/[],
-                                   std::size_t /*n*/) {
-  return refused(component, model_exchange);
-}
-
-fmi2Status fmi2GetNominalsOfContinuousStates(fmi2Component component, fmi2Real /*nominals*/[],
-                                             std::size_t /*n*/) {
-  return refused(component, model_exchange);
-}
+#define SONOGLIDE_REFUSED(name, parameters)   \
+  fmi2Status name parameters {                \
+    return refused(instance, model_exchange); \
+  }
+SONOGLIDE_FMI_MODEL_EXCHANGE(SONOGLIDE_REFUSED, fmi2, fmi2Component, fmi2Boolean, fmi2Real)
+#undef SONOGLIDE_REFUSED

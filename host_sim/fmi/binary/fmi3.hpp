@@ -8,6 +8,7 @@
 #include <cstdint>
 
 #include "host_sim/fmi/binary/export.hpp"
+#include "host_sim/fmi/binary/model_exchange.hpp"
 
 using fmi3Instance = void*;
 using fmi3InstanceEnvironment = void*;
@@ -202,23 +203,12 @@ SONOGLIDE_FMI fmi3Status fmi3DoStep(fmi3Instance instance, fmi3Float64 point, fm
                                     fmi3Float64* last_time);
 
 // Model exchange and scheduled execution.
-SONOGLIDE_FMI fmi3Status fmi3EnterContinuousTimeMode(fmi3Instance instance);
-SONOGLIDE_FMI fmi3Status fmi3CompletedIntegratorStep(fmi3Instance instance,
-                                                     fmi3Boolean no_state_prior,
-                                                     fmi3Boolean* enter_event_mode,
-                                                     fmi3Boolean* terminate);
-SONOGLIDE_FMI fmi3Status fmi3SetTime(fmi3Instance instance, fmi3Float64 time);
-SONOGLIDE_FMI fmi3Status fmi3SetContinuousStates(fmi3Instance instance, const fmi3Float64 states[],
-                                                 std::size_t n);
+#define SONOGLIDE_DECLARED(name, parameters) SONOGLIDE_FMI fmi3Status name parameters;
+SONOGLIDE_FMI_MODEL_EXCHANGE(SONOGLIDE_DECLARED, fmi3, fmi3Instance, fmi3Boolean, fmi3Float64)
+#undef SONOGLIDE_DECLARED
 SONOGLIDE_FMI fmi3Status fmi3GetContinuousStateDerivatives(fmi3Instance instance,
                                                            fmi3Float64 derivatives[],
                                                            std::size_t n);
-SONOGLIDE_FMI fmi3Status fmi3GetEventIndicators(fmi3Instance instance, fmi3Float64 indicators[],
-                                                std::size_t n);
-SONOGLIDE_FMI fmi3Status fmi3GetContinuousStates(fmi3Instance instance, fmi3Float64 states[],
-                                                 std::size_t n);
-SONOGLIDE_FMI fmi3Status fmi3GetNominalsOfContinuousStates(fmi3Instance instance,
-                                                           fmi3Float64 nominals[], std::size_t n);
 SONOGLIDE_FMI fmi3Status fmi3GetNumberOfEventIndicators(fmi3Instance instance, std::size_t* n);
 SONOGLIDE_FMI fmi3Status fmi3GetNumberOfContinuousStates(fmi3Instance instance, std::size_t* n);
 SONOGLIDE_FMI fmi3Status fmi3ActivateModelPartition(fmi3Instance instance, fmi3ValueReference clock,

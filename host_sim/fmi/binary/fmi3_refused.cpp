@@ -199,41 +199,7 @@ fmi3Status fmi3UpdateDiscreteStates(fmi3Instance instance, fmi3Boolean* /*needs_
   return refused(instance, event_mode);
 }
 
-fmi3Status fmi3EnterContinuousTimeMode(fmi3Instance instance) {
-  return refused(instance, model_exchange);
-}
-
-fmi3Status fmi3CompletedIntegratorStep(fmi3Instance instance, fmi3Boolean /*no_state_prior*/,
-                                       fmi3Boolean* /*enter_event_mode*/,
-                                       fmi3Boolean* /*terminate*/) {
-  return refused(instance, model_exchange);
-}
-
-fmi3Status fmi3SetTime(fmi3Instance instance, fmi3Float64 /*time*/) {
-  return refused(instance, model_exchange);
-}
-
-fmi3Status fmi3SetContinuousStates(fmi3Instance instance, const fmi3Float64 /*states*/[],
-                                   std::size_t /*n*/) {
-  return refused(instance, model_exchange);
-}
-
 fmi3Status fmi3GetContinuousStateDerivatives(fmi3Instance instance, fmi3Float64 /*derivatives*/[],
-                                             std::size_t /*n*/) {
-  return refused(instance, model_exchange);
-}
-
-fmi3Status fmi3GetEventIndicators(fmi3Instance instance, fmi3Float64 /*indicators*/[],
-                                  std::size_t /*n*/) {
-  return refused(instance, model_exchange);
-}
-
-fmi3Status fmi3GetContinuousStates(fmi3Instance instance, fmi3Float64 /*states*/[],
-                                   std::size_t /*n*/) {
-  return refused(instance, model_exchange);
-}
-
-fmi3Status fmi3GetNominalsOfContinuousStates(fmi3Instance instance, fmi3Float64 /*nominals*/[],
                                              std::size_t /*n*/) {
   return refused(instance, model_exchange);
 }
@@ -245,3 +211,10 @@ fmi3Status fmi3GetNumberOfEventIndicators(fmi3Instance instance, std::size_t* /*
 fmi3Status fmi3GetNumberOfContinuousStates(fmi3Instance instance, std::size_t* /*n*/) {
   return refused(instance, model_exchange);
 }
+
+#define SONOGLIDE_REFUSED(name, parameters)   \
+  fmi3Status name parameters {                \
+    return refused(instance, model_exchange); \
+  }
+SONOGLIDE_FMI_MODEL_EXCHANGE(SONOGLIDE_REFUSED, fmi3, fmi3Instance, fmi3Boolean, fmi3Float64)
+#undef SONOGLIDE_REFUSED
