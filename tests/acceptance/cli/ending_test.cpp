@@ -1,5 +1,4 @@
-/// Every command, ended by a signal at many moments, without a place for temporary files, and where
-/// nothing more can be written.
+/// Every command, ended by a signal at many moments, and where nothing more can be written.
 #include <gtest/gtest.h>
 #include <sys/prctl.h>
 #include <sys/wait.h>
@@ -134,16 +133,6 @@ TEST_P(FullDiskTest, NothingIsPublishedByHalves) {
   EXPECT_NE(outcome.out.find(": File too large"), std::string::npos) << outcome.out;
   expect_nothing_or_all(GetParam(), folder, before);
   EXPECT_EQ(folder.read(GetParam().folder + "/.sonoglide"), "");
-}
-
-TEST_P(FullDiskTest, NoPlaceForTemporaryFilesIsNeeded) {
-  const SceneFolder folder;
-  const std::string program = "'" SONOGLIDE_PROGRAM "' " + words(GetParam()) + " --out ";
-  const Outcome outcome =
-      folder.run_program("sh", "-c " + shell_word(program + "a && TMPDIR=/nowhere " + program +
-                                                  "b && ls a >la && ls b >lb"));
-  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-  EXPECT_EQ(folder.read("la"), folder.read("lb"));
 }
 
 INSTANTIATE_TEST_SUITE_P(Commands, FullDiskTest, testing::ValuesIn([] {
