@@ -66,7 +66,7 @@ class Unit {
       return Answer::parameters_not_confirmed;
     }
     silent_periods_ = 0;
-    supervisor_.restart();
+    start_drive();
     return Answer::taken;
   }
 
@@ -188,12 +188,13 @@ class Unit {
       supervisor_.trip(origin_ == store::Origin::damaged ? UnitFault::parameters_lost
                                                          : UnitFault::parameters_of_other_design);
     } else if (value(Parameter::start_on_power) != 0) {
-      supervisor_.restart();
+      start_drive();
     }
   }
 
-  /// Out of line: in the controller it is a lot of code.
+  // Out of line: in the controller they are a lot of code.
   [[gnu::noinline]] void apply_target() { supervisor_.set_target(design_.half_target(target_)); }
+  [[gnu::noinline]] void start_drive() { supervisor_.restart(); }
 
   void save() {
     typename Store::Record record{};
