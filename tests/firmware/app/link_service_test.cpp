@@ -138,6 +138,8 @@ TEST(LinkServiceTest, TelemetryShowsTheRunningUnit) {
   EXPECT_NEAR(numeric::from_code<double>(told.friction_force), 0.4 * TimedBoard::friction, 1e-3);
   EXPECT_NEAR(numeric::from_code<double>(told.sliding_velocity), TimedBoard::speed, 1e-9);
   EXPECT_NEAR(told.amplitude, powered.board.latest_drive().amplitude, numeric::to_code(1e-3));
+  EXPECT_EQ(told.settling, static_cast<std::uint8_t>(control::Settling::settled));
+  EXPECT_NEAR(told.mismatch, 1000, 1);
 }
 
 TEST(LinkServiceTest, ATargetSetInMidRunIsReached) {
