@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <type_traits>
 #include <vector>
 
 #include "firmware/link/messages.hpp"
@@ -64,41 +65,28 @@ Received received(const Bytes& stream) {
   return result;
 }
 
-/// One of every message, with fields that vary by `seed`; zeros among them.
-std::vector<Frame> every_message(std::uint32_t seed) {
-  const auto number = [&seed] {
+/// One of each, with fields that vary by `seed`; zeros among them.
+template <class... Messages>
+std::vector<Frame> filled(std::uint32_t seed) {
+  const auto number = [&seed](std::size_t bytes) {
     seed = 1664525U * seed + 1013904223U;
-    return seed % 3 == 0 ? 0U : seed;
+    return seed % 3 == 0 ? 0U : seed >> 8 * (sizeof seed - bytes);
   };
-  const auto byte = [&number] { return static_cast<std::uint8_t>(number() >> 24); };
-  const auto code = [&number] { return static_cast<std::int32_t>(number()); };
-  const auto sequence = [&number] { return static_cast<std::uint16_t>(number() >> 16); };
-  TargetSet set;
-  set.ratio = number();
-  ParameterWritten written;
-  written.parameter = byte();
-  written.value = number();
-  return {
-      frame_of(ReadTelemetry{}, sequence()),
-      frame_of(Telemetry{number(), code(), code(), code(), number(), byte(), byte(), byte(), byte(),
-                         sequence(), byte(), sequence()},
-               sequence()),
-      frame_of(SetTarget{number()}, sequence()),
-      frame_of(set, sequence()),
-      frame_of(ReadParameter{byte()}, sequence()),
-      frame_of(ParameterValue{byte(), byte(), number(), number(), number(), number()}, sequence()),
-      frame_of(WriteParameter{byte(), number()}, sequence()),
-      frame_of(written, sequence()),
-      frame_of(Restart{}, sequence()),
-      frame_of(Restarted{}, sequence()),
-      frame_of(Stop{}, sequence()),
-      frame_of(Stopped{}, sequence()),
-      frame_of(Confirm{}, sequence()),
-      frame_of(Confirmed{}, sequence()),
-      frame_of(ReadFault{byte()}, sequence()),
-      frame_of(LoggedFault{byte(), byte(), number(), number()}, sequence()),
-      frame_of(Refusal{byte(), byte(), number(), number()}, sequence()),
+  std::vector<Frame> frames;
+  const auto add = [&](auto message) {
+    decltype(message)::fields(message, [&](auto& field) {
+      field = static_cast<std::remove_reference_t<decltype(field)>>(number(sizeof field));
+    });
+    frames.push_back(frame_of(message, static_cast<std::uint16_t>(number(2))));
   };
+  (add(Messages{}), ...);
+  return frames;
+}
+
+std::vector<Frame> every_message(std::uint32_t seed) {
+  return filled<ReadTelemetry, Telemetry, SetTarget, TargetSet, ReadParameter, ParameterValue,
+                WriteParameter, ParameterWritten, Restart, Restarted, Stop, Stopped, Confirm,
+                Confirmed, ReadFault, LoggedFault, Refusal>(seed);
 }
 
 /// Nothing that arrives differs from what was sent.
