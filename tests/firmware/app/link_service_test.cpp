@@ -196,6 +196,17 @@ TEST(LinkServiceTest, AFaultIsReportedLoggedAndLeftByARestart) {
   powered.ask<link::Restarted>(link::Restart{});
   EXPECT_EQ(powered.telemetry().state, running);
   EXPECT_EQ(powered.ask<link::LoggedFault>(link::ReadFault{0}).count, 1U);
+
+  powered.board.fresh = false;
+  powered.serve(1);
+  powered.board.fresh = true;
+  const auto latest = powered.ask<link::LoggedFault>(link::ReadFault{0});
+  const auto before = powered.ask<link::LoggedFault>(link::ReadFault{1});
+  EXPECT_EQ(latest.count, 2U);
+  EXPECT_EQ(latest.age, 0);
+  EXPECT_GT(latest.period, period);
+  EXPECT_EQ(before.age, 1);
+  EXPECT_EQ(before.period, period);
 }
 
 TEST(LinkServiceTest, EveryParameterIsReadWithItsRange) {
