@@ -137,6 +137,11 @@ std::string plain_text(std::string_view text) {
   bool raised = false;
   bool braced = false;
   for (std::size_t at = 0; at < text.size();) {
+    if (std::isalnum(static_cast<unsigned char>(text[at])) != 0) {  // Most are.
+      plain += text[at++];
+      raised = false;
+      continue;
+    }
     const std::size_t character = character_at(text, at);
     const Spelling high = spelling_at(text, at, superscripts);
     const bool opens = begins(text, at, "^{") && !begins(text, at, "^{\\circ}");

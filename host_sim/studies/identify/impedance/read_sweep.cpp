@@ -16,6 +16,9 @@ namespace {
 
 using Complex = std::complex<double>;
 
+/// Few digits are no contradiction.
+constexpr double large = 0.05;
+
 std::string counted_frequencies(std::size_t count) {
   return count == 1 ? "1 frequency" : fmt::format("{} frequencies", count);
 }
@@ -31,8 +34,6 @@ void require_agreement(const MeasuredTable& table, const SweepColumns& other, co
     const double difference_S = other.rectangular()
                                     ? std::abs(all_S[row] - read_S)
                                     : std::abs(std::abs(all_S[row]) - std::abs(read_S));
-    // Few digits are no contradiction.
-    constexpr double large = 0.05;
     if (difference_S > large * std::abs(read_S)) {
       off.push_back(row);
     }
@@ -91,21 +92,30 @@ void sort_by_frequency(Sweep& sweep) {
 void average_repeated(Sweep& sweep) {
   const std::size_t given = sweep.frequency_Hz.size();
   std::size_t kept = 0;
+  double difference = 0.0;
   for (std::size_t begin = 0, end = 0; begin < given; begin = end) {
     Complex sum = 0.0;
     while (end < given && sweep.frequency_Hz[end] == sweep.frequency_Hz[begin]) {
       sum += sweep.admittance_S[end++];
     }
+    const Complex mean_S = sum / static_cast<double>(end - begin);
+    for (std::size_t i = begin; i < end; ++i) {
+      difference = std::max(difference, std::abs(sweep.admittance_S[i] / mean_S - 1.0));
+    }
     sweep.frequency_Hz[kept] = sweep.frequency_Hz[begin];
-    sweep.admittance_S[kept] = sum / static_cast<double>(end - begin);
+    sweep.admittance_S[kept] = mean_S;
     ++kept;
   }
   if (kept < given) {
     sweep.frequency_Hz.resize(kept);
     sweep.admittance_S.resize(kept);
     sweep.warnings.push_back(
-        fmt::format("The file has {} readings at {}: those of one frequency are averaged.", given,
-                    counted_frequencies(kept)));
+        fmt::format("The file has {} readings at {}: those of one frequency are averaged.{}", given,
+                    counted_frequencies(kept),
+                    difference > large ? fmt::format(" They differ by up to {:.2g} % from their "
+                                                     "mean: of several traces leave one.",
+                                                     100.0 * difference)
+                                       : ""));
   }
 }
 
