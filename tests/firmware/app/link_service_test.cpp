@@ -150,7 +150,9 @@ TEST(LinkServiceTest, ATargetSetInMidRunIsReached) {
     EXPECT_EQ(powered.ask<link::TargetSet>(link::SetTarget{target}).ratio, target);
     powered.serve(300);
     EXPECT_NEAR(powered.board.ratio(), target / 1e6, 1e-3);
-    EXPECT_EQ(powered.telemetry().target, target);
+    const link::Telemetry told = powered.telemetry();
+    EXPECT_EQ(told.target, target);
+    EXPECT_NEAR(told.mismatch, 1000, 10) << target;
   }
   EXPECT_EQ(powered.watchdog.feeds, static_cast<int>(powered.unit.supervisor().periods()));
 }
