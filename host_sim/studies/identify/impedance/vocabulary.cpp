@@ -105,7 +105,8 @@ bool is_equivalent_element(std::string_view word) {
 
 bool is_of_ratio(std::string_view name) {
   static const std::regex form(ratios, std::regex::icase);
-  return std::regex_search(plain_text(translated(name)), form);
+  constexpr std::size_t most_searched = 200;  // An expression takes stack for each letter.
+  return std::regex_search(plain_text(translated(name.substr(0, most_searched))), form);
 }
 
 bool is_of_other_quantity(std::string_view name) {

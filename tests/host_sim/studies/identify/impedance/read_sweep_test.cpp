@@ -426,8 +426,11 @@ TEST(ReadSweep, RefusesMoreCellsAndLinesThanATableHas) {
   EXPECT_NE(error_of(commas), "no error");
   EXPECT_NE(error_of("f,|Z|\n1,2\n3," + commas).find("row: cells on this line: more than 1000"),
             std::string::npos);
-  const std::string long_name(1U << 20U, 'x');
-  EXPECT_LT(error_of("f," + long_name + "\n1,2\n").size(), 1000U);
+  for (const char letter : {'x', '_', ' ', '(', '1', '*'}) {
+    const std::string long_name(1U << 20U, letter);
+    EXPECT_LT(error_of("f,s" + long_name + "\n1,2\n").size(), 1000U);
+    EXPECT_LT(error_of("# Hz S RI R " + long_name + "\n1 2 3\n").size(), 1000U);
+  }
   // Each line may be the heading, or the units of that above it.
   std::string headings;
   for (int i = 0; i < 20'000; ++i) {
