@@ -5,6 +5,7 @@
 /// @param each      a macro: (name, parameters)
 /// @param fmi       fmi2 | fmi3, what the names begin with
 /// @param Instance  the type of `instance`; Boolean, Real likewise
+// NOLINTBEGIN(bugprone-macro-parentheses): a type is no expression.
 // clang-format off
 #define SONOGLIDE_FMI_MODEL_EXCHANGE(each, fmi, Instance, Boolean, Real)                          \
   each(fmi##EnterContinuousTimeMode, (Instance instance))                                         \
@@ -17,3 +18,4 @@
   each(fmi##GetNominalsOfContinuousStates,                                                        \
        (Instance instance, Real /*nominals*/[], std::size_t /*n*/))
 // clang-format on
+// NOLINTEND(bugprone-macro-parentheses)

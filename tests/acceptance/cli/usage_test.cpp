@@ -104,15 +104,18 @@ TEST(UsageTest, WhatAMessageAllowsOfAnOptionIsAccepted) {
                               : command.scene.empty() ? command.name + " " + command.arguments
                                                       : words_with_scene(command, "nowhere.toml");
     for (const std::string& option : command.options) {
-      const std::string known = words.substr(0, words.find(option));
-      const Outcome refused = folder.run(known + " " + option + " -1e300");
+      const auto run_with = [&](const std::string& value) {
+        std::string line = words.substr(0, words.find(option));
+        return folder.run(line.append(" ").append(option).append(" ").append(value));
+      };
+      const Outcome refused = run_with("-1e300");
       std::smatch ends;
       if (refused.exit_code != 2 || !std::regex_search(refused.err, ends, range)) {
         continue;
       }
       for (const std::string& end : {ends[1].str(), ends[2].str()}) {
-        const Outcome outcome = folder.run(known + " " + option + " " + end);
-        EXPECT_EQ(outcome.err.find(option + ":"), std::string::npos) << known << end << outcome.err;
+        const Outcome outcome = run_with(end);
+        EXPECT_EQ(outcome.err.find(option + ":"), std::string::npos) << words << end << outcome.err;
         ++fed_back;
       }
     }
