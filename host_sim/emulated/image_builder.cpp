@@ -181,9 +181,12 @@ fs::path build_image(const emulated::EmulatedBoard& board, const std::string& he
     const process::ScratchFolder folder(cache);  // beside its target: the move there is a renaming
     compile(board, header, tree, folder.path());
     const fs::path built = folder.path() / "build/bin" / fmt::format("{}.elf", controller_name);
-    // Somebody else may do the same meanwhile: either image serves.
-    image = cache / name_of(key, built);
-    fs::rename(built, image);
+    // Somebody else may have done the same meanwhile, and may do so now: either image serves.
+    image = find_image(cache, key);
+    if (image.empty()) {
+      image = cache / name_of(key, built);
+      fs::rename(built, image);
+    }
   }
   return image;
 } catch (const fs::filesystem_error& error) {
