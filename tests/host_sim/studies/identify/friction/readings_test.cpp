@@ -57,6 +57,20 @@ TEST(Readings, ComeFromRatiosAndAmplitudesToo) {
   EXPECT_NEAR(read_readings(amplitudes).rows[0].vibration_m_per_s, 0.0571770, 1e-7);
 }
 
+/// In the unit of the column that says it, and of a value that is then taken.
+TEST(Readings, AVibrationThatIsNoneIsToldWithWhatIsOne) {
+  expect_refused(heading + "0.01,1e-16,0.5\n", "2:6", "allowed: 0, or at least 1e-15");
+  const std::string ratios = "velocity_ratio,sliding_velocity_m_per_s,friction_ratio\n";
+  expect_refused(ratios + "1e9,3e-12,0.5\n", "2:1", "allowed: at most 3000");
+  EXPECT_EQ(refusal(ratios + "3000,3e-12,0.5\n").find("is a vibration"), std::string::npos);
+  const std::string amplitudes =
+      "sliding_velocity_m_per_s,vibration_amplitude_m,frequency_Hz,friction_ratio\n";
+  expect_refused(amplitudes + "0.01,1e-22,26e3,0.5\n", "2:6",
+                 "allowed: 0, or at least 6.12135e-21");
+  EXPECT_EQ(refusal(amplitudes + "0.01,6.12135e-21,26e3,0.5\n").find("is a vibration"),
+            std::string::npos);
+}
+
 TEST(Readings, OutsideOfZeroToOneAreSaid) {
   const scene_file::Source source{"f.csv", heading + "0.01,0.1,0.1\n0.2,0.1,1.02\n"};
   EXPECT_EQ(read_readings(source).warnings.size(), 1U);
