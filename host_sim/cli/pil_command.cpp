@@ -16,6 +16,7 @@
 #include "host_sim/emulated/controller_header.hpp"
 #include "host_sim/emulated/run_image.hpp"
 #include "host_sim/loop/run.hpp"
+#include "host_sim/loop/step_forecast.hpp"
 #include "host_sim/report/run_report.hpp"
 
 namespace sonoglide::cli {
@@ -55,7 +56,7 @@ void pil(const PilOptions& options) {
   const std::string header = header_for(input, scene, design, board);
   if (!options.quiet) {
     print_design_notes(design);
-    announce_long_run(scene);
+    announce_long_work(loop::expected_steps(scene));
   }
   const std::filesystem::path out = output_folder(options.out, scene.name, "_" + options.board);
   require_emulator(board);

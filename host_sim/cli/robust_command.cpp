@@ -15,6 +15,7 @@
 #include "host_sim/cli/cluster_options.hpp"
 #include "host_sim/cli/options.hpp"
 #include "host_sim/cli/run_watch.hpp"
+#include "host_sim/loop/step_forecast.hpp"
 #include "host_sim/shards/collection.hpp"
 #include "host_sim/studies/robust/report.hpp"
 #include "host_sim/studies/robust/robust.hpp"
@@ -102,10 +103,17 @@ void tell_notes(const RobustOptions& options, const robust::Task& task) {
   }
 }
 
+void announce(const RobustOptions& options, const robust::Task& task, std::size_t runs) {
+  if (!options.quiet) {
+    announce_long_work(static_cast<double>(runs) * loop::expected_steps(task.nominal()));
+  }
+}
+
 std::string run_whole(const RobustOptions& options) {
   const robust::Task task = task_of(options);
   const std::filesystem::path out = folder_of(options, task);
   tell_notes(options, task);
+  announce(options, task, task.counts().samples + task.counts().search);
   return text(task,
               computed(options.quiet,
                        [&](const long_work::Progress& progress) {
@@ -119,6 +127,7 @@ std::string run_shard(const RobustOptions& options) {
   const robust::Task task = task_of(options);
   const std::filesystem::path out = folder_of(options, task);
   const shards::Shard shard = *shards::parse_shard(options.cluster.shard);
+  announce(options, task, shard.range(task.counts().samples).size());
   return shard_text(computed(options.quiet,
                              [&](const long_work::Progress& progress) {
                                return robust::run_shard(task, shard, out, program_version,
@@ -132,6 +141,7 @@ std::string merge(const RobustOptions& options) {
   const shards::Collection found(options.cluster.merge);
   const robust::Task task = robust::task_of(found, program_version);
   tell_notes(options, task);
+  announce(options, task, task.counts().search);
   return text(task,
               computed(options.quiet,
                        [&](const long_work::Progress& progress) {

@@ -14,6 +14,7 @@
 #include "host_sim/cli/run_watch.hpp"
 #include "host_sim/configure/control_design.hpp"
 #include "host_sim/loop/run.hpp"
+#include "host_sim/loop/step_forecast.hpp"
 #include "host_sim/process/printable.hpp"
 #include "host_sim/report/run_csv.hpp"
 #include "host_sim/report/run_findings.hpp"
@@ -72,7 +73,7 @@ void run(const RunOptions& options) {
   const Design design = configure::design_if_closed(scene);
   if (!options.quiet) {
     print_design_notes(design);
-    announce_long_run(scene);
+    announce_long_work(loop::expected_steps(scene));
   }
   const bool written = !options.json || !options.out.empty();
   if (written && !options.quiet) {

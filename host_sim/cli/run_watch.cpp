@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include "host_sim/loop/step_forecast.hpp"
 #include "host_sim/process/printable.hpp"
 
 namespace sonoglide::cli {
@@ -19,12 +18,11 @@ void print_design_notes(const std::optional<configure::ControlDesign>& design) {
   }
 }
 
-void announce_long_run(const scene::Scene& scene) {
+void announce_long_work(double expected_steps) {
   constexpr double steps_of_a_minute = 1e8;
-  const double steps = loop::expected_steps(scene);
-  if (steps >= steps_of_a_minute) {
-    process::show_on_stderr(
-        fmt::format("note: about {:.2g} steps are expected, which take minutes", steps));
+  if (expected_steps >= steps_of_a_minute) {
+    process::show_on_stderr(fmt::format(
+        "note: about {:.2g} steps are expected, minutes of work for one core", expected_steps));
   }
 }
 

@@ -18,8 +18,8 @@ void print_notes(const std::vector<std::string>& notes);
 /// Prints the notes of a controller's design; none in open loop.
 void print_design_notes(const std::optional<configure::ControlDesign>& design);
 
-/// Tells the steps of a run that will take a minute or more, before it begins.
-void announce_long_run(const scene::Scene& scene);
+/// Tells the steps of work that will take a minute or more of a core, before it begins.
+void announce_long_work(double expected_steps);
 
 /// The progress bar, which outlives it.
 loop::Progress watching(ProgressBar& bar);

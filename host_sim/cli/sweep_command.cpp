@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -9,8 +11,11 @@
 
 #include "host_sim/cli/cluster_options.hpp"
 #include "host_sim/cli/options.hpp"
+#include "host_sim/cli/run_watch.hpp"
+#include "host_sim/loop/step_forecast.hpp"
 #include "host_sim/studies/sweep/merge.hpp"
 #include "host_sim/studies/sweep/shard.hpp"
+#include "host_sim/studies/sweep/solve.hpp"
 #include "host_sim/studies/sweep/sweep.hpp"
 
 namespace sonoglide::cli {
@@ -53,10 +58,21 @@ std::string text(const sweep::MergeSummary& summary, const std::filesystem::path
               : fmt::format("no picture and no report: more than {} points\n", sweep::most_points));
 }
 
+void announce(const SweepOptions& options, const sweep::Plan& plan,
+              const shards::PointRange& points) {
+  constexpr std::uint64_t samples = 8;
+  if (!options.quiet) {
+    announce_long_work(
+        static_cast<double>(points.size()) *
+        sweep::mean_over(plan, points, std::min(samples, points.size()), loop::expected_steps));
+  }
+}
+
 std::string run_whole(const SweepOptions& options) {
   const sweep::Plan plan(scene_file::read_source(options.scene.path), options.scene.overrides,
                          options.vary);
   const std::filesystem::path out = output_folder(options.out, plan.first().name, "_sweep");
+  announce(options, plan, plan.all());
   return text(computed(options.quiet,
                        [&](const long_work::Progress& progress) {
                          return sweep::run_sweep(plan, out, program_version, options.threads,
@@ -70,6 +86,7 @@ std::string run_shard(const SweepOptions& options) {
                          options.vary, sweep::most_points_in_shards);
   const std::filesystem::path out = output_folder(options.out, plan.first().name, "_sweep");
   const shards::Shard shard = *shards::parse_shard(options.cluster.shard);
+  announce(options, plan, shard.range(plan.grid().size()));
   return shard_text(computed(options.quiet,
                              [&](const long_work::Progress& progress) {
                                return sweep::run_shard(plan, shard, out, program_version,

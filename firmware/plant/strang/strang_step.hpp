@@ -83,14 +83,17 @@ class StrangStep {
 
   /// Bound of the difference between the velocity of the flow and the path that the contact
   /// follows. At the ends their second derivatives differ by v""' length^3 / 120. Between the ends
-  /// the velocities differ by less than a hundredth of that times length^2.
+  /// the velocities differ by less than a hundredth of that times length^2. Friction that pumps (as
+  /// printed) must not turn the sliding by its kick: nothing would bring it back.
   Scalar missed_path() const {
     if constexpr (Law::varies) {
       const auto [begin, end] = velocity_.end_bends();
       const Scalar square = length_ * length_;
-      return numeric::from_real<Scalar>(0.01) *
-             numeric::max(numeric::abs(begin - square * jerk(from_)),
-                          numeric::abs(end - square * jerk(to_)));
+      const Scalar bend = numeric::from_real<Scalar>(0.01) *
+                          numeric::max(numeric::abs(begin - square * jerk(from_)),
+                                       numeric::abs(end - square * jerk(to_)));
+      return kick_turns() ? numeric::max(bend, numeric::abs(from_.state.velocity - start_velocity_))
+                          : bend;
     }
     return Scalar(0);
   }
@@ -115,9 +118,7 @@ class StrangStep {
   Scalar friction_integral() const { return friction_.integral(Scalar(1), Scalar(0)); }
   Scalar friction_work() const { return friction_.work(); }
   Scalar sliding_work() const {
-    return friction_.integral(
-        interval_.sliding_velocity + Model::Sliding::change(interval_.sliding_acceleration, begin_),
-        interval_.sliding_acceleration);
+    return friction_.integral(sliding_at_begin(), interval_.sliding_acceleration);
   }
   MotionIntegrals<Scalar> motion_integrals() const {
     const Scalar velocity_squares = integral(velocity_square(from_), velocity_square(to_));
@@ -132,6 +133,17 @@ class StrangStep {
   State<Scalar> kicked(State<Scalar> state) const {
     state.velocity -= numeric::half(length_) * model_.contact_force(state.friction);
     return state;
+  }
+  Scalar sliding_at_begin() const {
+    return interval_.sliding_velocity +
+           Model::Sliding::change(interval_.sliding_acceleration, begin_);
+  }
+  bool kick_turns() const {
+    const Scalar sliding = sliding_at_begin();
+    return model_.contact_work(Scalar(1)) < Scalar(0) &&
+           model_.contact_velocity(sliding, start_velocity_) *
+                   model_.contact_velocity(sliding, from_.state.velocity) <
+               Scalar(0);
   }
   End flow_end(const State<Scalar>& state, const typename Flow::Follower& drive) const {
     const DriveForce<Scalar> force = drive.force();

@@ -51,19 +51,25 @@ double expected_solving_cost(const scene::Scene& scene) {
   return plant_cost(scene) + (scene.controller ? control_period * periods_of(scene) : 0.0);
 }
 
-double expected_solving_cost(const Plan& plan, const PointRange& points) try {
-  constexpr int samples = 32;
+double mean_over(const Plan& plan, const PointRange& points, std::size_t samples,
+                 const std::function<double(const scene::Scene&)>& figure) try {
   // Multiples of the golden section fall into step with no axis.
   constexpr double golden = 0.61803398874989485;
   double sum = 0.0;
-  for (int i = 0; i < samples; ++i) {
-    const double part = std::fmod(golden * i, 1.0);
+  for (std::size_t i = 0; i < samples; ++i) {
+    const double part = std::fmod(golden * static_cast<double>(i), 1.0);
     const auto offset = static_cast<std::size_t>(part * static_cast<double>(points.size()));
-    sum += expected_solving_cost(plan.scene(points.first + offset));
+    sum += figure(plan.scene(points.first + offset));
   }
-  return sum / samples;
+  return sum / static_cast<double>(samples);
 } catch (const scene_file::SceneError&) {
-  return 0.0;  // reading all points will say which is the first that is unusable
+  return 0.0;
+}
+
+double expected_solving_cost(const Plan& plan, const PointRange& points) {
+  constexpr std::size_t samples = 32;
+  return mean_over(plan, points, samples,
+                   [](const scene::Scene& scene) { return expected_solving_cost(scene); });
 }
 
 namespace {

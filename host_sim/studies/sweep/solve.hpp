@@ -17,8 +17,14 @@ namespace sonoglide::sweep {
 /// progress shown while the points of a sweep are read, and nothing else.
 double expected_solving_cost(const scene::Scene& scene);
 
-/// The mean of these points, as a few from all over them have it.
+/// The mean of these points.
 double expected_solving_cost(const Plan& plan, const PointRange& points);
+
+/// The mean of a figure over these points, as some from all over them have it. 0 where one of those
+/// is unusable: reading all points will say which is the first.
+/// @param samples  how many; >= 1
+double mean_over(const Plan& plan, const PointRange& points, std::size_t samples,
+                 const std::function<double(const scene::Scene&)>& figure);
 
 /// A computation that fails gives a row whose status says why.
 PointResult solve_scalar_point(const scene::Scene& scene);

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "scene_folder.hpp"
+#include "tests/acceptance/program/started_program.hpp"
 
 namespace sonoglide::acceptance::ending_test {
 namespace {
@@ -39,14 +40,16 @@ std::string test_name(const testing::TestParamInfo<Command>& info) {
 }
 
 /// Starts shell words in a folder, with a folder for what is kept from run to run.
-pid_t start(const ScratchFolder& folder, const ScratchFolder& cache, const std::string& words) {
+/// @param errors  a file for what it says on standard error
+pid_t start(const ScratchFolder& folder, const ScratchFolder& cache, const std::string& words,
+            const std::string& errors = "/dev/null") {
   const pid_t child = fork();
   if (child == 0) {
     setenv("XDG_CACHE_HOME", cache.path().c_str(), 1);
     setenv("TMPDIR", cache.path().c_str(), 1);
     // The sanitizer's search for leaks is a process of its own, which would look like a tool.
     setenv("ASAN_OPTIONS", "detect_leaks=0", 1);
-    const std::string line = "exec '" SONOGLIDE_PROGRAM "' " + words + " >/dev/null 2>&1";
+    const std::string line = "exec '" SONOGLIDE_PROGRAM "' " + words + " >/dev/null 2>" + errors;
     if (chdir(folder.path().c_str()) == 0) {
       execl("/bin/sh", "sh", "-c", line.c_str(), nullptr);
     }
@@ -140,6 +143,37 @@ INSTANTIATE_TEST_SUITE_P(Commands, FullDiskTest, testing::ValuesIn([] {
                            std::copy_if(command_table.begin(), command_table.end(),
                                         std::back_inserter(found),
                                         [](const Command& each) { return !each.files.empty(); });
+                           return found;
+                         }()),
+                         test_name);
+
+/// A run that takes long, where the command's own duration does not end it.
+class LongWorkTest : public testing::TestWithParam<Command> {};
+
+TEST_P(LongWorkTest, IsToldBeforeItBegins) {
+  const SceneFolder folder;
+  const ScratchFolder cache;
+  const std::string longer = " --set run.duration_periods=" +
+                             std::string(GetParam().name == "work-precision" ? "1000" : "1e9") +
+                             " --set friction.contact_stiffness_N_per_m=1e12";
+  const pid_t program = start(folder, cache, words(GetParam()) + longer, "told");
+  const bool told = comes_true([&] {
+    return folder.read("told").find(" steps are expected, minutes of work") != std::string::npos;
+  });
+  kill(program, SIGTERM);
+  waitpid(program, nullptr, 0);
+  EXPECT_TRUE(told) << folder.read("told");
+}
+
+INSTANTIATE_TEST_SUITE_P(Commands, LongWorkTest, testing::ValuesIn([] {
+                           std::vector<Command> found = commands_here();
+                           found.erase(std::remove_if(found.begin(), found.end(),
+                                                      [](const Command& each) {
+                                                        return each.scene.empty() ||
+                                                               each.name == "configure" ||
+                                                               each.name == "fmu";
+                                                      }),
+                                       found.end());
                            return found;
                          }()),
                          test_name);

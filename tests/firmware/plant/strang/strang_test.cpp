@@ -38,7 +38,7 @@ struct Passed : EnergyAccount<double> {
     EnergyAccount<double>::add(step);
     drive += std::abs(step.motion_integrals().drive_work);
     damper += std::abs(step.motion_integrals().damping_work);
-    contact += std::abs(step.friction_work() - step.sliding_work());
+    contact += std::fmax(std::abs(step.friction_work()), std::abs(step.sliding_work()));
     const double end = step.at(step.length()).velocity;
     velocity_square_at_most = std::fmax(velocity_square_at_most, end * end);
   }
@@ -160,6 +160,74 @@ TEST(Strang, CutsAStepThatIsTooLongForTheContact) {
   EXPECT_NEAR(found.displacement, exact.displacement, 2e-13);
   EXPECT_GE(solver.cost().steps, 12288U);  // 12 of the longest, halved ten times
   EXPECT_LE(solver.cost().steps, 12320U);
+}
+
+/// 3 g on 30e6 N/m with 4 N s/m, a contact of 20e3 N/m and 0.2 N that slides at 0.4 m/s, at 20 kHz:
+/// friction alone sets the mass in motion. The first step begins at rest, however short it is.
+TEST(Strang, TakesTheStepsOfSecondOrderWhereFrictionAloneDrives) {
+  const Contact dragged =
+      Case().contact_stiffness(0.1).friction_force(4.222e-3).damping(0.01061).stiffness(0.6333);
+  constexpr int periods = 50;
+  constexpr double sliding = 3.1831;
+  for (const double drive : {0.0, 1e-9, 1e-4}) {
+    auto reference = configured<Taylor>(dragged, 1e-12);
+    Ran exact;
+    ASSERT_EQ(run_periods(reference, periods, drive, sliding, exact.state, exact.account),
+              Error::none);
+    std::uint64_t before = 0;
+    for (const double tolerance : {1e-6, 1e-8, 1e-10}) {
+      auto solver = configured<Solver>(dragged, tolerance);
+      Ran found;
+      ASSERT_EQ(run_periods(solver, periods, drive, sliding, found.state, found.account),
+                Error::none)
+          << tolerance;
+      const std::uint64_t steps = solver.cost().steps;
+      // A hundredth of the tolerance takes ten times the steps.
+      EXPECT_LT(steps, before == 0 ? 20000U : 15 * before) << tolerance;
+      before = steps;
+      // The steps, of second order, go with the root of the tolerance.
+      EXPECT_LT(distance(found, exact, periods), 40.0 * std::sqrt(tolerance) * 4.222e-3);
+      EXPECT_NEAR(found.account.friction_integral, exact.account.friction_integral,
+                  tolerance * periods * period);
+    }
+  }
+}
+
+/// A contact that is loaded against the sliding, and slips to its limit within 1e-4 of a period.
+TEST(Strang, WhatIsHardAtTheBeginningDoesNotCutTheRest) {
+  const Contact loaded =
+      Case().contact_stiffness(2e3).friction_force(0.05).damping(0.01).stiffness(0.05);
+  const State<double> against = {0.0, 0.0, -0.9};
+  const Ran exact = run<Taylor>(loaded, 1e-12, 1, 2.0, against);
+  const Ran found = run<Solver>(loaded, 1e-6, 1, 2.0, against, 2000);
+  ASSERT_EQ(found.error, Error::none);
+  EXPECT_LT(distance(found, exact, 1), 1e-5);
+}
+
+/// A vibration of 1 that the damper stops, and then one of 1e-6, which turns the sliding.
+TEST(Strang, WhatHasDiedAwayIsNoMeasure) {
+  const Contact damped =
+      Case().contact_stiffness(1e7).friction_force(1e-9).damping(40.0).stiffness(3000.0);
+  const State<double> displaced = {0.02, 0.0, 0.0};
+  const auto ratio = [&](auto solver) {
+    State<double> state = displaced;
+    EnergyAccount<double> account;
+    EXPECT_EQ(run_periods(solver, 3, 3e-3, 3e-7, state, account), Error::none);
+    return account.friction_integral / (3.0 * period);
+  };
+  EXPECT_NEAR(ratio(configured<Solver>(damped, 1e-6)), ratio(configured<Taylor>(damped, 1e-12)),
+              1e-4);
+}
+
+/// Friction as printed pushes the sliding on: a kick must not turn it.
+TEST(Strang, AKickThatTurnsTheSlidingIsNoStep) {
+  const Contact pumped =
+      Case().contact_stiffness(1e5).friction_force(1.0).vibration_sign(-1.0).stiffness(1e-3);
+  const State<double> against = {0.0, 0.0, -1.0};
+  const Ran exact = run<Taylor>(pumped, 1e-12, 1, 0.02, against);
+  const Ran found = run<Solver>(pumped, 1e-4, 1, 0.02, against);
+  EXPECT_NEAR(found.account.friction_integral, exact.account.friction_integral, 1e-3);
+  EXPECT_GT(found.account.friction_integral, 6.0);
 }
 
 TEST(Strang, DeclinesWhatItsStepsDoNotReach) {
