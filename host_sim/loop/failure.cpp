@@ -9,6 +9,7 @@
 #include "firmware/numeric/turn.hpp"
 #include "host_sim/configure/plant_scales.hpp"
 #include "host_sim/configure/solver_facts.hpp"
+#include "host_sim/configure/solver_methods.hpp"
 #include "host_sim/loop/carrier_grid.hpp"
 
 namespace sonoglide::loop {
@@ -76,6 +77,12 @@ std::string of_stuck_contact(const scene::Scene& scene, const Rates& rates, doub
       turns / time_s, turns, period_word(scene));
 }
 
+std::string of_slip(const scene::Friction& friction) {
+  return fmt::format(
+      "the contact slides more than Fc/(2 Kt) = {:.4g} m in one step, while its friction grows",
+      0.5 * configure::largest_friction_limit_N(friction) / friction.contact_stiffness_N_per_m);
+}
+
 std::string of_sliding(const Rates& rates, double time_s) {
   return fmt::format("the contact slides to its limit within Fc/(Kt Vt) = {:.4g} s",
                      time_s / rates.slide);
@@ -97,6 +104,20 @@ std::string fastest(const scene::Scene& scene, double enough_alone) {
                                    : of_mode(scene, rates, time_s);
 }
 
+/// The limits are those of the classical Runge-Kutta method, and of rk4_event in a contact.
+std::string step_too_long(const scene::Scene& scene) {
+  const Rates in_step = rates_in(scene, scene.solver.step_s);
+  const double contact = in_step.stuck * in_step.stuck - in_step.mode * in_step.mode;
+  const double period_s = CarrierGrid(scene).period_s();
+  if (in_step.mode > std::sqrt(8.0) || in_step.damper > 2.785) {
+    return fastest(scene, 0.0);
+  }
+  return contact > 1.0 ? of_stuck_contact(scene, rates_in(scene, period_s), period_s)
+                       : of_slip(scene.friction);
+}
+
+constexpr const char* a_remedy = "; a shorter solver.step_s would do, or event_taylor";
+
 std::string too_many_steps(const scene::Scene& scene, const plant::Cost& cost) {
   const std::string need =
       fmt::format("one {} needs more than {} steps ({} were taken since the run began); ",
@@ -110,22 +131,28 @@ std::string too_many_steps(const scene::Scene& scene, const plant::Cost& cost) {
     if (rates.slide >= slow) {
       return need + of_sliding(rates, CarrierGrid(scene).period_s());
     }
+    const bool second_order =
+        scene.solver.method == configure::method_of<configure::solvers::Strang>;
     return need + fmt::format(
                       "nothing in the plant is so fast: solver.tolerance = {:.6g} asks for "
-                      "them",
-                      scene.solver.tolerance);
+                      "them{}",
+                      scene.solver.tolerance,
+                      second_order
+                          ? " of strang, which is of second order; event_taylor takes fewer"
+                          : "");
   }
   return need + fastest(scene, 10.0 * slow);
 }
 
-std::string reason(const scene::Scene& scene, plant::Error error, const plant::Cost& cost) {
+}  // namespace
+
+std::string failure_cause(const scene::Scene& scene, plant::Error error, const plant::Cost& cost) {
   switch (error) {
     case plant::Error::friction_bound_broken:
-      return fmt::format("{}, the step is too long for the contact stiffness",
-                         scene::broken_bound(scene.friction.law));
+      return fmt::format("{}, the step is too long for the contact stiffness{}",
+                         scene::broken_bound(scene.friction.law), a_remedy);
     case plant::Error::step_too_long:
-      return "the step is too long; " +
-             fastest(scene, CarrierGrid(scene).period_s() / scene.solver.step_s);
+      return "the step is too long: " + step_too_long(scene) + a_remedy;
     case plant::Error::too_many_steps:
       return too_many_steps(scene, cost);
     case plant::Error::not_finite:
@@ -135,15 +162,13 @@ std::string reason(const scene::Scene& scene, plant::Error error, const plant::C
   return "the state is no longer finite";
 }
 
-}  // namespace
-
 std::string failure_reason(const scene::Scene& scene, plant::Error error, double time_s,
                            const PlantState& state, const plant::Cost& cost) {
   return fmt::format(
       "solver: at {:.6g} s, displacement {:.6g} m, velocity {:.6g} m/s, friction force {:.6g} N: "
       "{}",
       time_s, state.displacement_m, state.velocity_m_per_s, state.friction_force_N,
-      reason(scene, error, cost));
+      failure_cause(scene, error, cost));
 }
 
 }  // namespace sonoglide::loop

@@ -16,7 +16,10 @@ class ComputationError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Time, state and reason; where the steps ran out, what they were spent on.
+/// Why the solver gave up, and what would do; where the steps ran out, what they were spent on.
+std::string failure_cause(const scene::Scene& scene, plant::Error error, const plant::Cost& cost);
+
+/// Time, state and cause.
 std::string failure_reason(const scene::Scene& scene, plant::Error error, double time_s,
                            const PlantState& state, const plant::Cost& cost);
 

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "firmware/numeric/turn.hpp"
+#include "firmware/plant/outcome.hpp"
 #include "host_sim/configure/plant_scales.hpp"
 #include "host_sim/configure/solver_facts.hpp"
 #include "host_sim/loop/failure.hpp"
@@ -98,7 +99,9 @@ class PeriodMap {
     energy_ = EnergyBalance();
     for (const Stretch& stretch : period_) {
       EnergyBalance part;
-      if (plant_->advance(stretch, part).error != plant::Error::none) {
+      const plant::Error error = plant_->advance(stretch, part).error;
+      if (error != plant::Error::none) {
+        error_ = error;
         return std::nullopt;
       }
       energy_.append(part);
@@ -119,6 +122,8 @@ class PeriodMap {
   PlantState plant_state() const { return plant_->state(); }
   std::vector<double> plant_memory() const { return plant_->memory(); }
   std::uint64_t periods() const { return periods_; }
+  plant::Cost cost() const { return plant_->cost(); }
+  plant::Error error() const { return error_; }  ///< last of the solver in any of the periods
 
   /// @param load  0: the contact remembers nothing of its past; 1: it has slid on to its limits
   Vector loaded(double displacement_m, double velocity_m_per_s, double load) const {
@@ -154,6 +159,7 @@ class PeriodMap {
   std::vector<Stretch> period_;
   NormalForce normal_force_;
   std::uint64_t periods_ = 0;
+  plant::Error error_ = plant::Error::none;
   EnergyBalance energy_;
 };
 
@@ -286,6 +292,15 @@ std::optional<Vector> closed_orbit(PeriodMap& map, Shooting& shooting, const sce
   return std::nullopt;
 }
 
+std::string why_none(const scene::Scene& scene, const PeriodMap& map) {
+  if (map.error() != plant::Error::none) {
+    return "the solver fails in them, " + failure_cause(scene, map.error(), map.cost());
+  }
+  return scene.plant.stiffness_N_per_m > 0.0
+             ? "the drive may put in more than friction and damping take out"
+             : "no spring holds the mass in its place";
+}
+
 [[noreturn]] void fail(const std::string& why, const PlantState& state) {
   throw ComputationError(fmt::format(
       "steady orbit: {}; at drive phase 0 displacement {:.6g} m, velocity {:.6g} m/s, friction "
@@ -302,9 +317,7 @@ SteadyOrbit find_orbit(const scene::Scene& scene, std::uint64_t most_steps) {
   const auto orbit = closed_orbit(map, shooting, scene);
   if (!orbit) {
     fail(fmt::format("none of the drive's period found in {} carrier periods; {}", map.periods(),
-                     scene.plant.stiffness_N_per_m > 0.0
-                         ? "the drive may put in more than friction and damping take out"
-                         : "no spring holds the mass in its place"),
+                     why_none(scene, map)),
          map.plant_state());
   }
   const auto slope = derivative(map, *orbit, shooting.difference());

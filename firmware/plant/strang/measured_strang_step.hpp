@@ -45,12 +45,11 @@ class MeasuredStrangStep {
         (gain_.kicks + contact_work()) +
         ((gain_.kinetic + gain_.elastic) - (motion_.drive_work - motion_.damping_work)));
   }
-  /// The largest energy that drive, damper, sliding or contact passed on.
+  /// The largest energy that drive, damper or contact passed on.
   Scalar passed_energy() const {
     return numeric::max(
         numeric::max(numeric::abs(motion_.drive_work), numeric::abs(motion_.damping_work)),
-        numeric::abs(contact_scale_) *
-            numeric::max(numeric::abs(friction_work_), numeric::abs(sliding_work_)));
+        numeric::abs(contact_work()));
   }
   /// What rounding is relative to in energy_defect().
   Scalar energy_terms() const {

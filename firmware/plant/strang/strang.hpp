@@ -30,8 +30,7 @@ namespace sonoglide::plant {
 /// instant, as the start or a reversal of a stiff contact, does not cut all that comes after it.
 ///
 /// The highest velocity is at least that which drive and friction give a mass within a radian: a
-/// step that begins at rest has none that is worth a comparison, however short it is. The energy
-/// that passed is that of the drive, of the damper, of the sliding or of the contact.
+/// step that begins at rest has none that is worth a comparison, however short it is.
 ///
 /// An interval that needs more steps than the limit is declined with Error::too_many_steps. Causes
 /// are a stuck contact that rings, friction as strong as the drive (second order), an oscillator far

@@ -108,6 +108,52 @@ TEST(FailureTest, TheTrueCauseOfManyStepsIsNamed) {
   }
 }
 
+/// What a step of rk4_event passes over, and a solver that would not.
+struct LongStep {
+  double stiffness_N_per_m;
+  double contact_stiffness_N_per_m;
+  double normal_force_N;
+  std::string told;
+};
+
+TEST(FailureTest, TheTrueCauseOfATooLongStepIsNamed) {
+  // A step of 1e-7 s, 20 g: Ks 8/h^2 m = 1.6e13 N/m, Kt m/h^2 = 2e12 N/m; Fc 0.1 N.
+  const std::vector<LongStep> steps = {
+      {2e13, 1e6, 1.0, "the natural mode, sqrt(Ks/m)/2π = 5.033e+06 Hz"},
+      {133e6, 3e12, 1.0, "a stuck contact rings at sqrt((Kt + Ks)/m)/2π = 1.949e+06 Hz"},
+      {133e6, 1e8, 1.0, "the contact slides more than Fc/(2 Kt) = 5e-10 m in one step"}};
+  for (const LongStep& step : steps) {
+    scene::Scene scene = table_1();
+    scene.plant.stiffness_N_per_m = step.stiffness_N_per_m;
+    scene.friction.contact_stiffness_N_per_m = step.contact_stiffness_N_per_m;
+    scene.friction.normal_force_N = step.normal_force_N;
+    scene.solver.method = configure::method_of<configure::solvers::Rk4Event>;
+    scene.solver.step_s = 1e-7;
+    const std::string message = failure(scene);
+    expect_time_and_state(message);
+    EXPECT_NE(message.find("the step is too long: " + step.told), std::string::npos) << message;
+    EXPECT_NE(message.find("a shorter solver.step_s would do, or event_taylor"), std::string::npos);
+    scene.run.start = scene::Start::steady;
+    const std::string orbit = failure(scene);
+    EXPECT_NE(orbit.find("the solver fails in them, the step is too long: " + step.told),
+              std::string::npos)
+        << orbit;
+  }
+}
+
+TEST(FailureTest, AToleranceOutOfReachOfSecondOrderIsNamed) {
+  scene::Scene scene = table_1();
+  scene.friction.normal_force_N = 1e3;
+  scene.solver.method = configure::method_of<configure::solvers::Strang>;
+  scene.solver.tolerance = 1e-15;
+  const std::string message = failure(scene);
+  expect_time_and_state(message);
+  EXPECT_NE(message.find("solver.tolerance = 1e-15 asks for them of strang, which is of second "
+                         "order; event_taylor takes fewer"),
+            std::string::npos)
+      << message;
+}
+
 /// No friction: the oscillator is linear, whatever the ratio of its frequencies.
 TEST(FailureTest, AMilligramOnAGiganewtonPerMetreRuns) {
   scene::Scene scene = table_1();

