@@ -83,9 +83,9 @@ TimedProfile sliding_of(const Scene& scene) {
   return profile;
 }
 
-equations::Instant instant(const Scene& scene, double time_s, double piece_s) {
+equations::Instant instant(const Scene& scene, const TimedProfile& sliding, double time_s,
+                           double piece_s) {
   const scene::Friction& friction = scene.friction;
-  const TimedProfile sliding = sliding_of(scene);
   const Value velocity = on_line(sliding, 0.0, time_s, piece_s);
   const Value stiffness =
       on_line(scene.plant.stiffness_profile, scene.plant.stiffness_N_per_m, time_s, piece_s);
@@ -137,10 +137,11 @@ Motion by_peer(const Scene& scene) {
     }
     piece_s = 0.5 * (joints[i - 1] + joints[i]);
     equations::follow(
-        *friction, [&](double time_s) { return instant(scene, time_s, piece_s); }, joints[i - 1],
-        joints[i], 1.0 / (700.0 * scene.drive->frequency_Hz), state);
+        *friction, [&](double time_s) { return instant(scene, sliding, time_s, piece_s); },
+        joints[i - 1], joints[i], 1.0 / (700.0 * scene.drive->frequency_Hz), state);
   }
-  return {state[0], state[1], friction->friction_N(state, instant(scene, joints.back(), piece_s)),
+  return {state[0], state[1],
+          friction->friction_N(state, instant(scene, sliding, joints.back(), piece_s)),
           state[equations::impulse]};
 }
 

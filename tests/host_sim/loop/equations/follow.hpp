@@ -28,23 +28,25 @@ void follow(FrictionEquations& equations, const Forcing& forcing, double begin_s
     odeint::integrate_adaptive(formula, system, after, time_s, time_s + length_s, length_s);
     return after;
   };
-  const auto leaves = [&](double time_s, double length_s) {
-    return equations.margin(moved(time_s, length_s), forcing(time_s + length_s)) < 0.0;
+  const auto has_left = [&](const State& after, double time_s) {
+    return equations.margin(after, forcing(time_s)) < 0.0;
   };
   double time_s = begin_s;
   equations.enter_piece(state, forcing(time_s));
   for (int pieces = 0; time_s < end_s;) {
     const double length_s = std::min(step_s, end_s - time_s);
-    if (!leaves(time_s, length_s)) {
-      state = moved(time_s, length_s);
+    const State after = moved(time_s, length_s);
+    if (!has_left(after, time_s + length_s)) {
+      state = after;
       time_s = length_s < step_s ? end_s : time_s + length_s;
       continue;
     }
     double inside_s = 0.0;
     double outside_s = length_s;
-    for (int i = 0; i < 60; ++i) {
+    while (time_s + inside_s < time_s + 0.5 * (inside_s + outside_s)) {
       const double middle_s = 0.5 * (inside_s + outside_s);
-      (leaves(time_s, middle_s) ? outside_s : inside_s) = middle_s;
+      const bool left = has_left(moved(time_s, middle_s), time_s + middle_s);
+      (left ? outside_s : inside_s) = middle_s;
     }
     state = moved(time_s, outside_s);
     time_s += outside_s;
