@@ -44,9 +44,9 @@ class Strang {
   static constexpr bool solves = EqualStepStrang<Model>::template solves<Law>;
 
   /// tolerance: of velocity and energy, as above; > 0. Not a bound of the friction ratio: of random
-  /// contacts over three periods 99 in 100 erred by less than 6e-5 at 1e-4 and by less than 8e-6 at
-  /// 1.6e-7; three in 40,000 by more than 1e-3, where the sliding only just turns, or where friction
-  /// as printed, which pumps, makes much of any error.
+  /// contacts over three periods 99 in 100 erred by less than 6e-5 at 1e-4 and by less than 9e-6 at
+  /// 1.6e-7; of 38,000 four by more than 1e-3 at 1e-4, where the sliding only just turns, or where
+  /// friction as printed, which pumps, makes much of any error.
   /// step_limit: the most steps of one advance, those taken again included.
   /// longest_step: in tau; > 0. Drive and damper work exactly enough up to about 2.5
   /// tolerance^(1/6), which is never exceeded.

@@ -101,12 +101,12 @@ struct OnceWrong {
 /// where a free mass stands, terms near the largest number, a stop within less of a step than the
 /// quotient of two terms can tell.
 const std::vector<OnceWrong> once_wrong = {
-    {54, strang_float64, {}},
+    {54, strang, {}},
     {321, strang_float64, {}},
     {534, {}, {}},
-    {639, strang_float64, {}},
+    {639, {}, {}},
     {2669, strang_float64, {}},
-    {3376, strang_float64, {}},
+    {3376, {}, {}},
     {4186, {}, gauss_and_strang},
     {4924, {}, {}},
     {7090, {}, {}},
@@ -115,7 +115,7 @@ const std::vector<OnceWrong> once_wrong = {
     {16202, strang, {}},
     {34846, strang_float64, {}},
     {37999, taylor, gauss_and_strang},
-    {62157, strang_float64, gauss},
+    {62157, {}, gauss},
     {66241, {"event_taylor_8 float64", "strang float64", "strang float32"}, {}},
     {72461, {}, {}},
     {76026,
@@ -154,7 +154,7 @@ TEST(Extremes, ScenesThatOnceWentWrong) {
     EXPECT_EQ(declined, each.declined) << each.scene;
     EXPECT_EQ(unsupported, each.unsupported) << each.scene;
   }
-  EXPECT_EQ(solved, 144U);
+  EXPECT_EQ(solved, 146U);
 }
 
 /// Free masses that stand far from where displacement is counted from, and ring in a stuck contact
