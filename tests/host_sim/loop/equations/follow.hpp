@@ -43,7 +43,7 @@ void follow(FrictionEquations& equations, const Forcing& forcing, double begin_s
     }
     double inside_s = 0.0;
     double outside_s = length_s;
-    while (time_s + inside_s < time_s + 0.5 * (inside_s + outside_s)) {
+    for (int i = 0; i < 60; ++i) {
       const double middle_s = 0.5 * (inside_s + outside_s);
       const bool left = has_left(moved(time_s, middle_s), time_s + middle_s);
       (left ? outside_s : inside_s) = middle_s;
