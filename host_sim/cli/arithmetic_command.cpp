@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <cstddef>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -14,7 +13,6 @@
 #include "host_sim/cli/run_watch.hpp"
 #include "host_sim/configure/configuration_error.hpp"
 #include "host_sim/emulated/controller_header.hpp"
-#include "host_sim/loop/step_forecast.hpp"
 #include "host_sim/output/gnuplot.hpp"
 #include "host_sim/scene/names.hpp"
 #include "host_sim/studies/arithmetic/comparison.hpp"
@@ -71,10 +69,6 @@ void arithmetic(const ArithmeticOptions& options) {
   const std::filesystem::path out = output_folder(options.out, scene.name, "_arithmetic");
   output::require_gnuplot();
   require_writable(out, {"arithmetic.csv", "targets.csv", "arithmetic.svg"});
-  if (!options.quiet) {
-    const std::size_t runs = boards.size() * arithmetic::all_arithmetics.size();
-    announce_long_work(static_cast<double>(runs) * loop::expected_steps(scene));
-  }
   const arithmetic::ArithmeticComparison comparison = compute(scene, boards, options.quiet);
   arithmetic::write(out, scene, comparison);
   if (!options.quiet) {

@@ -12,7 +12,6 @@
 
 #include "host_sim/cli/options.hpp"
 #include "host_sim/cli/progress_bar.hpp"
-#include "host_sim/cli/run_watch.hpp"
 #include "host_sim/output/gnuplot.hpp"
 #include "host_sim/studies/design/report.hpp"
 #include "host_sim/studies/design/study.hpp"
@@ -77,9 +76,6 @@ void design(const DesignOptions& options) {
   const std::filesystem::path out = output_folder(options.out, scene.name, "_design");
   output::require_gnuplot();
   require_writable(out, {"report.html", "design.json", "design.csv", "detuning.csv"});
-  if (!options.quiet) {
-    announce_long_work(design::expected_steps(task));
-  }
   const design::DesignStudy study = compute(task, options.quiet);
   design::write(out, study);
   if (!options.quiet) {

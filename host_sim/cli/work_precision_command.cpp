@@ -39,9 +39,6 @@ void work_precision(const WorkPrecisionOptions& options) {
   const std::filesystem::path out = output_folder(options.out, scene.name, "_work_precision");
   output::require_gnuplot();
   require_writable(out, {"report.html", "work_precision.csv", "work_precision.svg"});
-  if (!options.quiet) {
-    announce_long_work(work_precision::expected_steps(scene));
-  }
   const work_precision::SolverComparison comparison = compute(problem, options.quiet);
   work_precision::write(out, scene, comparison);
   if (!options.quiet) {

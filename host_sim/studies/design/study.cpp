@@ -7,8 +7,6 @@
 #include <cstddef>
 
 #include "host_sim/loop/failure.hpp"
-#include "host_sim/loop/step_forecast.hpp"
-#include "host_sim/studies/design/steady_motion.hpp"
 
 namespace sonoglide::design {
 namespace {
@@ -128,15 +126,6 @@ const Requirement* most_electrical(const DesignStudy& study) {
     }
   }
   return most;
-}
-
-double expected_steps(const Task& task) {
-  // Some ten forces are tried for a ratio at a speed, and an orbit is found in some ten periods.
-  constexpr double periods_of_requirement = 100.0;
-  const double requirements = static_cast<double>(task.ratios.size()) * speed_count;
-  return requirements * periods_of_requirement *
-         loop::expected_steps(steady_scene(task.scene, task.speeds.fastest_m_per_s,
-                                           task.scene.drive->max_force_amplitude_N));
 }
 
 DesignStudy study(const Task& task, const Progress& progress) {

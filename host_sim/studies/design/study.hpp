@@ -45,9 +45,6 @@ const Requirement* most_electrical(const DesignStudy& study);
 /// The design points that have a motion.
 std::vector<DesignPoint> moving_points(const DesignStudy& study);
 
-/// Steps of the solver in all searches for orbits, to a factor of three.
-double expected_steps(const Task& task);
-
 /// On every core. Of a single speed the curves go from a tenth to ten times it.
 /// @throws loop::ComputationError  under no force that was tried there is an orbit
 DesignStudy study(const Task& task, const Progress& progress);

@@ -5,7 +5,6 @@
 #include "host_sim/configure/configuration_error.hpp"
 #include "host_sim/configure/plant_scales.hpp"
 #include "host_sim/loop/carrier_grid.hpp"
-#include "host_sim/loop/step_forecast.hpp"
 #include "host_sim/scene/names.hpp"
 
 namespace sonoglide::work_precision {
@@ -84,15 +83,6 @@ peers::Problem problem_of(const scene::Scene& scene) {
   problem.friction = initial.friction;
   problem.periods = whole_periods(scene);
   return problem;
-}
-
-double expected_steps(const scene::Scene& scene) {
-  // There are two, and each of their steps, in long double, takes as long as ten of the solver's.
-  constexpr double steps_of_a_step = 20.0;
-  scene::Scene tight = scene;
-  tight.solver = scene::Solver();
-  tight.solver.tolerance = 1e-12;
-  return steps_of_a_step * loop::expected_steps(tight);
 }
 
 }  // namespace sonoglide::work_precision

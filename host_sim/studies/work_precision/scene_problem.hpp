@@ -14,8 +14,4 @@ inline constexpr int most_periods = 1000;
 /// @throws configure::ConfigurationError  names the key that stands in the way
 peers::Problem problem_of(const scene::Scene& scene);
 
-/// Steps of event_taylor that take as long as the references of a comparison, about. Its rows are
-/// broken off where they are slow: see Effort.
-double expected_steps(const scene::Scene& scene);
-
 }  // namespace sonoglide::work_precision
