@@ -46,6 +46,16 @@ void require_agreement(const MeasuredTable& table, const SweepColumns& other, co
   }
 }
 
+/// What a reader of the result has to know of a column that names no unit.
+std::string assumed_unit(const ColumnName& name) {
+  if (name.has_unit) {
+    return {};
+  }
+  return name.subject == Subject::impedance    ? ", in ohm as its name has no unit"
+         : name.subject == Subject::admittance ? ", in siemens as its name has no unit"
+                                               : "";
+}
+
 Sweep read_table(const scene_file::Source& source) {
   const MeasuredTable table(source, are_names_of_a_sweep);
   const FoundColumns found = find_columns(table);
@@ -67,7 +77,7 @@ Sweep read_table(const scene_file::Source& source) {
   for (std::size_t i = 1; i < found.forms.size(); ++i) {
     require_agreement(table, found.forms[i], sweep);
   }
-  sweep.format = "a table of " + sweep.format;
+  sweep.format = "a table of " + sweep.format + assumed_unit(found.forms.front().first.name);
   return sweep;
 }
 

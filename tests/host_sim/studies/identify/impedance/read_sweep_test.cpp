@@ -477,13 +477,29 @@ TEST(ReadSweep, WarnsOfNumbersThatMayBeAThousandTimesAsMuch) {
       "\"f\" has no unit in its name: it is taken for a frequency in Hz."};
   const std::vector<std::string> commas = {
       "The commas of numbers as \"112,000\" on line 2 are taken for decimal commas; where they "
-      "stand "
-      "between thousands, take them out."};
+      "stand between thousands, take them out."};
   EXPECT_EQ(warnings("f,|Z|\n", "{}.{:03},{}\n"), no_unit);
   EXPECT_EQ(warnings("f,|Z|\n", "{}{:03},{}\n"), none);
   EXPECT_EQ(warnings("f_kHz,|Z|\n", "{}.{:03},{}\n"), none);
   EXPECT_EQ(warnings("f_kHz;|Z|\n", "{},{:03};9\n"), commas);
   EXPECT_EQ(warnings("f_kHz;|Z|\n", "{},{:03};9,5\n"), none);
+}
+
+TEST(ReadSweep, SaysWhichUnitItTakes) {
+  const auto format = [](const char* heading) {
+    return read_sweep({"m.csv", file_of(heading,
+                                        [](double f, Complex z) {
+                                          return fmt::format("{},{},{}\n", f, z.real(), z.imag());
+                                        })})
+        .format;
+  };
+  EXPECT_EQ(format("f_Hz,R,X\n"),
+            "a table of real and imaginary part of an impedance, in ohm as its name has no unit");
+  EXPECT_EQ(format("f_Hz,G,B\n"),
+            "a table of real and imaginary part of an admittance, in siemens as its name has no "
+            "unit");
+  EXPECT_EQ(format("f_Hz,R (kOhm),X (kOhm)\n"),
+            "a table of real and imaginary part of an impedance");
 }
 
 TEST(ReadSweep, WarnsOfAFileThatMayBeCut) {
