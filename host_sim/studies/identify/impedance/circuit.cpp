@@ -16,36 +16,38 @@ double detuning(const Mode& mode, double frequency_Hz) {
 
 /// The detuning d of a mode that leans: the least solution of d = d0 + 2 s/(1 + d²), d0 that at a
 /// small current. From |s| = 0.77 on there are three about the peak; the least is what a sweep to
-/// higher frequencies follows.
+/// higher frequencies follows. Cardano's roots of the cubic, then Newton's steps.
 double leaning_detuning(double straight, double lean) {
-  const auto excess = [&](double d) { return d - 2.0 * lean / (1.0 + d * d) - straight; };
-  double low = straight + std::min(0.0, 2.0 * lean);
-  double high = straight + std::max(0.0, 2.0 * lean);
-  constexpr double most_of_one_solution = 0.76;
-  if (std::abs(lean) > most_of_one_solution) {
-    constexpr int parts = 24;
-    const double step = (high - low) / parts;
-    for (int i = 1; i < parts && excess(low + step) < 0.0; ++i) {
-      low += step;
+  double d = straight;
+  constexpr double far = 1e3;  // where the lean is next to nothing and Cardano's terms cancel
+  if (std::abs(straight) < far) {
+    const double third = straight / 3.0;
+    const double slope = 1.0 / 3.0 - third * third;
+    const double half = -third * (third * third + 1.0) - lean;
+    const double square = half * half + slope * slope * slope;
+    if (square > 0.0) {
+      const double root = std::cbrt(-half - std::copysign(std::sqrt(square), half));
+      d = third + root - slope / root;
+    } else {
+      const double size = std::sqrt(-slope);
+      const double angle = std::acos(std::clamp(-half / (size * size * size), -1.0, 1.0));
+      d = third + 2.0 * size * std::cos((angle + two_pi) / 3.0);
     }
-    high = low + step;
   }
-  double d = 0.5 * (low + high);
-  constexpr int most_steps = 60;
-  for (int i = 0; i < most_steps; ++i) {
-    const double off = excess(d);
-    (off < 0.0 ? low : high) = d;
-    const double square = 1.0 + d * d;
-    double next = d - off / (1.0 + 4.0 * lean * d / (square * square));
-    if (!(next > low && next < high)) {
-      next = 0.5 * (low + high);
-    }
-    if (std::abs(next - d) <= 1e-15 * (1.0 + std::abs(d))) {
-      return next;
-    }
-    d = next;
+  constexpr int steps = 2;
+  for (int i = 0; i < steps; ++i) {
+    const double power = 1.0 / (1.0 + d * d);
+    const double slope = 1.0 + 4.0 * lean * d * power * power;
+    constexpr double fold = 1e-6;
+    d -= std::abs(slope) > fold ? (d - 2.0 * lean * power - straight) / slope : 0.0;
   }
   return d;
+}
+
+/// 1/(1 + j d)
+Complex peak(double d) {
+  const double power = 1.0 / (1.0 + d * d);
+  return {power, -d * power};
 }
 
 Complex clamped_S(const Circuit& circuit, double frequency_Hz) {
@@ -57,8 +59,7 @@ Complex behind_lead_S(const Circuit& circuit, double frequency_Hz) {
   double lean = circuit.lean;
   for (const Mode& mode : circuit.modes) {
     const double straight = detuning(mode, frequency_Hz);
-    sum += mode.conductance_S /
-           Complex(1.0, lean == 0.0 ? straight : leaning_detuning(straight, lean));
+    sum += mode.conductance_S * peak(lean == 0.0 ? straight : leaning_detuning(straight, lean));
     lean = 0.0;  // of the first alone
   }
   return sum;
@@ -146,13 +147,10 @@ Eigen::VectorXd to_vector(const Circuit& circuit, const Parts& parts) {
       p(at++) = element(copy, static_cast<Part>(i));
     }
   }
-  for (std::size_t i = 0; i < circuit.modes.size(); ++i) {
-    const Mode& mode = circuit.modes[i];
-    p.segment<2>(at) << std::log(mode.conductance_S), std::log(mode.resonance_Hz);
-    at += 2;
-    if (i < static_cast<std::size_t>(parts.modes)) {
-      p(at++) = std::log(mode.bandwidth_Hz);
-    }
+  for (const Mode& mode : circuit.modes) {
+    p.segment<3>(at) << std::log(mode.conductance_S), std::log(mode.resonance_Hz),
+        std::log(mode.bandwidth_Hz);
+    at += 3;
   }
   return p;
 }
@@ -168,11 +166,6 @@ Circuit to_circuit(const Eigen::VectorXd& p, const Parts& parts) {
   for (int i = 0; i < parts.modes; ++i, at += 3) {
     circuit.modes.push_back({std::exp(p(at)), std::exp(p(at + 1)), std::exp(p(at + 2))});
   }
-  for (int i = 0; i < parts.beside; ++i, at += 2) {
-    const double resonance_Hz = std::exp(p(at + 1));
-    circuit.modes.push_back(
-        {std::exp(p(at)), resonance_Hz, resonance_Hz / circuit.modes.front().quality()});
-  }
   return circuit;
 }
 
@@ -186,8 +179,7 @@ Complex admittance_S(const Circuit& circuit, const Parts& parts, double frequenc
     derivatives(parts.index(Part::loss_tangent)) =
         two_pi * frequency_Hz * circuit.clamped_capacitance_F;
   }
-  const Eigen::Index first = parts.first_mode();
-  Eigen::Index at = first;
+  Eigen::Index at = parts.first_mode();
   for (std::size_t i = 0; i < circuit.modes.size(); ++i) {
     const Mode& mode = circuit.modes[i];
     const double straight = detuning(mode, frequency_Hz);
@@ -195,19 +187,12 @@ Complex admittance_S(const Circuit& circuit, const Parts& parts, double frequenc
     const double d = lean == 0.0 ? straight : leaning_detuning(straight, lean);
     const double power = 1.0 / (1.0 + d * d);  // |i/i_max|²
     const double bent = 1.0 + 4.0 * lean * d * power * power;
-    const Complex y = mode.conductance_S / Complex(1.0, d);
-    const Complex slope = -j * y * y / (mode.conductance_S * bent);  // dy/d(straight)
-    const Complex by_bandwidth = slope * -straight;
+    const Complex y = mode.conductance_S * peak(d);
+    const Complex slope = -j * y * peak(d) / bent;  // dy/d(straight)
     derivatives(at++) = y;
     derivatives(at++) =
         slope * (-2.0 * mode.resonance_Hz * mode.resonance_Hz / (frequency_Hz * mode.bandwidth_Hz));
-    if (i < static_cast<std::size_t>(parts.modes)) {
-      derivatives(at++) = by_bandwidth;
-    } else {  // ln Δ = ln fs − ln(fs/Δ) of the first
-      derivatives(at - 1) += by_bandwidth;
-      derivatives(first + 1) -= by_bandwidth;
-      derivatives(first + 2) += by_bandwidth;
-    }
+    derivatives(at++) = slope * -straight;
     if (i == 0 && parts.has(Part::lean)) {
       derivatives(parts.index(Part::lean)) = slope * (2.0 * power);
     }

@@ -68,9 +68,7 @@ const char* name_of(Part part);
 /// Which parts of a circuit are fitted.
 struct Parts {
   std::bitset<part_count> fitted;
-  int modes = 1;  ///< in the sweep
-  int beside =
-      0;  ///< modes beside the sweep, behind the others; they have the quality of the first
+  int modes = 1;
 
   bool has(Part part) const { return fitted[static_cast<std::size_t>(part)]; }
   Parts with(Part part, bool is_fitted = true) const;
@@ -78,14 +76,10 @@ struct Parts {
   Eigen::Index index(Part part) const;
   /// Of the first mode's ln G in the vector.
   Eigen::Index first_mode() const { return 1 + static_cast<Eigen::Index>(fitted.count()); }
-  Eigen::Index size() const {
-    return first_mode() + 3 * static_cast<Eigen::Index>(modes) +
-           2 * static_cast<Eigen::Index>(beside);
-  }
+  Eigen::Index size() const { return first_mode() + 3 * static_cast<Eigen::Index>(modes); }
 };
 
-/// A circuit as a vector: ln C0, the parts that are fitted, then ln G, ln fs and ln Δ of each mode,
-/// and ln G and ln fs of each beside the sweep.
+/// A circuit as a vector: ln C0, the parts that are fitted, then ln G, ln fs and ln Δ of each mode.
 Eigen::VectorXd to_vector(const Circuit& circuit, const Parts& parts);
 Circuit to_circuit(const Eigen::VectorXd& p, const Parts& parts);
 

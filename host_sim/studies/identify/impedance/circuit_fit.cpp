@@ -1,5 +1,7 @@
 #include "host_sim/studies/identify/impedance/circuit_fit.hpp"
 
+#include <boost/math/distributions/fisher_f.hpp>
+
 #include <algorithm>
 #include <cmath>
 
@@ -10,31 +12,33 @@ namespace {
 
 using Complex = std::complex<double>;
 
-/// The fitted admittance that weights are taken from.
-struct Frame {
-  Eigen::VectorXcd admittance_S;
-  double mean_log_magnitude;
-  Linearisation at;  ///< magnitudes and slopes alone
-};
-
-Frame frame_of(const Sweep& sweep, const Circuit& circuit) {
+/// Of the admittance over a band width.
+Eigen::VectorXcd slope_of(const Sweep& sweep, const Circuit& circuit) {
   const auto readings = static_cast<Eigen::Index>(sweep.frequency_Hz.size());
-  Frame frame{Eigen::VectorXcd(readings), 0.0, {}};
-  frame.at.slope.setZero(readings);
-  for (Eigen::Index i = 0; i < readings; ++i) {
+  Eigen::VectorXcd slope = Eigen::VectorXcd::Zero(readings);
+  constexpr double part = 1e-3;
+  for (Eigen::Index i = 0; i < readings && !circuit.modes.empty(); ++i) {
     const double f = sweep.frequency_Hz[static_cast<std::size_t>(i)];
-    frame.admittance_S(i) = circuit.admittance_S(f);
-    if (!circuit.modes.empty()) {
-      constexpr double part = 1e-3;  // of a band width
-      const double step_Hz = part * circuit.modes.front().bandwidth_Hz;
-      frame.at.slope(i) =
-          std::log(circuit.admittance_S(f + step_Hz) / circuit.admittance_S(f - step_Hz)) /
-          (2.0 * part);
-    }
+    const double step_Hz = part * circuit.modes.front().bandwidth_Hz;
+    slope(i) = (circuit.admittance_S(f + step_Hz) - circuit.admittance_S(f - step_Hz)) /
+               (2.0 * part * circuit.admittance_S(f));
   }
-  frame.at.log_magnitude = frame.admittance_S.cwiseAbs().array().log();
-  frame.mean_log_magnitude = frame.at.log_magnitude.mean();
-  frame.at.log_magnitude.array() -= frame.mean_log_magnitude;
+  return slope;
+}
+
+/// A linearisation that weights are taken from: without residuals, with slopes where they are used.
+Linearisation frame_of(const Sweep& sweep, const Circuit& circuit, bool with_slope) {
+  const auto readings = static_cast<Eigen::Index>(sweep.frequency_Hz.size());
+  Linearisation frame{{}, {}, 0, Eigen::VectorXcd(readings), {}, 0.0, {}};
+  for (Eigen::Index i = 0; i < readings; ++i) {
+    frame.admittance_S(i) = circuit.admittance_S(sweep.frequency_Hz[static_cast<std::size_t>(i)]);
+  }
+  frame.log_magnitude = frame.admittance_S.cwiseAbs().array().log();
+  frame.mean_log_magnitude = frame.log_magnitude.mean();
+  frame.log_magnitude.array() -= frame.mean_log_magnitude;
+  if (with_slope) {
+    frame.slope = slope_of(sweep, circuit);
+  }
   return frame;
 }
 
@@ -44,7 +48,7 @@ Eigen::Index rows_of(const Sweep& sweep) {
 
 /// Residuals over the frame's admittance; the sign is that of measured less fitted.
 void relative_residuals(const Sweep& sweep, const Parts& parts, const Circuit& circuit,
-                        const Frame& frame, Eigen::VectorXd& r, Eigen::MatrixXd* jacobian) {
+                        const Linearisation& frame, Eigen::VectorXd& r, Eigen::MatrixXd* jacobian) {
   const auto readings = static_cast<Eigen::Index>(sweep.frequency_Hz.size());
   Eigen::VectorXcd derivatives(parts.size());
   for (Eigen::Index i = 0; i < readings; ++i) {
@@ -73,29 +77,29 @@ void relative_residuals(const Sweep& sweep, const Parts& parts, const Circuit& c
   }
 }
 
-Linearisation linearise(const Sweep& sweep, const Parts& parts, const Circuit& circuit,
-                        const Frame& frame) {
-  Linearisation at = frame.at;
-  at.residuals.resize(rows_of(sweep));
-  at.jacobian.resize(rows_of(sweep), parts.size());
-  relative_residuals(sweep, parts, circuit, frame, at.residuals, &at.jacobian);
-  return at;
-}
-
-LeastSquares whitened_problem(const Sweep& sweep, const Parts& parts, const Frame& frame,
+LeastSquares whitened_problem(const Sweep& sweep, const Parts& parts, const Linearisation& frame,
                               const Noise& noise) {
   return {rows_of(sweep), parts.size(),
           [&sweep, parts, &frame, &noise](const Eigen::VectorXd& p, Eigen::VectorXd& r,
                                           Eigen::MatrixXd* jacobian) {
             relative_residuals(sweep, parts, to_circuit(p, parts), frame, r, jacobian);
             if (jacobian != nullptr) {
-              whiten(noise, frame.at, *jacobian);
+              whiten(noise, frame, *jacobian);
             }
-            whiten(noise, frame.at, r);
+            whiten(noise, frame, r);
           }};
 }
 
 }  // namespace
+
+Linearisation linearise(const Sweep& sweep, const Parts& parts, const Circuit& circuit) {
+  Linearisation at = frame_of(sweep, circuit, true);
+  at.residuals.resize(rows_of(sweep));
+  at.jacobian.resize(rows_of(sweep), parts.size());
+  at.modes = parts.modes;
+  relative_residuals(sweep, parts, circuit, at, at.residuals, &at.jacobian);
+  return at;
+}
 
 Sweep with_logarithmic_residuals(const Sweep& sweep, const Circuit& fitted) {
   Sweep moved = sweep;
@@ -111,8 +115,8 @@ CircuitFit fit_circuit(const Sweep& sweep, const Parts& parts, const Circuit& st
   CircuitFit fit{parts, start, to_vector(start, parts), noise, {}, 0.0, {}, 0.0, false};
   constexpr int most_rounds = 4;
   for (int round = 0; round < most_rounds; ++round) {
-    const Frame frame = frame_of(sweep, fit.circuit);
-    if (!frame.at.log_magnitude.allFinite()) {
+    const Linearisation frame = frame_of(sweep, fit.circuit, noise.jitter > 0.0);
+    if (!frame.log_magnitude.allFinite()) {
       fit.converged = false;
       break;
     }
@@ -129,23 +133,20 @@ CircuitFit fit_circuit(const Sweep& sweep, const Parts& parts, const Circuit& st
       break;
     }
   }
-  const Frame frame = frame_of(sweep, fit.circuit);
-  fit.at = linearise(sweep, parts, fit.circuit, frame);
-  Eigen::MatrixXd jacobian = fit.at.jacobian;
+  fit.at = linearise(sweep, parts, fit.circuit);
   Eigen::VectorXd residuals = fit.at.residuals;
-  whiten(noise, frame.at, jacobian);
-  const double log_determinant = whiten(noise, frame.at, residuals);
-  fit.converged = fit.converged && residuals.allFinite() && jacobian.allFinite();
+  const double log_determinant = whiten(noise, fit.at, residuals);
+  fit.converged = fit.converged && residuals.allFinite() && fit.at.jacobian.allFinite();
   const auto rows = static_cast<double>(residuals.size());
   const double freedom = rows - static_cast<double>(fit.p.size());
   const double least = rounding * rounding;
   fit.variance = std::max(residuals.squaredNorm() / freedom, least);
   // In the admittance itself, not relative to a fit.
-  const double log_units = 2.0 * rows * frame.mean_log_magnitude;
+  const double log_units = 2.0 * rows * fit.at.mean_log_magnitude;
   fit.deviance = log_determinant + log_units +
                  rows * std::log(std::max(residuals.squaredNorm() / rows, least));
   if (fit.converged) {
-    fit.covariance = fit.variance * inverse_normal_matrix(jacobian);
+    fit.covariance = solve(fit.at, noise).covariance;
   }
   return fit;
 }
@@ -158,6 +159,21 @@ CircuitFit fit_circuit_and_noise(const Sweep& sweep, const Parts& parts, const C
     fit = fit_circuit(sweep, parts, fit.circuit, estimate_noise(fit.at, correlation));
   }
   return fit;
+}
+
+double schwarz(const CircuitFit& fit) {
+  return fit.deviance +
+         static_cast<double>(fit.p.size()) * std::log(static_cast<double>(fit.at.residuals.size()));
+}
+
+double chance(const CircuitFit& smaller, const CircuitFit& larger) {
+  const auto rows = static_cast<double>(larger.at.residuals.size());
+  const double freedom = rows - static_cast<double>(larger.p.size());
+  const auto more = static_cast<double>(larger.p.size() - smaller.p.size());
+  const double f = std::expm1((smaller.deviance - larger.deviance) / rows) * freedom / more;
+  return f > 0.0 && std::isfinite(f)
+             ? boost::math::cdf(boost::math::complement(boost::math::fisher_f(more, freedom), f))
+             : (f > 0.0 ? 0.0 : 1.0);
 }
 
 }  // namespace sonoglide::identify::impedance

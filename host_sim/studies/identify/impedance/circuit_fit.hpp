@@ -26,6 +26,9 @@ struct CircuitFit {
 /// average, which would shift the magnitude; that of the logarithm is 0.
 Sweep with_logarithmic_residuals(const Sweep& sweep, const Circuit& fitted);
 
+/// A fit's residuals and slopes, those of parts that the circuit does not have at their 0.
+Linearisation linearise(const Sweep& sweep, const Parts& parts, const Circuit& circuit);
+
 /// Least squares of the whitened relative residuals, weighted by the circuit that the fit before
 /// gave, so that weights do not pull at it.
 CircuitFit fit_circuit(const Sweep& sweep, const Parts& parts, const Circuit& start,
@@ -35,5 +38,12 @@ CircuitFit fit_circuit(const Sweep& sweep, const Parts& parts, const Circuit& st
 CircuitFit fit_circuit_and_noise(const Sweep& sweep, const Parts& parts, const Circuit& start,
                                  const Noise& noise,
                                  Correlation correlation = Correlation::estimated);
+
+/// Schwarz's criterion: −2 ln likelihood and ln n for each parameter.
+double schwarz(const CircuitFit& fit);
+
+/// The F test of the larger fit against the smaller one.
+/// @return the share of sweeps of the smaller circuit in which the larger one would do as much better
+double chance(const CircuitFit& smaller, const CircuitFit& larger);
 
 }  // namespace sonoglide::identify::impedance

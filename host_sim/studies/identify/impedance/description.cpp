@@ -9,14 +9,6 @@
 namespace sonoglide::identify::impedance {
 namespace {
 
-/// The noise without what hangs together: sizes alone.
-Noise sizes(const Noise& noise) {
-  Noise alone = noise;
-  alone.correlated_share = 0.0;
-  alone.memory = 0.0;
-  return alone;
-}
-
 /// Residuals over their size.
 Eigen::VectorXd scaled_residuals(const CircuitFit& fit) {
   Eigen::VectorXd scaled = fit.at.residuals;
@@ -47,7 +39,7 @@ double Description::misfit() const {
 }
 
 bool Description::fails() const {
-  constexpr double many = 3.0;
+  constexpr double many = 2.5;
   constexpr double least = 1e-3;
   return residual > many * scatter && residual > least;
 }

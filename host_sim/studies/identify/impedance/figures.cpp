@@ -41,8 +41,15 @@ std::vector<Figure> positive_figures(const CircuitFit& fit) {
           {"coupling", circuit.coupling(), 0.5 * (1.0 - k2) * (c1 - c0)}};
 }
 
+/// Of noise that hangs together a figure sees the slow part more, of which a sweep has fewer pieces:
+/// Satterthwaite's degrees of freedom of both.
 double t_of(const CircuitFit& fit) {
-  return student_t_95(static_cast<double>(fit.at.residuals.size() - fit.p.size()));
+  const auto rows = static_cast<double>(fit.at.residuals.size());
+  const double longer = (1.0 + fit.noise.memory) / (1.0 - fit.noise.memory);
+  const double slow = fit.noise.correlated_share * longer;
+  const double white = 1.0 - fit.noise.correlated_share;
+  const double freedom = rows * std::pow(slow + white, 2) / (slow * slow * longer + white * white);
+  return student_t_95(std::max(freedom - static_cast<double>(fit.p.size()), 3.0));
 }
 
 Estimate estimate(const CircuitFit& fit, const Figure& figure) {

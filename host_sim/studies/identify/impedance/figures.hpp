@@ -8,8 +8,7 @@
 
 namespace sonoglide::identify::impedance {
 
-/// The names of the contract, in its order; then, where they are fitted, `loss_tangent`,
-/// `lead_resistance_ohm` and `lead_inductance_H`.
+/// The names of the contract, in its order; then the parts that are fitted.
 ///
 /// The first eight have intervals that are symmetric in their logarithm: those are linear in the
 /// fitted vector, but for parallel resonance and coupling, which are linearised.

@@ -1,6 +1,6 @@
 #include "host_sim/studies/identify/impedance/noise.hpp"
 
-#include <Eigen/Cholesky>
+#include <Eigen/QR>
 #include <boost/math/tools/minima.hpp>
 
 #include <algorithm>
@@ -10,9 +10,11 @@
 #include <utility>
 #include <vector>
 
-#include "host_sim/studies/identify/least_squares.hpp"
-
 namespace sonoglide::identify::impedance {
+
+Noise sizes(const Noise& noise) {
+  return {noise.exponent, noise.phase_scale};
+}
 
 bool is_rounding(const Linearisation& at) {
   return at.residuals.squaredNorm() <=
@@ -21,86 +23,98 @@ bool is_rounding(const Linearisation& at) {
 
 namespace {
 
-/// A row is read and written as a whole.
-using RowWise = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-
-/// Divides the rows of one reading by the square root of its covariance alone.
-/// @return the logarithm of its determinant
-double scale(const Noise& noise, const Linearisation& at, Eigen::Index reading, RowWise& columns) {
+/// Divides columns by the size of their readings, and by the error of each frequency.
+/// @return the logarithm of the covariance's determinant
+double scale(const Noise& noise, const Linearisation& at, Eigen::Ref<Eigen::MatrixXd> columns) {
   const Eigen::Index readings = at.log_magnitude.size();
   const bool has_phase = columns.rows() > readings;
-  const double log_size = (noise.exponent - 1.0) * at.log_magnitude(reading);
-  const double size = std::exp(-log_size);
-  columns.row(reading) *= size;
-  double log_determinant = 2.0 * log_size;
-  const double along_magnitude = at.slope(reading).real() * size;
-  double along_phase = 0.0;
+  const Eigen::ArrayXd size = ((1.0 - noise.exponent) * at.log_magnitude.array()).exp();
+  double log_determinant =
+      (has_phase ? 4.0 : 2.0) * (noise.exponent - 1.0) * at.log_magnitude.sum();
+  columns.topRows(readings).array().colwise() *= size;
   if (has_phase) {
-    columns.row(readings + reading) *= size / noise.phase_scale;
-    log_determinant += 2.0 * (log_size + std::log(noise.phase_scale));
-    along_phase = at.slope(reading).imag() * size / noise.phase_scale;
+    columns.bottomRows(readings).array().colwise() *= size / noise.phase_scale;
+    log_determinant += 2.0 * static_cast<double>(readings) * std::log(noise.phase_scale);
   }
-  const double square = along_magnitude * along_magnitude + along_phase * along_phase;
-  const double larger = 1.0 + noise.jitter * noise.jitter * square;
-  if (noise.jitter == 0.0 || square == 0.0) {
+  if (noise.jitter == 0.0) {
     return log_determinant;
   }
-  const double share = (1.0 - 1.0 / std::sqrt(larger)) / square;
-  if (has_phase) {
-    const Eigen::RowVectorXd along = share * (along_magnitude * columns.row(reading) +
-                                              along_phase * columns.row(readings + reading));
-    columns.row(reading) -= along_magnitude * along;
-    columns.row(readings + reading) -= along_phase * along;
-  } else {
-    columns.row(reading) *= 1.0 - share * square;
+  const Eigen::ArrayXd along_magnitude = at.slope.real().array() * size;
+  const Eigen::ArrayXd along_phase =
+      (has_phase ? 1.0 / noise.phase_scale : 0.0) * at.slope.imag().array() * size;
+  const Eigen::ArrayXd square = (along_magnitude.square() + along_phase.square()).max(1e-300);
+  const Eigen::ArrayXd larger = 1.0 + noise.jitter * noise.jitter * square;
+  const Eigen::ArrayXd share = (1.0 - larger.rsqrt()) / square;
+  for (Eigen::Index column = 0; column < columns.cols(); ++column) {
+    auto magnitude = columns.col(column).head(readings).array();
+    auto phase = columns.col(column).tail(readings).array();  // the same where there is none
+    const Eigen::ArrayXd along = share * (along_magnitude * magnitude + along_phase * phase);
+    magnitude -= along_magnitude * along;
+    if (has_phase) {
+      phase -= along_phase * along;
+    }
   }
-  return log_determinant + std::log(larger);
+  return log_determinant + larger.log().sum();
+}
+
+/// Takes from each reading what those before it tell of it.
+double decorrelate(const Noise& noise, Eigen::Index readings, Eigen::Ref<Eigen::MatrixXd> columns) {
+  const double own_share = 1.0 - noise.correlated_share;
+  const double forgetting = noise.memory * noise.memory;
+  double variance = noise.correlated_share;  // of the process, before the reading
+  double log_determinant = 0.0;
+  Eigen::ArrayXd gain(readings);
+  Eigen::ArrayXd size(readings);
+  for (Eigen::Index i = 0; i < readings; ++i) {
+    const double seen = variance + own_share;
+    gain(i) = noise.memory * variance / seen;
+    size(i) = 1.0 / std::sqrt(seen);
+    log_determinant += std::log(seen);
+    variance =
+        forgetting * variance * own_share / seen + (1.0 - forgetting) * noise.correlated_share;
+  }
+  for (Eigen::Index column = 0; column < columns.cols(); ++column) {
+    for (Eigen::Index begin = 0; begin < columns.rows(); begin += readings) {
+      double state = 0.0;
+      for (Eigen::Index i = 0; i < readings; ++i) {
+        const double innovation = columns(begin + i, column) - state;
+        columns(begin + i, column) = innovation * size(i);
+        state = noise.memory * state + gain(i) * innovation;
+      }
+    }
+  }
+  return log_determinant * static_cast<double>(columns.rows() / readings);
 }
 
 }  // namespace
 
-double whiten(const Noise& noise, const Linearisation& at, Eigen::Ref<Eigen::MatrixXd> white) {
-  RowWise columns = white;
-  const Eigen::Index readings = at.log_magnitude.size();
-  double log_determinant = 0.0;
-  for (Eigen::Index i = 0; i < readings; ++i) {
-    log_determinant += scale(noise, at, i, columns);
-  }
-  const double own_share = 1.0 - noise.correlated_share;
-  const double forgetting = noise.memory * noise.memory;
-  Eigen::RowVectorXd state(columns.cols());
-  Eigen::RowVectorXd innovation(columns.cols());
-  for (Eigen::Index begin = 0; noise.correlated_share > 0.0 && begin < columns.rows();
-       begin += readings) {
-    state.setZero();
-    double variance = noise.correlated_share;  // of the state, before the reading
-    for (Eigen::Index i = 0; i < readings; ++i) {
-      const double seen = variance + own_share;
-      innovation = columns.row(begin + i) - state;
-      columns.row(begin + i) = innovation / std::sqrt(seen);
-      log_determinant += std::log(seen);
-      state = noise.memory * (state + variance / seen * innovation);
-      variance =
-          forgetting * variance * own_share / seen + (1.0 - forgetting) * noise.correlated_share;
-    }
-  }
-  white = columns;
-  return log_determinant;
+double whiten(const Noise& noise, const Linearisation& at, Eigen::Ref<Eigen::MatrixXd> columns) {
+  const double log_determinant = scale(noise, at, columns);
+  return noise.correlated_share > 0.0
+             ? log_determinant + decorrelate(noise, at.log_magnitude.size(), columns)
+             : log_determinant;
 }
 
-double restricted_deviance(const Linearisation& at, const Noise& noise) {
+Solution solve(const Linearisation& at, const Noise& noise) {
   const Eigen::Index p = at.jacobian.cols();
   Eigen::MatrixXd columns(at.residuals.size(), p + 1);
   columns << at.jacobian, at.residuals;
-  // Columns of length 1: the determinant changes by a constant alone.
-  columns.leftCols(p).array().rowwise() /= at.jacobian.colwise().norm().array();
   const double log_determinant = whiten(noise, at, columns);
-  const Eigen::MatrixXd normal = columns.transpose() * columns;
-  const Eigen::LDLT<Eigen::MatrixXd> solver(normal.topLeftCorner(p, p));
-  const Eigen::VectorXd right = normal.topRightCorner(p, 1);
-  const double left = normal(p, p) - right.dot(solver.solve(right));
+  const Eigen::HouseholderQR<Eigen::MatrixXd> solver(columns);
+  const Eigen::MatrixXd all = solver.matrixQR().topRows(p + 1);
   const auto freedom = static_cast<double>(at.residuals.size() - p);
-  return log_determinant + solver.vectorD().array().abs().log().sum() + freedom * std::log(left);
+  const double left = all(p, p) * all(p, p);
+  const double variance = std::max(left / freedom, rounding * rounding);
+  Eigen::MatrixXd stacked = Eigen::MatrixXd::Zero(2 * p, p + 1);
+  stacked.topRows(p) = all.topRows(p).triangularView<Eigen::Upper>();
+  constexpr double beforehand = 10.0;
+  stacked.bottomRows(p).diagonal().tail(3 * at.modes).setConstant(std::sqrt(variance) / beforehand);
+  const Eigen::MatrixXd known = Eigen::HouseholderQR<Eigen::MatrixXd>(stacked).matrixQR();
+  const Eigen::MatrixXd inverse = known.topLeftCorner(p, p).triangularView<Eigen::Upper>().solve(
+      Eigen::MatrixXd::Identity(p, p));
+  return {-inverse * known.col(p).head(p), variance * inverse * inverse.transpose(),
+          log_determinant + 2.0 * all.diagonal().head(p).array().abs().log().sum() +
+              freedom * std::log(left)};
 }
 
 namespace {
@@ -133,7 +147,7 @@ void improve(const Linearisation& at, Noise& noise, double& deviance, const Prop
   const auto [value, found] = boost::math::tools::brent_find_minima(
       [&](double x) {
         property.set(tried, x);
-        return restricted_deviance(at, tried);
+        return solve(at, tried).deviance;
       },
       property.least, property.most, bits, evaluations);
   if (found < deviance) {
@@ -161,7 +175,7 @@ void take_best_whole_exponent(const Linearisation& at, Noise& noise, double& dev
   for (const double each : {0.0, 1.0, 2.0}) {
     Noise tried = noise;
     tried.exponent = each;
-    const double found = restricted_deviance(at, tried);
+    const double found = solve(at, tried).deviance;
     if (found < deviance) {
       noise = tried;
       deviance = found;
@@ -177,7 +191,7 @@ void improve_correlation(const Linearisation& at, Noise& noise, double& deviance
       Noise tried = white;
       tried.memory = each_memory;
       tried.correlated_share = each_share;
-      const double found = restricted_deviance(at, tried);
+      const double found = solve(at, tried).deviance;
       if (found < deviance) {
         noise = tried;
         deviance = found;
@@ -208,11 +222,13 @@ Noise estimate_noise(const Linearisation& at, Correlation correlation) {
   if (is_rounding(at)) {
     return noise;
   }
-  double deviance = restricted_deviance(at, noise);
+  double deviance = solve(at, noise).deviance;
   take_best_whole_exponent(at, noise, deviance);
-  improve_if_worth_it(at, noise, deviance, jitter);
   if (correlation == Correlation::estimated) {
     take_correlation_if_worth_it(at, noise, deviance);
+    if (noise.correlated_share == 0.0) {
+      improve_if_worth_it(at, noise, deviance, jitter);
+    }
   }
   if (at.residuals.size() > at.log_magnitude.size()) {
     improve_if_worth_it(at, noise, deviance, phase_scale);
@@ -222,56 +238,49 @@ Noise estimate_noise(const Linearisation& at, Correlation correlation) {
 
 namespace {
 
-/// A fit under one correlation.
-struct Supposition {
-  double log_weight;
-  Eigen::MatrixXd covariance;
-  Eigen::VectorXd step;  ///< to its best parameters
-};
-
-Supposition suppose(const Linearisation& at, const Noise& noise, double log_prior) {
-  Eigen::MatrixXd jacobian = at.jacobian;
-  Eigen::VectorXd residuals = at.residuals;
-  whiten(noise, at, jacobian);
-  whiten(noise, at, residuals);
-  const Eigen::MatrixXd normal = inverse_normal_matrix(jacobian);
-  Eigen::VectorXd step = -(normal * (jacobian.transpose() * residuals));
-  const auto freedom = static_cast<double>(at.residuals.size() - at.jacobian.cols());
-  const double variance = (residuals + jacobian * step).squaredNorm() / freedom;
-  return {log_prior - 0.5 * restricted_deviance(at, noise), variance * normal, std::move(step)};
-}
-
-}  // namespace
-
-Eigen::MatrixXd allow_for_correlation(const Linearisation& at, const Noise& noise) {
-  if (is_rounding(at)) {
-    return rounding * rounding * inverse_normal_matrix(at.jacobian);
-  }
-  constexpr double prior_of_none = 0.8;
+/// What the noise may be beside white, each with its probability before the readings.
+std::vector<std::pair<Noise, double>> suppositions(const Noise& noise) {
+  constexpr double prior_of_white = 0.6;
   constexpr double memories[] = {0.2, 0.5, 0.7, 0.8, 0.88, 0.93, 0.96, 0.98};
   constexpr double shares[] = {0.05, 0.15, 0.3, 0.5, 0.7, 0.85, 0.95, 0.995};
   Noise tried = noise;
   tried.correlated_share = 0.0;
-  tried.memory = 0.0;
-  std::vector<Supposition> all = {suppose(at, tried, std::log(prior_of_none))};
-  const double each_prior = std::log((1.0 - prior_of_none) /
-                                     static_cast<double>(std::size(memories) * std::size(shares)));
+  std::vector<std::pair<Noise, double>> all = {{tried, prior_of_white}};
+  for (const double jitter_value : {0.7, 1.4, 2.8}) {
+    constexpr double prior = 0.05;
+    all.emplace_back(tried, noise.jitter > 0.0 ? 0.0 : prior);
+    all.back().first.jitter = jitter_value;
+  }
+  const auto count = static_cast<double>(std::size(memories) * std::size(shares));
   for (const double memory_value : memories) {
     for (const double share_value : shares) {
       tried.memory = memory_value;
       tried.correlated_share = share_value;
-      all.push_back(suppose(at, tried, each_prior));
+      all.emplace_back(tried, (1.0 - prior_of_white) / count);
     }
   }
-  const double most = std::max_element(all.begin(), all.end(), [](const auto& a, const auto& b) {
-                        return a.log_weight < b.log_weight;
-                      })->log_weight;
+  return all;
+}
+
+}  // namespace
+
+Eigen::MatrixXd allow_for_noise(const Linearisation& at, const Noise& noise) {
+  const Eigen::Index p = at.jacobian.cols();
+  if (is_rounding(at)) {
+    return solve(at, noise).covariance;
+  }
+  std::vector<std::pair<Solution, double>> solutions;
+  double least = std::numeric_limits<double>::infinity();
+  for (const auto& [each, prior] : suppositions(noise)) {
+    solutions.emplace_back(solve(at, each), prior);
+    least = std::min(least, solutions.back().first.deviance);
+  }
   double sum = 0.0;
-  Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(at.jacobian.cols(), at.jacobian.cols());
-  for (const Supposition& each : all) {
-    const double weight = std::exp(each.log_weight - most);
+  Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(p, p);
+  for (const auto& [solution, prior] : solutions) {
+    const double weight = prior * std::exp(0.5 * (least - solution.deviance));
     sum += weight;
-    covariance += weight * (each.covariance + each.step * each.step.transpose());
+    covariance += weight * (solution.covariance + solution.step * solution.step.transpose());
   }
   return covariance / sum;
 }

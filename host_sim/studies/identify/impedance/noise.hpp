@@ -20,12 +20,18 @@ struct Noise {
   double memory = 0.0;            ///< [0, 1)
 };
 
+/// The noise without what hangs together and errors of the frequency.
+Noise sizes(const Noise& noise);
+
 /// Relative residuals at a fit and their Jacobian: the real parts of all readings, then, of a sweep
 /// with phase, the imaginary parts.
 struct Linearisation {
   Eigen::VectorXd residuals;
   Eigen::MatrixXd jacobian;
+  Eigen::Index modes;             ///< of which the last three columns each are
+  Eigen::VectorXcd admittance_S;  ///< fitted: what the residuals are relative to
   Eigen::VectorXd log_magnitude;  ///< ln(|Y|/geometric mean), one a reading
+  double mean_log_magnitude;      ///< of that geometric mean
   Eigen::VectorXcd slope;         ///< d ln Y/df times the band width of the first mode, likewise
 };
 
@@ -42,22 +48,31 @@ bool is_rounding(const Linearisation& at);
 /// @return the logarithm of the covariance's determinant
 double whiten(const Noise& noise, const Linearisation& at, Eigen::Ref<Eigen::MatrixXd> columns);
 
-/// Restricted likelihood, −2 ln of it up to a constant: of the residuals with σ² at its best and the
-/// parameters integrated out.
-/// Source: Patterson and Thompson, Biometrika 58 (1971).
-double restricted_deviance(const Linearisation& at, const Noise& noise);
+/// The least squares of one noise, about the linearisation.
+struct Solution {
+  Eigen::VectorXd step;  ///< to the best parameters
+  /// Of them; what of a mode no reading tells is known to a factor of e^10, standard deviation.
+  Eigen::MatrixXd covariance;
+  /// Restricted likelihood, −2 ln of it up to a constant: of the residuals with σ² at its best and
+  /// the parameters integrated out.
+  /// Source: Patterson and Thompson, Biometrika 58 (1971).
+  double deviance;
+};
 
-/// Whether a correlation along the sweep is looked for.
+Solution solve(const Linearisation& at, const Noise& noise);
+
+/// Whether errors of the frequency and a correlation along the sweep are looked for.
 enum class Correlation { none, estimated };
 
 /// The noise that is most likely, by the restricted likelihood; white of rounding.
 Noise estimate_noise(const Linearisation& at, Correlation correlation = Correlation::estimated);
 
-/// The covariance of the parameters, averaged over the correlations along the sweep that the residuals allow, since the likeliest one
-/// alone makes the intervals too short: of each the covariance, and the square of the step by which
-/// its best parameters differ, weighted by its restricted likelihood. No correlation has 0.8
-/// of the weight beforehand, the others the rest evenly.
+/// The covariance of the parameters, averaged over the correlations along the sweep and errors of the
+/// frequency that the residuals allow, since the likeliest ones alone make the intervals too short: of
+/// each the covariance, and the square of the step by which its best parameters differ, weighted by its
+/// restricted likelihood. White noise has 0.6 of the weight beforehand, each of three errors of the
+/// frequency 0.05, and the correlations the rest evenly.
 /// Source: Hoeting, Madigan, Raftery and Volinsky, Statistical Science 14 (1999).
-Eigen::MatrixXd allow_for_correlation(const Linearisation& at, const Noise& noise);
+Eigen::MatrixXd allow_for_noise(const Linearisation& at, const Noise& noise);
 
 }  // namespace sonoglide::identify::impedance

@@ -12,7 +12,6 @@
 
 #include "host_sim/loop/failure.hpp"
 #include "host_sim/studies/identify/impedance/description.hpp"
-#include "host_sim/studies/identify/impedance/evidence.hpp"
 #include "host_sim/studies/identify/impedance/start_values.hpp"
 
 namespace sonoglide::identify::impedance {
@@ -160,10 +159,10 @@ void require_inside(const Sweep& sweep, const CircuitFit& fit) {
   const Mode& mode = largest_mode(fit);
   require_resonance_inside(sweep, mode);
   constexpr double least_quality = 0.5;
-  if (mode.quality() < least_quality || mode.quality() > most_quality) {
-    refuse(sweep, fmt::format("the fit ends at a bound: a quality factor of {:.3g}, allowed: {:g} "
-                              "to {:g}; the sweep does not tell the resistance{}",
-                              mode.quality(), least_quality, most_quality, advice(fit)));
+  if (mode.quality() < least_quality) {
+    refuse(sweep, fmt::format("the fit ends at a bound: a quality factor of {:.3g}, allowed: from "
+                              "{:g}; the sweep does not tell the resistance{}",
+                              mode.quality(), least_quality, advice(fit)));
   }
   constexpr double most_ratio = 1e3;
   const double ratio = mode.capacitance_F() / fit.circuit.clamped_capacitance_F;

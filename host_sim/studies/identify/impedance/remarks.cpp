@@ -5,12 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
-#include <utility>
 
 #include "host_sim/studies/identify/impedance/description.hpp"
 #include "host_sim/studies/identify/impedance/figures.hpp"
-#include "host_sim/studies/identify/impedance/scatter.hpp"
+#include "host_sim/studies/identify/impedance/plausible.hpp"
+#include "host_sim/studies/identify/impedance/uncertainty.hpp"
 
 namespace sonoglide::identify::impedance {
 namespace {
@@ -21,19 +20,9 @@ std::size_t readings_in_band(const Sweep& sweep, const Mode& mode) {
       [&](double f) { return std::abs(f - mode.resonance_Hz) <= 0.5 * mode.bandwidth_Hz; }));
 }
 
-/// Deviation of a phase residual from the one before it: what is no misfit.
-double reading_to_reading(const CircuitFit& fit) {
-  const Eigen::Index n = fit.at.log_magnitude.size();
-  std::vector<double> steps;
-  for (Eigen::Index i = n + 1; i < fit.at.residuals.size(); ++i) {
-    steps.push_back(std::abs(fit.at.residuals(i) - fit.at.residuals(i - 1)));
-  }
-  return deviation_of_steps(std::move(steps));
-}
-
 /// Readings whose phase is beyond ±90° by more than the scatter explains.
 std::size_t impossible_phases(const Sweep& sweep, const CircuitFit& fit) {
-  const double scatter = 4.0 * reading_to_reading(fit);
+  const double scatter = 4.0 * describe(fit).scatter;
   return static_cast<std::size_t>(std::count_if(
       sweep.admittance_S.begin(), sweep.admittance_S.end(),
       [&](std::complex<double> y) { return y.real() < -std::abs(y) * std::max(scatter, 1e-3); }));
@@ -119,17 +108,18 @@ void warn_of_left_out(const std::vector<double>& left_out_Hz, std::vector<std::s
                                  more > 0 ? fmt::format(" and {} more", more) : ""));
 }
 
-void warn_of_other_modes(const CircuitFit& fit, std::vector<std::string>& warnings) {
-  for (std::size_t i = 1; i < fit.circuit.modes.size(); ++i) {
-    const Mode& mode = fit.circuit.modes[i];
-    const bool is_beside = i >= static_cast<std::size_t>(fit.parts.modes);
+void warn_of_other_modes(const Selection& selected, std::vector<std::string>& warnings) {
+  const std::vector<Mode>& modes = selected.fit.circuit.modes;
+  for (std::size_t i = 1; i < modes.size(); ++i) {
+    const bool is_inside = is_in(selected.sweep, modes[i]);
     warnings.push_back(fmt::format(
-        "Another mode at {} ({}) is {} the sweep; it is fitted and is not part of the figures.",
-        shown("_Hz", mode.resonance_Hz),
-        is_beside ? std::string("of the same quality factor")
-                  : fmt::format("quality factor {:.3g}, {}", mode.quality(),
-                                shown("_ohm", mode.resistance_ohm())),
-        is_beside ? "just outside" : "in"));
+        "Another mode at {} (quality factor {:.3g}, {}) is {} the sweep; it is fitted and is not "
+        "part of the figures.{}",
+        shown("_Hz", modes[i].resonance_Hz), modes[i].quality(),
+        shown("_ohm", modes[i].resistance_ohm()), is_inside ? "in" : "just outside",
+        is_inside ? ""
+                  : " Clamped capacitance, parallel resonance and coupling rest on what it is "
+                    "taken for; a wider sweep tells."));
   }
 }
 
@@ -169,40 +159,37 @@ std::string open_lead(const Selection& selected) {
                                    fmt::join(others, "; or ")));
 }
 
-std::string open_resistance(const Selection& selected) {
-  const std::string question = "Whether leads and contacts have a series resistance";
-  const std::string consequence = "The motional resistance is larger by what there is.";
-  if (!selected.sweep.has_phase) {
-    return question + ": magnitudes alone do not tell. " + consequence;
-  }
-  if (!selected.unseen_lead_ohm) {
-    return question + ": no circuit with one fits. " + consequence;
-  }
-  return fmt::format("{} up to {}: none is seen, so the circuit has none. {}", question,
-                     shown("_ohm", *selected.unseen_lead_ohm), consequence);
-}
-
-std::string open_inductance(const Selection& selected) {
-  const std::string question = "Whether leads and contacts have a series inductance";
-  if (!selected.unseen_inductance) {
-    return question + ": " +
-           (selected.sweep.has_phase ? "no circuit with one fits."
-                                     : "magnitudes alone do not tell.") +
-           " It would lower the resonance and change all other figures.";
-  }
-  const UnseenInductance& unseen = *selected.unseen_inductance;
-  const double resonance_Hz = selected.fit.circuit.modes.front().resonance_Hz;
+/// On a part that is not seen.
+std::string open_part(const Unseen& unseen, const Mode& mode) {
   constexpr double percent = 100.0;
-  return fmt::format(
-      "{} up to {}: none is seen, so the circuit has none, and the intervals do not allow for one. "
-      "Each microhenry, about a metre of cable, makes the resonance come out {:+.2g} Hz off, the "
-      "motional resistance {:+.2g} %, the motional capacitance {:+.2g} % and the clamped "
-      "capacitance "
-      "{:+.2g} %. A compensation with a short takes it out.",
-      question, shown("_H", unseen.most_H), microhenry_H * unseen.resonance_per_H * resonance_Hz,
-      percent * microhenry_H * unseen.motional_resistance_per_H,
-      percent * microhenry_H * unseen.motional_capacitance_per_H,
-      percent * microhenry_H * unseen.clamped_capacitance_per_H);
+  const Eigen::Vector4d off = microhenry_H * unseen.off;
+  switch (unseen.part) {
+    case Part::lead_resistance:
+      return fmt::format(
+          "Whether leads and contacts have a series resistance up to {}: none is seen, so the "
+          "circuit has none. The motional resistance is larger by what there is.",
+          shown("_ohm", unseen.most));
+    case Part::lead_inductance:
+      return fmt::format(
+          "Whether leads and contacts have a series inductance up to {}: none is seen, so the "
+          "circuit has none, and the intervals do not allow for one. Each microhenry, about a "
+          "metre "
+          "of cable, makes the resonance come out {:+.2g} Hz off, the motional resistance {:+.2g} "
+          "%, "
+          "the motional capacitance {:+.2g} % and the clamped capacitance {:+.2g} %. A "
+          "compensation "
+          "with a short takes it out.",
+          shown("_H", unseen.most), off(2) * mode.resonance_Hz, -percent * off(1),
+          percent * (off(1) + off(3) - 2.0 * off(2)), percent * off(0));
+    default:
+      return fmt::format(
+          "Whether the peak leans by up to {:.2g} band widths, as that of a resonance that goes "
+          "with "
+          "its current: it is not seen, so the circuit has none. Each tenth of a band width to "
+          "lower "
+          "frequencies makes the resonance come out {:+.2g} Hz off.",
+          unseen.most, 0.1 * unseen.off(2) * mode.resonance_Hz);
+  }
 }
 
 /// A drift in step with the sweep stretches the frequencies about the resonance and nothing else.
@@ -245,7 +232,7 @@ void warn_of_lean(const CircuitFit& fit, std::vector<std::string>& warnings) {
 }
 
 void warn_of_rotation(const CircuitFit& fit, std::vector<std::string>& warnings) {
-  if (fit.parts.has(Part::rotation)) {
+  if (sees_rotation(fit)) {
     warnings.push_back(fmt::format(
         "The phases are off by {:.3g} degrees all over the sweep; the fit takes that out. It is "
         "an error of the instrument or the fixture; compensate it (open, short, load).",
@@ -264,7 +251,7 @@ std::vector<std::string> warnings_of(const Selection& selected) {
   warn_of_left_out(selected.left_out_Hz, warnings);
   warn_of_phases(selected.sweep, selected.fit, warnings);
   warn_of_sweep(selected.sweep, selected.fit, warnings);
-  warn_of_other_modes(selected.fit, warnings);
+  warn_of_other_modes(selected, warnings);
   return warnings;
 }
 
@@ -282,15 +269,24 @@ std::vector<std::string> open_questions(const std::vector<Estimate>& estimates,
         "Losses of the dielectric: magnitudes alone hardly part them from the motional resistance. "
         "A sweep with phase does.");
   }
-  const Parts& parts = selected.fit.parts;
-  const bool is_seen = parts.has(Part::rotation) || parts.has(Part::lead_resistance) ||
-                       parts.has(Part::lead_inductance);
-  open.push_back(is_seen ? open_lead(selected) : open_resistance(selected));
-  if (!parts.has(Part::lead_inductance)) {
-    open.push_back(open_inductance(selected));
+  if (sees_lead_or_rotation(selected.fit)) {
+    open.push_back(open_lead(selected));
+  }
+  for (const Unseen& each : selected.unseen) {
+    open.push_back(open_part(each, selected.fit.circuit.modes.front()));
+  }
+  if (!sweep.has_phase) {
+    open.emplace_back(
+        "Whether leads and contacts have a series resistance: magnitudes alone do not tell. The "
+        "motional resistance is larger by what there is.");
+    open.emplace_back(
+        "Whether leads and contacts have a series inductance: magnitudes alone do not tell. It "
+        "would lower the resonance and change all other figures.");
   }
   open.push_back(open_drift(selected));
-  if (parts.beside == 0) {
+  const std::vector<Mode>& modes = selected.fit.circuit.modes;
+  if (std::all_of(modes.begin(), modes.end(),
+                  [&](const Mode& each) { return is_in(sweep, each); })) {
     open.emplace_back(
         "Whether another mode lies just outside the sweep: it would shift clamped capacitance, "
         "parallel resonance and coupling by more than their intervals. A wider sweep tells.");

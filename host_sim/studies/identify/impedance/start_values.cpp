@@ -7,6 +7,8 @@
 #include <limits>
 #include <utility>
 
+#include "host_sim/studies/identify/impedance/description.hpp"
+
 namespace sonoglide::identify::impedance {
 namespace {
 
@@ -153,22 +155,28 @@ Circuit seen_by_readings(const Sweep& sweep, const Circuit& circuit) {
   return seen;
 }
 
-/// Where a further mode may be, and from which bandwidth on.
-struct Place {
-  double resonance_Hz;
-  double bandwidth_Hz;
-};
+/// A further mode that is tried: its conductance follows.
+Circuit with_mode(Circuit circuit, double resonance_Hz, double bandwidth_Hz) {
+  circuit.modes.push_back({0.0, resonance_Hz, bandwidth_Hz});
+  return circuit;
+}
 
-/// All over the sweep, and where the residuals are largest.
-std::vector<Place> places_of_another_mode(const Sweep& sweep, const Eigen::VectorXd& residuals) {
+/// With a further mode all over the sweep, and where the residuals are largest, from a bandwidth of the
+/// readings around on.
+std::vector<Circuit> with_mode_inside(const Sweep& sweep, const Circuit& seen,
+                                      const Eigen::VectorXd& residuals) {
   const auto readings = static_cast<Eigen::Index>(sweep.frequency_Hz.size());
-  std::vector<Place> found;
+  std::vector<Circuit> tried;
   const auto add = [&](Eigen::Index reading, Eigen::Index around) {
     const auto at = [&](Eigen::Index i) {
       return sweep
           .frequency_Hz[static_cast<std::size_t>(std::clamp<Eigen::Index>(i, 0, readings - 1))];
     };
-    found.push_back({at(reading), at(reading + around) - at(reading - around)});
+    const double least_Hz =
+        std::max(at(reading + around) - at(reading - around), 1e-9 * at(reading));
+    for (const double bandwidth_Hz : geometric(least_Hz, 3.0, 6)) {
+      tried.push_back(with_mode(seen, at(reading), bandwidth_Hz));
+    }
   };
   constexpr Eigen::Index most_places = 60;
   constexpr std::size_t most_peaks = 6;
@@ -177,8 +185,7 @@ std::vector<Place> places_of_another_mode(const Sweep& sweep, const Eigen::Vecto
     add(reading, stride);
   }
   const auto size = [&](Eigen::Index i) {
-    return residuals.size() > readings ? std::hypot(residuals(i), residuals(readings + i))
-                                       : std::abs(residuals(i));
+    return std::hypot(residuals(i), residuals(residuals.size() - readings + i));
   };
   std::vector<std::pair<double, Eigen::Index>> peaks;
   for (Eigen::Index i = 1; stride > 1 && i + 1 < readings; ++i) {
@@ -190,13 +197,29 @@ std::vector<Place> places_of_another_mode(const Sweep& sweep, const Eigen::Vecto
   for (std::size_t i = 0; i < std::min(most_peaks, peaks.size()); ++i) {
     add(peaks[i].second, 1);
   }
-  return found;
+  return tried;
+}
+
+/// Likewise just outside of it, with the quality of the first.
+std::vector<Circuit> with_mode_beside(const Sweep& sweep, const Circuit& seen) {
+  const double low_Hz = sweep.frequency_Hz.front();
+  const double high_Hz = sweep.frequency_Hz.back();
+  std::vector<Circuit> tried;
+  for (const double away : {0.01, 0.03, 0.06, 0.12, 0.25, 0.45}) {
+    const double distance_Hz = away * (high_Hz - low_Hz);
+    for (const double resonance_Hz : {high_Hz + distance_Hz, low_Hz - distance_Hz}) {
+      if (resonance_Hz > 0.0) {
+        tried.push_back(with_mode(seen, resonance_Hz, resonance_Hz / seen.modes.front().quality()));
+      }
+    }
+  }
+  return tried;
 }
 
 /// The best of circuits each of which has a further mode, by what of the residuals the mode takes
 /// away that a change of the circuit does not. Its conductance follows.
 std::vector<Circuit> best_of(const Sweep& sweep, const CircuitFit& fit, std::vector<Circuit> tried,
-                             std::size_t mode, std::size_t most) {
+                             std::size_t most) {
   const auto n = static_cast<Eigen::Index>(sweep.frequency_Hz.size());
   Eigen::MatrixXd jacobian = fit.at.jacobian;
   Eigen::VectorXd residuals = fit.at.residuals;
@@ -212,9 +235,16 @@ std::vector<Circuit> best_of(const Sweep& sweep, const CircuitFit& fit, std::vec
   }
   std::vector<Ranked> found;
   Eigen::VectorXd column(residuals.size());
+  const std::size_t mode = fit.circuit.modes.size();
   for (Circuit& circuit : tried) {
     Mode& added = circuit.modes[mode];
-    if (added.bandwidth_Hz > added.resonance_Hz || !is_apart(circuit, mode)) {
+    // By its own band width: one that hides others is too wide until they are fitted.
+    const bool is_near =
+        std::any_of(circuit.modes.begin(), circuit.modes.end() - 1, [&](const Mode& other) {
+          return std::abs(other.resonance_Hz - added.resonance_Hz) <
+                 least_distance_bands * std::min(other.bandwidth_Hz, added.bandwidth_Hz);
+        });
+    if (added.bandwidth_Hz > added.resonance_Hz || is_near) {
       continue;
     }
     for (Eigen::Index i = 0; i < n; ++i) {
@@ -229,7 +259,7 @@ std::vector<Circuit> best_of(const Sweep& sweep, const CircuitFit& fit, std::vec
     column -= base * (base.transpose() * column);
     const double length = column.squaredNorm();
     const double along = column.dot(residuals);
-    if (length > 0.0 && along > 0.0) {
+    if (length > 0.0 && along > 0.0 && along * along > gain_to_fit(fit) * fit.variance * length) {
       added.conductance_S = along / length;
       found.push_back({-along * along / length, std::move(circuit)});
     }
@@ -239,14 +269,9 @@ std::vector<Circuit> best_of(const Sweep& sweep, const CircuitFit& fit, std::vec
 
 }  // namespace
 
-bool is_apart(const Circuit& circuit, std::size_t mode) {
-  const Mode& one = circuit.modes[mode];
-  return std::all_of(circuit.modes.begin(), circuit.modes.end(), [&](const Mode& other) {
-    constexpr double bands = 2.0;
-    const Mode& larger = one.conductance_S > other.conductance_S ? one : other;
-    return &one == &other ||
-           std::abs(one.resonance_Hz - other.resonance_Hz) > bands * larger.bandwidth_Hz;
-  });
+double gain_to_fit(const CircuitFit& fit) {
+  constexpr double least = 4.0;
+  return describe(fit).fails() ? 0.0 : least;
 }
 
 std::vector<Circuit> start_circuits(const Sweep& sweep, std::size_t most) {
@@ -268,37 +293,14 @@ std::vector<Circuit> start_circuits(const Sweep& sweep, std::size_t most) {
 }
 
 std::vector<Circuit> circuits_with_another_mode(const Sweep& sweep, const CircuitFit& fit,
-                                                std::size_t most) {
+                                                Place place, std::size_t most) {
+  if (place == Place::beside) {
+    return best_of(sweep, fit, with_mode_beside(sweep, fit.circuit), most);
+  }
   Eigen::VectorXd residuals = fit.at.residuals;
   whiten(fit.noise, fit.at, residuals);
-  const Circuit seen = seen_by_readings(sweep, fit.circuit);
-  std::vector<Circuit> tried;
-  for (const auto& [resonance_Hz, least_Hz] : places_of_another_mode(sweep, residuals)) {
-    for (const double bandwidth_Hz : geometric(std::max(least_Hz, 1e-9 * resonance_Hz), 3.0, 6)) {
-      tried.push_back(seen);
-      tried.back().modes.insert(tried.back().modes.begin() + fit.parts.modes,
-                                {0.0, resonance_Hz, bandwidth_Hz});
-    }
-  }
-  return best_of(sweep, fit, std::move(tried), static_cast<std::size_t>(fit.parts.modes), most);
-}
-
-std::vector<Circuit> circuits_with_mode_beside(const Sweep& sweep, const CircuitFit& fit,
-                                               std::size_t most) {
-  const double low_Hz = sweep.frequency_Hz.front();
-  const double high_Hz = sweep.frequency_Hz.back();
-  std::vector<Circuit> tried;
-  for (const double away : {0.01, 0.03, 0.06, 0.12, 0.25, 0.45}) {
-    const double distance_Hz = away * (high_Hz - low_Hz);
-    for (const double resonance_Hz : {high_Hz + distance_Hz, low_Hz - distance_Hz}) {
-      if (resonance_Hz > 0.0) {
-        tried.push_back(fit.circuit);
-        tried.back().modes.push_back(
-            {0.0, resonance_Hz, resonance_Hz / fit.circuit.modes.front().quality()});
-      }
-    }
-  }
-  return best_of(sweep, fit, std::move(tried), fit.circuit.modes.size(), most);
+  return best_of(sweep, fit,
+                 with_mode_inside(sweep, seen_by_readings(sweep, fit.circuit), residuals), most);
 }
 
 }  // namespace sonoglide::identify::impedance

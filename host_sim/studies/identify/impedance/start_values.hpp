@@ -16,18 +16,21 @@ namespace sonoglide::identify::impedance {
 /// ratio of the capacitances is tried too.
 std::vector<Circuit> start_circuits(const Sweep& sweep, std::size_t most);
 
-/// Whether a mode is more than two band widths, those of the larger one, off every other: nearer ones
-/// look like a single peak that is not that of a linear mode.
-bool is_apart(const Circuit& circuit, std::size_t mode);
+/// Modes that are nearer than so many band widths look like a single peak that is not that of a linear
+/// mode.
+inline constexpr double least_distance_bands = 2.0;
 
-/// A further mode that the residuals of a fit ask for most: the fit's circuit with it behind those in
-/// the sweep, at most `most`, the best first. Each is tried at places all over the sweep, apart from
-/// the other modes, with bandwidths of a few readings and more.
+/// What a further mode or part has to take from −2 ln likelihood, by its linearisation, to be fitted:
+/// anything where the fit does not describe the sweep.
+double gain_to_fit(const CircuitFit& fit);
+
+enum class Place { inside, beside };
+
+/// A further mode that the residuals of a fit ask for most: the fit's circuit with it behind the
+/// others, at most `most`, the best first; none where none takes gain_to_fit. Each is tried at places
+/// all over the sweep, apart from the other modes, with bandwidths of a few readings and more; or just
+/// outside the sweep, with the quality of the first mode.
 std::vector<Circuit> circuits_with_another_mode(const Sweep& sweep, const CircuitFit& fit,
-                                                std::size_t most);
-
-/// Likewise one beside the sweep, with the quality of the first mode, behind all.
-std::vector<Circuit> circuits_with_mode_beside(const Sweep& sweep, const CircuitFit& fit,
-                                               std::size_t most);
+                                                Place place, std::size_t most);
 
 }  // namespace sonoglide::identify::impedance

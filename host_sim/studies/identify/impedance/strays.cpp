@@ -3,12 +3,24 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <utility>
-
-#include "host_sim/studies/identify/impedance/scatter.hpp"
 
 namespace sonoglide::identify::impedance {
 namespace {
+
+/// The upper one of the two in the middle. @param values  at least one
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/// Standard deviation of Gaussian readings by the median of the distances from each to the next.
+double deviation_of_steps(std::vector<double> steps) {
+  constexpr double deviation_of_median = 1.4826;
+  return deviation_of_median * median(std::move(steps)) / std::sqrt(2.0);
+}
 
 constexpr double far = 8.0;
 constexpr double close_by = 4.0;

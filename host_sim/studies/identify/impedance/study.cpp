@@ -55,10 +55,6 @@ Correlations correlations_of(const CircuitFit& fit) {
       result.names.push_back(name + number);
     }
   }
-  for (int mode = fit.parts.modes + 1; mode <= fit.parts.modes + fit.parts.beside; ++mode) {
-    result.names.push_back(fmt::format("ln motional_conductance_S of mode {}", mode));
-    result.names.push_back(fmt::format("ln resonance_frequency_Hz of mode {}", mode));
-  }
   const Eigen::MatrixXd matrix = correlations(fit.covariance);
   for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
     result.rows.emplace_back(matrix.row(i).begin(), matrix.row(i).end());

@@ -59,8 +59,8 @@ TEST(Circuit, DerivativesAreThoseOfDifferences) {
   circuit.lead = {5.0, 2e-6};
   circuit.rotation_rad = 0.02;
   circuit.lean = 0.3;
-  circuit.modes.push_back({3e-4, 115e3, 115e3 / circuit.modes.front().quality()});
-  const Parts parts{0b11111, 2, 1};
+  circuit.modes.push_back({3e-4, 115e3, 400.0});
+  const Parts parts{0b11111, 3};
   const Eigen::VectorXd p = to_vector(circuit, parts);
   Eigen::VectorXcd derivatives(p.size());
   const double f = 112.8e3;

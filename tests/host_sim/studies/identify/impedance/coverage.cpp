@@ -1,9 +1,11 @@
 #include "coverage.hpp"
 
+#include <algorithm>
 #include <random>
 
 #include "host_sim/loop/failure.hpp"
 #include "host_sim/studies/identify/impedance/figures.hpp"
+#include "host_sim/studies/identify/impedance/remarks.hpp"
 #include "host_sim/studies/identify/impedance/selection.hpp"
 
 namespace sonoglide::identify::impedance {
@@ -21,6 +23,22 @@ std::vector<double> true_values(const Circuit& truth) {
           truth.coupling()};
 }
 
+bool says(const std::vector<std::string>& all, const std::string& what) {
+  return std::any_of(all.begin(), all.end(),
+                     [&](const std::string& each) { return each.find(what) != std::string::npos; });
+}
+
+/// Whether the sentences beside the figures name the defect that this kind of sweep has and that is not
+/// fitted, or several circuits that are about as likely.
+bool is_told(const Kind& kind, const Selection& selected, const std::vector<Estimate>& found) {
+  const std::vector<std::string> open = open_questions(found, selected, {});
+  return says(open, "About as likely") ||
+         (kind.trait == Trait::drift && says(open, "Whether the resonance drifted")) ||
+         (kind.trait == Trait::lead && says(open, "have a series inductance up to")) ||
+         (kind.second == Second::beside && (says(open, "just outside the sweep") ||
+                                            says(warnings_of(selected), "just outside the sweep")));
+}
+
 }  // namespace
 
 std::vector<Coverage> coverage(const Kind& kind, int sweeps, unsigned seed) {
@@ -34,15 +52,21 @@ std::vector<Coverage> coverage(const Kind& kind, int sweeps, unsigned seed) {
     const Synthetic made = synthetic(kind, readings, random);
     const std::vector<double> truth = true_values(made.truth);
     std::vector<Estimate> found;
+    bool told = false;
     try {
-      found = figures(select_circuit(made.sweep).fit);
+      const Selection selected = select_circuit(made.sweep);
+      found = figures(selected.fit);
+      told = is_told(kind, selected, found);
     } catch (const loop::ComputationError&) {
       found.clear();
     }
     for (std::size_t i = 0; i < all.size(); ++i) {
+      const bool is_covered =
+          i < found.size() && truth[i] >= found[i].low_95 && truth[i] <= found[i].high_95;
       ++all[i].sweeps;
-      all[i].covered +=
-          i < found.size() && truth[i] >= found[i].low_95 && truth[i] <= found[i].high_95 ? 1 : 0;
+      all[i].covered += is_covered ? 1 : 0;
+      all[i].told += told ? 1 : 0;
+      all[i].told_and_covered += told && is_covered ? 1 : 0;
     }
   }
   return all;

@@ -4,10 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
 #include <fstream>
 #include <iterator>
+#include <numeric>
 #include <string>
+#include <vector>
 
 #include "tests/common/csv/csv.hpp"
 
@@ -17,20 +18,20 @@ namespace {
 class CoverageTest : public testing::TestWithParam<Kind> {};
 
 /// Kinds of which the README says that the intervals are too short: of 80 magnitudes nobody tells half
-/// a variance that hangs together from scatter, nor a steady drift or a small inductance in series.
+/// a variance that hangs together from scatter.
 bool is_known_to_be_short(const Kind& kind) {
-  return kind.trait == Trait::drift || kind.trait == Trait::lead ||
-         (!kind.has_phase && kind.error == Error::correlated);
+  return !kind.has_phase && kind.error == Error::correlated;
 }
 
-/// 12 sweeps and 8 parameters each, which are not independent of each other.
-TEST_P(CoverageTest, IntervalsHoldTheTruth) {
-  constexpr int sweeps = 12;
-  int covered = 0;
+/// 40 sweeps and 8 parameters each. With 0.95 each, 31 or fewer of 40 hold the truth in one case of
+/// 10000, so that one of the 160 counts does in 2 %. A sweep of which a sentence tells what its
+/// intervals leave out counts as held.
+TEST_P(CoverageTest, IntervalsHoldTheTruthOrASentenceTellsWhatTheyLeaveOut) {
+  constexpr int sweeps = 40;
   for (const Coverage& each : coverage(GetParam(), sweeps, 7)) {
-    covered += each.covered;
+    const int right = each.covered + each.told - each.told_and_covered;
+    EXPECT_GE(right, is_known_to_be_short(GetParam()) ? 28 : 32) << each.parameter;
   }
-  EXPECT_GE(covered, (is_known_to_be_short(GetParam()) ? 0.3 : 0.8) * 8 * sweeps);
 }
 
 std::string text_of(const std::string& name) {
@@ -43,23 +44,20 @@ TEST(RecordedCoverage, IsAsTheReadmeSays) {
   const csv::Table table(text_of("coverage.csv"), "coverage.csv");
   const std::string readme = text_of("README.md");
   for (const Kind& kind : kinds) {
-    double least = 100.0;
-    double most = 0.0;
-    double sum = 0.0;
-    int parameters = 0;
+    std::vector<double> percent;
+    double told = 0.0;
     for (const csv::Row& row : table.rows()) {
       if (row.text("kind") == kind.name) {
         EXPECT_EQ(row.number("sweeps"), recorded_sweeps) << kind.name;
-        const double percent = 100.0 * row.number("covered") / recorded_sweeps;
-        least = std::min(least, percent);
-        most = std::max(most, percent);
-        sum += percent;
-        ++parameters;
+        percent.push_back(100.0 * row.number("covered") / recorded_sweeps);
+        told = 100.0 * row.number("told") / recorded_sweeps;
       }
     }
-    EXPECT_EQ(parameters, 8) << kind.name;
-    const std::string line =
-        fmt::format("| `{}` | {:.1f} % | {:.1f} % | {:.1f} % |", kind.name, least, sum / 8.0, most);
+    ASSERT_EQ(percent.size(), 8U) << kind.name;
+    std::sort(percent.begin(), percent.end());
+    const std::string line = fmt::format(
+        "| `{}` | {:.1f} % | {:.1f} % | {:.1f} % | {:.1f} % |", kind.name, percent.front(),
+        std::accumulate(percent.begin(), percent.end(), 0.0) / 8.0, percent.back(), told);
     EXPECT_NE(readme.find(line), std::string::npos) << line;
   }
 }

@@ -79,7 +79,8 @@ TEST(KnownSweeps, AMeasuredResonatorHasASecondModeBeside) {
   EXPECT_FALSE(found.fit.parts.has(Part::lead_inductance));
   const std::vector<Mode>& modes = found.fit.circuit.modes;
   EXPECT_TRUE(std::any_of(modes.begin(), modes.end(), [](const Mode& each) {
-    return std::abs(each.resonance_Hz - 18766.0) < 20.0;
+    return std::abs(each.resonance_Hz - 18766.0) < 3.0 &&
+           std::abs(each.resistance_ohm() - 2200.0) < 220.0;
   }));
 }
 
@@ -109,12 +110,17 @@ TEST(KnownSweeps, AModeBesideTheSweepIsNamed) {
   const double f = 40e3;
   Circuit truth{2e-9, 0.003, {{two_pi * f * 2e-11 * 100.0, f, 400.0}}};
   truth.modes.push_back({0.3 * truth.modes.front().conductance_S, 1.045 * f, 420.0});
-  Sweep sweep = exact_sweep(truth, 0.96 * f, 1.035 * f, 200);
-  disturb(sweep, 3e-3, 3e-3, 1);
-  const ImpedanceStudy found = study("x", sweep, {});
-  EXPECT_TRUE(says(found.identification.warnings, "is just outside the sweep"));
-  expect_held(found, "motional_resistance_ohm", truth.modes.front().resistance_ohm(), 0.05);
-  expect_held(found, "clamped_capacitance_F", 2e-9, 0.05);
+  int held = 0;
+  for (unsigned seed = 1; seed <= 12; ++seed) {
+    Sweep sweep = exact_sweep(truth, 0.96 * f, 1.035 * f, 200);
+    disturb(sweep, 3e-3, 3e-3, seed);
+    const ImpedanceStudy found = study("x", sweep, {});
+    EXPECT_TRUE(says(found.identification.warnings, "is just outside the sweep"));
+    const Estimate clamped = figure(found, "clamped_capacitance_F");
+    EXPECT_NEAR(clamped.value, 2e-9, 0.02e-9);
+    held += clamped.low_95 <= 2e-9 && 2e-9 <= clamped.high_95 ? 1 : 0;
+  }
+  EXPECT_GE(held, 9);  // of 12 with 0.95 each: 8 or fewer in 0.2 % of cases
 }
 
 TEST(KnownSweeps, FrequenciesThatJitterWidenTheInterval) {
