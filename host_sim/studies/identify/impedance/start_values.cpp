@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "host_sim/studies/identify/impedance/description.hpp"
@@ -41,33 +40,42 @@ std::vector<Circuit> best_of(std::vector<Ranked> all, std::size_t mode, std::siz
   return best;
 }
 
-/// Where a resonance may be: the readings with the largest local maxima, and the middles beside.
-std::vector<double> places(const Sweep& sweep) {
-  const std::size_t n = sweep.frequency_Hz.size();
+/// Readings of the largest local maxima, the largest first.
+template <class Height>
+std::vector<std::size_t> largest_maxima(std::size_t readings, const Height& height,
+                                        std::size_t most) {
   std::vector<std::pair<double, std::size_t>> maxima;
-  const auto height = [&](std::size_t i) {
-    const Complex y = sweep.admittance_S[i];
-    return (sweep.has_phase ? y.real() : std::abs(y)) / sweep.frequency_Hz[i];
-  };
-  for (std::size_t i = 0; i < n; ++i) {
+  for (std::size_t i = 0; i < readings; ++i) {
     const bool rises = i == 0 || height(i) >= height(i - 1);
-    const bool falls = i + 1 == n || height(i) >= height(i + 1);
+    const bool falls = i + 1 == readings || height(i) >= height(i + 1);
     if (rises && falls) {
       maxima.emplace_back(-height(i), i);
     }
   }
   std::sort(maxima.begin(), maxima.end());
+  std::vector<std::size_t> found;
+  for (std::size_t i = 0; i < std::min(maxima.size(), most); ++i) {
+    found.push_back(maxima[i].second);
+  }
+  return found;
+}
+
+/// Where a resonance may be: the readings with the largest maxima of G/f, and the middles beside.
+std::vector<double> places(const Sweep& sweep) {
+  const auto height = [&](std::size_t i) {
+    const Complex y = sweep.admittance_S[i];
+    return (sweep.has_phase ? y.real() : std::abs(y)) / sweep.frequency_Hz[i];
+  };
   constexpr std::size_t most = 8;
-  maxima.resize(std::min(maxima.size(), most));
+  const std::vector<double>& all = sweep.frequency_Hz;
   std::vector<double> found;
-  for (const auto& [minus_height, i] : maxima) {
-    const double f = sweep.frequency_Hz[i];
-    found.push_back(f);
+  for (const std::size_t i : largest_maxima(all.size(), height, most)) {
+    found.push_back(all[i]);
     if (i > 0) {
-      found.push_back(0.5 * (f + sweep.frequency_Hz[i - 1]));
+      found.push_back(0.5 * (all[i] + all[i - 1]));
     }
-    if (i + 1 < n) {
-      found.push_back(0.5 * (f + sweep.frequency_Hz[i + 1]));
+    if (i + 1 < all.size()) {
+      found.push_back(0.5 * (all[i] + all[i + 1]));
     }
   }
   return found;
@@ -93,18 +101,12 @@ void try_complex(const Sweep& sweep, double resonance_Hz, double bandwidth_Hz,
   Eigen::Vector3d right = Eigen::Vector3d::Zero();
   for (std::size_t i = 0; i < sweep.frequency_Hz.size(); ++i) {
     const double f = sweep.frequency_Hz[i];
-    const Complex measured = sweep.admittance_S[i];
-    const Complex scale = 1.0 / measured;
-    const Complex columns[] = {Complex(0.0, f) * scale, f * scale,
-                               shape(f, resonance_Hz, bandwidth_Hz) * scale};
-    for (int a = 0; a < 3; ++a) {
-      right(a) += columns[a].real();
-      for (int b = 0; b <= a; ++b) {
-        normal(a, b) += (std::conj(columns[a]) * columns[b]).real();
-      }
-    }
+    const Eigen::Vector3cd column =
+        Eigen::Vector3cd(Complex(0.0, f), f, shape(f, resonance_Hz, bandwidth_Hz)) /
+        sweep.admittance_S[i];
+    normal += (column.conjugate() * column.transpose()).real();
+    right += column.real();
   }
-  normal = Eigen::Matrix3d(normal.selfadjointView<Eigen::Lower>());
   const Eigen::Vector3d scales = normal.diagonal().cwiseSqrt().cwiseInverse();
   const Eigen::Matrix3d scaled = scales.asDiagonal() * normal * scales.asDiagonal();
   const Eigen::Vector3d solution =
@@ -184,18 +186,13 @@ std::vector<Circuit> with_mode_inside(const Sweep& sweep, const Circuit& seen,
   for (Eigen::Index reading = 0; reading < readings; reading += stride) {
     add(reading, stride);
   }
-  const auto size = [&](Eigen::Index i) {
+  const auto size = [&](std::size_t reading) {
+    const auto i = static_cast<Eigen::Index>(reading);
     return std::hypot(residuals(i), residuals(residuals.size() - readings + i));
   };
-  std::vector<std::pair<double, Eigen::Index>> peaks;
-  for (Eigen::Index i = 1; stride > 1 && i + 1 < readings; ++i) {
-    if (size(i) >= size(i - 1) && size(i) >= size(i + 1)) {
-      peaks.emplace_back(-size(i), i);
-    }
-  }
-  std::sort(peaks.begin(), peaks.end());
-  for (std::size_t i = 0; i < std::min(most_peaks, peaks.size()); ++i) {
-    add(peaks[i].second, 1);
+  for (const std::size_t i :
+       largest_maxima(sweep.frequency_Hz.size(), size, stride > 1 ? most_peaks : 0)) {
+    add(static_cast<Eigen::Index>(i), 1);
   }
   return tried;
 }
