@@ -153,8 +153,11 @@ class LongWorkTest : public testing::TestWithParam<Command> {};
 TEST_P(LongWorkTest, IsToldBeforeItBegins) {
   const SceneFolder folder;
   const ScratchFolder cache;
+  folder.write("long.toml",
+               (GetParam().name == "robust" ? uncertain_closed_loop : short_open_loop));
   const pid_t program =
-      start(folder, cache, words(GetParam()) + " --set run.duration_periods=1e9", "told");
+      start(folder, cache,
+            words_with_scene(GetParam(), "long.toml") + " --set run.duration_periods=1e9", "told");
   const bool told = comes_true([&] {
     return folder.read("told").find(" steps are expected, minutes of work") != std::string::npos;
   });
