@@ -39,7 +39,7 @@ double Description::misfit() const {
 }
 
 bool Description::fails() const {
-  constexpr double many = 2.5;
+  constexpr double many = 2.0;
   constexpr double least = 1e-3;
   return residual > many * scatter && residual > least;
 }

@@ -11,7 +11,7 @@ struct Description {
   double scatter;  ///< the part of it from reading to reading; its rest is misfit
 
   double misfit() const;  ///< root mean square too
-  /// Residuals above 2.5 times the scatter, and above 0.1 %.
+  /// Residuals above twice the scatter, and above 0.1 %.
   bool fails() const;
 };
 
