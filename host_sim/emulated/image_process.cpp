@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <csignal>
 #include <cstring>
 
 #include "hal/lockstep/frame.hpp"
@@ -20,8 +21,11 @@ ImageProcess::ImageProcess(const std::vector<std::string>& command,
       drives_(process::make_pipe()),
       // In memory: a pipe that nobody empties would stop a talkative emulator.
       complaints_(process::make_memory_file()) {
-  child_.emplace(command, process::Streams{samples_.read_end.number(), drives_.write_end.number(),
-                                           complaints_.number()});
+  // An emulator whose image waits for a sample hears no request to end.
+  child_.emplace(command,
+                 process::Streams{samples_.read_end.number(), drives_.write_end.number(),
+                                  complaints_.number()},
+                 SIGKILL);
   // The reading end of the samples stays open here: writing to an emulator that has died is then no
   // broken pipe, and its death shows where its answer is read.
   drives_.write_end.close();

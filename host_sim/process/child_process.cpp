@@ -67,12 +67,12 @@ void clear_signals() {
 }
 
 /// A build tool ends what it has started when it is asked to, not when it is killed.
-void end_group(pid_t id) {
+void end_group(pid_t id, int signal) {
   constexpr std::chrono::seconds grace{2};
   constexpr std::chrono::milliseconds between_looks{5};
   // Who loses its parent in the group becomes a child of this process, and is waited for.
   prctl(PR_SET_CHILD_SUBREAPER, 1);
-  kill(-id, SIGTERM);
+  kill(-id, signal);
   kill(-id, SIGCONT);
   for (auto waited = between_looks.zero(); waited < grace; waited += between_looks) {
     pid_t gone = 0;
@@ -90,7 +90,9 @@ void end_group(pid_t id) {
 
 }  // namespace
 
-ChildProcess::ChildProcess(const std::vector<std::string>& command, const Streams& streams) {
+ChildProcess::ChildProcess(const std::vector<std::string>& command, const Streams& streams,
+                           int end_signal)
+    : end_signal_(end_signal) {
   const std::vector<char*> arguments = list_of(command);
   const std::vector<std::string> variables = tool_environment();
   const std::vector<char*> environment = list_of(variables);
@@ -104,7 +106,7 @@ ChildProcess::ChildProcess(const std::vector<std::string>& command, const Stream
   if (id_ < 0) {
     throw ProcessError(fmt::format("{}: {}", command.front(), std::strerror(errno)));
   }
-  undo_.emplace([id = id_] { end_group(id); });
+  undo_.emplace([id = id_, end_signal] { end_group(id, end_signal); });
   complaints.write_end.close();
   // The pipe closes when the program has been started.
   int reason = 0;
@@ -138,7 +140,7 @@ int ChildProcess::wait() {
 void ChildProcess::end() {
   if (id_ > 0) {
     const Undisturbed now;
-    end_group(id_);
+    end_group(id_, end_signal_);
     id_ = -1;
     undo_.reset();
   }

@@ -4,6 +4,7 @@
 #include <sched.h>
 #include <sys/types.h>
 
+#include <csignal>
 #include <optional>
 #include <string>
 #include <vector>
@@ -28,9 +29,11 @@ struct Streams {
 /// depends on no other setting of the user.
 class ChildProcess {
  public:
-  /// @param command  the program, looked for in PATH, and its arguments
+  /// @param command     the program, looked for in PATH, and its arguments
+  /// @param end_signal  what end() sends; SIGKILL to a program that starts no other and may not hear
   /// @throws ProcessError  the program cannot be started
-  ChildProcess(const std::vector<std::string>& command, const Streams& streams);
+  ChildProcess(const std::vector<std::string>& command, const Streams& streams,
+               int end_signal = SIGTERM);
   ~ChildProcess();
   ChildProcess(const ChildProcess&) = delete;
   ChildProcess& operator=(const ChildProcess&) = delete;
@@ -42,11 +45,13 @@ class ChildProcess {
   /// @return the status as of waitpid
   int wait();
 
-  /// Ends the child and what it has started, if it still runs: asks, and after two seconds kills.
+  /// Ends the child and what it has started, if it still runs: by the end signal, and by SIGKILL
+  /// what is there two seconds later.
   void end();
 
  private:
   pid_t id_ = -1;
+  int end_signal_;
   std::optional<Undo> undo_;  ///< while it has not been waited for
 };
 

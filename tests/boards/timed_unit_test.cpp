@@ -59,7 +59,7 @@ class Terminal {
       : typed_(process::make_pipe()),
         shown_(process::make_pipe()),
         emulator_(with_monitor(std::move(command)),
-                  {typed_.read_end.number(), shown_.write_end.number(), STDERR_FILENO}) {
+                  {typed_.read_end.number(), shown_.write_end.number(), STDERR_FILENO}, SIGKILL) {
     shown_.write_end.close();
   }
 
