@@ -65,10 +65,11 @@ TEST(PaperInterruption, LeavesNothing) {
   }
 }
 
-bool holds_scratch(const ScratchFolder& folder) {
-  const std::vector<std::string> entries = folder.entries();
-  return std::any_of(entries.begin(), entries.end(), [](const std::string& entry) {
-    return entry.find(".sonoglide-") != std::string::npos;
+/// Not in the folders below, which may go meanwhile.
+bool holds_scratch(const std::filesystem::path& out) {
+  const std::filesystem::directory_iterator entries(out);
+  return std::any_of(begin(entries), end(entries), [](const auto& entry) {
+    return entry.path().filename().string().find(".sonoglide-") == 0;
   });
 }
 
@@ -76,16 +77,18 @@ bool holds_scratch(const ScratchFolder& folder) {
 bool kill_with_staged_files(const ScratchFolder& folder, const ScratchFolder& temporary) {
   StartedProgram program(folder, {"paper", "--figure", "3", "--out", "paper", "--quiet"},
                          temporary);
-  EXPECT_TRUE(comes_true([&] { return holds_scratch(folder) || program.has_ended(); }));
+  const std::filesystem::path out = folder.path() / "paper";
+  EXPECT_TRUE(comes_true([&] { return holds_scratch(out) || program.has_ended(); }));
   program.send(SIGKILL);
   program.end();
-  return holds_scratch(folder);
+  return holds_scratch(out);
 }
 
 TEST(PaperInterruption, WhatAKillLeavesGoesWithTheNextRun) {
   const ScratchFolder folder;
   const ScratchFolder temporary;
-  std::filesystem::create_directory(folder.path() / "paper");
+  const std::filesystem::path out = folder.path() / "paper";
+  std::filesystem::create_directory(out);
   constexpr int most_tries = 50;
   int tries = 1;
   while (!kill_with_staged_files(folder, temporary)) {
@@ -94,7 +97,7 @@ TEST(PaperInterruption, WhatAKillLeavesGoesWithTheNextRun) {
   StartedProgram again(folder, {"paper", "--figure", "3", "--out", "paper", "--quiet"}, temporary);
   const int status = again.end();
   EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0);
-  EXPECT_FALSE(holds_scratch(folder));
+  EXPECT_FALSE(holds_scratch(out));
 }
 
 }  // namespace
