@@ -25,7 +25,7 @@ namespace {
 
 /// Divides columns by the size of their readings, and by the error of each frequency.
 /// @return the logarithm of the covariance's determinant
-double scale(const Noise& noise, const Linearisation& at, Eigen::Ref<Eigen::MatrixXd> columns) {
+double scale(const Noise& noise, const Linearisation& at, Eigen::Ref<Eigen::MatrixXd>& columns) {
   const Eigen::Index readings = at.log_magnitude.size();
   const bool has_phase = columns.rows() > readings;
   const Eigen::ArrayXd size = ((1.0 - noise.exponent) * at.log_magnitude.array()).exp();
@@ -58,7 +58,8 @@ double scale(const Noise& noise, const Linearisation& at, Eigen::Ref<Eigen::Matr
 }
 
 /// Takes from each reading what those before it tell of it.
-double decorrelate(const Noise& noise, Eigen::Index readings, Eigen::Ref<Eigen::MatrixXd> columns) {
+double decorrelate(const Noise& noise, Eigen::Index readings,
+                   Eigen::Ref<Eigen::MatrixXd>& columns) {
   const double own_share = 1.0 - noise.correlated_share;
   const double forgetting = noise.memory * noise.memory;
   double variance = noise.correlated_share;  // of the process, before the reading
@@ -83,7 +84,8 @@ double decorrelate(const Noise& noise, Eigen::Index readings, Eigen::Ref<Eigen::
       }
     }
   }
-  return log_determinant * static_cast<double>(columns.rows() / readings);
+  const Eigen::Index values_per_reading = columns.rows() / readings;
+  return log_determinant * static_cast<double>(values_per_reading);
 }
 
 }  // namespace

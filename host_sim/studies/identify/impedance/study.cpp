@@ -72,7 +72,7 @@ std::string model_of(const CircuitFit& fit) {
         parts.has(Part::lead_inductance) ? "inductance" : ""));
   }
   if (parts.has(Part::rotation)) {
-    seen_through.emplace_back("with every phase off by the same angle");
+    seen_through.emplace_back("with a rotation of all phases by one angle");
   }
   return fmt::format(
       "clamped capacitance{} beside {}{}{}{}",
