@@ -22,7 +22,8 @@ namespace sonoglide::plant {
 /// The steps of EqualStepStrang, taken only where their own defects are small.
 ///
 /// A step is good where its velocity defect is below tolerance times the highest velocity lately,
-/// within a turn of the carrier or of the mode, or while the damper lets it last, and its energy defect below tolerance times
+/// within a turn of the carrier or of the mode, or while the damper lets it last, and its energy
+/// defect below tolerance times
 ///   (length / 2 pi) (kinetic energy at that velocity) + (energy that passed in the step),
 /// so that the residual of the balance over n carrier periods is below (n + 3) tolerance of the
 /// largest energy that was stored or passed. A step that is not good is taken again in halves, and

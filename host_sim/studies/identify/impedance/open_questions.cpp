@@ -40,8 +40,8 @@ std::string open_lead(const Selection& selected) {
     }
   }
   return fmt::format(
-      "Whether leads or an error of the phase turn the sweep: fitted is {}. {}. A compensation "
-      "of the fixture (open, short, load) takes both out.",
+      "Whether leads or an error of the phase turn the sweep: fitted is {}. {}. A compensation of "
+      "the fixture (open, short, load) takes both out.",
       described_lead(selected.fit),
       others.empty() ? "No other is nearly as likely"
                      : fmt::format("About as likely: {}; the intervals allow for it",
@@ -63,21 +63,16 @@ std::string open_part(const Unseen& unseen, const Mode& mode) {
       return fmt::format(
           "Whether leads and contacts have a series inductance up to {}: none is seen, so the "
           "circuit has none, and the intervals do not allow for one. Each microhenry, about a "
-          "metre "
-          "of cable, makes the resonance come out {:+.2g} Hz off, the motional resistance {:+.2g} "
-          "%, "
-          "the motional capacitance {:+.2g} % and the clamped capacitance {:+.2g} %. A "
-          "compensation "
-          "with a short takes it out.",
+          "metre of cable, makes the resonance come out {:+.2g} Hz off, the motional resistance "
+          "{:+.2g} %, the motional capacitance {:+.2g} % and the clamped capacitance {:+.2g} %. A "
+          "compensation with a short takes it out.",
           shown("_H", unseen.most), off(2) * mode.resonance_Hz, -percent * off(1),
           percent * (off(1) + off(3) - 2.0 * off(2)), percent * off(0));
     default:
       return fmt::format(
           "Whether the peak leans by up to {:.2g} band widths, as that of a resonance that goes "
-          "with "
-          "its current: it is not seen, so the circuit has none. Each tenth of a band width to "
-          "lower "
-          "frequencies makes the resonance come out {:+.2g} Hz off.",
+          "with its current: it is not seen, so the circuit has none. Each tenth of a band width "
+          "to lower frequencies makes the resonance come out {:+.2g} Hz off.",
           unseen.most, 0.1 * unseen.off(2) * mode.resonance_Hz);
   }
 }
@@ -147,8 +142,7 @@ std::vector<std::string> open_questions(const std::vector<Estimate>& estimates,
     }
     if (each.name == "loss_tangent" && each.low_95 < 0.0 && each.high_95 > 0.0) {
       open.push_back(
-          fmt::format("Whether the dielectric has losses: the loss tangent is within "
-                      "{:.2g} of 0.",
+          fmt::format("Whether the dielectric has losses: the loss tangent is within {:.2g} of 0.",
                       std::max(-each.low_95, each.high_95)));
     }
   }
