@@ -36,13 +36,17 @@ class Terminal {
     wire.to_unit.insert(wire.to_unit.end(), text.begin(), text.end());
   }
 
-  /// What the unit answers to what is typed.
+  /// What the unit answers to what is typed, until it falls silent.
   std::string type(const std::string& text) {
     put(text);
     while (!wire.to_unit.empty()) {
       serve(100);
     }
-    serve(2000);
+    std::size_t before = 0;
+    do {
+      before = wire.from_unit.size();
+      serve(2000);
+    } while (wire.from_unit.size() > before);
     const std::string answer(wire.from_unit.begin(), wire.from_unit.end());
     wire.from_unit.clear();
     return answer;
@@ -395,6 +399,11 @@ TEST(ConsoleParameters, OfAnotherDesignAreNamed) {
 
 bool is_whole_lines(const std::string& text) {
   return text.empty() || (text.size() > 1 && text.substr(text.size() - 2) == "\r\n");
+}
+
+TEST_F(ConsoleTest, LongAnswersInARowAreWaitedFor) {
+  const std::string answer = terminal.line("a\na\na\na\na\nparams\na");
+  EXPECT_EQ(answer.substr(answer.size() - 12), "NAME VALUE\r\n");
 }
 
 RC_GTEST_PROP(ConsoleAnswerTest, AnyTextIsAnsweredInWholeLines, ()) {
