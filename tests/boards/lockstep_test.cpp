@@ -24,6 +24,7 @@
 #include "host_sim/loop/run.hpp"
 #include "host_sim/loop/sensor.hpp"
 #include "host_sim/scene_file/reader.hpp"
+#include "tested_boards.hpp"
 #include "tests/common/constants/pi.hpp"
 #include "tests/host_sim/loop/logs/logged_run.hpp"
 
@@ -167,16 +168,8 @@ std::string test_name_of(std::string board) {
   return board;
 }
 
-std::vector<std::string> board_names() {
-  std::vector<std::string> names;
-  for (const emulated::EmulatedBoard& board : emulated::emulated_boards()) {
-    names.emplace_back(board.name);
-  }
-  return names;
-}
-
 INSTANTIATE_TEST_SUITE_P(Boards, Image,
-                         testing::Combine(testing::ValuesIn(board_names()),
+                         testing::Combine(testing::ValuesIn(emulated::tested_boards()),
                                           testing::Values("target_step", "target_step_q31",
                                                           "target_step_q15", "other_parts",
                                                           "robust_notch", "robust_notch_q31",
@@ -223,7 +216,7 @@ TEST_P(ObservingImage, FaultsOnAVibrationAtTheRail) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Boards, ObservingImage,
-                         testing::Combine(testing::ValuesIn(board_names()),
+                         testing::Combine(testing::ValuesIn(emulated::tested_boards()),
                                           testing::Values("wire_bonder", "wire_bonder_q31",
                                                           "haptic_plate", "haptic_plate_q31",
                                                           "damped_step", "damped_step_q31")),
@@ -255,7 +248,7 @@ TEST_P(SerialImage, LeavesWhenAFrameIsOutOfTurn) {
   EXPECT_EQ(board_.shut_down(), link_broken);
 }
 
-INSTANTIATE_TEST_SUITE_P(Boards, SerialImage, testing::ValuesIn(board_names()),
+INSTANTIATE_TEST_SUITE_P(Boards, SerialImage, testing::ValuesIn(emulated::tested_boards()),
                          [](const auto& parameter) { return test_name_of(parameter.param); });
 
 TEST(ImageTest, LeavesOnAFaultOfACortexM) {

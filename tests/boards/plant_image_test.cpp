@@ -35,6 +35,7 @@
 #include "host_sim/loop/plant_description.hpp"
 #include "host_sim/process/run_tool.hpp"
 #include "host_sim/scene_file/reader.hpp"
+#include "tested_boards.hpp"
 #include "tests/common/constants/pi.hpp"
 #include "tests/host_sim/loop/logs/logged_run.hpp"
 
@@ -242,16 +243,8 @@ TEST_P(PlantImage, CostsTheSameInEveryRun) {
   EXPECT_GT(mean("plant"), mean("controller"));
 }
 
-std::vector<std::string> board_names() {
-  std::vector<std::string> names;
-  for (const emulated::EmulatedBoard& board : emulated::emulated_boards()) {
-    names.emplace_back(board.name);
-  }
-  return names;
-}
-
 INSTANTIATE_TEST_SUITE_P(Boards, PlantImage,
-                         testing::Combine(testing::ValuesIn(board_names()),
+                         testing::Combine(testing::ValuesIn(emulated::tested_boards()),
                                           testing::Values("target_step", "target_step_q31",
                                                           "target_step_fixed")),
                          [](const auto& parameter) {

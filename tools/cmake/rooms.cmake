@@ -70,17 +70,21 @@ function(sonoglide_check_headers target folder headers)
   endforeach()
   if(checks)
     add_library(${target}_headers OBJECT ${checks})
+    if(NOT SONOGLIDE_CHECK)
+      set_target_properties(${target}_headers PROPERTIES EXCLUDE_FROM_ALL ON)
+    endif()
     target_link_libraries(${target}_headers PRIVATE
       ${target} sonoglide_warnings sonoglide_freestanding)
   endif()
 endfunction()
 
-# sonoglide_test(<name> [OPTIMISED] SOURCES <files>... USES <targets>... [LONG <tests>...]): one
+# sonoglide_test(<name> [OPTIMISED] [CHECK] SOURCES <files>... USES <targets>... [LONG <tests>...]): one
 # GoogleTest program. For ctest it is one test, so that a suite computes once what its tests look at.
-# An OPTIMISED one would compute for longer at -O0 than it takes to compile at -O1. The sanitizers
-# leave out LONG tests, which compute for minutes under them on paths that others take.
+# An OPTIMISED one would compute for longer at -O0 than it takes to compile at -O1. A CHECK is left to
+# tools/check. The sanitizers leave out LONG tests, which compute for minutes under them on paths that
+# others take.
 function(sonoglide_test name)
-  cmake_parse_arguments(TEST "OPTIMISED" "" "SOURCES;USES;LONG" ${ARGN})
+  cmake_parse_arguments(TEST "OPTIMISED;CHECK" "" "SOURCES;USES;LONG" ${ARGN})
   add_executable(${name} ${TEST_SOURCES})
   target_link_libraries(${name} PRIVATE ${TEST_USES} sonoglide_warnings GTest::gtest_main)
   if(TEST_OPTIMISED)
@@ -93,10 +97,13 @@ function(sonoglide_test name)
   if(NOT SONOGLIDE_SANITIZE)
     set(TEST_LONG "")
   endif()
-  if(TEST_LONG STREQUAL "*")
+  if(TEST_LONG STREQUAL "*" OR (TEST_CHECK AND NOT SONOGLIDE_CHECK))
     set_target_properties(${name} PROPERTIES EXCLUDE_FROM_ALL ON)
-  else()
-    list(JOIN TEST_LONG ":" left_out)
-    add_test(NAME ${name} COMMAND ${name} --gtest_brief=1 --gtest_filter=-${left_out})
+    return()
+  endif()
+  list(JOIN TEST_LONG ":" left_out)
+  add_test(NAME ${name} COMMAND ${name} --gtest_brief=1 --gtest_filter=-${left_out})
+  if(TEST_CHECK)
+    set_tests_properties(${name} PROPERTIES LABELS check)
   endif()
 endfunction()
