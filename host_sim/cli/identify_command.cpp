@@ -1,17 +1,134 @@
-#include "host_sim/cli/commands.hpp"
-
+#include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
-#include "host_sim/cli/identify_commands.hpp"
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "host_sim/cli/commands.hpp"
+#include "host_sim/cli/options.hpp"
+#include "host_sim/cli/progress_bar.hpp"
+#include "host_sim/output/gnuplot.hpp"
+#include "host_sim/studies/identify/friction/report.hpp"
+#include "host_sim/studies/identify/impedance/read_sweep.hpp"
+#include "host_sim/studies/identify/impedance/report.hpp"
+#include "host_sim/studies/identify/text_file.hpp"
 
 namespace sonoglide::cli {
+namespace {
+
+namespace impedance = identify::impedance;
+namespace fitting = identify::friction;
+
+struct IdentifyOptions {
+  std::string file;
+  impedance::MechanicalFact fact;
+  std::vector<std::string> laws;
+  std::string out;  ///< empty: out/<file name>_impedance or _friction
+  bool quiet = false;
+};
+
+std::function<std::string(const std::string&)> in_range(const impedance::Range& range) {
+  return [range](const std::string& text) {
+    char* end = nullptr;
+    const double value = std::strtod(text.c_str(), &end);
+    return !text.empty() && *end == '\0' && value >= range.least && value <= range.most
+               ? std::string()
+               : fmt::format("\"{}\"; allowed: {:g} to {:g}", text, range.least, range.most);
+  };
+}
+
+/// Throws scene_file::SceneError, loop::ComputationError, output::OutputError,
+/// process::ProcessError; in each case nothing was written.
+void identify_impedance(const IdentifyOptions& options) {
+  const scene_file::Source source = identify::read_text(options.file);
+  const impedance::Sweep sweep = impedance::read_sweep(source);
+  const std::filesystem::path out = output_folder(options.out, source.name(), "_impedance");
+  output::require_gnuplot();
+  require_writable(out, {"report.html", "identify.json", "fit.csv", "scene.toml"});
+  publish(out, impedance::report(impedance::study(source.name(), sweep, options.fact)),
+          options.quiet);
+}
+
+/// A signal ends it at once: nothing is written yet.
+fitting::Comparison compare(fitting::Readings readings, const IdentifyOptions& options) {
+  ProgressBar bar(stderr, !options.quiet);
+  return fitting::compare(std::move(readings), options.laws,
+                          [&](double fraction) { bar.update(fraction); });
+}
+
+/// Throws scene_file::SceneError, output::OutputError; in each case nothing was written.
+void identify_friction(const IdentifyOptions& options) {
+  const scene_file::Source source = identify::read_text(options.file);
+  fitting::Readings readings = fitting::read_readings(source);
+  const std::filesystem::path out = output_folder(options.out, source.name(), "_friction");
+  require_writable(out, {"report.html", "identify.json", "scene.toml"});
+  const fitting::Comparison comparison = compare(std::move(readings), options);
+  publish(out, fitting::report(comparison, source.name()), options.quiet);
+}
+
+CLI::App* add_command(CLI::App& group, const std::string& name, const std::string& description,
+                      IdentifyOptions& options, const std::string& file) {
+  CLI::App* command = group.add_subcommand(name, description);
+  command->add_option("file", options.file, file)->required()->type_name("FILE");
+  return command;
+}
+
+void add_impedance_command(CLI::App& group) {
+  const auto options = std::make_shared<IdentifyOptions>();
+  CLI::App* command = add_command(
+      group, "impedance",
+      "Equivalent circuit of a transducer from a measured sweep of its impedance", *options,
+      "The sweep: a table with named columns, Touchstone .s1p, or the text of an "
+      "Agilent 4294A");
+  CLI::Option* mass = command
+                          ->add_option("--mass-kg", options->fact.mass_kg,
+                                       "The moving mass, from which the force factor follows")
+                          ->type_name("M")
+                          ->check(in_range(impedance::mass_range_kg));
+  command
+      ->add_option("--force-factor-N-per-V", options->fact.force_factor_N_per_V,
+                   "The force factor, from which the moving mass follows")
+      ->type_name("N")
+      ->check(in_range(impedance::force_factor_range_N_per_V))
+      ->excludes(mass);
+  add_output_option(*command, options->out,
+                    "report.html, identify.json, fit.csv and, with a mechanical fact, scene.toml "
+                    "[out/<file name>_impedance]");
+  command->add_flag("--quiet", options->quiet, "No printed summary");
+  command->callback([options] { identify_impedance(*options); });
+}
+
+void add_friction_command(CLI::App& group) {
+  const auto options = std::make_shared<IdentifyOptions>();
+  CLI::App* command = add_command(
+      group, "friction", "Friction laws fitted to measured friction under vibration, and compared",
+      *options,
+      "A table with sliding_velocity_m_per_s, vibration_velocity_m_per_s or "
+      "velocity_ratio, and friction_ratio or friction_force_N");
+  command->add_option("--law", options->laws, "Fit this law alone; repeatable")
+      ->type_name("NAME")
+      ->allow_extra_args(false)
+      ->check(fitting::check_law);
+  add_output_option(*command, options->out,
+                    "report.html, identify.json and scene.toml [out/<file name>_friction]");
+  command->add_flag("--quiet", options->quiet, "No progress bar and no printed summary");
+  command->callback([options] { identify_friction(*options); });
+}
+
+}  // namespace
 
 void add_identify_command(CLI::App& program) {
   CLI::App* group = program.add_subcommand(
       "identify", "Parameters of a plant from measurements, each with its 95 % interval");
   group->require_subcommand(1);
-  add_identify_impedance_command(*group);
-  add_identify_friction_command(*group);
+  add_impedance_command(*group);
+  add_friction_command(*group);
 }
 
 }  // namespace sonoglide::cli

@@ -105,6 +105,14 @@ void require_writable(const std::filesystem::path& out, const std::vector<std::s
   const output::OutputFolder probe(out, names);
 }
 
+void publish(const std::filesystem::path& out, const output::StudyReport& report, bool quiet,
+             const char* what, const char* file) {
+  output::write(out, report);
+  if (!quiet) {
+    fmt::print("{}{}: {}\n", report.text, what, process::printable((out / file).string()));
+  }
+}
+
 std::string check_board(const std::string& name) {
   if (emulated::find_board(name) != nullptr) {
     return {};

@@ -130,19 +130,13 @@ py::dict sweep_scene(const Scene& scene, const py::dict& vary, unsigned threads)
   return sweep_columns(*plan, rows);
 }
 
-void require_laws(const std::vector<std::string>& laws) {
-  const auto& known = identify::friction::fitted_laws();
-  for (const std::string& law : laws) {
-    if (std::find(known.begin(), known.end(), law) == known.end()) {
-      throw py::value_error(fmt::format("\"{}\" is no law that can be fitted; allowed: {}", law,
-                                        fmt::join(known, ", ")));
-    }
-  }
-}
-
 py::object identify_friction(const std::filesystem::path& path,
                              const std::vector<std::string>& laws) {
-  require_laws(laws);
+  for (const std::string& law : laws) {
+    if (const std::string wrong = identify::friction::check_law(law); !wrong.empty()) {
+      throw py::value_error(wrong);
+    }
+  }
   nlohmann::ordered_json found;
   {
     const py::gil_scoped_release released;

@@ -7,16 +7,37 @@
 #include <iterator>
 #include <utility>
 
+#include "host_sim/output/json_number.hpp"
+
 namespace sonoglide::identify {
-namespace {
 
 using nlohmann::ordered_json;
 
-ordered_json number(double value) {
-  return std::isfinite(value) ? ordered_json(value) : ordered_json(nullptr);
+namespace {
+
+ordered_json to_json(const Correlations& correlations) {
+  ordered_json rows = ordered_json::array();
+  for (const std::vector<double>& row : correlations.rows) {
+    ordered_json cells = ordered_json::array();
+    for (const double each : row) {
+      cells.push_back(output::json_number(each));
+    }
+    rows.push_back(std::move(cells));
+  }
+  return {{"names", correlations.names}, {"rows", std::move(rows)}};
 }
 
 }  // namespace
+
+ordered_json to_json(const std::vector<Estimate>& parameters) {
+  ordered_json json = ordered_json::object();
+  for (const Estimate& each : parameters) {
+    json[each.name] = {{"value", output::json_number(each.value)},
+                       {"low_95", output::json_number(each.low_95)},
+                       {"high_95", output::json_number(each.high_95)}};
+  }
+  return json;
+}
 
 std::string unit_of(const std::string& name) {
   static constexpr std::pair<const char*, const char*> units[] = {{"_ohm", "ohm"},
@@ -46,32 +67,21 @@ ordered_json to_json(const Identification& identification) {
   ordered_json json;
   json["subject"] = identification.subject;
   json["model"] = identification.model;
-  json["parameters"] = ordered_json::object();
-  for (const Estimate& each : identification.parameters) {
-    json["parameters"][each.name] = {{"value", number(each.value)},
-                                     {"low_95", number(each.low_95)},
-                                     {"high_95", number(each.high_95)}};
-  }
-  json["residual_rms"] = number(identification.residual_rms);
-  json["misfit"] = number(identification.misfit);
-  json["correlations"]["names"] = identification.correlations.names;
-  json["correlations"]["rows"] = ordered_json::array();
-  for (const std::vector<double>& row : identification.correlations.rows) {
-    ordered_json cells = ordered_json::array();
-    for (const double each : row) {
-      cells.push_back(number(each));
-    }
-    json["correlations"]["rows"].push_back(std::move(cells));
+  json["parameters"] = to_json(identification.parameters);
+  json["residual_rms"] = output::json_number(identification.residual_rms);
+  json["misfit"] = output::json_number(identification.misfit);
+  if (!identification.correlations.names.empty()) {
+    json["correlations"] = to_json(identification.correlations);
   }
   json["warnings"] = identification.warnings;
   json["cannot_tell"] = identification.cannot_tell;
   return json;
 }
 
-std::string shown(const std::string& name, double value) {
+std::string shown(const std::string& name, double value, const char* otherwise) {
   const std::string unit = unit_of(name);
   if (!std::isfinite(value)) {
-    return "-";
+    return otherwise;
   }
   const bool takes_no_prefix = unit.empty() || unit == "kg" || unit == "1/m" || unit == "s/m";
   if (takes_no_prefix || value == 0.0) {

@@ -14,6 +14,7 @@ struct Estimate {
   double value;
   double low_95;
   double high_95;
+  bool may_be_0 = false;  ///< or less: its interval is not one of the logarithm
 };
 
 /// Correlations of the fitted parameters: row and column in the order of the names.
@@ -30,13 +31,14 @@ struct Identification {
   /// Root mean square of what the residuals have that is no scatter from reading to reading,
   /// relative to the measured value; 0 where none is seen.
   double misfit = 0.0;
-  Correlations correlations;
+  Correlations correlations;          ///< without names: none are told
   std::vector<std::string> warnings;  ///< each a sentence
   std::vector<std::string>
       cannot_tell;  ///< each a sentence: what the data leave open, and what would tell
 };
 
-/// As it stands in identify.json; what is not finite becomes null.
+/// As they stand in identify.json; what is not finite becomes null.
+nlohmann::ordered_json to_json(const std::vector<Estimate>& parameters);
 nlohmann::ordered_json to_json(const Identification& identification);
 
 /// The unit that a name ends with, as `m/s` of `sliding_velocity_m_per_s`; empty of a pure number.
@@ -44,6 +46,7 @@ std::string unit_of(const std::string& name);
 
 /// A value as a table shows it, `52.675 mH`: five digits, of a frequency seven, with the prefix that
 /// suits. The unit is that of the name's ending; of a mass, without prefix.
-std::string shown(const std::string& name, double value);
+/// @param otherwise  what stands for a value that is not finite
+std::string shown(const std::string& name, double value, const char* otherwise = "-");
 
 }  // namespace sonoglide::identify

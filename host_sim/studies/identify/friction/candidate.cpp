@@ -1,8 +1,12 @@
 #include "host_sim/studies/identify/friction/candidate.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <string_view>
 
 #include "firmware/friction/coulomb_friction_ratio.hpp"
 #include "firmware/friction/dahl_friction_ratio.hpp"
@@ -177,10 +181,13 @@ std::vector<Candidate> candidates(const Extent& extent) {
           normal_candidate(extent)};
 }
 
-const std::vector<std::string_view>& fitted_laws() {
-  static const std::vector<std::string_view> names = {
+std::string check_law(const std::string& law) {
+  static constexpr std::array<std::string_view, 7> known = {
       "coulomb", "dahl", "iwan", "stribeck", "lugre", "transverse_coulomb", "normal_coulomb"};
-  return names;
+  return std::find(known.begin(), known.end(), law) != known.end()
+             ? std::string()
+             : fmt::format("\"{}\" is no law that can be fitted; allowed: {}", law,
+                           fmt::join(known, ", "));
 }
 
 }  // namespace sonoglide::identify::friction

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "host_sim/studies/identify/friction/readings.hpp"
@@ -56,7 +55,7 @@ struct Candidate {
 /// Every law that has a mean friction, in the order of the report.
 std::vector<Candidate> candidates(const Extent& extent);
 
-/// The laws of a scene that candidates() has.
-const std::vector<std::string_view>& fitted_laws();
+/// What is wrong with a word as the law of a scene that candidates() has; empty for one.
+std::string check_law(const std::string& law);
 
 }  // namespace sonoglide::identify::friction

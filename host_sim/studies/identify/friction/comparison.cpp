@@ -9,41 +9,13 @@
 #include <tuple>
 #include <utility>
 
+#include "host_sim/scene_file/reader.hpp"
 #include "host_sim/studies/identify/friction/candidate.hpp"
 #include "host_sim/studies/identify/friction/scene_text.hpp"
+#include "host_sim/studies/identify/report.hpp"
 
 namespace sonoglide::identify::friction {
 namespace {
-
-std::string joined(const std::vector<std::string>& words) {
-  return fmt::format("{}", fmt::join(words, ", "));
-}
-
-/// Which law it is.
-void tell_laws_apart(Comparison& comparison) {
-  const LawFit& best = comparison.best();
-  if (!std::isfinite(best.akaike)) {
-    if (comparison.laws.size() > 1) {
-      comparison.cannot_tell.push_back(fmt::format(
-          "Which law it is: {} readings are too few for a criterion. Taken is the law with the "
-          "smallest residuals for its parameters, {}; any that does not fail is possible.",
-          comparison.readings.rows.size(), best.law.title));
-    }
-    return;
-  }
-  std::vector<std::string> alike;
-  for (const LawFit& each : comparison.laws) {
-    if (&each != &best && comparison.difference(each) < told_apart_from) {
-      alike.push_back(fmt::format("{} ({:.2g})", each.law.title, comparison.difference(each)));
-    }
-  }
-  if (!alike.empty()) {
-    comparison.cannot_tell.push_back(fmt::format(
-        "Which law it is: {} is best, but not told apart from {}. In brackets the difference in "
-        "AICc, below {:g}. Readings where these laws differ most would tell: see the page.",
-        best.law.title, joined(alike), told_apart_from));
-  }
-}
 
 void warn_of_failure(Comparison& comparison) {
   const LawFit& best = comparison.best();
@@ -53,71 +25,94 @@ void warn_of_failure(Comparison& comparison) {
       failing.push_back(each.law.title);
     }
   }
-  if (!failing.empty() && failing.size() < comparison.laws.size()) {
-    comparison.warnings.push_back(
-        fmt::format("Laws that fail, whatever their parameters: {}.", joined(failing)));
-  }
-  if (failing.size() == comparison.laws.size()) {
-    comparison.warnings.push_back(fmt::format(
-        "No law that was fitted describes the readings: of the best, {}, residuals of {:.2g} (rms, "
-        "as a friction ratio) are {}.",
-        best.law.title, best.residual_rms,
-        best.chi_square_probability < fails_below ? "larger than the stated standard errors allow"
-                                                  : "a pattern and no scatter"));
-  } else if (best.fails()) {
-    comparison.warnings.push_back(
-        fmt::format("The residuals of the best law, {}, are no mere scatter.", best.law.title));
-  }
-  if (best.misfit > 0.0) {
-    comparison.warnings.push_back(
+  const bool all_fail = failing.size() == comparison.laws.size();
+  append(
+      comparison.warnings,
+      {{!failing.empty() && !all_fail,
+        fmt::format("Laws that fail, whatever their parameters: {}.", fmt::join(failing, ", "))},
+       {all_fail,
+        fmt::format("No law that was fitted describes the readings: of the best, {}, residuals of "
+                    "{:.2g} (rms, as a friction ratio) are {}.",
+                    best.law.title, best.residual_rms,
+                    best.chi_square_probability < fails_below
+                        ? "larger than the stated standard errors allow"
+                        : "a pattern and no scatter")},
+       {!all_fail && best.fails(),
+        fmt::format("The residuals of the best law, {}, are no mere scatter.", best.law.title)},
+       {best.misfit > 0.0,
         fmt::format("{}: a misfit of {:.2g} (rms, as a friction ratio) that neighbouring readings "
-                    "share is more "
-                    "likely than none; it is in the intervals.",
-                    best.law.title, best.misfit));
-  }
+                    "share is more likely than none; it is in the intervals.",
+                    best.law.title, best.misfit)}});
 }
 
-/// What no reading of this kind tells.
-void tell_open_products(Comparison& comparison) {
-  std::vector<std::string>& open = comparison.cannot_tell;
-  open.emplace_back(
-      comparison.readings.are_forces
-          ? "Friction coefficient and normal force apart: mean friction depends on their product "
-            "Fc alone. A measured normal force tells."
-          : "The friction limit Fc, and friction coefficient and normal force apart: a friction "
-            "ratio depends on neither. friction_force_N in place of friction_ratio tells Fc.");
-  std::set<std::string_view> laws;
+/// The laws that are not told apart from the best, with their distance.
+std::vector<std::string> alike(const Comparison& comparison) {
+  std::vector<std::string> laws;
   for (const LawFit& each : comparison.laws) {
-    laws.insert(each.law.law);
+    if (&each != &comparison.best() && comparison.difference(each) < told_apart_from) {
+      laws.push_back(fmt::format("{} ({:.2g})", each.law.title, comparison.difference(each)));
+    }
   }
-  const bool elastic = laws.count("dahl") + laws.count("iwan") + laws.count("lugre") > 0;
-  if (elastic) {
-    open.emplace_back(
-        comparison.readings.have_frequency
-            ? "Contact stiffness and friction limit apart, by a ratio: mean friction depends on "
-              "Kt/Fc."
-            : "Kt/Fc: without frequency_Hz no amplitude is known, only Kt/(w Fc).");
-  }
-  if (laws.count("lugre") > 0) {
-    open.emplace_back("LuGre, bristle damping: it does not change the mean friction.");
-  }
-  if (laws.count("normal_coulomb") > 0) {
-    open.emplace_back(
-        "Coulomb with springs, kz and N0 apart, and mu, kz and kx apart: mean friction depends on "
-        "kz/N0 and mu kz/kx.");
-  }
+  return laws;
 }
 
-void tell_direction(Comparison& comparison) {
+/// Which law it is, what no reading of this kind tells, and which way the contact vibrates.
+void tell_what_is_open(Comparison& comparison) {
+  const LawFit& best = comparison.best();
+  const bool has_criterion = std::isfinite(best.akaike);
+  const std::vector<std::string> others =
+      has_criterion ? alike(comparison) : std::vector<std::string>();
+  std::set<std::string_view> laws;
   std::set<std::string> directions;
   for (const LawFit& each : comparison.laws) {
+    laws.insert(each.law.law);
     directions.insert(each.law.direction);
   }
-  if (directions.size() > 1) {
-    comparison.cannot_tell.push_back(fmt::format(
-        "Which way the contact vibrates: the file does not say, and laws for several directions "
-        "were fitted ({}). Leave those of another direction than yours out: --law.",
-        fmt::join(directions, ", ")));
+  const bool elastic = laws.count("dahl") + laws.count("iwan") + laws.count("lugre") > 0;
+  const Readings& readings = comparison.readings;
+  append(
+      comparison.cannot_tell,
+      {{!has_criterion && comparison.laws.size() > 1,
+        fmt::format("Which law it is: {} readings are too few for a criterion. Taken is the law "
+                    "with the smallest residuals for its parameters, {}; any that does not fail is "
+                    "possible.",
+                    readings.rows.size(), best.law.title)},
+       {!others.empty(),
+        fmt::format("Which law it is: {} is best, but not told apart from {}. In brackets the "
+                    "difference in AICc, below {:g}. Readings where these laws differ most would "
+                    "tell: see the page.",
+                    best.law.title, fmt::join(others, ", "), told_apart_from)},
+       {readings.are_forces,
+        "Friction coefficient and normal force apart: mean friction depends on their product Fc "
+        "alone. A measured normal force tells."},
+       {!readings.are_forces,
+        "The friction limit Fc, and friction coefficient and normal force apart: a friction ratio "
+        "depends on neither. friction_force_N in place of friction_ratio tells Fc."},
+       {elastic && readings.have_frequency,
+        "Contact stiffness and friction limit apart, by a ratio: mean friction depends on Kt/Fc."},
+       {elastic && !readings.have_frequency,
+        "Kt/Fc: without frequency_Hz no amplitude is known, only Kt/(w Fc)."},
+       {laws.count("lugre") > 0, "LuGre, bristle damping: it does not change the mean friction."},
+       {laws.count("normal_coulomb") > 0,
+        "Coulomb with springs, kz and N0 apart, and mu, kz and kx apart: mean friction depends on "
+        "kz/N0 and mu kz/kx."},
+       {directions.size() > 1,
+        fmt::format("Which way the contact vibrates: the file does not say, and laws for several "
+                    "directions were fitted ({}). Leave those of another direction than yours out: "
+                    "--law.",
+                    fmt::join(directions, ", "))}});
+}
+
+/// The scene, or a warning that run would refuse it.
+void add_scene(Comparison& comparison) {
+  comparison.scene = scene_text(comparison);
+  try {
+    scene_file::read_text(comparison.scene, "scene.toml");
+  } catch (const scene_file::SceneError& error) {
+    comparison.scene.clear();
+    comparison.warnings.push_back(
+        fmt::format("No scene.toml is written, because run would refuse it: {}: {}.", error.key(),
+                    error.message()));
   }
 }
 
@@ -162,21 +157,15 @@ Comparison compare(Readings readings, const std::vector<std::string>& laws,
     }
     progress(++done / static_cast<double>(comparison.laws.size()));
   }
-  tell_laws_apart(comparison);
   warn_of_failure(comparison);
-  tell_open_products(comparison);
-  tell_direction(comparison);
+  tell_what_is_open(comparison);
   for (const LawFit& each : comparison.laws) {
     if (comparison.is_possible(each)) {
       comparison.cannot_tell.insert(comparison.cannot_tell.end(), each.open.begin(),
                                     each.open.end());
     }
   }
-  if (const std::string refusal = scene_refusal(comparison); !refusal.empty()) {
-    comparison.has_scene = false;
-    comparison.warnings.push_back("No scene.toml is written, because run would refuse it: " +
-                                  refusal);
-  }
+  add_scene(comparison);
   return comparison;
 }
 

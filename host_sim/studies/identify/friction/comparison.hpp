@@ -18,7 +18,7 @@ struct Comparison {
   std::vector<LawFit> laws;  ///< the best first; without a criterion by residuals
   std::vector<std::string> warnings;
   std::vector<std::string> cannot_tell;
-  bool has_scene = true;  ///< of the best law; false: run would refuse it, and a warning says why
+  std::string scene;  ///< of the best law; empty: run would refuse it, and a warning says why
 
   const LawFit& best() const { return laws.front(); }
   /// Difference of the criterion to that of the best; not a number where there is none.

@@ -8,11 +8,11 @@
 #include <vector>
 
 #include "host_sim/studies/identify/friction/report.hpp"
+#include "host_sim/studies/identify/report.hpp"
 
 namespace sonoglide::identify::friction {
 namespace {
 
-constexpr double gap = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t most_groups = 6;
 
 /// Readings that share one of the two velocities, the vibration's or the sliding's.
@@ -55,28 +55,28 @@ Groups groups_of(const Readings& readings) {
   return {vibration, vibration ? std::move(by_vibration) : std::move(by_sliding)};
 }
 
-const char* friction_label(const Comparison& comparison) {
-  return comparison.readings.are_forces ? "Mean friction [N]" : "Friction ratio [-]";
-}
-
-/// Velocities at which curves are drawn, the readings' own among them.
-std::vector<Reading> places(const Groups& groups, const Group& group) {
-  std::vector<Reading> all = group.rows;
+/// The group's readings, and places between along which the curves are drawn.
+std::vector<Place> places(const Comparison& comparison, const Groups& groups, const Group& group) {
+  std::vector<Place> all;
+  const auto add = [&](const Reading& row, double measured) {
+    Place place{groups.other(row), measured, {}};
+    for (const LawFit& each : comparison.laws) {
+      place.fitted.push_back(friction_of(comparison.readings, each, row));
+    }
+    all.push_back(std::move(place));
+  };
   double fastest = 0.0;
   for (const Reading& row : group.rows) {
+    add(row, row.friction);
     fastest = std::max(fastest, groups.other(row));
   }
   constexpr int points = 120;
   for (int i = 1; i <= points; ++i) {
-    Reading place = group.rows.front();
-    const double velocity = 1.1 * fastest * i / points;
-    (groups.vibration_is_held ? place.sliding_m_per_s : place.vibration_m_per_s) = velocity;
-    place.friction = gap;
-    all.push_back(place);
+    Reading row = group.rows.front();
+    (groups.vibration_is_held ? row.sliding_m_per_s : row.vibration_m_per_s) =
+        1.1 * fastest * i / points;
+    add(row, std::numeric_limits<double>::quiet_NaN());
   }
-  std::stable_sort(all.begin(), all.end(), [&](const Reading& a, const Reading& b) {
-    return groups.other(a) < groups.other(b);
-  });
   return all;
 }
 
@@ -86,37 +86,29 @@ output::Panel fit_panel(const Comparison& comparison, const Groups& groups, cons
                             group.held);
   panel.x_label =
       groups.vibration_is_held ? "Sliding velocity [m/s]" : "Peak vibration velocity [m/s]";
-  panel.y_label = friction_label(comparison);
-  const std::vector<Reading> rows = places(groups, group);
-  output::Series measured{"measured", {}, false, false, true};
-  for (const Reading& row : rows) {
-    panel.x.push_back(groups.other(row));
-    measured.y.push_back(row.friction);
-  }
-  panel.series.push_back(std::move(measured));
+  panel.y_label = comparison.readings.are_forces ? "Mean friction [N]" : "Friction ratio [-]";
+  std::vector<std::string> titles;
   for (const LawFit& each : comparison.laws) {
-    output::Series curve{each.law.title, {}};
-    for (const Reading& row : rows) {
-      curve.y.push_back(friction_of(comparison.readings, each, row));
-    }
-    panel.series.push_back(std::move(curve));
+    titles.push_back(each.law.title);
   }
+  draw_fit(panel, places(comparison, groups, group), titles);
   return panel;
 }
 
 output::Section fit_section(const Comparison& comparison) {
+  const Groups groups = groups_of(comparison.readings);
+  const char* held = groups.vibration_is_held ? "vibration" : "sliding";
   output::Section section;
   section.title = "Readings and fits";
-  const Groups groups = groups_of(comparison.readings);
   section.text = fmt::format(
       "Readings with the same {} velocity are in one panel{}. Curves are the fitted laws at the "
       "panel's {} velocity.",
-      groups.vibration_is_held ? "vibration" : "sliding",
+      held,
       groups.all.size() > most_groups
           ? fmt::format("; of {} such velocities those {} with the most readings are shown",
                         groups.all.size(), most_groups)
           : std::string(),
-      groups.vibration_is_held ? "vibration" : "sliding");
+      held);
   for (std::size_t i = 0; i < std::min(groups.all.size(), most_groups); ++i) {
     section.panels.push_back(fit_panel(comparison, groups, groups.all[i]));
   }
@@ -138,11 +130,10 @@ output::Section residual_section(const Comparison& comparison) {
                     each.runs_probability, each.autocorrelation);
     panel.x_label = "Reading, by rising velocity ratio [-]";
     panel.y_label = comparison.readings.are_forces ? "Residual [N]" : "Residual [-]";
-    output::Series series{"residual", each.residuals, false, false, true};
+    panel.series = {dots("residual", each.residuals)};
     for (std::size_t i = 0; i < each.residuals.size(); ++i) {
       panel.x.push_back(static_cast<double>(i + 1));
     }
-    panel.series.push_back(std::move(series));
     panel.group = "residuals";
     section.panels.push_back(std::move(panel));
   }
@@ -176,32 +167,15 @@ output::Table law_table(const Comparison& comparison) {
 
 output::Table parameter_table(const Comparison& comparison) {
   output::Table table{"Parameters", {"Law", "Parameter", "Value", "95 % from", "to"}, {}};
-  const auto cell = [](const Estimate& each, double value, const char* otherwise) {
-    return std::isfinite(value) ? shown(each.name, value) : std::string(otherwise);
-  };
   for (const LawFit& law : comparison.laws) {
     const char* no_end = comparison.is_possible(law) ? "open" : "-";
     for (const Estimate& each : law.parameters) {
-      table.rows.push_back({law.law.title, each.name, cell(each, each.value, "at its bound"),
-                            cell(each, each.low_95, no_end), cell(each, each.high_95, no_end)});
+      table.rows.push_back({law.law.title, each.name, shown(each.name, each.value, "at its bound"),
+                            shown(each.name, each.low_95, no_end),
+                            shown(each.name, each.high_95, no_end)});
     }
   }
   return table;
-}
-
-output::Section open_section(const Comparison& comparison) {
-  output::Section section;
-  section.title = "What the readings cannot tell";
-  section.text =
-      "An open end means that the residuals hardly grow as far as that parameter may go. A value "
-      "at its bound is the law's way to become a simpler one. Laws that are not possible get no "
-      "intervals.";
-  output::Table table{"", {}, {}};
-  for (const std::string& each : comparison.cannot_tell) {
-    table.rows.push_back({each});
-  }
-  section.tables = {table};
-  return section;
 }
 
 }  // namespace
@@ -221,7 +195,15 @@ output::Page page(const Comparison& comparison, const std::string& name) {
       told_apart_from);
   page.warnings = comparison.warnings;
   page.tables = {law_table(comparison), parameter_table(comparison)};
-  page.sections = {open_section(comparison), fit_section(comparison), residual_section(comparison)};
+  page.sections = {{"What the readings cannot tell",
+                    "An open end means that the residuals hardly grow as far as that parameter may "
+                    "go. A value at its bound is the law's way to become a simpler one. Laws that "
+                    "are not possible get no intervals.",
+                    {},
+                    {},
+                    {sentence_table("", comparison.cannot_tell)}},
+                   fit_section(comparison),
+                   residual_section(comparison)};
   return page;
 }
 

@@ -4,10 +4,9 @@
 
 #include <cmath>
 
-#include "host_sim/output/output_folder.hpp"
-#include "host_sim/process/printable.hpp"
-#include "host_sim/studies/identify/friction/scene_text.hpp"
+#include "host_sim/output/json_number.hpp"
 #include "host_sim/studies/identify/identification.hpp"
+#include "host_sim/studies/identify/report.hpp"
 
 namespace sonoglide::identify::friction {
 
@@ -29,33 +28,9 @@ std::string verdict(const Comparison& comparison, const LawFit& fit) {
   return text.empty() ? "possible" : text;
 }
 
-std::string interval_text(const Estimate& estimate) {
-  const auto end = [&](double value, const char* open) {
-    return std::isfinite(value) ? shown(estimate.name, value) : std::string(open);
-  };
-  return fmt::format("{} ({} to {})", end(estimate.value, "-"), end(estimate.low_95, "open"),
-                     end(estimate.high_95, "open"));
-}
-
 namespace {
 
 using nlohmann::ordered_json;
-
-ordered_json number(double value) {
-  return std::isfinite(value) ? ordered_json(value) : ordered_json(nullptr);
-}
-
-Identification identification(const Comparison& comparison, const LawFit& fit) {
-  Identification all{};
-  all.subject = "friction";
-  all.model = fit.law.title;
-  all.parameters = fit.parameters;
-  all.residual_rms = fit.residual_rms;
-  all.misfit = fit.misfit;
-  all.warnings = comparison.warnings;
-  all.cannot_tell = comparison.cannot_tell;
-  return all;
-}
 
 ordered_json law_json(const Comparison& comparison, const LawFit& fit) {
   ordered_json json;
@@ -65,14 +40,14 @@ ordered_json law_json(const Comparison& comparison, const LawFit& fit) {
   }
   json["vibration"] = fit.law.direction;
   json["verdict"] = verdict(comparison, fit);
-  json["parameters"] = identify::to_json(identification(comparison, fit))["parameters"];
-  json["residual_rms"] = number(fit.residual_rms);
-  json["misfit"] = number(fit.misfit);
-  json["aicc"] = number(fit.akaike);
-  json["aicc_difference"] = number(comparison.difference(fit));
-  json["runs_probability"] = number(fit.runs_probability);
-  json["autocorrelation"] = number(fit.autocorrelation);
-  json["chi_square_probability"] = number(fit.chi_square_probability);
+  json["parameters"] = identify::to_json(fit.parameters);
+  json["residual_rms"] = output::json_number(fit.residual_rms);
+  json["misfit"] = output::json_number(fit.misfit);
+  json["aicc"] = output::json_number(fit.akaike);
+  json["aicc_difference"] = output::json_number(comparison.difference(fit));
+  json["runs_probability"] = output::json_number(fit.runs_probability);
+  json["autocorrelation"] = output::json_number(fit.autocorrelation);
+  json["chi_square_probability"] = output::json_number(fit.chi_square_probability);
   json["open"] = fit.open;
   return json;
 }
@@ -86,33 +61,7 @@ std::string law_line(const Comparison& comparison, const LawFit& fit) {
       fit.residual_rms, fit.misfit, fit.runs_probability, verdict(comparison, fit));
 }
 
-}  // namespace
-
-ordered_json to_json(const Comparison& comparison) {
-  ordered_json json = identify::to_json(identification(comparison, comparison.best()));
-  json.erase("correlations");
-  json["law"] = comparison.best().law.law;
-  json["readings"] = comparison.readings.rows.size();
-  json["laws"] = ordered_json::array();
-  for (const LawFit& each : comparison.laws) {
-    json["laws"].push_back(law_json(comparison, each));
-  }
-  return json;
-}
-
-void write(const std::filesystem::path& out, const Comparison& comparison,
-           const std::string& name) {
-  const std::string html = output::to_html(page(comparison, name));
-  output::OutputFolder folder(out);
-  folder.write("report.html", html);
-  folder.write("identify.json", to_json(comparison).dump(2) + '\n');
-  if (comparison.has_scene) {
-    folder.write("scene.toml", scene_text(comparison));
-  }
-  folder.commit();
-}
-
-std::string text(const Comparison& comparison, const std::filesystem::path& out) {
+std::string text(const Comparison& comparison) {
   std::string lines =
       fmt::format("{:<22} {:<18} {:<7} {:>2} {:>9} {:>9} {:>8} {:>7}\n", "law", "--law", "vibr.",
                   "p", "AICc diff", "residual", "misfit", "runs p");
@@ -121,16 +70,39 @@ std::string text(const Comparison& comparison, const std::filesystem::path& out)
   }
   lines += '\n';
   for (const Estimate& each : comparison.best().parameters) {
-    lines +=
-        fmt::format("{}: {} = {}\n", comparison.best().law.title, each.name, interval_text(each));
+    lines += fmt::format("{}: {} = {} ({} to {})\n", comparison.best().law.title, each.name,
+                         shown(each.name, each.value), shown(each.name, each.low_95, "open"),
+                         shown(each.name, each.high_95, "open"));
   }
-  for (const std::string& each : comparison.warnings) {
-    lines += fmt::format("WARNING: {}\n", each);
+  return lines + remark_lines(comparison.warnings, comparison.cannot_tell);
+}
+
+}  // namespace
+
+ordered_json to_json(const Comparison& comparison) {
+  const LawFit& best = comparison.best();
+  ordered_json json = identify::to_json(Identification{"friction",
+                                                       best.law.title,
+                                                       best.parameters,
+                                                       best.residual_rms,
+                                                       best.misfit,
+                                                       {},
+                                                       comparison.warnings,
+                                                       comparison.cannot_tell});
+  json["law"] = best.law.law;
+  json["readings"] = comparison.readings.rows.size();
+  json["laws"] = ordered_json::array();
+  for (const LawFit& each : comparison.laws) {
+    json["laws"].push_back(law_json(comparison, each));
   }
-  for (const std::string& each : comparison.cannot_tell) {
-    lines += fmt::format("CANNOT TELL: {}\n", each);
-  }
-  return lines + fmt::format("report: {}\n", process::printable((out / "report.html").string()));
+  return json;
+}
+
+output::StudyReport report(const Comparison& comparison, const std::string& name) {
+  return {{{"report.html", output::to_html(page(comparison, name))},
+           {"identify.json", to_json(comparison).dump(2) + '\n'},
+           {"scene.toml", comparison.scene}},
+          text(comparison)};
 }
 
 }  // namespace sonoglide::identify::friction

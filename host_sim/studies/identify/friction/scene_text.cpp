@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "firmware/numeric/turn.hpp"
-#include "host_sim/scene_file/reader.hpp"
 
 namespace sonoglide::identify::friction {
 namespace {
@@ -55,64 +54,54 @@ Numbers numbers(const Comparison& comparison, const Reading& row) {
   return all;
 }
 
-std::string elastic_keys(const std::vector<double>& values, const Numbers& all) {
-  return fmt::format("contact_stiffness_N_per_m = {:.9g}   # Kt/Fc times Fc\n",
-                     values[0] * all.per_m * all.limit_N);
-}
-
-std::string stribeck_keys(const std::vector<double>& values) {
+std::string stribeck_keys(double depth, double speed) {
   // At 1 the least friction is 0, which rounding must not pass.
-  const double drop = std::min(values[0], 0.9999);
-  const double speed = values[1];
+  const double drop = std::min(depth, 0.9999);
   return fmt::format("fall_s_per_m = {:.9g}\nrise_s3_per_m3 = {:.9g}\n",
                      assumed_coefficient * 1.5 * drop / speed,
                      assumed_coefficient * 0.5 * drop / (speed * speed * speed));
 }
 
-std::string lugre_keys(const std::vector<double>& values, const Numbers& all) {
-  return elastic_keys(values, all) +
-         fmt::format(
-             "static_coefficient = {:.9g}\nstribeck_velocity_m_per_s = {:.9g}\n"
-             "viscous_friction_N_s_per_m = {:.9g}\n"
-             "bristle_damping_N_s_per_m = 0.0   # no mean friction tells it\n",
-             assumed_coefficient * (1.0 + values[1]), values[2], values[3] * all.limit_N);
-}
-
-std::string normal_keys(const std::vector<double>& values, const Numbers& all) {
-  const double normal_N_per_m = values[0] * all.per_m * all.normal_force_N;
+std::string normal_keys(double normal_per_m, double share, const Numbers& all) {
+  const double normal_N_per_m = normal_per_m * all.per_m * all.normal_force_N;
   return fmt::format(
       "normal_contact_stiffness_N_per_m = {:.9g}   # kz/N0 times N0\n"
       "contact_stiffness_N_per_m = {:.9g}   # kx, so that mu kz/kx is the fitted one\n",
-      normal_N_per_m, assumed_coefficient * normal_N_per_m / values[1]);
+      normal_N_per_m, assumed_coefficient * normal_N_per_m / share);
 }
 
 /// The keys that the law has of its own.
 std::string law_keys(const LawFit& fit, const Numbers& all) {
-  std::vector<double> values;
-  for (std::size_t i = 0; i < fit.law.shape.size(); ++i) {
-    values.push_back(std::exp(fit.logs(static_cast<Eigen::Index>(i))));
-  }
   const std::string& law = fit.law.law;
-  if (law == "dahl") {
-    return elastic_keys(values, all);
-  }
-  if (law == "iwan") {
-    return elastic_keys(values, all) + fmt::format("elements = {}\n", fit.law.elements);
-  }
+  const auto value = [&](Eigen::Index i) { return std::exp(fit.logs(i)); };
   if (law == "stribeck") {
-    return stribeck_keys(values);
+    return stribeck_keys(value(0), value(1));
+  }
+  if (law == "normal_coulomb") {
+    return normal_keys(value(0), value(1), all);
+  }
+  if (law != "dahl" && law != "iwan" && law != "lugre") {
+    return {};
+  }
+  std::string keys = fmt::format("contact_stiffness_N_per_m = {:.9g}   # Kt/Fc times Fc\n",
+                                 value(0) * all.per_m * all.limit_N);
+  if (law == "iwan") {
+    keys += fmt::format("elements = {}\n", fit.law.elements);
   }
   if (law == "lugre") {
-    return lugre_keys(values, all);
+    keys += fmt::format(
+        "static_coefficient = {:.9g}\nstribeck_velocity_m_per_s = {:.9g}\n"
+        "viscous_friction_N_s_per_m = {:.9g}\n"
+        "bristle_damping_N_s_per_m = 0.0   # no mean friction tells it\n",
+        assumed_coefficient * (1.0 + value(1)), value(2), value(3) * all.limit_N);
   }
-  return law == "normal_coulomb" ? normal_keys(values, all) : std::string();
+  return keys;
 }
 
-}  // namespace
-
-const Reading& scene_reading(const Comparison& comparison) {
+/// The middle reading of those with vibration.
+const Reading& scene_reading(const Readings& readings) {
   std::vector<const Reading*> vibrating;
-  for (const Reading& row : comparison.readings.rows) {
+  for (const Reading& row : readings.rows) {
     if (row.vibration_m_per_s > 0.0) {
       vibrating.push_back(&row);
     }
@@ -120,49 +109,53 @@ const Reading& scene_reading(const Comparison& comparison) {
   return *vibrating[vibrating.size() / 2];
 }
 
+}  // namespace
+
 std::string scene_text(const Comparison& comparison) {
   const LawFit& best = comparison.best();
-  const Reading& row = scene_reading(comparison);
+  const Reading& row = scene_reading(comparison.readings);
   const Numbers all = numbers(comparison, row);
   const bool forces = comparison.readings.are_forces;
   std::string text = fmt::format(
-      "# {} as fitted to measured friction, at the reading with a velocity ratio of {:.4g}, a "
-      "peak\n"
-      "# vibration velocity of {:.4g} m/s. Assumed, because mean friction does not depend on it:\n"
-      "# mass, spring, damping and drive force (together they give that vibration), and the "
-      "coefficient.\n",
+      R"(# {} as fitted to measured friction, at the reading with a velocity ratio of {:.4g}, a peak
+# vibration velocity of {:.4g} m/s. Assumed, because mean friction does not depend on it:
+# mass, spring, damping and drive force (together they give that vibration), and the coefficient.
+)",
       best.law.title, row.velocity_ratio(), row.vibration_m_per_s);
   for (const std::string& each : best.open) {
     text += fmt::format("# Open: {}\n", each);
   }
-  text += fmt::format(
-      "[plant]\nmass_kg = {:.9g}   # assumed: so heavy that friction does not bend the vibration\n"
-      "stiffness_N_per_m = {:.9g}   # assumed: resonance far below the carrier\n"
-      "damping_N_s_per_m = {:.9g}   # assumed: 10 % of critical damping\n\n",
-      all.mass_kg, all.stiffness_N_per_m, all.damping_N_s_per_m);
-  text += fmt::format(
-      "[friction]\nlaw = \"{}\"\ncoefficient = {:.9g}   # assumed: {}\n"
-      "normal_force_N = {:.9g}   # {}\n{}\n",
-      best.law.law, assumed_coefficient,
-      forces ? "only its product with the normal force is fitted"
-             : "a friction ratio does not depend on it",
-      all.normal_force_N, forces ? "the fitted friction limit over the coefficient" : "assumed",
-      law_keys(best, all));
-  text += fmt::format("[sliding]\nvelocity_m_per_s = {:.9g}\n\n", row.sliding_m_per_s);
-  text += fmt::format(
-      "[drive]\nfrequency_Hz = {:.9g}{}\nforce_amplitude_N = {:.9g}   # assumed, with the mass\n\n",
-      all.frequency_Hz, row.frequency_Hz > 0.0 ? "" : "   # assumed: the file has none",
-      all.force_amplitude_N);
-  return text + "[run]\nstart = \"steady\"\nduration_periods = 20\n";
-}
+  return text + fmt::format(
+                    R"([plant]
+mass_kg = {:.9g}   # assumed: so heavy that friction does not bend the vibration
+stiffness_N_per_m = {:.9g}   # assumed: resonance far below the carrier
+damping_N_s_per_m = {:.9g}   # assumed: 10 % of critical damping
 
-std::string scene_refusal(const Comparison& comparison) {
-  try {
-    scene_file::read_text(scene_text(comparison), "scene.toml");
-  } catch (const scene_file::SceneError& error) {
-    return fmt::format("{}: {}.", error.key(), error.message());
-  }
-  return {};
+[friction]
+law = "{}"
+coefficient = {:.9g}   # assumed: {}
+normal_force_N = {:.9g}   # {}
+{}
+[sliding]
+velocity_m_per_s = {:.9g}
+
+[drive]
+frequency_Hz = {:.9g}{}
+force_amplitude_N = {:.9g}   # assumed, with the mass
+
+[run]
+start = "steady"
+duration_periods = 20
+)",
+                    all.mass_kg, all.stiffness_N_per_m, all.damping_N_s_per_m, best.law.law,
+                    assumed_coefficient,
+                    forces ? "only its product with the normal force is fitted"
+                           : "a friction ratio does not depend on it",
+                    all.normal_force_N,
+                    forces ? "the fitted friction limit over the coefficient" : "assumed",
+                    law_keys(best, all), row.sliding_m_per_s, all.frequency_Hz,
+                    row.frequency_Hz > 0.0 ? "" : "   # assumed: the file has none",
+                    all.force_amplitude_N);
 }
 
 }  // namespace sonoglide::identify::friction

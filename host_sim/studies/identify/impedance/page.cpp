@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "host_sim/output/gnuplot.hpp"
 #include "host_sim/studies/identify/impedance/report.hpp"
+#include "host_sim/studies/identify/report.hpp"
 
 namespace sonoglide::identify::impedance {
 namespace {
@@ -29,63 +31,30 @@ std::vector<double> curve_frequencies(const ImpedanceStudy& study) {
       all.push_back(mode.resonance_Hz + 0.5 * mode.bandwidth_Hz * std::tan(angle));
     }
   }
-  all.erase(
-      std::remove_if(all.begin(), all.end(), [&](double f) { return !(f >= low && f <= high); }),
-      all.end());
   std::sort(all.begin(), all.end());
-  return all;
+  // The even ones may round to beside the ends.
+  return {std::lower_bound(all.begin(), all.end(), low),
+          std::upper_bound(all.begin(), all.end(), high)};
 }
 
-/// Readings and curve over common abscissae: each has gaps where the other has its points.
-struct Overlay {
-  std::vector<double> x;
-  std::vector<double> measured;
-  std::vector<double> fitted;
-};
-
-template <class Figure>
-Overlay overlay(const ImpedanceStudy& study, const Figure& figure) {
-  struct Point {
-    double f;
-    double measured;
-    double fitted;
+/// Readings and fit as one figure of the admittance.
+output::Panel fit_panel(const ImpedanceStudy& study, const std::string& title,
+                        const std::string& y_label, double (*figure)(Complex admittance_S)) {
+  const auto fitted = [&](double frequency_Hz) {
+    return figure(study.fit.circuit.admittance_S(frequency_Hz));
   };
-  std::vector<Point> points;
+  std::vector<Place> places;
   for (std::size_t i = 0; i < study.sweep.frequency_Hz.size(); ++i) {
     const double f = study.sweep.frequency_Hz[i];
-    points.push_back(
-        {f, figure(study.sweep.admittance_S[i]), figure(study.fit.circuit.admittance_S(f))});
+    places.push_back({f, figure(study.sweep.admittance_S[i]), {fitted(f)}});
   }
   for (const double f : curve_frequencies(study)) {
-    points.push_back(
-        {f, std::numeric_limits<double>::quiet_NaN(), figure(study.fit.circuit.admittance_S(f))});
+    places.push_back({f, std::numeric_limits<double>::quiet_NaN(), {fitted(f)}});
   }
-  std::stable_sort(points.begin(), points.end(),
-                   [](const Point& a, const Point& b) { return a.f < b.f; });
-  Overlay result;
-  for (const Point& each : points) {
-    result.x.push_back(each.f);
-    result.measured.push_back(each.measured);
-    result.fitted.push_back(each.fitted);
-  }
-  return result;
-}
-
-/// A sweep of more than a decade and a half is drawn over the logarithm of the frequency.
-bool is_wide(const ImpedanceStudy& study) {
-  constexpr double ratio = 30.0;
-  return study.sweep.frequency_Hz.back() > ratio * study.sweep.frequency_Hz.front();
-}
-
-output::Panel overlay_panel(const std::string& title, const std::string& y_label,
-                            const Overlay& data) {
   output::Panel panel;
   panel.title = title;
-  panel.x_label = "Frequency [Hz]";
   panel.y_label = y_label;
-  panel.x = data.x;
-  panel.series = {{"measured", data.measured, false, false, true}, {"fitted", data.fitted}};
-  panel.group = "frequency";
+  draw_fit(panel, std::move(places), {"fitted"});
   return panel;
 }
 
@@ -95,19 +64,34 @@ output::Panel residual_panel(const ImpedanceStudy& study) {
   panel.note =
       "Measured less fitted, over the fitted admittance. A pattern along the sweep is what the "
       "circuit does not describe, or drift of the instrument; the intervals allow for it.";
-  panel.x_label = "Frequency [Hz]";
   panel.y_label = "Relative residual [-]";
   panel.x = study.sweep.frequency_Hz;
-  const Eigen::VectorXd& all = study.fit.at.residuals;
+  const double* all = study.fit.at.residuals.data();
   const auto n = static_cast<std::ptrdiff_t>(panel.x.size());
-  panel.series.push_back(
-      {"magnitude", std::vector<double>(all.data(), all.data() + n), false, false, true});
+  panel.series = {dots("magnitude", {all, all + n})};
   if (study.sweep.has_phase) {
-    panel.series.push_back({"phase [rad]", std::vector<double>(all.data() + n, all.data() + 2 * n),
-                            false, false, true});
+    panel.series.push_back(dots("phase [rad]", {all + n, all + 2 * n}));
   }
-  panel.group = "frequency";
   return panel;
+}
+
+/// A sweep of more than a decade and a half is drawn over the logarithm of the frequency.
+std::vector<output::Panel> panels(const ImpedanceStudy& study) {
+  std::vector<output::Panel> all = {
+      fit_panel(study, "Impedance", "log10 |Z|/ohm [-]",
+                [](Complex y) { return std::log10(1.0 / std::abs(y)); })};
+  if (study.sweep.has_phase) {
+    all.push_back(fit_panel(study, "Phase of the impedance", "Phase [degrees]",
+                            [](Complex y) { return -std::arg(y) * degrees_per_rad; }));
+  }
+  all.push_back(residual_panel(study));
+  constexpr double wide = 30.0;
+  for (output::Panel& each : all) {
+    each.x_label = "Frequency [Hz]";
+    each.group = "frequency";
+    each.logarithmic_x = study.sweep.frequency_Hz.back() > wide * study.sweep.frequency_Hz.front();
+  }
+  return all;
 }
 
 output::Table figure_table(const Identification& identification) {
@@ -134,14 +118,6 @@ output::Table correlation_table(const Correlations& correlations) {
   return table;
 }
 
-output::Table open_table(const Identification& identification) {
-  output::Table table{"What the data cannot tell", {}, {}};
-  for (const std::string& each : identification.cannot_tell) {
-    table.rows.push_back({each});
-  }
-  return table;
-}
-
 std::string noise_text(const ImpedanceStudy& study) {
   const Noise& noise = study.fit.noise;
   std::string words = fmt::format(
@@ -159,27 +135,22 @@ std::string noise_text(const ImpedanceStudy& study) {
   return words;
 }
 
-}  // namespace
-
+/// Measured and fitted admittance in the complex plane, an SVG document.
 std::string draw_circle(const ImpedanceStudy& study) {
   const Mode& mode = study.fit.circuit.modes.front();
-  const auto near = [&](double f) {
+  const auto line = [&](double frequency_Hz, Complex y) {
     constexpr double bands = 15.0;
-    return std::abs(f - mode.resonance_Hz) <= bands * mode.bandwidth_Hz;
+    return std::abs(frequency_Hz - mode.resonance_Hz) <= bands * mode.bandwidth_Hz
+               ? fmt::format("{:.9g} {:.9g}\n", 1e3 * y.real(), 1e3 * y.imag())
+               : std::string();
   };
   std::string measured;
-  for (std::size_t i = 0; i < study.sweep.frequency_Hz.size(); ++i) {
-    const Complex y = study.sweep.admittance_S[i];
-    if (near(study.sweep.frequency_Hz[i]) && study.sweep.has_phase) {
-      measured += fmt::format("{:.9g} {:.9g}\n", 1e3 * y.real(), 1e3 * y.imag());
-    }
+  for (std::size_t i = 0; study.sweep.has_phase && i < study.sweep.frequency_Hz.size(); ++i) {
+    measured += line(study.sweep.frequency_Hz[i], study.sweep.admittance_S[i]);
   }
   std::string fitted;
   for (const double f : curve_frequencies(study)) {
-    if (near(f)) {
-      const Complex y = study.fit.circuit.admittance_S(f);
-      fitted += fmt::format("{:.9g} {:.9g}\n", 1e3 * y.real(), 1e3 * y.imag());
-    }
+    fitted += line(f, study.fit.circuit.admittance_S(f));
   }
   return output::draw_svg(
       fmt::format("$measured << EOD\nNaN NaN\n{}EOD\n$fitted << EOD\nNaN NaN\n{}EOD\n"
@@ -194,40 +165,31 @@ std::string draw_circle(const ImpedanceStudy& study) {
       620, 620);
 }
 
+}  // namespace
+
 output::Page page(const ImpedanceStudy& study) {
   const Identification& identification = study.identification;
-  output::Section curves;
-  curves.title = "Data and fit";
-  curves.text = noise_text(study);
-  const auto magnitude = [](Complex y) { return std::log10(1.0 / std::abs(y)); };
-  curves.panels.push_back(
-      overlay_panel("Impedance", "log10 |Z|/ohm [-]", overlay(study, magnitude)));
-  if (study.sweep.has_phase) {
-    curves.panels.push_back(
-        overlay_panel("Phase of the impedance", "Phase [degrees]",
-                      overlay(study, [](Complex y) { return -std::arg(y) * degrees_per_rad; })));
-  }
-  curves.panels.push_back(residual_panel(study));
-  for (output::Panel& each : curves.panels) {
-    each.logarithmic_x = is_wide(study);
-  }
-  curves.pictures.push_back(
-      {"Admittance circle", "Within 15 band widths of the resonance.", draw_circle(study)});
-  output::Section correlation;
-  correlation.title = "How the parameters hang together";
-  correlation.tables = {correlation_table(identification.correlations)};
-  output::Page page{
-      fmt::format("Impedance of {}", study.name),
-      fmt::format("{} readings from {} to {}, read as {}; fitted: {}.",
-                  study.sweep.frequency_Hz.size(), shown("_Hz", study.sweep.frequency_Hz.front()),
-                  shown("_Hz", study.sweep.frequency_Hz.back()), study.sweep.format,
-                  identification.model),
-      identification.warnings,
-      {figure_table(identification)},
-      {curves, correlation}};
+  output::Page page;
+  page.title = fmt::format("Impedance of {}", study.name);
+  page.lead = fmt::format(
+      "{} readings from {} to {}, read as {}; fitted: {}.", study.sweep.frequency_Hz.size(),
+      shown("_Hz", study.sweep.frequency_Hz.front()), shown("_Hz", study.sweep.frequency_Hz.back()),
+      study.sweep.format, identification.model);
+  page.warnings = identification.warnings;
+  page.tables = {figure_table(identification)};
   if (!identification.cannot_tell.empty()) {
-    page.tables.push_back(open_table(identification));
+    page.tables.push_back(sentence_table("What the data cannot tell", identification.cannot_tell));
   }
+  page.sections = {
+      {"Data and fit",
+       noise_text(study),
+       panels(study),
+       {{"Admittance circle", "Within 15 band widths of the resonance.", draw_circle(study)}}},
+      {"How the parameters hang together",
+       "",
+       {},
+       {},
+       {correlation_table(identification.correlations)}}};
   return page;
 }
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "host_sim/studies/identify/identification.hpp"
-#include "host_sim/studies/identify/impedance/mechanics.hpp"
+#include "host_sim/studies/identify/impedance/figures.hpp"
 #include "host_sim/studies/identify/impedance/selection.hpp"
 
 namespace sonoglide::identify::impedance {

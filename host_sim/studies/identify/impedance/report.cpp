@@ -5,11 +5,12 @@
 #include <limits>
 
 #include "host_sim/output/csv.hpp"
-#include "host_sim/output/output_folder.hpp"
-#include "host_sim/process/printable.hpp"
+#include "host_sim/studies/identify/report.hpp"
 
 namespace sonoglide::identify::impedance {
+namespace {
 
+/// Frequency, measured and fitted admittance, relative residuals; 17 digits.
 std::string fit_csv(const ImpedanceStudy& study) {
   constexpr int digits = 17;
   constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
@@ -33,21 +34,7 @@ std::string fit_csv(const ImpedanceStudy& study) {
   return csv;
 }
 
-void write(const std::filesystem::path& out, const ImpedanceStudy& study) {
-  const std::string html = output::to_html(page(study));
-  output::OutputFolder folder(out);
-  folder.write("report.html", html);
-  folder.write("identify.json", to_json(study.identification).dump(2) + '\n');
-  folder.write("fit.csv", fit_csv(study));
-  if (!study.scene.empty()) {
-    folder.write("scene.toml", study.scene);
-  } else {
-    folder.withdraw("scene.toml");
-  }
-  folder.commit();
-}
-
-std::string text(const ImpedanceStudy& study, const std::filesystem::path& out) {
+std::string text(const ImpedanceStudy& study) {
   const Identification& identification = study.identification;
   std::string lines = fmt::format("{} readings, {}, as {}\n", study.sweep.frequency_Hz.size(),
                                   study.sweep.format, identification.model);
@@ -56,15 +43,20 @@ std::string text(const ImpedanceStudy& study, const std::filesystem::path& out) 
         fmt::format("{:<28} {:>12}   95 %: {} to {}\n", each.name, shown(each.name, each.value),
                     shown(each.name, each.low_95), shown(each.name, each.high_95));
   }
-  lines += fmt::format("residuals {:.3g}, of them misfit {:.3g} (relative, rms)\n",
-                       identification.residual_rms, identification.misfit);
-  for (const std::string& each : identification.warnings) {
-    lines += fmt::format("WARNING: {}\n", each);
-  }
-  for (const std::string& each : identification.cannot_tell) {
-    lines += fmt::format("CANNOT TELL: {}\n", each);
-  }
-  return lines + fmt::format("report: {}\n", process::printable((out / "report.html").string()));
+  return lines +
+         fmt::format("residuals {:.3g}, of them misfit {:.3g} (relative, rms)\n",
+                     identification.residual_rms, identification.misfit) +
+         remark_lines(identification.warnings, identification.cannot_tell);
+}
+
+}  // namespace
+
+output::StudyReport report(const ImpedanceStudy& study) {
+  return {{{"report.html", output::to_html(page(study))},
+           {"identify.json", to_json(study.identification).dump(2) + '\n'},
+           {"fit.csv", fit_csv(study)},
+           {"scene.toml", study.scene}},
+          text(study)};
 }
 
 }  // namespace sonoglide::identify::impedance

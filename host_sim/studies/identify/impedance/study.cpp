@@ -11,11 +11,11 @@
 #include "host_sim/scene_file/reader.hpp"
 #include "host_sim/scene_file/scene_error.hpp"
 #include "host_sim/studies/identify/impedance/description.hpp"
-#include "host_sim/studies/identify/impedance/figures.hpp"
 #include "host_sim/studies/identify/impedance/remarks.hpp"
 #include "host_sim/studies/identify/impedance/report.hpp"
 #include "host_sim/studies/identify/impedance/thinning.hpp"
 #include "host_sim/studies/identify/least_squares.hpp"
+#include "host_sim/studies/identify/report.hpp"
 
 namespace sonoglide::identify::impedance {
 namespace {
@@ -64,23 +64,17 @@ Correlations correlations_of(const CircuitFit& fit) {
 
 std::string model_of(const CircuitFit& fit) {
   const Parts& parts = fit.parts;
-  std::vector<std::string> seen_through;
-  if (parts.has(Part::lead_resistance) || parts.has(Part::lead_inductance)) {
-    seen_through.push_back(fmt::format(
-        "behind a lead of {}{}{}", parts.has(Part::lead_resistance) ? "resistance" : "",
-        parts.has(Part::lead_resistance) && parts.has(Part::lead_inductance) ? " and " : "",
-        parts.has(Part::lead_inductance) ? "inductance" : ""));
-  }
-  if (parts.has(Part::rotation)) {
-    seen_through.emplace_back("with a rotation of all phases by one angle");
-  }
+  std::vector<std::string> lead;
+  append(lead, {{parts.has(Part::lead_resistance), "resistance"},
+                {parts.has(Part::lead_inductance), "inductance"}});
   return fmt::format(
-      "clamped capacitance{} beside {}{}{}{}",
+      "clamped capacitance{} beside {}{}{}{}{}",
       parts.has(Part::loss_tangent) ? " with a loss tangent" : "",
       parts.modes == 1 ? std::string("one motional branch")
                        : fmt::format("{} motional branches", parts.modes),
       parts.has(Part::lean) ? ", the first with a resonance that goes with its current" : "",
-      seen_through.empty() ? "" : ", ", fmt::join(seen_through, ", "));
+      lead.empty() ? "" : ", behind a lead of ", fmt::join(lead, " and "),
+      parts.has(Part::rotation) ? ", with a rotation of all phases by one angle" : "");
 }
 
 /// A figure that is open by more than a factor of ten is none.
@@ -97,7 +91,7 @@ void add_scene(ImpedanceStudy& study) {
   std::vector<std::string>& open = study.identification.cannot_tell;
   const std::vector<Estimate>& all = study.identification.parameters;
   if (std::any_of(all.begin(), all.end(),
-                  [](const Estimate& each) { return !may_be_0(each) && std::isnan(each.value); })) {
+                  [](const Estimate& each) { return !each.may_be_0 && std::isnan(each.value); })) {
     open.emplace_back("A scene: it needs the figures that are open.");
     return;
   }
@@ -118,16 +112,11 @@ ImpedanceStudy study(const std::string& name, const Sweep& measured, const Mecha
   Identification identification;
   identification.subject = "impedance";
   identification.model = model_of(selected.fit);
-  identification.parameters = figures(selected.fit);
+  identification.parameters = figures(selected.fit, fact);
   identification.residual_rms = description.residual;
   identification.misfit = misfit_of(selected.fit, description);
   identification.correlations = correlations_of(selected.fit);
   identification.warnings = warnings_of(selected);
-  if (fact.known()) {
-    const std::vector<Estimate> mechanical = mechanical_figures(selected.fit, fact);
-    identification.parameters.insert(identification.parameters.end(), mechanical.begin(),
-                                     mechanical.end());
-  }
   identification.cannot_tell = open_questions(identification.parameters, selected, fact);
   withhold(identification.parameters);
   ImpedanceStudy result{name, std::move(selected.sweep), std::move(selected.fit),

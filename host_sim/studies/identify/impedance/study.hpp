@@ -5,7 +5,7 @@
 
 #include "host_sim/studies/identify/identification.hpp"
 #include "host_sim/studies/identify/impedance/circuit_fit.hpp"
-#include "host_sim/studies/identify/impedance/mechanics.hpp"
+#include "host_sim/studies/identify/impedance/figures.hpp"
 #include "host_sim/studies/identify/impedance/sweep.hpp"
 
 namespace sonoglide::identify::impedance {

@@ -11,7 +11,6 @@
 
 #include "host_sim/studies/identify/friction/comparison.hpp"
 #include "host_sim/studies/identify/friction/report.hpp"
-#include "host_sim/studies/identify/friction/scene_text.hpp"
 #include "host_sim/studies/identify/text_file.hpp"
 
 namespace sonoglide::identify::friction::fit_test {
@@ -164,13 +163,13 @@ TEST(FrictionFit, ASceneThatRunWouldRefuseIsNotWritten) {
       "sliding_velocity_m_per_s,vibration_velocity_m_per_s,frequency_Hz,friction_ratio\n";
   const Comparison comparison =
       compared("1e-10,2e-10,1,0.33\n1e-10,3e-10,1,0.22\n", {"coulomb"}, columns);
-  EXPECT_FALSE(comparison.has_scene);
+  EXPECT_TRUE(comparison.scene.empty());
   EXPECT_NE(
       comparison.warnings.back().find("No scene.toml is written, because run would refuse it: "
                                       "plant.mass_kg: "),
       std::string::npos)
       << comparison.warnings.back();
-  EXPECT_TRUE(compared(coulomb_rows, {"coulomb"}).has_scene);
+  EXPECT_FALSE(compared(coulomb_rows, {"coulomb"}).scene.empty());
 }
 
 Candidate candidate(const Readings& readings, const std::string& title) {

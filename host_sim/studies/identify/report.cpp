@@ -1,0 +1,61 @@
+#include "host_sim/studies/identify/report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace sonoglide::identify {
+
+void append(std::vector<std::string>& sentences, std::vector<Remark> remarks) {
+  for (Remark& each : remarks) {
+    if (each.holds) {
+      sentences.push_back(std::move(each.sentence));
+    }
+  }
+}
+
+output::Table sentence_table(const std::string& title, const std::vector<std::string>& sentences) {
+  output::Table table{title, {}, {}};
+  for (const std::string& each : sentences) {
+    table.rows.push_back({each});
+  }
+  return table;
+}
+
+output::Series dots(const std::string& label, std::vector<double> y) {
+  output::Series series{label, std::move(y)};
+  series.marked = true;
+  return series;
+}
+
+void draw_fit(output::Panel& panel, std::vector<Place> places,
+              const std::vector<std::string>& curves) {
+  std::stable_sort(places.begin(), places.end(),
+                   [](const Place& a, const Place& b) { return a.x < b.x; });
+  panel.series = {dots("measured", {})};
+  for (const std::string& each : curves) {
+    panel.series.push_back({each, {}});
+  }
+  for (const Place& place : places) {
+    panel.x.push_back(place.x);
+    panel.series.front().y.push_back(place.measured);
+    for (std::size_t i = 0; i < curves.size(); ++i) {
+      panel.series[i + 1].y.push_back(place.fitted[i]);
+    }
+  }
+}
+
+std::string remark_lines(const std::vector<std::string>& warnings,
+                         const std::vector<std::string>& cannot_tell) {
+  std::string lines;
+  for (const std::string& each : warnings) {
+    lines += fmt::format("WARNING: {}\n", each);
+  }
+  for (const std::string& each : cannot_tell) {
+    lines += fmt::format("CANNOT TELL: {}\n", each);
+  }
+  return lines;
+}
+
+}  // namespace sonoglide::identify
