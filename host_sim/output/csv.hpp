@@ -6,6 +6,7 @@
 #include <cmath>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace sonoglide::output {
 
@@ -14,6 +15,9 @@ namespace sonoglide::output {
 inline std::string csv_number(double value, int digits) {
   return std::isnan(value) ? "nan" : fmt::format("{:.{}g}", value, digits);
 }
+
+/// Figures as a row, to their last bit.
+std::string csv_row(const std::vector<double>& figures);
 
 /// A text as a cell of CSV (RFC 4180): in quotes where it has a comma or a quote, printable (see
 /// printable()), so that a row is a line.

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace sonoglide::identify {
@@ -13,6 +14,30 @@ void append(std::vector<std::string>& sentences, std::vector<Remark> remarks) {
       sentences.push_back(std::move(each.sentence));
     }
   }
+}
+
+output::Table figure_table(const std::vector<Estimate>& figures) {
+  output::Table table{"", {"Parameter", "Value", "95 % from", "to", "±"}, {}};
+  for (const Estimate& each : figures) {
+    const double half = 0.5 * (each.high_95 - each.low_95) / std::abs(each.value);
+    table.rows.push_back({each.name, shown(each.name, each.value), shown(each.name, each.low_95),
+                          shown(each.name, each.high_95),
+                          std::isfinite(half) ? fmt::format("{:.2g} %", 100.0 * half) : "-"});
+  }
+  return table;
+}
+
+output::Table correlation_table(const Correlations& correlations) {
+  output::Table table{"Correlations of the fitted parameters", {""}, {}};
+  table.header.insert(table.header.end(), correlations.names.begin(), correlations.names.end());
+  for (std::size_t i = 0; i < correlations.names.size(); ++i) {
+    std::vector<std::string> row = {correlations.names[i]};
+    for (const double each : correlations.rows[i]) {
+      row.push_back(std::isfinite(each) ? fmt::format("{:.2f}", each) : "-");
+    }
+    table.rows.push_back(std::move(row));
+  }
+  return table;
 }
 
 output::Table sentence_table(const std::string& title, const std::vector<std::string>& sentences) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "host_sim/output/page.hpp"
+#include "host_sim/studies/identify/identification.hpp"
 
 namespace sonoglide::identify {
 
@@ -16,6 +17,11 @@ struct Remark {
 
 /// Appends the sentences of those that hold.
 void append(std::vector<std::string>& sentences, std::vector<Remark> remarks);
+
+/// Each with its interval.
+output::Table figure_table(const std::vector<Estimate>& figures);
+
+output::Table correlation_table(const Correlations& correlations);
 
 /// A sentence a row.
 output::Table sentence_table(const std::string& title, const std::vector<std::string>& sentences);

@@ -11,7 +11,7 @@
 
 #include "host_sim/scene_file/reader.hpp"
 #include "host_sim/studies/identify/friction/candidate.hpp"
-#include "host_sim/studies/identify/friction/scene_text.hpp"
+#include "host_sim/studies/identify/friction/report.hpp"
 #include "host_sim/studies/identify/report.hpp"
 
 namespace sonoglide::identify::friction {

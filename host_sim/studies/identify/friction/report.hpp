@@ -17,6 +17,12 @@ nlohmann::ordered_json to_json(const Comparison& comparison);
 /// @param name  of the file of readings
 output::Page page(const Comparison& comparison, const std::string& name);
 
+/// An open-loop scene of the best law at the middle one of the readings with vibration, whose
+/// friction ratio is that of the fit. What no reading tells is assumed, and said so in comments: a
+/// mass that friction hardly moves, a spring far below resonance, the friction coefficient, and the
+/// friction limit or the carrier where the file does not have them.
+std::string scene_text(const Comparison& comparison);
+
 /// report.html, identify.json and, where there is one, scene.toml.
 output::StudyReport report(const Comparison& comparison, const std::string& name);
 

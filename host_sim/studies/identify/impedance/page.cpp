@@ -94,30 +94,6 @@ std::vector<output::Panel> panels(const ImpedanceStudy& study) {
   return all;
 }
 
-output::Table figure_table(const Identification& identification) {
-  output::Table table{"", {"Parameter", "Value", "95 % from", "to", "±"}, {}};
-  for (const Estimate& each : identification.parameters) {
-    const double half = 0.5 * (each.high_95 - each.low_95) / std::abs(each.value);
-    table.rows.push_back({each.name, shown(each.name, each.value), shown(each.name, each.low_95),
-                          shown(each.name, each.high_95),
-                          std::isfinite(half) ? fmt::format("{:.2g} %", 100.0 * half) : "-"});
-  }
-  return table;
-}
-
-output::Table correlation_table(const Correlations& correlations) {
-  output::Table table{"Correlations of the fitted parameters", {""}, {}};
-  table.header.insert(table.header.end(), correlations.names.begin(), correlations.names.end());
-  for (std::size_t i = 0; i < correlations.names.size(); ++i) {
-    std::vector<std::string> row = {correlations.names[i]};
-    for (const double each : correlations.rows[i]) {
-      row.push_back(std::isfinite(each) ? fmt::format("{:.2f}", each) : "-");
-    }
-    table.rows.push_back(std::move(row));
-  }
-  return table;
-}
-
 std::string noise_text(const ImpedanceStudy& study) {
   const Noise& noise = study.fit.noise;
   std::string words = fmt::format(
@@ -176,7 +152,7 @@ output::Page page(const ImpedanceStudy& study) {
       shown("_Hz", study.sweep.frequency_Hz.front()), shown("_Hz", study.sweep.frequency_Hz.back()),
       study.sweep.format, identification.model);
   page.warnings = identification.warnings;
-  page.tables = {figure_table(identification)};
+  page.tables = {figure_table(identification.parameters)};
   if (!identification.cannot_tell.empty()) {
     page.tables.push_back(sentence_table("What the data cannot tell", identification.cannot_tell));
   }

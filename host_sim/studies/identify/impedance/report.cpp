@@ -10,26 +10,23 @@
 namespace sonoglide::identify::impedance {
 namespace {
 
-/// Frequency, measured and fitted admittance, relative residuals; 17 digits.
+/// Frequency, measured and fitted admittance, relative residuals.
 std::string fit_csv(const ImpedanceStudy& study) {
-  constexpr int digits = 17;
-  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-  const auto cell = [](double value) { return output::csv_number(value, digits); };
   std::string csv =
       "frequency_Hz,measured_conductance_S,measured_susceptance_S,fitted_conductance_S,"
       "fitted_susceptance_S,relative_residual_magnitude,residual_phase_rad\n";
-  const std::size_t n = study.sweep.frequency_Hz.size();
-  for (std::size_t i = 0; i < n; ++i) {
-    const double f = study.sweep.frequency_Hz[i];
+  const Eigen::VectorXd& residuals = study.fit.at.residuals;
+  const auto n = static_cast<Eigen::Index>(study.sweep.frequency_Hz.size());
+  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const double f = study.sweep.frequency_Hz[static_cast<std::size_t>(i)];
     const std::complex<double> fitted = study.fit.circuit.admittance_S(f);
-    const std::complex<double> measured = study.sweep.admittance_S[i];
     const bool phase = study.sweep.has_phase;
-    const auto row = static_cast<Eigen::Index>(i);
-    csv += fmt::format(
-        "{},{},{},{},{},{},{}\n", cell(f), cell(phase ? measured.real() : unknown),
-        cell(phase ? measured.imag() : unknown), cell(fitted.real()), cell(fitted.imag()),
-        cell(study.fit.at.residuals(row)),
-        cell(phase ? study.fit.at.residuals(row + static_cast<Eigen::Index>(n)) : unknown));
+    const std::complex<double> measured =
+        phase ? study.sweep.admittance_S[static_cast<std::size_t>(i)]
+              : std::complex<double>(unknown, unknown);
+    csv += output::csv_row({f, measured.real(), measured.imag(), fitted.real(), fitted.imag(),
+                            residuals(i), phase ? residuals(i + n) : unknown});
   }
   return csv;
 }

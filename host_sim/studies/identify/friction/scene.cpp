@@ -1,4 +1,4 @@
-#include "host_sim/studies/identify/friction/scene_text.hpp"
+#include "host_sim/studies/identify/friction/report.hpp"
 
 #include <fmt/format.h>
 
