@@ -69,11 +69,8 @@ void arithmetic(const ArithmeticOptions& options) {
   const std::filesystem::path out = output_folder(options.out, scene.name, "_arithmetic");
   output::require_gnuplot();
   require_writable(out, {"arithmetic.csv", "targets.csv", "arithmetic.svg"});
-  const arithmetic::ArithmeticComparison comparison = compute(scene, boards, options.quiet);
-  arithmetic::write(out, scene, comparison);
-  if (!options.quiet) {
-    fmt::print("{}", arithmetic::text(comparison, out));
-  }
+  publish(out, arithmetic::report(scene, compute(scene, boards, options.quiet)), options.quiet,
+          "picture", "arithmetic.svg");
 }
 
 }  // namespace

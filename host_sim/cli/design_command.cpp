@@ -76,11 +76,7 @@ void design(const DesignOptions& options) {
   const std::filesystem::path out = output_folder(options.out, scene.name, "_design");
   output::require_gnuplot();
   require_writable(out, {"report.html", "design.json", "design.csv", "detuning.csv"});
-  const design::DesignStudy study = compute(task, options.quiet);
-  design::write(out, study);
-  if (!options.quiet) {
-    fmt::print("{}", design::text(study, out));
-  }
+  publish(out, design::report(compute(task, options.quiet)), options.quiet);
 }
 
 }  // namespace

@@ -13,8 +13,6 @@
 #include "host_sim/cli/progress_bar.hpp"
 #include "host_sim/cli/run_watch.hpp"
 #include "host_sim/output/gnuplot.hpp"
-#include "host_sim/process/printable.hpp"
-#include "host_sim/studies/stability/report.hpp"
 #include "host_sim/studies/stability/study.hpp"
 
 namespace sonoglide::cli {
@@ -42,12 +40,7 @@ stability::StabilityStudy compute(const StabilityWork& work, bool quiet) {
 void stability(const StabilityOptions& options, const StabilityWork& work) {
   const std::filesystem::path out = options.out;
   require_output(out);
-  const stability::StabilityStudy study = compute(work, options.quiet);
-  stability::write_study(out, study);
-  if (!options.quiet) {
-    fmt::print("{}report: {}\n", stability::study_text(study.extremes),
-               process::printable((out / "report.html").string()));
-  }
+  publish(out, stability::report(compute(work, options.quiet)), options.quiet);
 }
 
 }  // namespace

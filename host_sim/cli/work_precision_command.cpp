@@ -39,11 +39,7 @@ void work_precision(const WorkPrecisionOptions& options) {
   const std::filesystem::path out = output_folder(options.out, scene.name, "_work_precision");
   output::require_gnuplot();
   require_writable(out, {"report.html", "work_precision.csv", "work_precision.svg"});
-  const work_precision::SolverComparison comparison = compute(problem, options.quiet);
-  work_precision::write(out, scene, comparison);
-  if (!options.quiet) {
-    fmt::print("{}", work_precision::text(comparison, out));
-  }
+  publish(out, work_precision::report(scene, compute(problem, options.quiet)), options.quiet);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 
 #include "host_sim/configure/plant_scales.hpp"
 #include "host_sim/configure/solver_facts.hpp"
+#include "host_sim/output/json_number.hpp"
 #include "host_sim/process/printable.hpp"
 #include "host_sim/report/run_notes.hpp"
 #include "host_sim/report/step_metrics.hpp"
@@ -18,32 +19,25 @@ namespace {
 
 using nlohmann::ordered_json;
 
-ordered_json number(double value) {
-  return std::isfinite(value) ? ordered_json(value) : ordered_json(nullptr);
-}
-
-ordered_json number(const std::optional<double>& value) {
-  return value ? number(*value) : ordered_json(nullptr);
-}
-
 ordered_json power(const loop::PowerRatios& window) {
-  return {{"pull_ratio", number(window.pull_ratio)},
-          {"dissipation_ratio", number(window.dissipation_ratio)},
-          {"drive_input_ratio", number(window.drive_input_ratio)},
-          {"stored_change_ratio", number(window.stored_change_ratio)},
-          {"damping_ratio", number(window.damping_ratio)},
-          {"balance_residual", number(window.balance_residual)},
-          {"as_printed", {{"dissipation_ratio", number(window.dissipation_as_printed)}}}};
+  return {
+      {"pull_ratio", output::json_number(window.pull_ratio)},
+      {"dissipation_ratio", output::json_number(window.dissipation_ratio)},
+      {"drive_input_ratio", output::json_number(window.drive_input_ratio)},
+      {"stored_change_ratio", output::json_number(window.stored_change_ratio)},
+      {"damping_ratio", output::json_number(window.damping_ratio)},
+      {"balance_residual", output::json_number(window.balance_residual)},
+      {"as_printed", {{"dissipation_ratio", output::json_number(window.dissipation_as_printed)}}}};
 }
 
 ordered_json electrical(const loop::ElectricalFigures& figures) {
-  return {{"voltage_peak_V", number(figures.voltage_peak_V)},
-          {"current_peak_A", number(figures.current_peak_A)},
-          {"active_power_W", number(figures.active_power_W)},
-          {"reactive_power_var", number(figures.reactive_power_var)},
-          {"apparent_power_VA", number(figures.apparent_power_VA)},
-          {"power_factor", number(figures.power_factor)},
-          {"balance_residual", number(figures.balance_residual)}};
+  return {{"voltage_peak_V", output::json_number(figures.voltage_peak_V)},
+          {"current_peak_A", output::json_number(figures.current_peak_A)},
+          {"active_power_W", output::json_number(figures.active_power_W)},
+          {"reactive_power_var", output::json_number(figures.reactive_power_var)},
+          {"apparent_power_VA", output::json_number(figures.apparent_power_VA)},
+          {"power_factor", output::json_number(figures.power_factor)},
+          {"balance_residual", output::json_number(figures.balance_residual)}};
 }
 
 ordered_json steady_orbit(const loop::SteadyOrbit& orbit) {
@@ -68,28 +62,28 @@ ordered_json cause(const report::StepMetrics& metrics) {
 
 void add_vibration(const report::StepMetrics& step, ordered_json& json) {
   if (step.vibration) {
-    json["vibration_velocity_m_per_s"] = number(step.vibration->velocity_m_per_s);
-    json["velocity_settling_time_s"] = number(step.vibration->settling_time_s);
+    json["vibration_velocity_m_per_s"] = output::json_number(step.vibration->velocity_m_per_s);
+    json["velocity_settling_time_s"] = output::json_number(step.vibration->settling_time_s);
   }
   if (step.resonance) {
-    json["frequency_Hz"] = number(step.resonance->frequency_Hz);
-    json["frequency_error"] = number(step.resonance->frequency_error);
+    json["frequency_Hz"] = output::json_number(step.resonance->frequency_Hz);
+    json["frequency_error"] = output::json_number(step.resonance->frequency_error);
   }
 }
 
 ordered_json step(const report::StepMetrics& metrics, const AmplitudeUnit& unit) {
   ordered_json json = {{"time_s", metrics.time_s},
                        {"target", metrics.target},
-                       {"settling_time_s", number(metrics.settling_time_s)},
-                       {"overshoot", number(metrics.overshoot)},
-                       {"steady_error", number(metrics.steady_error)},
-                       {"ripple", number(metrics.ripple)},
+                       {"settling_time_s", output::json_number(metrics.settling_time_s)},
+                       {"overshoot", output::json_number(metrics.overshoot)},
+                       {"steady_error", output::json_number(metrics.steady_error)},
+                       {"ripple", output::json_number(metrics.ripple)},
                        {fmt::format("drive_amplitude_{}", unit.name),
-                        number(metrics.drive_amplitude_N * unit.per_N)},
+                        output::json_number(metrics.drive_amplitude_N * unit.per_N)},
                        {"limit", limit_name(metrics.limit)},
                        {"limit_seen_by", limit_seen_by(metrics)},
                        {"cause", cause(metrics)},
-                       {"mismatch", number(metrics.mismatch)}};
+                       {"mismatch", output::json_number(metrics.mismatch)}};
   add_vibration(metrics, json);
   return json;
 }
@@ -157,7 +151,7 @@ ordered_json control(const scene::Scene& scene, const loop::RunResult& result,
       {"limited_periods", limited_periods(findings.course())},
       {"faults", faults},
       {"steps", steps},
-      {"largest_tracking_error", number(findings.largest_tracking_error())},
+      {"largest_tracking_error", output::json_number(findings.largest_tracking_error())},
       {"speed_floor_m_per_s", design.speed_floor * design.scales.velocity_m_per_s},
       {"integral_gain", design.senses_force ? design.integral_gain : 0.0},
       {"signals", signals},
@@ -177,7 +171,7 @@ ordered_json instructions(const loop::InstructionRange& range) {
 
 ordered_json image(const loop::ImageRecord& record) {
   ordered_json json = {{"board", record.board},
-                       {"exchanges_per_second", number(record.exchanges_per_second)},
+                       {"exchanges_per_second", output::json_number(record.exchanges_per_second)},
                        {"trace_hash_workstation", nullptr},
                        {"same_as_workstation", nullptr},
                        {"instructions_per_step", nullptr},
@@ -221,8 +215,8 @@ ordered_json summary(const scene::Scene& scene, const loop::RunResult& result,
                    {"velocity_m_per_s", result.final_state.velocity_m_per_s},
                    {"friction_force_N", result.final_state.friction_force_N}};
   json["friction_ratio"] = {
-      {"whole_run", number(loop::power_ratios(scene, result.whole).friction_ratio)},
-      {"window", number(window.friction_ratio)}};
+      {"whole_run", output::json_number(loop::power_ratios(scene, result.whole).friction_ratio)},
+      {"window", output::json_number(window.friction_ratio)}};
   json["power"] = power(window);
   if (scene::is<scene::laws::NormalCoulomb>(scene.friction.law)) {
     json["contact"] = contact(scene, result);

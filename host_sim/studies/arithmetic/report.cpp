@@ -2,12 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-
 #include "firmware/control/names.hpp"
-#include "host_sim/output/csv.hpp"
-#include "host_sim/output/output_folder.hpp"
-#include "host_sim/process/printable.hpp"
+#include "host_sim/output/number.hpp"
 #include "host_sim/scene/names.hpp"
 
 namespace sonoglide::arithmetic {
@@ -59,7 +55,7 @@ std::string targets_csv(const ArithmeticComparison& comparison) {
 namespace {
 
 std::string number(double value) {
-  return std::isfinite(value) ? fmt::format("{:.1e}", value) : std::string("-");
+  return output::shown(value, "{:.1e}");
 }
 
 std::string instructions(const std::optional<loop::ImageInstructions>& count) {
@@ -77,28 +73,25 @@ std::string line(const ImageRow& row) {
                      instructions(row.image.instructions), row.image.flash_bytes, fault);
 }
 
-}  // namespace
-
-void write(const std::filesystem::path& out, const scene::Scene& scene,
-           const ArithmeticComparison& comparison) {
-  const std::string svg = draw(comparison, scene.name + ", the controller in every arithmetic");
-  output::OutputFolder folder(out);
-  folder.write("arithmetic.csv", images_csv(comparison));
-  folder.write("targets.csv", targets_csv(comparison));
-  folder.write("arithmetic.svg", svg);
-  folder.commit();
-}
-
-std::string text(const ArithmeticComparison& comparison, const std::filesystem::path& out) {
+std::string text(const ArithmeticComparison& comparison) {
   std::string lines = fmt::format("{:11} {:8} {:>8} {:>8} {:>8} {:>8} {:>17} {:>7}\n", "core", "",
                                   "rms", "largest", "error", "ripple", "instructions", "flash");
   for (const ImageRow& row : comparison.images) {
     lines += line(row);
   }
-  return lines + fmt::format(
-                     "rms, largest: difference of the friction ratio from float64's; instructions "
-                     "of a step: min/mean/max\npicture: {}\n",
-                     process::printable((out / "arithmetic.svg").string()));
+  return lines +
+         "rms, largest: difference of the friction ratio from float64's; instructions of a step: "
+         "min/mean/max\n";
+}
+
+}  // namespace
+
+output::StudyReport report(const scene::Scene& scene, const ArithmeticComparison& comparison) {
+  return {
+      {{"arithmetic.csv", images_csv(comparison)},
+       {"targets.csv", targets_csv(comparison)},
+       {"arithmetic.svg", draw(comparison, scene.name + ", the controller in every arithmetic")}},
+      text(comparison)};
 }
 
 }  // namespace sonoglide::arithmetic

@@ -1,9 +1,9 @@
 /// The files and the printed table that a comparison leaves behind.
 #pragma once
 
-#include <filesystem>
 #include <string>
 
+#include "host_sim/output/study_report.hpp"
 #include "host_sim/studies/arithmetic/comparison.hpp"
 
 namespace sonoglide::arithmetic {
@@ -19,12 +19,7 @@ std::string targets_csv(const ArithmeticComparison& comparison);
 /// @throws process::ProcessError
 std::string draw(const ArithmeticComparison& comparison, const std::string& title);
 
-/// Writes arithmetic.csv, targets.csv and arithmetic.svg; all or none.
-/// @throws output::OutputError, process::ProcessError
-void write(const std::filesystem::path& out, const scene::Scene& scene,
-           const ArithmeticComparison& comparison);
-
-/// The images as a table, and where the picture is.
-std::string text(const ArithmeticComparison& comparison, const std::filesystem::path& out);
+/// arithmetic.csv, targets.csv and arithmetic.svg. @throws process::ProcessError
+output::StudyReport report(const scene::Scene& scene, const ArithmeticComparison& comparison);
 
 }  // namespace sonoglide::arithmetic

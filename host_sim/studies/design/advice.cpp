@@ -6,6 +6,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "host_sim/output/number.hpp"
 #include "host_sim/studies/design/electrical.hpp"
 #include "host_sim/studies/design/report.hpp"
 
@@ -17,7 +18,7 @@ double most_N(const DesignStudy& study) {
 }
 
 std::string speed(double value_m_per_s) {
-  return quantity(value_m_per_s, "m/s");
+  return output::quantity(value_m_per_s, "m/s");
 }
 
 std::string force(double value_N) {
@@ -85,7 +86,7 @@ Advice drive(const DesignStudy& study, const Requirement& point) {
                              force(point.motion.drive_force_N),
                              100.0 * point.motion.drive_force_N / most_N(study),
                              force(most_N(study)), speed(point.sliding_m_per_s),
-                             quantity(point.motion.displacement_amplitude_m, "m"),
+                             output::quantity(point.motion.displacement_amplitude_m, "m"),
                              speed(point.motion.velocity_amplitude_m_per_s),
                              further.empty() ? "" : "; " + further)};
 }
@@ -119,7 +120,7 @@ Advice power(const DesignStudy& study, const std::vector<DesignPoint>& points) {
                                               })
                                  ->requirement;
   const SteadyMotion& motion = point.motion;
-  const auto watts = [](double value_W) { return quantity(value_W, "W"); };
+  const auto watts = [](double value_W) { return output::quantity(value_W, "W"); };
   return {"Power",
           fmt::format(
               "The drive puts in most for ratio {:g} at {}: {}, of which damping takes {}; "
@@ -178,7 +179,7 @@ Advice accuracy(const DesignStudy& study, const std::vector<DesignPoint>& points
 }
 
 std::string frequency(const DesignStudy& study, double tuning) {
-  return quantity(std::sqrt(tuning) * study.task.scene.drive->frequency_Hz, "Hz");
+  return output::quantity(std::sqrt(tuning) * study.task.scene.drive->frequency_Hz, "Hz");
 }
 
 /// The edge of the sensitive band below resonance, and what the drive needs there.
@@ -237,17 +238,19 @@ Advice tuning_reach(const Detuning& detuning) {
 Advice amplifier(const DesignStudy& study, const Requirement& point) {
   const scene::Scene& scene = study.task.scene;
   const loop::ElectricalFigures& figures = *point.motion.electrical;
-  return {
-      "Amplifier",
-      fmt::format("It must give most for ratio {:g} at {}: {} and {}, {} for {} (power factor "
-                  "{:.2g}). The clamped capacitance alone takes {}. k_eff = {:.3f}, series "
-                  "resonance {}, parallel resonance {}.",
-                  point.ratio, speed(point.sliding_m_per_s), quantity(figures.voltage_peak_V, "V"),
-                  quantity(figures.current_peak_A, "A"), quantity(figures.apparent_power_VA, "VA"),
-                  quantity(figures.active_power_W, "W"), figures.power_factor,
-                  quantity(clamped_power_VA(scene, figures.voltage_peak_V), "VA"),
-                  std::sqrt(coupling_square(scene)), quantity(series_resonance_Hz(scene), "Hz"),
-                  quantity(parallel_resonance_Hz(scene), "Hz"))};
+  return {"Amplifier",
+          fmt::format("It must give most for ratio {:g} at {}: {} and {}, {} for {} (power factor "
+                      "{:.2g}). The clamped capacitance alone takes {}. k_eff = {:.3f}, series "
+                      "resonance {}, parallel resonance {}.",
+                      point.ratio, speed(point.sliding_m_per_s),
+                      output::quantity(figures.voltage_peak_V, "V"),
+                      output::quantity(figures.current_peak_A, "A"),
+                      output::quantity(figures.apparent_power_VA, "VA"),
+                      output::quantity(figures.active_power_W, "W"), figures.power_factor,
+                      output::quantity(clamped_power_VA(scene, figures.voltage_peak_V), "VA"),
+                      std::sqrt(coupling_square(scene)),
+                      output::quantity(series_resonance_Hz(scene), "Hz"),
+                      output::quantity(parallel_resonance_Hz(scene), "Hz"))};
 }
 
 /// What an inductor and a spring would save.
@@ -259,20 +262,21 @@ Advice relief(const DesignStudy& study, const Requirement& point) {
           ? fmt::format(
                 "An inductor of {} beside the transducer takes its reactive power at the "
                 "carrier, and leaves the amplifier {} and its own losses.",
-                quantity(inductance_H, "H"), quantity(figures.active_power_W, "W"))
+                output::quantity(inductance_H, "H"), output::quantity(figures.active_power_W, "W"))
           : std::string("The transducer is not capacitive: an inductor would not help.");
   if (study.task.scene.resonant()) {
     return {"Matching", sentence};
   }
   const ResonantSpring& spring = *study.resonant_spring;
   sentence += fmt::format(" A spring of {} puts the resonance on the carrier",
-                          quantity(spring.stiffness_N_per_m, "N/m"));
+                          output::quantity(spring.stiffness_N_per_m, "N/m"));
   if (const auto& resonant = spring.requirement.motion.electrical) {
     sentence += fmt::format(
         ": the same ratio then takes {}, {} and {}, and must be held by "
         "feedback.",
-        quantity(resonant->voltage_peak_V, "V"), quantity(resonant->current_peak_A, "A"),
-        quantity(resonant->apparent_power_VA, "VA"));
+        output::quantity(resonant->voltage_peak_V, "V"),
+        output::quantity(resonant->current_peak_A, "A"),
+        output::quantity(resonant->apparent_power_VA, "VA"));
   } else {
     sentence += ", where no steady vibration of this ratio was found.";
   }

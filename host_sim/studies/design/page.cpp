@@ -1,3 +1,4 @@
+#include "host_sim/output/number.hpp"
 #include "host_sim/studies/design/report.hpp"
 
 #include <fmt/format.h>
@@ -11,10 +12,10 @@ namespace sonoglide::design {
 namespace {
 
 std::string speeds_text(const SpeedRange& speeds) {
-  const std::string slowest = quantity(speeds.slowest_m_per_s, "m/s");
+  const std::string slowest = output::quantity(speeds.slowest_m_per_s, "m/s");
   return speeds.slowest_m_per_s == speeds.fastest_m_per_s
              ? slowest
-             : fmt::format("{} to {}", slowest, quantity(speeds.fastest_m_per_s, "m/s"));
+             : fmt::format("{} to {}", slowest, output::quantity(speeds.fastest_m_per_s, "m/s"));
 }
 
 std::string lead(const DesignStudy& study) {
@@ -22,7 +23,8 @@ std::string lead(const DesignStudy& study) {
   return fmt::format(
       "What the drive of {} must do to hold a friction ratio: {} contact, drive of {} with up to "
       "{}, sliding at {}. Figures are those of the simulated plant on its steady orbit.",
-      scene.name, scene::name_of(scene.friction.law), quantity(scene.drive->frequency_Hz, "Hz"),
+      scene.name, scene::name_of(scene.friction.law),
+      output::quantity(scene.drive->frequency_Hz, "Hz"),
       fmt::format("{:.4g} N", scene.drive->max_force_amplitude_N), speeds_text(study.task.speeds));
 }
 
@@ -41,12 +43,14 @@ output::Table drive_table(const DesignStudy& study) {
                       {}};
   for (const DesignPoint& point : study.points) {
     const Requirement& each = point.requirement;
-    table.rows.push_back({quantity(each.sliding_m_per_s, "m/s"), number(each.ratio),
-                          quantity(each.motion.drive_force_N, "N"),
-                          quantity(each.motion.velocity_amplitude_m_per_s, "m/s"),
-                          quantity(each.motion.displacement_amplitude_m, "m"), name(each.limit),
-                          number(each.reachable_ratio), quantity(each.closed_form_force_N, "N"),
-                          number(each.closed_form_error)});
+    table.rows.push_back({output::quantity(each.sliding_m_per_s, "m/s"),
+                          output::shown(each.ratio, "{:.4g}"),
+                          output::quantity(each.motion.drive_force_N, "N"),
+                          output::quantity(each.motion.velocity_amplitude_m_per_s, "m/s"),
+                          output::quantity(each.motion.displacement_amplitude_m, "m"),
+                          name(each.limit), output::shown(each.reachable_ratio, "{:.4g}"),
+                          output::quantity(each.closed_form_force_N, "N"),
+                          output::shown(each.closed_form_error, "{:.4g}")});
   }
   return table;
 }
@@ -58,11 +62,13 @@ output::Table power_table(const std::vector<DesignPoint>& points) {
                       {}};
   for (const DesignPoint& point : points) {
     const SteadyMotion& motion = point.requirement.motion;
-    table.rows.push_back(
-        {quantity(point.requirement.sliding_m_per_s, "m/s"), number(point.requirement.ratio),
-         quantity(motion.drive_power_W, "W"), quantity(motion.friction_power_W, "W"),
-         quantity(motion.undriven_friction_power_W, "W"), quantity(motion.damping_power_W, "W"),
-         quantity(motion.apparent_power_W, "W")});
+    table.rows.push_back({output::quantity(point.requirement.sliding_m_per_s, "m/s"),
+                          output::shown(point.requirement.ratio, "{:.4g}"),
+                          output::quantity(motion.drive_power_W, "W"),
+                          output::quantity(motion.friction_power_W, "W"),
+                          output::quantity(motion.undriven_friction_power_W, "W"),
+                          output::quantity(motion.damping_power_W, "W"),
+                          output::quantity(motion.apparent_power_W, "W")});
   }
   return table;
 }
@@ -74,11 +80,14 @@ output::Table electrical_table(const std::vector<DesignPoint>& points) {
       {}};
   for (const DesignPoint& point : points) {
     if (const auto& figures = point.requirement.motion.electrical) {
-      table.rows.push_back(
-          {quantity(point.requirement.sliding_m_per_s, "m/s"), number(point.requirement.ratio),
-           quantity(figures->voltage_peak_V, "V"), quantity(figures->current_peak_A, "A"),
-           quantity(figures->active_power_W, "W"), quantity(figures->reactive_power_var, "var"),
-           quantity(figures->apparent_power_VA, "VA"), number(figures->power_factor)});
+      table.rows.push_back({output::quantity(point.requirement.sliding_m_per_s, "m/s"),
+                            output::shown(point.requirement.ratio, "{:.4g}"),
+                            output::quantity(figures->voltage_peak_V, "V"),
+                            output::quantity(figures->current_peak_A, "A"),
+                            output::quantity(figures->active_power_W, "W"),
+                            output::quantity(figures->reactive_power_var, "var"),
+                            output::quantity(figures->apparent_power_VA, "VA"),
+                            output::shown(figures->power_factor, "{:.4g}")});
     }
   }
   return table;
@@ -111,8 +120,8 @@ output::Table sensitivity_table(const std::vector<DesignPoint>& points, const ch
     table.header.emplace_back(each.parameter.symbol);
   }
   for (const DesignPoint& point : points) {
-    std::vector<std::string> row = {quantity(point.requirement.sliding_m_per_s, "m/s"),
-                                    number(point.requirement.ratio)};
+    std::vector<std::string> row = {output::quantity(point.requirement.sliding_m_per_s, "m/s"),
+                                    output::shown(point.requirement.ratio, "{:.4g}")};
     for (const Sensitivity& each : point.sensitivities) {
       row.push_back(cell(each));
     }
@@ -128,11 +137,14 @@ output::Section sensitivity_section(const DesignStudy& study,
   section.text =
       "One parameter changes, the others and the drive's force stay as they are, the normal force "
       "when the mass changes too. By differences of the simulation.";
-  section.tables = {
-      sensitivity_table(points, "d ln ratio / d ln parameter",
-                        [](const Sensitivity& each) { return fixed(each.logarithmic, 3); }),
-      sensitivity_table(points, "Change of the ratio by 1 % more or less, the larger",
-                        [](const Sensitivity& each) { return fixed(each.largest_change(), 5); })};
+  section.tables = {sensitivity_table(points, "d ln ratio / d ln parameter",
+                                      [](const Sensitivity& each) {
+                                        return output::shown(each.logarithmic, "{:.3f}");
+                                      }),
+                    sensitivity_table(points, "Change of the ratio by 1 % more or less, the larger",
+                                      [](const Sensitivity& each) {
+                                        return output::shown(each.largest_change(), "{:.5f}");
+                                      })};
   if (!study.detunings.empty()) {
     section.pictures = {
         {"d ln ratio / d ln parameter, at the fastest sliding", "", draw_sensitivities(study)}};
@@ -145,7 +157,7 @@ std::string text(const std::optional<TuningBand>& band, double drive_Hz) {
     return "-";
   }
   const auto edge = [&](double tuning) {
-    return fmt::format("{:.3g} ({})", tuning, quantity(std::sqrt(tuning) * drive_Hz, "Hz"));
+    return fmt::format("{:.3g} ({})", tuning, output::quantity(std::sqrt(tuning) * drive_Hz, "Hz"));
   };
   return fmt::format("{} to {}", edge(band->low), edge(band->high));
 }
@@ -166,9 +178,9 @@ output::Section resonance_section(const DesignStudy& study) {
       {}};
   const double drive_Hz = study.task.scene.drive->frequency_Hz;
   for (const Detuning& each : study.detunings) {
-    table.rows.push_back({number(each.ratio), text(each.reachable, drive_Hz),
+    table.rows.push_back({output::shown(each.ratio, "{:.4g}"), text(each.reachable, drive_Hz),
                           text(each.sensitive, drive_Hz),
-                          quantity(each.force_at_sensitive_low_N, "N")});
+                          output::quantity(each.force_at_sensitive_low_N, "N")});
   }
   section.tables = {table};
   section.pictures = {{"On the way through resonance", "", draw_detunings(study)}};

@@ -3,22 +3,13 @@
 
 #include <nlohmann/json.hpp>
 
-#include <filesystem>
 #include <string>
 
 #include "host_sim/output/page.hpp"
+#include "host_sim/output/study_report.hpp"
 #include "host_sim/studies/design/study.hpp"
 
 namespace sonoglide::design {
-
-/// Four digits with the prefix that suits: `526.3 N`, `26.72 mm/s`; `-` for what is not defined.
-std::string quantity(double value, const char* unit);
-
-/// Four digits without a prefix.
-std::string number(double value);
-
-/// So many digits behind the point.
-std::string fixed(double value, int digits);
 
 /// One line for each ratio and speed, 17 digits.
 std::string requirements_csv(const DesignStudy& study);
@@ -45,11 +36,7 @@ std::string draw_detunings(const DesignStudy& study);
 /// @throws process::ProcessError  of the pictures
 output::Page page(const DesignStudy& study);
 
-/// Writes report.html, design.json, design.csv and detuning.csv; all or none.
-/// @throws output::OutputError, process::ProcessError
-void write(const std::filesystem::path& out, const DesignStudy& study);
-
-/// The design on a page of text, and where the report is.
-std::string text(const DesignStudy& study, const std::filesystem::path& out);
+/// report.html, design.json, design.csv and detuning.csv. @throws process::ProcessError
+output::StudyReport report(const DesignStudy& study);
 
 }  // namespace sonoglide::design

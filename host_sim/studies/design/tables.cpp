@@ -4,7 +4,8 @@
 
 #include <cmath>
 
-#include "host_sim/output/csv.hpp"
+#include "host_sim/output/json_number.hpp"
+#include "host_sim/output/number.hpp"
 #include "host_sim/scene_file/to_json.hpp"
 
 namespace sonoglide::design {
@@ -12,45 +13,34 @@ namespace {
 
 using nlohmann::ordered_json;
 
-std::string cell(double value) {
-  constexpr int digits = 17;
-  return output::csv_number(value, digits);
-}
-
 std::string electrical_cells(const SteadyMotion& motion) {
   if (!motion.electrical) {
-    return fmt::format(",{0},{0},{0},{0},{0}", cell(undefined));
+    return output::csv_cells(std::vector<double>(5, undefined));
   }
   const loop::ElectricalFigures& figures = *motion.electrical;
-  return fmt::format(",{},{},{},{},{}", cell(figures.voltage_peak_V), cell(figures.current_peak_A),
-                     cell(figures.active_power_W), cell(figures.reactive_power_var),
-                     cell(figures.apparent_power_VA));
+  return output::csv_cells({figures.voltage_peak_V, figures.current_peak_A, figures.active_power_W,
+                            figures.reactive_power_var, figures.apparent_power_VA});
 }
 
 std::string row(const Requirement& point, bool has_transducer) {
   const SteadyMotion& motion = point.motion;
-  std::string text = cell(point.sliding_m_per_s);
-  for (const double value :
-       {point.ratio, motion.drive_force_N, motion.displacement_amplitude_m,
-        motion.velocity_amplitude_m_per_s, motion.drive_power_W, motion.apparent_power_W,
-        motion.friction_power_W, motion.undriven_friction_power_W, motion.damping_power_W,
-        point.closed_form_force_N, point.closed_form_error, point.reachable_ratio}) {
-    text += ',' + cell(value);
-  }
-  return fmt::format("{},{}{}\n", text, name(point.limit),
-                     has_transducer ? electrical_cells(motion) : "");
-}
-
-ordered_json json_number(double value) {
-  return std::isfinite(value) ? ordered_json(value) : ordered_json(nullptr);
+  return fmt::format(
+      "{},{}{}\n",
+      output::csv_cells({point.sliding_m_per_s, point.ratio, motion.drive_force_N,
+                         motion.displacement_amplitude_m, motion.velocity_amplitude_m_per_s,
+                         motion.drive_power_W, motion.apparent_power_W, motion.friction_power_W,
+                         motion.undriven_friction_power_W, motion.damping_power_W,
+                         point.closed_form_force_N, point.closed_form_error,
+                         point.reachable_ratio}),
+      name(point.limit), has_transducer ? ',' + electrical_cells(motion) : "");
 }
 
 ordered_json sensitivity_json(const Sensitivity& sensitivity) {
   return {{"key", sensitivity.parameter.key},
           {"symbol", sensitivity.parameter.symbol},
-          {"logarithmic_derivative", json_number(sensitivity.logarithmic)},
-          {"ratio_change_by_1_percent_more", json_number(sensitivity.change_by_more)},
-          {"ratio_change_by_1_percent_less", json_number(sensitivity.change_by_less)}};
+          {"logarithmic_derivative", output::json_number(sensitivity.logarithmic)},
+          {"ratio_change_by_1_percent_more", output::json_number(sensitivity.change_by_more)},
+          {"ratio_change_by_1_percent_less", output::json_number(sensitivity.change_by_less)}};
 }
 
 ordered_json electrical_json(const scene::Scene& scene, const loop::ElectricalFigures& figures) {
@@ -59,16 +49,17 @@ ordered_json electrical_json(const scene::Scene& scene, const loop::ElectricalFi
           {"active_power_W", figures.active_power_W},
           {"reactive_power_var", figures.reactive_power_var},
           {"apparent_power_VA", figures.apparent_power_VA},
-          {"power_factor", json_number(figures.power_factor)},
+          {"power_factor", output::json_number(figures.power_factor)},
           {"clamped_power_VA", clamped_power_VA(scene, figures.voltage_peak_V)},
-          {"matching_inductance_H", json_number(matching_inductance_H(scene, figures))}};
+          {"matching_inductance_H", output::json_number(matching_inductance_H(scene, figures))}};
 }
 
 ordered_json transducer_json(const DesignStudy& study) {
   const scene::Scene& scene = study.task.scene;
-  ordered_json json = {{"coupling", std::sqrt(coupling_square(scene))},
-                       {"series_resonance_Hz", series_resonance_Hz(scene)},
-                       {"parallel_resonance_Hz", json_number(parallel_resonance_Hz(scene))}};
+  ordered_json json = {
+      {"coupling", std::sqrt(coupling_square(scene))},
+      {"series_resonance_Hz", series_resonance_Hz(scene)},
+      {"parallel_resonance_Hz", output::json_number(parallel_resonance_Hz(scene))}};
   if (study.resonant_spring) {
     const Requirement& requirement = study.resonant_spring->requirement;
     json["on_resonance"] = {{"stiffness_N_per_m", study.resonant_spring->stiffness_N_per_m},
@@ -88,18 +79,18 @@ ordered_json point_json(const scene::Scene& scene, const DesignPoint& point) {
       {"sliding_velocity_m_per_s", each.sliding_m_per_s},
       {"friction_ratio", each.ratio},
       {"limit", name(each.limit)},
-      {"reachable_friction_ratio", json_number(each.reachable_ratio)},
-      {"drive_force_N", json_number(each.motion.drive_force_N)},
-      {"displacement_amplitude_m", json_number(each.motion.displacement_amplitude_m)},
-      {"velocity_amplitude_m_per_s", json_number(each.motion.velocity_amplitude_m_per_s)},
-      {"drive_power_W", json_number(each.motion.drive_power_W)},
-      {"apparent_power_W", json_number(each.motion.apparent_power_W)},
-      {"friction_power_W", json_number(each.motion.friction_power_W)},
-      {"undriven_friction_power_W", json_number(each.motion.undriven_friction_power_W)},
-      {"damping_power_W", json_number(each.motion.damping_power_W)},
+      {"reachable_friction_ratio", output::json_number(each.reachable_ratio)},
+      {"drive_force_N", output::json_number(each.motion.drive_force_N)},
+      {"displacement_amplitude_m", output::json_number(each.motion.displacement_amplitude_m)},
+      {"velocity_amplitude_m_per_s", output::json_number(each.motion.velocity_amplitude_m_per_s)},
+      {"drive_power_W", output::json_number(each.motion.drive_power_W)},
+      {"apparent_power_W", output::json_number(each.motion.apparent_power_W)},
+      {"friction_power_W", output::json_number(each.motion.friction_power_W)},
+      {"undriven_friction_power_W", output::json_number(each.motion.undriven_friction_power_W)},
+      {"damping_power_W", output::json_number(each.motion.damping_power_W)},
       {"closed_form",
-       {{"drive_force_N", json_number(each.closed_form_force_N)},
-        {"friction_ratio_error", json_number(each.closed_form_error)}}},
+       {{"drive_force_N", output::json_number(each.closed_form_force_N)},
+        {"friction_ratio_error", output::json_number(each.closed_form_error)}}},
       {"sensitivities", ordered_json::array()}};
   if (each.motion.electrical) {
     json["electrical"] = electrical_json(scene, *each.motion.electrical);
@@ -118,12 +109,13 @@ ordered_json band_json(const std::optional<TuningBand>& band) {
 }
 
 ordered_json detuning_json(const Detuning& detuning) {
-  return {{"friction_ratio", detuning.ratio},
-          {"sliding_velocity_m_per_s", detuning.sliding_m_per_s},
-          {"reachable_tuning", band_json(detuning.reachable)},
-          {"sensitive_tuning", band_json(detuning.sensitive)},
-          {"ratio_change_by_1_percent_stiffness", json_number(detuning.change_by_stiffness)},
-          {"drive_force_at_sensitive_low_N", json_number(detuning.force_at_sensitive_low_N)}};
+  return {
+      {"friction_ratio", detuning.ratio},
+      {"sliding_velocity_m_per_s", detuning.sliding_m_per_s},
+      {"reachable_tuning", band_json(detuning.reachable)},
+      {"sensitive_tuning", band_json(detuning.sensitive)},
+      {"ratio_change_by_1_percent_stiffness", output::json_number(detuning.change_by_stiffness)},
+      {"drive_force_at_sensitive_low_N", output::json_number(detuning.force_at_sensitive_low_N)}};
 }
 
 }  // namespace
@@ -152,9 +144,9 @@ std::string detuning_csv(const DesignStudy& study) {
       "friction_ratio_at_the_scenes_force\n";
   for (const Detuning& detuning : study.detunings) {
     for (const DetunedPoint& point : detuning.points) {
-      csv += fmt::format("{},{},{},{},{}\n", cell(detuning.ratio), cell(point.tuning),
-                         cell(point.drive_force_N), cell(point.change_by_stiffness),
-                         cell(point.ratio_at_same_force));
+      csv += output::csv_cells({detuning.ratio, point.tuning, point.drive_force_N,
+                                point.change_by_stiffness, point.ratio_at_same_force}) +
+             '\n';
     }
   }
   return csv;
@@ -174,8 +166,9 @@ ordered_json to_json(const DesignStudy& study) {
   }
   json["reach"] = ordered_json::array();
   for (const RatioRequirements& curve : study.curves) {
-    json["reach"].push_back({{"friction_ratio", curve.ratio},
-                             {"fastest_sliding_m_per_s", json_number(curve.fastest_m_per_s)}});
+    json["reach"].push_back(
+        {{"friction_ratio", curve.ratio},
+         {"fastest_sliding_m_per_s", output::json_number(curve.fastest_m_per_s)}});
   }
   json["detuning"] = ordered_json::array();
   for (const Detuning& detuning : study.detunings) {

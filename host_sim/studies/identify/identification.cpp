@@ -2,12 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <utility>
 
 #include "host_sim/output/json_number.hpp"
+#include "host_sim/output/number.hpp"
 
 namespace sonoglide::identify {
 
@@ -79,22 +78,17 @@ ordered_json to_json(const Identification& identification) {
 }
 
 std::string shown(const std::string& name, double value, const char* otherwise) {
-  const std::string unit = unit_of(name);
   if (!std::isfinite(value)) {
     return otherwise;
   }
-  const bool takes_no_prefix = unit.empty() || unit == "kg" || unit == "1/m" || unit == "s/m";
-  if (takes_no_prefix || value == 0.0) {
-    return fmt::format("{:.5g}{}{}", value, unit.empty() ? "" : " ", unit);
+  const std::string unit = unit_of(name);
+  if (unit.empty()) {
+    return fmt::format("{:.5g}", value);
   }
-  const int digits = unit == "Hz" ? 7 : 5;
-  static constexpr const char* prefixes[] = {"f", "p", "n", "u", "m", "", "k", "M", "G", "T"};
-  constexpr int without = 5;
-  const double thousands = std::floor(std::log10(std::abs(value) * (1.0 + 5e-6)) / 3.0);
-  const int index = std::clamp(static_cast<int>(thousands) + without, 0,
-                               static_cast<int>(std::size(prefixes)) - 1);
-  return fmt::format("{:.{}g} {}{}", value * std::pow(1000.0, without - index), digits,
-                     prefixes[index], unit);
+  if (unit == "kg" || unit == "1/m" || unit == "s/m") {
+    return fmt::format("{:.5g} {}", value, unit);
+  }
+  return output::quantity(value, unit, unit == "Hz" ? 7 : 5);
 }
 
 }  // namespace sonoglide::identify

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <utility>
 
+#include "host_sim/output/number.hpp"
+
 namespace sonoglide::identify {
 
 void append(std::vector<std::string>& sentences, std::vector<Remark> remarks) {
@@ -21,8 +23,7 @@ output::Table figure_table(const std::vector<Estimate>& figures) {
   for (const Estimate& each : figures) {
     const double half = 0.5 * (each.high_95 - each.low_95) / std::abs(each.value);
     table.rows.push_back({each.name, shown(each.name, each.value), shown(each.name, each.low_95),
-                          shown(each.name, each.high_95),
-                          std::isfinite(half) ? fmt::format("{:.2g} %", 100.0 * half) : "-"});
+                          shown(each.name, each.high_95), output::shown(100.0 * half, "{:.2g} %")});
   }
   return table;
 }
@@ -33,7 +34,7 @@ output::Table correlation_table(const Correlations& correlations) {
   for (std::size_t i = 0; i < correlations.names.size(); ++i) {
     std::vector<std::string> row = {correlations.names[i]};
     for (const double each : correlations.rows[i]) {
-      row.push_back(std::isfinite(each) ? fmt::format("{:.2f}", each) : "-");
+      row.push_back(output::shown(each, "{:.2f}"));
     }
     table.rows.push_back(std::move(row));
   }

@@ -8,8 +8,8 @@
 #include <iterator>
 #include <limits>
 
-#include "host_sim/output/csv.hpp"
 #include "host_sim/output/gnuplot.hpp"
+#include "host_sim/output/number.hpp"
 
 namespace sonoglide::paper {
 

@@ -6,7 +6,7 @@
 #include <iterator>
 #include <limits>
 
-#include "host_sim/output/csv.hpp"
+#include "host_sim/output/number.hpp"
 #include "host_sim/studies/paper/experiments.hpp"
 
 namespace sonoglide::paper {

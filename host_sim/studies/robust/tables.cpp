@@ -5,7 +5,7 @@
 #include <cmath>
 #include <map>
 
-#include "host_sim/output/csv.hpp"
+#include "host_sim/output/number.hpp"
 #include "host_sim/scene_file/to_json.hpp"
 #include "host_sim/studies/robust/report.hpp"
 
@@ -80,11 +80,6 @@ std::vector<NameCount> count_names(const Study& study,
 
 namespace {
 
-std::string number(double value) {
-  constexpr int every_bit = 17;
-  return output::csv_number(value, every_bit);
-}
-
 std::string words(const std::vector<std::string>& names) {
   return names.empty() ? "none" : fmt::format("{}", fmt::join(names, " "));
 }
@@ -101,14 +96,14 @@ void write_heading(std::ostream& out, const Task& task) {
 
 void write_line(std::ostream& out, const Factors& factors, const PlantRow& row) {
   for (const double factor : factors) {
-    out << number(factor) << ',';
+    out << output::csv_number(factor) << ',';
   }
   for (const Figure& figure : figures()) {
-    out << number(row.*figure.value) << ',';
+    out << output::csv_number(row.*figure.value) << ',';
   }
-  out << fmt::format("{},{},{},{},{},{:016x},{}\n", number(row.deviation), row.unsettled,
-                     words(limit_names(row)), words(fault_names(row)), row.failed() ? "yes" : "no",
-                     row.trace_hash, output::csv_cell(row.status));
+  out << fmt::format("{},{},{},{},{},{:016x},{}\n", output::csv_number(row.deviation),
+                     row.unsettled, words(limit_names(row)), words(fault_names(row)),
+                     row.failed() ? "yes" : "no", row.trace_hash, output::csv_cell(row.status));
 }
 
 }  // namespace

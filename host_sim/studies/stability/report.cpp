@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <initializer_list>
 
-#include "host_sim/output/csv.hpp"
+#include "host_sim/output/number.hpp"
 #include "host_sim/scene/names.hpp"
 #include "host_sim/studies/stability/random_scene.hpp"
 

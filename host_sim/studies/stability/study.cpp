@@ -2,7 +2,6 @@
 
 #include <utility>
 
-#include "host_sim/output/output_folder.hpp"
 #include "host_sim/studies/stability/report.hpp"
 
 namespace sonoglide::stability {
@@ -20,18 +19,17 @@ StabilityStudy study(const MapGrid& grid, std::uint64_t scenes, const Progress& 
   return {std::move(maps), std::move(rows)};
 }
 
-void write_study(const std::filesystem::path& out, const StabilityStudy& study) {
-  output::OutputFolder folder(out);
+output::StudyReport report(const StabilityStudy& study) {
   const MapPictures pictures = {map_picture(study.maps, "float64"),
                                 map_picture(study.maps, "float32")};
-  folder.write("stability_map.csv", map_csv(study.maps, "float64"));
-  folder.write("stability_map.svg", pictures.float64);
-  folder.write("stability_map_float32.csv", map_csv(study.maps, "float32"));
-  folder.write("stability_map_float32.svg", pictures.float32);
-  folder.write("extremes.csv", extremes_csv(study.extremes));
-  folder.write("extremes_worst.csv", worst_csv(study.extremes));
-  folder.write("report.html", output::to_html(study_page(study, pictures)));
-  folder.commit();
+  return {{{"stability_map.csv", map_csv(study.maps, "float64")},
+           {"stability_map.svg", pictures.float64},
+           {"stability_map_float32.csv", map_csv(study.maps, "float32")},
+           {"stability_map_float32.svg", pictures.float32},
+           {"extremes.csv", extremes_csv(study.extremes)},
+           {"extremes_worst.csv", worst_csv(study.extremes)},
+           {"report.html", output::to_html(study_page(study, pictures))}},
+          study_text(study.extremes)};
 }
 
 }  // namespace sonoglide::stability

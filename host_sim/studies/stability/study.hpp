@@ -1,10 +1,9 @@
-/// Maps and extreme cases, computed and written as one report.
+/// Maps and extreme cases, computed, and what they leave behind.
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
 
-#include "host_sim/output/page.hpp"
+#include "host_sim/output/study_report.hpp"
 #include "host_sim/studies/stability/extremes.hpp"
 #include "host_sim/studies/stability/parallel.hpp"
 #include "host_sim/studies/stability/stability_map.hpp"
@@ -19,8 +18,7 @@ struct StabilityStudy {
 StabilityStudy study(const MapGrid& grid, std::uint64_t scenes, const Progress& progress);
 
 /// stability_map.csv, stability_map.svg, both for float32 too, extremes.csv, extremes_worst.csv
-/// and report.html.
-/// @throws output::OutputError, process::ProcessError; nothing was written then
-void write_study(const std::filesystem::path& out, const StabilityStudy& study);
+/// and report.html. @throws process::ProcessError
+output::StudyReport report(const StabilityStudy& study);
 
 }  // namespace sonoglide::stability

@@ -6,16 +6,11 @@
 #include <iterator>
 #include <string>
 
-#include "host_sim/output/csv.hpp"
+#include "host_sim/output/number.hpp"
 #include "host_sim/report/words.hpp"
 
 namespace sonoglide::sweep {
 namespace {
-
-std::string number(double value) {
-  constexpr int every_bit = 17;
-  return output::csv_number(value, every_bit);
-}
 
 std::string heading(const Plan& plan) {
   std::string text;
@@ -34,12 +29,13 @@ std::string line(const Plan& plan, std::size_t point, const PointResult& row) {
   for (std::size_t axis = 0; axis < plan.grid().axes().size(); ++axis) {
     cells += output::csv_cell(plan.grid().text(point, axis)) + ',';
   }
-  cells += fmt::format("{},{},{},", number(row.friction_ratio_whole_run),
-                       number(row.friction_ratio_window), number(row.dissipation_ratio_window));
+  cells += output::csv_cells({row.friction_ratio_whole_run, row.friction_ratio_window,
+                              row.dissipation_ratio_window}) +
+           ',';
   if (plan.closed_loop()) {
-    cells += fmt::format("{},{},{},{},{},", number(row.settling_time_s), number(row.steady_error),
-                         number(row.ripple), report::limit_name(row.limit),
-                         report::fault_name(row.fault));
+    cells += fmt::format("{},{},{},",
+                         output::csv_cells({row.settling_time_s, row.steady_error, row.ripple}),
+                         report::limit_name(row.limit), report::fault_name(row.fault));
   }
   return cells + output::csv_cell(row.status) + '\n';
 }

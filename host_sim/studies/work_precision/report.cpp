@@ -6,10 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "host_sim/output/csv.hpp"
-#include "host_sim/output/output_folder.hpp"
-#include "host_sim/output/page.hpp"
-#include "host_sim/process/printable.hpp"
+#include "host_sim/output/number.hpp"
 #include "host_sim/studies/work_precision/ranking.hpp"
 
 namespace sonoglide::work_precision {
@@ -47,20 +44,7 @@ std::string times_the_fastest(const std::vector<const MeasuredSetting*>& rows,
                                                         rows.front()->wall_us_per_period);
 }
 
-}  // namespace
-
-void write(const std::filesystem::path& out, const scene::Scene& scene,
-           const SolverComparison& comparison) {
-  const std::string svg =
-      draw(comparison, fmt::format("{}, {} carrier periods", scene.name, comparison.periods));
-  output::OutputFolder folder(out);
-  folder.write("work_precision.csv", to_csv(comparison));
-  folder.write("work_precision.svg", svg);
-  folder.write("report.html", output::to_html(page(scene, comparison, svg)));
-  folder.commit();
-}
-
-std::string text(const SolverComparison& comparison, const std::filesystem::path& out) {
+std::string text(const SolverComparison& comparison) {
   std::string lines = fmt::format("{:>6}  {:24} {:>13} {:>10} {:>10} {:>10}\n", "error", "fastest",
                                   "us per period", "rk4_table", "dopri5", "cvode");
   for (const double accuracy : {1e-4, 1e-6, 1e-8, 1e-10}) {
@@ -72,7 +56,18 @@ std::string text(const SolverComparison& comparison, const std::filesystem::path
                            times_the_fastest(rows, "cvode"));
     }
   }
-  return lines + fmt::format("report: {}\n", process::printable((out / "report.html").string()));
+  return lines;
+}
+
+}  // namespace
+
+output::StudyReport report(const scene::Scene& scene, const SolverComparison& comparison) {
+  const std::string svg =
+      draw(comparison, fmt::format("{}, {} carrier periods", scene.name, comparison.periods));
+  return {{{"work_precision.csv", to_csv(comparison)},
+           {"work_precision.svg", svg},
+           {"report.html", output::to_html(page(scene, comparison, svg))}},
+          text(comparison)};
 }
 
 }  // namespace sonoglide::work_precision

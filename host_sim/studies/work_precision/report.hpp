@@ -1,10 +1,10 @@
 /// The files and the few printed lines that a comparison leaves behind.
 #pragma once
 
-#include <filesystem>
 #include <string>
 
 #include "host_sim/output/page.hpp"
+#include "host_sim/output/study_report.hpp"
 #include "host_sim/scene/scene.hpp"
 #include "host_sim/studies/work_precision/comparison.hpp"
 
@@ -23,12 +23,7 @@ output::Page page(const scene::Scene& scene, const SolverComparison& comparison,
 /// @throws process::ProcessError
 std::string draw(const SolverComparison& comparison, const std::string& title);
 
-/// Writes work_precision.csv, work_precision.svg and report.html; all or none.
-/// @throws output::OutputError, process::ProcessError
-void write(const std::filesystem::path& out, const scene::Scene& scene,
-           const SolverComparison& comparison);
-
-/// The result in a few lines, and where the report is.
-std::string text(const SolverComparison& comparison, const std::filesystem::path& out);
+/// work_precision.csv, work_precision.svg and report.html. @throws process::ProcessError
+output::StudyReport report(const scene::Scene& scene, const SolverComparison& comparison);
 
 }  // namespace sonoglide::work_precision

@@ -7,6 +7,7 @@
 #include <map>
 #include <vector>
 
+#include "host_sim/output/number.hpp"
 #include "host_sim/studies/identify/friction/report.hpp"
 #include "host_sim/studies/identify/report.hpp"
 
@@ -149,9 +150,7 @@ output::Table law_table(const Comparison& comparison) {
   if (has_errors) {
     table.header.emplace_back("P(chi²)");
   }
-  const auto cell = [](double value) {
-    return std::isfinite(value) ? fmt::format("{:.3g}", value) : std::string("-");
-  };
+  const auto cell = [](double value) { return output::shown(value, "{:.3g}"); };
   for (const LawFit& each : comparison.laws) {
     table.rows.push_back({fmt::format("{} ({})", each.law.title, each.law.law),
                           verdict(comparison, each), each.law.direction,

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "host_sim/output/json_number.hpp"
+#include "host_sim/output/number.hpp"
 #include "host_sim/studies/identify/identification.hpp"
 #include "host_sim/studies/identify/report.hpp"
 
@@ -53,12 +54,10 @@ ordered_json law_json(const Comparison& comparison, const LawFit& fit) {
 }
 
 std::string law_line(const Comparison& comparison, const LawFit& fit) {
-  const double difference = comparison.difference(fit);
-  return fmt::format(
-      "{:<22} {:<18} {:<7} {:>2} {:>9} {:>9.2g} {:>8.2g} {:>7.2g}  {}\n", fit.law.title,
-      fit.law.law, fit.law.direction, fit.parameter_count(),
-      std::isfinite(difference) ? fmt::format("{:.1f}", difference) : std::string("-"),
-      fit.residual_rms, fit.misfit, fit.runs_probability, verdict(comparison, fit));
+  return fmt::format("{:<22} {:<18} {:<7} {:>2} {:>9} {:>9.2g} {:>8.2g} {:>7.2g}  {}\n",
+                     fit.law.title, fit.law.law, fit.law.direction, fit.parameter_count(),
+                     output::shown(comparison.difference(fit), "{:.1f}"), fit.residual_rms,
+                     fit.misfit, fit.runs_probability, verdict(comparison, fit));
 }
 
 std::string text(const Comparison& comparison) {

@@ -4,7 +4,7 @@
 
 #include <limits>
 
-#include "host_sim/output/csv.hpp"
+#include "host_sim/output/number.hpp"
 #include "host_sim/studies/identify/report.hpp"
 
 namespace sonoglide::identify::impedance {
@@ -25,8 +25,9 @@ std::string fit_csv(const ImpedanceStudy& study) {
     const std::complex<double> measured =
         phase ? study.sweep.admittance_S[static_cast<std::size_t>(i)]
               : std::complex<double>(unknown, unknown);
-    csv += output::csv_row({f, measured.real(), measured.imag(), fitted.real(), fitted.imag(),
-                            residuals(i), phase ? residuals(i + n) : unknown});
+    csv += output::csv_cells({f, measured.real(), measured.imag(), fitted.real(), fitted.imag(),
+                              residuals(i), phase ? residuals(i + n) : unknown}) +
+           '\n';
   }
   return csv;
 }

@@ -6,7 +6,7 @@
 
 #include "firmware/numeric/turn.hpp"
 #include "host_sim/configure/configuration_error.hpp"
-#include "host_sim/output/csv.hpp"
+#include "host_sim/output/number.hpp"
 
 namespace sonoglide::natural_mode {
 

@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <limits>
 #include <map>
 #include <string>
 #include <utility>
@@ -30,17 +29,6 @@ std::string all_advice(const DesignStudy& study) {
 
 bool contains(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
-}
-
-TEST(QuantityTest, HasThePrefixThatSuits) {
-  EXPECT_EQ(quantity(526.34, "N"), "526.3 N");
-  EXPECT_EQ(quantity(0.02672, "m/s"), "26.72 mm/s");
-  EXPECT_EQ(quantity(-2e-7, "m"), "-200 nm");
-  EXPECT_EQ(quantity(999.99, "W"), "1 kW");
-  EXPECT_EQ(quantity(0.0, "W"), "0 W");
-  EXPECT_EQ(quantity(1e-15, "W"), "0.001 pW");
-  EXPECT_EQ(quantity(1e14, "Hz"), "1e+05 GHz");
-  EXPECT_EQ(quantity(std::numeric_limits<double>::quiet_NaN(), "N"), "-");
 }
 
 TEST(AdviceTest, SaysWhatIsOutOfReachAndWhatIsNearest) {

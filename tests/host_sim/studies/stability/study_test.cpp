@@ -33,7 +33,7 @@ class StudyTest : public testing::Test {
     grid.steps_per_period = {16.0, 256.0};
     grid.periods = 2;
     result_ = study(grid, scenes, [](double) {});
-    write_study(folder_ / "out", result_);
+    output::write(folder_ / "out", report(result_));
   }
   static void TearDownTestSuite() { fs::remove_all(folder_); }
 

@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "host_sim/output/csv.hpp"
+#include "host_sim/output/number.hpp"
 #include "host_sim/scene_file/reader.hpp"
 #include "host_sim/studies/work_precision/comparison.hpp"
 #include "host_sim/studies/work_precision/ranking.hpp"

@@ -1,4 +1,4 @@
-#include "host_sim/output/csv.hpp"
+#include "host_sim/output/number.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <limits>
 
-namespace sonoglide::output::csv_test {
+namespace sonoglide::output::number_test {
 namespace {
 
 TEST(CsvNumber, AlwaysReadsAsANumber) {
@@ -19,6 +19,19 @@ TEST(CsvNumber, AlwaysReadsAsANumber) {
   }
   const double endless = std::numeric_limits<double>::infinity();
   EXPECT_EQ(std::strtod(csv_number(-endless, 6).c_str(), nullptr), -endless);
+}
+
+TEST(QuantityTest, HasThePrefixThatSuits) {
+  EXPECT_EQ(quantity(526.34, "N"), "526.3 N");
+  EXPECT_EQ(quantity(0.02672, "m/s"), "26.72 mm/s");
+  EXPECT_EQ(quantity(-2e-7, "m"), "-200 nm");
+  EXPECT_EQ(quantity(999.99, "W"), "1 kW");
+  EXPECT_EQ(quantity(999.99, "W", 5), "999.99 W");
+  EXPECT_EQ(quantity(999999.9, "Hz", 7), "999.9999 kHz");
+  EXPECT_EQ(quantity(0.0, "W"), "0 W");
+  EXPECT_EQ(quantity(1e-18, "W"), "0.001 fW");
+  EXPECT_EQ(quantity(1e17, "Hz"), "1e+05 THz");
+  EXPECT_EQ(quantity(std::numeric_limits<double>::quiet_NaN(), "N"), "-");
 }
 
 // RFC 4180, section 2, paragraphs 5 to 7.
@@ -34,4 +47,4 @@ TEST(CsvCellTest, IsOneLine) {
 }
 
 }  // namespace
-}  // namespace sonoglide::output::csv_test
+}  // namespace sonoglide::output::number_test

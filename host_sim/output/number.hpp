@@ -1,0 +1,39 @@
+/// How tables and pages write a number and a text.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace sonoglide::output {
+
+/// Digits that tell a double to its last bit.
+inline constexpr int every_bit = 17;
+
+/// A figure that is not defined is `nan`, whatever its bits: every cell of a column of numbers
+/// reads as one.
+inline std::string csv_number(double value, int digits = every_bit) {
+  return std::isnan(value) ? "nan" : fmt::format("{:.{}g}", value, digits);
+}
+
+/// Figures as cells, to their last bit.
+std::string csv_cells(const std::vector<double>& figures);
+
+/// A text as a cell of CSV (RFC 4180): in quotes where it has a comma or a quote, printable (see
+/// printable()), so that a row is a line.
+std::string csv_cell(std::string_view text);
+
+/// A figure for a person; `-` where it is not finite.
+/// @param format  of fmt
+inline std::string shown(double value, const char* format) {
+  return std::isfinite(value) ? fmt::format(fmt::runtime(format), value) : std::string("-");
+}
+
+/// A figure with the prefix that suits, from femto to tera: `526.3 N`, `26.72 mm/s`; `-` where it is
+/// not finite.
+std::string quantity(double value, std::string_view unit, int digits = 4);
+
+}  // namespace sonoglide::output
