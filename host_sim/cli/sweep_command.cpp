@@ -13,8 +13,6 @@
 #include "host_sim/cli/options.hpp"
 #include "host_sim/cli/run_watch.hpp"
 #include "host_sim/loop/step_forecast.hpp"
-#include "host_sim/studies/sweep/merge.hpp"
-#include "host_sim/studies/sweep/shard.hpp"
 #include "host_sim/studies/sweep/solve.hpp"
 #include "host_sim/studies/sweep/sweep.hpp"
 

@@ -31,6 +31,14 @@ std::string quoted(std::string_view text) {
   return string + '"';
 }
 
+std::string data_block(std::string_view name, std::string_view lines) {
+  return fmt::format("${} << EOD\n{}EOD\n", name, lines);
+}
+
+std::string data_point(double x, double y) {
+  return std::isfinite(y) ? fmt::format("{:.9g} {:.9g}\n", x, y) : std::string("\n");
+}
+
 std::string range_command(char axis, const std::vector<double>& values, Scale scale, double about) {
   const bool any = std::any_of(values.begin(), values.end(), [scale](double value) {
     return std::isfinite(value) && (scale == Scale::linear || value > 0.0);

@@ -19,6 +19,12 @@ std::filesystem::path require_gnuplot();
 /// process::printable(); write `noenhanced` after it where no mark-up is meant.
 std::string quoted(std::string_view text);
 
+/// Data that a script plots as `$NAME`. Gnuplot refuses to plot a block without a line.
+std::string data_block(std::string_view name, std::string_view lines);
+
+/// A line of a block; a blank one, which is a gap, where y is not finite.
+std::string data_point(double x, double y);
+
 enum class Scale { linear, logarithmic };
 
 /// The command that sets the range of an axis, `x` or `y`: left to gnuplot where it can draw some of

@@ -23,7 +23,7 @@
 #include "host_sim/studies/identify/text_file.hpp"
 #include "host_sim/studies/sweep/plan.hpp"
 #include "host_sim/studies/sweep/row.hpp"
-#include "host_sim/studies/sweep/rows.hpp"
+#include "host_sim/studies/sweep/solve.hpp"
 
 namespace sonoglide::python {
 namespace {

@@ -12,12 +12,30 @@
 #include "host_sim/python/answer.hpp"
 #include "host_sim/python/bindings.hpp"
 #include "host_sim/python/controller_unit.hpp"
-#include "host_sim/python/in_use.hpp"
 #include "host_sim/python/pickled.hpp"
 #include "host_sim/python/scene.hpp"
 
 namespace sonoglide::python {
 namespace {
+
+/// An object that computes without the interpreter's lock belongs to one thread meanwhile.
+/// Made and destroyed with the interpreter's lock held.
+class InUse {
+ public:
+  /// @throws std::runtime_error  another thread uses it
+  explicit InUse(bool& used) : used_(used) {
+    if (used_) {
+      throw std::runtime_error("in use by another thread");
+    }
+    used_ = true;
+  }
+  ~InUse() { used_ = false; }
+  InUse(const InUse&) = delete;
+  InUse& operator=(const InUse&) = delete;
+
+ private:
+  bool& used_;
+};
 
 namespace py = pybind11;
 

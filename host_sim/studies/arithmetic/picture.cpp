@@ -59,29 +59,29 @@ double drawn(double difference) {
 
 /// "$images_q15": instructions, difference, marker of the board.
 std::string image_block(const ArithmeticComparison& comparison, scene::Arithmetic arithmetic) {
-  std::string block = fmt::format("$images_{} << EOD\n", name(arithmetic));
+  std::string lines;
   const std::vector<const emulated::EmulatedBoard*> boards = boards_of(comparison);
   for (std::size_t i = 0; i < boards.size(); ++i) {
     for (const ImageRow& row : comparison.images) {
       if (row.board == boards[i] && row.arithmetic == arithmetic && row.image.instructions) {
-        block += fmt::format("{:.6g} {:.6g} {}\n", row.image.instructions->step.mean,
+        lines += fmt::format("{:.6g} {:.6g} {}\n", row.image.instructions->step.mean,
                              drawn(row.precision.rms_difference), marker_of(i));
       }
     }
   }
-  return block + "EOD\n";
+  return output::data_block(fmt::format("images_{}", name(arithmetic)), lines);
 }
 
 /// "$targets_q15": target, difference, ripple, and no ripple where a limit disturbs.
 std::string target_block(const ArithmeticComparison& comparison, scene::Arithmetic arithmetic) {
-  std::string block = fmt::format("$targets_{} << EOD\n", name(arithmetic));
+  std::string lines;
   for (const TargetRow& row : comparison.targets) {
     if (row.arithmetic == arithmetic) {
-      block += fmt::format("{} {:.6g} {:.6g}\n", row.target, drawn(row.precision.rms_difference),
+      lines += fmt::format("{} {:.6g} {:.6g}\n", row.target, drawn(row.precision.rms_difference),
                            row.precision.ripple);
     }
   }
-  return block + "EOD\n";
+  return output::data_block(fmt::format("targets_{}", name(arithmetic)), lines);
 }
 
 std::vector<double> instructions(const ArithmeticComparison& comparison) {

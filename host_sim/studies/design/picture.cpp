@@ -22,14 +22,9 @@ const char* colour(std::size_t index) {
   return colours[index % std::size(colours)];
 }
 
-/// A line of a block; what is not defined is a blank line, which is a gap.
-std::string line(double x, double y) {
-  return std::isfinite(y) ? fmt::format("{:.9g} {:.9g}\n", x, y) : std::string("\n");
-}
-
+/// With a point that is not drawn: a block must not be empty.
 std::string block(const std::string& name, const std::string& lines) {
-  // A point that is not drawn: a block must not be empty.
-  return fmt::format("${} << EOD\nNaN NaN\n{}EOD\n", name, lines);
+  return output::data_block(name, "NaN NaN\n" + lines);
 }
 
 std::string style() {
@@ -67,7 +62,7 @@ std::string requirement_blocks(const DesignStudy& study, const std::string& pref
   for (std::size_t i = 0; i < study.curves.size(); ++i) {
     std::string lines;
     for (const Requirement& point : study.curves[i].requirements) {
-      lines += line(point.sliding_m_per_s, figure(point));
+      lines += output::data_point(point.sliding_m_per_s, figure(point));
     }
     text += block(fmt::format("{}{}", prefix, i), lines);
   }
@@ -87,7 +82,7 @@ std::vector<double> figures(const DesignStudy& study,
 std::string undriven_block(const DesignStudy& study) {
   std::string lines;
   for (const Requirement& point : study.curves.front().requirements) {
-    lines += line(point.sliding_m_per_s, point.motion.undriven_friction_power_W);
+    lines += output::data_point(point.sliding_m_per_s, point.motion.undriven_friction_power_W);
   }
   return block("undriven", lines);
 }
@@ -95,7 +90,8 @@ std::string undriven_block(const DesignStudy& study) {
 std::string design_point_block(const DesignStudy& study) {
   std::string lines;
   for (const DesignPoint& point : study.points) {
-    lines += line(point.requirement.sliding_m_per_s, point.requirement.motion.drive_force_N);
+    lines += output::data_point(point.requirement.sliding_m_per_s,
+                                point.requirement.motion.drive_force_N);
   }
   return block("points", lines);
 }
@@ -110,7 +106,7 @@ std::string detuning_blocks(const DesignStudy& study, const std::string& prefix,
       // Nothing is known at resonance itself.
       lines += !above && point.tuning > 1.0 ? "\n" : "";
       above = point.tuning > 1.0;
-      lines += line(point.tuning, point.*figure);
+      lines += output::data_point(point.tuning, point.*figure);
     }
     text += block(fmt::format("{}{}", prefix, i), lines);
   }
@@ -204,7 +200,7 @@ std::string draw_sensitivities(const DesignStudy& study) {
                          points[i].requirement.ratio);
   }
   return output::draw_svg(
-      fmt::format("$bars << EOD\n{}EOD\n", lines) + style() +
+      output::data_block("bars", lines) + style() +
           "set style data histograms\nset style histogram clustered gap 1\n"
           "set style fill solid border rgb '#ffffff'\nset xzeroaxis lc rgb '#111111' lw 1\n"
           "set ylabel 'change of the ratio in %, for 1 % of the parameter'\n" +

@@ -23,13 +23,12 @@ std::string to_csv(const std::vector<Column>& columns) {
   for (const Column& column : columns) {
     rows = std::max(rows, column.values.size());
   }
-  constexpr int digits = 17;
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
   for (std::size_t row = 0; row < rows; ++row) {
     const char* separator = "";
     for (const Column& column : columns) {
       const double value = row < column.values.size() ? column.values[row] : none;
-      text += separator + output::csv_number(value, digits);
+      text += separator + output::csv_number(value);
       separator = ",";
     }
     text += '\n';
@@ -75,17 +74,12 @@ std::string style(const Curve& curve) {
   return "with filledcurves closed fs transparent solid 0.3 noborder";
 }
 
-/// A block of data; a blank line is a gap.
 std::string data(const Curve& curve, std::size_t index) {
-  std::string text = fmt::format("$c{} << EOD\n", index);
+  std::string lines;
   for (std::size_t i = 0; i < curve.x.size(); ++i) {
-    if (std::isfinite(curve.y[i])) {
-      fmt::format_to(std::back_inserter(text), "{:.9g} {:.9g}\n", curve.x[i], curve.y[i]);
-    } else {
-      text += '\n';
-    }
+    lines += output::data_point(curve.x[i], curve.y[i]);
   }
-  return text + "EOD\n";
+  return output::data_block(fmt::format("c{}", index), lines);
 }
 
 std::string source(const Curve& curve, std::size_t index) {

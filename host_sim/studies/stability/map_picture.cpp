@@ -72,8 +72,8 @@ std::string boxes(const StabilityMaps& maps, const SolverMap& map, Verdict verdi
 std::string data_blocks(const StabilityMaps& maps, const SolverMap& map, std::size_t index) {
   std::string text;
   for (const Shade& shade : shades) {
-    text += fmt::format("$map_{}_{} << EOD\n{}EOD\n", index, static_cast<int>(shade.verdict),
-                        boxes(maps, map, shade.verdict));
+    text += output::data_block(fmt::format("map_{}_{}", index, static_cast<int>(shade.verdict)),
+                               boxes(maps, map, shade.verdict));
   }
   return text;
 }
@@ -92,11 +92,11 @@ std::string axes(const StabilityMaps& maps, const SolverMap& map) {
 }
 
 std::string limit_curve(const StabilityMaps& maps) {
-  std::string text = "$limit << EOD\n";
+  std::string lines;
   for (const double stiffness : maps.grid.contact_stiffness_N_per_m) {
-    text += fmt::format("{:.6g} {:.6g}\n", stiffness, rk4_limit_steps_per_period(stiffness));
+    lines += fmt::format("{:.6g} {:.6g}\n", stiffness, rk4_limit_steps_per_period(stiffness));
   }
-  return text + "EOD\n";
+  return output::data_block("limit", lines);
 }
 
 std::string panel(const StabilityMaps& maps, const SolverMap& map, std::size_t index) {

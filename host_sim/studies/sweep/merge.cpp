@@ -1,4 +1,4 @@
-#include "host_sim/studies/sweep/merge.hpp"
+#include "host_sim/studies/sweep/sweep.hpp"
 
 #include <fmt/format.h>
 
@@ -13,7 +13,6 @@
 #include "host_sim/studies/sweep/plan.hpp"
 #include "host_sim/studies/sweep/report.hpp"
 #include "host_sim/studies/sweep/row.hpp"
-#include "host_sim/studies/sweep/sweep.hpp"
 
 namespace sonoglide::sweep {
 namespace {

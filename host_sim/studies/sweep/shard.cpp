@@ -1,4 +1,4 @@
-#include "host_sim/studies/sweep/shard.hpp"
+#include "host_sim/studies/sweep/sweep.hpp"
 
 #include <optional>
 #include <string_view>

@@ -1,6 +1,8 @@
 #include "host_sim/studies/sweep/solve.hpp"
 
 #include <tbb/blocked_range.h>
+#include <tbb/global_control.h>
+#include <tbb/info.h>
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_for_each.h>
 #include <tbb/partitioner.h>
@@ -10,6 +12,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <numeric>
 #include <optional>
 #include <tuple>
 #include <utility>
@@ -200,6 +203,22 @@ void solve_all(const Solve& solve, const Points& points, const Sink& sink) {
         }
       },
       tbb::simple_partitioner());
+}
+
+std::vector<PointResult> compute_rows(const Plan& plan, unsigned threads) {
+  const tbb::global_control limit(
+      tbb::global_control::max_allowed_parallelism,
+      threads > 0 ? threads : static_cast<std::size_t>(tbb::info::default_concurrency()));
+  const Solve solve(plan, plan.all(), nullptr);
+  std::vector<PointResult> rows(plan.grid().size());
+  Points all(rows.size());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  solve_all(solve, all, [&](std::vector<Record> records) {
+    for (Record& record : records) {
+      rows[record.point] = std::move(record.row);
+    }
+  });
+  return rows;
 }
 
 }  // namespace sonoglide::sweep

@@ -66,4 +66,10 @@ class Solve {
 /// Solves these points on all threads.
 void solve_all(const Solve& solve, const Points& points, const Sink& sink);
 
+/// A whole sweep in memory, for whoever writes no file: the rows of every point, in the order of the
+/// grid, as sweep.csv has them.
+/// @param threads  0: one for each core
+/// @throws scene_file::SceneError  a point is unusable; nothing was computed
+std::vector<PointResult> compute_rows(const Plan& plan, unsigned threads);
+
 }  // namespace sonoglide::sweep

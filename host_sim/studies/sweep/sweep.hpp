@@ -1,4 +1,4 @@
-/// A whole sweep: from options to files.
+/// A sweep from options to files: whole, a shard of it, and its shards made one.
 #pragma once
 
 #include <cstddef>
@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "host_sim/long_work/pace.hpp"
+#include "host_sim/shards/run_shard.hpp"
 #include "host_sim/studies/sweep/journal.hpp"
 #include "host_sim/studies/sweep/plan.hpp"
 #include "host_sim/studies/sweep/row.hpp"
@@ -53,5 +54,30 @@ struct Summary {
 /// @throws ForeignJournal, output::OutputError, process::ProcessError
 Summary run_sweep(const Plan& plan, const std::filesystem::path& out, const std::string& program,
                   unsigned threads, const long_work::Progress& progress);
+
+/// As shards::run_shard() with the points of a sweep.
+/// @param program  name and version
+/// @throws scene_file::SceneError  nothing was written
+/// @throws long_work::ForeignJournal, output::OutputError
+shards::ShardSummary run_shard(const Plan& plan, const shards::Shard& shard,
+                               const std::filesystem::path& folder, const std::string& program,
+                               unsigned threads, const long_work::Progress& progress);
+
+struct MergeSummary {
+  std::size_t points;
+  std::size_t failed;
+  bool drawn;  ///< false: more than most_points, sweep.csv alone is written
+};
+
+/// Checks the shards in the folder and writes of their rows what run_sweep() writes, to the bit:
+/// sweep.csv, and, of at most most_points points, sweep.svg and report.html. More points are passed
+/// on in memory that does not grow. The shards stay.
+///
+/// @param program  name and version: shards of another program are refused
+/// @throws shards::Incomplete  shards are missing or damaged; nothing was written
+/// @throws shards::UnusableShards  of several works or of another program; nothing was written
+/// @throws output::OutputError, process::ProcessError
+MergeSummary merge_shards(const std::filesystem::path& folder, const std::filesystem::path& out,
+                          const std::string& program, const long_work::Progress& progress);
 
 }  // namespace sonoglide::sweep

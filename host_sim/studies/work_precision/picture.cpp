@@ -53,7 +53,7 @@ Style style_of(Family family, std::size_t member) {
 
 /// The names under which gnuplot knows a solver's points.
 std::string block(const char* kind, const ComparedSolver& solver) {
-  return fmt::format("${}_{}", kind, solver.name);
+  return fmt::format("{}_{}", kind, solver.name);
 }
 
 std::string point(double error, const MeasuredSetting& row) {
@@ -61,15 +61,16 @@ std::string point(double error, const MeasuredSetting& row) {
 }
 
 std::string data(const SolverComparison& comparison, const ComparedSolver& solver) {
-  std::string blocks = block("all", solver) + " << EOD\n";
+  std::string all;
   for (const Standing& standing : standings(comparison, solver)) {
-    blocks += point(standing.row->error, *standing.row);
+    all += point(standing.row->error, *standing.row);
   }
-  blocks += "EOD\n" + block("best", solver) + " << EOD\n";
+  std::string best;
   for (const Standing& standing : frontier(comparison, solver)) {
-    blocks += point(standing.error, *standing.row);
+    best += point(standing.error, *standing.row);
   }
-  return blocks + "EOD\n";
+  return output::data_block(block("all", solver), all) +
+         output::data_block(block("best", solver), best);
 }
 
 /// A solver's place in its family, the same whether or not the others could be measured.
@@ -91,10 +92,10 @@ std::string curves(const SolverComparison& comparison) {
   std::string lines;
   for (const ComparedSolver* solver : measured_solvers(comparison)) {
     const Style style = style_of(solver->family, member_of(comparison, *solver));
-    points += fmt::format("{} with points pt 7 ps 0.2 lc rgb '{}' notitle, \\\n",
+    points += fmt::format("${} with points pt 7 ps 0.2 lc rgb '{}' notitle, \\\n",
                           block("all", *solver), style.colour);
     lines += fmt::format(
-        "{}{} with linespoints lc rgb '{}' dt {} lw {} pt {} ps 0.55 title '{}' noenhanced",
+        "{}${} with linespoints lc rgb '{}' dt {} lw {} pt {} ps 0.55 title '{}' noenhanced",
         lines.empty() ? "" : ", \\\n", block("best", *solver), style.colour, style.dash,
         style.width, style.marker, solver->name);
   }

@@ -117,7 +117,7 @@ std::string draw_circle(const ImpedanceStudy& study) {
   const auto line = [&](double frequency_Hz, Complex y) {
     constexpr double bands = 15.0;
     return std::abs(frequency_Hz - mode.resonance_Hz) <= bands * mode.bandwidth_Hz
-               ? fmt::format("{:.9g} {:.9g}\n", 1e3 * y.real(), 1e3 * y.imag())
+               ? output::data_point(1e3 * y.real(), 1e3 * y.imag())
                : std::string();
   };
   std::string measured;
@@ -129,15 +129,16 @@ std::string draw_circle(const ImpedanceStudy& study) {
     fitted += line(f, study.fit.circuit.admittance_S(f));
   }
   return output::draw_svg(
-      fmt::format("$measured << EOD\nNaN NaN\n{}EOD\n$fitted << EOD\nNaN NaN\n{}EOD\n"
-                  "set size ratio -1\nset grid lc rgb '#d8d8d8'\nset xzeroaxis lc rgb '#606060'\n"
-                  "set xlabel 'conductance G [mS]'\nset ylabel 'susceptance B [mS]'\n"
-                  "set key outside top center horizontal\n"
-                  "plot $fitted using 1:2 with lines lw 2 lc rgb '#1f5fa8' title 'fitted'{}\n",
-                  measured, fitted,
-                  measured.empty() ? ""
-                                   : ", $measured using 1:2 with points pt 7 ps 0.5 lc rgb "
-                                     "'#d62728' title 'measured'"),
+      output::data_block("measured", "NaN NaN\n" + measured) +
+          output::data_block("fitted", "NaN NaN\n" + fitted) +
+          fmt::format(
+              "set size ratio -1\nset grid lc rgb '#d8d8d8'\nset xzeroaxis lc rgb '#606060'\n"
+              "set xlabel 'conductance G [mS]'\nset ylabel 'susceptance B [mS]'\n"
+              "set key outside top center horizontal\n"
+              "plot $fitted using 1:2 with lines lw 2 lc rgb '#1f5fa8' title 'fitted'{}\n",
+              measured.empty() ? ""
+                               : ", $measured using 1:2 with points pt 7 ps 0.5 lc rgb "
+                                 "'#d62728' title 'measured'"),
       620, 620);
 }
 
