@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -10,7 +9,6 @@
 
 #include "host_sim/cli/options.hpp"
 #include "host_sim/cli/progress_bar.hpp"
-#include "host_sim/cli/run_watch.hpp"
 #include "host_sim/configure/configuration_error.hpp"
 #include "host_sim/emulated/controller_header.hpp"
 #include "host_sim/output/gnuplot.hpp"
@@ -50,12 +48,6 @@ void require_every_arithmetic(const scene::Scene& scene) {
   }
 }
 
-arithmetic::ArithmeticComparison compute(const scene::Scene& scene, const Boards& boards,
-                                         bool quiet) {
-  ProgressBar bar(stderr, !quiet);
-  return arithmetic::compare(scene, boards, watching(bar));
-}
-
 /// Throws what pil() throws, and process::ProcessError; in each case nothing was written and no
 /// other program is left behind.
 void arithmetic(const ArithmeticOptions& options) {
@@ -69,8 +61,10 @@ void arithmetic(const ArithmeticOptions& options) {
   const std::filesystem::path out = output_folder(options.out, scene.name, "_arithmetic");
   output::require_gnuplot();
   require_writable(out, {"arithmetic.csv", "targets.csv", "arithmetic.svg"});
-  publish(out, arithmetic::report(scene, compute(scene, boards, options.quiet)), options.quiet,
-          "picture", "arithmetic.svg");
+  const arithmetic::ArithmeticComparison comparison =
+      with_bar(options.quiet,
+               [&](const auto& progress) { return arithmetic::compare(scene, boards, progress); });
+  publish(out, arithmetic::report(scene, comparison), options.quiet, "picture", "arithmetic.svg");
 }
 
 }  // namespace

@@ -52,9 +52,8 @@ void add_cluster_options(CLI::App& command, ClusterOptions& options,
 /// @throws CLI::ValidationError
 template <class Call>
 auto computed(bool quiet, const Call& call) {
-  ProgressBar bar(stderr, !quiet);
   try {
-    return call([&bar](double fraction) { bar.update(fraction); });
+    return with_bar(quiet, call);
   } catch (const long_work::ForeignJournal& error) {
     throw CLI::ValidationError("--out", error.what());
   }

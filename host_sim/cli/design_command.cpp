@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <memory>
@@ -61,11 +60,6 @@ std::string check_ratio(const std::string& text) {
              : fmt::format("\"{}\"; allowed: a number, {} to below 1", text, design::least_ratio);
 }
 
-design::DesignStudy compute(const design::Task& task, bool quiet) {
-  ProgressBar bar(stderr, !quiet);
-  return design::study(task, [&](double fraction) { bar.update(fraction); });
-}
-
 /// Throws scene_file::SceneError, loop::ComputationError, output::OutputError,
 /// process::ProcessError; in each case nothing was written.
 void design(const DesignOptions& options) {
@@ -76,7 +70,9 @@ void design(const DesignOptions& options) {
   const std::filesystem::path out = output_folder(options.out, scene.name, "_design");
   output::require_gnuplot();
   require_writable(out, {"report.html", "design.json", "design.csv", "detuning.csv"});
-  publish(out, design::report(compute(task, options.quiet)), options.quiet);
+  const design::DesignStudy study =
+      with_bar(options.quiet, [&](const auto& progress) { return design::study(task, progress); });
+  publish(out, design::report(study), options.quiet);
 }
 
 }  // namespace

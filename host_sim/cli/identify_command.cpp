@@ -1,13 +1,11 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
-#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <functional>
 #include <memory>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "host_sim/cli/commands.hpp"
@@ -55,20 +53,15 @@ void identify_impedance(const IdentifyOptions& options) {
           options.quiet);
 }
 
-/// A signal ends it at once: nothing is written yet.
-fitting::Comparison compare(fitting::Readings readings, const IdentifyOptions& options) {
-  ProgressBar bar(stderr, !options.quiet);
-  return fitting::compare(std::move(readings), options.laws,
-                          [&](double fraction) { bar.update(fraction); });
-}
-
 /// Throws scene_file::SceneError, output::OutputError; in each case nothing was written.
 void identify_friction(const IdentifyOptions& options) {
   const scene_file::Source source = identify::read_text(options.file);
-  fitting::Readings readings = fitting::read_readings(source);
+  const fitting::Readings readings = fitting::read_readings(source);
   const std::filesystem::path out = output_folder(options.out, source.name(), "_friction");
   require_writable(out, {"report.html", "identify.json", "scene.toml"});
-  const fitting::Comparison comparison = compare(std::move(readings), options);
+  const fitting::Comparison comparison = with_bar(options.quiet, [&](const auto& progress) {
+    return fitting::compare(readings, options.laws, progress);
+  });
   publish(out, fitting::report(comparison, source.name()), options.quiet);
 }
 

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -10,7 +9,6 @@
 
 #include "host_sim/cli/options.hpp"
 #include "host_sim/cli/progress_bar.hpp"
-#include "host_sim/cli/run_watch.hpp"
 #include "host_sim/output/gnuplot.hpp"
 #include "host_sim/process/printable.hpp"
 #include "host_sim/studies/paper/figures.hpp"
@@ -37,16 +35,13 @@ std::string check_figure(const std::string& text) {
   return fmt::format("\"{}\" is no figure; allowed: {}", text, allowed);
 }
 
-void compute(const PaperOptions& options) {
-  ProgressBar bar(stderr, !options.quiet);
-  paper::write_paper(options.out, options.figure, watching(bar));
-}
-
 /// Throws output::OutputError, process::ProcessError, loop::ComputationError; in each case nothing
 /// was written.
 void paper(const PaperOptions& options) {
   output::require_gnuplot();
-  compute(options);
+  with_bar(options.quiet, [&](const auto& progress) {
+    paper::write_paper(options.out, options.figure, progress);
+  });
   if (!options.quiet) {
     fmt::print("page: {}\n",
                process::printable((std::filesystem::path(options.out) / "index.html").string()));

@@ -45,4 +45,12 @@ class ProgressBar {
   process::Undo erased_;
 };
 
+/// What a computation gives that is told how to say how far it is. A signal ends it at once: nothing
+/// may have been written yet.
+template <class Compute>
+auto with_bar(bool quiet, const Compute& compute) {
+  ProgressBar bar(stderr, !quiet);
+  return compute([&bar](double fraction) { bar.update(fraction); });
+}
+
 }  // namespace sonoglide::cli

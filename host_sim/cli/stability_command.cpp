@@ -1,9 +1,6 @@
 #include "host_sim/cli/stability_command.hpp"
 
-#include <fmt/format.h>
-
 #include <cstdint>
-#include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -11,7 +8,6 @@
 #include "host_sim/cli/commands.hpp"
 #include "host_sim/cli/options.hpp"
 #include "host_sim/cli/progress_bar.hpp"
-#include "host_sim/cli/run_watch.hpp"
 #include "host_sim/output/gnuplot.hpp"
 #include "host_sim/studies/stability/study.hpp"
 
@@ -23,24 +19,17 @@ struct StabilityOptions {
   bool quiet = false;
 };
 
-/// What would stop the report at the end stops it here.
-void require_output(const std::filesystem::path& out) {
+/// Throws output::OutputError, process::ProcessError; in each case nothing was written.
+void stability(const StabilityOptions& options, const StabilityWork& work) {
+  const std::filesystem::path out = options.out;
   output::require_gnuplot();
   require_writable(
       out, {"report.html", "stability_map.csv", "stability_map.svg", "stability_map_float32.csv",
             "stability_map_float32.svg", "extremes.csv", "extremes_worst.csv"});
-}
-
-stability::StabilityStudy compute(const StabilityWork& work, bool quiet) {
-  ProgressBar bar(stderr, !quiet);
-  return stability::study(work.grid, work.random_scenes, watching(bar));
-}
-
-/// Throws output::OutputError, process::ProcessError; in each case nothing was written.
-void stability(const StabilityOptions& options, const StabilityWork& work) {
-  const std::filesystem::path out = options.out;
-  require_output(out);
-  publish(out, stability::report(compute(work, options.quiet)), options.quiet);
+  const stability::StabilityStudy study = with_bar(options.quiet, [&](const auto& progress) {
+    return stability::study(work.grid, work.random_scenes, progress);
+  });
+  publish(out, stability::report(study), options.quiet);
 }
 
 }  // namespace

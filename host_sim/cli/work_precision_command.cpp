@@ -1,15 +1,11 @@
 #include "host_sim/cli/commands.hpp"
 
-#include <fmt/format.h>
-
-#include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <string>
 
 #include "host_sim/cli/options.hpp"
 #include "host_sim/cli/progress_bar.hpp"
-#include "host_sim/cli/run_watch.hpp"
 #include "host_sim/output/gnuplot.hpp"
 #include "host_sim/studies/work_precision/comparison.hpp"
 #include "host_sim/studies/work_precision/report.hpp"
@@ -24,11 +20,6 @@ struct WorkPrecisionOptions {
   bool quiet = false;
 };
 
-work_precision::SolverComparison compute(const peers::Problem& problem, bool quiet) {
-  ProgressBar bar(stderr, !quiet);
-  return work_precision::compare(problem, work_precision::solvers(), {}, watching(bar));
-}
-
 /// Throws scene_file::SceneError, loop::ComputationError, output::OutputError,
 /// process::ProcessError; in each case nothing was written.
 void work_precision(const WorkPrecisionOptions& options) {
@@ -39,7 +30,11 @@ void work_precision(const WorkPrecisionOptions& options) {
   const std::filesystem::path out = output_folder(options.out, scene.name, "_work_precision");
   output::require_gnuplot();
   require_writable(out, {"report.html", "work_precision.csv", "work_precision.svg"});
-  publish(out, work_precision::report(scene, compute(problem, options.quiet)), options.quiet);
+  const work_precision::SolverComparison comparison =
+      with_bar(options.quiet, [&](const auto& progress) {
+        return work_precision::compare(problem, work_precision::solvers(), {}, progress);
+      });
+  publish(out, work_precision::report(scene, comparison), options.quiet);
 }
 
 }  // namespace

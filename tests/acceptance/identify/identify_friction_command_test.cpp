@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -69,6 +70,19 @@ TEST(IdentifyFrictionCommand, EveryLawsSceneHasItsRatio) {
     const double rms = json["residual_rms"].get<double>();
     EXPECT_NEAR(ratio_of_scene(folder), 0.4893, 2.5 * rms + 0.005) << law;
   }
+}
+
+/// A scene of other readings would pass for theirs.
+TEST(IdentifyFrictionCommand, AnEarlierSceneIsTakenAwayWhereThereIsNone) {
+  ScratchFolder folder;
+  folder.write("f.csv", dahl_rows);
+  ASSERT_EQ(folder.run("identify friction f.csv --law coulomb --out o").exit_code, 0);
+  EXPECT_TRUE(std::filesystem::exists(folder.path() / "o/scene.toml"));
+  folder.write("f.csv", heading + "0.5,1e-10,1,0.33\n0.33,1e-10,1,0.22\n");
+  const Outcome without = folder.run("identify friction f.csv --law coulomb --out o");
+  ASSERT_EQ(without.exit_code, 0) << without.err;
+  EXPECT_NE(without.out.find("No scene.toml is written"), std::string::npos) << without.out;
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "o/scene.toml"));
 }
 
 TEST(IdentifyFrictionCommand, BadInputEndsWithTwoAndWritesNothing) {

@@ -17,27 +17,21 @@ namespace {
 constexpr std::size_t most_groups = 6;
 
 /// Readings that share one of the two velocities, the vibration's or the sliding's.
-struct Group {
-  double held = 0.0;
-  std::vector<Reading> rows;
-};
+using Group = std::vector<Reading>;
 
 struct Groups {
-  bool vibration_is_held;
+  double Reading::*held;
+  double Reading::*other;
   std::vector<Group> all;  ///< the largest first
 
-  double other(const Reading& row) const {
-    return vibration_is_held ? row.sliding_m_per_s : row.vibration_m_per_s;
-  }
+  bool vibration_is_held() const { return held == &Reading::vibration_m_per_s; }
 };
 
 std::vector<Group> grouped(const Readings& readings, double Reading::*held) {
   std::map<std::string, Group> by_value;
   for (const Reading& row : readings.rows) {
     // Three digits: set and measured velocities differ in the fourth.
-    Group& group = by_value[fmt::format("{:.3g}", row.*held)];
-    group.held = row.*held;
-    group.rows.push_back(row);
+    by_value[fmt::format("{:.3g}", row.*held)].push_back(row);
   }
   std::vector<Group> groups;
   groups.reserve(by_value.size());
@@ -45,37 +39,37 @@ std::vector<Group> grouped(const Readings& readings, double Reading::*held) {
     groups.push_back(std::move(group));
   }
   std::stable_sort(groups.begin(), groups.end(),
-                   [](const Group& a, const Group& b) { return a.rows.size() > b.rows.size(); });
+                   [](const Group& a, const Group& b) { return a.size() > b.size(); });
   return groups;
 }
 
 Groups groups_of(const Readings& readings) {
-  std::vector<Group> by_vibration = grouped(readings, &Reading::vibration_m_per_s);
-  std::vector<Group> by_sliding = grouped(readings, &Reading::sliding_m_per_s);
-  const bool vibration = by_vibration.size() <= by_sliding.size();
-  return {vibration, vibration ? std::move(by_vibration) : std::move(by_sliding)};
+  constexpr auto vibration = &Reading::vibration_m_per_s;
+  constexpr auto sliding = &Reading::sliding_m_per_s;
+  Groups by_vibration = {vibration, sliding, grouped(readings, vibration)};
+  Groups by_sliding = {sliding, vibration, grouped(readings, sliding)};
+  return by_vibration.all.size() <= by_sliding.all.size() ? by_vibration : by_sliding;
 }
 
 /// The group's readings, and places between along which the curves are drawn.
 std::vector<Place> places(const Comparison& comparison, const Groups& groups, const Group& group) {
   std::vector<Place> all;
   const auto add = [&](const Reading& row, double measured) {
-    Place place{groups.other(row), measured, {}};
+    Place place{row.*groups.other, measured, {}};
     for (const LawFit& each : comparison.laws) {
       place.fitted.push_back(friction_of(comparison.readings, each, row));
     }
     all.push_back(std::move(place));
   };
   double fastest = 0.0;
-  for (const Reading& row : group.rows) {
+  for (const Reading& row : group) {
     add(row, row.friction);
-    fastest = std::max(fastest, groups.other(row));
+    fastest = std::max(fastest, row.*groups.other);
   }
   constexpr int points = 120;
   for (int i = 1; i <= points; ++i) {
-    Reading row = group.rows.front();
-    (groups.vibration_is_held ? row.sliding_m_per_s : row.vibration_m_per_s) =
-        1.1 * fastest * i / points;
+    Reading row = group.front();
+    row.*groups.other = 1.1 * fastest * i / points;
     add(row, std::numeric_limits<double>::quiet_NaN());
   }
   return all;
@@ -83,10 +77,11 @@ std::vector<Place> places(const Comparison& comparison, const Groups& groups, co
 
 output::Panel fit_panel(const Comparison& comparison, const Groups& groups, const Group& group) {
   output::Panel panel;
-  panel.title = fmt::format("{} at {:.4g} m/s", groups.vibration_is_held ? "Vibration" : "Sliding",
-                            group.held);
+  panel.title =
+      fmt::format("{} at {:.4g} m/s", groups.vibration_is_held() ? "Vibration" : "Sliding",
+                  group.back().*groups.held);
   panel.x_label =
-      groups.vibration_is_held ? "Sliding velocity [m/s]" : "Peak vibration velocity [m/s]";
+      groups.vibration_is_held() ? "Sliding velocity [m/s]" : "Peak vibration velocity [m/s]";
   panel.y_label = comparison.readings.are_forces ? "Mean friction [N]" : "Friction ratio [-]";
   std::vector<std::string> titles;
   for (const LawFit& each : comparison.laws) {
@@ -98,7 +93,7 @@ output::Panel fit_panel(const Comparison& comparison, const Groups& groups, cons
 
 output::Section fit_section(const Comparison& comparison) {
   const Groups groups = groups_of(comparison.readings);
-  const char* held = groups.vibration_is_held ? "vibration" : "sliding";
+  const char* held = groups.vibration_is_held() ? "vibration" : "sliding";
   output::Section section;
   section.title = "Readings and fits";
   section.text = fmt::format(
