@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -19,11 +20,11 @@ struct Cell {
 /// @param separator  a blank stands for any number of blanks and tabs
 std::vector<Cell> cells_of(std::string_view line, char separator);
 
-/// A finite number or none; a decimal comma is understood where it is allowed. Unicode's minus and
-/// its spaces between groups of three digits are understood.
-bool parse_number(std::string_view cell, bool decimal_comma, double& value);
+/// A finite number, with a decimal point or, where no comma separates cells, a decimal comma.
+/// Unicode's minus and its spaces between groups of three digits are understood.
+std::optional<double> number_of(std::string_view cell, char separator = ' ');
 
-/// parse_number(), or not a number.
-bool is_numeric(std::string_view cell, bool decimal_comma);
+/// number_of(), or not a number.
+bool is_numeric(std::string_view cell, char separator);
 
 }  // namespace sonoglide::identify

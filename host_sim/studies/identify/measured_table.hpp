@@ -10,7 +10,6 @@
 #include "host_sim/scene_file/source.hpp"
 #include "host_sim/studies/identify/cell.hpp"
 #include "host_sim/studies/identify/table_search.hpp"
-#include "host_sim/studies/identify/text_file.hpp"
 
 namespace sonoglide::identify {
 
@@ -23,19 +22,15 @@ std::string unit_in_brackets(const std::string& name);
 /// of them may be the heading.
 class MeasuredTable {
  public:
-  /// The table that find_table() finds.
   /// @param source  outlives the table
-  /// @throws scene_file::SceneError  as find_table(); no row, a row of more cells than the heading, or
-  ///         decimal points beside decimal commas
-  MeasuredTable(const scene_file::Source& source, const IsWanted& is_wanted);
+  /// @throws scene_file::SceneError  no row, a row of more cells than the heading, or decimal points
+  ///         beside decimal commas
+  MeasuredTable(const scene_file::Source& source, FoundTable found);
 
-  /// Of rows that were found otherwise.
-  MeasuredTable(const scene_file::Source& source, Heading heading, std::vector<Line> rows);
-
-  const std::vector<std::string>& names() const { return heading_.names; }
-  std::size_t rows() const { return rows_.size(); }
+  const std::vector<std::string>& names() const { return found_.heading.names; }
+  std::size_t rows() const { return found_.rows.size(); }
   /// Each a sentence: what of the text is not read.
-  const std::vector<std::string>& warnings() const { return warnings_; }
+  const std::vector<std::string>& warnings() const { return found_.warnings; }
 
   /// A whole column. @throws scene_file::SceneError  a cell is missing or is no finite number
   std::vector<double> numbers(std::size_t column) const;
@@ -49,12 +44,10 @@ class MeasuredTable {
 
  private:
   Cell cell(std::size_t row, std::size_t column) const;
-  void check();
+  std::string number_of_cells(std::size_t found) const;
 
   const scene_file::Source& source_;
-  Heading heading_;
-  std::vector<Line> rows_;
-  std::vector<std::string> warnings_;
+  FoundTable found_;
 };
 
 }  // namespace sonoglide::identify

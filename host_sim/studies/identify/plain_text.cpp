@@ -6,119 +6,85 @@
 namespace sonoglide::identify {
 namespace {
 
-constexpr std::string_view spaces =
-    "\u00a0 \u2000 \u2001 \u2002 \u2003 \u2004 \u2005 \u2006 \u2007 \u2008 \u2009 \u200a \u200b "
-    "\u202f \u205f \u3000 \ufeff";
+constexpr std::string_view blanks = " \t\r\v\f";
 
 struct Spelling {
-  std::string_view ascii;
-  std::string_view signs;  ///< between blanks
+  std::string_view ascii;  ///< of a superscript it begins with ^
+  /// Between blanks; of two that begin alike the longer one is first. Single bytes are of Latin-1.
+  std::string_view signs;
 };
 
-constexpr Spelling spellings[] = {{"Ohm", "\u03a9 \u2126 \\Omega \\ohm"},
-                                  {"Mho", "\u2127"},
-                                  {"u", "\u00b5 \u03bc \\mu"},
-                                  {" deg ", "\u00b0 \u00ba \u02da ^{\\circ} ^\\circ"},
-                                  {" theta ", "\u03b8 \u03d1 \u0398 \\theta"},
-                                  {" phi ", "\u03c6 \u03d5 \u03a6 \\phi \\varphi"},
-                                  {" angle ", "\u2220 \u2221 \\angle"},
-                                  {"'", "\u2032 \u2019"},
-                                  {"''", "\u2033 \u201d \""},
-                                  {"-", "\u2212 \u2010 \u2011 \u2012 \u2013 \u2014"},
-                                  {"*", "\u00d7 \u00b7 \u22c5 \u2219 \\times \\cdot"},
-                                  {"/", "\u2215 \u2044"},
-                                  {"|", "\u2223"},
-                                  {" ", "\\,"},
-                                  {"", "$"}};
+constexpr Spelling spellings[] = {
+    {" ",
+     "\u00a0 \u2000 \u2001 \u2002 \u2003 \u2004 \u2005 \u2006 \u2007 \u2008 \u2009 \u200a \u200b "
+     "\u202f \u205f \u3000 \ufeff \\, \t \v \f \xa0"},
+    {"", "$"},
+    {"Ohm", "\u03a9 \u2126 \\Omega \\ohm \u6b27\u59c6 \u6b50\u59c6"},
+    {"Mho", "\u2127"},
+    {" Hz ", "\u8d6b\u5179"},
+    {"u", "\u00b5 \u03bc \\mu \xb5"},
+    {" deg ", "\u00b0 \u00ba \u02da ^{\\circ} ^\\circ \u5ea6 \xb0"},
+    {" theta ", "\u03b8 \u03d1 \u0398 \\theta"},
+    {" phi ", "\u03c6 \u03d5 \u03a6 \\phi \\varphi"},
+    {" angle ", "\u2220 \u2221 \\angle"},
+    {"'", "\u2032 \u2019"},
+    {"''", "\u2033 \u201d \""},
+    {"-", "\u2212 \u2010 \u2011 \u2012 \u2013 \u2014"},
+    {"*", "\u00d7 \u00b7 \u22c5 \u2219 \\times \\cdot \xd7 \xb7"},
+    {"/", "\u2215 \u2044"},
+    {"|", "\u2223"},
+    {"(", "\uff08"},
+    {")", "\uff09"},
+    {",", "\uff0c"},
+    {":", "\uff1a"},
+    {"e", "\u00e9"},
+    {"^", "^{"},
+    {"^0", "\u2070"},
+    {"^1", "\u00b9"},
+    {"^2", "\u00b2 \xb2"},
+    {"^3", "\u00b3 \xb3"},
+    {"^4", "\u2074"},
+    {"^5", "\u2075"},
+    {"^6", "\u2076"},
+    {"^7", "\u2077"},
+    {"^8", "\u2078"},
+    {"^9", "\u2079"},
+    {"^-", "\u207b"},
+    {"^+", "\u207a"},
+    {" frequency ", "\u9891\u7387 \u983b\u7387 \u5468\u6ce2\u6570"},
+    {" impedance ", "\u963b\u6297"},
+    {" admittance ", "\u5bfc\u7eb3 \u5c0e\u7d0d"},
+    {" phase ", "\u76f8\u4f4d\u89d2 \u76f8\u4f4d \u76f8\u89d2 \u4f4d\u76f8"},
+    {" resistance ", "\u7535\u963b \u96fb\u963b"},
+    {" reactance ", "\u7535\u6297 \u96fb\u6297"},
+    {" conductance ", "\u7535\u5bfc \u96fb\u5c0e"},
+    {" susceptance ", "\u7535\u7eb3 \u96fb\u7d0d"},
+    {" magnitude ", "\u5e45\u503c \u6a21\u503c \u6a21"}};
 
-/// Of bytes that are no UTF-8.
-constexpr Spelling latin_1[] = {{"u", "\xb5"}, {" deg ", "\xb0"}, {"*", "\xd7"}, {" ", "\xa0"}};
-
-constexpr Spelling superscripts[] = {{"0", "\u2070"}, {"1", "\u00b9"}, {"2", "\u00b2"},
-                                     {"3", "\u00b3"}, {"4", "\u2074"}, {"5", "\u2075"},
-                                     {"6", "\u2076"}, {"7", "\u2077"}, {"8", "\u2078"},
-                                     {"9", "\u2079"}, {"-", "\u207b"}, {"+", "\u207a"}};
-
-bool begins(std::string_view text, std::size_t at, std::string_view with) {
-  return text.compare(at, with.size(), with) == 0;
-}
-
-/// The sign of a list that begins at a place; empty where none does.
-std::string_view sign_at(std::string_view text, std::size_t at, std::string_view signs) {
-  while (!signs.empty()) {
-    const std::size_t size = std::min(signs.find(' '), signs.size());
-    if (begins(text, at, signs.substr(0, size))) {
-      return signs.substr(0, size);
+/// The sign that begins a text, and what it is in ASCII; no sign where none does.
+Spelling first_sign(std::string_view text) {
+  for (const Spelling& each : spellings) {
+    for (std::string_view left = each.signs; !left.empty();) {
+      const std::string_view sign = left.substr(0, left.find(' '));
+      if (text.substr(0, sign.size()) == sign) {
+        return {each.ascii, sign};
+      }
+      left.remove_prefix(std::min(sign.size() + 1, left.size()));
     }
-    signs.remove_prefix(std::min(size + 1, signs.size()));
   }
   return {};
-}
-
-/// The sign that begins at a place, and what it is in ASCII; no sign where none does.
-template <std::size_t Count>
-Spelling spelling_at(std::string_view text, std::size_t at, const Spelling (&among)[Count]) {
-  for (const Spelling& each : among) {
-    if (const std::string_view sign = sign_at(text, at, each.signs); !sign.empty()) {
-      return {each.ascii, sign};
-    }
-  }
-  return {};
-}
-
-/// Bytes of the character of UTF-8 that begins at a place; 0 where none does.
-std::size_t character_at(std::string_view text, std::size_t at) {
-  const auto first = static_cast<unsigned char>(text[at]);
-  const std::size_t size = first < 0x80U                     ? 1
-                           : first >= 0xc2U && first < 0xe0U ? 2
-                           : first >= 0xe0U && first < 0xf0U ? 3
-                           : first >= 0xf0U && first < 0xf5U ? 4
-                                                             : 0;
-  for (std::size_t i = 1; i < size; ++i) {
-    if (at + i >= text.size() || (static_cast<unsigned char>(text[at + i]) & 0xc0U) != 0x80U) {
-      return 0;
-    }
-  }
-  return size;
-}
-
-/// U+FF01 to U+FF5E are ASCII in full width; 0 where none begins.
-char full_width_at(std::string_view text, std::size_t at) {
-  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[at + i]); };
-  constexpr std::size_t bytes = 3;
-  if (at + bytes > text.size() || byte(0) != 0xefU || (byte(1) & 0xfeU) != 0xbcU) {
-    return '\0';
-  }
-  const unsigned code = ((byte(1) & 1U) << 6U) + (byte(2) & 0x3fU) + 0x20U;
-  constexpr unsigned first = 0x21;
-  constexpr unsigned last = 0x7e;
-  return code >= first && code <= last ? static_cast<char>(code) : '\0';
 }
 
 }  // namespace
 
-std::size_t blank_at(std::string_view text, std::size_t at) {
-  const char first = text[at];
-  if (first > ' ') {
-    return 0;
-  }
-  return std::string_view(" \t\r\v\f").find(first) != std::string_view::npos
-             ? 1
-             : sign_at(text, at, spaces).size();
+std::string_view trimmed(std::string_view text) {
+  text.remove_prefix(std::min(text.find_first_not_of(blanks), text.size()));
+  return text.substr(0, text.find_last_not_of(blanks) + 1);
 }
 
-std::string_view trimmed(std::string_view text) {
-  std::size_t begin = 0;
-  while (begin < text.size() && blank_at(text, begin) > 0) {
-    begin += blank_at(text, begin);
-  }
-  std::size_t end = begin;
-  for (std::size_t at = begin; at < text.size();) {
-    const std::size_t blank = blank_at(text, at);
-    at += std::max<std::size_t>(blank, 1);
-    end = blank > 0 ? end : at;
-  }
-  return text.substr(begin, end - begin);
+std::string shortened(std::string_view text) {
+  constexpr std::size_t most = 40;
+  return std::string(trimmed(text).substr(0, most));
 }
 
 std::string lower_case(std::string_view text) {
@@ -136,40 +102,26 @@ std::string plain_text(std::string_view text) {
   std::string plain;
   bool raised = false;
   bool braced = false;
-  for (std::size_t at = 0; at < text.size();) {
-    if (std::isalnum(static_cast<unsigned char>(text[at])) != 0) {  // Most are.
-      plain += text[at++];
-      raised = false;
-      continue;
-    }
-    const std::size_t character = character_at(text, at);
-    const Spelling high = spelling_at(text, at, superscripts);
-    const bool opens = begins(text, at, "^{") && !begins(text, at, "^{\\circ}");
-    const Spelling known = character > 0 ? spelling_at(text, at, spellings)  //
-                                         : spelling_at(text, at, latin_1);
-    if (!high.signs.empty()) {
-      plain += raised ? "" : "^";
-      plain += high.ascii;
-      at += high.signs.size();
-    } else if (opens || (braced && text[at] == '}')) {  // LaTeX has powers in braces.
-      plain += opens ? "^" : "";
-      at += opens ? 2 : 1;
-      braced = opens;
-    } else if (const char ascii = full_width_at(text, at)) {
-      plain += ascii;
-      at += 3;
-    } else if (const std::size_t blank = blank_at(text, at)) {
-      plain += ' ';
-      at += blank;
-    } else if (!known.signs.empty()) {
-      plain += known.ascii;
-      at += known.signs.size();
+  while (!text.empty()) {
+    const bool is_plain = std::isalnum(static_cast<unsigned char>(text[0])) != 0;  // Most are.
+    const Spelling known = is_plain ? Spelling() : first_sign(text);
+    const bool is_power = known.ascii.substr(0, 1) == "^";
+    std::size_t size = known.signs.size();
+    if (size > 0) {
+      plain += known.ascii.substr(raised && is_power ? 1 : 0);
+      braced = braced || known.signs == "^{";
+    } else if (braced && text[0] == '}') {  // LaTeX has powers in braces.
+      braced = false;
+      size = 1;
     } else {
-      const std::size_t size = std::max<std::size_t>(character, 1);
-      plain += text.substr(at, size);
-      at += size;
+      const bool is_long = static_cast<unsigned char>(text[0]) >= 0xc0U;
+      do {  // A sign of UTF-8 that is not known, whole.
+        plain += text[size++];
+      } while (is_long && size < text.size() &&
+               (static_cast<unsigned char>(text[size]) & 0xc0U) == 0x80U);
     }
-    raised = !high.signs.empty();
+    raised = is_power;
+    text.remove_prefix(size);
   }
   return plain;
 }

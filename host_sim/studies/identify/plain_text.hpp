@@ -1,18 +1,16 @@
 /// The signs of instruments and spreadsheets as ASCII.
 #pragma once
 
-#include <cstddef>
 #include <string>
 #include <string_view>
 
 namespace sonoglide::identify {
 
-/// Bytes of the blank that begins at a place: a space, a tab, or one of Unicode's spaces, no-break and
-/// thin ones among them. 0: no blank begins there.
-std::size_t blank_at(std::string_view text, std::size_t at);
-
-/// Without the blanks around it.
+/// Without the blanks of ASCII around it.
 std::string_view trimmed(std::string_view text);
+
+/// The beginning of a text, for a message.
+std::string shortened(std::string_view text);
 
 std::string lower_case(std::string_view text);
 
@@ -21,9 +19,9 @@ bool is_among(std::string_view word, std::string_view list);
 
 /// The same text with ASCII words for signs: `Ohm` for both omegas, `u` for both micro signs, `deg`,
 /// `theta`, `phi`, `angle`, `^-6` for superscripts, `*` for multiplication signs, `-` for Unicode's
-/// minus and dashes, a space for its spaces, and ASCII for full-width letters. The words of LaTeX
-/// (`k\Omega`, `^\circ`) and the degree and micro signs of Latin-1 are understood too. What is left
-/// beyond ASCII has no such spelling.
+/// minus and dashes, a space for its spaces, English for Chinese and Japanese words. The words of
+/// LaTeX (`k\Omega`, `^\circ`) and the signs of Latin-1 are understood too. What is left beyond ASCII
+/// has no such spelling.
 std::string plain_text(std::string_view text);
 
 }  // namespace sonoglide::identify

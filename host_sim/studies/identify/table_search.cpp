@@ -3,8 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <memory>
-#include <optional>
 #include <tuple>
 #include <utility>
 
@@ -17,12 +15,26 @@ namespace sonoglide::identify {
 namespace {
 
 using scene_file::SceneError;
+using Cells = std::vector<Cell>;
+using Names = std::vector<std::string>;
+
+bool is_blank(const Cell& cell) {
+  return cell.text.empty();
+}
+
+bool is_unit(const std::string& name) {
+  return unit_of_text(plain_text(name)).has_value();
+}
+
+bool is_unit_or_in_brackets(const std::string& name) {
+  return name.substr(0, 1) == "(" || name.substr(0, 1) == "[" || is_unit(name);
+}
 
 /// The one that a heading is split at: the first that no quotes enclose.
 char separator_of(std::string_view heading) {
   const auto opens = [](const Cell& cell) { return cell.text.substr(0, 1) == "\""; };
   for (const char each : {'\t', ';', ','}) {
-    const std::vector<Cell> cells = cells_of(heading, each);
+    const Cells cells = cells_of(heading, each);
     if (cells.size() > 1 && std::none_of(cells.begin(), cells.end(), opens)) {
       return each;
     }
@@ -30,89 +42,32 @@ char separator_of(std::string_view heading) {
   return ' ';
 }
 
-bool is_numeric_in(std::string_view cell, char separator) {
-  return is_numeric(cell, separator != ',');
-}
-
-bool has_brackets(std::string_view text) {
-  return text.find_first_of("([") != std::string_view::npos;
-}
-
-bool is_unit(const std::string& name) {
-  return unit_of_text(plain_text(name)).has_value();
-}
-
-/// Whether a line of words below a heading has its units.
-bool is_line_of_units(const Heading& units, const Heading& heading, const IsWanted& is_wanted) {
-  if (units.names.size() > heading.names.size() || units.separator != heading.separator ||
-      units.line != heading.line + 1) {
-    return false;
-  }
-  const bool has_unit =
-      std::any_of(units.names.begin(), units.names.end(), [](const std::string& each) {
-        const bool bracketed = !each.empty() && has_brackets(each.substr(0, 1));
-        return bracketed || is_unit(each);
-      });
-  return has_unit || (is_wanted(heading.names) && !is_wanted(units.names));
-}
-
-void join(Heading& heading, const Heading& units) {
-  for (std::size_t i = 0; i < units.names.size(); ++i) {
-    const std::string& unit = units.names[i];
-    if (!unit.empty()) {
-      heading.names[i] += has_brackets(unit) ? " " + unit : fmt::format(" [{}]", unit);
-    }
-  }
-}
-
-bool begins_with_number(const Line& line, const Heading& heading) {
-  const std::vector<Cell> cells = cells_of(line.text, heading.separator);
-  const auto first =
-      std::find_if(cells.begin(), cells.end(), [](const Cell& each) { return !each.text.empty(); });
-  return first != cells.end() && is_numeric_in(first->text, heading.separator);
-}
-
-/// As many cells as the heading, the first of them a word with a digit, as a time has; one of the
-/// others a number.
-bool is_labelled(const Line& line, const Heading& heading) {
-  const std::vector<Cell> cells = cells_of(line.text, heading.separator);
-  return cells.size() == heading.names.size() &&
-         cells.front().text.find_first_of("0123456789") != std::string_view::npos &&
-         std::any_of(cells.begin() + 1, cells.end(),
-                     [&](const Cell& each) { return is_numeric_in(each.text, heading.separator); });
-}
-
-/// Lines of numbers below a heading, without the comments between them.
+/// Lines that begin with a number or, if the first of them does not, with a label.
 struct Rows {
-  std::size_t begin = 0;  ///< among the lines
-  char separator = 0;
-  std::size_t columns = 0;
-  std::vector<Line> found = {};
+  char separator = ',';
+  std::size_t columns = 0;  ///< of the heading
+  bool labelled = false;
+  std::size_t begin = 0;  ///< among the lines, with comments between them
   std::size_t end = 0;
-  bool (*is_row)(const Line&, const Heading&) = begins_with_number;
+  std::size_t count = 0;
+
+  bool has(const Line& line) const {
+    const Cells cells = cells_of(line.text, separator);
+    const auto is_number = [&](const Cell& each) { return is_numeric(each.text, separator); };
+    if (labelled) {  // A word with a digit, as a time, and a number behind it.
+      return cells.size() == columns &&
+             cells.front().text.find_first_of("0123456789") != std::string_view::npos &&
+             std::any_of(cells.begin() + 1, cells.end(), is_number);
+    }
+    const auto first = std::find_if_not(cells.begin(), cells.end(), is_blank);
+    return first != cells.end() && is_number(*first);
+  }
 };
 
 struct Table {
   Heading heading;
-  std::shared_ptr<const Rows> rows;
-  bool wanted = false;
-
-  /// The one of the largest is read.
-  auto rank() const {
-    return std::make_tuple(!rows->found.empty(), wanted, fits(), rows->found.size());
-  }
-
- private:
-  bool fits() const {
-    if (rows->found.empty()) {
-      return false;
-    }
-    const std::vector<Cell> cells = cells_of(rows->found.front().text, heading.separator);
-    const std::size_t columns = heading.names.size();
-    return cells.size() >= columns &&
-           std::all_of(cells.begin() + static_cast<std::ptrdiff_t>(columns), cells.end(),
-                       [](const Cell& each) { return each.text.empty(); });
-  }
+  Rows rows;
+  bool wanted = false;  ///< and has rows
 };
 
 class TableSearch {
@@ -126,115 +81,117 @@ class TableSearch {
   }
 
   FoundTable find() {
-    std::optional<Table> best;
-    std::vector<std::size_t> tables;
+    Table best;
     for (std::size_t i = 0; i < lines_.size(); ++i) {
-      std::optional<Table> table = table_at(i);
+      Table table = table_at(i);
       // Settings may stand as one row below their names.
-      if (table && table->wanted && table->rows->found.size() > 1) {
-        tables.push_back(table->heading.line);
+      if (best.wanted && best.rows.count > 1 && table.wanted && table.rows.count > 1) {
+        throw error(table.heading.line, "heading",
+                    fmt::format("a second table, beside that of line {}; allowed: one table in a "
+                                "file",
+                                best.heading.line));
       }
-      if (table && (!best || table->rank() >= best->rank())) {
+      if (!table.heading.names.empty() &&
+          std::tie(table.wanted, table.rows.count) >= std::tie(best.wanted, best.rows.count)) {
         best = std::move(table);
       }
     }
-    if (!best) {
+    if (best.heading.names.empty()) {
       throw error(1, "heading",
                   "no line names the columns; allowed: a heading of at least two names, as "
                   "frequency_Hz,impedance_magnitude_ohm,impedance_phase_deg");
     }
-    for (const std::size_t each : tables) {
-      const auto [first, second] = std::minmax(each, best->heading.line);
-      if (first != second) {
-        throw error(second, "heading",
-                    fmt::format("a second table, beside that of line {}; allowed: one table in a "
-                                "file",
-                                first));
-      }
+    FoundTable found;
+    warn_of_rest(best.rows, found.warnings);
+    for (std::size_t i = best.rows.begin; i < best.rows.end; i = content_[i + 1]) {
+      found.rows.push_back(lines_[i]);
     }
-    return {best->heading, best->rows->found, warning_of_rest(*best)};
+    found.heading = std::move(best.heading);
+    return found;
   }
 
  private:
-  /// That of the heading at a line, which passes over the line of its units.
-  std::optional<Table> table_at(std::size_t& line) {
-    std::optional<Heading> heading = heading_of(lines_[line], 2);
-    if (!heading) {
-      return std::nullopt;
+  /// That of the heading at a line, which passes over the line of its units; else one without names.
+  Table table_at(std::size_t& line) {
+    Table table;
+    table.heading = heading_of(lines_[line], 2);
+    if (table.heading.names.empty()) {
+      return table;
     }
-    const bool rows_follow = begins_rows(line + 1, *heading);
-    const bool rows_are_near = begins_rows(line + 2, *heading);
-    const auto below = rows_are_near ? heading_of(lines_[line + 1], 1) : std::nullopt;
-    std::size_t begin = line + 1;
-    if (below && is_line_of_units(*below, *heading, is_wanted_)) {
-      join(*heading, *below);
-      begin = ++line + 1;
+    const Rows form{table.heading.separator, table.heading.names.size()};
+    table.rows = rows_from(content_[line + 1], form);
+    const Rows below = rows_from(content_[line + 2], form);
+    const auto is_remark = [&] {
+      return table.rows.count == 0 && cells_of(lines_[line + 1].text, form.separator).size() == 1;
+    };
+    if (below.count > 0 && (join_units(line + 1, table.heading) || is_remark())) {
+      table.rows = below;
+      ++line;
+    } else if (table.rows.count > 0 && line > 0) {
+      join_units(line - 1, table.heading);
     }
-    // Seldom they stand above it.
-    const auto above = line > 0 && rows_follow ? heading_of(lines_[line - 1], 2) : std::nullopt;
-    if (above && above->line + 1 == heading->line && above->separator == heading->separator &&
-        above->names.size() == heading->names.size() &&
-        std::all_of(above->names.begin(), above->names.end(), is_unit)) {
-      join(*heading, *above);
-    }
-    const bool wanted = (rows_follow || rows_are_near) && is_wanted_(heading->names);
-    // A remark may stand between the heading and its rows.
-    if (wanted && !begins_rows(begin, *heading) &&
-        cells_of(lines_[begin].text, heading->separator).size() == 1) {
-      ++begin;
-    }
-    return Table{*heading, rows_from(begin, *heading), wanted};
+    table.wanted = table.rows.count > 0 && is_wanted_(table.heading.names);
+    return table;
   }
 
-  bool begins_rows(std::size_t at, const Heading& heading) const {
-    const std::size_t first = at < lines_.size() ? content_[at] : lines_.size();
-    return first < lines_.size() &&
-           (begins_with_number(lines_[first], heading) || is_labelled(lines_[first], heading));
+  /// Joins the units on a line below the heading, or seldom above it, to its names.
+  /// @return there are some
+  bool join_units(std::size_t at, Heading& heading) const {
+    const Heading units = heading_of(lines_[at], 1);
+    const Names& names = units.names;
+    if (names.empty() || units.separator != heading.separator ||
+        names.size() > heading.names.size()) {
+      return false;
+    }
+    const bool above = units.line + 1 == heading.line && names.size() == heading.names.size() &&
+                       std::all_of(names.begin(), names.end(), is_unit);
+    const bool below = units.line == heading.line + 1 &&
+                       (std::any_of(names.begin(), names.end(), is_unit_or_in_brackets) ||
+                        (is_wanted_(heading.names) && !is_wanted_(names)));
+    for (std::size_t i = 0; (above || below) && i < names.size(); ++i) {
+      const bool has_brackets = names[i].find_first_of("([") != std::string::npos;
+      heading.names[i] += names[i].empty() ? ""
+                          : has_brackets   ? " " + names[i]
+                                           : fmt::format(" [{}]", names[i]);
+    }
+    return above || below;
   }
 
-  std::shared_ptr<const Rows> rows_from(std::size_t at, const Heading& heading) {
-    const std::size_t columns = heading.names.size();
-    const std::size_t begin = content_[at];
-    if (rows_ && rows_->begin == begin && rows_->separator == heading.separator &&
-        rows_->columns == columns) {
-      return rows_;  // Of many comments above them each may be the heading.
+  Rows rows_from(std::size_t begin, Rows rows) {
+    if (last_.begin == begin && last_.separator == rows.separator &&
+        last_.columns == rows.columns) {
+      return last_;  // Of many comments above them each may be the heading.
     }
-    Rows rows{begin, heading.separator, columns};
-    if (begin < lines_.size() && !begins_with_number(lines_[begin], heading)) {
-      rows.is_row = is_labelled;
-    }
+    rows.begin = begin;
+    rows.labelled = begin < lines_.size() && !rows.has(lines_[begin]);
     for (rows.end = begin; rows.end < lines_.size(); rows.end = content_[rows.end + 1]) {
-      const Line& line = lines_[rows.end];
-      if (trimmed(line.text) == "END" || !rows.is_row(line, heading)) {
+      if (trimmed(lines_[rows.end].text) == "END" || !rows.has(lines_[rows.end])) {
         break;
       }
-      rows.found.push_back(line);
+      ++rows.count;
     }
-    return rows_ = std::make_shared<const Rows>(std::move(rows));
+    last_ = rows.count > 0 ? rows : last_;
+    return rows;
   }
 
   /// Of the lines below the rows, if they do not begin with `END`.
-  std::string warning_of_rest(const Table& table) const {
-    const Rows& rows = *table.rows;
-    if (rows.found.empty() || rows.end == lines_.size() ||
-        trimmed(lines_[rows.end].text) == "END") {
-      return {};
+  void warn_of_rest(const Rows& rows, std::vector<std::string>& warnings) const {
+    if (rows.count == 0 || rows.end == lines_.size() || trimmed(lines_[rows.end].text) == "END") {
+      return;
     }
     const Line& below = lines_[rows.end];
-    const bool has_rows =
-        std::any_of(lines_.begin() + static_cast<std::ptrdiff_t>(rows.end), lines_.end(),
-                    [&](const Line& each) {
-                      return !is_comment(each.text) && rows.is_row(each, table.heading) &&
-                             cells_of(each.text, table.heading.separator).size() > 1;
-                    });
-    if (has_rows) {
+    const auto is_row = [&](const Line& each) {
+      return !is_comment(each.text) && rows.has(each) &&
+             cells_of(each.text, rows.separator).size() > 1;
+    };
+    if (std::any_of(lines_.begin() + static_cast<std::ptrdiff_t>(rows.end), lines_.end(), is_row)) {
       throw error(below.number, "row",
                   fmt::format("\"{}\" ends the table, and rows stand below it; allowed: one "
                               "table in a file, its rows without a break",
                               shortened(below.text)));
     }
-    return fmt::format("Line {}, \"{}\", stands below the table and is not read.", below.number,
-                       shortened(below.text));
+    warnings.push_back(fmt::format("Line {}, \"{}\", stands below the table and is not read.",
+                                   below.number, shortened(below.text)));
   }
 
   SceneError error(std::size_t line, const char* key, const std::string& message) const {
@@ -245,12 +202,12 @@ class TableSearch {
   const IsWanted& is_wanted_;
   std::vector<Line> lines_;
   std::vector<std::size_t> content_;  ///< of each line, the next that is no comment
-  std::shared_ptr<const Rows> rows_;  ///< the last
+  Rows last_;
 };
 
 }  // namespace
 
-std::optional<Heading> heading_of(const Line& line, std::size_t least_cells) {
+Heading heading_of(const Line& line, std::size_t least_cells) {
   std::string_view text = line.text;
   if (is_comment(text)) {
     text.remove_prefix(text.find_first_of("#!%") + 1);
@@ -258,14 +215,14 @@ std::optional<Heading> heading_of(const Line& line, std::size_t least_cells) {
   Heading heading;
   heading.line = line.number;
   heading.separator = separator_of(text);
-  std::vector<Cell> cells = cells_of(text, heading.separator);
-  while (!cells.empty() && cells.back().text.empty()) {
+  Cells cells = cells_of(text, heading.separator);
+  while (!cells.empty() && is_blank(cells.back())) {
     cells.pop_back();
   }
   if (cells.size() < least_cells || cells.size() > most_cells ||
       std::any_of(cells.begin(), cells.end(),
-                  [&](const Cell& each) { return is_numeric_in(each.text, heading.separator); })) {
-    return std::nullopt;
+                  [&](const Cell& each) { return is_numeric(each.text, heading.separator); })) {
+    return {};
   }
   for (const Cell& each : cells) {
     heading.names.emplace_back(each.text);
@@ -276,11 +233,6 @@ std::optional<Heading> heading_of(const Line& line, std::size_t least_cells) {
 
 FoundTable find_table(const scene_file::Source& source, const IsWanted& is_wanted) {
   return TableSearch(source, is_wanted).find();
-}
-
-std::string shortened(std::string_view text) {
-  constexpr std::size_t most = 40;
-  return std::string(trimmed(text).substr(0, most));
 }
 
 }  // namespace sonoglide::identify

@@ -3,9 +3,7 @@
 
 #include <cstddef>
 #include <functional>
-#include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "host_sim/scene_file/source.hpp"
@@ -21,8 +19,8 @@ struct Heading {
   char separator = ',';
 };
 
-/// The line as a heading: as many cells at least, none of them a number.
-std::optional<Heading> heading_of(const Line& line, std::size_t least_cells);
+/// The line as a heading: as many cells at least, none of them a number. Without names it is none.
+Heading heading_of(const Line& line, std::size_t least_cells);
 
 /// Whether names are those of the table that is wanted.
 using IsWanted = std::function<bool(const std::vector<std::string>& names)>;
@@ -30,17 +28,14 @@ using IsWanted = std::function<bool(const std::vector<std::string>& names)>;
 struct FoundTable {
   Heading heading;
   std::vector<Line> rows;
-  std::string warning;  ///< of what stands below the rows; empty where nothing does
+  std::vector<std::string> warnings;  ///< each a sentence
 };
 
-/// The heading is the line of words above rows of numbers that is wanted; of several the one with as
-/// many names as its rows have cells, then the one with the most rows, then the last. A line of units
+/// The heading is the line of words above rows of numbers that is wanted; of several the one with
+/// the most rows, then the last. A line of units
 /// below it is joined to it in brackets. The rows end at a line `END`, at a line that does not begin
 /// with a number, or at the end of the text.
 /// @throws scene_file::SceneError  no heading, a second table, or rows below the end of the table
 FoundTable find_table(const scene_file::Source& source, const IsWanted& is_wanted);
-
-/// The beginning of a text, for a message.
-std::string shortened(std::string_view text);
 
 }  // namespace sonoglide::identify

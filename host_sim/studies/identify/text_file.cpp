@@ -14,59 +14,57 @@ namespace {
 
 using scene_file::SceneError;
 
-[[noreturn]] void refuse(const std::string& file, const std::string& message) {
-  throw SceneError({file, 1, 1}, "file", message);
+[[noreturn]] void refuse(const std::string& file, std::string_view message) {
+  throw SceneError(
+      {file, 1, 1}, "file",
+      fmt::format("{}; allowed: a text file of measurements, ASCII or UTF-8, up to {} MB", message,
+                  most_bytes >> 20U));
 }
 
-void require_text(const std::string& file, std::string_view text) {
-  constexpr std::string_view allowed = "allowed: a text file of measurements, ASCII or UTF-8";
-  const auto starts_with = [&](std::string_view mark) { return text.substr(0, 2) == mark; };
-  if (starts_with("\xff\xfe") || starts_with("\xfe\xff")) {
-    refuse(file, fmt::format("is text in UTF-16; {}", allowed));
+std::string bytes_of(std::istream& stream) {
+  constexpr std::size_t piece = std::size_t{1} << 20U;
+  std::string bytes;
+  while (stream && bytes.size() <= most_bytes) {
+    const std::size_t size = bytes.size();
+    bytes.resize(size + piece);
+    stream.read(bytes.data() + size, static_cast<std::streamsize>(piece));
+    bytes.resize(size + static_cast<std::size_t>(stream.gcount()));
   }
-  const std::size_t zero = text.find('\0');
-  if (zero != std::string_view::npos) {
-    refuse(file, fmt::format("is no text, byte {} is 0; {}", zero, allowed));
-  }
-  if (text.find_first_not_of(" \t\r\n") == std::string_view::npos) {
-    refuse(file, fmt::format("is empty; {}", allowed));
-  }
+  return bytes;
 }
 
 }  // namespace
 
 scene_file::Source read_text(const std::filesystem::path& path) {
   const std::string file = path.string();
-  constexpr std::string_view allowed = "allowed: a readable file of measurements";
   std::error_code error;
   if (std::filesystem::is_directory(path, error)) {
-    refuse(file, fmt::format("is a directory; {}", allowed));
+    refuse(file, "is a directory");
   }
   errno = 0;
   std::ifstream stream(path, std::ios::binary);
   if (!stream) {
-    refuse(file, fmt::format("{}; {}", std::generic_category().message(errno), allowed));
+    refuse(file, std::generic_category().message(errno));
   }
-  std::string text;
-  constexpr std::size_t piece = std::size_t{1} << 20U;
-  while (stream && text.size() <= most_bytes) {
-    const std::size_t size = text.size();
-    text.resize(size + piece);
-    stream.read(text.data() + size, static_cast<std::streamsize>(piece));
-    text.resize(size + static_cast<std::size_t>(stream.gcount()));
-  }
+  std::string text = bytes_of(stream);
+  const std::string_view mark = std::string_view(text).substr(0, 2);
   if (stream.bad()) {
-    refuse(file, fmt::format("cannot be read; {}", allowed));
+    refuse(file, "cannot be read");
   }
   if (text.size() > most_bytes) {
-    refuse(file, fmt::format("is too large; allowed: up to {} MB", most_bytes >> 20U));
+    refuse(file, "is too large");
   }
-  require_text(file, text);
-  constexpr std::string_view mark = "\xef\xbb\xbf";
-  if (text.compare(0, mark.size(), mark) == 0) {
-    text.erase(0, mark.size());
+  if (mark == "\xff\xfe" || mark == "\xfe\xff") {
+    refuse(file, "is text in UTF-16");
   }
-  return {file, std::move(text)};
+  if (const std::size_t zero = text.find('\0'); zero != std::string::npos) {
+    refuse(file, fmt::format("is no text, byte {} is 0", zero));
+  }
+  if (text.find_first_not_of(" \t\r\n") == std::string::npos) {
+    refuse(file, "is empty");
+  }
+  const bool marked = text.compare(0, 3, "\xef\xbb\xbf") == 0;
+  return {file, marked ? text.substr(3) : std::move(text)};
 }
 
 std::vector<Line> lines_of(const scene_file::Source& source) {

@@ -1,7 +1,6 @@
 #include "host_sim/studies/identify/unit.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <regex>
 
@@ -13,97 +12,64 @@ namespace {
 
 constexpr double radians_a_degree = 3.14159265358979323846 / 180.0;
 
-struct Names {
+/// Scales of prefixes, and in this order their names (`kil` and `micr` as in kilohm and microhm).
+constexpr double scales[] = {1e-12, 1e-9, 1e-6, 1e-3, 1e3, 1e6, 1e9, 1e12};
+constexpr std::string_view prefix_names[] = {" pico ",     " nano ",     " micro micr ", " milli ",
+                                             " kilo kil ", " mega meg ", " giga ",       " tera "};
+
+struct Spelled {
   Dimension dimension;
   double scale;
-  std::string_view names;  ///< in small letters, but for units of one letter
-};
-
-constexpr Names units[] = {
-    {Dimension::frequency, 1.0, "hz hertz"},
-    {Dimension::impedance, 1.0, "ohm ohms"},
-    {Dimension::admittance, 1.0, "S s siemens mho mhos"},
-    {Dimension::angle, radians_a_degree, "deg degs degree degrees"},
-    {Dimension::angle, 1.0, "rad radian radians"},
-    {Dimension::level, 1.0, "db dbohm decibel decibels"},
-    {Dimension::other, 1.0, "V A W F H C K N m g % va pa volt volts vpp vrms bar dbm min sec"}};
-
-struct Prefix {
-  double scale;
+  std::string_view names;
+  /// Eight prefixes, a blank where the unit has none, then eight further spellings of them.
   std::string_view symbols;
-  std::string_view names;  ///< `kil` and `micr` as in kilohm and microhm
 };
 
-constexpr Prefix prefixes[] = {{1e-12, "p", " pico "},      {1e-9, "n", " nano "},
-                               {1e-6, "u", " micro micr "}, {1e-3, "m", " milli "},
-                               {1e3, "kK", " kilo kil "},   {1e6, "M", " mega meg "},
-                               {1e9, "G", " giga "},        {1e12, "T", " tera "}};
+/// All in small letters, as in names of columns, `mhz` is a megahertz: nobody measures in millihertz.
+constexpr Spelled units[] = {
+    {Dimension::frequency, 1.0, "Hz HZ Hertz hertz HERTZ", "    kMGT    K   "},
+    {Dimension::frequency, 1.0, "hz", "    kmgt    KMGT"},
+    {Dimension::impedance, 1.0, "Ohm ohm Ohms ohms", "pnumkMGT    K   "},
+    {Dimension::impedance, 1.0, "OHM OHMS", "pnumkMGTPNU K   "},
+    {Dimension::admittance, 1.0, "S", "pnumk    NU K   "},
+    {Dimension::admittance, 1.0, "s", "pnumk"},
+    {Dimension::admittance, 1.0, "Siemens siemens Mho mho Mhos mhos", "pnumkMGT    K   "},
+    {Dimension::admittance, 1.0, "SIEMENS MHO MHOS", "pnumkMGTPNU K   "},
+    // Grad is no gigaradian.
+    {Dimension::angle, radians_a_degree,
+     "deg Deg DEG degs Degs DEGS degree Degree DEGREE degrees Degrees DEGREES", "pnum"},
+    {Dimension::angle, 1.0, "rad Rad RAD radian Radian RADIAN radians Radians RADIANS", "pnum"},
+    {Dimension::level, 1.0, "dB db DB dBohm dBOhm dBOHM dbohm DBOHM decibel decibels", ""},
+    {Dimension::other, 1.0,
+     "V A W F H C K N m g % VA va Pa pa volt volts Volt Volts Vpp vpp Vrms vrms bar dBm dbm min "
+     "sec "
+     "Sec",
+     "pnumkMGT    K   "}};
 
-std::optional<double> scale_of_symbol(std::string_view symbol) {
-  for (const Prefix& each : prefixes) {
-    if (symbol.size() == 1 && each.symbols.find(symbol) != std::string_view::npos) {
-      return each.scale;
-    }
-  }
-  return std::nullopt;
+std::optional<double> scale_of_symbol(std::string_view prefix, std::string_view symbols) {
+  const std::size_t at = prefix.size() == 1 ? symbols.find(prefix) : std::string_view::npos;
+  return at == std::string_view::npos ? std::nullopt
+                                      : std::optional(scales[at % std::size(scales)]);
 }
 
-std::optional<double> scale_of_name(std::string_view name) {
-  for (const Prefix& each : prefixes) {
-    if (is_among(lower_case(name), each.names)) {
-      return each.scale;
-    }
-  }
-  return std::nullopt;
-}
-
-/// The scale of `prefix` before `unit`, both as they stand in the word.
-std::optional<double> scale_before(std::string_view prefix, std::string_view unit,
-                                   Dimension dimension) {
-  if (prefix.empty()) {
-    return 1.0;
-  }
-  if (const auto scale = scale_of_name(prefix)) {
-    return unit.size() > 1 ? scale : std::nullopt;
-  }
-  const bool small = lower_case(unit) == unit;
-  const bool capital = !small && lower_case(unit)[0] != unit[0] && unit.size() > 1 &&
-                       std::none_of(unit.begin(), unit.end(),
-                                    [](unsigned char each) { return std::islower(each) != 0; });
-  std::string symbol(prefix);
-  if (dimension == Dimension::frequency) {
-    // All in small letters, as in names of columns: nobody measures in millihertz.
-    symbol = small && symbol != "k" ? std::string(1, static_cast<char>(std::toupper(symbol[0])))
-                                    : symbol;
-    const bool is_known =
-        symbol == "k" || symbol == "K" || symbol == "M" || symbol == "G" || symbol == "T";
-    return is_known && prefix.size() == 1 ? scale_of_symbol(symbol) : std::nullopt;
-  }
-  const bool is_angle = dimension == Dimension::angle;  // Grad is no gigaradian.
-  if ((unit == "s" || is_angle) && (lower_case(symbol) != symbol || (is_angle && symbol == "k"))) {
-    return std::nullopt;
-  }
-  if (unit == "S" && (symbol == "M" || symbol == "G" || symbol == "T" || symbol == "P")) {
-    return std::nullopt;
-  }
-  if ((capital || unit == "S") && (symbol == "U" || symbol == "N" || symbol == "P")) {
-    symbol = lower_case(symbol);
-  }
-  return scale_of_symbol(symbol);
+std::optional<double> scale_of_name(std::string_view prefix) {
+  const auto* const found =
+      std::find_if(std::begin(prefix_names), std::end(prefix_names),
+                   [&](std::string_view each) { return is_among(lower_case(prefix), each); });
+  return found == std::end(prefix_names) ? std::nullopt
+                                         : std::optional(scales[found - prefix_names]);
 }
 
 /// 10^3, 10**3, 1e3, 1000; nothing of what is no whole power of ten.
 std::optional<double> power_of_ten(const std::string& text) {
   const std::size_t mark = std::min(text.find_first_of("^*"), text.size());
   const std::size_t power = std::min(text.find_first_not_of("^*", mark), text.size());
-  double factor = 0.0;
-  double exponent = 1.0;
-  if (!parse_number(text.substr(0, mark), false, factor) ||
-      (power < text.size() &&
-       (factor != 10.0 || !parse_number(text.substr(power), false, exponent)))) {
+  const auto factor = number_of(text.substr(0, mark));
+  const auto exponent = power < text.size() ? number_of(text.substr(power)) : 1.0;
+  if (!factor || !exponent || (power < text.size() && *factor != 10.0)) {
     return std::nullopt;
   }
-  const double digits = std::log10(factor) * exponent;
+  const double digits = std::log10(*factor) * *exponent;
   constexpr double most = 15.0;
   return std::abs(digits - std::round(digits)) < 1e-9 && std::abs(digits) <= most
              ? std::optional(std::pow(10.0, std::round(digits)))
@@ -113,24 +79,25 @@ std::optional<double> power_of_ten(const std::string& text) {
 }  // namespace
 
 std::optional<double> scale_of_prefix(std::string_view word) {
-  const auto scale = scale_of_symbol(word);
+  const auto scale = scale_of_symbol(word, "pnumkMGT    K   ");
   return scale ? scale : scale_of_name(word);
 }
 
 std::optional<Unit> unit_of_word(std::string_view word) {
-  const std::string small = lower_case(word);
   std::optional<Unit> found;
   std::size_t longest = 0;
-  for (const Names& each : units) {
+  for (const Spelled& each : units) {
     for (const Cell& name : cells_of(each.names, ' ')) {
       const std::size_t size = name.text.size();
-      const std::size_t prefix = word.size() - std::min(size, word.size());
-      const std::string_view ending = (size == 1 ? word : std::string_view(small)).substr(prefix);
-      if (size <= longest || ending != name.text) {
+      if (size <= longest || size > word.size() || word.substr(word.size() - size) != name.text) {
         continue;
       }
-      if (const auto scale =
-              scale_before(word.substr(0, prefix), word.substr(prefix), each.dimension)) {
+      const std::string_view prefix = word.substr(0, word.size() - size);
+      auto scale = prefix.empty() ? 1.0 : scale_of_symbol(prefix, each.symbols);
+      if (!scale && size > 1 && !each.symbols.empty()) {
+        scale = scale_of_name(prefix);
+      }
+      if (scale) {
         found = Unit{each.dimension, *scale * each.scale};
         longest = size;
       }

@@ -16,6 +16,7 @@
 #include "host_sim/scene_file/suggestion.hpp"
 #include "host_sim/studies/identify/identification.hpp"
 #include "host_sim/studies/identify/measured_table.hpp"
+#include "host_sim/studies/identify/plain_text.hpp"
 
 namespace sonoglide::identify::friction {
 namespace {
@@ -266,7 +267,7 @@ double Readings::rounding() const {
 }
 
 Readings read_readings(const scene_file::Source& source) {
-  const MeasuredTable table(source, are_names_of_readings);
+  const MeasuredTable table(source, find_table(source, are_names_of_readings));
   if (table.rows() > most_readings) {
     throw table.heading_error(
         fmt::format("{} rows below it; allowed: up to {}, means of readings at one velocity count "

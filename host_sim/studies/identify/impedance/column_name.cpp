@@ -3,17 +3,76 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <optional>
+#include <regex>
 #include <utility>
 
-#include "host_sim/studies/identify/impedance/vocabulary.hpp"
 #include "host_sim/studies/identify/plain_text.hpp"
-#include "host_sim/studies/identify/table_search.hpp"
 #include "host_sim/studies/identify/unit.hpp"
 
 namespace sonoglide::identify::impedance {
 namespace {
 
-constexpr std::string_view alphabet = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ";
+constexpr std::string_view letters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ";
+
+/// What a word says beside its role and subject: that it turns the sign, or that the name is of another
+/// quantity, a ratio or an element of an equivalent circuit.
+enum class Kind { plain, minus, ratio, element };
+
+struct Meaning {
+  Role role = Role::none;
+  Subject subject = Subject::unknown;
+  Kind kind = Kind::plain;
+};
+
+struct Words {
+  Meaning meaning;
+  std::string_view words;  ///< in small letters, between blanks
+};
+
+constexpr Words vocabulary[] = {
+    {{Role::frequency}, " f freq frequency frequencies frequenz frequence frecuencia frequenza "},
+    {{Role::none, Subject::impedance}, " z zin z11 imp impedance impedanz impedancia impedenza "},
+    {{Role::none, Subject::admittance}, " y yin y11 adm admittance admittanz "},
+    {{Role::magnitude}, " | abs mag magnitude modulus module mod betrag amplitude "},
+    {{Role::phase}, " phase theta th phi phz arg argument angle ang fase winkel phasenwinkel "},
+    {{Role::real}, " ' re real realteil "},
+    {{Role::imaginary}, " '' im imag img imaginary "},
+    {{Role::real, Subject::impedance}, " r rs resistance zr "},
+    {{Role::imaginary, Subject::impedance}, " x xs reactance zi "},
+    {{Role::real, Subject::admittance}, " g gp conductance "},
+    {{Role::imaginary, Subject::admittance}, " b bp susceptance "},
+    {{}, " trace data meas measured value values the of in for part component series "},
+    {{Role::none, Subject::unknown, Kind::minus}, " neg negative minus "},
+    {{Role::none, Subject::unknown, Kind::ratio},
+     " gain transmission reflection gamma loss swr vswr attenuation "},
+    {{Role::none, Subject::unknown, Kind::element}, " cp cs lp ls rp q d "}};
+
+std::optional<Meaning> find_word(std::string_view word) {
+  const auto* const found =
+      std::find_if(std::begin(vocabulary), std::end(vocabulary),
+                   [&](const Words& each) { return is_among(word, each.words); });
+  return found == std::end(vocabulary) ? std::nullopt : std::optional(found->meaning);
+}
+
+/// Of a word in small letters, and of a part with its z or y in one word, as `absz` and `zphase`.
+std::optional<Meaning> meaning_of(const std::string& word) {
+  if (word.size() > 1 && word[0] == 's' && std::isdigit(static_cast<unsigned char>(word[1])) != 0) {
+    return Meaning{Role::none, Subject::unknown, Kind::ratio};
+  }
+  auto found = find_word(word);
+  for (const bool before : {true, false}) {
+    const char letter = word.size() < 3 ? '\0' : before ? word.front() : word.back();
+    if (found || (letter != 'z' && letter != 'y')) {
+      continue;
+    }
+    const auto part = find_word(before ? word.substr(1) : word.substr(0, word.size() - 1));
+    if (part && part->subject == Subject::unknown && part->role > Role::frequency) {
+      found = {part->role, letter == 'z' ? Subject::impedance : Subject::admittance};
+    }
+  }
+  return found;
+}
 
 /// Goes through a name from its beginning to its end and takes every part of it, or says which it
 /// does not understand.
@@ -23,6 +82,12 @@ class Reader {
     while (at_ < text_.size()) {
       take_next();
     }
+    if (is_other_) {
+      const bool is_ratio = result_.is_ratio;
+      result_ = {};
+      result_.is_ratio = is_ratio;
+      return;
+    }
     conclude();
   }
 
@@ -31,35 +96,29 @@ class Reader {
  private:
   void take_next() {
     const char each = text_[at_];
-    if (std::isalpha(static_cast<unsigned char>(each)) != 0 || each == '%') {
-      take_word();
-    } else if (std::string_view("([{</,").find(each) != std::string_view::npos) {
+    if (std::string_view("([{</,").find(each) != std::string_view::npos) {
       take_enclosed(each != '/' && each != ',');
-    } else if (each == '|') {
-      bars_ = true;
-      set_role(Role::magnitude, "|");
-      ++at_;
-    } else if (each == '\'') {
-      const bool twice = text_.compare(at_, 2, "''") == 0;
-      set_role(twice ? Role::imaginary : Role::real, twice ? "''" : "'");
-      at_ += twice ? 2 : 1;
     } else if (each == '-') {
       take_minus();
     } else if (std::string_view(" _.:;)]}>").find(each) != std::string_view::npos) {
       ++at_;
     } else {
-      const std::size_t end = std::min(text_.find(' ', at_), text_.size());
-      refuse(text_.substr(at_, end - at_));
-      at_ = end;
+      take_word();
     }
   }
 
-  /// Of letters and digits; behind it may stand the rest of a unit.
+  /// Letters and digits, a bar or quotes; behind a word may stand the rest of a unit.
   void take_word() {
-    const std::size_t end = std::min(
-        text_.find_first_not_of(std::string(alphabet) + "0123456789", at_ + 1), text_.size());
-    const std::string word = text_.substr(at_, end - at_);
-    at_ = end;
+    const std::size_t begin = at_;
+    if (std::isalpha(static_cast<unsigned char>(text_[at_])) != 0 || text_[at_] == '%') {
+      at_ = std::min(text_.find_first_not_of(std::string(letters) + "0123456789", at_ + 1),
+                     text_.size());
+    } else if (text_[at_] == '|' || text_[at_] == '\'') {
+      at_ += text_.compare(at_, 2, "''") == 0 ? 2 : 1;
+    } else {
+      at_ = std::min(text_.find(' ', at_), text_.size());
+    }
+    const std::string word = text_.substr(begin, at_ - begin);
     if (!take(word) && !take_prefix(word) && !take_parts(word)) {
       refuse(word);
     }
@@ -67,61 +126,48 @@ class Reader {
 
   bool take(const std::string& word) {
     const std::string small = lower_case(word);
-    if (small == "neg" || small == "negative" || small == "minus") {
-      negative_ = !negative_;
-      return true;
-    }
     const auto unit = unit_of_word(word);
     const auto meaning = meaning_of(small);
     // THz is no theta of Z; a capital F behind a name is no frequency, but a farad.
     const bool is_unit =
         unit && (!meaning || (unit->dimension != Dimension::other && word.size() > 1) ||
-                 (unit->dimension == Dimension::other && words_ > 0 && small != word));
-    if (meaning && !is_unit) {
-      ++words_;
-      take_meaning(*meaning, word);
-      return true;
-    }
-    if (small == "p" && words_ == 0) {
+                 (unit->dimension == Dimension::other && has_word_ && small != word));
+    if (is_unit) {
+      add(*unit, word);
+    } else if (meaning) {
+      add(*meaning, word);
+    } else if (small == "p" && !has_word_) {
       is_letter_p_ = true;
-      return true;
     }
-    if (unit) {
-      take_unit(*unit, word);
-      return true;
-    }
-    return is_filler(small);
+    return is_unit || meaning || (small == "p" && !has_word_);
   }
 
   /// `k Ohm`, `kilo-ohm`.
   bool take_prefix(const std::string& word) {
-    if (!scale_of_prefix(word) || at_ >= text_.size() ||
-        std::string_view(" -_").find(text_[at_]) == std::string_view::npos) {
+    const bool parted =
+        at_ < text_.size() && (text_[at_] == ' ' || text_[at_] == '-' || text_[at_] == '_');
+    if (!scale_of_prefix(word) || !parted) {
       return false;
     }
-    const std::size_t end = std::min(text_.find_first_not_of(alphabet, at_ + 1), text_.size());
+    const std::size_t end = std::min(text_.find_first_not_of(letters, at_ + 1), text_.size());
     const auto unit = unit_of_word(word + text_.substr(at_ + 1, end - at_ - 1));
     if (!unit || unit->dimension == Dimension::other) {
       return false;
     }
-    take_unit(*unit, word);
+    add(*unit, word);
     at_ = end;
     return true;
   }
 
-  /// Words that are told apart by a capital: PhaseDeg, ZmagkOhm.
+  /// Words that are told apart by a capital: PhaseDeg, ZmagKOhm.
   bool take_parts(const std::string& word) {
     for (std::size_t i = 1; i < word.size(); ++i) {
       const bool capital = std::isupper(static_cast<unsigned char>(word[i])) != 0 &&
                            std::islower(static_cast<unsigned char>(word[i - 1])) != 0;
-      if (!capital) {
-        continue;
-      }
-      const std::string rest = word.substr(i);
       const Reader before(*this);
-      const bool refused = !result_.not_understood.empty();
-      if (take(word.substr(0, i)) && (take(rest) || take_parts(rest)) &&
-          result_.not_understood.empty() != refused) {
+      if (capital && take(word.substr(0, i)) &&
+          (take(word.substr(i)) || take_parts(word.substr(i))) &&
+          result_.not_understood == before.result_.not_understood) {
         return true;
       }
       *this = before;
@@ -137,13 +183,14 @@ class Reader {
     const bool minus = in_brackets && inside.size() > 1 && inside.front() == '-';
     inside.erase(0, minus ? 1 : 0);
     const auto unit = unit_of_text(inside);
-    const bool is_word = meaning_of(inside) && lower_case(inside) == inside;
-    const bool words = inside.find_first_of("/*^") == std::string::npos &&
-                       inside.find_first_of("0123456789") != 0 && (in_brackets || !inside.empty());
+    const bool is_word = lower_case(inside) == inside && meaning_of(inside);
+    const bool has_words = inside.find_first_of("/*^") == std::string::npos &&
+                           inside.find_first_of("0123456789") != 0 &&
+                           (in_brackets || !inside.empty());
     if (unit && (unit->dimension != Dimension::other || !is_word)) {
       negative_ = negative_ != minus;
-      take_unit(*unit, inside);
-    } else if (words || minus) {
+      add(*unit, inside);
+    } else if (has_words || minus) {
       ++at_;
       return;
     } else {
@@ -165,37 +212,38 @@ class Reader {
     ++at_;
   }
 
-  void take_meaning(const Meaning& word, const std::string& as_it_stands) {
-    if (word.role != Role::none) {
-      set_role(word.role, as_it_stands);
-    }
-    if (word.subject != Subject::unknown) {
-      if (result_.subject != Subject::unknown && result_.subject != word.subject) {
-        refuse(as_it_stands);
-      }
-      result_.subject = word.subject;
-    }
+  void add(const Meaning& said, const std::string& word) {
+    negative_ = negative_ != (said.kind == Kind::minus);
+    result_.is_ratio = result_.is_ratio || said.kind == Kind::ratio;
+    is_other_ = is_other_ || said.kind == Kind::ratio || said.kind == Kind::element;
+    const bool says = said.role != Role::none || said.subject != Subject::unknown;
+    has_word_ = has_word_ || (says && word[0] != '|' && word[0] != '\'');
+    merge(result_.role, said.role, Role::none, word);
+    merge(result_.subject, said.subject, Subject::unknown, word);
   }
 
-  void set_role(Role role, const std::string& as_it_stands) {
-    result_.may_be_phase = result_.may_be_phase || role == Role::phase;
-    if (result_.role != Role::none && result_.role != role) {
-      refuse(as_it_stands);
-    }
-    result_.role = role;
-  }
-
-  void take_unit(const Unit& unit, const std::string& as_it_stands) {
-    if (unit.dimension == Dimension::level && unit.scale == 1.0) {
+  void add(const Unit& unit, const std::string& word) {
+    if (unit.dimension == Dimension::level) {
       result_.decibel = true;
       return;
     }
     if (unit_ && (unit_->dimension != unit.dimension || unit_->scale != unit.scale)) {
-      refuse(as_it_stands);
+      refuse(word);
       has_two_units_ = true;
     }
     unit_ = unit;
-    unit_text_ = as_it_stands;
+    unit_text_ = word;
+  }
+
+  /// Two that say something have to say the same.
+  template <typename Said>
+  void merge(Said& known, Said said, Said nothing, const std::string& word) {
+    if (said != nothing) {
+      if (known != nothing && known != said) {
+        refuse(word);
+      }
+      known = said;
+    }
   }
 
   void refuse(const std::string& part) {
@@ -207,7 +255,7 @@ class Reader {
   /// The role that a unit gives, and whether the unit is one of what is named.
   void conclude() {
     const bool named = result_.role != Role::none || result_.subject != Subject::unknown;
-    const bool only_bars = bars_ && words_ == 0;
+    const bool only_bars = !has_word_ && text_.find('|') != std::string::npos;
     const bool is_other = unit_ && unit_->dimension == Dimension::other;
     const bool level_of_unknown = (is_other || (result_.decibel && !unit_)) &&
                                   result_.role == Role::magnitude &&
@@ -217,12 +265,12 @@ class Reader {
       result_ = {};
       return;
     }
-    if (is_letter_p_) {
-      const bool is_angle = unit_ && unit_->dimension == Dimension::angle && !named;
-      is_angle ? set_role(Role::phase, "p") : refuse("p");
+    const bool is_angle = unit_ && unit_->dimension == Dimension::angle;
+    if (is_letter_p_ && (named || !is_angle)) {
+      refuse("p");
     }
     if (unit_) {
-      take_role_of_unit(named);
+      add_role_of_unit(named);
     }
     if (result_.role == Role::none && result_.subject != Subject::unknown) {
       result_.role = Role::magnitude;
@@ -238,35 +286,28 @@ class Reader {
     result_.has_unit = unit_.has_value();
     if (!result_.not_understood.empty()) {
       // A name of which nothing is a sweep's but a unit is of something else, if not of an angle.
-      const bool may_be_phase = unit_ && unit_->dimension == Dimension::angle && !has_two_units_;
-      if (!named && !is_letter_p_ && !may_be_phase) {
+      if (!named && !is_letter_p_ && (!is_angle || has_two_units_)) {
         result_.not_understood.clear();
       }
       result_.role = Role::none;
     }
   }
 
-  void take_role_of_unit(bool named) {
+  void add_role_of_unit(bool named) {
     const Dimension dimension = unit_->dimension;
     const Subject subject = dimension == Dimension::impedance    ? Subject::impedance
                             : dimension == Dimension::admittance ? Subject::admittance
                                                                  : Subject::unknown;
+    const Role role = dimension == Dimension::frequency ? Role::frequency
+                      : dimension == Dimension::angle   ? Role::phase
+                                                        : Role::magnitude;
     result_.is_bare_unit = !named;
-    if (!named) {
-      set_role(dimension == Dimension::frequency ? Role::frequency
-               : dimension == Dimension::angle   ? Role::phase
-                                                 : Role::magnitude,
-               unit_text_);
-    }
-    const bool right = result_.role == Role::frequency ? dimension == Dimension::frequency
-                       : result_.role == Role::phase   ? dimension == Dimension::angle
-                                                       : subject != Subject::unknown;
-    if (!right || (subject != Subject::unknown && result_.subject != Subject::unknown &&
-                   result_.subject != subject)) {
+    merge(result_.role, named ? Role::none : role, Role::none, unit_text_);
+    const bool is_part = result_.role != Role::frequency && result_.role != Role::phase;
+    if (is_part ? subject == Subject::unknown : result_.role != role) {
       refuse(unit_text_);
-    } else if (subject != Subject::unknown) {
-      result_.subject = subject;
     }
+    merge(result_.subject, subject, Subject::unknown, unit_text_);
   }
 
   std::string text_;
@@ -275,10 +316,10 @@ class Reader {
   std::optional<Unit> unit_;
   std::string unit_text_;
   bool negative_ = false;
-  bool bars_ = false;
+  bool is_other_ = false;
   bool is_letter_p_ = false;
   bool has_two_units_ = false;
-  int words_ = 0;  ///< of the vocabulary
+  bool has_word_ = false;  ///< of the vocabulary that says something
 };
 
 }  // namespace
@@ -295,7 +336,11 @@ ColumnName read_name(std::string_view name) {
     unknown.not_understood = shortened(name);
     return unknown;
   }
-  return is_of_other_quantity(name) ? ColumnName() : Reader(plain_text(translated(name))).result();
+  // As a Bode 100, ZPlot and HFSS have it: Trace 1:, Z'(a), Z''(b), Z(1,1); then S_11.
+  static const std::regex additions(R"(Trace [0-9]:|\(1,1\)|('+)\([ab]\))");
+  static const std::regex scattering("(^|[^A-Za-z0-9])[Ss]_+(?=[0-9])");
+  const std::string plain = std::regex_replace(plain_text(name), additions, "$1");
+  return Reader(std::regex_replace(plain, scattering, "$01S")).result();
 }
 
 }  // namespace sonoglide::identify::impedance

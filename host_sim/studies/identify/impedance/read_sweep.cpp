@@ -10,6 +10,7 @@
 #include "host_sim/studies/identify/impedance/read_touchstone.hpp"
 #include "host_sim/studies/identify/impedance/read_traces.hpp"
 #include "host_sim/studies/identify/impedance/sweep_columns.hpp"
+#include "host_sim/studies/identify/plain_text.hpp"
 
 namespace sonoglide::identify::impedance {
 namespace {
@@ -24,16 +25,16 @@ std::string counted_frequencies(std::size_t count) {
 }
 
 /// Of a second form that the table has, against the one that is read.
-void require_agreement(const MeasuredTable& table, const SweepColumns& other, const Sweep& sweep) {
-  std::vector<std::string> ignored;
-  const std::vector<Complex> all_S = admittances_S(table, table, other, ignored);
+void require_agreement(const MeasuredTable& table, const Sweep& other, const SweepColumns& columns,
+                       const Sweep& sweep) {
   std::vector<std::size_t> off;
   for (std::size_t row = 0; row < table.rows(); ++row) {
     const Complex read_S = sweep.admittance_S[row];
     // A phase may be of either form.
-    const double difference_S = other.rectangular()
-                                    ? std::abs(all_S[row] - read_S)
-                                    : std::abs(std::abs(all_S[row]) - std::abs(read_S));
+    const Complex other_S = other.admittance_S[row];
+    const double difference_S = columns.rectangular()
+                                    ? std::abs(other_S - read_S)
+                                    : std::abs(std::abs(other_S) - std::abs(read_S));
     if (difference_S > large * std::abs(read_S)) {
       off.push_back(row);
     }
@@ -41,43 +42,35 @@ void require_agreement(const MeasuredTable& table, const SweepColumns& other, co
   constexpr std::size_t many = 10;
   if (off.size() * many > table.rows()) {
     throw table.error(
-        off.front(), other.first.index,
+        off.front(), columns.first.index,
         fmt::format("contradicts {}, as other rows do; allowed: columns that agree", sweep.format));
   }
 }
 
-/// What a reader of the result has to know of a column that names no unit.
-std::string assumed_unit(const ColumnName& name) {
-  if (name.has_unit) {
-    return {};
-  }
-  return name.subject == Subject::impedance    ? ", in ohm as its name has no unit"
-         : name.subject == Subject::admittance ? ", in siemens as its name has no unit"
-                                               : "";
-}
-
 Sweep read_table(const scene_file::Source& source) {
-  const MeasuredTable table(source, are_names_of_a_sweep);
+  const MeasuredTable table(source, find_table(source, are_names_of_a_sweep));
   const FoundColumns found = find_columns(table);
-  Sweep sweep;
-  sweep.format = found.forms.front().description();
-  sweep.has_phase = found.forms.front().second.has_value();
-  sweep.warnings = found.warnings;
-  sweep.warnings.insert(sweep.warnings.end(), table.warnings().begin(), table.warnings().end());
-  sweep.frequency_Hz = frequencies_Hz(table, found.frequency);
+  const SweepColumns& form = found.forms.front();
+  Sweep sweep = sweep_of(table, table, found.frequency, form);
+  sweep.format = form.description();
+  sweep.warnings.insert(sweep.warnings.begin(), found.warnings.begin(), found.warnings.end());
   constexpr double lowest_of_ultrasound_Hz = 1000.0;
-  if (!found.frequency.name.has_unit &&
+  if (!found.frequency.has_unit &&
       *std::max_element(sweep.frequency_Hz.begin(), sweep.frequency_Hz.end()) <
           lowest_of_ultrasound_Hz) {
     sweep.warnings.push_back(
         fmt::format("\"{}\" has no unit in its name: it is taken for a frequency in Hz.",
                     shortened(table.names()[found.frequency.index])));
   }
-  sweep.admittance_S = admittances_S(table, table, found.forms.front(), sweep.warnings);
   for (std::size_t i = 1; i < found.forms.size(); ++i) {
-    require_agreement(table, found.forms[i], sweep);
+    require_agreement(table, sweep_of(table, table, found.frequency, found.forms[i]),
+                      found.forms[i], sweep);
   }
-  sweep.format = "a table of " + sweep.format + assumed_unit(found.forms.front().first.name);
+  const bool is_assumed = !form.first.has_unit && form.first.subject != Subject::unknown;
+  const char* const unit = form.first.subject == Subject::impedance ? "ohm" : "siemens";
+  sweep.format =
+      fmt::format("a table of {}{}", sweep.format,
+                  is_assumed ? fmt::format(", in {} as its name has no unit", unit) : "");
   return sweep;
 }
 

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <filesystem>
 #include <optional>
 #include <regex>
@@ -15,11 +14,9 @@
 namespace sonoglide::identify::impedance {
 namespace {
 
-using scene_file::SceneError;
-
 struct Options {
   double frequency_scale = 1e9;
-  char parameter = 's';
+  std::string parameter = "S";
   std::string format = "ma";
   double reference_ohm = 50.0;
 };
@@ -38,10 +35,11 @@ std::optional<Options> options_of(std::string_view line) {
       "(^| )r *([0-9](?:[0-9.,e+-]*[0-9.])?),? *([a-z]*ohms?)?(?=[ ,]|$)", std::regex::icase);
   if (std::smatch found; std::regex_search(plain, found, resistance)) {
     const auto unit = unit_of_word(found[3].matched ? found.str(3) : "ohm");
-    if (!unit || !parse_number(found.str(2), true, options.reference_ohm)) {
+    const auto number = number_of(found.str(2));
+    if (!unit || !number) {
       return std::nullopt;
     }
-    options.reference_ohm *= unit->scale;
+    options.reference_ohm = *number * unit->scale;
     plain = found.prefix().str() + found.suffix().str();
   }
   for (const Cell& each : cells_of(plain, ' ')) {
@@ -50,7 +48,7 @@ std::optional<Options> options_of(std::string_view line) {
     if (unit && unit->dimension == Dimension::frequency) {
       options.frequency_scale = unit->scale;
     } else if (is_among(word, " s y z g h ")) {
-      options.parameter = word.front();
+      options.parameter = word == "s" ? "S" : word == "y" ? "Y" : word == "z" ? "Z" : "";
     } else if (is_among(word, " ri ma db ")) {
       options.format = word;
     } else if (!word.empty()) {
@@ -64,9 +62,9 @@ class TouchstoneReader {
  public:
   explicit TouchstoneReader(const scene_file::Source& source) : source_(source) {
     for (const Line& line : lines_of(source)) {
-      const std::string_view text = line.text.substr(0, line.text.find('!'));
-      if (!ended_ && !trimmed(text).empty()) {
-        take({text, line.number});
+      const Line text{line.text.substr(0, line.text.find('!')), line.number};
+      if (!ended_ && !trimmed(text.text).empty()) {
+        take(text, trimmed(text.text));
       }
     }
     if (count_ && *count_ != rows_.size()) {
@@ -79,28 +77,23 @@ class TouchstoneReader {
 
   Sweep read() const {
     const MeasuredTable table(
-        source_, {{"frequency", "first number", "second number"}, {1, 1, 1}, 1, separator()},
-        rows_);
-    Sweep sweep;
-    sweep.has_phase = true;
+        source_,
+        {{{"frequency", "first number", "second number"}, {1, 1, 1}, 1, separator()}, rows_, {}});
     ColumnName frequency;
     frequency.scale = options_.frequency_scale;
-    sweep.frequency_Hz = frequencies_Hz(table, {frequency, 0});
-    sweep.admittance_S = admittances_S(table, table, columns(), sweep.warnings);
+    Sweep sweep = sweep_of(table, table, frequency, columns());
     if (!has_options_) {
       sweep.warnings.emplace_back(
           "The file has no option line; it is taken for frequencies in GHz and S11 as magnitude "
           "and degrees over 50 ohm, as the standard has it.");
     }
-    sweep.format = fmt::format("a Touchstone file of {} ({}) over {:g} ohm",
-                               static_cast<char>(std::toupper(options_.parameter)), options_.format,
-                               options_.reference_ohm);
+    sweep.format = fmt::format("a Touchstone file of {} ({}) over {:g} ohm", options_.parameter,
+                               options_.format, options_.reference_ohm);
     return sweep;
   }
 
  private:
-  void take(const Line& line) {
-    const std::string_view text = trimmed(line.text);
+  void take(const Line& line, std::string_view text) {
     if (text.front() == '[') {
       take_keyword(line, text);
     } else if (in_information_) {
@@ -123,7 +116,7 @@ class TouchstoneReader {
       throw error(line,
                   "is no option line; allowed: # [Hz|kHz|MHz|GHz] [S|Y|Z] [RI|MA|DB] [R ohm]");
     }
-    if (options->parameter == 'g' || options->parameter == 'h' || !(options->reference_ohm > 0.0)) {
+    if (options->parameter.empty() || !(options->reference_ohm > 0.0)) {
       throw error(
           line, "names what one port does not have; allowed: S, Y or Z over a resistance above 0");
     }
@@ -135,21 +128,20 @@ class TouchstoneReader {
     const std::size_t close = std::min(text.find(']'), text.size() - 1);
     const std::string keyword = lower_case(text.substr(1, close - 1));
     const std::string_view value = trimmed(text.substr(close + 1));
-    double number = 0.0;
-    number = parse_number(value, false, number) ? number : 0.0;
-    if (keyword == "version") {
-      if (number < 2.0 || number >= 3.0) {
-        throw error(line, "is no version that is known; allowed: 2.0, or none for version 1");
+    const double number = number_of(value).value_or(0.0);
+    const auto require = [&](bool right, std::string_view allowed) {
+      if (!right) {
+        throw error(line, fmt::format("[{}] is {}; allowed: {}", shortened(keyword),
+                                      shortened(value), allowed));
       }
+    };
+    if (keyword == "version") {
+      require(number >= 2.0 && number < 3.0, "2.0, or no such line for version 1");
       is_version_2_ = true;
     } else if (keyword == "number of ports") {
-      if (number != 1.0) {
-        throw error(line, fmt::format("has {} ports; allowed: 1", value));
-      }
+      require(number == 1.0, "1");
     } else if (keyword == "number of frequencies") {
-      if (number < 1.0) {
-        throw error(line, "is no number of frequencies; allowed: from 1");
-      }
+      require(number >= 1.0, "from 1");
       count_ = static_cast<std::size_t>(number);
       line_of_count_ = line.number;
     } else if (keyword == "reference") {
@@ -163,13 +155,14 @@ class TouchstoneReader {
       throw error(line,
                   fmt::format("[{}] is not known; allowed: Version, Number of Ports, Number of "
                               "Frequencies, Reference, Matrix Format, Network Data, End",
-                              keyword));
+                              shortened(keyword)));
     }
   }
 
   void take_reference(const Line& line, std::string_view text) {
     expects_reference_ = false;
-    if (!parse_number(text, false, options_.reference_ohm) || options_.reference_ohm <= 0.0) {
+    options_.reference_ohm = number_of(text).value_or(0.0);
+    if (!(options_.reference_ohm > 0.0)) {
       throw error(line, fmt::format("\"{}\" is no reference of one port; allowed: a resistance "
                                     "above 0",
                                     shortened(text)));
@@ -188,24 +181,28 @@ class TouchstoneReader {
 
   /// Version 1 normalises Y and Z to the reference.
   SweepColumns columns() const {
-    const double reference_ohm = is_version_2_ ? 1.0 : options_.reference_ohm;
-    const bool rectangular = options_.format == "ri";
-    ColumnName first;
-    first.role = rectangular ? Role::real : Role::magnitude;
-    first.subject = Subject::reflection;
-    first.decibel = options_.format == "db";
-    first.has_unit = true;
-    if (options_.parameter != 's') {
-      const bool is_admittance = options_.parameter == 'y';
-      first.subject = is_admittance ? Subject::admittance : Subject::impedance;
-      first.scale = is_admittance ? 1.0 / reference_ohm : reference_ohm;
+    const bool in_parts = options_.format == "ri";
+    const char* const magnitude = options_.format == "db" ? "|Z| (dB)" : "|Z|";
+    SweepColumns columns{read_name(in_parts ? "Re(Z)" : magnitude),
+                         read_name(in_parts ? "Im(Z)" : "phase (deg)"), options_.reference_ohm};
+    ColumnName& first = columns.first;
+    ColumnName& second = *columns.second;
+    first.index = 1;
+    second.index = 2;
+    const double unit_ohm = is_version_2_ ? 1.0 : options_.reference_ohm;
+    if (options_.parameter == "S") {
+      first.subject = Subject::reflection;
+    } else if (options_.parameter == "Y") {
+      first.subject = Subject::admittance;
+      first.scale = 1.0 / unit_ohm;
+    } else {
+      first.scale = unit_ohm;
     }
-    ColumnName second = rectangular ? first : read_name("phase (deg)");
-    second.role = rectangular ? Role::imaginary : Role::phase;
-    return {{first, 1}, SweepColumn{second, 2}, options_.reference_ohm};
+    second.scale *= in_parts ? first.scale : 1.0;
+    return columns;
   }
 
-  SceneError error(const Line& line, const std::string& message) const {
+  scene_file::SceneError error(const Line& line, const std::string& message) const {
     const std::size_t first = std::min(line.text.find_first_not_of(" \t"), line.text.size());
     return {{source_.file, line.number, first + 1}, "touchstone", message};
   }
@@ -222,24 +219,18 @@ class TouchstoneReader {
   bool ended_ = false;
 };
 
+/// A bare # begins an empty comment of a table.
+bool is_of_touchstone(const Line& line) {
+  return lower_case(line.text.substr(0, 9)) == "[version]" ||
+         (line.text.find_first_not_of("# \t") != std::string_view::npos && options_of(line.text));
+}
+
 }  // namespace
 
 bool is_touchstone(const scene_file::Source& source) {
-  if (lower_case(std::filesystem::path(source.file).extension().string()) == ".s1p") {
-    return true;
-  }
-  const std::string_view text = source.text;
-  for (std::size_t at = text.find_first_of("#["); at != std::string_view::npos;
-       at = text.find_first_of("#[", at + 1)) {
-    const bool begins_line = at == 0 || text[at - 1] == '\n' || text[at - 1] == '\r';
-    const std::string_view line = text.substr(at, text.find_first_of("\r\n", at) - at);
-    // A bare # begins an empty comment of a table.
-    const bool has_words = begins_line && line.find_first_not_of("# \t") != std::string_view::npos;
-    if (has_words && (lower_case(line.substr(0, 9)) == "[version]" || options_of(line))) {
-      return true;
-    }
-  }
-  return false;
+  const std::vector<Line> lines = lines_of(source);
+  return lower_case(std::filesystem::path(source.file).extension().string()) == ".s1p" ||
+         std::any_of(lines.begin(), lines.end(), is_of_touchstone);
 }
 
 Sweep read_touchstone(const scene_file::Source& source) {

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <deque>
 #include <optional>
 
 #include "host_sim/studies/identify/impedance/sweep_columns.hpp"
@@ -25,44 +24,34 @@ struct Setting {
 
 struct Trace {
   Setting format;
-  Heading heading;
-  std::vector<Line> rows;
+  FoundTable table;
 };
 
-/// How the screen shows a trace says nothing of it.
-bool is_of_screen(const std::string& format) {
-  const std::string small = lower_case(format);
-  return small.rfind("log", 0) == 0 || small.rfind("lin", 0) == 0;
-}
-
-ColumnName name_of(Role role, Subject subject) {
-  ColumnName name;
-  name.role = role;
-  name.subject = subject;
-  name.has_unit = true;
-  return name;
+SweepColumns columns_of(std::string_view one, std::string_view other) {
+  SweepColumns columns{read_name(one), read_name(other)};
+  columns.first.index = 1;
+  columns.second->index = 1;
+  return columns;
 }
 
 /// The pair of two names; a phase whose unit is not named is in degrees, as the instrument has it.
-std::optional<SweepColumns> pair_of(const std::string& one, const std::string& other) {
-  SweepColumns pair{{read_name(one), 1}, SweepColumn{read_name(other), 1}};
-  const Role first = pair.first.name.role;
-  ColumnName& second = pair.second->name;
-  if (first == Role::magnitude && second.role == Role::phase) {
-    second.scale *= second.has_unit ? 1.0 : read_name("phase (deg)").scale;
-    second.has_unit = true;
-    return pair;
+std::optional<SweepColumns> pair_of(std::string_view one, std::string_view other) {
+  SweepColumns pair = columns_of(one, other);
+  const bool is_polar = pair.first.role == Role::magnitude && pair.second->role == Role::phase;
+  if (is_polar && !pair.second->has_unit) {
+    pair.second->scale *= read_name("phase (deg)").scale;
+    pair.second->has_unit = true;
   }
-  return first == Role::real && second.role == Role::imaginary ? std::optional(pair) : std::nullopt;
+  const bool is_pair = is_polar || (pair.rectangular() && pair.second->role == Role::imaginary);
+  return is_pair ? std::optional(pair) : std::nullopt;
 }
 
 /// That of a text, as `R-X` or `ADMITTANCE MAG PHASE (DEG)`.
 std::optional<SweepColumns> pair_of(const std::string& text) {
   for (std::size_t i = 1; i + 1 < text.size(); ++i) {
-    if (between_names.find(text[i]) != std::string_view::npos) {
-      if (auto pair = pair_of(text.substr(0, i), text.substr(i + 1))) {
-        return pair;
-      }
+    const bool parts = between_names.find(text[i]) != std::string_view::npos;
+    if (const auto pair = parts ? pair_of(text.substr(0, i), text.substr(i + 1)) : std::nullopt) {
+      return pair;
     }
   }
   return std::nullopt;
@@ -71,60 +60,56 @@ std::optional<SweepColumns> pair_of(const std::string& text) {
 class TraceReader {
  public:
   explicit TraceReader(const scene_file::Source& source) : source_(source) {
-    split();
-    for (const Trace& each : traces_) {
-      if (!each.rows.empty()) {
-        tables_.emplace_back(source, each.heading, each.rows);
+    bool in_rows = false;
+    for (const Line& line : lines_of(source)) {
+      const bool is_row = in_rows && line.text.find('"') == std::string_view::npos;
+      if (line.text.find("TRACE:") != std::string_view::npos) {
+        traces_.emplace_back();
+        in_rows = false;
+      } else if (is_row) {
+        traces_.back().table.rows.push_back(line);
+      } else if (traces_.empty()) {
+        take_setting(line, "PARAMETER:", parameter_);
+      } else if (line.text.find("Frequency") != std::string_view::npos) {
+        traces_.back().table.heading = heading_of(line, 2);
+        in_rows = true;
+      } else {
+        take_setting(line, "FORMAT:", traces_.back().format);
       }
     }
-    if (tables_.empty()) {
+    const auto has_no_rows = [](const Trace& each) { return each.table.rows.empty(); };
+    traces_.erase(std::remove_if(traces_.begin(), traces_.end(), has_no_rows), traces_.end());
+    if (traces_.empty()) {
       throw SceneError({source.file, 1, 1}, "trace",
                        "has no readings below \"Frequency\"; allowed: at least one");
     }
   }
 
   Sweep read() const {
-    Sweep sweep;
-    const MeasuredTable& a = tables_.front();
-    const bool complex = is_complex(a);
-    const MeasuredTable& b = tables_.size() > 1 && !complex ? tables_[1] : a;
-    sweep.frequency_Hz = frequencies_Hz(a, {name_of(Role::frequency, Subject::unknown), 0});
+    const MeasuredTable a(source_, traces_.front().table);
+    const std::vector<double> imaginary =
+        a.names().size() > 2 ? a.numbers(2) : std::vector<double>();
+    const bool is_complex =
+        std::any_of(imaginary.begin(), imaginary.end(), [](double each) { return each != 0.0; });
+    const bool has_two = traces_.size() > 1 && !is_complex;
+    const MeasuredTable b(source_, traces_[has_two ? 1 : 0].table);
     if (b.numbers(0) != a.numbers(0)) {
-      throw SceneError({source_.file, traces_[1].rows.back().number, 1}, "trace",
+      throw SceneError({source_.file, traces_[1].table.rows.back().number, 1}, "trace",
                        "trace B has other frequencies than trace A; allowed: the same");
     }
-    const SweepColumns columns = complex    ? complex_trace(sweep)
-                                 : &a == &b ? alone(sweep)
-                                            : pair(sweep);
-    sweep.has_phase = columns.second.has_value();
-    sweep.admittance_S = admittances_S(a, b, columns, sweep.warnings);
+    std::vector<std::string> warnings;
+    const SweepColumns columns = is_complex ? complex_trace(warnings)
+                                 : has_two  ? two_traces(warnings)
+                                            : one_trace(warnings);
+    Sweep sweep = sweep_of(a, b, {}, columns);
+    sweep.warnings.insert(sweep.warnings.begin(), warnings.begin(), warnings.end());
     sweep.format = fmt::format("an analyser's export of {}", columns.description());
     return sweep;
   }
 
  private:
-  void split() {
-    bool in_rows = false;
-    for (const Line& line : lines_of(source_)) {
-      const bool is_row = in_rows && line.text.find('"') == std::string_view::npos;
-      if (line.text.find("TRACE:") != std::string_view::npos) {
-        traces_.emplace_back();
-        in_rows = false;
-      } else if (is_row) {
-        traces_.back().rows.push_back(line);
-      } else if (traces_.empty()) {
-        take_setting(line, "PARAMETER:", parameter_);
-      } else if (line.text.find("Frequency") != std::string_view::npos) {
-        traces_.back().heading = identify::heading_of(line, 2).value_or(Heading());
-        in_rows = true;
-      } else {
-        take_setting(line, "FORMAT:", traces_.back().format);
-      }
-    }
-  }
-
-  /// That of a line, if it names it.
-  void take_setting(const Line& line, std::string_view name, Setting& setting) const {
+  /// That of a line, if it names it. LOG and LIN say how the screen shows a trace.
+  static void take_setting(const Line& line, std::string_view name, Setting& setting) {
     const std::size_t at = line.text.find(name);
     if (at == std::string_view::npos) {
       return;
@@ -133,78 +118,65 @@ class TraceReader {
         std::min(line.text.find_first_not_of(' ', at + name.size()), line.text.size());
     const std::string_view behind = line.text.substr(from);
     const std::string text(trimmed(behind.substr(0, behind.find('"'))));
-    if (is_of_screen(text)) {
-      return;
+    if (const std::string way = lower_case(text.substr(0, 3)); way != "log" && way != "lin") {
+      setting = {text, line.number, from + 1};
     }
-    setting = {text, line.number, from + 1};
-    // As `CP-D`.
-    if (is_equivalent_element(lower_case(text.substr(0, text.find_first_of(between_names))))) {
-      throw error(setting, "is no impedance");
-    }
-  }
-
-  static bool is_complex(const MeasuredTable& table) {
-    if (table.names().size() < 3) {
-      return false;
-    }
-    const std::vector<double> parts = table.numbers(2);
-    return std::any_of(parts.begin(), parts.end(), [](double each) { return each != 0.0; });
   }
 
   /// Of `COMPLEX Z-Y` the first letter counts.
-  SweepColumns complex_trace(Sweep& sweep) const {
+  SweepColumns complex_trace(std::vector<std::string>& warnings) const {
     const Setting& named = parameter_.text.empty() ? traces_.front().format : parameter_;
-    std::string text = lower_case(named.text);
-    text = std::string(trimmed(text.rfind("complex", 0) == 0 ? text.substr(7) : text));
+    const bool says_complex = lower_case(named.text).rfind("complex", 0) == 0;
+    const std::string_view text =
+        trimmed(std::string_view(named.text).substr(says_complex ? 7 : 0));
     const Subject subject = read_name(text.substr(0, text.find_first_of(between_names))).subject;
     if (subject == Subject::unknown && !named.text.empty()) {
       throw error(named, "is no complex trace that is known");
     }
     if (subject == Subject::unknown) {
-      sweep.warnings.emplace_back(
+      warnings.emplace_back(
           "The file does not name what its complex trace is; it is taken for an impedance in ohm.");
     }
-    if (tables_.size() > 1) {
-      sweep.warnings.emplace_back("Trace A is complex and is read; trace B is not read.");
+    if (traces_.size() > 1) {
+      warnings.emplace_back("Trace A is complex and is read; trace B is not read.");
     }
-    return {{name_of(Role::real, subject), 1}, SweepColumn{name_of(Role::imaginary, subject), 2}};
+    const bool is_admittance = subject == Subject::admittance;
+    SweepColumns columns = columns_of(is_admittance ? "G" : "R", is_admittance ? "B" : "X");
+    columns.second->index = 2;
+    return columns;
   }
 
-  SweepColumns pair(Sweep& sweep) const {
+  SweepColumns two_traces(std::vector<std::string>& warnings) const {
     const Setting& a = traces_[0].format;
     const Setting& b = traces_[1].format;
     const bool by_parameter = !parameter_.text.empty();
     if (!by_parameter && a.text.empty() && b.text.empty()) {
-      sweep.warnings.emplace_back(
+      warnings.emplace_back(
           "The file does not name what its traces are; A is taken for |Z| in ohm, B for its phase "
           "in degrees.");
-      return *pair_of("|Z| (ohm)", "phase");
+      return *pair_of("|Z|", "phase");
     }
     const auto found = by_parameter ? pair_of(parameter_.text) : pair_of(a.text, b.text);
-    if (!found && by_parameter) {
-      throw error(parameter_, "is no pair of traces that is known");
-    }
     if (!found) {
-      throw error({fmt::format("{}\" and \"{}", a.text, b.text), (b.text.empty() ? a : b).line,
-                   (b.text.empty() ? a : b).column},
-                  "are no pair of traces that is known");
+      Setting named = by_parameter ? parameter_ : b.text.empty() ? a : b;
+      named.text = by_parameter ? named.text : fmt::format("{}\" and \"{}", a.text, b.text);
+      throw error(named, by_parameter ? "is no pair of traces that is known"
+                                      : "are no pair of traces that is known");
     }
     return *found;
   }
 
-  SweepColumns alone(Sweep& sweep) const {
-    const Setting& named =
-        traces_.front().format.text.empty() ? parameter_ : traces_.front().format;
-    SweepColumns columns{{name_of(Role::magnitude, Subject::impedance), 1}, std::nullopt};
-    if (!named.text.empty()) {
-      const auto pair = pair_of(named.text);
-      columns.first.name = pair ? pair->first.name : read_name(named.text);
-      if (columns.first.name.role != Role::magnitude) {
-        throw error(named, "alone, without trace B");
-      }
+  SweepColumns one_trace(std::vector<std::string>& warnings) const {
+    const Setting& format = traces_.front().format;
+    const Setting& named = format.text.empty() ? parameter_ : format;
+    const std::string text = named.text.empty() ? "|Z|" : named.text;
+    SweepColumns columns = pair_of(text).value_or(columns_of(text, ""));
+    if (columns.first.role != Role::magnitude) {
+      throw error(named, "alone, without trace B");
     }
-    sweep.warnings.emplace_back(
+    warnings.emplace_back(
         "The file has no readings of trace B: the magnitudes of A are fitted alone.");
+    columns.second.reset();
     return columns;
   }
 
@@ -218,7 +190,6 @@ class TraceReader {
   const scene_file::Source& source_;
   Setting parameter_;
   std::vector<Trace> traces_;
-  std::deque<MeasuredTable> tables_;
 };
 
 }  // namespace

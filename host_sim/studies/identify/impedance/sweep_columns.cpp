@@ -7,244 +7,230 @@
 #include <cmath>
 
 #include "host_sim/studies/identify/impedance/circuit.hpp"
+#include "host_sim/studies/identify/plain_text.hpp"
 #include "host_sim/studies/identify/unit.hpp"
 
 namespace sonoglide::identify::impedance {
 namespace {
 
 using Complex = std::complex<double>;
+using Names = std::vector<ColumnName>;
 
 constexpr const char* what_is_read =
     "magnitude and phase, real and imaginary part, or a magnitude alone, as "
     "impedance_magnitude_ohm,impedance_phase_deg; S11 is read from Touchstone files, .s1p";
 
-const char* subject_in_words(Subject subject) {
-  return subject == Subject::admittance ? "an admittance" : "an impedance";
-}
-
-std::string listed(const std::vector<std::string>& names) {
-  constexpr std::size_t most = 20;
-  std::string list;
-  for (std::size_t i = 0; i < std::min(names.size(), most); ++i) {
-    list += fmt::format("{}{}", i == 0 ? "" : ", ", shortened(names[i]));
-  }
-  return names.size() > most ? list + fmt::format(" and {} more", names.size() - most) : list;
-}
+constexpr Subject subjects[] = {Subject::impedance, Subject::admittance};
 
 /// The columns of a table by what their names say.
 class Columns {
  public:
   explicit Columns(const MeasuredTable& table) : table_(table) {
-    for (std::size_t i = 0; i < table.names().size(); ++i) {
-      columns_.push_back({read_name(table.names()[i]), i});
-      has_ratio_ = has_ratio_ || is_of_ratio(table.names()[i]);
+    for (const std::string& each : table.names()) {
+      columns_.push_back(read_name(each));
+      columns_.back().index = columns_.size() - 1;
+      has_ratio_ = has_ratio_ || columns_.back().is_ratio;
     }
   }
 
-  SweepColumn frequency() const {
-    const std::vector<SweepColumn> found = of(Role::frequency, Subject::unknown);
+  ColumnName frequency() const {
+    const Names found = of(Role::frequency, Subject::unknown);
+    require_one(found);
     if (found.empty()) {
       refuse_what_is_not_understood();
-      throw table_.heading_error(
-          fmt::format("no column is a frequency among {}; allowed: a name as frequency_Hz",
-                      listed(table_.names())));
+      throw table_.heading_error(fmt::format(
+          "no column is a frequency among {}; allowed: a name as frequency_Hz", all_names()));
     }
-    require_one(found);
     return found.front();
   }
 
-  /// Every pair that is there once.
-  std::vector<SweepColumns> pairs() const {
+  std::vector<SweepColumns> forms() const {
     std::vector<SweepColumns> found;
-    for (const Subject subject : {Subject::impedance, Subject::admittance}) {
-      add_pair(candidates(Role::magnitude, subject), phases(subject), found);
-      add_pair(candidates(Role::real, subject), candidates(Role::imaginary, subject), found);
+    // Of magnitude and phase one may say of what they are, or |Z| stand beside a phase of Y.
+    for (const auto& [subject, of_phase] : {std::pair(subjects[0], subjects[0]),
+                                            {subjects[1], subjects[1]},
+                                            {subjects[0], subjects[1]},
+                                            {subjects[1], subjects[0]}}) {
+      if (subject == of_phase || found.empty()) {
+        add_pair(candidates(Role::magnitude, subject), candidates(Role::phase, of_phase), found);
+      }
+      if (subject == of_phase) {
+        add_pair(candidates(Role::real, subject), candidates(Role::imaginary, subject), found);
+      }
     }
     if (found.empty()) {
-      // |Z| beside a phase of Y.
-      add_pair(candidates(Role::magnitude, Subject::impedance), phases(Subject::admittance), found);
-      add_pair(candidates(Role::magnitude, Subject::admittance), phases(Subject::impedance), found);
+      found = {{magnitude_alone(), std::nullopt}};
+    }
+    for (const Subject subject : subjects) {
+      const Names further = of(Role::magnitude, subject);
+      if (further.size() == 1 && !further.front().is_bare_unit && !has(found, further.front())) {
+        found.push_back({further.front(), std::nullopt});
+      }
     }
     return found;
   }
 
-  /// Of a magnitude that stands beside a pair of others.
-  void add_further_magnitudes(std::vector<SweepColumns>& forms) const {
-    for (const Subject subject : {Subject::impedance, Subject::admittance}) {
-      const std::vector<SweepColumn> found = of(Role::magnitude, subject);
-      if (found.size() == 1 && !found.front().name.is_bare_unit &&
-          std::none_of(forms.begin(), forms.end(), [&](const SweepColumns& each) {
-            return each.first.index == found.front().index;
-          })) {
-        forms.push_back({found.front(), std::nullopt});
+  /// Of columns that a person may think are read; beside a magnitude alone, of all others.
+  void warn_of_unread(FoundColumns& read) const {
+    std::vector<std::string> unread;
+    for (const ColumnName& each : columns_) {
+      const bool is_of_sweep =
+          !read.forms.front().second || each.role != Role::none || !each.not_understood.empty();
+      if (is_of_sweep && each.index != read.frequency.index && !has(read.forms, each)) {
+        unread.push_back(fmt::format("\"{}\"", name(each)));
       }
+    }
+    if (!unread.empty()) {
+      read.warnings.push_back(fmt::format(
+          "Read is {}. Not read: {}.", read.forms.front().description(), fmt::join(unread, ", ")));
     }
   }
 
-  SweepColumns magnitude_alone() const {
+ private:
+  Names of(Role role, Subject subject) const {
+    Names found;
+    std::copy_if(
+        columns_.begin(), columns_.end(), std::back_inserter(found),
+        [&](const ColumnName& each) { return each.role == role && each.subject == subject; });
+    return found;
+  }
+
+  /// Those that say of what they are; else those that do not, which are of an impedance. A phase is of
+  /// whatever there is, but of a ratio.
+  Names candidates(Role role, Subject subject) const {
+    const Names found = of(role, subject);
+    const bool may_be_unnamed = role == Role::phase ? !has_ratio_ : subject == Subject::impedance;
+    return found.empty() && may_be_unnamed ? of(role, Subject::unknown) : found;
+  }
+
+  static void add_pair(const Names& first, const Names& second, std::vector<SweepColumns>& found) {
+    if (first.size() == 1 && second.size() == 1) {
+      found.push_back({first.front(), second.front()});
+    }
+  }
+
+  static bool has(const std::vector<SweepColumns>& forms, const ColumnName& column) {
+    return std::any_of(forms.begin(), forms.end(), [&](const SweepColumns& each) {
+      return each.first.index == column.index ||
+             (each.second && each.second->index == column.index);
+    });
+  }
+
+  ColumnName magnitude_alone() const {
     refuse_what_is_not_understood();
     for (const Role role : {Role::magnitude, Role::phase, Role::real, Role::imaginary}) {
       for (const Subject subject : {Subject::impedance, Subject::admittance, Subject::unknown}) {
         require_one(of(role, subject));
       }
     }
-    const auto is_phase = [](const SweepColumn& each) { return each.name.role == Role::phase; };
-    const auto phase = std::find_if(columns_.begin(), columns_.end(), is_phase);
-    for (const Subject subject : {Subject::impedance, Subject::admittance}) {
-      const std::vector<SweepColumn> found = candidates(Role::magnitude, subject);
-      if (found.empty()) {
-        continue;
+    Names found = candidates(Role::magnitude, Subject::impedance);
+    found = found.empty() ? of(Role::magnitude, Subject::admittance) : found;
+    for (const ColumnName& each : columns_) {
+      if (!found.empty() && each.role == Role::phase) {
+        throw error(each,
+                    "may be the phase of another column; allowed: a name that says of what, as "
+                    "impedance_phase_deg");
       }
-      if (phase != columns_.end()) {
-        throw error(*phase,
-                    "may be the phase of another column; allowed: a name that says of what, "
-                    "as impedance_phase_deg");
-      }
-      if (found.front().name.is_bare_unit) {
-        throw error(found.front(), fmt::format("is a unit and no name; allowed: {}", what_is_read));
-      }
-      return {found.front(), std::nullopt};
-    }
-    for (const SweepColumn& each : columns_) {
-      if (each.name.role == Role::real || each.name.role == Role::imaginary) {
+      if (found.empty() && (each.role == Role::real || each.role == Role::imaginary)) {
         throw error(each,
                     fmt::format("is half of a pair, and does not tell the capacitances alone; "
                                 "allowed: {}",
                                 what_is_read));
       }
     }
-    throw table_.heading_error(
-        fmt::format("no columns of an impedance or admittance among {}; allowed: {}",
-                    listed(table_.names()), what_is_read));
-  }
-
-  /// Of columns that a person may think are read; beside a magnitude alone, of all others.
-  std::string warning_of_unread(const FoundColumns& read) const {
-    std::vector<std::string> unread;
-    for (const SweepColumn& each : columns_) {
-      const auto has = [&](const SweepColumns& form) {
-        return form.first.index == each.index || (form.second && form.second->index == each.index);
-      };
-      const bool is_of_sweep = !read.forms.front().second || each.name.role != Role::none ||
-                               !each.name.not_understood.empty();
-      if (is_of_sweep && each.index != read.frequency.index &&
-          std::none_of(read.forms.begin(), read.forms.end(), has)) {
-        unread.push_back(fmt::format("\"{}\"", shortened(table_.names()[each.index])));
-      }
-    }
-    return unread.empty() ? std::string()
-                          : fmt::format("Read is {}. Not read: {}.",
-                                        read.forms.front().description(), fmt::join(unread, ", "));
-  }
-
-  scene_file::SceneError error(const SweepColumn& column, const std::string& message) const {
-    return table_.heading_error(
-        column.index, fmt::format("\"{}\" {}", shortened(table_.names()[column.index]), message));
-  }
-
- private:
-  std::vector<SweepColumn> of(Role role, Subject subject) const {
-    std::vector<SweepColumn> found;
-    std::copy_if(columns_.begin(), columns_.end(), std::back_inserter(found),
-                 [&](const SweepColumn& each) {
-                   return each.name.role == role && each.name.subject == subject;
-                 });
-    return found;
-  }
-
-  /// Those that say of what they are; else, of an impedance, those that do not.
-  std::vector<SweepColumn> candidates(Role role, Subject subject) const {
-    std::vector<SweepColumn> found = of(role, subject);
-    return found.empty() && subject == Subject::impedance ? of(role, Subject::unknown) : found;
-  }
-
-  /// A phase need not say of what, if nothing else has one.
-  std::vector<SweepColumn> phases(Subject subject) const {
-    std::vector<SweepColumn> found = of(Role::phase, subject);
-    return found.empty() && !has_ratio_ ? of(Role::phase, Subject::unknown) : found;
-  }
-
-  static void add_pair(const std::vector<SweepColumn>& first,
-                       const std::vector<SweepColumn>& second, std::vector<SweepColumns>& found) {
-    if (first.size() == 1 && second.size() == 1) {
-      found.push_back({first.front(), second.front()});
-    }
-  }
-
-  void require_one(const std::vector<SweepColumn>& found) const {
-    if (found.size() > 1) {
+    if (found.empty()) {
       throw table_.heading_error(
-          found[1].index,
-          fmt::format("\"{}\" and \"{}\" are the same; allowed: one of them",
-                      table_.names()[found[0].index], table_.names()[found[1].index]));
+          fmt::format("no columns of an impedance or admittance among {}; allowed: {}", all_names(),
+                      what_is_read));
+    }
+    if (found.front().is_bare_unit) {
+      throw error(found.front(), fmt::format("is a unit and no name; allowed: {}", what_is_read));
+    }
+    return found.front();
+  }
+
+  void require_one(const Names& found) const {
+    if (found.size() > 1) {
+      throw table_.heading_error(found[1].index,
+                                 fmt::format("\"{}\" and \"{}\" are the same; allowed: one of them",
+                                             name(found[0]), name(found[1])));
     }
   }
 
   void refuse_what_is_not_understood() const {
-    for (const SweepColumn& each : columns_) {
-      if (!each.name.not_understood.empty()) {
+    for (const ColumnName& each : columns_) {
+      if (!each.not_understood.empty()) {
         throw error(each, fmt::format("is not understood: \"{}\" is no unit of it and no name; "
                                       "allowed: {}; units are {}",
-                                      each.name.not_understood, what_is_read, known_units()));
+                                      each.not_understood, what_is_read, known_units()));
       }
     }
   }
 
+  std::string name(const ColumnName& column) const {
+    return shortened(table_.names()[column.index]);
+  }
+
+  std::string all_names() const {
+    constexpr std::size_t most = 20;
+    std::string list;
+    for (std::size_t i = 0; i < std::min(columns_.size(), most); ++i) {
+      list += (i == 0 ? "" : ", ") + name(columns_[i]);
+    }
+    return columns_.size() > most ? list + fmt::format(" and {} more", columns_.size() - most)
+                                  : list;
+  }
+
+  scene_file::SceneError error(const ColumnName& column, const std::string& message) const {
+    return table_.heading_error(column.index, fmt::format("\"{}\" {}", name(column), message));
+  }
+
   const MeasuredTable& table_;
-  std::vector<SweepColumn> columns_;
+  Names columns_;
   bool has_ratio_ = false;
 };
 
-std::string sentence_of_assumed_subject(const MeasuredTable& table, const SweepColumns& form) {
-  return form.first.name.subject != Subject::unknown
-             ? std::string()
-             : fmt::format(
-                   "\"{}\" does not say of what it is: it is taken for an impedance in ohm.",
-                   table.names()[form.first.index]);
-}
-
-/// Gives a phase without a unit one. @return a sentence that says so; empty where it has a unit
-std::string complete_unit(SweepColumn& phase, const std::vector<double>& phases) {
-  if (phase.name.has_unit) {
-    return {};
+/// Gives a phase without a unit one, and says so.
+void complete_unit(ColumnName& phase, const std::vector<double>& phases,
+                   std::vector<std::string>& warnings) {
+  if (phase.has_unit) {
+    return;
   }
-  double most = 0.0;
-  for (const double each : phases) {
-    most = std::max(most, std::abs(each));
-  }
+  const auto [least, most] = std::minmax_element(phases.begin(), phases.end());
+  const double largest = std::max(-*least, *most);
   constexpr double most_in_radians = 3.2;
-  const bool radians = most <= most_in_radians;
-  phase.name.scale *= radians ? 1.0 : two_pi / 360.0;
-  return fmt::format(
-      "The phase has no unit in its name; as its largest value is {:.4g} it is taken for {}.", most,
-      radians ? "radians" : "degrees");
+  const bool radians = largest <= most_in_radians;
+  phase.scale *= radians ? 1.0 : two_pi / 360.0;
+  warnings.push_back(fmt::format(
+      "The phase has no unit in its name; as its largest value is {:.4g} it is taken for {}.",
+      largest, radians ? "radians" : "degrees"));
 }
 
 /// Of a magnitude alone its magnitude. Not finite or 0: it is none.
-Complex admittance_S(const SweepColumns& columns, double first_cell, double second_cell) {
-  const Subject subject = columns.first.name.subject;
-  const double value = columns.first.name.value(first_cell);
-  const double second = columns.second ? columns.second->name.value(second_cell) : 0.0;
+Complex admittance_S(const SweepColumns& columns, double value, double second) {
+  const Subject subject = columns.first.subject;
+  const bool is_admittance = subject == Subject::admittance;
   if (subject == Subject::reflection) {
     const Complex reflection =
         columns.rectangular() ? Complex(value, second) : value * std::polar(1.0, second);
     return (1.0 - reflection) / ((1.0 + reflection) * columns.reference_ohm);
   }
-  const bool is_admittance = subject == Subject::admittance;
   if (columns.rectangular()) {
     const Complex given(value, second);
     return is_admittance ? given : 1.0 / given;
   }
-  const Subject named = columns.second ? columns.second->name.subject : Subject::unknown;
-  const Subject of_phase = named == Subject::unknown ? subject : named;
+  const bool is_said = columns.second && columns.second->subject != Subject::unknown;
+  const bool of_admittance =
+      is_said ? columns.second->subject == Subject::admittance : is_admittance;
   return std::polar(std::abs(is_admittance ? value : 1.0 / value),
-                    of_phase == Subject::admittance ? second : -second);
+                    of_admittance ? second : -second);
 }
 
 }  // namespace
 
 std::string SweepColumns::description() const {
-  const std::string subject = subject_in_words(first.name.subject);
+  const std::string subject =
+      first.subject == Subject::admittance ? "an admittance" : "an impedance";
   return !second         ? "the magnitude of " + subject
          : rectangular() ? "real and imaginary part of " + subject
                          : "magnitude and phase of " + subject;
@@ -265,55 +251,54 @@ bool are_names_of_a_sweep(const std::vector<std::string>& names) {
 
 FoundColumns find_columns(const MeasuredTable& table) {
   const Columns columns(table);
-  FoundColumns found{columns.frequency(), columns.pairs(), {}};
-  if (found.forms.empty()) {
-    found.forms = {columns.magnitude_alone()};
+  FoundColumns found{columns.frequency(), columns.forms(), {}};
+  const ColumnName& first = found.forms.front().first;
+  if (first.subject == Subject::unknown) {
+    found.warnings.push_back(
+        fmt::format("\"{}\" does not say of what it is: it is taken for an impedance in ohm.",
+                    table.names()[first.index]));
   }
-  columns.add_further_magnitudes(found.forms);
-  for (const std::string& each : {sentence_of_assumed_subject(table, found.forms.front()),
-                                  columns.warning_of_unread(found)}) {
-    if (!each.empty()) {
-      found.warnings.push_back(each);
-    }
-  }
+  columns.warn_of_unread(found);
   return found;
 }
 
-std::vector<double> frequencies_Hz(const MeasuredTable& table, const SweepColumn& column) {
-  std::vector<double> result = table.numbers(column.index);
-  for (std::size_t row = 0; row < result.size(); ++row) {
-    result[row] = column.name.value(result[row]);
-    if (!(result[row] > 0.0) || !std::isfinite(result[row])) {
-      throw table.error(row, column.index, "is no frequency; allowed: above 0");
-    }
-  }
-  return result;
-}
-
-std::vector<Complex> admittances_S(const MeasuredTable& table, const MeasuredTable& second_table,
-                                   SweepColumns columns, std::vector<std::string>& warnings) {
-  const std::vector<double> first = table.numbers(columns.first.index);
-  const std::vector<double> second = columns.second ? second_table.numbers(columns.second->index)
-                                                    : std::vector<double>(first.size());
-  const bool is_magnitude =
-      !columns.rectangular() && columns.first.name.subject != Subject::reflection;
-  if (columns.second && !columns.rectangular()) {
-    if (const std::string assumed = complete_unit(*columns.second, second); !assumed.empty()) {
-      warnings.push_back(assumed);
-    }
-  }
-  std::vector<Complex> result(table.rows());
+Sweep sweep_of(const MeasuredTable& table, const MeasuredTable& second_table,
+               const ColumnName& frequency, SweepColumns columns) {
+  Sweep sweep;
+  sweep.has_phase = columns.second.has_value();
+  sweep.warnings = table.warnings();
+  sweep.frequency_Hz = table.numbers(frequency.index);
   for (std::size_t row = 0; row < table.rows(); ++row) {
-    if (is_magnitude && !(columns.first.name.value(first[row]) > 0.0)) {
-      throw table.error(row, columns.first.index, "is no magnitude; allowed: above 0");
+    double& each_Hz = sweep.frequency_Hz[row];
+    each_Hz = frequency.value(each_Hz);
+    if (!(each_Hz > 0.0) || !std::isfinite(each_Hz)) {
+      throw table.error(row, frequency.index, "is no frequency; allowed: above 0");
     }
-    result[row] = admittance_S(columns, first[row], second[row]);
-    if (!std::isfinite(std::abs(result[row])) || std::abs(result[row]) == 0.0) {
-      throw table.error(row, columns.first.index,
+  }
+  const ColumnName& first = columns.first;
+  const std::vector<double> firsts = table.numbers(first.index);
+  std::vector<double> seconds(firsts.size());
+  if (columns.second) {
+    seconds = second_table.numbers(columns.second->index);
+    if (!columns.rectangular()) {
+      complete_unit(*columns.second, seconds, sweep.warnings);
+    }
+  }
+  const bool is_magnitude = !columns.rectangular() && first.subject != Subject::reflection;
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    const double value = first.value(firsts[row]);
+    if (is_magnitude && !(value > 0.0)) {
+      throw table.error(row, first.index, "is no magnitude; allowed: above 0");
+    }
+    sweep.admittance_S.push_back(
+        admittance_S(columns, value, columns.second ? columns.second->value(seconds[row]) : 0.0));
+    const double magnitude = std::abs(sweep.admittance_S.back());
+    if (!std::isfinite(magnitude) || magnitude == 0.0) {
+      throw table.error(row, first.index,
                         "has an admittance of 0 or without end; allowed: one of a capacitance");
     }
   }
-  return result;
+  return sweep;
 }
 
 }  // namespace sonoglide::identify::impedance

@@ -1,35 +1,29 @@
-/// Which columns of a table are a sweep, by their names.
+/// Which columns of a table are a sweep, by their names, and its readings.
 #pragma once
 
-#include <complex>
-#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "host_sim/studies/identify/impedance/column_name.hpp"
+#include "host_sim/studies/identify/impedance/sweep.hpp"
 #include "host_sim/studies/identify/measured_table.hpp"
 
 namespace sonoglide::identify::impedance {
 
-struct SweepColumn {
-  ColumnName name;
-  std::size_t index = 0;
-};
-
 /// Magnitude and phase, real and imaginary part, or a magnitude alone.
 struct SweepColumns {
-  SweepColumn first;
-  std::optional<SweepColumn> second;
+  ColumnName first;
+  std::optional<ColumnName> second;
   double reference_ohm = 1.0;  ///< of a reflection
 
-  bool rectangular() const { return first.name.role == Role::real; }
+  bool rectangular() const { return first.role == Role::real; }
   /// As in "magnitude and phase of an impedance".
   std::string description() const;
 };
 
 struct FoundColumns {
-  SweepColumn frequency;
+  ColumnName frequency;
   /// All that the table has of these, in this order: magnitude and phase of an impedance, its parts,
   /// magnitude and phase of an admittance, its parts, magnitudes alone. The first is the sweep.
   std::vector<SweepColumns> forms;
@@ -44,16 +38,12 @@ bool are_names_of_a_sweep(const std::vector<std::string>& names);
 ///         magnitude has a phase beside it that cannot be read
 FoundColumns find_columns(const MeasuredTable& table);
 
-/// @throws scene_file::SceneError  a frequency is not above 0
-std::vector<double> frequencies_Hz(const MeasuredTable& table, const SweepColumn& column);
-
-/// Of a form with phase the admittances, of one without their magnitudes. A phase without a unit is
-/// in radians where none is beyond ±3.2, else in degrees; a warning says so.
+/// The readings in the order of the rows. A phase without a unit is in radians where none is beyond
+/// ±3.2, else in degrees; a warning says so.
 /// @param second_table  that of the second column, of as many rows
-/// @throws scene_file::SceneError  a magnitude is not above 0, or an admittance 0 or without end
-std::vector<std::complex<double>> admittances_S(const MeasuredTable& table,
-                                                const MeasuredTable& second_table,
-                                                SweepColumns columns,
-                                                std::vector<std::string>& warnings);
+/// @throws scene_file::SceneError  a frequency or magnitude is not above 0, or an admittance 0 or
+///         without end
+Sweep sweep_of(const MeasuredTable& table, const MeasuredTable& second_table,
+               const ColumnName& frequency, SweepColumns columns);
 
 }  // namespace sonoglide::identify::impedance

@@ -18,7 +18,7 @@ bool any_names(const Names& /*names*/) {
 std::string error_of(const std::string& text) {
   const scene_file::Source source{"m.csv", text};
   try {
-    const MeasuredTable table(source, any_names);
+    const MeasuredTable table(source, find_table(source, any_names));
     for (std::size_t column = 0; column < table.names().size(); ++column) {
       table.numbers(column);
     }
@@ -30,7 +30,7 @@ std::string error_of(const std::string& text) {
 
 void expect_two_rows(const std::string& text, const Names& names) {
   const scene_file::Source source{"m.csv", text};
-  const MeasuredTable table(source, any_names);
+  const MeasuredTable table(source, find_table(source, any_names));
   EXPECT_EQ(table.names(), names) << text;
   EXPECT_EQ(table.numbers(0), (Numbers{1.0, 2.5})) << text;
   EXPECT_EQ(table.numbers(1), (Numbers{-3e3, 4.0})) << text;
@@ -90,9 +90,11 @@ TEST(MeasuredTable, RefusesDecimalPointsBesideDecimalCommas) {
 
 TEST(MeasuredTable, PutsUnitsOfTheLineBelowIntoBrackets) {
   const scene_file::Source source{"m.csv", "a;b;c\nkHz;;(ohm)\n1;2;3\n"};
-  EXPECT_EQ(MeasuredTable(source, any_names).names(), (Names{"a [kHz]", "b", "c (ohm)"}));
+  EXPECT_EQ(MeasuredTable(source, find_table(source, any_names)).names(),
+            (Names{"a [kHz]", "b", "c (ohm)"}));
   const scene_file::Source above{"m.csv", "kHz;Ohm\na;b\n1;2\n"};
-  EXPECT_EQ(MeasuredTable(above, any_names).names(), (Names{"a [kHz]", "b [Ohm]"}));
+  EXPECT_EQ(MeasuredTable(above, find_table(above, any_names)).names(),
+            (Names{"a [kHz]", "b [Ohm]"}));
   EXPECT_EQ(unit_in_brackets("a [kHz]"), "kHz");
   EXPECT_EQ(unit_in_brackets("a"), "");
 }

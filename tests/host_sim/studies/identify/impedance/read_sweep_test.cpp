@@ -210,8 +210,8 @@ TEST(ReadSweep, KnowsTheOwnLinesOfA4294A) {
   }
   EXPECT_EQ(
       error_of(file("LS-RS", magnitude, phase_deg)),
-      "m.csv:4:21: trace: \"LS-RS\" is no impedance; allowed: |Z|-theta, R-X, |Y|-theta, G-B, "
-      "complex Z, complex Y");
+      "m.csv:4:21: trace: \"LS-RS\" is no pair of traces that is known; allowed: |Z|-theta, R-X, "
+      "|Y|-theta, G-B, complex Z, complex Y");
   EXPECT_EQ(error_of(file("MAG FURLONG", magnitude, phase_deg)).substr(0, 64),
             "m.csv:4:21: trace: \"MAG FURLONG\" is no pair of traces that is kn");
 }
@@ -544,15 +544,15 @@ TEST(ReadSweep, NamesThePlaceOfWhatIsWrong) {
                               "f,Magnitude (dB)", "f,Reflection magnitude", "f,Cp (F)"}) {
     begins(std::string(heading) + "\n1,2\n", "m.csv:1:1: heading: no columns of an impedance");
   }
-  begins("\"MEASUREMENT PARAMETER: CP-D\"\n\"TRACE: A\"\n",
-         "m.csv:1:25: trace: \"CP-D\" is no impedance; allowed: |Z|-theta");
+  begins("\"PARAMETER: CP-D\"\n\"TRACE: A\"\n\"Frequency\"\t\"Real\"\n1\t2\n",
+         "m.csv:1:13: trace: \"CP-D\" alone, without trace B; allowed: |Z|-theta");
   begins("f,|Z|\n1,2\n2,3\n", "m.csv:1:1: sweep: has readings at 2 frequencies");
   begins("f,|Z|\n1,2\n1,3\n", "m.csv:1:1: sweep: has readings at 1 frequency;");
   begins("# Hz S RI R 50\n1 2\n", "m.csv:2:4: second number: cells on this line: 2");
   begins("# Hz S RI R 50\n1 -1 0\n", "m.csv:2:3: first number: \"-1\" has an admittance");
   begins("# Hz H RI R 50\n1 1 0\n", "m.csv:1:1: touchstone: names what one port does not have");
   begins("[Version] 2.0\n# Hz S RI R 50\n[Number of Ports] 2\n",
-         "m.csv:3:1: touchstone: has 2 ports; allowed: 1");
+         "m.csv:3:1: touchstone: [number of ports] is 2; allowed: 1");
   begins("[Version] 2.0\n# Hz S RI R 50\n[Number of Frequencies] 3\n1 0.5 0\n",
          "m.csv:3:1: touchstone: [Number of Frequencies] is 3, and readings are 1");
   begins("[Version] 2.0\n# Hz S RI R 50\n[Mixed-Mode Order] D2,3\n",
