@@ -1,13 +1,10 @@
-#include "host_sim/studies/identify/table_search.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <tuple>
 #include <utility>
 
-#include "host_sim/scene_file/scene_error.hpp"
-#include "host_sim/studies/identify/cell.hpp"
+#include "host_sim/studies/identify/measured_table.hpp"
 #include "host_sim/studies/identify/plain_text.hpp"
 #include "host_sim/studies/identify/unit.hpp"
 

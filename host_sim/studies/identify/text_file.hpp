@@ -1,8 +1,9 @@
-/// Files of measurements as lines of text.
+/// Files of measurements as lines of text, and the cells of these.
 #pragma once
 
 #include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -29,6 +30,25 @@ struct Line {
 /// The lines that are not blank, without their ends: LF, CR LF or CR. Views of the text.
 /// @throws scene_file::SceneError  they are more than most_lines
 std::vector<Line> lines_of(const scene_file::Source& source);
+
+/// Cells of a line that are looked at: of more the first most_cells + 1.
+inline constexpr std::size_t most_cells = 1000;
+
+/// Without the blanks and quotes around it, with its column in the line, from 1.
+struct Cell {
+  std::string_view text;
+  std::size_t column;
+};
+
+/// @param separator  a blank stands for any number of blanks and tabs
+std::vector<Cell> cells_of(std::string_view line, char separator);
+
+/// A finite number, with a decimal point or, where no comma separates cells, a decimal comma.
+/// Unicode's minus and its spaces between groups of three digits are understood.
+std::optional<double> number_of(std::string_view cell, char separator = ' ');
+
+/// number_of(), or not a number.
+bool is_numeric(std::string_view cell, char separator);
 
 /// Whether a line begins with `#`, `!` or `%`.
 bool is_comment(std::string_view line);

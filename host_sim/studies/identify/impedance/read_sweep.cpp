@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numeric>
-#include <utility>
 
 #include "host_sim/studies/identify/impedance/read_touchstone.hpp"
 #include "host_sim/studies/identify/impedance/read_traces.hpp"
@@ -74,47 +74,29 @@ Sweep read_table(const scene_file::Source& source) {
   return sweep;
 }
 
-/// By frequency; readings of one frequency stay in their order.
-void sort_by_frequency(Sweep& sweep) {
-  std::vector<std::size_t> order(sweep.frequency_Hz.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return sweep.frequency_Hz[a] < sweep.frequency_Hz[b];
-  });
-  std::vector<double> frequency_Hz;
-  std::vector<Complex> admittance_S;
-  for (const std::size_t each : order) {
-    frequency_Hz.push_back(sweep.frequency_Hz[each]);
-    admittance_S.push_back(sweep.admittance_S[each]);
-  }
-  sweep.frequency_Hz = std::move(frequency_Hz);
-  sweep.admittance_S = std::move(admittance_S);
-}
-
-/// One reading a frequency, the mean of those that a sorted sweep has there.
-void average_repeated(Sweep& sweep) {
+/// By rising frequency, of each the mean of its readings.
+void sort_and_average(Sweep& sweep) {
+  std::map<double, std::vector<Complex>> readings_S;
   const std::size_t given = sweep.frequency_Hz.size();
-  std::size_t kept = 0;
-  double difference = 0.0;
-  for (std::size_t begin = 0, end = 0; begin < given; begin = end) {
-    Complex sum = 0.0;
-    while (end < given && sweep.frequency_Hz[end] == sweep.frequency_Hz[begin]) {
-      sum += sweep.admittance_S[end++];
-    }
-    const Complex mean_S = sum / static_cast<double>(end - begin);
-    for (std::size_t i = begin; i < end; ++i) {
-      difference = std::max(difference, std::abs(sweep.admittance_S[i] / mean_S - 1.0));
-    }
-    sweep.frequency_Hz[kept] = sweep.frequency_Hz[begin];
-    sweep.admittance_S[kept] = mean_S;
-    ++kept;
+  for (std::size_t i = 0; i < given; ++i) {
+    readings_S[sweep.frequency_Hz[i]].push_back(sweep.admittance_S[i]);
   }
-  if (kept < given) {
-    sweep.frequency_Hz.resize(kept);
-    sweep.admittance_S.resize(kept);
+  sweep.frequency_Hz.clear();
+  sweep.admittance_S.clear();
+  double difference = 0.0;
+  for (const auto& [frequency_Hz, all_S] : readings_S) {
+    const Complex sum_S = std::accumulate(all_S.begin(), all_S.end(), Complex(0.0));
+    const Complex mean_S = sum_S / static_cast<double>(all_S.size());
+    for (const Complex each_S : all_S) {
+      difference = std::max(difference, std::abs(each_S / mean_S - 1.0));
+    }
+    sweep.frequency_Hz.push_back(frequency_Hz);
+    sweep.admittance_S.push_back(mean_S);
+  }
+  if (readings_S.size() < given) {
     sweep.warnings.push_back(
         fmt::format("The file has {} readings at {}: those of one frequency are averaged.{}", given,
-                    counted_frequencies(kept),
+                    counted_frequencies(readings_S.size()),
                     difference > large ? fmt::format(" They differ by up to {:.2g} % from their "
                                                      "mean: of several traces leave one.",
                                                      100.0 * difference)
@@ -131,8 +113,7 @@ Sweep read_sweep(const scene_file::Source& source) {
   if (const std::string cut = warning_of_cut(source); !cut.empty()) {
     sweep.warnings.push_back(cut);
   }
-  sort_by_frequency(sweep);
-  average_repeated(sweep);
+  sort_and_average(sweep);
   constexpr std::size_t fewest = 8;
   if (sweep.frequency_Hz.size() < fewest) {
     throw scene_file::SceneError(

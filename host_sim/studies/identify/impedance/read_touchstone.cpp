@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <regex>
 
@@ -16,7 +18,7 @@ namespace {
 
 struct Options {
   double frequency_scale = 1e9;
-  std::string parameter = "S";
+  char parameter = 'S';
   std::string format = "ma";
   double reference_ohm = 50.0;
 };
@@ -28,50 +30,78 @@ std::optional<Options> options_of(std::string_view line) {
   if (line.substr(0, 1) != "#" || line.size() > longest) {
     return std::nullopt;
   }
+  // A word, or R50, R 50 Ohm, R 0,05 kOhm.
+  static const std::regex option(
+      "[ ,;]*(?:r *([0-9](?:[0-9.,e+-]*[0-9.])?),? *([a-z]*ohms?)?|([a-z]+))(?=[ ,;]|$)[ ,;]*");
   Options options;
-  std::string plain = plain_text(line.substr(1));
-  // R50, R 50 Ohm, R 0,05 kOhm
-  static const std::regex resistance(
-      "(^| )r *([0-9](?:[0-9.,e+-]*[0-9.])?),? *([a-z]*ohms?)?(?=[ ,]|$)", std::regex::icase);
-  if (std::smatch found; std::regex_search(plain, found, resistance)) {
-    const auto unit = unit_of_word(found[3].matched ? found.str(3) : "ohm");
-    const auto number = number_of(found.str(2));
-    if (!unit || !number) {
+  std::string left = lower_case(trimmed(plain_text(line.substr(1))));
+  for (std::smatch found; !left.empty(); left = found.suffix().str()) {
+    if (!std::regex_search(left, found, option, std::regex_constants::match_continuous)) {
       return std::nullopt;
     }
-    options.reference_ohm = *number * unit->scale;
-    plain = found.prefix().str() + found.suffix().str();
-  }
-  for (const Cell& each : cells_of(plain, ' ')) {
-    const std::string word = lower_case(each.text.substr(0, each.text.find_last_not_of(",;") + 1));
-    const auto unit = unit_of_word(word);
-    if (unit && unit->dimension == Dimension::frequency) {
+    const std::string word = found.str(3);
+    const auto unit = unit_of_word(found[2].matched ? found.str(2) : word.empty() ? "ohm" : word);
+    if (word.empty()) {
+      options.reference_ohm = number_of(found.str(1)).value_or(0.0) * (unit ? unit->scale : 0.0);
+    } else if (unit && unit->dimension == Dimension::frequency) {
       options.frequency_scale = unit->scale;
     } else if (is_among(word, " s y z g h ")) {
-      options.parameter = word == "s" ? "S" : word == "y" ? "Y" : word == "z" ? "Z" : "";
+      options.parameter = static_cast<char>(std::toupper(word.front()));
     } else if (is_among(word, " ri ma db ")) {
       options.format = word;
-    } else if (!word.empty()) {
+    } else {
       return std::nullopt;
     }
   }
   return options;
 }
 
+/// What may stand behind a keyword of version 2.
+struct Keyword {
+  std::string_view name;
+  double least = 0.0;
+  double most = 0.0;
+  std::string_view allowed = "";
+};
+
+constexpr Keyword keywords[] = {{"version", 2.0, 2.9, "2.0, or no such line for version 1"},
+                                {"number of ports", 1.0, 1.0, "1"},
+                                {"number of frequencies", 1.0, 1e9, "from 1"},
+                                {"reference", 1e-300, 1e300, "a resistance above 0"},
+                                {"matrix format"},
+                                {"begin information"},
+                                {"end information"},
+                                {"network data"},
+                                {"number of noise frequencies"},
+                                {"noise data"},
+                                {"end"}};
+
 class TouchstoneReader {
  public:
   explicit TouchstoneReader(const scene_file::Source& source) : source_(source) {
-    for (const Line& line : lines_of(source)) {
-      const Line text{line.text.substr(0, line.text.find('!')), line.number};
-      if (!ended_ && !trimmed(text.text).empty()) {
-        take(text, trimmed(text.text));
+    const std::vector<Line> lines = lines_of(source);
+    for (std::size_t i = 0; i < lines.size() && last_ != "end" && last_ != "noise data"; ++i) {
+      const Line line{lines[i].text.substr(0, lines[i].text.find('!')), lines[i].number};
+      const std::string_view text = trimmed(line.text);
+      if (text.substr(0, 1) == "[") {
+        const bool is_alone = text.back() == ']' && i + 1 < lines.size();
+        take_keyword(line, text, is_alone ? lines[i + 1].text : "");
+        i += is_alone && last_ == "reference" ? 1 : 0;
+      } else if (text.substr(0, 1) == "#" && last_ != "begin information") {
+        take_options(line);
+      } else if (!text.empty() && last_ != "begin information") {
+        rows_.push_back(line);
       }
     }
-    if (count_ && *count_ != rows_.size()) {
+    const auto count = values_.find("number of frequencies");
+    if (count != values_.end() && count->second != static_cast<double>(rows_.size())) {
       throw error(
-          {{}, line_of_count_},
+          line_of_count_,
           fmt::format("[Number of Frequencies] is {}, and readings are {}; allowed: as many",
-                      *count_, rows_.size()));
+                      count->second, rows_.size()));
+    }
+    if (values_.count("reference") > 0) {
+      options_.reference_ohm = values_.at("reference");
     }
   }
 
@@ -93,20 +123,6 @@ class TouchstoneReader {
   }
 
  private:
-  void take(const Line& line, std::string_view text) {
-    if (text.front() == '[') {
-      take_keyword(line, text);
-    } else if (in_information_) {
-      return;
-    } else if (text.front() == '#') {
-      take_options(line);
-    } else if (expects_reference_) {
-      take_reference(line, text);
-    } else {
-      rows_.push_back(line);
-    }
-  }
-
   void take_options(const Line& line) {
     if (has_options_) {
       return;  // Further option lines do not count.
@@ -116,7 +132,7 @@ class TouchstoneReader {
       throw error(line,
                   "is no option line; allowed: # [Hz|kHz|MHz|GHz] [S|Y|Z] [RI|MA|DB] [R ohm]");
     }
-    if (options->parameter.empty() || !(options->reference_ohm > 0.0)) {
+    if (is_among(std::string(1, options->parameter), " G H ") || !(options->reference_ohm > 0.0)) {
       throw error(
           line, "names what one port does not have; allowed: S, Y or Z over a resistance above 0");
     }
@@ -124,49 +140,27 @@ class TouchstoneReader {
     has_options_ = true;
   }
 
-  void take_keyword(const Line& line, std::string_view text) {
+  /// @param below  where a value may stand that is not behind the keyword
+  void take_keyword(const Line& line, std::string_view text, std::string_view below) {
     const std::size_t close = std::min(text.find(']'), text.size() - 1);
-    const std::string keyword = lower_case(text.substr(1, close - 1));
-    const std::string_view value = trimmed(text.substr(close + 1));
-    const double number = number_of(value).value_or(0.0);
-    const auto require = [&](bool right, std::string_view allowed) {
-      if (!right) {
-        throw error(line, fmt::format("[{}] is {}; allowed: {}", shortened(keyword),
-                                      shortened(value), allowed));
-      }
-    };
-    if (keyword == "version") {
-      require(number >= 2.0 && number < 3.0, "2.0, or no such line for version 1");
-      is_version_2_ = true;
-    } else if (keyword == "number of ports") {
-      require(number == 1.0, "1");
-    } else if (keyword == "number of frequencies") {
-      require(number >= 1.0, "from 1");
-      count_ = static_cast<std::size_t>(number);
-      line_of_count_ = line.number;
-    } else if (keyword == "reference") {
-      value.empty() ? void(expects_reference_ = true) : take_reference(line, value);
-    } else if (keyword == "begin information" || keyword == "end information") {
-      in_information_ = keyword == "begin information";
-    } else if (keyword == "end" || keyword == "noise data") {
-      ended_ = true;
-    } else if (keyword != "network data" && keyword != "matrix format" &&
-               keyword != "number of noise frequencies") {
+    last_ = lower_case(text.substr(1, close - 1));
+    const auto* const known = std::find_if(std::begin(keywords), std::end(keywords),
+                                           [&](const Keyword& each) { return each.name == last_; });
+    if (known == std::end(keywords)) {
       throw error(line,
                   fmt::format("[{}] is not known; allowed: Version, Number of Ports, Number of "
                               "Frequencies, Reference, Matrix Format, Network Data, End",
-                              shortened(keyword)));
+                              shortened(last_)));
     }
-  }
-
-  void take_reference(const Line& line, std::string_view text) {
-    expects_reference_ = false;
-    options_.reference_ohm = number_of(text).value_or(0.0);
-    if (!(options_.reference_ohm > 0.0)) {
-      throw error(line, fmt::format("\"{}\" is no reference of one port; allowed: a resistance "
-                                    "above 0",
-                                    shortened(text)));
+    const std::string_view behind = trimmed(text.substr(close + 1));
+    const std::string_view value = behind.empty() ? trimmed(below) : behind;
+    const double number = number_of(value).value_or(0.0);
+    if (!known->allowed.empty() && (number < known->least || number > known->most)) {
+      throw error(line,
+                  fmt::format("[{}] is {}; allowed: {}", last_, shortened(value), known->allowed));
     }
+    values_[last_] = number;
+    line_of_count_ = last_ == "number of frequencies" ? line : line_of_count_;
   }
 
   /// The one that parts the first row into three.
@@ -189,10 +183,10 @@ class TouchstoneReader {
     ColumnName& second = *columns.second;
     first.index = 1;
     second.index = 2;
-    const double unit_ohm = is_version_2_ ? 1.0 : options_.reference_ohm;
-    if (options_.parameter == "S") {
+    const double unit_ohm = values_.count("version") > 0 ? 1.0 : options_.reference_ohm;
+    if (options_.parameter == 'S') {
       first.subject = Subject::reflection;
-    } else if (options_.parameter == "Y") {
+    } else if (options_.parameter == 'Y') {
       first.subject = Subject::admittance;
       first.scale = 1.0 / unit_ohm;
     } else {
@@ -210,13 +204,10 @@ class TouchstoneReader {
   const scene_file::Source& source_;
   Options options_;
   std::vector<Line> rows_;
-  std::optional<std::size_t> count_;
-  std::size_t line_of_count_ = 1;
+  std::map<std::string, double> values_;  ///< behind the keywords
+  std::string last_;                      ///< keyword
+  Line line_of_count_{};
   bool has_options_ = false;
-  bool is_version_2_ = false;
-  bool expects_reference_ = false;
-  bool in_information_ = false;
-  bool ended_ = false;
 };
 
 /// A bare # begins an empty comment of a table.

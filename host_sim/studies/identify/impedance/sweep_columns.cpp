@@ -35,7 +35,9 @@ class Columns {
 
   ColumnName frequency() const {
     const Names found = of(Role::frequency, Subject::unknown);
-    require_one(found);
+    if (found.size() > 1) {
+      throw error(found[1], obstacle(found[1], false));
+    }
     if (found.empty()) {
       refuse_what_is_not_understood();
       throw table_.heading_error(fmt::format(
@@ -118,24 +120,11 @@ class Columns {
 
   ColumnName magnitude_alone() const {
     refuse_what_is_not_understood();
-    for (const Role role : {Role::magnitude, Role::phase, Role::real, Role::imaginary}) {
-      for (const Subject subject : {Subject::impedance, Subject::admittance, Subject::unknown}) {
-        require_one(of(role, subject));
-      }
-    }
     Names found = candidates(Role::magnitude, Subject::impedance);
     found = found.empty() ? of(Role::magnitude, Subject::admittance) : found;
     for (const ColumnName& each : columns_) {
-      if (!found.empty() && each.role == Role::phase) {
-        throw error(each,
-                    "may be the phase of another column; allowed: a name that says of what, as "
-                    "impedance_phase_deg");
-      }
-      if (found.empty() && (each.role == Role::real || each.role == Role::imaginary)) {
-        throw error(each,
-                    fmt::format("is half of a pair, and does not tell the capacitances alone; "
-                                "allowed: {}",
-                                what_is_read));
+      if (const std::string why = obstacle(each, !found.empty()); !why.empty()) {
+        throw error(each, why);
       }
     }
     if (found.empty()) {
@@ -143,18 +132,29 @@ class Columns {
           fmt::format("no columns of an impedance or admittance among {}; allowed: {}", all_names(),
                       what_is_read));
     }
-    if (found.front().is_bare_unit) {
-      throw error(found.front(), fmt::format("is a unit and no name; allowed: {}", what_is_read));
-    }
     return found.front();
   }
 
-  void require_one(const Names& found) const {
-    if (found.size() > 1) {
-      throw table_.heading_error(found[1].index,
-                                 fmt::format("\"{}\" and \"{}\" are the same; allowed: one of them",
-                                             name(found[0]), name(found[1])));
-    }
+  /// Why the table cannot be read as a magnitude alone for a column; empty where it can.
+  std::string obstacle(const ColumnName& column, bool has_magnitude) const {
+    const auto twin = std::find_if(columns_.begin(), columns_.end(), [&](const ColumnName& each) {
+      return each.role == column.role && each.subject == column.subject;
+    });
+    const bool is_part = column.role == Role::real || column.role == Role::imaginary;
+    return column.role == Role::none ? ""
+           : twin->index < column.index
+               ? fmt::format("and \"{}\" are the same; allowed: one of them", name(*twin))
+           : has_magnitude && column.role == Role::phase
+               ? "may be the phase of another column; allowed: a name that says of what, as "
+                 "impedance_phase_deg"
+           : !has_magnitude && is_part
+               ? fmt::format(
+                     "is half of a pair, and does not tell the capacitances alone; "
+                     "allowed: {}",
+                     what_is_read)
+           : column.role == Role::magnitude && column.is_bare_unit
+               ? fmt::format("is a unit and no name; allowed: {}", what_is_read)
+               : "";
   }
 
   void refuse_what_is_not_understood() const {

@@ -460,7 +460,7 @@ TEST(ReadSweep, ColumnsThatSayTheSameAgree) {
   }
   EXPECT_EQ(
       error_of("f,|Z| (ohm),|Z| (kohm)\n1,2,3\n"),
-      "m.csv:1:13: heading: \"|Z| (ohm)\" and \"|Z| (kohm)\" are the same; allowed: one of them");
+      "m.csv:1:13: heading: \"|Z| (kohm)\" and \"|Z| (ohm)\" are the same; allowed: one of them");
 }
 
 /// 28 is 28 kHz more often than 28 Hz, and "28,000" may be 28 thousand.
