@@ -78,11 +78,6 @@ std::optional<double> power_of_ten(const std::string& text) {
 
 }  // namespace
 
-std::optional<double> scale_of_prefix(std::string_view word) {
-  const auto scale = scale_of_symbol(word, "pnumkMGT    K   ");
-  return scale ? scale : scale_of_name(word);
-}
-
 std::optional<Unit> unit_of_word(std::string_view word) {
   std::optional<Unit> found;
   std::size_t longest = 0;
@@ -107,36 +102,29 @@ std::optional<Unit> unit_of_word(std::string_view word) {
 }
 
 std::optional<Unit> unit_of_text(std::string_view text) {
-  // A power of ten or 1/, a word, which a blank or a dash may part from its prefix, and ^-1 or a power.
+  // A power of ten or 1/, a word, and ^-1 or a power.
   static const std::string power =
       R"((?:[*xX] *)?([0-9.]+(?:[eE][+-]?[0-9]+)?(?:(?:\^|\*\*)[+-]?[0-9]+)?) *)";
-  static const std::regex form("(?:" + power +
-                               R"((?:[*xX] *)?)?(/ *)?([^- ^*0-9/]+)(?:[- ]([A-Za-z]+))?)" +
-                               R"( *(?:(\^?-1)|)" + power + ")?");
+  static const std::regex form(
+      "(?:" + power + R"((?:[*xX] *)?|(1 */ *))?([A-Za-z%]+) *(?:(\^?-1)|)" + power + ")?");
   constexpr std::size_t longest = 60;
   std::match_results<std::string_view::const_iterator> part;
   text = trimmed(text);
-  if (text.size() > longest || !std::regex_match(text.begin(), text.end(), part, form) ||
-      (part[4].matched && !scale_of_prefix(part[3].str()))) {
+  if (text.size() > longest || !std::regex_match(text.begin(), text.end(), part, form)) {
     return std::nullopt;
   }
-  auto unit = unit_of_word(part[3].str() + part[4].str());
-  const bool inverse = part[2].matched;
-  const bool reciprocal = part[5].matched;
-  if (unit && (inverse || reciprocal)) {
-    const bool is_alone = inverse ? part[1] == "1" && !reciprocal : !part[1].matched;
-    return unit->dimension == Dimension::impedance && is_alone && !part[6].matched
-               ? std::optional(Unit{Dimension::admittance, 1.0 / unit->scale})
-               : std::nullopt;
+  const auto unit = unit_of_word(part[3].str());
+  const auto before = part[1].matched ? power_of_ten(part[1].str()) : 1.0;
+  const auto behind = part[5].matched ? power_of_ten(part[5].str()) : 1.0;
+  if (!unit || !before || !behind) {
+    return std::nullopt;
   }
-  for (const auto& each : {part[1], part[6]}) {
-    const auto factor = each.matched ? power_of_ten(each.str()) : 1.0;
-    if (!unit || !factor) {
-      return std::nullopt;
-    }
-    unit->scale *= *factor;
+  if (!part[2].matched && !part[4].matched) {
+    return Unit{unit->dimension, unit->scale * *before * *behind};
   }
-  return unit;
+  const bool is_siemens = unit->dimension == Dimension::impedance && !part[1].matched &&
+                          part[2].matched != part[4].matched;
+  return is_siemens ? std::optional(Unit{Dimension::admittance, 1.0 / unit->scale}) : std::nullopt;
 }
 
 std::string_view known_units() {

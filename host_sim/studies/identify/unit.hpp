@@ -2,7 +2,6 @@
 #pragma once
 
 #include <optional>
-#include <string>
 #include <string_view>
 
 namespace sonoglide::identify {
@@ -21,11 +20,8 @@ struct Unit {
 /// dimension `other`.
 std::optional<Unit> unit_of_word(std::string_view word);
 
-/// The scale of a unit's prefix that stands alone, as in `k Ohm`.
-std::optional<double> scale_of_prefix(std::string_view word);
-
 /// A whole power of ten with a unit, as stands in brackets or behind a slash: `10^3 Ohm`, `1e3 Ohm`,
-/// `*10^-6 S`, `k Ohm`, `Hz`, `1/Ohm`. Nothing where a part of it is not understood.
+/// `*10^-6 S`, `Hz`, `1/Ohm`. Nothing where a part of it is not understood.
 /// @param text  in the spelling of plain_text()
 std::optional<Unit> unit_of_text(std::string_view text);
 

@@ -13,40 +13,67 @@
 namespace sonoglide::identify::impedance {
 namespace {
 
-constexpr std::string_view letters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ";
-
 /// What a word says beside its role and subject: that it turns the sign, or that the name is of another
 /// quantity, a ratio or an element of an equivalent circuit.
 enum class Kind { plain, minus, ratio, element };
 
 struct Meaning {
-  Role role = Role::none;
-  Subject subject = Subject::unknown;
+  Role role;
+  Subject subject;
   Kind kind = Kind::plain;
 };
 
 struct Words {
-  Meaning meaning;
   std::string_view words;  ///< in small letters, between blanks
+  Meaning meaning;
 };
 
 constexpr Words vocabulary[] = {
-    {{Role::frequency}, " f freq frequency frequencies frequenz frequence frecuencia frequenza "},
-    {{Role::none, Subject::impedance}, " z zin z11 imp impedance impedanz impedancia impedenza "},
-    {{Role::none, Subject::admittance}, " y yin y11 adm admittance admittanz "},
-    {{Role::magnitude}, " | abs mag magnitude modulus module mod betrag amplitude "},
-    {{Role::phase}, " phase theta th phi phz arg argument angle ang fase winkel phasenwinkel "},
-    {{Role::real}, " ' re real realteil "},
-    {{Role::imaginary}, " '' im imag img imaginary "},
-    {{Role::real, Subject::impedance}, " r rs resistance zr "},
-    {{Role::imaginary, Subject::impedance}, " x xs reactance zi "},
-    {{Role::real, Subject::admittance}, " g gp conductance "},
-    {{Role::imaginary, Subject::admittance}, " b bp susceptance "},
-    {{}, " trace data meas measured value values the of in for part component series "},
-    {{Role::none, Subject::unknown, Kind::minus}, " neg negative minus "},
-    {{Role::none, Subject::unknown, Kind::ratio},
-     " gain transmission reflection gamma loss swr vswr attenuation "},
-    {{Role::none, Subject::unknown, Kind::element}, " cp cs lp ls rp q d "}};
+    {" f freq frequency frequencies frequenz frequence frecuencia frequenza ",
+     {Role::frequency, Subject::unknown}},
+    {" z zin z11 imp impedance impedanz impedancia impedenza ", {Role::none, Subject::impedance}},
+    {" y yin y11 adm admittance admittanz ", {Role::none, Subject::admittance}},
+    {" | abs mag magnitude modulus module mod betrag amplitude ",
+     {Role::magnitude, Subject::unknown}},
+    {" phase theta th phi phz arg argument angle ang fase winkel phasenwinkel ",
+     {Role::phase, Subject::unknown}},
+    {" ' re real realteil ", {Role::real, Subject::unknown}},
+    {" '' im imag img imaginary ", {Role::imaginary, Subject::unknown}},
+    {" r rs resistance zr ", {Role::real, Subject::impedance}},
+    {" x xs reactance zi ", {Role::imaginary, Subject::impedance}},
+    {" g gp conductance ", {Role::real, Subject::admittance}},
+    {" b bp susceptance ", {Role::imaginary, Subject::admittance}},
+    {" trace data meas measured value values the of in for part component series ",
+     {Role::none, Subject::unknown}},
+    {" neg negative minus ", {Role::none, Subject::unknown, Kind::minus}},
+    {" gain transmission reflection gamma loss swr vswr attenuation ",
+     {Role::none, Subject::unknown, Kind::ratio}},
+    {" cp cs lp ls rp q d ", {Role::none, Subject::unknown, Kind::element}}};
+
+/// A name in its usual spelling, in this order.
+std::string rewritten(std::string name) {
+  struct Rewriting {
+    std::regex form;
+    const char* as;
+  };
+  static const Rewriting rewritings[] = {
+      // Of a Bode 100, ZPlot and HFSS: Trace 1:, Z'(a), Z''(b), Z(1,1).
+      {std::regex(R"(Trace [0-9]:|\(1,1\)|('+)\([ab]\))"), "$1"},
+      {std::regex("(^|[^A-Za-z0-9])[Ss]_+(?=[0-9])"), "$01S"},
+      {std::regex("([a-z]{2})(?=[A-Z])"), "$1 "},  // PhaseDeg
+      // k Ohm, kilo-ohm; other prefixes only where nothing else is meant.
+      {std::regex("((?:^|[^A-Za-z])(?:[kMun]|[Kk]ilo?|[Mm]ega?|[Mm]illi|[Mm]icro?|[Gg]iga)"
+                  R"(|[(\[{<] *[pmKGT])[-_ ](?=(?:[Oo]hms?|OHMS?|Hz|HZ|[Hh]ertz)"
+                  "|S|[Ss]iemens|[Mm]hos?)(?![A-Za-z]))"),
+       "$1"},
+      {std::regex(R"(^ *[Pp](?=[ _]*[(\[{</,]? *-? *(?:m?rad|[Dd]eg|DEG|RAD)))"), "phase"},
+      {std::regex(R"(^([ (]*)-)"), "$1minus "},
+      {std::regex(R"(([(\[{<]) *-(?! *[-)\]}>]))"), " minus $1"}};
+  for (const Rewriting& each : rewritings) {
+    name = std::regex_replace(name, each.form, each.as);
+  }
+  return name;
+}
 
 std::optional<Meaning> find_word(std::string_view word) {
   const auto* const found =
@@ -58,7 +85,7 @@ std::optional<Meaning> find_word(std::string_view word) {
 /// Of a word in small letters, and of a part with its z or y in one word, as `absz` and `zphase`.
 std::optional<Meaning> meaning_of(const std::string& word) {
   if (word.size() > 1 && word[0] == 's' && std::isdigit(static_cast<unsigned char>(word[1])) != 0) {
-    return Meaning{Role::none, Subject::unknown, Kind::ratio};
+    return Meaning{Role::none, Subject::unknown, Kind::ratio};  // S11
   }
   auto found = find_word(word);
   for (const bool before : {true, false}) {
@@ -96,117 +123,64 @@ class Reader {
  private:
   void take_next() {
     const char each = text_[at_];
-    if (std::string_view("([{</,").find(each) != std::string_view::npos) {
-      take_enclosed(each != '/' && each != ',');
-    } else if (each == '-') {
-      take_minus();
-    } else if (std::string_view(" _.:;)]}>").find(each) != std::string_view::npos) {
+    const auto is = [&](std::string_view among) {
+      return among.find(each) != std::string_view::npos;
+    };
+    if (is("([{</,")) {
+      take_enclosed(is("([{<") ? ")]}>" : "([{<");
+    } else if (is("-")) {
+      take_dash();
+    } else if (is(" _.:;)]}>")) {
       ++at_;
     } else {
       take_word();
     }
   }
 
-  /// Letters and digits, a bar or quotes; behind a word may stand the rest of a unit.
+  /// Letters and digits, a bar or quotes; else all up to a blank.
   void take_word() {
-    const std::size_t begin = at_;
-    if (std::isalpha(static_cast<unsigned char>(text_[at_])) != 0 || text_[at_] == '%') {
-      at_ = std::min(text_.find_first_not_of(std::string(letters) + "0123456789", at_ + 1),
-                     text_.size());
-    } else if (text_[at_] == '|' || text_[at_] == '\'') {
-      at_ += text_.compare(at_, 2, "''") == 0 ? 2 : 1;
-    } else {
-      at_ = std::min(text_.find(' ', at_), text_.size());
-    }
-    const std::string word = text_.substr(begin, at_ - begin);
-    if (!take(word) && !take_prefix(word) && !take_parts(word)) {
-      refuse(word);
-    }
-  }
-
-  bool take(const std::string& word) {
+    static const std::regex form("[A-Za-z%][A-Za-z0-9]*|''|'|\\||[^ ]+");
+    std::smatch found;
+    std::regex_search(text_.cbegin() + at_, text_.cend(), found, form);
+    const std::string word = found.str();
+    at_ += found.length();
     const std::string small = lower_case(word);
     const auto unit = unit_of_word(word);
     const auto meaning = meaning_of(small);
     // THz is no theta of Z; a capital F behind a name is no frequency, but a farad.
-    const bool is_unit =
-        unit && (!meaning || (unit->dimension != Dimension::other && word.size() > 1) ||
-                 (unit->dimension == Dimension::other && has_word_ && small != word));
-    if (is_unit) {
+    if (unit && (!meaning || (unit->dimension != Dimension::other && word.size() > 1) ||
+                 (unit->dimension == Dimension::other && has_word_ && small != word))) {
       add(*unit, word);
     } else if (meaning) {
       add(*meaning, word);
-    } else if (small == "p" && !has_word_) {
-      is_letter_p_ = true;
+    } else {
+      refuse(word);
     }
-    return is_unit || meaning || (small == "p" && !has_word_);
-  }
-
-  /// `k Ohm`, `kilo-ohm`.
-  bool take_prefix(const std::string& word) {
-    const bool parted =
-        at_ < text_.size() && (text_[at_] == ' ' || text_[at_] == '-' || text_[at_] == '_');
-    if (!scale_of_prefix(word) || !parted) {
-      return false;
-    }
-    const std::size_t end = std::min(text_.find_first_not_of(letters, at_ + 1), text_.size());
-    const auto unit = unit_of_word(word + text_.substr(at_ + 1, end - at_ - 1));
-    if (!unit || unit->dimension == Dimension::other) {
-      return false;
-    }
-    add(*unit, word);
-    at_ = end;
-    return true;
-  }
-
-  /// Words that are told apart by a capital: PhaseDeg, ZmagKOhm.
-  bool take_parts(const std::string& word) {
-    for (std::size_t i = 1; i < word.size(); ++i) {
-      const bool capital = std::isupper(static_cast<unsigned char>(word[i])) != 0 &&
-                           std::islower(static_cast<unsigned char>(word[i - 1])) != 0;
-      const Reader before(*this);
-      if (capital && take(word.substr(0, i)) &&
-          (take(word.substr(i)) || take_parts(word.substr(i))) &&
-          result_.not_understood == before.result_.not_understood) {
-        return true;
-      }
-      *this = before;
-    }
-    return false;
   }
 
   /// A unit and nothing else, or words: in brackets, or behind a slash or a comma as in `Z / kOhm`.
-  void take_enclosed(bool in_brackets) {
-    const std::size_t end =
-        std::min(text_.find_first_of(in_brackets ? ")]}>" : "([{<", at_), text_.size());
-    std::string inside(trimmed(std::string_view(text_).substr(at_ + 1, end - at_ - 1)));
-    const bool minus = in_brackets && inside.size() > 1 && inside.front() == '-';
-    inside.erase(0, minus ? 1 : 0);
+  void take_enclosed(std::string_view closing) {
+    const std::size_t end = std::min(text_.find_first_of(closing, at_), text_.size());
+    const std::string inside(trimmed(std::string_view(text_).substr(at_ + 1, end - at_ - 1)));
     const auto unit = unit_of_text(inside);
     const bool is_word = lower_case(inside) == inside && meaning_of(inside);
-    const bool has_words = inside.find_first_of("/*^") == std::string::npos &&
-                           inside.find_first_of("0123456789") != 0 &&
-                           (in_brackets || !inside.empty());
     if (unit && (unit->dimension != Dimension::other || !is_word)) {
-      negative_ = negative_ != minus;
       add(*unit, inside);
-    } else if (has_words || minus) {
-      ++at_;
-      return;
+      at_ = end;
+    } else if (inside.find_first_of("/*^") != std::string::npos ||
+               inside.find_first_of("0123456789") == 0) {
+      refuse(inside);
+      at_ = end;
     } else {
-      refuse(inside.empty() ? text_.substr(at_, 1) : inside);
+      ++at_;
     }
-    at_ = std::min(end + (in_brackets ? 1 : 0), text_.size());
   }
 
-  /// At the beginning, also behind a bracket, it turns the sign; between words it joins them.
-  void take_minus() {
-    const bool leads = text_.find_first_not_of(" (") == at_;
+  /// One that is no minus joins words.
+  void take_dash() {
     const char before = at_ > 0 ? text_[at_ - 1] : ' ';
     const char behind = at_ + 1 < text_.size() ? text_[at_ + 1] : ' ';
-    if (leads) {
-      negative_ = !negative_;
-    } else if ((before == ' ' || before == '(') != (behind == ' ')) {
+    if ((before == ' ' || before == '(') != (behind == ' ')) {
       refuse(text_.substr(at_));
     }
     ++at_;
@@ -265,10 +239,6 @@ class Reader {
       result_ = {};
       return;
     }
-    const bool is_angle = unit_ && unit_->dimension == Dimension::angle;
-    if (is_letter_p_ && (named || !is_angle)) {
-      refuse("p");
-    }
     if (unit_) {
       add_role_of_unit(named);
     }
@@ -286,7 +256,8 @@ class Reader {
     result_.has_unit = unit_.has_value();
     if (!result_.not_understood.empty()) {
       // A name of which nothing is a sweep's but a unit is of something else, if not of an angle.
-      if (!named && !is_letter_p_ && (!is_angle || has_two_units_)) {
+      const bool is_angle = unit_ && unit_->dimension == Dimension::angle;
+      if (!named && (!is_angle || has_two_units_)) {
         result_.not_understood.clear();
       }
       result_.role = Role::none;
@@ -317,7 +288,6 @@ class Reader {
   std::string unit_text_;
   bool negative_ = false;
   bool is_other_ = false;
-  bool is_letter_p_ = false;
   bool has_two_units_ = false;
   bool has_word_ = false;  ///< of the vocabulary that says something
 };
@@ -336,11 +306,7 @@ ColumnName read_name(std::string_view name) {
     unknown.not_understood = shortened(name);
     return unknown;
   }
-  // As a Bode 100, ZPlot and HFSS have it: Trace 1:, Z'(a), Z''(b), Z(1,1); then S_11.
-  static const std::regex additions(R"(Trace [0-9]:|\(1,1\)|('+)\([ab]\))");
-  static const std::regex scattering("(^|[^A-Za-z0-9])[Ss]_+(?=[0-9])");
-  const std::string plain = std::regex_replace(plain_text(name), additions, "$1");
-  return Reader(std::regex_replace(plain, scattering, "$01S")).result();
+  return Reader(rewritten(plain_text(name))).result();
 }
 
 }  // namespace sonoglide::identify::impedance

@@ -20,7 +20,21 @@ constexpr const char* what_is_read =
     "magnitude and phase, real and imaginary part, or a magnitude alone, as "
     "impedance_magnitude_ohm,impedance_phase_deg; S11 is read from Touchstone files, .s1p";
 
-constexpr Subject subjects[] = {Subject::impedance, Subject::admittance};
+struct Form {
+  Role first;
+  Role second;
+  Subject subject;
+  Subject second_subject;
+};
+
+/// The last two, |Z| beside a phase of Y, only where there is no other.
+constexpr Form all_forms[] = {
+    {Role::magnitude, Role::phase, Subject::impedance, Subject::impedance},
+    {Role::real, Role::imaginary, Subject::impedance, Subject::impedance},
+    {Role::magnitude, Role::phase, Subject::admittance, Subject::admittance},
+    {Role::real, Role::imaginary, Subject::admittance, Subject::admittance},
+    {Role::magnitude, Role::phase, Subject::impedance, Subject::admittance},
+    {Role::magnitude, Role::phase, Subject::admittance, Subject::impedance}};
 
 /// The columns of a table by what their names say.
 class Columns {
@@ -48,22 +62,18 @@ class Columns {
 
   std::vector<SweepColumns> forms() const {
     std::vector<SweepColumns> found;
-    // Of magnitude and phase one may say of what they are, or |Z| stand beside a phase of Y.
-    for (const auto& [subject, of_phase] : {std::pair(subjects[0], subjects[0]),
-                                            {subjects[1], subjects[1]},
-                                            {subjects[0], subjects[1]},
-                                            {subjects[1], subjects[0]}}) {
-      if (subject == of_phase || found.empty()) {
-        add_pair(candidates(Role::magnitude, subject), candidates(Role::phase, of_phase), found);
-      }
-      if (subject == of_phase) {
-        add_pair(candidates(Role::real, subject), candidates(Role::imaginary, subject), found);
+    for (const Form& each : all_forms) {
+      const Names first = candidates(each.first, each.subject);
+      const Names second = candidates(each.second, each.second_subject);
+      const bool is_one = each.subject == each.second_subject;
+      if (first.size() == 1 && second.size() == 1 && (is_one || found.empty())) {
+        found.push_back({first.front(), second.front()});
       }
     }
     if (found.empty()) {
       found = {{magnitude_alone(), std::nullopt}};
     }
-    for (const Subject subject : subjects) {
+    for (const Subject subject : {Subject::impedance, Subject::admittance}) {
       const Names further = of(Role::magnitude, subject);
       if (further.size() == 1 && !further.front().is_bare_unit && !has(found, further.front())) {
         found.push_back({further.front(), std::nullopt});
@@ -103,12 +113,6 @@ class Columns {
     const Names found = of(role, subject);
     const bool may_be_unnamed = role == Role::phase ? !has_ratio_ : subject == Subject::impedance;
     return found.empty() && may_be_unnamed ? of(role, Subject::unknown) : found;
-  }
-
-  static void add_pair(const Names& first, const Names& second, std::vector<SweepColumns>& found) {
-    if (first.size() == 1 && second.size() == 1) {
-      found.push_back({first.front(), second.front()});
-    }
   }
 
   static bool has(const std::vector<SweepColumns>& forms, const ColumnName& column) {
@@ -173,12 +177,13 @@ class Columns {
 
   std::string all_names() const {
     constexpr std::size_t most = 20;
-    std::string list;
+    std::vector<std::string> names;
     for (std::size_t i = 0; i < std::min(columns_.size(), most); ++i) {
-      list += (i == 0 ? "" : ", ") + name(columns_[i]);
+      names.push_back(name(columns_[i]));
     }
-    return columns_.size() > most ? list + fmt::format(" and {} more", columns_.size() - most)
-                                  : list;
+    const std::size_t more = columns_.size() - names.size();
+    return fmt::to_string(fmt::join(names, ", ")) +
+           (more > 0 ? fmt::format(" and {} more", more) : "");
   }
 
   scene_file::SceneError error(const ColumnName& column, const std::string& message) const {
@@ -193,12 +198,9 @@ class Columns {
 /// Gives a phase without a unit one, and says so.
 void complete_unit(ColumnName& phase, const std::vector<double>& phases,
                    std::vector<std::string>& warnings) {
-  if (phase.has_unit) {
-    return;
-  }
+  constexpr double most_in_radians = 3.2;
   const auto [least, most] = std::minmax_element(phases.begin(), phases.end());
   const double largest = std::max(-*least, *most);
-  constexpr double most_in_radians = 3.2;
   const bool radians = largest <= most_in_radians;
   phase.scale *= radians ? 1.0 : two_pi / 360.0;
   warnings.push_back(fmt::format(
@@ -219,11 +221,10 @@ Complex admittance_S(const SweepColumns& columns, double value, double second) {
     const Complex given(value, second);
     return is_admittance ? given : 1.0 / given;
   }
-  const bool is_said = columns.second && columns.second->subject != Subject::unknown;
-  const bool of_admittance =
-      is_said ? columns.second->subject == Subject::admittance : is_admittance;
-  return std::polar(std::abs(is_admittance ? value : 1.0 / value),
-                    of_admittance ? second : -second);
+  const Subject named = columns.second ? columns.second->subject : subject;
+  const bool of_admittance = (named == Subject::unknown ? subject : named) == Subject::admittance;
+  const double magnitude_S = std::abs(is_admittance ? value : 1.0 / value);
+  return std::polar(magnitude_S, of_admittance ? second : -second);
 }
 
 }  // namespace
@@ -241,10 +242,8 @@ bool are_names_of_a_sweep(const std::vector<std::string>& names) {
   bool has_other = false;
   for (const std::string& each : names) {
     const ColumnName name = read_name(each);
-    const bool is_frequency = name.role == Role::frequency;
-    has_frequency = has_frequency || is_frequency;
-    has_other =
-        has_other || (!is_frequency && (name.role != Role::none || !name.not_understood.empty()));
+    bool& has = name.role == Role::frequency ? has_frequency : has_other;
+    has = has || name.role != Role::none || !name.not_understood.empty();
   }
   return has_frequency && has_other;
 }
@@ -268,32 +267,29 @@ Sweep sweep_of(const MeasuredTable& table, const MeasuredTable& second_table,
   sweep.has_phase = columns.second.has_value();
   sweep.warnings = table.warnings();
   sweep.frequency_Hz = table.numbers(frequency.index);
+  const ColumnName& first = columns.first;
+  const std::vector<double> firsts = table.numbers(first.index);
+  std::vector<double> seconds(firsts.size());
+  if (columns.second) {
+    seconds = second_table.numbers(columns.second->index);
+    if (!columns.rectangular() && !columns.second->has_unit) {
+      complete_unit(*columns.second, seconds, sweep.warnings);
+    }
+  }
+  const bool is_magnitude = !columns.rectangular() && first.subject != Subject::reflection;
   for (std::size_t row = 0; row < table.rows(); ++row) {
     double& each_Hz = sweep.frequency_Hz[row];
     each_Hz = frequency.value(each_Hz);
     if (!(each_Hz > 0.0) || !std::isfinite(each_Hz)) {
       throw table.error(row, frequency.index, "is no frequency; allowed: above 0");
     }
-  }
-  const ColumnName& first = columns.first;
-  const std::vector<double> firsts = table.numbers(first.index);
-  std::vector<double> seconds(firsts.size());
-  if (columns.second) {
-    seconds = second_table.numbers(columns.second->index);
-    if (!columns.rectangular()) {
-      complete_unit(*columns.second, seconds, sweep.warnings);
-    }
-  }
-  const bool is_magnitude = !columns.rectangular() && first.subject != Subject::reflection;
-  for (std::size_t row = 0; row < table.rows(); ++row) {
     const double value = first.value(firsts[row]);
     if (is_magnitude && !(value > 0.0)) {
       throw table.error(row, first.index, "is no magnitude; allowed: above 0");
     }
     sweep.admittance_S.push_back(
         admittance_S(columns, value, columns.second ? columns.second->value(seconds[row]) : 0.0));
-    const double magnitude = std::abs(sweep.admittance_S.back());
-    if (!std::isfinite(magnitude) || magnitude == 0.0) {
+    if (!std::isnormal(std::abs(sweep.admittance_S.back()))) {
       throw table.error(row, first.index,
                         "has an admittance of 0 or without end; allowed: one of a capacitance");
     }
