@@ -117,7 +117,8 @@ class TableSearch {
     }
     const Rows form{table.heading.separator, table.heading.names.size()};
     table.rows = rows_from(content_[line + 1], form);
-    const Rows below = rows_from(content_[line + 2], form);
+    const bool is_above_rows = table.rows.begin == line + 1 && table.rows.count > 0;
+    const Rows below = is_above_rows ? Rows() : rows_from(content_[line + 2], form);
     const auto is_remark = [&] {
       return table.rows.count == 0 && cells_of(lines_[line + 1].text, form.separator).size() == 1;
     };

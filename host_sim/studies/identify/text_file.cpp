@@ -19,8 +19,8 @@ using scene_file::SceneError;
 [[noreturn]] void refuse(const std::string& file, std::string_view message) {
   throw SceneError(
       {file, 1, 1}, "file",
-      fmt::format("{}; allowed: a text file of measurements, ASCII or UTF-8, up to {} MB", message,
-                  most_bytes >> 20U));
+      fmt::format("{}; allowed: a text file of measurements, ASCII, UTF-8 or UTF-16, up to {} MB",
+                  message, most_bytes >> 20U));
 }
 
 std::string bytes_of(std::istream& stream) {
@@ -33,6 +33,26 @@ std::string bytes_of(std::istream& stream) {
     bytes.resize(size + static_cast<std::size_t>(stream.gcount()));
   }
   return bytes;
+}
+
+/// UTF-8 of text in UTF-16 behind its byte order mark. Signs beyond U+FFFF stay two halves.
+std::string of_utf_16(std::string_view bytes) {
+  const std::size_t high = bytes.front() == '\xfe' ? 0 : 1;
+  std::string text;
+  for (std::size_t i = 2; i + 1 < bytes.size(); i += 2) {
+    const auto byte = [&](std::size_t at) { return static_cast<unsigned char>(bytes[i + at]); };
+    const unsigned code = (unsigned{byte(high)} << 8U) + byte(1 - high);
+    if (code < 0x80U) {
+      text += static_cast<char>(code);
+      continue;
+    }
+    text += static_cast<char>(code < 0x800U ? 0xc0U | (code >> 6U) : 0xe0U | (code >> 12U));
+    if (code >= 0x800U) {
+      text += static_cast<char>(0x80U | ((code >> 6U) & 0x3fU));
+    }
+    text += static_cast<char>(0x80U | (code & 0x3fU));
+  }
+  return text;
 }
 
 /// In ASCII, without the spaces that part groups of three digits.
@@ -64,15 +84,14 @@ scene_file::Source read_text(const std::filesystem::path& path) {
     refuse(file, std::generic_category().message(errno));
   }
   std::string text = bytes_of(stream);
-  const std::string_view mark = std::string_view(text).substr(0, 2);
   if (stream.bad()) {
     refuse(file, "cannot be read");
   }
   if (text.size() > most_bytes) {
     refuse(file, "is too large");
   }
-  if (mark == "\xff\xfe" || mark == "\xfe\xff") {
-    refuse(file, "is text in UTF-16");
+  if (const std::string mark = text.substr(0, 2); mark == "\xff\xfe" || mark == "\xfe\xff") {
+    text = of_utf_16(text);
   }
   if (const std::size_t zero = text.find('\0'); zero != std::string::npos) {
     refuse(file, fmt::format("is no text, byte {} is 0", zero));

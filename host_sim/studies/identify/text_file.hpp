@@ -17,9 +17,8 @@ namespace sonoglide::identify {
 inline constexpr std::size_t most_bytes = std::size_t{256} << 20U;
 inline constexpr std::size_t most_lines = 1'000'000;
 
-/// The text of a file of measurements, without a byte order mark.
-/// @throws scene_file::SceneError  it cannot be read, is empty, larger than most_bytes, in UTF-16,
-///         or no text at all
+/// The text of a file of measurements, without a byte order mark; of text in UTF-16 its UTF-8.
+/// @throws scene_file::SceneError  it cannot be read, is empty, larger than most_bytes, or no text
 scene_file::Source read_text(const std::filesystem::path& path);
 
 struct Line {

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdio>
+#include <fstream>
 #include <string>
 #include <vector>
 
@@ -105,6 +107,23 @@ TEST(MeasuredTable, ALastLineWithoutAnEndMayBeCut) {
   EXPECT_EQ(warning_of_cut({"m.csv", "a,b\n1,2\nEND"}), "");
   EXPECT_EQ(warning_of_cut({"m.csv", "a,b\n1,-86"}),
             "The last line, \"1,-86\", has no line end: if the file was cut, it is wrong.");
+}
+
+TEST(MeasuredTable, ReadsTextInUtf16) {
+  const std::string text = "a,\u03a9,\u8d6b\n1,2,3\n";
+  const std::u16string wide = u"a,\u03a9,\u8d6b\n1,2,3\n";
+  for (const bool big : {true, false}) {
+    std::string bytes = big ? "\xfe\xff" : "\xff\xfe";
+    for (const char16_t each : wide) {
+      const char high = static_cast<char>(each >> 8U);
+      const char low = static_cast<char>(each & 0xffU);
+      bytes += big ? std::string{high, low} : std::string{low, high};
+    }
+    const std::string file = ::testing::TempDir() + "measured_table_utf_16.csv";
+    std::ofstream(file, std::ios::binary) << bytes;
+    EXPECT_EQ(read_text(file).text, text);
+    std::remove(file.c_str());
+  }
 }
 
 TEST(MeasuredTable, RefusesAFileThatIsNoText) {
