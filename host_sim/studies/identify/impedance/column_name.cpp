@@ -140,10 +140,11 @@ class Reader {
   /// Letters and digits, a bar or quotes; else all up to a blank.
   void take_word() {
     static const std::regex form("[A-Za-z%][A-Za-z0-9]*|''|'|\\||[^ ]+");
-    std::smatch found;
-    std::regex_search(text_.cbegin() + at_, text_.cend(), found, form);
+    const std::string_view left = std::string_view(text_).substr(at_);
+    std::cmatch found;
+    std::regex_search(left.begin(), left.end(), found, form);
     const std::string word = found.str();
-    at_ += found.length();
+    at_ += word.size();
     const std::string small = lower_case(word);
     const auto unit = unit_of_word(word);
     const auto meaning = meaning_of(small);
