@@ -50,7 +50,7 @@ std::optional<SweepColumns> pair_of(std::string_view one, std::string_view other
 std::optional<SweepColumns> pair_of(const std::string& text) {
   for (std::size_t i = 1; i + 1 < text.size(); ++i) {
     const bool parts = between_names.find(text[i]) != std::string_view::npos;
-    if (const auto pair = parts ? pair_of(text.substr(0, i), text.substr(i + 1)) : std::nullopt) {
+    if (auto pair = parts ? pair_of(text.substr(0, i), text.substr(i + 1)) : std::nullopt) {
       return pair;
     }
   }
