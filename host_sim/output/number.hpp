@@ -1,9 +1,11 @@
-/// How tables and pages write a number and a text.
+/// How tables, JSON and pages write a number and a text.
 #pragma once
 
 #include <fmt/format.h>
 
 #include <cmath>
+#include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -25,6 +27,16 @@ std::string csv_cells(const std::vector<double>& figures);
 /// A text as a cell of CSV (RFC 4180): in quotes where it has a comma or a quote, printable (see
 /// printable()), so that a row is a line.
 std::string csv_cell(std::string_view text);
+
+/// A figure in JSON; null where it is not finite.
+inline nlohmann::ordered_json json_number(double value) {
+  return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json(nullptr);
+}
+
+/// A figure; null where there is none.
+inline nlohmann::ordered_json json_number(const std::optional<double>& value) {
+  return value ? json_number(*value) : nlohmann::ordered_json(nullptr);
+}
 
 /// A figure for a person; `-` where it is not finite.
 /// @param format  of fmt

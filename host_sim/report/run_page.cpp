@@ -7,6 +7,7 @@
 #include <complex>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
@@ -527,15 +528,10 @@ output::Panel spectrum_panel(const scene::Scene& scene, const loop::Recording& e
     velocity.pop_back();  // the sample that begins the next carrier period
   }
   const double interval_s = ending.time_s.size() > 1 ? ending.time_s[1] - ending.time_s[0] : 1.0;
-  report::Spectrum spectrum = report::amplitude_spectrum(velocity, interval_s);
-  if (scene.drive) {
-    constexpr double harmonics_shown = 5.0;
-    const double highest_Hz = harmonics_shown * scene.drive->frequency_Hz;
-    const auto end =
-        std::upper_bound(spectrum.frequency_Hz.begin(), spectrum.frequency_Hz.end(), highest_Hz);
-    spectrum.amplitude.resize(static_cast<std::size_t>(end - spectrum.frequency_Hz.begin()));
-    spectrum.frequency_Hz.resize(spectrum.amplitude.size());
-  }
+  constexpr double harmonics_shown = 5.0;
+  const double highest_Hz = scene.drive ? harmonics_shown * scene.drive->frequency_Hz
+                                        : std::numeric_limits<double>::infinity();
+  report::Spectrum spectrum = report::amplitude_spectrum(velocity, interval_s, highest_Hz);
   return {
       "Velocity spectrum",
       fmt::format("Amplitude, Hann window, {} samples from the end of the run.", velocity.size()),

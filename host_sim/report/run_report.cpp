@@ -6,7 +6,7 @@
 
 #include "host_sim/configure/plant_scales.hpp"
 #include "host_sim/configure/solver_facts.hpp"
-#include "host_sim/output/json_number.hpp"
+#include "host_sim/output/number.hpp"
 #include "host_sim/process/printable.hpp"
 #include "host_sim/report/run_notes.hpp"
 #include "host_sim/report/step_metrics.hpp"

@@ -11,7 +11,8 @@
 
 namespace sonoglide::report {
 
-Spectrum amplitude_spectrum(const std::vector<double>& samples, double interval_s) {
+Spectrum amplitude_spectrum(const std::vector<double>& samples, double interval_s,
+                            double highest_Hz) {
   if (samples.size() < 2) {
     return {};
   }
@@ -30,7 +31,11 @@ Spectrum amplitude_spectrum(const std::vector<double>& samples, double interval_
   constexpr double hann_gain = 0.5;
   Spectrum spectrum;
   for (std::size_t i = 0; i < transform.size(); ++i) {
-    spectrum.frequency_Hz.push_back(static_cast<double>(i) / (count * interval_s));
+    const double frequency_Hz = static_cast<double>(i) / (count * interval_s);
+    if (frequency_Hz > highest_Hz) {
+      break;
+    }
+    spectrum.frequency_Hz.push_back(frequency_Hz);
     spectrum.amplitude.push_back(2.0 * std::abs(transform[i]) / (hann_gain * count));
   }
   return spectrum;

@@ -2,12 +2,19 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "firmware/control/names.hpp"
 
 namespace sonoglide::report {
+
+std::string one_line(std::string text) {
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20; }, ' ');
+  return text;
+}
 
 AmplitudeUnit amplitude_unit(const scene::Scene& scene) {
   return scene.transducer ? AmplitudeUnit{"V", 1.0 / scene.transducer->force_factor_N_per_V}

@@ -20,6 +20,9 @@ inline std::string figure(fmt::format_string<const double&> format, double value
   return std::isnan(value) ? "-" : fmt::format(format, value);
 }
 
+/// A message as a cell of a table: control characters, which would break its line, are blanks.
+std::string one_line(std::string text);
+
 /// In which the amplitude of a drive is told.
 struct AmplitudeUnit {
   const char* name;  ///< "N", with a transducer "V"

@@ -1,7 +1,6 @@
 #include "host_sim/shards/run_shard.hpp"
 
 #include <fmt/format.h>
-#include <tbb/global_control.h>
 #include <tbb/info.h>
 
 #include <chrono>
@@ -184,12 +183,14 @@ class ShardRun {
 
 }  // namespace
 
+ThreadLimit::ThreadLimit(unsigned threads)
+    : limit_(tbb::global_control::max_allowed_parallelism,
+             threads > 0 ? threads : static_cast<std::size_t>(tbb::info::default_concurrency())) {}
+
 ShardSummary run_shard(const ShardHeader& header, const Computation& computation,
                        const fs::path& folder, unsigned threads,
                        const long_work::Progress& progress) {
-  const tbb::global_control limit(
-      tbb::global_control::max_allowed_parallelism,
-      threads > 0 ? threads : static_cast<std::size_t>(tbb::info::default_concurrency()));
+  const ThreadLimit limit(threads);
   const auto begin = std::chrono::steady_clock::now();
   long_work::Pace pace(progress);
   ShardSummary summary = ShardRun(header, computation, folder)(pace);

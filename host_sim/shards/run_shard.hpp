@@ -1,6 +1,8 @@
 /// One shard of long work, from its journals to its file.
 #pragma once
 
+#include <tbb/global_control.h>
+
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -13,6 +15,15 @@
 #include "host_sim/shards/work.hpp"
 
 namespace sonoglide::shards {
+
+/// While it lives, work is done on at most so many threads; 0: one for each core.
+class ThreadLimit {
+ public:
+  explicit ThreadLimit(unsigned threads);
+
+ private:
+  tbb::global_control limit_;
+};
 
 /// What a record says, to those who do not know what it is of.
 struct RecordFacts {

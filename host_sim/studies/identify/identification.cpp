@@ -5,7 +5,6 @@
 #include <cmath>
 #include <utility>
 
-#include "host_sim/output/json_number.hpp"
 #include "host_sim/output/number.hpp"
 
 namespace sonoglide::identify {

@@ -93,11 +93,7 @@ std::vector<Peak> peaks_of(const report::Spectrum& spectrum, const scene::Scene&
 
 Lines lines(std::vector<double> values, double interval_s, const scene::Scene& scene) {
   values.pop_back();  // begins the next carrier period
-  report::Spectrum spectrum = report::amplitude_spectrum(values, interval_s);
-  const auto end =
-      std::upper_bound(spectrum.frequency_Hz.begin(), spectrum.frequency_Hz.end(), highest_Hz);
-  spectrum.amplitude.resize(static_cast<std::size_t>(end - spectrum.frequency_Hz.begin()));
-  spectrum.frequency_Hz.resize(spectrum.amplitude.size());
+  report::Spectrum spectrum = report::amplitude_spectrum(values, interval_s, highest_Hz);
   std::vector<Peak> peaks = peaks_of(spectrum, scene);
   return {std::move(spectrum), std::move(peaks)};
 }

@@ -1,8 +1,6 @@
 #include "host_sim/studies/robust/robust.hpp"
 
 #include <fmt/format.h>
-#include <tbb/global_control.h>
-#include <tbb/info.h>
 
 #include <chrono>
 #include <cstdint>
@@ -42,9 +40,7 @@ void write_files(const Task& task, const Study& study, const std::string& page,
 /// @param samples  that are known already, from the first on
 Outcome run(const Task& task, const fs::path& out, const std::string& program, unsigned threads,
             const std::vector<PlantRow>& samples, const long_work::Progress& progress) {
-  const tbb::global_control limit(
-      tbb::global_control::max_allowed_parallelism,
-      threads > 0 ? threads : static_cast<std::size_t>(tbb::info::default_concurrency()));
+  const shards::ThreadLimit limit(threads);
   check_samples(task, {samples.size(), task.counts().samples});
   output::create_folder(out, {samples_file, search_file, figures_file, worst_file, page_file});
   // Rows of another arithmetic, which an earlier program had, do not mix with these.

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -21,13 +20,6 @@ constexpr std::array<std::uint64_t PlantRow::*, 4> kept_counts = {
 /// NaN is left out.
 void raise(double& largest, double value) {
   largest = std::fmax(largest, value);
-}
-
-/// Control characters would break a line of the table.
-std::string one_line(std::string text) {
-  std::replace_if(
-      text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20; }, ' ');
-  return text;
 }
 
 template <class Name>
@@ -77,7 +69,7 @@ PlantRow row_of(const std::vector<report::StepMetrics>& steps, const loop::Contr
 
 PlantRow failed_row(const std::string& reason) {
   PlantRow row;
-  row.status = one_line(reason);
+  row.status = report::one_line(reason);
   return row;
 }
 

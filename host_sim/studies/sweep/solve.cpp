@@ -1,13 +1,10 @@
 #include "host_sim/studies/sweep/solve.hpp"
 
 #include <tbb/blocked_range.h>
-#include <tbb/global_control.h>
-#include <tbb/info.h>
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_for_each.h>
 #include <tbb/partitioner.h>
 
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -21,7 +18,9 @@
 #include "host_sim/configure/solver_facts.hpp"
 #include "host_sim/loop/run.hpp"
 #include "host_sim/report/step_metrics.hpp"
+#include "host_sim/report/words.hpp"
 #include "host_sim/scene_file/scene_error.hpp"
+#include "host_sim/shards/run_shard.hpp"
 #include "host_sim/studies/sweep/batch_point.hpp"
 
 namespace sonoglide::sweep {
@@ -101,13 +100,6 @@ PointResult run(const scene::Scene& scene) {
   return row;
 }
 
-/// Control characters would break a line of the table.
-std::string one_line(std::string text) {
-  std::replace_if(
-      text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20; }, ' ');
-  return text;
-}
-
 }  // namespace
 
 PointResult solve_scalar_point(const scene::Scene& scene) {
@@ -115,7 +107,7 @@ PointResult solve_scalar_point(const scene::Scene& scene) {
     return run(scene);
   } catch (const loop::ComputationError& error) {
     PointResult failed;
-    failed.status = one_line(error.what());
+    failed.status = report::one_line(error.what());
     return failed;
   }
 }
@@ -206,9 +198,7 @@ void solve_all(const Solve& solve, const Points& points, const Sink& sink) {
 }
 
 std::vector<PointResult> compute_rows(const Plan& plan, unsigned threads) {
-  const tbb::global_control limit(
-      tbb::global_control::max_allowed_parallelism,
-      threads > 0 ? threads : static_cast<std::size_t>(tbb::info::default_concurrency()));
+  const shards::ThreadLimit limit(threads);
   const Solve solve(plan, plan.all(), nullptr);
   std::vector<PointResult> rows(plan.grid().size());
   Points all(rows.size());

@@ -1,8 +1,6 @@
 #include "host_sim/studies/sweep/sweep.hpp"
 
 #include <fmt/format.h>
-#include <tbb/global_control.h>
-#include <tbb/info.h>
 
 #include <algorithm>
 #include <chrono>
@@ -134,9 +132,7 @@ void write_files(const Plan& plan, const std::vector<PointResult>& rows, const f
 
 Summary run_sweep(const Plan& plan, const fs::path& out, const std::string& program,
                   unsigned threads, const long_work::Progress& progress) {
-  const tbb::global_control limit(
-      tbb::global_control::max_allowed_parallelism,
-      threads > 0 ? threads : static_cast<std::size_t>(tbb::info::default_concurrency()));
+  const shards::ThreadLimit limit(threads);
   const auto begin = std::chrono::steady_clock::now();
   long_work::Pace pace(progress);
   const Solve solve(plan, plan.all(), &pace);

@@ -4,7 +4,6 @@
 
 #include <cmath>
 
-#include "host_sim/output/json_number.hpp"
 #include "host_sim/output/number.hpp"
 #include "host_sim/studies/identify/identification.hpp"
 #include "host_sim/studies/identify/report.hpp"
