@@ -62,7 +62,7 @@ std::string rewritten(std::string name) {
       {std::regex("(^|[^A-Za-z0-9])[Ss]_+(?=[0-9])"), "$01S"},
       {std::regex("([a-z]{2})(?=[A-Z])"), "$1 "},  // PhaseDeg
       // k Ohm, kilo-ohm; other prefixes only where nothing else is meant.
-      {std::regex("((?:^|[^A-Za-z])(?:[kMun]|[Kk]ilo?|[Mm]ega?|[Mm]illi|[Mm]icro?|[Gg]iga)"
+      {std::regex("((?:^|[^A-Za-z])(?:[kMun]|[Kk]ilo?|[Mm]ega?|[Mm]illi|[Mm]icro?|[Gg]iga|[Nn]ano)"
                   R"(|[(\[{<] *[pmKGT])[-_ ](?=(?:[Oo]hms?|OHMS?|Hz|HZ|[Hh]ertz)"
                   "|S|[Ss]iemens|[Mm]hos?)(?![A-Za-z]))"),
        "$1"},

@@ -38,6 +38,7 @@ const std::vector<Spelling> powers = {{"10^3 ", 1e3},
                                       {"x10^-6 ", 1e-6},
                                       {"x 10^3 ", 1e3},
                                       {"10\u00b3 ", 1e3},
+                                      {"10\xb3 ", 1e3},
                                       {"10**3 ", 1e3},
                                       {"10^{3} ", 1e3},
                                       {"1000 ", 1e3},
@@ -241,7 +242,9 @@ TEST(ColumnName, NamesOfOtherQuantitiesHaveNoRole) {
   }
 }
 
-TEST(ColumnName, AReciprocalOhmIsASiemens) {
+TEST(ColumnName, ANamedPrefixOrAReciprocalOhmIsASiemens) {
+  EXPECT_EQ(read_name("G (nanoSiemens)").scale, 1e-9);
+  EXPECT_EQ(read_name("G MicroSiemens").scale, 1e-6);
   for (const char* name : {"Re(Y)/Ohm-1", "G (Ohm^-1)", "G (\u03a9\u207b\u00b9)", "G (1/Ohm)"}) {
     EXPECT_EQ(read_name(name).role, Role::real) << name;
     EXPECT_EQ(read_name(name).scale, 1.0) << name;
