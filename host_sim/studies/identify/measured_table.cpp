@@ -93,6 +93,9 @@ MeasuredTable::MeasuredTable(const scene_file::Source& source, FoundTable found)
     }
   }
   mark.warn(found_.warnings);
+  if (const std::string cut = warning_of_cut(source); !cut.empty()) {
+    found_.warnings.push_back(cut);
+  }
 }
 
 std::string MeasuredTable::number_of_cells(std::size_t found) const {

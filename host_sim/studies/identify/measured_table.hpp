@@ -54,7 +54,7 @@ class MeasuredTable {
 
   const std::vector<std::string>& names() const { return found_.heading.names; }
   std::size_t rows() const { return found_.rows.size(); }
-  /// Each a sentence: what of the text is not read.
+  /// Each a sentence: what of the text is not read, and how numbers are, and that it may be cut.
   const std::vector<std::string>& warnings() const { return found_.warnings; }
 
   /// A whole column. @throws scene_file::SceneError  a cell is missing or is no finite number

@@ -320,9 +320,6 @@ Readings read_readings(const scene_file::Source& source) {
   warn(readings);
   readings.warnings.insert(readings.warnings.end(), table.warnings().begin(),
                            table.warnings().end());
-  if (const std::string cut = warning_of_cut(source); !cut.empty()) {
-    readings.warnings.push_back(cut);
-  }
   return readings;
 }
 

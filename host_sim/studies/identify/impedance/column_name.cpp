@@ -1,7 +1,6 @@
 #include "host_sim/studies/identify/impedance/column_name.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <optional>
 #include <regex>
@@ -23,32 +22,28 @@ struct Meaning {
   Kind kind = Kind::plain;
 };
 
-struct Words {
-  std::string_view words;  ///< in small letters, between blanks
-  Meaning meaning;
-};
+constexpr Role no_role = Role::none;
+constexpr Subject any = Subject::unknown;
 
-constexpr Words vocabulary[] = {
+/// Words in small letters, between blanks.
+constexpr std::pair<std::string_view, Meaning> vocabulary[] = {
     {" f freq frequency frequencies frequenz frequence frecuencia frequenza ",
-     {Role::frequency, Subject::unknown}},
-    {" z zin z11 imp impedance impedanz impedancia impedenza ", {Role::none, Subject::impedance}},
-    {" y yin y11 adm admittance admittanz ", {Role::none, Subject::admittance}},
-    {" | abs mag magnitude modulus module mod betrag amplitude ",
-     {Role::magnitude, Subject::unknown}},
+     {Role::frequency, any}},
+    {" z zin z11 imp impedance impedanz impedancia impedenza ", {no_role, Subject::impedance}},
+    {" y yin y11 adm admittance admittanz ", {no_role, Subject::admittance}},
+    {" | abs mag magnitude modulus module mod betrag amplitude ", {Role::magnitude, any}},
     {" phase theta th phi phz arg argument angle ang fase winkel phasenwinkel ",
-     {Role::phase, Subject::unknown}},
-    {" ' re real realteil ", {Role::real, Subject::unknown}},
-    {" '' im imag img imaginary ", {Role::imaginary, Subject::unknown}},
+     {Role::phase, any}},
+    {" ' re real realteil ", {Role::real, any}},
+    {" '' im imag img imaginary ", {Role::imaginary, any}},
     {" r rs resistance zr ", {Role::real, Subject::impedance}},
     {" x xs reactance zi ", {Role::imaginary, Subject::impedance}},
     {" g gp conductance ", {Role::real, Subject::admittance}},
     {" b bp susceptance ", {Role::imaginary, Subject::admittance}},
-    {" trace data meas measured value values the of in for part component series ",
-     {Role::none, Subject::unknown}},
-    {" neg negative minus ", {Role::none, Subject::unknown, Kind::minus}},
-    {" gain transmission reflection gamma loss swr vswr attenuation ",
-     {Role::none, Subject::unknown, Kind::ratio}},
-    {" cp cs lp ls rp q d ", {Role::none, Subject::unknown, Kind::element}}};
+    {" trace data meas measured value values the of in for part component series ", {no_role, any}},
+    {" neg negative minus ", {no_role, any, Kind::minus}},
+    {" gain transmission reflection gamma loss swr vswr attenuation ", {no_role, any, Kind::ratio}},
+    {" cp cs lp ls rp q d ", {no_role, any, Kind::element}}};
 
 /// A name in its usual spelling, in this order.
 std::string rewritten(std::string name) {
@@ -59,8 +54,8 @@ std::string rewritten(std::string name) {
   static const Rewriting rewritings[] = {
       // Of a Bode 100, ZPlot and HFSS: Trace 1:, Z'(a), Z''(b), Z(1,1).
       {std::regex(R"(Trace [0-9]:|\(1,1\)|('+)\([ab]\))"), "$1"},
-      {std::regex("(^|[^A-Za-z0-9])[Ss]_+(?=[0-9])"), "$01S"},
-      {std::regex("([a-z]{2})(?=[A-Z])"), "$1 "},  // PhaseDeg
+      {std::regex("(^|[^A-Za-z0-9])[Ss]_*(?=[0-9])"), "$1gain "},  // S11
+      {std::regex("([a-z]{2})(?=[A-Z])"), "$1 "},                  // PhaseDeg
       // k Ohm, kilo-ohm; other prefixes only where nothing else is meant.
       {std::regex("((?:^|[^A-Za-z])(?:[kMun]|[Kk]ilo?|[Mm]ega?|[Mm]illi|[Mm]icro?|[Gg]iga|[Nn]ano)"
                   R"(|[(\[{<] *[pmKGT])[-_ ](?=(?:[Oo]hms?|OHMS?|Hz|HZ|[Hh]ertz)"
@@ -78,15 +73,12 @@ std::string rewritten(std::string name) {
 std::optional<Meaning> find_word(std::string_view word) {
   const auto* const found =
       std::find_if(std::begin(vocabulary), std::end(vocabulary),
-                   [&](const Words& each) { return is_among(word, each.words); });
-  return found == std::end(vocabulary) ? std::nullopt : std::optional(found->meaning);
+                   [&](const auto& each) { return is_among(word, each.first); });
+  return found == std::end(vocabulary) ? std::nullopt : std::optional(found->second);
 }
 
 /// Of a word in small letters, and of a part with its z or y in one word, as `absz` and `zphase`.
 std::optional<Meaning> meaning_of(const std::string& word) {
-  if (word.size() > 1 && word[0] == 's' && std::isdigit(static_cast<unsigned char>(word[1])) != 0) {
-    return Meaning{Role::none, Subject::unknown, Kind::ratio};  // S11
-  }
   auto found = find_word(word);
   for (const bool before : {true, false}) {
     const char letter = word.size() < 3 ? '\0' : before ? word.front() : word.back();
@@ -109,12 +101,6 @@ class Reader {
     while (at_ < text_.size()) {
       take_next();
     }
-    if (is_other_) {
-      const bool is_ratio = result_.is_ratio;
-      result_ = {};
-      result_.is_ratio = is_ratio;
-      return;
-    }
     conclude();
   }
 
@@ -122,8 +108,7 @@ class Reader {
 
  private:
   void take_next() {
-    const char each = text_[at_];
-    const auto is = [&](std::string_view among) {
+    const auto is = [each = text_[at_]](std::string_view among) {
       return among.find(each) != std::string_view::npos;
     };
     if (is("([{</,")) {
@@ -235,9 +220,11 @@ class Reader {
     const bool level_of_unknown = (is_other || (result_.decibel && !unit_)) &&
                                   result_.role == Role::magnitude &&
                                   result_.subject == Subject::unknown;
-    if ((!named && !unit_) || (is_other && (!named || only_bars)) || level_of_unknown ||
-        (only_bars && !result_.not_understood.empty())) {
+    if (is_other_ || (!named && !unit_) || (is_other && (!named || only_bars)) ||
+        level_of_unknown || (only_bars && !result_.not_understood.empty())) {
+      const bool is_ratio = result_.is_ratio;
       result_ = {};
+      result_.is_ratio = is_ratio;
       return;
     }
     if (unit_) {

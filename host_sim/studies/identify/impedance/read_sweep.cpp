@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <optional>
 
 #include "host_sim/studies/identify/impedance/read_touchstone.hpp"
 #include "host_sim/studies/identify/impedance/read_traces.hpp"
@@ -107,12 +108,9 @@ void sort_and_average(Sweep& sweep) {
 }  // namespace
 
 Sweep read_sweep(const scene_file::Source& source) {
-  Sweep sweep = is_touchstone(source)     ? read_touchstone(source)
-                : is_trace_export(source) ? read_traces(source)
-                                          : read_table(source);
-  if (const std::string cut = warning_of_cut(source); !cut.empty()) {
-    sweep.warnings.push_back(cut);
-  }
+  std::optional<Sweep> found = read_touchstone(source);
+  found = found ? found : read_traces(source);
+  Sweep sweep = found ? *found : read_table(source);
   sort_and_average(sweep);
   constexpr std::size_t fewest = 8;
   if (sweep.frequency_Hz.size() < fewest) {

@@ -218,14 +218,13 @@ bool is_of_touchstone(const Line& line) {
 
 }  // namespace
 
-bool is_touchstone(const scene_file::Source& source) {
+std::optional<Sweep> read_touchstone(const scene_file::Source& source) {
   const std::vector<Line> lines = lines_of(source);
-  return lower_case(std::filesystem::path(source.file).extension().string()) == ".s1p" ||
-         std::any_of(lines.begin(), lines.end(), is_of_touchstone);
-}
-
-Sweep read_touchstone(const scene_file::Source& source) {
-  return TouchstoneReader(source).read();
+  const bool is_named =
+      lower_case(std::filesystem::path(source.file).extension().string()) == ".s1p";
+  return is_named || std::any_of(lines.begin(), lines.end(), is_of_touchstone)
+             ? std::optional(TouchstoneReader(source).read())
+             : std::nullopt;
 }
 
 }  // namespace sonoglide::identify::impedance

@@ -194,12 +194,9 @@ class TraceReader {
 
 }  // namespace
 
-bool is_trace_export(const scene_file::Source& source) {
-  return source.text.find("TRACE: A\"") != std::string::npos;
-}
-
-Sweep read_traces(const scene_file::Source& source) {
-  return TraceReader(source).read();
+std::optional<Sweep> read_traces(const scene_file::Source& source) {
+  const bool has_traces = source.text.find("TRACE: A\"") != std::string::npos;
+  return has_traces ? std::optional(TraceReader(source).read()) : std::nullopt;
 }
 
 }  // namespace sonoglide::identify::impedance

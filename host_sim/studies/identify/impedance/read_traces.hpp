@@ -1,13 +1,12 @@
 /// The text export of an Agilent 4294A and its relatives.
 #pragma once
 
+#include <optional>
+
 #include "host_sim/scene_file/source.hpp"
 #include "host_sim/studies/identify/impedance/sweep.hpp"
 
 namespace sonoglide::identify::impedance {
-
-/// Whether the text has a line `"TRACE: A"`.
-bool is_trace_export(const scene_file::Source& source);
 
 /// Blocks `"TRACE: A"` and `"TRACE: B"`, each with a heading that begins with "Frequency" and, below
 /// it, lines of frequency, real and imaginary part of the trace, with or without those of the memory
@@ -15,8 +14,9 @@ bool is_trace_export(const scene_file::Source& source);
 /// `"FORMAT: |Z|"` of each; `FORMAT: LOG` and `LIN` are of the screen. Where nothing is named they
 /// are taken for |Z| in ohm and its phase in degrees, and a warning says so. A trace with imaginary
 /// parts is a complex impedance or admittance; one trace alone without is a magnitude.
+/// @return nothing of a text without a line `"TRACE: A"`
 /// @throws scene_file::SceneError  at the place of what is wrong
 /// Source: files of others, as several public readers of them take them.
-Sweep read_traces(const scene_file::Source& source);
+std::optional<Sweep> read_traces(const scene_file::Source& source);
 
 }  // namespace sonoglide::identify::impedance
