@@ -84,12 +84,17 @@ class LinearMotion {
   /// Bound of the rest.
   Scalar largest_fast_velocity() const { return mode_.largest_speed(free_); }
 
-  /// Of v cos t and of v sin t.
-  struct Carried {
-    Scalar cosine;
-    Scalar sine;
+  /// Of v cos(phase + t) and of v sin(phase + t).
+  struct Demodulated {
+    Scalar in_phase;
+    Scalar quadrature;
   };
-  Carried carried(Scalar time) const { return carried(moments(time)); }
+  Demodulated demodulated(Scalar time, Scalar phase) const {
+    const auto turn = numeric::sine_and_cosine(phase);
+    const Demodulated unturned = demodulated(moments(time));
+    return {turn.cosine * unturned.in_phase - turn.sine * unturned.quadrature,
+            turn.sine * unturned.in_phase + turn.cosine * unturned.quadrature};
+  }
 
   /// Of t v.
   Scalar velocity_moment(Scalar time) const { return velocity_moment(moments(time)); }
@@ -98,14 +103,14 @@ class LinearMotion {
   MotionIntegrals<Scalar> integrals(Scalar time) const {
     const Moments m = moments(time);
     const auto& [level, slope, cosine, sine] = forced_;
-    const Carried velocity = carried(m);
+    const Demodulated velocity = demodulated(m);
     const Scalar travel =
         slope * time + (cosine * (m.cosine - Scalar(1)) + sine * m.sine) + m.free.velocity;
     const Scalar ramped = velocity_moment(m);
     const Squares<Scalar> free = mode_.squares(free_, m.free.end, time);
     MotionIntegrals<Scalar> sum;
     sum.drive_work = drive_.level * travel + drive_.slope * ramped +
-                     (drive_.cosine * velocity.cosine + drive_.sine * velocity.sine);
+                     (drive_.cosine * velocity.in_phase + drive_.sine * velocity.quadrature);
     sum.velocity_square =
         (slope * slope * time + sine * sine * m.cosine_square + cosine * cosine * m.sine_square) +
         numeric::twice(slope * (sine * m.sine + cosine * (m.cosine - Scalar(1))) -
@@ -191,7 +196,8 @@ class LinearMotion {
     return m;
   }
 
-  Carried carried(const Moments& m) const {
+  /// At phase 0.
+  Demodulated demodulated(const Moments& m) const {
     const auto& [level, slope, cosine, sine] = forced_;
     return {slope * m.sine + sine * m.cosine_square - cosine * m.product + m.free.velocity_cosine,
             slope * (Scalar(1) - m.cosine) + sine * m.product - cosine * m.sine_square +

@@ -3,7 +3,6 @@
 
 #include <utility>
 
-#include "firmware/numeric/float_elementary.hpp"
 #include "firmware/numeric/scalar.hpp"
 #include "firmware/plant/account.hpp"
 #include "firmware/plant/state.hpp"
@@ -49,16 +48,7 @@ class LinearStep {
   Scalar velocity_moment() const { return motion_.velocity_moment(length()); }
 
   /// Of v cos(phase + t) and of v sin(phase + t).
-  struct Demodulated {
-    Scalar in_phase;
-    Scalar quadrature;
-  };
-  Demodulated demodulated(Scalar phase) const {
-    const auto turn = numeric::sine_and_cosine(phase);
-    const auto carried = motion_.carried(length());
-    return {turn.cosine * carried.cosine - turn.sine * carried.sine,
-            turn.sine * carried.cosine + turn.cosine * carried.sine};
-  }
+  auto demodulated(Scalar phase) const { return motion_.demodulated(length(), phase); }
 
  private:
   Scalar slid() const {
@@ -96,6 +86,18 @@ class ShiftedStep {
  private:
   const Step& step_;
   decltype(std::declval<Step>().begin()) shift_;
+};
+
+/// Shows the steps of a part of an interval.
+template <class Observer, class Scalar>
+struct ShiftedObserver {
+  Observer& observer;
+  Scalar shift;
+
+  template <class Step>
+  void operator()(const Step& step) {
+    observer(ShiftedStep<Step>(step, shift));
+  }
 };
 
 }  // namespace sonoglide::plant

@@ -1,4 +1,5 @@
-/// A solver that takes the stiff and linear stretches of a motion in one step each.
+/// A solver that leaves what is far faster than its intervals to others: the closed form takes the
+/// linear stretches of a stiff motion, a solver of high order those that turn.
 #pragma once
 
 #include <cstdint>
@@ -16,18 +17,22 @@
 
 namespace sonoglide::plant {
 
-/// `Solver`, but for intervals in which the natural mode is far faster than the interval is long.
+/// `Solver`, but for intervals in which the natural mode, or that of the stuck contact, is far faster
+/// than the interval is long.
 ///
 /// Such an interval is one step in closed form if nothing in it bends the motion: there is no
 /// friction, or the friction cannot change in it by more than a part of the tolerance, because the
 /// contact slides the same way all the time and is at its limit, or hardly moves. What bounds the
 /// velocity bounds the path of the contact. Where a beginning stands in the way, a vibration that
-/// dies away or a contact that is not yet at its limit, `Solver` takes it, and then the closed form
-/// takes the rest. All other intervals are those of `Solver`, bit for bit.
+/// dies away or a contact that is not yet at its limit, `Turning` takes it, and then the closed form
+/// takes the rest. `Turning` also takes an interval that is never linear. Each turn costs it the
+/// fewest steps if its order is high. All other intervals are those of `Solver`, bit for bit.
 ///
 /// The phase of a mode that turns n times is known to 2 pi n roundings. Where that is more than
-/// largest_phase_error the interval is left to `Solver`.
-template <class Solver>
+/// largest_phase_error the interval is left to `Turning`.
+///
+/// Strictness: the tolerance of `Solver` over that of `Turning`, where they mean different errors.
+template <class Solver, class Turning = Solver, int Strictness = 1>
 class StiffLinear {
  public:
   using Model = typename Solver::Model;
@@ -40,12 +45,15 @@ class StiffLinear {
   void configure(const Model& model, Scalar tolerance,
                  std::uint32_t step_limit = max_steps_per_advance, Settings... settings) {
     solver_.configure(model, tolerance, step_limit, settings...);
+    turning_.configure(model, tolerance / Scalar(Strictness), step_limit);
     model_ = model;
     mode_ = FreeMode<Scalar>(model.stiffness, model.damping_force(Scalar(1)));
     rate_ = numeric::max(numeric::sqrt(numeric::max(Scalar(0), model.stiffness)),
                          model.damping_force(Scalar(1)));
     held_ = numeric::max(numeric::min(tolerance, numeric::from_real<Scalar>(1e-5)) / Scalar(8),
                          Scalar(4) * std::numeric_limits<Scalar>::epsilon());
+    turning_rate_ =
+        numeric::max(rate_, numeric::sqrt(numeric::max(Scalar(0), model.stiffness + contact())));
     step_limit_ = step_limit;
     steps_ = 0;
   }
@@ -56,21 +64,23 @@ class StiffLinear {
   Outcome<Scalar> advance(const Interval<Scalar>& interval,
                           StateOf<typename Model::FrictionLaw>& state, Account& account,
                           Observer& observer) {
-    if constexpr (!may_be_linear) {
+    if (turning_rate_ * interval.duration < least_angle) {
       return solver_.advance(interval, state, account, observer);
-    } else {
-      Shifted<Observer> shifted = {observer, Scalar(0)};
-      if (rate_ * interval.duration < least_angle ||
-          mode_.phase_error(interval.duration) > largest_phase_error) {
-        return solver_.advance(interval, state, account, shifted);
-      }
-      return advance_stiff(interval, state, account, shifted);
     }
+    ShiftedObserver<Observer, Scalar> shifted = {observer, Scalar(0)};
+    if constexpr (may_be_linear) {
+      if (rate_ * interval.duration >= least_angle &&
+          mode_.phase_error(interval.duration) <= largest_phase_error) {
+        return advance_stiff(interval, state, account, shifted);
+      }
+    }
+    return turning_.advance(interval, state, account, shifted);
   }
 
   Cost cost() const {
     const Cost solved = solver_.cost();
-    return {solved.steps + steps_, solved.events};
+    const Cost turned = turning_.cost();
+    return {solved.steps + turned.steps + steps_, solved.events + turned.events};
   }
 
  private:
@@ -82,7 +92,7 @@ class StiffLinear {
 
   /// 32 turns of the natural mode.
   static constexpr Scalar least_angle = numeric::from_real<Scalar>(32.0 * numeric::two_pi);
-  /// Of the first part that `Solver` takes where an interval is not yet linear.
+  /// Of the first part that `Turning` takes where an interval is not yet linear.
   static constexpr Scalar first_part = Scalar(64);
   static constexpr Scalar largest_phase_error =
       numeric::from_real<Scalar>(std::numeric_limits<Scalar>::digits > 24 ? 2e-6 : 1e-2);
@@ -90,17 +100,13 @@ class StiffLinear {
   static constexpr Scalar least_creep =
       numeric::from_real<Scalar>(std::numeric_limits<Scalar>::digits > 24 ? 1e-4 : 2e-2);
 
-  /// Shows the steps of a part of an interval.
-  template <class Observer>
-  struct Shifted {
-    Observer& observer;
-    Scalar shift;
-
-    template <class Step>
-    void operator()(const Step& step) {
-      observer(ShiftedStep<Step>(step, shift));
+  /// Square of the mode of a stuck contact that a contact adds to the stiffness.
+  Scalar contact() const {
+    if constexpr (Law::rate_independent && !Law::remembers) {
+      return model_.contact_force(model_.law.rate(Scalar(1), Scalar(0)));
     }
-  };
+    return Scalar(0);
+  }
 
   static Interval<Scalar> part(Interval<Scalar> interval, Scalar begin, Scalar duration) {
     interval.phase_begin += begin;
@@ -113,7 +119,7 @@ class StiffLinear {
   template <class Account, class Observer>
   [[gnu::noinline]] Outcome<Scalar> advance_stiff(const Interval<Scalar>& interval,
                                                   PlantState& state, Account& account,
-                                                  Shifted<Observer>& observer) {
+                                                  ShiftedObserver<Observer, Scalar>& observer) {
     const std::uint64_t before = cost().steps;
     Scalar length = first_part / rate_;
     while (observer.shift < interval.duration) {
@@ -130,7 +136,7 @@ class StiffLinear {
       }
       const bool last = !(length < left) || rate_ * (left - length) < least_angle;
       const Outcome<Scalar> outcome =
-          solver_.advance(last ? rest : part(rest, Scalar(0), length), state, account, observer);
+          turning_.advance(last ? rest : part(rest, Scalar(0), length), state, account, observer);
       if (outcome.error != Error::none) {
         return {outcome.error, observer.shift + outcome.offset};
       }
@@ -239,7 +245,9 @@ class StiffLinear {
   Scalar rate_ = Scalar(0);  ///< of the natural mode, or of what damps it
   Scalar held_ = Scalar(0);  ///< change of friction that counts as none
   std::uint32_t step_limit_ = max_steps_per_advance;
+  Scalar turning_rate_ = Scalar(0);  ///< the fastest of these and of the stuck contact
   Solver solver_;
+  Turning turning_;
   std::uint64_t steps_ = 0;  ///< in closed form
 };
 

@@ -10,7 +10,9 @@
 namespace sonoglide::plant {
 template <class Model, std::size_t Nodes>
 class EventGauss;
-template <class Solver>
+template <class Model, std::size_t Order>
+class EventTaylor;
+template <class Solver, class Turning, int Strictness>
 class StiffLinear;
 }  // namespace sonoglide::plant
 
@@ -29,7 +31,8 @@ struct EventGauss {
   static constexpr bool composed_lean = true;
   static constexpr bool counts_events = true;
   template <class Model, int Order>
-  using Core = plant::StiffLinear<plant::EventGauss<Model, static_cast<std::size_t>(Order)>>;
+  using Core = plant::StiffLinear<plant::EventGauss<Model, static_cast<std::size_t>(Order)>,
+                                  plant::EventTaylor<Model, 16>, 1>;
 
   static constexpr Palette palette = Palette::orange;
   static constexpr std::array<Sweep, 2> float64_sweeps = {{{8, 1, 12}, {12, 6, 14}}};

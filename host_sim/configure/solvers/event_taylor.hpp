@@ -11,7 +11,7 @@
 namespace sonoglide::plant {
 template <class Model, std::size_t Order>
 class EventTaylor;
-template <class Solver>
+template <class Solver, class Turning, int Strictness>
 class StiffLinear;
 }  // namespace sonoglide::plant
 
@@ -51,7 +51,8 @@ struct EventTaylor {
   static constexpr bool composed_lean = true;
   static constexpr bool counts_events = true;
   template <class Model, int Order>
-  using Core = plant::StiffLinear<plant::EventTaylor<Model, static_cast<std::size_t>(Order)>>;
+  using Core = plant::StiffLinear<plant::EventTaylor<Model, static_cast<std::size_t>(Order)>,
+                                  plant::EventTaylor<Model, 16>, 1>;
 
   static constexpr Palette palette = Palette::blue;
   static constexpr std::array<Sweep, 4> float64_sweeps = {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <string_view>
 
 #include "host_sim/configure/study_terms.hpp"
@@ -9,7 +10,9 @@
 namespace sonoglide::plant {
 template <class Model>
 class Strang;
-template <class Solver>
+template <class Model, std::size_t Order>
+class EventTaylor;
+template <class Solver, class Turning, int Strictness>
 class StiffLinear;
 }  // namespace sonoglide::plant
 
@@ -27,8 +30,9 @@ struct Strang {
   static constexpr int order_for(double /*tolerance*/) { return 0; }
   static constexpr bool composed_lean = true;
   static constexpr bool counts_events = true;
+  // The tolerance bounds the energy, in which event_taylor errs by up to 13 of its tolerances.
   template <class Model, int /*Order*/>
-  using Core = plant::StiffLinear<plant::Strang<Model>>;
+  using Core = plant::StiffLinear<plant::Strang<Model>, plant::EventTaylor<Model, 16>, 64>;
 
   static constexpr Palette palette = Palette::green;
   static constexpr std::array<Sweep, 1> float64_sweeps = {{{0, 1, 9}}};

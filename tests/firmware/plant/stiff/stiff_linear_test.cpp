@@ -1,8 +1,11 @@
-/// Steps in closed form against the Taylor method, which knows nothing of them, and against phasors.
+/// Steps in closed form against the Taylor method, which knows nothing of them, and against phasors;
+/// what turns against Boost.odeint.
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <boost/numeric/odeint.hpp>
 #include <cmath>
 #include <vector>
 
@@ -170,7 +173,96 @@ TEST(StiffLinear, AContactThatHardlyMovesAgreesWithTaylor) {
   expect_same(exact, run<Taylor<Elastic>>(elastic, periods(3, 3e4, 0.01), from), stiffness, 2e-10);
 }
 
-TEST(StiffLinear, WhatTurnsIsLeftToTheSolverBitForBit) {
+/// y, v, phi and the integral of phi, by the Runge-Kutta formula of order 8 from reversal to reversal
+/// of V: the force is smooth between them.
+std::array<double, 4> by_a_peer(const ModelOf<friction::Dahl<double>>& model,
+                                const Interval<double>& interval, const State<double>& from) {
+  using Numbers = std::array<double, 4>;
+  namespace odeint = boost::numeric::odeint;
+  double direction = 1.0;
+  const auto velocity = [&](const Numbers& at) {
+    return interval.sliding_velocity + model.vibration_sign * at[1];
+  };
+  const auto slope = [&](const Numbers& at, Numbers& rate, double time) {
+    rate = {at[1],
+            interval.drive_amplitude * std::cos(time) - model.damping * at[1] -
+                model.stiffness * at[0] - model.friction_force * at[2],
+            model.law.contact_stiffness * velocity(at) * (1.0 - direction * at[2]), at[2]};
+  };
+  const auto formula =
+      odeint::make_controlled(1e-15, 1e-13, odeint::runge_kutta_fehlberg78<Numbers>());
+  const auto moved = [&](Numbers at, double time, double length) {
+    odeint::integrate_adaptive(formula, slope, at, time, time + length, 0.1 * length);
+    return at;
+  };
+  const double longest =
+      0.2 / std::sqrt(model.stiffness + model.friction_force * model.law.contact_stiffness);
+  Numbers now = {from.displacement, from.velocity, from.friction, 0.0};
+  direction = velocity(now) < 0.0 ? -1.0 : 1.0;
+  for (double time = 0.0; time < interval.duration;) {
+    double length = std::min(longest, interval.duration - time);
+    const bool last = length < longest;
+    Numbers next = moved(now, time, length);
+    if (direction * velocity(next) < 0.0) {
+      double low = 0.0;
+      for (int i = 0; i < 50; ++i) {
+        const double middle = 0.5 * (low + length);
+        (direction * velocity(moved(now, time, middle)) < 0.0 ? length : low) = middle;
+      }
+      next = moved(now, time, length);
+      direction = -direction;
+    } else if (last) {
+      length = interval.duration;
+    }
+    now = next;
+    time += length;
+  }
+  return now;
+}
+
+/// Whichever solver is asked for, order 16 takes what turns.
+TEST(StiffLinear, AContactThatTurnsWithTheModeAgreesWithAPeer) {
+  using Elastic = ModelOf<friction::Dahl<double>>;
+  using High = Taylor<Elastic>;
+  const Interval<double> interval = {0.0, 0.9, 3e4, 5.0, 0.0};
+  for (const double side : {1.0, -1.0}) {
+    // As soft as its own mode, or so stiff that it is at its limit in a hundredth of a turn.
+    for (const double contact : {0.5, 1e3}) {
+      SCOPED_TRACE(contact);
+      const Elastic model = {{{contact}, 2e3, side}, {0.1}, stiffness};
+      const State<double> from = {0.4, 0.0, 0.3};
+      const Record taylor =
+          run<StiffLinear<EventTaylor<Elastic, 8>, High>>(model, {interval}, from);
+      const std::array<double, 4> peer = by_a_peer(model, interval, from);
+      EXPECT_NEAR(taylor.state.displacement, peer[0], 1e-9);
+      EXPECT_NEAR(taylor.state.velocity, peer[1], 1e-9 * std::sqrt(stiffness));
+      EXPECT_NEAR(taylor.state.friction, peer[2], 1e-8);
+      EXPECT_NEAR(taylor.account.friction_integral, peer[3], 1e-10);
+      const Record strang = run<StiffLinear<Strang<Elastic>, High>>(model, {interval}, from);
+      const Record high = run<Stiff<Elastic>>(model, {interval}, from);
+      for (const Record& record : {taylor, strang}) {
+        EXPECT_EQ(record.state.displacement, high.state.displacement);
+        EXPECT_EQ(record.account.friction_integral, high.account.friction_integral);
+        EXPECT_EQ(record.steps, high.steps);
+      }
+    }
+  }
+}
+
+/// The mode is slow; a contact that sticks turns.
+TEST(StiffLinear, AStuckContactThatTurnsAgreesWithAPeer) {
+  using Elastic = ModelOf<friction::Dahl<double>>;
+  const Elastic model = {{{1e4}, 10.0, 1.0}, {0.0}, 1.0};
+  const Interval<double> interval = {0.0, 1.0, 3.0, 1e-3, 0.0};
+  const Record turning =
+      run<StiffLinear<EventTaylor<Elastic, 8>, Taylor<Elastic>>>(model, {interval}, {});
+  const std::array<double, 4> peer = by_a_peer(model, interval, {});
+  EXPECT_NEAR(turning.state.friction, peer[2], 1e-9);
+  EXPECT_NEAR(turning.account.friction_integral, peer[3], 1e-9);
+  EXPECT_EQ(turning.steps, run<Taylor<Elastic>>(model, {interval}, {}).steps);
+}
+
+TEST(StiffLinear, WhatTurnsSlowlyIsLeftToTheSolverBitForBit) {
   using Rigid = ModelOf<friction::Coulomb<double>>;
   const Rigid soft = {{{}, 0.2, 1.0}, {0.01}, 0.5};
   const auto intervals = periods(5, 1.0, 0.3);
