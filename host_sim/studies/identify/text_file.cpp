@@ -125,12 +125,12 @@ std::vector<Line> lines_of(const scene_file::Source& source) {
 
 std::vector<Cell> cells_of(std::string_view line, char separator) {
   const bool by_blanks = separator == ' ';
-  const std::string_view blanks = by_blanks ? " \t\r\v\f" : " \v\f";
-  const std::string_view ends = by_blanks ? blanks : std::string_view(&separator, 1);
+  const std::string_view skipped = by_blanks ? " \t\r\v\f" : " \v\f";
+  const std::string_view ends = by_blanks ? skipped : std::string_view(&separator, 1);
   std::vector<Cell> cells;
   std::size_t at = 0;
   while (cells.size() <= most_cells) {
-    const std::size_t first = std::min(line.find_first_not_of(blanks, at), line.size());
+    const std::size_t first = std::min(line.find_first_not_of(skipped, at), line.size());
     if (by_blanks && first == line.size()) {
       break;
     }
