@@ -5,19 +5,20 @@
 #include <type_traits>
 
 #include "firmware/control/drive_command.hpp"
+#include "firmware/control/drive_limit.hpp"
 #include "firmware/control/fed_forward.hpp"
 #include "firmware/control/force_sensing.hpp"
 #include "firmware/control/friction_level.hpp"
-#include "firmware/control/full_drive.hpp"
 #include "firmware/control/measurement.hpp"
-#include "firmware/control/no_relearning.hpp"
+#include "firmware/control/periodic_relearning.hpp"
 #include "firmware/control/plausibility.hpp"
+#include "firmware/control/sample_inspection.hpp"
 #include "firmware/control/settling_watch.hpp"
 #include "firmware/control/signals.hpp"
 #include "firmware/control/speed_foresight.hpp"
 #include "firmware/control/standstill_hold.hpp"
-#include "firmware/control/strict_samples.hpp"
 #include "firmware/control/stuck_detector.hpp"
+#include "firmware/control/tolerant_samples.hpp"
 #include "firmware/numeric/accumulator.hpp"
 #include "firmware/numeric/scalar.hpp"
 
@@ -63,7 +64,6 @@ class Controller {
   using Measurement = typename PartsT::Vibration::Measurement;
   using Command = typename PartsT::Vibration::Command;
   static constexpr bool observed = PartsT::Vibration::observed;  ///< the vibration
-  static constexpr bool felt = PartsT::Vibration::felt;          ///< in the friction
   // A vibration is foreseen from one sample to the next, so that none may be left out.
   static_assert(!observed || std::is_same_v<typename PartsT::Samples, StrictSamples>);
 
@@ -141,9 +141,7 @@ class Controller {
   /// @param parameters  of a controller with the same vibration, and equal to its own; outlive this
   template <class EqualParameters>
   void settle_at(const EqualParameters& parameters) {
-    if constexpr (observed || felt) {
-      vibration_.settle_at(parameters.vibration);
-    }
+    vibration_.settle_at(parameters.vibration);
   }
 
   /// Begins afresh, from any state, with calibration where there is one. A target that is set
@@ -161,17 +159,8 @@ class Controller {
     watch_.restart();
     foresight_.restart();
     samples_.restart();
-    if constexpr (relearns) {
-      relearning_.restart();
-    }
-    if constexpr (observed || felt) {
-      vibration_.restart();
-    }
-    if constexpr (felt) {
-      if (state_ == State::off || state_ == State::fault) {
-        vibration_.rest();
-      }
-    }
+    relearning_.restart();
+    vibration_.restart(state_ == State::off || state_ == State::fault);
     backwards_ = false;
     requested_ = Scalar{};
     if (!driven || friction_.learning()) {
@@ -202,9 +191,7 @@ class Controller {
     if (target != target_) {
       regulator_.target_changes(target - target_);
       watch_.retarget();
-      if constexpr (felt) {
-        vibration_.retarget(target - target_);
-      }
+      vibration_.retarget(target - target_);
       target_ = target;
     }
   }
@@ -215,18 +202,8 @@ class Controller {
   /// Answer to one carrier period, valid for the next.
   template <Numbers Known = Numbers::any>
   Command step(const Measurement& measurement) {
-    if constexpr (felt) {
-      vibration_.pass();
-    }
-    const DriveCommand<Scalar> command = answer(measurement, inspect<Known>(measurement));
-    if constexpr (felt) {
-      vibration_.answer(command.amplitude);
-    }
-    if constexpr (observed) {
-      return vibration_.answer(command);
-    } else {
-      return command;
-    }
+    vibration_.before();
+    return vibration_.after(answer(measurement, inspect<Force, Known>(measurement)));
   }
 
  private:
@@ -246,12 +223,9 @@ class Controller {
     if (unusable != Fault::none) {
       return state_ == State::calibrating ? undriven(Limit::bad_sample) : apply(bridge());
     }
-    if constexpr (observed) {
-      const Fault unsound = vibration_.observe(measurement);
-      if (unsound != Fault::none) {
-        trip(unsound);
-        return undriven(Limit::none);
-      }
+    if (const Fault unsound = vibration_.observe(measurement); unsound != Fault::none) {
+      trip(unsound);
+      return undriven(Limit::none);
     }
     const Scalar velocity = measurement.sliding_velocity;
     // At its rail it is none to go on from.
@@ -270,44 +244,9 @@ class Controller {
     return state_ == State::fault ? undriven(Limit::none) : apply(wanted);
   }
 
-  static constexpr bool relearns = PartsT::Relearning::relearns;
-
   static constexpr Limit at_full_drive = PartsT::Vibration::at_full_drive;
 
   static constexpr Scalar whole_ratio() { return numeric::from_real<Scalar>(0.5); }
-
-  template <Numbers Known>
-  static Fault inspect(const Measurement& measurement) {
-    if (measurement.quality == Quality::missing) {
-      return Fault::measurement_missing;
-    }
-    if constexpr (observed) {
-      const Fault unusable = inspect_vibration<Known>(measurement);
-      if (unusable != Fault::none) {
-        return unusable;
-      }
-    }
-    if (Force::present && measurement.quality == Quality::saturated) {
-      return Fault::measurement_saturated;
-    }
-    const bool finite = Known == Numbers::finite ||
-                        ((!Force::present || numeric::is_finite(measurement.friction_force)) &&
-                         numeric::is_finite(measurement.sliding_velocity));
-    return finite ? Fault::none : Fault::measurement_not_finite;
-  }
-
-  template <Numbers Known>
-  static Fault inspect_vibration(const Measurement& measurement) {
-    if (measurement.vibration_quality == Quality::missing) {
-      return Fault::vibration_missing;
-    }
-    if (measurement.vibration_quality == Quality::saturated) {
-      return Fault::vibration_saturated;
-    }
-    const bool finite = Known == Numbers::finite || (numeric::is_finite(measurement.in_phase) &&
-                                                     numeric::is_finite(measurement.quadrature));
-    return finite ? Fault::none : Fault::measurement_not_finite;
-  }
 
   Request trip(Fault fault) {
     state_ = State::fault;
@@ -399,37 +338,23 @@ class Controller {
     if (stuck_.stuck(measurement.friction_force, measured, commanded_, followed_)) {
       return trip(Fault::measurement_stuck);
     }
-    if constexpr (felt) {
-      feel(measured, numeric::abs(measurement.sliding_velocity));
+    vibration_.sense(measured, numeric::abs(measurement.sliding_velocity), backwards_,
+                     feedforward_);
+    if (target_ < whole_ratio()) {
+      return relearn(measured, along, speed);
     }
-    if constexpr (relearns) {
-      if (target_ < whole_ratio()) {
-        return relearn(measured, along, speed);
-      }
-      interrupt_relearning();
-    }
+    interrupt_relearning();
     return regulate(measured, speed);
   }
 
-  /// @param speed  of the sample
-  void feel(Scalar measured, Scalar speed) {
-    const Scalar ratio = numeric::clamp(vibration_.sharpened(measured), Scalar{}, whole_ratio());
-    if (Scalar{} < speed) {
-      vibration_.feel(feedforward_.amplitude(ratio, speed), speed, backwards_);
-    }
-  }
-
   void interrupt_relearning() {
-    if constexpr (relearns) {
-      if (relearning_.interrupt()) {
-        feedforward_.set_friction(level_);
-      }
+    if (relearning_.interrupt()) {
+      feedforward_.set_friction(level_);
     }
   }
 
   /// Answer with relearning: regulates, or does what a pause needs.
   Request relearn(Scalar measured, Scalar along, Scalar speed) {
-    using Task = typename PartsT::Relearning::Task;
     const Task task = relearning_.next(along, speed);
     if (task == Task::regulate) {
       return regulate(measured, speed);
@@ -472,46 +397,36 @@ class Controller {
     if (whole_ratio() <= target_) {
       regulator_.hold();  // no drive can bring an undriven reading to its target
     }
-    if constexpr (observed) {
-      if (!vibration_.settled()) {
-        regulator_.hold();
-      }
+    if (!vibration_.settled()) {
+      regulator_.hold();
     }
     const Scalar ratio = regulator_.propose(target_, measured);
     const Request wanted = feedforward(ratio, speed);
     const Scalar amplitude = slew_.limit(wanted.amplitude, requested_);
     const bool held_below = amplitude < wanted.amplitude;
     const bool held_above = wanted.amplitude < amplitude;
-    bool at_most = wanted.limit == at_full_drive || held_below;
-    if constexpr (observed || felt) {
-      at_most = at_most || vibration_.at_most();
-    }
+    const bool at_most = wanted.limit == at_full_drive || held_below || vibration_.at_most();
     const bool at_least = whole_ratio() <= ratio || held_above;
     regulator_.accept(at_most, at_least);
     commanded_ = ratio;
-    if constexpr (felt) {
-      judge(measured, shown_ratio(speed), at_most || at_least);
-    } else {
-      judge(measured, commanded_, at_most || at_least);
+    if (!relearning_.pausing()) {
+      judge(measured, speed, at_most || at_least);
     }
     return {amplitude, held_below || held_above ? Limit::slew : wanted.limit};
   }
 
   /// The target, or 0 where the steady drive makes another velocity than a ratio that agrees with the
   /// target would need.
-  Scalar shown_ratio(Scalar speed) const {
-    if constexpr (Force::present) {
-      const Scalar velocity = vibration_.believed_velocity();
-      if (requested_ < velocity) {
-        return feedforward_.amplitude(watch_.agreement() * target_, speed) < velocity ? Scalar{}
-                                                                                      : target_;
-      }
-      const Scalar highest = whole_ratio() * watch_.agreement();
-      if (target_ < highest) {
-        const Scalar agreeing = numeric::half(target_) / watch_.agreement();
-        return velocity < feedforward_.amplitude(numeric::twice(agreeing), speed) ? Scalar{}
-                                                                                  : target_;
-      }
+  Scalar shown_ratio(Scalar speed, Scalar velocity) const {
+    if (requested_ < velocity) {
+      return feedforward_.amplitude(watch_.agreement() * target_, speed) < velocity ? Scalar{}
+                                                                                    : target_;
+    }
+    const Scalar highest = whole_ratio() * watch_.agreement();
+    if (target_ < highest) {
+      const Scalar agreeing = numeric::half(target_) / watch_.agreement();
+      return velocity < feedforward_.amplitude(numeric::twice(agreeing), speed) ? Scalar{}
+                                                                                : target_;
     }
     return target_;
   }
@@ -521,26 +436,15 @@ class Controller {
     return {slew_.limit(wanted.amplitude, requested_), wanted.limit};
   }
 
-  /// Judges the measured ratio. In a pause, and without a drive, there is nothing to judge.
-  /// @param shown  the true ratio, as far as the drive tells it
-  void judge(Scalar measured, Scalar shown, bool clamped) {
-    if constexpr (Force::present) {
-      if (pausing()) {
-        return;
-      }
-      if (whole_ratio() <= target_) {
-        watch_.restart();
-        return;
-      }
-      watch_.judge(target_, measured, shown, clamped);
+  /// Judges the measured ratio; without a drive there is nothing to judge.
+  void judge(Scalar measured, Scalar speed, bool clamped) {
+    if (whole_ratio() <= target_) {
+      watch_.restart();
+      return;
     }
-  }
-
-  bool pausing() const {
-    if constexpr (relearns) {
-      return relearning_.pausing();
-    }
-    return false;
+    const Scalar shown = vibration_.shown_ratio(
+        commanded_, [&](auto velocity) { return shown_ratio(speed, velocity); });
+    watch_.judge(target_, measured, shown, clamped);
   }
 
   /// Amplitude for a commanded ratio, from the inverse map.
@@ -549,8 +453,7 @@ class Controller {
       return {Scalar{}, Limit::none};
     }
     const Scalar amplitude = map_.amplitude(feedforward_, half_ratio, speed);
-    const Scalar highest =
-        felt ? numeric::from_code<Scalar>(INT32_MAX) : ceiling_.highest();  // of a velocity
+    const Scalar highest = vibration_.highest(ceiling_.highest());
     if (!(amplitude < highest)) {
       return {highest, at_full_drive};
     }
@@ -558,45 +461,21 @@ class Controller {
   }
 
   DriveCommand<Scalar> apply(const Request& request) {
-    if constexpr (observed) {
-      requested_ = numeric::observe<signal::RequestedVelocity>(request.amplitude);
-      const auto [amplitude, limit] = vibration_.drive(requested_);
-      return conclude(amplitude, request.limit == Limit::none ? limit : request.limit,
-                      vibration_.settled());
-    } else if constexpr (felt) {
-      requested_ = numeric::observe<signal::RequestedVelocity>(request.amplitude);
-      const auto [amplitude, limit] = vibration_.drive(requested_);
-      const Scalar highest = ceiling_.highest();
-      const bool clipped = highest < amplitude;
-      const Limit named = clipped ? Limit::actuator : limit;
-      return conclude(clipped ? highest : amplitude,
-                      request.limit == Limit::none ? named : request.limit, true);
-    } else {
-      requested_ = numeric::observe<signal::RequestedAmplitude>(request.amplitude);
-      const Scalar shaped = numeric::observe<signal::ShapedAmplitude>(shaper_.shape(requested_));
-      const Scalar highest = ceiling_.highest();
-      const Scalar amplitude = numeric::clamp(shaped, Scalar{}, highest);
-      const bool clipped = shaped < Scalar{} || (highest <= shaped && requested_ < highest);
-      return conclude(amplitude,
-                      clipped && request.limit == Limit::none ? Limit::actuator : request.limit,
-                      true);
-    }
+    requested_ = numeric::observe<typename PartsT::Vibration::Requested>(request.amplitude);
+    const auto [amplitude, limit] = vibration_.drive(requested_, shaper_, ceiling_.highest());
+    return conclude(amplitude, request.limit == Limit::none ? limit : request.limit);
   }
 
-  /// @param reached  nothing but the limit keeps the drive from what was asked for
-  DriveCommand<Scalar> conclude(Scalar amplitude, Limit limit, bool reached) {
-    followed_ = reached && (limit == Limit::none || limit == Limit::ratio_end);
-    const bool judged = Force::present && limit == Limit::none && !pausing();
-    Settling settling = Settling::pending;
-    if constexpr (Force::present) {
-      limit = judged ? watch_.limit_named() : limit;
-      settling = judged ? watch_.settling() : settling;
-    }
-    state_ = limit == Limit::none ? State::running : State::limited;
-    if (pausing()) {
+  DriveCommand<Scalar> conclude(Scalar amplitude, Limit limit) {
+    followed_ = vibration_.settled() && (limit == Limit::none || limit == Limit::ratio_end);
+    const bool judged = limit == Limit::none && !relearning_.pausing();
+    const Limit named = judged ? watch_.limit_named() : limit;
+    const Settling settling = judged ? watch_.settling() : Settling::pending;
+    state_ = named == Limit::none ? State::running : State::limited;
+    if (relearning_.pausing()) {
       state_ = State::relearning;
     }
-    return {amplitude, felt ? Scalar{} : commanded_, state_, limit, fault_, settling};
+    return {amplitude, vibration_.told_ratio(commanded_), state_, named, fault_, settling};
   }
 
   Scalar configured_friction_;

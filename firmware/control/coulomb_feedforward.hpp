@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "firmware/control/friction_level.hpp"
+#include "firmware/control/part_name.hpp"
 #include "firmware/numeric/fixed_elementary.hpp"
 #include "firmware/numeric/float_elementary.hpp"
 #include "firmware/numeric/scalar.hpp"
@@ -14,6 +15,7 @@ namespace sonoglide::control {
 template <class ScalarT>
 class CoulombFeedforward {
  public:
+  static constexpr PartName part_name{"coulomb_feedforward", "CoulombFeedforward"};
   using Scalar = ScalarT;
 
   struct Parameters {};

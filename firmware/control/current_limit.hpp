@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "firmware/control/part_name.hpp"
 #include "firmware/numeric/floating.hpp"
 #include "firmware/numeric/headroom.hpp"
 #include "firmware/numeric/near_root.hpp"
@@ -10,6 +11,17 @@
 #include "firmware/numeric/scalar.hpp"
 
 namespace sonoglide::control {
+
+/// A drive whose current nobody limits.
+template <class Scalar>
+class FullCurrent {
+ public:
+  static constexpr PartName part_name{"current_limit", "FullCurrent"};
+  struct Parameters {};
+  static constexpr bool limits = false;
+
+  explicit FullCurrent(const Parameters&) {}
+};
 
 /// The current has the part of the motion, in phase with the velocity, and that of the clamped
 /// capacitance, a quarter of a turn before the voltage, with the losses t = tan δ beside it. On
@@ -19,6 +31,7 @@ namespace sonoglide::control {
 template <class Scalar>
 class CurrentLimit {
  public:
+  static constexpr PartName part_name{"current_limit", "CurrentLimit"};
   struct Parameters {
     numeric::Split<Scalar> motional;  ///< a
     numeric::Split<Scalar> inverse;   ///< 1/((1 + t²) b)

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "firmware/control/friction_level.hpp"
+#include "firmware/control/part_name.hpp"
 #include "firmware/friction/dahl_inverse_map.hpp"
 #include "firmware/numeric/floating.hpp"
 #include "firmware/numeric/scalar.hpp"
@@ -13,6 +14,7 @@ namespace sonoglide::control {
 template <class ScalarT>
 class DahlFeedforward {
  public:
+  static constexpr PartName part_name{"dahl_feedforward", "DahlFeedforward"};
   using Scalar = ScalarT;
 
   struct Parameters {

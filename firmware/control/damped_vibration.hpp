@@ -6,8 +6,11 @@
 #include <cstdint>
 
 #include "firmware/control/drive_command.hpp"
+#include "firmware/control/fed_forward.hpp"
 #include "firmware/control/measurement.hpp"
 #include "firmware/control/mode_observer.hpp"
+#include "firmware/control/part_name.hpp"
+#include "firmware/control/signals.hpp"
 #include "firmware/numeric/near_root.hpp"
 #include "firmware/numeric/scalar.hpp"
 
@@ -22,14 +25,15 @@ namespace sonoglide::control {
 /// @tparam MaxDelay  largest delay: carrier periods from the end of a sampled period to the phase 0
 ///                   at which its answer acts
 template <class ScalarT, int MaxDelay>
-class DampedVibration {
+class DampedVibration : public VibrationPart<ScalarT> {
  public:
+  static constexpr PartName part_name{"damped_vibration", "DampedVibration"};
   using Scalar = ScalarT;
   using Measurement = VibrationMeasurement<Scalar>;
   using Command = ResonantCommand<Scalar>;
+  using Requested = signal::RequestedVelocity;
+  using Drive = typename VibrationPart<Scalar>::Drive;
   static constexpr bool observed = true;
-  static constexpr bool felt = false;
-  static constexpr Limit at_full_drive = Limit::actuator;
   /// Samples in a row in which a drive of a quarter or more shows no vibration, until
   /// Fault::vibration_missing.
   static constexpr int missing_samples = 16;
@@ -51,11 +55,6 @@ class DampedVibration {
     }
   };
 
-  struct Drive {
-    Scalar amplitude;  ///< base: the largest
-    Limit limit;
-  };
-
   /// @param parameters  outlive this, see ModeObserver
   explicit DampedVibration(const Parameters& parameters)
       : observer_(parameters.observer),
@@ -66,7 +65,7 @@ class DampedVibration {
   /// See Controller::settle_at.
   void settle_at(const Parameters& parameters) { observer_.settle_at(parameters.observer); }
 
-  void restart() {
+  void restart(bool /*rested*/) {
     observer_.restart();
     quarter_offset_ = {};
     missing_ = 0;
@@ -92,7 +91,8 @@ class DampedVibration {
   }
 
   /// The drive that brings the velocity to a wanted one in [0, 1].
-  Drive drive(Scalar velocity) {
+  template <class Shaper>
+  Drive drive(Scalar velocity, const Shaper& /*shaper*/, Scalar /*ceiling*/) {
     constexpr Scalar largest = numeric::from_code<Scalar>(INT32_MAX);
     const Scalar quarter = steady_quarter(velocity);
     at_most_ = numeric::from_real<Scalar>(0.25) <= quarter;
@@ -110,7 +110,7 @@ class DampedVibration {
 
   /// One call for each step, with its answer.
   /// @return the answer; its frequency stays that of the start
-  Command answer(const DriveCommand<Scalar>& command) {
+  Command after(const DriveCommand<Scalar>& command) {
     for (std::size_t i = 0; i < last(); ++i) {
       amplitudes_[i] = amplitudes_[i + 1];
     }

@@ -1,9 +1,21 @@
 /// A drive that is held below what the actuator can do.
 #pragma once
 
+#include <cstdint>
 #include "firmware/numeric/scalar.hpp"
 
 namespace sonoglide::control {
+
+/// A drive that may use all that the actuator can do.
+template <class Scalar>
+class FullDrive {
+ public:
+  struct Parameters {};
+
+  explicit FullDrive(const Parameters&) {}
+
+  static constexpr Scalar highest() { return numeric::from_code<Scalar>(INT32_MAX); }
+};
 
 template <class Scalar>
 class DriveLimit {

@@ -7,9 +7,12 @@
 #include <cstdint>
 
 #include "firmware/control/drive_command.hpp"
+#include "firmware/control/fed_forward.hpp"
 #include "firmware/control/felt_observer.hpp"
 #include "firmware/control/measurement.hpp"
+#include "firmware/control/part_name.hpp"
 #include "firmware/control/reading_lag.hpp"
+#include "firmware/control/signals.hpp"
 #include "firmware/numeric/headroom.hpp"
 #include "firmware/numeric/scalar.hpp"
 
@@ -26,15 +29,15 @@ namespace sonoglide::control {
 ///                   to the phase 0 at which its answer acts
 /// @tparam ReadingT  PromptReading | LaggingReading
 template <class ScalarT, int MaxDelay, class ReadingT>
-class FeltVibration {
+class FeltVibration : public VibrationPart<ScalarT> {
  public:
+  static constexpr PartName part_name{"felt_vibration", "FeltVibration"};
   using Scalar = ScalarT;
   using Measurement = control::Measurement<Scalar>;
   using Command = DriveCommand<Scalar>;
   using Reading = ReadingT;
-  static constexpr bool observed = false;
-  static constexpr bool felt = true;
-  static constexpr Limit at_full_drive = Limit::actuator;
+  using Requested = signal::RequestedVelocity;
+  using Drive = typename VibrationPart<Scalar>::Drive;
 
   struct Parameters {
     typename FeltObserver<Scalar>::Parameters observer;
@@ -51,11 +54,6 @@ class FeltVibration {
     }
   };
 
-  struct Drive {
-    Scalar amplitude;  ///< base: the largest
-    Limit limit;
-  };
-
   /// @param parameters  outlive this, see FeltObserver
   explicit FeltVibration(const Parameters& parameters)
       : observer_(parameters.observer),
@@ -66,18 +64,17 @@ class FeltVibration {
   /// See Controller::settle_at.
   void settle_at(const Parameters& parameters) { observer_.settle_at(parameters.observer); }
 
-  void restart() {
+  void restart(bool rested) {
     observer_.restart();
     reading_.restart();
     wanted_ = {};
     at_most_ = false;
+    if (rested) {
+      amplitudes_ = {};
+    }
   }
 
-  /// The drive has been at zero for long.
-  void rest() { amplitudes_ = {}; }
-
-  /// One call for each period, before its reading.
-  void pass() { observer_.pass(amplitudes_[sampled] - amplitudes_[sampled - 1]); }
+  void before() { observer_.pass(amplitudes_[sampled] - amplitudes_[sampled - 1]); }
 
   /// The target is another. A change by a quarter of the friction makes o as uncertain as at the start.
   /// @param change  in friction ratio, on base 2
@@ -85,12 +82,15 @@ class FeltVibration {
     observer_.doubt_offset(numeric::limited_lift(numeric::abs(change), 3));
   }
 
-  /// A measured ratio on base 2 without the lag of sensor and contact.
-  Scalar sharpened(Scalar half_ratio) { return reading_.sharpened(half_ratio); }
-
-  /// @param velocity  that the sharpened ratio stands for
-  /// @param speed     |Vt| > 0
-  void feel(Scalar velocity, Scalar speed, bool backwards) {
+  /// Takes the velocity that the ratio stands for without the lag of sensor and contact.
+  template <class Feedforward>
+  void sense(Scalar measured, Scalar speed, bool backwards, const Feedforward& feedforward) {
+    constexpr Scalar whole = numeric::from_real<Scalar>(0.5);
+    const Scalar ratio = numeric::clamp(reading_.sharpened(measured), Scalar{}, whole);
+    if (!(Scalar{} < speed)) {
+      return;
+    }
+    const Scalar velocity = feedforward.amplitude(ratio, speed);
     if (backwards == backwards_) {
       observer_.observe(velocity, speed,
                         {amplitudes_[sampled], amplitudes_[sampled - 1], amplitudes_[sampled - 2]},
@@ -98,8 +98,13 @@ class FeltVibration {
     }
   }
 
+  static constexpr Scalar highest(Scalar /*ceiling*/) {
+    return numeric::from_code<Scalar>(INT32_MAX);  // of a velocity
+  }
+
   /// The drive that brings the velocity to a wanted one in [0, 1].
-  Drive drive(Scalar velocity) {
+  template <class Shaper>
+  Drive drive(Scalar velocity, const Shaper& /*shaper*/, Scalar ceiling) {
     constexpr Scalar largest = numeric::from_code<Scalar>(INT32_MAX);
     wanted_ = velocity;
     const Scalar quarter = velocity == Scalar{} ? Scalar{} : observer_.quarter_amplitude(velocity);
@@ -111,21 +116,27 @@ class FeltVibration {
     const Scalar latest = amplitudes_[last()];
     const Scalar less = numeric::clamp(observer_.feedback(foreseen_mode(), latest - steady_),
                                        latest - largest, latest);
-    return {latest - less, at_most_ ? Limit::actuator : Limit::none};
+    const Scalar amplitude = latest - less;
+    const bool clipped = ceiling < amplitude;
+    return {clipped ? ceiling : amplitude, clipped || at_most_ ? Limit::actuator : Limit::none};
   }
 
-  /// One call for each step, with the amplitude that it answers.
-  void answer(Scalar amplitude) {
+  Command after(const Command& command) {
     for (std::size_t i = 0; i < last(); ++i) {
       amplitudes_[i] = amplitudes_[i + 1];
     }
-    amplitudes_[last()] = amplitude;
+    amplitudes_[last()] = command.amplitude;
+    return command;
   }
 
   /// No more of a drive would help.
   bool at_most() const { return at_most_; }
-  /// What the steady drive makes of the velocity, by the model alone.
-  Scalar believed_velocity() const { return observer_.believed_velocity(steady_); }
+  /// That of what the steady drive makes of the velocity, by the model alone.
+  template <class OfVelocity>
+  Scalar shown_ratio(Scalar /*commanded*/, const OfVelocity& by_velocity) const {
+    return by_velocity(observer_.believed_velocity(steady_));
+  }
+  static constexpr Scalar told_ratio(Scalar /*commanded*/) { return {}; }
 
  private:
   static constexpr std::size_t sampled = 2;

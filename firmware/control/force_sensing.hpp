@@ -1,6 +1,8 @@
 /// Whether a sensor tells the friction force.
 #pragma once
 
+#include "firmware/control/drive_command.hpp"
+#include "firmware/control/part_name.hpp"
 #include "firmware/control/remembered_map.hpp"
 
 namespace sonoglide::control {
@@ -12,9 +14,15 @@ struct NothingToJudge {
   explicit NothingToJudge(const Parameters&) {}
   static constexpr void restart() {}
   static constexpr void retarget() {}
+  template <class Scalar>
+  static constexpr void judge(Scalar /*target*/, Scalar /*measured*/, Scalar /*commanded*/,
+                              bool /*clamped*/) {}
+  static constexpr Limit limit_named() { return Limit::none; }
+  static constexpr Settling settling() { return Settling::pending; }
 };
 
 struct ForceSensor {
+  static constexpr PartName part_name{"force_sensing", "ForceSensor"};
   struct Parameters {};
   static constexpr bool present = true;
   template <class Part>
@@ -25,6 +33,7 @@ struct ForceSensor {
 
 /// The ratio rests on the vibration and on the friction that the controller believes.
 struct NoForceSensor {
+  static constexpr PartName part_name{"force_sensing", "NoForceSensor"};
   struct Parameters {};
   static constexpr bool present = false;
   template <class Part>

@@ -3,12 +3,33 @@
 
 #include <cstdint>
 
+#include "firmware/control/part_name.hpp"
 #include "firmware/control/signals.hpp"
 #include "firmware/numeric/accumulator.hpp"
 #include "firmware/numeric/headroom.hpp"
 #include "firmware/numeric/scalar.hpp"
 
 namespace sonoglide::control {
+
+/// No feedback: the target goes to the feedforward as it is.
+/// The commands are those of an IntegralRegulator with a gain
+/// of 0.
+template <class Scalar>
+class NoFeedback {
+ public:
+  static constexpr PartName part_name{"integral_regulator", "NoFeedback"};
+  struct Parameters {};
+
+  static constexpr void scale_gain(Parameters&, Scalar) {}
+
+  explicit NoFeedback(const Parameters&) {}
+  void restart(Scalar) {}
+  void hold() {}
+  void target_changes(Scalar) {}
+  void shift(Scalar, Scalar) {}
+  Scalar propose(Scalar target, Scalar /*measured*/) const { return target; }
+  void accept(bool, bool) {}
+};
 
 /// commanded ratio = target + integral of (reference − measured), in [0, 1].
 ///
@@ -26,6 +47,7 @@ namespace sonoglide::control {
 template <class Scalar, int MaxDelay>
 class IntegralRegulator {
  public:
+  static constexpr PartName part_name{"integral_regulator", "IntegralRegulator"};
   struct Parameters {
     Scalar gain;                 ///< per carrier period
     Scalar keep;                 ///< of the reference's lag, per carrier period; in [0, 1)

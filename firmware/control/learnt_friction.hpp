@@ -4,11 +4,27 @@
 #include <array>
 #include <cstdint>
 
+#include "firmware/control/part_name.hpp"
 #include "firmware/numeric/accumulator.hpp"
 #include "firmware/numeric/headroom.hpp"
 #include "firmware/numeric/scalar.hpp"
 
 namespace sonoglide::control {
+
+/// No calibration: the configured friction force is trusted.
+template <class Scalar>
+class TrustedFriction {
+ public:
+  static constexpr PartName part_name{"learnt_friction", "TrustedFriction"};
+  struct Parameters {};
+
+  explicit TrustedFriction(const Parameters&) {}
+  void restart() {}
+  static constexpr bool learning() { return false; }
+  void learn(Scalar, Scalar, bool) {}
+  Scalar friction_force(Scalar configured) const { return configured; }
+  Scalar without_offset(Scalar force) const { return force; }
+};
 
 /// Mean of the undriven friction force along the sliding. It begins once the contact has slid
 /// through its presliding distance and the sensor has settled. Its sign shows a sensor that is
@@ -26,6 +42,7 @@ namespace sonoglide::control {
 template <class Scalar>
 class LearntFriction {
  public:
+  static constexpr PartName part_name{"learnt_friction", "LearntFriction"};
   struct Parameters {
     std::uint32_t settle_periods;         ///< samples passed over in each direction
     std::uint32_t average_periods;        ///< samples averaged after them, at least 1

@@ -7,8 +7,22 @@
 #include <utility>
 
 #include "firmware/control/notch_rounding.hpp"
+#include "firmware/control/part_name.hpp"
 
 namespace sonoglide::control {
+
+/// No command shaping: for plants without a natural mode, and to show the effect of the notch.
+template <class ScalarT>
+class NoShaping {
+ public:
+  static constexpr PartName part_name{"notch_shaper", "NoShaping"};
+  using Scalar = ScalarT;
+  struct Parameters {};
+
+  explicit NoShaping(const Parameters&) {}
+  void restart() {}
+  Scalar shape(Scalar amplitude) { return amplitude; }
+};
 
 /// Taps on the drive amplitude, with zeros on the natural mode or about it:
 ///   N(z) = h0 + h1 z^-M + h2 z^-2M + ...
@@ -27,6 +41,7 @@ namespace sonoglide::control {
 template <class ScalarT, int MaxSpacing, std::size_t TapCount = 3>
 class NotchShaper {
  public:
+  static constexpr PartName part_name{"notch_shaper", "NotchShaper"};
   using Scalar = ScalarT;
   static constexpr int max_spacing = MaxSpacing;
   static constexpr std::size_t tap_count = TapCount;

@@ -3,10 +3,36 @@
 
 #include <cstdint>
 
+#include "firmware/control/part_name.hpp"
 #include "firmware/numeric/accumulator.hpp"
 #include "firmware/numeric/scalar.hpp"
 
 namespace sonoglide::control {
+
+/// What the controller is to do in a period.
+enum class Task : std::uint8_t {
+  regulate,  ///< no pause
+  pause,     ///< request zero
+  resume,    ///< a pause, but the request is as it would be without
+  learn,     ///< the request stands, and force() is new
+  adapt,     ///< the request stands, for what else follows from force()
+};
+
+/// The friction force is not learnt again while the drive is on.
+template <class Scalar>
+class NoRelearning {
+ public:
+  static constexpr PartName part_name{"periodic_relearning", "NoRelearning"};
+  struct Parameters {};
+
+  explicit NoRelearning(const Parameters&) {}
+
+  static constexpr void restart() {}
+  static constexpr bool interrupt() { return false; }
+  static constexpr bool pausing() { return false; }
+  static constexpr Task next(Scalar /*force*/, Scalar /*speed*/) { return Task::regulate; }
+  static constexpr Scalar force() { return {}; }
+};
 
 /// At regular intervals the request is zero, through the shaper, for as many periods as the contact
 /// needs to slide through its presliding distance. It comes back before the last undriven reading
@@ -20,6 +46,7 @@ namespace sonoglide::control {
 template <class Scalar>
 class PeriodicRelearning {
  public:
+  static constexpr PartName part_name{"periodic_relearning", "PeriodicRelearning"};
   struct Parameters {
     std::uint32_t every_periods;  ///< from the beginning of a pause to that of the next
     std::uint16_t quiet_periods;  ///< until shaper and sensor show no drive
@@ -41,18 +68,8 @@ class PeriodicRelearning {
       visit("weight", self.weight);
     }
   };
-  static constexpr bool relearns = true;
   /// As every_periods: no pause at all.
   static constexpr std::uint32_t never = UINT32_MAX;
-
-  /// What the controller is to do in a period.
-  enum class Task : std::uint8_t {
-    regulate,  ///< no pause
-    pause,     ///< request zero
-    resume,    ///< a pause, but the request is as it would be without
-    learn,     ///< the request stands, and force() is new
-    adapt,     ///< the request stands, for what else follows from force()
-  };
 
   explicit PeriodicRelearning(const Parameters& parameters) : parameters_(parameters) {}
 

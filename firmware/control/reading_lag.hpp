@@ -1,6 +1,7 @@
 /// The lag of a measured friction ratio, of the sensor and of the contact.
 #pragma once
 
+#include "firmware/control/part_name.hpp"
 #include "firmware/numeric/floating.hpp"
 #include "firmware/numeric/scalar.hpp"
 
@@ -10,6 +11,7 @@ namespace sonoglide::control {
 template <class ScalarT>
 class PromptReading {
  public:
+  static constexpr PartName part_name{"reading_lag", "PromptReading"};
   using Scalar = ScalarT;
   struct Parameters {};
 
@@ -24,6 +26,7 @@ class PromptReading {
 template <class ScalarT>
 class LaggingReading {
  public:
+  static constexpr PartName part_name{"reading_lag", "LaggingReading"};
   using Scalar = ScalarT;
 
   struct Parameters {

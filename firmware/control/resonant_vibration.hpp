@@ -5,8 +5,10 @@
 #include <cstdint>
 
 #include "firmware/control/drive_command.hpp"
+#include "firmware/control/fed_forward.hpp"
 #include "firmware/control/frequency_word.hpp"
 #include "firmware/control/measurement.hpp"
+#include "firmware/control/part_name.hpp"
 #include "firmware/control/past_drive.hpp"
 #include "firmware/control/resonance_estimate.hpp"
 #include "firmware/control/signals.hpp"
@@ -26,14 +28,16 @@ namespace sonoglide::control {
 /// @tparam MaxDelay  largest delay, see PastDrive
 /// @tparam CurrentT  FullCurrent | CurrentLimit
 template <class ScalarT, int MaxDelay, class CurrentT>
-class ResonantVibration {
+class ResonantVibration : public VibrationPart<ScalarT> {
  public:
+  static constexpr PartName part_name{"resonant_vibration", "ResonantVibration"};
   using Scalar = ScalarT;
   using Measurement = VibrationMeasurement<Scalar>;
   using Command = ResonantCommand<Scalar>;
   using Resonance = ResonanceEstimate<Scalar>;
+  using Requested = signal::RequestedVelocity;
+  using Drive = typename VibrationPart<Scalar>::Drive;
   static constexpr bool observed = true;
-  static constexpr bool felt = false;
   static constexpr Limit at_full_drive = Limit::voltage;
   /// Samples in a row in which a drive of a quarter or more shows no vibration, until
   /// Fault::vibration_missing.
@@ -65,11 +69,6 @@ class ResonantVibration {
     }
   };
 
-  struct Drive {
-    Scalar amplitude;  ///< base: the largest
-    Limit limit;
-  };
-
   explicit ResonantVibration(const Parameters& parameters)
       : parameters_(parameters),
         resonance_(parameters.resonance),
@@ -77,10 +76,7 @@ class ResonantVibration {
         current_(parameters.current),
         past_(parameters.delay) {}
 
-  /// See Controller::settle_at: nothing of the parameters stays where it is.
-  void settle_at(const Parameters& /*parameters*/) {}
-
-  void restart() {
+  void restart(bool /*rested*/) {
     resonance_.restart();
     missing_ = 0;
     lost_ = 0;
@@ -107,7 +103,8 @@ class ResonantVibration {
   }
 
   /// The drive that brings the velocity to a wanted one in [0, 1].
-  Drive drive(Scalar velocity) {
+  template <class Shaper>
+  Drive drive(Scalar velocity, const Shaper& /*shaper*/, Scalar /*ceiling*/) {
     const Scalar foreseen = foreseen_velocity();
     const Scalar miss = velocity - foreseen;
     constexpr int band = -5;
@@ -126,7 +123,7 @@ class ResonantVibration {
 
   /// One call for each step, with its answer.
   /// @return the answer with its frequency, in steps of the word from the start
-  Command answer(const DriveCommand<Scalar>& command) {
+  Command after(const DriveCommand<Scalar>& command) {
     const Scalar turned = resonance_.cosine() < Scalar{} ? -resonance_.sine() : resonance_.sine();
     const Scalar wanted = resonance_.in_range(
         resonance_.natural() + numeric::rough_product(parameters_.phase_gain, turned));
@@ -138,10 +135,9 @@ class ResonantVibration {
   /// Frequency of the period whose sample comes next.
   std::int32_t next_frequency() const { return past_.next().steps; }
 
-  /// The velocity is the one that was last asked for.
+  /// The velocity is the one that was last asked for. That no more of a drive would help shows in a
+  /// velocity that is not settled.
   bool settled() const { return settled_; }
-  /// No more of a drive would help; a velocity that is not settled says so too.
-  static constexpr bool at_most() { return false; }
 
  private:
   static constexpr Scalar whole() { return numeric::from_code<Scalar>(INT32_MAX); }

@@ -1,13 +1,26 @@
 /// Limit on how fast the requested drive amplitude may change.
 #pragma once
 
+#include "firmware/control/part_name.hpp"
 #include "firmware/numeric/scalar.hpp"
 
 namespace sonoglide::control {
 
+/// An actuator whose amplitude may change at will.
+template <class Scalar>
+class NoSlewLimit {
+ public:
+  static constexpr PartName part_name{"slew_limit", "NoSlewLimit"};
+  struct Parameters {};
+
+  explicit NoSlewLimit(const Parameters&) {}
+  Scalar limit(Scalar wanted, Scalar /*previous*/) const { return wanted; }
+};
+
 template <class Scalar>
 class SlewLimit {
  public:
+  static constexpr PartName part_name{"slew_limit", "SlewLimit"};
   struct Parameters {
     Scalar per_period;  ///< largest change of the amplitude in one carrier period, > 0
 

@@ -5,6 +5,16 @@
 
 namespace sonoglide::control {
 
+/// Every sample must be usable.
+struct StrictSamples {
+  struct Parameters {};
+
+  explicit StrictSamples(const Parameters&) {}
+  static constexpr void restart() {}
+  /// @return whether the controller may go on
+  static constexpr bool accept(bool usable) { return usable; }
+};
+
 /// N of the last M samples may be unusable. Until the next usable sample the last request stays in
 /// force. With N = 0 it is as strict as StrictSamples.
 class TolerantSamples {

@@ -73,58 +73,53 @@ struct ScalarName<Q15> {
   static constexpr const char* header = "firmware/numeric/fixed.hpp";
 };
 
-/// One part of the controller: what its parameters are called, its header, its type, and the
-/// initialiser of its parameters.
-struct PartText {
+/// One part of the controller: what its parameters are called, its text, and the initialiser of its
+/// parameters.
+struct ChosenPart {
   std::string slot;
-  std::vector<std::string> headers;
-  std::string type;
+  PartText text;
   std::string parameters;
 };
 
 /// Visits the choices of configure::ControllerParts.
 template <class Scalar>
-struct PartTexts {
+struct PartChoices {
   const configure::ControlDesign& design;
-  std::vector<PartText> texts;
+  std::vector<ChosenPart> chosen;
 
   template <class Choice>
   void operator()(const char* slot, const Choice& choice) {
     std::visit(
         [&](auto part) {
           const auto parameters = configure::parameters(design, part);
-          const PartName name = part_name(part, parameters);
-          std::vector<std::string> headers{name.header};
-          if (name.inner_header != nullptr) {
-            headers.emplace_back(name.inner_header);
-          }
-          texts.push_back({slot, headers, name.type, Initialiser<Scalar>::of(parameters)});
+          chosen.push_back(
+              {slot, part_text(part, parameters), Initialiser<Scalar>::of(parameters)});
         },
         choice);
   }
 };
 
 template <class Scalar>
-std::vector<PartText> part_texts(const configure::ControlDesign& design) {
-  PartTexts<Scalar> parts{design, {}};
+std::vector<ChosenPart> chosen_parts(const configure::ControlDesign& design) {
+  PartChoices<Scalar> parts{design, {}};
   configure::ControllerParts<Scalar>(design).fields(parts);
-  return parts.texts;
+  return parts.chosen;
 }
 
 /// Visits the parameters of a controller: a line for each, those of the chosen parts as they are
 /// told in `parts`.
 template <class Scalar>
 struct ParameterLines {
-  const std::vector<PartText>& parts;
+  const std::vector<ChosenPart>& parts;
   const configure::ControlScales& scales;
   std::string text;
 
   template <class Field>
   void operator()(const std::string& name, const Field& field) {
     const auto part = std::find_if(parts.begin(), parts.end(),
-                                   [&](const PartText& each) { return each.slot == name; });
+                                   [&](const ChosenPart& each) { return each.slot == name; });
     text += part == parts.end() ? line(Initialiser<Scalar>::of(field), name + base(name))
-                                : line(part->parameters, part->type);
+                                : line(part->parameters, part->text.type);
   }
 
   static std::string line(const std::string& value, const std::string& comment) {
@@ -143,7 +138,7 @@ struct ParameterLines {
 /// The parameters that are no part's are the same with any parts.
 template <class Scalar, class Force>
 std::string parameter_lines(const configure::ControlDesign& design,
-                            const std::vector<PartText>& parts) {
+                            const std::vector<ChosenPart>& parts) {
   using Parts = control::Parts<Scalar, control::TrustedFriction<Scalar>,
                                control::CoulombFeedforward<Scalar>, control::NoSlewLimit<Scalar>,
                                control::NoShaping<Scalar>, control::NoFeedback<Scalar>,
@@ -199,12 +194,13 @@ std::string target_lines(const scene::Scene& scene, const configure::ControlDesi
       design.resonance->step_Hz);
 }
 
-std::string includes(const std::vector<PartText>& parts, const char* scalar_header, bool resonant) {
+std::string includes(const std::vector<ChosenPart>& parts, const char* scalar_header,
+                     bool resonant) {
   std::vector<std::string> headers{
       resonant ? "firmware/app/timed_targets.hpp" : "firmware/app/target_schedule.hpp",
       "firmware/control/controller.hpp"};
-  for (const PartText& part : parts) {
-    for (const std::string& header : part.headers) {
+  for (const ChosenPart& part : parts) {
+    for (const std::string& header : part.text.headers) {
       headers.push_back(fmt::format("firmware/control/{}.hpp", header));
     }
   }
@@ -220,11 +216,11 @@ std::string includes(const std::vector<PartText>& parts, const char* scalar_head
 }
 
 /// Number of a design: of its parts, their parameters and what these are multiples of.
-std::uint32_t design_number(const std::string& types, const std::vector<PartText>& parts,
+std::uint32_t design_number(const std::string& types, const std::vector<ChosenPart>& parts,
                             const configure::ControlScales& scales) {
   std::string text = types;
-  for (const PartText& part : parts) {
-    text += fmt::format("    {},  // {}\n", part.parameters, part.type);
+  for (const ChosenPart& part : parts) {
+    text += fmt::format("    {},  // {}\n", part.parameters, part.text.type);
   }
   text += fmt::format("{} {} {} {}", scales.carrier_period_s, scales.force_N,
                       scales.velocity_m_per_s, scales.drive_amplitude_N);
@@ -233,10 +229,10 @@ std::uint32_t design_number(const std::string& types, const std::vector<PartText
 
 template <class Scalar>
 std::string header_in(const scene::Scene& scene, const configure::ControlDesign& design) {
-  const std::vector<PartText> parts = part_texts<Scalar>(design);
+  const std::vector<ChosenPart> parts = chosen_parts<Scalar>(design);
   std::string types;
-  for (const PartText& part : parts) {
-    types += fmt::format(",\n                             control::{}", part.type);
+  for (const ChosenPart& part : parts) {
+    types += fmt::format(",\n                             control::{}", part.text.type);
   }
   return fmt::format(
       R"(/// The controller of the scene {}. Written by sonoglide configure: edit the scene.

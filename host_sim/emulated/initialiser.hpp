@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <string>
 #include <type_traits>
+#include <vector>
 
 #include "firmware/numeric/accumulator.hpp"
 #include "firmware/numeric/fixed.hpp"
@@ -16,131 +17,60 @@
 
 namespace sonoglide::emulated {
 
-struct PartName {
-  const char* header;  ///< in firmware/control, without .hpp
+/// How an image's code names a part.
+struct PartText {
+  std::vector<std::string> headers;  ///< in firmware/control, without .hpp
   std::string type;
-  const char* inner_header = nullptr;  ///< of a part of the part
 };
 
-// Of each part; what a type is told beside its scalar is a parameter of the design.
-
-template <class Scalar, class Parameters>
-PartName part_name(configure::Type<control::TrustedFriction<Scalar>> /*part*/,
-                   const Parameters& /*parameters*/) {
-  return {"trusted_friction", "TrustedFriction<Scalar>"};
+/// @param told  what its type is told beside its scalar
+template <class Part>
+PartText part_text(const std::string& told = {}) {
+  return {{Part::part_name.header}, fmt::format("{}<Scalar{}>", Part::part_name.type, told)};
 }
 
-template <class Scalar, class Parameters>
-PartName part_name(configure::Type<control::LearntFriction<Scalar>> /*part*/,
-                   const Parameters& /*parameters*/) {
-  return {"learnt_friction", "LearntFriction<Scalar>"};
-}
-
-template <class Scalar, class Parameters>
-PartName part_name(configure::Type<control::CoulombFeedforward<Scalar>> /*part*/,
-                   const Parameters& /*parameters*/) {
-  return {"coulomb_feedforward", "CoulombFeedforward<Scalar>"};
-}
-
-template <class Scalar, class Parameters>
-PartName part_name(configure::Type<control::DahlFeedforward<Scalar>> /*part*/,
-                   const Parameters& /*parameters*/) {
-  return {"dahl_feedforward", "DahlFeedforward<Scalar>"};
-}
-
-template <class Scalar, class Parameters>
-PartName part_name(configure::Type<control::NoSlewLimit<Scalar>> /*part*/,
-                   const Parameters& /*parameters*/) {
-  return {"no_slew_limit", "NoSlewLimit<Scalar>"};
-}
-
-template <class Scalar, class Parameters>
-PartName part_name(configure::Type<control::SlewLimit<Scalar>> /*part*/,
-                   const Parameters& /*parameters*/) {
-  return {"slew_limit", "SlewLimit<Scalar>"};
-}
-
-template <class Scalar, class Parameters>
-PartName part_name(configure::Type<control::NoShaping<Scalar>> /*part*/,
-                   const Parameters& /*parameters*/) {
-  return {"no_shaping", "NoShaping<Scalar>"};
+template <template <class> class Part, class Scalar, class Parameters>
+PartText part_text(configure::Type<Part<Scalar>> /*part*/, const Parameters& /*parameters*/) {
+  return part_text<Part<Scalar>>();
 }
 
 template <class Scalar, int MaxSpacing, std::size_t TapCount, class Parameters>
-PartName part_name(configure::Type<control::NotchShaper<Scalar, MaxSpacing, TapCount>> /*part*/,
+PartText part_text(configure::Type<control::NotchShaper<Scalar, MaxSpacing, TapCount>> /*part*/,
                    const Parameters& parameters) {
-  return {"notch_shaper",
-          TapCount == 3 ? fmt::format("NotchShaper<Scalar, {}>", parameters.spacing)
-                        : fmt::format("NotchShaper<Scalar, {}, {}>", parameters.spacing, TapCount)};
-}
-
-template <class Scalar, class Parameters>
-PartName part_name(configure::Type<control::NoFeedback<Scalar>> /*part*/,
-                   const Parameters& /*parameters*/) {
-  return {"no_feedback", "NoFeedback<Scalar>"};
-}
-
-template <class Scalar, int MaxDelay>
-PartName part_name(
-    configure::Type<control::IntegralRegulator<Scalar, MaxDelay>> /*part*/,
-    const typename control::IntegralRegulator<Scalar, MaxDelay>::Parameters& parameters) {
-  return {"integral_regulator",
-          fmt::format("IntegralRegulator<Scalar, {}>", parameters.delay_periods)};
-}
-
-template <class Scalar, class Parameters>
-PartName part_name(configure::Type<control::NoRelearning<Scalar>> /*part*/,
-                   const Parameters& /*parameters*/) {
-  return {"no_relearning", "NoRelearning<Scalar>"};
-}
-
-template <class Scalar, class Parameters>
-PartName part_name(configure::Type<control::PeriodicRelearning<Scalar>> /*part*/,
-                   const Parameters& /*parameters*/) {
-  return {"periodic_relearning", "PeriodicRelearning<Scalar>"};
-}
-
-template <class Scalar, class Parameters>
-PartName part_name(configure::Type<control::FedForward<Scalar>> /*part*/,
-                   const Parameters& /*parameters*/) {
-  return {"fed_forward", "FedForward<Scalar>"};
-}
-
-template <class Scalar, int MaxDelay, class Current, class Parameters>
-PartName part_name(configure::Type<control::ResonantVibration<Scalar, MaxDelay, Current>> /*part*/,
-                   const Parameters& parameters) {
-  return {"resonant_vibration",
-          fmt::format("ResonantVibration<Scalar, {}, control::{}<Scalar>>", parameters.delay,
-                      Current::limits ? "CurrentLimit" : "FullCurrent"),
-          Current::limits ? "current_limit" : "full_current"};
+  return part_text<control::NotchShaper<Scalar, MaxSpacing, TapCount>>(
+      TapCount == 3 ? fmt::format(", {}", parameters.spacing)
+                    : fmt::format(", {}, {}", parameters.spacing, TapCount));
 }
 
 template <class Scalar, int MaxDelay, class Parameters>
-PartName part_name(configure::Type<control::DampedVibration<Scalar, MaxDelay>> /*part*/,
+PartText part_text(configure::Type<control::IntegralRegulator<Scalar, MaxDelay>> /*part*/,
                    const Parameters& parameters) {
-  return {"damped_vibration", fmt::format("DampedVibration<Scalar, {}>", parameters.delay)};
+  return part_text<control::IntegralRegulator<Scalar, MaxDelay>>(
+      fmt::format(", {}", parameters.delay_periods));
 }
 
-template <class Scalar, int MaxDelay, class Reading, class Parameters>
-PartName part_name(configure::Type<control::FeltVibration<Scalar, MaxDelay, Reading>> /*part*/,
+template <class Scalar, int MaxDelay, class Parameters>
+PartText part_text(configure::Type<control::DampedVibration<Scalar, MaxDelay>> /*part*/,
                    const Parameters& parameters) {
-  const bool lags = std::is_same_v<Reading, control::LaggingReading<Scalar>>;
-  return {"felt_vibration",
-          fmt::format("FeltVibration<Scalar, {}, control::{}<Scalar>>", parameters.delay,
-                      lags ? "LaggingReading" : "PromptReading"),
-          "reading_lag"};
+  return part_text<control::DampedVibration<Scalar, MaxDelay>>(
+      fmt::format(", {}", parameters.delay));
 }
 
-template <class Parameters>
-PartName part_name(configure::Type<control::ForceSensor> /*part*/,
-                   const Parameters& /*parameters*/) {
-  return {"force_sensing", "ForceSensor"};
+/// A vibration that has a part of its own.
+template <template <class, int, class> class Vibration, class Scalar, int MaxDelay, class Inner,
+          class Parameters>
+PartText part_text(configure::Type<Vibration<Scalar, MaxDelay, Inner>> /*part*/,
+                   const Parameters& parameters) {
+  PartText text = part_text<Vibration<Scalar, MaxDelay, Inner>>(
+      fmt::format(", {}, control::{}<Scalar>", parameters.delay, Inner::part_name.type));
+  text.headers.emplace_back(Inner::part_name.header);
+  return text;
 }
 
-template <class Parameters>
-PartName part_name(configure::Type<control::NoForceSensor> /*part*/,
-                   const Parameters& /*parameters*/) {
-  return {"force_sensing", "NoForceSensor"};
+/// Of a part without a scalar.
+template <class Part, class Parameters>
+PartText part_text(configure::Type<Part> /*part*/, const Parameters& /*parameters*/) {
+  return {{Part::part_name.header}, Part::part_name.type};
 }
 
 /// Writes a value as the initialiser of a variable of its type, bit for bit: a number, an array, a

@@ -8,9 +8,9 @@
 #include "firmware/control/controller.hpp"
 #include "firmware/control/dahl_feedforward.hpp"
 #include "firmware/control/integral_regulator.hpp"
-#include "firmware/control/no_slew_limit.hpp"
+#include "firmware/control/learnt_friction.hpp"
 #include "firmware/control/notch_shaper.hpp"
-#include "firmware/control/trusted_friction.hpp"
+#include "firmware/control/slew_limit.hpp"
 #include "hal/host/simulated_board.hpp"
 
 namespace sonoglide::cost {

@@ -11,9 +11,9 @@
 #include "firmware/control/coulomb_feedforward.hpp"
 #include "firmware/control/dahl_feedforward.hpp"
 #include "firmware/control/integral_regulator.hpp"
-#include "firmware/control/no_shaping.hpp"
-#include "firmware/control/no_slew_limit.hpp"
-#include "firmware/control/trusted_friction.hpp"
+#include "firmware/control/learnt_friction.hpp"
+#include "firmware/control/notch_shaper.hpp"
+#include "firmware/control/slew_limit.hpp"
 #include "firmware/numeric/fixed.hpp"
 #include "tests/firmware/app/unit/simulated_unit.hpp"
 

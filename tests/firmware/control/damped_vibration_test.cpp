@@ -55,11 +55,11 @@ class DampedVibrationTest : public testing::Test {
     VibrationMeasurement<S> measurement{};
     measurement.in_phase = scaled<S>(shown * response * acting_);
     const Fault fault = loop.observe(measurement);
-    const auto [amplitude, named] = loop.drive(scaled<S>(wanted));
+    const auto [amplitude, named] = loop.drive(scaled<S>(wanted), NoShaping<S>({}), S{});
     limit_ = named;
     acting_ = coming_;
     coming_ = numeric::to_real(amplitude);
-    EXPECT_EQ(loop.answer({amplitude, {}, {}, {}, {}, {}}).frequency, 0);
+    EXPECT_EQ(loop.after({amplitude, {}, {}, {}, {}, {}}).frequency, 0);
     return fault;
   }
 
@@ -137,7 +137,7 @@ TYPED_TEST(DampedVibrationTest, DisbelievesAVibrationThatTheDriveDoesNotMove) {
   int periods = 0;
   for (; periods < 200 && fault == Fault::none; ++periods) {
     fault = loop.observe(stuck);
-    loop.answer({scaled<TypeParam>(0.4), {}, {}, {}, {}, {}});
+    loop.after({scaled<TypeParam>(0.4), {}, {}, {}, {}, {}});
   }
   EXPECT_EQ(fault, Fault::resonance_lost);
   EXPECT_LE(periods, TestFixture::Loop::lost_samples + 8);
@@ -152,8 +152,9 @@ TYPED_TEST(DampedVibrationTest, CountsFromTheCommandThatWasInForce) {
       VibrationMeasurement<TypeParam> measurement{};
       measurement.in_phase = scaled<TypeParam>(response * line[0]);
       loop.observe(measurement);
-      const auto [amplitude, named] = loop.drive(scaled<TypeParam>(0.1));
-      loop.answer({amplitude, {}, {}, {}, {}, {}});
+      const auto [amplitude, named] =
+          loop.drive(scaled<TypeParam>(0.1), NoShaping<TypeParam>({}), TypeParam{});
+      loop.after({amplitude, {}, {}, {}, {}, {}});
       line[delay + 1] = numeric::to_real(amplitude);
       for (int i = 0; i <= delay; ++i) {
         line[i] = line[i + 1];

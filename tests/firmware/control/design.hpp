@@ -11,12 +11,9 @@
 #include "firmware/control/drive_limit.hpp"
 #include "firmware/control/integral_regulator.hpp"
 #include "firmware/control/learnt_friction.hpp"
-#include "firmware/control/no_shaping.hpp"
-#include "firmware/control/no_slew_limit.hpp"
 #include "firmware/control/notch_shaper.hpp"
 #include "firmware/control/periodic_relearning.hpp"
 #include "firmware/control/slew_limit.hpp"
-#include "firmware/control/trusted_friction.hpp"
 #include "firmware/numeric/scalar.hpp"
 
 namespace sonoglide::control {

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstdint>
 
-#include "firmware/control/trusted_friction.hpp"
 #include "scalars.hpp"
 
 namespace sonoglide::control::learnt_friction_test {

@@ -10,7 +10,6 @@
 #include <cstdint>
 #include <vector>
 
-#include "firmware/control/no_shaping.hpp"
 #include "scalars.hpp"
 #include "tests/common/constants/table_1_numbers.hpp"
 

@@ -14,7 +14,6 @@
 #include <vector>
 
 #include "firmware/control/current_limit.hpp"
-#include "firmware/control/full_current.hpp"
 #include "resonator.hpp"
 #include "scalars.hpp"
 
@@ -90,11 +89,10 @@ class Bench {
     measurement.in_phase = reading(read.real());
     measurement.quadrature = reading(read.imag());
     fault = fault == Fault::none ? loop_.observe(measurement) : fault;
-    const auto [amplitude, named] = loop_.drive(scaled<S>(wanted));
+    const auto [amplitude, named] = loop_.drive(scaled<S>(wanted), NoShaping<S>({}), S{});
     limit = named;
     acting_ = coming_;
-    coming_ = {numeric::to_real(amplitude),
-               loop_.answer({amplitude, {}, {}, {}, {}, {}}).frequency};
+    coming_ = {numeric::to_real(amplitude), loop_.after({amplitude, {}, {}, {}, {}, {}}).frequency};
     ++periods;
     return std::abs(z);
   }

@@ -8,7 +8,6 @@
 #include <cstdint>
 #include <cstdlib>
 
-#include "firmware/control/no_slew_limit.hpp"
 #include "scalars.hpp"
 
 namespace sonoglide::control::slew_limit_test {

@@ -1,0 +1,11 @@
+/// What a part of the controller is called in the code of an image.
+#pragma once
+
+namespace sonoglide::control {
+
+struct PartName {
+  const char* header;  ///< in firmware/control, without .hpp
+  const char* type;    ///< without what the template is told
+};
+
+}  // namespace sonoglide::control
