@@ -203,7 +203,9 @@ class Controller {
   template <Numbers Known = Numbers::any>
   Command step(const Measurement& measurement) {
     vibration_.before();
-    return vibration_.after(answer(measurement, inspect<Force, Known>(measurement)));
+    Command command{answer(measurement, inspect<Force, Known>(measurement))};
+    vibration_.after(command);
+    return command;
   }
 
  private:
@@ -340,11 +342,23 @@ class Controller {
     }
     vibration_.sense(measured, numeric::abs(measurement.sliding_velocity), backwards_,
                      feedforward_);
+    const Task task = next_task(along, speed);
+    if (task != Task::regulate) {
+      regulator_.hold();
+    }
+    if (task == Task::regulate || task == Task::resume) {
+      return regulate(measured, speed);
+    }
+    return pause(task);
+  }
+
+  /// What relearning asks for in this period. Without a drive there is nothing to pause.
+  Task next_task(Scalar along, Scalar speed) {
     if (target_ < whole_ratio()) {
-      return relearn(measured, along, speed);
+      return relearning_.next(along, speed);
     }
     interrupt_relearning();
-    return regulate(measured, speed);
+    return Task::regulate;
   }
 
   void interrupt_relearning() {
@@ -353,22 +367,14 @@ class Controller {
     }
   }
 
-  /// Answer with relearning: regulates, or does what a pause needs.
-  Request relearn(Scalar measured, Scalar along, Scalar speed) {
-    const Task task = relearning_.next(along, speed);
-    if (task == Task::regulate) {
-      return regulate(measured, speed);
-    }
-    regulator_.hold();
+  /// Answer in a pause of the drive.
+  Request pause(Task task) {
     if (task == Task::learn) {
       return learn_anew();
     }
     if (task == Task::adapt) {
       feedforward_.set_friction(level_);
       return {requested_, Limit::none};
-    }
-    if (task == Task::resume) {
-      return regulate(measured, speed);
     }
     commanded_ = whole_ratio();
     return slewed({Scalar{}, Limit::none});

@@ -108,14 +108,12 @@ class DampedVibration : public VibrationPart<ScalarT> {
     return {latest - less, at_most_ ? Limit::actuator : Limit::none};
   }
 
-  /// One call for each step, with its answer.
-  /// @return the answer; its frequency stays that of the start
-  Command after(const DriveCommand<Scalar>& command) {
+  /// The frequency stays that of the start.
+  void after(const Command& command) {
     for (std::size_t i = 0; i < last(); ++i) {
       amplitudes_[i] = amplitudes_[i + 1];
     }
     amplitudes_[last()] = command.amplitude;
-    return {command, 0};
   }
 
   /// The velocity is the one that was last asked for, or the nearest one that the drive reaches.

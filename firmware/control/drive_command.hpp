@@ -79,7 +79,7 @@ struct DriveCommand {
 /// is turned by π.
 template <class Scalar>
 struct ResonantCommand : DriveCommand<Scalar> {
-  std::int32_t frequency;  ///< steps of the frequency word from the start
+  std::int32_t frequency = 0;  ///< steps of the frequency word from the start
 };
 
 }  // namespace sonoglide::control

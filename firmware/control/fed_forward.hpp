@@ -72,10 +72,8 @@ class VibrationPart {
   /// What DriveCommand::commanded_ratio tells.
   static constexpr Scalar told_ratio(Scalar commanded) { return commanded; }
 
-  /// One call for each step, with its answer.
-  static constexpr DriveCommand<Scalar> after(const DriveCommand<Scalar>& command) {
-    return command;
-  }
+  /// One call for each step, with its answer, to which a mode may add.
+  static constexpr void after(const DriveCommand<Scalar>& /*command*/) {}
 };
 
 /// A drive of constant frequency whose amplitude is fed forward.

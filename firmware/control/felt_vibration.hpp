@@ -121,12 +121,11 @@ class FeltVibration : public VibrationPart<ScalarT> {
     return {clipped ? ceiling : amplitude, clipped || at_most_ ? Limit::actuator : Limit::none};
   }
 
-  Command after(const Command& command) {
+  void after(const Command& command) {
     for (std::size_t i = 0; i < last(); ++i) {
       amplitudes_[i] = amplitudes_[i + 1];
     }
     amplitudes_[last()] = command.amplitude;
-    return command;
   }
 
   /// No more of a drive would help.

@@ -121,15 +121,14 @@ class ResonantVibration : public VibrationPart<ScalarT> {
     }
   }
 
-  /// One call for each step, with its answer.
-  /// @return the answer with its frequency, in steps of the word from the start
-  Command after(const DriveCommand<Scalar>& command) {
+  /// Gives the answer its frequency, in steps of the word from the start.
+  void after(Command& command) {
     const Scalar turned = resonance_.cosine() < Scalar{} ? -resonance_.sine() : resonance_.sine();
     const Scalar wanted = resonance_.in_range(
         resonance_.natural() + numeric::rough_product(parameters_.phase_gain, turned));
     const Scalar deviation = word_.approach(wanted);
     past_.append({command.amplitude, deviation, word_.steps()});
-    return {command, word_.steps()};
+    command.frequency = word_.steps();
   }
 
   /// Frequency of the period whose sample comes next.

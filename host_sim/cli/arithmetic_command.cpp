@@ -38,7 +38,7 @@ Boards chosen(const std::vector<std::string>& names) {
 }
 
 void require_every_arithmetic(const scene::Scene& scene) {
-  if (scene.holds_vibration()) {
+  if (scene.vibration_mode() != scene::VibrationMode::feedforward) {
     throw configure::ConfigurationError(
         "controller.vibration",
         fmt::format(

@@ -6,11 +6,12 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "host_sim/configure/damped_design.hpp"
+#include "host_sim/configure/feedforward_design.hpp"
 #include "host_sim/configure/felt_design.hpp"
-#include "host_sim/configure/notch_design.hpp"
 #include "host_sim/configure/resonant_design.hpp"
 #include "host_sim/scene/scene.hpp"
 
@@ -56,17 +57,9 @@ struct ControlDesign {
   double agreement = 0.0;  ///< 1 / controller.mismatch_warning; 0: see tells_mismatch()
 
   bool senses_force = true;
-  std::optional<ResonantDesign> resonance;  ///< of a loop that holds the vibration at resonance
-  std::optional<DampedDesign> damping;      ///< of a loop that damps the natural mode
-  std::optional<FeltDesign> feeling;        ///< of one that feels it in the friction alone
-  double usual_calibration_s = 0.0;         ///< in which contact and sensor settle
-
-  bool free_mode = false;  ///< the plant has a natural mode that no notch takes care of
-
-  /// With which feedback cannot build up what the notch leaves; 0: the mode has as much.
-  double missing_damping_N_s_per_m = 0.0;
-  double shaping_range = 0.0;  ///< by which the natural frequency may be off; 0: known exactly
-  std::optional<NotchDesign> notch;
+  /// In the order of scene::VibrationMode.
+  std::variant<FeedforwardDesign, FeltDesign, DampedDesign, ResonantDesign> vibration;
+  double usual_calibration_s = 0.0;  ///< in which contact and sensor settle
 
   bool slew_limited = false;  ///< the members below hold where the flag is set
   double slew_per_period = 0.0;
@@ -86,9 +79,30 @@ struct ControlDesign {
   double relearn_weight = 0.0;  ///< of a sample averaged
 
   double speed_floor_m_per_s() const { return speed_floor * scales.velocity_m_per_s; }
+  scene::VibrationMode vibration_mode() const {
+    return static_cast<scene::VibrationMode>(vibration.index());
+  }
+  /// That of one mode; null in another.
+  template <class Mode>
+  const Mode* in_mode() const {
+    return std::get_if<Mode>(&vibration);
+  }
+  const ResonantDesign* resonance() const { return in_mode<ResonantDesign>(); }
+  /// Of a drive that is fed forward, where it has one.
+  const NotchDesign* notch() const {
+    const auto* fed_forward = in_mode<FeedforwardDesign>();
+    return fed_forward != nullptr && fed_forward->notch ? &*fed_forward->notch : nullptr;
+  }
   /// Carrier periods from the first tap of the notch to its last.
-  int notch_span() const { return notch ? notch->span() : 0; }
-  bool observes_vibration() const { return resonance || damping; }
+  int notch_span() const { return notch() != nullptr ? notch()->span() : 0; }
+  /// Until a change of the request has become one of the vibration.
+  double changing_periods() const {
+    return std::visit([](const auto& mode) { return mode.changing_periods(); }, vibration);
+  }
+  bool observes_vibration() const {
+    return vibration_mode() == scene::VibrationMode::damped ||
+           vibration_mode() == scene::VibrationMode::resonant;
+  }
   VibrationMap vibration_map(double believed_friction_N) const {
     return {map, scales.velocity_m_per_s, contact_force * scales.force_N / believed_friction_N};
   }

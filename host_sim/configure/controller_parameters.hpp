@@ -102,18 +102,18 @@ constexpr int fraction_digits() {
 template <class Scalar, int MaxSpacing>
 typename control::NotchShaper<Scalar, MaxSpacing, 3>::Parameters parameters(
     const ControlDesign& design, Type<control::NotchShaper<Scalar, MaxSpacing, 3>> /*part*/) {
-  const auto& taps = design.notch->taps;
+  const auto& taps = design.notch()->taps;
   return {{scaled<Scalar>(taps[0]), scaled<Scalar>(taps[1]), scaled<Scalar>(taps[2])},
-          design.notch->spacing};
+          design.notch()->spacing};
 }
 
 template <class Scalar, int MaxSpacing>
 typename control::NotchShaper<Scalar, MaxSpacing, 5>::Parameters parameters(
     const ControlDesign& design, Type<control::NotchShaper<Scalar, MaxSpacing, 5>> /*part*/) {
-  const auto taps = rounded_taps(*design.notch, fraction_digits<Scalar>());
+  const auto taps = rounded_taps(*design.notch(), fraction_digits<Scalar>());
   return {{scaled<Scalar>(taps[0]), scaled<Scalar>(taps[1]), scaled<Scalar>(taps[2]),
            scaled<Scalar>(taps[3]), scaled<Scalar>(taps[4])},
-          design.notch->spacing};
+          design.notch()->spacing};
 }
 
 template <class Scalar, int MaxDelay>
@@ -143,7 +143,7 @@ typename control::PeriodicRelearning<Scalar>::Parameters parameters(
 template <class Scalar>
 typename control::CurrentLimit<Scalar>::Parameters parameters(
     const ControlDesign& design, Type<control::CurrentLimit<Scalar>> /*part*/) {
-  const ResonantDesign& resonance = *design.resonance;
+  const ResonantDesign& resonance = *design.resonance();
   constexpr double nothing = 1e-9;
   const double motional = resonance.current_limited ? resonance.motional : nothing;
   const double capacitive = resonance.current_limited ? resonance.capacitive : nothing;
@@ -162,7 +162,7 @@ typename control::CurrentLimit<Scalar>::Parameters parameters(
 template <class Scalar>
 typename control::ResonanceEstimate<Scalar>::Parameters parameters(
     const ControlDesign& design, Type<control::ResonanceEstimate<Scalar>> /*part*/) {
-  const ResonantDesign& resonance = *design.resonance;
+  const ResonantDesign& resonance = *design.resonance();
   return {split<Scalar>(resonance.rate),
           scaled_within<Scalar>(resonance.losses / 16.0),
           scaled<Scalar>(8.0 * resonance.natural),
@@ -182,7 +182,7 @@ typename control::ResonantVibration<Scalar, MaxDelay, Current>::Parameters param
     Type<control::ResonantVibration<Scalar, MaxDelay, Current>> /*part*/) {
   constexpr double base = 8.0;  // of a deviation
   constexpr double turn = 6.283185307179586;
-  const ResonantDesign& resonance = *design.resonance;
+  const ResonantDesign& resonance = *design.resonance();
   return {parameters(design, Type<control::ResonanceEstimate<Scalar>>{}),
           {split<Scalar>(resonance.start_word / base), split<Scalar>(base / resonance.start_word)},
           parameters(design, Type<Current>{}),
@@ -210,7 +210,7 @@ template <class Scalar>
 typename control::ModeObserver<Scalar>::Parameters parameters(
     const ControlDesign& design, Type<control::ModeObserver<Scalar>> /*part*/) {
   namespace mode = control::mode;
-  const DampedDesign& damping = *design.damping;
+  const DampedDesign& damping = *design.in_mode<DampedDesign>();
   typename control::ModeObserver<Scalar>::Parameters parameters{};
   std::array<int, mode::numbers> exponents{};
   const auto rebase = [&](std::size_t begin, std::size_t end) {
@@ -239,7 +239,7 @@ typename control::ModeObserver<Scalar>::Parameters parameters(
 template <class Scalar, int MaxDelay>
 typename control::DampedVibration<Scalar, MaxDelay>::Parameters parameters(
     const ControlDesign& design, Type<control::DampedVibration<Scalar, MaxDelay>> /*part*/) {
-  const DampedDesign& damping = *design.damping;
+  const DampedDesign& damping = *design.in_mode<DampedDesign>();
   return {parameters(design, Type<control::ModeObserver<Scalar>>{}),
           scaled_within<Scalar>(damping.settled), scaled_within<Scalar>(damping.missing),
           damping.delay_periods};
@@ -251,7 +251,8 @@ typename control::LaggingReading<Scalar>::Parameters parameters(
   const auto lead = [](double memory) {
     return memory > 0.0 ? split<Scalar>(memory / (1.0 - memory)) : numeric::Split<Scalar>{};
   };
-  return {lead(design.feeling->sensor_memory), lead(design.feeling->contact_memory)};
+  const auto* feeling = design.in_mode<FeltDesign>();
+  return {lead(feeling->sensor_memory), lead(feeling->contact_memory)};
 }
 
 /// Exponents of the numbers of a row, so that each fits; see FeltObserver::Parameters.
@@ -302,7 +303,7 @@ typename control::FeltDoubt<Scalar>::Parameters felt_doubt(double speed, double 
 template <class Scalar>
 typename control::FeltObserver<Scalar>::Parameters parameters(
     const ControlDesign& design, Type<control::FeltObserver<Scalar>> /*part*/) {
-  const FeltDesign& feeling = *design.feeling;
+  const FeltDesign& feeling = *design.in_mode<FeltDesign>();
   typename control::FeltObserver<Scalar>::Parameters parameters{};
   std::array<int, control::felt::numbers> exponents{};
   if constexpr (numeric::is_fixed_point_v<Scalar>) {
@@ -330,9 +331,9 @@ typename control::FeltObserver<Scalar>::Parameters parameters(
 template <class Scalar, int MaxDelay, class Reading>
 typename control::FeltVibration<Scalar, MaxDelay, Reading>::Parameters parameters(
     const ControlDesign& design, Type<control::FeltVibration<Scalar, MaxDelay, Reading>> /*part*/) {
+  const FeltDesign& feeling = *design.in_mode<FeltDesign>();
   return {parameters(design, Type<control::FeltObserver<Scalar>>{}),
-          parameters(design, Type<Reading>{}), design.feeling->backwards,
-          design.feeling->delay_periods};
+          parameters(design, Type<Reading>{}), feeling.backwards, feeling.delay_periods};
 }
 
 /// Of a part that judges readings of the force, where there are any.

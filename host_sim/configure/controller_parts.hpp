@@ -57,16 +57,17 @@ struct VibrationParts {
 
   static Part chosen(const ControlDesign& design) {
     if constexpr (can_observe_vibration<Scalar>) {
-      if (design.damping) {
-        return Part(Type<Damped>{});
-      }
-      if (design.feeling) {
-        return design.feeling->lags() ? Part(Type<Felt<control::LaggingReading>>{})
-                                      : Part(Type<Felt<control::PromptReading>>{});
-      }
-      if (design.resonance) {
-        return design.resonance->current_limited ? Part(Type<Resonant<control::CurrentLimit>>{})
-                                                 : Part(Type<Resonant<control::FullCurrent>>{});
+      switch (design.vibration_mode()) {
+        case scene::VibrationMode::feedforward:
+          break;
+        case scene::VibrationMode::sensorless:
+          return design.in_mode<FeltDesign>()->lags() ? Part(Type<Felt<control::LaggingReading>>{})
+                                                      : Part(Type<Felt<control::PromptReading>>{});
+        case scene::VibrationMode::damped:
+          return Part(Type<Damped>{});
+        case scene::VibrationMode::resonant:
+          return design.resonance()->current_limited ? Part(Type<Resonant<control::CurrentLimit>>{})
+                                                     : Part(Type<Resonant<control::FullCurrent>>{});
       }
     }
     return Part(Type<control::FedForward<Scalar>>{});
@@ -81,10 +82,10 @@ struct ShaperParts {
   using Part = Choice<control::NoShaping<Scalar>, Three, Five>;
 
   static Part chosen(const ControlDesign& design) {
-    if (!design.notch) {
+    if (design.notch() == nullptr) {
       return Part(Type<control::NoShaping<Scalar>>{});
     }
-    return design.notch->tap_count == Three::tap_count ? Part(Type<Three>{}) : Part(Type<Five>{});
+    return design.notch()->tap_count == Three::tap_count ? Part(Type<Three>{}) : Part(Type<Five>{});
   }
 };
 
@@ -101,8 +102,7 @@ struct ControllerParts {
   Choice<control::NoRelearning<Scalar>, control::PeriodicRelearning<Scalar>> relearning;
   typename VibrationParts<Scalar>::Part vibration;
   Choice<control::ForceSensor, control::NoForceSensor> force;
-  bool observes_vibration;
-  bool feels_vibration;
+  scene::VibrationMode mode;
 
   explicit ControllerParts(const ControlDesign& design)
       : friction(choose<decltype(friction)>(design.calibrated)),
@@ -113,8 +113,7 @@ struct ControllerParts {
         relearning(choose<decltype(relearning)>(design.relearns)),
         vibration(VibrationParts<Scalar>::chosen(design)),
         force(choose<decltype(force)>(!design.senses_force)),
-        observes_vibration(design.observes_vibration()),
-        feels_vibration(design.feeling.has_value()) {}
+        mode(design.vibration_mode()) {}
 
   /// Calls visit(name, choice) for each, in the order of control::Parts; a drive that is fed forward
   /// has a force sensor, and names neither, nor does one whose vibration is felt name the sensor.
@@ -126,10 +125,11 @@ struct ControllerParts {
     visit("shaper", shaper);
     visit("regulator", regulator);
     visit("relearning", relearning);
-    if (observes_vibration || feels_vibration) {
-      visit("vibration", vibration);
+    if (mode == scene::VibrationMode::feedforward) {
+      return;
     }
-    if (observes_vibration) {
+    visit("vibration", vibration);
+    if (mode != scene::VibrationMode::sensorless) {
       visit("force", force);
     }
   }

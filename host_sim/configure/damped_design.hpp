@@ -23,6 +23,13 @@ struct DampedDesign {
   double settled = 0.0;
   double missing = 0.0;
   std::uint8_t delay_periods = 1;
+
+  /// In which the loop follows a small change of its velocity.
+  static constexpr double following_periods = 6.0;
+  /// Until the natural mode is quiet.
+  static constexpr double changing_periods() { return 16.0; }
+  static constexpr double building_up_periods() { return 0.0; }
+  static constexpr bool tells_mismatch() { return true; }
 };
 
 /// @throws ConfigurationError  there is no natural mode to damp

@@ -34,6 +34,12 @@ struct FeltDesign {
   bool backwards = false;          ///< the direction of sliding
   std::uint8_t delay_periods = 1;  ///< of drive and sensor
 
+  /// In which the loop follows a small change of its velocity.
+  static constexpr double following_periods = 6.0;
+  /// Until the natural mode is quiet.
+  static constexpr double changing_periods() { return 16.0; }
+  static constexpr double building_up_periods() { return 0.0; }
+  bool tells_mismatch() const { return apart; }
   bool lags() const { return sensor_memory > 0.0 || contact_memory > 0.0; }
 };
 

@@ -204,6 +204,13 @@ double needed_vibration_m_per_s(const scene::Scene& scene, const BelievedPlant& 
 
 }  // namespace
 
+double ResonantDesign::changing_periods() const {
+  constexpr double latency = 8.0;
+  const double room = std::max(1.01, head_room);
+  const double constants = -numeric::log2(1.0 - 1.0 / room) * 0.69314718055994531;
+  return latency + constants * 2.0 * quality_factor / numeric::two_pi;
+}
+
 double VibrationMap::velocity_m_per_s(double friction_ratio,
                                       double sliding_velocity_m_per_s) const {
   const double speed = std::abs(sliding_velocity_m_per_s) / largest_m_per_s;

@@ -39,6 +39,14 @@ struct ResonantDesign {
   double motional = 0.0;    ///< current of a velocity of 1 over the limit
   double capacitive = 0.0;  ///< that of the clamped capacitance at full drive, likewise
   double loss_tangent = 0.0;
+
+  /// In which the loop follows a small change of its velocity.
+  static constexpr double following_periods = 3.0;
+  /// Until full drive has built up a change of the vibration.
+  double changing_periods() const;
+  /// Six time constants of the resonance.
+  double building_up_periods() const { return 2.0 * quality_factor; }
+  static constexpr bool tells_mismatch() { return true; }
 };
 
 /// The inverse friction-ratio map of a feedforward, in SI units.

@@ -182,7 +182,7 @@ std::string target_steps(const scene::Scene& scene) {
 template <class Scalar>
 std::string target_lines(const scene::Scene& scene, const configure::ControlDesign& design) {
   const std::string steps = target_steps<Scalar>(scene);
-  if (!design.resonance) {
+  if (design.resonance() == nullptr) {
     return fmt::format("inline constexpr TargetStep<Scalar> target_steps[] = {{\n{}}};\n", steps);
   }
   return fmt::format(
@@ -190,8 +190,8 @@ std::string target_lines(const scene::Scene& scene, const configure::ControlDesi
       "/// The frequency of a command is this step times the word of the start, which is the first "
       "number\n/// above, and the command's steps together.\n"
       "inline constexpr double frequency_step_Hz = {:a};\n",
-      scene.controller->target_friction_ratio.size(), design.resonance->start_word, steps,
-      design.resonance->step_Hz);
+      scene.controller->target_friction_ratio.size(), design.resonance()->start_word, steps,
+      design.resonance()->step_Hz);
 }
 
 std::string includes(const std::vector<ChosenPart>& parts, const char* scalar_header,
@@ -257,11 +257,11 @@ inline constexpr std::uint32_t design = {:#010x};
 }}  // namespace sonoglide::app::configuration
 )",
       process::printable(scene.name),
-      includes(parts, ScalarName<Scalar>::header, design.resonance.has_value()),
+      includes(parts, ScalarName<Scalar>::header, design.resonance() != nullptr),
       ScalarName<Scalar>::type, types,
       design.senses_force ? parameter_lines<Scalar, control::ForceSensor>(design, parts)
                           : parameter_lines<Scalar, control::NoForceSensor>(design, parts),
-      target_lines<Scalar>(scene, design), design.resonance ? " at the start" : "",
+      target_lines<Scalar>(scene, design), design.resonance() != nullptr ? " at the start" : "",
       design.scales.carrier_period_s, design_number(types, parts, design.scales));
 }
 

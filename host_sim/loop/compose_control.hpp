@@ -146,18 +146,19 @@ std::unique_ptr<ControlPort> make_control(const configure::ControlDesign& design
   using namespace compose;
   if constexpr (configure::can_observe_vibration<Scalar>) {
     using configure::max_drive_delay;
-    if (design.resonance) {
-      using Current = control::CurrentLimit<Scalar>;
-      return make_observing_control<Scalar,
-                                    control::ResonantVibration<Scalar, max_drive_delay, Current>>(
-          design);
-    }
-    if (design.feeling) {
-      return make_feeling_control<Scalar>(design);
-    }
-    if (design.damping) {
-      return make_observing_control<Scalar, control::DampedVibration<Scalar, max_drive_delay>>(
-          design);
+    using Current = control::CurrentLimit<Scalar>;
+    switch (design.vibration_mode()) {
+      case scene::VibrationMode::feedforward:
+        break;
+      case scene::VibrationMode::sensorless:
+        return make_feeling_control<Scalar>(design);
+      case scene::VibrationMode::damped:
+        return make_observing_control<Scalar, control::DampedVibration<Scalar, max_drive_delay>>(
+            design);
+      case scene::VibrationMode::resonant:
+        return make_observing_control<Scalar,
+                                      control::ResonantVibration<Scalar, max_drive_delay, Current>>(
+            design);
     }
   }
   const configure::ControllerParts<Scalar> parts(design);

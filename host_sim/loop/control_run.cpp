@@ -10,8 +10,9 @@ namespace sonoglide::loop {
 namespace {
 
 std::optional<app::ElapsedPeriods> elapsed_of(const configure::ControlDesign& design) {
-  return design.resonance ? std::optional(app::ElapsedPeriods(design.resonance->start_word))
-                          : std::nullopt;
+  return design.resonance() != nullptr
+             ? std::optional(app::ElapsedPeriods(design.resonance()->start_word))
+             : std::nullopt;
 }
 
 }  // namespace
@@ -46,7 +47,7 @@ double ControlRun::frequency_Hz() const {
   if (steps == 0) {
     return start_frequency_Hz_;
   }
-  const configure::ResonantDesign& resonance = *record_.design.resonance;
+  const configure::ResonantDesign& resonance = *record_.design.resonance();
   return clock_ratio_ * (resonance.step_Hz * (static_cast<double>(resonance.start_word) + steps));
 }
 

@@ -34,7 +34,8 @@ control::Limit prevailing_limit(std::array<std::uint64_t, control::limit_count> 
 StepMeter::StepMeter(const scene::Scene& scene)
     : cursor_(scene),
       band_(scene.run.settling_band),
-      tells_mismatch_(scene.sensor.force && !scene.feels_vibration() &&
+      tells_mismatch_(scene.sensor.force &&
+                      scene.vibration_mode() != scene::VibrationMode::sensorless &&
                       configure::tells_mismatch(scene)),
       senses_force_(scene.sensor.force),
       has_map_(scene::has_own_map(scene.friction.law)),

@@ -2,6 +2,16 @@
 
 namespace sonoglide::scene {
 
+VibrationMode Scene::vibration_mode() const {
+  if (!controller || !controller->vibration) {
+    return VibrationMode::feedforward;
+  }
+  if (*controller->vibration == VibrationControl::resonant) {
+    return VibrationMode::resonant;
+  }
+  return sensor.vibration ? VibrationMode::damped : VibrationMode::sensorless;
+}
+
 const char* Scene::profile_key() const {
   if (!plant.stiffness_profile.empty()) {
     return "plant.stiffness_profile";

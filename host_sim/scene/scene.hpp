@@ -182,6 +182,14 @@ struct ModelError {
   double damping = 1.0;
 };
 
+/// How a controller knows of the vibration, and what it does with it.
+enum class VibrationMode {
+  feedforward,  ///< nothing tells of it; a notch keeps the natural mode quiet
+  sensorless,   ///< held off resonance as an observer sees it in the friction force
+  damped,       ///< held off resonance by a sensor of its own
+  resonant,     ///< held at resonance, likewise
+};
+
 struct Scene {
   std::string name;  ///< the file's name without its ending
   Plant plant;
@@ -204,19 +212,16 @@ struct Scene {
   /// The key `table.key` of a profile beside that of the sliding; null where there is none.
   const char* profile_key() const;
 
-  /// A controller holds the vibration at the plant's resonance.
-  bool resonant() const {
-    return controller && controller->vibration == VibrationControl::resonant;
+  /// Of an open loop `feedforward`.
+  VibrationMode vibration_mode() const;
+
+  /// A controller holds the vibration at the plant's resonance, by the frequency of the drive.
+  bool resonant() const { return vibration_mode() == VibrationMode::resonant; }
+
+  /// A controller has a sensor of the vibration.
+  bool observes_vibration() const {
+    return controller && controller->vibration && sensor.vibration;
   }
-
-  /// A controller holds the vibration, however it knows of it.
-  bool holds_vibration() const { return controller && controller->vibration; }
-
-  /// A controller observes the vibration by a sensor of its own.
-  bool observes_vibration() const { return holds_vibration() && sensor.vibration; }
-
-  /// A controller feels the vibration in the friction.
-  bool feels_vibration() const { return holds_vibration() && !sensor.vibration; }
 
   /// Somebody asks for the vibration's fundamental.
   bool demodulates() const { return transducer || observes_vibration(); }

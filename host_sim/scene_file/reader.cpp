@@ -90,7 +90,8 @@ void settle_shaping(scene::Controller& controller,
 /// learnt first.
 void settle_calibration(scene::Scene& scene, const configure::ControlDesign& design,
                         const Variant& variant) {
-  if (scene.feels_vibration() && !TableCursor(variant, "controller").has("calibration_s")) {
+  if (scene.vibration_mode() == scene::VibrationMode::sensorless &&
+      !TableCursor(variant, "controller").has("calibration_s")) {
     scene.controller->calibration_s = configure::shortest_calibration_s(scene, design);
   }
 }

@@ -468,14 +468,14 @@ scene::Sensor read_sensor(const Variant& variant, const scene::Scene& so_far) {
   TableCursor cursor = closed_loop_table(variant, "sensor");
   ValueReader reader(cursor);
   scene::Sensor sensor;
-  visit_sensor(reader, sensor, 2.0 * configure::largest_friction_limit_N(so_far.friction),
-               so_far.holds_vibration());
-  if (so_far.holds_vibration()) {
+  const bool holds = so_far.vibration_mode() != scene::VibrationMode::feedforward;
+  visit_sensor(reader, sensor, 2.0 * configure::largest_friction_limit_N(so_far.friction), holds);
+  if (holds) {
     check_sensing(cursor, variant, sensor, so_far);
   }
-  cursor.reject_unread(!sensor.force              ? "with sensor.force = false"
-                       : so_far.holds_vibration() ? "without sensor.vibration"
-                                                  : unobserved);
+  cursor.reject_unread(!sensor.force ? "with sensor.force = false"
+                       : holds       ? "without sensor.vibration"
+                                     : unobserved);
   return sensor;
 }
 
@@ -483,10 +483,10 @@ scene::ModelError read_model_error(const Variant& variant, const scene::Scene& s
   TableCursor cursor = closed_loop_table(variant, "model_error");
   ValueReader reader(cursor);
   scene::ModelError model_error;
-  visit_model_error(reader, model_error, so_far.friction.law, so_far.holds_vibration(),
-                    so_far.transducer.has_value());
+  const bool holds = so_far.vibration_mode() != scene::VibrationMode::feedforward;
+  visit_model_error(reader, model_error, so_far.friction.law, holds, so_far.transducer.has_value());
   for (const std::string_view key : {"force_factor", "damping"}) {
-    if (cursor.has(key) && !so_far.holds_vibration()) {
+    if (cursor.has(key) && !holds) {
       cursor.reject(key, unobserved);
     }
   }

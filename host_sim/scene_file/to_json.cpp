@@ -180,7 +180,7 @@ ordered_json stated(scene::Scene scene) {
   root["solver"] = echo([&](auto& keys) { visit_solver(keys, scene.solver); });
   root["run"] = echo([&](auto& keys) { visit_run(keys, scene.run, scene.drive, closed_loop); });
   if (closed_loop) {
-    const bool holds = scene.holds_vibration();
+    const bool holds = scene.vibration_mode() != scene::VibrationMode::feedforward;
     root["controller"] =
         echo([&](auto& keys) { visit_controller(keys, *scene.controller, scene.sensor.force); });
     root["sensor"] = echo([&](auto& keys) {

@@ -92,7 +92,9 @@ class Bench {
     const auto [amplitude, named] = loop_.drive(scaled<S>(wanted), NoShaping<S>({}), S{});
     limit = named;
     acting_ = coming_;
-    coming_ = {numeric::to_real(amplitude), loop_.after({amplitude, {}, {}, {}, {}, {}}).frequency};
+    ResonantCommand<S> command{{amplitude, {}, {}, {}, {}, {}}};
+    loop_.after(command);
+    coming_ = {numeric::to_real(amplitude), command.frequency};
     ++periods;
     return std::abs(z);
   }

@@ -49,11 +49,11 @@ std::complex<long double> mode_of(const scene::Plant& plant) {
 
 /// Magnitude of the shaper's transfer function.
 double gain_at(const ControlDesign& design, std::complex<long double> z) {
-  const std::complex<long double> back = std::pow(z, -static_cast<int>(design.notch->spacing));
+  const std::complex<long double> back = std::pow(z, -static_cast<int>(design.notch()->spacing));
   return static_cast<double>(
-      std::abs(static_cast<long double>(design.notch->taps[0]) +
-               back * (static_cast<long double>(design.notch->taps[1]) +
-                       back * static_cast<long double>(design.notch->taps[2]))));
+      std::abs(static_cast<long double>(design.notch()->taps[0]) +
+               back * (static_cast<long double>(design.notch()->taps[1]) +
+                       back * static_cast<long double>(design.notch()->taps[2]))));
 }
 
 TEST(ControlDesignTest, NotchOfTable1IsTheTwoTapFormula) {
@@ -61,11 +61,11 @@ TEST(ControlDesignTest, NotchOfTable1IsTheTwoTapFormula) {
   const ControlDesign design = design_control(scene);
   const long double turn = std::sqrt(133e6L / 0.02L) / 60e3L;
   const long double sum = 2.0L - 2.0L * std::cos(turn);
-  ASSERT_TRUE(design.notch);
-  EXPECT_EQ(design.notch->spacing, 1);
-  EXPECT_NEAR(design.notch->taps[0], static_cast<double>(1.0L / sum), 1e-15);
-  EXPECT_NEAR(design.notch->taps[1], static_cast<double>(-2.0L * std::cos(turn) / sum), 1e-15);
-  EXPECT_NEAR(design.notch->taps[2], static_cast<double>(1.0L / sum), 1e-15);
+  ASSERT_TRUE(design.notch());
+  EXPECT_EQ(design.notch()->spacing, 1);
+  EXPECT_NEAR(design.notch()->taps[0], static_cast<double>(1.0L / sum), 1e-15);
+  EXPECT_NEAR(design.notch()->taps[1], static_cast<double>(-2.0L * std::cos(turn) / sum), 1e-15);
+  EXPECT_NEAR(design.notch()->taps[2], static_cast<double>(1.0L / sum), 1e-15);
 }
 
 TEST(ControlDesignTest, NotchHasItsZerosOnTheNaturalModeAndUnitGain) {
@@ -74,7 +74,7 @@ TEST(ControlDesignTest, NotchHasItsZerosOnTheNaturalModeAndUnitGain) {
     for (double part = 0.05; part < 3.0; part += 0.0173) {
       const scene::Scene scene = with_natural_frequency(part, damping_ratio);
       const ControlDesign design = design_control(scene);
-      if (!design.notch) {
+      if (!design.notch()) {
         continue;
       }
       EXPECT_NEAR(gain_at(design, mode_of(scene.plant)), 0.0, 1e-11)
@@ -97,7 +97,7 @@ TEST(ControlDesignTest, NotchSpacingIsTheSmallestThatKeepsEveryTapBelowOne) {
       const long double sum = 2.0L - 2.0L * cosine;
       smallest = sum > 1.0L && std::abs(2.0L * cosine) < sum ? spacing : 0;
     }
-    EXPECT_EQ(design.notch ? design.notch->spacing : 0, smallest) << part;
+    EXPECT_EQ(design.notch() != nullptr ? design.notch()->spacing : 0, smallest) << part;
     shaped += smallest > 0 ? 1 : 0;
   }
   EXPECT_GT(shaped, 250);
@@ -105,10 +105,10 @@ TEST(ControlDesignTest, NotchSpacingIsTheSmallestThatKeepsEveryTapBelowOne) {
 
 TEST(ControlDesignTest, NothingIsShapedWithoutANaturalMode) {
   const scene::Scene overdamped = with_natural_frequency(0.2, 1.5);
-  EXPECT_FALSE(design_control(overdamped).notch);
+  EXPECT_FALSE(design_control(overdamped).notch());
   scene::Scene springless = table_1_closed_loop();
   springless.plant.stiffness_N_per_m = 0.0;
-  EXPECT_FALSE(design_control(springless).notch);
+  EXPECT_FALSE(design_control(springless).notch());
   // With no shaper in the way the loop may be faster than with one.
   EXPECT_GT(design_control(springless).integral_gain,
             design_control(table_1_closed_loop()).integral_gain);
@@ -117,7 +117,7 @@ TEST(ControlDesignTest, NothingIsShapedWithoutANaturalMode) {
 TEST(ControlDesignTest, NothingIsShapedWhereTheSceneSaysSo) {
   scene::Scene scene = table_1_closed_loop();
   scene.controller->shaping = scene::Shaping::none;
-  EXPECT_FALSE(design_control(scene).notch);
+  EXPECT_FALSE(design_control(scene).notch());
   EXPECT_LT(design_control(scene).integral_gain, 0.01);
 }
 
@@ -134,9 +134,9 @@ TEST(ControlDesignTest, ARobustNotchTakesItsSpanIntoTheDelays) {
   const ControlDesign known = design_control(scene);
   scene.controller->shaping = scene::Shaping::robust;
   const ControlDesign design = design_control(scene);
-  ASSERT_TRUE(design.notch);
-  EXPECT_EQ(design.shaping_range, 0.1);
-  EXPECT_EQ(design.notch->tap_count, 5U);
+  ASSERT_TRUE(design.notch());
+  EXPECT_EQ(design.in_mode<FeedforwardDesign>()->shaping_range, 0.1);
+  EXPECT_EQ(design.notch()->tap_count, 5U);
   EXPECT_EQ(design.notch_span(), 4);
   EXPECT_EQ(design.reference_delay_periods, known.reference_delay_periods + 1);
   EXPECT_EQ(design.lead_periods, known.lead_periods + 1.0);
@@ -213,7 +213,7 @@ TEST(ControlDesignTest, NotesWhatItMayFailToFeel) {
 
 TEST(ControlDesignTest, NotesWhatARobustNotchCannotDo) {
   const ControlDesign none = design_control(robust(0.1, 1.05));
-  EXPECT_FALSE(none.notch);
+  EXPECT_FALSE(none.notch());
   ASSERT_EQ(design_notes(none).size(), 2U);
   EXPECT_NE(design_notes(none)[1].find("off by 10 %"), std::string::npos);
   const ControlDesign wide = design_control(robust(0.48, 0.2163));
@@ -269,18 +269,18 @@ TEST(ControlDesignTest, ModelErrorIsWhatIsBelievedOverWhatIsTrue) {
   const ControlDesign contact = design_control(scene);
   EXPECT_DOUBLE_EQ(contact.friction_force, 1.3 * exact.friction_force);
   EXPECT_DOUBLE_EQ(contact.contact_force, 1.5 * exact.contact_force);
-  EXPECT_EQ(contact.notch->taps, exact.notch->taps);
+  EXPECT_EQ(contact.notch()->taps, exact.notch()->taps);
 
   scene = table_1_closed_loop();
   scene.model_error.stiffness = 1.04;
   scene::Scene stiffer = table_1_closed_loop();
   stiffer.plant.stiffness_N_per_m *= 1.04;
-  EXPECT_EQ(design_control(scene).notch->taps, design_control(stiffer).notch->taps);
+  EXPECT_EQ(design_control(scene).notch()->taps, design_control(stiffer).notch()->taps);
   scene = table_1_closed_loop();
   scene.model_error.mass = 0.9;
   scene::Scene lighter = table_1_closed_loop();
   lighter.plant.mass_kg *= 0.9;
-  EXPECT_EQ(design_control(scene).notch->taps, design_control(lighter).notch->taps);
+  EXPECT_EQ(design_control(scene).notch()->taps, design_control(lighter).notch()->taps);
   EXPECT_EQ(design_control(scene).scales.velocity_m_per_s,
             design_control(lighter).scales.velocity_m_per_s);
 }
@@ -346,7 +346,7 @@ TEST(ControlDesignTest, SlewIsSharedAmongTheTaps) {
   scene.drive->max_force_slew_N_per_s = 5e6;
   const ControlDesign design = design_control(scene);
   double gain = 0.0;
-  for (const double tap : design.notch->taps) {
+  for (const double tap : design.notch()->taps) {
     gain += std::abs(tap);
   }
   ASSERT_TRUE(design.slew_limited);
@@ -413,14 +413,14 @@ scene::Scene damped(double part) {
 TEST(ControlDesignTest, ADampedModeIsLookedForWhereItMayBe) {
   for (const double part : {0.3, 0.7, 1.08, 2.4, 5.0}) {
     const ControlDesign design = design_control(damped(part));
-    ASSERT_TRUE(design.damping);
-    const double range = design.damping->stiffness_range;
+    ASSERT_TRUE(design.in_mode<DampedDesign>());
+    const double range = design.in_mode<DampedDesign>()->stiffness_range;
     EXPECT_GT(range, 0.0);
     EXPECT_LE(range, 0.06);
     // The carrier stays outside.
     EXPECT_LE(range, 0.67 * std::abs(1.0 - 1.0 / (part * part))) << part;
     EXPECT_LE(0.5 * range * 2.0 * pi * part, 0.7201) << part;
-    const auto& rows = design.damping->table;
+    const auto& rows = design.in_mode<DampedDesign>()->table;
     for (const auto& row : rows) {
       EXPECT_NEAR(std::hypot(row[control::mode::turn], row[control::mode::turn + 1]), 1.0, 1e-12);
     }
@@ -433,9 +433,9 @@ TEST(ControlDesignTest, AFeltModeNeedsALongitudinalVibrationAndOneDirection) {
   scene::Scene felt = with_natural_frequency(0.2, 0.0);
   felt.controller->vibration = scene::VibrationControl::damped;
   const ControlDesign design = design_control(felt);
-  ASSERT_TRUE(design.feeling);
-  EXPECT_FALSE(design.notch);
-  EXPECT_FALSE(design.damping);
+  ASSERT_TRUE(design.in_mode<FeltDesign>());
+  EXPECT_FALSE(design.notch());
+  EXPECT_FALSE(design.in_mode<DampedDesign>());
   scene::Scene turning = felt;
   turning.sliding.profile = {{0.0, 0.02}, {1.0, -0.02}};
   EXPECT_THROW(design_control(turning), ConfigurationError);

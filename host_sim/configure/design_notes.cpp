@@ -1,0 +1,158 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "host_sim/configure/control_design.hpp"
+
+namespace sonoglide::configure {
+namespace {
+
+void add_notch_notes(const NotchDesign& notch, std::vector<std::string>& notes) {
+  constexpr int longest_span = 16;  // carrier periods, in which a step is over at Table 1
+  if (notch.ripple > robust_ripple) {
+    notes.push_back(fmt::format(
+        "The robust notch leaves up to {:.2g} % of the ringing of each step where the natural "
+        "frequency is off by up to {:.3g} %. A smaller controller.shaping_range leaves less.",
+        100.0 * notch.ripple, 100.0 * notch.range));
+  }
+  if (notch.span() <= longest_span) {
+    return;
+  }
+  if (notch.range > 0.0) {
+    notes.push_back(
+        fmt::format("The robust notch spans {} carrier periods. Targets, speeds and sensors that "
+                    "change faster are not followed.",
+                    notch.span()));
+    return;
+  }
+  notes.push_back(fmt::format(
+      "The natural mode is so near a multiple of the carrier frequency that its notch spans {} "
+      "carrier periods: {} of them after each change the drive stands at {:.0f} % of it, then {} "
+      "at {:.0f} %. Targets, speeds and sensors that change faster are not followed.",
+      notch.span(), notch.spacing, 100.0 * notch.taps[0], notch.spacing,
+      100.0 * (notch.taps[0] + notch.taps[1])));
+}
+
+/// How far the stiffness may be off, where that is less than usual and not told by another note.
+void add_stiffness_note(const FeltDesign& design, std::vector<std::string>& notes) {
+  constexpr double usual_range = 0.05;
+  const double least = std::min({design.stiffness_range, design.turn_range, design.multiple_range});
+  if (least >= usual_range || design.multiple_range <= 0.0) {
+    return;
+  }
+  if (least == design.stiffness_range) {
+    notes.push_back(
+        fmt::format("The natural mode is looked for only where the stiffness is within {:.2g} % of "
+                    "the believed one: it is close to the carrier frequency.",
+                    100.0 * least));
+    return;
+  }
+  notes.push_back(fmt::format(
+      "A stiffness that is off by more than {:.2g} % may keep the friction ratio from settling: "
+      "the natural mode {}.",
+      100.0 * least,
+      least == design.turn_range
+          ? "then turns by more than 0.3 rad otherwise than believed in a carrier period"
+          : "may then be within 0.06 carrier frequencies of zero or of a multiple of the carrier"));
+}
+
+void add_notes(const FeedforwardDesign& mode, const ControlDesign& design,
+               std::vector<std::string>& notes) {
+  if (mode.free_mode) {
+    notes.push_back(
+        fmt::format("No notch is on the natural mode: each change of the drive makes it ring. The "
+                    "feedback gain is {:.3g} per carrier period.",
+                    design.integral_gain));
+  }
+  if (mode.free_mode && mode.shaping_range > 0.0) {
+    notes.push_back(
+        fmt::format("No robust notch quiets a natural mode that may be off by {:.3g} % in "
+                    "frequency. A smaller controller.shaping_range, or another carrier frequency, "
+                    "may leave room for one.",
+                    100.0 * mode.shaping_range));
+  }
+  if (mode.notch) {
+    add_notch_notes(*mode.notch, notes);
+  }
+  if (mode.missing_damping_N_s_per_m > 0.0) {
+    constexpr double never_rounded_down = 1.005;  // to three digits
+    notes.push_back(fmt::format(
+        "The natural mode hardly decays. Feedback may make what the robust notch leaves of its "
+        "ringing grow over thousands of carrier periods, also where the stiffness is known "
+        "exactly. A plant.damping_N_s_per_m of {:.3g} or more prevents it.",
+        never_rounded_down * mode.missing_damping_N_s_per_m));
+  }
+}
+
+void add_notes(const DampedDesign& mode, const ControlDesign& /*design*/,
+               std::vector<std::string>& notes) {
+  if (!mode.quick) {
+    notes.push_back(
+        "The natural mode is so near 0 or a multiple of the carrier frequency that no change of "
+        "the amplitude quiets it quickly: the vibration velocity is held, and the friction ratio "
+        "may swing about its target.");
+  }
+}
+
+void add_notes(const ResonantDesign& mode, const ControlDesign& design,
+               std::vector<std::string>& notes) {
+  if (mode.natural == mode.believed_natural) {
+    return;
+  }
+  const auto frequency_Hz = [&](double deviation) {
+    return (1.0 + deviation) / design.scales.carrier_period_s;
+  };
+  notes.push_back(fmt::format(
+      "The believed natural frequency of {:.6g} Hz is outside the frequency range of {:.6g} to "
+      "{:.6g} Hz: the controller begins at the nearest end.",
+      frequency_Hz(mode.believed_natural), frequency_Hz(mode.lowest), frequency_Hz(mode.highest)));
+}
+
+void add_notes(const FeltDesign& mode, const ControlDesign& design,
+               std::vector<std::string>& notes) {
+  if (!design.calibrated) {
+    notes.push_back(fmt::format(
+        "The friction force of the scene is believed: where it is another, the friction ratio is "
+        "off by as much. A controller.calibration_s of {:.3g} s learns it with the drive off; the "
+        "first target has to hold for twice as long. Without that key it is learnt where the first "
+        "target does.",
+        design.usual_calibration_s));
+  }
+  if (!mode.apart) {
+    notes.push_back(
+        "The natural mode is beside zero or a multiple of the carrier frequency, within 0.5 % of "
+        "that frequency: it cannot be told from the vibration and rings with it. The friction "
+        "ratio is fed back alone, and stays off its target where the stiffness is not the believed "
+        "one or what rings from the last target is too loud.");
+  } else {
+    if (!mode.quick) {
+      notes.push_back(
+          "The natural mode is so near 0 or a multiple of the carrier frequency that no change of "
+          "the amplitude quiets it quickly: the friction ratio may swing about its target or stay "
+          "off it, most of all where the stiffness is not the believed one. Another carrier "
+          "frequency is surer.");
+    }
+    add_stiffness_note(mode, notes);
+  }
+  constexpr double usual_blur = 0.02;
+  if (mode.blur > usual_blur) {
+    notes.push_back(fmt::format(
+        "The force sensor shows little of the natural mode: a reading whose lag is taken out is "
+        "uncertain by {:.3g} % of the vibration velocity. A quicker one, or one with "
+        "less noise, shows more; so does a sensor.vibration.",
+        100.0 * mode.blur));
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> design_notes(const ControlDesign& design) {
+  std::vector<std::string> notes;
+  std::visit([&](const auto& mode) { add_notes(mode, design, notes); }, design.vibration);
+  return notes;
+}
+
+}  // namespace sonoglide::configure

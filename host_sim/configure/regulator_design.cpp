@@ -1,0 +1,116 @@
+#include "host_sim/configure/regulator_design.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include "firmware/numeric/float_elementary.hpp"
+#include "firmware/numeric/turn.hpp"
+#include "host_sim/configure/design_periods.hpp"
+
+namespace sonoglide::configure {
+namespace {
+
+/// How far the natural frequency may be off; 0 where the scene takes it as known, or has no notch.
+double shaping_range(const scene::Scene& scene) {
+  return scene.controller->shaping == scene::Shaping::robust
+             ? scene.controller->shaping_range.value_or(default_shaping_range(scene.tolerances))
+             : 0.0;
+}
+
+/// A natural mode that nothing notches out answers every change of the command, and feedback drives
+/// it further: by less than its own damping takes away, if the gain is small against that. Without
+/// damping there is no such gain, and feedforward is left alone. A scene that leaves the notch out
+/// on purpose gets slow feedback all the same, to show what becomes of it.
+double gain_beside_free_mode(const scene::Scene& scene, const NaturalMode& mode) {
+  constexpr double slow = 0.005;
+  constexpr double part_of_decay = 0.2;
+  return scene.controller->shaping == scene::Shaping::none
+             ? slow
+             : std::min(slow, part_of_decay * (1.0 - mode.decay));
+}
+
+/// Feedback drives what a notch leaves of the free mode, to grow or to decay as the delays of the
+/// loop have it, and at a rate below a quarter of gain times ripple per carrier period (an eighth
+/// was seen at Table 1, at the worst of several delays).
+double missing_damping_N_s_per_m(const NotchDesign& notch, const NaturalMode& mode, double mass_kg,
+                                 const ControlDesign& design) {
+  const double growth = 0.25 * design.integral_gain * notch.ripple;
+  return growth > 1.0 - mode.decay ? 2.0 * mass_kg * growth / design.scales.carrier_period_s : 0.0;
+}
+
+/// An integrator behind a delay of D periods oscillates at a gain of 2 sin(π/(4D+2)); a third of it
+/// leaves room for a contact twice as steep as believed.
+double gain_behind_delay(double periods) {
+  return std::min(0.25, 2.0 / 3.0 * numeric::sin(numeric::two_pi / (8.0 * periods + 4.0)));
+}
+
+/// How long the integral waits for a changed target, and then does not.
+void set_waiting(double delay, double filter, ControlDesign& design) {
+  constexpr double contact_settling = 2.0;  // carrier periods until the contact has forgotten
+  constexpr double filter_settling = 4.0;   // time constants more: 0.7 % of a step is left
+  constexpr double rest_per_hold = 1.25;    // in which feedback acts
+  design.hold_periods = whole_periods(delay + contact_settling + filter_settling * filter);
+  design.rest_periods = whole_periods(rest_per_hold * design.hold_periods);
+}
+
+}  // namespace
+
+FeedforwardDesign design_feedforward(const scene::Scene& scene, const BelievedPlant& plant,
+                                     ControlDesign& design) {
+  const NaturalMode mode = natural_mode(plant, design.scales.carrier_period_s);
+  FeedforwardDesign found;
+  found.shaping_range = shaping_range(scene);
+  if (scene.controller->shaping != scene::Shaping::none) {
+    found.notch = found.shaping_range > 0.0 ? design_robust_notch(mode, found.shaping_range)
+                                            : design_notch(mode);
+  }
+  found.free_mode = mode.rotation > 0.0 && !found.notch;
+  const double filter = filter_periods(scene, design.scales);
+  const double shaping = found.notch ? found.notch->span() : 0.0;
+  // From a command to the reading that shows it.
+  const double latency = latency_periods(scene);
+  const double delay = latency + shaping + filter;
+  const double behind_delay = gain_behind_delay(delay);
+  design.integral_gain =
+      found.free_mode ? std::min(behind_delay, gain_beside_free_mode(scene, mode)) : behind_delay;
+  if (found.notch) {
+    found.missing_damping_N_s_per_m =
+        missing_damping_N_s_per_m(*found.notch, mode, plant.mass_kg, design);
+  }
+  set_waiting(delay, filter, design);
+  design.reference_delay_periods = static_cast<std::uint8_t>(latency + 0.5 * shaping);
+  design.reference_keep = filter / (1.0 + filter);
+  design.lead_periods = 0.5 + 0.5 * shaping + scene.drive->delay_periods;
+  return found;
+}
+
+void design_outer_regulator(const scene::Scene& scene, double following_periods,
+                            ControlDesign& design) {
+  const double filter = filter_periods(scene, design.scales);
+  const double latency = latency_periods(scene);
+  design.integral_gain = gain_behind_delay(latency + following_periods + filter);
+  set_waiting(latency + following_periods, filter, design);
+  design.reference_delay_periods = static_cast<std::uint8_t>(latency);
+  design.reference_keep = (filter + 1.0) / (filter + 2.0);
+  design.lead_periods = 1.5 + scene.drive->delay_periods;
+}
+
+void design_slew(const scene::Drive& drive, ControlDesign& design) {
+  if (!drive.max_force_slew_N_per_s) {
+    return;
+  }
+  const NotchDesign* notch = design.notch();
+  double gain = notch != nullptr ? 0.0 : 1.0;
+  if (notch != nullptr) {
+    for (const double tap : notch->taps) {
+      gain += std::abs(tap);
+    }
+  }
+  const double per_period = *drive.max_force_slew_N_per_s * design.scales.carrier_period_s /
+                            design.scales.drive_amplitude_N;
+  design.slew_limited = per_period < gain;
+  design.slew_per_period = per_period / gain;
+}
+
+}  // namespace sonoglide::configure
