@@ -78,14 +78,14 @@ TEST(ControllerHeader, ARobustNotchHasFiveTapsThatAddUpToOne) {
 TEST(ControllerHeader, HoldsNoPartThatTheSceneDoesNotName) {
   const std::string shaped = controller_header(read("target_step"));
   const std::string unshaped = controller_header(read("target_step_unshaped"));
-  EXPECT_TRUE(has(shaped, "notch_shaper.hpp"));
-  EXPECT_FALSE(has(unshaped, "notch_shaper.hpp"));
-  EXPECT_FALSE(has(shaped, "/slew_limit.hpp"));
+  EXPECT_TRUE(has(shaped, "control::NotchShaper<"));
+  EXPECT_FALSE(has(unshaped, "control::NotchShaper<"));
+  EXPECT_FALSE(has(shaped, "control::SlewLimit<"));
   // A mode at twice the carrier can neither be notched out nor fed back to.
   const std::string fed_forward =
       controller_header(read("target_step", {"drive.frequency_Hz=6489"}));
-  EXPECT_TRUE(has(shaped, "integral_regulator.hpp"));
-  EXPECT_FALSE(has(fed_forward, "integral_regulator.hpp"));
+  EXPECT_TRUE(has(shaped, "control::IntegralRegulator<"));
+  EXPECT_FALSE(has(fed_forward, "control::IntegralRegulator<"));
 }
 
 // The step at 2 ms is answered by the sample that ends the carrier period 119, counted from 0.
