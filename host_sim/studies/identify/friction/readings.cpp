@@ -26,22 +26,21 @@ struct Known {
   std::string_view name;
   double least;
   double most;
-  bool above_least;  ///< the least itself is not allowed
   std::string_view hint;
 };
 
 constexpr std::array known = {
-    Known{"sliding_velocity_m_per_s", 1e-12, 100.0, false,
+    Known{"sliding_velocity_m_per_s", 1e-12, 100.0,
           "m/s; at rest friction has no mean over a period"},
-    Known{"vibration_velocity_m_per_s", 0.0, 100.0, false, "m/s, peak; 0 without vibration"},
-    Known{"velocity_ratio", 1e-9, 1e9, false, "sliding velocity over peak vibration velocity"},
-    Known{"vibration_amplitude_m", 0.0, 0.01, false, "m; 0 without vibration"},
-    Known{"frequency_Hz", 1.0, 1e9, false, "Hz"},
-    Known{"friction_ratio", -0.5, 1.5, false,
+    Known{"vibration_velocity_m_per_s", 0.0, 100.0, "m/s, peak; 0 without vibration"},
+    Known{"velocity_ratio", 1e-9, 1e9, "sliding velocity over peak vibration velocity"},
+    Known{"vibration_amplitude_m", 0.0, 0.01, "m; 0 without vibration"},
+    Known{"frequency_Hz", 1.0, 1e9, "Hz"},
+    Known{"friction_ratio", -0.5, 1.5,
           "friction with vibration over friction without, neither percent nor reduction"},
-    Known{"friction_force_N", -1e9, 1e9, false, "N"},
-    Known{"friction_ratio_standard_error", 1e-12, 1.0, false, "that of the friction ratio"},
-    Known{"friction_force_standard_error_N", 1e-24, 1e9, false, "N"}};
+    Known{"friction_force_N", -1e9, 1e9, "N"},
+    Known{"friction_ratio_standard_error", 1e-12, 1.0, "that of the friction ratio"},
+    Known{"friction_force_standard_error_N", 1e-24, 1e9, "N"}};
 
 /// A vibration is none, or at least this.
 constexpr double least_vibration_m_per_s = 1e-15;
@@ -95,12 +94,10 @@ class Columns {
     std::vector<double> values = table_.numbers(column.index);
     for (std::size_t row = 0; row < values.size(); ++row) {
       const Known& range = *column.known;
-      const bool low = range.above_least ? values[row] <= range.least : values[row] < range.least;
-      if (low || values[row] > range.most) {
-        throw table_.error(
-            row, column.index,
-            fmt::format("is out of range; allowed: {} {:g} up to {:g} ({})",
-                        range.above_least ? "above" : "from", range.least, range.most, range.hint));
+      if (values[row] < range.least || values[row] > range.most) {
+        throw table_.error(row, column.index,
+                           fmt::format("is out of range; allowed: from {:g} up to {:g} ({})",
+                                       range.least, range.most, range.hint));
       }
     }
     return values;
