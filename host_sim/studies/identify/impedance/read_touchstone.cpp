@@ -79,18 +79,21 @@ constexpr Keyword keywords[] = {{"version", 2.0, 2.9, "2.0, or no such line for 
 class TouchstoneReader {
  public:
   explicit TouchstoneReader(const scene_file::Source& source) : source_(source) {
-    const std::vector<Line> lines = lines_of(source);
+    std::vector<Line> lines;
+    for (const Line& each : lines_of(source)) {
+      const std::string_view text = each.text.substr(0, each.text.find('!'));
+      if (!trimmed(text).empty()) {
+        lines.push_back({text, each.number});
+      }
+    }
     for (std::size_t i = 0; i < lines.size() && last_ != "end" && last_ != "noise data"; ++i) {
-      const Line line{lines[i].text.substr(0, lines[i].text.find('!')), lines[i].number};
-      const std::string_view text = trimmed(line.text);
-      if (text.substr(0, 1) == "[") {
+      const std::string_view text = trimmed(lines[i].text);
+      if (text.front() == '[') {
         const bool is_alone = text.back() == ']' && i + 1 < lines.size();
-        take_keyword(line, text, is_alone ? lines[i + 1].text : "");
+        take_keyword(lines[i], text, is_alone ? lines[i + 1].text : "");
         i += is_alone && last_ == "reference" ? 1 : 0;
-      } else if (text.substr(0, 1) == "#" && last_ != "begin information") {
-        take_options(line);
-      } else if (!text.empty() && last_ != "begin information") {
-        rows_.push_back(line);
+      } else if (last_ != "begin information") {
+        text.front() == '#' ? take_options(lines[i]) : rows_.push_back(lines[i]);
       }
     }
     const auto count = values_.find("number of frequencies");

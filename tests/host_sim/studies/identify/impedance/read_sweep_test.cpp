@@ -253,8 +253,9 @@ TEST(ReadSweep, KnowsTouchstone2AndOtherSpellingsOfItsOptions) {
   const std::string counts = "[Number of Ports] 1\n[Number of Frequencies] 10\n";
   expect_piece(rows(version + "S RI\n" + counts + "[Reference] 75\n[Network Data]\n",
                     scattering(75.0), " ", "[End]\n"));
-  expect_piece(rows(version + "S RI R 75\n" + counts + "[Reference]\n75.0\n[Network Data]\n",
-                    scattering(75.0), " ", "[End]\n"));
+  expect_piece(
+      rows(version + "S RI R 75\n" + counts + "[Reference]\n! note\n75.0 ! ohm\n[Network Data]\n",
+           scattering(75.0), " ", "[End]\n"));
   expect_piece(rows(
       version + "Z RI R 75\n" + counts +
           "[Begin Information]\n1 2 3\n[End Information]\n[Network Data]\n",
