@@ -44,27 +44,6 @@ double leaning_detuning(double straight, double lean) {
   return d;
 }
 
-/// 1/(1 + j d)
-Complex peak(double d) {
-  const double power = 1.0 / (1.0 + d * d);
-  return {power, -d * power};
-}
-
-Complex clamped_S(const Circuit& circuit, double frequency_Hz) {
-  return two_pi * frequency_Hz * circuit.clamped_capacitance_F * Complex(circuit.loss_tangent, 1.0);
-}
-
-Complex behind_lead_S(const Circuit& circuit, double frequency_Hz) {
-  Complex sum = clamped_S(circuit, frequency_Hz);
-  double lean = circuit.lean;
-  for (const Mode& mode : circuit.modes) {
-    const double straight = detuning(mode, frequency_Hz);
-    sum += mode.conductance_S * peak(lean == 0.0 ? straight : leaning_detuning(straight, lean));
-    lean = 0.0;  // of the first alone
-  }
-  return sum;
-}
-
 }  // namespace
 
 double Mode::inductance_H() const {
@@ -75,20 +54,43 @@ double Mode::capacitance_F() const {
   return 1.0 / (two_pi * two_pi * resonance_Hz * resonance_Hz * inductance_H());
 }
 
-Complex Lead::impedance_ohm(double frequency_Hz) const {
-  return {resistance_ohm, two_pi * frequency_Hz * inductance_H};
-}
-
-Complex Circuit::admittance_S(double frequency_Hz) const {
-  const Complex behind_S = behind_lead_S(*this, frequency_Hz);
-  return std::polar(1.0, rotation_rad) * behind_S /
-         (1.0 + lead.impedance_ohm(frequency_Hz) * behind_S);
-}
-
-Complex Circuit::share_behind_lead(double frequency_Hz) const {
-  const Complex divider =
-      1.0 + lead.impedance_ohm(frequency_Hz) * behind_lead_S(*this, frequency_Hz);
-  return std::polar(1.0, rotation_rad) / (divider * divider);
+Complex Circuit::admittance_S(double frequency_Hz, Eigen::VectorXcd* derivatives) const {
+  constexpr Complex j(0.0, 1.0);
+  const double omega = two_pi * frequency_Hz;
+  Complex sum = omega * clamped_capacitance_F * Complex(loss_tangent, 1.0);
+  if (derivatives != nullptr) {
+    derivatives->setZero(first_mode + 3 * static_cast<Eigen::Index>(modes.size()));
+    (*derivatives)(0) = sum;
+    (*derivatives)(index_of(Part::loss_tangent)) = omega * clamped_capacitance_F;
+  }
+  for (std::size_t i = 0; i < modes.size(); ++i) {
+    const Mode& mode = modes[i];
+    const double straight = detuning(mode, frequency_Hz);
+    const double s = i == 0 ? lean : 0.0;
+    const double d = s == 0.0 ? straight : leaning_detuning(straight, s);
+    const double power = 1.0 / (1.0 + d * d);  // |i/i_max|²
+    const Complex peak(power, -d * power);     // 1/(1 + j d)
+    sum += mode.conductance_S * peak;
+    if (derivatives != nullptr) {
+      const Complex y = mode.conductance_S * peak;
+      const Complex slope = -j * y * peak / (1.0 + 4.0 * s * d * power * power);  // dy/d(straight)
+      const double per_resonance =
+          -2.0 * mode.resonance_Hz * mode.resonance_Hz / (frequency_Hz * mode.bandwidth_Hz);
+      derivatives->segment<3>(first_mode + 3 * static_cast<Eigen::Index>(i)) << y,
+          slope * per_resonance, slope * -straight;
+      (*derivatives)(index_of(Part::lean)) += i == 0 ? slope * (2.0 * power) : 0.0;
+    }
+  }
+  const Complex rotated = std::polar(1.0, rotation_rad);
+  const Complex divider = 1.0 + Complex(lead.resistance_ohm, omega * lead.inductance_H) * sum;
+  const Complex y = sum / divider;
+  if (derivatives != nullptr) {
+    *derivatives *= rotated / (divider * divider);
+    (*derivatives)(index_of(Part::rotation)) = j * rotated * y;
+    (*derivatives)(index_of(Part::lead_resistance)) = -rotated * y * y;
+    (*derivatives)(index_of(Part::lead_inductance)) = -j * omega * rotated * y * y;
+  }
+  return rotated * y;
 }
 
 double Circuit::antiresonance_Hz() const {
@@ -129,24 +131,24 @@ Parts Parts::with(Part part, bool is_fitted) const {
   return changed;
 }
 
-Eigen::Index Parts::index(Part part) const {
-  Eigen::Index at = 1;
-  for (std::size_t i = 0; i < static_cast<std::size_t>(part); ++i) {
-    at += fitted[i] ? 1 : 0;
-  }
-  return at;
-}
-
-Eigen::VectorXd to_vector(const Circuit& circuit, const Parts& parts) {
-  Eigen::VectorXd p(parts.size());
-  Circuit copy = circuit;
-  p(0) = std::log(circuit.clamped_capacitance_F);
-  Eigen::Index at = 1;
+std::vector<Eigen::Index> Parts::indices() const {
+  std::vector<Eigen::Index> all = {0};
   for (std::size_t i = 0; i < part_count; ++i) {
-    if (parts.fitted[i]) {
-      p(at++) = element(copy, static_cast<Part>(i));
+    if (fitted[i]) {
+      all.push_back(index_of(static_cast<Part>(i)));
     }
   }
+  for (Eigen::Index i = 0; i < 3 * static_cast<Eigen::Index>(modes); ++i) {
+    all.push_back(first_mode + i);
+  }
+  return all;
+}
+
+Eigen::VectorXd to_vector(const Circuit& circuit) {
+  Eigen::VectorXd p(first_mode + 3 * static_cast<Eigen::Index>(circuit.modes.size()));
+  p.head<first_mode>() << std::log(circuit.clamped_capacitance_F), circuit.loss_tangent,
+      circuit.rotation_rad, circuit.lead.resistance_ohm, circuit.lead.inductance_H, circuit.lean;
+  Eigen::Index at = first_mode;
   for (const Mode& mode : circuit.modes) {
     p.segment<3>(at) << std::log(mode.conductance_S), std::log(mode.resonance_Hz),
         std::log(mode.bandwidth_Hz);
@@ -155,63 +157,12 @@ Eigen::VectorXd to_vector(const Circuit& circuit, const Parts& parts) {
   return p;
 }
 
-Circuit to_circuit(const Eigen::VectorXd& p, const Parts& parts) {
-  Circuit circuit{std::exp(p(0)), 0.0, {}};
-  Eigen::Index at = 1;
-  for (std::size_t i = 0; i < part_count; ++i) {
-    if (parts.fitted[i]) {
-      element(circuit, static_cast<Part>(i)) = p(at++);
-    }
-  }
-  for (int i = 0; i < parts.modes; ++i, at += 3) {
+Circuit to_circuit(const Eigen::VectorXd& p) {
+  Circuit circuit{std::exp(p(0)), p(1), {}, {p(3), p(4)}, p(2), p(5)};
+  for (Eigen::Index at = first_mode; at < p.size(); at += 3) {
     circuit.modes.push_back({std::exp(p(at)), std::exp(p(at + 1)), std::exp(p(at + 2))});
   }
   return circuit;
-}
-
-Complex admittance_S(const Circuit& circuit, const Parts& parts, double frequency_Hz,
-                     Eigen::VectorXcd& derivatives) {
-  constexpr Complex j(0.0, 1.0);
-  Complex sum = clamped_S(circuit, frequency_Hz);
-  derivatives.setZero();
-  derivatives(0) = sum;
-  if (parts.has(Part::loss_tangent)) {
-    derivatives(parts.index(Part::loss_tangent)) =
-        two_pi * frequency_Hz * circuit.clamped_capacitance_F;
-  }
-  Eigen::Index at = parts.first_mode();
-  for (std::size_t i = 0; i < circuit.modes.size(); ++i) {
-    const Mode& mode = circuit.modes[i];
-    const double straight = detuning(mode, frequency_Hz);
-    const double lean = i == 0 ? circuit.lean : 0.0;
-    const double d = lean == 0.0 ? straight : leaning_detuning(straight, lean);
-    const double power = 1.0 / (1.0 + d * d);  // |i/i_max|²
-    const double bent = 1.0 + 4.0 * lean * d * power * power;
-    const Complex y = mode.conductance_S * peak(d);
-    const Complex slope = -j * y * peak(d) / bent;  // dy/d(straight)
-    derivatives(at++) = y;
-    derivatives(at++) =
-        slope * (-2.0 * mode.resonance_Hz * mode.resonance_Hz / (frequency_Hz * mode.bandwidth_Hz));
-    derivatives(at++) = slope * -straight;
-    if (i == 0 && parts.has(Part::lean)) {
-      derivatives(parts.index(Part::lean)) = slope * (2.0 * power);
-    }
-    sum += y;
-  }
-  const Complex rotated = std::polar(1.0, circuit.rotation_rad);
-  const Complex divider = 1.0 + circuit.lead.impedance_ohm(frequency_Hz) * sum;
-  const Complex y = sum / divider;
-  derivatives *= rotated / (divider * divider);
-  if (parts.has(Part::rotation)) {
-    derivatives(parts.index(Part::rotation)) = j * rotated * y;
-  }
-  if (parts.has(Part::lead_resistance)) {
-    derivatives(parts.index(Part::lead_resistance)) = -rotated * y * y;
-  }
-  if (parts.has(Part::lead_inductance)) {
-    derivatives(parts.index(Part::lead_inductance)) = -j * rotated * two_pi * frequency_Hz * y * y;
-  }
-  return rotated * y;
 }
 
 }  // namespace sonoglide::identify::impedance

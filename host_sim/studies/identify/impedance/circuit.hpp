@@ -31,8 +31,6 @@ struct Mode {
 struct Lead {
   double resistance_ohm = 0.0;
   double inductance_H = 0.0;
-
-  std::complex<double> impedance_ohm(double frequency_Hz) const;
 };
 
 struct Circuit {
@@ -46,17 +44,16 @@ struct Circuit {
   /// spring that softens or stiffens with the square of the displacement (Duffing) has one.
   double lean = 0.0;
 
-  /// Of all, at the terminals.
-  std::complex<double> admittance_S(double frequency_Hz) const;
-  /// By how much a small change of the admittance behind the lead shows at the terminals.
-  std::complex<double> share_behind_lead(double frequency_Hz) const;
+  /// At the terminals; with its derivatives to the elements of the circuit's vector.
+  std::complex<double> admittance_S(double frequency_Hz,
+                                    Eigen::VectorXcd* derivatives = nullptr) const;
   /// fs √(1 + C1/C0)
   double antiresonance_Hz() const;
   /// √(C1/(C0 + C1))
   double coupling() const;
 };
 
-/// What a fit may have beside clamped capacitance and modes, in the order of the vector.
+/// What a circuit may have beside clamped capacitance and modes.
 enum class Part : std::size_t { loss_tangent, rotation, lead_resistance, lead_inductance, lean };
 
 inline constexpr std::size_t part_count = 5;
@@ -65,26 +62,29 @@ double& element(Circuit& circuit, Part part);
 /// As identify.json names it.
 const char* name_of(Part part);
 
-/// Which parts of a circuit are fitted.
+/// Where a circuit's vector has a part, and where the elements of its modes begin.
+inline constexpr Eigen::Index index_of(Part part) {
+  return 1 + static_cast<Eigen::Index>(part);
+}
+inline constexpr Eigen::Index first_mode = 1 + static_cast<Eigen::Index>(part_count);
+
+/// A circuit as a vector: ln C0, all parts, then ln G, ln fs and ln Δ of each mode.
+Eigen::VectorXd to_vector(const Circuit& circuit);
+Circuit to_circuit(const Eigen::VectorXd& p);
+
+/// Which parts of a circuit are fitted; the others are 0.
 struct Parts {
   std::bitset<part_count> fitted;
   int modes = 1;
 
   bool has(Part part) const { return fitted[static_cast<std::size_t>(part)]; }
+  bool has_lead() const { return has(Part::lead_resistance) || has(Part::lead_inductance); }
   Parts with(Part part, bool is_fitted = true) const;
-  /// Of a part in the vector, where it is fitted.
-  Eigen::Index index(Part part) const;
-  /// Of the first mode's ln G in the vector.
-  Eigen::Index first_mode() const { return 1 + static_cast<Eigen::Index>(fitted.count()); }
-  Eigen::Index size() const { return first_mode() + 3 * static_cast<Eigen::Index>(modes); }
+  /// Of the elements of the vector that are fitted.
+  std::vector<Eigen::Index> indices() const;
+  Eigen::Index size() const {
+    return 1 + static_cast<Eigen::Index>(fitted.count()) + 3 * static_cast<Eigen::Index>(modes);
+  }
 };
-
-/// A circuit as a vector: ln C0, the parts that are fitted, then ln G, ln fs and ln Δ of each mode.
-Eigen::VectorXd to_vector(const Circuit& circuit, const Parts& parts);
-Circuit to_circuit(const Eigen::VectorXd& p, const Parts& parts);
-
-/// The admittance, and its derivatives to the vector's elements.
-std::complex<double> admittance_S(const Circuit& circuit, const Parts& parts, double frequency_Hz,
-                                  Eigen::VectorXcd& derivatives);
 
 }  // namespace sonoglide::identify::impedance

@@ -9,41 +9,50 @@
 
 namespace sonoglide::identify::impedance {
 
-struct CircuitFit {
-  Parts parts;
-  Circuit circuit;
-  Eigen::VectorXd p;  ///< the circuit as a vector
-  Noise noise;
-  Linearisation at;
-  double variance;             ///< σ² of the whitened residuals, at least that of rounding
-  Eigen::MatrixXd covariance;  ///< of p, with that variance
-  double deviance;             ///< −2 ln likelihood, comparable between circuits of one sweep
-  bool converged;
+/// How well a circuit describes a sweep. Root mean squares of ln(measured/fitted), a reading with phase
+/// counting once.
+struct Description {
+  double residual = 0.0;
+  double scatter = 0.0;  ///< the part of it from reading to reading; its rest is misfit
+
+  double misfit() const;  ///< root mean square too
+  /// Residuals above twice the scatter, and above 0.1 %.
+  bool fails() const;
 };
 
-/// The sweep with each reading moved to where its relative residual is the logarithm of measured
-/// over fitted. Of a phase that scatters by s the real part of the relative residual is −s²/2 on
-/// average, which would shift the magnitude; that of the logarithm is 0.
-Sweep with_logarithmic_residuals(const Sweep& sweep, const Circuit& fitted);
+struct CircuitFit {
+  Parts parts;
+  Circuit circuit = {};
+  Noise noise;
+  Linearisation at;
+  Description description;
+  double variance = 0.0;  ///< σ² of the whitened residuals, at least that of rounding
+  /// Of the circuit's vector, with that variance; 0 of what is not fitted.
+  Eigen::MatrixXd covariance;
+  double deviance = 0.0;  ///< −2 ln likelihood, comparable between circuits of one sweep
+  bool converged = false;
+};
 
-/// A fit's residuals and slopes, those of parts that the circuit does not have at their 0.
+/// Residuals and slopes at a circuit, whether it is the best one or not.
 Linearisation linearise(const Sweep& sweep, const Parts& parts, const Circuit& circuit);
 
-/// Least squares of the whitened relative residuals, weighted by the circuit that the fit before
-/// gave, so that weights do not pull at it.
+/// A matrix over what is fitted as one over the circuit's vector.
+Eigen::MatrixXd over_vector(const Eigen::MatrixXd& fitted, const Parts& parts);
+
+/// A circuit as if it were the best one; not converged where the circuit has no finite admittance.
+CircuitFit fit_at(const Sweep& sweep, const Parts& parts, const Circuit& circuit,
+                  const Noise& noise);
+
+/// Least squares of the whitened residuals, weighted by the circuit that the fit before gave, so that
+/// weights do not pull at it.
 CircuitFit fit_circuit(const Sweep& sweep, const Parts& parts, const Circuit& start,
                        const Noise& noise);
 
 /// The same with the noise estimated in turn, until neither changes.
 CircuitFit fit_circuit_and_noise(const Sweep& sweep, const Parts& parts, const Circuit& start,
-                                 const Noise& noise,
-                                 Correlation correlation = Correlation::estimated);
+                                 const Noise& noise, Correlation correlation);
 
 /// Schwarz's criterion: −2 ln likelihood and ln n for each parameter.
 double schwarz(const CircuitFit& fit);
-
-/// The F test of the larger fit against the smaller one.
-/// @return the share of sweeps of the smaller circuit in which the larger one would do as much better
-double chance(const CircuitFit& smaller, const CircuitFit& larger);
 
 }  // namespace sonoglide::identify::impedance

@@ -68,13 +68,13 @@ double t_of(const CircuitFit& fit) {
   const double slow = fit.noise.correlated_share * longer;
   const double white = 1.0 - fit.noise.correlated_share;
   const double freedom = rows * std::pow(slow + white, 2) / (slow * slow * longer + white * white);
-  return student_t_95(std::max(freedom - static_cast<double>(fit.p.size()), 3.0));
+  return student_t_95(std::max(freedom - static_cast<double>(fit.parts.size()), 3.0));
 }
 
 Estimate estimate(const CircuitFit& fit, const Figure& figure) {
-  Eigen::VectorXd gradient = Eigen::VectorXd::Zero(fit.p.size());
+  Eigen::VectorXd gradient = Eigen::VectorXd::Zero(fit.covariance.rows());
   gradient(0) = figure.slopes(0);
-  gradient.segment<3>(fit.parts.first_mode()) = figure.slopes.tail<3>();
+  gradient.segment<3>(first_mode) = figure.slopes.tail<3>();
   const double variance = gradient.dot(fit.covariance * gradient);
   const double half = t_of(fit) * std::sqrt(std::max(variance, 0.0));
   return {figure.name, figure.value, figure.value * std::exp(-half), figure.value * std::exp(half)};
@@ -87,12 +87,13 @@ std::vector<Estimate> figures(const CircuitFit& fit, const MechanicalFact& fact)
   for (const Figure& each : electrical(fit.circuit)) {
     estimates.push_back(estimate(fit, each));
   }
+  const Eigen::VectorXd p = to_vector(fit.circuit);
   for (std::size_t i = 0; i < part_count; ++i) {
     const auto part = static_cast<Part>(i);
     if (fit.parts.has(part)) {
-      const Eigen::Index at = fit.parts.index(part);
+      const Eigen::Index at = index_of(part);
       const double half = t_of(fit) * std::sqrt(fit.covariance(at, at));
-      estimates.push_back({name_of(part), fit.p(at), fit.p(at) - half, fit.p(at) + half, true});
+      estimates.push_back({name_of(part), p(at), p(at) - half, p(at) + half, true});
     }
   }
   if (fact.known()) {

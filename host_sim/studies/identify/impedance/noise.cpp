@@ -1,13 +1,11 @@
 #include "host_sim/studies/identify/impedance/noise.hpp"
 
 #include <Eigen/QR>
-#include <boost/math/tools/minima.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <iterator>
 #include <limits>
-#include <utility>
 #include <vector>
 
 namespace sonoglide::identify::impedance {
@@ -101,186 +99,131 @@ Solution solve(const Linearisation& at, const Noise& noise) {
   const Eigen::Index p = at.jacobian.cols();
   Eigen::MatrixXd columns(at.residuals.size(), p + 1);
   columns << at.jacobian, at.residuals;
-  const double log_determinant = whiten(noise, at, columns);
+  double deviance = whiten(noise, at, columns);
+  const Eigen::VectorXd scale =
+      columns.leftCols(p).colwise().norm().cwiseMax(1e-300).cwiseInverse();
+  columns.leftCols(p) *= scale.asDiagonal();
   const Eigen::HouseholderQR<Eigen::MatrixXd> solver(columns);
-  const Eigen::MatrixXd all = solver.matrixQR().topRows(p + 1);
+  const Eigen::MatrixXd r = solver.matrixQR().topRows(p + 1).triangularView<Eigen::Upper>();
   const auto freedom = static_cast<double>(at.residuals.size() - p);
-  const double left = all(p, p) * all(p, p);
+  const double left = r(p, p) * r(p, p);
   const double variance = std::max(left / freedom, rounding * rounding);
-  Eigen::MatrixXd stacked = Eigen::MatrixXd::Zero(2 * p, p + 1);
-  stacked.topRows(p) = all.topRows(p).triangularView<Eigen::Upper>();
+  deviance += 2.0 * (r.diagonal().head(p).cwiseAbs().array() / scale.array()).log().sum() +
+              freedom * std::log(left);
   constexpr double beforehand = 10.0;
-  stacked.bottomRows(p).diagonal().tail(3 * at.modes).setConstant(std::sqrt(variance) / beforehand);
-  const Eigen::MatrixXd known = Eigen::HouseholderQR<Eigen::MatrixXd>(stacked).matrixQR();
-  const Eigen::MatrixXd inverse = known.topLeftCorner(p, p).triangularView<Eigen::Upper>().solve(
-      Eigen::MatrixXd::Identity(p, p));
-  return {-inverse * known.col(p).head(p), variance * inverse * inverse.transpose(),
-          log_determinant + 2.0 * all.diagonal().head(p).array().abs().log().sum() +
-              freedom * std::log(left)};
+  const Eigen::VectorXd weak = (std::sqrt(variance) / beforehand) * scale.tail(3 * at.modes);
+  Eigen::MatrixXd normal = r.topLeftCorner(p, p).transpose() * r.topLeftCorner(p, p);
+  normal.diagonal().tail(3 * at.modes) += weak.cwiseAbs2();
+  const Eigen::MatrixXd inverse = scale.asDiagonal() *
+                                  normal.ldlt().solve(Eigen::MatrixXd::Identity(p, p)) *
+                                  scale.asDiagonal();
+  const Eigen::VectorXd right =
+      scale.cwiseInverse().asDiagonal() * (r.topLeftCorner(p, p).transpose() * r.col(p).head(p));
+  return {-inverse * right, variance * inverse, deviance};
 }
 
 namespace {
 
-/// A property of the noise, as the search varies it.
-struct Property {
-  double least;
-  double most;
-  void (*set)(Noise& noise, double value);
+/// What the noise may be, and its probability before the readings.
+struct Supposition {
+  Noise noise;
+  double prior;
 };
 
-constexpr double most_memory = 0.999;
-
-const Property phase_scale = {
-    -4.6, 4.6, [](Noise& noise, double value) { noise.phase_scale = std::exp(value); }};
-const Property jitter = {-3.0, 7.0,
-                         [](Noise& noise, double value) { noise.jitter = std::exp(value); }};
-const Property share = {0.0, 0.999,
-                        [](Noise& noise, double value) { noise.correlated_share = value; }};
-/// By its distance from 1.
-const Property memory = {-6.9, -0.1, [](Noise& noise, double value) {
-                           noise.memory = std::min(1.0 - std::exp(value), most_memory);
-                         }};
-
-/// The best value of one property; the others stay.
-void improve(const Linearisation& at, Noise& noise, double& deviance, const Property& property) {
-  constexpr int bits = 14;
-  std::uintmax_t evaluations = 24;
-  Noise tried = noise;
-  const auto [value, found] = boost::math::tools::brent_find_minima(
-      [&](double x) {
-        property.set(tried, x);
-        return solve(at, tried).deviance;
-      },
-      property.least, property.most, bits, evaluations);
-  if (found < deviance) {
-    property.set(noise, value);
-    deviance = found;
-  }
-}
-
-/// What a further property has to gain, so much that it is certain: sizes that follow a few quiet
-/// readings make the intervals too short.
-constexpr double price = 6.0;
-
-void improve_if_worth_it(const Linearisation& at, Noise& noise, double& deviance,
-                         const Property& property) {
-  Noise tried = noise;
-  double found = deviance;
-  improve(at, tried, found, property);
-  if (deviance - found > price) {
-    noise = tried;
-    deviance = found;
-  }
-}
-
-void take_best_whole_exponent(const Linearisation& at, Noise& noise, double& deviance) {
-  for (const double each : {0.0, 1.0, 2.0}) {
-    Noise tried = noise;
-    tried.exponent = each;
-    const double found = solve(at, tried).deviance;
-    if (found < deviance) {
-      noise = tried;
-      deviance = found;
-    }
-  }
-}
-
-/// The likelihood has several maxima in the correlation: the best of a few is improved.
-void improve_correlation(const Linearisation& at, Noise& noise, double& deviance) {
-  const Noise white = noise;
-  for (const double each_memory : {0.3, 0.7, 0.9, 0.97}) {
-    for (const double each_share : {0.2, 0.6, 0.95}) {
-      Noise tried = white;
-      tried.memory = each_memory;
-      tried.correlated_share = each_share;
-      const double found = solve(at, tried).deviance;
-      if (found < deviance) {
-        noise = tried;
-        deviance = found;
-      }
-    }
-  }
-  if (noise.correlated_share > 0.0) {
-    improve(at, noise, deviance, share);
-    improve(at, noise, deviance, memory);
-  }
-}
-
-void take_correlation_if_worth_it(const Linearisation& at, Noise& noise, double& deviance) {
-  Noise correlated = noise;
-  double correlated_deviance = deviance;
-  improve_correlation(at, correlated, correlated_deviance);
-  take_best_whole_exponent(at, correlated, correlated_deviance);
-  if (deviance - correlated_deviance > price) {
-    noise = correlated;
-    deviance = correlated_deviance;
-  }
-}
-
-}  // namespace
-
-Noise estimate_noise(const Linearisation& at, Correlation correlation) {
-  Noise noise;
-  if (is_rounding(at)) {
-    return noise;
-  }
-  double deviance = solve(at, noise).deviance;
-  take_best_whole_exponent(at, noise, deviance);
-  if (correlation == Correlation::estimated) {
-    take_correlation_if_worth_it(at, noise, deviance);
-    if (noise.correlated_share == 0.0) {
-      improve_if_worth_it(at, noise, deviance, jitter);
-    }
-  }
-  if (at.residuals.size() > at.log_magnitude.size()) {
-    improve_if_worth_it(at, noise, deviance, phase_scale);
-  }
-  return noise;
-}
-
-namespace {
-
-/// What the noise may be beside white, each with its probability before the readings.
-std::vector<std::pair<Noise, double>> suppositions(const Noise& noise) {
-  constexpr double prior_of_white = 0.6;
+/// White first.
+std::vector<Supposition> suppositions(const Noise& noise) {
+  constexpr double jitters[] = {0.5, 1.0, 2.0, 4.0, 8.0, 16.0, 50.0, 200.0};
   constexpr double memories[] = {0.2, 0.5, 0.7, 0.8, 0.88, 0.93, 0.96, 0.98};
   constexpr double shares[] = {0.05, 0.15, 0.3, 0.5, 0.7, 0.85, 0.95, 0.995};
-  Noise tried = noise;
-  tried.correlated_share = 0.0;
-  std::vector<std::pair<Noise, double>> all = {{tried, prior_of_white}};
-  for (const double jitter_value : {0.7, 1.4, 2.8}) {
-    constexpr double prior = 0.05;
-    all.emplace_back(tried, noise.jitter > 0.0 ? 0.0 : prior);
-    all.back().first.jitter = jitter_value;
+  std::vector<Supposition> all = {{sizes(noise), 0.6}};
+  for (const double jitter : jitters) {
+    all.push_back({sizes(noise), 0.02});
+    all.back().noise.jitter = jitter;
   }
-  const auto count = static_cast<double>(std::size(memories) * std::size(shares));
-  for (const double memory_value : memories) {
-    for (const double share_value : shares) {
-      tried.memory = memory_value;
-      tried.correlated_share = share_value;
-      all.emplace_back(tried, (1.0 - prior_of_white) / count);
+  for (const double memory : memories) {
+    for (const double share : shares) {
+      all.push_back({sizes(noise), 0.24 / (std::size(memories) * std::size(shares))});
+      all.back().noise.memory = memory;
+      all.back().noise.correlated_share = share;
     }
   }
   return all;
 }
 
+/// Of several that are tried, with prices for what is not white or of equal phases: so high that it is
+/// certain, since sizes that follow a few quiet readings make the intervals too short.
+class Likeliest {
+ public:
+  explicit Likeliest(const Linearisation& at) : at_(at) { consider({}); }
+
+  void consider(const Noise& noise) {
+    constexpr double price = 6.0;
+    const double deviance = solve(at_, noise).deviance +
+                            (noise.jitter > 0.0 || noise.correlated_share > 0.0 ? price : 0.0) +
+                            (noise.phase_scale != 1.0 ? price : 0.0);
+    if (deviance < deviance_) {
+      noise_ = noise;
+      deviance_ = deviance;
+    }
+  }
+
+  void consider_exponents() {
+    for (const double exponent : {0.0, 1.0, 2.0}) {
+      Noise noise = noise_;
+      noise.exponent = exponent;
+      consider(noise);
+    }
+  }
+
+  const Noise& noise() const { return noise_; }
+
+ private:
+  const Linearisation& at_;
+  Noise noise_;
+  double deviance_ = std::numeric_limits<double>::infinity();
+};
+
 }  // namespace
 
-Eigen::MatrixXd allow_for_noise(const Linearisation& at, const Noise& noise) {
-  const Eigen::Index p = at.jacobian.cols();
+Noise estimate_noise(const Linearisation& at, Correlation correlation) {
+  if (is_rounding(at)) {
+    return {};
+  }
+  Likeliest best(at);
+  best.consider_exponents();
+  if (correlation == Correlation::estimated) {
+    for (const Supposition& each : suppositions(best.noise())) {
+      best.consider(each.noise);
+    }
+    best.consider_exponents();
+  }
+  const Eigen::Index readings = at.log_magnitude.size();
+  if (at.residuals.size() > readings) {
+    Eigen::VectorXd residuals = at.residuals;
+    whiten(best.noise(), at, residuals);
+    Noise noise = best.noise();
+    noise.phase_scale = residuals.tail(readings).norm() / residuals.head(readings).norm();
+    best.consider(noise);
+  }
+  return best.noise();
+}
+
+Eigen::MatrixXd average_over_noise(const Linearisation& at, const Noise& noise) {
   if (is_rounding(at)) {
     return solve(at, noise).covariance;
   }
-  std::vector<std::pair<Solution, double>> solutions;
-  double least = std::numeric_limits<double>::infinity();
-  for (const auto& [each, prior] : suppositions(noise)) {
-    solutions.emplace_back(solve(at, each), prior);
-    least = std::min(least, solutions.back().first.deviance);
-  }
   double sum = 0.0;
-  Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(p, p);
-  for (const auto& [solution, prior] : solutions) {
-    const double weight = prior * std::exp(0.5 * (least - solution.deviance));
+  double least = std::numeric_limits<double>::infinity();
+  Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(at.jacobian.cols(), at.jacobian.cols());
+  for (const Supposition& each : suppositions(noise)) {
+    const Solution solution = solve(at, each.noise);
+    if (solution.deviance < least) {  // Weights are relative to the likeliest so far.
+      const double smaller = std::exp(0.5 * (solution.deviance - least));
+      sum *= smaller;
+      covariance *= smaller;
+      least = solution.deviance;
+    }
+    const double weight = each.prior * std::exp(0.5 * (least - solution.deviance));
     sum += weight;
     covariance += weight * (solution.covariance + solution.step * solution.step.transpose());
   }

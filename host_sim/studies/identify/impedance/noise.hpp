@@ -6,8 +6,8 @@
 
 namespace sonoglide::identify::impedance {
 
-/// Covariance of the residuals, up to its scale σ²: that of the relative residual (measured −
-/// fitted)/fitted, whose real part is an error of magnitude and whose imaginary part one of phase.
+/// Covariance of the residuals ln(measured/fitted), up to its scale σ²: the real part is an error of
+/// the magnitude, the imaginary part one of the phase.
 ///
 /// Standard deviation |Y|^(exponent − 1), of the imaginary part `phase_scale` times that; and an error
 /// of each frequency, `jitter` for each band width. The correlation of two readings i apart in the
@@ -23,19 +23,17 @@ struct Noise {
 /// The noise without what hangs together and errors of the frequency.
 Noise sizes(const Noise& noise);
 
-/// Relative residuals at a fit and their Jacobian: the real parts of all readings, then, of a sweep
-/// with phase, the imaginary parts.
+/// Residuals at a circuit and their Jacobian to what is fitted: the real parts of all readings, then,
+/// of a sweep with phase, the imaginary parts.
 struct Linearisation {
   Eigen::VectorXd residuals;
   Eigen::MatrixXd jacobian;
   Eigen::Index modes;             ///< of which the last three columns each are
-  Eigen::VectorXcd admittance_S;  ///< fitted: what the residuals are relative to
-  Eigen::VectorXd log_magnitude;  ///< ln(|Y|/geometric mean), one a reading
-  double mean_log_magnitude;      ///< of that geometric mean
+  Eigen::VectorXd log_magnitude;  ///< ln(|Y|/geometric mean of the measured), one a reading
   Eigen::VectorXcd slope;         ///< d ln Y/df times the band width of the first mode, likewise
 };
 
-/// Relative residuals of a root mean square up to this are taken for rounding of computed readings.
+/// Residuals of a root mean square up to this are taken for rounding of computed readings.
 inline constexpr double rounding = 1e-9;
 
 /// Whether the residuals are no more than rounding: they tell nothing of noise.
@@ -64,15 +62,15 @@ Solution solve(const Linearisation& at, const Noise& noise);
 /// Whether errors of the frequency and a correlation along the sweep are looked for.
 enum class Correlation { none, estimated };
 
-/// The noise that is most likely, by the restricted likelihood; white of rounding.
-Noise estimate_noise(const Linearisation& at, Correlation correlation = Correlation::estimated);
+/// The likeliest noise, by the restricted likelihood, of those that average_over_noise goes over; white
+/// of rounding. What is not white, or of phases another than of magnitudes, has to gain 6 (−2 ln).
+Noise estimate_noise(const Linearisation& at, Correlation correlation);
 
-/// The covariance of the parameters, averaged over the correlations along the sweep and errors of the
-/// frequency that the residuals allow, since the likeliest ones alone make the intervals too short: of
-/// each the covariance, and the square of the step by which its best parameters differ, weighted by its
-/// restricted likelihood. White noise has 0.6 of the weight beforehand, each of three errors of the
-/// frequency 0.05, and the correlations the rest evenly.
+/// The covariance of the parameters, averaged over what the noise may be, since the likeliest one alone
+/// makes the intervals too short: of each noise the covariance, and the square of the step by which its
+/// best parameters differ, weighted by its restricted likelihood. White noise has 0.6 of the weight
+/// beforehand, errors of the frequency of eight sizes 0.16, and 64 correlations the rest.
 /// Source: Hoeting, Madigan, Raftery and Volinsky, Statistical Science 14 (1999).
-Eigen::MatrixXd allow_for_noise(const Linearisation& at, const Noise& noise);
+Eigen::MatrixXd average_over_noise(const Linearisation& at, const Noise& noise);
 
 }  // namespace sonoglide::identify::impedance

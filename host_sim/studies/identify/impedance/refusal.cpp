@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "host_sim/loop/failure.hpp"
-#include "host_sim/studies/identify/impedance/description.hpp"
+#include "host_sim/studies/identify/impedance/plausible.hpp"
 #include "host_sim/studies/identify/impedance/start_values.hpp"
 
 namespace sonoglide::identify::impedance {
@@ -19,18 +19,9 @@ namespace {
 
 using Complex = std::complex<double>;
 
-/// Mean square of the relative residuals of the best start, without end where there is none.
 double misfit_of_start(const Sweep& sweep) {
-  const std::vector<Circuit> starts = start_circuits(sweep, 1);
-  if (starts.empty()) {
-    return std::numeric_limits<double>::infinity();
-  }
-  double sum = 0.0;
-  for (std::size_t i = 0; i < sweep.frequency_Hz.size(); ++i) {
-    const Complex fitted_S = starts.front().admittance_S(sweep.frequency_Hz[i]);
-    sum += std::norm(1.0 - fitted_S / sweep.admittance_S[i]);
-  }
-  return sum / static_cast<double>(sweep.frequency_Hz.size());
+  const std::vector<Start> starts = start_circuits(sweep, 1);
+  return starts.empty() ? std::numeric_limits<double>::infinity() : starts.front().misfit;
 }
 
 bool fits_better_with_other_sign(const Sweep& sweep) {
@@ -42,20 +33,17 @@ bool fits_better_with_other_sign(const Sweep& sweep) {
   return misfit_of_start(changed) < far * misfit_of_start(sweep);
 }
 
-double share_of_resistances(const Sweep& sweep) {
-  constexpr double tangent_10_degrees = 0.176;
-  const auto count =
-      std::count_if(sweep.admittance_S.begin(), sweep.admittance_S.end(),
-                    [](Complex y) { return std::abs(y.imag()) < tangent_10_degrees * y.real(); });
-  return static_cast<double>(count) / static_cast<double>(sweep.admittance_S.size());
-}
-
 std::string explanation(const Sweep& sweep) {
   if (!sweep.has_phase) {
     return {};
   }
+  constexpr double tangent_10_degrees = 0.176;
+  const auto count =
+      std::count_if(sweep.admittance_S.begin(), sweep.admittance_S.end(),
+                    [](Complex y) { return std::abs(y.imag()) < tangent_10_degrees * y.real(); });
+  const double resistive =
+      static_cast<double>(count) / static_cast<double>(sweep.admittance_S.size());
   constexpr double most = 0.8;
-  const double resistive = share_of_resistances(sweep);
   if (resistive > most) {
     return fmt::format(
         ". The phase is within 10 degrees of 0 at {:.0f} % of the readings: they are those of a "
@@ -73,23 +61,16 @@ std::string explanation(const Sweep& sweep) {
   throw loop::ComputationError("identify impedance: " + reason + explanation(sweep));
 }
 
-/// A capacitor with loss, its value such that the mean deviation is nothing.
-Circuit capacitor(const Sweep& sweep) {
+/// A capacitance with loss alone, begun where the mean deviation is nothing.
+CircuitFit fit_capacitance(const Sweep& sweep) {
+  Parts parts = Parts{}.with(Part::loss_tangent, sweep.has_phase);
+  parts.modes = 0;
   double sum = 0.0;
   for (std::size_t i = 0; i < sweep.frequency_Hz.size(); ++i) {
     sum += std::log(std::abs(sweep.admittance_S[i]) / (two_pi * sweep.frequency_Hz[i]));
   }
-  return {std::exp(sum / static_cast<double>(sweep.frequency_Hz.size())), 0.0, {}};
-}
-
-const Mode& largest_mode(const CircuitFit& fit) {
-  return *std::max_element(
-      fit.circuit.modes.begin(), fit.circuit.modes.end(),
-      [](const Mode& a, const Mode& b) { return a.conductance_S < b.conductance_S; });
-}
-
-std::string range(const Sweep& sweep) {
-  return fmt::format("{:.6g} to {:.6g} Hz", sweep.frequency_Hz.front(), sweep.frequency_Hz.back());
+  const double capacitance_F = std::exp(sum / static_cast<double>(sweep.frequency_Hz.size()));
+  return fit_circuit_and_noise(sweep, parts, {capacitance_F, 0.0, {}}, {}, Correlation::estimated);
 }
 
 /// What helps where a sweep has more than one mode.
@@ -107,24 +88,8 @@ std::string advice(const CircuitFit& fit) {
       fmt::join(places, ", "));
 }
 
-void require_resonance_inside(const Sweep& sweep, const Mode& mode) {
-  const double low_Hz = sweep.frequency_Hz.front();
-  const double high_Hz = sweep.frequency_Hz.back();
-  if (mode.resonance_Hz >= low_Hz && mode.resonance_Hz <= high_Hz) {
-    return;
-  }
-  constexpr double near = 3.0;
-  const bool is_near = mode.resonance_Hz > low_Hz / near && mode.resonance_Hz < high_Hz * near;
-  refuse(sweep, fmt::format("the fit ends at a bound: {} is not in the sweep, which goes from {}; "
-                            "measure across the resonance",
-                            is_near ? fmt::format("its resonance at {:.6g} Hz", mode.resonance_Hz)
-                                    : std::string("the resonance"),
-                            range(sweep)));
-}
-
-void require_described(const Sweep& sweep, const CircuitFit& fit, const char* otherwise,
+void require_described(const Sweep& sweep, const Description& description, const char* otherwise,
                        double most) {
-  const Description description = describe(fit);
   if (description.fails() && description.residual > most) {
     refuse(sweep,
            fmt::format("{}: what is left is {:.3g} % of the readings, root mean square, where "
@@ -140,24 +105,35 @@ void refuse_without_fit(const Sweep& sweep) {
   refuse(sweep, "no circuit fits the sweep: the least squares do not converge from any start");
 }
 
-void require_resonance(const Sweep& sweep, const CircuitFit& fit, double significance) {
-  Parts no_mode = Parts{}.with(Part::loss_tangent, sweep.has_phase);
-  no_mode.modes = 0;
-  const CircuitFit none = fit_circuit_and_noise(sweep, no_mode, capacitor(sweep), Noise{});
-  const auto searched = static_cast<double>(sweep.frequency_Hz.size());
-  if (!none.converged || chance(none, fit) * searched <= significance) {
+void require_resonance(const Sweep& sweep, const CircuitFit& fit) {
+  const CircuitFit none = fit_capacitance(sweep);
+  const double places = std::log(static_cast<double>(sweep.frequency_Hz.size()));
+  if (!none.converged || schwarz(none) > schwarz(fit) + 2.0 * places) {
     return;
   }
-  require_described(sweep, none,
+  require_described(sweep, none.description,
                     "neither one resonance nor a capacitance alone describes the sweep", 0.0);
-  refuse(sweep, fmt::format("no resonance is seen from {}: a capacitance of {:.4g} F alone fits "
-                            "as well",
-                            range(sweep), none.circuit.clamped_capacitance_F));
+  refuse(sweep, fmt::format("no resonance is seen from {:.6g} to {:.6g} Hz: a capacitance of "
+                            "{:.4g} F alone fits as well",
+                            sweep.frequency_Hz.front(), sweep.frequency_Hz.back(),
+                            none.circuit.clamped_capacitance_F));
 }
 
 void require_inside(const Sweep& sweep, const CircuitFit& fit) {
-  const Mode& mode = largest_mode(fit);
-  require_resonance_inside(sweep, mode);
+  const Mode& mode = *std::max_element(
+      fit.circuit.modes.begin(), fit.circuit.modes.end(),
+      [](const Mode& a, const Mode& b) { return a.conductance_S < b.conductance_S; });
+  const double low_Hz = sweep.frequency_Hz.front();
+  const double high_Hz = sweep.frequency_Hz.back();
+  if (!is_in(sweep, mode)) {
+    constexpr double near = 3.0;
+    const bool is_near = mode.resonance_Hz > low_Hz / near && mode.resonance_Hz < high_Hz * near;
+    refuse(sweep, fmt::format("the fit ends at a bound: {} is not in the sweep, which goes from "
+                              "{:.6g} to {:.6g} Hz; measure across the resonance",
+                              is_near ? fmt::format("its resonance at {:.6g} Hz", mode.resonance_Hz)
+                                      : std::string("the resonance"),
+                              low_Hz, high_Hz));
+  }
   constexpr double least_quality = 0.5;
   if (mode.quality() < least_quality) {
     refuse(sweep, fmt::format("the fit ends at a bound: a quality factor of {:.3g}, allowed: from "
@@ -174,7 +150,8 @@ void require_inside(const Sweep& sweep, const CircuitFit& fit) {
 }
 
 void require_description(const Sweep& sweep, const CircuitFit& fit) {
-  require_described(sweep, fit, "the circuit does not describe the sweep", most_residual);
+  require_described(sweep, fit.description, "the circuit does not describe the sweep",
+                    most_residual);
 }
 
 }  // namespace sonoglide::identify::impedance

@@ -6,8 +6,7 @@
 
 namespace sonoglide::identify::impedance {
 
-/// A relative residual, root mean square, above which a circuit that fails to describe the sweep is
-/// refused.
+/// A residual, root mean square, above which a circuit that fails to describe the sweep is refused.
 inline constexpr double most_residual = 0.3;
 
 /// Of a resonance.
@@ -20,10 +19,9 @@ inline constexpr double most_quality = 1e7;
 /// @throws loop::ComputationError
 [[noreturn]] void refuse_without_fit(const Sweep& sweep);
 
-/// A capacitance alone describes the sweep as well; what neither describes is named as that.
-/// @throws loop::ComputationError
-/// @param significance  of the F test, each reading counted as a place of the search
-void require_resonance(const Sweep& sweep, const CircuitFit& fit, double significance);
+/// A capacitance alone describes the sweep as well, each reading counted as a place where a resonance was
+/// looked for; what neither describes is named as that. @throws loop::ComputationError
+void require_resonance(const Sweep& sweep, const CircuitFit& fit);
 
 /// Resonance, quality factor or capacitances of the mode of the largest conductance end at a bound.
 /// @throws loop::ComputationError

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "host_sim/studies/identify/impedance/description.hpp"
 #include "host_sim/studies/identify/impedance/plausible.hpp"
 #include "host_sim/studies/identify/impedance/uncertainty.hpp"
 #include "host_sim/studies/identify/report.hpp"
@@ -175,7 +174,7 @@ std::vector<std::string> warnings_of(const Selection& selected) {
   const CircuitFit& fit = selected.fit;
   const Circuit& circuit = fit.circuit;
   const Mode& mode = circuit.modes.front();
-  const Description description = describe(fit);
+  const Description& description = fit.description;
   const std::size_t impossible = impossible_phases(sweep, description);
   const std::size_t inside = readings_in_band(sweep, mode);
   std::vector<std::string> warnings = sweep.warnings;

@@ -1,24 +1,12 @@
 /// Which circuit a sweep asks for.
 #pragma once
 
-#include <optional>
 #include <vector>
 
 #include "host_sim/studies/identify/impedance/circuit_fit.hpp"
-#include "host_sim/studies/identify/impedance/start_values.hpp"
 #include "host_sim/studies/identify/impedance/sweep.hpp"
 
 namespace sonoglide::identify::impedance {
-
-/// The most modes of a circuit.
-inline constexpr int most_modes = 8;
-
-/// A further mode is taken where an F test on the whitened residuals would see it by chance in fewer
-/// sweeps than this share; each reading counts as a place where it was looked for.
-inline constexpr double mode_significance = 1e-2;
-
-/// The same for every other part of a circuit.
-inline constexpr double part_significance = 1e-3;
 
 /// A part that a sweep does not show, and what one of 1 does to the figures of a circuit without it.
 struct Unseen {
@@ -43,24 +31,23 @@ struct Selection {
   std::vector<Unseen> unseen = {};
 };
 
-/// The best plausible fit with a part more, from where it is 0, or of a mode more; none where its
-/// linearisation takes less than gain_to_fit.
-std::optional<CircuitFit> with_part(const Sweep& sweep, const CircuitFit& fit, Part part);
-std::optional<CircuitFit> with_another_mode(const Sweep& sweep, const CircuitFit& fit, Place place);
+/// What −2 ln likelihood a part or a further mode has to take away beside Schwarz's ln n for each
+/// parameter to be fitted: strong evidence, odds of 20 to 1, by Kass and Raftery, Journal of the American
+/// Statistical Association 90 (1995).
+inline constexpr double strong_evidence = 6.0;
 
-/// The circuit of the sweep: clamped capacitance, one mode, and of the rest what F tests see: further
-/// modes that are apart, in the sweep or beside it; a lean of the mode; with phase, resistance and
-/// inductance of leads and a rotation of every phase; without, the loss tangent. With phase the loss tangent is always fitted, and the rotation unless a
-/// lead is seen, which looks like it: to leave out what the sweep does not rule out would make the
-/// figures too sure. The first mode is the one of the largest conductance.
+/// The circuit of the sweep: clamped capacitance, one mode, with phase the loss tangent, and of the rest
+/// (larger_fits) what there is strong evidence for. Where a circuit does not describe the sweep, a part
+/// that is no mode has to explain half of the misfit: where none does, each takes a little away; and what
+/// explains half is fitted in any case. With phase there is a rotation of the phase, unless a lead is seen
+/// or the circuit does not describe the sweep. The first mode is the one of the largest conductance.
 ///
-/// Parts are added one after another, the one that takes away most, as if all noise were white; then
-/// each that is not seen beside correlated noise is taken out again: several that are left out hide
-/// each other and look like noise that hangs together.
+/// Parts are added one after another, the likeliest first, as if all noise were white; then each is taken
+/// out again that is not seen beside correlated noise: several that are left out hide each other and look
+/// like noise that hangs together.
 ///
 /// The covariance allows for correlation along the sweep, for circuits that are about as likely, and
-/// for misfit (uncertainty.hpp). Strays (find_strays) are left out. Where phases scatter more than
-/// magnitudes, the residuals are logarithms.
+/// for misfit (uncertainty.hpp). Strays (find_strays) are left out.
 /// @throws loop::ComputationError  no resonance is seen, it is outside the sweep, or the fit ends at
 ///         a bound or does not converge
 Selection select_circuit(const Sweep& sweep);

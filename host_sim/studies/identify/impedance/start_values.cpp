@@ -4,51 +4,43 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
-#include "host_sim/studies/identify/impedance/description.hpp"
+#include "host_sim/studies/identify/impedance/plausible.hpp"
 
 namespace sonoglide::identify::impedance {
 namespace {
 
 using Complex = std::complex<double>;
 
-struct Ranked {
-  double misfit;
-  Circuit circuit;
-};
-
-/// The best ones, each of another resonance or bandwidth. @param mode  which of the modes is tried
-std::vector<Circuit> best_of(std::vector<Ranked> all, std::size_t mode, std::size_t most) {
+/// The best ones, each with another resonance of its last mode.
+std::vector<Start> best_of(std::vector<Start> all, std::size_t most) {
   std::sort(all.begin(), all.end(),
-            [](const Ranked& a, const Ranked& b) { return a.misfit < b.misfit; });
-  std::vector<Circuit> best;
-  for (const Ranked& each : all) {
-    const Mode& tried = each.circuit.modes[mode];
-    const bool near = std::any_of(best.begin(), best.end(), [&](const Circuit& other) {
-      const Mode& taken = other.modes[mode];
+            [](const Start& a, const Start& b) { return a.misfit < b.misfit; });
+  std::vector<Start> best;
+  for (Start& each : all) {
+    const Mode& tried = each.circuit.modes.back();
+    const bool is_near = std::any_of(best.begin(), best.end(), [&](const Start& other) {
+      const Mode& taken = other.circuit.modes.back();
       return std::abs(tried.resonance_Hz - taken.resonance_Hz) <
              0.5 * std::max(tried.bandwidth_Hz, taken.bandwidth_Hz);
     });
-    if (!near) {
-      best.push_back(each.circuit);
-    }
-    if (best.size() == most) {
-      break;
+    if (!is_near && best.size() < most) {
+      best.push_back(std::move(each));
     }
   }
   return best;
 }
 
-/// Readings of the largest local maxima, the largest first.
+/// Readings of the largest local maxima.
 template <class Height>
 std::vector<std::size_t> largest_maxima(std::size_t readings, const Height& height,
                                         std::size_t most) {
   std::vector<std::pair<double, std::size_t>> maxima;
   for (std::size_t i = 0; i < readings; ++i) {
-    const bool rises = i == 0 || height(i) >= height(i - 1);
-    const bool falls = i + 1 == readings || height(i) >= height(i + 1);
-    if (rises && falls) {
+    if ((i == 0 || height(i) >= height(i - 1)) &&
+        (i + 1 == readings || height(i) >= height(i + 1))) {
       maxima.emplace_back(-height(i), i);
     }
   }
@@ -56,27 +48,6 @@ std::vector<std::size_t> largest_maxima(std::size_t readings, const Height& heig
   std::vector<std::size_t> found;
   for (std::size_t i = 0; i < std::min(maxima.size(), most); ++i) {
     found.push_back(maxima[i].second);
-  }
-  return found;
-}
-
-/// Where a resonance may be: the readings with the largest maxima of G/f, and the middles beside.
-std::vector<double> places(const Sweep& sweep) {
-  const auto height = [&](std::size_t i) {
-    const Complex y = sweep.admittance_S[i];
-    return (sweep.has_phase ? y.real() : std::abs(y)) / sweep.frequency_Hz[i];
-  };
-  constexpr std::size_t most = 8;
-  const std::vector<double>& all = sweep.frequency_Hz;
-  std::vector<double> found;
-  for (const std::size_t i : largest_maxima(all.size(), height, most)) {
-    found.push_back(all[i]);
-    if (i > 0) {
-      found.push_back(0.5 * (all[i] + all[i - 1]));
-    }
-    if (i + 1 < all.size()) {
-      found.push_back(0.5 * (all[i] + all[i + 1]));
-    }
   }
   return found;
 }
@@ -89,21 +60,25 @@ std::vector<double> geometric(double from, double factor, int count) {
   return values;
 }
 
+/// 1/(1 + j d), of a mode of conductance 1.
 Complex shape(double frequency_Hz, double resonance_Hz, double bandwidth_Hz) {
   return 1.0 / Complex(1.0, (frequency_Hz - resonance_Hz) * (frequency_Hz + resonance_Hz) /
                                 (frequency_Hz * bandwidth_Hz));
 }
 
-/// Capacitance, loss and conductance by linear least squares of the relative residuals.
-void try_complex(const Sweep& sweep, double resonance_Hz, double bandwidth_Hz,
-                 std::vector<Ranked>& found) {
+/// By linear least squares of the relative residuals.
+void try_start(const Sweep& sweep, double resonance_Hz, double bandwidth_Hz,
+               std::vector<Start>& found) {
   Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
   Eigen::Vector3d right = Eigen::Vector3d::Zero();
   for (std::size_t i = 0; i < sweep.frequency_Hz.size(); ++i) {
     const double f = sweep.frequency_Hz[i];
-    const Eigen::Vector3cd column =
-        Eigen::Vector3cd(Complex(0.0, f), f, shape(f, resonance_Hz, bandwidth_Hz)) /
-        sweep.admittance_S[i];
+    const Complex y = sweep.admittance_S[i];
+    const Complex mode = shape(f, resonance_Hz, bandwidth_Hz);
+    Eigen::Vector3cd column(Complex(0.0, f) / y, f / y, mode / y);
+    if (!sweep.has_phase) {
+      column = Eigen::Vector3cd(f * f, 2.0 * f * mode.imag(), std::norm(mode)) / std::norm(y);
+    }
     normal += (column.conjugate() * column.transpose()).real();
     right += column.real();
   }
@@ -115,133 +90,101 @@ void try_complex(const Sweep& sweep, double resonance_Hz, double bandwidth_Hz,
     return;
   }
   const double misfit = static_cast<double>(sweep.frequency_Hz.size()) - right.dot(solution);
+  const bool phase = sweep.has_phase;
   found.push_back({misfit,
-                   {solution(0) / two_pi,
-                    std::max(solution(1), 0.0) / solution(0),
-                    {{solution(2), resonance_Hz, bandwidth_Hz}}}});
+                   {(phase ? solution(0) : std::sqrt(solution(0))) / two_pi,
+                    phase ? std::max(solution(1), 0.0) / solution(0) : 0.0,
+                    {{phase ? solution(2) : std::sqrt(solution(2)), resonance_Hz, bandwidth_Hz}}}});
 }
 
-/// Of magnitudes: the ratio G/(ω C0) at resonance is tried, the scale follows.
-void try_magnitude(const Sweep& sweep, double resonance_Hz, double bandwidth_Hz, double ratio,
-                   std::vector<Ranked>& found) {
-  double sum = 0.0;
-  double squares = 0.0;
-  for (std::size_t i = 0; i < sweep.frequency_Hz.size(); ++i) {
-    const double f = sweep.frequency_Hz[i];
-    const Complex unit =
-        Complex(0.0, f / resonance_Hz) + ratio * shape(f, resonance_Hz, bandwidth_Hz);
-    const double difference = std::log(std::abs(sweep.admittance_S[i]) / std::abs(unit));
-    sum += difference;
-    squares += difference * difference;
-  }
-  const auto n = static_cast<double>(sweep.frequency_Hz.size());
-  const double scale = std::exp(sum / n);
-  found.push_back(
-      {squares - sum * sum / n,
-       {scale / (two_pi * resonance_Hz), 0.0, {{scale * ratio, resonance_Hz, bandwidth_Hz}}}});
-}
-
-/// The circuit with modes that are much narrower than the readings are apart widened to that, their
-/// L and C kept: a fit that lacks modes may lose the bandwidth of those it has.
-Circuit seen_by_readings(const Sweep& sweep, const Circuit& circuit) {
+/// Further modes that are tried; their conductance follows.
+std::vector<Mode> further_modes(const Sweep& sweep, const CircuitFit& fit,
+                                const Eigen::VectorXd& residuals) {
   const std::vector<double>& all = sweep.frequency_Hz;
-  Circuit seen = circuit;
-  for (Mode& mode : seen.modes) {
-    const auto above = std::upper_bound(all.begin() + 1, all.end() - 1, mode.resonance_Hz);
-    const double spacing_Hz = *above - *(above - 1);
-    if (mode.bandwidth_Hz < 0.1 * spacing_Hz) {
-      mode.conductance_S *= mode.bandwidth_Hz / spacing_Hz;
-      mode.bandwidth_Hz = spacing_Hz;
-    }
-  }
-  return seen;
-}
-
-/// A further mode that is tried: its conductance follows.
-Circuit with_mode(Circuit circuit, double resonance_Hz, double bandwidth_Hz) {
-  circuit.modes.push_back({0.0, resonance_Hz, bandwidth_Hz});
-  return circuit;
-}
-
-/// With a further mode all over the sweep, and where the residuals are largest, from a bandwidth of the
-/// readings around on.
-std::vector<Circuit> with_mode_inside(const Sweep& sweep, const Circuit& seen,
-                                      const Eigen::VectorXd& residuals) {
-  const auto readings = static_cast<Eigen::Index>(sweep.frequency_Hz.size());
-  std::vector<Circuit> tried;
-  const auto add = [&](Eigen::Index reading, Eigen::Index around) {
-    const auto at = [&](Eigen::Index i) {
-      return sweep
-          .frequency_Hz[static_cast<std::size_t>(std::clamp<Eigen::Index>(i, 0, readings - 1))];
+  const auto readings = static_cast<std::ptrdiff_t>(all.size());
+  std::vector<Mode> tried;
+  const auto add = [&](std::ptrdiff_t reading, std::ptrdiff_t around) {
+    const auto at = [&](std::ptrdiff_t i) {
+      return all[static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(i, 0, readings - 1))];
     };
     const double least_Hz =
         std::max(at(reading + around) - at(reading - around), 1e-9 * at(reading));
     for (const double bandwidth_Hz : geometric(least_Hz, 3.0, 6)) {
-      tried.push_back(with_mode(seen, at(reading), bandwidth_Hz));
+      tried.push_back({0.0, at(reading), bandwidth_Hz});
     }
   };
-  constexpr Eigen::Index most_places = 60;
-  constexpr std::size_t most_peaks = 6;
-  const Eigen::Index stride = std::max<Eigen::Index>(1, readings / most_places);
-  for (Eigen::Index reading = 0; reading < readings; reading += stride) {
+  constexpr std::ptrdiff_t most_places = 60;
+  const std::ptrdiff_t stride = std::max<std::ptrdiff_t>(1, readings / most_places);
+  for (std::ptrdiff_t reading = 0; reading < readings; reading += stride) {
     add(reading, stride);
   }
+  constexpr std::size_t most_peaks = 6;
   const auto size = [&](std::size_t reading) {
     const auto i = static_cast<Eigen::Index>(reading);
     return std::hypot(residuals(i), residuals(residuals.size() - readings + i));
   };
-  for (const std::size_t i :
-       largest_maxima(sweep.frequency_Hz.size(), size, stride > 1 ? most_peaks : 0)) {
-    add(static_cast<Eigen::Index>(i), 1);
+  for (const std::size_t i : largest_maxima(all.size(), size, most_peaks)) {
+    add(static_cast<std::ptrdiff_t>(i), 1);
   }
-  return tried;
-}
-
-/// Likewise just outside of it, with the quality of the first.
-std::vector<Circuit> with_mode_beside(const Sweep& sweep, const Circuit& seen) {
-  const double low_Hz = sweep.frequency_Hz.front();
-  const double high_Hz = sweep.frequency_Hz.back();
-  std::vector<Circuit> tried;
-  for (const double away : {0.01, 0.03, 0.06, 0.12, 0.25, 0.45}) {
-    const double distance_Hz = away * (high_Hz - low_Hz);
-    for (const double resonance_Hz : {high_Hz + distance_Hz, low_Hz - distance_Hz}) {
-      if (resonance_Hz > 0.0) {
-        tried.push_back(with_mode(seen, resonance_Hz, resonance_Hz / seen.modes.front().quality()));
+  if (sweep.has_phase) {
+    for (const double away : {0.01, 0.03, 0.06, 0.12, 0.25, 0.45}) {
+      const double distance_Hz = away * (all.back() - all.front());
+      for (const double resonance_Hz : {all.back() + distance_Hz, all.front() - distance_Hz}) {
+        const double quality = fit.circuit.modes.front().quality();
+        tried.push_back({0.0, resonance_Hz, resonance_Hz / quality});
       }
     }
   }
   return tried;
 }
 
-/// The best of circuits each of which has a further mode, by what of the residuals the mode takes
-/// away that a change of the circuit does not. Its conductance follows.
-std::vector<Circuit> best_of(const Sweep& sweep, const CircuitFit& fit, std::vector<Circuit> tried,
-                             std::size_t most) {
+}  // namespace
+
+std::vector<Start> start_circuits(const Sweep& sweep, std::size_t most) {
+  const std::vector<double>& all = sweep.frequency_Hz;
+  const auto height = [&](std::size_t i) {
+    const Complex y = sweep.admittance_S[i];
+    return (sweep.has_phase ? y.real() : std::abs(y)) / all[i];
+  };
+  constexpr std::size_t most_places = 8;
+  std::vector<Start> found;
+  for (const std::size_t i : largest_maxima(all.size(), height, most_places)) {
+    const double below_Hz = all[i > 0 ? i - 1 : i];
+    const double above_Hz = all[i + 1 < all.size() ? i + 1 : i];
+    for (const double place_Hz : {all[i], 0.5 * (all[i] + below_Hz), 0.5 * (all[i] + above_Hz)}) {
+      for (const double bandwidth_Hz : geometric(place_Hz / 3.0, 0.35, 12)) {
+        try_start(sweep, place_Hz, bandwidth_Hz, found);
+      }
+    }
+  }
+  return best_of(std::move(found), most);
+}
+
+std::vector<Start> starts_with_another_mode(const Sweep& sweep, const CircuitFit& fit, double least,
+                                            std::size_t most) {
   const auto n = static_cast<Eigen::Index>(sweep.frequency_Hz.size());
-  Eigen::MatrixXd jacobian = fit.at.jacobian;
+  Eigen::MatrixXd base = fit.at.jacobian;
   Eigen::VectorXd residuals = fit.at.residuals;
-  whiten(fit.noise, fit.at, jacobian);
+  whiten(fit.noise, fit.at, base);
   whiten(fit.noise, fit.at, residuals);
-  jacobian.colwise().normalize();
-  const Eigen::MatrixXd base = Eigen::HouseholderQR<Eigen::MatrixXd>(jacobian).householderQ() *
-                               Eigen::MatrixXd::Identity(jacobian.rows(), jacobian.cols());
-  Eigen::VectorXcd seen(n);  // the relative change at the terminals for one of 1 S behind the lead
+  base.colwise().normalize();
+  base = Eigen::HouseholderQR<Eigen::MatrixXd>(base).householderQ() *
+         Eigen::MatrixXd::Identity(base.rows(), base.cols());
+  Eigen::VectorXcd seen(n);  // d ln Y for each 1 S behind the lead
+  Eigen::VectorXcd derivatives;
   for (Eigen::Index i = 0; i < n; ++i) {
     const double f = sweep.frequency_Hz[static_cast<std::size_t>(i)];
-    seen(i) = fit.circuit.share_behind_lead(f) / fit.circuit.admittance_S(f);
+    const Complex y = fit.circuit.admittance_S(f, &derivatives);
+    seen(i) = derivatives(index_of(Part::loss_tangent)) /
+              (two_pi * f * fit.circuit.clamped_capacitance_F * y);
   }
-  std::vector<Ranked> found;
+  std::vector<Start> found;
   Eigen::VectorXd column(residuals.size());
-  const std::size_t mode = fit.circuit.modes.size();
-  for (Circuit& circuit : tried) {
-    Mode& added = circuit.modes[mode];
-    // By its own band width: one that hides others is too wide until they are fitted.
-    const bool is_near =
-        std::any_of(circuit.modes.begin(), circuit.modes.end() - 1, [&](const Mode& other) {
-          return std::abs(other.resonance_Hz - added.resonance_Hz) <
-                 least_distance_bands * std::min(other.bandwidth_Hz, added.bandwidth_Hz);
-        });
-    if (added.bandwidth_Hz > added.resonance_Hz || is_near) {
+  for (Mode& added : further_modes(sweep, fit, residuals)) {
+    // Apart by its own band width: a mode that hides others is too wide until they are fitted.
+    added.conductance_S = std::numeric_limits<double>::infinity();
+    if (added.resonance_Hz <= 0.0 || added.quality() < 1.0 ||
+        !is_apart(sweep, fit.circuit, added)) {
       continue;
     }
     for (Eigen::Index i = 0; i < n; ++i) {
@@ -256,48 +199,13 @@ std::vector<Circuit> best_of(const Sweep& sweep, const CircuitFit& fit, std::vec
     column -= base * (base.transpose() * column);
     const double length = column.squaredNorm();
     const double along = column.dot(residuals);
-    if (length > 0.0 && along > 0.0 && along * along > gain_to_fit(fit) * fit.variance * length) {
+    if (length > 0.0 && along > 0.0 && along * along > least * fit.variance * length) {
       added.conductance_S = along / length;
-      found.push_back({-along * along / length, std::move(circuit)});
+      found.push_back({-along * along / length, fit.circuit});
+      found.back().circuit.modes.push_back(added);
     }
   }
-  return best_of(std::move(found), mode, most);
-}
-
-}  // namespace
-
-double gain_to_fit(const CircuitFit& fit) {
-  constexpr double least = 4.0;
-  return describe(fit).fails() ? 0.0 : least;
-}
-
-std::vector<Circuit> start_circuits(const Sweep& sweep, std::size_t most) {
-  std::vector<Ranked> found;
-  for (const double resonance_Hz : places(sweep)) {
-    for (const double bandwidth_Hz : geometric(resonance_Hz / 3.0, 0.35, 12)) {
-      if (sweep.has_phase) {
-        try_complex(sweep, resonance_Hz, bandwidth_Hz, found);
-        continue;
-      }
-      // From G/(ω C0) = Q C1/C0 with C1/C0 between 1e-5 and 2.
-      for (const double capacitances : geometric(2.0, 0.3, 11)) {
-        try_magnitude(sweep, resonance_Hz, bandwidth_Hz, capacitances * resonance_Hz / bandwidth_Hz,
-                      found);
-      }
-    }
-  }
-  return best_of(std::move(found), 0, most);
-}
-
-std::vector<Circuit> circuits_with_another_mode(const Sweep& sweep, const CircuitFit& fit,
-                                                Place place, std::size_t most) {
-  if (place == Place::beside) {
-    return best_of(sweep, fit, with_mode_beside(sweep, fit.circuit), most);
-  }
-  Eigen::VectorXd residuals = fit.at.residuals;
-  whiten(fit.noise, fit.at, residuals);
-  return best_of(sweep, fit,
-                 with_mode_inside(sweep, seen_by_readings(sweep, fit.circuit), residuals), most);
+  return best_of(std::move(found), most);
 }
 
 }  // namespace sonoglide::identify::impedance

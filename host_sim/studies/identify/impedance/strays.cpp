@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <utility>
 
 namespace sonoglide::identify::impedance {
 namespace {
@@ -15,52 +14,37 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
-/// Standard deviation of Gaussian readings by the median of the distances from each to the next.
-double deviation_of_steps(std::vector<double> steps) {
-  constexpr double deviation_of_median = 1.4826;
-  return deviation_of_median * median(std::move(steps)) / std::sqrt(2.0);
+/// Values up to `half` before and behind a place, without that at the place.
+std::vector<double> around(const std::vector<double>& all, std::ptrdiff_t at, std::ptrdiff_t half) {
+  const auto size = static_cast<std::ptrdiff_t>(all.size());
+  std::vector<double> found(all.begin() + std::max<std::ptrdiff_t>(at - half, 0), all.begin() + at);
+  found.insert(found.end(), all.begin() + std::min(at + 1, size),
+               all.begin() + std::min(at + half + 1, size));
+  return found;
 }
 
-/// How a reading stands to those around it, in standard deviations of magnitude or phase.
-struct Standing {
-  double off;         ///< the least of the distances to their median and to both neighbours
-  double neighbours;  ///< the largest distance of a neighbour from that median
-};
-
-Standing standing(const std::vector<double>& residuals, const std::vector<double>& steps,
-                  std::ptrdiff_t at) {
-  const auto size = static_cast<std::ptrdiff_t>(residuals.size());
-  const auto value = [&](std::ptrdiff_t i) { return residuals[static_cast<std::size_t>(i)]; };
-  std::vector<double> around;
-  for (std::ptrdiff_t i = std::max<std::ptrdiff_t>(at - 3, 0); i < std::min(at + 4, size); ++i) {
-    if (i != at) {
-      around.push_back(value(i));
+/// Whether a residual is far off those around it, in standard deviations; negative where a neighbour is.
+double standing(const std::vector<double>& residuals, const std::vector<double>& steps,
+                std::ptrdiff_t at) {
+  constexpr double close_by = 4.0;
+  constexpr double deviation_of_median = 1.4826 / 1.4142;  // of differences of two
+  const double middle = median(around(residuals, at, 3));
+  const double deviation = std::max({deviation_of_median * median(around(steps, at, 15)),
+                                     deviation_of_median * median(around(steps, at, 50)), 1e-300});
+  for (const double next : around(residuals, at, 1)) {
+    if (std::abs(next - middle) > close_by * deviation) {
+      return -1.0;
     }
   }
-  const double middle = median(std::move(around));
-  double deviation = 1e-300;
-  for (const std::ptrdiff_t half : {15, 50}) {
-    deviation = std::max(deviation,
-                         deviation_of_steps({steps.begin() + std::max<std::ptrdiff_t>(at - half, 0),
-                                             steps.begin() + std::min(at + half, size - 1)}));
-  }
-  Standing found{std::abs(value(at) - middle) / deviation, 0.0};
-  for (const std::ptrdiff_t next : {at - 1, at + 1}) {
-    if (next >= 0 && next < size) {
-      found.off = std::min(found.off, std::abs(value(at) - value(next)) / deviation);
-      found.neighbours = std::max(found.neighbours, std::abs(value(next) - middle) / deviation);
-    }
-  }
-  return found;
+  return std::abs(residuals[static_cast<std::size_t>(at)] - middle) / deviation;
 }
 
 }  // namespace
 
 std::vector<std::size_t> find_strays(const CircuitFit& fit) {
   constexpr double far = 8.0;
-  constexpr double close_by = 4.0;
   const Eigen::Index n = fit.at.log_magnitude.size();
-  std::vector<Standing> readings(static_cast<std::size_t>(n), {0.0, 0.0});
+  std::vector<double> off(static_cast<std::size_t>(n), 0.0);
   for (Eigen::Index begin = 0; begin < fit.at.residuals.size(); begin += n) {
     const auto part = fit.at.residuals.segment(begin, n);
     const std::vector<double> residuals(part.begin(), part.end());
@@ -69,14 +53,13 @@ std::vector<std::size_t> find_strays(const CircuitFit& fit) {
       steps.push_back(std::abs(residuals[i] - residuals[i - 1]));
     }
     for (std::size_t i = 0; i < residuals.size(); ++i) {
-      const Standing found = standing(residuals, steps, static_cast<std::ptrdiff_t>(i));
-      readings[i] = {std::max(readings[i].off, found.off),
-                     std::max(readings[i].neighbours, found.neighbours)};
+      const double found = standing(residuals, steps, static_cast<std::ptrdiff_t>(i));
+      off[i] = off[i] < 0.0 || found < 0.0 ? -1.0 : std::max(off[i], found);
     }
   }
   std::vector<std::size_t> strays;
-  for (std::size_t i = 0; i < readings.size(); ++i) {
-    if (readings[i].off > far && readings[i].neighbours < close_by) {
+  for (std::size_t i = 0; i < off.size(); ++i) {
+    if (off[i] > far) {
       strays.push_back(i);
     }
   }

@@ -8,9 +8,9 @@
 
 namespace sonoglide::identify::impedance {
 
-/// Readings whose relative residual, in magnitude or phase, is 8 robust standard deviations off the
-/// median of the three readings on either side, and off both that are next to it, while those two
-/// are within 4 of that median in magnitude and phase: a run of readings that are off is a mode.
+/// Readings whose residual, in magnitude or phase, is 8 robust standard deviations off the median of the
+/// three readings on either side, while the two next to it are within 4 of that median in magnitude and
+/// phase: a run of readings that are off is a mode.
 ///
 /// The standard deviation is that from reading to reading, of the 31 or the 101 readings around,
 /// whichever is larger.

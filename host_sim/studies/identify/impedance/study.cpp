@@ -10,7 +10,6 @@
 #include "host_sim/loop/failure.hpp"
 #include "host_sim/scene_file/reader.hpp"
 #include "host_sim/scene_file/scene_error.hpp"
-#include "host_sim/studies/identify/impedance/description.hpp"
 #include "host_sim/studies/identify/impedance/remarks.hpp"
 #include "host_sim/studies/identify/impedance/report.hpp"
 #include "host_sim/studies/identify/impedance/thinning.hpp"
@@ -55,7 +54,8 @@ Correlations correlations_of(const CircuitFit& fit) {
       result.names.push_back(name + number);
     }
   }
-  const Eigen::MatrixXd matrix = correlations(fit.covariance);
+  const std::vector<Eigen::Index> fitted = fit.parts.indices();
+  const Eigen::MatrixXd matrix = correlations(fit.covariance(fitted, fitted));
   for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
     result.rows.emplace_back(matrix.row(i).begin(), matrix.row(i).end());
   }
@@ -108,7 +108,7 @@ void add_scene(ImpedanceStudy& study) {
 
 ImpedanceStudy study(const std::string& name, const Sweep& measured, const MechanicalFact& fact) {
   Selection selected = select_or_say_what_was_assumed(measured);
-  const Description description = describe(selected.fit);
+  const Description description = selected.fit.description;
   Identification identification;
   identification.subject = "impedance";
   identification.model = model_of(selected.fit);

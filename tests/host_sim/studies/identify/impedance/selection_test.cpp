@@ -9,6 +9,7 @@
 
 #include "host_sim/loop/failure.hpp"
 #include "host_sim/studies/identify/impedance/figures.hpp"
+#include "host_sim/studies/identify/impedance/neighbours.hpp"
 #include "host_sim/studies/identify/impedance/refusal.hpp"
 #include "host_sim/studies/identify/impedance/report.hpp"
 #include "host_sim/studies/identify/impedance/study.hpp"
