@@ -24,13 +24,14 @@ void add_residuals(const Sweep& sweep, const Parts& parts, const Circuit& circui
     const auto at = static_cast<std::size_t>(i);
     const Complex y =
         circuit.admittance_S(sweep.frequency_Hz[at], jacobian != nullptr ? &derivatives : nullptr);
-    const Complex residual = std::log(sweep.admittance_S[at] / y);
-    r(i) = residual.real();
+    const Complex inverse = std::conj(y) / std::norm(y);
+    const Complex ratio = sweep.admittance_S[at] * inverse;
+    r(i) = 0.5 * std::log(std::norm(ratio));
     if (sweep.has_phase) {
-      r(readings + i) = residual.imag();
+      r(readings + i) = std::arg(ratio);
     }
     for (std::size_t k = 0; jacobian != nullptr && k < fitted.size(); ++k) {
-      const Complex slope = -derivatives(fitted[k]) / y;
+      const Complex slope = -derivatives(fitted[k]) * inverse;
       (*jacobian)(i, static_cast<Eigen::Index>(k)) = slope.real();
       if (sweep.has_phase) {
         (*jacobian)(readings + i, static_cast<Eigen::Index>(k)) = slope.imag();
@@ -39,8 +40,8 @@ void add_residuals(const Sweep& sweep, const Parts& parts, const Circuit& circui
   }
 }
 
-/// A linearisation that sizes are taken from, without residuals.
-Linearisation weights_of(const Sweep& sweep, const Circuit& circuit) {
+/// A linearisation that sizes are taken from, without residuals; with slopes where they are used.
+Linearisation weights_of(const Sweep& sweep, const Circuit& circuit, bool with_slope) {
   const auto readings = static_cast<Eigen::Index>(sweep.frequency_Hz.size());
   Linearisation at{{}, {}, 0, Eigen::VectorXd(readings), Eigen::VectorXcd::Zero(readings)};
   double measured = 0.0;
@@ -48,7 +49,7 @@ Linearisation weights_of(const Sweep& sweep, const Circuit& circuit) {
     const double f = sweep.frequency_Hz[static_cast<std::size_t>(i)];
     measured += std::log(std::abs(sweep.admittance_S[static_cast<std::size_t>(i)]));
     at.log_magnitude(i) = std::log(std::abs(circuit.admittance_S(f)));
-    if (!circuit.modes.empty()) {
+    if (with_slope && !circuit.modes.empty()) {
       constexpr double part = 1e-3;
       const double step_Hz = part * circuit.modes.front().bandwidth_Hz;
       at.slope(i) =
@@ -96,7 +97,7 @@ bool Description::fails() const {
 }
 
 Linearisation linearise(const Sweep& sweep, const Parts& parts, const Circuit& circuit) {
-  Linearisation at = weights_of(sweep, circuit);
+  Linearisation at = weights_of(sweep, circuit, true);
   at.residuals.resize(rows_of(sweep));
   at.jacobian.resize(rows_of(sweep), parts.size());
   at.modes = parts.modes;
@@ -137,7 +138,7 @@ CircuitFit fit_circuit(const Sweep& sweep, const Parts& parts, const Circuit& st
   Eigen::VectorXd p = to_vector(start);
   constexpr int most_rounds = 4;
   for (int round = 0; round < most_rounds; ++round) {
-    const Linearisation weights = weights_of(sweep, to_circuit(p));
+    const Linearisation weights = weights_of(sweep, to_circuit(p), noise.jitter > 0.0);
     if (!weights.log_magnitude.allFinite()) {
       return {};
     }

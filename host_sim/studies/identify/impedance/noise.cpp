@@ -124,64 +124,53 @@ Solution solve(const Linearisation& at, const Noise& noise) {
 
 namespace {
 
-/// What the noise may be, and its probability before the readings.
+/// What the noise may be, of given sizes, and its probability before the readings.
 struct Supposition {
   Noise noise;
   double prior;
 };
 
-/// White first.
 std::vector<Supposition> suppositions(const Noise& noise) {
   constexpr double jitters[] = {0.5, 1.0, 2.0, 4.0, 8.0, 16.0, 50.0, 200.0};
   constexpr double memories[] = {0.2, 0.5, 0.7, 0.8, 0.88, 0.93, 0.96, 0.98};
   constexpr double shares[] = {0.05, 0.15, 0.3, 0.5, 0.7, 0.85, 0.95, 0.995};
-  std::vector<Supposition> all = {{sizes(noise), 0.6}};
+  constexpr double of_jitter = 0.15 / std::size(jitters);
+  constexpr double of_correlation = 0.4 / (std::size(memories) * std::size(shares));
+  const double e = noise.exponent;
+  const double scale = noise.phase_scale;
+  std::vector<Supposition> all = {{{e, scale}, 0.45}};
   for (const double jitter : jitters) {
-    all.push_back({sizes(noise), 0.02});
-    all.back().noise.jitter = jitter;
+    all.push_back({{e, scale, jitter}, of_jitter});
   }
   for (const double memory : memories) {
     for (const double share : shares) {
-      all.push_back({sizes(noise), 0.24 / (std::size(memories) * std::size(shares))});
-      all.back().noise.memory = memory;
-      all.back().noise.correlated_share = share;
+      all.push_back({{e, scale, 0.0, share, memory}, of_correlation});
     }
   }
   return all;
 }
 
-/// Of several that are tried, with prices for what is not white or of equal phases: so high that it is
+/// The likeliest, with prices for what is not white and for phases that are not as magnitudes: so high that it is
 /// certain, since sizes that follow a few quiet readings make the intervals too short.
-class Likeliest {
- public:
-  explicit Likeliest(const Linearisation& at) : at_(at) { consider({}); }
-
-  void consider(const Noise& noise) {
-    constexpr double price = 6.0;
-    const double deviance = solve(at_, noise).deviance +
-                            (noise.jitter > 0.0 || noise.correlated_share > 0.0 ? price : 0.0) +
-                            (noise.phase_scale != 1.0 ? price : 0.0);
-    if (deviance < deviance_) {
-      noise_ = noise;
-      deviance_ = deviance;
-    }
+Noise likeliest(const Linearisation& at, const std::vector<Noise>& all) {
+  constexpr double price = 4.0;
+  std::vector<double> deviances;
+  for (const Noise& each : all) {
+    const bool is_white = each.jitter == 0.0 && each.correlated_share == 0.0;
+    deviances.push_back(solve(at, each).deviance + (is_white ? 0.0 : price) +
+                        (each.phase_scale == 1.0 ? 0.0 : price));
   }
+  return all[static_cast<std::size_t>(std::min_element(deviances.begin(), deviances.end()) -
+                                      deviances.begin())];
+}
 
-  void consider_exponents() {
-    for (const double exponent : {0.0, 1.0, 2.0}) {
-      Noise noise = noise_;
-      noise.exponent = exponent;
-      consider(noise);
-    }
-  }
-
-  const Noise& noise() const { return noise_; }
-
- private:
-  const Linearisation& at_;
-  Noise noise_;
-  double deviance_ = std::numeric_limits<double>::infinity();
-};
+std::vector<Noise> with_exponents(const Noise& noise) {
+  std::vector<Noise> all(3, noise);
+  all[0].exponent = 1.0;
+  all[1].exponent = 0.0;
+  all[2].exponent = 2.0;
+  return all;
+}
 
 }  // namespace
 
@@ -189,23 +178,23 @@ Noise estimate_noise(const Linearisation& at, Correlation correlation) {
   if (is_rounding(at)) {
     return {};
   }
-  Likeliest best(at);
-  best.consider_exponents();
+  Noise noise = likeliest(at, with_exponents({}));
   if (correlation == Correlation::estimated) {
-    for (const Supposition& each : suppositions(best.noise())) {
-      best.consider(each.noise);
+    std::vector<Noise> all;
+    for (const Supposition& each : suppositions(noise)) {
+      all.push_back(each.noise);
     }
-    best.consider_exponents();
+    noise = likeliest(at, with_exponents(likeliest(at, all)));
   }
   const Eigen::Index readings = at.log_magnitude.size();
-  if (at.residuals.size() > readings) {
-    Eigen::VectorXd residuals = at.residuals;
-    whiten(best.noise(), at, residuals);
-    Noise noise = best.noise();
-    noise.phase_scale = residuals.tail(readings).norm() / residuals.head(readings).norm();
-    best.consider(noise);
+  if (at.residuals.size() == readings) {
+    return noise;
   }
-  return best.noise();
+  Eigen::VectorXd residuals = at.residuals;
+  whiten(noise, at, residuals);
+  Noise other = noise;
+  other.phase_scale = residuals.tail(readings).norm() / residuals.head(readings).norm();
+  return likeliest(at, {noise, other});
 }
 
 Eigen::MatrixXd average_over_noise(const Linearisation& at, const Noise& noise) {

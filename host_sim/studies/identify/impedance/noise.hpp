@@ -68,8 +68,8 @@ Noise estimate_noise(const Linearisation& at, Correlation correlation);
 
 /// The covariance of the parameters, averaged over what the noise may be, since the likeliest one alone
 /// makes the intervals too short: of each noise the covariance, and the square of the step by which its
-/// best parameters differ, weighted by its restricted likelihood. White noise has 0.6 of the weight
-/// beforehand, errors of the frequency of eight sizes 0.16, and 64 correlations the rest.
+/// best parameters differ, weighted by its restricted likelihood. White noise has 0.45 of the weight
+/// beforehand, errors of the frequency of eight sizes 0.15, and 64 correlations the rest.
 /// Source: Hoeting, Madigan, Raftery and Volinsky, Statistical Science 14 (1999).
 Eigen::MatrixXd average_over_noise(const Linearisation& at, const Noise& noise);
 

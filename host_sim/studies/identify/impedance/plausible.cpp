@@ -40,29 +40,25 @@ bool is_plausible_inside(const Sweep& sweep, const Mode& mode) {
 
 bool is_plausible_beside(const Sweep& sweep, const Mode& first, const Mode& mode) {
   const double reach_Hz = 0.5 * (sweep.frequency_Hz.back() - sweep.frequency_Hz.front());
-  constexpr double most_conductance = 10.0;
-  constexpr double most_quality = 4.0;
+  const double quality = mode.quality() / first.quality();
   return mode.resonance_Hz > sweep.frequency_Hz.front() - reach_Hz &&
-         mode.resonance_Hz < sweep.frequency_Hz.back() + reach_Hz &&
-         mode.conductance_S < most_conductance * first.conductance_S &&
-         std::abs(std::log(mode.quality() / first.quality())) < std::log(most_quality);
+         mode.resonance_Hz < sweep.frequency_Hz.back() + reach_Hz && quality > 0.25 &&
+         quality < 4.0 && mode.conductance_S < 10.0 * first.conductance_S;
 }
 
 /// A circuit of one mode is judged where it is refused. To magnitudes alone a lead looks like a mode
 /// beside the sweep.
 bool has_plausible_modes(const Sweep& sweep, const Circuit& circuit) {
-  int beside = 0;
-  for (const Mode& mode : circuit.modes) {
-    const bool is_inside = is_in(sweep, mode);
-    beside += is_inside ? 0 : 1;
-    if (!is_apart(sweep, circuit, mode) ||
-        !(is_inside ? is_plausible_inside(sweep, mode)
-                    : is_plausible_beside(sweep, circuit.modes.front(), mode))) {
-      return false;
-    }
-  }
-  constexpr int most_beside = 2;
-  return beside <= (sweep.has_phase ? most_beside : 0);
+  const std::vector<Mode>& all = circuit.modes;
+  const auto inside =
+      std::count_if(all.begin(), all.end(), [&](const Mode& mode) { return is_in(sweep, mode); });
+  const std::ptrdiff_t most_beside = sweep.has_phase ? 2 : 0;
+  return static_cast<std::ptrdiff_t>(all.size()) - inside <= most_beside &&
+         std::all_of(all.begin(), all.end(), [&](const Mode& mode) {
+           return is_apart(sweep, circuit, mode) &&
+                  (is_in(sweep, mode) ? is_plausible_inside(sweep, mode)
+                                      : is_plausible_beside(sweep, all.front(), mode));
+         });
 }
 
 }  // namespace

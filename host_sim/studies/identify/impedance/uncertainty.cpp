@@ -38,13 +38,36 @@ Unseen unseen_part(const Sweep& sweep, const CircuitFit& fit, Part part) {
 struct Other {
   CircuitFit fit;
   double penalty;  ///< over that of the fit, in −2 ln likelihood
+  bool is_rival;   ///< of a lead or rotation that is seen
 };
 
-double schwarz_penalty(const CircuitFit& other, const CircuitFit& fit) {
-  return schwarz(other) - other.deviance - (schwarz(fit) - fit.deviance);
+std::vector<Other> others_of(const Sweep& sweep, const CircuitFit& fit) {
+  const auto schwarz_penalty = [&](const CircuitFit& other) {
+    return schwarz(other) - other.deviance - (schwarz(fit) - fit.deviance);
+  };
+  std::vector<Other> others;
+  for (CircuitFit& each : larger_fits(sweep, fit)) {
+    const std::vector<Mode>& modes = each.circuit.modes;
+    if (each.parts.modes > fit.parts.modes &&
+        (!is_in(sweep, modes.back()) ||
+         modes.back().conductance_S < 0.5 * modes.front().conductance_S)) {
+      constexpr double per_element = 2.0 / 3.0;
+      const double penalty = per_element * schwarz_penalty(each);
+      others.push_back({std::move(each), penalty, false});
+    }
+  }
+  const bool is_turned = sees_lead_or_rotation(fit);
+  for (CircuitFit& each : turned_fits(sweep, fit)) {
+    constexpr double doubt = 1.0;
+    if (is_turned || !(each.parts.has(Part::rotation) || each.parts.has(Part::lead_inductance))) {
+      const double penalty = is_turned ? schwarz_penalty(each) : doubt;
+      others.push_back({std::move(each), penalty, is_turned});
+    }
+  }
+  return others;
 }
 
-/// Averages the covariance, over what both have. @return the weights of the others
+/// Averages the covariance over what the others have too. @return their weights
 std::vector<double> average(const std::vector<Other>& others, CircuitFit& fit) {
   std::vector<double> weights;
   double sum = 1.0;
@@ -55,26 +78,22 @@ std::vector<double> average(const std::vector<Other>& others, CircuitFit& fit) {
     sum += weights.back();
   }
   const Eigen::MatrixXd own = fit.covariance;
-  const Eigen::VectorXd p = to_vector(fit.circuit);
+  const Eigen::VectorXd fitted = (own.diagonal().array() > 0.0).cast<double>();
   for (std::size_t k = 0; k < others.size(); ++k) {
     weights[k] /= sum;
-    const CircuitFit& other = others[k].fit;
-    const Eigen::VectorXd step =
-        to_vector(other.circuit).head(std::min(p.size(), to_vector(other.circuit).size()));
-    for (Eigen::Index i = 0; i < step.size(); ++i) {
-      for (Eigen::Index j = 0; j < step.size(); ++j) {
-        if (own(i, i) > 0.0 && own(j, j) > 0.0) {
-          fit.covariance(i, j) += weights[k] * (other.covariance(i, j) +
-                                                (step(i) - p(i)) * (step(j) - p(j)) - own(i, j));
-        }
-      }
-    }
+    const Eigen::MatrixXd& other = others[k].fit.covariance;
+    const Eigen::Index n = std::min(own.rows(), other.rows());
+    const Eigen::VectorXd step = fitted.head(n).cwiseProduct(
+        to_vector(others[k].fit.circuit).head(n) - to_vector(fit.circuit).head(n));
+    fit.covariance.topLeftCorner(n, n) +=
+        weights[k] *
+        (fitted.head(n).asDiagonal() * other.topLeftCorner(n, n) * fitted.head(n).asDiagonal() +
+         step * step.transpose() - own.topLeftCorner(n, n));
   }
   return weights;
 }
 
 void allow_for_misfit(CircuitFit& fit) {
-  const double residual = fit.description.residual;
   if (!fit.description.fails()) {
     return;
   }
@@ -82,7 +101,7 @@ void allow_for_misfit(CircuitFit& fit) {
   Eigen::VectorXd residuals = fit.at.residuals;
   whiten(sizes(fit.noise), fit.at, jacobian);
   whiten(sizes(fit.noise), fit.at, residuals);
-  const double along_each = std::pow(fit.description.misfit() / residual, 2) *
+  const double along_each = std::pow(fit.description.misfit() / fit.description.residual, 2) *
                             residuals.squaredNorm() / static_cast<double>(fit.parts.size());
   fit.covariance += over_vector(along_each * inverse_normal_matrix(jacobian), fit.parts);
 }
@@ -108,31 +127,13 @@ void allow_for_what_is_not_certain(Selection& selected) {
       selected.unseen.push_back(unseen_part(sweep, fit, each));
     }
   }
-  std::vector<Other> others;
-  for (CircuitFit& each : larger_fits(sweep, fit)) {
-    const Mode& further = each.circuit.modes.back();
-    if (each.parts.modes > fit.parts.modes &&
-        (!is_in(sweep, further) ||
-         further.conductance_S < 0.5 * each.circuit.modes.front().conductance_S)) {
-      const double penalty = schwarz_penalty(each, fit);
-      others.push_back({std::move(each), penalty});
-    }
-  }
-  const std::size_t larger = others.size();
-  const bool is_turned = sees_lead_or_rotation(fit);
-  for (CircuitFit& each : turned_fits(sweep, fit)) {
-    constexpr double doubt = 1.0;
-    const bool is_resistance =
-        !each.parts.has(Part::rotation) && !each.parts.has(Part::lead_inductance);
-    if (is_turned || is_resistance) {
-      const double penalty = is_turned ? schwarz_penalty(each, fit) : doubt;
-      others.push_back({std::move(each), penalty});
-    }
-  }
+  std::vector<Other> others = others_of(sweep, fit);
   fit.covariance = over_vector(average_over_noise(fit.at, fit.noise), fit.parts);
   const std::vector<double> weights = average(others, fit);
-  for (std::size_t i = larger; is_turned && i < others.size(); ++i) {
-    selected.rivals.push_back({std::move(others[i].fit), weights[i]});
+  for (std::size_t i = 0; i < others.size(); ++i) {
+    if (others[i].is_rival) {
+      selected.rivals.push_back({std::move(others[i].fit), weights[i]});
+    }
   }
   allow_for_misfit(fit);
 }
