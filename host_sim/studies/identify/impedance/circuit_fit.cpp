@@ -169,16 +169,6 @@ CircuitFit fit_circuit(const Sweep& sweep, const Parts& parts, const Circuit& st
   return fit_at(sweep, parts, to_circuit(p), noise);
 }
 
-CircuitFit fit_circuit_and_noise(const Sweep& sweep, const Parts& parts, const Circuit& start,
-                                 const Noise& noise, Correlation correlation) {
-  CircuitFit fit = fit_circuit(sweep, parts, start, noise);
-  constexpr int rounds = 2;
-  for (int round = 0; round < rounds && fit.converged; ++round) {
-    fit = fit_circuit(sweep, parts, fit.circuit, estimate_noise(fit.at, correlation));
-  }
-  return fit;
-}
-
 double schwarz(const CircuitFit& fit) {
   return fit.deviance + static_cast<double>(fit.parts.size()) *
                             std::log(static_cast<double>(fit.at.residuals.size()));

@@ -48,10 +48,6 @@ CircuitFit fit_at(const Sweep& sweep, const Parts& parts, const Circuit& circuit
 CircuitFit fit_circuit(const Sweep& sweep, const Parts& parts, const Circuit& start,
                        const Noise& noise);
 
-/// The same with the noise estimated in turn, until neither changes.
-CircuitFit fit_circuit_and_noise(const Sweep& sweep, const Parts& parts, const Circuit& start,
-                                 const Noise& noise, Correlation correlation);
-
 /// Schwarz's criterion: −2 ln likelihood and ln n for each parameter.
 double schwarz(const CircuitFit& fit);
 

@@ -50,12 +50,13 @@ void add_with_part(const Sweep& sweep, const CircuitFit& fit, Part part, double 
   const Solution solution = solve(linearise(sweep, parts, fit.circuit), fit.noise);
   const std::vector<Eigen::Index> fitted = parts.indices();
   const auto at = std::find(fitted.begin(), fitted.end(), index_of(part)) - fitted.begin();
-  if (solution.step(at) * solution.step(at) < least * solution.covariance(at, at)) {
+  if (part != Part::lean &&
+      solution.step(at) * solution.step(at) < least * solution.covariance(at, at)) {
     return;
   }
   std::vector<Circuit> starts = {
       with_value(fit.circuit, part, part == Part::loss_tangent ? 0.003 : 0.0)};
-  if (part == Part::lean) {  // There are minima on either side of none.
+  if (part == Part::lean) {
     starts.push_back(with_value(fit.circuit, part, 0.7));
     starts.push_back(with_value(fit.circuit, part, -0.7));
   }

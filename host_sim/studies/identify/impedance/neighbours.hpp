@@ -13,7 +13,7 @@ inline constexpr int most_modes = 8;
 
 /// With one part or mode more, as far as plausible: lean; with phase, lead and rotation; without, loss
 /// tangent. What takes less than 4 from −2 ln likelihood by its linearisation is left out, unless the
-/// fit does not describe the sweep.
+/// fit does not describe the sweep; not so a lean, which has minima on either side of none.
 std::vector<CircuitFit> larger_fits(const Sweep& sweep, const CircuitFit& fit);
 
 /// With one part or mode less. A loss tangent is always fitted to phases, and a rotation where no lead is

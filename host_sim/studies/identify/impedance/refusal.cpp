@@ -24,25 +24,16 @@ double misfit_of_start(const Sweep& sweep) {
   return starts.empty() ? std::numeric_limits<double>::infinity() : starts.front().misfit;
 }
 
-bool fits_better_with_other_sign(const Sweep& sweep) {
-  Sweep changed = sweep;
-  for (Complex& each : changed.admittance_S) {
+/// What of a sweep with phase may explain a refusal.
+std::string explanation(const Sweep& sweep) {
+  Sweep conjugate = sweep;
+  double resistive = 0.0;  // share of readings with a phase within 10 degrees of 0
+  for (Complex& each : conjugate.admittance_S) {
+    constexpr double tangent_10_degrees = 0.176;
+    resistive += std::abs(each.imag()) < tangent_10_degrees * each.real() ? 1.0 : 0.0;
     each = std::conj(each);
   }
-  constexpr double far = 0.1;
-  return misfit_of_start(changed) < far * misfit_of_start(sweep);
-}
-
-std::string explanation(const Sweep& sweep) {
-  if (!sweep.has_phase) {
-    return {};
-  }
-  constexpr double tangent_10_degrees = 0.176;
-  const auto count =
-      std::count_if(sweep.admittance_S.begin(), sweep.admittance_S.end(),
-                    [](Complex y) { return std::abs(y.imag()) < tangent_10_degrees * y.real(); });
-  const double resistive =
-      static_cast<double>(count) / static_cast<double>(sweep.admittance_S.size());
+  resistive /= static_cast<double>(sweep.admittance_S.size());
   constexpr double most = 0.8;
   if (resistive > most) {
     return fmt::format(
@@ -50,7 +41,8 @@ std::string explanation(const Sweep& sweep) {
         "resistance",
         100.0 * resistive);
   }
-  return fits_better_with_other_sign(sweep)
+  constexpr double far = 0.1;
+  return misfit_of_start(conjugate) < far * misfit_of_start(sweep)
              ? ". With the other sign of the phase a circuit fits far better: is the sign of the "
                "phase or of the imaginary part reversed, is an admittance read as an impedance, or "
                "is the fixture shorted?"
@@ -58,7 +50,8 @@ std::string explanation(const Sweep& sweep) {
 }
 
 [[noreturn]] void refuse(const Sweep& sweep, const std::string& reason) {
-  throw loop::ComputationError("identify impedance: " + reason + explanation(sweep));
+  throw loop::ComputationError("identify impedance: " + reason +
+                               (sweep.has_phase ? explanation(sweep) : ""));
 }
 
 /// A capacitance with loss alone, begun where the mean deviation is nothing.
@@ -70,7 +63,12 @@ CircuitFit fit_capacitance(const Sweep& sweep) {
     sum += std::log(std::abs(sweep.admittance_S[i]) / (two_pi * sweep.frequency_Hz[i]));
   }
   const double capacitance_F = std::exp(sum / static_cast<double>(sweep.frequency_Hz.size()));
-  return fit_circuit_and_noise(sweep, parts, {capacitance_F, 0.0, {}}, {}, Correlation::estimated);
+  CircuitFit fit = fit_circuit(sweep, parts, {capacitance_F, 0.0, {}}, {});
+  constexpr int rounds = 2;
+  for (int round = 0; round < rounds && fit.converged; ++round) {
+    fit = fit_circuit(sweep, parts, fit.circuit, estimate_noise(fit.at, Correlation::estimated));
+  }
+  return fit;
 }
 
 /// What helps where a sweep has more than one mode.
@@ -125,27 +123,29 @@ void require_inside(const Sweep& sweep, const CircuitFit& fit) {
       [](const Mode& a, const Mode& b) { return a.conductance_S < b.conductance_S; });
   const double low_Hz = sweep.frequency_Hz.front();
   const double high_Hz = sweep.frequency_Hz.back();
+  const std::string bound = "the fit ends at a bound: ";
   if (!is_in(sweep, mode)) {
     constexpr double near = 3.0;
     const bool is_near = mode.resonance_Hz > low_Hz / near && mode.resonance_Hz < high_Hz * near;
-    refuse(sweep, fmt::format("the fit ends at a bound: {} is not in the sweep, which goes from "
-                              "{:.6g} to {:.6g} Hz; measure across the resonance",
+    refuse(sweep, fmt::format("{}{} is not in the sweep, which goes from {:.6g} to {:.6g} Hz; "
+                              "measure across the resonance",
+                              bound,
                               is_near ? fmt::format("its resonance at {:.6g} Hz", mode.resonance_Hz)
                                       : std::string("the resonance"),
                               low_Hz, high_Hz));
   }
   constexpr double least_quality = 0.5;
   if (mode.quality() < least_quality) {
-    refuse(sweep, fmt::format("the fit ends at a bound: a quality factor of {:.3g}, allowed: from "
-                              "{:g}; the sweep does not tell the resistance{}",
-                              mode.quality(), least_quality, advice(fit)));
+    refuse(sweep, fmt::format("{}a quality factor of {:.3g}, allowed: from {:g}; the sweep does "
+                              "not tell the resistance{}",
+                              bound, mode.quality(), least_quality, advice(fit)));
   }
   constexpr double most_ratio = 1e3;
   const double ratio = mode.capacitance_F() / fit.circuit.clamped_capacitance_F;
   if (ratio < 1e-9 || ratio > most_ratio) {
-    refuse(sweep, fmt::format("the fit ends at a bound: motional over clamped capacitance of "
-                              "{:.3g}, allowed: 1e-9 to {:g}; the sweep does not tell them apart{}",
-                              ratio, most_ratio, advice(fit)));
+    refuse(sweep, fmt::format("{}motional over clamped capacitance of {:.3g}, allowed: 1e-9 to "
+                              "{:g}; the sweep does not tell them apart{}",
+                              bound, ratio, most_ratio, advice(fit)));
   }
 }
 

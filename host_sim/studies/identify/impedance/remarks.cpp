@@ -242,18 +242,23 @@ std::vector<std::string> open_questions(const std::vector<Estimate>& estimates,
   for (const Unseen& each : selected.unseen) {
     open.push_back(open_part(each, modes.front()));
   }
-  append(open,
-         {{!sweep.has_phase,
-           "Whether leads and contacts have a series resistance: magnitudes alone do not tell. The "
-           "motional resistance is larger by what there is."},
-          {!sweep.has_phase,
-           "Whether leads and contacts have a series inductance: magnitudes alone do not tell. It "
-           "would lower the resonance and change all other figures."},
-          {true, open_drift(sweep, modes.front())},
-          {std::all_of(modes.begin(), modes.end(),
-                       [&](const Mode& each) { return is_in(sweep, each); }),
-           "Whether another mode lies just outside the sweep: it would shift clamped capacitance, "
-           "parallel resonance and coupling by more than their intervals. A wider sweep tells."}});
+  append(
+      open,
+      {{!sweep.has_phase,
+        "Whether leads and contacts have a series resistance: magnitudes alone do not tell. The "
+        "motional resistance is larger by what there is."},
+       {!sweep.has_phase,
+        "Whether leads and contacts have a series inductance: magnitudes alone do not tell. It "
+        "would lower the resonance and change all other figures."},
+       {!sweep.has_phase,
+        "Whether the errors of neighbouring readings hang together: magnitudes alone show little "
+        "of it. Where it is not seen, the intervals should be about half as wide again. A sweep "
+        "with phase, or with more readings, tells more."},
+       {true, open_drift(sweep, modes.front())},
+       {std::all_of(modes.begin(), modes.end(),
+                    [&](const Mode& each) { return is_in(sweep, each); }),
+        "Whether another mode lies just outside the sweep: it would shift clamped capacitance, "
+        "parallel resonance and coupling by more than their intervals. A wider sweep tells."}});
   for (const Estimate& each : estimates) {
     append_open_figure(open, each);
   }

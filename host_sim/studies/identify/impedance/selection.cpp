@@ -14,6 +14,20 @@
 namespace sonoglide::identify::impedance {
 namespace {
 
+/// Fitted with another noise; where that leads to what is not plausible, the same circuit with it.
+CircuitFit with_noise(const Sweep& sweep, const CircuitFit& fit, const Noise& noise) {
+  CircuitFit noisy = fit_circuit(sweep, fit.parts, fit.circuit, noise);
+  return is_plausible(sweep, noisy) ? noisy : fit_at(sweep, fit.parts, fit.circuit, noise);
+}
+
+CircuitFit with_its_noise(const Sweep& sweep, CircuitFit fit, Correlation correlation) {
+  constexpr int rounds = 2;
+  for (int round = 0; round < rounds; ++round) {
+    fit = with_noise(sweep, fit, estimate_noise(fit.at, correlation));
+  }
+  return fit;
+}
+
 /// The converged fit of the least deviance; one whose resonance is sharper than any only where there
 /// is no other.
 CircuitFit first_fit(const Sweep& sweep) {
@@ -32,8 +46,7 @@ CircuitFit first_fit(const Sweep& sweep) {
   if (!best) {
     refuse_without_fit(sweep);
   }
-  CircuitFit noisy = fit_circuit_and_noise(sweep, parts, best->circuit, Noise{}, Correlation::none);
-  return noisy.converged ? noisy : *best;
+  return with_its_noise(sweep, *best, Correlation::none);
 }
 
 /// Schwarz's criterion, and what strong evidence takes beside; a rotation needs none.
@@ -55,17 +68,7 @@ bool is_seen(const CircuitFit& fit, const CircuitFit& larger) {
 }
 
 bool is_preferred(const CircuitFit& other, const CircuitFit& fit) {
-  return other.parts.size() > fit.parts.size()   ? is_seen(fit, other)
-         : other.parts.size() < fit.parts.size() ? !is_seen(other, fit)
-                                                 : criterion(other) < criterion(fit);
-}
-
-/// Fitted with its noise; where that leads to what is not plausible, the same circuit with it.
-CircuitFit with_its_noise(const Sweep& sweep, const CircuitFit& fit, Correlation correlation) {
-  CircuitFit noisy = fit_circuit_and_noise(sweep, fit.parts, fit.circuit, fit.noise, correlation);
-  return is_plausible(sweep, noisy)
-             ? noisy
-             : fit_at(sweep, fit.parts, fit.circuit, estimate_noise(fit.at, correlation));
+  return other.parts.size() > fit.parts.size() ? is_seen(fit, other) : !is_seen(other, fit);
 }
 
 using Neighbours = std::vector<CircuitFit>(const Sweep& sweep, const CircuitFit& fit);
@@ -83,7 +86,7 @@ CircuitFit climb(const Sweep& sweep, CircuitFit fit, Neighbours& neighbours,
     if (!best) {
       return fit;
     }
-    fit = with_its_noise(sweep, *best, correlation);
+    fit = with_its_noise(sweep, *std::move(best), correlation);
   }
 }
 
@@ -130,13 +133,12 @@ Selection select_circuit(const Sweep& measured) {
     fit = first_fit(sweep);
   }
   fit = climb(sweep, std::move(fit), larger_fits, Correlation::none);
-  fit = with_its_noise(sweep, fit, Correlation::estimated);
+  fit = with_its_noise(sweep, std::move(fit), Correlation::estimated);
   fit = climb(sweep, std::move(fit), smaller_fits, Correlation::estimated);
   fit = with_likeliest_of_phase(sweep, std::move(fit));
   require_resonance(sweep, fit);
   if (fit.description.fails()) {  // misfit is no noise: plain least squares
-    CircuitFit plain = fit_circuit(sweep, fit.parts, fit.circuit, sizes(fit.noise));
-    fit = plain.converged ? plain : fit_at(sweep, fit.parts, fit.circuit, sizes(fit.noise));
+    fit = with_noise(sweep, fit, sizes(fit.noise));
   }
   require_inside(sweep, fit);
   require_description(sweep, fit);

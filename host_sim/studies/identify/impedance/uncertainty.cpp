@@ -48,11 +48,12 @@ std::vector<Other> others_of(const Sweep& sweep, const CircuitFit& fit) {
   std::vector<Other> others;
   for (CircuitFit& each : larger_fits(sweep, fit)) {
     const std::vector<Mode>& modes = each.circuit.modes;
-    if (each.parts.modes > fit.parts.modes &&
-        (!is_in(sweep, modes.back()) ||
-         modes.back().conductance_S < 0.5 * modes.front().conductance_S)) {
+    const bool is_mode = each.parts.modes > fit.parts.modes;
+    const bool is_first_kept = !is_in(sweep, modes.back()) ||
+                               modes.back().conductance_S < 0.5 * modes.front().conductance_S;
+    if (is_mode ? is_first_kept : each.parts.has(Part::lean) && !fit.parts.has(Part::lean)) {
       constexpr double per_element = 2.0 / 3.0;
-      const double penalty = per_element * schwarz_penalty(each);
+      const double penalty = (is_mode ? per_element : 1.0) * schwarz_penalty(each);
       others.push_back({std::move(each), penalty, false});
     }
   }

@@ -14,7 +14,7 @@ bool sees_lead_or_rotation(const CircuitFit& fit);
 /// that may be the right one, and for misfit; names those that may be a lead or a rotation that is seen,
 /// and the parts that may be there unseen.
 ///
-/// Averages the covariance over the other circuits, each with its own and the square of the step to
+/// Averages the covariance over the other circuits (a further mode, a lean, other leads), each with its own and the square of the step to
 /// it, weighted by its likelihood less a penalty: Schwarz's, ln n for each parameter; of a further mode
 /// two thirds of it, with which the intervals hold beside modes too weak to be seen; and 1 for a
 /// resistance of leads in place of a rotation that is not seen, since leads are always there.
