@@ -19,7 +19,7 @@ struct Unseen {
 /// Another circuit that describes the sweep about as well.
 struct Rival {
   CircuitFit fit;
-  double weight;  ///< its share of the intervals
+  double weight = 0.0;  ///< its share of the intervals
 };
 
 struct Selection {

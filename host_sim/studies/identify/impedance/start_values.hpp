@@ -9,7 +9,7 @@
 namespace sonoglide::identify::impedance {
 
 struct Start {
-  double misfit;  ///< a sum of squares; of a further mode less what it takes away
+  double misfit = 0.0;  ///< a sum of squares; of a further mode less what it takes away
   Circuit circuit;
 };
 
