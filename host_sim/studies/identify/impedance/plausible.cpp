@@ -13,10 +13,10 @@ struct Bounds {
 };
 
 bool has_plausible_parts(const Sweep& sweep, const CircuitFit& fit) {
-  constexpr double any = 1e300;
+  constexpr double unbounded = 1e300;
   const Circuit& circuit = fit.circuit;
   const Bounds all[] = {
-      {Part::loss_tangent, sweep.has_phase ? -any : 0.0, any},
+      {Part::loss_tangent, sweep.has_phase ? -unbounded : 0.0, unbounded},
       {Part::rotation, -0.26, 0.26},
       {Part::lead_resistance, 0.0, 0.25 * circuit.modes.front().resistance_ohm()},
       {Part::lead_inductance, 0.0, most_inductance_H(circuit)},
