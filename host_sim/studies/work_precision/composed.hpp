@@ -20,6 +20,7 @@
 #include "firmware/plant/solver.hpp"
 #include "firmware/plant/state.hpp"
 #include "firmware/plant/stiff/stiff_linear.hpp"
+#include "firmware/plant/taylor/event_taylor.hpp"  // that every solver may hand turns to
 #include "host_sim/configure/plant_model.hpp"
 #include "host_sim/configure/solver_methods.hpp"
 #include "host_sim/studies/work_precision/peers/contender.hpp"
