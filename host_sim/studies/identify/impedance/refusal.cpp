@@ -106,7 +106,11 @@ void refuse_without_fit(const Sweep& sweep) {
 void require_resonance(const Sweep& sweep, const CircuitFit& fit) {
   const CircuitFit none = fit_capacitance(sweep);
   const double places = std::log(static_cast<double>(sweep.frequency_Hz.size()));
-  if (!none.converged || schwarz(none) > schwarz(fit) + 2.0 * places) {
+  constexpr double half = 0.5;
+  const bool explains =
+      none.description.fails() &&
+      std::pow(fit.description.misfit(), 2) <= half * std::pow(none.description.misfit(), 2);
+  if (!none.converged || explains || schwarz(none) > schwarz(fit) + 2.0 * places) {
     return;
   }
   require_described(sweep, none.description,
