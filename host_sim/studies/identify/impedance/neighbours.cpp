@@ -60,6 +60,13 @@ void add_with_part(const Sweep& sweep, const CircuitFit& fit, Part part, double 
     starts.push_back(with_value(fit.circuit, part, 0.7));
     starts.push_back(with_value(fit.circuit, part, -0.7));
   }
+  if (part == Part::rotation && fit.description.fails() && fit.parts.modes == 1) {
+    // What turns the phases may have led the fit far off.
+    constexpr std::size_t tries = 4;
+    for (Start& each : start_circuits(sweep, tries)) {
+      starts.push_back(std::move(each.circuit));
+    }
+  }
   add_best(sweep, parts, fit.noise, starts, fits);
 }
 
