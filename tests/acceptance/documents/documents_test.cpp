@@ -22,7 +22,12 @@ namespace fs = std::filesystem;
 const fs::path source = SONOGLIDE_SOURCE;
 
 std::vector<fs::path> documents() {
-  std::vector<fs::path> found{source / "README.md"};
+  std::vector<fs::path> found;
+  for (const fs::directory_entry& entry : fs::directory_iterator(source)) {
+    if (entry.path().extension() == ".md") {
+      found.push_back(entry.path());
+    }
+  }
   for (const char* folder : {"firmware", "hal", "host_sim", "tests"}) {
     for (const fs::directory_entry& entry : fs::recursive_directory_iterator(source / folder)) {
       if (entry.path().extension() == ".md") {
