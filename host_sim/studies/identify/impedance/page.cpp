@@ -62,7 +62,7 @@ output::Panel residual_panel(const ImpedanceStudy& study) {
   output::Panel panel;
   panel.title = "Residuals";
   panel.note =
-      "Measured less fitted, over the fitted admittance. A pattern along the sweep is what the "
+      "The logarithm of measured over fitted admittance. A pattern along the sweep is what the "
       "circuit does not describe, or drift of the instrument; the intervals allow for it.";
   panel.y_label = "Relative residual [-]";
   panel.x = study.sweep.frequency_Hz;
