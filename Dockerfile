@@ -2,7 +2,7 @@
 #   docker build --tag sonoglide .
 #   docker run --rm --volume "$PWD:/sonoglide" --user "$(id --user):$(id --group)" sonoglide tools/demo
 FROM debian:12
-COPY tools/setup /tmp/tools/setup
-RUN bash /tmp/tools/setup test && rm -rf /tmp/tools /var/lib/apt/lists/*
 WORKDIR /sonoglide
-ENV HOME=/tmp
+COPY tools/setup tools/setup
+RUN bash tools/setup test && rm -rf /var/lib/apt/lists/*
+ENV XDG_CACHE_HOME=/sonoglide/build/cache

@@ -6,11 +6,11 @@
 #include <cstdint>
 
 #include "firmware/control/drive_command.hpp"
-#include "firmware/control/fed_forward.hpp"
 #include "firmware/control/measurement.hpp"
 #include "firmware/control/mode_observer.hpp"
 #include "firmware/control/part_name.hpp"
 #include "firmware/control/signals.hpp"
+#include "firmware/control/vibration_part.hpp"
 #include "firmware/numeric/near_root.hpp"
 #include "firmware/numeric/scalar.hpp"
 

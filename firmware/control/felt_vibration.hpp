@@ -7,12 +7,12 @@
 #include <cstdint>
 
 #include "firmware/control/drive_command.hpp"
-#include "firmware/control/fed_forward.hpp"
 #include "firmware/control/felt_observer.hpp"
 #include "firmware/control/measurement.hpp"
 #include "firmware/control/part_name.hpp"
 #include "firmware/control/reading_lag.hpp"
 #include "firmware/control/signals.hpp"
+#include "firmware/control/vibration_part.hpp"
 #include "firmware/numeric/headroom.hpp"
 #include "firmware/numeric/scalar.hpp"
 

@@ -5,13 +5,13 @@
 #include <cstdint>
 
 #include "firmware/control/drive_command.hpp"
-#include "firmware/control/fed_forward.hpp"
 #include "firmware/control/frequency_word.hpp"
 #include "firmware/control/measurement.hpp"
 #include "firmware/control/part_name.hpp"
 #include "firmware/control/past_drive.hpp"
 #include "firmware/control/resonance_estimate.hpp"
 #include "firmware/control/signals.hpp"
+#include "firmware/control/vibration_part.hpp"
 #include "firmware/numeric/floating.hpp"
 #include "firmware/numeric/headroom.hpp"
 #include "firmware/numeric/scalar.hpp"

@@ -1,7 +1,9 @@
 #include "host_sim/configure/control_design.hpp"
 
-#include <algorithm>
+#include <cstddef>
 #include <optional>
+#include <type_traits>
+#include <variant>
 
 #include "host_sim/configure/believed_plant.hpp"
 #include "host_sim/configure/calibration_design.hpp"
@@ -14,6 +16,14 @@
 
 namespace sonoglide::configure {
 namespace {
+
+template <scene::VibrationMode mode>
+using DesignOf =
+    std::variant_alternative_t<static_cast<std::size_t>(mode), decltype(ControlDesign::vibration)>;
+static_assert(std::is_same_v<DesignOf<scene::VibrationMode::feedforward>, FeedforwardDesign> &&
+              std::is_same_v<DesignOf<scene::VibrationMode::sensorless>, FeltDesign> &&
+              std::is_same_v<DesignOf<scene::VibrationMode::damped>, DampedDesign> &&
+              std::is_same_v<DesignOf<scene::VibrationMode::resonant>, ResonantDesign>);
 
 /// The loop that holds the vibration, and the regulator of the friction ratio around it.
 void design_vibration(const scene::Scene& scene, const BelievedPlant& plant,
