@@ -17,9 +17,9 @@
 namespace sonoglide::configure {
 namespace {
 
-template <scene::VibrationMode mode>
+template <scene::VibrationMode Mode>
 using DesignOf =
-    std::variant_alternative_t<static_cast<std::size_t>(mode), decltype(ControlDesign::vibration)>;
+    std::variant_alternative_t<static_cast<std::size_t>(Mode), decltype(ControlDesign::vibration)>;
 static_assert(std::is_same_v<DesignOf<scene::VibrationMode::feedforward>, FeedforwardDesign> &&
               std::is_same_v<DesignOf<scene::VibrationMode::sensorless>, FeltDesign> &&
               std::is_same_v<DesignOf<scene::VibrationMode::damped>, DampedDesign> &&
