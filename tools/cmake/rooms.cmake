@@ -32,7 +32,9 @@ function(sonoglide_room target folder)
     add_library(${target} INTERFACE)
     set(scope INTERFACE)
   endif()
-  set_target_properties(${target} PROPERTIES SONOGLIDE_FOLDER "${folder}")
+  set_target_properties(${target} PROPERTIES
+    SONOGLIDE_FOLDER "${folder}" SONOGLIDE_USES "${ROOM_USES}")
+  set_property(GLOBAL APPEND PROPERTY SONOGLIDE_ROOMS ${target})
   # Links into the source tree: the headers that are installed are those behind them.
   target_include_directories(${target} ${scope} "$<BUILD_INTERFACE:${root}>")
   target_link_libraries(${target} ${scope} sonoglide_language ${ROOM_USES} ${ROOM_LIBRARIES})

@@ -1,0 +1,21 @@
+# Holds the drawings of ARCHITECTURE.md to DRAWINGS, a file with those of the link lines; with WRITE they
+# are written into it. Between two fences of ```mermaid and ``` stands one.
+file(READ "${DOCUMENT}" document)
+file(READ "${DRAWINGS}" drawings)
+string(REGEX MATCHALL "```mermaid[^`]*```" drawn "${document}")
+string(REGEX MATCHALL "```mermaid[^`]*```" made "${drawings}")
+if(WRITE)
+  set(written "")
+  foreach(before after IN ZIP_LISTS drawn made)
+    string(FIND "${document}" "${before}" begin)
+    string(LENGTH "${before}" length)
+    math(EXPR end "${begin} + ${length}")
+    string(SUBSTRING "${document}" 0 ${begin} head)
+    string(SUBSTRING "${document}" ${end} -1 document)
+    string(APPEND written "${head}${after}")
+  endforeach()
+  file(WRITE "${DOCUMENT}" "${written}${document}")
+elseif(NOT drawn STREQUAL made)
+  message(FATAL_ERROR "The rooms of ${DOCUMENT} are not those of the link lines: write_drawing "
+    "draws them anew. They are\n${drawings}")
+endif()
