@@ -21,6 +21,7 @@ StartedProgram::StartedProgram(const ScratchFolder& folder, std::vector<std::str
   words.push_back(nullptr);
   process_ = fork();
   if (process_ == 0) {
+    std::signal(SIGHUP, SIG_DFL);  // ignored, if the tests run under nohup
     const int nowhere = open("/dev/null", O_WRONLY);
     setenv("TMPDIR", temporary.path().c_str(), 1);
     if (chdir(folder.path().c_str()) == 0 && dup2(nowhere, STDOUT_FILENO) >= 0) {

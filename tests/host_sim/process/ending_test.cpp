@@ -25,6 +25,10 @@ class EndingTest : public testing::Test {
   EndingTest() {
     std::string name = testing::TempDir() + "ending_test_XXXXXX";
     home_ = mkdtemp(name.data());
+    // Under nohup the tests start with a signal that is ignored.
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+      std::signal(signal, SIG_DFL);
+    }
   }
   ~EndingTest() override { fs::remove_all(home_); }
 
