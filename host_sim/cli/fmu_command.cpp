@@ -55,7 +55,8 @@ void write(const FmuOptions& options) {
                stepped::carrier_changes(scene) ? " at the start" : "");
     if (!parts.windows_engine) {
       fmt::print(
-          "note: without a binary for Windows, for the program was built without mingw-w64\n");
+          "note: without a binary for Windows: the program was built without "
+          "SONOGLIDE_FMU_WINDOWS\n");
     }
   }
 }

@@ -1,10 +1,11 @@
-# fmu.dll, the same library for Windows, by the cross compiler mingw-w64. Without the compiler FMUs
-# hold no binary for Windows.
-find_program(SONOGLIDE_MINGW x86_64-w64-mingw32-g++-posix)
-if(NOT SONOGLIDE_MINGW OR SONOGLIDE_SANITIZE)
-  message(STATUS "FMUs without a binary for Windows (it needs mingw-w64)")
+# fmu.dll, the same library for Windows, by the cross compiler mingw-w64. It takes as long to compile as
+# half the program.
+set(library "${PROJECT_BINARY_DIR}/lib/sonoglide/fmu.dll")
+if(NOT SONOGLIDE_FMU_WINDOWS)
+  file(REMOVE "${library}")  # the program would pack that of an earlier build
   return()
 endif()
+find_program(SONOGLIDE_MINGW x86_64-w64-mingw32-g++-posix REQUIRED)
 
 # The headers of libraries, without those of this system in the folders around them.
 set(folder "${CMAKE_CURRENT_BINARY_DIR}/windows")
@@ -57,7 +58,6 @@ foreach(unit IN LISTS units)
     VERBATIM)
   list(APPEND objects "${object}")
 endforeach()
-set(library "${PROJECT_BINARY_DIR}/lib/sonoglide/fmu.dll")
 add_custom_command(
   OUTPUT "${library}"
   COMMAND "${SONOGLIDE_MINGW}" -shared -static -s -Wl,--gc-sections -Wl,--no-insert-timestamp

@@ -5,10 +5,13 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <ostream>
+#include <regex>
+#include <set>
 #include <stdexcept>
 #include <string>
 
 #include "tests/acceptance/fmu/importer/description.hpp"
+#include "tests/acceptance/fmu/importer/header_functions.hpp"
 #include "tests/acceptance/program/program.hpp"
 
 namespace sonoglide::acceptance::fmu_windows_test {
@@ -25,12 +28,20 @@ void PrintTo(const Case& tested, std::ostream* out) {
   *out << tested.name;
 }
 
+TEST(FmuWindowsLibrary, ShowsTheFunctionsOfTheHeadersAndNeedsWindowsAlone) {
+  const ScratchFolder folder;
+  make_fmu(folder, SONOGLIDE_SCENES "/target_step.toml", "--kind loop", "fmu");
+  const Outcome dump = folder.run_program("x86_64-w64-mingw32-objdump",
+                                          "-p fmu/binaries/x86_64-windows/sonoglide_loop.dll");
+  EXPECT_EQ(matches_of_lines(dump.out, std::regex("\\s+\\[ *[0-9]+\\] (fmi.*)")),
+            header_functions());
+  EXPECT_EQ(matches_of_lines(dump.out, std::regex("\\s+DLL Name: (.*)")),
+            (std::set<std::string>{"KERNEL32.dll", "msvcrt.dll"}));
+}
+
 class FmuWindows : public testing::TestWithParam<Case> {};
 
 TEST_P(FmuWindows, ALoopGivesTheHashOfRun) {
-  if (!SONOGLIDE_WINDOWS || std::string(SONOGLIDE_WINE).empty()) {
-    GTEST_SKIP() << "needs mingw-w64 and Wine, of tools/setup test";
-  }
   const ScratchFolder folder;
   const std::string words = SONOGLIDE_SCENES "/" + GetParam().scene + ".toml " +
                             GetParam().options +

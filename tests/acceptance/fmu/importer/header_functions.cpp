@@ -45,4 +45,16 @@ std::set<std::string> header_functions() {
   return {std::istream_iterator<std::string>(words), {}};
 }
 
+std::set<std::string> matches_of_lines(const std::string& listing, const std::regex& line) {
+  std::set<std::string> names;
+  std::istringstream lines(listing);
+  std::smatch found;
+  for (std::string text; std::getline(lines, text);) {
+    if (std::regex_match(text, found, line)) {
+      names.insert(found[1]);
+    }
+  }
+  return names;
+}
+
 }  // namespace sonoglide::acceptance
