@@ -33,10 +33,10 @@ std::string text_of(const std::string& name) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-/// What the README tells of the sweeps of each kind.
-TEST(RecordedCoverage, IsAsTheReadmeSays) {
+/// The shares that the document gives for the sweeps of each kind.
+TEST(RecordedCoverage, IsAsTheDocumentSays) {
   const csv::Table table(text_of("coverage.csv"), "coverage.csv");
-  const std::string readme = text_of("README.md");
+  const std::string document = text_of("method.md");
   for (const Kind& kind : kinds) {
     std::vector<double> percent;
     double told = 0.0;
@@ -52,7 +52,7 @@ TEST(RecordedCoverage, IsAsTheReadmeSays) {
     const std::string line = fmt::format(
         "| `{}` | {:.1f} % | {:.1f} % | {:.1f} % | {:.1f} % |", kind.name, percent.front(),
         std::accumulate(percent.begin(), percent.end(), 0.0) / 8.0, percent.back(), told);
-    EXPECT_NE(readme.find(line), std::string::npos) << line;
+    EXPECT_NE(document.find(line), std::string::npos) << line;
   }
 }
 
