@@ -18,10 +18,10 @@ double shaping_range(const scene::Scene& scene) {
              : 0.0;
 }
 
-/// A natural mode that nothing notches out answers every change of the command, and feedback drives
-/// it further: by less than its own damping takes away, if the gain is small against that. Without
-/// damping there is no such gain, and feedforward is left alone. A scene that leaves the notch out
-/// on purpose gets slow feedback all the same, to show what becomes of it.
+/// A natural mode that nothing notches out answers every change of the command, and feedback excites
+/// it. It stays stable while the gain removes less damping than the mode has. Without damping there
+/// is no such gain, and feedforward is left alone. A scene that leaves the notch out on purpose gets
+/// slow feedback all the same, to show what becomes of it.
 double gain_beside_free_mode(const scene::Scene& scene, const NaturalMode& mode) {
   constexpr double slow = 0.005;
   constexpr double part_of_decay = 0.2;
