@@ -41,8 +41,8 @@ struct Parts {
   using Regulator = RegulatorT;      ///< NoFeedback | IntegralRegulator
   using Relearning = RelearningT;    ///< NoRelearning | PeriodicRelearning
   using Vibration =
-      VibrationT;            ///< FedForward | FeltVibration | DampedVibration | ResonantVibration
-  using Force = ForceT;      ///< ForceSensor | NoForceSensor
+      VibrationT;        ///< FedForward | SensorlessVibration | DampedVibration | ResonantVibration
+  using Force = ForceT;  ///< ForceSensor | NoForceSensor
   using Ceiling = CeilingT;  ///< FullDrive | DriveLimit
   using Samples = SamplesT;  ///< StrictSamples | TolerantSamples
 };
@@ -53,8 +53,8 @@ inline constexpr double smallest_speed_floor = 1e-4;
 /// Picks the drive so that the friction ratio reaches a target; one step per carrier period. A pure
 /// function of its state and the measurement: no clock, no I/O, no heap.
 ///
-/// Per unit: force on the sensor's full scale, amplitude on the actuator's limit, friction ratios on
-/// base 2. A drive that is fed forward is asked for an amplitude; speed is on the peak vibration
+/// Per unit: force on the sensor's full scale, amplitude on the actuator's limit, friction ratios
+/// on base 2. A drive that is fed forward is asked for an amplitude; speed is on the peak vibration
 /// velocity at full drive, so that the number is that of the vibration velocity too. A vibration
 /// that is observed is asked for its velocity; that and the speed are on the range of its sensor.
 template <class PartsT>
@@ -76,7 +76,7 @@ class Controller {
 
  public:
   struct Parameters {
-    Scalar friction_force;     ///< believed Fc
+    Scalar friction_force;     ///< nominal Fc
     Scalar smallest_friction;  ///< of a usable Fc, at least FrictionLevel::smallest()
     Scalar speed_floor;        ///< slower than this the ratio is undefined; > 0
     Scalar lead;               ///< from a sample to the middle of its effect, see SpeedForesight
@@ -170,7 +170,7 @@ class Controller {
     fault_ = Fault::none;
     state_ = State::calibrating;
     if (!friction_.learning()) {
-      believe(friction_.friction_force(configured_friction_));
+      adopt_friction(friction_.friction_force(configured_friction_));
     }
     set_target(target);
   }
@@ -276,7 +276,7 @@ class Controller {
     if (friction_.learning()) {
       return silent;
     }
-    believe(friction_.friction_force(configured_friction_));
+    adopt_friction(friction_.friction_force(configured_friction_));
     return state_ == State::fault ? undriven(Limit::none) : silent;
   }
 
@@ -292,7 +292,7 @@ class Controller {
   }
 
   /// Takes Fc and adapts the inverse map to it.
-  void believe(Scalar force) {
+  void adopt_friction(Scalar force) {
     take_friction_force(force);
     feedforward_.set_friction(level_);
     map_.forget();
@@ -395,7 +395,7 @@ class Controller {
     } else {
       regulator_.restart(target_);
     }
-    watch_.forget_doubt();
+    watch_.forget_disagreement();
     return {requested_, Limit::none};
   }
 
@@ -421,9 +421,9 @@ class Controller {
     return {amplitude, held_below || held_above ? Limit::slew : wanted.limit};
   }
 
-  /// The target, or 0 where the steady drive makes another velocity than a ratio that agrees with the
-  /// target would need.
-  Scalar shown_ratio(Scalar speed, Scalar velocity) const {
+  /// The target, or 0 where the steady drive makes another velocity than a ratio that agrees with
+  /// the target would need.
+  Scalar implied_ratio(Scalar speed, Scalar velocity) const {
     if (requested_ < velocity) {
       return feedforward_.amplitude(watch_.agreement() * target_, speed) < velocity ? Scalar{}
                                                                                     : target_;
@@ -448,9 +448,9 @@ class Controller {
       watch_.restart();
       return;
     }
-    const Scalar shown = vibration_.shown_ratio(
-        commanded_, [&](auto velocity) { return shown_ratio(speed, velocity); });
-    watch_.judge(target_, measured, shown, clamped);
+    const Scalar implied = vibration_.implied_ratio(
+        commanded_, [&](auto velocity) { return implied_ratio(speed, velocity); });
+    watch_.judge(target_, measured, implied, clamped);
   }
 
   /// Amplitude for a commanded ratio, from the inverse map.
@@ -481,7 +481,7 @@ class Controller {
     if (relearning_.pausing()) {
       state_ = State::relearning;
     }
-    return {amplitude, vibration_.told_ratio(commanded_), state_, named, fault_, settling};
+    return {amplitude, vibration_.reported_ratio(commanded_), state_, named, fault_, settling};
   }
 
   Scalar configured_friction_;

@@ -104,7 +104,7 @@ class DampedVibration : public VibrationPart<ScalarT> {
       return {Scalar{}, Limit::none};  // at rest, as far as the sensor tells
     }
     const Scalar less =
-        numeric::clamp(observer_.feedback(foreseen_mode(), error), latest - largest, latest);
+        numeric::clamp(observer_.feedback(predicted_mode(), error), latest - largest, latest);
     return {latest - less, at_most_ ? Limit::actuator : Limit::none};
   }
 
@@ -154,7 +154,7 @@ class DampedVibration : public VibrationPart<ScalarT> {
   }
 
   /// In the last period under way.
-  Pair<Scalar> foreseen_mode() const {
+  Pair<Scalar> predicted_mode() const {
     Pair<Scalar> mode = observer_.mode();
     for (std::size_t i = 1; i < last(); ++i) {
       mode = observer_.next(mode, amplitudes_[i + 1] - amplitudes_[i]);

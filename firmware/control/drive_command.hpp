@@ -23,7 +23,7 @@ enum class Limit : std::uint8_t {
   speed_floor,  ///< sliding slower than the stated floor: the ratio is undefined; the drive is held
                 ///< for the stated time and then taken to zero
   ratio_end,    ///< the commanded ratio stands at 1, the weakest drive of the map
-  mismatch,     ///< settled, but the friction force is not the believed one: the true ratio is off
+  mismatch,     ///< settled, but the friction force is not the nominal one: the true ratio is off
   not_settling,  ///< outside its band for longer than the stated time; see Settling for why
   bad_sample,    ///< the sample was unusable, the last request stands
   voltage,       ///< as actuator, of a resonant drive: its amplitude stands at the largest voltage
@@ -39,7 +39,7 @@ inline constexpr std::size_t limit_count = 13;
 /// How the measured ratio stands to its target.
 enum class Settling : std::uint8_t {
   pending = 0,  ///< nothing to be said yet
-  settled,      ///< in its band: commanded over target is believed over true friction
+  settled,      ///< in its band: commanded over target is nominal over true friction
   // Why the limit not_settling is active:
   ringing,  ///< the ratio leaves its band on both sides: a natural mode, or a limit cycle
   offset,   ///< it stays on one side: the drive does not act as believed, or feedback is off
@@ -65,7 +65,7 @@ enum class Fault : std::uint8_t {
 template <class Scalar>
 struct DriveCommand {
   Scalar amplitude;  ///< base: the actuator's limit; in [0, 1]
-  /// Friction ratio, target and feedback together, base 2; over the target it is believed over true
+  /// Friction ratio, target and feedback together, base 2; over the target it is nominal over true
   /// friction force, once settled. 0 from a controller that feels the vibration in the friction: it
   /// sees no more than whether the two forces agree.
   Scalar commanded_ratio;
@@ -75,8 +75,8 @@ struct DriveCommand {
   Settling settling;
 };
 
-/// Of a unit that observes the vibration. At resonance its amplitude is in [-1, 1]: below 0 the phase
-/// is turned by π.
+/// Of a unit that observes the vibration. At resonance its amplitude is in [-1, 1]: below 0 the
+/// phase is turned by π.
 template <class Scalar>
 struct ResonantCommand : DriveCommand<Scalar> {
   std::int32_t frequency = 0;  ///< steps of the frequency word from the start

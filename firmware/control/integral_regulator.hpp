@@ -99,8 +99,8 @@ class IntegralRegulator {
   /// A better known friction force. In terms of the old force the target was another ratio; the
   /// integral gives up what it had corrected for the difference.
   /// @param shown  the target ratio in terms of the old force
-  void shift(Scalar target, Scalar shown) {
-    integral_ += numeric::accumulate(target - shown);
+  void shift(Scalar target, Scalar reading) {
+    integral_ += numeric::accumulate(target - reading);
     hold();
   }
 

@@ -13,10 +13,10 @@ namespace sonoglide::control {
 /// Places of the numbers of a row of the table. Matrices are row by row.
 namespace mode {
 
-inline constexpr std::size_t turn = 0;           ///< d cos θ and d sin θ, of a period
-inline constexpr std::size_t kick = 2;           ///< b: what a change of the amplitude adds
+inline constexpr std::size_t rotation = 0;       ///< d cos θ and d sin θ, of a period
+inline constexpr std::size_t input_gain = 2;     ///< B: what a change of the amplitude adds
 inline constexpr std::size_t forced = 4;         ///< H: steady vibration at full drive
-inline constexpr std::size_t seen = 6;           ///< E: vibration of a mode of 1
+inline constexpr std::size_t output = 6;         ///< C: vibration of a mode of 1
 inline constexpr std::size_t mode_gain = 10;     ///< of the observer
 inline constexpr std::size_t offset_gain = 14;   ///< likewise
 inline constexpr std::size_t feedback = 18;      ///< K: on the mode and on the amplitude's error
@@ -47,15 +47,15 @@ constexpr Scalar lowered(Scalar x, int n) {
   }
 }
 
-/// A table at a place between its rows: linear interpolation, to 2^-27 of the way from one to the
-/// next, and the slope there.
+/// A table at a frequency between its rows: linear interpolation, to 2^-27 of the way from one to
+/// the next, and the slope there.
 template <class Scalar>
-class ModePlace {
+class ModeInterpolation {
  public:
-  /// @param place  from -1 at the first row to 1 at the last
-  void go(const ModeTable<Scalar>& table, Scalar place) {
+  /// @param frequency_parameter  from -1 at the first row to 1 at the last
+  void go(const ModeTable<Scalar>& table, Scalar frequency_parameter) {
     constexpr int shift = 32 - mode::row_bits;
-    const std::int32_t code = numeric::to_code(place);
+    const std::int32_t code = numeric::to_code(frequency_parameter);
     constexpr int middle = 1 << (mode::row_bits - 1);
     const int below = (code >> shift) + middle;
     const auto row = static_cast<std::size_t>(below);
@@ -73,11 +73,11 @@ class ModePlace {
   }
 
   Scalar operator[](std::size_t i) const { return values_[i]; }
-  /// Over the place.
+  /// Over the frequency parameter.
   Scalar slope(std::size_t i) const { return slopes_[i]; }
 
  private:
-  /// From one row to the next the place moves by 2/16.
+  /// From one row to the next the frequency parameter moves by 2/16.
   static Scalar slope_of(Scalar rise) {
     constexpr int steep = mode::row_bits - 1;
     if constexpr (numeric::is_fixed_point_v<Scalar>) {

@@ -25,13 +25,13 @@ constexpr Pair<Scalar> operator*(const Pair<Scalar>& a, Scalar b) {
   return {numeric::rough_product(a.first, b), numeric::rough_product(a.second, b)};
 }
 
-/// A mode that turns by an angle θ and decays to the part d. In fixed point products are rounded and
-/// sums overflow by policy.
-/// @param turn  d cos θ and d sin θ
+/// A mode that turns by an angle θ and decays to the part d. In fixed point products are rounded
+/// and sums overflow by policy.
+/// @param rotation  d cos θ and d sin θ
 template <class Scalar>
-constexpr Pair<Scalar> turned(const Pair<Scalar>& mode, const Pair<Scalar>& turn) {
-  return {turn.first * mode.first - turn.second * mode.second,
-          turn.second * mode.first + turn.first * mode.second};
+constexpr Pair<Scalar> rotated(const Pair<Scalar>& mode, const Pair<Scalar>& rotation) {
+  return {rotation.first * mode.first - rotation.second * mode.second,
+          rotation.second * mode.first + rotation.first * mode.second};
 }
 
 }  // namespace sonoglide::control

@@ -17,12 +17,12 @@ class PromptReading {
 
   explicit PromptReading(const Parameters&) {}
   static constexpr void restart() {}
-  static constexpr Scalar sharpened(Scalar half_ratio) { return half_ratio; }
+  static constexpr Scalar lag_compensated(Scalar half_ratio) { return half_ratio; }
 };
 
-/// A reading ρ that follows what it reads by two lags of first order, each of which keeps a part k of
-/// the past in a period: ρ + l (ρ − ρ₋₁), l = k/(1 − k), twice. The first reading since restart() is
-/// taken for a settled one. Ratios on base 2; each lead adds at most ±1/4.
+/// A reading ρ that follows what it reads by two lags of first order, each of which keeps a part k
+/// of the past in a period: ρ + l (ρ − ρ₋₁), l = k/(1 − k), twice. The first reading since
+/// restart() is taken for a settled one. Ratios on base 2; each lead adds at most ±1/4.
 template <class ScalarT>
 class LaggingReading {
  public:
@@ -46,17 +46,17 @@ class LaggingReading {
 
   void restart() { begun_ = false; }
 
-  Scalar sharpened(Scalar half_ratio) {
+  Scalar lag_compensated(Scalar half_ratio) {
     if (!begun_) {
       begun_ = true;
       last_ = half_ratio;
       last_of_contact_ = half_ratio;
     }
     const Scalar of_contact = half_ratio + led(half_ratio - last_, sensor_);
-    const Scalar sharp = of_contact + led(of_contact - last_of_contact_, contact_);
+    const Scalar compensated = of_contact + led(of_contact - last_of_contact_, contact_);
     last_ = half_ratio;
     last_of_contact_ = of_contact;
-    return sharp;
+    return compensated;
   }
 
  private:

@@ -17,10 +17,10 @@ namespace sonoglide::control {
 /// q is the velocity gained in a period at full drive, h the amplitude that holds a velocity of 1
 /// against the losses, n the natural frequency, w that of the drive.
 ///
-/// Each period corrects the estimates by what they did not foresee (gradient, for h and n normalised,
-/// Widrow 1985, README.md). The turn of ψ shows n. Where the drive beyond the losses, u c − h r, foreseen and
-/// seen, is more than four times the losses and than what noise makes of it, growth shows q, and
-/// otherwise h.
+/// Each period corrects the estimates by what they did not foresee (gradient, for h and n
+/// normalised, Widrow 1985, README.md). The turn of ψ shows n. Where the drive beyond the losses, u
+/// c − h r, foreseen and seen, is more than four times the losses and than what noise makes of it,
+/// growth shows q, and otherwise h.
 ///
 /// Velocities on one base, r at most 1. Amplitudes: base the largest. Frequencies: deviation from
 /// the start, relative to it, base 1/8. In fixed point h is on base 16, q at most 1/2, and what
@@ -29,9 +29,9 @@ template <class Scalar>
 class ResonanceEstimate {
  public:
   struct Parameters {
-    numeric::Split<Scalar> rate;  ///< believed q; a quarter to four times of it are allowed
-    Scalar losses;                ///< believed h
-    Scalar natural;               ///< believed n
+    numeric::Split<Scalar> rate;  ///< nominal q; a quarter to four times of it are allowed
+    Scalar losses;                ///< nominal h
+    Scalar natural;               ///< nominal n
     Scalar lowest;                ///< end of the frequency range
     Scalar highest;               ///< likewise
     Scalar rate_gain;             ///< twice the part of a miss that corrects q at once
@@ -60,7 +60,7 @@ class ResonanceEstimate {
   explicit ResonanceEstimate(const Parameters& parameters)
       : parameters_(parameters),
         // The factor of q is on base 4.
-        believed_rate_(numeric::rescaled(numeric::floating(parameters.rate), 2 + kept_bits)),
+        nominal_rate_(numeric::rescaled(numeric::floating(parameters.rate), 2 + kept_bits)),
         // Products of two kept numbers, or one, and where h is on another base.
         rate_gain_(on_base(parameters.rate_gain, -2)),
         losses_gain_(on_base(parameters.losses_gain, losses_bits - 1)),
@@ -87,26 +87,27 @@ class ResonanceEstimate {
   ///         quarter of a radian, the growth to `surprise`
   bool observe(Scalar in_phase, Scalar quadrature, const PastCommand<Scalar>& before,
                const PastCommand<Scalar>& now) {
-    const numeric::Polar<Scalar> seen = numeric::polar(in_phase, quadrature);
+    const numeric::Polar<Scalar> measured = numeric::polar(in_phase, quadrature);
     // z is a mean over its period, and shows half of either command.
     const Scalar amplitude = numeric::half_sum(before.amplitude, now.amplitude);
-    // Without a drive there is nothing to foresee but the decay: what moves then is not of the drive.
+    // Without a drive there is nothing to foresee but the decay: what moves then is not of the
+    // drive.
     const bool driven = before.amplitude != Scalar{} || now.amplitude != Scalar{};
     const bool known = driven && !first_;
     first_ = false;
-    const bool grew = !known || follow_growth(seen, amplitude);
-    bool turned = true;
-    if (known && parameters_.audible < modulus_ && parameters_.audible < seen.modulus) {
-      turned = follow_turn(seen, amplitude,
-                           natural_ - numeric::half_sum(before.deviation, now.deviation));
+    const bool grew = !known || follow_growth(measured, amplitude);
+    bool rotated = true;
+    if (known && parameters_.audible < modulus_ && parameters_.audible < measured.modulus) {
+      rotated = follow_rotation(measured, amplitude,
+                                natural_ - numeric::half_sum(before.deviation, now.deviation));
     } else {
       natural_gain_ = whole();
     }
-    modulus_ = seen.modulus;
-    const bool directed = parameters_.audible < seen.modulus;
-    cosine_ = directed ? seen.cosine : whole();
-    sine_ = directed ? seen.sine : Scalar{};
-    return grew && turned;
+    modulus_ = measured.modulus;
+    const bool directed = parameters_.audible < measured.modulus;
+    cosine_ = directed ? measured.cosine : whole();
+    sine_ = directed ? measured.sine : Scalar{};
+    return grew && rotated;
   }
 
   Scalar modulus() const { return modulus_; }  ///< r, mean over the sampled period
@@ -158,21 +159,21 @@ class ResonanceEstimate {
     natural_ = at_end_ ? in_range(deviation) : deviation;
   }
 
-  bool follow_turn(const numeric::Polar<Scalar>& seen, Scalar amplitude, Scalar beside) {
+  bool follow_rotation(const numeric::Polar<Scalar>& measured, Scalar amplitude, Scalar beside) {
     constexpr Scalar radians = numeric::from_real<Scalar>(0.78539816339744831);       // 2π/8
     constexpr Scalar from_radians = numeric::from_real<Scalar>(0.63661977236758134);  // 4/2π
     constexpr Scalar third = numeric::from_real<Scalar>(1.0 / 3.0);
     constexpr Scalar foreseen = numeric::kept<Scalar>(0.25);
-    const Scalar turned =
-        numeric::kept_product(seen.sine, cosine_) - numeric::kept_product(seen.cosine, sine_);
+    const Scalar rotated = numeric::kept_product(measured.sine, cosine_) -
+                           numeric::kept_product(measured.cosine, sine_);
     const Scalar pull = numeric::clamp_magnitude(
         numeric::multiplied(numeric::rough_product(numeric::kept_of(amplitude), rate_),
-                            seen.inverse),
+                            measured.inverse),
         whole());
-    const Scalar miss =
-        turned - numeric::kept_product(radians, beside) + numeric::kept_product(pull, seen.sine);
+    const Scalar innovation = rotated - numeric::kept_product(radians, beside) +
+                              numeric::kept_product(pull, measured.sine);
     const Scalar change =
-        numeric::rough_product(numeric::rough_product(natural_gain_, miss), from_radians);
+        numeric::rough_product(numeric::rough_product(natural_gain_, innovation), from_radians);
     take_natural(natural_ + numeric::scale_by_power_of_two(change, 1 + kept_bits));
     if (parameters_.natural_gain < natural_gain_) {
       natural_gain_ = numeric::max(
@@ -180,22 +181,22 @@ class ResonanceEstimate {
           natural_gain_ -
               numeric::rough_product(numeric::rough_product(natural_gain_, natural_gain_), third));
     }
-    if (numeric::abs(miss) < foreseen) {
+    if (numeric::abs(innovation) < foreseen) {
       return true;
     }
     natural_gain_ = numeric::max(natural_gain_, numeric::from_real<Scalar>(0.25));
     return false;
   }
 
-  bool follow_growth(const numeric::Polar<Scalar>& seen, Scalar amplitude) {
-    const Scalar drive = surplus(amplitude, seen.cosine, modulus_);
-    const Scalar miss = numeric::kept_difference(seen.modulus - modulus_, gained(drive));
-    const Scalar missed = numeric::multiplied(miss, inverse_rate_);
+  bool follow_growth(const numeric::Polar<Scalar>& measured, Scalar amplitude) {
+    const Scalar drive = surplus(amplitude, measured.cosine, modulus_);
+    const Scalar innovation = numeric::kept_difference(measured.modulus - modulus_, gained(drive));
+    const Scalar missed = numeric::multiplied(innovation, inverse_rate_);
     if (parts_from_losses(numeric::kept_of(drive)) &&
         parts_from_losses(numeric::kept_sum(drive, missed))) {
       correct_rate(drive * missed);
     } else if (parameters_.audible < modulus_) {
-      correct_losses(numeric::multiplied(missed, seen.inverse));
+      correct_losses(numeric::multiplied(missed, measured.inverse));
     }
     return numeric::abs(missed) <= surprise_;
   }
@@ -223,7 +224,7 @@ class ResonanceEstimate {
   }
 
   void take_rate() {
-    const auto rate = numeric::product(believed_rate_, numeric::floating(rate_factor_));
+    const auto rate = numeric::product(nominal_rate_, numeric::floating(rate_factor_));
     const auto one_half = numeric::floating(numeric::from_real<Scalar>(0.5));
     rate_ = numeric::limited_value(rate);
     inverse_rate_ =
@@ -238,14 +239,14 @@ class ResonanceEstimate {
   }
 
   Parameters parameters_;
-  numeric::Floating<Scalar> believed_rate_;  ///< of kept numbers, as rate_; a quarter of q
+  numeric::Floating<Scalar> nominal_rate_;  ///< of kept numbers, as rate_; a quarter of q
   Scalar rate_gain_;
   Scalar losses_gain_;
   Scalar surprise_;
   Scalar unrest_;
   Scalar rate_{};                             ///< q of kept numbers: 2q in fixed point
   numeric::Multiple<Scalar> inverse_rate_{};  ///< 1/q
-  Scalar rate_factor_{};                      ///< q over what it was believed to be, base 4
+  Scalar rate_factor_{};                      ///< q over its nominal value, base 4
   Scalar losses_{};                           ///< h
   Scalar natural_{};                          ///< n
   Scalar natural_gain_{};

@@ -123,9 +123,9 @@ class ResonantVibration : public VibrationPart<ScalarT> {
 
   /// Gives the answer its frequency, in steps of the word from the start.
   void after(Command& command) {
-    const Scalar turned = resonance_.cosine() < Scalar{} ? -resonance_.sine() : resonance_.sine();
+    const Scalar rotated = resonance_.cosine() < Scalar{} ? -resonance_.sine() : resonance_.sine();
     const Scalar wanted = resonance_.in_range(
-        resonance_.natural() + numeric::rough_product(parameters_.phase_gain, turned));
+        resonance_.natural() + numeric::rough_product(parameters_.phase_gain, rotated));
     const Scalar deviation = word_.approach(wanted);
     past_.append({command.amplitude, deviation, word_.steps()});
     command.frequency = word_.steps();
@@ -188,9 +188,9 @@ class ResonantVibration : public VibrationPart<ScalarT> {
             limit_of(limited || at_full(wanted), limited ? Limit::current : Limit::voltage)};
   }
 
-  /// u, limited to ±1; where c is small a drive of 8 u c at most. In fixed point without a division,
-  /// d = 1 − |c|: 1/|c| = (1 + d)(1 + d²)(1 + d⁴) within d⁸, which no drive within its limits needs
-  /// to see.
+  /// u, limited to ±1; where c is small a drive of 8 u c at most. In fixed point without a
+  /// division, d = 1 − |c|: 1/|c| = (1 + d)(1 + d²)(1 + d⁴) within d⁸, which no drive within its
+  /// limits needs to see.
   /// @param wanted  of wanted_amplitude()
   Scalar towards_vibration(Scalar wanted) const {
     const Scalar cosine = resonance_.cosine();

@@ -16,15 +16,15 @@ namespace sonoglide::control {
 /// on base 2.
 ///
 /// In a settled loop the commanded ratio is the true one, as far as the friction-ratio map is
-/// right, and the target is what the believed friction force makes of it: commanded / target =
-/// believed / true force. The mismatch counts once 16 more periods show it than do not.
+/// right, and the target is what the nominal friction force makes of it: commanded / target =
+/// nominal / true force. The mismatch counts once 16 more periods show it than do not.
 template <class Scalar>
 class SettlingWatch {
  public:
   struct Parameters {
     Scalar band;             ///< half width, > 0
     std::uint16_t patience;  ///< periods outside the band that are granted, >= 1
-    Scalar agreement;        ///< least true / believed friction, or its inverse, not warned of
+    Scalar agreement;        ///< least true / nominal friction, or its inverse, not warned of
 
     template <class Self, class Visitor>
     static constexpr void fields(Self& self, Visitor&& visit) {
@@ -39,14 +39,14 @@ class SettlingWatch {
   void restart() {
     count_ = 1;  // pending until a period is inside
     above_ = below_ = clamped_ = false;
-    doubt_ = 0;
+    disagreement_ = 0;
   }
 
   /// Another target: at least half of the patience is left for it.
   void retarget() { count_ = count_ < limit() / 2 ? count_ : limit() / 2; }
 
   /// The friction force is another from here on.
-  void forget_doubt() { doubt_ = 0; }
+  void forget_disagreement() { disagreement_ = 0; }
 
   /// One call for each period in which the drive is to hold a ratio.
   /// @param commanded  ratio that the drive is picked for
@@ -68,9 +68,9 @@ class SettlingWatch {
     const bool disagrees = commanded < target ? commanded < parameters_.agreement * target
                                               : target < parameters_.agreement * commanded;
     if (disagrees) {
-      doubt_ += doubt_ < 2 * doubtful ? 1 : 0;
+      disagreement_ += disagreement_ < 2 * disagreement_named ? 1 : 0;
     } else {
-      doubt_ -= doubt_ > 0 ? 1 : 0;
+      disagreement_ -= disagreement_ > 0 ? 1 : 0;
     }
   }
 
@@ -93,14 +93,14 @@ class SettlingWatch {
   /// none, mismatch or not_settling.
   Limit limit_named() const {
     if (count_ == 0) {
-      return doubt_ >= doubtful ? Limit::mismatch : Limit::none;
+      return disagreement_ >= disagreement_named ? Limit::mismatch : Limit::none;
     }
     return count_ < limit() ? Limit::none : Limit::not_settling;
   }
 
  private:
   static constexpr std::uint32_t step = 4;
-  static constexpr int doubtful = 16;               ///< noise alone is not named
+  static constexpr int disagreement_named = 16;     ///< noise alone is not named
   static constexpr std::uint32_t afterwards = 128;  ///< periods inside that end the limit
 
   std::uint32_t limit() const { return step * parameters_.patience; }
@@ -110,7 +110,7 @@ class SettlingWatch {
   bool above_ = false;
   bool below_ = false;
   bool clamped_ = false;
-  int doubt_ = 0;  ///< up where command and target disagree, down where they agree
+  int disagreement_ = 0;  ///< up where command and target disagree, down where they agree
 };
 
 }  // namespace sonoglide::control

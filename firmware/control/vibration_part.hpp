@@ -5,9 +5,9 @@
 
 namespace sonoglide::control {
 
-/// What a mode of the vibration does where it has nothing of its own to do. In each carrier period the
-/// controller calls before(), observe(), with a force sensor sense(), then drive() and
-/// after(); those that a mode leaves empty cost nothing.
+/// What a mode of the vibration does where it has nothing of its own to do. In each carrier period
+/// the controller calls before(), observe(), with a force sensor sense(), then drive() and after();
+/// those that a mode leaves empty cost nothing.
 template <class ScalarT>
 class VibrationPart {
  public:
@@ -58,12 +58,12 @@ class VibrationPart {
 
   /// The friction ratio that the drive stands for. @param by_velocity  that of a vibration velocity
   template <class OfVelocity>
-  static constexpr Scalar shown_ratio(Scalar commanded, const OfVelocity& /*by_velocity*/) {
+  static constexpr Scalar implied_ratio(Scalar commanded, const OfVelocity& /*by_velocity*/) {
     return commanded;
   }
 
   /// What DriveCommand::commanded_ratio tells.
-  static constexpr Scalar told_ratio(Scalar commanded) { return commanded; }
+  static constexpr Scalar reported_ratio(Scalar commanded) { return commanded; }
 
   /// One call for each step, with its answer, to which a mode may add.
   static constexpr void after(const DriveCommand<Scalar>& /*command*/) {}

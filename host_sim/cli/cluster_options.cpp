@@ -147,13 +147,13 @@ void add_cluster_options(CLI::App& command, ClusterOptions& options,
   }
 }
 
-std::string shown(const std::filesystem::path& path) {
+std::string printable(const std::filesystem::path& path) {
   return process::printable(path.string());
 }
 
 std::string shard_text(const shards::ShardSummary& summary, const std::filesystem::path& rows) {
   if (summary.was_there) {
-    return fmt::format("{}: is there\n", shown(rows));
+    return fmt::format("{}: is there\n", printable(rows));
   }
   std::string lines = fmt::format("{} points", summary.points.size());
   if (summary.found_finished > 0) {
@@ -163,7 +163,7 @@ std::string shard_text(const shards::ShardSummary& summary, const std::filesyste
   if (summary.failed > 0) {
     lines += fmt::format("{} points failed\n", summary.failed);
   }
-  return lines + fmt::format("rows: {}\n", shown(rows));
+  return lines + fmt::format("rows: {}\n", printable(rows));
 }
 
 std::string write_job(const Job& job, const std::filesystem::path& out) {
@@ -182,7 +182,7 @@ std::string write_job(const Job& job, const std::filesystem::path& out) {
   files.write(scene, job.source.text);
   files.write(script, shards::slurm_script(command, job.shards, folder));
   files.commit();
-  return fmt::format("job script: {}\n", shown(folder / script));
+  return fmt::format("job script: {}\n", printable(folder / script));
 }
 
 }  // namespace sonoglide::cli

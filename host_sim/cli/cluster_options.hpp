@@ -63,7 +63,7 @@ auto computed(bool quiet, const Call& call) {
 std::filesystem::path merged_folder(const ClusterOptions& options, const std::string& out);
 
 /// A path as messages show it.
-std::string shown(const std::filesystem::path& path);
+std::string printable(const std::filesystem::path& path);
 
 /// Of one shard that was computed, or was there. @param rows  its file
 std::string shard_text(const shards::ShardSummary& summary, const std::filesystem::path& rows);

@@ -85,8 +85,9 @@ std::string text(const robust::Task& task, const robust::Outcome& outcome,
                          robust::counted(study.search_failures(), "run"));
   }
   lines += figure_lines(study) + worst_lines(task, study.worst);
-  return lines + fmt::format("rows: {}\nworst plant: {}\nreport: {}\n", shown(out / "robust.csv"),
-                             shown(out / "worst.toml"), shown(out / "report.html"));
+  return lines + fmt::format("rows: {}\nworst plant: {}\nreport: {}\n",
+                             printable(out / "robust.csv"), printable(out / "worst.toml"),
+                             printable(out / "report.html"));
 }
 
 robust::Task task_of(const RobustOptions& options) {

@@ -44,15 +44,15 @@ std::string text(const sweep::Summary& summary, const std::filesystem::path& out
     lines += fmt::format("WARNING: {}\n", note);
   }
   return lines + failures_text(summary.failed) +
-         fmt::format("rows: {}\nreport: {}\n", shown(out / sweep::table_file),
-                     shown(out / sweep::page_file));
+         fmt::format("rows: {}\nreport: {}\n", printable(out / sweep::table_file),
+                     printable(out / sweep::page_file));
 }
 
 std::string text(const sweep::MergeSummary& summary, const std::filesystem::path& out) {
   return fmt::format("{} points\n", summary.points) + failures_text(summary.failed) +
-         fmt::format("rows: {}\n", shown(out / sweep::table_file)) +
+         fmt::format("rows: {}\n", printable(out / sweep::table_file)) +
          (summary.drawn
-              ? fmt::format("report: {}\n", shown(out / sweep::page_file))
+              ? fmt::format("report: {}\n", printable(out / sweep::page_file))
               : fmt::format("no picture and no report: more than {} points\n", sweep::most_points));
 }
 

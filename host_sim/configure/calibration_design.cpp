@@ -62,9 +62,9 @@ SlidingSpells sliding_spells(const scene::Scene& scene, const ControlDesign& des
   return {length, longest[backwards ? 0 : 1]};
 }
 
-/// Carrier periods in which the contact slides through its presliding travel, so many times, and the
-/// sensor settles.
-double settling_periods(const scene::Scene& scene, const BelievedPlant& plant,
+/// Carrier periods in which the contact slides through its presliding travel, so many times, and
+/// the sensor settles.
+double settling_periods(const scene::Scene& scene, const NominalPlant& plant,
                         const ControlDesign& design, double presliding_travels) {
   constexpr double filter_settling = 5.0;  // 0.7 % of the force is left
   const ControlScales& scales = design.scales;
@@ -92,7 +92,7 @@ constexpr double least_presliding_travels = 7.0;  // 0.1 % of the force is left
 constexpr double usual_presliding_travels = 2.0 * least_presliding_travels;
 
 /// Of the undriven force, whose mean their noise moves by no more than 0.25 % rms; at most 16.
-double readings_for_mean(const scene::Scene& scene, const BelievedPlant& plant) {
+double readings_for_mean(const scene::Scene& scene, const NominalPlant& plant) {
   constexpr double error = 0.0025;
   constexpr double most = 16.0;
   const double noise = scene.sensor.force_noise_N / (error * plant.friction_N);
@@ -100,14 +100,14 @@ double readings_for_mean(const scene::Scene& scene, const BelievedPlant& plant) 
 }
 
 /// Of a calibration that the contact slides through so many of its presliding travels.
-double calibration_periods(const scene::Scene& scene, const BelievedPlant& plant,
+double calibration_periods(const scene::Scene& scene, const NominalPlant& plant,
                            const ControlDesign& design, double travels) {
   return settling_periods(scene, plant, design, travels) + readings_for_mean(scene, plant) + 2.0;
 }
 
 }  // namespace
 
-void design_calibration(const scene::Scene& scene, const BelievedPlant& plant,
+void design_calibration(const scene::Scene& scene, const NominalPlant& plant,
                         ControlDesign& design) {
   design.usual_calibration_s = calibration_periods(scene, plant, design, usual_presliding_travels) *
                                design.scales.carrier_period_s;
@@ -141,7 +141,7 @@ void design_calibration(const scene::Scene& scene, const BelievedPlant& plant,
   design.calibration_half_steady = half_steady_difference(scene, design, averaged);
 }
 
-void design_relearning(const scene::Scene& scene, const BelievedPlant& plant,
+void design_relearning(const scene::Scene& scene, const NominalPlant& plant,
                        ControlDesign& design) {
   if (!scene.controller->relearn_every_s) {
     return;
@@ -178,7 +178,7 @@ void design_relearning(const scene::Scene& scene, const BelievedPlant& plant,
 
 double shortest_calibration_s(const scene::Scene& scene, const ControlDesign& design) {
   constexpr double largest_part = 0.5;  // of the time of the first target
-  const BelievedPlant plant = believed_plant(scene);
+  const NominalPlant plant = nominal_plant(scene);
   const auto& targets = scene.controller->target_friction_ratio;
   const double first_s =
       targets.size() > 1 ? std::min(targets[1].time_s, scene.run.duration_s) : scene.run.duration_s;

@@ -5,14 +5,14 @@
 #include <type_traits>
 #include <variant>
 
-#include "host_sim/configure/believed_plant.hpp"
 #include "host_sim/configure/calibration_design.hpp"
+#include "host_sim/configure/nominal_plant.hpp"
 #include "host_sim/configure/regulator_design.hpp"
 #include "host_sim/configure/scales_design.hpp"
 #include "host_sim/configure/supervision_design.hpp"
 
-// The elementary functions of a design are the core's own, so that a scene gives the same parameters,
-// bit for bit, on every machine.
+// The elementary functions of a design are the core's own, so that a scene gives the same
+// parameters, bit for bit, on every machine.
 
 namespace sonoglide::configure {
 namespace {
@@ -21,21 +21,20 @@ template <scene::VibrationMode Mode>
 using DesignOf =
     std::variant_alternative_t<static_cast<std::size_t>(Mode), decltype(ControlDesign::vibration)>;
 static_assert(std::is_same_v<DesignOf<scene::VibrationMode::feedforward>, FeedforwardDesign> &&
-              std::is_same_v<DesignOf<scene::VibrationMode::sensorless>, FeltDesign> &&
+              std::is_same_v<DesignOf<scene::VibrationMode::sensorless>, SensorlessDesign> &&
               std::is_same_v<DesignOf<scene::VibrationMode::damped>, DampedDesign> &&
               std::is_same_v<DesignOf<scene::VibrationMode::resonant>, ResonantDesign>);
 
 /// The loop that holds the vibration, and the regulator of the friction ratio around it.
-void design_vibration(const scene::Scene& scene, const BelievedPlant& plant,
-                      ControlDesign& design) {
+void design_vibration(const scene::Scene& scene, const NominalPlant& plant, ControlDesign& design) {
   const double velocity_m_per_s = design.scales.velocity_m_per_s;
   switch (scene.vibration_mode()) {
     case scene::VibrationMode::feedforward:
       design.vibration = design_feedforward(scene, plant, design);
       return;
     case scene::VibrationMode::sensorless:
-      design.vibration = design_felt(scene, plant, velocity_m_per_s);
-      design_outer_regulator(scene, FeltDesign::following_periods, design);
+      design.vibration = design_sensorless(scene, plant, velocity_m_per_s);
+      design_outer_regulator(scene, SensorlessDesign::following_periods, design);
       design.integral_gain = 0.0;  // the observer's constant is the integral
       return;
     case scene::VibrationMode::damped:
@@ -52,8 +51,8 @@ void design_vibration(const scene::Scene& scene, const BelievedPlant& plant,
 }  // namespace
 
 ControlDesign design_control(const scene::Scene& any_scene) {
-  const scene::Scene& scene = any_scene.believed();
-  const BelievedPlant plant = believed_plant(scene);
+  const scene::Scene& scene = any_scene.nominal();
+  const NominalPlant plant = nominal_plant(scene);
   ControlDesign design;
   design.map = scene::friction_map(scene.friction.law);
   design.senses_force = scene.sensor.force;

@@ -11,8 +11,8 @@
 
 #include "host_sim/configure/damped_design.hpp"
 #include "host_sim/configure/feedforward_design.hpp"
-#include "host_sim/configure/felt_design.hpp"
 #include "host_sim/configure/resonant_design.hpp"
+#include "host_sim/configure/sensorless_design.hpp"
 #include "host_sim/scene/scene.hpp"
 
 namespace sonoglide::configure {
@@ -21,8 +21,8 @@ namespace sonoglide::configure {
 struct ControlScales {
   double carrier_period_s;
   double force_N;  ///< the sensor's full scale
-  /// Believed peak vibration velocity at full drive; where the vibration is observed, the range of
-  /// its sensor; where it is felt, felt_room times as much.
+  /// Nominal peak vibration velocity at full drive; where the vibration is observed, the range of
+  /// its sensor; in the sensorless mode sensorless_room times as much.
   double velocity_m_per_s;
   double drive_amplitude_N;  ///< the actuator's limit
 };
@@ -38,9 +38,9 @@ inline constexpr int max_reference_delay = 1 + 16 + 64 + max_notch_span / 2;
 struct ControlDesign {
   ControlScales scales{};
   scene::FrictionMap map = scene::FrictionMap::dahl;  ///< of the feedforward
-  double friction_force = 0.0;                        ///< believed Fc
+  double friction_force = 0.0;                        ///< nominal Fc
   double smallest_friction = 0.0;                     ///< that may be learnt
-  double contact_force = 0.0;  ///< believed Kt times the vibration amplitude at full drive
+  double contact_force = 0.0;  ///< nominal Kt times the vibration amplitude at full drive
   double speed_floor = 0.0;
   double lead_periods = 0.0;    ///< from a sample to the middle of its effect
   double integral_gain = 0.0;   ///< per carrier period
@@ -58,7 +58,7 @@ struct ControlDesign {
 
   bool senses_force = true;
   /// In the order of scene::VibrationMode.
-  std::variant<FeedforwardDesign, FeltDesign, DampedDesign, ResonantDesign> vibration;
+  std::variant<FeedforwardDesign, SensorlessDesign, DampedDesign, ResonantDesign> vibration;
   double usual_calibration_s = 0.0;  ///< in which contact and sensor settle
 
   bool slew_limited = false;  ///< the members below hold where the flag is set
@@ -103,8 +103,8 @@ struct ControlDesign {
     return vibration_mode() == scene::VibrationMode::damped ||
            vibration_mode() == scene::VibrationMode::resonant;
   }
-  VibrationMap vibration_map(double believed_friction_N) const {
-    return {map, scales.velocity_m_per_s, contact_force * scales.force_N / believed_friction_N};
+  VibrationMap vibration_map(double nominal_friction_N) const {
+    return {map, scales.velocity_m_per_s, contact_force * scales.force_N / nominal_friction_N};
   }
 };
 
@@ -117,14 +117,14 @@ ControlDesign design_control(const scene::Scene& scene);
 /// The same for a scene of either kind: an open loop has none.
 std::optional<ControlDesign> design_if_closed(const scene::Scene& scene);
 
-/// Shortest time in which the friction force can be learnt before the first drive, with noise and, if
-/// half of the first target's time allows it, with a contact half as stiff as believed; 0 where that
-/// half is too short, or no sliding goes on for long enough in it. A default of
+/// Shortest time in which the friction force can be learnt before the first drive, with noise and,
+/// if half of the first target's time allows it, with a contact half as stiff as the nominal one; 0
+/// where that half is too short, or no sliding goes on for long enough in it. A default of
 /// controller.calibration_s.
 /// @param design  of the scene, however it is calibrated
 double shortest_calibration_s(const scene::Scene& scene, const ControlDesign& design);
 
-/// Whether commanded over target ratio tells believed over true friction: the feedforward's map is
+/// Whether commanded over target ratio tells nominal over true friction: the feedforward's map is
 /// the law's own, and friction too light to slow the vibration.
 bool tells_mismatch(const scene::Scene& scene);
 

@@ -14,12 +14,12 @@
 #include "firmware/control/current_limit.hpp"
 #include "firmware/control/dahl_feedforward.hpp"
 #include "firmware/control/damped_vibration.hpp"
-#include "firmware/control/felt_vibration.hpp"
 #include "firmware/control/integral_regulator.hpp"
 #include "firmware/control/learnt_friction.hpp"
 #include "firmware/control/notch_shaper.hpp"
 #include "firmware/control/periodic_relearning.hpp"
 #include "firmware/control/resonant_vibration.hpp"
+#include "firmware/control/sensorless_vibration.hpp"
 #include "firmware/control/slew_limit.hpp"
 #include "firmware/numeric/accumulator.hpp"
 #include "firmware/numeric/scalar.hpp"
@@ -219,7 +219,7 @@ typename control::ModeObserver<Scalar>::Parameters parameters(
     return exponent;
   };
   if constexpr (numeric::is_fixed_point_v<Scalar>) {
-    parameters.seen_base = rebase(mode::seen, mode::mode_gain);
+    parameters.output_base = rebase(mode::output, mode::mode_gain);
     parameters.gain_base = rebase(mode::mode_gain, mode::feedback);
     parameters.feedback_base = rebase(mode::feedback, mode::inverse);
     parameters.inverse_base = rebase(mode::inverse, mode::numbers);
@@ -251,28 +251,28 @@ typename control::LaggingReading<Scalar>::Parameters parameters(
   const auto lead = [](double memory) {
     return memory > 0.0 ? split<Scalar>(memory / (1.0 - memory)) : numeric::Split<Scalar>{};
   };
-  const auto* feeling = design.in_mode<FeltDesign>();
+  const auto* feeling = design.in_mode<SensorlessDesign>();
   return {lead(feeling->sensor_memory), lead(feeling->contact_memory)};
 }
 
-/// Exponents of the numbers of a row, so that each fits; see FeltObserver::Parameters.
-inline std::array<int, control::felt::numbers> felt_exponents(
-    const control::FeltTable<double>& table, std::uint8_t& seen, std::uint8_t& feedback,
+/// Exponents of the numbers of a row, so that each fits; see SensorlessObserver::Parameters.
+inline std::array<int, control::sensorless::numbers> sensorless_exponents(
+    const control::SensorlessTable<double>& table, std::uint8_t& output, std::uint8_t& feedback,
     std::uint8_t& inverse) {
-  namespace felt = control::felt;
-  std::array<int, felt::numbers> exponents{};
-  feedback = exponent_above(table, felt::feedback, felt::per_velocity);
-  inverse = exponent_above(table, felt::per_velocity, felt::bend);
-  seen = 0;
-  for (std::size_t node = 0; node < felt::nodes; ++node) {
-    const std::size_t first = felt::plain + node * felt::per_node;
-    seen = std::max(seen, exponent_above(table, first, first + felt::noise));
+  namespace sensorless = control::sensorless;
+  std::array<int, sensorless::numbers> exponents{};
+  feedback = exponent_above(table, sensorless::feedback, sensorless::per_velocity);
+  inverse = exponent_above(table, sensorless::per_velocity, sensorless::bend);
+  output = 0;
+  for (std::size_t node = 0; node < sensorless::nodes; ++node) {
+    const std::size_t first = sensorless::plain + node * sensorless::per_node;
+    output = std::max(output, exponent_above(table, first, first + sensorless::noise));
   }
-  std::fill(&exponents[felt::feedback], &exponents[felt::per_velocity], feedback);
-  exponents[felt::per_velocity] = inverse;
-  for (std::size_t node = 0; node < felt::nodes; ++node) {
-    int* const numbers = &exponents[felt::plain + node * felt::per_node];
-    std::fill(numbers, numbers + felt::noise, seen);
+  std::fill(&exponents[sensorless::feedback], &exponents[sensorless::per_velocity], feedback);
+  exponents[sensorless::per_velocity] = inverse;
+  for (std::size_t node = 0; node < sensorless::nodes; ++node) {
+    int* const numbers = &exponents[sensorless::plain + node * sensorless::per_node];
+    std::fill(numbers, numbers + sensorless::noise, output);
   }
   return exponents;
 }
@@ -282,10 +282,12 @@ inline std::uint8_t powers_of_two_in(double x) {
   return static_cast<std::uint8_t>(std::max(0, numeric::split(x).exponent - 1));
 }
 
-/// @param velocity, mode  bases of FeltDoubt
+/// @param velocity, mode  bases of SensorlessCovariance
 template <class Scalar>
-typename control::FeltDoubt<Scalar>::Parameters felt_doubt(double speed, double swing,
-                                                           double velocity, double mode) {
+typename control::SensorlessCovariance<Scalar>::Parameters sensorless_covariance(double speed,
+                                                                                 double swing,
+                                                                                 double velocity,
+                                                                                 double mode) {
   constexpr double mode_at_start = 0.03;  // all of them rms, per sliding velocity
   constexpr double offset_at_start = 0.05;
   constexpr double mode_per_period = 0.002;
@@ -301,27 +303,27 @@ typename control::FeltDoubt<Scalar>::Parameters felt_doubt(double speed, double 
 }
 
 template <class Scalar>
-typename control::FeltObserver<Scalar>::Parameters parameters(
-    const ControlDesign& design, Type<control::FeltObserver<Scalar>> /*part*/) {
-  const FeltDesign& feeling = *design.in_mode<FeltDesign>();
-  typename control::FeltObserver<Scalar>::Parameters parameters{};
-  std::array<int, control::felt::numbers> exponents{};
+typename control::SensorlessObserver<Scalar>::Parameters parameters(
+    const ControlDesign& design, Type<control::SensorlessObserver<Scalar>> /*part*/) {
+  const SensorlessDesign& feeling = *design.in_mode<SensorlessDesign>();
+  typename control::SensorlessObserver<Scalar>::Parameters parameters{};
+  std::array<int, control::sensorless::numbers> exponents{};
   if constexpr (numeric::is_fixed_point_v<Scalar>) {
-    exponents = felt_exponents(feeling.table, parameters.seen_base, parameters.feedback_base,
-                               parameters.inverse_base);
+    exponents = sensorless_exponents(feeling.table, parameters.output_base,
+                                     parameters.feedback_base, parameters.inverse_base);
     parameters.slower = powers_of_two_in(0.25 / feeling.speed);
     const double velocity = numeric::scale_by_power_of_two(1.0, -parameters.slower);
     parameters.quieter =
         std::min(powers_of_two_in(feeling.mode_unit / velocity),
-                 static_cast<std::uint8_t>(parameters.seen_base + parameters.slower));
+                 static_cast<std::uint8_t>(parameters.output_base + parameters.slower));
   }
-  for (std::size_t row = 0; row < control::felt::rows; ++row) {
-    for (std::size_t i = 0; i < control::felt::numbers; ++i) {
+  for (std::size_t row = 0; row < control::sensorless::rows; ++row) {
+    for (std::size_t i = 0; i < control::sensorless::numbers; ++i) {
       parameters.table[row][i] = scaled_within<Scalar>(
           numeric::scale_by_power_of_two(feeling.table[row][i], -exponents[i]));
     }
   }
-  parameters.doubt = felt_doubt<Scalar>(
+  parameters.covariance = sensorless_covariance<Scalar>(
       feeling.speed, feeling.swing, numeric::scale_by_power_of_two(1.0, -parameters.slower),
       feeling.mode_unit * numeric::scale_by_power_of_two(1.0, -parameters.quieter));
   parameters.linear = split<Scalar>(feeling.linear);
@@ -329,10 +331,11 @@ typename control::FeltObserver<Scalar>::Parameters parameters(
 }
 
 template <class Scalar, int MaxDelay, class Reading>
-typename control::FeltVibration<Scalar, MaxDelay, Reading>::Parameters parameters(
-    const ControlDesign& design, Type<control::FeltVibration<Scalar, MaxDelay, Reading>> /*part*/) {
-  const FeltDesign& feeling = *design.in_mode<FeltDesign>();
-  return {parameters(design, Type<control::FeltObserver<Scalar>>{}),
+typename control::SensorlessVibration<Scalar, MaxDelay, Reading>::Parameters parameters(
+    const ControlDesign& design,
+    Type<control::SensorlessVibration<Scalar, MaxDelay, Reading>> /*part*/) {
+  const SensorlessDesign& feeling = *design.in_mode<SensorlessDesign>();
+  return {parameters(design, Type<control::SensorlessObserver<Scalar>>{}),
           parameters(design, Type<Reading>{}), feeling.backwards, feeling.delay_periods};
 }
 

@@ -9,7 +9,6 @@
 #include "firmware/control/dahl_feedforward.hpp"
 #include "firmware/control/damped_vibration.hpp"
 #include "firmware/control/fed_forward.hpp"
-#include "firmware/control/felt_vibration.hpp"
 #include "firmware/control/force_sensing.hpp"
 #include "firmware/control/integral_regulator.hpp"
 #include "firmware/control/learnt_friction.hpp"
@@ -17,6 +16,7 @@
 #include "firmware/control/periodic_relearning.hpp"
 #include "firmware/control/reading_lag.hpp"
 #include "firmware/control/resonant_vibration.hpp"
+#include "firmware/control/sensorless_vibration.hpp"
 #include "firmware/control/slew_limit.hpp"
 #include "host_sim/configure/control_design.hpp"
 #include "host_sim/configure/controller_parameters.hpp"
@@ -47,13 +47,13 @@ struct VibrationParts {
   using Resonant = control::ResonantVibration<Scalar, max_drive_delay, Current<Scalar>>;
   using Damped = control::DampedVibration<Scalar, max_drive_delay>;
   template <template <class> class Reading>
-  using Felt = control::FeltVibration<Scalar, max_reading_delay, Reading<Scalar>>;
-  using Part =
-      std::conditional_t<can_observe_vibration<Scalar>,
-                         Choice<control::FedForward<Scalar>, Resonant<control::FullCurrent>,
-                                Resonant<control::CurrentLimit>, Damped,
-                                Felt<control::PromptReading>, Felt<control::LaggingReading>>,
-                         Choice<control::FedForward<Scalar>>>;
+  using Sensorless = control::SensorlessVibration<Scalar, max_reading_delay, Reading<Scalar>>;
+  using Part = std::conditional_t<
+      can_observe_vibration<Scalar>,
+      Choice<control::FedForward<Scalar>, Resonant<control::FullCurrent>,
+             Resonant<control::CurrentLimit>, Damped, Sensorless<control::PromptReading>,
+             Sensorless<control::LaggingReading>>,
+      Choice<control::FedForward<Scalar>>>;
 
   static Part chosen(const ControlDesign& design) {
     if constexpr (can_observe_vibration<Scalar>) {
@@ -61,8 +61,9 @@ struct VibrationParts {
         case scene::VibrationMode::feedforward:
           break;
         case scene::VibrationMode::sensorless:
-          return design.in_mode<FeltDesign>()->lags() ? Part(Type<Felt<control::LaggingReading>>{})
-                                                      : Part(Type<Felt<control::PromptReading>>{});
+          return design.in_mode<SensorlessDesign>()->lags()
+                     ? Part(Type<Sensorless<control::LaggingReading>>{})
+                     : Part(Type<Sensorless<control::PromptReading>>{});
         case scene::VibrationMode::damped:
           return Part(Type<Damped>{});
         case scene::VibrationMode::resonant:
@@ -115,8 +116,9 @@ struct ControllerParts {
         force(choose<decltype(force)>(!design.senses_force)),
         mode(design.vibration_mode()) {}
 
-  /// Calls visit(name, choice) for each, in the order of control::Parts; a drive that is fed forward
-  /// has a force sensor, and names neither, nor does one whose vibration is felt name the sensor.
+  /// Calls visit(name, choice) for each, in the order of control::Parts; a drive that is fed
+  /// forward has a force sensor, and names neither, nor does one whose vibration is sensorless name
+  /// the sensor.
   template <class Visitor>
   void fields(Visitor&& visit) const {
     visit("friction", friction);

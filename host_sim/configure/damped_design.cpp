@@ -40,13 +40,14 @@ Eigen::RowVector3d feedback_of(const ModeModel& model, const Eigen::Matrix3d& er
   constexpr double quickest = 1.15;
   constexpr double slower = 0.6;
   constexpr double quick_enough = 1.01;
-  constexpr double visible = 0.05;      // of full drive's velocity, after a full kick
-  constexpr double largest_kick = 2.0;  // amplitude for a full kick's mode
-  const double kick = model.kick.norm();
-  double stability = norm_of(model.seen) * kick < visible * model.forced.norm() ? 1.0 : quickest;
+  constexpr double visible = 0.05;          // of full drive's velocity, after a full kick
+  constexpr double largest_feedback = 2.0;  // amplitude for a full kick's mode
+  const double input_gain = model.input_gain.norm();
+  double stability =
+      norm_of(model.output) * input_gain < visible * model.forced.norm() ? 1.0 : quickest;
   while (true) {
     Eigen::RowVector3d gains = feedback_gains(model, error, stability);
-    if (stability == 1.0 || gains.head<2>().norm() * kick < largest_kick) {
+    if (stability == 1.0 || gains.head<2>().norm() * input_gain < largest_feedback) {
       return gains;
     }
     stability = 1.0 + slower * (stability - 1.0);
@@ -58,17 +59,17 @@ namespace {
 
 ObserverGains observer_gains_of(const ModeModel& model, double noise) {
   constexpr double process = 1e-3;  // of full drive's velocity: friction, and what is not modelled
-  constexpr double doubt = 3e-3;
+  constexpr double model_error = 3e-3;
   const double velocity = model.forced.norm();
-  const double variance = std::max(doubt * velocity, noise);
+  const double variance = std::max(model_error * velocity, noise);
   return observer_gains(model, process * process * velocity * velocity, variance * variance);
 }
 
 template <class Matrix>
-void put(const Matrix& matrix, std::size_t place, control::ModeRow<double>& row) {
+void put(const Matrix& matrix, std::size_t index, control::ModeRow<double>& row) {
   for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
     for (Eigen::Index k = 0; k < matrix.cols(); ++k) {
-      row[place++] = matrix(i, k);
+      row[index++] = matrix(i, k);
     }
   }
 }
@@ -77,10 +78,10 @@ control::ModeRow<double> row_of(const ModeModel& model, double noise) {
   const ObserverGains observer = observer_gains_of(model, noise);
   const double velocity = model.forced.norm();
   control::ModeRow<double> row{};
-  put(Eigen::Vector2d(model.turn.col(0)), mode::turn, row);
-  put(model.kick, mode::kick, row);
+  put(Eigen::Vector2d(model.rotation.col(0)), mode::rotation, row);
+  put(model.input_gain, mode::input_gain, row);
   put(model.forced, mode::forced, row);
-  put(model.seen, mode::seen, row);
+  put(model.output, mode::output, row);
   put(observer.mode, mode::mode_gain, row);
   put(observer.offset, mode::offset_gain, row);
   put(feedback_of(model, vibration_error(model)), mode::feedback, row);
@@ -100,9 +101,9 @@ double largest(const control::ModeTable<double>& table, std::size_t begin, std::
   return most;
 }
 
-/// Bound of the magnitude that the slope of a forecast over the place has where neither part of the
-/// mode, nor the change of the amplitude, is larger than 1. From one row to the next the place moves
-/// by 2/(rows - 1), and the numbers are straight.
+/// Bound of the magnitude that the slope of a forecast over the frequency parameter has where
+/// neither part of the mode, nor the change of the amplitude, is larger than 1. From one row to the
+/// next the frequency parameter moves by 2/(rows - 1), and the numbers are straight.
 double steepest(const control::ModeTable<double>& table) {
   double most = 0.0;
   for (std::size_t k = 0; k + 1 < mode::rows; ++k) {
@@ -112,14 +113,14 @@ double steepest(const control::ModeTable<double>& table) {
     const auto slope = [&](std::size_t i) {
       return std::abs(table[k + 1][i] - table[k][i]) * (mode::rows - 1) / 2.0;
     };
-    const double turned = value(mode::turn) + value(mode::turn + 1);
-    const double turned_slope = slope(mode::turn) + slope(mode::turn + 1);
+    const double rotated = value(mode::rotation) + value(mode::rotation + 1);
+    const double rotated_slope = slope(mode::rotation) + slope(mode::rotation + 1);
     for (std::size_t part = 0; part < 2; ++part) {
       double tilt = slope(mode::forced + part);
       for (std::size_t i = 0; i < 2; ++i) {
-        const std::size_t seen = mode::seen + 2 * part + i;
-        tilt += slope(seen) * (turned + value(mode::kick + i)) +
-                value(seen) * (turned_slope + slope(mode::kick + i));
+        const std::size_t output = mode::output + 2 * part + i;
+        tilt += slope(output) * (rotated + value(mode::input_gain + i)) +
+                value(output) * (rotated_slope + slope(mode::input_gain + i));
       }
       most = std::max(most, tilt);
     }
@@ -127,9 +128,9 @@ double steepest(const control::ModeTable<double>& table) {
   return most;
 }
 
-/// The table in multiples of a mode that leaves the kicks an eighth.
+/// The table in multiples of a mode that leaves the input gain an eighth.
 void scale_mode(control::ModeTable<double>& table) {
-  const double unit = 8.0 * largest(table, mode::kick, mode::forced);
+  const double unit = 8.0 * largest(table, mode::input_gain, mode::forced);
   const auto scale = [&](std::size_t begin, std::size_t end, double factor) {
     for (control::ModeRow<double>& row : table) {
       for (std::size_t i = begin; i < end; ++i) {
@@ -137,15 +138,15 @@ void scale_mode(control::ModeTable<double>& table) {
       }
     }
   };
-  scale(mode::kick, mode::forced, 1.0 / unit);
-  scale(mode::seen, mode::mode_gain, unit);
+  scale(mode::input_gain, mode::forced, 1.0 / unit);
+  scale(mode::output, mode::mode_gain, unit);
   scale(mode::mode_gain, mode::offset_gain, 1.0 / unit);
   scale(mode::feedback, mode::feedback + 2, unit);
 }
 
 }  // namespace
 
-void require_mode(const BelievedPlant& plant) {
+void require_mode(const NominalPlant& plant) {
   if (!(plant.stiffness_N_per_m > 0.0)) {
     throw ConfigurationError(
         "plant.stiffness_N_per_m",
@@ -164,7 +165,7 @@ void require_mode(const BelievedPlant& plant) {
   }
 }
 
-double damped_full_scale_m_per_s(const scene::Scene& scene, const BelievedPlant& plant) {
+double damped_full_scale_m_per_s(const scene::Scene& scene, const NominalPlant& plant) {
   constexpr double room = 4.0;  // for what feedback may ask for, and for what a knock adds
   constexpr double least_room = 2.0;
   constexpr double most_room = 64.0;
@@ -200,7 +201,7 @@ double damped_full_scale_m_per_s(const scene::Scene& scene, const BelievedPlant&
   return full_scale_m_per_s;
 }
 
-DampedDesign design_damping(const scene::Scene& scene, const BelievedPlant& plant,
+DampedDesign design_damping(const scene::Scene& scene, const NominalPlant& plant,
                             double full_scale_m_per_s) {
   require_mode(plant);
   const double period_s = 1.0 / scene.drive->frequency_Hz;
@@ -212,9 +213,9 @@ DampedDesign design_damping(const scene::Scene& scene, const BelievedPlant& plan
   design.stiffness_range = stiffness_range(middle.stiffness);
   design.noise = vibration_noise_m_per_s(scene.sensor, full_scale_m_per_s) / full_scale_m_per_s;
   for (std::size_t i = 0; i < mode::rows; ++i) {
-    const double place = 2.0 * static_cast<double>(i) / (mode::rows - 1) - 1.0;
+    const double frequency_parameter = 2.0 * static_cast<double>(i) / (mode::rows - 1) - 1.0;
     Resonator resonator = middle;
-    resonator.stiffness *= 1.0 + place * design.stiffness_range;
+    resonator.stiffness *= 1.0 + frequency_parameter * design.stiffness_range;
     design.table[i] = row_of(mode_model(resonator), design.noise);
   }
   scale_mode(design.table);

@@ -4,16 +4,16 @@
 #include <cstdint>
 
 #include "firmware/control/mode_table.hpp"
-#include "host_sim/configure/believed_plant.hpp"
 #include "host_sim/configure/mode_model.hpp"
+#include "host_sim/configure/nominal_plant.hpp"
 #include "host_sim/scene/scene.hpp"
 
 namespace sonoglide::configure {
 
 /// Real numbers, per unit of ControlScales.
 struct DampedDesign {
-  /// Of the believed plant in the middle row; the stiffness of the first row is `stiffness_range`
-  /// lower, that of the last one as much higher. A mode of 1 is eight times the largest kick.
+  /// Of the nominal plant in the middle row; the stiffness of the first row is `stiffness_range`
+  /// lower, that of the last one as much higher. A mode of 1 is eight times the largest input gain.
   control::ModeTable<double> table{};
   double stiffness_range = 0.0;  ///< relative
   bool quick = true;             ///< the mode can be quieted, see is_quick()
@@ -33,9 +33,9 @@ struct DampedDesign {
 };
 
 /// @throws ConfigurationError  there is no natural mode to damp
-void require_mode(const BelievedPlant& plant);
+void require_mode(const NominalPlant& plant);
 
-/// How far the believed stiffness may be off, relative: no farther than a third of the way to the
+/// How far the nominal stiffness may be off, relative: no farther than a third of the way to the
 /// carrier is left, nor that the mode's angle would be known to less than 3/4 of a radian.
 /// @param stiffness  of a Resonator
 double stiffness_range(double stiffness);
@@ -47,11 +47,11 @@ Eigen::RowVector3d feedback_of(const ModeModel& model, const Eigen::Matrix3d& er
 
 /// The range of the vibration sensor.
 /// @throws ConfigurationError  full drive vibrates at less than 1/64 of it, or at more than half
-double damped_full_scale_m_per_s(const scene::Scene& scene, const BelievedPlant& plant);
+double damped_full_scale_m_per_s(const scene::Scene& scene, const NominalPlant& plant);
 
 /// @param full_scale_m_per_s  of the vibration sensor
 /// @throws ConfigurationError  a plant without a natural mode
-DampedDesign design_damping(const scene::Scene& scene, const BelievedPlant& plant,
+DampedDesign design_damping(const scene::Scene& scene, const NominalPlant& plant,
                             double full_scale_m_per_s);
 
 }  // namespace sonoglide::configure

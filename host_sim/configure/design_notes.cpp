@@ -37,9 +37,10 @@ void add_notch_notes(const NotchDesign& notch, std::vector<std::string>& notes) 
 }
 
 /// How far the stiffness may be off, where that is less than usual and not told by another note.
-void add_stiffness_note(const FeltDesign& design, std::vector<std::string>& notes) {
+void add_stiffness_note(const SensorlessDesign& design, std::vector<std::string>& notes) {
   constexpr double usual_range = 0.05;
-  const double least = std::min({design.stiffness_range, design.turn_range, design.multiple_range});
+  const double least =
+      std::min({design.stiffness_range, design.rotation_range, design.multiple_range});
   if (least >= usual_range || design.multiple_range <= 0.0) {
     return;
   }
@@ -54,7 +55,7 @@ void add_stiffness_note(const FeltDesign& design, std::vector<std::string>& note
       "A stiffness that is off by more than {:.2g} % may keep the friction ratio from settling: "
       "the natural mode {}.",
       100.0 * least,
-      least == design.turn_range
+      least == design.rotation_range
           ? "then turns by more than 0.3 rad otherwise than believed in a carrier period"
           : "may then be within 0.06 carrier frequencies of zero or of a multiple of the carrier"));
 }
@@ -99,7 +100,7 @@ void add_notes(const DampedDesign& mode, const ControlDesign& /*design*/,
 
 void add_notes(const ResonantDesign& mode, const ControlDesign& design,
                std::vector<std::string>& notes) {
-  if (mode.natural == mode.believed_natural) {
+  if (mode.natural == mode.nominal_natural) {
     return;
   }
   const auto frequency_Hz = [&](double deviation) {
@@ -108,10 +109,10 @@ void add_notes(const ResonantDesign& mode, const ControlDesign& design,
   notes.push_back(fmt::format(
       "The believed natural frequency of {:.6g} Hz is outside the frequency range of {:.6g} to "
       "{:.6g} Hz: the controller begins at the nearest end.",
-      frequency_Hz(mode.believed_natural), frequency_Hz(mode.lowest), frequency_Hz(mode.highest)));
+      frequency_Hz(mode.nominal_natural), frequency_Hz(mode.lowest), frequency_Hz(mode.highest)));
 }
 
-void add_notes(const FeltDesign& mode, const ControlDesign& design,
+void add_notes(const SensorlessDesign& mode, const ControlDesign& design,
                std::vector<std::string>& notes) {
   if (!design.calibrated) {
     notes.push_back(fmt::format(

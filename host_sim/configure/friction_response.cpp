@@ -107,7 +107,7 @@ FrictionResponse dahl_response(const VibratedContact& contact) {
   return response;
 }
 
-/// Answers of so many periods, in place, behind the sensor and sharpened.
+/// Answers of so many periods, in place, behind the sensor and its compensation.
 template <class Number>
 void pass(std::vector<Number>& answers, const ReadingChain& chain) {
   Number reading{};

@@ -26,7 +26,7 @@ Eigen::Vector2d parts(Complex z) {
 
 /// What X = A' X (I + B B' X)^-1 A + Q leads to from X = Q in 128 carrier periods, by the doubling
 /// algorithm (Chu, Fan, Lin and Wang 2004): each turn does as many steps as all before it. In that
-/// time a target is long settled; more would only let an observer doubt more and more what a mode
+/// time a target is long settled; more would only let the covariance grow by what a mode
 /// next to a multiple of the carrier never shows.
 template <class Matrix>
 Matrix riccati(Matrix a, Matrix b_squared, const Matrix& q) {
@@ -55,16 +55,17 @@ ModeModel mode_model(const Resonator& resonator) {
   // The free motion begins where the steady one, changed, would have to be.
   const double x = displacement.real();
   const double v = -omega * displacement.imag();
-  const Complex kick = -(v + j * (resonator.stiffness * x + decay * v) / rotation);
+  const Complex input_gain = -(v + j * (resonator.stiffness * x + decay * v) / rotation);
   const Complex along = mean_of_exponential(rate - j * omega);
   const Complex against = mean_of_exponential(std::conj(rate) - j * omega);
-  const Complex turn = exponential(rate);
+  const Complex period_rotation = exponential(rate);
   ModeModel model;
-  model.turn << turn.real(), -turn.imag(), turn.imag(), turn.real();
-  model.kick = parts(kick);
+  model.rotation << period_rotation.real(), -period_rotation.imag(), period_rotation.imag(),
+      period_rotation.real();
+  model.input_gain = parts(input_gain);
   model.forced = parts(j * omega * displacement);
-  model.seen.col(0) = parts(along + against);
-  model.seen.col(1) = parts(j * (along - against));
+  model.output.col(0) = parts(along + against);
+  model.output.col(1) = parts(j * (along - against));
   const double fading = mean_of_exponential(2.0 * rate.real()).real();
   const Complex beating = mean_of_exponential(2.0 * rate);
   model.square << fading + beating.real(), -beating.imag(), -beating.imag(),
@@ -74,28 +75,30 @@ ModeModel mode_model(const Resonator& resonator) {
 
 bool is_quick(const ModeModel& model) {
   constexpr double quick = 0.4;
-  return (model.turn - Eigen::Matrix2d::Identity()).col(0).norm() >= quick;
+  return (model.rotation - Eigen::Matrix2d::Identity()).col(0).norm() >= quick;
 }
 
 ObserverGains observer_gains(const ModeModel& model, double process, double noise) {
   using Matrix = Eigen::Matrix4d;
   Matrix dynamics = Matrix::Identity();
-  dynamics.topLeftCorner<2, 2>() = model.turn;
+  dynamics.topLeftCorner<2, 2>() = model.rotation;
   Eigen::Matrix<double, 2, 4> sample;
-  sample << model.seen, Eigen::Matrix2d::Identity();
-  const Matrix shown = sample.transpose() * sample / noise;
-  const Matrix before = riccati<Matrix>(dynamics.transpose(), shown, process * Matrix::Identity());
-  const Eigen::Matrix2d seen_variance =
+  sample << model.output, Eigen::Matrix2d::Identity();
+  const Matrix information = sample.transpose() * sample / noise;
+  const Matrix before =
+      riccati<Matrix>(dynamics.transpose(), information, process * Matrix::Identity());
+  const Eigen::Matrix2d innovation_covariance =
       sample * before * sample.transpose() + noise * Eigen::Matrix2d::Identity();
-  const Eigen::Matrix<double, 4, 2> gains = before * sample.transpose() * seen_variance.inverse();
+  const Eigen::Matrix<double, 4, 2> gains =
+      before * sample.transpose() * innovation_covariance.inverse();
   return {gains.topRows<2>(), gains.bottomRows<2>()};
 }
 
 Eigen::Matrix3d vibration_error(const ModeModel& model) {
   Eigen::Matrix3d error;
   error.topLeftCorner<2, 2>() =
-      is_quick(model) ? model.square : Eigen::Matrix2d(model.seen.transpose() * model.seen);
-  error.topRightCorner<2, 1>() = model.seen.transpose() * model.forced;
+      is_quick(model) ? model.square : Eigen::Matrix2d(model.output.transpose() * model.output);
+  error.topRightCorner<2, 1>() = model.output.transpose() * model.forced;
   error.bottomLeftCorner<1, 2>() = error.topRightCorner<2, 1>().transpose();
   error(2, 2) = model.forced.squaredNorm();
   return error;
@@ -105,10 +108,10 @@ Eigen::RowVector3d feedback_gains(const ModeModel& model, const Eigen::Matrix3d&
                                   double stability) {
   using Matrix = Eigen::Matrix3d;
   Matrix dynamics = Matrix::Identity();
-  dynamics.topLeftCorner<2, 2>() = model.turn;
+  dynamics.topLeftCorner<2, 2>() = model.rotation;
   dynamics *= stability;
   Eigen::Vector3d change;
-  change << model.kick, 1.0;
+  change << model.input_gain, 1.0;
   change *= stability;
   const double price = model.forced.squaredNorm();
   const Matrix cost = riccati<Matrix>(dynamics, change * change.transpose() / price, error);

@@ -1,5 +1,5 @@
-/// A resonator under a carrier whose amplitude changes from period to period, as its vibration shows
-/// it once per carrier period.
+/// A resonator under a carrier whose amplitude changes from period to period, as its vibration
+/// shows it once per carrier period.
 #pragma once
 
 #include <Eigen/Core>
@@ -16,24 +16,24 @@ struct Resonator {
 /// w the free velocity as a phasor at the carrier's phase 0, in (real, imaginary) parts: the free
 /// motion is Re(w exp(λ t)), λ = −c/2m + j ωd. z the vibration demodulated over a period, in phase
 /// with the drive and in quadrature:
-///   w' = turn w + kick (u' − u),   z = forced u + seen w.
+///   w' = A w + B (u' − u),   z = C w + H u.
 /// Twice the mean square of the free velocity over a period is w·square w.
 struct ModeModel {
-  Eigen::Matrix2d turn;
-  Eigen::Vector2d kick;
+  Eigen::Matrix2d rotation;
+  Eigen::Vector2d input_gain;
   Eigen::Vector2d forced;
-  Eigen::Matrix2d seen;
+  Eigen::Matrix2d output;
   Eigen::Matrix2d square;
 };
 
 /// @param resonator  with a natural mode: damping²/4 < stiffness; not undamped on the carrier
 ModeModel mode_model(const Resonator& resonator);
 
-/// The mode turns by at least 0.4 radians in a period: one that turns less, next to a multiple of the
-/// carrier, is moved by where the amplitude is and hardly by the way there.
+/// The mode turns by at least 0.4 radians in a period: one that turns less, next to a multiple of
+/// the carrier, is moved by where the amplitude is and hardly by the way there.
 bool is_quick(const ModeModel& model);
 
-/// Of a linear observer of w and of a constant o beside it: z = forced u + seen w + o.
+/// Of a linear observer of w and of a constant o beside it: z = C w + H u + o.
 struct ObserverGains {
   Eigen::Matrix2d mode;
   Eigen::Matrix2d offset;
@@ -44,12 +44,13 @@ struct ObserverGains {
 /// @param noise    variance of each part of a sample
 ObserverGains observer_gains(const ModeModel& model, double process, double noise);
 
-/// Quadratic form of (w, u − u*), u* the amplitude to come to: the mean square of what the velocity has
-/// beside the steady vibration of u*, of a mode next to a multiple of the carrier what z shows of it.
+/// Quadratic form of (w, u − u*), u* the amplitude to come to: the mean square of what the velocity
+/// has beside the steady vibration of u*, of a mode next to a multiple of the carrier what z shows
+/// of it.
 Eigen::Matrix3d vibration_error(const ModeModel& model);
 
-/// Linear-quadratic feedback of (w, u − u*) on the change of the amplitude. A change costs as much as
-/// an error of the amplitude of the same size. The poles have a modulus below 1/`stability`.
+/// Linear-quadratic feedback of (w, u − u*) on the change of the amplitude. A change costs as much
+/// as an error of the amplitude of the same size. The poles have a modulus below 1/`stability`.
 /// @param error  what (w, u − u*) costs
 Eigen::RowVector3d feedback_gains(const ModeModel& model, const Eigen::Matrix3d& error,
                                   double stability);

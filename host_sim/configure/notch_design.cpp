@@ -130,7 +130,7 @@ double left_over(const NotchDesign& notch, double decay, double angle) {
 
 }  // namespace
 
-NaturalMode natural_mode(const BelievedPlant& plant, double period_s) {
+NaturalMode natural_mode(const NominalPlant& plant, double period_s) {
   const double sigma = 0.5 * plant.damping_N_s_per_m / plant.mass_kg;
   const double natural_squared = plant.stiffness_N_per_m / plant.mass_kg;
   const double damped_squared = std::max(0.0, natural_squared - sigma * sigma);

@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "host_sim/configure/believed_plant.hpp"
+#include "host_sim/configure/nominal_plant.hpp"
 #include "host_sim/scene/tolerance.hpp"
 
 namespace sonoglide::configure {
@@ -25,7 +25,7 @@ struct NaturalMode {
   double rotation;  ///< ωd T; 0 where overdamped
 };
 
-NaturalMode natural_mode(const BelievedPlant& plant, double period_s);
+NaturalMode natural_mode(const NominalPlant& plant, double period_s);
 
 using NotchTaps = std::array<double, max_notch_taps>;
 
@@ -39,8 +39,8 @@ struct NotchDesign {
   int span() const { return static_cast<int>(tap_count - 1) * spacing; }
 };
 
-/// Three taps with zeros on the mode, at the smallest spacing for which every tap is within ±1. Then
-/// no partial sum of the taps leaves [0, 1] either: the drive changes without overshoot.
+/// Three taps with zeros on the mode, at the smallest spacing for which every tap is within ±1.
+/// Then no partial sum of the taps leaves [0, 1] either: the drive changes without overshoot.
 /// @return nothing where no spacing serves, or where there is no mode
 std::optional<NotchDesign> design_notch(const NaturalMode& mode);
 
@@ -49,8 +49,8 @@ inline constexpr double robust_ripple = 0.05;
 
 /// Five taps, for a mode whose frequency is off by up to `range`, relative. The two pairs of zeros
 /// are at the nodes of the Chebyshev polynomial on that range of cos(ωd M T). Without damping no
-/// other pairs leave less of the largest ripple. The spacing M is the smallest with which that is at
-/// most `robust_ripple`, and else the one of the least ripple. No partial sum of the taps leaves
+/// other pairs leave less of the largest ripple. The spacing M is the smallest with which that is
+/// at most `robust_ripple`, and else the one of the least ripple. No partial sum of the taps leaves
 /// [0, 1], and their magnitudes add up to at most 2.9 (see control::NotchRounding).
 /// @param range  above 0, below 1
 /// @return nothing where every spacing leaves half of the ringing or more, or where there is no mode
@@ -64,9 +64,9 @@ double notch_ripple(const NotchDesign& notch, const NaturalMode& mode, double ra
 /// partial sum leaves [0, 1]. Error: at most one and a half units.
 NotchTaps rounded_taps(const NotchDesign& notch, int fraction_digits);
 
-/// Of a robust notch whose scene does not give one: how far the natural frequency √(Ks/m) may be off,
-/// relative, within the tolerances of stiffness and mass: to the ends of a half width or a range, to
-/// three standard deviations of a normal. Limited to what the key allows.
+/// Of a robust notch whose scene does not give one: how far the natural frequency √(Ks/m) may be
+/// off, relative, within the tolerances of stiffness and mass: to the ends of a half width or a
+/// range, to three standard deviations of a normal. Limited to what the key allows.
 /// @return 0.1, for a stiffness that is 20 % off, where neither has a tolerance
 double default_shaping_range(const std::vector<scene::Tolerance>& tolerances);
 

@@ -40,7 +40,7 @@ double missing_damping_N_s_per_m(const NotchDesign& notch, const NaturalMode& mo
 }
 
 /// An integrator behind a delay of D periods oscillates at a gain of 2 sin(π/(4D+2)); a third of it
-/// leaves room for a contact twice as steep as believed.
+/// leaves room for a contact twice as steep as the nominal one.
 double gain_behind_delay(double periods) {
   return std::min(0.25, 2.0 / 3.0 * numeric::sin(numeric::two_pi / (8.0 * periods + 4.0)));
 }
@@ -56,7 +56,7 @@ void set_waiting(double delay, double filter, ControlDesign& design) {
 
 }  // namespace
 
-FeedforwardDesign design_feedforward(const scene::Scene& scene, const BelievedPlant& plant,
+FeedforwardDesign design_feedforward(const scene::Scene& scene, const NominalPlant& plant,
                                      ControlDesign& design) {
   const NaturalMode mode = natural_mode(plant, design.scales.carrier_period_s);
   FeedforwardDesign found;

@@ -23,12 +23,12 @@ double start_rate_rad_per_s(const scene::Scene& scene) {
   return numeric::two_pi * scene.drive->frequency_Hz;
 }
 
-double full_force_N(const scene::Scene& scene, const BelievedPlant& plant) {
+double full_force_N(const scene::Scene& scene, const NominalPlant& plant) {
   return scene.drive->max_force_amplitude_N * plant.force_factor;
 }
 
 /// In the steady state at resonance, friction left out.
-double full_drive_m_per_s(const scene::Scene& scene, const BelievedPlant& plant) {
+double full_drive_m_per_s(const scene::Scene& scene, const NominalPlant& plant) {
   if (!(plant.stiffness_N_per_m > 0.0)) {
     throw ConfigurationError("plant.stiffness_N_per_m",
                              "is 0, and a mass without a spring has no resonance; allowed: above 0 "
@@ -49,7 +49,7 @@ struct TargetVelocities {
   double highest_m_per_s = 0.0;
 };
 
-TargetVelocities target_velocities(const scene::Scene& scene, const BelievedPlant& plant,
+TargetVelocities target_velocities(const scene::Scene& scene, const NominalPlant& plant,
                                    double most_m_per_s) {
   const double fastest_m_per_s = fastest_sliding_m_per_s(scene.sliding);
   const VibrationMap map{scene::friction_map(scene.friction.law), most_m_per_s,
@@ -77,12 +77,12 @@ constexpr double least_audible = 0.25;
 /// The noisier a period's growth against what full drive adds, the less of it is believed.
 void design_estimate(ResonantDesign& design) {
   constexpr double at_once = 0.5;
-  constexpr double believed_rate_error = 0.2;            // relative; of a force factor, of a mass
-  constexpr double believed_losses_error = 0.07;         // relative, of a period to the next
+  constexpr double nominal_rate_error = 0.2;             // relative; of a force factor, of a mass
+  constexpr double nominal_losses_error = 0.07;          // relative, of a period to the next
   const double blur = 2.0 * design.noise / design.rate;  // of a growth, as a drive
   const auto gain = [&](double error) { return at_once / (1.0 + blur * blur / (error * error)); };
-  design.rate_gain = gain(believed_rate_error);
-  design.losses_gain = gain(believed_losses_error);
+  design.rate_gain = gain(nominal_rate_error);
+  design.losses_gain = gain(nominal_losses_error);
   design.natural_gain = 0.05;
   design.audible = std::max(least_audible * design.rate, noises_of_audible * design.noise);
   design.surprise = 1.0 + 4.0 * blur;
@@ -103,7 +103,7 @@ void design_hold(ResonantDesign& design) {
   design.settled = deviations * design.noise;
 }
 
-void design_word(const scene::Scene& scene, const BelievedPlant& plant, ResonantDesign& design) {
+void design_word(const scene::Scene& scene, const NominalPlant& plant, ResonantDesign& design) {
   const scene::Drive& drive = *scene.drive;
   constexpr double finest = 0x1p-28;  // of the start
   constexpr double default_range = 0.05;
@@ -120,13 +120,13 @@ void design_word(const scene::Scene& scene, const BelievedPlant& plant, Resonant
   design.highest = range ? std::max(0.0, deviation(range->highest_Hz) - inside) : default_range;
   const double natural_Hz =
       numeric::sqrt(plant.stiffness_N_per_m / plant.mass_kg) / numeric::two_pi;
-  design.believed_natural = deviation(natural_Hz);
-  design.natural = std::clamp(design.believed_natural, design.lowest, design.highest);
+  design.nominal_natural = deviation(natural_Hz);
+  design.natural = std::clamp(design.nominal_natural, design.lowest, design.highest);
 }
 
 /// @param least_m_per_s  of the targets
-void design_current(const scene::Scene& scene, const BelievedPlant& plant,
-                    double full_scale_m_per_s, double least_m_per_s, ResonantDesign& design) {
+void design_current(const scene::Scene& scene, const NominalPlant& plant, double full_scale_m_per_s,
+                    double least_m_per_s, ResonantDesign& design) {
   const scene::Drive& drive = *scene.drive;
   if (!drive.max_current_amplitude_A) {
     return;
@@ -198,7 +198,7 @@ void require_audible_targets(const scene::Scene& scene, double lowest_m_per_s,
 }
 
 /// Largest vibration velocity of a target that full drive reaches.
-double needed_vibration_m_per_s(const scene::Scene& scene, const BelievedPlant& plant) {
+double needed_vibration_m_per_s(const scene::Scene& scene, const NominalPlant& plant) {
   return target_velocities(scene, plant, full_drive_m_per_s(scene, plant)).highest_m_per_s;
 }
 
@@ -229,7 +229,7 @@ double VibrationMap::velocity_m_per_s(double friction_ratio,
   return largest_m_per_s * std::min(1.0, map.amplitude(0.5 * friction_ratio, speed));
 }
 
-double resonant_full_scale_m_per_s(const scene::Scene& scene, const BelievedPlant& plant) {
+double resonant_full_scale_m_per_s(const scene::Scene& scene, const NominalPlant& plant) {
   if (scene.sensor.vibration_full_scale_m_per_s) {
     return *scene.sensor.vibration_full_scale_m_per_s;
   }
@@ -238,7 +238,7 @@ double resonant_full_scale_m_per_s(const scene::Scene& scene, const BelievedPlan
          std::max(needed_vibration_m_per_s(scene, plant), fastest_sliding_m_per_s(scene.sliding));
 }
 
-void require_needed_range(const scene::Scene& scene, const BelievedPlant& plant,
+void require_needed_range(const scene::Scene& scene, const NominalPlant& plant,
                           double full_scale_m_per_s) {
   const double needed_m_per_s = needed_vibration_m_per_s(scene, plant);
   if (!(needed_m_per_s < full_scale_m_per_s)) {
@@ -249,7 +249,7 @@ void require_needed_range(const scene::Scene& scene, const BelievedPlant& plant,
   }
 }
 
-ResonantDesign design_resonance(const scene::Scene& scene, const BelievedPlant& plant,
+ResonantDesign design_resonance(const scene::Scene& scene, const NominalPlant& plant,
                                 double full_scale_m_per_s) {
   const double full_m_per_s = full_drive_m_per_s(scene, plant);
   const double natural_rad_per_s = numeric::sqrt(plant.stiffness_N_per_m / plant.mass_kg);

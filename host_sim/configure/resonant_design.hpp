@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "host_sim/configure/believed_plant.hpp"
+#include "host_sim/configure/nominal_plant.hpp"
 #include "host_sim/scene/scene.hpp"
 
 namespace sonoglide::configure {
@@ -13,10 +13,10 @@ namespace sonoglide::configure {
 struct ResonantDesign {
   double rate = 0.0;            ///< velocity that full drive adds in a carrier period
   double losses = 0.0;          ///< amplitude that holds a velocity of 1
-  double quality_factor = 0.0;  ///< believed
-  double head_room = 0.0;       ///< velocity at full drive over that of the lowest target; believed
+  double quality_factor = 0.0;  ///< nominal
+  double head_room = 0.0;       ///< velocity at full drive over that of the lowest target; nominal
   double natural = 0.0;
-  double believed_natural = 0.0;  ///< deviation; `natural` is in the range
+  double nominal_natural = 0.0;  ///< deviation; `natural` is in the range
   double lowest = 0.0;
   double highest = 0.0;
   double noise = 0.0;  ///< of a vibration sample, converter included, rms
@@ -61,17 +61,17 @@ struct VibrationMap {
 };
 
 /// The range of the vibration sensor.
-double resonant_full_scale_m_per_s(const scene::Scene& scene, const BelievedPlant& plant);
+double resonant_full_scale_m_per_s(const scene::Scene& scene, const NominalPlant& plant);
 
 /// @throws ConfigurationError  a target needs more than the vibration sensor reads
-void require_needed_range(const scene::Scene& scene, const BelievedPlant& plant,
+void require_needed_range(const scene::Scene& scene, const NominalPlant& plant,
                           double full_scale_m_per_s);
 
 /// @param full_scale_m_per_s  of the vibration sensor
 /// @throws ConfigurationError  no spring, no damping; a drive too strong for the sensor's range; a
 ///                             vibration that noise hides; a current limit that no target's
 ///                             voltage keeps, or that a lossy capacitance makes no sense of
-ResonantDesign design_resonance(const scene::Scene& scene, const BelievedPlant& plant,
+ResonantDesign design_resonance(const scene::Scene& scene, const NominalPlant& plant,
                                 double full_scale_m_per_s);
 
 }  // namespace sonoglide::configure

@@ -21,7 +21,7 @@ double code_N(const scene::Sensor& sensor) {
   return sensor.adc_bits ? 2.0 * sensor.force_full_scale_N * std::exp2(-*sensor.adc_bits) : 0.0;
 }
 
-double presliding_m(const BelievedPlant& plant) {
+double presliding_m(const NominalPlant& plant) {
   return plant.contact_stiffness_N_per_m > 0.0 ? plant.friction_N / plant.contact_stiffness_N_per_m
                                                : 0.0;
 }
@@ -49,7 +49,7 @@ double per_unit(double value, double scale, double smallest, const char* key,
 /// likely to change. Never more than half of the fastest speed to come, nor of what can be reached.
 ///
 /// @return per unit, not below the smallest usable floor
-double default_speed_floor(const scene::Scene& scene, const BelievedPlant& plant,
+double default_speed_floor(const scene::Scene& scene, const NominalPlant& plant,
                            const ControlScales& scales) {
   constexpr double presliding_periods = 3.0;
   const double forgets_m_per_s =
@@ -60,7 +60,7 @@ double default_speed_floor(const scene::Scene& scene, const BelievedPlant& plant
                   std::min(forgets_m_per_s, highest) / scales.velocity_m_per_s);
 }
 
-double speed_floor(const scene::Scene& scene, const BelievedPlant& plant,
+double speed_floor(const scene::Scene& scene, const NominalPlant& plant,
                    const ControlScales& scales) {
   const std::optional<double>& chosen_m_per_s = scene.controller->speed_floor_m_per_s;
   return chosen_m_per_s
@@ -77,7 +77,7 @@ double speed_floor(const scene::Scene& scene, const BelievedPlant& plant,
 /// The undriven friction must be some codes, or a healthy sensor would pass for a stuck one.
 constexpr double fewest_codes = 8.0;
 
-void check_converter(const scene::Scene& scene, const BelievedPlant& plant) {
+void check_converter(const scene::Scene& scene, const NominalPlant& plant) {
   const auto too_coarse = [&](int bits) {
     scene::Sensor sensor = scene.sensor;
     sensor.adc_bits = bits;
@@ -98,7 +98,7 @@ void check_converter(const scene::Scene& scene, const BelievedPlant& plant) {
 }
 
 /// At a fixed frequency.
-void require_settling(const BelievedPlant& plant, double omega_rad_per_s) {
+void require_settling(const NominalPlant& plant, double omega_rad_per_s) {
   // At resonance the vibration takes about as many radians to build up as it is amplified.
   constexpr double largest_amplification = 1000.0;
   const double inertia_N_per_m = plant.mass_kg * omega_rad_per_s * omega_rad_per_s;
@@ -131,7 +131,7 @@ void require_wide_range(double full_scale_m_per_s, double fastest_m_per_s) {
 }
 
 /// The range of the vibration sensor.
-double full_scale_m_per_s(const scene::Scene& scene, const BelievedPlant& plant) {
+double full_scale_m_per_s(const scene::Scene& scene, const NominalPlant& plant) {
   if (scene.vibration_mode() == scene::VibrationMode::resonant) {
     const double full_scale_m_per_s = resonant_full_scale_m_per_s(scene, plant);
     require_needed_range(scene, plant, full_scale_m_per_s);
@@ -152,7 +152,7 @@ void require_sliding(const scene::Scene& scene, double fastest_m_per_s) {
 }
 
 /// @return displacement amplitude at the velocity that is the base of all
-double set_observed_scales(const scene::Scene& scene, const BelievedPlant& plant,
+double set_observed_scales(const scene::Scene& scene, const NominalPlant& plant,
                            ControlDesign& design) {
   const double fastest_m_per_s = fastest_sliding_m_per_s(scene.sliding);
   require_sliding(scene, fastest_m_per_s);
@@ -168,7 +168,7 @@ double set_observed_scales(const scene::Scene& scene, const BelievedPlant& plant
 }
 
 /// @return displacement amplitude at the velocity that is the base of all
-double set_driven_scales(const scene::Scene& scene, const BelievedPlant& plant, double room,
+double set_driven_scales(const scene::Scene& scene, const NominalPlant& plant, double room,
                          ControlDesign& design) {
   const double omega = numeric::two_pi * scene.drive->frequency_Hz;
   require_settling(plant, omega);
@@ -180,13 +180,13 @@ double set_driven_scales(const scene::Scene& scene, const BelievedPlant& plant, 
 }
 
 /// @return displacement amplitude at the velocity that is the base of all
-double set_scales(const scene::Scene& scene, const BelievedPlant& plant, ControlDesign& design) {
+double set_scales(const scene::Scene& scene, const NominalPlant& plant, ControlDesign& design) {
   switch (scene.vibration_mode()) {
     case scene::VibrationMode::damped:
     case scene::VibrationMode::resonant:
       return set_observed_scales(scene, plant, design);
     case scene::VibrationMode::sensorless: {
-      const double displacement_m = set_driven_scales(scene, plant, felt_room, design);
+      const double displacement_m = set_driven_scales(scene, plant, sensorless_room, design);
       require_sliding(scene, fastest_sliding_m_per_s(scene.sliding));
       return displacement_m;
     }
@@ -198,7 +198,7 @@ double set_scales(const scene::Scene& scene, const BelievedPlant& plant, Control
 
 }  // namespace
 
-void design_scales(const scene::Scene& scene, const BelievedPlant& plant, ControlDesign& design) {
+void design_scales(const scene::Scene& scene, const NominalPlant& plant, ControlDesign& design) {
   const double displacement_m = set_scales(scene, plant, design);
   design.friction_force = per_unit(plant.friction_N, design.scales.force_N, smallest_friction,
                                    "sensor.force_full_scale_N",

@@ -1,8 +1,8 @@
 /// What a controller's per-unit numbers are multiples of, and the limits that its sensors set.
 #pragma once
 
-#include "host_sim/configure/believed_plant.hpp"
 #include "host_sim/configure/control_design.hpp"
+#include "host_sim/configure/nominal_plant.hpp"
 #include "host_sim/scene/scene.hpp"
 
 namespace sonoglide::configure {
@@ -11,11 +11,11 @@ namespace sonoglide::configure {
 double code_N(const scene::Sensor& sensor);
 
 /// In which the contact sticks before it slips.
-double presliding_m(const BelievedPlant& plant);
+double presliding_m(const NominalPlant& plant);
 
 /// Scales, friction, contact and speed floor of a design.
 /// @throws ConfigurationError  speeds or forces outside the per-unit range, a vibration that never
 ///         settles, a sensor that is too coarse or too narrow
-void design_scales(const scene::Scene& scene, const BelievedPlant& plant, ControlDesign& design);
+void design_scales(const scene::Scene& scene, const NominalPlant& plant, ControlDesign& design);
 
 }  // namespace sonoglide::configure

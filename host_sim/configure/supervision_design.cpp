@@ -10,7 +10,7 @@
 
 namespace sonoglide::configure {
 
-void design_supervision(const scene::Scene& scene, const BelievedPlant& plant,
+void design_supervision(const scene::Scene& scene, const NominalPlant& plant,
                         ControlDesign& design) {
   const double filter = filter_periods(scene, design.scales);
   const double delay = latency_periods(scene) + design.notch_span() + filter;
@@ -51,8 +51,8 @@ bool tells_mismatch(const scene::Scene& scene) {
   constexpr double light_friction = 0.02;  // of the drive
   return scene::has_own_map(scene.friction.law) &&
          scene.drive->waveform == scene::Waveform::cosine &&
-         believed_plant(scene).friction_N <
-             light_friction * scene.believed().drive->max_force_amplitude_N;
+         nominal_plant(scene).friction_N <
+             light_friction * scene.nominal().drive->max_force_amplitude_N;
 }
 
 }  // namespace sonoglide::configure

@@ -46,7 +46,7 @@ constexpr std::array demodulated = {
     signal<&PlantOutputs::vibration_quadrature_m_per_s>(
         "vibration_quadrature_m_per_s", "m/s",
         "Vibration velocity in quadrature, mean over the carrier period")};
-constexpr std::array shown = {
+constexpr std::array series = {
     signal<&PlantOutputs::friction_ratio>(
         "friction_ratio", "1", "Friction ratio of the carrier period; 0 without friction"),
     signal<&PlantOutputs::displacement_m>("displacement_m", "m",
@@ -240,7 +240,7 @@ std::vector<Variable> variables(const scene::Scene& scene, stepped::Kind kind) {
     if (scene.demodulates()) {
       list.outputs(demodulated);
     }
-    list.outputs(shown);
+    list.outputs(series);
   }
   if (stepped::has_controller(kind)) {
     add_controller_outputs(list, scene);

@@ -127,8 +127,8 @@ std::unique_ptr<ControlPort> make_feeling_control(const ControlDesign& design) {
   const configure::ControllerParts<Scalar> parts(design);
   return std::visit(
       [&](auto friction, auto feedforward) -> std::unique_ptr<ControlPort> {
-        using Vibration = control::FeltVibration<Scalar, configure::max_reading_delay,
-                                                 control::LaggingReading<Scalar>>;
+        using Vibration = control::SensorlessVibration<Scalar, configure::max_reading_delay,
+                                                       control::LaggingReading<Scalar>>;
         using Parts =
             control::Parts<Scalar, typename decltype(friction)::type,
                            typename decltype(feedforward)::type, control::NoSlewLimit<Scalar>,

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "host_sim/configure/believed_plant.hpp"
+#include "host_sim/configure/nominal_plant.hpp"
 
 namespace sonoglide::loop {
 
@@ -38,8 +38,8 @@ ControlRun::ControlRun(const scene::Scene& scene, const CarrierGrid& grid, Contr
       sensor_(scene.sensor, record.design.scales, configure::vibration_gain(scene)),
       actuator_(scene.drive->delay_periods, scene.drive->max_force_amplitude_N),
       start_frequency_Hz_(scene.drive->frequency_Hz),
-      clock_ratio_(scene.drive->frequency_Hz / scene.believed().drive->frequency_Hz),
-      believed_friction_N_(record.design.friction_force * record.design.scales.force_N),
+      clock_ratio_(scene.drive->frequency_Hz / scene.nominal().drive->frequency_Hz),
+      nominal_friction_N_(record.design.friction_force * record.design.scales.force_N),
       elapsed_(elapsed_of(record.design)) {}
 
 double ControlRun::frequency_Hz() const {
@@ -62,7 +62,7 @@ void ControlRun::label(Period& period) const {
       command.state == control::State::running || command.state == control::State::limited;
   if (record_.design.observes_vibration() && held && period.target < 1.0) {
     period.wanted_vibration_m_per_s =
-        record_.design.vibration_map(believed_friction_N_)
+        record_.design.vibration_map(nominal_friction_N_)
             .velocity_m_per_s(command.commanded_ratio, period.begin_velocity_m_per_s);
   }
 }
@@ -94,7 +94,7 @@ void ControlRun::save(SnapshotWriter& state) const {
   state.put(answer_);
   state.put(next_step_);
   state.put(period_);
-  state.put(believed_friction_N_);
+  state.put(nominal_friction_N_);
   state.put(elapsed_);
   state.put(target_);
   state.put(fault_);
@@ -110,7 +110,7 @@ void ControlRun::restore(SnapshotReader& state) {
   state.get(answer_);
   state.get(next_step_);
   state.get(period_);
-  state.get(believed_friction_N_);
+  state.get(nominal_friction_N_);
   state.get(elapsed_);
   state.get(target_);
   state.get(fault_);
@@ -132,7 +132,7 @@ void ControlRun::learn(double mean_force_N) {
   const bool learning =
       command.state == control::State::calibrating || command.state == control::State::relearning;
   if (learning && command.amplitude_N == 0.0 && mean_force_N != 0.0) {
-    believed_friction_N_ = std::abs(mean_force_N);
+    nominal_friction_N_ = std::abs(mean_force_N);
   }
 }
 

@@ -85,7 +85,7 @@ class ControlRun {
   std::uint64_t period_ = 0;  ///< whose sample comes next
   double start_frequency_Hz_;
   double clock_ratio_;                          ///< true frequency of the drive over the commanded
-  double believed_friction_N_;                  ///< as the controller learns it, but for noise
+  double nominal_friction_N_;                   ///< as the controller learns it, but for noise
   std::optional<app::ElapsedPeriods> elapsed_;  ///< of a resonant loop
   double target_ = std::numeric_limits<double>::quiet_NaN();
   control::Fault fault_ = control::Fault::none;

@@ -40,7 +40,7 @@ inline nlohmann::ordered_json json_number(const std::optional<double>& value) {
 
 /// A figure for a person; `-` where it is not finite.
 /// @param format  of fmt
-inline std::string shown(double value, const char* format) {
+inline std::string formatted(double value, const char* format) {
   return std::isfinite(value) ? fmt::format(fmt::runtime(format), value) : std::string("-");
 }
 

@@ -75,7 +75,7 @@ bool turns_direction(char32_t code) {
          (code >= 0x2066 && code <= 0x2069);
 }
 
-std::string shown(std::string_view text, std::string_view kept) {
+std::string with_escapes(std::string_view text, std::string_view kept) {
   std::string result;
   result.reserve(text.size());
   while (!text.empty()) {
@@ -98,11 +98,11 @@ std::string shown(std::string_view text, std::string_view kept) {
 }  // namespace
 
 std::string printable(std::string_view text) {
-  return shown(text, "");
+  return with_escapes(text, "");
 }
 
 std::string printable_lines(std::string_view text) {
-  return shown(text, "\n\t");
+  return with_escapes(text, "\n\t");
 }
 
 void show_on_stderr(std::string_view text) {

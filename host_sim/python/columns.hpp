@@ -10,11 +10,11 @@ namespace sonoglide::python {
 
 /// An enumeration shows its number.
 template <class Value, bool = std::is_enum_v<Value>>
-struct Shown {
+struct Element {
   using type = Value;
 };
 template <class Value>
-struct Shown<Value, true> {
+struct Element<Value, true> {
   using type = std::underlying_type_t<Value>;
 };
 
@@ -24,7 +24,7 @@ template <class Row, class Value>
 pybind11::array column(const std::vector<Row>& rows, Value Row::*member,
                        const pybind11::object& owner) {
   namespace py = pybind11;
-  const py::dtype type = py::dtype::of<typename Shown<Value>::type>();
+  const py::dtype type = py::dtype::of<typename Element<Value>::type>();
   if (rows.empty()) {
     return py::array(type, 0);
   }

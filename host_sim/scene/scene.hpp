@@ -202,12 +202,12 @@ struct Scene {
   std::optional<Controller> controller;  ///< absent: open loop
   Sensor sensor;
   ModelError model_error;
-  std::vector<Tolerance> tolerances;   ///< for `robust`
-  std::vector<TrueValue> true_values;  ///< with them, all above is the truth
-  std::shared_ptr<const Scene> told;   ///< with them, the scene without them; else null
+  std::vector<Tolerance> tolerances;           ///< for `robust`
+  std::vector<TrueValue> true_values;          ///< with them, all above is the truth
+  std::shared_ptr<const Scene> nominal_scene;  ///< with them, the scene without them; else null
 
   /// What the controller's design knows: the scene without its true values.
-  const Scene& believed() const { return told ? *told : *this; }
+  const Scene& nominal() const { return nominal_scene ? *nominal_scene : *this; }
 
   /// The key `table.key` of a profile beside that of the sliding; null where there is none.
   const char* profile_key() const;

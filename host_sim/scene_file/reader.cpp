@@ -132,14 +132,14 @@ bool has(const std::vector<scene::TrueValue>& values, std::string_view key) {
 }
 
 /// What follows by default from a value that has a true one beside it follows from the stated one.
-void keep_what_follows(scene::Scene& truth, const scene::Scene& told) {
+void keep_what_follows(scene::Scene& truth, const scene::Scene& nominal) {
   if (!has(truth.true_values, "friction.normal_force_N")) {
-    truth.friction.normal_force_N = told.friction.normal_force_N;
+    truth.friction.normal_force_N = nominal.friction.normal_force_N;
   }
-  truth.sensor.force_full_scale_N = told.sensor.force_full_scale_N;
-  truth.run = told.run;
+  truth.sensor.force_full_scale_N = nominal.sensor.force_full_scale_N;
+  truth.run = nominal.run;
   if (truth.controller) {
-    truth.controller->calibration_s = told.controller->calibration_s;
+    truth.controller->calibration_s = nominal.controller->calibration_s;
   }
 }
 
@@ -161,14 +161,14 @@ scene::Scene read(const Document& document, const std::vector<VariedValue>& valu
 }
 
 scene::Scene read_truth(const Document& document, const std::vector<VariedValue>& values,
-                        std::shared_ptr<const scene::Scene> told) {
+                        std::shared_ptr<const scene::Scene> nominal) {
   UnusedKeys unused_too;
   const Variant variant(document, values, &unused_too, Values::truth);
   scene::Scene scene = read_values(variant);
   scene.true_values = given_true_values(variant);
-  scene.tolerances = told->tolerances;
-  keep_what_follows(scene, *told);
-  scene.told = std::move(told);
+  scene.tolerances = nominal->tolerances;
+  keep_what_follows(scene, *nominal);
+  scene.nominal_scene = std::move(nominal);
   return scene;
 }
 

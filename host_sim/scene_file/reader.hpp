@@ -52,6 +52,6 @@ scene::Scene read(const Document& document, const std::vector<VariedValue>& valu
 /// @param told  the scene without the true values, as read() has it
 /// @throws SceneError  together the values are those of no plant
 scene::Scene read_truth(const Document& document, const std::vector<VariedValue>& values,
-                        std::shared_ptr<const scene::Scene> told);
+                        std::shared_ptr<const scene::Scene> nominal);
 
 }  // namespace sonoglide::scene_file

@@ -197,7 +197,7 @@ ordered_json stated(scene::Scene scene) {
 }  // namespace
 
 ordered_json to_json(const scene::Scene& scene) {
-  ordered_json root = stated(scene.believed());
+  ordered_json root = stated(scene.nominal());
   add_truth(root, scene);
   return root;
 }

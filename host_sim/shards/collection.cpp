@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string shown(const fs::path& path) {
+std::string printable(const fs::path& path) {
   return process::printable(path.string());
 }
 
@@ -79,14 +79,14 @@ Collection::Collection(fs::path folder) : folder_(std::move(folder)) {
       throw UnusableShards(fmt::format(
           "{} is one of {} shards and {} one of {}; allowed: those of "
           "one sweep in a folder",
-          shown(files.front().path), first.count, shown(file.path), file.name.shard.count));
+          printable(files.front().path), first.count, printable(file.path), file.name.shard.count));
     }
     there_.resize(first.count);
     note(file.path, file.name);
   }
   if (!work_) {
-    throw UnusableShards(
-        fmt::format("{} holds no shard; allowed: a folder that --shard wrote to", shown(folder_)));
+    throw UnusableShards(fmt::format("{} holds no shard; allowed: a folder that --shard wrote to",
+                                     printable(folder_)));
   }
 }
 
@@ -109,13 +109,13 @@ void Collection::note(const fs::path& file, const ShardFileName& name) {
     const RowsReader rows(file);
     if (rows.header().number != name.shard.number) {
       throw UnusableShards(
-          fmt::format("{} is by its header shard {}; allowed: the name that it had", shown(file),
-                      rows.header().number));
+          fmt::format("{} is by its header shard {}; allowed: the name that it had",
+                      printable(file), rows.header().number));
     }
     compare(file, rows.header().work);
     there_[name.shard.number - 1] = true;
   } catch (const DamagedRows& damage) {
-    damages_.push_back(fmt::format("{} {}", shown(file), damage.what()));
+    damages_.push_back(fmt::format("{} {}", printable(file), damage.what()));
   }
 }
 
@@ -130,14 +130,14 @@ void Collection::compare(const fs::path& file, const Work& work) {
     throw UnusableShards(
         fmt::format("{} has {} and {} has {}; allowed: shards of one command and "
                     "one program",
-                    shown(work_file_), found.of_one, shown(file), found.of_other));
+                    printable(work_file_), found.of_one, printable(file), found.of_other));
   }
 }
 
 void Collection::require_kind(const std::string& kind) const {
   if (work().kind != kind) {
-    throw UnusableShards(fmt::format("{} is of a {}; allowed: shards of a {}", shown(work_file_),
-                                     work().kind, kind));
+    throw UnusableShards(fmt::format("{} is of a {}; allowed: shards of a {}",
+                                     printable(work_file_), work().kind, kind));
   }
 }
 
@@ -152,7 +152,7 @@ void Collection::require_of(const std::string& kind, const std::string& program,
     throw UnusableShards(
         fmt::format("{} has {}, this command {}; allowed: the program that has "
                     "computed the shards",
-                    shown(work_file_), found.of_one, found.of_other));
+                    printable(work_file_), found.of_one, found.of_other));
   }
 }
 
@@ -203,7 +203,7 @@ void Collection::for_each_record(const Take& take) const {
         }
       }
     } catch (const DamagedRows& damage) {
-      damages_.push_back(fmt::format("{} {}", shown(file), damage.what()));
+      damages_.push_back(fmt::format("{} {}", printable(file), damage.what()));
       absent.push_back(number);
     }
   }
@@ -215,7 +215,7 @@ void Collection::for_each_record(const Take& take) const {
 
 void Collection::fail(std::vector<std::uint64_t> missing) const {
   std::string message =
-      fmt::format("{}: {} of {} shards are missing; run them again: {}", shown(folder_),
+      fmt::format("{}: {} of {} shards are missing; run them again: {}", printable(folder_),
                   missing.size(), there_.size(), array_text(missing));
   for (const std::string& damage : damages_) {
     message += '\n' + damage;

@@ -20,7 +20,7 @@ namespace {
 constexpr std::size_t count = 128;
 
 /// As target_step.toml, without its recording.
-scene::Scene told_scene(double tolerance) {
+scene::Scene nominal_scene(double tolerance) {
   scene::Scene scene = tests::table_1_closed_loop(scene::Arithmetic::float32);
   scene.controller->target_friction_ratio = {{0.0, 0.4}, {2e-3, 0.6}, {4e-3, 0.5}};
   scene.run.duration_s = 6e-3;
@@ -29,9 +29,9 @@ scene::Scene told_scene(double tolerance) {
 }
 
 template <class RunAll>
-void run_loops(benchmark::State& state, const scene::Scene& told, const RunAll& run_all) {
-  const configure::ControlDesign design = configure::design_control(told);
-  const std::vector<scene::Scene> plants = plants_near(told, count, 0.02);
+void run_loops(benchmark::State& state, const scene::Scene& nominal, const RunAll& run_all) {
+  const configure::ControlDesign design = configure::design_control(nominal);
+  const std::vector<scene::Scene> plants = plants_near(nominal, count, 0.02);
   for (auto _ : state) {
     std::vector<report::StepMeter> meters(plants.begin(), plants.end());
     run_all(plants, design, meters);
@@ -43,9 +43,9 @@ void run_loops(benchmark::State& state, const scene::Scene& told, const RunAll& 
 }
 
 void one_by_one(benchmark::State& state, scene::SolverMethod method, double tolerance) {
-  scene::Scene told = told_scene(tolerance);
-  told.solver.method = method;
-  run_loops(state, told, [](const auto& plants, const auto& design, auto& meters) {
+  scene::Scene nominal = nominal_scene(tolerance);
+  nominal.solver.method = method;
+  run_loops(state, nominal, [](const auto& plants, const auto& design, auto& meters) {
     for (std::size_t i = 0; i < plants.size(); ++i) {
       loop::Watch watch;
       watch.periods.push_back(&meters[i]);
@@ -68,7 +68,7 @@ BENCHMARK_CAPTURE(one_by_one, event_gauss_fine, event_gauss, 1e-10)
     ->Unit(benchmark::kMillisecond);
 
 void in_lanes(benchmark::State& state) {
-  run_loops(state, told_scene(closed_loop_tolerance),
+  run_loops(state, nominal_scene(closed_loop_tolerance),
             [](const auto& plants, const auto& design, auto& meters) {
               std::vector<ClosedLoop> loops;
               for (std::size_t i = 0; i < plants.size(); ++i) {

@@ -23,7 +23,7 @@ using random_loops::Verdict;
 
 const std::map<std::string, random_loops::Vibration> vibrations = {
     {"unseen", random_loops::Vibration::unseen},
-    {"felt", random_loops::Vibration::felt},
+    {"felt", random_loops::Vibration::sensorless},
     {"damped", random_loops::Vibration::damped},
     {"alone", random_loops::Vibration::damped_alone}};
 

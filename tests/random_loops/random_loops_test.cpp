@@ -25,7 +25,7 @@ struct Kind {
 };
 
 constexpr std::array<Kind, 4> kinds = {{{Vibration::unseen, "unseen"},
-                                        {Vibration::felt, "felt"},
+                                        {Vibration::sensorless, "felt"},
                                         {Vibration::damped, "damped"},
                                         {Vibration::damped_alone, "alone"}}};
 

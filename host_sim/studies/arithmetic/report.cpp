@@ -55,7 +55,7 @@ std::string targets_csv(const ArithmeticComparison& comparison) {
 namespace {
 
 std::string number(double value) {
-  return output::shown(value, "{:.1e}");
+  return output::formatted(value, "{:.1e}");
 }
 
 std::string instructions(const std::optional<loop::ImageInstructions>& count) {

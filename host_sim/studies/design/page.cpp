@@ -44,13 +44,13 @@ output::Table drive_table(const DesignStudy& study) {
   for (const DesignPoint& point : study.points) {
     const Requirement& each = point.requirement;
     table.rows.push_back({output::quantity(each.sliding_m_per_s, "m/s"),
-                          output::shown(each.ratio, "{:.4g}"),
+                          output::formatted(each.ratio, "{:.4g}"),
                           output::quantity(each.motion.drive_force_N, "N"),
                           output::quantity(each.motion.velocity_amplitude_m_per_s, "m/s"),
                           output::quantity(each.motion.displacement_amplitude_m, "m"),
-                          name(each.limit), output::shown(each.reachable_ratio, "{:.4g}"),
+                          name(each.limit), output::formatted(each.reachable_ratio, "{:.4g}"),
                           output::quantity(each.closed_form_force_N, "N"),
-                          output::shown(each.closed_form_error, "{:.4g}")});
+                          output::formatted(each.closed_form_error, "{:.4g}")});
   }
   return table;
 }
@@ -63,7 +63,7 @@ output::Table power_table(const std::vector<DesignPoint>& points) {
   for (const DesignPoint& point : points) {
     const SteadyMotion& motion = point.requirement.motion;
     table.rows.push_back({output::quantity(point.requirement.sliding_m_per_s, "m/s"),
-                          output::shown(point.requirement.ratio, "{:.4g}"),
+                          output::formatted(point.requirement.ratio, "{:.4g}"),
                           output::quantity(motion.drive_power_W, "W"),
                           output::quantity(motion.friction_power_W, "W"),
                           output::quantity(motion.undriven_friction_power_W, "W"),
@@ -81,13 +81,13 @@ output::Table electrical_table(const std::vector<DesignPoint>& points) {
   for (const DesignPoint& point : points) {
     if (const auto& figures = point.requirement.motion.electrical) {
       table.rows.push_back({output::quantity(point.requirement.sliding_m_per_s, "m/s"),
-                            output::shown(point.requirement.ratio, "{:.4g}"),
+                            output::formatted(point.requirement.ratio, "{:.4g}"),
                             output::quantity(figures->voltage_peak_V, "V"),
                             output::quantity(figures->current_peak_A, "A"),
                             output::quantity(figures->active_power_W, "W"),
                             output::quantity(figures->reactive_power_var, "var"),
                             output::quantity(figures->apparent_power_VA, "VA"),
-                            output::shown(figures->power_factor, "{:.4g}")});
+                            output::formatted(figures->power_factor, "{:.4g}")});
     }
   }
   return table;
@@ -121,7 +121,7 @@ output::Table sensitivity_table(const std::vector<DesignPoint>& points, const ch
   }
   for (const DesignPoint& point : points) {
     std::vector<std::string> row = {output::quantity(point.requirement.sliding_m_per_s, "m/s"),
-                                    output::shown(point.requirement.ratio, "{:.4g}")};
+                                    output::formatted(point.requirement.ratio, "{:.4g}")};
     for (const Sensitivity& each : point.sensitivities) {
       row.push_back(cell(each));
     }
@@ -139,11 +139,11 @@ output::Section sensitivity_section(const DesignStudy& study,
       "when the mass changes too. By differences of the simulation.";
   section.tables = {sensitivity_table(points, "d ln ratio / d ln parameter",
                                       [](const Sensitivity& each) {
-                                        return output::shown(each.logarithmic, "{:.3f}");
+                                        return output::formatted(each.logarithmic, "{:.3f}");
                                       }),
                     sensitivity_table(points, "Change of the ratio by 1 % more or less, the larger",
                                       [](const Sensitivity& each) {
-                                        return output::shown(each.largest_change(), "{:.5f}");
+                                        return output::formatted(each.largest_change(), "{:.5f}");
                                       })};
   if (!study.detunings.empty()) {
     section.pictures = {
@@ -178,7 +178,7 @@ output::Section resonance_section(const DesignStudy& study) {
       {}};
   const double drive_Hz = study.task.scene.drive->frequency_Hz;
   for (const Detuning& each : study.detunings) {
-    table.rows.push_back({output::shown(each.ratio, "{:.4g}"), text(each.reachable, drive_Hz),
+    table.rows.push_back({output::formatted(each.ratio, "{:.4g}"), text(each.reachable, drive_Hz),
                           text(each.sensitive, drive_Hz),
                           output::quantity(each.force_at_sensitive_low_N, "N")});
   }

@@ -34,7 +34,7 @@ std::string sensitivity_lines(const std::vector<DesignPoint>& points) {
         fmt::format("\n{:>10} {:>6.4g}", output::quantity(point.requirement.sliding_m_per_s, "m/s"),
                     point.requirement.ratio);
     for (const Sensitivity& each : point.sensitivities) {
-      lines += fmt::format(" {:>7}", output::shown(each.logarithmic, "{:.3f}"));
+      lines += fmt::format(" {:>7}", output::formatted(each.logarithmic, "{:.3f}"));
     }
   }
   return lines + '\n';

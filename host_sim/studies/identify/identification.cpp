@@ -76,7 +76,7 @@ ordered_json to_json(const Identification& identification) {
   return json;
 }
 
-std::string shown(const std::string& name, double value, const char* otherwise) {
+std::string formatted(const std::string& name, double value, const char* otherwise) {
   if (!std::isfinite(value)) {
     return otherwise;
   }

@@ -47,6 +47,6 @@ std::string unit_of(const std::string& name);
 /// A value as a table shows it, `52.675 mH`: five digits, of a frequency seven, with the prefix that
 /// suits. The unit is that of the name's ending; of a mass, without prefix.
 /// @param otherwise  what stands for a value that is not finite
-std::string shown(const std::string& name, double value, const char* otherwise = "-");
+std::string formatted(const std::string& name, double value, const char* otherwise = "-");
 
 }  // namespace sonoglide::identify

@@ -22,8 +22,9 @@ output::Table figure_table(const std::vector<Estimate>& figures) {
   output::Table table{"", {"Parameter", "Value", "95 % from", "to", "±"}, {}};
   for (const Estimate& each : figures) {
     const double half = 0.5 * (each.high_95 - each.low_95) / std::abs(each.value);
-    table.rows.push_back({each.name, shown(each.name, each.value), shown(each.name, each.low_95),
-                          shown(each.name, each.high_95), output::shown(100.0 * half, "{:.2g} %")});
+    table.rows.push_back({each.name, formatted(each.name, each.value),
+                          formatted(each.name, each.low_95), formatted(each.name, each.high_95),
+                          output::formatted(100.0 * half, "{:.2g} %")});
   }
   return table;
 }
@@ -34,7 +35,7 @@ output::Table correlation_table(const Correlations& correlations) {
   for (std::size_t i = 0; i < correlations.names.size(); ++i) {
     std::vector<std::string> row = {correlations.names[i]};
     for (const double each : correlations.rows[i]) {
-      row.push_back(output::shown(each, "{:.2f}"));
+      row.push_back(output::formatted(each, "{:.2f}"));
     }
     table.rows.push_back(std::move(row));
   }

@@ -35,11 +35,11 @@ struct Motions {
 };
 
 Motions simulated_motions() {
-  const auto shown = [](scene::Scene scene) {
+  const auto first_periods = [](scene::Scene scene) {
     scene.run.duration_s = periods_shown * period_s(scene);
     return record(scene, 0.0, period_s(scene) / samples_per_period);
   };
-  return {shown(table_1()), shown(steady(table_1()))};
+  return {first_periods(table_1()), first_periods(steady(table_1()))};
 }
 
 /// Root mean square of what is no sine at the drive's frequency, over that of the sine; the mean is

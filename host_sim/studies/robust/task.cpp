@@ -96,9 +96,9 @@ void Task::fail_at(const scene_file::SceneError& error, const Factors& factors) 
 
 scene::Scene Task::read_plant(const Factors& factors) const {
   // What true values the scene has already are beside those that vary.
-  const auto told = nominal_->told ? nominal_->told : nominal_;
+  const auto nominal = nominal_->nominal_scene ? nominal_->nominal_scene : nominal_;
   try {
-    return scene_file::read_truth(*document_, varied_values(factors), told);
+    return scene_file::read_truth(*document_, varied_values(factors), nominal);
   } catch (const scene_file::SceneError& error) {
     fail_at(error, factors);
   }

@@ -130,30 +130,30 @@ std::string legend(double height) {
 }  // namespace
 
 std::string map_picture(const StabilityMaps& maps, std::string_view precision) {
-  std::vector<const SolverMap*> shown;
+  std::vector<const SolverMap*> series;
   for (const SolverMap& map : maps.maps) {
     if (map.precision == precision) {
-      shown.push_back(&map);
+      series.push_back(&map);
     }
   }
-  const auto rows = static_cast<int>((shown.size() + panel_columns - 1) / panel_columns);
+  const auto rows = static_cast<int>((series.size() + panel_columns - 1) / panel_columns);
   const int height_px = rows * panel_height_px + legend_height_px;
   const double legend_height = static_cast<double>(legend_height_px) / height_px;
   const double panel_height = (1.0 - legend_height) / rows;
   std::string script = limit_curve(maps);
-  for (std::size_t i = 0; i < shown.size(); ++i) {
-    script += data_blocks(maps, *shown[i], i);
+  for (std::size_t i = 0; i < series.size(); ++i) {
+    script += data_blocks(maps, *series[i], i);
   }
   script +=
       "set multiplot\nset logscale xy\nset format '10^{%T}'\nset xlabel 'contact stiffness [N/m]'\n"
       "set tics out nomirror\nunset mxtics\nunset mytics\n";
-  for (std::size_t i = 0; i < shown.size(); ++i) {
+  for (std::size_t i = 0; i < series.size(); ++i) {
     const auto row = static_cast<int>(i) / panel_columns;
     const auto column = static_cast<int>(i) % panel_columns;
     script += fmt::format("set origin {:.4f},{:.4f}\nset size {:.4f},{:.4f}\n",
                           static_cast<double>(column) / panel_columns,
                           1.0 - (row + 1) * panel_height, 1.0 / panel_columns, panel_height);
-    script += panel(maps, *shown[i], i);
+    script += panel(maps, *series[i], i);
   }
   script += legend(legend_height) + "unset multiplot\n";
   return output::draw_svg(script, panel_columns * panel_width_px, height_px);

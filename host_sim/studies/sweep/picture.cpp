@@ -66,7 +66,7 @@ std::string range_command(const std::vector<Cell>& cells, char letter) {
 std::string heat_map(const Plan& plan, const std::vector<PointResult>& rows, std::size_t upward,
                      std::size_t rightward) {
   const Grid& grid = plan.grid();
-  const Subject shown = subject(plan);
+  const Subject series = subject(plan);
   const std::vector<Cell> up = cells(grid.axes()[upward]);
   const std::vector<Cell> right = cells(grid.axes()[rightward]);
   std::string defined;
@@ -74,7 +74,7 @@ std::string heat_map(const Plan& plan, const std::vector<PointResult>& rows, std
   for (const Cell& y : up) {
     for (const Cell& x : right) {
       const double value =
-          rows[y.index * grid.stride(upward) + x.index * grid.stride(rightward)].*shown.figure;
+          rows[y.index * grid.stride(upward) + x.index * grid.stride(rightward)].*series.figure;
       fmt::format_to(std::back_inserter(std::isnan(value) ? undefined : defined),
                      "{} {} {} {} {} {} {}\n", between(grid.axes()[rightward], x.low, x.high),
                      between(grid.axes()[upward], y.low, y.high), x.low, x.high, y.low, y.high,
@@ -87,7 +87,7 @@ std::string heat_map(const Plan& plan, const std::vector<PointResult>& rows, std
   script += axis_commands(grid.axes()[rightward], 'x') + axis_commands(grid.axes()[upward], 'y') +
             range_command(right, 'x') + range_command(up, 'y');
   script += fmt::format("set cblabel '{}'\nset autoscale cbfix\nset tics out nomirror\nunset key\n",
-                        shown.label);
+                        series.label);
   script += "plot $defined using 1:2:3:4:5:6:7 with boxxyerror fs solid noborder fc palette";
   if (!undefined.empty()) {
     script += fmt::format(
@@ -112,14 +112,14 @@ constexpr const char* closed_loop_plot =
 /// top. Other axes have one value.
 /// @param axis  with more than one value
 std::string curve(const Plan& plan, const std::vector<PointResult>& rows, std::size_t axis) {
-  const Subject shown = subject(plan);
+  const Subject series = subject(plan);
   const Axis& drawn = plan.grid().axes()[axis];
   std::string defined;
   std::string failed;
   for (std::size_t point = 0; point < rows.size(); ++point) {
     const PointResult& row = rows[point];
     const double x = drawn.position(plan.grid().index(point, axis));
-    fmt::format_to(std::back_inserter(defined), "{} {} {}\n", x, row.*shown.figure,
+    fmt::format_to(std::back_inserter(defined), "{} {} {}\n", x, row.*series.figure,
                    plan.closed_loop() ? row.ripple : row.friction_ratio_whole_run);
     if (!row.ok()) {
       failed += fmt::format("{}\n", x);
@@ -131,7 +131,7 @@ std::string curve(const Plan& plan, const std::vector<PointResult>& rows, std::s
   script += fmt::format(
       "set ylabel '{}'\nset y2range [0:1]\nset grid lc rgb '#d8d8d8'\nset tics out nomirror\n"
       "set key outside top center horizontal\nplot ",
-      shown.label);
+      series.label);
   if (!failed.empty()) {
     script += "$failed using 1:(1) axes x1y2 with impulses lw 2 lc rgb '#b8b8b8' title 'failed', ";
   }
@@ -149,10 +149,10 @@ constexpr int markers[] = {7, 5, 9, 11, 13, 15, 4};
 std::string member_data(const Plan& plan, const std::vector<PointResult>& rows, std::size_t along,
                         std::size_t first) {
   const Grid& grid = plan.grid();
-  const Subject shown = subject(plan);
+  const Subject series = subject(plan);
   std::string data;
   for (std::size_t i = 0; i < grid.axes()[along].count; ++i) {
-    const double value = rows[first + i * grid.stride(along)].*shown.figure;
+    const double value = rows[first + i * grid.stride(along)].*series.figure;
     if (std::isfinite(value)) {
       fmt::format_to(std::back_inserter(data), "{} {}\n", grid.axes()[along].number(i), value);
     } else {

@@ -40,15 +40,15 @@ class RobustNotchTest : public testing::TestWithParam<WrongMode> {};
 /// What five taps at Table 1, for a natural frequency that is up to a tenth off, leave of a step: the
 /// product of the distances of cos θ from the two zeros, of that at rest.
 double left_by_five_taps(double stiffness) {
-  const double believed = std::sqrt(133e6 / 0.02) / 60e3;
-  const double low = std::cos(1.1 * believed);
-  const double high = std::cos(0.9 * believed);
+  const double nominal = std::sqrt(133e6 / 0.02) / 60e3;
+  const double low = std::cos(1.1 * nominal);
+  const double high = std::cos(0.9 * nominal);
   const double middle = 0.5 * (high + low);
   const double half = 0.5 * (high - low);
   const auto product = [&](double cosine) {
     return (cosine - middle) * (cosine - middle) - 0.5 * half * half;
   };
-  return std::abs(product(std::cos(believed * std::sqrt(stiffness)))) / product(1.0);
+  return std::abs(product(std::cos(nominal * std::sqrt(stiffness)))) / product(1.0);
 }
 
 // Without a notch the ripple is all of the ringing. A little more ripple is there without any.

@@ -97,7 +97,8 @@ const std::vector<Feature>& features() {
       {"feedback", "no_shaping", "no_feedback", "integral_regulator.hpp", "IntegralRegulator"},
       {"calibration", "every_part", "no_calibration", "learnt_friction.hpp", "LearntFriction"},
       {"relearning", "relearning", "every_part", "periodic_relearning.hpp", "PeriodicRelearning"},
-      {"felt mode", "felt_mode", "no_slew_limit", "felt_vibration.hpp", "FeltVibration"},
+      {"felt mode", "felt_mode", "no_slew_limit", "sensorless_vibration.hpp",
+       "SensorlessVibration"},
       {"slew limit", "every_part", "no_slew_limit", "slew_limit.hpp", "control::SlewLimit"},
       {"dahl map", "every_part", "coulomb", "dahl_feedforward.hpp", "DahlFeedforward"},
   };

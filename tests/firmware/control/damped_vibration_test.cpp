@@ -28,7 +28,7 @@ template <class S>
 typename DampedVibration<S, 2>::Parameters parameters(std::uint8_t delay = 1) {
   typename DampedVibration<S, 2>::Parameters all{};
   for (ModeRow<S>& row : all.observer.table) {
-    row[mode::turn] = scaled<S>(0.5);
+    row[mode::rotation] = scaled<S>(0.5);
     row[mode::forced] = scaled<S>(response);
     row[mode::offset_gain] = scaled<S>(0.5);
     row[mode::offset_gain + 3] = scaled<S>(0.5);
@@ -70,8 +70,8 @@ class DampedVibrationTest : public testing::Test {
 TYPED_TEST_SUITE(DampedVibrationTest, Scalars);
 
 TYPED_TEST(DampedVibrationTest, BringsTheVibrationToItsVelocity) {
-  const auto told = parameters<TypeParam>();
-  typename TestFixture::Loop loop(told);
+  const auto nominal = parameters<TypeParam>();
+  typename TestFixture::Loop loop(nominal);
   for (const double wanted : {0.1, 0.2, 0.02}) {
     for (int k = 0; k < 12; ++k) {
       EXPECT_EQ(this->advance(loop, wanted), Fault::none);
@@ -83,8 +83,8 @@ TYPED_TEST(DampedVibrationTest, BringsTheVibrationToItsVelocity) {
 }
 
 TYPED_TEST(DampedVibrationTest, LearnsWhatTheModelLeavesOut) {
-  const auto told = parameters<TypeParam>();
-  typename TestFixture::Loop loop(told);
+  const auto nominal = parameters<TypeParam>();
+  typename TestFixture::Loop loop(nominal);
   for (int k = 0; k < 60; ++k) {
     this->advance(loop, 0.1, 0.8);
   }
@@ -92,8 +92,8 @@ TYPED_TEST(DampedVibrationTest, LearnsWhatTheModelLeavesOut) {
 }
 
 TYPED_TEST(DampedVibrationTest, NamesAVelocityOutOfReach) {
-  const auto told = parameters<TypeParam>();
-  typename TestFixture::Loop loop(told);
+  const auto nominal = parameters<TypeParam>();
+  typename TestFixture::Loop loop(nominal);
   for (int k = 0; k < 12; ++k) {
     this->advance(loop, 0.3);
   }
@@ -103,8 +103,8 @@ TYPED_TEST(DampedVibrationTest, NamesAVelocityOutOfReach) {
 }
 
 TYPED_TEST(DampedVibrationTest, GivesNoDriveForNoVibration) {
-  const auto told = parameters<TypeParam>();
-  typename TestFixture::Loop loop(told);
+  const auto nominal = parameters<TypeParam>();
+  typename TestFixture::Loop loop(nominal);
   for (int k = 0; k < 12; ++k) {
     this->advance(loop, 0.1);
   }
@@ -116,8 +116,8 @@ TYPED_TEST(DampedVibrationTest, GivesNoDriveForNoVibration) {
 }
 
 TYPED_TEST(DampedVibrationTest, MissesADeadSensor) {
-  const auto told = parameters<TypeParam>();
-  typename TestFixture::Loop loop(told);
+  const auto nominal = parameters<TypeParam>();
+  typename TestFixture::Loop loop(nominal);
   // The latency, and the first commands below a quarter.
   constexpr int at_most = TestFixture::Loop::missing_samples + 4;
   int periods = 0;
@@ -129,8 +129,8 @@ TYPED_TEST(DampedVibrationTest, MissesADeadSensor) {
 }
 
 TYPED_TEST(DampedVibrationTest, DisbelievesAVibrationThatTheDriveDoesNotMove) {
-  const auto told = parameters<TypeParam>();
-  typename TestFixture::Loop loop(told);
+  const auto nominal = parameters<TypeParam>();
+  typename TestFixture::Loop loop(nominal);
   VibrationMeasurement<TypeParam> stuck{};
   stuck.quadrature = scaled<TypeParam>(0.24);
   Fault fault = Fault::none;
@@ -145,8 +145,8 @@ TYPED_TEST(DampedVibrationTest, DisbelievesAVibrationThatTheDriveDoesNotMove) {
 
 TYPED_TEST(DampedVibrationTest, CountsFromTheCommandThatWasInForce) {
   for (std::uint8_t delay = 0; delay <= 2; ++delay) {
-    const auto told = parameters<TypeParam>(delay);
-    DampedVibration<TypeParam, 2> loop(told);
+    const auto nominal = parameters<TypeParam>(delay);
+    DampedVibration<TypeParam, 2> loop(nominal);
     double line[4] = {};  // the command in force, then those under way
     for (int k = 0; k < 20; ++k) {
       VibrationMeasurement<TypeParam> measurement{};
@@ -177,23 +177,24 @@ TYPED_TEST(DampedVibrationTest, ItsTableIsLinearBetweenTheRows) {
       reference[row][i] = numeric::to_real(table[row][i]);
     }
   }
-  ModePlace<TypeParam> place;
+  ModeInterpolation<TypeParam> frequency_parameter;
   std::uniform_real_distribution<double> anywhere(-1.0, 1.0);
   for (int k = 0; k < 1000; ++k) {
     const TypeParam at = k == 0   ? scaled<TypeParam>(-1.0)
                          : k == 1 ? numeric::from_code<TypeParam>(INT32_MAX - 1)
                                   : scaled<TypeParam>(anywhere(generator));
-    place.go(table, at);
+    frequency_parameter.go(table, at);
     const double rows = 8.0 * (numeric::to_real(at) + 1.0);
     const auto low = std::min<std::size_t>(mode::rows - 2, static_cast<std::size_t>(rows));
     for (std::size_t i = 0; i < mode::numbers; ++i) {
       const double rise = reference[low + 1][i] - reference[low][i];
       const double exact = reference[low][i] + rise * (rows - static_cast<double>(low));
-      EXPECT_NEAR(numeric::to_real(place[i]), exact,
+      EXPECT_NEAR(numeric::to_real(frequency_parameter[i]), exact,
                   0x1p-27 * std::abs(rise) + 4.0 * resolution<TypeParam>())
           << rows;
       if (i < mode::sloped) {
-        EXPECT_NEAR(numeric::to_real(place.slope(i)), 8.0 * rise, 8.0 * resolution<TypeParam>());
+        EXPECT_NEAR(numeric::to_real(frequency_parameter.slope(i)), 8.0 * rise,
+                    8.0 * resolution<TypeParam>());
       }
     }
   }

@@ -17,30 +17,32 @@ TYPED_TEST_SUITE(LaggingReadingTest, Scalars);
 TYPED_TEST(LaggingReadingTest, ShowsWhatTwoLagsFollow) {
   constexpr double sensor = 0.6;
   constexpr double contact = 0.3;
-  const typename LaggingReading<TypeParam>::Parameters told{
+  const typename LaggingReading<TypeParam>::Parameters nominal{
       numeric::split(scaled<TypeParam>(0.75)), numeric::split(scaled<TypeParam>(0.75))};
-  auto given = told;
+  auto given = nominal;
   given.sensor.exponent += 1;  // 1.5 = 0.6/0.4
   given.contact = numeric::split(scaled<TypeParam>(contact / (1.0 - contact)));
   LaggingReading<TypeParam> reading(given);
-  double felt = 0.3;
-  double shown = 0.3;
+  double after_contact = 0.3;
+  double after_sensor = 0.3;
   for (int k = 0; k < 60; ++k) {
     const double ratio = k / 10 % 2 == 0 ? 0.3 : 0.34;
-    felt = contact * felt + (1.0 - contact) * ratio;
-    shown = sensor * shown + (1.0 - sensor) * felt;
-    EXPECT_NEAR(numeric::to_real(reading.sharpened(scaled<TypeParam>(shown))), ratio, 1e-5) << k;
+    after_contact = contact * after_contact + (1.0 - contact) * ratio;
+    after_sensor = sensor * after_sensor + (1.0 - sensor) * after_contact;
+    EXPECT_NEAR(numeric::to_real(reading.lag_compensated(scaled<TypeParam>(after_sensor))), ratio,
+                1e-5)
+        << k;
   }
 }
 
 TYPED_TEST(LaggingReadingTest, TakesItsFirstReadingForSettledAndNoNewOneTooFar) {
-  const typename LaggingReading<TypeParam>::Parameters told{{scaled<TypeParam>(0.5), 4},
-                                                            {scaled<TypeParam>(0.0), 0}};
-  LaggingReading<TypeParam> reading(told);
-  EXPECT_EQ(numeric::to_real(reading.sharpened(scaled<TypeParam>(0.25))), 0.25);
-  EXPECT_EQ(numeric::to_real(reading.sharpened(scaled<TypeParam>(0.375))), 0.625);
+  const typename LaggingReading<TypeParam>::Parameters nominal{{scaled<TypeParam>(0.5), 4},
+                                                               {scaled<TypeParam>(0.0), 0}};
+  LaggingReading<TypeParam> reading(nominal);
+  EXPECT_EQ(numeric::to_real(reading.lag_compensated(scaled<TypeParam>(0.25))), 0.25);
+  EXPECT_EQ(numeric::to_real(reading.lag_compensated(scaled<TypeParam>(0.375))), 0.625);
   reading.restart();
-  EXPECT_EQ(numeric::to_real(reading.sharpened(scaled<TypeParam>(0.125))), 0.125);
+  EXPECT_EQ(numeric::to_real(reading.lag_compensated(scaled<TypeParam>(0.125))), 0.125);
 }
 
 }  // namespace

@@ -23,7 +23,7 @@ namespace {
 using Complex = std::complex<double>;
 
 /// What the loop is told, as real numbers; velocities per unit of the steady one at full drive.
-struct Told {
+struct Nominal {
   double quality = 200.0;
   double carrier_Hz = 60e3;
   double natural = 0.0;  ///< believed deviation of the resonance from the carrier
@@ -42,26 +42,26 @@ template <class S, class Current>
 using Vibration = ResonantVibration<S, 1, Current>;
 
 template <class S, class Current>
-typename Vibration<S, Current>::Parameters parameters(const Told& told) {
-  const double rate = tests::pi / told.quality * told.gain;
-  const double step = told.step > 0.0 ? told.step : 0x1p-28;
-  const bool coarse = step * told.quality * told.quality > 0.25;
+typename Vibration<S, Current>::Parameters parameters(const Nominal& nominal) {
+  const double rate = tests::pi / nominal.quality * nominal.gain;
+  const double step = nominal.step > 0.0 ? nominal.step : 0x1p-28;
+  const bool coarse = step * nominal.quality * nominal.quality > 0.25;
   typename Vibration<S, Current>::Parameters all{};
   all.resonance = {split<S>(rate),
-                   scaled<S>(1.0 / told.gain / 16.0),
-                   scaled<S>(8.0 * told.natural),
+                   scaled<S>(1.0 / nominal.gain / 16.0),
+                   scaled<S>(8.0 * nominal.natural),
                    scaled<S>(-0.4),
                    scaled<S>(0.4),
                    scaled<S>(0.99),
                    scaled<S>(0.5 / 8.0),
                    scaled<S>(0.05),
-                   scaled<S>(std::max(0.25 * rate, 6.0 * told.noise)),
-                   scaled<S>(0.5 + 4.0 * told.noise / rate),
-                   scaled<S>(2.0 * told.noise / rate)};
+                   scaled<S>(std::max(0.25 * rate, 6.0 * nominal.noise)),
+                   scaled<S>(0.5 + 4.0 * nominal.noise / rate),
+                   scaled<S>(2.0 * nominal.noise / rate)};
   all.word = {split<S>(1.0 / (8.0 * step)), split<S>(8.0 * step)};
   all.velocity_gain = scaled<S>(0.8);
   all.phase_gain = scaled<S>(coarse ? 0.0 : 8.0 / tests::two_pi / 16.0);
-  all.settled = scaled<S>(4.0 * told.noise);
+  all.settled = scaled<S>(4.0 * nominal.noise);
   all.missing = scaled<S>(0.25 * rate);
   all.delay = 1;
   return all;
@@ -71,19 +71,22 @@ typename Vibration<S, Current>::Parameters parameters(const Told& told) {
 template <class S, class Current = FullCurrent<S>>
 class Bench {
  public:
-  Bench(const Told& told, const Resonator& resonator)
-      : Bench(told, resonator, parameters<S, Current>(told)) {}
-  Bench(const Told& told, const Resonator& resonator,
+  Bench(const Nominal& nominal, const Resonator& resonator)
+      : Bench(nominal, resonator, parameters<S, Current>(nominal)) {}
+  Bench(const Nominal& nominal, const Resonator& resonator,
         const typename Vibration<S, Current>::Parameters& all)
-      : told_(told), step_(told.step > 0.0 ? told.step : 0x1p-28), loop_(all), plant_(resonator) {}
+      : nominal_(nominal),
+        step_(nominal.step > 0.0 ? nominal.step : 0x1p-28),
+        loop_(all),
+        plant_(resonator) {}
 
   /// One carrier period.
   /// @return the amplitude of its vibration
   double advance(double wanted) {
     const Complex z = plant_.advance(frequency_Hz(), acting_.amplitude);
     Complex read = sensor(z);
-    if (told_.noise > 0.0) {
-      read += told_.noise * Complex(normal_(random_), normal_(random_));
+    if (nominal_.noise > 0.0) {
+      read += nominal_.noise * Complex(normal_(random_), normal_(random_));
     }
     typename Vibration<S, Current>::Measurement measurement{};
     measurement.in_phase = reading(read.real());
@@ -99,7 +102,7 @@ class Bench {
     return std::abs(z);
   }
 
-  double frequency_Hz() const { return told_.carrier_Hz * (1.0 + step_ * acting_.steps); }
+  double frequency_Hz() const { return nominal_.carrier_Hz * (1.0 + step_ * acting_.steps); }
   double amplitude() const { return acting_.amplitude; }
   std::int32_t steps() const { return acting_.steps; }
   Resonator& plant() { return plant_; }
@@ -121,7 +124,7 @@ class Bench {
     return numeric::from_code<S>(static_cast<std::int32_t>(code));
   }
 
-  Told told_;
+  Nominal nominal_;
   double step_;
   Vibration<S, Current> loop_;
   Resonator plant_;
@@ -164,9 +167,9 @@ TYPED_TEST_SUITE(ResonantVibrationOf, Scalars);
 TYPED_TEST(ResonantVibrationOf, RingsUpWithinFourPeriodsOfTheTimeOptimalBound) {
   for (const double quality : {50.0, 200.0, 1000.0}) {
     for (const double wanted : {1.0 / 1.5, 1.0 / 3.0, 1.0 / 8.0}) {
-      Told told;
-      told.quality = quality;
-      Bench<TypeParam> bench(told, {quality, 60e3});
+      Nominal nominal;
+      nominal.quality = quality;
+      Bench<TypeParam> bench(nominal, {quality, 60e3});
       const double bound = bound_s(quality, 60e3, 0.0, wanted);
       const Settled found = settle(bench, wanted, 4.0 * bound + 2e-3);
       // Two periods pass before the first command acts.
@@ -179,9 +182,9 @@ TYPED_TEST(ResonantVibrationOf, RingsUpWithinFourPeriodsOfTheTimeOptimalBound) {
 
 TYPED_TEST(ResonantVibrationOf, ChangesBothWaysWithinFourPeriodsOfTheBound) {
   for (const double quality : {50.0, 200.0, 1000.0}) {
-    Told told;
-    told.quality = quality;
-    Bench<TypeParam> bench(told, {quality, 60e3});
+    Nominal nominal;
+    nominal.quality = quality;
+    Bench<TypeParam> bench(nominal, {quality, 60e3});
     settle(bench, 0.4, 10e-3);
     double from = 0.4;
     for (const double wanted : {0.25, 0.33, 0.1, 0.5}) {
@@ -199,10 +202,10 @@ TYPED_TEST(ResonantVibrationOf, FindsAResonanceThreePercentBesideWithoutAScan) {
     for (const double quality : {100.0, 1000.0}) {
       for (const double gain : {0.8, 1.2}) {
         const double natural_Hz = 60e3 * (1.0 + beside);
-        Told told;
-        told.quality = quality;
-        told.gain = gain;
-        Bench<TypeParam> bench(told, {quality, natural_Hz});
+        Nominal nominal;
+        nominal.quality = quality;
+        nominal.gain = gain;
+        Bench<TypeParam> bench(nominal, {quality, natural_Hz});
         const double bound = bound_s(quality, natural_Hz, 0.0, 1.0 / 3.0);
         const Settled found = settle(bench, 1.0 / 3.0, 20e-3);
         EXPECT_LE(found.at_s, bound + 12.0 / 60e3) << beside << ' ' << quality << ' ' << gain;
@@ -220,9 +223,9 @@ TYPED_TEST(ResonantVibrationOf, FollowsASpringThatJumps) {
   };
   for (const Jump& jump : {Jump{200.0, 0.01, 1e-3}, Jump{200.0, -0.01, 1e-3},
                            Jump{1000.0, 0.005, 4e-3}, Jump{1000.0, -0.005, 4e-3}}) {
-    Told told;
-    told.quality = jump.quality;
-    Bench<TypeParam> bench(told, {jump.quality, 60e3});
+    Nominal nominal;
+    nominal.quality = jump.quality;
+    Bench<TypeParam> bench(nominal, {jump.quality, 60e3});
     settle(bench, 1.0 / 3.0, 10e-3);
     const double natural_Hz = 60e3 * std::sqrt(1.0 + jump.stiffness);
     bench.plant().set_natural_Hz(natural_Hz);
@@ -232,9 +235,9 @@ TYPED_TEST(ResonantVibrationOf, FollowsASpringThatJumps) {
 }
 
 TYPED_TEST(ResonantVibrationOf, HoldsAgainstNoise) {
-  Told told;
-  told.noise = 5e-4;
-  Bench<TypeParam> bench(told, {200.0, 60e3 * 1.01});
+  Nominal nominal;
+  nominal.noise = 5e-4;
+  Bench<TypeParam> bench(nominal, {200.0, 60e3 * 1.01});
   settle(bench, 1.0 / 3.0, 5e-3);
   for (int i = 0; i < 20000; ++i) {
     EXPECT_NEAR(bench.advance(1.0 / 3.0), 1.0 / 3.0, 0.01 / 3.0);
@@ -245,11 +248,11 @@ TYPED_TEST(ResonantVibrationOf, HoldsAgainstNoise) {
 TYPED_TEST(ResonantVibrationOf, ACoarseFrequencyWordHasNoLimitCycle) {
   for (const double step_Hz : {1.0, 10.0, 36.0, 100.0}) {
     for (const double natural_Hz : {20003.0, 20017.9, 19987.0}) {
-      Told told;
-      told.quality = 1000.0;
-      told.carrier_Hz = 20e3;
-      told.step = step_Hz / 20e3;
-      Bench<TypeParam> bench(told, {1000.0, natural_Hz});
+      Nominal nominal;
+      nominal.quality = 1000.0;
+      nominal.carrier_Hz = 20e3;
+      nominal.step = step_Hz / 20e3;
+      Bench<TypeParam> bench(nominal, {1000.0, natural_Hz});
       settle(bench, 0.2, 60e-3);
       const std::int32_t word = bench.steps();
       for (int i = 0; i < 2000; ++i) {
@@ -262,10 +265,10 @@ TYPED_TEST(ResonantVibrationOf, ACoarseFrequencyWordHasNoLimitCycle) {
 }
 
 TYPED_TEST(ResonantVibrationOf, QuietsWhatRangBeforeAndAKnock) {
-  Told told;
+  Nominal nominal;
   Resonator ringing(200.0, 60e3);
   ringing.knock(-0.5);
-  Bench<TypeParam> bench(told, ringing);
+  Bench<TypeParam> bench(nominal, ringing);
   EXPECT_LE(settle(bench, 1.0 / 3.0, 5e-3).at_s, 0.5e-3);
   bench.plant().knock(0.2);
   EXPECT_LE(settle(bench, 1.0 / 3.0, 5e-3).at_s, 0.5e-3);
@@ -339,8 +342,8 @@ TYPED_TEST(ResonantVibrationOf, CurrentStaysBelowItsLimit) {
   for (const double motional : {0.5, 3.0, 6.0}) {
     for (const double capacitive : {1e-6, 0.5, 2.0}) {
       for (const double tangent : {0.0, 0.02, 0.5}) {
-        Told told;
-        auto all = parameters<TypeParam, Current>(told);
+        Nominal nominal;
+        auto all = parameters<TypeParam, Current>(nominal);
         const double small = 0.25 / std::max({1.0, motional, capacitive});
         all.current = {split<TypeParam>(motional),
                        split<TypeParam>(1.0 / ((1.0 + tangent * tangent) * capacitive)),
@@ -349,7 +352,7 @@ TYPED_TEST(ResonantVibrationOf, CurrentStaysBelowItsLimit) {
                        scaled<TypeParam>(small * capacitive),
                        scaled<TypeParam>(small),
                        scaled<TypeParam>(0.99 * small)};
-        Bench<TypeParam, Current> bench(told, {200.0, 60e3}, all);
+        Bench<TypeParam, Current> bench(nominal, {200.0, 60e3}, all);
         double largest = 0.0;
         for (int i = 0; i < 600; ++i) {
           const double u = bench.amplitude();

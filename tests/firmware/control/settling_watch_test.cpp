@@ -109,7 +109,7 @@ TYPED_TEST(SettlingWatchTest, NamesAFrictionThatIsNotTheBelievedOne) {
   EXPECT_EQ(this->watch_.limit_named(), Limit::none);
   this->judge_for(16, 0.4, 0.4, 0.31);
   EXPECT_EQ(this->watch_.limit_named(), Limit::mismatch);
-  this->watch_.forget_doubt();
+  this->watch_.forget_disagreement();
   EXPECT_EQ(this->watch_.limit_named(), Limit::none);
 }
 

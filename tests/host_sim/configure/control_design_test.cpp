@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "host_sim/configure/believed_plant.hpp"
 #include "host_sim/configure/configuration_error.hpp"
+#include "host_sim/configure/nominal_plant.hpp"
 #include "tests/common/constants/pi.hpp"
 #include "tests/common/constants/table_1_numbers.hpp"
 #include "tests/common/table_1.hpp"
@@ -203,7 +203,7 @@ TEST(ControlDesignTest, NotesWhatItMayFailToFeel) {
   EXPECT_TRUE(design_notes(design_control(slow)).empty());
   slow.sensor.force_bandwidth_Hz = 100.0;
   scene::Scene noisy = feeling(0.2163);
-  noisy.sensor.force_noise_N = 0.05 * believed_plant(noisy).friction_N;
+  noisy.sensor.force_noise_N = 0.05 * nominal_plant(noisy).friction_N;
   for (const scene::Scene& scene : {slow, noisy}) {
     const std::vector<std::string> notes = design_notes(design_control(scene));
     ASSERT_EQ(notes.size(), 1U);
@@ -422,24 +422,25 @@ TEST(ControlDesignTest, ADampedModeIsLookedForWhereItMayBe) {
     EXPECT_LE(0.5 * range * 2.0 * pi * part, 0.7201) << part;
     const auto& rows = design.in_mode<DampedDesign>()->table;
     for (const auto& row : rows) {
-      EXPECT_NEAR(std::hypot(row[control::mode::turn], row[control::mode::turn + 1]), 1.0, 1e-12);
+      EXPECT_NEAR(std::hypot(row[control::mode::rotation], row[control::mode::rotation + 1]), 1.0,
+                  1e-12);
     }
     const double angle = 2.0 * pi * part * std::sqrt(1.0 - range);
-    EXPECT_NEAR(rows.front()[control::mode::turn], std::cos(angle), 1e-12) << part;
+    EXPECT_NEAR(rows.front()[control::mode::rotation], std::cos(angle), 1e-12) << part;
   }
 }
 
 TEST(ControlDesignTest, AFeltModeNeedsALongitudinalVibrationAndOneDirection) {
-  scene::Scene felt = with_natural_frequency(0.2, 0.0);
-  felt.controller->vibration = scene::VibrationControl::damped;
-  const ControlDesign design = design_control(felt);
-  ASSERT_TRUE(design.in_mode<FeltDesign>());
+  scene::Scene sensorless = with_natural_frequency(0.2, 0.0);
+  sensorless.controller->vibration = scene::VibrationControl::damped;
+  const ControlDesign design = design_control(sensorless);
+  ASSERT_TRUE(design.in_mode<SensorlessDesign>());
   EXPECT_FALSE(design.notch());
   EXPECT_FALSE(design.in_mode<DampedDesign>());
-  scene::Scene turning = felt;
+  scene::Scene turning = sensorless;
   turning.sliding.profile = {{0.0, 0.02}, {1.0, -0.02}};
   EXPECT_THROW(design_control(turning), ConfigurationError);
-  scene::Scene across = felt;
+  scene::Scene across = sensorless;
   across.friction.law = scene::laws::TransverseCoulomb{};
   EXPECT_THROW(design_control(across), ConfigurationError);
 }

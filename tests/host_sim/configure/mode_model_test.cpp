@@ -55,9 +55,9 @@ TEST(ModeModelTest, ForeseesWhatAnIntegrationShows) {
       double before = 0.0;
       for (int k = 0; k < 12; ++k) {
         const double amplitude = part(generator);
-        free = model.turn * free + model.kick * (amplitude - before);
+        free = model.rotation * free + model.input_gain * (amplitude - before);
         state = after_a_period(given, amplitude, state);
-        const Eigen::Vector2d foreseen = model.forced * amplitude + model.seen * free;
+        const Eigen::Vector2d foreseen = model.forced * amplitude + model.output * free;
         EXPECT_NEAR(foreseen(0), state[2], 1e-9) << mode << ' ' << damping_ratio << ' ' << k;
         EXPECT_NEAR(foreseen(1), state[3], 1e-9) << mode << ' ' << damping_ratio << ' ' << k;
         before = amplitude;
@@ -90,9 +90,9 @@ TEST(ModeModelTest, ItsObserverIsTheKalmanFilterOf128Periods) {
   constexpr double process = 1e-6;
   constexpr double noise = 1e-4;
   Eigen::Matrix4d dynamics = Eigen::Matrix4d::Identity();
-  dynamics.topLeftCorner<2, 2>() = model.turn;
+  dynamics.topLeftCorner<2, 2>() = model.rotation;
   Eigen::Matrix<double, 2, 4> sample;
-  sample << model.seen, Eigen::Matrix2d::Identity();
+  sample << model.output, Eigen::Matrix2d::Identity();
   Eigen::Matrix4d variance = process * Eigen::Matrix4d::Identity();
   Eigen::Matrix<double, 4, 2> gain;
   for (int k = 0; k < 128; ++k) {
@@ -111,9 +111,9 @@ TEST(ModeModelTest, ItsFeedbackQuietsTheModeAsFastAsItSays) {
     for (const double stability : {1.0, 1.15}) {
       const ModeModel model = mode_model(resonator(mode, 0.0));
       Eigen::Matrix3d loop = Eigen::Matrix3d::Identity();
-      loop.topLeftCorner<2, 2>() = model.turn;
+      loop.topLeftCorner<2, 2>() = model.rotation;
       Eigen::Vector3d change;
-      change << model.kick, 1.0;
+      change << model.input_gain, 1.0;
       loop -= change * feedback_gains(model, vibration_error(model), stability);
       const double slowest = loop.eigenvalues().cwiseAbs().maxCoeff();
       EXPECT_LT(slowest, 0.97 / stability) << mode << ' ' << stability;
@@ -126,12 +126,12 @@ TEST(ModeModelTest, ItsFeedbackIsTheLinearQuadraticOne) {
   const ModeModel model = mode_model(resonator(1.3, 0.01));
   const double price = model.forced.squaredNorm();
   Eigen::Matrix3d dynamics = Eigen::Matrix3d::Identity();
-  dynamics.topLeftCorner<2, 2>() = model.turn;
+  dynamics.topLeftCorner<2, 2>() = model.rotation;
   Eigen::Vector3d change;
-  change << model.kick, 1.0;
+  change << model.input_gain, 1.0;
   Eigen::Matrix3d error;
-  error << model.square, model.seen.transpose() * model.forced,
-      model.forced.transpose() * model.seen, price;
+  error << model.square, model.output.transpose() * model.forced,
+      model.forced.transpose() * model.output, price;
   Eigen::Matrix3d cost = error;
   Eigen::RowVector3d gain;
   for (int k = 0; k < 128; ++k) {

@@ -20,7 +20,7 @@ namespace {
 
 using tests::table_1_closed_loop;
 
-scene::Scene told_scene(scene::Arithmetic arithmetic) {
+scene::Scene nominal_scene(scene::Arithmetic arithmetic) {
   scene::Scene scene = table_1_closed_loop(arithmetic);
   scene.solver.tolerance = closed_loop_tolerance;
   return scene;
@@ -102,9 +102,9 @@ Differences compare(const std::vector<scene::Scene>& plants,
 class AsOneByOne : public testing::TestWithParam<scene::Arithmetic> {};
 
 TEST_P(AsOneByOne, WithinThePromisedError) {
-  const scene::Scene told = told_scene(GetParam());
+  const scene::Scene nominal = nominal_scene(GetParam());
   const Differences differences =
-      compare(plants_near(told, 40, 0.002), configure::design_control(told));
+      compare(plants_near(nominal, 40, 0.002), configure::design_control(nominal));
   EXPECT_GT(differences.settled, 60U);
   EXPECT_LT(differences.settling_periods, 1e-6);
   EXPECT_LT(differences.steady_error, 1e-7);
@@ -122,44 +122,44 @@ INSTANTIATE_TEST_SUITE_P(Arithmetics, AsOneByOne,
                          });
 
 TEST(ClosedLoops, FarFromTheDesignTheyAreMeasuredAlike) {
-  const scene::Scene told = told_scene(scene::Arithmetic::float32);
+  const scene::Scene nominal = nominal_scene(scene::Arithmetic::float32);
   const Differences differences =
-      compare(plants_near(told, 40, 0.1), configure::design_control(told));
+      compare(plants_near(nominal, 40, 0.1), configure::design_control(nominal));
   EXPECT_LT(differences.steady_error, 1e-7);
   EXPECT_LT(differences.ripple, 1e-6);
 }
 
 TEST(ClosedLoops, HaveTheSensorOfTheScene) {
-  scene::Scene told = told_scene(scene::Arithmetic::float32);
-  told.sensor.force_bandwidth_Hz = 20e3;
-  told.sensor.delay_periods = 2;
-  told.sensor.force_gain = 1.05;
-  told.sensor.force_offset_N = 1e-4;
-  told.controller->calibration_s = 2e-4;
-  told.drive->delay_periods = 3;
+  scene::Scene nominal = nominal_scene(scene::Arithmetic::float32);
+  nominal.sensor.force_bandwidth_Hz = 20e3;
+  nominal.sensor.delay_periods = 2;
+  nominal.sensor.force_gain = 1.05;
+  nominal.sensor.force_offset_N = 1e-4;
+  nominal.controller->calibration_s = 2e-4;
+  nominal.drive->delay_periods = 3;
   const Differences differences =
-      compare(plants_near(told, 20, 0.002), configure::design_control(told));
+      compare(plants_near(nominal, 20, 0.002), configure::design_control(nominal));
   EXPECT_LT(differences.settling_periods, 1e-6);
   EXPECT_LT(differences.steady_error, 1e-7);
   EXPECT_LT(differences.ripple, 1e-6);
 }
 
 TEST(ClosedLoops, MayHaveATransducer) {
-  scene::Scene told = told_scene(scene::Arithmetic::float32);
-  told.transducer = {16.0, 2e-6, 0.0};
+  scene::Scene nominal = nominal_scene(scene::Arithmetic::float32);
+  nominal.transducer = {16.0, 2e-6, 0.0};
   const Differences differences =
-      compare(plants_near(told, 10, 0.002), configure::design_control(told));
+      compare(plants_near(nominal, 10, 0.002), configure::design_control(nominal));
   EXPECT_LT(differences.steady_error, 1e-7);
   EXPECT_LT(differences.ripple, 1e-6);
 }
 
 TEST(ClosedLoops, HaveItsNoiseAndItsConverter) {
-  scene::Scene told = told_scene(scene::Arithmetic::float32);
-  told.sensor.adc_bits = 12;
-  told.sensor.force_noise_N = 1e-4;
-  told.sensor.seed = 3;
+  scene::Scene nominal = nominal_scene(scene::Arithmetic::float32);
+  nominal.sensor.adc_bits = 12;
+  nominal.sensor.force_noise_N = 1e-4;
+  nominal.sensor.seed = 3;
   const Differences differences =
-      compare(plants_near(told, 20, 0.002), configure::design_control(told));
+      compare(plants_near(nominal, 20, 0.002), configure::design_control(nominal));
   // A step of the converter is 9.8e-4 of Fc: some fall the other way.
   EXPECT_LT(differences.steady_error, 2.5e-4);
 }
@@ -184,9 +184,9 @@ void expect_same(const std::vector<Measured>& some, const std::vector<Measured>&
 
 class SameBits : public testing::Test {
  protected:
-  const scene::Scene told = told_scene(scene::Arithmetic::float32);
-  const configure::ControlDesign design = configure::design_control(told);
-  const std::vector<scene::Scene> plants = plants_near(told, 37, 0.02);
+  const scene::Scene nominal = nominal_scene(scene::Arithmetic::float32);
+  const configure::ControlDesign design = configure::design_control(nominal);
+  const std::vector<scene::Scene> plants = plants_near(nominal, 37, 0.02);
 };
 
 TEST_F(SameBits, InAnyOrder) {
@@ -222,7 +222,7 @@ TEST_F(SameBits, OnAnyNumberOfThreads) {
 
 TEST_F(SameBits, BesideALoopThatIsGivenUp) {
   std::vector<scene::Scene> mixed = plants;
-  scene::Scene stuck = told;
+  scene::Scene stuck = nominal;
   stuck.friction.coefficient = 1e6;
   stuck.friction.contact_stiffness_N_per_m = 1e16;
   mixed.insert(mixed.begin() + 3, stuck);
@@ -233,10 +233,10 @@ TEST_F(SameBits, BesideALoopThatIsGivenUp) {
 }
 
 TEST(RunsInLanes, OnlyWhatTheLanesAreMadeFor) {
-  const scene::Scene told = told_scene(scene::Arithmetic::float32);
-  EXPECT_TRUE(runs_in_lanes(told));
-  const auto refused = [&told](auto change) {
-    scene::Scene scene = told;
+  const scene::Scene nominal = nominal_scene(scene::Arithmetic::float32);
+  EXPECT_TRUE(runs_in_lanes(nominal));
+  const auto refused = [&nominal](auto change) {
+    scene::Scene scene = nominal;
     change(scene);
     return !runs_in_lanes(scene);
   };

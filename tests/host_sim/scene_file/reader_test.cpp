@@ -121,7 +121,7 @@ TEST(ReaderTest, DefaultsOfClosedLoop) {
 }
 
 /// @param key  of [controller], a line or none
-std::string felt_in_the_friction(const std::string& sliding, const std::string& key) {
+std::string sensorless(const std::string& sliding, const std::string& key) {
   return "[plant]\nmass_kg = 0.02\nstiffness_N_per_m = 133e6\n"
          "[friction]\nlaw = \"dahl\"\ncoefficient = 0.1\ncontact_stiffness_N_per_m = 0.056e6\n"
          "[sliding]\n" +
@@ -139,23 +139,21 @@ TEST(ReaderTest, DefaultOfCalibrationWhereTheFrictionShowsTheVibration) {
   const auto calibration_s = [](const std::string& text) {
     return read_text(text, "s").controller->calibration_s;
   };
-  const scene::Scene absent = read_text(felt_in_the_friction(steady, ""), "s");
+  const scene::Scene absent = read_text(sensorless(steady, ""), "s");
   const double by_default_s =
       configure::shortest_calibration_s(absent, configure::design_control(absent));
   EXPECT_GT(by_default_s, 0.0);
   EXPECT_EQ(absent.controller->calibration_s, by_default_s);
-  EXPECT_EQ(calibration_s(felt_in_the_friction(steady, "calibration_s = 0\n")), 0.0);
+  EXPECT_EQ(calibration_s(sensorless(steady, "calibration_s = 0\n")), 0.0);
   // A sliding that begins at rest goes on for too short a time within half of that of the target, or
   // for long enough.
   const auto from_rest = [](const char* begins_s) {
-    return felt_in_the_friction("profile = [[0.0, 0.0], [" + std::string(begins_s) + ", 0.0267]]",
-                                "");
+    return sensorless("profile = [[0.0, 0.0], [" + std::string(begins_s) + ", 0.0267]]", "");
   };
   EXPECT_EQ(calibration_s(from_rest("3.9e-3")), 0.0);
   EXPECT_GT(calibration_s(from_rest("1e-4")), by_default_s);
   // The truth is not known to the controller.
-  EXPECT_EQ(calibration_s(
-                felt_in_the_friction(steady, "[true_values]\n\"friction.coefficient\" = 0.2\n")),
+  EXPECT_EQ(calibration_s(sensorless(steady, "[true_values]\n\"friction.coefficient\" = 0.2\n")),
             by_default_s);
 }
 

@@ -170,11 +170,11 @@ TEST(TrueValuesTest, AreThePlantsAndTheRestIsBelieved) {
       with("[true_values]\n\"plant.mass_kg\" = 0.03\n\"sensor.adc_bits\" = 9\n");
   EXPECT_EQ(scene.plant.mass_kg, 0.03);
   EXPECT_EQ(scene.sensor.adc_bits, 9);
-  EXPECT_EQ(scene.believed().plant.mass_kg, 0.02);
-  EXPECT_EQ(scene.believed().sensor.adc_bits, 12);
+  EXPECT_EQ(scene.nominal().plant.mass_kg, 0.02);
+  EXPECT_EQ(scene.nominal().sensor.adc_bits, 12);
   EXPECT_DOUBLE_EQ(scene.friction.normal_force_N, 0.02 * 9.81)
       << "what follows by default follows from the scene's value";
-  EXPECT_EQ(scene.sensor.force_full_scale_N, scene.believed().sensor.force_full_scale_N);
+  EXPECT_EQ(scene.sensor.force_full_scale_N, scene.nominal().sensor.force_full_scale_N);
 }
 
 TEST(TrueValuesTest, SayWhereTheyAreWrong) {
@@ -200,7 +200,7 @@ TEST(TrueValuesTest, MayStandForWhatTheDocumentVaries) {
   const auto told = std::make_shared<const scene::Scene>(with(""));
   const scene::Scene truth = read_truth(document, {VariedValue(130e6)}, told);
   EXPECT_EQ(truth.plant.stiffness_N_per_m, 130e6);
-  EXPECT_EQ(truth.believed().plant.stiffness_N_per_m, 133e6);
+  EXPECT_EQ(truth.nominal().plant.stiffness_N_per_m, 133e6);
   ASSERT_EQ(truth.true_values.size(), 1U);
   EXPECT_EQ(truth.true_values[0].value, 130e6);
 }

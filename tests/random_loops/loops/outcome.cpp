@@ -63,7 +63,7 @@ Outcome outcome(std::uint32_t seed, std::uint32_t index, Vibration vibration) {
   try {
     const scene::Scene scene =
         scene_file::read_text(scene_text(outcome.loop, vibration), "random.toml");
-    if (vibration == Vibration::felt) {
+    if (vibration == Vibration::sensorless) {
       outcome.loop.calibration_s = scene.controller->calibration_s;  // absent: by default
     }
     run_scene(scene, outcome);

@@ -298,7 +298,7 @@ void write_controller(SceneText& text, const RandomLoop& loop, Vibration vibrati
 
 void write_sensor(SceneText& text, const RandomLoop& loop, Vibration vibration) {
   const SensorNumbers& sensor = loop.sensor;
-  const bool damped = vibration != Vibration::unseen && vibration != Vibration::felt;
+  const bool damped = vibration != Vibration::unseen && vibration != Vibration::sensorless;
   if (sensor.ideal() && !damped) {
     return;
   }
@@ -336,8 +336,8 @@ void write_model_error(SceneText& text, const RandomLoop& loop) {
 
 /// By how much the mode turns otherwise than believed in a carrier period.
 double turn_error_rad(const RandomLoop& loop) {
-  const double believed = loop.model_error ? std::sqrt(loop.model_error->stiffness) : 1.0;
-  return numeric::two_pi * loop.mode_per_carrier * std::abs(believed - 1.0);
+  const double nominal = loop.model_error ? std::sqrt(loop.model_error->stiffness) : 1.0;
+  return numeric::two_pi * loop.mode_per_carrier * std::abs(nominal - 1.0);
 }
 
 }  // namespace

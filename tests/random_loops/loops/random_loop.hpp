@@ -115,8 +115,8 @@ Cause cause_of(const RandomLoop& loop);
 
 /// What a loop knows of its vibration.
 enum class Vibration {
-  unseen,  ///< the drive is fed forward
-  felt,    ///< controller.vibration = "damped", felt in the friction; q31 in place of q15
+  unseen,      ///< the drive is fed forward
+  sensorless,  ///< controller.vibration = "damped", felt in the friction; q31 in place of q15
   /// The same, seen by a pick-up of 14 bits.
   damped,
   damped_alone,  ///< the same without a force sensor

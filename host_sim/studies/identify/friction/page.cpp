@@ -145,7 +145,7 @@ output::Table law_table(const Comparison& comparison) {
   if (has_errors) {
     table.header.emplace_back("P(chi²)");
   }
-  const auto cell = [](double value) { return output::shown(value, "{:.3g}"); };
+  const auto cell = [](double value) { return output::formatted(value, "{:.3g}"); };
   for (const LawFit& each : comparison.laws) {
     table.rows.push_back({fmt::format("{} ({})", each.law.title, each.law.law),
                           verdict(comparison, each), each.law.direction,
@@ -164,9 +164,9 @@ output::Table parameter_table(const Comparison& comparison) {
   for (const LawFit& law : comparison.laws) {
     const char* no_end = comparison.is_possible(law) ? "open" : "-";
     for (const Estimate& each : law.parameters) {
-      table.rows.push_back({law.law.title, each.name, shown(each.name, each.value, "at its bound"),
-                            shown(each.name, each.low_95, no_end),
-                            shown(each.name, each.high_95, no_end)});
+      table.rows.push_back(
+          {law.law.title, each.name, formatted(each.name, each.value, "at its bound"),
+           formatted(each.name, each.low_95, no_end), formatted(each.name, each.high_95, no_end)});
     }
   }
   return table;

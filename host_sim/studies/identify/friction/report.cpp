@@ -55,7 +55,7 @@ ordered_json law_json(const Comparison& comparison, const LawFit& fit) {
 std::string law_line(const Comparison& comparison, const LawFit& fit) {
   return fmt::format("{:<22} {:<18} {:<7} {:>2} {:>9} {:>9.2g} {:>8.2g} {:>7.2g}  {}\n",
                      fit.law.title, fit.law.law, fit.law.direction, fit.parameter_count(),
-                     output::shown(comparison.difference(fit), "{:.1f}"), fit.residual_rms,
+                     output::formatted(comparison.difference(fit), "{:.1f}"), fit.residual_rms,
                      fit.misfit, fit.runs_probability, verdict(comparison, fit));
 }
 
@@ -68,9 +68,10 @@ std::string text(const Comparison& comparison) {
   }
   lines += '\n';
   for (const Estimate& each : comparison.best().parameters) {
-    lines += fmt::format("{}: {} = {} ({} to {})\n", comparison.best().law.title, each.name,
-                         shown(each.name, each.value), shown(each.name, each.low_95, "open"),
-                         shown(each.name, each.high_95, "open"));
+    lines +=
+        fmt::format("{}: {} = {} ({} to {})\n", comparison.best().law.title, each.name,
+                    formatted(each.name, each.value), formatted(each.name, each.low_95, "open"),
+                    formatted(each.name, each.high_95, "open"));
   }
   return lines + remark_lines(comparison.warnings, comparison.cannot_tell);
 }

@@ -150,8 +150,8 @@ output::Page page(const ImpedanceStudy& study) {
   page.title = fmt::format("Impedance of {}", study.name);
   page.lead = fmt::format(
       "{} readings from {} to {}, read as {}; fitted: {}.", study.sweep.frequency_Hz.size(),
-      shown("_Hz", study.sweep.frequency_Hz.front()), shown("_Hz", study.sweep.frequency_Hz.back()),
-      study.sweep.format, identification.model);
+      formatted("_Hz", study.sweep.frequency_Hz.front()),
+      formatted("_Hz", study.sweep.frequency_Hz.back()), study.sweep.format, identification.model);
   page.warnings = identification.warnings;
   page.tables = {figure_table(identification.parameters)};
   if (!identification.cannot_tell.empty()) {

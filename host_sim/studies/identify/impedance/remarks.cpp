@@ -46,18 +46,18 @@ std::string few_readings(std::size_t inside, const Mode& mode) {
       inside == 0   ? "No reading lies"
       : inside == 1 ? "1 reading lies"
                     : fmt::format("{} readings lie", inside),
-      shown("_Hz", mode.bandwidth_Hz),
+      formatted("_Hz", mode.bandwidth_Hz),
       inside == 0   ? "the flanks"
       : inside == 1 ? "it"
                     : "them",
-      shown("_Hz", mode.bandwidth_Hz / few));
+      formatted("_Hz", mode.bandwidth_Hz / few));
 }
 
 std::string left_out(const std::vector<double>& frequencies_Hz) {
   constexpr std::size_t most_named = 8;
   std::vector<std::string> names;
   for (std::size_t i = 0; i < std::min(most_named, frequencies_Hz.size()); ++i) {
-    names.push_back(shown("_Hz", frequencies_Hz[i]));
+    names.push_back(formatted("_Hz", frequencies_Hz[i]));
   }
   const std::size_t more = frequencies_Hz.size() - names.size();
   return fmt::format("Left out, as standing alone far off the readings beside: {}{}.",
@@ -68,7 +68,7 @@ std::string other_mode(const Mode& mode, bool is_inside) {
   return fmt::format(
       "Another mode at {} (quality factor {:.3g}, {}) is {} the sweep; it is fitted and is not "
       "part of the figures.{}",
-      shown("_Hz", mode.resonance_Hz), mode.quality(), shown("_ohm", mode.resistance_ohm()),
+      formatted("_Hz", mode.resonance_Hz), mode.quality(), formatted("_ohm", mode.resistance_ohm()),
       is_inside ? "in" : "just outside",
       is_inside ? ""
                 : " Clamped capacitance, parallel resonance and coupling rest on what it is taken "
@@ -83,12 +83,12 @@ std::string described_lead(const CircuitFit& fit) {
          {{fit.parts.has(Part::rotation), fmt::format("an error of every phase by {:.3g} degrees",
                                                       circuit.rotation_rad * degrees_per_rad)},
           {fit.parts.has(Part::lead_resistance),
-           shown("_ohm", circuit.lead.resistance_ohm) + " in series"},
+           formatted("_ohm", circuit.lead.resistance_ohm) + " in series"},
           {fit.parts.has(Part::lead_inductance),
-           shown("_H", circuit.lead.inductance_H) + " in series"}});
+           formatted("_H", circuit.lead.inductance_H) + " in series"}});
   const Mode& mode = circuit.modes.front();
   return fmt::format("{} (motional resistance {}, resonance {})", fmt::join(parts, " with "),
-                     shown("_ohm", mode.resistance_ohm()), shown("_Hz", mode.resonance_Hz));
+                     formatted("_ohm", mode.resistance_ohm()), formatted("_Hz", mode.resonance_Hz));
 }
 
 std::string open_lead(const Selection& selected) {
@@ -118,7 +118,7 @@ std::string open_part(const Unseen& unseen, const Mode& mode) {
       return fmt::format(
           "Whether leads and contacts have a series resistance up to {}: none is seen, so the "
           "circuit has none. The motional resistance is larger by what there is.",
-          shown("_ohm", unseen.most));
+          formatted("_ohm", unseen.most));
     case Part::lead_inductance:
       return fmt::format(
           "Whether leads and contacts have a series inductance up to {}: none is seen, so the "
@@ -126,7 +126,7 @@ std::string open_part(const Unseen& unseen, const Mode& mode) {
           "metre of cable, makes the resonance come out {:+.2g} Hz off, the motional resistance "
           "{:+.2g} %, the motional capacitance {:+.2g} % and the clamped capacitance {:+.2g} %. A "
           "compensation with a short takes it out.",
-          shown("_H", unseen.most), off(2) * mode.resonance_Hz, -percent * off(1),
+          formatted("_H", unseen.most), off(2) * mode.resonance_Hz, -percent * off(1),
           percent * (off(1) + off(3) - 2.0 * off(2)), percent * off(0));
     default:
       return fmt::format(
@@ -147,13 +147,13 @@ std::string open_drift(const Sweep& sweep, const Mode& mode) {
       "from the first reading to the last, a tenth of the band width, makes quality factor, "
       "motional inductance and capacitance come out {:.2g} % off, and the intervals do not allow "
       "for it. A sweep to lower frequencies beside one to higher ones tells.",
-      shown("_Hz", tenth * mode.bandwidth_Hz), 100.0 * off);
+      formatted("_Hz", tenth * mode.bandwidth_Hz), 100.0 * off);
 }
 
 void append_open_figure(std::vector<std::string>& sentences, const Estimate& figure) {
   constexpr double twice = 2.0;
-  const std::string low = shown(figure.name, figure.low_95);
-  const std::string high = shown(figure.name, figure.high_95);
+  const std::string low = formatted(figure.name, figure.low_95);
+  const std::string high = formatted(figure.name, figure.high_95);
   append(
       sentences,
       {{is_open(figure),
@@ -193,8 +193,8 @@ std::vector<std::string> warnings_of(const Selection& selected) {
                     "The figures are those at a small current, by a resonance that goes with the "
                     "square of the current. Sweep with less voltage.",
                     std::abs(circuit.lean), circuit.lean > 0.0 ? "lower" : "higher",
-                    shown("_Hz", mode.resonance_Hz),
-                    shown("_Hz", mode.resonance_Hz - circuit.lean * mode.bandwidth_Hz))},
+                    formatted("_Hz", mode.resonance_Hz),
+                    formatted("_Hz", mode.resonance_Hz - circuit.lean * mode.bandwidth_Hz))},
        {sees_rotation(fit),
         fmt::format("The phases are off by {:.3g} degrees all over the sweep; the fit takes that "
                     "out. It is an error of the instrument or the fixture; compensate it (open, "
@@ -218,8 +218,8 @@ std::vector<std::string> warnings_of(const Selection& selected) {
        {circuit.antiresonance_Hz() > sweep.frequency_Hz.back(),
         fmt::format("The parallel resonance at {} is above the sweep, which ends at {}: the "
                     "clamped capacitance and the coupling rest on the flank alone.",
-                    shown("_Hz", circuit.antiresonance_Hz()),
-                    shown("_Hz", sweep.frequency_Hz.back()))}});
+                    formatted("_Hz", circuit.antiresonance_Hz()),
+                    formatted("_Hz", sweep.frequency_Hz.back()))}});
   for (std::size_t i = 1; i < circuit.modes.size(); ++i) {
     warnings.push_back(other_mode(circuit.modes[i], is_in(sweep, circuit.modes[i])));
   }

@@ -38,8 +38,8 @@ std::string text(const ImpedanceStudy& study) {
                                   study.sweep.format, identification.model);
   for (const Estimate& each : identification.parameters) {
     lines +=
-        fmt::format("{:<28} {:>12}   95 %: {} to {}\n", each.name, shown(each.name, each.value),
-                    shown(each.name, each.low_95), shown(each.name, each.high_95));
+        fmt::format("{:<28} {:>12}   95 %: {} to {}\n", each.name, formatted(each.name, each.value),
+                    formatted(each.name, each.low_95), formatted(each.name, each.high_95));
   }
   return lines +
          fmt::format("residuals {:.3g}, of them misfit {:.3g} (relative, rms)\n",

@@ -36,7 +36,7 @@ Sweep thinned(const Sweep& sweep, Place place) {
   }
   left.warnings.push_back(fmt::format(
       "Of {} readings {} are used: one of {}, and all about {}.", n, left.frequency_Hz.size(),
-      stride, shown("_Hz", sweep.frequency_Hz[static_cast<std::size_t>(place)])));
+      stride, formatted("_Hz", sweep.frequency_Hz[static_cast<std::size_t>(place)])));
   return left;
 }
 

@@ -10,13 +10,13 @@
 namespace sonoglide::lanes {
 
 /// Plants near that of a scene; of its stiffness and mass within this tolerance.
-inline std::vector<scene::Scene> plants_near(const scene::Scene& told, std::size_t count,
+inline std::vector<scene::Scene> plants_near(const scene::Scene& nominal, std::size_t count,
                                              double stiffness_tolerance) {
   std::mt19937_64 generator(5);
   const auto within = [&generator](double tolerance) {
     return 1.0 + tolerance * (2.0 * static_cast<double>(generator() >> 11) * 0x1p-53 - 1.0);
   };
-  std::vector<scene::Scene> plants(count, told);
+  std::vector<scene::Scene> plants(count, nominal);
   for (scene::Scene& plant : plants) {
     plant.plant.stiffness_N_per_m *= within(stiffness_tolerance);
     plant.plant.mass_kg *= within(stiffness_tolerance);

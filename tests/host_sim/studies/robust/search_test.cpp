@@ -13,19 +13,19 @@ namespace {
 
 /// Part of a step that a notch of three taps leaves as ripple when the natural mode turns by
 /// `theta` in a carrier period instead of `believed`: |cos t - cos tn| / (1 - cos tn).
-double residual(double theta, double believed) {
-  return std::abs(std::cos(theta) - std::cos(believed)) / (1.0 - std::cos(believed));
+double residual(double theta, double nominal) {
+  return std::abs(std::cos(theta) - std::cos(nominal)) / (1.0 - std::cos(nominal));
 }
 
 /// Of Table 1: sqrt(133e6 N/m / 0.02 kg) / 60 kHz.
-const double believed = std::sqrt(133e6 / 0.02) / 60e3;
+const double nominal = std::sqrt(133e6 / 0.02) / 60e3;
 
 /// Stiffness, mass and carrier frequency, each within 4 %, from the three parts of a cube.
 double residual_at(const Place& place) {
   const auto factor = [](double part) { return 0.96 + 0.08 * part; };
   const double mass = place.size() > 1 ? factor(place[1]) : 1.0;
   const double frequency = place.size() > 2 ? factor(place[2]) : 1.0;
-  return residual(believed * std::sqrt(factor(place[0]) / mass) / frequency, believed);
+  return residual(nominal * std::sqrt(factor(place[0]) / mass) / frequency, nominal);
 }
 
 /// At the corner of a soft spring, a heavy mass and a fast carrier.
@@ -35,7 +35,7 @@ double worst_residual(std::size_t keys) {
 }
 
 TEST(ResidualTest, IsThatOfTable1) {
-  EXPECT_NEAR(believed, 1.359125536, 1e-9);
+  EXPECT_NEAR(nominal, 1.359125536, 1e-9);
   EXPECT_NEAR(worst_residual(1), 0.033883085, 1e-9);
   EXPECT_NEAR(residual_at({1.0}), 0.033406722, 1e-9);
 }

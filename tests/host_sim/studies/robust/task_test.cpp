@@ -45,7 +45,7 @@ TEST(TaskTest, PlantsAreInsideTheTolerancesAndTheControllerBelievesTheScene) {
     EXPECT_GE(plant.friction.contact_stiffness_N_per_m, 0.05e6);
     EXPECT_LE(plant.friction.contact_stiffness_N_per_m, 0.06e6);
     EXPECT_EQ(plant.friction.normal_force_N, task.nominal().friction.normal_force_N);
-    EXPECT_EQ(plant.believed().plant.stiffness_N_per_m, 133e6);
+    EXPECT_EQ(plant.nominal().plant.stiffness_N_per_m, 133e6);
     EXPECT_EQ(configure::design_control(plant).notch_span(), task.design().notch_span());
   }
 }

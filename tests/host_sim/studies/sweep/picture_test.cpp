@@ -29,16 +29,16 @@ std::vector<PointResult> rows(std::size_t count) {
 }
 
 std::optional<std::string> picture(const std::vector<std::string>& vary,
-                                   const std::vector<PointResult>& shown) {
+                                   const std::vector<PointResult>& series) {
   const ScratchScene scratch(open_loop);
-  return draw(Plan(scene_file::read_source(scratch.file()), {}, vary), shown);
+  return draw(Plan(scene_file::read_source(scratch.file()), {}, vary), series);
 }
 
 TEST(PictureTest, AHeatMapHasACellForEachPointAndGreysTheFailed) {
-  std::vector<PointResult> shown = rows(12);
-  shown[5].friction_ratio_window = PointResult::undefined;
+  std::vector<PointResult> series = rows(12);
+  series[5].friction_ratio_window = PointResult::undefined;
   const auto svg = picture(
-      {"velocity_ratio=1:0.1:4", "friction.contact_stiffness_N_per_m=1e4:1e6:3:log"}, shown);
+      {"velocity_ratio=1:0.1:4", "friction.contact_stiffness_N_per_m=1e4:1e6:3:log"}, series);
   ASSERT_TRUE(svg.has_value());
   EXPECT_EQ(occurrences(*svg, "fill = 'rgb(184, 184, 184)'"), 1U);
   EXPECT_NE(svg->find("velocity_ratio"), std::string::npos);
@@ -54,10 +54,10 @@ TEST(PictureTest, ABigHeatMapIsThinnedOut) {
 }
 
 TEST(PictureTest, OneKeyIsACurve) {
-  std::vector<PointResult> shown = rows(5);
-  shown[2] = PointResult();
-  shown[2].status = "failed";
-  const auto svg = picture({"velocity_ratio=0.1:1:5", "friction.coefficient=0.1:0.1:1"}, shown);
+  std::vector<PointResult> series = rows(5);
+  series[2] = PointResult();
+  series[2].status = "failed";
+  const auto svg = picture({"velocity_ratio=0.1:1:5", "friction.coefficient=0.1:0.1:1"}, series);
   ASSERT_TRUE(svg.has_value());
   EXPECT_NE(svg->find("whole run"), std::string::npos);
   EXPECT_NE(svg->find(">failed<"), std::string::npos);
@@ -72,12 +72,12 @@ TEST(PictureTest, WordsStandSideBySide) {
 }
 
 TEST(PictureTest, WordsAgainstNumbersAreACurveForEachWord) {
-  std::vector<PointResult> shown = rows(8);
-  shown[1].friction_ratio_window = PointResult::undefined;
+  std::vector<PointResult> series = rows(8);
+  series[1].friction_ratio_window = PointResult::undefined;
   for (const bool words_first : {true, false}) {
     const std::vector<std::string> vary = {"friction.law=coulomb,dahl", "velocity_ratio=0.1:1:4"};
     const auto svg =
-        picture(words_first ? vary : std::vector<std::string>{vary[1], vary[0]}, shown);
+        picture(words_first ? vary : std::vector<std::string>{vary[1], vary[0]}, series);
     ASSERT_TRUE(svg.has_value());
     EXPECT_NE(svg->find(">coulomb<"), std::string::npos);
     EXPECT_NE(svg->find(">dahl<"), std::string::npos);

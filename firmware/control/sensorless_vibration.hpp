@@ -1,5 +1,5 @@
-/// A vibration velocity that is held off resonance by the friction alone, its natural mode damped by
-/// feedback.
+/// A vibration velocity that is held off resonance by the friction alone, its natural mode damped
+/// by feedback.
 #pragma once
 
 #include <array>
@@ -7,10 +7,10 @@
 #include <cstdint>
 
 #include "firmware/control/drive_command.hpp"
-#include "firmware/control/felt_observer.hpp"
 #include "firmware/control/measurement.hpp"
 #include "firmware/control/part_name.hpp"
 #include "firmware/control/reading_lag.hpp"
+#include "firmware/control/sensorless_observer.hpp"
 #include "firmware/control/signals.hpp"
 #include "firmware/control/vibration_part.hpp"
 #include "firmware/numeric/headroom.hpp"
@@ -18,20 +18,20 @@
 
 namespace sonoglide::control {
 
-/// One step per carrier period. The steady amplitude u* = (v − o)/|H| brings the felt velocity to the
-/// wanted one, v. The answer is
+/// One step per carrier period. The steady amplitude u* = (v − o)/|H| brings the observed velocity
+/// to the wanted one, v. The answer is
 ///   u' = u − K (w, u − u*), limited to [0, 1],
-/// with the linear-quadratic gain K, u the latest command and w the mode foreseen at the phase 0 where
-/// it acts (FeltObserver). As o takes up what the map and the model have wrong, the measured ratio
-/// settles on its target without an integral.
+/// with the linear-quadratic gain K, u the latest command and w the mode foreseen at the phase 0
+/// where it acts (SensorlessObserver). As o takes up what the map and the model have wrong, the
+/// measured ratio settles on its target without an integral.
 ///
 /// @tparam MaxDelay  largest delay: carrier periods from the end of the period that a reading describes
 ///                   to the phase 0 at which its answer acts
 /// @tparam ReadingT  PromptReading | LaggingReading
 template <class ScalarT, int MaxDelay, class ReadingT>
-class FeltVibration : public VibrationPart<ScalarT> {
+class SensorlessVibration : public VibrationPart<ScalarT> {
  public:
-  static constexpr PartName part_name{"felt_vibration", "FeltVibration"};
+  static constexpr PartName part_name{"sensorless_vibration", "SensorlessVibration"};
   using Scalar = ScalarT;
   using Measurement = control::Measurement<Scalar>;
   using Command = DriveCommand<Scalar>;
@@ -40,7 +40,7 @@ class FeltVibration : public VibrationPart<ScalarT> {
   using Drive = typename VibrationPart<Scalar>::Drive;
 
   struct Parameters {
-    typename FeltObserver<Scalar>::Parameters observer;
+    typename SensorlessObserver<Scalar>::Parameters observer;
     [[no_unique_address]] typename Reading::Parameters reading;
     bool backwards;      ///< the direction of sliding that the table is of
     std::uint8_t delay;  ///< 0 … MaxDelay
@@ -54,8 +54,8 @@ class FeltVibration : public VibrationPart<ScalarT> {
     }
   };
 
-  /// @param parameters  outlive this, see FeltObserver
-  explicit FeltVibration(const Parameters& parameters)
+  /// @param parameters  outlive this, see SensorlessObserver
+  explicit SensorlessVibration(const Parameters& parameters)
       : observer_(parameters.observer),
         reading_(parameters.reading),
         backwards_(parameters.backwards),
@@ -74,19 +74,20 @@ class FeltVibration : public VibrationPart<ScalarT> {
     }
   }
 
-  void before() { observer_.pass(amplitudes_[sampled] - amplitudes_[sampled - 1]); }
+  void before() { observer_.predict(amplitudes_[sampled] - amplitudes_[sampled - 1]); }
 
-  /// The target is another. A change by a quarter of the friction makes o as uncertain as at the start.
+  /// The target is another. A change by a quarter of the friction makes o as uncertain as at the
+  /// start.
   /// @param change  in friction ratio, on base 2
   void retarget(Scalar change) {
-    observer_.doubt_offset(numeric::limited_lift(numeric::abs(change), 3));
+    observer_.inflate_offset(numeric::limited_lift(numeric::abs(change), 3));
   }
 
   /// Takes the velocity that the ratio stands for without the lag of sensor and contact.
   template <class Feedforward>
   void sense(Scalar measured, Scalar speed, bool backwards, const Feedforward& feedforward) {
     constexpr Scalar whole = numeric::from_real<Scalar>(0.5);
-    const Scalar ratio = numeric::clamp(reading_.sharpened(measured), Scalar{}, whole);
+    const Scalar ratio = numeric::clamp(reading_.lag_compensated(measured), Scalar{}, whole);
     if (!(Scalar{} < speed)) {
       return;
     }
@@ -114,7 +115,7 @@ class FeltVibration : public VibrationPart<ScalarT> {
       steady_ = numeric::scale_by_power_of_two(numeric::max(quarter, Scalar{}), 2);
     }
     const Scalar latest = amplitudes_[last()];
-    const Scalar less = numeric::clamp(observer_.feedback(foreseen_mode(), latest - steady_),
+    const Scalar less = numeric::clamp(observer_.feedback(predicted_mode(), latest - steady_),
                                        latest - largest, latest);
     const Scalar amplitude = latest - less;
     const bool clipped = ceiling < amplitude;
@@ -132,10 +133,10 @@ class FeltVibration : public VibrationPart<ScalarT> {
   bool at_most() const { return at_most_; }
   /// That of what the steady drive makes of the velocity, by the model alone.
   template <class OfVelocity>
-  Scalar shown_ratio(Scalar /*commanded*/, const OfVelocity& by_velocity) const {
-    return by_velocity(observer_.believed_velocity(steady_));
+  Scalar implied_ratio(Scalar /*commanded*/, const OfVelocity& by_velocity) const {
+    return by_velocity(observer_.nominal_velocity(steady_));
   }
-  static constexpr Scalar told_ratio(Scalar /*commanded*/) { return {}; }
+  static constexpr Scalar reported_ratio(Scalar /*commanded*/) { return {}; }
 
  private:
   static constexpr std::size_t sampled = 2;
@@ -146,7 +147,7 @@ class FeltVibration : public VibrationPart<ScalarT> {
   }
 
   /// In the last period under way.
-  Pair<Scalar> foreseen_mode() const {
+  Pair<Scalar> predicted_mode() const {
     Pair<Scalar> mode = observer_.mode();
     for (std::size_t i = sampled; i < last(); ++i) {
       mode = observer_.next(mode, amplitudes_[i + 1] - amplitudes_[i]);
@@ -154,7 +155,7 @@ class FeltVibration : public VibrationPart<ScalarT> {
     return mode;
   }
 
-  FeltObserver<Scalar> observer_;
+  SensorlessObserver<Scalar> observer_;
   [[no_unique_address]] Reading reading_;
   bool backwards_;
   std::uint8_t delay_;

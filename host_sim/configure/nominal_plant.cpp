@@ -1,4 +1,4 @@
-#include "host_sim/configure/believed_plant.hpp"
+#include "host_sim/configure/nominal_plant.hpp"
 
 #include <algorithm>
 
@@ -16,12 +16,12 @@ double first_undriven_friction_N(const scene::Scene& scene) {
 
 }  // namespace
 
-BelievedPlant believed_plant(const scene::Scene& any_scene) {
-  const scene::Scene& scene = any_scene.believed();
+NominalPlant nominal_plant(const scene::Scene& any_scene) {
+  const scene::Scene& scene = any_scene.nominal();
   const scene::ModelError& error = scene.model_error;
-  BelievedPlant plant{scene.plant, first_undriven_friction_N(scene) * error.coefficient,
-                      scene.friction.contact_stiffness_N_per_m * error.contact_stiffness,
-                      error.force_factor};
+  NominalPlant plant{scene.plant, first_undriven_friction_N(scene) * error.coefficient,
+                     scene.friction.contact_stiffness_N_per_m * error.contact_stiffness,
+                     error.force_factor};
   plant.mass_kg *= error.mass;
   plant.stiffness_N_per_m *= error.stiffness;
   plant.damping_N_s_per_m *= error.damping;
@@ -32,10 +32,11 @@ double vibration_gain(const scene::Scene& scene) {
   if (scene.sensor.vibration != scene::VibrationSensor::motional_current) {
     return 1.0;
   }
-  const double believed_over_told = scene.model_error.force_factor;
-  return scene.told ? scene.transducer->force_factor_N_per_V /
-                          (scene.told->transducer->force_factor_N_per_V * believed_over_told)
-                    : 1.0 / believed_over_told;
+  const double nominal_over_given = scene.model_error.force_factor;
+  return scene.nominal_scene
+             ? scene.transducer->force_factor_N_per_V /
+                   (scene.nominal_scene->transducer->force_factor_N_per_V * nominal_over_given)
+             : 1.0 / nominal_over_given;
 }
 
 }  // namespace sonoglide::configure

@@ -3,23 +3,24 @@
 
 #include <cstdint>
 
-#include "firmware/control/felt_table.hpp"
-#include "host_sim/configure/believed_plant.hpp"
+#include "firmware/control/sensorless_table.hpp"
+#include "host_sim/configure/nominal_plant.hpp"
 #include "host_sim/scene/scene.hpp"
 
 namespace sonoglide::configure {
 
-/// The base of all velocities of such a loop, per peak vibration velocity at full drive: room for what
-/// the model has wrong and for what a mode adds.
-inline constexpr double felt_room = 4.0;
+/// The base of all velocities of such a loop, per peak vibration velocity at full drive: room for
+/// what the model has wrong and for what a mode adds.
+inline constexpr double sensorless_room = 4.0;
 
 /// Real numbers, per unit of ControlScales.
-struct FeltDesign {
-  /// Of the believed plant in the middle row; the stiffness of the first row is `stiffness_range`
-  /// lower, that of the last one as much higher. A mode of 1 is eight times the largest kick.
-  control::FeltTable<double> table{};
+struct SensorlessDesign {
+  /// Of the nominal plant in the middle row; the stiffness of the first row is `stiffness_range`
+  /// lower, that of the last one as much higher. A mode of 1 is eight times the largest input gain.
+  control::SensorlessTable<double> table{};
   double stiffness_range = 0.0;  ///< relative
-  double turn_range = 0.0;  ///< likewise, in which the mode turns nearly as believed in a period
+  double rotation_range =
+      0.0;  ///< likewise, in which the mode turns nearly as the nominal one in a period
   double multiple_range =
       0.0;                 ///< likewise, in which it stays away from zero and multiples; or < 0
   bool apart = true;       ///< the mode can be told from the vibration; else the rows are of a gain
@@ -46,7 +47,7 @@ struct FeltDesign {
 /// @param velocity_m_per_s  base of all velocities
 /// @throws ConfigurationError  a plant without a natural mode, a law whose friction does not show the
 ///         velocity along the sliding, a sliding in both directions
-FeltDesign design_felt(const scene::Scene& scene, const BelievedPlant& plant,
-                       double velocity_m_per_s);
+SensorlessDesign design_sensorless(const scene::Scene& scene, const NominalPlant& plant,
+                                   double velocity_m_per_s);
 
 }  // namespace sonoglide::configure

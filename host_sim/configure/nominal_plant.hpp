@@ -6,15 +6,15 @@
 namespace sonoglide::configure {
 
 /// The scene, without its true values, through [model_error].
-struct BelievedPlant : scene::Plant {
+struct NominalPlant : scene::Plant {
   double friction_N = 0.0;  ///< that the first slide of the scene meets without vibration
   double contact_stiffness_N_per_m = 0.0;
-  double force_factor = 1.0;  ///< believed over true
+  double force_factor = 1.0;  ///< nominal over true
 };
 
-BelievedPlant believed_plant(const scene::Scene& scene);
+NominalPlant nominal_plant(const scene::Scene& scene);
 
-/// Vibration read over the true one: a motional current is taken over the believed force factor.
+/// Vibration read over the true one: a motional current is taken over the nominal force factor.
 double vibration_gain(const scene::Scene& scene);
 
 }  // namespace sonoglide::configure

@@ -1,4 +1,4 @@
-/// What a controller knows of a natural mode that it feels in the friction alone.
+/// What a controller knows of a natural mode that it observes in the friction alone.
 #pragma once
 
 #include <array>
@@ -11,10 +11,10 @@
 namespace sonoglide::control {
 
 /// Places of the numbers of a row of the table.
-namespace felt {
+namespace sensorless {
 
-inline constexpr std::size_t turn = 0;          ///< d cos θ and d sin θ, of a period
-inline constexpr std::size_t kick = 2;          ///< b: what a change of the amplitude adds
+inline constexpr std::size_t rotation = 0;      ///< d cos θ and d sin θ, of a period
+inline constexpr std::size_t input_gain = 2;    ///< B: what a change of the amplitude adds
 inline constexpr std::size_t forced = 4;        ///< |H|: steady velocity at full drive
 inline constexpr std::size_t sloped = 5;        ///< the slopes of those before this one are of use
 inline constexpr std::size_t feedback = 5;      ///< K: on the mode and on the amplitude's error
@@ -26,7 +26,7 @@ inline constexpr int node_bits = 3;
 inline constexpr std::size_t nodes = std::size_t{1} << node_bits;
 
 /// Places of the numbers of a node.
-inline constexpr std::size_t seen = 0;           ///< e: what a reading shows of a mode of 1
+inline constexpr std::size_t output = 0;         ///< C: what a reading shows of a mode of 1
 inline constexpr std::size_t last_change = 2;    ///< the same of the last change of the amplitude
 inline constexpr std::size_t change_before = 3;  ///< of the one before
 inline constexpr std::size_t noise = 4;          ///< of a reading, rms
@@ -40,73 +40,75 @@ inline constexpr std::size_t numbers = plain + nodes * per_node;
 inline constexpr int row_bits = 3;
 inline constexpr std::size_t rows = (std::size_t{1} << row_bits) + 1;
 
-}  // namespace felt
+}  // namespace sensorless
 
 template <class Scalar>
-using FeltRow = std::array<Scalar, felt::numbers>;
+using SensorlessRow = std::array<Scalar, sensorless::numbers>;
 template <class Scalar>
-using FeltTable = std::array<FeltRow<Scalar>, felt::rows>;
+using SensorlessTable = std::array<SensorlessRow<Scalar>, sensorless::rows>;
 
-/// A table at a place between its rows and at a velocity ratio between its nodes, and the slopes over
-/// the place: linear interpolation. Between two turns it would fall short of the modulus, and a mode
-/// would seem to decay: so a turn is lengthened by bend x (1 - x), x the part of the way to the next
-/// row. What is left of the shortfall is below the fourth power of the angle between the rows. In fixed
-/// point products are too small by less than two units of the last place.
+/// A table at a frequency between its rows and at a velocity ratio between its nodes, and the
+/// slopes over the frequency: linear interpolation. Between two turns it would fall short of the
+/// modulus, and a mode would seem to decay: so a turn is lengthened by bend x (1 - x), x the part
+/// of the way to the next row. What is left of the shortfall is below the fourth power of the angle
+/// between the rows. In fixed point products are too small by less than two units of the last
+/// place.
 template <class Scalar>
-class FeltPlace {
+class SensorlessInterpolation {
  public:
   /// @param table  stays where it is: it outlives this
-  explicit FeltPlace(const FeltTable<Scalar>& table) : table_(&table) {}
+  explicit SensorlessInterpolation(const SensorlessTable<Scalar>& table) : table_(&table) {}
 
   /// After a copy from elsewhere. @param table  an equal one, as in the constructor
-  void settle_at(const FeltTable<Scalar>& table) { table_ = &table; }
+  void settle_at(const SensorlessTable<Scalar>& table) { table_ = &table; }
 
-  /// @param place  from -1 at the first row to 1 at the last
-  void go(Scalar place) {
-    constexpr int shift = 32 - felt::row_bits;
-    const std::int32_t code = numeric::to_code(place);
-    constexpr int middle = 1 << (felt::row_bits - 1);
+  /// @param frequency_parameter  from -1 at the first row to 1 at the last
+  void go(Scalar frequency_parameter) {
+    constexpr int shift = 32 - sensorless::row_bits;
+    const std::int32_t code = numeric::to_code(frequency_parameter);
+    constexpr int middle = 1 << (sensorless::row_bits - 1);
     const int below = (code >> shift) + middle;
     row_ = static_cast<std::size_t>(below);
-    along_ = fraction(code, felt::row_bits);
-    for (std::size_t i = 0; i < felt::plain; ++i) {
+    along_ = fraction(code, sensorless::row_bits);
+    for (std::size_t i = 0; i < sensorless::plain; ++i) {
       const Scalar low = (*table_)[row_][i];
       const Scalar rise = (*table_)[row_ + 1][i] - low;
       values_[i] = low + numeric::rough_product(rise, along_);
-      if (i < felt::sloped) {
+      if (i < sensorless::sloped) {
         slopes_[i] = slope_of(rise);
       }
     }
     constexpr Scalar whole = numeric::from_code<Scalar>(INT32_MAX);
-    const Scalar longer =
-        numeric::rough_product(values_[felt::bend], numeric::rough_product(along_, whole - along_));
+    const Scalar longer = numeric::rough_product(values_[sensorless::bend],
+                                                 numeric::rough_product(along_, whole - along_));
     for (std::size_t i = 0; i < 2; ++i) {
-      values_[felt::turn + i] =
-          values_[felt::turn + i] + numeric::rough_product(values_[felt::turn + i], longer);
+      values_[sensorless::rotation + i] =
+          values_[sensorless::rotation + i] +
+          numeric::rough_product(values_[sensorless::rotation + i], longer);
     }
   }
 
   /// @param ratio  velocity ratio; below 1/8 as at 1/8
   void look(Scalar ratio) {
     const std::int32_t code = numeric::to_code(ratio);
-    const auto eighths = static_cast<std::size_t>(code >> (31 - felt::node_bits));
+    const auto eighths = static_cast<std::size_t>(code >> (31 - sensorless::node_bits));
     const std::size_t node = eighths == 0 ? 0 : eighths - 1;
-    const Scalar part = eighths == 0
-                            ? Scalar{}
-                            : fraction(code & (INT32_MAX >> felt::node_bits), felt::node_bits + 1);
-    const std::size_t first = felt::plain + node * felt::per_node;
-    for (std::size_t i = 0; i < felt::per_node; ++i) {
+    const Scalar part = eighths == 0 ? Scalar{}
+                                     : fraction(code & (INT32_MAX >> sensorless::node_bits),
+                                                sensorless::node_bits + 1);
+    const std::size_t first = sensorless::plain + node * sensorless::per_node;
+    for (std::size_t i = 0; i < sensorless::per_node; ++i) {
       const Scalar low = between((*table_)[row_], first + i, part);
       const Scalar rise = between((*table_)[row_ + 1], first + i, part) - low;
       node_values_[i] = low + numeric::rough_product(rise, along_);
-      if (i < felt::sloped_of_node) {
+      if (i < sensorless::sloped_of_node) {
         node_slopes_[i] = slope_of(rise);
       }
     }
   }
 
   Scalar operator[](std::size_t i) const { return values_[i]; }
-  /// Over the place.
+  /// Over the frequency parameter.
   Scalar slope(std::size_t i) const { return slopes_[i]; }
   /// At the velocity ratio that was looked for last.
   Scalar of_node(std::size_t i) const { return node_values_[i]; }
@@ -119,13 +121,13 @@ class FeltPlace {
         static_cast<std::int32_t>((static_cast<std::uint32_t>(code) << leading) >> 1));
   }
 
-  static Scalar between(const FeltRow<Scalar>& row, std::size_t i, Scalar part) {
-    return row[i] + numeric::rough_product(part, row[i + felt::per_node] - row[i]);
+  static Scalar between(const SensorlessRow<Scalar>& row, std::size_t i, Scalar part) {
+    return row[i] + numeric::rough_product(part, row[i + sensorless::per_node] - row[i]);
   }
 
-  /// From one row to the next the place moves by 2/8.
+  /// From one row to the next the frequency parameter moves by 2/8.
   static Scalar slope_of(Scalar rise) {
-    constexpr int steep = felt::row_bits - 1;
+    constexpr int steep = sensorless::row_bits - 1;
     if constexpr (numeric::is_fixed_point_v<Scalar>) {
       return numeric::lifted(rise, steep);
     } else {
@@ -133,13 +135,13 @@ class FeltPlace {
     }
   }
 
-  const FeltTable<Scalar>* table_;
+  const SensorlessTable<Scalar>* table_;
   std::size_t row_ = 0;
   Scalar along_{};
-  std::array<Scalar, felt::plain> values_{};
-  std::array<Scalar, felt::sloped> slopes_{};
-  std::array<Scalar, felt::per_node> node_values_{};
-  std::array<Scalar, felt::sloped_of_node> node_slopes_{};
+  std::array<Scalar, sensorless::plain> values_{};
+  std::array<Scalar, sensorless::sloped> slopes_{};
+  std::array<Scalar, sensorless::per_node> node_values_{};
+  std::array<Scalar, sensorless::sloped_of_node> node_slopes_{};
 };
 
 }  // namespace sonoglide::control

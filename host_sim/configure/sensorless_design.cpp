@@ -1,0 +1,379 @@
+#include "host_sim/configure/sensorless_design.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <cstddef>
+#include <cstdlib>
+#include <limits>
+
+#include "firmware/numeric/float_elementary.hpp"
+#include "firmware/numeric/turn.hpp"
+#include "host_sim/configure/configuration_error.hpp"
+#include "host_sim/configure/damped_design.hpp"
+#include "host_sim/configure/friction_response.hpp"
+#include "host_sim/configure/mode_model.hpp"
+#include "host_sim/configure/plant_scales.hpp"
+#include "host_sim/scene/friction_laws.hpp"
+#include "host_sim/scene/names.hpp"
+
+namespace sonoglide::configure {
+namespace {
+
+namespace sensorless = control::sensorless;
+using Complex = std::complex<double>;
+
+bool slides_backwards(const scene::Sliding& sliding) {
+  return std::any_of(sliding.profile.begin(), sliding.profile.end(),
+                     [](const auto& point) { return point.velocity_m_per_s < 0.0; });
+}
+
+void require_feeling(const scene::Scene& scene) {
+  if (!scene::vibrates_along(scene.friction.law)) {
+    throw ConfigurationError(
+        "friction.law",
+        fmt::format("\"{}\" does not show the vibration along the sliding; allowed with "
+                    "controller.vibration = \"damped\" and no sensor.vibration: a law of "
+                    "longitudinal vibration",
+                    scene::name_of(scene.friction.law)));
+  }
+  const auto& profile = scene.sliding.profile;
+  const bool forwards = std::any_of(profile.begin(), profile.end(),
+                                    [](const auto& point) { return point.velocity_m_per_s > 0.0; });
+  if (forwards && slides_backwards(scene.sliding)) {
+    throw ConfigurationError(
+        "sliding.profile",
+        "turns, and the natural mode shows itself differently in the friction of either direction; "
+        "allowed: one direction, or a sensor.vibration with controller.vibration = \"damped\"");
+  }
+}
+
+/// What is the same for every frequency in the table.
+struct FrictionReading {
+  double speed = 0.0;   ///< fastest |Vt|, per unit
+  double lambda = 0.0;  ///< Kt Vt/(ω Fc); infinite for Coulomb friction
+  double sign = 1.0;    ///< of the vibration in the velocity along the sliding
+  double noise = 0.0;   ///< of a lag-compensated ratio, rms
+  double model_lift =
+      0.0;  ///< by how much the compensation of the lag lifts what the model has wrong
+  ReadingChain chain;
+
+  VibratedContact contact(double ratio, double phase) const {
+    return {ratio, lambda / ratio, phase};
+  }
+};
+
+constexpr double slower_rise = 0.85;  // of the amplitude: what it adds to the mode is not yet known
+constexpr double largest_ratio = 0.985;  // of a node; at 1 the friction ratio has no slope
+
+ReadingChain chain_of(const scene::Sensor& sensor, double period_s) {
+  ReadingChain chain;
+  if (sensor.force_bandwidth_Hz) {
+    const double periods = numeric::two_pi * *sensor.force_bandwidth_Hz * period_s;
+    chain.fade = numeric::exp(-periods);
+    chain.fresh = 1.0 + numeric::expm1(-periods) / periods;
+    chain.old = 1.0 - chain.fade - chain.fresh;
+  }
+  return chain;
+}
+
+/// Rms of a measured ratio.
+double reading_noise(const scene::Sensor& sensor, double friction_N) {
+  const double code_N =
+      sensor.adc_bits ? 2.0 * sensor.force_full_scale_N * std::exp2(-*sensor.adc_bits) : 0.0;
+  const double noise_N = sensor.force_noise_N;
+  return numeric::sqrt(noise_N * noise_N + code_N * code_N / 12.0) / friction_N;
+}
+
+FrictionReading friction_reading(const scene::Scene& scene, const NominalPlant& plant,
+                                 double velocity_m_per_s) {
+  const double period_s = 1.0 / scene.drive->frequency_Hz;
+  const double speed_m_per_s = fastest_sliding_m_per_s(scene.sliding);
+  FrictionReading reading;
+  reading.speed = speed_m_per_s / velocity_m_per_s;
+  const bool dahl = scene::friction_map(scene.friction.law) == scene::FrictionMap::dahl;
+  reading.lambda = dahl ? plant.contact_stiffness_N_per_m * speed_m_per_s * period_s /
+                              (numeric::two_pi * plant.friction_N)
+                        : std::numeric_limits<double>::infinity();
+  const bool backwards = slides_backwards(scene.sliding);
+  reading.sign = (backwards ? -1.0 : 1.0) * vibration_sign(scene.friction.sign_convention);
+  reading.chain = chain_of(scene.sensor, period_s);
+  constexpr double usual_ratio = 0.6;
+  constexpr double short_memory = 0.1;
+  constexpr double longest_memory = 0.9;  // more would make too much of noise
+  const double memory = friction_response(reading.contact(usual_ratio, 0.0)).memory;
+  reading.chain.contact_memory = memory > short_memory ? std::min(memory, longest_memory) : 0.0;
+  reading.noise = reading_noise(scene.sensor, plant.friction_N);
+  reading.model_lift = 1.0;
+  constexpr double lifted = 0.2;
+  for (const double kept : {reading.chain.fade, reading.chain.contact_memory}) {
+    reading.noise *= numeric::sqrt(1.0 + kept * kept) / (1.0 - kept);
+    reading.model_lift *= 1.0 + lifted * kept / (1.0 - kept);
+  }
+  return reading;
+}
+
+/// Re(c w) of a phasor w in its two parts.
+Eigen::RowVector2d row_of(Complex c) {
+  return {c.real(), -c.imag()};
+}
+
+/// A model with a mode that a reading shows.
+struct ObservedMode {
+  ModeModel model;
+  Complex rate;          ///< of its free motion, per period
+  Eigen::Matrix2d back;  ///< the mode a period before
+  double phase = 0.0;    ///< of the steady vibration, along the sliding
+};
+
+ObservedMode observed_mode(const Resonator& resonator, double sign) {
+  ObservedMode mode;
+  mode.model = mode_model(resonator);
+  const double decay = 0.5 * resonator.damping;
+  mode.rate = {-decay, numeric::sqrt(resonator.stiffness - decay * decay)};
+  mode.back = mode.model.rotation.inverse();
+  const Eigen::Vector2d forced = sign * mode.model.forced;
+  const double angle = numeric::acos(std::clamp(forced(0) / forced.norm(), -1.0, 1.0));
+  mode.phase = forced(1) < 0.0 ? -angle : angle;
+  return mode;
+}
+
+struct Node {
+  Eigen::RowVector2d output;
+  double last_change;
+  double change_before;
+};
+
+Node node_of(const ObservedMode& mode, double ratio, const FrictionReading& reading) {
+  const ReadingResponse response =
+      reading_response(reading.contact(ratio, mode.phase), mode.rate, reading.chain);
+  const double forced = mode.model.forced.norm();
+  // A mode that dies within a period is not worth a look.
+  constexpr double fading = 1.0;
+  if (-mode.rate.real() > fading) {
+    return {Eigen::RowVector2d::Zero(), -forced * (response.forced[1] + response.forced[2]),
+            -forced * response.forced[2]};
+  }
+  const Eigen::RowVector2d earlier = reading.sign * row_of(response.mode[2]) * mode.back;
+  const Eigen::RowVector2d before = (reading.sign * row_of(response.mode[1]) + earlier) * mode.back;
+  return {reading.sign * row_of(response.mode[0]) + before,
+          -before * mode.model.input_gain - forced * (response.forced[1] + response.forced[2]),
+          -earlier * mode.model.input_gain - forced * response.forced[2]};
+}
+
+/// Rms of a reading, per sliding velocity.
+double noise_of(double ratio, const FrictionReading& reading) {
+  constexpr double rest = 0.001;  // of the velocity: map and contact, in a settled loop
+  // Of Coulomb friction: a velocity per ratio, per sliding velocity.
+  const double steepness =
+      0.25 * numeric::two_pi * numeric::sqrt(1.0 - ratio * ratio) / (ratio * ratio);
+  const double model = rest * reading.model_lift / ratio;
+  const double sensor = reading.noise * steepness;
+  return numeric::sqrt(model * model + sensor * sensor);
+}
+
+double ratio_of_node(std::size_t index) {
+  return std::min(largest_ratio,
+                  static_cast<double>(index + 1) / static_cast<double>(sensorless::nodes));
+}
+
+void put_node(const ObservedMode& mode, std::size_t index, const FrictionReading& reading,
+              control::SensorlessRow<double>& row) {
+  const double ratio = ratio_of_node(index);
+  const Node node = node_of(mode, ratio, reading);
+  double* const numbers = &row[sensorless::plain + index * sensorless::per_node];
+  numbers[sensorless::output] = node.output(0);
+  numbers[sensorless::output + 1] = node.output(1);
+  numbers[sensorless::last_change] = node.last_change;
+  numbers[sensorless::change_before] = node.change_before;
+  numbers[sensorless::noise] = reading.speed * noise_of(ratio, reading);
+}
+
+/// A mode next to zero or to a multiple of the carrier costs what the friction shows of it, and a
+/// little of its own: a slow one acts as another sliding speed, which the vibration at the carrier
+/// hardly shows.
+Eigen::RowVector3d feedback_of(const ObservedMode& mode, const FrictionReading& reading) {
+  const ModeModel& model = mode.model;
+  if (is_quick(model)) {
+    Eigen::RowVector3d feedback = feedback_of(model, vibration_error(model));
+    feedback(2) *= slower_rise;
+    return feedback;
+  }
+  constexpr double usual_ratio = 0.7;
+  constexpr double own = 0.2;
+  FrictionReading bare = reading;
+  bare.chain = {};
+  Eigen::RowVector3d output;
+  output << node_of(mode, usual_ratio, bare).output, model.forced.norm();
+  Eigen::Matrix3d error = output.transpose() * output;
+  error.topLeftCorner<2, 2>() += own * model.square;
+  return feedback_of(model, error);
+}
+
+/// A row stands for the modes as far as the next rows: the mean of theirs, each with the part that
+/// the row has in what is interpolated there. Next to half a turn in a period a change of the
+/// amplitude moves one part of the mode, and the feedback of the other part changes its sign within
+/// a fraction of a row.
+Eigen::RowVector3d feedback_around(const Resonator& resonator, double spacing,
+                                   const FrictionReading& reading) {
+  constexpr int parts = 8;
+  Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
+  for (int part = 1 - parts; part < parts; ++part) {
+    Resonator near = resonator;
+    near.stiffness += spacing * part / parts;
+    sum += (parts - std::abs(part)) * feedback_of(observed_mode(near, reading.sign), reading);
+  }
+  return sum / (parts * parts);
+}
+
+/// @param spacing  of the rows, a difference of the stiffness
+control::SensorlessRow<double> row_of(const Resonator& resonator, double spacing,
+                                      const FrictionReading& reading) {
+  const ObservedMode mode = observed_mode(resonator, reading.sign);
+  const ModeModel& model = mode.model;
+  const double forced = model.forced.norm();
+  const Eigen::RowVector3d feedback = feedback_around(resonator, spacing, reading);
+  control::SensorlessRow<double> row{};
+  row[sensorless::rotation] = model.rotation(0, 0);
+  row[sensorless::rotation + 1] = model.rotation(1, 0);
+  row[sensorless::input_gain] = model.input_gain(0);
+  row[sensorless::input_gain + 1] = model.input_gain(1);
+  row[sensorless::forced] = forced;
+  row[sensorless::feedback] = feedback(0);
+  row[sensorless::feedback + 1] = feedback(1);
+  row[sensorless::feedback + 2] = feedback(2);
+  row[sensorless::per_velocity] = 1.0 / forced;
+  const double angle = 0.5 * spacing / mode.rate.imag();
+  row[sensorless::bend] = 0.5 * angle * angle;
+  for (std::size_t i = 0; i < sensorless::nodes; ++i) {
+    put_node(mode, i, reading, row);
+  }
+  return row;
+}
+
+/// The mode turns so little in a period, against zero or a multiple of the carrier, that it cannot
+/// be told from the vibration. A mode next to a multiple that dies within 20 periods is told by
+/// that.
+bool is_one_with_vibration(const Resonator& resonator) {
+  constexpr double apart = 1.0 / 192.0;
+  constexpr double decay = 0.05;
+  const double turns = numeric::sqrt(resonator.stiffness) / numeric::two_pi;
+  const double nearest = std::round(turns);
+  return nearest != 1.0 && std::abs(turns - nearest) < apart &&
+         (nearest == 0.0 || 0.5 * resonator.damping < decay);
+}
+
+/// By how much the stiffness may be off until a mode is next to zero or a multiple of the carrier,
+/// where it is hardly quieted; relative.
+double multiple_range(const Resonator& resonator) {
+  constexpr double beside = 0.06;
+  const double turns = numeric::sqrt(resonator.stiffness) / numeric::two_pi;
+  const double nearest = std::round(turns);
+  return nearest == 1.0 ? 1.0 : 2.0 * (std::abs(turns - nearest) - beside) / turns;
+}
+
+/// Of such a mode: it rings with the drive, so what it adds counts as a gain. The first row has the
+/// steady vibration alone, the last one a mode that rings with 1.2 times its displacement.
+control::SensorlessTable<double> table_of_gains(const Resonator& resonator,
+                                                const FrictionReading& reading) {
+  constexpr double largest = 1.2;
+  const double turns = numeric::sqrt(resonator.stiffness) / numeric::two_pi;
+  const double gain = std::max(1.0, largest * numeric::sqrt(1.0 + turns * turns));
+  static_assert(sensorless::rows == 9);
+  const double step = numeric::sqrt(numeric::sqrt(numeric::sqrt(gain)));
+  double forced = mode_model(resonator).forced.norm();
+  control::SensorlessTable<double> table{};
+  for (control::SensorlessRow<double>& row : table) {
+    row[sensorless::rotation] = 1.0;
+    row[sensorless::forced] = forced;
+    forced *= step;
+    row[sensorless::feedback + 2] = slower_rise;
+    row[sensorless::per_velocity] = 1.0 / row[sensorless::forced];
+    for (std::size_t node = 0; node < sensorless::nodes; ++node) {
+      row[sensorless::plain + node * sensorless::per_node + sensorless::noise] =
+          reading.speed * noise_of(ratio_of_node(node), reading);
+    }
+  }
+  return table;
+}
+
+control::SensorlessTable<double> table_of(const Resonator& lowest, double spacing,
+                                          const FrictionReading& reading) {
+  control::SensorlessTable<double> table{};
+  for (std::size_t i = 0; i < sensorless::rows; ++i) {
+    Resonator resonator = lowest;
+    resonator.stiffness += static_cast<double>(i) * spacing;
+    table[i] = row_of(resonator, spacing, reading);
+  }
+  return table;
+}
+
+/// The table in multiples of a mode that leaves the input gain an eighth.
+/// @return that mode; 1 without an input gain
+double scale_mode(control::SensorlessTable<double>& table) {
+  double largest = 0.0;
+  for (const control::SensorlessRow<double>& row : table) {
+    largest = std::max({largest, std::abs(row[sensorless::input_gain]),
+                        std::abs(row[sensorless::input_gain + 1])});
+  }
+  const double unit = largest > 0.0 ? 8.0 * largest : 1.0;
+  for (control::SensorlessRow<double>& row : table) {
+    for (std::size_t i = 0; i < 2; ++i) {
+      row[sensorless::input_gain + i] /= unit;
+      row[sensorless::feedback + i] *= unit;
+      for (std::size_t node = 0; node < sensorless::nodes; ++node) {
+        double* const numbers = &row[sensorless::plain + node * sensorless::per_node];
+        numbers[sensorless::output + i] *= unit;
+      }
+    }
+  }
+  return unit;
+}
+
+}  // namespace
+
+SensorlessDesign design_sensorless(const scene::Scene& scene, const NominalPlant& plant,
+                                   double velocity_m_per_s) {
+  require_mode(plant);
+  require_feeling(scene);
+  const double period_s = 1.0 / scene.drive->frequency_Hz;
+  const double push = scene.drive->max_force_amplitude_N * plant.force_factor * period_s /
+                      (plant.mass_kg * velocity_m_per_s);
+  const Resonator middle{plant.stiffness_N_per_m / plant.mass_kg * period_s * period_s,
+                         plant.damping_N_s_per_m / plant.mass_kg * period_s, push};
+  const FrictionReading reading = friction_reading(scene, plant, velocity_m_per_s);
+  SensorlessDesign design;
+  design.stiffness_range = stiffness_range(middle.stiffness);
+  constexpr double nearly_rad = 0.3;
+  design.rotation_range = 2.0 * nearly_rad / numeric::sqrt(middle.stiffness);
+  design.multiple_range = multiple_range(middle);
+  design.quick = is_quick(mode_model(middle));
+  const double range = design.stiffness_range * middle.stiffness;
+  const double spacing = 2.0 / (sensorless::rows - 1) * range;
+  design.apart = !is_one_with_vibration(middle);
+  Resonator lowest = middle;
+  lowest.stiffness -= range;
+  design.table =
+      design.apart ? table_of(lowest, spacing, reading) : table_of_gains(middle, reading);
+  constexpr double usual_ratio = 0.6;
+  design.blur = usual_ratio * noise_of(usual_ratio, reading);
+  design.speed = reading.speed;
+  constexpr double nonlinear = 0.04;  // of friction under a mode
+  constexpr double unknown = 0.12;    // of the angle by which the range turns a mode
+  design.swing =
+      nonlinear + unknown * 0.5 * design.stiffness_range * numeric::sqrt(middle.stiffness);
+  design.mode_unit = scale_mode(design.table);
+  const double linear = design.quick ? 0.5 : 0.2;
+  design.linear = linear / design.mode_unit;
+  design.sensor_memory = reading.chain.fade;
+  design.contact_memory = reading.chain.contact_memory;
+  design.backwards = slides_backwards(scene.sliding);
+  design.delay_periods =
+      static_cast<std::uint8_t>(scene.drive->delay_periods + scene.sensor.delay_periods);
+  return design;
+}
+
+}  // namespace sonoglide::configure
