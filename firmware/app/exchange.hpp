@@ -3,8 +3,8 @@
 
 #include <cstdint>
 
-#include "firmware/control/drive_command.hpp"
-#include "firmware/control/measurement.hpp"
+#include "firmware/control/interface/drive_command.hpp"
+#include "firmware/control/interface/measurement.hpp"
 #include "firmware/numeric/scalar.hpp"
 #include "hal/board.hpp"
 

@@ -7,9 +7,9 @@
 #include <limits>
 
 #include "firmware/control/controller.hpp"
-#include "firmware/control/drive_limit.hpp"
-#include "firmware/control/friction_level.hpp"
-#include "firmware/control/tolerant_samples.hpp"
+#include "firmware/control/friction/friction_level.hpp"
+#include "firmware/control/limits/drive_limit.hpp"
+#include "firmware/control/limits/tolerant_samples.hpp"
 #include "firmware/encoding/crc32.hpp"
 #include "firmware/numeric/scalar.hpp"
 

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "firmware/control/drive_command.hpp"
+#include "firmware/control/interface/drive_command.hpp"
 #include "firmware/numeric/scalar.hpp"
 #include "hal/board.hpp"
 

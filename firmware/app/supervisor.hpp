@@ -7,7 +7,7 @@
 #include "firmware/app/exchange.hpp"
 #include "firmware/app/fault_log.hpp"
 #include "firmware/app/no_host.hpp"
-#include "firmware/control/drive_command.hpp"
+#include "firmware/control/interface/drive_command.hpp"
 #include "hal/board.hpp"
 
 namespace sonoglide::app {

@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "firmware/app/supervisor.hpp"
-#include "firmware/control/names.hpp"
+#include "firmware/control/interface/names.hpp"
 #include "firmware/store/two_page_store.hpp"
 
 namespace sonoglide::app {

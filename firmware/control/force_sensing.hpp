@@ -1,9 +1,9 @@
 /// Whether a sensor tells the friction force.
 #pragma once
 
-#include "firmware/control/drive_command.hpp"
-#include "firmware/control/part_name.hpp"
-#include "firmware/control/remembered_map.hpp"
+#include "firmware/control/friction/remembered_map.hpp"
+#include "firmware/control/interface/drive_command.hpp"
+#include "firmware/control/interface/part_name.hpp"
 
 namespace sonoglide::control {
 

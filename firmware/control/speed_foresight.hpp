@@ -1,7 +1,7 @@
 /// The sliding speed at which an answer will act.
 #pragma once
 
-#include "firmware/control/signals.hpp"
+#include "firmware/control/interface/signals.hpp"
 #include "firmware/numeric/accumulator.hpp"
 #include "firmware/numeric/headroom.hpp"
 #include "firmware/numeric/scalar.hpp"

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "firmware/control/mode_table.hpp"
+#include "firmware/control/vibration/mode_table.hpp"
 #include "host_sim/configure/mode_model.hpp"
 #include "host_sim/configure/nominal_plant.hpp"
 #include "host_sim/scene/scene.hpp"

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <limits>
 
-#include "firmware/control/coulomb_feedforward.hpp"
-#include "firmware/control/dahl_feedforward.hpp"
-#include "firmware/control/friction_level.hpp"
+#include "firmware/control/friction/coulomb_feedforward.hpp"
+#include "firmware/control/friction/dahl_feedforward.hpp"
+#include "firmware/control/friction/friction_level.hpp"
 #include "firmware/numeric/float_elementary.hpp"
 #include "firmware/numeric/turn.hpp"
 #include "host_sim/configure/bound.hpp"

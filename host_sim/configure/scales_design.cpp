@@ -8,7 +8,7 @@
 #include <string>
 
 #include "firmware/control/controller.hpp"
-#include "firmware/control/friction_level.hpp"
+#include "firmware/control/friction/friction_level.hpp"
 #include "firmware/numeric/turn.hpp"
 #include "host_sim/configure/bound.hpp"
 #include "host_sim/configure/configuration_error.hpp"

@@ -6,7 +6,7 @@
 #include <limits>
 #include <vector>
 
-#include "firmware/control/drive_command.hpp"
+#include "firmware/control/interface/drive_command.hpp"
 #include "hal/board.hpp"
 #include "host_sim/loop/snapshot.hpp"
 

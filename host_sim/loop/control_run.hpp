@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "firmware/app/timed_targets.hpp"
-#include "firmware/control/drive_command.hpp"
+#include "firmware/control/interface/drive_command.hpp"
 #include "hal/trace_hash.hpp"
 #include "host_sim/loop/actuator.hpp"
 #include "host_sim/loop/carrier_grid.hpp"

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "firmware/control/drive_command.hpp"
+#include "firmware/control/interface/drive_command.hpp"
 #include "firmware/numeric/signal_ledger.hpp"
 #include "host_sim/configure/control_design.hpp"
 #include "host_sim/loop/electrical.hpp"

@@ -6,7 +6,7 @@
 #include <limits>
 #include <vector>
 
-#include "firmware/control/drive_command.hpp"
+#include "firmware/control/interface/drive_command.hpp"
 #include "host_sim/loop/plant_port.hpp"
 
 namespace sonoglide::loop {

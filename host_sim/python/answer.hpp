@@ -3,8 +3,8 @@
 
 #include <pybind11/pybind11.h>
 
-#include "firmware/control/drive_command.hpp"
-#include "firmware/control/names.hpp"
+#include "firmware/control/interface/drive_command.hpp"
+#include "firmware/control/interface/names.hpp"
 #include "hal/board.hpp"
 
 namespace sonoglide::python {

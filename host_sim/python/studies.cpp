@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "firmware/control/names.hpp"
+#include "firmware/control/interface/names.hpp"
 #include "host_sim/python/bindings.hpp"
 #include "host_sim/python/key.hpp"
 #include "host_sim/python/scene.hpp"

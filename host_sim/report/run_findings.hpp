@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-#include "firmware/control/drive_command.hpp"
+#include "firmware/control/interface/drive_command.hpp"
 #include "host_sim/configure/control_design.hpp"
 #include "host_sim/loop/carrier_grid.hpp"
 #include "host_sim/loop/watch.hpp"

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <numeric>
 
-#include "firmware/control/drive_command.hpp"
+#include "firmware/control/interface/drive_command.hpp"
 #include "host_sim/configure/control_design.hpp"
 #include "host_sim/loop/electrical.hpp"
 #include "host_sim/report/run_notes.hpp"

@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-#include "firmware/control/drive_command.hpp"
+#include "firmware/control/interface/drive_command.hpp"
 #include "host_sim/loop/watch.hpp"
 #include "host_sim/report/target_spans.hpp"
 #include "host_sim/scene/scene.hpp"

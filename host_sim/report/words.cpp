@@ -6,7 +6,7 @@
 #include <cmath>
 #include <utility>
 
-#include "firmware/control/names.hpp"
+#include "firmware/control/interface/names.hpp"
 
 namespace sonoglide::report {
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "firmware/control/drive_command.hpp"
+#include "firmware/control/interface/drive_command.hpp"
 #include "host_sim/loop/run_result.hpp"
 #include "host_sim/output/page.hpp"
 #include "host_sim/report/step_metrics.hpp"

@@ -6,11 +6,11 @@
 #include "cost_composed.hpp"
 #include "firmware/app/control_loop.hpp"
 #include "firmware/control/controller.hpp"
-#include "firmware/control/dahl_feedforward.hpp"
-#include "firmware/control/integral_regulator.hpp"
-#include "firmware/control/learnt_friction.hpp"
-#include "firmware/control/notch_shaper.hpp"
-#include "firmware/control/slew_limit.hpp"
+#include "firmware/control/feedback/integral_regulator.hpp"
+#include "firmware/control/friction/dahl_feedforward.hpp"
+#include "firmware/control/friction/learnt_friction.hpp"
+#include "firmware/control/limits/notch_shaper.hpp"
+#include "firmware/control/limits/slew_limit.hpp"
 #include "hal/host/simulated_board.hpp"
 
 namespace sonoglide::cost {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "firmware/control/drive_command.hpp"
+#include "firmware/control/interface/drive_command.hpp"
 #include "host_sim/emulated/board_list.hpp"
 #include "host_sim/loop/run.hpp"
 #include "host_sim/loop/run_result.hpp"

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "firmware/control/names.hpp"
+#include "firmware/control/interface/names.hpp"
 #include "host_sim/output/number.hpp"
 #include "host_sim/scene/names.hpp"
 

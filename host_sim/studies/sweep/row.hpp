@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "firmware/control/drive_command.hpp"
+#include "firmware/control/interface/drive_command.hpp"
 
 namespace sonoglide::sweep {
 

@@ -92,15 +92,18 @@ std::vector<Row> measure_scenes(const emulated::EmulatedBoard& board,
 
 const std::vector<Feature>& features() {
   static const std::vector<Feature> all = {
-      {"shaping", "every_part", "no_shaping", "notch_shaper.hpp", "NotchShaper"},
-      {"robust notch", "five_taps", "no_shaping", "notch_shaper.hpp", "NotchShaper"},
-      {"feedback", "no_shaping", "no_feedback", "integral_regulator.hpp", "IntegralRegulator"},
-      {"calibration", "every_part", "no_calibration", "learnt_friction.hpp", "LearntFriction"},
-      {"relearning", "relearning", "every_part", "periodic_relearning.hpp", "PeriodicRelearning"},
-      {"felt mode", "felt_mode", "no_slew_limit", "sensorless_vibration.hpp",
+      {"shaping", "every_part", "no_shaping", "limits/notch_shaper.hpp", "NotchShaper"},
+      {"robust notch", "five_taps", "no_shaping", "limits/notch_shaper.hpp", "NotchShaper"},
+      {"feedback", "no_shaping", "no_feedback", "feedback/integral_regulator.hpp",
+       "IntegralRegulator"},
+      {"calibration", "every_part", "no_calibration", "friction/learnt_friction.hpp",
+       "LearntFriction"},
+      {"relearning", "relearning", "every_part", "friction/periodic_relearning.hpp",
+       "PeriodicRelearning"},
+      {"felt mode", "felt_mode", "no_slew_limit", "vibration/sensorless_vibration.hpp",
        "SensorlessVibration"},
-      {"slew limit", "every_part", "no_slew_limit", "slew_limit.hpp", "control::SlewLimit"},
-      {"dahl map", "every_part", "coulomb", "dahl_feedforward.hpp", "DahlFeedforward"},
+      {"slew limit", "every_part", "no_slew_limit", "limits/slew_limit.hpp", "control::SlewLimit"},
+      {"dahl map", "every_part", "coulomb", "friction/dahl_feedforward.hpp", "DahlFeedforward"},
   };
   return all;
 }

@@ -9,11 +9,11 @@
 #include <vector>
 
 #include "firmware/control/controller.hpp"
-#include "firmware/control/coulomb_feedforward.hpp"
-#include "firmware/control/integral_regulator.hpp"
-#include "firmware/control/learnt_friction.hpp"
-#include "firmware/control/notch_shaper.hpp"
-#include "firmware/control/slew_limit.hpp"
+#include "firmware/control/feedback/integral_regulator.hpp"
+#include "firmware/control/friction/coulomb_feedforward.hpp"
+#include "firmware/control/friction/learnt_friction.hpp"
+#include "firmware/control/limits/notch_shaper.hpp"
+#include "firmware/control/limits/slew_limit.hpp"
 #include "firmware/numeric/fixed.hpp"
 
 namespace sonoglide::app::control_loop_test {

@@ -8,12 +8,12 @@
 #include <limits>
 #include <set>
 
-#include "firmware/control/coulomb_feedforward.hpp"
-#include "firmware/control/dahl_feedforward.hpp"
-#include "firmware/control/integral_regulator.hpp"
-#include "firmware/control/learnt_friction.hpp"
-#include "firmware/control/notch_shaper.hpp"
-#include "firmware/control/slew_limit.hpp"
+#include "firmware/control/feedback/integral_regulator.hpp"
+#include "firmware/control/friction/coulomb_feedforward.hpp"
+#include "firmware/control/friction/dahl_feedforward.hpp"
+#include "firmware/control/friction/learnt_friction.hpp"
+#include "firmware/control/limits/notch_shaper.hpp"
+#include "firmware/control/limits/slew_limit.hpp"
 #include "firmware/numeric/fixed.hpp"
 #include "tests/firmware/app/unit/simulated_unit.hpp"
 

@@ -6,14 +6,14 @@
 #include <type_traits>
 
 #include "firmware/control/controller.hpp"
-#include "firmware/control/coulomb_feedforward.hpp"
-#include "firmware/control/dahl_feedforward.hpp"
-#include "firmware/control/drive_limit.hpp"
-#include "firmware/control/integral_regulator.hpp"
-#include "firmware/control/learnt_friction.hpp"
-#include "firmware/control/notch_shaper.hpp"
-#include "firmware/control/periodic_relearning.hpp"
-#include "firmware/control/slew_limit.hpp"
+#include "firmware/control/feedback/integral_regulator.hpp"
+#include "firmware/control/friction/coulomb_feedforward.hpp"
+#include "firmware/control/friction/dahl_feedforward.hpp"
+#include "firmware/control/friction/learnt_friction.hpp"
+#include "firmware/control/friction/periodic_relearning.hpp"
+#include "firmware/control/limits/drive_limit.hpp"
+#include "firmware/control/limits/notch_shaper.hpp"
+#include "firmware/control/limits/slew_limit.hpp"
 #include "firmware/numeric/scalar.hpp"
 
 namespace sonoglide::control {

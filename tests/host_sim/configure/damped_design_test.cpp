@@ -7,7 +7,7 @@
 #include <random>
 #include <string>
 
-#include "firmware/control/mode_table.hpp"
+#include "firmware/control/vibration/mode_table.hpp"
 #include "host_sim/configure/nominal_plant.hpp"
 #include "tests/common/table_1.hpp"
 

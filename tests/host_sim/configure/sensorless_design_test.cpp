@@ -5,7 +5,7 @@
 #include <Eigen/Eigenvalues>
 #include <cmath>
 
-#include "firmware/control/sensorless_table.hpp"
+#include "firmware/control/vibration/sensorless_table.hpp"
 #include "host_sim/configure/mode_model.hpp"
 #include "host_sim/configure/nominal_plant.hpp"
 #include "tests/common/constants/pi.hpp"

@@ -11,14 +11,14 @@
 #include <utility>
 
 #include "firmware/control/controller.hpp"
-#include "firmware/control/dahl_feedforward.hpp"
-#include "firmware/control/drive_limit.hpp"
-#include "firmware/control/integral_regulator.hpp"
-#include "firmware/control/learnt_friction.hpp"
-#include "firmware/control/notch_shaper.hpp"
-#include "firmware/control/periodic_relearning.hpp"
-#include "firmware/control/slew_limit.hpp"
-#include "firmware/control/tolerant_samples.hpp"
+#include "firmware/control/feedback/integral_regulator.hpp"
+#include "firmware/control/friction/dahl_feedforward.hpp"
+#include "firmware/control/friction/learnt_friction.hpp"
+#include "firmware/control/friction/periodic_relearning.hpp"
+#include "firmware/control/limits/drive_limit.hpp"
+#include "firmware/control/limits/notch_shaper.hpp"
+#include "firmware/control/limits/slew_limit.hpp"
+#include "firmware/control/limits/tolerant_samples.hpp"
 #include "firmware/plant/strang/fixed_point_strang.hpp"
 
 namespace sonoglide::emulated::initialiser_test {

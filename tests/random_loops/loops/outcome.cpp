@@ -5,7 +5,7 @@
 #include <limits>
 #include <optional>
 
-#include "firmware/control/names.hpp"
+#include "firmware/control/interface/names.hpp"
 #include "host_sim/loop/failure.hpp"
 #include "host_sim/loop/run.hpp"
 #include "host_sim/report/target_spans.hpp"

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <functional>
 
-#include "firmware/control/names.hpp"
+#include "firmware/control/interface/names.hpp"
 
 namespace sonoglide::random_loops {
 namespace {

@@ -1,0 +1,51 @@
+/// Feedforward for a Dahl contact.
+#pragma once
+
+#include "firmware/control/friction/friction_level.hpp"
+#include "firmware/control/interface/part_name.hpp"
+#include "firmware/friction/dahl_inverse_map.hpp"
+#include "firmware/numeric/floating.hpp"
+#include "firmware/numeric/scalar.hpp"
+
+namespace sonoglide::control {
+
+/// Inverse Dahl map at λ = Kt·Vt/(ω·Fc), the travel of the sliding per radian of the carrier over
+/// the presliding distance.
+template <class ScalarT>
+class DahlFeedforward {
+ public:
+  static constexpr PartName part_name{"friction/dahl_feedforward", "DahlFeedforward"};
+  using Scalar = ScalarT;
+
+  struct Parameters {
+    /// Kt·X̂ / force full scale, X̂ the vibration amplitude at full drive.
+    numeric::Split<Scalar> contact_force;
+
+    template <class Self, class Visitor>
+    static constexpr void fields(Self& self, Visitor&& visit) {
+      visit("contact_force", self.contact_force);
+    }
+  };
+
+  explicit DahlFeedforward(const Parameters& parameters) : parameters_(parameters) {}
+
+  void set_friction(const FrictionLevel<Scalar>& friction) {
+    const numeric::Split<Scalar>& force = parameters_.contact_force;
+    half_travel_ = numeric::quotient(
+        numeric::floating(numeric::Split<Scalar>{force.mantissa, force.exponent - 1}),
+        friction.level());
+  }
+
+  /// Drive amplitude in [0, 1] at which the friction ratio (base 2, in [0, 1/2]) is reached; the
+  /// largest value where none does.
+  /// @param speed  |Vt|, base the peak vibration velocity at full drive; > 0.
+  Scalar amplitude(Scalar half_ratio, Scalar speed) const {
+    return friction::dahl_vibration_velocity(half_ratio, speed, half_travel_);
+  }
+
+ private:
+  Parameters parameters_;
+  numeric::Floating<Scalar> half_travel_{};  ///< λ/2 at a speed of 1
+};
+
+}  // namespace sonoglide::control

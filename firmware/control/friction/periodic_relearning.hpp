@@ -1,0 +1,175 @@
+/// Short pauses of the drive in which the undriven friction force is learnt anew.
+#pragma once
+
+#include <cstdint>
+
+#include "firmware/control/interface/part_name.hpp"
+#include "firmware/numeric/accumulator.hpp"
+#include "firmware/numeric/scalar.hpp"
+
+namespace sonoglide::control {
+
+/// What the controller is to do in a period.
+enum class Task : std::uint8_t {
+  regulate,  ///< no pause
+  pause,     ///< request zero
+  resume,    ///< a pause, but the request is as it would be without
+  learn,     ///< the request stands, and force() is new
+  adapt,     ///< the request stands, for what else follows from force()
+};
+
+/// The friction force is not learnt again while the drive is on.
+template <class Scalar>
+class NoRelearning {
+ public:
+  static constexpr PartName part_name{"friction/periodic_relearning", "NoRelearning"};
+  struct Parameters {};
+
+  explicit NoRelearning(const Parameters&) {}
+
+  static constexpr void restart() {}
+  static constexpr bool interrupt() { return false; }
+  static constexpr bool pausing() { return false; }
+  static constexpr Task next(Scalar /*force*/, Scalar /*speed*/) { return Task::regulate; }
+  static constexpr Scalar force() { return {}; }
+};
+
+/// At regular intervals the request is zero, through the shaper, for as many periods as the contact
+/// needs to slide through its presliding distance. It comes back before the last undriven reading
+/// has arrived. A pause in which the sliding reverses or becomes too slow teaches nothing.
+///
+/// Periods of a pause, shaper over its span, latency and sensor R, presliding slid through in n,
+/// readings averaged a:
+///   request zero     2M + n + a
+///   drive disturbed  4M + n + a, longer where the friction force has changed
+///   learnt           R periods after the last request of zero; the request then stands for two
+template <class Scalar>
+class PeriodicRelearning {
+ public:
+  static constexpr PartName part_name{"friction/periodic_relearning", "PeriodicRelearning"};
+  struct Parameters {
+    std::uint32_t every_periods;  ///< from the beginning of a pause to that of the next
+    std::uint16_t quiet_periods;  ///< until shaper and sensor show no drive
+    Scalar travel;                ///< presliding travel, in 64 carrier periods at full drive's peak
+                                  ///< vibration velocity
+    std::uint16_t reading_periods;        ///< R: from a request to the reading that shows it
+    std::uint16_t return_periods;         ///< after that, until shaper and contact are back, >= 1
+    std::uint8_t average_periods;         ///< a, >= 1
+    numeric::Accumulator<Scalar> weight;  ///< 1/a
+
+    template <class Self, class Visitor>
+    static constexpr void fields(Self& self, Visitor&& visit) {
+      visit("every_periods", self.every_periods);
+      visit("quiet_periods", self.quiet_periods);
+      visit("travel", self.travel);
+      visit("reading_periods", self.reading_periods);
+      visit("return_periods", self.return_periods);
+      visit("average_periods", self.average_periods);
+      visit("weight", self.weight);
+    }
+  };
+  /// As every_periods: no pause at all.
+  static constexpr std::uint32_t never = UINT32_MAX;
+
+  explicit PeriodicRelearning(const Parameters& parameters) : parameters_(parameters) {}
+
+  void restart() {
+    since_begin_ = 0;
+    phase_ = Phase::idle;
+  }
+
+  /// Ends a pause.
+  /// @return true if `adapt` would have been next
+  bool interrupt() {
+    const bool learnt = phase_ == Phase::slid && count_ == learnt_after();
+    phase_ = Phase::idle;
+    return learnt;
+  }
+
+  bool pausing() const { return phase_ != Phase::idle; }
+
+  /// One call for each period in which the drive is to hold a ratio.
+  /// @param force  measured, along the sliding
+  /// @param speed  of the sliding, base: peak vibration velocity at full drive
+  Task next(Scalar force, Scalar speed) {
+    since_begin_ += since_begin_ + 1 < never ? 1U : 0U;
+    if (phase_ == Phase::idle && since_begin_ >= parameters_.every_periods) {
+      begin();
+    }
+    switch (phase_) {
+      case Phase::idle:
+        return Task::regulate;
+      case Phase::quiet:
+        wait();
+        return Task::pause;
+      case Phase::sliding:
+        slide(speed);
+        return Task::pause;
+      case Phase::slid:
+        break;
+    }
+    return conclude(force);
+  }
+
+  /// Mean of what was learnt in the last pause.
+  Scalar force() const { return numeric::rounded<Scalar>(mean_); }
+
+ private:
+  enum class Phase : std::uint8_t { idle, quiet, sliding, slid };
+
+  void begin() {
+    since_begin_ = 0;
+    count_ = 0;
+    travelled_ = {};
+    mean_ = {};
+    phase_ = parameters_.quiet_periods > 0 ? Phase::quiet : Phase::sliding;
+  }
+
+  void wait() {
+    if (++count_ >= parameters_.quiet_periods) {
+      count_ = 0;
+      phase_ = Phase::sliding;
+    }
+  }
+
+  void slide(Scalar speed) {
+    travelled_ += numeric::scale_by_power_of_two(numeric::accumulate(speed), -6);
+    if (!(travelled_ < numeric::accumulate(parameters_.travel))) {
+      count_ = 0;
+      phase_ = Phase::slid;
+    }
+  }
+
+  /// Called from the first request on whose period is slid through from its beginning.
+  Task conclude(Scalar force) {
+    const std::uint32_t now = count_++;
+    const std::uint32_t shown = parameters_.reading_periods;
+    if (shown <= now && now < learnt_after()) {
+      mean_ += numeric::accumulate(force) * parameters_.weight;
+    }
+    if (now + 1 >= learnt_after() + parameters_.return_periods) {
+      phase_ = Phase::idle;
+    }
+    if (now + 1 == learnt_after()) {
+      return Task::learn;
+    }
+    if (now == learnt_after()) {
+      return Task::adapt;
+    }
+    return now < parameters_.average_periods ? Task::pause : Task::resume;
+  }
+
+  /// Number of readings, from the begin of the period slid through, until the force is learnt.
+  std::uint32_t learnt_after() const {
+    return std::uint32_t{parameters_.reading_periods} + parameters_.average_periods;
+  }
+
+  Parameters parameters_;
+  std::uint32_t since_begin_ = 0;
+  std::uint16_t count_ = 0;
+  Phase phase_ = Phase::idle;
+  numeric::Accumulator<Scalar> travelled_{};
+  numeric::Accumulator<Scalar> mean_{};
+};
+
+}  // namespace sonoglide::control

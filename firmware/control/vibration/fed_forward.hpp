@@ -1,0 +1,37 @@
+/// A vibration of which nothing tells.
+#pragma once
+
+#include "firmware/control/interface/drive_command.hpp"
+#include "firmware/control/interface/measurement.hpp"
+#include "firmware/control/interface/part_name.hpp"
+#include "firmware/control/interface/signals.hpp"
+#include "firmware/control/vibration/vibration_part.hpp"
+#include "firmware/numeric/scalar.hpp"
+
+namespace sonoglide::control {
+
+/// A drive of constant frequency whose amplitude is fed forward.
+template <class ScalarT>
+class FedForward : public VibrationPart<ScalarT> {
+ public:
+  static constexpr PartName part_name{"vibration/fed_forward", "FedForward"};
+  using Scalar = ScalarT;
+  using Measurement = control::Measurement<Scalar>;
+  using Command = DriveCommand<Scalar>;
+  using Requested = signal::RequestedAmplitude;
+  using Drive = typename VibrationPart<Scalar>::Drive;
+
+  struct Parameters {};
+
+  explicit FedForward(const Parameters&) {}
+
+  /// @param requested  amplitude
+  template <class Shaper>
+  static Drive drive(Scalar requested, Shaper& shaper, Scalar ceiling) {
+    const Scalar shaped = numeric::observe<signal::ShapedAmplitude>(shaper.shape(requested));
+    const bool clipped = shaped < Scalar{} || (ceiling <= shaped && requested < ceiling);
+    return {numeric::clamp(shaped, Scalar{}, ceiling), clipped ? Limit::actuator : Limit::none};
+  }
+};
+
+}  // namespace sonoglide::control

@@ -1,0 +1,211 @@
+/// The observer of a mode that is felt in one number a period: the mode that it finds, and the natural
+/// frequency against the Cramér–Rao bound. With a plant: tests/acceptance/closed_loop/damping_test.cpp.
+
+#include "firmware/control/vibration/sensorless_observer.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <complex>
+#include <cstddef>
+#include <cstdint>
+#include <random>
+
+#include "scalars.hpp"
+
+namespace sonoglide::control::sensorless_observer_test {
+namespace {
+
+constexpr double speed = 0.1;
+constexpr double forced = 0.25;  ///< velocity at full drive
+constexpr double amplitude = 0.6;
+constexpr double middle = 1.36;  ///< angle of a period, of the row in the middle
+constexpr double per_frequency_parameter = 0.04;
+constexpr double input_gain = 0.125;
+constexpr double output = 0.4;
+
+/// The angle at a place.
+double angle(double frequency_parameter) {
+  return middle + per_frequency_parameter * frequency_parameter;
+}
+
+/// SensorlessCovariance has velocities on this base in fixed point.
+constexpr double velocity_base = 0.5;
+
+/// @param wrong  what the model has wrong, of what is usual
+template <class S>
+typename SensorlessCovariance<S>::Parameters covariance(double wrong) {
+  const double base = numeric::is_fixed_point_v<S> ? velocity_base : 1.0;
+  const auto variance = [](double rms) { return scaled<S>(rms * rms); };
+  return {variance(0.05),      variance(2e-4 * wrong), variance(0.02 * wrong),
+          variance(0.4),       variance(0.01 / base),  variance(7e-4 * wrong / base),
+          variance(0.2 / base)};
+}
+
+/// A mode whose first coordinate is felt, and no more.
+template <class S>
+typename SensorlessObserver<S>::Parameters parameters(double noise, double wrong = 1.0) {
+  typename SensorlessObserver<S>::Parameters all{};
+  for (std::size_t i = 0; i < sensorless::rows; ++i) {
+    const double frequency_parameter = 2.0 * static_cast<double>(i) / (sensorless::rows - 1) - 1.0;
+    SensorlessRow<S>& row = all.table[i];
+    row[sensorless::rotation] = scaled<S>(std::cos(angle(frequency_parameter)));
+    row[sensorless::rotation + 1] = scaled<S>(std::sin(angle(frequency_parameter)));
+    row[sensorless::input_gain + 1] = scaled<S>(input_gain);
+    row[sensorless::forced] = scaled<S>(forced);
+    for (std::size_t node = 0; node < sensorless::nodes; ++node) {
+      S* const numbers = &row[sensorless::plain + node * sensorless::per_node];
+      numbers[sensorless::output] = scaled<S>(output);
+      numbers[sensorless::noise] = scaled<S>(noise);
+    }
+  }
+  all.covariance = covariance<S>(wrong);
+  all.slower = numeric::is_fixed_point_v<S> ? 1 : 0;
+  all.linear = {scaled<S>(0.5), 3};
+  return all;
+}
+
+/// What the observer is told of a mode that turns by its own angle.
+template <class S>
+struct Ringing {
+  SensorlessObserver<S>& observer;
+  double angle;
+  std::complex<double> mode;
+  double before = amplitude;
+
+  void pass(double now, double offset, double noise) {
+    const double change = now - before;
+    mode = mode * std::polar(1.0, angle) + std::complex<double>(0.0, input_gain * change);
+    observer.predict(scaled<S>(change));
+    const double velocity = forced * now + offset + output * mode.real() + noise;
+    observer.observe(scaled<S>(velocity), scaled<S>(speed),
+                     {scaled<S>(now), scaled<S>(before), scaled<S>(before)}, scaled<S>(0.5));
+    before = now;
+  }
+};
+
+template <class S>
+class SensorlessObserverTest : public testing::Test {};
+TYPED_TEST_SUITE(SensorlessObserverTest, Scalars);
+
+TYPED_TEST(SensorlessObserverTest, FindsAModeThatRingsAlready) {
+  const auto nominal = parameters<TypeParam>(0.001);
+  SensorlessObserver<TypeParam> observer(nominal);
+  Ringing<TypeParam> ringing{observer, angle(0.0), {0.03, -0.05}};
+  for (int k = 0; k < 60; ++k) {
+    ringing.pass(amplitude, 0.01, 0.0);
+  }
+  EXPECT_NEAR(numeric::to_real(observer.mode().first), ringing.mode.real(), 0.002);
+  EXPECT_NEAR(numeric::to_real(observer.mode().second), ringing.mode.imag(), 0.002);
+}
+
+TYPED_TEST(SensorlessObserverTest, ForeseesWhatAChangeOfTheAmplitudeKicks) {
+  const auto nominal = parameters<TypeParam>(0.001);
+  SensorlessObserver<TypeParam> observer(nominal);
+  Ringing<TypeParam> ringing{observer, angle(0.0), {}};
+  ringing.pass(0.9, 0.0, 0.0);
+  EXPECT_NEAR(numeric::to_real(observer.mode().second), input_gain * 0.3, 1e-6);
+  for (int k = 0; k < 10; ++k) {
+    ringing.pass(0.9, 0.0, 0.0);
+    EXPECT_NEAR(numeric::to_real(observer.mode().first), ringing.mode.real(), 1e-5) << k;
+  }
+  EXPECT_NEAR(numeric::to_real(observer.frequency_parameter()), 0.0, 1e-5);
+}
+
+TYPED_TEST(SensorlessObserverTest, FindsTheNaturalFrequencyOfWhatItKicks) {
+  for (const double frequency_parameter : {-0.8, -0.3, 0.5, 0.9}) {
+    const auto nominal = parameters<TypeParam>(0.0005);
+    SensorlessObserver<TypeParam> observer(nominal);
+    Ringing<TypeParam> ringing{observer, angle(frequency_parameter), {}};
+    for (int k = 0; k < 200; ++k) {
+      ringing.pass(k / 20 % 2 == 0 ? 0.6 : 0.9, 0.0, 0.0);
+    }
+    EXPECT_NEAR(numeric::to_real(observer.frequency_parameter()), frequency_parameter, 0.05);
+  }
+}
+
+/// A quiet mode tells nothing of its frequency: in noise it stays within a third of its first doubt.
+TYPED_TEST(SensorlessObserverTest, LeavesTheFrequencyOfAQuietModeAlone) {
+  constexpr double noise = 0.002;
+  constexpr int runs = 50;
+  const auto nominal = parameters<TypeParam>(noise);
+  std::mt19937_64 generator(1);
+  std::normal_distribution<double> normal(0.0, noise);
+  double squares = 0.0;
+  for (int run = 0; run < runs; ++run) {
+    SensorlessObserver<TypeParam> observer(nominal);
+    Ringing<TypeParam> ringing{observer, angle(0.0), {}};
+    for (int k = 0; k < 500; ++k) {
+      ringing.pass(amplitude, 0.0, normal(generator));
+    }
+    squares += numeric::to_real(observer.frequency_parameter()) *
+               numeric::to_real(observer.frequency_parameter());
+  }
+  EXPECT_LT(std::sqrt(squares / runs), 0.15);
+}
+
+/// At a velocity below that of the sliding friction shows nothing.
+TYPED_TEST(SensorlessObserverTest, FeelsNothingBelowTheSpeedOfTheSliding) {
+  const auto nominal = parameters<TypeParam>(0.001);
+  SensorlessObserver<TypeParam> observer(nominal);
+  observer.predict({});
+  const TypeParam weak = scaled<TypeParam>(0.3);  // 0.075 of velocity
+  observer.observe(scaled<TypeParam>(0.3), scaled<TypeParam>(speed), {weak, weak, weak},
+                   scaled<TypeParam>(0.5));
+  EXPECT_EQ(numeric::to_real(observer.mode().first), 0.0);
+}
+
+/// A mode that no reading shows, and by which a feedback might keep the drive down for ever.
+TYPED_TEST(SensorlessObserverTest, ForgetsAModeThatNothingShows) {
+  const auto nominal = parameters<TypeParam>(0.001);
+  SensorlessObserver<TypeParam> observer(nominal);
+  observer.predict(scaled<TypeParam>(0.9));
+  const double kicked = numeric::to_real(observer.mode().second);
+  ASSERT_NEAR(kicked, 0.9 * input_gain, 1e-6);
+  for (int k = 0; k < 32; ++k) {
+    observer.observe(scaled<TypeParam>(0.1), scaled<TypeParam>(speed), {}, scaled<TypeParam>(0.5));
+  }
+  EXPECT_NEAR(numeric::to_real(observer.mode().second), kicked * std::pow(31.0 / 32.0, 32), 1e-6);
+}
+
+/// Of the place, after so many periods of a mode that was kicked from rest: the observer knows the kick
+/// and about where the place is, which the bound below does not.
+double rms_of_frequency(double frequency_parameter, double noise, int periods, int runs) {
+  const auto nominal = parameters<double>(noise);
+  std::mt19937_64 generator(7);
+  std::normal_distribution<double> normal(0.0, noise);
+  double squares = 0.0;
+  for (int run = 0; run < runs; ++run) {
+    SensorlessObserver<double> observer(nominal);
+    Ringing<double> ringing{observer, angle(frequency_parameter), {}};
+    for (int k = 0; k < periods; ++k) {
+      ringing.pass(1.0, 0.0, normal(generator));
+    }
+    const double error = observer.frequency_parameter() - frequency_parameter;
+    squares += error * error;
+  }
+  return std::sqrt(squares / runs);
+}
+
+/// Least standard deviation of an unbiased estimate of the angle of a sinusoid of unknown amplitude and
+/// phase: var ≥ 12/(η n (n² − 1)), η = A²/2σ² (Rife and Boorstyn 1974), over the angle of a place.
+double bound_of_frequency(double noise, int periods) {
+  const double heard = output * input_gain * (1.0 - amplitude);
+  const double ratio = heard * heard / (2.0 * noise * noise);
+  const double n = periods;
+  return std::sqrt(12.0 / (ratio * n * (n * n - 1.0))) / per_frequency_parameter;
+}
+
+/// Below a noise of a hundredth of the sliding velocity the doubt about the map is larger.
+TEST(SensorlessObserverTest, ItsFrequencyIsNearTheCramerRaoBound) {
+  for (const double noise : {0.01, 0.02, 0.04}) {
+    for (const int periods : {24, 40, 80}) {
+      EXPECT_LT(rms_of_frequency(0.3, noise * speed, periods, 400),
+                1.4 * bound_of_frequency(noise * speed, periods))
+          << noise << ", " << periods;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace sonoglide::control::sensorless_observer_test
