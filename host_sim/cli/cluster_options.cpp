@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include "host_sim/cli/options.hpp"
+#include "host_sim/long_work/collection.hpp"
+#include "host_sim/long_work/slurm.hpp"
 #include "host_sim/output/output_folder.hpp"
 #include "host_sim/process/printable.hpp"
-#include "host_sim/shards/collection.hpp"
-#include "host_sim/shards/slurm_script.hpp"
 
 namespace sonoglide::cli {
 namespace {
@@ -25,18 +25,18 @@ CLI::Option* add_folder(CLI::App& command, const char* name, std::string& folder
 std::string with_usable_shards(const char* option, const std::function<std::string()>& call) {
   try {
     return call();
-  } catch (const shards::UnusableShards& error) {
+  } catch (const long_work::UnusableShards& error) {
     throw CLI::ValidationError(option, error.what());
   }
 }
 
 /// Calls what merges; the shards that are missing are printed to standard output, for scripts.
-/// @throws CLI::ValidationError, shards::Incomplete
+/// @throws CLI::ValidationError, long_work::Incomplete
 std::string merged(const std::function<std::string()>& call) {
   try {
     return with_usable_shards("--merge", call);
-  } catch (const shards::Incomplete& error) {
-    fmt::print("{}\n", shards::array_text(error.missing()));
+  } catch (const long_work::Incomplete& error) {
+    fmt::print("{}\n", long_work::array_text(error.missing()));
     throw;
   }
 }
@@ -44,13 +44,13 @@ std::string merged(const std::function<std::string()>& call) {
 /// How far the shards in a folder are, with every one that is begun and all that are missing.
 /// @param kind  of the command
 std::string status_text(const std::filesystem::path& folder, const std::string& kind) {
-  const shards::Collection found(folder);
+  const long_work::Collection found(folder);
   found.require_kind(kind);
   const std::vector<std::uint64_t> missing = found.missing();
-  const std::vector<shards::BegunShard> begun = found.begun();
+  const std::vector<long_work::BegunShard> begun = found.begun();
   std::uint64_t points = found.points_there();
   std::string lines;
-  for (const shards::BegunShard& shard : begun) {
+  for (const long_work::BegunShard& shard : begun) {
     points += shard.finished;
     lines += fmt::format("shard {}: {} of {} points, the last {:.0f} s ago\n", shard.number,
                          shard.finished, shard.points, shard.idle_s);
@@ -61,7 +61,8 @@ std::string status_text(const std::filesystem::path& folder, const std::string& 
                                  count - missing.size(), count, begun.size(), points, all,
                                  100.0 * static_cast<double>(points) / static_cast<double>(all));
   text += lines;
-  return missing.empty() ? text : text + fmt::format("missing: {}\n", shards::array_text(missing));
+  return missing.empty() ? text
+                         : text + fmt::format("missing: {}\n", long_work::array_text(missing));
 }
 
 /// @throws CLI::RequiredError  the command needs one of the options, and it was not given
@@ -112,12 +113,12 @@ void add_cluster_options(CLI::App& command, ClusterOptions& options,
                                        "shard_K_of_N.rows in the folder of --out")
                            ->type_name("K/N")
                            ->check([](const std::string& text) {
-                             return shards::parse_shard(text)
+                             return long_work::parse_shard(text)
                                         ? std::string()
                                         : fmt::format(
                                               "\"{}\"; allowed: K/N, N from 1 to {}, K "
                                               "from 1 to N",
-                                              text, shards::most_shards);
+                                              text, long_work::most_shards);
                            });
   CLI::Option* merge = add_folder(command, "--merge", options.merge,
                                   "Make one of the shards in this folder; those that are missing "
@@ -131,7 +132,7 @@ void add_cluster_options(CLI::App& command, ClusterOptions& options,
                       "to the folder of --out; nothing is computed")
           ->type_name("N")
           ->check(
-              [](const std::string& text) { return check_whole(text, 1, shards::most_shards); });
+              [](const std::string& text) { return check_whole(text, 1, long_work::most_shards); });
   const std::vector<CLI::Option*> all = {shard, merge, status, slurm};
   for (CLI::Option* one : all) {
     for (CLI::Option* other : all) {
@@ -151,7 +152,7 @@ std::string printable(const std::filesystem::path& path) {
   return process::printable(path.string());
 }
 
-std::string shard_text(const shards::ShardSummary& summary, const std::filesystem::path& rows) {
+std::string shard_text(const long_work::ShardSummary& summary, const std::filesystem::path& rows) {
   if (summary.was_there) {
     return fmt::format("{}: is there\n", printable(rows));
   }
@@ -180,7 +181,7 @@ std::string write_job(const Job& job, const std::filesystem::path& out) {
   command.insert(command.end(), {"--out", folder.string(), "--quiet"});
   output::OutputFolder files(folder);
   files.write(scene, job.source.text);
-  files.write(script, shards::slurm_script(command, job.shards, folder));
+  files.write(script, long_work::slurm_script(command, job.shards, folder));
   files.commit();
   return fmt::format("job script: {}\n", printable(folder / script));
 }

@@ -13,9 +13,9 @@
 
 #include "host_sim/cli/progress_bar.hpp"
 #include "host_sim/long_work/journal.hpp"
+#include "host_sim/long_work/run_shard.hpp"
+#include "host_sim/long_work/shard.hpp"
 #include "host_sim/scene_file/source.hpp"
-#include "host_sim/shards/run_shard.hpp"
-#include "host_sim/shards/shard.hpp"
 
 namespace sonoglide::cli {
 
@@ -66,7 +66,7 @@ std::filesystem::path merged_folder(const ClusterOptions& options, const std::st
 std::string printable(const std::filesystem::path& path);
 
 /// Of one shard that was computed, or was there. @param rows  its file
-std::string shard_text(const shards::ShardSummary& summary, const std::filesystem::path& rows);
+std::string shard_text(const long_work::ShardSummary& summary, const std::filesystem::path& rows);
 
 /// What the tasks of a job array run.
 struct Job {

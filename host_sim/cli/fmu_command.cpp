@@ -9,9 +9,9 @@
 #include "host_sim/cli/options.hpp"
 #include "host_sim/cli/run_watch.hpp"
 #include "host_sim/fmi/archive/make_fmu.hpp"
+#include "host_sim/loop/engine.hpp"
 #include "host_sim/output/output_folder.hpp"
 #include "host_sim/process/printable.hpp"
-#include "host_sim/stepped/engine.hpp"
 
 namespace sonoglide::cli {
 namespace {
@@ -24,20 +24,20 @@ struct FmuOptions {
   bool quiet = false;
 };
 
-stepped::Kind kind_of(const std::string& name) {
-  for (const scene::Named<stepped::Kind>& each : stepped::kinds) {
+loop::Kind kind_of(const std::string& name) {
+  for (const scene::Named<loop::Kind>& each : loop::kinds) {
     if (each.name == name) {
       return each.value;
     }
   }
-  return stepped::Kind::loop;
+  return loop::Kind::loop;
 }
 
 void write(const FmuOptions& options) {
   const SceneInput input(options.scene);
   const scene::Scene scene = input.read();
-  const stepped::Kind kind = kind_of(options.kind);
-  input.with_places([&] { stepped::require_usable(scene, kind); });
+  const loop::Kind kind = kind_of(options.kind);
+  input.with_places([&] { loop::require_usable(scene, kind); });
   const std::filesystem::path out = std::filesystem::absolute(options.out);
   output::OutputFolder folder(out.parent_path(), {out.filename().string()});
   const fmi::Parts parts = fmi::find_parts();
@@ -47,12 +47,12 @@ void write(const FmuOptions& options) {
                     parts, "sonoglide " SONOGLIDE_VERSION));
   folder.commit();
   if (!options.quiet) {
-    if (kind != stepped::Kind::plant) {
+    if (kind != loop::Kind::plant) {
       print_design_notes(configure::design_if_closed(scene));
     }
     fmt::print("fmu:  {}\nstep: {} s, one carrier period{}\n", process::printable(options.out),
                1.0 / scene.drive->frequency_Hz,
-               stepped::carrier_changes(scene) ? " at the start" : "");
+               loop::carrier_changes(scene) ? " at the start" : "");
     if (!parts.windows_engine) {
       fmt::print(
           "note: without a binary for Windows: the program was built without "

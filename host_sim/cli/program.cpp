@@ -15,13 +15,13 @@
 
 #include "host_sim/cli/usage.hpp"
 #include "host_sim/emulated/image_process.hpp"
+#include "host_sim/long_work/collection.hpp"
 #include "host_sim/loop/run.hpp"
 #include "host_sim/output/output_folder.hpp"
 #include "host_sim/process/ending.hpp"
 #include "host_sim/process/pipe.hpp"
 #include "host_sim/process/printable.hpp"
 #include "host_sim/scene_file/scene_error.hpp"
-#include "host_sim/shards/collection.hpp"
 
 namespace sonoglide::cli {
 namespace {
@@ -109,7 +109,7 @@ int run_program(int argument_count, const char* const* arguments,
     return fail(bad_input, error.what());
   } catch (const loop::ComputationError& error) {
     return fail(computation_failed, error.what());
-  } catch (const shards::Incomplete& error) {
+  } catch (const long_work::Incomplete& error) {
     return fail(computation_failed, error.what());
   } catch (const output::OutputError& error) {
     return fail(system_failed, error.what());

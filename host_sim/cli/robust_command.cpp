@@ -15,8 +15,8 @@
 #include "host_sim/cli/cluster_options.hpp"
 #include "host_sim/cli/options.hpp"
 #include "host_sim/cli/run_watch.hpp"
+#include "host_sim/long_work/collection.hpp"
 #include "host_sim/loop/step_forecast.hpp"
-#include "host_sim/shards/collection.hpp"
 #include "host_sim/studies/robust/report.hpp"
 #include "host_sim/studies/robust/robust.hpp"
 
@@ -60,7 +60,7 @@ std::string worst_lines(const robust::Task& task, const robust::WorstPlant& wors
   }
   lines += name_line("limits", robust::limit_names(worst.row));
   lines += name_line("faults", robust::fault_names(worst.row));
-  return worst.row.computed() ? lines : lines + fmt::format("  no result: {}\n", worst.row.status);
+  return worst.row.ok() ? lines : lines + fmt::format("  no result: {}\n", worst.row.status);
 }
 
 std::string text(const robust::Task& task, const robust::Outcome& outcome,
@@ -127,19 +127,19 @@ std::string run_whole(const RobustOptions& options) {
 std::string run_shard(const RobustOptions& options) {
   const robust::Task task = task_of(options);
   const std::filesystem::path out = folder_of(options, task);
-  const shards::Shard shard = *shards::parse_shard(options.cluster.shard);
+  const long_work::Shard shard = *long_work::parse_shard(options.cluster.shard);
   announce(options, task, shard.range(task.counts().samples).size());
   return shard_text(computed(options.quiet,
                              [&](const long_work::Progress& progress) {
                                return robust::run_shard(task, shard, out, program_version,
                                                         options.threads, progress);
                              }),
-                    out / shards::rows_name(shard));
+                    out / long_work::rows_name(shard));
 }
 
 std::string merge(const RobustOptions& options) {
   const std::filesystem::path out = merged_folder(options.cluster, options.out);
-  const shards::Collection found(options.cluster.merge);
+  const long_work::Collection found(options.cluster.merge);
   const robust::Task task = robust::task_of(found, program_version);
   tell_notes(options, task);
   announce(options, task, task.counts().search);
@@ -164,7 +164,7 @@ std::string write_robust_job(const RobustOptions& options) {
                    folder_of(options, task));
 }
 
-/// Throws scene_file::SceneError and CLI::ParseError, nothing was written then; shards::Incomplete,
+/// Throws scene_file::SceneError and CLI::ParseError, nothing was written then; long_work::Incomplete,
 /// output::OutputError.
 void robust(const CLI::App& command, const RobustOptions& options) {
   run_divisible(command, options.cluster, {"scene"},

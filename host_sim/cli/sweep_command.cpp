@@ -57,7 +57,7 @@ std::string text(const sweep::MergeSummary& summary, const std::filesystem::path
 }
 
 void announce(const SweepOptions& options, const sweep::Plan& plan,
-              const shards::PointRange& points) {
+              const long_work::PointRange& points) {
   constexpr std::uint64_t samples = 8;
   if (!options.quiet) {
     announce_long_work(
@@ -83,14 +83,14 @@ std::string run_shard(const SweepOptions& options) {
   const sweep::Plan plan(scene_file::read_source(options.scene.path), options.scene.overrides,
                          options.vary, sweep::most_points_in_shards);
   const std::filesystem::path out = output_folder(options.out, plan.first().name, "_sweep");
-  const shards::Shard shard = *shards::parse_shard(options.cluster.shard);
+  const long_work::Shard shard = *long_work::parse_shard(options.cluster.shard);
   announce(options, plan, shard.range(plan.grid().size()));
   return shard_text(computed(options.quiet,
                              [&](const long_work::Progress& progress) {
                                return sweep::run_shard(plan, shard, out, program_version,
                                                        options.threads, progress);
                              }),
-                    out / shards::rows_name(shard));
+                    out / long_work::rows_name(shard));
 }
 
 std::string merge(const SweepOptions& options) {
@@ -114,7 +114,7 @@ std::string write_sweep_job(const SweepOptions& options) {
                    output_folder(options.out, plan.first().name, "_sweep"));
 }
 
-/// Throws scene_file::SceneError and CLI::ParseError, nothing was written then; shards::Incomplete,
+/// Throws scene_file::SceneError and CLI::ParseError, nothing was written then; long_work::Incomplete,
 /// output::OutputError, process::ProcessError.
 void sweep(const CLI::App& command, const SweepOptions& options) {
   run_divisible(command, options.cluster, {"scene", "--vary"},

@@ -39,7 +39,7 @@ Instance::Instance(Resources resources, std::string_view token)
     throw CallError(
         fmt::format("the token is \"{}\"; that of this FMU is \"{}\"", token, resources_.token));
   }
-  stepped::require_usable(scene_, resources_.kind);
+  loop::require_usable(scene_, resources_.kind);
   variables_ = fmi::variables(scene_, resources_.kind);
   now_.inputs = initial_inputs(variables_);
 }
@@ -164,7 +164,7 @@ void Instance::require_step(double time_s, double duration_s) const {
                     "step ended",
                     time_s, now_.time_s));
   }
-  const double most_s = (stepped::endless_periods - 1.0) * period_s;
+  const double most_s = (loop::endless_periods - 1.0) * period_s;
   if (!(duration_s > 0.0 && time_s + duration_s - now_.start_s <= most_s)) {
     throw CallError(
         fmt::format("the communication step is {} s; allowed: above 0 s, up to {} s after "

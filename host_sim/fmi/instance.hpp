@@ -11,8 +11,8 @@
 
 #include "host_sim/fmi/resources.hpp"
 #include "host_sim/fmi/variables.hpp"
+#include "host_sim/loop/engine.hpp"
 #include "host_sim/loop/snapshot.hpp"
-#include "host_sim/stepped/engine.hpp"
 
 namespace sonoglide::fmi {
 

@@ -24,19 +24,19 @@ std::string content_of(const std::filesystem::path& path) {
 
 }  // namespace
 
-Resources make_resources(const scene::Scene& scene, stepped::Kind kind, const std::string& engine) {
+Resources make_resources(const scene::Scene& scene, loop::Kind kind, const std::string& engine) {
   Resources made{scene_file::to_toml(scene_file::to_json(scene)), kind, {}};
   process::ContentHash hash;
   hash.add(engine);
   hash.add(made.scene);
-  hash.add(scene::name_of(stepped::kinds, kind));
+  hash.add(scene::name_of(loop::kinds, kind));
   made.token = fmt::format("{{sonoglide-{:016x}}}", hash.value());
   return made;
 }
 
 Resources read_resources(const std::filesystem::path& folder) {
   const std::string name = content_of(folder / Resources::kind_name);
-  for (const scene::Named<stepped::Kind>& each : stepped::kinds) {
+  for (const scene::Named<loop::Kind>& each : loop::kinds) {
     if (each.name == name) {
       return {content_of(folder / Resources::scene_name), each.value,
               content_of(folder / Resources::token_name)};

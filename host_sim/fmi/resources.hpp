@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <string>
 
+#include "host_sim/loop/kind.hpp"
 #include "host_sim/scene/scene.hpp"
-#include "host_sim/stepped/kind.hpp"
 
 namespace sonoglide::fmi {
 
@@ -16,12 +16,12 @@ struct Resources {
   static constexpr const char* token_name = "token.txt";
 
   std::string scene;  ///< with every default filled in, as TOML
-  stepped::Kind kind;
+  loop::Kind kind;
   std::string token;  ///< that an importer shows; another for another FMU
 };
 
 /// @param engine  content of the shared libraries that go into the FMU
-Resources make_resources(const scene::Scene& scene, stepped::Kind kind, const std::string& engine);
+Resources make_resources(const scene::Scene& scene, loop::Kind kind, const std::string& engine);
 
 /// @throws std::runtime_error  one of them cannot be read, or is none
 Resources read_resources(const std::filesystem::path& folder);

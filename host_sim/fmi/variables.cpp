@@ -125,7 +125,7 @@ void add_controller_outputs(List& list, const scene::Scene& scene) {
       "drive_force_amplitude_N", "N",
       "Drive amplitude in force during the carrier period that comes next", 0.0,
       [](const Engine& engine) -> Value { return engine.controller().drive_force_amplitude_N; });
-  if (stepped::carrier_changes(scene)) {
+  if (loop::carrier_changes(scene)) {
     list.output(
         "drive_frequency_Hz", "Hz", "Carrier frequency of the carrier period that comes next", 0.0,
         [](const Engine& engine) -> Value { return engine.controller().drive_frequency_Hz; });
@@ -174,20 +174,20 @@ std::string unit_of(std::string_view key) {
   return {};
 }
 
-bool is_parameter(const std::string& table, const std::string& key, stepped::Kind kind) {
+bool is_parameter(const std::string& table, const std::string& key, loop::Kind kind) {
   if (table == "run" || table == "tolerance" || table == "true_values" ||
       (table == "drive" && key == "frequency_Hz")) {
     return false;
   }
   const bool of_controller = table == "controller" || table == "sensor" || table == "model_error";
-  if (kind == stepped::Kind::plant) {
+  if (kind == loop::Kind::plant) {
     return !of_controller && table + "." + key != "drive.force_amplitude_N";
   }
-  return kind == stepped::Kind::loop || table != "solver";
+  return kind == loop::Kind::loop || table != "solver";
 }
 
 /// The numbers of the scene that can be set before a simulation begins.
-void add_parameters(List& list, const scene::Scene& scene, stepped::Kind kind) {
+void add_parameters(List& list, const scene::Scene& scene, loop::Kind kind) {
   const auto add = [&list](std::string name, const std::string& key, const Value& start) {
     std::string description = "Key " + name + " of the scene";
     list.add({std::move(name), Role::parameter, unit_of(key), std::move(description), start});
@@ -211,38 +211,38 @@ void add_parameters(List& list, const scene::Scene& scene, stepped::Kind kind) {
 
 }  // namespace
 
-std::vector<Variable> variables(const scene::Scene& scene, stepped::Kind kind) {
+std::vector<Variable> variables(const scene::Scene& scene, loop::Kind kind) {
   List list;
-  if (kind == stepped::Kind::plant) {
+  if (kind == loop::Kind::plant) {
     list.input("drive_force_amplitude_N", "N", "Amplitude of the drive during a carrier period",
                scene.drive->force_amplitude_N, &Inputs::drive_force_amplitude_N);
-    if (stepped::carrier_changes(scene)) {
+    if (loop::carrier_changes(scene)) {
       list.input("drive_frequency_Hz", "Hz",
                  "Carrier frequency during a carrier period; no frequency_profile is followed",
                  scene.drive->frequency_Hz, &Inputs::drive_frequency_Hz);
     }
   }
-  if (kind == stepped::Kind::controller) {
+  if (kind == loop::Kind::controller) {
     list.inputs(measured);
     if (scene.observes_vibration()) {
       list.inputs(demodulated);
     }
   }
-  if (stepped::has_controller(kind)) {
+  if (loop::has_controller(kind)) {
     list.input(
         "target_friction_ratio", "1",
         "Target from the next sample on, in (0, 1]; 0: the steps of the scene, as long as no "
         "other target was given",
         0.0, &Inputs::target_friction_ratio);
   }
-  if (stepped::has_plant(kind)) {
+  if (loop::has_plant(kind)) {
     list.outputs(measured);
     if (scene.demodulates()) {
       list.outputs(demodulated);
     }
     list.outputs(series);
   }
-  if (stepped::has_controller(kind)) {
+  if (loop::has_controller(kind)) {
     add_controller_outputs(list, scene);
   }
   add_parameters(list, scene, kind);

@@ -6,15 +6,15 @@
 #include <variant>
 #include <vector>
 
+#include "host_sim/loop/engine.hpp"
+#include "host_sim/loop/kind.hpp"
 #include "host_sim/scene/scene.hpp"
-#include "host_sim/stepped/engine.hpp"
-#include "host_sim/stepped/kind.hpp"
 
 namespace sonoglide::fmi {
 
-using stepped::Engine;
-using stepped::Inputs;
-using stepped::PlantOutputs;
+using loop::Engine;
+using loop::Inputs;
+using loop::PlantOutputs;
 
 /// Alternatives in the order of Type.
 using Value = std::variant<double, float, std::int32_t, std::string>;
@@ -37,6 +37,6 @@ struct Variable {
 };
 
 /// @param scene  as the FMU holds it: a scene that was read from its own echo
-std::vector<Variable> variables(const scene::Scene& scene, stepped::Kind kind);
+std::vector<Variable> variables(const scene::Scene& scene, loop::Kind kind);
 
 }  // namespace sonoglide::fmi

@@ -13,7 +13,6 @@
 #include <utility>
 
 #include "host_sim/long_work/pace.hpp"
-#include "host_sim/long_work/record_text.hpp"
 #include "host_sim/output/output_folder.hpp"
 #include "host_sim/process/pipe.hpp"
 #include "host_sim/process/printable.hpp"
@@ -22,10 +21,6 @@ namespace sonoglide::long_work {
 namespace {
 
 constexpr double sync_interval_s = 1.0;
-
-std::string last_reason() {
-  return std::generic_category().message(errno);
-}
 
 std::string format_name(const JournalKind& kind) {
   return fmt::format("sonoglide {} journal, format 2", kind.work);
@@ -54,26 +49,30 @@ void Journal::open() {
   const bool link = file_.number() < 0 && errno == ELOOP;
   struct stat facts {};
   if (!link && (file_.number() < 0 || fstat(file_.number(), &facts) != 0)) {
-    fail(last_reason());
+    output::fail(path_);
   }
   if (!S_ISREG(facts.st_mode)) {
-    fail("is no file that can hold a journal; allowed: that out of the way, or another folder");
+    output::fail(
+        path_,
+        "is no file that can hold a journal; allowed: that out of the way, or another folder");
   }
 }
 
-std::string Journal::line_of(std::string_view record) {
-  return sealed(record) + '\n';
-}
-
-void Journal::append(const std::string& lines) {
-  write(lines);
+void Journal::append(const std::vector<FinishedPoint>& points) {
+  // The text is made before the lock: that is most of the work.
+  std::string lines;
+  for (const FinishedPoint& each : points) {
+    lines += sealed(each.record) + '\n';
+  }
+  const std::lock_guard<std::mutex> lock(mutex_);
+  write_all(file_, path_, lines);
   sync_now_and_then();
 }
 
 void Journal::remove() {
   std::error_code error;
   if (!std::filesystem::remove(path_, error) && error) {
-    fail(error.message());
+    output::fail(path_, error);
   }
 }
 
@@ -85,7 +84,7 @@ void Journal::lock() {
     throw JournalInUse(fmt::format("{}: another {} is at work in this folder",
                                    process::printable(path_.string()), kind_.work));
   }
-  fail(last_reason());
+  output::fail(path_);
 }
 
 std::string Journal::header_text(const Identity& identity) const {
@@ -123,14 +122,14 @@ void Journal::begin_with(const std::filesystem::path& another, const Identity& i
     return;
   }
   if (ftruncate(file_.number(), 0) != 0) {
-    fail(last_reason());
+    output::fail(path_);
   }
   constexpr std::size_t part_bytes = std::size_t{1} << 20U;
   std::string part(part_bytes, '\0');
   from.seekg(0);
   while (from) {
     from.read(part.data(), static_cast<std::streamsize>(part_bytes));
-    write({part.data(), static_cast<std::size_t>(from.gcount())});
+    write_all(file_, path_, {part.data(), static_cast<std::size_t>(from.gcount())});
   }
 }
 
@@ -161,9 +160,9 @@ void Journal::recover(const Identity& identity, const Take& take) {
       refuse(path_, "another format of journal");
     }
     if (ftruncate(file_.number(), 0) != 0) {
-      fail(last_reason());
+      output::fail(path_);
     }
-    write(first_line);
+    write_all(file_, path_, first_line);
     sync();
     return;
   }
@@ -180,7 +179,7 @@ void Journal::recover(const Identity& identity, const Take& take) {
     whole = journal.tellg();
   }
   if (ftruncate(file_.number(), whole) != 0) {
-    fail(last_reason());
+    output::fail(path_);
   }
 }
 
@@ -189,17 +188,6 @@ void Journal::refuse(const std::filesystem::path& journal, const std::string& co
       fmt::format("{}: holds an unfinished {} of {}; allowed: finish that one, remove the file, "
                   "or choose another folder",
                   process::printable(journal.string()), kind_.work, contents));
-}
-
-void Journal::write(std::string_view text) {
-  std::size_t written = 0;
-  while (written < text.size()) {
-    const ssize_t count = ::write(file_.number(), text.data() + written, text.size() - written);
-    if (count < 0 && errno != EINTR) {
-      fail(last_reason());
-    }
-    written += count > 0 ? static_cast<std::size_t>(count) : 0;
-  }
 }
 
 /// As often as a record that costs nothing can bear.
@@ -212,13 +200,9 @@ void Journal::sync_now_and_then() {
 
 void Journal::sync() {
   if (fdatasync(file_.number()) != 0) {
-    fail(last_reason());
+    output::fail(path_);
   }
   last_sync_s_ = steady_time_s();
-}
-
-void Journal::fail(const std::string& reason) const {
-  output::fail(path_, reason);
 }
 
 }  // namespace sonoglide::long_work

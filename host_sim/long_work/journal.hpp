@@ -4,12 +4,14 @@
 #include <cstddef>
 #include <filesystem>
 #include <functional>
+#include <mutex>
 #include <optional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "host_sim/long_work/record.hpp"
 #include "host_sim/output/written_files.hpp"
 #include "host_sim/process/pipe.hpp"
 
@@ -60,15 +62,13 @@ class Journal {
   Journal(const Journal&) = delete;
   Journal& operator=(const Journal&) = delete;
 
-  /// A record as append() takes it, one or more.
-  static std::string line_of(std::string_view record);
-
   /// What the first line of a journal says, without the end of the line; absent if it is none.
   static std::optional<Identity> identity_in(std::string_view first_line);
 
-  /// @param lines  from line_of()
-  /// @throws output::OutputError
-  void append(const std::string& lines);
+  /// From any thread. @throws output::OutputError
+  void append(const std::vector<FinishedPoint>& points);
+
+  const std::filesystem::path& path() const { return path_; }
 
   /// The work is whole: removes the file.
   void remove();
@@ -80,15 +80,14 @@ class Journal {
   void recover(const Identity& identity, const Take& take);
   std::string header_text(const Identity& identity) const;
   std::string difference(std::string_view header, const Identity& identity) const;
-  void write(std::string_view text);
   void sync_now_and_then();
   void sync();
-  [[noreturn]] void fail(const std::string& reason) const;
   [[noreturn]] void refuse(const std::filesystem::path& journal, const std::string& contents) const;
 
   JournalKind kind_;
   std::filesystem::path path_;
   process::Descriptor file_;
+  std::mutex mutex_;
   double last_sync_s_;
 };
 

@@ -1,6 +1,7 @@
 /// Which files of a folder this program has written, and the error where one cannot be.
 #pragma once
 
+#include <cerrno>
 #include <cstdint>
 #include <filesystem>
 #include <map>
@@ -26,6 +27,10 @@ class OutputError : public std::runtime_error {
 }
 [[noreturn]] inline void fail(const std::filesystem::path& path, const std::error_code& error) {
   fail(path, error.message());
+}
+/// The reason is that of the last system call.
+[[noreturn]] inline void fail(const std::filesystem::path& path) {
+  fail(path, std::error_code(errno, std::generic_category()));
 }
 
 /// The list of them, kept in the folder itself, each with its size and checksum: a file that

@@ -10,7 +10,7 @@
 
 #include "host_sim/python/bindings.hpp"
 #include "host_sim/python/scene.hpp"
-#include "host_sim/rollouts/rollouts.hpp"
+#include "host_sim/runs/rollouts.hpp"
 
 namespace sonoglide::python {
 namespace {
@@ -50,9 +50,9 @@ std::size_t periods_of_all(const Scenes& scenes) {
   if (scenes.empty()) {
     return 0;
   }
-  const std::size_t periods = rollouts::whole_periods(*scenes.front());
+  const std::size_t periods = runs::whole_periods(*scenes.front());
   for (std::size_t i = 1; i < scenes.size(); ++i) {
-    const std::size_t others = rollouts::whole_periods(*scenes[i]);
+    const std::size_t others = runs::whole_periods(*scenes[i]);
     if (others != periods) {
       throw py::value_error(fmt::format(
           "scene {} has {} whole carrier periods; allowed: {}, as scene 0", i, others, periods));
@@ -85,13 +85,13 @@ Table rollout(const py::object& scenes, const std::optional<GivenTable>& targets
     require_shape(*out, "out", each.size(), periods);
   }
   Table ratios = out ? *out : Table(std::vector<std::size_t>{each.size(), periods});
-  std::vector<rollouts::Rollout> all;
+  std::vector<runs::Rollout> all;
   for (std::size_t i = 0; i < each.size(); ++i) {
     all.push_back({*each[i], targets ? targets->data() + i * periods : nullptr,
                    ratios.mutable_data() + i * periods});
   }
   const py::gil_scoped_release released;
-  rollouts::run_rollouts(all, threads);
+  runs::run_rollouts(all, threads);
   return ratios;
 }
 

@@ -5,14 +5,14 @@
 #include <stdexcept>
 
 #include "host_sim/loop/carrier_grid.hpp"
-#include "host_sim/stepped/kind.hpp"
+#include "host_sim/loop/kind.hpp"
 
 namespace sonoglide::python {
 namespace {
 
 const scene::Scene& usable(const scene::Scene& scene) {
-  stepped::require_usable(scene, stepped::Kind::loop);
-  stepped::require_constant_carrier(scene);
+  loop::require_usable(scene, loop::Kind::loop);
+  loop::require_constant_carrier(scene);
   return scene;
 }
 
@@ -32,7 +32,7 @@ SteppedLoop::SteppedLoop(const SteppedLoop& other) : SteppedLoop(other.scene_) {
 
 void SteppedLoop::reset(std::optional<std::uint64_t> seed) {
   scene_.sensor.seed = seed.value_or(scene_.sensor.seed);
-  engine_ = std::make_unique<stepped::Engine>(scene_, stepped::Kind::loop);
+  engine_ = std::make_unique<loop::Engine>(scene_, loop::Kind::loop);
   periods_ = 0;
   wanted_ratio_ = wanted_now();
 }
@@ -42,7 +42,7 @@ void SteppedLoop::step(double target) {
     throw std::invalid_argument(
         fmt::format("target is {}; allowed: a friction ratio above 0, at most 1, or None", target));
   }
-  stepped::Inputs inputs;
+  loop::Inputs inputs;
   inputs.target_friction_ratio = target;
   wanted_ratio_ = wanted_now();
   engine_->advance(inputs);

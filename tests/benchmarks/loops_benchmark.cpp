@@ -8,13 +8,13 @@
 
 #include "host_sim/configure/control_design.hpp"
 #include "host_sim/configure/solver_methods.hpp"
-#include "host_sim/lanes/closed_loops.hpp"
+#include "host_sim/runs/closed_loops.hpp"
 #include "host_sim/loop/run.hpp"
 #include "host_sim/report/step_metrics.hpp"
 #include "tests/common/table_1.hpp"
-#include "tests/host_sim/lanes/plants/plants_near.hpp"
+#include "tests/host_sim/runs/plants/plants_near.hpp"
 
-namespace sonoglide::lanes {
+namespace sonoglide::runs {
 namespace {
 
 constexpr std::size_t count = 128;
@@ -81,4 +81,4 @@ void in_lanes(benchmark::State& state) {
 BENCHMARK(in_lanes)->Name("loops/in_lanes/1e-6")->Unit(benchmark::kMillisecond);
 
 }  // namespace
-}  // namespace sonoglide::lanes
+}  // namespace sonoglide::runs

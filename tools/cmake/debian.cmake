@@ -24,7 +24,7 @@ add_custom_target(packages
 set(shares "${CMAKE_INSTALL_DATADIR}")
 install(FILES "${PROJECT_SOURCE_DIR}/CMakeLists.txt"
   DESTINATION "${SONOGLIDE_DATA_FOLDER}/source" COMPONENT images EXCLUDE_FROM_ALL)
-foreach(folder firmware hal tools/cmake tools/toolchains host_sim/fmi host_sim/stepped host_sim/loop host_sim/configure
+foreach(folder firmware hal tools/cmake tools/toolchains host_sim/fmi host_sim/loop host_sim/configure
     host_sim/scene host_sim/scene_file host_sim/process)
   cmake_path(GET folder PARENT_PATH inside)
   install(DIRECTORY "${PROJECT_SOURCE_DIR}/${folder}"

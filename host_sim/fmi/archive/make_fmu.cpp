@@ -84,14 +84,14 @@ Parts find_parts() {
   return parts;
 }
 
-std::string make_fmu(const scene::Scene& given, stepped::Kind kind, Version version,
+std::string make_fmu(const scene::Scene& given, loop::Kind kind, Version version,
                      const Parts& parts, const std::string& tool) {
   const std::string engine = content_of(parts.engine);
   const std::string windows_engine =
       parts.windows_engine ? content_of(*parts.windows_engine) : std::string();
   const Resources resources = make_resources(given, kind, engine + windows_engine);
   const scene::Scene scene = scene_file::read_text(resources.scene, Resources::scene_name);
-  const std::string identifier = fmt::format("sonoglide_{}", scene::name_of(stepped::kinds, kind));
+  const std::string identifier = fmt::format("sonoglide_{}", scene::name_of(loop::kinds, kind));
   ZipWriter archive;
   archive.add(
       "modelDescription.xml",
@@ -106,8 +106,7 @@ std::string make_fmu(const scene::Scene& given, stepped::Kind kind, Version vers
   archive.add("documentation/licenses/license.txt", our_licence());
   archive.add("documentation/licenses/compiled_in.txt", compiled_in_licences());
   archive.add(std::string("resources/") + Resources::scene_name, resources.scene);
-  archive.add(std::string("resources/") + Resources::kind_name,
-              scene::name_of(stepped::kinds, kind));
+  archive.add(std::string("resources/") + Resources::kind_name, scene::name_of(loop::kinds, kind));
   archive.add(std::string("resources/") + Resources::token_name, resources.token);
   return archive.close();
 }

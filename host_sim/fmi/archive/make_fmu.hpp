@@ -6,8 +6,8 @@
 #include <string>
 
 #include "host_sim/fmi/archive/model_description.hpp"
+#include "host_sim/loop/kind.hpp"
 #include "host_sim/scene/scene.hpp"
-#include "host_sim/stepped/kind.hpp"
 
 namespace sonoglide::fmi {
 
@@ -24,7 +24,7 @@ Parts find_parts();
 /// @param scene  usable, see require_usable()
 /// @param tool   that makes it, with its version
 /// @throws output::OutputError
-std::string make_fmu(const scene::Scene& scene, stepped::Kind kind, Version version,
+std::string make_fmu(const scene::Scene& scene, loop::Kind kind, Version version,
                      const Parts& parts, const std::string& tool);
 
 }  // namespace sonoglide::fmi

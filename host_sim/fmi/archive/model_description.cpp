@@ -100,7 +100,7 @@ double shortest_period_s(const scene::Scene& scene) {
   for (const scene::TimedValue& row : scene.drive->frequency_profile) {
     highest_Hz = std::max(highest_Hz, row.value);
   }
-  return 1.0 / (stepped::carrier_changes(scene) ? margin * highest_Hz : highest_Hz);
+  return 1.0 / (loop::carrier_changes(scene) ? margin * highest_Hz : highest_Hz);
 }
 
 Tree default_experiment(const scene::Scene& scene) {
@@ -187,12 +187,11 @@ class Fmi3 {
   static constexpr const char* token_name = "instantiationToken";
   static constexpr const char* state_name = "FMUState";
 
-  static void describe_stepping(Tree& element, const scene::Scene& scene, stepped::Kind kind) {
-    if (!stepped::carrier_changes(scene)) {
+  static void describe_stepping(Tree& element, const scene::Scene& scene, loop::Kind kind) {
+    if (!loop::carrier_changes(scene)) {
       attribute(element, "fixedInternalStepSize", exact(1.0 / scene.drive->frequency_Hz));
     }
-    attribute(element, "mightReturnEarlyFromDoStep",
-              stepped::has_controller(kind) ? "true" : "false");
+    attribute(element, "mightReturnEarlyFromDoStep", loop::has_controller(kind) ? "true" : "false");
   }
 
   static void add(Tree& list, const Variable& variable, std::size_t reference) {
@@ -221,7 +220,7 @@ class Fmi2 {
   static constexpr const char* state_name = "FMUstate";
 
   static void describe_stepping(Tree& /*element*/, const scene::Scene& /*scene*/,
-                                stepped::Kind /*kind*/) {}
+                                loop::Kind /*kind*/) {}
 
   static void add(Tree& list, const Variable& variable, std::size_t reference) {
     constexpr std::array names = {"Real", "Real", "Integer", "String"};
@@ -248,7 +247,7 @@ class Fmi2 {
 };
 
 template <class Interface>
-Tree describe(const scene::Scene& scene, stepped::Kind kind, const ModelFacts& facts) {
+Tree describe(const scene::Scene& scene, loop::Kind kind, const ModelFacts& facts) {
   const std::vector<Variable> list = variables(scene, kind);
   Tree model;
   attribute(model, "fmiVersion", Interface::version);
@@ -279,7 +278,7 @@ Tree describe(const scene::Scene& scene, stepped::Kind kind, const ModelFacts& f
 
 }  // namespace
 
-std::string model_description(const scene::Scene& scene, stepped::Kind kind, Version version,
+std::string model_description(const scene::Scene& scene, loop::Kind kind, Version version,
                               const ModelFacts& facts) {
   const Tree root = version == Version::fmi3 ? describe<Fmi3>(scene, kind, facts)
                                              : describe<Fmi2>(scene, kind, facts);

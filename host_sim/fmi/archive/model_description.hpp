@@ -3,8 +3,8 @@
 
 #include <string>
 
+#include "host_sim/loop/kind.hpp"
 #include "host_sim/scene/scene.hpp"
-#include "host_sim/stepped/kind.hpp"
 
 namespace sonoglide::fmi {
 
@@ -19,7 +19,7 @@ struct ModelFacts {
 
 /// @param scene  as the FMU holds it, see variables()
 /// Source: Functional Mock-up Interface Specification 3.0, section 2.4, and 2.0.4, section 2.2.
-std::string model_description(const scene::Scene& scene, stepped::Kind kind, Version version,
+std::string model_description(const scene::Scene& scene, loop::Kind kind, Version version,
                               const ModelFacts& facts);
 
 }  // namespace sonoglide::fmi

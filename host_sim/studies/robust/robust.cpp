@@ -2,10 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <chrono>
 #include <cstdint>
-#include <optional>
-#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -13,6 +10,7 @@
 #include "host_sim/output/output_folder.hpp"
 #include "host_sim/output/page.hpp"
 #include "host_sim/process/ending.hpp"
+#include "host_sim/runs/run_many.hpp"
 #include "host_sim/studies/robust/report.hpp"
 
 namespace sonoglide::robust {
@@ -39,17 +37,17 @@ void write_files(const Task& task, const Study& study, const std::string& page,
 
 /// @param samples  that are known already, from the first on
 Outcome run(const Task& task, const fs::path& out, const std::string& program, unsigned threads,
-            const std::vector<PlantRow>& samples, const long_work::Progress& progress) {
-  const shards::ThreadLimit limit(threads);
+            std::vector<PlantRow> samples, const long_work::Progress& progress) {
+  const runs::ThreadLimit limit(threads);
   check_samples(task, {samples.size(), task.counts().samples});
   output::create_folder(out, {samples_file, search_file, figures_file, worst_file, page_file});
   // Rows of another arithmetic, which an earlier program had, do not mix with these.
-  Solver solver(task, out, fmt::format("{}, {}", program, batch::arithmetic), samples);
-  const auto begin = std::chrono::steady_clock::now();
+  Solver solver(task, out, fmt::format("{}, {}", program, batch::arithmetic), std::move(samples));
+  const double begin_s = long_work::steady_time_s();
   long_work::Pace pace(progress);
-  Outcome outcome{solver.solve(pace), solver.found_finished(), 0.0};
-  const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - begin;
-  outcome.wall_s = wall.count();
+  const std::size_t found_finished = solver.found_finished();
+  Outcome outcome{solver.solve(pace), found_finished, 0.0};
+  outcome.wall_s = long_work::steady_time_s() - begin_s;
   const std::string page = output::to_html(robust_page(task, outcome.study));
   // Files that are written, beside the journal of what they came from, would pass for older ones.
   const process::Undisturbed now;
@@ -59,7 +57,7 @@ Outcome run(const Task& task, const fs::path& out, const std::string& program, u
 }
 
 /// The samples of all shards, and what the search and the figures need besides.
-shards::Work work_of(const Task& task, const std::string& program, std::uint64_t shards) {
+long_work::Work work_of(const Task& task, const std::string& program, std::uint64_t shards) {
   const Counts& counts = task.counts();
   return {"robust",
           program,
@@ -73,12 +71,6 @@ shards::Work work_of(const Task& task, const std::string& program, std::uint64_t
           shards};
 }
 
-std::optional<shards::RecordFacts> facts(std::string_view text) {
-  const std::optional<Record> record = parse_record(text);
-  return record ? std::optional<shards::RecordFacts>({record->place, !record->row.computed()})
-                : std::nullopt;
-}
-
 }  // namespace
 
 Outcome run_robust(const Task& task, const fs::path& out, const std::string& program,
@@ -86,51 +78,34 @@ Outcome run_robust(const Task& task, const fs::path& out, const std::string& pro
   return run(task, out, program, threads, {}, progress);
 }
 
-shards::ShardSummary run_shard(const Task& task, const shards::Shard& shard, const fs::path& folder,
-                               const std::string& program, unsigned threads,
-                               const long_work::Progress& progress) {
-  const shards::Computation computation = {
-      [&task](const shards::PointRange& samples, long_work::Pace&) {
+long_work::ShardSummary run_shard(const Task& task, const long_work::Shard& shard,
+                                  const fs::path& folder, const std::string& program,
+                                  unsigned threads, const long_work::Progress& progress) {
+  const runs::ThreadLimit limit(threads);
+  return long_work::run_shard(
+      {work_of(task, program, shard.count), shard.number},
+      [&task](const long_work::PointRange& samples, long_work::Pace&) {
         check_samples(task, samples);
       },
-      [&task](const shards::PointRange&, const std::vector<std::uint64_t>& open,
-              const shards::Sink& sink) {
-        run_samples(task, open, [&](std::size_t first, const std::vector<PlantRow>& rows) {
-          std::vector<shards::FinishedPoint> finished;
-          for (std::size_t i = 0; i < rows.size(); ++i) {
-            const std::size_t sample = open[first + i];
-            finished.push_back({sample, record_text({sample, rows[i]})});
-          }
-          sink(finished);
-        });
-      },
-      facts};
-  return shards::run_shard({work_of(task, program, shard.count), shard.number}, computation, folder,
-                           threads, progress);
+      computation_of(task), folder, progress);
 }
 
-Task task_of(const shards::Collection& shards, const std::string& program) {
+Task task_of(const long_work::Collection& shards, const std::string& program) {
   shards.require_of("robust", program, batch::arithmetic);
-  const shards::Work& work = shards.work();
+  const long_work::Work& work = shards.work();
   return {{work.name + ".toml", work.scene},
           work.overrides,
           {std::stoull(work.options.at(0)), std::stoull(work.options.at(1)),
            std::stoull(work.options.at(2))}};
 }
 
-Outcome merge_shards(const shards::Collection& shards, const Task& task, const fs::path& out,
+Outcome merge_shards(const long_work::Collection& shards, const Task& task, const fs::path& out,
                      const std::string& program, unsigned threads,
                      const long_work::Progress& progress) {
   std::vector<PlantRow> samples;
-  shards.for_each_record([&](std::uint64_t sample, const std::string& text) {
-    std::optional<Record> record = parse_record(text);
-    if (!record || record->place != sample) {
-      return false;
-    }
-    samples.push_back(std::move(record->row));
-    return true;
-  });
-  return run(task, out, program, threads, samples, progress);
+  shards.for_each_record(long_work::rows_to<PlantRow>(
+      [&samples](std::size_t, PlantRow row) { samples.push_back(std::move(row)); }));
+  return run(task, out, program, threads, std::move(samples), progress);
 }
 
 }  // namespace sonoglide::robust

@@ -5,10 +5,10 @@
 #include <filesystem>
 #include <string>
 
+#include "host_sim/long_work/collection.hpp"
 #include "host_sim/long_work/journal.hpp"
 #include "host_sim/long_work/pace.hpp"
-#include "host_sim/shards/collection.hpp"
-#include "host_sim/shards/run_shard.hpp"
+#include "host_sim/long_work/run_shard.hpp"
 #include "host_sim/studies/robust/study.hpp"
 #include "host_sim/studies/robust/task.hpp"
 
@@ -31,22 +31,22 @@ struct Outcome {
 Outcome run_robust(const Task& task, const std::filesystem::path& out, const std::string& program,
                    unsigned threads, const long_work::Progress& progress);
 
-/// A share of the samples, as shards::run_shard().
+/// A share of the samples, as long_work::run_shard().
 /// @throws scene_file::SceneError  nothing was written
 /// @throws long_work::ForeignJournal, output::OutputError
-shards::ShardSummary run_shard(const Task& task, const shards::Shard& shard,
-                               const std::filesystem::path& folder, const std::string& program,
-                               unsigned threads, const long_work::Progress& progress);
+long_work::ShardSummary run_shard(const Task& task, const long_work::Shard& shard,
+                                  const std::filesystem::path& folder, const std::string& program,
+                                  unsigned threads, const long_work::Progress& progress);
 
 /// What the shards in a folder are shards of.
-/// @throws shards::UnusableShards  of several works or of another program
-Task task_of(const shards::Collection& shards, const std::string& program);
+/// @throws long_work::UnusableShards  of several works or of another program
+Task task_of(const long_work::Collection& shards, const std::string& program);
 
 /// Writes of these samples what run_robust() writes, to the bit. The search for the worst plant,
 /// which needs all samples, is computed here, with a journal in the folder `out`.
-/// @throws shards::Incomplete  shards are missing or damaged; nothing was written
+/// @throws long_work::Incomplete  shards are missing or damaged; nothing was written
 /// @throws long_work::ForeignJournal, output::OutputError
-Outcome merge_shards(const shards::Collection& shards, const Task& task,
+Outcome merge_shards(const long_work::Collection& shards, const Task& task,
                      const std::filesystem::path& out, const std::string& program, unsigned threads,
                      const long_work::Progress& progress);
 

@@ -1,21 +1,11 @@
 #include "host_sim/studies/robust/row.hpp"
 
-#include <fmt/format.h>
-
-#include <array>
 #include <cmath>
 
-#include "host_sim/long_work/record_text.hpp"
 #include "host_sim/report/words.hpp"
 
 namespace sonoglide::robust {
 namespace {
-
-constexpr std::array<double PlantRow::*, 5> kept_figures = {
-    &PlantRow::settling_time_s, &PlantRow::overshoot, &PlantRow::steady_error, &PlantRow::ripple,
-    &PlantRow::deviation};
-constexpr std::array<std::uint64_t PlantRow::*, 4> kept_counts = {
-    &PlantRow::unsettled, &PlantRow::limits, &PlantRow::faults, &PlantRow::trace_hash};
 
 /// NaN is left out.
 void raise(double& largest, double value) {
@@ -35,10 +25,15 @@ std::vector<std::string> names(std::uint64_t bits, const Name& name) {
 
 }  // namespace
 
+bool PlantRow::plausible() const {
+  constexpr auto last_fault = static_cast<unsigned>(control::Fault::velocity_stuck);
+  return limits >> control::limit_count == 0 && faults >> (last_fault + 1) == 0;
+}
+
 double PlantRow::badness() const {
   constexpr double of_failed = 10.0;  // a ratio is 0 to 2 about its target
   constexpr double of_not_computed = 100.0;
-  if (!computed()) {
+  if (!ok()) {
     return of_not_computed;
   }
   return (failed() ? of_failed : 0.0) + (std::isnan(deviation) ? 0.0 : deviation);
@@ -81,35 +76,6 @@ std::vector<std::string> limit_names(const PlantRow& row) {
 std::vector<std::string> fault_names(const PlantRow& row) {
   return names(row.faults,
                [](unsigned bit) { return report::fault_name(static_cast<control::Fault>(bit)); });
-}
-
-std::string record_text(const Record& record) {
-  std::string text = fmt::format("{} ", record.place);
-  for (const auto figure : kept_figures) {
-    text += long_work::bits_text(record.row.*figure) + ' ';
-  }
-  for (const auto count : kept_counts) {
-    text += fmt::format("{} ", record.row.*count);
-  }
-  return text + record.row.status;
-}
-
-std::optional<Record> parse_record(std::string_view text) {
-  long_work::RecordNumbers numbers(text);
-  Record record{static_cast<std::size_t>(numbers.whole()), {}};
-  for (const auto figure : kept_figures) {
-    record.row.*figure = numbers.real();
-  }
-  for (const auto count : kept_counts) {
-    record.row.*count = numbers.whole();
-  }
-  constexpr auto last_fault = static_cast<unsigned>(control::Fault::velocity_stuck);
-  if (!numbers.good() || numbers.rest().empty() || record.row.limits >> control::limit_count != 0 ||
-      record.row.faults >> (last_fault + 1) != 0) {
-    return std::nullopt;
-  }
-  record.row.status = std::string(numbers.rest());
-  return record;
 }
 
 }  // namespace sonoglide::robust

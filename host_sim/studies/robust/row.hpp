@@ -4,12 +4,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <optional>
 #include <string>
-#include <string_view>
+#include <tuple>
 #include <vector>
 
 #include "firmware/control/interface/drive_command.hpp"
+#include "host_sim/long_work/record.hpp"
 #include "host_sim/loop/run_result.hpp"
 #include "host_sim/report/step_metrics.hpp"
 
@@ -31,9 +31,15 @@ struct PlantRow {
   std::uint64_t faults = 0;      ///< bit n: control::Fault n has come
   std::uint64_t trace_hash = 0;  ///< of every drive command
 
-  bool computed() const { return status == "ok"; }
+  static constexpr auto kept =
+      std::tuple(&PlantRow::settling_time_s, &PlantRow::overshoot, &PlantRow::steady_error,
+                 &PlantRow::ripple, &PlantRow::deviation, &PlantRow::unsettled, &PlantRow::limits,
+                 &PlantRow::faults, &PlantRow::trace_hash);
+  bool plausible() const;
+
+  bool ok() const { return status == "ok"; }
   /// Something has switched the drive off, a step never settles, or the loop could not be computed.
-  bool failed() const { return !computed() || faults != 0 || unsettled != 0; }
+  bool failed() const { return !ok() || faults != 0 || unsettled != 0; }
   /// Grows with the deviation; of a failed plant it is above that of every other, of one that could
   /// not be computed highest.
   double badness() const;
@@ -48,15 +54,6 @@ std::vector<std::string> limit_names(const PlantRow& row);
 std::vector<std::string> fault_names(const PlantRow& row);
 
 /// Samples first, then the runs of the search.
-struct Record {
-  std::size_t place = 0;
-  PlantRow row;
-};
-
-/// A record as one line. Numbers keep every bit.
-std::string record_text(const Record& record);
-
-/// Absent if the text is not that of a record.
-std::optional<Record> parse_record(std::string_view text);
+using Record = long_work::Record<PlantRow>;
 
 }  // namespace sonoglide::robust

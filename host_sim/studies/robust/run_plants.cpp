@@ -1,9 +1,13 @@
 #include "host_sim/studies/robust/run_plants.hpp"
 
 #include <cstddef>
+#include <numeric>
+#include <optional>
+#include <utility>
 
-#include "host_sim/lanes/closed_loops.hpp"
 #include "host_sim/loop/run.hpp"
+#include "host_sim/runs/closed_loops.hpp"
+#include "host_sim/runs/run_many.hpp"
 
 namespace sonoglide::robust {
 namespace {
@@ -21,44 +25,50 @@ PlantRow run_plant(const scene::Scene& plant, const configure::ControlDesign& de
   }
 }
 
-using Places = std::vector<std::size_t>;
-
 /// @return what the lanes give up
-Places run_in_lanes(const std::vector<scene::Scene>& plants, const Places& places,
-                    const configure::ControlDesign& design, std::vector<PlantRow>& rows) {
+runs::Places run_in_lanes(const std::vector<scene::Scene>& plants, const runs::Places& places,
+                          const configure::ControlDesign& design, const TakeRows& take) {
   std::vector<report::StepMeter> meters;
   meters.reserve(places.size());
-  std::vector<lanes::ClosedLoop> loops;
+  std::vector<runs::ClosedLoop> loops;
   for (const std::size_t place : places) {
     loops.push_back({plants[place], design, meters.emplace_back(plants[place])});
   }
-  const std::vector<lanes::LoopRun> runs = lanes::run_closed_loops(loops);
-  Places given_up;
+  const std::vector<runs::LoopRun> found = runs::run_closed_loops(loops);
+  std::vector<Record> rows;
   for (std::size_t i = 0; i < places.size(); ++i) {
-    if (runs[i].status == batch::RunStatus::solved) {
-      rows[places[i]] = row_of(meters[i].steps(), runs[i].control);
-    } else {
-      given_up.push_back(places[i]);
+    if (found[i].status == batch::RunStatus::solved) {
+      rows.push_back({places[i], row_of(meters[i].steps(), found[i].control)});
     }
   }
-  return given_up;
+  take(std::move(rows));
+  return runs::given_up(places, found);
 }
 
 }  // namespace
 
+void run_plants(const std::vector<scene::Scene>& plants, const configure::ControlDesign& design,
+                const TakeRows& take) {
+  runs::Places all(plants.size());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  const runs::Calls calls = runs::divide(all, [&](std::size_t place) {
+    return runs::runs_in_lanes(plants[place]) ? std::optional(0) : std::nullopt;
+  });
+  runs::run_many(
+      calls, [&](const runs::Places& places) { return run_in_lanes(plants, places, design, take); },
+      [&](std::size_t place) {
+        take({{place, run_plant(plants[place], design)}});
+      });
+}
+
 std::vector<PlantRow> run_plants(const std::vector<scene::Scene>& plants,
                                  const configure::ControlDesign& design) {
-  Places together;
-  Places singles;
-  for (std::size_t i = 0; i < plants.size(); ++i) {
-    (lanes::runs_in_lanes(plants[i]) ? together : singles).push_back(i);
-  }
   std::vector<PlantRow> rows(plants.size());
-  const Places given_up = run_in_lanes(plants, together, design, rows);
-  singles.insert(singles.end(), given_up.begin(), given_up.end());
-  for (const std::size_t place : singles) {
-    rows[place] = run_plant(plants[place], design);
-  }
+  run_plants(plants, design, [&rows](std::vector<Record> found) {
+    for (Record& record : found) {
+      rows[record.point] = std::move(record.row);
+    }
+  });
   return rows;
 }
 

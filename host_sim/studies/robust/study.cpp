@@ -1,17 +1,15 @@
 #include "host_sim/studies/robust/study.hpp"
 
 #include <fmt/format.h>
-#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
-#include <tbb/partitioner.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <numeric>
 #include <optional>
 #include <utility>
 
+#include "host_sim/runs/run_many.hpp"
 #include "host_sim/scene_file/scene_error.hpp"
 #include "host_sim/scene_file/to_json.hpp"
 #include "host_sim/studies/robust/run_plants.hpp"
@@ -44,76 +42,86 @@ std::size_t Study::search_failures() const {
       search.begin(), search.end(), [](const SearchRun& each) { return each.row.failed(); }));
 }
 
-void check_samples(const Task& task, const shards::PointRange& samples) {
+void check_samples(const Task& task, const long_work::PointRange& samples) {
   constexpr std::size_t samples_per_task = 256;
-  std::atomic<std::size_t> lowest{samples.end};
-  tbb::parallel_for(
-      tbb::blocked_range<std::size_t>(samples.first, samples.end, samples_per_task),
-      [&](const tbb::blocked_range<std::size_t>& range) {
-        for (std::size_t i = range.begin(); i < std::min(range.end(), lowest.load()); ++i) {
-          try {
-            task.plant(task.sample(i));
-          } catch (const scene_file::SceneError&) {
-            std::size_t seen = lowest.load();
-            while (i < seen && !lowest.compare_exchange_weak(seen, i)) {
-            }
-          }
+  const std::size_t unusable =
+      runs::visit_all(samples.first, samples.end, samples_per_task, [&](std::size_t sample) {
+        try {
+          task.plant(task.sample(sample));
+          return true;
+        } catch (const scene_file::SceneError&) {
+          return false;
         }
-      },
-      tbb::simple_partitioner());
-  if (lowest < samples.end) {
-    task.plant(task.sample(lowest));
+      });
+  if (unusable < samples.end) {
+    task.plant(task.sample(unusable));
   }
 }
 
-void run_samples(const Task& task, const std::vector<std::size_t>& samples, const TakeRows& take) {
-  // Keeps the lanes busy until few are left, and threads wait for no more.
-  constexpr std::size_t samples_per_call = 128;
-  tbb::parallel_for(
-      tbb::blocked_range<std::size_t>(0, samples.size(), samples_per_call),
-      [&](const tbb::blocked_range<std::size_t>& range) {
-        std::vector<scene::Scene> plants;
-        for (std::size_t i = range.begin(); i != range.end(); ++i) {
-          plants.push_back(task.plant(task.sample(samples[i])));
-        }
-        take(range.begin(), run_plants(plants, task.design()));
-      },
-      tbb::simple_partitioner());
+namespace {
+
+/// In parts, of which the plants are in memory.
+void run_samples(const Task& task, const std::vector<std::uint64_t>& samples,
+                 const long_work::Sink& sink) {
+  constexpr std::size_t samples_per_thread = 1024;
+  constexpr std::size_t samples_per_task = 64;
+  const std::size_t most = samples_per_thread * runs::thread_count();
+  for (std::size_t begin = 0; begin < samples.size(); begin += most) {
+    std::vector<scene::Scene> plants(std::min(most, samples.size() - begin));
+    runs::visit_all(0, plants.size(), samples_per_task, [&](std::size_t i) {
+      plants[i] = task.plant(task.sample(samples[begin + i]));
+      return true;
+    });
+    run_plants(plants, task.design(), [&](std::vector<Record> rows) {
+      for (Record& each : rows) {
+        each.point = samples[begin + each.point];
+      }
+      sink(long_work::finished_points(rows));
+    });
+  }
+}
+
+}  // namespace
+
+long_work::Computation computation_of(const Task& task) {
+  return {[&task](const long_work::PointRange&, const std::vector<std::uint64_t>& open,
+                  const long_work::Sink& sink) { run_samples(task, open, sink); },
+          long_work::record_facts<PlantRow>};
 }
 
 Solver::Solver(const Task& task, const std::filesystem::path& folder, const std::string& program,
-               const std::vector<PlantRow>& samples)
+               std::vector<PlantRow> samples)
     : task_(task),
+      samples_(std::move(samples)),
+      kept_({0, task.counts().samples}, computation_of(task)),
       journal_(folder / "robust.journal", kind, identity_of(task, program),
-               [this](std::string_view text) { return take(text); }) {
-  for (std::size_t i = 0; i < samples.size(); ++i) {
-    known_.insert_or_assign(i, samples[i]);
-  }
-  found_finished_ = known_.size();
-}
+               [this](std::string_view record) { return take(record); }) {}
 
+/// The search begins when all samples are finished.
 bool Solver::take(std::string_view text) {
-  std::optional<Record> record = parse_record(text);
-  if (!record || record->place >= task_.counts().samples + task_.counts().search) {
+  std::optional<Record> record = long_work::parse_record<PlantRow>(text);
+  const Counts& counts = task_.counts();
+  if (!record || record->point >= counts.samples + counts.search) {
     return false;
   }
-  known_.insert_or_assign(record->place, std::move(record->row));
-  return true;
+  if (record->point < counts.samples) {
+    return kept_.take(text);
+  }
+  searched_.insert_or_assign(record->point, std::move(record->row));
+  return kept_.complete() || !samples_.empty();
 }
 
-void Solver::hand_in(std::size_t place, const PlantRow& row) {
-  // The text is made before the lock: that is most of the work.
-  const std::string line = long_work::Journal::line_of(record_text({place, row}));
-  const std::lock_guard<std::mutex> lock(mutex_);
-  journal_.append(line);
+std::size_t Solver::found_finished() const {
+  return (samples_.empty() ? kept_.finished() : samples_.size()) + searched_.size();
 }
 
 Study Solver::solve(long_work::Pace& pace) {
+  complete_samples(pace);
   Study study;
-  study.samples = all_samples(pace);
   if (task_.counts().search > 0) {
-    study.search = search(study.samples, pace);
+    study.search = search(pace);
   }
+  study.samples = std::move(samples_);
   const auto worst_sample = std::max_element(
       study.samples.begin(), study.samples.end(),
       [](const PlantRow& a, const PlantRow& b) { return a.badness() < b.badness(); });
@@ -127,28 +135,13 @@ Study Solver::solve(long_work::Pace& pace) {
   return study;
 }
 
-std::vector<PlantRow> Solver::all_samples(long_work::Pace& pace) {
-  const std::size_t count = task_.counts().samples;
-  std::vector<std::size_t> open;
-  std::vector<PlantRow> rows(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    const auto known = known_.find(i);
-    if (known == known_.end()) {
-      open.push_back(i);
-    } else {
-      rows[i] = known->second;
-    }
+void Solver::complete_samples(long_work::Pace& pace) {
+  if (samples_.empty()) {
+    kept_.compute(journal_, pace, task_.counts().search);
+    kept_.for_each_record(journal_, long_work::rows_to<PlantRow>([this](std::size_t, PlantRow row) {
+                            samples_.push_back(std::move(row));
+                          }));
   }
-  pace.begin(open.size(), static_cast<double>(task_.counts().search) /
-                              std::max(1.0, static_cast<double>(open.size())));
-  run_samples(task_, open, [&](std::size_t first, const std::vector<PlantRow>& found) {
-    for (std::size_t i = 0; i < found.size(); ++i) {
-      rows[open[first + i]] = found[i];
-      hand_in(open[first + i], found[i]);
-    }
-    pace.add(found.size());
-  });
-  return rows;
 }
 
 namespace {
@@ -199,8 +192,8 @@ std::vector<std::size_t> starts(const Task& task, const std::vector<PlantRow>& s
 }  // namespace
 
 /// Climbs depend on the samples alone, and each on itself.
-std::vector<SearchRun> Solver::search(const std::vector<PlantRow>& samples, long_work::Pace& pace) {
-  const std::vector<std::size_t> from = starts(task_, samples);
+std::vector<SearchRun> Solver::search(long_work::Pace& pace) {
+  const std::vector<std::size_t> from = starts(task_, samples_);
   const std::size_t runs = task_.counts().search / from.size();
   pace.begin(runs * from.size(), 0.0);
   std::vector<std::vector<SearchRun>> climbs(from.size());
@@ -235,12 +228,12 @@ std::vector<SearchRun> Solver::climb_from(std::size_t sample, std::size_t ordina
 }
 
 PlantRow Solver::run(std::size_t place, const Factors& factors) {
-  const auto known = known_.find(place);
-  if (known != known_.end()) {
+  const auto known = searched_.find(place);
+  if (known != searched_.end()) {
     return known->second;
   }
   PlantRow row = run_plants({task_.plant(factors)}, task_.design()).front();
-  hand_in(place, row);
+  journal_.append({{place, long_work::record_text<PlantRow>({place, row})}});
   return row;
 }
 

@@ -193,7 +193,7 @@ ordered_json to_json(const Task& task, const Study& study) {
   json["failure_probability_upper_99_9"] = failure_probability_upper(failures, samples, 0.999);
   json["with_fault"] = count_if(study, [](const PlantRow& row) { return row.faults != 0; });
   json["never_settled"] = count_if(study, [](const PlantRow& row) { return row.unsettled != 0; });
-  json["not_computed"] = count_if(study, [](const PlantRow& row) { return !row.computed(); });
+  json["not_computed"] = count_if(study, [](const PlantRow& row) { return !row.ok(); });
   for (const Figure& figure : figures()) {
     const Quantiles found = quantiles(values_of(study, figure));
     json[figure.key] = {{"median", defined(found.median)},

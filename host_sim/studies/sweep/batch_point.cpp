@@ -4,8 +4,8 @@
 #include <cstdint>
 
 #include "firmware/numeric/turn.hpp"
-#include "host_sim/lanes/lane_scene.hpp"
 #include "host_sim/loop/carrier_grid.hpp"
+#include "host_sim/runs/lane_scene.hpp"
 
 namespace sonoglide::sweep {
 namespace {
@@ -16,7 +16,7 @@ constexpr double fine_tolerance = 1e-8;
 }  // namespace
 
 std::optional<BatchPoint> batch_point(const scene::Scene& scene) {
-  const std::optional<batch::DahlPlant> plant = lanes::lane_plant(scene);
+  const std::optional<batch::DahlPlant> plant = runs::lane_plant(scene);
   if (!plant || scene.controller || scene.solver.tolerance < fine_tolerance) {
     return std::nullopt;
   }

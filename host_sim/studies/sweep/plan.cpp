@@ -1,18 +1,15 @@
 #include "host_sim/studies/sweep/plan.hpp"
 
 #include <fmt/format.h>
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-#include <tbb/partitioner.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <iterator>
 #include <utility>
 
 #include "host_sim/configure/bound.hpp"
 #include "host_sim/configure/plant_scales.hpp"
+#include "host_sim/runs/run_many.hpp"
 #include "host_sim/scene_file/reader.hpp"
 
 namespace sonoglide::sweep {
@@ -114,25 +111,23 @@ scene::Scene Plan::scene(std::size_t point) const {
 
 void Plan::visit(const PointRange& points, const Visit& visit, long_work::Pace* pace) const {
   constexpr std::size_t points_per_task = 1024;  // milliseconds
-  std::atomic<std::size_t> lowest{points.end};
-  const auto visit_range = [&](const tbb::blocked_range<std::size_t>& range) {
-    for (std::size_t point = range.begin(); point < std::min(range.end(), lowest.load()); ++point) {
-      try {
-        visit(point, read(point));
-      } catch (const scene_file::SceneError&) {
-        std::size_t seen = lowest.load();
-        while (point < seen && !lowest.compare_exchange_weak(seen, point)) {
+  const std::size_t unusable = runs::visit_all(
+      points.first, points.end, points_per_task,
+      [&](std::size_t point) {
+        try {
+          visit(point, read(point));
+          return true;
+        } catch (const scene_file::SceneError&) {
+          return false;
         }
-      }
-    }
-    if (pace != nullptr) {
-      pace->add(range.size());
-    }
-  };
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(points.first, points.end, points_per_task),
-                    visit_range, tbb::simple_partitioner());
-  if (lowest < points.end) {
-    scene(lowest);
+      },
+      [pace](std::size_t more) {
+        if (pace != nullptr) {
+          pace->add(more);
+        }
+      });
+  if (unusable < points.end) {
+    scene(unusable);
   }
 }
 

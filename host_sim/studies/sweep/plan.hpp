@@ -8,17 +8,17 @@
 #include <vector>
 
 #include "host_sim/long_work/pace.hpp"
+#include "host_sim/long_work/shard.hpp"
 #include "host_sim/scene/scene.hpp"
 #include "host_sim/scene_file/document.hpp"
 #include "host_sim/scene_file/scene_error.hpp"
 #include "host_sim/scene_file/source.hpp"
 #include "host_sim/scene_file/variant.hpp"
-#include "host_sim/shards/shard.hpp"
 #include "host_sim/studies/sweep/axis.hpp"
 
 namespace sonoglide::sweep {
 
-using shards::PointRange;
+using long_work::PointRange;
 
 /// The scene file is read once: a later edit of it does not reach into a sweep under way.
 class Plan {

@@ -3,11 +3,11 @@
 
 #include <cstddef>
 #include <limits>
-#include <optional>
 #include <string>
-#include <string_view>
+#include <tuple>
 
 #include "firmware/control/interface/drive_command.hpp"
+#include "host_sim/long_work/record.hpp"
 
 namespace sonoglide::sweep {
 
@@ -26,18 +26,18 @@ struct PointResult {
   control::Limit limit = control::Limit::none;
   control::Fault fault = control::Fault::none;  ///< the first of the run
 
+  static constexpr auto kept = std::tuple(
+      &PointResult::friction_ratio_whole_run, &PointResult::friction_ratio_window,
+      &PointResult::dissipation_ratio_window, &PointResult::settling_time_s,
+      &PointResult::steady_error, &PointResult::ripple, &PointResult::limit, &PointResult::fault);
+  bool plausible() const {
+    return static_cast<std::size_t>(limit) < control::limit_count &&
+           fault <= control::Fault::velocity_stuck;
+  }
+
   bool ok() const { return status == "ok"; }
 };
 
-struct Record {
-  std::size_t point = 0;
-  PointResult row;
-};
-
-/// A record as one line. Numbers keep every bit.
-std::string record_text(const Record& record);
-
-/// Absent if the text is not that of a record.
-std::optional<Record> parse_record(std::string_view text);
+using Record = long_work::Record<PointResult>;
 
 }  // namespace sonoglide::sweep

@@ -1,14 +1,8 @@
 #include "host_sim/studies/sweep/solve.hpp"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-#include <tbb/parallel_for_each.h>
-#include <tbb/partitioner.h>
-
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <map>
 #include <numeric>
 #include <optional>
 #include <tuple>
@@ -20,7 +14,6 @@
 #include "host_sim/report/step_metrics.hpp"
 #include "host_sim/report/words.hpp"
 #include "host_sim/scene_file/scene_error.hpp"
-#include "host_sim/shards/run_shard.hpp"
 #include "host_sim/studies/sweep/batch_point.hpp"
 
 namespace sonoglide::sweep {
@@ -112,17 +105,6 @@ PointResult solve_scalar_point(const scene::Scene& scene) {
   }
 }
 
-namespace {
-
-/// What points that can be run together have in common.
-using GroupKey = std::tuple<std::uint32_t, std::uint32_t, batch::Accuracy>;
-
-GroupKey key_of(const BatchPoint& point) {
-  return {point.length.periods, point.length.window_start_periods, point.accuracy};
-}
-
-}  // namespace
-
 Solve::Solve(const Plan& plan, const PointRange& points, long_work::Pace* pace)
     : plan_(plan), first_(points.first), batch_points_(points.size()) {
   if (pace != nullptr) {
@@ -136,74 +118,57 @@ Solve::Solve(const Plan& plan, const PointRange& points, long_work::Pace* pace)
       pace);
 }
 
-std::vector<Points> Solve::calls(const Points& points) const {
-  constexpr std::size_t lanes_many_times_over = 256;
-  std::vector<Points> calls;
-  std::map<GroupKey, Points> groups;
-  for (const std::size_t point : points) {
-    const auto& in_lanes = batch(point);
-    Points& group = in_lanes ? groups[key_of(*in_lanes)] : calls.emplace_back();
-    group.push_back(point);
-    if (group.size() == lanes_many_times_over) {
-      calls.push_back(std::exchange(group, {}));
+runs::Calls Solve::calls(const runs::Places& points) const {
+  using Group = std::tuple<std::uint32_t, std::uint32_t, batch::Accuracy>;
+  return runs::divide(points, [this](std::size_t point) -> std::optional<Group> {
+    const std::optional<BatchPoint>& each = batch(point);
+    if (!each) {
+      return std::nullopt;
     }
-  }
-  for (auto& [key, group] : groups) {
-    if (!group.empty()) {
-      calls.push_back(std::move(group));
-    }
-  }
-  return calls;
+    return Group{each->length.periods, each->length.window_start_periods, each->accuracy};
+  });
 }
 
-void Solve::operator()(const Points& call, const Sink& sink) const {
-  const Points singles = batch(call.front()) ? over_lanes(call, sink) : call;
-  tbb::parallel_for_each(singles, [&](std::size_t point) {
-    sink({{point, solve_scalar_point(plan_.scene(point))}});
+void Solve::operator()(const runs::Calls& calls, const Sink& sink) const {
+  runs::run_many(
+      calls, [&](const runs::Places& points) { return over_lanes(points, sink); },
+      [&](std::size_t point) {
+        sink({{point, solve_scalar_point(plan_.scene(point))}});
+      });
+}
+
+void Solve::operator()(const runs::Places& points, const long_work::Sink& sink) const {
+  (*this)(calls(points), [&sink](const std::vector<Record>& records) {
+    sink(long_work::finished_points(records));
   });
 }
 
 /// @return what the lanes give up
-Points Solve::over_lanes(const Points& call, const Sink& sink) const {
+runs::Places Solve::over_lanes(const runs::Places& points, const Sink& sink) const {
   std::vector<batch::DahlPlant> plants;
-  for (const std::size_t point : call) {
+  for (const std::size_t point : points) {
     plants.push_back(batch(point)->plant);
   }
-  const BatchPoint& any = *batch(call.front());
-  const std::vector<batch::DahlRun> runs = batch::run_dahl_plants(plants, any.length, any.accuracy);
+  const BatchPoint& any = *batch(points.front());
+  const std::vector<batch::DahlRun> found =
+      batch::run_dahl_plants(plants, any.length, any.accuracy);
   std::vector<Record> records;
-  Points given_up;
-  for (std::size_t i = 0; i < runs.size(); ++i) {
-    if (runs[i].status == batch::RunStatus::solved) {
-      records.push_back({call[i], row_of(*batch(call[i]), runs[i])});
-    } else {
-      given_up.push_back(call[i]);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (found[i].status == batch::RunStatus::solved) {
+      records.push_back({points[i], row_of(*batch(points[i]), found[i])});
     }
   }
   sink(std::move(records));
-  return given_up;
-}
-
-void solve_all(const Solve& solve, const Points& points, const Sink& sink) {
-  const std::vector<Points> calls = solve.calls(points);
-  // One call to a task: those that take long leave the rest to others.
-  tbb::parallel_for(
-      tbb::blocked_range<std::size_t>(0, calls.size(), 1),
-      [&](const tbb::blocked_range<std::size_t>& range) {
-        for (std::size_t index = range.begin(); index < range.end(); ++index) {
-          solve(calls[index], sink);
-        }
-      },
-      tbb::simple_partitioner());
+  return runs::given_up(points, found);
 }
 
 std::vector<PointResult> compute_rows(const Plan& plan, unsigned threads) {
-  const shards::ThreadLimit limit(threads);
+  const runs::ThreadLimit limit(threads);
   const Solve solve(plan, plan.all(), nullptr);
   std::vector<PointResult> rows(plan.grid().size());
-  Points all(rows.size());
+  runs::Places all(rows.size());
   std::iota(all.begin(), all.end(), std::size_t{0});
-  solve_all(solve, all, [&](std::vector<Record> records) {
+  solve(solve.calls(all), [&](std::vector<Record> records) {
     for (Record& record : records) {
       rows[record.point] = std::move(record.row);
     }

@@ -6,6 +6,8 @@
 #include <optional>
 #include <vector>
 
+#include "host_sim/long_work/kept_points.hpp"
+#include "host_sim/runs/run_many.hpp"
 #include "host_sim/scene/scene.hpp"
 #include "host_sim/studies/sweep/batch_point.hpp"
 #include "host_sim/studies/sweep/plan.hpp"
@@ -29,9 +31,6 @@ double mean_over(const Plan& plan, const PointRange& points, std::size_t samples
 /// A computation that fails gives a row whose status says why.
 PointResult solve_scalar_point(const scene::Scene& scene);
 
-/// Points that are solved in one go.
-using Points = std::vector<std::size_t>;
-
 /// Takes finished points, from any thread.
 using Sink = std::function<void(std::vector<Record>)>;
 
@@ -43,28 +42,27 @@ class Solve {
   /// @throws scene_file::SceneError  a point is unusable
   Solve(const Plan& plan, const PointRange& points, long_work::Pace* pace);
 
-  /// These points as calls that are worth making: those that suit SIMD lanes together, up to some
-  /// hundreds that have their length and accuracy in common, the others alone.
-  std::vector<Points> calls(const Points& points) const;
+  /// These points as calls: those that suit SIMD lanes together with others of their length and
+  /// accuracy, the others alone.
+  runs::Calls calls(const runs::Places& points) const;
 
-  /// Solves one of the calls above: over SIMD lanes, or one by one as `run` does, which is also
-  /// what becomes of points that the lanes give up. A row depends on its point alone, to the bit.
-  /// Safe to call from several threads.
-  void operator()(const Points& call, const Sink& sink) const;
+  /// Solves them on all threads: over SIMD lanes, or one by one as `run` does, which is also what
+  /// becomes of points that the lanes give up. A row depends on its point alone, to the bit.
+  void operator()(const runs::Calls& calls, const Sink& sink) const;
+
+  /// As long work.
+  void operator()(const runs::Places& points, const long_work::Sink& sink) const;
 
  private:
   const std::optional<BatchPoint>& batch(std::size_t point) const {
     return batch_points_[point - first_];
   }
-  Points over_lanes(const Points& call, const Sink& sink) const;
+  runs::Places over_lanes(const runs::Places& points, const Sink& sink) const;
 
   const Plan& plan_;
   std::size_t first_;
   std::vector<std::optional<BatchPoint>> batch_points_;  ///< from the first on; absent: no lanes
 };
-
-/// Solves these points on all threads.
-void solve_all(const Solve& solve, const Points& points, const Sink& sink);
 
 /// A whole sweep in memory, for whoever writes no file: the rows of every point, in the order of the
 /// grid, as sweep.csv has them.

@@ -2,89 +2,28 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <chrono>
-#include <mutex>
 #include <optional>
-#include <string>
+#include <string_view>
 #include <utility>
 
 #include "host_sim/batch/run_dahl_plants.hpp"
+#include "host_sim/long_work/collection.hpp"
+#include "host_sim/long_work/journal.hpp"
 #include "host_sim/output/gnuplot.hpp"
 #include "host_sim/output/output_folder.hpp"
 #include "host_sim/output/page.hpp"
 #include "host_sim/process/ending.hpp"
 #include "host_sim/scene_file/to_json.hpp"
 #include "host_sim/studies/sweep/free_vibration.hpp"
-#include "host_sim/studies/sweep/journal.hpp"
 #include "host_sim/studies/sweep/report.hpp"
+#include "host_sim/studies/sweep/solve.hpp"
 
 namespace sonoglide::sweep {
 namespace {
 
-/// Where the threads hand in what they have finished.
-class Collection {
- public:
-  Collection(std::size_t points, Journal& journal, long_work::Pace& pace)
-      : rows_(points), known_(points), journal_(journal), pace_(pace) {
-    for (const Record& record : journal.finished()) {
-      take(record);
-    }
-  }
-
-  void hand_in(std::vector<Record> records) {
-    // The text is made before the lock: that is most of the work.
-    const std::string text = Journal::text_of(records);
-    {
-      const std::lock_guard<std::mutex> lock(mutex_);
-      journal_.append(text);
-      for (Record& record : records) {
-        take(std::move(record));
-      }
-    }
-    pace_.add(records.size());
-  }
-
-  Points open_points() const {
-    Points open;
-    for (std::size_t point = 0; point < known_.size(); ++point) {
-      if (!known_[point]) {
-        open.push_back(point);
-      }
-    }
-    return open;
-  }
-
-  std::vector<PointResult> take_rows() { return std::move(rows_); }
-
- private:
-  void take(Record record) {
-    known_[record.point] = true;
-    rows_[record.point] = std::move(record.row);
-  }
-
-  std::mutex mutex_;
-  std::vector<PointResult> rows_;
-  std::vector<bool> known_;
-  Journal& journal_;
-  long_work::Pace& pace_;
-};
-
-}  // namespace
-
-std::vector<PointResult> compute(const Solve& solve, std::size_t points, Journal& journal,
-                                 long_work::Pace& pace) {
-  Collection collection(points, journal, pace);
-  const Points open = collection.open_points();
-  pace.begin(open.size(), 0.0);
-  solve_all(solve, open,
-            [&](std::vector<Record> records) { collection.hand_in(std::move(records)); });
-  return collection.take_rows();
-}
-
-namespace {
-
 namespace fs = std::filesystem;
+
+constexpr long_work::JournalKind journal_kind = {"sweep", "--vary"};
 
 std::string values_of(const Axis& axis) {
   if (axis.list.empty()) {
@@ -99,7 +38,7 @@ std::string values_of(const Axis& axis) {
 }
 
 /// Of what words are varied the scenes differ in more than a value: each is told in full.
-Identity identity_of(const Plan& plan, const std::string& program) {
+long_work::Identity identity_of(const Plan& plan, const std::string& program) {
   std::string vary;
   for (const Axis& axis : plan.grid().axes()) {
     vary += fmt::format("{}={} ", axis.key, values_of(axis));
@@ -108,11 +47,11 @@ Identity identity_of(const Plan& plan, const std::string& program) {
   for (const std::size_t point : plan.wordings()) {
     scenes += scene_file::to_json(plan.scene(point)).dump();
   }
-  return {program, scenes, vary};
+  // Rows of another arithmetic, which an earlier program had, do not mix with these.
+  return {fmt::format("{}, {}", program, batch::arithmetic), scenes, vary};
 }
 
-}  // namespace
-
+/// The table, the picture and the page of all rows, all or none.
 void write_files(const Plan& plan, const std::vector<PointResult>& rows, const fs::path& out,
                  const std::function<void()>& then) {
   const std::optional<std::string> picture = draw(plan, rows);
@@ -130,26 +69,106 @@ void write_files(const Plan& plan, const std::vector<PointResult>& rows, const f
   then();
 }
 
+/// Gives the record of every point, in their order.
+using Records = std::function<void(const long_work::TakeRecord& take)>;
+
+/// Makes the files of a sweep's records.
+/// @param then  what belongs to it: no signal ends the program between
+MergeSummary merge(
+    const Plan& plan, const Records& records, const fs::path& out,
+    const std::function<void()>& then = [] {}) {
+  MergeSummary summary{plan.grid().size(), 0, plan.grid().size() <= most_points};
+  const auto for_each_row = [&](const auto& take) {
+    records(long_work::rows_to<PointResult>([&](std::size_t point, PointResult row) {
+      summary.failed += row.ok() ? 0 : 1;
+      take(point, std::move(row));
+    }));
+  };
+  if (summary.drawn) {
+    std::vector<PointResult> rows;
+    for_each_row([&](std::size_t, PointResult row) { rows.push_back(std::move(row)); });
+    write_files(plan, rows, out, then);
+    return summary;
+  }
+  output::OutputFolder files(out, {table_file, page_file, picture_file});
+  std::ostream& table = files.open(table_file);
+  write_heading(table, plan);
+  for_each_row(
+      [&](std::size_t point, const PointResult& row) { write_row(table, plan, point, row); });
+  files.withdraw(page_file);
+  files.withdraw(picture_file);
+  files.commit();
+  return summary;
+}
+
+}  // namespace
+
 Summary run_sweep(const Plan& plan, const fs::path& out, const std::string& program,
                   unsigned threads, const long_work::Progress& progress) {
-  const shards::ThreadLimit limit(threads);
-  const auto begin = std::chrono::steady_clock::now();
+  const runs::ThreadLimit limit(threads);
+  const double begin_s = long_work::steady_time_s();
   long_work::Pace pace(progress);
   const Solve solve(plan, plan.all(), &pace);
   if (!drawn_axes(plan.grid()).empty() && drawn_axes(plan.grid()).size() <= 2) {
     output::require_gnuplot();
   }
   output::create_folder(out, {table_file, page_file, picture_file});
-  // Rows of another arithmetic, which an earlier program had, do not mix with these.
-  const std::string decisive = fmt::format("{}, {}", program, batch::arithmetic);
-  Journal journal(out, identity_of(plan, decisive), plan.grid().size());
-  const std::size_t found = journal.finished().size();
-  const std::vector<PointResult> rows = compute(solve, plan.grid().size(), journal, pace);
-  const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - begin;
-  write_files(plan, rows, out, [&] { journal.remove(); });
-  const auto failed =
-      std::count_if(rows.begin(), rows.end(), [](const PointResult& row) { return !row.ok(); });
-  return {rows.size(), static_cast<std::size_t>(failed), found, wall.count(), start_notes(plan)};
+  long_work::KeptPoints points(plan.all(),
+                               {[&solve](const PointRange&, const runs::Places& open,
+                                         const long_work::Sink& sink) { solve(open, sink); },
+                                long_work::record_facts<PointResult>});
+  long_work::Journal journal(out / "sweep.journal", journal_kind, identity_of(plan, program),
+                             [&points](std::string_view record) { return points.take(record); });
+  const std::size_t found = points.finished();
+  points.compute(journal, pace);
+  const double wall_s = long_work::steady_time_s() - begin_s;
+  const MergeSummary merged = merge(
+      plan, [&](const long_work::TakeRecord& take) { points.for_each_record(journal, take); }, out,
+      [&journal] { journal.remove(); });
+  return {merged.points, merged.failed, found, wall_s, start_notes(plan)};
+}
+
+long_work::ShardSummary run_shard(const Plan& plan, const long_work::Shard& shard,
+                                  const fs::path& folder, const std::string& program,
+                                  unsigned threads, const long_work::Progress& progress) {
+  const runs::ThreadLimit limit(threads);
+  const auto check = [&plan](const PointRange& points, long_work::Pace& pace) {
+    pace.begin(points.size(), 1.0 + expected_solving_cost(plan, points));
+    plan.visit(
+        points, [](std::size_t, const scene::Scene&) {}, &pace);
+  };
+  const auto compute = [&plan](const PointRange& block, const runs::Places& open,
+                               const long_work::Sink& sink) {
+    Solve(plan, block, nullptr)(open, sink);
+  };
+  const long_work::Work work{
+      "sweep",          program,     batch::arithmetic,  plan.source().name(), plan.source().text,
+      plan.overrides(), plan.vary(), plan.grid().size(), shard.count};
+  return long_work::run_shard({work, shard.number}, check,
+                              {compute, long_work::record_facts<PointResult>}, folder, progress);
+}
+
+MergeSummary merge_shards(const fs::path& folder, const fs::path& out, const std::string& program,
+                          const long_work::Progress& progress) {
+  const long_work::Collection found(folder);
+  found.require_of("sweep", program, batch::arithmetic);
+  const long_work::Work& work = found.work();
+  const Plan plan({work.name + ".toml", work.scene}, work.overrides, work.options,
+                  most_points_in_shards);
+  constexpr std::size_t points_per_step = 4096;
+  long_work::Pace pace(progress);
+  pace.begin(work.points, 0.0);
+  return merge(
+      plan,
+      [&](const long_work::TakeRecord& take) {
+        found.for_each_record([&](std::uint64_t point, const std::string& record) {
+          if ((point + 1) % points_per_step == 0) {
+            pace.add(points_per_step);
+          }
+          return take(point, record);
+        });
+      },
+      out);
 }
 
 }  // namespace sonoglide::sweep

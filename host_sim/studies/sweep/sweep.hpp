@@ -3,37 +3,18 @@
 
 #include <cstddef>
 #include <filesystem>
-#include <functional>
 #include <string>
 #include <vector>
 
 #include "host_sim/long_work/pace.hpp"
-#include "host_sim/shards/run_shard.hpp"
-#include "host_sim/studies/sweep/journal.hpp"
+#include "host_sim/long_work/run_shard.hpp"
 #include "host_sim/studies/sweep/plan.hpp"
-#include "host_sim/studies/sweep/row.hpp"
-#include "host_sim/studies/sweep/solve.hpp"
 
 namespace sonoglide::sweep {
-
-/// The rows of the whole grid, in its order: those that the journal holds and, into it, the others.
-/// The rows are the same to the bit for any number of threads and after any interruption.
-/// @param points  of the grid
-/// @param pace    told of the points computed
-/// @throws output::OutputError  the journal cannot be written
-std::vector<PointResult> compute(const Solve& solve, std::size_t points, Journal& journal,
-                                 long_work::Pace& pace);
 
 inline constexpr const char* table_file = "sweep.csv";
 inline constexpr const char* page_file = "report.html";
 inline constexpr const char* picture_file = "sweep.svg";
-
-/// The table, the picture and the page of all rows, all or none.
-/// @param then  what belongs to it: no signal ends the program between
-/// @throws output::OutputError, process::ProcessError
-void write_files(
-    const Plan& plan, const std::vector<PointResult>& rows, const std::filesystem::path& out,
-    const std::function<void()>& then = [] {});
 
 struct Summary {
   std::size_t points;
@@ -51,17 +32,17 @@ struct Summary {
 /// @param program  name and version: a journal of another program is refused
 /// @param threads  0: one for each core
 /// @throws scene_file::SceneError  nothing was written
-/// @throws ForeignJournal, output::OutputError, process::ProcessError
+/// @throws long_work::ForeignJournal, output::OutputError, process::ProcessError
 Summary run_sweep(const Plan& plan, const std::filesystem::path& out, const std::string& program,
                   unsigned threads, const long_work::Progress& progress);
 
-/// As shards::run_shard() with the points of a sweep.
+/// As long_work::run_shard() with the points of a sweep.
 /// @param program  name and version
 /// @throws scene_file::SceneError  nothing was written
 /// @throws long_work::ForeignJournal, output::OutputError
-shards::ShardSummary run_shard(const Plan& plan, const shards::Shard& shard,
-                               const std::filesystem::path& folder, const std::string& program,
-                               unsigned threads, const long_work::Progress& progress);
+long_work::ShardSummary run_shard(const Plan& plan, const long_work::Shard& shard,
+                                  const std::filesystem::path& folder, const std::string& program,
+                                  unsigned threads, const long_work::Progress& progress);
 
 struct MergeSummary {
   std::size_t points;
@@ -74,8 +55,8 @@ struct MergeSummary {
 /// on in memory that does not grow. The shards stay.
 ///
 /// @param program  name and version: shards of another program are refused
-/// @throws shards::Incomplete  shards are missing or damaged; nothing was written
-/// @throws shards::UnusableShards  of several works or of another program; nothing was written
+/// @throws long_work::Incomplete  shards are missing or damaged; nothing was written
+/// @throws long_work::UnusableShards  of several works or of another program; nothing was written
 /// @throws output::OutputError, process::ProcessError
 MergeSummary merge_shards(const std::filesystem::path& folder, const std::filesystem::path& out,
                           const std::string& program, const long_work::Progress& progress);

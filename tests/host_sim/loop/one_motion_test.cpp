@@ -15,7 +15,7 @@
 #include "host_sim/configure/solver_methods.hpp"
 #include "host_sim/loop/run.hpp"
 #include "host_sim/scene/law_cores.hpp"
-#include "host_sim/stepped/engine.hpp"
+#include "host_sim/loop/engine.hpp"
 #include "tests/common/table_1.hpp"
 #include "tests/host_sim/loop/random/random_scene.hpp"
 
@@ -105,13 +105,13 @@ End sampled(const Scene& scene) {
 }
 
 End stepped(const Scene& scene) {
-  stepped::Engine engine(scene, scene.controller ? stepped::Kind::loop : stepped::Kind::plant);
-  stepped::Inputs inputs;
+  loop::Engine engine(scene, scene.controller ? loop::Kind::loop : loop::Kind::plant);
+  loop::Inputs inputs;
   inputs.drive_force_amplitude_N = scene.drive->force_amplitude_N;
   for (int i = 0; i < periods; ++i) {
     engine.advance(inputs);
   }
-  const stepped::PlantOutputs& plant = engine.plant();
+  const loop::PlantOutputs& plant = engine.plant();
   return {{plant.displacement_m, plant.velocity_m_per_s, plant.friction_force_N},
           scene.controller ? engine.controller().trace_hash : 0};
 }

@@ -25,7 +25,7 @@ TEST(RecordTest, KeepsEveryBit) {
     record.row.faults = *rc::gen::inRange<std::uint64_t>(0, std::uint64_t{1} << 25);
     record.row.trace_hash = hash;
     record.row.status = *rc::gen::element<std::string>("ok", "solver: at 1 s, \"x\" 2 m: why");
-    const auto read = parse_record(record_text(record));
+    const auto read = long_work::parse_record<PlantRow>(record_text(record));
     RC_ASSERT(read.has_value());
     RC_ASSERT(read->place == place);
     RC_ASSERT(same_bits(read->row.overshoot, a));
@@ -38,7 +38,7 @@ TEST(RecordTest, KeepsEveryBit) {
     RC_ASSERT(read->row.status == record.row.status);
   }));
   for (const char* text : {"", "1", "1 0 0 0 0 0 0 0 0 0 ", "1 0 0 0 0 0 0 9999999 0 0 ok"}) {
-    EXPECT_FALSE(parse_record(text).has_value()) << text;
+    EXPECT_FALSE(long_work::parse_record<PlantRow>(text).has_value()) << text;
   }
 }
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "host_sim/lanes/closed_loops.hpp"
+#include "host_sim/runs/closed_loops.hpp"
 #include "host_sim/studies/robust/task.hpp"
 #include "robust_scenes.hpp"
 
@@ -31,7 +31,7 @@ TEST(RunPlants, InLanesTheRowsAreThoseOfFineRuns) {
   const Task fine = task_with("1e-10");
   const std::vector<scene::Scene> plants = plants_of(coarse);
   for (const scene::Scene& plant : plants) {
-    ASSERT_TRUE(lanes::runs_in_lanes(plant));
+    ASSERT_TRUE(runs::runs_in_lanes(plant));
   }
   const std::vector<PlantRow> rows = run_plants(plants, coarse.design());
   const std::vector<PlantRow> expected = run_plants(plants_of(fine), fine.design());
@@ -50,7 +50,7 @@ TEST(RunPlants, ARowIsTheSameAloneAndAmongOthers) {
   const std::vector<PlantRow> rows = run_plants(plants, task.design());
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const PlantRow alone = run_plants({plants[i]}, task.design()).front();
-    EXPECT_EQ(record_text({i, alone}), record_text({i, rows[i]}));
+    EXPECT_EQ(record_text(Record{i, alone}), record_text(Record{i, rows[i]}));
   }
 }
 
@@ -60,11 +60,11 @@ TEST(RunPlants, WhatTheLanesGiveUpIsRunAlone) {
   stuck.friction.coefficient = 1e6;
   stuck.friction.contact_stiffness_N_per_m = 1e16;
   stuck.run.duration_s = 1e-4;
-  ASSERT_TRUE(lanes::runs_in_lanes(stuck));
+  ASSERT_TRUE(runs::runs_in_lanes(stuck));
   const std::vector<PlantRow> rows = run_plants({stuck, task.nominal()}, task.design());
   EXPECT_NE(rows[0].trace_hash, 0U);  // it has a row of its own, whatever it says
-  EXPECT_EQ(record_text({1, rows[1]}),
-            record_text({1, run_plants({task.nominal()}, task.design()).front()}));
+  EXPECT_EQ(record_text(Record{1, rows[1]}),
+            record_text(Record{1, run_plants({task.nominal()}, task.design()).front()}));
 }
 
 }  // namespace

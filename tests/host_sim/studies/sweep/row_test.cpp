@@ -23,7 +23,7 @@ TEST(RecordTest, KeepsEveryBit) {
     record.row.fault =
         *rc::gen::element(control::Fault::none, control::Fault::measurement_implausible);
     record.row.status = *rc::gen::element<std::string>("ok", "solver: at 1 s, \"x\" 2 m: why");
-    const auto read = parse_record(record_text(record));
+    const auto read = long_work::parse_record<PointResult>(record_text(record));
     RC_ASSERT(read.has_value());
     RC_ASSERT(read->point == point);
     RC_ASSERT(same_bits(read->row.friction_ratio_whole_run, a));
@@ -38,7 +38,7 @@ TEST(RecordTest, KeepsEveryBit) {
 
 TEST(RecordTest, TextsOfAnotherFormAreRefused) {
   for (const char* text : {"", "1", "x 0 0 0 0 0 0 0 ok", "1 0 0 0 0 0 0 9 ok", "1 0 0 0 0 0 0"}) {
-    EXPECT_FALSE(parse_record(text).has_value()) << text;
+    EXPECT_FALSE(long_work::parse_record<PointResult>(text).has_value()) << text;
   }
 }
 

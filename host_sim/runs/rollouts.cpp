@@ -1,0 +1,112 @@
+#include "host_sim/runs/rollouts.hpp"
+
+#include <fmt/format.h>
+
+#include <deque>
+#include <numeric>
+#include <optional>
+#include <stdexcept>
+
+#include "host_sim/loop/carrier_grid.hpp"
+#include "host_sim/loop/engine.hpp"
+#include "host_sim/loop/run.hpp"
+#include "host_sim/runs/closed_loops.hpp"
+#include "host_sim/runs/run_many.hpp"
+
+namespace sonoglide::runs {
+namespace {
+
+class RatioSink final : public loop::PeriodSink {
+ public:
+  explicit RatioSink(double* ratios) : next_(ratios) {}
+  void take(const loop::Period& period) override {
+    if (period.whole) {
+      *next_++ = period.friction_ratio;
+    }
+  }
+
+ private:
+  double* next_;
+};
+
+void require_targets(const Rollout& rollout, std::size_t place) {
+  const std::size_t periods = whole_periods(rollout.scene);
+  if (rollout.targets == nullptr) {
+    return;
+  }
+  loop::require_usable(rollout.scene, loop::Kind::loop);
+  loop::require_constant_carrier(rollout.scene);
+  for (std::size_t i = 0; i < periods; ++i) {
+    if (!(rollout.targets[i] >= 0.0 && rollout.targets[i] <= 1.0)) {
+      throw std::invalid_argument(
+          fmt::format("the target of rollout {} in carrier period {} is {}; allowed: 0 to 1", place,
+                      i, rollout.targets[i]));
+    }
+  }
+}
+
+void step_through(const Rollout& rollout) {
+  loop::Engine engine(rollout.scene, loop::Kind::loop);
+  loop::Inputs inputs;
+  const std::size_t periods = whole_periods(rollout.scene);
+  for (std::size_t i = 0; i < periods; ++i) {
+    inputs.target_friction_ratio = rollout.targets[i];
+    engine.advance(inputs);
+    rollout.friction_ratios[i] = engine.plant().friction_ratio;
+  }
+}
+
+void run_one(const Rollout& rollout, std::size_t place) try {
+  if (rollout.targets != nullptr) {
+    step_through(rollout);
+    return;
+  }
+  RatioSink sink(rollout.friction_ratios);
+  loop::Watch watch;
+  watch.periods.push_back(&sink);
+  watch.energies = false;
+  loop::run(rollout.scene, watch);
+} catch (const loop::ComputationError& error) {
+  throw loop::ComputationError(fmt::format("rollout {}: {}", place, error.what()));
+}
+
+/// @return those that the lanes give up
+Places run_in_lanes(const std::vector<Rollout>& rollouts, const Places& places) {
+  std::deque<configure::ControlDesign> designs;
+  std::deque<RatioSink> sinks;
+  std::vector<ClosedLoop> loops;
+  for (const std::size_t place : places) {
+    const Rollout& rollout = rollouts[place];
+    loops.push_back({rollout.scene, designs.emplace_back(configure::design_control(rollout.scene)),
+                     sinks.emplace_back(rollout.friction_ratios)});
+  }
+  return given_up(places, run_closed_loops(loops));
+}
+
+}  // namespace
+
+std::size_t whole_periods(const scene::Scene& scene) {
+  loop::require_usable(scene, loop::Kind::plant);
+  loop::require_constant_carrier(scene);
+  const loop::CarrierGrid grid(scene);
+  return grid.count() - (grid.is_whole(grid.count() - 1) ? 0 : 1);
+}
+
+void run_rollouts(const std::vector<Rollout>& rollouts, unsigned threads) {
+  for (std::size_t i = 0; i < rollouts.size(); ++i) {
+    require_targets(rollouts[i], i);
+  }
+  const ThreadLimit limit(threads);
+  Places all(rollouts.size());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  const Calls calls = divide(all, [&](std::size_t place) {
+    const Rollout& rollout = rollouts[place];
+    return rollout.targets == nullptr && runs_in_lanes(rollout.scene) ? std::optional(0)
+                                                                      : std::nullopt;
+  });
+  run_many(
+      calls, [&](const Places& places) { return run_in_lanes(rollouts, places); },
+      [&](std::size_t place) { run_one(rollouts[place], place); });
+}
+
+}  // namespace sonoglide::runs
