@@ -8,9 +8,9 @@
 
 #include "host_sim/configure/control_design.hpp"
 #include "host_sim/configure/solver_methods.hpp"
-#include "host_sim/runs/closed_loops.hpp"
 #include "host_sim/loop/run.hpp"
 #include "host_sim/report/step_metrics.hpp"
+#include "host_sim/runs/closed_loops.hpp"
 #include "tests/common/table_1.hpp"
 #include "tests/host_sim/runs/plants/plants_near.hpp"
 

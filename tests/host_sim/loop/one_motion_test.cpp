@@ -13,9 +13,9 @@
 
 #include "host_sim/configure/solver_cores.hpp"
 #include "host_sim/configure/solver_methods.hpp"
+#include "host_sim/loop/engine.hpp"
 #include "host_sim/loop/run.hpp"
 #include "host_sim/scene/law_cores.hpp"
-#include "host_sim/loop/engine.hpp"
 #include "tests/common/table_1.hpp"
 #include "tests/host_sim/loop/random/random_scene.hpp"
 

@@ -27,7 +27,7 @@ TEST(RecordTest, KeepsEveryBit) {
     record.row.status = *rc::gen::element<std::string>("ok", "solver: at 1 s, \"x\" 2 m: why");
     const auto read = long_work::parse_record<PlantRow>(record_text(record));
     RC_ASSERT(read.has_value());
-    RC_ASSERT(read->place == place);
+    RC_ASSERT(read->point == place);
     RC_ASSERT(same_bits(read->row.overshoot, a));
     RC_ASSERT(same_bits(read->row.deviation, -b));
     RC_ASSERT(same_bits(read->row.ripple, PlantRow::undefined));
