@@ -170,10 +170,7 @@ std::string test_name_of(std::string board) {
 
 INSTANTIATE_TEST_SUITE_P(Boards, Image,
                          testing::Combine(testing::ValuesIn(emulated::tested_boards()),
-                                          testing::Values("target_step", "target_step_q31",
-                                                          "target_step_q15", "other_parts",
-                                                          "robust_notch", "robust_notch_q31",
-                                                          "robust_notch_q15")),
+                                          testing::Values(SONOGLIDE_DRIVEN_IMAGES)),
                          [](const auto& parameter) {
                            return test_name_of(std::get<0>(parameter.param)) + "_" +
                                   std::get<1>(parameter.param);
@@ -217,9 +214,7 @@ TEST_P(ObservingImage, FaultsOnAVibrationAtTheRail) {
 
 INSTANTIATE_TEST_SUITE_P(Boards, ObservingImage,
                          testing::Combine(testing::ValuesIn(emulated::tested_boards()),
-                                          testing::Values("wire_bonder", "wire_bonder_q31",
-                                                          "haptic_plate", "haptic_plate_q31",
-                                                          "damped_step", "damped_step_q31")),
+                                          testing::Values(SONOGLIDE_OBSERVING_IMAGES)),
                          [](const auto& parameter) {
                            return test_name_of(std::get<0>(parameter.param)) + "_" +
                                   std::get<1>(parameter.param);

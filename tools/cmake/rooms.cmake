@@ -80,13 +80,13 @@ function(sonoglide_check_headers target folder headers)
   endif()
 endfunction()
 
-# sonoglide_test(<name> [OPTIMISED] [CHECK] SOURCES <files>... USES <targets>... [LONG <tests>...]): one
-# GoogleTest program. For ctest it is one test, so that a suite computes once what its tests look at.
-# An OPTIMISED one would compute for longer at -O0 than it takes to compile at -O1. A CHECK is left to
-# tools/check. The sanitizers leave out LONG tests, which compute for minutes under them on paths that
-# others take.
+# sonoglide_test(<name> [OPTIMISED] [CHECK] SOURCES <files>... USES <targets>... [CHECKED <tests>...]
+#   [LONG <tests>...]): one GoogleTest program. For ctest it is one test, so that a suite computes once
+# what its tests look at. An OPTIMISED one would compute for longer at -O0 than it takes to compile at
+# -O1. A CHECK is left to tools/check, and so are CHECKED tests of another. The sanitizers leave out
+# LONG tests, which compute for minutes under them on paths that others take, and CHECKED ones.
 function(sonoglide_test name)
-  cmake_parse_arguments(TEST "OPTIMISED;CHECK" "" "SOURCES;USES;LONG" ${ARGN})
+  cmake_parse_arguments(TEST "OPTIMISED;CHECK" "" "SOURCES;USES;CHECKED;LONG" ${ARGN})
   add_executable(${name} ${TEST_SOURCES})
   target_link_libraries(${name} PRIVATE ${TEST_USES} sonoglide_warnings GTest::gtest_main)
   if(TEST_OPTIMISED)
@@ -98,14 +98,22 @@ function(sonoglide_test name)
   sonoglide_unite(${name})
   if(NOT SONOGLIDE_SANITIZE)
     set(TEST_LONG "")
-  endif()
-  if(TEST_LONG STREQUAL "*" OR (TEST_CHECK AND NOT SONOGLIDE_CHECK))
+  elseif(TEST_LONG STREQUAL "*")
     set_target_properties(${name} PROPERTIES EXCLUDE_FROM_ALL ON)
     return()
   endif()
-  list(JOIN TEST_LONG ":" left_out)
-  add_test(NAME ${name} COMMAND ${name} --gtest_brief=1 --gtest_filter=-${left_out})
+  if(TEST_CHECK AND NOT SONOGLIDE_CHECK AND NOT SONOGLIDE_SANITIZE)
+    set_target_properties(${name} PROPERTIES EXCLUDE_FROM_ALL ON)
+    return()
+  endif()
+  list(JOIN TEST_CHECKED ":" checked)
+  list(JOIN TEST_LONG ":" long)
+  add_test(NAME ${name} COMMAND ${name} --gtest_brief=1 "--gtest_filter=-${checked}:${long}")
   if(TEST_CHECK)
     set_tests_properties(${name} PROPERTIES LABELS check)
+  endif()
+  if(TEST_CHECKED AND SONOGLIDE_CHECK)
+    add_test(NAME ${name}.checked COMMAND ${name} --gtest_brief=1 "--gtest_filter=${checked}")
+    set_tests_properties(${name}.checked PROPERTIES LABELS check)
   endif()
 endfunction()

@@ -64,10 +64,11 @@ class StiffLinear {
   Outcome<Scalar> advance(const Interval<Scalar>& interval,
                           StateOf<typename Model::FrictionLaw>& state, Account& account,
                           Observer& observer) {
-    if (turning_rate_ * interval.duration < least_angle) {
-      return solver_.advance(interval, state, account, observer);
-    }
+    // Here too, so that an order is compiled for one kind of observer.
     ShiftedObserver<Observer, Scalar> shifted = {observer, Scalar(0)};
+    if (turning_rate_ * interval.duration < least_angle) {
+      return solver_.advance(interval, state, account, shifted);
+    }
     if constexpr (may_be_linear) {
       if (rate_ * interval.duration >= least_angle &&
           mode_.phase_error(interval.duration) <= largest_phase_error) {
