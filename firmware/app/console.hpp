@@ -97,7 +97,7 @@ class Console {
     faults_ = faults;
   }
 
-  // The line that is typed; its words are found as they come.
+  // ---- The line that is typed; its words are found as they come ----
 
   void receive() {
     std::uint8_t byte = 0;
@@ -146,7 +146,7 @@ class Console {
     line_lost_ = false;
   }
 
-  // Commands.
+  // ---- Commands ----
 
   void carry_out() {
     if (line_lost_) {
@@ -237,7 +237,7 @@ class Console {
 
   const ParameterInfo& info() const { return unit_.info(parameter_); }
 
-  // Answers.
+  // ---- Answers ----
 
   void begin(Reply reply) {
     reply_ = reply;

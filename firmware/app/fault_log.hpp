@@ -7,6 +7,7 @@
 
 namespace sonoglide::app {
 
+/// A fault, and when it was found.
 struct FaultEntry {
   std::uint8_t fault;    ///< control::Fault or UnitFault
   std::uint32_t period;  ///< in which it was found: served since reset, this one included; wraps

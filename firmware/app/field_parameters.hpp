@@ -47,6 +47,7 @@ enum class Inheritance : std::uint8_t {
   higher,  ///< the higher one of the stored value and the value compiled in
 };
 
+/// A parameter as the console and the link show it.
 struct ParameterInfo {
   const char* name;
   const char* unit;  ///< as it stands after a number: " s", or nothing
@@ -140,6 +141,7 @@ class FieldDesign {
   using Controller = control::Controller<Parts>;
   using Designed = typename control::Controller<PartsT>::Parameters;
 
+  /// @param designed     the controller's parameters, as sonoglide configure writes them.
   /// @param half_target  the target from reset on, friction ratio on base 2.
   /// @param design       number of the design: of a store that was written under another, only
   ///                     the limits are taken, and the unit waits to be told.

@@ -63,6 +63,8 @@ class LinkService {
     std::uint32_t faults;  ///< since reset, when its first byte came
   };
 
+  // ---- Frames that come in ----
+
   /// @return whether a frame came to its end, whole or not.
   bool receive() {
     std::uint8_t byte = 0;
@@ -162,6 +164,8 @@ class LinkService {
     return true;
   }
 
+  // ---- Requests ----
+
   void carry_out(const link::ReadTelemetry& /*request*/) {
     const auto& supervisor = unit_.supervisor();
     const hal::Sample& sample = supervisor.sample();
@@ -256,6 +260,8 @@ class LinkService {
     const FaultEntry& entry = faults.entry(request.age);
     answer(link::LoggedFault{request.age, entry.fault, entry.period, faults.count()});
   }
+
+  // ---- Answers ----
 
   void refuse_value(std::uint8_t kind, const ParameterInfo& info) {
     refuse(kind, link::Reason::out_of_range, info.lowest, info.highest);

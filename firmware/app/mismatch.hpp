@@ -12,7 +12,8 @@ namespace sonoglide::app {
 /// Believed over true friction force, in thousandths: commanded over target ratio in a settled
 /// loop. 0 if it is unknown. Limited to 65,535. Rounded down, from a commanded ratio that is
 /// rounded to a millionth.
-/// @param target  friction ratio, millionths
+/// @param drive   the answer of the step.
+/// @param target  friction ratio, millionths.
 inline std::uint16_t mismatch_thousandths(const hal::Drive& drive, std::uint32_t target) {
   if (drive.settling != static_cast<std::uint8_t>(control::Settling::settled) || target == 0) {
     return 0;

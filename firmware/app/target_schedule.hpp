@@ -6,6 +6,7 @@
 
 namespace sonoglide::app {
 
+/// A target, and the carrier period from which it is in force.
 template <class Scalar>
 struct TargetStep {
   std::uint32_t period;  ///< in force from the sample of this carrier period on, counted from 0

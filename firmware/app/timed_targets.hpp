@@ -29,6 +29,7 @@ class ElapsedPeriods {
   std::uint64_t elapsed_ = 0;
 };
 
+/// A target, and the time from which it is in force.
 template <class Scalar>
 struct TimedTarget {
   /// In force from the first sample at this time or after, see ElapsedPeriods.
@@ -36,6 +37,7 @@ struct TimedTarget {
   Scalar half_ratio;  ///< target friction ratio on base 2
 };
 
+/// The targets of a run, and the frequency word that it begins with.
 template <class Scalar, std::size_t Count>
 struct TimedTargets {
   std::uint32_t start_word;

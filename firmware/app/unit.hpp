@@ -37,7 +37,8 @@ class Unit {
   using Supervisor = app::Supervisor<typename Design::Controller, HostRamp>;
 
   /// Takes the parameters from the store, or as compiled in where it holds none.
-  /// @param design  outlives the unit, as the flash does.
+  /// @param design  outlives the unit.
+  /// @param flash   holds the store; outlives the unit.
   Unit(const FieldDesign<PartsT>& design, Flash& flash)
       : design_(design),
         store_(flash, design.design()),

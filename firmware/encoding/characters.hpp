@@ -5,6 +5,7 @@
 
 namespace sonoglide::encoding {
 
+/// A text that is not owned and has no terminator.
 struct Characters {
   const char* begin = nullptr;
   std::size_t size = 0;

@@ -9,6 +9,7 @@ namespace sonoglide::encoding {
 inline constexpr std::size_t most_decimal_characters = 11;  ///< ten digits and a point
 
 /// Writes value * 10^-places, zeros at the end of the fraction left out.
+/// @param value   in units of the last place.
 /// @param places  0 … 9.
 /// @param text    room for most_decimal_characters; no terminator is written.
 /// @return characters written.

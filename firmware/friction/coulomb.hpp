@@ -10,6 +10,12 @@ namespace sonoglide::friction {
 
 /// Coulomb friction: phi = sgn V while sliding; at V = 0 whatever holds the contact, |phi| <= 1.
 ///
+///     phi   1 |-------
+///             |
+///     --------0--------  V
+///             |
+///     -------| -1
+///
 /// No parameter and no state. What the members mean is listed in friction/law.hpp.
 /// A fixed-step method takes sgn 0 = 0 and chatters about a stick; an event solver resolves the
 /// stick.

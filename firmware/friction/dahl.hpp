@@ -13,6 +13,12 @@ namespace sonoglide::friction {
 
 /// Dahl friction: d phi / d tau = kappa (V - |V| phi).
 ///
+///     phi   1 ........______     loaded: 1 - exp(-kappa u)
+///               __---
+///            _-    /             unloaded: -1 + 2 exp(-kappa |u|), as steep as twice kappa
+///          -    _-
+///     -1 ______- ..........  u
+///
 /// Between two reversals, with s = sgn V and e = 1 - s phi, the force depends on the displacement
 /// alone: e(u) = e(0) exp(-kappa |u|). So |phi| <= 1 always. Passive: the work done on the contact
 /// is never less than -phi^2 / (2 kappa). What the members mean is listed in friction/law.hpp.

@@ -12,6 +12,12 @@ namespace sonoglide::friction {
 
 /// Iwan friction: n Jenkins elements side by side, each a spring in series with a dry slider.
 ///
+///              kappa/n     q_1
+///         +---/\/\/\/---[slider]---+
+///     u --+---/\/\/\/---[slider]---+-- ground
+///         +---/\/\/\/---[slider]---+
+///              kappa/n     q_n
+///
 ///   d phi_i / d tau = (kappa / n) V while |phi_i| < q_i, 0 while it slips;  phi = sum of phi_i,
 ///   q_i = (2 i - 1) / n^2, i = 1 ... n.
 ///

@@ -12,6 +12,11 @@ namespace sonoglide::friction {
 
 /// LuGre friction: the mean force of the bristles, psi, relaxes to a Stribeck curve g.
 ///
+///         +--- sigma0 spring --+
+///     V --+--- sigma1 damper --+-- [slider g(V)] --+-- ground
+///         |                                        |
+///         +------------ sigma2 damper -------------+
+///
 ///   d psi / d tau = kappa (V - |V| psi / g(V)),   g(V) = 1 + (gamma - 1) exp(-(V / nu)^2),
 ///   phi = psi + delta (V - |V| psi / g(V)) + eta V.
 ///
@@ -27,7 +32,7 @@ namespace sonoglide::friction {
 /// Not modelled: stick that does not creep, a delta that fades with the speed, a normal force that
 /// varies, friction lag apart from that of the bristles.
 /// What the members mean is listed in friction/law.hpp.
-/// Source: Canudas de Wit 1995 (README.md).
+/// Source: Canudas de Wit 1995, section II, p. 420 (README.md).
 template <class Number>
 struct LuGre {
   using Scalar = Number;

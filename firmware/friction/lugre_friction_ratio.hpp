@@ -75,6 +75,7 @@ inline void follow(const LuGreShape& contact, double r, double from, double to,
 ///   mean(F)/Fc = mean(ψ) + η r.
 ///
 /// @param velocity_ratio  r = Vt / v̂ [-], ≥ 0, v̂ the peak vibration velocity.
+/// @param contact         κ, γ, ν and η of the law.
 /// @return mean(F)/Fc [-], at least 0
 /// Error ≤ 3e-3 for κ in [1e-3, 1e4], γ up to 3 and ν from 0.05 on: 64 steps an arc, in each of
 /// which g and the speed are constant (tested against far shorter steps, and against Dahl's map for

@@ -10,6 +10,11 @@ namespace sonoglide::friction {
 
 /// A slider that holds up to mu N(t), pulled at Vt through the tangential stiffness of its contact:
 ///
+///              [ vibrating mass ]  y
+///                     | kz
+///     Vt --/\/\/-- [slider mu N] ------ surface
+///            kx
+///
 ///   N / N0 = (1 + nu y)_+,  d phi / d tau = kappa r while |phi| < N / N0,  else |phi| = N / N0.
 ///
 /// phi = F / (mu N0); y > 0 is towards the surface. The slider slips while the limit falls, or

@@ -13,6 +13,11 @@ namespace sonoglide::friction {
 /// Cubic Stribeck friction: phi = sgn V - a V + b V^3 while sliding; at V = 0 whatever holds the
 /// contact, |phi| <= 1.
 ///
+///     phi  1 |\                 /
+///            | \              /
+///            |   `--.______.-'     least at |V| = sqrt(a / 3 b)
+///     -------0-----------------  V
+///
 /// In SI units mu(v) = mu_s sgn v - alpha v + beta v^3, Fc = mu_s N. The force is least at
 /// |V| = sqrt(a / 3 b), and beyond sqrt(a / b) it passes that of the contact at rest.
 /// Passive where 4 a^3 <= 27 b: then phi V >= 0 at any speed. Falling friction still feeds a

@@ -12,6 +12,11 @@ namespace sonoglide::friction {
 
 /// Coulomb friction in the plane of the contact: magnitude Fc, against the slip (r, v).
 ///
+///      v |     slip (r, v)
+///        |   /
+///        | /          friction has the modulus 1 and points the other way
+///        +--------- r, along the sliding
+///
 ///   along the sliding    phi = r / sqrt(r^2 + v^2), the friction that the ratio is the mean of;
 ///   on the oscillator    v / sqrt(r^2 + v^2).
 ///

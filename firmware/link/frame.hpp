@@ -29,6 +29,7 @@ inline constexpr std::size_t checksum_bytes = 4;
 inline constexpr std::size_t most_frame_bytes = header_bytes + most_payload_bytes + checksum_bytes;
 inline constexpr std::size_t most_wire_bytes = 1 + encoding::cobs_size(most_frame_bytes) + 1;
 
+/// A frame without its stuffing and its checksum.
 struct Frame {
   std::uint8_t kind = 0;
   std::uint16_t sequence = 0;
@@ -36,6 +37,7 @@ struct Frame {
   std::array<std::uint8_t, most_payload_bytes> payload{};
 };
 
+/// The bytes of a frame as they go over the wire.
 struct WireFrame {
   std::size_t size = 0;
   std::array<std::uint8_t, most_wire_bytes> bytes{};

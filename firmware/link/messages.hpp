@@ -16,6 +16,7 @@ namespace sonoglide::link {
 /// A kind with this bit answers the kind without it.
 inline constexpr std::uint8_t answer_bit = 0x80;
 
+/// Asks for Telemetry.
 struct ReadTelemetry {
   static constexpr std::uint8_t kind = 0x01;
 
@@ -23,6 +24,7 @@ struct ReadTelemetry {
   static constexpr void fields(Message& /*message*/, Visitor&& /*visit*/) {}
 };
 
+/// What the unit measures and does in the present carrier period.
 struct Telemetry {
   static constexpr std::uint8_t kind = ReadTelemetry::kind | answer_bit;
   std::uint32_t period;           ///< carrier periods served since reset, wraps
@@ -66,10 +68,12 @@ struct SetTarget {
   }
 };
 
+/// Answers SetTarget.
 struct TargetSet : SetTarget {
   static constexpr std::uint8_t kind = SetTarget::kind | answer_bit;
 };
 
+/// Asks for ParameterValue.
 struct ReadParameter {
   static constexpr std::uint8_t kind = 0x03;
   std::uint8_t parameter;  ///< app::Parameter
@@ -80,6 +84,7 @@ struct ReadParameter {
   }
 };
 
+/// A parameter with its range; all numbers in units of the last decimal place.
 struct ParameterValue {
   static constexpr std::uint8_t kind = ReadParameter::kind | answer_bit;
   std::uint8_t parameter;
@@ -113,6 +118,7 @@ struct WriteParameter {
   }
 };
 
+/// Answers WriteParameter.
 struct ParameterWritten : WriteParameter {
   static constexpr std::uint8_t kind = WriteParameter::kind | answer_bit;
 };
@@ -126,6 +132,7 @@ struct Restart {
   static constexpr void fields(Message& /*message*/, Visitor&& /*visit*/) {}
 };
 
+/// Answers Restart.
 struct Restarted : Restart {
   static constexpr std::uint8_t kind = Restart::kind | answer_bit;
 };
@@ -140,10 +147,12 @@ struct Stop {
   static constexpr void fields(Message& /*message*/, Visitor&& /*visit*/) {}
 };
 
+/// Answers Stop.
 struct Stopped : Stop {
   static constexpr std::uint8_t kind = Stop::kind | answer_bit;
 };
 
+/// Asks for LoggedFault.
 struct ReadFault {
   static constexpr std::uint8_t kind = 0x07;
   std::uint8_t age;  ///< 0: the latest
@@ -154,6 +163,7 @@ struct ReadFault {
   }
 };
 
+/// An entry of the log of faults.
 struct LoggedFault {
   static constexpr std::uint8_t kind = ReadFault::kind | answer_bit;
   std::uint8_t age;
@@ -180,6 +190,7 @@ struct Confirm {
   static constexpr void fields(Message& /*message*/, Visitor&& /*visit*/) {}
 };
 
+/// Answers Confirm.
 struct Confirmed : Confirm {
   static constexpr std::uint8_t kind = Confirm::kind | answer_bit;
 };
@@ -197,6 +208,7 @@ enum class Reason : std::uint8_t {
   overtaken_by_fault,        ///< a fault came after the first byte of the request
 };
 
+/// Why a request was not carried out, with what would have been allowed.
 struct Refusal {
   static constexpr std::uint8_t kind = 0xFF;
   std::uint8_t request;  ///< kind of what is refused

@@ -36,7 +36,8 @@ struct NearestConstant {
   Float rest;
 };
 
-/// @param top  weight of the constant's leading bit.
+/// @param constant  its bits, the leading one first.
+/// @param top       weight of the constant's leading bit.
 template <class Float>
 constexpr NearestConstant<Float> nearest_constant(const BinaryConstant& constant, int top) {
   constexpr int digits = std::numeric_limits<Float>::digits;

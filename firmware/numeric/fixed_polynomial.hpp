@@ -20,6 +20,7 @@ namespace sonoglide::numeric {
 template <std::size_t Terms, class Wide = std::int64_t>
 class FixedPolynomial {
  public:
+  /// @param coefficients   c[0] first.
   /// @param fraction_bits  of the result, which may use all of Wide.
   constexpr FixedPolynomial(const std::array<double, Terms>& coefficients, int fraction_bits) {
     double bound = 0.0;

@@ -117,6 +117,7 @@ constexpr Float cos(Float x) {
   return detail::sine_of_shifted(x, 1);
 }
 
+/// Sine and cosine of one angle.
 template <class Float>
 struct SineAndCosine {
   Float sine;

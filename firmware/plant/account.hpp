@@ -8,6 +8,7 @@
 
 namespace sonoglide::plant {
 
+/// Sums nothing.
 struct NoAccount {
   template <class Step>
   void add(const Step& /*step*/) {}

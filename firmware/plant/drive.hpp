@@ -12,6 +12,7 @@
 
 namespace sonoglide::plant {
 
+/// No drive force.
 struct NoDrive {
   /// The zero to subtract from at no cost: -0 - x is -x to a compiler, 0 - x is not.
   template <class Scalar>

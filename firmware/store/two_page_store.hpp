@@ -24,6 +24,7 @@ enum class Saving : std::uint8_t {
   failed,  ///< the flash did not keep what was programmed, or stayed busy; the old record stands
 };
 
+/// A value under its name.
 struct Entry {
   std::uint32_t identity;  ///< of what the value is one of, the same in every design
   std::uint32_t value;
@@ -60,6 +61,7 @@ class TwoPageStore {
  public:
   using Record = std::array<Entry, Count>;
 
+  /// @param flash   has the two pages; outlives the store.
   /// @param design  number of the design.
   TwoPageStore(Flash& flash, std::uint32_t design) : flash_(flash), design_(design) {}
 

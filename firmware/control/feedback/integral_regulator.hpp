@@ -41,7 +41,7 @@ class NoFeedback {
 /// like the sensor's. It leaves out shaper and contact within that delay. So a change above
 /// small_change() also holds the integral for hold_periods. The next such hold begins at least
 /// rest_periods later, so that a target which keeps changing does not switch feedback off.
-/// Anti-windup by conditional integration, see accept() (Åström 1995, README.md).
+/// Anti-windup by conditional integration, see accept() (Åström 1995, ../README.md).
 ///
 /// @tparam MaxDelay  largest delay_periods, >= 1; the delay line holds as many targets.
 template <class Scalar, int MaxDelay>
@@ -98,7 +98,8 @@ class IntegralRegulator {
 
   /// A better known friction force. In terms of the old force the target was another ratio; the
   /// integral gives up what it had corrected for the difference.
-  /// @param shown  the target ratio in terms of the old force
+  /// @param target   friction ratio
+  /// @param reading  the target in terms of the old force
   void shift(Scalar target, Scalar reading) {
     integral_ += numeric::accumulate(target - reading);
     hold();

@@ -49,6 +49,8 @@ class SettlingWatch {
   void forget_disagreement() { disagreement_ = 0; }
 
   /// One call for each period in which the drive is to hold a ratio.
+  /// @param target     ratio
+  /// @param measured   ratio
   /// @param commanded  ratio that the drive is picked for
   /// @param clamped    the command stands at an end of its range
   void judge(Scalar target, Scalar measured, Scalar commanded, bool clamped) {

@@ -23,9 +23,10 @@ class CoulombFeedforward {
   explicit CoulombFeedforward(const Parameters&) {}
   void set_friction(const FrictionLevel<Scalar>&) {}
 
-  /// Drive amplitude in [0, 1] at which the friction ratio (base 2, in [0, 1/2]) is reached; the
-  /// largest value where none does.
-  /// @param speed  |Vt|, base the peak vibration velocity at full drive; > 0.
+  /// Drive amplitude in [0, 1] at which the friction ratio is reached; the largest value where none
+  /// does.
+  /// @param half_ratio  friction ratio on base 2, in [0, 1/2].
+  /// @param speed       |Vt|, base the peak vibration velocity at full drive; > 0.
   Scalar amplitude(Scalar half_ratio, Scalar speed) const {
     const Scalar velocity_ratio = numeric::sin_pi(half_ratio);
     return speed < velocity_ratio ? speed / velocity_ratio : numeric::from_code<Scalar>(INT32_MAX);

@@ -36,9 +36,10 @@ class DahlFeedforward {
         friction.level());
   }
 
-  /// Drive amplitude in [0, 1] at which the friction ratio (base 2, in [0, 1/2]) is reached; the
-  /// largest value where none does.
-  /// @param speed  |Vt|, base the peak vibration velocity at full drive; > 0.
+  /// Drive amplitude in [0, 1] at which the friction ratio is reached; the largest value where none
+  /// does.
+  /// @param half_ratio  friction ratio on base 2, in [0, 1/2].
+  /// @param speed       |Vt|, base the peak vibration velocity at full drive; > 0.
   Scalar amplitude(Scalar half_ratio, Scalar speed) const {
     return friction::dahl_vibration_velocity(half_ratio, speed, half_travel_);
   }

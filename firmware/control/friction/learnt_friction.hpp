@@ -76,7 +76,9 @@ class LearntFriction {
 
   /// One call for each undriven sample. A sliding that stops or turns before its mean is known
   /// begins anew. Rounding of a mean: half a unit of the accumulator for each sample.
-  /// @param slow  the sliding is below the speed floor
+  /// @param force     friction force of the sample
+  /// @param velocity  sliding velocity of the sample
+  /// @param slow      the sliding is below the speed floor
   void learn(Scalar force, Scalar velocity, bool slow) {
     periods_ += periods_ < UINT32_MAX ? 1U : 0U;
     if (slow) {

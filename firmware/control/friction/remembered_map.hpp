@@ -25,7 +25,9 @@ class RememberedMap {
   /// The map is another from here on.
   void forget() { speed_ = {}; }
 
-  /// @param speed  > 0
+  /// @param feedforward  the map
+  /// @param half_ratio   friction ratio on base 2
+  /// @param speed        > 0
   Scalar amplitude(const FeedforwardT& feedforward, Scalar half_ratio, Scalar speed) {
     if (speed != speed_ || half_ratio != half_ratio_) {
       half_ratio_ = half_ratio;

@@ -3,6 +3,7 @@
 
 namespace sonoglide::control {
 
+/// How a part is named in a written header.
 struct PartName {
   const char* header;  ///< in firmware/control, without .hpp
   const char* type;    ///< without what the template is told

@@ -60,7 +60,8 @@ class CurrentLimit {
         twice_inverse_(numeric::rescaled(numeric::floating(parameters.inverse), 1)) {}
 
   /// Whether the limit lets a velocity be held, less what regulation needs.
-  /// @param holding  amplitude that holds the velocity
+  /// @param velocity  of the vibration
+  /// @param holding   amplitude that holds it
   bool allows_holding(Scalar velocity, Scalar holding) const {
     const Scalar across = numeric::rough_product(parameters_.small_capacitive, holding);
     return within(along(velocity, across), across, parameters_.small_limit);

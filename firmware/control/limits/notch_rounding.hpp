@@ -29,7 +29,7 @@ class NotchRounding {
 
 /// In 16 bits the rounding errors e are steps of the drive like any other, and would excite an
 /// undamped mode without end. So each error is followed by its own echoes (error feedback, Spang
-/// 1962, README.md):
+/// 1962, ../README.md):
 ///   y = N(z) x + (1 + h1/h0 z^-M + h2/h0 z^-2M + ...) e.
 /// Like N this has its zeros on the mode. The drive then moves by a code now and then, about an
 /// amplitude that is finer than 16 bits.
@@ -46,6 +46,8 @@ class NotchRounding<numeric::Q15<Overflow>, Depth, TapCount> {
 
   void restart() { errors_ = {}; }
 
+  /// @param taps    h0, h1, …
+  /// @param inputs  what each tap takes
   /// @param places  in the delay line, of what is M, 2M, ... periods old; the last is the oldest
   Scalar sum(const Taps& taps, const Taps& inputs, const Places& places) {
     const std::int32_t exact = exact_sum(taps, inputs, places, Delays{});

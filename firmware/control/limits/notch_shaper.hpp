@@ -34,7 +34,7 @@ class NoShaping {
 /// The amplitude changes at drive phase 0 only. So the free response is linear in the steps of the
 /// amplitude, and vanishes (TapCount − 1) M periods after the last one where the mode is on a zero.
 /// No partial sum of the taps leaves [0, 1]: the shaped step does not overshoot.
-/// Source: Singer 1990 (input shaping), Tuttle 1994 (zeros placed on the mode), see README.md.
+/// Source: Singer 1990 (input shaping), Tuttle 1994 (zeros placed on the mode), see ../README.md.
 ///
 /// @tparam MaxSpacing  largest M; the delay line holds (TapCount − 1)·MaxSpacing amplitudes.
 /// @tparam TapCount    3 or 5

@@ -38,6 +38,7 @@ class StuckDetector {
   void restart() { begun_ = false; }
 
   /// One call for each reading.
+  /// @param reading    of the force sensor
   /// @param measured   the reading as a friction ratio on base 2
   /// @param commanded  friction ratio on base 2 that was commanded while the reading was made
   /// @param followed   the drive could follow that command; while it cannot, nothing is concluded

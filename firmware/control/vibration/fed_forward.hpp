@@ -26,6 +26,8 @@ class FedForward : public VibrationPart<ScalarT> {
   explicit FedForward(const Parameters&) {}
 
   /// @param requested  amplitude
+  /// @param shaper     that it goes through
+  /// @param ceiling    of the amplitude
   template <class Shaper>
   static Drive drive(Scalar requested, Shaper& shaper, Scalar ceiling) {
     const Scalar shaped = numeric::observe<signal::ShapedAmplitude>(shaper.shape(requested));

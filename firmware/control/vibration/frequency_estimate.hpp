@@ -8,7 +8,7 @@
 
 namespace sonoglide::control {
 
-/// Recursive least squares with forgetting (Ljung 1999, README.md): p + ψ·e/S, e what a forecast
+/// Recursive least squares with forgetting (Ljung 1999, ../README.md): p + ψ·e/S, e what a forecast
 /// has missed, ψ its slope over p, S the sum of ψ² with forgetting.
 ///
 /// p: from -1 to 1. In fixed point S is on base 64, and what ψ·e/S has beyond ±1 is cut off.

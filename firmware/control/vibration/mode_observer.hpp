@@ -19,7 +19,7 @@ namespace sonoglide::control {
 /// in a period, o what friction and a wrong model leave. What was not foreseen, e, corrects w and o
 /// by the gains of a Kalman filter, and before that the frequency parameter p in the table of
 /// natural frequencies: p + ψ·e/S, S the sum of ψ² with forgetting, ψ the slope of the forecast
-/// over p (recursive least squares, Ljung 1999, README.md). ψ leaves out H u: a constant error is
+/// over p (recursive least squares, Ljung 1999, ../README.md). ψ leaves out H u: a constant error is
 /// o's.
 ///
 /// z, o: base the sensor's range; w: base eight times the largest input gain; amplitudes: base the
@@ -74,7 +74,9 @@ class ModeObserver {
   }
 
   /// One call for each sample.
-  /// @param before, now  amplitudes in the period before the sampled one and in that one
+  /// @param sample  z
+  /// @param before  amplitude in the period before the sampled one
+  /// @param now     amplitude in the sampled period
   void observe(const Pair<Scalar>& sample, Scalar before, Scalar now) {
     const Scalar change = now - before;
     const Pair<Scalar> last = mode_;

@@ -52,6 +52,7 @@ constexpr Scalar lowered(Scalar x, int n) {
 template <class Scalar>
 class ModeInterpolation {
  public:
+  /// @param table                its rows, over the natural frequency
   /// @param frequency_parameter  from -1 at the first row to 1 at the last
   void go(const ModeTable<Scalar>& table, Scalar frequency_parameter) {
     constexpr int shift = 32 - mode::row_bits;

@@ -27,6 +27,7 @@ constexpr Pair<Scalar> operator*(const Pair<Scalar>& a, Scalar b) {
 
 /// A mode that turns by an angle θ and decays to the part d. In fixed point products are rounded
 /// and sums overflow by policy.
+/// @param mode      its two coordinates
 /// @param rotation  d cos θ and d sin θ
 template <class Scalar>
 constexpr Pair<Scalar> rotated(const Pair<Scalar>& mode, const Pair<Scalar>& rotation) {

@@ -18,7 +18,7 @@ namespace sonoglide::control {
 /// against the losses, n the natural frequency, w that of the drive.
 ///
 /// Each period corrects the estimates by what they did not foresee (gradient, for h and n
-/// normalised, Widrow 1985, README.md). The turn of ψ shows n. Where the drive beyond the losses, u
+/// normalised, Widrow 1985, ../README.md). The turn of ψ shows n. Where the drive beyond the losses, u
 /// c − h r, foreseen and seen, is more than four times the losses and than what noise makes of it,
 /// growth shows q, and otherwise h.
 ///

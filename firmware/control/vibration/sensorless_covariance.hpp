@@ -12,7 +12,7 @@
 namespace sonoglide::control {
 
 /// Covariance P of the errors of the mode w, of the constant o and of the frequency parameter p:
-/// that of an extended Kalman filter (README.md). In a period P' = F P Fᵀ + Q, F the slope of (w',
+/// that of an extended Kalman filter (../README.md). In a period P' = F P Fᵀ + Q, F the slope of (w',
 /// o, p) over (w, o, p). A reading that shows c·(w, o, p) with the variance R takes t tᵀ off P:
 ///   t = P c/√S,  S = c·P c + R,
 /// and moves (w, o, p) by t e/√S, e what it shows beyond the forecast, e/√S limited to ±3. Q of the
@@ -100,9 +100,9 @@ class SensorlessCovariance {
     limit();
   }
 
-  /// @param view      c
-  /// @param variance  R
-  /// @param miss      e
+  /// @param jacobian    c
+  /// @param variance    R
+  /// @param innovation  e
   /// @return what it moves; in fixed point limited to ±1
   State update(const State& jacobian, Scalar variance, Scalar innovation) {
     const State cross_covariance = product(jacobian);

@@ -24,7 +24,7 @@ struct PastAmplitudes {
 
 /// Observer of the natural mode, of a constant beside it and of the natural frequency, from one
 /// number a period: the vibration velocity y that the measured friction ratio stands for
-/// (README.md):
+/// (../vibration.md):
 ///   w' = A w + B Δu,   y = |H| u + o + C w + g Δu + h Δu₋₁,
 /// Δu the last change of the amplitude u, Δu₋₁ the one before. A, B and H are those of
 /// ModeObserver, at the frequency parameter p in the table of natural frequencies. C, g and h
@@ -97,9 +97,10 @@ class SensorlessObserver {
     mode_ = next(mode_, change);
   }
 
-  /// One call for each usable reading, after pass().
+  /// One call for each usable reading, after predict().
   /// @param velocity  y; `highest` where the reading is beyond all velocities
   /// @param speed     |Vt| > 0
+  /// @param u         the last amplitudes
   /// @param wanted    velocity that is asked for
   void observe(Scalar velocity, Scalar speed, const PastAmplitudes<Scalar>& u, Scalar wanted) {
     const Scalar driven = row_[sensorless::forced] * u.now + offset_;

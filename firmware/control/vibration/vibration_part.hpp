@@ -21,14 +21,14 @@ class VibrationPart {
     Limit limit;
   };
 
-  /// @param parameters  see Controller::settle_at
+  /// See Controller::settle_at.
   template <class Parameters>
   static constexpr void settle_at(const Parameters& /*parameters*/) {}
 
-  /// @param rested  the drive has been at zero for long
+  /// rested: the drive has been at zero for long.
   static constexpr void restart(bool /*rested*/) {}
 
-  /// The target is another. @param change  in friction ratio, on base 2
+  /// The target is another. change: in friction ratio, on base 2.
   static constexpr void retarget(Scalar /*change*/) {}
 
   /// One call for each period, before its sample.
@@ -40,9 +40,7 @@ class VibrationPart {
     return Fault::none;
   }
 
-  /// Takes a reading of the friction.
-  /// @param measured  friction ratio on base 2
-  /// @param speed     |Vt| of the sample
+  /// Takes a reading of the friction. measured: friction ratio on base 2; speed: |Vt| of the sample.
   template <class Feedforward>
   static constexpr void sense(Scalar /*measured*/, Scalar /*speed*/, bool /*backwards*/,
                               const Feedforward& /*feedforward*/) {}
@@ -56,7 +54,7 @@ class VibrationPart {
   /// No more of a drive would help.
   static constexpr bool at_most() { return false; }
 
-  /// The friction ratio that the drive stands for. @param by_velocity  that of a vibration velocity
+  /// The friction ratio that the drive stands for. by_velocity: that of a vibration velocity.
   template <class OfVelocity>
   static constexpr Scalar implied_ratio(Scalar commanded, const OfVelocity& /*by_velocity*/) {
     return commanded;

@@ -80,6 +80,8 @@ class GaussPanel {
   static constexpr Scalar longest_exponent = Scalar(6);
   static constexpr Scalar slowest = numeric::from_real<Scalar>(1.0 / 512.0);  ///< of h |y'|
 
+  // ---- The sliding ----
+
   template <class Number>
   Number slid_over(Number time) const {
     return time * (sliding_[0] + Sliding::change(numeric::half(sliding_[1]), time));
@@ -99,6 +101,8 @@ class GaussPanel {
     Lanes c{};
     Lanes s{};
   };
+
+  // ---- A piece with all nodes, or with fewer ----
 
   [[gnu::always_inline]] void prepare(Piece& piece, const Motions& motions, bool is_short) const {
     if constexpr (Piece::fewer_nodes < Nodes) {
@@ -131,6 +135,8 @@ class GaussPanel {
       ++count;
     }
   };
+
+  // ---- The linear motion, and where it reverses ----
 
   /// The shares of the motions, and the sliding.
   [[gnu::always_inline]] void start(const Motions& motions, const Interval<Scalar>& interval,
@@ -218,6 +224,8 @@ class GaussPanel {
                                   limits.largest_offset * (rate * rate);
   }
 
+  // ---- The pieces before friction acts ----
+
   /// Everything that does not depend on friction.
   [[gnu::always_inline]] bool prepare(const Motions& motions, const PanelLimits<Scalar>& limits,
                                       const State<Scalar>& state) {
@@ -265,6 +273,8 @@ class GaussPanel {
     }
     return true;
   }
+
+  // ---- Friction, piece by piece ----
 
   [[gnu::always_inline]] bool follow(const Motions& motions, const PanelLimits<Scalar>& limits,
                                      Scalar friction) {
@@ -324,6 +334,8 @@ class GaussPanel {
     turns.slope = y_slope + sliding_slope();
     turns.bend = y_bend - motions.damping * y_slope;
   }
+
+  // ---- A reversal that friction has moved ----
 
   struct Turn {
     Scalar shift;  ///< of sigma y by friction, for the travel to the true reversal

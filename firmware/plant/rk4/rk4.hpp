@@ -12,7 +12,7 @@
 
 namespace sonoglide::plant {
 
-/// Fixed steps that do not look for reversals.
+/// Fixed steps that do not look for reversals (tableau: rk4_formula.hpp).
 ///
 /// A reversal inside a step costs the fourth order: the error of the mean friction falls as the
 /// square of the step under Dahl, in proportion to the step under Coulomb. Stable in a stiff

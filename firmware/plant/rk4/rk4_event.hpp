@@ -17,7 +17,15 @@
 
 namespace sonoglide::plant {
 
-/// Fixed steps, each cut where the sliding velocity reverses, so that the fourth order is kept.
+/// Fixed steps, each cut where the sliding velocity reverses, so that the fourth order is kept
+/// (tableau: rk4_formula.hpp; location of events: Hairer 1993, II.6, p. 195, ../README.md).
+///
+///     V  \___
+///            \__
+///     0 ........\................
+///                \__
+///        |---h---|-| |---h---|
+///                   the step ends at V = 0, and the rest of the grid's step follows
 ///
 /// sgn V is frozen inside a step, which makes it smooth. Where the quartic through the ends of the
 /// step reverses, a pair of reversals included, the step is taken again, shorter, until it ends at
@@ -103,6 +111,8 @@ class Rk4Event {
     bool ends_at_reversal;
   };
 
+  // ---- The grid of fixed steps ----
+
   /// d phi / du of the unloaded contact: kappa under Dahl friction.
   Scalar law_stiffness() const { return model_.law.rate(Scalar(1), Scalar(0)); }
 
@@ -174,6 +184,8 @@ class Rk4Event {
         interval.sliding_velocity + Model::Sliding::change(interval.sliding_acceleration, offset);
     return numeric::sign(model_.contact_velocity(sliding, state.velocity));
   }
+
+  // ---- Reversals ----
 
   /// Takes a step again that slides the other way from its beginning, or that reverses.
   void end_before_reversal(const Interval<Scalar>& interval, const Rk4Drive<Scalar>& drive,
@@ -255,6 +267,8 @@ class Rk4Event {
     }
     return part;
   }
+
+  // ---- The end of a step ----
 
   bool is_resolved(const Trial& trial) const {
     const Rk4Stage<Scalar>& from = trial.stages.inside[0];

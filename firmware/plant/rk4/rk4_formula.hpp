@@ -45,8 +45,16 @@ struct Rk4Drive {
   Scalar end;
 };
 
-/// The four stages of a step, and the plant at its end.
-/// Source: the classical method of fourth order, Hairer 1993, II.1 (../README.md).
+/// The four stages of a step, and the plant at its end. The classical method of fourth order:
+///
+///        0  |
+///       1/2 | 1/2
+///       1/2 |  0   1/2
+///        1  |  0    0    1
+///       ----+-------------------
+///           | 1/6  1/3  1/3  1/6
+///
+/// Source: Hairer 1993, II.1, Table 1.2, p. 138 (../README.md).
 template <class Scalar, class StateType = State<Scalar>>
 struct Rk4Stages {
   std::array<Rk4Stage<Scalar, StateType>, 4> inside;
@@ -87,10 +95,12 @@ class Rk4Formula {
     const Scalar half = length / Scalar(2);
     Stages taken;
     auto& k = taken.inside;
+    // k1 = f(t, y), k2 = f(t + h/2, y + h/2 k1), k3 = f(t + h/2, y + h/2 k2), k4 = f(t + h, y + h k3)
     k[0] = begin;
     k[1] = stage(drive.middle, offset + half, moved(from, k[0].slope, half));
     k[2] = stage(drive.middle, offset + half, moved(from, k[1].slope, half));
     k[3] = stage(drive.end, offset + length, moved(from, k[2].slope, length));
+    // y + h (k1 + 2 k2 + 2 k3 + k4)/6
     PlantState slope;
     slope.displacement = mean(k, [](const PlantState& rate) { return rate.displacement; });
     slope.velocity = mean(k, [](const PlantState& rate) { return rate.velocity; });

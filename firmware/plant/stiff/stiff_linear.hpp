@@ -20,6 +20,10 @@ namespace sonoglide::plant {
 /// `Solver`, but for intervals in which the natural mode, or that of the stuck contact, is far faster
 /// than the interval is long.
 ///
+///     interval   |--- turns ---|------- linear -------|
+///     taken by     Turning       one step, closed form      32 turns of the mode and more
+///                |--------------- Solver -------------|     fewer
+///
 /// Such an interval is one step in closed form if nothing in it bends the motion: there is no
 /// friction, or the friction cannot change in it by more than a part of the tolerance, because the
 /// contact slides the same way all the time and is at its limit, or hardly moves. What bounds the

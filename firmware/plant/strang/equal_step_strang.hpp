@@ -17,6 +17,9 @@ namespace sonoglide::plant {
 /// Symmetric splitting (Strang 1968, ../README.md) with a fixed step: half a kick of friction; the
 /// oscillator's own flow, along which the contact follows its law in displacement; half a kick.
 ///
+///     v += -h/2 beta phi  |  exp(h L) of y, v, drive; phi along the path  |  v += -h/2 beta phi'
+///     K(h/2)              |  F(h)                                         |  K(h/2)
+///
 /// Second order in step^2 beta. Without reaction of friction (beta = 0) the motion is exact, and
 /// the friction is as good as the displacement at its reversals, O(step^6). |phi| <= 1 for any
 /// step. The step is at most 1 / sqrt(beta kappa), at which the ringing of a stuck contact is

@@ -117,6 +117,8 @@ class FixedStrang {
     }
   };
 
+  // ---- Products ----
+
   static std::int64_t product(std::int64_t a, std::int64_t b) {
     return numeric::shift_right_rounded(a * b, fraction_bits);
   }
@@ -125,6 +127,8 @@ class FixedStrang {
     return static_cast<std::int32_t>(
         numeric::shift_right_rounded(std::int64_t{a} * b, fraction_bits));
   }
+
+  // ---- A step: the flow, the friction along it, the kick ----
 
   /// @return the sum of phi at its ends, or what stands for that where the sliding reverses
   std::int64_t step(std::int64_t driven_displacement, std::int64_t driven_velocity) {
@@ -167,6 +171,8 @@ class FixedStrang {
     friction_ = after(before, travel);
     return std::int64_t{before} + friction_;
   }
+
+  // ---- A step in which the sliding reverses ----
 
   /// Out of line: it is rare.
   [[gnu::noinline]] std::int64_t slide_and_reverse(const Sliding& sliding, std::int64_t travel) {
@@ -252,6 +258,8 @@ class FixedStrang {
     const std::int64_t gap = one - (velocity < 0 ? -friction : friction);
     return product(numeric::clamp(stretched(velocity), -one, one), gap);
   }
+
+  // ---- The friction law ----
 
   /// kappa times a travel.
   std::int64_t stretched(std::int64_t travel) const {

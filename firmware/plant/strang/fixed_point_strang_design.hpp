@@ -22,6 +22,7 @@ enum class FixedStrangRefusal {
   range,       ///< the initial state is out of the state scale, or sliding out of half of it
 };
 
+/// The parameters, or why there are none.
 struct FixedStrangDesign {
   FixedStrangRefusal refusal;
   FixedStrangParameters parameters;
@@ -30,8 +31,10 @@ struct FixedStrangDesign {
 /// The state scale is a power of two, at least four times the steady vibration at full drive: what
 /// the free vibration adds to it, up to twice that again, leaves room.
 ///
+/// @param model             in dimensionless numbers
 /// @param full_drive        drive force at code 2^31, in units of m L omega^2
 /// @param sliding_velocity  in units of L omega, constant
+/// @param initial           state at drive phase 0
 template <class Model>
 FixedStrangDesign design_fixed_strang(const Model& model, double full_drive,
                                       double sliding_velocity, const State<double>& initial) {

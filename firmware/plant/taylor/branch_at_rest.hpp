@@ -10,6 +10,7 @@
 
 namespace sonoglide::plant {
 
+/// What the contact does from an instant on at which V = 0.
 template <class Scalar>
 struct Branch {
   bool sticks;

@@ -10,7 +10,10 @@ namespace sonoglide::plant {
 /// The x in (0, end] at which a travel that does not turn back has gone `distance` > 0, within some
 /// roundings of the distance. `end` if the travel is shorter.
 ///
+/// @param series     of the travel over x: offers travelled(x) and its derivative travel_rate(x).
 /// @param direction  of the travel, +1 or -1.
+/// @param distance   from x = 0 to the corner, along the direction.
+/// @param end        of the step.
 /// Newton's method between bounds: a step that would leave them is replaced by halving.
 template <class Series, class Scalar>
 Scalar corner(const Series& series, Scalar direction, Scalar distance, Scalar end) {

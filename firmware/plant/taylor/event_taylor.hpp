@@ -26,6 +26,12 @@ namespace sonoglide::plant {
 
 /// Taylor method of fixed order whose steps end at the reversals of the sliding velocity.
 ///
+///     V  __                 __
+///       /  \      stick    /
+///     0 ....\..._______.../.....
+///            \_/
+///       |---|--|-------|--|     steps; each is one power series of V, y and phi
+///
 /// Inside a step sgn V is constant and the motion is analytic. The force is expanded up to the
 /// power Order, and V, its integral, one power higher. The step is the longest one, up to 3 rad,
 /// whose last two terms stay below what the tolerance allows. This holds strictly for the terms of
@@ -37,8 +43,8 @@ namespace sonoglide::plant {
 /// The quickest order is 8 at tolerances above 1e-5, 12 down to 1e-8, 16 below, and 20 from 1e-11
 /// on; float needs no more than 8. A contact that sticks for ever costs as much as its ringing,
 /// which grows as sqrt(beta kappa).
-/// Source: Jorba 2005 (step size from the last two terms), Moore 1966 (recurrences of the
-/// coefficients), see ../README.md.
+/// Source: Jorba 2005 (step size from the last two terms), Moore 1966 and Hairer 1993, I.8, p. 47
+/// (recurrences of the coefficients), see ../README.md.
 template <class ModelType, std::size_t Order>
 class EventTaylor {
   static_assert(Order >= 4 && Order <= 24, "the tables reach order 24");
@@ -118,6 +124,8 @@ class EventTaylor {
     Scalar released;  ///< direction in which a stick has just ended, else 0
   };
 
+  // ---- Constants ----
+
   /// Ratio of the last term that a step uses to the first term that it leaves out, about.
   static constexpr Scalar last_term_per_error = Scalar(4);
   /// Weights of the last terms of phi if friction follows from the displacement: they act by the
@@ -147,6 +155,8 @@ class EventTaylor {
                         numeric::from_real<Scalar>(0.85) * numeric::quick_root<degree>(product));
   }
 
+  // ---- At the beginning of a step ----
+
   /// Makes V exactly zero where the previous interval ended at V = 0 and only rounding is left of
   /// it.
   void snap_to_rest(const Interval<Scalar>& interval, State<Scalar>& state) const {
@@ -173,6 +183,8 @@ class EventTaylor {
       }
     }
   }
+
+  // ---- Which kind of step: sliding, sticking, pressed ----
 
   template <class Account, class Observer>
   void step(const Interval<Scalar>& interval, Position& position, StateOf<Law>& state,
@@ -273,6 +285,8 @@ class EventTaylor {
     return {false, Scalar(0), 0};
   }
 
+  // ---- A sliding step ----
+
   /// Result of a try to slide.
   enum class Slide {
     done,
@@ -312,6 +326,8 @@ class EventTaylor {
     }
     return Slide::done;
   }
+
+  // ---- How far a step may reach ----
 
   /// The expected length of the next step.
   Scalar sliding_unit(const At& instant, Scalar rest_of_time) const {
@@ -410,6 +426,8 @@ class EventTaylor {
     return Law::remembers ? memory_weight : most_weight;
   }
 
+  // ---- Where a step is cut ----
+
   /// The extent of the step, cut at the first reversal.
   static Scalar up_to_reversal(const Series& series, const Branch<Scalar>& branch, Scalar longest) {
     if constexpr (Law::reverses) {
@@ -439,6 +457,8 @@ class EventTaylor {
   static bool can_slide_beyond(const Branch<Scalar>& branch) {
     return Law::reverses && !Law::sticks && 0 < branch.zero_order && branch.zero_order < Order;
   }
+
+  // ---- A sticking step ----
 
   template <class Account, class Observer>
   void stick(const Interval<Scalar>& interval, const At& instant, const Branch<Scalar>& branch,
@@ -488,6 +508,8 @@ class EventTaylor {
     return numeric::min(numeric::quick_root_of_quotient<degree>(allowed, last),
                         numeric::quick_root_of_quotient<degree - 1>(allowed, last_but_one));
   }
+
+  // ---- The end of a step ----
 
   template <class Friction, class Account, class Observer>
   void accept(const Interval<Scalar>& interval, const Series& series, const Friction& friction,
