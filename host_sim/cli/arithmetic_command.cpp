@@ -1,7 +1,5 @@
 #include "host_sim/cli/commands.hpp"
 
-#include <fmt/format.h>
-
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -9,10 +7,8 @@
 
 #include "host_sim/cli/options.hpp"
 #include "host_sim/cli/progress_bar.hpp"
-#include "host_sim/configure/configuration_error.hpp"
 #include "host_sim/emulated/controller_header.hpp"
 #include "host_sim/output/gnuplot.hpp"
-#include "host_sim/scene/names.hpp"
 #include "host_sim/studies/arithmetic/comparison.hpp"
 #include "host_sim/studies/arithmetic/report.hpp"
 
@@ -37,24 +33,13 @@ Boards chosen(const std::vector<std::string>& names) {
   return boards;
 }
 
-void require_every_arithmetic(const scene::Scene& scene) {
-  if (scene.vibration_mode() != scene::VibrationMode::feedforward) {
-    throw configure::ConfigurationError(
-        "controller.vibration",
-        fmt::format(
-            "\"{}\" is not built in q15, and all arithmetics are compared; allowed: a scene "
-            "without this key",
-            scene::name_of(scene::vibration_controls, *scene.controller->vibration)));
-  }
-}
-
 /// Throws what pil() throws, and process::ProcessError; in each case nothing was written and no
 /// other program is left behind.
 void arithmetic(const ArithmeticOptions& options) {
   const SceneInput input(options.scene);
   const scene::Scene scene = input.read();
   input.with_places([&] {
-    require_every_arithmetic(scene);
+    arithmetic::require_every_arithmetic(scene);
     return emulated::controller_header(scene);
   });
   const Boards boards = chosen(options.boards);

@@ -8,7 +8,6 @@
 #include <string_view>
 #include <utility>
 
-#include "firmware/numeric/scalar.hpp"
 #include "host_sim/scene_file/to_json.hpp"
 
 namespace sonoglide::fmi {

@@ -1,13 +1,17 @@
 #include "host_sim/studies/arithmetic/comparison.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <limits>
 
+#include "host_sim/configure/configuration_error.hpp"
 #include "host_sim/configure/control_design.hpp"
 #include "host_sim/emulated/controller_header.hpp"
 #include "host_sim/emulated/run_image.hpp"
+#include "host_sim/scene/names.hpp"
 
 namespace sonoglide::arithmetic {
 namespace {
@@ -35,6 +39,17 @@ void judge_steps(const std::vector<report::StepMetrics>& steps, Precision& resul
 }
 
 }  // namespace
+
+void require_every_arithmetic(const scene::Scene& scene) {
+  if (scene.vibration_mode() != scene::VibrationMode::feedforward) {
+    throw configure::ConfigurationError(
+        "controller.vibration",
+        fmt::format(
+            "\"{}\" is not built in q15, and all arithmetics are compared; allowed: a scene "
+            "without this key",
+            scene::name_of(scene::vibration_controls, *scene.controller->vibration)));
+  }
+}
 
 Precision precision(const Course& course, const Course& exact) {
   Precision result;

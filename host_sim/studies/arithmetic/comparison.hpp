@@ -45,6 +45,9 @@ struct Precision {
 /// @param exact  the same scene with a controller in float64
 Precision precision(const Course& course, const Course& exact);
 
+/// Throws configure::ConfigurationError for a scene whose controller is not built in every arithmetic.
+void require_every_arithmetic(const scene::Scene& scene);
+
 /// From the fewest bits to the most.
 inline constexpr std::array<scene::Arithmetic, 4> all_arithmetics = {
     scene::Arithmetic::q15, scene::Arithmetic::q31, scene::Arithmetic::float32,
