@@ -163,7 +163,7 @@ TEST_P(Resonance, FromRestWithinFourPeriodsOfTheBound) {
   }
 }
 
-// What the controller's README says, to a tenth of a period.
+// What firmware/control/measured.md says, to a tenth of a period.
 TEST_P(Resonance, FromRestAtAHeadRoomOfThree) {
   struct Case {
     double quality;
