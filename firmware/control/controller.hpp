@@ -4,51 +4,17 @@
 #include <cstdint>
 #include <type_traits>
 
-#include "firmware/control/feedback/settling_watch.hpp"
-#include "firmware/control/force_sensing.hpp"
 #include "firmware/control/friction/friction_level.hpp"
 #include "firmware/control/friction/periodic_relearning.hpp"
 #include "firmware/control/interface/drive_command.hpp"
-#include "firmware/control/interface/measurement.hpp"
-#include "firmware/control/interface/signals.hpp"
-#include "firmware/control/limits/drive_limit.hpp"
-#include "firmware/control/limits/plausibility.hpp"
 #include "firmware/control/limits/sample_inspection.hpp"
 #include "firmware/control/limits/standstill_hold.hpp"
-#include "firmware/control/limits/stuck_detector.hpp"
 #include "firmware/control/limits/tolerant_samples.hpp"
+#include "firmware/control/parts.hpp"
 #include "firmware/control/speed_foresight.hpp"
-#include "firmware/control/vibration/fed_forward.hpp"
-#include "firmware/numeric/accumulator.hpp"
 #include "firmware/numeric/scalar.hpp"
 
 namespace sonoglide::control {
-
-/// The parts of a controller; each is a type. What a part does not do costs nothing.
-///
-/// The Parameters of a part, where they are not empty, name their fields:
-/// Parameters::fields(parameters, visit) calls visit(name, field) for each, in order.
-template <class ScalarT, class FrictionT, class FeedforwardT, class SlewT, class ShaperT,
-          class RegulatorT, class RelearningT = NoRelearning<ScalarT>,
-          class VibrationT = FedForward<ScalarT>, class ForceT = ForceSensor,
-          class CeilingT = FullDrive<ScalarT>, class SamplesT = StrictSamples>
-struct Parts {
-  using Scalar = ScalarT;
-  using Friction = FrictionT;        ///< TrustedFriction | LearntFriction
-  using Feedforward = FeedforwardT;  ///< CoulombFeedforward | DahlFeedforward
-  using Slew = SlewT;                ///< NoSlewLimit | SlewLimit
-  using Shaper = ShaperT;            ///< NoShaping | NotchShaper
-  using Regulator = RegulatorT;      ///< NoFeedback | IntegralRegulator
-  using Relearning = RelearningT;    ///< NoRelearning | PeriodicRelearning
-  using Vibration =
-      VibrationT;        ///< FedForward | SensorlessVibration | DampedVibration | ResonantVibration
-  using Force = ForceT;  ///< ForceSensor | NoForceSensor
-  using Ceiling = CeilingT;  ///< FullDrive | DriveLimit
-  using Samples = SamplesT;  ///< StrictSamples | TolerantSamples
-};
-
-/// Smallest usable speed floor, per unit: where the controller's resolution ends.
-inline constexpr double smallest_speed_floor = 1e-4;
 
 /// Picks the drive so that the friction ratio reaches a target; one step per carrier period. A pure
 /// function of its state and the measurement: no clock, no I/O, no heap.
@@ -63,58 +29,10 @@ class Controller {
   using Scalar = typename PartsT::Scalar;
   using Measurement = typename PartsT::Vibration::Measurement;
   using Command = typename PartsT::Vibration::Command;
+  using Parameters = ControllerParameters<PartsT>;
   static constexpr bool observed = PartsT::Vibration::observed;  ///< the vibration
   // A vibration is foreseen from one sample to the next, so that none may be left out.
   static_assert(!observed || std::is_same_v<typename PartsT::Samples, StrictSamples>);
-
- private:
-  using Force = typename PartsT::Force;
-  using Stuck = typename Force::template Judge<StuckDetector<Scalar>>;
-  using Plausible = typename Force::template Judge<Plausibility<Scalar>>;
-  using Watch = typename Force::template Judge<SettlingWatch<Scalar>>;
-  using Map = typename Force::template Map<typename PartsT::Feedforward>;
-
- public:
-  struct Parameters {
-    Scalar friction_force;     ///< nominal Fc
-    Scalar smallest_friction;  ///< of a usable Fc, at least FrictionLevel::smallest()
-    Scalar speed_floor;        ///< slower than this the ratio is undefined; > 0
-    Scalar lead;               ///< from a sample to the middle of its effect, see SpeedForesight
-    [[no_unique_address]] typename PartsT::Friction::Parameters friction;
-    [[no_unique_address]] typename PartsT::Feedforward::Parameters feedforward;
-    [[no_unique_address]] typename PartsT::Slew::Parameters slew;
-    [[no_unique_address]] typename PartsT::Shaper::Parameters shaper;
-    [[no_unique_address]] typename PartsT::Regulator::Parameters regulator;
-    [[no_unique_address]] typename PartsT::Relearning::Parameters relearning;
-    [[no_unique_address]] typename PartsT::Vibration::Parameters vibration;
-    typename StandstillHold<Scalar>::Parameters standstill;
-    [[no_unique_address]] typename Stuck::Parameters stuck;
-    [[no_unique_address]] typename Plausible::Parameters plausibility;
-    [[no_unique_address]] typename Watch::Parameters watch;
-    [[no_unique_address]] typename PartsT::Ceiling::Parameters ceiling{};
-    [[no_unique_address]] typename PartsT::Samples::Parameters samples{};
-
-    template <class Self, class Visitor>
-    static constexpr void fields(Self& self, Visitor&& visit) {
-      visit("friction_force", self.friction_force);
-      visit("smallest_friction", self.smallest_friction);
-      visit("speed_floor", self.speed_floor);
-      visit("lead", self.lead);
-      visit("friction", self.friction);
-      visit("feedforward", self.feedforward);
-      visit("slew", self.slew);
-      visit("shaper", self.shaper);
-      visit("regulator", self.regulator);
-      visit("relearning", self.relearning);
-      visit("vibration", self.vibration);
-      visit("standstill", self.standstill);
-      visit("stuck", self.stuck);
-      visit("plausibility", self.plausibility);
-      visit("watch", self.watch);
-      visit("ceiling", self.ceiling);
-      visit("samples", self.samples);
-    }
-  };
 
   /// @param parameters  outlive this: a part may leave a table where it is
   explicit Controller(const Parameters& parameters)
@@ -150,16 +68,9 @@ class Controller {
     const bool driven = state_ == State::running || state_ == State::limited;
     const Scalar target = target_;
     target_ = whole_ratio();
-    friction_.restart();
-    shaper_.restart();
+    restart(friction_, shaper_);
     regulator_.restart(target_);
-    standstill_.restart();
-    stuck_.restart();
-    plausibility_.restart();
-    watch_.restart();
-    foresight_.restart();
-    samples_.restart();
-    relearning_.restart();
+    restart(standstill_, stuck_, plausibility_, watch_, foresight_, samples_, relearning_);
     vibration_.restart(state_ == State::off || state_ == State::fault);
     backwards_ = false;
     requested_ = Scalar{};
@@ -170,7 +81,7 @@ class Controller {
     fault_ = Fault::none;
     state_ = State::calibrating;
     if (!friction_.learning()) {
-      adopt_friction(friction_.friction_force(configured_friction_));
+      adopt_friction();
     }
     set_target(target);
   }
@@ -203,16 +114,13 @@ class Controller {
   template <Numbers Known = Numbers::any>
   Command step(const Measurement& measurement) {
     vibration_.before();
-    Command command{answer(measurement, inspect<Force, Known>(measurement))};
+    Command command{answer(measurement, inspect<typename PartsT::Force, Known>(measurement))};
     vibration_.after(command);
     return command;
   }
 
  private:
-  struct Request {
-    Scalar amplitude;  ///< or vibration velocity
-    Limit limit;
-  };
+  using Request = control::Request<Scalar>;
 
   DriveCommand<Scalar> answer(const Measurement& measurement, Fault unusable) {
     if (state_ == State::off || state_ == State::fault) {
@@ -223,7 +131,11 @@ class Controller {
       return undriven(Limit::none);
     }
     if (unusable != Fault::none) {
-      return state_ == State::calibrating ? undriven(Limit::bad_sample) : apply(bridge());
+      if (state_ == State::calibrating) {
+        return undriven(Limit::bad_sample);
+      }
+      regulator_.hold();  // tolerated: the last request stands, and no part judges the sample
+      return apply({requested_, Limit::bad_sample});
     }
     if (const Fault unsound = vibration_.observe(measurement); unsound != Fault::none) {
       trip(unsound);
@@ -237,7 +149,8 @@ class Controller {
     }
     const bool backwards = velocity < Scalar{};
     if (backwards != backwards_) {
-      turn(backwards);
+      backwards_ = backwards;
+      interrupt();  // readings that are still on their way belong to the other direction
     }
     const Request wanted =
         speed < speed_floor_
@@ -246,9 +159,12 @@ class Controller {
     return state_ == State::fault ? undriven(Limit::none) : apply(wanted);
   }
 
-  static constexpr Limit at_full_drive = PartsT::Vibration::at_full_drive;
-
   static constexpr Scalar whole_ratio() { return numeric::from_real<Scalar>(0.5); }
+
+  template <class... Each>
+  static void restart(Each&... part) {
+    (part.restart(), ...);
+  }
 
   Request trip(Fault fault) {
     state_ = State::fault;
@@ -260,13 +176,6 @@ class Controller {
     return {Scalar{}, whole_ratio(), state_, limit, fault_, Settling::pending};
   }
 
-  /// Answer to an unusable sample that is tolerated: the last request stands, and no part judges
-  /// the sample.
-  Request bridge() {
-    regulator_.hold();
-    return {requested_, Limit::bad_sample};
-  }
-
   /// Learns one sample of the undriven friction. The drive begins a period after the last one.
   DriveCommand<Scalar> calibrate(const Measurement& measurement) {
     const bool slow = numeric::abs(measurement.sliding_velocity) < speed_floor_;
@@ -276,7 +185,7 @@ class Controller {
     if (friction_.learning()) {
       return silent;
     }
-    adopt_friction(friction_.friction_force(configured_friction_));
+    adopt_friction();
     return state_ == State::fault ? undriven(Limit::none) : silent;
   }
 
@@ -292,15 +201,13 @@ class Controller {
   }
 
   /// Takes Fc and adapts the inverse map to it.
-  void adopt_friction(Scalar force) {
-    take_friction_force(force);
+  void adopt_friction() {
+    take_friction_force(friction_.friction_force(configured_friction_));
     feedforward_.set_friction(level_);
     map_.forget();
   }
 
-  /// The sliding has turned. Readings that are still on their way belong to the other direction.
-  void turn(bool backwards) {
-    backwards_ = backwards;
+  void interrupt() {
     regulator_.hold();
     plausibility_.restart();
     interrupt_relearning();
@@ -308,48 +215,41 @@ class Controller {
 
   /// Answer below the speed floor, or where the speed is above the range of its converter and so of
   /// every vibration: feedback waits, and the last request stands for a while. A target of no drive
-  /// gives no drive here either.
-  /// @param limit  that is named
+  /// gives no drive here either. @param limit  that is named
   Request stand(Limit limit) {
-    regulator_.hold();
-    plausibility_.restart();
-    interrupt_relearning();
+    interrupt();
     return target_ < whole_ratio() ? slewed({standstill_.request(requested_), limit})
                                    : slewed({Scalar{}, Limit::none});
   }
 
-  /// Answer at a sliding that is fast enough for a friction ratio.
+  /// Answer at a sliding that is fast enough for a friction ratio, as far as a sensor tells one.
   Request slide(const Measurement& measurement, Scalar speed) {
     standstill_.restart();
-    if constexpr (!Force::present) {
+    if constexpr (!PartsT::Force::present) {
       return regulate(target_, speed);
     } else {
-      return slide_by_force(measurement, speed);
+      const Scalar force = friction_.without_offset(measurement.friction_force);
+      const Scalar along = backwards_ ? -force : force;
+      const Scalar measured = level_.half_ratio(along);
+      if (plausibility_.implausible(measured, measurement.sliding_velocity)) {
+        return trip(plausibility_.stood_still(measured, measurement.sliding_velocity)
+                        ? Fault::velocity_stuck
+                        : Fault::measurement_implausible);
+      }
+      if (stuck_.stuck(measurement.friction_force, measured, commanded_, followed_)) {
+        return trip(Fault::measurement_stuck);
+      }
+      vibration_.sense(measured, numeric::abs(measurement.sliding_velocity), backwards_,
+                       feedforward_);
+      const Task task = next_task(along, speed);
+      if (task != Task::regulate) {
+        regulator_.hold();
+      }
+      if (task == Task::regulate || task == Task::resume) {
+        return regulate(measured, speed);
+      }
+      return pause(task);
     }
-  }
-
-  Request slide_by_force(const Measurement& measurement, Scalar speed) {
-    const Scalar force = friction_.without_offset(measurement.friction_force);
-    const Scalar along = backwards_ ? -force : force;
-    const Scalar measured = level_.half_ratio(along);
-    if (plausibility_.implausible(measured, measurement.sliding_velocity)) {
-      return trip(plausibility_.stood_still(measured, measurement.sliding_velocity)
-                      ? Fault::velocity_stuck
-                      : Fault::measurement_implausible);
-    }
-    if (stuck_.stuck(measurement.friction_force, measured, commanded_, followed_)) {
-      return trip(Fault::measurement_stuck);
-    }
-    vibration_.sense(measured, numeric::abs(measurement.sliding_velocity), backwards_,
-                     feedforward_);
-    const Task task = next_task(along, speed);
-    if (task != Task::regulate) {
-      regulator_.hold();
-    }
-    if (task == Task::regulate || task == Task::resume) {
-      return regulate(measured, speed);
-    }
-    return pause(task);
   }
 
   /// What relearning asks for in this period. Without a drive there is nothing to pause.
@@ -400,10 +300,8 @@ class Controller {
   }
 
   Request regulate(Scalar measured, Scalar speed) {
-    if (whole_ratio() <= target_) {
-      regulator_.hold();  // no drive can bring an undriven reading to its target
-    }
-    if (!vibration_.settled()) {
+    // No drive can bring an undriven reading to its target.
+    if (whole_ratio() <= target_ || !vibration_.settled()) {
       regulator_.hold();
     }
     const Scalar ratio = regulator_.propose(target_, measured);
@@ -411,7 +309,8 @@ class Controller {
     const Scalar amplitude = slew_.limit(wanted.amplitude, requested_);
     const bool held_below = amplitude < wanted.amplitude;
     const bool held_above = wanted.amplitude < amplitude;
-    const bool at_most = wanted.limit == at_full_drive || held_below || vibration_.at_most();
+    const bool at_most =
+        wanted.limit == PartsT::Vibration::at_full_drive || held_below || vibration_.at_most();
     const bool at_least = whole_ratio() <= ratio || held_above;
     regulator_.accept(at_most, at_least);
     commanded_ = ratio;
@@ -419,22 +318,6 @@ class Controller {
       judge(measured, speed, at_most || at_least);
     }
     return {amplitude, held_below || held_above ? Limit::slew : wanted.limit};
-  }
-
-  /// The target, or 0 where the steady drive makes another velocity than a ratio that agrees with
-  /// the target would need.
-  Scalar implied_ratio(Scalar speed, Scalar velocity) const {
-    if (requested_ < velocity) {
-      return feedforward_.amplitude(watch_.agreement() * target_, speed) < velocity ? Scalar{}
-                                                                                    : target_;
-    }
-    const Scalar highest = whole_ratio() * watch_.agreement();
-    if (target_ < highest) {
-      const Scalar agreeing = numeric::half(target_) / watch_.agreement();
-      return velocity < feedforward_.amplitude(numeric::twice(agreeing), speed) ? Scalar{}
-                                                                                : target_;
-    }
-    return target_;
   }
 
   /// An amplitude that no feedback asks for, as fast as the actuator may change.
@@ -448,8 +331,11 @@ class Controller {
       watch_.restart();
       return;
     }
-    const Scalar implied = vibration_.implied_ratio(
-        commanded_, [&](auto velocity) { return implied_ratio(speed, velocity); });
+    const Scalar implied = vibration_.implied_ratio(commanded_, [&](auto velocity) {
+      return watch_.implied_ratio(target_, requested_, velocity, [&](Scalar ratio) {
+        return feedforward_.amplitude(ratio, speed);
+      });
+    });
     watch_.judge(target_, measured, implied, clamped);
   }
 
@@ -461,7 +347,7 @@ class Controller {
     const Scalar amplitude = map_.amplitude(feedforward_, half_ratio, speed);
     const Scalar highest = vibration_.highest(ceiling_.highest());
     if (!(amplitude < highest)) {
-      return {highest, at_full_drive};
+      return {highest, PartsT::Vibration::at_full_drive};
     }
     return {amplitude, whole_ratio() <= half_ratio ? Limit::ratio_end : Limit::none};
   }
@@ -477,10 +363,8 @@ class Controller {
     const bool judged = limit == Limit::none && !relearning_.pausing();
     const Limit named = judged ? watch_.limit_named() : limit;
     const Settling settling = judged ? watch_.settling() : Settling::pending;
-    state_ = named == Limit::none ? State::running : State::limited;
-    if (relearning_.pausing()) {
-      state_ = State::relearning;
-    }
+    const State driving = named == Limit::none ? State::running : State::limited;
+    state_ = relearning_.pausing() ? State::relearning : driving;
     return {amplitude, vibration_.reported_ratio(commanded_), state_, named, fault_, settling};
   }
 
@@ -490,16 +374,16 @@ class Controller {
   SpeedForesight<Scalar> foresight_;
   [[no_unique_address]] typename PartsT::Friction friction_;
   [[no_unique_address]] typename PartsT::Feedforward feedforward_;
-  [[no_unique_address]] Map map_;
+  [[no_unique_address]] typename PartsT::Map map_;
   [[no_unique_address]] typename PartsT::Slew slew_;
   [[no_unique_address]] typename PartsT::Shaper shaper_;
   [[no_unique_address]] typename PartsT::Regulator regulator_;
   [[no_unique_address]] typename PartsT::Relearning relearning_;
   [[no_unique_address]] typename PartsT::Vibration vibration_;
   StandstillHold<Scalar> standstill_;
-  [[no_unique_address]] Stuck stuck_;
-  [[no_unique_address]] Plausible plausibility_;
-  [[no_unique_address]] Watch watch_;
+  [[no_unique_address]] typename PartsT::Stuck stuck_;
+  [[no_unique_address]] typename PartsT::Plausible plausibility_;
+  [[no_unique_address]] typename PartsT::Watch watch_;
   [[no_unique_address]] typename PartsT::Ceiling ceiling_;
   [[no_unique_address]] typename PartsT::Samples samples_;
   FrictionLevel<Scalar> level_;

@@ -76,8 +76,22 @@ class SettlingWatch {
     }
   }
 
-  /// Of ratios: what lies between this part of the target and its inverse is not warned of.
-  Scalar agreement() const { return parameters_.agreement; }
+  /// The target, or 0 where a velocity is another than a ratio that agrees with the target would need.
+  /// @param requested    velocity that the target needs
+  /// @param velocity_of  that a ratio needs
+  template <class VelocityOf>
+  Scalar implied_ratio(Scalar target, Scalar requested, Scalar velocity,
+                       const VelocityOf& velocity_of) const {
+    constexpr Scalar whole = numeric::from_real<Scalar>(0.5);
+    if (requested < velocity) {
+      return velocity_of(parameters_.agreement * target) < velocity ? Scalar{} : target;
+    }
+    if (target < whole * parameters_.agreement) {
+      const Scalar agreeing = numeric::half(target) / parameters_.agreement;
+      return velocity < velocity_of(numeric::twice(agreeing)) ? Scalar{} : target;
+    }
+    return target;
+  }
 
   Settling settling() const {
     if (count_ == 0) {

@@ -62,6 +62,13 @@ enum class Fault : std::uint8_t {
   velocity_stuck,  ///< friction has come to pull while the velocity stood still to the code
 };
 
+/// What the drive is asked for.
+template <class Scalar>
+struct Request {
+  Scalar amplitude;  ///< base: the largest; or a vibration velocity
+  Limit limit;       ///< that keeps it from being another
+};
+
 template <class Scalar>
 struct DriveCommand {
   Scalar amplitude;  ///< base: the actuator's limit; in [0, 1]

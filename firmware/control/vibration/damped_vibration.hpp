@@ -1,38 +1,38 @@
 /// A vibration velocity that is held off resonance, its natural mode damped by feedback.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 
 #include "firmware/control/interface/drive_command.hpp"
 #include "firmware/control/interface/measurement.hpp"
 #include "firmware/control/interface/part_name.hpp"
-#include "firmware/control/interface/signals.hpp"
+#include "firmware/control/vibration/mode_damping.hpp"
 #include "firmware/control/vibration/mode_observer.hpp"
-#include "firmware/control/vibration/vibration_part.hpp"
+#include "firmware/control/vibration/pair.hpp"
+#include "firmware/numeric/headroom.hpp"
 #include "firmware/numeric/near_root.hpp"
 #include "firmware/numeric/scalar.hpp"
 
 namespace sonoglide::control {
 
 /// One step per carrier period, at a fixed frequency. The steady amplitude u* is what brings the
-/// vibration |H u* + o| to the wanted velocity v. The answer is
-///   u' = u − K (w, u − u*), limited to [0, 1],
-/// with the linear-quadratic gain K, u the latest command and w the mode foreseen at the phase 0
-/// where it acts (ModeObserver).
+/// vibration |H u* + o| to the wanted velocity v; on the way there the mode is damped (ModeDamping), as
+/// the vibration shows it (ModeObserver).
 ///
 /// @tparam MaxDelay  largest delay: carrier periods from the end of a sampled period to the phase 0
 ///                   at which its answer acts
 template <class ScalarT, int MaxDelay>
-class DampedVibration : public VibrationPart<ScalarT> {
+class DampedVibration : public ModeDamping<ScalarT, MaxDelay, 1, ModeObserver<ScalarT>> {
+  using Damping = ModeDamping<ScalarT, MaxDelay, 1, ModeObserver<ScalarT>>;
+  using Damping::observer_;
+  using Damping::past_;
+
  public:
   static constexpr PartName part_name{"vibration/damped_vibration", "DampedVibration"};
   using Scalar = ScalarT;
   using Measurement = VibrationMeasurement<Scalar>;
   using Command = ResonantCommand<Scalar>;
-  using Requested = signal::RequestedVelocity;
-  using Drive = typename VibrationPart<Scalar>::Drive;
   static constexpr bool observed = true;
   /// Samples in a row in which a drive of a quarter or more shows no vibration, until
   /// Fault::vibration_missing.
@@ -57,13 +57,9 @@ class DampedVibration : public VibrationPart<ScalarT> {
 
   /// @param parameters  outlive this, see ModeObserver
   explicit DampedVibration(const Parameters& parameters)
-      : observer_(parameters.observer),
+      : Damping(parameters.observer, parameters.delay),
         noise_(parameters.settled),
-        missing_below_(parameters.missing),
-        delay_(parameters.delay) {}
-
-  /// See Controller::settle_at.
-  void settle_at(const Parameters& parameters) { observer_.settle_at(parameters.observer); }
+        missing_below_(parameters.missing) {}
 
   void restart(bool /*rested*/) {
     observer_.restart();
@@ -71,18 +67,19 @@ class DampedVibration : public VibrationPart<ScalarT> {
     missing_ = 0;
     lost_ = 0;
     settled_ = false;
-    at_most_ = false;
+    this->at_most_ = false;
   }
 
   /// Takes a sample of usable numbers.
   Fault observe(const Measurement& measurement) {
     const Pair<Scalar> sample{measurement.in_phase, measurement.quadrature};
-    observer_.observe(sample, amplitudes_[0], amplitudes_[1]);
-    const bool hard = numeric::from_real<Scalar>(0.25) <= amplitudes_[1];
+    const Scalar amplitude = past_.sampled();
+    observer_.observe(sample, past_.sampled(1), amplitude);
+    const bool hard = numeric::from_real<Scalar>(0.25) <= amplitude;
     missing_ = hard && magnitude(sample) < missing_below_ ? missing_ + 1 : 0;
     quarter_offset_ = observer_.quarter_offset();
     const Scalar most = numeric::rough_product(numeric::from_real<Scalar>(0.1875),
-                                               amplitudes_[1]);  // 3/4 of a quarter
+                                               amplitude);  // 3/4 of a quarter
     lost_ = hard && most < magnitude(quarter_offset_) ? lost_ + 1 : 0;
     if (missing_ >= missing_samples) {
       return Fault::vibration_missing;
@@ -92,34 +89,18 @@ class DampedVibration : public VibrationPart<ScalarT> {
 
   /// The drive that brings the velocity to a wanted one in [0, 1].
   template <class Shaper>
-  Drive drive(Scalar velocity, const Shaper& /*shaper*/, Scalar /*ceiling*/) {
-    constexpr Scalar largest = numeric::from_code<Scalar>(INT32_MAX);
-    const Scalar quarter = steady_quarter(velocity);
-    at_most_ = numeric::from_real<Scalar>(0.25) <= quarter;
-    const Scalar steady = at_most_ ? largest : numeric::scale_by_power_of_two(quarter, 2);
-    const Scalar latest = amplitudes_[last()];
-    const Scalar error = latest - steady;
+  Request<Scalar> drive(Scalar velocity, const Shaper& /*shaper*/, Scalar /*ceiling*/) {
+    const Scalar steady = this->steady(steady_quarter(velocity));
+    const Scalar error = past_.newest() - steady;
     settled_ = settled(velocity, steady, error);
     if (velocity == Scalar{} && settled_) {
       return {Scalar{}, Limit::none};  // at rest, as far as the sensor tells
     }
-    const Scalar less =
-        numeric::clamp(observer_.feedback(predicted_mode(), error), latest - largest, latest);
-    return {latest - less, at_most_ ? Limit::actuator : Limit::none};
-  }
-
-  /// The frequency stays that of the start.
-  void after(const Command& command) {
-    for (std::size_t i = 0; i < last(); ++i) {
-      amplitudes_[i] = amplitudes_[i + 1];
-    }
-    amplitudes_[last()] = command.amplitude;
+    return {this->damped(error), this->at_most() ? Limit::actuator : Limit::none};
   }
 
   /// The velocity is the one that was last asked for, or the nearest one that the drive reaches.
   bool settled() const { return settled_; }
-  /// No more of a drive would help.
-  bool at_most() const { return at_most_; }
 
  private:
   static Scalar magnitude(const Pair<Scalar>& pair) {
@@ -135,11 +116,6 @@ class DampedVibration : public VibrationPart<ScalarT> {
     return magnitude(observer_.visible()) <= mode && numeric::abs(error) <= amplitude;
   }
 
-  /// Of the newest command.
-  std::size_t last() const {
-    return (MaxDelay <= 1 ? std::size_t{MaxDelay} : std::size_t{delay_}) + 1;
-  }
-
   /// u*/4: √((v/|H|)² − o⊥²) − o∥, o as an amplitude along H and across it.
   Scalar steady_quarter(Scalar velocity) const {
     if (velocity == Scalar{}) {
@@ -153,25 +129,12 @@ class DampedVibration : public VibrationPart<ScalarT> {
     return numeric::twice(numeric::clamp(half, Scalar{}, numeric::from_real<Scalar>(0.25)));
   }
 
-  /// In the last period under way.
-  Pair<Scalar> predicted_mode() const {
-    Pair<Scalar> mode = observer_.mode();
-    for (std::size_t i = 1; i < last(); ++i) {
-      mode = observer_.next(mode, amplitudes_[i + 1] - amplitudes_[i]);
-    }
-    return mode;
-  }
-
-  ModeObserver<Scalar> observer_;
   Scalar noise_;
   Scalar missing_below_;
-  std::uint8_t delay_;
-  std::array<Scalar, MaxDelay + 2> amplitudes_{};  ///< from the period before the sampled one on
-  Pair<Scalar> quarter_offset_{};                  ///< of the observer
+  Pair<Scalar> quarter_offset_{};  ///< of the observer
   int missing_ = 0;
   int lost_ = 0;
   bool settled_ = false;
-  bool at_most_ = false;
 };
 
 }  // namespace sonoglide::control

@@ -19,7 +19,6 @@ class FedForward : public VibrationPart<ScalarT> {
   using Measurement = control::Measurement<Scalar>;
   using Command = DriveCommand<Scalar>;
   using Requested = signal::RequestedAmplitude;
-  using Drive = typename VibrationPart<Scalar>::Drive;
 
   struct Parameters {};
 
@@ -29,7 +28,7 @@ class FedForward : public VibrationPart<ScalarT> {
   /// @param shaper     that it goes through
   /// @param ceiling    of the amplitude
   template <class Shaper>
-  static Drive drive(Scalar requested, Shaper& shaper, Scalar ceiling) {
+  static Request<Scalar> drive(Scalar requested, Shaper& shaper, Scalar ceiling) {
     const Scalar shaped = numeric::observe<signal::ShapedAmplitude>(shaper.shape(requested));
     const bool clipped = shaped < Scalar{} || (ceiling <= shaped && requested < ceiling);
     return {numeric::clamp(shaped, Scalar{}, ceiling), clipped ? Limit::actuator : Limit::none};

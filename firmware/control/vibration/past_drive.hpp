@@ -5,49 +5,43 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "firmware/numeric/scalar.hpp"
-
 namespace sonoglide::control {
 
-template <class Scalar>
-struct PastCommand {
-  Scalar amplitude;    ///< base: the largest; below 0 the phase is turned by half a turn
-  Scalar deviation;    ///< of the frequency from the start, relative to it, base 1/8
-  std::int32_t steps;  ///< the same in steps of the frequency word
-};
-
-/// Commands from that of the period before the sampled one to the newest.
+/// Commands from `Before` periods before the sampled one to the newest.
 ///
 /// @tparam MaxDelay  largest delay, carrier periods from the end of a sampled period to the phase 0
 ///                   at which its answer acts
-template <class Scalar, int MaxDelay>
+template <class Command, int MaxDelay, std::size_t Before = 1>
 class PastDrive {
  public:
   explicit PastDrive(std::uint8_t delay) : delay_(delay) {}
 
-  const PastCommand<Scalar>& before() const { return commands_[0]; }
-  /// Before the append of a step.
-  const PastCommand<Scalar>& sampled() const { return commands_[1]; }
+  void clear() { commands_ = {}; }
+
+  /// Of the sampled period, or of so many before it, up to `Before`; until a step appends its own.
+  const Command& sampled(std::size_t before = 0) const { return commands_[Before - before]; }
   /// Of those that act between the sampled period and the answer's, in order; index < delay().
-  const PastCommand<Scalar>& under_way(std::size_t index) const { return commands_[2 + index]; }
+  const Command& under_way(std::size_t index) const { return commands_[Before + 1 + index]; }
+  const Command& newest() const { return commands_[last()]; }
   /// With a MaxDelay of 0 or 1 there is no other.
-  std::size_t delay() const { return MaxDelay <= 1 ? MaxDelay : delay_; }
+  std::size_t delay() const { return MaxDelay <= 1 ? std::size_t{MaxDelay} : std::size_t{delay_}; }
 
   /// Of the period whose sample comes next, after the append.
-  const PastCommand<Scalar>& next() const { return commands_[1]; }
+  const Command& next() const { return commands_[Before]; }
 
   /// One call for each step, with its answer.
-  void append(const PastCommand<Scalar>& command) {
-    const std::size_t last = delay() + 1;
-    for (std::size_t i = 0; i < last; ++i) {
+  void append(const Command& command) {
+    for (std::size_t i = 0; i < last(); ++i) {
       commands_[i] = commands_[i + 1];
     }
-    commands_[last] = command;
+    commands_[last()] = command;
   }
 
  private:
+  std::size_t last() const { return delay() + Before; }
+
   std::uint8_t delay_;
-  std::array<PastCommand<Scalar>, MaxDelay + 2> commands_{};
+  std::array<Command, MaxDelay + Before + 1> commands_{};
 };
 
 }  // namespace sonoglide::control

@@ -3,13 +3,19 @@
 
 #include <cstdint>
 
-#include "firmware/control/vibration/past_drive.hpp"
 #include "firmware/numeric/floating.hpp"
 #include "firmware/numeric/headroom.hpp"
 #include "firmware/numeric/polar.hpp"
 #include "firmware/numeric/scalar.hpp"
 
 namespace sonoglide::control {
+
+template <class Scalar>
+struct PastCommand {
+  Scalar amplitude;    ///< base: the largest; below 0 the phase is turned by half a turn
+  Scalar deviation;    ///< of the frequency from the start, relative to it, base 1/8
+  std::int32_t steps;  ///< the same in steps of the frequency word
+};
 
 /// Envelope of the vibration velocity Re(z e^jθ), z = r (c + js), θ the phase of the drive. Over a
 /// carrier period, u the amplitude of the drive:

@@ -36,7 +36,6 @@ class ResonantVibration : public VibrationPart<ScalarT> {
   using Command = ResonantCommand<Scalar>;
   using Resonance = ResonanceEstimate<Scalar>;
   using Requested = signal::RequestedVelocity;
-  using Drive = typename VibrationPart<Scalar>::Drive;
   static constexpr bool observed = true;
   static constexpr Limit at_full_drive = Limit::voltage;
   /// Samples in a row in which a drive of a quarter or more shows no vibration, until
@@ -86,7 +85,7 @@ class ResonantVibration : public VibrationPart<ScalarT> {
   /// Takes a sample of usable numbers.
   Fault observe(const Measurement& measurement) {
     const bool foreseen = resonance_.observe(measurement.in_phase, measurement.quadrature,
-                                             past_.before(), past_.sampled());
+                                             past_.sampled(1), past_.sampled());
     numeric::observe<signal::VibrationVelocity>(resonance_.modulus());
     const bool hard = numeric::from_real<Scalar>(0.25) <= numeric::abs(past_.sampled().amplitude);
     const bool silent = hard && resonance_.modulus() < parameters_.missing;
@@ -104,7 +103,7 @@ class ResonantVibration : public VibrationPart<ScalarT> {
 
   /// The drive that brings the velocity to a wanted one in [0, 1].
   template <class Shaper>
-  Drive drive(Scalar velocity, const Shaper& /*shaper*/, Scalar /*ceiling*/) {
+  Request<Scalar> drive(Scalar velocity, const Shaper& /*shaper*/, Scalar /*ceiling*/) {
     const Scalar foreseen = foreseen_velocity();
     const Scalar miss = velocity - foreseen;
     constexpr int band = -5;
@@ -168,7 +167,7 @@ class ResonantVibration : public VibrationPart<ScalarT> {
 
   /// The velocity is kept to what the current lets be held, and the amplitude to what it lets pass
   /// while the velocity changes.
-  Drive drive_below_current(Scalar velocity, Scalar foreseen) const {
+  Request<Scalar> drive_below_current(Scalar velocity, Scalar foreseen) const {
     Scalar held = velocity;
     bool limited = false;
     const Scalar holding = resonance_.holding(velocity);
@@ -236,7 +235,7 @@ class ResonantVibration : public VibrationPart<ScalarT> {
   Resonance resonance_;
   FrequencyWord<Scalar> word_;
   [[no_unique_address]] CurrentT current_;
-  PastDrive<Scalar, MaxDelay> past_;
+  PastDrive<PastCommand<Scalar>, MaxDelay> past_;
   int missing_ = 0;
   int lost_ = 0;
   bool settled_ = false;

@@ -2,42 +2,40 @@
 /// by feedback.
 #pragma once
 
-#include <array>
-#include <cstddef>
 #include <cstdint>
 
 #include "firmware/control/interface/drive_command.hpp"
 #include "firmware/control/interface/measurement.hpp"
 #include "firmware/control/interface/part_name.hpp"
-#include "firmware/control/interface/signals.hpp"
+#include "firmware/control/vibration/mode_damping.hpp"
 #include "firmware/control/vibration/reading_lag.hpp"
 #include "firmware/control/vibration/sensorless_observer.hpp"
-#include "firmware/control/vibration/vibration_part.hpp"
 #include "firmware/numeric/headroom.hpp"
 #include "firmware/numeric/scalar.hpp"
 
 namespace sonoglide::control {
 
-/// One step per carrier period. The steady amplitude u* = (v − o)/|H| brings the observed velocity
-/// to the wanted one, v. The answer is
-///   u' = u − K (w, u − u*), limited to [0, 1],
-/// with the linear-quadratic gain K, u the latest command and w the mode foreseen at the phase 0
-/// where it acts (SensorlessObserver). As o takes up what the map and the model have wrong, the
-/// measured ratio settles on its target without an integral.
+/// One step per carrier period. The steady amplitude u* = (v − o)/|H| brings the observed velocity to
+/// the wanted one, v; on the way there the mode is damped (ModeDamping), as the friction shows it
+/// (SensorlessObserver). As o takes up what the map and the model have wrong, the measured ratio settles
+/// on its target without an integral.
 ///
 /// @tparam MaxDelay  largest delay: carrier periods from the end of the period that a reading describes
 ///                   to the phase 0 at which its answer acts
 /// @tparam ReadingT  PromptReading | LaggingReading
 template <class ScalarT, int MaxDelay, class ReadingT>
-class SensorlessVibration : public VibrationPart<ScalarT> {
+class SensorlessVibration : public ModeDamping<ScalarT, MaxDelay, 2, SensorlessObserver<ScalarT>> {
+  using Damping = ModeDamping<ScalarT, MaxDelay, 2, SensorlessObserver<ScalarT>>;
+  using Damping::at_most_;
+  using Damping::observer_;
+  using Damping::past_;
+
  public:
   static constexpr PartName part_name{"vibration/sensorless_vibration", "SensorlessVibration"};
   using Scalar = ScalarT;
   using Measurement = control::Measurement<Scalar>;
   using Command = DriveCommand<Scalar>;
   using Reading = ReadingT;
-  using Requested = signal::RequestedVelocity;
-  using Drive = typename VibrationPart<Scalar>::Drive;
 
   struct Parameters {
     typename SensorlessObserver<Scalar>::Parameters observer;
@@ -56,13 +54,9 @@ class SensorlessVibration : public VibrationPart<ScalarT> {
 
   /// @param parameters  outlive this, see SensorlessObserver
   explicit SensorlessVibration(const Parameters& parameters)
-      : observer_(parameters.observer),
+      : Damping(parameters.observer, parameters.delay),
         reading_(parameters.reading),
-        backwards_(parameters.backwards),
-        delay_(parameters.delay) {}
-
-  /// See Controller::settle_at.
-  void settle_at(const Parameters& parameters) { observer_.settle_at(parameters.observer); }
+        backwards_(parameters.backwards) {}
 
   void restart(bool rested) {
     observer_.restart();
@@ -70,11 +64,11 @@ class SensorlessVibration : public VibrationPart<ScalarT> {
     wanted_ = {};
     at_most_ = false;
     if (rested) {
-      amplitudes_ = {};
+      past_.clear();
     }
   }
 
-  void before() { observer_.predict(amplitudes_[sampled] - amplitudes_[sampled - 1]); }
+  void before() { observer_.predict(past_.sampled() - past_.sampled(1)); }
 
   /// The target is another. A change by a quarter of the friction makes o as uncertain as at the
   /// start.
@@ -93,8 +87,7 @@ class SensorlessVibration : public VibrationPart<ScalarT> {
     }
     const Scalar velocity = feedforward.amplitude(ratio, speed);
     if (backwards == backwards_) {
-      observer_.observe(velocity, speed,
-                        {amplitudes_[sampled], amplitudes_[sampled - 1], amplitudes_[sampled - 2]},
+      observer_.observe(velocity, speed, {past_.sampled(), past_.sampled(1), past_.sampled(2)},
                         wanted_);
     }
   }
@@ -105,32 +98,15 @@ class SensorlessVibration : public VibrationPart<ScalarT> {
 
   /// The drive that brings the velocity to a wanted one in [0, 1].
   template <class Shaper>
-  Drive drive(Scalar velocity, const Shaper& /*shaper*/, Scalar ceiling) {
-    constexpr Scalar largest = numeric::from_code<Scalar>(INT32_MAX);
+  Request<Scalar> drive(Scalar velocity, const Shaper& /*shaper*/, Scalar ceiling) {
     wanted_ = velocity;
     const Scalar quarter = velocity == Scalar{} ? Scalar{} : observer_.quarter_amplitude(velocity);
-    at_most_ = numeric::from_real<Scalar>(0.25) <= quarter;
-    steady_ = largest;
-    if (!at_most_) {
-      steady_ = numeric::scale_by_power_of_two(numeric::max(quarter, Scalar{}), 2);
-    }
-    const Scalar latest = amplitudes_[last()];
-    const Scalar less = numeric::clamp(observer_.feedback(predicted_mode(), latest - steady_),
-                                       latest - largest, latest);
-    const Scalar amplitude = latest - less;
+    steady_ = this->steady(numeric::max(quarter, Scalar{}));
+    const Scalar amplitude = this->damped(past_.newest() - steady_);
     const bool clipped = ceiling < amplitude;
     return {clipped ? ceiling : amplitude, clipped || at_most_ ? Limit::actuator : Limit::none};
   }
 
-  void after(const Command& command) {
-    for (std::size_t i = 0; i < last(); ++i) {
-      amplitudes_[i] = amplitudes_[i + 1];
-    }
-    amplitudes_[last()] = command.amplitude;
-  }
-
-  /// No more of a drive would help.
-  bool at_most() const { return at_most_; }
   /// That of what the steady drive makes of the velocity, by the model alone.
   template <class OfVelocity>
   Scalar implied_ratio(Scalar /*commanded*/, const OfVelocity& by_velocity) const {
@@ -139,30 +115,10 @@ class SensorlessVibration : public VibrationPart<ScalarT> {
   static constexpr Scalar reported_ratio(Scalar /*commanded*/) { return {}; }
 
  private:
-  static constexpr std::size_t sampled = 2;
-
-  /// Of the newest command.
-  std::size_t last() const {
-    return (MaxDelay <= 1 ? std::size_t{MaxDelay} : std::size_t{delay_}) + sampled;
-  }
-
-  /// In the last period under way.
-  Pair<Scalar> predicted_mode() const {
-    Pair<Scalar> mode = observer_.mode();
-    for (std::size_t i = sampled; i < last(); ++i) {
-      mode = observer_.next(mode, amplitudes_[i + 1] - amplitudes_[i]);
-    }
-    return mode;
-  }
-
-  SensorlessObserver<Scalar> observer_;
   [[no_unique_address]] Reading reading_;
   bool backwards_;
-  std::uint8_t delay_;
-  std::array<Scalar, MaxDelay + sampled + 1> amplitudes_{};  ///< from two before the sampled one on
   Scalar wanted_{};
   Scalar steady_{};  ///< u*
-  bool at_most_ = false;
 };
 
 }  // namespace sonoglide::control

@@ -16,11 +16,6 @@ class VibrationPart {
   /// That the controller names where the drive stands at its largest.
   static constexpr Limit at_full_drive = Limit::actuator;
 
-  struct Drive {
-    Scalar amplitude;  ///< base: the largest
-    Limit limit;
-  };
-
   /// See Controller::settle_at.
   template <class Parameters>
   static constexpr void settle_at(const Parameters& /*parameters*/) {}
