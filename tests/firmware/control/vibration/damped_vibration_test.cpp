@@ -59,7 +59,7 @@ class DampedVibrationTest : public testing::Test {
     limit_ = named;
     acting_ = coming_;
     coming_ = numeric::to_real(amplitude);
-    loop.after({{amplitude, {}, {}, {}, {}, {}}});
+    loop.after({amplitude, {}, {}, {}, {}, {}});
     return fault;
   }
 
@@ -137,7 +137,7 @@ TYPED_TEST(DampedVibrationTest, DisbelievesAVibrationThatTheDriveDoesNotMove) {
   int periods = 0;
   for (; periods < 200 && fault == Fault::none; ++periods) {
     fault = loop.observe(stuck);
-    loop.after({{scaled<TypeParam>(0.4), {}, {}, {}, {}, {}}});
+    loop.after({scaled<TypeParam>(0.4), {}, {}, {}, {}, {}});
   }
   EXPECT_EQ(fault, Fault::resonance_lost);
   EXPECT_LE(periods, TestFixture::Loop::lost_samples + 8);
@@ -154,7 +154,7 @@ TYPED_TEST(DampedVibrationTest, CountsFromTheCommandThatWasInForce) {
       loop.observe(measurement);
       const auto [amplitude, named] =
           loop.drive(scaled<TypeParam>(0.1), NoShaping<TypeParam>({}), TypeParam{});
-      loop.after({{amplitude, {}, {}, {}, {}, {}}});
+      loop.after({amplitude, {}, {}, {}, {}, {}});
       line[delay + 1] = numeric::to_real(amplitude);
       for (int i = 0; i <= delay; ++i) {
         line[i] = line[i + 1];
