@@ -23,7 +23,7 @@
 namespace sonoglide::configure {
 namespace {
 
-namespace sensorless = control::sensorless;
+using Index = control::SensorlessIndex;
 using Complex = std::complex<double>;
 
 bool slides_backwards(const scene::Sliding& sliding) {
@@ -177,19 +177,19 @@ double noise_of(double ratio, const FrictionReading& reading) {
 
 double ratio_of_node(std::size_t index) {
   return std::min(largest_ratio,
-                  static_cast<double>(index + 1) / static_cast<double>(sensorless::nodes));
+                  static_cast<double>(index + 1) / static_cast<double>(Index::nodes));
 }
 
 void put_node(const ObservedMode& mode, std::size_t index, const FrictionReading& reading,
               control::SensorlessRow<double>& row) {
   const double ratio = ratio_of_node(index);
   const Node node = node_of(mode, ratio, reading);
-  double* const numbers = &row[sensorless::plain + index * sensorless::per_node];
-  numbers[sensorless::output] = node.output(0);
-  numbers[sensorless::output + 1] = node.output(1);
-  numbers[sensorless::last_change] = node.last_change;
-  numbers[sensorless::change_before] = node.change_before;
-  numbers[sensorless::noise] = reading.speed * noise_of(ratio, reading);
+  double* const numbers = &row[Index::plain + index * Index::Node::count];
+  numbers[Index::Node::output] = node.output(0);
+  numbers[Index::Node::output + 1] = node.output(1);
+  numbers[Index::Node::last_change] = node.last_change;
+  numbers[Index::Node::change_before] = node.change_before;
+  numbers[Index::Node::noise] = reading.speed * noise_of(ratio, reading);
 }
 
 /// A mode next to zero or to a multiple of the carrier costs what the friction shows of it, and a
@@ -237,18 +237,18 @@ control::SensorlessRow<double> row_of(const Resonator& resonator, double spacing
   const double forced = model.forced.norm();
   const Eigen::RowVector3d feedback = feedback_around(resonator, spacing, reading);
   control::SensorlessRow<double> row{};
-  row[sensorless::rotation] = model.rotation(0, 0);
-  row[sensorless::rotation + 1] = model.rotation(1, 0);
-  row[sensorless::input_gain] = model.input_gain(0);
-  row[sensorless::input_gain + 1] = model.input_gain(1);
-  row[sensorless::forced] = forced;
-  row[sensorless::feedback] = feedback(0);
-  row[sensorless::feedback + 1] = feedback(1);
-  row[sensorless::feedback + 2] = feedback(2);
-  row[sensorless::per_velocity] = 1.0 / forced;
+  row[Index::rotation] = model.rotation(0, 0);
+  row[Index::rotation + 1] = model.rotation(1, 0);
+  row[Index::input_gain] = model.input_gain(0);
+  row[Index::input_gain + 1] = model.input_gain(1);
+  row[Index::forced] = forced;
+  row[Index::feedback] = feedback(0);
+  row[Index::feedback + 1] = feedback(1);
+  row[Index::feedback + 2] = feedback(2);
+  row[Index::per_velocity] = 1.0 / forced;
   const double angle = 0.5 * spacing / mode.rate.imag();
-  row[sensorless::bend] = 0.5 * angle * angle;
-  for (std::size_t i = 0; i < sensorless::nodes; ++i) {
+  row[Index::bend] = 0.5 * angle * angle;
+  for (std::size_t i = 0; i < Index::nodes; ++i) {
     put_node(mode, i, reading, row);
   }
   return row;
@@ -282,18 +282,18 @@ control::SensorlessTable<double> table_of_gains(const Resonator& resonator,
   constexpr double largest = 1.2;
   const double turns = numeric::sqrt(resonator.stiffness) / numeric::two_pi;
   const double gain = std::max(1.0, largest * numeric::sqrt(1.0 + turns * turns));
-  static_assert(sensorless::rows == 9);
+  static_assert(Index::rows == 9);
   const double step = numeric::sqrt(numeric::sqrt(numeric::sqrt(gain)));
   double forced = mode_model(resonator).forced.norm();
   control::SensorlessTable<double> table{};
   for (control::SensorlessRow<double>& row : table) {
-    row[sensorless::rotation] = 1.0;
-    row[sensorless::forced] = forced;
+    row[Index::rotation] = 1.0;
+    row[Index::forced] = forced;
     forced *= step;
-    row[sensorless::feedback + 2] = slower_rise;
-    row[sensorless::per_velocity] = 1.0 / row[sensorless::forced];
-    for (std::size_t node = 0; node < sensorless::nodes; ++node) {
-      row[sensorless::plain + node * sensorless::per_node + sensorless::noise] =
+    row[Index::feedback + 2] = slower_rise;
+    row[Index::per_velocity] = 1.0 / row[Index::forced];
+    for (std::size_t node = 0; node < Index::nodes; ++node) {
+      row[Index::plain + node * Index::Node::count + Index::Node::noise] =
           reading.speed * noise_of(ratio_of_node(node), reading);
     }
   }
@@ -303,7 +303,7 @@ control::SensorlessTable<double> table_of_gains(const Resonator& resonator,
 control::SensorlessTable<double> table_of(const Resonator& lowest, double spacing,
                                           const FrictionReading& reading) {
   control::SensorlessTable<double> table{};
-  for (std::size_t i = 0; i < sensorless::rows; ++i) {
+  for (std::size_t i = 0; i < Index::rows; ++i) {
     Resonator resonator = lowest;
     resonator.stiffness += static_cast<double>(i) * spacing;
     table[i] = row_of(resonator, spacing, reading);
@@ -316,17 +316,17 @@ control::SensorlessTable<double> table_of(const Resonator& lowest, double spacin
 double scale_mode(control::SensorlessTable<double>& table) {
   double largest = 0.0;
   for (const control::SensorlessRow<double>& row : table) {
-    largest = std::max({largest, std::abs(row[sensorless::input_gain]),
-                        std::abs(row[sensorless::input_gain + 1])});
+    largest =
+        std::max({largest, std::abs(row[Index::input_gain]), std::abs(row[Index::input_gain + 1])});
   }
   const double unit = largest > 0.0 ? 8.0 * largest : 1.0;
   for (control::SensorlessRow<double>& row : table) {
     for (std::size_t i = 0; i < 2; ++i) {
-      row[sensorless::input_gain + i] /= unit;
-      row[sensorless::feedback + i] *= unit;
-      for (std::size_t node = 0; node < sensorless::nodes; ++node) {
-        double* const numbers = &row[sensorless::plain + node * sensorless::per_node];
-        numbers[sensorless::output + i] *= unit;
+      row[Index::input_gain + i] /= unit;
+      row[Index::feedback + i] *= unit;
+      for (std::size_t node = 0; node < Index::nodes; ++node) {
+        double* const numbers = &row[Index::plain + node * Index::Node::count];
+        numbers[Index::Node::output + i] *= unit;
       }
     }
   }
@@ -352,7 +352,7 @@ SensorlessDesign design_sensorless(const scene::Scene& scene, const NominalPlant
   design.multiple_range = multiple_range(middle);
   design.quick = is_quick(mode_model(middle));
   const double range = design.stiffness_range * middle.stiffness;
-  const double spacing = 2.0 / (sensorless::rows - 1) * range;
+  const double spacing = 2.0 / (Index::rows - 1) * range;
   design.apart = !is_one_with_vibration(middle);
   Resonator lowest = middle;
   lowest.stiffness -= range;

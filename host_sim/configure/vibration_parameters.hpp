@@ -143,23 +143,23 @@ typename control::LaggingReading<Scalar>::Parameters parameters(
 }
 
 /// Exponents of the numbers of a row, so that each fits; see SensorlessObserver::Parameters.
-inline std::array<int, control::sensorless::numbers> sensorless_exponents(
+inline std::array<int, control::SensorlessIndex::count> sensorless_exponents(
     const control::SensorlessTable<double>& table, std::uint8_t& output, std::uint8_t& feedback,
     std::uint8_t& inverse) {
-  namespace sensorless = control::sensorless;
-  std::array<int, sensorless::numbers> exponents{};
-  feedback = exponent_above(table, sensorless::feedback, sensorless::per_velocity);
-  inverse = exponent_above(table, sensorless::per_velocity, sensorless::bend);
+  using Index = control::SensorlessIndex;
+  std::array<int, Index::count> exponents{};
+  feedback = exponent_above(table, Index::feedback, Index::per_velocity);
+  inverse = exponent_above(table, Index::per_velocity, Index::bend);
   output = 0;
-  for (std::size_t node = 0; node < sensorless::nodes; ++node) {
-    const std::size_t first = sensorless::plain + node * sensorless::per_node;
-    output = std::max(output, exponent_above(table, first, first + sensorless::noise));
+  for (std::size_t node = 0; node < Index::nodes; ++node) {
+    const std::size_t first = Index::plain + node * Index::Node::count;
+    output = std::max(output, exponent_above(table, first, first + Index::Node::noise));
   }
-  std::fill(&exponents[sensorless::feedback], &exponents[sensorless::per_velocity], feedback);
-  exponents[sensorless::per_velocity] = inverse;
-  for (std::size_t node = 0; node < sensorless::nodes; ++node) {
-    int* const numbers = &exponents[sensorless::plain + node * sensorless::per_node];
-    std::fill(numbers, numbers + sensorless::noise, output);
+  std::fill(&exponents[Index::feedback], &exponents[Index::per_velocity], feedback);
+  exponents[Index::per_velocity] = inverse;
+  for (std::size_t node = 0; node < Index::nodes; ++node) {
+    int* const numbers = &exponents[Index::plain + node * Index::Node::count];
+    std::fill(numbers, numbers + Index::Node::noise, output);
   }
   return exponents;
 }
@@ -199,7 +199,7 @@ typename control::SensorlessObserver<Scalar>::Parameters parameters(
     const ControlDesign& design, Type<control::SensorlessObserver<Scalar>> /*part*/) {
   const SensorlessDesign& sensorless = *design.in_mode<SensorlessDesign>();
   typename control::SensorlessObserver<Scalar>::Parameters parameters{};
-  std::array<int, control::sensorless::numbers> exponents{};
+  std::array<int, control::SensorlessIndex::count> exponents{};
   if constexpr (numeric::is_fixed_point_v<Scalar>) {
     exponents = sensorless_exponents(sensorless.table, parameters.output_base,
                                      parameters.feedback_base, parameters.inverse_base);
@@ -209,8 +209,8 @@ typename control::SensorlessObserver<Scalar>::Parameters parameters(
         std::min(powers_of_two_in(sensorless.mode_unit / velocity),
                  static_cast<std::uint8_t>(parameters.output_base + parameters.slower));
   }
-  for (std::size_t row = 0; row < control::sensorless::rows; ++row) {
-    for (std::size_t i = 0; i < control::sensorless::numbers; ++i) {
+  for (std::size_t row = 0; row < control::SensorlessIndex::rows; ++row) {
+    for (std::size_t i = 0; i < control::SensorlessIndex::count; ++i) {
       parameters.table[row][i] = scaled_within<Scalar>(
           numeric::scale_by_power_of_two(sensorless.table[row][i], -exponents[i]));
     }

@@ -36,6 +36,8 @@ struct PastAmplitudes {
 /// sum overflows by policy, and only where a velocity or a mode leaves its base.
 template <class Scalar>
 class SensorlessObserver {
+  using Index = SensorlessIndex;
+
  public:
   struct Parameters {
     SensorlessTable<Scalar> table;
@@ -91,9 +93,9 @@ class SensorlessObserver {
   /// A period passes, in which the amplitude is another by this.
   void predict(Scalar change) {
     const Pair<Scalar> mode = lifted(mode_, quieter_);
-    const Pair<Scalar> input_gain = lifted(slope_of(sensorless::input_gain) * change, quieter_);
-    covariance_.predict(value_of(sensorless::rotation),
-                        rotated(mode, slope_of(sensorless::rotation)) + input_gain, mode);
+    const Pair<Scalar> input_gain = lifted(slope_of(Index::input_gain) * change, quieter_);
+    covariance_.predict(value_of(Index::rotation),
+                        rotated(mode, slope_of(Index::rotation)) + input_gain, mode);
     mode_ = next(mode_, change);
   }
 
@@ -103,8 +105,8 @@ class SensorlessObserver {
   /// @param u         the last amplitudes
   /// @param wanted    velocity that is asked for
   void observe(Scalar velocity, Scalar speed, const PastAmplitudes<Scalar>& u, Scalar wanted) {
-    const Scalar driven = row_[sensorless::forced] * u.now + offset_;
-    const Scalar before = row_[sensorless::forced] * numeric::min(u.before, u.earlier) + offset_;
+    const Scalar driven = row_[Index::forced] * u.now + offset_;
+    const Scalar before = row_[Index::forced] * numeric::min(u.before, u.earlier) + offset_;
     // At a velocity below that of the sliding a reading shows nothing of the mode.
     if (!(speed < driven && speed < before)) {
       forget();
@@ -137,23 +139,22 @@ class SensorlessObserver {
 
   /// w a period later, in which the amplitude is another by this.
   Pair<Scalar> next(const Pair<Scalar>& mode, Scalar change) const {
-    return rotated(mode, value_of(sensorless::rotation)) +
-           value_of(sensorless::input_gain) * change;
+    return rotated(mode, value_of(Index::rotation)) + value_of(Index::input_gain) * change;
   }
 
   /// (v − o)/|H|: the amplitude that brings y to v without a mode, a quarter of it.
   Scalar quarter_amplitude(Scalar velocity) const {
-    return lowered(row_[sensorless::per_velocity] * (velocity - offset_), inverse_base_ - 2);
+    return lowered(row_[Index::per_velocity] * (velocity - offset_), inverse_base_ - 2);
   }
 
   /// |H| u: what the drive alone makes, of an amplitude.
-  Scalar nominal_velocity(Scalar amplitude) const { return row_[sensorless::forced] * amplitude; }
+  Scalar nominal_velocity(Scalar amplitude) const { return row_[Index::forced] * amplitude; }
 
   /// K (w, u − u*)
   Scalar feedback(const Pair<Scalar>& mode, Scalar error) const {
-    return numeric::lifted(row_[sensorless::feedback] * mode.first +
-                               row_[sensorless::feedback + 1] * mode.second +
-                               row_[sensorless::feedback + 2] * error,
+    return numeric::lifted(row_[Index::feedback] * mode.first +
+                               row_[Index::feedback + 1] * mode.second +
+                               row_[Index::feedback + 2] * error,
                            feedback_base_);
   }
 
@@ -189,22 +190,21 @@ class SensorlessObserver {
 
   /// C w + g Δu + h Δu₋₁, on the base of C
   Scalar output(Scalar last, Scalar before) const {
-    return row_.of_node(sensorless::output) * mode_.first +
-           row_.of_node(sensorless::output + 1) * mode_.second +
-           row_.of_node(sensorless::last_change) * last +
-           row_.of_node(sensorless::change_before) * before;
+    return row_.of_node(Index::Node::output) * mode_.first +
+           row_.of_node(Index::Node::output + 1) * mode_.second +
+           row_.of_node(Index::Node::last_change) * last +
+           row_.of_node(Index::Node::change_before) * before;
   }
 
   /// The slopes of the forecast over w, o and p, so far lowered that C is on its own base.
   typename SensorlessCovariance<Scalar>::State jacobian(Scalar amplitude, Scalar last,
                                                         Scalar before) const {
-    const Scalar output_slope = row_.slope_of_node(sensorless::output) * mode_.first +
-                                row_.slope_of_node(sensorless::output + 1) * mode_.second +
-                                row_.slope_of_node(sensorless::last_change) * last +
-                                row_.slope_of_node(sensorless::change_before) * before;
-    const Scalar driven_slope =
-        numeric::lifted(row_.slope(sensorless::forced) * amplitude, slower_);
-    return {{row_.of_node(sensorless::output), row_.of_node(sensorless::output + 1)},
+    const Scalar output_slope = row_.slope_of_node(Index::Node::output) * mode_.first +
+                                row_.slope_of_node(Index::Node::output + 1) * mode_.second +
+                                row_.slope_of_node(Index::Node::last_change) * last +
+                                row_.slope_of_node(Index::Node::change_before) * before;
+    const Scalar driven_slope = numeric::lifted(row_.slope(Index::forced) * amplitude, slower_);
+    return {{row_.of_node(Index::Node::output), row_.of_node(Index::Node::output + 1)},
             on_jacobian_base(numeric::from_code<Scalar>(INT32_MAX)),
             numeric::lifted(output_slope, quieter_) + on_jacobian_base(driven_slope)};
   }
@@ -216,7 +216,7 @@ class SensorlessObserver {
         numeric::from_real<Scalar>(0.015) + numeric::scale_by_power_of_two(size * size, -3);
     const Scalar wrong = on_jacobian_base(relative_error * numeric::lifted(driven, slower_));
     const Scalar noise =
-        on_jacobian_base(numeric::lifted(row_.of_node(sensorless::noise), slower_));
+        on_jacobian_base(numeric::lifted(row_.of_node(Index::Node::noise), slower_));
     return wrong * wrong + noise * noise;
   }
 

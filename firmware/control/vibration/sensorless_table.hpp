@@ -10,42 +10,40 @@
 
 namespace sonoglide::control {
 
-/// Places of the numbers of a row of the table.
-namespace sensorless {
+/// Indices of the numbers in a row of the table.
+struct SensorlessIndex {
+  static constexpr std::size_t rotation = 0;      ///< d cos θ and d sin θ, of a period
+  static constexpr std::size_t input_gain = 2;    ///< B: what a change of the amplitude adds
+  static constexpr std::size_t forced = 4;        ///< |H|: steady velocity at full drive
+  static constexpr std::size_t feedback = 5;      ///< K: on the mode and on the amplitude's error
+  static constexpr std::size_t per_velocity = 8;  ///< 1/|H|
+  static constexpr std::size_t bend = 9;          ///< half the square of the angle to the next row
+  static constexpr std::size_t plain = 10;        ///< those of the nodes follow
+  static constexpr std::size_t sloped =
+      feedback;  ///< the slopes of those before this one are of use
 
-inline constexpr std::size_t rotation = 0;      ///< d cos θ and d sin θ, of a period
-inline constexpr std::size_t input_gain = 2;    ///< B: what a change of the amplitude adds
-inline constexpr std::size_t forced = 4;        ///< |H|: steady velocity at full drive
-inline constexpr std::size_t sloped = 5;        ///< the slopes of those before this one are of use
-inline constexpr std::size_t feedback = 5;      ///< K: on the mode and on the amplitude's error
-inline constexpr std::size_t per_velocity = 8;  ///< 1/|H|
-inline constexpr std::size_t bend = 9;          ///< half the square of the angle to the next row
-inline constexpr std::size_t plain = 10;        ///< those of the nodes follow
-/// Nodes of the velocity ratio, whose numbers follow each other: 1/8, 2/8 … 1.
-inline constexpr int node_bits = 3;
-inline constexpr std::size_t nodes = std::size_t{1} << node_bits;
+  /// In a node, which is of a velocity ratio: 1/8, 2/8 … 1.
+  struct Node {
+    static constexpr std::size_t output = 0;       ///< C: what a reading shows of a mode of 1
+    static constexpr std::size_t last_change = 2;  ///< the same of the last change of the amplitude
+    static constexpr std::size_t change_before = 3;  ///< of the one before
+    static constexpr std::size_t noise = 4;          ///< of a reading, rms
+    static constexpr std::size_t count = 5;
+    static constexpr std::size_t sloped = noise;  ///< likewise
+  };
+  static constexpr int node_bits = 3;
+  static constexpr std::size_t nodes = std::size_t{1} << node_bits;
+  static constexpr std::size_t count = plain + nodes * Node::count;
 
-/// Places of the numbers of a node.
-inline constexpr std::size_t output = 0;         ///< C: what a reading shows of a mode of 1
-inline constexpr std::size_t last_change = 2;    ///< the same of the last change of the amplitude
-inline constexpr std::size_t change_before = 3;  ///< of the one before
-inline constexpr std::size_t noise = 4;          ///< of a reading, rms
-inline constexpr std::size_t per_node = 5;
-/// The slopes of those of a node before this one are of use.
-inline constexpr std::size_t sloped_of_node = noise;
-
-inline constexpr std::size_t numbers = plain + nodes * per_node;
-
-/// Over the range of natural frequencies, equally far apart.
-inline constexpr int row_bits = 3;
-inline constexpr std::size_t rows = (std::size_t{1} << row_bits) + 1;
-
-}  // namespace sensorless
+  /// Rows over the range of natural frequencies, equally far apart.
+  static constexpr int row_bits = 3;
+  static constexpr std::size_t rows = (std::size_t{1} << row_bits) + 1;
+};
 
 template <class Scalar>
-using SensorlessRow = std::array<Scalar, sensorless::numbers>;
+using SensorlessRow = std::array<Scalar, SensorlessIndex::count>;
 template <class Scalar>
-using SensorlessTable = std::array<SensorlessRow<Scalar>, sensorless::rows>;
+using SensorlessTable = std::array<SensorlessRow<Scalar>, SensorlessIndex::rows>;
 
 /// A table at a frequency between its rows and at a velocity ratio between its nodes, and the
 /// slopes over the frequency: linear interpolation. Between two turns it would fall short of the
@@ -55,6 +53,8 @@ using SensorlessTable = std::array<SensorlessRow<Scalar>, sensorless::rows>;
 /// place.
 template <class Scalar>
 class SensorlessInterpolation {
+  using Index = SensorlessIndex;
+
  public:
   /// @param table  stays where it is: it outlives this
   explicit SensorlessInterpolation(const SensorlessTable<Scalar>& table) : table_(&table) {}
@@ -64,44 +64,43 @@ class SensorlessInterpolation {
 
   /// @param frequency_parameter  from -1 at the first row to 1 at the last
   void go(Scalar frequency_parameter) {
-    constexpr int shift = 32 - sensorless::row_bits;
+    constexpr int shift = 32 - Index::row_bits;
     const std::int32_t code = numeric::to_code(frequency_parameter);
-    constexpr int middle = 1 << (sensorless::row_bits - 1);
+    constexpr int middle = 1 << (Index::row_bits - 1);
     const int below = (code >> shift) + middle;
     row_ = static_cast<std::size_t>(below);
-    along_ = fraction(code, sensorless::row_bits);
-    for (std::size_t i = 0; i < sensorless::plain; ++i) {
+    along_ = fraction(code, Index::row_bits);
+    for (std::size_t i = 0; i < Index::plain; ++i) {
       const Scalar low = (*table_)[row_][i];
       const Scalar rise = (*table_)[row_ + 1][i] - low;
       values_[i] = low + numeric::rough_product(rise, along_);
-      if (i < sensorless::sloped) {
+      if (i < Index::sloped) {
         slopes_[i] = slope_of(rise);
       }
     }
     constexpr Scalar whole = numeric::from_code<Scalar>(INT32_MAX);
-    const Scalar longer = numeric::rough_product(values_[sensorless::bend],
+    const Scalar longer = numeric::rough_product(values_[Index::bend],
                                                  numeric::rough_product(along_, whole - along_));
     for (std::size_t i = 0; i < 2; ++i) {
-      values_[sensorless::rotation + i] =
-          values_[sensorless::rotation + i] +
-          numeric::rough_product(values_[sensorless::rotation + i], longer);
+      values_[Index::rotation + i] = values_[Index::rotation + i] +
+                                     numeric::rough_product(values_[Index::rotation + i], longer);
     }
   }
 
   /// @param ratio  velocity ratio; below 1/8 as at 1/8
   void look(Scalar ratio) {
     const std::int32_t code = numeric::to_code(ratio);
-    const auto eighths = static_cast<std::size_t>(code >> (31 - sensorless::node_bits));
+    const auto eighths = static_cast<std::size_t>(code >> (31 - Index::node_bits));
     const std::size_t node = eighths == 0 ? 0 : eighths - 1;
-    const Scalar part = eighths == 0 ? Scalar{}
-                                     : fraction(code & (INT32_MAX >> sensorless::node_bits),
-                                                sensorless::node_bits + 1);
-    const std::size_t first = sensorless::plain + node * sensorless::per_node;
-    for (std::size_t i = 0; i < sensorless::per_node; ++i) {
+    const Scalar part =
+        eighths == 0 ? Scalar{}
+                     : fraction(code & (INT32_MAX >> Index::node_bits), Index::node_bits + 1);
+    const std::size_t first = Index::plain + node * Index::Node::count;
+    for (std::size_t i = 0; i < Index::Node::count; ++i) {
       const Scalar low = between((*table_)[row_], first + i, part);
       const Scalar rise = between((*table_)[row_ + 1], first + i, part) - low;
       node_values_[i] = low + numeric::rough_product(rise, along_);
-      if (i < sensorless::sloped_of_node) {
+      if (i < Index::Node::sloped) {
         node_slopes_[i] = slope_of(rise);
       }
     }
@@ -122,12 +121,12 @@ class SensorlessInterpolation {
   }
 
   static Scalar between(const SensorlessRow<Scalar>& row, std::size_t i, Scalar part) {
-    return row[i] + numeric::rough_product(part, row[i + sensorless::per_node] - row[i]);
+    return row[i] + numeric::rough_product(part, row[i + Index::Node::count] - row[i]);
   }
 
   /// From one row to the next the frequency parameter moves by 2/8.
   static Scalar slope_of(Scalar rise) {
-    constexpr int steep = sensorless::row_bits - 1;
+    constexpr int steep = Index::row_bits - 1;
     if constexpr (numeric::is_fixed_point_v<Scalar>) {
       return numeric::lifted(rise, steep);
     } else {
@@ -138,10 +137,10 @@ class SensorlessInterpolation {
   const SensorlessTable<Scalar>* table_;
   std::size_t row_ = 0;
   Scalar along_{};
-  std::array<Scalar, sensorless::plain> values_{};
-  std::array<Scalar, sensorless::sloped> slopes_{};
-  std::array<Scalar, sensorless::per_node> node_values_{};
-  std::array<Scalar, sensorless::sloped_of_node> node_slopes_{};
+  std::array<Scalar, Index::plain> values_{};
+  std::array<Scalar, Index::sloped> slopes_{};
+  std::array<Scalar, Index::Node::count> node_values_{};
+  std::array<Scalar, Index::Node::sloped> node_slopes_{};
 };
 
 }  // namespace sonoglide::control

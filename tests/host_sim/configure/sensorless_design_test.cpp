@@ -14,7 +14,7 @@
 namespace sonoglide::configure::sensorless_design_test {
 namespace {
 
-namespace sensorless = control::sensorless;
+using Index = control::SensorlessIndex;
 
 using tests::pi;
 using tests::with_natural_frequency;
@@ -28,10 +28,9 @@ double slowest_pole(const SensorlessDesign& design, double frequency_parameter, 
   const ModeModel model =
       mode_model({stiffness * (1.0 + frequency_parameter * design.stiffness_range), 0.0, 1.0});
   Eigen::Vector3d change;
-  change << row[sensorless::input_gain], row[sensorless::input_gain + 1], 1.0;
+  change << row[Index::input_gain], row[Index::input_gain + 1], 1.0;
   Eigen::RowVector3d feedback;
-  feedback << row[sensorless::feedback], row[sensorless::feedback + 1],
-      row[sensorless::feedback + 2];
+  feedback << row[Index::feedback], row[Index::feedback + 1], row[Index::feedback + 2];
   Eigen::Matrix3d loop = Eigen::Matrix3d::Identity();
   loop.topLeftCorner<2, 2>() = model.rotation;
   loop -= change * feedback;
@@ -64,11 +63,11 @@ TEST(SensorlessDesignTest, AModeWithoutDampingKeepsItsSizeBetweenTheRows) {
       row.go(frequency_parameter);
       const double angle =
           2.0 * pi * mode * std::sqrt(1.0 + frequency_parameter * design.stiffness_range);
-      EXPECT_NEAR(row[sensorless::rotation], std::cos(angle), 4e-3)
+      EXPECT_NEAR(row[Index::rotation], std::cos(angle), 4e-3)
           << mode << ' ' << frequency_parameter;
-      EXPECT_NEAR(row[sensorless::rotation + 1], std::sin(angle), 4e-3)
+      EXPECT_NEAR(row[Index::rotation + 1], std::sin(angle), 4e-3)
           << mode << ' ' << frequency_parameter;
-      EXPECT_NEAR(std::hypot(row[sensorless::rotation], row[sensorless::rotation + 1]), 1.0, 2e-4)
+      EXPECT_NEAR(std::hypot(row[Index::rotation], row[Index::rotation + 1]), 1.0, 2e-4)
           << mode << ' ' << frequency_parameter;
     }
   }
@@ -82,14 +81,13 @@ TEST(SensorlessDesignTest, AModeThatIsOneWithTheVibrationCountsAsAGain) {
         design_sensorless(scene, nominal_plant(scene), velocity_m_per_s);
     ASSERT_FALSE(design.apart) << mode;
     const control::SensorlessRow<double>& first = design.table[0];
-    const control::SensorlessRow<double>& last = design.table[sensorless::rows - 1];
-    EXPECT_NEAR(last[sensorless::forced] / first[sensorless::forced], 1.2 * std::hypot(1.0, mode),
-                1e-9);
+    const control::SensorlessRow<double>& last = design.table[Index::rows - 1];
+    EXPECT_NEAR(last[Index::forced] / first[Index::forced], 1.2 * std::hypot(1.0, mode), 1e-9);
     for (const control::SensorlessRow<double>& row : design.table) {
-      EXPECT_EQ(row[sensorless::input_gain], 0.0);
-      EXPECT_EQ(row[sensorless::input_gain + 1], 0.0);
-      EXPECT_EQ(row[sensorless::plain + sensorless::output], 0.0);
-      EXPECT_NEAR(row[sensorless::per_velocity] * row[sensorless::forced], 1.0, 1e-12);
+      EXPECT_EQ(row[Index::input_gain], 0.0);
+      EXPECT_EQ(row[Index::input_gain + 1], 0.0);
+      EXPECT_EQ(row[Index::plain + Index::Node::output], 0.0);
+      EXPECT_NEAR(row[Index::per_velocity] * row[Index::forced], 1.0, 1e-12);
     }
     // Damping tells it: it dies within fewer than 20 periods.
     scene.plant.damping_N_s_per_m = 0.1 * scene.plant.mass_kg * scene.drive->frequency_Hz * 1.01;

@@ -46,17 +46,18 @@ typename SensorlessCovariance<S>::Parameters covariance(double wrong) {
 template <class S>
 typename SensorlessObserver<S>::Parameters parameters(double noise, double wrong = 1.0) {
   typename SensorlessObserver<S>::Parameters all{};
-  for (std::size_t i = 0; i < sensorless::rows; ++i) {
-    const double frequency_parameter = 2.0 * static_cast<double>(i) / (sensorless::rows - 1) - 1.0;
+  for (std::size_t i = 0; i < SensorlessIndex::rows; ++i) {
+    const double frequency_parameter =
+        2.0 * static_cast<double>(i) / (SensorlessIndex::rows - 1) - 1.0;
     SensorlessRow<S>& row = all.table[i];
-    row[sensorless::rotation] = scaled<S>(std::cos(angle(frequency_parameter)));
-    row[sensorless::rotation + 1] = scaled<S>(std::sin(angle(frequency_parameter)));
-    row[sensorless::input_gain + 1] = scaled<S>(input_gain);
-    row[sensorless::forced] = scaled<S>(forced);
-    for (std::size_t node = 0; node < sensorless::nodes; ++node) {
-      S* const numbers = &row[sensorless::plain + node * sensorless::per_node];
-      numbers[sensorless::output] = scaled<S>(output);
-      numbers[sensorless::noise] = scaled<S>(noise);
+    row[SensorlessIndex::rotation] = scaled<S>(std::cos(angle(frequency_parameter)));
+    row[SensorlessIndex::rotation + 1] = scaled<S>(std::sin(angle(frequency_parameter)));
+    row[SensorlessIndex::input_gain + 1] = scaled<S>(input_gain);
+    row[SensorlessIndex::forced] = scaled<S>(forced);
+    for (std::size_t node = 0; node < SensorlessIndex::nodes; ++node) {
+      S* const numbers = &row[SensorlessIndex::plain + node * SensorlessIndex::Node::count];
+      numbers[SensorlessIndex::Node::output] = scaled<S>(output);
+      numbers[SensorlessIndex::Node::noise] = scaled<S>(noise);
     }
   }
   all.covariance = covariance<S>(wrong);
