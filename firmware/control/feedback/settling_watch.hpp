@@ -77,7 +77,9 @@ class SettlingWatch {
   }
 
   /// The target, or 0 where a velocity is another than a ratio that agrees with the target would need.
+  /// @param target       friction ratio
   /// @param requested    velocity that the target needs
+  /// @param velocity     that the steady amplitude holds
   /// @param velocity_of  that a ratio needs
   template <class VelocityOf>
   Scalar implied_ratio(Scalar target, Scalar requested, Scalar velocity,
