@@ -30,6 +30,8 @@ void add_fmu_command(CLI::App& program);
 void add_schema_command(CLI::App& program);
 /// Prints a shell's completion script alone.
 void add_completion_command(CLI::App& program);
+/// What that script asks; the help does not list it.
+void add_complete_command(CLI::App& program);
 
 /// In the order of the help.
 inline constexpr std::array commands = {
@@ -40,7 +42,7 @@ inline constexpr std::array commands = {
     add_stability_command,  add_arithmetic_command,
     add_design_command,     add_identify_command,
     add_fmu_command,        add_schema_command,
-    add_completion_command,
+    add_completion_command, add_complete_command,
 };
 
 }  // namespace sonoglide::cli

@@ -74,15 +74,14 @@ std::string hint(int argument_count, const char* const* arguments,
   std::string name = "sonoglide";
   const CLI::App* command = &program;
   for (int i = 1; i < argument_count; ++i) {
-    const auto named = command->get_subcommands(
-        [&](const CLI::App* each) { return each->get_name() == arguments[i]; });
-    if (named.empty()) {
+    const CLI::App* named = command_named(*command, arguments[i]);
+    if (named == nullptr) {
       break;
     }
-    command = named.front();
+    command = named;
     name += ' ' + command->get_name();
   }
-  const bool is_group = !command->get_subcommands([](const CLI::App*) { return true; }).empty();
+  const bool is_group = !commands_of(*command).empty();
   return fmt::format("{} --help lists the {}", name, is_group ? "commands" : "options");
 }
 

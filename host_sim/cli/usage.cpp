@@ -57,10 +57,8 @@ class Words {
   }
 
   void take_argument(const std::string& word) {
-    const auto commands =
-        app_->get_subcommands([&](const CLI::App* each) { return each->get_name() == word; });
-    if (!commands.empty()) {
-      app_ = commands.front();
+    if (const CLI::App* command = command_named(*app_, word)) {
+      app_ = command;
       name_ += (name_.empty() ? "" : " ") + word;
       arguments_ = 0;
       return;
@@ -90,7 +88,7 @@ class Words {
 
   void report_argument(const std::string& word) {
     std::vector<std::string> names;
-    for (const CLI::App* command : app_->get_subcommands([](const CLI::App*) { return true; })) {
+    for (const CLI::App* command : commands_of(*app_)) {
       names.push_back(command->get_name());
     }
     if (names.empty()) {
@@ -133,6 +131,16 @@ bool asks_for_help(const std::vector<std::string>& words) {
 }
 
 }  // namespace
+
+std::vector<const CLI::App*> commands_of(const CLI::App& command) {
+  return command.get_subcommands([](const CLI::App* each) { return !each->get_group().empty(); });
+}
+
+const CLI::App* command_named(const CLI::App& command, const std::string& name) {
+  const auto found =
+      command.get_subcommands([&](const CLI::App* each) { return each->get_name() == name; });
+  return found.empty() ? nullptr : found.front();
+}
 
 void require_known_words(const CLI::App& program, int argument_count,
                          const char* const* arguments) {
