@@ -3,8 +3,8 @@
 #include "firmware/app/control_loop.hpp"
 #include "firmware/app/target_schedule.hpp"
 #include "firmware/control/controller.hpp"
+#include "firmware/image/plant/watched_board.hpp"
 #include "hal/semihosting/report.hpp"
-#include "hal/simulated/watched_board.hpp"
 #include "plant_configuration.hpp"
 
 namespace {
@@ -12,7 +12,7 @@ namespace {
 namespace configuration = sonoglide::app::configuration;
 namespace hal = sonoglide::hal;
 
-using WatchedBoard = hal::simulated::WatchedBoard<configuration::PlantBoard>;
+using WatchedBoard = sonoglide::image::WatchedBoard<configuration::PlantBoard>;
 
 void run(WatchedBoard& board) {
   sonoglide::control::Controller<configuration::Parts> controller(configuration::parameters);

@@ -143,11 +143,11 @@ PlantText float_plant(const SceneNumbers& scene) {
 #include "firmware/plant/contact.hpp"
 #include "firmware/plant/model.hpp"
 #include "firmware/plant/strang/equal_step_strang.hpp"
-#include "hal/simulated/plant_board.hpp"
+#include "firmware/image/plant/plant_board.hpp"
 )",
       fmt::format(
           R"(using PlantModel = plant::Model<friction::Dahl<float>, plant::{}<float>, plant::CosineDrive>;
-using PlantBoard = hal::simulated::PlantBoard<plant::EqualStepStrang<PlantModel>, {}>;
+using PlantBoard = image::PlantBoard<plant::EqualStepStrang<PlantModel>, {}>;
 
 inline constexpr PlantBoard::Parameters plant_parameters{{
     {},  // contact, damping, stiffness
@@ -233,9 +233,9 @@ PlantText fixed_plant(const SceneNumbers& scene) {
   SolverLines solver;
   plant::FixedStrangParameters::fields(parameters, solver);
   return {
-      R"(#include "hal/simulated/fixed_plant_board.hpp"
+      R"(#include "firmware/image/plant/fixed_plant_board.hpp"
 )",
-      fmt::format(R"(using PlantBoard = hal::simulated::FixedPlantBoard<{}>;
+      fmt::format(R"(using PlantBoard = image::FixedPlantBoard<{}>;
 
 inline constexpr PlantBoard::Parameters plant_parameters{{
     {{

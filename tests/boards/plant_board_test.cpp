@@ -1,5 +1,5 @@
 // The board that is a plant: its sensor against the simulation's, its drive, and who watches it.
-#include "hal/simulated/plant_board.hpp"
+#include "firmware/image/plant/plant_board.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
@@ -7,10 +7,10 @@
 
 #include <cstdint>
 
+#include "firmware/image/plant/watched_board.hpp"
 #include "firmware/numeric/float_format.hpp"
 #include "firmware/plant/outcome.hpp"
 #include "firmware/plant/state.hpp"
-#include "hal/simulated/watched_board.hpp"
 #include "host_sim/loop/sensor.hpp"
 #include "tests/common/constants/pi.hpp"
 
@@ -27,7 +27,7 @@ extern "C" std::uint32_t read_counter() {
   return counter;
 }
 
-namespace sonoglide::hal::simulated::plant_board_test {
+namespace sonoglide::image::plant_board_test {
 namespace {
 
 struct AnyModel {};
@@ -70,8 +70,8 @@ RC_GTEST_FIXTURE_PROP(PlantBoardTest, SamplesAsTheIdealSensorOfASimulationDoes, 
       *rc::gen::resize(rc::kNominalSize, rc::gen::arbitrary<std::uint32_t>()));
   RC_PRE(numeric::is_finite(force));
   ToldSolver::friction_integral = force;
-  const Sample expected = sensor.sample(static_cast<double>(force), 0.0);
-  Sample sample{};
+  const hal::Sample expected = sensor.sample(static_cast<double>(force), 0.0);
+  hal::Sample sample{};
   RC_ASSERT(board_.sample(sample));
   RC_ASSERT(sample.friction_force == expected.friction_force);
   RC_ASSERT(sample.force_at_rail == expected.force_at_rail);
@@ -85,8 +85,8 @@ TEST_F(PlantBoardTest, SamplesAsTheSimulationAboutTheRailsAndZero) {
        {1.0F, 0x1.fffffep-1F, 0x1.000002p0F, -1.0F, -0x1.fffffep-1F, -0x1.000002p0F, 0.0F, -0.0F,
         0x1p-32F, -0x1p-32F, 0x1.8p-31F, -0x1.8p-31F, 0x1p-33F, 1e30F, -1e30F}) {
     ToldSolver::friction_integral = force;
-    const Sample expected = sensor.sample(static_cast<double>(force), 0.0);
-    Sample sample{};
+    const hal::Sample expected = sensor.sample(static_cast<double>(force), 0.0);
+    hal::Sample sample{};
     EXPECT_TRUE(board_.sample(sample));
     EXPECT_EQ(sample.friction_force, expected.friction_force) << force;
     EXPECT_EQ(sample.force_at_rail, expected.force_at_rail) << force;
@@ -96,14 +96,14 @@ TEST_F(PlantBoardTest, SamplesAsTheSimulationAboutTheRailsAndZero) {
 TEST_F(PlantBoardTest, NamesAVelocityAtTheEndOfItsRange) {
   for (const std::int32_t code : {INT32_MIN, INT32_MIN + 1, -1, 0, INT32_MAX - 1, INT32_MAX}) {
     PlantBoard<ToldSolver, 0> board({{}, 1.0F, {}, 2.0F, 1.0F, 0.25F, code});
-    Sample sample{};
+    hal::Sample sample{};
     board.sample(sample);
     EXPECT_EQ(sample.velocity_at_rail, code == INT32_MIN || code == INT32_MAX) << code;
   }
 }
 
 TEST_F(PlantBoardTest, LivesThroughOnePeriodUnderTheLatestDrive) {
-  Sample sample{};
+  hal::Sample sample{};
   board_.sample(sample);
   EXPECT_EQ(ToldSolver::asked.drive_amplitude, 0.0F);
   EXPECT_EQ(ToldSolver::asked.phase_begin, 0.0F);
@@ -117,21 +117,21 @@ TEST_F(PlantBoardTest, LivesThroughOnePeriodUnderTheLatestDrive) {
 
 TEST_F(PlantBoardTest, ShutsDownWhereTheSolverCannotGoOn) {
   ToldSolver::error = plant::Error::not_finite;
-  Sample sample{};
+  hal::Sample sample{};
   EXPECT_FALSE(board_.sample(sample));
 }
 
 TEST_F(PlantBoardTest, IsWatchedWithoutADifference) {
   WatchedBoard watched(board_);
-  TraceHash samples;
-  TraceHash drives;
+  hal::TraceHash samples;
+  hal::TraceHash drives;
   for (std::int32_t i = 1; i <= 3; ++i) {
-    Sample sample{};
+    hal::Sample sample{};
     ToldSolver::friction_integral = 0.25F * static_cast<float>(i);
     ASSERT_TRUE(watched.sample(sample));
     EXPECT_EQ(sample.friction_force, i << 29);
     counter += static_cast<std::uint32_t>(10 * i);  // the controller at work
-    const Drive drive{i << 28, i << 27, 1, 2, 3, 4};
+    const hal::Drive drive{i << 28, i << 27, 1, 2, 3, 4};
     watched.drive(drive);
     samples.add(sample);
     drives.add(drive);
@@ -146,10 +146,10 @@ TEST_F(PlantBoardTest, IsWatchedWithoutADifference) {
   EXPECT_EQ(watched.answering().sum(), 60U);
 
   ToldSolver::error = plant::Error::not_finite;
-  Sample sample{};
+  hal::Sample sample{};
   EXPECT_FALSE(watched.sample(sample));
   EXPECT_EQ(watched.sample_hash(), samples.value());
 }
 
 }  // namespace
-}  // namespace sonoglide::hal::simulated::plant_board_test
+}  // namespace sonoglide::image::plant_board_test

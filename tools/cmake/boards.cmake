@@ -12,7 +12,7 @@
 sonoglide_room(sonoglide_lockstep hal/lockstep USES sonoglide_hal)
 sonoglide_room(sonoglide_start hal/start)
 sonoglide_room(sonoglide_timed hal/timed USES sonoglide_hal)
-sonoglide_room(sonoglide_simulated hal/simulated
+sonoglide_room(sonoglide_image_plant firmware/image/plant
   USES sonoglide_strang sonoglide_hal sonoglide_start)
 
 # sonoglide_image(<target> SOURCE <main> FOLDER <configuration> MEMORY <linker script>
@@ -51,7 +51,7 @@ function(sonoglide_plant_images memory)
     if(EXISTS "${folder}/plant_configuration.hpp")
       get_filename_component(name "${folder}" NAME)
       sonoglide_image(${name}_plant SOURCE firmware/image/plant_main.cpp FOLDER "${folder}" MEMORY ${memory}
-        USES sonoglide_simulated sonoglide_processor sonoglide_semihosting)
+        USES sonoglide_image_plant sonoglide_processor sonoglide_semihosting)
     endif()
   endforeach()
 endfunction()

@@ -35,7 +35,7 @@ function(sonoglide_drivers name)
 endfunction()
 
 sonoglide_drivers(arm FLAGS --target=thumbv7em-none-eabi
-  FOLDERS hal hal/start hal/timed hal/halt hal/lockstep hal/lockstep/board hal/semihosting hal/simulated
+  FOLDERS hal hal/start hal/timed hal/halt hal/lockstep hal/lockstep/board hal/semihosting
     hal/cortex_m hal/microbit hal/mps2 hal/netduinoplus2 hal/template)
 sonoglide_drivers(riscv FLAGS --target=riscv32-unknown-elf -march=rv32imac -mabi=ilp32
   FOLDERS hal/semihosting hal/riscv hal/riscv_virt)

@@ -7,7 +7,7 @@
 #include "hal/start/counter.hpp"
 #include "hal/trace_hash.hpp"
 
-namespace sonoglide::hal::simulated {
+namespace sonoglide::image {
 
 /// Smallest, largest and sum of counts, in the unit of the processor's counter.
 class CountRange {
@@ -34,7 +34,7 @@ class WatchedBoard {
  public:
   explicit WatchedBoard(Board& board) : board_(board) { start_counter(); }
 
-  bool sample(Sample& sample) {
+  bool sample(hal::Sample& sample) {
     const std::uint32_t begin = read_counter();
     if (!board_.sample(sample)) {
       return false;
@@ -46,7 +46,7 @@ class WatchedBoard {
     return true;
   }
 
-  void drive(const Drive& drive) {
+  void drive(const hal::Drive& drive) {
     answering_.add(read_counter() - sampled_);
     drives_.add(drive);
     board_.drive(drive);
@@ -61,12 +61,12 @@ class WatchedBoard {
 
  private:
   Board& board_;
-  TraceHash samples_;
-  TraceHash drives_;
+  hal::TraceHash samples_;
+  hal::TraceHash drives_;
   CountRange sampling_;
   CountRange answering_;
   std::uint32_t sampled_ = 0;
   std::uint32_t periods_ = 0;
 };
 
-}  // namespace sonoglide::hal::simulated
+}  // namespace sonoglide::image

@@ -4,14 +4,13 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "firmware/image/plant/signal_path.hpp"
 #include "firmware/numeric/fixed.hpp"
 #include "firmware/numeric/scalar.hpp"
 #include "firmware/plant/strang/fixed_point_strang.hpp"
 #include "hal/board.hpp"
-#include "hal/simulated/drive_latency.hpp"
-#include "hal/simulated/rail.hpp"
 
-namespace sonoglide::hal::simulated {
+namespace sonoglide::image {
 
 /// As PlantBoard, for a processor without a floating-point unit.
 template <std::size_t LatencyPeriods>
@@ -29,7 +28,7 @@ class FixedPlantBoard {
         sliding_code_(parameters.sliding_code) {}
 
   /// False from the period on in which the motion has left the range of the integers.
-  bool sample(Sample& sample) {
+  bool sample(hal::Sample& sample) {
     constexpr int fraction_bits = 31;  // of 2^(6 + 30 + 26), 2^31 are in the code
     const std::int64_t force = numeric::shift_right_rounded(
         plant_.advance(amplitude_.in_force()) * force_per_friction_, fraction_bits);
@@ -39,7 +38,7 @@ class FixedPlantBoard {
     return plant_.saturations() == 0;
   }
 
-  void drive(const Drive& drive) { amplitude_.take(drive.amplitude); }
+  void drive(const hal::Drive& drive) { amplitude_.take(drive.amplitude); }
 
  private:
   plant::FixedStrang plant_;
@@ -48,4 +47,4 @@ class FixedPlantBoard {
   DriveLatency<std::int32_t, LatencyPeriods> amplitude_;
 };
 
-}  // namespace sonoglide::hal::simulated
+}  // namespace sonoglide::image

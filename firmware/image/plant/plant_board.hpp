@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "firmware/image/plant/signal_path.hpp"
 #include "firmware/numeric/scalar.hpp"
 #include "firmware/numeric/turn.hpp"
 #include "firmware/plant/account.hpp"
@@ -11,10 +12,8 @@
 #include "firmware/plant/solver.hpp"
 #include "firmware/plant/state.hpp"
 #include "hal/board.hpp"
-#include "hal/simulated/drive_latency.hpp"
-#include "hal/simulated/rail.hpp"
 
-namespace sonoglide::hal::simulated {
+namespace sonoglide::image {
 
 /// Each sample takes one carrier period of the plant, from drive phase 0 to 2 pi, under the latest
 /// drive amplitude. The sensor is ideal: the code nearest to the mean friction force of the period,
@@ -48,7 +47,7 @@ class PlantBoard {
   }
 
   /// False where the solver cannot go on.
-  bool sample(Sample& sample) {
+  bool sample(hal::Sample& sample) {
     constexpr Scalar two_pi = numeric::from_real<Scalar>(numeric::two_pi);
     plant::MeanFriction<Scalar> account;
     plant::NoObserver nobody;
@@ -61,7 +60,7 @@ class PlantBoard {
     return outcome.error == plant::Error::none;
   }
 
-  void drive(const Drive& drive) {
+  void drive(const hal::Drive& drive) {
     amplitude_.take(full_drive_ * numeric::from_code<Scalar>(drive.amplitude));
   }
 
@@ -75,4 +74,4 @@ class PlantBoard {
   Solver solver_;
 };
 
-}  // namespace sonoglide::hal::simulated
+}  // namespace sonoglide::image

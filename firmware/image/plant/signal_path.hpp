@@ -1,11 +1,19 @@
-/// The latency of a drive: commands act some carrier periods late.
+/// What lies between the plant of an image and its controller: an ideal converter and a late drive.
 #pragma once
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 
-namespace sonoglide::hal::simulated {
+namespace sonoglide::image {
 
+/// Whether a converter of 32 bits that gives this code stands at either end of its range.
+constexpr bool at_rail(std::int32_t code) {
+  return code == INT32_MAX || code == INT32_MIN;
+}
+
+/// A drive whose commands act some carrier periods late.
+///
 /// @tparam Periods  from the end of the period that a sample describes to the phase 0 at which its
 ///                  answer acts
 template <class Amplitude, std::size_t Periods>
@@ -25,4 +33,4 @@ class DriveLatency {
   std::array<Amplitude, Periods + 1> queue_{};
 };
 
-}  // namespace sonoglide::hal::simulated
+}  // namespace sonoglide::image
