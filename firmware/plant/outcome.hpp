@@ -7,14 +7,14 @@ namespace sonoglide::plant {
 
 enum class Error {
   none,
-  not_finite,             ///< displacement, velocity or friction is no longer a number
+  not_finite,             ///< displacement, velocity or friction is, or would be, no number
   friction_bound_broken,  ///< |phi| > 1: the step is too long for the contact
   too_many_steps,         ///< the step limit of an advance was reached
   step_too_long,          ///< for the contact or the oscillator, seen before the state shows it
 };
 
-/// After an error the state is that of `offset`: for too_many_steps and step_too_long the last
-/// one reached, otherwise the first one that is wrong.
+/// After an error the state is that of `offset`: for too_many_steps, step_too_long and a step that
+/// could not be begun the last one reached, otherwise the first one that is wrong.
 template <class Scalar>
 struct Outcome {
   Error error = Error::none;

@@ -84,9 +84,9 @@ class EventTaylor {
         return {Error::too_many_steps, position.offset};
       }
       settle(interval, position, state);
-      step(interval, position, state, account, observer);
-      if (!is_finite(state)) {
-        return {Error::not_finite, position.offset};
+      const Error error = step(interval, position, state, account, observer);
+      if (error != Error::none) {
+        return {error, position.offset};
       }
     }
     return {Error::none, interval.duration};
@@ -187,8 +187,8 @@ class EventTaylor {
   // ---- Which kind of step: sliding, sticking, pressed ----
 
   template <class Account, class Observer>
-  void step(const Interval<Scalar>& interval, Position& position, StateOf<Law>& state,
-            Account& account, Observer& observer) {
+  Error step(const Interval<Scalar>& interval, Position& position, StateOf<Law>& state,
+             Account& account, Observer& observer) {
     const Scalar epsilon = std::numeric_limits<Scalar>::epsilon();
     const Scalar change = sliding_change(interval, position);
     const Scalar phase = interval.phase_begin + position.offset;
@@ -200,28 +200,32 @@ class EventTaylor {
                         state};
     if constexpr (is_normal) {
       press(interval, instant, position, state, account, observer);
-    } else {
-      rub(interval, instant, position, state, account, observer);
+    } else if (const Error error = rub(interval, instant, position, state, account, observer);
+               error != Error::none) {
+      return error;
     }
+    return is_finite(state) ? Error::none : Error::not_finite;
   }
 
   /// The contact rubs on the vibrating mass: it slides, turns or sticks.
+  ///
+  /// @return not_finite where a coefficient is beyond the largest number in any unit of time
   template <class Account, class Observer>
-  void rub(const Interval<Scalar>& interval, const At& instant, Position& position,
-           StateOf<Law>& state, Account& account, Observer& observer) {
+  Error rub(const Interval<Scalar>& interval, const At& instant, Position& position,
+            StateOf<Law>& state, Account& account, Observer& observer) {
     Branch<Scalar> branch = choose_branch(instant, position.released);
     position.released = Scalar(0);
     if constexpr (Law::sticks) {
       if (branch.sticks) {
         stick(interval, instant, branch, position, state, account, observer);
-        return;
+        return Error::none;
       }
     }
     Scalar unit = sliding_unit(instant, interval.duration - position.offset);
     do {
       switch (slide(interval, instant, branch, unit, position, state, account, observer)) {
         case Slide::done:
-          return;
+          return Error::none;
         case Slide::reversal_too_close:
           branch = {false, -branch.direction, branch.zero_order + 1};
           break;
@@ -230,7 +234,7 @@ class EventTaylor {
           break;
       }
     } while (unit > std::numeric_limits<Scalar>::min());
-    state.velocity = std::numeric_limits<Scalar>::quiet_NaN();
+    return Error::not_finite;
   }
 
   /// Change of the sliding velocity since the interval began.

@@ -39,6 +39,20 @@ TEST(SolverError, NotFinite) {
   EXPECT_LT(grown.offset, 0.8);
 }
 
+TEST(SolverError, NotFiniteBeforeAStepLeavesTheStateAsItWas) {
+  auto solver = configured<Taylor>(ordinary, 1e-8);
+  NoAccount account;
+  State<double> state = {0.25, 1.0, 0.5};
+  const double endless = std::numeric_limits<double>::infinity();
+  const auto refused = advance(solver, lasting(1.0).driven(endless).sliding(0.5), state, account);
+  EXPECT_EQ(refused.error, Error::not_finite);
+  EXPECT_EQ(refused.offset, 0.0);
+  EXPECT_EQ(state.displacement, 0.25);
+  EXPECT_EQ(state.velocity, 1.0);
+  EXPECT_EQ(state.friction, 0.5);
+  EXPECT_EQ(solver.cost().steps, 0U);
+}
+
 TEST(SolverError, FrictionBoundBrokenByRk4InAStiffContact) {
   const Contact stiff = Case().contact_stiffness(1e4).friction_force(0.1).stiffness(0.5);
   const Outcome<double> broken = outcome<Rk4<Contact>>(stiff, 1e-2, period, {});
