@@ -4,6 +4,7 @@
 #include <cstddef>
 
 #include "firmware/numeric/turn.hpp"
+#include "host_sim/loop/make_plant_port.hpp"
 
 namespace sonoglide::loop {
 namespace {

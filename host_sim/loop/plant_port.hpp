@@ -1,14 +1,12 @@
 /// The plant seen from the simulation, in SI units, whatever it is composed of.
 #pragma once
 
-#include <memory>
 #include <vector>
 
 #include "firmware/plant/outcome.hpp"
 #include "host_sim/loop/energy.hpp"
 #include "host_sim/loop/snapshot.hpp"
-#include "host_sim/loop/step_meter.hpp"
-#include "host_sim/scene/scene.hpp"
+#include "host_sim/loop/stretch.hpp"
 
 namespace sonoglide::loop {
 
@@ -16,22 +14,6 @@ struct PlantState {
   double displacement_m;
   double velocity_m_per_s;
   double friction_force_N;
-};
-
-/// A stretch of time with one drive amplitude and a linear sliding velocity that keeps its sign.
-struct Stretch {
-  double duration_s = 0.0;
-  double drive_phase_rad = 0.0;       ///< at its beginning, in [0, 2π)
-  double drive_rate_rad_per_s = 0.0;  ///< 2π f; 0 without a drive
-  double drive_amplitude_N = 0.0;
-  double sliding_velocity_m_per_s = 0.0;  ///< at its beginning
-  double sliding_acceleration_m_per_s2 = 0.0;
-  /// The stretch lies within one straight piece of it.
-  scene::Waveform drive_waveform = scene::Waveform::cosine;
-  double begin_s = 0.0;        ///< since the run began: what changes in time is looked up by it
-  bool demodulated = false;    ///< the account is to have velocity_in_phase_m and its quadrature
-  bool energies = true;        ///< false: what depends on them is left open
-  StepMeter* meter = nullptr;  ///< counts the steps
 };
 
 class PlantPort {
@@ -67,19 +49,5 @@ class PlantPort {
   virtual void save(SnapshotWriter& state) const = 0;
   virtual void restore(SnapshotReader& state) = 0;
 };
-
-/// The plant of a scene, composed of exactly what the scene names, in its initial state.
-std::unique_ptr<PlantPort> make_plant_port(const scene::Scene& scene);
-
-/// As plant::CosineDrive, RampDrive or LevelDrive, whichever is the waveform's, takes it.
-struct DrivePiece {
-  double amplitude_N;
-  double phase_rad;  ///< at the beginning of the stretch
-};
-
-DrivePiece drive_piece(const Stretch& stretch);
-
-/// Force of the drive at a time since the beginning of the stretch.
-double drive_force_N(const Stretch& stretch, double offset_s);
 
 }  // namespace sonoglide::loop

@@ -7,7 +7,7 @@
 #include "firmware/numeric/turn.hpp"
 #include "firmware/plant/outcome.hpp"
 #include "host_sim/loop/carrier_grid.hpp"
-#include "host_sim/loop/plant_port.hpp"
+#include "host_sim/loop/make_plant_port.hpp"
 #include "host_sim/loop/sliding_profile.hpp"
 #include "host_sim/loop/step_meter.hpp"
 
