@@ -80,6 +80,7 @@ TEST_P(FmuDescription, TheDescriptionOfVersion3KeepsTheRules) {
   EXPECT_EQ(description.attribute("fmiVersion"), "3.0");
   EXPECT_EQ(description.attribute("modelName"), "scene");
   EXPECT_EQ(description.stepping("fixedInternalStepSize"), "1.6666666666666667e-05");
+  EXPECT_EQ(description.stepping("hasEventMode"), "") << "no clocks";
   EXPECT_EQ(description.stepping("canSerializeFMUState"), "true");
   check_description(root, false);
   Names outputs;
