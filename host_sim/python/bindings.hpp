@@ -5,6 +5,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include <string>
+
 namespace sonoglide::python {
 
 void add_errors(pybind11::module_& module);
@@ -18,5 +20,9 @@ void add_studies(pybind11::module_& module);
 
 /// JSON as Python has it: dictionaries, lists, numbers, None.
 pybind11::object to_python(const nlohmann::ordered_json& json);
+
+/// A key of a dictionary that Python hands over.
+/// @throws pybind11::type_error  it is no text
+std::string key_of(const pybind11::handle& key);
 
 }  // namespace sonoglide::python

@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "host_sim/python/bindings.hpp"
-#include "host_sim/python/key.hpp"
 #include "host_sim/scene_file/reader.hpp"
 #include "host_sim/scene_file/to_json.hpp"
 #include "host_sim/scene_file/to_toml.hpp"

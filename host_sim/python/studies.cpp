@@ -14,7 +14,6 @@
 
 #include "firmware/control/interface/names.hpp"
 #include "host_sim/python/bindings.hpp"
-#include "host_sim/python/key.hpp"
 #include "host_sim/python/scene.hpp"
 #include "host_sim/studies/identify/friction/comparison.hpp"
 #include "host_sim/studies/identify/friction/report.hpp"

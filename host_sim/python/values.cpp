@@ -47,4 +47,12 @@ py::object to_python(const ordered_json& json) {
   }
 }
 
+std::string key_of(const py::handle& key) {
+  if (!py::isinstance<py::str>(key)) {
+    throw py::type_error("a key is " + std::string(py::repr(key)) +
+                         "; allowed: a text, \"table.key\" of a scene");
+  }
+  return py::cast<std::string>(key);
+}
+
 }  // namespace sonoglide::python

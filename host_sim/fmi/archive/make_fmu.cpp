@@ -9,7 +9,6 @@
 #include <string_view>
 #include <vector>
 
-#include "host_sim/fmi/archive/licences.hpp"
 #include "host_sim/fmi/archive/zip_writer.hpp"
 #include "host_sim/fmi/resources.hpp"
 #include "host_sim/output/written_files.hpp"

@@ -1,7 +1,8 @@
-/// modelDescription.xml of an FMU.
+/// Texts of an FMU: modelDescription.xml and the licences.
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "host_sim/loop/kind.hpp"
 #include "host_sim/scene/scene.hpp"
@@ -21,5 +22,9 @@ struct ModelFacts {
 /// Source: Functional Mock-up Interface Specification 3.0, section 2.4, and 2.0.4, section 2.2.
 std::string model_description(const scene::Scene& scene, loop::Kind kind, Version version,
                               const ModelFacts& facts);
+
+std::string_view our_licence();
+/// Of the libraries that are compiled into the engines.
+std::string_view compiled_in_licences();
 
 }  // namespace sonoglide::fmi

@@ -1,6 +1,7 @@
 /// An instance as an importer holds it: what it throws becomes a message and a status.
 #pragma once
 
+#include <cfenv>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -13,7 +14,6 @@
 #include <utility>
 #include <vector>
 
-#include "host_sim/fmi/binary/floating_point.hpp"
 #include "host_sim/fmi/instance.hpp"
 #include "host_sim/fmi/resources.hpp"
 
@@ -24,6 +24,23 @@ enum class Status { ok = 0, error = 3 };
 
 /// Takes the messages of an instance; empty where nobody wants them.
 using Log = std::function<void(Status status, const char* category, const std::string& message)>;
+
+/// While it lives, floating point is as at the start of a program: an importer may have set
+/// flush-to-zero, with which the bits of a simulation change. Afterwards it is as the importer had
+/// it, with the importer's own flags.
+class OwnFloatingPoint {
+ public:
+  OwnFloatingPoint() {
+    std::fegetenv(&kept_);
+    std::fesetenv(FE_DFL_ENV);
+  }
+  ~OwnFloatingPoint() { std::fesetenv(&kept_); }
+  OwnFloatingPoint(const OwnFloatingPoint&) = delete;
+  OwnFloatingPoint& operator=(const OwnFloatingPoint&) = delete;
+
+ private:
+  std::fenv_t kept_{};
+};
 
 class Component {
  public:
