@@ -13,7 +13,6 @@
 #include "firmware/numeric/float_elementary.hpp"
 #include "firmware/numeric/turn.hpp"
 #include "host_sim/configure/configuration_error.hpp"
-#include "host_sim/configure/damped_design.hpp"
 #include "host_sim/configure/friction_response.hpp"
 #include "host_sim/configure/mode_model.hpp"
 #include "host_sim/configure/plant_scales.hpp"
@@ -339,11 +338,7 @@ SensorlessDesign design_sensorless(const scene::Scene& scene, const NominalPlant
                                    double velocity_m_per_s) {
   require_mode(plant);
   require_feeling(scene);
-  const double period_s = 1.0 / scene.drive->frequency_Hz;
-  const double push = scene.drive->max_force_amplitude_N * plant.force_factor * period_s /
-                      (plant.mass_kg * velocity_m_per_s);
-  const Resonator middle{plant.stiffness_N_per_m / plant.mass_kg * period_s * period_s,
-                         plant.damping_N_s_per_m / plant.mass_kg * period_s, push};
+  const Resonator middle = nominal_resonator(scene, plant, velocity_m_per_s);
   const FrictionReading reading = friction_reading(scene, plant, velocity_m_per_s);
   SensorlessDesign design;
   design.stiffness_range = stiffness_range(middle.stiffness);

@@ -1,9 +1,8 @@
 /// The numbers of a loop that feels the plant's natural mode in the friction and damps it.
 #pragma once
 
-#include <cstdint>
-
 #include "firmware/control/vibration/sensorless_table.hpp"
+#include "host_sim/configure/mode_design.hpp"
 #include "host_sim/configure/nominal_plant.hpp"
 #include "host_sim/scene/scene.hpp"
 
@@ -13,33 +12,23 @@ namespace sonoglide::configure {
 /// what the model has wrong and for what a mode adds.
 inline constexpr double sensorless_room = 4.0;
 
-/// Real numbers, per unit of ControlScales.
-struct SensorlessDesign {
-  /// Of the nominal plant in the middle row; the stiffness of the first row is `stiffness_range`
-  /// lower, that of the last one as much higher. A mode of 1 is eight times the largest input gain.
+struct SensorlessDesign : ModeDesign {
   control::SensorlessTable<double> table{};
-  double stiffness_range = 0.0;  ///< relative
   double rotation_range =
-      0.0;  ///< likewise, in which the mode turns nearly as the nominal one in a period
+      0.0;  ///< as stiffness_range, in which the mode turns nearly as the nominal
+            ///< one in a period
   double multiple_range =
       0.0;                 ///< likewise, in which it stays away from zero and multiples; or < 0
   bool apart = true;       ///< the mode can be told from the vibration; else the rows are of a gain
-  bool quick = true;       ///< the mode can be quieted, see is_quick()
   double blur = 0.0;       ///< rms of a reading without its lag, per vibration velocity, at r = 0.6
   double speed = 0.0;      ///< of the fastest sliding
   double mode_unit = 0.0;  ///< velocity of a mode of 1
   double swing = 0.0;      ///< rms of what the model has wrong of a mode of 1, in a period
   double linear = 0.0;     ///< mode per velocity up to which the friction follows it linearly
-  double sensor_memory = 0.0;      ///< what its low-pass keeps of the past in a period
-  double contact_memory = 0.0;     ///< likewise
-  bool backwards = false;          ///< the direction of sliding
-  std::uint8_t delay_periods = 1;  ///< of drive and sensor
+  double sensor_memory = 0.0;   ///< what its low-pass keeps of the past in a period
+  double contact_memory = 0.0;  ///< likewise
+  bool backwards = false;       ///< the direction of sliding
 
-  /// In which the loop follows a small change of its velocity.
-  static constexpr double following_periods = 6.0;
-  /// Until the natural mode is quiet.
-  static constexpr double changing_periods() { return 16.0; }
-  static constexpr double building_up_periods() { return 0.0; }
   bool tells_mismatch() const { return apart; }
   bool lags() const { return sensor_memory > 0.0 || contact_memory > 0.0; }
 };
