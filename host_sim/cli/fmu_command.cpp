@@ -51,8 +51,7 @@ void write(const FmuOptions& options) {
       print_design_notes(configure::design_if_closed(scene));
     }
     fmt::print("fmu:  {}\nstep: {} s, one carrier period{}\n", process::printable(options.out),
-               1.0 / scene.drive->frequency_Hz,
-               loop::carrier_changes(scene) ? " at the start" : "");
+               1.0 / scene.drive->frequency_Hz, scene.carrier_changes() ? " at the start" : "");
     if (!parts.windows_engine) {
       fmt::print(
           "note: without a binary for Windows: the program was built without "

@@ -99,10 +99,6 @@ struct ControlDesign {
   double changing_periods() const {
     return std::visit([](const auto& mode) { return mode.changing_periods(); }, vibration);
   }
-  bool observes_vibration() const {
-    return vibration_mode() == scene::VibrationMode::damped ||
-           vibration_mode() == scene::VibrationMode::resonant;
-  }
   VibrationMap vibration_map(double nominal_friction_N) const {
     return {map, scales.velocity_m_per_s, contact_force * scales.force_N / nominal_friction_N};
   }

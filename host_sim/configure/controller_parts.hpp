@@ -103,7 +103,6 @@ struct ControllerParts {
   Choice<control::NoRelearning<Scalar>, control::PeriodicRelearning<Scalar>> relearning;
   typename VibrationParts<Scalar>::Part vibration;
   Choice<control::ForceSensor, control::NoForceSensor> force;
-  scene::VibrationMode mode;
 
   explicit ControllerParts(const ControlDesign& design)
       : friction(choose<decltype(friction)>(design.calibrated)),
@@ -113,12 +112,11 @@ struct ControllerParts {
         regulator(choose<decltype(regulator)>(design.senses_force && design.integral_gain != 0.0)),
         relearning(choose<decltype(relearning)>(design.relearns)),
         vibration(VibrationParts<Scalar>::chosen(design)),
-        force(choose<decltype(force)>(!design.senses_force)),
-        mode(design.vibration_mode()) {}
+        force(choose<decltype(force)>(!design.senses_force)) {}
 
-  /// Calls visit(name, choice) for each, in the order of control::Parts; a drive that is fed
-  /// forward has a force sensor, and names neither, nor does one whose vibration is sensorless name
-  /// the sensor.
+  /// Calls visit(name, choice) for each, in the order of control::Parts. A drive that is fed forward
+  /// is the usual one, and not named; nor is the force sensor, which a vibration that is not observed
+  /// has.
   template <class Visitor>
   void fields(Visitor&& visit) const {
     visit("friction", friction);
@@ -127,13 +125,17 @@ struct ControllerParts {
     visit("shaper", shaper);
     visit("regulator", regulator);
     visit("relearning", relearning);
-    if (mode == scene::VibrationMode::feedforward) {
-      return;
-    }
-    visit("vibration", vibration);
-    if (mode != scene::VibrationMode::sensorless) {
-      visit("force", force);
-    }
+    std::visit(
+        [&](auto chosen) {
+          using Vibration = typename decltype(chosen)::type;
+          if constexpr (!std::is_same_v<Vibration, control::FedForward<Scalar>>) {
+            visit("vibration", vibration);
+          }
+          if constexpr (Vibration::observed) {
+            visit("force", force);
+          }
+        },
+        vibration);
   }
 };
 

@@ -130,17 +130,6 @@ void require_wide_range(double full_scale_m_per_s, double fastest_m_per_s) {
   }
 }
 
-/// The range of the vibration sensor.
-double full_scale_m_per_s(const scene::Scene& scene, const NominalPlant& plant) {
-  if (scene.vibration_mode() == scene::VibrationMode::resonant) {
-    const double full_scale_m_per_s = resonant_full_scale_m_per_s(scene, plant);
-    require_needed_range(scene, plant, full_scale_m_per_s);
-    return full_scale_m_per_s;
-  }
-  require_settling(plant, numeric::two_pi * scene.drive->frequency_Hz);
-  return damped_full_scale_m_per_s(scene, plant);
-}
-
 void require_sliding(const scene::Scene& scene, double fastest_m_per_s) {
   if (fastest_m_per_s == 0.0) {
     throw ConfigurationError(
@@ -151,12 +140,25 @@ void require_sliding(const scene::Scene& scene, double fastest_m_per_s) {
   }
 }
 
+double damped_range_m_per_s(const scene::Scene& scene, const NominalPlant& plant) {
+  require_settling(plant, numeric::two_pi * scene.drive->frequency_Hz);
+  return damped_full_scale_m_per_s(scene, plant);
+}
+
+double resonant_range_m_per_s(const scene::Scene& scene, const NominalPlant& plant) {
+  const double full_scale_m_per_s = resonant_full_scale_m_per_s(scene, plant);
+  require_needed_range(scene, plant, full_scale_m_per_s);
+  return full_scale_m_per_s;
+}
+
+/// @param range_m_per_s  of the vibration sensor
 /// @return displacement amplitude at the velocity that is the base of all
+template <class Range>
 double set_observed_scales(const scene::Scene& scene, const NominalPlant& plant,
-                           ControlDesign& design) {
+                           const Range& range_m_per_s, ControlDesign& design) {
   const double fastest_m_per_s = fastest_sliding_m_per_s(scene.sliding);
   require_sliding(scene, fastest_m_per_s);
-  const double velocity_m_per_s = full_scale_m_per_s(scene, plant);
+  const double velocity_m_per_s = range_m_per_s(scene, plant);
   const double force_N =
       scene.sensor.force
           ? scene.sensor.force_full_scale_N
@@ -183,8 +185,9 @@ double set_driven_scales(const scene::Scene& scene, const NominalPlant& plant, d
 double set_scales(const scene::Scene& scene, const NominalPlant& plant, ControlDesign& design) {
   switch (scene.vibration_mode()) {
     case scene::VibrationMode::damped:
+      return set_observed_scales(scene, plant, damped_range_m_per_s, design);
     case scene::VibrationMode::resonant:
-      return set_observed_scales(scene, plant, design);
+      return set_observed_scales(scene, plant, resonant_range_m_per_s, design);
     case scene::VibrationMode::sensorless: {
       const double displacement_m = set_driven_scales(scene, plant, sensorless_room, design);
       require_sliding(scene, fastest_sliding_m_per_s(scene.sliding));

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -162,11 +163,11 @@ void require_reach(const loop::ScheduledTarget& step, const loop::CarrierGrid& g
 }
 
 template <class Scalar>
-std::string target_steps(const scene::Scene& scene) {
+std::string target_steps(const scene::Scene& scene, const configure::ResonantDesign* resonance) {
   const loop::CarrierGrid grid(scene);
   std::string text;
   for (const loop::ScheduledTarget& step : loop::target_schedule(scene, grid)) {
-    if (!scene.resonant()) {
+    if (resonance == nullptr) {
       require_reach(step, grid);
     }
     text +=
@@ -177,28 +178,36 @@ std::string target_steps(const scene::Scene& scene) {
   return text;
 }
 
-/// The targets as an image declares them; in a resonant loop with the word of the start and the
-/// step of the frequency.
+/// How an image follows its targets.
+struct TargetText {
+  const char* header;
+  std::string lines;
+  const char* drive;  ///< of which the carrier period is
+};
+
+/// In a resonant loop with the word of the start and the step of the frequency.
 template <class Scalar>
-std::string target_lines(const scene::Scene& scene, const configure::ControlDesign& design) {
-  const std::string steps = target_steps<Scalar>(scene);
-  if (design.resonance() == nullptr) {
-    return fmt::format("inline constexpr TargetStep<Scalar> target_steps[] = {{\n{}}};\n", steps);
+TargetText target_text(const scene::Scene& scene, const configure::ControlDesign& design) {
+  const configure::ResonantDesign* const resonance = design.resonance();
+  const std::string steps = target_steps<Scalar>(scene, resonance);
+  if (resonance == nullptr) {
+    return {"firmware/app/target_schedule.hpp",
+            fmt::format("inline constexpr TargetStep<Scalar> target_steps[] = {{\n{}}};\n", steps),
+            ""};
   }
-  return fmt::format(
+  std::string lines = fmt::format(
       "inline constexpr TimedTargets<Scalar, {}> target_steps = {{{}, {{\n{}}}}};\n\n"
       "/// The frequency of a command is this step times the word of the start, which is the first "
       "number\n/// above, and the command's steps together.\n"
       "inline constexpr double frequency_step_Hz = {:a};\n",
-      scene.controller->target_friction_ratio.size(), design.resonance()->start_word, steps,
-      design.resonance()->step_Hz);
+      scene.controller->target_friction_ratio.size(), resonance->start_word, steps,
+      resonance->step_Hz);
+  return {"firmware/app/timed_targets.hpp", std::move(lines), " at the start"};
 }
 
 std::string includes(const std::vector<ChosenPart>& parts, const char* scalar_header,
-                     bool resonant) {
-  std::vector<std::string> headers{
-      resonant ? "firmware/app/timed_targets.hpp" : "firmware/app/target_schedule.hpp",
-      "firmware/control/controller.hpp"};
+                     const char* target_header) {
+  std::vector<std::string> headers{target_header, "firmware/control/controller.hpp"};
   for (const ChosenPart& part : parts) {
     for (const std::string& header : part.text.headers) {
       headers.push_back(fmt::format("firmware/control/{}.hpp", header));
@@ -234,6 +243,7 @@ std::string header_in(const scene::Scene& scene, const configure::ControlDesign&
   for (const ChosenPart& part : parts) {
     types += fmt::format(",\n                             control::{}", part.text.type);
   }
+  const TargetText targets = target_text<Scalar>(scene, design);
   return fmt::format(
       R"(/// The controller of the scene {}. Written by sonoglide configure: edit the scene.
 #pragma once
@@ -256,13 +266,12 @@ inline constexpr std::uint32_t design = {:#010x};
 
 }}  // namespace sonoglide::app::configuration
 )",
-      process::printable(scene.name),
-      includes(parts, ScalarName<Scalar>::header, design.resonance() != nullptr),
+      process::printable(scene.name), includes(parts, ScalarName<Scalar>::header, targets.header),
       ScalarName<Scalar>::type, types,
       design.senses_force ? parameter_lines<Scalar, control::ForceSensor>(design, parts)
                           : parameter_lines<Scalar, control::NoForceSensor>(design, parts),
-      target_lines<Scalar>(scene, design), design.resonance() != nullptr ? " at the start" : "",
-      design.scales.carrier_period_s, design_number(types, parts, design.scales));
+      targets.lines, targets.drive, design.scales.carrier_period_s,
+      design_number(types, parts, design.scales));
 }
 
 }  // namespace

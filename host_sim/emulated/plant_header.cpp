@@ -280,7 +280,7 @@ std::string plant_header(const scene::Scene& scene,
   require(scene.drive->waveform == scene::Waveform::cosine, "drive.waveform",
           "the plant of an image is driven by a cosine; allowed: \"cosine\"");
   require(
-      !scene.observes_vibration(), "controller.vibration",
+      !scene.sensor.vibration, "controller.vibration",
       "the plant of an image shows no vibration, and its drive has one frequency; allowed: a scene "
       "without this key");
   require_ideal(scene.sensor);

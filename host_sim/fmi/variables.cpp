@@ -124,7 +124,7 @@ void add_controller_outputs(List& list, const scene::Scene& scene) {
       "drive_force_amplitude_N", "N",
       "Drive amplitude in force during the carrier period that comes next", 0.0,
       [](const Engine& engine) -> Value { return engine.controller().drive_force_amplitude_N; });
-  if (loop::carrier_changes(scene)) {
+  if (scene.carrier_changes()) {
     list.output(
         "drive_frequency_Hz", "Hz", "Carrier frequency of the carrier period that comes next", 0.0,
         [](const Engine& engine) -> Value { return engine.controller().drive_frequency_Hz; });
@@ -215,7 +215,7 @@ std::vector<Variable> variables(const scene::Scene& scene, loop::Kind kind) {
   if (kind == loop::Kind::plant) {
     list.input("drive_force_amplitude_N", "N", "Amplitude of the drive during a carrier period",
                scene.drive->force_amplitude_N, &Inputs::drive_force_amplitude_N);
-    if (loop::carrier_changes(scene)) {
+    if (scene.carrier_changes()) {
       list.input("drive_frequency_Hz", "Hz",
                  "Carrier frequency during a carrier period; no frequency_profile is followed",
                  scene.drive->frequency_Hz, &Inputs::drive_frequency_Hz);
@@ -223,7 +223,7 @@ std::vector<Variable> variables(const scene::Scene& scene, loop::Kind kind) {
   }
   if (kind == loop::Kind::controller) {
     list.inputs(measured);
-    if (scene.observes_vibration()) {
+    if (scene.sensor.vibration) {
       list.inputs(demodulated);
     }
   }

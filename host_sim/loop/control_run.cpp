@@ -10,9 +10,9 @@ namespace sonoglide::loop {
 namespace {
 
 std::optional<app::ElapsedPeriods> elapsed_of(const configure::ControlDesign& design) {
-  return design.resonance() != nullptr
-             ? std::optional(app::ElapsedPeriods(design.resonance()->start_word))
-             : std::nullopt;
+  const configure::ResonantDesign* const resonance = design.resonance();
+  return resonance != nullptr ? std::optional(app::ElapsedPeriods(resonance->start_word))
+                              : std::nullopt;
 }
 
 }  // namespace
@@ -35,6 +35,7 @@ ControlRun::ControlRun(const scene::Scene& scene, const CarrierGrid& grid, Contr
     : schedule_(target_schedule(scene, grid)),
       port_(port),
       record_(record),
+      observes_vibration_(scene.sensor.vibration),
       sensor_(scene.sensor, record.design.scales, configure::vibration_gain(scene)),
       actuator_(scene.drive->delay_periods, scene.drive->max_force_amplitude_N),
       start_frequency_Hz_(scene.drive->frequency_Hz),
@@ -60,7 +61,7 @@ void ControlRun::label(Period& period) const {
   period.commanded_ratio = command.commanded_ratio;
   const bool held =
       command.state == control::State::running || command.state == control::State::limited;
-  if (record_.design.observes_vibration() && held && period.target < 1.0) {
+  if (observes_vibration_ && held && period.target < 1.0) {
     period.wanted_vibration_m_per_s =
         record_.design.vibration_map(nominal_friction_N_)
             .velocity_m_per_s(command.commanded_ratio, period.begin_velocity_m_per_s);
@@ -71,7 +72,7 @@ void ControlRun::step(double time_s, double mean_force_N, double sliding_velocit
                       std::complex<double> vibration_m_per_s) {
   follow_target();
   learn(mean_force_N);
-  if (record_.design.observes_vibration()) {
+  if (observes_vibration_) {
     const hal::ResonantDrive drive =
         port_.exchange(sensor_.sample(mean_force_N, sliding_velocity_m_per_s, vibration_m_per_s));
     actuator_.take(drive, target_, drive.frequency);

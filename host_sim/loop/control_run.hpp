@@ -43,6 +43,8 @@ class ControlRun {
   /// In force during the next carrier period.
   double amplitude_N() const { return actuator_.in_force().amplitude_N; }
   double frequency_Hz() const;
+  /// The answers set the frequency of the drive.
+  bool leads_frequency() const { return elapsed_.has_value(); }
 
   /// Notes in the period that has just passed what drove it.
   void label(Period& period) const;
@@ -77,6 +79,7 @@ class ControlRun {
   std::vector<ScheduledTarget> schedule_;
   ControlPort& port_;
   ControlRecord& record_;
+  bool observes_vibration_;
   Sensor sensor_;
   Actuator actuator_;
   hal::TraceHash hash_;

@@ -42,12 +42,8 @@ void require_constant_carrier(const scene::Scene& scene) {
   }
 }
 
-bool carrier_changes(const scene::Scene& scene) {
-  return scene.resonant() || !scene.drive->frequency_profile.empty();
-}
-
 Engine::Engine(const scene::Scene& scene, Kind kind)
-    : scene_(without_end(scene)), carrier_changes_(carrier_changes(scene_)), clock_(scene_) {
+    : scene_(without_end(scene)), carrier_changes_(scene_.carrier_changes()), clock_(scene_) {
   watch_.energies = false;
   if (has_plant(kind)) {
     plant_.emplace(scene_, clock_, watch_, result_);

@@ -55,10 +55,6 @@ void require_usable(const scene::Scene& scene, Kind kind);
 /// @throws configure::ConfigurationError
 void require_constant_carrier(const scene::Scene& scene);
 
-/// Carrier periods may have different lengths: the controller says which, or a profile, in whose
-/// place the inputs of a plant then stand.
-bool carrier_changes(const scene::Scene& scene);
-
 /// Carrier periods that no simulation reaches: an engine counts to no more.
 inline constexpr double endless_periods = 1e12;
 

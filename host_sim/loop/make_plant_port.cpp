@@ -24,7 +24,7 @@ scene::Scene with_acting_solver(scene::Scene scene) {
 }  // namespace
 
 std::unique_ptr<PlantPort> make_plant_port(const scene::Scene& scene) {
-  if (scene.profile_key() != nullptr || scene.resonant()) {
+  if (scene.profile_key() != nullptr || scene.carrier_changes()) {
     return std::make_unique<ChangingPlant>(scene);
   }
   const scene::Scene acting = with_acting_solver(scene);

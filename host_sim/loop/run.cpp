@@ -63,7 +63,7 @@ class Simulation {
 
  private:
   void advance() {
-    if (scene_.resonant()) {
+    if (control_ && control_->leads_frequency()) {
       clock_.set_frequency_Hz(control_->frequency_Hz());
     } else if (frequency_changes_) {
       clock_.set_frequency_Hz(configure::carrier_frequency_Hz(*scene_.drive, clock_.begin_s()));

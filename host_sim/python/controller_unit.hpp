@@ -24,7 +24,7 @@ class ControllerUnit {
   /// One control step: the answer to the sample of a carrier period. Of a unit that observes no
   /// vibration that part of the sample is left out, and the answer's frequency is 0.
   const hal::ResonantDrive& step(const hal::VibrationSample& sample) {
-    if (design_.observes_vibration()) {
+    if (scene_.sensor.vibration) {
       answer_ = port_->exchange(sample);
     } else {
       static_cast<hal::Drive&>(answer_) = port_->exchange(static_cast<const hal::Sample&>(sample));
@@ -39,7 +39,7 @@ class ControllerUnit {
   /// @throws std::invalid_argument  it is not in (0, 1]
   void set_target(double friction_ratio);
 
-  bool observes_vibration() const { return design_.observes_vibration(); }
+  bool observes_vibration() const { return scene_.sensor.vibration.has_value(); }
   const configure::ControlScales& scales() const { return design_.scales; }
 
   loop::Snapshot save() const;

@@ -367,8 +367,8 @@ output::Section vibration_section(const scene::Scene& scene, const VibrationCour
   const bool resonant = scene.resonant();
   panel("Vibration velocity", "Vibration velocity, amplitude [m/s]",
         VibrationCourse::vibration_m_per_s,
-        scene.observes_vibration() ? series("wanted", VibrationCourse::wanted_m_per_s)
-                                   : std::vector<output::Series>());
+        scene.sensor.vibration ? series("wanted", VibrationCourse::wanted_m_per_s)
+                               : std::vector<output::Series>());
   if (scene.transducer) {
     std::vector<output::Series> limit;
     if (scene.drive->max_current_amplitude_A) {
@@ -564,7 +564,7 @@ output::Page run_page(const scene::Scene& scene, const loop::RunResult& result,
   if (scene.controller) {
     page.tables.push_back(step_table(scene, findings));
   }
-  if (scene.observes_vibration()) {
+  if (scene.sensor.vibration) {
     page.tables.push_back(vibration_table(scene, findings));
   }
   page.tables.push_back(run_table(scene, result));

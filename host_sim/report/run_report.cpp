@@ -156,7 +156,7 @@ ordered_json control(const scene::Scene& scene, const loop::RunResult& result,
       {"integral_gain", design.senses_force ? design.integral_gain : 0.0},
       {"signals", signals},
       {"notes", notes(scene, result)}};
-  if (design.observes_vibration()) {
+  if (scene.sensor.vibration) {
     json["vibration_full_scale_m_per_s"] = design.scales.velocity_m_per_s;
   }
   if (design.relearns) {

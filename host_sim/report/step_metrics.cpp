@@ -34,12 +34,10 @@ control::Limit prevailing_limit(std::array<std::uint64_t, control::limit_count> 
 StepMeter::StepMeter(const scene::Scene& scene)
     : cursor_(scene),
       band_(scene.run.settling_band),
-      tells_mismatch_(scene.sensor.force &&
-                      scene.vibration_mode() != scene::VibrationMode::sensorless &&
-                      configure::tells_mismatch(scene)),
+      tells_mismatch_(scene.sensor.force && configure::tells_mismatch(scene)),
       senses_force_(scene.sensor.force),
       has_map_(scene::has_own_map(scene.friction.law)),
-      observes_vibration_(scene.observes_vibration()),
+      observes_vibration_(scene.sensor.vibration),
       resonant_(scene.resonant()),
       transducer_(scene.transducer),
       largest_current_A_(scene.drive->max_current_amplitude_A) {
@@ -171,7 +169,8 @@ StepMetrics StepMeter::metrics(const TargetSpan& span, const Tally& tally) const
   if (metrics.limit == control::Limit::not_settling) {
     metrics.cause = tally.cause;
   }
-  if (tally.settled_periods > 0 && tells_mismatch_) {
+  // A loop without a vibration sensor reports no ratio.
+  if (tally.mismatch_sum > 0.0 && tells_mismatch_) {
     metrics.mismatch = tally.mismatch_sum / static_cast<double>(tally.settled_periods);
   }
   if (!settled && metrics.limit == control::Limit::none && !tally.fault) {

@@ -96,7 +96,7 @@ class Controllers final : public batch::DriveSource {
 }  // namespace
 
 bool runs_in_lanes(const scene::Scene& closed_loop) {
-  return closed_loop.controller && !closed_loop.observes_vibration() &&
+  return closed_loop.controller && !closed_loop.sensor.vibration &&
          closed_loop.solver.tolerance >= closed_loop_tolerance &&
          loop::CarrierClock(closed_loop).is_whole() && lane_plant(closed_loop);
 }

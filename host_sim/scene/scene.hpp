@@ -218,13 +218,14 @@ struct Scene {
   /// A controller holds the vibration at the plant's resonance, by the frequency of the drive.
   bool resonant() const { return vibration_mode() == VibrationMode::resonant; }
 
-  /// A controller has a sensor of the vibration.
-  bool observes_vibration() const {
-    return controller && controller->vibration && sensor.vibration;
+  /// By a profile, in whose place the inputs of a plant alone stand, or as a controller follows the
+  /// resonance.
+  bool carrier_changes() const {
+    return resonant() || (drive && !drive->frequency_profile.empty());
   }
 
   /// Somebody asks for the vibration's fundamental.
-  bool demodulates() const { return transducer || observes_vibration(); }
+  bool demodulates() const { return transducer || sensor.vibration; }
 };
 
 }  // namespace sonoglide::scene

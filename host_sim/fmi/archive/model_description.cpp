@@ -100,7 +100,7 @@ double shortest_period_s(const scene::Scene& scene) {
   for (const scene::TimedValue& row : scene.drive->frequency_profile) {
     highest_Hz = std::max(highest_Hz, row.value);
   }
-  return 1.0 / (loop::carrier_changes(scene) ? margin * highest_Hz : highest_Hz);
+  return 1.0 / (scene.carrier_changes() ? margin * highest_Hz : highest_Hz);
 }
 
 Tree default_experiment(const scene::Scene& scene) {
@@ -188,7 +188,7 @@ class Fmi3 {
   static constexpr const char* state_name = "FMUState";
 
   static void describe_stepping(Tree& element, const scene::Scene& scene, loop::Kind kind) {
-    if (!loop::carrier_changes(scene)) {
+    if (!scene.carrier_changes()) {
       attribute(element, "fixedInternalStepSize", exact(1.0 / scene.drive->frequency_Hz));
     }
     attribute(element, "mightReturnEarlyFromDoStep", loop::has_controller(kind) ? "true" : "false");

@@ -41,7 +41,7 @@ void judge_steps(const std::vector<report::StepMetrics>& steps, Precision& resul
 }  // namespace
 
 void require_every_arithmetic(const scene::Scene& scene) {
-  if (scene.vibration_mode() != scene::VibrationMode::feedforward) {
+  if (scene.controller && scene.controller->vibration) {
     throw configure::ConfigurationError(
         "controller.vibration",
         fmt::format(
