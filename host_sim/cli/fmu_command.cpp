@@ -9,7 +9,7 @@
 #include "host_sim/cli/options.hpp"
 #include "host_sim/cli/run_watch.hpp"
 #include "host_sim/fmi/archive/make_fmu.hpp"
-#include "host_sim/loop/engine.hpp"
+#include "host_sim/loop/stepped.hpp"
 #include "host_sim/output/output_folder.hpp"
 #include "host_sim/process/printable.hpp"
 

@@ -192,7 +192,7 @@ bool Instance::advance(double time_s, double duration_s, bool may_stop_early) {
   return false;
 }
 
-Engine& Instance::engine() {
+SteppedScene& Instance::engine() {
   if (!engine_) {
     engine_.emplace(scene_with_parameters(), resources_.kind);
   }

@@ -11,8 +11,8 @@
 
 #include "host_sim/fmi/resources.hpp"
 #include "host_sim/fmi/variables.hpp"
-#include "host_sim/loop/engine.hpp"
 #include "host_sim/loop/snapshot.hpp"
+#include "host_sim/loop/stepped.hpp"
 
 namespace sonoglide::fmi {
 
@@ -75,7 +75,7 @@ class Instance {
   State state_of(const std::uint8_t* bytes, std::size_t count) const;
 
  private:
-  Engine& engine();
+  SteppedScene& engine();
   scene::Scene scene_with_parameters() const;
   void require(bool allowed, const char* what) const;
   void require_step(double time_s, double duration_s) const;
@@ -85,7 +85,7 @@ class Instance {
   scene::Scene scene_;
   std::vector<Variable> variables_;
   State now_;  ///< but for its engine
-  std::optional<Engine> engine_;
+  std::optional<SteppedScene> engine_;
   std::map<std::uint32_t, std::string> texts_;
 };
 

@@ -18,11 +18,11 @@ struct PlantSignal {
   const char* unit;
   const char* description;
   double PlantOutputs::*member;
-  Value (*read)(const Engine&);
+  Value (*read)(const SteppedScene&);
 };
 
 template <double PlantOutputs::*Member>
-Value plant_output(const Engine& engine) {
+Value plant_output(const SteppedScene& engine) {
   return engine.plant().*Member;
 }
 
@@ -82,7 +82,7 @@ class List {
     add(variable);
   }
   void output(const char* name, const char* unit, const char* description, const Value& type,
-              Value (*read)(const Engine&)) {
+              Value (*read)(const SteppedScene&)) {
     Variable variable{name, Role::output, unit, description, type};
     variable.output = read;
     add(variable);
@@ -99,49 +99,53 @@ constexpr double whole_code = 0x1p-31;
 void add_answer(List& list, scene::Arithmetic arithmetic) {
   if (arithmetic == scene::Arithmetic::float32) {
     list.output("drive_amplitude", "1", "Last answer: drive amplitude, of the largest", 0.0F,
-                [](const Engine& engine) -> Value {
+                [](const SteppedScene& engine) -> Value {
                   return static_cast<float>(engine.controller().answer.amplitude * whole_code);
                 });
     list.output(
         "commanded_friction_ratio", "1",
         "Last answer: friction ratio, target and feedback together", 0.0F,
-        [](const Engine& engine) -> Value {
+        [](const SteppedScene& engine) -> Value {
           return static_cast<float>(engine.controller().answer.commanded_ratio * 2.0 * whole_code);
         });
   }
   list.output("drive_amplitude_code", "", "Last answer: drive amplitude; 2^31 is the largest",
-              std::int32_t{},
-              [](const Engine& engine) -> Value { return engine.controller().answer.amplitude; });
+              std::int32_t{}, [](const SteppedScene& engine) -> Value {
+                return engine.controller().answer.amplitude;
+              });
   list.output("commanded_ratio_code", "",
               "Last answer: friction ratio, target and feedback together; 2^31 is a ratio of 2",
-              std::int32_t{}, [](const Engine& engine) -> Value {
+              std::int32_t{}, [](const SteppedScene& engine) -> Value {
                 return engine.controller().answer.commanded_ratio;
               });
 }
 
 void add_controller_outputs(List& list, const scene::Scene& scene) {
-  list.output(
-      "drive_force_amplitude_N", "N",
-      "Drive amplitude in force during the carrier period that comes next", 0.0,
-      [](const Engine& engine) -> Value { return engine.controller().drive_force_amplitude_N; });
+  list.output("drive_force_amplitude_N", "N",
+              "Drive amplitude in force during the carrier period that comes next", 0.0,
+              [](const SteppedScene& engine) -> Value {
+                return engine.controller().drive_force_amplitude_N;
+              });
   if (scene.carrier_changes()) {
     list.output(
         "drive_frequency_Hz", "Hz", "Carrier frequency of the carrier period that comes next", 0.0,
-        [](const Engine& engine) -> Value { return engine.controller().drive_frequency_Hz; });
+        [](const SteppedScene& engine) -> Value { return engine.controller().drive_frequency_Hz; });
   }
   add_answer(list, scene.controller->arithmetic);
   list.output("state", "", "0 off, 1 calibrating, 2 running, 3 limited, 4 fault, 5 relearning",
-              std::int32_t{}, [](const Engine& engine) -> Value {
+              std::int32_t{}, [](const SteppedScene& engine) -> Value {
                 return std::int32_t{engine.controller().answer.state};
               });
-  list.output(
-      "limit", "", "Number of the limit that is active; 0 for none", std::int32_t{},
-      [](const Engine& engine) -> Value { return std::int32_t{engine.controller().answer.limit}; });
-  list.output(
-      "fault", "", "Number of the fault; 0 for none", std::int32_t{},
-      [](const Engine& engine) -> Value { return std::int32_t{engine.controller().answer.fault}; });
+  list.output("limit", "", "Number of the limit that is active; 0 for none", std::int32_t{},
+              [](const SteppedScene& engine) -> Value {
+                return std::int32_t{engine.controller().answer.limit};
+              });
+  list.output("fault", "", "Number of the fault; 0 for none", std::int32_t{},
+              [](const SteppedScene& engine) -> Value {
+                return std::int32_t{engine.controller().answer.fault};
+              });
   list.output("trace_hash", "", "FNV-1a of all answers so far, as in summary.json", std::string(),
-              [](const Engine& engine) -> Value {
+              [](const SteppedScene& engine) -> Value {
                 return fmt::format("{:016x}", engine.controller().trace_hash);
               });
 }
@@ -223,7 +227,7 @@ std::vector<Variable> variables(const scene::Scene& scene, loop::Kind kind) {
   }
   if (kind == loop::Kind::controller) {
     list.inputs(measured);
-    if (scene.sensor.vibration) {
+    if (scene.observes_vibration()) {
       list.inputs(demodulated);
     }
   }

@@ -6,15 +6,14 @@
 #include <variant>
 #include <vector>
 
-#include "host_sim/loop/engine.hpp"
-#include "host_sim/loop/kind.hpp"
+#include "host_sim/loop/stepped.hpp"
 #include "host_sim/scene/scene.hpp"
 
 namespace sonoglide::fmi {
 
-using loop::Engine;
 using loop::Inputs;
 using loop::PlantOutputs;
+using loop::SteppedScene;
 
 /// Alternatives in the order of Type.
 using Value = std::variant<double, float, std::int32_t, std::string>;
@@ -28,10 +27,10 @@ struct Variable {
   Role role;
   std::string unit;  ///< empty where it has none
   std::string description;
-  Value start;                               ///< of an output only its type counts
-  double Inputs::*input = nullptr;           ///< of an input, unless it is seen
-  double PlantOutputs::*seen = nullptr;      ///< of an input of a controller
-  Value (*output)(const Engine&) = nullptr;  ///< of an output
+  Value start;                                     ///< of an output only its type counts
+  double Inputs::*input = nullptr;                 ///< of an input, unless it is seen
+  double PlantOutputs::*seen = nullptr;            ///< of an input of a controller
+  Value (*output)(const SteppedScene&) = nullptr;  ///< of an output
 
   Type type() const { return static_cast<Type>(start.index()); }
 };

@@ -1,142 +1,121 @@
 #include "host_sim/loop/engine.hpp"
 
-#include <complex>
+#include <cmath>
 
-#include "host_sim/configure/configuration_error.hpp"
-#include "host_sim/configure/control_design.hpp"
+#include "firmware/numeric/turn.hpp"
 #include "host_sim/configure/plant_scales.hpp"
 
 namespace sonoglide::loop {
 namespace {
 
-scene::Scene without_end(scene::Scene scene) {
-  scene.run.duration_s = endless_periods / scene.drive->frequency_Hz;
-  return scene;
+double natural_frequency_Hz(double stiffness_N_per_m, double mass_kg) {
+  return std::sqrt(stiffness_N_per_m / mass_kg) / numeric::two_pi;
 }
 
 }  // namespace
 
-void require_usable(const scene::Scene& scene, Kind kind) {
-  using configure::ConfigurationError;
-  if (!scene.drive) {
-    throw ConfigurationError("drive.frequency_Hz",
-                             "missing; allowed: a scene with a carrier, whose period is the step");
+RunResult begun_result(const std::optional<configure::ControlDesign>& design) {
+  RunResult result;
+  if (design) {
+    result.control.emplace();
+    result.control->design = *design;
   }
-  if (has_controller(kind) && !scene.controller) {
-    throw ConfigurationError("controller",
-                             "missing; allowed: a scene in closed loop, or the plant alone");
+  return result;
+}
+
+Engine::Engine(const scene::Scene& scene, bool has_plant, ControlPort* controller,
+               const Watch& watch, RunResult& result)
+    : scene_(scene),
+      watch_(watch),
+      clock_(scene),
+      friction_N_(configure::largest_friction_limit_N(scene.friction)),
+      constant_natural_Hz_(
+          natural_frequency_Hz(scene.plant.stiffness_N_per_m, scene.plant.mass_kg)) {
+  if (has_plant) {
+    plant_.emplace(scene, clock_, watch, result);
+  }
+  if (controller != nullptr) {
+    control_.emplace(scene, CarrierGrid(scene), *controller, *result.control);
   }
 }
 
-void require_constant_carrier(const scene::Scene& scene) {
-  using configure::ConfigurationError;
-  if (!scene.drive->frequency_profile.empty()) {
-    throw ConfigurationError("drive.frequency_profile",
-                             "changes the carrier period, which is the step; allowed: one "
-                             "frequency, drive.frequency_Hz");
-  }
-  if (scene.resonant()) {
-    throw ConfigurationError("controller.vibration",
-                             "\"resonant\" changes the carrier period, which is the step; allowed: "
-                             "\"damped\", or no such key");
-  }
-}
-
-Engine::Engine(const scene::Scene& scene, Kind kind)
-    : scene_(without_end(scene)), carrier_changes_(scene_.carrier_changes()), clock_(scene_) {
-  watch_.energies = false;
-  if (has_plant(kind)) {
-    plant_.emplace(scene_, clock_, watch_, result_);
-    plant_outputs_.sliding_velocity_m_per_s = plant_->sliding_velocity_m_per_s();
-    show_plant();
-  }
-  if (has_controller(kind)) {
-    record_.design = configure::design_control(scene);
-    port_ = make_control_port(scene_, record_.design);
-    controller_.emplace(scene_, CarrierGrid(scene_), *port_, record_);
-    show_controller();
-  }
-}
-
-CarrierClock Engine::next_period(const Inputs& inputs) const {
-  CarrierClock period = clock_;
-  if (carrier_changes_) {
-    period.set_frequency_Hz(controller_ ? controller_->frequency_Hz() : inputs.drive_frequency_Hz);
-  }
+PlantPeriod Engine::begun(double amplitude_N) const {
+  PlantPeriod period;
+  period.begin_s = clock_.begin_s();
+  period.end_s = clock_.end_s();
+  period.drive_amplitude_N = amplitude_N;
+  period.frequency_Hz = clock_.frequency_Hz();
+  period.whole = clock_.is_whole();
+  period.natural_Hz = natural_Hz(0.5 * (period.begin_s + period.end_s));
   return period;
 }
 
-void Engine::advance(const Inputs& inputs) {
-  clock_ = next_period(inputs);
-  if (plant_) {
-    advance_plant(controller_ ? controller_->amplitude_N() : inputs.drive_force_amplitude_N);
+PlantPeriod Engine::move(double amplitude_N) {
+  PlantPeriod period = begun(amplitude_N);
+  period.begin_velocity_m_per_s = plant_->sliding_velocity_m_per_s();
+  const EnergyBalance energy = plant_->advance(amplitude_N);
+  period.end_velocity_m_per_s = plant_->sliding_velocity_m_per_s();
+  period.mean_friction_force_N = energy.friction_impulse_N_s / energy.duration_s;
+  // A mean over part of a carrier period is no friction ratio; a run without a drive has parts alone.
+  const double undriven_N_s = friction_N_ * energy.undriven_s;
+  if ((period.whole || period.frequency_Hz == 0.0) && undriven_N_s > 0.0) {
+    period.friction_ratio = energy.resistance_impulse_N_s / undriven_N_s;
   }
-  if (controller_) {
-    advance_controller(plant_ ? plant_outputs_ : inputs.seen, inputs.target_friction_ratio);
+  // Of a period that is cut short there is no fundamental.
+  if (scene_.demodulates() && period.whole) {
+    period.vibration_m_per_s = energy.vibration_m_per_s();
+  }
+  period.open_fraction = energy.open_s / energy.duration_s;
+  return period;
+}
+
+void Engine::conclude(PlantPeriod period) {
+  if (control_ && !watch_.periods.empty()) {
+    control_->label(period);
+  }
+  for (PeriodSink* sink : watch_.periods) {
+    sink->take(period);
+  }
+  if (control_ && period.whole) {
+    control_->step(period.end_s, period.mean_friction_force_N, period.end_velocity_m_per_s,
+                   period.vibration_m_per_s);
   }
   clock_.next();
 }
 
-void Engine::advance_plant(double amplitude_N) {
-  const EnergyBalance energy = plant_->advance(amplitude_N);
-  plant_outputs_.mean_friction_force_N = energy.friction_impulse_N_s / energy.duration_s;
-  plant_outputs_.sliding_velocity_m_per_s = plant_->sliding_velocity_m_per_s();
-  if (scene_.demodulates()) {
-    const std::complex<double> vibration = energy.vibration_m_per_s();
-    plant_outputs_.vibration_in_phase_m_per_s = vibration.real();
-    plant_outputs_.vibration_quadrature_m_per_s = vibration.imag();
+double Engine::natural_Hz(double time_s) const {
+  const scene::TimedProfile& profile = scene_.plant.stiffness_profile;
+  return profile.empty()
+             ? constant_natural_Hz_
+             : natural_frequency_Hz(scene::value_at(profile, time_s), scene_.plant.mass_kg);
+}
+
+void Engine::finish() {
+  if (plant_) {
+    plant_->finish();
   }
-  const double undriven_N_s =
-      configure::largest_friction_limit_N(scene_.friction) * energy.undriven_s;
-  plant_outputs_.friction_ratio =
-      undriven_N_s > 0.0 ? energy.resistance_impulse_N_s / undriven_N_s : 0.0;
-  show_plant();
-}
-
-void Engine::advance_controller(const PlantOutputs& seen, double target) {
-  if (target > 0.0) {
-    controller_->aim_at(target);
+  if (control_) {
+    control_->finish();
   }
-  const std::uint8_t fault = controller_outputs_.answer.fault;
-  controller_->step(clock_.end_s(), seen.mean_friction_force_N, seen.sliding_velocity_m_per_s,
-                    {seen.vibration_in_phase_m_per_s, seen.vibration_quadrature_m_per_s});
-  show_controller();
-  fault_began_ = controller_outputs_.answer.fault != 0 && controller_outputs_.answer.fault != fault;
-}
-
-void Engine::show_plant() {
-  const PlantState state = plant_->state();
-  plant_outputs_.displacement_m = state.displacement_m;
-  plant_outputs_.velocity_m_per_s = state.velocity_m_per_s;
-  plant_outputs_.friction_force_N = state.friction_force_N;
-}
-
-void Engine::show_controller() {
-  controller_outputs_ = {controller_->amplitude_N(), controller_->frequency_Hz(),
-                         controller_->answer(), controller_->trace_hash()};
 }
 
 void Engine::save(SnapshotWriter& state) const {
   state.put(clock_);
-  state.put(plant_outputs_);
-  state.put(controller_outputs_);
   if (plant_) {
     plant_->save(state);
   }
-  if (controller_) {
-    controller_->save(state);
+  if (control_) {
+    control_->save(state);
   }
 }
 
 void Engine::restore(SnapshotReader& state) {
   state.get(clock_);
-  state.get(plant_outputs_);
-  state.get(controller_outputs_);
   if (plant_) {
     plant_->restore(state);
   }
-  if (controller_) {
-    controller_->restore(state);
+  if (control_) {
+    control_->restore(state);
   }
 }
 

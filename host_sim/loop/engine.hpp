@@ -1,103 +1,76 @@
-/// A scene's plant, its controller or both, advanced from outside by whole carrier periods.
+/// A scene's plant, its controller or both, advanced by carrier periods: run() steps it from inside,
+/// a SteppedScene from outside, and of loops in lanes the controllers alone.
 #pragma once
 
-#include <cstdint>
-#include <memory>
 #include <optional>
 
-#include "hal/board.hpp"
+#include "host_sim/configure/control_design.hpp"
 #include "host_sim/loop/carrier_clock.hpp"
 #include "host_sim/loop/control_port.hpp"
 #include "host_sim/loop/control_run.hpp"
-#include "host_sim/loop/kind.hpp"
 #include "host_sim/loop/plant_run.hpp"
 #include "host_sim/loop/run_result.hpp"
-#include "host_sim/loop/snapshot.hpp"
 #include "host_sim/loop/watch.hpp"
 #include "host_sim/scene/scene.hpp"
 
 namespace sonoglide::loop {
 
-/// What the plant shows at the end of a carrier period. Before the first period the means are 0.
-struct PlantOutputs {
-  double mean_friction_force_N = 0.0;     ///< over the period
-  double sliding_velocity_m_per_s = 0.0;  ///< at its end
-  double vibration_in_phase_m_per_s = 0.0;
-  double vibration_quadrature_m_per_s = 0.0;
-  double friction_ratio = 0.0;  ///< of the period; 0 where there is no friction to relate it to
-  double displacement_m = 0.0;
-  double velocity_m_per_s = 0.0;
-  double friction_force_N = 0.0;
+/// A carrier period as the controller and those who watch see it.
+struct PlantPeriod : Period {
+  double mean_friction_force_N = 0.0;
 };
 
-/// What the controller answers at the end of a carrier period.
-struct ControllerOutputs {
-  double drive_force_amplitude_N = 0.0;  ///< in force during the period that comes next
-  double drive_frequency_Hz = 0.0;       ///< likewise, of the carrier
-  hal::Drive answer{};                   ///< to the sample of the last period
-  std::uint64_t trace_hash = 0;          ///< of all answers, as in summary.json
-};
-
-/// What holds during a carrier period.
-struct Inputs {
-  double drive_force_amplitude_N = 0.0;  ///< of a plant without its controller
-  double drive_frequency_Hz = 0.0;       ///< likewise, where the scene's carrier changes
-  PlantOutputs seen;                     ///< by a controller without its plant
-  double target_friction_ratio = 0.0;    ///< 0: the scene's own steps
-};
-
-/// What of a scene cannot be stepped.
-/// @throws configure::ConfigurationError
-void require_usable(const scene::Scene& scene, Kind kind);
-
-/// For what counts in carrier periods of one length.
-/// @param scene  with a drive
-/// @throws configure::ConfigurationError
-void require_constant_carrier(const scene::Scene& scene);
-
-/// Carrier periods that no simulation reaches: an engine counts to no more.
-inline constexpr double endless_periods = 1e12;
+/// A result to be filled in; with a controller of this design.
+RunResult begun_result(const std::optional<configure::ControlDesign>& design);
 
 class Engine {
  public:
-  /// @param scene  usable for the kind; its run has no end here
-  /// @throws configure::ConfigurationError, ComputationError
-  Engine(const scene::Scene& scene, Kind kind);
+  /// All must outlive it.
+  /// @param has_plant   false: it is elsewhere
+  /// @param controller  as it is before its first step; null: it is elsewhere, or there is none
+  /// @param result      with the record of that controller, of which the design is filled in
+  /// @throws ComputationError
+  Engine(const scene::Scene& scene, bool has_plant, ControlPort* controller, const Watch& watch,
+         RunResult& result);
+  Engine(const Engine&) = delete;
+  Engine& operator=(const Engine&) = delete;
 
   /// The carrier period that comes next.
-  CarrierClock next_period(const Inputs& inputs) const;
-  /// Carries it out: first the plant, then, at its end, the controller.
-  /// @throws ComputationError
-  void advance(const Inputs& inputs);
+  const CarrierClock& clock() const { return clock_; }
+  const std::optional<PlantRun>& plant() const { return plant_; }
+  std::optional<ControlRun>& control() { return control_; }
+  const std::optional<ControlRun>& control() const { return control_; }
 
-  const PlantOutputs& plant() const { return plant_outputs_; }
-  const ControllerOutputs& controller() const { return controller_outputs_; }
-  /// The controller names another fault than in the period before.
-  bool fault_began() const { return fault_began_; }
+  /// Of that period, where the scene's carrier changes.
+  void set_frequency_Hz(double frequency_Hz) { clock_.set_frequency_Hz(frequency_Hz); }
+
+  /// That period, but for what the plant does in it.
+  PlantPeriod begun(double amplitude_N) const;
+
+  /// Moves the plant through it.
+  /// @throws ComputationError
+  PlantPeriod move(double amplitude_N);
+
+  /// Shows what has passed, lets the controller take its step, unless the period was cut short, and
+  /// goes on to the next.
+  void conclude(PlantPeriod period);
+
+  /// Fills in what a run ends with.
+  void finish();
 
   void save(SnapshotWriter& state) const;
-  /// @param state  of an engine of an equal scene and the same kind
-  /// @throws std::invalid_argument  it cannot be that
   void restore(SnapshotReader& state);
 
  private:
-  void advance_plant(double amplitude_N);
-  void advance_controller(const PlantOutputs& seen, double target);
-  void show_plant();
-  void show_controller();
+  double natural_Hz(double time_s) const;
 
-  scene::Scene scene_;
-  bool carrier_changes_;
-  Watch watch_;
-  RunResult result_;
+  const scene::Scene& scene_;
+  const Watch& watch_;
   CarrierClock clock_;
   std::optional<PlantRun> plant_;
-  ControlRecord record_;
-  std::unique_ptr<ControlPort> port_;
-  std::optional<ControlRun> controller_;
-  PlantOutputs plant_outputs_;
-  ControllerOutputs controller_outputs_;
-  bool fault_began_ = false;
+  std::optional<ControlRun> control_;
+  double friction_N_;
+  double constant_natural_Hz_;  ///< of a spring that does not change
 };
 
 }  // namespace sonoglide::loop

@@ -28,7 +28,7 @@ constexpr std::array observation_names = {"friction_ratio",           "drive_for
                                           "velocity_m_per_s",         "friction_force_N"};
 
 py::array_t<double> observation_of(const Loop& loop) {
-  const loop::Engine& engine = loop.stepped.engine();
+  const loop::SteppedScene& engine = loop.stepped.engine();
   const loop::PlantOutputs& plant = engine.plant();
   const std::array values = {
       plant.friction_ratio,           engine.controller().drive_force_amplitude_N,
@@ -39,7 +39,7 @@ py::array_t<double> observation_of(const Loop& loop) {
 }
 
 py::dict info_of(const Loop& loop) {
-  const loop::Engine& engine = loop.stepped.engine();
+  const loop::SteppedScene& engine = loop.stepped.engine();
   py::dict info;
   info["time_s"] = loop.stepped.time_s();
   info["wanted_friction_ratio"] = loop.stepped.wanted_ratio();
@@ -59,7 +59,7 @@ py::tuple step(Loop& loop, const std::optional<double>& target) {
         "target is {}; allowed: a friction ratio above 0, at most 1, or None", *target));
   }
   loop.stepped.step(target.value_or(0.0));
-  const loop::Engine& engine = loop.stepped.engine();
+  const loop::SteppedScene& engine = loop.stepped.engine();
   const double reward = -std::abs(engine.plant().friction_ratio - loop.stepped.wanted_ratio());
   const bool terminated = engine.controller().answer.fault != 0;
   return py::make_tuple(observation_of(loop), reward, terminated, loop.stepped.over(),

@@ -5,7 +5,7 @@
 #include <stdexcept>
 
 #include "host_sim/loop/carrier_grid.hpp"
-#include "host_sim/loop/kind.hpp"
+#include "host_sim/loop/stepped.hpp"
 
 namespace sonoglide::python {
 namespace {
@@ -32,7 +32,7 @@ SteppedLoop::SteppedLoop(const SteppedLoop& other) : SteppedLoop(other.scene_) {
 
 void SteppedLoop::reset(std::optional<std::uint64_t> seed) {
   scene_.sensor.seed = seed.value_or(scene_.sensor.seed);
-  engine_ = std::make_unique<loop::Engine>(scene_, loop::Kind::loop);
+  engine_ = std::make_unique<loop::SteppedScene>(scene_, loop::Kind::loop);
   periods_ = 0;
   wanted_ratio_ = wanted_now();
 }

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "host_sim/loop/control_run.hpp"
-#include "host_sim/loop/engine.hpp"
 #include "host_sim/loop/snapshot.hpp"
+#include "host_sim/loop/stepped.hpp"
 #include "host_sim/scene/scene.hpp"
 
 namespace sonoglide::python {
@@ -32,7 +32,7 @@ class SteppedLoop {
   /// @throws loop::ComputationError, std::invalid_argument  the target is out of range
   void step(double target);
 
-  const loop::Engine& engine() const { return *engine_; }
+  const loop::SteppedScene& engine() const { return *engine_; }
   double time_s() const { return static_cast<double>(periods_) * period_s_; }
   /// Of the scene, for the period that was stepped last.
   double wanted_ratio() const { return wanted_ratio_; }
@@ -52,7 +52,7 @@ class SteppedLoop {
   double period_s_;
   std::uint64_t scene_periods_;
   std::vector<loop::ScheduledTarget> schedule_;
-  std::unique_ptr<loop::Engine> engine_;
+  std::unique_ptr<loop::SteppedScene> engine_;
   std::uint64_t periods_ = 0;
   double wanted_ratio_ = 0.0;
 };

@@ -1,17 +1,15 @@
 #include "host_sim/runs/closed_loops.hpp"
 
-#include <cmath>
 #include <cstddef>
-#include <limits>
 #include <memory>
 #include <optional>
+#include <utility>
 
-#include "firmware/numeric/turn.hpp"
 #include "host_sim/batch/run_driven_plants.hpp"
 #include "host_sim/configure/plant_scales.hpp"
 #include "host_sim/loop/carrier_clock.hpp"
 #include "host_sim/loop/control_port.hpp"
-#include "host_sim/loop/control_run.hpp"
+#include "host_sim/loop/engine.hpp"
 #include "host_sim/runs/lane_scene.hpp"
 
 namespace sonoglide::runs {
@@ -20,51 +18,41 @@ namespace {
 /// A loop without its plant, from one carrier period to the next.
 class RunningLoop {
  public:
-  RunningLoop(const ClosedLoop& loop, loop::ControlRecord& record)
-      : periods_(loop.periods),
-        scales_(configure::plant_scales(loop.scene)),
+  explicit RunningLoop(const ClosedLoop& loop)
+      : scales_(configure::plant_scales(loop.scene)),
         sliding_m_per_s_(loop.scene.sliding.profile.front().velocity_m_per_s),
-        natural_Hz_(std::sqrt(loop.scene.plant.stiffness_N_per_m / loop.scene.plant.mass_kg) /
-                    numeric::two_pi),
-        clock_(loop.scene),
         port_(loop::make_control_port(loop.scene, loop.design)),
-        control_(loop.scene, loop::CarrierGrid(loop.scene), *port_, record) {}
+        result_(loop::begun_result(loop.design)),
+        engine_(loop.scene, false, port_.get(), watch_, result_) {
+    watch_.periods.push_back(&loop.periods);
+  }
 
   /// @return amplitude of the next period; absent where no whole one follows
   std::optional<double> next_amplitude(double mean_friction) {
-    show(mean_friction);
-    control_.step(clock_.end_s(), mean_friction * scales_.friction_N, sliding_m_per_s_);
-    clock_.next();
-    if (clock_.over() || !clock_.is_whole()) {
-      control_.finish();
-      return std::nullopt;
-    }
-    return control_.amplitude_N() / scales_.force_N;
-  }
-
- private:
-  void show(double mean_friction) {
-    loop::Period period;
-    period.begin_s = clock_.begin_s();
-    period.end_s = clock_.end_s();
+    loop::PlantPeriod period = engine_.begun(engine_.control()->amplitude_N());
+    period.mean_friction_force_N = mean_friction * scales_.friction_N;
     period.friction_ratio = sliding_m_per_s_ < 0.0 ? -mean_friction : mean_friction;
     period.begin_velocity_m_per_s = sliding_m_per_s_;
     period.end_velocity_m_per_s = sliding_m_per_s_;
-    period.drive_amplitude_N = control_.amplitude_N();
-    period.frequency_Hz = clock_.frequency_Hz();
-    period.whole = true;
-    period.natural_Hz = natural_Hz_;
-    control_.label(period);
-    periods_.take(period);
+    engine_.conclude(period);
+    if (engine_.clock().over() || !engine_.clock().is_whole()) {
+      return std::nullopt;
+    }
+    return engine_.control()->amplitude_N() / scales_.force_N;
   }
 
-  loop::PeriodSink& periods_;
+  loop::ControlRecord finish() {
+    engine_.finish();
+    return std::move(*result_.control);
+  }
+
+ private:
   scene::PlantScales scales_;
   double sliding_m_per_s_;
-  double natural_Hz_;
-  loop::CarrierClock clock_;
+  loop::Watch watch_;
   std::unique_ptr<loop::ControlPort> port_;
-  loop::ControlRun control_;
+  loop::RunResult result_;
+  loop::Engine engine_;
 };
 
 /// The controllers of all loops; there are those of the loops that run.
@@ -76,12 +64,11 @@ class Controllers final : public batch::DriveSource {
   std::optional<double> next_amplitude(std::size_t plant, double mean_friction) override {
     std::unique_ptr<RunningLoop>& running = running_[plant];
     if (!running) {
-      loop::ControlRecord& record = runs_[plant].control;
-      record.design = loops_[plant].design;
-      running = std::make_unique<RunningLoop>(loops_[plant], record);
+      running = std::make_unique<RunningLoop>(loops_[plant]);
     }
     const std::optional<double> amplitude = running->next_amplitude(mean_friction);
     if (!amplitude) {
+      runs_[plant].control = running->finish();
       running.reset();
     }
     return amplitude;

@@ -8,8 +8,8 @@
 #include <stdexcept>
 
 #include "host_sim/loop/carrier_grid.hpp"
-#include "host_sim/loop/engine.hpp"
 #include "host_sim/loop/run.hpp"
+#include "host_sim/loop/stepped.hpp"
 #include "host_sim/runs/closed_loops.hpp"
 #include "host_sim/runs/run_many.hpp"
 
@@ -46,7 +46,7 @@ void require_targets(const Rollout& rollout, std::size_t place) {
 }
 
 void step_through(const Rollout& rollout) {
-  loop::Engine engine(rollout.scene, loop::Kind::loop);
+  loop::SteppedScene engine(rollout.scene, loop::Kind::loop);
   loop::Inputs inputs;
   const std::size_t periods = whole_periods(rollout.scene);
   for (std::size_t i = 0; i < periods; ++i) {

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "host_sim/fmi/archive/model_description.hpp"
-#include "host_sim/loop/kind.hpp"
+#include "host_sim/loop/stepped.hpp"
 #include "host_sim/scene/scene.hpp"
 
 namespace sonoglide::fmi {

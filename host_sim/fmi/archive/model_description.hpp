@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "host_sim/loop/kind.hpp"
+#include "host_sim/loop/stepped.hpp"
 #include "host_sim/scene/scene.hpp"
 
 namespace sonoglide::fmi {

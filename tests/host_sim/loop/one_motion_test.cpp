@@ -13,8 +13,8 @@
 
 #include "host_sim/configure/solver_cores.hpp"
 #include "host_sim/configure/solver_methods.hpp"
-#include "host_sim/loop/engine.hpp"
 #include "host_sim/loop/run.hpp"
+#include "host_sim/loop/stepped.hpp"
 #include "host_sim/scene/law_cores.hpp"
 #include "tests/common/table_1.hpp"
 #include "tests/host_sim/loop/random/random_scene.hpp"
@@ -105,7 +105,7 @@ End sampled(const Scene& scene) {
 }
 
 End stepped(const Scene& scene) {
-  loop::Engine engine(scene, scene.controller ? loop::Kind::loop : loop::Kind::plant);
+  loop::SteppedScene engine(scene, scene.controller ? loop::Kind::loop : loop::Kind::plant);
   loop::Inputs inputs;
   inputs.drive_force_amplitude_N = scene.drive->force_amplitude_N;
   for (int i = 0; i < periods; ++i) {
