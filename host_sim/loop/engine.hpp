@@ -5,8 +5,7 @@
 #include <optional>
 
 #include "host_sim/configure/control_design.hpp"
-#include "host_sim/loop/carrier_clock.hpp"
-#include "host_sim/loop/control_port.hpp"
+#include "host_sim/loop/carrier_grid.hpp"
 #include "host_sim/loop/control_run.hpp"
 #include "host_sim/loop/plant_run.hpp"
 #include "host_sim/loop/run_result.hpp"

@@ -6,7 +6,7 @@
 #include <memory>
 #include <vector>
 
-#include "host_sim/loop/carrier_clock.hpp"
+#include "host_sim/loop/carrier_grid.hpp"
 #include "host_sim/loop/electrical.hpp"
 #include "host_sim/loop/energy.hpp"
 #include "host_sim/loop/plant_port.hpp"

@@ -6,12 +6,9 @@
 #include <memory>
 
 #include "hal/board.hpp"
-#include "host_sim/loop/carrier_clock.hpp"
 #include "host_sim/loop/control_port.hpp"
 #include "host_sim/loop/engine.hpp"
-#include "host_sim/loop/run_result.hpp"
 #include "host_sim/loop/snapshot.hpp"
-#include "host_sim/loop/watch.hpp"
 #include "host_sim/scene/names.hpp"
 #include "host_sim/scene/scene.hpp"
 

@@ -7,7 +7,7 @@
 
 #include "host_sim/batch/run_driven_plants.hpp"
 #include "host_sim/configure/plant_scales.hpp"
-#include "host_sim/loop/carrier_clock.hpp"
+#include "host_sim/loop/carrier_grid.hpp"
 #include "host_sim/loop/control_port.hpp"
 #include "host_sim/loop/engine.hpp"
 #include "host_sim/runs/lane_scene.hpp"

@@ -1,4 +1,4 @@
-#include "host_sim/studies/robust/run_plants.hpp"
+#include "host_sim/studies/robust/study.hpp"
 
 #include <cstddef>
 #include <numeric>

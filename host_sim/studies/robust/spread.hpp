@@ -1,9 +1,28 @@
-/// A tolerance as a distribution to draw from, and as an interval to search in.
+/// A tolerance as a distribution to draw from, by points that fill a cube evenly, and as an interval to
+/// search in.
 #pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
 
 #include "host_sim/scene/tolerance.hpp"
 
 namespace sonoglide::robust {
+
+/// Point `index` of a Sobol sequence, scrambled.
+///
+/// The sequence has the direction numbers of Joe and Kuo (2008), by Boost.Random, in Gray-code order
+/// from the point 0 on. The scrambling is Owen's (1995): each binary digit of a coordinate is flipped
+/// or not as a hash of the seed, the coordinate and the digits above it says. So the first 2^m points
+/// stay a net, and each point by itself is uniform over the seeds.
+///
+/// Coordinates are odd multiples of 2^-53: none is 0 or 1.
+/// @param dimensions  1 to most_dimensions
+/// @param count       points 0 to count - 1, one after the other
+std::vector<double> scrambled_sobol(std::size_t dimensions, std::size_t count, std::uint64_t seed);
+
+inline constexpr std::size_t most_dimensions = 3667;
 
 /// The true value at a place of the distribution: half widths and ranges are uniform, integers among
 /// them equally likely; a normal one is cut off at the ends of its key's range.

@@ -7,7 +7,6 @@
 #include "host_sim/scene_file/reader.hpp"
 #include "host_sim/scene_file/to_json.hpp"
 #include "host_sim/scene_file/to_toml.hpp"
-#include "host_sim/studies/robust/sobol.hpp"
 #include "host_sim/studies/robust/spread.hpp"
 
 namespace sonoglide::robust {

@@ -1,4 +1,4 @@
-#include "host_sim/studies/robust/sobol.hpp"
+#include "host_sim/studies/robust/spread.hpp"
 
 #include <gtest/gtest.h>
 

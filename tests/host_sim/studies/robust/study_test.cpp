@@ -15,7 +15,6 @@
 #include <vector>
 
 #include "host_sim/studies/robust/report.hpp"
-#include "host_sim/studies/robust/run_plants.hpp"
 #include "robust_scenes.hpp"
 
 namespace sonoglide::robust::study_test {

@@ -8,7 +8,7 @@
 #include "host_sim/loop/run.hpp"
 #include "host_sim/scene_file/reader.hpp"
 #include "host_sim/scene_file/scene_error.hpp"
-#include "host_sim/studies/robust/run_plants.hpp"
+#include "host_sim/studies/robust/study.hpp"
 #include "robust_scenes.hpp"
 
 namespace sonoglide::robust::task_test {
