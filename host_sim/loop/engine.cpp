@@ -69,7 +69,7 @@ PlantPeriod Engine::move(double amplitude_N) {
   return period;
 }
 
-void Engine::conclude(PlantPeriod period) {
+void Engine::conclude(PlantPeriod& period) {
   if (control_ && !watch_.periods.empty()) {
     control_->label(period);
   }

@@ -52,7 +52,8 @@ class Engine {
 
   /// Shows what has passed, lets the controller take its step, unless the period was cut short, and
   /// goes on to the next.
-  void conclude(PlantPeriod period);
+  /// @param period  what drove it is filled in
+  void conclude(PlantPeriod& period);
 
   /// Fills in what a run ends with.
   void finish();

@@ -27,7 +27,8 @@ void advance(const scene::Scene& scene, Engine& engine) {
   }
   const double open_loop_N = scene.drive ? scene.drive->force_amplitude_N : 0.0;
   const double amplitude_N = control ? control->amplitude_N() : open_loop_N;
-  engine.conclude(engine.move(amplitude_N));
+  PlantPeriod period = engine.move(amplitude_N);
+  engine.conclude(period);
 }
 
 RunResult simulate(const scene::Scene& scene, ControlPort* controller, const Watch& watch,
