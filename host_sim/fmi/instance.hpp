@@ -11,7 +11,7 @@
 
 #include "host_sim/fmi/resources.hpp"
 #include "host_sim/fmi/variables.hpp"
-#include "host_sim/loop/snapshot.hpp"
+#include "host_sim/loop/plant/snapshot.hpp"
 #include "host_sim/loop/stepped.hpp"
 
 namespace sonoglide::fmi {

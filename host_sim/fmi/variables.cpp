@@ -227,7 +227,7 @@ std::vector<Variable> variables(const scene::Scene& scene, loop::Kind kind) {
   }
   if (kind == loop::Kind::controller) {
     list.inputs(measured);
-    if (scene.observes_vibration()) {
+    if (scene.sensor.vibration) {
       list.inputs(demodulated);
     }
   }

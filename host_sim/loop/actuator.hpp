@@ -8,7 +8,7 @@
 
 #include "firmware/control/interface/drive_command.hpp"
 #include "hal/board.hpp"
-#include "host_sim/loop/snapshot.hpp"
+#include "host_sim/loop/plant/snapshot.hpp"
 
 namespace sonoglide::loop {
 

@@ -7,7 +7,7 @@
 #include "firmware/numeric/signal_ledger.hpp"
 #include "hal/board.hpp"
 #include "host_sim/configure/control_design.hpp"
-#include "host_sim/loop/snapshot.hpp"
+#include "host_sim/loop/plant/snapshot.hpp"
 #include "host_sim/scene/scene.hpp"
 
 namespace sonoglide::loop {

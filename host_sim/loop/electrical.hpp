@@ -4,8 +4,8 @@
 #include <complex>
 #include <limits>
 
-#include "host_sim/loop/energy.hpp"
-#include "host_sim/loop/plant_port.hpp"
+#include "host_sim/loop/plant/energy.hpp"
+#include "host_sim/loop/plant/plant_port.hpp"
 #include "host_sim/scene/scene.hpp"
 
 namespace sonoglide::loop {

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "firmware/plant/outcome.hpp"
-#include "host_sim/loop/plant_port.hpp"
+#include "host_sim/loop/plant/plant_port.hpp"
 #include "host_sim/scene/scene.hpp"
 
 namespace sonoglide::loop {

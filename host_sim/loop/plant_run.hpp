@@ -8,12 +8,12 @@
 
 #include "host_sim/loop/carrier_grid.hpp"
 #include "host_sim/loop/electrical.hpp"
-#include "host_sim/loop/energy.hpp"
-#include "host_sim/loop/plant_port.hpp"
+#include "host_sim/loop/plant/energy.hpp"
+#include "host_sim/loop/plant/plant_port.hpp"
+#include "host_sim/loop/plant/sliding_profile.hpp"
+#include "host_sim/loop/plant/step_meter.hpp"
 #include "host_sim/loop/run_result.hpp"
 #include "host_sim/loop/sampler.hpp"
-#include "host_sim/loop/sliding_profile.hpp"
-#include "host_sim/loop/step_meter.hpp"
 #include "host_sim/loop/undriven_friction.hpp"
 #include "host_sim/scene/scene.hpp"
 

@@ -10,8 +10,8 @@
 #include "firmware/numeric/signal_ledger.hpp"
 #include "host_sim/configure/control_design.hpp"
 #include "host_sim/loop/electrical.hpp"
-#include "host_sim/loop/energy.hpp"
-#include "host_sim/loop/plant_port.hpp"
+#include "host_sim/loop/plant/energy.hpp"
+#include "host_sim/loop/plant/plant_port.hpp"
 #include "host_sim/loop/steady_orbit.hpp"
 
 namespace sonoglide::loop {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "host_sim/loop/plant_port.hpp"
+#include "host_sim/loop/plant/plant_port.hpp"
 
 namespace sonoglide::loop {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "hal/board.hpp"
 #include "host_sim/configure/control_design.hpp"
-#include "host_sim/loop/snapshot.hpp"
+#include "host_sim/loop/plant/snapshot.hpp"
 #include "host_sim/scene/scene.hpp"
 
 namespace sonoglide::loop {

@@ -18,7 +18,7 @@
 #include "host_sim/configure/plant_scales.hpp"
 #include "host_sim/configure/solver_facts.hpp"
 #include "host_sim/loop/failure.hpp"
-#include "host_sim/loop/make_plant_port.hpp"
+#include "host_sim/loop/plant/make_plant_port.hpp"
 
 namespace sonoglide::loop {
 namespace {

@@ -7,9 +7,9 @@
 #include "firmware/numeric/turn.hpp"
 #include "firmware/plant/outcome.hpp"
 #include "host_sim/loop/carrier_grid.hpp"
-#include "host_sim/loop/make_plant_port.hpp"
-#include "host_sim/loop/sliding_profile.hpp"
-#include "host_sim/loop/step_meter.hpp"
+#include "host_sim/loop/plant/make_plant_port.hpp"
+#include "host_sim/loop/plant/sliding_profile.hpp"
+#include "host_sim/loop/plant/step_meter.hpp"
 
 namespace sonoglide::loop {
 namespace {

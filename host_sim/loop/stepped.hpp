@@ -8,7 +8,7 @@
 #include "hal/board.hpp"
 #include "host_sim/loop/control_port.hpp"
 #include "host_sim/loop/engine.hpp"
-#include "host_sim/loop/snapshot.hpp"
+#include "host_sim/loop/plant/snapshot.hpp"
 #include "host_sim/scene/names.hpp"
 #include "host_sim/scene/scene.hpp"
 

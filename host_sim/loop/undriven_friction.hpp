@@ -1,8 +1,8 @@
 /// What the slide of a scene would meet without vibration.
 #pragma once
 
-#include "host_sim/loop/energy.hpp"
-#include "host_sim/loop/plant_port.hpp"
+#include "host_sim/loop/plant/energy.hpp"
+#include "host_sim/loop/plant/plant_port.hpp"
 #include "host_sim/scene/scene.hpp"
 
 namespace sonoglide::loop {

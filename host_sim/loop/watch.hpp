@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "firmware/control/interface/drive_command.hpp"
-#include "host_sim/loop/plant_port.hpp"
+#include "host_sim/loop/plant/plant_port.hpp"
 
 namespace sonoglide::loop {
 

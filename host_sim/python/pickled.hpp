@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-#include "host_sim/loop/snapshot.hpp"
+#include "host_sim/loop/plant/snapshot.hpp"
 #include "host_sim/process/checksum.hpp"
 
 namespace sonoglide::python {

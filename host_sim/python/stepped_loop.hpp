@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "host_sim/loop/control_run.hpp"
-#include "host_sim/loop/snapshot.hpp"
+#include "host_sim/loop/plant/snapshot.hpp"
 #include "host_sim/loop/stepped.hpp"
 #include "host_sim/scene/scene.hpp"
 

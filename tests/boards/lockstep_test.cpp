@@ -20,7 +20,7 @@
 #include "host_sim/emulated/image_process.hpp"
 #include "host_sim/loop/actuator.hpp"
 #include "host_sim/loop/control_port.hpp"
-#include "host_sim/loop/make_plant_port.hpp"
+#include "host_sim/loop/plant/make_plant_port.hpp"
 #include "host_sim/loop/run.hpp"
 #include "host_sim/loop/sensor.hpp"
 #include "host_sim/scene_file/reader.hpp"

@@ -32,7 +32,7 @@
 #include "host_sim/loop/carrier_grid.hpp"
 #include "host_sim/loop/control_port.hpp"
 #include "host_sim/loop/control_run.hpp"
-#include "host_sim/loop/plant_description.hpp"
+#include "host_sim/loop/plant/plant_description.hpp"
 #include "host_sim/process/run_tool.hpp"
 #include "host_sim/scene_file/reader.hpp"
 #include "tested_boards.hpp"

@@ -3,7 +3,7 @@
 
 # A room's place in the drawing is its folder, but for the parts of one that is drawn as a whole.
 function(sonoglide_place folder result)
-  foreach(whole host_sim/studies host_sim/fmi host_sim/cli)
+  foreach(whole host_sim/loop host_sim/studies host_sim/fmi host_sim/cli)
     string(REGEX REPLACE "^${whole}/.*" "${whole}" folder "${folder}")
   endforeach()
   set(${result} "${folder}" PARENT_SCOPE)

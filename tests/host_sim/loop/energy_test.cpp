@@ -1,4 +1,4 @@
-#include "host_sim/loop/energy.hpp"
+#include "host_sim/loop/plant/energy.hpp"
 
 #include <gtest/gtest.h>
 

@@ -17,7 +17,7 @@
 #include "host_sim/configure/plant_scales.hpp"
 #include "host_sim/configure/solver_facts.hpp"
 #include "host_sim/configure/solver_methods.hpp"
-#include "host_sim/loop/changing_plant.hpp"
+#include "host_sim/loop/plant/changing_plant.hpp"
 #include "tests/common/lugre.hpp"
 #include "tests/common/table_1.hpp"
 #include "tests/host_sim/loop/logs/logged_run.hpp"

@@ -4,9 +4,9 @@
 #include <vector>
 
 #include "firmware/plant/outcome.hpp"
-#include "host_sim/loop/energy.hpp"
-#include "host_sim/loop/snapshot.hpp"
-#include "host_sim/loop/stretch.hpp"
+#include "host_sim/loop/plant/energy.hpp"
+#include "host_sim/loop/plant/snapshot.hpp"
+#include "host_sim/loop/plant/stretch.hpp"
 
 namespace sonoglide::loop {
 

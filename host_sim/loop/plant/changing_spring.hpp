@@ -1,10 +1,10 @@
 /// A spring whose stiffness changes in time.
 #pragma once
 
-#include "host_sim/loop/course.hpp"
-#include "host_sim/loop/energy.hpp"
-#include "host_sim/loop/plant_port.hpp"
-#include "host_sim/loop/snapshot.hpp"
+#include "host_sim/loop/plant/course.hpp"
+#include "host_sim/loop/plant/energy.hpp"
+#include "host_sim/loop/plant/plant_port.hpp"
+#include "host_sim/loop/plant/snapshot.hpp"
 #include "host_sim/scene/scene.hpp"
 
 namespace sonoglide::loop {

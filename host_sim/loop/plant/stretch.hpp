@@ -1,7 +1,7 @@
 /// What a plant advances over at once, and the drive in it.
 #pragma once
 
-#include "host_sim/loop/step_meter.hpp"
+#include "host_sim/loop/plant/step_meter.hpp"
 #include "host_sim/scene/scene.hpp"
 
 namespace sonoglide::loop {

@@ -1,4 +1,4 @@
-#include "host_sim/loop/sloping_contact.hpp"
+#include "host_sim/loop/plant/sloping_contact.hpp"
 
 #include <algorithm>
 #include <cmath>

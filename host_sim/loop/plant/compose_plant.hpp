@@ -9,10 +9,10 @@
 #include "firmware/plant/model.hpp"
 #include "firmware/plant/sliding.hpp"
 #include "host_sim/configure/plant_model.hpp"
-#include "host_sim/loop/plant_description.hpp"
-#include "host_sim/loop/plant_port.hpp"
-#include "host_sim/loop/sliding_profile.hpp"
-#include "host_sim/loop/solver_list.hpp"
+#include "host_sim/loop/plant/plant_description.hpp"
+#include "host_sim/loop/plant/plant_port.hpp"
+#include "host_sim/loop/plant/sliding_profile.hpp"
+#include "host_sim/loop/plant/solver_list.hpp"
 
 namespace sonoglide::loop {
 

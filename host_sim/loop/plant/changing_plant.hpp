@@ -4,10 +4,10 @@
 #include <cstdint>
 #include <vector>
 
-#include "host_sim/loop/changing_spring.hpp"
-#include "host_sim/loop/course.hpp"
-#include "host_sim/loop/held_plant.hpp"
-#include "host_sim/loop/plant_port.hpp"
+#include "host_sim/loop/plant/changing_spring.hpp"
+#include "host_sim/loop/plant/course.hpp"
+#include "host_sim/loop/plant/held_plant.hpp"
+#include "host_sim/loop/plant/plant_port.hpp"
 #include "host_sim/scene/scene.hpp"
 
 namespace sonoglide::loop {

@@ -1,4 +1,4 @@
-#include "host_sim/loop/changing_plant.hpp"
+#include "host_sim/loop/plant/changing_plant.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,7 @@
 #include "host_sim/configure/plant_scales.hpp"
 #include "host_sim/configure/solver_facts.hpp"
 #include "host_sim/configure/solver_methods.hpp"
-#include "host_sim/loop/sloping_contact.hpp"
+#include "host_sim/loop/plant/sloping_contact.hpp"
 
 namespace sonoglide::loop {
 namespace {

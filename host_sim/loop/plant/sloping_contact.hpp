@@ -3,9 +3,9 @@
 
 #include <vector>
 
-#include "host_sim/loop/energy.hpp"
-#include "host_sim/loop/held_plant.hpp"
-#include "host_sim/loop/plant_port.hpp"
+#include "host_sim/loop/plant/energy.hpp"
+#include "host_sim/loop/plant/held_plant.hpp"
+#include "host_sim/loop/plant/plant_port.hpp"
 #include "host_sim/scene/scene.hpp"
 
 namespace sonoglide::loop {

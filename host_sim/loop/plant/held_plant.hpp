@@ -4,8 +4,8 @@
 #include <memory>
 #include <vector>
 
-#include "host_sim/loop/plant_port.hpp"
-#include "host_sim/loop/snapshot.hpp"
+#include "host_sim/loop/plant/plant_port.hpp"
+#include "host_sim/loop/plant/snapshot.hpp"
 #include "host_sim/scene/scene.hpp"
 
 namespace sonoglide::loop {

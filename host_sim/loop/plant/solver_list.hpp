@@ -12,9 +12,9 @@
 #include "firmware/plant/sliding.hpp"
 #include "host_sim/configure/solver_cores.hpp"
 #include "host_sim/configure/solver_methods.hpp"
-#include "host_sim/loop/composed_plant.hpp"
-#include "host_sim/loop/plant_description.hpp"
-#include "host_sim/loop/plant_port.hpp"
+#include "host_sim/loop/plant/composed_plant.hpp"
+#include "host_sim/loop/plant/plant_description.hpp"
+#include "host_sim/loop/plant/plant_port.hpp"
 
 namespace sonoglide::loop {
 

@@ -1,4 +1,4 @@
-#include "host_sim/loop/stretch.hpp"
+#include "host_sim/loop/plant/stretch.hpp"
 
 #include <cmath>
 

@@ -1,4 +1,4 @@
-#include "host_sim/loop/sliding_profile.hpp"
+#include "host_sim/loop/plant/sliding_profile.hpp"
 
 #include <algorithm>
 #include <cstddef>

@@ -1,4 +1,4 @@
-#include "host_sim/loop/changing_spring.hpp"
+#include "host_sim/loop/plant/changing_spring.hpp"
 
 namespace sonoglide::loop {
 namespace {

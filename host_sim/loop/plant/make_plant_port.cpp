@@ -1,11 +1,11 @@
-#include "host_sim/loop/make_plant_port.hpp"
+#include "host_sim/loop/plant/make_plant_port.hpp"
 
 #include <variant>
 
 #include "host_sim/configure/plant_scales.hpp"
 #include "host_sim/configure/solver_methods.hpp"
-#include "host_sim/loop/changing_plant.hpp"
-#include "host_sim/loop/plant_description.hpp"
+#include "host_sim/loop/plant/changing_plant.hpp"
+#include "host_sim/loop/plant/plant_description.hpp"
 
 namespace sonoglide::loop {
 namespace {

@@ -1,10 +1,10 @@
-#include "host_sim/loop/held_plant.hpp"
+#include "host_sim/loop/plant/held_plant.hpp"
 
 #include <algorithm>
 #include <cstddef>
 
 #include "firmware/numeric/turn.hpp"
-#include "host_sim/loop/make_plant_port.hpp"
+#include "host_sim/loop/plant/make_plant_port.hpp"
 
 namespace sonoglide::loop {
 namespace {

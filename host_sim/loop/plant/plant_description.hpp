@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "host_sim/configure/plant_scales.hpp"
-#include "host_sim/loop/plant_port.hpp"
+#include "host_sim/loop/plant/plant_port.hpp"
 #include "host_sim/scene/scene.hpp"
 
 namespace sonoglide::loop {
