@@ -264,7 +264,7 @@ Advice relief(const DesignStudy& study, const Requirement& point) {
                 "carrier, and leaves the amplifier {} and its own losses.",
                 output::quantity(inductance_H, "H"), output::quantity(figures.active_power_W, "W"))
           : std::string("The transducer is not capacitive: an inductor would not help.");
-  if (study.task.scene.resonant()) {
+  if (study.task.at_resonance) {
     return {"Matching", sentence};
   }
   const ResonantSpring& spring = *study.resonant_spring;
@@ -315,7 +315,7 @@ std::vector<Advice> advice(const DesignStudy& study) {
     all.push_back(amplifier(study, *most));
     all.push_back(relief(study, *most));
   }
-  if (!study.detunings.empty() && !study.task.scene.resonant()) {
+  if (!study.detunings.empty() && !study.task.at_resonance) {
     const Detuning& lowest = study.detunings.front();
     all.push_back(resonance(study, lowest));
     if (lowest.reachable) {

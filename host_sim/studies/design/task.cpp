@@ -80,13 +80,8 @@ double speed_floor_m_per_s(const scene::Scene& scene) {
 
 namespace {
 
-/// A resonant loop is designed at the resonance, which its drive follows.
-scene::Scene at_its_carrier(scene::Scene scene) {
-  if (scene.resonant()) {
-    scene.drive->frequency_Hz =
-        std::sqrt(scene.plant.stiffness_N_per_m / scene.plant.mass_kg) / numeric::two_pi;
-  }
-  return scene;
+double resonance_Hz(const scene::Plant& plant) {
+  return std::sqrt(plant.stiffness_N_per_m / plant.mass_kg) / numeric::two_pi;
 }
 
 }  // namespace
@@ -94,8 +89,11 @@ scene::Scene at_its_carrier(scene::Scene scene) {
 Task make_task(const scene::Scene& scene, const std::vector<double>& ratios,
                const std::optional<SpeedRange>& speeds) {
   require_steady_vibration(scene);
-  Task task{at_its_carrier(scene), ratios.empty() ? targets(*scene.controller) : ratios,
-            speeds ? *speeds : speeds_of(scene)};
+  Task task{scene, ratios.empty() ? targets(*scene.controller) : ratios,
+            speeds ? *speeds : speeds_of(scene), scene.resonant()};
+  if (task.at_resonance) {
+    task.scene.drive->frequency_Hz = resonance_Hz(scene.plant);
+  }
   if (!(task.speeds.slowest_m_per_s > 0.0)) {
     throw configure::ConfigurationError(
         "sliding.velocity_m_per_s",

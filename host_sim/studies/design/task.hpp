@@ -20,6 +20,7 @@ struct Task {
   scene::Scene scene;          ///< closed loop: plant, contact and drive with its limit
   std::vector<double> ratios;  ///< each once, rising
   SpeedRange speeds;
+  bool at_resonance;  ///< where a controller keeps the drive, by its frequency
 };
 
 /// The ratios and the speeds that a closed-loop scene gives, unless others are named. The sign of a
