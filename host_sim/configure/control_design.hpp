@@ -9,10 +9,10 @@
 #include <variant>
 #include <vector>
 
-#include "host_sim/configure/damped_design.hpp"
-#include "host_sim/configure/feedforward_design.hpp"
-#include "host_sim/configure/resonant_design.hpp"
-#include "host_sim/configure/sensorless_design.hpp"
+#include "host_sim/configure/vibration/damped_design.hpp"
+#include "host_sim/configure/vibration/feedforward_design.hpp"
+#include "host_sim/configure/vibration/resonant_design.hpp"
+#include "host_sim/configure/vibration/sensorless_design.hpp"
 #include "host_sim/scene/scene.hpp"
 
 namespace sonoglide::configure {

@@ -15,7 +15,7 @@
 #include "firmware/numeric/accumulator.hpp"
 #include "firmware/numeric/scalar.hpp"
 #include "host_sim/configure/part_parameters.hpp"
-#include "host_sim/configure/vibration_parameters.hpp"
+#include "host_sim/configure/vibration/parameters.hpp"
 
 namespace sonoglide::configure {
 

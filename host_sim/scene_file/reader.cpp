@@ -7,9 +7,9 @@
 
 #include "host_sim/configure/configuration_error.hpp"
 #include "host_sim/configure/control_design.hpp"
-#include "host_sim/configure/notch_design.hpp"
 #include "host_sim/configure/solver_facts.hpp"
 #include "host_sim/configure/solver_methods.hpp"
+#include "host_sim/configure/vibration/notch_design.hpp"
 #include "host_sim/scene/names.hpp"
 #include "host_sim/scene_file/sections.hpp"
 #include "host_sim/scene_file/table_cursor.hpp"

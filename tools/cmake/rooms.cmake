@@ -4,13 +4,14 @@
 
 # sonoglide_room(<target> <folder> [FOLDERS <folders>...] [USES <rooms>...] [LIBRARIES <libraries>...])
 #
-# FOLDERS are those inside this one whose headers belong to the room.
+# FOLDERS are those inside this one whose files belong to the room.
 function(sonoglide_room target folder)
   cmake_parse_arguments(ROOM "" "" "FOLDERS;USES;LIBRARIES" ${ARGN})
   set(root "${PROJECT_BINARY_DIR}/sight/${target}")
-  file(GLOB sources CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/${folder}/*.cpp")
-  list(TRANSFORM ROOM_FOLDERS REPLACE "(.+)" "${PROJECT_SOURCE_DIR}/${folder}/\\1/*.hpp"
+  list(TRANSFORM ROOM_FOLDERS REPLACE "(.+)" "${PROJECT_SOURCE_DIR}/${folder}/\\1/*.cpp"
     OUTPUT_VARIABLE inner)
+  file(GLOB sources CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/${folder}/*.cpp" ${inner})
+  list(TRANSFORM inner REPLACE "cpp$" "hpp")
   file(GLOB names CONFIGURE_DEPENDS RELATIVE "${PROJECT_SOURCE_DIR}/${folder}"
     "${PROJECT_SOURCE_DIR}/${folder}/*.hpp" ${inner})
   # Header by header: any other folder inside this one is another room.

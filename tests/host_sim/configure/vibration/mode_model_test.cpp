@@ -1,7 +1,7 @@
 /// What the vibration shows of a natural mode, against an integration of the resonator; and the
 /// gains of observer and feedback, against their recursions.
 
-#include "host_sim/configure/mode_model.hpp"
+#include "host_sim/configure/vibration/mode_model.hpp"
 
 #include <gtest/gtest.h>
 

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "firmware/control/vibration/sensorless_table.hpp"
-#include "host_sim/configure/mode_design.hpp"
 #include "host_sim/configure/nominal_plant.hpp"
+#include "host_sim/configure/vibration/mode_design.hpp"
 #include "host_sim/scene/scene.hpp"
 
 namespace sonoglide::configure {

@@ -1,4 +1,4 @@
-#include "host_sim/configure/notch_design.hpp"
+#include "host_sim/configure/vibration/notch_design.hpp"
 
 #include <algorithm>
 #include <cmath>

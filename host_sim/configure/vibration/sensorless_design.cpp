@@ -1,4 +1,4 @@
-#include "host_sim/configure/sensorless_design.hpp"
+#include "host_sim/configure/vibration/sensorless_design.hpp"
 
 #include <fmt/format.h>
 
@@ -13,9 +13,9 @@
 #include "firmware/numeric/float_elementary.hpp"
 #include "firmware/numeric/turn.hpp"
 #include "host_sim/configure/configuration_error.hpp"
-#include "host_sim/configure/friction_response.hpp"
-#include "host_sim/configure/mode_model.hpp"
 #include "host_sim/configure/plant_scales.hpp"
+#include "host_sim/configure/vibration/friction_response.hpp"
+#include "host_sim/configure/vibration/mode_model.hpp"
 #include "host_sim/scene/friction_laws.hpp"
 #include "host_sim/scene/names.hpp"
 

@@ -3,8 +3,8 @@
 
 #include <cstdint>
 
-#include "host_sim/configure/mode_model.hpp"
 #include "host_sim/configure/nominal_plant.hpp"
+#include "host_sim/configure/vibration/mode_model.hpp"
 #include "host_sim/scene/scene.hpp"
 
 namespace sonoglide::configure {

@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "host_sim/configure/notch_design.hpp"
+#include "host_sim/configure/vibration/notch_design.hpp"
 
 namespace sonoglide::configure {
 

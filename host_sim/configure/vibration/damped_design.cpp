@@ -1,4 +1,4 @@
-#include "host_sim/configure/damped_design.hpp"
+#include "host_sim/configure/vibration/damped_design.hpp"
 
 #include <fmt/format.h>
 
@@ -8,9 +8,9 @@
 
 #include "host_sim/configure/bound.hpp"
 #include "host_sim/configure/configuration_error.hpp"
-#include "host_sim/configure/mode_model.hpp"
 #include "host_sim/configure/plant_scales.hpp"
 #include "host_sim/configure/sensor_noise.hpp"
+#include "host_sim/configure/vibration/mode_model.hpp"
 
 namespace sonoglide::configure {
 namespace {

@@ -1,11 +1,11 @@
-#include "host_sim/configure/friction_response.hpp"
+#include "host_sim/configure/vibration/friction_response.hpp"
 
 #include <cmath>
 #include <cstddef>
 
 #include "firmware/numeric/float_elementary.hpp"
 #include "firmware/numeric/turn.hpp"
-#include "host_sim/configure/complex_exponential.hpp"
+#include "host_sim/configure/vibration/complex_exponential.hpp"
 
 namespace sonoglide::configure {
 namespace {

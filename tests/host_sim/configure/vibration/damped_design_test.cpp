@@ -1,4 +1,4 @@
-#include "host_sim/configure/damped_design.hpp"
+#include "host_sim/configure/vibration/damped_design.hpp"
 
 #include <gtest/gtest.h>
 

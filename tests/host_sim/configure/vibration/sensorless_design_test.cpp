@@ -1,4 +1,4 @@
-#include "host_sim/configure/sensorless_design.hpp"
+#include "host_sim/configure/vibration/sensorless_design.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "firmware/control/vibration/sensorless_table.hpp"
-#include "host_sim/configure/mode_model.hpp"
 #include "host_sim/configure/nominal_plant.hpp"
+#include "host_sim/configure/vibration/mode_model.hpp"
 #include "tests/common/constants/pi.hpp"
 #include "tests/common/table_1.hpp"
 

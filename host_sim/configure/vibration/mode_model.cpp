@@ -1,11 +1,11 @@
-#include "host_sim/configure/mode_model.hpp"
+#include "host_sim/configure/vibration/mode_model.hpp"
 
 #include <Eigen/LU>
 #include <complex>
 
 #include "firmware/numeric/float_elementary.hpp"
 #include "firmware/numeric/turn.hpp"
-#include "host_sim/configure/complex_exponential.hpp"
+#include "host_sim/configure/vibration/complex_exponential.hpp"
 
 namespace sonoglide::configure {
 namespace {

@@ -1,4 +1,4 @@
-#include "host_sim/configure/resonant_design.hpp"
+#include "host_sim/configure/vibration/resonant_design.hpp"
 
 #include <fmt/format.h>
 

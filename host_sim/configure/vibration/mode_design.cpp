@@ -1,4 +1,4 @@
-#include "host_sim/configure/mode_design.hpp"
+#include "host_sim/configure/vibration/mode_design.hpp"
 
 #include <fmt/format.h>
 
