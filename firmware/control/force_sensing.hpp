@@ -17,6 +17,11 @@ struct NothingToJudge {
   template <class Scalar>
   static constexpr void judge(Scalar /*target*/, Scalar /*measured*/, Scalar /*commanded*/,
                               bool /*clamped*/) {}
+  template <class Scalar, class VelocityOf>
+  static constexpr Scalar implied_ratio(Scalar target, Scalar /*requested*/, Scalar /*velocity*/,
+                                        const VelocityOf& /*velocity_of*/) {
+    return target;
+  }
   static constexpr Limit limit_named() { return Limit::none; }
   static constexpr Settling settling() { return Settling::pending; }
 };
