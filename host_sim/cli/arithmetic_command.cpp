@@ -37,7 +37,7 @@ Boards chosen(const std::vector<std::string>& names) {
 /// other program is left behind.
 void arithmetic(const ArithmeticOptions& options) {
   const SceneInput input(options.scene);
-  const scene::Scene scene = input.read();
+  const scene::Scene scene = input.read().scene;
   input.with_places([&] {
     arithmetic::require_every_arithmetic(scene);
     return emulated::controller_header(scene);

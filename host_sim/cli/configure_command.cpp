@@ -27,8 +27,9 @@ struct ConfigureOptions {
 /// Throws scene_file::SceneError, output::OutputError; in each case nothing was written.
 void configure(const ConfigureOptions& options) {
   const SceneInput input(options.scene);
-  const scene::Scene scene = input.read();
-  const auto design = configure::design_if_closed(scene);
+  const experiment::Experiment read = input.read();
+  const scene::Scene& scene = read.scene;
+  const auto& design = read.design;
   const std::filesystem::path out = output_folder(options.out, scene.name);
   output::OutputFolder folder(out);
   folder.write(emulated::controller_header_name,

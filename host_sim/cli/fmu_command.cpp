@@ -35,7 +35,8 @@ loop::Kind kind_of(const std::string& name) {
 
 void write(const FmuOptions& options) {
   const SceneInput input(options.scene);
-  const scene::Scene scene = input.read();
+  const experiment::Experiment read = input.read();
+  const scene::Scene& scene = read.scene;
   const loop::Kind kind = kind_of(options.kind);
   input.with_places([&] { loop::require_usable(scene, kind); });
   const std::filesystem::path out = std::filesystem::absolute(options.out);
@@ -48,7 +49,7 @@ void write(const FmuOptions& options) {
   folder.commit();
   if (!options.quiet) {
     if (kind != loop::Kind::plant) {
-      print_design_notes(configure::design_if_closed(scene));
+      print_design_notes(read.design);
     }
     fmt::print("fmu:  {}\nstep: {} s, one carrier period{}\n", process::printable(options.out),
                1.0 / scene.drive->frequency_Hz, scene.carrier_changes() ? " at the start" : "");

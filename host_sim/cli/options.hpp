@@ -11,8 +11,8 @@
 
 #include "host_sim/configure/configuration_error.hpp"
 #include "host_sim/emulated/board_list.hpp"
+#include "host_sim/experiment/experiment.hpp"
 #include "host_sim/output/study_report.hpp"
-#include "host_sim/scene_file/reader.hpp"
 
 namespace sonoglide::cli {
 
@@ -33,7 +33,7 @@ class SceneInput {
   explicit SceneInput(const SceneOptions& options);
 
   /// @throws scene_file::SceneError
-  scene::Scene read() const { return scene_file::read(source_, options_.overrides); }
+  experiment::Experiment read() const { return experiment::read(source_, options_.overrides); }
 
   /// What a call makes of the scene that read() gave.
   /// @throws scene_file::SceneError  at the place of its key, where the call throws a

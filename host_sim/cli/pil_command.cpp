@@ -51,8 +51,9 @@ std::string header_for(const SceneInput& input, const scene::Scene& scene,
 void pil(const PilOptions& options) {
   const emulated::EmulatedBoard& board = *emulated::find_board(options.board);
   const SceneInput input(options.scene);
-  const scene::Scene scene = input.read();
-  const auto design = configure::design_if_closed(scene);
+  const experiment::Experiment read = input.read();
+  const scene::Scene& scene = read.scene;
+  const auto& design = read.design;
   const std::string header = header_for(input, scene, design, board);
   if (!options.quiet) {
     print_design_notes(design);

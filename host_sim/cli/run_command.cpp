@@ -69,8 +69,9 @@ std::string compute_report(const scene::Scene& scene, const Design& design,
 /// Throws scene_file::SceneError, loop::ComputationError, output::OutputError, or ends by the
 /// signal that interrupts it; in each case nothing was written.
 void run(const RunOptions& options) {
-  const scene::Scene scene = SceneInput(options.scene).read();
-  const Design design = configure::design_if_closed(scene);
+  const experiment::Experiment read = SceneInput(options.scene).read();
+  const scene::Scene& scene = read.scene;
+  const Design& design = read.design;
   if (!options.quiet) {
     print_design_notes(design);
     announce_long_work(loop::expected_steps(scene));

@@ -9,10 +9,10 @@
 #include <cstdint>
 #include <vector>
 
-#include "host_sim/configure/bound.hpp"
 #include "host_sim/configure/configuration_error.hpp"
 #include "host_sim/configure/design_periods.hpp"
 #include "host_sim/configure/scales_design.hpp"
+#include "host_sim/scene/bound.hpp"
 
 namespace sonoglide::configure {
 namespace {
@@ -111,19 +111,20 @@ void design_calibration(const scene::Scene& scene, const NominalPlant& plant,
                         ControlDesign& design) {
   design.usual_calibration_s = calibration_periods(scene, plant, design, usual_presliding_travels) *
                                design.scales.carrier_period_s;
-  if (scene.controller->calibration_s <= 0.0) {
+  const double calibration_s = scene.controller->calibration_s.value_or(0.0);
+  if (calibration_s <= 0.0) {
     return;
   }
   const ControlScales& scales = design.scales;
   const double settling = settling_periods(scene, plant, design, least_presliding_travels);
-  const double total = std::round(scene.controller->calibration_s / scales.carrier_period_s) - 1.0;
+  const double total = std::round(calibration_s / scales.carrier_period_s) - 1.0;
   if (total < settling + 1.0) {
     throw ConfigurationError(
         "controller.calibration_s",
         fmt::format(
             "is too short for contact and sensor to settle; allowed: 0 (no calibration), or "
             "at least {} s",
-            at_least((settling + 2.0) * scales.carrier_period_s, 3)));
+            scene::at_least((settling + 2.0) * scales.carrier_period_s, 3)));
   }
   design.calibrated = true;
   design.calibration_total_periods = static_cast<std::uint32_t>(total);
@@ -168,7 +169,7 @@ void design_relearning(const scene::Scene& scene, const NominalPlant& plant,
         "controller.relearn_every_s",
         design.relearn_travel < 1.0
             ? fmt::format("leaves no time between two pauses of the drive; allowed: at least {} s",
-                          at_least(shortest * scales.carrier_period_s, 3))
+                          scene::at_least(shortest * scales.carrier_period_s, 3))
             : "cannot be kept: the presliding travel takes more than 64 carrier periods at the "
               "peak "
               "vibration velocity of full drive; remove it");

@@ -1,8 +1,10 @@
 #include "host_sim/configure/control_design.hpp"
 
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <type_traits>
+#include <utility>
 #include <variant>
 
 #include "host_sim/configure/calibration_design.hpp"
@@ -63,6 +65,47 @@ ControlDesign design_control(const scene::Scene& any_scene) {
   design_calibration(scene, plant, design);
   design_slew(*scene.drive, design);
   design_relearning(scene, plant, design);
+  return design;
+}
+
+namespace {
+
+/// A vibration that is felt in the friction is known no better than the friction, which is therefore
+/// learnt first.
+double default_calibration_s(const scene::Scene& scene, const ControlDesign& design) {
+  return scene.vibration_mode() == scene::VibrationMode::sensorless
+             ? shortest_calibration_s(scene, design)
+             : 0.0;
+}
+
+/// @param scene  what the controller knows, without true values
+void fill_in(scene::Scene& scene, ControlDesign& design) {
+  scene::Controller& controller = *scene.controller;
+  if (controller.shaping == scene::Shaping::robust && !controller.shaping_range) {
+    controller.shaping_range = default_shaping_range(scene.tolerances);
+  }
+  if (!controller.calibration_s) {
+    controller.calibration_s = default_calibration_s(scene, design);
+    design_calibration(scene, nominal_plant(scene), design);
+  }
+}
+
+}  // namespace
+
+std::optional<ControlDesign> complete(scene::Scene& scene) {
+  if (!scene.controller) {
+    return std::nullopt;
+  }
+  ControlDesign design = design_control(scene);
+  if (!scene.nominal_scene) {
+    fill_in(scene, design);
+    return design;
+  }
+  scene::Scene nominal = scene.nominal();
+  fill_in(nominal, design);
+  scene.controller->shaping_range = nominal.controller->shaping_range;
+  scene.controller->calibration_s = nominal.controller->calibration_s;
+  scene.nominal_scene = std::make_shared<const scene::Scene>(std::move(nominal));
   return design;
 }
 

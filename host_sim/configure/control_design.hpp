@@ -110,7 +110,11 @@ struct ControlDesign {
 ///         or forces outside the per-unit range.
 ControlDesign design_control(const scene::Scene& scene);
 
-/// The same for a scene of either kind: an open loop has none.
+/// The same, of a scene in closed loop, which gets the values that are absent and follow from the
+/// design: controller.calibration_s and controller.shaping_range.
+std::optional<ControlDesign> complete(scene::Scene& scene);
+
+/// The design of a scene of either kind: an open loop has none.
 std::optional<ControlDesign> design_if_closed(const scene::Scene& scene);
 
 /// Shortest time in which the friction force can be learnt before the first drive, with noise and,

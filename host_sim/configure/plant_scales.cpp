@@ -27,8 +27,7 @@ double motion_m(const scene::Scene& scene, double omega) {
   const double resistance_N_per_m =
       plant.stiffness_N_per_m + omega * (plant.mass_kg * omega + plant.damping_N_s_per_m);
   const double drive_N =
-      scene.drive ? std::max(scene.drive->force_amplitude_N, scene.drive->max_force_amplitude_N)
-                  : 0.0;
+      scene.drive ? std::max(scene.drive_force_N(), scene.max_drive_force_N()) : 0.0;
   const double force_N = std::max(drive_N, scene.friction.limit_N());
   const double motion =
       std::max({force_N / resistance_N_per_m, std::abs(plant.initial_velocity_m_per_s) / omega,
@@ -67,15 +66,10 @@ double peak_vibration_m_per_s(const scene::Plant& plant, double frequency_Hz,
   return force_amplitude_N * omega / dynamic_stiffness_N_per_m(plant, omega);
 }
 
-double nearest_frequency_Hz(const scene::Drive& drive, double asked_Hz) {
-  const double step_Hz = drive.frequency_resolution_Hz;
-  return step_Hz > 0.0 ? step_Hz * std::max(1.0, std::round(asked_Hz / step_Hz)) : asked_Hz;
-}
-
 double carrier_frequency_Hz(const scene::Drive& drive, double time_s) {
   return drive.frequency_profile.empty()
              ? drive.frequency_Hz
-             : nearest_frequency_Hz(drive, scene::value_at(drive.frequency_profile, time_s));
+             : drive.nearest_frequency_Hz(scene::value_at(drive.frequency_profile, time_s));
 }
 
 scene::ContactValues contact_at(const scene::Friction& friction, double time_s) {
@@ -88,18 +82,6 @@ scene::ContactValues contact_at(const scene::Friction& friction, double time_s) 
     contact.normal_force_N = scene::value_at(friction.normal_force_profile_N, time_s);
   }
   return contact;
-}
-
-double largest_friction_limit_N(const scene::Friction& friction) {
-  const scene::ContactValues& held = friction;
-  scene::ContactValues most = held;
-  if (!friction.coefficient_profile.empty()) {
-    most.coefficient = scene::largest_value(friction.coefficient_profile);
-  }
-  if (!friction.normal_force_profile_N.empty()) {
-    most.normal_force_N = scene::largest_value(friction.normal_force_profile_N);
-  }
-  return most.limit_N();
 }
 
 scene::FrictionLaw acting_law(const scene::Friction& friction) {

@@ -41,19 +41,11 @@ double dynamic_stiffness_N_per_m(const scene::Plant& plant, double omega_rad_per
 double peak_vibration_m_per_s(const scene::Plant& plant, double frequency_Hz,
                               double force_amplitude_N);
 
-/// The nearest multiple of drive.frequency_resolution_Hz, at least one; without a resolution the
-/// frequency itself.
-double nearest_frequency_Hz(const scene::Drive& drive, double asked_Hz);
-
 /// The carrier frequency that a drive of open loop has from a phase 0 at this time on.
 double carrier_frequency_Hz(const scene::Drive& drive, double time_s);
 
 /// The contact at a time since the run began.
 scene::ContactValues contact_at(const scene::Friction& friction, double time_s);
-
-/// The largest coefficient times the largest normal force, of profiles too; where nothing changes
-/// Fc, and 0 without a law.
-double largest_friction_limit_N(const scene::Friction& friction);
 
 /// Without a friction force there is no friction, whatever the law.
 scene::FrictionLaw acting_law(const scene::Friction& friction);

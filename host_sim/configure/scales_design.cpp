@@ -10,9 +10,9 @@
 #include "firmware/control/controller.hpp"
 #include "firmware/control/friction/friction_level.hpp"
 #include "firmware/numeric/turn.hpp"
-#include "host_sim/configure/bound.hpp"
 #include "host_sim/configure/configuration_error.hpp"
 #include "host_sim/configure/plant_scales.hpp"
+#include "host_sim/scene/bound.hpp"
 #include "host_sim/scene/names.hpp"
 
 namespace sonoglide::configure {
@@ -63,15 +63,14 @@ double default_speed_floor(const scene::Scene& scene, const NominalPlant& plant,
 double speed_floor(const scene::Scene& scene, const NominalPlant& plant,
                    const ControlScales& scales) {
   const std::optional<double>& chosen_m_per_s = scene.controller->speed_floor_m_per_s;
-  return chosen_m_per_s
-             ? per_unit(
-                   *chosen_m_per_s, scales.velocity_m_per_s, control::smallest_speed_floor,
-                   "controller.speed_floor_m_per_s",
-                   "is {:.3g} of the peak vibration velocity at full drive",
-                   fmt::format("{} to below {} m/s",
-                               at_least(control::smallest_speed_floor * scales.velocity_m_per_s),
-                               at_most(scales.velocity_m_per_s)))
-             : default_speed_floor(scene, plant, scales);
+  return chosen_m_per_s ? per_unit(*chosen_m_per_s, scales.velocity_m_per_s,
+                                   control::smallest_speed_floor, "controller.speed_floor_m_per_s",
+                                   "is {:.3g} of the peak vibration velocity at full drive",
+                                   fmt::format("{} to below {} m/s",
+                                               scene::at_least(control::smallest_speed_floor *
+                                                               scales.velocity_m_per_s),
+                                               scene::at_most(scales.velocity_m_per_s)))
+                        : default_speed_floor(scene, plant, scales);
 }
 
 /// The undriven friction must be some codes, or a healthy sensor would pass for a stuck one.
@@ -119,14 +118,14 @@ void require_wide_range(double full_scale_m_per_s, double fastest_m_per_s) {
         fmt::format("{:g} m/s is too much beside the fastest sliding, which has the same range; "
                     "allowed: at most {} m/s",
                     full_scale_m_per_s,
-                    at_most(0.5 * fastest_m_per_s / control::smallest_speed_floor)));
+                    scene::at_most(0.5 * fastest_m_per_s / control::smallest_speed_floor)));
   }
   if (!(fastest_m_per_s < full_scale_m_per_s)) {
     throw ConfigurationError(
         "sensor.vibration_full_scale_m_per_s",
         fmt::format("{:g} m/s is below the fastest sliding, which the vibration has to exceed; "
                     "allowed: above {} m/s",
-                    full_scale_m_per_s, at_least(fastest_m_per_s)));
+                    full_scale_m_per_s, scene::at_least(fastest_m_per_s)));
   }
 }
 
@@ -159,12 +158,11 @@ double set_observed_scales(const scene::Scene& scene, const NominalPlant& plant,
   const double fastest_m_per_s = fastest_sliding_m_per_s(scene.sliding);
   require_sliding(scene, fastest_m_per_s);
   const double velocity_m_per_s = range_m_per_s(scene, plant);
-  const double force_N =
-      scene.sensor.force
-          ? scene.sensor.force_full_scale_N
-          : 2.0 * std::max(plant.friction_N, largest_friction_limit_N(scene.friction));
+  const double force_N = scene.sensor.force
+                             ? scene.sensor.force_full_scale_N
+                             : 2.0 * std::max(plant.friction_N, scene.friction.largest_limit_N());
   design.scales = {1.0 / scene.drive->frequency_Hz, force_N, velocity_m_per_s,
-                   scene.drive->max_force_amplitude_N};
+                   scene.max_drive_force_N()};
   require_wide_range(velocity_m_per_s, fastest_m_per_s);
   return velocity_m_per_s / (numeric::two_pi * scene.drive->frequency_Hz);
 }
@@ -175,9 +173,9 @@ double set_driven_scales(const scene::Scene& scene, const NominalPlant& plant, d
   const double omega = numeric::two_pi * scene.drive->frequency_Hz;
   require_settling(plant, omega);
   const double displacement_m =
-      room * scene.drive->max_force_amplitude_N / dynamic_stiffness_N_per_m(plant, omega);
+      room * scene.max_drive_force_N() / dynamic_stiffness_N_per_m(plant, omega);
   design.scales = {1.0 / scene.drive->frequency_Hz, scene.sensor.force_full_scale_N,
-                   displacement_m * omega, scene.drive->max_force_amplitude_N};
+                   displacement_m * omega, scene.max_drive_force_N()};
   return displacement_m;
 }
 
@@ -203,13 +201,13 @@ double set_scales(const scene::Scene& scene, const NominalPlant& plant, ControlD
 
 void design_scales(const scene::Scene& scene, const NominalPlant& plant, ControlDesign& design) {
   const double displacement_m = set_scales(scene, plant, design);
-  design.friction_force = per_unit(plant.friction_N, design.scales.force_N, smallest_friction,
-                                   "sensor.force_full_scale_N",
-                                   fmt::format("is {:.4g} N, of which the believed friction force "
-                                               "of {:.4g} N makes {{:.3g}}",
-                                               design.scales.force_N, plant.friction_N),
-                                   fmt::format("above {}, at most {} N", at_least(plant.friction_N),
-                                               at_most(plant.friction_N / smallest_friction)));
+  design.friction_force = per_unit(
+      plant.friction_N, design.scales.force_N, smallest_friction, "sensor.force_full_scale_N",
+      fmt::format("is {:.4g} N, of which the believed friction force "
+                  "of {:.4g} N makes {{:.3g}}",
+                  design.scales.force_N, plant.friction_N),
+      fmt::format("above {}, at most {} N", scene::at_least(plant.friction_N),
+                  scene::at_most(plant.friction_N / smallest_friction)));
   design.contact_force = plant.contact_stiffness_N_per_m * displacement_m / design.scales.force_N;
   design.speed_floor = speed_floor(scene, plant, design.scales);
   check_converter(scene, plant);

@@ -51,8 +51,7 @@ bool tells_mismatch(const scene::Scene& scene) {
   constexpr double light_friction = 0.02;  // of the drive
   return scene::has_own_map(scene.friction.law) &&
          scene.drive->waveform == scene::Waveform::cosine &&
-         nominal_plant(scene).friction_N <
-             light_friction * scene.nominal().drive->max_force_amplitude_N;
+         nominal_plant(scene).friction_N < light_friction * scene.nominal().max_drive_force_N();
 }
 
 }  // namespace sonoglide::configure

@@ -12,7 +12,6 @@
 #include "firmware/control/controller.hpp"
 #include "firmware/encoding/crc32.hpp"
 #include "firmware/numeric/fixed.hpp"
-#include "host_sim/configure/bound.hpp"
 #include "host_sim/configure/configuration_error.hpp"
 #include "host_sim/configure/control_design.hpp"
 #include "host_sim/configure/controller_parameters.hpp"
@@ -21,6 +20,7 @@
 #include "host_sim/loop/carrier_grid.hpp"
 #include "host_sim/loop/control_run.hpp"
 #include "host_sim/process/printable.hpp"
+#include "host_sim/scene/bound.hpp"
 
 namespace sonoglide::emulated {
 
@@ -158,7 +158,7 @@ void require_reach(const loop::ScheduledTarget& step, const loop::CarrierGrid& g
         "controller.target_friction_ratio",
         fmt::format("a step at {:g} s is out of an image's reach; allowed: at most {} s",
                     step.time_s,
-                    configure::at_most(static_cast<double>(most_periods) * grid.period_s())));
+                    scene::at_most(static_cast<double>(most_periods) * grid.period_s())));
   }
 }
 

@@ -13,7 +13,6 @@
 #include "firmware/plant/sliding.hpp"
 #include "firmware/plant/state.hpp"
 #include "firmware/plant/strang/fixed_point_strang_design.hpp"
-#include "host_sim/configure/bound.hpp"
 #include "host_sim/configure/configuration_error.hpp"
 #include "host_sim/configure/control_design.hpp"
 #include "host_sim/configure/plant_model.hpp"
@@ -22,6 +21,7 @@
 #include "host_sim/loop/plant/plant_description.hpp"
 #include "host_sim/loop/sensor.hpp"
 #include "host_sim/process/printable.hpp"
+#include "host_sim/scene/bound.hpp"
 #include "host_sim/scene/names.hpp"
 
 namespace sonoglide::emulated {
@@ -64,7 +64,7 @@ std::uint64_t whole_periods(const scene::Scene& scene) {
   require(periods <= most, "run.duration_s",
           fmt::format("has more carrier periods than an image counts; allowed: at most {} of "
                       "them, {} s",
-                      most, configure::at_most(most * grid.period_s())));
+                      most, scene::at_most(most * grid.period_s())));
   return periods;
 }
 
@@ -228,7 +228,7 @@ PlantText fixed_plant(const SceneNumbers& scene) {
   const double force_per_friction = scene.plant.scales.friction_N / scene.codes.force_N;
   require(force_per_friction < 1.0, "sensor.force_full_scale_N",
           fmt::format("is not above the friction force; allowed: above {} N",
-                      configure::at_least(scene.plant.scales.friction_N)));
+                      scene::at_least(scene.plant.scales.friction_N)));
   const plant::FixedStrangParameters parameters = designed<Damping>(scene);
   SolverLines solver;
   plant::FixedStrangParameters::fields(parameters, solver);

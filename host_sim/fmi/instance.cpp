@@ -1,12 +1,11 @@
 #include "host_sim/fmi/instance.hpp"
+#include "host_sim/experiment/experiment.hpp"
 
 #include <fmt/format.h>
 
 #include <cmath>
 #include <limits>
 #include <utility>
-
-#include "host_sim/scene_file/reader.hpp"
 
 namespace sonoglide::fmi {
 namespace {
@@ -18,7 +17,7 @@ constexpr double lowest_frequency_Hz = 1e-3;
 constexpr double highest_frequency_Hz = 1e9;
 
 scene::Scene read_scene(const std::string& text, const std::vector<std::string>& overrides = {}) {
-  return scene_file::read_text(text, Resources::scene_name, overrides);
+  return experiment::read_text(text, Resources::scene_name, overrides).scene;
 }
 
 Inputs initial_inputs(const std::vector<Variable>& variables) {

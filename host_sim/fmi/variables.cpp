@@ -218,7 +218,7 @@ std::vector<Variable> variables(const scene::Scene& scene, loop::Kind kind) {
   List list;
   if (kind == loop::Kind::plant) {
     list.input("drive_force_amplitude_N", "N", "Amplitude of the drive during a carrier period",
-               scene.drive->force_amplitude_N, &Inputs::drive_force_amplitude_N);
+               scene.drive_force_N(), &Inputs::drive_force_amplitude_N);
     if (scene.carrier_changes()) {
       list.input("drive_frequency_Hz", "Hz",
                  "Carrier frequency during a carrier period; no frequency_profile is followed",

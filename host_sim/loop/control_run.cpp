@@ -37,7 +37,7 @@ ControlRun::ControlRun(const scene::Scene& scene, const CarrierGrid& grid, Contr
       record_(record),
       observes_vibration_(scene.sensor.vibration),
       sensor_(scene.sensor, record.design.scales, configure::vibration_gain(scene)),
-      actuator_(scene.drive->delay_periods, scene.drive->max_force_amplitude_N),
+      actuator_(scene.drive->delay_periods, scene.max_drive_force_N()),
       start_frequency_Hz_(scene.drive->frequency_Hz),
       clock_ratio_(scene.drive->frequency_Hz / scene.nominal().drive->frequency_Hz),
       nominal_friction_N_(record.design.friction_force * record.design.scales.force_N),

@@ -68,7 +68,7 @@ std::complex<double> clamped_admittance_S(const scene::Transducer& transducer,
 ElectricalBalance electrical_balance(const scene::Transducer& transducer, const Stretch& stretch,
                                      const EnergyBalance& energy) {
   const double factor = transducer.force_factor_N_per_V;
-  const double peak_V = stretch.drive_amplitude_N / factor;
+  const double peak_V = transducer.voltage_V(stretch.drive_amplitude_N);
   const std::complex<double> clamped =
       peak_V * clamped_admittance_S(transducer, stretch.drive_rate_rad_per_s);
   const double conduction_A = clamped.real();    // in phase with the voltage
@@ -104,7 +104,7 @@ std::complex<double> current_A(const scene::Transducer& transducer, double drive
   const double factor = transducer.force_factor_N_per_V;
   const double rate_rad_per_s = numeric::two_pi * frequency_Hz;
   return factor * vibration_m_per_s +
-         drive_amplitude_N / factor * clamped_admittance_S(transducer, rate_rad_per_s);
+         transducer.voltage_V(drive_amplitude_N) * clamped_admittance_S(transducer, rate_rad_per_s);
 }
 
 }  // namespace sonoglide::loop

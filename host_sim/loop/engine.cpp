@@ -28,7 +28,7 @@ Engine::Engine(const scene::Scene& scene, bool has_plant, ControlPort* controlle
     : scene_(scene),
       watch_(watch),
       clock_(scene),
-      friction_N_(configure::largest_friction_limit_N(scene.friction)),
+      friction_N_(scene.friction.largest_limit_N()),
       constant_natural_Hz_(
           natural_frequency_Hz(scene.plant.stiffness_N_per_m, scene.plant.mass_kg)) {
   if (has_plant) {

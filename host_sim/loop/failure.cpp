@@ -8,9 +8,9 @@
 
 #include "firmware/numeric/turn.hpp"
 #include "host_sim/configure/plant_scales.hpp"
-#include "host_sim/configure/solver_facts.hpp"
-#include "host_sim/configure/solver_methods.hpp"
 #include "host_sim/loop/carrier_grid.hpp"
+#include "host_sim/scene/solver_facts.hpp"
+#include "host_sim/scene/solver_methods.hpp"
 
 namespace sonoglide::loop {
 namespace {
@@ -20,7 +20,7 @@ std::string_view period_word(const scene::Scene& scene) {
 }
 
 bool rubs(const scene::Scene& scene) {
-  return configure::largest_friction_limit_N(scene.friction) > 0.0;
+  return scene.friction.largest_limit_N() > 0.0;
 }
 
 /// What the plant does in one carrier period, in radians.
@@ -48,7 +48,7 @@ Rates rates_in(const scene::Scene& scene, double time_s) {
         std::sqrt((stiffness_N_per_m + scene.friction.contact_stiffness_N_per_m) / mass_kg);
     rates.slide = time_s * scene.friction.contact_stiffness_N_per_m *
                   configure::fastest_sliding_m_per_s(scene.sliding) /
-                  configure::largest_friction_limit_N(scene.friction);
+                  scene.friction.largest_limit_N();
   }
   return rates;
 }
@@ -80,7 +80,7 @@ std::string of_stuck_contact(const scene::Scene& scene, const Rates& rates, doub
 std::string of_slip(const scene::Friction& friction) {
   return fmt::format(
       "the contact slides more than Fc/(2 Kt) = {:.4g} m in one step, while its friction grows",
-      0.5 * configure::largest_friction_limit_N(friction) / friction.contact_stiffness_N_per_m);
+      0.5 * friction.largest_limit_N() / friction.contact_stiffness_N_per_m);
 }
 
 std::string of_sliding(const Rates& rates, double time_s) {
@@ -122,7 +122,7 @@ std::string too_many_steps(const scene::Scene& scene, const plant::Cost& cost) {
   const std::string need =
       fmt::format("one {} needs more than {} steps ({} were taken since the run began); ",
                   period_word(scene), plant::max_steps_per_advance, cost.steps);
-  if (!configure::is_adaptive(scene.solver.method)) {
+  if (!scene::is_adaptive(scene.solver.method)) {
     return need + fmt::format("solver.step_s = {:.6g} cuts it into {:.4g}", scene.solver.step_s,
                               CarrierGrid(scene).period_s() / scene.solver.step_s);
   }
@@ -131,8 +131,7 @@ std::string too_many_steps(const scene::Scene& scene, const plant::Cost& cost) {
     if (rates.slide >= slow) {
       return need + of_sliding(rates, CarrierGrid(scene).period_s());
     }
-    const bool second_order =
-        scene.solver.method == configure::method_of<configure::solvers::Strang>;
+    const bool second_order = scene.solver.method == scene::method_of<scene::solvers::Strang>;
     return need + fmt::format(
                       "nothing in the plant is so fast: solver.tolerance = {:.6g} asks for "
                       "them{}",

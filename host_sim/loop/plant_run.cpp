@@ -89,7 +89,7 @@ void PlantRun::note_peaks(double end_s, double amplitude_N, const EnergyBalance&
     return;
   }
   ElectricalBalance peaks;
-  peaks.voltage_peak_V = std::abs(amplitude_N) / scene_.transducer->force_factor_N_per_V;
+  peaks.voltage_peak_V = scene_.transducer->voltage_V(std::abs(amplitude_N));
   if (clock_.is_whole()) {
     peaks.current_peak_A = std::abs(current_A(*scene_.transducer, amplitude_N,
                                               clock_.frequency_Hz(), period.vibration_m_per_s()));

@@ -25,7 +25,7 @@ void advance(const scene::Scene& scene, Engine& engine) {
     engine.set_frequency_Hz(
         configure::carrier_frequency_Hz(*scene.drive, engine.clock().begin_s()));
   }
-  const double open_loop_N = scene.drive ? scene.drive->force_amplitude_N : 0.0;
+  const double open_loop_N = scene.drive ? scene.drive_force_N() : 0.0;
   const double amplitude_N = control ? control->amplitude_N() : open_loop_N;
   PlantPeriod period = engine.move(amplitude_N);
   engine.conclude(period);

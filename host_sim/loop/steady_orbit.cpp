@@ -16,9 +16,9 @@
 #include "firmware/numeric/turn.hpp"
 #include "firmware/plant/outcome.hpp"
 #include "host_sim/configure/plant_scales.hpp"
-#include "host_sim/configure/solver_facts.hpp"
 #include "host_sim/loop/failure.hpp"
 #include "host_sim/loop/plant/make_plant_port.hpp"
+#include "host_sim/scene/solver_facts.hpp"
 
 namespace sonoglide::loop {
 namespace {
@@ -40,7 +40,7 @@ std::vector<Stretch> period_of(const scene::Scene& scene) {
   Stretch whole;
   whole.duration_s = 1.0 / drive.frequency_Hz;
   whole.drive_rate_rad_per_s = numeric::two_pi * drive.frequency_Hz;
-  whole.drive_amplitude_N = drive.force_amplitude_N;
+  whole.drive_amplitude_N = scene.drive_force_N();
   whole.sliding_velocity_m_per_s = scene.sliding.profile.front().velocity_m_per_s;
   whole.drive_waveform = drive.waveform;
   if (drive.waveform == scene::Waveform::cosine || drive.waveform == scene::Waveform::sawtooth) {
@@ -206,7 +206,7 @@ Vector vibration_without_contact(const PeriodMap& map, const scene::Scene& scene
   if (!(std::abs(stiffness) > 0.0)) {
     return map.loaded(0.0, 0.0, load);
   }
-  const std::complex<double> amplitude_m = scene.drive->force_amplitude_N / stiffness;
+  const std::complex<double> amplitude_m = scene.drive_force_N() / stiffness;
   return map.loaded(amplitude_m.real(), -omega * amplitude_m.imag(), load);
 }
 
@@ -313,8 +313,7 @@ std::string why_none(const scene::Scene& scene, const PeriodMap& map) {
 
 SteadyOrbit find_orbit(const scene::Scene& scene, std::uint64_t most_steps) {
   PeriodMap map(scene, most_steps);
-  Shooting shooting(map,
-                    configure::is_adaptive(scene.solver.method) ? scene.solver.tolerance : 0.0);
+  Shooting shooting(map, scene::is_adaptive(scene.solver.method) ? scene.solver.tolerance : 0.0);
   const auto orbit = closed_orbit(map, shooting, scene);
   if (!orbit) {
     fail(fmt::format("none of the drive's period found in {} carrier periods; {}", map.periods(),

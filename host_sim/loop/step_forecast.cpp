@@ -29,7 +29,7 @@ Stretch half_period(const scene::Scene& scene, int n, StepMeter& meter) {
     const scene::Drive& drive = *scene.drive;
     half.drive_rate_rad_per_s = numeric::two_pi * drive.frequency_Hz;
     half.drive_phase_rad = n % 2 == 0 ? 0.0 : 0.5 * numeric::two_pi;
-    half.drive_amplitude_N = std::max(drive.force_amplitude_N, drive.max_force_amplitude_N);
+    half.drive_amplitude_N = std::max(scene.drive_force_N(), scene.max_drive_force_N());
     half.drive_waveform = drive.waveform;
   }
   return half;

@@ -10,7 +10,7 @@ namespace sonoglide::loop {
 
 UndrivenFriction::UndrivenFriction(const scene::Scene& scene)
     : friction_(scene.friction),
-      largest_N_(configure::largest_friction_limit_N(scene.friction)),
+      largest_N_(scene.friction.largest_limit_N()),
       is_limit_(!scene.friction.has_profile() && scene::is_bounded(scene.friction.law)) {}
 
 void UndrivenFriction::complete(const Stretch& stretch, EnergyBalance& energy) const {

@@ -7,8 +7,9 @@
 #include <filesystem>
 #include <utility>
 
+#include "host_sim/experiment/experiment.hpp"
 #include "host_sim/python/bindings.hpp"
-#include "host_sim/scene_file/reader.hpp"
+#include "host_sim/scene_file/source.hpp"
 #include "host_sim/scene_file/to_json.hpp"
 #include "host_sim/scene_file/to_toml.hpp"
 
@@ -17,7 +18,7 @@ namespace sonoglide::python {
 Scene::Scene(scene_file::Source text, std::vector<std::string> changes)
     : source(std::move(text)),
       overrides(std::move(changes)),
-      values(scene_file::read(source, overrides)) {}
+      values(experiment::read(source, overrides).scene) {}
 
 Scene Scene::with(const std::vector<std::string>& more) const {
   std::vector<std::string> all = overrides;

@@ -47,7 +47,7 @@ std::complex<double> VibrationCourse::current_of(const loop::Period& period) con
 
 void VibrationCourse::remember(const loop::Period& period, std::complex<double> taken_A) {
   if (transducer_ && period.whole && period.drive_amplitude_N != 0.0) {
-    const double voltage_V = period.drive_amplitude_N / transducer_->force_factor_N_per_V;
+    const double voltage_V = transducer_->voltage_V(period.drive_amplitude_N);
     constexpr double kept = 1.0 - 1.0 / operating_periods;
     recent_.periods = kept * recent_.periods + 1.0;
     recent_.frequency_Hz = kept * recent_.frequency_Hz + period.frequency_Hz;

@@ -13,12 +13,12 @@
 #include <utility>
 
 #include "host_sim/configure/plant_scales.hpp"
-#include "host_sim/configure/solver_facts.hpp"
 #include "host_sim/report/hysteresis.hpp"
 #include "host_sim/report/run_notes.hpp"
 #include "host_sim/report/spectrum.hpp"
 #include "host_sim/report/words.hpp"
 #include "host_sim/scene/names.hpp"
+#include "host_sim/scene/solver_facts.hpp"
 
 namespace sonoglide::report {
 namespace {
@@ -36,7 +36,7 @@ std::string lead(const scene::Scene& scene, const loop::RunResult& result) {
                         scene::name_of(scene::arithmetics, scene.controller->arithmetic))
           : std::string("Open loop");
   text += fmt::format(". Friction law: {}. Solver: {}. {:.6g} ms simulated in {:.3g} ms.",
-                      scene::name_of(scene.friction.law), configure::name_of(scene.solver.method),
+                      scene::name_of(scene.friction.law), scene::name_of(scene.solver.method),
                       result.final_time_s * 1e3, result.wall_s * 1e3);
   return text;
 }
@@ -61,7 +61,7 @@ void append_drive_limit(const scene::Scene& scene, const loop::ControlRecord& co
   const AmplitudeUnit unit = amplitude_unit(scene);
   const std::string part = percent(static_cast<double>(control.saturated_commands) /
                                    static_cast<double>(control.commands));
-  const double most = scene.drive->max_force_amplitude_N * unit.per_N;
+  const double most = scene.max_drive_force_N() * unit.per_N;
   if (!scene.resonant()) {
     warnings.push_back(
         fmt::format("The actuator's range of 0 to {:.6g} {} limited the drive in {} of the control "
@@ -194,9 +194,9 @@ output::Table run_table(const scene::Scene& scene, const loop::RunResult& result
     table.rows.push_back({name, std::move(value)});
   };
   row("Undriven friction force, window [N]",
-      fmt::format("{:.6g}", configure::largest_friction_limit_N(scene.friction) *
-                                result.window.undriven_s / result.window.duration_s));
-  if (configure::largest_friction_limit_N(scene.friction) > 0.0) {
+      fmt::format("{:.6g}", scene.friction.largest_limit_N() * result.window.undriven_s /
+                                result.window.duration_s));
+  if (scene.friction.largest_limit_N() > 0.0) {
     row("Friction ratio, whole run",
         fmt::format("{:.9f}", loop::power_ratios(scene, result.whole).friction_ratio));
     row("Friction ratio, window", fmt::format("{:.9f}", window.friction_ratio));
@@ -224,7 +224,7 @@ output::Table run_table(const scene::Scene& scene, const loop::RunResult& result
         fmt::format("{:.6f}", result.steady_orbit->multiplier));
   }
   row("Solver steps", fmt::format("{}", result.solver_steps));
-  if (configure::counts_events(scene.solver.method)) {
+  if (scene::counts_events(scene.solver.method)) {
     row("Reversals, sticks and releases", fmt::format("{}", result.solver_events));
   }
   row("Simulated time over wall time", fmt::format("{:.3g}", result.final_time_s / result.wall_s));
@@ -290,7 +290,7 @@ output::Section course(const scene::Scene& scene, const Course::Curve& curve) {
   };
 
   output::Section section{"Course of the run", course_text(scene, curve), {}};
-  if (configure::largest_friction_limit_N(scene.friction) > 0.0) {
+  if (scene.friction.largest_limit_N() > 0.0) {
     output::Panel panel{
         "Friction ratio",
         "Mean friction force over a carrier period, divided by the undriven one at that "
@@ -331,7 +331,7 @@ output::Section course(const scene::Scene& scene, const Course::Curve& curve) {
     if (scene.resonant()) {
       output::Panel& panel = section.panels.back();
       panel.note = "Below 0 the phase is turned by π.";
-      const double most = scene.drive->max_force_amplitude_N * unit.per_N;
+      const double most = scene.max_drive_force_N() * unit.per_N;
       panel.series.push_back(level("limit", time, most));
       panel.series.push_back(level("limit, phase turned", time, -most));
     }
@@ -398,7 +398,7 @@ output::Panel admittance_panel(const scene::Scene& scene,
   constexpr int points = 400;
   constexpr double widths = 8.0;  // of the resonance, to either side
   const scene::Plant& plant = scene.plant;
-  const double natural_rad_per_s = std::sqrt(plant.stiffness_N_per_m / plant.mass_kg);
+  const double natural_rad_per_s = plant.natural_rad_per_s();
   const double width = plant.damping_N_s_per_m / plant.mass_kg / natural_rad_per_s;
   const double factor = scene.transducer->force_factor_N_per_V;
   std::vector<Place> places;
@@ -477,7 +477,7 @@ output::Section close_up(const scene::Scene& scene, const loop::Recording& recor
   };
   panel("Displacement", "Displacement [m]", column(displacement));
   panel("Velocity", "Vibration velocity [m/s]", column(velocity));
-  if (configure::largest_friction_limit_N(scene.friction) > 0.0) {
+  if (scene.friction.largest_limit_N() > 0.0) {
     panel("Friction force", "Friction force [N]", column(friction));
   }
   return section;
@@ -547,8 +547,7 @@ output::Section ending(const scene::Scene& scene, const loop::Recording& recordi
   constexpr std::size_t samples = 64;
   output::Section section{"End of the run", "", {}};
   // Across the sliding and normal to it the vibration is no part of the displacement travelled.
-  if (configure::largest_friction_limit_N(scene.friction) > 0.0 &&
-      scene::vibrates_along(scene.friction.law)) {
+  if (scene.friction.largest_limit_N() > 0.0 && scene::vibrates_along(scene.friction.law)) {
     section.panels.push_back(
         hysteresis_panel(report::last_cycle(recording, scene.friction.sign_convention, samples)));
   }

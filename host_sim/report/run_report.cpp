@@ -5,13 +5,13 @@
 #include <cmath>
 
 #include "host_sim/configure/plant_scales.hpp"
-#include "host_sim/configure/solver_facts.hpp"
 #include "host_sim/output/number.hpp"
 #include "host_sim/process/printable.hpp"
 #include "host_sim/report/run_notes.hpp"
 #include "host_sim/report/step_metrics.hpp"
 #include "host_sim/report/words.hpp"
 #include "host_sim/scene/names.hpp"
+#include "host_sim/scene/solver_facts.hpp"
 #include "host_sim/scene_file/to_json.hpp"
 
 namespace sonoglide::report {
@@ -203,10 +203,10 @@ ordered_json summary(const scene::Scene& scene, const loop::RunResult& result,
   ordered_json json;
   json["scene"] = scene_file::to_json(scene);
   json["solver"] = {
-      {"method", configure::name_of(scene.solver.method)},
+      {"method", scene::name_of(scene.solver.method)},
       {"steps", result.solver_steps},
-      {"events", configure::counts_events(scene.solver.method) ? ordered_json(result.solver_events)
-                                                               : ordered_json(nullptr)}};
+      {"events", scene::counts_events(scene.solver.method) ? ordered_json(result.solver_events)
+                                                           : ordered_json(nullptr)}};
   json["run"] = {{"simulated_s", result.final_time_s},
                  {"wall_s", result.wall_s},
                  {"real_time_factor", result.final_time_s / result.wall_s}};
@@ -298,11 +298,12 @@ std::string step_lines(const scene::Scene& scene, const loop::RunResult& result,
                        const RunFindings& findings) {
   const AmplitudeUnit unit = amplitude_unit(scene);
   std::string text;
-  if (scene.controller->calibration_s > 0.0) {
+  const double calibration_s = scene.controller->calibration_s.value_or(0.0);
+  if (calibration_s > 0.0) {
     text = fmt::format(
         "friction force learnt with the drive off until {:.3f} ms: the first settling time counts "
         "from there\n",
-        scene.controller->calibration_s * 1e3);
+        calibration_s * 1e3);
   }
   text += fmt::format("{:>11} {:>7} {:>11} {:>10} {:>8} {:>10}  {}\n", "from", "target",
                       "settles in", "error", "ripple", "drive", "limit");
@@ -343,7 +344,7 @@ std::string note_lines(const scene::Scene& scene, const loop::RunResult& result)
 }
 
 std::string ratio_line(const scene::Scene& scene, const loop::RunResult& result) {
-  if (configure::largest_friction_limit_N(scene.friction) == 0.0) {
+  if (scene.friction.largest_limit_N() == 0.0) {
     return "no friction, so no friction ratio\n";
   }
   return fmt::format("friction ratio {:.6f} over the whole run, {:.6f} from {:.6g} s on\n",

@@ -12,7 +12,7 @@ std::vector<TargetSpan> target_spans(const scene::Scene& scene) {
   for (std::size_t i = 0; i < steps.size() && steps[i].time_s < scene.run.duration_s; ++i) {
     const double next_s = i + 1 < steps.size() ? steps[i + 1].time_s : scene.run.duration_s;
     const double end_s = std::min(next_s, scene.run.duration_s);
-    const double begin_s = std::max(steps[i].time_s, controller.calibration_s);
+    const double begin_s = std::max(steps[i].time_s, controller.calibration_s.value_or(0.0));
     const double quarter_s = end_s - 0.25 * (end_s - steps[i].time_s);
     // A calibration that reaches into the last quarter leaves less than one.
     spans.push_back({steps[i].time_s, begin_s,

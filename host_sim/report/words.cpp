@@ -17,7 +17,7 @@ std::string one_line(std::string text) {
 }
 
 AmplitudeUnit amplitude_unit(const scene::Scene& scene) {
-  return scene.transducer ? AmplitudeUnit{"V", 1.0 / scene.transducer->force_factor_N_per_V}
+  return scene.transducer ? AmplitudeUnit{"V", scene.transducer->voltage_V(1.0)}
                           : AmplitudeUnit{"N", 1.0};
 }
 

@@ -2,7 +2,7 @@
 
 #include "firmware/plant/taylor/step_share.hpp"
 #include "host_sim/configure/plant_scales.hpp"
-#include "host_sim/configure/solver_methods.hpp"
+#include "host_sim/scene/solver_methods.hpp"
 
 namespace sonoglide::runs {
 namespace {
@@ -12,7 +12,7 @@ bool suits_lanes(const scene::Scene& scene) {
          scene.drive->waveform == scene::Waveform::cosine &&
          scene::is<scene::laws::Dahl>(scene.friction.law) && scene.friction.limit_N() > 0.0 &&
          scene.profile_key() == nullptr && scene.sliding.profile.size() == 1 &&
-         scene.solver.method == configure::method_of<configure::solvers::EventTaylor> &&
+         scene.solver.method == scene::method_of<scene::solvers::EventTaylor> &&
          !scene.solver.order;
 }
 
@@ -25,7 +25,7 @@ batch::DahlPlant plant_of(const scene::Scene& scene) {
   const scene::PlantScales scales = configure::plant_scales(scene);
   const configure::PlantNumbers numbers = configure::plant_numbers(scene, scales);
   batch::DahlPlant plant;
-  plant.drive_amplitude = scene.controller ? 0.0 : scene.drive->force_amplitude_N / scales.force_N;
+  plant.drive_amplitude = scene.controller ? 0.0 : scene.drive_force_N() / scales.force_N;
   plant.damping = numbers.damping;
   plant.stiffness = numbers.stiffness;
   plant.friction_force = numbers.friction_force;

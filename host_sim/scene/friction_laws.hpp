@@ -97,11 +97,6 @@ inline double undriven_friction_N(const FrictionLaw& law, const ContactValues& c
       [&](const auto& any) { return any.undriven_N(contact, std::abs(sliding_m_per_s)); }, law);
 }
 
-/// Its part of the random scenes that solvers are tried on.
-constexpr int random_percent(const FrictionLaw& law) {
-  return std::visit([](const auto& any) { return any.random_percent; }, law);
-}
-
 /// What is wrong where the contact's memory passes the law's bound.
 std::string_view broken_bound(const FrictionLaw& law);
 

@@ -23,6 +23,9 @@ struct Plant {
   double damping_N_s_per_m = 0.0;
   double initial_displacement_m = 0.0;
   double initial_velocity_m_per_s = 0.0;
+
+  /// √(Ks/m), without damping; 0 without a spring.
+  double natural_rad_per_s() const;
 };
 
 /// Where a profile holds anything, the member of Contact that it stands for is its value at 0 s.
@@ -34,6 +37,9 @@ struct Friction : ContactValues {
   bool has_profile() const {
     return !coefficient_profile.empty() || !normal_force_profile_N.empty();
   }
+  /// The largest coefficient times the largest normal force, of profiles too; where nothing changes
+  /// Fc, and 0 without a law.
+  double largest_limit_N() const;
 };
 
 struct SpeedPoint {
@@ -50,22 +56,25 @@ struct Sliding {
 /// triangle falls to -A at half a period and rises again, the sawtooth falls over the whole period.
 enum class Waveform { cosine, square, triangle, sawtooth };
 
-/// Piezo force of amplitude A; A is fixed in open loop, the controller's in closed loop. With a
-/// transducer the forces are what the voltages amount to.
+/// Piezo force of amplitude A; A is fixed in open loop, the controller's in closed loop. A drive is
+/// given by its force or by its voltage into a transducer; Scene::drive_force_N() adds up the two.
 struct Drive {
   double frequency_Hz = 0.0;
   TimedProfile frequency_profile;        ///< open loop: the frequency, taken at each phase 0
   double frequency_resolution_Hz = 0.0;  ///< the frequency is a multiple of it; 0: any
   double force_amplitude_N = 0.0;        ///< open loop
-  double voltage_amplitude_V = 0.0;      ///< the same, with a transducer
+  double voltage_amplitude_V = 0.0;      ///< open loop, with a transducer
   double max_force_amplitude_N = 0.0;    ///< closed loop: the actuator's limit
-  double max_voltage_amplitude_V = 0.0;  ///< the same, with a transducer
+  double max_voltage_amplitude_V = 0.0;  ///< closed loop, with a transducer: the amplifier's limit
   /// Resonant closed loop: of the fundamental; absent, no limit.
   std::optional<double> max_current_amplitude_A;
   std::optional<double> max_force_slew_N_per_s;  ///< closed loop: absent, no slew limit
   Waveform waveform = Waveform::cosine;
   /// Closed loop: from the end of a sampled period to where its answer acts.
   int delay_periods = 1;
+
+  /// The nearest multiple of the resolution, at least one; without a resolution the frequency itself.
+  double nearest_frequency_Hz(double asked_Hz) const;
 };
 
 /// Turns a voltage into a force, and takes a current for it: i = Nf x' + C0 V' + V/R0, with
@@ -74,9 +83,12 @@ struct Transducer {
   double force_factor_N_per_V = 0.0;   ///< Nf
   double clamped_capacitance_F = 0.0;  ///< C0
   double loss_tangent = 0.0;           ///< tan δ of C0
+
+  double force_N(double voltage_V) const { return force_factor_N_per_V * voltage_V; }
+  double voltage_V(double force_N) const { return force_N / force_factor_N_per_V; }
 };
 
-/// A solver by its place in the list of configure/solver_methods.hpp.
+/// A solver by its place in the list of solver_methods.hpp.
 struct SolverMethod {
   std::size_t index = 0;
 };
@@ -139,7 +151,7 @@ struct Controller {
   std::optional<VibrationControl> vibration;         ///< absent: fed forward, without observing it
   std::optional<FrequencyRange> frequency_range_Hz;  ///< resonant; absent: the default
   std::vector<TargetStep> target_friction_ratio;
-  double calibration_s = 0.0;
+  std::optional<double> calibration_s;  ///< absent: what suits the design, or 0
   Shaping shaping = Shaping::notch;
   std::optional<double> shaping_range;        ///< robust: of the natural frequency, relative
   std::optional<double> speed_floor_m_per_s;  ///< absent: the controller's own default
@@ -211,6 +223,11 @@ struct Scene {
 
   /// The key `table.key` of a profile beside that of the sliding; null where there is none.
   const char* profile_key() const;
+
+  /// Amplitude of the drive's force in open loop, whether it is given as a force or as a voltage.
+  double drive_force_N() const;
+  /// The largest that its actuator gives in closed loop.
+  double max_drive_force_N() const;
 
   /// Of an open loop `feedforward`.
   VibrationMode vibration_mode() const;

@@ -30,10 +30,6 @@ std::vector<Item> in_file_order(const toml::table& table) {
   return items;
 }
 
-std::size_t position_of(const KeyTable& table, const Key& key) {
-  return static_cast<std::size_t>(&key - table.keys.data());
-}
-
 }  // namespace
 
 Location GivenValue::place_of(const toml::node& element) const {
@@ -102,13 +98,12 @@ void Document::collect_table(const std::string& name, const Location& place,
   SceneTable collected{name, place, {}};
   for (const auto& [key, value] : in_file_order(table)) {
     const Location key_place = located(file_, key->source());
-    const Key* known = find_key(described, key->str());
-    if (known == nullptr) {
+    if (find_key(described, key->str()) == nullptr) {
       throw SceneError(key_place, fmt::format("{}.{}", name, key->str()),
                        unknown_key(described, key->str()));
     }
-    collected.entries[std::string(key->str())] = {value, key_place, located(file_, value->source()),
-                                                  false, position_of(described, *known)};
+    collected.entries[std::string(key->str())] = {value, key_place,
+                                                  located(file_, value->source())};
   }
   tables_[name] = std::move(collected);
 }
@@ -144,11 +139,7 @@ void Document::place_true_values() {
     const std::string name = path.substr(0, dot);
     const SceneTable* stated = find_true(name);
     SceneTable table = stated != nullptr ? *stated : SceneTable{name, given.key_place, {}};
-    const std::string key = path.substr(dot + 1);
-    const KeyTable& described = key_table(name);
-    GivenValue entry = given;
-    entry.position = position_of(described, key_of(described, key));
-    table.entries[key] = std::move(entry);
+    table.entries[path.substr(dot + 1)] = given;
     true_tables_[name] = std::move(table);
   }
 }
@@ -157,11 +148,7 @@ void Document::place_true_values() {
 GivenValue& Document::overridden_entry(const OverriddenKey& target) {
   SceneTable& table =
       tables_.try_emplace(target.table, SceneTable{target.table, target.place, {}}).first->second;
-  const KeyTable& described = key_table(target.table);
-  GivenValue& entry = table.entries[target.key];
-  entry = {nullptr, target.place, target.place, true,
-           position_of(described, key_of(described, target.key))};
-  return entry;
+  return table.entries[target.key] = {nullptr, target.place, target.place, true};
 }
 
 }  // namespace sonoglide::scene_file

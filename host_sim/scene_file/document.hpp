@@ -23,8 +23,7 @@ struct GivenValue {
   Location key_place;
   Location value_place;
   bool overridden = false;
-  std::size_t position = 0;  ///< of the key among those that its table may hold
-  std::size_t varied = 0;    ///< which of the varied keys, where it is one
+  std::size_t varied = 0;  ///< which of the varied keys, where it is one
 
   /// Where an element of this value stands.
   Location place_of(const toml::node& element) const;

@@ -90,9 +90,10 @@ void add_default(ordered_json& schema, const Key& key) {
 std::string description(const Key& key) {
   const std::string absent = absent_text(key);
   const bool required = absent.rfind("required", 0) == 0;
+  const std::string used = key.used_text();
   return fmt::format("{} {}{}", sentence(key.meaning),
                      sentence(required ? absent : fmt::format("Default: {}", absent)),
-                     key.used.empty() ? "" : fmt::format(" Used with {}.", key.used));
+                     used.empty() ? "" : fmt::format(" Used with {}.", used));
 }
 
 ordered_json key_schema(const Key& key) {
@@ -108,7 +109,7 @@ ordered_json key_schema(const Key& key) {
 /// The keys that must be there whatever the rest of the scene, and those of which one must be.
 void add_required(ordered_json& schema, const std::vector<Key>& keys) {
   for (const Key& key : keys) {
-    if (std::holds_alternative<Required>(key.absent) && key.used.empty()) {
+    if (std::holds_alternative<Required>(key.absent) && key.used_text().empty()) {
       schema["required"].push_back(key.name);
     }
   }

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "host_sim/configure/solver_facts.hpp"
-#include "host_sim/configure/solver_methods.hpp"
 #include "host_sim/scene/names.hpp"
+#include "host_sim/scene/solver_facts.hpp"
+#include "host_sim/scene/solver_methods.hpp"
 #include "host_sim/scene_file/keys.hpp"
 
 namespace sonoglide::scene_file {
@@ -96,7 +96,7 @@ list as a JSON Schema.
 std::string row(const Key& key) {
   const std::string_view unit = unit_of(key);
   return fmt::format("| `{}` | {} | {} | {} | {} | {} |\n", key.name, unit.empty() ? "-" : unit,
-                     allowed_text(key), absent_text(key), key.meaning, key.used);
+                     allowed_text(key), absent_text(key), key.meaning, key.used_text());
 }
 
 std::string list_of(const KeyTable& table, bool whole) {
@@ -133,8 +133,8 @@ std::string methods_of_laws() {
   std::string text = "\nMethods by friction law:\n\n| law | methods |\n|---|---|\n";
   for (const auto& law : scene::friction_laws) {
     std::vector<std::string> methods;
-    for (const auto& method : configure::solver_methods) {
-      if (configure::solves(method.value, law.value)) {
+    for (const auto& method : scene::solver_methods) {
+      if (scene::solves(method.value, law.value)) {
         methods.push_back(fmt::format("`{}`", method.name));
       }
     }

@@ -1,4 +1,4 @@
-/// A scene file to a validated scene.
+/// A scene file to a validated scene, without what follows from the design of its controller.
 #pragma once
 
 #include <filesystem>

@@ -13,30 +13,24 @@
 namespace sonoglide::scene_file {
 namespace {
 
-std::string allowed_number(const Range& range) {
-  return fmt::format("a number, {}", range.text());
-}
-
-std::string allowed_integer(const Integer& range) {
-  return fmt::format("an integer, {} to {}", range.low, range.high);
-}
-
 /// An integer too large for every bit of it to fit is rounded.
 double as_number(const toml::node& node) {
   const toml::value<std::int64_t>* whole = node.as_integer();
   return whole != nullptr ? static_cast<double>(whole->get()) : node.as_floating_point()->get();
 }
 
-/// Overrides follow the file.
-bool earlier(const GivenValue& a, const GivenValue& b) {
-  return std::tuple(a.overridden, a.key_place.line, a.key_place.column) <
-         std::tuple(b.overridden, b.key_place.line, b.key_place.column);
+/// `an array of 3`, or the kind of another value.
+std::string count_of(const toml::node& node) {
+  const toml::array* list = node.as_array();
+  return list == nullptr ? std::string(kind_of(node)) : fmt::format("an array of {}", list->size());
 }
 
 }  // namespace
 
-TableCursor::TableCursor(const Variant& variant, std::string_view name)
-    : variant_(variant), keys_(key_table(name)), table_(variant.find(name)) {}
+bool is_earlier(const GivenValue& a, const GivenValue& b) {
+  return std::tuple(a.overridden, a.key_place.line, a.key_place.column) <
+         std::tuple(b.overridden, b.key_place.line, b.key_place.column);
+}
 
 const GivenValue* TableCursor::find(std::string_view key) const {
   if (table_ == nullptr) {
@@ -44,14 +38,6 @@ const GivenValue* TableCursor::find(std::string_view key) const {
   }
   const auto found = table_->entries.find(key);
   return found == table_->entries.end() ? nullptr : &found->second;
-}
-
-const GivenValue* TableCursor::take(std::string_view key) {
-  const GivenValue* entry = find(key);
-  if (entry != nullptr) {
-    read_.set(entry->position);
-  }
-  return entry;
 }
 
 std::string TableCursor::path_of(const Part& part) const {
@@ -66,13 +52,9 @@ Location TableCursor::place() const {
   return table_ != nullptr ? table_->place : variant_.document().start();
 }
 
-Location TableCursor::place_of(std::string_view key) const {
-  const GivenValue* entry = find(key);
-  return entry != nullptr ? entry->value_place : place();
-}
-
 void TableCursor::fail(std::string_view key, const std::string& message) const {
-  throw SceneError(place_of(key), path_of({key}), message);
+  const GivenValue* entry = find(key);
+  throw SceneError(entry != nullptr ? entry->value_place : place(), path_of({key}), message);
 }
 
 void TableCursor::fail(const std::string& message) const {
@@ -83,103 +65,42 @@ void TableCursor::fail_missing(std::string_view key, const std::string& allowed)
   fail(key, fmt::format("missing; required: {}", allowed));
 }
 
-void TableCursor::fail_part(const GivenValue& entry, const toml::node& node, const Part& part,
+void TableCursor::fail_part(const toml::node& node, const Part& part,
                             const std::string& message) const {
-  throw SceneError(entry.place_of(node), path_of(part), message);
-}
-
-const std::pair<const std::string, GivenValue>* TableCursor::first_unread() const {
-  const std::pair<const std::string, GivenValue>* first = nullptr;
-  if (table_ == nullptr) {
-    return first;
-  }
-  for (const auto& item : table_->entries) {
-    if (!read_[item.second.position] && (first == nullptr || earlier(item.second, first->second))) {
-      first = &item;
-    }
-  }
-  return first;
-}
-
-void TableCursor::reject_unread(std::string_view reason) const {
-  const auto* unread = first_unread();
-  if (unread == nullptr) {
-    return;
-  }
-  if (variant_.unused() == nullptr) {
-    reject(unread->first, reason);
-  }
-  for (const auto& [key, entry] : table_->entries) {
-    if (!read_[entry.position]) {
-      reject(key, reason);
-    }
-  }
+  throw SceneError(given(part.key).place_of(node), path_of(part), message);
 }
 
 void TableCursor::reject(std::string_view key, std::string_view reason) const {
   if (variant_.unused() == nullptr) {
-    throw SceneError(find(key)->key_place, path_of({key}),
+    throw SceneError(given(key).key_place, path_of({key}),
                      fmt::format("not used {}; remove it", reason));
   }
   variant_.unused()->insert(path_of({key}));
 }
 
-void TableCursor::reject_unread_with(std::string_view key, std::string_view word) const {
-  if (first_unread() != nullptr) {
-    reject_unread(fmt::format("with {} = \"{}\"", key, word));
-  }
-}
-
-double TableCursor::number_in(const GivenValue& entry, const toml::node& node, const Part& part,
-                              const Range& range) const {
+double TableCursor::number_in(const toml::node& node, const Part& part, const Range& range) const {
   if (!node.is_number()) {
-    fail_part(entry, node, part,
-              fmt::format("is {}; allowed: {}", kind_of(node), allowed_number(range)));
+    fail_part(node, part, fmt::format("is {}; allowed: {}", kind_of(node), range.allowed_text()));
   }
   const double value = as_number(node);
   if (!std::isfinite(value)) {
-    fail_part(entry, node, part, fmt::format("is not finite; allowed: {}", allowed_number(range)));
+    fail_part(node, part, fmt::format("is not finite; allowed: {}", range.allowed_text()));
   }
   if (!range.contains(value)) {
-    fail_part(entry, node, part,
-              fmt::format("{} is out of range; allowed: {}", value, range.text()));
+    fail_part(node, part, fmt::format("{} is out of range; allowed: {}", value, range.text()));
   }
   return value;
 }
 
-double TableCursor::real(std::string_view key) {
-  const auto* absent = std::get_if<double>(&key_of(keys_, key).absent);
-  return real_in(key, allowed<Number>(key).range,
-                 absent != nullptr ? std::optional(*absent) : std::nullopt);
+double TableCursor::real(std::string_view key, const Range& range) const {
+  return number_in(node(key), {key}, range);
 }
 
-double TableCursor::real(std::string_view key, double absent) {
-  return real_in(key, allowed<Number>(key).range, absent);
-}
-
-double TableCursor::real_in(std::string_view key, const Range& range,
-                            std::optional<double> absent) {
-  const GivenValue* entry = take(key);
-  if (entry != nullptr) {
-    return number_in(*entry, variant_.value(*entry), {key}, range);
-  }
-  if (!absent) {
-    fail_missing(key, allowed_number(range));
-  }
-  return *absent;
-}
-
-std::optional<double> TableCursor::optional_real(std::string_view key) {
-  const Range& range = allowed<Number>(key).range;
-  return has(key) ? std::optional(real_in(key, range)) : std::nullopt;
-}
-
-std::int64_t TableCursor::whole_number(std::string_view key, const GivenValue& entry,
-                                       const Integer& range) const {
-  const toml::node& node = variant_.value(entry);
-  const toml::value<std::int64_t>* value = node.as_integer();
+std::int64_t TableCursor::integer(std::string_view key, const Integer& range) const {
+  const toml::value<std::int64_t>* value = node(key).as_integer();
   if (value == nullptr) {
-    fail(key, fmt::format("is {}; allowed: {}", kind_of(node), allowed_integer(range)));
+    fail(key, fmt::format("is {}; allowed: an integer, {} to {}", kind_of(node(key)), range.low,
+                          range.high));
   }
   if (value->get() < range.low || value->get() > range.high) {
     fail(key,
@@ -188,24 +109,7 @@ std::int64_t TableCursor::whole_number(std::string_view key, const GivenValue& e
   return value->get();
 }
 
-std::int64_t TableCursor::integer(std::string_view key) {
-  const double absent = std::get<double>(key_of(keys_, key).absent);
-  return integer_in(key, allowed<Integer>(key), static_cast<std::int64_t>(absent));
-}
-
-std::int64_t TableCursor::integer_in(std::string_view key, const Integer& range,
-                                     std::int64_t absent) {
-  const GivenValue* entry = take(key);
-  return entry != nullptr ? whole_number(key, *entry, range) : absent;
-}
-
-std::optional<std::int64_t> TableCursor::optional_integer(std::string_view key) {
-  const GivenValue* entry = take(key);
-  return entry != nullptr ? std::optional(whole_number(key, *entry, allowed<Integer>(key)))
-                          : std::nullopt;
-}
-
-std::size_t TableCursor::word_in(const GivenValue& entry, const toml::node& node, const Part& part,
+std::size_t TableCursor::word_in(const toml::node& node, const Part& part,
                                  const Words& allowed) const {
   const toml::value<std::string>* text = node.as_string();
   if (text != nullptr) {
@@ -216,124 +120,89 @@ std::size_t TableCursor::word_in(const GivenValue& entry, const toml::node& node
   }
   const std::string list = fmt::format("\"{}\"", fmt::join(allowed, "\", \""));
   if (text == nullptr) {
-    fail_part(entry, node, part, fmt::format("is {}; allowed: {}", kind_of(node), list));
+    fail_part(node, part, fmt::format("is {}; allowed: {}", kind_of(node), list));
   }
   const auto nearest = nearest_name(text->get(), allowed);
-  fail_part(entry, node, part,
+  fail_part(node, part,
             fmt::format("{} is unknown; {}allowed: {}", in_quotes(text->get()),
                         nearest ? fmt::format("did you mean \"{}\"? ", *nearest) : "", list));
 }
 
-std::size_t TableCursor::word(std::string_view key) {
-  const Words& words = allowed<Word>(key).allowed;
-  const GivenValue* entry = take(key);
-  if (entry != nullptr) {
-    return word_in(*entry, variant_.value(*entry), {key}, words);
-  }
-  const auto* absent = std::get_if<std::string_view>(&key_of(keys_, key).absent);
-  if (absent == nullptr) {
-    fail_missing(key, fmt::format("\"{}\"", fmt::join(words, "\" or \"")));
-  }
-  return static_cast<std::size_t>(std::find(words.begin(), words.end(), *absent) - words.begin());
+std::size_t TableCursor::word(std::string_view key, const Words& allowed) const {
+  return word_in(node(key), {key}, allowed);
 }
 
-std::vector<std::size_t> TableCursor::words(std::string_view key) {
-  const Words& words = allowed<WordList>(key).allowed;
-  std::vector<std::size_t> indices;
-  const GivenValue* entry = take(key);
-  if (entry == nullptr) {
-    return indices;
-  }
-  const toml::node& value = variant_.value(*entry);
-  const toml::array* list = value.as_array();
+std::vector<std::size_t> TableCursor::words(std::string_view key, const Words& allowed) const {
+  const toml::array* list = node(key).as_array();
   if (list == nullptr) {
-    fail(key, fmt::format("is {}; allowed: a list of \"{}\"", kind_of(value),
-                          fmt::join(words, "\", \"")));
+    fail(key, fmt::format("is {}; allowed: a list of \"{}\"", kind_of(node(key)),
+                          fmt::join(allowed, "\", \"")));
   }
+  std::vector<std::size_t> indices;
   for (std::size_t i = 0; i < list->size(); ++i) {
     const toml::node& node = (*list)[i];
     const Part part{key, i};
-    const std::size_t index = word_in(*entry, node, part, words);
+    const std::size_t index = word_in(node, part, allowed);
     if (std::find(indices.begin(), indices.end(), index) != indices.end()) {
-      fail_part(*entry, node, part,
-                fmt::format("\"{}\" is there twice; allowed: each once", words[index]));
+      fail_part(node, part,
+                fmt::format("\"{}\" is there twice; allowed: each once", allowed[index]));
     }
     indices.push_back(index);
   }
   return indices;
 }
 
-TableCursor::Pair TableCursor::pair_in(const GivenValue& entry, const toml::node& node,
-                                       const Part& part, const Profile& profile) const {
-  const toml::array* pair = node.as_array();
-  if (pair == nullptr || pair->size() != 2) {
-    const std::string found =
-        pair == nullptr ? std::string(kind_of(node)) : fmt::format("an array of {}", pair->size());
-    fail_part(entry, node, part, fmt::format("is {}; allowed: a pair [time in s, number]", found));
-  }
-  return {number_in(entry, (*pair)[0], {part.key, part.element, 0}, profile.time),
-          number_in(entry, (*pair)[1], {part.key, part.element, 1}, profile.value)};
-}
-
-void TableCursor::check_time(const GivenValue& entry, const toml::node& node, const Part& part,
-                             const std::vector<Pair>& earlier, double time_s, Times times) const {
-  const std::size_t count = earlier.size();
-  if (count == 0 || time_s > earlier.back()[0]) {
+void TableCursor::check_time(const toml::node& node, const Part& part,
+                             const std::vector<Pair>& pairs, Times times) const {
+  const std::size_t count = pairs.size();
+  if (count < 2 || pairs[count - 1][0] > pairs[count - 2][0]) {
     return;
   }
-  const double last_s = earlier.back()[0];
+  const double time_s = pairs[count - 1][0];
+  const double last_s = pairs[count - 2][0];
   if (times == Times::rise) {
     fail_part(
-        entry, node, part,
+        node, part,
         fmt::format("time {} s is not after {} s; allowed: times that increase", time_s, last_s));
   }
   if (time_s < last_s) {
-    fail_part(entry, node, part,
+    fail_part(node, part,
               fmt::format("time {} s is before {} s; allowed: times that increase, or two of one "
                           "time for a jump",
                           time_s, last_s));
   }
-  if (count > 1 && earlier[count - 2][0] == time_s) {
+  if (count > 2 && pairs[count - 3][0] == time_s) {
     fail_part(
-        entry, node, part,
+        node, part,
         fmt::format("is the third pair of time {} s; allowed: at most two, for a jump", time_s));
   }
 }
 
-bool TableCursor::truth(std::string_view key) {
-  const GivenValue* entry = take(key);
-  if (entry == nullptr) {
-    return true;
-  }
-  const toml::node& node = variant_.value(*entry);
-  const toml::value<bool>* value = node.as_boolean();
+bool TableCursor::truth(std::string_view key) const {
+  const toml::value<bool>* value = node(key).as_boolean();
   if (value == nullptr) {
-    fail(key, fmt::format("is {}; allowed: true or false", kind_of(node)));
+    fail(key, fmt::format("is {}; allowed: true or false", kind_of(node(key))));
   }
   return value->get();
 }
 
-std::optional<TableCursor::Pair> TableCursor::optional_interval(std::string_view key) {
-  const GivenValue* entry = take(key);
-  if (entry == nullptr) {
-    return std::nullopt;
-  }
-  const Range& range = allowed<Interval>(key).range;
-  const toml::node& node = variant_.value(*entry);
-  const toml::array* pair = node.as_array();
+TableCursor::Pair TableCursor::interval(std::string_view key, const Range& range) const {
+  const toml::node& value = node(key);
+  const toml::array* pair = value.as_array();
   if (pair == nullptr || pair->size() != 2) {
-    fail(key, fmt::format("is {}; allowed: two numbers [lowest, highest], {}",
-                          pair == nullptr ? std::string(kind_of(node))
-                                          : fmt::format("an array of {}", pair->size()),
+    fail(key, fmt::format("is {}; allowed: two numbers [lowest, highest], {}", count_of(value),
                           range.text()));
   }
-  const Pair found{number_in(*entry, (*pair)[0], {key, 0}, range),
-                   number_in(*entry, (*pair)[1], {key, 1}, range)};
-  if (!(found[0] < found[1])) {
-    fail(key, fmt::format("{} is not below {}; allowed: the lowest, then the highest", found[0],
-                          found[1]));
+  const Pair ends{number_in((*pair)[0], {key, 0}, range), number_in((*pair)[1], {key, 1}, range)};
+  check_order(key, ends);
+  return ends;
+}
+
+void TableCursor::check_order(std::string_view key, const Pair& ends) const {
+  if (!(ends[0] < ends[1])) {
+    fail(key, fmt::format("{} is not below {}; allowed: the lowest, then the highest", ends[0],
+                          ends[1]));
   }
-  return found;
 }
 
 void TableCursor::fail_spread(std::string_view key, const std::string& found, bool whole) const {
@@ -345,8 +214,8 @@ void TableCursor::fail_spread(std::string_view key, const std::string& found, bo
                                             spread_range.text(), range)));
 }
 
-TableCursor::Pair TableCursor::ends_in(std::string_view key, const GivenValue& entry,
-                                       const toml::node& node, const Spread& allowed) const {
+TableCursor::Pair TableCursor::ends_in(std::string_view key, const toml::node& node,
+                                       const Spread& allowed) const {
   const toml::array* pair = node.as_array();
   if (pair == nullptr || pair->size() != 2) {
     fail_spread(key,
@@ -360,18 +229,14 @@ TableCursor::Pair TableCursor::ends_in(std::string_view key, const GivenValue& e
     if (allowed.whole && !end.is_integer()) {
       fail_spread(key, fmt::format("a range with {}", kind_of(end)), true);
     }
-    ends[i] = number_in(entry, end, {key, i}, allowed.range);
+    ends[i] = number_in(end, {key, i}, allowed.range);
   }
-  if (!(ends[0] < ends[1])) {
-    fail(key, fmt::format("{} is not below {}; allowed: the lowest, then the highest", ends[0],
-                          ends[1]));
-  }
+  check_order(key, ends);
   return ends;
 }
 
-scene::Tolerance TableCursor::spread_in(std::string_view key, const GivenValue& entry,
-                                        const toml::table& table) const {
-  const auto& spread = allowed<Spread>(key);
+scene::Tolerance TableCursor::spread_in(std::string_view key, const toml::table& table,
+                                        const Spread& spread) const {
   const toml::node* normal = table.get("normal");
   const toml::node* range = table.get("range");
   if (table.size() != 1 || (normal == nullptr && range == nullptr)) {
@@ -380,7 +245,7 @@ scene::Tolerance TableCursor::spread_in(std::string_view key, const GivenValue& 
   scene::Tolerance tolerance{std::string(key), scene::Spread::range, 0.0, 0.0, 0.0, 0.0,
                              spread.whole};
   if (range != nullptr) {
-    const Pair ends = ends_in(key, entry, *range, spread);
+    const Pair ends = ends_in(key, *range, spread);
     tolerance.lowest = ends[0];
     tolerance.highest = ends[1];
     return tolerance;
@@ -389,23 +254,21 @@ scene::Tolerance TableCursor::spread_in(std::string_view key, const GivenValue& 
     fail_spread(key, "a standard deviation of integers", true);
   }
   tolerance.spread = scene::Spread::normal;
-  tolerance.amount = number_in(entry, *normal, {key}, spread_range);
+  tolerance.amount = number_in(*normal, {key}, spread_range);
   tolerance.lowest = spread.range.low;
   tolerance.highest = spread.range.high;
   return tolerance;
 }
 
-scene::Tolerance TableCursor::spread(std::string_view key) {
-  const auto& spread = allowed<Spread>(key);
-  const GivenValue& entry = *take(key);
-  const toml::node& node = variant_.value(entry);
-  if (const toml::table* table = node.as_table()) {
-    return spread_in(key, entry, *table);
+scene::Tolerance TableCursor::spread(std::string_view key, const Spread& allowed) const {
+  const toml::node& value = node(key);
+  if (const toml::table* table = value.as_table()) {
+    return spread_in(key, *table, allowed);
   }
-  if (spread.whole || !node.is_number()) {
-    fail_spread(key, std::string(kind_of(node)), spread.whole);
+  if (allowed.whole || !value.is_number()) {
+    fail_spread(key, std::string(kind_of(value)), allowed.whole);
   }
-  return {std::string(key), scene::Spread::half_width, number_in(entry, node, {key}, spread_range)};
+  return {std::string(key), scene::Spread::half_width, number_in(value, {key}, spread_range)};
 }
 
 std::vector<std::string> TableCursor::given_keys() const {
@@ -416,7 +279,7 @@ std::vector<std::string> TableCursor::given_keys() const {
     }
   }
   std::sort(items.begin(), items.end(),
-            [](const auto* a, const auto* b) { return earlier(a->second, b->second); });
+            [](const auto* a, const auto* b) { return is_earlier(a->second, b->second); });
   std::vector<std::string> keys;
   keys.reserve(items.size());
   for (const auto* item : items) {
@@ -425,21 +288,11 @@ std::vector<std::string> TableCursor::given_keys() const {
   return keys;
 }
 
-std::vector<TableCursor::Pair> TableCursor::timed_values(std::string_view key, Times times) {
-  return timed_values_in(key, allowed<Profile>(key), times);
-}
-
-std::vector<TableCursor::Pair> TableCursor::timed_values_in(std::string_view key,
-                                                            const Profile& profile, Times times) {
-  constexpr const char* allowed = "a list of pairs [[time in s, number], …]";
-  const GivenValue* entry = take(key);
-  if (entry == nullptr) {
-    fail_missing(key, allowed);
-  }
-  const toml::node& node = variant_.value(*entry);
-  const toml::array* list = node.as_array();
+std::vector<TableCursor::Pair> TableCursor::timed_values(std::string_view key, const Range& time,
+                                                         const Range& value, Times times) const {
+  const toml::array* list = node(key).as_array();
   if (list == nullptr) {
-    fail(key, fmt::format("is {}; allowed: {}", kind_of(node), allowed));
+    fail(key, fmt::format("is {}; allowed: {}", kind_of(node(key)), allowed_pairs));
   }
   if (list->empty()) {
     fail(key, "is empty; allowed: at least one pair [time in s, number]");
@@ -447,28 +300,27 @@ std::vector<TableCursor::Pair> TableCursor::timed_values_in(std::string_view key
   std::vector<Pair> pairs;
   for (std::size_t i = 0; i < list->size(); ++i) {
     const toml::node& element = (*list)[i];
-    const Pair pair = pair_in(*entry, element, {key, i}, profile);
-    check_time(*entry, element, {key, i}, pairs, pair[0], times);
-    pairs.push_back(pair);
+    const toml::array* pair = element.as_array();
+    if (pair == nullptr || pair->size() != 2) {
+      fail_part(element, {key, i},
+                fmt::format("is {}; allowed: a pair [time in s, number]", count_of(element)));
+    }
+    pairs.push_back(
+        {number_in((*pair)[0], {key, i, 0}, time), number_in((*pair)[1], {key, i, 1}, value)});
+    check_time(element, {key, i}, pairs, times);
   }
   return pairs;
 }
 
-std::string_view TableCursor::one_of(std::string_view first, std::string_view second) const {
-  if (has(first) && has(second)) {
-    const bool first_is_later = earlier(*find(second), *find(first));
-    const std::string_view later = first_is_later ? first : second;
-    const std::string_view other = first_is_later ? second : first;
-    throw SceneError(find(later)->key_place, path_of({later}),
-                     fmt::format("excludes {}; allowed: one of the two", other));
+void TableCursor::exclude(std::string_view first, std::string_view second) const {
+  if (!has(first) || !has(second)) {
+    return;
   }
-  if (has(second)) {
-    return second;
-  }
-  if (!has(first) && std::holds_alternative<Instead>(key_of(keys_, first).absent)) {
-    fail(first, fmt::format("missing; required: {} or {}", first, second));
-  }
-  return first;
+  const bool first_is_later = is_earlier(given(second), given(first));
+  const std::string_view later = first_is_later ? first : second;
+  throw SceneError(
+      given(later).key_place, path_of({later}),
+      fmt::format("excludes {}; allowed: one of the two", first_is_later ? second : first));
 }
 
 }  // namespace sonoglide::scene_file

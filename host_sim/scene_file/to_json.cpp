@@ -1,137 +1,136 @@
 #include "host_sim/scene_file/to_json.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <variant>
 #include <vector>
 
-#include "host_sim/scene_file/scene_values.hpp"
+#include "host_sim/scene/names.hpp"
+#include "host_sim/scene_file/keys.hpp"
+#include "host_sim/scene_file/law_keys.hpp"
 
 namespace sonoglide::scene_file {
 namespace {
 
 using nlohmann::ordered_json;
 
-/// The `Keys` of scene_values.hpp that write one table.
-class ValueEcho {
+bool is_constant(const std::vector<scene::SpeedPoint>& points) {
+  return points.size() == 1 && points.front().time_s == 0.0;
+}
+
+/// The value of one key as the scene has it; null where that has none.
+class Echo {
  public:
+  Echo(scene::Scene& scene, const Key& key) : scene_(scene), key_(key) {}
+
+  ordered_json operator()(std::monostate /*nowhere*/) const { return nullptr; }
   template <class Value>
-  void value(std::string_view key, const Value& value) {
-    table_[std::string(key)] = value;
+  ordered_json operator()(Of<Value> value) const {
+    return value(scene_);
   }
   template <class Value>
-  void value(std::string_view key, const std::optional<Value>& value) {
-    if (value) {
-      this->value(key, *value);
+  ordered_json operator()(Of<std::optional<Value>> value) const {
+    return value(scene_) ? ordered_json(*value(scene_)) : nullptr;
+  }
+  ordered_json operator()(OrZero number) const {
+    return number.number(scene_) != 0.0 ? ordered_json(number.number(scene_)) : nullptr;
+  }
+  ordered_json operator()(Choice choice) const {
+    const std::optional<std::size_t> index = choice.index(scene_);
+    return index ? ordered_json(std::get<Word>(key_.allowed).allowed[*index]) : nullptr;
+  }
+  ordered_json operator()(Of<std::vector<scene::Channel>> channels) const {
+    ordered_json words;
+    for (const scene::Channel each : channels(scene_)) {
+      words.push_back(scene::name_of(scene::channels, each));
     }
+    return words;
   }
-  void value(std::string_view key, double number, double /*absent*/) { value(key, number); }
-  void value_in(std::string_view key, double number, const Range& /*range*/) { value(key, number); }
-  void value_or_0(std::string_view key, double number) {
-    if (number != 0.0) {
-      value(key, number);
-    }
+  ordered_json operator()(Of<std::optional<scene::FrequencyRange>> range) const {
+    const auto& ends = range(scene_);
+    return ends ? ordered_json::array({ends->lowest_Hz, ends->highest_Hz}) : nullptr;
   }
-
-  template <class Value, std::size_t Count>
-  void word(std::string_view key, const Value& chosen,
-            const std::array<scene::Named<Value>, Count>& names) {
-    value(key, scene::name_of(names, chosen));
+  ordered_json operator()(Of<scene::TimedProfile> profile) const { return rows(profile(scene_)); }
+  ordered_json operator()(InPlaceOf level) const { return rows(level.profile(scene_)); }
+  ordered_json operator()(Of<std::vector<scene::SpeedPoint>> points) const {
+    return is_constant(points(scene_)) ? nullptr : rows(points(scene_));
   }
-  void word(std::string_view key, const scene::FrictionLaw& law,
-            const std::array<scene::Named<scene::FrictionLaw>, scene::law_count>& /*names*/) {
-    value(key, scene::name_of(law));
+  ordered_json operator()(ConstantSpeed constant) const {
+    const std::vector<scene::SpeedPoint>& points = constant.profile(scene_);
+    return is_constant(points) ? ordered_json(points.front().velocity_m_per_s) : nullptr;
   }
-  template <class Value, std::size_t Count>
-  void words(std::string_view key, const std::vector<Value>& values,
-             const std::array<scene::Named<Value>, Count>& names) {
-    for (const Value each : values) {
-      table_[std::string(key)].push_back(scene::name_of(names, each));
-    }
+  ordered_json operator()(Of<std::vector<scene::TargetStep>> steps) const {
+    return rows(steps(scene_));
   }
-  template <class Value, std::size_t Count>
-  void optional_word(std::string_view key, const std::optional<Value>& chosen,
-                     const std::array<scene::Named<Value>, Count>& names) {
-    if (chosen) {
-      word(key, *chosen, names);
-    }
+  ordered_json operator()(Periods /*in_seconds*/) const { return nullptr; }
+  ordered_json operator()(OwnOfLaw /*law*/) const {
+    const OwnKeys keys = own_keys(scene_.friction.law);
+    const OwnKey& own = *keys.find(key_.name);
+    return own.count != nullptr ? ordered_json(*own.count) : ordered_json(*own.number);
   }
-  void truth(std::string_view key, bool value) { table_[std::string(key)] = value; }
-  void range(std::string_view key, const std::optional<scene::FrequencyRange>& range) {
-    if (range) {
-      table_[std::string(key)] = ordered_json::array({range->lowest_Hz, range->highest_Hz});
-    }
-  }
-
-  template <class Integers>
-  void one_of(std::string_view key, std::optional<int> chosen, const Integers& /*allowed*/) {
-    value(key, chosen);
-  }
-
-  void time(std::string_view key, std::string_view /*periods_key*/, double time_s,
-            const std::optional<scene::Drive>& /*drive*/) {
-    value(key, time_s);
-  }
-  void level(const Level& level, ZeroIn /*zero*/, std::optional<double> /*absent*/) {
-    if (level.profile.empty()) {
-      value(level.key, level.value);
-    }
-    profile(level.profile_key, level.profile);
-  }
-  void profile(std::string_view key, const scene::TimedProfile& profile) {
-    for (const scene::TimedValue& row : profile) {
-      add_pair(key, row.time_s, row.value);
-    }
-  }
-  void speed(std::string_view key, std::string_view profile_key,
-             const std::vector<scene::SpeedPoint>& points) {
-    if (points.size() == 1 && points.front().time_s == 0.0) {
-      value(key, points.front().velocity_m_per_s);
-      return;
-    }
-    for (const scene::SpeedPoint& point : points) {
-      add_pair(profile_key, point.time_s, point.velocity_m_per_s);
-    }
-  }
-  void targets(std::string_view key, const std::vector<scene::TargetStep>& steps) {
-    for (const scene::TargetStep& step : steps) {
-      add_pair(key, step.time_s, step.friction_ratio);
-    }
-  }
-
-  void required(std::string_view key, double parameter, const Range& /*range*/,
-                std::string_view /*meaning*/) {
-    value(key, parameter);
-  }
-  void optional(std::string_view key, double parameter, const Range& /*range*/,
-                std::string_view /*meaning*/) {
-    value(key, parameter);
-  }
-  void optional(std::string_view key, int count, int /*least*/, int /*most*/,
-                std::string_view /*meaning*/) {
-    value(key, count);
-  }
-  void refuse(std::string_view /*key*/, double /*parameter*/, std::string_view /*finding*/,
-              double /*least*/, std::string_view /*rest*/) {}
-
-  ordered_json take() { return std::move(table_); }
 
  private:
-  void add_pair(std::string_view key, double time_s, double value) {
-    table_[std::string(key)].push_back(ordered_json::array({time_s, value}));
+  template <class Row>
+  static ordered_json rows(const std::vector<Row>& rows) {
+    ordered_json pairs;
+    for (const auto& [time_s, value] : rows) {
+      pairs.push_back(ordered_json::array({time_s, value}));
+    }
+    return pairs;
   }
 
-  ordered_json table_ = ordered_json::object();
+  scene::Scene& scene_;
+  const Key& key_;
 };
 
-template <class Visit>
-ordered_json echo(const Visit& visit) {
-  ValueEcho keys;
-  visit(keys);
-  return keys.take();
+ordered_json echo(scene::Scene& scene, const Key& key) {
+  return key.used(scene) ? std::visit(Echo(scene, key), key.member) : nullptr;
+}
+
+/// A key that the echo has further down than the list, before another or at the end of its table.
+struct Lowered {
+  std::string_view table;
+  std::string_view key;
+  std::string_view before;
+};
+constexpr std::array<Lowered, 2> lowered_keys = {
+    {{"friction", "sign_convention", ""}, {"run", "start", "record"}}};
+
+std::vector<const Key*> in_echo_order(const KeyTable& table) {
+  std::vector<const Key*> keys;
+  for (const Key& key : table.keys) {
+    keys.push_back(&key);
+  }
+  for (const Lowered& lowered : lowered_keys) {
+    const auto named = [&keys](std::string_view name) {
+      return std::find_if(keys.begin(), keys.end(),
+                          [name](const Key* key) { return key->name == name; });
+    };
+    if (lowered.table == table.name) {
+      const auto key = named(lowered.key);
+      std::rotate(key, key + 1, named(lowered.before));
+    }
+  }
+  return keys;
+}
+
+ordered_json echo(scene::Scene& scene, const KeyTable& table) {
+  ordered_json values = ordered_json::object();
+  for (const Key* key : in_echo_order(table)) {
+    const bool replaced =
+        !key->replaced_by.empty() && !echo(scene, key_of(table, key->replaced_by)).is_null();
+    ordered_json value = replaced ? nullptr : echo(scene, *key);
+    if (!value.is_null()) {
+      values[std::string(key->name)] = std::move(value);
+    }
+  }
+  return values;
 }
 
 ordered_json number(double value, bool whole) {
@@ -160,36 +159,19 @@ void add_truth(ordered_json& root, const scene::Scene& scene) {
   }
 }
 
-/// @param scene  a copy, for the visitors of scene_values.hpp may write too
+bool is_there(const scene::Scene& scene, const KeyTable& table) {
+  return !table.of_others && (table.has == nullptr || table.has(scene)) &&
+         std::all_of(table.uses.begin(), table.uses.end(),
+                     [&scene](const Use& use) { return use.holds(scene); });
+}
+
+/// @param scene  a copy: the list of keys gives places that may be written to
 ordered_json stated(scene::Scene scene) {
-  const bool closed_loop = scene.controller.has_value();
-  const scene::Start start = scene.run.start;
   ordered_json root;
-  root["plant"] = echo([&](auto& keys) { visit_plant(keys, scene.plant, start); });
-  root["friction"] =
-      echo([&](auto& keys) { visit_friction(keys, scene.friction, scene.plant, start); });
-  root["sliding"] = echo([&](auto& keys) { visit_sliding(keys, scene.sliding); });
-  if (scene.transducer) {
-    root["transducer"] = echo([&](auto& keys) { visit_transducer(keys, *scene.transducer); });
-  }
-  if (scene.drive) {
-    root["drive"] = echo([&](auto& keys) {
-      visit_drive(keys, *scene.drive, closed_loop, scene.transducer.has_value());
-    });
-  }
-  root["solver"] = echo([&](auto& keys) { visit_solver(keys, scene.solver); });
-  root["run"] = echo([&](auto& keys) { visit_run(keys, scene.run, scene.drive, closed_loop); });
-  if (closed_loop) {
-    const bool holds = scene.vibration_mode() != scene::VibrationMode::feedforward;
-    root["controller"] =
-        echo([&](auto& keys) { visit_controller(keys, *scene.controller, scene.sensor.force); });
-    root["sensor"] = echo([&](auto& keys) {
-      visit_sensor(keys, scene.sensor, scene.sensor.force_full_scale_N, holds);
-    });
-    root["model_error"] = echo([&](auto& keys) {
-      visit_model_error(keys, scene.model_error, scene.friction.law, holds,
-                        scene.transducer.has_value());
-    });
+  for (const KeyTable& table : key_tables()) {
+    if (is_there(scene, table)) {
+      root[std::string(table.name)] = echo(scene, table);
+    }
   }
   return root;
 }

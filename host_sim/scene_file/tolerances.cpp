@@ -10,7 +10,7 @@
 #include <string>
 #include <string_view>
 
-#include "host_sim/configure/bound.hpp"
+#include "host_sim/scene/bound.hpp"
 #include "host_sim/scene_file/table_cursor.hpp"
 #include "host_sim/scene_file/to_json.hpp"
 
@@ -63,6 +63,10 @@ std::string no_value(const ScenesNumbers& numbers, std::string_view key) {
   return "here: the scene has no value of it";
 }
 
+const Spread& allowed_spread(const TableCursor& cursor, std::string_view key) {
+  return std::get<Spread>(key_of(cursor.keys(), key).allowed);
+}
+
 /// Largest relative half width that stays in the range, rounded down.
 double widest(const Range& range, double value) {
   constexpr double steps = 1e6;
@@ -84,7 +88,7 @@ void settle(const TableCursor& cursor, scene::Tolerance& tolerance) {
   if (tolerance.spread == scene::Spread::normal) {
     return;
   }
-  const Range& range = cursor.allowed<Spread>(tolerance.key).range;
+  const Range& range = allowed_spread(cursor, tolerance.key).range;
   const double half_width = tolerance.amount * std::abs(tolerance.nominal);
   tolerance.lowest = tolerance.nominal - half_width;
   tolerance.highest = tolerance.nominal + half_width;
@@ -92,14 +96,14 @@ void settle(const TableCursor& cursor, scene::Tolerance& tolerance) {
     cursor.fail(tolerance.key,
                 fmt::format("{} leaves the range of {}, {}; allowed: {} {}", tolerance.amount,
                             tolerance.key, range.text(), range.low_open ? "below" : "at most",
-                            configure::at_most(widest(range, tolerance.nominal))));
+                            scene::at_most(widest(range, tolerance.nominal))));
   }
 }
 
 }  // namespace
 
 std::vector<scene::Tolerance> read_tolerances(const Variant& variant, const scene::Scene& so_far) {
-  TableCursor cursor(variant, "tolerance");
+  const TableCursor cursor(variant, "tolerance");
   std::vector<scene::Tolerance> tolerances;
   if (!cursor.present()) {
     return tolerances;
@@ -107,7 +111,7 @@ std::vector<scene::Tolerance> read_tolerances(const Variant& variant, const scen
   const TableCursor true_values(variant, "true_values");
   const ScenesNumbers numbers(so_far);
   for (const std::string& key : cursor.given_keys()) {
-    scene::Tolerance tolerance = cursor.spread(key);
+    scene::Tolerance tolerance = cursor.spread(key, allowed_spread(cursor, key));
     const std::optional<double> nominal = numbers.find(key);
     if (!nominal) {
       cursor.reject(key, no_value(numbers, key));
@@ -130,14 +134,15 @@ constexpr std::string_view true_values_table = "true_values";
 }  // namespace
 
 std::vector<scene::TrueValue> given_true_values(const Variant& variant) {
-  TableCursor cursor(variant, true_values_table);
+  const TableCursor cursor(variant, true_values_table);
   std::vector<scene::TrueValue> values;
   for (const std::string& key : cursor.given_keys()) {
-    const Key& described = key_of(key_table(true_values_table), key);
-    const bool whole = std::holds_alternative<Integer>(described.allowed);
+    const Allowed& allowed = key_of(cursor.keys(), key).allowed;
+    const auto* whole = std::get_if<Integer>(&allowed);
     values.push_back({key,
-                      whole ? static_cast<double>(*cursor.optional_integer(key)) : cursor.real(key),
-                      whole});
+                      whole != nullptr ? static_cast<double>(cursor.integer(key, *whole))
+                                       : cursor.real(key, std::get<Number>(allowed).range),
+                      whole != nullptr});
   }
   return values;
 }

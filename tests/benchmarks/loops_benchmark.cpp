@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "host_sim/configure/control_design.hpp"
-#include "host_sim/configure/solver_methods.hpp"
 #include "host_sim/loop/run.hpp"
 #include "host_sim/report/step_metrics.hpp"
 #include "host_sim/runs/closed_loops.hpp"
+#include "host_sim/scene/solver_methods.hpp"
 #include "tests/common/table_1.hpp"
 #include "tests/host_sim/runs/plants/plants_near.hpp"
 
@@ -55,8 +55,8 @@ void one_by_one(benchmark::State& state, scene::SolverMethod method, double tole
   });
 }
 
-constexpr auto event_taylor = configure::method_of<configure::solvers::EventTaylor>;
-constexpr auto event_gauss = configure::method_of<configure::solvers::EventGauss>;
+constexpr auto event_taylor = scene::method_of<scene::solvers::EventTaylor>;
+constexpr auto event_gauss = scene::method_of<scene::solvers::EventGauss>;
 BENCHMARK_CAPTURE(one_by_one, event_taylor, event_taylor, 1e-6)
     ->Name("loops/one_by_one/event_taylor/1e-6")
     ->Unit(benchmark::kMillisecond);

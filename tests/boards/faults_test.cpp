@@ -21,9 +21,9 @@
 #include "host_sim/configure/control_design.hpp"
 #include "host_sim/emulated/board_list.hpp"
 #include "host_sim/emulated/image_process.hpp"
+#include "host_sim/experiment/experiment.hpp"
 #include "host_sim/loop/control_port.hpp"
 #include "host_sim/loop/run.hpp"
-#include "host_sim/scene_file/reader.hpp"
 #include "monitor.hpp"
 
 namespace sonoglide::emulated::faults_test {
@@ -167,7 +167,7 @@ class ImagePort final : public loop::ControlPort {
 
 scene::Scene scene_of(const std::string& controller) {
   scene::Scene scene =
-      scene_file::read_file(SONOGLIDE_CONTROLLERS "/" + controller + "/scene.toml");
+      experiment::read_file(SONOGLIDE_CONTROLLERS "/" + controller + "/scene.toml").scene;
   scene.run.record.clear();
   return scene;
 }

@@ -18,12 +18,12 @@
 #include "host_sim/configure/control_design.hpp"
 #include "host_sim/emulated/board_list.hpp"
 #include "host_sim/emulated/image_process.hpp"
+#include "host_sim/experiment/experiment.hpp"
 #include "host_sim/loop/actuator.hpp"
 #include "host_sim/loop/control_port.hpp"
 #include "host_sim/loop/plant/make_plant_port.hpp"
 #include "host_sim/loop/run.hpp"
 #include "host_sim/loop/sensor.hpp"
-#include "host_sim/scene_file/reader.hpp"
 #include "tested_boards.hpp"
 #include "tests/common/constants/pi.hpp"
 #include "tests/host_sim/loop/logs/logged_run.hpp"
@@ -76,7 +76,7 @@ class SensedPlant {
 };
 
 scene::Scene scene_of(const std::string& controller) {
-  return scene_file::read_file(SONOGLIDE_CONTROLLERS "/" + controller + "/scene.toml");
+  return experiment::read_file(SONOGLIDE_CONTROLLERS "/" + controller + "/scene.toml").scene;
 }
 
 /// An image on a board: (board, controller).

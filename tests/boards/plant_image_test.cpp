@@ -29,12 +29,12 @@
 #include "host_sim/emulated/board_list.hpp"
 #include "host_sim/emulated/image_cost.hpp"
 #include "host_sim/emulated/plant_header.hpp"
+#include "host_sim/experiment/experiment.hpp"
 #include "host_sim/loop/carrier_grid.hpp"
 #include "host_sim/loop/control_port.hpp"
 #include "host_sim/loop/control_run.hpp"
 #include "host_sim/loop/plant/plant_description.hpp"
 #include "host_sim/process/run_tool.hpp"
-#include "host_sim/scene_file/reader.hpp"
 #include "tested_boards.hpp"
 #include "tests/common/constants/pi.hpp"
 #include "tests/host_sim/loop/logs/logged_run.hpp"
@@ -142,7 +142,7 @@ class FixedPlant {
                       {},
                       numbers.stiffness};
     const plant::FixedStrangDesign design = plant::design_fixed_strang(
-        model, scene.drive->max_force_amplitude_N / described.scales.force_N,
+        model, scene.max_drive_force_N() / described.scales.force_N,
         scene.sliding.profile.front().velocity_m_per_s / described.scales.velocity_m_per_s(), {});
     EXPECT_EQ(design.refusal, plant::FixedStrangRefusal::none);
     return design.parameters;
@@ -180,7 +180,7 @@ ClosedLoop closed_loop(const scene::Scene& scene, Plant plant) {
 }
 
 scene::Scene scene_of(const std::string& controller) {
-  return scene_file::read_file(SONOGLIDE_CONTROLLERS "/" + controller + "/scene.toml");
+  return experiment::read_file(SONOGLIDE_CONTROLLERS "/" + controller + "/scene.toml").scene;
 }
 
 ClosedLoop closed_loop_of(const std::string& controller) {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "host_sim/scene_file/reader.hpp"
+#include "host_sim/experiment/experiment.hpp"
 #include "host_sim/scene_file/to_json.hpp"
 #include "host_sim/scene_file/to_toml.hpp"
 
@@ -42,12 +42,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   pieces.erase(pieces.begin());
   nlohmann::ordered_json echo;
   try {
-    echo = to_json(read_text(text, "fuzz.toml", pieces));
+    echo = to_json(sonoglide::experiment::read_text(text, "fuzz.toml", pieces).scene);
   } catch (const SceneError& error) {
     check_one_line(error);
     return 0;
   }
-  if (to_json(read_text(to_toml(echo), "echo.toml")) != echo) {
+  if (to_json(sonoglide::experiment::read_text(to_toml(echo), "echo.toml").scene) != echo) {
     std::abort();
   }
   return 0;

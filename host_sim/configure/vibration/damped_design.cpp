@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstddef>
 
-#include "host_sim/configure/bound.hpp"
 #include "host_sim/configure/configuration_error.hpp"
 #include "host_sim/configure/plant_scales.hpp"
 #include "host_sim/configure/sensor_noise.hpp"
@@ -112,7 +111,7 @@ double damped_full_scale_m_per_s(const scene::Scene& scene, const NominalPlant& 
   constexpr double most_room = 64.0;
   const scene::Drive& drive = *scene.drive;
   const double full_m_per_s = peak_vibration_m_per_s(
-      plant, drive.frequency_Hz, drive.max_force_amplitude_N * plant.force_factor);
+      plant, drive.frequency_Hz, scene.max_drive_force_N() * plant.force_factor);
   if (const auto& given_m_per_s = scene.sensor.vibration_full_scale_m_per_s) {
     const double least_m_per_s = least_room * full_m_per_s;
     const double most_m_per_s = most_room * full_m_per_s;
@@ -121,8 +120,8 @@ double damped_full_scale_m_per_s(const scene::Scene& scene, const NominalPlant& 
           "sensor.vibration_full_scale_m_per_s",
           fmt::format("{:g} m/s does not suit full drive, whose steady vibration is {:.4g} m/s; "
                       "allowed: {} to {} m/s",
-                      *given_m_per_s, full_m_per_s, at_least(least_m_per_s, 4),
-                      at_most(most_m_per_s, 4)));
+                      *given_m_per_s, full_m_per_s, scene::at_least(least_m_per_s, 4),
+                      scene::at_most(most_m_per_s, 4)));
     }
     return *given_m_per_s;
   }
@@ -136,7 +135,7 @@ double damped_full_scale_m_per_s(const scene::Scene& scene, const NominalPlant& 
         fmt::format("vibrates at {:.3g} m/s, too little for a sliding of {:g} m/s; allowed: at "
                     "least {} {} with controller.vibration = \"damped\"",
                     full_m_per_s, fastest_m_per_s,
-                    at_least(amplitude * room / most_room * fastest_m_per_s / full_m_per_s),
+                    scene::at_least(amplitude * room / most_room * fastest_m_per_s / full_m_per_s),
                     scene.transducer ? "V" : "N"));
   }
   return full_scale_m_per_s;

@@ -8,8 +8,8 @@
 
 #include "firmware/numeric/float_elementary.hpp"
 #include "firmware/numeric/turn.hpp"
-#include "host_sim/configure/bound.hpp"
 #include "host_sim/configure/configuration_error.hpp"
+#include "host_sim/scene/bound.hpp"
 
 namespace sonoglide::configure {
 namespace {
@@ -64,7 +64,7 @@ void require_mode(const NominalPlant& plant) {
         "plant.damping_N_s_per_m",
         fmt::format("leaves no natural mode to damp; allowed: below {} N s/m with "
                     "controller.vibration = \"damped\"",
-                    at_most(most * critical, 3)));
+                    scene::at_most(most * critical, 3)));
   }
 }
 
@@ -73,7 +73,7 @@ Resonator nominal_resonator(const scene::Scene& scene, const NominalPlant& plant
   const double period_s = 1.0 / scene.drive->frequency_Hz;
   return {plant.stiffness_N_per_m / plant.mass_kg * period_s * period_s,
           plant.damping_N_s_per_m / plant.mass_kg * period_s,
-          scene.drive->max_force_amplitude_N * plant.force_factor * period_s /
+          scene.max_drive_force_N() * plant.force_factor * period_s /
               (plant.mass_kg * velocity_m_per_s)};
 }
 

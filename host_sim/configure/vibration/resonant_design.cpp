@@ -11,10 +11,10 @@
 #include "firmware/control/friction/friction_level.hpp"
 #include "firmware/numeric/float_elementary.hpp"
 #include "firmware/numeric/turn.hpp"
-#include "host_sim/configure/bound.hpp"
 #include "host_sim/configure/configuration_error.hpp"
 #include "host_sim/configure/plant_scales.hpp"
 #include "host_sim/configure/sensor_noise.hpp"
+#include "host_sim/scene/bound.hpp"
 
 namespace sonoglide::configure {
 namespace {
@@ -24,7 +24,7 @@ double start_rate_rad_per_s(const scene::Scene& scene) {
 }
 
 double full_force_N(const scene::Scene& scene, const NominalPlant& plant) {
-  return scene.drive->max_force_amplitude_N * plant.force_factor;
+  return scene.max_drive_force_N() * plant.force_factor;
 }
 
 /// In the steady state at resonance, friction left out.
@@ -154,7 +154,7 @@ void design_current(const scene::Scene& scene, const NominalPlant& plant, double
         "drive.max_current_amplitude_A",
         fmt::format("{:g} A is less than what the clamped capacitance alone takes at the {:.4g} V "
                     "that the easiest target needs; allowed: above {} A",
-                    limit_A, held_by_V, at_least(least_A, 4)));
+                    limit_A, held_by_V, scene::at_least(least_A, 4)));
   }
 }
 
@@ -187,14 +187,14 @@ void require_audible_targets(const scene::Scene& scene, double lowest_m_per_s,
                     coarse ? fmt::format("at least {:.0f} bits",
                                          *scene.sensor.vibration_bits +
                                              std::ceil(std::log2(rounding_m_per_s / room_m_per_s)))
-                           : fmt::format("at most {} m/s", at_most(room_m_per_s, 3))));
+                           : fmt::format("at most {} m/s", scene::at_most(room_m_per_s, 3))));
   }
   throw ConfigurationError(
       "drive.max_voltage_amplitude_V",
       fmt::format("is too strong for a vibration below {:.3g} m/s, and a target needs {:.3g} m/s; "
                   "allowed: at most {} V, or a lower target",
                   audible_m_per_s, lowest_m_per_s,
-                  at_most(allowed * scene.drive->max_voltage_amplitude_V, 4)));
+                  scene::at_most(allowed * scene.drive->max_voltage_amplitude_V, 4)));
 }
 
 /// Largest vibration velocity of a target that full drive reaches.
@@ -245,7 +245,7 @@ void require_needed_range(const scene::Scene& scene, const NominalPlant& plant,
     throw ConfigurationError(
         "sensor.vibration_full_scale_m_per_s",
         fmt::format("{:g} m/s is below what a target needs; allowed: above {} m/s",
-                    full_scale_m_per_s, at_least(needed_m_per_s, 4)));
+                    full_scale_m_per_s, scene::at_least(needed_m_per_s, 4)));
   }
 }
 
@@ -261,11 +261,12 @@ ResonantDesign design_resonance(const scene::Scene& scene, const NominalPlant& p
   if (design.rate > largest_rate) {
     throw ConfigurationError(
         "drive.max_voltage_amplitude_V",
-        fmt::format("adds {:.3g} times the vibration sensor's range of {:.4g} m/s in a carrier "
-                    "period; allowed: at most {} V, or a larger "
-                    "sensor.vibration_full_scale_m_per_s",
-                    design.rate, full_scale_m_per_s,
-                    at_most(scene.drive->max_voltage_amplitude_V * largest_rate / design.rate, 4)));
+        fmt::format(
+            "adds {:.3g} times the vibration sensor's range of {:.4g} m/s in a carrier "
+            "period; allowed: at most {} V, or a larger "
+            "sensor.vibration_full_scale_m_per_s",
+            design.rate, full_scale_m_per_s,
+            scene::at_most(scene.drive->max_voltage_amplitude_V * largest_rate / design.rate, 4)));
   }
   design.losses = full_scale_m_per_s / full_m_per_s;
   design.quality_factor = plant.mass_kg * natural_rad_per_s / plant.damping_N_s_per_m;

@@ -1,4 +1,5 @@
 #include "host_sim/fmi/archive/make_fmu.hpp"
+#include "host_sim/experiment/experiment.hpp"
 
 #include <fmt/format.h>
 
@@ -12,7 +13,6 @@
 #include "host_sim/fmi/archive/zip_writer.hpp"
 #include "host_sim/fmi/resources.hpp"
 #include "host_sim/output/written_files.hpp"
-#include "host_sim/scene_file/reader.hpp"
 
 namespace sonoglide::fmi {
 namespace {
@@ -89,7 +89,7 @@ std::string make_fmu(const scene::Scene& given, loop::Kind kind, Version version
   const std::string windows_engine =
       parts.windows_engine ? content_of(*parts.windows_engine) : std::string();
   const Resources resources = make_resources(given, kind, engine + windows_engine);
-  const scene::Scene scene = scene_file::read_text(resources.scene, Resources::scene_name);
+  const scene::Scene scene = experiment::read_text(resources.scene, Resources::scene_name).scene;
   const std::string identifier = fmt::format("sonoglide_{}", scene::name_of(loop::kinds, kind));
   ZipWriter archive;
   archive.add(

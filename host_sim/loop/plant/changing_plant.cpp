@@ -7,9 +7,9 @@
 #include "firmware/numeric/turn.hpp"
 #include "firmware/plant/state.hpp"
 #include "host_sim/configure/plant_scales.hpp"
-#include "host_sim/configure/solver_facts.hpp"
-#include "host_sim/configure/solver_methods.hpp"
 #include "host_sim/loop/plant/sloping_contact.hpp"
+#include "host_sim/scene/solver_facts.hpp"
+#include "host_sim/scene/solver_methods.hpp"
 
 namespace sonoglide::loop {
 namespace {
@@ -22,16 +22,16 @@ constexpr int most_halvings = 40;
 /// A friction force is seen this part of a carrier period after the instant.
 constexpr double glance = 1e-12;
 
-constexpr scene::SolverMethod event_taylor = configure::method_of<configure::solvers::EventTaylor>;
+constexpr scene::SolverMethod event_taylor = scene::method_of<scene::solvers::EventTaylor>;
 
 /// Tables of event_gauss for one carrier period are not worth making.
 scene::SolverMethod method_of_period(scene::SolverMethod asked) {
-  return asked == configure::method_of<configure::solvers::EventGauss> ? event_taylor : asked;
+  return asked == scene::method_of<scene::solvers::EventGauss> ? event_taylor : asked;
 }
 
 /// The results of pieces can be compared where a tolerance bounds their error.
 scene::SolverMethod method_of_pieces(scene::SolverMethod asked) {
-  return configure::is_adaptive(asked) ? event_taylor : asked;
+  return scene::is_adaptive(asked) ? event_taylor : asked;
 }
 
 Stretch part_of(const Stretch& stretch, double offset_s, double duration_s) {
@@ -75,7 +75,7 @@ ChangingPlant::ChangingPlant(const scene::Scene& scene)
       plant_(scene.plant),
       solver_(scene.solver),
       scales_(configure::plant_scales(scene)),
-      largest_limit_N_(configure::largest_friction_limit_N(scene.friction)),
+      largest_limit_N_(scene.friction.largest_limit_N()),
       spring_(scene),
       drive_rate_rad_per_s_(scene.drive ? numeric::two_pi * scene.drive->frequency_Hz : 0.0),
       held_(scene) {}
@@ -136,7 +136,7 @@ plant::Outcome<double> ChangingPlant::hold_throughout(const Stretch& stretch, co
 plant::Outcome<double> ChangingPlant::follow_slope(const Stretch& stretch, const Course& course,
                                                    Sight* sight, EnergyBalance& energy) {
   const Slope slope{stretch, course};
-  const bool adaptive = configure::is_adaptive(solver_.method);
+  const bool adaptive = scene::is_adaptive(solver_.method);
   const double quarter_s = 0.25 * numeric::two_pi / scales_.angular_frequency_rad_per_s;
   const auto count = plant::fixed_step_count(
       stretch.duration_s, adaptive ? quarter_s : solver_.step_s, plant::max_steps_per_advance);

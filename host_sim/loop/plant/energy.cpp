@@ -97,9 +97,9 @@ PowerRatios power_ratios(const EnergyBalance& energy, double friction_N,
 PowerRatios power_ratios(const scene::Scene& scene, const EnergyBalance& energy) {
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
   const scene::PlantScales scales = configure::plant_scales(scene);
-  return ratios(
-      energy, configure::largest_friction_limit_N(scene.friction), scene.friction.sign_convention,
-      scene.drive ? 1.0 / scene.drive->frequency_Hz : none, scales.force_N * scales.length_m);
+  return ratios(energy, scene.friction.largest_limit_N(), scene.friction.sign_convention,
+                scene.drive ? 1.0 / scene.drive->frequency_Hz : none,
+                scales.force_N * scales.length_m);
 }
 
 }  // namespace sonoglide::loop

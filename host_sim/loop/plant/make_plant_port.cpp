@@ -3,9 +3,9 @@
 #include <variant>
 
 #include "host_sim/configure/plant_scales.hpp"
-#include "host_sim/configure/solver_methods.hpp"
 #include "host_sim/loop/plant/changing_plant.hpp"
 #include "host_sim/loop/plant/plant_description.hpp"
+#include "host_sim/scene/solver_methods.hpp"
 
 namespace sonoglide::loop {
 namespace {
@@ -13,9 +13,9 @@ namespace {
 /// Where the friction is none, event_gauss has nothing to cut at reversals, and event_taylor's one
 /// step in a period takes its place.
 scene::Scene with_acting_solver(scene::Scene scene) {
-  if (scene.solver.method == configure::method_of<configure::solvers::EventGauss> &&
+  if (scene.solver.method == scene::method_of<scene::solvers::EventGauss> &&
       scene.friction.limit_N() == 0.0) {
-    scene.solver.method = configure::method_of<configure::solvers::EventTaylor>;
+    scene.solver.method = scene::method_of<scene::solvers::EventTaylor>;
     scene.solver.order.reset();
   }
   return scene;

@@ -10,11 +10,11 @@
 
 #include "firmware/plant/drive.hpp"
 #include "firmware/plant/sliding.hpp"
-#include "host_sim/configure/solver_cores.hpp"
-#include "host_sim/configure/solver_methods.hpp"
 #include "host_sim/loop/plant/composed_plant.hpp"
 #include "host_sim/loop/plant/plant_description.hpp"
 #include "host_sim/loop/plant/plant_port.hpp"
+#include "host_sim/scene/solver_cores.hpp"
+#include "host_sim/scene/solver_methods.hpp"
 
 namespace sonoglide::loop {
 
@@ -54,8 +54,8 @@ std::unique_ptr<PlantPort> make_composed_plant(const PlantDescription& descripti
 
 /// Whether a solver has the compositions of lean_plant; the others always take the general ones.
 inline bool composed_lean(scene::SolverMethod method) {
-  return configure::with_solver(method,
-                                [](auto described) { return decltype(described)::composed_lean; });
+  return scene::with_solver(method,
+                            [](auto described) { return decltype(described)::composed_lean; });
 }
 
 template <class Drive>
@@ -88,7 +88,7 @@ inline constexpr bool is_lean = std::is_same_v<typename Model::Sliding, plant::C
 /// Null where the law is not solved, nor the order or the composition built.
 template <class Described, class Model>
 PlantMaker<Model> maker(int order) {
-  if constexpr (configure::takes_law<Described, typename Model::FrictionLaw> &&
+  if constexpr (scene::takes_law<Described, typename Model::FrictionLaw> &&
                 (Described::composed_lean || !is_lean<Model>)) {
     constexpr auto& built = orders<Described, Model>();
     constexpr auto makers_of =
@@ -109,7 +109,7 @@ PlantMaker<Model> maker(int order) {
 ///         from a file has been checked
 template <class Model>
 PlantMaker<Model> find_solver(const scene::Solver& solver) {
-  const PlantMaker<Model> make = configure::with_solver(solver.method, [&](auto described) {
+  const PlantMaker<Model> make = scene::with_solver(solver.method, [&](auto described) {
     using Described = decltype(described);
     return detail::maker<Described, Model>(
         solver.order.value_or(Described::order_for(solver.tolerance)));

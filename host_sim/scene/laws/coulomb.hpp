@@ -20,7 +20,6 @@ struct Coulomb {
   static constexpr bool elastic = false;
   static constexpr FrictionMap map = FrictionMap::coulomb;
   static constexpr bool map_is_own = true;
-  static constexpr int random_percent = 30;
   static constexpr bool is_bounded = true;
 
   template <class Keys>

@@ -20,7 +20,6 @@ struct Dahl {
   static constexpr bool elastic = true;
   static constexpr FrictionMap map = FrictionMap::dahl;
   static constexpr bool map_is_own = true;
-  static constexpr int random_percent = 60;
   static constexpr bool is_bounded = true;
 
   template <class Keys>

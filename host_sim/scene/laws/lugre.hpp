@@ -22,7 +22,6 @@ struct LuGre {
   static constexpr bool elastic = true;
   static constexpr FrictionMap map = FrictionMap::dahl;
   static constexpr bool map_is_own = false;
-  static constexpr int random_percent = 0;
   static constexpr bool is_bounded = false;
   static constexpr std::string_view bound_broken = "the bristles' force > Fs";
 

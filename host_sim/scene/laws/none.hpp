@@ -21,8 +21,6 @@ namespace sonoglide::scene::laws {
 ///                    and initial_force_N, and its force is part of the state
 ///   map              the closed-form map that a controller is fed forward by
 ///   map_is_own       that map is this law's; else a report says that feedback makes up the rest
-///   random_percent   its part of the random scenes of `sonoglide stability`, which draw no keys of
-///                    its own; all add up to 100
 ///   is_bounded       |F| <= Fc, and as Fc goes to 0 so does the law to no friction: a profile of
 ///                    the friction may reach 0
 ///   undriven_N(contact, speed)  friction force of a steady slide at a speed >= 0 without vibration
@@ -43,7 +41,6 @@ struct None {
   static constexpr bool elastic = false;
   static constexpr FrictionMap map = FrictionMap::coulomb;
   static constexpr bool map_is_own = true;
-  static constexpr int random_percent = 10;
   static constexpr bool is_bounded = true;
 
   template <class Keys>

@@ -21,7 +21,6 @@ struct NormalCoulomb {
   static constexpr bool elastic = true;
   static constexpr FrictionMap map = FrictionMap::coulomb;
   static constexpr bool map_is_own = false;
-  static constexpr int random_percent = 0;
   static constexpr bool is_bounded = false;
 
   double normal_contact_stiffness_N_per_m = 0.0;  ///< kz

@@ -21,7 +21,6 @@ struct Stribeck {
   static constexpr bool elastic = false;
   static constexpr FrictionMap map = FrictionMap::coulomb;
   static constexpr bool map_is_own = false;
-  static constexpr int random_percent = 0;
   static constexpr bool is_bounded = false;
 
   double fall_s_per_m = 0.0;    ///< alpha

@@ -20,7 +20,6 @@ struct TransverseCoulomb {
   static constexpr bool elastic = false;
   static constexpr FrictionMap map = FrictionMap::coulomb;
   static constexpr bool map_is_own = false;
-  static constexpr int random_percent = 0;
   static constexpr bool is_bounded = true;
 
   template <class Keys>

@@ -14,7 +14,7 @@ namespace sonoglide::design {
 namespace {
 
 double most_N(const DesignStudy& study) {
-  return study.task.scene.drive->max_force_amplitude_N;
+  return study.task.scene.max_drive_force_N();
 }
 
 std::string speed(double value_m_per_s) {

@@ -78,7 +78,7 @@ class Retuning {
   /// Farthest from resonance where the drive has the force.
   /// @param side  -1 below resonance, 1 above
   std::optional<double> reach(double side) const {
-    const double most_N = scene_.drive->max_force_amplitude_N;
+    const double most_N = scene_.max_drive_force_N();
     return outermost(side, [&](double tuning) { return 1.0 - force_N(tuning) / most_N; });
   }
 

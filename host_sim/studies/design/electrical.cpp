@@ -24,7 +24,7 @@ double coupling_square(const scene::Scene& scene) {
 }
 
 double series_resonance_Hz(const scene::Scene& scene) {
-  return std::sqrt(scene.plant.stiffness_N_per_m / scene.plant.mass_kg) / numeric::two_pi;
+  return scene.plant.natural_rad_per_s() / numeric::two_pi;
 }
 
 double parallel_resonance_Hz(const scene::Scene& scene) {

@@ -25,7 +25,7 @@ std::string lead(const DesignStudy& study) {
       "{}, sliding at {}. Figures are those of the simulated plant on its steady orbit.",
       scene.name, scene::name_of(scene.friction.law),
       output::quantity(scene.drive->frequency_Hz, "Hz"),
-      fmt::format("{:.4g} N", scene.drive->max_force_amplitude_N), speeds_text(study.task.speeds));
+      fmt::format("{:.4g} N", scene.max_drive_force_N()), speeds_text(study.task.speeds));
 }
 
 output::Table advice_table(const DesignStudy& study) {

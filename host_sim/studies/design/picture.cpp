@@ -155,7 +155,7 @@ std::vector<DesignPoint> fastest_points(const DesignStudy& study) {
 }  // namespace
 
 std::string draw_requirements(const DesignStudy& study) {
-  const double most_N = study.task.scene.drive->max_force_amplitude_N;
+  const double most_N = study.task.scene.max_drive_force_N();
   const auto force = [](const Requirement& each) { return each.motion.drive_force_N; };
   const auto power = [](const Requirement& each) { return each.motion.drive_power_W; };
   std::string script = requirement_blocks(study, "force", force) +
@@ -225,8 +225,8 @@ std::string draw_detunings(const DesignStudy& study) {
             "set yrange [0:1]\n" + curves(ratios, "ratio", "");
   script += "set logscale y\nset format y '10^{%L}'\n" +
             output::range_command('y', figures(study, &DetunedPoint::drive_force_N),
-                                  output::Scale::logarithmic, scene.drive->max_force_amplitude_N) +
-            shade_above(scene.drive->max_force_amplitude_N) +
+                                  output::Scale::logarithmic, scene.max_drive_force_N()) +
+            shade_above(scene.max_drive_force_N()) +
             axes("Force that keeps the ratio", tuning_label, "force amplitude [N]") +
             curves(ratios, "force", "");
   script += "set yrange [1e-5:1]\n" + shade_above(scene.run.settling_band) +

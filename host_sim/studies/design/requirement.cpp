@@ -79,8 +79,8 @@ void solve(const scene::Scene& scene, double closed_form_force_N, Requirement& f
       settled_ratio(scene, sliding_m_per_s, closed_form_force_N) - found.ratio;
   if (!std::isnan(bracket.minimum())) {
     found.limit = Obstacle::amplitude;
-    found.reachable_ratio = settled_ratio(
-        scene, sliding_m_per_s, std::min(bracket.minimum(), scene.drive->max_force_amplitude_N));
+    found.reachable_ratio = settled_ratio(scene, sliding_m_per_s,
+                                          std::min(bracket.minimum(), scene.max_drive_force_N()));
     return;
   }
   found.reason = "no force gives the ratio on an orbit of the drive's period";
@@ -90,8 +90,8 @@ void solve(const scene::Scene& scene, double closed_form_force_N, Requirement& f
                             : motion_at(scene, sliding_m_per_s, found.ratio, force_N);
     if (motion) {
       found.motion = *motion;
-      found.limit = motion->drive_force_N > scene.drive->max_force_amplitude_N ? Obstacle::actuator
-                                                                               : Obstacle::none;
+      found.limit =
+          motion->drive_force_N > scene.max_drive_force_N() ? Obstacle::actuator : Obstacle::none;
       found.reason.clear();
     }
   } catch (const loop::ComputationError& error) {
@@ -128,7 +128,7 @@ Requirement require_ratio(const scene::Scene& scene, double sliding_m_per_s, dou
     found.limit = Obstacle::undriven;
     return found;
   }
-  const double most_N = scene.drive->max_force_amplitude_N;
+  const double most_N = scene.max_drive_force_N();
   const RequiredVibration vibration = closed_form_vibration(scene, sliding_m_per_s, ratio);
   const double closed_form_force_N = force_N(scene, vibration.velocity_m_per_s);
   if (vibration.friction_ratio > ratio) {
@@ -151,7 +151,7 @@ Requirement require_ratio(const scene::Scene& scene, double sliding_m_per_s, dou
 }
 
 double fastest_sliding_m_per_s(const scene::Scene& scene, double ratio) {
-  const double most_N = scene.drive->max_force_amplitude_N;
+  const double most_N = scene.max_drive_force_N();
   // Somewhere below the speed at which the vibration no longer turns the sliding round.
   const double guess_m_per_s =
       ratio * configure::peak_vibration_m_per_s(scene.plant, scene.drive->frequency_Hz, most_N);

@@ -72,7 +72,7 @@ SteadyMotion steady_motion(const scene::Scene& steady_scene) {
   watch.samples.push_back({{0.0, period_s, period_s / samples_per_period}, &recording});
   const loop::RunResult result = loop::run(steady_scene, watch);
   const loop::EnergyBalance& energy = result.whole;
-  const double force_N = steady_scene.drive->force_amplitude_N;
+  const double force_N = steady_scene.drive_force_N();
   const double velocity_m_per_s = amplitude(recording.state, &loop::PlantState::velocity_m_per_s);
   const double sliding_m_per_s = steady_scene.sliding.profile.front().velocity_m_per_s;
   const double undriven_N =

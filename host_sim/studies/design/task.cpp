@@ -81,7 +81,7 @@ double speed_floor_m_per_s(const scene::Scene& scene) {
 namespace {
 
 double resonance_Hz(const scene::Plant& plant) {
-  return std::sqrt(plant.stiffness_N_per_m / plant.mass_kg) / numeric::two_pi;
+  return plant.natural_rad_per_s() / numeric::two_pi;
 }
 
 }  // namespace

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <cstddef>
 
-#include "host_sim/configure/solver_methods.hpp"
 #include "host_sim/loop/run.hpp"
+#include "host_sim/scene/solver_methods.hpp"
 #include "host_sim/studies/paper/chart.hpp"
 #include "host_sim/studies/paper/figures.hpp"
 #include "host_sim/studies/paper/runs.hpp"
@@ -66,7 +66,7 @@ Claim small_steps() {
   coulomb.friction.law = scene::laws::Coulomb{};
   const double coulomb_ratio = reference_ratio(coulomb);
   const auto fixed_steps = [](scene::Scene scene, double reference, int steps) {
-    scene.solver.method = configure::method_of<configure::solvers::Rk4>;
+    scene.solver.method = scene::method_of<scene::solvers::Rk4>;
     scene.solver.step_s = period_s(scene) / steps;
     return accuracy(scene, reference).relative_error;
   };

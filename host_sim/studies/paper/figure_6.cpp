@@ -36,7 +36,7 @@ struct Lines {
 };
 
 double natural_Hz(const scene::Plant& plant) {
-  return std::sqrt(plant.stiffness_N_per_m / plant.mass_kg) / numeric::two_pi;
+  return plant.natural_rad_per_s() / numeric::two_pi;
 }
 
 std::string multiple(int factor, const char* symbol) {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <memory>
 #include <utility>
 
 #include "host_sim/scene_file/reader.hpp"
@@ -12,20 +13,21 @@
 namespace sonoglide::robust {
 namespace {
 
-std::shared_ptr<const scene::Scene> read_nominal(const scene_file::Document& document) {
-  auto scene = std::make_shared<const scene::Scene>(scene_file::read(document));
-  if (!scene->controller) {
+/// @throws scene_file::SceneError  a scene in open loop, or without tolerances
+experiment::Experiment read_nominal(const scene_file::Document& document) {
+  experiment::Experiment read = experiment::read(document);
+  if (!read.design) {
     throw scene_file::SceneError(document.start(), "controller",
                                  "missing; required: a table [controller], whose loop is to hold "
                                  "inside the tolerances");
   }
-  if (scene->tolerances.empty()) {
+  if (read.scene.tolerances.empty()) {
     throw scene_file::SceneError(
         document.place_of("tolerance"), "tolerance",
         "no key may vary; required: a table [tolerance] with at least one of them, such as "
         "\"plant.stiffness_N_per_m\" = 0.04");
   }
-  return scene;
+  return read;
 }
 
 /// Varied keys of a document.
@@ -45,16 +47,16 @@ Task::Task(scene_file::Source source, std::vector<std::string> overrides, const 
       counts_(counts),
       stated_(source_, overrides_),
       nominal_(read_nominal(stated_)),
-      design_(configure::design_control(*nominal_)),
-      points_(scrambled_sobol(nominal_->tolerances.size(), counts.samples, counts.seed)) {
+      told_(std::make_shared<const scene::Scene>(nominal_.scene.nominal())),
+      points_(scrambled_sobol(tolerances().size(), counts.samples, counts.seed)) {
   // The echo, so that a plant written as a scene file is the same one.
   document_.emplace(
-      scene_file::Source{source_.file, scene_file::to_toml(scene_file::to_json(*nominal_))},
-      std::vector<std::string>{}, true_keys(*nominal_));
+      scene_file::Source{source_.file, scene_file::to_toml(scene_file::to_json(nominal()))},
+      std::vector<std::string>{}, true_keys(nominal()));
 }
 
 std::vector<std::string> Task::notes() const {
-  std::vector<std::string> all = configure::design_notes(design_);
+  std::vector<std::string> all = configure::design_notes(design());
   for (const scene::Tolerance& each : tolerances()) {
     if (each.nominal < each.lowest || each.nominal > each.highest) {
       all.push_back(
@@ -95,9 +97,8 @@ void Task::fail_at(const scene_file::SceneError& error, const Factors& factors) 
 
 scene::Scene Task::read_plant(const Factors& factors) const {
   // What true values the scene has already are beside those that vary.
-  const auto nominal = nominal_->nominal_scene ? nominal_->nominal_scene : nominal_;
   try {
-    return scene_file::read_truth(*document_, varied_values(factors), nominal);
+    return scene_file::read_truth(*document_, varied_values(factors), told_);
   } catch (const scene_file::SceneError& error) {
     fail_at(error, factors);
   }

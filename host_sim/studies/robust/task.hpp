@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "host_sim/configure/control_design.hpp"
+#include "host_sim/experiment/experiment.hpp"
 #include "host_sim/scene/scene.hpp"
 #include "host_sim/scene_file/document.hpp"
 #include "host_sim/scene_file/source.hpp"
@@ -35,9 +36,9 @@ class Task {
   const scene_file::Source& source() const { return source_; }
   const std::vector<std::string>& overrides() const { return overrides_; }
   const Counts& counts() const { return counts_; }
-  const scene::Scene& nominal() const { return *nominal_; }
-  const std::vector<scene::Tolerance>& tolerances() const { return nominal_->tolerances; }
-  const configure::ControlDesign& design() const { return design_; }
+  const scene::Scene& nominal() const { return nominal_.scene; }
+  const std::vector<scene::Tolerance>& tolerances() const { return nominal_.scene.tolerances; }
+  const configure::ControlDesign& design() const { return *nominal_.design; }
   /// What a user should know of the controller's design and of the tolerances, a sentence or more
   /// each.
   std::vector<std::string> notes() const;
@@ -63,8 +64,8 @@ class Task {
   std::vector<std::string> overrides_;
   Counts counts_;
   scene_file::Document stated_;
-  std::shared_ptr<const scene::Scene> nominal_;
-  configure::ControlDesign design_;
+  experiment::Experiment nominal_;
+  std::shared_ptr<const scene::Scene> told_;      ///< the same without true values
   std::optional<scene_file::Document> document_;  ///< with a varied true value for each tolerance
   std::vector<double> points_;
 };

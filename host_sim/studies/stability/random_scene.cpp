@@ -1,11 +1,11 @@
 #include "host_sim/studies/stability/random_scene.hpp"
 
-#include <cmath>
 #include <string>
 
 #include "firmware/numeric/float_elementary.hpp"
 #include "firmware/numeric/turn.hpp"
 #include "host_sim/configure/plant_scales.hpp"
+#include "host_sim/studies/stability/settings.hpp"
 
 namespace sonoglide::stability {
 namespace {
@@ -50,8 +50,7 @@ void draw_plant(Dice& dice, double frequency_Hz, scene::Plant& plant) {
   if (dice.chance(0.05)) {
     plant.stiffness_N_per_m = plant.mass_kg * omega * omega;
   }
-  const double rate =
-      plant.stiffness_N_per_m > 0.0 ? std::sqrt(plant.stiffness_N_per_m / plant.mass_kg) : omega;
+  const double rate = plant.stiffness_N_per_m > 0.0 ? plant.natural_rad_per_s() : omega;
   plant.damping_N_s_per_m = 2.0 * plant.mass_kg * rate * dice.decades_or_zero(0.4, -6.0, 2.0);
   plant.initial_displacement_m = dice.sign() * dice.decades_or_zero(0.6, -15.0, 0.0);
   plant.initial_velocity_m_per_s = dice.sign() * dice.decades_or_zero(0.6, -9.0, 3.0);
@@ -60,10 +59,10 @@ void draw_plant(Dice& dice, double frequency_Hz, scene::Plant& plant) {
 scene::FrictionLaw draw_law(Dice& dice) {
   const double drawn = dice.uniform();
   int percent = 0;
-  for (const scene::FrictionLaw& law : scene::every_law) {
-    percent += scene::random_percent(law);
+  for (const LawShare& share : random_laws) {
+    percent += share.percent;
     if (drawn < percent / 100.0) {
-      return law;
+      return share.law;
     }
   }
   return scene::laws::None{};

@@ -18,10 +18,11 @@
 #include "firmware/plant/state_check.hpp"
 #include "host_sim/configure/plant_model.hpp"
 #include "host_sim/configure/plant_scales.hpp"
-#include "host_sim/configure/solver_cores.hpp"
-#include "host_sim/configure/solver_methods.hpp"
 #include "host_sim/scene/law_cores.hpp"
 #include "host_sim/scene/scene.hpp"
+#include "host_sim/scene/solver_cores.hpp"
+#include "host_sim/scene/solver_methods.hpp"
+#include "host_sim/studies/stability/settings.hpp"
 #include "host_sim/studies/stability/trial.hpp"
 #include "host_sim/studies/stability/witness.hpp"
 
@@ -37,7 +38,7 @@ TrialResult with_model(const scene::Scene& scene, const scene::PlantScales& scal
   return std::visit(
       [&](const auto& law) -> TrialResult {
         using Law = std::decay_t<decltype(law)>;
-        if constexpr (Law::random_percent > 0) {
+        if constexpr (is_drawn<Law>()) {
           return visitor(
               configure::plant_model<Scalar, plant::Damped, plant::CosineDrive,
                                      plant::LinearSliding>(law, scene.friction, scales, numbers));
@@ -111,7 +112,7 @@ TrialResult trial(const scene::Scene& scene, const TrialPlan& plan) {
   const double setting = Described::adaptive ? plan.setting : numeric::two_pi / plan.setting;
   return with_model<Scalar>(scene, scales, [&](const auto& model) {
     using Model = std::decay_t<decltype(model)>;
-    if constexpr (configure::takes_law<Described, typename Model::FrictionLaw>) {
+    if constexpr (scene::takes_law<Described, typename Model::FrictionLaw>) {
       using Solver = typename Described::template Core<Model, Order>;
       return run_trial<Solver>(scene, scales, model, plan, setting);
     } else {
@@ -125,11 +126,12 @@ TrialResult trial(const scene::Scene& scene, const TrialPlan& plan) {
 /// As far past 1 as Rk4 calls rounding, unless it is exact.
 template <class Described, class Scalar>
 constexpr double friction_bound() {
-  return Described::exact_bound ? 1.0 : static_cast<double>(plant::largest_friction<Scalar>);
+  return Settings<Described>::exact_bound ? 1.0
+                                          : static_cast<double>(plant::largest_friction<Scalar>);
 }
 
 /// With the order where it is the same in both arithmetics.
-std::string name_in(std::string_view name, configure::TrialOrders orders) {
+std::string name_in(std::string_view name, TrialOrders orders) {
   return orders.float64 > 0 && orders.float64 == orders.float32
              ? fmt::format("{}_{}", name, orders.float64)
              : std::string(name);
@@ -137,8 +139,8 @@ std::string name_in(std::string_view name, configure::TrialOrders orders) {
 
 template <class Described, std::size_t Row>
 TriedSolver solver() {
-  constexpr configure::TrialOrders orders = Described::trial_orders[Row];
-  constexpr configure::TrialSettings extreme = Described::trial_settings;
+  constexpr TrialOrders orders = Settings<Described>::orders[Row];
+  constexpr TrialSettings extreme = Settings<Described>::extreme;
   return {name_in(Described::name, orders),
           Described::adaptive,
           {{{"float64", trial<Described, orders.float64, double>, extreme.float64,
@@ -157,9 +159,9 @@ void add(std::vector<TriedSolver>& list, std::index_sequence<Row...> /*all*/) {
 const std::vector<TriedSolver>& solvers() {
   static const std::vector<TriedSolver> list = [] {
     std::vector<TriedSolver> all;
-    configure::for_each_solver([&](auto described, scene::SolverMethod /*method*/) {
+    scene::for_each_solver([&](auto described, scene::SolverMethod /*method*/) {
       using Described = decltype(described);
-      add<Described>(all, std::make_index_sequence<Described::trial_orders.size()>{});
+      add<Described>(all, std::make_index_sequence<Settings<Described>::orders.size()>{});
     });
     return all;
   }();

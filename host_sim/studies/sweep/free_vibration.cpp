@@ -14,10 +14,10 @@ namespace sonoglide::sweep {
 
 double free_vibration_part(const scene::Scene& scene) {
   const scene::Plant& plant = scene.plant;
-  const double natural_rad_per_s = std::sqrt(plant.stiffness_N_per_m / plant.mass_kg);
+  const double natural_rad_per_s = plant.natural_rad_per_s();
   const double decay_per_s = 0.5 * plant.damping_N_s_per_m / plant.mass_kg;
   const bool from_a_state = !scene.controller && scene.run.start == scene::Start::given;
-  if (!from_a_state || !scene.drive || !(scene.drive->force_amplitude_N > 0.0) ||
+  if (!from_a_state || !scene.drive || !(scene.drive_force_N() > 0.0) ||
       !(natural_rad_per_s > decay_per_s)) {
     return 0.0;
   }
@@ -26,7 +26,7 @@ double free_vibration_part(const scene::Scene& scene) {
   if (!(std::abs(stiffness) > 0.0)) {
     return 0.0;
   }
-  const std::complex<double> driven_m = scene.drive->force_amplitude_N / stiffness;
+  const std::complex<double> driven_m = scene.drive_force_N() / stiffness;
   const double displacement_m = plant.initial_displacement_m - driven_m.real();
   const double velocity_m_per_s = plant.initial_velocity_m_per_s + rate_rad_per_s * driven_m.imag();
   return std::hypot(natural_rad_per_s * displacement_m, velocity_m_per_s) *

@@ -7,10 +7,10 @@
 #include <iterator>
 #include <utility>
 
-#include "host_sim/configure/bound.hpp"
 #include "host_sim/configure/plant_scales.hpp"
+#include "host_sim/experiment/experiment.hpp"
 #include "host_sim/runs/run_many.hpp"
-#include "host_sim/scene_file/reader.hpp"
+#include "host_sim/scene/bound.hpp"
 
 namespace sonoglide::sweep {
 namespace {
@@ -166,7 +166,7 @@ scene::Scene Plan::read(std::size_t point) const {
 }
 
 scene::Scene Plan::read(std::size_t point, scene_file::UnusedKeys* unused) const {
-  scene::Scene scene = scene_file::read(*document_, values_of(point), unused);
+  scene::Scene scene = experiment::read(*document_, values_of(point), unused).scene;
   for (std::size_t axis = 0; axis < grid_.axes().size(); ++axis) {
     if (grid_.axes()[axis].key == velocity_ratio_key) {
       set_velocity(scene, point, axis);
@@ -192,7 +192,7 @@ void Plan::set_velocity(scene::Scene& scene, std::size_t point, std::size_t axis
   }
   const double peak_m_per_s =
       scene.drive ? configure::peak_vibration_m_per_s(scene.plant, scene.drive->frequency_Hz,
-                                                      scene.drive->force_amplitude_N)
+                                                      scene.drive_force_N())
                   : 0.0;
   if (!(peak_m_per_s > 0.0)) {
     fail_at_option(axis, key,
@@ -205,7 +205,7 @@ void Plan::set_velocity(scene::Scene& scene, std::size_t point, std::size_t axis
         axis, key,
         fmt::format("{} of the peak vibration velocity, {:g} m/s, is too fast; allowed: at "
                     "most {}, either way",
-                    ratio, peak_m_per_s, configure::at_most(largest_speed_m_per_s / peak_m_per_s)));
+                    ratio, peak_m_per_s, scene::at_most(largest_speed_m_per_s / peak_m_per_s)));
   }
   scene.sliding.profile = {{0.0, velocity_m_per_s}};
 }
@@ -234,7 +234,7 @@ void Plan::fail_at_point(const scene_file::SceneError& error, std::size_t point)
   const bool of_axis = error.file() == "--set" && error.line() > overrides_.size();
   if (!of_axis && error.file() != "--vary") {
     try {
-      scene_file::read(source_, overrides_);
+      experiment::read(source_, overrides_);
     } catch (const scene_file::SceneError& own) {
       if (std::string_view(own.what()) == error.what()) {
         throw;  // the point has nothing to do with it

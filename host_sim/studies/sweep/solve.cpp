@@ -9,10 +9,10 @@
 #include <utility>
 #include <vector>
 
-#include "host_sim/configure/solver_facts.hpp"
 #include "host_sim/loop/run.hpp"
 #include "host_sim/report/step_metrics.hpp"
 #include "host_sim/report/words.hpp"
+#include "host_sim/scene/solver_facts.hpp"
 #include "host_sim/scene_file/scene_error.hpp"
 #include "host_sim/studies/sweep/batch_point.hpp"
 
@@ -31,7 +31,7 @@ double periods_of(const scene::Scene& scene) {
 }
 
 double plant_cost(const scene::Scene& scene) {
-  return configure::is_adaptive(scene.solver.method)
+  return scene::is_adaptive(scene.solver.method)
              ? adaptive_period * periods_of(scene)
              : fixed_step * scene.run.duration_s / scene.solver.step_s;
 }

@@ -22,8 +22,9 @@
 #include "firmware/plant/stiff/stiff_linear.hpp"
 #include "firmware/plant/taylor/event_taylor.hpp"  // that every solver may hand turns to
 #include "host_sim/configure/plant_model.hpp"
-#include "host_sim/configure/solver_methods.hpp"
+#include "host_sim/scene/solver_methods.hpp"
 #include "host_sim/studies/work_precision/peers/contender.hpp"
+#include "host_sim/studies/work_precision/settings.hpp"
 #include "host_sim/studies/work_precision/solvers.hpp"
 
 namespace sonoglide::work_precision {
@@ -118,36 +119,24 @@ std::unique_ptr<peers::Contender> contender(const peers::Problem& problem, doubl
       problem, Described::adaptive ? setting : peers::carrier_period / setting);
 }
 
-constexpr Family family_of(configure::Palette palette) {
-  switch (palette) {
-    case configure::Palette::blue:
-      return Family::blue;
-    case configure::Palette::orange:
-      return Family::orange;
-    case configure::Palette::green:
-      break;
-  }
-  return Family::green;
-}
-
 template <class Scalar>
 inline constexpr bool is_single = std::is_same_v<Scalar, float>;
 
 template <class Described, class Scalar>
 constexpr const auto& sweeps() {
   if constexpr (is_single<Scalar>) {
-    return Described::float32_sweeps;
+    return Settings<Described>::float32_sweeps;
   } else {
-    return Described::float64_sweeps;
+    return Settings<Described>::float64_sweeps;
   }
 }
 
 template <class Described, class Scalar, std::size_t Index>
 ComparedSolver solver() {
-  constexpr configure::Sweep sweep = sweeps<Described, Scalar>()[Index];
+  constexpr Sweep sweep = sweeps<Described, Scalar>()[Index];
   const std::string order = sweep.order > 0 ? fmt::format("_{}", sweep.order) : "";
   return {fmt::format("{}{}{}", Described::name, order, is_single<Scalar> ? "_float32" : ""),
-          is_single<Scalar> ? Family::single : family_of(Described::palette),
+          is_single<Scalar> ? Family::single : Settings<Described>::family,
           Described::adaptive ? Knob::tolerance : Knob::steps_per_period,
           Described::adaptive ? tolerances(sweep.first_decade, sweep.last_decade)
                               : step_counts(sweep.first_decade, sweep.last_decade),

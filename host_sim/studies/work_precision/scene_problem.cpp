@@ -76,7 +76,7 @@ peers::Problem problem_of(const scene::Scene& scene) {
   problem.friction_force = numbers.friction_force;
   problem.contact_stiffness = numbers.contact_stiffness;
   problem.vibration_sign = configure::vibration_sign(scene.friction.sign_convention);
-  problem.drive_amplitude = scene.drive->force_amplitude_N / scales.force_N;
+  problem.drive_amplitude = scene.drive_force_N() / scales.force_N;
   problem.sliding_velocity = scene.sliding.profile[0].velocity_m_per_s / scales.velocity_m_per_s();
   problem.displacement = initial.displacement;
   problem.velocity = initial.velocity;

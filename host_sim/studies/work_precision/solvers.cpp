@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "host_sim/configure/solver_methods.hpp"
+#include "host_sim/scene/solver_methods.hpp"
 #include "host_sim/studies/work_precision/peers/paper_rk4.hpp"
 #ifdef SONOGLIDE_WITH_ODEINT
 #include "host_sim/studies/work_precision/peers/odeint/dopri5.hpp"
@@ -58,7 +58,7 @@ namespace {
 
 template <class Scalar>
 void add_own(std::vector<ComparedSolver>& all) {
-  configure::for_each_solver([&](auto described, scene::SolverMethod /*method*/) {
+  scene::for_each_solver([&](auto described, scene::SolverMethod /*method*/) {
     for (ComparedSolver& solver : contenders<decltype(described), Scalar>()) {
       all.push_back(std::move(solver));
     }

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "host_sim/experiment/experiment.hpp"
 #include "host_sim/loop/run.hpp"
-#include "host_sim/scene_file/reader.hpp"
 #include "tests/host_sim/loop/logs/logged_run.hpp"
 
 namespace sonoglide::arithmetic_agreement_test {
@@ -19,7 +19,8 @@ double difference(const std::string& name, const std::string& arithmetic,
   settings.emplace_back();
   const auto run = [&](const std::string& chosen) {
     settings.back() = "controller.arithmetic=" + chosen;
-    return loop::run_logged(scene_file::read_file(SONOGLIDE_SCENES "/" + name + ".toml", settings));
+    return loop::run_logged(
+        experiment::read_file(SONOGLIDE_SCENES "/" + name + ".toml", settings).scene);
   };
   const loop::LoggedRun exact = run("float64");
   const loop::LoggedRun rounded = run(arithmetic);
@@ -63,8 +64,10 @@ TEST(ArithmeticAgreementTest, SixteenBitsStayThereOverALongRun) {
 TEST(ArithmeticAgreementTest, FixedPointSaturatesNowhereInside) {
   for (const char* name : {"target_step", "model_error", "noisy_sensor", "unreachable_target",
                            "speed_ramp", "speed_reversal", "stop_and_start"}) {
-    const loop::RunResult result = loop::run(scene_file::read_file(
-        SONOGLIDE_SCENES "/" + std::string(name) + ".toml", {"controller.arithmetic=q31"}));
+    const loop::RunResult result =
+        loop::run(experiment::read_file(SONOGLIDE_SCENES "/" + std::string(name) + ".toml",
+                                        {"controller.arithmetic=q31"})
+                      .scene);
     ASSERT_FALSE(result.control->signals.empty());
     for (const numeric::SignalRecord& signal : result.control->signals) {
       EXPECT_EQ(signal.saturations, 0U) << name << ' ' << signal.name;

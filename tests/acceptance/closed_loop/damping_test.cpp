@@ -7,8 +7,8 @@
 #include <cmath>
 #include <string>
 
+#include "host_sim/experiment/experiment.hpp"
 #include "host_sim/report/step_metrics.hpp"
-#include "host_sim/scene_file/reader.hpp"
 #include "measured_run.hpp"
 #include "tests/common/constants/pi.hpp"
 
@@ -65,7 +65,7 @@ std::string text_of(const Loop& loop) {
 using Ran = acceptance::MeasuredRun;
 
 Ran run(const Loop& loop) {
-  return acceptance::run_measured(scene_file::read_text(text_of(loop), "damping.toml"));
+  return acceptance::run_measured(experiment::read_text(text_of(loop), "damping.toml").scene);
 }
 
 class Damping : public testing::TestWithParam<std::string> {

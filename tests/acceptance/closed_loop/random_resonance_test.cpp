@@ -9,8 +9,8 @@
 #include <random>
 #include <string>
 
+#include "host_sim/experiment/experiment.hpp"
 #include "host_sim/report/step_metrics.hpp"
-#include "host_sim/scene_file/reader.hpp"
 #include "host_sim/scene_file/scene_error.hpp"
 #include "measured_run.hpp"
 #include "tests/common/constants/pi.hpp"
@@ -93,7 +93,7 @@ TEST(RandomResonance, HoldsItsVibrationAndNamesWhatIsOffTarget) {
     const RandomLoop given = draw_loop(draw);
     scene::Scene scene;
     try {
-      scene = scene_file::read_text(given.text, "random.toml");
+      scene = experiment::read_text(given.text, "random.toml").scene;
     } catch (const scene_file::SceneError& error) {
       EXPECT_NE(std::string(error.what()).find("drive.max_voltage_amplitude_V: adds"),
                 std::string::npos)

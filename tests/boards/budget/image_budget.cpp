@@ -6,9 +6,9 @@
 
 #include "host_sim/emulated/board_list.hpp"
 #include "host_sim/emulated/image_control.hpp"
+#include "host_sim/experiment/experiment.hpp"
 #include "host_sim/loop/run.hpp"
 #include "host_sim/process/run_tool.hpp"
-#include "host_sim/scene_file/reader.hpp"
 #include "tests/common/csv/csv.hpp"
 
 namespace sonoglide::budget {
@@ -28,7 +28,8 @@ ImageBudget measure(const Folders& folders, const emulated::EmulatedBoard& board
                     const std::string& image) {
   const std::filesystem::path path =
       folders.images / std::string(board.name) / "bin" / (image + ".elf");
-  const scene::Scene scene = scene_file::read_file(folders.controllers / image / "scene.toml");
+  const scene::Scene scene =
+      experiment::read_file(folders.controllers / image / "scene.toml").scene;
   const emulated::ImageCost cost = emulated::measure_image(path, board);
   emulated::ImageControl controller(board, path);
   const std::uint64_t hash = loop::run(scene, controller).control->trace_hash;

@@ -9,13 +9,13 @@
 #include "host_sim/configure/controller_parts.hpp"
 #include "host_sim/emulated/board_list.hpp"
 #include "host_sim/emulated/initialiser.hpp"
-#include "host_sim/scene_file/reader.hpp"
+#include "host_sim/experiment/experiment.hpp"
 
 namespace sonoglide::emulated::controller_header_test {
 namespace {
 
 scene::Scene read(const std::string& name, const std::vector<std::string>& overrides = {}) {
-  return scene_file::read_file(SONOGLIDE_SCENES "/" + name + ".toml", overrides);
+  return experiment::read_file(SONOGLIDE_SCENES "/" + name + ".toml", overrides).scene;
 }
 
 bool has(const std::string& text, const std::string& part) {

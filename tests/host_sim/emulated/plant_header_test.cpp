@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "host_sim/configure/configuration_error.hpp"
-#include "host_sim/scene_file/reader.hpp"
+#include "host_sim/experiment/experiment.hpp"
 
 namespace sonoglide::emulated::plant_header_test {
 namespace {
@@ -17,7 +17,7 @@ using Texts = std::vector<std::string>;
 std::string refusal(const std::string& name, const Texts& overrides,
                     scene::Arithmetic arithmetic = scene::Arithmetic::float32) {
   try {
-    plant_header(scene_file::read_file(SONOGLIDE_SCENES "/" + name + ".toml", overrides),
+    plant_header(experiment::read_file(SONOGLIDE_SCENES "/" + name + ".toml", overrides).scene,
                  arithmetic);
   } catch (const configure::ConfigurationError& error) {
     return error.key() + ": " + error.what();

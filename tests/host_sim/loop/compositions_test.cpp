@@ -13,12 +13,12 @@
 #include <utility>
 #include <vector>
 
-#include "host_sim/configure/solver_cores.hpp"
-#include "host_sim/configure/solver_methods.hpp"
+#include "host_sim/experiment/experiment.hpp"
 #include "host_sim/loop/run.hpp"
 #include "host_sim/scene/law_cores.hpp"
 #include "host_sim/scene/names.hpp"
-#include "host_sim/scene_file/reader.hpp"
+#include "host_sim/scene/solver_cores.hpp"
+#include "host_sim/scene/solver_methods.hpp"
 #include "tests/common/constants/pi.hpp"
 #include "tests/host_sim/loop/equations/follow.hpp"
 
@@ -290,8 +290,8 @@ template <class Described>
 bool is_solved(const Composition& composition) {
   const bool takes_law = std::visit(
       [](const auto& law) {
-        return configure::takes_law<Described,
-                                    typename std::decay_t<decltype(law)>::template Core<double>>;
+        return scene::takes_law<Described,
+                                typename std::decay_t<decltype(law)>::template Core<double>>;
       },
       composition.law);
   return takes_law && (!composition.is_straight() || !Described::straight_orders.empty());
@@ -299,7 +299,7 @@ bool is_solved(const Composition& composition) {
 
 void expect_refused(const std::string& text) {
   try {
-    scene_file::read_text(text, "scene.toml");
+    experiment::read_text(text, "scene.toml");
     ADD_FAILURE() << "not refused";
   } catch (const scene_file::SceneError& error) {
     EXPECT_EQ(error.key(), "solver.method") << error.what();
@@ -309,7 +309,7 @@ void expect_refused(const std::string& text) {
 void expect_agreement(const Composition& composition, const std::string& solver, double allowed,
                       const equations::State& expected) {
   SCOPED_TRACE(solver);
-  const RunResult result = run(scene_file::read_text(composition.text(solver), "scene.toml"));
+  const RunResult result = run(experiment::read_text(composition.text(solver), "scene.toml").scene);
   const double size_m = drive_N / (undamped_mass.stiffness_N_per_m +
                                    undamped_mass.mass_kg * std::pow(two_pi * frequency_Hz, 2));
   EXPECT_NEAR(result.final_state.displacement_m, expected[0], allowed * size_m);
@@ -325,7 +325,7 @@ void try_every_solver(const Composition& composition) {
                            composition.drive_name(), composition.damped ? "damped" : "undamped",
                            composition.sliding.size()));
   const equations::State expected = expected_state(composition);
-  configure::for_each_solver([&](auto described, scene::SolverMethod /*method*/) {
+  scene::for_each_solver([&](auto described, scene::SolverMethod /*method*/) {
     using Described = decltype(described);
     if (!is_solved<Described>(composition)) {
       const Composition any = {scene::laws::None{}, false, nullptr, {}};

@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include "host_sim/configure/solver_methods.hpp"
 #include "host_sim/loop/run.hpp"
+#include "host_sim/scene/solver_methods.hpp"
 #include "tests/common/table_1.hpp"
 
 namespace sonoglide::loop::failure_test {
@@ -35,7 +35,7 @@ void expect_time_and_state(const std::string& message) {
 scene::Scene with_rk4(double contact_stiffness_N_per_m) {
   scene::Scene scene = table_1();
   scene.friction.contact_stiffness_N_per_m = contact_stiffness_N_per_m;
-  scene.solver.method = configure::method_of<configure::solvers::Rk4>;
+  scene.solver.method = scene::method_of<scene::solvers::Rk4>;
   scene.solver.step_s = 1.667e-8;
   return scene;
 }
@@ -127,7 +127,7 @@ TEST(FailureTest, TheTrueCauseOfATooLongStepIsNamed) {
     scene.plant.stiffness_N_per_m = step.stiffness_N_per_m;
     scene.friction.contact_stiffness_N_per_m = step.contact_stiffness_N_per_m;
     scene.friction.normal_force_N = step.normal_force_N;
-    scene.solver.method = configure::method_of<configure::solvers::Rk4Event>;
+    scene.solver.method = scene::method_of<scene::solvers::Rk4Event>;
     scene.solver.step_s = 1e-7;
     const std::string message = failure(scene);
     expect_time_and_state(message);
@@ -144,7 +144,7 @@ TEST(FailureTest, TheTrueCauseOfATooLongStepIsNamed) {
 TEST(FailureTest, AToleranceOutOfReachOfSecondOrderIsNamed) {
   scene::Scene scene = table_1();
   scene.friction.normal_force_N = 1e3;
-  scene.solver.method = configure::method_of<configure::solvers::Strang>;
+  scene.solver.method = scene::method_of<scene::solvers::Strang>;
   scene.solver.tolerance = 1e-15;
   const std::string message = failure(scene);
   expect_time_and_state(message);
@@ -188,7 +188,7 @@ TEST(FailureTest, StrangSetsOutFromRestWithoutADrive) {
   scene.run.duration_s = 50.0 / 20e3;
   scene.run.window_start_s = 0.0;
   const RunResult reference = run(scene);
-  scene.solver.method = configure::method_of<configure::solvers::Strang>;
+  scene.solver.method = scene::method_of<scene::solvers::Strang>;
   const double reference_m = reference.final_state.displacement_m;
   for (const auto& [tolerance, error] : {std::pair{1e-4, 2e-2}, std::pair{1e-6, 5e-4}}) {
     scene.solver.tolerance = tolerance;

@@ -15,9 +15,9 @@
 #include <vector>
 
 #include "host_sim/configure/plant_scales.hpp"
-#include "host_sim/configure/solver_facts.hpp"
-#include "host_sim/configure/solver_methods.hpp"
 #include "host_sim/loop/plant/changing_plant.hpp"
+#include "host_sim/scene/solver_facts.hpp"
+#include "host_sim/scene/solver_methods.hpp"
 #include "tests/common/lugre.hpp"
 #include "tests/common/table_1.hpp"
 #include "tests/host_sim/loop/logs/logged_run.hpp"
@@ -161,7 +161,7 @@ void expect_peers_motion(const Scene& scene, double allowed) {
   const Numbers expected = by_peer(scene);
   const RunResult result = run_logged(scene).result;
   const double velocity = vibration_velocity_m_per_s(scene.plant, 384.0);
-  const double limit_N = configure::largest_friction_limit_N(scene.friction);
+  const double limit_N = scene.friction.largest_limit_N();
   EXPECT_NEAR(result.final_state.displacement_m, expected[0],
               allowed * velocity / (2.0 * pi * carrier_Hz));
   EXPECT_NEAR(result.final_state.velocity_m_per_s, expected[1], allowed * velocity);
@@ -259,10 +259,10 @@ TEST(FrictionProfileTest, EverySolverFollows) {
   for (const auto& [profile, bound] : {std::pair(slopes, 1e-7), std::pair(vanishing, 1e-6)}) {
     const Scene reference = with_coefficient(heavy(scene::laws::Dahl{}), profile);
     const double impulse_N_s = run_logged(reference).result.whole.friction_impulse_N_s;
-    for (const auto& method : configure::solver_methods) {
+    for (const auto& method : scene::solver_methods) {
       Scene scene = reference;
       scene.solver.method = method.value;
-      const bool adaptive = configure::is_adaptive(method.value);
+      const bool adaptive = scene::is_adaptive(method.value);
       scene.solver.tolerance = 1e-6;
       scene.solver.step_s = adaptive ? 0.0 : period_s / 4000.0;
       EXPECT_NEAR(run_logged(scene).result.whole.friction_impulse_N_s, impulse_N_s,

@@ -11,11 +11,11 @@
 #include <variant>
 #include <vector>
 
-#include "host_sim/configure/solver_cores.hpp"
-#include "host_sim/configure/solver_methods.hpp"
 #include "host_sim/loop/run.hpp"
 #include "host_sim/loop/stepped.hpp"
 #include "host_sim/scene/law_cores.hpp"
+#include "host_sim/scene/solver_cores.hpp"
+#include "host_sim/scene/solver_methods.hpp"
 #include "tests/common/table_1.hpp"
 #include "tests/host_sim/loop/random/random_scene.hpp"
 
@@ -127,11 +127,11 @@ class OneMotionTest : public testing::TestWithParam<scene::FrictionLaw> {};
 
 TEST_P(OneMotionTest, RunSampledAndStepped) {
   const bool has_friction = !scene::is<scene::laws::None>(GetParam());
-  configure::for_each_solver([&](auto described, scene::SolverMethod method) {
+  scene::for_each_solver([&](auto described, scene::SolverMethod method) {
     const bool takes = std::visit(
         [](const auto& law) {
-          return configure::takes_law<decltype(described),
-                                      typename std::decay_t<decltype(law)>::template Core<double>>;
+          return scene::takes_law<decltype(described),
+                                  typename std::decay_t<decltype(law)>::template Core<double>>;
         },
         GetParam());
     for (const bool closed : {false, true}) {
@@ -161,8 +161,7 @@ TEST(OneMotionOfVibrationTest, RunSampledAndStepped) {
   for (const auto control : {scene::VibrationControl::damped, scene::VibrationControl::resonant}) {
     for (const Profile& profile : profiles()) {
       SCOPED_TRACE(profile.name);
-      Scene scene =
-          table_1(scene::laws::Dahl{}, configure::method_of<configure::solvers::Strang>, true);
+      Scene scene = table_1(scene::laws::Dahl{}, scene::method_of<scene::solvers::Strang>, true);
       if (control == scene::VibrationControl::resonant) {
         scene.plant.stiffness_N_per_m = 0.02 * std::pow(2.0 * tests::pi * tests::carrier_Hz, 2);
         scene.plant.damping_N_s_per_m = 0.005 * 0.02 * 2.0 * tests::pi * tests::carrier_Hz;

@@ -7,8 +7,8 @@
 #include <string>
 
 #include "host_sim/configure/plant_scales.hpp"
-#include "host_sim/configure/solver_methods.hpp"
 #include "host_sim/loop/run.hpp"
+#include "host_sim/scene/solver_methods.hpp"
 #include "tests/common/csv/csv.hpp"
 #include "tests/common/table_1.hpp"
 
@@ -110,7 +110,7 @@ INSTANTIATE_TEST_SUITE_P(Scenes, OpenLoopReferenceTest,
 TEST(OpenLoopRk4Test, ThePapersStepHoldsToSixDigits) {
   for (const char* name : {"table1", "table1_as_printed"}) {
     Scene scene = reference_scene(name);
-    scene.solver.method = configure::method_of<configure::solvers::Rk4>;
+    scene.solver.method = scene::method_of<scene::solvers::Rk4>;
     scene.solver.step_s = 1.667e-8;
     const Values actual = values(scene);
     const Values expected = reference(name);
@@ -125,7 +125,7 @@ TEST(OpenLoopRk4Test, ThePapersStepHoldsToSixDigits) {
 
 TEST(OpenLoopRk4Test, ThePapersStepIsAThousandthOfTheCarrierPeriod) {
   Scene scene = table_1();
-  scene.solver.method = configure::method_of<configure::solvers::Rk4>;
+  scene.solver.method = scene::method_of<scene::solvers::Rk4>;
   scene.solver.step_s = 1.667e-8;
   EXPECT_EQ(run(scene).solver_steps, 100000U);
 }
@@ -138,11 +138,11 @@ struct Setting {
 };
 
 scene::Solver taylor(int order, double tolerance) {
-  return {configure::method_of<configure::solvers::EventTaylor>, tolerance, order, 0.0};
+  return {scene::method_of<scene::solvers::EventTaylor>, tolerance, order, 0.0};
 }
 
 scene::Solver gauss(double tolerance) {
-  return {configure::method_of<configure::solvers::EventGauss>, tolerance, std::nullopt, 0.0};
+  return {scene::method_of<scene::solvers::EventGauss>, tolerance, std::nullopt, 0.0};
 }
 
 scene::Solver fixed_step(scene::SolverMethod method, double steps_per_period) {
@@ -155,12 +155,12 @@ const Setting settings[] = {
     {"taylor_16", taylor(16, 1e-12), 1e-9},
     {"gauss_8", gauss(1e-8), 1e-8},
     {"gauss_12", gauss(1e-10), 1e-10},
-    {"strang", {configure::method_of<configure::solvers::Strang>, 1e-5, std::nullopt, 0.0}, 1e-5},
+    {"strang", {scene::method_of<scene::solvers::Strang>, 1e-5, std::nullopt, 0.0}, 1e-5},
     {"strang_400_steps",
-     {configure::method_of<configure::solvers::Strang>, 1e-2, std::nullopt, period_s / 400.0},
+     {scene::method_of<scene::solvers::Strang>, 1e-2, std::nullopt, period_s / 400.0},
      1e-4},
-    {"rk4", fixed_step(configure::method_of<configure::solvers::Rk4>, 1000.0), 1e-6},
-    {"rk4_event", fixed_step(configure::method_of<configure::solvers::Rk4Event>, 100.0), 1e-6},
+    {"rk4", fixed_step(scene::method_of<scene::solvers::Rk4>, 1000.0), 1e-6},
+    {"rk4_event", fixed_step(scene::method_of<scene::solvers::Rk4Event>, 100.0), 1e-6},
 };
 
 class SolverTest : public testing::TestWithParam<Setting> {};

@@ -159,7 +159,7 @@ Errors errors(Scene scene, const Motion& expected, double tolerance) {
   const RunResult found = run(scene);
   const double omega = two_pi * scene.drive->frequency_Hz;
   const double size_m_per_s = configure::plant_scales(scene).velocity_m_per_s() * tolerance;
-  const double limit_N = configure::largest_friction_limit_N(scene.friction) * tolerance;
+  const double limit_N = scene.friction.largest_limit_N() * tolerance;
   return {std::max(std::abs(found.final_state.displacement_m - expected.displacement_m) * omega,
                    std::abs(found.final_state.velocity_m_per_s - expected.velocity_m_per_s)) /
               size_m_per_s,

@@ -6,9 +6,9 @@
 
 #include <cmath>
 
-#include "host_sim/configure/solver_methods.hpp"
 #include "host_sim/loop/failure.hpp"
 #include "host_sim/loop/run.hpp"
+#include "host_sim/scene/solver_methods.hpp"
 #include "tests/common/lugre.hpp"
 #include "tests/common/table_1.hpp"
 
@@ -64,7 +64,7 @@ TEST(FindSteadyOrbitTest, HasTheKnownFrictionRatiosOfTable1) {
 // Nothing but friction takes the free vibration out, a ten thousandth of it in a carrier period.
 TEST(FindSteadyOrbitTest, IsWhereTheUndampedPlantSettlesFromRest) {
   Scene scene = table_1();
-  scene.solver.method = configure::method_of<configure::solvers::EventGauss>;
+  scene.solver.method = scene::method_of<scene::solvers::EventGauss>;
   scene.solver.tolerance = 1e-8;
   expect_as_after(scene, 50000);
 }

@@ -4,10 +4,10 @@
 #include <stdexcept>
 #include <string>
 
-#include "host_sim/configure/solver_methods.hpp"
 #include "host_sim/loop/failure.hpp"
 #include "host_sim/loop/run.hpp"
 #include "host_sim/loop/step_forecast.hpp"
+#include "host_sim/scene/solver_methods.hpp"
 #include "tests/common/table_1.hpp"
 
 namespace sonoglide::loop::step_meter_test {

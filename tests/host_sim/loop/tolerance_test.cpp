@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "host_sim/configure/plant_scales.hpp"
-#include "host_sim/configure/solver_facts.hpp"
-#include "host_sim/configure/solver_methods.hpp"
 #include "host_sim/loop/run.hpp"
+#include "host_sim/scene/solver_facts.hpp"
+#include "host_sim/scene/solver_methods.hpp"
 #include "tests/host_sim/loop/random/random_scene.hpp"
 
 namespace sonoglide::loop::tolerance_test {
@@ -30,14 +30,14 @@ double friction_ratio(scene::Scene scene, scene::SolverMethod method, double tol
 
 /// Of the friction ratio, in tolerances: each one that a solver of the law has made, rising.
 std::vector<double> errors(const scene::FrictionLaw& law, bool has_spring) {
-  constexpr scene::SolverMethod finest = configure::method_of<configure::solvers::EventTaylor>;
+  constexpr scene::SolverMethod finest = scene::method_of<scene::solvers::EventTaylor>;
   std::vector<double> errors;
   Dice dice(2013);
   for (int i = 0; i < scene_count; ++i) {
     const scene::Scene scene = tests::random_scene(dice, law, has_spring, periods);
     const double exact = friction_ratio(scene, finest, 1e-13);
-    for (const auto method : {finest, configure::method_of<configure::solvers::EventGauss>}) {
-      for (int digits = 3; digits <= 10 && configure::solves(method, law); ++digits) {
+    for (const auto method : {finest, scene::method_of<scene::solvers::EventGauss>}) {
+      for (int digits = 3; digits <= 10 && scene::solves(method, law); ++digits) {
         const double tolerance = std::pow(10.0, -digits);
         errors.push_back(std::abs(friction_ratio(scene, method, tolerance) - exact) / tolerance);
       }

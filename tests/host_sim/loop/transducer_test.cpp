@@ -68,7 +68,6 @@ Scene scene_of(const Circuit& circuit, double frequency_Hz) {
   scene.drive.emplace();
   scene.drive->frequency_Hz = frequency_Hz;
   scene.drive->voltage_amplitude_V = voltage_V;
-  scene.drive->force_amplitude_N = force_factor_N_per_V * voltage_V;
   scene.solver.tolerance = 1e-12;
   scene.run.duration_s = 10.0 / frequency_Hz;
   return scene;
@@ -123,9 +122,9 @@ class RingUp {
     const double decay = 0.5 * plant.damping_N_s_per_m / plant.mass_kg;
     const double square = plant.stiffness_N_per_m / plant.mass_kg - decay * decay;
     lambda_ = {-decay, std::sqrt(square)};
-    const Complex displacement_m = scene.drive->force_amplitude_N /
-                                   Complex(plant.stiffness_N_per_m - plant.mass_kg * rate_ * rate_,
-                                           plant.damping_N_s_per_m * rate_);
+    const Complex displacement_m =
+        scene.drive_force_N() / Complex(plant.stiffness_N_per_m - plant.mass_kg * rate_ * rate_,
+                                        plant.damping_N_s_per_m * rate_);
     steady_ = 1i * rate_ * displacement_m;
     // x(0) = Re(X + A) = 0 and x'(0) = Re(jωX + λA) = 0; the free velocity is Re(λA e^{λt}).
     const double real = -displacement_m.real();
@@ -181,8 +180,7 @@ TEST(TransducerTest, FollowsTheEnvelopeNearResonance) {
   scene.run.duration_s = 1.2 * tau_s;
   const LoggedRun logged = run_logged(scene);
   const auto after_tau = static_cast<std::size_t>(tau_s * scene.drive->frequency_Hz);
-  const double at_resonance_m_per_s =
-      scene.drive->force_amplitude_N / scene.plant.damping_N_s_per_m;
+  const double at_resonance_m_per_s = scene.drive_force_N() / scene.plant.damping_N_s_per_m;
   const Complex expected = {0.55539688, -0.24583701};
   EXPECT_LE(std::abs(logged.periods[after_tau].vibration_m_per_s / at_resonance_m_per_s - expected),
             2.0 / quality);
@@ -196,12 +194,12 @@ TEST(TransducerTest, BrakesAsTheEnvelopeDoes) {
   constexpr double head_room = 5.0;
   Scene scene = scene_of(circuit, frequency_Hz);
   const std::unique_ptr<PlantPort> plant = make_plant_port(scene);
-  const double steady_m_per_s = scene.drive->force_amplitude_N / scene.plant.damping_N_s_per_m;
+  const double steady_m_per_s = scene.drive_force_N() / scene.plant.damping_N_s_per_m;
   plant->begin_at({0.0, steady_m_per_s, 0.0}, {});
   Stretch period;
   period.duration_s = 1.0 / frequency_Hz;
   period.drive_rate_rad_per_s = two_pi * frequency_Hz;
-  period.drive_amplitude_N = -head_room * scene.drive->force_amplitude_N;
+  period.drive_amplitude_N = -head_room * scene.drive_force_N();
   period.demodulated = true;
   double smallest_m_per_s = steady_m_per_s;
   double braked_s = 0.0;
@@ -224,11 +222,11 @@ TEST(TransducerTest, FrictionAtResonanceMeetsItsDescribingFunction) {
   const Circuit circuit = circuits.front();
   for (const double velocity_ratio : {0.1, 0.5, 0.9}) {
     Scene scene = scene_of(circuit, circuit.series_resonance_Hz());
-    const double free_m_per_s = scene.drive->force_amplitude_N / scene.plant.damping_N_s_per_m;
+    const double free_m_per_s = scene.drive_force_N() / scene.plant.damping_N_s_per_m;
     scene.sliding.profile = {{0.0, velocity_ratio * free_m_per_s}};
     scene.friction.law = scene::laws::Coulomb{};
     scene.friction.coefficient = 0.1;
-    scene.friction.normal_force_N = 1e-4 * scene.drive->force_amplitude_N;
+    scene.friction.normal_force_N = 1e-4 * scene.drive_force_N();
     scene.run.start = scene::Start::steady;
     const LoggedRun logged = run_logged(scene);
     const double lost_N = scene.plant.damping_N_s_per_m *
@@ -308,7 +306,7 @@ void advance(const ExactPlant& plant, const Drive& drive_N, Exact duration_s, Ex
 /// Its motion under a carrier whose frequency is taken at the beginning of each period.
 ExactState chirped(const Scene& scene) {
   const ExactPlant plant = exact(scene);
-  const auto amplitude_N = static_cast<Exact>(scene.drive->force_amplitude_N);
+  const auto amplitude_N = static_cast<Exact>(scene.drive_force_N());
   const auto duration_s = static_cast<Exact>(scene.run.duration_s);
   ExactState state{};
   for (Exact begin_s = 0; begin_s < duration_s;) {
@@ -343,7 +341,7 @@ TEST(TransducerTest, AFrequencyThatChangesEveryPeriodIsFollowedToTheTolerance) {
   const Scene scene = chirp_scene();
   const ExactState expected = chirped(scene);
   const RunResult result = run(scene);
-  const double velocity_m_per_s = scene.drive->force_amplitude_N / scene.plant.damping_N_s_per_m;
+  const double velocity_m_per_s = scene.drive_force_N() / scene.plant.damping_N_s_per_m;
   EXPECT_NEAR(result.final_state.displacement_m, static_cast<double>(expected[0]),
               1e-11 * velocity_m_per_s / (two_pi * scene.drive->frequency_Hz));
   EXPECT_NEAR(result.final_state.velocity_m_per_s, static_cast<double>(expected[1]),

@@ -6,8 +6,8 @@
 
 #include "firmware/friction/normal_vibration_ratio.hpp"
 #include "firmware/friction/transverse_vibration_ratio.hpp"
-#include "host_sim/configure/solver_methods.hpp"
 #include "host_sim/loop/run.hpp"
+#include "host_sim/scene/solver_methods.hpp"
 #include "tests/common/constants/pi.hpp"
 #include "tests/common/constants/table_1_numbers.hpp"
 #include "tests/common/table_1.hpp"
@@ -42,7 +42,7 @@ TEST(TransverseSceneTest, FrictionRatioIsTheClosedForm) {
 TEST(TransverseSceneTest, FixedStepsAgree) {
   scene::Scene scene = transverse(table_1());
   const double ratio = window_ratios(scene).friction_ratio;
-  scene.solver.method = configure::method_of<configure::solvers::Rk4>;
+  scene.solver.method = scene::method_of<scene::solvers::Rk4>;
   scene.solver.step_s = period_s / 1000.0;
   EXPECT_NEAR(window_ratios(scene).friction_ratio, ratio, 1e-8);
 }
@@ -63,8 +63,8 @@ TEST(TransverseSceneTest, SlidingPassesZeroOverARestingOscillator) {
   scene.run.window_start_s = 0.0;
   for (const double turn_s : {0.4e-3, 1e-3, 1.2345e-3}) {
     scene.sliding.profile = {{0.0, 0.02}, {2.0 * turn_s, -0.02}};
-    for (const auto method : {configure::method_of<configure::solvers::EventTaylor>,
-                              configure::method_of<configure::solvers::Rk4>}) {
+    for (const auto method :
+         {scene::method_of<scene::solvers::EventTaylor>, scene::method_of<scene::solvers::Rk4>}) {
       scene.solver.method = method;
       scene.solver.step_s = period_s / 1000.0;
       const RunResult result = run_logged(scene).result;

@@ -9,9 +9,9 @@
 #include <thread>
 #include <vector>
 
-#include "host_sim/configure/solver_methods.hpp"
 #include "host_sim/loop/run.hpp"
 #include "host_sim/report/step_metrics.hpp"
+#include "host_sim/scene/solver_methods.hpp"
 #include "tests/common/table_1.hpp"
 #include "tests/host_sim/runs/plants/plants_near.hpp"
 
@@ -244,8 +244,8 @@ TEST(RunsInLanes, OnlyWhatTheLanesAreMadeFor) {
   EXPECT_TRUE(refused([](Scene& s) { s.controller.reset(); }));
   EXPECT_TRUE(refused([](Scene& s) { s.solver.tolerance = 9e-7; }));
   EXPECT_TRUE(refused([](Scene& s) { s.solver.order = 12; }));
-  EXPECT_TRUE(refused(
-      [](Scene& s) { s.solver.method = configure::method_of<configure::solvers::EventGauss>; }));
+  EXPECT_TRUE(
+      refused([](Scene& s) { s.solver.method = scene::method_of<scene::solvers::EventGauss>; }));
   EXPECT_TRUE(refused([](Scene& s) { s.friction.law = scene::laws::Coulomb{}; }));
   EXPECT_TRUE(refused([](Scene& s) { s.friction.coefficient = 0.0; }));
   EXPECT_TRUE(refused([](Scene& s) { s.drive->waveform = scene::Waveform::square; }));

@@ -51,7 +51,7 @@ TEST(EchoTest, OfTheExamplesIsTheSameSceneAgain) {
   }
 }
 
-/// Absent it would not be 0.
+/// Absent it would follow from the design.
 TEST(EchoTest, HoldsACalibrationOf0) {
   const scene::Scene trusting =
       read_file(std::filesystem::path(SONOGLIDE_SCENES) / "damped_by_force.toml",

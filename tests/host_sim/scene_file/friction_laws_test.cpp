@@ -1,6 +1,7 @@
 /// What every law in the list is held to, by its own description.
 
 #include "host_sim/scene/friction_laws.hpp"
+#include "host_sim/experiment/experiment.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -11,10 +12,9 @@
 #include <variant>
 #include <vector>
 
-#include "host_sim/configure/solver_facts.hpp"
-#include "host_sim/configure/solver_methods.hpp"
+#include "host_sim/scene/solver_facts.hpp"
+#include "host_sim/scene/solver_methods.hpp"
 #include "host_sim/scene_file/keys.hpp"
-#include "host_sim/scene_file/reader.hpp"
 #include "host_sim/scene_file/to_json.hpp"
 
 namespace sonoglide::scene::friction_laws_test {
@@ -84,7 +84,7 @@ std::string scene_text(const FrictionLaw& law, std::string_view without = "",
 
 std::string error_of(const std::string& text) {
   try {
-    scene_file::read_text(text, "scene.toml");
+    experiment::read_text(text, "scene.toml");
   } catch (const scene_file::SceneError& error) {
     return error.what();
   }
@@ -98,7 +98,7 @@ TEST_P(FrictionLawTest, IsFoundByItsName) {
 }
 
 TEST_P(FrictionLawTest, IsReadAndEchoedWithItsOwnKeys) {
-  const Scene scene = scene_file::read_text(scene_text(GetParam()), "scene.toml");
+  const Scene scene = experiment::read_text(scene_text(GetParam()), "scene.toml").scene;
   EXPECT_EQ(scene.friction.law.index(), GetParam().index());
   const auto echo = scene_file::to_json(scene)["friction"];
   EXPECT_EQ(echo["law"], name_of(GetParam()));
@@ -132,23 +132,11 @@ TEST_P(FrictionLawTest, RefusesTheKeysOfOthers) {
 }
 
 TEST_P(FrictionLawTest, IsTakenByTheDefaultSolver) {
-  EXPECT_TRUE(configure::solves(SolverMethod{}, GetParam()));
+  EXPECT_TRUE(scene::solves(SolverMethod{}, GetParam()));
 }
 
 INSTANTIATE_TEST_SUITE_P(List, FrictionLawTest, testing::ValuesIn(every_law),
                          [](const auto& law) { return std::string(name_of(law.param)); });
-
-TEST(FrictionLawsTest, ShareTheRandomScenes) {
-  int percent = 0;
-  for (const FrictionLaw& law : every_law) {
-    percent += random_percent(law);
-  }
-  EXPECT_EQ(percent, 100);
-}
-
-TEST(FrictionLawsTest, TheirKeysFitTheTable) {
-  EXPECT_LT(scene_file::find_table("friction")->keys.size(), scene_file::most_keys);
-}
 
 }  // namespace
 }  // namespace sonoglide::scene::friction_laws_test

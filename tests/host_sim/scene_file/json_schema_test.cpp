@@ -285,7 +285,7 @@ TEST(JsonSchemaTest, RefusesScenesWithoutARequiredKey) {
   const Scene scene = whole_scenes().back();
   for (const KeyTable& table : key_tables()) {
     for (const Key& key : table.keys) {
-      const bool needed = std::holds_alternative<Required>(key.absent) && key.used.empty();
+      const bool needed = std::holds_alternative<Required>(key.absent) && key.used_text().empty();
       if (!(needed || std::holds_alternative<Instead>(key.absent)) ||
           !has_key(scene, table.name, key.name)) {
         continue;

@@ -1,4 +1,5 @@
 #include "host_sim/scene_file/reader.hpp"
+#include "host_sim/experiment/experiment.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +8,7 @@
 
 #include "host_sim/configure/control_design.hpp"
 #include "host_sim/configure/plant_scales.hpp"
-#include "host_sim/configure/solver_methods.hpp"
+#include "host_sim/scene/solver_methods.hpp"
 #include "scene_texts.hpp"
 
 namespace sonoglide::scene_file::reader_test {
@@ -26,7 +27,7 @@ TEST(ReaderTest, DefaultsOfOpenLoop) {
   EXPECT_EQ(scene.friction.initial_force_N, 0.0);
   EXPECT_EQ(scene.friction.sign_convention, scene::SignConvention::dissipative);
   EXPECT_FALSE(scene.drive.has_value());
-  EXPECT_EQ(scene.solver.method, configure::method_of<configure::solvers::EventTaylor>);
+  EXPECT_EQ(scene.solver.method, scene::method_of<scene::solvers::EventTaylor>);
   EXPECT_EQ(scene.solver.tolerance, 1e-10);
   EXPECT_EQ(scene.run.start, scene::Start::given);
   EXPECT_EQ(scene.run.window_start_s, 0.0);
@@ -85,7 +86,7 @@ TEST(ReaderTest, EveryKeyOfOpenLoop) {
   EXPECT_EQ(scene.drive->frequency_Hz, 40e3);
   EXPECT_EQ(scene.drive->force_amplitude_N, 384.0);
   EXPECT_EQ(scene.drive->waveform, scene::Waveform::cosine);
-  EXPECT_EQ(scene.solver.method, configure::method_of<configure::solvers::Rk4>);
+  EXPECT_EQ(scene.solver.method, scene::method_of<scene::solvers::Rk4>);
   EXPECT_EQ(scene.solver.step_s, 1e-8);
   EXPECT_EQ(scene.run.duration_s, 2.5e-3) << "100 periods of 25 us";
   EXPECT_EQ(scene.run.window_start_s, 1.25e-3);
@@ -101,7 +102,7 @@ TEST(ReaderTest, DefaultsOfClosedLoop) {
   EXPECT_FALSE(scene.drive->max_force_slew_N_per_s.has_value());
   EXPECT_EQ(scene.run.settling_band, 0.01);
   ASSERT_TRUE(scene.controller.has_value());
-  EXPECT_EQ(scene.controller->calibration_s, 0.0);
+  EXPECT_EQ(experiment::read_text(shortest_closed_loop, "s").scene.controller->calibration_s, 0.0);
   EXPECT_EQ(scene.controller->shaping, scene::Shaping::notch);
   EXPECT_FALSE(scene.controller->speed_floor_m_per_s.has_value());
   EXPECT_FALSE(scene.sensor.adc_bits.has_value());
@@ -137,13 +138,13 @@ std::string sensorless(const std::string& sliding, const std::string& key) {
 TEST(ReaderTest, DefaultOfCalibrationWhereTheFrictionShowsTheVibration) {
   const std::string steady = "velocity_m_per_s = 0.0267";
   const auto calibration_s = [](const std::string& text) {
-    return read_text(text, "s").controller->calibration_s;
+    return *experiment::read_text(text, "s").scene.controller->calibration_s;
   };
   const scene::Scene absent = read_text(sensorless(steady, ""), "s");
   const double by_default_s =
       configure::shortest_calibration_s(absent, configure::design_control(absent));
   EXPECT_GT(by_default_s, 0.0);
-  EXPECT_EQ(absent.controller->calibration_s, by_default_s);
+  EXPECT_EQ(calibration_s(sensorless(steady, "")), by_default_s);
   EXPECT_EQ(calibration_s(sensorless(steady, "calibration_s = 0\n")), 0.0);
   // A sliding that begins at rest goes on for too short a time within half of that of the target, or
   // for long enough.

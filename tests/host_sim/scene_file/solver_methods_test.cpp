@@ -1,7 +1,8 @@
 /// What every solver in the list is held to, by its own description.
 
-#include "host_sim/configure/solver_methods.hpp"
-#include "host_sim/configure/solver_facts.hpp"
+#include "host_sim/scene/solver_methods.hpp"
+#include "host_sim/experiment/experiment.hpp"
+#include "host_sim/scene/solver_facts.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -9,10 +10,9 @@
 #include <algorithm>
 #include <string>
 
-#include "host_sim/scene_file/reader.hpp"
 #include "host_sim/scene_file/to_json.hpp"
 
-namespace sonoglide::configure::solver_methods_test {
+namespace sonoglide::scene::solver_methods_test {
 namespace {
 
 /// Of the law that every solver takes.
@@ -26,7 +26,7 @@ std::string scene_text(const std::string& solver_keys) {
 
 std::string error_of(const std::string& text) {
   try {
-    scene_file::read_text(text, "scene.toml");
+    experiment::read_text(text, "scene.toml");
   } catch (const scene_file::SceneError& error) {
     return error.what();
   }
@@ -57,10 +57,10 @@ struct NameOf {
 TYPED_TEST_SUITE(SolverMethodTest, TypesOf<SolverMethods>::Types, NameOf);
 
 TYPED_TEST(SolverMethodTest, IsReadAndEchoedByItsName) {
-  const scene::Scene scene = scene_file::read_text(scene_text(this->keys()), "scene.toml");
+  const scene::Scene scene = experiment::read_text(scene_text(this->keys()), "scene.toml").scene;
   EXPECT_EQ(scene.solver.method, method_of<TypeParam>);
   EXPECT_EQ(scene_file::to_json(scene)["solver"]["method"], TypeParam::name);
-  EXPECT_EQ(configure::is_adaptive(scene.solver.method), TypeParam::adaptive);
+  EXPECT_EQ(scene::is_adaptive(scene.solver.method), TypeParam::adaptive);
 }
 
 TYPED_TEST(SolverMethodTest, TakesItsOwnKeysAlone) {
@@ -89,4 +89,4 @@ TYPED_TEST(SolverMethodTest, IsBuiltInTheOrderThatItPicks) {
 }
 
 }  // namespace
-}  // namespace sonoglide::configure::solver_methods_test
+}  // namespace sonoglide::scene::solver_methods_test

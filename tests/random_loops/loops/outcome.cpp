@@ -6,10 +6,10 @@
 #include <optional>
 
 #include "firmware/control/interface/names.hpp"
+#include "host_sim/experiment/experiment.hpp"
 #include "host_sim/loop/failure.hpp"
 #include "host_sim/loop/run.hpp"
 #include "host_sim/report/target_spans.hpp"
-#include "host_sim/scene_file/reader.hpp"
 
 namespace sonoglide::random_loops {
 namespace {
@@ -62,9 +62,9 @@ Outcome outcome(std::uint32_t seed, std::uint32_t index, Vibration vibration) {
   outcome.loop = random_loop(seed, index);
   try {
     const scene::Scene scene =
-        scene_file::read_text(scene_text(outcome.loop, vibration), "random.toml");
+        experiment::read_text(scene_text(outcome.loop, vibration), "random.toml").scene;
     if (vibration == Vibration::sensorless) {
-      outcome.loop.calibration_s = scene.controller->calibration_s;  // absent: by default
+      outcome.loop.calibration_s = *scene.controller->calibration_s;  // absent: by default
     }
     run_scene(scene, outcome);
   } catch (const scene_file::SceneError& error) {

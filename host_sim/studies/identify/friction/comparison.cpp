@@ -1,4 +1,5 @@
 #include "host_sim/studies/identify/friction/comparison.hpp"
+#include "host_sim/experiment/experiment.hpp"
 
 #include <fmt/format.h>
 
@@ -9,7 +10,6 @@
 #include <tuple>
 #include <utility>
 
-#include "host_sim/scene_file/reader.hpp"
 #include "host_sim/studies/identify/friction/candidate.hpp"
 #include "host_sim/studies/identify/friction/report.hpp"
 #include "host_sim/studies/identify/report.hpp"
@@ -107,7 +107,7 @@ void tell_what_is_open(Comparison& comparison) {
 void add_scene(Comparison& comparison) {
   comparison.scene = scene_text(comparison);
   try {
-    scene_file::read_text(comparison.scene, "scene.toml");
+    experiment::read_text(comparison.scene, "scene.toml");
   } catch (const scene_file::SceneError& error) {
     comparison.scene.clear();
     comparison.warnings.push_back(

@@ -12,7 +12,7 @@
 #include <tuple>
 
 #include "firmware/numeric/turn.hpp"
-#include "host_sim/configure/bound.hpp"
+#include "host_sim/scene/bound.hpp"
 #include "host_sim/scene_file/suggestion.hpp"
 #include "host_sim/studies/identify/identification.hpp"
 #include "host_sim/studies/identify/measured_table.hpp"
@@ -201,9 +201,8 @@ std::vector<double> vibrations(const Columns& columns, const std::vector<double>
   }
   const auto allowed = [&](std::size_t row) {
     return as_ratio
-               ? "at most " + configure::at_most(sliding_m_per_s[row] / least_vibration_m_per_s)
-               : "0, or at least " +
-                     configure::at_least(least_vibration_m_per_s / m_per_s_each[row]);
+               ? "at most " + scene::at_most(sliding_m_per_s[row] / least_vibration_m_per_s)
+               : "0, or at least " + scene::at_least(least_vibration_m_per_s / m_per_s_each[row]);
   };
   for (std::size_t row = 0; row < values.size(); ++row) {
     if (values[row] > 0.0 && values[row] < least_vibration_m_per_s) {

@@ -1,4 +1,5 @@
 #include "host_sim/studies/identify/impedance/study.hpp"
+#include "host_sim/experiment/experiment.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -8,7 +9,6 @@
 #include <limits>
 
 #include "host_sim/loop/failure.hpp"
-#include "host_sim/scene_file/reader.hpp"
 #include "host_sim/scene_file/scene_error.hpp"
 #include "host_sim/studies/identify/impedance/remarks.hpp"
 #include "host_sim/studies/identify/impedance/report.hpp"
@@ -97,7 +97,7 @@ void add_scene(ImpedanceStudy& study) {
   }
   study.scene = scene_toml(study);
   try {
-    scene_file::read_text(study.scene, "scene.toml");
+    experiment::read_text(study.scene, "scene.toml");
   } catch (const scene_file::SceneError& error) {
     study.scene.clear();
     open.push_back(fmt::format("A scene: no scene has what is identified. {}", error.what()));

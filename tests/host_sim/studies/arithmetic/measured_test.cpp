@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "host_sim/emulated/board_list.hpp"
-#include "host_sim/scene_file/reader.hpp"
+#include "host_sim/experiment/experiment.hpp"
 #include "host_sim/studies/arithmetic/comparison.hpp"
 #include "host_sim/studies/arithmetic/report.hpp"
 #include "tests/common/csv/csv.hpp"
@@ -39,7 +39,7 @@ class MeasuredTest : public testing::TestWithParam<std::string> {};
 
 TEST_P(MeasuredTest, ErrorsInstructionsAndBytesAreThoseOfThisBuild) {
   setenv("XDG_CACHE_HOME", SONOGLIDE_IMAGE_CACHE, 1);
-  const scene::Scene scene = scene_file::read_file(SONOGLIDE_ARITHMETIC_SCENE);
+  const scene::Scene scene = experiment::read_file(SONOGLIDE_ARITHMETIC_SCENE).scene;
   const csv::Table computed(
       images_csv(compare(scene, {emulated::find_board(GetParam())}, [](double) {})));
   const csv::Table recorded = csv::read_file(SONOGLIDE_ARITHMETIC_MEASURED);

@@ -22,6 +22,7 @@ scene::Scene transducer_scene() {
   const double motional_F =
       force_factor_N_per_V * force_factor_N_per_V / scene.plant.stiffness_N_per_m;
   scene.transducer = {force_factor_N_per_V, motional_F * (1.0 / coupling - 1.0), 0.0};
+  scene.drive->max_force_amplitude_N = 0.0;
   scene.drive->max_voltage_amplitude_V = 120.0;
   return scene;
 }

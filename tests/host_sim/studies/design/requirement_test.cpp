@@ -178,7 +178,7 @@ TEST(FastestSlidingTest, NeedsTheWholeDrive) {
     for (const double ratio : {0.3, 0.7}) {
       const double fastest = fastest_sliding_m_per_s(scene, ratio);
       EXPECT_NEAR(require_ratio(scene, fastest, ratio).motion.drive_force_N,
-                  scene.drive->max_force_amplitude_N, 1e-6 * scene.drive->max_force_amplitude_N);
+                  scene.max_drive_force_N(), 1e-6 * scene.max_drive_force_N());
     }
   }
 }

@@ -10,8 +10,8 @@
 
 #include "firmware/friction/dahl_friction_ratio.hpp"
 #include "firmware/friction/normal_vibration_ratio.hpp"
-#include "host_sim/configure/solver_methods.hpp"
 #include "host_sim/loop/run.hpp"
+#include "host_sim/scene/solver_methods.hpp"
 #include "host_sim/scene_file/reader.hpp"
 #include "host_sim/studies/paper/contact_laws.hpp"
 #include "host_sim/studies/paper/experiments.hpp"
@@ -199,7 +199,7 @@ TEST(PaperTest, ANormallyVibratingContactGivesBothMeasuredReductions) {
 
 TEST(PaperTest, Table2IsThePapersSolverAndMissesTheRatioByItsPrintedStep) {
   const scene::Scene scene = scene_file::read_text(table_2_text(), "table_2.toml");
-  EXPECT_EQ(scene.solver.method, configure::method_of<configure::solvers::Rk4>);
+  EXPECT_EQ(scene.solver.method, scene::method_of<scene::solvers::Rk4>);
   const double ratio = loop::power_ratios(scene, loop::run(scene).whole).friction_ratio;
   // tests/firmware/plant/data/reference_open_loop.csv has the ratio.
   EXPECT_NEAR(ratio / 0.656900288709659, 1.0, 1e-7);

@@ -1,4 +1,5 @@
 #include "host_sim/studies/robust/task.hpp"
+#include "host_sim/experiment/experiment.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +7,6 @@
 #include <vector>
 
 #include "host_sim/loop/run.hpp"
-#include "host_sim/scene_file/reader.hpp"
 #include "host_sim/scene_file/scene_error.hpp"
 #include "host_sim/studies/robust/study.hpp"
 #include "robust_scenes.hpp"
@@ -74,7 +74,7 @@ TEST(TaskTest, TheTextOfAPlantIsThatPlant) {
         task_of(text, {"run.record=[\"displacement_m\"]", "run.record_interval_s=1e-6"});
     const Factors factors = task.sample(5);
     const PlantRow row = run_plants({task.plant(factors)}, task.design()).front();
-    const scene::Scene again = scene_file::read_text(task.plant_text(factors), "worst.toml");
+    const scene::Scene again = experiment::read_text(task.plant_text(factors), "worst.toml").scene;
     EXPECT_TRUE(again.tolerances.empty());
     EXPECT_EQ(again.run.record.size(), 1U);
     EXPECT_EQ(loop::run(again).control->trace_hash, row.trace_hash) << text;
@@ -103,7 +103,8 @@ TEST(TaskTest, ATrueValueIsTheOtherSideOfAModelError) {
     std::vector<std::string> by_truth = fixed;
     by_truth.insert(by_truth.end(), {each.stated, std::string("true_values.") + each.true_value});
     const auto hash = [](const std::vector<std::string>& overrides) {
-      return loop::run(scene_file::read_text(target_step, "s", overrides)).control->trace_hash;
+      return loop::run(experiment::read_text(target_step, "s", overrides).scene)
+          .control->trace_hash;
     };
     EXPECT_EQ(hash(by_truth), hash(by_error)) << each.true_value;
     EXPECT_NE(hash(by_truth), hash(fixed)) << each.true_value;

@@ -1,6 +1,7 @@
 /// Points over lanes agree with the scalar solver within the tolerance asked for.
 
 #include "host_sim/studies/sweep/batch_point.hpp"
+#include "host_sim/experiment/experiment.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +10,6 @@
 #include <string>
 #include <vector>
 
-#include "host_sim/scene_file/reader.hpp"
 #include "host_sim/studies/sweep/solve.hpp"
 #include "tests/host_sim/studies/sweep/scenes/base_scenes.hpp"
 
@@ -19,7 +19,7 @@ namespace {
 using Texts = std::vector<std::string>;
 
 scene::Scene scene_with(const Texts& overrides, const std::string& text = open_loop) {
-  return scene_file::read_text(text, "scene.toml", overrides);
+  return experiment::read_text(text, "scene.toml", overrides).scene;
 }
 
 bool taken(const Texts& overrides, const std::string& text = open_loop) {

@@ -1,4 +1,5 @@
 #include "host_sim/studies/sweep/plan.hpp"
+#include "host_sim/experiment/experiment.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +8,6 @@
 #include <string>
 #include <vector>
 
-#include "host_sim/scene_file/reader.hpp"
 #include "host_sim/scene_file/to_json.hpp"
 #include "tests/common/constants/table_1_numbers.hpp"
 #include "tests/host_sim/studies/sweep/scenes/base_scenes.hpp"
@@ -37,9 +37,10 @@ TEST(PlanTest, APointIsTheSceneWithItsKeysSet) {
   const ScratchScene scratch(open_loop);
   const Plan plan(scene_file::read_source(scratch.file()), {"solver.tolerance=1e-8"},
                   {"drive.force_amplitude_N=100:300:3", "friction.coefficient=0.1:0.2:2"});
-  const scene::Scene expected = scene_file::read_file(
-      scratch.file(),
-      {"solver.tolerance=1e-8", "drive.force_amplitude_N=200", "friction.coefficient=0.2"});
+  const scene::Scene expected =
+      experiment::read_file(scratch.file(), {"solver.tolerance=1e-8", "drive.force_amplitude_N=200",
+                                             "friction.coefficient=0.2"})
+          .scene;
   EXPECT_EQ(scene_file::to_json(plan.scene(3)), scene_file::to_json(expected));
   EXPECT_EQ(plan.describe(3), "drive.force_amplitude_N=200, friction.coefficient=0.2");
 }
@@ -61,9 +62,11 @@ TEST(PlanTest, EveryPointIsTheSceneThatItsOptionsGive) {
     const auto option = [&](const char* key, std::size_t axis) {
       return key + ('=' + plan.grid().text(point, axis));
     };
-    const scene::Scene expected = scene_file::read_file(
-        scratch.file(), {"solver.tolerance=1e-8", option("friction.contact_stiffness_N_per_m", 0),
-                         option("sliding.velocity_m_per_s", 1)});
+    const scene::Scene expected =
+        experiment::read_file(scratch.file(), {"solver.tolerance=1e-8",
+                                               option("friction.contact_stiffness_N_per_m", 0),
+                                               option("sliding.velocity_m_per_s", 1)})
+            .scene;
     EXPECT_EQ(scene_file::to_json(scene), scene_file::to_json(expected)) << plan.describe(point);
   });
 }
@@ -186,8 +189,9 @@ TEST(PlanTest, WordsAreVariedAsNumbersAre) {
   const Plan plan(scene_file::read_source(scratch.file()), {},
                   {"solver.method=event_taylor,event_gauss", "friction.coefficient=0.1,0.3,0.2"});
   EXPECT_EQ(plan.describe(4), "solver.method=event_gauss, friction.coefficient=0.3");
-  const scene::Scene expected = scene_file::read_file(
-      scratch.file(), {"solver.method=event_gauss", "friction.coefficient=0.3"});
+  const scene::Scene expected = experiment::read_file(scratch.file(), {"solver.method=event_gauss",
+                                                                       "friction.coefficient=0.3"})
+                                    .scene;
   EXPECT_EQ(scene_file::to_json(plan.scene(4)), scene_file::to_json(expected));
   EXPECT_EQ(plan.wordings(), (std::vector<std::size_t>{0, 3}));
 }
@@ -198,8 +202,10 @@ TEST(PlanTest, AKeyThatOneWordUsesIsNoErrorWithAnother) {
   const Plan plan(scene_file::read_source(scratch.file()), {}, {"friction.law=coulomb,dahl"});
   EXPECT_EQ(plan.scene(1).friction.contact_stiffness_N_per_m, 0.056e6);
   EXPECT_EQ(scene_file::to_json(plan.scene(0)),
-            scene_file::to_json(scene_file::read_file(
-                scratch.file(), {"friction.law=coulomb", "friction.contact_stiffness_N_per_m="})));
+            scene_file::to_json(
+                experiment::read_file(
+                    scratch.file(), {"friction.law=coulomb", "friction.contact_stiffness_N_per_m="})
+                    .scene));
 }
 
 TEST(PlanTest, AKeyThatNoWordUsesIsAnError) {

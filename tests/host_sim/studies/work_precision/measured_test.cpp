@@ -11,8 +11,8 @@
 #include <utility>
 #include <vector>
 
+#include "host_sim/experiment/experiment.hpp"
 #include "host_sim/output/number.hpp"
-#include "host_sim/scene_file/reader.hpp"
 #include "host_sim/studies/work_precision/comparison.hpp"
 #include "host_sim/studies/work_precision/ranking.hpp"
 #include "host_sim/studies/work_precision/report.hpp"
@@ -35,7 +35,8 @@ constexpr double rounding = 1e-14;
 peers::Problem problem(const std::string& scene) {
   const std::filesystem::path folder = SONOGLIDE_WORK_PRECISION_SCENES;
   return problem_of(
-      scene_file::read_file(folder / (scene + ".toml"), {SONOGLIDE_WORK_PRECISION_OVERRIDES}));
+      experiment::read_file(folder / (scene + ".toml"), {SONOGLIDE_WORK_PRECISION_OVERRIDES})
+          .scene);
 }
 
 /// By solver and setting.

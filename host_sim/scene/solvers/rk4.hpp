@@ -4,14 +4,12 @@
 #include <array>
 #include <string_view>
 
-#include "host_sim/configure/study_terms.hpp"
-
 namespace sonoglide::plant {
 template <class Model>
 class Rk4;
 }
 
-namespace sonoglide::configure::solvers {
+namespace sonoglide::scene::solvers {
 
 /// What the members mean is listed at solvers::EventTaylor.
 struct Rk4 {
@@ -25,13 +23,6 @@ struct Rk4 {
   static constexpr bool counts_events = false;
   template <class Model, int /*Order*/>
   using Core = plant::Rk4<Model>;
-
-  static constexpr Palette palette = Palette::green;
-  static constexpr std::array<Sweep, 1> float64_sweeps = {{{0, 1, 5}}};
-  static constexpr std::array<Sweep, 1> float32_sweeps = {{{0, 1, 4}}};
-  static constexpr std::array<TrialOrders, 1> trial_orders = {{{0, 0}}};
-  static constexpr TrialSettings trial_settings = {200.0, 200.0};
-  static constexpr bool exact_bound = false;
 };
 
-}  // namespace sonoglide::configure::solvers
+}  // namespace sonoglide::scene::solvers

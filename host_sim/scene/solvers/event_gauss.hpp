@@ -5,8 +5,6 @@
 #include <cstddef>
 #include <string_view>
 
-#include "host_sim/configure/study_terms.hpp"
-
 namespace sonoglide::plant {
 template <class Model, std::size_t Nodes>
 class EventGauss;
@@ -16,7 +14,7 @@ template <class Solver, class Turning, int Strictness>
 class StiffLinear;
 }  // namespace sonoglide::plant
 
-namespace sonoglide::configure::solvers {
+namespace sonoglide::scene::solvers {
 
 /// What the members mean is listed at solvers::EventTaylor.
 struct EventGauss {
@@ -33,14 +31,6 @@ struct EventGauss {
   template <class Model, int Order>
   using Core = plant::StiffLinear<plant::EventGauss<Model, static_cast<std::size_t>(Order)>,
                                   plant::EventTaylor<Model, 16>, 1>;
-
-  static constexpr Palette palette = Palette::orange;
-  static constexpr std::array<Sweep, 2> float64_sweeps = {{{8, 1, 12}, {12, 6, 14}}};
-  static constexpr std::array<Sweep, 1> float32_sweeps = {{{8, 1, 7}}};
-  // With the nodes that suit the tolerances below.
-  static constexpr std::array<TrialOrders, 1> trial_orders = {{{12, 8}}};
-  static constexpr TrialSettings trial_settings = {1e-10, 1e-6};
-  static constexpr bool exact_bound = true;
 };
 
-}  // namespace sonoglide::configure::solvers
+}  // namespace sonoglide::scene::solvers

@@ -6,8 +6,6 @@
 #include <cstddef>
 #include <string_view>
 
-#include "host_sim/configure/study_terms.hpp"
-
 namespace sonoglide::plant {
 template <class Model, std::size_t Order>
 class EventTaylor;
@@ -15,7 +13,7 @@ template <class Solver, class Turning, int Strictness>
 class StiffLinear;
 }  // namespace sonoglide::plant
 
-namespace sonoglide::configure::solvers {
+namespace sonoglide::scene::solvers {
 
 /// A solver, named as its file and as the core's `firmware/plant/*/NAME.hpp`, has:
 ///   name               its word in a scene: solver.method = "..."
@@ -31,12 +29,6 @@ namespace sonoglide::configure::solvers {
 ///                      sliding acceleration where a scene has none; false: one for all scenes
 ///   counts_events      true if it notices reversals, sticks and releases
 ///   Core<Model, Order> the solver of the core, declared only; which laws it takes that says itself
-/// and for the studies of solvers:
-///   palette            colours of its curves in `work-precision`, shared with others like it
-///   float64_sweeps, float32_sweeps  its settings there
-///   trial_orders       a row of `stability` for each
-///   trial_settings     tolerance, or steps per carrier period, for the random scenes
-///   exact_bound        true if |F| <= Fc holds exactly, false if to rounding
 struct EventTaylor {
   static constexpr std::string_view name = "event_taylor";
   static constexpr bool adaptive = true;
@@ -53,14 +45,6 @@ struct EventTaylor {
   template <class Model, int Order>
   using Core = plant::StiffLinear<plant::EventTaylor<Model, static_cast<std::size_t>(Order)>,
                                   plant::EventTaylor<Model, 16>, 1>;
-
-  static constexpr Palette palette = Palette::blue;
-  static constexpr std::array<Sweep, 4> float64_sweeps = {
-      {{8, 1, 14}, {12, 1, 15}, {16, 1, 15}, {20, 1, 15}}};
-  static constexpr std::array<Sweep, 2> float32_sweeps = {{{8, 1, 7}, {12, 1, 7}}};
-  static constexpr std::array<TrialOrders, 3> trial_orders = {{{8, 8}, {12, 12}, {16, 16}}};
-  static constexpr TrialSettings trial_settings = {1e-10, 1e-6};
-  static constexpr bool exact_bound = true;
 };
 
-}  // namespace sonoglide::configure::solvers
+}  // namespace sonoglide::scene::solvers

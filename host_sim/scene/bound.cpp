@@ -1,11 +1,11 @@
-#include "host_sim/configure/bound.hpp"
+#include "host_sim/scene/bound.hpp"
 
 #include <fmt/format.h>
 
 #include <charconv>
 #include <cmath>
 
-namespace sonoglide::configure {
+namespace sonoglide::scene {
 namespace {
 
 /// @param direction  1: up, -1: down
@@ -36,4 +36,4 @@ std::string at_most(double bound, int digits) {
   return rounded(bound, digits, -1.0);
 }
 
-}  // namespace sonoglide::configure
+}  // namespace sonoglide::scene

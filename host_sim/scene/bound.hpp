@@ -3,7 +3,7 @@
 
 #include <string>
 
-namespace sonoglide::configure {
+namespace sonoglide::scene {
 
 /// A least or most value in decimal, with at most so many significant digits, and rounded toward what
 /// is allowed: the number that is read back from the text is not beyond the bound.
@@ -11,4 +11,4 @@ namespace sonoglide::configure {
 std::string at_least(double bound, int digits = 6);
 std::string at_most(double bound, int digits = 6);
 
-}  // namespace sonoglide::configure
+}  // namespace sonoglide::scene

@@ -12,7 +12,7 @@
 #include "firmware/plant/strang/strang.hpp"
 #include "firmware/plant/taylor/event_taylor.hpp"
 
-namespace sonoglide::configure {
+namespace sonoglide::scene {
 
 /// Whether a solver takes a law of the core.
 template <class Described, class Law>
@@ -23,4 +23,4 @@ inline constexpr bool takes_law = [] {
   return Described::template Core<AnyModel, Described::orders[0]>::template solves<Law>;
 }();
 
-}  // namespace sonoglide::configure
+}  // namespace sonoglide::scene

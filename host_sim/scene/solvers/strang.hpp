@@ -5,8 +5,6 @@
 #include <cstddef>
 #include <string_view>
 
-#include "host_sim/configure/study_terms.hpp"
-
 namespace sonoglide::plant {
 template <class Model>
 class Strang;
@@ -16,7 +14,7 @@ template <class Solver, class Turning, int Strictness>
 class StiffLinear;
 }  // namespace sonoglide::plant
 
-namespace sonoglide::configure::solvers {
+namespace sonoglide::scene::solvers {
 
 /// What the members mean is listed at solvers::EventTaylor.
 struct Strang {
@@ -33,14 +31,6 @@ struct Strang {
   // The tolerance bounds the energy, in which event_taylor errs by up to 13 of its tolerances.
   template <class Model, int /*Order*/>
   using Core = plant::StiffLinear<plant::Strang<Model>, plant::EventTaylor<Model, 16>, 64>;
-
-  static constexpr Palette palette = Palette::green;
-  static constexpr std::array<Sweep, 1> float64_sweeps = {{{0, 1, 9}}};
-  static constexpr std::array<Sweep, 1> float32_sweeps = {{{0, 1, 5}}};
-  static constexpr std::array<TrialOrders, 1> trial_orders = {{{0, 0}}};
-  // Over the periods of a random scene the balance then keeps below what is allowed.
-  static constexpr TrialSettings trial_settings = {1.6e-7, 1e-3};
-  static constexpr bool exact_bound = true;
 };
 
-}  // namespace sonoglide::configure::solvers
+}  // namespace sonoglide::scene::solvers

@@ -7,15 +7,15 @@
 #include <tuple>
 #include <utility>
 
-#include "host_sim/configure/solvers/event_gauss.hpp"
-#include "host_sim/configure/solvers/event_taylor.hpp"
-#include "host_sim/configure/solvers/rk4.hpp"
-#include "host_sim/configure/solvers/rk4_event.hpp"
-#include "host_sim/configure/solvers/strang.hpp"
 #include "host_sim/scene/names.hpp"
 #include "host_sim/scene/scene.hpp"
+#include "host_sim/scene/solvers/event_gauss.hpp"
+#include "host_sim/scene/solvers/event_taylor.hpp"
+#include "host_sim/scene/solvers/rk4.hpp"
+#include "host_sim/scene/solvers/rk4_event.hpp"
+#include "host_sim/scene/solvers/strang.hpp"
 
-namespace sonoglide::configure {
+namespace sonoglide::scene {
 
 /// What a solver offers is listed at solvers::EventTaylor. Messages name them in this order; the
 /// first is the default.
@@ -31,7 +31,7 @@ namespace detail {
 
 template <class Visitor, std::size_t... Index>
 constexpr void for_each_solver(const Visitor& visitor, std::index_sequence<Index...> /*all*/) {
-  (visitor(SolverAt<Index>{}, scene::SolverMethod{Index}), ...);
+  (visitor(SolverAt<Index>{}, SolverMethod{Index}), ...);
 }
 
 }  // namespace detail
@@ -45,9 +45,9 @@ constexpr void for_each_solver(const Visitor& visitor) {
 /// Calls visitor(solver) with the chosen one.
 /// @return what that returns, a value that can be assigned
 template <class Visitor>
-constexpr auto with_solver(scene::SolverMethod chosen, const Visitor& visitor) {
+constexpr auto with_solver(SolverMethod chosen, const Visitor& visitor) {
   decltype(visitor(SolverAt<0>{})) result{};
-  for_each_solver([&](auto solver, scene::SolverMethod method) {
+  for_each_solver([&](auto solver, SolverMethod method) {
     if (method == chosen) {
       result = visitor(solver);
     }
@@ -55,9 +55,9 @@ constexpr auto with_solver(scene::SolverMethod chosen, const Visitor& visitor) {
   return result;
 }
 
-inline constexpr std::array<scene::Named<scene::SolverMethod>, solver_count> solver_methods = [] {
-  std::array<scene::Named<scene::SolverMethod>, solver_count> named{};
-  for_each_solver([&](auto solver, scene::SolverMethod method) {
+inline constexpr std::array<Named<SolverMethod>, solver_count> solver_methods = [] {
+  std::array<Named<SolverMethod>, solver_count> named{};
+  for_each_solver([&](auto solver, SolverMethod method) {
     named[method.index] = {decltype(solver)::name, method};
   });
   return named;
@@ -73,6 +73,6 @@ constexpr std::size_t solver_index(std::string_view name) {
 }
 
 template <class Described>
-inline constexpr scene::SolverMethod method_of{solver_index(Described::name)};
+inline constexpr SolverMethod method_of{solver_index(Described::name)};
 
-}  // namespace sonoglide::configure
+}  // namespace sonoglide::scene

@@ -1,0 +1,42 @@
+/// Scene files whose controllers are designed: what every command begins with.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "host_sim/configure/control_design.hpp"
+#include "host_sim/scene/scene.hpp"
+#include "host_sim/scene_file/document.hpp"
+#include "host_sim/scene_file/scene_error.hpp"
+#include "host_sim/scene_file/source.hpp"
+#include "host_sim/scene_file/variant.hpp"
+
+namespace sonoglide::experiment {
+
+struct Experiment {
+  scene::Scene scene;                              ///< with what follows from the design, too
+  std::optional<configure::ControlDesign> design;  ///< in closed loop
+};
+
+/// As scene_file::read_file(), and designs the controller of a closed loop.
+/// @throws scene_file::SceneError  what makes it unusable, or why no controller can be designed, at
+///                                 the place of its key
+Experiment read_file(const std::filesystem::path& path,
+                     const std::vector<std::string>& overrides = {});
+
+/// The same from a text that is there already.
+Experiment read(const scene_file::Source& source, const std::vector<std::string>& overrides = {});
+
+/// The same from text, as scene_file::read_text().
+Experiment read_text(std::string_view text, const std::string& file,
+                     const std::vector<std::string>& overrides = {});
+
+/// The same from a document, as scene_file::read().
+Experiment read(const scene_file::Document& document,
+                const std::vector<scene_file::VariedValue>& values = {},
+                scene_file::UnusedKeys* unused = nullptr);
+
+}  // namespace sonoglide::experiment

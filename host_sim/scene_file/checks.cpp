@@ -1,0 +1,121 @@
+#include "host_sim/scene_file/checks.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "host_sim/scene/bound.hpp"
+#include "host_sim/scene/names.hpp"
+#include "host_sim/scene_file/law_keys.hpp"
+
+namespace sonoglide::scene_file {
+namespace {
+
+bool stands(const scene::SpeedPoint& point) {
+  return point.velocity_m_per_s == 0.0;
+}
+
+/// Whether the sliding stands for a while.
+bool stands_still(const std::vector<scene::SpeedPoint>& profile) {
+  const bool at_first = stands(profile.front()) && profile.front().time_s > 0.0;
+  return at_first || stands(profile.back()) ||
+         std::adjacent_find(profile.begin(), profile.end(),
+                            [](const scene::SpeedPoint& one, const scene::SpeedPoint& next) {
+                              return stands(one) && stands(next);
+                            }) != profile.end();
+}
+
+/// Friction across the vibration needs a slip to point against.
+void require_slip(const TableCursor& cursor, std::string_view key, const scene::Sliding& sliding,
+                  const scene::FrictionLaw& law) {
+  if (scene::vibration_of(law) == friction::Vibration::across && stands_still(sliding.profile)) {
+    cursor.fail(key, fmt::format("a speed that stays 0 leaves the friction law \"{}\" without a "
+                                 "direction; allowed: a speed that at most passes 0",
+                                 scene::name_of(law)));
+  }
+}
+
+/// The current into a capacitance has no bound where the voltage jumps.
+void require_cosine(const TableCursor& cursor, scene::Waveform waveform) {
+  if (waveform != scene::Waveform::cosine) {
+    cursor.fail("waveform", fmt::format("\"{}\" is not for a [transducer]; allowed: \"cosine\"",
+                                        scene::name_of(scene::waveforms, waveform)));
+  }
+}
+
+/// A coarser word would have no frequency near the one that is asked for.
+void settle_frequency(const TableCursor& cursor, scene::Drive& drive) {
+  const double lowest_Hz = drive.frequency_profile.empty()
+                               ? drive.frequency_Hz
+                               : scene::smallest_value(drive.frequency_profile);
+  if (drive.frequency_resolution_Hz > lowest_Hz) {
+    cursor.fail("frequency_resolution_Hz",
+                fmt::format("{:g} Hz is above the carrier frequency; allowed: at most {} Hz",
+                            drive.frequency_resolution_Hz, scene::at_most(lowest_Hz)));
+  }
+  drive.frequency_Hz = drive.nearest_frequency_Hz(drive.frequency_Hz);
+}
+
+void check_friction(const TableCursor& cursor, const Variant& /*variant*/, scene::Scene& scene) {
+  for (const scene::ContactValues& contact : extreme_contacts(scene.friction)) {
+    for (const OwnKeyRefusal& each : own_keys(scene.friction.law, contact).refusals) {
+      cursor.fail(each.name, each.finding);
+    }
+  }
+}
+
+void check_sliding(const TableCursor& cursor, const Variant& /*variant*/, scene::Scene& scene) {
+  require_slip(cursor, cursor.given_of("velocity_m_per_s", "profile"), scene.sliding,
+               scene.friction.law);
+}
+
+void check_drive(const TableCursor& cursor, const Variant& /*variant*/, scene::Scene& scene) {
+  settle_frequency(cursor, *scene.drive);
+  if (scene.transducer) {
+    require_cosine(cursor, scene.drive->waveform);
+  }
+}
+
+struct TableCheck {
+  std::string_view table;
+  void (*check)(const TableCursor&, const Variant&, scene::Scene&);
+};
+
+constexpr std::array<TableCheck, 7> table_checks = {{{"friction", check_friction},
+                                                     {"sliding", check_sliding},
+                                                     {"drive", check_drive},
+                                                     {"solver", check_solver},
+                                                     {"run", check_run},
+                                                     {"controller", check_controller},
+                                                     {"sensor", check_sensor}}};
+
+}  // namespace
+
+void check_presence(const TableCursor& cursor, const scene::Scene& scene) {
+  const KeyTable& table = cursor.keys();
+  if (!cursor.present() && table.required) {
+    cursor.fail(fmt::format("missing; required: a table [{}]", table.name));
+  }
+  if (!cursor.present() && table.name == "drive" && scene.controller) {
+    cursor.fail("missing; required: a table [drive] for the [controller] to act by");
+  }
+  for (const Use& use : table.uses) {
+    if (cursor.present() && !use.holds(scene)) {
+      cursor.fail(fmt::format("not used {}; remove it", use.reason(scene)));
+    }
+  }
+}
+
+void check_table(const TableCursor& cursor, const Variant& variant, scene::Scene& scene) {
+  for (const TableCheck& each : table_checks) {
+    if (each.table == cursor.keys().name) {
+      each.check(cursor, variant, scene);
+    }
+  }
+}
+
+}  // namespace sonoglide::scene_file

@@ -1,0 +1,271 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "host_sim/scene/names.hpp"
+#include "host_sim/scene/solver_facts.hpp"
+#include "host_sim/scene/solver_methods.hpp"
+#include "host_sim/scene_file/keys.hpp"
+#include "host_sim/scene_file/member.hpp"
+#include "host_sim/scene_file/ranges.hpp"
+#include "host_sim/scene_file/uses.hpp"
+
+// How a scene is run, and by whom: solver, run, controller, sensor and model_error.
+
+namespace sonoglide::scene_file {
+namespace {
+
+constexpr Range sensor_gain_range{-100.0, 100.0};
+
+/// The numbers or words that solvers have, each with its method.
+template <class TextOf>
+std::string by_method(const char* separator, const TextOf& text_of) {
+  std::string words;
+  scene::for_each_solver([&](auto described, scene::SolverMethod /*method*/) {
+    const std::string text = text_of(described);
+    if (!text.empty()) {
+      words += fmt::format("{}{} with {}", words.empty() ? "" : separator, text,
+                           decltype(described)::name);
+    }
+  });
+  return words;
+}
+
+std::string default_tolerances() {
+  return by_method(", ", [](auto described) -> std::string {
+    if constexpr (decltype(described)::adaptive) {
+      return fmt::format("{}", decltype(described)::default_tolerance);
+    }
+    return "";
+  });
+}
+
+std::string built_orders() {
+  return by_method("; ", [](auto described) -> std::string {
+    using Described = decltype(described);
+    return Described::takes_order ? fmt::format("{}", fmt::join(Described::orders, ", ")) : "";
+  });
+}
+
+std::optional<double> default_tolerance(const scene::Scene& scene) {
+  return scene::with_solver(scene.solver.method, [](auto described) {
+    std::optional<double> tolerance;
+    if constexpr (decltype(described)::adaptive) {
+      tolerance = decltype(described)::default_tolerance;
+    }
+    return tolerance;
+  });
+}
+
+}  // namespace
+
+std::vector<Key> solver_keys() {
+  using scene::Solver;
+  const std::string longest = uses::methods_where(scene::takes_longest_step);
+  return {
+      {"method", choice<scene::solver_methods, &scene::Scene::solver, &Solver::method>(),
+       Word{words_of(scene::solver_methods)}, scene::name_of(scene::SolverMethod{}), "solver"},
+      {"tolerance", of_solver<&Solver::tolerance>, Number{{1e-15, 1e-2}},
+       Rule{default_tolerances(), default_tolerance},
+       "event_taylor, event_gauss: error of the friction ratio over a hundred carrier periods that "
+       "the method aims at; strang: limit of the defects of velocity and energy in each step",
+       uses::method(scene::is_adaptive)},
+      {"order", of_solver<&Solver::order>, Integer{1, 99}, Rule{"the one that suits the tolerance"},
+       fmt::format("order of the method, one of those that are built: {}", built_orders()),
+       uses::method(scene::takes_order)},
+      {"step_s", OrZero{of_solver<&Solver::step_s>}, Number{{1e-15, 1.0, "s"}},
+       Rule{fmt::format("required; no limit with {}", longest),
+            [](const scene::Scene& scene) {
+              return scene::is_adaptive(scene.solver.method) ? std::optional(0.0) : std::nullopt;
+            }},
+       fmt::format("length of the steps, shortened so that a whole number of them fills a carrier "
+                   "period; the longest step with {}",
+                   longest),
+       uses::method([](scene::SolverMethod method) {
+         return !scene::is_adaptive(method) || scene::takes_longest_step(method);
+       })},
+  };
+}
+
+std::vector<Key> run_keys() {
+  using scene::Run;
+  const Run run;
+  return {
+      {"start", choice<scene::starts, &scene::Scene::run, &Run::start>(),
+       Word{words_of(scene::starts)}, scene::name_of(scene::starts, run.start),
+       "given: from the initial state; steady: on the periodic orbit, for which drive, sliding and "
+       "friction must be constant",
+       uses::open_loop("in closed loop, which begins with the drive off")},
+      {"duration_s", of_run<&Run::duration_s>, Number{{1e-12, 1e9, "s"}},
+       Instead{"duration_periods"}, "simulated time", uses::always, "duration_periods"},
+      {"duration_periods", Periods{of_run<&Run::duration_s>},
+       Number{{1e-3, most_periods, "periods"}}, Instead{"duration_s"},
+       "simulated time in carrier periods", uses::a_period},
+      {"window_start_s", of_run<&Run::window_start_s>, Number{time_range}, run.window_start_s,
+       "start of the window over which means are taken; the window ends with the run", uses::always,
+       "window_start_periods"},
+      {"window_start_periods", Periods{of_run<&Run::window_start_s>},
+       Number{{0.0, most_periods, "periods"}}, Rule{"window_start_s"},
+       "the same in carrier periods, in place of window_start_s", uses::a_period},
+      {"settling_band", of_run<&Run::settling_band>, Number{{0.0, 1.0, "", true}},
+       run.settling_band,
+       "half width of the band around a target, in friction ratio; a step has settled once the "
+       "ratio stays in the band, at least for the last tenth of the step",
+       uses::closed_loop},
+      {"record", of_run<&Run::record>, WordList{words_of(scene::channels)},
+       Rule{"nothing is recorded"}, "channels that trace.csv records"},
+      {"record_interval_s", of_run<&Run::record_interval_s>, Number{{1e-15, 1e9, "s"}},
+       Rule{"required if record names a channel"}, "time between two rows of trace.csv",
+       uses::recording},
+  };
+}
+
+std::vector<Key> controller_keys() {
+  using scene::Controller;
+  const Controller controller;
+  return {
+      {"arithmetic",
+       choice<scene::arithmetics, &scene::Scene::controller, &Controller::arithmetic>(),
+       Word{words_of(scene::arithmetics)}, Required{},
+       "number type in which the controller computes; not q15 with controller.vibration"},
+      {"vibration",
+       choice<scene::vibration_controls, &scene::Scene::controller, &Controller::vibration>(),
+       Word{words_of(scene::vibration_controls)},
+       Rule{"the drive is fed forward, at a fixed frequency"},
+       "resonant: the controller observes the vibration, follows the plant's resonance with the "
+       "frequency of the drive and holds the vibration velocity; needs [transducer]. damped: the "
+       "same at a fixed frequency off resonance, with the natural mode damped by feedback: as "
+       "sensor.vibration sees it, or without one as the friction shows it",
+       uses::closed_loop},
+      {"frequency_range_Hz", of_controller<&Controller::frequency_range_Hz>,
+       Interval{frequency_range}, Rule{"5 % below to 5 % above drive.frequency_Hz"},
+       "lowest and highest frequency of the drive, below and above drive.frequency_Hz, within 6 % "
+       "of it",
+       uses::resonance(uses::in_another_mode)},
+      {"target_friction_ratio", of_controller<&Controller::target_friction_ratio>,
+       Profile{time_range, {0.0, 1.0, "", true}}, Required{},
+       "target friction ratio, constant from each time to the next; the first time is 0"},
+      {"calibration_s", of_controller<&Controller::calibration_s>, Number{time_range},
+       Rule{"0; where the vibration is felt in the friction, as long as a contact half as stiff as "
+            "believed and the sensor take to settle, at most half of the first target's time, and "
+            "0 where that is too short"},
+       "time with the drive off in which the friction force is learnt; 0: the controller believes "
+       "the scene's",
+       uses::force_sensor},
+      {"shaping", choice<scene::shapings, &scene::Scene::controller, &Controller::shaping>(),
+       Word{words_of(scene::shapings)}, scene::name_of(scene::shapings, controller.shaping),
+       "filter between target and drive. notch: cancels the ringing of the natural mode. robust: "
+       "the same for a mode that is only known within shaping_range",
+       uses::no_observed_vibration},
+      {"shaping_range", of_controller<&Controller::shaping_range>,
+       Number{{scene::least_shaping_range, scene::most_shaping_range}},
+       Rule{"as far as the tolerances of stiffness and mass go; without these 0.1, for a stiffness "
+            "that is 20 % off"},
+       "how far the natural frequency may be off, relative to the believed one; the robust notch "
+       "has its zeros in this range",
+       uses::implied(uses::no_observed_vibration) + uses::robust_shaping},
+      {"speed_floor_m_per_s", of_controller<&Controller::speed_floor_m_per_s>,
+       Number{{1e-12, largest_speed_m_per_s, "m/s"}},
+       Rule{
+           "velocity at which the presliding distance takes three carrier periods; at most half of "
+           "the fastest sliding and of the largest vibration velocity"},
+       "sliding velocity below which the drive is held"},
+      {"standstill_hold_s", of_controller<&Controller::standstill_hold_s>, Number{time_range},
+       controller.standstill_hold_s,
+       "time for which the drive is held below the speed floor before it falls to 0"},
+      {"relearn_every_s", of_controller<&Controller::relearn_every_s>, Number{{1e-9, 1e9, "s"}},
+       Rule{"never"},
+       "time between two pauses of the drive in which the friction force is learnt again",
+       uses::force_sensor},
+      {"mismatch_warning", of_controller<&Controller::mismatch_warning>, Number{{1.01, 100.0}},
+       controller.mismatch_warning,
+       "the limit mismatch is reported once believed over true friction, or its inverse, reaches "
+       "this value",
+       uses::force_sensor},
+  };
+}
+
+std::vector<Key> sensor_keys() {
+  using scene::Sensor;
+  const Sensor sensor;
+  const Uses& with_force = uses::force_sensor;
+  const Uses& seen = uses::vibration_sensor;
+  return {
+      {"force", of_sensor<&Sensor::force>, Truth{}, Rule{"true"},
+       "whether there is a sensor of the friction force; false: the ratio is held by the vibration "
+       "alone, and rests on the friction that the controller believes",
+       uses::observed_vibration},
+      {"adc_bits", of_sensor<&Sensor::adc_bits>, Integer{4, 32, "bits"}, Rule{"ideal"},
+       "resolution of the force converter", with_force},
+      {"force_full_scale_N", of_sensor<&Sensor::force_full_scale_N>,
+       Number{{1e-15, largest_force_N, "N"}},
+       Rule{"2 * coefficient * normal_force_N, of profiles the largest",
+            [](const scene::Scene& scene) {
+              return std::optional(2.0 * scene.friction.largest_limit_N());
+            }},
+       "largest force that the converter reads, in both directions", with_force},
+      {"force_noise_N", of_sensor<&Sensor::force_noise_N>, Number{force_range},
+       sensor.force_noise_N, "noise of each sample of the force, rms", with_force},
+      {"force_bandwidth_Hz", of_sensor<&Sensor::force_bandwidth_Hz>, Number{{1e-3, 1e12, "Hz"}},
+       Rule{"no limit"}, "bandwidth of the force sensor, a low-pass of first order", with_force},
+      {"delay_periods", of_sensor<&Sensor::delay_periods>, Integer{0, 64, "periods"},
+       static_cast<double>(sensor.delay_periods),
+       "carrier periods by which the force reading is late", with_force},
+      {"force_offset_N", of_sensor<&Sensor::force_offset_N>,
+       Number{{-largest_force_N, largest_force_N, "N"}}, sensor.force_offset_N,
+       "force read while the true force is 0", with_force},
+      {"force_gain", of_sensor<&Sensor::force_gain>, Number{sensor_gain_range}, sensor.force_gain,
+       "force read over true force; -1: wired backwards, 0: dead", with_force},
+      {"velocity_offset_m_per_s", of_sensor<&Sensor::velocity_offset_m_per_s>, Number{speed_range},
+       sensor.velocity_offset_m_per_s, "sliding velocity read at standstill"},
+      {"velocity_gain", of_sensor<&Sensor::velocity_gain>, Number{sensor_gain_range},
+       sensor.velocity_gain,
+       "sliding velocity read over the true one; -1: wired backwards, 0: dead"},
+      {"seed", of_sensor<&Sensor::seed>, Integer{0, std::numeric_limits<std::int64_t>::max()},
+       static_cast<double>(sensor.seed), "seed of the noise; the same seed gives the same noise"},
+      {"vibration", choice<scene::vibration_sensors, &scene::Scene::sensor, &Sensor::vibration>(),
+       Word{words_of(scene::vibration_sensors)},
+       Rule{"required with resonant; with damped the vibration is felt in the friction"},
+       "what the vibration is seen by, once per carrier period: a pick-up of its velocity, or the "
+       "current of the transducer less that of its clamped capacitance, with [transducer]",
+       uses::observed_vibration},
+      {"vibration_bits", of_sensor<&Sensor::vibration_bits>, Integer{4, 32, "bits"}, Rule{"ideal"},
+       "resolution of the vibration converters, one in phase with the drive and one in quadrature",
+       seen},
+      {"vibration_noise_m_per_s", of_sensor<&Sensor::vibration_noise_m_per_s>,
+       Number{{0.0, largest_speed_m_per_s, "m/s"}}, sensor.vibration_noise_m_per_s,
+       "noise of each vibration sample, rms, in phase and in quadrature alike", seen},
+      {"vibration_full_scale_m_per_s", of_sensor<&Sensor::vibration_full_scale_m_per_s>,
+       Number{{1e-12, largest_speed_m_per_s, "m/s"}},
+       Rule{"resonant: four times the velocity of the lowest target; damped: of full drive; or of "
+            "the fastest sliding if that is larger"},
+       "largest vibration velocity that the converters read, in both directions", seen},
+  };
+}
+
+std::vector<Key> model_error_keys() {
+  using scene::ModelError;
+  constexpr Number quotient{{0.01, 100.0}};
+  const ModelError error;
+  const Uses& observed = uses::observed_vibration;
+  return {
+      {"mass", of_model_error<&ModelError::mass>, quotient, error.mass,
+       "believed over true plant.mass_kg"},
+      {"stiffness", of_model_error<&ModelError::stiffness>, quotient, error.stiffness,
+       "believed over true plant.stiffness_N_per_m"},
+      {"coefficient", of_model_error<&ModelError::coefficient>, quotient, error.coefficient,
+       "believed over true friction.coefficient"},
+      {"contact_stiffness", of_model_error<&ModelError::contact_stiffness>, quotient,
+       error.contact_stiffness, "believed over true friction.contact_stiffness_N_per_m",
+       uses::law(scene::is_elastic)},
+      {"force_factor", of_model_error<&ModelError::force_factor>, quotient, error.force_factor,
+       "believed over true transducer.force_factor_N_per_V", observed + uses::a_transducer},
+      {"damping", of_model_error<&ModelError::damping>, quotient, error.damping,
+       "believed over true plant.damping_N_s_per_m", observed},
+  };
+}
+
+}  // namespace sonoglide::scene_file
