@@ -70,12 +70,11 @@ ControlDesign design_control(const scene::Scene& any_scene) {
 
 namespace {
 
-/// A vibration that is felt in the friction is known no better than the friction, which is therefore
+/// Without a vibration sensor the vibration is known no better than the friction, which is therefore
 /// learnt first.
 double default_calibration_s(const scene::Scene& scene, const ControlDesign& design) {
-  return scene.vibration_mode() == scene::VibrationMode::sensorless
-             ? shortest_calibration_s(scene, design)
-             : 0.0;
+  return design.in_mode<SensorlessDesign>() != nullptr ? shortest_calibration_s(scene, design)
+                                                       : 0.0;
 }
 
 /// @param scene  what the controller knows, without true values

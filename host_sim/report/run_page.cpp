@@ -62,7 +62,7 @@ void append_drive_limit(const scene::Scene& scene, const loop::ControlRecord& co
   const std::string part = percent(static_cast<double>(control.saturated_commands) /
                                    static_cast<double>(control.commands));
   const double most = scene.max_drive_force_N() * unit.per_N;
-  if (!scene.resonant()) {
+  if (control.design.resonance() == nullptr) {
     warnings.push_back(
         fmt::format("The actuator's range of 0 to {:.6g} {} limited the drive in {} of the control "
                     "steps.",
@@ -163,14 +163,15 @@ output::Table step_table(const scene::Scene& scene, const RunFindings& findings)
   return table;
 }
 
-output::Table vibration_table(const scene::Scene& scene, const RunFindings& findings) {
+output::Table vibration_table(const RunFindings& findings) {
   output::Table table{"Vibration", {"From [ms]", "Velocity [mm/s]", "Settles to 2 % in [µs]"}, {}};
-  if (scene.resonant()) {
+  const std::vector<report::StepMetrics>& steps = findings.steps();
+  if (!steps.empty() && steps.front().resonance) {
     table.title = "Vibration at resonance";
     table.header.insert(table.header.end(),
                         {"Frequency [Hz]", "Largest deviation from the natural frequency"});
   }
-  for (const report::StepMetrics& step : findings.steps()) {
+  for (const report::StepMetrics& step : steps) {
     const report::VibrationMetrics& vibration = *step.vibration;
     const char* unsettled = step.target < 1.0 ? "never" : "-";  // at 1 no vibration is wanted
     std::vector<std::string> row{fmt::format("{:.3f}", step.time_s * 1e3),
@@ -564,7 +565,7 @@ output::Page run_page(const scene::Scene& scene, const loop::RunResult& result,
     page.tables.push_back(step_table(scene, findings));
   }
   if (scene.sensor.vibration) {
-    page.tables.push_back(vibration_table(scene, findings));
+    page.tables.push_back(vibration_table(findings));
   }
   page.tables.push_back(run_table(scene, result));
   if (result.electrical) {

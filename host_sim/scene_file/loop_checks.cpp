@@ -134,7 +134,7 @@ void check_controller(const TableCursor& cursor, const Variant& variant, scene::
 }
 
 void check_sensor(const TableCursor& cursor, const Variant& /*variant*/, scene::Scene& scene) {
-  if (scene.vibration_mode() != scene::VibrationMode::feedforward) {
+  if (scene.controller && scene.controller->vibration) {
     check_sensing(cursor, scene);
   }
 }
