@@ -6,12 +6,12 @@
 #include "firmware/numeric/float_elementary.hpp"
 #include "firmware/numeric/gauss_legendre.hpp"
 #include "firmware/numeric/scalar.hpp"
+#include "firmware/numeric/turn.hpp"
 
 namespace sonoglide::friction {
 
 namespace dahl_friction_ratio_detail {
 
-constexpr double pi = 3.141592653589793238462643383279502884;
 /// Exponent beyond which the decay is neglected: the rest adds less than 1e-13 to the ratio. 24
 /// nodes resolve the decay up to there.
 constexpr double negligible_exponent = 28.0;
@@ -83,15 +83,16 @@ inline double dahl_friction_ratio(double velocity_ratio, double dahl_number) {
   }
   const double turning = numeric::acos(-r);
   const Arc forward{turning, -r, 2.0 * turning, true};
-  const Arc backward{turning, -r, 2.0 * (pi - turning), false};
+  const Arc backward{turning, -r, 2.0 * (numeric::half_turn - turning), false};
   const double ef = -dahl_number * forward.travel(forward.length);
   const double eb = -dahl_number * backward.travel(backward.length);
   const double scale = 2.0 / numeric::expm1(ef + eb);
   const double p = scale * numeric::expm1(eb);
   const double q = scale * numeric::expm1(ef);
-  const double sum = 4.0 * turning - 2.0 * pi - p * relaxation_integral(forward, dahl_number) +
+  const double sum = 4.0 * turning - numeric::two_pi -
+                     p * relaxation_integral(forward, dahl_number) +
                      q * relaxation_integral(backward, dahl_number);
-  return numeric::clamp(sum / (2.0 * pi), 0.0, 1.0);
+  return numeric::clamp(sum / numeric::two_pi, 0.0, 1.0);
 }
 
 }  // namespace sonoglide::friction

@@ -5,12 +5,11 @@
 
 #include "firmware/numeric/float_elementary.hpp"
 #include "firmware/numeric/scalar.hpp"
+#include "firmware/numeric/turn.hpp"
 
 namespace sonoglide::friction {
 
 namespace iwan_friction_ratio_detail {
-
-constexpr double pi = 3.141592653589793238462643383279502884;
 
 /// Travel of the contact under a sine, u = r theta + sin theta, in amplitudes.
 struct Travel {
@@ -46,8 +45,8 @@ struct Travel {
 inline double spring_ratio(double r, double stiffness) {
   const Travel travel{r};
   const double turns_back = numeric::acos(-r);
-  const double turns_forward = 2.0 * pi - turns_back;
-  const double next = turns_back + 2.0 * pi;
+  const double turns_forward = numeric::two_pi - turns_back;
+  const double next = turns_back + numeric::two_pi;
   const double highest = travel.at(turns_back);
   const double lowest = travel.at(turns_forward);
   const double slip_travel = 2.0 / stiffness;
@@ -65,7 +64,7 @@ inline double spring_ratio(double r, double stiffness) {
             (2.0 + stiffness * lowest) * (slips - turns_forward) -
             stiffness * travel.integral(turns_forward, slips);
   }
-  return numeric::clamp(1.0 - lacks / (2.0 * pi), 0.0, 1.0);
+  return numeric::clamp(1.0 - lacks / numeric::two_pi, 0.0, 1.0);
 }
 
 }  // namespace iwan_friction_ratio_detail

@@ -3,6 +3,7 @@
 
 #include "firmware/numeric/float_elementary.hpp"
 #include "firmware/numeric/scalar.hpp"
+#include "firmware/numeric/turn.hpp"
 
 namespace sonoglide::friction {
 
@@ -27,7 +28,6 @@ struct LuGreShape {
 
 namespace lugre_friction_ratio_detail {
 
-constexpr double pi = 3.141592653589793238462643383279502884;
 constexpr int steps_per_arc = 64;
 
 /// ψ and its integral over the phase, both linear in the ψ that the period begins with.
@@ -56,7 +56,8 @@ inline void follow(const LuGreShape& contact, double r, double from, double to,
   double phase = from;
   for (int i = 1; i <= steps_per_arc; ++i) {
     const double end =
-        from + (to - from) * numeric::half(1.0 - numeric::cos(pi * i / steps_per_arc));
+        from +
+        (to - from) * numeric::half(1.0 - numeric::cos(numeric::half_turn * i / steps_per_arc));
     const double length = end - phase;
     const double travel = r * length + numeric::sin(end) - numeric::sin(phase);
     const double curve = contact.curve(r + numeric::cos(numeric::half(phase + end)));
@@ -84,14 +85,14 @@ inline void follow(const LuGreShape& contact, double r, double from, double to,
 inline double lugre_mean_friction(double velocity_ratio, const LuGreShape& contact) {
   using namespace lugre_friction_ratio_detail;
   const double r = velocity_ratio;
-  const double turns_back = r < 1.0 ? numeric::acos(-r) : pi;
+  const double turns_back = r < 1.0 ? numeric::acos(-r) : numeric::half_turn;
   Bristles bristles;
   follow(contact, r, -turns_back, turns_back, bristles);
   if (r < 1.0) {
-    follow(contact, r, turns_back, 2.0 * pi - turns_back, bristles);
+    follow(contact, r, turns_back, numeric::two_pi - turns_back, bristles);
   }
   const double start = bristles.rest / (1.0 - bristles.part);
-  const double mean = (bristles.integral_part * start + bristles.integral_rest) / (2.0 * pi);
+  const double mean = (bristles.integral_part * start + bristles.integral_rest) / numeric::two_pi;
   return mean + contact.viscous_friction * r;
 }
 

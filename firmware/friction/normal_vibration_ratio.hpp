@@ -6,6 +6,7 @@
 #include "firmware/numeric/float_elementary.hpp"
 #include "firmware/numeric/float_sqrt.hpp"
 #include "firmware/numeric/scalar.hpp"
+#include "firmware/numeric/turn.hpp"
 
 namespace sonoglide::friction {
 
@@ -19,7 +20,7 @@ template <class Float>
 Float sticking_phase(Float s, Float c) {
   constexpr Float accuracy = numeric::power_of_two<Float>(-std::numeric_limits<Float>::digits / 2);
   Float low = Float(2) * numeric::acos(s);
-  Float high = numeric::from_real<Float>(6.283185307179586476925);
+  Float high = numeric::from_real<Float>(numeric::two_pi);
   Float x = numeric::half(low + high);
   while (low < x && x < high) {
     const Float sine = numeric::sin(x);
@@ -69,7 +70,7 @@ Float normal_vibration_ratio(Float amplitude_ratio, Float velocity_ratio) {
   const Float half_sine = numeric::sin(numeric::half(x));
   const Float reduction =
       c * (x - numeric::sin(x)) - s * (numeric::half(x * x) - Float(2) * half_sine * half_sine);
-  constexpr Float per_turn = numeric::from_real<Float>(1.0 / 6.283185307179586476925);
+  constexpr Float per_turn = numeric::from_real<Float>(1.0 / numeric::two_pi);
   return Float(1) - amplitude_ratio * (per_turn * reduction);
 }
 

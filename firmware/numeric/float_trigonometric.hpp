@@ -10,6 +10,7 @@
 #include "firmware/numeric/float_series.hpp"
 #include "firmware/numeric/float_sqrt.hpp"
 #include "firmware/numeric/polynomial.hpp"
+#include "firmware/numeric/turn.hpp"
 
 namespace sonoglide::numeric {
 
@@ -65,7 +66,7 @@ constexpr Float minus_quarter_turns(Float x, Float n) {
 
 template <class Float>
 constexpr NearestInteger<Float> nearest_quarter_turn(Float x) {
-  constexpr Float quarter_turns_per_radian = static_cast<Float>(2.0 / 3.14159265358979323846);
+  constexpr Float quarter_turns_per_radian = static_cast<Float>(2.0 / half_turn);
   return nearest_integer(x * quarter_turns_per_radian);
 }
 
@@ -99,7 +100,7 @@ constexpr Float half_arccosine(Float x) {
 }
 
 template <class Float>
-inline constexpr Float inverse_pi = static_cast<Float>(0.31830988618379067154);
+inline constexpr Float inverse_pi = static_cast<Float>(1.0 / half_turn);
 
 }  // namespace detail
 

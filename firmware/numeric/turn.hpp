@@ -1,9 +1,10 @@
-/// The angle of a whole turn.
+/// The angles of half and of a whole turn.
 #pragma once
 
 namespace sonoglide::numeric {
 
-/// 2 pi [rad], to the nearest double.
-inline constexpr double two_pi = 6.28318530717958647693;
+/// pi and 2 pi [rad], each to the nearest double.
+inline constexpr double half_turn = 3.14159265358979323846;
+inline constexpr double two_pi = 2.0 * half_turn;
 
 }  // namespace sonoglide::numeric

@@ -16,6 +16,7 @@
 #include "firmware/numeric/first_root.hpp"
 #include "firmware/numeric/gauss_legendre.hpp"
 #include "firmware/numeric/scalar.hpp"
+#include "firmware/numeric/turn.hpp"
 #include "host_sim/batch/decay_lanes.hpp"
 #include "host_sim/batch/lane_pack.hpp"
 #include "host_sim/batch/plant_lanes.hpp"
@@ -95,7 +96,7 @@ class StepLanes {
  private:
   using Scalar = typename Setting::Scalar;
   static constexpr int order = Setting::order;
-  static constexpr Scalar two_pi = Scalar(6.283185307179586476925286766559);
+  static constexpr Scalar two_pi = Scalar(numeric::two_pi);
 
   /// Only the last period ends a step; a lane that idles has none.
   HWY_INLINE V left_of_period(D d, const MotionLanes<D>& motion) const {

@@ -10,6 +10,7 @@
 
 #include <cstddef>
 
+#include "firmware/numeric/turn.hpp"
 #include "host_sim/batch/factorials.hpp"
 #include "host_sim/batch/lane_pack.hpp"
 
@@ -49,7 +50,7 @@ HWY_INLINE SineAndCosine<hn::Vec<D>> sine_and_cosine(D d, hn::Vec<D> x) {
   using Bits = hn::TFromD<decltype(integers)>;
   // Adding it rounds to an integer, which the lowest bits then hold.
   const auto rounder = hn::Set(d, narrow ? Scalar(0x1.8p23) : Scalar(0x1.8p52));
-  constexpr double quarter_turn = 1.57079632679489661923;
+  constexpr double quarter_turn = 0.5 * numeric::half_turn;
   const auto shifted = fused(x, hn::Set(d, static_cast<Scalar>(1.0 / quarter_turn)), rounder);
   const auto r =
       fused_negative(hn::Sub(shifted, rounder), hn::Set(d, static_cast<Scalar>(quarter_turn)), x);

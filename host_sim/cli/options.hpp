@@ -12,7 +12,7 @@
 #include "host_sim/configure/configuration_error.hpp"
 #include "host_sim/emulated/board_list.hpp"
 #include "host_sim/experiment/experiment.hpp"
-#include "host_sim/output/study_report.hpp"
+#include "host_sim/output/output_folder.hpp"
 
 namespace sonoglide::cli {
 

@@ -9,7 +9,6 @@
 #include "host_sim/output/gnuplot.hpp"
 #include "host_sim/studies/work_precision/comparison.hpp"
 #include "host_sim/studies/work_precision/report.hpp"
-#include "host_sim/studies/work_precision/scene_problem.hpp"
 
 namespace sonoglide::cli {
 namespace {

@@ -7,10 +7,10 @@
 
 namespace sonoglide::output {
 
-std::string csv_cells(const std::vector<double>& figures) {
+std::string csv_cells(const std::vector<double>& figures, int digits) {
   std::string cells;
   for (const double each : figures) {
-    cells += (cells.empty() ? "" : ",") + csv_number(each);
+    cells += (cells.empty() ? "" : ",") + csv_number(each, digits);
   }
   return cells;
 }

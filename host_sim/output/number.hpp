@@ -21,8 +21,8 @@ inline std::string csv_number(double value, int digits = every_bit) {
   return std::isnan(value) ? "nan" : fmt::format("{:.{}g}", value, digits);
 }
 
-/// Figures as cells, to their last bit.
-std::string csv_cells(const std::vector<double>& figures);
+/// Figures as cells.
+std::string csv_cells(const std::vector<double>& figures, int digits = every_bit);
 
 /// A text as a cell of CSV (RFC 4180): in quotes where it has a comma or a quote, printable (see
 /// printable()), so that a row is a line.

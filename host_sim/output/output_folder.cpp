@@ -7,7 +7,6 @@
 #include <system_error>
 #include <utility>
 
-#include "host_sim/output/list_lock.hpp"
 #include "host_sim/output/written_files.hpp"
 #include "host_sim/process/ending.hpp"
 

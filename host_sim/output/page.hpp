@@ -4,33 +4,9 @@
 #include <string>
 #include <vector>
 
+#include "host_sim/output/chart.hpp"
+
 namespace sonoglide::output {
-
-/// One curve; NaN leaves a gap.
-struct Series {
-  std::string label;
-  std::vector<double> y;
-  bool stepped = false;  ///< held until the next point instead of joined to it
-  bool connect_gaps =
-      false;            ///< joined across NaN: a branch of a loop that shares its x with others
-  bool marked = false;  ///< each point is a dot
-};
-
-/// One chart; every series has one value for each entry of x, which never decreases.
-///
-/// An axis label ends with its unit in square brackets, "Displacement [m]"; a plain SI unit gets
-/// the prefix that suits the range on show, any other a power of ten. "[-]" marks a pure number.
-struct Panel {
-  std::string title;
-  std::string note;     ///< one or two sentences under the title; may be empty
-  std::string x_label;  ///< with its unit
-  std::string y_label;  ///< with its unit
-  std::vector<double> x;
-  std::vector<Series> series;
-  bool logarithmic_y = false;
-  std::string group;           ///< panels of one non-empty group zoom and hover together
-  bool logarithmic_x = false;  ///< every x is above 0
-};
 
 /// A column of which at least half the cells are numbers is set flush right.
 struct Table {
@@ -46,11 +22,11 @@ struct Picture {
   std::string svg;   ///< a whole SVG document
 };
 
-/// Tables, panels and pictures under one heading.
+/// Tables, charts and pictures under one heading.
 struct Section {
   std::string title;
   std::string text;
-  std::vector<Panel> panels;
+  std::vector<Chart> charts;
   std::vector<Picture> pictures = {};
   std::vector<Table> tables = {};
 };
@@ -63,13 +39,13 @@ struct Page {
   std::vector<Section> sections;
 };
 
-/// The page as one self-contained HTML file: no network request, zoom and hover on every panel.
+/// The page as one self-contained HTML file: no network request, zoom and hover on every chart.
 ///
 /// Ordinates are written with 7 significant digits, abscissae with as many as resolve 1e-7 of their
-/// span. Once drawn, <body> carries data-panels (panels that have something to draw) and data-drawn
+/// span. Once drawn, <body> carries data-panels (charts that have something to draw) and data-drawn
 /// (charts whose canvas shows it), and each chart's <figure> its Dygraph as the property `chart`.
-/// @throws std::invalid_argument if x decreases or is not finite, if a series has not one value for
-/// each x, or a table row not one cell for each heading.
+/// @throws std::invalid_argument if a chart's x decreases, an x is not finite, a curve has not one
+/// value for each, or a table row not one cell for each heading.
 std::string to_html(const Page& page);
 
 }  // namespace sonoglide::output

@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "host_sim/output/assets.hpp"
-#include "host_sim/output/chart_json.hpp"
+#include "host_sim/output/chart.hpp"
 #include "host_sim/output/page.hpp"
 #include "host_sim/process/printable.hpp"
 
@@ -58,18 +58,19 @@ std::string_view without_source_map(std::string_view text) {
   return marker == std::string_view::npos ? text : text.substr(0, marker - 2);
 }
 
-void check(const Panel& panel) {
-  const bool ordered = std::is_sorted(panel.x.begin(), panel.x.end());
-  const bool finite =
-      std::all_of(panel.x.begin(), panel.x.end(), [](double x) { return std::isfinite(x); });
-  if (!ordered || !finite) {
-    throw std::invalid_argument("panel '" + panel.title + "': x decreases or is not finite");
+void check(const Chart& chart) {
+  const auto finite = [](const std::vector<double>& x) {
+    return std::all_of(x.begin(), x.end(), [](double each) { return std::isfinite(each); });
+  };
+  const bool ordered = std::is_sorted(chart.x.begin(), chart.x.end());
+  if (!ordered || !finite(chart.x)) {
+    throw std::invalid_argument("chart '" + chart.title + "': x decreases or is not finite");
   }
-  for (const Series& series : panel.series) {
-    if (series.y.size() != panel.x.size()) {
-      throw std::invalid_argument(fmt::format("panel '{}', series '{}': {} values for {} abscissae",
-                                              panel.title, series.label, series.y.size(),
-                                              panel.x.size()));
+  for (const Curve& curve : chart.curves) {
+    const std::vector<double>& x = curve.x.empty() ? chart.x : curve.x;
+    if (curve.y.size() != x.size() || !finite(x)) {
+      throw std::invalid_argument(fmt::format("chart '{}', curve '{}': {} values for {} abscissae",
+                                              chart.title, curve.label, curve.y.size(), x.size()));
     }
   }
 }
@@ -147,12 +148,12 @@ void append_warnings(std::string& html, const std::vector<std::string>& warnings
   html += "</ul>\n</aside>\n";
 }
 
-void append_panel(std::string& html, const Panel& panel) {
-  html += fmt::format("<figure class=\"panel\">\n<figcaption><h3>{}</h3>\n", escaped(panel.title));
-  append_paragraph(html, "note", panel.note);
+void append_chart(std::string& html, const Chart& chart) {
+  html += fmt::format("<figure class=\"panel\">\n<figcaption><h3>{}</h3>\n", escaped(chart.title));
+  append_paragraph(html, "note", chart.note);
   html += "</figcaption>\n";
-  if (has_something_to_draw(panel)) {
-    html += fmt::format("<script type=\"application/json\">{}</script>\n", chart_json(panel));
+  if (has_something_to_draw(chart)) {
+    html += fmt::format("<script type=\"application/json\">{}</script>\n", chart_json(chart));
   } else {
     html += "<p class=\"empty\">No values to draw.</p>\n";
   }
@@ -189,8 +190,8 @@ void append_sections(std::string& html, const std::vector<Section>& sections) {
     for (const Table& table : section.tables) {
       append_table(html, table);
     }
-    for (const Panel& panel : section.panels) {
-      append_panel(html, panel);
+    for (const Chart& chart : section.charts) {
+      append_chart(html, chart);
     }
     for (const Picture& picture : section.pictures) {
       append_picture(html, picture);
@@ -223,9 +224,9 @@ void append_scripts(std::string& html) {
                       without_source_map(dygraphs_js()), page_js());
 }
 
-bool has_panels(const Page& page) {
+bool has_charts(const Page& page) {
   return std::any_of(page.sections.begin(), page.sections.end(),
-                     [](const Section& section) { return !section.panels.empty(); });
+                     [](const Section& section) { return !section.charts.empty(); });
 }
 
 }  // namespace
@@ -235,8 +236,8 @@ std::string to_html(const Page& page) {
     check(table);
   }
   for (const Section& section : page.sections) {
-    for (const Panel& panel : section.panels) {
-      check(panel);
+    for (const Chart& chart : section.charts) {
+      check(chart);
     }
   }
   std::string html;
@@ -248,7 +249,7 @@ std::string to_html(const Page& page) {
   for (const Table& table : page.tables) {
     append_table(html, table);
   }
-  if (has_panels(page)) {
+  if (has_charts(page)) {
     append_hint(html);
   }
   append_sections(html, page.sections);

@@ -1,4 +1,4 @@
-#include "host_sim/output/staged_file.hpp"
+#include "host_sim/output/output_folder.hpp"
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -60,7 +60,7 @@ int FileBuffer::sync() {
 
 void FileBuffer::hand_over(const char* text, std::streamsize size) {
   while (size > 0) {
-    const ssize_t count = write(file_.number(), text, static_cast<std::size_t>(size));
+    const ssize_t count = ::write(file_.number(), text, static_cast<std::size_t>(size));
     if (count < 0 && errno != EINTR) {
       fail(target_, "could not be written in full: " + std::generic_category().message(errno));
     }

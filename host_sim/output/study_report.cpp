@@ -1,5 +1,3 @@
-#include "host_sim/output/study_report.hpp"
-
 #include "host_sim/output/output_folder.hpp"
 
 namespace sonoglide::output {

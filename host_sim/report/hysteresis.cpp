@@ -1,4 +1,4 @@
-#include "host_sim/report/hysteresis.hpp"
+#include "host_sim/report/spectrum.hpp"
 
 #include <algorithm>
 #include <cstddef>

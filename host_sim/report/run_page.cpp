@@ -13,7 +13,6 @@
 #include <utility>
 
 #include "host_sim/configure/plant_scales.hpp"
-#include "host_sim/report/hysteresis.hpp"
 #include "host_sim/report/run_notes.hpp"
 #include "host_sim/report/spectrum.hpp"
 #include "host_sim/report/words.hpp"
@@ -24,6 +23,7 @@ namespace sonoglide::report {
 namespace {
 
 constexpr const char* time_label = "Time [s]";
+using output::Line;
 
 std::string percent(double part) {
   return fmt::format("{:.3g} %", 100.0 * part);
@@ -280,72 +280,58 @@ std::vector<double> limits_N(const scene::Friction& friction, const std::vector<
 }
 
 /// A line at a value.
-output::Series level(const char* label, const std::vector<double>& x, double value) {
-  return {label, std::vector<double>(x.size(), value), false, false};
+output::Curve level(const char* label, const std::vector<double>& x, double value) {
+  return {label, std::vector<double>(x.size(), value)};
+}
+
+/// Over the time of the whole run, which all such charts show together.
+output::Chart course_chart(const char* title, const char* note, const std::string& label,
+                           const std::vector<double>& time, std::vector<output::Curve> curves) {
+  return {title, note, {time_label}, {label}, time, std::move(curves), "course"};
 }
 
 output::Section course(const scene::Scene& scene, const Course::Curve& curve) {
   const std::vector<double> time = curve.x();
   const auto series = [&curve](const char* label, Course::Ordinate ordinate) {
-    return output::Series{label, curve.y(ordinate), true, false};
+    return output::Curve{label, curve.y(ordinate), Line::stepped};
   };
 
   output::Section section{"Course of the run", course_text(scene, curve), {}};
+  const auto add = [&](const char* title, const char* note, const std::string& label,
+                       std::vector<output::Curve> curves) {
+    section.charts.push_back(course_chart(title, note, label, time, std::move(curves)));
+  };
   if (scene.friction.largest_limit_N() > 0.0) {
-    output::Panel panel{
-        "Friction ratio",
+    std::vector<output::Curve> ratios;
+    if (scene.controller) {
+      ratios.push_back(series("target", Course::target));
+    }
+    ratios.push_back(series("reached", Course::friction_ratio));
+    add("Friction ratio",
         "Mean friction force over a carrier period, divided by the undriven one at that "
         "sliding speed and friction.",
-        time_label,
-        "Friction ratio [-]",
-        time,
-        {},
-        false,
-        "course"};
-    if (scene.controller) {
-      panel.series.push_back(series("target", Course::target));
-    }
-    panel.series.push_back(series("reached", Course::friction_ratio));
-    section.panels.push_back(std::move(panel));
+        "Friction ratio [-]", std::move(ratios));
   }
   if (scene.friction.has_profile()) {
-    section.panels.push_back({"Friction limit",
-                              "",
-                              time_label,
-                              "Coefficient times normal force [N]",
-                              time,
-                              {{"limit", limits_N(scene.friction, time), true, false}},
-                              false,
-                              "course"});
+    add("Friction limit", "", "Coefficient times normal force [N]",
+        {{"limit", limits_N(scene.friction, time), Line::stepped}});
   }
   if (scene.drive) {
     const AmplitudeUnit unit = amplitude_unit(scene);
-    section.panels.push_back(
-        {"Drive amplitude",
-         "",
-         time_label,
-         fmt::format("Drive {} amplitude [{}]", scene.transducer ? "voltage" : "force", unit.name),
-         time,
-         {{"amplitude", unit.of(curve.y(Course::drive_amplitude_N)), true, false}},
-         false,
-         "course"});
+    const double most = scene.max_drive_force_N() * unit.per_N;
+    std::vector<output::Curve> amplitudes = {
+        {"amplitude", unit.of(curve.y(Course::drive_amplitude_N)), Line::stepped}};
     if (scene.resonant()) {
-      output::Panel& panel = section.panels.back();
-      panel.note = "Below 0 the phase is turned by π.";
-      const double most = scene.max_drive_force_N() * unit.per_N;
-      panel.series.push_back(level("limit", time, most));
-      panel.series.push_back(level("limit, phase turned", time, -most));
+      amplitudes.push_back(level("limit", time, most));
+      amplitudes.push_back(level("limit, phase turned", time, -most));
     }
+    add("Drive amplitude", scene.resonant() ? "Below 0 the phase is turned by π." : "",
+        fmt::format("Drive {} amplitude [{}]", scene.transducer ? "voltage" : "force", unit.name),
+        std::move(amplitudes));
   }
   if (scene.sliding.profile.size() > 1) {
-    section.panels.push_back({"Sliding velocity",
-                              "",
-                              time_label,
-                              "Sliding velocity [m/s]",
-                              time,
-                              {series("sliding", Course::sliding_velocity_m_per_s)},
-                              false,
-                              "course"});
+    add("Sliding velocity", "", "Sliding velocity [m/s]",
+        {series("sliding", Course::sliding_velocity_m_per_s)});
   }
   return section;
 }
@@ -356,22 +342,21 @@ output::Section vibration_section(const scene::Scene& scene, const VibrationCour
                           "Fundamental of each carrier period.",
                           {}};
   const auto panel = [&](const char* title, const char* label, VibrationCourse::Ordinate ordinate,
-                         std::vector<output::Series> beside) {
+                         std::vector<output::Curve> beside) {
     const bool drive = ordinate == VibrationCourse::frequency_Hz;
-    beside.push_back({drive ? "drive" : "fundamental", curve.y(ordinate), true, false});
-    section.panels.push_back(
-        {title, "", time_label, label, time, std::move(beside), false, "course"});
+    beside.push_back({drive ? "drive" : "fundamental", curve.y(ordinate), Line::stepped});
+    section.charts.push_back(course_chart(title, "", label, time, std::move(beside)));
   };
   const auto series = [&](const char* label, VibrationCourse::Ordinate ordinate) {
-    return std::vector<output::Series>{{label, curve.y(ordinate), true, false}};
+    return std::vector<output::Curve>{{label, curve.y(ordinate), Line::stepped}};
   };
   const bool resonant = scene.resonant();
   panel("Vibration velocity", "Vibration velocity, amplitude [m/s]",
         VibrationCourse::vibration_m_per_s,
         scene.sensor.vibration ? series("wanted", VibrationCourse::wanted_m_per_s)
-                               : std::vector<output::Series>());
+                               : std::vector<output::Curve>());
   if (scene.transducer) {
-    std::vector<output::Series> limit;
+    std::vector<output::Curve> limit;
     if (scene.drive->max_current_amplitude_A) {
       limit.push_back(level("limit", time, *scene.drive->max_current_amplitude_A));
     }
@@ -389,20 +374,21 @@ output::Section vibration_section(const scene::Scene& scene, const VibrationCour
 
 /// The circle that the admittance runs through near the resonance, without friction, and where the
 /// run ended.
-output::Panel admittance_panel(const scene::Scene& scene,
+output::Chart admittance_panel(const scene::Scene& scene,
                                const std::optional<VibrationCourse::OperatingPoint>& point) {
-  struct Place {
-    double conductance_S;
-    double susceptance_S;
-    std::size_t branch;
-  };
   constexpr int points = 400;
   constexpr double widths = 8.0;  // of the resonance, to either side
   const scene::Plant& plant = scene.plant;
   const double natural_rad_per_s = plant.natural_rad_per_s();
   const double width = plant.damping_N_s_per_m / plant.mass_kg / natural_rad_per_s;
   const double factor = scene.transducer->force_factor_N_per_V;
-  std::vector<Place> places;
+  output::Curve below{"below the resonance", {}, Line::bridged};
+  output::Curve above{"above the resonance", {}, Line::bridged};
+  output::Curve operating{"operating point", {}, Line::dots};
+  const auto add = [](output::Curve& curve, std::complex<double> admittance_S) {
+    curve.x.push_back(admittance_S.real());
+    curve.y.push_back(admittance_S.imag());
+  };
   for (int k = -points; k <= points; ++k) {
     const double part = static_cast<double>(k) / points;
     const double rate_rad_per_s =
@@ -410,39 +396,24 @@ output::Panel admittance_panel(const scene::Scene& scene,
     const std::complex<double> motional = factor * factor *
                                           std::complex<double>(0.0, rate_rad_per_s) /
                                           configure::dynamic_stiffness(plant, rate_rad_per_s);
-    const std::complex<double> whole =
-        motional + loop::clamped_admittance_S(*scene.transducer, rate_rad_per_s);
-    places.push_back({whole.real(), whole.imag(), k < 0 ? std::size_t{0} : std::size_t{1}});
+    add(k < 0 ? below : above,
+        motional + loop::clamped_admittance_S(*scene.transducer, rate_rad_per_s));
   }
   std::string note = fmt::format(
       "Of the transducer without friction, to {:g} widths of the resonance on either side.",
       widths);
   if (point) {
-    places.push_back({point->admittance_S.real(), point->admittance_S.imag(), 2});
+    add(operating, point->admittance_S);
     note += fmt::format(
         " The operating point is a mean of about the last {:g} carrier periods, at {:.6g} Hz.",
         VibrationCourse::operating_periods, point->frequency_Hz);
   }
-  std::stable_sort(places.begin(), places.end(), [](const Place& a, const Place& b) {
-    return a.conductance_S < b.conductance_S;
-  });
-  output::Panel panel{"Admittance",
-                      std::move(note),
-                      "Conductance [S]",
-                      "Susceptance [S]",
-                      {},
-                      {{"below the resonance", {}, false, true},
-                       {"above the resonance", {}, false, true},
-                       {"operating point", {}, false, false, true}},
-                      false,
-                      ""};
-  for (const Place& place : places) {
-    panel.x.push_back(place.conductance_S);
-    for (std::size_t i = 0; i < panel.series.size(); ++i) {
-      panel.series[i].y.push_back(i == place.branch ? place.susceptance_S : gap);
-    }
-  }
-  return panel;
+  return {"Admittance",
+          std::move(note),
+          {"Conductance [S]"},
+          {"Susceptance [S]"},
+          {},
+          {std::move(below), std::move(above), std::move(operating)}};
 }
 
 output::Section close_up(const scene::Scene& scene, const loop::Recording& recording,
@@ -467,14 +438,8 @@ output::Section close_up(const scene::Scene& scene, const loop::Recording& recor
   }
   const std::string group = fmt::format("close_up_{}", index);
   const auto panel = [&](const char* title, const char* label, std::vector<double> values) {
-    section.panels.push_back({title,
-                              "",
-                              time_label,
-                              label,
-                              recording.time_s,
-                              {{title, std::move(values), false, false}},
-                              false,
-                              group});
+    section.charts.push_back(
+        {title, "", {time_label}, {label}, recording.time_s, {{title, std::move(values)}}, group});
   };
   panel("Displacement", "Displacement [m]", column(displacement));
   panel("Velocity", "Vibration velocity [m/s]", column(velocity));
@@ -484,43 +449,23 @@ output::Section close_up(const scene::Scene& scene, const loop::Recording& recor
   return section;
 }
 
-output::Panel hysteresis_panel(const report::HysteresisLoop& cycle) {
-  output::Panel panel{"Friction force against displacement",
+output::Chart hysteresis_panel(const report::HysteresisLoop& cycle) {
+  const auto branch = [](const char* label, const report::Branch& each) {
+    return output::Curve{label, each.force_N, Line::bridged, each.displacement_m};
+  };
+  output::Chart chart{"Friction force against displacement",
                       "One cycle of the contact, at the end of the run.",
-                      "Displacement travelled [m]",
-                      "Friction force [N]",
+                      {"Displacement travelled [m]"},
+                      {"Friction force [N]"},
                       {},
-                      {{"sliding forward", {}, false, true}, {"sliding back", {}, false, true}},
-                      false,
-                      ""};
-  struct Point {
-    double displacement_m;
-    double force_N;
-    std::size_t branch;
-  };
-  std::vector<Point> points;
-  const auto collect = [&points](const report::Branch& branch, std::size_t index) {
-    for (std::size_t i = 0; i < branch.force_N.size(); ++i) {
-      points.push_back({branch.displacement_m[i], branch.force_N[i], index});
-    }
-  };
-  collect(cycle.forward, 0);
-  collect(cycle.backward, 1);
-  std::stable_sort(points.begin(), points.end(), [](const Point& a, const Point& b) {
-    return a.displacement_m < b.displacement_m;
-  });
-  for (const Point& point : points) {
-    panel.x.push_back(point.displacement_m);
-    panel.series[point.branch].y.push_back(point.force_N);
-    panel.series[1 - point.branch].y.push_back(gap);
+                      {branch("sliding forward", cycle.forward)}};
+  if (!cycle.backward.force_N.empty()) {
+    chart.curves.push_back(branch("sliding back", cycle.backward));
   }
-  if (cycle.backward.force_N.empty()) {
-    panel.series.pop_back();
-  }
-  return panel;
+  return chart;
 }
 
-output::Panel spectrum_panel(const scene::Scene& scene, const loop::Recording& ending) {
+output::Chart spectrum_panel(const scene::Scene& scene, const loop::Recording& ending) {
   std::vector<double> velocity;
   for (const loop::PlantState& state : ending.state) {
     velocity.push_back(state.velocity_m_per_s);
@@ -536,12 +481,10 @@ output::Panel spectrum_panel(const scene::Scene& scene, const loop::Recording& e
   return {
       "Velocity spectrum",
       fmt::format("Amplitude, Hann window, {} samples from the end of the run.", velocity.size()),
-      "Frequency [Hz]",
-      "Velocity amplitude [m/s]",
+      {"Frequency [Hz]"},
+      {"Velocity amplitude [m/s]", true},
       std::move(spectrum.frequency_Hz),
-      {{"velocity", std::move(spectrum.amplitude), false, false}},
-      true,
-      ""};
+      {{"velocity", std::move(spectrum.amplitude)}}};
 }
 
 output::Section ending(const scene::Scene& scene, const loop::Recording& recording) {
@@ -549,10 +492,10 @@ output::Section ending(const scene::Scene& scene, const loop::Recording& recordi
   output::Section section{"End of the run", "", {}};
   // Across the sliding and normal to it the vibration is no part of the displacement travelled.
   if (scene.friction.largest_limit_N() > 0.0 && scene::vibrates_along(scene.friction.law)) {
-    section.panels.push_back(
+    section.charts.push_back(
         hysteresis_panel(report::last_cycle(recording, scene.friction.sign_convention, samples)));
   }
-  section.panels.push_back(spectrum_panel(scene, recording));
+  section.charts.push_back(spectrum_panel(scene, recording));
   return section;
 }
 
@@ -581,7 +524,7 @@ output::Page run_page(const scene::Scene& scene, const loop::RunResult& result,
   if (const VibrationCourse* vibration = findings.vibration()) {
     page.sections.push_back(vibration_section(scene, vibration->curve()));
     if (scene.resonant()) {
-      page.sections.back().panels.push_back(admittance_panel(scene, vibration->operating_point()));
+      page.sections.back().charts.push_back(admittance_panel(scene, vibration->operating_point()));
     }
   }
   for (std::size_t i = 0; i < findings.close_ups().size(); ++i) {

@@ -2,27 +2,31 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cstddef>
+#include <string_view>
+#include <vector>
+
 #include "firmware/control/interface/names.hpp"
+#include "host_sim/output/chart.hpp"
 #include "host_sim/output/number.hpp"
 #include "host_sim/scene/names.hpp"
 
 namespace sonoglide::arithmetic {
 namespace {
 
-std::string cell(double value) {
-  constexpr int digits = 6;
-  return output::csv_number(value, digits);
-}
+constexpr int csv_digits = 6;
 
 std::string fields(const Precision& precision) {
-  return fmt::format("{},{},{},{}", cell(precision.rms_difference),
-                     cell(precision.largest_difference), cell(precision.steady_error),
-                     cell(precision.ripple));
+  return output::csv_cells({precision.rms_difference, precision.largest_difference,
+                            precision.steady_error, precision.ripple},
+                           csv_digits);
 }
 
 std::string fields(const std::optional<loop::ImageInstructions>& instructions) {
   return instructions ? fmt::format("{},{},{}", instructions->step.min,
-                                    cell(instructions->step.mean), instructions->step.max)
+                                    output::csv_number(instructions->step.mean, csv_digits),
+                                    instructions->step.max)
                       : std::string("nan,nan,nan");
 }
 
@@ -92,6 +96,146 @@ output::StudyReport report(const scene::Scene& scene, const ArithmeticComparison
        {"targets.csv", targets_csv(comparison)},
        {"arithmetic.svg", draw(comparison, scene.name + ", the controller in every arithmetic")}},
       text(comparison)};
+}
+
+namespace {
+
+/// Where a difference of zero is drawn.
+constexpr double smallest_difference = 1e-10;
+
+const char* colour_of(scene::Arithmetic arithmetic) {
+  switch (arithmetic) {
+    case scene::Arithmetic::q15:
+      return "#b8570f";
+    case scene::Arithmetic::q31:
+      return "#1b9e5a";
+    case scene::Arithmetic::float32:
+      return "#1f5fa8";
+    case scene::Arithmetic::float64:
+      break;
+  }
+  return "#111111";
+}
+
+/// Open ones: images lie close together.
+int marker_of(std::size_t board) {
+  static constexpr int markers[] = {6, 4, 8, 12, 10, 14, 1};
+  return markers[board % 7];
+}
+
+/// Each once, in the order of the rows.
+std::vector<const emulated::EmulatedBoard*> boards_of(const ArithmeticComparison& comparison) {
+  std::vector<const emulated::EmulatedBoard*> boards;
+  for (const ImageRow& row : comparison.images) {
+    if (boards.empty() || boards.back() != row.board) {
+      boards.push_back(row.board);
+    }
+  }
+  return boards;
+}
+
+std::string_view name(scene::Arithmetic arithmetic) {
+  return scene::name_of(scene::arithmetics, arithmetic);
+}
+
+double drawn(double difference) {
+  return std::max(difference, smallest_difference);
+}
+
+/// Difference over instructions, a line for each arithmetic and a symbol for each board.
+output::Chart images_panel(const ArithmeticComparison& comparison) {
+  const std::vector<const emulated::EmulatedBoard*> boards = boards_of(comparison);
+  output::Chart chart{"",
+                      "",
+                      {"Instructions per control step, mean [-]", true, {}, "%g", 1e3},
+                      {"Friction ratio, rms difference from float64 [-]",
+                       true,
+                       {0.3 * smallest_difference, 1.0},
+                       "10^{%T}"},
+                      {},
+                      {}};
+  for (const scene::Arithmetic arithmetic : all_arithmetics) {
+    output::Curve line{std::string(name(arithmetic)),
+                       {},
+                       output::Line::joined,
+                       {},
+                       {colour_of(arithmetic), 2.0, 3}};
+    std::vector<output::Curve> symbols;
+    for (std::size_t i = 0; i < boards.size(); ++i) {
+      for (const ImageRow& row : comparison.images) {
+        if (row.board == boards[i] && row.arithmetic == arithmetic && row.image.instructions) {
+          line.x.push_back(row.image.instructions->step.mean);
+          line.y.push_back(drawn(row.precision.rms_difference));
+          symbols.push_back({"",
+                             {line.y.back()},
+                             output::Line::dots,
+                             {line.x.back()},
+                             {colour_of(arithmetic), 2.0, 1, marker_of(i), 1.2}});
+        }
+      }
+    }
+    if (!symbols.empty()) {
+      chart.curves.push_back(std::move(line));
+    }
+    chart.curves.insert(chart.curves.end(), symbols.begin(), symbols.end());
+  }
+  for (std::size_t i = 0; i < boards.size(); ++i) {
+    chart.curves.push_back({fmt::format("{} ({})", boards[i]->core, boards[i]->name),
+                            {},
+                            output::Line::dots,
+                            {},
+                            {"#606060", 1.0, 1, marker_of(i), 1.2}});
+  }
+  chart.place = {0.0, 0.0, 0.52, 0.93};
+  chart.look = fmt::format(
+      "set ytics add ('0' {:g})\nset offsets graph 0.08, graph 0.08, graph 0, graph 0\n"
+      "set key top right Left reverse samplen 2\n",
+      smallest_difference);
+  return chart;
+}
+
+/// A figure of the targets' precision; none of float64 where that is the reference.
+output::Chart targets_panel(const ArithmeticComparison& comparison, const output::Place& place,
+                            const char* x_label, const char* y_label, bool difference) {
+  output::Chart chart{"",
+                      "",
+                      {x_label, false, {0.0, 1.0}, "%g"},
+                      {y_label, true, {}, "10^{%T}", smallest_difference},
+                      {},
+                      {}};
+  for (const scene::Arithmetic arithmetic : all_arithmetics) {
+    if (difference && arithmetic == scene::Arithmetic::float64) {
+      continue;
+    }
+    output::Curve& curve = chart.curves.emplace_back();
+    curve.line = output::Line::bridged;
+    curve.pen = {colour_of(arithmetic), 1.0, 1, 7, 0.4};
+    for (const TargetRow& row : comparison.targets) {
+      if (row.arithmetic == arithmetic) {
+        curve.x.push_back(row.target);
+        curve.y.push_back(difference ? drawn(row.precision.rms_difference) : row.precision.ripple);
+      }
+    }
+  }
+  chart.place = place;
+  chart.look = "set lmargin 11\nunset offsets\nunset key\nset ytics auto\n";
+  return chart;
+}
+
+}  // namespace
+
+std::string draw(const ArithmeticComparison& comparison, const std::string& title) {
+  return output::print(
+      {{images_panel(comparison),
+        targets_panel(comparison, {0.52, 0.47, 0.48, 0.46}, "", "rms difference from float64 [-]",
+                      true),
+        targets_panel(comparison, {0.52, 0.0, 0.48, 0.47}, "Target friction ratio [-]",
+                      "Ripple of the ratio [-]", false)},
+       1120,
+       620,
+       2,
+       "set tics nomirror\nset border 3\nset grid xtics ytics lc rgb '#d8d8d8' lw 1\n",
+       title});
 }
 
 }  // namespace sonoglide::arithmetic

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "host_sim/output/study_report.hpp"
+#include "host_sim/output/output_folder.hpp"
 #include "host_sim/studies/arithmetic/comparison.hpp"
 
 namespace sonoglide::arithmetic {

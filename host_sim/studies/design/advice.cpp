@@ -1,4 +1,3 @@
-#include "host_sim/studies/design/advice.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "host_sim/studies/design/detuning.hpp"
+#include "host_sim/studies/design/study.hpp"
 
 #include <algorithm>
 #include <cmath>

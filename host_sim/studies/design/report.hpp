@@ -4,12 +4,27 @@
 #include <nlohmann/json.hpp>
 
 #include <string>
+#include <vector>
 
+#include "host_sim/output/output_folder.hpp"
 #include "host_sim/output/page.hpp"
-#include "host_sim/output/study_report.hpp"
 #include "host_sim/studies/design/study.hpp"
 
 namespace sonoglide::design {
+
+// What a design comes to, in words.
+
+struct Advice {
+  std::string topic;
+  std::string sentence;
+};
+
+/// Whether each ratio is within reach and how far, what the closed form is worth, power, accuracy,
+/// and which way resonance lies; with a transducer, what the amplifier must give and what would help.
+std::vector<Advice> advice(const DesignStudy& study);
+
+/// What cannot be had, and the nearest that can; empty where everything is within reach.
+std::vector<std::string> shortfalls(const DesignStudy& study);
 
 /// One line for each ratio and speed, 17 digits.
 std::string requirements_csv(const DesignStudy& study);

@@ -5,13 +5,86 @@
 #include <optional>
 #include <vector>
 
-#include "host_sim/studies/design/detuning.hpp"
+#include "host_sim/scene/scene.hpp"
 #include "host_sim/studies/design/electrical.hpp"
 #include "host_sim/studies/design/requirement.hpp"
 #include "host_sim/studies/design/sensitivity.hpp"
-#include "host_sim/studies/design/task.hpp"
 
 namespace sonoglide::design {
+
+// What resonance gives and what it costs: the same contact on another spring.
+
+/// Of the tuning Ks/(m w²): 1 at resonance, the mass alone counts towards 0, the spring alone far
+/// above 1.
+double tuning(const scene::Scene& scene);
+
+/// The scene on the spring that gives it a tuning.
+scene::Scene retuned(scene::Scene scene, double tuning);
+
+/// NaN where no steady vibration is found.
+struct DetunedPoint {
+  double tuning;
+  double drive_force_N;        ///< that the ratio takes
+  double change_by_stiffness;  ///< of the ratio, largest by 1 % more or less of Ks, under it
+  double ratio_at_same_force;  ///< under the force that it takes at the scene's own tuning
+};
+
+struct TuningBand {
+  double low;
+  double high;
+};
+
+/// Of one ratio at one sliding speed.
+struct Detuning {
+  double sliding_m_per_s = 0.0;
+  double ratio = 0.0;
+  std::vector<DetunedPoint> points;  ///< tuning rises
+  /// Where the drive has the force; smallest_tuning or largest_tuning where that goes on beyond.
+  std::optional<TuningBand> reachable;
+  /// About resonance: outside it 1 % of Ks changes the ratio by no more than the scene's settling
+  /// band; largest_tuning where springs above resonance all are too sensitive.
+  std::optional<TuningBand> sensitive;
+  double change_by_stiffness = undefined;  ///< as a point's, at the scene's own tuning
+  double force_at_sensitive_low_N =
+      undefined;  ///< the least force below resonance outside that band
+};
+
+inline constexpr double smallest_tuning = 0.01;  ///< without a spring mean friction has no hold
+inline constexpr double largest_tuning = 50.0;   ///< no square number: harmonics meet no resonance
+
+/// @param requirement  of the scene at its own tuning, with a motion
+Detuning detune(const scene::Scene& scene, const Requirement& requirement);
+
+// What a design is asked for.
+
+/// The least friction ratio that is designed for.
+inline constexpr double least_ratio = 1e-3;
+
+struct SpeedRange {
+  double slowest_m_per_s;  ///< > 0
+  double fastest_m_per_s;
+};
+
+struct Task {
+  scene::Scene scene;          ///< closed loop: plant, contact and drive with its limit
+  std::vector<double> ratios;  ///< each once, rising
+  SpeedRange speeds;
+  bool at_resonance;  ///< where a controller keeps the drive, by its frequency
+};
+
+/// The ratios and the speeds that a closed-loop scene gives, unless others are named. The sign of a
+/// speed is of no consequence; what the scene slides slower than the controller's speed floor, down
+/// to a stop, is left out.
+///
+/// @param ratios  in (0, 1); empty: the scene's targets
+/// @throws configure::ConfigurationError  no controller, no ratio from least_ratio to below 1, or a contact without a steady orbit of the
+///         drive's period or without a closed form: sign_convention "as_printed", another waveform
+///         than the cosine
+Task make_task(const scene::Scene& scene, const std::vector<double>& ratios,
+               const std::optional<SpeedRange>& speeds);
+
+/// Slowest sliding at which the scene's controller follows its target: below it the drive is held.
+double speed_floor_m_per_s(const scene::Scene& scene);
 
 using Progress = std::function<void(double fraction)>;
 

@@ -1,4 +1,4 @@
-#include "host_sim/studies/design/task.hpp"
+#include "host_sim/studies/design/study.hpp"
 
 #include <fmt/format.h>
 

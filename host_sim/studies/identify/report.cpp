@@ -50,25 +50,23 @@ output::Table sentence_table(const std::string& title, const std::vector<std::st
   return table;
 }
 
-output::Series dots(const std::string& label, std::vector<double> y) {
-  output::Series series{label, std::move(y)};
-  series.marked = true;
-  return series;
+output::Curve dots(const std::string& label, std::vector<double> y) {
+  return {label, std::move(y), output::Line::dots};
 }
 
-void draw_fit(output::Panel& panel, std::vector<Place> places,
+void draw_fit(output::Chart& chart, std::vector<Place> places,
               const std::vector<std::string>& curves) {
   std::stable_sort(places.begin(), places.end(),
                    [](const Place& a, const Place& b) { return a.x < b.x; });
-  panel.series = {dots("measured", {})};
+  chart.curves = {dots("measured", {})};
   for (const std::string& each : curves) {
-    panel.series.push_back({each, {}});
+    chart.curves.push_back({each, {}});
   }
   for (const Place& place : places) {
-    panel.x.push_back(place.x);
-    panel.series.front().y.push_back(place.measured);
+    chart.x.push_back(place.x);
+    chart.curves.front().y.push_back(place.measured);
     for (std::size_t i = 0; i < curves.size(); ++i) {
-      panel.series[i + 1].y.push_back(place.fitted[i]);
+      chart.curves[i + 1].y.push_back(place.fitted[i]);
     }
   }
 }

@@ -36,11 +36,11 @@ struct Place {
 /// Draws dots at the readings and curves through all places.
 /// @param places  in any order
 /// @param curves  their names
-void draw_fit(output::Panel& panel, std::vector<Place> places,
+void draw_fit(output::Chart& chart, std::vector<Place> places,
               const std::vector<std::string>& curves);
 
 /// A curve of dots.
-output::Series dots(const std::string& label, std::vector<double> y);
+output::Curve dots(const std::string& label, std::vector<double> y);
 
 /// As they are printed.
 std::string remark_lines(const std::vector<std::string>& warnings,

@@ -1,4 +1,5 @@
 #include "host_sim/studies/identify/unit.hpp"
+#include "firmware/numeric/turn.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +11,7 @@
 namespace sonoglide::identify {
 namespace {
 
-constexpr double radians_a_degree = 3.14159265358979323846 / 180.0;
+constexpr double radians_a_degree = numeric::half_turn / 180.0;
 
 /// Scales of prefixes, and in this order their names (`kil` and `micr` as in kilohm and microhm).
 constexpr double scales[] = {1e-12, 1e-9, 1e-6, 1e-3, 1e3, 1e6, 1e9, 1e12};

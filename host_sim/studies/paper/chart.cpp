@@ -7,8 +7,8 @@
 #include <cstddef>
 #include <iterator>
 #include <limits>
+#include <utility>
 
-#include "host_sim/output/gnuplot.hpp"
 #include "host_sim/output/number.hpp"
 
 namespace sonoglide::paper {
@@ -53,132 +53,71 @@ struct Look {
 constexpr Look looks[] = {{"#000000", 7}, {"#1f5fa8", 4},  {"#d62728", 8},
                           {"#1b9e5a", 6}, {"#b8570f", 10}, {"#7a3fa0", 12}};
 
-const Look& look(const Curve& curve) {
-  return looks[static_cast<std::size_t>(curve.colour) % std::size(looks)];
-}
-
-std::string style(const Curve& curve) {
-  const int symbol = look(curve).symbol;
-  switch (curve.line) {
-    case Line::solid:
-      return "with lines lw 2";
-    case Line::marked:
-      return fmt::format("with linespoints pt {} pi 4 ps 0.7 lw 1.6", symbol);
-    case Line::dashed:
-      return "with lines dt 2 lw 1.6";
-    case Line::points:
-      return fmt::format("with points pt {} ps 0.6 lw 1.3", symbol);
-    case Line::area:
-      break;
-  }
-  return "with filledcurves closed fs transparent solid 0.3 noborder";
-}
-
-std::string data(const Curve& curve, std::size_t index) {
-  std::string lines;
-  for (std::size_t i = 0; i < curve.x.size(); ++i) {
-    lines += output::data_point(curve.x[i], curve.y[i]);
-  }
-  return output::data_block(fmt::format("c{}", index), lines);
-}
-
-std::string source(const Curve& curve, std::size_t index) {
-  return curve.y.empty() ? "keyentry" : fmt::format("$c{} using 1:2", index);
-}
-
-std::string key_entry(const Curve& curve) {
-  return curve.label.empty() ? "notitle" : fmt::format("title \"{}\"", curve.label);
-}
-
-std::string marks(const Chart& chart) {
-  std::string text = "unset label\n";
-  for (const Mark& mark : chart.marks) {
-    text += fmt::format(
-        "set label \"{}\" at {:.9g},{:.9g} offset 0,0.5 rotate by 90 font ',11' point pt 7 ps "
-        "0.3\n",
-        mark.text, mark.x, mark.y);
-  }
-  return text;
-}
-
-std::string key_place(Key key) {
-  const char* place = "tmargin center horizontal";
+const char* place(Key key) {
   switch (key) {
-    case Key::none:
-      return "unset key\n";
     case Key::lower_right:
-      place = "inside bottom right vertical";
-      break;
+      return "inside bottom right vertical";
     case Key::upper_right:
-      place = "inside top right vertical";
-      break;
+      return "inside top right vertical";
     case Key::upper_left:
-      place = "inside top left vertical";
-      break;
+      return "inside top left vertical";
     case Key::above:
+    case Key::none:
       break;
   }
-  return fmt::format("set key {} Left reverse samplen 2.5\n", place);
-}
-
-std::vector<double> ordinates(const Chart& chart) {
-  std::vector<double> all;
-  for (const Curve& curve : chart.curves) {
-    all.insert(all.end(), curve.y.begin(), curve.y.end());
-  }
-  return all;
-}
-
-std::string script(const Chart& chart) {
-  std::string text;
-  for (std::size_t i = 0; i < chart.curves.size(); ++i) {
-    text += data(chart.curves[i], i);
-  }
-  text += marks(chart) + key_place(chart.key);
-  text += fmt::format("set title \"{}\"\nset xlabel \"{}\"\nset ylabel \"{}\"\nunset logscale\n",
-                      chart.title, chart.x_label, chart.y_label);
-  text +=
-      chart.logarithmic_y ? "set logscale y\nset format y '10^{{%L}}'\n" : "set format y '%h'\n";
-  text += chart.y_span
-              ? fmt::format("set yrange [{:.9g}:{:.9g}]\n", chart.y_span->low, chart.y_span->high)
-              : output::range_command(
-                    'y', ordinates(chart),
-                    chart.logarithmic_y ? output::Scale::logarithmic : output::Scale::linear, 1.0);
-  const char* separator = "plot ";
-  for (std::size_t i = 0; i < chart.curves.size(); ++i) {
-    const Curve& curve = chart.curves[i];
-    text += fmt::format("{}{} {} lc rgb '{}' {}", separator, source(curve, i), style(curve),
-                        look(curve).colour, key_entry(curve));
-    separator = ", ";
-  }
-  return text + '\n';
+  return "tmargin center horizontal";
 }
 
 }  // namespace
 
-std::vector<double> scaled(std::vector<double> values, double factor) {
-  for (double& value : values) {
-    value *= factor;
+output::Curve curve(std::string label, std::vector<double> x, std::vector<double> y, int colour,
+                    Style style) {
+  const Look& look = looks[static_cast<std::size_t>(colour) % std::size(looks)];
+  output::Curve curve{
+      std::move(label), std::move(y), output::Line::joined, std::move(x), {look.colour}};
+  switch (style) {
+    case Style::solid:
+      break;
+    case Style::marked:
+      curve.pen = {look.colour, 1.6, 1, look.symbol, 0.7, 4};
+      break;
+    case Style::dashed:
+      curve.pen = {look.colour, 1.6, 2};
+      break;
+    case Style::points:
+      curve.line = output::Line::dots;
+      curve.pen = {look.colour, 1.3, 1, look.symbol, 0.6};
+      break;
+    case Style::area:
+      curve.line = output::Line::area;
+      break;
   }
-  return values;
+  return curve;
 }
 
-std::string draw(const std::vector<Chart>& charts) {
-  const int columns = charts.size() == 1 ? 1 : 2;
-  const int rows = (static_cast<int>(charts.size()) + columns - 1) / columns;
-  std::string text = fmt::format(
-      "set multiplot layout {},{}\nset autoscale xfixmax\nset grid lc rgb '#d8d8d8'\nset tics out "
-      "nomirror\n"
-      "set rmargin 3\n"
-      "set offsets graph 0, graph 0, graph 0.04, graph 0\n",
-      rows, columns);
-  for (const Chart& chart : charts) {
-    text += script(chart);
+output::Chart chart(std::string title, const std::string& x_label, const std::string& y_label,
+                    std::vector<output::Curve> curves, Key key, output::Span y_span) {
+  output::Chart chart{std::move(title), "", {x_label}, {y_label}, {}, std::move(curves)};
+  for (const output::Curve& each : chart.curves) {
+    for (const double x : each.x) {
+      chart.x_axis.span.high = std::fmax(chart.x_axis.span.high, x);
+    }
   }
-  text += "unset multiplot\n";
-  return charts.size() == 1
-             ? output::draw_svg(text, single_width_px, single_height_px)
-             : output::draw_svg(text, columns * chart_width_px, rows * chart_height_px);
+  chart.y_axis.format = "%h";
+  chart.y_axis.span = y_span;
+  chart.look = key == Key::none ? "unset key\n"
+                                : fmt::format("set key {} Left reverse samplen 2.5\n", place(key));
+  return chart;
+}
+
+std::string draw(std::vector<output::Chart> charts) {
+  const bool single = charts.size() == 1;
+  const int columns = single ? 1 : 2;
+  const int rows = (static_cast<int>(charts.size()) + columns - 1) / columns;
+  return output::print({std::move(charts), single ? single_width_px : columns * chart_width_px,
+                        single ? single_height_px : rows * chart_height_px, columns,
+                        "set grid lc rgb '#d8d8d8'\nset tics out nomirror\nset rmargin 3\n"
+                        "set offsets graph 0, graph 0, graph 0.04, graph 0\n"});
 }
 
 }  // namespace sonoglide::paper

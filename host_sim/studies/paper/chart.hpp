@@ -1,9 +1,10 @@
-/// Line charts side by side, legible in print.
+/// The look of the paper's figures: line charts side by side, legible in print.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
+
+#include "host_sim/output/chart.hpp"
 
 namespace sonoglide::paper {
 
@@ -17,62 +18,40 @@ std::string to_csv(const std::vector<Column>& columns);
 
 /// marked: a line with its colour's own symbol on it, so that it is told from others in grey as
 /// well. area: inside of a closed outline, filled.
-enum class Line { solid, marked, dashed, points, area };
+enum class Style { solid, marked, dashed, points, area };
 
 /// The colour of what belongs to no curve, or to all.
 inline constexpr int black = 0;
 
-/// Numbers beside each other; NaN leaves a gap.
-struct Curve {
-  std::string label;  ///< empty: not in the key
-  std::vector<double> x;
-  std::vector<double> y;  ///< none: in the key alone
-  int colour;             ///< curves of one colour belong together, and have one symbol
-  Line line = Line::solid;
-};
-
-struct Mark {
-  std::string text;
-  double x;
-  double y;
-};
-
-struct Span {
-  double low;
-  double high;
-};
+/// @param label   empty: not in the key
+/// @param y       none: in the key alone
+/// @param colour  curves of one colour belong together, and have one symbol
+output::Curve curve(std::string label, std::vector<double> x, std::vector<double> y, int colour,
+                    Style style = Style::solid);
 
 /// Where the curves leave room for it; none where the chart beside it has the same.
 enum class Key { above, lower_right, upper_right, upper_left, none };
 
-struct Chart {
-  std::string title;
-  std::string x_label;  ///< with its unit
-  std::string y_label;
-  std::vector<Curve> curves;
-  std::vector<Mark> marks = {};
-  std::optional<Span> y_span = std::nullopt;  ///< absent: what the curves take
-  bool logarithmic_y = false;
-  Key key = Key::above;
-};
+/// @param labels  of the axes, with their units
+/// @param y_span  absent: what the curves take
+output::Chart chart(std::string title, const std::string& x_label, const std::string& y_label,
+                    std::vector<output::Curve> curves, Key key = Key::above,
+                    output::Span y_span = {});
 
-/// A map from 0 to `furthest`, in points so close that a vertical end shows; not in the key.
+/// A map from 0 to `furthest`, in points so close that a vertical end shows.
 template <class Map>
-Curve line_of(const Map& map, double furthest, int colour) {
+output::Curve line_of(const Map& map, double furthest, int colour, std::string label = "") {
   constexpr int pieces = 1200;
-  Curve curve{"", {}, {}, colour};
+  output::Curve line = curve(std::move(label), {}, {}, colour);
   for (int i = 0; i <= pieces; ++i) {
-    curve.x.push_back(furthest * i / pieces);
-    curve.y.push_back(map(curve.x.back()));
+    line.x.push_back(furthest * i / pieces);
+    line.y.push_back(map(line.x.back()));
   }
-  return curve;
+  return line;
 }
-
-/// The values in another unit.
-std::vector<double> scaled(std::vector<double> values, double factor);
 
 /// One SVG picture, two charts in a row.
 /// @throws process::ProcessError
-std::string draw(const std::vector<Chart>& charts);
+std::string draw(std::vector<output::Chart> charts);
 
 }  // namespace sonoglide::paper

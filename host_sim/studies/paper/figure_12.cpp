@@ -16,7 +16,6 @@
 #include "host_sim/studies/paper/contact_laws.hpp"
 #include "host_sim/studies/paper/experiments.hpp"
 #include "host_sim/studies/paper/figures.hpp"
-#include "host_sim/studies/paper/measurement_charts.hpp"
 #include "host_sim/studies/paper/measurements.hpp"
 #include "host_sim/studies/paper/runs.hpp"
 #include "host_sim/studies/paper/table_1.hpp"
@@ -67,31 +66,26 @@ std::string csv(const std::vector<LawCurve>& laws, const SlowSliding& slow) {
   return to_csv(all);
 }
 
-Chart laws_chart(const std::vector<LawCurve>& laws) {
+output::Chart laws_chart(const std::vector<LawCurve>& laws) {
   const double furthest = velocity_ratios().back();
-  Chart chart{"(a) Laws of friction at Table 1, 384 N",
-              "V_t / peak vibration velocity [-]",
-              "friction with / without vibration [-]",
-              {},
-              {},
-              Span{0.0, 2.6},
-              false,
-              Key::upper_left};
+  std::vector<output::Curve> curves;
   int colour = black;
   for (const LawCurve& each : laws) {
     ++colour;
     const ContactLaw& law = each.law;
     if (law.closed_form) {
-      chart.curves.push_back(line_of(law.closed_form, furthest, colour));
-      chart.curves.push_back({"", velocity_ratios(), each.simulated, colour, Line::points});
-      chart.curves.push_back({law.name, {}, {}, colour, Line::marked});
+      curves.push_back(line_of(law.closed_form, furthest, colour));
+      curves.push_back(curve("", velocity_ratios(), each.simulated, colour, Style::points));
+      curves.push_back(curve(law.name, {}, {}, colour, Style::marked));
     } else {
-      chart.curves.push_back({law.name, velocity_ratios(), each.simulated, colour, Line::marked});
+      curves.push_back(curve(law.name, velocity_ratios(), each.simulated, colour, Style::marked));
     }
   }
-  chart.curves.push_back(line_of(friction::transverse_vibration_ratio<double>, furthest, ++colour));
-  chart.curves.back().label = "transverse";
-  return chart;
+  curves.push_back(
+      line_of(friction::transverse_vibration_ratio<double>, furthest, ++colour, "transverse"));
+  return chart("(a) Laws of friction at Table 1, 384 N", "V_t / peak vibration velocity [-]",
+               "friction with / without vibration [-]", std::move(curves), Key::upper_left,
+               {0.0, 2.6});
 }
 
 /// The largest difference between simulation and closed form, but for the velocity ratio of 1, at

@@ -61,23 +61,17 @@ std::string svg(const Laws& laws) {
   const double dahl = dahl_number(table_1());
   const double furthest = x.back();
   return draw(
-      {{"Friction ratio at 384 N",
-        "V_t / peak vibration velocity [-]",
-        "friction ratio [-]",
-        {line_of(friction::coulomb_friction_ratio<double>, furthest, 1),
-         {"", x, laws.simulated_coulomb.friction_steady, 1, Line::points},
-         {"", x, laws.simulated_coulomb.friction_from_rest, 1, Line::dashed},
-         line_of([dahl](double ratio) { return friction::dahl_friction_ratio(ratio, dahl); },
-                 furthest, 2),
-         {"", x, laws.simulated_dahl.friction_steady, 2, Line::points},
-         {"", x, laws.simulated_dahl.friction_from_rest, 2, Line::dashed},
-         {"Coulomb", {}, {}, 1, Line::marked},
-         {"Dahl", {}, {}, 2, Line::marked},
-         {"from rest", {}, {}, black, Line::dashed}},
-        {},
-        Span{0.0, 1.05},
-        false,
-        Key::lower_right}});
+      {chart("Friction ratio at 384 N", "V_t / peak vibration velocity [-]", "friction ratio [-]",
+             {line_of(friction::coulomb_friction_ratio<double>, furthest, 1),
+              curve("", x, laws.simulated_coulomb.friction_steady, 1, Style::points),
+              curve("", x, laws.simulated_coulomb.friction_from_rest, 1, Style::dashed),
+              line_of([dahl](double ratio) { return friction::dahl_friction_ratio(ratio, dahl); },
+                      furthest, 2),
+              curve("", x, laws.simulated_dahl.friction_steady, 2, Style::points),
+              curve("", x, laws.simulated_dahl.friction_from_rest, 2, Style::dashed),
+              curve("Coulomb", {}, {}, 1, Style::marked), curve("Dahl", {}, {}, 2, Style::marked),
+              curve("from rest", {}, {}, black, Style::dashed)},
+             Key::lower_right, {0.0, 1.05})});
 }
 
 std::vector<Claim> claims(const Laws& laws) {

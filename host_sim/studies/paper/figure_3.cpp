@@ -34,14 +34,11 @@ double largest_jump(const std::vector<double>& values) {
 }
 
 /// On one scale for both laws.
-Chart over_time(const char* title, const std::vector<double>& time_s,
-                const std::vector<double>& force_N, int colour) {
-  return {title,
-          "time [µs]",
-          "friction force [mN]",
-          {{"", scaled(time_s, 1e6), scaled(force_N, 1e3), colour}},
-          {},
-          Span{-22.0, 22.0}};
+output::Chart over_time(const char* title, const std::vector<double>& time_s,
+                        const std::vector<double>& force_N, int colour) {
+  return chart(title, "time [µs]", "friction force [mN]",
+               {curve("", output::scaled(time_s, 1e6), output::scaled(force_N, 1e3), colour)},
+               Key::above, {-22.0, 22.0});
 }
 
 struct Accuracy {

@@ -108,9 +108,9 @@ std::vector<double> decibels(const std::vector<double>& amplitude) {
   return levels;
 }
 
-std::vector<Mark> marks(const Lines& lines, bool in_decibels) {
+std::vector<output::Mark> marks(const Lines& lines, bool in_decibels) {
   constexpr std::size_t most_marks = 8;
-  std::vector<Mark> marks;
+  std::vector<output::Mark> marks;
   for (std::size_t i = 0; i < std::min(most_marks, lines.peaks.size()); ++i) {
     const Peak& peak = lines.peaks[i];
     marks.push_back({peak.name, 1e-3 * peak.frequency_Hz,
@@ -120,22 +120,20 @@ std::vector<Mark> marks(const Lines& lines, bool in_decibels) {
   return marks;
 }
 
-std::vector<Chart> charts(const char* letter, const char* quantity, const char* unit,
-                          const Lines& lines, int colour) {
-  const std::vector<double> x = scaled(lines.spectrum.frequency_Hz, 1e-3);
+std::vector<output::Chart> charts(const char* letter, const char* quantity, const char* unit,
+                                  const Lines& lines, int colour) {
+  const std::vector<double> x = output::scaled(lines.spectrum.frequency_Hz, 1e-3);
   const std::vector<double> levels = decibels(lines.spectrum.amplitude);
-  return {{fmt::format("({}) {}, linear", letter, quantity),
-           "frequency [kHz]",
-           fmt::format("amplitude [{}]", unit),
-           {{"", x, lines.spectrum.amplitude, colour}},
-           marks(lines, false),
-           Span{0.0, 1.2 * lines.peaks[0].amplitude}},
-          {fmt::format("({}) {}, in dB of the highest peak", letter, quantity),
-           "frequency [kHz]",
-           "level [dB]",
-           {{"", x, levels, colour}},
-           marks(lines, true),
-           Span{lowest_dB, 30.0}}};
+  output::Chart linear =
+      chart(fmt::format("({}) {}, linear", letter, quantity), "frequency [kHz]",
+            fmt::format("amplitude [{}]", unit), {curve("", x, lines.spectrum.amplitude, colour)},
+            Key::above, {0.0, 1.2 * lines.peaks[0].amplitude});
+  output::Chart level =
+      chart(fmt::format("({}) {}, in dB of the highest peak", letter, quantity), "frequency [kHz]",
+            "level [dB]", {curve("", x, levels, colour)}, Key::above, {lowest_dB, 30.0});
+  linear.marks = marks(lines, false);
+  level.marks = marks(lines, true);
+  return {std::move(linear), std::move(level)};
 }
 
 std::string listed(const std::vector<Peak>& peaks, const char* unit) {
@@ -179,8 +177,8 @@ Figure figure_6() {
   const Lines steady_velocity =
       lines(velocities_m_per_s(record(scene, 0.0, interval_s)), interval_s, scene);
 
-  std::vector<Chart> all = charts("a", "Velocity", "m/s", velocity, 1);
-  for (Chart& chart : charts("b", "Friction force", "N", force, 2)) {
+  std::vector<output::Chart> all = charts("a", "Velocity", "m/s", velocity, 1);
+  for (output::Chart& chart : charts("b", "Friction force", "N", force, 2)) {
     all.push_back(std::move(chart));
   }
   return {

@@ -1,4 +1,4 @@
-#include "host_sim/studies/paper/measurement_charts.hpp"
+#include "host_sim/studies/paper/measurements.hpp"
 
 #include <fmt/format.h>
 
@@ -37,13 +37,14 @@ std::vector<double> ends(const std::vector<Interval>& ranges, double Interval::*
 }
 
 /// The outline of a range over the speed.
-Curve area(const char* label, const std::vector<double>& x, const std::vector<Interval>& ranges,
-           int colour) {
-  Curve curve{label, x, scaled(ends(ranges, &Interval::least), per_cent), colour, Line::area};
-  const std::vector<double> back = scaled(ends(ranges, &Interval::most), per_cent);
-  curve.x.insert(curve.x.end(), x.rbegin(), x.rend());
-  curve.y.insert(curve.y.end(), back.rbegin(), back.rend());
-  return curve;
+output::Curve area(const char* label, const std::vector<double>& x,
+                   const std::vector<Interval>& ranges, int colour) {
+  output::Curve outline = curve(label, x, output::scaled(ends(ranges, &Interval::least), per_cent),
+                                colour, Style::area);
+  const std::vector<double> back = output::scaled(ends(ranges, &Interval::most), per_cent);
+  outline.x.insert(outline.x.end(), x.rbegin(), x.rend());
+  outline.y.insert(outline.y.end(), back.rbegin(), back.rend());
+  return outline;
 }
 
 }  // namespace
@@ -61,62 +62,43 @@ SlowSliding slow_sliding() {
   return slow;
 }
 
-Chart slow_sliding_chart(const SlowSliding& slow) {
+output::Chart slow_sliding_chart(const SlowSliding& slow) {
   const std::vector<double>& x = slow.speeds_mm_per_s;
   std::vector<Interval> every_law;
   for (std::size_t i = 0; i < x.size(); ++i) {
     every_law.push_back(
         joined(joined(slow.coulomb[i], slow.dahl[i]), joined(slow.lugre[i], slow.stribeck[i])));
   }
-  return {"(b) Longitudinal vibration, slow sliding",
-          "sliding velocity [mm/s]",
-          "reduction of friction [%]",
-          {area("Coulomb, Dahl, LuGre, Stribeck", x, every_law, 1),
-           area("measured, all speeds", {0.0, x.back()}, {luo_reductions, luo_reductions}, black),
-           {"measured",
-            {0.0, 1e3 * luo_slow_m_per_s},
-            {per_cent * luo_static_reduction, per_cent * luo_slow_reduction},
-            black,
-            Line::points}},
-          {},
-          Span{50.0, 102.0},
-          false,
-          Key::lower_right};
+  return chart(
+      "(b) Longitudinal vibration, slow sliding", "sliding velocity [mm/s]",
+      "reduction of friction [%]",
+      {area("Coulomb, Dahl, LuGre, Stribeck", x, every_law, 1),
+       area("measured, all speeds", {0.0, x.back()}, {luo_reductions, luo_reductions}, black),
+       curve("measured", {0.0, 1e3 * luo_slow_m_per_s},
+             {per_cent * luo_static_reduction, per_cent * luo_slow_reduction}, black,
+             Style::points)},
+      Key::lower_right, {50.0, 102.0});
 }
 
-Chart contact_stiffness_chart() {
+output::Chart contact_stiffness_chart() {
   constexpr double stiffest = 2.0;
-  Curve dahl = line_of([](double number) { return per_cent * dahl_reduction_at_low_speed(number); },
-                       stiffest, 2);
-  Curve stick = line_of([](double number) { return per_cent * elastic_stick_reduction(number); },
-                        stiffest, 5);
-  dahl.label = "Dahl";
-  stick.label = "Iwan, one spring";
-  stick.line = Line::dashed;
-  return {"(c) The same at 0.1 mm/s; Iwan: speed to 0",
-          "K_t X / F_c [-]",
-          "reduction of friction [%]",
-          {{"measured",
-            {0.0, stiffest},
-            {per_cent * luo_slow_reduction, per_cent * luo_slow_reduction},
-            black},
-           dahl,
-           stick},
-          {},
-          Span{0.0, 105.0},
-          false,
-          Key::lower_right};
+  output::Curve stick =
+      line_of([](double number) { return per_cent * elastic_stick_reduction(number); }, stiffest, 5,
+              "Iwan, one spring");
+  stick.pen.dash = 2;
+  stick.pen.width = 1.6;
+  return chart(
+      "(c) The same at 0.1 mm/s; Iwan: speed to 0", "K_t X / F_c [-]", "reduction of friction [%]",
+      {curve("measured", {0.0, stiffest},
+             {per_cent * luo_slow_reduction, per_cent * luo_slow_reduction}, black),
+       line_of([](double number) { return per_cent * dahl_reduction_at_low_speed(number); },
+               stiffest, 2, "Dahl"),
+       stick},
+      Key::lower_right, {0.0, 105.0});
 }
 
-Chart normal_vibration_chart() {
-  Chart chart{"(d) Normal vibration as large as the indentation",
-              "sliding velocity [mm/s]",
-              "reduction of friction [%]",
-              {},
-              {},
-              Span{0.0, 105.0},
-              false,
-              Key::upper_right};
+output::Chart normal_vibration_chart() {
+  std::vector<output::Curve> curves;
   int colour = black;
   for (const double critical_mm_per_s : critical_velocities_mm_per_s) {
     std::vector<double> x;
@@ -125,15 +107,14 @@ Chart normal_vibration_chart() {
       x.push_back(2.5 * i);
       y.push_back(per_cent * normal_reduction(x.back(), critical_mm_per_s));
     }
-    chart.curves.push_back(
-        {fmt::format("V_c = {:g} mm/s", critical_mm_per_s), x, y, ++colour, Line::marked});
+    curves.push_back(
+        curve(fmt::format("V_c = {:g} mm/s", critical_mm_per_s), x, y, ++colour, Style::marked));
   }
-  chart.curves.push_back({"measured",
-                          {1e3 * dong_velocities_m_per_s[0], 1e3 * dong_velocities_m_per_s[1]},
-                          {per_cent * dong_reductions[0], per_cent * dong_reductions[1]},
-                          black,
-                          Line::points});
-  return chart;
+  curves.push_back(
+      curve("measured", {1e3 * dong_velocities_m_per_s[0], 1e3 * dong_velocities_m_per_s[1]},
+            {per_cent * dong_reductions[0], per_cent * dong_reductions[1]}, black, Style::points));
+  return chart("(d) Normal vibration as large as the indentation", "sliding velocity [mm/s]",
+               "reduction of friction [%]", std::move(curves), Key::upper_right, {0.0, 105.0});
 }
 
 std::vector<Column> columns(const SlowSliding& slow) {

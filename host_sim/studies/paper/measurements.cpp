@@ -100,7 +100,7 @@ std::string points(double difference) {
 
 std::string numbers(const Interval& range) {
   constexpr int digits = 9;
-  return output::csv_number(range.least, digits) + ',' + output::csv_number(range.most, digits);
+  return output::csv_cells({range.least, range.most}, digits);
 }
 
 }  // namespace

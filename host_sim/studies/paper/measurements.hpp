@@ -5,9 +5,35 @@
 #include <vector>
 
 #include "host_sim/output/page.hpp"
+#include "host_sim/studies/paper/chart.hpp"
 #include "host_sim/studies/paper/experiments.hpp"
 
 namespace sonoglide::paper {
+
+// The published measurements beside what the laws say, as charts and as columns.
+
+/// What the laws say of Luo's slider, over the sliding velocity.
+struct SlowSliding {
+  std::vector<double> speeds_mm_per_s;
+  std::vector<Interval> coulomb;
+  std::vector<Interval> dahl;
+  std::vector<Interval> lugre;
+  std::vector<Interval> stribeck;
+};
+
+/// @throws loop::ComputationError
+SlowSliding slow_sliding();
+
+/// The measured points and the least that each law says.
+output::Chart slow_sliding_chart(const SlowSliding& slow);
+
+/// Luo's slider at 0.1 mm/s over the contact stiffness, and what an elastic stick would make of it.
+output::Chart contact_stiffness_chart();
+
+/// Normal vibration over the sliding velocity, for some critical velocities.
+output::Chart normal_vibration_chart();
+
+std::vector<Column> columns(const SlowSliding& slow);
 
 /// Of the vibration: along the sliding, or normal to the surface. No measurement across the sliding
 /// is at hand.

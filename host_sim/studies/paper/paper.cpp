@@ -76,4 +76,102 @@ void write_paper(const std::filesystem::path& out, std::optional<int> figure,
   folder.commit();
 }
 
+namespace {
+
+const char* word(ClaimStatus verdict) {
+  switch (verdict) {
+    case ClaimStatus::holds:
+      return "holds";
+    case ClaimStatus::does_not_hold:
+      return "does not hold";
+    case ClaimStatus::depends:
+      break;
+  }
+  return "depends";
+}
+
+output::Table claim_table(const Figure& figure) {
+  output::Table table{"", {"What the paper says", "It", "Numbers"}, {}};
+  for (const Claim& claim : figure.claims) {
+    table.rows.push_back({claim.statement, word(claim.verdict), claim.numbers});
+  }
+  return table;
+}
+
+output::Section section(const Figure& figure) {
+  output::Section section;
+  section.title = fmt::format("Figure {}: {}", figure.number, figure.title);
+  section.text = fmt::format("{} To compute it again: {}", figure.conditions, figure.command);
+  section.tables = {claim_table(figure)};
+  section.tables.insert(section.tables.end(), figure.tables.begin(), figure.tables.end());
+  section.pictures = {
+      {fmt::format("figure_{0:02}.svg, data in figure_{0:02}.csv", figure.number), "", figure.svg}};
+  return section;
+}
+
+output::Section section(const std::vector<PrintedFault>& faults) {
+  output::Section section;
+  section.title = "Where the paper cannot be right as printed";
+  section.text = "Table 1 at 384 N and, unless said, a velocity ratio of 0.5.";
+  output::Table table{"", {"In print", "Effect, measured", "Here"}, {}};
+  for (const PrintedFault& fault : faults) {
+    table.rows.push_back({fault.in_print, fault.effect, fault.here});
+  }
+  section.tables = {table};
+  return section;
+}
+
+output::Section section(const std::vector<Balance>& balance) {
+  output::Section section;
+  section.title = "Energy balance, equations (3) to (16)";
+  section.text =
+      "The paper adds the average of the stored energy to energies of a whole carrier period; what "
+      "counts is its change. By its equation (16) the power dissipation ratio is large and "
+      "negative; "
+      "its own definition, Efu/Ef of equation (8), gives what friction really takes, and with the "
+      "change of stored energy in place of the average the balance closes. It also takes the work "
+      "of "
+      "sliding as Fn Vt T where vibration has lowered the force. Table 1 at 384 N, one carrier "
+      "period: "
+      "the hundredth from rest, or any on the steady orbit. balance.csv has every quantity.";
+  output::Table table{"",
+                      {"Start", "Velocity ratio", "Power dissipation ratio, (16) as printed",
+                       "The same, true", "Residual as printed", "Residual of the true identity"},
+                      {}};
+  for (const Balance& b : balance) {
+    table.rows.push_back(
+        {b.start == "steady" ? "steady orbit" : "from rest", fmt::format("{:g}", b.velocity_ratio),
+         fmt::format("{:.1f}", b.printed_dissipation_ratio),
+         fmt::format("{:.6f}", b.true_dissipation_ratio), fmt::format("{:.2g}", b.printed_residual),
+         fmt::format("{:.1e}", b.true_residual)});
+  }
+  section.tables = {table};
+  return section;
+}
+
+}  // namespace
+
+output::Page paper_page(const std::vector<Figure>& figures, const Findings& findings) {
+  output::Page page;
+  page.title = "Friction reduction by ultrasonic vibration: a paper computed again";
+  page.lead =
+      "S. Bharadwaj and M. J. Dapino, Characterisation of friction reduction with tangential "
+      "ultrasonic vibrations using a SDOF model, Int. J. Vehicle Design 63 (2013) 291-304: each "
+      "figure from this solver, what the paper says of it, and whether the numbers bear it out. "
+      "The "
+      "friction here opposes the motion, V = Vt + x', which is the convention of the paper's "
+      "equations "
+      "(6) and (8) and not of (1) and (2).";
+  for (const Figure& figure : figures) {
+    page.sections.push_back(section(figure));
+  }
+  if (!findings.faults.empty()) {
+    page.sections.push_back(section(findings.faults));
+  }
+  if (!findings.balances.empty()) {
+    page.sections.push_back(section(findings.balances));
+  }
+  return page;
+}
+
 }  // namespace sonoglide::paper

@@ -22,7 +22,7 @@ constexpr const char* windows =
 constexpr const char* friction_label = "friction ratio [-]";
 constexpr const char* dissipation_label = "power dissipation ratio [-]";
 constexpr const char* velocity_label = "V_t / peak vibration velocity [-]";
-constexpr Span friction_span = {0.0, 1.05};
+constexpr output::Span friction_span = {0.0, 1.05};
 
 struct Variation {
   std::string label;  ///< for the key
@@ -58,33 +58,32 @@ std::vector<Column> columns(const std::vector<Variation>& variations) {
   return all;
 }
 
-Chart chart(const char* title, const char* y_label, const std::vector<Variation>& variations,
-            std::vector<double> SimulatedRatios::*steady,
-            std::vector<double> SimulatedRatios::*from_rest) {
-  Chart chart{title, velocity_label, y_label, {}};
+output::Chart ratio_chart(const char* title, const char* y_label,
+                          const std::vector<Variation>& variations,
+                          std::vector<double> SimulatedRatios::*steady,
+                          std::vector<double> SimulatedRatios::*from_rest, Key key,
+                          output::Span span) {
+  std::vector<output::Curve> curves;
   int colour = black;
   for (const Variation& each : variations) {
     ++colour;
-    chart.curves.push_back(
-        {each.label, velocity_ratios(), each.curve.*steady, colour, Line::marked});
-    chart.curves.push_back({"", velocity_ratios(), each.curve.*from_rest, colour, Line::dashed});
+    curves.push_back(
+        curve(each.label, velocity_ratios(), each.curve.*steady, colour, Style::marked));
+    curves.push_back(curve("", velocity_ratios(), each.curve.*from_rest, colour, Style::dashed));
   }
-  chart.curves.push_back({"from rest", {}, {}, black, Line::dashed});
-  return chart;
+  curves.push_back(curve("from rest", {}, {}, black, Style::dashed));
+  return chart(title, velocity_label, y_label, std::move(curves), key, span);
 }
 
-std::vector<Chart> charts(const std::vector<Variation>& variations,
-                          const char* friction_title = "(a) Friction ratio",
-                          const char* dissipation_title = "(b) Power dissipation ratio") {
-  Chart friction = chart(friction_title, friction_label, variations,
-                         &SimulatedRatios::friction_steady, &SimulatedRatios::friction_from_rest);
-  friction.y_span = friction_span;
-  friction.key = Key::none;
-  Chart dissipation =
-      chart(dissipation_title, dissipation_label, variations, &SimulatedRatios::dissipation_steady,
-            &SimulatedRatios::dissipation_from_rest);
-  dissipation.key = Key::upper_right;
-  return {friction, dissipation};
+std::vector<output::Chart> charts(const std::vector<Variation>& variations,
+                                  const char* friction_title = "(a) Friction ratio",
+                                  const char* dissipation_title = "(b) Power dissipation ratio",
+                                  Key key = Key::upper_right, output::Span span = {}) {
+  return {ratio_chart(friction_title, friction_label, variations, &SimulatedRatios::friction_steady,
+                      &SimulatedRatios::friction_from_rest, Key::none, friction_span),
+          ratio_chart(dissipation_title, dissipation_label, variations,
+                      &SimulatedRatios::dissipation_steady, &SimulatedRatios::dissipation_from_rest,
+                      key, span)};
 }
 
 /// "384 N: 0.6749, 960 N: 0.5727" at one velocity ratio.
@@ -192,19 +191,17 @@ std::vector<Claim> claims(const Resonance& resonance) {
        "stiffness, and a free vibration takes the longer to fade the larger the drive's is."}};
 }
 
-std::vector<Chart> charts(const Resonance& resonance) {
+std::vector<output::Chart> charts(const Resonance& resonance) {
   const char* part_label = "Ks/(m ω²) [-]";
-  return {{"(c) Steady orbit at V_t = 26.7 mm/s",
-           part_label,
-           friction_label,
-           {{"", resonance.parts, resonance.friction, 1, Line::points}}},
-          {"(d) Steady orbit at V_t = 26.7 mm/s",
-           part_label,
-           dissipation_label,
-           {{"", resonance.parts, resonance.dissipation, 1, Line::points}},
-           {},
-           Span{0.5, 200.0},
-           true}};
+  std::vector<output::Chart> both = {
+      chart("(c) Steady orbit at V_t = 26.7 mm/s", part_label, friction_label,
+            {curve("", resonance.parts, resonance.friction, 1, Style::points)}),
+      chart("(d) Steady orbit at V_t = 26.7 mm/s", part_label, dissipation_label,
+            {curve("", resonance.parts, resonance.dissipation, 1, Style::points)}, Key::above,
+            {0.5, 200.0})};
+  both.back().y_axis.logarithmic = true;
+  both.back().y_axis.format = "10^{%L}";
+  return both;
 }
 
 /// The same scenes at the same sliding velocities, without their drive.
@@ -340,8 +337,8 @@ Figure figure_9() {
                                                 mass_kg / scene.plant.mass_kg;
                                             scene.plant.mass_kg = mass_kg;
                                           });
-  std::vector<Chart> of_all = charts(all);
-  of_all[1].y_span = Span{0.0, 2.5};  // room for the key
+  std::vector<output::Chart> of_all = charts(all);
+  of_all[1].y_axis.span = {0.0, 2.5};  // room for the key
   return {9,
           "Effect of the mass",
           conditions("Table 1 at 384 N, the normal force being the weight."),
@@ -361,10 +358,9 @@ Figure figure_10() {
       table_1(), {5.6e3, 56e3, 560e3}, "Kt = {:g} N/m", "driven_{:g}_N_per_m",
       [](scene::Scene& scene, double value) { scene.friction.contact_stiffness_N_per_m = value; });
   const std::vector<Variation> undriven = without_excitation(driven);
-  std::vector<Chart> of_undriven = charts(undriven, "(a) Friction ratio, no excitation",
-                                          "(b) Power dissipation ratio, no excitation");
-  of_undriven[1].y_span = friction_span;
-  of_undriven[1].key = Key::lower_right;
+  const std::vector<output::Chart> of_undriven =
+      charts(undriven, "(a) Friction ratio, no excitation",
+             "(b) Power dissipation ratio, no excitation", Key::lower_right, friction_span);
   std::vector<Column> of_driven = columns(driven);
   of_driven.erase(of_driven.begin());  // the velocity ratios stand before the others already
   return {10,

@@ -68,14 +68,16 @@ struct Unit {
   double per_si;
 };
 
-Chart over_time(const char* title, const Unit& unit, const Motions& motions,
-                const std::vector<double>& from_rest, const std::vector<double>& on_orbit) {
-  return {title,
-          "time [µs]",
-          unit.label,
-          {{"from rest", scaled(motions.from_rest.time_s, 1e6), scaled(from_rest, unit.per_si), 1},
-           {"steady orbit", scaled(motions.on_orbit.time_s, 1e6), scaled(on_orbit, unit.per_si), 2,
-            Line::dashed}}};
+output::Chart over_time(const char* title, const Unit& unit, const Motions& motions,
+                        const std::vector<double>& from_rest, const std::vector<double>& on_orbit) {
+  const auto line = [&unit](const char* label, const loop::Recording& motion,
+                            const std::vector<double>& values, int colour, Style style) {
+    return curve(label, output::scaled(motion.time_s, 1e6), output::scaled(values, unit.per_si),
+                 colour, style);
+  };
+  return chart(title, "time [µs]", unit.label,
+               {line("from rest", motions.from_rest, from_rest, 1, Style::solid),
+                line("steady orbit", motions.on_orbit, on_orbit, 2, Style::dashed)});
 }
 
 Claim not_sinusoidal(const char* quantity, const std::vector<double>& from_rest,

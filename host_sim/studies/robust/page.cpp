@@ -111,7 +111,7 @@ std::vector<std::size_t> drawn_order(const std::vector<double>& values) {
 }
 
 /// Part of the plants that stay at or below a value.
-std::optional<output::Panel> distribution(const Study& study, const Figure& figure) {
+std::optional<output::Chart> distribution(const Study& study, const Figure& figure) {
   std::vector<double> values = values_of(study, figure);
   const auto all = static_cast<double>(values.size());
   values.erase(std::remove_if(values.begin(), values.end(), [](double v) { return std::isnan(v); }),
@@ -123,21 +123,21 @@ std::optional<output::Panel> distribution(const Study& study, const Figure& figu
   if (is_one_value(values.front(), values.back())) {
     return std::nullopt;
   }
-  output::Panel panel;
+  output::Chart chart;
   const std::string label = figure.label;
-  panel.title = label.substr(0, label.find(" ["));
-  panel.x_label = figure.label;
-  panel.y_label = "Part of the plants at or below [-]";
-  output::Series series{"Plants", {}, true};
+  chart.title = label.substr(0, label.find(" ["));
+  chart.x_axis.label = figure.label;
+  chart.y_axis.label = "Part of the plants at or below [-]";
+  output::Curve series{"Plants", {}, output::Line::stepped};
   const std::size_t step = (values.size() - 1) / most_points_drawn + 1;
   for (std::size_t i = 0; i < values.size(); ++i) {
     if (i % step == 0 || i + 1 == values.size()) {
-      panel.x.push_back(values[i]);
+      chart.x.push_back(values[i]);
       series.y.push_back(static_cast<double>(i + 1) / all);
     }
   }
-  panel.series.push_back(std::move(series));
-  return panel;
+  chart.curves.push_back(std::move(series));
+  return chart;
 }
 
 output::Section distribution_section(const Study& study) {
@@ -148,8 +148,8 @@ output::Section distribution_section(const Study& study) {
       "plants has no curve.",
       {}};
   for (const Figure& figure : figures()) {
-    if (auto panel = distribution(study, figure)) {
-      section.panels.push_back(std::move(*panel));
+    if (auto chart = distribution(study, figure)) {
+      section.charts.push_back(std::move(*chart));
     }
   }
   return section;
@@ -171,27 +171,27 @@ output::Table importance_table(const Task& task, const std::vector<std::vector<I
   return table;
 }
 
-output::Panel scatter(const Task& task, const Study& study, std::size_t tolerance) {
+output::Chart scatter(const Task& task, const Study& study, std::size_t tolerance) {
   const std::vector<double> factors = factors_of(task, tolerance);
-  output::Panel panel;
-  panel.title = task.tolerances()[tolerance].key;
-  panel.x_label = task.tolerances()[tolerance].key;
-  panel.y_label = "|Steady error| + ripple [-]";
-  output::Series passed{"Settled", {}};
-  output::Series failed{"Failed", {}};
-  passed.marked = true;
-  failed.marked = true;
+  output::Chart chart;
+  chart.title = task.tolerances()[tolerance].key;
+  chart.x_axis.label = task.tolerances()[tolerance].key;
+  chart.y_axis.label = "|Steady error| + ripple [-]";
+  output::Curve passed{"Settled", {}};
+  output::Curve failed{"Failed", {}};
+  passed.line = output::Line::dots;
+  failed.line = output::Line::dots;
   for (const std::size_t i : drawn_order(factors)) {
     const PlantRow& row = study.samples[i];
-    panel.x.insert(panel.x.end(), 2, factors[i]);
+    chart.x.insert(chart.x.end(), 2, factors[i]);
     // A gap behind each dot: no line joins them.
     passed.y.insert(passed.y.end(),
                     {row.failed() ? PlantRow::undefined : row.deviation, PlantRow::undefined});
     failed.y.insert(failed.y.end(),
                     {row.failed() ? row.deviation : PlantRow::undefined, PlantRow::undefined});
   }
-  panel.series = {std::move(passed), std::move(failed)};
-  return panel;
+  chart.curves = {std::move(passed), std::move(failed)};
+  return chart;
 }
 
 /// By what they explain of the deviation, the most first.
@@ -224,7 +224,7 @@ output::Section importance_section(const Task& task, const Study& study) {
       importance_table(task, found, "Main effect", &Importance::main_effect)};
   const std::vector<std::size_t> order = by_importance(task, study);
   for (std::size_t i = 0; i < std::min(order.size(), most_scatters); ++i) {
-    section.panels.push_back(scatter(task, study, order[i]));
+    section.charts.push_back(scatter(task, study, order[i]));
   }
   return section;
 }
@@ -239,24 +239,25 @@ struct Course final : loop::PeriodSink {
   }
 };
 
-output::Panel loop_panel(const std::string& title, const scene::Scene& scene,
+output::Chart loop_chart(const std::string& title, const scene::Scene& scene,
                          const configure::ControlDesign& design) {
   Course course;
   loop::Watch watch;
   watch.periods.push_back(&course);
-  output::Panel panel;
-  panel.title = title;
-  panel.x_label = "Time [s]";
-  panel.y_label = "Friction ratio [-]";
-  panel.group = "loops";
+  output::Chart chart;
+  chart.title = title;
+  chart.x_axis.label = "Time [s]";
+  chart.y_axis.label = "Friction ratio [-]";
+  chart.group = "loops";
   try {
     loop::run(scene, design, watch);
   } catch (const loop::ComputationError& error) {
-    panel.note = fmt::format("Ends early: {}.", error.what());
+    chart.note = fmt::format("Ends early: {}.", error.what());
   }
-  panel.x = course.curve.x();
-  panel.series = {{"Target", course.curve.y(0), true}, {"Friction ratio", course.curve.y(1)}};
-  return panel;
+  chart.x = course.curve.x();
+  chart.curves = {{"Target", course.curve.y(0), output::Line::stepped},
+                  {"Friction ratio", course.curve.y(1)}};
+  return chart;
 }
 
 output::Section worst_section(const Task& task, const Study& study) {
@@ -268,9 +269,9 @@ output::Section worst_section(const Task& task, const Study& study) {
           "same loop.",
           study.worst.found_by, task.describe(study.worst.factors)),
       {}};
-  section.panels.push_back(
-      loop_panel("Worst plant", task.plant(study.worst.factors), task.design()));
-  section.panels.push_back(loop_panel("The scene's own plant", task.nominal(), task.design()));
+  section.charts.push_back(
+      loop_chart("Worst plant", task.plant(study.worst.factors), task.design()));
+  section.charts.push_back(loop_chart("The scene's own plant", task.nominal(), task.design()));
   return section;
 }
 

@@ -1,4 +1,4 @@
-#include "host_sim/studies/robust/search.hpp"
+#include "host_sim/studies/robust/study.hpp"
 
 #include <algorithm>
 #include <limits>

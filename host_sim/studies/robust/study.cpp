@@ -12,7 +12,6 @@
 #include "host_sim/runs/run_many.hpp"
 #include "host_sim/scene_file/scene_error.hpp"
 #include "host_sim/scene_file/to_json.hpp"
-#include "host_sim/studies/robust/search.hpp"
 #include "host_sim/studies/robust/spread.hpp"
 
 namespace sonoglide::robust {

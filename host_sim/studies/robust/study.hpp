@@ -9,13 +9,44 @@
 #include <string_view>
 #include <vector>
 
+#include "host_sim/configure/control_design.hpp"
 #include "host_sim/long_work/journal.hpp"
 #include "host_sim/long_work/kept_points.hpp"
 #include "host_sim/long_work/pace.hpp"
+#include "host_sim/scene/scene.hpp"
 #include "host_sim/studies/robust/row.hpp"
 #include "host_sim/studies/robust/task.hpp"
 
 namespace sonoglide::robust {
+
+// The largest value of a function over a cube, without its derivatives.
+
+/// A place in the cube [0, 1]^n.
+using Place = std::vector<double>;
+
+/// Called with the places one after the other, `run` counting them from 0.
+using Function = std::function<double(std::size_t run, const Place& place)>;
+
+/// Climbs from a place to a higher one: COBYLA (Powell 1994) of NLopt, which models the function as
+/// linear in a region that shrinks. Deterministic. The last run moves what is within 1e-3 of a face
+/// of the cube onto it: a corner is met to the bit. Inside the cube a smooth maximum is met to about
+/// 1e-3 of its edges.
+/// @param runs  at most, > 0
+void climb(const Place& start, std::size_t runs, const Function& function);
+
+// Many plants under one controller.
+
+/// Takes rows, by the places of their plants, from any thread.
+using TakeRows = std::function<void(std::vector<Record> rows)>;
+
+/// Runs each of the plants with a controller of this design, on all threads: those that suit SIMD
+/// lanes in them, the others, and what the lanes give up, as `run` does. A row depends on its plant
+/// alone, to the bit; a computation that fails gives a row that says why.
+/// @param plants  closed-loop scenes for which the design was made: they differ in true values alone
+void run_plants(const std::vector<scene::Scene>& plants, const configure::ControlDesign& design,
+                const TakeRows& take);
+std::vector<PlantRow> run_plants(const std::vector<scene::Scene>& plants,
+                                 const configure::ControlDesign& design);
 
 /// A run of the search.
 struct SearchRun {

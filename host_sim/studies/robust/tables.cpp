@@ -130,11 +130,6 @@ namespace {
 
 using nlohmann::ordered_json;
 
-/// JSON has no NaN.
-ordered_json defined(double value) {
-  return std::isnan(value) ? ordered_json() : ordered_json(value);
-}
-
 ordered_json counts_json(const std::vector<NameCount>& names) {
   ordered_json json = ordered_json::object();
   for (const NameCount& each : names) {
@@ -150,9 +145,9 @@ ordered_json worst_json(const Task& task, const WorstPlant& worst) {
     json["factors"][task.tolerances()[i].key] = worst.factors[i];
   }
   for (const Figure& figure : figures()) {
-    json[figure.key] = defined(worst.row.*figure.value);
+    json[figure.key] = output::json_number(worst.row.*figure.value);
   }
-  json["deviation"] = defined(worst.row.deviation);
+  json["deviation"] = output::json_number(worst.row.deviation);
   json["never_settled"] = worst.row.unsettled;
   json["limits"] = limit_names(worst.row);
   json["faults"] = fault_names(worst.row);
@@ -167,8 +162,9 @@ void add_importance(ordered_json& json, const Task& task, const Study& study) {
   for (std::size_t i = 0; i < found.size(); ++i) {
     ordered_json& of_key = json[task.tolerances()[i].key];
     for (std::size_t k = 0; k < found[i].size(); ++k) {
-      of_key[figures()[k].key] = {{"rank_correlation", defined(found[i][k].rank_correlation)},
-                                  {"main_effect", defined(found[i][k].main_effect)}};
+      of_key[figures()[k].key] = {
+          {"rank_correlation", output::json_number(found[i][k].rank_correlation)},
+          {"main_effect", output::json_number(found[i][k].main_effect)}};
     }
   }
 }
@@ -196,10 +192,10 @@ ordered_json to_json(const Task& task, const Study& study) {
   json["not_computed"] = count_if(study, [](const PlantRow& row) { return !row.ok(); });
   for (const Figure& figure : figures()) {
     const Quantiles found = quantiles(values_of(study, figure));
-    json[figure.key] = {{"median", defined(found.median)},
-                        {"p95", defined(found.p95)},
-                        {"p99", defined(found.p99)},
-                        {"worst", defined(found.worst)}};
+    json[figure.key] = {{"median", output::json_number(found.median)},
+                        {"p95", output::json_number(found.p95)},
+                        {"p99", output::json_number(found.p99)},
+                        {"worst", output::json_number(found.worst)}};
   }
   json["limits"] = counts_json(count_names(study, limit_names));
   json["faults"] = counts_json(count_names(study, fault_names));

@@ -1,4 +1,4 @@
-#include "host_sim/studies/stability/extremes.hpp"
+#include "host_sim/studies/stability/study.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,13 +1,16 @@
-#include "host_sim/studies/stability/report.hpp"
-
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <vector>
 
+#include "host_sim/output/chart.hpp"
 #include "host_sim/studies/stability/random_scene.hpp"
+#include "host_sim/studies/stability/study.hpp"
 
 namespace sonoglide::stability {
 namespace {
@@ -132,6 +135,142 @@ output::Page study_page(const StabilityStudy& study, const MapPictures& pictures
                     {{"float64", "", pictures.float64}, {"float32", "", pictures.float32}}},
                    {"How the extreme cases are counted", extremes_text(), {}, {}}};
   return page;
+}
+
+namespace {
+
+constexpr int panel_columns = 3;
+constexpr int panel_width_px = 380;
+constexpr int panel_height_px = 300;
+constexpr int legend_height_px = 90;
+
+struct Shade {
+  Verdict verdict;
+  const char* colour;  ///< apart for every kind of colour vision: Okabe and Ito (2008)
+  const char* text;
+};
+
+/// Orange, pink and black for what goes unnoticed; blue, yellow and grey for what is reported.
+constexpr std::array<Shade, 8> shades = {{
+    {Verdict::good, "#009E73", "accurate"},
+    {Verdict::wrong, "#D55E00", "bounded but wrong, not reported"},
+    {Verdict::silent_friction_bound, "#CC79A7", "|F| > Fc, not reported"},
+    {Verdict::silent_not_finite, "#000000", "not finite, not reported"},
+    {Verdict::declined_friction_bound, "#56B4E9", "declined: |F| > Fc"},
+    {Verdict::declined_step_too_long, "#F0E442", "declined: step too long"},
+    {Verdict::declined_not_finite, "#0072B2", "declined: blown up"},
+    {Verdict::declined_too_many_steps, "#999999", "declined: too many steps"},
+}};
+
+/// Half the ratio of neighbouring values: how far a cell reaches to either side of its own.
+double half_ratio(const std::vector<double>& values) {
+  return values.size() < 2 ? 1.2 : std::sqrt(values[1] / values[0]);
+}
+
+const std::vector<double>& settings(const MapGrid& grid, const SolverMap& map) {
+  return map.adaptive ? grid.tolerance : grid.steps_per_period;
+}
+
+/// The boxes of one verdict: neighbours in stiffness are drawn as one.
+output::Tiles boxes(const StabilityMaps& maps, const SolverMap& map, const Shade& shade) {
+  const double across = half_ratio(maps.grid.contact_stiffness_N_per_m);
+  const double along = half_ratio(settings(maps.grid, map));
+  output::Tiles boxes{{}, shade.colour};
+  for (auto cell = map.cells.begin(); cell != map.cells.end();) {
+    const auto end = std::find_if(cell, map.cells.end(), [&](const MapCell& next) {
+      return next.verdict != cell->verdict || next.setting != cell->setting;
+    });
+    if (cell->verdict == shade.verdict) {
+      const auto [low, high] = std::minmax({cell->setting / along, cell->setting * along});
+      boxes.all.push_back({{cell->contact_stiffness_N_per_m / across,
+                            std::prev(end)->contact_stiffness_N_per_m * across},
+                           {low, high}});
+    }
+    cell = end;
+  }
+  return boxes;
+}
+
+const output::Pen limit_pen = {"black", 2.0, 2};
+
+/// Where classical Runge–Kutta becomes unstable.
+output::Curve limit_curve(const StabilityMaps& maps) {
+  output::Curve curve{"", {}, output::Line::joined, maps.grid.contact_stiffness_N_per_m, limit_pen};
+  for (const double stiffness : curve.x) {
+    curve.y.push_back(rk4_limit_steps_per_period(stiffness));
+  }
+  return curve;
+}
+
+output::Chart panel(const StabilityMaps& maps, const SolverMap& map, const output::Place& place) {
+  const std::vector<double>& x = maps.grid.contact_stiffness_N_per_m;
+  const std::vector<double>& y = settings(maps.grid, map);
+  const double across = half_ratio(x);
+  const double along = half_ratio(y);
+  // The strictest setting is on top in every panel.
+  output::Chart chart{
+      std::string(map.solver),
+      "",
+      {"contact stiffness [N/m]", true, {x.front() / across, x.back() * across}, "10^{%T}"},
+      {map.adaptive ? "tolerance [-]" : "steps per carrier period [-]",
+       true,
+       {y.front() / along, y.back() * along},
+       "10^{%T}"},
+      {},
+      {}};
+  for (const Shade& shade : shades) {
+    chart.tiles.push_back(boxes(maps, map, shade));
+  }
+  if (map.solver == "rk4" || map.solver == "rk4_event") {
+    chart.curves.push_back(limit_curve(maps));
+  }
+  chart.place = place;
+  chart.verbatim = true;
+  return chart;
+}
+
+/// A panel without axes whose curves have nothing but titles.
+output::Chart legend(double height) {
+  output::Chart chart{"", "", {"", false, {0.0, 1.0}}, {"", false, {0.0, 1.0}}, {}, {}};
+  for (const Shade& shade : shades) {
+    chart.tiles.push_back({{}, shade.colour, shade.text});
+  }
+  chart.curves.push_back({"h = 2.785 Fc/(Kt |V|max)", {}, output::Line::joined, {}, limit_pen});
+  chart.place = {0.0, 0.0, 1.0, height};
+  chart.look =
+      "unset border\nunset tics\nset lmargin at screen 0.02\nset rmargin at screen 0.98\n"
+      "set key inside center center horizontal maxrows 2 Left reverse samplen 1.5\n";
+  return chart;
+}
+
+}  // namespace
+
+std::string map_picture(const StabilityMaps& maps, std::string_view precision) {
+  std::vector<const SolverMap*> shown;
+  for (const SolverMap& map : maps.maps) {
+    if (map.precision == precision) {
+      shown.push_back(&map);
+    }
+  }
+  const auto rows = static_cast<int>((shown.size() + panel_columns - 1) / panel_columns);
+  const int height_px = rows * panel_height_px + legend_height_px;
+  const double legend_height = static_cast<double>(legend_height_px) / height_px;
+  const double panel_height = (1.0 - legend_height) / rows;
+  output::Sheet sheet{{},
+                      panel_columns * panel_width_px,
+                      height_px,
+                      panel_columns,
+                      "set tics out nomirror\nunset mxtics\nunset mytics\n"};
+  for (std::size_t i = 0; i < shown.size(); ++i) {
+    const auto row = static_cast<int>(i) / panel_columns;
+    const auto column = static_cast<int>(i) % panel_columns;
+    sheet.charts.push_back(
+        panel(maps, *shown[i],
+              {static_cast<double>(column) / panel_columns, 1.0 - (row + 1) * panel_height,
+               1.0 / panel_columns, panel_height}));
+  }
+  sheet.charts.push_back(legend(legend_height));
+  return output::print(sheet);
 }
 
 }  // namespace sonoglide::stability

@@ -1,4 +1,4 @@
-#include "host_sim/studies/sweep/axis.hpp"
+#include "host_sim/studies/sweep/plan.hpp"
 
 #include <fmt/format.h>
 
@@ -11,7 +11,6 @@
 #include "host_sim/scene_file/override.hpp"
 #include "host_sim/scene_file/scene_error.hpp"
 #include "host_sim/scene_file/toml_text.hpp"
-#include "host_sim/studies/sweep/decades.hpp"
 
 namespace sonoglide::sweep {
 namespace {

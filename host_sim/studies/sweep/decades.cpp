@@ -1,4 +1,4 @@
-#include "host_sim/studies/sweep/decades.hpp"
+#include "host_sim/studies/sweep/plan.hpp"
 
 #include <fmt/format.h>
 

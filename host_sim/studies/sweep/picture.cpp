@@ -3,18 +3,15 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <utility>
 
+#include "host_sim/output/chart.hpp"
 #include "host_sim/output/gnuplot.hpp"
 #include "host_sim/studies/sweep/report.hpp"
-#include "host_sim/studies/sweep/subject.hpp"
 
 namespace sonoglide::sweep {
 namespace {
 
-/// Viridis at nine places. Source: Smith and van der Walt, the default colour map of Matplotlib 2.
-constexpr const char* palette =
-    "set palette defined (0 '#440154', 1 '#472d7b', 2 '#3b528b', 3 '#2c728e', 4 '#21918c', "
-    "5 '#28ae80', 6 '#5ec962', 7 '#addc30', 8 '#fde725')\n";
 constexpr const char* grey = "#b8b8b8";
 
 struct Cell {
@@ -54,146 +51,148 @@ std::vector<Cell> cells(const Axis& axis) {
   return cells;
 }
 
-std::string range_command(const std::vector<Cell>& cells, char letter) {
-  return fmt::format("set {}range [{}:{}]\n", letter, std::min(cells.front().low, cells.back().low),
-                     std::max(cells.front().high, cells.back().high));
+output::Span span(const std::vector<Cell>& cells) {
+  return {std::min(cells.front().low, cells.back().low),
+          std::max(cells.front().high, cells.back().high)};
 }
 
-/// A gnuplot script: one cell for each point in the colour of the sweep's subject(), grey where
-/// that is not defined. Other axes stay at their first value.
+/// Its label, its scale where that is logarithmic, and the names of values that stand side by side.
+output::Axis drawn(const Axis& axis) {
+  output::Axis drawn{axis.key, false, {}, "%g"};
+  drawn.verbatim = true;
+  if (axis.categorical()) {
+    for (std::size_t index = 0; index < axis.count; ++index) {
+      drawn.ticks += fmt::format("{}{} {}", index == 0 ? "" : ", ",
+                                 output::quoted(axis.text(index)), axis.position(index));
+    }
+    drawn.span = {0.5, static_cast<double>(axis.count) + 0.5};
+  } else if (axis.logarithmic && axis.from > 0.0) {
+    // One of negative values is drawn on a linear scale.
+    drawn.logarithmic = true;
+    // Within one decade the ticks are no powers of ten.
+    if (std::abs(std::log10(axis.to / axis.from)) >= 1.0) {
+      drawn.format = "10^{%L}";
+    }
+  }
+  return drawn;
+}
+
+/// One cell for each point in the colour of the sweep's subject(), grey where that is not defined.
+/// Other axes stay at their first value.
 /// @param upward, rightward  axes with more than one value
 /// @param rows  the subject is defined in one at least
-std::string heat_map(const Plan& plan, const std::vector<PointResult>& rows, std::size_t upward,
-                     std::size_t rightward) {
+output::Chart heat_map(const Plan& plan, const std::vector<PointResult>& rows, std::size_t upward,
+                       std::size_t rightward) {
   const Grid& grid = plan.grid();
   const Subject series = subject(plan);
   const std::vector<Cell> up = cells(grid.axes()[upward]);
   const std::vector<Cell> right = cells(grid.axes()[rightward]);
-  std::string defined;
-  std::string undefined;
+  output::Tiles defined;
+  output::Tiles undefined{{}, grey};
   for (const Cell& y : up) {
     for (const Cell& x : right) {
       const double value =
           rows[y.index * grid.stride(upward) + x.index * grid.stride(rightward)].*series.figure;
-      fmt::format_to(std::back_inserter(std::isnan(value) ? undefined : defined),
-                     "{} {} {} {} {} {} {}\n", between(grid.axes()[rightward], x.low, x.high),
-                     between(grid.axes()[upward], y.low, y.high), x.low, x.high, y.low, y.high,
-                     value);
+      (std::isnan(value) ? undefined : defined)
+          .all.push_back({{x.low, x.high}, {y.low, y.high}, value});
     }
   }
-  std::string script =
-      output::data_block("defined", defined) + output::data_block("undefined", undefined);
-  script += palette;
-  script += axis_commands(grid.axes()[rightward], 'x') + axis_commands(grid.axes()[upward], 'y') +
-            range_command(right, 'x') + range_command(up, 'y');
-  script += fmt::format("set cblabel '{}'\nset autoscale cbfix\nset tics out nomirror\nunset key\n",
-                        series.label);
-  script += "plot $defined using 1:2:3:4:5:6:7 with boxxyerror fs solid noborder fc palette";
-  if (!undefined.empty()) {
-    script += fmt::format(
-        ", $undefined using 1:2:3:4:5:6 with boxxyerror fs solid noborder fc rgb '{}'", grey);
+  output::Chart chart{"", "", drawn(grid.axes()[rightward]), drawn(grid.axes()[upward]), {}, {}};
+  chart.x_axis.span = span(right);
+  chart.y_axis.span = span(up);
+  chart.tiles = {std::move(defined)};
+  if (!undefined.all.empty()) {
+    chart.tiles.push_back(std::move(undefined));
   }
-  return script + '\n';
+  chart.look = fmt::format("set cblabel '{}'\nset autoscale cbfix\nunset key\n", series.label);
+  return chart;
 }
 
-/// Values side by side are not joined.
-constexpr const char* joined = "linespoints pt 7 ps 0.4 lw 2";
-constexpr const char* apart = "points pt 7 ps 1.2";
+constexpr const char* key_above =
+    "set grid lc rgb '#d8d8d8'\nset key outside top center horizontal";
 
-constexpr const char* open_loop_plot =
-    "$defined using 1:3 with {0} lc rgb '#9ecae1' title 'whole run', "
-    "$defined using 1:2 with {0} lc rgb '#3b528b' title 'window'";
-constexpr const char* closed_loop_plot =
-    "$defined using 1:2:3 with yerrorbars pt 7 ps 0.5 lw 1.5 lc rgb '#3b528b' "
-    "title 'steady error ± ripple'";
-
-/// A gnuplot script: the friction ratio over window and whole run against the key; in closed loop
-/// the steady error with the ripple on either side. Failed points are grey lines from bottom to
-/// top. Other axes have one value.
+/// The friction ratio over window and whole run against the key; in closed loop the steady error
+/// with the ripple on either side. Failed points are grey lines from bottom to top. Other axes have
+/// one value.
 /// @param axis  with more than one value
-std::string curve(const Plan& plan, const std::vector<PointResult>& rows, std::size_t axis) {
+output::Chart curve(const Plan& plan, const std::vector<PointResult>& rows, std::size_t axis) {
   const Subject series = subject(plan);
-  const Axis& drawn = plan.grid().axes()[axis];
-  std::string defined;
-  std::string failed;
+  const Axis& along = plan.grid().axes()[axis];
+  output::Curve failed{"failed", {}, output::Line::full_height, {}, {grey}};
+  std::vector<double> x;
+  std::vector<double> subjects;
+  std::vector<double> others;
   for (std::size_t point = 0; point < rows.size(); ++point) {
     const PointResult& row = rows[point];
-    const double x = drawn.position(plan.grid().index(point, axis));
-    fmt::format_to(std::back_inserter(defined), "{} {} {}\n", x, row.*series.figure,
-                   plan.closed_loop() ? row.ripple : row.friction_ratio_whole_run);
+    x.push_back(along.position(plan.grid().index(point, axis)));
+    subjects.push_back(row.*series.figure);
+    others.push_back(plan.closed_loop() ? row.ripple : row.friction_ratio_whole_run);
     if (!row.ok()) {
-      failed += fmt::format("{}\n", x);
+      failed.x.push_back(x.back());
+      failed.y.push_back(1.0);
     }
   }
-  std::string script =
-      output::data_block("defined", defined) + output::data_block("failed", failed);
-  script += axis_commands(drawn, 'x');
-  script += fmt::format(
-      "set ylabel '{}'\nset y2range [0:1]\nset grid lc rgb '#d8d8d8'\nset tics out nomirror\n"
-      "set key outside top center horizontal\nplot ",
-      series.label);
-  if (!failed.empty()) {
-    script += "$failed using 1:(1) axes x1y2 with impulses lw 2 lc rgb '#b8b8b8' title 'failed', ";
+  output::Chart chart{"", "", drawn(along), {series.label}, std::move(x), {}};
+  if (!failed.y.empty()) {
+    chart.curves.push_back(std::move(failed));
   }
-  return script +
-         (plan.closed_loop() ? std::string(closed_loop_plot)
-                             : fmt::format(open_loop_plot, drawn.categorical() ? apart : joined)) +
-         '\n';
+  if (plan.closed_loop()) {
+    chart.curves.push_back({"steady error ± ripple",
+                            subjects,
+                            output::Line::joined,
+                            {},
+                            {"#3b528b", 1.5, 1, 7, 0.5},
+                            others});
+  } else {
+    // Values side by side are not joined.
+    const bool apart = along.categorical();
+    const auto add = [&](const char* label, std::vector<double> y, const char* colour) {
+      chart.curves.push_back({label,
+                              std::move(y),
+                              apart ? output::Line::dots : output::Line::joined,
+                              {},
+                              {colour, apart ? 1.0 : 2.0, 1, 7, apart ? 1.2 : 0.4}});
+    };
+    add("whole run", others, "#9ecae1");
+    add("window", subjects, "#3b528b");
+  }
+  chart.look = fmt::format("{}\n", key_above);
+  return chart;
 }
 
 constexpr const char* colours[] = {"#1f5fa8", "#b8570f", "#1b9e5a", "#d62728",
                                    "#7a3fa0", "#111111", "#a6761d", "#e377c2"};
 constexpr int markers[] = {7, 5, 9, 11, 13, 15, 4};
 
-/// The points of one member; a gap where one failed.
-std::string member_data(const Plan& plan, const std::vector<PointResult>& rows, std::size_t along,
-                        std::size_t first) {
-  const Grid& grid = plan.grid();
-  const Subject series = subject(plan);
-  std::string data;
-  for (std::size_t i = 0; i < grid.axes()[along].count; ++i) {
-    const double value = rows[first + i * grid.stride(along)].*series.figure;
-    if (std::isfinite(value)) {
-      fmt::format_to(std::back_inserter(data), "{} {}\n", grid.axes()[along].number(i), value);
-    } else {
-      data += '\n';
-    }
-  }
-  return data;
-}
-
-/// A gnuplot script: the sweep's subject() against the one key, a curve for each value of the
-/// other; failed points are left out. Other axes have one value.
+/// The sweep's subject() against the one key, a curve for each value of the other; a gap where a
+/// point failed. Other axes have one value.
 /// @param along   with more than one value, not categorical
 /// @param family  categorical
-std::string curve_family(const Plan& plan, const std::vector<PointResult>& rows, std::size_t along,
-                         std::size_t family) {
+output::Chart curve_family(const Plan& plan, const std::vector<PointResult>& rows,
+                           std::size_t along, std::size_t family) {
   const Grid& grid = plan.grid();
+  const Subject series = subject(plan);
   const Axis& members = grid.axes()[family];
-  std::string script;
-  std::string curves;
-  for (std::size_t i = 0; i < members.count; ++i) {
-    script += output::data_block(fmt::format("member_{}", i),
-                                 member_data(plan, rows, along, i * grid.stride(family)));
-    curves += fmt::format(
-        "{}$member_{} using 1:2 with linespoints pt {} ps 0.5 lw 2 lc rgb '{}' title {} noenhanced",
-        i == 0 ? "plot " : ", ", i, markers[i % std::size(markers)],
-        colours[i % std::size(colours)], output::quoted(members.text(i)));
+  output::Chart chart{"", "", drawn(grid.axes()[along]), {series.label}, {}, {}};
+  for (std::size_t i = 0; i < grid.axes()[along].count; ++i) {
+    chart.x.push_back(grid.axes()[along].number(i));
   }
-  return script + axis_commands(grid.axes()[along], 'x') +
-         fmt::format(
-             "set ylabel {}\nset grid lc rgb '#d8d8d8'\nset tics out nomirror\n"
-             "set key outside top center horizontal title {} noenhanced\n",
-             output::quoted(subject(plan).label), output::quoted(members.key)) +
-         curves + '\n';
+  for (std::size_t i = 0; i < members.count; ++i) {
+    output::Curve& member = chart.curves.emplace_back();
+    member.label = members.text(i);
+    member.verbatim = true;
+    member.pen = {colours[i % std::size(colours)], 2.0, 1, markers[i % std::size(markers)], 0.5};
+    for (std::size_t k = 0; k < chart.x.size(); ++k) {
+      member.y.push_back(rows[i * grid.stride(family) + k * grid.stride(along)].*series.figure);
+    }
+  }
+  chart.look = fmt::format("{} title {} noenhanced\n", key_above, output::quoted(members.key));
+  return chart;
 }
 
-constexpr int width_px = 900;
-constexpr int height_px = 560;
-
 /// @param axes  one or two
-std::string script(const Plan& plan, const std::vector<PointResult>& rows,
-                   const std::vector<std::size_t>& axes) {
+output::Chart chart(const Plan& plan, const std::vector<PointResult>& rows,
+                    const std::vector<std::size_t>& axes) {
   if (axes.size() == 1) {
     return curve(plan, rows, axes[0]);
   }
@@ -228,7 +227,7 @@ std::optional<std::string> draw(const Plan& plan, const std::vector<PointResult>
   if (axes.empty() || axes.size() > 2 || !extremes(rows, subject(plan).figure)) {
     return std::nullopt;
   }
-  return output::draw_svg(script(plan, rows, axes), width_px, height_px);
+  return output::print({{chart(plan, rows, axes)}, 900, 560, 0, "set tics out nomirror\n"});
 }
 
 }  // namespace sonoglide::sweep

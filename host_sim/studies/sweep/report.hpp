@@ -13,6 +13,25 @@
 
 namespace sonoglide::sweep {
 
+// What the pictures of a sweep show.
+
+struct Subject {
+  double PointResult::*figure;
+  std::string label;  ///< with its unit
+};
+
+/// The friction ratio over the window; in closed loop the steady error of the last target step.
+Subject subject(const Plan& plan);
+
+struct ExtremePoints {
+  std::size_t lowest;   ///< point
+  std::size_t highest;  ///< point
+};
+
+/// The first point of several with the same value; absent where the figure is NaN in every row.
+std::optional<ExtremePoints> extremes(const std::vector<PointResult>& rows,
+                                      double PointResult::*figure);
+
 /// One line for each point, in the order of the grid, under a heading: the varied keys, the figures
 /// of Row, status last. In closed loop also settling_time_s, steady_error, ripple, limit and fault.
 /// Numbers read back the same to the bit; what is not defined is `nan`. A status with a comma is

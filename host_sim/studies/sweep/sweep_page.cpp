@@ -1,5 +1,3 @@
-#include "host_sim/studies/sweep/report.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,7 +7,7 @@
 
 #include "host_sim/scene_file/to_json.hpp"
 #include "host_sim/studies/sweep/free_vibration.hpp"
-#include "host_sim/studies/sweep/subject.hpp"
+#include "host_sim/studies/sweep/report.hpp"
 
 namespace sonoglide::sweep {
 namespace {
@@ -144,6 +142,33 @@ output::Page sweep_page(const Plan& plan, const std::vector<PointResult>& rows,
     page.sections.push_back(std::move(section));
   }
   return page;
+}
+
+Subject subject(const Plan& plan) {
+  return plan.closed_loop()
+             ? Subject{&PointResult::steady_error, "Steady error of the friction ratio [-]"}
+             : Subject{&PointResult::friction_ratio_window, "Friction ratio, window [-]"};
+}
+
+std::optional<ExtremePoints> extremes(const std::vector<PointResult>& rows,
+                                      double PointResult::*figure) {
+  std::optional<ExtremePoints> found;
+  for (std::size_t point = 0; point < rows.size(); ++point) {
+    const double value = rows[point].*figure;
+    if (std::isnan(value)) {
+      continue;
+    }
+    if (!found) {
+      found = ExtremePoints{point, point};
+    }
+    if (value < rows[found->lowest].*figure) {
+      found->lowest = point;
+    }
+    if (value > rows[found->highest].*figure) {
+      found->highest = point;
+    }
+  }
+  return found;
 }
 
 }  // namespace sonoglide::sweep

@@ -1,5 +1,3 @@
-#include "host_sim/studies/work_precision/report.hpp"
-
 #include <fmt/format.h>
 #include <sys/utsname.h>
 
@@ -10,7 +8,9 @@
 #include <fstream>
 #include <utility>
 
+#include "host_sim/output/chart.hpp"
 #include "host_sim/studies/work_precision/ranking.hpp"
+#include "host_sim/studies/work_precision/report.hpp"
 
 namespace sonoglide::work_precision {
 namespace {
@@ -167,6 +167,106 @@ output::Page page(const scene::Scene& scene, const SolverComparison& comparison,
        svg});
   page.sections.push_back(std::move(section));
   return page;
+}
+
+namespace {
+
+/// Errors at and below the rounding of the result are drawn here.
+constexpr double smallest_error = 1e-16;
+
+/// Colours of one hue for a family, a marker of its own for each member.
+output::Pen pen_of(Family family, std::size_t member) {
+  static constexpr const char* blues[] = {"#7fb2e5", "#3f87cf", "#1f5fa8", "#0b3a70"};
+  static constexpr const char* oranges[] = {"#e6a817", "#b8570f"};
+  static constexpr const char* greens[] = {"#1b9e5a", "#66a61e", "#a6761d"};
+  static constexpr const char* greys[] = {"#111111", "#808080"};
+  static constexpr const char* reds[] = {"#d62728", "#e377c2", "#9467bd", "#ff7f0e"};
+  static constexpr const char* pales[] = {"#7fb2e5", "#3f87cf", "#1f5fa8", "#0b3a70",
+                                          "#1b9e5a", "#66a61e", "#a6761d"};
+  static constexpr int markers[] = {7, 5, 9, 11, 13, 15, 4};
+  constexpr double size = 0.55;
+  const int marker = markers[member % 7];
+  switch (family) {
+    case Family::blue:
+      return {blues[member % 4], 2.4, 1, marker, size};
+    case Family::orange:
+      return {oranges[member % 2], 2.4, 1, marker, size};
+    case Family::green:
+      return {greens[member % 3], 2.0, 1, marker, size};
+    case Family::single:
+      return {pales[member % 7], 1.2, 3, marker, size};
+    case Family::paper:
+      return {greys[member % 2], 2.0, 1, marker, size};
+    case Family::outside_peer:
+      break;
+  }
+  return {reds[member % 4], 2.0, 1, marker, size};
+}
+
+/// A solver's place in its family, the same whether or not the others could be measured.
+std::size_t member_of(const SolverComparison& comparison, const ComparedSolver& solver) {
+  std::size_t member = 0;
+  const ComparedSolver* last = nullptr;
+  for (const MeasuredSetting& row : comparison.rows) {
+    if (row.solver == &solver) {
+      break;
+    }
+    member += row.solver != last && row.solver->family == solver.family ? 1 : 0;
+    last = row.solver;
+  }
+  return member;
+}
+
+void add(output::Curve& curve, double error, const MeasuredSetting& row) {
+  curve.x.push_back(std::max(error, smallest_error));
+  curve.y.push_back(row.wall_us_per_period);
+}
+
+/// Small points for all settings, and a line for each solver over them.
+std::vector<output::Curve> curves(const SolverComparison& comparison) {
+  std::vector<output::Curve> points;
+  std::vector<output::Curve> lines;
+  for (const ComparedSolver* solver : measured_solvers(comparison)) {
+    const output::Pen pen = pen_of(solver->family, member_of(comparison, *solver));
+    output::Curve& all = points.emplace_back(
+        output::Curve{"", {}, output::Line::dots, {}, {pen.colour, 1, 1, 7, 0.2}});
+    for (const Standing& standing : standings(comparison, *solver)) {
+      add(all, standing.row->error, *standing.row);
+    }
+    output::Curve& best =
+        lines.emplace_back(output::Curve{solver->name, {}, output::Line::joined, {}, pen});
+    best.verbatim = true;
+    for (const Standing& standing : frontier(comparison, *solver)) {
+      add(best, standing.error, *standing.row);
+    }
+  }
+  points.insert(points.end(), lines.begin(), lines.end());
+  return points;
+}
+
+}  // namespace
+
+std::string draw(const SolverComparison& comparison, const std::string& title) {
+  output::Chart chart{title,
+                      "",
+                      {fmt::format("{} error of the friction ratio over the whole run",
+                                   comparison.absolute_error ? "Absolute" : "Relative"),
+                       true,
+                       {0.5 * smallest_error, 2.0},
+                       "10^{%T}"},
+                      {"Time for one carrier period [µs]", true, {}, "10^{%T}"},
+                      {},
+                      curves(comparison)};
+  chart.verbatim = true;
+  chart.look = chart.curves.empty() ? "set yrange [1:1000]\n" : "set yrange [0.1 <*:*]\n";
+  return output::print(
+      {{std::move(chart)},
+       1120,
+       720,
+       0,
+       "set title font ',15'\nset xtics 100 nomirror\nset ytics nomirror\n"
+       "set grid xtics ytics lc rgb '#d8d8d8' lw 1\nset border 3\n"
+       "set key outside right top vertical Left reverse samplen 3 spacing 1.25\n"});
 }
 
 }  // namespace sonoglide::work_precision

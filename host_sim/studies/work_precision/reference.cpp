@@ -1,4 +1,4 @@
-#include "host_sim/studies/work_precision/reference.hpp"
+#include "host_sim/studies/work_precision/comparison.hpp"
 
 #include <algorithm>
 #include <cmath>

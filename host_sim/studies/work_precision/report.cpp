@@ -10,22 +10,14 @@
 #include "host_sim/studies/work_precision/ranking.hpp"
 
 namespace sonoglide::work_precision {
-namespace {
-
-std::string cell(double value) {
-  constexpr int digits = 6;
-  return output::csv_number(value, digits);
-}
-
-}  // namespace
-
 std::string to_csv(const SolverComparison& comparison) {
+  constexpr int csv_digits = 6;
   std::string csv = "solver,setting,relative_error,wall_us_per_period,steps_per_period,status\n";
   for (const MeasuredSetting& row : comparison.rows) {
-    csv += fmt::format("{},{},{},{},{},{}\n", row.solver->name,
-                       setting_text(row.solver->knob, row.setting), cell(row.error),
-                       cell(row.wall_us_per_period), cell(row.steps_per_period),
-                       output::csv_cell(row.status));
+    csv += fmt::format(
+        "{},{},{},{}\n", row.solver->name, setting_text(row.solver->knob, row.setting),
+        output::csv_cells({row.error, row.wall_us_per_period, row.steps_per_period}, csv_digits),
+        output::csv_cell(row.status));
   }
   return csv;
 }

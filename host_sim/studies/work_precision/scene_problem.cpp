@@ -1,4 +1,4 @@
-#include "host_sim/studies/work_precision/scene_problem.hpp"
+#include "host_sim/studies/work_precision/comparison.hpp"
 
 #include <fmt/format.h>
 

@@ -106,9 +106,9 @@ TEST_F(PageInBrowser, LaysChartsOutForTheSheetWhilePrinting) {
 TEST_F(PageInBrowser, SaysWhereNothingCanBeDrawn) {
   output::Page page;
   page.title = "empty";
-  output::Panel logarithm{"no positive value", "", "x [-]", "y [-]", {0.0, 1.0}, {}, true, ""};
-  logarithm.series.push_back({"negative", {-1.0, 0.0}});
-  output::Panel point{"one point", "", "x [-]", "y [-]", {2.0}, {{"constant", {3.0}}}, false, ""};
+  const output::Chart logarithm{"no positive value", "",         {"x [-]"},
+                                {"y [-]", true},     {0.0, 1.0}, {{"negative", {-1.0, 0.0}}}};
+  const output::Chart point{"one point", "", {"x [-]"}, {"y [-]"}, {2.0}, {{"constant", {3.0}}}};
   page.sections = {{"Section", "", {logarithm, point}}};
   const browser::Visit seen = visit(output::to_html(page));
   EXPECT_EQ(count(seen, "data-panels"), 1);

@@ -47,27 +47,25 @@ output::Section regulation() {
   output::Section section{
       "Regulation", "Friction ratio of each carrier period against its target.", {}};
   const std::vector<double> periods_s = ramp(0.0, 2e-3, 121);
-  section.panels.push_back(
+  section.charts.push_back(
       {"Friction ratio",
        "Mean friction force over a carrier period, divided by the Coulomb "
        "force. The first four periods are taken for calibration.",
-       "Time [s]",
-       "Friction ratio [-]",
+       {"Time [s]"},
+       {"Friction ratio [-]"},
        periods_s,
-       {{"target", mapped(periods_s, target_at), true},
+       {{"target", mapped(periods_s, target_at), output::Line::stepped},
         {"achieved", mapped(periods_s, [](double t) { return t < 6e-5 ? kGap : ratio_at(t); })}},
-       false,
        "periods"});
-  section.panels.push_back(
+  section.charts.push_back(
       {"Drive amplitude",
        "",
-       "Time [s]",
-       "Drive amplitude [N]",
+       {"Time [s]"},
+       {"Drive amplitude [N]"},
        periods_s,
        {{"command",
          mapped(periods_s, [](double t) { return std::min(1920.0, 384.0 / (ratio_at(t) + 0.02)); }),
-         true}},
-       false,
+         output::Line::stepped}},
        "periods"});
   return section;
 }
@@ -78,28 +76,21 @@ double branch_force(double travel_m) {
          (1.0 - 1.9 * std::exp(-kContactStiffness_N_per_m * travel_m / kCoulombForce_N));
 }
 
-output::Panel hysteresis_loop() {
-  const std::vector<double> phase = ramp(0.0, pi, 90);
-  std::vector<std::pair<double, int>> points;
-  for (const double angle : phase) {
-    points.emplace_back(-kAmplitude_m * std::cos(angle), 0);
-    points.emplace_back(-kAmplitude_m * std::cos(angle + 0.5 * pi / 90), 1);
+output::Chart hysteresis_loop() {
+  output::Curve forward{"sliding forward", {}, output::Line::bridged};
+  output::Curve back{"sliding back", {}, output::Line::bridged};
+  for (const double angle : ramp(0.0, pi, 90)) {
+    forward.x.push_back(-kAmplitude_m * std::cos(angle));
+    forward.y.push_back(branch_force(forward.x.back() + kAmplitude_m));
+    back.x.push_back(-kAmplitude_m * std::cos(angle + 0.5 * pi / 90));
+    back.y.push_back(-branch_force(kAmplitude_m - back.x.back()));
   }
-  std::sort(points.begin(), points.end());
-  output::Panel panel{"Friction against displacement",
-                      "One period, settled.",
-                      "Displacement [m]",
-                      "Friction force [N]",
-                      {},
-                      {{"sliding forward", {}, false, true}, {"sliding back", {}, false, true}},
-                      false,
-                      ""};
-  for (const auto& [x_m, branch] : points) {
-    panel.x.push_back(x_m);
-    panel.series[0].y.push_back(branch == 0 ? branch_force(x_m + kAmplitude_m) : kGap);
-    panel.series[1].y.push_back(branch == 1 ? -branch_force(kAmplitude_m - x_m) : kGap);
-  }
-  return panel;
+  return {"Friction against displacement",
+          "One period, settled.",
+          {"Displacement [m]"},
+          {"Friction force [N]"},
+          {},
+          {forward, back}};
 }
 
 output::Section carrier() {
@@ -107,8 +98,8 @@ output::Section carrier() {
   const std::vector<double> time_s = ramp(2e-3 - 8 / kCarrier_Hz, 2e-3, 801);
   const auto angle = [](double t) { return 2.0 * pi * kCarrier_Hz * t; };
   const auto single = [&](const char* title, const char* label, const char* name, auto f) {
-    section.panels.push_back(
-        {title, "", "Time [s]", label, time_s, {{name, mapped(time_s, f)}}, false, "carrier"});
+    section.charts.push_back(
+        {title, "", {"Time [s]"}, {label}, time_s, {{name, mapped(time_s, f)}}, "carrier"});
   };
   single("Displacement", "Displacement [m]", "displacement", [&](double t) {
     return 1.42e-7 * std::cos(angle(t)) + 3e-8 * std::cos(0.216 * angle(t));
@@ -117,7 +108,7 @@ output::Section carrier() {
          [&](double t) { return -0.0534 * std::sin(angle(t)); });
   single("Friction force", "Friction force [N]", "friction",
          [&](double t) { return 0.0106 + 0.007 * std::tanh(2.0 * std::sin(angle(t))); });
-  section.panels.push_back(hysteresis_loop());
+  section.charts.push_back(hysteresis_loop());
   return section;
 }
 
@@ -126,23 +117,20 @@ output::Section spectrum() {
   const auto peak = [](double f, double at, double height) {
     return height / (1.0 + std::pow((f - at) / 300.0, 2));
   };
-  return {
-      "Spectrum",
-      "",
-      {{"Displacement",
-        "The carrier stands at 60 kHz, the natural mode at 12.98 kHz.",
-        "Frequency [Hz]",
-        "Amplitude [m]",
-        frequency_Hz,
-        {{"open loop",
-          mapped(frequency_Hz,
-                 [&](double f) { return peak(f, 60e3, 1.4e-7) + peak(f, 12.98e3, 3e-8) + 2e-13; })},
-         {"closed loop", mapped(frequency_Hz,
-                                [&](double f) {
-                                  return peak(f, 60e3, 1.2e-7) + peak(f, 12.98e3, 2e-10) + 2e-13;
-                                })}},
-        true,
-        ""}}};
+  return {"Spectrum",
+          "",
+          {{"Displacement",
+            "The carrier stands at 60 kHz, the natural mode at 12.98 kHz.",
+            {"Frequency [Hz]"},
+            {"Amplitude [m]", true},
+            frequency_Hz,
+            {{"open loop", mapped(frequency_Hz,
+                                  [&](double f) {
+                                    return peak(f, 60e3, 1.4e-7) + peak(f, 12.98e3, 3e-8) + 2e-13;
+                                  })},
+             {"closed loop", mapped(frequency_Hz, [&](double f) {
+                return peak(f, 60e3, 1.2e-7) + peak(f, 12.98e3, 2e-10) + 2e-13;
+              })}}}}};
 }
 
 }  // namespace

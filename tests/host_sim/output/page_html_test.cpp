@@ -17,16 +17,14 @@ namespace {
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-Panel panel(std::vector<double> x, std::vector<double> y) {
-  Panel result{"Title", "", "Time [s]", "Force [N]", std::move(x), {}, false, ""};
-  result.series.push_back({"series", std::move(y)});
-  return result;
+Chart chart_of(std::vector<double> x, std::vector<double> y) {
+  return {"Title", "", {"Time [s]"}, {"Force [N]"}, std::move(x), {{"series", std::move(y)}}};
 }
 
-Page page_of(const Panel& panel) {
+Page page_of(const Chart& chart) {
   Page page;
   page.title = "Page";
-  page.sections = {{"Section", "", {panel}}};
+  page.sections = {{"Section", "", {chart}}};
   return page;
 }
 
@@ -66,9 +64,9 @@ TEST(PageHtml, EscapesTextWhereverItStands) {
   const std::string nasty = "<b>\"a\" & 'b'</b></script><!--";
   const std::string safe =
       "&lt;b&gt;&quot;a&quot; &amp; &#39;b&#39;&lt;/b&gt;&lt;/script&gt;&lt;!--";
-  Panel drawn = panel({0.0, 1.0}, {1.0, 2.0});
-  drawn.title = drawn.note = drawn.x_label = drawn.y_label = drawn.group = nasty;
-  drawn.series[0].label = nasty;
+  Chart drawn = chart_of({0.0, 1.0}, {1.0, 2.0});
+  drawn.title = drawn.note = drawn.x_axis.label = drawn.y_axis.label = drawn.group = nasty;
+  drawn.curves[0].label = nasty;
   Page page = page_of(drawn);
   page.title = page.lead = nasty;
   page.warnings = {nasty};
@@ -86,14 +84,14 @@ TEST(PageHtml, EscapesTextWhereverItStands) {
 }
 
 TEST(PageHtml, BrokenUtf8DoesNotBreakTheData) {
-  Panel drawn = panel({0.0, 1.0}, {1.0, 2.0});
-  drawn.series[0].label = "caf\xe9";
+  Chart drawn = chart_of({0.0, 1.0}, {1.0, 2.0});
+  drawn.curves[0].label = "caf\xe9";
   EXPECT_EQ(only_chart(page_of(drawn)).at("series").at(0).at("label"), "caf\uFFFD");
 }
 
 TEST(PageHtml, WritesNanAndInfinityAsNull) {
   const nlohmann::json chart =
-      only_chart(page_of(panel({0.0, 1.0, 2.0, 3.0}, {1.5, kNaN, kInfinity, -kInfinity})));
+      only_chart(page_of(chart_of({0.0, 1.0, 2.0, 3.0}, {1.5, kNaN, kInfinity, -kInfinity})));
   EXPECT_EQ(chart.at("series").at(0).at("y"), nlohmann::json::parse("[1.5,null,null,null]"));
 }
 
@@ -101,7 +99,7 @@ TEST(PageHtml, KeepsSevenDigitsOfOrdinates) {
   using tests::pi;
   const std::vector<double> y = {pi, -pi * 1e-7, pi * 1e300, 5e-324};
   const nlohmann::json written =
-      only_chart(page_of(panel({0.0, 1.0, 2.0, 3.0}, y))).at("series").at(0).at("y");
+      only_chart(page_of(chart_of({0.0, 1.0, 2.0, 3.0}, y))).at("series").at(0).at("y");
   for (std::size_t i = 0; i < 3; ++i) {
     EXPECT_NEAR(written.at(i).get<double>() / y[i], 1.0, 5e-7);
   }
@@ -114,18 +112,18 @@ TEST(PageHtml, ResolvesAShortWindowFarFromZero) {
     x[i] = 200.0 + 1e-9 * static_cast<double>(i);
   }
   const nlohmann::json written =
-      only_chart(page_of(panel(x, std::vector<double>(x.size(), 1.0)))).at("x");
+      only_chart(page_of(chart_of(x, std::vector<double>(x.size(), 1.0)))).at("x");
   for (std::size_t i = 0; i < x.size(); ++i) {
     EXPECT_NEAR(written.at(i).get<double>(), x[i], 1e-7 * 1e-6);
   }
 }
 
 TEST(PageHtml, PassesOnHowToDraw) {
-  Panel drawn = panel({1.0, 10.0}, {1.0, 2.0});
-  drawn.logarithmic_x = true;
-  drawn.series[0].stepped = true;
-  drawn.series.push_back({"loop", {kNaN, 1.0}, false, true});
-  drawn.logarithmic_y = true;
+  Chart drawn = chart_of({1.0, 10.0}, {1.0, 2.0});
+  drawn.x_axis.logarithmic = true;
+  drawn.curves[0].line = Line::stepped;
+  drawn.curves.push_back({"loop", {kNaN, 1.0}, Line::bridged});
+  drawn.y_axis.logarithmic = true;
   drawn.group = "zoom";
   const nlohmann::json chart = only_chart(page_of(drawn));
   EXPECT_EQ(chart.at("logarithmicX"), true);
@@ -137,29 +135,39 @@ TEST(PageHtml, PassesOnHowToDraw) {
 }
 
 TEST(PageHtml, EmptyPanelSaysSoInsteadOfAChart) {
-  Panel negative = panel({0.0, 1.0}, {-1.0, 0.0});
-  negative.logarithmic_y = true;
-  Panel without_series = panel({0.0}, {0.0});
-  without_series.series.clear();
-  for (const Panel& empty :
-       {panel({}, {}), panel({0.0, 1.0}, {kNaN, kInfinity}), without_series, negative}) {
+  Chart negative = chart_of({0.0, 1.0}, {-1.0, 0.0});
+  negative.y_axis.logarithmic = true;
+  Chart without_series = chart_of({0.0}, {0.0});
+  without_series.curves.clear();
+  for (const Chart& empty :
+       {chart_of({}, {}), chart_of({0.0, 1.0}, {kNaN, kInfinity}), without_series, negative}) {
     const std::string html = to_html(page_of(empty));
     EXPECT_TRUE(chart_texts(html).empty());
     EXPECT_NE(html.find("No values to draw."), std::string::npos);
   }
 }
 
+TEST(PageHtml, MergesCurvesThatHaveTheirOwnAbscissae) {
+  Chart drawn = chart_of({}, {});
+  drawn.curves = {{"forward", {1.0, 2.0, 3.0}, Line::bridged, {0.0, 2.0, 1.0}},
+                  {"back", {4.0, 5.0}, Line::bridged, {1.0, 0.5}}};
+  const nlohmann::json chart = only_chart(page_of(drawn));
+  EXPECT_EQ(chart.at("x"), nlohmann::json::parse("[0,0.5,1,1,2]"));
+  EXPECT_EQ(chart.at("series").at(0).at("y"), nlohmann::json::parse("[1,null,3,null,2]"));
+  EXPECT_EQ(chart.at("series").at(1).at("y"), nlohmann::json::parse("[null,5,null,4,null]"));
+}
+
 TEST(PageHtml, RefusesInconsistentData) {
-  EXPECT_THROW(to_html(page_of(panel({0.0, 1.0}, {1.0}))), std::invalid_argument);
-  EXPECT_THROW(to_html(page_of(panel({1.0, 0.0}, {1.0, 1.0}))), std::invalid_argument);
-  EXPECT_THROW(to_html(page_of(panel({0.0, kNaN}, {1.0, 1.0}))), std::invalid_argument);
+  EXPECT_THROW(to_html(page_of(chart_of({0.0, 1.0}, {1.0}))), std::invalid_argument);
+  EXPECT_THROW(to_html(page_of(chart_of({1.0, 0.0}, {1.0, 1.0}))), std::invalid_argument);
+  EXPECT_THROW(to_html(page_of(chart_of({0.0, kNaN}, {1.0, 1.0}))), std::invalid_argument);
   Page page;
   page.tables = {{"", {"one", "two"}, {{"1"}}}};
   EXPECT_THROW(to_html(page), std::invalid_argument);
 }
 
 TEST(PageHtml, LoadsNothingFromOutside) {
-  const std::string html = to_html(page_of(panel({0.0, 1.0}, {1.0, 2.0})));
+  const std::string html = to_html(page_of(chart_of({0.0, 1.0}, {1.0, 2.0})));
   EXPECT_NE(html.find("<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; "
                       "script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data:;"),
             std::string::npos);
@@ -171,7 +179,7 @@ TEST(PageHtml, LoadsNothingFromOutside) {
 }
 
 TEST(PageHtml, KeepsTheLicenceOfTheChartLibrary) {
-  const std::string html = to_html(page_of(panel({0.0, 1.0}, {1.0, 2.0})));
+  const std::string html = to_html(page_of(chart_of({0.0, 1.0}, {1.0, 2.0})));
   for (const char* text : {"Dan Vanderkam", "Permission is hereby granted, free of charge",
                            "THE SOFTWARE IS PROVIDED &quot;AS IS&quot;", "/*! @license", "MIT"}) {
     EXPECT_NE(html.find(text), std::string::npos) << text;
@@ -193,7 +201,7 @@ TEST(PageHtml, SetsColumnsOfNumbersFlushRight) {
 }
 
 TEST(PageHtml, PutsWarningsBeforeEverythingButTheTitle) {
-  Page page = page_of(panel({0.0, 1.0}, {1.0, 2.0}));
+  Page page = page_of(chart_of({0.0, 1.0}, {1.0, 2.0}));
   page.tables = {{"Table", {"a"}, {{"1"}}}};
   EXPECT_EQ(to_html(page).find("<aside"), std::string::npos);
   page.warnings = {"Mind the gap"};

@@ -1,4 +1,4 @@
-#include "host_sim/report/target_spans.hpp"
+#include "host_sim/report/step_metrics.hpp"
 
 #include <gtest/gtest.h>
 

@@ -9,7 +9,7 @@
 #include "host_sim/experiment/experiment.hpp"
 #include "host_sim/loop/failure.hpp"
 #include "host_sim/loop/run.hpp"
-#include "host_sim/report/target_spans.hpp"
+#include "host_sim/report/step_metrics.hpp"
 
 namespace sonoglide::random_loops {
 namespace {

@@ -1,4 +1,4 @@
-#include "host_sim/studies/identify/friction/interval.hpp"
+#include "host_sim/studies/identify/friction/comparison.hpp"
 
 #include <boost/math/distributions/students_t.hpp>
 

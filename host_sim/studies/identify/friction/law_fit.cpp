@@ -1,4 +1,4 @@
-#include "host_sim/studies/identify/friction/law_fit.hpp"
+#include "host_sim/studies/identify/friction/comparison.hpp"
 
 #include <fmt/format.h>
 #include <boost/math/distributions/chi_squared.hpp>
@@ -7,7 +7,6 @@
 #include <cmath>
 #include <limits>
 
-#include "host_sim/studies/identify/friction/interval.hpp"
 #include "host_sim/studies/identify/friction/law_problem.hpp"
 #include "host_sim/studies/identify/least_squares.hpp"
 

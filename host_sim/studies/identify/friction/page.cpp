@@ -75,20 +75,20 @@ std::vector<Place> places(const Comparison& comparison, const Groups& groups, co
   return all;
 }
 
-output::Panel fit_panel(const Comparison& comparison, const Groups& groups, const Group& group) {
-  output::Panel panel;
-  panel.title =
+output::Chart fit_chart(const Comparison& comparison, const Groups& groups, const Group& group) {
+  output::Chart chart;
+  chart.title =
       fmt::format("{} at {:.4g} m/s", groups.vibration_is_held() ? "Vibration" : "Sliding",
                   group.back().*groups.held);
-  panel.x_label =
+  chart.x_axis.label =
       groups.vibration_is_held() ? "Sliding velocity [m/s]" : "Peak vibration velocity [m/s]";
-  panel.y_label = comparison.readings.are_forces ? "Mean friction [N]" : "Friction ratio [-]";
+  chart.y_axis.label = comparison.readings.are_forces ? "Mean friction [N]" : "Friction ratio [-]";
   std::vector<std::string> titles;
   for (const LawFit& each : comparison.laws) {
     titles.push_back(each.law.title);
   }
-  draw_fit(panel, places(comparison, groups, group), titles);
-  return panel;
+  draw_fit(chart, places(comparison, groups, group), titles);
+  return chart;
 }
 
 output::Section fit_section(const Comparison& comparison) {
@@ -106,7 +106,7 @@ output::Section fit_section(const Comparison& comparison) {
           : std::string(),
       held);
   for (std::size_t i = 0; i < std::min(groups.all.size(), most_groups); ++i) {
-    section.panels.push_back(fit_panel(comparison, groups, groups.all[i]));
+    section.charts.push_back(fit_chart(comparison, groups, groups.all[i]));
   }
   return section;
 }
@@ -119,19 +119,19 @@ output::Section residual_section(const Comparison& comparison) {
       "Measured less fitted, in the order of the velocity ratio. Scatter changes its sign from "
       "reading to reading; a law that is wrong leaves long runs of one sign.";
   for (const LawFit& each : comparison.laws) {
-    output::Panel panel;
-    panel.title = each.law.title;
-    panel.note =
+    output::Chart chart;
+    chart.title = each.law.title;
+    chart.note =
         fmt::format("Runs: probability {:.2g} of so few; correlation of neighbours {:.2f}.",
                     each.runs_probability, each.autocorrelation);
-    panel.x_label = "Reading, by rising velocity ratio [-]";
-    panel.y_label = comparison.readings.are_forces ? "Residual [N]" : "Residual [-]";
-    panel.series = {dots("residual", each.residuals)};
+    chart.x_axis.label = "Reading, by rising velocity ratio [-]";
+    chart.y_axis.label = comparison.readings.are_forces ? "Residual [N]" : "Residual [-]";
+    chart.curves = {dots("residual", each.residuals)};
     for (std::size_t i = 0; i < each.residuals.size(); ++i) {
-      panel.x.push_back(static_cast<double>(i + 1));
+      chart.x.push_back(static_cast<double>(i + 1));
     }
-    panel.group = "residuals";
-    section.panels.push_back(std::move(panel));
+    chart.group = "residuals";
+    section.charts.push_back(std::move(chart));
   }
   return section;
 }

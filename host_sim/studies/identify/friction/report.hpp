@@ -5,8 +5,8 @@
 
 #include <string>
 
+#include "host_sim/output/output_folder.hpp"
 #include "host_sim/output/page.hpp"
-#include "host_sim/output/study_report.hpp"
 #include "host_sim/studies/identify/friction/comparison.hpp"
 
 namespace sonoglide::identify::friction {

@@ -1,4 +1,4 @@
-#include "host_sim/studies/identify/friction/scatter.hpp"
+#include "host_sim/studies/identify/friction/law_problem.hpp"
 
 #include <Eigen/Cholesky>
 #include <Eigen/QR>

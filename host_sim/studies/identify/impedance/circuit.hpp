@@ -10,9 +10,11 @@
 #include <cstddef>
 #include <vector>
 
+#include "firmware/numeric/turn.hpp"
+
 namespace sonoglide::identify::impedance {
 
-inline constexpr double two_pi = 6.283185307179586;
+using numeric::two_pi;
 inline constexpr double degrees_per_rad = 360.0 / two_pi;  ///< in a radian
 
 /// G/(1 + j (f² − fs²)/(f Δ)): a branch by what is seen of it.

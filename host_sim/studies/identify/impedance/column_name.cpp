@@ -1,4 +1,4 @@
-#include "host_sim/studies/identify/impedance/column_name.hpp"
+#include "host_sim/studies/identify/impedance/sweep_columns.hpp"
 
 #include <algorithm>
 #include <cmath>

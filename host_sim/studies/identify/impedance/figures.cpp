@@ -1,4 +1,4 @@
-#include "host_sim/studies/identify/impedance/figures.hpp"
+#include "host_sim/studies/identify/impedance/study.hpp"
 
 #include <fmt/format.h>
 

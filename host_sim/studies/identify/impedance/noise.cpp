@@ -1,4 +1,4 @@
-#include "host_sim/studies/identify/impedance/noise.hpp"
+#include "host_sim/studies/identify/impedance/circuit_fit.hpp"
 
 #include <Eigen/QR>
 

@@ -8,8 +8,6 @@
 #include <numeric>
 #include <optional>
 
-#include "host_sim/studies/identify/impedance/read_touchstone.hpp"
-#include "host_sim/studies/identify/impedance/read_traces.hpp"
 #include "host_sim/studies/identify/impedance/sweep_columns.hpp"
 #include "host_sim/studies/identify/plain_text.hpp"
 

@@ -1,10 +1,38 @@
 /// Files of impedance sweeps.
 #pragma once
 
+#include <optional>
+
 #include "host_sim/scene_file/source.hpp"
 #include "host_sim/studies/identify/impedance/sweep.hpp"
 
 namespace sonoglide::identify::impedance {
+
+// The text export of an Agilent 4294A and its relatives.
+
+/// Blocks `"TRACE: A"` and `"TRACE: B"`, each with a heading that begins with "Frequency" and, below
+/// it, lines of frequency, real and imaginary part of the trace, with or without those of the memory
+/// trace. What the traces are says a line as `"MEASURE PARAMETER: ADMITTANCE MAG PHASE (DEG)"`, or
+/// `"FORMAT: |Z|"` of each; `FORMAT: LOG` and `LIN` are of the screen. Where nothing is named they
+/// are taken for |Z| in ohm and its phase in degrees, and a warning says so. A trace with imaginary
+/// parts is a complex impedance or admittance; one trace alone without is a magnitude.
+/// @return nothing of a text without a line `"TRACE: A"`
+/// @throws scene_file::SceneError  at the place of what is wrong
+/// Source: files of others, as several public readers of them take them.
+std::optional<Sweep> read_traces(const scene_file::Source& source);
+
+// Touchstone files of one port.
+
+/// S, Y or Z, as real and imaginary part (RI), magnitude and degrees (MA), or dB and degrees (DB), in
+/// Hz to GHz. Without an option line: GHz, S, MA, 50 ohm. Numbers may have decimal commas, and commas
+/// may stand between them. In version 1 Y and Z are read as the standard has them, Z over the
+/// reference resistance and Y times it; in version 2 they are in S and ohm.
+/// @return nothing of a text without an option line, `#` and nothing but words of such a line, and
+///         without a keyword `[Version]`, if the file's name does not end with .s1p
+/// @throws scene_file::SceneError  at the place of what is wrong
+/// Source: Touchstone file format specification, revision 1.1 (EIA/IBIS Open Forum, 2002), and version
+/// 2.0 (IBIS Open Forum, 2009).
+std::optional<Sweep> read_touchstone(const scene_file::Source& source);
 
 /// Reads, by what the text looks like:
 /// - the text export of an Agilent 4294A: blocks `"TRACE: A"` and `"TRACE: B"`;

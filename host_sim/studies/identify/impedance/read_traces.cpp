@@ -1,4 +1,4 @@
-#include "host_sim/studies/identify/impedance/read_traces.hpp"
+#include "host_sim/studies/identify/impedance/read_sweep.hpp"
 
 #include <fmt/format.h>
 

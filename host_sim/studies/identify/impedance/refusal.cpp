@@ -1,4 +1,4 @@
-#include "host_sim/studies/identify/impedance/refusal.hpp"
+#include "host_sim/studies/identify/impedance/selection.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

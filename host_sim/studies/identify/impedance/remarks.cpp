@@ -1,4 +1,4 @@
-#include "host_sim/studies/identify/impedance/remarks.hpp"
+#include "host_sim/studies/identify/impedance/study.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

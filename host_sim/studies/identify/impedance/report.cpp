@@ -2,8 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
+#include <utility>
 
+#include "host_sim/output/chart.hpp"
 #include "host_sim/output/number.hpp"
 #include "host_sim/studies/identify/report.hpp"
 
@@ -55,6 +59,167 @@ output::StudyReport report(const ImpedanceStudy& study) {
            {"fit.csv", fit_csv(study)},
            {"scene.toml", study.scene}},
           text(study)};
+}
+
+namespace {
+
+using Complex = std::complex<double>;
+
+/// Frequencies of the curve of the fit, with many about each mode, within the sweep.
+std::vector<double> curve_frequencies(const ImpedanceStudy& study) {
+  const double low = study.sweep.frequency_Hz.front();
+  const double high = study.sweep.frequency_Hz.back();
+  std::vector<double> all;
+  constexpr int even = 400;
+  for (int i = 0; i <= even; ++i) {
+    all.push_back(low * std::pow(high / low, static_cast<double>(i) / even));
+  }
+  constexpr int about = 300;
+  for (const Mode& mode : study.fit.circuit.modes) {
+    for (int i = -about; i <= about; ++i) {
+      // Equal angles on the circle.
+      const double angle = 0.5 * two_pi / 2.0 * i / (about + 1.0);
+      all.push_back(mode.resonance_Hz + 0.5 * mode.bandwidth_Hz * std::tan(angle));
+    }
+  }
+  std::sort(all.begin(), all.end());
+  // The even ones may round to beside the ends.
+  return {std::lower_bound(all.begin(), all.end(), low),
+          std::upper_bound(all.begin(), all.end(), high)};
+}
+
+/// Readings and fit as one figure of the admittance.
+output::Chart fit_chart(const ImpedanceStudy& study, const std::string& title,
+                        const std::string& y_label, double (*figure)(Complex admittance_S)) {
+  const auto fitted = [&](double frequency_Hz) {
+    return figure(study.fit.circuit.admittance_S(frequency_Hz));
+  };
+  std::vector<Place> places;
+  for (std::size_t i = 0; i < study.sweep.frequency_Hz.size(); ++i) {
+    const double f = study.sweep.frequency_Hz[i];
+    places.push_back({f, figure(study.sweep.admittance_S[i]), {fitted(f)}});
+  }
+  for (const double f : curve_frequencies(study)) {
+    places.push_back({f, std::numeric_limits<double>::quiet_NaN(), {fitted(f)}});
+  }
+  output::Chart chart;
+  chart.title = title;
+  chart.y_axis.label = y_label;
+  draw_fit(chart, std::move(places), {"fitted"});
+  return chart;
+}
+
+output::Chart residual_chart(const ImpedanceStudy& study) {
+  output::Chart chart;
+  chart.title = "Residuals";
+  chart.note =
+      "The logarithm of measured over fitted admittance. A pattern along the sweep is what the "
+      "circuit does not describe, or drift of the instrument; the intervals allow for it.";
+  chart.y_axis.label = "Relative residual [-]";
+  chart.x = study.sweep.frequency_Hz;
+  const double* all = study.fit.at.residuals.data();
+  const auto n = static_cast<std::ptrdiff_t>(chart.x.size());
+  chart.curves = {dots("magnitude", {all, all + n})};
+  if (study.sweep.has_phase) {
+    chart.curves.push_back(dots("phase [rad]", {all + n, all + 2 * n}));
+  }
+  return chart;
+}
+
+/// A sweep of more than a decade and a half is drawn over the logarithm of the frequency.
+std::vector<output::Chart> charts(const ImpedanceStudy& study) {
+  std::vector<output::Chart> all = {
+      fit_chart(study, "Impedance", "log10 |Z|/ohm [-]",
+                [](Complex y) { return std::log10(1.0 / std::abs(y)); })};
+  if (study.sweep.has_phase) {
+    all.push_back(fit_chart(study, "Phase of the impedance", "Phase [degrees]",
+                            [](Complex y) { return -std::arg(y) * degrees_per_rad; }));
+  }
+  all.push_back(residual_chart(study));
+  constexpr double wide = 30.0;
+  for (output::Chart& each : all) {
+    each.x_axis.label = "Frequency [Hz]";
+    each.group = "frequency";
+    each.x_axis.logarithmic =
+        study.sweep.frequency_Hz.back() > wide * study.sweep.frequency_Hz.front();
+  }
+  return all;
+}
+
+std::string noise_text(const ImpedanceStudy& study) {
+  const Noise& noise = study.fit.noise;
+  std::string words = fmt::format(
+      "Residuals are {:.3g} of the fitted admittance (rms). Their size goes with the admittance to "
+      "the power {:.2g} (0: constant in admittance, 1: relative, 2: constant in impedance).",
+      study.identification.residual_rms, noise.exponent);
+  if (noise.correlated_share > 0.0) {
+    words += fmt::format(
+        " {:.0f} % of their variance hangs together along the sweep, by {:.2g} from reading to "
+        "reading: misfit of {:.3g}. The intervals are wider for it.",
+        100.0 * noise.correlated_share, noise.memory, study.identification.misfit);
+  } else {
+    words += " No correlation along the sweep is seen.";
+  }
+  return words;
+}
+
+/// Measured and fitted admittance in the complex plane, an SVG document.
+std::string draw_circle(const ImpedanceStudy& study) {
+  const Mode& mode = study.fit.circuit.modes.front();
+  output::Curve fitted{"fitted", {}, output::Line::joined, {}, {"#1f5fa8"}};
+  output::Curve measured{"measured", {}, output::Line::dots, {}, {"#d62728", 1.0, 1, 7, 0.5}};
+  const auto add = [&](output::Curve& curve, double frequency_Hz, Complex y) {
+    constexpr double bands = 15.0;
+    if (std::abs(frequency_Hz - mode.resonance_Hz) <= bands * mode.bandwidth_Hz) {
+      curve.x.push_back(1e3 * y.real());
+      curve.y.push_back(1e3 * y.imag());
+    }
+  };
+  for (std::size_t i = 0; study.sweep.has_phase && i < study.sweep.frequency_Hz.size(); ++i) {
+    add(measured, study.sweep.frequency_Hz[i], study.sweep.admittance_S[i]);
+  }
+  for (const double f : curve_frequencies(study)) {
+    add(fitted, f, study.fit.circuit.admittance_S(f));
+  }
+  output::Chart chart{
+      "", "", {"conductance G [mS]"}, {"susceptance B [mS]"}, {}, {std::move(fitted)}};
+  if (!measured.y.empty()) {
+    chart.curves.push_back(std::move(measured));
+  }
+  return output::print({{std::move(chart)},
+                        620,
+                        620,
+                        0,
+                        "set size ratio -1\nset grid lc rgb '#d8d8d8'\n"
+                        "set xzeroaxis lc rgb '#606060'\nset key outside top center horizontal\n"});
+}
+
+}  // namespace
+
+output::Page page(const ImpedanceStudy& study) {
+  const Identification& identification = study.identification;
+  output::Page page;
+  page.title = fmt::format("Impedance of {}", study.name);
+  page.lead = fmt::format(
+      "{} readings from {} to {}, read as {}; fitted: {}.", study.sweep.frequency_Hz.size(),
+      formatted("_Hz", study.sweep.frequency_Hz.front()),
+      formatted("_Hz", study.sweep.frequency_Hz.back()), study.sweep.format, identification.model);
+  page.warnings = identification.warnings;
+  page.tables = {figure_table(identification.parameters)};
+  if (!identification.cannot_tell.empty()) {
+    page.tables.push_back(sentence_table("What the data cannot tell", identification.cannot_tell));
+  }
+  page.sections = {
+      {"Data and fit",
+       noise_text(study),
+       charts(study),
+       {{"Admittance circle", "Within 15 band widths of the resonance.", draw_circle(study)}}},
+      {"How the parameters hang together",
+       "",
+       {},
+       {},
+       {correlation_table(identification.correlations)}}};
+  return page;
 }
 
 }  // namespace sonoglide::identify::impedance

@@ -6,9 +6,7 @@
 
 #include "host_sim/studies/identify/impedance/neighbours.hpp"
 #include "host_sim/studies/identify/impedance/plausible.hpp"
-#include "host_sim/studies/identify/impedance/refusal.hpp"
 #include "host_sim/studies/identify/impedance/start_values.hpp"
-#include "host_sim/studies/identify/impedance/strays.hpp"
 #include "host_sim/studies/identify/impedance/uncertainty.hpp"
 
 namespace sonoglide::identify::impedance {

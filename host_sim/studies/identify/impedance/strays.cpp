@@ -1,4 +1,4 @@
-#include "host_sim/studies/identify/impedance/strays.hpp"
+#include "host_sim/studies/identify/impedance/selection.hpp"
 
 #include <algorithm>
 #include <cmath>

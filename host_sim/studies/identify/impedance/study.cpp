@@ -10,9 +10,7 @@
 
 #include "host_sim/loop/failure.hpp"
 #include "host_sim/scene_file/scene_error.hpp"
-#include "host_sim/studies/identify/impedance/remarks.hpp"
 #include "host_sim/studies/identify/impedance/report.hpp"
-#include "host_sim/studies/identify/impedance/thinning.hpp"
 #include "host_sim/studies/identify/least_squares.hpp"
 #include "host_sim/studies/identify/report.hpp"
 

@@ -1,15 +1,47 @@
 /// Which columns of a table are a sweep, by their names, and its readings.
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
-#include "host_sim/studies/identify/impedance/column_name.hpp"
 #include "host_sim/studies/identify/impedance/sweep.hpp"
 #include "host_sim/studies/identify/measured_table.hpp"
 
 namespace sonoglide::identify::impedance {
+
+// What the name of a column of a sweep says.
+
+enum class Role { none, frequency, magnitude, phase, real, imaginary };
+/// A reflection is that of a Touchstone file.
+enum class Subject { unknown, impedance, admittance, reflection };
+
+struct ColumnName {
+  std::size_t index = 0;   ///< of the column
+  Role role = Role::none;  ///< none: not of a sweep, or not understood
+  Subject subject = Subject::unknown;
+  bool has_unit = false;
+  bool is_bare_unit = false;  ///< the name is a unit and nothing else
+  bool decibel = false;
+  double scale = 1.0;  ///< to Hz, ohm, S or radians; negative where the name has a minus
+  /// Of a reflection, a transmission or a gain, as S11: its phase may stand beside it.
+  bool is_ratio = false;
+
+  /// Where the name is of a sweep, and not all of it is understood: the first that is not, which
+  /// may be a unit of something else. Such a name has no role.
+  std::string not_understood;
+
+  /// In Hz, ohm, S or radians.
+  double value(double cell) const;
+};
+
+/// Reads a name whole: `Frequency(Hz)`, `impedance_magnitude_ohm`, `|Z| [kOhm]`, `theta-z(deg)`,
+/// `Re(Y)`, `-Im(Z)`, `G (10^-6 S)`, `phasez`, `P[deg]`, `neg. phase`, `Z'' / Ohm`. Case does not
+/// matter, but in units (see unit.hpp). Units may stand anywhere. Names of other quantities, as a
+/// voltage, a time, S11, a gain or a capacitance, are no names of a sweep.
+ColumnName read_name(std::string_view name);
 
 /// Magnitude and phase, real and imaginary part, or a magnitude alone.
 struct SweepColumns {

@@ -1,6 +1,6 @@
 /// The way to resonance against the closed form of a vibration that friction does not bend.
 
-#include "host_sim/studies/design/detuning.hpp"
+#include "host_sim/studies/design/study.hpp"
 
 #include <gtest/gtest.h>
 

@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "design_scenes.hpp"
-#include "host_sim/studies/design/advice.hpp"
 #include "host_sim/studies/design/report.hpp"
 #include "tests/common/csv/csv.hpp"
 

@@ -1,4 +1,4 @@
-#include "host_sim/studies/robust/statistics.hpp"
+#include "host_sim/studies/robust/report.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>

@@ -1,7 +1,5 @@
 /// A small set of the extreme cases: the solvers that promise to be safe are.
 
-#include "host_sim/studies/stability/extremes.hpp"
-
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
@@ -13,8 +11,8 @@
 #include <vector>
 
 #include "host_sim/studies/stability/random_scene.hpp"
-#include "host_sim/studies/stability/report.hpp"
 #include "host_sim/studies/stability/solver_list.hpp"
+#include "host_sim/studies/stability/study.hpp"
 
 namespace sonoglide::stability::extremes_test {
 namespace {

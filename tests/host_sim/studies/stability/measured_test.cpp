@@ -4,8 +4,7 @@
 
 #include <cstddef>
 
-#include "host_sim/studies/stability/extremes.hpp"
-#include "host_sim/studies/stability/report.hpp"
+#include "host_sim/studies/stability/study.hpp"
 #include "tests/common/csv/csv.hpp"
 
 namespace sonoglide::stability::measured_test {

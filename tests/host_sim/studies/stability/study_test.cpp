@@ -10,7 +10,6 @@
 #include <iterator>
 #include <string>
 
-#include "host_sim/studies/stability/report.hpp"
 #include "host_sim/studies/stability/solver_list.hpp"
 #include "tests/common/csv/csv.hpp"
 

@@ -4,8 +4,7 @@
 #include <iostream>
 #include <string>
 
-#include "host_sim/studies/stability/extremes.hpp"
-#include "host_sim/studies/stability/report.hpp"
+#include "host_sim/studies/stability/study.hpp"
 
 int main() {
   namespace stability = sonoglide::stability;

@@ -1,4 +1,4 @@
-#include "host_sim/studies/sweep/axis.hpp"
+#include "host_sim/studies/sweep/plan.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>

@@ -1,5 +1,5 @@
 /// Against the C library's functions in extended precision.
-#include "host_sim/studies/sweep/decades.hpp"
+#include "host_sim/studies/sweep/plan.hpp"
 
 #include <gtest/gtest.h>
 

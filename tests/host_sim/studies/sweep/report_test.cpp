@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "host_sim/studies/sweep/report.hpp"
-#include "host_sim/studies/sweep/subject.hpp"
 #include "tests/host_sim/studies/sweep/scenes/base_scenes.hpp"
 #include "tests/host_sim/studies/sweep/scenes/scratch_scene.hpp"
 

@@ -16,7 +16,6 @@
 #include "host_sim/studies/work_precision/comparison.hpp"
 #include "host_sim/studies/work_precision/ranking.hpp"
 #include "host_sim/studies/work_precision/report.hpp"
-#include "host_sim/studies/work_precision/scene_problem.hpp"
 #include "tests/common/csv/csv.hpp"
 
 namespace sonoglide::work_precision::measured_test {

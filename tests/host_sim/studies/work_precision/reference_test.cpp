@@ -1,5 +1,5 @@
 /// The reference against values of 25 digits that other programs computed.
-#include "host_sim/studies/work_precision/reference.hpp"
+#include "host_sim/studies/work_precision/comparison.hpp"
 
 #include <gtest/gtest.h>
 

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "host_sim/studies/identify/impedance/column_name.hpp"
 #include "host_sim/studies/identify/impedance/read_sweep.hpp"
+#include "host_sim/studies/identify/impedance/sweep_columns.hpp"
 
 namespace sonoglide::identify::impedance {
 namespace {

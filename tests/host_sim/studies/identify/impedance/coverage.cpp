@@ -4,9 +4,8 @@
 #include <random>
 
 #include "host_sim/loop/failure.hpp"
-#include "host_sim/studies/identify/impedance/figures.hpp"
-#include "host_sim/studies/identify/impedance/remarks.hpp"
 #include "host_sim/studies/identify/impedance/selection.hpp"
+#include "host_sim/studies/identify/impedance/study.hpp"
 
 namespace sonoglide::identify::impedance {
 namespace {

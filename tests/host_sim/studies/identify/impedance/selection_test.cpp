@@ -8,12 +8,9 @@
 #include <utility>
 
 #include "host_sim/loop/failure.hpp"
-#include "host_sim/studies/identify/impedance/figures.hpp"
 #include "host_sim/studies/identify/impedance/neighbours.hpp"
-#include "host_sim/studies/identify/impedance/refusal.hpp"
 #include "host_sim/studies/identify/impedance/report.hpp"
 #include "host_sim/studies/identify/impedance/study.hpp"
-#include "host_sim/studies/identify/impedance/thinning.hpp"
 #include "synthetic.hpp"
 
 namespace sonoglide::identify::impedance {

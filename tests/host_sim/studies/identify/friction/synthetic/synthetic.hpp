@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "host_sim/studies/identify/friction/interval.hpp"
+#include "host_sim/studies/identify/friction/comparison.hpp"
 
 namespace sonoglide::identify::friction::synthetic {
 
