@@ -54,12 +54,12 @@ Calls divide(const Places& places, const GroupOf& group_of) {
   }
   const std::size_t share = std::clamp((places.size() - calls.alone.size()) / thread_count(),
                                        fewest_in_lanes, lanes_many_times_over);
-  for (const auto& [group, all] : groups) {
+  for (const auto& group : groups) {
+    const Places& all = group.second;
     for (std::size_t begin = 0; begin < all.size(); begin += share) {
-      const auto at = [&all](std::size_t i) {
-        return all.begin() + static_cast<std::ptrdiff_t>(std::min(i, all.size()));
-      };
-      calls.together.emplace_back(at(begin), at(begin + share));
+      const std::size_t end = std::min(begin + share, all.size());
+      calls.together.emplace_back(all.begin() + static_cast<std::ptrdiff_t>(begin),
+                                  all.begin() + static_cast<std::ptrdiff_t>(end));
     }
   }
   return calls;
