@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <random>
 
+#include "firmware/control/limits/notch_shaper.hpp"
 #include "scalars.hpp"
 
 namespace sonoglide::control::damped_vibration_test {

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "firmware/control/limits/current_limit.hpp"
+#include "firmware/control/limits/notch_shaper.hpp"
 #include "resonator.hpp"
 #include "scalars.hpp"
 
