@@ -34,10 +34,11 @@ class Board {
     }
     const std::uint32_t now = carrier.periods;
     const std::uint32_t force = carrier.force;
+    const std::uint32_t velocity = carrier.velocity;
     const bool on_time = now == period_ + 1;
     const bool converted = carrier.force_ready == now;
-    sample = {left_justified(force), left_justified(carrier.velocity), at_rail(force),
-              on_time && converted};
+    sample = {left_justified(force), left_justified(velocity), at_rail(force), on_time && converted,
+              at_rail(velocity)};
     period_ = now;
     return true;
   }

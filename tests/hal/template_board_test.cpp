@@ -38,6 +38,7 @@ TEST_F(TemplateBoard, SpreadsAConverterOverTheWholeCode) {
     EXPECT_EQ(sample.friction_force, (static_cast<std::int64_t>(code) - 2048) * (1 << 20));
     EXPECT_EQ(sample.sliding_velocity, (2047 - static_cast<std::int64_t>(code)) * (1 << 20));
     EXPECT_EQ(sample.force_at_rail, code == 0 || code == 4095);
+    EXPECT_EQ(sample.velocity_at_rail, code == 0 || code == 4095);
     EXPECT_TRUE(sample.fresh);
   }
 }
