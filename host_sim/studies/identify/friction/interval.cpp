@@ -1,10 +1,12 @@
 #include "host_sim/studies/identify/friction/comparison.hpp"
 
 #include <boost/math/distributions/students_t.hpp>
+#include <boost/math/tools/toms748_solve.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 
 namespace sonoglide::identify::friction {
@@ -70,13 +72,17 @@ class Profile {
     return log < branch.best.logs(parameter) ? -t : t;
   }
 
-  /// Outwards in growing steps, then by regula falsi with the Illinois rule: t is nearly straight.
+  /// Outwards in growing steps, then by TOMS 748 until t is met within its accuracy.
   double end(Eigen::Index parameter, double side, double limit, double step) {
     for (Branch& each : branches_) {
       each.last = each.best.logs;
     }
     const double wanted = boost::math::quantile(student_, 0.975);
-    const auto missing = [&](double log) { return side * t_at(parameter, log) - wanted; };
+    const auto missing = [&](double log) {
+      constexpr double accuracy = 2e-3;
+      const double value = side * t_at(parameter, log) - wanted;
+      return std::abs(value) < accuracy ? 0.0 : value;  // 0 ends the search
+    };
     double inner = branches_.front().best.logs(parameter);
     double at_inner = missing(inner);
     double outer = inner;
@@ -91,26 +97,17 @@ class Profile {
       step *= 2.0;
       at_outer = missing(outer);
     }
-    constexpr double accuracy = 2e-3;
-    double last = outer;
-    constexpr int most_steps = 40;
-    for (int i = 0; i < most_steps && at_inner < 0.0; ++i) {
-      last = outer - at_outer * (outer - inner) / (at_outer - at_inner);
-      const double at_last = missing(last);
-      if (std::abs(at_last) < accuracy) {
-        return last;
-      }
-      if (at_last > 0.0) {
-        outer = last;
-        at_outer = at_last;
-        at_inner *= 0.5;
-      } else {
-        inner = last;
-        at_inner = at_last;
-        at_outer *= 0.5;
-      }
+    if (at_inner >= 0.0) {
+      return outer;
     }
-    return last;
+    std::uintmax_t evaluations = 40;
+    const boost::math::tools::eps_tolerance<double> narrow(40);
+    const auto [low, high] =
+        side < 0.0 ? boost::math::tools::toms748_solve(missing, outer, inner, at_outer, at_inner,
+                                                       narrow, evaluations)
+                   : boost::math::tools::toms748_solve(missing, inner, outer, at_inner, at_outer,
+                                                       narrow, evaluations);
+    return 0.5 * low + 0.5 * high;
   }
 
   const LawProblem& problem_;
