@@ -2,12 +2,12 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 
 #include "firmware/control/vibration/sensorless_table.hpp"
 #include "host_sim/configure/nominal_plant.hpp"
 #include "host_sim/configure/vibration/mode_model.hpp"
+#include "spectral_radius.hpp"
 #include "tests/common/constants/pi.hpp"
 #include "tests/common/table_1.hpp"
 
@@ -34,7 +34,7 @@ double slowest_pole(const SensorlessDesign& design, double frequency_parameter, 
   Eigen::Matrix3d loop = Eigen::Matrix3d::Identity();
   loop.topLeftCorner<2, 2>() = model.rotation;
   loop -= change * feedback;
-  return loop.eigenvalues().cwiseAbs().maxCoeff();
+  return spectral_radius(loop);
 }
 
 /// Next to half a turn in a period the feedback changes faster than the rows lie.
