@@ -1,8 +1,8 @@
 # fmu.dll, the same library for Windows, by the cross compiler mingw-w64. It takes as long to compile as
 # half the program.
-set(library "${PROJECT_BINARY_DIR}/lib/sonoglide/fmu.dll")
+set(windows_engine "${PROJECT_BINARY_DIR}/lib/sonoglide/fmu.dll")
 if(NOT SONOGLIDE_FMU_WINDOWS)
-  file(REMOVE "${library}")  # the program would pack that of an earlier build
+  file(REMOVE "${windows_engine}")  # the program would pack that of an earlier build
   return()
 endif()
 find_program(SONOGLIDE_MINGW x86_64-w64-mingw32-g++-posix REQUIRED)
@@ -59,11 +59,11 @@ foreach(unit IN LISTS units)
   list(APPEND objects "${object}")
 endforeach()
 add_custom_command(
-  OUTPUT "${library}"
+  OUTPUT "${windows_engine}"
   COMMAND "${SONOGLIDE_MINGW}" -shared -static -s -Wl,--gc-sections -Wl,--no-insert-timestamp
-    ${objects} -o "${library}"
+    ${objects} -o "${windows_engine}"
   DEPENDS ${objects}
-  COMMENT "Linking ${library}"
+  COMMENT "Linking ${windows_engine}"
   VERBATIM)
-add_custom_target(sonoglide_fmu_windows DEPENDS "${library}")
+add_custom_target(sonoglide_fmu_windows DEPENDS "${windows_engine}")
 add_dependencies(sonoglide_fmu sonoglide_fmu_windows)
