@@ -10,7 +10,8 @@ double Plant::natural_rad_per_s() const {
 }
 
 double Friction::largest_limit_N() const {
-  ContactValues most = *this;
+  const ContactValues& given = *this;
+  ContactValues most = given;
   if (!coefficient_profile.empty()) {
     most.coefficient = largest_value(coefficient_profile);
   }

@@ -46,15 +46,15 @@ std::set<std::string> header_functions() {
 }
 
 std::set<std::string> matches_of_lines(const std::string& listing, const std::regex& line) {
-  std::set<std::string> names;
+  std::set<std::string> matches;
   std::istringstream lines(listing);
   std::smatch found;
   for (std::string text; std::getline(lines, text);) {
     if (std::regex_match(text, found, line)) {
-      names.insert(found[1]);
+      matches.insert(found[1]);
     }
   }
-  return names;
+  return matches;
 }
 
 }  // namespace sonoglide::acceptance
