@@ -5,7 +5,6 @@
 #include <string_view>
 #include <vector>
 
-#include "host_sim/scene/friction_laws.hpp"
 #include "host_sim/scene/scene.hpp"
 
 namespace sonoglide::scene {
@@ -29,8 +28,5 @@ std::optional<int> straight_order(SolverMethod method);
 
 /// Whether it notices reversals, sticks and releases.
 bool counts_events(SolverMethod method);
-
-/// Whether it takes the law, as the solver of the core says itself.
-bool solves(SolverMethod method, const FrictionLaw& law);
 
 }  // namespace sonoglide::scene

@@ -1,8 +1,5 @@
 #include "host_sim/scene/solver_methods.hpp"
 
-#include "host_sim/scene/friction_laws.hpp"
-#include "host_sim/scene/law_cores.hpp"
-#include "host_sim/scene/solver_cores.hpp"
 #include "host_sim/scene/solver_facts.hpp"
 
 namespace sonoglide::scene {
@@ -52,17 +49,6 @@ std::optional<int> straight_order(SolverMethod method) {
 
 bool counts_events(SolverMethod method) {
   return with_solver(method, [](auto solver) { return decltype(solver)::counts_events; });
-}
-
-bool solves(SolverMethod method, const FrictionLaw& law) {
-  return with_solver(method, [&](auto solver) {
-    return std::visit(
-        [](const auto& any) {
-          using Law = typename std::decay_t<decltype(any)>::template Core<double>;
-          return takes_law<decltype(solver), Law>;
-        },
-        law);
-  });
 }
 
 }  // namespace sonoglide::scene

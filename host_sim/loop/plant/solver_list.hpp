@@ -13,7 +13,7 @@
 #include "host_sim/loop/plant/composed_plant.hpp"
 #include "host_sim/loop/plant/plant_description.hpp"
 #include "host_sim/loop/plant/plant_port.hpp"
-#include "host_sim/scene/solver_cores.hpp"
+#include "host_sim/scene/cores/solver_cores.hpp"
 #include "host_sim/scene/solver_methods.hpp"
 
 namespace sonoglide::loop {

@@ -5,13 +5,11 @@
 #include <cstddef>
 #include <string_view>
 
+#include "host_sim/scene/stiff_core.hpp"
+
 namespace sonoglide::plant {
 template <class Model, std::size_t Nodes>
 class EventGauss;
-template <class Model, std::size_t Order>
-class EventTaylor;
-template <class Solver, class Turning, int Strictness>
-class StiffLinear;
 }  // namespace sonoglide::plant
 
 namespace sonoglide::scene::solvers {
@@ -29,8 +27,7 @@ struct EventGauss {
   static constexpr bool composed_lean = true;
   static constexpr bool counts_events = true;
   template <class Model, int Order>
-  using Core = plant::StiffLinear<plant::EventGauss<Model, static_cast<std::size_t>(Order)>,
-                                  plant::EventTaylor<Model, 16>, 1>;
+  using Core = StiffCore<Model, plant::EventGauss<Model, static_cast<std::size_t>(Order)>, 1>;
 };
 
 }  // namespace sonoglide::scene::solvers

@@ -6,12 +6,7 @@
 #include <cstddef>
 #include <string_view>
 
-namespace sonoglide::plant {
-template <class Model, std::size_t Order>
-class EventTaylor;
-template <class Solver, class Turning, int Strictness>
-class StiffLinear;
-}  // namespace sonoglide::plant
+#include "host_sim/scene/stiff_core.hpp"
 
 namespace sonoglide::scene::solvers {
 
@@ -43,8 +38,7 @@ struct EventTaylor {
   static constexpr bool composed_lean = true;
   static constexpr bool counts_events = true;
   template <class Model, int Order>
-  using Core = plant::StiffLinear<plant::EventTaylor<Model, static_cast<std::size_t>(Order)>,
-                                  plant::EventTaylor<Model, 16>, 1>;
+  using Core = StiffCore<Model, plant::EventTaylor<Model, static_cast<std::size_t>(Order)>, 1>;
 };
 
 }  // namespace sonoglide::scene::solvers

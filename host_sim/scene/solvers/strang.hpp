@@ -5,13 +5,11 @@
 #include <cstddef>
 #include <string_view>
 
+#include "host_sim/scene/stiff_core.hpp"
+
 namespace sonoglide::plant {
 template <class Model>
 class Strang;
-template <class Model, std::size_t Order>
-class EventTaylor;
-template <class Solver, class Turning, int Strictness>
-class StiffLinear;
 }  // namespace sonoglide::plant
 
 namespace sonoglide::scene::solvers {
@@ -30,7 +28,7 @@ struct Strang {
   static constexpr bool counts_events = true;
   // The tolerance bounds the energy, in which event_taylor errs by up to 13 of its tolerances.
   template <class Model, int /*Order*/>
-  using Core = plant::StiffLinear<plant::Strang<Model>, plant::EventTaylor<Model, 16>, 64>;
+  using Core = StiffCore<Model, plant::Strang<Model>, 64>;
 };
 
 }  // namespace sonoglide::scene::solvers

@@ -15,9 +15,9 @@
 
 #include "host_sim/experiment/experiment.hpp"
 #include "host_sim/loop/run.hpp"
+#include "host_sim/scene/cores/solver_cores.hpp"
 #include "host_sim/scene/law_cores.hpp"
 #include "host_sim/scene/names.hpp"
-#include "host_sim/scene/solver_cores.hpp"
 #include "host_sim/scene/solver_methods.hpp"
 #include "tests/common/constants/pi.hpp"
 #include "tests/host_sim/loop/equations/follow.hpp"

@@ -13,8 +13,8 @@
 
 #include "host_sim/loop/run.hpp"
 #include "host_sim/loop/stepped.hpp"
+#include "host_sim/scene/cores/solver_cores.hpp"
 #include "host_sim/scene/law_cores.hpp"
-#include "host_sim/scene/solver_cores.hpp"
 #include "host_sim/scene/solver_methods.hpp"
 #include "tests/common/table_1.hpp"
 #include "tests/host_sim/loop/random/random_scene.hpp"

@@ -2,6 +2,7 @@
 
 #include "host_sim/scene/friction_laws.hpp"
 #include "host_sim/experiment/experiment.hpp"
+#include "host_sim/scene/cores/solves.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
