@@ -45,6 +45,7 @@ pid_t start(const ScratchFolder& folder, const ScratchFolder& cache, const std::
             const std::string& errors = "/dev/null") {
   const pid_t child = fork();
   if (child == 0) {
+    heed_signals();
     setenv("XDG_CACHE_HOME", cache.path().c_str(), 1);
     setenv("TMPDIR", cache.path().c_str(), 1);
     // The sanitizer's search for leaks is a process of its own, which would look like a tool.

@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "image_cache.hpp"
-#include "tests/acceptance/program/program.hpp"
+#include "tests/acceptance/program/started_program.hpp"
 #include "tests/common/scenes.hpp"
 
 namespace sonoglide::acceptance::pil_interruption_test {
@@ -64,18 +64,6 @@ pid_t emulator_of(pid_t parent) {
     }
   }
   return 0;
-}
-
-template <class Condition>
-bool comes_true(const Condition& condition) {
-  constexpr int most_looks = 3000;
-  for (int i = 0; i < most_looks; ++i) {
-    if (condition()) {
-      return true;
-    }
-    std::this_thread::sleep_for(std::chrono::milliseconds(10));
-  }
-  return false;
 }
 
 /// Processes whose command line has a text in it.
@@ -141,6 +129,7 @@ class PilInterruptionTest : public testing::Test {
 
  private:
   [[noreturn]] void become_the_program() const {
+    heed_signals();
     const int errors = open((folder_.path() / "errors").c_str(), O_WRONLY | O_CREAT, 0600);
     if (chdir(folder_.path().c_str()) == 0 && dup2(errors, STDERR_FILENO) >= 0) {
       execl(SONOGLIDE_PROGRAM, "sonoglide", "pil", "scene.toml", "--board", "mps2-an386", "--quiet",

@@ -11,6 +11,12 @@
 
 namespace sonoglide::acceptance {
 
+void heed_signals() {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    std::signal(signal, SIG_DFL);
+  }
+}
+
 StartedProgram::StartedProgram(const ScratchFolder& folder, std::vector<std::string> arguments,
                                const ScratchFolder& temporary) {
   std::string name = "sonoglide";
@@ -21,7 +27,7 @@ StartedProgram::StartedProgram(const ScratchFolder& folder, std::vector<std::str
   words.push_back(nullptr);
   process_ = fork();
   if (process_ == 0) {
-    std::signal(SIGHUP, SIG_DFL);  // ignored, if the tests run under nohup
+    heed_signals();
     const int nowhere = open("/dev/null", O_WRONLY);
     setenv("TMPDIR", temporary.path().c_str(), 1);
     if (chdir(folder.path().c_str()) == 0 && dup2(nowhere, STDOUT_FILENO) >= 0) {
@@ -56,7 +62,7 @@ int StartedProgram::end() {
 }
 
 bool comes_true(const std::function<bool()>& condition) {
-  constexpr int most_looks = 6000;
+  constexpr int most_looks = 60'000;
   for (int i = 0; i < most_looks; ++i) {
     if (condition()) {
       return true;

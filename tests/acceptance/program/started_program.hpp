@@ -33,7 +33,11 @@ class StartedProgram {
   pid_t process_;
 };
 
-/// Looks again and again, for half a minute; whether the condition came true.
+/// The signals that end the program act again: tests that are started by nohup, or in the background
+/// by a script, ignore some of them, and so would the program.
+void heed_signals();
+
+/// Looks again and again, for five minutes; whether the condition came true.
 bool comes_true(const std::function<bool()>& condition);
 
 }  // namespace sonoglide::acceptance

@@ -212,12 +212,28 @@ void expect_stopped_within(Terminal& terminal, std::size_t characters, const std
   ASSERT_EQ(terminal.board.latest_drive().amplitude, 0) << what << " after " << when;
 }
 
+/// Periods from the line to a little after the last character of its answer; 1200 for longer ones.
+int periods_of_answer(const std::string& line) {
+  SimulatedFlash flash;
+  Terminal terminal(flash);
+  terminal.unit.restart();
+  terminal.put(line + "\r");
+  int last = 0;
+  for (int period = 0; period < 1200; ++period) {
+    const std::size_t before = terminal.wire.from_unit.size();
+    terminal.serve(1);
+    last = terminal.wire.from_unit.size() > before ? period : last;
+  }
+  return std::min(last + 50, 1200);
+}
+
 // "stop" comes so many periods after another line: with each of its characters, and with each of
 // its answer's, shown to somebody or to nobody.
 TEST(ConsoleStop, ActsWithItsLastCharacterWhateverIsBeingAnswered) {
   for (const std::string& line : busy_with) {
+    const int answered = periods_of_answer(line);
     for (const bool shown : {true, false}) {
-      for (int when = 0; when < 1200; when += line == "params" ? 7 : 1) {
+      for (int when = 0; when < answered; when += line == "params" ? 7 : 1) {
         SimulatedFlash flash;
         Terminal terminal(flash);
         terminal.unit.restart();

@@ -14,37 +14,53 @@ namespace {
 
 constexpr double two_pi = 6.283185307179586;
 
-/// Means of the friction over three periods, in multiples of Fc, from the periodic friction on: of a
-/// velocity r + (1 + more) cos(2πt + phase) + little Re(w exp(λt)), the last in the first period alone.
+/// What is added to the velocity r + cos(2πt + phase): more cos(2πt + phase) + Re(w exp(λt)).
 struct Change {
-  double more = 0.0;  ///< of the first period alone
+  double more = 0.0;
   std::complex<double> mode;
 };
 
-std::array<double, 3> means(const VibratedContact& contact, std::complex<double> rate,
-                            const Change& change) {
+/// One period of the contact in short steps, from a friction in multiples of Fc: its mean, and the
+/// friction at its end.
+struct Period {
+  double mean = 0.0;
+  double end = 0.0;
+};
+
+Period period_of(const VibratedContact& contact, double friction, std::complex<double> rate,
+                 const Change& change) {
   constexpr int steps = 20000;
-  constexpr int settling = 60;
-  double friction = 0.0;
-  std::array<double, 3> sums{};
-  for (int period = -settling; period < 3; ++period) {
-    for (int i = 0; i < steps; ++i) {
-      const double t = (i + 0.5) / steps;
-      const double here = period == 0 ? 1.0 : 0.0;
-      const double velocity = contact.velocity_ratio +
-                              (1.0 + here * change.more) * std::cos(two_pi * t + contact.phase) +
-                              here * (change.mode * std::exp(rate * t)).real();
-      const double direction = velocity > 0.0 ? 1.0 : -1.0;
-      const double end =
-          direction + (friction - direction) *
-                          std::exp(-two_pi * contact.dahl_number * std::abs(velocity) / steps);
-      if (period >= 0) {
-        sums[static_cast<std::size_t>(period)] += 0.5 * (friction + end) / steps;
-      }
-      friction = end;
-    }
+  Period result{0.0, friction};
+  for (int i = 0; i < steps; ++i) {
+    const double t = (i + 0.5) / steps;
+    const double velocity = contact.velocity_ratio +
+                            (1.0 + change.more) * std::cos(two_pi * t + contact.phase) +
+                            (change.mode * std::exp(rate * t)).real();
+    const double direction = velocity > 0.0 ? 1.0 : -1.0;
+    const double end =
+        direction + (result.end - direction) *
+                        std::exp(-two_pi * contact.dahl_number * std::abs(velocity) / steps);
+    result.mean += 0.5 * (result.end + end) / steps;
+    result.end = end;
   }
-  return sums;
+  return result;
+}
+
+/// At the end of a period of the steady vibration.
+double periodic_friction(const VibratedContact& contact) {
+  double friction = 0.0;
+  for (int period = 0; period < 60; ++period) {
+    friction = period_of(contact, friction, {}, {}).end;
+  }
+  return friction;
+}
+
+/// Means over three periods, of which the first is changed.
+std::array<double, 3> means(const VibratedContact& contact, double periodic,
+                            std::complex<double> rate, const Change& change) {
+  const Period first = period_of(contact, periodic, rate, change);
+  const Period second = period_of(contact, first.end, {}, {});
+  return {first.mean, second.mean, period_of(contact, second.end, {}, {}).mean};
 }
 
 TEST(FrictionResponseTest, IsThatOfTheContactItself) {
@@ -55,8 +71,9 @@ TEST(FrictionResponseTest, IsThatOfTheContactItself) {
       const VibratedContact contact{ratio, kappa, 1.1};
       const ReadingResponse response = reading_response(contact, rate, {});
       const FrictionResponse bare = friction_response(contact);
-      const auto up = means(contact, rate, {little, {}});
-      const auto down = means(contact, rate, {-little, {}});
+      const double periodic = periodic_friction(contact);
+      const auto up = means(contact, periodic, rate, {little, {}});
+      const auto down = means(contact, periodic, rate, {-little, {}});
       // All later periods together: the third and what is left after it.
       const auto sum_of = [&](const std::array<double, 3>& a, const std::array<double, 3>& b) {
         const double tail = (a[2] - b[2]) / (1.0 - bare.memory);
@@ -65,8 +82,8 @@ TEST(FrictionResponseTest, IsThatOfTheContactItself) {
       const auto forced = sum_of(up, down);
       const double all = forced[0] + forced[1] + forced[2];
       for (const std::complex<double> w : {std::complex<double>{1.0, 0.0}, {0.0, 1.0}}) {
-        const auto mode = sum_of(means(contact, rate, {0.0, little * w}),
-                                 means(contact, rate, {0.0, -little * w}));
+        const auto mode = sum_of(means(contact, periodic, rate, {0.0, little * w}),
+                                 means(contact, periodic, rate, {0.0, -little * w}));
         for (std::size_t k = 0; k < 3; ++k) {
           EXPECT_NEAR((response.mode[k] * w).real(), mode[k] / all, 0.02)
               << kappa << ", " << ratio << ", " << k;
