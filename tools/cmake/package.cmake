@@ -63,21 +63,13 @@ function(sonoglide_install_data)
     install(DIRECTORY "${PROJECT_SOURCE_DIR}/hal/${folder}"
       DESTINATION "${SONOGLIDE_DATA_FOLDER}/hal" COMPONENT core)
   endforeach()
-  install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT core)
+  install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" DESTINATION "${SONOGLIDE_DATA_FOLDER}" COMPONENT core)
 
   install(DIRECTORY "${PROJECT_SOURCE_DIR}/host_sim/scenes"
     DESTINATION "${SONOGLIDE_DATA_FOLDER}" COMPONENT documents FILES_MATCHING PATTERN "*.toml")
-  install(FILES "${PROJECT_SOURCE_DIR}/README.md"
-    DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT documents)
-  foreach(folder firmware hal host_sim tests)
-    file(GLOB_RECURSE documents CONFIGURE_DEPENDS RELATIVE "${PROJECT_SOURCE_DIR}"
-      "${PROJECT_SOURCE_DIR}/${folder}/*.md" "${PROJECT_SOURCE_DIR}/${folder}/*.svg")
-    foreach(document IN LISTS documents)
-      cmake_path(GET document PARENT_PATH inside)
-      install(FILES "${PROJECT_SOURCE_DIR}/${document}"
-        DESTINATION "${CMAKE_INSTALL_DOCDIR}/${inside}" COMPONENT documents)
-    endforeach()
-  endforeach()
+  install(CODE "set(SOURCE \"${PROJECT_SOURCE_DIR}\")
+    set(FOLDER \"\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_DOCDIR}\")
+    include(\"${PROJECT_SOURCE_DIR}/tools/cmake/documents.cmake\")" COMPONENT documents)
 endfunction()
 
 function(sonoglide_install)
