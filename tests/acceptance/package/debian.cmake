@@ -1,5 +1,6 @@
 # The Debian packages: made, judged by lintian, unpacked and removed by dpkg in a root of their own, and
-# used there. Their manual pages are silent under `man --warnings`.
+# used there. Their manual pages are silent under `man --warnings`, have every section and are found by
+# their names; the examples in them run.
 include("${CMAKE_CURRENT_LIST_DIR}/run.cmake")
 
 set(root "${FOLDER}/debian_root")
@@ -31,6 +32,12 @@ foreach(command IN ITEMS "" ${commands})
     man --warnings --local-file --troff-device=utf8 --ditroff "${BUILD}/debian/man/${page}.1.gz")
   expect("${output}" HAS_NO "warning")
   expect("${output}" HAS "Sonoglide")
+  run(zcat "${BUILD}/debian/man/${page}.1.gz")
+  foreach(section NAME SYNOPSIS DESCRIPTION OPTIONS [["EXIT STATUS"]] FILES EXAMPLES [["SEE ALSO"]])
+    expect("${output}" HAS "\n.SH ${section}\n")
+  endforeach()
+  run(lexgrog "${BUILD}/debian/man/${page}.1.gz")
+  expect("${output}" HAS "${page} - ")
 endforeach()
 
 # dpkg as it is on a machine that has nothing: what the packages depend on is looked up on this one.
@@ -46,6 +53,24 @@ endforeach()
 run("${root}/usr/bin/sonoglide" run "${root}/usr/share/sonoglide/scenes/target_step.toml"
   --out "${FOLDER}/debian_run")
 expect("${output}" HAS "0.600")
+set(SCENES "${root}/usr/share/sonoglide/scenes")
+set(DOCUMENTS "${root}/usr/share/doc/sonoglide")
+include("${SOURCE}/tools/debian/examples.cmake")
+set(slow arithmetic pil stability work-precision)
+file(REMOVE_RECURSE "${FOLDER}/debian_examples")
+file(MAKE_DIRECTORY "${FOLDER}/debian_examples")
+foreach(command IN LISTS commands ITEMS identify-impedance identify-friction)
+  string(STRIP "${command}" command)
+  if(command IN_LIST slow)
+    continue()
+  endif()
+  set(examples ${examples_sonoglide-${command}})
+  while(examples)
+    list(POP_FRONT examples line purpose)
+    run("${CMAKE_COMMAND}" -E chdir "${FOLDER}/debian_examples"
+      "${CMAKE_COMMAND}" -E env "PATH=${root}/usr/bin:$ENV{PATH}" sh -c "${line}")
+  endwhile()
+endforeach()
 if(PYTHON)
   run("${CMAKE_COMMAND}" -E env "PYTHONPATH=${root}/usr/lib/python3/dist-packages" "${PYTHON}" -B -c "
 import sonoglide
