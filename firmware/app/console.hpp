@@ -352,7 +352,7 @@ class Console {
   /// Where it is known.
   void say_mismatch() {
     const std::uint32_t mismatch = mismatch_thousandths(drive_, unit_.target());
-    return mismatch > 0 ? say(", believed/true friction ", mismatch, 3) : say("");
+    return mismatch > 0 ? say(", nominal/true friction ", mismatch, 3) : say("");
   }
 
   /// @param amplitude  code, 0 … 2^31 − 1.

@@ -9,7 +9,7 @@
 
 namespace sonoglide::app {
 
-/// Believed over true friction force, in thousandths: commanded over target ratio in a settled
+/// Nominal over true friction force, in thousandths: commanded over target ratio in a settled
 /// loop. 0 if it is unknown. Limited to 65,535. Rounded down, from a commanded ratio that is
 /// rounded to a millionth.
 /// @param drive   the answer of the step.

@@ -38,7 +38,7 @@ struct Telemetry {
   std::uint8_t parameters;        ///< store::Origin
   std::uint16_t lost_frames;      ///< damaged, or one too many at a time; since reset, wraps
   std::uint8_t settling;          ///< control::Settling
-  std::uint16_t mismatch;         ///< believed over true friction, thousandths; 0: not known
+  std::uint16_t mismatch;         ///< nominal over true friction, thousandths; 0: not known
 
   template <class Message, class Visitor>
   static constexpr void fields(Message& message, Visitor&& visit) {

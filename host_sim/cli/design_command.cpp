@@ -82,7 +82,7 @@ void add_design_command(CLI::App& program) {
   CLI::App* command = program.add_subcommand(
       "design",
       "Design guidelines for a closed-loop scene: force, vibration and power that its friction "
-      "ratios take, what they hang on, what resonance would give, and what is out of reach");
+      "ratios take, what they are sensitive to, what resonance would give, and what is out of reach");
   add_scene_options(*command, options->scene, "its [solver] and initial state play no part");
   command
       ->add_option("--ratio", options->ratios,

@@ -137,9 +137,9 @@ void add_sweep_command(CLI::App& program) {
       ->add_option("--vary", options->vary,
                    "A key and its values, evenly spaced or, with :log, by equal factors, e.g. "
                    "friction.contact_stiffness_N_per_m=1e4:1e6:32:log, of one value FROM is TO; or "
-                   "KEY=A,B,C, words or numbers, e.g. friction.law=dahl,coulomb, where a key that "
-                   "one word does not use may stand in the scene for another; repeatable, the "
-                   "first key changes slowest. velocity_ratio stands for sliding velocity over "
+                   "KEY=A,B,C, words or numbers, e.g. friction.law=dahl,coulomb: a key that only "
+                   "some of the laws use may stay in the scene, the others ignore it; repeatable, "
+                   "the first key changes slowest. velocity_ratio is the sliding velocity over the "
                    "peak vibration velocity of the steady state without friction, "
                    "Fe w / |Ks - m w^2 + i c w|")
       ->type_name("KEY=FROM:TO:COUNT[:log]|KEY=A,B,...")

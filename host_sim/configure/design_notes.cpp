@@ -30,13 +30,13 @@ void add_notch_notes(const NotchDesign& notch, std::vector<std::string>& notes) 
   }
   notes.push_back(fmt::format(
       "The natural mode is so near a multiple of the carrier frequency that its notch spans {} "
-      "carrier periods: {} of them after each change the drive stands at {:.0f} % of it, then {} "
-      "at {:.0f} %. Targets, speeds and sensors that change faster are not followed.",
+      "carrier periods: for {} of them after each change the drive is at {:.0f} % of it, then for "
+      "{} at {:.0f} %. Targets, speeds and sensors that change faster are not followed.",
       notch.span(), notch.spacing, 100.0 * notch.taps[0], notch.spacing,
       100.0 * (notch.taps[0] + notch.taps[1])));
 }
 
-/// How far the stiffness may be off, where that is less than usual and not told by another note.
+/// How far the stiffness may be off, where that is less than usual and not in another note.
 void add_stiffness_note(const SensorlessDesign& design, std::vector<std::string>& notes) {
   constexpr double usual_range = 0.05;
   const double least =
@@ -45,10 +45,10 @@ void add_stiffness_note(const SensorlessDesign& design, std::vector<std::string>
     return;
   }
   if (least == design.stiffness_range) {
-    notes.push_back(
-        fmt::format("The natural mode is looked for only where the stiffness is within {:.2g} % of "
-                    "the believed one: it is close to the carrier frequency.",
-                    100.0 * least));
+    notes.push_back(fmt::format(
+        "The controller searches for the natural mode only where the stiffness is within "
+        "{:.2g} % of the nominal one, because the mode is close to the carrier frequency.",
+        100.0 * least));
     return;
   }
   notes.push_back(fmt::format(
@@ -56,7 +56,7 @@ void add_stiffness_note(const SensorlessDesign& design, std::vector<std::string>
       "the natural mode {}.",
       100.0 * least,
       least == design.rotation_range
-          ? "then turns by more than 0.3 rad otherwise than believed in a carrier period"
+          ? "then has a phase error of more than 0.3 rad per carrier period"
           : "may then be within 0.06 carrier frequencies of zero or of a multiple of the carrier"));
 }
 
@@ -64,15 +64,15 @@ void add_notes(const FeedforwardDesign& mode, const ControlDesign& design,
                std::vector<std::string>& notes) {
   if (mode.free_mode) {
     notes.push_back(
-        fmt::format("No notch is on the natural mode: each change of the drive makes it ring. The "
+        fmt::format("The natural mode has no notch: each change of the drive makes it ring. The "
                     "feedback gain is {:.3g} per carrier period.",
                     design.integral_gain));
   }
   if (mode.free_mode && mode.shaping_range > 0.0) {
     notes.push_back(
-        fmt::format("No robust notch quiets a natural mode that may be off by {:.3g} % in "
-                    "frequency. A smaller controller.shaping_range, or another carrier frequency, "
-                    "may leave room for one.",
+        fmt::format("No robust notch suppresses a natural mode whose frequency may be off by "
+                    "{:.3g} %. A smaller controller.shaping_range, or another carrier frequency, "
+                    "may allow one.",
                     100.0 * mode.shaping_range));
   }
   if (mode.notch) {
@@ -81,9 +81,8 @@ void add_notes(const FeedforwardDesign& mode, const ControlDesign& design,
   if (mode.missing_damping_N_s_per_m > 0.0) {
     constexpr double never_rounded_down = 1.005;  // to three digits
     notes.push_back(fmt::format(
-        "The natural mode hardly decays. Feedback may make what the robust notch leaves of its "
-        "ringing grow over thousands of carrier periods, also where the stiffness is known "
-        "exactly. A plant.damping_N_s_per_m of {:.3g} or more prevents it.",
+        "The natural mode hardly decays. Feedback may then amplify the ringing that the robust notch "
+        "leaves, over thousands of carrier periods, even if the stiffness is known exactly. A plant.damping_N_s_per_m of {:.3g} or more prevents it.",
         never_rounded_down * mode.missing_damping_N_s_per_m));
   }
 }
@@ -93,8 +92,8 @@ void add_notes(const DampedDesign& mode, const ControlDesign& /*design*/,
   if (!mode.quick) {
     notes.push_back(
         "The natural mode is so near 0 or a multiple of the carrier frequency that no change of "
-        "the amplitude quiets it quickly: the vibration velocity is held, and the friction ratio "
-        "may swing about its target.");
+        "the amplitude damps it quickly: the vibration velocity is controlled, and the friction "
+        "ratio may swing about its target.");
   }
 }
 
@@ -107,7 +106,7 @@ void add_notes(const ResonantDesign& mode, const ControlDesign& design,
     return (1.0 + deviation) / design.scales.carrier_period_s;
   };
   notes.push_back(fmt::format(
-      "The believed natural frequency of {:.6g} Hz is outside the frequency range of {:.6g} to "
+      "The nominal natural frequency of {:.6g} Hz is outside the frequency range of {:.6g} to "
       "{:.6g} Hz: the controller begins at the nearest end.",
       frequency_Hz(mode.nominal_natural), frequency_Hz(mode.lowest), frequency_Hz(mode.highest)));
 }
@@ -116,34 +115,34 @@ void add_notes(const SensorlessDesign& mode, const ControlDesign& design,
                std::vector<std::string>& notes) {
   if (!design.calibrated) {
     notes.push_back(fmt::format(
-        "The friction force of the scene is believed: where it is another, the friction ratio is "
-        "off by as much. A controller.calibration_s of {:.3g} s learns it with the drive off; the "
-        "first target has to hold for twice as long. Without that key it is learnt where the first "
-        "target does.",
+        "The controller takes the friction force of the scene without calibration: an error in it "
+        "is an error of the same size in the friction ratio. A controller.calibration_s of {:.3g} s "
+        "measures it with the drive off; the first target must last twice as long. Without that "
+        "key it is calibrated if the first target lasts so long.",
         design.usual_calibration_s));
   }
   if (!mode.apart) {
     notes.push_back(
         "The natural mode is beside zero or a multiple of the carrier frequency, within 0.5 % of "
-        "that frequency: it cannot be told from the vibration and rings with it. The friction "
-        "ratio is fed back alone, and stays off its target where the stiffness is not the believed "
-        "one or what rings from the last target is too loud.");
+        "that frequency: no reading separates it from the driven vibration. Feedback "
+        "is of the friction ratio alone, which stays off its target if the stiffness is not the "
+        "nominal one or if the ringing of the last target is too large.");
   } else {
     if (!mode.quick) {
       notes.push_back(
           "The natural mode is so near 0 or a multiple of the carrier frequency that no change of "
-          "the amplitude quiets it quickly: the friction ratio may swing about its target or stay "
-          "off it, most of all where the stiffness is not the believed one. Another carrier "
-          "frequency is surer.");
+          "the amplitude damps it quickly: the friction ratio may swing about its target or stay "
+          "off it, above all if the stiffness is not the nominal one. Use another carrier "
+          "frequency.");
     }
     add_stiffness_note(mode, notes);
   }
   constexpr double usual_blur = 0.02;
   if (mode.blur > usual_blur) {
     notes.push_back(fmt::format(
-        "The force sensor shows little of the natural mode: a reading whose lag is taken out is "
-        "uncertain by {:.3g} % of the vibration velocity. A quicker one, or one with "
-        "less noise, shows more; so does a sensor.vibration.",
+        "The force sensor shows little of the natural mode: a lag-compensated reading is uncertain "
+        "by {:.3g} % of the vibration velocity. A faster sensor, one with less noise, or a "
+        "sensor.vibration shows more.",
         100.0 * mode.blur));
   }
 }

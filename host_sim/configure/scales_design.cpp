@@ -90,7 +90,7 @@ void check_converter(const scene::Scene& scene, const NominalPlant& plant) {
     throw ConfigurationError(
         "sensor.adc_bits",
         fmt::format(
-            "one code is {:.3g} of the believed friction force; allowed: at least {} bits, or a "
+            "one code is {:.3g} of the nominal friction force; allowed: at least {} bits, or a "
             "smaller sensor.force_full_scale_N",
             code_N(scene.sensor) / plant.friction_N, bits));
   }
@@ -203,7 +203,7 @@ void design_scales(const scene::Scene& scene, const NominalPlant& plant, Control
   const double displacement_m = set_scales(scene, plant, design);
   design.friction_force = per_unit(
       plant.friction_N, design.scales.force_N, smallest_friction, "sensor.force_full_scale_N",
-      fmt::format("is {:.4g} N, of which the believed friction force "
+      fmt::format("is {:.4g} N, of which the nominal friction force "
                   "of {:.4g} N makes {{:.3g}}",
                   design.scales.force_N, plant.friction_N),
       fmt::format("above {}, at most {} N", scene::at_least(plant.friction_N),

@@ -181,7 +181,7 @@ void add_studies(py::module_& module) {
              "Runs a scene for every combination of the values of some keys, on several threads,\n"
              "while other threads run. -> {name: column}, those of sweep.csv, in its order\n\n"
              "vary     {\"table.key\": values}: numbers, words, or a text FROM:TO:COUNT or\n"
-             "         FROM:TO:COUNT:log; velocity_ratio stands for sliding velocity over peak\n"
+             "         FROM:TO:COUNT:log; velocity_ratio is the sliding velocity over the peak\n"
              "         vibration velocity. The first key changes slowest.\n"
              "threads  0: one for each core\n\n"
              "A point that cannot be computed has NaN, and why in the column status. Raises\n"

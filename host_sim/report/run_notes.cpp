@@ -7,7 +7,7 @@
 namespace sonoglide::report {
 namespace {
 
-/// The controller foresees the current from what it believes and from a noisy vibration.
+/// The controller computes the current from the nominal plant and a noisy vibration.
 void append_current_excess(const scene::Scene& scene, const loop::RunResult& result,
                            std::vector<std::string>& notes) {
   if (!scene.drive || !scene.drive->max_current_amplitude_A) {
@@ -17,7 +17,7 @@ void append_current_excess(const scene::Scene& scene, const loop::RunResult& res
   if (result.current_peak_A > told_current_excess * limit_A) {
     notes.push_back(fmt::format(
         "The current reached {:.4g} A, {:.2g} % above its limit of {:.6g} A: the controller does "
-        "not measure it, it computes it from the believed plant and the vibration sensor.",
+        "not measure it but computes it from the nominal plant and the vibration sensor.",
         result.current_peak_A, 100.0 * (result.current_peak_A / limit_A - 1.0), limit_A));
   }
 }
@@ -32,11 +32,8 @@ void append_contact_loss(const scene::Scene& scene, const loop::RunResult& resul
       configure::contact_at(scene.friction, scene.run.window_start_s).normal_force_N;
   notes.push_back(fmt::format(
       "The vibration opens the contact for {:.3g} % of the time. The law holds the mean gap, not "
-      "the mean load: the mean normal force is {:.4g} N, not the {:.4g} N at rest, and the "
-      "friction "
-      "ratio is over the friction of the latter. What the contact does where it opens, impact "
-      "above "
-      "all, is not modelled.",
+      "the mean load: the mean normal force is {:.4g} N, not the {:.4g} N at rest. The friction "
+      "ratio is over the friction at rest. Impacts of the open contact are not modelled.",
       100.0 * load.open_fraction, load.mean_normal_force_N, resting_N));
 }
 

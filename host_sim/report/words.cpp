@@ -43,19 +43,19 @@ std::string settling_name(control::Settling settling) {
 std::string limit_text(const report::StepMetrics& step) {
   std::string text = limit_name(step.limit);
   if (std::isnan(step.steady_error)) {
-    return text + ", no carrier period of it to judge by";
+    return text + ", no carrier period to judge it by";
   }
   if (step.limit == control::Limit::not_settling && step.cause != control::Settling::pending) {
     text += fmt::format(" ({})", settling_name(step.cause));
   }
   if (step.limit == control::Limit::mismatch && step.mismatch) {
-    text += fmt::format(" (believed/true friction {:.3g})", *step.mismatch);
+    text += fmt::format(" (nominal/true friction {:.3g})", *step.mismatch);
   }
   if (!step.limit_seen_by_controller) {
     text += step.controller_undecided ? ", not yet judged by the controller"
-                                      : ", unseen by the controller";
+                                      : ", not detected by the controller";
   } else if (step.limit == control::Limit::not_settling && step.settling_time_s) {
-    text += ", for the controller alone";
+    text += ", in the controller's reading alone";
   }
   return text;
 }

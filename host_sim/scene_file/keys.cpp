@@ -77,7 +77,7 @@ std::vector<KeyTable> plain_tables() {
       {"sensor", false, "errors of the sensors, in closed loop; ideal without this table",
        sensor_keys(), uses::closed_loop},
       {"model_error", false,
-       "believed over true value of the parameters that the controller is designed with, in closed "
+       "nominal over true value of the parameters that the controller is designed with, in closed "
        "loop; 1 without this table",
        model_error_keys(), uses::closed_loop},
   };
@@ -138,16 +138,16 @@ Spread spread_of(const Allowed& allowed) {
 void add_tables_of_others(std::vector<KeyTable>& tables) {
   KeyTable tolerance{"tolerance",
                      false,
-                     "how far the true value of a number may be from the scene's, which the "
-                     "controller believes; for the command robust, every other one takes the scene "
-                     "as it is",
+                     "by how much the plant may differ from the scene, for which the controller is "
+                     "designed; used by robust, ignored by the other commands",
                      {}};
-  KeyTable true_values{"true_values",
-                       false,
-                       "true value of a number where that is known to be another than the scene's, "
-                       "which the controller believes; what follows from that number by default "
-                       "stays as it is",
-                       {}};
+  KeyTable true_values{
+      "true_values",
+      false,
+      "true value of a number of the plant that differs from the scene's, for which "
+      "the controller is designed; a default that is computed from the scene's "
+      "number stays",
+      {}};
   tolerance.of_others = true;
   true_values.of_others = true;
   for (const Variable& each : variables(tables)) {

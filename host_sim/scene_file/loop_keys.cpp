@@ -112,8 +112,8 @@ std::vector<Key> run_keys() {
        "the same in carrier periods, in place of window_start_s", uses::a_period},
       {"settling_band", of_run<&Run::settling_band>, Number{{0.0, 1.0, "", true}},
        run.settling_band,
-       "half width of the band around a target, in friction ratio; a step has settled once the "
-       "ratio stays in the band, at least for the last tenth of the step",
+       "half width of the band around a target, in friction ratio; a step settles when the "
+       "ratio enters the band for good, and never if it leaves it in the last tenth of the step",
        uses::closed_loop},
       {"record", of_run<&Run::record>, WordList{words_of(scene::channels)},
        Rule{"nothing is recorded"}, "channels that trace.csv records"},
@@ -136,9 +136,9 @@ std::vector<Key> controller_keys() {
        Word{words_of(scene::vibration_controls)},
        Rule{"the drive is fed forward, at a fixed frequency"},
        "resonant: the controller observes the vibration, follows the plant's resonance with the "
-       "frequency of the drive and holds the vibration velocity; needs [transducer]. damped: the "
-       "same at a fixed frequency off resonance, with the natural mode damped by feedback: as "
-       "sensor.vibration sees it, or without one as the friction shows it",
+       "drive frequency and controls the vibration velocity; needs [transducer]. damped: at a fixed "
+       "frequency off resonance, with the natural mode damped by feedback. The mode is measured by "
+       "sensor.vibration, or without it estimated from the friction force",
        uses::closed_loop},
       {"frequency_range_Hz", of_controller<&Controller::frequency_range_Hz>,
        Interval{frequency_range}, Rule{"5 % below to 5 % above drive.frequency_Hz"},
@@ -149,10 +149,11 @@ std::vector<Key> controller_keys() {
        Profile{time_range, {0.0, 1.0, "", true}}, Required{},
        "target friction ratio, constant from each time to the next; the first time is 0"},
       {"calibration_s", of_controller<&Controller::calibration_s>, Number{time_range},
-       Rule{"0; where the vibration is felt in the friction, as long as a contact half as stiff as "
-            "believed and the sensor take to settle, at most half of the first target's time, and "
-            "0 where that is too short"},
-       "time with the drive off in which the friction force is learnt; 0: the controller believes "
+       Rule{
+           "0; with damped and without sensor.vibration the settling time of the sensor and of a "
+           "contact half as stiff as nominal, at most half of the first target's time, and 0 where "
+           "that is too short"},
+       "time with the drive off in which the friction force is calibrated; 0: the controller takes "
        "the scene's",
        uses::force_sensor},
       {"shaping", choice<scene::shapings, &scene::Scene::controller, &Controller::shaping>(),
@@ -162,10 +163,11 @@ std::vector<Key> controller_keys() {
        uses::no_observed_vibration},
       {"shaping_range", of_controller<&Controller::shaping_range>,
        Number{{scene::least_shaping_range, scene::most_shaping_range}},
-       Rule{"as far as the tolerances of stiffness and mass go; without these 0.1, for a stiffness "
-            "that is 20 % off"},
-       "how far the natural frequency may be off, relative to the believed one; the robust notch "
-       "has its zeros in this range",
+       Rule{
+           "from the tolerances of stiffness and mass; without these 0.1, for an error of 20 % in the "
+           "stiffness"},
+       "largest error of the natural frequency, relative to the nominal one; the robust notch has "
+       "its zeros in this range",
        uses::implied(uses::no_observed_vibration) + uses::robust_shaping},
       {"speed_floor_m_per_s", of_controller<&Controller::speed_floor_m_per_s>,
        Number{{1e-12, largest_speed_m_per_s, "m/s"}},
@@ -178,11 +180,11 @@ std::vector<Key> controller_keys() {
        "time for which the drive is held below the speed floor before it falls to 0"},
       {"relearn_every_s", of_controller<&Controller::relearn_every_s>, Number{{1e-9, 1e9, "s"}},
        Rule{"never"},
-       "time between two pauses of the drive in which the friction force is learnt again",
+       "time between two pauses of the drive in which the friction force is calibrated again",
        uses::force_sensor},
       {"mismatch_warning", of_controller<&Controller::mismatch_warning>, Number{{1.01, 100.0}},
        controller.mismatch_warning,
-       "the limit mismatch is reported once believed over true friction, or its inverse, reaches "
+       "the limit mismatch is reported once nominal over true friction, or its inverse, reaches "
        "this value",
        uses::force_sensor},
   };
@@ -195,8 +197,8 @@ std::vector<Key> sensor_keys() {
   const Uses& seen = uses::vibration_sensor;
   return {
       {"force", of_sensor<&Sensor::force>, Truth{}, Rule{"true"},
-       "whether there is a sensor of the friction force; false: the ratio is held by the vibration "
-       "alone, and rests on the friction that the controller believes",
+       "whether there is a sensor of the friction force; false: the controller holds the vibration "
+       "that gives the ratio with the nominal friction",
        uses::observed_vibration},
       {"adc_bits", of_sensor<&Sensor::adc_bits>, Integer{4, 32, "bits"}, Rule{"ideal"},
        "resolution of the force converter", with_force},
@@ -228,9 +230,9 @@ std::vector<Key> sensor_keys() {
        static_cast<double>(sensor.seed), "seed of the noise; the same seed gives the same noise"},
       {"vibration", choice<scene::vibration_sensors, &scene::Scene::sensor, &Sensor::vibration>(),
        Word{words_of(scene::vibration_sensors)},
-       Rule{"required with resonant; with damped the vibration is felt in the friction"},
-       "what the vibration is seen by, once per carrier period: a pick-up of its velocity, or the "
-       "current of the transducer less that of its clamped capacitance, with [transducer]",
+       Rule{"required with resonant; with damped the mode is estimated from the friction force"},
+       "sensor of the vibration, read once per carrier period: a pick-up of its velocity, or with "
+       "[transducer] its current less that of its clamped capacitance",
        uses::observed_vibration},
       {"vibration_bits", of_sensor<&Sensor::vibration_bits>, Integer{4, 32, "bits"}, Rule{"ideal"},
        "resolution of the vibration converters, one in phase with the drive and one in quadrature",
@@ -253,18 +255,18 @@ std::vector<Key> model_error_keys() {
   const Uses& observed = uses::observed_vibration;
   return {
       {"mass", of_model_error<&ModelError::mass>, quotient, error.mass,
-       "believed over true plant.mass_kg"},
+       "nominal over true plant.mass_kg"},
       {"stiffness", of_model_error<&ModelError::stiffness>, quotient, error.stiffness,
-       "believed over true plant.stiffness_N_per_m"},
+       "nominal over true plant.stiffness_N_per_m"},
       {"coefficient", of_model_error<&ModelError::coefficient>, quotient, error.coefficient,
-       "believed over true friction.coefficient"},
+       "nominal over true friction.coefficient"},
       {"contact_stiffness", of_model_error<&ModelError::contact_stiffness>, quotient,
-       error.contact_stiffness, "believed over true friction.contact_stiffness_N_per_m",
+       error.contact_stiffness, "nominal over true friction.contact_stiffness_N_per_m",
        uses::law(scene::is_elastic)},
       {"force_factor", of_model_error<&ModelError::force_factor>, quotient, error.force_factor,
-       "believed over true transducer.force_factor_N_per_V", observed + uses::a_transducer},
+       "nominal over true transducer.force_factor_N_per_V", observed + uses::a_transducer},
       {"damping", of_model_error<&ModelError::damping>, quotient, error.damping,
-       "believed over true plant.damping_N_s_per_m", observed},
+       "nominal over true plant.damping_N_s_per_m", observed},
   };
 }
 

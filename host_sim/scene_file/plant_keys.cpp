@@ -149,7 +149,7 @@ std::vector<Key> drive_keys() {
   return {
       {"frequency_Hz", of_drive<&Drive::frequency_Hz>, Number{frequency_range}, Required{},
        "carrier frequency; with frequency_profile only the unit of the keys in carrier periods; "
-       "with controller.vibration = \"resonant\" that of the first periods, before the believed "
+       "with controller.vibration = \"resonant\" that of the first periods, before the nominal "
        "natural frequency"},
       {"frequency_profile", of_drive<&Drive::frequency_profile>,
        Profile{time_range, frequency_range}, Rule{"frequency_Hz, constant"},
@@ -188,7 +188,7 @@ std::vector<Key> drive_keys() {
       {"delay_periods", of_drive<&Drive::delay_periods>, Integer{0, 16, "periods"},
        static_cast<double>(drive.delay_periods),
        "carrier periods from the end of a sampled period to the phase 0 at which the command that "
-       "answers it acts; 0 stands for a board that computes in no time",
+       "answers it acts; 0: a board that computes in no time",
        closed_loop},
   };
 }

@@ -50,23 +50,22 @@ std::string shortfall(const DesignStudy& study, const Requirement& point) {
   switch (point.limit) {
     case Obstacle::actuator: {
       const std::string slower = reach(study, point.ratio);
-      return fmt::format(
-          "{} is beyond the drive: it takes {}, {:.3g} times the {} that there are.{}{}.", where,
-          force(point.motion.drive_force_N), point.motion.drive_force_N / most_N(study),
-          force(most_N(study)), nearest_text(point, " at this speed"),
-          slower.empty() ? "" : fmt::format("; {:g} is {}", point.ratio, slower));
+      return fmt::format("{} is beyond the drive: it needs {}, {:.3g} times the limit of {}.{}{}.",
+                         where, force(point.motion.drive_force_N),
+                         point.motion.drive_force_N / most_N(study), force(most_N(study)),
+                         nearest_text(point, " at this speed"),
+                         slower.empty() ? "" : fmt::format("; {:g} is {}", point.ratio, slower));
     }
     case Obstacle::amplitude:
-      return fmt::format("{} is not to be had: more vibration raises the friction again.{}.", where,
-                         nearest_text(point, ""));
+      return fmt::format("{} cannot be reached: more vibration raises the friction again.{}.",
+                         where, nearest_text(point, ""));
     case Obstacle::contact_lost:
       return fmt::format(
-          "{} is not to be had while the contact stays closed.{}; with more vibration it opens, "
-          "and "
-          "the mean normal force rises.",
+          "{} cannot be reached while the contact stays closed.{}; with more vibration it opens, "
+          "and the mean normal force rises.",
           where, nearest_text(point, ""));
     case Obstacle::no_orbit:
-      return fmt::format("{} has no steady vibration that was found: {}.", where, point.reason);
+      return fmt::format("{}: no steady vibration was found. {}.", where, point.reason);
     case Obstacle::undriven:
     case Obstacle::none:
       break;
@@ -78,7 +77,7 @@ std::string shortfall(const DesignStudy& study, const Requirement& point) {
 Advice drive(const DesignStudy& study, const Requirement& point) {
   const std::string topic = fmt::format("Ratio {:g}", point.ratio);
   if (point.limit == Obstacle::undriven) {
-    return {topic, "Needs no drive: it is what the contact has undriven."};
+    return {topic, "Needs no drive: the contact has this ratio undriven."};
   }
   const std::string further = reach(study, point.ratio);
   return {topic, fmt::format("Drive with {} ({:.3g} % of {}) at {}, a vibration of {} and {}{}.",
@@ -96,19 +95,22 @@ double miss(const DesignPoint& point) {
   return std::isnan(error) ? -1.0 : error;
 }
 
-Advice closed_form(const std::vector<DesignPoint>& points) {
+Advice closed_form(const DesignStudy& study, const std::vector<DesignPoint>& points) {
   const DesignPoint& most = *std::max_element(
       points.begin(), points.end(),
       [](const DesignPoint& a, const DesignPoint& b) { return miss(a) < miss(b); });
   const Requirement& worst = most.requirement;
   if (miss(most) < 0.0) {
-    return {"Closed form", "Under its forces the plant settles on no orbit of the drive's period."};
+    return {"Closed form",
+            "With its forces the plant does not settle on an orbit of the carrier period."};
   }
+  const double band = study.task.scene.run.settling_band;
   return {"Closed form",
-          fmt::format("Its force, {} against {}, misses ratio {:g} at {} by {:+.2g}, as friction "
-                      "bends the motion that it takes for a sine; nowhere here by more.",
-                      force(worst.closed_form_force_N), force(worst.motion.drive_force_N),
-                      worst.ratio, speed(worst.sliding_m_per_s), worst.closed_form_error)};
+          fmt::format("Its largest error is {:+.2g}, {} the settling band of {:g}: for ratio {:g} "
+                      "at {} it gives {} in place of {}. It takes the motion as a sine.",
+                      worst.closed_form_error, miss(most) > band ? "more than" : "within", band,
+                      worst.ratio, speed(worst.sliding_m_per_s), force(worst.closed_form_force_N),
+                      force(worst.motion.drive_force_N))};
 }
 
 Advice power(const DesignStudy& study, const std::vector<DesignPoint>& points) {
@@ -122,10 +124,10 @@ Advice power(const DesignStudy& study, const std::vector<DesignPoint>& points) {
   const auto watts = [](double value_W) { return output::quantity(value_W, "W"); };
   return {"Power",
           fmt::format(
-              "The drive puts in most for ratio {:g} at {}: {}, of which damping takes {}; "
-              "friction takes {}, undriven {}. On another spring these stay; what passes "
-              "to and fro between drive and mass, Fe v/2 = {}, falls towards resonance.{}",
-              point.ratio, speed(point.sliding_m_per_s), watts(motion.drive_power_W),
+              "The largest mechanical power is {}, for ratio {:g} at {}. Damping dissipates {}, "
+              "friction {} (undriven {}). Another spring does not change them. It changes the "
+              "apparent power of drive and mass, Fe v/2 = {}, which falls towards resonance.{}",
+              watts(motion.drive_power_W), point.ratio, speed(point.sliding_m_per_s),
               watts(motion.damping_power_W), watts(motion.friction_power_W),
               watts(motion.undriven_friction_power_W), watts(motion.apparent_power_W),
               study.task.scene.transducer ? "" : " The piezo's electrical side is not modelled.")};
@@ -149,7 +151,7 @@ std::string lost_orbits(const DesignPoint& point) {
   }
   return symbols.empty()
              ? symbols
-             : fmt::format(" With 1 % more or less of {} the plant settles on no orbit.", symbols);
+             : fmt::format(" With 1 % more or less of {} the plant has no steady orbit.", symbols);
 }
 
 Advice accuracy(const DesignStudy& study, const std::vector<DesignPoint>& points) {
@@ -165,12 +167,12 @@ Advice accuracy(const DesignStudy& study, const std::vector<DesignPoint>& points
   const double total = total_change(worst);
   const double band = study.task.scene.run.settling_band;
   std::string text = fmt::format(
-      "Without feedback 1 % in everything at once moves ratio {:g} at {} by up to "
+      "Without feedback, an error of 1 % in every parameter could shift ratio {:g} at {} by "
       "{:.3f}, {} the settling band of {:g}.",
       worst.requirement.ratio, speed(worst.requirement.sliding_m_per_s), total,
       total > band ? "more than" : "within", band);
   if (by_size.size() > 1) {
-    text += fmt::format(" Most hangs on {} ({:.4f} for 1 %) and {} ({:.4f}).",
+    text += fmt::format(" It is most sensitive to {} ({:.4f} for 1 %) and {} ({:.4f}).",
                         by_size[0].parameter.symbol, by_size[0].largest_change(),
                         by_size[1].parameter.symbol, by_size[1].largest_change());
   }
@@ -184,7 +186,7 @@ std::string frequency(const DesignStudy& study, double tuning) {
 /// The edge of the sensitive band below resonance, and what the drive needs there.
 std::string lower_edge(const DesignStudy& study, const Detuning& detuning) {
   const double force_N = detuning.force_at_sensitive_low_N;
-  return fmt::format("at {:.3g} ({}) it takes {}{}", detuning.sensitive->low,
+  return fmt::format("at {:.3g} ({}) it needs {}{}", detuning.sensitive->low,
                      frequency(study, detuning.sensitive->low), force(force_N),
                      force_N > most_N(study) ? ", more than the drive has" : "");
 }
@@ -193,10 +195,10 @@ std::string lower_edge(const DesignStudy& study, const Detuning& detuning) {
 std::string position(const DesignStudy& study, const Detuning& detuning) {
   const double allowed = study.task.scene.run.settling_band;
   if (study.tuning > detuning.sensitive->high) {
-    return "above resonance, and far enough";
+    return "above resonance, outside the sensitive band";
   }
   if (study.tuning < detuning.sensitive->low) {
-    return "below resonance, and far enough; a stiffer spring saves force, " +
+    return "below resonance, outside the sensitive band; a stiffer spring saves force: " +
            lower_edge(study, detuning);
   }
   if (detuning.change_by_stiffness <= allowed) {
@@ -205,8 +207,8 @@ std::string position(const DesignStudy& study, const Detuning& detuning) {
         detuning.ratio, detuning.change_by_stiffness);
   }
   return fmt::format(
-      "too near to resonance, 1 % of Ks moves ratio {:g} by {:.4f}: leave that to feedback, or go "
-      "down, {}",
+      "too near to resonance, 1 % of Ks moves ratio {:g} by {:.4f}; use feedback, or a softer "
+      "spring: {}",
       detuning.ratio, detuning.change_by_stiffness, lower_edge(study, detuning));
 }
 
@@ -214,14 +216,15 @@ Advice resonance(const DesignStudy& study, const Detuning& detuning) {
   const std::string here = fmt::format("Ks/(m w^2) = {:.3g}, natural frequency {}", study.tuning,
                                        frequency(study, study.tuning));
   if (!detuning.sensitive) {
-    return {"Resonance", here + ": at no tuning does 1 % of Ks cost the settling band."};
+    return {"Resonance",
+            here + ": at every tuning, 1 % of Ks moves the ratio by less than the settling band."};
   }
   const TuningBand& band = *detuning.sensitive;
   const std::string high =
-      band.high < largest_tuning ? fmt::format("to {:.3g}", band.high) : std::string("on");
+      band.high < largest_tuning ? fmt::format("to {:.3g}", band.high) : std::string("up");
   return {"Resonance",
-          fmt::format("{}: {}. Stay out of the springs from {:.3g} {}, where 1 % of Ks may move "
-                      "the ratio by more than the settling band of {:g}.",
+          fmt::format("{}: {}. Avoid Ks/(m w^2) from {:.3g} {}: there 1 % of Ks may move the "
+                      "ratio by more than the settling band of {:g}.",
                       here, position(study, detuning), band.low, high,
                       study.task.scene.run.settling_band)};
 }
@@ -229,27 +232,29 @@ Advice resonance(const DesignStudy& study, const Detuning& detuning) {
 Advice tuning_reach(const Detuning& detuning) {
   const TuningBand& band = *detuning.reachable;
   return {"Detuning",
-          fmt::format("The drive reaches ratio {:g} at {} for Ks/(m w^2) from {:.3g} to {:.3g}{}.",
-                      detuning.ratio, speed(detuning.sliding_m_per_s), band.low, band.high,
-                      band.low > smallest_tuning ? "" : ", and for less")};
+          fmt::format("The drive reaches ratio {:g} at {} for Ks/(m w^2) {} {:.3g}.",
+                      detuning.ratio, speed(detuning.sliding_m_per_s),
+                      band.low > smallest_tuning ? fmt::format("from {:.3g} to", band.low)
+                                                 : std::string("up to"),
+                      band.high)};
 }
 
 Advice amplifier(const DesignStudy& study, const Requirement& point) {
   const scene::Scene& scene = study.task.scene;
   const loop::ElectricalFigures& figures = *point.motion.electrical;
-  return {"Amplifier",
-          fmt::format("It must give most for ratio {:g} at {}: {} and {}, {} for {} (power factor "
-                      "{:.2g}). The clamped capacitance alone takes {}. k_eff = {:.3f}, series "
-                      "resonance {}, parallel resonance {}.",
-                      point.ratio, speed(point.sliding_m_per_s),
-                      output::quantity(figures.voltage_peak_V, "V"),
-                      output::quantity(figures.current_peak_A, "A"),
-                      output::quantity(figures.apparent_power_VA, "VA"),
-                      output::quantity(figures.active_power_W, "W"), figures.power_factor,
-                      output::quantity(clamped_power_VA(scene, figures.voltage_peak_V), "VA"),
-                      std::sqrt(coupling_square(scene)),
-                      output::quantity(series_resonance_Hz(scene), "Hz"),
-                      output::quantity(parallel_resonance_Hz(scene), "Hz"))};
+  return {
+      "Amplifier",
+      fmt::format(
+          "The largest demand, for ratio {:g} at {}: {} and {}, {} for {} (power factor "
+          "{:.2g}). The clamped capacitance alone takes {}. k_eff = {:.3f}, series "
+          "resonance {}, parallel resonance {}.",
+          point.ratio, speed(point.sliding_m_per_s), output::quantity(figures.voltage_peak_V, "V"),
+          output::quantity(figures.current_peak_A, "A"),
+          output::quantity(figures.apparent_power_VA, "VA"),
+          output::quantity(figures.active_power_W, "W"), figures.power_factor,
+          output::quantity(clamped_power_VA(scene, figures.voltage_peak_V), "VA"),
+          std::sqrt(coupling_square(scene)), output::quantity(series_resonance_Hz(scene), "Hz"),
+          output::quantity(parallel_resonance_Hz(scene), "Hz"))};
 }
 
 /// What an inductor and a spring would save.
@@ -259,8 +264,8 @@ Advice relief(const DesignStudy& study, const Requirement& point) {
   std::string sentence =
       std::isfinite(inductance_H)
           ? fmt::format(
-                "An inductor of {} beside the transducer takes its reactive power at the "
-                "carrier, and leaves the amplifier {} and its own losses.",
+                "An inductor of {} in parallel with the transducer compensates its reactive power "
+                "at the carrier. The amplifier then supplies {} and the losses of the inductor.",
                 output::quantity(inductance_H, "H"), output::quantity(figures.active_power_W, "W"))
           : std::string("The transducer is not capacitive: an inductor would not help.");
   if (study.task.at_resonance) {
@@ -271,8 +276,8 @@ Advice relief(const DesignStudy& study, const Requirement& point) {
                           output::quantity(spring.stiffness_N_per_m, "N/m"));
   if (const auto& resonant = spring.requirement.motion.electrical) {
     sentence += fmt::format(
-        ": the same ratio then takes {}, {} and {}, and must be held by "
-        "feedback.",
+        ": the same ratio then takes {}, {} and {}, and needs feedback "
+        "to hold it.",
         output::quantity(resonant->voltage_peak_V, "V"),
         output::quantity(resonant->current_peak_A, "A"),
         output::quantity(resonant->apparent_power_VA, "VA"));
@@ -306,7 +311,7 @@ std::vector<Advice> advice(const DesignStudy& study) {
   }
   const std::vector<DesignPoint> points = moving_points(study);
   if (!points.empty()) {
-    all.push_back(closed_form(points));
+    all.push_back(closed_form(study, points));
     all.push_back(power(study, points));
     all.push_back(accuracy(study, points));
   }

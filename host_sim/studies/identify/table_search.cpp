@@ -184,11 +184,11 @@ class TableSearch {
     };
     if (std::any_of(lines_.begin() + static_cast<std::ptrdiff_t>(rows.end), lines_.end(), is_row)) {
       throw error(below.number, "row",
-                  fmt::format("\"{}\" ends the table, and rows stand below it; allowed: one "
+                  fmt::format("\"{}\" ends the table, and rows follow it; allowed: one "
                               "table in a file, its rows without a break",
                               shortened(below.text)));
     }
-    warnings.push_back(fmt::format("Line {}, \"{}\", stands below the table and is not read.",
+    warnings.push_back(fmt::format("Line {}, \"{}\", is below the table and is not read.",
                                    below.number, shortened(below.text)));
   }
 

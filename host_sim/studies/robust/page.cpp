@@ -21,7 +21,7 @@ constexpr std::size_t most_points_drawn = 2000;
 std::string lead(const Task& task, const Study& study) {
   return fmt::format(
       "The loop of {} on {} inside its tolerances, and a search of {} for the worst of them. The "
-      "controller is the same on all: it believes the scene.",
+      "controller is the same on all: it is designed for the scene.",
       task.nominal().name, counted(study.samples.size(), "plant"),
       counted(study.search.size(), "run"));
 }
@@ -213,7 +213,7 @@ output::Section importance_section(const Task& task, const Study& study) {
   constexpr std::size_t most_scatters = 4;
   output::Section section{
       "What matters",
-      "The rank correlation tells whether a figure rises (towards 1) or falls (towards -1) with "
+      "The rank correlation shows whether a figure rises (towards 1) or falls (towards -1) with "
       "the "
       "key. The main effect is the part of the variance of the ranks that the key explains alone, "
       "also where the figure turns: 1 is all of it.",

@@ -43,13 +43,13 @@ const std::vector<BrokenScene> broken_scenes = {
      "a [transducer] controller.vibration = \"resonant\""},
     {"full_scale_far_above_friction", closed_loop, "adc_bits = 12",
      "adc_bits = 12\nforce_full_scale_N = 100",
-     "20:22: sensor.force_full_scale_N: is 100 N, of which the believed friction force of 0.01962 "
+     "20:22: sensor.force_full_scale_N: is 100 N, of which the nominal friction force of 0.01962 "
      "N "
      "makes 0.000196; "
      "allowed: above 0.0196201, at most 20.0908 N"},
     {"full_scale_below_friction", closed_loop, "adc_bits = 12",
      "adc_bits = 12\nforce_full_scale_N = 0.01",
-     "20:22: sensor.force_full_scale_N: is 0.01 N, of which the believed friction force of 0.01962 "
+     "20:22: sensor.force_full_scale_N: is 0.01 N, of which the nominal friction force of 0.01962 "
      "N "
      "makes 1.96; "
      "allowed: above 0.0196201, at most 20.0908 N"},
@@ -58,7 +58,7 @@ const std::vector<BrokenScene> broken_scenes = {
      "17:23: controller.speed_floor_m_per_s: is 1.87 of the peak vibration velocity at full drive; "
      "allowed: 2.67674e-05 to below 0.267673 m/s"},
     {"converter_too_coarse", closed_loop, "adc_bits = 12", "adc_bits = 8\nforce_full_scale_N = 2",
-     "19:12: sensor.adc_bits: one code is 0.796 of the believed friction force; allowed: at least "
+     "19:12: sensor.adc_bits: one code is 0.796 of the nominal friction force; allowed: at least "
      "11 bits, or a smaller sensor.force_full_scale_N"},
     {"calibration_too_short", closed_loop, "arithmetic = \"float32\"",
      "arithmetic = \"float32\"\ncalibration_s = 20e-6",

@@ -57,7 +57,7 @@ TEST(RunNotesTest, AnOpenContactIsALimitInClosedLoop) {
       "--set controller.arithmetic=float64 --set 'controller.target_friction_ratio=[[0, 0.1]]'");
   EXPECT_TRUE(names(told.summary, "contact_lost", "simulation")) << told.terminal;
   EXPECT_GT(told.summary["control"]["limited_periods"]["contact_lost"], 0);
-  EXPECT_NE(told.terminal.find("contact_lost, unseen by the controller"), std::string::npos);
+  EXPECT_NE(told.terminal.find("contact_lost, not detected by the controller"), std::string::npos);
   EXPECT_NE(told.summary["control"]["notes"].dump().find("opens the contact"), std::string::npos);
 }
 

@@ -174,11 +174,13 @@ TEST(ControlDesignTest, NotesWhatItMayFailToFeel) {
   scene::Scene trusting = feeling(0.2163);
   trusting.controller->calibration_s = 0.0;
   ASSERT_EQ(design_notes(design_control(trusting)).size(), 1U);
-  EXPECT_NE(design_notes(design_control(trusting))[0].find("The friction force of the scene is "),
+  EXPECT_NE(design_notes(design_control(trusting))[0].find(
+                "The controller takes the friction force of the scene "),
             std::string::npos);
   const std::vector<std::string> next_to_a_multiple = design_notes(design_control(feeling(2.001)));
   ASSERT_EQ(next_to_a_multiple.size(), 1U);
-  EXPECT_NE(next_to_a_multiple[0].find("cannot be told from the vibration"), std::string::npos);
+  EXPECT_NE(next_to_a_multiple[0].find("no reading separates it from the driven vibration"),
+            std::string::npos);
   EXPECT_EQ(design_control(feeling(2.001)).agreement, 0.0);
   EXPECT_GT(design_control(feeling(0.2163)).agreement, 0.0);
   EXPECT_TRUE(design_notes(design_control(feeling(1.8))).empty());

@@ -155,13 +155,13 @@ TEST(StepMetricsTest, AnOffsetIsAMismatchOnlyWhereTheReadingHasSettled) {
   const StepMetrics settled = judged_step(control::Settling::settled, off);
   EXPECT_EQ(settled.limit, control::Limit::mismatch);
   EXPECT_EQ(settled.cause, control::Settling::pending);
-  EXPECT_EQ(limit_text(settled), "mismatch, unseen by the controller");
+  EXPECT_EQ(limit_text(settled), "mismatch, not detected by the controller");
   const StepMetrics pending = judged_step(control::Settling::pending, off);
   EXPECT_EQ(pending.limit, control::Limit::not_settling);
   EXPECT_EQ(limit_text(pending), "not_settling (offset), not yet judged by the controller");
   StepMetrics swallowed = pending;
   swallowed.steady_error = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_EQ(limit_text(swallowed), "not_settling, no carrier period of it to judge by");
+  EXPECT_EQ(limit_text(swallowed), "not_settling, no carrier period to judge it by");
 }
 
 TEST(StepMetricsTest, ALateStepKeepsTheLimitThatTheControllerNames) {
@@ -182,7 +182,7 @@ TEST(StepMetricsTest, ASettledStepThatTheControllerDoubtsIsToldSo) {
   step.limit = control::Limit::not_settling;
   step.cause = control::Settling::offset;
   step.limit_seen_by_controller = true;
-  EXPECT_EQ(limit_text(step), "not_settling (offset), for the controller alone");
+  EXPECT_EQ(limit_text(step), "not_settling (offset), in the controller's reading alone");
   step.settling_time_s.reset();
   EXPECT_EQ(limit_text(step), "not_settling (offset)");
 }
@@ -302,7 +302,7 @@ TEST(StepMetricsTest, AContactThatOpensIsNamedBeforeAnyOtherLimit) {
   const StepMetrics step = only_step(scene, periods);
   EXPECT_EQ(step.limit, control::Limit::contact_lost);
   EXPECT_FALSE(step.limit_seen_by_controller);
-  EXPECT_EQ(limit_text(step), "contact_lost, unseen by the controller");
+  EXPECT_EQ(limit_text(step), "contact_lost, not detected by the controller");
 }
 
 TEST(StepMetricsTest, WithoutARatioThereIsNoRipple) {

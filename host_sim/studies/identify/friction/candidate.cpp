@@ -119,22 +119,22 @@ ShapeParameter stiffness(const Extent& extent) {
 }
 
 Candidate lugre_candidate(const Extent& extent) {
-  return {
-      "lugre",
-      "LuGre",
-      "along",
-      0,
-      {stiffness(extent),
-       {"static_over_sliding_friction", 1e-4, 10.0,
-        "static friction is no more than sliding friction",
-        "a static friction of eleven times the sliding one or more", 1.0},
-       {"stribeck_velocity_m_per_s", 1e-3 * extent.fastest_m_per_s, 10.0 * extent.fastest_m_per_s,
-        "static friction falls at once",
-        "static friction falls beyond the speeds that were measured"},
-       {"viscous_friction_per_friction_limit_s_per_m", 1e-4 / extent.fastest_m_per_s,
-        10.0 / extent.fastest_m_per_s, "no viscous friction is seen", "friction is viscous alone"}},
-      lugre,
-      3e-3};
+  return {"lugre",
+          "LuGre",
+          "along",
+          0,
+          {stiffness(extent),
+           {"static_over_sliding_friction", 1e-4, 10.0,
+            "static friction is no more than sliding friction",
+            "a static friction of eleven times the sliding one or more", 1.0},
+           {"stribeck_velocity_m_per_s", 1e-3 * extent.fastest_m_per_s,
+            10.0 * extent.fastest_m_per_s, "static friction falls at once",
+            "static friction falls beyond the speeds that were measured"},
+           {"viscous_friction_per_friction_limit_s_per_m", 1e-4 / extent.fastest_m_per_s,
+            10.0 / extent.fastest_m_per_s, "no viscous friction is significant",
+            "friction is viscous alone"}},
+          lugre,
+          3e-3};
 }
 
 Candidate normal_candidate(const Extent& extent) {

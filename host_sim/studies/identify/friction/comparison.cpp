@@ -36,12 +36,13 @@ void warn_of_failure(Comparison& comparison) {
                     best.law.title, best.residual_rms,
                     best.chi_square_probability < fails_below
                         ? "larger than the stated standard errors allow"
-                        : "a pattern and no scatter")},
+                        : "systematic, not scatter")},
        {!all_fail && best.fails(),
-        fmt::format("The residuals of the best law, {}, are no mere scatter.", best.law.title)},
+        fmt::format("The residuals of the best law, {}, are systematic, not scatter.",
+                    best.law.title)},
        {best.misfit > 0.0,
         fmt::format("{}: a misfit of {:.2g} (rms, as a friction ratio) that neighbouring readings "
-                    "share is more likely than none; it is in the intervals.",
+                    "share is more likely than none; the intervals include it.",
                     best.law.title, best.misfit)}});
 }
 
@@ -78,16 +79,16 @@ void tell_what_is_open(Comparison& comparison) {
                     "possible.",
                     readings.rows.size(), best.law.title)},
        {!others.empty(),
-        fmt::format("Which law it is: {} is best, but not told apart from {}. In brackets the "
-                    "difference in AICc, below {:g}. Readings where these laws differ most would "
-                    "tell: see the page.",
+        fmt::format("Which law it is: {} is best, but the readings do not separate it from {}. In "
+                    "brackets the difference in AICc, below {:g}. Measure where these laws differ "
+                    "most: see the page.",
                     best.law.title, fmt::join(others, ", "), told_apart_from)},
        {readings.are_forces,
         "Friction coefficient and normal force apart: mean friction depends on their product Fc "
-        "alone. A measured normal force tells."},
+        "alone. Measure the normal force."},
        {!readings.are_forces,
         "The friction limit Fc, and friction coefficient and normal force apart: a friction ratio "
-        "depends on neither. friction_force_N in place of friction_ratio tells Fc."},
+        "depends on neither. friction_force_N in place of friction_ratio determines Fc."},
        {elastic && readings.have_frequency,
         "Contact stiffness and friction limit apart, by a ratio: mean friction depends on Kt/Fc."},
        {elastic && !readings.have_frequency,

@@ -180,7 +180,7 @@ output::Page page(const Comparison& comparison, const std::string& name) {
   page.lead = fmt::format(
       "{} readings of {} against {}. Residuals and misfit are friction ratios; p is the number "
       "of parameters. AICc is "
-      "Akaike's criterion for small samples: laws less than {:g} apart are not told apart. "
+      "Akaike's criterion for small samples: laws less than {:g} apart are not separated. "
       "Intervals are of profile likelihood, with a term for misfit.",
       comparison.readings.rows.size(),
       comparison.readings.are_forces ? "mean friction" : "the friction ratio",

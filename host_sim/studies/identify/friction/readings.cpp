@@ -192,7 +192,7 @@ std::vector<double> vibrations(const Columns& columns, const std::vector<double>
   } else if (name == "vibration_amplitude_m") {
     if (frequency_Hz.empty()) {
       throw table.heading_error(
-          "vibration_amplitude_m tells no velocity alone; allowed: with frequency_Hz");
+          "vibration_amplitude_m gives no velocity alone; allowed: with frequency_Hz");
     }
     for (std::size_t i = 0; i < values.size(); ++i) {
       m_per_s_each[i] = numeric::two_pi * frequency_Hz[i];

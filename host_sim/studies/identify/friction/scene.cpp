@@ -92,7 +92,7 @@ std::string law_keys(const LawFit& fit, const Numbers& all) {
     keys += fmt::format(
         "static_coefficient = {:.9g}\nstribeck_velocity_m_per_s = {:.9g}\n"
         "viscous_friction_N_s_per_m = {:.9g}\n"
-        "bristle_damping_N_s_per_m = 0.0   # no mean friction tells it\n",
+        "bristle_damping_N_s_per_m = 0.0   # mean friction does not determine it\n",
         assumed_coefficient * (1.0 + value(1)), value(2), value(3) * all.limit_N);
   }
   return keys;

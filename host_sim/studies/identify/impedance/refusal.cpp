@@ -115,7 +115,7 @@ void require_resonance(const Sweep& sweep, const CircuitFit& fit) {
   }
   require_described(sweep, none.description,
                     "neither one resonance nor a capacitance alone describes the sweep", 0.0);
-  refuse(sweep, fmt::format("no resonance is seen from {:.6g} to {:.6g} Hz: a capacitance of "
+  refuse(sweep, fmt::format("no resonance was found from {:.6g} to {:.6g} Hz: a capacitance of "
                             "{:.4g} F alone fits as well",
                             sweep.frequency_Hz.front(), sweep.frequency_Hz.back(),
                             none.circuit.clamped_capacitance_F));
@@ -141,14 +141,14 @@ void require_inside(const Sweep& sweep, const CircuitFit& fit) {
   constexpr double least_quality = 0.5;
   if (mode.quality() < least_quality) {
     refuse(sweep, fmt::format("{}a quality factor of {:.3g}, allowed: from {:g}; the sweep does "
-                              "not tell the resistance{}",
+                              "not determine the resistance{}",
                               bound, mode.quality(), least_quality, advice(fit)));
   }
   constexpr double most_ratio = 1e3;
   const double ratio = mode.capacitance_F() / fit.circuit.clamped_capacitance_F;
   if (ratio < 1e-9 || ratio > most_ratio) {
     refuse(sweep, fmt::format("{}motional over clamped capacitance of {:.3g}, allowed: 1e-9 to "
-                              "{:g}; the sweep does not tell them apart{}",
+                              "{:g}; the sweep does not separate them{}",
                               bound, ratio, most_ratio, advice(fit)));
   }
 }

@@ -60,7 +60,7 @@ std::string left_out(const std::vector<double>& frequencies_Hz) {
     names.push_back(formatted("_Hz", frequencies_Hz[i]));
   }
   const std::size_t more = frequencies_Hz.size() - names.size();
-  return fmt::format("Left out, as standing alone far off the readings beside: {}{}.",
+  return fmt::format("Left out as outliers, each far off the readings beside it: {}{}.",
                      fmt::join(names, ", "), more > 0 ? fmt::format(" and {} more", more) : "");
 }
 
@@ -71,8 +71,8 @@ std::string other_mode(const Mode& mode, bool is_inside) {
       formatted("_Hz", mode.resonance_Hz), mode.quality(), formatted("_ohm", mode.resistance_ohm()),
       is_inside ? "in" : "just outside",
       is_inside ? ""
-                : " Clamped capacitance, parallel resonance and coupling rest on what it is taken "
-                  "for; a wider sweep tells.");
+                : " Clamped capacitance, parallel resonance and coupling depend on it; measure a "
+                  "wider sweep to determine it.");
 }
 
 /// What of a circuit stands between the modes and the reading, and what they would be behind it.
@@ -100,8 +100,8 @@ std::string open_lead(const Selection& selected) {
     }
   }
   return fmt::format(
-      "Whether leads or an error of the phase turn the sweep: fitted is {}. {}. A compensation of "
-      "the fixture (open, short, load) takes both out.",
+      "Whether leads or an error of the phase rotate the sweep: fitted is {}. {}. A compensation "
+      "of the fixture (open, short, load) removes both.",
       described_lead(selected.fit),
       others.empty() ? "No other is nearly as likely"
                      : fmt::format("About as likely: {}; the intervals allow for it",
@@ -116,22 +116,22 @@ std::string open_part(const Unseen& unseen, const Mode& mode) {
   switch (unseen.part) {
     case Part::lead_resistance:
       return fmt::format(
-          "Whether leads and contacts have a series resistance up to {}: none is seen, so the "
-          "circuit has none. The motional resistance is larger by what there is.",
+          "Whether leads and contacts have a series resistance up to {}: none is significant, so the "
+          "circuit has none. One would be part of the motional resistance given here.",
           formatted("_ohm", unseen.most));
     case Part::lead_inductance:
       return fmt::format(
-          "Whether leads and contacts have a series inductance up to {}: none is seen, so the "
-          "circuit has none, and the intervals do not allow for one. Each microhenry, about a "
+          "Whether leads and contacts have a series inductance up to {}: none is significant, so the "
+          "circuit has none, and the intervals do not include its effect. Each microhenry, about a "
           "metre of cable, makes the resonance come out {:+.2g} Hz off, the motional resistance "
           "{:+.2g} %, the motional capacitance {:+.2g} % and the clamped capacitance {:+.2g} %. A "
-          "compensation with a short takes it out.",
+          "compensation with a short removes it.",
           formatted("_H", unseen.most), off(2) * mode.resonance_Hz, -percent * off(1),
           percent * (off(1) + off(3) - 2.0 * off(2)), percent * off(0));
     default:
       return fmt::format(
-          "Whether the peak leans by up to {:.2g} band widths, as that of a resonance that goes "
-          "with its current: it is not seen, so the circuit has none. Each tenth of a band width "
+          "Whether the peak leans by up to {:.2g} band widths, as that of a resonance that depends on "
+          "its current: it is not significant, so the circuit has none. Each tenth of a band width "
           "to lower frequencies makes the resonance come out {:+.2g} Hz off.",
           unseen.most, 0.1 * unseen.off(2) * mode.resonance_Hz);
   }
@@ -145,8 +145,8 @@ std::string open_drift(const Sweep& sweep, const Mode& mode) {
   return fmt::format(
       "Whether the resonance drifted while it was swept, by heat or creep: a steady drift of {} "
       "from the first reading to the last, a tenth of the band width, makes quality factor, "
-      "motional inductance and capacitance come out {:.2g} % off, and the intervals do not allow "
-      "for it. A sweep to lower frequencies beside one to higher ones tells.",
+      "motional inductance and capacitance come out {:.2g} % off, and the intervals do not include "
+      "it. Compare a sweep upwards with one downwards.",
       formatted("_Hz", tenth * mode.bandwidth_Hz), 100.0 * off);
 }
 
@@ -231,34 +231,35 @@ std::vector<std::string> open_questions(const std::vector<Estimate>& estimates,
   const Sweep& sweep = selected.sweep;
   const std::vector<Mode>& modes = selected.fit.circuit.modes;
   std::vector<std::string> open;
-  append(open,
-         {{!fact.known(),
-           "Mass, stiffness, damping and force factor: electrical data give m/Nf^2, Nf^2/Ks and "
-           "c/Nf^2 alone. One mechanical fact tells them: --mass-kg, or --force-factor-N-per-V."},
-          {!sweep.has_phase,
-           "Losses of the dielectric: magnitudes alone hardly part them from the motional "
-           "resistance. A sweep with phase does."},
-          {sees_lead_or_rotation(selected.fit), open_lead(selected)}});
+  append(
+      open,
+      {{!fact.known(),
+        "Mass, stiffness, damping and force factor: electrical data give m/Nf^2, Nf^2/Ks and "
+        "c/Nf^2 alone. One mechanical fact determines them: --mass-kg, or --force-factor-N-per-V."},
+       {!sweep.has_phase,
+        "Losses of the dielectric: magnitudes alone hardly separate them from the motional "
+        "resistance. A sweep with phase does."},
+       {sees_lead_or_rotation(selected.fit), open_lead(selected)}});
   for (const Unseen& each : selected.unseen) {
     open.push_back(open_part(each, modes.front()));
   }
   append(
       open,
       {{!sweep.has_phase,
-        "Whether leads and contacts have a series resistance: magnitudes alone do not tell. The "
-        "motional resistance is larger by what there is."},
+        "Whether leads and contacts have a series resistance: magnitudes alone do not show it. It "
+        "would be part of the motional resistance given here."},
        {!sweep.has_phase,
-        "Whether leads and contacts have a series inductance: magnitudes alone do not tell. It "
+        "Whether leads and contacts have a series inductance: magnitudes alone do not show it. It "
         "would lower the resonance and change all other figures."},
        {!sweep.has_phase,
-        "Whether the errors of neighbouring readings hang together: magnitudes alone show little "
-        "of it. Where it is not seen, the intervals should be about half as wide again. A sweep "
-        "with phase, or with more readings, tells more."},
+        "Whether the errors of neighbouring readings are correlated: magnitudes alone show little of "
+        "it. If they are, the intervals should be about half as wide again. A sweep with phase, or "
+        "with more readings, shows more."},
        {true, open_drift(sweep, modes.front())},
        {std::all_of(modes.begin(), modes.end(),
                     [&](const Mode& each) { return is_in(sweep, each); }),
         "Whether another mode lies just outside the sweep: it would shift clamped capacitance, "
-        "parallel resonance and coupling by more than their intervals. A wider sweep tells."}});
+        "parallel resonance and coupling by more than their intervals. A wider sweep shows it."}});
   for (const Estimate& each : estimates) {
     append_open_figure(open, each);
   }

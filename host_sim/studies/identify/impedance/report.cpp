@@ -154,11 +154,11 @@ std::string noise_text(const ImpedanceStudy& study) {
       study.identification.residual_rms, noise.exponent);
   if (noise.correlated_share > 0.0) {
     words += fmt::format(
-        " {:.0f} % of their variance hangs together along the sweep, by {:.2g} from reading to "
-        "reading: misfit of {:.3g}. The intervals are wider for it.",
+        " {:.0f} % of their variance is correlated along the sweep, by {:.2g} from reading to "
+        "reading: misfit of {:.3g}. The intervals include it.",
         100.0 * noise.correlated_share, noise.memory, study.identification.misfit);
   } else {
-    words += " No correlation along the sweep is seen.";
+    words += " No correlation along the sweep is significant.";
   }
   return words;
 }
@@ -214,7 +214,7 @@ output::Page page(const ImpedanceStudy& study) {
        noise_text(study),
        charts(study),
        {{"Admittance circle", "Within 15 band widths of the resonance.", draw_circle(study)}}},
-      {"How the parameters hang together",
+      {"Correlation of the parameters",
        "",
        {},
        {},

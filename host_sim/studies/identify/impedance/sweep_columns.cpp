@@ -153,7 +153,7 @@ class Columns {
                  "impedance_phase_deg"
            : !has_magnitude && is_part
                ? fmt::format(
-                     "is half of a pair, and does not tell the capacitances alone; "
+                     "is half of a pair, and does not determine the capacitances alone; "
                      "allowed: {}",
                      what_is_read)
            : column.role == Role::magnitude && column.is_bare_unit

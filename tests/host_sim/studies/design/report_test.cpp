@@ -34,7 +34,7 @@ TEST(AdviceTest, SaysWhatIsOutOfReachAndWhatIsNearest) {
   const DesignStudy found = study_of(table_1(), {0.2, 0.5}, {0.1, 0.1});
   const std::vector<std::string> short_of = shortfalls(found);
   ASSERT_EQ(short_of.size(), 1U);
-  EXPECT_TRUE(contains(short_of[0], "Ratio 0.2 at 100 mm/s is beyond the drive: it takes 281"))
+  EXPECT_TRUE(contains(short_of[0], "Ratio 0.2 at 100 mm/s is beyond the drive: it needs 281"))
       << short_of[0];
   EXPECT_TRUE(contains(short_of[0], "The nearest at this speed is 0.350")) << short_of[0];
   EXPECT_TRUE(contains(short_of[0], "0.2 is within reach up to 59.4")) << short_of[0];
@@ -44,10 +44,11 @@ TEST(AdviceTest, SaysWhatIsOutOfReachAndWhatIsNearest) {
 
 TEST(AdviceTest, SaysWhereTheSceneStandsFromResonance) {
   const SpeedRange speeds{0.02672, 0.02672};
-  EXPECT_TRUE(contains(all_advice(study_of(table_1(), {0.5}, speeds)),
-                       "below resonance, and far enough; a stiffer spring saves force, at 0.6"));
+  EXPECT_TRUE(contains(
+      all_advice(study_of(table_1(), {0.5}, speeds)),
+      "below resonance, outside the sensitive band; a stiffer spring saves force: at 0.6"));
   EXPECT_TRUE(contains(all_advice(study_of(retuned(table_1(), 3.0), {0.5}, speeds)),
-                       "above resonance, and far enough"));
+                       "above resonance, outside the sensitive band"));
   EXPECT_TRUE(contains(all_advice(study_of(retuned(table_1(), 0.95), {0.5}, speeds)),
                        "too near to resonance, 1 % of Ks moves ratio 0.5 by 0.1"));
   scene::Scene damped = resonant();

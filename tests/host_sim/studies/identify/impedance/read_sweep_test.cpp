@@ -391,8 +391,7 @@ TEST(ReadSweep, SettingsAboveAndASummaryBelowAreNoRows) {
     const Sweep sweep = read_sweep({"m.csv", with_commas + summary});
     EXPECT_EQ(sweep.frequency_Hz.size(), 10U);
     ASSERT_EQ(sweep.warnings.size(), 1U);
-    EXPECT_NE(sweep.warnings.front().find("stands below the table and is not read"),
-              std::string::npos);
+    EXPECT_NE(sweep.warnings.front().find("is below the table and is not read"), std::string::npos);
   }
   EXPECT_EQ(error_of(with_commas + with_commas),
             "m.csv:12:1: heading: a second table, beside that of line 1; allowed: one table in a "
@@ -413,7 +412,7 @@ TEST(ReadSweep, KnowsTheMinusAndTheSpacesOfUnicode) {
 TEST(ReadSweep, RefusesHalfOfAPair) {
   EXPECT_EQ(
       error_of("f_kHz,G_S\n1,2\n").substr(0, 96),
-      "m.csv:1:7: heading: \"G_S\" is half of a pair, and does not tell the capacitances alone; "
+      "m.csv:1:7: heading: \"G_S\" is half of a pair, and does not determine the capacitances alone; "
       "allowed: ");
   EXPECT_EQ(error_of("f (kHz);B (mS)\n1;2\n").substr(0, 43),
             "m.csv:1:9: heading: \"B (mS)\" is half of a p");

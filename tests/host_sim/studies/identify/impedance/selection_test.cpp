@@ -85,7 +85,7 @@ void add_noise(Sweep& sweep, double level) {
 TEST(Selection, RefusesASweepWithoutAResonance) {
   Sweep capacitor = exact_sweep({2e-9, 0.01, {}}, 10e3, 20e3, 101);
   add_noise(capacitor, 1e-3);
-  EXPECT_NE(refusal(capacitor).find("no resonance is seen"), std::string::npos);
+  EXPECT_NE(refusal(capacitor).find("no resonance was found"), std::string::npos);
   const Circuit above{2e-9, 0.0, {{1e-2, 30e3, 100.0}}};
   Sweep flank = exact_sweep(above, 10e3, 28e3, 101);
   add_noise(flank, 1e-4);
@@ -387,7 +387,7 @@ TEST(Study, SaysThatAnInductanceInSeriesMayGoUnseen) {
   }
   sweep.has_phase = false;
   EXPECT_TRUE(
-      leaves_open(study("x", sweep, {}), "series inductance: magnitudes alone do not tell"));
+      leaves_open(study("x", sweep, {}), "series inductance: magnitudes alone do not show it"));
 }
 
 TEST(Study, SaysThatALeadAndAnErrorOfThePhaseLookAlike) {
@@ -396,7 +396,7 @@ TEST(Study, SaysThatALeadAndAnErrorOfThePhaseLookAlike) {
   Sweep sweep = exact_sweep(truth, 27e3, 31.5e3, 200);
   disturb(sweep, 1e-3, 1e-3, 1);
   EXPECT_TRUE(leaves_open(study("x", sweep, {}),
-                          "Whether leads or an error of the phase turn the sweep: fitted is"));
+                          "Whether leads or an error of the phase rotate the sweep: fitted is"));
 }
 
 /// Nine, which are eight and misfit.
