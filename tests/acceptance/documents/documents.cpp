@@ -1,4 +1,4 @@
-#include "tests/acceptance/documents/documents.hpp"
+#include "documents.hpp"
 
 #include <fstream>
 

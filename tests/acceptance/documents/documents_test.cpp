@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "tests/acceptance/documents/documents.hpp"
+#include "documents.hpp"
 #include "tests/acceptance/program/program.hpp"
 
 namespace sonoglide::acceptance::documents_test {

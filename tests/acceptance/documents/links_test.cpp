@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "tests/acceptance/documents/documents.hpp"
+#include "documents.hpp"
 #include "tests/acceptance/program/program.hpp"
 
 namespace sonoglide::acceptance::links_test {
