@@ -43,7 +43,7 @@ std::string merged(const std::function<std::string()>& call) {
 
 /// How far the shards in a folder are, with every one that is begun and all that are missing.
 /// @param kind  of the command
-std::string status_text(const std::filesystem::path& folder, const std::string& kind) {
+std::string status_text(const std::filesystem::path& folder, const std::string& kind) try {
   const long_work::Collection found(folder);
   found.require_kind(kind);
   const std::vector<std::uint64_t> missing = found.missing();
@@ -63,6 +63,8 @@ std::string status_text(const std::filesystem::path& folder, const std::string& 
   text += lines;
   return missing.empty() ? text
                          : text + fmt::format("missing: {}\n", long_work::array_text(missing));
+} catch (const long_work::NoShards&) {
+  return "no shard is begun\n";
 }
 
 /// @throws CLI::RequiredError  the command needs one of the options, and it was not given
@@ -169,6 +171,10 @@ std::string shard_text(const long_work::ShardSummary& summary, const std::filesy
 
 std::string write_job(const Job& job, const std::filesystem::path& out) {
   namespace fs = std::filesystem;
+  if (job.shards > job.points) {
+    throw CLI::ValidationError("--slurm", fmt::format("{} shards of {} points; allowed: 1 to {}",
+                                                      job.shards, job.points, job.points));
+  }
   const fs::path folder = fs::weakly_canonical(fs::absolute(out));
   const std::string scene = output_folder("", job.source.name(), ".toml").filename().string();
   const std::string script = job.command + ".slurm";

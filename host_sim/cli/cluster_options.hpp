@@ -74,11 +74,13 @@ struct Job {
   const scene_file::Source& source;
   const std::vector<std::string>& overrides;
   std::vector<std::string> options;  ///< words besides
+  std::uint64_t points;
   std::uint64_t shards;
 };
 
 /// Writes `COMMAND.slurm` to the folder, and a copy of the scene, which no later edit reaches.
 /// @return what to tell
+/// @throws CLI::ValidationError  more shards than points
 /// @throws output::OutputError
 std::string write_job(const Job& job, const std::filesystem::path& out);
 

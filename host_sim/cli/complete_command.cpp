@@ -19,6 +19,7 @@
 #include "host_sim/cli/usage.hpp"
 #include "host_sim/emulated/board_list.hpp"
 #include "host_sim/scene_file/keys.hpp"
+#include "host_sim/studies/identify/friction/candidate.hpp"
 
 namespace sonoglide::cli {
 namespace {
@@ -34,15 +35,24 @@ void offer_boards() {
   }
 }
 
-/// `drive.frequency_Hz=`; of a key that holds a word, `friction.law=dahl` for each word instead.
-void offer_scene_keys() {
-  fmt::print("keys\n");
+void offer_laws() {
+  fmt::print("words\n");
+  for (const std::string_view law : identify::friction::fitted_laws) {
+    fmt::print("{}\n", law);
+  }
+}
+
+/// `drive.frequency_Hz=`; of a key that holds a word, `friction.law=dahl` for each word instead, behind
+/// the words that a list already has: `friction.law=dahl,coulomb`.
+void offer_scene_keys(const std::string& begun) {
+  const std::string list = begun.substr(0, begun.rfind(',') + 1);
   for (const scene_file::KeyTable& table : scene_file::key_tables()) {
     for (const scene_file::Key& key : table.keys) {
       const std::string start = fmt::format("{}.{}=", table.name, key.name);
+      const bool listed = list.rfind(start, 0) == 0;
       if (const auto* word = std::get_if<scene_file::Word>(&key.allowed)) {
         for (const std::string_view each : word->allowed) {
-          offer(start + std::string(each), key.meaning);
+          offer((listed ? list : start) + std::string(each), key.meaning);
         }
       } else {
         offer(start, key.meaning);
@@ -60,12 +70,18 @@ void offer_alternatives(const std::string& type) {
 }
 
 /// The value of an option, or an argument, by the name that its type has in the help.
-void offer_value(const CLI::Option& option) {
+void offer_value(const CLI::Option& option, const std::string& begun) {
   const std::string type = option.get_type_name();
   if (option.check_lname("board")) {
     offer_boards();
+  } else if (option.check_lname("law")) {
+    offer_laws();
   } else if (type.find('=') != std::string::npos) {
-    offer_scene_keys();
+    fmt::print("keys\n");
+    if (option.check_lname("vary")) {
+      offer("velocity_ratio=", "sliding velocity over peak vibration velocity");
+    }
+    offer_scene_keys(begun);
   } else if (type.find('|') != std::string::npos) {
     offer_alternatives(type);
   } else if (type == "DIR") {
@@ -84,7 +100,7 @@ void offer_options(const CLI::App& command) {
   }
 }
 
-void offer_commands_or_argument(const CLI::App& command) {
+void offer_commands_or_argument(const CLI::App& command, const std::string& begun) {
   const auto commands = commands_of(command);
   if (!commands.empty()) {
     fmt::print("words\n");
@@ -95,7 +111,7 @@ void offer_commands_or_argument(const CLI::App& command) {
   }
   for (const CLI::Option* option : command.get_options()) {
     if (option->get_positional()) {
-      offer_value(*option);
+      offer_value(*option, begun);
     }
   }
 }
@@ -122,11 +138,11 @@ void offer_next(const CLI::App& program, const std::vector<std::string>& words,
     }
   }
   if (option != nullptr) {
-    offer_value(*option);
+    offer_value(*option, begun);
   } else if (begun.rfind('-', 0) == 0) {
     offer_options(*command);
   } else {
-    offer_commands_or_argument(*command);
+    offer_commands_or_argument(*command, begun);
   }
 }
 

@@ -18,7 +18,7 @@ namespace sonoglide::cli {
 namespace {
 
 struct PaperOptions {
-  std::string out = "paper";
+  std::string out = "out/paper";
   std::optional<int> figure;
   bool quiet = false;
 };
@@ -57,7 +57,7 @@ void add_paper_command(CLI::App& program) {
   add_output_option(
       *command, options->out,
       "index.html, balance.csv, table_1.toml, table_2.toml, of each figure figure_NN.csv "
-      "and .svg, of figure 12 measurements.csv and scenes [paper]");
+      "and .svg, of figure 12 measurements.csv and scenes [out/paper]");
   command->add_option("--figure", options->figure, "This figure alone")
       ->type_name("N")
       ->check(check_figure);

@@ -48,7 +48,7 @@ void parse_and_run(int argument_count, const char* const* arguments,
   try {
     program.parse(argument_count, arguments);
     if (program.get_subcommands().empty()) {
-      throw CLI::RequiredError("a command");
+      throw CLI::CallForHelp();
     }
   } catch (const CLI::Success& request) {
     program.exit(request);

@@ -160,6 +160,7 @@ std::string write_robust_job(const RobustOptions& options) {
                     task.overrides(),
                     {"--samples", fmt::format("{}", counts.samples), "--search",
                      fmt::format("{}", counts.search), "--seed", fmt::format("{}", counts.seed)},
+                    counts.samples,
                     options.cluster.slurm},
                    folder_of(options, task));
 }

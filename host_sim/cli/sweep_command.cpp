@@ -110,8 +110,9 @@ std::string write_sweep_job(const SweepOptions& options) {
   for (const std::string& vary : plan.vary()) {
     words.insert(words.end(), {"--vary", vary});
   }
-  return write_job({"sweep", plan.source(), plan.overrides(), words, options.cluster.slurm},
-                   output_folder(options.out, plan.first().name, "_sweep"));
+  return write_job(
+      {"sweep", plan.source(), plan.overrides(), words, plan.grid().size(), options.cluster.slurm},
+      output_folder(options.out, plan.first().name, "_sweep"));
 }
 
 /// Throws scene_file::SceneError and CLI::ParseError, nothing was written then; long_work::Incomplete,

@@ -86,8 +86,9 @@ Collection::Collection(fs::path folder) : folder_(std::move(folder)) {
     note(file.path, file.name);
   }
   if (!work_) {
-    throw UnusableShards(fmt::format("{} holds no shard; allowed: a folder that --shard wrote to",
-                                     printable(folder_)));
+    const std::string message = fmt::format(
+        "{} holds no shard; allowed: a folder that --shard wrote to", printable(folder_));
+    damages_.empty() ? throw NoShards(message) : throw UnusableShards(message);
   }
 }
 

@@ -21,6 +21,12 @@ class UnusableShards : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// The folder holds no shards, not even one that is begun.
+class NoShards : public UnusableShards {
+ public:
+  using UnusableShards::UnusableShards;
+};
+
 /// Shards are missing or damaged.
 class Incomplete : public std::runtime_error {
  public:

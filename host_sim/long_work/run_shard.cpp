@@ -23,6 +23,46 @@ void create(const fs::path& folder) {
   }
 }
 
+/// What a file in the folder says that it is a part of; absent where it is damaged or no such file.
+std::optional<Work> work_in(const fs::directory_entry& file, ShardFileName::Kind kind) try {
+  std::error_code unknown;
+  if (kind == ShardFileName::Kind::rows) {
+    return RowsReader(file.path()).header().work;
+  }
+  const auto header =
+      file.is_regular_file(unknown) ? journal_header(file.path()) : std::optional<ShardHeader>();
+  return header ? std::optional(header->work) : std::nullopt;
+} catch (const NoRows&) {
+  return std::nullopt;
+}
+
+/// @throws ForeignJournal  the file is a part of other work
+void require_same(const fs::path& file, const Work& found, const Work& work) {
+  const Difference other = difference(found, work);
+  if (!other.none()) {
+    throw ForeignJournal(fmt::format("{}: has {}, not {}; allowed: that {} or another folder",
+                                     process::printable(file.string()), other.of_one,
+                                     other.of_other, work.kind));
+  }
+}
+
+/// Asks one of the other shards in the folder, as each was asked when it came.
+/// @throws ForeignJournal  it is of other work
+void require_place(const fs::path& folder, const ShardHeader& header) {
+  std::error_code absent;
+  for (fs::directory_iterator entry(folder, absent), end; !absent && entry != end;
+       entry.increment(absent)) {
+    const auto name = parse_file_name(entry->path().filename().string());
+    const bool own =
+        name && name->shard.number == header.number && name->shard.count == header.work.shards;
+    const auto work = name && !own ? work_in(*entry, name->kind) : std::nullopt;
+    if (work) {
+      require_same(entry->path(), *work, header.work);
+      return;
+    }
+  }
+}
+
 /// One copy of a shard at work.
 class ShardRun {
  public:
@@ -37,6 +77,7 @@ class ShardRun {
     summary.points = range();
     summary.was_there = published();
     if (!summary.was_there) {
+      require_place(folder_, header_);
       check_once(check, pace);
       create(folder_);
       journal_.emplace(folder_, header_,
@@ -61,12 +102,7 @@ class ShardRun {
     }
     try {
       RowsReader rows(rows_file());
-      const Difference other = difference(rows.header().work, header_.work);
-      if (!other.none()) {
-        throw ForeignJournal(fmt::format("{}: has {}, not {}; allowed: that {} or another folder",
-                                         process::printable(rows_file().string()), other.of_one,
-                                         other.of_other, header_.work.kind));
-      }
+      require_same(rows_file(), rows.header().work, header_.work);
       std::string record;
       while (rows.next(record)) {
       }

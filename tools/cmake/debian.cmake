@@ -50,6 +50,7 @@ set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME sonoglide)
 set(CPACK_PACKAGE_CONTACT "Sonoglide <sonoglide@packages.invalid>")
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_SET_DESTDIR ON)  # the prefix of an installed scene is /usr
 set(CPACK_STRIP_FILES ON)
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_COMPONENTS_GROUPING ONE_PER_GROUP)
@@ -79,6 +80,7 @@ also runs as a firmware image on emulated boards.")
 set(CPACK_DEBIAN_LIBSONOGLIDE-DEV_PACKAGE_NAME libsonoglide-dev)
 set(CPACK_DEBIAN_LIBSONOGLIDE-DEV_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_LIBSONOGLIDE-DEV_PACKAGE_ARCHITECTURE all)
+set(CPACK_DEBIAN_LIBSONOGLIDE-DEV_PACKAGE_RECOMMENDS sonoglide)
 set(CPACK_COMPONENT_LIBSONOGLIDE-DEV_DESCRIPTION
   "Headers of a controller of friction by ultrasonic vibration, of friction laws
 and of plant solvers. Portable C++17 without heap, for firmware and for

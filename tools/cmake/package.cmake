@@ -3,7 +3,7 @@
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
-# No file of the package depends on the machine that installs it.
+# No file of the package depends on the machine that installs it, but for the first line of the scenes.
 set(SONOGLIDE_INCLUDE_FOLDER "${CMAKE_INSTALL_INCLUDEDIR}/sonoglide")
 set(SONOGLIDE_DATA_FOLDER "${CMAKE_INSTALL_DATADIR}/sonoglide")
 set(SONOGLIDE_PACKAGE_FOLDER "${CMAKE_INSTALL_DATADIR}/cmake/sonoglide")
@@ -65,8 +65,10 @@ function(sonoglide_install_data)
   endforeach()
   install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" DESTINATION "${SONOGLIDE_DATA_FOLDER}" COMPONENT core)
 
-  install(DIRECTORY "${PROJECT_SOURCE_DIR}/host_sim/scenes"
-    DESTINATION "${SONOGLIDE_DATA_FOLDER}" COMPONENT documents FILES_MATCHING PATTERN "*.toml")
+  install(CODE "set(SCENES \"${PROJECT_SOURCE_DIR}/host_sim/scenes\")
+    set(STAGED \"${PROJECT_BINARY_DIR}/package/scenes\")
+    set(FOLDER \"\${CMAKE_INSTALL_PREFIX}/${SONOGLIDE_DATA_FOLDER}/scenes\")
+    include(\"${PROJECT_SOURCE_DIR}/tools/cmake/scenes.cmake\")" COMPONENT documents)
   install(CODE "set(SOURCE \"${PROJECT_SOURCE_DIR}\")
     set(FOLDER \"\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_DOCDIR}\")
     include(\"${PROJECT_SOURCE_DIR}/tools/cmake/documents.cmake\")" COMPONENT documents)

@@ -94,8 +94,15 @@ TEST(CommandLineTest, EveryCommandIsInTheTableOfTheTests) {
   EXPECT_EQ(tested, listed);
 }
 
+TEST(CommandLineTest, AloneItPrintsItsHelp) {
+  const ScratchFolder folder;
+  const Outcome alone = folder.run("");
+  EXPECT_EQ(alone.exit_code, 0) << alone.err;
+  EXPECT_EQ(alone.out, folder.run("--help").out);
+  EXPECT_EQ(alone.err, "");
+}
+
 TEST(CommandLineTest, BadUsageIsRejected) {
-  expect_usage_error("", "a command is required");
   expect_usage_error("run scene.toml --set", "--set: 1 required TABLE.KEY=VALUE missing");
   expect_usage_error("run scene.toml --out a --out b", "--out is given twice; allowed: once");
   expect_usage_error("fmu scene.toml --out a.fmu --kind x",

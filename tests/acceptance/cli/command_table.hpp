@@ -76,7 +76,7 @@ inline const std::vector<Command> command_table = {
      "",
      "--figure 3",
      {"--out", "--figure", "--quiet"},
-     "paper",
+     "out/paper",
      {"figure_03.csv", "figure_03.svg", "index.html", "table_1.toml", "table_2.toml"},
      {"figure_03.csv"}},
     {"work-precision",

@@ -78,6 +78,10 @@ TEST_F(Completion, OffersWhatAnOptionOrAnArgumentTakes) {
   EXPECT_EQ(printed("complete -- completion z"), "words\nbash\nzsh\nfish\n");
   EXPECT_EQ(printed("complete -- run x --set ''").find("keys\nplant.mass_kg=\tmass"), 0U);
   EXPECT_TRUE(has(printed("complete -- sweep --vary friction."), "\nfriction.law=dahl\t"));
+  EXPECT_EQ(printed("complete -- sweep --vary vel").find("keys\nvelocity_ratio=\t"), 0U);
+  EXPECT_TRUE(
+      has(printed("complete -- sweep --vary friction.law=dahl,"), "\nfriction.law=dahl,coulomb\t"));
+  EXPECT_EQ(printed("complete -- identify friction x --law ''").find("words\ncoulomb\ndahl\n"), 0U);
   EXPECT_EQ(printed("complete -- run fo"), "files\n");
   EXPECT_EQ(printed("complete -- identify impedance ''"), "files\n");
   EXPECT_EQ(printed("complete -- run x --out ''"), "folders\n");
@@ -108,6 +112,7 @@ TEST_F(Completion, CompletesInBashAndZsh) {
            Typed{"identify im", "identify impedance "},
            Typed{"run noteb", "run notebook/"},
            Typed{"run --out no", "run --out notebook/"},
+           Typed{"identify friction x --law lug", "identify friction x --law lugre "},
            Typed{"ratio --dahl-number no", "ratio --dahl-number no"},
            Typed{"run a", R"(run a\ scene.toml )"},
            Typed{R"(run a\ scene.toml --set plant.mas)",
@@ -120,6 +125,8 @@ TEST_F(Completion, CompletesInBashAndZsh) {
     }
   }
   // Bash takes the word for whole.
+  EXPECT_EQ(completed("bash", "sonoglide sweep --vary friction.law=dahl,cou"),
+            "sonoglide sweep --vary friction.law=dahl,coulomb \n");
   EXPECT_EQ(completed("bash", "sonoglide run --set friction.law=dah"),
             "sonoglide run --set friction.law=dahl \n");
   EXPECT_EQ(completed("zsh", "sonoglide run --set friction.law=dah"),

@@ -50,6 +50,8 @@ foreach(page IN LISTS pages)
     message(FATAL_ERROR "${page} is not installed")
   endif()
 endforeach()
+file(STRINGS "${root}/usr/share/sonoglide/scenes/target_step.toml" lines LIMIT_COUNT 1)
+expect("${lines}" HAS "#:schema /usr/share/sonoglide/scenes/scene.schema.json")
 run("${root}/usr/bin/sonoglide" run "${root}/usr/share/sonoglide/scenes/target_step.toml"
   --out "${FOLDER}/debian_run")
 expect("${output}" HAS "0.600")

@@ -15,7 +15,9 @@ file(COPY "${data}/hal/template" DESTINATION "${FOLDER}/stranger/hal")
 run("${FOLDER}/prefix/bin/sonoglide" configure "${data}/scenes/target_step.toml"
   --out "${FOLDER}/stranger/controller")
 
-# The program names the tree that it builds images from; nothing else does.
+# The program names the tree that it builds images from; nothing else does. A scene names the place of
+# the schema that it is judged by.
+set(schema "share/sonoglide/scenes/scene.schema.json")
 file(GLOB_RECURSE files LIST_DIRECTORIES ON
   "${FOLDER}/prefix/include/*" "${FOLDER}/prefix/share/*")
 foreach(file IN LISTS files)
@@ -23,6 +25,11 @@ foreach(file IN LISTS files)
     message(FATAL_ERROR "${file} is a link")
   elseif(NOT IS_DIRECTORY "${file}")
     file(READ "${file}" text)
+    if(file MATCHES "/share/sonoglide/scenes/[a-z_0-9]*[.]toml$")
+      set(named "#:schema ${FOLDER}/installed/${schema}\n")
+      expect("${text}" HAS "${named}")
+      string(REPLACE "${named}" "" text "${text}")
+    endif()
     foreach(folder "${SOURCE}" "${FOLDER}")
       string(FIND "${text}" "${folder}" at)
       if(NOT at EQUAL -1)
@@ -31,7 +38,7 @@ foreach(file IN LISTS files)
     endforeach()
   endif()
 endforeach()
-foreach(file include/sonoglide/firmware/control/controller.hpp share/sonoglide/hal/template/memory.ld
+foreach(file include/sonoglide/firmware/control/controller.hpp ${schema} share/sonoglide/hal/template/memory.ld
     share/sonoglide/toolchains/arm-cortex-m4f.cmake share/doc/sonoglide/LICENSE
     share/doc/sonoglide/README.md share/doc/sonoglide/firmware/README.md)
   if(NOT EXISTS "${FOLDER}/prefix/${file}")

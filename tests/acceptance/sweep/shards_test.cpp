@@ -117,9 +117,33 @@ TEST_F(ShardsTest, OneThatIsThereIsNotComputedAgain) {
             std::string::npos);
 }
 
+TEST_F(ShardsTest, OneOfOtherWorkIsRefusedWhenItComes) {
+  compute(map + "--out o", "1/2");
+  const Entries before = folder_.entries();
+  EXPECT_NE(run(map + "--set friction.normal_force_N=0.2 --out o --shard 2/2", 2)
+                .err.find("--out: o/shard_1_of_2.rows: has --set \"solver.tolerance=1e-8\", not "
+                          "--set \"solver.tolerance=1e-8 friction.normal_force_N=0.2\"; allowed: "
+                          "that sweep or another folder"),
+            std::string::npos);
+  EXPECT_NE(run(map + "--out o --shard 2/3", 2)
+                .err.find("--out: o/shard_1_of_2.rows: has number of shards 2, not number of "
+                          "shards 3"),
+            std::string::npos);
+  EXPECT_EQ(folder_.entries(), before);
+}
+
+TEST_F(ShardsTest, StatusBeforeTheFirstIsNoError) {
+  run("open.toml --vary friction.coefficient=0.1:0.2:2 --out o --slurm 2 --quiet", 0);
+  EXPECT_EQ(run("--status o", 0).out, "no shard is begun\n");
+  folder_.write("o/shard_1_of_2.rows", "damaged");
+  EXPECT_NE(run("--status o", 2).err.find("--status: o holds no shard"), std::string::npos);
+}
+
 TEST_F(ShardsTest, AMixtureIsRefusedByName) {
   compute(map + "--out o", "1/2");
-  compute(map + "--set friction.normal_force_N=0.2 --out o", "2/2");
+  compute(map + "--set friction.normal_force_N=0.2 --out other", "2/2");
+  std::filesystem::rename(folder_.path() / "other/shard_2_of_2.rows",
+                          folder_.path() / "o/shard_2_of_2.rows");
   const Outcome outcome = run("--merge o", 2);
   EXPECT_NE(outcome.err.find("--merge: o/shard_1_of_2.rows has --set \"solver.tolerance=1e-8\" "
                              "and o/shard_2_of_2.rows has --set \"solver.tolerance=1e-8 "
@@ -144,7 +168,8 @@ TEST_F(ShardsTest, BadOptionsAreErrorsOfUsage) {
        {"open.toml --vary velocity_ratio=0.1:1:3 --shard 4/3",
         "open.toml --vary velocity_ratio=0.1:1:3 --shard 1", "--merge o open.toml",
         "--merge o --vary velocity_ratio=0.1:1:3", "--merge ''", "--status nowhere --merge o",
-        "open.toml --vary velocity_ratio=0.1:1:3 --slurm 0", "--merge ."}) {
+        "open.toml --vary velocity_ratio=0.1:1:3 --slurm 0",
+        "open.toml --vary velocity_ratio=0.1:1:3 --slurm 4", "--merge ."}) {
     EXPECT_EQ(folder_.run("sweep " + arguments).exit_code, 2) << arguments;
   }
   EXPECT_EQ(folder_.run("sweep --merge nowhere").exit_code, 1);

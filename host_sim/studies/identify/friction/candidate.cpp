@@ -182,12 +182,10 @@ std::vector<Candidate> candidates(const Extent& extent) {
 }
 
 std::string check_law(const std::string& law) {
-  static constexpr std::array<std::string_view, 7> known = {
-      "coulomb", "dahl", "iwan", "stribeck", "lugre", "transverse_coulomb", "normal_coulomb"};
-  return std::find(known.begin(), known.end(), law) != known.end()
+  return std::find(fitted_laws.begin(), fitted_laws.end(), law) != fitted_laws.end()
              ? std::string()
              : fmt::format("\"{}\" is no law that can be fitted; allowed: {}", law,
-                           fmt::join(known, ", "));
+                           fmt::join(fitted_laws, ", "));
 }
 
 }  // namespace sonoglide::identify::friction

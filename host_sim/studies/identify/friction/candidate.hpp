@@ -1,7 +1,9 @@
 /// The friction laws as their mean friction under a given vibration.
 #pragma once
 
+#include <array>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "host_sim/studies/identify/friction/readings.hpp"
@@ -55,7 +57,11 @@ struct Candidate {
 /// Every law that has a mean friction, in the order of the report.
 std::vector<Candidate> candidates(const Extent& extent);
 
-/// What is wrong with a word as the law of a scene that candidates() has; empty for one.
+/// The laws of candidates(), as a scene names them.
+inline constexpr std::array<std::string_view, 7> fitted_laws = {
+    "coulomb", "dahl", "iwan", "stribeck", "lugre", "transverse_coulomb", "normal_coulomb"};
+
+/// What is wrong with a word as one of fitted_laws; empty for one.
 std::string check_law(const std::string& law);
 
 }  // namespace sonoglide::identify::friction
