@@ -20,7 +20,8 @@ function(sonoglide_room target folder)
   endforeach()
   set(headers "")
   foreach(name IN LISTS names)
-    file(CREATE_LINK "${PROJECT_SOURCE_DIR}/${folder}/${name}" "${root}/${folder}/${name}" SYMBOLIC)
+    file(CREATE_LINK "${PROJECT_SOURCE_DIR}/${folder}/${name}" "${root}/${folder}/${name}"
+      COPY_ON_ERROR SYMBOLIC)  # Windows allows links to few
     list(APPEND headers "${root}/${folder}/${name}")
   endforeach()
 

@@ -1,10 +1,12 @@
-# Each block of code in the guide stands, word for word, in the projects that are tested here.
+# Each block of code in the guides stands, word for word, in the projects that are tested here.
 include("${CMAKE_CURRENT_LIST_DIR}/run.cmake")
 
 file(READ "${SOURCE}/firmware/README.md" guide)
+file(READ "${SOURCE}/host_sim/systems.md" text)
+string(APPEND guide "${text}")
 set(tested "")
 foreach(file stranger/CMakeLists.txt stranger/product.hpp stranger/device/main.cpp
-    above/CMakeLists.txt)
+    above/CMakeLists.txt sketch/sketch.ino ../../../zephyr/CMakeLists.txt module/CMakeLists.txt)
   file(READ "${CMAKE_CURRENT_LIST_DIR}/${file}" text)
   string(APPEND tested "${text}")
 endforeach()
@@ -26,5 +28,5 @@ foreach(language cmake cpp)
   endwhile()
 endforeach()
 if(blocks EQUAL 0)
-  message(FATAL_ERROR "firmware/README.md shows no code")
+  message(FATAL_ERROR "The guides show no code")
 endif()
