@@ -49,8 +49,8 @@ endforeach()
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME sonoglide)
 set(CPACK_PACKAGE_CONTACT "Sonoglide <sonoglide@packages.invalid>")
-set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
-set(CPACK_SET_DESTDIR ON)  # the prefix of an installed scene is /usr
+set(CPACK_SET_DESTDIR ON)  # an installed scene names its prefix, /usr
+set(CPACK_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_COMPONENTS_GROUPING ONE_PER_GROUP)
