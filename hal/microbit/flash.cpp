@@ -1,4 +1,4 @@
-#include "hal/microbit/flash.hpp"
+#include "hal/microbit/board.hpp"
 
 // Source: Nordic, nRF51 Series Reference Manual, NVMC; times from the nRF51822 specification.
 namespace sonoglide::hal::microbit {

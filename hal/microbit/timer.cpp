@@ -1,4 +1,4 @@
-#include "hal/microbit/timer.hpp"
+#include "hal/microbit/board.hpp"
 
 #include <cstddef>
 

@@ -1,4 +1,4 @@
-#include "hal/microbit/uart.hpp"
+#include "hal/microbit/board.hpp"
 
 #include <cstddef>
 

@@ -1,4 +1,4 @@
-#include "hal/microbit/watchdog.hpp"
+#include "hal/microbit/board.hpp"
 
 #include <cstddef>
 #include <cstdint>

@@ -1,6 +1,4 @@
-#include "hal/netduinoplus2/flash.hpp"
-
-#include "hal/netduinoplus2/watchdog.hpp"
+#include "hal/netduinoplus2/board.hpp"
 
 // Source: ST, RM0090, embedded flash memory interface; supply of 2.7 V and more: 32 bits at a time.
 namespace sonoglide::hal::netduinoplus2 {

@@ -1,4 +1,4 @@
-#include "hal/netduinoplus2/uart.hpp"
+#include "hal/netduinoplus2/board.hpp"
 
 #include <cstddef>
 

@@ -1,4 +1,4 @@
-#include "hal/riscv_virt/uart.hpp"
+#include "hal/riscv_virt/board.hpp"
 
 #include <cstddef>
 

@@ -1,6 +1,6 @@
 #include "hal/start/image_end.hpp"
 
-#include "hal/lockstep/exit_code.hpp"
+#include "hal/lockstep/frame.hpp"
 #include "hal/semihosting/semihosting.hpp"
 
 using sonoglide::hal::lockstep::ExitCode;

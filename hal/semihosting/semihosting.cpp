@@ -1,7 +1,5 @@
 #include "hal/semihosting/semihosting.hpp"
 
-#include "hal/semihosting/trap.hpp"
-
 // Source: Arm, Semihosting for AArch32 and AArch64, release 2.0.
 namespace sonoglide::hal::semihosting {
 namespace {

@@ -6,6 +6,12 @@
 
 namespace sonoglide::hal::semihosting {
 
+/// The one instruction sequence by which a processor calls its debugger or emulator.
+/// @param operation   number of the system call
+/// @param parameters  its block of 32-bit words
+/// @return what the call answers
+std::int32_t trap(std::int32_t operation, const std::uintptr_t* parameters);
+
 /// Opens the emulator's standard input or output.
 /// @return a handle, negative on failure
 std::int32_t open_standard_input();

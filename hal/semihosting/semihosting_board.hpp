@@ -5,9 +5,9 @@
 #include <cstdint>
 
 #include "hal/lockstep/board/lockstep_board.hpp"
-#include "hal/lockstep/board/processor_counter.hpp"
-#include "hal/lockstep/exit_code.hpp"
+#include "hal/lockstep/frame.hpp"
 #include "hal/semihosting/semihosting.hpp"
+#include "hal/start/counter.hpp"
 #include "hal/start/image_end.hpp"
 
 namespace sonoglide::hal::semihosting {
@@ -32,6 +32,13 @@ class Link {
   std::int32_t output_ = open_standard_output();
 };
 
-using SemihostingBoard = lockstep::LockstepBoard<Link, lockstep::ProcessorCounter>;
+/// The processor's counter; it runs from its construction on.
+class ProcessorCounter {
+ public:
+  ProcessorCounter() { start_counter(); }
+  std::uint32_t read() const { return read_counter(); }
+};
+
+using SemihostingBoard = lockstep::LockstepBoard<Link, ProcessorCounter>;
 
 }  // namespace sonoglide::hal::semihosting

@@ -1,4 +1,4 @@
-#include "hal/semihosting/trap.hpp"
+#include "hal/semihosting/semihosting.hpp"
 
 // Naked: operation and parameters stand in the registers that the call wants, and the answer in
 // that of a result.

@@ -16,7 +16,6 @@
 
 #include "firmware/control/interface/drive_command.hpp"
 #include "firmware/numeric/scalar.hpp"
-#include "hal/lockstep/exit_code.hpp"
 #include "hal/lockstep/frame.hpp"
 #include "host_sim/configure/control_design.hpp"
 #include "host_sim/emulated/board_list.hpp"

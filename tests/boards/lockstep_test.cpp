@@ -12,7 +12,6 @@
 
 #include "firmware/control/interface/drive_command.hpp"
 #include "firmware/numeric/scalar.hpp"
-#include "hal/lockstep/exit_code.hpp"
 #include "hal/lockstep/frame.hpp"
 #include "hal/trace_hash.hpp"
 #include "host_sim/configure/control_design.hpp"

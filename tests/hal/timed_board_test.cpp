@@ -5,7 +5,6 @@
 
 #include <cstdint>
 
-#include "hal/timed/stand_in_contact.hpp"
 #include "hal/timed/volatile_pages.hpp"
 
 extern "C" {

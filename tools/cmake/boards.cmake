@@ -72,7 +72,7 @@ endfunction()
 
 # sonoglide_emulated_board(<name> FOLDER <f> [MEMORY <its linker script>] SERIAL_BOARD <class>
 #   [TIMED_HARDWARE <class>]): a board in lockstep with its host, over semihosting and over a serial
-# line, and on its own timer. The classes are in <f>/serial_board.hpp and <f>/timed_hardware.hpp.
+# line, and on its own timer. The classes are in <f>/board.hpp.
 function(sonoglide_emulated_board name)
   set_property(GLOBAL APPEND PROPERTY SONOGLIDE_BOARDS ${name})
   if(NOT name STREQUAL SONOGLIDE_BOARD)
@@ -88,7 +88,7 @@ function(sonoglide_emulated_board name)
     CLASS semihosting::SemihostingBoard HEADER hal/semihosting/semihosting_board.hpp
     USES sonoglide_processor sonoglide_semihosting)
   sonoglide_images(_serial SOURCE firmware/image/main.cpp MEMORY ${BOARD_FOLDER}/${BOARD_MEMORY}
-    CLASS ${BOARD_SERIAL_BOARD} HEADER ${BOARD_FOLDER}/serial_board.hpp
+    CLASS ${BOARD_SERIAL_BOARD} HEADER ${BOARD_FOLDER}/board.hpp
     USES sonoglide_emulated_board sonoglide_semihosting)
   if(BOARD_TIMED_HARDWARE)
     set(timed_main firmware/image/timed_unit.cpp)
@@ -100,7 +100,7 @@ function(sonoglide_emulated_board name)
     endif()
     foreach(image IN LISTS timed_images)
       sonoglide_images(_${image} SOURCE ${${image}_main} MEMORY ${BOARD_FOLDER}/${BOARD_MEMORY}
-        CLASS ${BOARD_TIMED_HARDWARE} HEADER ${BOARD_FOLDER}/timed_hardware.hpp
+        CLASS ${BOARD_TIMED_HARDWARE} HEADER ${BOARD_FOLDER}/board.hpp
         USES sonoglide_emulated_board sonoglide_halt)
     endforeach()
   endif()

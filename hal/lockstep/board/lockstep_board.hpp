@@ -5,12 +5,14 @@
 #include <cstdint>
 
 #include "hal/board.hpp"
-#include "hal/lockstep/board/no_counter.hpp"
-#include "hal/lockstep/exit_code.hpp"
 #include "hal/lockstep/frame.hpp"
 #include "hal/start/image_end.hpp"
 
 namespace sonoglide::hal::lockstep {
+
+struct NoCounter {
+  std::uint32_t read() const { return 0; }
+};
 
 /// Samples come from a link to the host, and drives go back over it. The end of the input shuts the
 /// board down; a broken link ends the image (ExitCode::link_broken).
