@@ -8,8 +8,8 @@
 
 #include "host_sim/output/output_folder.hpp"
 #include "host_sim/process/checksum.hpp"
+#include "host_sim/process/child_process.hpp"
 #include "host_sim/process/printable.hpp"
-#include "host_sim/process/run_tool.hpp"
 #include "host_sim/scene_file/document.hpp"
 
 namespace sonoglide::cli {

@@ -1,4 +1,4 @@
-#include "host_sim/emulated/stack_bound.hpp"
+#include "host_sim/emulated/image.hpp"
 
 #include <algorithm>
 #include <cstdlib>

@@ -8,8 +8,8 @@
 #include <filesystem>
 #include <iterator>
 
+#include "host_sim/process/child_process.hpp"
 #include "host_sim/process/printable.hpp"
-#include "host_sim/process/run_tool.hpp"
 
 namespace sonoglide::output {
 

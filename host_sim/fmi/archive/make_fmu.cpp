@@ -2,17 +2,20 @@
 #include "host_sim/experiment/experiment.hpp"
 
 #include <fmt/format.h>
+#include <minizip/zip.h>
 
 #include <algorithm>
 #include <cctype>
 #include <fstream>
 #include <iterator>
+#include <stdexcept>
 #include <string_view>
+#include <utility>
 #include <vector>
 
-#include "host_sim/fmi/archive/zip_writer.hpp"
 #include "host_sim/fmi/resources.hpp"
 #include "host_sim/output/written_files.hpp"
+#include "host_sim/process/pipe.hpp"
 
 namespace sonoglide::fmi {
 namespace {
@@ -68,6 +71,52 @@ std::string external_dependencies(Version version, const std::string& engine, bo
   return text;
 }
 
+/// A ZIP archive in memory, file by file. Two archives of the same files are the same bytes: no file
+/// has a time.
+class Archive {
+ public:
+  Archive()
+      : zip_(zipOpen64(fmt::format("/proc/self/fd/{}", bytes_.number()).c_str(),
+                       APPEND_STATUS_CREATE)) {
+    require(zip_ != nullptr);
+  }
+  ~Archive() {
+    if (zip_ != nullptr) {
+      zipClose(zip_, nullptr);
+    }
+  }
+  Archive(const Archive&) = delete;
+  Archive& operator=(const Archive&) = delete;
+
+  /// @param name  with / between folders
+  void add(const std::string& name, std::string_view content) {
+    zip_fileinfo facts{};
+    facts.tmz_date.tm_mday = 1;  // 1980, the first year that the format knows
+    facts.tmz_date.tm_year = 1980;
+    require(zipOpenNewFileInZip(zip_, name.c_str(), &facts, nullptr, 0, nullptr, 0, nullptr,
+                                Z_DEFLATED, Z_BEST_SPEED) == ZIP_OK);
+    require(zipWriteInFileInZip(zip_, content.data(), static_cast<unsigned>(content.size())) ==
+            ZIP_OK);
+    require(zipCloseFileInZip(zip_) == ZIP_OK);
+  }
+
+  /// The bytes; to be called once, last.
+  std::string close() {
+    require(zipClose(std::exchange(zip_, nullptr), nullptr) == ZIP_OK);
+    return process::memory_file_text(bytes_, std::string().max_size());
+  }
+
+ private:
+  static void require(bool good) {
+    if (!good) {
+      throw std::runtime_error("an FMU cannot be packed");
+    }
+  }
+
+  process::Descriptor bytes_ = process::make_memory_file();
+  zipFile zip_;
+};
+
 }  // namespace
 
 Parts find_parts() {
@@ -91,7 +140,7 @@ std::string make_fmu(const scene::Scene& given, loop::Kind kind, Version version
   const Resources resources = make_resources(given, kind, engine + windows_engine);
   const scene::Scene scene = experiment::read_text(resources.scene, Resources::scene_name).scene;
   const std::string identifier = fmt::format("sonoglide_{}", scene::name_of(loop::kinds, kind));
-  ZipWriter archive;
+  Archive archive;
   archive.add(
       "modelDescription.xml",
       model_description(scene, kind, version, {given.name, identifier, resources.token, tool}));

@@ -7,10 +7,41 @@
 #include <variant>
 
 #include "host_sim/fmi/binary/component.hpp"
-#include "host_sim/fmi/binary/fmi2_call.hpp"
 
 namespace sonoglide::fmi {
 namespace {
+
+/// What this version of the interface asks for besides.
+struct Component2 {
+  std::unique_ptr<Component> component;
+  double start_s = 0.0;
+};
+
+fmi2Status status_of_2(Status status) {
+  return static_cast<fmi2Status>(status);
+}
+
+template <class Call>
+fmi2Status attempt(fmi2Component component, const Call& call) {
+  return component == nullptr
+             ? fmi2Error
+             : status_of_2(static_cast<Component2*>(component)->component->attempt(call));
+}
+
+fmi2Status refused(fmi2Component component, const char* what) {
+  return attempt(component, [what](const Instance& /*each*/) { refuse(what); });
+}
+
+Log log_of(fmi2String name, const fmi2CallbackFunctions* functions) {
+  if (functions == nullptr || functions->logger == nullptr) {
+    return {};
+  }
+  return [environment = functions->componentEnvironment, logger = functions->logger,
+          called = std::string(name == nullptr ? "" : name)](Status status, const char* category,
+                                                             const std::string& message) {
+    logger(environment, called.c_str(), status_of_2(status), category, "%s", message.c_str());
+  };
+}
 
 #if defined(_WIN32)
 constexpr bool has_drive_letters = true;
@@ -90,7 +121,7 @@ fmi2Component fmi2Instantiate(fmi2String name, fmi2Type type, fmi2String guid,
                               fmi2Boolean /*visible*/, fmi2Boolean /*logging_on*/) {
   const Log log = log_of(name, functions);
   if (type != fmi2CoSimulation) {
-    tell_refusal(log, model_exchange);
+    tell_refusal(log, "model exchange");
     return nullptr;
   }
   auto component = Component::create(path_of(resource_location == nullptr ? "" : resource_location),
@@ -246,3 +277,17 @@ fmi2Status fmi2GetBooleanStatus(fmi2Component component, fmi2StatusKind kind, fm
     *value = 0;
   });
 }
+
+#define SONOGLIDE_NO_VALUES(name, what, parameters)                                               \
+  fmi2Status name parameters {                                                                    \
+    return n == 0 ? attempt(instance, [](const Instance& /*each*/) {}) : refused(instance, what); \
+  }
+SONOGLIDE_FMI2_NO_VALUES(SONOGLIDE_NO_VALUES)
+#undef SONOGLIDE_NO_VALUES
+
+#define SONOGLIDE_REFUSED(name, what, parameters) \
+  fmi2Status name parameters {                    \
+    return refused(instance, what);               \
+  }
+SONOGLIDE_FMI2_REFUSED(SONOGLIDE_REFUSED)
+#undef SONOGLIDE_REFUSED

@@ -6,8 +6,7 @@
 
 #include <cstddef>
 
-#include "host_sim/fmi/binary/export.hpp"
-#include "host_sim/fmi/binary/model_exchange.hpp"
+#include "host_sim/fmi/binary/interface.hpp"
 
 using fmi2Component = void*;
 using fmi2ComponentEnvironment = void*;
@@ -73,9 +72,6 @@ SONOGLIDE_FMI fmi2Status fmi2GetReal(fmi2Component component, const fmi2ValueRef
 SONOGLIDE_FMI fmi2Status fmi2GetInteger(fmi2Component component,
                                         const fmi2ValueReference references[], std::size_t n,
                                         fmi2Integer values[]);
-SONOGLIDE_FMI fmi2Status fmi2GetBoolean(fmi2Component component,
-                                        const fmi2ValueReference references[], std::size_t n,
-                                        fmi2Boolean values[]);
 SONOGLIDE_FMI fmi2Status fmi2GetString(fmi2Component component,
                                        const fmi2ValueReference references[], std::size_t n,
                                        fmi2String values[]);
@@ -84,12 +80,6 @@ SONOGLIDE_FMI fmi2Status fmi2SetReal(fmi2Component component, const fmi2ValueRef
 SONOGLIDE_FMI fmi2Status fmi2SetInteger(fmi2Component component,
                                         const fmi2ValueReference references[], std::size_t n,
                                         const fmi2Integer values[]);
-SONOGLIDE_FMI fmi2Status fmi2SetBoolean(fmi2Component component,
-                                        const fmi2ValueReference references[], std::size_t n,
-                                        const fmi2Boolean values[]);
-SONOGLIDE_FMI fmi2Status fmi2SetString(fmi2Component component,
-                                       const fmi2ValueReference references[], std::size_t n,
-                                       const fmi2String values[]);
 
 SONOGLIDE_FMI fmi2Status fmi2GetFMUstate(fmi2Component component, fmi2FMUstate* state);
 SONOGLIDE_FMI fmi2Status fmi2SetFMUstate(fmi2Component component, fmi2FMUstate state);
@@ -101,38 +91,53 @@ SONOGLIDE_FMI fmi2Status fmi2SerializeFMUstate(fmi2Component component, fmi2FMUs
 SONOGLIDE_FMI fmi2Status fmi2DeSerializeFMUstate(fmi2Component component, const fmi2Byte bytes[],
                                                  std::size_t size, fmi2FMUstate* state);
 
-SONOGLIDE_FMI fmi2Status fmi2GetDirectionalDerivative(
-    fmi2Component component, const fmi2ValueReference unknowns[], std::size_t unknown_count,
-    const fmi2ValueReference knowns[], std::size_t known_count, const fmi2Real known_changes[],
-    fmi2Real unknown_changes[]);
-SONOGLIDE_FMI fmi2Status fmi2SetRealInputDerivatives(fmi2Component component,
-                                                     const fmi2ValueReference references[],
-                                                     std::size_t n, const fmi2Integer orders[],
-                                                     const fmi2Real values[]);
-SONOGLIDE_FMI fmi2Status fmi2GetRealOutputDerivatives(fmi2Component component,
-                                                      const fmi2ValueReference references[],
-                                                      std::size_t n, const fmi2Integer orders[],
-                                                      fmi2Real values[]);
 SONOGLIDE_FMI fmi2Status fmi2DoStep(fmi2Component component, fmi2Real point, fmi2Real size,
                                     fmi2Boolean no_state_prior);
-SONOGLIDE_FMI fmi2Status fmi2CancelStep(fmi2Component component);
-SONOGLIDE_FMI fmi2Status fmi2GetStatus(fmi2Component component, fmi2StatusKind kind,
-                                       fmi2Status* value);
 SONOGLIDE_FMI fmi2Status fmi2GetRealStatus(fmi2Component component, fmi2StatusKind kind,
                                            fmi2Real* value);
-SONOGLIDE_FMI fmi2Status fmi2GetIntegerStatus(fmi2Component component, fmi2StatusKind kind,
-                                              fmi2Integer* value);
 SONOGLIDE_FMI fmi2Status fmi2GetBooleanStatus(fmi2Component component, fmi2StatusKind kind,
                                               fmi2Boolean* value);
-SONOGLIDE_FMI fmi2Status fmi2GetStringStatus(fmi2Component component, fmi2StatusKind kind,
-                                             fmi2String* value);
 
-// Model exchange.
-#define SONOGLIDE_DECLARED(name, parameters) SONOGLIDE_FMI fmi2Status name parameters;
-SONOGLIDE_FMI_MODEL_EXCHANGE(SONOGLIDE_DECLARED, fmi2, fmi2Component, fmi2Boolean, fmi2Real)
+// What there is none of; where the number of elements is 0, nothing is asked for.
+// clang-format off
+#define SONOGLIDE_FMI2_NO_VALUES(each)                                                            \
+  each(fmi2GetBoolean, "Boolean",                                                                 \
+       (fmi2Component instance, const fmi2ValueReference /*references*/[], std::size_t n,         \
+        fmi2Boolean /*values*/[]))                                                                \
+  each(fmi2SetBoolean, "Boolean",                                                                 \
+       (fmi2Component instance, const fmi2ValueReference /*references*/[], std::size_t n,         \
+        const fmi2Boolean /*values*/[]))                                                          \
+  each(fmi2SetString, "String that can be set",                                                   \
+       (fmi2Component instance, const fmi2ValueReference /*references*/[], std::size_t n,         \
+        const fmi2String /*values*/[]))                                                           \
+  each(fmi2SetRealInputDerivatives, "derivatives of inputs",                                      \
+       (fmi2Component instance, const fmi2ValueReference /*references*/[], std::size_t n,         \
+        const fmi2Integer /*orders*/[], const fmi2Real /*values*/[]))                             \
+  each(fmi2GetRealOutputDerivatives, "derivatives of outputs",                                    \
+       (fmi2Component instance, const fmi2ValueReference /*references*/[], std::size_t n,         \
+        const fmi2Integer /*orders*/[], fmi2Real /*values*/[]))
+#define SONOGLIDE_FMI2_REFUSED(each)                                                              \
+  SONOGLIDE_FMI_MODEL_EXCHANGE(each, fmi2, fmi2Component, fmi2Boolean, fmi2Real)                  \
+  each(fmi2EnterEventMode, "model exchange", (fmi2Component instance))                            \
+  each(fmi2NewDiscreteStates, "model exchange",                                                   \
+       (fmi2Component instance, fmi2EventInfo* /*info*/))                                         \
+  each(fmi2GetDerivatives, "model exchange",                                                      \
+       (fmi2Component instance, fmi2Real /*derivatives*/[], std::size_t /*n*/))                   \
+  each(fmi2GetDirectionalDerivative, "directional derivatives",                                   \
+       (fmi2Component instance, const fmi2ValueReference /*unknowns*/[],                          \
+        std::size_t /*unknown_count*/, const fmi2ValueReference /*knowns*/[],                     \
+        std::size_t /*known_count*/, const fmi2Real /*known_changes*/[],                          \
+        fmi2Real /*unknown_changes*/[]))                                                          \
+  each(fmi2CancelStep, "steps in the background", (fmi2Component instance))                       \
+  each(fmi2GetStatus, "steps in the background",                                                  \
+       (fmi2Component instance, fmi2StatusKind /*kind*/, fmi2Status* /*value*/))                  \
+  each(fmi2GetIntegerStatus, "such a status",                                                     \
+       (fmi2Component instance, fmi2StatusKind /*kind*/, fmi2Integer* /*value*/))                 \
+  each(fmi2GetStringStatus, "steps in the background",                                            \
+       (fmi2Component instance, fmi2StatusKind /*kind*/, fmi2String* /*value*/))
+// clang-format on
+#define SONOGLIDE_DECLARED(name, what, parameters) SONOGLIDE_FMI fmi2Status name parameters;
+SONOGLIDE_FMI2_NO_VALUES(SONOGLIDE_DECLARED)
+SONOGLIDE_FMI2_REFUSED(SONOGLIDE_DECLARED)
 #undef SONOGLIDE_DECLARED
-SONOGLIDE_FMI fmi2Status fmi2EnterEventMode(fmi2Component component);
-SONOGLIDE_FMI fmi2Status fmi2NewDiscreteStates(fmi2Component component, fmi2EventInfo* info);
-SONOGLIDE_FMI fmi2Status fmi2GetDerivatives(fmi2Component component, fmi2Real derivatives[],
-                                            std::size_t n);
 // NOLINTEND(readability-identifier-naming)

@@ -6,10 +6,38 @@
 #include <type_traits>
 
 #include "host_sim/fmi/binary/component.hpp"
-#include "host_sim/fmi/binary/fmi3_call.hpp"
 
 namespace sonoglide::fmi {
 namespace {
+
+fmi3Status status_of_3(Status status) {
+  return static_cast<fmi3Status>(status);
+}
+
+template <class Call>
+fmi3Status attempt(fmi3Instance instance, const Call& call) {
+  return instance == nullptr ? fmi3Error
+                             : status_of_3(static_cast<Component*>(instance)->attempt(call));
+}
+
+Log log_of(fmi3InstanceEnvironment environment, fmi3LogMessageCallback log) {
+  if (log == nullptr) {
+    return {};
+  }
+  return [environment, log](Status status, const char* category, const std::string& message) {
+    log(environment, status_of_3(status), category, message.c_str());
+  };
+}
+
+fmi3Status refused(fmi3Instance instance, const char* what) {
+  return attempt(instance, [what](const Instance& /*each*/) { refuse(what); });
+}
+
+fmi3Instance no_instance(fmi3InstanceEnvironment environment, fmi3LogMessageCallback log,
+                         const char* what) {
+  tell_refusal(log_of(environment, log), what);
+  return nullptr;
+}
 
 void require_type(const Variable& variable, Type type, const char* name) {
   if (variable.type() != type) {
@@ -90,6 +118,22 @@ fmi3Instance fmi3InstantiateCoSimulation(
   }
   component->may_stop_early = early_return_allowed;
   return component.release();
+}
+
+fmi3Instance fmi3InstantiateModelExchange(fmi3String /*name*/, fmi3String /*token*/,
+                                          fmi3String /*resource_path*/, fmi3Boolean /*visible*/,
+                                          fmi3Boolean /*logging_on*/,
+                                          fmi3InstanceEnvironment environment,
+                                          fmi3LogMessageCallback log) {
+  return no_instance(environment, log, "model exchange");
+}
+
+fmi3Instance fmi3InstantiateScheduledExecution(
+    fmi3String /*name*/, fmi3String /*token*/, fmi3String /*resource_path*/,
+    fmi3Boolean /*visible*/, fmi3Boolean /*logging_on*/, fmi3InstanceEnvironment environment,
+    fmi3LogMessageCallback log, fmi3ClockUpdateCallback /*clock_update*/,
+    fmi3LockPreemptionCallback /*lock*/, fmi3UnlockPreemptionCallback /*unlock*/) {
+  return no_instance(environment, log, "scheduled execution");
 }
 
 void fmi3FreeInstance(fmi3Instance instance) {
@@ -202,3 +246,17 @@ fmi3Status fmi3DoStep(fmi3Instance instance, fmi3Float64 point, fmi3Float64 size
     *last_time = each.time_s();
   });
 }
+
+#define SONOGLIDE_NO_VALUES(name, what, parameters)                                               \
+  fmi3Status name parameters {                                                                    \
+    return n == 0 ? attempt(instance, [](const Instance& /*each*/) {}) : refused(instance, what); \
+  }
+SONOGLIDE_FMI3_NO_VALUES(SONOGLIDE_NO_VALUES)
+#undef SONOGLIDE_NO_VALUES
+
+#define SONOGLIDE_REFUSED(name, what, parameters) \
+  fmi3Status name parameters {                    \
+    return refused(instance, what);               \
+  }
+SONOGLIDE_FMI3_REFUSED(SONOGLIDE_REFUSED)
+#undef SONOGLIDE_REFUSED

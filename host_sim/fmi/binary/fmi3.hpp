@@ -7,8 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "host_sim/fmi/binary/export.hpp"
-#include "host_sim/fmi/binary/model_exchange.hpp"
+#include "host_sim/fmi/binary/interface.hpp"
 
 using fmi3Instance = void*;
 using fmi3InstanceEnvironment = void*;
@@ -85,11 +84,8 @@ SONOGLIDE_FMI fmi3Status fmi3EnterInitializationMode(fmi3Instance instance,
                                                      fmi3Boolean stop_time_defined,
                                                      fmi3Float64 stop_time);
 SONOGLIDE_FMI fmi3Status fmi3ExitInitializationMode(fmi3Instance instance);
-SONOGLIDE_FMI fmi3Status fmi3EnterEventMode(fmi3Instance instance);
 SONOGLIDE_FMI fmi3Status fmi3Terminate(fmi3Instance instance);
 SONOGLIDE_FMI fmi3Status fmi3Reset(fmi3Instance instance);
-SONOGLIDE_FMI fmi3Status fmi3EnterConfigurationMode(fmi3Instance instance);
-SONOGLIDE_FMI fmi3Status fmi3ExitConfigurationMode(fmi3Instance instance);
 
 // Values. n of them are wanted, and as many numbers handed over, for no variable is an array.
 #define SONOGLIDE_FMI3_VALUES(Type)                                                            \
@@ -101,27 +97,10 @@ SONOGLIDE_FMI fmi3Status fmi3ExitConfigurationMode(fmi3Instance instance);
                                          const fmi3##Type values[], std::size_t value_count);
 SONOGLIDE_FMI3_VALUES(Float32)
 SONOGLIDE_FMI3_VALUES(Float64)
-SONOGLIDE_FMI3_VALUES(Int8)
-SONOGLIDE_FMI3_VALUES(UInt8)
-SONOGLIDE_FMI3_VALUES(Int16)
-SONOGLIDE_FMI3_VALUES(UInt16)
 SONOGLIDE_FMI3_VALUES(Int32)
-SONOGLIDE_FMI3_VALUES(UInt32)
-SONOGLIDE_FMI3_VALUES(Int64)
-SONOGLIDE_FMI3_VALUES(UInt64)
-SONOGLIDE_FMI3_VALUES(Boolean)
-SONOGLIDE_FMI3_VALUES(String)
 #undef SONOGLIDE_FMI3_VALUES
-SONOGLIDE_FMI fmi3Status fmi3GetBinary(fmi3Instance instance, const fmi3ValueReference references[],
-                                       std::size_t n, std::size_t sizes[], fmi3Binary values[],
-                                       std::size_t value_count);
-SONOGLIDE_FMI fmi3Status fmi3SetBinary(fmi3Instance instance, const fmi3ValueReference references[],
-                                       std::size_t n, const std::size_t sizes[],
-                                       const fmi3Binary values[], std::size_t value_count);
-SONOGLIDE_FMI fmi3Status fmi3GetClock(fmi3Instance instance, const fmi3ValueReference references[],
-                                      std::size_t n, fmi3Clock values[]);
-SONOGLIDE_FMI fmi3Status fmi3SetClock(fmi3Instance instance, const fmi3ValueReference references[],
-                                      std::size_t n, const fmi3Clock values[]);
+SONOGLIDE_FMI fmi3Status fmi3GetString(fmi3Instance instance, const fmi3ValueReference references[],
+                                       std::size_t n, fmi3String values[], std::size_t value_count);
 
 // What depends on what.
 SONOGLIDE_FMI fmi3Status fmi3GetNumberOfVariableDependencies(fmi3Instance instance,
@@ -133,14 +112,6 @@ SONOGLIDE_FMI fmi3Status fmi3GetVariableDependencies(fmi3Instance instance,
                                                      fmi3ValueReference independents[],
                                                      std::size_t independent_elements[],
                                                      fmi3DependencyKind kinds[], std::size_t count);
-SONOGLIDE_FMI fmi3Status fmi3GetDirectionalDerivative(
-    fmi3Instance instance, const fmi3ValueReference unknowns[], std::size_t unknown_count,
-    const fmi3ValueReference knowns[], std::size_t known_count, const fmi3Float64 seed[],
-    std::size_t seed_count, fmi3Float64 sensitivity[], std::size_t sensitivity_count);
-SONOGLIDE_FMI fmi3Status fmi3GetAdjointDerivative(
-    fmi3Instance instance, const fmi3ValueReference unknowns[], std::size_t unknown_count,
-    const fmi3ValueReference knowns[], std::size_t known_count, const fmi3Float64 seed[],
-    std::size_t seed_count, fmi3Float64 sensitivity[], std::size_t sensitivity_count);
 
 // State.
 SONOGLIDE_FMI fmi3Status fmi3GetFMUState(fmi3Instance instance, fmi3FMUState* state);
@@ -153,64 +124,104 @@ SONOGLIDE_FMI fmi3Status fmi3SerializeFMUState(fmi3Instance instance, fmi3FMUSta
 SONOGLIDE_FMI fmi3Status fmi3DeserializeFMUState(fmi3Instance instance, const fmi3Byte bytes[],
                                                  std::size_t size, fmi3FMUState* state);
 
-// Clocks and events.
-SONOGLIDE_FMI fmi3Status fmi3GetIntervalDecimal(fmi3Instance instance,
-                                                const fmi3ValueReference references[],
-                                                std::size_t n, fmi3Float64 intervals[],
-                                                fmi3IntervalQualifier qualifiers[]);
-SONOGLIDE_FMI fmi3Status fmi3GetIntervalFraction(fmi3Instance instance,
-                                                 const fmi3ValueReference references[],
-                                                 std::size_t n, fmi3UInt64 counters[],
-                                                 fmi3UInt64 resolutions[],
-                                                 fmi3IntervalQualifier qualifiers[]);
-SONOGLIDE_FMI fmi3Status fmi3GetShiftDecimal(fmi3Instance instance,
-                                             const fmi3ValueReference references[], std::size_t n,
-                                             fmi3Float64 shifts[]);
-SONOGLIDE_FMI fmi3Status fmi3GetShiftFraction(fmi3Instance instance,
-                                              const fmi3ValueReference references[], std::size_t n,
-                                              fmi3UInt64 counters[], fmi3UInt64 resolutions[]);
-SONOGLIDE_FMI fmi3Status fmi3SetIntervalDecimal(fmi3Instance instance,
-                                                const fmi3ValueReference references[],
-                                                std::size_t n, const fmi3Float64 intervals[]);
-SONOGLIDE_FMI fmi3Status fmi3SetIntervalFraction(fmi3Instance instance,
-                                                 const fmi3ValueReference references[],
-                                                 std::size_t n, const fmi3UInt64 counters[],
-                                                 const fmi3UInt64 resolutions[]);
-SONOGLIDE_FMI fmi3Status fmi3SetShiftDecimal(fmi3Instance instance,
-                                             const fmi3ValueReference references[], std::size_t n,
-                                             const fmi3Float64 shifts[]);
-SONOGLIDE_FMI fmi3Status fmi3SetShiftFraction(fmi3Instance instance,
-                                              const fmi3ValueReference references[], std::size_t n,
-                                              const fmi3UInt64 counters[],
-                                              const fmi3UInt64 resolutions[]);
-SONOGLIDE_FMI fmi3Status fmi3EvaluateDiscreteStates(fmi3Instance instance);
-SONOGLIDE_FMI fmi3Status fmi3UpdateDiscreteStates(fmi3Instance instance, fmi3Boolean* needs_update,
-                                                  fmi3Boolean* terminate,
-                                                  fmi3Boolean* nominals_changed,
-                                                  fmi3Boolean* values_changed,
-                                                  fmi3Boolean* next_event_time_defined,
-                                                  fmi3Float64* next_event_time);
-
 // Co-simulation.
-SONOGLIDE_FMI fmi3Status fmi3EnterStepMode(fmi3Instance instance);
-SONOGLIDE_FMI fmi3Status fmi3GetOutputDerivatives(fmi3Instance instance,
-                                                  const fmi3ValueReference references[],
-                                                  std::size_t n, const fmi3Int32 orders[],
-                                                  fmi3Float64 values[], std::size_t value_count);
 SONOGLIDE_FMI fmi3Status fmi3DoStep(fmi3Instance instance, fmi3Float64 point, fmi3Float64 size,
                                     fmi3Boolean no_state_prior, fmi3Boolean* event_needed,
                                     fmi3Boolean* terminate, fmi3Boolean* early_return,
                                     fmi3Float64* last_time);
 
-// Model exchange and scheduled execution.
-#define SONOGLIDE_DECLARED(name, parameters) SONOGLIDE_FMI fmi3Status name parameters;
-SONOGLIDE_FMI_MODEL_EXCHANGE(SONOGLIDE_DECLARED, fmi3, fmi3Instance, fmi3Boolean, fmi3Float64)
+// What there is none of; where the number of elements is 0, nothing is asked for.
+// clang-format off
+#define SONOGLIDE_FMI3_NO_NUMBERS(each, Type)                                                     \
+  each(fmi3Get##Type, #Type,                                                                      \
+       (fmi3Instance instance, const fmi3ValueReference /*references*/[], std::size_t n,          \
+        fmi3##Type /*values*/[], std::size_t /*value_count*/))                                    \
+  each(fmi3Set##Type, #Type,                                                                      \
+       (fmi3Instance instance, const fmi3ValueReference /*references*/[], std::size_t n,          \
+        const fmi3##Type /*values*/[], std::size_t /*value_count*/))
+#define SONOGLIDE_FMI3_NO_VALUES(each)                                                            \
+  SONOGLIDE_FMI3_NO_NUMBERS(each, Int8)                                                           \
+  SONOGLIDE_FMI3_NO_NUMBERS(each, UInt8)                                                          \
+  SONOGLIDE_FMI3_NO_NUMBERS(each, Int16)                                                          \
+  SONOGLIDE_FMI3_NO_NUMBERS(each, UInt16)                                                         \
+  SONOGLIDE_FMI3_NO_NUMBERS(each, UInt32)                                                         \
+  SONOGLIDE_FMI3_NO_NUMBERS(each, Int64)                                                          \
+  SONOGLIDE_FMI3_NO_NUMBERS(each, UInt64)                                                         \
+  SONOGLIDE_FMI3_NO_NUMBERS(each, Boolean)                                                        \
+  each(fmi3SetString, "String that can be set",                                                   \
+       (fmi3Instance instance, const fmi3ValueReference /*references*/[], std::size_t n,          \
+        const fmi3String /*values*/[], std::size_t /*value_count*/))                              \
+  each(fmi3GetBinary, "Binary",                                                                   \
+       (fmi3Instance instance, const fmi3ValueReference /*references*/[], std::size_t n,          \
+        std::size_t /*sizes*/[], fmi3Binary /*values*/[], std::size_t /*value_count*/))           \
+  each(fmi3SetBinary, "Binary",                                                                   \
+       (fmi3Instance instance, const fmi3ValueReference /*references*/[], std::size_t n,          \
+        const std::size_t /*sizes*/[], const fmi3Binary /*values*/[],                             \
+        std::size_t /*value_count*/))                                                             \
+  each(fmi3GetClock, "Clock",                                                                     \
+       (fmi3Instance instance, const fmi3ValueReference /*references*/[], std::size_t n,          \
+        fmi3Clock /*values*/[]))                                                                  \
+  each(fmi3SetClock, "Clock",                                                                     \
+       (fmi3Instance instance, const fmi3ValueReference /*references*/[], std::size_t n,          \
+        const fmi3Clock /*values*/[]))
+#define SONOGLIDE_FMI3_NO_SENSITIVITY(each, name, what)                                           \
+  each(name, what,                                                                                \
+       (fmi3Instance instance, const fmi3ValueReference /*unknowns*/[],                           \
+        std::size_t /*unknown_count*/, const fmi3ValueReference /*knowns*/[],                     \
+        std::size_t /*known_count*/, const fmi3Float64 /*seed*/[], std::size_t /*seed_count*/,    \
+        fmi3Float64 /*sensitivity*/[], std::size_t /*sensitivity_count*/))
+#define SONOGLIDE_FMI3_REFUSED(each)                                                              \
+  SONOGLIDE_FMI_MODEL_EXCHANGE(each, fmi3, fmi3Instance, fmi3Boolean, fmi3Float64)                \
+  each(fmi3GetContinuousStateDerivatives, "model exchange",                                       \
+       (fmi3Instance instance, fmi3Float64 /*derivatives*/[], std::size_t /*n*/))                 \
+  each(fmi3GetNumberOfEventIndicators, "model exchange",                                          \
+       (fmi3Instance instance, std::size_t* /*n*/))                                               \
+  each(fmi3GetNumberOfContinuousStates, "model exchange",                                         \
+       (fmi3Instance instance, std::size_t* /*n*/))                                               \
+  SONOGLIDE_FMI3_NO_SENSITIVITY(each, fmi3GetDirectionalDerivative, "directional derivatives")    \
+  SONOGLIDE_FMI3_NO_SENSITIVITY(each, fmi3GetAdjointDerivative, "adjoint derivatives")            \
+  each(fmi3GetOutputDerivatives, "derivatives of outputs",                                        \
+       (fmi3Instance instance, const fmi3ValueReference /*references*/[], std::size_t /*n*/,      \
+        const fmi3Int32 /*orders*/[], fmi3Float64 /*values*/[], std::size_t /*value_count*/))     \
+  each(fmi3GetIntervalDecimal, "clocks",                                                          \
+       (fmi3Instance instance, const fmi3ValueReference /*references*/[], std::size_t /*n*/,      \
+        fmi3Float64 /*intervals*/[], fmi3IntervalQualifier /*qualifiers*/[]))                     \
+  each(fmi3GetIntervalFraction, "clocks",                                                         \
+       (fmi3Instance instance, const fmi3ValueReference /*references*/[], std::size_t /*n*/,      \
+        fmi3UInt64 /*counters*/[], fmi3UInt64 /*resolutions*/[],                                  \
+        fmi3IntervalQualifier /*qualifiers*/[]))                                                  \
+  each(fmi3GetShiftDecimal, "clocks",                                                             \
+       (fmi3Instance instance, const fmi3ValueReference /*references*/[], std::size_t /*n*/,      \
+        fmi3Float64 /*shifts*/[]))                                                                \
+  each(fmi3GetShiftFraction, "clocks",                                                            \
+       (fmi3Instance instance, const fmi3ValueReference /*references*/[], std::size_t /*n*/,      \
+        fmi3UInt64 /*counters*/[], fmi3UInt64 /*resolutions*/[]))                                 \
+  each(fmi3SetIntervalDecimal, "clocks",                                                          \
+       (fmi3Instance instance, const fmi3ValueReference /*references*/[], std::size_t /*n*/,      \
+        const fmi3Float64 /*intervals*/[]))                                                       \
+  each(fmi3SetIntervalFraction, "clocks",                                                         \
+       (fmi3Instance instance, const fmi3ValueReference /*references*/[], std::size_t /*n*/,      \
+        const fmi3UInt64 /*counters*/[], const fmi3UInt64 /*resolutions*/[]))                     \
+  each(fmi3SetShiftDecimal, "clocks",                                                             \
+       (fmi3Instance instance, const fmi3ValueReference /*references*/[], std::size_t /*n*/,      \
+        const fmi3Float64 /*shifts*/[]))                                                          \
+  each(fmi3SetShiftFraction, "clocks",                                                            \
+       (fmi3Instance instance, const fmi3ValueReference /*references*/[], std::size_t /*n*/,      \
+        const fmi3UInt64 /*counters*/[], const fmi3UInt64 /*resolutions*/[]))                     \
+  each(fmi3ActivateModelPartition, "clocks",                                                      \
+       (fmi3Instance instance, fmi3ValueReference /*clock*/, fmi3Float64 /*time*/))               \
+  each(fmi3EnterConfigurationMode, "structural parameters", (fmi3Instance instance))              \
+  each(fmi3ExitConfigurationMode, "structural parameters", (fmi3Instance instance))               \
+  each(fmi3EnterEventMode, "event mode", (fmi3Instance instance))                                 \
+  each(fmi3EnterStepMode, "event mode", (fmi3Instance instance))                                  \
+  each(fmi3EvaluateDiscreteStates, "event mode", (fmi3Instance instance))                         \
+  each(fmi3UpdateDiscreteStates, "event mode",                                                    \
+       (fmi3Instance instance, fmi3Boolean* /*needs_update*/, fmi3Boolean* /*terminate*/,         \
+        fmi3Boolean* /*nominals_changed*/, fmi3Boolean* /*values_changed*/,                       \
+        fmi3Boolean* /*next_event_time_defined*/, fmi3Float64* /*next_event_time*/))
+// clang-format on
+#define SONOGLIDE_DECLARED(name, what, parameters) SONOGLIDE_FMI fmi3Status name parameters;
+SONOGLIDE_FMI3_NO_VALUES(SONOGLIDE_DECLARED)
+SONOGLIDE_FMI3_REFUSED(SONOGLIDE_DECLARED)
 #undef SONOGLIDE_DECLARED
-SONOGLIDE_FMI fmi3Status fmi3GetContinuousStateDerivatives(fmi3Instance instance,
-                                                           fmi3Float64 derivatives[],
-                                                           std::size_t n);
-SONOGLIDE_FMI fmi3Status fmi3GetNumberOfEventIndicators(fmi3Instance instance, std::size_t* n);
-SONOGLIDE_FMI fmi3Status fmi3GetNumberOfContinuousStates(fmi3Instance instance, std::size_t* n);
-SONOGLIDE_FMI fmi3Status fmi3ActivateModelPartition(fmi3Instance instance, fmi3ValueReference clock,
-                                                    fmi3Float64 time);
 // NOLINTEND(readability-identifier-naming)

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "host_sim/emulated/board_list.hpp"
-#include "host_sim/emulated/image_cost.hpp"
+#include "host_sim/emulated/image.hpp"
 #include "host_sim/loop/run_result.hpp"
 #include "tests/boards/budget/image_parts.hpp"
 

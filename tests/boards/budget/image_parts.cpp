@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "host_sim/emulated/board_list.hpp"
-#include "host_sim/process/run_tool.hpp"
+#include "host_sim/process/child_process.hpp"
 
 namespace sonoglide::budget {
 namespace {

@@ -8,9 +8,8 @@
 #include <sstream>
 
 #include "host_sim/emulated/board_list.hpp"
-#include "host_sim/emulated/image_cost.hpp"
-#include "host_sim/emulated/stack_bound.hpp"
-#include "host_sim/process/run_tool.hpp"
+#include "host_sim/emulated/image.hpp"
+#include "host_sim/process/child_process.hpp"
 
 namespace sonoglide::budget {
 namespace {

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "host_sim/process/run_tool.hpp"
+#include "host_sim/process/child_process.hpp"
 
 namespace sonoglide::emulated {
 

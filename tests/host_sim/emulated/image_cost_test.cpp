@@ -1,5 +1,5 @@
 // The memory that an image takes against GNU size.
-#include "host_sim/emulated/image_cost.hpp"
+#include "host_sim/emulated/image.hpp"
 
 #include <gtest/gtest.h>
 

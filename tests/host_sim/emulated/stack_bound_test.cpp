@@ -1,5 +1,5 @@
 // The deepest stack against the compiler's own figure for every frame.
-#include "host_sim/emulated/stack_bound.hpp"
+#include "host_sim/emulated/image.hpp"
 
 #include <gtest/gtest.h>
 

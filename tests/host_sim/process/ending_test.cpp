@@ -12,7 +12,7 @@
 #include <string>
 #include <thread>
 
-#include "host_sim/process/run_tool.hpp"
+#include "host_sim/process/child_process.hpp"
 #include "host_sim/process/scratch_folder.hpp"
 
 namespace sonoglide::process::ending_test {

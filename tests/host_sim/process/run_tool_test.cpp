@@ -1,4 +1,4 @@
-#include "host_sim/process/run_tool.hpp"
+#include "host_sim/process/child_process.hpp"
 
 #include <gtest/gtest.h>
 
