@@ -12,9 +12,9 @@
 #include "host_sim/cli/options.hpp"
 #include "host_sim/cli/progress_bar.hpp"
 #include "host_sim/output/gnuplot.hpp"
-#include "host_sim/studies/identify/friction/report.hpp"
-#include "host_sim/studies/identify/impedance/read_sweep.hpp"
-#include "host_sim/studies/identify/impedance/report.hpp"
+#include "host_sim/studies/identify/friction/comparison.hpp"
+#include "host_sim/studies/identify/impedance/study.hpp"
+#include "host_sim/studies/identify/impedance/sweep.hpp"
 #include "host_sim/studies/identify/text_file.hpp"
 
 namespace sonoglide::cli {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -88,6 +89,79 @@ std::string formatted(const std::string& name, double value, const char* otherwi
     return fmt::format("{:.5g} {}", value, unit);
   }
   return output::quantity(value, unit, unit == "Hz" ? 7 : 5);
+}
+
+void append(std::vector<std::string>& sentences, std::vector<Remark> remarks) {
+  for (Remark& each : remarks) {
+    if (each.holds) {
+      sentences.push_back(std::move(each.sentence));
+    }
+  }
+}
+
+output::Table figure_table(const std::vector<Estimate>& figures) {
+  output::Table table{"", {"Parameter", "Value", "95 % from", "to", "±"}, {}};
+  for (const Estimate& each : figures) {
+    const double half = 0.5 * (each.high_95 - each.low_95) / std::abs(each.value);
+    table.rows.push_back({each.name, formatted(each.name, each.value),
+                          formatted(each.name, each.low_95), formatted(each.name, each.high_95),
+                          output::formatted(100.0 * half, "{:.2g} %")});
+  }
+  return table;
+}
+
+output::Table correlation_table(const Correlations& correlations) {
+  output::Table table{"Correlations of the fitted parameters", {""}, {}};
+  table.header.insert(table.header.end(), correlations.names.begin(), correlations.names.end());
+  for (std::size_t i = 0; i < correlations.names.size(); ++i) {
+    std::vector<std::string> row = {correlations.names[i]};
+    for (const double each : correlations.rows[i]) {
+      row.push_back(output::formatted(each, "{:.2f}"));
+    }
+    table.rows.push_back(std::move(row));
+  }
+  return table;
+}
+
+output::Table sentence_table(const std::string& title, const std::vector<std::string>& sentences) {
+  output::Table table{title, {}, {}};
+  for (const std::string& each : sentences) {
+    table.rows.push_back({each});
+  }
+  return table;
+}
+
+output::Curve dots(const std::string& label, std::vector<double> y) {
+  return {label, std::move(y), output::Line::dots};
+}
+
+void draw_fit(output::Chart& chart, std::vector<Place> places,
+              const std::vector<std::string>& curves) {
+  std::stable_sort(places.begin(), places.end(),
+                   [](const Place& a, const Place& b) { return a.x < b.x; });
+  chart.curves = {dots("measured", {})};
+  for (const std::string& each : curves) {
+    chart.curves.push_back({each, {}});
+  }
+  for (const Place& place : places) {
+    chart.x.push_back(place.x);
+    chart.curves.front().y.push_back(place.measured);
+    for (std::size_t i = 0; i < curves.size(); ++i) {
+      chart.curves[i + 1].y.push_back(place.fitted[i]);
+    }
+  }
+}
+
+std::string remark_lines(const std::vector<std::string>& warnings,
+                         const std::vector<std::string>& cannot_tell) {
+  std::string lines;
+  for (const std::string& each : warnings) {
+    lines += fmt::format("WARNING: {}\n", each);
+  }
+  for (const std::string& each : cannot_tell) {
+    lines += fmt::format("CANNOT TELL: {}\n", each);
+  }
+  return lines;
 }
 
 }  // namespace sonoglide::identify

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "host_sim/output/page.hpp"
+
 namespace sonoglide::identify {
 
 /// A value with the ends of its 95 % interval.
@@ -48,5 +50,44 @@ std::string unit_of(const std::string& name);
 /// suits. The unit is that of the name's ending; of a mass, without prefix.
 /// @param otherwise  what stands for a value that is not finite
 std::string formatted(const std::string& name, double value, const char* otherwise = "-");
+
+// What the reports of all identifications have in common: remarks, tables, curves.
+
+/// A sentence or more, and whether it is to be said.
+struct Remark {
+  bool holds;
+  std::string sentence;
+};
+
+/// Appends the sentences of those that hold.
+void append(std::vector<std::string>& sentences, std::vector<Remark> remarks);
+
+/// Each with its interval.
+output::Table figure_table(const std::vector<Estimate>& figures);
+
+output::Table correlation_table(const Correlations& correlations);
+
+/// A sentence a row.
+output::Table sentence_table(const std::string& title, const std::vector<std::string>& sentences);
+
+/// An abscissa of a chart of readings and fits.
+struct Place {
+  double x;
+  double measured;             ///< not a number where there is no reading
+  std::vector<double> fitted;  ///< of each curve
+};
+
+/// Draws dots at the readings and curves through all places.
+/// @param places  in any order
+/// @param curves  their names
+void draw_fit(output::Chart& chart, std::vector<Place> places,
+              const std::vector<std::string>& curves);
+
+/// A curve of dots.
+output::Curve dots(const std::string& label, std::vector<double> y);
+
+/// As they are printed.
+std::string remark_lines(const std::vector<std::string>& warnings,
+                         const std::vector<std::string>& cannot_tell);
 
 }  // namespace sonoglide::identify

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "host_sim/studies/identify/plain_text.hpp"
+#include "host_sim/studies/identify/text_file.hpp"
 
 namespace sonoglide::identify {
 namespace {

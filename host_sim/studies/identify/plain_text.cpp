@@ -1,4 +1,4 @@
-#include "host_sim/studies/identify/plain_text.hpp"
+#include "host_sim/studies/identify/text_file.hpp"
 
 #include <algorithm>
 #include <cctype>

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "host_sim/studies/identify/measured_table.hpp"
-#include "host_sim/studies/identify/plain_text.hpp"
+#include "host_sim/studies/identify/text_file.hpp"
 #include "host_sim/studies/identify/unit.hpp"
 
 namespace sonoglide::identify {

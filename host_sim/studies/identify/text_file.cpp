@@ -9,8 +9,6 @@
 #include <fstream>
 #include <system_error>
 
-#include "host_sim/studies/identify/plain_text.hpp"
-
 namespace sonoglide::identify {
 namespace {
 

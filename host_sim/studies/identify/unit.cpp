@@ -5,7 +5,6 @@
 #include <cmath>
 #include <regex>
 
-#include "host_sim/studies/identify/plain_text.hpp"
 #include "host_sim/studies/identify/text_file.hpp"
 
 namespace sonoglide::identify {

@@ -11,8 +11,7 @@
 #include <utility>
 
 #include "host_sim/studies/identify/friction/candidate.hpp"
-#include "host_sim/studies/identify/friction/report.hpp"
-#include "host_sim/studies/identify/report.hpp"
+#include "host_sim/studies/identify/identification.hpp"
 
 namespace sonoglide::identify::friction {
 namespace {

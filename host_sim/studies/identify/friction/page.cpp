@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "host_sim/output/number.hpp"
-#include "host_sim/studies/identify/friction/report.hpp"
-#include "host_sim/studies/identify/report.hpp"
+#include "host_sim/studies/identify/friction/comparison.hpp"
+#include "host_sim/studies/identify/identification.hpp"
 
 namespace sonoglide::identify::friction {
 namespace {

@@ -16,7 +16,7 @@
 #include "host_sim/scene_file/suggestion.hpp"
 #include "host_sim/studies/identify/identification.hpp"
 #include "host_sim/studies/identify/measured_table.hpp"
-#include "host_sim/studies/identify/plain_text.hpp"
+#include "host_sim/studies/identify/text_file.hpp"
 
 namespace sonoglide::identify::friction {
 namespace {

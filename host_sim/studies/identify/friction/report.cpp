@@ -1,4 +1,4 @@
-#include "host_sim/studies/identify/friction/report.hpp"
+#include "host_sim/studies/identify/friction/comparison.hpp"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,6 @@
 
 #include "host_sim/output/number.hpp"
 #include "host_sim/studies/identify/identification.hpp"
-#include "host_sim/studies/identify/report.hpp"
 
 namespace sonoglide::identify::friction {
 

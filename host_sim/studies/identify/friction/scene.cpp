@@ -1,4 +1,4 @@
-#include "host_sim/studies/identify/friction/report.hpp"
+#include "host_sim/studies/identify/friction/comparison.hpp"
 
 #include <fmt/format.h>
 

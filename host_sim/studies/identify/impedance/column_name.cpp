@@ -6,7 +6,7 @@
 #include <regex>
 #include <utility>
 
-#include "host_sim/studies/identify/plain_text.hpp"
+#include "host_sim/studies/identify/text_file.hpp"
 #include "host_sim/studies/identify/unit.hpp"
 
 namespace sonoglide::identify::impedance {

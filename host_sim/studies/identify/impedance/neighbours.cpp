@@ -1,12 +1,9 @@
-#include "host_sim/studies/identify/impedance/neighbours.hpp"
+#include "host_sim/studies/identify/impedance/selection.hpp"
 
 #include <algorithm>
 #include <iterator>
 #include <optional>
 #include <utility>
-
-#include "host_sim/studies/identify/impedance/plausible.hpp"
-#include "host_sim/studies/identify/impedance/start_values.hpp"
 
 namespace sonoglide::identify::impedance {
 namespace {

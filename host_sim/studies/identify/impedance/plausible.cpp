@@ -1,4 +1,4 @@
-#include "host_sim/studies/identify/impedance/plausible.hpp"
+#include "host_sim/studies/identify/impedance/selection.hpp"
 
 #include <algorithm>
 #include <cmath>

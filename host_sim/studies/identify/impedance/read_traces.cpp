@@ -1,4 +1,4 @@
-#include "host_sim/studies/identify/impedance/read_sweep.hpp"
+#include "host_sim/studies/identify/impedance/sweep.hpp"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "host_sim/studies/identify/impedance/sweep_columns.hpp"
-#include "host_sim/studies/identify/plain_text.hpp"
+#include "host_sim/studies/identify/text_file.hpp"
 
 namespace sonoglide::identify::impedance {
 namespace {

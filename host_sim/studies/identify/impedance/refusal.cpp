@@ -11,8 +11,6 @@
 #include <vector>
 
 #include "host_sim/loop/failure.hpp"
-#include "host_sim/studies/identify/impedance/plausible.hpp"
-#include "host_sim/studies/identify/impedance/start_values.hpp"
 
 namespace sonoglide::identify::impedance {
 namespace {

@@ -6,9 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "host_sim/studies/identify/impedance/plausible.hpp"
-#include "host_sim/studies/identify/impedance/uncertainty.hpp"
-#include "host_sim/studies/identify/report.hpp"
+#include "host_sim/studies/identify/identification.hpp"
+#include "host_sim/studies/identify/impedance/selection.hpp"
 
 namespace sonoglide::identify::impedance {
 namespace {

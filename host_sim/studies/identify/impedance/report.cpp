@@ -1,4 +1,4 @@
-#include "host_sim/studies/identify/impedance/report.hpp"
+#include "host_sim/studies/identify/impedance/study.hpp"
 
 #include <fmt/format.h>
 
@@ -9,7 +9,7 @@
 
 #include "host_sim/output/chart.hpp"
 #include "host_sim/output/number.hpp"
-#include "host_sim/studies/identify/report.hpp"
+#include "host_sim/studies/identify/identification.hpp"
 
 namespace sonoglide::identify::impedance {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "host_sim/studies/identify/impedance/report.hpp"
+#include "host_sim/studies/identify/impedance/study.hpp"
 
 namespace sonoglide::identify::impedance {
 namespace {

@@ -9,6 +9,70 @@
 
 namespace sonoglide::identify::impedance {
 
+// Fits of circuits that differ from a fit's by a part or a mode.
+
+/// The most modes of a circuit.
+inline constexpr int most_modes = 8;
+
+/// With one part or mode more, as far as plausible: lean; with phase, lead and rotation; without, loss
+/// tangent. What takes less than 4 from −2 ln likelihood by its linearisation is left out, unless the
+/// fit does not describe the sweep; not so a lean, which has minima on either side of none.
+std::vector<CircuitFit> larger_fits(const Sweep& sweep, const CircuitFit& fit);
+
+/// With one part or mode less. A loss tangent is always fitted to phases, and a rotation where no lead is
+/// and the circuit describes the sweep: to leave out what the sweep does not rule out would make the
+/// figures too sure.
+std::vector<CircuitFit> smaller_fits(const Sweep& sweep, const CircuitFit& fit);
+
+/// With another choice of lead and rotation, which look like each other.
+std::vector<CircuitFit> turned_fits(const Sweep& sweep, const CircuitFit& fit);
+
+// What the parts of a circuit can be.
+
+/// Whether the resonance of a mode is in the sweep.
+bool is_in(const Sweep& sweep, const Mode& mode);
+
+/// Whether a mode is two band widths, of the larger one, off every other of the circuit: nearer ones
+/// look like a single peak that is not that of a linear mode. Beside a mode that is too wide for a peak
+/// of the sweep and stands for several that are not fitted yet, of the narrower one.
+bool is_apart(const Sweep& sweep, const Circuit& circuit, const Mode& mode);
+
+/// The inductance of a cable: at the resonance, its reactance is up to a twentieth of that of the
+/// clamped capacitance. A larger one would be a part of its own, and in a narrow sweep it looks like
+/// any error of the phase.
+double most_inductance_H(const Circuit& circuit);
+
+/// Whether least squares found a minimum whose parts can be what they are named: a lead of resistance
+/// from 0 to a quarter of the motional one and of inductance from 0 to most_inductance_H; phases off by
+/// up to 15 degrees; a lean of up to 3 band widths; in magnitudes alone a loss above 0; further modes
+/// apart from the others, in the sweep, up to twice as wide as it and with two readings in the band, or,
+/// of sweeps with phase, up to two by up to half of its span beside it, at most ten times the first and
+/// of up to four times its quality factor or a quarter.
+bool is_plausible(const Sweep& sweep, const CircuitFit& fit);
+
+// Circuits to begin a fit from, out of the data alone.
+
+struct Start {
+  double misfit = 0.0;  ///< a sum of squares; of a further mode less what it takes away
+  Circuit circuit;
+};
+
+/// Circuits of one mode that come near the sweep, the best first; at most `most`.
+///
+/// Places are the readings with the largest local maxima of G/ω, of magnitudes alone of |Y|/ω, and
+/// the middles beside them; bandwidths are tried from a third of the frequency down to 1/300 000 of
+/// it. Capacitance C, loss and conductance G follow by linear least squares: of Y, or of magnitudes
+/// alone of |Y|², which is linear in C², C G and G².
+std::vector<Start> start_circuits(const Sweep& sweep, std::size_t most);
+
+/// A fit's circuit with a further mode behind the others that the residuals ask for most, at most
+/// `most`, the best first. Tried are places all over the sweep and where residuals are largest, with
+/// bandwidths of a few readings and more; and of sweeps with phase places just outside, with the
+/// quality of the first mode. Each by what of the residuals it takes away that a change of the circuit
+/// does not; those that take less than `least` from −2 ln likelihood are none.
+std::vector<Start> starts_with_another_mode(const Sweep& sweep, const CircuitFit& fit, double least,
+                                            std::size_t most);
+
 // Readings that are errors of a single reading.
 
 /// Readings whose residual, in magnitude or phase, is 8 robust standard deviations off the median of the
@@ -86,5 +150,27 @@ inline constexpr double strong_evidence = 6.0;
 /// @throws loop::ComputationError  no resonance is seen, it is outside the sweep, or the fit ends at
 ///         a bound or does not converge
 Selection select_circuit(const Sweep& sweep);
+
+// What a selection of a circuit leaves uncertain.
+
+/// Whether the phases are off by more than chance explains.
+bool sees_rotation(const CircuitFit& fit);
+
+bool sees_lead_or_rotation(const CircuitFit& fit);
+
+/// Makes the fit's covariance allow for what the noise may be (average_over_noise), for the other circuits
+/// that may be the right one, and for misfit; names those that may be a lead or a rotation that is seen,
+/// and the parts that may be there unseen.
+///
+/// Averages the covariance over the other circuits (a further mode, a lean, other leads), each with its own and the square of the step to
+/// it, weighted by its likelihood less a penalty: Schwarz's, ln n for each parameter; of a further mode
+/// two thirds of it, with which the intervals hold beside modes too weak to be seen; and 1 for a
+/// resistance of leads in place of a rotation that is not seen, since leads are always there.
+/// Source: Kass and Raftery, Journal of the American Statistical Association 90 (1995).
+///
+/// Where the circuit does not describe the sweep, as if as much of the misfit lay along each
+/// parameter's direction as along any other that is as wide: (Jᵀ J)⁻¹ S/p is added, S the misfit's sum of
+/// squares and p the number of parameters.
+void allow_for_what_is_not_certain(Selection& selected);
 
 }  // namespace sonoglide::identify::impedance

@@ -1,4 +1,4 @@
-#include "host_sim/studies/identify/impedance/start_values.hpp"
+#include "host_sim/studies/identify/impedance/selection.hpp"
 
 #include <Eigen/Dense>
 
@@ -6,8 +6,6 @@
 #include <cmath>
 #include <limits>
 #include <utility>
-
-#include "host_sim/studies/identify/impedance/plausible.hpp"
 
 namespace sonoglide::identify::impedance {
 namespace {

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "host_sim/output/output_folder.hpp"
+#include "host_sim/output/page.hpp"
 #include "host_sim/studies/identify/identification.hpp"
 #include "host_sim/studies/identify/impedance/circuit_fit.hpp"
 #include "host_sim/studies/identify/impedance/selection.hpp"
@@ -76,5 +78,20 @@ struct ImpedanceStudy {
 /// @param name  of the file, for the titles
 /// @throws loop::ComputationError  see select_circuit
 ImpedanceStudy study(const std::string& name, const Sweep& sweep, const MechanicalFact& fact);
+
+// What an identification of an impedance leaves behind.
+
+/// Magnitude and phase with the fit, the admittance circle, the residuals, the figures with their
+/// intervals and correlations. @throws process::ProcessError  of the picture
+output::Page page(const ImpedanceStudy& study);
+
+/// A closed-loop scene of the transducer at its resonance. What the sweep does not tell, contact,
+/// sliding and amplifier, is assumed so that the loop has room, and a comment beside it says so.
+/// @pre a mechanical fact is known
+std::string scene_toml(const ImpedanceStudy& study);
+
+/// report.html, identify.json, fit.csv and, where a mechanical fact is known, scene.toml.
+/// @throws process::ProcessError  of the picture
+output::StudyReport report(const ImpedanceStudy& study);
 
 }  // namespace sonoglide::identify::impedance

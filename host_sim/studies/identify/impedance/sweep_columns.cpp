@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "host_sim/studies/identify/impedance/circuit.hpp"
-#include "host_sim/studies/identify/plain_text.hpp"
+#include "host_sim/studies/identify/text_file.hpp"
 #include "host_sim/studies/identify/unit.hpp"
 
 namespace sonoglide::identify::impedance {

@@ -1,11 +1,9 @@
-#include "host_sim/studies/identify/impedance/uncertainty.hpp"
+#include "host_sim/studies/identify/impedance/selection.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-#include "host_sim/studies/identify/impedance/neighbours.hpp"
-#include "host_sim/studies/identify/impedance/plausible.hpp"
 #include "host_sim/studies/identify/least_squares.hpp"
 
 namespace sonoglide::identify::impedance {

@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "host_sim/studies/identify/friction/comparison.hpp"
-#include "host_sim/studies/identify/friction/report.hpp"
 #include "host_sim/studies/identify/text_file.hpp"
 
 namespace sonoglide::identify::friction::fit_test {

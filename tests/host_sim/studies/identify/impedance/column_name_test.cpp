@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "host_sim/studies/identify/impedance/read_sweep.hpp"
+#include "host_sim/studies/identify/impedance/sweep.hpp"
 #include "host_sim/studies/identify/impedance/sweep_columns.hpp"
 
 namespace sonoglide::identify::impedance {

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "host_sim/studies/identify/impedance/read_sweep.hpp"
 #include "host_sim/studies/identify/impedance/study.hpp"
+#include "host_sim/studies/identify/impedance/sweep.hpp"
 #include "host_sim/studies/identify/measured_table.hpp"
 #include "synthetic.hpp"
 

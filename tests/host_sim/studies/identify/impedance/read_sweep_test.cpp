@@ -1,4 +1,4 @@
-#include "host_sim/studies/identify/impedance/read_sweep.hpp"
+#include "host_sim/studies/identify/impedance/sweep.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -8,8 +8,6 @@
 #include <utility>
 
 #include "host_sim/loop/failure.hpp"
-#include "host_sim/studies/identify/impedance/neighbours.hpp"
-#include "host_sim/studies/identify/impedance/report.hpp"
 #include "host_sim/studies/identify/impedance/study.hpp"
 #include "synthetic.hpp"
 
