@@ -14,7 +14,7 @@
 #include "host_sim/cli/progress_bar.hpp"
 #include "host_sim/long_work/journal.hpp"
 #include "host_sim/long_work/run_shard.hpp"
-#include "host_sim/long_work/shard.hpp"
+#include "host_sim/long_work/work.hpp"
 #include "host_sim/scene_file/source.hpp"
 
 namespace sonoglide::cli {

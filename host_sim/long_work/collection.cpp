@@ -12,7 +12,7 @@
 #include <utility>
 
 #include "host_sim/long_work/rows_file.hpp"
-#include "host_sim/long_work/shard_journal.hpp"
+#include "host_sim/long_work/run_shard.hpp"
 #include "host_sim/long_work/slurm.hpp"
 #include "host_sim/output/written_files.hpp"
 #include "host_sim/process/printable.hpp"

@@ -11,7 +11,7 @@
 #include "host_sim/long_work/journal.hpp"
 #include "host_sim/long_work/pace.hpp"
 #include "host_sim/long_work/record.hpp"
-#include "host_sim/long_work/shard.hpp"
+#include "host_sim/long_work/work.hpp"
 
 namespace sonoglide::long_work {
 

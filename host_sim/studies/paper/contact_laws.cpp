@@ -10,7 +10,6 @@
 #include "host_sim/loop/run.hpp"
 #include "host_sim/scene_file/reader.hpp"
 #include "host_sim/studies/paper/runs.hpp"
-#include "host_sim/studies/paper/table_1.hpp"
 
 namespace sonoglide::paper {
 

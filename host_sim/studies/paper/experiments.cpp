@@ -13,7 +13,7 @@
 #include "host_sim/configure/plant_scales.hpp"
 #include "host_sim/scene_file/reader.hpp"
 #include "host_sim/studies/paper/contact_laws.hpp"
-#include "host_sim/studies/paper/table_1.hpp"
+#include "host_sim/studies/paper/runs.hpp"
 
 namespace sonoglide::paper {
 namespace {

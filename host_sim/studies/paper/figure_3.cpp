@@ -9,7 +9,6 @@
 #include "host_sim/studies/paper/chart.hpp"
 #include "host_sim/studies/paper/figures.hpp"
 #include "host_sim/studies/paper/runs.hpp"
-#include "host_sim/studies/paper/table_1.hpp"
 
 namespace sonoglide::paper {
 namespace {

@@ -1,4 +1,4 @@
-#include "host_sim/studies/paper/findings.hpp"
+#include "host_sim/studies/paper/figures.hpp"
 
 #include <fmt/format.h>
 
@@ -12,7 +12,6 @@
 #include "host_sim/configure/plant_scales.hpp"
 #include "host_sim/loop/run.hpp"
 #include "host_sim/studies/paper/runs.hpp"
-#include "host_sim/studies/paper/table_1.hpp"
 
 namespace sonoglide::paper {
 namespace {

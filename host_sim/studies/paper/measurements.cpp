@@ -2,10 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <string>
 
+#include "firmware/friction/dahl_friction_ratio.hpp"
+#include "firmware/friction/normal_vibration_ratio.hpp"
 #include "host_sim/output/number.hpp"
 #include "host_sim/studies/paper/experiments.hpp"
 
@@ -155,6 +159,126 @@ std::string measurements_csv(const std::vector<MeasurementComparison>& compariso
     }
   }
   return text;
+}
+
+namespace {
+
+constexpr double luo_speeds_mm_per_s[] = {0.05, 0.1, 0.25, 0.5, 0.75, 1.0};
+constexpr double critical_velocities_mm_per_s[] = {50.0, 100.0, 200.0, 400.0};
+constexpr double per_cent = 100.0;
+
+double dahl_reduction_at_low_speed(double dahl_number) {
+  constexpr double softest = 1e-4;
+  return 1.0 - friction::dahl_friction_ratio(luo_slow_m_per_s / luo_peak_m_per_s(),
+                                             std::max(dahl_number, softest));
+}
+
+/// Of a vibration as large as the indentation; a smaller one gives as much less.
+double normal_reduction(double velocity_mm_per_s, double critical_mm_per_s) {
+  return 1.0 - friction::normal_vibration_ratio(1.0, velocity_mm_per_s / critical_mm_per_s);
+}
+
+std::vector<double> ends(const std::vector<Interval>& ranges, double Interval::*end) {
+  std::vector<double> values;
+  values.reserve(ranges.size());
+  for (const Interval& range : ranges) {
+    values.push_back(range.*end);
+  }
+  return values;
+}
+
+/// The outline of a range over the speed.
+output::Curve area(const char* label, const std::vector<double>& x,
+                   const std::vector<Interval>& ranges, int colour) {
+  output::Curve outline = curve(label, x, output::scaled(ends(ranges, &Interval::least), per_cent),
+                                colour, Style::area);
+  const std::vector<double> back = output::scaled(ends(ranges, &Interval::most), per_cent);
+  outline.x.insert(outline.x.end(), x.rbegin(), x.rend());
+  outline.y.insert(outline.y.end(), back.rbegin(), back.rend());
+  return outline;
+}
+
+}  // namespace
+
+SlowSliding slow_sliding() {
+  SlowSliding slow;
+  for (const double speed_mm_per_s : luo_speeds_mm_per_s) {
+    const double speed_m_per_s = 1e-3 * speed_mm_per_s;
+    slow.speeds_mm_per_s.push_back(speed_mm_per_s);
+    slow.coulomb.push_back(luo_coulomb(speed_m_per_s));
+    slow.dahl.push_back(luo_dahl(speed_m_per_s));
+    slow.lugre.push_back(luo_lugre(speed_m_per_s));
+    slow.stribeck.push_back(luo_stribeck(speed_m_per_s));
+  }
+  return slow;
+}
+
+output::Chart slow_sliding_chart(const SlowSliding& slow) {
+  const std::vector<double>& x = slow.speeds_mm_per_s;
+  std::vector<Interval> every_law;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    every_law.push_back(
+        joined(joined(slow.coulomb[i], slow.dahl[i]), joined(slow.lugre[i], slow.stribeck[i])));
+  }
+  return chart(
+      "(b) Longitudinal vibration, slow sliding", "sliding velocity [mm/s]",
+      "reduction of friction [%]",
+      {area("Coulomb, Dahl, LuGre, Stribeck", x, every_law, 1),
+       area("measured, all speeds", {0.0, x.back()}, {luo_reductions, luo_reductions}, black),
+       curve("measured", {0.0, 1e3 * luo_slow_m_per_s},
+             {per_cent * luo_static_reduction, per_cent * luo_slow_reduction}, black,
+             Style::points)},
+      Key::lower_right, {50.0, 102.0});
+}
+
+output::Chart contact_stiffness_chart() {
+  constexpr double stiffest = 2.0;
+  output::Curve stick =
+      line_of([](double number) { return per_cent * elastic_stick_reduction(number); }, stiffest, 5,
+              "Iwan, one spring");
+  stick.pen.dash = 2;
+  stick.pen.width = 1.6;
+  return chart(
+      "(c) The same at 0.1 mm/s; Iwan: speed to 0", "K_t X / F_c [-]", "reduction of friction [%]",
+      {curve("measured", {0.0, stiffest},
+             {per_cent * luo_slow_reduction, per_cent * luo_slow_reduction}, black),
+       line_of([](double number) { return per_cent * dahl_reduction_at_low_speed(number); },
+               stiffest, 2, "Dahl"),
+       stick},
+      Key::lower_right, {0.0, 105.0});
+}
+
+output::Chart normal_vibration_chart() {
+  std::vector<output::Curve> curves;
+  int colour = black;
+  for (const double critical_mm_per_s : critical_velocities_mm_per_s) {
+    std::vector<double> x;
+    std::vector<double> y;
+    for (int i = 0; i <= 80; ++i) {
+      x.push_back(2.5 * i);
+      y.push_back(per_cent * normal_reduction(x.back(), critical_mm_per_s));
+    }
+    curves.push_back(
+        curve(fmt::format("V_c = {:g} mm/s", critical_mm_per_s), x, y, ++colour, Style::marked));
+  }
+  curves.push_back(
+      curve("measured", {1e3 * dong_velocities_m_per_s[0], 1e3 * dong_velocities_m_per_s[1]},
+            {per_cent * dong_reductions[0], per_cent * dong_reductions[1]}, black, Style::points));
+  return chart("(d) Normal vibration as large as the indentation", "sliding velocity [mm/s]",
+               "reduction of friction [%]", std::move(curves), Key::upper_right, {0.0, 105.0});
+}
+
+std::vector<Column> columns(const SlowSliding& slow) {
+  std::vector<Column> all = {{"sliding_velocity_mm_per_s", slow.speeds_mm_per_s},
+                             {"coulomb_reduction", ends(slow.coulomb, &Interval::least)}};
+  const auto add = [&all](const std::string& law, const std::vector<Interval>& ranges) {
+    all.push_back({law + "_reduction_from", ends(ranges, &Interval::least)});
+    all.push_back({law + "_reduction_to", ends(ranges, &Interval::most)});
+  };
+  add("dahl", slow.dahl);
+  add("lugre", slow.lugre);
+  add("stribeck", slow.stribeck);
+  return all;
 }
 
 }  // namespace sonoglide::paper

@@ -6,8 +6,7 @@
 
 #include "host_sim/output/output_folder.hpp"
 #include "host_sim/studies/paper/figures.hpp"
-#include "host_sim/studies/paper/findings.hpp"
-#include "host_sim/studies/paper/table_1.hpp"
+#include "host_sim/studies/paper/runs.hpp"
 
 namespace sonoglide::paper {
 

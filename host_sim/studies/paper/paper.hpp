@@ -8,7 +8,6 @@
 
 #include "host_sim/output/page.hpp"
 #include "host_sim/studies/paper/figures.hpp"
-#include "host_sim/studies/paper/findings.hpp"
 
 namespace sonoglide::paper {
 

@@ -9,9 +9,7 @@
 #include "firmware/numeric/turn.hpp"
 #include "host_sim/studies/paper/chart.hpp"
 #include "host_sim/studies/paper/figures.hpp"
-#include "host_sim/studies/paper/findings.hpp"
 #include "host_sim/studies/paper/runs.hpp"
-#include "host_sim/studies/paper/table_1.hpp"
 
 namespace sonoglide::paper {
 namespace {

@@ -1,12 +1,47 @@
 /// The runs that the figures show: recordings, and ratios over the sliding velocity.
 #pragma once
 
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "host_sim/loop/watch.hpp"
 #include "host_sim/scene/scene.hpp"
 
 namespace sonoglide::paper {
+
+// The paper's Tables 1 and 2 as scenes, and their variations. Table 2 adds the solver.
+
+/// The [friction] table's keys.
+inline constexpr std::string_view dahl_contact =
+    "law = \"dahl\"\ncoefficient = 0.1\ncontact_stiffness_N_per_m = 0.056e6\n";
+
+/// 384 N, velocity ratio 0.5, from rest, 100 carrier periods: the file table_1.toml of the output.
+std::string table_1_text();
+
+/// The same by the paper's solver: table_2.toml.
+std::string table_2_text();
+
+/// Table 1 with another contact, begun at the displacement of the vibration, so that its window
+/// has hardly anything of a start: for laws of which no steady orbit is looked for as well.
+/// @param contact  the [friction] table's keys
+std::string table_1_text(std::string_view contact);
+
+scene::Scene table_1();
+
+/// The scene with the sliding velocity that belongs to a velocity ratio.
+scene::Scene at_velocity_ratio(scene::Scene scene, double velocity_ratio);
+
+/// Of the vibration without a contact.
+double peak_vibration_m_per_s(const scene::Scene& scene);
+
+/// The scene for one carrier period on its steady orbit.
+scene::Scene steady(scene::Scene scene);
+
+double period_s(const scene::Scene& scene);
+
+/// Kt X/Fc with the amplitude X of the vibration without a contact.
+double dahl_number(const scene::Scene& scene);
 
 /// @param from_s  the recording goes from there to the end of the run, both included
 loop::Recording record(const scene::Scene& scene, double from_s, double interval_s);

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "host_sim/long_work/pace.hpp"
-#include "host_sim/long_work/shard.hpp"
+#include "host_sim/long_work/work.hpp"
 #include "host_sim/scene/scene.hpp"
 #include "host_sim/scene_file/document.hpp"
 #include "host_sim/scene_file/scene_error.hpp"

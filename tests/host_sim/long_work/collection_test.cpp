@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "host_sim/long_work/shard_journal.hpp"
+#include "host_sim/long_work/run_shard.hpp"
 #include "tests/host_sim/long_work/folders/shard_folder.hpp"
 
 namespace sonoglide::long_work::collection_test {

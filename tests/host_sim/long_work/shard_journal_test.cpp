@@ -1,4 +1,4 @@
-#include "host_sim/long_work/shard_journal.hpp"
+#include "host_sim/long_work/run_shard.hpp"
 
 #include <gtest/gtest.h>
 

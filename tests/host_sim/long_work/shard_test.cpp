@@ -1,4 +1,4 @@
-#include "host_sim/long_work/shard.hpp"
+#include "host_sim/long_work/work.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>

@@ -16,10 +16,8 @@
 #include "host_sim/studies/paper/contact_laws.hpp"
 #include "host_sim/studies/paper/experiments.hpp"
 #include "host_sim/studies/paper/figures.hpp"
-#include "host_sim/studies/paper/findings.hpp"
 #include "host_sim/studies/paper/measurements.hpp"
 #include "host_sim/studies/paper/runs.hpp"
-#include "host_sim/studies/paper/table_1.hpp"
 #include "tests/common/constants/pi.hpp"
 #include "tests/common/csv/csv.hpp"
 
