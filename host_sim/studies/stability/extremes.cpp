@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "host_sim/studies/stability/random_scene.hpp"
-#include "host_sim/studies/stability/solver_list.hpp"
+#include "host_sim/studies/stability/trial.hpp"
 
 namespace sonoglide::stability {
 namespace {

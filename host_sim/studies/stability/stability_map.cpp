@@ -8,7 +8,7 @@
 #include "firmware/numeric/turn.hpp"
 #include "host_sim/configure/plant_scales.hpp"
 #include "host_sim/scene/scene.hpp"
-#include "host_sim/studies/stability/solver_list.hpp"
+#include "host_sim/studies/stability/trial.hpp"
 
 namespace sonoglide::stability {
 namespace {

@@ -10,7 +10,6 @@
 
 #include "host_sim/output/output_folder.hpp"
 #include "host_sim/output/page.hpp"
-#include "host_sim/studies/stability/parallel.hpp"
 #include "host_sim/studies/stability/stability_map.hpp"
 #include "host_sim/studies/stability/trial.hpp"
 

@@ -4,7 +4,9 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "firmware/plant/outcome.hpp"
 #include "host_sim/scene/scene.hpp"
@@ -52,5 +54,23 @@ Verdict judge(const TrialResult& result, double error, double allowed_error, dou
 /// For files: the names in order, good and wrong as each kind of experiment calls them.
 std::array<std::string_view, verdict_count> verdict_names(std::string_view good,
                                                           std::string_view wrong);
+
+// The solvers whose limits are drawn.
+
+/// A solver in one arithmetic.
+struct TriedPrecision {
+  std::string_view name;
+  Trial trial;
+  double extreme_setting;  ///< tolerance or steps per period, for the random scenes
+  double friction_bound;   ///< largest |F|/Fc that the solver lets pass
+};
+
+struct TriedSolver {
+  std::string name;
+  bool adaptive;  ///< set by a tolerance, else by a number of steps per period
+  std::array<TriedPrecision, 2> precisions;  ///< float64, float32
+};
+
+const std::vector<TriedSolver>& solvers();
 
 }  // namespace sonoglide::stability

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "host_sim/output/chart.hpp"
-#include "host_sim/studies/work_precision/ranking.hpp"
+#include "host_sim/studies/work_precision/comparison.hpp"
 #include "host_sim/studies/work_precision/report.hpp"
 
 namespace sonoglide::work_precision {

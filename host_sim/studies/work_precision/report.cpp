@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "host_sim/output/number.hpp"
-#include "host_sim/studies/work_precision/ranking.hpp"
+#include "host_sim/studies/work_precision/comparison.hpp"
 
 namespace sonoglide::work_precision {
 std::string to_csv(const SolverComparison& comparison) {

@@ -6,13 +6,7 @@
 #include <utility>
 
 #include "host_sim/scene/solver_methods.hpp"
-#include "host_sim/studies/work_precision/peers/paper_rk4.hpp"
-#ifdef SONOGLIDE_WITH_ODEINT
-#include "host_sim/studies/work_precision/peers/odeint/dopri5.hpp"
-#endif
-#ifdef SONOGLIDE_WITH_CVODE
-#include "host_sim/studies/work_precision/peers/sundials/cvode.hpp"
-#endif
+#include "host_sim/studies/work_precision/peers/contender.hpp"
 
 namespace sonoglide::work_precision {
 

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "host_sim/studies/stability/solver_list.hpp"
+#include "host_sim/studies/stability/trial.hpp"
 #include "tests/acceptance/program/program.hpp"
 #include "tests/common/csv/csv.hpp"
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 
 namespace sonoglide::peers {
@@ -46,5 +47,39 @@ class Contender {
   /// Steps taken since the beginning.
   virtual std::uint64_t steps() const = 0;
 };
+
+// The paper's own method: the classical Runge–Kutta method with a fixed step, written out for this
+// one equation as a user after speed would.
+
+/// The drive is read from a table of one carrier period.
+/// @param steps_per_period  a whole number, > 0
+std::unique_ptr<Contender> rk4_table(const Problem& problem, double steps_per_period);
+
+/// The drive is computed by std::cos at each new instant, two for each step.
+/// @param steps_per_period  a whole number, > 0
+std::unique_ptr<Contender> rk4_naive(const Problem& problem, double steps_per_period);
+
+// Boost.odeint's Dormand–Prince method, used as its manual has it.
+
+/// Adaptive steps over the plain right-hand side, sgn V taken from V; reversals are not looked for.
+/// @param tolerance  absolute and relative, of each step
+std::unique_ptr<Contender> odeint_dopri5(const Problem& problem, double tolerance);
+
+// SUNDIALS CVODE with root finding at the reversals, as its manual recommends for a right-hand side
+// with a kink.
+
+/// Variable-order Adams method; Newton iteration with the exact dense Jacobian. Between two roots
+/// of V its sign is frozen, so that the right-hand side is smooth; at a root the method starts
+/// afresh.
+/// @param tolerance  absolute and relative, of each step
+std::unique_ptr<Contender> cvode_adams(const Problem& problem, double tolerance);
+
+/// The same with fixed-point iteration, which needs no Jacobian: for contacts that are not stiff.
+/// @param tolerance  absolute and relative, of each step
+std::unique_ptr<Contender> cvode_adams_fixed_point(const Problem& problem, double tolerance);
+
+/// Backward differentiation formulas with Newton iteration, for stiff contacts.
+/// @param tolerance  absolute and relative, of each step
+std::unique_ptr<Contender> cvode_bdf(const Problem& problem, double tolerance);
 
 }  // namespace sonoglide::peers

@@ -1,4 +1,4 @@
-#include "host_sim/studies/work_precision/peers/paper_rk4.hpp"
+#include "host_sim/studies/work_precision/peers/contender.hpp"
 
 #include <cmath>
 #include <cstddef>

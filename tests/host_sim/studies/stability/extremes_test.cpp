@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "host_sim/studies/stability/random_scene.hpp"
-#include "host_sim/studies/stability/solver_list.hpp"
 #include "host_sim/studies/stability/study.hpp"
+#include "host_sim/studies/stability/trial.hpp"
 
 namespace sonoglide::stability::extremes_test {
 namespace {

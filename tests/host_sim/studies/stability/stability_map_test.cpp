@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <string_view>
 
-#include "host_sim/studies/stability/solver_list.hpp"
+#include "host_sim/studies/stability/trial.hpp"
 
 namespace sonoglide::stability::stability_map_test {
 namespace {

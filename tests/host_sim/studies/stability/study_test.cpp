@@ -10,7 +10,7 @@
 #include <iterator>
 #include <string>
 
-#include "host_sim/studies/stability/solver_list.hpp"
+#include "host_sim/studies/stability/trial.hpp"
 #include "tests/common/csv/csv.hpp"
 
 namespace sonoglide::stability::study_test {

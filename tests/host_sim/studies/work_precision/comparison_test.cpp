@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "host_sim/studies/work_precision/ranking.hpp"
 #include "tests/host_sim/studies/work_precision/peers/published/published_problems.hpp"
 
 namespace sonoglide::work_precision::comparison_test {

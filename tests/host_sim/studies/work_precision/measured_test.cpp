@@ -14,7 +14,6 @@
 #include "host_sim/experiment/experiment.hpp"
 #include "host_sim/output/number.hpp"
 #include "host_sim/studies/work_precision/comparison.hpp"
-#include "host_sim/studies/work_precision/ranking.hpp"
 #include "host_sim/studies/work_precision/report.hpp"
 #include "tests/common/csv/csv.hpp"
 

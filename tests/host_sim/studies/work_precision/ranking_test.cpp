@@ -1,4 +1,4 @@
-#include "host_sim/studies/work_precision/ranking.hpp"
+#include "host_sim/studies/work_precision/comparison.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "host_sim/studies/work_precision/peers/odeint/dopri5.hpp"
+#include "host_sim/studies/work_precision/peers/contender.hpp"
 
 #include <algorithm>
 #include <array>

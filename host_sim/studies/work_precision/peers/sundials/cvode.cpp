@@ -1,4 +1,4 @@
-#include "host_sim/studies/work_precision/peers/sundials/cvode.hpp"
+#include "host_sim/studies/work_precision/peers/contender.hpp"
 
 #include <cvode/cvode.h>
 #include <nvector/nvector_serial.h>

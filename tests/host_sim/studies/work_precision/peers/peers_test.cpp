@@ -5,13 +5,11 @@
 #include <memory>
 #include <ostream>
 
-#include "host_sim/studies/work_precision/peers/paper_rk4.hpp"
+#include "host_sim/studies/work_precision/peers/contender.hpp"
 #include "tests/host_sim/studies/work_precision/peers/published/published_problems.hpp"
 #ifdef SONOGLIDE_WITH_ODEINT
-#include "host_sim/studies/work_precision/peers/odeint/dopri5.hpp"
 #endif
 #ifdef SONOGLIDE_WITH_CVODE
-#include "host_sim/studies/work_precision/peers/sundials/cvode.hpp"
 #endif
 
 namespace sonoglide::peers::peers_test {
