@@ -17,12 +17,10 @@
 #include "firmware/numeric/gauss_legendre.hpp"
 #include "firmware/numeric/scalar.hpp"
 #include "firmware/numeric/turn.hpp"
-#include "host_sim/batch/decay_lanes.hpp"
+#include "host_sim/batch/elementary_lanes.hpp"
 #include "host_sim/batch/lane_pack.hpp"
-#include "host_sim/batch/plant_lanes.hpp"
 #include "host_sim/batch/reversal_lanes.hpp"
 #include "host_sim/batch/series_lanes.hpp"
-#include "host_sim/batch/step_size_lanes.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace sonoglide::batch::HWY_NAMESPACE {

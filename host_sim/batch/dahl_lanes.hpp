@@ -9,7 +9,6 @@
 #include <hwy/highway.h>
 
 #include "host_sim/batch/lane_schedule.hpp"
-#include "host_sim/batch/run_queue.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace sonoglide::batch::HWY_NAMESPACE {
@@ -48,12 +47,12 @@ inline const char* target_name() {
   return hwy::TargetName(HWY_TARGET);
 }
 
-inline void run_map(RunQueue& queue) {
-  LaneSchedule<MapSetting, RunQueue>(queue).run();
+inline void run_map(LaneQueue& queue) {
+  LaneSchedule<MapSetting>(queue).run();
 }
 
-inline void run_fine(RunQueue& queue) {
-  LaneSchedule<FineSetting, RunQueue>(queue).run();
+inline void run_fine(LaneQueue& queue) {
+  LaneSchedule<FineSetting>(queue).run();
 }
 
 }  // namespace sonoglide::batch::HWY_NAMESPACE

@@ -9,7 +9,6 @@
 
 #include <hwy/highway.h>
 
-#include "host_sim/batch/driven_queue.hpp"
 #include "host_sim/batch/lane_schedule.hpp"
 
 HWY_BEFORE_NAMESPACE();
@@ -30,8 +29,8 @@ struct PeriodSetting {
   static constexpr bool counts_work = false;
 };
 
-inline void run_driven(DrivenQueue& queue) {
-  LaneSchedule<PeriodSetting, DrivenQueue>(queue).run();
+inline void run_driven(LaneQueue& queue) {
+  LaneSchedule<PeriodSetting>(queue).run();
 }
 
 }  // namespace sonoglide::batch::HWY_NAMESPACE

@@ -12,8 +12,7 @@
 
 #include "host_sim/batch/advance_lanes.hpp"
 #include "host_sim/batch/lane_pack.hpp"
-#include "host_sim/batch/lane_plant.hpp"
-#include "host_sim/batch/plant_lanes.hpp"
+#include "host_sim/batch/lane_queue.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace sonoglide::batch::HWY_NAMESPACE {
@@ -21,10 +20,10 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 /// Runs the plants of a queue to their end. A lane is given the next one as soon as it is free, and
 /// what it does depends on its own plant alone.
-template <class Setting, class Queue>
+template <class Setting>
 class LaneSchedule {
  public:
-  explicit LaneSchedule(Queue& queue) : queue_(queue) {}
+  explicit LaneSchedule(LaneQueue& queue) : queue_(queue) {}
 
   void run() {
     const D d;
@@ -110,7 +109,7 @@ class LaneSchedule {
     set_lane(v, lane, static_cast<Scalar>(value));
   }
 
-  Queue& queue_;
+  LaneQueue& queue_;
   PlantLanes<D> plant_ = {};
   MotionLanes<D> motion_ = {};
 };

@@ -10,7 +10,6 @@
 #include <hwy/highway.h>
 
 #include "host_sim/batch/lane_pack.hpp"
-#include "host_sim/batch/plant_lanes.hpp"
 #include "host_sim/batch/series_lanes.hpp"
 
 HWY_BEFORE_NAMESPACE();

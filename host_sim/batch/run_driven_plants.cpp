@@ -1,6 +1,7 @@
 #include "host_sim/batch/run_driven_plants.hpp"
 
-#include "host_sim/batch/driven_queue.hpp"
+#include "firmware/numeric/turn.hpp"
+#include "host_sim/batch/lane_queue.hpp"
 
 #define HWY_TARGET_INCLUDE "host_sim/batch/driven_lanes.hpp"
 #include <hwy/foreach_target.h>
@@ -10,6 +11,34 @@
 namespace sonoglide::batch {
 
 HWY_EXPORT(run_driven);
+
+namespace {
+
+/// Stretches of a carrier period.
+class DrivenQueue : public LaneQueue {
+ public:
+  DrivenQueue(const DahlPlant* plants, std::size_t count, DriveSource& source, RunStatus* statuses)
+      : LaneQueue(plants, count), source_(source), statuses_(statuses) {}
+
+ private:
+  void set_status(std::size_t point, RunStatus status) override { statuses_[point] = status; }
+
+  LaneStretch first_stretch(std::size_t /*lane*/, std::size_t point) override {
+    return {1.0, plant(point).drive_amplitude};
+  }
+
+  std::optional<LaneStretch> next_stretch(std::size_t /*lane*/, std::size_t point,
+                                          const Progress& progress) override {
+    const std::optional<double> amplitude =
+        source_.next_amplitude(point, progress.integrals.friction_ratio / numeric::two_pi);
+    return amplitude ? std::optional(LaneStretch{1.0, *amplitude}) : std::nullopt;
+  }
+
+  DriveSource& source_;
+  RunStatus* statuses_;
+};
+
+}  // namespace
 
 void run_driven_plants(const DahlPlant* plants, std::size_t count, DriveSource& source,
                        RunStatus* statuses) {

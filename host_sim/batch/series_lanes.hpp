@@ -1,4 +1,4 @@
-/// Power series of the motion in each lane. Compiled once for each instruction set.
+/// The plant in each lane, and the power series of its motion. Compiled once for each instruction set.
 #if defined(SONOGLIDE_BATCH_SERIES_LANES) == defined(HWY_TARGET_TOGGLE)
 #ifdef SONOGLIDE_BATCH_SERIES_LANES
 #undef SONOGLIDE_BATCH_SERIES_LANES
@@ -11,13 +11,42 @@
 #include <utility>
 
 #include "firmware/numeric/power_series.hpp"
+#include "host_sim/batch/elementary_lanes.hpp"
 #include "host_sim/batch/lane_pack.hpp"
-#include "host_sim/batch/plant_lanes.hpp"
-#include "host_sim/batch/trigonometric_lanes.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace sonoglide::batch::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
+
+/// Symbols as in batch::DahlPlant.
+template <class D>
+struct PlantLanes {
+  using V = Pack<D>;
+
+  V drive_amplitude;    ///< a
+  V damping;            ///< d
+  V stiffness;          ///< k
+  V friction_force;     ///< beta
+  V contact_stiffness;  ///< kappa
+  V sliding_velocity;   ///< r
+  V vibration_sign;     ///< sigma
+  V natural_frequency;  ///< sqrt(k)
+  V own_rate;           ///< the fastest that the plant moves by itself, of the order of 1 at least
+};
+
+template <class D>
+struct MotionLanes {
+  using V = Pack<D>;
+
+  V phase;         ///< tau since the last whole period, [0, 2 pi)
+  V periods_left;  ///< until the lane is to be looked at, the running one included; 0: it is due
+  V steps_left;    ///< until the lane is to be looked at in any case
+  V displacement;
+  V velocity;
+  V friction;
+  V friction_integral;  ///< of phi, since the lane was looked at last
+  V friction_work;      ///< integral of phi V, likewise
+};
 
 /// 1 / n in every lane.
 template <class D>

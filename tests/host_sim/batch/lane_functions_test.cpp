@@ -7,9 +7,7 @@
 #include <random>
 #include <type_traits>
 
-#include "host_sim/batch/decay_lanes.hpp"
-#include "host_sim/batch/step_size_lanes.hpp"
-#include "host_sim/batch/trigonometric_lanes.hpp"
+#include "host_sim/batch/elementary_lanes.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace sonoglide::batch::HWY_NAMESPACE {

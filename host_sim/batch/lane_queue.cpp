@@ -1,4 +1,4 @@
-#include "host_sim/batch/lane_plant.hpp"
+#include "host_sim/batch/lane_queue.hpp"
 
 #include <cmath>
 
@@ -12,8 +12,7 @@ bool lies_within(double value, double lowest, double highest) {
   return lowest <= value && value <= highest;
 }
 
-}  // namespace
-
+/// Every parameter is one that the lanes are made for.
 bool suits_lanes(const DahlPlant& plant) {
   return std::abs(plant.drive_amplitude) < farthest && lies_within(plant.damping, 0.0, farthest) &&
          lies_within(plant.stiffness, 0.0, farthest) &&
@@ -29,12 +28,55 @@ LanePlant prepare(const DahlPlant& plant) {
   return {plant, natural_frequency, 0.5 + natural_frequency + plant.damping + contact_frequency};
 }
 
+/// `solved` where the lane has come to the end of its stretch.
 RunStatus status_of(const Progress& progress) {
   if (!plant::is_finite(progress.state) ||
       std::abs(progress.state.displacement) + std::abs(progress.state.velocity) >= farthest) {
     return RunStatus::not_finite;
   }
   return progress.periods_left > 0.0 ? RunStatus::too_many_steps : RunStatus::solved;
+}
+
+}  // namespace
+
+LanePlant LaneQueue::next(std::size_t lane) {
+  while (next_point_ < count_) {
+    const std::size_t point = next_point_++;
+    set_status(point, RunStatus::outside_range);
+    if (suits_lanes(plants_[point])) {
+      lanes_[lane] = {false, point, first_stretch(lane, point)};
+      ++busy_;
+      return prepare(plants_[point]);
+    }
+  }
+  return idling;
+}
+
+LanePlant LaneQueue::give_up(std::size_t lane) {
+  end(lanes_[lane], RunStatus::undecided_reversal);
+  return next(lane);
+}
+
+bool LaneQueue::goes_on(std::size_t at, const Progress& progress) {
+  Lane& lane = lanes_[at];
+  if (lane.idle) {
+    return false;
+  }
+  const RunStatus status = status_of(progress);
+  const std::optional<LaneStretch> stretch =
+      status == RunStatus::solved ? next_stretch(at, lane.point, progress) : std::nullopt;
+  if (!stretch) {
+    end(lane, status);
+    return false;
+  }
+  lane.stretch = *stretch;
+  return true;
+}
+
+void LaneQueue::end(Lane& lane, RunStatus status) {
+  set_status(lane.point, status);
+  lane = Lane();
+  --busy_;
 }
 
 }  // namespace sonoglide::batch
