@@ -6,11 +6,9 @@
 #include <cstdint>
 
 #include "firmware/app/mismatch.hpp"
-#include "firmware/app/stop_word.hpp"
 #include "firmware/app/typed_ahead.hpp"
 #include "firmware/app/unit.hpp"
 #include "firmware/app/unit_names.hpp"
-#include "firmware/encoding/characters.hpp"
 #include "firmware/encoding/decimal.hpp"
 
 namespace sonoglide::app {

@@ -1,16 +1,59 @@
 /// Faults of a running unit: kept, logged, and left by an explicit restart alone.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 
 #include "firmware/app/exchange.hpp"
-#include "firmware/app/fault_log.hpp"
-#include "firmware/app/no_host.hpp"
 #include "firmware/control/interface/drive_command.hpp"
 #include "hal/board.hpp"
 
 namespace sonoglide::app {
+
+// A unit that nobody talks to.
+
+/// Nobody can ask for a start, and no silence ends the drive.
+struct NoHost {
+  static constexpr bool drives_from_power_on = true;
+
+  static constexpr bool falling() { return false; }
+  static constexpr std::int32_t next() { return 0; }
+  static void clear() {}
+};
+
+// The last faults of a unit.
+
+/// A fault, and when it was found.
+struct FaultEntry {
+  std::uint8_t fault;    ///< control::Fault or UnitFault
+  std::uint32_t period;  ///< in which it was found: served since reset, this one included; wraps
+};
+
+/// Keeps the last `Length` faults since reset.
+template <std::size_t Length>
+class FaultLog {
+ public:
+  void add(const FaultEntry& entry) {
+    entries_[next_] = entry;
+    next_ = next_ + 1 < Length ? next_ + 1 : 0;
+    count_ += count_ < UINT32_MAX ? 1U : 0U;
+  }
+
+  /// Faults since reset, those no longer kept included.
+  std::uint32_t count() const { return count_; }
+  std::size_t kept() const { return count_ < Length ? count_ : Length; }
+
+  /// @param age  0 is the latest; less than kept().
+  const FaultEntry& entry(std::size_t age) const {
+    return entries_[next_ > age ? next_ - 1 - age : next_ + Length - 1 - age];
+  }
+
+ private:
+  std::array<FaultEntry, Length> entries_{};
+  std::size_t next_ = 0;
+  std::uint32_t count_ = 0;
+};
 
 /// Faults that the loop finds, besides those of the controller (control::Fault, 16 … 31).
 enum class UnitFault : std::uint8_t {

@@ -11,10 +11,33 @@
 #include <type_traits>
 #include <utility>
 
-#include "firmware/numeric/overflow.hpp"
+#include "firmware/numeric/signal_ledger.hpp"
 #include "firmware/numeric/word.hpp"
 
 namespace sonoglide::numeric {
+
+// What fixed-point arithmetic does when a result leaves its range: policies as type tags. Under
+// every policy the result is the nearest end of the range. The policies differ in what else an
+// overflow does.
+
+/// For the image: clamps, and costs nothing more.
+struct Saturating {
+  static constexpr void on_overflow() {}
+};
+
+/// For simulation: the same values as Saturating, and the attached SignalLedger counts each clamp.
+struct Counting {
+  static void on_overflow() {
+    if (attached_ledger != nullptr) {
+      ++attached_ledger->pending_saturations;
+    }
+  }
+};
+
+/// For tests: the program stops where the first overflow happens.
+struct Trapping {
+  [[noreturn]] static void on_overflow() { __builtin_trap(); }
+};
 
 static_assert((-1 >> 1) == -1, "right shift of a negative number must be arithmetic");
 

@@ -10,7 +10,6 @@
 #include "firmware/numeric/turn.hpp"
 #include "firmware/plant/drive.hpp"
 #include "firmware/plant/model.hpp"
-#include "firmware/plant/sliding.hpp"
 #include "firmware/plant/state.hpp"
 #include "firmware/plant/strang/fixed_point_strang_design.hpp"
 #include "host_sim/configure/configuration_error.hpp"
@@ -141,7 +140,6 @@ PlantText float_plant(const SceneNumbers& scene) {
   return {
       R"(#include "firmware/friction/dahl.hpp"
 #include "firmware/plant/contact.hpp"
-#include "firmware/plant/model.hpp"
 #include "firmware/plant/strang/equal_step_strang.hpp"
 #include "firmware/image/plant/plant_board.hpp"
 )",

@@ -3,7 +3,6 @@
 #include "cost_by_hand.hpp"
 #include "cost_by_hand_reversals.hpp"
 #include "firmware/numeric/gauss_legendre.hpp"
-#include "firmware/numeric/gauss_rule.hpp"
 #include "firmware/numeric/lane_group.hpp"
 #include "firmware/numeric/power_series.hpp"
 

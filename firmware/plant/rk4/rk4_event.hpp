@@ -12,7 +12,6 @@
 #include "firmware/plant/rk4/rk4_formula.hpp"
 #include "firmware/plant/rk4/rk4_step.hpp"
 #include "firmware/plant/state.hpp"
-#include "firmware/plant/state_check.hpp"
 #include "firmware/plant/velocity_path.hpp"
 
 namespace sonoglide::plant {

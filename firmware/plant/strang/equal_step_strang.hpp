@@ -8,7 +8,6 @@
 #include "firmware/numeric/scalar.hpp"
 #include "firmware/plant/outcome.hpp"
 #include "firmware/plant/state.hpp"
-#include "firmware/plant/state_check.hpp"
 #include "firmware/plant/strang/oscillator_flow.hpp"
 #include "firmware/plant/strang/strang_step.hpp"
 

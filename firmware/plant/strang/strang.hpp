@@ -11,9 +11,7 @@
 #include "firmware/numeric/turn.hpp"
 #include "firmware/plant/outcome.hpp"
 #include "firmware/plant/state.hpp"
-#include "firmware/plant/state_check.hpp"
 #include "firmware/plant/strang/equal_step_strang.hpp"
-#include "firmware/plant/strang/measured_strang_step.hpp"
 #include "firmware/plant/strang/oscillator_flow.hpp"
 #include "firmware/plant/strang/strang_step.hpp"
 

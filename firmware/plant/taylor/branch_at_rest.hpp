@@ -5,7 +5,7 @@
 
 #include "firmware/numeric/power_series.hpp"
 #include "firmware/numeric/scalar.hpp"
-#include "firmware/plant/taylor/rated_friction.hpp"
+#include "firmware/plant/taylor/step_friction.hpp"
 #include "firmware/plant/taylor/taylor_series.hpp"
 
 namespace sonoglide::plant {

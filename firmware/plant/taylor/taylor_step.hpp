@@ -5,7 +5,6 @@
 #include <cstddef>
 
 #include "firmware/numeric/gauss_legendre.hpp"
-#include "firmware/numeric/gauss_rule.hpp"
 #include "firmware/numeric/lane_group.hpp"
 #include "firmware/numeric/lane_polynomial.hpp"
 #include "firmware/numeric/lanes.hpp"

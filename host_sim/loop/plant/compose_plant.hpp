@@ -7,7 +7,6 @@
 
 #include "firmware/plant/drive.hpp"
 #include "firmware/plant/model.hpp"
-#include "firmware/plant/sliding.hpp"
 #include "host_sim/configure/plant_model.hpp"
 #include "host_sim/loop/plant/plant_description.hpp"
 #include "host_sim/loop/plant/plant_port.hpp"

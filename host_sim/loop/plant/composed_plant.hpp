@@ -8,7 +8,6 @@
 
 #include "firmware/friction/vibration.hpp"
 #include "firmware/plant/account.hpp"
-#include "firmware/plant/demodulator.hpp"
 #include "firmware/plant/outcome.hpp"
 #include "firmware/plant/solver.hpp"
 #include "firmware/plant/state.hpp"

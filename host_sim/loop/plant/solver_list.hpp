@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "firmware/plant/drive.hpp"
-#include "firmware/plant/sliding.hpp"
+#include "firmware/plant/model.hpp"
 #include "host_sim/loop/plant/composed_plant.hpp"
 #include "host_sim/loop/plant/plant_description.hpp"
 #include "host_sim/loop/plant/plant_port.hpp"

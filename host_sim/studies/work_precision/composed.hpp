@@ -16,7 +16,6 @@
 #include "firmware/plant/drive.hpp"
 #include "firmware/plant/model.hpp"
 #include "firmware/plant/outcome.hpp"
-#include "firmware/plant/sliding.hpp"
 #include "firmware/plant/solver.hpp"
 #include "firmware/plant/state.hpp"
 #include "firmware/plant/stiff/stiff_linear.hpp"

@@ -1,6 +1,6 @@
 /// The energy account of a contact that slides at one velocity.
 
-#include "firmware/plant/sliding.hpp"
+#include "firmware/plant/model.hpp"
 #include "tests/firmware/plant/runs/motion.hpp"
 
 namespace sonoglide::plant {

@@ -1,6 +1,6 @@
 /// The same for a sliding that changes: what only it has a use for is found by the same reading.
 
-#include "firmware/plant/sliding.hpp"
+#include "firmware/plant/model.hpp"
 #include "tests/firmware/plant/runs/motion.hpp"
 
 namespace sonoglide::plant {

@@ -8,8 +8,8 @@
 #include <type_traits>
 
 #include "firmware/plant/gauss/event_gauss.hpp"
+#include "firmware/plant/model.hpp"
 #include "firmware/plant/rk4/rk4_event.hpp"
-#include "firmware/plant/sliding.hpp"
 #include "firmware/plant/strang/strang.hpp"
 #include "tests/firmware/plant/runs/motion.hpp"
 

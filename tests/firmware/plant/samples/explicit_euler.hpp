@@ -7,7 +7,6 @@
 #include "firmware/plant/account.hpp"
 #include "firmware/plant/outcome.hpp"
 #include "firmware/plant/state.hpp"
-#include "firmware/plant/state_check.hpp"
 
 namespace sonoglide::plant {
 

@@ -15,13 +15,13 @@
 #include "firmware/friction/none.hpp"
 #include "firmware/numeric/turn.hpp"
 #include "firmware/plant/account.hpp"
-#include "firmware/plant/demodulator.hpp"
 #include "firmware/plant/drive.hpp"
 #include "firmware/plant/model.hpp"
 #include "firmware/plant/solver.hpp"
 #include "firmware/plant/stiff/stiff_linear.hpp"
 #include "firmware/plant/strang/strang.hpp"
 #include "firmware/plant/taylor/event_taylor.hpp"
+#include "firmware/plant/velocity_quadrature.hpp"
 
 namespace sonoglide::plant::stiff_linear_test {
 namespace {
