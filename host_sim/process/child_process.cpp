@@ -187,14 +187,14 @@ std::filesystem::path require_program(const std::string& program, const std::str
 namespace {
 
 /// A tool that has nothing to say for so long has hung.
-constexpr std::chrono::minutes patience{10};
+constexpr std::chrono::minutes longest_run{10};
 
 std::string read_to_the_end(const std::string& tool, int descriptor) {
   std::string text;
   std::array<char, 4096> part{};
   ssize_t count = 0;
   do {
-    if (!wait_for_input(descriptor, patience)) {
+    if (!wait_for_input(descriptor, longest_run)) {
       throw ProcessError(fmt::format("{} hung:\n{}", tool, text));
     }
     count = read(descriptor, part.data(), part.size());
