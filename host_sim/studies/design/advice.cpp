@@ -6,8 +6,8 @@
 #include <iterator>
 
 #include "host_sim/output/number.hpp"
-#include "host_sim/studies/design/electrical.hpp"
 #include "host_sim/studies/design/report.hpp"
+#include "host_sim/studies/design/study.hpp"
 
 namespace sonoglide::design {
 namespace {

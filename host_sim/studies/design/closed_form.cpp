@@ -1,4 +1,4 @@
-#include "host_sim/studies/design/closed_form.hpp"
+#include "host_sim/studies/design/requirement.hpp"
 
 #include <boost/math/tools/minima.hpp>
 

@@ -7,7 +7,6 @@
 #include "firmware/numeric/turn.hpp"
 #include "host_sim/loop/failure.hpp"
 #include "host_sim/studies/design/root.hpp"
-#include "host_sim/studies/design/sensitivity.hpp"
 
 namespace sonoglide::design {
 namespace {

@@ -1,10 +1,10 @@
-#include "host_sim/studies/design/electrical.hpp"
+#include "host_sim/studies/design/study.hpp"
 
 #include <cmath>
 #include <complex>
 
 #include "firmware/numeric/turn.hpp"
-#include "host_sim/studies/design/closed_form.hpp"
+#include "host_sim/studies/design/requirement.hpp"
 
 namespace sonoglide::design {
 namespace {

@@ -6,7 +6,6 @@
 
 #include "host_sim/configure/plant_scales.hpp"
 #include "host_sim/loop/failure.hpp"
-#include "host_sim/studies/design/closed_form.hpp"
 #include "host_sim/studies/design/root.hpp"
 
 namespace sonoglide::design {

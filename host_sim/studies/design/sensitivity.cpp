@@ -1,10 +1,10 @@
-#include "host_sim/studies/design/sensitivity.hpp"
+#include "host_sim/studies/design/study.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include "host_sim/loop/failure.hpp"
-#include "host_sim/studies/design/steady_motion.hpp"
+#include "host_sim/studies/design/requirement.hpp"
 
 namespace sonoglide::design {
 namespace {

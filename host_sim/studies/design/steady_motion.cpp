@@ -1,4 +1,4 @@
-#include "host_sim/studies/design/steady_motion.hpp"
+#include "host_sim/studies/design/requirement.hpp"
 
 #include <algorithm>
 #include <cmath>

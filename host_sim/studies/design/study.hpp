@@ -5,12 +5,77 @@
 #include <optional>
 #include <vector>
 
+#include "host_sim/loop/electrical.hpp"
 #include "host_sim/scene/scene.hpp"
-#include "host_sim/studies/design/electrical.hpp"
 #include "host_sim/studies/design/requirement.hpp"
-#include "host_sim/studies/design/sensitivity.hpp"
 
 namespace sonoglide::design {
+
+// What a design asks of the amplifier, where the drive is a transducer.
+
+/// The scene has a transducer, in all of these.
+
+/// k_eff² = Cm/(C0 + Cm), Cm = Nf²/Ks: the part of the energy that takes part in the exchange
+/// between voltage and motion.
+double coupling_square(const scene::Scene& scene);
+
+/// √(Ks/m)/2π, where the transducer conducts most; 0 without a spring.
+double series_resonance_Hz(const scene::Scene& scene);
+/// fs √(1 + Cm/C0), where it conducts least.
+double parallel_resonance_Hz(const scene::Scene& scene);
+
+/// V̂²|Y|/2, Y the admittance while the mass is held: what the clamped capacitance takes alone.
+double clamped_power_VA(const scene::Scene& scene, double voltage_V);
+
+/// L = V̂²/(2 ω |Q|): beside the transducer it takes the reactive power Q of its fundamental away;
+/// NaN where that is not capacitive.
+double matching_inductance_H(const scene::Scene& scene, const loop::ElectricalFigures& figures);
+
+/// The spring that puts the natural frequency on the carrier, and what a ratio then takes.
+struct ResonantSpring {
+  double stiffness_N_per_m;  ///< m ω²
+  Requirement requirement;
+};
+
+ResonantSpring on_resonance(const scene::Scene& scene, const Requirement& requirement);
+
+// How much of a friction ratio hangs on each parameter.
+
+/// One positive number of a scene that its steady ratio depends on.
+struct SceneParameter {
+  const char* key;  ///< as `--set` takes it
+  const char* symbol;
+  double& (*in)(scene::Scene& steady_scene);
+};
+
+/// Those that the scene has: damping where it is not 0, contact stiffness of an elastic law.
+std::vector<SceneParameter> parameters_of(const scene::Scene& steady_scene);
+
+/// Every other parameter and the drive's force stay as they are: feedback that follows the ratio
+/// takes the change out again, feedforward does not. NaN where a plant with the changed parameter
+/// settles on no orbit.
+struct Sensitivity {
+  SceneParameter parameter;
+  double logarithmic;     ///< d ln rho / d ln p
+  double change_by_more;  ///< of the ratio, by 1 % more of the parameter
+  double change_by_less;  ///< by 1 % less
+
+  double largest_change() const;  ///< magnitude; NaN where one of the two is
+};
+
+/// Of every parameter, by differences of the ratio on the steady orbit.
+/// Error: of the derivative 1e-5, of the changes 1e-9.
+/// @throws loop::ComputationError  no steady orbit
+std::vector<Sensitivity> sensitivities(const scene::Scene& steady_scene);
+
+/// The changes that a Sensitivity holds: relative.
+inline constexpr double parameter_change = 0.01;
+
+/// Ratio with the parameter taken times a factor. @throws loop::ComputationError
+double ratio_with(scene::Scene steady_scene, const SceneParameter& parameter, double factor);
+
+/// Of the spring, on which resonance hangs.
+SceneParameter stiffness();
 
 // What resonance gives and what it costs: the same contact on another spring.
 

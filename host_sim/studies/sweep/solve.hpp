@@ -6,14 +6,30 @@
 #include <optional>
 #include <vector>
 
+#include "host_sim/batch/run_dahl_plants.hpp"
 #include "host_sim/long_work/kept_points.hpp"
 #include "host_sim/runs/run_many.hpp"
 #include "host_sim/scene/scene.hpp"
-#include "host_sim/studies/sweep/batch_point.hpp"
 #include "host_sim/studies/sweep/plan.hpp"
 #include "host_sim/studies/sweep/row.hpp"
 
 namespace sonoglide::sweep {
+
+// One point of a sweep as the solver over SIMD lanes takes it.
+
+struct BatchPoint {
+  batch::DahlPlant plant;
+  batch::RunLength length;
+  batch::Accuracy accuracy = batch::Accuracy::fine;
+};
+
+/// Absent where the lanes cannot do the scene: they take open loop under a drive, Dahl friction,
+/// constant sliding velocity, whole carrier periods in run and window, and event_taylor with no
+/// order asked for, its tolerance at least 1e-8. From 1e-4 on they compute in float32.
+std::optional<BatchPoint> batch_point(const scene::Scene& scene);
+
+/// @param run  solved
+PointResult row_of(const BatchPoint& point, const batch::DahlRun& run);
 
 /// Time to solve a point over the time to read it, right to a factor of about two: it serves the
 /// progress shown while the points of a sweep are read, and nothing else.

@@ -7,7 +7,6 @@
 #include <cmath>
 
 #include "design_scenes.hpp"
-#include "host_sim/studies/design/sensitivity.hpp"
 #include "tests/common/constants/pi.hpp"
 
 namespace sonoglide::design::detuning_test {

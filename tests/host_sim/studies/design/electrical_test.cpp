@@ -1,6 +1,6 @@
 /// What a design says of the amplifier: against circuit formulas.
 
-#include "host_sim/studies/design/electrical.hpp"
+#include "host_sim/studies/design/study.hpp"
 
 #include <gtest/gtest.h>
 

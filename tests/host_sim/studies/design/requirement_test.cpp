@@ -8,7 +8,7 @@
 
 #include "design_scenes.hpp"
 #include "host_sim/loop/failure.hpp"
-#include "host_sim/studies/design/sensitivity.hpp"
+#include "host_sim/studies/design/study.hpp"
 #include "tests/common/constants/pi.hpp"
 #include "tests/common/constants/table_1_numbers.hpp"
 

@@ -1,6 +1,6 @@
 /// Derivatives of the simulated ratio against closed forms and dimensional analysis.
 
-#include "host_sim/studies/design/sensitivity.hpp"
+#include "host_sim/studies/design/study.hpp"
 
 #include <gtest/gtest.h>
 

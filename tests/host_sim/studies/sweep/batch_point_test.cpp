@@ -1,7 +1,7 @@
 /// Points over lanes agree with the scalar solver within the tolerance asked for.
 
-#include "host_sim/studies/sweep/batch_point.hpp"
 #include "host_sim/experiment/experiment.hpp"
+#include "host_sim/studies/sweep/solve.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,6 @@
 #include <string>
 #include <vector>
 
-#include "host_sim/studies/sweep/solve.hpp"
 #include "tests/host_sim/studies/sweep/scenes/base_scenes.hpp"
 
 namespace sonoglide::sweep::batch_point_test {
