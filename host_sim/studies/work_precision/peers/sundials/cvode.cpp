@@ -64,20 +64,16 @@ int reversal(realtype /*tau*/, N_Vector x, realtype* value, void* user) {
   return 0;
 }
 
+/// Frees a handle as the library has it.
+template <auto Free>
+struct Freed {
+  template <class Handle>
+  void operator()(Handle handle) const {
+    Free(handle);
+  }
+};
 struct FreeContext {
   void operator()(SUNContext context) const { SUNContext_Free(&context); }
-};
-struct FreeVector {
-  void operator()(N_Vector vector) const { N_VDestroy(vector); }
-};
-struct FreeMatrix {
-  void operator()(SUNMatrix matrix) const { SUNMatDestroy(matrix); }
-};
-struct FreeLinearSolver {
-  void operator()(SUNLinearSolver solver) const { SUNLinSolFree(solver); }
-};
-struct FreeNonlinearSolver {
-  void operator()(SUNNonlinearSolver solver) const { SUNNonlinSolFree(solver); }
 };
 struct FreeMemory {
   void operator()(void* memory) const { CVodeFree(&memory); }
@@ -190,10 +186,10 @@ class Cvode final : public Contender {
 
   Motion motion_;
   Owned<SUNContext, FreeContext> context_;
-  Owned<N_Vector, FreeVector> state_;
-  Owned<SUNMatrix, FreeMatrix> matrix_;
-  Owned<SUNLinearSolver, FreeLinearSolver> linear_solver_;
-  Owned<SUNNonlinearSolver, FreeNonlinearSolver> fixed_point_;
+  Owned<N_Vector, Freed<N_VDestroy>> state_;
+  Owned<SUNMatrix, Freed<SUNMatDestroy>> matrix_;
+  Owned<SUNLinearSolver, Freed<SUNLinSolFree>> linear_solver_;
+  Owned<SUNNonlinearSolver, Freed<SUNNonlinSolFree>> fixed_point_;
   std::unique_ptr<void, FreeMemory> memory_;
   realtype tau_ = 0.0;
   double target_ = 0.0;
