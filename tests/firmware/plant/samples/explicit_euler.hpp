@@ -1,8 +1,9 @@
-/// The sample of "How to add a solver": explicit Euler, for contacts whose velocity sets the force.
+/// The sample of "How to add a solver": explicit Euler.
 #pragma once
 
 #include <cstdint>
 
+#include "firmware/friction/vibration.hpp"
 #include "firmware/numeric/scalar.hpp"
 #include "firmware/plant/account.hpp"
 #include "firmware/plant/outcome.hpp"
@@ -29,9 +30,11 @@ class EulerStep {
   Scalar length() const { return length_; }
   State<Scalar> at(Scalar offset) const {
     const Scalar velocity = from_.velocity + offset * model_.acceleration(drive_, from_);
-    return {
-        from_.displacement + offset * from_.velocity, velocity,
-        model_.law.friction(model_.contact_velocity(sliding_velocity_, velocity), from_.friction)};
+    const Scalar rate =
+        model_.law.rate(model_.contact_velocity(sliding_velocity_, from_.velocity), from_.friction);
+    return {from_.displacement + offset * from_.velocity, velocity,
+            model_.law.friction(model_.contact_velocity(sliding_velocity_, velocity),
+                                from_.friction + offset * rate)};
   }
   Scalar friction_integral() const { return length_ * from_.friction; }
   Scalar friction_work() const {
@@ -54,15 +57,16 @@ class EulerStep {
   Scalar length_;
 };
 
-/// First order in the step. What the members mean is listed in plant/solver.hpp.
+/// First order in the step. It does not look for reversals, and beyond a step of about 2/(kappa |V|)
+/// |phi| passes 1, which is reported. What the members mean is listed in plant/solver.hpp.
 template <class ModelType>
 class ExplicitEuler {
  public:
   using Model = ModelType;
   using Scalar = typename Model::Scalar;
   template <class Law>
-  static constexpr bool solves = !Law::sticks && !Law::remembers && !Law::rate_independent;
-  static_assert(solves<typename Model::FrictionLaw>, "the velocity alone sets the force");
+  static constexpr bool solves = Law::vibration == friction::Vibration::along && !Law::sticks &&
+                                 !Law::remembers && !Law::has_corners;
 
   void configure(const Model& model, Scalar step,
                  std::uint32_t step_limit = max_steps_per_advance) {
@@ -80,12 +84,14 @@ class ExplicitEuler {
       return {Error::too_many_steps, Scalar(0)};
     }
     const Scalar length = interval.duration / static_cast<Scalar>(count > 0 ? count : 1);
+    Samples drive(interval.drive_amplitude, interval.phase_begin, length);
     for (std::uint32_t i = 0; i < count; ++i) {
       const Scalar begin = length * static_cast<Scalar>(i);
       const Scalar sliding = interval.sliding_velocity + interval.sliding_acceleration * begin;
-      const EulerStep<Model> taken(model_, state, Scalar(0), sliding, begin, length);
+      const EulerStep<Model> taken(model_, state, drive.value(), sliding, begin, length);
       account.add(taken);
       observer(taken);
+      drive.next();
       ++cost_.steps;
       state = taken.at(length);
       const Error error = check_state(model_.law, state);
@@ -99,6 +105,8 @@ class ExplicitEuler {
   const Cost& cost() const { return cost_; }
 
  private:
+  using Samples = typename Model::Drive::template Samples<Scalar>;
+
   Model model_;
   Scalar step_ = Scalar(0);
   std::uint32_t step_limit_ = max_steps_per_advance;
