@@ -5,7 +5,7 @@ Usage: walk.py SOURCE FOLDER [--build]
 A block ```diff begins with `+++ FILE`. Its lines that begin with a blank are in this file, in this order and
 once; the lines that begin with + are added below them. A block without the former is added at the end of the
 file, which may be new. A block ```sh of cp, mkdir and sed is carried out at once; a sed that changes nothing
-is an error. Every other ```sh builds and tests: with --build they run after all edits.
+is an error. Every other ```sh builds and tests: with --build they run after the edits of their how-to.
 """
 
 import os
@@ -75,18 +75,17 @@ def commands(lines):
     return re.split(r"(?<!\\)\n", text)
 
 
-def walk(tree):
-    """Carries out the edits; what builds and tests."""
+def carry_out_edits(tree, text):
+    """And gives what builds and tests."""
     builds = []
-    for document, title in HOW_TOS:
-        for language, lines in blocks(section((tree / document).read_text(), title)):
-            if language == "diff":
-                insert(tree, lines)
-            elif language == "sh" and lines[0].startswith(EDITS):
-                for command in commands(lines):
-                    edit(tree, command)
-            elif language == "sh":
-                builds.append("\n".join(lines))
+    for language, lines in blocks(text):
+        if language == "diff":
+            insert(tree, lines)
+        elif language == "sh" and lines[0].startswith(EDITS):
+            for command in commands(lines):
+                edit(tree, command)
+        elif language == "sh":
+            builds.append("\n".join(lines))
     return builds
 
 
@@ -96,13 +95,14 @@ def main():
         if old.is_dir() and old.name != "build":
             shutil.rmtree(old)
     shutil.copytree(source, tree, dirs_exist_ok=True, ignore=shutil.ignore_patterns("build", ".git", "out"))
-    builds = walk(tree)
     environment = dict(os.environ, CCACHE_BASEDIR=str(tree), CCACHE_NOHASHDIR="1")
     if shutil.which("ccache"):
         environment["CMAKE_CXX_COMPILER_LAUNCHER"] = "ccache"
-    for commands_of_block in builds if "--build" in sys.argv else []:
-        print(commands_of_block, flush=True)
-        subprocess.run(["bash", "-e", "-c", commands_of_block], cwd=tree, env=environment, check=True)
+    for document, title in HOW_TOS:
+        builds = carry_out_edits(tree, section((tree / document).read_text(), title))
+        for block in builds if "--build" in sys.argv else []:
+            print(block, flush=True)
+            subprocess.run(["bash", "-e", "-c", block], cwd=tree, env=environment, check=True)
 
 
 if __name__ == "__main__":

@@ -189,7 +189,7 @@ TEST(ControlDesignTest, NotesWhatItMayFailToFeel) {
        {Told{1.02, "only where the stiffness is within 2.6 %"},
         Told{3.3,
              "off by more than 2.9 % may keep the friction ratio from settling: the natural mode "
-             "then turns"},
+             "then has a phase error"},
         Told{5.2, "off by more than 1.8 % may"},
         Told{2.93,
              "off by more than 0.68 % may keep the friction ratio from settling: the natural "

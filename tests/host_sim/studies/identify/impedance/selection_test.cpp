@@ -447,7 +447,7 @@ TEST(Study, NamesTheReadingsThatAreLeftOut) {
   Sweep sweep = exact_sweep(published_piece(), 110e3, 117e3, 201);
   add_noise(sweep, 1e-3);
   sweep.admittance_S[60] *= 3.0;
-  EXPECT_TRUE(warns(study("x", sweep, {}), "off the readings beside: 112.1 kHz."));
+  EXPECT_TRUE(warns(study("x", sweep, {}), "off the readings beside it: 112.1 kHz."));
 }
 
 /// 20000 readings of which the mode with the largest G/f is not the one that is identified.
