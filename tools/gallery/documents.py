@@ -39,6 +39,13 @@ def plain(node):
     return " ".join("".join(words).split())
 
 
+def documents(sources):
+    """Every document of the sources, from their root."""
+    rooms = ("firmware", "hal", "host_sim", "tests")
+    found = [*sources.glob("*.md"), *(file for room in rooms for file in (sources / room).rglob("*.md"))]
+    return {file.relative_to(sources) for file in found}
+
+
 class Site:
     def __init__(self, sources, folder, template):
         self.sources, self.folder, self.template = sources, folder, template
@@ -56,9 +63,7 @@ class Site:
         target.write_text(page)
 
     def write_documents(self):
-        listed = subprocess.run(["git", "ls-files", "*.md"], cwd=self.sources, stdout=subprocess.PIPE,
-                                text=True, check=True).stdout.split()
-        self.wanted.update(map(pathlib.Path, listed))
+        self.wanted |= documents(self.sources)
         while self.wanted - self.written:
             path = min(self.wanted - self.written)
             self.written.add(path)
@@ -85,9 +90,8 @@ class Site:
         return path.with_suffix(".html") if path.suffix in READERS else path.with_name(path.name + ".html")
 
     def write_list(self, folder):
-        tracked = subprocess.run(["git", "ls-files", str(folder)], cwd=self.sources,
-                                 stdout=subprocess.PIPE, text=True, check=True).stdout.split()
-        names = sorted({pathlib.Path(p).relative_to(folder).parts[0] for p in tracked})
+        names = sorted(file.name for file in (self.sources / folder).iterdir()
+                       if not file.name.startswith((".", "__")))
         self.wanted.update(folder / name for name in names)
         items = "".join(f'<li><a href="{os.path.relpath(self.page_of(folder / n), folder)}">{n}</a></li>'
                         for n in names)
