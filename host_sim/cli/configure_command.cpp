@@ -10,7 +10,6 @@
 #include "host_sim/cli/run_watch.hpp"
 #include "host_sim/configure/control_design.hpp"
 #include "host_sim/emulated/controller_header.hpp"
-#include "host_sim/emulated/plant_header.hpp"
 #include "host_sim/output/output_folder.hpp"
 #include "host_sim/process/printable.hpp"
 

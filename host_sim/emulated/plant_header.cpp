@@ -1,4 +1,4 @@
-#include "host_sim/emulated/plant_header.hpp"
+#include "host_sim/emulated/controller_header.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "host_sim/fmi/archive/model_description.hpp"
+#include "host_sim/fmi/archive/make_fmu.hpp"
 
 #include <fmt/format.h>
 #include <boost/property_tree/ptree.hpp>
