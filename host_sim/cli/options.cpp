@@ -7,9 +7,11 @@
 #include <cstdint>
 
 #include "host_sim/output/output_folder.hpp"
+#include "host_sim/output/program.hpp"
 #include "host_sim/process/checksum.hpp"
 #include "host_sim/process/child_process.hpp"
 #include "host_sim/process/printable.hpp"
+#include "host_sim/scene_file/changes.hpp"
 #include "host_sim/scene_file/document.hpp"
 
 namespace sonoglide::cli {
@@ -30,7 +32,13 @@ void add_scene_options(CLI::App& command, SceneOptions& options, const std::stri
 }
 
 SceneInput::SceneInput(const SceneOptions& options)
-    : options_(options), source_(scene_file::read_source(options.path)) {}
+    : options_(options), source_(scene_file::read_source(options.path)) {
+  tell_changes(source_, options.overrides);
+}
+
+void tell_changes(const scene_file::Source& source, const std::vector<std::string>& overrides) {
+  output::program().changed = scene_file::changes(source, overrides);
+}
 
 scene_file::SceneError SceneInput::placed(const configure::ConfigurationError& error) const {
   return {scene_file::Document(source_, options_.overrides).place_of(error.key()), error.key(),

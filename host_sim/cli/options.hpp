@@ -54,6 +54,10 @@ class SceneInput {
   scene_file::Source source_;
 };
 
+/// Pages and JSON files mark what `--set` changes in a scene. SceneInput does so itself.
+/// @throws scene_file::SceneError
+void tell_changes(const scene_file::Source& source, const std::vector<std::string>& overrides);
+
 /// Adds `--out DIR` to a command; an empty name is an error of usage.
 /// @param contents  what the folder will hold, and in brackets where it is by default
 void add_output_option(CLI::App& command, std::string& out, const std::string& contents);

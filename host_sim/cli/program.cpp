@@ -16,8 +16,10 @@
 #include "host_sim/cli/usage.hpp"
 #include "host_sim/emulated/image_process.hpp"
 #include "host_sim/long_work/collection.hpp"
+#include "host_sim/long_work/slurm.hpp"
 #include "host_sim/loop/run.hpp"
 #include "host_sim/output/output_folder.hpp"
+#include "host_sim/output/program.hpp"
 #include "host_sim/process/ending.hpp"
 #include "host_sim/process/pipe.hpp"
 #include "host_sim/process/printable.hpp"
@@ -25,6 +27,15 @@
 
 namespace sonoglide::cli {
 namespace {
+
+/// As a shell takes it.
+std::string command_line(int argument_count, const char* const* arguments) {
+  std::string line = "sonoglide";
+  for (int i = 1; i < argument_count; ++i) {
+    line += ' ' + long_work::shell_word(arguments[i]);
+  }
+  return line;
+}
 
 /// A full disk or a closed pipe shows only when the buffer goes out.
 void flush_output() {
@@ -45,6 +56,7 @@ void parse_and_run(int argument_count, const char* const* arguments,
     add_command(program);
   }
   require_known_words(program, argument_count, arguments);
+  output::program().command_line = command_line(argument_count, arguments);
   try {
     program.parse(argument_count, arguments);
     if (program.get_subcommands().empty()) {

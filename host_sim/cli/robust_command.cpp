@@ -113,6 +113,7 @@ void announce(const RobustOptions& options, const robust::Task& task, std::size_
 std::string run_whole(const RobustOptions& options) {
   const robust::Task task = task_of(options);
   const std::filesystem::path out = folder_of(options, task);
+  tell_changes(task.source(), task.overrides());
   tell_notes(options, task);
   announce(options, task, task.counts().samples + task.counts().search);
   return text(task,
@@ -141,6 +142,7 @@ std::string merge(const RobustOptions& options) {
   const std::filesystem::path out = merged_folder(options.cluster, options.out);
   const long_work::Collection found(options.cluster.merge);
   const robust::Task task = robust::task_of(found, program_version);
+  tell_changes(task.source(), task.overrides());
   tell_notes(options, task);
   announce(options, task, task.counts().search);
   return text(task,

@@ -69,6 +69,7 @@ void announce(const SweepOptions& options, const sweep::Plan& plan,
 std::string run_whole(const SweepOptions& options) {
   const sweep::Plan plan(scene_file::read_source(options.scene.path), options.scene.overrides,
                          options.vary);
+  tell_changes(plan.source(), plan.overrides());
   const std::filesystem::path out = output_folder(options.out, plan.first().name, "_sweep");
   announce(options, plan, plan.all());
   return text(computed(options.quiet,

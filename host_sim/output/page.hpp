@@ -1,6 +1,9 @@
 /// A report page as data: what is said and drawn, not how.
 #pragma once
 
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -37,6 +40,12 @@ struct Page {
   std::vector<std::string> warnings;  ///< shown first, set apart
   std::vector<Table> tables;
   std::vector<Section> sections;
+  /// What was run: scene_file::to_json() of the scene, of many the one that they vary. Keys that
+  /// `--set` changed are marked in it. Command and version come from program(); nothing else is to be
+  /// done for them.
+  nlohmann::ordered_json scene = nullptr;
+  std::optional<std::uint64_t> seed =
+      std::nullopt;  ///< of all random numbers, where there are some
 };
 
 /// The page as one self-contained HTML file: no network request, zoom and hover on every chart.

@@ -18,6 +18,7 @@
 #include "host_sim/report/words.hpp"
 #include "host_sim/scene/names.hpp"
 #include "host_sim/scene/solver_facts.hpp"
+#include "host_sim/scene_file/to_json.hpp"
 
 namespace sonoglide::report {
 namespace {
@@ -503,6 +504,10 @@ output::Section ending(const scene::Scene& scene, const loop::Recording& recordi
 output::Page run_page(const scene::Scene& scene, const loop::RunResult& result,
                       const RunFindings& findings) {
   output::Page page{scene.name, lead(scene, result), warnings(scene, result, findings), {}, {}};
+  page.scene = scene_file::to_json(scene);
+  if (page.scene.contains(nlohmann::ordered_json::json_pointer("/sensor/seed"))) {
+    page.seed = scene.sensor.seed;
+  }
   if (scene.controller) {
     page.tables.push_back(step_table(scene, findings));
   }

@@ -6,6 +6,7 @@
 
 #include "host_sim/configure/plant_scales.hpp"
 #include "host_sim/output/number.hpp"
+#include "host_sim/output/program.hpp"
 #include "host_sim/process/printable.hpp"
 #include "host_sim/report/run_notes.hpp"
 #include "host_sim/report/step_metrics.hpp"
@@ -201,6 +202,7 @@ ordered_json summary(const scene::Scene& scene, const loop::RunResult& result,
                      const RunFindings& findings) {
   const loop::PowerRatios window = loop::power_ratios(scene, result.window);
   ordered_json json;
+  json["program"] = output::program_json();
   json["scene"] = scene_file::to_json(scene);
   json["solver"] = {
       {"method", scene::name_of(scene.solver.method)},

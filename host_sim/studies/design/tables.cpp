@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "host_sim/output/number.hpp"
+#include "host_sim/output/program.hpp"
 #include "host_sim/scene_file/to_json.hpp"
 
 namespace sonoglide::design {
@@ -153,6 +154,7 @@ std::string detuning_csv(const DesignStudy& study) {
 
 ordered_json to_json(const DesignStudy& study) {
   ordered_json json;
+  json["program"] = output::program_json();
   json["scene"] = scene_file::to_json(study.task.scene);
   json["tuning"] = study.tuning;
   json["speed_floor_m_per_s"] = speed_floor_m_per_s(study.task.scene);

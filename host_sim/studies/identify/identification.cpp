@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "host_sim/output/number.hpp"
+#include "host_sim/output/program.hpp"
 
 namespace sonoglide::identify {
 
@@ -64,6 +65,7 @@ std::string unit_of(const std::string& name) {
 
 ordered_json to_json(const Identification& identification) {
   ordered_json json;
+  json["program"] = output::program_json();
   json["subject"] = identification.subject;
   json["model"] = identification.model;
   json["parameters"] = to_json(identification.parameters);

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "host_sim/output/number.hpp"
+#include "host_sim/output/program.hpp"
 #include "host_sim/scene_file/to_json.hpp"
 #include "host_sim/studies/robust/report.hpp"
 
@@ -179,6 +180,7 @@ ordered_json to_json(const Task& task, const Study& study) {
   const std::size_t samples = study.samples.size();
   const std::size_t failures = study.failures();
   ordered_json json;
+  json["program"] = output::program_json();
   json["scene"] = scene_file::to_json(task.nominal());
   json["seed"] = task.counts().seed;
   json["samples"] = samples;

@@ -12,7 +12,9 @@
 #include "host_sim/output/gnuplot.hpp"
 #include "host_sim/output/output_folder.hpp"
 #include "host_sim/output/page.hpp"
+#include "host_sim/output/program.hpp"
 #include "host_sim/process/ending.hpp"
+#include "host_sim/scene_file/changes.hpp"
 #include "host_sim/scene_file/to_json.hpp"
 #include "host_sim/studies/sweep/free_vibration.hpp"
 #include "host_sim/studies/sweep/report.hpp"
@@ -155,6 +157,7 @@ MergeSummary merge_shards(const fs::path& folder, const fs::path& out, const std
   const long_work::Work& work = found.work();
   const Plan plan({work.name + ".toml", work.scene}, work.overrides, work.options,
                   most_points_in_shards);
+  output::program().changed = scene_file::changes(plan.source(), plan.overrides());
   constexpr std::size_t points_per_step = 4096;
   long_work::Pace pace(progress);
   pace.begin(work.points, 0.0);

@@ -40,6 +40,30 @@ TEST_F(RunOutputTest, ASecondRunReplacesTheFirst) {
   EXPECT_EQ(echo("out/scene/summary.json").at("friction").at("coefficient"), 0.2);
 }
 
+TEST_F(RunOutputTest, SummaryAndPageSayWhatWasRun) {
+  ASSERT_EQ(folder_
+                .run("run scene.toml --quiet --set friction.coefficient=0.2 --set "
+                     "'run.record=[]' --set friction.law=dahl")
+                .exit_code,
+            0);
+  const auto program = nlohmann::json::parse(folder_.read("out/scene/summary.json")).at("program");
+  EXPECT_EQ(program.at("version"), SONOGLIDE_VERSION);
+  EXPECT_EQ(program.at("command_line"),
+            "sonoglide run scene.toml --quiet --set friction.coefficient=0.2 --set "
+            "'run.record=[]' --set friction.law=dahl");
+  EXPECT_EQ(program.at("changed"), nlohmann::json::parse(R"({
+    "friction.coefficient": {"file": 0.1, "value": 0.2},
+    "run.record": {"file": ["displacement_m"], "value": []}})"));
+  const std::string page = folder_.read("out/scene/report.html");
+  for (const char* part :
+       {"<dd><code>sonoglide run scene.toml --quiet --set friction.coefficient=0.2 ",
+        "<dd>sonoglide " SONOGLIDE_VERSION "</dd>",
+        "<tr class=\"changed\"><td>friction.coefficient</td><td>0.2</td><td>changed; in the file: "
+        "0.1</td></tr>"}) {
+    EXPECT_NE(page.find(part), std::string::npos) << part;
+  }
+}
+
 TEST_F(RunOutputTest, NothingIsRecordedUnlessTheSceneAsks) {
   const Entries unrecorded{"out",
                            "out/scene",

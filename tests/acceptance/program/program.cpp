@@ -7,6 +7,7 @@
 #include <fstream>
 #include <iterator>
 #include <stdexcept>
+#include <utility>
 
 namespace sonoglide::acceptance {
 namespace {
@@ -39,6 +40,17 @@ std::string shell_word(const std::string& text) {
     word += each == '\'' ? "'\\''" : std::string(1, each);
   }
   return word + '\'';
+}
+
+std::string without_command_line(const std::string& text) {
+  std::string rest = text;
+  for (const auto& [begin, end] :
+       {std::pair("<dt>Command</dt><dd>", "</dd>"), std::pair("\"command_line\": ", "\n")}) {
+    if (const std::size_t at = rest.find(begin); at != std::string::npos) {
+      rest.erase(at, rest.find(end, at) - at);
+    }
+  }
+  return rest;
 }
 
 ScratchFolder::ScratchFolder() : path_(make_folder()) {}

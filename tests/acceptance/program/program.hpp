@@ -19,6 +19,9 @@ std::string usage_hint(const std::string& command);
 /// Any text as one word of a shell.
 std::string shell_word(const std::string& text);
 
+/// A page or a JSON file without the command line that it came from.
+std::string without_command_line(const std::string& text);
+
 /// An empty folder of its own, gone with its owner.
 class ScratchFolder {
  public:

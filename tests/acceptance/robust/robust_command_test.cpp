@@ -153,8 +153,8 @@ TEST_F(RobustCommandTest, TheSeedSetsThePlantsAndTheThreadsNothing) {
                   .exit_code,
               0);
     return folder_.read("o/robust.csv") + folder_.read("o/search.csv") +
-           folder_.read("o/robust.json") + folder_.read("o/worst.toml") +
-           folder_.read("o/report.html");
+           without_command_line(folder_.read("o/robust.json")) + folder_.read("o/worst.toml") +
+           without_command_line(folder_.read("o/report.html"));
   };
   const std::string one = tables("--threads 1");
   EXPECT_EQ(tables("--threads 3"), one);
@@ -187,7 +187,8 @@ TEST_F(RobustCommandTest, KilledItGoesOnWithTheSameFiles) {
   EXPECT_NE(again.out.find(" of them finished before\n"), std::string::npos) << again.out;
   for (const char* file :
        {"robust.csv", "search.csv", "robust.json", "worst.toml", "report.html"}) {
-    EXPECT_EQ(folder_.read(std::string("o/") + file), folder_.read(std::string("whole/") + file))
+    EXPECT_EQ(without_command_line(folder_.read(std::string("o/") + file)),
+              without_command_line(folder_.read(std::string("whole/") + file)))
         << file;
   }
   EXPECT_EQ(folder_.read("o/robust.journal"), "");
@@ -210,7 +211,8 @@ TEST_F(RobustCommandTest, InShardsItHasTheSameFiles) {
   EXPECT_EQ(run("--merge o --quiet").exit_code, 0);
   for (const char* file :
        {"robust.csv", "search.csv", "robust.json", "worst.toml", "report.html"}) {
-    EXPECT_EQ(folder_.read(std::string("o/") + file), folder_.read(std::string("whole/") + file))
+    EXPECT_EQ(without_command_line(folder_.read(std::string("o/") + file)),
+              without_command_line(folder_.read(std::string("whole/") + file)))
         << file;
   }
   const Outcome foreign = folder_.run("sweep --merge o");

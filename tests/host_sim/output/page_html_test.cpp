@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "host_sim/output/page.hpp"
+#include "host_sim/output/program.hpp"
 #include "tests/common/constants/pi.hpp"
 
 namespace sonoglide::output::page_html_test {
@@ -208,6 +209,24 @@ TEST(PageHtml, PutsWarningsBeforeEverythingButTheTitle) {
   const std::string html = to_html(page);
   EXPECT_LT(html.find("</h1>"), html.find("Mind the gap"));
   EXPECT_LT(html.find("Mind the gap"), html.find("<table>"));
+}
+
+TEST(PageHtml, MarksTheValuesOfTheSceneThatWereChanged) {
+  program().command_line = "sonoglide run a.toml --set 'plant.mass_kg=3'";
+  program().changed = {{"plant.mass_kg", {{"file", 2}, {"value", 3}}}};
+  Page page;
+  page.scene = {{"plant", {{"mass_kg", 3}, {"name", "<b>"}}}};
+  page.seed = 7;
+  const std::string html = to_html(page);
+  program() = {};
+  for (const char* part :
+       {"<dd><code>sonoglide run a.toml --set &#39;plant.mass_kg=3&#39;</code></dd>",
+        "<dt>Version</dt><dd>sonoglide ", "<dt>Seed</dt><dd>7</dd>", "The scene, 2 values",
+        "<tr class=\"changed\"><td>plant.mass_kg</td><td>3</td><td>changed; in the file: 2</td>",
+        "<tr><td>plant.name</td><td>&quot;&lt;b&gt;&quot;</td><td></td>"}) {
+    EXPECT_EQ(count(html, part), 1U) << part;
+  }
+  EXPECT_EQ(count(to_html(Page()), "<dt>Command</dt>"), 0U);
 }
 
 TEST(PageHtml, APictureIsAnImageThatNeedsNothingElse) {
