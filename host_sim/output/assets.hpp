@@ -6,9 +6,12 @@
 namespace sonoglide::output {
 
 std::string_view page_css();
+// In this order.
+std::string_view numbers_js();
+std::string_view look_js();
+std::string_view chart_js();
+std::string_view reading_js();
+std::string_view panel_js();
 std::string_view page_js();
-std::string_view dygraphs_css();
-std::string_view dygraphs_js();
-std::string_view dygraphs_notice();
 
 }  // namespace sonoglide::output

@@ -91,10 +91,14 @@ void append_row(std::string& html, const Table& table, const std::vector<std::st
 }  // namespace
 
 void append_table(std::string& html, const Table& table) {
+  constexpr std::size_t most_rows_unfolded = 16;
+  const bool is_long = table.rows.size() > most_rows_unfolded;
+  const std::string title =
+      table.title.empty() ? std::string() : fmt::format("<h2>{}</h2>", escaped(table.title));
   html += "<section class=\"table\">\n";
-  if (!table.title.empty()) {
-    html += fmt::format("<h2>{}</h2>\n", escaped(table.title));
-  }
+  html += is_long
+              ? fmt::format("<details><summary>{} {} rows</summary>\n", title, table.rows.size())
+              : title + '\n';
   html += "<div class=\"scroll\"><table>\n";
   if (!table.header.empty()) {
     html += "<thead>";
@@ -105,7 +109,7 @@ void append_table(std::string& html, const Table& table) {
   for (const std::vector<std::string>& row : table.rows) {
     append_row(html, table, row, "td");
   }
-  html += "</tbody></table></div>\n</section>\n";
+  html += fmt::format("</tbody></table></div>\n{}</section>\n", is_long ? "</details>\n" : "");
 }
 
 }  // namespace sonoglide::output

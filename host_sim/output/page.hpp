@@ -11,7 +11,7 @@
 
 namespace sonoglide::output {
 
-/// A column of which at least half the cells are numbers is set flush right.
+/// A long one is folded. A column of which at least half the cells are numbers is set flush right.
 struct Table {
   std::string title;                ///< empty: none
   std::vector<std::string> header;  ///< empty: no heading row
@@ -29,7 +29,7 @@ struct Picture {
 struct Section {
   std::string title;
   std::string text;
-  std::vector<Chart> charts;
+  std::vector<Chart> charts;  ///< first, whatever else there is
   std::vector<Picture> pictures = {};
   std::vector<Table> tables = {};
 };
@@ -44,15 +44,15 @@ struct Page {
   /// `--set` changed are marked in it. Command and version come from program(); nothing else is to be
   /// done for them.
   nlohmann::ordered_json scene = nullptr;
-  std::optional<std::uint64_t> seed =
-      std::nullopt;  ///< of all random numbers, where there are some
+  /// Of all random numbers, where there are some.
+  std::optional<std::uint64_t> seed = std::nullopt;
 };
 
 /// The page as one self-contained HTML file: no network request, zoom and hover on every chart.
 ///
 /// Ordinates are written with 7 significant digits, abscissae with as many as resolve 1e-7 of their
 /// span. Once drawn, <body> carries data-panels (charts that have something to draw) and data-drawn
-/// (charts whose canvas shows it), and each chart's <figure> its Dygraph as the property `chart`.
+/// (charts that show it), and each chart's <figure> its Chart (page/chart.js) as the property `chart`.
 /// @throws std::invalid_argument if a chart's x decreases, an x is not finite, a curve has not one
 /// value for each, or a table row not one cell for each heading.
 std::string to_html(const Page& page);

@@ -17,12 +17,6 @@ constexpr std::string_view kContentSecurityPolicy =
     "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data:; "
     "base-uri 'none'; form-action 'none'";
 
-/// Drops the comment at the end of a minified file that sends developer tools for a source map.
-std::string_view without_source_map(std::string_view text) {
-  const std::size_t marker = text.rfind("# sourceMappingURL=");
-  return marker == std::string_view::npos ? text : text.substr(0, marker - 2);
-}
-
 void check(const Chart& chart) {
   const auto finite = [](const std::vector<double>& x) {
     return std::all_of(x.begin(), x.end(), [](double each) { return std::isfinite(each); });
@@ -91,14 +85,14 @@ void append_sections(std::string& html, const std::vector<Section>& sections) {
   for (const Section& section : sections) {
     html += fmt::format("<section class=\"charts\">\n<h2>{}</h2>\n", escaped(section.title));
     append_paragraph(html, "text", section.text);
-    for (const Table& table : section.tables) {
-      append_table(html, table);
-    }
     for (const Chart& chart : section.charts) {
       append_chart(html, chart);
     }
     for (const Picture& picture : section.pictures) {
       append_picture(html, picture);
+    }
+    for (const Table& table : section.tables) {
+      append_table(html, table);
     }
     html += "</section>\n";
   }
@@ -106,8 +100,10 @@ void append_sections(std::string& html, const std::vector<Section>& sections) {
 
 void append_hint(std::string& html) {
   html +=
-      "<p class=\"hint\">Drag across a chart to zoom, shift-drag to pan, double-click to reset; "
-      "hover to read values.</p>\n"
+      "<p class=\"hint\" id=\"chart-keys\">Mouse: drag across a chart to zoom, shift-drag to pan, "
+      "double-click to reset, hover to read values. Touch: two fingers zoom, a tap reads, one finger "
+      "scrolls the page. Keyboard: Tab to a chart, then \u2190 \u2192 read values, + \u2212 zoom, "
+      "Shift with an arrow pans, 0 or Escape resets.</p>\n"
       "<noscript><p class=\"empty\">The charts need JavaScript.</p></noscript>\n";
 }
 
@@ -119,13 +115,16 @@ void append_head(std::string& html, const Page& page) {
       "<meta name=\"color-scheme\" content=\"light dark\">\n"
       "<link rel=\"icon\" href=\"data:,\">\n<title>{}</title>\n",
       kContentSecurityPolicy, escaped(page.title));
-  html += fmt::format("<style>\n{}\n</style>\n<style>\n{}</style>\n</head>\n",
-                      without_source_map(dygraphs_css()), page_css());
+  html += fmt::format("<style>\n{}</style>\n</head>\n", page_css());
 }
 
 void append_scripts(std::string& html) {
-  html += fmt::format("<script>\n{}\n</script>\n<script>\n{}</script>\n",
-                      without_source_map(dygraphs_js()), page_js());
+  html += "<script>\n";
+  for (const std::string_view script :
+       {numbers_js(), look_js(), chart_js(), reading_js(), panel_js(), page_js()}) {
+    html += script;
+  }
+  html += "</script>\n";
 }
 
 bool has_charts(const Page& page) {
@@ -158,10 +157,7 @@ std::string to_html(const Page& page) {
     append_hint(html);
   }
   append_sections(html, page.sections);
-  html += fmt::format(
-      "</main>\n<footer><details><summary>Charts drawn by dygraphs (MIT licence)</summary>\n"
-      "<pre>{}</pre></details></footer>\n",
-      escaped(dygraphs_notice()));
+  html += "</main>\n";
   append_scripts(html);
   html += "</body>\n</html>\n";
   return html;

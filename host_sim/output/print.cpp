@@ -21,10 +21,14 @@ const std::vector<double>& abscissae(const Chart& chart, const Curve& curve) {
 }
 
 std::string style(const Curve& curve) {
-  const Pen& pen = curve.pen;
+  Pen pen = curve.pen;
+  pen.colour = pen.colour.empty() ? "#000000" : pen.colour;
   if (curve.line == Line::area) {
     return fmt::format("filledcurves closed fs transparent solid 0.3 noborder lc rgb '{}'",
                        pen.colour);
+  }
+  if (curve.line == Line::band) {
+    return fmt::format("filledcurves fs transparent solid 0.2 noborder lc rgb '{}'", pen.colour);
   }
   if (curve.line == Line::bar) {
     return fmt::format("histograms lc rgb '{}'", pen.colour);
@@ -98,9 +102,14 @@ std::string commands(const Axis& axis, char letter, const std::vector<double>& v
   std::string text = label(letter + std::string("label"), axis.label, axis.verbatim) +
                      fmt::format("{1}set logscale {0}\nset format {0} '{2}'\n", letter,
                                  axis.logarithmic ? "" : "un", axis.format);
-  if (!axis.ticks.empty()) {
+  std::string ticks;
+  for (const Tick& each : axis.ticks) {
+    ticks += fmt::format("{}{} {}", ticks.empty() ? "" : ", ", quoted(std::string_view(each.name)),
+                         each.at);
+  }
+  if (!ticks.empty()) {
     text += fmt::format("set {}tics {} ({})\n", letter, axis.verbatim ? "noenhanced" : "enhanced",
-                        axis.ticks);
+                        ticks);
   }
   const auto [low, high] = axis.span;
   return text + (std::isnan(low) && std::isnan(high)

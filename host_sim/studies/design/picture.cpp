@@ -131,8 +131,7 @@ std::string draw_sensitivities(const DesignStudy& study) {
   const std::vector<DesignPoint> points = fastest_points(study);
   output::Chart chart{"", "", {}, {"change of the ratio in %, for 1 % of the parameter"}, {}, {}};
   for (const Sensitivity& each : points.front().sensitivities) {
-    chart.x_axis.ticks += fmt::format("{}\"{}\" {}", chart.x.empty() ? "" : ", ",
-                                      each.parameter.symbol, chart.x.size());
+    chart.x_axis.ticks.push_back({static_cast<double>(chart.x.size()), each.parameter.symbol});
     chart.x.push_back(static_cast<double>(chart.x.size()));
   }
   for (std::size_t i = 0; i < points.size(); ++i) {

@@ -62,8 +62,7 @@ output::Axis drawn(const Axis& axis) {
   drawn.verbatim = true;
   if (axis.categorical()) {
     for (std::size_t index = 0; index < axis.count; ++index) {
-      drawn.ticks += fmt::format("{}{} {}", index == 0 ? "" : ", ",
-                                 output::quoted(axis.text(index)), axis.position(index));
+      drawn.ticks.push_back({axis.position(index), axis.text(index)});
     }
     drawn.span = {0.5, static_cast<double>(axis.count) + 0.5};
   } else if (axis.logarithmic && axis.from > 0.0) {

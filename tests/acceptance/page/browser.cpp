@@ -85,7 +85,7 @@ std::vector<std::string> requests_in(const fs::path& net_log) {
 
 }  // namespace
 
-Visit load(const fs::path& html, const std::string& script) {
+Visit load(const fs::path& html, const std::string& script, const Screen& screen) {
   const ScratchFolder scratch;
   fs::path page = fs::absolute(html);
   if (!script.empty()) {
@@ -97,7 +97,9 @@ Visit load(const fs::path& html, const std::string& script) {
   const fs::path net_log = scratch.path() / "net_log.json";
   run({"timeout", "120", SONOGLIDE_CHROMIUM, "--headless", "--no-sandbox", "--disable-gpu",
        "--disable-quic", "--no-first-run", "--disable-background-networking",
-       "--disable-component-update", "--disable-sync", "--window-size=1400,1000",
+       "--disable-component-update", "--disable-sync",
+       "--window-size=" + std::to_string(screen.width_px) + ",1000",
+       std::string("--blink-settings=preferredColorScheme=") + (screen.dark ? "0" : "1"),
        "--user-data-dir=" + (scratch.path() / "profile").string(), "--virtual-time-budget=5000",
        "--log-net-log=" + net_log.string(), "--dump-dom", "file://" + page.string()},
       dom);

@@ -17,9 +17,10 @@ constexpr int kPanels = 7;
 
 class PageInBrowser : public ::testing::Test {
  protected:
-  browser::Visit visit(const std::string& html, const std::string& script = "") {
+  browser::Visit visit(const std::string& html, const std::string& script = "",
+                       const browser::Screen& screen = {}) {
     std::ofstream(file_, std::ios::binary) << html;
-    return browser::load(file_, script);
+    return browser::load(file_, script, screen);
   }
 
   void TearDown() override { std::filesystem::remove(file_); }
@@ -58,7 +59,7 @@ TEST_F(PageInBrowser, ShowsSiPrefixesThatFollowTheZoom) {
         (f) => f.querySelector('h3').textContent === 'Displacement');
     const name = (axis) => figure.querySelector('.axis-name.' + axis).textContent;
     document.body.dataset.before = name('x') + ', ' + name('y');
-    figure.chart.updateOptions({valueRange: [-5e-10, 5e-10]});
+    Panel.all.find((p) => p.figure === figure).show({x: figure.chart.shown.x, y: [-5e-10, 5e-10]});
     document.body.dataset.after = name('x') + ', ' + name('y');
   )js");
   EXPECT_EQ(browser::body_attribute(seen.dom, "data-before"), "Time [ms], Displacement [nm]");
@@ -69,38 +70,59 @@ TEST_F(PageInBrowser, DrawsEverySeriesOfTheLoopAcrossItsGaps) {
   const browser::Visit seen = visit(output::to_html(report::sample_page()), R"js(
     const figure = [...document.querySelectorAll('figure.panel')].find(
         (f) => f.querySelector('h3').textContent === 'Friction against displacement');
-    const canvas = figure.querySelector('canvas');
-    const pixels = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height).data;
-    const columnsOf = (swatch) => {
-      const [r, g, b] = getComputedStyle(swatch).borderTopColor.match(/[0-9]+/g).map(Number);
-      const columns = new Set();
-      for (let i = 0; i < pixels.length; i += 4) {
-        if (pixels[i + 3] > 64 && Math.abs(pixels[i] - r) < 24 &&
-            Math.abs(pixels[i + 1] - g) < 24 && Math.abs(pixels[i + 2] - b) < 24) {
-          columns.add((i / 4) % canvas.width);
-        }
-      }
-      return columns.size / (figure.chart.getArea().w * canvas.width / figure.chart.width_);
-    };
-    const shares = [...figure.querySelectorAll('.swatch')].map(columnsOf);
-    document.body.dataset.least = String(Math.round(100 * Math.min(...shares)));
+    const lines = [...figure.querySelectorAll('.data .line')];
+    const share = (line) => line.getBBox().width / figure.chart.area.width;
+    document.body.dataset.least = String(Math.round(100 * Math.min(...lines.map(share))));
+    document.body.dataset.pieces = lines.map((l) => l.getAttribute('d').split('M').length - 1).join();
   )js");
-  EXPECT_GE(count(seen, "data-least"), 95);  // percent of the columns of the plot
+  EXPECT_GE(count(seen, "data-least"), 95);  // percent of the width of the plot
+  EXPECT_EQ(browser::body_attribute(seen.dom, "data-pieces"), "1,1");
 }
 
-TEST_F(PageInBrowser, LaysChartsOutForTheSheetWhilePrinting) {
-  const browser::Visit seen = visit(output::to_html(report::sample_page()), R"js(
-    const widest = () => String(Math.max(
-        ...[...document.querySelectorAll('.chart canvas')].map((c) => c.clientWidth)));
-    document.body.dataset.screen = widest();
-    window.dispatchEvent(new Event('beforeprint'));
-    document.body.dataset.sheet = widest();
-    window.dispatchEvent(new Event('afterprint'));
-    document.body.dataset.again = widest();
-  )js");
-  EXPECT_EQ(count(seen, "data-screen"), 1024);
-  EXPECT_EQ(count(seen, "data-sheet"), 680);
-  EXPECT_EQ(count(seen, "data-again"), 1024);
+TEST_F(PageInBrowser, IsUsedByTouch) {
+  const browser::Visit seen = visit(output::to_html(report::sample_page()), browser::touch_script);
+  for (const char* use : {"data-scrolled", "data-pinched", "data-reset"}) {
+    EXPECT_EQ(count(seen, use), kPanels) << use;
+  }
+}
+
+TEST_F(PageInBrowser, IsUsedByKeyboard) {
+  const browser::Visit seen =
+      visit(output::to_html(report::sample_page()), browser::keyboard_script);
+  for (const char* use :
+       {"data-focused", "data-named", "data-read", "data-zoomed", "data-panned", "data-reset"}) {
+    EXPECT_EQ(count(seen, use), kPanels) << use;
+  }
+}
+
+TEST_F(PageInBrowser, EveryColourStandsOutFromThePaperInBothModes) {
+  for (const bool dark : {false, true}) {
+    const browser::Visit seen =
+        visit(output::to_html(report::sample_page()), browser::contrast_script, {dark});
+    EXPECT_EQ(browser::body_attribute(seen.dom, "data-dark"), dark ? "true" : "false");
+    EXPECT_GE(count(seen, "data-curves"), 30) << "tenths; WCAG 2.1 asks 3:1 of graphics";
+    EXPECT_GE(count(seen, "data-texts"), 45) << "tenths; WCAG 2.1 asks 4.5:1 of texts";
+  }
+}
+
+TEST_F(PageInBrowser, IsReadAt400Pixels) {
+  output::Page page = report::sample_page();
+  page.tables.push_back({"Wide", {}, {std::vector<std::string>(12, "123456.789")}});
+  const browser::Visit seen = visit(output::to_html(page), R"js(
+    document.body.dataset.hidden = document.documentElement.scrollWidth - window.innerWidth;
+    const texts = [...document.querySelectorAll('.plot text')];
+    const size = (text) => parseFloat(getComputedStyle(text).fontSize) *
+        text.ownerSVGElement.clientWidth / text.ownerSVGElement.viewBox.baseVal.width;
+    document.body.dataset.letters = String(Math.floor(Math.min(...texts.map(size))));
+    const marked = [...document.querySelectorAll('.scroll')].filter(
+        (box) => box.scrollWidth > box.clientWidth);
+    document.body.dataset.scrolled =
+        String(marked.length > 0 && marked.every((box) => box.matches('.more-right[tabindex]')));
+  )js",
+                                    {false, 400});
+  EXPECT_EQ(count(seen, "data-hidden"), 0);
+  EXPECT_GE(count(seen, "data-letters"), 12);
+  EXPECT_EQ(browser::body_attribute(seen.dom, "data-scrolled"), "true");
 }
 
 TEST_F(PageInBrowser, SaysWhereNothingCanBeDrawn) {
@@ -118,8 +140,7 @@ TEST_F(PageInBrowser, SaysWhereNothingCanBeDrawn) {
 
 TEST_F(PageInBrowser, NoticesChartsThatWereNotPainted) {
   std::string html = output::to_html(report::sample_page());
-  html.insert(html.find("<main>"),
-              "<script>CanvasRenderingContext2D.prototype.stroke = () => {};</script>");
+  html.insert(html.find("<main>"), "<style>.plot .data { display: none; }</style>");
   const browser::Visit seen = visit(html);
   EXPECT_EQ(count(seen, "data-panels"), kPanels);
   EXPECT_EQ(count(seen, "data-drawn"), 0);
