@@ -92,7 +92,7 @@ void append_row(std::string& html, const Table& table, const std::vector<std::st
 
 void append_table(std::string& html, const Table& table) {
   constexpr std::size_t most_rows_unfolded = 16;
-  const bool is_long = table.rows.size() > most_rows_unfolded;
+  const bool is_long = table.folded || table.rows.size() > most_rows_unfolded;
   const std::string title =
       table.title.empty() ? std::string() : fmt::format("<h2>{}</h2>", escaped(table.title));
   html += "<section class=\"table\">\n";

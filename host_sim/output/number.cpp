@@ -27,6 +27,12 @@ std::string csv_cell(std::string_view text) {
   return cell + '"';
 }
 
+std::string plain_zero(std::string number) {
+  const bool is_signed_zero = !number.empty() && (number[0] == '-' || number[0] == '+') &&
+                              number.find_first_not_of("+-0.") == std::string::npos;
+  return is_signed_zero ? "0" : number;
+}
+
 std::string quantity(double value, std::string_view unit, int digits) {
   if (!std::isfinite(value) || value == 0.0) {
     return std::isfinite(value) ? fmt::format("0 {}", unit) : std::string("-");

@@ -38,10 +38,14 @@ inline nlohmann::ordered_json json_number(const std::optional<double>& value) {
   return value ? json_number(*value) : nlohmann::ordered_json(nullptr);
 }
 
+/// The text of a number, without sign and digits where it is 0 to its last digit: `0` for `-0.000`.
+std::string plain_zero(std::string number);
+
 /// A figure for a person; `-` where it is not finite.
 /// @param format  of fmt
 inline std::string formatted(double value, const char* format) {
-  return std::isfinite(value) ? fmt::format(fmt::runtime(format), value) : std::string("-");
+  return std::isfinite(value) ? plain_zero(fmt::format(fmt::runtime(format), value))
+                              : std::string("-");
 }
 
 /// A figure with the prefix that suits, from femto to tera: `526.3 N`, `26.72 mm/s`; `-` where it is

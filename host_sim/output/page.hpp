@@ -16,6 +16,7 @@ struct Table {
   std::string title;                ///< empty: none
   std::vector<std::string> header;  ///< empty: no heading row
   std::vector<std::vector<std::string>> rows;
+  bool folded = false;  ///< though it is short
 };
 
 /// A finished picture, shown as it is.

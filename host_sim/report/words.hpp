@@ -9,6 +9,7 @@
 
 #include "firmware/control/interface/drive_command.hpp"
 #include "host_sim/loop/run_result.hpp"
+#include "host_sim/output/number.hpp"
 #include "host_sim/output/page.hpp"
 #include "host_sim/report/step_metrics.hpp"
 #include "host_sim/scene/scene.hpp"
@@ -17,7 +18,7 @@ namespace sonoglide::report {
 
 /// "-" for a figure that is not defined.
 inline std::string figure(fmt::format_string<const double&> format, double value) {
-  return std::isnan(value) ? "-" : fmt::format(format, value);
+  return std::isnan(value) ? "-" : output::plain_zero(fmt::format(format, value));
 }
 
 /// A message as a cell of a table: control characters, which would break its line, are blanks.

@@ -1,0 +1,44 @@
+/// The parts of a run's page, each told in a file of its own.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "host_sim/loop/run.hpp"
+#include "host_sim/output/page.hpp"
+#include "host_sim/report/run_findings.hpp"
+#include "host_sim/scene/scene.hpp"
+
+namespace sonoglide::report {
+
+/// What the reader has to know before the figures: first of each target step that never settles.
+std::vector<std::string> run_warnings(const scene::Scene& scene, const loop::RunResult& result,
+                                      const RunFindings& findings);
+
+output::Table step_table(const scene::Scene& scene, const RunFindings& findings);
+output::Table vibration_table(const RunFindings& findings);
+output::Table run_table(const scene::Scene& scene, const loop::RunResult& result);
+output::Table electrical_table(const loop::ElectricalBalance& balance);
+output::Table signal_table(const loop::ControlRecord& control);
+/// What the page's words mean.
+output::Table symbol_table(const scene::Scene& scene);
+
+/// Of what is wanted, and of limits: letters' colour and dashes, beside what is reached.
+inline const output::Pen target_pen{"#000000", 2.0, 2};
+
+/// Over the time of the whole run, which all such charts show together.
+output::Chart course_chart(const char* title, const char* note, const std::string& label,
+                           const std::vector<double>& time, std::vector<output::Curve> curves);
+/// A line at a value.
+output::Curve level(const char* label, const std::vector<double>& x, double value);
+output::Section course_section(const scene::Scene& scene, const Course::Curve& curve);
+output::Section vibration_section(const scene::Scene& scene, const VibrationCourse& course);
+
+/// @param index  of the target step; in open loop 0, the beginning
+output::Section close_up_section(const scene::Scene& scene, const loop::Recording& recording,
+                                 std::size_t index);
+/// The cycle of the contact and the spectrum.
+output::Section ending_section(const scene::Scene& scene, const loop::Recording& recording);
+
+}  // namespace sonoglide::report

@@ -1,0 +1,153 @@
+#include "host_sim/report/run_parts.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+
+#include "host_sim/report/run_notes.hpp"
+#include "host_sim/report/words.hpp"
+#include "host_sim/scene/names.hpp"
+
+namespace sonoglide::report {
+namespace {
+
+std::string percent(double part) {
+  return fmt::format("{:.3g} %", 100.0 * part);
+}
+
+/// Of the limits that no other warning speaks of.
+void append_limits(const Course& course, std::vector<std::string>& warnings) {
+  using control::Limit;
+  for (const Limit limit : {Limit::slew, Limit::ratio_end, Limit::mismatch, Limit::not_settling,
+                            Limit::bad_sample, Limit::frequency_range}) {
+    if (const std::uint64_t periods = course.periods_in(limit); periods > 0) {
+      warnings.push_back(fmt::format("The limit {} was named in {} carrier {}.", limit_name(limit),
+                                     periods, periods == 1 ? "period" : "periods"));
+    }
+  }
+}
+
+void append_drive_limit(const scene::Scene& scene, const loop::ControlRecord& control,
+                        std::vector<std::string>& warnings) {
+  if (control.saturated_commands == 0) {
+    return;
+  }
+  const AmplitudeUnit unit = amplitude_unit(scene);
+  const std::string part = percent(static_cast<double>(control.saturated_commands) /
+                                   static_cast<double>(control.commands));
+  const double most = scene.max_drive_force_N() * unit.per_N;
+  if (control.design.resonance() == nullptr) {
+    warnings.push_back(
+        fmt::format("The actuator's range of 0 to {:.6g} {} limited the drive in {} of the control "
+                    "steps.",
+                    most, unit.name, part));
+    return;
+  }
+  const auto& current_A = scene.drive->max_current_amplitude_A;
+  warnings.push_back(
+      fmt::format("The amplifier's {:.6g} V{} limited the drive in {} of the control steps. In a "
+                  "large change of "
+                  "the vibration this is meant to be.",
+                  most, current_A ? fmt::format(" or {:.6g} A", *current_A) : "", part));
+}
+
+/// Of each step that never settles, whoever found it out.
+void append_unsettled(const scene::Scene& scene, const RunFindings& findings,
+                      std::vector<std::string>& warnings) {
+  constexpr std::size_t most_told = 12;
+  std::size_t unsettled = 0;
+  for (const StepMetrics& step : findings.steps()) {
+    if (step.settling_time_s || ++unsettled > most_told) {
+      continue;
+    }
+    warnings.push_back(fmt::format(
+        "The step to {:.3g} at {:.6g} ms never settles: the friction ratio does not stay within "
+        "{:.3g} of the target{}. Limit: {}.",
+        step.target, step.time_s * 1e3, scene.run.settling_band,
+        std::isnan(step.steady_error)
+            ? ""
+            : fmt::format(" (mean of the last quarter {:.4g})", step.target + step.steady_error),
+        limit_text(step)));
+  }
+  if (unsettled > most_told) {
+    warnings.push_back(
+        fmt::format("{} more steps never settle: see the table.", unsettled - most_told));
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> run_warnings(const scene::Scene& scene, const loop::RunResult& result,
+                                      const RunFindings& findings) {
+  std::vector<std::string> all;
+  if (scene.friction.sign_convention == scene::SignConvention::as_printed) {
+    all.emplace_back(
+        "Sign convention as printed in the paper (V = Vt - x'): friction pumps energy into the "
+        "vibration. The dissipative convention is V = Vt + x'.");
+  }
+  for (std::string& note : run_notes(scene, result)) {
+    all.push_back(std::move(note));
+  }
+  if (!result.control) {
+    return all;
+  }
+  append_unsettled(scene, findings, all);
+  if (!scene.tolerances.empty()) {
+    all.emplace_back(
+        "This is one plant: [tolerance] varies nothing here. The command robust runs the loop over "
+        "the plants that it allows.");
+  }
+  const bool cosine = scene.drive->waveform == scene::Waveform::cosine;
+  if (!scene::has_own_map(scene.friction.law) || !cosine) {
+    all.push_back(fmt::format(
+        "The feedforward's map is that of a {} contact under a cosine; what "
+        "{} changes is left to feedback.",
+        scene::friction_map(scene.friction.law) == scene::FrictionMap::dahl ? "Dahl" : "Coulomb",
+        cosine ? "the law" : "the waveform"));
+  }
+  for (const loop::FaultEvent& event : result.control->faults) {
+    all.push_back(fmt::format("Fault at {:.6g} ms: {}. The drive is off from there on.",
+                              event.time_s * 1e3, fault_name(event.fault)));
+  }
+  append_drive_limit(scene, *result.control, all);
+  if (!scene.sensor.force) {
+    all.emplace_back(
+        "There is no force sensor: the friction ratio rests on the friction that the controller "
+        "believes. It is as wrong as that is, and the controller does not see it.");
+  }
+  append_limits(findings.course(), all);
+  for (std::string& note : configure::design_notes(result.control->design)) {
+    all.push_back(std::move(note));
+  }
+  if (result.control->design.relearns) {
+    const report::PauseMetrics pauses = findings.pauses();
+    all.push_back(
+        fmt::format("The drive paused {} times to learn the friction force anew: {} of the time. "
+                    "The pauses raise "
+                    "the mean friction ratio by {:.3g}; the table of target steps leaves them out.",
+                    pauses.pauses, percent(pauses.time_fraction), pauses.ratio_cost));
+  }
+  if (scene.controller->target_friction_ratio.size() > findings.close_ups().size()) {
+    all.push_back(fmt::format("Close-ups are shown of the first {} target steps.",
+                              findings.close_ups().size()));
+  }
+  if (findings.course().periods_in(control::Limit::speed_floor) > 0) {
+    const configure::ControlDesign& design = result.control->design;
+    all.push_back(
+        fmt::format("The drive was held while sliding was slower than {:.3g} mm/s, where "
+                    "the friction ratio is undefined.",
+                    1e3 * design.speed_floor * design.scales.velocity_m_per_s));
+  }
+  if (findings.course().periods_in(control::Limit::velocity_at_rail) > 0) {
+    all.push_back(fmt::format(
+        "The drive was held, and then taken to zero, while the velocity sensor stood at the end of "
+        "its range, {:.3g} m/s. No vibration of this drive is faster.",
+        result.control->design.scales.velocity_m_per_s));
+  }
+  return all;
+}
+
+}  // namespace sonoglide::report
