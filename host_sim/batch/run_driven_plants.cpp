@@ -1,4 +1,4 @@
-#include "host_sim/batch/run_driven_plants.hpp"
+#include "host_sim/batch/run_dahl_plants.hpp"
 
 #include "firmware/numeric/turn.hpp"
 #include "host_sim/batch/lane_queue.hpp"

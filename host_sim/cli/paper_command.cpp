@@ -12,7 +12,6 @@
 #include "host_sim/output/gnuplot.hpp"
 #include "host_sim/process/printable.hpp"
 #include "host_sim/studies/paper/figures.hpp"
-#include "host_sim/studies/paper/paper.hpp"
 
 namespace sonoglide::cli {
 namespace {

@@ -5,7 +5,7 @@
 #include <optional>
 #include <utility>
 
-#include "host_sim/batch/run_driven_plants.hpp"
+#include "host_sim/batch/run_dahl_plants.hpp"
 #include "host_sim/configure/plant_scales.hpp"
 #include "host_sim/loop/carrier_grid.hpp"
 #include "host_sim/loop/control_port.hpp"

@@ -1,4 +1,4 @@
-#include "host_sim/studies/paper/measurements.hpp"
+#include "host_sim/studies/paper/experiments.hpp"
 
 #include <fmt/format.h>
 
@@ -11,7 +11,6 @@
 #include "firmware/friction/dahl_friction_ratio.hpp"
 #include "firmware/friction/normal_vibration_ratio.hpp"
 #include "host_sim/output/number.hpp"
-#include "host_sim/studies/paper/experiments.hpp"
 
 namespace sonoglide::paper {
 namespace {

@@ -1,11 +1,10 @@
-#include "host_sim/studies/paper/paper.hpp"
+#include "host_sim/studies/paper/figures.hpp"
 
 #include <fmt/format.h>
 
 #include <vector>
 
 #include "host_sim/output/output_folder.hpp"
-#include "host_sim/studies/paper/figures.hpp"
 #include "host_sim/studies/paper/runs.hpp"
 
 namespace sonoglide::paper {

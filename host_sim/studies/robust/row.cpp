@@ -1,4 +1,4 @@
-#include "host_sim/studies/robust/row.hpp"
+#include "host_sim/studies/robust/study.hpp"
 
 #include <cmath>
 

@@ -22,7 +22,6 @@
 #include "host_sim/scene/scene.hpp"
 #include "host_sim/scene/solver_methods.hpp"
 #include "host_sim/studies/stability/settings.hpp"
-#include "host_sim/studies/stability/witness.hpp"
 
 namespace sonoglide::stability {
 namespace {

@@ -1,4 +1,4 @@
-#include "host_sim/batch/run_driven_plants.hpp"
+#include "host_sim/batch/run_dahl_plants.hpp"
 
 #include <gtest/gtest.h>
 

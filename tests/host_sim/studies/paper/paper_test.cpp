@@ -16,7 +16,6 @@
 #include "host_sim/studies/paper/contact_laws.hpp"
 #include "host_sim/studies/paper/experiments.hpp"
 #include "host_sim/studies/paper/figures.hpp"
-#include "host_sim/studies/paper/measurements.hpp"
 #include "host_sim/studies/paper/runs.hpp"
 #include "tests/common/constants/pi.hpp"
 #include "tests/common/csv/csv.hpp"

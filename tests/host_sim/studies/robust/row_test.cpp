@@ -1,4 +1,4 @@
-#include "host_sim/studies/robust/row.hpp"
+#include "host_sim/studies/robust/study.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>

@@ -1,6 +1,6 @@
 /// The witness sees what is wrong with a step, and nothing where nothing is.
 
-#include "host_sim/studies/stability/witness.hpp"
+#include "host_sim/studies/stability/trial.hpp"
 
 #include <gtest/gtest.h>
 
