@@ -32,7 +32,7 @@ namespace sonoglide::friction {
 /// Not modelled: stick that does not creep, a delta that fades with the speed, a normal force that
 /// varies, friction lag apart from that of the bristles.
 /// What the members mean is listed in friction/law.hpp.
-/// Source: Canudas de Wit 1995, section II, p. 420 (README.md).
+/// Source: Canudas de Wit 1995, section II (README.md).
 template <class Number>
 struct LuGre {
   using Scalar = Number;

@@ -28,7 +28,7 @@ namespace sonoglide::plant {
 /// An interval of one carrier period is one panel. Its motion without friction is a sum of known
 /// motions, and a table shows the reversals of that sum. Between two reversals friction is exact in
 /// the displacement, and acts on the motion by variation of constants at `Nodes` nodes (Hairer
-/// 1993, I.11, p. 66). The Taylor method takes the interval from beginning to end if it has another
+/// 1993, I.11). The Taylor method takes the interval from beginning to end if it has another
 /// length, if friction is not weak, if a reversal is not certain, if the motion is lost in the
 /// rounding of the displacement, or if the error seems to exceed the tolerance. |phi| <= 1 always.
 ///

@@ -17,7 +17,7 @@
 namespace sonoglide::plant {
 
 /// Fixed steps, each cut where the sliding velocity reverses, so that the fourth order is kept
-/// (tableau: rk4_formula.hpp; location of events: Hairer 1993, II.6, p. 195, ../README.md).
+/// (tableau: rk4_formula.hpp; location of events: Hairer 1993, II.6, ../README.md).
 ///
 ///     V  \___
 ///            \__

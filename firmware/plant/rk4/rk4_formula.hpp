@@ -54,7 +54,7 @@ struct Rk4Drive {
 ///       ----+-------------------
 ///           | 1/6  1/3  1/3  1/6
 ///
-/// Source: Hairer 1993, II.1, Table 1.2, p. 138 (../README.md).
+/// Source: Hairer 1993, II.1, Table 1.2 (../README.md).
 template <class Scalar, class StateType = State<Scalar>>
 struct Rk4Stages {
   std::array<Rk4Stage<Scalar, StateType>, 4> inside;

@@ -20,7 +20,7 @@ struct Rk4Stage {
 };
 
 /// The step's integrals are those that the method gives for additional states. Between the ends the
-/// state is the cubic that has their values and slopes (Hairer 1993, II.6, p. 190). |phi| is cut off at 1,
+/// state is the cubic that has their values and slopes (Hairer 1993, II.6). |phi| is cut off at 1,
 /// unless the law depends on the speed.
 template <class Model>
 class Rk4Step {

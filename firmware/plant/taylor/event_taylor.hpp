@@ -41,7 +41,7 @@ namespace sonoglide::plant {
 /// The quickest order is 8 at tolerances above 1e-5, 12 down to 1e-8, 16 below, and 20 from 1e-11
 /// on; float needs no more than 8. A contact that sticks for ever costs as much as its ringing,
 /// which grows as sqrt(beta kappa).
-/// Source: Jorba 2005 (step size from the last two terms), Moore 1966 and Hairer 1993, I.8, p. 47
+/// Source: Jorba 2005 (step size from the last two terms), Moore 1966 and Hairer 1993, I.8
 /// (recurrences of the coefficients), see ../README.md.
 template <class ModelType, std::size_t Order>
 class EventTaylor {
