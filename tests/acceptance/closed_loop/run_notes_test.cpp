@@ -61,6 +61,36 @@ TEST(RunNotesTest, AnOpenContactIsALimitInClosedLoop) {
   EXPECT_NE(told.summary["control"]["notes"].dump().find("opens the contact"), std::string::npos);
 }
 
+/// How often a part is in a text.
+int count(const std::string& text, const std::string& part) {
+  int found = 0;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) {
+    ++found;
+  }
+  return found;
+}
+
+TEST(RunNotesTest, EachStepThatNeverSettlesIsToldOnThePage) {
+  // 500 N are enough for 0.6 (437.7 N), not for 0.4 and 0.5.
+  const Told short_of_force = run("target_step", "--set drive.max_force_amplitude_N=500");
+  EXPECT_EQ(count(short_of_force.page,
+                  "never settles: the friction ratio does not stay within "
+                  "0.01 of the target"),
+            2);
+  EXPECT_NE(short_of_force.page.find("The step to 0.4 at 0 ms never settles"), std::string::npos);
+  EXPECT_NE(short_of_force.page.find("The step to 0.5 at 4 ms never settles"), std::string::npos);
+  EXPECT_NE(short_of_force.page.find("Limit: actuator."), std::string::npos);
+  EXPECT_EQ(count(short_of_force.page, R"("line":"band")"), 1);
+  // The sensor reads a tenth too much: only the simulation sees it.
+  const Told blind = run("target_step",
+                         "--set sensor.force_gain=1.1 --set "
+                         "'controller.target_friction_ratio=[[0.0, 0.5]]'");
+  EXPECT_TRUE(blind.summary["control"]["steps"][0]["settling_time_s"].is_null());
+  EXPECT_EQ(count(blind.page, "The step to 0.5 at 0 ms never settles"), 1);
+  EXPECT_NE(blind.page.find("not detected by the controller."), std::string::npos);
+  EXPECT_EQ(count(run("target_step", "").page, "never settles"), 0);
+}
+
 // Noise and a stiffness that is 4 % off: the controller computes too small a current.
 TEST(RunNotesTest, ATrueCurrentAboveItsLimitIsToldAndNamed) {
   const Told told =

@@ -46,5 +46,13 @@ TEST(CsvCellTest, IsOneLine) {
   EXPECT_EQ(csv_cell("a\nb\r"), "a\\x0ab\\x0d");
 }
 
+TEST(NumberTest, ZeroHasNoSign) {
+  EXPECT_EQ(formatted(-1e-9, "{:+.5f}"), "0");
+  EXPECT_EQ(formatted(1e-9, "{:+.5f}"), "0");
+  EXPECT_EQ(formatted(0.0, "{:.5f}"), "0.00000");
+  EXPECT_EQ(formatted(-1e-5, "{:+.5f}"), "-0.00001");
+  EXPECT_EQ(formatted(-1e-9, "{:.1e}"), "-1.0e-09");
+}
+
 }  // namespace
 }  // namespace sonoglide::output::number_test
