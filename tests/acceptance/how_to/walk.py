@@ -95,6 +95,10 @@ def main():
         if old.is_dir() and old.name != "build":
             shutil.rmtree(old)
     shutil.copytree(source, tree, dirs_exist_ok=True, ignore=shutil.ignore_patterns("build", ".git", "out"))
+    # What tools/setup has fetched from npm serves the copy too.
+    if (source / "build/npm").exists() and not (tree / "build/npm").exists():
+        (tree / "build").mkdir(exist_ok=True)
+        (tree / "build/npm").symlink_to(source / "build/npm")
     environment = dict(os.environ, CCACHE_BASEDIR=str(tree), CCACHE_NOHASHDIR="1")
     if shutil.which("ccache"):
         environment["CMAKE_CXX_COMPILER_LAUNCHER"] = "ccache"
