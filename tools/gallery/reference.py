@@ -1,5 +1,6 @@
 """The reference of the core's headers, by doxygen."""
 
+import pathlib
 import re
 import subprocess
 import xml.etree.ElementTree
@@ -17,7 +18,8 @@ def write(sources, site):
     """@return title, address and text of each class and function"""
     tags = site / "api.tag"
     settings = (sources / "Doxyfile").read_text() + (
-        f'\nOUTPUT_DIRECTORY = "{site}"\nHTML_OUTPUT = api\nGENERATE_TAGFILE = "{tags}"\n')
+        f'\nOUTPUT_DIRECTORY = "{site}"\nHTML_OUTPUT = api\nGENERATE_TAGFILE = "{tags}"\n'
+        f'HTML_EXTRA_STYLESHEET = "{pathlib.Path(__file__).with_name("reference.css")}"\n')
     subprocess.run(["doxygen", "-"], cwd=sources, input=settings, text=True, check=True)
     drop_dead_links(site / "api")
     index = []

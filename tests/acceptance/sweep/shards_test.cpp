@@ -9,6 +9,7 @@
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
 #include <random>
 #include <string>
 #include <thread>
@@ -96,6 +97,26 @@ TEST_F(ShardsTest, WhatIsMissingIsNamedForSbatch) {
   EXPECT_EQ(folder_.entries(), before);
   EXPECT_EQ(run("--status o", 0).out,
             "5 of 9 shards are there, 0 begun; 25 of 45 points, 55.6 %\nmissing: --array=3,7-9\n");
+}
+
+/// The two lines of the document that submit what is missing, with a sbatch that says what it is given.
+TEST_F(ShardsTest, OnlyWhatIsMissingIsSubmittedAgain) {
+  std::ifstream document(SONOGLIDE_SWEEP_DOCUMENT);
+  std::string script =
+      "sonoglide() { " SONOGLIDE_PROGRAM " \"$@\"; }\nsbatch() { echo \"sbatch $*\"; }\n";
+  for (std::string line; std::getline(document, line);) {
+    if (line.find("missing=$(") == 0 || line.find("[ $? -ne 3 ]") == 0) {
+      script += line + '\n';
+    }
+  }
+  folder_.write("resubmit", script);
+  EXPECT_EQ(folder_.run_program("bash", "resubmit").out, "") << "there is no folder: exit code 1";
+  compute(map + "--out shards", "2/3");
+  EXPECT_EQ(folder_.run_program("bash", "resubmit").out, "sbatch --array=1,3 shards/sweep.slurm\n");
+  compute(map + "--out shards", "1/3");
+  compute(map + "--out shards", "3/3");
+  EXPECT_EQ(folder_.run_program("bash", "resubmit").out, "");
+  EXPECT_NE(folder_.read("shards/sweep.csv"), "");
 }
 
 TEST_F(ShardsTest, ADamagedOneIsNamedAndComputedAgain) {
