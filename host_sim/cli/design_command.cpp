@@ -26,9 +26,6 @@ struct DesignOptions {
   bool quiet = false;
 };
 
-constexpr double slowest_m_per_s = 1e-9;
-constexpr double fastest_m_per_s = 1e6;
-
 /// FROM:TO; nothing where it is not of that form or out of order or range.
 std::optional<design::SpeedRange> parse_speeds(const std::string& text) {
   char* end = nullptr;
@@ -39,25 +36,22 @@ std::optional<design::SpeedRange> parse_speeds(const std::string& text) {
   const char* second = end + 1;
   const double to = std::strtod(second, &end);
   const bool whole = end != second && *end == '\0';
-  const bool allowed = from >= slowest_m_per_s && to >= from && to <= fastest_m_per_s;
-  return whole && allowed ? std::optional(design::SpeedRange{from, to}) : std::nullopt;
+  const design::SpeedRange speeds{from, to};
+  return whole && design::is_allowed(speeds) ? std::optional(speeds) : std::nullopt;
 }
 
 std::string check_speeds(const std::string& text) {
   return parse_speeds(text) ? std::string()
-                            : fmt::format(
-                                  "\"{}\"; allowed: FROM:TO in m/s, {:g} <= FROM <= TO <= "
-                                  "{:g}",
-                                  text, slowest_m_per_s, fastest_m_per_s);
+                            : fmt::format("\"{}\"; allowed: {}", text, design::allowed_speeds());
 }
 
 std::string check_ratio(const std::string& text) {
   char* end = nullptr;
   const double ratio = std::strtod(text.c_str(), &end);
   const bool number = !text.empty() && *end == '\0';
-  return number && ratio >= design::least_ratio && ratio < 1.0
+  return number && design::is_allowed(ratio)
              ? std::string()
-             : fmt::format("\"{}\"; allowed: a number, {} to below 1", text, design::least_ratio);
+             : fmt::format("\"{}\"; allowed: a number, {}", text, design::allowed_ratios());
 }
 
 /// Throws scene_file::SceneError, loop::ComputationError, output::OutputError,

@@ -1,6 +1,9 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
+#include <array>
+#include <cstddef>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -19,33 +22,31 @@ namespace {
 struct FmuOptions {
   SceneOptions scene;
   std::string kind;
-  int version = 3;
+  std::string version{fmi::versions.front().name};
   std::string out;
   bool quiet = false;
 };
 
-loop::Kind kind_of(const std::string& name) {
-  for (const scene::Named<loop::Kind>& each : loop::kinds) {
-    if (each.name == name) {
-      return each.value;
-    }
-  }
-  return loop::Kind::loop;
+/// @param word  one of them
+template <class Value, std::size_t count>
+Value named(const std::array<scene::Named<Value>, count>& words, const std::string& word) {
+  return std::find_if(words.begin(), words.end() - 1,
+                      [&](const scene::Named<Value>& each) { return each.name == word; })
+      ->value;
 }
 
 void write(const FmuOptions& options) {
   const SceneInput input(options.scene);
   const experiment::Experiment read = input.read();
   const scene::Scene& scene = read.scene;
-  const loop::Kind kind = kind_of(options.kind);
+  const loop::Kind kind = named(loop::kinds, options.kind);
   input.with_places([&] { loop::require_usable(scene, kind); });
   const std::filesystem::path out = std::filesystem::absolute(options.out);
   output::OutputFolder folder(out.parent_path(), {out.filename().string()});
-  const fmi::Parts parts = fmi::find_parts();
-  folder.write(
-      out.filename().string(),
-      fmi::make_fmu(scene, kind, options.version == 2 ? fmi::Version::fmi2 : fmi::Version::fmi3,
-                    parts, "sonoglide " SONOGLIDE_VERSION));
+  const fmi::Parts parts = fmi::find_parts(fmi::folder_of_program());
+  folder.write(out.filename().string(),
+               fmi::make_fmu(scene, kind, named(fmi::versions, options.version), parts,
+                             "sonoglide " SONOGLIDE_VERSION));
   folder.commit();
   if (!options.quiet) {
     if (kind != loop::Kind::plant) {

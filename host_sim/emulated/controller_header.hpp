@@ -1,11 +1,13 @@
 /// The controller of a scene, and its plant, as C++ to be compiled into an image.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 
 #include "host_sim/configure/control_design.hpp"
 #include "host_sim/emulated/board_list.hpp"
+#include "host_sim/scene/names.hpp"
 #include "host_sim/scene/scene.hpp"
 
 namespace sonoglide::emulated {
@@ -29,6 +31,11 @@ std::string controller_header(const scene::Scene& scene,
 
 /// The name under which an image includes it.
 inline constexpr const char* plant_header_name = "plant_configuration.hpp";
+
+/// The arithmetics that such a plant computes in.
+inline constexpr std::array plant_arithmetics = {
+    scene::Named<scene::Arithmetic>{"float32", scene::Arithmetic::float32},
+    scene::Named<scene::Arithmetic>{"q31", scene::Arithmetic::q31}};
 
 /// A board that is the plant, with its parameters, and how many carrier periods of a run are whole.
 /// The same scene gives the same text.

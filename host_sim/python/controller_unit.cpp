@@ -25,10 +25,6 @@ ControllerUnit::ControllerUnit(const scene::Scene& scene)
   set_target(scene_.controller->target_friction_ratio.front().friction_ratio);
 }
 
-ControllerUnit::ControllerUnit(const ControllerUnit& other) : ControllerUnit(other.scene_) {
-  restore(other.save());
-}
-
 void ControllerUnit::set_target(double friction_ratio) {
   if (!(friction_ratio > 0.0 && friction_ratio <= 1.0)) {
     throw std::invalid_argument(

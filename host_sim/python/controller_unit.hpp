@@ -17,9 +17,6 @@ class ControllerUnit {
   /// Begins with the first target of the scene.
   /// @throws configure::ConfigurationError  the scene has no controller
   explicit ControllerUnit(const scene::Scene& scene);
-  ControllerUnit(const ControllerUnit& other);
-  ControllerUnit(ControllerUnit&&) = default;
-  ControllerUnit& operator=(const ControllerUnit&) = delete;
 
   /// One control step: the answer to the sample of a carrier period. Of a unit that observes no
   /// vibration that part of the sample is left out, and the answer's frequency is 0.

@@ -32,14 +32,7 @@ double friction_ratio(double velocity_ratio, double dahl_number) {
 }  // namespace
 
 void add_friction_ratio(py::module_& module) {
-  module.def("friction_ratio", py::vectorize(friction_ratio), py::arg("velocity_ratio"),
-             py::arg("dahl_number"),
-             "friction_ratio(velocity_ratio, dahl_number)\n--\n\n"
-             "Friction ratio mean(F)/Fc of a contact under sinusoidal tangential vibration, in\n"
-             "closed form; numbers or arrays, which are broadcast.\n\n"
-             "velocity_ratio  sliding velocity over peak vibration velocity, Vt / v [-]\n"
-             "dahl_number     Kt X / Fc [-], 1e-12 to 1e12; inf is a Coulomb contact, whose\n"
-             "                ratio is (2/pi) asin r");
+  module.def("friction_ratio", py::vectorize(friction_ratio));
 }
 
 }  // namespace sonoglide::python

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cmath>
+#include <memory>
 #include <optional>
 
 #include "host_sim/python/answer.hpp"
@@ -18,17 +19,14 @@ namespace {
 
 namespace py = pybind11;
 
-struct Loop {
-  Scene scene;  ///< what it is pickled as
-  SteppedLoop stepped;
-};
+using Loop = SteppedLoop;
 
 constexpr std::array observation_names = {"friction_ratio",           "drive_force_amplitude_N",
                                           "sliding_velocity_m_per_s", "displacement_m",
                                           "velocity_m_per_s",         "friction_force_N"};
 
 py::array_t<double> observation_of(const Loop& loop) {
-  const loop::SteppedScene& engine = loop.stepped.engine();
+  const loop::SteppedScene& engine = loop.engine();
   const loop::PlantOutputs& plant = engine.plant();
   const std::array values = {
       plant.friction_ratio,           engine.controller().drive_force_amplitude_N,
@@ -39,17 +37,18 @@ py::array_t<double> observation_of(const Loop& loop) {
 }
 
 py::dict info_of(const Loop& loop) {
-  const loop::SteppedScene& engine = loop.stepped.engine();
+  const loop::SteppedScene& engine = loop.engine();
   py::dict info;
-  info["time_s"] = loop.stepped.time_s();
-  info["wanted_friction_ratio"] = loop.stepped.wanted_ratio();
+  info["time_s"] = loop.time_s();
+  info["wanted_friction_ratio"] = loop.wanted_ratio();
+  info["coming_friction_ratio"] = loop.coming_ratio();
   info["mean_friction_force_N"] = engine.plant().mean_friction_force_N;
   add_answer(info, engine.controller().answer);
   return info;
 }
 
 py::tuple reset(Loop& loop, std::optional<std::uint64_t> seed, const py::object& /*options*/) {
-  loop.stepped.reset(seed);
+  loop.reset(seed);
   return py::make_tuple(observation_of(loop), info_of(loop));
 }
 
@@ -58,39 +57,21 @@ py::tuple step(Loop& loop, const std::optional<double>& target) {
     throw py::value_error(fmt::format(
         "target is {}; allowed: a friction ratio above 0, at most 1, or None", *target));
   }
-  loop.stepped.step(target.value_or(0.0));
-  const loop::SteppedScene& engine = loop.stepped.engine();
-  const double reward = -std::abs(engine.plant().friction_ratio - loop.stepped.wanted_ratio());
+  loop.step(target.value_or(0.0));
+  const loop::SteppedScene& engine = loop.engine();
+  const double reward = -std::abs(engine.plant().friction_ratio - loop.wanted_ratio());
   const bool terminated = engine.controller().answer.fault != 0;
-  return py::make_tuple(observation_of(loop), reward, terminated, loop.stepped.over(),
-                        info_of(loop));
-}
-
-py::tuple state_of_loop(const Loop& loop) {
-  return py::make_tuple(loop.scene, loop.stepped.seed(), bytes_of(loop.stepped.save()));
-}
-
-Loop loop_of(const py::tuple& state) {
-  const auto& scene = py::cast<const Scene&>(state[0]);
-  Loop loop{scene, SteppedLoop(scene.values)};
-  loop.stepped.reset(py::cast<std::uint64_t>(state[1]));
-  loop.stepped.restore(snapshot_of(py::cast<py::bytes>(state[2])));
-  return loop;
+  return py::make_tuple(observation_of(loop), reward, terminated, loop.over(), info_of(loop));
 }
 
 }  // namespace
 
 void add_loop(py::module_& module) {
-  py::class_<Loop> loop(
-      module, "Loop",
-      "A closed loop stepped from outside, one carrier period at a time: plant, sensor,\n"
-      "controller and actuator of a scene, joined as in run(). It has the shape of a task of\n"
-      "Gymnasium, which it does not need. Copies and pickles go on from where it is, bit for bit;\n"
-      "a pickle serves the same build of the module.");
-  loop.def(py::init([](const Scene& scene) {
-             return Loop{scene, SteppedLoop(scene.values)};
-           }),
-           py::arg("scene"), "__init__(self, scene)\n--\n\n");
+  py::class_<Loop> loop(module, "Loop");
+  loop.def(py::init([](const Scene& scene) { return std::make_unique<Loop>(scene.values); }));
+  loop.def_property_readonly("seed", &Loop::seed, "Of the sensor's noise.");
+  loop.def("save", [](const Loop& self) { return bytes_of(self.save()); });
+  loop.def("restore", [](Loop& self, const py::bytes& state) { self.restore(snapshot_of(state)); });
   loop.def("reset", &reset, py::arg("seed") = py::none(), py::arg("options") = py::none(),
            "reset(self, seed=None, options=None)\n--\n\n"
            "To the beginning. -> observation, info\n\n"
@@ -104,25 +85,24 @@ void add_loop(py::module_& module) {
            "reward      -|friction ratio of the period - the one that the scene wants|\n"
            "terminated  a fault has switched the drive off\n"
            "truncated   the duration of the scene is over\n"
-           "info        time_s, what the scene wants, the mean friction force of the period, and\n"
-           "            the controller's answer: amplitude_code (2**31 is the actuator's limit),\n"
-           "            commanded_ratio_code (2**31 is a ratio of 2), state, limit, fault,\n"
-           "            settling");
+           "info        time_s, what the scene wants of this period and of the coming one, the\n"
+           "            mean friction force of the period, and the controller's answer:\n"
+           "            amplitude_code (2**31 is the actuator's limit), commanded_ratio_code\n"
+           "            (2**31 is a ratio of 2), state, limit, fault, settling");
+  loop.def(
+      "observe",
+      [](const Loop& self) { return py::make_tuple(observation_of(self), info_of(self)); },
+      "observe(self)\n--\n\n"
+      "-> observation, info as the last step had them");
   loop.def_property_readonly(
       "trace_hash",
       [](const Loop& self) {
-        return fmt::format("{:016x}", self.stepped.engine().controller().trace_hash);
+        return fmt::format("{:016x}", self.engine().controller().trace_hash);
       },
       "Of every drive command so far, bit for bit: after a whole scene that of run().");
   loop.def_property_readonly_static(
       "observation_names", [](const py::object& /*type*/) { return py::cast(observation_names); },
       "Of the numbers of an observation, the unit in the name.");
-  loop.def(
-      "__copy__", [](const Loop& self) { return self; }, "__copy__(self)\n--\n\n");
-  loop.def(
-      "__deepcopy__", [](const Loop& self, const py::dict& /*memo*/) { return self; },
-      py::arg("memo"), "__deepcopy__(self, memo)\n--\n\n");
-  loop.def(py::pickle(&state_of_loop, &loop_of));
 }
 
 }  // namespace sonoglide::python

@@ -21,19 +21,7 @@ using Table = py::array_t<double, py::array::c_style>;
 using GivenTable = py::array_t<double, py::array::c_style | py::array::forcecast>;
 using Scenes = std::vector<const scene::Scene*>;
 
-/// A tuple of them, which keeps them alive. One scene serves every row of the targets.
-py::tuple tuple_of(const py::object& scenes, const std::optional<GivenTable>& targets) {
-  if (!py::isinstance<Scene>(scenes)) {
-    return py::tuple(scenes);
-  }
-  const py::ssize_t count = targets && targets->ndim() == 2 ? targets->shape(0) : 1;
-  py::tuple same(count);
-  for (py::ssize_t i = 0; i < count; ++i) {
-    same[static_cast<std::size_t>(i)] = scenes;
-  }
-  return same;
-}
-
+/// Of a tuple, which keeps them alive.
 Scenes scenes_of(const py::tuple& kept) {
   Scenes each;
   for (const py::handle scene : kept) {
@@ -73,9 +61,8 @@ void require_shape(const Array& array, const char* name, std::size_t rows, std::
   }
 }
 
-Table rollout(const py::object& scenes, const std::optional<GivenTable>& targets,
+Table rollout(const py::tuple& kept, const std::optional<GivenTable>& targets,
               const std::optional<Table>& out, unsigned threads) {
-  const py::tuple kept = tuple_of(scenes, targets);
   const Scenes each = scenes_of(kept);
   const std::size_t periods = periods_of_all(each);
   if (targets) {
@@ -98,20 +85,8 @@ Table rollout(const py::object& scenes, const std::optional<GivenTable>& targets
 }  // namespace
 
 void add_rollout(py::module_& module) {
-  module.def(
-      "rollout", &rollout, py::arg("scenes"), py::arg("targets") = py::none(), py::kw_only(),
-      py::arg("out").noconvert() = py::none(), py::arg("threads") = 0,
-      "rollout(scenes, targets=None, *, out=None, threads=0)\n--\n\n"
-      "Runs many scenes, or one scene with many courses of its target, on several threads, while\n"
-      "other threads run. -> the friction ratio of each carrier period, a row for each rollout\n\n"
-      "scenes   a Scene, or several that last equally many carrier periods. Closed loops that the\n"
-      "         scene's solver.tolerance of 1e-6 or more allows run in SIMD lanes.\n"
-      "targets  a row for each rollout, a target friction ratio for each carrier period, 0 to 1;\n"
-      "         0: as before, and until the first other one the steps of the scene. None: those\n"
-      "out      float64 array that takes the ratios; None: a new one\n"
-      "threads  0: one for each core\n\n"
-      "A row does not depend on the number of threads, to the bit. Raises ComputationError where\n"
-      "a solver fails; the content of out is then of no use.");
+  module.def("rollout", &rollout, py::arg("scenes"), py::arg("targets"), py::arg("out").noconvert(),
+             py::arg("threads"));
 }
 
 }  // namespace sonoglide::python

@@ -4,9 +4,8 @@
 #include <pybind11/pybind11.h>
 
 #include <memory>
-#include <optional>
 #include <string>
-#include <utility>
+#include <string_view>
 #include <vector>
 
 #include "host_sim/loop/watch.hpp"
@@ -16,6 +15,7 @@
 #include "host_sim/python/scene.hpp"
 #include "host_sim/report/run_findings.hpp"
 #include "host_sim/report/run_report.hpp"
+#include "host_sim/report/words.hpp"
 #include "host_sim/scene/names.hpp"
 
 namespace sonoglide::python {
@@ -23,15 +23,11 @@ namespace {
 
 namespace py = pybind11;
 
-struct Run {
-  explicit Run(scene::Scene from) : scene(std::move(from)) {}
-  Run(const Run&) = delete;
-  Run& operator=(const Run&) = delete;
-
-  scene::Scene scene;
+/// What the columns of a run are views of.
+struct Recorded {
   loop::PeriodRecording periods;
+  std::vector<double> drive_amplitude_V;  ///< with a transducer
   loop::Recording trace;
-  nlohmann::ordered_json summary;
 };
 
 /// An interrupt from the keyboard ends a run.
@@ -42,71 +38,90 @@ void check_signals() {
   }
 }
 
-std::unique_ptr<Run> run(const Scene& scene) {
-  auto made = std::make_unique<Run>(scene.values);
-  const py::gil_scoped_release released;
-  const auto design = configure::design_if_closed(made->scene);
-  report::RunFindings findings(made->scene, design);
+/// Fills the tables, and returns the content of summary.json.
+std::string simulate(const scene::Scene& scene, Recorded& recorded) {
+  const auto design = configure::design_if_closed(scene);
+  report::RunFindings findings(scene, design);
   loop::Watch watch;
   findings.join(watch);
-  const scene::Run& wanted = made->scene.run;
+  const scene::Run& wanted = scene.run;
   if (!wanted.record.empty()) {
-    watch.periods.push_back(&made->periods);
-    watch.samples.push_back({{0.0, wanted.duration_s, wanted.record_interval_s}, &made->trace});
+    watch.periods.push_back(&recorded.periods);
+    watch.samples.push_back({{0.0, wanted.duration_s, wanted.record_interval_s}, &recorded.trace});
   }
   watch.progress = [](double /*fraction*/) { check_signals(); };
-  const loop::RunResult result = loop::run(made->scene, design, watch);
-  made->summary = report::summary(made->scene, result, findings);
-  return made;
+  const loop::RunResult result = loop::run(scene, design, watch);
+  const report::AmplitudeUnit unit = report::amplitude_unit(scene);
+  if (unit.name == std::string_view("V")) {
+    for (const loop::Period& each : recorded.periods.periods) {
+      recorded.drive_amplitude_V.push_back(each.drive_amplitude_N * unit.per_N);
+    }
+  }
+  return report::summary_text(scene, result, findings);
 }
 
-py::dict periods_of(const py::object& self) {
+py::dict periods_of(const Recorded& recorded, const py::object& owner) {
   using loop::Period;
-  const std::vector<Period>& rows = py::cast<const Run&>(self).periods.periods;
+  const std::vector<Period>& rows = recorded.periods.periods;
   py::dict columns;
-  columns["time_s"] = column(rows, &Period::begin_s, self);
-  columns["friction_ratio"] = column(rows, &Period::friction_ratio, self);
-  columns["target"] = column(rows, &Period::target, self);
-  columns["drive_amplitude_N"] = column(rows, &Period::drive_amplitude_N, self);
-  columns["sliding_velocity_m_per_s"] = column(rows, &Period::begin_velocity_m_per_s, self);
-  columns["frequency_Hz"] = column(rows, &Period::frequency_Hz, self);
-  columns["commanded_ratio"] = column(rows, &Period::commanded_ratio, self);
-  columns["state"] = column(rows, &Period::state, self);
-  columns["limit"] = column(rows, &Period::limit, self);
-  columns["settling"] = column(rows, &Period::settling, self);
+  columns["time_s"] = column(rows, &Period::begin_s, owner);
+  columns["friction_ratio"] = column(rows, &Period::friction_ratio, owner);
+  columns["target"] = column(rows, &Period::target, owner);
+  if (!recorded.drive_amplitude_V.empty()) {
+    columns["drive_amplitude_V"] = column(recorded.drive_amplitude_V, owner);
+  }
+  columns["drive_amplitude_N"] = column(rows, &Period::drive_amplitude_N, owner);
+  columns["sliding_velocity_m_per_s"] = column(rows, &Period::begin_velocity_m_per_s, owner);
+  columns["frequency_Hz"] = column(rows, &Period::frequency_Hz, owner);
+  columns["commanded_ratio"] = column(rows, &Period::commanded_ratio, owner);
+  columns["state"] = column(rows, &Period::state, owner);
+  columns["limit"] = column(rows, &Period::limit, owner);
+  columns["settling"] = column(rows, &Period::settling, owner);
   return columns;
 }
 
-py::array trace_column(const Run& run, scene::Channel channel, const py::object& self) {
+py::array trace_column(const loop::Recording& trace, scene::Channel channel,
+                       const py::object& owner) {
   using loop::PlantState;
   switch (channel) {
     case scene::Channel::displacement:
-      return column(run.trace.state, &PlantState::displacement_m, self);
+      return column(trace.state, &PlantState::displacement_m, owner);
     case scene::Channel::velocity:
-      return column(run.trace.state, &PlantState::velocity_m_per_s, self);
+      return column(trace.state, &PlantState::velocity_m_per_s, owner);
     case scene::Channel::friction_force:
-      return column(run.trace.state, &PlantState::friction_force_N, self);
+      return column(trace.state, &PlantState::friction_force_N, owner);
     case scene::Channel::drive_force:
-      return column(run.trace.drive_force_N, self);
+      return column(trace.drive_force_N, owner);
     case scene::Channel::sliding_velocity:
       break;
   }
-  return column(run.trace.sliding_velocity_m_per_s, self);
+  return column(trace.sliding_velocity_m_per_s, owner);
 }
 
-py::dict trace_of(const py::object& self) {
-  const auto& run = py::cast<const Run&>(self);
+py::dict trace_of(const Recorded& recorded, const std::vector<scene::Channel>& channels,
+                  const py::object& owner) {
   py::dict columns;
-  columns["time_s"] = column(run.trace.time_s, self);
-  for (const scene::Channel channel : run.scene.run.record) {
-    columns[py::str(scene::name_of(scene::channels, channel))] = trace_column(run, channel, self);
+  columns["time_s"] = column(recorded.trace.time_s, owner);
+  for (const scene::Channel channel : channels) {
+    columns[py::str(scene::name_of(scene::channels, channel))] =
+        trace_column(recorded.trace, channel, owner);
   }
   return columns;
 }
 
-py::object trace_hash_of(const Run& run) {
-  return run.summary.contains("control") ? to_python(run.summary["control"]["trace_hash"])
-                                         : py::none();
+/// -> summary, periods, trace
+py::tuple run(const Scene& scene) {
+  auto recorded = std::make_unique<Recorded>();
+  std::string summary;
+  {
+    const py::gil_scoped_release released;
+    summary = simulate(scene.values, *recorded);
+  }
+  const Recorded& kept = *recorded;
+  const py::capsule owner(recorded.release(),
+                          [](void* all) { delete static_cast<Recorded*>(all); });
+  return py::make_tuple(summary, periods_of(kept, owner),
+                        trace_of(kept, scene.values.run.record, owner));
 }
 
 }  // namespace
@@ -115,28 +130,7 @@ void add_run(py::module_& module) {
   module.attr("states") = words_to(control::State::relearning);
   module.attr("limits") = words_to(control::Limit::contact_lost);
   module.attr("settlings") = words_to(control::Settling::clamped);
-  py::class_<Run>(module, "Run", "What a simulated scene comes to.")
-      .def_property_readonly(
-          "summary", [](const Run& run) { return to_python(run.summary); },
-          "The content of summary.json, as `sonoglide run` writes it: every figure, and the\n"
-          "scene with its defaults. A figure that is not defined is None.")
-      .def_property_readonly(
-          "trace_hash", &trace_hash_of,
-          "Of every drive command, bit for bit: that of `sonoglide run`. None in open loop.")
-      .def_property_readonly(
-          "periods", &periods_of,
-          "{name: column}, a value for each carrier period: those of periods.csv and more,\n"
-          "the unit in the name. Empty columns if run.record of the scene is absent.\n"
-          "They are read-only views: nothing is copied. state, limit and settling are places in\n"
-          "states, limits and settlings.")
-      .def_property_readonly(
-          "trace", &trace_of,
-          "{name: column}, the recorded channels at multiples of run.record_interval_s, as in\n"
-          "trace.csv: the unit in the name. Read-only views: nothing is copied.");
-  module.def("run", &run, py::arg("scene"),
-             "run(scene)\n--\n\n"
-             "Simulates a scene, in closed loop if it has a controller. Other threads run\n"
-             "meanwhile. Raises ComputationError where the solver fails.");
+  module.def("run", &run);
 }
 
 }  // namespace sonoglide::python

@@ -14,9 +14,6 @@ struct Scene {
   /// @throws scene_file::SceneError
   Scene(scene_file::Source text, std::vector<std::string> changes);
 
-  /// With more overrides, which win over those before.
-  Scene with(const std::vector<std::string>& more) const;
-
   scene_file::Source source;
   std::vector<std::string> overrides;
   scene::Scene values;

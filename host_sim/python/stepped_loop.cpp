@@ -26,15 +26,11 @@ SteppedLoop::SteppedLoop(const scene::Scene& scene)
   reset(std::nullopt);
 }
 
-SteppedLoop::SteppedLoop(const SteppedLoop& other) : SteppedLoop(other.scene_) {
-  restore(other.save());
-}
-
 void SteppedLoop::reset(std::optional<std::uint64_t> seed) {
   scene_.sensor.seed = seed.value_or(scene_.sensor.seed);
   engine_ = std::make_unique<loop::SteppedScene>(scene_, loop::Kind::loop);
   periods_ = 0;
-  wanted_ratio_ = wanted_now();
+  wanted_ratio_ = coming_ratio();
 }
 
 void SteppedLoop::step(double target) {
@@ -44,12 +40,12 @@ void SteppedLoop::step(double target) {
   }
   loop::Inputs inputs;
   inputs.target_friction_ratio = target;
-  wanted_ratio_ = wanted_now();
+  wanted_ratio_ = coming_ratio();
   engine_->advance(inputs);
   ++periods_;
 }
 
-double SteppedLoop::wanted_now() const {
+double SteppedLoop::coming_ratio() const {
   double wanted = schedule_.front().friction_ratio;
   for (const loop::ScheduledTarget& each : schedule_) {
     if (each.place <= periods_) {

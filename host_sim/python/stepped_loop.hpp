@@ -18,9 +18,6 @@ class SteppedLoop {
  public:
   /// @throws configure::ConfigurationError  the scene has no controller, or its carrier period changes
   explicit SteppedLoop(const scene::Scene& scene);
-  SteppedLoop(const SteppedLoop& other);
-  SteppedLoop(SteppedLoop&&) = default;
-  SteppedLoop& operator=(const SteppedLoop&) = delete;
 
   /// To the beginning of the scene.
   /// @param seed  of the sensor's noise; absent: the scene's
@@ -36,6 +33,8 @@ class SteppedLoop {
   double time_s() const { return static_cast<double>(periods_) * period_s_; }
   /// Of the scene, for the period that was stepped last.
   double wanted_ratio() const { return wanted_ratio_; }
+  /// Of the scene, for the period that comes next.
+  double coming_ratio() const;
   /// The scene's duration is over.
   bool over() const { return periods_ >= scene_periods_; }
   std::uint64_t seed() const { return scene_.sensor.seed; }
@@ -46,8 +45,6 @@ class SteppedLoop {
   void restore(const loop::Snapshot& state);
 
  private:
-  double wanted_now() const;
-
   scene::Scene scene_;
   double period_s_;
   std::uint64_t scene_periods_;

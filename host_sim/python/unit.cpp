@@ -5,7 +5,6 @@
 
 #include <cstdint>
 #include <limits>
-#include <memory>
 #include <optional>
 #include <string>
 
@@ -42,16 +41,9 @@ namespace py = pybind11;
 using Codes = py::array_t<std::int32_t, py::array::c_style>;
 
 struct Unit {
-  Scene scene;  ///< what it is pickled as
   ControllerUnit controller;
   bool used = false;
 };
-
-Unit make_unit(const Scene& scene, const std::optional<std::string>& arithmetic) {
-  const Scene taken =
-      arithmetic ? scene.with({"controller.arithmetic=\"" + *arithmetic + "\""}) : scene;
-  return {taken, ControllerUnit(taken.values)};
-}
 
 std::int32_t code(long long value, const char* name) {
   using Limits = std::numeric_limits<std::int32_t>;
@@ -139,30 +131,14 @@ py::dict answer_of(const Unit& unit) {
   return fields;
 }
 
-py::tuple state_of_unit(const Unit& unit) {
-  return py::make_tuple(unit.scene, bytes_of(unit.controller.save()));
-}
-
-Unit unit_of(const py::tuple& state) {
-  const auto& scene = py::cast<const Scene&>(state[0]);
-  Unit unit{scene, ControllerUnit(scene.values)};
-  unit.controller.restore(snapshot_of(py::cast<py::bytes>(state[1])));
-  return unit;
-}
-
 }  // namespace
 
 void add_unit(py::module_& module) {
-  py::class_<Unit> unit(
-      module, "Unit",
-      "The controller of a scene as it is shipped: the control loop of the firmware image, codes\n"
-      "in, codes out. Codes are left-justified integers of 32 bits: 2**31 is full scale. Copies\n"
-      "and pickles go on from where it is, bit for bit; a pickle serves the same build of the\n"
-      "module. One thread at a time may use a unit.");
-  unit.def(py::init(&make_unit), py::arg("scene"), py::arg("arithmetic") = py::none(),
-           "__init__(self, scene, arithmetic=None)\n--\n\n"
-           "scene       in closed loop; its first target is set\n"
-           "arithmetic  'float64', 'float32', 'q31' or 'q15'; None: the scene's");
+  py::class_<Unit> unit(module, "Unit");
+  unit.def(py::init([](const Scene& scene) { return Unit{ControllerUnit(scene.values)}; }));
+  unit.def("save", [](const Unit& self) { return bytes_of(self.controller.save()); });
+  unit.def("restore",
+           [](Unit& self, const py::bytes& state) { self.controller.restore(snapshot_of(state)); });
   unit.def(
       "step", &step_once, py::arg("force_code"), py::arg("velocity_code"),
       py::arg("in_phase_code") = py::none(), py::arg("quadrature_code") = py::none(), py::kw_only(),
@@ -208,12 +184,6 @@ void add_unit(py::module_& module) {
       "amplitude_full_scale_N",
       [](const Unit& self) { return self.controller.scales().drive_amplitude_N; },
       "Drive amplitude of code 2**31 [N].");
-  unit.def(
-      "__copy__", [](const Unit& self) { return self; }, "__copy__(self)\n--\n\n");
-  unit.def(
-      "__deepcopy__", [](const Unit& self, const py::dict& /*memo*/) { return self; },
-      py::arg("memo"), "__deepcopy__(self, memo)\n--\n\n");
-  unit.def(py::pickle(&state_of_unit, &unit_of));
 }
 
 }  // namespace sonoglide::python

@@ -85,13 +85,15 @@ function(sonoglide_install)
       DESTINATION lib/sonoglide COMPONENT program OPTIONAL)
   endif()
   if(TARGET sonoglide_python_module)
-    # Where Debian's interpreter looks for it.
+    # Where Debian's interpreter looks for it. A wheel holds the same files.
     set(folder lib/python3/dist-packages/sonoglide)
-    install(TARGETS sonoglide_python_module LIBRARY DESTINATION "${folder}"
+    install(TARGETS sonoglide_python_module sonoglide_fmu LIBRARY DESTINATION "${folder}"
       COMPONENT python OPTIONAL)
     install(DIRECTORY "${PROJECT_SOURCE_DIR}/host_sim/python/sonoglide/" DESTINATION "${folder}"
-      COMPONENT python)
-    install(DIRECTORY "${PROJECT_SOURCE_DIR}/host_sim/python/notebooks"
-      DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/python3-sonoglide" COMPONENT python)
+      COMPONENT python FILES_MATCHING PATTERN "*.py" PATTERN "*.pyi" PATTERN py.typed)
+    install(DIRECTORY "${PROJECT_SOURCE_DIR}/host_sim/python/notebooks" DESTINATION "${folder}"
+      COMPONENT python FILES_MATCHING PATTERN "*.ipynb")
+    install(DIRECTORY "${PROJECT_SOURCE_DIR}/host_sim/scenes" DESTINATION "${folder}"
+      COMPONENT python FILES_MATCHING PATTERN "*.toml")
   endif()
 endfunction()

@@ -119,9 +119,11 @@ class Archive {
 
 }  // namespace
 
-Parts find_parts() {
-  const fs::path folder =
-      fs::read_symlink("/proc/self/exe").parent_path().parent_path() / "lib/sonoglide";
+fs::path folder_of_program() {
+  return fs::read_symlink("/proc/self/exe").parent_path().parent_path() / "lib/sonoglide";
+}
+
+Parts find_parts(const fs::path& folder) {
   Parts parts{folder / "fmu.so", folder / "fmu.dll"};
   if (!fs::exists(parts.engine)) {
     output::fail(parts.engine, "is missing; every FMU holds it, and it is built with the program");

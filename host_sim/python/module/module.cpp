@@ -14,5 +14,7 @@ PYBIND11_MODULE(_core, module) {
   python::add_loop(module);
   python::add_unit(module);
   python::add_rollout(module);
+  python::add_sweep(module);
   python::add_studies(module);
+  python::add_products(module);
 }

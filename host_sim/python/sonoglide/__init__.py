@@ -4,37 +4,46 @@ Numbers are in SI units, the unit in the name. Every function has its documentat
 help(sonoglide.run).
 """
 
-from ._core import (
-    ComputationError,
-    Loop,
-    Run,
-    Scene,
-    SceneError,
-    Unit,
-    friction_ratio,
+from ._control import Loop, Unit
+from ._core import ComputationError, SceneError, limits, settlings, states
+from ._core import version as __version__
+from ._run import Columns, Run, friction_ratio, rollout, run
+from ._scene import Scene, notebooks, scenes
+from ._studies import (
+    Study,
+    configure,
+    design,
+    fmu,
+    identify,
     identify_friction,
     identify_impedance,
-    limits,
-    rollout,
-    run,
-    settlings,
-    states,
+    robust,
     sweep,
 )
 
 __all__ = [
+    "Columns",
     "ComputationError",
     "Loop",
     "Run",
     "Scene",
     "SceneError",
+    "Study",
     "Unit",
+    "__version__",
+    "configure",
+    "design",
+    "fmu",
     "friction_ratio",
+    "identify",
     "identify_friction",
     "identify_impedance",
     "limits",
+    "notebooks",
+    "robust",
     "rollout",
     "run",
+    "scenes",
     "settlings",
     "states",
     "sweep",

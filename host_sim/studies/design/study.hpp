@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "host_sim/loop/electrical.hpp"
@@ -129,6 +130,13 @@ struct SpeedRange {
   double slowest_m_per_s;  ///< > 0
   double fastest_m_per_s;
 };
+
+/// Whether a ratio, or speeds, can be named in place of the scene's.
+bool is_allowed(double ratio);
+bool is_allowed(const SpeedRange& speeds);
+/// Which can, in words.
+std::string allowed_ratios();
+std::string allowed_speeds();
 
 struct Task {
   scene::Scene scene;          ///< closed loop: plant, contact and drive with its limit

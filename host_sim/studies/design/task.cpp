@@ -49,8 +49,8 @@ std::vector<double> targets(const scene::Controller& controller) {
 
 /// With any other alone there is no curve of force over speed.
 void require_some_ratio(const std::vector<double>& ratios) {
-  const bool some = std::any_of(ratios.begin(), ratios.end(),
-                                [](double ratio) { return ratio >= least_ratio && ratio < 1.0; });
+  const bool some =
+      std::any_of(ratios.begin(), ratios.end(), [](double ratio) { return is_allowed(ratio); });
   if (!some) {
     throw configure::ConfigurationError(
         "controller.target_friction_ratio",
@@ -72,7 +72,29 @@ SpeedRange speeds_of(const scene::Scene& scene) {
   return {std::min(std::max(slowest, speed_floor_m_per_s(scene)), fastest), fastest};
 }
 
+constexpr double slowest_m_per_s = 1e-9;
+constexpr double fastest_m_per_s = 1e6;
+
 }  // namespace
+
+bool is_allowed(double ratio) {
+  return ratio >= least_ratio && ratio < 1.0;
+}
+
+std::string allowed_ratios() {
+  return fmt::format("{} to below 1", least_ratio);
+}
+
+bool is_allowed(const SpeedRange& speeds) {
+  return speeds.slowest_m_per_s >= slowest_m_per_s &&
+         speeds.fastest_m_per_s >= speeds.slowest_m_per_s &&
+         speeds.fastest_m_per_s <= fastest_m_per_s;
+}
+
+std::string allowed_speeds() {
+  return fmt::format("FROM:TO in m/s, {:g} <= FROM <= TO <= {:g}", slowest_m_per_s,
+                     fastest_m_per_s);
+}
 
 double speed_floor_m_per_s(const scene::Scene& scene) {
   return configure::design_control(scene).speed_floor_m_per_s();

@@ -112,3 +112,10 @@ def test_targets_out_of_range_are_refused(scene, target):
 def test_scenes_that_cannot_be_stepped_are_refused(scene, name):
     with pytest.raises(ValueError, match="controller"):
         sonoglide.Loop(scene(name))
+
+
+def test_a_loop_shows_itself(scene):
+    loop = sonoglide.Loop(scene("target_step"))
+    loop.step()
+    assert repr(loop).startswith("<sonoglide.Loop of target_step: running at 1.66667e-05 s, friction ratio ")
+    assert "<td>wanted_friction_ratio</td><td>0.4</td>" in loop._repr_html_()

@@ -1,4 +1,9 @@
 import _thread
+import multiprocessing
+import os
+import pickle
+import subprocess
+import sys
 import threading
 
 import numpy
@@ -64,6 +69,74 @@ def test_a_scene_that_records_nothing_has_empty_columns(scene):
     run = sonoglide.run(scene("target_step", {"run.record": None, "run.record_interval_s": None}))
     assert list(run.trace) == ["time_s"]
     assert all(len(column) == 0 for column in run.periods.values())
+
+
+@pytest.mark.parametrize("name, unit", [("target_step", "N"), ("langevin", "V")])
+def test_periods_have_the_columns_of_the_table(scene, tmp_path, name, unit):
+    pandas = pytest.importorskip("pandas")
+    overrides = {"run.record": ["velocity_m_per_s"], "run.record_interval_s": 1e-4, "run.duration_s": 5e-3}
+    read = scene(name, {**overrides, "controller.target_friction_ratio": [[0.0, 0.5]]})
+    (tmp_path / "scene.toml").write_text(read.toml)
+    subprocess.run([os.environ["SONOGLIDE_PROGRAM"], "run", "scene.toml", "--quiet", "--out", "out"],
+                   cwd=tmp_path, check=True)
+    run = sonoglide.run(read)
+    for columns, table in ((run.periods, "periods.csv"), (run.trace, "trace.csv")):
+        theirs = pandas.read_csv(tmp_path / "out" / table)
+        mine = columns.frame()[list(theirs.columns)]
+        pandas.testing.assert_frame_equal(mine, theirs, check_dtype=False, rtol=0, atol=1e-11)
+    assert f"drive_amplitude_{unit}" in run.periods
+
+
+@pytest.mark.parametrize("name", ["target_step", "table_1_open_loop"])
+def test_a_run_can_be_pickled(scene, name):
+    run = sonoglide.run(scene(name))
+    again = pickle.loads(pickle.dumps(run))
+    assert (again.scene, again.summary, again.trace_hash) == (run.scene, run.summary, run.trace_hash)
+    for mine, theirs in ((again.periods, run.periods), (again.trace, run.trace)):
+        assert isinstance(mine, sonoglide.Columns)
+        assert list(mine) == list(theirs)
+        for column, other in zip(mine.values(), theirs.values()):
+            assert numpy.array_equal(column, other, equal_nan=True)
+            assert not column.flags.writeable
+
+
+@pytest.mark.parametrize("method", ["fork", "spawn"])
+def test_a_pool_of_processes_runs_scenes(scene, method):
+    scenes = [scene("target_step", {"friction.coefficient": mu}) for mu in (0.09, 0.11)]
+    with multiprocessing.get_context(method).Pool(2) as pool:
+        hashes = [run.trace_hash for run in pool.map(sonoglide.run, scenes)]
+        ratios = pool.map(sonoglide.rollout, scenes)
+        sweeps = pool.starmap(sonoglide.sweep, [(each, {"plant.mass_kg": [0.02]}) for each in scenes])
+    assert hashes == [sonoglide.run(each).trace_hash for each in scenes]
+    assert numpy.array_equal(ratios[1], sonoglide.rollout(scenes[1]))
+    assert sweeps[0]["status"] == ["ok"]
+
+
+def test_a_run_draws_itself(scene):
+    matplotlib = pytest.importorskip("matplotlib")
+    matplotlib.use("Agg")
+    run = sonoglide.run(scene("target_step"))
+    ratio, drive = run.plot().axes
+    assert numpy.array_equal(ratio.lines[0].get_ydata(), run.periods["friction_ratio"])
+    assert drive.get_ylabel() == "drive amplitude [N]"
+    with pytest.raises(ValueError, match="run.record"):
+        sonoglide.run(scene("target_step", {"run.record": None, "run.record_interval_s": None})).plot()
+
+
+@pytest.mark.parametrize("library, call", [("matplotlib", "plot"), ("pandas", "frame")])
+def test_what_is_not_installed_is_named(scene, monkeypatch, library, call):
+    run = sonoglide.run(scene("target_step"))
+    monkeypatch.setitem(sys.modules, library, None)
+    with pytest.raises(ImportError, match=f"python3-{library}"):
+        getattr(run if call == "plot" else run.periods, call)()
+
+
+def test_a_run_shows_itself(scene):
+    closed, opened = sonoglide.run(scene("target_step")), sonoglide.run(scene("table_1_open_loop"))
+    assert repr(closed).endswith(f"3 of 3 steps settled, trace {closed.trace_hash}>")
+    assert repr(opened) == "<sonoglide.Run of table_1_open_loop: friction ratio 0.659907>"
+    assert "<th>settling_time_s</th>" in closed._repr_html_()
+    assert "faults" not in opened._repr_html_()
 
 
 def test_runs_in_threads_are_those_of_one(scene):

@@ -79,9 +79,45 @@ def test_errors_of_overrides_name_their_place(scene):
     assert caught.value.key == "friction.coefficient"
 
 
-def test_a_missing_file_is_an_error_of_the_scene():
-    with pytest.raises(sonoglide.SceneError, match="nowhere.toml"):
-        sonoglide.Scene(pathlib.Path("nowhere.toml"))
+@pytest.mark.parametrize("name", [pathlib.Path("nowhere.toml"), "nowhere.toml"])
+def test_a_missing_file_is_an_error_of_the_system(name):
+    with pytest.raises(FileNotFoundError, match="nowhere.toml"):
+        sonoglide.Scene(name)
+
+
+def test_a_folder_is_no_scene(tmp_path):
+    with pytest.raises(IsADirectoryError):
+        sonoglide.Scene(tmp_path)
+
+
+@pytest.mark.parametrize("name", [path.stem for path in sorted(sonoglide.scenes.glob("*.toml"))])
+def test_every_example_is_the_same_scene_from_its_values(scene, name):
+    read = scene(name)
+    again = sonoglide.Scene.from_dict(read.values, name=name)
+    assert again == read
+    assert hash(again) == hash(read)
+    assert again.toml == read.toml
+
+
+def test_scenes_with_other_values_differ(scene):
+    read = scene("target_step")
+    assert read != read.replace({"friction.coefficient": 0.11})
+    assert read == read.replace({"friction.coefficient": 0.1})
+    assert read != "target_step"
+
+
+def test_dictionaries_take_overrides_and_refuse_what_is_no_key(scene):
+    values = scene("table_1_open_loop").values
+    assert sonoglide.Scene.from_dict(values, {"drive.force_amplitude_N": 7}).values["drive"]["force_amplitude_N"] == 7
+    with pytest.raises(sonoglide.SceneError, match="masse_kg"):
+        sonoglide.Scene.from_dict({**values, "plant": {**values["plant"], "masse_kg": 1.0}})
+
+
+def test_a_scene_shows_itself(scene):
+    read = scene("target_step_q31", {"controller.shaping": "none"})
+    assert repr(read) == "<sonoglide.Scene target_step_q31: dahl, closed loop in q31>"
+    assert "<td>coefficient</td><td>0.1</td>" in read._repr_html_()
+    assert repr(scene("table_1_open_loop")) == "<sonoglide.Scene table_1_open_loop: dahl, open loop>"
 
 
 @pytest.mark.parametrize("made_again", [copy.copy, copy.deepcopy, lambda s: pickle.loads(pickle.dumps(s))])

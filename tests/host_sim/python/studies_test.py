@@ -2,6 +2,7 @@ import csv
 import json
 import os
 import pathlib
+import pickle
 import subprocess
 
 import numpy
@@ -90,11 +91,142 @@ def test_a_computed_circuit_is_found_again(tmp_path):
     assert found["clamped_capacitance_F"]["value"] == pytest.approx(c0, rel=1e-6)
 
 
+PIECE = IDENTIFY / "impedance" / "examples" / "piece_112_kHz.csv"
+PIN = IDENTIFY / "friction" / "examples" / "dong_dapino_2015.csv"
+
+
+def columns_of(path):
+    """What a file says, as numpy has it."""
+    lines = [line for line in path.read_text().splitlines() if not line.startswith("#")]
+    return {name: numpy.array(column, float) for name, *column in zip(*(line.split(",") for line in lines))}
+
+
+def same_but_for_places(mine, theirs):
+    """Warnings name lines of the file, which has comments above them."""
+    return {**mine, "warnings": []} == {**theirs, "warnings": []}
+
+
+def test_columns_are_identified_as_their_file():
+    assert same_but_for_places(sonoglide.identify_friction(columns_of(PIN), ["coulomb"]),
+                               sonoglide.identify_friction(PIN, ["coulomb"]))
+    piece = columns_of(PIECE)
+    found = sonoglide.identify("impedance", piece, mass_kg=0.01)
+    assert same_but_for_places(found, sonoglide.identify("impedance", PIECE, mass_kg=0.01))
+    assert found.scene.values["plant"]["mass_kg"] == 0.01
+
+
+def test_complex_numbers_are_an_impedance_or_an_admittance():
+    piece = columns_of(PIECE)
+    f = piece["frequency_Hz"]
+    z = piece["impedance_magnitude_ohm"] * numpy.exp(1j * numpy.deg2rad(piece["impedance_phase_deg"]))
+    values = [
+        sonoglide.identify_impedance(measured)["parameters"]["resonance_frequency_Hz"]["value"]
+        for measured in (
+            {"frequency_Hz": f, "impedance_ohm": z},
+            {"frequency_Hz": f, "admittance_S": 1 / z},
+            numpy.rec.fromarrays([f, z.real, z.imag], names=["frequency_Hz", "resistance_ohm", "reactance_ohm"]),
+        )
+    ]
+    assert values == pytest.approx([112720.17] * 3, rel=1e-6)
+
+
+def test_a_table_of_pandas_is_identified():
+    pandas = pytest.importorskip("pandas")
+    table = pandas.read_csv(PIN, comment="#")
+    assert same_but_for_places(sonoglide.identify_friction(table, ["dahl"]), sonoglide.identify_friction(PIN, ["dahl"]))
+
+
+@pytest.mark.parametrize("measured, error, words", [
+    (numpy.zeros((3, 2)), TypeError, "without names"),
+    ({"velocity_ratio": [0.1], "friction_ratio": [0.1, 0.2]}, ValueError, "equally many"),
+    ({"sliding_velocity_m_per_s": [0.1, 0.2], "velocity_ratio": [0.1, float("nan")], "friction_ratio": [0.1, 0.2]}, sonoglide.SceneError, "measurements:3"),
+    ({"velocity": [0.1, 0.3], "friction_ratio": [0.1, 0.2]}, sonoglide.SceneError, "velocity"),
+    ("nowhere.csv", FileNotFoundError, "nowhere.csv"),
+])
+def test_what_are_no_measurements_is_refused(measured, error, words):
+    with pytest.raises(error, match=words):
+        sonoglide.identify_friction(measured)
+
+
 def test_an_unknown_law_is_refused():
     with pytest.raises(ValueError, match="allowed: "):
-        sonoglide.identify_friction("nowhere.csv", ["dahll"])
+        sonoglide.identify_friction(PIN, ["dahll"])
 
 
-def test_one_mechanical_fact_is_enough():
+def test_an_unknown_kind_is_refused():
+    with pytest.raises(ValueError, match="allowed: impedance, friction"):
+        sonoglide.identify("temperature", PIN)
+
+
+def test_mechanical_facts_out_of_range_are_refused():
     with pytest.raises(ValueError, match="one of them"):
-        sonoglide.identify_impedance("nowhere.csv", 0.01, 2.0)
+        sonoglide.identify_impedance(PIECE, 0.01, 2.0)
+    with pytest.raises(ValueError, match="mass_kg is -1; allowed: 1e-12 to 1e"):
+        sonoglide.identify_impedance(PIECE, -1.0)
+
+
+def test_robustness_is_that_of_the_program(scene, tmp_path):
+    read = scene("robust_step", {"solver.tolerance": 1e-6})
+    (tmp_path / "loop.toml").write_text(read.toml)
+    program("robust", tmp_path / "loop.toml", "--samples", "16", "--search", "8", "--seed", "3", "--out", tmp_path / "out")
+    mine = sonoglide.robust(read, samples=16, search=8, seed=3)
+    assert mine == json.loads((tmp_path / "out" / "robust.json").read_text())
+    assert mine.scene == sonoglide.Scene(tmp_path / "out" / "worst.toml")
+
+
+@pytest.mark.parametrize("options", [{"samples": 0}, {"samples": 10**7}, {"search": 10**7}])
+def test_counts_out_of_range_are_refused(scene, options):
+    with pytest.raises(ValueError, match="allowed: "):
+        sonoglide.robust(scene("robust_step"), **options)
+
+
+def test_robustness_wants_tolerances(scene):
+    with pytest.raises(sonoglide.SceneError, match="tolerance"):
+        sonoglide.robust(scene("target_step"))
+
+
+def test_a_design_is_that_of_the_program(tmp_path):
+    path = pathlib.Path(os.environ["SONOGLIDE_SCENES"]) / "target_step.toml"
+    program("design", path, "--ratio", "0.5", "--velocity", "0.02:0.03", "--out", tmp_path)
+    mine = sonoglide.design(sonoglide.Scene(path), [0.5], velocity_m_per_s=(0.02, 0.03))
+    assert mine == json.loads((tmp_path / "design.json").read_text())
+
+
+@pytest.mark.parametrize("options", [{"ratios": [1.0]}, {"velocity_m_per_s": (0.03, 0.02)}])
+def test_designs_out_of_range_are_refused(scene, options):
+    with pytest.raises(ValueError, match="allowed: "):
+        sonoglide.design(scene("target_step"), **options)
+
+
+def test_the_header_is_that_of_the_program(scene, tmp_path):
+    path = pathlib.Path(os.environ["SONOGLIDE_SCENES"]) / "target_step.toml"
+    program("configure", path, "--plant", "q31", "--out", tmp_path)
+    headers = sonoglide.configure(scene("target_step"), plant="q31")
+    assert len(headers) == 2
+    for name, text in headers.items():
+        assert text == (tmp_path / name).read_text()
+    with pytest.raises(ValueError, match='allowed: "float32", "q31"'):
+        sonoglide.configure(scene("target_step"), plant="float64")
+
+
+@pytest.mark.parametrize("options", [[], ["--fmi", "2"]])
+def test_the_fmu_is_that_of_the_program(scene, tmp_path, options):
+    path = pathlib.Path(os.environ["SONOGLIDE_SCENES"]) / "target_step.toml"
+    program("fmu", path, "--kind", "loop", "--out", tmp_path / "theirs.fmu", *options)
+    sonoglide.fmu(scene("target_step"), "loop", tmp_path / "mine.fmu", *map(int, options[1:]))
+    assert (tmp_path / "mine.fmu").read_bytes() == (tmp_path / "theirs.fmu").read_bytes()
+
+
+def test_an_fmu_of_another_kind_is_refused(scene, tmp_path):
+    with pytest.raises(ValueError, match='allowed: "plant", "controller", "loop"'):
+        sonoglide.fmu(scene("target_step"), "sensor", tmp_path / "a.fmu")
+    with pytest.raises(ValueError, match="ends in .fmu"):
+        sonoglide.fmu(scene("target_step"), "loop", tmp_path / "a.zip")
+    with pytest.raises(FileNotFoundError):
+        sonoglide.fmu(scene("target_step"), "loop", tmp_path / "nowhere" / "a.fmu")
+
+
+def test_what_a_study_comes_to_can_be_pickled():
+    found = sonoglide.identify_friction(PIN, ["coulomb"])
+    again = pickle.loads(pickle.dumps(found))
+    assert (again, again.scene) == (found, found.scene)

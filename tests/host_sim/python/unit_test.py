@@ -154,3 +154,9 @@ def test_a_word_that_names_no_arithmetic_is_refused(scene):
 def test_an_open_loop_has_no_unit(scene):
     with pytest.raises(ValueError, match="controller"):
         sonoglide.Unit(scene("table_1_open_loop"))
+
+
+def test_a_unit_shows_itself(scene):
+    unit = sonoglide.Unit(scene("target_step"), "q31")
+    assert repr(unit) == "<sonoglide.Unit of target_step in q31: off, target 0.4>"
+    assert "<td>fault</td><td>none</td>" in unit._repr_html_()

@@ -1,0 +1,71 @@
+#include <fmt/format.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include <array>
+#include <cstddef>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+
+#include "host_sim/emulated/controller_header.hpp"
+#include "host_sim/experiment/experiment.hpp"
+#include "host_sim/fmi/archive/make_fmu.hpp"
+#include "host_sim/python/bindings.hpp"
+#include "host_sim/python/scene.hpp"
+#include "host_sim/scene/names.hpp"
+
+namespace sonoglide::python {
+namespace {
+
+namespace py = pybind11;
+
+template <class Value, std::size_t count>
+Value named(const std::array<scene::Named<Value>, count>& words, const char* argument,
+            const std::string& word) {
+  std::string allowed;
+  for (const scene::Named<Value>& each : words) {
+    if (each.name == word) {
+      return each.value;
+    }
+    allowed += fmt::format("{}\"{}\"", allowed.empty() ? "" : ", ", each.name);
+  }
+  throw py::value_error(fmt::format("{} is \"{}\"; allowed: {}", argument, word, allowed));
+}
+
+/// -> the headers by their names
+std::map<std::string, std::string> configure(const Scene& scene,
+                                             const std::optional<std::string>& plant) {
+  const experiment::Experiment read = experiment::read(scene.source, scene.overrides);
+  std::map<std::string, std::string> headers = {
+      {emulated::controller_header_name, emulated::controller_header(read.scene, read.design)}};
+  if (plant) {
+    headers[emulated::plant_header_name] = emulated::plant_header(
+        read.scene, read.design, named(emulated::plant_arithmetics, "plant", *plant));
+  }
+  return headers;
+}
+
+/// @param version  absent: the first of them
+/// @param folder   of the engine
+py::bytes fmu(const Scene& scene, const std::string& kind,
+              const std::optional<std::string>& version, const std::filesystem::path& folder) {
+  const loop::Kind what = named(loop::kinds, "kind", kind);
+  const fmi::Version interface =
+      version ? named(fmi::versions, "fmi", *version) : fmi::versions.front().value;
+  loop::require_usable(scene.values, what);
+  return fmi::make_fmu(scene.values, what, interface, fmi::find_parts(folder),
+                       "sonoglide " SONOGLIDE_VERSION);
+}
+
+}  // namespace
+
+void add_products(py::module_& module) {
+  module.attr("version") = SONOGLIDE_VERSION;
+  module.def("configure", &configure);
+  module.def("fmu", &fmu);
+}
+
+}  // namespace sonoglide::python

@@ -1,0 +1,149 @@
+"""The environment: by Gymnasium's own checker where it is installed, else by a stand-in for it."""
+
+import copy
+import importlib
+import importlib.util
+import inspect
+import sys
+import types
+
+import numpy
+import pytest
+
+import sonoglide
+
+INSTALLED = importlib.util.find_spec("gymnasium") is not None
+
+
+def stand_in():
+    """What the environment takes of Gymnasium."""
+
+    class Box:
+        def __init__(self, low, high, shape=None, dtype=numpy.float32):
+            shape = numpy.shape(low) if shape is None else shape
+            self.low, self.high = (numpy.broadcast_to(numpy.asarray(end, dtype), shape) for end in (low, high))
+            self.shape, self.dtype = shape, dtype
+
+        def __contains__(self, value):
+            return value.shape == self.shape and value.dtype == self.dtype and bool(
+                numpy.all((value >= self.low) & (value <= self.high)))
+
+    class Env:
+        def __class_getitem__(cls, _):
+            return cls
+
+        def reset(self, *, seed=None, options=None):
+            if seed is not None or not hasattr(self, "np_random"):
+                self.np_random = numpy.random.default_rng(seed)
+
+    module = types.ModuleType("gymnasium")
+    module.Env, module.spaces, module.registry = Env, types.SimpleNamespace(Box=Box), {}
+    module.register = lambda name, entry_point: module.registry.update({name: entry_point})
+    return module
+
+
+@pytest.fixture
+def environment(monkeypatch):
+    """sonoglide.gymnasium"""
+    if not INSTALLED:
+        monkeypatch.setitem(sys.modules, "gymnasium", stand_in())
+    monkeypatch.delitem(sys.modules, "sonoglide.gymnasium", raising=False)
+    return importlib.import_module("sonoglide.gymnasium")
+
+
+def test_gymnasium_is_content_with_the_environment(environment, scene):
+    if not INSTALLED:
+        pytest.skip("Gymnasium is not installed: its own checker does not look at the environment")
+    gymnasium = importlib.import_module("gymnasium")
+    checker = importlib.import_module("gymnasium.utils.env_checker")
+    checker.check_env(gymnasium.make(environment.ENVIRONMENT).unwrapped)
+    checker.check_env(environment.Loop(scene("noisy_sensor")))
+
+
+def test_the_environment_is_registered(environment):
+    spec = sys.modules["gymnasium"].registry[environment.ENVIRONMENT]
+    assert getattr(spec, "entry_point", spec) == "sonoglide.gymnasium:Loop"
+    environment.register()
+
+
+def test_signatures_are_those_of_gymnasium(environment):
+    reset = inspect.signature(environment.Loop.reset).parameters
+    assert list(reset) == ["self", "seed", "options"]
+    assert reset["seed"].kind is reset["seed"].KEYWORD_ONLY
+    assert list(inspect.signature(environment.Loop.step).parameters) == ["self", "action"]
+
+
+@pytest.mark.parametrize("name", ["target_step", "target_step_q15", "noisy_sensor", "damped_step", "speed_reversal"])
+def test_every_observation_is_inside_its_space_and_tells_the_reward(environment, scene, name):
+    env = environment.Loop(scene(name))
+    actions = numpy.random.default_rng(2)
+    observation, info = env.reset(seed=1)
+    assert observation in env.observation_space
+    names = env.observation_names
+    coming = observation[names.index("coming_ratio")]
+    while True:
+        action = actions.uniform(0.0, 1.0, 1).astype(numpy.float32)
+        observation, reward, terminated, truncated, info = env.step(action)
+        assert observation in env.observation_space
+        seen = dict(zip(names, observation.tolist()))
+        assert reward == 1.0 - abs(seen["friction_ratio"] - seen["wanted_ratio"])
+        assert seen["wanted_ratio"] == pytest.approx(info["wanted_friction_ratio"])
+        assert seen["wanted_ratio"] == coming
+        coming = observation[names.index("coming_ratio")]
+        if terminated or truncated:
+            break
+    assert truncated
+
+
+def test_observations_are_scaled(environment, scene):
+    env, loop = environment.Loop(scene("target_step")), sonoglide.Loop(scene("target_step"))
+    env.reset(seed=1)
+    for _ in range(300):
+        observation = env.step(numpy.array([0.6], numpy.float32))[0]
+        plain = loop.step(float(numpy.float32(0.6)))[0]
+    assert observation[0] == pytest.approx(plain[0])
+    assert observation[3] == pytest.approx(plain[1] / 1920.0, rel=1e-6)
+    assert 0.05 < abs(observation[3:]).max() <= 1.0
+
+
+@pytest.mark.parametrize("arithmetic", ["float32", "q31", "q15"])
+def test_the_action_0_is_the_least_target(environment, scene, arithmetic):
+    env = environment.Loop(scene("target_step", {"controller.arithmetic": arithmetic}))
+    env.reset(seed=1)
+    for _ in range(100):
+        observation, reward, terminated, truncated, info = env.step(numpy.zeros(1, numpy.float32))
+    assert not terminated
+    assert observation[0] < 0.2
+    env.step(numpy.ones(1, numpy.float32))
+
+
+def test_the_seed_decides_the_episodes(environment, scene):
+    def episodes(seed):
+        env = environment.Loop(scene("noisy_sensor"))
+        env.reset(seed=seed)
+        rows = []
+        for _ in range(2):
+            rows.append([env.step(numpy.array([0.5], numpy.float32))[0].tolist() for _ in range(100)])
+            env.reset()
+        return rows
+
+    first, again, other = episodes(1), episodes(1), episodes(2)
+    assert first == again
+    assert first[0] != other[0]
+    assert first[0] != first[1]
+
+
+def test_a_copy_goes_on_from_where_it_is(environment, scene):
+    env = environment.Loop(scene("noisy_sensor"))
+    env.reset(seed=3)
+    action = numpy.array([0.5], numpy.float32)
+    env.step(action)
+    again = copy.deepcopy(env)
+    assert env.step(action)[0].tolist() == again.step(action)[0].tolist()
+
+
+def test_without_gymnasium_it_is_named(monkeypatch):
+    monkeypatch.setitem(sys.modules, "gymnasium", None)
+    monkeypatch.delitem(sys.modules, "sonoglide.gymnasium", raising=False)
+    with pytest.raises(ImportError, match="pip install gymnasium"):
+        importlib.import_module("sonoglide.gymnasium")
