@@ -87,7 +87,9 @@ function(sonoglide_install)
   if(TARGET sonoglide_python_module)
     # Where Debian's interpreter looks for it. A wheel holds the same files.
     set(folder lib/python3/dist-packages/sonoglide)
-    install(TARGETS sonoglide_python_module sonoglide_fmu LIBRARY DESTINATION "${folder}"
+    install(TARGETS sonoglide_python_module LIBRARY DESTINATION "${folder}"
+      COMPONENT python OPTIONAL)
+    install(TARGETS sonoglide_fmu LIBRARY DESTINATION "${folder}/engine"
       COMPONENT python OPTIONAL)
     install(DIRECTORY "${PROJECT_SOURCE_DIR}/host_sim/python/sonoglide/" DESTINATION "${folder}"
       COMPONENT python FILES_MATCHING PATTERN "*.py" PATTERN "*.pyi" PATTERN py.typed)

@@ -90,7 +90,9 @@ class Scene(_core.Scene):
         return values
 
     def __eq__(self, other: object) -> bool:
-        return self.json == other.json if isinstance(other, _core.Scene) else NotImplemented
+        if not isinstance(other, _core.Scene):
+            return NotImplemented
+        return self.json == other.json
 
     def __hash__(self) -> int:
         return hash(self.json)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Union
@@ -170,7 +170,10 @@ def identify(kind: str, measured: Measurements, **options: Any) -> Study:
     kind     'impedance' or 'friction'
     options  of that function
     """
-    functions = {"impedance": identify_impedance, "friction": identify_friction}
+    functions: dict[str, Callable[..., Study]] = {
+        "impedance": identify_impedance,
+        "friction": identify_friction,
+    }
     if kind not in functions:
         raise ValueError(f"kind is {kind!r}; allowed: {', '.join(functions)}")
     return functions[kind](measured, **options)
@@ -195,5 +198,5 @@ def fmu(scene: Scene, kind: str, path: str | PathLike[str], fmi: str | int | Non
     """
     if Path(path).suffix != ".fmu":
         raise ValueError(f"path is {str(path)!r}; allowed: a file that ends in .fmu")
-    archive = _core.fmu(scene, kind, None if fmi is None else str(fmi), Path(__file__).parent)
+    archive = _core.fmu(scene, kind, None if fmi is None else str(fmi), Path(__file__).parent / "engine")
     Path(path).write_bytes(archive)

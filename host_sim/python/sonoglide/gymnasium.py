@@ -68,9 +68,10 @@ class Loop(gymnasium.Env[NDArray[np.float32], NDArray[np.float32]]):
     def _observation(self, observed: NDArray[np.float64], info: dict[str, Any]) -> NDArray[np.float32]:
         scaled = observed / self._full_scales
         wanted = info["wanted_friction_ratio"], info["coming_friction_ratio"]
-        values = np.concatenate([scaled[:1], wanted, scaled[1:]]).astype(np.float32)
+        values = np.concatenate([scaled[:1], wanted, scaled[1:]])
         box = self.observation_space
-        return np.clip(values, box.low, box.high)
+        clipped: NDArray[np.float32] = np.clip(values, box.low, box.high).astype(np.float32)
+        return clipped
 
     def reset(
         self, *, seed: int | None = None, options: dict[str, Any] | None = None
