@@ -22,6 +22,13 @@ def scene():
     return read
 
 
+def content(text):
+    """What a JSON file of the program says, as if nobody had typed a command."""
+    read = json.loads(text)
+    read["program"]["command_line"] = None
+    return read
+
+
 @pytest.fixture
 def program():
     """What `sonoglide run --json` prints for an example scene."""
@@ -32,6 +39,6 @@ def program():
             capture_output=True,
             check=True,
         )
-        return json.loads(done.stdout)
+        return content(done.stdout)
 
     return summary

@@ -1,5 +1,4 @@
 import csv
-import json
 import os
 import pathlib
 import pickle
@@ -9,6 +8,7 @@ import numpy
 import pytest
 
 import sonoglide
+from conftest import content
 
 IDENTIFY = pathlib.Path(os.environ["SONOGLIDE_SCENES"]).parent / "studies" / "identify"
 
@@ -66,14 +66,14 @@ def test_a_value_that_would_be_two_is_refused(scene):
 def test_friction_is_identified_as_by_the_program(tmp_path):
     path = IDENTIFY / "friction" / "examples" / "dong_dapino_2015.csv"
     program("identify", "friction", path, "--law", "normal_coulomb", "--out", tmp_path)
-    theirs = json.loads((tmp_path / "identify.json").read_text())
+    theirs = content((tmp_path / "identify.json").read_text())
     assert sonoglide.identify_friction(path, ["normal_coulomb"]) == theirs
 
 
 def test_impedance_is_identified_as_by_the_program(tmp_path):
     path = IDENTIFY / "impedance" / "examples" / "piece_112_kHz.csv"
     program("identify", "impedance", path, "--mass-kg", "0.01", "--out", tmp_path)
-    assert sonoglide.identify_impedance(path, mass_kg=0.01) == json.loads((tmp_path / "identify.json").read_text())
+    assert sonoglide.identify_impedance(path, mass_kg=0.01) == content((tmp_path / "identify.json").read_text())
 
 
 def test_a_computed_circuit_is_found_again(tmp_path):
@@ -170,7 +170,7 @@ def test_robustness_is_that_of_the_program(scene, tmp_path):
     (tmp_path / "loop.toml").write_text(read.toml)
     program("robust", tmp_path / "loop.toml", "--samples", "16", "--search", "8", "--seed", "3", "--out", tmp_path / "out")
     mine = sonoglide.robust(read, samples=16, search=8, seed=3)
-    assert mine == json.loads((tmp_path / "out" / "robust.json").read_text())
+    assert mine == content((tmp_path / "out" / "robust.json").read_text())
     assert mine.scene == sonoglide.Scene(tmp_path / "out" / "worst.toml")
 
 
@@ -189,7 +189,7 @@ def test_a_design_is_that_of_the_program(tmp_path):
     path = pathlib.Path(os.environ["SONOGLIDE_SCENES"]) / "target_step.toml"
     program("design", path, "--ratio", "0.5", "--velocity", "0.02:0.03", "--out", tmp_path)
     mine = sonoglide.design(sonoglide.Scene(path), [0.5], velocity_m_per_s=(0.02, 0.03))
-    assert mine == json.loads((tmp_path / "design.json").read_text())
+    assert mine == content((tmp_path / "design.json").read_text())
 
 
 @pytest.mark.parametrize("options", [{"ratios": [1.0]}, {"velocity_m_per_s": (0.03, 0.02)}])
