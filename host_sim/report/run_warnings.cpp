@@ -24,8 +24,9 @@ void append_limits(const Course& course, std::vector<std::string>& warnings) {
   for (const Limit limit : {Limit::slew, Limit::ratio_end, Limit::mismatch, Limit::not_settling,
                             Limit::bad_sample, Limit::frequency_range}) {
     if (const std::uint64_t periods = course.periods_in(limit); periods > 0) {
-      warnings.push_back(fmt::format("The limit {} was named in {} carrier {}.", limit_name(limit),
-                                     periods, periods == 1 ? "period" : "periods"));
+      warnings.push_back(fmt::format("The controller named the limit {} in {} carrier {}.",
+                                     limit_name(limit), periods,
+                                     periods == 1 ? "period" : "periods"));
     }
   }
 }
@@ -49,8 +50,7 @@ void append_drive_limit(const scene::Scene& scene, const loop::ControlRecord& co
   const auto& current_A = scene.drive->max_current_amplitude_A;
   warnings.push_back(
       fmt::format("The amplifier's {:.6g} V{} limited the drive in {} of the control steps. In a "
-                  "large change of "
-                  "the vibration this is meant to be.",
+                  "large change of the vibration this is intended.",
                   most, current_A ? fmt::format(" or {:.6g} A", *current_A) : "", part));
 }
 
@@ -97,14 +97,14 @@ std::vector<std::string> run_warnings(const scene::Scene& scene, const loop::Run
   append_unsettled(scene, findings, all);
   if (!scene.tolerances.empty()) {
     all.emplace_back(
-        "This is one plant: [tolerance] varies nothing here. The command robust runs the loop over "
-        "the plants that it allows.");
+        "This run has one plant and ignores [tolerance]. The command robust runs the loop over the "
+        "plants within it.");
   }
   const bool cosine = scene.drive->waveform == scene::Waveform::cosine;
   if (!scene::has_own_map(scene.friction.law) || !cosine) {
     all.push_back(fmt::format(
-        "The feedforward's map is that of a {} contact under a cosine; what "
-        "{} changes is left to feedback.",
+        "The feedforward's map is that of a {} contact under a cosine; feedback corrects what {} "
+        "changes.",
         scene::friction_map(scene.friction.law) == scene::FrictionMap::dahl ? "Dahl" : "Coulomb",
         cosine ? "the law" : "the waveform"));
   }
@@ -115,8 +115,8 @@ std::vector<std::string> run_warnings(const scene::Scene& scene, const loop::Run
   append_drive_limit(scene, *result.control, all);
   if (!scene.sensor.force) {
     all.emplace_back(
-        "There is no force sensor: the friction ratio rests on the friction that the controller "
-        "believes. It is as wrong as that is, and the controller does not see it.");
+        "There is no force sensor: the controller computes the friction ratio from the nominal "
+        "friction, and cannot detect an error of it.");
   }
   append_limits(findings.course(), all);
   for (std::string& note : configure::design_notes(result.control->design)) {
@@ -124,11 +124,10 @@ std::vector<std::string> run_warnings(const scene::Scene& scene, const loop::Run
   }
   if (result.control->design.relearns) {
     const report::PauseMetrics pauses = findings.pauses();
-    all.push_back(
-        fmt::format("The drive paused {} times to learn the friction force anew: {} of the time. "
-                    "The pauses raise "
-                    "the mean friction ratio by {:.3g}; the table of target steps leaves them out.",
-                    pauses.pauses, percent(pauses.time_fraction), pauses.ratio_cost));
+    all.push_back(fmt::format(
+        "The drive paused {} times to calibrate the friction force again: {} of the time. The "
+        "pauses raise the mean friction ratio by {:.3g}; the table of target steps leaves them out.",
+        pauses.pauses, percent(pauses.time_fraction), pauses.ratio_cost));
   }
   if (scene.controller->target_friction_ratio.size() > findings.close_ups().size()) {
     all.push_back(fmt::format("Close-ups are shown of the first {} target steps.",
