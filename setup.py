@@ -44,10 +44,13 @@ class Build(setuptools.command.build_ext.build_ext):
 class SourceArchive(setuptools.command.sdist.sdist):
     """Holds the files that git knows."""
 
-    def add_defaults(self):
+    def make_distribution(self):
         listed = subprocess.run(["git", "ls-files", "-z"], cwd=SOURCE, check=True,
                                 capture_output=True, text=True)
         self.filelist.extend(name for name in listed.stdout.split("\0") if name)
+        self.filelist.sort()
+        self.filelist.remove_duplicates()
+        super().make_distribution()
 
 
 (SOURCE / "build").mkdir(exist_ok=True)

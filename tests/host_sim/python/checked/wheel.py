@@ -49,4 +49,5 @@ run(interpreter, "-c", USE.replace("VERSION", repr(VERSION)).replace("FOLDER", r
 run(sys.executable, "setup.py", "--quiet", "sdist", "--dist-dir", FOLDER, cwd=SOURCE)
 (archive,) = FOLDER.glob("sonoglide-*.tar.gz")
 inside = {name.split("/", 1)[1] for name in tarfile.open(archive).getnames() if "/" in name}
-assert listed(SOURCE) <= inside, listed(SOURCE) - inside
+missing = listed(SOURCE) - inside
+assert not missing, f"{len(missing)} files are not in the archive: {sorted(missing)[:5]}"
