@@ -88,7 +88,7 @@ def main():
             raise SystemExit(f"gallery: {tool} is not installed; apt-get install {tool}")
     SITE.mkdir(parents=True, exist_ok=True)
     site = documents.Site(SOURCES, SITE, (HERE / "page.html").read_text())
-    style = (SOURCES / "host_sim/output/page.css").read_text() + (HERE / "gallery.css").read_text()
+    style = (SOURCES / "host_sim/output/page/page.css").read_text() + (HERE / "gallery.css").read_text()
     (SITE / "gallery.css").write_text(style)
     (SITE / "search.js").write_text((HERE / "search.js").read_text())
     site.write_documents()

@@ -18,6 +18,7 @@ import yaml
 SOURCES, STRANGER, SCRATCH = map(pathlib.Path, sys.argv[1:4])
 VERSION, COMPILER, CMAKE, TOOLCHAIN = sys.argv[4:8]
 SKETCH = pathlib.Path(__file__).parent / "sketch"
+SCRATCH.mkdir(parents=True, exist_ok=True)
 
 
 def fresh(name):
