@@ -31,7 +31,8 @@ laws = ["coulomb", "transverse_coulomb"]
     "tune_a_controller": [
         """
 import sonoglide
-scene = sonoglide.Scene(sonoglide.scenes / "robust_step.toml", {"tolerance": None})
+targets = [[0.0, 0.5], [1.5e-3, 0.45]]
+scene = sonoglide.Scene(sonoglide.scenes / "target_step.toml", {"controller.target_friction_ratio": targets})
 softest, stiffest = 0.97, 1.02
 """,
     ],
