@@ -236,7 +236,7 @@ class Panel {
   // Whether something of the data is on the sheet.
   isDrawn() {
     return [...this.box.querySelectorAll('.data path, .data rect, .data circle')].some((shape) => {
-      const {width, height} = shape.getBBox();
+      const {width, height} = shape.getBoundingClientRect();
       return width > 0 || height > 0;
     });
   }

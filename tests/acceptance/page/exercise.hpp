@@ -76,10 +76,10 @@ inline constexpr const char* exercise_script = R"js(
 
 /// Of each chart: moves one finger over it, two fingers apart on it, and presses its button. Counts
 /// data-scrolled (one finger is left to the page, which may scroll, and the range stays),
-/// data-pinched (what was between the fingers is spread), data-reset.
+/// data-pinched (what was between the fingers is spread) and data-unzoomed.
 inline constexpr const char* touch_script = R"js(
 (() => {
-  const counts = {scrolled: 0, pinched: 0, reset: 0};
+  const counts = {scrolled: 0, pinched: 0, unzoomed: 0};
   for (const figure of document.querySelectorAll('figure.panel')) {
     const box = figure.querySelector('.chart');
     const {left, top, width, height} = figure.chart.area;
@@ -105,7 +105,7 @@ inline constexpr const char* touch_script = R"js(
     const button = figure.querySelector('.reset');
     const shown = !button.hidden;
     button.click();
-    counts.reset += shown && button.hidden && String(figure.chart.xAxisRange()) === String(full);
+    counts.unzoomed += shown && button.hidden && String(figure.chart.xAxisRange()) === String(full);
   }
   Object.assign(document.body.dataset, counts);
 })();
