@@ -34,7 +34,7 @@ void append_scene(std::string& html, const ordered_json& scene, const ordered_js
   std::size_t count = 0;
   for (const auto& [table, keys] : scene.items()) {
     for (const auto& [name, value] : keys.items()) {
-      const std::string key = table + '.' + name;
+      const std::string key = fmt::format("{}.{}", table, name);
       const auto found = changed.find(key);
       const bool is_changed = found != changed.end();
       rows += fmt::format(
