@@ -411,7 +411,7 @@ TEST(ReadSweep, KnowsTheMinusAndTheSpacesOfUnicode) {
 /// Half of a pair tells no impedance, and a unit alone not which half it is.
 TEST(ReadSweep, RefusesHalfOfAPair) {
   EXPECT_EQ(
-      error_of("f_kHz,G_S\n1,2\n").substr(0, 96),
+      error_of("f_kHz,G_S\n1,2\n").substr(0, 101),
       "m.csv:1:7: heading: \"G_S\" is half of a pair, and does not determine the capacitances alone; "
       "allowed: ");
   EXPECT_EQ(error_of("f (kHz);B (mS)\n1;2\n").substr(0, 43),
