@@ -37,18 +37,19 @@ Boards chosen(const std::vector<std::string>& names) {
 /// other program is left behind.
 void arithmetic(const ArithmeticOptions& options) {
   const SceneInput input(options.scene);
-  const scene::Scene scene = input.read().scene;
+  const experiment::Experiment experiment = input.read();
+  const scene::Scene& scene = experiment.plant;
   input.with_places([&] {
     arithmetic::require_every_arithmetic(scene);
-    return emulated::controller_header(scene);
+    return emulated::controller_header(experiment);
   });
   const Boards boards = chosen(options.boards);
   const std::filesystem::path out = output_folder(options.out, scene.name, "_arithmetic");
   output::require_gnuplot();
   require_writable(out, {"arithmetic.csv", "targets.csv", "arithmetic.svg"});
-  const arithmetic::ArithmeticComparison comparison =
-      with_bar(options.quiet,
-               [&](const auto& progress) { return arithmetic::compare(scene, boards, progress); });
+  const arithmetic::ArithmeticComparison comparison = with_bar(
+      options.quiet,
+      [&](const auto& progress) { return arithmetic::compare(experiment, boards, progress); });
   publish(out, arithmetic::report(scene, comparison), options.quiet, "picture", "arithmetic.svg");
 }
 

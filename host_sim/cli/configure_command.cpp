@@ -8,7 +8,6 @@
 
 #include "host_sim/cli/options.hpp"
 #include "host_sim/cli/run_watch.hpp"
-#include "host_sim/configure/control_design.hpp"
 #include "host_sim/emulated/controller_header.hpp"
 #include "host_sim/output/output_folder.hpp"
 #include "host_sim/process/printable.hpp"
@@ -26,25 +25,22 @@ struct ConfigureOptions {
 /// Throws scene_file::SceneError, output::OutputError; in each case nothing was written.
 void configure(const ConfigureOptions& options) {
   const SceneInput input(options.scene);
-  const experiment::Experiment read = input.read();
-  const scene::Scene& scene = read.scene;
-  const auto& design = read.design;
-  const std::filesystem::path out = output_folder(options.out, scene.name);
+  const experiment::Experiment experiment = input.read();
+  const std::filesystem::path out = output_folder(options.out, experiment.plant.name);
   output::OutputFolder folder(out);
   folder.write(emulated::controller_header_name,
-               input.with_places([&] { return emulated::controller_header(scene, design); }));
+               input.with_places([&] { return emulated::controller_header(experiment); }));
   if (options.plant.empty()) {
     folder.withdraw(emulated::plant_header_name);
   } else {
     const scene::Arithmetic arithmetic =
         options.plant == "q31" ? scene::Arithmetic::q31 : scene::Arithmetic::float32;
-    folder.write(emulated::plant_header_name, input.with_places([&] {
-      return emulated::plant_header(scene, design, arithmetic);
-    }));
+    folder.write(emulated::plant_header_name,
+                 input.with_places([&] { return emulated::plant_header(experiment, arithmetic); }));
   }
   folder.commit();
   if (!options.quiet) {
-    print_design_notes(design);
+    print_design_notes(experiment.design);
     fmt::print("header: {}\n",
                process::printable((out / emulated::controller_header_name).string()));
     if (!options.plant.empty()) {

@@ -58,10 +58,11 @@ std::string check_ratio(const std::string& text) {
 /// process::ProcessError; in each case nothing was written.
 void design(const DesignOptions& options) {
   const SceneInput input(options.scene);
-  const scene::Scene scene = input.read().scene;
-  const design::Task task = input.with_places(
-      [&] { return design::make_task(scene, options.ratios, parse_speeds(options.velocity)); });
-  const std::filesystem::path out = output_folder(options.out, scene.name, "_design");
+  const experiment::Experiment experiment = input.read();
+  const design::Task task = input.with_places([&] {
+    return design::make_task(experiment, options.ratios, parse_speeds(options.velocity));
+  });
+  const std::filesystem::path out = output_folder(options.out, experiment.plant.name, "_design");
   output::require_gnuplot();
   require_writable(out, {"report.html", "design.json", "design.csv", "detuning.csv"});
   const design::DesignStudy study =

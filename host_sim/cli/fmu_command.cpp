@@ -37,20 +37,20 @@ Value named(const std::array<scene::Named<Value>, count>& words, const std::stri
 
 void write(const FmuOptions& options) {
   const SceneInput input(options.scene);
-  const experiment::Experiment read = input.read();
-  const scene::Scene& scene = read.scene;
+  const experiment::Experiment experiment = input.read();
+  const scene::Scene& scene = experiment.plant;
   const loop::Kind kind = named(loop::kinds, options.kind);
   input.with_places([&] { loop::require_usable(scene, kind); });
   const std::filesystem::path out = std::filesystem::absolute(options.out);
   output::OutputFolder folder(out.parent_path(), {out.filename().string()});
   const fmi::Parts parts = fmi::find_parts(fmi::folder_of_program());
   folder.write(out.filename().string(),
-               fmi::make_fmu(scene, kind, named(fmi::versions, options.version), parts,
+               fmi::make_fmu(experiment.nominal, kind, named(fmi::versions, options.version), parts,
                              "sonoglide " SONOGLIDE_VERSION));
   folder.commit();
   if (!options.quiet) {
     if (kind != loop::Kind::plant) {
-      print_design_notes(read.design);
+      print_design_notes(experiment.design);
     }
     fmt::print("fmu:  {}\nstep: {} s, one carrier period{}\n", process::printable(options.out),
                1.0 / scene.drive->frequency_Hz, scene.carrier_changes() ? " at the start" : "");

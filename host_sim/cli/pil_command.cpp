@@ -5,13 +5,11 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
-#include <optional>
 #include <string>
 
 #include "host_sim/cli/options.hpp"
 #include "host_sim/cli/progress_bar.hpp"
 #include "host_sim/cli/run_watch.hpp"
-#include "host_sim/configure/control_design.hpp"
 #include "host_sim/emulated/board_list.hpp"
 #include "host_sim/emulated/controller_header.hpp"
 #include "host_sim/emulated/run_image.hpp"
@@ -29,19 +27,18 @@ struct PilOptions {
   bool quiet = false;
 };
 
-loop::RunResult compute(const scene::Scene& scene, const configure::ControlDesign& design,
+loop::RunResult compute(const experiment::Experiment& experiment,
                         const emulated::EmulatedBoard& board, const std::string& header,
                         report::RunReport& report, bool quiet) {
   ProgressBar bar(stderr, !quiet);
-  return emulated::run_image(scene, design, board, header, run_watch(report, bar));
+  return emulated::run_image(experiment, board, header, run_watch(report, bar));
 }
 
-std::string header_for(const SceneInput& input, const scene::Scene& scene,
-                       const std::optional<configure::ControlDesign>& design,
+std::string header_for(const SceneInput& input, const experiment::Experiment& experiment,
                        const emulated::EmulatedBoard& board) {
   return input.with_places([&] {
-    emulated::require_arithmetic(scene, board);
-    return emulated::controller_header(scene, design);
+    emulated::require_arithmetic(experiment.plant, board);
+    return emulated::controller_header(experiment);
   });
 }
 
@@ -51,18 +48,17 @@ std::string header_for(const SceneInput& input, const scene::Scene& scene,
 void pil(const PilOptions& options) {
   const emulated::EmulatedBoard& board = *emulated::find_board(options.board);
   const SceneInput input(options.scene);
-  const experiment::Experiment read = input.read();
-  const scene::Scene& scene = read.scene;
-  const auto& design = read.design;
-  const std::string header = header_for(input, scene, design, board);
+  const experiment::Experiment experiment = input.read();
+  const scene::Scene& scene = experiment.plant;
+  const std::string header = header_for(input, experiment, board);
   if (!options.quiet) {
-    print_design_notes(design);
+    print_design_notes(experiment.design);
     announce_long_work(loop::expected_steps(scene));
   }
   const std::filesystem::path out = output_folder(options.out, scene.name, "_" + options.board);
   require_emulator(board);
-  report::RunReport report(out, scene, design);
-  const loop::RunResult result = compute(scene, *design, board, header, report, options.quiet);
+  report::RunReport report(out, experiment);
+  const loop::RunResult result = compute(experiment, board, header, report, options.quiet);
   report.finish(result);
   if (!options.quiet) {
     fmt::print("{}", report::run_text(scene, result, report.findings(), out));

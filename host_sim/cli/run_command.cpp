@@ -6,13 +6,11 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
-#include <optional>
 #include <string>
 
 #include "host_sim/cli/options.hpp"
 #include "host_sim/cli/progress_bar.hpp"
 #include "host_sim/cli/run_watch.hpp"
-#include "host_sim/configure/control_design.hpp"
 #include "host_sim/loop/run.hpp"
 #include "host_sim/loop/step_forecast.hpp"
 #include "host_sim/process/printable.hpp"
@@ -30,17 +28,15 @@ struct RunOptions {
   bool quiet = false;
 };
 
-using Design = std::optional<configure::ControlDesign>;
-
 /// The summary alone, nothing written.
-std::string compute_summary(const scene::Scene& scene, const Design& design, bool quiet) {
-  report::RunFindings findings(scene, design);
+std::string compute_summary(const experiment::Experiment& experiment, bool quiet) {
+  report::RunFindings findings(experiment);
   ProgressBar bar(stderr, !quiet);
   loop::Watch watch;
   findings.join(watch);
   watch.progress = watching(bar);
-  const loop::RunResult result = loop::run(scene, design, watch);
-  return report::summary_text(scene, result, findings);
+  const loop::RunResult result = loop::run(experiment, watch);
+  return report::summary_text(experiment, result, findings);
 }
 
 /// On a terminal somebody waits, and may think again.
@@ -54,35 +50,35 @@ void announce_recording(const scene::Scene& scene) {
 }
 
 /// @return what is printed
-std::string compute_report(const scene::Scene& scene, const Design& design,
+std::string compute_report(const experiment::Experiment& experiment,
                            const std::filesystem::path& out, const RunOptions& options) {
-  report::RunReport report(out, scene, design);
+  report::RunReport report(out, experiment);
   ProgressBar bar(stderr, !options.quiet);
-  const loop::RunResult result = loop::run(scene, design, run_watch(report, bar));
+  const loop::RunResult result = loop::run(experiment, run_watch(report, bar));
   report.finish(result);
   if (options.json) {
-    return report::summary_text(scene, result, report.findings());
+    return report::summary_text(experiment, result, report.findings());
   }
-  return options.quiet ? std::string() : report::run_text(scene, result, report.findings(), out);
+  return options.quiet ? std::string()
+                       : report::run_text(experiment.plant, result, report.findings(), out);
 }
 
 /// Throws scene_file::SceneError, loop::ComputationError, output::OutputError, or ends by the
 /// signal that interrupts it; in each case nothing was written.
 void run(const RunOptions& options) {
-  const experiment::Experiment read = SceneInput(options.scene).read();
-  const scene::Scene& scene = read.scene;
-  const Design& design = read.design;
+  const experiment::Experiment experiment = SceneInput(options.scene).read();
+  const scene::Scene& scene = experiment.plant;
   if (!options.quiet) {
-    print_design_notes(design);
+    print_design_notes(experiment.design);
     announce_long_work(loop::expected_steps(scene));
   }
   const bool written = !options.json || !options.out.empty();
   if (written && !options.quiet) {
     announce_recording(scene);
   }
-  fmt::print(
-      "{}", written ? compute_report(scene, design, output_folder(options.out, scene.name), options)
-                    : compute_summary(scene, design, options.quiet));
+  fmt::print("{}", written
+                       ? compute_report(experiment, output_folder(options.out, scene.name), options)
+                       : compute_summary(experiment, options.quiet));
 }
 
 }  // namespace

@@ -23,7 +23,7 @@ struct WorkPrecisionOptions {
 /// process::ProcessError; in each case nothing was written.
 void work_precision(const WorkPrecisionOptions& options) {
   const SceneInput input(options.scene);
-  const scene::Scene scene = input.read().scene;
+  const scene::Scene scene = input.read().plant;
   const peers::Problem problem =
       input.with_places([&] { return work_precision::problem_of(scene); });
   const std::filesystem::path out = output_folder(options.out, scene.name, "_work_precision");

@@ -1,10 +1,7 @@
 #include "host_sim/configure/control_design.hpp"
 
 #include <cstddef>
-#include <memory>
-#include <optional>
 #include <type_traits>
-#include <utility>
 #include <variant>
 
 #include "host_sim/configure/calibration_design.hpp"
@@ -52,11 +49,14 @@ void design_vibration(const scene::Scene& scene, const NominalPlant& plant, Cont
 
 }  // namespace
 
-ControlDesign design_control(const scene::Scene& any_scene) {
-  const scene::Scene& scene = any_scene.nominal();
+ControlDesign design_control(const scene::Scene& scene) {
   const NominalPlant plant = nominal_plant(scene);
   ControlDesign design;
   design.map = scene::friction_map(scene.friction.law);
+  design.carrier_Hz = scene.drive->frequency_Hz;
+  if (scene.transducer) {
+    design.force_factor_N_per_V = scene.transducer->force_factor_N_per_V * plant.force_factor;
+  }
   design.senses_force = scene.sensor.force;
   design.relearns = scene.controller->relearn_every_s.has_value();
   design_scales(scene, plant, design);
@@ -66,50 +66,6 @@ ControlDesign design_control(const scene::Scene& any_scene) {
   design_slew(*scene.drive, design);
   design_relearning(scene, plant, design);
   return design;
-}
-
-namespace {
-
-/// Without a vibration sensor the vibration is known no better than the friction, which is therefore
-/// learnt first.
-double default_calibration_s(const scene::Scene& scene, const ControlDesign& design) {
-  return design.in_mode<SensorlessDesign>() != nullptr ? shortest_calibration_s(scene, design)
-                                                       : 0.0;
-}
-
-/// @param scene  what the controller knows, without true values
-void fill_in(scene::Scene& scene, ControlDesign& design) {
-  scene::Controller& controller = *scene.controller;
-  if (controller.shaping == scene::Shaping::robust && !controller.shaping_range) {
-    controller.shaping_range = default_shaping_range(scene.tolerances);
-  }
-  if (!controller.calibration_s) {
-    controller.calibration_s = default_calibration_s(scene, design);
-    design_calibration(scene, nominal_plant(scene), design);
-  }
-}
-
-}  // namespace
-
-std::optional<ControlDesign> complete(scene::Scene& scene) {
-  if (!scene.controller) {
-    return std::nullopt;
-  }
-  ControlDesign design = design_control(scene);
-  if (!scene.nominal_scene) {
-    fill_in(scene, design);
-    return design;
-  }
-  scene::Scene nominal = scene.nominal();
-  fill_in(nominal, design);
-  scene.controller->shaping_range = nominal.controller->shaping_range;
-  scene.controller->calibration_s = nominal.controller->calibration_s;
-  scene.nominal_scene = std::make_shared<const scene::Scene>(std::move(nominal));
-  return design;
-}
-
-std::optional<ControlDesign> design_if_closed(const scene::Scene& scene) {
-  return scene.controller ? std::optional<ControlDesign>(design_control(scene)) : std::nullopt;
 }
 
 }  // namespace sonoglide::configure

@@ -54,8 +54,13 @@ struct ControlDesign {
   double standstill_fall = 0.0;  ///< of the amplitude after that, per carrier period
   double settling_band = 0.0;    ///< as the sensor shows it, on base 2
   std::uint16_t settling_patience_periods = 0;
-  double agreement = 0.0;  ///< 1 / controller.mismatch_warning; 0: see tells_mismatch()
+  /// Commanded over target ratio tells nominal over true friction: the feedforward's map is the
+  /// law's own, and friction too light to slow the vibration.
+  bool maps_friction = false;
+  double agreement = 0.0;  ///< 1 / controller.mismatch_warning; 0: the loop tells of no mismatch
 
+  double carrier_Hz = 0.0;            ///< nominal, at the start
+  double force_factor_N_per_V = 0.0;  ///< nominal, over which a motional current is a velocity
   bool senses_force = true;
   /// In the order of scene::VibrationMode.
   std::variant<FeedforwardDesign, SensorlessDesign, DampedDesign, ResonantDesign> vibration;
@@ -104,18 +109,11 @@ struct ControlDesign {
   }
 };
 
-/// Designs the controller of a closed-loop scene from what it believes (the scene without its true
-/// values, through [model_error]).
+/// Designs the controller of a closed-loop scene from what it believes (the scene through
+/// [model_error]; its true values play no part).
 /// @throws ConfigurationError where no controller exists: resonance with next to no damping, speeds
 ///         or forces outside the per-unit range.
 ControlDesign design_control(const scene::Scene& scene);
-
-/// The same, of a scene in closed loop, which gets the values that are absent and follow from the
-/// design: controller.calibration_s and controller.shaping_range.
-std::optional<ControlDesign> complete(scene::Scene& scene);
-
-/// The design of a scene of either kind: an open loop has none.
-std::optional<ControlDesign> design_if_closed(const scene::Scene& scene);
 
 /// Shortest time in which the friction force can be learnt before the first drive, with noise and,
 /// if half of the first target's time allows it, with a contact half as stiff as the nominal one; 0
@@ -123,10 +121,6 @@ std::optional<ControlDesign> design_if_closed(const scene::Scene& scene);
 /// controller.calibration_s.
 /// @param design  of the scene, however it is calibrated
 double shortest_calibration_s(const scene::Scene& scene, const ControlDesign& design);
-
-/// Whether commanded over target ratio tells nominal over true friction: the feedforward's map is
-/// the law's own, and friction too light to slow the vibration.
-bool tells_mismatch(const scene::Scene& scene);
 
 /// What one should know of a design before it runs, a sentence each.
 std::vector<std::string> design_notes(const ControlDesign& design);

@@ -16,8 +16,7 @@ double first_undriven_friction_N(const scene::Scene& scene) {
 
 }  // namespace
 
-NominalPlant nominal_plant(const scene::Scene& any_scene) {
-  const scene::Scene& scene = any_scene.nominal();
+NominalPlant nominal_plant(const scene::Scene& scene) {
   const scene::ModelError& error = scene.model_error;
   NominalPlant plant{scene.plant, first_undriven_friction_N(scene) * error.coefficient,
                      scene.friction.contact_stiffness_N_per_m * error.contact_stiffness,
@@ -26,17 +25,6 @@ NominalPlant nominal_plant(const scene::Scene& any_scene) {
   plant.stiffness_N_per_m *= error.stiffness;
   plant.damping_N_s_per_m *= error.damping;
   return plant;
-}
-
-double vibration_gain(const scene::Scene& scene) {
-  if (scene.sensor.vibration != scene::VibrationSensor::motional_current) {
-    return 1.0;
-  }
-  const double nominal_over_given = scene.model_error.force_factor;
-  return scene.nominal_scene
-             ? scene.transducer->force_factor_N_per_V /
-                   (scene.nominal_scene->transducer->force_factor_N_per_V * nominal_over_given)
-             : 1.0 / nominal_over_given;
 }
 
 }  // namespace sonoglide::configure

@@ -5,7 +5,7 @@
 
 namespace sonoglide::configure {
 
-/// The scene, without its true values, through [model_error].
+/// The scene through [model_error].
 struct NominalPlant : scene::Plant {
   double friction_N = 0.0;  ///< that the first slide of the scene meets without vibration
   double contact_stiffness_N_per_m = 0.0;
@@ -13,8 +13,5 @@ struct NominalPlant : scene::Plant {
 };
 
 NominalPlant nominal_plant(const scene::Scene& scene);
-
-/// Vibration read over the true one: a motional current is taken over the nominal force factor.
-double vibration_gain(const scene::Scene& scene);
 
 }  // namespace sonoglide::configure

@@ -9,6 +9,16 @@
 #include "host_sim/configure/scales_design.hpp"
 
 namespace sonoglide::configure {
+namespace {
+
+bool has_true_map(const scene::Scene& scene, const NominalPlant& plant) {
+  constexpr double light_friction = 0.02;  // of the drive
+  return scene::has_own_map(scene.friction.law) &&
+         scene.drive->waveform == scene::Waveform::cosine &&
+         plant.friction_N < light_friction * scene.max_drive_force_N();
+}
+
+}  // namespace
 
 void design_supervision(const scene::Scene& scene, const NominalPlant& plant,
                         ControlDesign& design) {
@@ -41,17 +51,11 @@ void design_supervision(const scene::Scene& scene, const NominalPlant& plant,
       std::visit([](const auto& mode) { return mode.building_up_periods(); }, design.vibration);
   design.settling_patience_periods =
       whole_periods(holds * design.hold_periods + patience_margin + building_up);
+  design.maps_friction = has_true_map(scene, plant);
   const bool tells =
-      tells_mismatch(scene) &&
+      design.maps_friction &&
       std::visit([](const auto& mode) { return mode.tells_mismatch(); }, design.vibration);
   design.agreement = tells ? 1.0 / scene.controller->mismatch_warning : 0.0;
-}
-
-bool tells_mismatch(const scene::Scene& scene) {
-  constexpr double light_friction = 0.02;  // of the drive
-  return scene::has_own_map(scene.friction.law) &&
-         scene.drive->waveform == scene::Waveform::cosine &&
-         nominal_plant(scene).friction_N < light_friction * scene.nominal().max_drive_force_N();
 }
 
 }  // namespace sonoglide::configure

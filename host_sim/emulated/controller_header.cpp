@@ -276,12 +276,9 @@ inline constexpr std::uint32_t design = {:#010x};
 
 }  // namespace
 
-std::string controller_header(const scene::Scene& scene) {
-  return controller_header(scene, configure::design_if_closed(scene));
-}
-
-std::string controller_header(const scene::Scene& scene,
-                              const std::optional<configure::ControlDesign>& design) {
+std::string controller_header(const configure::Experiment& experiment) {
+  const scene::Scene& scene = experiment.plant;
+  const std::optional<configure::ControlDesign>& design = experiment.design;
   if (!design) {
     throw configure::ConfigurationError(
         "controller", "missing; required: a table [controller], of which an image is made");

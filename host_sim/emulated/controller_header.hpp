@@ -2,10 +2,9 @@
 #pragma once
 
 #include <array>
-#include <optional>
 #include <string>
 
-#include "host_sim/configure/control_design.hpp"
+#include "host_sim/configure/experiment.hpp"
 #include "host_sim/emulated/board_list.hpp"
 #include "host_sim/scene/names.hpp"
 #include "host_sim/scene/scene.hpp"
@@ -21,11 +20,7 @@ inline constexpr const char* controller_header_name = "controller_configuration.
 /// The controller's parts, its parameters and its targets, every number in the controller's own
 /// scalar, bit for bit what the simulation uses. The same scene gives the same text.
 /// @throws configure::ConfigurationError  an open-loop scene, or a target too late for an image
-std::string controller_header(const scene::Scene& scene);
-
-/// The same of the controller that has been designed for the scene; none in open loop.
-std::string controller_header(const scene::Scene& scene,
-                              const std::optional<configure::ControlDesign>& design);
+std::string controller_header(const configure::Experiment& experiment);
 
 // The plant of a scene as C++, to be compiled into an image beside the controller.
 
@@ -46,17 +41,11 @@ inline constexpr std::array plant_arithmetics = {
 /// amplitude, over 100,000 periods. EventTaylor of order 8 is within 3e-4 in float, for six times
 /// the instructions on a Cortex-M4F and half as much flash again.
 ///
-/// @param design      of the scene's controller: the codes of the seam are in its scales
 /// @param arithmetic  of the plant, whatever the controller's: float32 or q31
 /// @throws configure::ConfigurationError  an open-loop scene, a friction law that the solver is not
 /// for,
 ///         a sliding velocity that changes, a sensor that is not ideal; in q31 also numbers that
 ///         the integers do not reach
-std::string plant_header(const scene::Scene& scene,
-                         const std::optional<configure::ControlDesign>& design,
-                         scene::Arithmetic arithmetic);
-
-/// The same with a design of its own.
-std::string plant_header(const scene::Scene& scene, scene::Arithmetic arithmetic);
+std::string plant_header(const configure::Experiment& experiment, scene::Arithmetic arithmetic);
 
 }  // namespace sonoglide::emulated

@@ -264,10 +264,9 @@ PlantText plant_text(const SceneNumbers& scene, scene::Arithmetic arithmetic) {
 
 }  // namespace
 
-std::string plant_header(const scene::Scene& scene,
-                         const std::optional<configure::ControlDesign>& design,
-                         scene::Arithmetic arithmetic) {
-  require(design.has_value(), "controller",
+std::string plant_header(const configure::Experiment& experiment, scene::Arithmetic arithmetic) {
+  const scene::Scene& scene = experiment.plant;
+  require(experiment.design.has_value(), "controller",
           "missing; required: a table [controller], of which an image is made");
   require(scene::is<scene::laws::Dahl>(scene.friction.law), "friction.law",
           "the plant of an image has Dahl friction; allowed: \"dahl\"");
@@ -282,7 +281,7 @@ std::string plant_header(const scene::Scene& scene,
       "the plant of an image shows no vibration, and its drive has one frequency; allowed: a scene "
       "without this key");
   require_ideal(scene.sensor);
-  const PlantText text = plant_text(SceneNumbers(scene, design->scales), arithmetic);
+  const PlantText text = plant_text(SceneNumbers(scene, experiment.design->scales), arithmetic);
   return fmt::format(
       R"(/// The plant of the scene {}. Written by sonoglide configure: edit the scene.
 #pragma once
@@ -296,10 +295,6 @@ namespace sonoglide::app::configuration {{
 }}  // namespace sonoglide::app::configuration
 )",
       process::printable(scene.name), text.includes, text.definitions, whole_periods(scene));
-}
-
-std::string plant_header(const scene::Scene& scene, scene::Arithmetic arithmetic) {
-  return plant_header(scene, configure::design_if_closed(scene), arithmetic);
 }
 
 }  // namespace sonoglide::emulated

@@ -98,30 +98,30 @@ loop::Watch of_the_image(loop::Watch watch) {
   return watch;
 }
 
-loop::WorkstationRun run_on_workstation(const scene::Scene& scene,
-                                        const configure::ControlDesign& design,
+loop::WorkstationRun run_on_workstation(const configure::Experiment& experiment,
                                         std::uint64_t image_hash, const loop::Progress& progress) {
   loop::Watch watch;
   if (progress) {
     watch.progress = [&](double part) { progress(image_share + (1.0 - image_share) * part); };
   }
-  const std::uint64_t hash = loop::run(scene, design, watch).control->trace_hash;
+  const std::uint64_t hash = loop::run(experiment, watch).control->trace_hash;
   return {hash, hash == image_hash};
 }
 
 }  // namespace
 
-loop::RunResult run_image(const scene::Scene& scene, const configure::ControlDesign& design,
+loop::RunResult run_image(const configure::Experiment& experiment,
                           const emulated::EmulatedBoard& board, const std::string& header,
                           const loop::Watch& watch) {
   const std::filesystem::path image = emulated::build_image(board, header);
   const emulated::ImageCost cost = emulated::measure_image(image, board);
   ImageControl controller(board, image);
-  loop::RunResult result = loop::run(scene, design, controller, of_the_image(watch));
+  loop::RunResult result =
+      loop::run(experiment.plant, *experiment.design, controller, of_the_image(watch));
   result.image = controller.shut_down();
   add_cost(cost, *result.image);
   result.image->workstation =
-      run_on_workstation(scene, design, result.control->trace_hash, watch.progress);
+      run_on_workstation(experiment, result.control->trace_hash, watch.progress);
   return result;
 }
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "host_sim/configure/control_design.hpp"
+#include "host_sim/configure/experiment.hpp"
 #include "host_sim/emulated/board_list.hpp"
 #include "host_sim/emulated/image_process.hpp"
 #include "host_sim/loop/control_port.hpp"
@@ -16,7 +16,6 @@
 #include "host_sim/loop/run_result.hpp"
 #include "host_sim/process/child_process.hpp"
 #include "host_sim/process/pipe.hpp"
-#include "host_sim/scene/scene.hpp"
 
 namespace sonoglide::emulated {
 
@@ -77,13 +76,13 @@ class ImageControl final : public loop::ControlPort {
 /// Builds and measures the image of a controller, runs the scene with it on an emulated board, and
 /// once more with the controller in this process, which should come to the same drive commands.
 ///
-/// @param design     of the scene's controller
-/// @param header     of the same, as emulated::controller_header() writes it
+/// @param experiment  in closed loop
+/// @param header      of the same, as emulated::controller_header() writes it
 /// @return with the image's record
 /// @throws process::ProcessError  a tool is missing, or the build failed
 /// @throws EmulatorError          the image did not answer, or not in order
 /// @throws what loop::run() throws, besides
-loop::RunResult run_image(const scene::Scene& scene, const configure::ControlDesign& design,
+loop::RunResult run_image(const configure::Experiment& experiment,
                           const emulated::EmulatedBoard& board, const std::string& header,
                           const loop::Watch& watch);
 

@@ -1,5 +1,6 @@
 #include "host_sim/experiment/experiment.hpp"
 
+#include <optional>
 #include <utility>
 
 #include "host_sim/configure/configuration_error.hpp"
@@ -10,13 +11,16 @@ namespace sonoglide::experiment {
 Experiment read(const scene_file::Document& document,
                 const std::vector<scene_file::VariedValue>& values,
                 scene_file::UnusedKeys* unused) {
-  Experiment read{scene_file::read(document, values, unused), std::nullopt};
+  scene::Scene stated = scene_file::read(document, values, unused);
+  std::optional<scene::Scene> plant;
+  if (!stated.true_values.empty()) {
+    plant = scene_file::read_truth(document, values, stated);
+  }
   try {
-    read.design = configure::complete(read.scene);
+    return configure::make_experiment(std::move(stated), std::move(plant));
   } catch (const configure::ConfigurationError& error) {
     throw scene_file::SceneError(document.place_of(error.key()), error.key(), error.what());
   }
-  return read;
 }
 
 Experiment read(const scene_file::Source& source, const std::vector<std::string>& overrides) {

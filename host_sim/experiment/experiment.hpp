@@ -2,13 +2,11 @@
 #pragma once
 
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "host_sim/configure/control_design.hpp"
-#include "host_sim/scene/scene.hpp"
+#include "host_sim/configure/experiment.hpp"
 #include "host_sim/scene_file/document.hpp"
 #include "host_sim/scene_file/scene_error.hpp"
 #include "host_sim/scene_file/source.hpp"
@@ -16,12 +14,10 @@
 
 namespace sonoglide::experiment {
 
-struct Experiment {
-  scene::Scene scene;                              ///< with what follows from the design, too
-  std::optional<configure::ControlDesign> design;  ///< in closed loop
-};
+using configure::Experiment;
 
-/// As scene_file::read_file(), and designs the controller of a closed loop.
+/// As scene_file::read_file(), takes the true values into account, and designs the controller of a
+/// closed loop.
 /// @throws scene_file::SceneError  what makes it unusable, or why no controller can be designed, at
 ///                                 the place of its key
 Experiment read_file(const std::filesystem::path& path,

@@ -1,5 +1,4 @@
 #include "host_sim/fmi/instance.hpp"
-#include "host_sim/experiment/experiment.hpp"
 
 #include <fmt/format.h>
 
@@ -16,8 +15,9 @@ constexpr double point_tolerance = 1e-2;
 constexpr double lowest_frequency_Hz = 1e-3;
 constexpr double highest_frequency_Hz = 1e9;
 
-scene::Scene read_scene(const std::string& text, const std::vector<std::string>& overrides = {}) {
-  return experiment::read_text(text, Resources::scene_name, overrides).scene;
+experiment::Experiment read_scene(const std::string& text,
+                                  const std::vector<std::string>& overrides = {}) {
+  return experiment::read_text(text, Resources::scene_name, overrides);
 }
 
 Inputs initial_inputs(const std::vector<Variable>& variables) {
@@ -33,13 +33,13 @@ Inputs initial_inputs(const std::vector<Variable>& variables) {
 }  // namespace
 
 Instance::Instance(Resources resources, std::string_view token)
-    : resources_(std::move(resources)), scene_(read_scene(resources_.scene)) {
+    : resources_(std::move(resources)), experiment_(read_scene(resources_.scene)) {
   if (token != resources_.token) {
     throw CallError(
         fmt::format("the token is \"{}\"; that of this FMU is \"{}\"", token, resources_.token));
   }
-  loop::require_usable(scene_, resources_.kind);
-  variables_ = fmi::variables(scene_, resources_.kind);
+  loop::require_usable(experiment_.plant, resources_.kind);
+  variables_ = fmi::variables(experiment_, resources_.kind);
   now_.inputs = initial_inputs(variables_);
 }
 
@@ -121,7 +121,7 @@ void Instance::require_start(double start_s) const {
   const double magnitude_s = std::abs(start_s);
   const double spacing_s =
       std::nextafter(magnitude_s, std::numeric_limits<double>::infinity()) - magnitude_s;
-  if (!(spacing_s <= point_tolerance / scene_.drive->frequency_Hz)) {
+  if (!(spacing_s <= point_tolerance / experiment_.plant.drive->frequency_Hz)) {
     throw CallError(
         fmt::format("the start time is {} s; allowed: a finite number whose rounding "
                     "is below {} carrier periods",
@@ -156,7 +156,7 @@ void Instance::reset() {
 
 void Instance::require_step(double time_s, double duration_s) const {
   require(now_.phase == Phase::step, "a step");
-  const double period_s = 1.0 / scene_.drive->frequency_Hz;
+  const double period_s = 1.0 / experiment_.plant.drive->frequency_Hz;
   if (!(std::abs(time_s - now_.time_s) <= point_tolerance * period_s)) {
     throw CallError(
         fmt::format("the communication point is {} s; allowed: {} s, where the last "
@@ -193,12 +193,12 @@ bool Instance::advance(double time_s, double duration_s, bool may_stop_early) {
 
 SteppedScene& Instance::engine() {
   if (!engine_) {
-    engine_.emplace(scene_with_parameters(), resources_.kind);
+    engine_.emplace(with_parameters(), resources_.kind);
   }
   return *engine_;
 }
 
-scene::Scene Instance::scene_with_parameters() const {
+experiment::Experiment Instance::with_parameters() const {
   std::vector<std::string> overrides;
   for (const auto& [reference, value] : now_.parameters) {
     const Variable& parameter = variables_[reference];

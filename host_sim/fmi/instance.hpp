@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "host_sim/experiment/experiment.hpp"
 #include "host_sim/fmi/resources.hpp"
 #include "host_sim/fmi/variables.hpp"
 #include "host_sim/loop/plant/snapshot.hpp"
@@ -76,13 +77,13 @@ class Instance {
 
  private:
   SteppedScene& engine();
-  scene::Scene scene_with_parameters() const;
+  experiment::Experiment with_parameters() const;
   void require(bool allowed, const char* what) const;
   void require_step(double time_s, double duration_s) const;
   void require_input(const Variable& input, double value) const;
 
   Resources resources_;
-  scene::Scene scene_;
+  experiment::Experiment experiment_;
   std::vector<Variable> variables_;
   State now_;  ///< but for its engine
   std::optional<SteppedScene> engine_;

@@ -214,7 +214,8 @@ void add_parameters(List& list, const scene::Scene& scene, loop::Kind kind) {
 
 }  // namespace
 
-std::vector<Variable> variables(const scene::Scene& scene, loop::Kind kind) {
+std::vector<Variable> variables(const configure::Experiment& experiment, loop::Kind kind) {
+  const scene::Scene& scene = experiment.plant;
   List list;
   if (kind == loop::Kind::plant) {
     list.input("drive_force_amplitude_N", "N", "Amplitude of the drive during a carrier period",
@@ -248,7 +249,7 @@ std::vector<Variable> variables(const scene::Scene& scene, loop::Kind kind) {
   if (loop::has_controller(kind)) {
     add_controller_outputs(list, scene);
   }
-  add_parameters(list, scene, kind);
+  add_parameters(list, experiment.nominal, kind);
   return list.take();
 }
 

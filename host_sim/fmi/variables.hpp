@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "host_sim/loop/stepped.hpp"
-#include "host_sim/scene/scene.hpp"
 
 namespace sonoglide::fmi {
 
@@ -35,7 +34,7 @@ struct Variable {
   Type type() const { return static_cast<Type>(start.index()); }
 };
 
-/// @param scene  as the FMU holds it: a scene that was read from its own echo
-std::vector<Variable> variables(const scene::Scene& scene, loop::Kind kind);
+/// @param experiment  as the FMU holds it: of a scene that was read from its own echo
+std::vector<Variable> variables(const configure::Experiment& experiment, loop::Kind kind);
 
 }  // namespace sonoglide::fmi

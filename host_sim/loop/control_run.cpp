@@ -3,11 +3,16 @@
 #include <algorithm>
 #include <cmath>
 
-#include "host_sim/configure/nominal_plant.hpp"
-
 namespace sonoglide::loop {
 
 namespace {
+
+/// Vibration read over the true one: a motional current is taken over the nominal force factor.
+double vibration_gain(const scene::Scene& plant, const configure::ControlDesign& design) {
+  return plant.sensor.vibration == scene::VibrationSensor::motional_current
+             ? plant.transducer->force_factor_N_per_V / design.force_factor_N_per_V
+             : 1.0;
+}
 
 std::optional<app::ElapsedPeriods> elapsed_of(const configure::ControlDesign& design) {
   const configure::ResonantDesign* const resonance = design.resonance();
@@ -36,10 +41,10 @@ ControlRun::ControlRun(const scene::Scene& scene, const CarrierGrid& grid, Contr
       port_(port),
       record_(record),
       observes_vibration_(scene.sensor.vibration),
-      sensor_(scene.sensor, record.design.scales, configure::vibration_gain(scene)),
+      sensor_(scene.sensor, record.design.scales, vibration_gain(scene, record.design)),
       actuator_(scene.drive->delay_periods, scene.max_drive_force_N()),
       start_frequency_Hz_(scene.drive->frequency_Hz),
-      clock_ratio_(scene.drive->frequency_Hz / scene.nominal().drive->frequency_Hz),
+      clock_ratio_(scene.drive->frequency_Hz / record.design.carrier_Hz),
       nominal_friction_N_(record.design.friction_force * record.design.scales.force_N),
       elapsed_(elapsed_of(record.design)) {}
 

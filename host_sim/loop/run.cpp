@@ -52,25 +52,25 @@ RunResult simulate(const scene::Scene& scene, ControlPort* controller, const Wat
 }  // namespace
 
 RunResult run(const scene::Scene& scene, const Watch& watch) {
-  return run(scene, configure::design_if_closed(scene), watch);
+  return run(configure::make_experiment(scene), watch);
 }
 
-RunResult run(const scene::Scene& scene, const std::optional<configure::ControlDesign>& design,
+RunResult run(const configure::Experiment& experiment, const Watch& watch) {
+  return run(experiment.plant, experiment.design, watch);
+}
+
+RunResult run(const scene::Scene& plant, const std::optional<configure::ControlDesign>& design,
               const Watch& watch) {
   if (!design) {
-    return simulate(scene, nullptr, watch, {});
+    return simulate(plant, nullptr, watch, {});
   }
-  const auto controller = make_control_port(scene, *design);
-  return run(scene, *design, *controller, watch);
+  const auto controller = make_control_port(plant, *design);
+  return run(plant, *design, *controller, watch);
 }
 
-RunResult run(const scene::Scene& scene, ControlPort& controller, const Watch& watch) {
-  return run(scene, configure::design_control(scene), controller, watch);
-}
-
-RunResult run(const scene::Scene& scene, const configure::ControlDesign& design,
+RunResult run(const scene::Scene& plant, const configure::ControlDesign& design,
               ControlPort& controller, const Watch& watch) {
-  return simulate(scene, &controller, watch, begun_result(design));
+  return simulate(plant, &controller, watch, begun_result(design));
 }
 
 }  // namespace sonoglide::loop

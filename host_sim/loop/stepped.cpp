@@ -4,7 +4,6 @@
 #include <optional>
 
 #include "host_sim/configure/configuration_error.hpp"
-#include "host_sim/configure/control_design.hpp"
 
 namespace sonoglide::loop {
 void require_usable(const scene::Scene& scene, Kind kind) {
@@ -47,17 +46,13 @@ Watch nobody() {
   return watch;
 }
 
-std::optional<configure::ControlDesign> design_of(const scene::Scene& scene, Kind kind) {
-  return has_controller(kind) ? std::optional(configure::design_control(scene)) : std::nullopt;
-}
-
 }  // namespace
 
-SteppedScene::SteppedScene(const scene::Scene& scene, Kind kind)
-    : scene_(without_end(scene)),
+SteppedScene::SteppedScene(const configure::Experiment& experiment, Kind kind)
+    : scene_(without_end(experiment.plant)),
       carrier_changes_(scene_.carrier_changes()),
       watch_(nobody()),
-      result_(begun_result(design_of(scene, kind))),
+      result_(begun_result(has_controller(kind) ? experiment.design : std::nullopt)),
       port_(result_.control ? make_control_port(scene_, result_.control->design) : nullptr),
       engine_(scene_, loop::has_plant(kind), port_.get(), watch_, result_) {
   if (has_plant()) {

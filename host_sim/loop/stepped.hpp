@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "hal/board.hpp"
+#include "host_sim/configure/experiment.hpp"
 #include "host_sim/loop/control_port.hpp"
 #include "host_sim/loop/engine.hpp"
 #include "host_sim/loop/plant/snapshot.hpp"
@@ -74,9 +75,9 @@ inline constexpr double endless_periods = 1e12;
 
 class SteppedScene {
  public:
-  /// @param scene  usable for the kind; its run has no end here
-  /// @throws configure::ConfigurationError, ComputationError
-  SteppedScene(const scene::Scene& scene, Kind kind);
+  /// @param experiment  usable for the kind; its run has no end here
+  /// @throws ComputationError
+  SteppedScene(const configure::Experiment& experiment, Kind kind);
 
   /// The carrier period that comes next.
   CarrierClock next_period(const Inputs& inputs) const;

@@ -3,26 +3,26 @@
 #include <fmt/format.h>
 
 #include <stdexcept>
+#include <utility>
 
 #include "host_sim/configure/configuration_error.hpp"
 
 namespace sonoglide::python {
 namespace {
 
-const scene::Scene& with_controller(const scene::Scene& scene) {
-  if (!scene.controller) {
+configure::Experiment with_controller(configure::Experiment experiment) {
+  if (!experiment.design) {
     throw configure::ConfigurationError("controller", "missing; allowed: a scene in closed loop");
   }
-  return scene;
+  return experiment;
 }
 
 }  // namespace
 
-ControllerUnit::ControllerUnit(const scene::Scene& scene)
-    : scene_(with_controller(scene)),
-      design_(configure::design_control(scene_)),
-      port_(loop::make_control_port(scene_, design_)) {
-  set_target(scene_.controller->target_friction_ratio.front().friction_ratio);
+ControllerUnit::ControllerUnit(configure::Experiment experiment)
+    : experiment_(with_controller(std::move(experiment))),
+      port_(loop::make_control_port(scene(), *experiment_.design)) {
+  set_target(scene().controller->target_friction_ratio.front().friction_ratio);
 }
 
 void ControllerUnit::set_target(double friction_ratio) {

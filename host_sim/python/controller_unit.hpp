@@ -5,10 +5,9 @@
 #include <memory>
 
 #include "hal/board.hpp"
-#include "host_sim/configure/control_design.hpp"
+#include "host_sim/configure/experiment.hpp"
 #include "host_sim/loop/control_port.hpp"
 #include "host_sim/loop/plant/snapshot.hpp"
-#include "host_sim/scene/scene.hpp"
 
 namespace sonoglide::python {
 
@@ -16,12 +15,12 @@ class ControllerUnit {
  public:
   /// Begins with the first target of the scene.
   /// @throws configure::ConfigurationError  the scene has no controller
-  explicit ControllerUnit(const scene::Scene& scene);
+  explicit ControllerUnit(configure::Experiment experiment);
 
   /// One control step: the answer to the sample of a carrier period. Of a unit that observes no
   /// vibration that part of the sample is left out, and the answer's frequency is 0.
   const hal::ResonantDrive& step(const hal::VibrationSample& sample) {
-    if (scene_.sensor.vibration) {
+    if (scene().sensor.vibration) {
       answer_ = port_->exchange(sample);
     } else {
       static_cast<hal::Drive&>(answer_) = port_->exchange(static_cast<const hal::Sample&>(sample));
@@ -36,8 +35,8 @@ class ControllerUnit {
   /// @throws std::invalid_argument  it is not in (0, 1]
   void set_target(double friction_ratio);
 
-  bool observes_vibration() const { return scene_.sensor.vibration.has_value(); }
-  const configure::ControlScales& scales() const { return design_.scales; }
+  bool observes_vibration() const { return scene().sensor.vibration.has_value(); }
+  const configure::ControlScales& scales() const { return experiment_.design->scales; }
 
   loop::Snapshot save() const;
   /// @param state  of a unit of the same scene
@@ -45,8 +44,9 @@ class ControllerUnit {
   void restore(const loop::Snapshot& state);
 
  private:
-  scene::Scene scene_;
-  configure::ControlDesign design_;
+  const scene::Scene& scene() const { return experiment_.plant; }
+
+  configure::Experiment experiment_;
   std::unique_ptr<loop::ControlPort> port_;
   double target_ = 0.0;
   hal::ResonantDrive answer_{};

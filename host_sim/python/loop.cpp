@@ -68,7 +68,7 @@ py::tuple step(Loop& loop, const std::optional<double>& target) {
 
 void add_loop(py::module_& module) {
   py::class_<Loop> loop(module, "Loop");
-  loop.def(py::init([](const Scene& scene) { return std::make_unique<Loop>(scene.values); }));
+  loop.def(py::init([](const Scene& scene) { return std::make_unique<Loop>(scene.experiment); }));
   loop.def_property_readonly("seed", &Loop::seed, "Of the sensor's noise.");
   loop.def("save", [](const Loop& self) { return bytes_of(self.save()); });
   loop.def("restore", [](Loop& self, const py::bytes& state) { self.restore(snapshot_of(state)); });

@@ -38,12 +38,11 @@ Value named(const std::array<scene::Named<Value>, count>& words, const char* arg
 /// -> the headers by their names
 std::map<std::string, std::string> configure(const Scene& scene,
                                              const std::optional<std::string>& plant) {
-  const experiment::Experiment read = experiment::read(scene.source, scene.overrides);
   std::map<std::string, std::string> headers = {
-      {emulated::controller_header_name, emulated::controller_header(read.scene, read.design)}};
+      {emulated::controller_header_name, emulated::controller_header(scene.experiment)}};
   if (plant) {
     headers[emulated::plant_header_name] = emulated::plant_header(
-        read.scene, read.design, named(emulated::plant_arithmetics, "plant", *plant));
+        scene.experiment, named(emulated::plant_arithmetics, "plant", *plant));
   }
   return headers;
 }
@@ -55,8 +54,8 @@ py::bytes fmu(const Scene& scene, const std::string& kind,
   const loop::Kind what = named(loop::kinds, "kind", kind);
   const fmi::Version interface =
       version ? named(fmi::versions, "fmi", *version) : fmi::versions.front().value;
-  loop::require_usable(scene.values, what);
-  return fmi::make_fmu(scene.values, what, interface, fmi::find_parts(folder),
+  loop::require_usable(scene.experiment.plant, what);
+  return fmi::make_fmu(scene.experiment.nominal, what, interface, fmi::find_parts(folder),
                        "sonoglide " SONOGLIDE_VERSION);
 }
 

@@ -19,7 +19,7 @@ namespace py = pybind11;
 
 using Table = py::array_t<double, py::array::c_style>;
 using GivenTable = py::array_t<double, py::array::c_style | py::array::forcecast>;
-using Scenes = std::vector<const scene::Scene*>;
+using Scenes = std::vector<const experiment::Experiment*>;
 
 /// Of a tuple, which keeps them alive.
 Scenes scenes_of(const py::tuple& kept) {
@@ -29,7 +29,7 @@ Scenes scenes_of(const py::tuple& kept) {
       throw py::type_error("scenes holds " + std::string(py::repr(scene)) +
                            "; allowed: a Scene, or several");
     }
-    each.push_back(&py::cast<const Scene&>(scene).values);
+    each.push_back(&py::cast<const Scene&>(scene).experiment);
   }
   return each;
 }
@@ -38,9 +38,9 @@ std::size_t periods_of_all(const Scenes& scenes) {
   if (scenes.empty()) {
     return 0;
   }
-  const std::size_t periods = runs::whole_periods(*scenes.front());
+  const std::size_t periods = runs::whole_periods(scenes.front()->plant);
   for (std::size_t i = 1; i < scenes.size(); ++i) {
-    const std::size_t others = runs::whole_periods(*scenes[i]);
+    const std::size_t others = runs::whole_periods(scenes[i]->plant);
     if (others != periods) {
       throw py::value_error(fmt::format(
           "scene {} has {} whole carrier periods; allowed: {}, as scene 0", i, others, periods));

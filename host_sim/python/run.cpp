@@ -39,9 +39,9 @@ void check_signals() {
 }
 
 /// Fills the tables, and returns the content of summary.json.
-std::string simulate(const scene::Scene& scene, Recorded& recorded) {
-  const auto design = configure::design_if_closed(scene);
-  report::RunFindings findings(scene, design);
+std::string simulate(const experiment::Experiment& experiment, Recorded& recorded) {
+  const scene::Scene& scene = experiment.plant;
+  report::RunFindings findings(experiment);
   loop::Watch watch;
   findings.join(watch);
   const scene::Run& wanted = scene.run;
@@ -50,14 +50,14 @@ std::string simulate(const scene::Scene& scene, Recorded& recorded) {
     watch.samples.push_back({{0.0, wanted.duration_s, wanted.record_interval_s}, &recorded.trace});
   }
   watch.progress = [](double /*fraction*/) { check_signals(); };
-  const loop::RunResult result = loop::run(scene, design, watch);
+  const loop::RunResult result = loop::run(experiment, watch);
   const report::AmplitudeUnit unit = report::amplitude_unit(scene);
   if (unit.name == std::string_view("V")) {
     for (const loop::Period& each : recorded.periods.periods) {
       recorded.drive_amplitude_V.push_back(each.drive_amplitude_N * unit.per_N);
     }
   }
-  return report::summary_text(scene, result, findings);
+  return report::summary_text(experiment, result, findings);
 }
 
 py::dict periods_of(const Recorded& recorded, const py::object& owner) {
@@ -115,13 +115,13 @@ py::tuple run(const Scene& scene) {
   std::string summary;
   {
     const py::gil_scoped_release released;
-    summary = simulate(scene.values, *recorded);
+    summary = simulate(scene.experiment, *recorded);
   }
   const Recorded& kept = *recorded;
   const py::capsule owner(recorded.release(),
                           [](void* all) { delete static_cast<Recorded*>(all); });
   return py::make_tuple(summary, periods_of(kept, owner),
-                        trace_of(kept, scene.values.run.record, owner));
+                        trace_of(kept, scene.experiment.plant.run.record, owner));
 }
 
 }  // namespace

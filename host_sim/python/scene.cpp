@@ -17,7 +17,7 @@ namespace sonoglide::python {
 Scene::Scene(scene_file::Source text, std::vector<std::string> changes)
     : source(std::move(text)),
       overrides(std::move(changes)),
-      values(experiment::read(source, overrides).scene) {}
+      experiment(experiment::read(source, overrides)) {}
 
 namespace {
 
@@ -52,11 +52,13 @@ void add_scene(py::module_& module) {
       .def(py::init(&read_text))
       .def(py::init(&change))
       .def("origin", &origin_of)
-      .def_property_readonly("name", [](const Scene& scene) { return scene.values.name; })
+      .def_property_readonly("name",
+                             [](const Scene& scene) { return scene.experiment.nominal.name; })
       .def_property_readonly(
-          "json", [](const Scene& scene) { return text_of(scene_file::to_json(scene.values)); })
+          "json",
+          [](const Scene& scene) { return text_of(scene_file::to_json(scene.experiment.nominal)); })
       .def_property_readonly("toml", [](const Scene& scene) {
-        return scene_file::to_toml(scene_file::to_json(scene.values));
+        return scene_file::to_toml(scene_file::to_json(scene.experiment.nominal));
       });
 }
 

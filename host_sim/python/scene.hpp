@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "host_sim/scene/scene.hpp"
+#include "host_sim/experiment/experiment.hpp"
 #include "host_sim/scene_file/source.hpp"
 
 namespace sonoglide::python {
@@ -16,7 +16,7 @@ struct Scene {
 
   scene_file::Source source;
   std::vector<std::string> overrides;
-  scene::Scene values;
+  experiment::Experiment experiment;
 };
 
 }  // namespace sonoglide::python

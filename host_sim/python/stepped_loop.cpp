@@ -10,25 +10,26 @@
 namespace sonoglide::python {
 namespace {
 
-const scene::Scene& usable(const scene::Scene& scene) {
-  loop::require_usable(scene, loop::Kind::loop);
-  loop::require_constant_carrier(scene);
-  return scene;
+const configure::Experiment& usable(const configure::Experiment& experiment) {
+  loop::require_usable(experiment.plant, loop::Kind::loop);
+  loop::require_constant_carrier(experiment.plant);
+  return experiment;
 }
 
 }  // namespace
 
-SteppedLoop::SteppedLoop(const scene::Scene& scene)
-    : scene_(usable(scene)),
-      period_s_(1.0 / scene.drive->frequency_Hz),
-      scene_periods_(loop::CarrierGrid(scene).count()),
-      schedule_(loop::target_schedule(scene, loop::CarrierGrid(scene))) {
+SteppedLoop::SteppedLoop(const configure::Experiment& experiment)
+    : experiment_(usable(experiment)),
+      period_s_(1.0 / experiment.plant.drive->frequency_Hz),
+      scene_periods_(loop::CarrierGrid(experiment.plant).count()),
+      schedule_(loop::target_schedule(experiment.plant, loop::CarrierGrid(experiment.plant))) {
   reset(std::nullopt);
 }
 
 void SteppedLoop::reset(std::optional<std::uint64_t> seed) {
-  scene_.sensor.seed = seed.value_or(scene_.sensor.seed);
-  engine_ = std::make_unique<loop::SteppedScene>(scene_, loop::Kind::loop);
+  std::uint64_t& own = experiment_.plant.sensor.seed;
+  own = seed.value_or(own);
+  engine_ = std::make_unique<loop::SteppedScene>(experiment_, loop::Kind::loop);
   periods_ = 0;
   wanted_ratio_ = coming_ratio();
 }

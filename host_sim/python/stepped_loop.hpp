@@ -7,17 +7,17 @@
 #include <optional>
 #include <vector>
 
+#include "host_sim/configure/experiment.hpp"
 #include "host_sim/loop/control_run.hpp"
 #include "host_sim/loop/plant/snapshot.hpp"
 #include "host_sim/loop/stepped.hpp"
-#include "host_sim/scene/scene.hpp"
 
 namespace sonoglide::python {
 
 class SteppedLoop {
  public:
   /// @throws configure::ConfigurationError  the scene has no controller, or its carrier period changes
-  explicit SteppedLoop(const scene::Scene& scene);
+  explicit SteppedLoop(const configure::Experiment& experiment);
 
   /// To the beginning of the scene.
   /// @param seed  of the sensor's noise; absent: the scene's
@@ -37,7 +37,7 @@ class SteppedLoop {
   double coming_ratio() const;
   /// The scene's duration is over.
   bool over() const { return periods_ >= scene_periods_; }
-  std::uint64_t seed() const { return scene_.sensor.seed; }
+  std::uint64_t seed() const { return experiment_.plant.sensor.seed; }
 
   loop::Snapshot save() const;
   /// @param state  of a loop of the same scene and seed
@@ -45,7 +45,7 @@ class SteppedLoop {
   void restore(const loop::Snapshot& state);
 
  private:
-  scene::Scene scene_;
+  configure::Experiment experiment_;
   double period_s_;
   std::uint64_t scene_periods_;
   std::vector<loop::ScheduledTarget> schedule_;

@@ -107,7 +107,7 @@ std::string design_scene(const Scene& scene, const std::vector<double>& ratios,
   }
   const py::gil_scoped_release released;
   return text_of(design::to_json(
-      design::study(design::make_task(scene.values, ratios, speeds), [](double) {})));
+      design::study(design::make_task(scene.experiment, ratios, speeds), [](double) {})));
 }
 
 }  // namespace

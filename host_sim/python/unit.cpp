@@ -135,7 +135,7 @@ py::dict answer_of(const Unit& unit) {
 
 void add_unit(py::module_& module) {
   py::class_<Unit> unit(module, "Unit");
-  unit.def(py::init([](const Scene& scene) { return Unit{ControllerUnit(scene.values)}; }));
+  unit.def(py::init([](const Scene& scene) { return Unit{ControllerUnit(scene.experiment)}; }));
   unit.def("save", [](const Unit& self) { return bytes_of(self.controller.save()); });
   unit.def("restore",
            [](Unit& self, const py::bytes& state) { self.controller.restore(snapshot_of(state)); });

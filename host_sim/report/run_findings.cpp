@@ -66,15 +66,14 @@ std::optional<VibrationCourse::OperatingPoint> VibrationCourse::operating_point(
                         recent_.current_A / recent_.voltage_V};
 }
 
-RunFindings::RunFindings(const scene::Scene& scene,
-                         const std::optional<configure::ControlDesign>& design)
-    : scene_(scene), grid_(scene) {
-  if (design) {
-    step_meter_.emplace(scene);
-    tracking_meter_.emplace(scene, design->speed_floor_m_per_s());
+RunFindings::RunFindings(const configure::Experiment& experiment)
+    : scene_(experiment.plant), grid_(scene_) {
+  if (const auto& design = experiment.design) {
+    step_meter_.emplace(scene_, *design);
+    tracking_meter_.emplace(scene_, design->speed_floor_m_per_s());
   }
-  if (scene.demodulates()) {
-    vibration_.emplace(scene.transducer);
+  if (scene_.demodulates()) {
+    vibration_.emplace(scene_.transducer);
   }
   close_ups_.resize(std::min(target_steps_s().size(), most_close_ups));
 }

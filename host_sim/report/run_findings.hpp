@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "firmware/control/interface/drive_command.hpp"
-#include "host_sim/configure/control_design.hpp"
+#include "host_sim/configure/experiment.hpp"
 #include "host_sim/loop/carrier_grid.hpp"
 #include "host_sim/loop/watch.hpp"
 #include "host_sim/report/extremes_curve.hpp"
@@ -92,8 +92,8 @@ class VibrationCourse final : public loop::PeriodSink {
 
 class RunFindings {
  public:
-  /// @param design  of the scene's controller; none in open loop
-  RunFindings(const scene::Scene& scene, const std::optional<configure::ControlDesign>& design);
+  /// @param experiment  outlives this
+  explicit RunFindings(const configure::Experiment& experiment);
   RunFindings(const RunFindings&) = delete;
   RunFindings& operator=(const RunFindings&) = delete;
 

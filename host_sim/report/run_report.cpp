@@ -198,12 +198,13 @@ ordered_json image(const loop::ImageRecord& record) {
 
 }  // namespace
 
-ordered_json summary(const scene::Scene& scene, const loop::RunResult& result,
+ordered_json summary(const configure::Experiment& experiment, const loop::RunResult& result,
                      const RunFindings& findings) {
+  const scene::Scene& scene = experiment.plant;
   const loop::PowerRatios window = loop::power_ratios(scene, result.window);
   ordered_json json;
   json["program"] = output::program_json();
-  json["scene"] = scene_file::to_json(scene);
+  json["scene"] = scene_file::to_json(experiment.nominal);
   json["solver"] = {
       {"method", scene::name_of(scene.solver.method)},
       {"steps", result.solver_steps},
@@ -238,10 +239,10 @@ ordered_json summary(const scene::Scene& scene, const loop::RunResult& result,
   return json;
 }
 
-std::string summary_text(const scene::Scene& scene, const loop::RunResult& result,
+std::string summary_text(const configure::Experiment& experiment, const loop::RunResult& result,
                          const RunFindings& findings) {
   constexpr int indent = 2;
-  return summary(scene, result, findings)
+  return summary(experiment, result, findings)
              .dump(indent, ' ', false, ordered_json::error_handler_t::replace) +
          "\n";
 }
@@ -255,11 +256,11 @@ constexpr const char* periods_file = "periods.csv";
 
 }  // namespace
 
-RunReport::RunReport(const std::filesystem::path& out, const scene::Scene& scene,
-                     const std::optional<configure::ControlDesign>& design)
-    : scene_(scene),
+RunReport::RunReport(const std::filesystem::path& out, const configure::Experiment& experiment)
+    : experiment_(experiment),
       folder_(out, {summary_file, page_file, trace_file, periods_file}),
-      findings_(scene, design) {
+      findings_(experiment) {
+  const scene::Scene& scene = experiment.plant;
   if (!scene.run.record.empty()) {
     periods_.emplace(CsvFile(folder_.open(periods_file)), amplitude_unit(scene));
     trace_.emplace(CsvFile(folder_.open(trace_file)), scene.run.record);
@@ -273,13 +274,14 @@ void RunReport::join(loop::Watch& watch) {
   findings_.join(watch);
   if (trace_) {
     watch.periods.push_back(&*periods_);
-    watch.samples.push_back({{0.0, scene_.run.duration_s, scene_.run.record_interval_s}, &*trace_});
+    const scene::Run& run = experiment_.plant.run;
+    watch.samples.push_back({{0.0, run.duration_s, run.record_interval_s}, &*trace_});
   }
 }
 
 void RunReport::finish(const loop::RunResult& result) {
-  folder_.write(summary_file, summary_text(scene_, result, findings_));
-  folder_.write(page_file, output::to_html(run_page(scene_, result, findings_)));
+  folder_.write(summary_file, summary_text(experiment_, result, findings_));
+  folder_.write(page_file, output::to_html(run_page(experiment_.plant, result, findings_)));
   folder_.commit();
 }
 

@@ -21,22 +21,20 @@ output::Page run_page(const scene::Scene& scene, const loop::RunResult& result,
 
 /// Every number that a script may want, with the scene echoed in full; a figure that is not defined
 /// for the scene is null.
-nlohmann::ordered_json summary(const scene::Scene& scene, const loop::RunResult& result,
-                               const RunFindings& findings);
+nlohmann::ordered_json summary(const configure::Experiment& experiment,
+                               const loop::RunResult& result, const RunFindings& findings);
 
 /// The same as text, valid UTF-8 whatever the names in it.
-std::string summary_text(const scene::Scene& scene, const loop::RunResult& result,
+std::string summary_text(const configure::Experiment& experiment, const loop::RunResult& result,
                          const RunFindings& findings);
 
 /// The output of one run: summary.json, report.html and, where the scene records anything,
 /// trace.csv and periods.csv (one row for each carrier period); all or none.
 class RunReport {
  public:
-  /// @param scene   outlives this
-  /// @param design  of the scene's controller; none in open loop
+  /// @param experiment  outlives this
   /// @throws OutputError  nothing can be written there; found out before anything is computed
-  RunReport(const std::filesystem::path& out, const scene::Scene& scene,
-            const std::optional<configure::ControlDesign>& design);
+  RunReport(const std::filesystem::path& out, const configure::Experiment& experiment);
 
   /// Watches the run: the tables are written as it goes. This outlives the run.
   void join(loop::Watch& watch);
@@ -48,7 +46,7 @@ class RunReport {
   const RunFindings& findings() const { return findings_; }
 
  private:
-  const scene::Scene& scene_;
+  const configure::Experiment& experiment_;
   output::OutputFolder folder_;
   RunFindings findings_;
   std::optional<PeriodsCsv> periods_;

@@ -6,7 +6,6 @@
 #include <numeric>
 
 #include "firmware/control/interface/drive_command.hpp"
-#include "host_sim/configure/control_design.hpp"
 #include "host_sim/loop/electrical.hpp"
 #include "host_sim/report/run_notes.hpp"
 #include "host_sim/scene/friction_laws.hpp"
@@ -31,10 +30,10 @@ control::Limit prevailing_limit(std::array<std::uint64_t, control::limit_count> 
 
 }  // namespace
 
-StepMeter::StepMeter(const scene::Scene& scene)
+StepMeter::StepMeter(const scene::Scene& scene, const configure::ControlDesign& design)
     : cursor_(scene),
       band_(scene.run.settling_band),
-      tells_mismatch_(scene.sensor.force && configure::tells_mismatch(scene)),
+      tells_mismatch_(scene.sensor.force && design.maps_friction),
       senses_force_(scene.sensor.force),
       has_map_(scene::has_own_map(scene.friction.law)),
       observes_vibration_(scene.sensor.vibration),

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "firmware/control/interface/drive_command.hpp"
+#include "host_sim/configure/control_design.hpp"
 #include "host_sim/loop/watch.hpp"
 #include "host_sim/scene/scene.hpp"
 
@@ -115,8 +116,9 @@ struct PauseMetrics {
 /// come.
 class StepMeter final : public loop::PeriodSink {
  public:
-  /// @param scene  in closed loop
-  explicit StepMeter(const scene::Scene& scene);
+  /// @param scene   in closed loop
+  /// @param design  of its controller
+  StepMeter(const scene::Scene& scene, const configure::ControlDesign& design);
 
   void take(const loop::Period& period) override;
 

@@ -30,12 +30,12 @@ class RatioSink final : public loop::PeriodSink {
 };
 
 void require_targets(const Rollout& rollout, std::size_t place) {
-  const std::size_t periods = whole_periods(rollout.scene);
+  const std::size_t periods = whole_periods(rollout.experiment.plant);
   if (rollout.targets == nullptr) {
     return;
   }
-  loop::require_usable(rollout.scene, loop::Kind::loop);
-  loop::require_constant_carrier(rollout.scene);
+  loop::require_usable(rollout.experiment.plant, loop::Kind::loop);
+  loop::require_constant_carrier(rollout.experiment.plant);
   for (std::size_t i = 0; i < periods; ++i) {
     if (!(rollout.targets[i] >= 0.0 && rollout.targets[i] <= 1.0)) {
       throw std::invalid_argument(
@@ -46,9 +46,9 @@ void require_targets(const Rollout& rollout, std::size_t place) {
 }
 
 void step_through(const Rollout& rollout) {
-  loop::SteppedScene engine(rollout.scene, loop::Kind::loop);
+  loop::SteppedScene engine(rollout.experiment, loop::Kind::loop);
   loop::Inputs inputs;
-  const std::size_t periods = whole_periods(rollout.scene);
+  const std::size_t periods = whole_periods(rollout.experiment.plant);
   for (std::size_t i = 0; i < periods; ++i) {
     inputs.target_friction_ratio = rollout.targets[i];
     engine.advance(inputs);
@@ -65,19 +65,18 @@ void run_one(const Rollout& rollout, std::size_t place) try {
   loop::Watch watch;
   watch.periods.push_back(&sink);
   watch.energies = false;
-  loop::run(rollout.scene, watch);
+  loop::run(rollout.experiment, watch);
 } catch (const loop::ComputationError& error) {
   throw loop::ComputationError(fmt::format("rollout {}: {}", place, error.what()));
 }
 
 /// @return those that the lanes give up
 Places run_in_lanes(const std::vector<Rollout>& rollouts, const Places& places) {
-  std::deque<configure::ControlDesign> designs;
   std::deque<RatioSink> sinks;
   std::vector<ClosedLoop> loops;
   for (const std::size_t place : places) {
     const Rollout& rollout = rollouts[place];
-    loops.push_back({rollout.scene, designs.emplace_back(configure::design_control(rollout.scene)),
+    loops.push_back({rollout.experiment.plant, *rollout.experiment.design,
                      sinks.emplace_back(rollout.friction_ratios)});
   }
   return given_up(places, run_closed_loops(loops));
@@ -101,8 +100,8 @@ void run_rollouts(const std::vector<Rollout>& rollouts, unsigned threads) {
   std::iota(all.begin(), all.end(), std::size_t{0});
   const Calls calls = divide(all, [&](std::size_t place) {
     const Rollout& rollout = rollouts[place];
-    return rollout.targets == nullptr && runs_in_lanes(rollout.scene) ? std::optional(0)
-                                                                      : std::nullopt;
+    return rollout.targets == nullptr && runs_in_lanes(rollout.experiment.plant) ? std::optional(0)
+                                                                                 : std::nullopt;
   });
   run_many(
       calls, [&](const Places& places) { return run_in_lanes(rollouts, places); },

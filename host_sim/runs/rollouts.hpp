@@ -4,13 +4,14 @@
 #include <cstddef>
 #include <vector>
 
+#include "host_sim/configure/experiment.hpp"
 #include "host_sim/scene/scene.hpp"
 
 namespace sonoglide::runs {
 
 /// What one of them is made of; all that it refers to outlives the call.
 struct Rollout {
-  const scene::Scene& scene;
+  const configure::Experiment& experiment;
   /// One for each whole carrier period, in [0, 1], in force from its sample on; 0: as before, and
   /// until the first other one the scene's steps. Null: the scene's steps.
   const double* targets;

@@ -3,7 +3,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -214,12 +213,8 @@ struct Scene {
   std::optional<Controller> controller;  ///< absent: open loop
   Sensor sensor;
   ModelError model_error;
-  std::vector<Tolerance> tolerances;           ///< for `robust`
-  std::vector<TrueValue> true_values;          ///< with them, all above is the truth
-  std::shared_ptr<const Scene> nominal_scene;  ///< with them, the scene without them; else null
-
-  /// What the controller's design knows: the scene without its true values.
-  const Scene& nominal() const { return nominal_scene ? *nominal_scene : *this; }
+  std::vector<Tolerance> tolerances;   ///< for `robust`
+  std::vector<TrueValue> true_values;  ///< of the plant that is run, where they are others
 
   /// The key `table.key` of a profile beside that of the sliding; null where there is none.
   const char* profile_key() const;

@@ -1,7 +1,6 @@
 #include "host_sim/scene_file/reader.hpp"
 
 #include <algorithm>
-#include <utility>
 
 #include "host_sim/scene_file/checks.hpp"
 #include "host_sim/scene_file/table_cursor.hpp"
@@ -12,7 +11,7 @@
 namespace sonoglide::scene_file {
 namespace {
 
-/// All but what the truth is beside.
+/// All but what is of other values.
 scene::Scene read_values(const Variant& variant) {
   scene::Scene scene;
   scene.name = variant.document().name();
@@ -43,15 +42,13 @@ bool has(const std::vector<scene::TrueValue>& values, std::string_view key) {
 }
 
 /// What follows by default from a value that has a true one beside it follows from the stated one.
-void keep_what_follows(scene::Scene& truth, const scene::Scene& nominal) {
+void keep_what_follows(scene::Scene& truth, const scene::Scene& stated) {
   if (!has(truth.true_values, "friction.normal_force_N")) {
-    truth.friction.normal_force_N = nominal.friction.normal_force_N;
+    truth.friction.normal_force_N = stated.friction.normal_force_N;
   }
-  truth.sensor.force_full_scale_N = nominal.sensor.force_full_scale_N;
-  truth.run = nominal.run;
-  if (truth.controller) {
-    truth.controller->calibration_s = nominal.controller->calibration_s;
-  }
+  truth.sensor.force_full_scale_N = stated.sensor.force_full_scale_N;
+  truth.run = stated.run;
+  truth.controller = stated.controller;
 }
 
 }  // namespace
@@ -61,21 +58,18 @@ scene::Scene read(const Document& document, const std::vector<VariedValue>& valu
   const Variant variant(document, values, unused);
   scene::Scene scene = read_values(variant);
   scene.tolerances = read_tolerances(variant, scene);
-  if (read_true_values(variant, scene).empty()) {
-    return scene;
-  }
-  return read_truth(document, values, std::make_shared<const scene::Scene>(std::move(scene)));
+  scene.true_values = read_true_values(variant, scene);
+  return scene;
 }
 
 scene::Scene read_truth(const Document& document, const std::vector<VariedValue>& values,
-                        std::shared_ptr<const scene::Scene> nominal) {
+                        const scene::Scene& stated) {
   UnusedKeys unused_too;
   const Variant variant(document, values, &unused_too, Values::truth);
   scene::Scene scene = read_values(variant);
   scene.true_values = given_true_values(variant);
-  scene.tolerances = nominal->tolerances;
-  keep_what_follows(scene, *nominal);
-  scene.nominal_scene = std::move(nominal);
+  scene.tolerances = stated.tolerances;
+  keep_what_follows(scene, stated);
   return scene;
 }
 

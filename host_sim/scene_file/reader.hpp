@@ -2,7 +2,6 @@
 #pragma once
 
 #include <filesystem>
-#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -46,12 +45,11 @@ scene::Scene read_text(std::string_view text, const std::string& file,
 scene::Scene read(const Document& document, const std::vector<VariedValue>& values = {},
                   UnusedKeys* unused = nullptr);
 
-/// The scene of a document with its true values, where only they are varied: the other values are
-/// not checked again, and no controller is designed.
+/// The scene with its true values in the place of those that it states.
 ///
-/// @param told  the scene without the true values, as read() has it
+/// @param stated  as read() has it; of the varied values only true ones may be others
 /// @throws SceneError  together the values are those of no plant
 scene::Scene read_truth(const Document& document, const std::vector<VariedValue>& values,
-                        std::shared_ptr<const scene::Scene> nominal);
+                        const scene::Scene& stated);
 
 }  // namespace sonoglide::scene_file

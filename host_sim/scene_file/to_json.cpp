@@ -179,7 +179,7 @@ ordered_json stated(scene::Scene scene) {
 }  // namespace
 
 ordered_json to_json(const scene::Scene& scene) {
-  ordered_json root = stated(scene.nominal());
+  ordered_json root = stated(scene);
   add_truth(root, scene);
   return root;
 }

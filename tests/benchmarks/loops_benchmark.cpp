@@ -33,7 +33,10 @@ void run_loops(benchmark::State& state, const scene::Scene& nominal, const RunAl
   const configure::ControlDesign design = configure::design_control(nominal);
   const std::vector<scene::Scene> plants = plants_near(nominal, count, 0.02);
   for (auto _ : state) {
-    std::vector<report::StepMeter> meters(plants.begin(), plants.end());
+    std::vector<report::StepMeter> meters;
+    for (const scene::Scene& plant : plants) {
+      meters.emplace_back(plant, design);
+    }
     run_all(plants, design, meters);
     for (const report::StepMeter& meter : meters) {
       benchmark::DoNotOptimize(meter.steps());

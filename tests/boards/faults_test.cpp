@@ -166,7 +166,7 @@ class ImagePort final : public loop::ControlPort {
 
 scene::Scene scene_of(const std::string& controller) {
   scene::Scene scene =
-      experiment::read_file(SONOGLIDE_CONTROLLERS "/" + controller + "/scene.toml").scene;
+      experiment::read_file(SONOGLIDE_CONTROLLERS "/" + controller + "/scene.toml").plant;
   scene.run.record.clear();
   return scene;
 }
@@ -179,7 +179,7 @@ std::vector<std::string> emulate(const std::string& board, const std::string& co
 std::vector<hal::Drive> drives(const scene::Scene& scene, loop::ControlPort& control,
                                const Script& script) {
   ScriptedControl scripted(control, script);
-  loop::run(scene, scripted);
+  loop::run(scene, configure::design_control(scene), scripted);
   return scripted.drives;
 }
 

@@ -75,7 +75,7 @@ class SensedPlant {
 };
 
 scene::Scene scene_of(const std::string& controller) {
-  return experiment::read_file(SONOGLIDE_CONTROLLERS "/" + controller + "/scene.toml").scene;
+  return experiment::read_file(SONOGLIDE_CONTROLLERS "/" + controller + "/scene.toml").plant;
 }
 
 /// An image on a board: (board, controller).

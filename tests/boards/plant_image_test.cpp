@@ -180,7 +180,7 @@ ClosedLoop closed_loop(const scene::Scene& scene, Plant plant) {
 }
 
 scene::Scene scene_of(const std::string& controller) {
-  return experiment::read_file(SONOGLIDE_CONTROLLERS "/" + controller + "/scene.toml").scene;
+  return experiment::read_file(SONOGLIDE_CONTROLLERS "/" + controller + "/scene.toml").plant;
 }
 
 ClosedLoop closed_loop_of(const std::string& controller) {
@@ -268,7 +268,7 @@ TEST(PlantInAnImageTest, KeepsTheFrictionRatioOfTheScenesOwnPlant) {
 std::string refused_key(const scene::Scene& scene,
                         scene::Arithmetic arithmetic = scene::Arithmetic::float32) {
   try {
-    emulated::plant_header(scene, arithmetic);
+    emulated::plant_header(configure::make_experiment(scene), arithmetic);
   } catch (const configure::ConfigurationError& error) {
     return error.key();
   }

@@ -42,12 +42,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   pieces.erase(pieces.begin());
   nlohmann::ordered_json echo;
   try {
-    echo = to_json(sonoglide::experiment::read_text(text, "fuzz.toml", pieces).scene);
+    echo = to_json(sonoglide::experiment::read_text(text, "fuzz.toml", pieces).nominal);
   } catch (const SceneError& error) {
     check_one_line(error);
     return 0;
   }
-  if (to_json(sonoglide::experiment::read_text(to_toml(echo), "echo.toml").scene) != echo) {
+  if (to_json(sonoglide::experiment::read_text(to_toml(echo), "echo.toml").nominal) != echo) {
     std::abort();
   }
   return 0;

@@ -94,7 +94,7 @@ Drives answers(UnitT& unit, const std::vector<hal::Sample>& samples) {
 
 template <class Parts>
 void expect_unit_and_run_agree(const std::string& name, const FieldDesign<Parts>& design) {
-  const scene::Scene scene = experiment::read_file(SONOGLIDE_SCENES "/" + name + ".toml").scene;
+  const scene::Scene scene = experiment::read_file(SONOGLIDE_SCENES "/" + name + ".toml").plant;
   const auto control = loop::make_control_port(scene, configure::design_control(scene));
   Recorded run(*control);
   const loop::RunResult by_run = loop::run(scene, run);
@@ -150,7 +150,7 @@ class StuckVelocity : public loop::ControlPort {
 
 /// The commands where the velocity stands still from a period on.
 Drives drives_with_stuck_velocity(const std::string& name, std::size_t from) {
-  const scene::Scene scene = experiment::read_file(SONOGLIDE_SCENES "/" + name + ".toml").scene;
+  const scene::Scene scene = experiment::read_file(SONOGLIDE_SCENES "/" + name + ".toml").plant;
   const auto control = loop::make_control_port(scene, configure::design_control(scene));
   Recorded recorded(*control);
   StuckVelocity stuck(recorded, from);

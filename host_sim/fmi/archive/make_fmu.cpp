@@ -140,12 +140,12 @@ std::string make_fmu(const scene::Scene& given, loop::Kind kind, Version version
   const std::string windows_engine =
       parts.windows_engine ? content_of(*parts.windows_engine) : std::string();
   const Resources resources = make_resources(given, kind, engine + windows_engine);
-  const scene::Scene scene = experiment::read_text(resources.scene, Resources::scene_name).scene;
+  const experiment::Experiment held = experiment::read_text(resources.scene, Resources::scene_name);
   const std::string identifier = fmt::format("sonoglide_{}", scene::name_of(loop::kinds, kind));
   Archive archive;
   archive.add(
       "modelDescription.xml",
-      model_description(scene, kind, version, {given.name, identifier, resources.token, tool}));
+      model_description(held, kind, version, {given.name, identifier, resources.token, tool}));
   archive.add(fmt::format("binaries/{}/{}.so", linux_platform(version), identifier), engine);
   if (parts.windows_engine) {
     archive.add(fmt::format("binaries/{}/{}.dll", windows_platform(version), identifier),

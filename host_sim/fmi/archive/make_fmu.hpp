@@ -28,10 +28,10 @@ struct ModelFacts {
   std::string tool;  ///< that wrote it, with its version
 };
 
-/// @param scene  as the FMU holds it, see variables()
+/// @param experiment  as the FMU holds it, see variables()
 /// Source: Functional Mock-up Interface Specification 3.0, section 2.4, and 2.0.4, section 2.2.
-std::string model_description(const scene::Scene& scene, loop::Kind kind, Version version,
-                              const ModelFacts& facts);
+std::string model_description(const configure::Experiment& experiment, loop::Kind kind,
+                              Version version, const ModelFacts& facts);
 
 std::string_view our_licence();
 /// Of the libraries that are compiled into the engines.

@@ -247,8 +247,9 @@ class Fmi2 {
 };
 
 template <class Interface>
-Tree describe(const scene::Scene& scene, loop::Kind kind, const ModelFacts& facts) {
-  const std::vector<Variable> list = variables(scene, kind);
+Tree describe(const configure::Experiment& experiment, loop::Kind kind, const ModelFacts& facts) {
+  const scene::Scene& scene = experiment.plant;
+  const std::vector<Variable> list = variables(experiment, kind);
   Tree model;
   attribute(model, "fmiVersion", Interface::version);
   attribute(model, "modelName", facts.name);
@@ -278,10 +279,10 @@ Tree describe(const scene::Scene& scene, loop::Kind kind, const ModelFacts& fact
 
 }  // namespace
 
-std::string model_description(const scene::Scene& scene, loop::Kind kind, Version version,
-                              const ModelFacts& facts) {
-  const Tree root = version == Version::fmi3 ? describe<Fmi3>(scene, kind, facts)
-                                             : describe<Fmi2>(scene, kind, facts);
+std::string model_description(const configure::Experiment& experiment, loop::Kind kind,
+                              Version version, const ModelFacts& facts) {
+  const Tree root = version == Version::fmi3 ? describe<Fmi3>(experiment, kind, facts)
+                                             : describe<Fmi2>(experiment, kind, facts);
   std::ostringstream text;
   boost::property_tree::write_xml(
       text, root, boost::property_tree::xml_writer_make_settings<std::string>(' ', 2));

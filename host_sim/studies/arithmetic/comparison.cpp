@@ -8,7 +8,6 @@
 #include <limits>
 
 #include "host_sim/configure/configuration_error.hpp"
-#include "host_sim/configure/control_design.hpp"
 #include "host_sim/emulated/controller_header.hpp"
 #include "host_sim/emulated/run_image.hpp"
 #include "host_sim/scene/names.hpp"
@@ -64,14 +63,18 @@ namespace {
 constexpr int last_target = 19;
 constexpr double target_spacing = 0.05;
 
-scene::Scene in_arithmetic(scene::Scene scene, scene::Arithmetic arithmetic) {
-  scene.controller.value().arithmetic = arithmetic;
-  return scene;
+// The real numbers of a design are those of every arithmetic and, where nothing holds the vibration,
+// of every target.
+
+configure::Experiment in_arithmetic(configure::Experiment experiment,
+                                    scene::Arithmetic arithmetic) {
+  experiment.plant.controller.value().arithmetic = arithmetic;
+  return experiment;
 }
 
-scene::Scene at_target(scene::Scene scene, double target) {
-  scene.controller.value().target_friction_ratio = {{0.0, target}};
-  return scene;
+configure::Experiment at_target(configure::Experiment experiment, double target) {
+  experiment.plant.controller.value().target_friction_ratio = {{0.0, target}};
+  return experiment;
 }
 
 control::Fault first_fault(const loop::RunResult& result) {
@@ -83,19 +86,18 @@ loop::Watch watch(Course& course) {
   return {{&course}, {}, {}};
 }
 
-ImageRow image_row(const scene::Scene& scene, const emulated::EmulatedBoard& board,
+ImageRow image_row(const configure::Experiment& experiment, const emulated::EmulatedBoard& board,
                    const Course& exact) {
-  Course course(scene);
-  const configure::ControlDesign design = configure::design_control(scene);
+  Course course(experiment);
   const loop::RunResult result = emulated::run_image(
-      scene, design, board, emulated::controller_header(scene, design), watch(course));
+      experiment, board, emulated::controller_header(experiment), watch(course));
   emulated::require_same(result);
-  return {&board, scene.controller->arithmetic, precision(course, exact), first_fault(result),
-          *result.image};
+  return {&board, experiment.plant.controller->arithmetic, precision(course, exact),
+          first_fault(result), *result.image};
 }
 
-std::vector<TargetRow> rows_at(const scene::Scene& scene, double target) {
-  const scene::Scene steady = at_target(scene, target);
+std::vector<TargetRow> rows_at(const configure::Experiment& experiment, double target) {
+  const configure::Experiment steady = at_target(experiment, target);
   Course exact(steady);
   loop::run(in_arithmetic(steady, scene::Arithmetic::float64), watch(exact));
   std::vector<TargetRow> rows;
@@ -110,11 +112,11 @@ std::vector<TargetRow> rows_at(const scene::Scene& scene, double target) {
 
 }  // namespace
 
-ArithmeticComparison compare(const scene::Scene& scene,
+ArithmeticComparison compare(const configure::Experiment& experiment,
                              const std::vector<const emulated::EmulatedBoard*>& boards,
                              const std::function<void(double)>& progress) {
-  Course exact(scene);
-  loop::run(in_arithmetic(scene, scene::Arithmetic::float64), watch(exact));
+  Course exact(experiment);
+  loop::run(in_arithmetic(experiment, scene::Arithmetic::float64), watch(exact));
   ArithmeticComparison comparison;
   const auto steps = static_cast<double>(boards.size() * all_arithmetics.size() + 1);
   double done = 0.0;
@@ -122,12 +124,13 @@ ArithmeticComparison compare(const scene::Scene& scene,
     for (const scene::Arithmetic arithmetic : all_arithmetics) {
       progress(done++ / steps);
       if (arithmetic != scene::Arithmetic::float64 || board->computes_double) {
-        comparison.images.push_back(image_row(in_arithmetic(scene, arithmetic), *board, exact));
+        comparison.images.push_back(
+            image_row(in_arithmetic(experiment, arithmetic), *board, exact));
       }
     }
   }
   for (int i = 1; i <= last_target; ++i) {
-    for (const TargetRow& row : rows_at(scene, i * target_spacing)) {
+    for (const TargetRow& row : rows_at(experiment, i * target_spacing)) {
       comparison.targets.push_back(row);
     }
   }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "firmware/control/interface/drive_command.hpp"
+#include "host_sim/configure/experiment.hpp"
 #include "host_sim/emulated/board_list.hpp"
 #include "host_sim/loop/run.hpp"
 #include "host_sim/loop/run_result.hpp"
@@ -18,7 +19,9 @@ namespace sonoglide::arithmetic {
 /// The course of one closed-loop run; to be watched with.
 class Course final : public loop::PeriodSink {
  public:
-  explicit Course(const scene::Scene& scene) : meter_(scene) {}
+  /// @param experiment  in closed loop
+  explicit Course(const configure::Experiment& experiment)
+      : meter_(experiment.plant, *experiment.design) {}
 
   void take(const loop::Period& period) override {
     friction_ratios_.push_back(period.friction_ratio);
@@ -76,11 +79,11 @@ struct ArithmeticComparison {
   std::vector<TargetRow> targets;  ///< target by target
 };
 
-/// @param scene      in closed loop; its own arithmetic plays no part
-/// @param boards     float64 is left out on those that compute it in software
-/// @param progress   called with the fraction done
+/// @param experiment  in closed loop; its own arithmetic plays no part
+/// @param boards      float64 is left out on those that compute it in software
+/// @param progress    called with the fraction done
 /// @throws what emulated::run_image() and emulated::controller_header() throw
-ArithmeticComparison compare(const scene::Scene& scene,
+ArithmeticComparison compare(const configure::Experiment& experiment,
                              const std::vector<const emulated::EmulatedBoard*>& boards,
                              const std::function<void(double)>& progress);
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "host_sim/configure/experiment.hpp"
 #include "host_sim/loop/electrical.hpp"
 #include "host_sim/scene/scene.hpp"
 #include "host_sim/studies/design/requirement.hpp"
@@ -140,6 +141,8 @@ std::string allowed_speeds();
 
 struct Task {
   scene::Scene scene;          ///< closed loop: plant, contact and drive with its limit
+  scene::Scene stated;         ///< the same without true values
+  double speed_floor_m_per_s;  ///< of its controller: slower, the drive is held
   std::vector<double> ratios;  ///< each once, rising
   SpeedRange speeds;
   bool at_resonance;  ///< where a controller keeps the drive, by its frequency
@@ -153,11 +156,8 @@ struct Task {
 /// @throws configure::ConfigurationError  no controller, no ratio from least_ratio to below 1, or a contact without a steady orbit of the
 ///         drive's period or without a closed form: sign_convention "as_printed", another waveform
 ///         than the cosine
-Task make_task(const scene::Scene& scene, const std::vector<double>& ratios,
+Task make_task(const configure::Experiment& experiment, const std::vector<double>& ratios,
                const std::optional<SpeedRange>& speeds);
-
-/// Slowest sliding at which the scene's controller follows its target: below it the drive is held.
-double speed_floor_m_per_s(const scene::Scene& scene);
 
 using Progress = std::function<void(double fraction)>;
 

@@ -155,9 +155,9 @@ std::string detuning_csv(const DesignStudy& study) {
 ordered_json to_json(const DesignStudy& study) {
   ordered_json json;
   json["program"] = output::program_json();
-  json["scene"] = scene_file::to_json(study.task.scene);
+  json["scene"] = scene_file::to_json(study.task.stated);
   json["tuning"] = study.tuning;
-  json["speed_floor_m_per_s"] = speed_floor_m_per_s(study.task.scene);
+  json["speed_floor_m_per_s"] = study.task.speed_floor_m_per_s;
   if (study.task.scene.transducer) {
     json["transducer"] = transducer_json(study);
   }

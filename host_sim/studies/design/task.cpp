@@ -59,7 +59,7 @@ void require_some_ratio(const std::vector<double>& ratios) {
   }
 }
 
-SpeedRange speeds_of(const scene::Scene& scene) {
+SpeedRange speeds_of(const scene::Scene& scene, double floor_m_per_s) {
   const double fastest = configure::fastest_sliding_m_per_s(scene.sliding);
   double slowest = fastest;
   double last = scene.sliding.profile.front().velocity_m_per_s;
@@ -69,7 +69,7 @@ SpeedRange speeds_of(const scene::Scene& scene) {
     last = point.velocity_m_per_s;
   }
   // The floor of a scene that gives none is at most half of its fastest speed.
-  return {std::min(std::max(slowest, speed_floor_m_per_s(scene)), fastest), fastest};
+  return {std::min(std::max(slowest, floor_m_per_s), fastest), fastest};
 }
 
 constexpr double slowest_m_per_s = 1e-9;
@@ -96,10 +96,6 @@ std::string allowed_speeds() {
                      fastest_m_per_s);
 }
 
-double speed_floor_m_per_s(const scene::Scene& scene) {
-  return configure::design_control(scene).speed_floor_m_per_s();
-}
-
 namespace {
 
 double resonance_Hz(const scene::Plant& plant) {
@@ -108,13 +104,22 @@ double resonance_Hz(const scene::Plant& plant) {
 
 }  // namespace
 
-Task make_task(const scene::Scene& scene, const std::vector<double>& ratios,
+Task make_task(const configure::Experiment& experiment, const std::vector<double>& ratios,
                const std::optional<SpeedRange>& speeds) {
+  const scene::Scene& scene = experiment.plant;
   require_steady_vibration(scene);
-  Task task{scene, ratios.empty() ? targets(*scene.controller) : ratios,
-            speeds ? *speeds : speeds_of(scene), scene.resonant()};
+  const double floor_m_per_s = experiment.design->speed_floor_m_per_s();
+  Task task{scene,
+            experiment.nominal,
+            floor_m_per_s,
+            ratios.empty() ? targets(*scene.controller) : ratios,
+            speeds ? *speeds : speeds_of(scene, floor_m_per_s),
+            scene.resonant()};
   if (task.at_resonance) {
+    // The loop there is another one, of another carrier.
     task.scene.drive->frequency_Hz = resonance_Hz(scene.plant);
+    task.stated.drive->frequency_Hz = task.scene.drive->frequency_Hz;
+    task.speed_floor_m_per_s = configure::design_control(task.stated).speed_floor_m_per_s();
   }
   if (!(task.speeds.slowest_m_per_s > 0.0)) {
     throw configure::ConfigurationError(

@@ -271,7 +271,7 @@ output::Section worst_section(const Task& task, const Study& study) {
       {}};
   section.charts.push_back(
       loop_chart("Worst plant", task.plant(study.worst.factors), task.design()));
-  section.charts.push_back(loop_chart("The scene's own plant", task.nominal(), task.design()));
+  section.charts.push_back(loop_chart("The scene's own plant", task.own_plant(), task.design()));
   return section;
 }
 

@@ -13,7 +13,7 @@ namespace sonoglide::robust {
 namespace {
 
 PlantRow run_plant(const scene::Scene& plant, const configure::ControlDesign& design) {
-  report::StepMeter meter(plant);
+  report::StepMeter meter(plant, design);
   loop::Watch watch;
   watch.periods.push_back(&meter);
   watch.energies = false;
@@ -32,7 +32,7 @@ runs::Places run_in_lanes(const std::vector<scene::Scene>& plants, const runs::P
   meters.reserve(places.size());
   std::vector<runs::ClosedLoop> loops;
   for (const std::size_t place : places) {
-    loops.push_back({plants[place], design, meters.emplace_back(plants[place])});
+    loops.push_back({plants[place], design, meters.emplace_back(plants[place], design)});
   }
   const std::vector<runs::LoopRun> found = runs::run_closed_loops(loops);
   std::vector<Record> rows;

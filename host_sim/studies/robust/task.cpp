@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <memory>
 #include <utility>
 
 #include "host_sim/scene_file/reader.hpp"
@@ -14,14 +13,14 @@ namespace sonoglide::robust {
 namespace {
 
 /// @throws scene_file::SceneError  a scene in open loop, or without tolerances
-experiment::Experiment read_nominal(const scene_file::Document& document) {
+experiment::Experiment read_own(const scene_file::Document& document) {
   experiment::Experiment read = experiment::read(document);
   if (!read.design) {
     throw scene_file::SceneError(document.start(), "controller",
                                  "missing; required: a table [controller], whose loop is to hold "
                                  "inside the tolerances");
   }
-  if (read.scene.tolerances.empty()) {
+  if (read.nominal.tolerances.empty()) {
     throw scene_file::SceneError(
         document.place_of("tolerance"), "tolerance",
         "no key may vary; required: a table [tolerance] with at least one of them, such as "
@@ -46,8 +45,7 @@ Task::Task(scene_file::Source source, std::vector<std::string> overrides, const 
       overrides_(std::move(overrides)),
       counts_(counts),
       stated_(source_, overrides_),
-      nominal_(read_nominal(stated_)),
-      told_(std::make_shared<const scene::Scene>(nominal_.scene.nominal())),
+      own_(read_own(stated_)),
       points_(scrambled_sobol(tolerances().size(), counts.samples, counts.seed)) {
   // The echo, so that a plant written as a scene file is the same one.
   document_.emplace(
@@ -98,7 +96,7 @@ void Task::fail_at(const scene_file::SceneError& error, const Factors& factors) 
 scene::Scene Task::read_plant(const Factors& factors) const {
   // What true values the scene has already are beside those that vary.
   try {
-    return scene_file::read_truth(*document_, varied_values(factors), told_);
+    return scene_file::read_truth(*document_, varied_values(factors), nominal());
   } catch (const scene_file::SceneError& error) {
     fail_at(error, factors);
   }
@@ -120,9 +118,10 @@ std::string Task::describe(const Factors& factors) const {
 }
 
 std::string Task::plant_text(const Factors& factors) const {
-  scene::Scene plant = read_plant(factors);
-  plant.tolerances.clear();
-  return scene_file::to_toml(scene_file::to_json(plant));
+  scene::Scene stated = nominal();
+  stated.tolerances.clear();
+  stated.true_values = read_plant(factors).true_values;
+  return scene_file::to_toml(scene_file::to_json(stated));
 }
 
 }  // namespace sonoglide::robust

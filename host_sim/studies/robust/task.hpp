@@ -3,7 +3,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -36,9 +35,11 @@ class Task {
   const scene_file::Source& source() const { return source_; }
   const std::vector<std::string>& overrides() const { return overrides_; }
   const Counts& counts() const { return counts_; }
-  const scene::Scene& nominal() const { return nominal_.scene; }
-  const std::vector<scene::Tolerance>& tolerances() const { return nominal_.scene.tolerances; }
-  const configure::ControlDesign& design() const { return *nominal_.design; }
+  const scene::Scene& nominal() const { return own_.nominal; }
+  /// That of the scene itself.
+  const scene::Scene& own_plant() const { return own_.plant; }
+  const std::vector<scene::Tolerance>& tolerances() const { return nominal().tolerances; }
+  const configure::ControlDesign& design() const { return *own_.design; }
   /// What a user should know of the controller's design and of the tolerances, a sentence or more
   /// each.
   std::vector<std::string> notes() const;
@@ -64,8 +65,7 @@ class Task {
   std::vector<std::string> overrides_;
   Counts counts_;
   scene_file::Document stated_;
-  experiment::Experiment nominal_;
-  std::shared_ptr<const scene::Scene> told_;      ///< the same without true values
+  experiment::Experiment own_;
   std::optional<scene_file::Document> document_;  ///< with a varied true value for each tolerance
   std::vector<double> points_;
 };

@@ -41,7 +41,7 @@ std::vector<std::string> start_notes(const Plan& plan) {
   double most = 0.0;
   std::size_t where = 0;
   for (std::size_t point = 0; point < points; point += step) {
-    const double part = free_vibration_part(plan.scene(point));
+    const double part = free_vibration_part(plan.experiment(point).plant);
     if (part > most) {
       most = part;
       where = point;

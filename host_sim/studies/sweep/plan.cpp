@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "host_sim/configure/plant_scales.hpp"
-#include "host_sim/experiment/experiment.hpp"
 #include "host_sim/runs/run_many.hpp"
 #include "host_sim/scene/bound.hpp"
 
@@ -53,7 +52,7 @@ Plan::Plan(scene_file::Source source, std::vector<std::string> overrides,
   const std::vector<Axis>& axes = grid_.axes();
   has_words_ =
       std::any_of(axes.begin(), axes.end(), [](const Axis& axis) { return axis.has_words(); });
-  first_ = scene(0);
+  first_ = experiment(0).nominal;
   require_used();
 }
 
@@ -101,7 +100,7 @@ void Plan::require_used() const {
   }
 }
 
-scene::Scene Plan::scene(std::size_t point) const {
+experiment::Experiment Plan::experiment(std::size_t point) const {
   try {
     return read(point);
   } catch (const scene_file::SceneError& error) {
@@ -127,7 +126,7 @@ void Plan::visit(const PointRange& points, const Visit& visit, long_work::Pace* 
         }
       });
   if (unusable < points.end) {
-    scene(unusable);
+    experiment(unusable);
   }
 }
 
@@ -160,24 +159,28 @@ std::vector<scene_file::VariedValue> Plan::values_of(std::size_t point) const {
   return values;
 }
 
-scene::Scene Plan::read(std::size_t point) const {
+experiment::Experiment Plan::read(std::size_t point) const {
   scene_file::UnusedKeys passed_over;
   return read(point, has_words_ ? &passed_over : nullptr);
 }
 
-scene::Scene Plan::read(std::size_t point, scene_file::UnusedKeys* unused) const {
-  scene::Scene scene = experiment::read(*document_, values_of(point), unused).scene;
+experiment::Experiment Plan::read(std::size_t point, scene_file::UnusedKeys* unused) const {
+  experiment::Experiment read = experiment::read(*document_, values_of(point), unused);
   for (std::size_t axis = 0; axis < grid_.axes().size(); ++axis) {
     if (grid_.axes()[axis].key == velocity_ratio_key) {
-      set_velocity(scene, point, axis);
+      read.plant.sliding.profile = {{0.0, velocity_m_per_s(read.plant, point, axis)}};
+      read.nominal.sliding = read.plant.sliding;
     }
   }
-  scene.run.record.clear();
-  scene.run.record_interval_s = 0.0;
-  return scene;
+  for (scene::Scene* scene : {&read.plant, &read.nominal}) {
+    scene->run.record.clear();
+    scene->run.record_interval_s = 0.0;
+  }
+  return read;
 }
 
-void Plan::set_velocity(scene::Scene& scene, std::size_t point, std::size_t axis) const {
+double Plan::velocity_m_per_s(const scene::Scene& scene, std::size_t point,
+                              std::size_t axis) const {
   constexpr double largest_speed_m_per_s = 1e6;
   const std::string key(velocity_ratio_key);
   const double ratio = grid_.number(point, axis);
@@ -207,7 +210,7 @@ void Plan::set_velocity(scene::Scene& scene, std::size_t point, std::size_t axis
                     "most {}, either way",
                     ratio, peak_m_per_s, scene::at_most(largest_speed_m_per_s / peak_m_per_s)));
   }
-  scene.sliding.profile = {{0.0, velocity_m_per_s}};
+  return velocity_m_per_s;
 }
 
 /// One key takes its value from one place.

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "host_sim/experiment/experiment.hpp"
 #include "host_sim/long_work/pace.hpp"
 #include "host_sim/long_work/work.hpp"
 #include "host_sim/scene/scene.hpp"
@@ -133,24 +134,24 @@ class Plan {
 
   const Grid& grid() const { return grid_; }
   PointRange all() const { return {0, grid_.size()}; }
-  /// The scene of the first point.
+  /// The scene of the first point, as it is stated.
   const scene::Scene& first() const { return first_; }
   bool closed_loop() const { return first_.controller.has_value(); }
 
   /// The points that take each combination of the varied words once, with the first of all numbers.
   std::vector<std::size_t> wordings() const;
 
-  /// The scene of a point, the same as `run` takes it with a --set for each varied key; nothing is
+  /// What is run at a point, the same as `run` takes it with a --set for each varied key; nothing is
   /// recorded. Where words are varied, a key that the point's words have no use for is left out.
   /// Safe to call from several threads.
   /// @throws scene_file::SceneError  at the place of the --vary option or in the scene; the message
   ///         ends with the point
-  scene::Scene scene(std::size_t point) const;
+  experiment::Experiment experiment(std::size_t point) const;
 
-  /// Takes the scene of a point; called by several threads.
-  using Visit = std::function<void(std::size_t point, const scene::Scene& scene)>;
+  /// Takes what is run at a point; called by several threads.
+  using Visit = std::function<void(std::size_t point, const experiment::Experiment& experiment)>;
 
-  /// Reads the scenes of these points, on all threads.
+  /// Reads what is run at these points, on all threads.
   /// @param pace  its stage is the reading; may be null
   /// @throws scene_file::SceneError  the error of the first unusable point
   void visit(const PointRange& points, const Visit& visit, long_work::Pace* pace = nullptr) const;
@@ -161,9 +162,9 @@ class Plan {
  private:
   std::vector<std::string> varied_keys() const;
   std::vector<scene_file::VariedValue> values_of(std::size_t point) const;
-  scene::Scene read(std::size_t point) const;
-  scene::Scene read(std::size_t point, scene_file::UnusedKeys* unused) const;
-  void set_velocity(scene::Scene& scene, std::size_t point, std::size_t axis) const;
+  experiment::Experiment read(std::size_t point) const;
+  experiment::Experiment read(std::size_t point, scene_file::UnusedKeys* unused) const;
+  double velocity_m_per_s(const scene::Scene& plant, std::size_t point, std::size_t axis) const;
   void require_varied_once() const;
   void require_used() const;
   [[noreturn]] void fail_at_point(const scene_file::SceneError& error, std::size_t point) const;

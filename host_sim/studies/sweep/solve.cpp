@@ -95,7 +95,7 @@ double mean_over(const Plan& plan, const PointRange& points, std::size_t samples
   for (std::size_t i = 0; i < samples; ++i) {
     const double part = std::fmod(golden * static_cast<double>(i), 1.0);
     const auto offset = static_cast<std::size_t>(part * static_cast<double>(points.size()));
-    sum += figure(plan.scene(points.first + offset));
+    sum += figure(plan.experiment(points.first + offset).plant);
   }
   return sum / static_cast<double>(samples);
 } catch (const scene_file::SceneError&) {
@@ -110,13 +110,14 @@ double expected_solving_cost(const Plan& plan, const PointRange& points) {
 
 namespace {
 
-PointResult run(const scene::Scene& scene) {
+PointResult run(const experiment::Experiment& experiment) {
+  const scene::Scene& scene = experiment.plant;
   std::optional<report::StepMeter> meter;
   loop::Watch watch;
-  if (scene.controller) {
-    watch.periods.push_back(&meter.emplace(scene));
+  if (experiment.design) {
+    watch.periods.push_back(&meter.emplace(scene, *experiment.design));
   }
-  const loop::RunResult result = loop::run(scene, watch);
+  const loop::RunResult result = loop::run(experiment, watch);
   const loop::PowerRatios window = loop::power_ratios(scene, result.window);
   PointResult row;
   row.friction_ratio_whole_run = loop::power_ratios(scene, result.whole).friction_ratio;
@@ -136,9 +137,9 @@ PointResult run(const scene::Scene& scene) {
 
 }  // namespace
 
-PointResult solve_scalar_point(const scene::Scene& scene) {
+PointResult solve_scalar_point(const experiment::Experiment& experiment) {
   try {
-    return run(scene);
+    return run(experiment);
   } catch (const loop::ComputationError& error) {
     PointResult failed;
     failed.status = report::one_line(error.what());
@@ -153,8 +154,8 @@ Solve::Solve(const Plan& plan, const PointRange& points, long_work::Pace* pace)
   }
   plan.visit(
       points,
-      [this](std::size_t point, const scene::Scene& scene) {
-        batch_points_[point - first_] = batch_point(scene);
+      [this](std::size_t point, const experiment::Experiment& experiment) {
+        batch_points_[point - first_] = batch_point(experiment.plant);
       },
       pace);
 }
@@ -174,7 +175,7 @@ void Solve::operator()(const runs::Calls& calls, const Sink& sink) const {
   runs::run_many(
       calls, [&](const runs::Places& points) { return over_lanes(points, sink); },
       [&](std::size_t point) {
-        sink({{point, solve_scalar_point(plan_.scene(point))}});
+        sink({{point, solve_scalar_point(plan_.experiment(point))}});
       });
 }
 

@@ -45,7 +45,7 @@ double mean_over(const Plan& plan, const PointRange& points, std::size_t samples
                  const std::function<double(const scene::Scene&)>& figure);
 
 /// A computation that fails gives a row whose status says why.
-PointResult solve_scalar_point(const scene::Scene& scene);
+PointResult solve_scalar_point(const experiment::Experiment& experiment);
 
 /// Takes finished points, from any thread.
 using Sink = std::function<void(std::vector<Record>)>;

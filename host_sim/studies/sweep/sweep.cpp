@@ -47,7 +47,7 @@ long_work::Identity identity_of(const Plan& plan, const std::string& program) {
   }
   std::string scenes;
   for (const std::size_t point : plan.wordings()) {
-    scenes += scene_file::to_json(plan.scene(point)).dump();
+    scenes += scene_file::to_json(plan.experiment(point).nominal).dump();
   }
   // Rows of another arithmetic, which an earlier program had, do not mix with these.
   return {fmt::format("{}, {}", program, batch::arithmetic), scenes, vary};
@@ -137,7 +137,7 @@ long_work::ShardSummary run_shard(const Plan& plan, const long_work::Shard& shar
   const auto check = [&plan](const PointRange& points, long_work::Pace& pace) {
     pace.begin(points.size(), 1.0 + expected_solving_cost(plan, points));
     plan.visit(
-        points, [](std::size_t, const scene::Scene&) {}, &pace);
+        points, [](std::size_t, const experiment::Experiment&) {}, &pace);
   };
   const auto compute = [&plan](const PointRange& block, const runs::Places& open,
                                const long_work::Sink& sink) {

@@ -20,7 +20,7 @@ double difference(const std::string& name, const std::string& arithmetic,
   const auto run = [&](const std::string& chosen) {
     settings.back() = "controller.arithmetic=" + chosen;
     return loop::run_logged(
-        experiment::read_file(SONOGLIDE_SCENES "/" + name + ".toml", settings).scene);
+        experiment::read_file(SONOGLIDE_SCENES "/" + name + ".toml", settings).plant);
   };
   const loop::LoggedRun exact = run("float64");
   const loop::LoggedRun rounded = run(arithmetic);
@@ -67,7 +67,7 @@ TEST(ArithmeticAgreementTest, FixedPointSaturatesNowhereInside) {
     const loop::RunResult result =
         loop::run(experiment::read_file(SONOGLIDE_SCENES "/" + std::string(name) + ".toml",
                                         {"controller.arithmetic=q31"})
-                      .scene);
+                      .plant);
     ASSERT_FALSE(result.control->signals.empty());
     for (const numeric::SignalRecord& signal : result.control->signals) {
       EXPECT_EQ(signal.saturations, 0U) << name << ' ' << signal.name;

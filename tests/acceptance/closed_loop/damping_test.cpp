@@ -65,7 +65,7 @@ std::string text_of(const Loop& loop) {
 using Ran = acceptance::MeasuredRun;
 
 Ran run(const Loop& loop) {
-  return acceptance::run_measured(experiment::read_text(text_of(loop), "damping.toml").scene);
+  return acceptance::run_measured(experiment::read_text(text_of(loop), "damping.toml").plant);
 }
 
 class Damping : public testing::TestWithParam<std::string> {

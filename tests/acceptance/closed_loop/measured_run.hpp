@@ -17,7 +17,7 @@ struct MeasuredRun {
 
 inline MeasuredRun run_measured(const scene::Scene& scene) {
   loop::LoggedRun run = loop::run_logged(scene);
-  report::StepMeter meter(scene);
+  report::StepMeter meter(scene, run.result.control->design);
   for (const loop::Period& period : run.periods) {
     meter.take(period);
   }

@@ -93,7 +93,7 @@ TEST(RandomResonance, HoldsItsVibrationAndNamesWhatIsOffTarget) {
     const RandomLoop given = draw_loop(draw);
     scene::Scene scene;
     try {
-      scene = experiment::read_text(given.text, "random.toml").scene;
+      scene = experiment::read_text(given.text, "random.toml").plant;
     } catch (const scene_file::SceneError& error) {
       EXPECT_NE(std::string(error.what()).find("drive.max_voltage_amplitude_V: adds"),
                 std::string::npos)

@@ -104,7 +104,7 @@ std::string text_of(const Loop& loop) {
 }
 
 scene::Scene scene_of(const Loop& loop) {
-  return experiment::read_text(text_of(loop), "resonance.toml").scene;
+  return experiment::read_text(text_of(loop), "resonance.toml").plant;
 }
 
 using Ran = acceptance::MeasuredRun;
@@ -363,7 +363,7 @@ TEST_P(Resonance, TheMotionalCurrentServesAsWell) {
   const auto replaced = [&](const std::string& factor) {
     std::string text = text_of(given);
     text.replace(text.find("\"velocity\""), 10, "\"motional_current\"");
-    return experiment::read_text(text + factor, "resonance.toml").scene;
+    return experiment::read_text(text + factor, "resonance.toml").plant;
   };
   const auto velocity = [](const scene::Scene& scene) {
     const loop::LoggedRun ran = loop::run_logged(scene);
@@ -437,7 +437,7 @@ TEST_P(Resonance, PausesToLearnTheFrictionEndOnTarget) {
   given.controller = "relearn_every_s = 15e-3";
   std::string text = text_of(given);
   text.erase(text.find("coefficient = 0.1\n"), 18);
-  const scene::Scene scene = experiment::read_text(text, "resonance.toml").scene;
+  const scene::Scene scene = experiment::read_text(text, "resonance.toml").plant;
   const loop::LoggedRun ran = loop::run_logged(scene);
   EXPECT_TRUE(ran.result.control->faults.empty());
   const loop::Period& late = ran.periods[ran.periods.size() - 100];

@@ -28,12 +28,13 @@ ImageBudget measure(const Folders& folders, const emulated::EmulatedBoard& board
                     const std::string& image) {
   const std::filesystem::path path =
       folders.images / std::string(board.name) / "bin" / (image + ".elf");
-  const scene::Scene scene =
-      experiment::read_file(folders.controllers / image / "scene.toml").scene;
+  const experiment::Experiment experiment =
+      experiment::read_file(folders.controllers / image / "scene.toml");
   const emulated::ImageCost cost = emulated::measure_image(path, board);
   emulated::ImageControl controller(board, path);
-  const std::uint64_t hash = loop::run(scene, controller).control->trace_hash;
-  if (hash != loop::run(scene).control->trace_hash) {
+  const std::uint64_t hash =
+      loop::run(experiment.plant, *experiment.design, controller).control->trace_hash;
+  if (hash != loop::run(experiment).control->trace_hash) {
     throw std::runtime_error(path.string() + ": its commands are not the workstation's");
   }
   return {cost, image_parts(board, path, cost.size.flash_bytes),

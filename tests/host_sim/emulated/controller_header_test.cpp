@@ -14,8 +14,9 @@
 namespace sonoglide::emulated::controller_header_test {
 namespace {
 
-scene::Scene read(const std::string& name, const std::vector<std::string>& overrides = {}) {
-  return experiment::read_file(SONOGLIDE_SCENES "/" + name + ".toml", overrides).scene;
+experiment::Experiment read(const std::string& name,
+                            const std::vector<std::string>& overrides = {}) {
+  return experiment::read_file(SONOGLIDE_SCENES "/" + name + ".toml", overrides);
 }
 
 bool has(const std::string& text, const std::string& part) {
@@ -23,9 +24,9 @@ bool has(const std::string& text, const std::string& part) {
 }
 
 /// The key of the error that a header ends in; empty where there is none.
-std::string refused_key(const scene::Scene& scene) {
+std::string refused_key(const experiment::Experiment& experiment) {
   try {
-    controller_header(scene);
+    controller_header(experiment);
   } catch (const configure::ConfigurationError& error) {
     return error.key();
   }
@@ -45,9 +46,9 @@ TEST(ControllerHeader, HoldsTheParametersThatTheSimulationRuns) {
       control::Parts<float, control::TrustedFriction<float>, control::DahlFeedforward<float>,
                      control::NoSlewLimit<float>, control::NotchShaper<float, 32>,
                      control::IntegralRegulator<float, 32>>;
-  const scene::Scene scene = read("target_step");
-  const auto parameters = configure::controller_parameters<Parts>(configure::design_control(scene));
-  const std::string header = controller_header(scene);
+  const experiment::Experiment experiment = read("target_step");
+  const auto parameters = configure::controller_parameters<Parts>(*experiment.design);
+  const std::string header = controller_header(experiment);
   std::size_t end = 0;
   const auto expect_next = [&](const char* name, const auto& field) {
     end = header.find("\n    " + Initialiser<float>::of(field) + ",  // ", end);
@@ -109,13 +110,13 @@ TEST(ControllerHeader, IsForClosedLoopsWithTargetsInReach) {
 TEST(BoardArithmetic, Float64NeedsABoardThatComputesIt) {
   int computing = 0;
   for (const emulated::EmulatedBoard& board : emulated::emulated_boards()) {
-    EXPECT_NO_THROW(require_arithmetic(read("target_step"), board));
-    EXPECT_NO_THROW(require_arithmetic(read("target_step_q31"), board));
+    EXPECT_NO_THROW(require_arithmetic(read("target_step").plant, board));
+    EXPECT_NO_THROW(require_arithmetic(read("target_step_q31").plant, board));
     if (board.name == "mps2-an500") {
-      EXPECT_NO_THROW(require_arithmetic(read("target_step_float64"), board));
+      EXPECT_NO_THROW(require_arithmetic(read("target_step_float64").plant, board));
       ++computing;
     } else {
-      EXPECT_THROW(require_arithmetic(read("target_step_float64"), board),
+      EXPECT_THROW(require_arithmetic(read("target_step_float64").plant, board),
                    configure::ConfigurationError);
     }
   }

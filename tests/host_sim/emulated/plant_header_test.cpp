@@ -17,7 +17,7 @@ using Texts = std::vector<std::string>;
 std::string refusal(const std::string& name, const Texts& overrides,
                     scene::Arithmetic arithmetic = scene::Arithmetic::float32) {
   try {
-    plant_header(experiment::read_file(SONOGLIDE_SCENES "/" + name + ".toml", overrides).scene,
+    plant_header(experiment::read_file(SONOGLIDE_SCENES "/" + name + ".toml", overrides),
                  arithmetic);
   } catch (const configure::ConfigurationError& error) {
     return error.key() + ": " + error.what();

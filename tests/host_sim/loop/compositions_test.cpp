@@ -309,7 +309,7 @@ void expect_refused(const std::string& text) {
 void expect_agreement(const Composition& composition, const std::string& solver, double allowed,
                       const equations::State& expected) {
   SCOPED_TRACE(solver);
-  const RunResult result = run(experiment::read_text(composition.text(solver), "scene.toml").scene);
+  const RunResult result = run(experiment::read_text(composition.text(solver), "scene.toml").plant);
   const double size_m = drive_N / (undamped_mass.stiffness_N_per_m +
                                    undamped_mass.mass_kg * std::pow(two_pi * frequency_Hz, 2));
   EXPECT_NEAR(result.final_state.displacement_m, expected[0], allowed * size_m);

@@ -105,7 +105,8 @@ End sampled(const Scene& scene) {
 }
 
 End stepped(const Scene& scene) {
-  loop::SteppedScene engine(scene, scene.controller ? loop::Kind::loop : loop::Kind::plant);
+  loop::SteppedScene engine(configure::make_experiment(scene),
+                            scene.controller ? loop::Kind::loop : loop::Kind::plant);
   loop::Inputs inputs;
   inputs.drive_force_amplitude_N = scene.drive->force_amplitude_N;
   for (int i = 0; i < periods; ++i) {

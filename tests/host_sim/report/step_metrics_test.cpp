@@ -17,7 +17,7 @@ using scene::Scene;
 
 std::vector<StepMetrics> step_metrics(const Scene& scene,
                                       const std::vector<loop::Period>& periods) {
-  StepMeter meter(scene);
+  StepMeter meter(scene, configure::ControlDesign{});
   for (const loop::Period& period : periods) {
     meter.take(period);
   }

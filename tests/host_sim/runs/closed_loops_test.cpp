@@ -34,11 +34,12 @@ struct Measured {
 
 std::vector<Measured> in_lanes(const std::vector<scene::Scene>& plants,
                                const configure::ControlDesign& design) {
-  std::vector<report::StepMeter> meters(plants.begin(), plants.end());
+  std::vector<report::StepMeter> meters;
+  meters.reserve(plants.size());
   std::vector<ClosedLoop> loops;
   for (std::size_t i = 0; i < plants.size(); ++i) {
     EXPECT_TRUE(runs_in_lanes(plants[i])) << i;
-    loops.push_back({plants[i], design, meters[i]});
+    loops.push_back({plants[i], design, meters.emplace_back(plants[i], design)});
   }
   std::vector<Measured> measured;
   for (const LoopRun& run : run_closed_loops(loops)) {
@@ -51,7 +52,7 @@ std::vector<Measured> in_lanes(const std::vector<scene::Scene>& plants,
 std::vector<report::StepMetrics> one_by_one(scene::Scene plant,
                                             const configure::ControlDesign& design) {
   plant.solver.tolerance = 1e-10;
-  report::StepMeter meter(plant);
+  report::StepMeter meter(plant, design);
   loop::Watch watch;
   watch.periods.push_back(&meter);
   loop::run(plant, design, watch);

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cstddef>
+#include <deque>
 #include <stdexcept>
 #include <vector>
 
@@ -38,9 +39,11 @@ std::vector<Ratios> rolled_out(const std::vector<scene::Scene>& scenes, unsigned
   for (const scene::Scene& scene : scenes) {
     rows.emplace_back(whole_periods(scene));
   }
+  std::deque<configure::Experiment> experiments;
   std::vector<Rollout> rollouts;
   for (std::size_t i = 0; i < scenes.size(); ++i) {
-    rollouts.push_back({scenes[i], nullptr, rows[i].data()});
+    rollouts.push_back(
+        {experiments.emplace_back(configure::make_experiment(scenes[i])), nullptr, rows[i].data()});
   }
   run_rollouts(rollouts, threads);
   return rows;
@@ -68,7 +71,7 @@ TEST(Rollouts, TargetsOf0LeaveTheScenesSteps) {
   const scene::Scene scene = closed_loop(1e-6);
   const std::vector<double> targets(whole_periods(scene), 0.0);
   Ratios ratios(targets.size());
-  run_rollouts({{scene, targets.data(), ratios.data()}}, 1);
+  run_rollouts({{configure::make_experiment(scene), targets.data(), ratios.data()}}, 1);
   EXPECT_EQ(ratios, as_run(scene));
 }
 
@@ -77,11 +80,14 @@ TEST(Rollouts, RefuseTargetsOutOfRangeAndInOpenLoop) {
   std::vector<double> targets(whole_periods(scene), 0.5);
   Ratios ratios(targets.size(), -1.0);
   targets.back() = 1.25;
-  EXPECT_THROW(run_rollouts({{scene, targets.data(), ratios.data()}}, 1), std::invalid_argument);
+  EXPECT_THROW(
+      run_rollouts({{configure::make_experiment(scene), targets.data(), ratios.data()}}, 1),
+      std::invalid_argument);
   EXPECT_EQ(ratios.front(), -1.0);
   scene.controller.reset();
-  EXPECT_THROW(run_rollouts({{scene, targets.data(), ratios.data()}}, 1),
-               configure::ConfigurationError);
+  EXPECT_THROW(
+      run_rollouts({{configure::make_experiment(scene), targets.data(), ratios.data()}}, 1),
+      configure::ConfigurationError);
 }
 
 }  // namespace

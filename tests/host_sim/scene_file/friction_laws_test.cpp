@@ -99,7 +99,7 @@ TEST_P(FrictionLawTest, IsFoundByItsName) {
 }
 
 TEST_P(FrictionLawTest, IsReadAndEchoedWithItsOwnKeys) {
-  const Scene scene = experiment::read_text(scene_text(GetParam()), "scene.toml").scene;
+  const Scene scene = experiment::read_text(scene_text(GetParam()), "scene.toml").plant;
   EXPECT_EQ(scene.friction.law.index(), GetParam().index());
   const auto echo = scene_file::to_json(scene)["friction"];
   EXPECT_EQ(echo["law"], name_of(GetParam()));

@@ -102,7 +102,7 @@ TEST(ReaderTest, DefaultsOfClosedLoop) {
   EXPECT_FALSE(scene.drive->max_force_slew_N_per_s.has_value());
   EXPECT_EQ(scene.run.settling_band, 0.01);
   ASSERT_TRUE(scene.controller.has_value());
-  EXPECT_EQ(experiment::read_text(shortest_closed_loop, "s").scene.controller->calibration_s, 0.0);
+  EXPECT_EQ(experiment::read_text(shortest_closed_loop, "s").plant.controller->calibration_s, 0.0);
   EXPECT_EQ(scene.controller->shaping, scene::Shaping::notch);
   EXPECT_FALSE(scene.controller->speed_floor_m_per_s.has_value());
   EXPECT_FALSE(scene.sensor.adc_bits.has_value());
@@ -138,7 +138,7 @@ std::string sensorless(const std::string& sliding, const std::string& key) {
 TEST(ReaderTest, DefaultOfCalibrationWhereTheFrictionShowsTheVibration) {
   const std::string steady = "velocity_m_per_s = 0.0267";
   const auto calibration_s = [](const std::string& text) {
-    return *experiment::read_text(text, "s").scene.controller->calibration_s;
+    return *experiment::read_text(text, "s").plant.controller->calibration_s;
   };
   const scene::Scene absent = read_text(sensorless(steady, ""), "s");
   const double by_default_s =

@@ -57,7 +57,7 @@ struct NameOf {
 TYPED_TEST_SUITE(SolverMethodTest, TypesOf<SolverMethods>::Types, NameOf);
 
 TYPED_TEST(SolverMethodTest, IsReadAndEchoedByItsName) {
-  const scene::Scene scene = experiment::read_text(scene_text(this->keys()), "scene.toml").scene;
+  const scene::Scene scene = experiment::read_text(scene_text(this->keys()), "scene.toml").plant;
   EXPECT_EQ(scene.solver.method, method_of<TypeParam>);
   EXPECT_EQ(scene_file::to_json(scene)["solver"]["method"], TypeParam::name);
   EXPECT_EQ(scene::is_adaptive(scene.solver.method), TypeParam::adaptive);

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "host_sim/experiment/experiment.hpp"
 #include "host_sim/scene_file/reader.hpp"
 
 namespace sonoglide::scene_file::tolerances_test {
@@ -41,7 +42,7 @@ scene::Scene with(const std::string& tables, const std::vector<std::string>& ove
 /// What stderr says after the file's name, the table beginning in line 21.
 std::string error_of(const std::string& tables, const std::vector<std::string>& overrides = {}) {
   try {
-    with(tables, overrides);
+    experiment::read_text(scene_text + tables, "s.toml", overrides);
   } catch (const SceneError& error) {
     return error.what();
   }
@@ -166,15 +167,15 @@ TEST(ToleranceTest, IsOfANumberThatTheSceneHas) {
 }
 
 TEST(TrueValuesTest, AreThePlantsAndTheRestIsBelieved) {
-  const scene::Scene scene =
-      with("[true_values]\n\"plant.mass_kg\" = 0.03\n\"sensor.adc_bits\" = 9\n");
-  EXPECT_EQ(scene.plant.mass_kg, 0.03);
-  EXPECT_EQ(scene.sensor.adc_bits, 9);
-  EXPECT_EQ(scene.nominal().plant.mass_kg, 0.02);
-  EXPECT_EQ(scene.nominal().sensor.adc_bits, 12);
-  EXPECT_DOUBLE_EQ(scene.friction.normal_force_N, 0.02 * 9.81)
+  const auto [plant, nominal, design] = experiment::read_text(
+      scene_text + "[true_values]\n\"plant.mass_kg\" = 0.03\n\"sensor.adc_bits\" = 9\n", "s");
+  EXPECT_EQ(plant.plant.mass_kg, 0.03);
+  EXPECT_EQ(plant.sensor.adc_bits, 9);
+  EXPECT_EQ(nominal.plant.mass_kg, 0.02);
+  EXPECT_EQ(nominal.sensor.adc_bits, 12);
+  EXPECT_DOUBLE_EQ(plant.friction.normal_force_N, 0.02 * 9.81)
       << "what follows by default follows from the scene's value";
-  EXPECT_EQ(scene.sensor.force_full_scale_N, scene.nominal().sensor.force_full_scale_N);
+  EXPECT_EQ(plant.sensor.force_full_scale_N, nominal.sensor.force_full_scale_N);
 }
 
 TEST(TrueValuesTest, SayWhereTheyAreWrong) {
@@ -197,10 +198,10 @@ TEST(TrueValuesTest, SayWhereTheyAreWrong) {
 
 TEST(TrueValuesTest, MayStandForWhatTheDocumentVaries) {
   const Document document({"s.toml", scene_text}, {}, {"true_values.plant.stiffness_N_per_m"});
-  const auto told = std::make_shared<const scene::Scene>(with(""));
-  const scene::Scene truth = read_truth(document, {VariedValue(130e6)}, told);
+  const scene::Scene stated = with("");
+  const scene::Scene truth = read_truth(document, {VariedValue(130e6)}, stated);
   EXPECT_EQ(truth.plant.stiffness_N_per_m, 130e6);
-  EXPECT_EQ(truth.nominal().plant.stiffness_N_per_m, 133e6);
+  EXPECT_EQ(stated.plant.stiffness_N_per_m, 133e6);
   ASSERT_EQ(truth.true_values.size(), 1U);
   EXPECT_EQ(truth.true_values[0].value, 130e6);
 }

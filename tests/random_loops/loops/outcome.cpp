@@ -32,11 +32,12 @@ Verdict verdict(const StepOutcome& step, const std::optional<double>& settling_t
   return step.named() ? Verdict::never_named : Verdict::never_unnamed;
 }
 
-void run_scene(const scene::Scene& scene, Outcome& outcome) {
-  report::StepMeter meter(scene);
+void run_loop(const experiment::Experiment& experiment, Outcome& outcome) {
+  const scene::Scene& scene = experiment.plant;
+  report::StepMeter meter(scene, *experiment.design);
   loop::Watch watch;
   watch.periods.push_back(&meter);
-  const loop::RunResult result = loop::run(scene, watch);
+  const loop::RunResult result = loop::run(experiment, watch);
   const std::vector<report::StepMetrics> steps = meter.steps();
   const std::vector<report::TargetSpan> spans = report::target_spans(scene);
   for (std::size_t i = 0; i < steps.size(); ++i) {
@@ -61,12 +62,13 @@ Outcome outcome(std::uint32_t seed, std::uint32_t index, Vibration vibration) {
   Outcome outcome;
   outcome.loop = random_loop(seed, index);
   try {
-    const scene::Scene scene =
-        experiment::read_text(scene_text(outcome.loop, vibration), "random.toml").scene;
+    const experiment::Experiment experiment =
+        experiment::read_text(scene_text(outcome.loop, vibration), "random.toml");
     if (vibration == Vibration::sensorless) {
-      outcome.loop.calibration_s = *scene.controller->calibration_s;  // absent: by default
+      outcome.loop.calibration_s =
+          *experiment.plant.controller->calibration_s;  // absent: by default
     }
-    run_scene(scene, outcome);
+    run_loop(experiment, outcome);
   } catch (const scene_file::SceneError& error) {
     outcome.refused = error.what();
     outcome.refused_key = error.key();

@@ -22,7 +22,7 @@ struct NaturalModeOptions {
 
 void natural_mode(const NaturalModeOptions& options) {
   const SceneInput input(options.scene);
-  const scene::Scene scene = input.read().scene;
+  const scene::Scene scene = input.read().plant;
   const std::string table = input.with_places([&] { return natural_mode::table(scene); });
   const std::filesystem::path out = output_folder(options.out, scene.name, "_natural_mode");
   output::OutputFolder folder(out);

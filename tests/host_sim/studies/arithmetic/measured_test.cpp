@@ -39,7 +39,7 @@ class MeasuredTest : public testing::TestWithParam<std::string> {};
 
 TEST_P(MeasuredTest, ErrorsInstructionsAndBytesAreThoseOfThisBuild) {
   setenv("XDG_CACHE_HOME", SONOGLIDE_IMAGE_CACHE, 1);
-  const scene::Scene scene = experiment::read_file(SONOGLIDE_ARITHMETIC_SCENE).scene;
+  const auto scene = experiment::read_file(SONOGLIDE_ARITHMETIC_SCENE);
   const csv::Table computed(
       images_csv(compare(scene, {emulated::find_board(GetParam())}, [](double) {})));
   const csv::Table recorded = csv::read_file(SONOGLIDE_ARITHMETIC_MEASURED);

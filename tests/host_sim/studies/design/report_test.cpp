@@ -15,7 +15,7 @@ namespace {
 
 DesignStudy study_of(const scene::Scene& scene, const std::vector<double>& ratios,
                      SpeedRange speeds) {
-  return study(make_task(scene, ratios, speeds), [](double) {});
+  return study(make_task(configure::make_experiment(scene), ratios, speeds), [](double) {});
 }
 
 std::string all_advice(const DesignStudy& study) {

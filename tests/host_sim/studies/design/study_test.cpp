@@ -12,9 +12,14 @@
 namespace sonoglide::design::study_test {
 namespace {
 
+Task task_of(const scene::Scene& scene, const std::vector<double>& ratios,
+             const std::optional<SpeedRange>& speeds) {
+  return make_task(configure::make_experiment(scene), ratios, speeds);
+}
+
 void expect_denied(const scene::Scene& scene, const std::string& key) {
   try {
-    make_task(scene, {}, {});
+    task_of(scene, {}, {});
     FAIL() << key;
   } catch (const configure::ConfigurationError& error) {
     EXPECT_EQ(error.key(), key);
@@ -22,12 +27,12 @@ void expect_denied(const scene::Scene& scene, const std::string& key) {
 }
 
 TEST(MakeTaskTest, TakesRatiosAndSpeedsOfTheScene) {
-  const Task task = make_task(table_1(), {}, {});
+  const Task task = task_of(table_1(), {}, {});
   EXPECT_EQ(task.ratios, (std::vector<double>{0.3, 0.5, 0.7}));
   EXPECT_EQ(task.speeds.slowest_m_per_s, 0.02672);
   EXPECT_EQ(task.speeds.fastest_m_per_s, 0.02672);
-  EXPECT_EQ(make_task(table_1(), {0.6, 0.2, 0.6}, {}).ratios, (std::vector<double>{0.2, 0.6}));
-  EXPECT_EQ(make_task(table_1(), {}, SpeedRange{0.01, 0.1}).speeds.fastest_m_per_s, 0.1);
+  EXPECT_EQ(task_of(table_1(), {0.6, 0.2, 0.6}, {}).ratios, (std::vector<double>{0.2, 0.6}));
+  EXPECT_EQ(task_of(table_1(), {}, SpeedRange{0.01, 0.1}).speeds.fastest_m_per_s, 0.1);
 }
 
 TEST(MakeTaskTest, DeniesTargetsThatNoCurveOfForceHas) {
@@ -36,18 +41,18 @@ TEST(MakeTaskTest, DeniesTargetsThatNoCurveOfForceHas) {
     scene.controller->target_friction_ratio = {{0.0, ratio}};
     expect_denied(scene, "controller.target_friction_ratio");
     scene.controller->target_friction_ratio.push_back({1e-3, 0.5});
-    EXPECT_EQ(make_task(scene, {}, {}).ratios.size(), 2U);
+    EXPECT_EQ(task_of(scene, {}, {}).ratios.size(), 2U);
   }
 }
 
 TEST(MakeTaskTest, LeavesOutWhatIsSlowerThanTheSpeedFloor) {
   scene::Scene scene = table_1();
   scene.sliding.profile = {{0.0, 0.03}, {1e-3, -0.02}};
-  const Task reversing = make_task(scene, {}, {});
+  const Task reversing = task_of(scene, {}, {});
   EXPECT_EQ(reversing.speeds.fastest_m_per_s, 0.03);
-  EXPECT_EQ(reversing.speeds.slowest_m_per_s, speed_floor_m_per_s(scene));
+  EXPECT_EQ(reversing.speeds.slowest_m_per_s, reversing.speed_floor_m_per_s);
   scene.sliding.profile = {{0.0, -0.03}, {1e-3, -0.02}};
-  EXPECT_EQ(make_task(scene, {}, {}).speeds.slowest_m_per_s, 0.02);
+  EXPECT_EQ(task_of(scene, {}, {}).speeds.slowest_m_per_s, 0.02);
 }
 
 TEST(MakeTaskTest, DeniesWhatHasNoSteadyVibration) {
@@ -67,7 +72,7 @@ TEST(MakeTaskTest, DeniesWhatHasNoSteadyVibration) {
 
 TEST(StudyTest, HasEveryRatioAtBothEndsOfTheSpeeds) {
   double told = 0.0;
-  const DesignStudy found = study(make_task(table_1(), {0.3, 0.7}, SpeedRange{0.01, 0.1}),
+  const DesignStudy found = study(task_of(table_1(), {0.3, 0.7}, SpeedRange{0.01, 0.1}),
                                   [&](double fraction) { told = fraction; });
   EXPECT_EQ(told, 1.0);
   ASSERT_EQ(found.points.size(), 4U);
@@ -87,7 +92,7 @@ TEST(StudyTest, HasEveryRatioAtBothEndsOfTheSpeeds) {
 }
 
 TEST(StudyTest, OfASingleSpeedShowsADecadeToEitherSide) {
-  const DesignStudy found = study(make_task(table_1(), {0.5}, {}), [](double) {});
+  const DesignStudy found = study(task_of(table_1(), {0.5}, {}), [](double) {});
   ASSERT_EQ(found.points.size(), 1U);
   EXPECT_NEAR(found.curves[0].requirements.front().sliding_m_per_s, 0.002672, 1e-12);
   EXPECT_NEAR(found.curves[0].requirements.back().sliding_m_per_s, 0.2672, 1e-10);
@@ -96,7 +101,7 @@ TEST(StudyTest, OfASingleSpeedShowsADecadeToEitherSide) {
 
 // A row, and not the end of the study.
 TEST(StudyTest, GoesOnWhereAnOrbitRepels) {
-  const DesignStudy found = study(make_task(heavy_contact(2000.0), {0.9}, {}), [](double) {});
+  const DesignStudy found = study(task_of(heavy_contact(2000.0), {0.9}, {}), [](double) {});
   ASSERT_EQ(found.points.size(), 1U);
   EXPECT_EQ(found.points[0].requirement.limit, Obstacle::no_orbit);
 }
@@ -104,7 +109,7 @@ TEST(StudyTest, GoesOnWhereAnOrbitRepels) {
 TEST(StudyTest, FailsWhereNothingCanBeSaid) {
   scene::Scene free = table_1();
   free.plant.stiffness_N_per_m = 0.0;
-  EXPECT_THROW(study(make_task(free, {}, {}), [](double) {}), loop::ComputationError);
+  EXPECT_THROW(study(task_of(free, {}, {}), [](double) {}), loop::ComputationError);
 }
 
 }  // namespace

@@ -18,7 +18,7 @@ namespace {
 using Texts = std::vector<std::string>;
 
 scene::Scene scene_with(const Texts& overrides, const std::string& text = open_loop) {
-  return experiment::read_text(text, "scene.toml", overrides).scene;
+  return experiment::read_text(text, "scene.toml", overrides).plant;
 }
 
 bool taken(const Texts& overrides, const std::string& text = open_loop) {
@@ -68,7 +68,8 @@ void expect_agreement(const Texts& overrides, double tolerance) {
   const PointResult lanes = row_of(*point, runs.front());
   Texts fine = overrides;
   fine.push_back("solver.tolerance=1e-12");
-  const PointResult scalar = solve_scalar_point(scene_with(fine));
+  const PointResult scalar =
+      solve_scalar_point(experiment::read_text(open_loop, "scene.toml", fine));
   const auto expect_near = [tolerance](double value, double reference) {
     EXPECT_NEAR(value, reference, tolerance * std::max(1.0, std::abs(reference)));
   };

@@ -23,7 +23,7 @@ std::string error_of(const std::string& text, const Texts& vary, const Texts& ov
   const ScratchScene scratch(text);
   try {
     const Plan plan(scene_file::read_source(scratch.file()), overrides, vary);
-    plan.visit(plan.all(), [](std::size_t, const scene::Scene&) {});
+    plan.visit(plan.all(), [](std::size_t, const experiment::Experiment&) {});
   } catch (const scene_file::SceneError& error) {
     std::string what = error.what();
     const std::string folder = scratch.folder().string() + "/";
@@ -40,8 +40,8 @@ TEST(PlanTest, APointIsTheSceneWithItsKeysSet) {
   const scene::Scene expected =
       experiment::read_file(scratch.file(), {"solver.tolerance=1e-8", "drive.force_amplitude_N=200",
                                              "friction.coefficient=0.2"})
-          .scene;
-  EXPECT_EQ(scene_file::to_json(plan.scene(3)), scene_file::to_json(expected));
+          .nominal;
+  EXPECT_EQ(scene_file::to_json(plan.experiment(3).nominal), scene_file::to_json(expected));
   EXPECT_EQ(plan.describe(3), "drive.force_amplitude_N=200, friction.coefficient=0.2");
 }
 
@@ -49,8 +49,8 @@ TEST(PlanTest, TakesIntegerKeys) {
   const ScratchScene scratch(closed_loop);
   const Plan plan(scene_file::read_source(scratch.file()), {},
                   {"sensor.adc_bits=8:12:3", "sensor.seed=1:2:2"});
-  EXPECT_EQ(plan.scene(5).sensor.adc_bits, 12);
-  EXPECT_EQ(plan.scene(5).sensor.seed, 2U);
+  EXPECT_EQ(plan.experiment(5).plant.sensor.adc_bits, 12);
+  EXPECT_EQ(plan.experiment(5).plant.sensor.seed, 2U);
 }
 
 TEST(PlanTest, EveryPointIsTheSceneThatItsOptionsGive) {
@@ -58,7 +58,7 @@ TEST(PlanTest, EveryPointIsTheSceneThatItsOptionsGive) {
   const Plan plan(
       scene_file::read_source(scratch.file()), {"solver.tolerance=1e-8"},
       {"friction.contact_stiffness_N_per_m=1:1e17:35:log", "sliding.velocity_m_per_s=-0.1:0.2:7"});
-  plan.visit(plan.all(), [&](std::size_t point, const scene::Scene& scene) {
+  plan.visit(plan.all(), [&](std::size_t point, const experiment::Experiment& experiment) {
     const auto option = [&](const char* key, std::size_t axis) {
       return key + ('=' + plan.grid().text(point, axis));
     };
@@ -66,8 +66,9 @@ TEST(PlanTest, EveryPointIsTheSceneThatItsOptionsGive) {
         experiment::read_file(scratch.file(), {"solver.tolerance=1e-8",
                                                option("friction.contact_stiffness_N_per_m", 0),
                                                option("sliding.velocity_m_per_s", 1)})
-            .scene;
-    EXPECT_EQ(scene_file::to_json(scene), scene_file::to_json(expected)) << plan.describe(point);
+            .nominal;
+    EXPECT_EQ(scene_file::to_json(experiment.nominal), scene_file::to_json(expected))
+        << plan.describe(point);
   });
 }
 
@@ -80,7 +81,7 @@ TEST(PlanTest, ReadingTellsOfItsProgress) {
   long_work::Pace pace(progress);
   pace.begin(plan.grid().size(), 0.0);
   plan.visit(
-      plan.all(), [](std::size_t, const scene::Scene&) {}, &pace);
+      plan.all(), [](std::size_t, const experiment::Experiment&) {}, &pace);
   EXPECT_GE(fractions.size(), 5U);
   EXPECT_EQ(fractions.back(), 1.0);
 }
@@ -90,29 +91,30 @@ TEST(PlanTest, VisitsThePointsOfARangeAndNoOther) {
   const Plan plan(scene_file::read_source(scratch.file()), {},
                   {"friction.coefficient=99:101:1000000000"}, most_points_in_shards);
   std::atomic<std::size_t> visits{0};
-  const auto visit = [&](std::size_t point, const scene::Scene&) {
+  const auto visit = [&](std::size_t point, const experiment::Experiment&) {
     EXPECT_GE(point, 1000U);
     EXPECT_LT(point, 3000U);
     ++visits;
   };
   plan.visit({1000, 3000}, visit);
   EXPECT_EQ(visits, 2000U);
-  EXPECT_THROW(plan.visit({499'999'999, 500'000'001}, [](std::size_t, const scene::Scene&) {}),
-               scene_file::SceneError);
+  EXPECT_THROW(
+      plan.visit({499'999'999, 500'000'001}, [](std::size_t, const experiment::Experiment&) {}),
+      scene_file::SceneError);
 }
 
 TEST(PlanTest, RecordsNothing) {
   const ScratchScene scratch(open_loop +
                              "record = [\"displacement_m\"]\nrecord_interval_s = 1e-6\n");
   const Plan plan(scene_file::read_source(scratch.file()), {}, {"friction.coefficient=0.1:0.2:2"});
-  EXPECT_TRUE(plan.scene(1).run.record.empty());
+  EXPECT_TRUE(plan.experiment(1).plant.run.record.empty());
 }
 
 TEST(PlanTest, TheSceneIsReadOnce) {
   const ScratchScene scratch(open_loop);
   const Plan plan(scene_file::read_source(scratch.file()), {}, {"friction.coefficient=0.1:0.2:2"});
   std::filesystem::remove(scratch.file());
-  EXPECT_NO_THROW(plan.scene(1));
+  EXPECT_NO_THROW(plan.experiment(1));
 }
 
 TEST(PlanTest, TheVelocityRatioFollowsTheImpedanceOfThePoint) {
@@ -127,7 +129,7 @@ TEST(PlanTest, TheVelocityRatioFollowsTheImpedanceOfThePoint) {
     const double damping = point % 2 == 0 ? 0.0 : 5000.0;
     const double ratio = point < 2 ? 0.5 : 1.0;
     const double peak = 384.0 * omega / std::abs(spring + i * damping * omega);
-    const scene::Sliding sliding = plan.scene(point).sliding;
+    const scene::Sliding sliding = plan.experiment(point).plant.sliding;
     ASSERT_EQ(sliding.profile.size(), 1U);
     EXPECT_NEAR(sliding.profile[0].velocity_m_per_s, ratio * peak, 1e-15);
   }
@@ -191,8 +193,8 @@ TEST(PlanTest, WordsAreVariedAsNumbersAre) {
   EXPECT_EQ(plan.describe(4), "solver.method=event_gauss, friction.coefficient=0.3");
   const scene::Scene expected = experiment::read_file(scratch.file(), {"solver.method=event_gauss",
                                                                        "friction.coefficient=0.3"})
-                                    .scene;
-  EXPECT_EQ(scene_file::to_json(plan.scene(4)), scene_file::to_json(expected));
+                                    .nominal;
+  EXPECT_EQ(scene_file::to_json(plan.experiment(4).nominal), scene_file::to_json(expected));
   EXPECT_EQ(plan.wordings(), (std::vector<std::size_t>{0, 3}));
 }
 
@@ -200,12 +202,12 @@ TEST(PlanTest, WordsAreVariedAsNumbersAre) {
 TEST(PlanTest, AKeyThatOneWordUsesIsNoErrorWithAnother) {
   const ScratchScene scratch(open_loop);
   const Plan plan(scene_file::read_source(scratch.file()), {}, {"friction.law=coulomb,dahl"});
-  EXPECT_EQ(plan.scene(1).friction.contact_stiffness_N_per_m, 0.056e6);
-  EXPECT_EQ(scene_file::to_json(plan.scene(0)),
+  EXPECT_EQ(plan.experiment(1).plant.friction.contact_stiffness_N_per_m, 0.056e6);
+  EXPECT_EQ(scene_file::to_json(plan.experiment(0).nominal),
             scene_file::to_json(
                 experiment::read_file(
                     scratch.file(), {"friction.law=coulomb", "friction.contact_stiffness_N_per_m="})
-                    .scene));
+                    .nominal));
 }
 
 TEST(PlanTest, AKeyThatNoWordUsesIsAnError) {

@@ -55,7 +55,7 @@ TEST_F(SolveTest, LanesTakeTheOthersTogether) {
   EXPECT_EQ(calls.together, (std::vector<runs::Places>{{1, 2, 3, 4}}));
   EXPECT_EQ(calls.alone, (runs::Places{0}));
   const std::map<std::size_t, std::string> together = records(calls);
-  EXPECT_EQ(together.at(0), record_text(Record{0, solve_scalar_point(plan_->scene(0))}));
+  EXPECT_EQ(together.at(0), record_text(Record{0, solve_scalar_point(plan_->experiment(0))}));
   EXPECT_EQ(together, records({{{1}, {2}, {3}, {4}}, {0}})) << "to the bit what each is alone";
 }
 
@@ -76,8 +76,8 @@ TEST_F(SolveTest, PointsOfOneLengthGoTogetherWhereverTheyAre) {
 
 TEST_F(SolveTest, TheExpectedCostIsThatOfTheSweepNotOfItsFirstPoint) {
   plan_for({frictionless_first});
-  const double first = expected_solving_cost(plan_->scene(0));
-  const double other = expected_solving_cost(plan_->scene(1));
+  const double first = expected_solving_cost(plan_->experiment(0).plant);
+  const double other = expected_solving_cost(plan_->experiment(1).plant);
   ASSERT_GT(first, 3.0 * other);
   EXPECT_NEAR(expected_solving_cost(*plan_, plan_->all()), 0.2 * first + 0.8 * other, 0.1 * first);
 }

@@ -34,7 +34,7 @@ peers::Problem problem(const std::string& scene) {
   const std::filesystem::path folder = SONOGLIDE_WORK_PRECISION_SCENES;
   return problem_of(
       experiment::read_file(folder / (scene + ".toml"), {SONOGLIDE_WORK_PRECISION_OVERRIDES})
-          .scene);
+          .plant);
 }
 
 /// By solver and setting.

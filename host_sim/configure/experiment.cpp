@@ -1,0 +1,43 @@
+#include "host_sim/configure/experiment.hpp"
+
+#include <utility>
+
+#include "host_sim/configure/calibration_design.hpp"
+#include "host_sim/configure/nominal_plant.hpp"
+
+namespace sonoglide::configure {
+namespace {
+
+/// Without a vibration sensor the vibration is known no better than the friction, which is therefore
+/// learnt first.
+double default_calibration_s(const scene::Scene& scene, const ControlDesign& design) {
+  return design.in_mode<SensorlessDesign>() != nullptr ? shortest_calibration_s(scene, design)
+                                                       : 0.0;
+}
+
+/// Values that are absent and follow from the design.
+void fill_in(scene::Scene& scene, ControlDesign& design) {
+  scene::Controller& controller = *scene.controller;
+  if (controller.shaping == scene::Shaping::robust && !controller.shaping_range) {
+    controller.shaping_range = default_shaping_range(scene.tolerances);
+  }
+  if (!controller.calibration_s) {
+    controller.calibration_s = default_calibration_s(scene, design);
+    design_calibration(scene, nominal_plant(scene), design);
+  }
+}
+
+}  // namespace
+
+Experiment make_experiment(scene::Scene stated, std::optional<scene::Scene> plant) {
+  Experiment experiment{plant ? std::move(*plant) : stated, std::move(stated), std::nullopt};
+  scene::Scene& nominal = experiment.nominal;
+  if (nominal.controller) {
+    experiment.design = design_control(nominal);
+    fill_in(nominal, *experiment.design);
+    experiment.plant.controller = nominal.controller;
+  }
+  return experiment;
+}
+
+}  // namespace sonoglide::configure
