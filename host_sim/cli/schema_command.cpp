@@ -2,7 +2,7 @@
 #include <CLI/CLI.hpp>
 
 #include "host_sim/cli/commands.hpp"
-#include "host_sim/scene_file/json_schema.hpp"
+#include "host_sim/scene_file/key_reference.hpp"
 
 namespace sonoglide::cli {
 

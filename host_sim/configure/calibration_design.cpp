@@ -1,4 +1,4 @@
-#include "host_sim/configure/calibration_design.hpp"
+#include "host_sim/configure/design_steps.hpp"
 
 #include <fmt/format.h>
 
@@ -11,7 +11,6 @@
 
 #include "host_sim/configure/configuration_error.hpp"
 #include "host_sim/configure/design_periods.hpp"
-#include "host_sim/configure/scales_design.hpp"
 #include "host_sim/scene/bound.hpp"
 
 namespace sonoglide::configure {

@@ -4,11 +4,8 @@
 #include <type_traits>
 #include <variant>
 
-#include "host_sim/configure/calibration_design.hpp"
+#include "host_sim/configure/design_steps.hpp"
 #include "host_sim/configure/nominal_plant.hpp"
-#include "host_sim/configure/regulator_design.hpp"
-#include "host_sim/configure/scales_design.hpp"
-#include "host_sim/configure/supervision_design.hpp"
 
 // The elementary functions of a design are the core's own, so that a scene gives the same
 // parameters, bit for bit, on every machine.

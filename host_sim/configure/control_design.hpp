@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "host_sim/configure/vibration/damped_design.hpp"
-#include "host_sim/configure/vibration/feedforward_design.hpp"
+#include "host_sim/configure/vibration/notch_design.hpp"
 #include "host_sim/configure/vibration/resonant_design.hpp"
 #include "host_sim/configure/vibration/sensorless_design.hpp"
 #include "host_sim/scene/scene.hpp"

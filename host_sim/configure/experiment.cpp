@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "host_sim/configure/calibration_design.hpp"
+#include "host_sim/configure/design_steps.hpp"
 #include "host_sim/configure/nominal_plant.hpp"
 
 namespace sonoglide::configure {

@@ -1,4 +1,4 @@
-#include "host_sim/configure/regulator_design.hpp"
+#include "host_sim/configure/design_steps.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "host_sim/configure/scales_design.hpp"
+#include "host_sim/configure/design_steps.hpp"
 
 #include <fmt/format.h>
 

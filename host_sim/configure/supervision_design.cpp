@@ -1,4 +1,4 @@
-#include "host_sim/configure/supervision_design.hpp"
+#include "host_sim/configure/design_steps.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,6 @@
 #include <variant>
 
 #include "host_sim/configure/design_periods.hpp"
-#include "host_sim/configure/scales_design.hpp"
 
 namespace sonoglide::configure {
 namespace {

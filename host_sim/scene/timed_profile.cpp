@@ -1,4 +1,4 @@
-#include "host_sim/scene/timed_profile.hpp"
+#include "host_sim/scene/scene.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,3 @@
-#include "host_sim/scene_file/json_schema.hpp"
-
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>

@@ -1,4 +1,4 @@
-/// The scene keys in words, for the documentation and the schema.
+/// The scene keys in words and as a schema.
 #pragma once
 
 #include <string>
@@ -18,5 +18,12 @@ std::string sentence(std::string text);
 
 /// The whole file, in Markdown: a table for each table of a scene.
 std::string key_reference();
+
+/// The JSON Schema of scenes, by which editors complete and check them.
+///
+/// Draft 4, which the TOML language servers read. It refuses unknown keys, wrong types, words and
+/// numbers out of range. What depends on other keys it leaves to the reader. The text ends with a
+/// newline.
+std::string json_schema();
 
 }  // namespace sonoglide::scene_file

@@ -5,7 +5,6 @@
 #include "host_sim/scene_file/checks.hpp"
 #include "host_sim/scene_file/table_cursor.hpp"
 #include "host_sim/scene_file/table_reader.hpp"
-#include "host_sim/scene_file/tolerances.hpp"
 #include "host_sim/scene_file/variant.hpp"
 
 namespace sonoglide::scene_file {

@@ -1,5 +1,3 @@
-#include "host_sim/scene_file/tolerances.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -12,6 +10,7 @@
 
 #include "host_sim/scene/bound.hpp"
 #include "host_sim/scene_file/table_cursor.hpp"
+#include "host_sim/scene_file/table_reader.hpp"
 #include "host_sim/scene_file/to_json.hpp"
 
 namespace sonoglide::scene_file {

@@ -1,4 +1,4 @@
-/// Where a notch on the natural mode puts its taps.
+/// The numbers of a drive that is fed forward, and where its notch on the natural mode puts the taps.
 #pragma once
 
 #include <array>
@@ -37,6 +37,18 @@ struct NotchDesign {
   double ripple = 0.0;  ///< the largest within that range, see notch_ripple()
 
   int span() const { return static_cast<int>(tap_count - 1) * spacing; }
+};
+
+struct FeedforwardDesign {
+  std::optional<NotchDesign> notch;
+  double shaping_range = 0.0;  ///< by which the natural frequency may be off; 0: known exactly
+  bool free_mode = false;      ///< the plant has a natural mode that no notch takes care of
+  /// With which feedback cannot build up what the notch leaves; 0: the mode has as much.
+  double missing_damping_N_s_per_m = 0.0;
+
+  double changing_periods() const { return notch ? notch->span() : 0.0; }
+  static constexpr double building_up_periods() { return 0.0; }
+  static constexpr bool tells_mismatch() { return true; }
 };
 
 /// Three taps with zeros on the mode, at the smallest spacing for which every tap is within ±1.

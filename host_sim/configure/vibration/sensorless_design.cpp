@@ -8,14 +8,13 @@
 #include <complex>
 #include <cstddef>
 #include <cstdlib>
-#include <limits>
 
 #include "firmware/numeric/float_elementary.hpp"
 #include "firmware/numeric/turn.hpp"
 #include "host_sim/configure/configuration_error.hpp"
 #include "host_sim/configure/plant_scales.hpp"
-#include "host_sim/configure/vibration/friction_response.hpp"
 #include "host_sim/configure/vibration/mode_model.hpp"
+#include "host_sim/configure/vibration/sensorless_reading.hpp"
 #include "host_sim/scene/friction_laws.hpp"
 #include "host_sim/scene/names.hpp"
 
@@ -24,11 +23,6 @@ namespace {
 
 using Index = control::SensorlessIndex;
 using Complex = std::complex<double>;
-
-bool slides_backwards(const scene::Sliding& sliding) {
-  return std::any_of(sliding.profile.begin(), sliding.profile.end(),
-                     [](const auto& point) { return point.velocity_m_per_s < 0.0; });
-}
 
 void require_feeling(const scene::Scene& scene) {
   if (!scene::vibrates_along(scene.friction.law)) {
@@ -50,70 +44,8 @@ void require_feeling(const scene::Scene& scene) {
   }
 }
 
-/// What is the same for every frequency in the table.
-struct FrictionReading {
-  double speed = 0.0;   ///< fastest |Vt|, per unit
-  double lambda = 0.0;  ///< Kt Vt/(ω Fc); infinite for Coulomb friction
-  double sign = 1.0;    ///< of the vibration in the velocity along the sliding
-  double noise = 0.0;   ///< of a lag-compensated ratio, rms
-  double model_lift =
-      0.0;  ///< by how much the compensation of the lag lifts what the model has wrong
-  ReadingChain chain;
-
-  VibratedContact contact(double ratio, double phase) const {
-    return {ratio, lambda / ratio, phase};
-  }
-};
-
 constexpr double slower_rise = 0.85;  // of the amplitude: what it adds to the mode is not yet known
 constexpr double largest_ratio = 0.985;  // of a node; at 1 the friction ratio has no slope
-
-ReadingChain chain_of(const scene::Sensor& sensor, double period_s) {
-  ReadingChain chain;
-  if (sensor.force_bandwidth_Hz) {
-    const double periods = numeric::two_pi * *sensor.force_bandwidth_Hz * period_s;
-    chain.fade = numeric::exp(-periods);
-    chain.fresh = 1.0 + numeric::expm1(-periods) / periods;
-    chain.old = 1.0 - chain.fade - chain.fresh;
-  }
-  return chain;
-}
-
-/// Rms of a measured ratio.
-double reading_noise(const scene::Sensor& sensor, double friction_N) {
-  const double code_N =
-      sensor.adc_bits ? 2.0 * sensor.force_full_scale_N * std::exp2(-*sensor.adc_bits) : 0.0;
-  const double noise_N = sensor.force_noise_N;
-  return numeric::sqrt(noise_N * noise_N + code_N * code_N / 12.0) / friction_N;
-}
-
-FrictionReading friction_reading(const scene::Scene& scene, const NominalPlant& plant,
-                                 double velocity_m_per_s) {
-  const double period_s = 1.0 / scene.drive->frequency_Hz;
-  const double speed_m_per_s = fastest_sliding_m_per_s(scene.sliding);
-  FrictionReading reading;
-  reading.speed = speed_m_per_s / velocity_m_per_s;
-  const bool dahl = scene::friction_map(scene.friction.law) == scene::FrictionMap::dahl;
-  reading.lambda = dahl ? plant.contact_stiffness_N_per_m * speed_m_per_s * period_s /
-                              (numeric::two_pi * plant.friction_N)
-                        : std::numeric_limits<double>::infinity();
-  const bool backwards = slides_backwards(scene.sliding);
-  reading.sign = (backwards ? -1.0 : 1.0) * vibration_sign(scene.friction.sign_convention);
-  reading.chain = chain_of(scene.sensor, period_s);
-  constexpr double usual_ratio = 0.6;
-  constexpr double short_memory = 0.1;
-  constexpr double longest_memory = 0.9;  // more would make too much of noise
-  const double memory = friction_response(reading.contact(usual_ratio, 0.0)).memory;
-  reading.chain.contact_memory = memory > short_memory ? std::min(memory, longest_memory) : 0.0;
-  reading.noise = reading_noise(scene.sensor, plant.friction_N);
-  reading.model_lift = 1.0;
-  constexpr double lifted = 0.2;
-  for (const double kept : {reading.chain.fade, reading.chain.contact_memory}) {
-    reading.noise *= numeric::sqrt(1.0 + kept * kept) / (1.0 - kept);
-    reading.model_lift *= 1.0 + lifted * kept / (1.0 - kept);
-  }
-  return reading;
-}
 
 /// Re(c w) of a phasor w in its two parts.
 Eigen::RowVector2d row_of(Complex c) {
@@ -161,17 +93,6 @@ Node node_of(const ObservedMode& mode, double ratio, const FrictionReading& read
   return {reading.sign * row_of(response.mode[0]) + before,
           -before * mode.model.input_gain - forced * (response.forced[1] + response.forced[2]),
           -earlier * mode.model.input_gain - forced * response.forced[2]};
-}
-
-/// Rms of a reading, per sliding velocity.
-double noise_of(double ratio, const FrictionReading& reading) {
-  constexpr double rest = 0.001;  // of the velocity: map and contact, in a settled loop
-  // Of Coulomb friction: a velocity per ratio, per sliding velocity.
-  const double steepness =
-      0.25 * numeric::two_pi * numeric::sqrt(1.0 - ratio * ratio) / (ratio * ratio);
-  const double model = rest * reading.model_lift / ratio;
-  const double sensor = reading.noise * steepness;
-  return numeric::sqrt(model * model + sensor * sensor);
 }
 
 double ratio_of_node(std::size_t index) {

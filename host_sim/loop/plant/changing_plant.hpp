@@ -57,6 +57,10 @@ class ChangingPlant final : public PlantPort {
   void restore(SnapshotReader& state) override;
 
  private:
+  /// Part of the solver's tolerance within which the whole of a piece and its halves agree; what one
+  /// carrier period collects in its pieces then stays below the tolerance.
+  static constexpr double share_of_tolerance = 1.0 / 16.0;
+
   using Carried = HeldPlant::Carried;
 
   /// What a stretch shows.

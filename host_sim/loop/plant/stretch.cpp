@@ -1,8 +1,7 @@
-#include "host_sim/loop/plant/stretch.hpp"
-
 #include <cmath>
 
 #include "firmware/numeric/turn.hpp"
+#include "host_sim/loop/plant/plant_port.hpp"
 
 namespace sonoglide::loop {
 namespace {

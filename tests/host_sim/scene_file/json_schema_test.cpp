@@ -1,5 +1,5 @@
 /// The JSON Schema says what the reader says, as far as a key does not depend on another.
-#include "host_sim/scene_file/json_schema.hpp"
+#include "host_sim/scene_file/key_reference.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

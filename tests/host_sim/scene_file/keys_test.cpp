@@ -8,7 +8,6 @@
 #include <iterator>
 #include <string>
 
-#include "host_sim/scene_file/json_schema.hpp"
 #include "host_sim/scene_file/key_reference.hpp"
 
 namespace sonoglide::scene_file::keys_test {

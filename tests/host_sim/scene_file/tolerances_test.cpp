@@ -1,6 +1,4 @@
 /// [tolerance] and [true_values]: what they give, and how they fail.
-#include "host_sim/scene_file/tolerances.hpp"
-
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 

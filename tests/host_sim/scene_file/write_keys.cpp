@@ -7,7 +7,6 @@
 #include <stdexcept>
 #include <string>
 
-#include "host_sim/scene_file/json_schema.hpp"
 #include "host_sim/scene_file/key_reference.hpp"
 
 namespace {
