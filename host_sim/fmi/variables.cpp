@@ -2,12 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <limits>
 #include <string_view>
 #include <utility>
 
+#include "host_sim/scene/unit_of.hpp"
 #include "host_sim/scene_file/to_json.hpp"
 
 namespace sonoglide::fmi {
@@ -150,31 +152,11 @@ void add_controller_outputs(List& list, const scene::Scene& scene) {
               });
 }
 
-/// Of the endings of names.
+/// As the interface writes it.
 std::string unit_of(std::string_view key) {
-  constexpr std::array<std::pair<std::string_view, const char*>, 15> units = {{
-      {"_N_s_per_m", "N.s/m"},
-      {"_N_per_m", "N/m"},
-      {"_N_per_V", "N/V"},
-      {"_N_per_s", "N/s"},
-      {"_m_per_s", "m/s"},
-      {"_s_per_m", "s/m"},
-      {"_per_m", "1/m"},
-      {"_kg", "kg"},
-      {"_Hz", "Hz"},
-      {"_N", "N"},
-      {"_V", "V"},
-      {"_A", "A"},
-      {"_F", "F"},
-      {"_m", "m"},
-      {"_s", "s"},
-  }};
-  for (const auto& [ending, unit] : units) {
-    if (key.size() > ending.size() && key.substr(key.size() - ending.size()) == ending) {
-      return unit;
-    }
-  }
-  return {};
+  std::string unit = scene::unit_of(key);
+  std::replace(unit.begin(), unit.end(), ' ', '.');
+  return unit;
 }
 
 bool is_parameter(const std::string& table, const std::string& key, loop::Kind kind) {

@@ -42,10 +42,11 @@ output::Section figures_section(const scene::Scene& scene, const loop::RunResult
 
 }  // namespace
 
-output::Page run_page(const scene::Scene& scene, const loop::RunResult& result,
+output::Page run_page(const configure::Experiment& experiment, const loop::RunResult& result,
                       const RunFindings& findings) {
+  const scene::Scene& scene = experiment.plant;
   output::Page page{scene.name, lead(scene, result), run_warnings(scene, result, findings), {}, {}};
-  page.scene = scene_file::to_json(scene);
+  page.scene = scene_file::to_json(experiment.nominal);
   if (page.scene.contains(nlohmann::ordered_json::json_pointer("/sensor/seed"))) {
     page.seed = scene.sensor.seed;
   }

@@ -281,7 +281,7 @@ void RunReport::join(loop::Watch& watch) {
 
 void RunReport::finish(const loop::RunResult& result) {
   folder_.write(summary_file, summary_text(experiment_, result, findings_));
-  folder_.write(page_file, output::to_html(run_page(experiment_.plant, result, findings_)));
+  folder_.write(page_file, output::to_html(run_page(experiment_, result, findings_)));
   folder_.commit();
 }
 

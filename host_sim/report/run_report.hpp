@@ -16,7 +16,7 @@
 
 namespace sonoglide::report {
 
-output::Page run_page(const scene::Scene& scene, const loop::RunResult& result,
+output::Page run_page(const configure::Experiment& experiment, const loop::RunResult& result,
                       const RunFindings& findings);
 
 /// Every number that a script may want, with the scene echoed in full; a figure that is not defined

@@ -8,6 +8,7 @@
 
 #include "host_sim/output/number.hpp"
 #include "host_sim/output/program.hpp"
+#include "host_sim/scene/unit_of.hpp"
 
 namespace sonoglide::identify {
 
@@ -39,30 +40,6 @@ ordered_json to_json(const std::vector<Estimate>& parameters) {
   return json;
 }
 
-std::string unit_of(const std::string& name) {
-  static constexpr std::pair<const char*, const char*> units[] = {{"_ohm", "ohm"},
-                                                                  {"_F", "F"},
-                                                                  {"_H", "H"},
-                                                                  {"_Hz", "Hz"},
-                                                                  {"_N_per_V", "N/V"},
-                                                                  {"_N_per_m", "N/m"},
-                                                                  {"_N_s_per_m", "N s/m"},
-                                                                  {"_kg", "kg"},
-                                                                  {"_m_per_s", "m/s"},
-                                                                  {"_s_per_m", "s/m"},
-                                                                  {"_per_m", "1/m"},
-                                                                  {"_N", "N"},
-                                                                  {"_m", "m"},
-                                                                  {"_s", "s"}};
-  for (const auto& [ending, unit] : units) {
-    const std::string end = ending;
-    if (name.size() >= end.size() && name.compare(name.size() - end.size(), end.size(), end) == 0) {
-      return unit;
-    }
-  }
-  return {};
-}
-
 ordered_json to_json(const Identification& identification) {
   ordered_json json;
   json["program"] = output::program_json();
@@ -83,7 +60,7 @@ std::string formatted(const std::string& name, double value, const char* otherwi
   if (!std::isfinite(value)) {
     return otherwise;
   }
-  const std::string unit = unit_of(name);
+  const std::string unit = scene::unit_of(name);
   if (unit.empty()) {
     return fmt::format("{:.5g}", value);
   }

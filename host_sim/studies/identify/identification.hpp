@@ -43,9 +43,6 @@ struct Identification {
 nlohmann::ordered_json to_json(const std::vector<Estimate>& parameters);
 nlohmann::ordered_json to_json(const Identification& identification);
 
-/// The unit that a name ends with, as `m/s` of `sliding_velocity_m_per_s`; empty of a pure number.
-std::string unit_of(const std::string& name);
-
 /// A value as a table shows it, `52.675 mH`: five digits, of a frequency seven, with the prefix that
 /// suits. The unit is that of the name's ending; of a mass, without prefix.
 /// @param otherwise  what stands for a value that is not finite

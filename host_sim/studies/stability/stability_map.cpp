@@ -140,8 +140,7 @@ StabilityMaps stability_maps(const MapGrid& grid, const Progress& progress) {
 
 double rk4_limit_steps_per_period(double contact_stiffness_N_per_m) {
   // From rest the natural mode adds its part to the steady vibration.
-  const double free_part =
-      std::sqrt(stiffness_N_per_m / mass_kg) / (numeric::two_pi * frequency_Hz);
+  const double free_part = table_1_plant().natural_rad_per_s() / (numeric::two_pi * frequency_Hz);
   const double fastest_m_per_s = vibration_m_per_s() * (velocity_ratio + 1.0 + free_part);
   const double longest_s =
       2.785 * coefficient * normal_force_N / (contact_stiffness_N_per_m * fastest_m_per_s);

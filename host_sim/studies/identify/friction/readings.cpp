@@ -13,6 +13,7 @@
 
 #include "firmware/numeric/turn.hpp"
 #include "host_sim/scene/bound.hpp"
+#include "host_sim/scene/unit_of.hpp"
 #include "host_sim/scene_file/suggestion.hpp"
 #include "host_sim/studies/identify/identification.hpp"
 #include "host_sim/studies/identify/measured_table.hpp"
@@ -155,7 +156,7 @@ class Columns {
       throw table_.heading_error(index, fmt::format("names {} twice; allowed: once", name));
     }
     const std::string unit = unit_in_brackets(title);
-    const std::string own = unit_of(name).empty() ? "-" : unit_of(name);
+    const std::string own = scene::unit_of(name).empty() ? "-" : scene::unit_of(name);
     if (!unit.empty() && unit != own) {
       throw table_.heading_error(
           index, fmt::format("\"{}\" is no unit of {}; allowed: {}", unit, name, own));
