@@ -97,10 +97,10 @@ void expect_unit_and_run_agree(const std::string& name, const FieldDesign<Parts>
   const scene::Scene scene = experiment::read_file(SONOGLIDE_SCENES "/" + name + ".toml").plant;
   const auto control = loop::make_control_port(scene, configure::design_control(scene));
   Recorded run(*control);
-  const loop::RunResult by_run = loop::run(scene, run);
+  const loop::RunResult by_run = loop::run(scene, configure::design_control(scene), run);
   UnitPort<Parts> port(design);
   Recorded unit(port);
-  const loop::RunResult by_unit = loop::run(scene, unit);
+  const loop::RunResult by_unit = loop::run(scene, configure::design_control(scene), unit);
   expect_same(unit.drives, run.drives);
   EXPECT_EQ(by_unit.control->trace_hash, by_run.control->trace_hash);
   // After a stop and after a fault it is as one that has never run.
@@ -154,7 +154,7 @@ Drives drives_with_stuck_velocity(const std::string& name, std::size_t from) {
   const auto control = loop::make_control_port(scene, configure::design_control(scene));
   Recorded recorded(*control);
   StuckVelocity stuck(recorded, from);
-  loop::run(scene, stuck);
+  loop::run(scene, configure::design_control(scene), stuck);
   return recorded.drives;
 }
 
