@@ -46,11 +46,11 @@ void arithmetic(const ArithmeticOptions& options) {
   const Boards boards = chosen(options.boards);
   const std::filesystem::path out = output_folder(options.out, scene.name, "_arithmetic");
   output::require_gnuplot();
-  require_writable(out, {"arithmetic.csv", "targets.csv", "arithmetic.svg"});
+  require_writable(out, {"arithmetic.csv", "targets.csv", "arithmetic.svg", "report.html"});
   const arithmetic::ArithmeticComparison comparison = with_bar(
       options.quiet,
       [&](const auto& progress) { return arithmetic::compare(experiment, boards, progress); });
-  publish(out, arithmetic::report(scene, comparison), options.quiet, "picture", "arithmetic.svg");
+  publish(out, arithmetic::report(scene, comparison), options.quiet);
 }
 
 }  // namespace
@@ -69,7 +69,8 @@ void add_arithmetic_command(CLI::App& program) {
       ->allow_extra_args(false)
       ->check(check_board);
   add_output_option(*command, options->out,
-                    "arithmetic.csv, targets.csv and arithmetic.svg [out/<scene name>_arithmetic]");
+                    "arithmetic.csv, targets.csv, arithmetic.svg and report.html "
+                    "[out/<scene name>_arithmetic]");
   command->add_flag("--quiet", options->quiet, "No progress bar and no printed table");
   command->callback([options] { arithmetic(*options); });
 }

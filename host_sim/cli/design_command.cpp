@@ -11,7 +11,6 @@
 
 #include "host_sim/cli/options.hpp"
 #include "host_sim/cli/progress_bar.hpp"
-#include "host_sim/output/gnuplot.hpp"
 #include "host_sim/studies/design/report.hpp"
 #include "host_sim/studies/design/study.hpp"
 
@@ -63,7 +62,6 @@ void design(const DesignOptions& options) {
     return design::make_task(experiment, options.ratios, parse_speeds(options.velocity));
   });
   const std::filesystem::path out = output_folder(options.out, experiment.plant.name, "_design");
-  output::require_gnuplot();
   require_writable(out, {"report.html", "design.json", "design.csv", "detuning.csv"});
   const design::DesignStudy study =
       with_bar(options.quiet, [&](const auto& progress) { return design::study(task, progress); });

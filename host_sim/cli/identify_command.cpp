@@ -11,7 +11,6 @@
 #include "host_sim/cli/commands.hpp"
 #include "host_sim/cli/options.hpp"
 #include "host_sim/cli/progress_bar.hpp"
-#include "host_sim/output/gnuplot.hpp"
 #include "host_sim/studies/identify/friction/comparison.hpp"
 #include "host_sim/studies/identify/impedance/study.hpp"
 #include "host_sim/studies/identify/impedance/sweep.hpp"
@@ -47,7 +46,6 @@ void identify_impedance(const IdentifyOptions& options) {
   const scene_file::Source source = identify::read_text(options.file);
   const impedance::Sweep sweep = impedance::read_sweep(source);
   const std::filesystem::path out = output_folder(options.out, source.name(), "_impedance");
-  output::require_gnuplot();
   require_writable(out, {"report.html", "identify.json", "fit.csv", "scene.toml"});
   publish(out, impedance::report(impedance::study(source.name(), sweep, options.fact)),
           options.quiet);

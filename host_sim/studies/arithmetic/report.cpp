@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <string_view>
 #include <vector>
@@ -11,6 +12,7 @@
 #include "host_sim/output/chart.hpp"
 #include "host_sim/output/number.hpp"
 #include "host_sim/scene/names.hpp"
+#include "host_sim/scene_file/to_json.hpp"
 
 namespace sonoglide::arithmetic {
 namespace {
@@ -58,6 +60,10 @@ std::string targets_csv(const ArithmeticComparison& comparison) {
 
 namespace {
 
+std::string_view name(scene::Arithmetic arithmetic) {
+  return scene::name_of(scene::arithmetics, arithmetic);
+}
+
 std::string number(double value) {
   return output::formatted(value, "{:.1e}");
 }
@@ -88,17 +94,25 @@ std::string text(const ArithmeticComparison& comparison) {
          "min/mean/max\n";
 }
 
-}  // namespace
-
-output::StudyReport report(const scene::Scene& scene, const ArithmeticComparison& comparison) {
-  return {
-      {{"arithmetic.csv", images_csv(comparison)},
-       {"targets.csv", targets_csv(comparison)},
-       {"arithmetic.svg", draw(comparison, scene.name + ", the controller in every arithmetic")}},
-      text(comparison)};
+output::Table image_table(const ArithmeticComparison& comparison) {
+  output::Table table{
+      "Images",
+      {"Core", "Arithmetic", "rms difference", "Largest difference", "Steady error", "Ripple",
+       "Instructions, least", "mean", "most", "Flash [bytes]", "RAM [bytes]", "Fault"},
+      {}};
+  for (const ImageRow& row : comparison.images) {
+    const auto& count = row.image.instructions;
+    table.rows.push_back(
+        {std::string(row.board->core), std::string(name(row.arithmetic)),
+         number(row.precision.rms_difference), number(row.precision.largest_difference),
+         number(row.precision.steady_error), number(row.precision.ripple),
+         count ? fmt::format("{}", count->step.min) : "-",
+         count ? fmt::format("{:.0f}", count->step.mean) : "-",
+         count ? fmt::format("{}", count->step.max) : "-", fmt::format("{}", row.image.flash_bytes),
+         fmt::format("{}", row.image.ram_bytes), std::string(control::name(row.fault))});
+  }
+  return table;
 }
-
-namespace {
 
 /// Where a difference of zero is drawn.
 constexpr double smallest_difference = 1e-10;
@@ -132,10 +146,6 @@ std::vector<const emulated::EmulatedBoard*> boards_of(const ArithmeticComparison
     }
   }
   return boards;
-}
-
-std::string_view name(scene::Arithmetic arithmetic) {
-  return scene::name_of(scene::arithmetics, arithmetic);
 }
 
 double drawn(double difference) {
@@ -224,18 +234,47 @@ output::Chart targets_panel(const ArithmeticComparison& comparison, const output
 
 }  // namespace
 
-std::string draw(const ArithmeticComparison& comparison, const std::string& title) {
-  return output::print(
-      {{images_panel(comparison),
-        targets_panel(comparison, {0.52, 0.47, 0.48, 0.46}, "", "rms difference from float64 [-]",
-                      true),
-        targets_panel(comparison, {0.52, 0.0, 0.48, 0.47}, "Target friction ratio [-]",
-                      "Ripple of the ratio [-]", false)},
-       1120,
-       620,
-       2,
-       "set tics nomirror\nset border 3\nset grid xtics ytics lc rgb '#d8d8d8' lw 1\n",
-       title});
+output::Sheet diagrams(const scene::Scene& scene, const ArithmeticComparison& comparison) {
+  return {{images_panel(comparison),
+           targets_panel(comparison, {0.52, 0.47, 0.48, 0.46}, "",
+                         "rms difference from float64 [-]", true),
+           targets_panel(comparison, {0.52, 0.0, 0.48, 0.47}, "Target friction ratio [-]",
+                         "Ripple of the ratio [-]", false)},
+          1120,
+          620,
+          2,
+          "set tics nomirror\nset border 3\nset grid xtics ytics lc rgb '#d8d8d8' lw 1\n",
+          scene.name + ", the controller in every arithmetic"};
+}
+
+output::Page page(const scene::Scene& scene, const ArithmeticComparison& comparison) {
+  std::vector<output::Chart> charts = diagrams(scene, comparison).charts;
+  constexpr std::array<const char*, 3> titles = {
+      "What an image costs and loses", "Difference from float64 by target", "Ripple by target"};
+  for (std::size_t i = 0; i < charts.size(); ++i) {
+    charts[i].title = titles.at(i);
+    charts[i].x_axis.label = charts[i == 1 ? 2 : i].x_axis.label;
+    charts[i].group = i == 0 ? "" : "target";
+    for (std::size_t k = 0; i > 0 && k < charts[i].curves.size(); ++k) {
+      charts[i].curves[k].label = name(all_arithmetics.at(k));
+    }
+  }
+  charts.front().note = "Lower and further left is better: a point for each board.";
+  return {"Arithmetics of " + scene.name,
+          "The controller of the scene in each arithmetic: what it loses against float64 in the "
+          "same closed loop, and what a step costs on each board.",
+          {},
+          {},
+          {{"Cost and accuracy", "", std::move(charts), {}, {image_table(comparison)}}},
+          scene_file::to_json(scene)};
+}
+
+output::StudyReport report(const scene::Scene& scene, const ArithmeticComparison& comparison) {
+  return {{{"arithmetic.csv", images_csv(comparison)},
+           {"targets.csv", targets_csv(comparison)},
+           {"arithmetic.svg", output::print(diagrams(scene, comparison))},
+           {"report.html", output::to_html(page(scene, comparison))}},
+          text(comparison)};
 }
 
 }  // namespace sonoglide::arithmetic

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "host_sim/output/output_folder.hpp"
+#include "host_sim/output/page.hpp"
 #include "host_sim/studies/arithmetic/comparison.hpp"
 
 namespace sonoglide::arithmetic {
@@ -14,12 +15,13 @@ std::string images_csv(const ArithmeticComparison& comparison);
 /// One line for each target and arithmetic.
 std::string targets_csv(const ArithmeticComparison& comparison);
 
-/// Left: difference from float64 against instructions per step, a point for each image. Right:
-/// difference and ripple against the target.
-/// @throws process::ProcessError
-std::string draw(const ArithmeticComparison& comparison, const std::string& title);
+/// Difference from float64 against instructions per step, a point for each image; difference and
+/// ripple against the target.
+output::Sheet diagrams(const scene::Scene& scene, const ArithmeticComparison& comparison);
 
-/// arithmetic.csv, targets.csv and arithmetic.svg. @throws process::ProcessError
+output::Page page(const scene::Scene& scene, const ArithmeticComparison& comparison);
+
+/// arithmetic.csv, targets.csv, arithmetic.svg and report.html. @throws process::ProcessError
 output::StudyReport report(const scene::Scene& scene, const ArithmeticComparison& comparison);
 
 }  // namespace sonoglide::arithmetic

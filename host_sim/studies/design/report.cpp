@@ -6,6 +6,7 @@
 
 #include "host_sim/output/number.hpp"
 #include "host_sim/scene/names.hpp"
+#include "host_sim/scene_file/to_json.hpp"
 
 namespace sonoglide::design {
 namespace {
@@ -168,7 +169,7 @@ output::Section drive_section(const DesignStudy& study, const std::vector<Design
       section.tables.push_back(electrical_table(moving));
     }
   }
-  section.pictures = {{"Force and power over the sliding velocity", "", draw_requirements(study)}};
+  section.charts = requirement_charts(study);
   return section;
 }
 
@@ -205,8 +206,7 @@ output::Section sensitivity_section(const DesignStudy& study,
                                         return output::formatted(each.largest_change(), "{:.5f}");
                                       })};
   if (!study.detunings.empty()) {
-    section.pictures = {
-        {"d ln ratio / d ln parameter, at the fastest sliding", "", draw_sensitivities(study)}};
+    section.charts = {sensitivity_chart(study)};
   }
   return section;
 }
@@ -242,7 +242,7 @@ output::Section resonance_section(const DesignStudy& study) {
                           output::quantity(each.force_at_sensitive_low_N, "N")});
   }
   section.tables = {table};
-  section.pictures = {{"On the way through resonance", "", draw_detunings(study)}};
+  section.charts = detuning_charts(study);
   return section;
 }
 
@@ -255,6 +255,7 @@ output::Page page(const DesignStudy& study) {
                     shortfalls(study),
                     {advice_table(study)},
                     {drive_section(study, points)}};
+  page.scene = scene_file::to_json(study.task.scene);
   if (!points.empty()) {
     page.sections.push_back(sensitivity_section(study, points));
   }

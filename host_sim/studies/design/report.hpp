@@ -35,23 +35,20 @@ std::string detuning_csv(const DesignStudy& study);
 /// The design points with their sensitivities, the reach of each ratio, and the tuning bands.
 nlohmann::ordered_json to_json(const DesignStudy& study);
 
-/// Each one an SVG document. @throws process::ProcessError
-
-/// Required force and power over the sliding speed, the drive's limit shaded.
-std::string draw_requirements(const DesignStudy& study);
+/// Required force and power over the sliding speed, with what is more than the drive has.
+std::vector<output::Chart> requirement_charts(const DesignStudy& study);
 
 /// Bars of d ln rho/d ln p at the fastest of the task's speeds, a colour a ratio; some ratio has a
 /// motion there.
-std::string draw_sensitivities(const DesignStudy& study);
+output::Chart sensitivity_chart(const DesignStudy& study);
 
 /// Over the tuning Ks/(m w²): the ratio under the scene's force, the force that keeps it, and what
 /// 1 % of the spring then costs; some ratio has a motion.
-std::string draw_detunings(const DesignStudy& study);
+std::vector<output::Chart> detuning_charts(const DesignStudy& study);
 
-/// @throws process::ProcessError  of the pictures
 output::Page page(const DesignStudy& study);
 
-/// report.html, design.json, design.csv and detuning.csv. @throws process::ProcessError
+/// report.html, design.json, design.csv and detuning.csv.
 output::StudyReport report(const DesignStudy& study);
 
 }  // namespace sonoglide::design

@@ -82,7 +82,7 @@ output::Table figure_table(const std::vector<Estimate>& figures) {
   output::Table table{"", {"Parameter", "Value", "95 % from", "to", "±"}, {}};
   for (const Estimate& each : figures) {
     const double half = 0.5 * (each.high_95 - each.low_95) / std::abs(each.value);
-    table.rows.push_back({each.name, formatted(each.name, each.value),
+    table.rows.push_back({each.name, formatted(each.name, each.value, "open"),
                           formatted(each.name, each.low_95), formatted(each.name, each.high_95),
                           output::formatted(100.0 * half, "{:.2g} %")});
   }
@@ -110,25 +110,8 @@ output::Table sentence_table(const std::string& title, const std::vector<std::st
   return table;
 }
 
-output::Curve dots(const std::string& label, std::vector<double> y) {
-  return {label, std::move(y), output::Line::dots};
-}
-
-void draw_fit(output::Chart& chart, std::vector<Place> places,
-              const std::vector<std::string>& curves) {
-  std::stable_sort(places.begin(), places.end(),
-                   [](const Place& a, const Place& b) { return a.x < b.x; });
-  chart.curves = {dots("measured", {})};
-  for (const std::string& each : curves) {
-    chart.curves.push_back({each, {}});
-  }
-  for (const Place& place : places) {
-    chart.x.push_back(place.x);
-    chart.curves.front().y.push_back(place.measured);
-    for (std::size_t i = 0; i < curves.size(); ++i) {
-      chart.curves[i + 1].y.push_back(place.fitted[i]);
-    }
-  }
+output::Curve dots(const std::string& label, std::vector<double> x, std::vector<double> y) {
+  return {label, std::move(y), output::Line::dots, std::move(x)};
 }
 
 std::string remark_lines(const std::vector<std::string>& warnings,

@@ -67,21 +67,9 @@ output::Table correlation_table(const Correlations& correlations);
 /// A sentence a row.
 output::Table sentence_table(const std::string& title, const std::vector<std::string>& sentences);
 
-/// An abscissa of a chart of readings and fits.
-struct Place {
-  double x;
-  double measured;             ///< not a number where there is no reading
-  std::vector<double> fitted;  ///< of each curve
-};
-
-/// Draws dots at the readings and curves through all places.
-/// @param places  in any order
-/// @param curves  their names
-void draw_fit(output::Chart& chart, std::vector<Place> places,
-              const std::vector<std::string>& curves);
-
 /// A curve of dots.
-output::Curve dots(const std::string& label, std::vector<double> y);
+output::Curve dots(const std::string& label, std::vector<double> x = {},
+                   std::vector<double> y = {});
 
 /// As they are printed.
 std::string remark_lines(const std::vector<std::string>& warnings,

@@ -110,14 +110,14 @@ output::Chart chart(std::string title, const std::string& x_label, const std::st
   return chart;
 }
 
-std::string draw(std::vector<output::Chart> charts) {
+output::Sheet sheet(std::vector<output::Chart> charts) {
   const bool single = charts.size() == 1;
   const int columns = single ? 1 : 2;
   const int rows = (static_cast<int>(charts.size()) + columns - 1) / columns;
-  return output::print({std::move(charts), single ? single_width_px : columns * chart_width_px,
-                        single ? single_height_px : rows * chart_height_px, columns,
-                        "set grid lc rgb '#d8d8d8'\nset tics out nomirror\nset rmargin 3\n"
-                        "set offsets graph 0, graph 0, graph 0.04, graph 0\n"});
+  return {std::move(charts), single ? single_width_px : columns * chart_width_px,
+          single ? single_height_px : rows * chart_height_px, columns,
+          "set grid lc rgb '#d8d8d8'\nset tics out nomirror\nset rmargin 3\n"
+          "set offsets graph 0, graph 0, graph 0.04, graph 0\n"};
 }
 
 }  // namespace sonoglide::paper

@@ -50,8 +50,7 @@ output::Curve line_of(const Map& map, double furthest, int colour, std::string l
   return line;
 }
 
-/// One SVG picture, two charts in a row.
-/// @throws process::ProcessError
-std::string draw(std::vector<output::Chart> charts);
+/// One picture, two charts in a row.
+output::Sheet sheet(std::vector<output::Chart> charts);
 
 }  // namespace sonoglide::paper

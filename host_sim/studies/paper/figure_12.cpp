@@ -254,8 +254,8 @@ Figure figure_12() {
       "law; sonoglide sweep luo_2024.toml --vary sliding.velocity_m_per_s=5e-5:1e-3:20 --vary "
       "friction.contact_stiffness_N_per_m=3e5:3e7:3:log",
       csv(laws, slow),
-      draw({laws_chart(laws), slow_sliding_chart(slow), contact_stiffness_chart(),
-            normal_vibration_chart()}),
+      {laws_chart(laws), slow_sliding_chart(slow), contact_stiffness_chart(),
+       normal_vibration_chart()},
       {better_than_closed_forms(laws), law_matters(laws), higher_at_low_speed(), floor(laws),
        normal_vibration(), static_friction(), printed_solver()},
       {measurement_table(comparisons)},

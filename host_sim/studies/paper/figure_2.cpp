@@ -55,22 +55,21 @@ std::string csv(const Laws& laws) {
                  {"dahl_dissipation_steady", laws.simulated_dahl.dissipation_steady}});
 }
 
-std::string svg(const Laws& laws) {
+output::Chart ratio_chart(const Laws& laws) {
   const std::vector<double>& x = velocity_ratios();
   const double dahl = dahl_number(table_1());
   const double furthest = x.back();
-  return draw(
-      {chart("Friction ratio at 384 N", "V_t / peak vibration velocity [-]", "friction ratio [-]",
-             {line_of(friction::coulomb_friction_ratio<double>, furthest, 1),
-              curve("", x, laws.simulated_coulomb.friction_steady, 1, Style::points),
-              curve("", x, laws.simulated_coulomb.friction_from_rest, 1, Style::dashed),
-              line_of([dahl](double ratio) { return friction::dahl_friction_ratio(ratio, dahl); },
-                      furthest, 2),
-              curve("", x, laws.simulated_dahl.friction_steady, 2, Style::points),
-              curve("", x, laws.simulated_dahl.friction_from_rest, 2, Style::dashed),
-              curve("Coulomb", {}, {}, 1, Style::marked), curve("Dahl", {}, {}, 2, Style::marked),
-              curve("from rest", {}, {}, black, Style::dashed)},
-             Key::lower_right, {0.0, 1.05})});
+  return chart("Friction ratio at 384 N", "V_t / peak vibration velocity [-]", "friction ratio [-]",
+               {line_of(friction::coulomb_friction_ratio<double>, furthest, 1),
+                curve("", x, laws.simulated_coulomb.friction_steady, 1, Style::points),
+                curve("", x, laws.simulated_coulomb.friction_from_rest, 1, Style::dashed),
+                line_of([dahl](double ratio) { return friction::dahl_friction_ratio(ratio, dahl); },
+                        furthest, 2),
+                curve("", x, laws.simulated_dahl.friction_steady, 2, Style::points),
+                curve("", x, laws.simulated_dahl.friction_from_rest, 2, Style::dashed),
+                curve("Coulomb", {}, {}, 1, Style::marked), curve("Dahl", {}, {}, 2, Style::marked),
+                curve("from rest", {}, {}, black, Style::dashed)},
+               Key::lower_right, {0.0, 1.05});
 }
 
 std::vector<Claim> claims(const Laws& laws) {
@@ -117,7 +116,7 @@ Figure figure_2() {
       "one carrier period; dashed: from rest, mean over the first 100 carrier periods.",
       "sonoglide sweep table_1.toml --vary velocity_ratio=0.05:1.2:24 --set run.start=steady",
       csv(laws),
-      svg(laws),
+      {ratio_chart(laws)},
       claims(laws)};
 }
 

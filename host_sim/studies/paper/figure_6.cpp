@@ -194,7 +194,7 @@ Figure figure_6() {
               {"velocity_dB", decibels(velocity.spectrum.amplitude)},
               {"friction_force_N", force.spectrum.amplitude},
               {"friction_force_dB", decibels(force.spectrum.amplitude)}}),
-      draw(all),
+      all,
       claims(velocity, steady_velocity, force)};
 }
 

@@ -33,7 +33,7 @@ struct Figure {
   std::string conditions;  ///< parameters, initial state and averaging window
   std::string command;     ///< that computes the same with table_1.toml
   std::string csv;
-  std::string svg;
+  std::vector<output::Chart> charts;
   std::vector<Claim> claims;
   std::vector<output::Table> tables = {};
   std::vector<File> files = {};

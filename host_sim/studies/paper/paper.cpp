@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "host_sim/output/output_folder.hpp"
+#include "host_sim/studies/paper/chart.hpp"
 #include "host_sim/studies/paper/runs.hpp"
 
 namespace sonoglide::paper {
@@ -60,7 +61,7 @@ void write_paper(const std::filesystem::path& out, std::optional<int> figure,
   output::OutputFolder folder(out);
   for (const Figure& each : figures) {
     folder.write(fmt::format("figure_{:02}.csv", each.number), each.csv);
-    folder.write(fmt::format("figure_{:02}.svg", each.number), each.svg);
+    folder.write(fmt::format("figure_{:02}.svg", each.number), output::print(sheet(each.charts)));
     for (const File& file : each.files) {
       folder.write(file.name, file.text);
     }
@@ -99,11 +100,13 @@ output::Table claim_table(const Figure& figure) {
 output::Section section(const Figure& figure) {
   output::Section section;
   section.title = fmt::format("Figure {}: {}", figure.number, figure.title);
-  section.text = fmt::format("{} To compute it again: {}", figure.conditions, figure.command);
+  section.text = fmt::format(
+      "{0} For print: figure_{2:02}.svg; data: figure_{2:02}.csv. To compute it again: "
+      "{1}",
+      figure.conditions, figure.command, figure.number);
   section.tables = {claim_table(figure)};
   section.tables.insert(section.tables.end(), figure.tables.begin(), figure.tables.end());
-  section.pictures = {
-      {fmt::format("figure_{0:02}.svg, data in figure_{0:02}.csv", figure.number), "", figure.svg}};
+  section.charts = figure.charts;
   return section;
 }
 

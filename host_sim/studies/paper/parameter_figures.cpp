@@ -297,7 +297,7 @@ Figure figure_7() {
       conditions("Table 1."),
       sweep_command("--set drive.force_amplitude_N=960"),
       to_csv(columns(all)),
-      draw(charts(all)),
+      charts(all),
       {trend("More control force lowers the friction ratio.", all, 0.5,
              &SimulatedRatios::friction_steady, Trend::falling,
              "Even at one velocity ratio: the vibration covers more presliding distances."),
@@ -319,7 +319,7 @@ Figure figure_8() {
           conditions("Table 1 at 384 N."),
           sweep_command("--set friction.coefficient=0.2"),
           to_csv(columns(all)),
-          draw(charts(all)),
+          charts(all),
           {trend("A higher coefficient makes the reduction less effective.", all, 0.5,
                  &SimulatedRatios::friction_steady, Trend::rising, ""),
            trend("The power dissipation ratio falls as the coefficient rises.", all, 0.1,
@@ -342,7 +342,7 @@ Figure figure_9() {
           conditions("Table 1 at 384 N, the normal force being the weight."),
           sweep_command("--set plant.mass_kg=0.04"),
           to_csv(columns(all)),
-          draw(of_all),
+          of_all,
           {trend("More mass makes the reduction less effective; the curve flattens.", all, 0.5,
                  &SimulatedRatios::friction_steady, Trend::rising,
                  "At one velocity ratio there is a bound to that, the limit of a soft contact."),
@@ -368,8 +368,8 @@ Figure figure_10() {
                      "at 384 N."),
           sweep_command("--set friction.contact_stiffness_N_per_m=560e3"),
           to_csv(joined(columns(undriven), of_driven)),
-          draw(joined(of_undriven, charts(driven, "(c) Friction ratio, 384 N",
-                                          "(d) Power dissipation ratio, 384 N"))),
+          joined(of_undriven,
+                 charts(driven, "(c) Friction ratio, 384 N", "(d) Power dissipation ratio, 384 N")),
           claims_on_contact_stiffness(undriven, driven)};
 }
 
@@ -390,7 +390,7 @@ Figure figure_11() {
                         {{"stiffness_of_resonance", resonance.parts},
                          {"friction_ratio_at_26.7_mm_per_s_steady", resonance.friction},
                          {"dissipation_ratio_at_26.7_mm_per_s_steady", resonance.dissipation}})),
-          draw(joined(charts(all), charts(resonance))),
+          joined(charts(all), charts(resonance)),
           claims(resonance)};
 }
 

@@ -128,10 +128,10 @@ Figure figure_4() {
                   {"velocity_from_rest_m_per_s", velocity},
                   {"displacement_steady_m", steady_displacement},
                   {"velocity_steady_m_per_s", steady_velocity}}),
-          draw({over_time("(a) Displacement", {"displacement [µm]", 1e6}, motions, displacement,
-                          steady_displacement),
-                over_time("(b) Velocity", {"vibration velocity [mm/s]", 1e3}, motions, velocity,
-                          steady_velocity)}),
+          {over_time("(a) Displacement", {"displacement [µm]", 1e6}, motions, displacement,
+                     steady_displacement),
+           over_time("(b) Velocity", {"vibration velocity [mm/s]", 1e3}, motions, velocity,
+                     steady_velocity)},
           {not_sinusoidal("displacement", displacement, steady_displacement),
            not_sinusoidal("velocity", velocity, steady_velocity)}};
 }
@@ -143,20 +143,19 @@ Figure figure_5() {
   const std::vector<double> steady_force = friction_forces_N(motions.on_orbit);
   const std::vector<double> steady_power = dissipated_powers_W(motions.on_orbit);
   const double limit_N = table_1().friction.limit_N();
-  return {5,
-          "Friction force and dissipated power over time",
-          stated_conditions,
-          command,
-          to_csv({{"time_s", motions.from_rest.time_s},
-                  {"friction_force_from_rest_N", force},
-                  {"dissipated_power_from_rest_W", power},
-                  {"friction_force_steady_N", steady_force},
-                  {"dissipated_power_steady_W", steady_power}}),
-          draw({over_time("(a) Friction force", {"friction force [mN]", 1e3}, motions, force,
-                          steady_force),
-                over_time("(b) Dissipated power", {"F (V_t + x') [mW]", 1e3}, motions, power,
-                          steady_power)}),
-          {within_limit(force, limit_N), dissipates(steady_power, limit_N)}};
+  return {
+      5,
+      "Friction force and dissipated power over time",
+      stated_conditions,
+      command,
+      to_csv({{"time_s", motions.from_rest.time_s},
+              {"friction_force_from_rest_N", force},
+              {"dissipated_power_from_rest_W", power},
+              {"friction_force_steady_N", steady_force},
+              {"dissipated_power_steady_W", steady_power}}),
+      {over_time("(a) Friction force", {"friction force [mN]", 1e3}, motions, force, steady_force),
+       over_time("(b) Dissipated power", {"F (V_t + x') [mW]", 1e3}, motions, power, steady_power)},
+      {within_limit(force, limit_N), dissipates(steady_power, limit_N)}};
 }
 
 }  // namespace sonoglide::paper

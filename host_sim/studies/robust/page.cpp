@@ -11,6 +11,7 @@
 #include "host_sim/loop/run.hpp"
 #include "host_sim/report/extremes_curve.hpp"
 #include "host_sim/report/words.hpp"
+#include "host_sim/scene_file/to_json.hpp"
 #include "host_sim/studies/robust/report.hpp"
 
 namespace sonoglide::robust {
@@ -39,11 +40,10 @@ std::vector<std::string> warnings(const Task& task, const Study& study) {
   return all;
 }
 
-output::Table findings_table(const Task& task, const Study& study) {
+output::Table findings_table(const Study& study) {
   const std::size_t failures = study.failures();
   output::Table table{"Findings", {}, {}};
-  table.rows.push_back(
-      {"Plants", fmt::format("{}, seed {}", study.samples.size(), task.counts().seed)});
+  table.rows.push_back({"Plants", fmt::format("{}", study.samples.size())});
   table.rows.push_back({"Failures", fmt::format("{}", failures)});
   for (const auto& [confidence, text] :
        {std::pair{0.95, "95 %"}, {0.99, "99 %"}, {0.999, "99.9 %"}}) {
@@ -155,8 +155,9 @@ output::Section distribution_section(const Study& study) {
   return section;
 }
 
+/// @param least  what is smaller is not told from 0
 output::Table importance_table(const Task& task, const std::vector<std::vector<Importance>>& found,
-                               const char* title, double Importance::*measure) {
+                               const char* title, double Importance::*measure, double least) {
   output::Table table{title, {"Key"}, {}};
   for (const Figure& figure : figures()) {
     table.header.emplace_back(figure.label);
@@ -164,7 +165,8 @@ output::Table importance_table(const Task& task, const std::vector<std::vector<I
   for (std::size_t i = 0; i < found.size(); ++i) {
     std::vector<std::string> row = {task.tolerances()[i].key};
     for (const Importance& each : found[i]) {
-      row.push_back(report::figure("{:.3f}", each.*measure));
+      row.push_back(std::abs(each.*measure) < least ? fmt::format("below {:.2g}", least)
+                                                    : report::figure("{:.3f}", each.*measure));
     }
     table.rows.push_back(std::move(row));
   }
@@ -177,20 +179,19 @@ output::Chart scatter(const Task& task, const Study& study, std::size_t toleranc
   chart.title = task.tolerances()[tolerance].key;
   chart.x_axis.label = task.tolerances()[tolerance].key;
   chart.y_axis.label = "|Steady error| + ripple [-]";
-  output::Curve passed{"Settled", {}};
-  output::Curve failed{"Failed", {}};
-  passed.line = output::Line::dots;
-  failed.line = output::Line::dots;
+  output::Curve settled{"Settled", {}, output::Line::dots};
+  output::Curve failed{"Failed", {}, output::Line::dots};
   for (const std::size_t i : drawn_order(factors)) {
     const PlantRow& row = study.samples[i];
-    chart.x.insert(chart.x.end(), 2, factors[i]);
-    // A gap behind each dot: no line joins them.
-    passed.y.insert(passed.y.end(),
-                    {row.failed() ? PlantRow::undefined : row.deviation, PlantRow::undefined});
-    failed.y.insert(failed.y.end(),
-                    {row.failed() ? row.deviation : PlantRow::undefined, PlantRow::undefined});
+    output::Curve& curve = row.failed() ? failed : settled;
+    curve.x.push_back(factors[i]);
+    curve.y.push_back(row.deviation);
   }
-  chart.curves = {std::move(passed), std::move(failed)};
+  for (output::Curve* each : {&settled, &failed}) {
+    if (!each->y.empty()) {
+      chart.curves.push_back(std::move(*each));
+    }
+  }
   return chart;
 }
 
@@ -213,15 +214,18 @@ output::Section importance_section(const Task& task, const Study& study) {
   constexpr std::size_t most_scatters = 4;
   output::Section section{
       "What matters",
-      "The rank correlation shows whether a figure rises (towards 1) or falls (towards -1) with "
-      "the "
-      "key. The main effect is the part of the variance of the ranks that the key explains alone, "
-      "also where the figure turns: 1 is all of it.",
+      fmt::format(
+          "The rank correlation shows whether a figure rises (towards 1) or falls (towards -1) "
+          "with the key. The main effect is the part of the variance of the ranks that the key "
+          "explains alone, also where the figure turns: 1 is all of it. {} plants have one of "
+          "{:.2g} by chance: what is below that is not distinguished from none.",
+          study.samples.size(), effect_of_chance(study.samples.size())),
       {}};
   const std::vector<std::vector<Importance>> found = importance(task, study);
   section.tables = {
-      importance_table(task, found, "Rank correlation", &Importance::rank_correlation),
-      importance_table(task, found, "Main effect", &Importance::main_effect)};
+      importance_table(task, found, "Main effect", &Importance::main_effect,
+                       effect_of_chance(study.samples.size())),
+      importance_table(task, found, "Rank correlation", &Importance::rank_correlation, 0.0)};
   const std::vector<std::size_t> order = by_importance(task, study);
   for (std::size_t i = 0; i < std::min(order.size(), most_scatters); ++i) {
     section.charts.push_back(scatter(task, study, order[i]));
@@ -272,6 +276,7 @@ output::Section worst_section(const Task& task, const Study& study) {
   section.charts.push_back(
       loop_chart("Worst plant", task.plant(study.worst.factors), task.design()));
   section.charts.push_back(loop_chart("The scene's own plant", task.own_plant(), task.design()));
+  section.tables = {factor_table(task, study)};
   return section;
 }
 
@@ -282,8 +287,10 @@ output::Page robust_page(const Task& task, const Study& study) {
       fmt::format("Robustness of {}", task.nominal().name),
       lead(task, study),
       warnings(task, study),
-      {findings_table(task, study), quantile_table(study), factor_table(task, study)},
-      {worst_section(task, study), distribution_section(study), importance_section(task, study)}};
+      {findings_table(study), quantile_table(study)},
+      {worst_section(task, study), distribution_section(study), importance_section(task, study)},
+      scene_file::to_json(task.nominal()),
+      task.counts().seed};
 }
 
 }  // namespace sonoglide::robust

@@ -56,6 +56,11 @@ double rank_correlation(const Ranks& a, const Ranks& b);
 /// @param x, y  of equal size; fewer than 32 tell nothing: NaN
 double main_effect(const Ranks& x, const Ranks& y);
 
+/// Part of the variance that the means of so many classes have by chance alone: a main effect
+/// below it is not told from 0.
+/// @param count  of the plants, > 0
+double effect_of_chance(std::size_t count);
+
 /// A figure of every row.
 struct Figure {
   const char* key;    ///< `settling_time_s`

@@ -82,17 +82,28 @@ double rank_correlation(const Ranks& a, const Ranks& b) {
   return xx > 0.0 && yy > 0.0 ? xy / std::sqrt(xx * yy) : undefined;
 }
 
+namespace {
+
+std::size_t classes_of(std::size_t count) {
+  constexpr std::size_t most_classes = 32;
+  return std::min(most_classes, static_cast<std::size_t>(std::sqrt(static_cast<double>(count))));
+}
+
+}  // namespace
+
+double effect_of_chance(std::size_t count) {
+  return (static_cast<double>(classes_of(count)) - 1.0) / static_cast<double>(count);
+}
+
 double main_effect(const Ranks& x, const Ranks& y) {
   constexpr std::size_t fewest = 32;
-  constexpr std::size_t most_classes = 32;
   const std::vector<double>& x_rank = x.places;
   const std::vector<double>& y_rank = y.places;
   const std::size_t count = x_rank.size();
   if (count < fewest) {
     return undefined;
   }
-  const auto classes =
-      std::min(most_classes, static_cast<std::size_t>(std::sqrt(static_cast<double>(count))));
+  const std::size_t classes = classes_of(count);
   std::vector<double> sum(classes, 0.0);
   std::vector<double> size(classes, 0.0);
   for (std::size_t i = 0; i < count; ++i) {

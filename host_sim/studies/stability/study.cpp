@@ -28,15 +28,13 @@ StabilityStudy study(const MapGrid& grid, std::uint64_t scenes, const Progress& 
 }
 
 output::StudyReport report(const StabilityStudy& study) {
-  const MapPictures pictures = {map_picture(study.maps, "float64"),
-                                map_picture(study.maps, "float32")};
   return {{{"stability_map.csv", map_csv(study.maps, "float64")},
-           {"stability_map.svg", pictures.float64},
+           {"stability_map.svg", output::print(map_sheet(study.maps, "float64"))},
            {"stability_map_float32.csv", map_csv(study.maps, "float32")},
-           {"stability_map_float32.svg", pictures.float32},
+           {"stability_map_float32.svg", output::print(map_sheet(study.maps, "float32"))},
            {"extremes.csv", extremes_csv(study.extremes)},
            {"extremes_worst.csv", worst_csv(study.extremes)},
-           {"report.html", output::to_html(study_page(study, pictures))}},
+           {"report.html", output::to_html(study_page(study))}},
           study_text(study.extremes)};
 }
 

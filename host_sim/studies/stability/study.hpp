@@ -74,17 +74,10 @@ std::string worst_csv(const Extremes& extremes);
 /// One line for each solver and precision: what was good, declined, and wrong without a word.
 std::string study_text(const Extremes& extremes);
 
-/// One SVG document: a panel for each solver, colours by verdict, and in the panels of rk4 and
-/// rk4_event the theoretical limit of the method.
-/// @throws process::ProcessError if gnuplot fails
-std::string map_picture(const StabilityMaps& maps, std::string_view precision);
+/// A panel for each solver, colours by verdict, and in the panels of rk4 and rk4_event the
+/// theoretical limit of the method.
+output::Sheet map_sheet(const StabilityMaps& maps, std::string_view precision);
 
-/// SVG documents.
-struct MapPictures {
-  std::string float64;
-  std::string float32;
-};
-
-output::Page study_page(const StabilityStudy& study, const MapPictures& pictures);
+output::Page study_page(const StabilityStudy& study);
 
 }  // namespace sonoglide::stability

@@ -105,10 +105,8 @@ std::string map_text(const StabilityMaps& maps) {
   return fmt::format(
       "The paper's Table 1 at 384 N, sliding at half the peak vibration velocity, {} carrier "
       "periods from rest, compared with event_taylor of order 16 at tolerance 1e-12 (which order "
-      "12 at 1e-13 confirms within {:.1e}). Green is accurate; orange, pink and black are "
-      "results that are wrong without a word; blue, yellow and grey were declined. The dashed line "
-      "is "
-      "where classical Runge–Kutta becomes unstable in a full slide.",
+      "12 at 1e-13 confirms within {:.1e}). The dashed line is where classical Runge–Kutta "
+      "becomes unstable in a full slide.",
       maps.grid.periods, maps.reference_difference);
 }
 
@@ -121,23 +119,6 @@ std::string extremes_text() {
       "period. extremes_worst.csv lists the worst scenes of each solver with all their numbers.",
       allowed_residual_float64, allowed_residual_float32, extreme_step_limit);
 }
-
-}  // namespace
-
-output::Page study_page(const StabilityStudy& study, const MapPictures& pictures) {
-  output::Page page;
-  page.title = "Where each solver can be trusted";
-  page.lead = lead(study);
-  page.tables = {verdicts(), extreme_table(study.extremes), residual_table(study.extremes)};
-  page.sections = {{"Maps over setting and contact stiffness",
-                    map_text(study.maps),
-                    {},
-                    {{"float64", "", pictures.float64}, {"float32", "", pictures.float32}}},
-                   {"How the extreme cases are counted", extremes_text(), {}, {}}};
-  return page;
-}
-
-namespace {
 
 constexpr int panel_columns = 3;
 constexpr int panel_width_px = 380;
@@ -191,7 +172,8 @@ output::Tiles boxes(const StabilityMaps& maps, const SolverMap& map, const Shade
   return boxes;
 }
 
-const output::Pen limit_pen = {"black", 2.0, 2};
+const output::Pen limit_pen = {"#000000", 2.0, 2};
+constexpr const char* limit_text = "h = 2.785 Fc/(Kt |V|max)";
 
 /// Where classical Runge–Kutta becomes unstable.
 output::Curve limit_curve(const StabilityMaps& maps) {
@@ -202,7 +184,7 @@ output::Curve limit_curve(const StabilityMaps& maps) {
   return curve;
 }
 
-output::Chart panel(const StabilityMaps& maps, const SolverMap& map, const output::Place& place) {
+output::Chart panel(const StabilityMaps& maps, const SolverMap& map) {
   const std::vector<double>& x = maps.grid.contact_stiffness_N_per_m;
   const std::vector<double>& y = settings(maps.grid, map);
   const double across = half_ratio(x);
@@ -224,9 +206,35 @@ output::Chart panel(const StabilityMaps& maps, const SolverMap& map, const outpu
   if (map.solver == "rk4" || map.solver == "rk4_event") {
     chart.curves.push_back(limit_curve(maps));
   }
-  chart.place = place;
   chart.verbatim = true;
   return chart;
+}
+
+std::vector<const SolverMap*> of_precision(const StabilityMaps& maps, std::string_view precision) {
+  std::vector<const SolverMap*> shown;
+  for (const SolverMap& map : maps.maps) {
+    if (map.precision == precision) {
+      shown.push_back(&map);
+    }
+  }
+  return shown;
+}
+
+/// On the page each panel has a key of its own, of what is in it.
+output::Section map_section(const StabilityMaps& maps, std::string_view precision) {
+  output::Section section{fmt::format("Maps in {}", precision), map_text(maps), {}};
+  for (const SolverMap* map : of_precision(maps, precision)) {
+    output::Chart chart = panel(maps, *map);
+    for (std::size_t i = 0; i < shades.size(); ++i) {
+      chart.tiles[i].label = chart.tiles[i].all.empty() ? "" : shades[i].text;
+    }
+    for (output::Curve& each : chart.curves) {
+      each.label = limit_text;
+    }
+    chart.group = "stiffness";
+    section.charts.push_back(std::move(chart));
+  }
+  return section;
 }
 
 /// A panel without axes whose curves have nothing but titles.
@@ -235,7 +243,7 @@ output::Chart legend(double height) {
   for (const Shade& shade : shades) {
     chart.tiles.push_back({{}, shade.colour, shade.text});
   }
-  chart.curves.push_back({"h = 2.785 Fc/(Kt |V|max)", {}, output::Line::joined, {}, limit_pen});
+  chart.curves.push_back({limit_text, {}, output::Line::joined, {}, limit_pen});
   chart.place = {0.0, 0.0, 1.0, height};
   chart.look =
       "unset border\nunset tics\nset lmargin at screen 0.02\nset rmargin at screen 0.98\n"
@@ -245,13 +253,8 @@ output::Chart legend(double height) {
 
 }  // namespace
 
-std::string map_picture(const StabilityMaps& maps, std::string_view precision) {
-  std::vector<const SolverMap*> shown;
-  for (const SolverMap& map : maps.maps) {
-    if (map.precision == precision) {
-      shown.push_back(&map);
-    }
-  }
+output::Sheet map_sheet(const StabilityMaps& maps, std::string_view precision) {
+  const std::vector<const SolverMap*> shown = of_precision(maps, precision);
   const auto rows = static_cast<int>((shown.size() + panel_columns - 1) / panel_columns);
   const int height_px = rows * panel_height_px + legend_height_px;
   const double legend_height = static_cast<double>(legend_height_px) / height_px;
@@ -264,13 +267,27 @@ std::string map_picture(const StabilityMaps& maps, std::string_view precision) {
   for (std::size_t i = 0; i < shown.size(); ++i) {
     const auto row = static_cast<int>(i) / panel_columns;
     const auto column = static_cast<int>(i) % panel_columns;
-    sheet.charts.push_back(
-        panel(maps, *shown[i],
-              {static_cast<double>(column) / panel_columns, 1.0 - (row + 1) * panel_height,
-               1.0 / panel_columns, panel_height}));
+    output::Chart& chart = sheet.charts.emplace_back(panel(maps, *shown[i]));
+    chart.place = {static_cast<double>(column) / panel_columns, 1.0 - (row + 1) * panel_height,
+                   1.0 / panel_columns, panel_height};
   }
   sheet.charts.push_back(legend(legend_height));
-  return output::print(sheet);
+  return sheet;
+}
+
+output::Page study_page(const StabilityStudy& study) {
+  output::Page page;
+  page.title = "Where each solver can be trusted";
+  page.lead = lead(study);
+  page.tables = {verdicts()};
+  page.sections = {map_section(study.maps, "float64"),
+                   map_section(study.maps, "float32"),
+                   {"Extreme cases",
+                    extremes_text(),
+                    {},
+                    {},
+                    {extreme_table(study.extremes), residual_table(study.extremes)}}};
+  return page;
 }
 
 }  // namespace sonoglide::stability

@@ -87,7 +87,7 @@ output::Chart heat_map(const Plan& plan, const std::vector<PointResult>& rows, s
   const std::vector<Cell> up = cells(grid.axes()[upward]);
   const std::vector<Cell> right = cells(grid.axes()[rightward]);
   output::Tiles defined;
-  output::Tiles undefined{{}, grey};
+  output::Tiles undefined{{}, grey, "not defined"};
   for (const Cell& y : up) {
     for (const Cell& x : right) {
       const double value =
@@ -221,12 +221,12 @@ bool is_heat_map(const Grid& grid) {
          grid.axes()[drawn[0]].categorical() == grid.axes()[drawn[1]].categorical();
 }
 
-std::optional<std::string> draw(const Plan& plan, const std::vector<PointResult>& rows) {
+std::optional<output::Sheet> picture(const Plan& plan, const std::vector<PointResult>& rows) {
   const std::vector<std::size_t> axes = drawn_axes(plan.grid());
   if (axes.empty() || axes.size() > 2 || !extremes(rows, subject(plan).figure)) {
     return std::nullopt;
   }
-  return output::print({{chart(plan, rows, axes)}, 900, 560, 0, "set tics out nomirror\n"});
+  return output::Sheet{{chart(plan, rows, axes)}, 900, 560, 0, "set tics out nomirror\n"};
 }
 
 }  // namespace sonoglide::sweep

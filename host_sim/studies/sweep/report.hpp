@@ -17,6 +17,7 @@ namespace sonoglide::sweep {
 
 struct Subject {
   double PointResult::*figure;
+  std::string title;
   std::string label;  ///< with its unit
 };
 
@@ -47,14 +48,12 @@ std::vector<std::size_t> drawn_axes(const Grid& grid);
 bool is_heat_map(const Grid& grid);
 
 /// One axis drawn: a curve; two: a heat map, the first one upwards, or, where one of them is by
-/// name, a curve for each name. SVG. Absent for any other number of axes, and where no point has a
-/// value.
-/// @throws process::ProcessError
-std::optional<std::string> draw(const Plan& plan, const std::vector<PointResult>& rows);
+/// name, a curve for each name. Absent for any other number of axes, and where no point has a value.
+std::optional<output::Sheet> picture(const Plan& plan, const std::vector<PointResult>& rows);
 
-/// @param picture  an SVG document; absent where none can be drawn
+/// @param picture  of the same rows
 output::Page sweep_page(const Plan& plan, const std::vector<PointResult>& rows,
-                        const std::optional<std::string>& picture);
+                        const std::optional<output::Sheet>& picture);
 
 /// Along an axis a heat map shows at most this many values, evenly picked.
 inline constexpr std::size_t most_cells_along = 200;

@@ -56,13 +56,14 @@ long_work::Identity identity_of(const Plan& plan, const std::string& program) {
 /// The table, the picture and the page of all rows, all or none.
 void write_files(const Plan& plan, const std::vector<PointResult>& rows, const fs::path& out,
                  const std::function<void()>& then) {
-  const std::optional<std::string> picture = draw(plan, rows);
+  const std::optional<output::Sheet> picture = sweep::picture(plan, rows);
+  const std::string svg = picture ? output::print(*picture) : std::string();
   const std::string page = output::to_html(sweep_page(plan, rows, picture));
   output::OutputFolder folder(out);
   write_csv(folder.open(table_file), plan, rows);
   folder.write(page_file, page);
   if (picture) {
-    folder.write(picture_file, *picture);
+    folder.write(picture_file, svg);
   } else {
     folder.withdraw(picture_file);
   }

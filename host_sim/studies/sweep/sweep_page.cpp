@@ -97,57 +97,43 @@ output::Table extremes_table(const Plan& plan, const std::vector<PointResult>& r
   return table;
 }
 
-/// One line for each table of the scene.
-output::Table scene_table(const Plan& plan) {
-  output::Table table{"Scene of the first point", {"Table", "Values"}, {}};
-  const auto scene = scene_file::to_json(plan.first());
-  for (const auto& [name, keys] : scene.items()) {
-    std::string values;
-    for (const auto& [key, value] : keys.items()) {
-      values += fmt::format("{}{} = {}", values.empty() ? "" : ", ", key,
-                            value.is_number() ? number_text(value.get<double>()) : value.dump());
-    }
-    table.rows.push_back({name, values});
-  }
-  return table;
-}
-
 std::string picture_note(const Plan& plan) {
   std::string note;
-  const std::vector<std::size_t> drawn = drawn_axes(plan.grid());
-  for (const std::size_t axis : drawn) {
+  for (const std::size_t axis : drawn_axes(plan.grid())) {
     const std::size_t count = plan.grid().axes()[axis].count;
     if (is_heat_map(plan.grid()) && count > most_cells_along) {
       note += fmt::format("One value of {} in {} is drawn. ", plan.grid().axes()[axis].key,
                           (count - 1) / most_cells_along + 1);
     }
   }
-  return note + "Grey where the figure is not defined.";
+  return note;
 }
 
 }  // namespace
 
 output::Page sweep_page(const Plan& plan, const std::vector<PointResult>& rows,
-                        const std::optional<std::string>& picture) {
+                        const std::optional<output::Sheet>& picture) {
   output::Page page{
       fmt::format("Sweep of {}", plan.first().name), lead(plan), warnings(plan, rows), {}, {}};
-  page.tables.push_back(axis_table(plan));
-  page.tables.push_back(extremes_table(plan, rows));
-  page.tables.push_back(scene_table(plan));
+  std::vector<output::Table> tables = {axis_table(plan), extremes_table(plan, rows)};
+  page.scene = scene_file::to_json(plan.first());
   if (picture) {
-    output::Section section{"Picture", "", {}, {}};
-    section.pictures.push_back(
-        {plan.closed_loop() ? "Steady error of the friction ratio" : "Friction ratio",
-         picture_note(plan), *picture});
-    page.sections.push_back(std::move(section));
+    output::Chart chart = picture->charts.front();
+    chart.title = "Over what was varied";
+    chart.note = picture_note(plan);
+    page.sections = {{subject(plan).title, "", {std::move(chart)}, {}, std::move(tables)}};
+  } else {
+    page.tables = std::move(tables);
   }
   return page;
 }
 
 Subject subject(const Plan& plan) {
   return plan.closed_loop()
-             ? Subject{&PointResult::steady_error, "Steady error of the friction ratio [-]"}
-             : Subject{&PointResult::friction_ratio_window, "Friction ratio, window [-]"};
+             ? Subject{&PointResult::steady_error, "Steady error of the friction ratio",
+                       "Steady error of the friction ratio [-]"}
+             : Subject{&PointResult::friction_ratio_window, "Friction ratio",
+                       "Friction ratio, window [-]"};
 }
 
 std::optional<ExtremePoints> extremes(const std::vector<PointResult>& rows,

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "host_sim/output/chart.hpp"
+#include "host_sim/scene_file/to_json.hpp"
 #include "host_sim/studies/work_precision/comparison.hpp"
 #include "host_sim/studies/work_precision/report.hpp"
 
@@ -145,32 +146,6 @@ output::Table every_row(const SolverComparison& comparison) {
   return table;
 }
 
-}  // namespace
-
-output::Page page(const scene::Scene& scene, const SolverComparison& comparison,
-                  const std::string& svg) {
-  output::Page page;
-  page.title = "Work and precision: " + scene.name;
-  page.lead = lead(scene, comparison);
-  page.tables.push_back(set_up(comparison));
-  page.tables.push_back(against_the_paper(comparison));
-  for (const double accuracy : accuracies) {
-    page.tables.push_back(ranking(comparison, accuracy));
-  }
-  page.tables.push_back(every_row(comparison));
-  output::Section section{"Work-precision diagram", "", {}};
-  section.pictures.push_back(
-      {"Time for a carrier period against error",
-       "Lower and further left is better. A line shows the error that a solver can be relied on "
-       "for, the worst of a setting and its next two finer ones; small points show the error that "
-       "each setting happened to have.",
-       svg});
-  page.sections.push_back(std::move(section));
-  return page;
-}
-
-namespace {
-
 /// Errors at and below the rounding of the result are drawn here.
 constexpr double smallest_error = 1e-16;
 
@@ -246,8 +221,8 @@ std::vector<output::Curve> curves(const SolverComparison& comparison) {
 
 }  // namespace
 
-std::string draw(const SolverComparison& comparison, const std::string& title) {
-  output::Chart chart{title,
+output::Sheet diagram(const scene::Scene& scene, const SolverComparison& comparison) {
+  output::Chart chart{fmt::format("{}, {} carrier periods", scene.name, comparison.periods),
                       "",
                       {fmt::format("{} error of the friction ratio over the whole run",
                                    comparison.absolute_error ? "Absolute" : "Relative"),
@@ -259,14 +234,35 @@ std::string draw(const SolverComparison& comparison, const std::string& title) {
                       curves(comparison)};
   chart.verbatim = true;
   chart.look = chart.curves.empty() ? "set yrange [1:1000]\n" : "set yrange [0.1 <*:*]\n";
-  return output::print(
-      {{std::move(chart)},
-       1120,
-       720,
-       0,
-       "set title font ',15'\nset xtics 100 nomirror\nset ytics nomirror\n"
-       "set grid xtics ytics lc rgb '#d8d8d8' lw 1\nset border 3\n"
-       "set key outside right top vertical Left reverse samplen 3 spacing 1.25\n"});
+  return {{std::move(chart)},
+          1120,
+          720,
+          0,
+          "set title font ',15'\nset xtics 100 nomirror\nset ytics nomirror\n"
+          "set grid xtics ytics lc rgb '#d8d8d8' lw 1\nset border 3\n"
+          "set key outside right top vertical Left reverse samplen 3 spacing 1.25\n"};
+}
+
+output::Page page(const scene::Scene& scene, const SolverComparison& comparison) {
+  output::Page page;
+  page.title = "Work and precision: " + scene.name;
+  page.lead = lead(scene, comparison);
+  page.scene = scene_file::to_json(scene);
+  page.tables.push_back(against_the_paper(comparison));
+  output::Chart chart = diagram(scene, comparison).charts.front();
+  chart.title = "Time for a carrier period against error";
+  chart.note =
+      "Lower and further left is better. A line shows the error that a solver can be relied on "
+      "for, the worst of a setting and its next two finer ones; small points show the error that "
+      "each setting happened to have.";
+  page.sections = {{"Work-precision diagram", "", {std::move(chart)}}, {"Settings", "", {}}};
+  std::vector<output::Table>& tables = page.sections.back().tables;
+  for (const double accuracy : accuracies) {
+    tables.push_back(ranking(comparison, accuracy));
+  }
+  tables.push_back(every_row(comparison));
+  tables.push_back(set_up(comparison));
+  return page;
 }
 
 }  // namespace sonoglide::work_precision

@@ -54,11 +54,9 @@ std::string text(const SolverComparison& comparison) {
 }  // namespace
 
 output::StudyReport report(const scene::Scene& scene, const SolverComparison& comparison) {
-  const std::string svg =
-      draw(comparison, fmt::format("{}, {} carrier periods", scene.name, comparison.periods));
   return {{{"work_precision.csv", to_csv(comparison)},
-           {"work_precision.svg", svg},
-           {"report.html", output::to_html(page(scene, comparison, svg))}},
+           {"work_precision.svg", output::print(diagram(scene, comparison))},
+           {"report.html", output::to_html(page(scene, comparison))}},
           text(comparison)};
 }
 

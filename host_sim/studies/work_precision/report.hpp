@@ -13,15 +13,12 @@ namespace sonoglide::work_precision {
 /// One line for each row under a heading line; what was not measured is `nan`.
 std::string to_csv(const SolverComparison& comparison);
 
-/// @param svg  the picture of the same comparison
-output::Page page(const scene::Scene& scene, const SolverComparison& comparison,
-                  const std::string& svg);
+output::Page page(const scene::Scene& scene, const SolverComparison& comparison);
 
 /// Time for a carrier period against error, both axes logarithmic: one line for each solver through
 /// the errors that its settings can be relied on for (see Standing), small points at the errors
 /// that they happened to have.
-/// @throws process::ProcessError
-std::string draw(const SolverComparison& comparison, const std::string& title);
+output::Sheet diagram(const scene::Scene& scene, const SolverComparison& comparison);
 
 /// work_precision.csv, work_precision.svg and report.html. @throws process::ProcessError
 output::StudyReport report(const scene::Scene& scene, const SolverComparison& comparison);

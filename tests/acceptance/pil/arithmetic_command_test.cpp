@@ -33,13 +33,14 @@ class ArithmeticCommandTest : public testing::Test {
 std::unique_ptr<ScratchFolder> ArithmeticCommandTest::folder_;
 Outcome ArithmeticCommandTest::outcome_;
 
-TEST_F(ArithmeticCommandTest, WritesItsThreeFilesAndPrintsTheTable) {
+TEST_F(ArithmeticCommandTest, WritesItsFilesAndPrintsTheTable) {
   EXPECT_EQ(outcome_.exit_code, 0) << outcome_.err;
   EXPECT_EQ(outcome_.err, "") << "no progress bar on a pipe";
   EXPECT_NE(outcome_.out.find("Cortex-M4F  q15 "), std::string::npos) << outcome_.out;
-  EXPECT_NE(outcome_.out.find("results/arithmetic.svg"), std::string::npos) << outcome_.out;
-  EXPECT_EQ(folder_->entries(), (Entries{"results", "results/.sonoglide", "results/arithmetic.csv",
-                                         "results/arithmetic.svg", "results/targets.csv"}));
+  EXPECT_NE(outcome_.out.find("results/report.html"), std::string::npos) << outcome_.out;
+  EXPECT_EQ(folder_->entries(),
+            (Entries{"results", "results/.sonoglide", "results/arithmetic.csv",
+                     "results/arithmetic.svg", "results/report.html", "results/targets.csv"}));
 }
 
 TEST_F(ArithmeticCommandTest, EachArithmeticIsAsNearToFloat64AsItsBitsAllow) {

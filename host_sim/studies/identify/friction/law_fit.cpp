@@ -26,21 +26,36 @@ End end_of(const LawProblem::Range& range, double log) {
   return part > 1.0 - near ? End::most : End::none;
 }
 
-std::string open_text(const ShapeParameter& parameter, End end, const LogInterval& interval) {
+/// Whether the readings leave a parameter open by more than a factor of ten; an end that is open is
+/// that of its range.
+bool is_open(const ShapeParameter& parameter, const LawProblem::Range& range,
+             const LogInterval& interval) {
+  constexpr double most = 10.0;
+  const auto end = [&](double log, double limit) {
+    return parameter.offset + std::exp(std::isnan(log) ? limit : log);
+  };
+  return end(interval.high, range.most) > most * end(interval.low, range.least);
+}
+
+/// @param is_open  see is_open()
+std::string open_text(const ShapeParameter& parameter, End end, const LogInterval& interval,
+                      bool is_open) {
   const bool low = std::isnan(interval.low);
   const bool high = std::isnan(interval.high);
   std::string text;
   if (end != End::none) {
-    text = fmt::format("{}: the fit ends at its bound, {}", parameter.name,
+    return fmt::format("{}: the fit ends at its bound, {}", parameter.name,
                        end == End::least ? parameter.at_least : parameter.at_most);
-  } else if (low || high) {
-    text = fmt::format("{}: {}", parameter.name,
-                       low && high
-                           ? "any value fits"
-                           : fmt::format("no {} end of its interval, {}", low ? "lower" : "upper",
-                                         low ? parameter.at_least : parameter.at_most));
   }
-  return text;
+  if (low || high) {
+    text = low && high ? "any value fits"
+                       : fmt::format("no {} end of its interval, {}", low ? "lower" : "upper",
+                                     low ? parameter.at_least : parameter.at_most);
+  }
+  if (is_open) {
+    text += fmt::format("{}open by more than a factor of ten", text.empty() ? "" : ", ");
+  }
+  return text.empty() ? text : fmt::format("{}: {}", parameter.name, text);
 }
 
 /// Values and ends of the intervals as they are shown.
@@ -88,13 +103,27 @@ std::vector<std::string> open_ends(const LawFit& fit, const LawProblem& problem,
   std::vector<std::string> all;
   for (std::size_t i = 0; i < fit.law.shape.size(); ++i) {
     const auto at = static_cast<Eigen::Index>(i);
-    const std::string text =
-        open_text(fit.law.shape[i], end_of(problem.range(at), fit.logs(at)), intervals[i]);
+    const LawProblem::Range& range = problem.range(at);
+    const std::string text = open_text(fit.law.shape[i], end_of(range, fit.logs(at)), intervals[i],
+                                       is_open(fit.law.shape[i], range, intervals[i]));
     if (!text.empty()) {
       all.push_back(fmt::format("{}, {}.", fit.law.title, text));
     }
   }
   return all;
+}
+
+/// A value that is open by more than a factor of ten is none, and what follows from it.
+void withhold(LawFit& fit, const LawProblem& problem, const std::vector<LogInterval>& intervals) {
+  auto estimate = fit.parameters.begin();
+  for (std::size_t i = 0; i < fit.law.shape.size(); ++i) {
+    const ShapeParameter& shape = fit.law.shape[i];
+    const auto next = estimate + (shape.also.empty() ? 1 : 2);
+    if (is_open(shape, problem.range(static_cast<Eigen::Index>(i)), intervals[i])) {
+      std::for_each(estimate, next, [](Estimate& each) { each.value = unknown; });
+    }
+    estimate = next;
+  }
 }
 
 /// Probabilities of the scatters under a fit.
@@ -276,6 +305,9 @@ void add_intervals(const Readings& readings, LawFit& fit) {
   }
   fit.parameters = estimates(fit, readings, problem, ends);
   fit.open = open_ends(fit, problem, ends);
+  if (problem.is_determined() && problem.readings() > problem.parameters()) {
+    withhold(fit, problem, ends);
+  }
   if (const std::string effect = effect_of_scale(readings, fit);
       fit.is_determined && !effect.empty()) {
     fit.open.push_back(effect);

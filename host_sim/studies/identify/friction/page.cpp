@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <map>
 #include <vector>
 
@@ -51,43 +50,37 @@ Groups groups_of(const Readings& readings) {
   return by_vibration.all.size() <= by_sliding.all.size() ? by_vibration : by_sliding;
 }
 
-/// The group's readings, and places between along which the curves are drawn.
-std::vector<Place> places(const Comparison& comparison, const Groups& groups, const Group& group) {
-  std::vector<Place> all;
-  const auto add = [&](const Reading& row, double measured) {
-    Place place{row.*groups.other, measured, {}};
-    for (const LawFit& each : comparison.laws) {
-      place.fitted.push_back(friction_of(comparison.readings, each, row));
-    }
-    all.push_back(std::move(place));
-  };
-  double fastest = 0.0;
-  for (const Reading& row : group) {
-    add(row, row.friction);
-    fastest = std::max(fastest, row.*groups.other);
-  }
-  constexpr int points = 120;
-  for (int i = 1; i <= points; ++i) {
-    Reading row = group.front();
-    row.*groups.other = 1.1 * fastest * i / points;
-    add(row, std::numeric_limits<double>::quiet_NaN());
-  }
-  return all;
-}
-
+/// A group's readings with their standard errors, and the laws from 0 to beyond them.
 output::Chart fit_chart(const Comparison& comparison, const Groups& groups, const Group& group) {
+  const Readings& readings = comparison.readings;
   output::Chart chart;
-  chart.title =
-      fmt::format("{} at {:.4g} m/s", groups.vibration_is_held() ? "Vibration" : "Sliding",
-                  group.back().*groups.held);
+  chart.title = fmt::format("{} at {}", groups.vibration_is_held() ? "Vibration" : "Sliding",
+                            output::quantity(group.back().*groups.held, "m/s"));
   chart.x_axis.label =
       groups.vibration_is_held() ? "Sliding velocity [m/s]" : "Peak vibration velocity [m/s]";
-  chart.y_axis.label = comparison.readings.are_forces ? "Mean friction [N]" : "Friction ratio [-]";
-  std::vector<std::string> titles;
-  for (const LawFit& each : comparison.laws) {
-    titles.push_back(each.law.title);
+  chart.y_axis.label = readings.are_forces ? "Mean friction [N]" : "Friction ratio [-]";
+  output::Curve measured =
+      dots(readings.have_standard_errors ? "measured ± standard error" : "measured");
+  double fastest = 0.0;
+  for (const Reading& row : group) {
+    fastest = std::max(fastest, row.*groups.other);
+    measured.x.push_back(row.*groups.other);
+    measured.y.push_back(row.friction);
+    if (readings.have_standard_errors) {
+      measured.half_width.push_back(row.standard_error);
+    }
   }
-  draw_fit(chart, places(comparison, groups, group), titles);
+  chart.curves.push_back(std::move(measured));
+  for (const LawFit& law : comparison.laws) {
+    output::Curve& curve = chart.curves.emplace_back(output::Curve{law.law.title, {}});
+    constexpr int points = 120;
+    for (int i = 1; i <= points; ++i) {
+      Reading row = group.front();
+      row.*groups.other = 1.1 * fastest * i / points;
+      curve.x.push_back(row.*groups.other);
+      curve.y.push_back(friction_of(readings, law, row));
+    }
+  }
   return chart;
 }
 
@@ -126,9 +119,11 @@ output::Section residual_section(const Comparison& comparison) {
                     each.runs_probability, each.autocorrelation);
     chart.x_axis.label = "Reading, by rising velocity ratio [-]";
     chart.y_axis.label = comparison.readings.are_forces ? "Residual [N]" : "Residual [-]";
-    chart.curves = {dots("residual", each.residuals)};
+    chart.x_axis.whole_numbers = true;
+    chart.y_axis.has_zero = true;
+    chart.curves = {dots("residual", {}, each.residuals)};
     for (std::size_t i = 0; i < each.residuals.size(); ++i) {
-      chart.x.push_back(static_cast<double>(i + 1));
+      chart.curves.front().x.push_back(static_cast<double>(i + 1));
     }
     chart.group = "residuals";
     section.charts.push_back(std::move(chart));
@@ -164,9 +159,9 @@ output::Table parameter_table(const Comparison& comparison) {
   for (const LawFit& law : comparison.laws) {
     const char* no_end = comparison.is_possible(law) ? "open" : "-";
     for (const Estimate& each : law.parameters) {
-      table.rows.push_back(
-          {law.law.title, each.name, formatted(each.name, each.value, "at its bound"),
-           formatted(each.name, each.low_95, no_end), formatted(each.name, each.high_95, no_end)});
+      table.rows.push_back({law.law.title, each.name, formatted(each.name, each.value, "open"),
+                            formatted(each.name, each.low_95, no_end),
+                            formatted(each.name, each.high_95, no_end)});
     }
   }
   return table;
@@ -181,18 +176,23 @@ output::Page page(const Comparison& comparison, const std::string& name) {
       "{} readings of {} against {}. Residuals and misfit are friction ratios; p is the number "
       "of parameters. AICc is "
       "Akaike's criterion for small samples: laws less than {:g} apart are not separated. "
+      "P(runs) is the probability of so few runs of one sign if the residuals were white{}. "
       "Intervals are of profile likelihood, with a term for misfit.",
       comparison.readings.rows.size(),
       comparison.readings.are_forces ? "mean friction" : "the friction ratio",
       comparison.laws.size() == 1 ? std::string("one law")
                                   : fmt::format("{} laws", comparison.laws.size()),
-      told_apart_from);
+      told_apart_from,
+      comparison.readings.have_standard_errors
+          ? ", P(chi²) that of residuals so large by the standard errors"
+          : "");
   page.warnings = comparison.warnings;
   page.tables = {law_table(comparison), parameter_table(comparison)};
   page.sections = {{"What the readings cannot tell",
-                    "An open end means that the residuals hardly grow as far as that parameter may "
-                    "go. A value at its bound is the law's way to become a simpler one. Laws that "
-                    "are not possible get no intervals.",
+                    "An open value is one that the fit puts at the bound of its range, where the "
+                    "law becomes a simpler one, or that the readings leave open by more than a "
+                    "factor of ten. An open end means that the residuals hardly grow as far as "
+                    "that parameter may go. Laws that are not possible get no intervals.",
                     {},
                     {},
                     {sentence_table("", comparison.cannot_tell)}},

@@ -67,10 +67,10 @@ std::string text(const Comparison& comparison) {
   }
   lines += '\n';
   for (const Estimate& each : comparison.best().parameters) {
-    lines +=
-        fmt::format("{}: {} = {} ({} to {})\n", comparison.best().law.title, each.name,
-                    formatted(each.name, each.value), formatted(each.name, each.low_95, "open"),
-                    formatted(each.name, each.high_95, "open"));
+    lines += fmt::format("{}: {} = {} ({} to {})\n", comparison.best().law.title, each.name,
+                         formatted(each.name, each.value, "open"),
+                         formatted(each.name, each.low_95, "open"),
+                         formatted(each.name, each.high_95, "open"));
   }
   return lines + remark_lines(comparison.warnings, comparison.cannot_tell);
 }

@@ -91,22 +91,15 @@ std::vector<double> curve_frequencies(const ImpedanceStudy& study) {
 /// Readings and fit as one figure of the admittance.
 output::Chart fit_chart(const ImpedanceStudy& study, const std::string& title,
                         const std::string& y_label, double (*figure)(Complex admittance_S)) {
-  const auto fitted = [&](double frequency_Hz) {
-    return figure(study.fit.circuit.admittance_S(frequency_Hz));
-  };
-  std::vector<Place> places;
-  for (std::size_t i = 0; i < study.sweep.frequency_Hz.size(); ++i) {
-    const double f = study.sweep.frequency_Hz[i];
-    places.push_back({f, figure(study.sweep.admittance_S[i]), {fitted(f)}});
+  output::Curve measured = dots("measured", study.sweep.frequency_Hz);
+  for (const Complex each : study.sweep.admittance_S) {
+    measured.y.push_back(figure(each));
   }
-  for (const double f : curve_frequencies(study)) {
-    places.push_back({f, std::numeric_limits<double>::quiet_NaN(), {fitted(f)}});
+  output::Curve fitted{"fitted", {}, output::Line::joined, curve_frequencies(study)};
+  for (const double f : fitted.x) {
+    fitted.y.push_back(figure(study.fit.circuit.admittance_S(f)));
   }
-  output::Chart chart;
-  chart.title = title;
-  chart.y_axis.label = y_label;
-  draw_fit(chart, std::move(places), {"fitted"});
-  return chart;
+  return {title, "", {}, {y_label}, {}, {std::move(measured), std::move(fitted)}};
 }
 
 output::Chart residual_chart(const ImpedanceStudy& study) {
@@ -116,34 +109,15 @@ output::Chart residual_chart(const ImpedanceStudy& study) {
       "The logarithm of measured over fitted admittance. A pattern along the sweep is what the "
       "circuit does not describe, or drift of the instrument; the intervals allow for it.";
   chart.y_axis.label = "Relative residual [-]";
-  chart.x = study.sweep.frequency_Hz;
+  chart.y_axis.has_zero = true;
+  const std::vector<double>& x = study.sweep.frequency_Hz;
   const double* all = study.fit.at.residuals.data();
-  const auto n = static_cast<std::ptrdiff_t>(chart.x.size());
-  chart.curves = {dots("magnitude", {all, all + n})};
+  const auto n = static_cast<std::ptrdiff_t>(x.size());
+  chart.curves = {dots("magnitude", x, {all, all + n})};
   if (study.sweep.has_phase) {
-    chart.curves.push_back(dots("phase [rad]", {all + n, all + 2 * n}));
+    chart.curves.push_back(dots("phase [rad]", x, {all + n, all + 2 * n}));
   }
   return chart;
-}
-
-/// A sweep of more than a decade and a half is drawn over the logarithm of the frequency.
-std::vector<output::Chart> charts(const ImpedanceStudy& study) {
-  std::vector<output::Chart> all = {
-      fit_chart(study, "Impedance", "log10 |Z|/ohm [-]",
-                [](Complex y) { return std::log10(1.0 / std::abs(y)); })};
-  if (study.sweep.has_phase) {
-    all.push_back(fit_chart(study, "Phase of the impedance", "Phase [degrees]",
-                            [](Complex y) { return -std::arg(y) * degrees_per_rad; }));
-  }
-  all.push_back(residual_chart(study));
-  constexpr double wide = 30.0;
-  for (output::Chart& each : all) {
-    each.x_axis.label = "Frequency [Hz]";
-    each.group = "frequency";
-    each.x_axis.logarithmic =
-        study.sweep.frequency_Hz.back() > wide * study.sweep.frequency_Hz.front();
-  }
-  return all;
 }
 
 std::string noise_text(const ImpedanceStudy& study) {
@@ -163,16 +137,16 @@ std::string noise_text(const ImpedanceStudy& study) {
   return words;
 }
 
-/// Measured and fitted admittance in the complex plane, an SVG document.
-std::string draw_circle(const ImpedanceStudy& study) {
+/// Measured and fitted admittance in the complex plane.
+output::Chart circle_chart(const ImpedanceStudy& study) {
   const Mode& mode = study.fit.circuit.modes.front();
-  output::Curve fitted{"fitted", {}, output::Line::joined, {}, {"#1f5fa8"}};
-  output::Curve measured{"measured", {}, output::Line::dots, {}, {"#d62728", 1.0, 1, 7, 0.5}};
-  const auto add = [&](output::Curve& curve, double frequency_Hz, Complex y) {
+  output::Curve measured = dots("measured");
+  output::Curve fitted{"fitted", {}};
+  const auto add = [&](output::Curve& curve, double frequency_Hz, Complex admittance_S) {
     constexpr double bands = 15.0;
     if (std::abs(frequency_Hz - mode.resonance_Hz) <= bands * mode.bandwidth_Hz) {
-      curve.x.push_back(1e3 * y.real());
-      curve.y.push_back(1e3 * y.imag());
+      curve.x.push_back(admittance_S.real());
+      curve.y.push_back(admittance_S.imag());
     }
   };
   for (std::size_t i = 0; study.sweep.has_phase && i < study.sweep.frequency_Hz.size(); ++i) {
@@ -181,17 +155,39 @@ std::string draw_circle(const ImpedanceStudy& study) {
   for (const double f : curve_frequencies(study)) {
     add(fitted, f, study.fit.circuit.admittance_S(f));
   }
-  output::Chart chart{
-      "", "", {"conductance G [mS]"}, {"susceptance B [mS]"}, {}, {std::move(fitted)}};
+  output::Chart chart{"Admittance circle",
+                      "Within 15 band widths of the resonance.",
+                      {"Conductance G [S]"},
+                      {"Susceptance B [S]"},
+                      {},
+                      {}};
   if (!measured.y.empty()) {
     chart.curves.push_back(std::move(measured));
   }
-  return output::print({{std::move(chart)},
-                        620,
-                        620,
-                        0,
-                        "set size ratio -1\nset grid lc rgb '#d8d8d8'\n"
-                        "set xzeroaxis lc rgb '#606060'\nset key outside top center horizontal\n"});
+  chart.curves.push_back(std::move(fitted));
+  chart.equal_scales = true;
+  return chart;
+}
+
+/// A sweep of more than a decade and a half is drawn over the logarithm of the frequency.
+std::vector<output::Chart> charts(const ImpedanceStudy& study) {
+  std::vector<output::Chart> all = {
+      fit_chart(study, "Impedance", "|Z| [ohm]", [](Complex y) { return 1.0 / std::abs(y); })};
+  all.front().y_axis.logarithmic = true;
+  if (study.sweep.has_phase) {
+    all.push_back(fit_chart(study, "Phase of the impedance", "Phase [degrees]",
+                            [](Complex y) { return -std::arg(y) * degrees_per_rad; }));
+  }
+  all.push_back(residual_chart(study));
+  constexpr double wide = 30.0;
+  for (output::Chart& each : all) {
+    each.x_axis.label = "Frequency [Hz]";
+    each.group = "frequency";
+    each.x_axis.logarithmic =
+        study.sweep.frequency_Hz.back() > wide * study.sweep.frequency_Hz.front();
+  }
+  all.push_back(circle_chart(study));
+  return all;
 }
 
 }  // namespace
@@ -209,16 +205,12 @@ output::Page page(const ImpedanceStudy& study) {
   if (!identification.cannot_tell.empty()) {
     page.tables.push_back(sentence_table("What the data cannot tell", identification.cannot_tell));
   }
-  page.sections = {
-      {"Data and fit",
-       noise_text(study),
-       charts(study),
-       {{"Admittance circle", "Within 15 band widths of the resonance.", draw_circle(study)}}},
-      {"Correlation of the parameters",
-       "",
-       {},
-       {},
-       {correlation_table(identification.correlations)}}};
+  page.sections = {{"Data and fit", noise_text(study), charts(study)},
+                   {"Correlation of the parameters",
+                    "",
+                    {},
+                    {},
+                    {correlation_table(identification.correlations)}}};
   return page;
 }
 

@@ -28,16 +28,17 @@ std::vector<PointResult> rows(std::size_t count) {
   return all;
 }
 
-std::optional<std::string> picture(const std::vector<std::string>& vary,
+std::optional<std::string> printed(const std::vector<std::string>& vary,
                                    const std::vector<PointResult>& series) {
   const ScratchScene scratch(open_loop);
-  return draw(Plan(scene_file::read_source(scratch.file()), {}, vary), series);
+  const auto sheet = picture(Plan(scene_file::read_source(scratch.file()), {}, vary), series);
+  return sheet ? std::optional(output::print(*sheet)) : std::nullopt;
 }
 
 TEST(PictureTest, AHeatMapHasACellForEachPointAndGreysTheFailed) {
   std::vector<PointResult> series = rows(12);
   series[5].friction_ratio_window = PointResult::undefined;
-  const auto svg = picture(
+  const auto svg = printed(
       {"velocity_ratio=1:0.1:4", "friction.contact_stiffness_N_per_m=1e4:1e6:3:log"}, series);
   ASSERT_TRUE(svg.has_value());
   EXPECT_EQ(occurrences(*svg, "fill = 'rgb(184, 184, 184)'"), 1U);
@@ -48,7 +49,7 @@ TEST(PictureTest, AHeatMapHasACellForEachPointAndGreysTheFailed) {
 
 TEST(PictureTest, ABigHeatMapIsThinnedOut) {
   const auto svg =
-      picture({"velocity_ratio=0.1:1:2", "friction.coefficient=0.1:0.2:1000"}, rows(2000));
+      printed({"velocity_ratio=0.1:1:2", "friction.coefficient=0.1:0.2:1000"}, rows(2000));
   ASSERT_TRUE(svg.has_value());
   EXPECT_LT(svg->size(), 200000U);
 }
@@ -57,14 +58,14 @@ TEST(PictureTest, OneKeyIsACurve) {
   std::vector<PointResult> series = rows(5);
   series[2] = PointResult();
   series[2].status = "failed";
-  const auto svg = picture({"velocity_ratio=0.1:1:5", "friction.coefficient=0.1:0.1:1"}, series);
+  const auto svg = printed({"velocity_ratio=0.1:1:5", "friction.coefficient=0.1:0.1:1"}, series);
   ASSERT_TRUE(svg.has_value());
   EXPECT_NE(svg->find("whole run"), std::string::npos);
   EXPECT_NE(svg->find(">failed<"), std::string::npos);
 }
 
 TEST(PictureTest, WordsStandSideBySide) {
-  const auto svg = picture({"friction.law=coulomb,dahl,transverse_coulomb"}, rows(3));
+  const auto svg = printed({"friction.law=coulomb,dahl,transverse_coulomb"}, rows(3));
   ASSERT_TRUE(svg.has_value());
   for (const char* word : {">coulomb<", ">dahl<", ">transverse_coulomb<", "friction.law"}) {
     EXPECT_NE(svg->find(word), std::string::npos) << word;
@@ -77,7 +78,7 @@ TEST(PictureTest, WordsAgainstNumbersAreACurveForEachWord) {
   for (const bool words_first : {true, false}) {
     const std::vector<std::string> vary = {"friction.law=coulomb,dahl", "velocity_ratio=0.1:1:4"};
     const auto svg =
-        picture(words_first ? vary : std::vector<std::string>{vary[1], vary[0]}, series);
+        printed(words_first ? vary : std::vector<std::string>{vary[1], vary[0]}, series);
     ASSERT_TRUE(svg.has_value());
     EXPECT_NE(svg->find(">coulomb<"), std::string::npos);
     EXPECT_NE(svg->find(">dahl<"), std::string::npos);
@@ -86,7 +87,7 @@ TEST(PictureTest, WordsAgainstNumbersAreACurveForEachWord) {
 
 TEST(PictureTest, WordsAgainstWordsAreAMap) {
   const auto svg =
-      picture({"friction.law=dahl,coulomb", "friction.coefficient=0.1,0.3,0.2"}, rows(6));
+      printed({"friction.law=dahl,coulomb", "friction.coefficient=0.1,0.3,0.2"}, rows(6));
   ASSERT_TRUE(svg.has_value());
   for (const char* word : {">coulomb<", ">0.3<"}) {
     EXPECT_NE(svg->find(word), std::string::npos) << word;
@@ -94,12 +95,12 @@ TEST(PictureTest, WordsAgainstWordsAreAMap) {
 }
 
 TEST(PictureTest, NoPictureOfMoreKeysNorOfNothing) {
-  EXPECT_FALSE(picture({"velocity_ratio=0.1:1:2", "friction.coefficient=0.1:0.2:2",
+  EXPECT_FALSE(printed({"velocity_ratio=0.1:1:2", "friction.coefficient=0.1:0.2:2",
                         "plant.mass_kg=0.01:0.02:2"},
                        rows(8))
                    .has_value());
-  EXPECT_FALSE(picture({"velocity_ratio=0.1:0.1:1"}, rows(1)).has_value());
-  EXPECT_FALSE(picture({"velocity_ratio=0.1:1:2"}, std::vector<PointResult>(2)).has_value());
+  EXPECT_FALSE(printed({"velocity_ratio=0.1:0.1:1"}, rows(1)).has_value());
+  EXPECT_FALSE(printed({"velocity_ratio=0.1:1:2"}, std::vector<PointResult>(2)).has_value());
 }
 
 }  // namespace

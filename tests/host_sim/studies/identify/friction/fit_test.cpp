@@ -335,6 +335,23 @@ TEST(FrictionFit, OfLuoNoLawFitsButAnElasticStick) {
   EXPECT_NE(comparison.cannot_tell.front().find("Which law it is"), std::string::npos);
 }
 
+/// Any critical velocity from a fiftieth of the vibration on fits; a stiffness within a factor of two.
+TEST(FrictionFit, WhatIsOpenByMoreThanAFactorOfTenHasNoValueAndAReason) {
+  const Comparison comparison = of_example("luo_2024.csv", {"normal_coulomb"});
+  const Estimate open = parameter(comparison.best(), "critical_velocity_per_vibration_velocity");
+  EXPECT_TRUE(std::isnan(open.value)) << open.value;
+  EXPECT_TRUE(std::isfinite(open.low_95));
+  EXPECT_TRUE(
+      std::isfinite(parameter(comparison.best(), "amplitude_ratio_at_largest_vibration").value));
+  const nlohmann::ordered_json json = to_json(comparison);
+  EXPECT_TRUE(json["parameters"]["critical_velocity_per_vibration_velocity"]["value"].is_null());
+  EXPECT_NE(json["cannot_tell"].dump().find("critical_velocity_per_vibration_velocity: no upper "
+                                            "end of its interval"),
+            std::string::npos);
+  EXPECT_NE(json["cannot_tell"].dump().find("open by more than a factor of ten"),
+            std::string::npos);
+}
+
 /// As many parameters as readings: met exactly, and no test.
 TEST(FrictionFit, TwoReadingsOfDongAreNoTestOfTheNormalLaw) {
   const Comparison comparison = of_example("dong_dapino_2015.csv", {"normal_coulomb"});
