@@ -12,7 +12,7 @@ namespace {
 
 /// What lies above a level.
 output::Tiles above(double level, const char* meaning) {
-  return {{{{}, {level}}}, "#d55e00", meaning};
+  return {{{{}, {level}}}, "#d55e00", meaning, true};
 }
 
 output::Curve ratio_curve(double ratio) {
