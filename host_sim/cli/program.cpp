@@ -28,13 +28,13 @@
 namespace sonoglide::cli {
 namespace {
 
-/// As a shell takes it.
+/// As a shell takes it, but for what is not printable.
 std::string command_line(int argument_count, const char* const* arguments) {
   std::string line = "sonoglide";
   for (int i = 1; i < argument_count; ++i) {
     line += ' ' + long_work::shell_word(arguments[i]);
   }
-  return line;
+  return process::printable(line);
 }
 
 /// A full disk or a closed pipe shows only when the buffer goes out.

@@ -140,6 +140,7 @@ PlantText float_plant(const SceneNumbers& scene) {
   return {
       R"(#include "firmware/friction/dahl.hpp"
 #include "firmware/plant/contact.hpp"
+#include "firmware/plant/model.hpp"
 #include "firmware/plant/strang/equal_step_strang.hpp"
 #include "firmware/image/plant/plant_board.hpp"
 )",

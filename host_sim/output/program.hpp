@@ -9,7 +9,7 @@ namespace sonoglide::output {
 /// Set once, by the command line, before anything is computed: no thread reads it earlier. What uses
 /// the rooms as a library leaves it empty.
 struct Program {
-  std::string command_line;  ///< as a shell takes it; empty: there is none
+  std::string command_line;  ///< as a shell takes it, printable(); empty: there is none
   /// See scene_file::changes(): the scene's keys that `--set` gave another value than the file.
   nlohmann::ordered_json changed = nlohmann::ordered_json::object();
 };

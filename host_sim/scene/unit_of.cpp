@@ -27,7 +27,7 @@ std::string unit_of(std::string_view name) {
       {"_s", "s"},
   }};
   for (const auto& [ending, unit] : units) {
-    if (name.size() > ending.size() && name.substr(name.size() - ending.size()) == ending) {
+    if (name.size() >= ending.size() && name.substr(name.size() - ending.size()) == ending) {
       return unit;
     }
   }

@@ -32,14 +32,16 @@ const Look = (() => {
 
   // Curves whose pen is given keep what it tells apart: one colour of print is one on the page.
   // The others differ in colour and dash.
+  const manyDots = 60;  // smaller, so that a curve over them is seen
   const styles = (series) => {
     const colours = [];
     let free = 0;
-    return series.map(({pen, line}) => {
+    return series.map(({pen, line, y}) => {
       if (!pen) {
         const index = free++;
         return {colour: `var(--series-${index % colourCount})`, dash: dashes[index % dashes.length],
-                symbol: line === 'dots' ? 7 + 2 * (index % 4) : 0, size: 1, every: 1, width: 1.6};
+                symbol: line === 'dots' ? 7 + 2 * (index % 4) : 0,
+                size: line === 'dots' && y.length > manyDots ? 0.1 : 1, every: 1, width: 1.6};
       }
       let colour = 'var(--ink)';
       if (!isGrey(pen.colour)) {

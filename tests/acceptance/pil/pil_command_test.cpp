@@ -32,6 +32,7 @@ nlohmann::json without_host(nlohmann::json summary) {
   summary.erase("run");
   summary.erase("pil");
   summary["control"].erase("signals");
+  summary["program"].erase("command_line");
   return summary;
 }
 

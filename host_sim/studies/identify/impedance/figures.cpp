@@ -106,9 +106,7 @@ std::vector<Estimate> figures(const CircuitFit& fit, const MechanicalFact& fact)
 
 bool is_open(const Estimate& estimate) {
   constexpr double most = 10.0;
-  const bool has_0 = estimate.low_95 <= 0.0 && estimate.high_95 >= 0.0;
-  const auto [near, far] = std::minmax(std::abs(estimate.low_95), std::abs(estimate.high_95));
-  return has_0 || !(far <= most * near);
+  return !estimate.may_be_0 && !(estimate.high_95 <= most * estimate.low_95);
 }
 
 }  // namespace sonoglide::identify::impedance

@@ -153,19 +153,16 @@ void append_open_figure(std::vector<std::string>& sentences, const Estimate& fig
   constexpr double twice = 2.0;
   const std::string low = formatted(figure.name, figure.low_95);
   const std::string high = formatted(figure.name, figure.high_95);
-  const bool is_loss = figure.name == name_of(Part::loss_tangent);
-  const bool may_be_none = is_loss && figure.low_95 <= 0.0 && figure.high_95 >= 0.0;
   append(
       sentences,
-      {{is_open(figure) && !may_be_none,
+      {{is_open(figure),
         fmt::format("{}: the data leave it open by more than a factor of ten, from {} to {}.",
                     figure.name, low, high)},
        {!is_open(figure) && !figure.may_be_0 &&
             !(figure.high_95 < twice * figure.value && figure.low_95 > figure.value / twice),
         fmt::format("{}: its interval goes from {} to {}.", figure.name, low, high)},
-       {may_be_none,
-        fmt::format("loss_tangent: whether the dielectric has losses is open by more than a factor "
-                    "of ten; it is within {:.2g} of 0.",
+       {figure.name == name_of(Part::loss_tangent) && figure.low_95 < 0.0 && figure.high_95 > 0.0,
+        fmt::format("Whether the dielectric has losses: the loss tangent is within {:.2g} of 0.",
                     std::max(-figure.low_95, figure.high_95))}});
 }
 

@@ -123,15 +123,11 @@ std::string model_of(const CircuitFit& fit) {
       parts.has(Part::rotation) ? ", with a rotation of all phases by one angle" : "");
 }
 
-/// A figure that is open by more than a factor of ten is none; how far from 0 it may be is told.
+/// A figure that is open by more than a factor of ten is none.
 void withhold(std::vector<Estimate>& estimates) {
-  constexpr double none = std::numeric_limits<double>::quiet_NaN();
   for (Estimate& each : estimates) {
     if (is_open(each)) {
-      each.value = none;
-      if (!each.may_be_0) {
-        each.low_95 = each.high_95 = none;
-      }
+      each.value = each.low_95 = each.high_95 = std::numeric_limits<double>::quiet_NaN();
     }
   }
 }

@@ -43,8 +43,7 @@ struct MechanicalFact {
 /// @throws loop::ComputationError  mass or force factor is not in its range
 std::vector<Estimate> figures(const CircuitFit& fit, const MechanicalFact& fact = {});
 
-/// Whether the data leave the size of a figure open by more than a factor of ten; so does an interval
-/// with 0 in it.
+/// Whether the data leave a positive figure open by more than a factor of ten.
 bool is_open(const Estimate& estimate);
 
 // Sweeps with more readings than a fit has use for.

@@ -115,7 +115,7 @@ TEST_F(StudyTest, DrawsAPanelForEachSolver) {
 
 TEST_F(StudyTest, ThePageHoldsPicturesAndTable) {
   const std::string page = read("report.html");
-  EXPECT_NE(page.find("data:image/svg+xml"), std::string::npos);
+  EXPECT_NE(page.find("<script type=\"application/json\">{\"title\":"), std::string::npos);
   EXPECT_NE(page.find("Extreme cases: 50 random scenes"), std::string::npos);
   EXPECT_NE(page.find("event_taylor_16"), std::string::npos);
 }

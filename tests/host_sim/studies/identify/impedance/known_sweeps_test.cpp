@@ -165,16 +165,5 @@ TEST(KnownSweeps, WhatIsOpenByMoreThanAFactorOfTenIsNull) {
   EXPECT_TRUE(says(found.identification.cannot_tell, "A scene: "));
 }
 
-/// A loss tangent that may be 0 has no size; how large it may be is told.
-TEST(KnownSweeps, ALossTangentThatMayBeNoneIsNull) {
-  const ImpedanceStudy found = study_of("bar_pzt.txt");
-  const Estimate loss = figure(found, "loss_tangent");
-  EXPECT_TRUE(std::isnan(loss.value)) << loss.value;
-  EXPECT_LT(loss.low_95, 0.0);
-  EXPECT_GT(loss.high_95, 0.0);
-  EXPECT_TRUE(says(found.identification.cannot_tell,
-                   "loss_tangent: whether the dielectric has losses is open"));
-}
-
 }  // namespace
 }  // namespace sonoglide::identify::impedance::known_sweeps_test
