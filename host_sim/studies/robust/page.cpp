@@ -178,6 +178,7 @@ output::Chart scatter(const Task& task, const Study& study, std::size_t toleranc
   output::Chart chart;
   chart.title = task.tolerances()[tolerance].key;
   chart.x_axis.label = task.tolerances()[tolerance].key;
+  chart.x_axis.verbatim = true;
   chart.y_axis.label = "|Steady error| + ripple [-]";
   output::Curve settled{"Settled", {}, output::Line::dots};
   output::Curve failed{"Failed", {}, output::Line::dots};
