@@ -28,8 +28,8 @@ struct FmuOptions {
 };
 
 /// @param word  one of them
-template <class Value, std::size_t count>
-Value named(const std::array<scene::Named<Value>, count>& words, const std::string& word) {
+template <class Value, std::size_t Count>
+Value named(const std::array<scene::Named<Value>, Count>& words, const std::string& word) {
   return std::find_if(words.begin(), words.end() - 1,
                       [&](const scene::Named<Value>& each) { return each.name == word; })
       ->value;

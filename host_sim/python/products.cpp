@@ -22,8 +22,8 @@ namespace {
 
 namespace py = pybind11;
 
-template <class Value, std::size_t count>
-Value named(const std::array<scene::Named<Value>, count>& words, const char* argument,
+template <class Value, std::size_t Count>
+Value named(const std::array<scene::Named<Value>, Count>& words, const char* argument,
             const std::string& word) {
   std::string allowed;
   for (const scene::Named<Value>& each : words) {
