@@ -41,10 +41,10 @@ def translation_unit(folder):
     return unit
 
 
-def compile_sketch(library):
+def compile_sketch(*folders):
     run(COMPILER, "-mcpu=cortex-m4", "-mthumb", "-mfloat-abi=hard", "-mfpu=fpv4-sp-d16", "-Os",
         "-std=gnu++17", "-fno-exceptions", "-fno-rtti", "-ffp-contract=off", f"-I{SKETCH}",
-        f"-I{STRANGER / 'controller'}", f"-I{library}", "-c", str(translation_unit(SCRATCH)),
+        f"-I{STRANGER / 'controller'}", *(f"-I{folder}" for folder in folders), "-c", str(translation_unit(SCRATCH)),
         "-o", str(SCRATCH / "sketch.o"))
 
 
@@ -73,13 +73,16 @@ class PlatformIO(unittest.TestCase):
         # srcFilter compiles nothing; there must be nothing to compile.
         self.assertEqual(self.manifest["build"]["srcFilter"], ["-<*>"])
         self.assertEqual(list(package.rglob("*.cpp")), [])
-        self.assertTrue((package / self.manifest["headers"]).is_file())
-        compile_sketch(package / self.manifest["build"]["includeDir"])
+        build = self.manifest["build"]
+        # A flag is relative to the package.
+        folders = [package / build["includeDir"], *(package / flag.removeprefix("-I ") for flag in build["flags"])]
+        self.assertTrue(any((folder / self.manifest["headers"]).is_file() for folder in folders))
+        compile_sketch(*folders)
 
 
 class Arduino(unittest.TestCase):
     manifest = dict(line.split("=", 1) for line in
-                    (SOURCES / "library.properties").read_text().splitlines())
+                    (SOURCES / "tools/arduino/library.properties").read_text().splitlines())
 
     def test_has_the_fields_of_the_library_specification(self):
         self.assertEqual(self.manifest["version"], VERSION)
@@ -91,13 +94,21 @@ class Arduino(unittest.TestCase):
             "Display", "Communication", "Signal Input/Output", "Sensors", "Device Control", "Timing",
             "Data Storage", "Data Processing", "Other"})
 
-    def test_is_a_flat_library_that_compiles_nothing(self):
-        # Without a folder src, the IDE compiles what is beside the manifest and in utility, and looks for
-        # the library by a header there.
-        self.assertFalse((SOURCES / "src").exists() or (SOURCES / "utility").exists())
-        beside = [f.name for f in SOURCES.iterdir() if f.suffix in (".c", ".cpp", ".S", ".ino", ".h")]
-        self.assertEqual(beside, [self.manifest["includes"]])
-        compile_sketch(SOURCES)
+    def test_is_a_library_that_compiles_nothing(self):
+        library = fresh("arduino") / "Sonoglide"
+        run(SOURCES / "tools/arduino/make_library", library)
+        # The IDE looks for the library by a header at the top of src, and compiles what is below.
+        self.assertEqual([f.name for f in (library / "src").glob("*.h*")], [self.manifest["includes"]])
+        self.assertEqual({f.suffix for f in (library / "src").rglob("*.*")}, {".h", ".hpp"})
+        self.assertTrue((library / "library.properties").is_file())
+        compile_sketch(library / "src")
+
+    def test_a_folder_that_is_there_stays(self):
+        folder = fresh("arduino_there")
+        ended = subprocess.run([SOURCES / "tools/arduino/make_library", folder], text=True, capture_output=True)
+        self.assertEqual(ended.returncode, 2)
+        self.assertIn("allowed: a new folder", ended.stderr)
+        self.assertEqual(list(folder.iterdir()), [])
 
 
 class Zephyr(unittest.TestCase):

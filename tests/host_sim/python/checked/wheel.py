@@ -46,7 +46,8 @@ run(interpreter, "-m", "pip", "install", "--quiet", "--no-index", wheel)
 run(interpreter, "-c", USE.replace("VERSION", repr(VERSION)).replace("FOLDER", repr(str(FOLDER))), cwd=FOLDER,
     env={"PATH": "/usr/bin:/bin"})
 
-run(sys.executable, "setup.py", "--quiet", "sdist", "--dist-dir", FOLDER, cwd=SOURCE)
+run(sys.executable, "-c", f"from setuptools import build_meta; build_meta.build_sdist({str(FOLDER)!r})", cwd=SOURCE,
+    stdout=subprocess.DEVNULL)
 (archive,) = FOLDER.glob("sonoglide-*.tar.gz")
 inside = {name.split("/", 1)[1] for name in tarfile.open(archive).getnames() if "/" in name}
 missing = listed(SOURCE) - inside

@@ -1,5 +1,5 @@
-/// What a sketch includes. The Arduino IDE looks for a library by a header beside library.properties, and
-/// then finds the headers of the core from here.
+/// What a sketch includes. The Arduino IDE looks for a library by a header at the top of its folder src, and
+/// then finds the headers of the core from there.
 #pragma once
 
 #undef abs  // Arduino's macro; the name is a function of the core

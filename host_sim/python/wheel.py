@@ -1,4 +1,5 @@
-"""The Python package, built by CMake: what it holds are CMake's install rules.
+"""The Python package, built by CMake: what it holds are CMake's install rules. pyproject.toml names the
+classes below as the commands of setuptools.
 
 SONOGLIDE_BUILD names a folder that is built already, as build/release; else one is made.
 """
@@ -13,9 +14,11 @@ import tempfile
 
 import setuptools
 import setuptools.command.build_ext
+import setuptools.command.egg_info
 import setuptools.command.sdist
+import wheel.bdist_wheel
 
-SOURCE = pathlib.Path(__file__).resolve().parent
+SOURCE = pathlib.Path(__file__).resolve().parents[2]
 VERSION = re.search(r"project\(sonoglide VERSION ([\d.]+)", (SOURCE / "CMakeLists.txt").read_text())[1]
 
 
@@ -53,12 +56,18 @@ class SourceArchive(setuptools.command.sdist.sdist):
         super().make_distribution()
 
 
-(SOURCE / "build").mkdir(exist_ok=True)
-setuptools.setup(
-    version=VERSION,
-    packages=[],
-    # CMake knows its sources. It is named here so that a wheel is one of a machine and an interpreter.
-    ext_modules=[setuptools.Extension("sonoglide._core", [])],
-    cmdclass={"build_ext": Build, "sdist": SourceArchive},
-    options={"egg_info": {"egg_base": "build"}},
-)
+class Metadata(setuptools.command.egg_info.egg_info):
+    """Is written below build/, which git ignores."""
+
+    def initialize_options(self):
+        super().initialize_options()
+        self.egg_base = str(SOURCE / "build")
+        pathlib.Path(self.egg_base).mkdir(exist_ok=True)
+
+
+class Wheel(wheel.bdist_wheel.bdist_wheel):
+    """Is one of a machine and an interpreter: CMake compiles the extension and knows its sources."""
+
+    def finalize_options(self):
+        self.distribution.ext_modules = [setuptools.Extension("sonoglide._core", [])]
+        super().finalize_options()
