@@ -50,10 +50,10 @@ PlantPeriod Engine::begun(double amplitude_N) const {
   return period;
 }
 
-PlantPeriod Engine::move(double amplitude_N) {
+PlantPeriod Engine::move(double amplitude_N, double bias_N) {
   PlantPeriod period = begun(amplitude_N);
   period.begin_velocity_m_per_s = plant_->sliding_velocity_m_per_s();
-  const EnergyBalance energy = plant_->advance(amplitude_N);
+  const EnergyBalance energy = plant_->advance(amplitude_N, bias_N);
   period.end_velocity_m_per_s = plant_->sliding_velocity_m_per_s();
   period.mean_friction_force_N = energy.friction_impulse_N_s / energy.duration_s;
   // A mean over part of a carrier period is no friction ratio; a run without a drive has parts alone.

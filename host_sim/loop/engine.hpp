@@ -47,8 +47,9 @@ class Engine {
   PlantPeriod begun(double amplitude_N) const;
 
   /// Moves the plant through it.
+  /// @param bias_N  see PlantRun::advance
   /// @throws ComputationError
-  PlantPeriod move(double amplitude_N);
+  PlantPeriod move(double amplitude_N, double bias_N = 0.0);
 
   /// Shows what has passed, lets the controller take its step, unless the period was cut short, and
   /// goes on to the next.

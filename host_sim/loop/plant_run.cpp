@@ -60,21 +60,27 @@ PlantRun::PlantRun(const scene::Scene& scene, const CarrierClock& clock, const W
   }
 }
 
-EnergyBalance PlantRun::advance(double amplitude_N) {
+EnergyBalance PlantRun::advance(double amplitude_N, double bias_N) {
   const double begin_s = clock_.begin_s();
   const double end_s = clock_.end_s();
   const double duration_s = clock_.duration_s();
-  const double corner_s = 0.5 * clock_.period_s();
+  const double last_cut_s = duration_s - clock_.rounding_s(end_s);
+  const PeriodDrive drive(scene_, amplitude_N_, amplitude_N, bias_N);
   const bool has_corner =
       waveform_ == scene::Waveform::square || waveform_ == scene::Waveform::triangle;
+  const int pieces = has_corner ? 2 : drive.parts();
   EnergyBalance total;
   meter_.begin_period();
-  if (has_corner && corner_s < duration_s - clock_.rounding_s(end_s)) {
-    total = piece(begin_s, 0.0, corner_s, begin_s + corner_s, amplitude_N);
-    total.append(piece(begin_s, corner_s, duration_s, end_s, amplitude_N));
-  } else {
-    total = piece(begin_s, 0.0, duration_s, end_s, amplitude_N);
+  double from_s = 0.0;
+  for (int i = 0; i < pieces && from_s < last_cut_s; ++i) {
+    const double cut_s = clock_.period_s() * (i + 1) / pieces;
+    const bool last = i + 1 == pieces || !(cut_s < last_cut_s);
+    const double until_s = last ? duration_s : cut_s;
+    piece(begin_s, from_s, until_s, last ? end_s : begin_s + cut_s, drive.part(has_corner ? 0 : i),
+          total);
+    from_s = until_s;
   }
+  amplitude_N_ = amplitude_N;
   result_.whole.append(total);
   note_peaks(end_s, amplitude_N, total);
   return total;
@@ -101,33 +107,33 @@ void PlantRun::note_peaks(double end_s, double amplitude_N, const EnergyBalance&
 }
 
 /// One piece of the waveform, which ends until_s after its period began, at end_s.
-EnergyBalance PlantRun::piece(double begin_s, double from_s, double until_s, double end_s,
-                              double amplitude_N) {
+void PlantRun::piece(double begin_s, double from_s, double until_s, double end_s,
+                     const DrivePart& drive, EnergyBalance& total) {
   const double rounding_s = clock_.rounding_s(end_s);
-  EnergyBalance total;
   double done_s = from_s;
   for (; next_cut_ < cuts_s_.size() && cuts_s_[next_cut_] < end_s - rounding_s; ++next_cut_) {
     const double cut_s = cuts_s_[next_cut_];
     const double part_s = cut_s - begin_s;
     if (part_s > done_s + rounding_s) {
       total.append(stretch(begin_s + done_s, part_s - done_s,
-                           clock_.drive_rate_rad_per_s() * done_s, cut_s, amplitude_N));
+                           clock_.drive_rate_rad_per_s() * done_s, cut_s, drive));
       done_s = part_s;
     }
   }
   total.append(stretch(begin_s + done_s, until_s - done_s, clock_.drive_rate_rad_per_s() * done_s,
-                       end_s, amplitude_N));
-  return total;
+                       end_s, drive));
 }
 
 void PlantRun::save(SnapshotWriter& state) const {
   state.put(sliding_velocity_m_per_s_);
+  state.put(amplitude_N_);
   state.put(next_cut_);
   plant_->save(state);
 }
 
 void PlantRun::restore(SnapshotReader& state) {
   state.get(sliding_velocity_m_per_s_);
+  state.get(amplitude_N_);
   state.get(next_cut_);
   plant_->restore(state);
 }
@@ -140,13 +146,22 @@ void PlantRun::finish() {
 }
 
 EnergyBalance PlantRun::stretch(double begin_s, double duration_s, double drive_phase_rad,
-                                double end_s, double amplitude_N) {
+                                double end_s, const DrivePart& drive) {
   const double first = sliding_velocity_m_per_s_;
   const double last = sliding_.velocity_m_per_s(end_s);
-  const Stretch stretch{duration_s,  drive_phase_rad, clock_.drive_rate_rad_per_s(),
-                        amplitude_N, first,           (last - first) / duration_s,
-                        waveform_,   begin_s,         scene_.demodulates(),
-                        energies_,   &meter_};
+  const Stretch stretch{duration_s,
+                        drive_phase_rad,
+                        clock_.drive_rate_rad_per_s(),
+                        drive.amplitude_N,
+                        first,
+                        (last - first) / duration_s,
+                        waveform_,
+                        drive.slope_N_per_rad,
+                        drive.bias_N,
+                        begin_s,
+                        scene_.demodulates(),
+                        energies_,
+                        &meter_};
   EnergyBalance energy;
   try {
     const plant::Outcome<double> outcome = solve(begin_s, end_s, stretch, energy);

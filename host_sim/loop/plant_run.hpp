@@ -9,6 +9,7 @@
 #include "host_sim/loop/carrier_grid.hpp"
 #include "host_sim/loop/electrical.hpp"
 #include "host_sim/loop/plant/energy.hpp"
+#include "host_sim/loop/plant/period_drive.hpp"
 #include "host_sim/loop/plant/plant_port.hpp"
 #include "host_sim/loop/plant/sliding_profile.hpp"
 #include "host_sim/loop/plant/step_meter.hpp"
@@ -29,9 +30,11 @@ class PlantRun {
   /// Where the last call of advance() ended.
   double sliding_velocity_m_per_s() const { return sliding_velocity_m_per_s_; }
 
-  /// Advances over the carrier period of the clock, under one drive amplitude.
+  /// Advances over the carrier period of the clock, under one drive amplitude, to which that of the
+  /// period before passes as the scene says.
+  /// @param bias_N  force that is constant over the period; 0 unless the scene has a bias limit
   /// @throws ComputationError
-  EnergyBalance advance(double amplitude_N);
+  EnergyBalance advance(double amplitude_N, double bias_N = 0.0);
 
   /// Now, where the last call of advance() ended.
   PlantState state() const { return plant_->state(); }
@@ -44,10 +47,10 @@ class PlantRun {
   void finish();
 
  private:
-  EnergyBalance piece(double begin_s, double from_s, double until_s, double end_s,
-                      double amplitude_N);
+  void piece(double begin_s, double from_s, double until_s, double end_s, const DrivePart& drive,
+             EnergyBalance& total);
   EnergyBalance stretch(double begin_s, double duration_s, double drive_phase_rad, double end_s,
-                        double amplitude_N);
+                        const DrivePart& drive);
   plant::Outcome<double> solve(double begin_s, double end_s, const Stretch& stretch,
                                EnergyBalance& energy);
   void note_peaks(double end_s, double amplitude_N, const EnergyBalance& period);
@@ -64,6 +67,7 @@ class PlantRun {
   scene::Waveform waveform_;
   bool energies_;
   double sliding_velocity_m_per_s_;
+  double amplitude_N_ = 0.0;    ///< of the last period
   std::vector<double> cuts_s_;  ///< times inside carrier periods at which a stretch must end
   std::size_t next_cut_ = 0;
   Sampler sampler_;

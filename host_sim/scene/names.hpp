@@ -77,6 +77,11 @@ inline constexpr std::array<Named<Waveform>, 4> waveforms = {{
     {"sawtooth", Waveform::sawtooth},
 }};
 
+inline constexpr std::array<Named<Interpolation>, 2> interpolations = {{
+    {"step", Interpolation::step},
+    {"linear", Interpolation::linear},
+}};
+
 /// The word for a value; every value of these enumerations has one.
 template <class Value, std::size_t Count>
 constexpr std::string_view name_of(const std::array<Named<Value>, Count>& names, Value value) {

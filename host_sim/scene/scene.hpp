@@ -74,6 +74,10 @@ struct Sliding {
 /// triangle falls to -A at half a period and rises again, the sawtooth falls over the whole period.
 enum class Waveform { cosine, square, triangle, sawtooth };
 
+/// How the amplitude passes, at a phase 0, from that of one carrier period to that of the next: at
+/// once, or linearly over the period that begins there.
+enum class Interpolation { step, linear };
+
 /// Piezo force of amplitude A; A is fixed in open loop, the controller's in closed loop. A drive is
 /// given by its force or by its voltage into a transducer; Scene::drive_force_N() adds up the two.
 struct Drive {
@@ -90,6 +94,12 @@ struct Drive {
   Waveform waveform = Waveform::cosine;
   /// Closed loop: from the end of a sampled period to where its answer acts.
   int delay_periods = 1;
+  Interpolation interpolation = Interpolation::step;  ///< closed loop
+  /// Linear: 1, a true ramp; n > 1, a staircase of n equal parts of the period, each with the
+  /// amplitude that the ramp has in its middle.
+  int codes_per_period = 1;
+  /// Closed loop: largest force that is constant over a carrier period; 0: none.
+  double bias_limit_N = 0.0;
 
   /// The nearest multiple of the resolution, at least one; without a resolution the frequency itself.
   double nearest_frequency_Hz(double asked_Hz) const;

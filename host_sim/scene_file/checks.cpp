@@ -60,6 +60,16 @@ void settle_frequency(const TableCursor& cursor, scene::Drive& drive) {
   drive.frequency_Hz = drive.nearest_frequency_Hz(drive.frequency_Hz);
 }
 
+/// A carrier period falls into whole bits of it.
+void require_binary_parts(const TableCursor& cursor, int codes_per_period) {
+  if (codes_per_period != 1 && codes_per_period != 2 && codes_per_period != 4 &&
+      codes_per_period != 8) {
+    cursor.fail(
+        "codes_per_period",
+        fmt::format("{} does not halve a carrier period; allowed: 1, 2, 4, 8", codes_per_period));
+  }
+}
+
 void check_friction(const TableCursor& cursor, const Variant& /*variant*/, scene::Scene& scene) {
   for (const scene::ContactValues& contact : extreme_contacts(scene.friction)) {
     for (const OwnKeyRefusal& each : own_keys(scene.friction.law, contact).refusals) {
@@ -75,6 +85,7 @@ void check_sliding(const TableCursor& cursor, const Variant& /*variant*/, scene:
 
 void check_drive(const TableCursor& cursor, const Variant& /*variant*/, scene::Scene& scene) {
   settle_frequency(cursor, *scene.drive);
+  require_binary_parts(cursor, scene.drive->codes_per_period);
   if (scene.transducer) {
     require_cosine(cursor, scene.drive->waveform);
   }

@@ -84,8 +84,12 @@ std::vector<KeyTable> plain_tables() {
 }
 
 /// Of these the controller alone knows: the plant has no other value of them.
-constexpr std::array settings = {"drive.frequency_resolution_Hz", "drive.max_current_amplitude_A",
-                                 "drive.max_force_slew_N_per_s", "sensor.force_full_scale_N",
+constexpr std::array settings = {"drive.frequency_resolution_Hz",
+                                 "drive.codes_per_period",
+                                 "drive.bias_limit_N",
+                                 "drive.max_current_amplitude_A",
+                                 "drive.max_force_slew_N_per_s",
+                                 "sensor.force_full_scale_N",
                                  "sensor.vibration_full_scale_m_per_s"};
 
 /// An integer that a double holds.

@@ -66,6 +66,12 @@ void check_damping(const TableCursor& drive, const scene::Drive& values) {
                                        "allowed: \"cosine\"",
                                        scene::name_of(scene::waveforms, values.waveform)));
   }
+  if (values.interpolation != scene::Interpolation::step) {
+    drive.fail("interpolation",
+               "\"linear\" is not for controller.vibration = \"damped\", whose "
+               "observer foresees amplitudes that change at once; allowed: "
+               "\"step\"");
+  }
 }
 
 /// What a loop that holds the vibration does not take.

@@ -190,6 +190,24 @@ std::vector<Key> drive_keys() {
        "carrier periods from the end of a sampled period to the phase 0 at which the command that "
        "answers it acts; 0: a board that computes in no time",
        closed_loop},
+      {"interpolation",
+       choice<scene::interpolations, &scene::Scene::drive, &Drive::interpolation>(),
+       Word{words_of(scene::interpolations)},
+       scene::name_of(scene::interpolations, drive.interpolation),
+       "how the amplitude passes from one carrier period to the next. step: at once, at phase 0. "
+       "linear: along a straight line over the period that begins there",
+       closed_loop + uses::cosine_drive},
+      {"codes_per_period", of_drive<&Drive::codes_per_period>, Integer{1, 8},
+       static_cast<double>(drive.codes_per_period),
+       "amplitudes that the actuator takes in a carrier period: 1, 2, 4 or 8. 1: the line itself; "
+       "more: a staircase of as many equal parts, each with the amplitude of the line in its "
+       "middle",
+       closed_loop + uses::linear_interpolation},
+      {"bias_limit_N", OrZero{of_drive<&Drive::bias_limit_N>}, Number{force_range},
+       drive.bias_limit_N,
+       "limit of the actuator: largest force that is constant over a carrier period, beside the "
+       "carrier; 0: none",
+       closed_loop + uses::cosine_drive + uses::no_transducer},
   };
 }
 

@@ -81,10 +81,23 @@ inline const Uses in_volts = {
            scene.controller ? "max_force_amplitude_N" : "force_amplitude_N");
      },
      "", true}};
+inline const Uses no_transducer = {
+    {"without [transducer]", has_no_transducer, "with a [transducer]"}};
 inline const Uses given_start = {
     {"run.start = \"given\"",
      [](const Scene& scene) { return scene.run.start == scene::Start::given; },
      "with run.start = \"steady\"", nullptr, "run"}};
+inline const Uses cosine_drive = {
+    {"drive.waveform = \"cosine\"",
+     [](const Scene& scene) { return scene.drive->waveform == scene::Waveform::cosine; }, "",
+     [](const Scene& scene) {
+       return fmt::format("with drive.waveform = \"{}\"",
+                          scene::name_of(scene::waveforms, scene.drive->waveform));
+     }}};
+inline const Uses linear_interpolation = {
+    {"drive.interpolation = \"linear\"",
+     [](const Scene& scene) { return scene.drive->interpolation == scene::Interpolation::linear; },
+     "without drive.interpolation = \"linear\""}};
 /// An empty list switches the recording off in place: what it uses may stay.
 inline const Uses recording = {
     {"run.record", [](const Scene& scene) { return !scene.run.record.empty(); }, ""}};

@@ -11,16 +11,19 @@
 
 namespace sonoglide::loop {
 
-/// A stretch of time with one drive amplitude and a linear sliding velocity that keeps its sign.
+/// A stretch of time in which amplitude and sliding velocity are linear, and the latter keeps its
+/// sign. The drive is (drive_amplitude_N + drive_slope_N_per_rad θ) cos θ + drive_bias_N, θ its phase.
 struct Stretch {
   double duration_s = 0.0;
-  double drive_phase_rad = 0.0;       ///< at its beginning, in [0, 2π)
-  double drive_rate_rad_per_s = 0.0;  ///< 2π f; 0 without a drive
-  double drive_amplitude_N = 0.0;
+  double drive_phase_rad = 0.0;           ///< at its beginning, in [0, 2π)
+  double drive_rate_rad_per_s = 0.0;      ///< 2π f; 0 without a drive
+  double drive_amplitude_N = 0.0;         ///< at phase 0
   double sliding_velocity_m_per_s = 0.0;  ///< at its beginning
   double sliding_acceleration_m_per_s2 = 0.0;
   /// The stretch lies within one straight piece of it.
   scene::Waveform drive_waveform = scene::Waveform::cosine;
+  double drive_slope_N_per_rad = 0.0;  ///< of a cosine alone, as the next
+  double drive_bias_N = 0.0;
   double begin_s = 0.0;        ///< since the run began: what changes in time is looked up by it
   bool demodulated = false;    ///< the account is to have velocity_in_phase_m and its quadrature
   bool energies = true;        ///< false: what depends on them is left open

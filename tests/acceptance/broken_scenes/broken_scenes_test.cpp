@@ -359,6 +359,9 @@ const std::vector<BrokenScene> broken_scenes = {
     {"damped_under_a_square_wave", damped_loop, "[run]", "waveform = \"square\"\n[run]",
      "14:12: drive.waveform: \"square\" is not for controller.vibration = \"damped\"; allowed: "
      "\"cosine\""},
+    {"damped_under_a_ramp", damped_loop, "[run]", "interpolation = \"linear\"\n[run]",
+     "14:17: drive.interpolation: \"linear\" is not for controller.vibration = \"damped\", whose "
+     "observer foresees amplitudes that change at once; allowed: \"step\""},
     {"damped_force_factor_of_a_force", damped_loop, "vibration = \"velocity\"\n",
      "vibration = \"velocity\"\n[model_error]\nforce_factor = 1.1\n",
      "23:1: model_error.force_factor: not used without a [transducer]; remove it"},
@@ -487,6 +490,20 @@ const std::vector<BrokenScene> broken_scenes = {
      "max_force_amplitude_N = 1920\n[solver]",
      "14:1: drive.max_force_amplitude_N: not used in open loop, without a [controller] table; "
      "remove it"},
+    {"open_loop_has_one_amplitude", open_loop, "[solver]", "interpolation = \"linear\"\n[solver]",
+     "14:1: drive.interpolation: not used in open loop, without a [controller] table; remove it"},
+    {"linear_under_a_square_wave", closed_loop, "max_force_amplitude_N = 1920",
+     "max_force_amplitude_N = 1920\nwaveform = \"square\"\ninterpolation = \"linear\"",
+     "14:1: drive.interpolation: not used with drive.waveform = \"square\"; remove it"},
+    {"codes_that_step", closed_loop, "max_force_amplitude_N = 1920",
+     "max_force_amplitude_N = 1920\ncodes_per_period = 4",
+     "13:1: drive.codes_per_period: not used without drive.interpolation = \"linear\"; remove it"},
+    {"three_codes", closed_loop, "max_force_amplitude_N = 1920",
+     "max_force_amplitude_N = 1920\ninterpolation = \"linear\"\ncodes_per_period = 3",
+     "14:20: drive.codes_per_period: 3 does not halve a carrier period; allowed: 1, 2, 4, 8"},
+    {"bias_under_a_triangle", closed_loop, "max_force_amplitude_N = 1920",
+     "max_force_amplitude_N = 1920\nwaveform = \"triangle\"\nbias_limit_N = 3",
+     "14:1: drive.bias_limit_N: not used with drive.waveform = \"triangle\"; remove it"},
     {"open_loop_has_no_slew_limit", open_loop, "[solver]", "max_force_slew_N_per_s = 1e6\n[solver]",
      "14:1: drive.max_force_slew_N_per_s: not used in open loop, without a [controller] table; "
      "remove it"},

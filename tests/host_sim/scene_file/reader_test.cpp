@@ -100,6 +100,9 @@ TEST(ReaderTest, EveryKeyOfOpenLoop) {
 TEST(ReaderTest, DefaultsOfClosedLoop) {
   const scene::Scene scene = read_text(shortest_closed_loop, "s");
   EXPECT_FALSE(scene.drive->max_force_slew_N_per_s.has_value());
+  EXPECT_EQ(scene.drive->interpolation, scene::Interpolation::step);
+  EXPECT_EQ(scene.drive->codes_per_period, 1);
+  EXPECT_EQ(scene.drive->bias_limit_N, 0.0);
   EXPECT_EQ(scene.run.settling_band, 0.01);
   ASSERT_TRUE(scene.controller.has_value());
   EXPECT_EQ(experiment::read_text(shortest_closed_loop, "s").plant.controller->calibration_s, 0.0);
@@ -163,6 +166,9 @@ TEST(ReaderTest, EveryKeyOfClosedLoop) {
   EXPECT_EQ(scene.sliding.profile.front().velocity_m_per_s, -0.0267);
   EXPECT_EQ(scene.drive->max_force_amplitude_N, 1920.0);
   EXPECT_EQ(scene.drive->max_force_slew_N_per_s, 1e8);
+  EXPECT_EQ(scene.drive->interpolation, scene::Interpolation::linear);
+  EXPECT_EQ(scene.drive->codes_per_period, 4);
+  EXPECT_EQ(scene.drive->bias_limit_N, 5.0);
   EXPECT_EQ(scene.solver.tolerance, 1e-12);
   EXPECT_EQ(scene.solver.order, 16);
   EXPECT_EQ(scene.run.duration_s, 4e-3);

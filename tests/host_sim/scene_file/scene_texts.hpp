@@ -267,6 +267,9 @@ velocity_m_per_s = -0.0267
 frequency_Hz = 60e3
 max_force_amplitude_N = 1920
 max_force_slew_N_per_s = 1e8
+interpolation = "linear"
+codes_per_period = 4
+bias_limit_N = 5
 [solver]
 method = "event_taylor"
 tolerance = 1e-12
