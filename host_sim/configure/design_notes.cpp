@@ -60,8 +60,43 @@ void add_stiffness_note(const SensorlessDesign& design, std::vector<std::string>
           : "may then be within 0.06 carrier frequencies of zero or of a multiple of the carrier"));
 }
 
+std::string left_text(const FeedforwardDesign& mode) {
+  if (mode.left == 0.0) {
+    return "A change of the amplitude leaves no free vibration.";
+  }
+  const std::string where =
+      mode.frequency_range > 0.0
+          ? fmt::format(" where the natural frequency is off by up to {:.2g} %",
+                        100.0 * mode.frequency_range)
+          : std::string();
+  return fmt::format(
+      "A change of the amplitude leaves a free vibration of up to {:.2g} % of its forced one{}; from "
+      "rest to a target the friction ratio then swings by up to ±{:.2g}.",
+      100.0 * mode.left, where, mode.ratio_swing);
+}
+
+/// What keeps the mode quiet where the amplitude passes linearly, and what is left.
+void add_ramp_note(const FeedforwardDesign& mode, std::vector<std::string>& notes) {
+  if (!mode.ramped || mode.quieting == Quieting::nothing) {
+    return;
+  }
+  const std::string notch = mode.notch ? fmt::format("a notch of {} taps over {} carrier periods",
+                                                     mode.notch->tap_count, mode.notch->span())
+                                       : std::string();
+  if (mode.quieting == Quieting::notch) {
+    notes.push_back(fmt::format(
+        "The natural mode is kept quiet by {}. {} Here a linear change of the amplitude leaves more "
+        "than half of what a jump does: drive.interpolation = \"step\" is as good.",
+        notch, left_text(mode)));
+    return;
+  }
+  notes.push_back(fmt::format("The natural mode is kept quiet by the ramp of the drive{}{}. {}",
+                              mode.notch ? " and " : " alone", notch, left_text(mode)));
+}
+
 void add_notes(const FeedforwardDesign& mode, const ControlDesign& design,
                std::vector<std::string>& notes) {
+  add_ramp_note(mode, notes);
   if (mode.free_mode) {
     notes.push_back(
         fmt::format("The natural mode has no notch: each change of the drive makes it ring. The "
@@ -81,8 +116,9 @@ void add_notes(const FeedforwardDesign& mode, const ControlDesign& design,
   if (mode.missing_damping_N_s_per_m > 0.0) {
     constexpr double never_rounded_down = 1.005;  // to three digits
     notes.push_back(fmt::format(
-        "The natural mode hardly decays. Feedback may then amplify the ringing that the robust notch "
+        "The natural mode hardly decays. Feedback may then amplify the ringing that the {} "
         "leaves, over thousands of carrier periods, even if the stiffness is known exactly. A plant.damping_N_s_per_m of {:.3g} or more prevents it.",
+        mode.ramped ? mode.notch ? "ramp and the notch" : "ramp" : "robust notch",
         never_rounded_down * mode.missing_damping_N_s_per_m));
   }
 }

@@ -7,15 +7,21 @@
 #include "firmware/numeric/float_elementary.hpp"
 #include "firmware/numeric/turn.hpp"
 #include "host_sim/configure/design_periods.hpp"
+#include "host_sim/configure/vibration/ramp_design.hpp"
 
 namespace sonoglide::configure {
 namespace {
 
-/// How far the natural frequency may be off; 0 where the scene takes it as known, or has no notch.
-double shaping_range(const scene::Scene& scene) {
-  return scene.controller->shaping == scene::Shaping::robust
-             ? scene.controller->shaping_range.value_or(default_shaping_range(scene.tolerances))
-             : 0.0;
+/// Of a drive whose amplitude jumps.
+FeedforwardDesign design_stepped(const scene::Scene& scene, const NaturalMode& mode) {
+  FeedforwardDesign found;
+  found.shaping_range = shaping_range(scene);
+  if (scene.controller->shaping != scene::Shaping::none) {
+    found.notch = found.shaping_range > 0.0 ? design_robust_notch(mode, found.shaping_range)
+                                            : design_notch(mode);
+  }
+  found.quieting = found.notch ? Quieting::notch : Quieting::nothing;
+  return found;
 }
 
 /// A natural mode that nothing notches out answers every change of the command, and feedback excites
@@ -30,12 +36,12 @@ double gain_beside_free_mode(const scene::Scene& scene, const NaturalMode& mode)
              : std::min(slow, part_of_decay * (1.0 - mode.decay));
 }
 
-/// Feedback drives what a notch leaves of the free mode, to grow or to decay as the delays of the
-/// loop have it, and at a rate below a quarter of gain times ripple per carrier period (an eighth
-/// was seen at Table 1, at the worst of several delays).
-double missing_damping_N_s_per_m(const NotchDesign& notch, const NaturalMode& mode, double mass_kg,
+/// Feedback drives what a notch or a ramp leaves of the free mode, to grow or to decay as the delays
+/// of the loop have it, and at a rate below a quarter of gain times ripple per carrier period (an
+/// eighth was seen at Table 1, at the worst of several delays).
+double missing_damping_N_s_per_m(double ripple, const NaturalMode& mode, double mass_kg,
                                  const ControlDesign& design) {
-  const double growth = 0.25 * design.integral_gain * notch.ripple;
+  const double growth = 0.25 * design.integral_gain * ripple;
   return growth > 1.0 - mode.decay ? 2.0 * mass_kg * growth / design.scales.carrier_period_s : 0.0;
 }
 
@@ -56,28 +62,32 @@ void set_waiting(double delay, double filter, ControlDesign& design) {
 
 }  // namespace
 
+double shaping_range(const scene::Scene& scene) {
+  return scene.controller->shaping == scene::Shaping::robust
+             ? scene.controller->shaping_range.value_or(default_shaping_range(scene.tolerances))
+             : 0.0;
+}
+
 FeedforwardDesign design_feedforward(const scene::Scene& scene, const NominalPlant& plant,
                                      ControlDesign& design) {
   const NaturalMode mode = natural_mode(plant, design.scales.carrier_period_s);
-  FeedforwardDesign found;
-  found.shaping_range = shaping_range(scene);
-  if (scene.controller->shaping != scene::Shaping::none) {
-    found.notch = found.shaping_range > 0.0 ? design_robust_notch(mode, found.shaping_range)
-                                            : design_notch(mode);
-  }
-  found.free_mode = mode.rotation > 0.0 && !found.notch;
+  FeedforwardDesign found = scene.drive->interpolation == scene::Interpolation::linear
+                                ? design_ramped(scene, plant, design)
+                                : design_stepped(scene, mode);
+  const bool quiet =
+      found.notch || (found.quieting == Quieting::ramp && !scene.controller->shaping);
+  found.free_mode = mode.rotation > 0.0 && !quiet;
   const double filter = filter_periods(scene, design.scales);
-  const double shaping = found.notch ? found.notch->span() : 0.0;
+  const double shaping = found.changing_periods();
   // From a command to the reading that shows it.
   const double latency = latency_periods(scene);
   const double delay = latency + shaping + filter;
   const double behind_delay = gain_behind_delay(delay);
   design.integral_gain =
       found.free_mode ? std::min(behind_delay, gain_beside_free_mode(scene, mode)) : behind_delay;
-  if (found.notch) {
-    found.missing_damping_N_s_per_m =
-        missing_damping_N_s_per_m(*found.notch, mode, plant.mass_kg, design);
-  }
+  const double ripple = found.notch ? found.notch->ripple : 0.0;
+  found.missing_damping_N_s_per_m = missing_damping_N_s_per_m(
+      found.ramped && quiet ? found.left : ripple, mode, plant.mass_kg, design);
   set_waiting(delay, filter, design);
   design.reference_delay_periods = static_cast<std::uint8_t>(latency + 0.5 * shaping);
   design.reference_keep = filter / (1.0 + filter);

@@ -180,7 +180,8 @@ struct Controller {
   std::optional<FrequencyRange> frequency_range_Hz;  ///< resonant; absent: the default
   std::vector<TargetStep> target_friction_ratio;
   std::optional<double> calibration_s;  ///< absent: what suits the design, or 0
-  Shaping shaping = Shaping::notch;
+  /// Absent: of a drive whose amplitude passes linearly, what suits the design.
+  std::optional<Shaping> shaping = Shaping::notch;
   std::optional<double> shaping_range;        ///< robust: of the natural frequency, relative
   std::optional<double> speed_floor_m_per_s;  ///< absent: the controller's own default
   double standstill_hold_s = 0.02;            ///< for which the drive is held below the speed floor

@@ -123,7 +123,10 @@ void check_controller(const TableCursor& cursor, const Variant& variant, scene::
                     "with coefficient and normal_force_N above 0{}",
                     scene.friction.has_profile() ? " at 0 s" : ""));
   }
-  const scene::Controller& controller = *scene.controller;
+  scene::Controller& controller = *scene.controller;
+  if (scene.drive->interpolation == scene::Interpolation::linear && !cursor.has("shaping")) {
+    controller.shaping.reset();
+  }
   const double first_s = controller.target_friction_ratio.front().time_s;
   if (first_s != 0.0) {
     cursor.fail("target_friction_ratio",

@@ -157,7 +157,10 @@ std::vector<Key> controller_keys() {
        "the scene's",
        uses::force_sensor},
       {"shaping", choice<scene::shapings, &scene::Scene::controller, &Controller::shaping>(),
-       Word{words_of(scene::shapings)}, scene::name_of(scene::shapings, controller.shaping),
+       Word{words_of(scene::shapings)},
+       Rule{
+           "notch; with drive.interpolation = \"linear\" a notch, of three taps or five, only where "
+           "the ramp of the drive leaves too much and the notch helps"},
        "filter between target and drive. notch: cancels the ringing of the natural mode. robust: "
        "the same for a mode that is only known within shaping_range",
        uses::no_observed_vibration},

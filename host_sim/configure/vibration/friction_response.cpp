@@ -157,6 +157,23 @@ FrictionResponse friction_response(const VibratedContact& contact) {
   return contact.dahl_number < stiffest ? dahl_response(contact) : coulomb_response(contact);
 }
 
+double ratio_swing(const VibratedContact& contact, double turn) {
+  const FrictionResponse response = friction_response(contact);
+  Complex own;
+  Complex next;
+  for (std::size_t i = 0; i < response.time.size(); ++i) {
+    const Complex velocity = exponential({0.0, turn * response.time[i]});
+    own += response.own[i] * velocity;
+    next += response.next[i] * velocity;
+  }
+  const Complex before = exponential({0.0, -turn});
+  // The friction turns over twice a period, at the slope 2π √(1 − r²) of the velocity.
+  const double slope =
+      0.5 * two_pi * numeric::sqrt(1.0 - contact.velocity_ratio * contact.velocity_ratio);
+  return std::abs(own + next * before / (1.0 - response.memory * before)) /
+         (contact.dahl_number < stiffest ? 1.0 : slope);
+}
+
 ReadingResponse reading_response(const VibratedContact& contact, std::complex<double> rate,
                                  const ReadingChain& chain) {
   const FrictionResponse response = friction_response(contact);

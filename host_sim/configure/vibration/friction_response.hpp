@@ -31,6 +31,11 @@ struct FrictionResponse {
 
 FrictionResponse friction_response(const VibratedContact& contact);
 
+/// Half the swing of the mean friction of a carrier period, over Fc, under a small free vibration whose
+/// velocity has the amplitude of 1, in multiples of the peak vibration velocity.
+/// @param turn  by which it turns in a carrier period, rad
+double ratio_swing(const VibratedContact& contact, double turn);
+
 /// A sensor of the mean friction: ρ' = fade ρ + fresh F + old F₋₁, and what takes its lag and that of
 /// the contact away again (control::LaggingReading).
 struct ReadingChain {

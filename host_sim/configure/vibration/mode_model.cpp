@@ -43,15 +43,56 @@ Matrix riccati(Matrix a, Matrix b_squared, const Matrix& q) {
   return x;
 }
 
+constexpr double omega = numeric::two_pi;
+
+/// λ of the free motion.
+Complex rate_of(const Resonator& resonator) {
+  const double decay = 0.5 * resonator.damping;
+  return {-decay, numeric::sqrt(resonator.stiffness - decay * decay)};
+}
+
+/// X of the steady vibration Re(X e^{jωt}) at full drive.
+Complex forced_displacement(const Resonator& resonator) {
+  return resonator.push / Complex(resonator.stiffness - omega * omega, resonator.damping * omega);
+}
+
+/// Mean of exp(rate t) over the changes of the amplitude within a carrier period.
+Complex mean_over_changes(Complex rate, int parts) {
+  if (parts == 1) {
+    return mean_of_exponential(rate);
+  }
+  // The first and the last change are half of the others.
+  Complex sum = 0.5 * (1.0 + exponential(rate));
+  for (int i = 1; i < parts; ++i) {
+    sum += exponential(rate * (static_cast<double>(i) / parts));
+  }
+  return sum / static_cast<double>(parts);
+}
+
 }  // namespace
 
+double ramp_kick(const Resonator& resonator, int parts) {
+  const Complex rate = rate_of(resonator);
+  // The free motion that takes a displacement with its velocity away.
+  const auto kick = [&](Complex displacement, Complex velocity) {
+    return -(velocity +
+             j * (resonator.stiffness * displacement - rate.real() * velocity) / rate.imag());
+  };
+  const Complex displacement = 0.5 * forced_displacement(resonator);
+  const Complex velocity = j * omega * displacement;
+  // Those of a jump at t turn with the carrier: along e^{jωt} the one, the other against it.
+  const Complex along = kick(displacement, velocity);
+  const Complex against = kick(std::conj(displacement), std::conj(velocity));
+  return std::abs(along * mean_over_changes(j * omega - rate, parts) +
+                  against * mean_over_changes(-j * omega - rate, parts)) /
+         std::abs(along + against);
+}
+
 ModeModel mode_model(const Resonator& resonator) {
-  const double omega = numeric::two_pi;
-  const double decay = 0.5 * resonator.damping;
-  const double rotation = numeric::sqrt(resonator.stiffness - decay * decay);
-  const Complex rate{-decay, rotation};
-  const Complex displacement =
-      resonator.push / Complex(resonator.stiffness - omega * omega, resonator.damping * omega);
+  const Complex rate = rate_of(resonator);
+  const double decay = -rate.real();
+  const double rotation = rate.imag();
+  const Complex displacement = forced_displacement(resonator);
   // The free motion begins where the steady one, changed, would have to be.
   const double x = displacement.real();
   const double v = -omega * displacement.imag();

@@ -29,6 +29,17 @@ struct ModeModel {
 /// @param resonator  with a natural mode: damping²/4 < stiffness; not undamped on the carrier
 ModeModel mode_model(const Resonator& resonator);
 
+/// What a change of the amplitude adds to the free motion when it does not come at once: magnitude over
+/// that of a jump at phase 0, as they are at the end of the carrier period. A jump at phase φ kicks an
+/// undamped mode by
+///   K(φ) = ½(1 + 1/a) e^{j(1−a)φ} + ½(1 − 1/a) e^{−j(1+a)φ},   a = ωn/ω,
+/// and a linear change over the period by the mean of K, which is 0 at every whole a from 2 on.
+///
+/// @param resonator  as of mode_model()
+/// @param parts      1: linear; n > 1: a staircase of n equal parts of the period, each with the
+///                   amplitude of the line in its middle
+double ramp_kick(const Resonator& resonator, int parts);
+
 /// The mode turns by at least 0.4 radians in a period: one that turns less, next to a multiple of
 /// the carrier, is moved by where the amplitude is and hardly by the way there.
 bool is_quick(const ModeModel& model);

@@ -159,13 +159,15 @@ std::optional<NotchDesign> design_robust_notch(const NaturalMode& mode, double r
   return best;
 }
 
+double notch_ripple_at(const NotchDesign& notch, const NaturalMode& mode, double factor) {
+  return left_over(notch, power(mode.decay, notch.spacing), mode.rotation * notch.spacing * factor);
+}
+
 double notch_ripple(const NotchDesign& notch, const NaturalMode& mode, double range) {
   constexpr int points = 32;  // on either side
-  const double decay = power(mode.decay, notch.spacing);
   double largest = 0.0;
   for (int i = -points; i <= points; ++i) {
-    const double angle = mode.rotation * notch.spacing * (1.0 + range * i / points);
-    largest = std::max(largest, left_over(notch, decay, angle));
+    largest = std::max(largest, notch_ripple_at(notch, mode, 1.0 + range * i / points));
   }
   return largest;
 }
@@ -210,12 +212,16 @@ Factors factors_of(const std::vector<scene::Tolerance>& tolerances, std::string_
 
 }  // namespace
 
-double default_shaping_range(const std::vector<scene::Tolerance>& tolerances) {
-  constexpr double stiffness_off_by_a_fifth = 0.1;
+double natural_frequency_range(const std::vector<scene::Tolerance>& tolerances) {
   const Factors stiffness = factors_of(tolerances, "plant.stiffness_N_per_m");
   const Factors mass = factors_of(tolerances, "plant.mass_kg");
-  const double range = std::max(numeric::sqrt(stiffness.most / mass.least) - 1.0,
-                                1.0 - numeric::sqrt(stiffness.least / mass.most));
+  return std::max(numeric::sqrt(stiffness.most / mass.least) - 1.0,
+                  1.0 - numeric::sqrt(stiffness.least / mass.most));
+}
+
+double default_shaping_range(const std::vector<scene::Tolerance>& tolerances) {
+  constexpr double stiffness_off_by_a_fifth = 0.1;
+  const double range = natural_frequency_range(tolerances);
   return range > 0.0 ? std::clamp(range, scene::least_shaping_range, scene::most_shaping_range)
                      : stiffness_off_by_a_fifth;
 }

@@ -39,14 +39,32 @@ struct NotchDesign {
   int span() const { return static_cast<int>(tap_count - 1) * spacing; }
 };
 
+/// What keeps the natural mode quiet while a drive that is fed forward changes its amplitude.
+enum class Quieting {
+  nothing,
+  notch,  ///< alone: a ramp of the drive, where there is one, leaves half of a jump's kick or more
+  ramp,   ///< the amplitude's way from one period to the next
+  ramp_and_notch,
+};
+
 struct FeedforwardDesign {
   std::optional<NotchDesign> notch;
+  Quieting quieting = Quieting::nothing;
+  bool ramped = false;  ///< the amplitude passes linearly over a carrier period
+  /// How far the natural frequency may be off, relative, of a ramped drive: default_shaping_range()
+  /// where tolerances tell it, else what [model_error] has; 0: it is taken as known.
+  double frequency_range = 0.0;
+  /// Of a ramped drive: the largest free vibration within that range that a change of the amplitude
+  /// leaves behind, over its forced vibration, in displacement; and half the swing of the friction
+  /// ratio that follows where the amplitude rises from 0 to that of a target, of the worst one.
+  double left = 0.0;
+  double ratio_swing = 0.0;
   double shaping_range = 0.0;  ///< by which the natural frequency may be off; 0: known exactly
   bool free_mode = false;      ///< the plant has a natural mode that no notch takes care of
   /// With which feedback cannot build up what the notch leaves; 0: the mode has as much.
   double missing_damping_N_s_per_m = 0.0;
 
-  double changing_periods() const { return notch ? notch->span() : 0.0; }
+  double changing_periods() const { return (notch ? notch->span() : 0) + (ramped ? 1.0 : 0.0); }
   static constexpr double building_up_periods() { return 0.0; }
   static constexpr bool tells_mismatch() { return true; }
 };
@@ -72,13 +90,20 @@ std::optional<NotchDesign> design_robust_notch(const NaturalMode& mode, double r
 /// frequency of the mode is off by up to `range`, relative; seen at 65 frequencies.
 double notch_ripple(const NotchDesign& notch, const NaturalMode& mode, double range);
 
+/// The part of the free motion of a step that is left at the end of the notch where the natural
+/// frequency is this factor of that of the mode.
+double notch_ripple_at(const NotchDesign& notch, const NaturalMode& mode, double factor);
+
 /// The taps in units of 2^-fraction_digits, each of them below 1. Their sum is 1 exactly, and no
 /// partial sum leaves [0, 1]. Error: at most one and a half units.
 NotchTaps rounded_taps(const NotchDesign& notch, int fraction_digits);
 
-/// Of a robust notch whose scene does not give one: how far the natural frequency √(Ks/m) may be
-/// off, relative, within the tolerances of stiffness and mass: to the ends of a half width or a
-/// range, to three standard deviations of a normal. Limited to what the key allows.
+/// How far the natural frequency √(Ks/m) may be off, relative, within the tolerances of stiffness
+/// and mass: to the ends of a half width or a range, to three standard deviations of a normal; 0
+/// where neither has a tolerance.
+double natural_frequency_range(const std::vector<scene::Tolerance>& tolerances);
+
+/// Of a robust notch whose scene does not give one: the same, limited to what the key allows.
 /// @return 0.1, for a stiffness that is 20 % off, where neither has a tolerance
 double default_shaping_range(const std::vector<scene::Tolerance>& tolerances);
 

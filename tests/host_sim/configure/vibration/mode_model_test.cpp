@@ -87,6 +87,64 @@ TEST(ModeModelTest, KnowsTheMeanSquareOfTheFreeVelocity) {
   }
 }
 
+/// Amplitude of the drive on its way from 0 to 1.
+double amplitude_at(double t, int parts) {
+  return parts == 1 ? t : (std::floor(t * parts) + 0.5) / parts;
+}
+
+/// The free velocity (as in ModeModel) at the end of the period in which the amplitude comes to 1: an
+/// integration less the forced motion.
+std::complex<double> free_after(const Resonator& resonator, int parts) {
+  namespace odeint = boost::numeric::odeint;
+  using Motion = std::array<double, 2>;
+  Motion motion{};
+  const auto stepper =
+      odeint::make_controlled<odeint::runge_kutta_fehlberg78<Motion>>(1e-13, 1e-13);
+  for (int part = 0; part < parts; ++part) {
+    const double begin = static_cast<double>(part) / parts;
+    const auto slope = [&](const Motion& x, Motion& dx, double t) {
+      const double amplitude = parts == 1 ? t : amplitude_at(begin, parts);
+      dx[0] = x[1];
+      dx[1] = resonator.push * amplitude * std::cos(two_pi * t) - resonator.stiffness * x[0] -
+              resonator.damping * x[1];
+    };
+    odeint::integrate_adaptive(stepper, slope, motion, begin, begin + 1.0 / parts, 1e-3);
+  }
+  const std::complex<double> forced =
+      resonator.push /
+      std::complex<double>(resonator.stiffness - two_pi * two_pi, resonator.damping * two_pi);
+  const double x = motion[0] - forced.real();
+  const double v = motion[1] + two_pi * forced.imag();
+  const double sigma = 0.5 * resonator.damping;
+  const double rotation = std::sqrt(resonator.stiffness - sigma * sigma);
+  return {v, (resonator.stiffness * x + sigma * v) / rotation};
+}
+
+TEST(ModeModelTest, ARampKicksAsAnIntegrationShows) {
+  for (const double mode : {0.2163, 0.9, 1.9, 2.5, 3.02}) {
+    for (const double damping_ratio : {0.0, 0.02}) {
+      const Resonator given = resonator(mode, damping_ratio);
+      const ModeModel model = mode_model(given);
+      const double jump = (model.rotation * model.input_gain).norm();
+      for (const int parts : {1, 2, 4, 8}) {
+        EXPECT_NEAR(ramp_kick(given, parts), std::abs(free_after(given, parts)) / jump, 1e-9)
+            << mode << ' ' << damping_ratio << ' ' << parts;
+      }
+    }
+  }
+}
+
+TEST(ModeModelTest, ARampOfAnUndampedModeKicksByTheClosedForm) {
+  for (const double a : {0.47, 0.9, 1.5, 1.9, 1.98, 2.01, 2.064, 2.5, 2.98, 3.5, 3.85, 4.003}) {
+    const double mean =
+        std::abs(std::sin(tests::pi * a)) * (1.0 + a * a) / (tests::pi * a * std::abs(1.0 - a * a));
+    EXPECT_NEAR(ramp_kick(resonator(a, 0.0), 1), mean, 1e-12) << a;
+  }
+  for (const double whole : {2.0, 3.0, 4.0}) {
+    EXPECT_LT(ramp_kick(resonator(whole, 0.0), 1), 1e-14);
+  }
+}
+
 TEST(ModeModelTest, ItsObserverIsTheKalmanFilterOf128Periods) {
   const ModeModel model = mode_model(resonator(0.7, 0.001));
   constexpr double process = 1e-6;

@@ -1,0 +1,158 @@
+#include "host_sim/configure/vibration/ramp_design.hpp"
+
+#include <algorithm>
+#include <optional>
+
+#include "firmware/numeric/float_elementary.hpp"
+#include "firmware/numeric/turn.hpp"
+#include "host_sim/configure/design_steps.hpp"
+#include "host_sim/configure/plant_scales.hpp"
+#include "host_sim/configure/vibration/mode_model.hpp"
+#include "host_sim/configure/vibration/sensorless_reading.hpp"
+
+namespace sonoglide::configure {
+namespace {
+
+/// The natural frequency that is believed is off by the root of what stiffness over mass is off by.
+double believed_range(const scene::Scene& scene) {
+  const double by_tolerance = natural_frequency_range(scene.tolerances);
+  const double factor = numeric::sqrt(scene.model_error.stiffness / scene.model_error.mass);
+  const double by_error = std::max(factor, 1.0 / factor) - 1.0;
+  return std::min(by_tolerance > 0.0 ? by_tolerance : by_error, scene::most_shaping_range);
+}
+
+/// Half the swing of the friction ratio, of the target that swings most, under a free vibration as
+/// large as the forced one in displacement.
+double largest_swing(const scene::Scene& scene, const NominalPlant& plant,
+                     const ControlDesign& design, double rotation) {
+  constexpr double barely_sliding = 0.95;  // velocity ratio: beyond it a swing is not small
+  const double sliding_m_per_s = fastest_sliding_m_per_s(scene.sliding);
+  const FrictionReading reading = friction_reading(scene, plant, design.scales.velocity_m_per_s);
+  const VibrationMap map = design.vibration_map(design.friction_force * design.scales.force_N);
+  double largest = 0.0;
+  for (const scene::TargetStep& step : scene.controller->target_friction_ratio) {
+    const double velocity_m_per_s = map.velocity_m_per_s(step.friction_ratio, sliding_m_per_s);
+    if (velocity_m_per_s > 0.0) {
+      const double ratio = std::min(barely_sliding, sliding_m_per_s / velocity_m_per_s);
+      largest = std::max(largest, ratio_swing(reading.contact(ratio, 0.0), rotation));
+    }
+  }
+  return largest * rotation / numeric::two_pi;
+}
+
+/// A mode under a ramped drive.
+class RampedMode {
+ public:
+  RampedMode(const scene::Scene& scene, const NominalPlant& plant, double period_s, double range)
+      : mode_(natural_mode(plant, period_s)),
+        damping_(plant.damping_N_s_per_m / plant.mass_kg * period_s),
+        parts_(scene.drive->codes_per_period),
+        range_(range) {}
+
+  const NaturalMode& mode() const { return mode_; }
+  double range() const { return range_; }
+
+  /// That of a jump is 1.
+  double nominal_kick() const { return kick(1.0); }
+
+  /// The most of a jump's free vibration that is left within the range.
+  double left(const std::optional<NotchDesign>& notch) const {
+    constexpr int points = 32;  // on either side
+    const auto left_at = [&](double factor) {
+      return kick(factor) * (notch ? notch_ripple_at(*notch, mode_, factor) : 1.0);
+    };
+    double most = left_at(1.0);
+    for (int i = -points; i <= points && range_ > 0.0; ++i) {
+      most = std::max(most, left_at(1.0 + range_ * i / points));
+    }
+    constexpr double rounding = 1e-12;
+    return most < rounding ? 0.0 : most;
+  }
+
+ private:
+  double kick(double factor) const {
+    const double rotation = mode_.rotation * factor;
+    return ramp_kick({rotation * rotation + 0.25 * damping_ * damping_, damping_, 1.0}, parts_);
+  }
+
+  NaturalMode mode_;
+  double damping_;
+  int parts_;
+  double range_;
+};
+
+/// Half of a jump's kick is hardly less than that.
+bool is_ramp(double kick) {
+  return kick < 0.5;
+}
+
+/// In carrier periods: a longer one holds the feedback up for more than it takes off.
+constexpr int longest_beside_a_ramp = max_notch_span / 2;
+
+/// @param accepted  to be left
+std::optional<NotchDesign> chosen_notch(const RampedMode& ramped, double accepted) {
+  const bool ramp = is_ramp(ramped.nominal_kick());
+  const double by_ramp = ramped.left({});
+  if (ramp && by_ramp <= accepted) {
+    return std::nullopt;
+  }
+  std::optional<NotchDesign> best;
+  double least = ramp ? 0.5 * by_ramp : by_ramp;
+  const auto consider = [&](const std::optional<NotchDesign>& notch) {
+    const bool serves = notch && (!ramp || notch->span() <= longest_beside_a_ramp);
+    const double left = serves ? ramped.left(notch) : least;
+    if (left < least) {
+      best = notch;
+      least = left;
+    }
+    return serves && left <= accepted;
+  };
+  if (!consider(design_notch(ramped.mode())) && ramped.range() > 0.0) {
+    consider(design_robust_notch(ramped.mode(), ramped.range()));
+  }
+  return best;
+}
+
+std::optional<NotchDesign> named_notch(scene::Shaping shaping, const NaturalMode& mode,
+                                       double range) {
+  switch (shaping) {
+    case scene::Shaping::notch:
+      return design_notch(mode);
+    case scene::Shaping::robust:
+      return design_robust_notch(mode, range);
+    case scene::Shaping::none:
+      break;
+  }
+  return std::nullopt;
+}
+
+Quieting quieting_of(bool ramp, bool notch) {
+  if (ramp) {
+    return notch ? Quieting::ramp_and_notch : Quieting::ramp;
+  }
+  return notch ? Quieting::notch : Quieting::nothing;
+}
+
+}  // namespace
+
+FeedforwardDesign design_ramped(const scene::Scene& scene, const NominalPlant& plant,
+                                const ControlDesign& design) {
+  FeedforwardDesign found;
+  found.ramped = true;
+  found.shaping_range = shaping_range(scene);
+  found.frequency_range = believed_range(scene);
+  const RampedMode ramped(scene, plant, design.scales.carrier_period_s, found.frequency_range);
+  if (!(ramped.mode().rotation > 0.0)) {
+    return found;
+  }
+  const double swing = largest_swing(scene, plant, design, ramped.mode().rotation);
+  const auto& named = scene.controller->shaping;
+  found.notch = named ? named_notch(*named, ramped.mode(), found.shaping_range)
+                      : chosen_notch(ramped, scene.run.settling_band / swing);
+  found.left = ramped.left(found.notch);
+  found.ratio_swing = swing * found.left;
+  found.quieting = quieting_of(is_ramp(ramped.nominal_kick()), found.notch.has_value());
+  return found;
+}
+
+}  // namespace sonoglide::configure

@@ -1,0 +1,20 @@
+/// How a drive whose amplitude passes linearly from one carrier period to the next keeps the natural
+/// mode quiet: by that alone, or with a notch.
+#pragma once
+
+#include "host_sim/configure/control_design.hpp"
+#include "host_sim/configure/nominal_plant.hpp"
+#include "host_sim/scene/scene.hpp"
+
+namespace sonoglide::configure {
+
+/// Ramp and notch are linear, so that what one leaves of the mode the other leaves a part of. The first
+/// of these that leaves a swing of the friction ratio within the settling band: the ramp, a notch of
+/// three taps, one of five. Where none does, the one that leaves least; of those a notch only if it
+/// halves what the ramp leaves, and spans at most 32 carrier periods, since it takes time. A ramp that leaves half of a jump's kick or more
+/// is none. A scene that names controller.shaping has that in place of the choice.
+/// @param design  of the scene, with its scales and its friction
+FeedforwardDesign design_ramped(const scene::Scene& scene, const NominalPlant& plant,
+                                const ControlDesign& design);
+
+}  // namespace sonoglide::configure
