@@ -13,12 +13,12 @@
 namespace sonoglide::configure {
 namespace {
 
-/// The natural frequency that is believed is off by the root of what stiffness over mass is off by.
-double believed_range(const scene::Scene& scene) {
-  const double by_tolerance = natural_frequency_range(scene.tolerances);
-  const double factor = numeric::sqrt(scene.model_error.stiffness / scene.model_error.mass);
-  const double by_error = std::max(factor, 1.0 / factor) - 1.0;
-  return std::min(by_tolerance > 0.0 ? by_tolerance : by_error, scene::most_shaping_range);
+/// Without tolerances, as for a stiffness that is known to 5 %. What [model_error] says is hidden from
+/// a controller, and so from its design.
+double frequency_range(const scene::Scene& scene) {
+  constexpr double stiffness_off_by_a_twentieth = 0.025;
+  const double range = natural_frequency_range(scene.tolerances);
+  return range > 0.0 ? std::min(range, scene::most_shaping_range) : stiffness_off_by_a_twentieth;
 }
 
 /// Half the swing of the friction ratio, of the target that swings most, under a free vibration as
@@ -140,7 +140,7 @@ FeedforwardDesign design_ramped(const scene::Scene& scene, const NominalPlant& p
   FeedforwardDesign found;
   found.ramped = true;
   found.shaping_range = shaping_range(scene);
-  found.frequency_range = believed_range(scene);
+  found.frequency_range = frequency_range(scene);
   const RampedMode ramped(scene, plant, design.scales.carrier_period_s, found.frequency_range);
   if (!(ramped.mode().rotation > 0.0)) {
     return found;
