@@ -16,7 +16,11 @@ import setuptools
 import setuptools.command.build_ext
 import setuptools.command.egg_info
 import setuptools.command.sdist
-import wheel.bdist_wheel
+
+try:
+    from setuptools.command.bdist_wheel import bdist_wheel  # setuptools 70.1 and newer
+except ImportError:
+    from wheel.bdist_wheel import bdist_wheel
 
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
 VERSION = re.search(r"project\(sonoglide VERSION ([\d.]+)", (SOURCE / "CMakeLists.txt").read_text())[1]
@@ -65,7 +69,7 @@ class Metadata(setuptools.command.egg_info.egg_info):
         pathlib.Path(self.egg_base).mkdir(exist_ok=True)
 
 
-class Wheel(wheel.bdist_wheel.bdist_wheel):
+class Wheel(bdist_wheel):
     """Is one of a machine and an interpreter: CMake compiles the extension and knows its sources."""
 
     def finalize_options(self):
