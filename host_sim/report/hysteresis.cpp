@@ -49,6 +49,7 @@ HysteresisLoop last_cycle(const loop::Recording& recording, scene::SignConventio
           0.5 *
           (recording.sliding_velocity_m_per_s[i] + recording.sliding_velocity_m_per_s[i - 1]) *
           (recording.time_s[i] - recording.time_s[i - 1]);
+      loop.sliding_m += sliding_m;
       travelled_m += sliding_m + sign * (recording.state[i].displacement_m -
                                          recording.state[i - 1].displacement_m);
     }

@@ -29,12 +29,23 @@ std::string why_open(const report::HysteresisLoop& cycle) {
       std::minmax_element(cycle.forward.displacement_m.begin(), cycle.forward.displacement_m.end());
   const double gap_m = cycle.backward.displacement_m.back() - cycle.forward.displacement_m.front();
   constexpr double visible = 0.01;
-  return std::abs(gap_m) < visible * (*high - *low)
-             ? std::string()
-             : fmt::format(
-                   "It does not close: the sliding carries the contact {} further in each "
-                   "carrier period.",
-                   output::quantity(gap_m, "m"));
+  const auto is_closed = [span_m = *high - *low](double distance_m) {
+    return std::abs(distance_m) < visible * span_m;
+  };
+  if (is_closed(gap_m)) {
+    return "";
+  }
+  const double unsettled_m = gap_m - cycle.sliding_m;
+  std::string text = "It does not close.";
+  if (!is_closed(cycle.sliding_m)) {
+    text += fmt::format(" The sliding carries the contact {} further in each carrier period.",
+                        output::quantity(cycle.sliding_m, "m"));
+  }
+  if (!is_closed(unsettled_m)) {
+    text += fmt::format(" The vibration is not settled, and moves the contact by {} in this one.",
+                        output::quantity(unsettled_m, "m"));
+  }
+  return text;
 }
 
 output::Chart hysteresis_panel(const report::HysteresisLoop& cycle) {

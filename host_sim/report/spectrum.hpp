@@ -18,8 +18,9 @@ struct Branch {
 };
 
 struct HysteresisLoop {
-  Branch forward;   ///< V > 0
-  Branch backward;  ///< V < 0; empty where the sliding never reverses
+  Branch forward;          ///< V > 0
+  Branch backward;         ///< V < 0; empty where the sliding never reverses
+  double sliding_m = 0.0;  ///< ∫Vt dt over the cycle
 };
 
 /// The last full cycle of a recording, from one change to V > 0 to the next; where the sliding

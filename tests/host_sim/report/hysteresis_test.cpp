@@ -1,3 +1,4 @@
+#include "host_sim/report/run_parts.hpp"
 #include "host_sim/report/spectrum.hpp"
 
 #include <gtest/gtest.h>
@@ -5,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <string>
 
 #include "tests/common/constants/pi.hpp"
 
@@ -141,6 +143,39 @@ TEST(HysteresisTest, TakesWhatThereIs) {
   EXPECT_EQ(one.forward.force_N.size(), 1U);
   const HysteresisLoop half = last_cycle(prescribed(1.5, 1.0, 1), convention, 1000);
   EXPECT_EQ(half.forward.force_N.size(), static_cast<std::size_t>(samples_per_cycle + 1));
+}
+
+/// What the page says of a cycle at the end of a run.
+std::string note_of(const loop::Recording& recording) {
+  scene::Scene scene;
+  scene.friction.coefficient = 0.1;
+  scene.friction.normal_force_N = 0.2;
+  return ending_section(scene, recording).charts.at(0).note;
+}
+
+TEST(HysteresisTest, ThePageSaysWhyACycleDoesNotClose) {
+  const std::string cycle = "One cycle of the contact, at the end of the run. ";
+  EXPECT_EQ(note_of(prescribed(0.0, 1.0, 6)), cycle);
+  // 2 pi r X in each.
+  EXPECT_EQ(note_of(prescribed(0.5, 1.0, 6)),
+            cycle +
+                "It does not close. The sliding carries the contact 3.142 um further in each "
+                "carrier period.");
+  EXPECT_EQ(note_of(prescribed(1.5, 1.0, 6)),
+            cycle +
+                "The contact slides forward all the time: there is no way back, so the curve "
+                "does not close.");
+}
+
+TEST(HysteresisTest, ThePageTellsAVibrationThatIsNotSettledFromTheSliding) {
+  loop::Recording drifts = prescribed(0.0, 1.0, 6);
+  const double begin_s = drifts.time_s[drifts.time_s.size() - samples_per_cycle - 1];
+  for (std::size_t i = 0; i < drifts.state.size(); ++i) {
+    drifts.state[i].displacement_m += 1e-7 * (drifts.time_s[i] - begin_s) / (2.0 * pi);
+  }
+  EXPECT_EQ(note_of(drifts),
+            "One cycle of the contact, at the end of the run. It does not close. The vibration is "
+            "not settled, and moves the contact by 100 nm in this one.");
 }
 
 }  // namespace
