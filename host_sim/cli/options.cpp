@@ -113,11 +113,10 @@ void require_writable(const std::filesystem::path& out, const std::vector<std::s
   const output::OutputFolder probe(out, names);
 }
 
-void publish(const std::filesystem::path& out, const output::StudyReport& report, bool quiet,
-             const char* what, const char* file) {
+void publish(const std::filesystem::path& out, const output::StudyReport& report, bool quiet) {
   output::write(out, report);
   if (!quiet) {
-    fmt::print("{}{}: {}\n", report.text, what, process::printable((out / file).string()));
+    fmt::print("{}report: {}\n", report.text, process::printable((out / "report.html").string()));
   }
 }
 

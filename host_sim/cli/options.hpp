@@ -85,10 +85,8 @@ std::string check_whole(const std::string& text, std::uint64_t least, std::uint6
 void require_writable(const std::filesystem::path& out, const std::vector<std::string>& names);
 
 /// Writes what a study leaves behind, all or nothing, and prints its text and where it is.
-/// @param file  the one that a person looks at first
 /// @throws output::OutputError
-void publish(const std::filesystem::path& out, const output::StudyReport& report, bool quiet,
-             const char* what = "report", const char* file = "report.html");
+void publish(const std::filesystem::path& out, const output::StudyReport& report, bool quiet);
 
 /// @return empty for the name of a board, else what is wrong with it
 std::string check_board(const std::string& name);

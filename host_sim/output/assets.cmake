@@ -1,4 +1,4 @@
-# The style and the scripts of pages.
+# The style, the scripts and the words of pages.
 include(embed)
 
 function(sonoglide_embed_page_assets target)
@@ -10,4 +10,9 @@ function(sonoglide_embed_page_assets target)
       FUNCTION ${function}
       FILE "${PROJECT_SOURCE_DIR}/host_sim/output/page/${asset}")
   endforeach()
+  sonoglide_embed(${target}
+    HEADER host_sim/output/glossary.hpp
+    NAMESPACE sonoglide::output
+    FUNCTION glossary_md
+    FILE "${PROJECT_SOURCE_DIR}/host_sim/glossary.md")
 endfunction()

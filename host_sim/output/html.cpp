@@ -67,11 +67,18 @@ bool is_number(const std::string& cell) {
 }
 
 bool is_numeric_column(const Table& table, std::size_t column) {
+  constexpr std::size_t longest_word = 24;
   std::size_t numbers = 0;
   std::size_t texts = 0;
   for (const std::vector<std::string>& row : table.rows) {
     if (column < row.size() && !row[column].empty()) {
-      ++(is_number(row[column]) ? numbers : texts);
+      if (is_number(row[column])) {
+        ++numbers;
+      } else if (row[column].size() > longest_word) {
+        return false;
+      } else {
+        ++texts;
+      }
     }
   }
   return numbers > 0 && numbers >= texts;

@@ -11,7 +11,8 @@
 
 namespace sonoglide::output {
 
-/// A long one is folded. A column of which at least half the cells are numbers is set flush right.
+/// A long one is folded. A column of numbers is set flush right: at least half of its cells are such, and no
+/// other one is long.
 struct Table {
   std::string title;                ///< empty: none
   std::vector<std::string> header;  ///< empty: no heading row
@@ -19,19 +20,11 @@ struct Table {
   bool folded = false;  ///< though it is short
 };
 
-/// A finished picture, shown as it is.
-struct Picture {
-  std::string title;
-  std::string note;  ///< one or two sentences under the title; may be empty
-  std::string svg;   ///< a whole SVG document
-};
-
-/// Tables, charts and pictures under one heading.
+/// Charts and tables under one heading.
 struct Section {
   std::string title;
   std::string text;
   std::vector<Chart> charts;  ///< first, whatever else there is
-  std::vector<Picture> pictures = {};
   std::vector<Table> tables = {};
 };
 
@@ -53,6 +46,7 @@ struct Page {
 
 /// The page as one self-contained HTML file: no network request, zoom and hover on every chart.
 ///
+/// Words and symbols that the page uses are explained at its end, by the glossary.
 /// Ordinates are written with 7 significant digits, abscissae with as many as resolve 1e-7 of their
 /// span. Once drawn, <body> carries data-panels (charts that have something to draw) and data-drawn
 /// (charts that show it), and each chart's <figure> its Chart (page/chart.js) as the property `chart`.

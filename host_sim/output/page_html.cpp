@@ -7,6 +7,7 @@
 
 #include "host_sim/output/assets.hpp"
 #include "host_sim/output/chart.hpp"
+#include "host_sim/output/glossary.hpp"
 #include "host_sim/output/html.hpp"
 #include "host_sim/output/page.hpp"
 
@@ -58,38 +59,12 @@ void append_chart(std::string& html, const Chart& chart) {
   html += "</figure>\n";
 }
 
-/// An SVG document as the address of an image: its names cannot clash with those of another.
-std::string data_address(std::string_view svg) {
-  std::string address = "data:image/svg+xml,";
-  for (const char c : svg) {
-    const bool plain =
-        c > ' ' && c < 127 && std::string_view("\"#%&<>").find(c) == std::string::npos;
-    if (plain) {
-      address += c;
-    } else {
-      address += fmt::format("%{:02X}", static_cast<unsigned char>(c));
-    }
-  }
-  return address;
-}
-
-void append_picture(std::string& html, const Picture& picture) {
-  html +=
-      fmt::format("<figure class=\"picture\">\n<figcaption><h3>{}</h3>\n", escaped(picture.title));
-  append_paragraph(html, "note", picture.note);
-  html += fmt::format("</figcaption>\n<img alt=\"{}\" src=\"{}\">\n</figure>\n",
-                      escaped(picture.title), data_address(picture.svg));
-}
-
 void append_sections(std::string& html, const std::vector<Section>& sections) {
   for (const Section& section : sections) {
     html += fmt::format("<section class=\"charts\">\n<h2>{}</h2>\n", escaped(section.title));
     append_paragraph(html, "text", section.text);
     for (const Chart& chart : section.charts) {
       append_chart(html, chart);
-    }
-    for (const Picture& picture : section.pictures) {
-      append_picture(html, picture);
     }
     for (const Table& table : section.tables) {
       append_table(html, table);
@@ -102,7 +77,7 @@ void append_hint(std::string& html) {
   html +=
       "<p class=\"hint\" id=\"chart-keys\">Mouse: drag across a chart to zoom, shift-drag to pan, "
       "double-click to reset, hover to read values. Touch: two fingers zoom, a tap reads, one finger "
-      "scrolls the page. Keyboard: Tab to a chart, then \u2190 \u2192 read values, + \u2212 zoom, "
+      "scrolls the page. Keyboard: Tab to a chart, then \u2190 \u2192 read values, on a map \u2191 \u2193 too, + \u2212 zoom, "
       "Shift with an arrow pans, 0 or Escape resets.</p>\n"
       "<noscript><p class=\"empty\">The charts need JavaScript.</p></noscript>\n";
 }
@@ -157,6 +132,9 @@ std::string to_html(const Page& page) {
     append_hint(html);
   }
   append_sections(html, page.sections);
+  if (const Table words = words_of(page); !words.rows.empty()) {
+    append_table(html, words);
+  }
   html += "</main>\n";
   append_scripts(html);
   html += "</body>\n</html>\n";

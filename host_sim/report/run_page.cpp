@@ -26,7 +26,7 @@ std::string lead(const scene::Scene& scene, const loop::RunResult& result) {
 }
 
 output::Section figures_section(const scene::Scene& scene, const loop::RunResult& result) {
-  output::Section section{"Figures", "", {}, {}, {run_table(scene, result)}};
+  output::Section section{"Figures", "", {}, {run_table(scene, result)}};
   if (result.electrical) {
     section.tables.push_back(electrical_table(*result.electrical));
   }
@@ -36,7 +36,6 @@ output::Section figures_section(const scene::Scene& scene, const loop::RunResult
   if (result.image) {
     section.tables.push_back(image_table(*result.image));
   }
-  section.tables.push_back(symbol_table(scene));
   return section;
 }
 

@@ -21,8 +21,6 @@ output::Table vibration_table(const RunFindings& findings);
 output::Table run_table(const scene::Scene& scene, const loop::RunResult& result);
 output::Table electrical_table(const loop::ElectricalBalance& balance);
 output::Table signal_table(const loop::ControlRecord& control);
-/// What the page's words mean.
-output::Table symbol_table(const scene::Scene& scene);
 
 /// Of what is wanted, and of limits: letters' colour and dashes, beside what is reached.
 inline const output::Pen target_pen{"#000000", 2.0, 2};

@@ -123,35 +123,4 @@ output::Table signal_table(const loop::ControlRecord& control) {
   return table;
 }
 
-output::Table symbol_table(const scene::Scene& scene) {
-  output::Table table{"Words and symbols", {"Word", "Meaning"}, {}};
-  table.folded = true;
-  const auto row = [&table](const char* word, std::string meaning) {
-    table.rows.push_back({word, std::move(meaning)});
-  };
-  row("Friction ratio",
-      "Mean friction force over a carrier period, divided by the friction force without drive at "
-      "the same sliding velocity.");
-  row("Carrier period", "One period of the drive's ultrasonic frequency.");
-  row("Window", "The part of the run from run.window_start_s on, over which means are taken.");
-  if (scene.controller) {
-    row("Settles in",
-        fmt::format("Time from the step, or from the end of calibration, until the ratio stays "
-                    "within {:.3g} (run.settling_band) of the target.",
-                    scene.run.settling_band));
-    row("Overshoot", "Farthest beyond the target, seen from where the ratio came from.");
-    row("Steady error", "Mean ratio minus target over the last quarter of the step.");
-    row("Ripple", "Half the peak-to-peak ratio over the last quarter of the step.");
-    row("Limit", "What kept the loop from the target in the last quarter of the step.");
-    row("Mismatch", "Friction force that the controller believes, divided by the true one.");
-  }
-  row("Power dissipation ratio",
-      "Power that friction takes, divided by friction force without drive times sliding velocity.");
-  row("Drive input ratio", "Power that the drive puts in, divided by the same.");
-  row("Residual of the energy balance",
-      "What the works do not account for, divided by the largest of them: an error of the "
-      "computation.");
-  return table;
-}
-
 }  // namespace sonoglide::report

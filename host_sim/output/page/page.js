@@ -24,6 +24,19 @@
     markWide(box);
   }
 
+  // On paper every table is open, and charts have letters for the width of a sheet.
+  const sheetWidth = 680;
+  let opened = [];
+  addEventListener('beforeprint', () => {
+    opened = [...document.querySelectorAll('details:not([open])')];
+    opened.forEach((details) => { details.open = true; });
+    Panel.all.forEach((panel) => panel.draw(sheetWidth));
+  });
+  addEventListener('afterprint', () => {
+    opened.forEach((details) => { details.open = false; });
+    Panel.all.forEach((panel) => panel.draw());
+  });
+
   document.body.dataset.panels = String(figures.length);
   document.body.dataset.drawn = String(Panel.all.filter((panel) => panel.isDrawn()).length);
 })();

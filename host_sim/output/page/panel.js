@@ -24,9 +24,9 @@ class Panel {
     this.draw();
   }
 
-  draw() {
+  draw(width = this.box.clientWidth || 680) {
     const {chart} = this;
-    this.width = this.box.clientWidth || 680;
+    this.width = width;
     this.height = this.width < 600 ? 240 : 280;
     this.box.innerHTML = chart.draw(this.width, this.height);
     this.reading.clear();
@@ -215,11 +215,16 @@ class Panel {
       const y = series.y[series.x.indexOf(x)];
       this.read(x, {x: chart.px(x), y: chart.canShow('y', y) ? chart.py(y) : chart.area.top});
     };
+    const arrow = (across, upward) => {
+      if (event.shiftKey) return () => this.pan(0.2 * across, 0.2 * upward);
+      if (chart.hasTiles) return () => reading.stepTile(across, upward);
+      return across === 0 ? null : () => step(across);
+    };
     const actions = {
-      ArrowRight: () => (event.shiftKey ? this.pan(0.2, 0) : step(1)),
-      ArrowLeft: () => (event.shiftKey ? this.pan(-0.2, 0) : step(-1)),
-      ArrowUp: event.shiftKey ? () => this.pan(0, 0.2) : null,
-      ArrowDown: event.shiftKey ? () => this.pan(0, -0.2) : null,
+      ArrowRight: arrow(1, 0),
+      ArrowLeft: arrow(-1, 0),
+      ArrowUp: arrow(0, 1),
+      ArrowDown: arrow(0, -1),
       '+': () => this.zoom(0.5, center),
       '=': () => this.zoom(0.5, center),
       '-': () => this.zoom(2, center),

@@ -9,7 +9,8 @@ class Reading {
     this.values = chart.series.map((series) => this.entry(Reading.swatch(series), series.label, series.verbatim));
     chart.data.tiles.forEach((tiles, i) => this.tileEntry(tiles, i));
     this.place = this.add(this.legend, 'span', 'abscissa');
-    this.place.setAttribute('aria-live', 'polite');
+    this.legend.setAttribute('aria-live', 'polite');  // names and values together
+    this.legend.setAttribute('aria-atomic', 'true');
   }
 
   add(parent, tag, className, html = '') {
@@ -96,18 +97,55 @@ class Reading {
     if (near.distance < Infinity && (read.length === 0 || near.distance < 25)) read.push(near);
     for (const {s, i} of read) this.values[s].textContent = this.text('y', chart.series[s].y[i]);
     const tile = pixel && this.tileAt(chart.value('x', chart.xAt(pixel.x)), chart.value('y', chart.yAt(pixel.y)));
-    if (read.length > 0) {
+    if (tile) {
+      this.showTile(tile);
+    } else if (read.length > 0) {
       const {s, i} = near.distance < 25 || read[0].s === near.s ? near : read[0];
       this.x = chart.series[s].x[i];
       this.name(`${chart.axes.x.quantity.name} ${this.text('x', this.x)}`);
       this.draw(read);
-    } else if (tile) {
-      const value = Numbers.reading(tile[4], chart.valueRange() || [0, 1], '-');
-      const [x0, x1, y0, y1] = tile;
-      const middle = (axis, a, b) => this.text(axis, chart.value(axis, (chart.measure(axis, a) + chart.measure(axis, b)) / 2));
-      this.name(`${chart.axes.x.quantity.name} ${middle('x', x0, x1)}, ${chart.axes.y.quantity.name} ${middle('y', y0, y1)}: ${tile[5] || value}`);
     }
   }
+
+  showTile(tile) {
+    const {chart} = this;
+    const [x0, x1, y0, y1, number, word] = tile;
+    const middle = (axis, a, b) => this.text(axis, chart.value(axis, (chart.measure(axis, a) + chart.measure(axis, b)) / 2));
+    const value = word || Numbers.reading(number, chart.valueRange() || [0, 1], '-');
+    this.name(`${chart.axes.x.quantity.name} ${middle('x', x0, x1)}, ${chart.axes.y.quantity.name} ${middle('y', y0, y1)}: ${value}`);
+    this.cursor.innerHTML = ['frame edge', 'frame'].map((name) => `<path class="${name}" d="${chart.tilePath(tile)}"/>`).join('');
+  }
+
+  // Reads the tile beside the one that was read last, for the keyboard; begins in the middle.
+  // @param across, upward  -1, 0 or 1
+  stepTile(across, upward) {
+    const {chart} = this;
+    const now = this.at && this.tileAt(this.at.x, this.at.y);
+    const inside = (axis, value) => {
+      const [low, high] = chart[`${axis}AxisRange`]();
+      return value >= low && value <= high;
+    };
+    const middle = (axis, low, high) => chart.value(axis, (chart.measure(axis, low) + chart.measure(axis, high)) / 2);
+    if (!now || !inside('x', this.at.x) || !inside('y', this.at.y)) {
+      this.at = {x: middle('x', ...chart.xAxisRange()), y: middle('y', ...chart.yAxisRange())};
+    } else {
+      const beside = {...this.at};
+      const move = (axis, direction, low, high) => {
+        if (direction === 0) return;
+        const edge = chart.measure(axis, direction > 0 ? high : low);
+        beside[axis] = chart.value(axis, edge + direction * 1e-6 * (chart[axis][1] - chart[axis][0]));
+      };
+      move('x', across, now[0], now[1]);
+      move('y', upward, now[2], now[3]);
+      const next = this.tileAt(beside.x, beside.y);
+      if (!next || !inside('x', beside.x) || !inside('y', beside.y)) return;
+      this.at = {x: across ? middle('x', next[0], next[1]) : beside.x, y: upward ? middle('y', next[2], next[3]) : beside.y};
+    }
+    const tile = this.tileAt(this.at.x, this.at.y);
+    if (tile) this.showTile(tile);
+  }
+
+  get cursor() { return this.chart.figure.querySelector('.plot .cursor'); }
 
   name(text) { this.place.innerHTML = Look.html(text, this.chart.axes.x.verbatim); }
 
@@ -130,15 +168,13 @@ class Reading {
       return chart.canShow('y', y[i]) && Math.abs(chart.px(x[i]) - at) < 12 ?
           `<circle cx="${chart.px(x[i])}" cy="${chart.py(y[i])}" r="4" fill="${style.colour}"/>` : '';
     }).join('');
-    this.chart.figure.querySelector('.plot .cursor').innerHTML =
-        `<path d="M${at} ${top}v${height}"/>${dots}`;
+    this.cursor.innerHTML = `<path d="M${at} ${top}v${height}"/>${dots}`;
   }
 
   clear() {
     this.place.textContent = '';
     this.values.forEach((value) => { value.textContent = ''; });
-    const cursor = this.chart.figure.querySelector('.plot .cursor');
-    if (cursor) cursor.innerHTML = '';
+    if (this.cursor) this.cursor.innerHTML = '';
   }
 
   // The next point to the right or left of the one that is read, for the keyboard.

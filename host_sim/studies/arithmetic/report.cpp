@@ -265,7 +265,7 @@ output::Page page(const scene::Scene& scene, const ArithmeticComparison& compari
           "same closed loop, and what a step costs on each board.",
           {},
           {},
-          {{"Cost and accuracy", "", std::move(charts), {}, {image_table(comparison)}}},
+          {{"Cost and accuracy", "", std::move(charts), {image_table(comparison)}}},
           scene_file::to_json(scene)};
 }
 

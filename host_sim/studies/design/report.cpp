@@ -157,11 +157,11 @@ output::Section drive_section(const DesignStudy& study, const std::vector<Design
   output::Section section;
   section.title = "Required drive";
   section.text =
-      "Amplitudes are half of peak to peak. Closed form is the force by the inverse of the "
-      "friction-ratio map, for a vibration that friction does not bend, and what the ratio really "
-      "is under it, less the ratio asked for. Powers are means over a carrier period: what the "
+      "Amplitudes are half of peak to peak. \"Closed form\" is the force that the inverse of the "
+      "friction-ratio map gives for a sinusoidal vibration; \"it misses by\" is the simulated ratio "
+      "under this force, less the ratio asked for. Powers are means over a carrier period: what the "
       "drive puts into the motion, what the contact dissipates with and without vibration, and "
-      "what drive and mass pass to and fro. design.csv has the curves.";
+      "what the drive and the mass exchange. design.csv has the curves.";
   section.tables = {drive_table(study)};
   if (!moving.empty()) {
     section.tables.push_back(power_table(moving));
@@ -193,10 +193,10 @@ output::Table sensitivity_table(const std::vector<DesignPoint>& points, const ch
 output::Section sensitivity_section(const DesignStudy& study,
                                     const std::vector<DesignPoint>& points) {
   output::Section section;
-  section.title = "What the ratio hangs on";
+  section.title = "What the ratio depends on";
   section.text =
-      "One parameter changes, the others and the drive's force stay as they are, the normal force "
-      "when the mass changes too. By differences of the simulation.";
+      "One parameter changes. The others and the drive's force stay as they are; so does the normal "
+      "force where the mass changes. The derivatives are differences of simulated ratios.";
   section.tables = {sensitivity_table(points, "d ln ratio / d ln parameter",
                                       [](const Sensitivity& each) {
                                         return output::formatted(each.logarithmic, "{:.3f}");
@@ -226,7 +226,7 @@ output::Section resonance_section(const DesignStudy& study) {
   section.title = "Resonance: what it gives and what it costs";
   section.text = fmt::format(
       "The same mass, contact and drive on another spring, at the fastest sliding. The scene has "
-      "Ks/(m w^2) = {:.4g}. Towards 1 the force falls with |1 - Ks/(m w^2)|, and an error in the "
+      "Ks/(m ω²) = {:.4g}. Towards 1 the force falls with |1 - Ks/(m ω²)|, and an error in the "
       "spring counts for more. Too sensitive: 1 % of Ks changes the ratio by more than the scene's "
       "settling band of {:g}. In brackets the natural frequency. Reach is looked for from {:g} to "
       "{:g}. detuning.csv has the curves.",

@@ -81,7 +81,7 @@ output::Chart laws_chart(const std::vector<LawCurve>& laws) {
   }
   curves.push_back(
       line_of(friction::transverse_vibration_ratio<double>, furthest, ++colour, "transverse"));
-  return chart("(a) Laws of friction at Table 1, 384 N", "V_t / peak vibration velocity [-]",
+  return chart("(a) Laws of friction at Table 1, 384 N", "Vt / peak vibration velocity [-]",
                "friction with / without vibration [-]", std::move(curves), Key::upper_left,
                {0.0, 2.6});
 }

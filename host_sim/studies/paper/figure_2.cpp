@@ -59,7 +59,7 @@ output::Chart ratio_chart(const Laws& laws) {
   const std::vector<double>& x = velocity_ratios();
   const double dahl = dahl_number(table_1());
   const double furthest = x.back();
-  return chart("Friction ratio at 384 N", "V_t / peak vibration velocity [-]", "friction ratio [-]",
+  return chart("Friction ratio at 384 N", "Vt / peak vibration velocity [-]", "friction ratio [-]",
                {line_of(friction::coulomb_friction_ratio<double>, furthest, 1),
                 curve("", x, laws.simulated_coulomb.friction_steady, 1, Style::points),
                 curve("", x, laws.simulated_coulomb.friction_from_rest, 1, Style::dashed),

@@ -238,7 +238,7 @@ output::Chart contact_stiffness_chart() {
   stick.pen.dash = 2;
   stick.pen.width = 1.6;
   return chart(
-      "(c) The same at 0.1 mm/s; Iwan: speed to 0", "K_t X / F_c [-]", "reduction of friction [%]",
+      "(c) The same at 0.1 mm/s; Iwan: speed to 0", "Kt X/Fc [-]", "reduction of friction [%]",
       {curve("measured", {0.0, stiffest},
              {per_cent * luo_slow_reduction, per_cent * luo_slow_reduction}, black),
        line_of([](double number) { return per_cent * dahl_reduction_at_low_speed(number); },
@@ -258,7 +258,7 @@ output::Chart normal_vibration_chart() {
       y.push_back(per_cent * normal_reduction(x.back(), critical_mm_per_s));
     }
     curves.push_back(
-        curve(fmt::format("V_c = {:g} mm/s", critical_mm_per_s), x, y, ++colour, Style::marked));
+        curve(fmt::format("Vc = {:g} mm/s", critical_mm_per_s), x, y, ++colour, Style::marked));
   }
   curves.push_back(
       curve("measured", {1e3 * dong_velocities_m_per_s[0], 1e3 * dong_velocities_m_per_s[1]},

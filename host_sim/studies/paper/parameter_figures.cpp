@@ -19,7 +19,7 @@ constexpr const char* windows =
     "over one carrier period, which is the mean of ever after.";
 constexpr const char* friction_label = "friction ratio [-]";
 constexpr const char* dissipation_label = "power dissipation ratio [-]";
-constexpr const char* velocity_label = "V_t / peak vibration velocity [-]";
+constexpr const char* velocity_label = "Vt / peak vibration velocity [-]";
 constexpr output::Span friction_span = {0.0, 1.05};
 
 struct Variation {
@@ -192,9 +192,9 @@ std::vector<Claim> claims(const Resonance& resonance) {
 std::vector<output::Chart> charts(const Resonance& resonance) {
   const char* part_label = "Ks/(m ω²) [-]";
   std::vector<output::Chart> both = {
-      chart("(c) Steady orbit at V_t = 26.7 mm/s", part_label, friction_label,
+      chart("(c) Steady orbit at Vt = 26.7 mm/s", part_label, friction_label,
             {curve("", resonance.parts, resonance.friction, 1, Style::points)}),
-      chart("(d) Steady orbit at V_t = 26.7 mm/s", part_label, dissipation_label,
+      chart("(d) Steady orbit at Vt = 26.7 mm/s", part_label, dissipation_label,
             {curve("", resonance.parts, resonance.dissipation, 1, Style::points)}, Key::above,
             {0.5, 200.0})};
   both.back().y_axis.logarithmic = true;
@@ -379,8 +379,8 @@ Figure figure_11() {
   const Edit edit = [resonant_N_per_m](scene::Scene& scene, double part) {
     scene.plant.stiffness_N_per_m = part * resonant_N_per_m;
   };
-  const std::vector<Variation> all = vary(table_1(), {0.0468, 0.5, 0.9, 0.99, 1.2}, "Ks = {:g} mω²",
-                                          "stiffness_{:g}_of_resonance", edit);
+  const std::vector<Variation> all = vary(table_1(), {0.0468, 0.5, 0.9, 0.99, 1.2},
+                                          "Ks = {:g} m ω²", "stiffness_{:g}_of_resonance", edit);
   const Resonance resonance = through_resonance(edit);
   return {11,
           "Effect of the system stiffness",

@@ -154,7 +154,7 @@ Figure figure_5() {
               {"friction_force_steady_N", steady_force},
               {"dissipated_power_steady_W", steady_power}}),
       {over_time("(a) Friction force", {"friction force [mN]", 1e3}, motions, force, steady_force),
-       over_time("(b) Dissipated power", {"F (V_t + x') [mW]", 1e3}, motions, power, steady_power)},
+       over_time("(b) Dissipated power", {"F (Vt + x') [mW]", 1e3}, motions, power, steady_power)},
       {within_limit(force, limit_N), dissipates(steady_power, limit_N)}};
 }
 

@@ -285,7 +285,6 @@ output::Page study_page(const StabilityStudy& study) {
                    {"Extreme cases",
                     extremes_text(),
                     {},
-                    {},
                     {extreme_table(study.extremes), residual_table(study.extremes)}}};
   return page;
 }

@@ -121,7 +121,7 @@ output::Page sweep_page(const Plan& plan, const std::vector<PointResult>& rows,
     output::Chart chart = picture->charts.front();
     chart.title = "Over what was varied";
     chart.note = picture_note(plan);
-    page.sections = {{subject(plan).title, "", {std::move(chart)}, {}, std::move(tables)}};
+    page.sections = {{subject(plan).title, "", {std::move(chart)}, std::move(tables)}};
   } else {
     page.tables = std::move(tables);
   }

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/acceptance/program/page_words.hpp"
 #include "tests/acceptance/program/program.hpp"
 #include "tests/common/scenes.hpp"
 
@@ -62,6 +63,7 @@ TEST_F(RunOutputTest, SummaryAndPageSayWhatWasRun) {
         "0.1</td></tr>"}) {
     EXPECT_NE(page.find(part), std::string::npos) << part;
   }
+  EXPECT_EQ(unexplained_symbols(page), std::vector<std::string>{});
 }
 
 TEST_F(RunOutputTest, NothingIsRecordedUnlessTheSceneAsks) {

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/acceptance/program/page_words.hpp"
 #include "tests/acceptance/program/program.hpp"
 #include "tests/common/csv/csv.hpp"
 #include "tests/common/scenes.hpp"
@@ -52,6 +53,7 @@ TEST(DesignCommand, HasTheKnownForcesInEveryOutput) {
   const csv::Table detuning(folder.read("out/scene_design/detuning.csv"));
   EXPECT_EQ(detuning.columns().at(1), "tuning");
   EXPECT_NE(folder.read("out/scene_design/report.html").find("Design of scene"), std::string::npos);
+  EXPECT_EQ(unexplained_symbols(folder.read("out/scene_design/report.html")), Entries{});
 }
 
 TEST(DesignCommand, TakesRatiosSpeedsAndOverridesFromTheCommandLine) {

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/acceptance/program/page_words.hpp"
 #include "tests/acceptance/program/program.hpp"
 
 namespace sonoglide::acceptance::identify_friction_command_test {
@@ -52,6 +53,7 @@ TEST(IdentifyFrictionCommand, WritesALawWithIntervalsAndASceneThatRuns) {
   EXPECT_NE(json["cannot_tell"].dump().find(scale), std::string::npos);
   EXPECT_NE(outcome.out.find(scale), std::string::npos) << outcome.out;
   EXPECT_NE(folder.read("out/f_friction/report.html").find(scale), std::string::npos);
+  EXPECT_EQ(unexplained_symbols(folder.read("out/f_friction/report.html")), Entries{});
   // The middle reading has a velocity ratio of 0.5.
   EXPECT_NEAR(ratio_of_scene(folder), 0.48927, 0.003);
 }

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "tests/acceptance/program/page_words.hpp"
 #include "tests/acceptance/program/program.hpp"
 
 namespace sonoglide::acceptance::identify_impedance_command_test {
@@ -167,6 +168,7 @@ TEST(IdentifyImpedanceCommand, WarnsOfPhasesThatAreOff) {
   EXPECT_NE((outcome.out + outcome.err).find("WARNING: " + warning), std::string::npos)
       << outcome.out;
   EXPECT_NE(folder.read("out/z_impedance/report.html").find(warning), std::string::npos);
+  EXPECT_EQ(unexplained_symbols(folder.read("out/z_impedance/report.html")), Entries{});
   const auto identified = nlohmann::json::parse(folder.read("out/z_impedance/identify.json"));
   EXPECT_EQ(identified["warnings"][0].get<std::string>().rfind(warning, 0), 0U);
 }

@@ -39,7 +39,7 @@ inline constexpr const char* exercise_script = R"js(
       Math.abs(a[0] - b[0]) <= tolerance && Math.abs(a[1] - b[1]) <= tolerance;
   const readings = (figure) =>
       [...figure.querySelectorAll('.legend .value')].map((value) => value.textContent);
-  const hasReading = (figure) => readings(figure).some((text) => /[0-9]/.test(text)) &&
+  const hasReading = (figure) => (figure.chart.hasTiles || readings(figure).some((text) => /[0-9]/.test(text))) &&
       /[0-9]/.test(figure.querySelector('.legend .abscissa').textContent);
 
   const counts = {zoomed: 0, read: 0, panned: 0, reset: 0, followed: 0};
@@ -112,11 +112,12 @@ inline constexpr const char* touch_script = R"js(
 )js";
 
 /// Of each chart: puts the focus on it and presses keys. Counts data-focused (it takes the focus, and
-/// shows it), data-named (screen readers have a label and the keys), data-read, data-zoomed,
-/// data-panned and data-reset.
+/// shows it), data-named (screen readers have a label and the keys), data-said (they say what is read),
+/// data-read, data-crossed (of a map alone the arrows go up and down too), data-zoomed, data-panned and
+/// data-reset.
 inline constexpr const char* keyboard_script = R"js(
 (() => {
-  const counts = {focused: 0, named: 0, read: 0, zoomed: 0, panned: 0, reset: 0};
+  const counts = {focused: 0, named: 0, said: 0, read: 0, crossed: 0, zoomed: 0, panned: 0, reset: 0};
   for (const figure of document.querySelectorAll('figure.panel')) {
     const box = figure.querySelector('.chart');
     const press = (key, options = {}) => box.dispatchEvent(
@@ -129,11 +130,15 @@ inline constexpr const char* keyboard_script = R"js(
         parseFloat(getComputedStyle(box).outlineWidth) >= 2;
     counts.named += box.getAttribute('aria-label').includes(figure.querySelector('h3').textContent) &&
         document.getElementById(box.getAttribute('aria-describedby')) !== null;
+    counts.said += figure.querySelector('.abscissa').closest('[aria-live="polite"]') !== null;
     press('ArrowRight');
     const first = figure.querySelector('.abscissa').textContent;
     press('ArrowRight');
     const second = figure.querySelector('.abscissa').textContent;
     counts.read += /[0-9]/.test(first) && /[0-9]/.test(second) && first !== second;
+    press('ArrowUp');
+    const third = figure.querySelector('.abscissa').textContent;
+    counts.crossed += (third !== second) === figure.chart.hasTiles;
     press('+');
     const near = range();
     counts.zoomed += Math.abs(size(near) - 0.5 * size(full)) < 1e-6 * size(full);

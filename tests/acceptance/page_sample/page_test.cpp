@@ -13,7 +13,7 @@
 namespace sonoglide::page_test {
 namespace {
 
-constexpr int kPanels = 7;
+constexpr int kPanels = 8;
 
 class PageInBrowser : public ::testing::Test {
  protected:
@@ -90,8 +90,9 @@ TEST_F(PageInBrowser, IsUsedByTouchAndKeyboardInTheDark) {
       output::to_html(report::sample_page()),
       std::string(browser::touch_script) + browser::keyboard_script + browser::contrast_script,
       {true});
-  for (const char* use : {"data-scrolled", "data-pinched", "data-unzoomed", "data-focused",
-                          "data-named", "data-read", "data-zoomed", "data-panned", "data-reset"}) {
+  for (const char* use :
+       {"data-scrolled", "data-pinched", "data-unzoomed", "data-focused", "data-named", "data-said",
+        "data-read", "data-crossed", "data-zoomed", "data-panned", "data-reset"}) {
     EXPECT_EQ(count(seen, use), kPanels) << use;
   }
   expect_contrast(seen, true);
@@ -115,12 +116,19 @@ TEST_F(PageInBrowser, IsReadAt400Pixels) {
         (box) => box.scrollWidth > box.clientWidth);
     document.body.dataset.scrolled =
         String(wide.length > 0 && wide.every((box) => box.matches('.more-right[tabindex]')));
+    const folded = () => document.querySelectorAll('details:not([open])').length;
+    dispatchEvent(new Event('beforeprint'));
+    document.body.dataset.printed = folded();
+    dispatchEvent(new Event('afterprint'));
+    document.body.dataset.folded = folded();
   )js",
             {false, 400});
   EXPECT_EQ(count(seen, "data-width"), 400);
   EXPECT_EQ(count(seen, "data-hidden"), 0);
   EXPECT_GE(count(seen, "data-letters"), 12);
   EXPECT_EQ(browser::body_attribute(seen.dom, "data-scrolled"), "true");
+  EXPECT_EQ(count(seen, "data-printed"), 0) << "every table is open on paper";
+  EXPECT_EQ(count(seen, "data-folded"), 1) << "the words and symbols are folded again";
   expect_contrast(seen, false);
 }
 

@@ -133,6 +133,18 @@ output::Section spectrum() {
               })}}}}};
 }
 
+/// Friction ratio over vibration and sliding: three by four tiles.
+output::Section map() {
+  output::Chart chart{"Ratio", "", {"Sliding [m/s]"}, {"Vibration [m/s]", true}, {}, {}};
+  output::Tiles& tiles = chart.tiles.emplace_back();
+  for (int i = 0; i < 12; ++i) {
+    const double sliding = 0.01 * (i % 3);
+    const double vibration = std::pow(10.0, i / 3 - 3);
+    tiles.all.push_back({{sliding, sliding + 0.01}, {vibration, 10.0 * vibration}, 0.05 * i});
+  }
+  return {"Map", "", {chart}};
+}
+
 }  // namespace
 
 output::Page sample_page() {
@@ -156,7 +168,7 @@ output::Page sample_page() {
        {{"Solver", "event_taylor, tolerance 1e-10"},
         {"Steps, events", "9 841, 240"},
         {"Energy balance residual", "3.1e-12"}}}};
-  page.sections = {regulation(), carrier(), spectrum()};
+  page.sections = {regulation(), carrier(), spectrum(), map()};
   return page;
 }
 

@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <string>
+#include <vector>
 
+#include "tests/acceptance/program/page_words.hpp"
 #include "tests/acceptance/program/program.hpp"
 
 namespace sonoglide::acceptance::paper_command_test {
@@ -26,6 +28,7 @@ TEST(PaperCommand, Figure12BringsTheMeasurementsAndItsScenes) {
   const ScratchFolder folder;
   ASSERT_EQ(folder.run("paper --figure 12 --out out --quiet").exit_code, 0);
   EXPECT_EQ(folder.read("out/measurements.csv").substr(0, 21), "source,doi,vibration,");
+  EXPECT_EQ(unexplained_symbols(folder.read("out/index.html")), std::vector<std::string>{});
   for (const char* scene : {"table_2", "luo_2024", "table_1_coulomb", "table_1_dahl",
                             "table_1_lugre", "table_1_iwan", "table_1_stribeck"}) {
     EXPECT_EQ(folder.run("run out/" + std::string(scene) + ".toml --quiet").exit_code, 0) << scene;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "host_sim/studies/stability/trial.hpp"
+#include "tests/acceptance/program/page_words.hpp"
 #include "tests/acceptance/program/program.hpp"
 #include "tests/common/csv/csv.hpp"
 
@@ -113,6 +114,7 @@ TEST_F(SmallStability, MapsEverySettingAndStiffness) {
 
 TEST_F(SmallStability, ThePageHasTheMapsAndTheTable) {
   const std::string page = read("report.html");
+  EXPECT_EQ(unexplained_symbols(page), Entries{});
   for (const char* part : {"<script type=\"application/json\">{\"title\":",
                            "Extreme cases: 50 random scenes", "</html>"}) {
     EXPECT_NE(page.find(part), std::string::npos) << part;

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/acceptance/program/page_words.hpp"
 #include "tests/acceptance/program/program.hpp"
 #include "tests/acceptance/sweep/scenes/base_scenes.hpp"
 #include "tests/common/csv/csv.hpp"
@@ -76,6 +77,7 @@ TEST_F(SweepCommandTest, LeavesATableAPictureAndAPage) {
                                         "out/open_sweep/.sonoglide", "out/open_sweep/report.html",
                                         "out/open_sweep/sweep.csv", "out/open_sweep/sweep.svg"}));
   const std::string page = folder_.read("out/open_sweep/report.html");
+  EXPECT_EQ(unexplained_symbols(page), Entries{});
   for (const char* part : {"Sweep of open", "Extremes", "velocity_ratio",
                            "<script type=\"application/json\">{\"title\":"}) {
     EXPECT_NE(page.find(part), std::string::npos) << part;

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/acceptance/program/page_words.hpp"
 #include "tests/acceptance/program/program.hpp"
 #include "tests/common/csv/csv.hpp"
 #include "tests/common/scenes.hpp"
@@ -74,6 +75,7 @@ TEST_F(WorkPrecisionTest, ThePictureNamesItsLinesAndAxes) {
 
 TEST_F(WorkPrecisionTest, ThePageHasTheRankingThePictureAndTheMachine) {
   const std::string page = folder_->read("results/report.html");
+  EXPECT_EQ(unexplained_symbols(page), Entries{});
   for (const char* text : {"Cheapest setting", "Times the fastest", "Machine and compiler",
                            "<script type=\"application/json\">{\"title\":", "The paper"}) {
     EXPECT_NE(page.find(text), std::string::npos) << text;

@@ -215,7 +215,8 @@ TEST(PageHtml, SetsColumnsOfNumbersFlushRight) {
   Page page;
   page.tables = {{"",
                   {"name", "settling", "share"},
-                  {{"first", "83.3 µs", "1.5%"}, {"2nd", "−1.2e-3", ""}, {"third", "never", "2"}}}};
+                  {{"first", "83.3 µs", "1.5%"}, {"2nd", "−1.2e-3", ""}, {"third", "never", "2"}}},
+                 {"", {}, {{"1"}, {"a sentence that has to be broken"}}}};
   const std::string html = to_html(page);
   EXPECT_NE(html.find("<tr><th>name</th><th class=\"number\">settling</th>"
                       "<th class=\"number\">share</th></tr>"),
@@ -223,6 +224,7 @@ TEST(PageHtml, SetsColumnsOfNumbersFlushRight) {
   EXPECT_NE(html.find("<tr><td>third</td><td class=\"number\">never</td>"
                       "<td class=\"number\">2</td></tr>"),
             std::string::npos);
+  EXPECT_NE(html.find("<tr><td>1</td></tr>"), std::string::npos);
 }
 
 TEST(PageHtml, PutsWarningsBeforeEverythingButTheTitle) {
@@ -251,15 +253,6 @@ TEST(PageHtml, MarksTheValuesOfTheSceneThatWereChanged) {
     EXPECT_EQ(count(html, part), 1U) << part;
   }
   EXPECT_EQ(count(to_html(Page()), "<dt>Command</dt>"), 0U);
-}
-
-TEST(PageHtml, APictureIsAnImageThatNeedsNothingElse) {
-  Page page;
-  page.sections = {{"Section", "", {}, {{"A & B", "Note.", "<svg id=\"a\">50 %</svg>"}}}};
-  const std::string html = to_html(page);
-  EXPECT_EQ(count(html, "<figure class=\"picture\">"), 1U);
-  EXPECT_EQ(count(html, "alt=\"A &amp; B\""), 1U);
-  EXPECT_EQ(count(html, "src=\"data:image/svg+xml,%3Csvg%20id=%22a%22%3E50%20%25%3C/svg%3E\""), 1U);
 }
 
 }  // namespace

@@ -194,7 +194,6 @@ output::Page page(const Comparison& comparison, const std::string& name) {
                     "factor of ten. An open end means that the residuals hardly grow as far as "
                     "that parameter may go. Laws that are not possible get no intervals.",
                     {},
-                    {},
                     {sentence_table("", comparison.cannot_tell)}},
                    fit_section(comparison),
                    residual_section(comparison)};

@@ -205,12 +205,9 @@ output::Page page(const ImpedanceStudy& study) {
   if (!identification.cannot_tell.empty()) {
     page.tables.push_back(sentence_table("What the data cannot tell", identification.cannot_tell));
   }
-  page.sections = {{"Data and fit", noise_text(study), charts(study)},
-                   {"Correlation of the parameters",
-                    "",
-                    {},
-                    {},
-                    {correlation_table(identification.correlations)}}};
+  page.sections = {
+      {"Data and fit", noise_text(study), charts(study)},
+      {"Correlation of the parameters", "", {}, {correlation_table(identification.correlations)}}};
   return page;
 }
 
