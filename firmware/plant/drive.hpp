@@ -1,5 +1,5 @@
-/// Drive waveforms. Each offers a power series about one phase, and samples at equal steps of
-/// phase. A waveform with corners or jumps consists of straight pieces; an interval lies within one
+/// Drive waveforms. Each offers the type of its amplitude, a power series about one phase, and samples
+/// at equal steps of phase. A waveform with corners or jumps consists of straight pieces; an interval lies within one
 /// piece.
 #pragma once
 
@@ -12,8 +12,17 @@
 
 namespace sonoglide::plant {
 
+/// No smaller than the force of a drive.
+template <class Scalar>
+Scalar largest_force(Scalar amplitude) {
+  return numeric::abs(amplitude);
+}
+
 /// No drive force.
 struct NoDrive {
+  template <class Scalar>
+  using Amplitude = Scalar;
+
   /// The zero to subtract from at no cost: -0 - x is -x to a compiler, 0 - x is not.
   template <class Scalar>
   static constexpr Scalar nothing = numeric::from_real<Scalar>(-0.0);
@@ -43,6 +52,9 @@ struct NoDrive {
 
 /// a cos(phase), the phase in radians.
 struct CosineDrive {
+  template <class Scalar>
+  using Amplitude = Scalar;
+
   /// The drive at one phase.
   template <class Scalar>
   struct Phasor {
@@ -108,6 +120,9 @@ struct CosineDrive {
 /// Straight::slope(amplitude) its increase per radian.
 template <class Straight>
 struct StraightDrive {
+  template <class Scalar>
+  using Amplitude = Scalar;
+
   /// The drive at one phase.
   template <class Scalar>
   struct Phasor {

@@ -51,7 +51,7 @@ struct Damped {
 ///
 /// Law      friction::None, or another law of friction/ (law.hpp lists what a law offers)
 /// Damping  Undamped or Damped
-/// DriveOf  NoDrive, CosineDrive, RampDrive or LevelDrive
+/// DriveOf  NoDrive, CosineDrive, RampedCosineDrive, RampDrive or LevelDrive
 /// SlidingOf  LinearSliding, or ConstantSliding where no interval has a sliding acceleration
 /// What is not named has no member: the parameters of a law and of the damping are its own.
 /// Aggregate: Model{{law, friction_force, vibration_sign}, {damping}, stiffness}, without the sign

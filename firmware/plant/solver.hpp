@@ -48,7 +48,7 @@ struct HasConfigure<Solver, std::void_t<decltype(std::declval<Solver&>().configu
 
 template <class Solver>
 using OutcomeOfAdvance = decltype(std::declval<Solver&>().advance(
-    std::declval<const Interval<typename Solver::Scalar>&>(),
+    std::declval<const IntervalOf<typename Solver::Model>&>(),
     std::declval<StateOf<typename Solver::Model::FrictionLaw>&>(),
     std::declval<MeanFriction<typename Solver::Scalar>&>(), std::declval<NoObserver&>()));
 

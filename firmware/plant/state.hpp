@@ -55,15 +55,20 @@ bool is_finite(const State<Scalar>& state) {
 
 /// A stretch of time with one drive amplitude and a sliding velocity that is linear in time:
 /// drive force a cos(phase_begin + t), r = sliding_velocity + sliding_acceleration t, t in
-/// [0, duration].
-template <class Scalar>
+/// [0, duration]. The amplitude is a number, or what else the drive says (drive.hpp).
+template <class Scalar, class Amplitude = Scalar>
 struct Interval {
   Scalar phase_begin = Scalar(0);       ///< [0, 2 pi): the caller reduces it, or accuracy is lost
   Scalar duration = Scalar(0);          ///< >= 0, in units of 1 / omega
-  Scalar drive_amplitude = Scalar(0);   ///< a = A / (m L omega^2)
+  Amplitude drive_amplitude{};          ///< a = A / (m L omega^2)
   Scalar sliding_velocity = Scalar(0);  ///< r = Vt / (omega L) at the beginning
   Scalar sliding_acceleration = Scalar(0);  ///< dr / d tau
 };
+
+/// As a plant::Model takes it.
+template <class Model>
+using IntervalOf = Interval<typename Model::Scalar,
+                            typename Model::Drive::template Amplitude<typename Model::Scalar>>;
 
 /// The smallest number of equal steps no longer than longest_step. A number above `limit` is not
 /// told exactly: it is given as limit + 1.

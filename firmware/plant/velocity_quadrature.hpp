@@ -113,4 +113,31 @@ class Demodulator {
   Scalar quadrature_ = Scalar(0);
 };
 
+/// The same of the velocity times the phase: what a drive whose amplitude is linear in the phase is
+/// integrated against.
+template <class Scalar>
+class MomentDemodulator {
+ public:
+  /// @param phase_begin  of the interval [rad]
+  explicit MomentDemodulator(Scalar phase_begin) : phase_begin_(phase_begin) {}
+
+  template <class Step>
+  void operator()(const Step& step) {
+    integrate_velocity(step, [this, &step](Scalar offset, Scalar weighted) {
+      const Scalar phase = phase_begin_ + step.begin() + offset;
+      const auto carrier = numeric::sine_and_cosine(phase);
+      in_phase_ += weighted * phase * carrier.cosine;
+      quadrature_ += weighted * phase * carrier.sine;
+    });
+  }
+
+  Scalar in_phase() const { return in_phase_; }      ///< integral of v phase cos(phase) over tau
+  Scalar quadrature() const { return quadrature_; }  ///< of v phase sin(phase)
+
+ private:
+  Scalar phase_begin_;
+  Scalar in_phase_ = Scalar(0);
+  Scalar quadrature_ = Scalar(0);
+};
+
 }  // namespace sonoglide::plant

@@ -12,6 +12,7 @@
 #include <array>
 #include <cstddef>
 #include <limits>
+#include <type_traits>
 
 #include "firmware/numeric/first_root.hpp"
 #include "firmware/numeric/gauss_legendre.hpp"
@@ -63,6 +64,7 @@ Scalar certain_reversal(std::array<Scalar, Count> p, Scalar end) {
 ///   negligible_deficit     below which the friction counts as settled
 ///   longest_step           [rad], < 2 pi
 ///   counts_work            the friction work is integrated too
+///   ramped                 the amplitude of the drive may be linear in its phase
 template <class D, class Setting>
 class StepLanes {
  public:
@@ -93,6 +95,7 @@ class StepLanes {
 
  private:
   using Scalar = typename Setting::Scalar;
+  using Drive = std::conditional_t<Setting::ramped, RampedDrive<D>, HeldDrive<D>>;
   static constexpr int order = Setting::order;
   static constexpr Scalar two_pi = Scalar(numeric::two_pi);
 
@@ -219,7 +222,7 @@ class StepLanes {
   static constexpr auto rule = numeric::gauss_legendre<Setting::node_count>();
 
   const PlantLanes<D>& plant_;
-  InstantLanes<D> instant_;
+  InstantLanes<D, Drive> instant_;
   SeriesLanes<D, order> series_;
 };
 

@@ -26,6 +26,7 @@ struct MapSetting {
   static constexpr float negligible_deficit = 1e-6F;
   static constexpr float longest_step = 2.5F;
   static constexpr bool counts_work = true;
+  static constexpr bool ramped = false;
 };
 
 /// Good for 1e-8.
@@ -41,6 +42,7 @@ struct FineSetting {
   static constexpr double negligible_deficit = 1e-11;
   static constexpr double longest_step = 3.0;
   static constexpr bool counts_work = true;
+  static constexpr bool ramped = false;
 };
 
 inline const char* target_name() {

@@ -15,6 +15,7 @@ HWY_BEFORE_NAMESPACE();
 namespace sonoglide::batch::HWY_NAMESPACE {
 
 /// Good for 1e-6 of the mean friction of one period.
+template <bool Ramped>
 struct PeriodSetting {
   using Scalar = double;
   static constexpr int order = 10;
@@ -27,10 +28,15 @@ struct PeriodSetting {
   static constexpr double negligible_deficit = 1e-8;
   static constexpr double longest_step = 3.0;
   static constexpr bool counts_work = false;
+  static constexpr bool ramped = Ramped;
 };
 
 inline void run_driven(LaneQueue& queue) {
-  LaneSchedule<PeriodSetting>(queue).run();
+  LaneSchedule<PeriodSetting<false>>(queue).run();
+}
+
+inline void run_ramped(LaneQueue& queue) {
+  LaneSchedule<PeriodSetting<true>>(queue).run();
 }
 
 }  // namespace sonoglide::batch::HWY_NAMESPACE

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "firmware/numeric/turn.hpp"
+
 namespace sonoglide::batch {
 namespace {
 
@@ -38,6 +40,12 @@ RunStatus status_of(const Progress& progress) {
 }
 
 }  // namespace
+
+double bound_of(const DriveAmplitude& drive) {
+  return std::fmax(std::abs(drive.at_zero),
+                   std::abs(drive.at_zero + numeric::two_pi * drive.slope)) +
+         2.0 * std::abs(drive.slope);
+}
 
 LanePlant LaneQueue::next(std::size_t lane) {
   while (next_point_ < count_) {

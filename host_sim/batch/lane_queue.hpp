@@ -30,14 +30,17 @@ struct LanePlant {
 inline constexpr LanePlant idling = {
     {0.0, 0.0, 0.0, 0.0, 1.0, 1.0, 1.0, {0.0, 0.0, 1.0}}, 0.0, 0.5};
 
-/// Whole carrier periods from a phase 0 on, under one drive amplitude.
+/// Whole carrier periods from a phase 0 on, under one drive amplitude; one period, where that changes.
 struct LaneStretch {
   double periods = 0.0;
-  double drive_amplitude = 0.0;
+  DriveAmplitude drive;
 };
 
+/// Of the force within a period, and of its first two derivatives.
+double bound_of(const DriveAmplitude& drive);
+
 /// Of a lane that idles: nobody is to look at it.
-inline constexpr LaneStretch endless = {std::numeric_limits<double>::infinity(), 0.0};
+inline constexpr LaneStretch endless = {std::numeric_limits<double>::infinity(), {}};
 
 /// What a lane has to show when it stops.
 struct Progress {

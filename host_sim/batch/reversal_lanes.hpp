@@ -27,10 +27,11 @@ struct CurvatureBound {
   V second;
   V third;
 
+  template <class Drive>
   HWY_INLINE CurvatureBound(D d, const PlantLanes<D>& plant, const MotionLanes<D>& motion,
-                            const InstantLanes<D>& instant, V extent) {
+                            const InstantLanes<D, Drive>& instant, V extent) {
     const V length = extent * instant.unit;
-    const V drive = Abs(plant.drive_amplitude);
+    const V drive = plant.drive_bound;
     const V speed = Abs(motion.velocity);
     const V velocity = MulAdd(drive + plant.friction_force, length,
                               MulAdd(plant.natural_frequency, Abs(motion.displacement), speed));
@@ -70,8 +71,10 @@ class ReversalLanes {
   M uncertain;  ///< nothing is known for certain
   V root;       ///< extent where there is none
 
-  HWY_INLINE ReversalLanes(D d, const InstantLanes<D>& instant, const SeriesLanes<D, Order>& series,
-                           V vibration_sign, const CurvatureBound<D>& bound, V extent)
+  template <class Drive>
+  HWY_INLINE ReversalLanes(D d, const InstantLanes<D, Drive>& instant,
+                           const SeriesLanes<D, Order>& series, V vibration_sign,
+                           const CurvatureBound<D>& bound, V extent)
       : series_(series),
         start_(Abs(instant.contact_velocity)),
         orientation_(instant.direction * vibration_sign),

@@ -68,7 +68,7 @@ class RunQueue : public LaneQueue {
   }
 
   LaneStretch stretch_of(std::size_t lane, std::size_t point) const {
-    return {static_cast<double>(stretch_periods(sums_[lane])), plant(point).drive_amplitude};
+    return {static_cast<double>(stretch_periods(sums_[lane])), {plant(point).drive_amplitude}};
   }
 
   void finish(const Sums& sums, const plant::State<double>& state, DahlRun& run) const {

@@ -81,6 +81,12 @@ std::vector<DahlRun> run_dahl_plants(const std::vector<DahlPlant>& plants, const
 
 // Many independent plants at once, one in each SIMD lane, whose drive is set anew in each period.
 
+/// Over a carrier period: a = at_zero + slope tau, tau the phase.
+struct DriveAmplitude {
+  double at_zero = 0.0;
+  double slope = 0.0;
+};
+
 /// What drives the plants: asked about each of them at the end of each of its carrier periods.
 class DriveSource {
  public:
@@ -89,7 +95,10 @@ class DriveSource {
   /// A carrier period of a plant is over.
   /// @param mean_friction  of phi over that period
   /// @return the drive amplitude a of the next one; absent where the run ends here
-  virtual std::optional<double> next_amplitude(std::size_t plant, double mean_friction) = 0;
+  virtual std::optional<DriveAmplitude> next_amplitude(std::size_t plant, double mean_friction) = 0;
+
+  /// Whether an amplitude may have a slope; without it the lanes are a little faster.
+  virtual bool ramps() const { return false; }
 };
 
 /// Runs `count` plants as run_dahl_plants does, in float64 lanes, from one phase 0 of the drive to

@@ -11,6 +11,7 @@
 namespace sonoglide::batch {
 
 HWY_EXPORT(run_driven);
+HWY_EXPORT(run_ramped);
 
 namespace {
 
@@ -24,14 +25,14 @@ class DrivenQueue : public LaneQueue {
   void set_status(std::size_t point, RunStatus status) override { statuses_[point] = status; }
 
   LaneStretch first_stretch(std::size_t /*lane*/, std::size_t point) override {
-    return {1.0, plant(point).drive_amplitude};
+    return {1.0, {plant(point).drive_amplitude}};
   }
 
   std::optional<LaneStretch> next_stretch(std::size_t /*lane*/, std::size_t point,
                                           const Progress& progress) override {
-    const std::optional<double> amplitude =
+    const std::optional<DriveAmplitude> drive =
         source_.next_amplitude(point, progress.integrals.friction_ratio / numeric::two_pi);
-    return amplitude ? std::optional(LaneStretch{1.0, *amplitude}) : std::nullopt;
+    return drive ? std::optional(LaneStretch{1.0, *drive}) : std::nullopt;
   }
 
   DriveSource& source_;
@@ -43,7 +44,11 @@ class DrivenQueue : public LaneQueue {
 void run_driven_plants(const DahlPlant* plants, std::size_t count, DriveSource& source,
                        RunStatus* statuses) {
   DrivenQueue queue(plants, count, source, statuses);
-  HWY_DYNAMIC_DISPATCH(run_driven)(queue);
+  if (source.ramps()) {
+    HWY_DYNAMIC_DISPATCH(run_ramped)(queue);
+  } else {
+    HWY_DYNAMIC_DISPATCH(run_driven)(queue);
+  }
 }
 
 std::vector<RunStatus> run_driven_plants(const std::vector<DahlPlant>& plants,

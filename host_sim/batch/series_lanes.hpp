@@ -23,7 +23,9 @@ template <class D>
 struct PlantLanes {
   using V = Pack<D>;
 
-  V drive_amplitude;    ///< a
+  V drive_amplitude;    ///< a, at phase 0
+  V drive_slope;        ///< its increase with the phase; of no use unless the setting is ramped
+  V drive_bound;        ///< of the force and its first two derivatives within a period
   V damping;            ///< d
   V stiffness;          ///< k
   V friction_force;     ///< beta
@@ -54,8 +56,67 @@ HWY_INLINE Pack<D> reciprocal(D d, int n) {
   return broadcast(d, numeric::reciprocal<hn::TFromD<D>>(static_cast<std::size_t>(n)));
 }
 
-/// The motion where the step begins, and the direction in which the contact slides.
+/// Terms of the power series of a cosine, in two places in turn.
 template <class D>
+struct CosineTerms {
+  Pack<D> term[2];
+
+  /// The N-th, each in its turn.
+  template <int N>
+  HWY_INLINE Pack<D> take(D d, Pack<D> unit_squared) {
+    if constexpr (N > 0) {
+      const Pack<D> next = term[(N + 1) % 2] * unit_squared;
+      term[(N + 1) % 2] = Neg(next * (reciprocal(d, N + 1) * reciprocal(d, N)));
+    }
+    return term[N % 2];
+  }
+};
+
+/// The amplitude of the drive holds.
+template <class D>
+struct HeldDrive {
+  using V = Pack<D>;
+
+  HWY_INLINE HeldDrive(const PlantLanes<D>& /*plant*/, const SineAndCosine<V>& /*turn*/) {}
+  HWY_INLINE V amplitude(const PlantLanes<D>& plant, V /*phase*/) const {
+    return plant.drive_amplitude;
+  }
+  HWY_INLINE CosineTerms<D> series(V first, V second, V /*unit*/, V /*unit_squared*/) const {
+    return {{first, second}};
+  }
+};
+
+/// It is linear in the phase: beside the cosine there is slope t cos(tau).
+template <class D>
+struct RampedDrive {
+  using V = Pack<D>;
+
+  V in_phase;    ///< (da/dtau) cos(tau)
+  V quadrature;  ///< (da/dtau) sin(tau)
+
+  HWY_INLINE RampedDrive(const PlantLanes<D>& plant, const SineAndCosine<V>& turn)
+      : in_phase(plant.drive_slope * turn.cosine), quadrature(plant.drive_slope * turn.sine) {}
+  HWY_INLINE V amplitude(const PlantLanes<D>& plant, V phase) const {
+    return MulAdd(plant.drive_slope, phase, plant.drive_amplitude);
+  }
+
+  struct Terms {
+    CosineTerms<D> level;
+    CosineTerms<D> slope;
+
+    template <int N>
+    HWY_INLINE V take(D d, V unit_squared) {
+      return level.template take<N>(d, unit_squared) + slope.template take<N - 1>(d, unit_squared);
+    }
+  };
+  HWY_INLINE Terms series(V first, V second, V unit, V unit_squared) const {
+    return {{{first, second}},
+            {{in_phase * unit_squared, Neg(quadrature * (unit_squared * unit))}}};
+  }
+};
+
+/// The motion where the step begins, and the direction in which the contact slides.
+template <class D, class Drive>
 struct InstantLanes {
   using V = Pack<D>;
 
@@ -68,13 +129,20 @@ struct InstantLanes {
   V resolved_deficit;  ///< the same, or 0 where it is too small to matter within the step
   V rate;              ///< no slower than anything that moves
   V unit;              ///< of the power series, in tau: 1 / rate
+  Drive drive;
 
   HWY_INLINE InstantLanes(D d, const PlantLanes<D>& plant, const MotionLanes<D>& motion,
-                          V negligible_deficit) {
+                          V negligible_deficit)
+      : InstantLanes(d, plant, motion, negligible_deficit, sine_and_cosine(d, motion.phase)) {}
+
+ private:
+  HWY_INLINE InstantLanes(D d, const PlantLanes<D>& plant, const MotionLanes<D>& motion,
+                          V negligible_deficit, const SineAndCosine<V>& turn)
+      : drive(plant, turn) {
     const V one = broadcast(d, 1);
-    const SineAndCosine<V> turn = sine_and_cosine(d, motion.phase);
-    in_phase = plant.drive_amplitude * turn.cosine;
-    quadrature = plant.drive_amplitude * turn.sine;
+    const V amplitude = drive.amplitude(plant, motion.phase);
+    in_phase = amplitude * turn.cosine;
+    quadrature = amplitude * turn.sine;
     acceleration = NegMulAdd(plant.friction_force, motion.friction,
                              NegMulAdd(plant.stiffness, motion.displacement,
                                        NegMulAdd(plant.damping, motion.velocity, in_phase)));
@@ -102,8 +170,9 @@ struct SeriesLanes {
   V displacement[Order + 1];  ///< in units of `unit`
   V deficit[Order + 1];       ///< e, as far as it is resolved
 
+  template <class Drive>
   HWY_INLINE SeriesLanes(D d, const PlantLanes<D>& plant, const MotionLanes<D>& motion,
-                         const InstantLanes<D>& instant) {
+                         const InstantLanes<D, Drive>& instant) {
     const V unit_squared = instant.unit * instant.unit;
     const V damping = plant.damping * instant.unit;
     const V stiffness = plant.stiffness * unit_squared;
@@ -118,7 +187,9 @@ struct SeriesLanes {
     deficit[1] = relaxation_[0] * deficit[0];
     const Recurrence recurrence = {decay * plant.vibration_sign, damping, stiffness, friction,
                                    unit_squared};
-    V drive[2] = {instant.in_phase * instant.unit, Neg(instant.quadrature * unit_squared)};
+    auto drive =
+        instant.drive.series(instant.in_phase * instant.unit,
+                             Neg(instant.quadrature * unit_squared), instant.unit, unit_squared);
     add_terms(d, recurrence, drive, std::make_integer_sequence<int, Order - 1>());
   }
 
@@ -132,25 +203,24 @@ struct SeriesLanes {
   };
 
   /// Unrolled: the sums are short, of known length, and overlap.
-  template <int... Terms>
-  HWY_INLINE void add_terms(D d, const Recurrence& recurrence, V* drive,
+  template <class Drive, int... Terms>
+  HWY_INLINE void add_terms(D d, const Recurrence& recurrence, Drive& drive,
                             std::integer_sequence<int, Terms...> /*terms*/) {
     (add_term<Terms + 1>(d, recurrence, drive), ...);
   }
 
-  /// Terms of x^(N + 1) from those before. The drive's terms alternate between two places.
-  template <int N>
-  HWY_INLINE void add_term(D d, const Recurrence& recurrence, V* drive) {
+  /// Terms of x^(N + 1) from those before.
+  template <int N, class Drive>
+  HWY_INLINE void add_term(D d, const Recurrence& recurrence, Drive& drive) {
     const V factor = reciprocal(d, N + 1);
     relaxation_[N] = recurrence.vibration * velocity[N];
     displacement[N + 1] = factor * velocity[N];
-    V force = NegMulAdd(recurrence.stiffness, displacement[N], drive[N % 2]);
+    V force = NegMulAdd(recurrence.stiffness, displacement[N],
+                        drive.template take<N>(d, recurrence.unit_squared));
     force = NegMulAdd(recurrence.damping, velocity[N], force);
     force = MulAdd(recurrence.friction, deficit[N], force);
     velocity[N + 1] = factor * force;
     deficit[N + 1] = factor * convolution(std::make_integer_sequence<int, (N + 1) / 2>(), N);
-    const V next_drive = drive[(N + 1) % 2] * recurrence.unit_squared;
-    drive[(N + 1) % 2] = Neg(next_drive * (factor * reciprocal(d, N)));
   }
 
   /// Sum of relaxation[j] deficit[n - j], from the middle outwards: the newest factors enter last,

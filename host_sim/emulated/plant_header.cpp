@@ -277,6 +277,10 @@ std::string plant_header(const configure::Experiment& experiment, scene::Arithme
           "profile");
   require(scene.drive->waveform == scene::Waveform::cosine, "drive.waveform",
           "the plant of an image is driven by a cosine; allowed: \"cosine\"");
+  require(scene.drive->interpolation == scene::Interpolation::step, "drive.interpolation",
+          "the plant of an image holds the amplitude over a carrier period; allowed: \"step\"");
+  require(scene.drive->bias_limit_N == 0.0, "drive.bias_limit_N",
+          "the plant of an image has no bias force; allowed: 0");
   require(
       !scene.sensor.vibration, "controller.vibration",
       "the plant of an image shows no vibration, and its drive has one frequency; allowed: a scene "

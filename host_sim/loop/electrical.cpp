@@ -1,9 +1,12 @@
 #include "host_sim/loop/electrical.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 
+#include "firmware/numeric/gauss_legendre.hpp"
 #include "firmware/numeric/turn.hpp"
 
 namespace sonoglide::loop {
@@ -24,6 +27,55 @@ CarrierIntegrals carrier_integrals(const Stretch& stretch) {
   const double swing_s = 0.5 * std::cos(2.0 * middle) * std::sin(angle) / rate;
   const double product_s = 0.5 * std::sin(2.0 * middle) * std::sin(angle) / rate;
   return {0.5 * stretch.duration_s + swing_s, 0.5 * stretch.duration_s - swing_s, product_s};
+}
+
+/// The voltage is V = p cos θ, p = amplitude + slope θ. What depends on it alone is integrated by
+/// Gauss-Legendre quadrature; what depends on the motion too is
+///   ∫V x' dt = amplitude c + slope c1,   ∫p sin θ x' dt = amplitude s + slope s1,
+///   ∫V' x' dt = ω (slope c - amplitude s - slope s1),
+/// c, s, c1, s1 the integrals of x' and x' θ times cos θ and sin θ.
+ElectricalBalance balance_of_ramp(const scene::Transducer& transducer, const Stretch& stretch,
+                                  const EnergyBalance& energy) {
+  const double factor = transducer.force_factor_N_per_V;
+  const double rate = stretch.drive_rate_rad_per_s;
+  const double first_V = transducer.voltage_V(stretch.drive_amplitude_N);
+  const double slope_V = transducer.voltage_V(stretch.drive_slope_N_per_rad);
+  const double capacitance_F = transducer.clamped_capacitance_F;
+  const double conductance_S = clamped_admittance_S(transducer, rate).real();
+  const auto [c, s] = std::array{energy.velocity_in_phase_m, energy.velocity_quadrature_m};
+  const double voltage_motion = first_V * c + slope_V * energy.velocity_in_phase_moment_m;
+  const double quadrature_motion = first_V * s + slope_V * energy.velocity_quadrature_moment_m;
+
+  ElectricalBalance balance;
+  balance.duration_s = stretch.duration_s;
+  balance.mechanical_J = energy.drive_work_J;
+  balance.input_J = factor * voltage_motion;
+  balance.reactive_J = factor * quadrature_motion;
+  balance.current_square_A2_s = factor * factor * energy.velocity_square_m2_per_s +
+                                2.0 * factor *
+                                    (capacitance_F * rate * (slope_V * c - quadrature_motion) +
+                                     conductance_S * voltage_motion);
+  static constexpr auto rule = numeric::gauss_legendre<24>();
+  for (std::size_t i = 0; i < rule.node.size(); ++i) {
+    const double weight_s = rule.weight[i] * stretch.duration_s;
+    const double phase = stretch.drive_phase_rad + rate * (rule.node[i] * stretch.duration_s);
+    const double peak_V = first_V + slope_V * phase;
+    const double voltage_V = peak_V * std::cos(phase);
+    const double quadrature_V = peak_V * std::sin(phase);
+    const double rise_V_per_s = rate * (slope_V * std::cos(phase) - quadrature_V);
+    const double current_A = capacitance_F * rise_V_per_s + conductance_S * voltage_V;
+    balance.input_J += weight_s * voltage_V * current_A;
+    balance.losses_J += weight_s * conductance_S * voltage_V * voltage_V;
+    balance.reactive_J += weight_s * quadrature_V * current_A;
+    balance.voltage_square_V2_s += weight_s * voltage_V * voltage_V;
+    balance.current_square_A2_s += weight_s * current_A * current_A;
+  }
+  const double end_phase = stretch.drive_phase_rad + rate * stretch.duration_s;
+  const double begin_V =
+      (first_V + slope_V * stretch.drive_phase_rad) * std::cos(stretch.drive_phase_rad);
+  const double end_V = (first_V + slope_V * end_phase) * std::cos(end_phase);
+  balance.stored_change_J = 0.5 * capacitance_F * (end_V - begin_V) * (end_V + begin_V);
+  return balance;
 }
 
 }  // namespace
@@ -67,6 +119,9 @@ std::complex<double> clamped_admittance_S(const scene::Transducer& transducer,
 
 ElectricalBalance electrical_balance(const scene::Transducer& transducer, const Stretch& stretch,
                                      const EnergyBalance& energy) {
+  if (stretch.drive_slope_N_per_rad != 0.0) {
+    return balance_of_ramp(transducer, stretch, energy);
+  }
   const double factor = transducer.force_factor_N_per_V;
   const double peak_V = transducer.voltage_V(stretch.drive_amplitude_N);
   const std::complex<double> clamped =
@@ -99,12 +154,16 @@ ElectricalBalance electrical_balance(const scene::Transducer& transducer, const 
   return balance;
 }
 
-std::complex<double> current_A(const scene::Transducer& transducer, double drive_amplitude_N,
+std::complex<double> current_A(const scene::Transducer& transducer, const PeriodDrive& drive,
                                double frequency_Hz, std::complex<double> vibration_m_per_s) {
   const double factor = transducer.force_factor_N_per_V;
   const double rate_rad_per_s = numeric::two_pi * frequency_Hz;
-  return factor * vibration_m_per_s +
-         transducer.voltage_V(drive_amplitude_N) * clamped_admittance_S(transducer, rate_rad_per_s);
+  const std::complex<double> current_A =
+      factor * vibration_m_per_s +
+      drive.fundamental_N() / factor * clamped_admittance_S(transducer, rate_rad_per_s);
+  // The fundamental of V' is jω times that of V where V returns to where it began.
+  return current_A +
+         transducer.clamped_capacitance_F * 2.0 * frequency_Hz * (drive.rise_N() / factor);
 }
 
 }  // namespace sonoglide::loop

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "host_sim/loop/plant/energy.hpp"
+#include "host_sim/loop/plant/period_drive.hpp"
 #include "host_sim/loop/plant/plant_port.hpp"
 #include "host_sim/scene/scene.hpp"
 
@@ -14,7 +15,7 @@ namespace sonoglide::loop {
 ///
 /// The current is i = Nf x' + C0 V' + V/R0, R0 = 1/(ω C0 tan δ). Identity:
 ///   input = mechanical work + change of C0 V²/2 + losses.
-/// A voltage that jumps at a phase 0 charges C0 at once. This charge and its energy, which comes back
+/// A voltage that jumps, at a phase 0 or from one code to the next, charges C0 at once. This charge and its energy, which comes back
 /// when the voltage returns, are not in the account.
 struct ElectricalBalance {
   double duration_s = 0.0;
@@ -49,14 +50,14 @@ ElectricalFigures electrical_figures(const ElectricalBalance& balance);
 std::complex<double> clamped_admittance_S(const scene::Transducer& transducer,
                                           double rate_rad_per_s);
 
-/// Of one stretch under a cosine.
+/// Of one stretch under a cosine, without a bias.
 /// @param energy  of it, demodulated
 ElectricalBalance electrical_balance(const scene::Transducer& transducer, const Stretch& stretch,
                                      const EnergyBalance& energy);
 
 /// The current's fundamental over a carrier period: i = Re(current e^jθ).
 /// @param vibration_m_per_s  z of x' = Re(z e^jθ)
-std::complex<double> current_A(const scene::Transducer& transducer, double drive_amplitude_N,
+std::complex<double> current_A(const scene::Transducer& transducer, const PeriodDrive& drive,
                                double frequency_Hz, std::complex<double> vibration_m_per_s);
 
 }  // namespace sonoglide::loop

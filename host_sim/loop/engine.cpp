@@ -64,6 +64,10 @@ PlantPeriod Engine::move(double amplitude_N, double bias_N) {
   // Of a period that is cut short there is no fundamental.
   if (scene_.demodulates() && period.whole) {
     period.vibration_m_per_s = energy.vibration_m_per_s();
+    if (scene_.transducer) {
+      period.current_A = current_A(*scene_.transducer, plant_->drive(), period.frequency_Hz,
+                                   period.vibration_m_per_s);
+    }
   }
   period.open_fraction = energy.open_s / energy.duration_s;
   return period;

@@ -49,6 +49,7 @@ PlantRun::PlantRun(const scene::Scene& scene, const CarrierClock& clock, const W
       waveform_(scene.drive ? scene.drive->waveform : scene::Waveform::cosine),
       energies_(watch.energies || scene.transducer.has_value()),
       sliding_velocity_m_per_s_(sliding_.velocity_m_per_s(0.0)),
+      drive_(scene, 0.0, 0.0, 0.0),
       cuts_s_(cuts_of(scene, sliding_)),
       sampler_(watch.samples) {
   if (scene.transducer) {
@@ -65,10 +66,10 @@ EnergyBalance PlantRun::advance(double amplitude_N, double bias_N) {
   const double end_s = clock_.end_s();
   const double duration_s = clock_.duration_s();
   const double last_cut_s = duration_s - clock_.rounding_s(end_s);
-  const PeriodDrive drive(scene_, amplitude_N_, amplitude_N, bias_N);
+  drive_ = PeriodDrive(scene_, drive_.end_N(), amplitude_N, bias_N);
   const bool has_corner =
       waveform_ == scene::Waveform::square || waveform_ == scene::Waveform::triangle;
-  const int pieces = has_corner ? 2 : drive.parts();
+  const int pieces = has_corner ? 2 : drive_.parts();
   EnergyBalance total;
   meter_.begin_period();
   double from_s = 0.0;
@@ -76,13 +77,12 @@ EnergyBalance PlantRun::advance(double amplitude_N, double bias_N) {
     const double cut_s = clock_.period_s() * (i + 1) / pieces;
     const bool last = i + 1 == pieces || !(cut_s < last_cut_s);
     const double until_s = last ? duration_s : cut_s;
-    piece(begin_s, from_s, until_s, last ? end_s : begin_s + cut_s, drive.part(has_corner ? 0 : i),
+    piece(begin_s, from_s, until_s, last ? end_s : begin_s + cut_s, drive_.part(has_corner ? 0 : i),
           total);
     from_s = until_s;
   }
-  amplitude_N_ = amplitude_N;
   result_.whole.append(total);
-  note_peaks(end_s, amplitude_N, total);
+  note_peaks(end_s, total);
   return total;
 }
 
@@ -90,15 +90,16 @@ bool PlantRun::in_window(double begin_s) const {
   return begin_s >= scene_.run.window_start_s - clock_.rounding_s(begin_s);
 }
 
-void PlantRun::note_peaks(double end_s, double amplitude_N, const EnergyBalance& period) {
+void PlantRun::note_peaks(double end_s, const EnergyBalance& period) {
   if (!scene_.transducer) {
     return;
   }
   ElectricalBalance peaks;
-  peaks.voltage_peak_V = scene_.transducer->voltage_V(std::abs(amplitude_N));
+  peaks.voltage_peak_V =
+      scene_.transducer->voltage_V(std::max(std::abs(drive_.begin_N()), std::abs(drive_.end_N())));
   if (clock_.is_whole()) {
-    peaks.current_peak_A = std::abs(current_A(*scene_.transducer, amplitude_N,
-                                              clock_.frequency_Hz(), period.vibration_m_per_s()));
+    peaks.current_peak_A = std::abs(
+        current_A(*scene_.transducer, drive_, clock_.frequency_Hz(), period.vibration_m_per_s()));
     result_.current_peak_A = std::max(result_.current_peak_A, peaks.current_peak_A);
   }
   if (end_s > scene_.run.window_start_s + clock_.rounding_s(end_s)) {
@@ -126,14 +127,14 @@ void PlantRun::piece(double begin_s, double from_s, double until_s, double end_s
 
 void PlantRun::save(SnapshotWriter& state) const {
   state.put(sliding_velocity_m_per_s_);
-  state.put(amplitude_N_);
+  state.put(drive_);
   state.put(next_cut_);
   plant_->save(state);
 }
 
 void PlantRun::restore(SnapshotReader& state) {
   state.get(sliding_velocity_m_per_s_);
-  state.get(amplitude_N_);
+  state.get(drive_);
   state.get(next_cut_);
   plant_->restore(state);
 }

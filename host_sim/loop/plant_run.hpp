@@ -36,6 +36,9 @@ class PlantRun {
   /// @throws ComputationError
   EnergyBalance advance(double amplitude_N, double bias_N = 0.0);
 
+  /// In the last call of advance().
+  const PeriodDrive& drive() const { return drive_; }
+
   /// Now, where the last call of advance() ended.
   PlantState state() const { return plant_->state(); }
 
@@ -53,7 +56,7 @@ class PlantRun {
                         const DrivePart& drive);
   plant::Outcome<double> solve(double begin_s, double end_s, const Stretch& stretch,
                                EnergyBalance& energy);
-  void note_peaks(double end_s, double amplitude_N, const EnergyBalance& period);
+  void note_peaks(double end_s, const EnergyBalance& period);
   bool in_window(double begin_s) const;
   [[noreturn]] void fail(plant::Error error, double time_s) const;
 
@@ -67,7 +70,7 @@ class PlantRun {
   scene::Waveform waveform_;
   bool energies_;
   double sliding_velocity_m_per_s_;
-  double amplitude_N_ = 0.0;    ///< of the last period
+  PeriodDrive drive_;           ///< of the last period
   std::vector<double> cuts_s_;  ///< times inside carrier periods at which a stretch must end
   std::size_t next_cut_ = 0;
   Sampler sampler_;

@@ -21,12 +21,15 @@ struct Period {
   double friction_ratio = undefined;
   double begin_velocity_m_per_s = 0.0;  ///< sliding
   double end_velocity_m_per_s = 0.0;
-  double drive_amplitude_N = 0.0;  ///< in force during it
+  double drive_amplitude_N = 0.0;  ///< in force during it, at its end where it passes linearly
   double frequency_Hz = 0.0;       ///< likewise, of the carrier; 0 without a drive
   bool whole = true;               ///< not cut short by the end of the run
   /// z [m/s]: the vibration velocity is Re(z e^jθ), θ the phase of the drive; NaN where
   /// nobody asks for it, and of a period that is cut short.
   std::complex<double> vibration_m_per_s = undefined;
+  /// Of the fundamental of a transducer's current, i = Re(current_A e^jθ); NaN without one, and of a
+  /// period that is cut short.
+  std::complex<double> current_A = undefined;
   /// Part of it in which a contact that vibrates normally is open.
   double open_fraction = 0.0;
   double natural_Hz = 0.0;  ///< of the plant without its damping, in the middle of the period

@@ -6,7 +6,6 @@
 #include <cstdint>
 
 #include "firmware/numeric/turn.hpp"
-#include "host_sim/loop/electrical.hpp"
 
 namespace sonoglide::report {
 namespace {
@@ -29,23 +28,16 @@ void Course::take(const loop::Period& period) {
 }
 
 void VibrationCourse::take(const loop::Period& period) {
-  const std::complex<double> taken_A = current_of(period);
   constexpr double degrees = 360.0 / numeric::two_pi;
   curve_.add(
       period.begin_s,
-      {std::abs(period.vibration_m_per_s), period.wanted_vibration_m_per_s, std::abs(taken_A),
-       period.frequency_Hz, period.natural_Hz,
+      {std::abs(period.vibration_m_per_s), period.wanted_vibration_m_per_s,
+       std::abs(period.current_A), period.frequency_Hz, period.natural_Hz,
        period.drive_amplitude_N == 0.0 ? gap : degrees * std::arg(period.vibration_m_per_s)});
-  remember(period, taken_A);
+  remember(period);
 }
 
-std::complex<double> VibrationCourse::current_of(const loop::Period& period) const {
-  return transducer_ ? loop::current_A(*transducer_, period.drive_amplitude_N, period.frequency_Hz,
-                                       period.vibration_m_per_s)
-                     : gap;
-}
-
-void VibrationCourse::remember(const loop::Period& period, std::complex<double> taken_A) {
+void VibrationCourse::remember(const loop::Period& period) {
   if (transducer_ && period.whole && period.drive_amplitude_N != 0.0) {
     const double voltage_V = transducer_->voltage_V(period.drive_amplitude_N);
     constexpr double kept = 1.0 - 1.0 / operating_periods;
@@ -53,7 +45,7 @@ void VibrationCourse::remember(const loop::Period& period, std::complex<double> 
     recent_.frequency_Hz = kept * recent_.frequency_Hz + period.frequency_Hz;
     recent_.voltage_V = kept * recent_.voltage_V + voltage_V;
     recent_.either_voltage_V = kept * recent_.either_voltage_V + std::abs(voltage_V);
-    recent_.current_A = kept * recent_.current_A + taken_A;
+    recent_.current_A = kept * recent_.current_A + period.current_A;
   }
 }
 

@@ -75,8 +75,7 @@ class VibrationCourse final : public loop::PeriodSink {
  private:
   static constexpr std::size_t most_points = 20000;
 
-  std::complex<double> current_of(const loop::Period& period) const;
-  void remember(const loop::Period& period, std::complex<double> taken_A);
+  void remember(const loop::Period& period);
 
   std::optional<scene::Transducer> transducer_;
   Curve curve_{most_points};

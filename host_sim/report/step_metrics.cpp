@@ -6,7 +6,6 @@
 #include <numeric>
 
 #include "firmware/control/interface/drive_command.hpp"
-#include "host_sim/loop/electrical.hpp"
 #include "host_sim/report/run_notes.hpp"
 #include "host_sim/scene/friction_laws.hpp"
 
@@ -38,7 +37,6 @@ StepMeter::StepMeter(const scene::Scene& scene, const configure::ControlDesign& 
       has_map_(scene::has_own_map(scene.friction.law)),
       observes_vibration_(scene.sensor.vibration),
       resonant_(scene.resonant()),
-      transducer_(scene.transducer),
       largest_current_A_(scene.drive->max_current_amplitude_A) {
   for (const TargetSpan& span : cursor_.spans()) {
     Tally tally;
@@ -108,9 +106,7 @@ void StepMeter::take_any(const loop::Period& period, const TargetSpan& span, Tal
     tally.velocity_settled_s = period.end_s;
   }
   if (largest_current_A_ && period.whole) {
-    tally.current_A = std::max(
-        tally.current_A, std::abs(loop::current_A(*transducer_, period.drive_amplitude_N,
-                                                  period.frequency_Hz, period.vibration_m_per_s)));
+    tally.current_A = std::max(tally.current_A, std::abs(period.current_A));
   }
   tally.last_end_s = period.end_s;
   ++tally.periods;

@@ -172,7 +172,6 @@ class StepMeter final : public loop::PeriodSink {
   bool has_map_;
   bool observes_vibration_;
   bool resonant_;
-  std::optional<scene::Transducer> transducer_;
   std::optional<double> largest_current_A_;
   std::vector<Tally> tallies_;
   bool pausing_ = false;

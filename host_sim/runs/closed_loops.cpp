@@ -1,5 +1,6 @@
 #include "host_sim/runs/closed_loops.hpp"
 
+#include <algorithm>
 #include <cstddef>
 #include <memory>
 #include <optional>
@@ -10,6 +11,7 @@
 #include "host_sim/loop/carrier_grid.hpp"
 #include "host_sim/loop/control_port.hpp"
 #include "host_sim/loop/engine.hpp"
+#include "host_sim/loop/plant/period_drive.hpp"
 #include "host_sim/runs/lane_scene.hpp"
 
 namespace sonoglide::runs {
@@ -19,7 +21,9 @@ namespace {
 class RunningLoop {
  public:
   explicit RunningLoop(const ClosedLoop& loop)
-      : scales_(configure::plant_scales(loop.scene)),
+      : loop_(loop),
+        drive_(loop.scene, 0.0, 0.0, 0.0),
+        scales_(configure::plant_scales(loop.scene)),
         sliding_m_per_s_(loop.scene.sliding.profile.front().velocity_m_per_s),
         port_(loop::make_control_port(loop.scene, loop.design)),
         result_(loop::begun_result(loop.design)),
@@ -28,7 +32,7 @@ class RunningLoop {
   }
 
   /// @return amplitude of the next period; absent where no whole one follows
-  std::optional<double> next_amplitude(double mean_friction) {
+  std::optional<batch::DriveAmplitude> next_amplitude(double mean_friction) {
     loop::PlantPeriod period = engine_.begun(engine_.control()->amplitude_N());
     period.mean_friction_force_N = mean_friction * scales_.friction_N;
     period.friction_ratio = sliding_m_per_s_ < 0.0 ? -mean_friction : mean_friction;
@@ -38,7 +42,10 @@ class RunningLoop {
     if (engine_.clock().over() || !engine_.clock().is_whole()) {
       return std::nullopt;
     }
-    return engine_.control()->amplitude_N() / scales_.force_N;
+    drive_ = loop::PeriodDrive(loop_.scene, drive_.end_N(), engine_.control()->amplitude_N(), 0.0);
+    const loop::DrivePart part = drive_.part(0);
+    return batch::DriveAmplitude{part.amplitude_N / scales_.force_N,
+                                 part.slope_N_per_rad / scales_.force_N};
   }
 
   loop::ControlRecord finish() {
@@ -47,6 +54,8 @@ class RunningLoop {
   }
 
  private:
+  const ClosedLoop& loop_;
+  loop::PeriodDrive drive_;  ///< of the period that comes next
   scene::PlantScales scales_;
   double sliding_m_per_s_;
   loop::Watch watch_;
@@ -61,17 +70,23 @@ class Controllers final : public batch::DriveSource {
   Controllers(const std::vector<ClosedLoop>& loops, std::vector<LoopRun>& runs)
       : loops_(loops), runs_(runs), running_(loops.size()) {}
 
-  std::optional<double> next_amplitude(std::size_t plant, double mean_friction) override {
+  std::optional<batch::DriveAmplitude> next_amplitude(std::size_t plant,
+                                                      double mean_friction) override {
     std::unique_ptr<RunningLoop>& running = running_[plant];
     if (!running) {
       running = std::make_unique<RunningLoop>(loops_[plant]);
     }
-    const std::optional<double> amplitude = running->next_amplitude(mean_friction);
+    const std::optional<batch::DriveAmplitude> amplitude = running->next_amplitude(mean_friction);
     if (!amplitude) {
       runs_[plant].control = running->finish();
       running.reset();
     }
     return amplitude;
+  }
+
+  bool ramps() const override {
+    return std::any_of(loops_.begin(), loops_.end(),
+                       [](const ClosedLoop& loop) { return loop.scene.drive->is_ramped(); });
   }
 
  private:

@@ -9,9 +9,10 @@ namespace {
 
 bool suits_lanes(const scene::Scene& scene) {
   return scene.run.start == scene::Start::given && scene.drive &&
-         scene.drive->waveform == scene::Waveform::cosine &&
-         scene::is<scene::laws::Dahl>(scene.friction.law) && scene.friction.limit_N() > 0.0 &&
-         scene.profile_key() == nullptr && scene.sliding.profile.size() == 1 &&
+         scene.drive->waveform == scene::Waveform::cosine && scene.drive->codes_per_period == 1 &&
+         scene.drive->bias_limit_N == 0.0 && scene::is<scene::laws::Dahl>(scene.friction.law) &&
+         scene.friction.limit_N() > 0.0 && scene.profile_key() == nullptr &&
+         scene.sliding.profile.size() == 1 &&
          scene.solver.method == scene::method_of<scene::solvers::EventTaylor> &&
          !scene.solver.order;
 }

@@ -101,6 +101,10 @@ struct Drive {
   /// Closed loop: largest force that is constant over a carrier period; 0: none.
   double bias_limit_N = 0.0;
 
+  /// Within a carrier period there may be more than a cosine of one amplitude.
+  bool is_ramped() const {
+    return (interpolation == Interpolation::linear && codes_per_period == 1) || bias_limit_N > 0.0;
+  }
   /// The nearest multiple of the resolution, at least one; without a resolution the frequency itself.
   double nearest_frequency_Hz(double asked_Hz) const;
 };

@@ -62,7 +62,7 @@ class EventGauss {
   /// Advances the state over the interval, adding every step to the account and showing it to the
   /// observer.
   template <class Account, class Observer>
-  Outcome<Scalar> advance(const Interval<Scalar>& interval, State<Scalar>& state, Account& account,
+  Outcome<Scalar> advance(const IntervalOf<Model>& interval, State<Scalar>& state, Account& account,
                           Observer& observer) {
     const Scalar beyond = interval.duration - numeric::twice(half_period);
     if (is_weak_ && numeric::abs(beyond) <= rounding_) {

@@ -42,7 +42,7 @@ class GaussPanel {
   /// Returns false if this method cannot solve the panel; the state is then unchanged.
   [[gnu::always_inline]] bool solve(const Model& model, const Motions& motions,
                                     const PanelLimits<Scalar>& limits,
-                                    const Interval<Scalar>& interval, const State<Scalar>& state) {
+                                    const IntervalOf<Model>& interval, const State<Scalar>& state) {
     side_ = model.side();
     start(motions, interval, state);
     if (!cut(motions, limits)) {
@@ -139,23 +139,44 @@ class GaussPanel {
   // ---- The linear motion, and where it reverses ----
 
   /// The shares of the motions, and the sliding.
-  [[gnu::always_inline]] void start(const Motions& motions, const Interval<Scalar>& interval,
+  [[gnu::always_inline]] void start(const Motions& motions, const IntervalOf<Model>& interval,
                                     const State<Scalar>& state) {
     const Scalar h = motions.half_length;
     sliding_ = {h * interval.sliding_velocity, h * h * interval.sliding_acceleration};
     Scalar displacement = side_ * state.displacement;
     Scalar velocity = side_ * h * state.velocity;
     if constexpr (Motions::is_driven) {
-      const typename Model::Drive::template Phasor<Scalar> middle(side_ * interval.drive_amplitude,
-                                                                  interval.phase_begin + h);
-      share_[2] = middle.in_phase;
-      share_[3] = -middle.quadrature;
+      drive(interval, h);
       displacement -= share_[2] * motions.begin[2].value + share_[3] * motions.begin[3].value;
       velocity -= share_[2] * motions.begin[2].rate + share_[3] * motions.begin[3].rate;
+    }
+    if constexpr (Motions::is_ramped) {
+      for (std::size_t m = 4; m < Motions::count; ++m) {
+        displacement -= share_[m] * motions.begin[m].value;
+        velocity -= share_[m] * motions.begin[m].rate;
+      }
     }
     const auto& [c, s] = std::array{motions.begin[0], motions.begin[1]};
     share_[0] = motions.unwound(displacement * s.rate - velocity * s.value, c.value, s.value);
     share_[1] = motions.unwound(velocity * c.value - displacement * c.rate, c.value, s.value);
+  }
+
+  /// The shares of the motions that the drive adds.
+  [[gnu::always_inline]] void drive(const IntervalOf<Model>& interval, Scalar h) {
+    if constexpr (Motions::is_ramped) {
+      const RampedCosineDrive::Phasor<Scalar> middle(interval.drive_amplitude,
+                                                     interval.phase_begin + h);
+      share_[2] = side_ * middle.level.in_phase;
+      share_[3] = -side_ * middle.level.quadrature;
+      share_[4] = side_ * h * middle.slope.in_phase;
+      share_[5] = -side_ * h * middle.slope.quadrature;
+      share_[6] = side_ * middle.bias;
+    } else {
+      const typename Model::Drive::template Phasor<Scalar> middle(side_ * interval.drive_amplitude,
+                                                                  interval.phase_begin + h);
+      share_[2] = middle.in_phase;
+      share_[3] = -middle.quadrature;
+    }
   }
 
   /// Cuts the panel at the reversals of the linear motion, and the longest piece once more.
@@ -219,6 +240,9 @@ class GaussPanel {
     }
     if constexpr (Motions::is_driven) {
       rate += numeric::abs(share_[2]) + numeric::abs(share_[3]);
+    }
+    if constexpr (Motions::is_ramped) {
+      offset += numeric::abs(share_[6]) * motions.largest_biased;
     }
     return rate >= slowest && offset * numeric::max(rate, numeric::abs(contact_.force)) <=
                                   limits.largest_offset * (rate * rate);
@@ -330,6 +354,11 @@ class GaussPanel {
       const Scalar h = motions.half_length;
       y_slope += h * (share_[2] * cosine + share_[3] * sine);
       y_bend += h * h * (share_[3] * cosine - share_[2] * sine);
+      if constexpr (Motions::is_ramped) {
+        y_slope += h * (x * (share_[4] * cosine + share_[5] * sine) + h * share_[6]);
+        y_bend += h * ((share_[4] * cosine + share_[5] * sine) +
+                       h * x * (share_[5] * cosine - share_[4] * sine));
+      }
     }
     turns.slope = y_slope + sliding_slope();
     turns.bend = y_bend - motions.damping * y_slope;

@@ -1,6 +1,7 @@
 /// One panel as observers and accounts see it.
 #pragma once
 
+#include <array>
 #include <cstddef>
 
 #include "firmware/numeric/lanes.hpp"
@@ -18,7 +19,7 @@ class GaussStep {
   using Motions = typename Panel::Motions;
 
   GaussStep(const Model& model, const Motions& motions, const Panel& panel,
-            const Interval<Scalar>& interval, const State<Scalar>& start)
+            const IntervalOf<Model>& interval, const State<Scalar>& start)
       : model_(model), motions_(motions), panel_(panel), interval_(interval), start_(start) {}
 
   Scalar begin() const { return Scalar(0); }
@@ -99,9 +100,19 @@ class GaussStep {
       const Scalar quadrature = panel_.share()[3];
       const Scalar even = side * in_phase * motions_.harmonic_end[0];
       const Scalar odd = side * quadrature * motions_.harmonic_end[1];
-      inertia += h * (in_phase * p.cosine + quadrature * p.sine);
+      inertia += h * (in_phase * p.wave[0] + quadrature * p.wave[1]);
       sum.drive_work = ((even + odd) * last.displacement - (even - odd) * first.displacement) -
-                       h * (quadrature * p.cosine - in_phase * p.sine);
+                       h * (quadrature * p.wave[0] - in_phase * p.wave[1]);
+    }
+    if constexpr (Motions::is_ramped) {
+      const auto& share = panel_.share();
+      const Scalar side = model_.side();
+      const Scalar even = side * (share[5] * motions_.harmonic_end[1] + share[6]);
+      const Scalar odd = side * share[4] * motions_.harmonic_end[0];
+      inertia += h * (share[4] * p.wave[2] + share[5] * p.wave[3] + share[6] * p.wave[4]);
+      sum.drive_work += ((even + odd) * last.displacement - (even - odd) * first.displacement) -
+                        (share[4] * p.wave[0] + share[5] * p.wave[1] +
+                         h * (share[5] * p.wave[2] - share[4] * p.wave[3]));
     }
     sum.velocity_square =
         (last.displacement * last.velocity - first.displacement * first.velocity) - inertia;
@@ -114,19 +125,17 @@ class GaussStep {
   using Lanes = numeric::Lanes<Scalar>;
   using Piece = typename Panel::Piece;
 
-  /// Integrals over x of sigma y with itself, phi, cos(h x) and sin(h x).
+  /// Integrals over x of sigma y with itself, phi, and each of the drive's waves.
   struct Products {
     Scalar square = Scalar(0);
     Scalar friction = Scalar(0);
-    Scalar cosine = Scalar(0);
-    Scalar sine = Scalar(0);
+    std::array<Scalar, Motions::wave_count> wave{};
   };
 
   Products products() const {
     Lanes square{};
     Lanes friction{};
-    Lanes cosine{};
-    Lanes sine{};
+    std::array<Lanes, Motions::wave_count> wave{};
     for (std::size_t i = 0; i < panel_.pieces(); ++i) {
       const Piece& piece = panel_.piece(i);
       piece.for_each([&](std::size_t v, Lanes weight) {
@@ -136,21 +145,28 @@ class GaussStep {
         square += shift * (numeric::twice(linear) + piece.shift[v]);
         friction += weight * piece.phi[v] * (linear + piece.shift[v]);
         if constexpr (Motions::is_driven) {
-          cosine += shift * motions_.cosine(x);
-          sine += shift * motions_.sine(x);
+          const Lanes cosine = shift * motions_.cosine(x);
+          const Lanes sine = shift * motions_.sine(x);
+          wave[0] += cosine;
+          wave[1] += sine;
+          if constexpr (Motions::is_ramped) {
+            wave[2] += x * cosine;
+            wave[3] += x * sine;
+            wave[4] += shift;
+          }
         }
       });
     }
     const auto& share = panel_.share();
-    Products sum = {numeric::sum_of_lanes<Scalar>(square), numeric::sum_of_lanes<Scalar>(friction),
-                    numeric::sum_of_lanes<Scalar>(cosine), numeric::sum_of_lanes<Scalar>(sine)};
+    Products sum = {numeric::sum_of_lanes<Scalar>(square), numeric::sum_of_lanes<Scalar>(friction)};
     for (std::size_t m = 0; m < Motions::count; ++m) {
       sum.square +=
           share[m] * Motions::sum_of(share, [&](std::size_t n) { return motions_.product[m][n]; });
     }
-    sum.cosine +=
-        Motions::sum_of(share, [&](std::size_t m) { return motions_.with_harmonic[0][m]; });
-    sum.sine += Motions::sum_of(share, [&](std::size_t m) { return motions_.with_harmonic[1][m]; });
+    for (std::size_t n = 0; n < Motions::wave_count; ++n) {
+      sum.wave[n] = numeric::sum_of_lanes<Scalar>(wave[n]) +
+                    Motions::sum_of(share, [&](std::size_t m) { return motions_.with_wave[n][m]; });
+    }
     return sum;
   }
 
@@ -174,7 +190,7 @@ class GaussStep {
   const Model& model_;
   const Motions& motions_;
   const Panel& panel_;
-  const Interval<Scalar>& interval_;
+  const IntervalOf<Model>& interval_;
   State<Scalar> start_;
 };
 

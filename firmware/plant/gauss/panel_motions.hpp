@@ -13,6 +13,7 @@
 #include "firmware/numeric/scalar.hpp"
 #include "firmware/plant/drive.hpp"
 #include "firmware/plant/model.hpp"
+#include "firmware/plant/ramped_cosine.hpp"
 
 namespace sonoglide::plant {
 
@@ -29,7 +30,8 @@ struct PanelGrid {
 /// Motions in x, from -1 to 1 over a panel of time: with h half of its length,
 ///   y" + D y' + K y = h^2 drive,  D = d h, K = k h^2, ' = d / dx:
 /// C(0) = 1, C'(0) = 0 and S(0) = 0, S'(0) = 1 without drive; where there is one, two more from
-/// rest at x = 0, under cos(h x) and under sin(h x).
+/// rest at x = 0, under cos(h x) and under sin(h x); where its amplitude may change, three more, under
+/// x cos(h x), under x sin(h x) and under 1.
 ///
 /// Power series with no division by k, k - 1 or d: resonance, a free mass and an overdamped
 /// oscillator are alike. They are shortened by Chebyshev polynomials to `Degree`; C and S once
@@ -39,9 +41,11 @@ struct PanelMotions {
   using Scalar = typename Model::Scalar;
   using Lanes = numeric::Lanes<Scalar>;
   static constexpr bool is_driven = !std::is_same_v<typename Model::Drive, NoDrive>;
+  static constexpr bool is_ramped = std::is_same_v<typename Model::Drive, RampedCosineDrive>;
   /// Without damping C is even and S odd, and so are the two that the drive adds.
   static constexpr bool is_split = std::is_base_of_v<Undamped<Scalar>, Model>;
-  static constexpr std::size_t count = is_driven ? 4 : 2;
+  static constexpr std::size_t count = is_ramped ? 7 : is_driven ? 4 : 2;
+  static constexpr std::size_t wave_count = is_ramped ? 5 : 2;
   static constexpr std::size_t harmonic_degree = Degree - 4;
 
   struct End {
@@ -67,18 +71,26 @@ struct PanelMotions {
   Each fourth{};                         ///< and of |y""|
   std::array<Scalar, 2> largest{};       ///< bounds of |C| and |S|
   std::array<Scalar, 2> largest_rate{};  ///< and of |C'| and |S'|
+  Scalar largest_biased = Scalar(0);     ///< and of the motion under 1, where there is one
   Each error{};                          ///< bounds of what the shortening loses of each
   Scalar slow_error = Scalar(0);
-  std::array<Each, count> product{};     ///< integrals over x of products of two motions
-  std::array<Each, 2> with_harmonic{};   ///< of motions and cos(h x), sin(h x)
-  std::array<Scalar, 2> harmonic_end{};  ///< cos(h), sin(h)
+  std::array<Each, count> product{};         ///< integrals over x of products of two motions
+  std::array<Each, wave_count> with_wave{};  ///< of motions and cos(h x), sin(h x), …
+  std::array<Scalar, 2> harmonic_end{};      ///< cos(h), sin(h)
 
   PanelMotions() = default;
   PanelMotions(const Model& model, Scalar panel_half_length)
       : half_length(panel_half_length),
         stiffness(model.stiffness * half_length * half_length),
         damping(model.damping_force(half_length)) {
-    const std::array<Series, 2> waves = {wave(Scalar(1), Scalar(0)), wave(Scalar(0), half_length)};
+    std::array<Series, wave_count> waves{wave(Scalar(1), Scalar(0)), wave(Scalar(0), half_length)};
+    if constexpr (is_ramped) {
+      for (std::size_t n = 1; n < terms; ++n) {
+        waves[2][n] = waves[0][n - 1];
+        waves[3][n] = waves[1][n - 1];
+      }
+      waves[4][0] = Scalar(1);
+    }
     std::array<Series, count> series{};
     series[0] = solution(Scalar(1), Scalar(0), Series{});
     series[1] = solution(Scalar(0), Scalar(1), Series{});
@@ -94,8 +106,8 @@ struct PanelMotions {
       for (std::size_t n = 0; n < count; ++n) {
         product[m][n] = integral_of_product(series[m], series[n]);
       }
-      for (std::size_t n = 0; n < 2; ++n) {
-        with_harmonic[n][m] = integral_of_product(series[m], waves[n]);
+      for (std::size_t n = 0; n < wave_count; ++n) {
+        with_wave[n][m] = integral_of_product(series[m], waves[n]);
       }
     }
     for (std::size_t m = 0; m < 2; ++m) {
@@ -104,6 +116,9 @@ struct PanelMotions {
       slow_error += shorten(series[m], slow[m]);
       shorten(waves[m], harmonic[m]);
       harmonic_end[m] = numeric::evaluate(waves[m], Scalar(1));
+    }
+    if constexpr (is_ramped) {
+      largest_biased = bound(series[6]);
     }
   }
 
@@ -152,6 +167,9 @@ struct PanelMotions {
         path[n] += is_split ? share[2 + n % 2] * motion[2 + n % 2][n]
                             : share[2] * motion[2][n] + share[3] * motion[3][n];
       }
+      if constexpr (is_ramped) {
+        path[n] += share[4] * motion[4][n] + share[5] * motion[5][n] + share[6] * motion[6][n];
+      }
     }
     return path;
   }
@@ -162,6 +180,9 @@ struct PanelMotions {
     auto total = share[0] * of(0) + share[1] * of(1);
     if constexpr (is_driven) {
       total += share[2] * of(2) + share[3] * of(3);
+    }
+    if constexpr (is_ramped) {
+      total += share[4] * of(4) + share[5] * of(5) + share[6] * of(6);
     }
     return total;
   }

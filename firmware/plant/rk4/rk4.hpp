@@ -37,7 +37,7 @@ class Rk4 {
   /// Advances the state over the interval, adding every step to the account and showing it to the
   /// observer.
   template <class Account, class Observer>
-  Outcome<Scalar> advance(const Interval<Scalar>& interval,
+  Outcome<Scalar> advance(const IntervalOf<Model>& interval,
                           StateOf<typename Model::FrictionLaw>& state, Account& account,
                           Observer& observer) {
     const std::uint32_t count = fixed_step_count(interval.duration, step_, step_limit_);

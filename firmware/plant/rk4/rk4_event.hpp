@@ -57,7 +57,7 @@ class Rk4Event {
   /// Advances the state over the interval, adding every step to the account and showing it to the
   /// observer.
   template <class Account, class Observer>
-  Outcome<Scalar> advance(const Interval<Scalar>& interval, State<Scalar>& state, Account& account,
+  Outcome<Scalar> advance(const IntervalOf<Model>& interval, State<Scalar>& state, Account& account,
                           Observer& observer) {
     const std::uint32_t count = fixed_step_count(interval.duration, step_, step_limit_);
     if (count > step_limit_) {
@@ -117,7 +117,7 @@ class Rk4Event {
 
   /// Shortest part of a step: the displacement, quadratic in the part, is below rounding; time and
   /// phase are well above it.
-  static Scalar shortest_part(const Interval<Scalar>& interval, Scalar length) {
+  static Scalar shortest_part(const IntervalOf<Model>& interval, Scalar length) {
     constexpr int digits = std::numeric_limits<Scalar>::digits;
     constexpr Scalar epsilon = std::numeric_limits<Scalar>::epsilon();
     return numeric::max(numeric::power_of_two<Scalar>(-digits / 2) * length,
@@ -131,7 +131,7 @@ class Rk4Event {
     drive.next();
     return {begin, middle, drive.value()};
   }
-  static Rk4Drive<Scalar> values_over(const Interval<Scalar>& interval, Scalar begin_value,
+  static Rk4Drive<Scalar> values_over(const IntervalOf<Model>& interval, Scalar begin_value,
                                       Scalar begin, Scalar length) {
     using Phasor = typename Model::Drive::template Phasor<Scalar>;
     const auto value = [&](Scalar offset) {
@@ -142,7 +142,7 @@ class Rk4Event {
 
   /// From one point of the grid of fixed steps to the next, reversals between them included.
   template <class Account, class Observer>
-  Error walk_to(Scalar end, const Interval<Scalar>& interval, Rk4Drive<Scalar> drive, Walk& walk,
+  Error walk_to(Scalar end, const IntervalOf<Model>& interval, Rk4Drive<Scalar> drive, Walk& walk,
                 State<Scalar>& state, Account& account, Observer& observer) {
     for (;;) {
       if (walk.steps == step_limit_) {
@@ -170,14 +170,14 @@ class Rk4Event {
     }
   }
 
-  Trial try_step(const Interval<Scalar>& interval, const Rk4Drive<Scalar>& drive, Scalar offset,
+  Trial try_step(const IntervalOf<Model>& interval, const Rk4Drive<Scalar>& drive, Scalar offset,
                  Scalar length, const State<Scalar>& state, Scalar direction) const {
     const Formula formula(model_, interval, Contact{direction});
     return {formula.stages(formula.stage(drive.begin, offset, state), drive, offset, length),
             direction, length, false};
   }
 
-  Scalar direction_of(const Interval<Scalar>& interval, Scalar offset,
+  Scalar direction_of(const IntervalOf<Model>& interval, Scalar offset,
                       const State<Scalar>& state) const {
     const Scalar sliding =
         interval.sliding_velocity + Model::Sliding::change(interval.sliding_acceleration, offset);
@@ -187,7 +187,7 @@ class Rk4Event {
   // ---- Reversals ----
 
   /// Takes a step again that slides the other way from its beginning, or that reverses.
-  void end_before_reversal(const Interval<Scalar>& interval, const Rk4Drive<Scalar>& drive,
+  void end_before_reversal(const IntervalOf<Model>& interval, const Rk4Drive<Scalar>& drive,
                            const Walk& walk, const State<Scalar>& state, Trial& trial) const {
     Course course = course_of(interval, trial, walk.shortest);
     if (course.direction != trial.direction) {
@@ -206,7 +206,7 @@ class Rk4Event {
     Scalar reversal;  ///< since the beginning of the step
   };
 
-  Course course_of(const Interval<Scalar>& interval, const Trial& trial, Scalar earliest) const {
+  Course course_of(const IntervalOf<Model>& interval, const Trial& trial, Scalar earliest) const {
     const Path path = sliding_path(interval, trial);
     Course course = {path.first_direction(), false, trial.length};
     if (path.may_reverse()) {
@@ -220,7 +220,7 @@ class Rk4Event {
     return course;
   }
 
-  Path sliding_path(const Interval<Scalar>& interval, const Trial& trial) const {
+  Path sliding_path(const IntervalOf<Model>& interval, const Trial& trial) const {
     const Rk4Stage<Scalar>& from = trial.stages.inside[0];
     const Rk4Stage<Scalar>& to = trial.stages.end;
     const Scalar change = to.state.displacement - from.state.displacement;
@@ -231,7 +231,7 @@ class Rk4Event {
 
   /// Shorter and shorter steps by Newton's method for V = 0, kept between a length before the
   /// reversal and one beyond it. Where V turns back before it reaches zero the step ends there.
-  Trial part_before_reversal(const Interval<Scalar>& interval, Scalar drive, const Walk& walk,
+  Trial part_before_reversal(const IntervalOf<Model>& interval, Scalar drive, const Walk& walk,
                              const State<Scalar>& state, const Trial& whole, Scalar guess) const {
     constexpr Scalar epsilon = std::numeric_limits<Scalar>::epsilon();
     const Scalar direction = whole.direction;

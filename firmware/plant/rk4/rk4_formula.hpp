@@ -70,7 +70,7 @@ class Rk4Formula {
   using Stage = Rk4Stage<Scalar, PlantState>;
   using Stages = Rk4Stages<Scalar, PlantState>;
 
-  Rk4Formula(const Model& model, const Interval<Scalar>& interval, ContactSense contact)
+  Rk4Formula(const Model& model, const IntervalOf<Model>& interval, ContactSense contact)
       : model_(model), interval_(interval), contact_(contact) {}
 
   /// The plant at one instant.
@@ -126,7 +126,7 @@ class Rk4Formula {
   }
 
   const Model& model_;
-  const Interval<Scalar>& interval_;
+  const IntervalOf<Model>& interval_;
   ContactSense contact_;
 };
 

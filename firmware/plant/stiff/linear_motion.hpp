@@ -5,6 +5,7 @@
 #include "firmware/numeric/scalar.hpp"
 #include "firmware/plant/account.hpp"
 #include "firmware/plant/drive.hpp"
+#include "firmware/plant/ramped_cosine.hpp"
 #include "firmware/plant/stiff/free_mode.hpp"
 
 namespace sonoglide::plant {
@@ -26,6 +27,11 @@ template <class Scalar>
 LinearForce<Scalar> force_of(const CosineDrive::Phasor<Scalar>& drive) {
   return {Scalar(0), Scalar(0), drive.in_phase, -drive.quadrature};
 }
+/// Of an amplitude that holds.
+template <class Scalar>
+LinearForce<Scalar> force_of(const RampedCosineDrive::Phasor<Scalar>& drive) {
+  return {drive.bias, Scalar(0), drive.level.in_phase, -drive.level.quadrature};
+}
 template <class Scalar>
 LinearForce<Scalar> force_of(const RampDrive::Phasor<Scalar>& drive) {
   return {drive.force, drive.slope, Scalar(0), Scalar(0)};
@@ -33,6 +39,16 @@ LinearForce<Scalar> force_of(const RampDrive::Phasor<Scalar>& drive) {
 template <class Scalar>
 LinearForce<Scalar> force_of(const LevelDrive::Phasor<Scalar>& drive) {
   return {drive.force, drive.slope, Scalar(0), Scalar(0)};
+}
+
+/// Whether force_of() tells all of a drive.
+template <class Phasor>
+bool is_linear_force(const Phasor& /*drive*/) {
+  return true;
+}
+template <class Scalar>
+bool is_linear_force(const RampedCosineDrive::Phasor<Scalar>& drive) {
+  return drive.slope.bound() == Scalar(0);
 }
 
 /// y'' + d y' + k y = drive - friction from a point on: the forced motion

@@ -17,7 +17,7 @@ class LinearStep {
   using Scalar = typename Model::Scalar;
 
   /// begin: time since the interval began of which `interval` is the last part.
-  LinearStep(const Model& model, const Interval<Scalar>& interval, Scalar begin,
+  LinearStep(const Model& model, const IntervalOf<Model>& interval, Scalar begin,
              const LinearMotion<Scalar>& motion, Scalar friction, const State<Scalar>& start)
       : model_(model),
         interval_(interval),
@@ -58,7 +58,7 @@ class LinearStep {
   }
 
   const Model& model_;
-  const Interval<Scalar>& interval_;
+  const IntervalOf<Model>& interval_;
   Scalar begin_;
   const LinearMotion<Scalar>& motion_;
   Scalar friction_;

@@ -24,8 +24,8 @@ namespace sonoglide::plant {
 ///     taken by     Turning       one step, closed form      32 turns of the mode and more
 ///                |--------------- Solver -------------|     fewer
 ///
-/// Such an interval is one step in closed form if nothing in it bends the motion: there is no
-/// friction, or the friction cannot change in it by more than a part of the tolerance, because the
+/// Such an interval is one step in closed form if nothing in it bends the motion: the amplitude of the
+/// drive holds, and there is no friction, or the friction cannot change in it by more than a part of the tolerance, because the
 /// contact slides the same way all the time and is at its limit, or hardly moves. What bounds the
 /// velocity bounds the path of the contact. Where a beginning stands in the way, a vibration that
 /// dies away or a contact that is not yet at its limit, `Turning` takes it, and then the closed form
@@ -65,7 +65,7 @@ class StiffLinear {
   /// Advances the state over the interval, adding every step to the account and showing it to the
   /// observer.
   template <class Account, class Observer>
-  Outcome<Scalar> advance(const Interval<Scalar>& interval,
+  Outcome<Scalar> advance(const IntervalOf<Model>& interval,
                           StateOf<typename Model::FrictionLaw>& state, Account& account,
                           Observer& observer) {
     // Here too, so that an order is compiled for one kind of observer.
@@ -113,7 +113,7 @@ class StiffLinear {
     return Scalar(0);
   }
 
-  static Interval<Scalar> part(Interval<Scalar> interval, Scalar begin, Scalar duration) {
+  static IntervalOf<Model> part(IntervalOf<Model> interval, Scalar begin, Scalar duration) {
     interval.phase_begin += begin;
     interval.sliding_velocity += Model::Sliding::change(interval.sliding_acceleration, begin);
     interval.duration = duration;
@@ -122,7 +122,7 @@ class StiffLinear {
 
   /// Out of line: it is rare.
   template <class Account, class Observer>
-  [[gnu::noinline]] Outcome<Scalar> advance_stiff(const Interval<Scalar>& interval,
+  [[gnu::noinline]] Outcome<Scalar> advance_stiff(const IntervalOf<Model>& interval,
                                                   PlantState& state, Account& account,
                                                   ShiftedObserver<Observer, Scalar>& observer) {
     const std::uint64_t before = cost().steps;
@@ -132,7 +132,7 @@ class StiffLinear {
         return {Error::too_many_steps, observer.shift};
       }
       const Scalar left = interval.duration - observer.shift;
-      const Interval<Scalar> rest = part(interval, observer.shift, left);
+      const IntervalOf<Model> rest = part(interval, observer.shift, left);
       const Scalar solved = solve_longest(rest, state, account, observer);
       if (solved > Scalar(0)) {
         observer.shift = solved < left ? observer.shift + solved : interval.duration;
@@ -153,7 +153,7 @@ class StiffLinear {
 
   /// Takes as much of the beginning of an interval in one step as it can; 0 if that is nothing.
   template <class Account, class Observer>
-  Scalar solve_longest(const Interval<Scalar>& interval, PlantState& state, Account& account,
+  Scalar solve_longest(const IntervalOf<Model>& interval, PlantState& state, Account& account,
                        Observer& observer) {
     for (Scalar length = interval.duration; rate_ * length >= least_angle;
          length *= numeric::from_real<Scalar>(0.25)) {
@@ -166,7 +166,7 @@ class StiffLinear {
 
   /// Takes the interval in one step. Returns false, with the state unchanged, if it cannot.
   template <class Account, class Observer>
-  bool solve(const Interval<Scalar>& interval, PlantState& state, Account& account,
+  bool solve(const IntervalOf<Model>& interval, PlantState& state, Account& account,
              Observer& observer) {
     const Scalar time = interval.duration;
     const Scalar damping = model_.damping_force(Scalar(1));
@@ -179,6 +179,9 @@ class StiffLinear {
         typename Law::Arc(model_.law, direction, contact_memory(state)).friction_after(Scalar(0));
     const typename Model::Drive::template Phasor<Scalar> drive(interval.drive_amplitude,
                                                                interval.phase_begin);
+    if (!is_linear_force(drive)) {
+      return false;
+    }
     const Motion motion(mode_, model_.stiffness, damping, force_of(drive),
                         model_.contact_force(held), {state.displacement, state.velocity});
     if (!holds(interval, state, motion, direction, held)) {
@@ -206,7 +209,7 @@ class StiffLinear {
 
   /// Whether the friction stays what it is: the contact slides one way and is at its limit, or its
   /// path is too short to matter.
-  bool holds(const Interval<Scalar>& interval, const PlantState& state, const Motion& motion,
+  bool holds(const IntervalOf<Model>& interval, const PlantState& state, const Motion& motion,
              Scalar direction, Scalar held) const {
     if constexpr (!Law::reverses) {
       return true;
@@ -230,7 +233,7 @@ class StiffLinear {
 
   /// Whether V certainly keeps its sign. Without what is fast it is at least what it is at the
   /// middle, less the most that it changes from there.
-  bool slides_on(const Interval<Scalar>& interval, const Motion& motion, Scalar direction) const {
+  bool slides_on(const IntervalOf<Model>& interval, const Motion& motion, Scalar direction) const {
     const Scalar half_time = numeric::half(interval.duration);
     const Scalar change = sliding_change(interval, half_time);
     const Scalar sliding = interval.sliding_velocity + change;
@@ -241,7 +244,7 @@ class StiffLinear {
     return at_middle - most_change - numeric::abs(change) > motion.largest_fast_velocity();
   }
 
-  static Scalar sliding_change(const Interval<Scalar>& interval, Scalar time) {
+  static Scalar sliding_change(const IntervalOf<Model>& interval, Scalar time) {
     return Model::Sliding::change(interval.sliding_acceleration, time);
   }
 

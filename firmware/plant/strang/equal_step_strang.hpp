@@ -51,7 +51,7 @@ class EqualStepStrang {
   /// Advances the state over the interval, adding every step to the account and showing it to the
   /// observer.
   template <class Account, class Observer>
-  Outcome<Scalar> advance(const Interval<Scalar>& interval, State<Scalar>& state, Account& account,
+  Outcome<Scalar> advance(const IntervalOf<Model>& interval, State<Scalar>& state, Account& account,
                           Observer& observer) {
     const std::uint32_t count = fixed_step_count(interval.duration, step_, step_limit_);
     if (count > step_limit_) {

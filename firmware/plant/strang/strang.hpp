@@ -69,7 +69,7 @@ class Strang {
   /// Advances the state over the interval, adding every step to the account and showing it to the
   /// observer.
   template <class Account, class Observer>
-  Outcome<Scalar> advance(const Interval<Scalar>& interval, State<Scalar>& state, Account& account,
+  Outcome<Scalar> advance(const IntervalOf<Model>& interval, State<Scalar>& state, Account& account,
                           Observer& observer) {
     state.friction = model_.law.friction(Scalar(0), state.friction);
     least_velocity_ = numeric::max(slowest, pushed(interval, state));
@@ -133,21 +133,21 @@ class Strang {
 
   /// Velocity that drive and friction give a mass at rest within a radian, at least about. The
   /// sliding drags it along no faster than it is itself.
-  Scalar pushed(const Interval<Scalar>& interval, const State<Scalar>& state) const {
+  Scalar pushed(const IntervalOf<Model>& interval, const State<Scalar>& state) const {
     const Scalar slide = numeric::abs(interval.sliding_velocity);
     const typename Model::FrictionLaw::Arc arc(model_.law, numeric::sign(interval.sliding_velocity),
                                                state.friction);
     const Scalar friction =
         numeric::max(numeric::abs(state.friction), numeric::abs(arc.friction_after(slide)));
     const Scalar dragged = numeric::min(slide, model_.contact_force(friction));
-    const Scalar force = numeric::max(dragged, numeric::abs(interval.drive_amplitude));
+    const Scalar force = numeric::max(dragged, largest_force(interval.drive_amplitude));
     return force / numeric::max(Scalar(1), numeric::max(numeric::abs(model_.stiffness),
                                                         model_.damping_force(Scalar(1))));
   }
 
   /// The relative defect of a step; the state is unchanged if it is not good.
   template <class Account, class Observer>
-  Scalar step(const Interval<Scalar>& interval, typename Flow::Follower& drive, Scalar offset,
+  Scalar step(const IntervalOf<Model>& interval, typename Flow::Follower& drive, Scalar offset,
               State<Scalar>& state, Account& account, Observer& observer) {
     ++cost_.steps;
     typename Flow::Follower moved = drive;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <utility>
 
 #include "firmware/numeric/scalar.hpp"
 #include "firmware/plant/account.hpp"
@@ -13,10 +14,10 @@
 namespace sonoglide::plant {
 
 /// The oscillator at one end of its linear flow.
-template <class Scalar>
+template <class Scalar, class Force>
 struct FlowEnd {
   State<Scalar> state;  ///< velocity between the kicks; friction before, or after, the step
-  DriveForce<Scalar> drive;
+  Force drive;
   Scalar acceleration;  ///< without friction
 };
 
@@ -30,7 +31,7 @@ class StrangStep {
   using Flow = OscillatorFlow<Model>;
 
   /// begin: time since the interval began. drive: at `begin`; advanced to the end of the step.
-  StrangStep(const Model& model, const Flow& flow, const Interval<Scalar>& interval,
+  StrangStep(const Model& model, const Flow& flow, const IntervalOf<Model>& interval,
              typename Flow::Follower& drive, Scalar begin, const State<Scalar>& start)
       : model_(model),
         interval_(interval),
@@ -128,7 +129,8 @@ class StrangStep {
   }
 
  private:
-  using End = FlowEnd<Scalar>;
+  using Force = decltype(std::declval<typename Flow::Follower>().force());
+  using End = FlowEnd<Scalar, Force>;
 
   State<Scalar> kicked(State<Scalar> state) const {
     state.velocity -= numeric::half(length_) * model_.contact_force(state.friction);
@@ -146,7 +148,7 @@ class StrangStep {
                Scalar(0);
   }
   End flow_end(const State<Scalar>& state, const typename Flow::Follower& drive) const {
-    const DriveForce<Scalar> force = drive.force();
+    const Force force = drive.force();
     const State<Scalar> free = {state.displacement, state.velocity, Scalar(0)};
     return {state, force, model_.acceleration(force.value, free)};
   }
@@ -164,9 +166,9 @@ class StrangStep {
   }
   Germ drive_power(const End& end) const {
     const Scalar velocity = end.state.velocity;
-    const auto [drive, slope] = end.drive;
-    return {drive * velocity, drive * end.acceleration + slope * velocity,
-            drive * (jerk(end) - velocity) + numeric::twice(slope * end.acceleration)};
+    const Force& force = end.drive;
+    return {force.value * velocity, force.value * end.acceleration + force.slope * velocity,
+            force.bent(jerk(end), velocity) + numeric::twice(force.slope * end.acceleration)};
   }
   Germ velocity_square(const End& end) const {
     const Scalar velocity = end.state.velocity;
@@ -189,7 +191,7 @@ class StrangStep {
   }
 
   const Model& model_;
-  const Interval<Scalar>& interval_;
+  const IntervalOf<Model>& interval_;
   Scalar begin_;
   Scalar length_;
   Scalar start_velocity_;

@@ -72,7 +72,7 @@ class EventTaylor {
   /// Advances the state over the interval, adding every step to the account and showing it to the
   /// observer.
   template <class Account, class Observer>
-  [[gnu::flatten]] Outcome<Scalar> advance(const Interval<Scalar>& interval,
+  [[gnu::flatten]] Outcome<Scalar> advance(const IntervalOf<Model>& interval,
                                            StateOf<typename Model::FrictionLaw>& state,
                                            Account& account, Observer& observer) {
     snap_to_rest(interval, state);
@@ -157,7 +157,7 @@ class EventTaylor {
 
   /// Makes V exactly zero where the previous interval ended at V = 0 and only rounding is left of
   /// it.
-  void snap_to_rest(const Interval<Scalar>& interval, State<Scalar>& state) const {
+  void snap_to_rest(const IntervalOf<Model>& interval, State<Scalar>& state) const {
     if constexpr (Law::reverses) {
       const Scalar velocity = model_.contact_velocity(interval.sliding_velocity, state.velocity);
       const Scalar rounding = Scalar(4) * std::numeric_limits<Scalar>::epsilon();
@@ -169,7 +169,7 @@ class EventTaylor {
 
   /// While the contact slips, sets friction that is short of its limit by a negligible rest to the
   /// limit.
-  void settle(const Interval<Scalar>& interval, const Position& position,
+  void settle(const IntervalOf<Model>& interval, const Position& position,
               State<Scalar>& state) const {
     if constexpr (Law::varies && Law::rate_independent && !Law::remembers) {
       const Scalar velocity = model_.contact_velocity(
@@ -185,7 +185,7 @@ class EventTaylor {
   // ---- Which kind of step: sliding, sticking, pressed ----
 
   template <class Account, class Observer>
-  Error step(const Interval<Scalar>& interval, Position& position, StateOf<Law>& state,
+  Error step(const IntervalOf<Model>& interval, Position& position, StateOf<Law>& state,
              Account& account, Observer& observer) {
     const Scalar epsilon = std::numeric_limits<Scalar>::epsilon();
     const Scalar change = sliding_change(interval, position);
@@ -209,7 +209,7 @@ class EventTaylor {
   ///
   /// @return not_finite where a coefficient is beyond the largest number in any unit of time
   template <class Account, class Observer>
-  Error rub(const Interval<Scalar>& interval, const At& instant, Position& position,
+  Error rub(const IntervalOf<Model>& interval, const At& instant, Position& position,
             StateOf<Law>& state, Account& account, Observer& observer) {
     Branch<Scalar> branch = choose_branch(instant, position.released);
     position.released = Scalar(0);
@@ -236,13 +236,13 @@ class EventTaylor {
   }
 
   /// Change of the sliding velocity since the interval began.
-  static Scalar sliding_change(const Interval<Scalar>& interval, const Position& position) {
+  static Scalar sliding_change(const IntervalOf<Model>& interval, const Position& position) {
     return Model::Sliding::change(interval.sliding_acceleration, position.offset);
   }
 
   /// The mass presses on a slider beside it. No friction acts on the mass.
   template <class Account, class Observer>
-  void press(const Interval<Scalar>& interval, const At& instant, Position& position,
+  void press(const IntervalOf<Model>& interval, const At& instant, Position& position,
              State<Scalar>& state, Account& account, Observer& observer) {
     const Scalar rest_of_time = interval.duration - position.offset;
     Series series = alone(instant, numeric::min(longest_step_, rest_of_time));
@@ -298,7 +298,7 @@ class EventTaylor {
 
   /// unit: the time in which the series is written.
   template <class Account, class Observer>
-  Slide slide(const Interval<Scalar>& interval, const At& instant, const Branch<Scalar>& branch,
+  Slide slide(const IntervalOf<Model>& interval, const At& instant, const Branch<Scalar>& branch,
               Scalar unit, Position& position, StateOf<Law>& state, Account& account,
               Observer& observer) {
     Arc arc(model_.law, branch.direction, contact_memory(state));
@@ -463,7 +463,7 @@ class EventTaylor {
   // ---- A sticking step ----
 
   template <class Account, class Observer>
-  void stick(const Interval<Scalar>& interval, const At& instant, const Branch<Scalar>& branch,
+  void stick(const IntervalOf<Model>& interval, const At& instant, const Branch<Scalar>& branch,
              Position& position, StateOf<Law>& state, Account& account, Observer& observer) {
     const Scalar rest_of_time = interval.duration - position.offset;
     Series series(model_, instant, numeric::min(longest_step_, rest_of_time));
@@ -514,7 +514,7 @@ class EventTaylor {
   // ---- The end of a step ----
 
   template <class Friction, class Account, class Observer>
-  void accept(const Interval<Scalar>& interval, const Series& series, const Friction& friction,
+  void accept(const IntervalOf<Model>& interval, const Series& series, const Friction& friction,
               Scalar extent, bool last, Position& position, StateOf<Law>& state, Account& account,
               Observer& observer) {
     const TaylorStep<Model, Series, Friction> taken(model_, series, friction, position.offset,
@@ -529,7 +529,7 @@ class EventTaylor {
     ++cost_.steps;
   }
 
-  void rest(const Interval<Scalar>& interval, const Position& position, State<Scalar>& state) {
+  void rest(const IntervalOf<Model>& interval, const Position& position, State<Scalar>& state) {
     state.velocity =
         model_.resting_velocity(interval.sliding_velocity + sliding_change(interval, position));
     ++cost_.events;

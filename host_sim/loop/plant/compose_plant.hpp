@@ -11,6 +11,7 @@
 
 #include "firmware/plant/drive.hpp"
 #include "firmware/plant/model.hpp"
+#include "firmware/plant/ramped_cosine.hpp"
 #include "host_sim/configure/plant_model.hpp"
 #include "host_sim/loop/plant/composed_plant.hpp"
 #include "host_sim/loop/plant/plant_description.hpp"
@@ -170,6 +171,9 @@ std::unique_ptr<PlantPort> make_law_plant(const PlantDescription& description, c
       return general_plant<plant::RampDrive>(description, law);
     case scene::Waveform::cosine:
       break;
+  }
+  if (scene.drive && scene.drive->is_ramped()) {
+    return general_plant<plant::RampedCosineDrive>(description, law);
   }
   if constexpr (is_quick_law<Law>) {
     if (SlidingProfile(scene.sliding).is_constant() && composed_lean(scene.solver.method)) {

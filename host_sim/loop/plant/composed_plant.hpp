@@ -4,11 +4,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <type_traits>
 #include <vector>
 
 #include "firmware/friction/vibration.hpp"
 #include "firmware/plant/account.hpp"
 #include "firmware/plant/outcome.hpp"
+#include "firmware/plant/ramped_cosine.hpp"
 #include "firmware/plant/solver.hpp"
 #include "firmware/plant/state.hpp"
 #include "firmware/plant/velocity_quadrature.hpp"
@@ -38,6 +40,11 @@ class StepReader {
   /// @param demodulator  outlives the reader
   void demodulate(plant::Demodulator<double>& demodulator) {
     demodulator_ = &demodulator;
+    reads_ = true;
+  }
+  /// @param demodulator  outlives the reader
+  void demodulate_moment(plant::MomentDemodulator<double>& demodulator) {
+    phase_moment_ = &demodulator;
     reads_ = true;
   }
   /// @param load  outlives the reader
@@ -75,6 +82,9 @@ class StepReader {
     if (demodulator_ != nullptr) {
       (*demodulator_)(step);
     }
+    if (phase_moment_ != nullptr) {
+      (*phase_moment_)(step);
+    }
     if (load_ != nullptr) {
       (*load_)(step);
     }
@@ -96,6 +106,7 @@ class StepReader {
   StepMeter* meter_ = nullptr;
   double begin_s_ = 0.0;
   plant::Demodulator<double>* demodulator_ = nullptr;
+  plant::MomentDemodulator<double>* phase_moment_ = nullptr;
   ContactLoad* load_ = nullptr;
   double* moment_ = nullptr;
   const double* next_ = nullptr;
@@ -186,6 +197,19 @@ class ComposedPlant final : public PlantPort {
  private:
   static constexpr bool is_normal = Model::FrictionLaw::vibration == friction::Vibration::normal;
 
+  static constexpr bool is_ramped = std::is_same_v<typename Model::Drive, plant::RampedCosineDrive>;
+
+  /// In units of force, as the drive of the model takes it.
+  typename Model::Drive::template Amplitude<double> amplitude(const Stretch& stretch,
+                                                              double amplitude_N) const {
+    if constexpr (is_ramped) {
+      return {amplitude_N / scales_.force_N, stretch.drive_slope_N_per_rad / scales_.force_N,
+              stretch.drive_bias_N / scales_.force_N};
+    } else {
+      return amplitude_N / scales_.force_N;
+    }
+  }
+
   double normal_stiffness() const {
     if constexpr (is_normal) {
       return model_.law.normal_stiffness;
@@ -198,8 +222,8 @@ class ComposedPlant final : public PlantPort {
                                  EnergyBalance& energy) {
     const double omega = scales_.angular_frequency_rad_per_s;
     const DrivePiece drive = drive_piece(stretch);
-    const plant::Interval<double> interval{
-        drive.phase_rad, stretch.duration_s * omega, drive.amplitude_N / scales_.force_N,
+    const plant::IntervalOf<Model> interval{
+        drive.phase_rad, stretch.duration_s * omega, amplitude(stretch, drive.amplitude_N),
         stretch.sliding_velocity_m_per_s / scales_.velocity_m_per_s(),
         stretch.sliding_acceleration_m_per_s2 / (scales_.velocity_m_per_s() * omega)};
     const plant::State<double> before = state_;
@@ -208,6 +232,12 @@ class ComposedPlant final : public PlantPort {
     plant::Demodulator<double> demodulator(stretch.drive_phase_rad);
     if (stretch.demodulated) {
       reader.demodulate(demodulator);
+    }
+    plant::MomentDemodulator<double> phase_moment(stretch.drive_phase_rad);
+    if constexpr (is_ramped) {
+      if (stretch.demodulated) {
+        reader.demodulate_moment(phase_moment);
+      }
     }
     double moment = 0.0;
     if (stretch.energies && stretch.sliding_acceleration_m_per_s2 != 0.0) {
@@ -229,6 +259,8 @@ class ComposedPlant final : public PlantPort {
     if (stretch.demodulated) {
       energy.velocity_in_phase_m = demodulator.in_phase() * scales_.length_m;
       energy.velocity_quadrature_m = demodulator.quadrature() * scales_.length_m;
+      energy.velocity_in_phase_moment_m = phase_moment.in_phase() * scales_.length_m;
+      energy.velocity_quadrature_moment_m = phase_moment.quadrature() * scales_.length_m;
     }
     outcome.offset /= omega;
     return outcome;

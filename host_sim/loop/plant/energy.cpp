@@ -58,6 +58,8 @@ void EnergyBalance::add(const EnergyBalance& other, double times) {
   velocity_square_m2_per_s += times * other.velocity_square_m2_per_s;
   velocity_in_phase_m += times * other.velocity_in_phase_m;
   velocity_quadrature_m += times * other.velocity_quadrature_m;
+  velocity_in_phase_moment_m += times * other.velocity_in_phase_moment_m;
+  velocity_quadrature_moment_m += times * other.velocity_quadrature_moment_m;
   load_s += times * other.load_s;
   normal_impulse_N_s += times * other.normal_impulse_N_s;
   open_s += times * other.open_s;

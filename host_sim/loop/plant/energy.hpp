@@ -34,6 +34,9 @@ struct EnergyBalance {
   double velocity_square_m2_per_s = 0.0;  ///< ∫x'² dt
   double velocity_in_phase_m = 0.0;  ///< ∫x' cos θ dt, θ the phase of the drive; 0 unless asked for
   double velocity_quadrature_m = 0.0;  ///< ∫x' sin θ dt; likewise
+  /// ∫x' θ cos θ dt and ∫x' θ sin θ dt; likewise, and 0 unless the amplitude may change in a period.
+  double velocity_in_phase_moment_m = 0.0;
+  double velocity_quadrature_moment_m = 0.0;
   double load_s = 0.0;  ///< ∫N/N0 dt where the contact vibrates normally, N0 the force at x = 0
   double normal_impulse_N_s = 0.0;  ///< ∫N dt likewise, N0 that of the middle of a stretch
   double open_s = 0.0;              ///< time in which such a contact is open, N = 0

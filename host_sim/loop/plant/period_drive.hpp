@@ -1,6 +1,9 @@
 /// The drive over one carrier period.
 #pragma once
 
+#include <cmath>
+#include <complex>
+
 #include "firmware/numeric/turn.hpp"
 #include "host_sim/scene/scene.hpp"
 
@@ -22,17 +25,43 @@ class PeriodDrive {
   /// @param before_N  amplitude of the period before; 0 before a run
   PeriodDrive(const scene::Scene& scene, double before_N, double amplitude_N, double bias_N)
       : before_N_(is_linear(scene) ? before_N : amplitude_N),
-        change_N_(amplitude_N - before_N_),
+        after_N_(amplitude_N),
         bias_N_(bias_N),
-        parts_(change_N_ != 0.0 ? scene.drive->codes_per_period : 1) {}
+        parts_(before_N_ != after_N_ ? scene.drive->codes_per_period : 1) {}
+
+  /// Amplitudes at the ends of the period, where they differ.
+  double begin_N() const { return before_N_; }
+  double end_N() const { return after_N_; }
+
+  /// z of the carrier Re(z e^jθ), without its harmonics.
+  std::complex<double> fundamental_N() const {
+    if (parts_ == 1) {
+      return {0.5 * (before_N_ + after_N_), 0.5 * change_N() / numeric::two_pi};
+    }
+    return sum([](double from, double until) {
+      const double swing = 0.25 * (std::sin(2.0 * until) - std::sin(2.0 * from));
+      const double square =
+          0.5 * (std::cos(until) - std::cos(from)) * (std::cos(until) + std::cos(from));
+      return std::complex<double>(0.5 * (until - from) + swing, square) / (0.5 * numeric::two_pi);
+    });
+  }
+  /// Sum over the parts of what the carrier times e^-jθ rises by: 0 where the period ends as it began.
+  std::complex<double> rise_N() const {
+    if (parts_ == 1) {
+      return change_N();
+    }
+    return sum([](double from, double until) {
+      return std::cos(until) * std::polar(1.0, -until) - std::cos(from) * std::polar(1.0, -from);
+    });
+  }
 
   /// Equal parts of the period, in each of which the drive is one of DrivePart.
   int parts() const { return parts_; }
   DrivePart part(int index) const {
     if (parts_ == 1) {
-      return {before_N_, change_N_ / numeric::two_pi, bias_N_};
+      return {before_N_, change_N() / numeric::two_pi, bias_N_};
     }
-    return {before_N_ + change_N_ * ((index + 0.5) / parts_), 0.0, bias_N_};
+    return {before_N_ + change_N() * ((index + 0.5) / parts_), 0.0, bias_N_};
   }
 
  private:
@@ -40,8 +69,21 @@ class PeriodDrive {
     return scene.drive && scene.drive->interpolation == scene::Interpolation::linear;
   }
 
+  /// Of the amplitude of each part times what is told of its phases.
+  template <class Of>
+  std::complex<double> sum(const Of& of) const {
+    std::complex<double> total;
+    for (int i = 0; i < parts_; ++i) {
+      const double length = numeric::two_pi / parts_;
+      total += part(i).amplitude_N * of(i * length, (i + 1) * length);
+    }
+    return total;
+  }
+
+  double change_N() const { return after_N_ - before_N_; }
+
   double before_N_;
-  double change_N_;
+  double after_N_;
   double bias_N_;
   int parts_;
 };

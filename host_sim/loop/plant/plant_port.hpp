@@ -30,7 +30,8 @@ struct Stretch {
   StepMeter* meter = nullptr;  ///< counts the steps
 };
 
-/// As plant::CosineDrive, RampDrive or LevelDrive, whichever is the waveform's, takes it.
+/// As plant::CosineDrive, RampDrive or LevelDrive, whichever is the waveform's, takes it; of a
+/// RampedCosineDrive the amplitude at phase 0.
 struct DrivePiece {
   double amplitude_N;
   double phase_rad;  ///< at the beginning of the stretch

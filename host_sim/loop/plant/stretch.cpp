@@ -46,7 +46,8 @@ double drive_force_N(const Stretch& stretch, double offset_s) {
     case scene::Waveform::cosine:
       break;
   }
-  return piece.amplitude_N * std::cos(phase_rad);
+  return (piece.amplitude_N + stretch.drive_slope_N_per_rad * phase_rad) * std::cos(phase_rad) +
+         stretch.drive_bias_N;
 }
 
 }  // namespace sonoglide::loop

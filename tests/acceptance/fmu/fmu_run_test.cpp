@@ -33,10 +33,13 @@ void PrintTo(const Case& tested, std::ostream* out) {
 }
 
 /// Every arithmetic, every kind of solver, and what a plant and a loop carry from one period to the
-/// next: noise, profiles, an observed vibration.
+/// next: an amplitude that passes, noise, profiles, an observed vibration.
 const std::vector<Case> cases = {
-    {"float32", "target_step", "--set solver.tolerance=1e-6"},
-    {"q31", "target_step_q31", "--set solver.method=event_gauss --set solver.tolerance=1e-6"},
+    {"float32", "target_step",
+     "--set solver.tolerance=1e-6 --set drive.interpolation=linear --set drive.codes_per_period=4"},
+    {"q31", "target_step_q31",
+     "--set solver.method=event_gauss --set solver.tolerance=1e-6 --set "
+     "drive.interpolation=linear"},
     {"q15", "target_step_q15",
      "--set solver.method=strang --set solver.tolerance= --set solver.step_s=1e-7"},
     {"noise", "noisy_sensor", "--set solver.tolerance=1e-6"},

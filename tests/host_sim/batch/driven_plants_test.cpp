@@ -15,6 +15,7 @@
 #include "firmware/plant/account.hpp"
 #include "firmware/plant/drive.hpp"
 #include "firmware/plant/model.hpp"
+#include "firmware/plant/ramped_cosine.hpp"
 #include "firmware/plant/solver.hpp"
 #include "firmware/plant/taylor/event_taylor.hpp"
 #include "tests/common/constants/pi.hpp"
@@ -30,21 +31,38 @@ double amplitude_in(std::size_t plant, std::size_t period) {
   return 0.5 + 0.5 * std::sin(turn * turn);
 }
 
+/// How the amplitude goes from one period to the next.
+enum class Way {
+  leaps,       ///< at once
+  flat_ramps,  ///< at once, in lanes in which it may have a slope
+  ramps,       ///< along a straight line, over the period
+};
+
+DriveAmplitude drive_in(std::size_t plant, std::size_t period, Way way) {
+  const double amplitude = amplitude_in(plant, period);
+  const double before = period > 0 ? amplitude_in(plant, period - 1) : amplitude;
+  return way == Way::ramps ? DriveAmplitude{before, (amplitude - before) / tests::two_pi}
+                           : DriveAmplitude{amplitude};
+}
+
 /// Drives every plant so, and keeps what it is told.
 class Leaps final : public DriveSource {
  public:
-  Leaps(std::size_t plants, std::size_t periods) : mean_friction(plants), periods_(periods) {}
+  Leaps(std::size_t plants, std::size_t periods, Way way = Way::leaps)
+      : mean_friction(plants), periods_(periods), way_(way) {}
 
-  std::optional<double> next_amplitude(std::size_t plant, double mean) override {
+  std::optional<DriveAmplitude> next_amplitude(std::size_t plant, double mean) override {
     std::vector<double>& all = mean_friction[plant];
     all.push_back(mean);
-    return all.size() < periods_ ? std::optional(amplitude_in(plant, all.size())) : std::nullopt;
+    return all.size() < periods_ ? std::optional(drive_in(plant, all.size(), way_)) : std::nullopt;
   }
+  bool ramps() const override { return way_ != Way::leaps; }
 
   std::vector<std::vector<double>> mean_friction;
 
  private:
   std::size_t periods_;
+  Way way_;
 };
 
 constexpr std::size_t periods = 20;
@@ -57,8 +75,9 @@ std::vector<DahlPlant> begun(std::vector<DahlPlant> plants) {
 }
 
 /// The scalar solver at order 16 and tolerance 1e-12 under the same drive.
-std::vector<double> scalar_means(const DahlPlant& plant, std::size_t index) {
-  using Model = plant::Model<friction::Dahl<double>, plant::Damped<double>, plant::CosineDrive>;
+std::vector<double> scalar_means(const DahlPlant& plant, std::size_t index, Way way) {
+  using Model =
+      plant::Model<friction::Dahl<double>, plant::Damped<double>, plant::RampedCosineDrive>;
   const Model model = {{{plant.contact_stiffness}, plant.friction_force, plant.vibration_sign},
                        {plant.damping},
                        plant.stiffness};
@@ -69,18 +88,19 @@ std::vector<double> scalar_means(const DahlPlant& plant, std::size_t index) {
   std::vector<double> means;
   for (std::size_t period = 0; period < periods; ++period) {
     plant::MeanFriction<double> account;
-    const plant::Interval<double> interval = {0.0, tests::two_pi, amplitude_in(index, period),
-                                              plant.sliding_velocity, 0.0};
+    const DriveAmplitude drive = drive_in(index, period, way);
+    const plant::IntervalOf<Model> interval = {
+        0.0, tests::two_pi, {drive.at_zero, drive.slope, 0.0}, plant.sliding_velocity, 0.0};
     EXPECT_EQ(solver.advance(interval, state, account, observer).error, plant::Error::none);
     means.push_back(account.friction_integral / tests::two_pi);
   }
   return means;
 }
 
-double largest_error(const std::vector<DahlPlant>& plants, const Leaps& driven) {
+double largest_error(const std::vector<DahlPlant>& plants, const Leaps& driven, Way way) {
   double largest = 0.0;
   for (std::size_t i = 0; i < plants.size(); ++i) {
-    const std::vector<double> expected = scalar_means(plants[i], i);
+    const std::vector<double> expected = scalar_means(plants[i], i, way);
     EXPECT_EQ(driven.mean_friction[i].size(), expected.size());
     for (std::size_t k = 0; k < expected.size(); ++k) {
       largest = std::max(largest, std::abs(driven.mean_friction[i][k] - expected[k]));
@@ -93,16 +113,19 @@ TEST(DrivenPlants, EachPeriodOfTable1IsGoodTo1e6) {
   const std::vector<DahlPlant> plants = begun(table_1_sweep(12));
   on_each_instruction_set([&](const char* name) {
     SCOPED_TRACE(name);
-    Leaps driven(plants.size(), periods);
-    for (const RunStatus status : run_driven_plants(plants, driven)) {
-      EXPECT_EQ(status, RunStatus::solved);
+    for (const Way way : {Way::leaps, Way::ramps}) {
+      Leaps driven(plants.size(), periods, way);
+      for (const RunStatus status : run_driven_plants(plants, driven)) {
+        EXPECT_EQ(status, RunStatus::solved);
+      }
+      EXPECT_LE(largest_error(plants, driven, way), 1e-6);
     }
-    EXPECT_LE(largest_error(plants, driven), 1e-6);
   });
 }
 
-std::vector<std::vector<double>> means_of(const std::vector<DahlPlant>& plants) {
-  Leaps driven(plants.size(), periods);
+std::vector<std::vector<double>> means_of(const std::vector<DahlPlant>& plants,
+                                          Way way = Way::leaps) {
+  Leaps driven(plants.size(), periods, way);
   run_driven_plants(plants, driven);
   return std::move(driven.mean_friction);
 }
@@ -130,6 +153,15 @@ TEST(DrivenPlants, TheSameBitsAloneAndAmongOthers) {
       expect_same_bits(means_alone(plants[i], i), together[i]);
     }
   });
+}
+
+TEST(DrivenPlants, ARampWithoutSlopeHasTheBitsOfALeap) {
+  const std::vector<DahlPlant> plants = begun(random_plants(45, 22));
+  const std::vector<std::vector<double>> leaps = means_of(plants);
+  const std::vector<std::vector<double>> ramps = means_of(plants, Way::flat_ramps);
+  for (std::size_t i = 0; i < plants.size(); ++i) {
+    expect_same_bits(ramps[i], leaps[i]);
+  }
 }
 
 TEST(DrivenPlants, BegunWithTheirOwnAmplitude) {
@@ -172,8 +204,9 @@ TEST(DrivenPlants, ThoseThatAreGivenUpSayWhyAndDisturbNoOther) {
 /// A drive that is no number.
 class Nonsense final : public DriveSource {
  public:
-  std::optional<double> next_amplitude(std::size_t /*plant*/, double /*mean_friction*/) override {
-    return std::numeric_limits<double>::quiet_NaN();
+  std::optional<DriveAmplitude> next_amplitude(std::size_t /*plant*/,
+                                               double /*mean_friction*/) override {
+    return DriveAmplitude{std::numeric_limits<double>::quiet_NaN()};
   }
 };
 

@@ -14,6 +14,8 @@
 #include <vector>
 
 #include "host_sim/experiment/experiment.hpp"
+#include "host_sim/loop/carrier_grid.hpp"
+#include "host_sim/loop/plant_run.hpp"
 #include "host_sim/loop/run.hpp"
 #include "host_sim/scene/cores/solver_cores.hpp"
 #include "host_sim/scene/law_cores.hpp"
@@ -103,6 +105,33 @@ std::vector<double> chirp_periods_s() {
   return begins;
 }
 
+/// Of each carrier period, to which the one before passes along a line, and the bias beside it.
+constexpr double ramped_amplitudes_N[] = {250.0, 384.0, 120.0, 310.0};
+constexpr double biases_N[] = {0.0, 60.0, -45.0, 20.0};
+
+equations::Instant ramped_instant(double time_s, double piece_s, double sliding, double slope) {
+  const auto period = static_cast<std::size_t>(piece_s * frequency_Hz);
+  const double before_N = period > 0 ? ramped_amplitudes_N[period - 1] : 0.0;
+  const double part = time_s * frequency_Hz - static_cast<double>(period);
+  const double amplitude_N = before_N + (ramped_amplitudes_N[period] - before_N) * part;
+  return {amplitude_N * std::cos(two_pi * part) + biases_N[period], sliding, slope};
+}
+
+/// A plant under these.
+RunResult ramped_run(scene::Scene scene) {
+  scene.drive->interpolation = scene::Interpolation::linear;
+  scene.drive->bias_limit_N = 60.0;
+  RunResult result;
+  const Watch watch;
+  CarrierClock clock(scene);
+  PlantRun plant(scene, clock, watch, result);
+  for (std::size_t i = 0; !clock.over(); ++i, clock.next()) {
+    plant.advance(ramped_amplitudes_N[i], biases_N[i]);
+  }
+  plant.finish();
+  return result;
+}
+
 /// As a scene names it.
 struct Composition {
   scene::FrictionLaw law;
@@ -110,6 +139,7 @@ struct Composition {
   const scene::Waveform* waveform;  ///< null without a drive
   Profile sliding;
   bool changing = false;  ///< carrier frequency and spring
+  bool ramped = false;    ///< the amplitude, beside a bias
 
   equations::Mass mass() const {
     equations::Mass mass = undamped_mass;
@@ -238,6 +268,9 @@ equations::State expected_state(const Composition& composition) {
         return changing_instant(composition, joints[i - 1], time_s);
       }
       const auto [velocity, slope] = slide(composition.sliding, time_s, piece_s);
+      if (composition.ramped) {
+        return ramped_instant(time_s, piece_s, velocity, slope);
+      }
       const double force_N = composition.waveform == nullptr
                                  ? 0.0
                                  : drive_N * wave(*composition.waveform, time_s, piece_s);
@@ -309,7 +342,8 @@ void expect_refused(const std::string& text) {
 void expect_agreement(const Composition& composition, const std::string& solver, double allowed,
                       const equations::State& expected) {
   SCOPED_TRACE(solver);
-  const RunResult result = run(experiment::read_text(composition.text(solver), "scene.toml").plant);
+  const scene::Scene scene = experiment::read_text(composition.text(solver), "scene.toml").plant;
+  const RunResult result = composition.ramped ? ramped_run(scene) : run(scene);
   const double size_m = drive_N / (undamped_mass.stiffness_N_per_m +
                                    undamped_mass.mass_kg * std::pow(two_pi * frequency_Hz, 2));
   EXPECT_NEAR(result.final_state.displacement_m, expected[0], allowed * size_m);
@@ -357,6 +391,13 @@ TEST_P(CompositionsTest, AgreeWithTheEquations) {
 TEST_P(CompositionsTest, FollowACarrierAndASpringThatChange) {
   const scene::Waveform cosine = scene::Waveform::cosine;
   try_every_solver({GetParam(), true, &cosine, slidings.front(), true});
+}
+
+TEST_P(CompositionsTest, FollowAnAmplitudeThatPassesAlongALine) {
+  const scene::Waveform cosine = scene::Waveform::cosine;
+  for (const bool damped : {false, true}) {
+    try_every_solver({GetParam(), damped, &cosine, slidings[damped ? 2 : 0], false, true});
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Laws, CompositionsTest, testing::ValuesIn(scene::every_law),

@@ -15,9 +15,19 @@ def to_the_end(loop):
             return steps
 
 
-@pytest.mark.parametrize("name", ["target_step", "target_step_q31", "noisy_sensor", "damped_step"])
-def test_a_loop_left_to_its_scene_gives_the_commands_of_run(scene, name):
-    read = scene(name)
+@pytest.mark.parametrize(
+    "name, changes",
+    [
+        ("target_step", {}),
+        ("target_step_q31", {}),
+        ("noisy_sensor", {}),
+        ("damped_step", {}),
+        ("target_step", {"drive.interpolation": "linear"}),
+        ("target_step", {"drive.interpolation": "linear", "drive.codes_per_period": 2}),
+    ],
+)
+def test_a_loop_left_to_its_scene_gives_the_commands_of_run(scene, name, changes):
+    read = scene(name, changes)
     loop = sonoglide.Loop(read)
     loop.reset()
     to_the_end(loop)

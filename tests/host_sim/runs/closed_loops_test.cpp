@@ -145,6 +145,16 @@ TEST(ClosedLoops, HaveTheSensorOfTheScene) {
   EXPECT_LT(differences.ripple, 1e-6);
 }
 
+/// The controller knows nothing of it.
+TEST(ClosedLoops, MayPassFromAmplitudeToAmplitudeAlongALine) {
+  scene::Scene nominal = nominal_scene(scene::Arithmetic::float32);
+  nominal.drive->interpolation = scene::Interpolation::linear;
+  const Differences differences =
+      compare(plants_near(nominal, 10, 0.002), configure::design_control(nominal));
+  EXPECT_LT(differences.steady_error, 1e-7);
+  EXPECT_LT(differences.ripple, 1e-6);
+}
+
 TEST(ClosedLoops, MayHaveATransducer) {
   scene::Scene nominal = nominal_scene(scene::Arithmetic::float32);
   nominal.transducer = {16.0, 2e-6, 0.0};
@@ -250,6 +260,11 @@ TEST(RunsInLanes, OnlyWhatTheLanesAreMadeFor) {
   EXPECT_TRUE(refused([](Scene& s) { s.friction.law = scene::laws::Coulomb{}; }));
   EXPECT_TRUE(refused([](Scene& s) { s.friction.coefficient = 0.0; }));
   EXPECT_TRUE(refused([](Scene& s) { s.drive->waveform = scene::Waveform::square; }));
+  EXPECT_TRUE(refused([](Scene& s) { s.drive->bias_limit_N = 1.0; }));
+  EXPECT_TRUE(refused([](Scene& s) {
+    s.drive->interpolation = scene::Interpolation::linear;
+    s.drive->codes_per_period = 8;
+  }));
   EXPECT_TRUE(refused([](Scene& s) { s.sliding.profile.push_back({1e-3, 0.03}); }));
   EXPECT_TRUE(refused([](Scene& s) { s.plant.stiffness_profile = {{0.0, 133e6}, {1e-3, 130e6}}; }));
   EXPECT_TRUE(refused([](Scene& s) { s.plant.stiffness_N_per_m *= 30.0; }));

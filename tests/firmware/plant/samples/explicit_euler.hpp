@@ -77,7 +77,7 @@ class ExplicitEuler {
   }
 
   template <class Account, class Observer>
-  Outcome<Scalar> advance(const Interval<Scalar>& interval, State<Scalar>& state, Account& account,
+  Outcome<Scalar> advance(const IntervalOf<Model>& interval, State<Scalar>& state, Account& account,
                           Observer& observer) {
     const std::uint32_t count = fixed_step_count(interval.duration, step_, step_limit_);
     if (count > step_limit_) {
