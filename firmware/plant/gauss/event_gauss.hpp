@@ -104,7 +104,8 @@ class EventGauss {
     const Scalar share = numeric::from_real<Scalar>(0.125) * tolerance;
     const Scalar force = model_.contact_force(half_period * half_period) *
                          numeric::exp(numeric::abs(motions_.damping));
-    const auto& [c, s] = motions_.largest;
+    const Scalar c = motions_.largest[0];
+    const Scalar s = motions_.largest[1];
     const auto& [c_rate, s_rate] = motions_.largest_rate;
     // c and s of the reaction stay below 2 force max|S| and 2 force max|C|.
     const Scalar shift = Scalar(4) * force * c * s;

@@ -242,7 +242,7 @@ class GaussPanel {
       rate += numeric::abs(share_[2]) + numeric::abs(share_[3]);
     }
     if constexpr (Motions::is_ramped) {
-      offset += numeric::abs(share_[6]) * motions.largest_biased;
+      offset += numeric::abs(share_[6]) * motions.largest[2];
     }
     return rate >= slowest && offset * numeric::max(rate, numeric::abs(contact_.force)) <=
                                   limits.largest_offset * (rate * rate);

@@ -100,19 +100,20 @@ class GaussStep {
       const Scalar quadrature = panel_.share()[3];
       const Scalar even = side * in_phase * motions_.harmonic_end[0];
       const Scalar odd = side * quadrature * motions_.harmonic_end[1];
-      inertia += h * (in_phase * p.wave[0] + quadrature * p.wave[1]);
+      inertia += h * (in_phase * p.cosine + quadrature * p.sine);
       sum.drive_work = ((even + odd) * last.displacement - (even - odd) * first.displacement) -
-                       h * (quadrature * p.wave[0] - in_phase * p.wave[1]);
+                       h * (quadrature * p.cosine - in_phase * p.sine);
     }
     if constexpr (Motions::is_ramped) {
       const auto& share = panel_.share();
       const Scalar side = model_.side();
       const Scalar even = side * (share[5] * motions_.harmonic_end[1] + share[6]);
       const Scalar odd = side * share[4] * motions_.harmonic_end[0];
-      inertia += h * (share[4] * p.wave[2] + share[5] * p.wave[3] + share[6] * p.wave[4]);
+      const auto [cosine_moment, sine_moment, mean] = ramped_products();
+      inertia += h * (share[4] * cosine_moment + share[5] * sine_moment + share[6] * mean);
       sum.drive_work += ((even + odd) * last.displacement - (even - odd) * first.displacement) -
-                        (share[4] * p.wave[0] + share[5] * p.wave[1] +
-                         h * (share[5] * p.wave[2] - share[4] * p.wave[3]));
+                        (share[4] * p.cosine + share[5] * p.sine +
+                         h * (share[5] * cosine_moment - share[4] * sine_moment));
     }
     sum.velocity_square =
         (last.displacement * last.velocity - first.displacement * first.velocity) - inertia;
@@ -125,17 +126,19 @@ class GaussStep {
   using Lanes = numeric::Lanes<Scalar>;
   using Piece = typename Panel::Piece;
 
-  /// Integrals over x of sigma y with itself, phi, and each of the drive's waves.
+  /// Integrals over x of sigma y with itself, phi, cos(h x) and sin(h x).
   struct Products {
     Scalar square = Scalar(0);
     Scalar friction = Scalar(0);
-    std::array<Scalar, Motions::wave_count> wave{};
+    Scalar cosine = Scalar(0);
+    Scalar sine = Scalar(0);
   };
 
   Products products() const {
     Lanes square{};
     Lanes friction{};
-    std::array<Lanes, Motions::wave_count> wave{};
+    Lanes cosine{};
+    Lanes sine{};
     for (std::size_t i = 0; i < panel_.pieces(); ++i) {
       const Piece& piece = panel_.piece(i);
       piece.for_each([&](std::size_t v, Lanes weight) {
@@ -145,27 +148,44 @@ class GaussStep {
         square += shift * (numeric::twice(linear) + piece.shift[v]);
         friction += weight * piece.phi[v] * (linear + piece.shift[v]);
         if constexpr (Motions::is_driven) {
-          const Lanes cosine = shift * motions_.cosine(x);
-          const Lanes sine = shift * motions_.sine(x);
-          wave[0] += cosine;
-          wave[1] += sine;
-          if constexpr (Motions::is_ramped) {
-            wave[2] += x * cosine;
-            wave[3] += x * sine;
-            wave[4] += shift;
-          }
+          cosine += shift * motions_.cosine(x);
+          sine += shift * motions_.sine(x);
         }
       });
     }
     const auto& share = panel_.share();
-    Products sum = {numeric::sum_of_lanes<Scalar>(square), numeric::sum_of_lanes<Scalar>(friction)};
+    Products sum = {numeric::sum_of_lanes<Scalar>(square), numeric::sum_of_lanes<Scalar>(friction),
+                    numeric::sum_of_lanes<Scalar>(cosine), numeric::sum_of_lanes<Scalar>(sine)};
     for (std::size_t m = 0; m < Motions::count; ++m) {
       sum.square +=
           share[m] * Motions::sum_of(share, [&](std::size_t n) { return motions_.product[m][n]; });
     }
-    for (std::size_t n = 0; n < Motions::wave_count; ++n) {
-      sum.wave[n] = numeric::sum_of_lanes<Scalar>(wave[n]) +
-                    Motions::sum_of(share, [&](std::size_t m) { return motions_.with_wave[n][m]; });
+    sum.cosine += Motions::sum_of(share, [&](std::size_t m) { return motions_.with_wave[0][m]; });
+    sum.sine += Motions::sum_of(share, [&](std::size_t m) { return motions_.with_wave[1][m]; });
+    return sum;
+  }
+
+  /// With x cos(h x), x sin(h x) and 1.
+  std::array<Scalar, 3> ramped_products() const {
+    Lanes cosine{};
+    Lanes sine{};
+    Lanes mean{};
+    for (std::size_t i = 0; i < panel_.pieces(); ++i) {
+      const Piece& piece = panel_.piece(i);
+      piece.for_each([&](std::size_t v, Lanes weight) {
+        const Lanes x = piece.place[v];
+        const Lanes shift = weight * piece.shift[v];
+        cosine += x * shift * motions_.cosine(x);
+        sine += x * shift * motions_.sine(x);
+        mean += shift;
+      });
+    }
+    std::array<Scalar, 3> sum = {numeric::sum_of_lanes<Scalar>(cosine),
+                                 numeric::sum_of_lanes<Scalar>(sine),
+                                 numeric::sum_of_lanes<Scalar>(mean)};
+    for (std::size_t n = 0; n < sum.size(); ++n) {
+      sum[n] += Motions::sum_of(panel_.share(),
+                                [&](std::size_t m) { return motions_.with_wave[2 + n][m]; });
     }
     return sum;
   }

@@ -64,14 +64,14 @@ struct PanelMotions {
       harmonic{};  ///< cos(h x), sin(h x)
   std::array<End, count> begin{};
   std::array<End, count> end{};
-  std::array<OnGrid, count> rate{};      ///< y' on the grid
-  std::array<OnGrid, count> bend{};      ///< y"
-  OnGrid since_begin{};                  ///< x + 1
-  Each third{};                          ///< bounds of |y"'|
-  Each fourth{};                         ///< and of |y""|
-  std::array<Scalar, 2> largest{};       ///< bounds of |C| and |S|
+  std::array<OnGrid, count> rate{};  ///< y' on the grid
+  std::array<OnGrid, count> bend{};  ///< y"
+  OnGrid since_begin{};              ///< x + 1
+  Each third{};                      ///< bounds of |y"'|
+  Each fourth{};                     ///< and of |y""|
+  /// Bounds of |C| and |S|, and of the motion under 1 where there is one.
+  std::array<Scalar, is_ramped ? 3 : 2> largest{};
   std::array<Scalar, 2> largest_rate{};  ///< and of |C'| and |S'|
-  Scalar largest_biased = Scalar(0);     ///< and of the motion under 1, where there is one
   Each error{};                          ///< bounds of what the shortening loses of each
   Scalar slow_error = Scalar(0);
   std::array<Each, count> product{};         ///< integrals over x of products of two motions
@@ -118,7 +118,7 @@ struct PanelMotions {
       harmonic_end[m] = numeric::evaluate(waves[m], Scalar(1));
     }
     if constexpr (is_ramped) {
-      largest_biased = bound(series[6]);
+      largest[2] = bound(series[6]);
     }
   }
 
