@@ -304,6 +304,7 @@ class Controller {
     if (whole_ratio() <= target_ || !vibration_.settled()) {
       regulator_.hold();
     }
+    regulator_.learn_scale([&](Scalar ratio) { return feedforward_.amplitude(ratio, speed); });
     const Scalar ratio = regulator_.propose(target_, measured);
     const Request wanted = feedforward(ratio, speed);
     const Scalar amplitude = slew_.limit(wanted.amplitude, requested_);
@@ -313,7 +314,7 @@ class Controller {
         wanted.limit == PartsT::Vibration::at_full_drive || held_below || vibration_.at_most();
     const bool at_least = whole_ratio() <= ratio || held_above;
     regulator_.accept(at_most, at_least);
-    commanded_ = ratio;
+    commanded_ = regulator_.implied(ratio);
     if (!relearning_.pausing()) {
       judge(measured, speed, at_most || at_least);
     }
@@ -344,7 +345,7 @@ class Controller {
     if (whole_ratio() <= target_) {
       return {Scalar{}, Limit::none};
     }
-    const Scalar amplitude = map_.amplitude(feedforward_, half_ratio, speed);
+    const Scalar amplitude = regulator_.scaled(map_.amplitude(feedforward_, half_ratio, speed));
     const Scalar highest = vibration_.highest(ceiling_.highest());
     if (!(amplitude < highest)) {
       return {highest, PartsT::Vibration::at_full_drive};

@@ -27,7 +27,7 @@ struct Parts {
   using Feedforward = FeedforwardT;  ///< CoulombFeedforward | DahlFeedforward
   using Slew = SlewT;                ///< NoSlewLimit | SlewLimit
   using Shaper = ShaperT;            ///< NoShaping | NotchShaper
-  using Regulator = RegulatorT;      ///< NoFeedback | IntegralRegulator
+  using Regulator = RegulatorT;      ///< NoFeedback | IntegralRegulator | ScalingRegulator
   using Relearning = RelearningT;    ///< NoRelearning | PeriodicRelearning
   using Vibration =
       VibrationT;        ///< FedForward | SensorlessVibration | DampedVibration | ResonantVibration

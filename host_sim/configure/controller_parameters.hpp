@@ -7,6 +7,7 @@
 
 #include "firmware/control/controller.hpp"
 #include "firmware/control/feedback/integral_regulator.hpp"
+#include "firmware/control/feedback/scaling_regulator.hpp"
 #include "firmware/control/friction/dahl_feedforward.hpp"
 #include "firmware/control/friction/learnt_friction.hpp"
 #include "firmware/control/friction/periodic_relearning.hpp"
@@ -82,6 +83,13 @@ typename control::IntegralRegulator<Scalar, MaxDelay>::Parameters parameters(
   all.rest_periods = design.rest_periods;
   all.delay_periods = design.reference_delay_periods;
   return all;
+}
+
+template <class Scalar, int MaxDelay>
+typename control::ScalingRegulator<Scalar, MaxDelay>::Parameters parameters(
+    const ControlDesign& design, Type<control::ScalingRegulator<Scalar, MaxDelay>> /*part*/) {
+  return {parameters(design, Type<control::IntegralRegulator<Scalar, MaxDelay>>{}),
+          design.resonance()->scales};
 }
 
 /// Without any pause where the design has none.

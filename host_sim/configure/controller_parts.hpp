@@ -5,6 +5,7 @@
 #include <variant>
 
 #include "firmware/control/feedback/integral_regulator.hpp"
+#include "firmware/control/feedback/scaling_regulator.hpp"
 #include "firmware/control/force_sensing.hpp"
 #include "firmware/control/friction/coulomb_feedforward.hpp"
 #include "firmware/control/friction/dahl_feedforward.hpp"
@@ -90,6 +91,23 @@ struct ShaperParts {
   }
 };
 
+/// Feedback in friction ratio.
+template <class Scalar>
+struct RegulatorParts {
+  using None = control::NoFeedback<Scalar>;
+  using Integral = control::IntegralRegulator<Scalar, max_reference_delay>;
+  using Scaling = control::ScalingRegulator<Scalar, max_reference_delay>;
+  using Part = Choice<None, Integral, Scaling>;
+
+  static Part chosen(const ControlDesign& design) {
+    if (!design.senses_force || design.integral_gain == 0.0) {
+      return Part(Type<None>{});
+    }
+    const bool scales = design.resonance() != nullptr && design.resonance()->scales;
+    return scales ? Part(Type<Scaling>{}) : Part(Type<Integral>{});
+  }
+};
+
 /// The leanest parts that do what a design asks for; notch and regulator hold the longest that a
 /// design may have. The members are called as those of control::Controller::Parameters.
 template <class Scalar>
@@ -98,8 +116,7 @@ struct ControllerParts {
   Choice<control::CoulombFeedforward<Scalar>, control::DahlFeedforward<Scalar>> feedforward;
   Choice<control::NoSlewLimit<Scalar>, control::SlewLimit<Scalar>> slew;
   typename ShaperParts<Scalar>::Part shaper;
-  Choice<control::NoFeedback<Scalar>, control::IntegralRegulator<Scalar, max_reference_delay>>
-      regulator;
+  typename RegulatorParts<Scalar>::Part regulator;
   Choice<control::NoRelearning<Scalar>, control::PeriodicRelearning<Scalar>> relearning;
   typename VibrationParts<Scalar>::Part vibration;
   Choice<control::ForceSensor, control::NoForceSensor> force;
@@ -109,7 +126,7 @@ struct ControllerParts {
         feedforward(choose<decltype(feedforward)>(design.map == scene::FrictionMap::dahl)),
         slew(choose<decltype(slew)>(design.slew_limited)),
         shaper(ShaperParts<Scalar>::chosen(design)),
-        regulator(choose<decltype(regulator)>(design.senses_force && design.integral_gain != 0.0)),
+        regulator(RegulatorParts<Scalar>::chosen(design)),
         relearning(choose<decltype(relearning)>(design.relearns)),
         vibration(VibrationParts<Scalar>::chosen(design)),
         force(choose<decltype(force)>(!design.senses_force)) {}

@@ -110,6 +110,12 @@ void add_notes(const FeedforwardDesign& mode, const ControlDesign& design,
                     "may allow one.",
                     100.0 * mode.shaping_range));
   }
+  if (mode.not_robust) {
+    notes.push_back(fmt::format(
+        "No robust notch leaves {:.2g} % or less of the ringing, however well the natural frequency "
+        "is known. The notch for the nominal frequency takes its place.",
+        100.0 * robust_ripple));
+  }
   if (mode.notch) {
     add_notch_notes(*mode.notch, notes);
   }

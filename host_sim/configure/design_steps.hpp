@@ -23,9 +23,10 @@ void design_scales(const scene::Scene& scene, const NominalPlant& plant, Control
 // Feedback on the friction ratio, and what keeps the natural mode quiet where the drive is fed
 // forward.
 
-/// Of a robust notch: how far the natural frequency may be off; 0 where the scene takes it as known, or
-/// has no such notch.
-double shaping_range(const scene::Scene& scene);
+/// The notch that a scene's controller.shaping names, of three taps where it names none, as far as the
+/// mode allows one; with its range.
+void design_named_notch(const scene::Scene& scene, const NaturalMode& mode,
+                        FeedforwardDesign& found);
 
 /// Of a drive that is fed forward: the notch, and a regulator behind it.
 FeedforwardDesign design_feedforward(const scene::Scene& scene, const NominalPlant& plant,

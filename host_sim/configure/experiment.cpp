@@ -18,8 +18,9 @@ double default_calibration_s(const scene::Scene& scene, const ControlDesign& des
 /// Values that are absent and follow from the design.
 void fill_in(scene::Scene& scene, ControlDesign& design) {
   scene::Controller& controller = *scene.controller;
-  if (controller.shaping == scene::Shaping::robust && !controller.shaping_range) {
-    controller.shaping_range = default_shaping_range(scene.tolerances);
+  const auto* fed_forward = design.in_mode<FeedforwardDesign>();
+  if (fed_forward != nullptr && fed_forward->shaping_range > 0.0) {
+    controller.shaping_range = fed_forward->shaping_range;
   }
   if (!controller.calibration_s) {
     controller.calibration_s = default_calibration_s(scene, design);

@@ -15,11 +15,7 @@ namespace {
 /// Of a drive whose amplitude jumps.
 FeedforwardDesign design_stepped(const scene::Scene& scene, const NaturalMode& mode) {
   FeedforwardDesign found;
-  found.shaping_range = shaping_range(scene);
-  if (scene.controller->shaping != scene::Shaping::none) {
-    found.notch = found.shaping_range > 0.0 ? design_robust_notch(mode, found.shaping_range)
-                                            : design_notch(mode);
-  }
+  design_named_notch(scene, mode, found);
   found.quieting = found.notch ? Quieting::notch : Quieting::nothing;
   return found;
 }
@@ -62,10 +58,32 @@ void set_waiting(double delay, double filter, ControlDesign& design) {
 
 }  // namespace
 
-double shaping_range(const scene::Scene& scene) {
-  return scene.controller->shaping == scene::Shaping::robust
-             ? scene.controller->shaping_range.value_or(default_shaping_range(scene.tolerances))
-             : 0.0;
+void design_named_notch(const scene::Scene& scene, const NaturalMode& mode,
+                        FeedforwardDesign& found) {
+  const scene::Controller& controller = *scene.controller;
+  switch (controller.shaping.value_or(scene::Shaping::notch)) {
+    case scene::Shaping::none:
+      return;
+    case scene::Shaping::notch:
+      found.notch = design_notch(mode);
+      return;
+    case scene::Shaping::robust:
+      break;
+  }
+  const std::optional<double> range = controller.shaping_range
+                                          ? controller.shaping_range
+                                          : tolerated_shaping_range(scene.tolerances);
+  if (range) {
+    found.shaping_range = *range;
+    found.notch = design_robust_notch(mode, *range);
+    return;
+  }
+  found.notch = design_widest_notch(mode);
+  found.shaping_range = found.notch ? found.notch->range : 0.0;
+  if (!found.notch) {
+    found.notch = design_notch(mode);
+    found.not_robust = found.notch.has_value();
+  }
 }
 
 FeedforwardDesign design_feedforward(const scene::Scene& scene, const NominalPlant& plant,

@@ -91,8 +91,8 @@ using ExtrasChoice =
     configure::Choice<Extras<control::NoSlewLimit<Scalar>, control::NoRelearning<Scalar>>,
                       Extras<control::SlewLimit<Scalar>, control::PeriodicRelearning<Scalar>>>;
 
-/// Relearning, and the current limit of a resonant loop, are wide open where a scene does not name
-/// them.
+/// Relearning, the current limit of a resonant loop and its scale are wide open where a scene does
+/// not name them.
 template <class Scalar, class Friction, class Feedforward, class Regulator, class Vibration,
           class Force>
 using ObservedParts =
@@ -102,7 +102,8 @@ using ObservedParts =
                                       control::NoRelearning<Scalar>>,
                    Vibration, Force>;
 
-template <class Scalar, class Vibration>
+template <class Scalar, class Vibration,
+          template <class, int> class Regulator = control::IntegralRegulator>
 std::unique_ptr<ControlPort> make_observing_control(const ControlDesign& design) {
   const configure::ControllerParts<Scalar> parts(design);
   return std::visit(
@@ -110,9 +111,9 @@ std::unique_ptr<ControlPort> make_observing_control(const ControlDesign& design)
         using Friction = typename decltype(friction)::type;
         using Feedforward = typename decltype(feedforward)::type;
         if (design.senses_force) {
-          using Regulator = control::IntegralRegulator<Scalar, configure::max_reference_delay>;
+          using Feedback = Regulator<Scalar, configure::max_reference_delay>;
           return std::make_unique<InProcessControl<ObservedParts<
-              Scalar, Friction, Feedforward, Regulator, Vibration, control::ForceSensor>>>(design);
+              Scalar, Friction, Feedforward, Feedback, Vibration, control::ForceSensor>>>(design);
         }
         return std::make_unique<InProcessControl<
             ObservedParts<Scalar, control::TrustedFriction<Scalar>, Feedforward,
@@ -157,8 +158,8 @@ std::unique_ptr<ControlPort> make_control(const configure::ControlDesign& design
             design);
       case scene::VibrationMode::resonant:
         return make_observing_control<Scalar,
-                                      control::ResonantVibration<Scalar, max_drive_delay, Current>>(
-            design);
+                                      control::ResonantVibration<Scalar, max_drive_delay, Current>,
+                                      control::ScalingRegulator>(design);
     }
   }
   const configure::ControllerParts<Scalar> parts(design);

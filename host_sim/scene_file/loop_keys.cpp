@@ -167,8 +167,8 @@ std::vector<Key> controller_keys() {
       {"shaping_range", of_controller<&Controller::shaping_range>,
        Number{{scene::least_shaping_range, scene::most_shaping_range}},
        Rule{
-           "from the tolerances of stiffness and mass; without these 0.1, for an error of 20 % in the "
-           "stiffness"},
+           "from the tolerances of stiffness and mass; without these the widest range, up to 0.1, in "
+           "which at most 5 % of the ringing is left, and where there is none the notch"},
        "largest error of the natural frequency, relative to the nominal one; the robust notch has "
        "its zeros in this range",
        uses::implied(uses::no_observed_vibration) + uses::robust_shaping},

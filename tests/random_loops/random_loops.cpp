@@ -34,6 +34,7 @@ struct Options {
   std::string table;
   std::optional<std::uint32_t> scene;
   std::string vibration = "unseen";
+  std::vector<std::string> overrides;
 };
 
 std::string listing(const std::string& listed, const std::vector<random_loops::Outcome>& outcomes) {
@@ -59,7 +60,7 @@ std::string answer(const Options& options) {
                                     vibration);
   }
   const auto most = *std::max_element(options.counts.begin(), options.counts.end());
-  const auto outcomes = random_loops::outcomes(options.seed, most, vibration);
+  const auto outcomes = random_loops::outcomes(options.seed, most, vibration, options.overrides);
   return options.listed.empty() ? random_loops::table_csv(outcomes, options.counts)
                                 : listing(options.listed, outcomes);
 }
@@ -102,6 +103,8 @@ int main(int argument_count, char** arguments) {
           "vibration sensor (damped), and without a force sensor (alone)")
       ->check(CLI::IsMember({"unseen", "felt", "damped", "alone"}))
       ->capture_default_str();
+  program.add_option("--set", options.overrides, "KEY=VALUE in the scene of each loop; repeatable")
+      ->allow_extra_args(false);
   CLI11_PARSE(program, argument_count, arguments);
   try {
     give(answer(options), options.table);

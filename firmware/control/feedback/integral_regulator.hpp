@@ -27,6 +27,10 @@ class NoFeedback {
   void hold() {}
   void target_changes(Scalar) {}
   void shift(Scalar, Scalar) {}
+  template <class VelocityOf>
+  static constexpr void learn_scale(const VelocityOf&) {}
+  static constexpr Scalar scaled(Scalar velocity) { return velocity; }
+  static constexpr Scalar implied(Scalar ratio) { return ratio; }
   Scalar propose(Scalar target, Scalar /*measured*/) const { return target; }
   void accept(bool, bool) {}
 };
@@ -89,11 +93,14 @@ class IntegralRegulator {
   void hold() { held_ = parameters_.hold_periods; }
 
   /// @param change  from the target before to the new one
-  void target_changes(Scalar change) {
+  /// @return whether it holds the integral
+  bool target_changes(Scalar change) {
     if (rest_ == 0 && small_change() < numeric::abs(change)) {
       rest_ = parameters_.rest_periods;
       hold();
+      return true;
     }
+    return false;
   }
 
   /// A better known friction force. In terms of the old force the target was another ratio; the
@@ -104,6 +111,12 @@ class IntegralRegulator {
     integral_ += numeric::accumulate(target - reading);
     hold();
   }
+
+  /// What a ScalingRegulator adds.
+  template <class VelocityOf>
+  static constexpr void learn_scale(const VelocityOf& /*velocity_of*/) {}
+  static constexpr Scalar scaled(Scalar velocity) { return velocity; }
+  static constexpr Scalar implied(Scalar ratio) { return ratio; }
 
   /// Commanded ratio, with the new error counted in; the integral stays as it is before accept().
   Scalar propose(Scalar target, Scalar measured) {

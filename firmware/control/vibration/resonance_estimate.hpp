@@ -42,6 +42,7 @@ class ResonanceEstimate {
     Scalar highest;               ///< likewise
     Scalar rate_gain;             ///< twice the part of a miss that corrects q at once
     Scalar losses_gain;           ///< an eighth of that part for h
+    Scalar quiet_losses;          ///< part of a miss within `unrest` that counts for h
     Scalar natural_gain;          ///< that part for n; after the beginning, where it is more
     Scalar audible;               ///< least velocity that has a direction
     Scalar surprise;              ///< half of the drive that a period may seem to have missed
@@ -56,6 +57,7 @@ class ResonanceEstimate {
       visit("highest", self.highest);
       visit("rate_gain", self.rate_gain);
       visit("losses_gain", self.losses_gain);
+      visit("quiet_losses", self.quiet_losses);
       visit("natural_gain", self.natural_gain);
       visit("audible", self.audible);
       visit("surprise", self.surprise);
@@ -202,7 +204,10 @@ class ResonanceEstimate {
         parts_from_losses(numeric::kept_sum(drive, missed))) {
       correct_rate(drive * missed);
     } else if (parameters_.audible < modulus_) {
-      correct_losses(numeric::multiplied(missed, measured.inverse));
+      const Scalar noise = numeric::clamp_magnitude(missed, unrest_);
+      const Scalar counted =
+          missed - noise + numeric::rough_product(parameters_.quiet_losses, noise);
+      correct_losses(numeric::multiplied(counted, measured.inverse));
     }
     return numeric::abs(missed) <= surprise_;
   }

@@ -50,6 +50,8 @@ class ResonantVibration : public VibrationPart<ScalarT> {
     typename FrequencyWord<Scalar>::Parameters word;
     [[no_unique_address]] typename CurrentT::Parameters current;
     Scalar velocity_gain;  ///< γ: part of a velocity error that a period takes away
+    Scalar calm;           ///< part of an error within `quiet` that is left to be
+    Scalar quiet;          ///< largest error that noise may be
     Scalar phase_gain;     ///< β/2π as a deviation, base 1/8
     Scalar settled;        ///< what noise adds to the error of a settled velocity
     Scalar missing;        ///< velocity that any resonator in the range shows after a hard drive
@@ -61,6 +63,8 @@ class ResonantVibration : public VibrationPart<ScalarT> {
       visit("word", self.word);
       visit("current", self.current);
       visit("velocity_gain", self.velocity_gain);
+      visit("calm", self.calm);
+      visit("quiet", self.quiet);
       visit("phase_gain", self.phase_gain);
       visit("settled", self.settled);
       visit("missing", self.missing);
@@ -152,7 +156,9 @@ class ResonantVibration : public VibrationPart<ScalarT> {
 
   /// u c; in fixed point a quarter of it.
   Scalar wanted_amplitude(Scalar velocity, Scalar miss) const {
-    const Scalar gained = numeric::rough_product(parameters_.velocity_gain, miss);
+    const Scalar left =
+        numeric::rough_product(parameters_.calm, numeric::clamp_magnitude(miss, parameters_.quiet));
+    const Scalar gained = numeric::rough_product(parameters_.velocity_gain, miss - left);
     const Scalar holding = resonance_.holding(velocity);
     if constexpr (numeric::is_fixed_point_v<Scalar>) {
       constexpr Scalar most = numeric::from_real<Scalar>(0.7499);

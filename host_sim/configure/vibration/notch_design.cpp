@@ -159,6 +159,24 @@ std::optional<NotchDesign> design_robust_notch(const NaturalMode& mode, double r
   return best;
 }
 
+std::optional<NotchDesign> design_widest_notch(const NaturalMode& mode) {
+  constexpr int halvings = 16;
+  const auto quiet = [&](double range) {
+    std::optional<NotchDesign> notch = design_robust_notch(mode, range);
+    return notch && notch->ripple <= robust_ripple ? notch : std::nullopt;
+  };
+  std::optional<NotchDesign> widest = quiet(default_shaping_range);
+  double low = scene::least_shaping_range;
+  double high = default_shaping_range;
+  for (int i = 0; i < halvings && !(widest && widest->range == high); ++i) {
+    const double middle = 0.5 * (low + high);
+    const std::optional<NotchDesign> notch = quiet(middle);
+    (notch ? low : high) = middle;
+    widest = notch ? notch : widest;
+  }
+  return widest;
+}
+
 double notch_ripple_at(const NotchDesign& notch, const NaturalMode& mode, double factor) {
   return left_over(notch, power(mode.decay, notch.spacing), mode.rotation * notch.spacing * factor);
 }
@@ -219,11 +237,12 @@ double natural_frequency_range(const std::vector<scene::Tolerance>& tolerances) 
                   1.0 - numeric::sqrt(stiffness.least / mass.most));
 }
 
-double default_shaping_range(const std::vector<scene::Tolerance>& tolerances) {
-  constexpr double stiffness_off_by_a_fifth = 0.1;
+std::optional<double> tolerated_shaping_range(const std::vector<scene::Tolerance>& tolerances) {
   const double range = natural_frequency_range(tolerances);
-  return range > 0.0 ? std::clamp(range, scene::least_shaping_range, scene::most_shaping_range)
-                     : stiffness_off_by_a_fifth;
+  if (!(range > 0.0)) {
+    return std::nullopt;
+  }
+  return std::clamp(range, scene::least_shaping_range, scene::most_shaping_range);
 }
 
 }  // namespace sonoglide::configure

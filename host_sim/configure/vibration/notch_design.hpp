@@ -60,6 +60,7 @@ struct FeedforwardDesign {
   double left = 0.0;
   double ratio_swing = 0.0;
   double shaping_range = 0.0;  ///< by which the natural frequency may be off; 0: known exactly
+  bool not_robust = false;     ///< a robust notch was asked for, and the one of three taps is taken
   bool free_mode = false;      ///< the plant has a natural mode that no notch takes care of
   /// With which feedback cannot build up what the notch leaves; 0: the mode has as much.
   double missing_damping_N_s_per_m = 0.0;
@@ -86,6 +87,16 @@ inline constexpr double robust_ripple = 0.05;
 /// @return nothing where every spacing leaves half of the ringing or more, or where there is no mode
 std::optional<NotchDesign> design_robust_notch(const NaturalMode& mode, double range);
 
+/// Of a robust notch whose scene says nothing of how far the mode may be off: for a stiffness that is
+/// off by a fifth.
+inline constexpr double default_shaping_range = 0.1;
+
+/// The robust notch of the widest range, up to default_shaping_range, that leaves at most
+/// `robust_ripple`.
+/// @return nothing where a mode known to scene::least_shaping_range leaves more, or where there is
+///         none
+std::optional<NotchDesign> design_widest_notch(const NaturalMode& mode);
+
 /// The largest part of the free motion of a step that is left at the end of the notch, where the
 /// frequency of the mode is off by up to `range`, relative; seen at 65 frequencies.
 double notch_ripple(const NotchDesign& notch, const NaturalMode& mode, double range);
@@ -104,7 +115,7 @@ NotchTaps rounded_taps(const NotchDesign& notch, int fraction_digits);
 double natural_frequency_range(const std::vector<scene::Tolerance>& tolerances);
 
 /// Of a robust notch whose scene does not give one: the same, limited to what the key allows.
-/// @return 0.1, for a stiffness that is 20 % off, where neither has a tolerance
-double default_shaping_range(const std::vector<scene::Tolerance>& tolerances);
+/// @return nothing where neither has a tolerance
+std::optional<double> tolerated_shaping_range(const std::vector<scene::Tolerance>& tolerances);
 
 }  // namespace sonoglide::configure

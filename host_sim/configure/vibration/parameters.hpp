@@ -51,6 +51,7 @@ typename control::ResonanceEstimate<Scalar>::Parameters parameters(
   all.highest = scaled<Scalar>(8.0 * resonance.highest);
   all.rate_gain = scaled_within<Scalar>(2.0 * resonance.rate_gain);
   all.losses_gain = scaled<Scalar>(0.125 * resonance.losses_gain);
+  all.quiet_losses = scaled_within<Scalar>(resonance.quiet_losses);
   all.natural_gain = scaled<Scalar>(resonance.natural_gain);
   all.audible = scaled_within<Scalar>(resonance.audible);
   all.surprise = scaled_within<Scalar>(0.5 * resonance.surprise);
@@ -70,6 +71,8 @@ typename control::ResonantVibration<Scalar, MaxDelay, Current>::Parameters param
   all.word.deviation = split<Scalar>(base / resonance.start_word);
   all.current = parameters(design, Type<Current>{});
   all.velocity_gain = scaled<Scalar>(resonance.velocity_gain);
+  all.calm = scaled<Scalar>(resonance.calm);
+  all.quiet = scaled_within<Scalar>(resonance.quiet);
   all.phase_gain = scaled<Scalar>(base / numeric::two_pi * resonance.phase_gain);
   all.settled = scaled<Scalar>(resonance.settled);
   all.missing = scaled<Scalar>(std::min(0.5, resonance.missing));

@@ -113,19 +113,6 @@ std::optional<NotchDesign> chosen_notch(const RampedMode& ramped, double accepte
   return best;
 }
 
-std::optional<NotchDesign> named_notch(scene::Shaping shaping, const NaturalMode& mode,
-                                       double range) {
-  switch (shaping) {
-    case scene::Shaping::notch:
-      return design_notch(mode);
-    case scene::Shaping::robust:
-      return design_robust_notch(mode, range);
-    case scene::Shaping::none:
-      break;
-  }
-  return std::nullopt;
-}
-
 Quieting quieting_of(bool ramp, bool notch) {
   if (ramp) {
     return notch ? Quieting::ramp_and_notch : Quieting::ramp;
@@ -139,16 +126,17 @@ FeedforwardDesign design_ramped(const scene::Scene& scene, const NominalPlant& p
                                 const ControlDesign& design) {
   FeedforwardDesign found;
   found.ramped = true;
-  found.shaping_range = shaping_range(scene);
   found.frequency_range = frequency_range(scene);
   const RampedMode ramped(scene, plant, design.scales.carrier_period_s, found.frequency_range);
   if (!(ramped.mode().rotation > 0.0)) {
     return found;
   }
   const double swing = largest_swing(scene, plant, design, ramped.mode().rotation);
-  const auto& named = scene.controller->shaping;
-  found.notch = named ? named_notch(*named, ramped.mode(), found.shaping_range)
-                      : chosen_notch(ramped, scene.run.settling_band / swing);
+  if (scene.controller->shaping) {
+    design_named_notch(scene, ramped.mode(), found);
+  } else {
+    found.notch = chosen_notch(ramped, scene.run.settling_band / swing);
+  }
   found.left = ramped.left(found.notch);
   found.ratio_swing = swing * found.left;
   found.quieting = quieting_of(is_ramp(ramped.nominal_kick()), found.notch.has_value());

@@ -83,6 +83,8 @@ void design_estimate(ResonantDesign& design) {
   const auto gain = [&](double error) { return at_once / (1.0 + blur * blur / (error * error)); };
   design.rate_gain = gain(nominal_rate_error);
   design.losses_gain = gain(nominal_losses_error);
+  constexpr double of_noise = 0.04;
+  design.quiet_losses = std::min(1.0, of_noise / design.losses_gain);
   design.natural_gain = 0.05;
   design.audible = std::max(least_audible * design.rate, noises_of_audible * design.noise);
   design.surprise = 1.0 + 4.0 * blur;
@@ -95,7 +97,11 @@ void design_hold(ResonantDesign& design) {
   constexpr double phase = 1.0 / 16.0;
   constexpr double coarse = 0.25;
   constexpr double deviations = 4.0;
+  constexpr double of_noise = 0.15;
+  constexpr double deviations_of_noise = 3.0;
   design.velocity_gain = nearly_at_once / (1.0 + 2.0 * design.noise / design.rate);
+  design.calm = std::max(0.0, 1.0 - of_noise / design.velocity_gain);
+  design.quiet = deviations_of_noise * design.noise;
   // The phase that a word's own rounding leaves must not move it, but by next to nothing.
   const double step = 1.0 / design.start_word;
   const double width = 1.0 / (design.quality_factor * design.quality_factor);
@@ -273,6 +279,7 @@ ResonantDesign design_resonance(const scene::Scene& scene, const NominalPlant& p
   design.head_room = full_m_per_s / targets.highest_m_per_s;
   design.noise = vibration_noise_m_per_s(scene.sensor, full_scale_m_per_s) / full_scale_m_per_s;
   design.delay_periods = static_cast<std::uint8_t>(scene.drive->delay_periods);
+  design.scales = scene.sensor.vibration == scene::VibrationSensor::motional_current;
   design_word(scene, plant, design);
   design_estimate(design);
   require_audible_targets(scene, targets.lowest_driven_m_per_s, full_scale_m_per_s, design);

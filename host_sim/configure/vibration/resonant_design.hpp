@@ -22,14 +22,18 @@ struct ResonantDesign {
   double noise = 0.0;  ///< of a vibration sample, converter included, rms
   double rate_gain = 0.0;
   double losses_gain = 0.0;
+  double quiet_losses = 0.0;  ///< part of a miss within `unrest` that counts for the losses
   double natural_gain = 0.0;
   double audible = 0.0;
   double surprise = 0.0;  ///< drive that a period may seem to have missed
   double unrest = 0.0;    ///< drive that noise alone may ask for
   double velocity_gain = 0.0;
+  double calm = 0.0;        ///< part of a velocity error within `quiet` that is left to be
+  double quiet = 0.0;       ///< largest velocity error that noise may be
   double phase_gain = 0.0;  ///< radians of phase taken away in a period, per radian
   double settled = 0.0;
   double missing = 0.0;
+  bool scales = false;  ///< what reads the vibration rests on a force factor
   std::uint8_t delay_periods = 1;
 
   double step_Hz = 0.0;          ///< of the frequency word

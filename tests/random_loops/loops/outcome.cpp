@@ -58,12 +58,13 @@ bool StepOutcome::named() const {
   return metrics.limit != control::Limit::none || !fault.empty();
 }
 
-Outcome outcome(std::uint32_t seed, std::uint32_t index, Vibration vibration) {
+Outcome outcome(std::uint32_t seed, std::uint32_t index, Vibration vibration,
+                const std::vector<std::string>& overrides) {
   Outcome outcome;
   outcome.loop = random_loop(seed, index);
   try {
     const experiment::Experiment experiment =
-        experiment::read_text(scene_text(outcome.loop, vibration), "random.toml");
+        experiment::read_text(scene_text(outcome.loop, vibration), "random.toml", overrides);
     if (vibration == Vibration::sensorless) {
       outcome.loop.calibration_s =
           *experiment.plant.controller->calibration_s;  // absent: by default
@@ -78,10 +79,12 @@ Outcome outcome(std::uint32_t seed, std::uint32_t index, Vibration vibration) {
   return outcome;
 }
 
-std::vector<Outcome> outcomes(std::uint32_t seed, std::uint32_t count, Vibration vibration) {
+std::vector<Outcome> outcomes(std::uint32_t seed, std::uint32_t count, Vibration vibration,
+                              const std::vector<std::string>& overrides) {
   std::vector<Outcome> all(count);
-  tbb::parallel_for(std::uint32_t{0}, count,
-                    [&](std::uint32_t index) { all[index] = outcome(seed, index, vibration); });
+  tbb::parallel_for(std::uint32_t{0}, count, [&](std::uint32_t index) {
+    all[index] = outcome(seed, index, vibration, overrides);
+  });
   return all;
 }
 

@@ -41,11 +41,13 @@ struct Outcome {
   std::vector<StepOutcome> steps;
 };
 
-/// Draws a loop, reads its scene and runs it.
-Outcome outcome(std::uint32_t seed, std::uint32_t index, Vibration vibration);
+/// Draws a loop, reads its scene and runs it. @param overrides  KEY=VALUE in its scene
+Outcome outcome(std::uint32_t seed, std::uint32_t index, Vibration vibration,
+                const std::vector<std::string>& overrides = {});
 
 /// Of the loops 0 to count - 1, in their order, computed on all cores.
 std::vector<Outcome> outcomes(std::uint32_t seed, std::uint32_t count,
-                              Vibration vibration = Vibration::unseen);
+                              Vibration vibration = Vibration::unseen,
+                              const std::vector<std::string>& overrides = {});
 
 }  // namespace sonoglide::random_loops

@@ -55,12 +55,15 @@ typename Vibration<S, Current>::Parameters parameters(const Nominal& nominal) {
                    scaled<S>(0.4),
                    scaled<S>(0.99),
                    scaled<S>(0.5 / 8.0),
+                   scaled<S>(0.08),
                    scaled<S>(0.05),
                    scaled<S>(std::max(0.25 * rate, 6.0 * nominal.noise)),
-                   scaled<S>(0.5 + 4.0 * nominal.noise / rate),
-                   scaled<S>(2.0 * nominal.noise / rate)};
+                   scaled<S>(std::min(0.999, 0.5 + 4.0 * nominal.noise / rate)),
+                   scaled<S>(std::min(0.999, 2.0 * nominal.noise / rate))};
   all.word = {split<S>(1.0 / (8.0 * step)), split<S>(8.0 * step)};
   all.velocity_gain = scaled<S>(0.8);
+  all.calm = scaled<S>(1.0 - 0.15 / 0.8);
+  all.quiet = scaled<S>(3.0 * nominal.noise);
   all.phase_gain = scaled<S>(coarse ? 0.0 : 8.0 / tests::two_pi / 16.0);
   all.settled = scaled<S>(4.0 * nominal.noise);
   all.missing = scaled<S>(0.25 * rate);
@@ -243,6 +246,24 @@ TYPED_TEST(ResonantVibrationOf, HoldsAgainstNoise) {
   for (int i = 0; i < 20000; ++i) {
     EXPECT_NEAR(bench.advance(1.0 / 3.0), 1.0 / 3.0, 0.01 / 3.0);
     EXPECT_NEAR(bench.frequency_Hz() / bench.plant().natural_Hz(), 1.0, 2e-4);
+  }
+}
+
+TYPED_TEST(ResonantVibrationOf, PassesLessThanHalfOfTheNoiseOn) {
+  for (const double quality : {50.0, 200.0}) {
+    constexpr double wanted = 1.0 / 3.0;
+    Nominal nominal;
+    nominal.quality = quality;
+    nominal.noise = 0.003 * wanted;
+    Bench<TypeParam> bench(nominal, {quality, 60e3});
+    settle(bench, wanted, 100e-3);
+    constexpr int periods = 20000;
+    double squares = 0.0;
+    for (int i = 0; i < periods; ++i) {
+      const double error = bench.advance(wanted) - wanted;
+      squares += error * error / periods;
+    }
+    EXPECT_LE(std::sqrt(squares), 0.5 * nominal.noise) << quality;
   }
 }
 
