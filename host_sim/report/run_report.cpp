@@ -364,11 +364,12 @@ std::string run_text(const scene::Scene& scene, const loop::RunResult& result,
   const std::string lines =
       (scene.controller ? step_lines(scene, result, findings) : ratio_line(scene, result)) +
       electrical_line(result) + note_lines(scene, result);
-  return fmt::format("{}{}{:.6g} ms simulated in {:.3g} ms, {:.3g} times real time\nreport: {}\n",
-                     lines, result.image ? image_lines(*result.image) : "",
-                     result.final_time_s * 1e3, result.wall_s * 1e3,
-                     result.final_time_s / result.wall_s,
-                     process::printable((out / "report.html").string()));
+  return fmt::format(
+      "{}{}{:.6g} ms simulated with {} in {:.3g} ms, {:.3g} times real time\n"
+      "report: {}\n",
+      lines, result.image ? image_lines(*result.image) : "", result.final_time_s * 1e3,
+      scene::name_of(scene.solver.method), result.wall_s * 1e3, result.final_time_s / result.wall_s,
+      process::printable((out / "report.html").string()));
 }
 
 }  // namespace sonoglide::report

@@ -7,14 +7,17 @@
 namespace sonoglide::runs {
 namespace {
 
+bool suits_lanes(const scene::Solver& solver) {
+  const bool taylor = solver.method == scene::method_of<scene::solvers::EventTaylor>;
+  return (solver.automatic || taylor) && !solver.order;
+}
+
 bool suits_lanes(const scene::Scene& scene) {
   return scene.run.start == scene::Start::given && scene.drive &&
          scene.drive->waveform == scene::Waveform::cosine && scene.drive->codes_per_period == 1 &&
          scene.drive->bias_limit_N == 0.0 && scene::is<scene::laws::Dahl>(scene.friction.law) &&
          scene.friction.limit_N() > 0.0 && scene.profile_key() == nullptr &&
-         scene.sliding.profile.size() == 1 &&
-         scene.solver.method == scene::method_of<scene::solvers::EventTaylor> &&
-         !scene.solver.order;
+         scene.sliding.profile.size() == 1 && suits_lanes(scene.solver);
 }
 
 /// The lanes take steps of one share of their tolerance.

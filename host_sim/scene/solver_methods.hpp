@@ -17,8 +17,7 @@
 
 namespace sonoglide::scene {
 
-/// What a solver offers is listed at solvers::EventTaylor. Messages name them in this order; the
-/// first is the default.
+/// What a solver offers is listed at solvers::EventTaylor. Messages name them in this order.
 using SolverMethods = std::tuple<solvers::EventTaylor, solvers::EventGauss, solvers::Strang,
                                  solvers::Rk4, solvers::Rk4Event>;
 

@@ -15,6 +15,9 @@ void check_presence(const TableCursor& cursor, const scene::Scene& scene);
 /// @throws SceneError  a value that does not suit the others
 void check_table(const TableCursor& cursor, const Variant& variant, scene::Scene& scene);
 
+/// Picks the method of a scene that names none, by all of its tables.
+void settle_method(const TableCursor& cursor, scene::Scene& scene);
+
 void check_solver(const TableCursor& cursor, const Variant& variant, scene::Scene& scene);
 void check_run(const TableCursor& cursor, const Variant& variant, scene::Scene& scene);
 void check_controller(const TableCursor& cursor, const Variant& variant, scene::Scene& scene);

@@ -67,7 +67,9 @@ std::vector<Key> solver_keys() {
   const std::string longest = uses::methods_where(scene::takes_longest_step);
   return {
       {"method", choice<scene::solver_methods, &scene::Scene::solver, &Solver::method>(),
-       Word{words_of(scene::solver_methods)}, scene::name_of(scene::SolverMethod{}), "solver"},
+       Word{words_of(scene::solver_methods)},
+       Rule{"event_gauss where it is the faster, else event_taylor"},
+       "how the motion is computed; the summary and the echo name the method that was taken"},
       {"tolerance", of_solver<&Solver::tolerance>, Number{{1e-15, 1e-2}},
        Rule{default_tolerances(), default_tolerance},
        "event_taylor, event_gauss: error of the friction ratio over a hundred carrier periods that "

@@ -32,6 +32,7 @@ scene::Scene read_values(const Variant& variant) {
       reject_unused(variant, table, scene);
     }
   }
+  settle_method(TableCursor(variant, "solver"), scene);
   return scene;
 }
 

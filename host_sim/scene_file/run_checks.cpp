@@ -12,6 +12,7 @@
 
 #include "firmware/numeric/turn.hpp"
 #include "host_sim/scene/bound.hpp"
+#include "host_sim/scene/cores/fastest_method.hpp"
 #include "host_sim/scene/cores/solves.hpp"
 #include "host_sim/scene/names.hpp"
 #include "host_sim/scene/solver_facts.hpp"
@@ -181,6 +182,13 @@ void check_solver(const TableCursor& cursor, const Variant& /*variant*/, scene::
   require_built(cursor, scene.solver);
   require_solvable(cursor, scene);
   settle_waveform(cursor, scene);
+}
+
+void settle_method(const TableCursor& cursor, scene::Scene& scene) {
+  if (!cursor.has("method")) {
+    scene.solver.automatic = true;
+    scene.solver.method = scene::fastest_method(scene);
+  }
 }
 
 void check_run(const TableCursor& cursor, const Variant& /*variant*/, scene::Scene& scene) {

@@ -53,6 +53,18 @@ TEST(TargetStepFilesTest, FloatAndFixedPointScenesDifferInArithmeticAlone) {
   }
 }
 
+TEST(TargetStepFilesTest, NamesNoSolverAndGetsTheFastest) {
+  const nlohmann::json fastest = summary_of("target_step");
+  EXPECT_EQ(fastest.at("solver").at("method"), "event_gauss");
+  EXPECT_EQ(fastest.at("scene").at("solver").at("method"), "event_gauss");
+  EXPECT_LE(fastest.at("solver").at("steps"), 1.05 * 360);  // one for each carrier period
+  const nlohmann::json taylor = summary_of("target_step", {"solver.method=event_taylor"});
+  EXPECT_EQ(taylor.at("solver").at("method"), "event_taylor");
+  EXPECT_EQ(fastest.at("control").at("trace_hash"), taylor.at("control").at("trace_hash"));
+  EXPECT_NEAR(fastest.at("friction_ratio").at("whole_run"),
+              taylor.at("friction_ratio").at("whole_run"), 1e-12);
+}
+
 TEST(UnshapedTargetStepTest, RingsTheNaturalModeForEver) {
   const nlohmann::json summary = summary_of("target_step_unshaped");
   expect_no_fault(summary);
