@@ -13,14 +13,6 @@
 namespace sonoglide::configure {
 namespace {
 
-/// Without tolerances, as for a stiffness that is known to 5 %. What [model_error] says is hidden from
-/// a controller, and so from its design.
-double frequency_range(const scene::Scene& scene) {
-  constexpr double stiffness_off_by_a_twentieth = 0.025;
-  const double range = natural_frequency_range(scene.tolerances);
-  return range > 0.0 ? std::min(range, scene::most_shaping_range) : stiffness_off_by_a_twentieth;
-}
-
 /// Half the swing of the friction ratio, of the target that swings most, under a free vibration as
 /// large as the forced one in displacement.
 double largest_swing(const scene::Scene& scene, const NominalPlant& plant,
@@ -40,14 +32,15 @@ double largest_swing(const scene::Scene& scene, const NominalPlant& plant,
   return largest * rotation / numeric::two_pi;
 }
 
-/// A mode under a ramped drive.
-class RampedMode {
+/// A mode under a drive, ramped or not.
+class DrivenMode {
  public:
-  RampedMode(const scene::Scene& scene, const NominalPlant& plant, double period_s, double range)
+  DrivenMode(const scene::Scene& scene, const NominalPlant& plant, double period_s)
       : mode_(natural_mode(plant, period_s)),
         damping_(plant.damping_N_s_per_m / plant.mass_kg * period_s),
+        ramped_(scene.drive->interpolation == scene::Interpolation::linear),
         parts_(scene.drive->codes_per_period),
-        range_(range) {}
+        range_(believed_range(scene)) {}
 
   const NaturalMode& mode() const { return mode_; }
   double range() const { return range_; }
@@ -71,12 +64,16 @@ class RampedMode {
 
  private:
   double kick(double factor) const {
+    if (!ramped_) {
+      return 1.0;
+    }
     const double rotation = mode_.rotation * factor;
     return ramp_kick({rotation * rotation + 0.25 * damping_ * damping_, damping_, 1.0}, parts_);
   }
 
   NaturalMode mode_;
   double damping_;
+  bool ramped_;
   int parts_;
   double range_;
 };
@@ -90,9 +87,9 @@ bool is_ramp(double kick) {
 constexpr int longest_beside_a_ramp = max_notch_span / 2;
 
 /// @param accepted  to be left
-std::optional<NotchDesign> chosen_notch(const RampedMode& ramped, double accepted) {
-  const bool ramp = is_ramp(ramped.nominal_kick());
-  const double by_ramp = ramped.left({});
+std::optional<NotchDesign> chosen_notch(const DrivenMode& driven, double accepted) {
+  const bool ramp = is_ramp(driven.nominal_kick());
+  const double by_ramp = driven.left({});
   if (ramp && by_ramp <= accepted) {
     return std::nullopt;
   }
@@ -100,15 +97,15 @@ std::optional<NotchDesign> chosen_notch(const RampedMode& ramped, double accepte
   double least = ramp ? 0.5 * by_ramp : by_ramp;
   const auto consider = [&](const std::optional<NotchDesign>& notch) {
     const bool serves = notch && (!ramp || notch->span() <= longest_beside_a_ramp);
-    const double left = serves ? ramped.left(notch) : least;
+    const double left = serves ? driven.left(notch) : least;
     if (left < least) {
       best = notch;
       least = left;
     }
     return serves && left <= accepted;
   };
-  if (!consider(design_notch(ramped.mode())) && ramped.range() > 0.0) {
-    consider(design_robust_notch(ramped.mode(), ramped.range()));
+  if (!consider(design_notch(driven.mode())) && driven.range() > 0.0) {
+    consider(design_robust_notch(driven.mode(), driven.range()));
   }
   return best;
 }
@@ -122,24 +119,41 @@ Quieting quieting_of(bool ramp, bool notch) {
 
 }  // namespace
 
+double believed_range(const scene::Scene& scene) {
+  constexpr double stiffness_off_by_a_twentieth = 0.025;
+  const double range = natural_frequency_range(scene.tolerances);
+  return range > 0.0 ? std::min(range, scene::most_shaping_range) : stiffness_off_by_a_twentieth;
+}
+
+LeftBehind left_behind(const scene::Scene& scene, const NominalPlant& plant,
+                       const ControlDesign& design, const std::optional<NotchDesign>& notch) {
+  const DrivenMode driven(scene, plant, design.scales.carrier_period_s);
+  const double rotation = driven.mode().rotation;
+  if (!(rotation > 0.0)) {
+    return {};
+  }
+  const double left = driven.left(notch);
+  return {left, left * largest_swing(scene, plant, design, rotation)};
+}
+
 FeedforwardDesign design_ramped(const scene::Scene& scene, const NominalPlant& plant,
                                 const ControlDesign& design) {
   FeedforwardDesign found;
   found.ramped = true;
-  found.frequency_range = frequency_range(scene);
-  const RampedMode ramped(scene, plant, design.scales.carrier_period_s, found.frequency_range);
-  if (!(ramped.mode().rotation > 0.0)) {
+  const DrivenMode driven(scene, plant, design.scales.carrier_period_s);
+  found.frequency_range = driven.range();
+  if (!(driven.mode().rotation > 0.0)) {
     return found;
   }
-  const double swing = largest_swing(scene, plant, design, ramped.mode().rotation);
+  const double swing = largest_swing(scene, plant, design, driven.mode().rotation);
   if (scene.controller->shaping) {
-    design_named_notch(scene, ramped.mode(), found);
+    design_named_notch(scene, driven.mode(), found);
   } else {
-    found.notch = chosen_notch(ramped, scene.run.settling_band / swing);
+    found.notch = chosen_notch(driven, scene.run.settling_band / swing);
   }
-  found.left = ramped.left(found.notch);
+  found.left = driven.left(found.notch);
   found.ratio_swing = swing * found.left;
-  found.quieting = quieting_of(is_ramp(ramped.nominal_kick()), found.notch.has_value());
+  found.quieting = quieting_of(is_ramp(driven.nominal_kick()), found.notch.has_value());
   return found;
 }
 

@@ -319,6 +319,10 @@ std::vector<Advice> advice(const DesignStudy& study) {
     all.push_back(amplifier(study, *most));
     all.push_back(relief(study, *most));
   }
+  if (study.natural_mode) {
+    const std::vector<Advice> mode = natural_mode_advice(*study.natural_mode);
+    all.insert(all.end(), mode.begin(), mode.end());
+  }
   if (!study.detunings.empty() && !study.task.at_resonance) {
     const Detuning& lowest = study.detunings.front();
     all.push_back(resonance(study, lowest));

@@ -259,6 +259,9 @@ output::Page page(const DesignStudy& study) {
   if (!points.empty()) {
     page.sections.push_back(sensitivity_section(study, points));
   }
+  if (study.natural_mode) {
+    page.sections.push_back(natural_mode_section(study, *study.natural_mode));
+  }
   if (!study.detunings.empty()) {
     page.sections.push_back(resonance_section(study));
   }

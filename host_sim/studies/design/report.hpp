@@ -46,6 +46,12 @@ output::Chart sensitivity_chart(const DesignStudy& study);
 /// 1 % of the spring then costs; some ratio has a motion.
 std::vector<output::Chart> detuning_charts(const DesignStudy& study);
 
+/// What keeps the natural mode quiet, the cheapest controller that holds the plant, and a carrier at
+/// which the mode is far from trouble.
+std::vector<Advice> natural_mode_advice(const NaturalModeStudy& mode);
+output::Section natural_mode_section(const DesignStudy& study, const NaturalModeStudy& mode);
+nlohmann::ordered_json to_json(const NaturalModeStudy& mode);
+
 output::Page page(const DesignStudy& study);
 
 /// report.html, design.json, design.csv and detuning.csv.

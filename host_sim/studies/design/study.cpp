@@ -104,6 +104,19 @@ void require_an_orbit(const std::vector<DesignPoint>& points) {
   }
 }
 
+std::optional<NaturalModeStudy> natural_mode(const DesignStudy& study) {
+  const double fastest_m_per_s = study.task.speeds.fastest_m_per_s;
+  std::vector<double> reached;
+  for (const DesignPoint& point : study.points) {
+    const Requirement& each = point.requirement;
+    if (each.sliding_m_per_s == fastest_m_per_s && each.limit == Obstacle::none) {
+      reached.push_back(each.ratio);
+    }
+  }
+  return reached.empty() ? std::nullopt
+                         : natural_mode_study(study.task.stated, reached, fastest_m_per_s);
+}
+
 }  // namespace
 
 std::vector<DesignPoint> moving_points(const DesignStudy& study) {
@@ -130,7 +143,7 @@ const Requirement* most_electrical(const DesignStudy& study) {
 
 DesignStudy study(const Task& task, const Progress& progress) {
   const std::vector<double> speeds_m_per_s = curve_speeds_m_per_s(task.speeds);
-  DesignStudy study{task, tuning(task.scene), {}, {}, {}, {}};
+  DesignStudy study{task, tuning(task.scene), {}, {}, {}, {}, {}};
   for (const double ratio : task.ratios) {
     study.curves.push_back(ratio_curve(task, ratio, speeds_m_per_s));
     progress(0.5 * static_cast<double>(study.curves.size()) /
@@ -142,6 +155,7 @@ DesignStudy study(const Task& task, const Progress& progress) {
   if (const Requirement* most = most_electrical(study)) {
     study.resonant_spring = on_resonance(task.scene, *most);
   }
+  study.natural_mode = natural_mode(study);
   progress(1.0);
   return study;
 }

@@ -9,6 +9,7 @@
 #include "host_sim/configure/experiment.hpp"
 #include "host_sim/loop/electrical.hpp"
 #include "host_sim/scene/scene.hpp"
+#include "host_sim/studies/design/natural_mode.hpp"
 #include "host_sim/studies/design/requirement.hpp"
 
 namespace sonoglide::design {
@@ -182,6 +183,8 @@ struct DesignStudy {
   std::vector<Detuning> detunings;  ///< each ratio at the fastest speed, where it has a motion
   /// With a transducer: of the point that takes the most power from the amplifier.
   std::optional<ResonantSpring> resonant_spring;
+  /// With the ratios that are within reach at the fastest speed; none without one.
+  std::optional<NaturalModeStudy> natural_mode;
 };
 
 /// The point that takes the most apparent power from the amplifier; null without a transducer, and

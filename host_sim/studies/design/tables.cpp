@@ -175,6 +175,9 @@ ordered_json to_json(const DesignStudy& study) {
   for (const Detuning& detuning : study.detunings) {
     json["detuning"].push_back(detuning_json(detuning));
   }
+  if (study.natural_mode) {
+    json["natural_mode"] = to_json(*study.natural_mode);
+  }
   return json;
 }
 

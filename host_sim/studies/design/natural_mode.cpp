@@ -1,0 +1,209 @@
+#include "host_sim/studies/design/natural_mode.hpp"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+#include <utility>
+
+#include "firmware/numeric/turn.hpp"
+#include "host_sim/configure/configuration_error.hpp"
+#include "host_sim/configure/control_design.hpp"
+#include "host_sim/configure/experiment.hpp"
+#include "host_sim/configure/vibration/ramp_design.hpp"
+#include "host_sim/loop/run.hpp"
+#include "host_sim/report/step_metrics.hpp"
+#include "host_sim/scene/names.hpp"
+
+namespace sonoglide::design {
+namespace {
+
+constexpr int carriers_on_a_side = 8;
+constexpr double carrier_step = 0.015;  // relative
+constexpr int plants_a_carrier = 8;
+constexpr std::size_t most_targets = 3;
+
+/// The loop of a scene, fed forward, on a friction that it knows.
+scene::Scene fed_forward(scene::Scene scene) {
+  scene.controller->vibration.reset();
+  scene.controller->calibration_s = 0.0;
+  scene.controller->relearn_every_s.reset();
+  scene.sensor.vibration.reset();
+  scene.sensor.force = true;
+  scene.drive->bias_limit_N = 0.0;
+  return scene;
+}
+
+/// The scene with a few of its targets, each for a while, at one speed.
+scene::Scene trial(scene::Scene scene, const std::vector<double>& ratios, double sliding_m_per_s,
+                   double frequency_Hz) {
+  scene.drive->frequency_Hz = frequency_Hz;
+  scene.sliding.profile = {{0.0, sliding_m_per_s}};
+  scene.run.record.clear();
+  scene.run.window_start_s = 0.0;
+  auto& targets = scene.controller->target_friction_ratio;
+  targets.clear();
+  // From rest to the strongest drive, and on: the largest change comes first.
+  for (std::size_t i = 0; i < std::min(ratios.size(), most_targets); ++i) {
+    targets.push_back({static_cast<double>(i) * step_periods / frequency_Hz, ratios[i]});
+  }
+  scene.run.duration_s = static_cast<double>(targets.size()) * step_periods / frequency_Hz;
+  constexpr double quick = 1e-6;
+  scene.solver.tolerance = std::max(scene.solver.tolerance, quick);
+  return scene;
+}
+
+enum class Outcome { settled, late, never };
+
+Outcome outcome_of(const configure::Experiment& experiment) {
+  report::StepMeter meter(experiment.plant, *experiment.design);
+  loop::Watch watch;
+  watch.periods.push_back(&meter);
+  watch.energies = false;
+  try {
+    loop::run(experiment, watch);
+  } catch (const loop::ComputationError&) {
+    return Outcome::never;
+  }
+  Outcome worst = Outcome::settled;
+  const double prompt_s = prompt_periods / experiment.plant.drive->frequency_Hz;
+  for (const report::StepMetrics& step : meter.steps()) {
+    if (!step.settling_time_s) {
+      return Outcome::never;
+    }
+    worst = *step.settling_time_s > prompt_s ? Outcome::late : worst;
+  }
+  return worst;
+}
+
+/// Whether the largest drive gives the vibration that the lowest ratio needs.
+bool has_force(const configure::ControlDesign& design, double lowest_ratio,
+               double sliding_m_per_s) {
+  return design.vibration_map(design.friction_force * design.scales.force_N)
+             .velocity_m_per_s(lowest_ratio, sliding_m_per_s) < design.scales.velocity_m_per_s;
+}
+
+Tally try_plants(const scene::Scene& nominal, double stiffness_range) {
+  Tally tally;
+  for (int i = 0; i < plants_a_carrier; ++i) {
+    scene::Scene plant = nominal;
+    const double part = 2.0 * i / (plants_a_carrier - 1) - 1.0;
+    plant.plant.stiffness_N_per_m *= 1.0 + stiffness_range * part;
+    switch (outcome_of(configure::make_experiment(nominal, std::move(plant)))) {
+      case Outcome::settled:
+        ++tally.settled;
+        break;
+      case Outcome::late:
+        ++tally.late;
+        break;
+      case Outcome::never:
+        ++tally.never;
+        break;
+    }
+  }
+  return tally;
+}
+
+/// With the other way of the amplitude the design chooses what goes with it.
+scene::Scene with_drive(scene::Scene scene, scene::Interpolation interpolation) {
+  if (scene.drive->interpolation != interpolation) {
+    scene.drive->interpolation = interpolation;
+    scene.controller->shaping = interpolation == scene::Interpolation::step
+                                    ? std::optional(scene::Shaping::notch)
+                                    : std::nullopt;
+  }
+  return scene;
+}
+
+/// @param nominal  a trial at the scene's carrier
+QuietDrive quiet_drive(const scene::Scene& nominal, double stiffness_range) {
+  const configure::ControlDesign design = configure::design_control(nominal);
+  const auto& mode = *design.in_mode<configure::FeedforwardDesign>();
+  return {nominal.drive->interpolation,
+          mode.quieting,
+          mode.notch ? mode.notch->tap_count : 0,
+          mode.changing_periods(),
+          configure::left_behind(nominal, configure::nominal_plant(nominal), design, mode.notch),
+          try_plants(nominal, stiffness_range)};
+}
+
+CarrierPoint carrier_point(const scene::Scene& nominal, const NaturalModeStudy& study) {
+  CarrierPoint point;
+  point.frequency_Hz = nominal.drive->frequency_Hz;
+  point.mode_per_carrier = study.natural_Hz / point.frequency_Hz;
+  point.from_multiple = std::abs(point.mode_per_carrier - std::round(point.mode_per_carrier));
+  const auto& targets = nominal.controller->target_friction_ratio;
+  try {
+    point.reachable = has_force(configure::design_control(nominal), targets.front().friction_ratio,
+                                nominal.sliding.profile.front().velocity_m_per_s);
+  } catch (const configure::ConfigurationError&) {
+    point.reachable = false;
+  }
+  if (point.reachable) {
+    point.plants = try_plants(nominal, study.stiffness_range);
+  }
+  return point;
+}
+
+bool is_better(const QuietDrive& a, const QuietDrive& b) {
+  return std::tuple(a.plants.never, a.plants.late, a.changing_periods) <
+         std::tuple(b.plants.never, b.plants.late, b.changing_periods);
+}
+
+std::optional<std::size_t> recommended_carrier(const NaturalModeStudy& study) {
+  constexpr std::size_t worth_it = 2;  // more plants than at the scene's own carrier
+  const auto rank = [&](std::size_t i) {
+    const std::size_t distance = i > study.own ? i - study.own : study.own - i;
+    const std::size_t settled = study.carriers[i].plants.settled;
+    return std::pair(settled + (i == study.own ? worth_it - 1 : 0),
+                     study.carriers.size() - distance);
+  };
+  std::size_t best = study.own;
+  for (std::size_t i = 0; i < study.carriers.size(); ++i) {
+    best = rank(i) > rank(best) ? i : best;
+  }
+  return study.carriers[best].plants.settled > 0 ? std::optional(best) : std::nullopt;
+}
+
+}  // namespace
+
+std::optional<NaturalModeStudy> natural_mode_study(const scene::Scene& stated,
+                                                   const std::vector<double>& ratios,
+                                                   double sliding_m_per_s) {
+  const bool vibrates_along = !scene::is<scene::laws::TransverseCoulomb>(stated.friction.law) &&
+                              !scene::is<scene::laws::NormalCoulomb>(stated.friction.law);
+  const double critical = 2.0 * std::sqrt(stated.plant.stiffness_N_per_m * stated.plant.mass_kg);
+  if (stated.resonant() || !vibrates_along || !(stated.plant.damping_N_s_per_m < critical)) {
+    return std::nullopt;
+  }
+  const scene::Scene scene = fed_forward(stated);
+  NaturalModeStudy study;
+  study.natural_Hz = scene.plant.natural_rad_per_s() / numeric::two_pi;
+  study.range = configure::believed_range(scene);
+  study.assumed_range = configure::natural_frequency_range(scene.tolerances) == 0.0;
+  study.stiffness_range = 2.0 * study.range;
+  study.plants = plants_a_carrier;
+  study.targets = std::min(ratios.size(), most_targets);
+  study.own = carriers_on_a_side;
+  study.carriers.resize(2 * carriers_on_a_side + 1);
+  const double own_Hz = stated.drive->frequency_Hz;
+  const auto tried_at = [&](const scene::Scene& each, double frequency_Hz) {
+    return trial(each, ratios, sliding_m_per_s, frequency_Hz);
+  };
+  for (const auto& each : scene::interpolations) {
+    study.drives.push_back(
+        quiet_drive(tried_at(with_drive(scene, each.value), own_Hz), study.stiffness_range));
+  }
+  const auto best = std::min_element(study.drives.begin(), study.drives.end(), is_better);
+  study.best_drive = static_cast<std::size_t>(best - study.drives.begin());
+  const scene::Scene driven = with_drive(scene, best->interpolation);
+  tbb::parallel_for(std::size_t{0}, study.carriers.size(), [&](std::size_t i) {
+    const double away = carrier_step * (static_cast<double>(i) - carriers_on_a_side);
+    study.carriers[i] = carrier_point(tried_at(driven, own_Hz * (1.0 + away)), study);
+  });
+  study.recommended = recommended_carrier(study);
+  return study;
+}
+
+}  // namespace sonoglide::design

@@ -1,0 +1,66 @@
+/// What becomes of the natural mode when the drive changes: what keeps it quiet, and at which carriers.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "host_sim/configure/vibration/ramp_design.hpp"
+#include "host_sim/scene/scene.hpp"
+
+namespace sonoglide::design {
+
+/// Plants tried with the same targets, by how their worst target step went.
+struct Tally {
+  std::size_t settled = 0;  ///< within prompt_periods
+  std::size_t late = 0;
+  std::size_t never = 0;
+};
+
+/// A controller that feeds the drive forward, with one way of the amplitude from period to period.
+struct QuietDrive {
+  scene::Interpolation interpolation = scene::Interpolation::step;
+  configure::Quieting quieting = configure::Quieting::nothing;
+  std::size_t tap_count = 0;
+  double changing_periods = 0.0;    ///< until a change of the drive is complete
+  configure::LeftBehind left = {};  ///< of the natural mode, at the worst within the range
+  Tally plants = {};                ///< at the scene's carrier
+};
+
+struct CarrierPoint {
+  double frequency_Hz = 0.0;
+  double mode_per_carrier = 0.0;
+  double from_multiple =
+      0.0;                ///< to the nearest whole multiple of the carrier, 0 included; in carriers
+  bool reachable = true;  ///< there is a controller, and the drive has the force
+  Tally plants = {};
+};
+
+struct NaturalModeStudy {
+  double natural_Hz = 0.0;
+  double range = 0.0;              ///< by which the natural frequency may be off, relative
+  double stiffness_range = 0.0;    ///< of the plants tried, relative
+  bool assumed_range = false;      ///< the scene tells of none
+  std::size_t plants = 0;          ///< with each drive, and at each carrier
+  std::size_t targets = 0;         ///< of each loop
+  std::vector<QuietDrive> drives;  ///< step, then linear
+  /// Of these the one with which fewest never settle, then fewest late; then the quickest.
+  std::size_t best_drive = 0;
+  std::vector<CarrierPoint> carriers;  ///< by rising frequency, with the best drive
+  std::size_t own = 0;                 ///< the scene's place among them
+  /// The nearest at which the most plants settle promptly, and the scene's own where no other settles
+  /// two more; none if none does.
+  std::optional<std::size_t> recommended;
+};
+
+inline constexpr int prompt_periods = 60;  ///< a millisecond at 60 kHz
+inline constexpr int step_periods = 100;   ///< that a target lasts in the loops that are tried
+
+/// Of a loop off resonance whose plant has a natural mode; else none.
+/// @param stated  as the controller knows it
+/// @param ratios  targets, in (0, 1)
+std::optional<NaturalModeStudy> natural_mode_study(const scene::Scene& stated,
+                                                   const std::vector<double>& ratios,
+                                                   double sliding_m_per_s);
+
+}  // namespace sonoglide::design

@@ -1,0 +1,244 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "host_sim/output/chart.hpp"
+#include "host_sim/output/number.hpp"
+#include "host_sim/scene/names.hpp"
+#include "host_sim/studies/design/report.hpp"
+
+namespace sonoglide::design {
+namespace {
+
+using nlohmann::ordered_json;
+
+const char* name(configure::Quieting quieting) {
+  switch (quieting) {
+    case configure::Quieting::notch:
+      return "notch";
+    case configure::Quieting::ramp:
+      return "ramp";
+    case configure::Quieting::ramp_and_notch:
+      return "ramp_and_notch";
+    case configure::Quieting::nothing:
+      break;
+  }
+  return "nothing";
+}
+
+std::string means(const QuietDrive& drive) {
+  const std::string notch = fmt::format("a notch of {} taps", drive.tap_count);
+  switch (drive.quieting) {
+    case configure::Quieting::notch:
+      return notch;
+    case configure::Quieting::ramp:
+      return "the ramp alone";
+    case configure::Quieting::ramp_and_notch:
+      return "the ramp and " + notch;
+    case configure::Quieting::nothing:
+      break;
+  }
+  return "nothing";
+}
+
+std::string word(const QuietDrive& drive) {
+  return fmt::format("drive.interpolation = \"{}\"",
+                     scene::name_of(scene::interpolations, drive.interpolation));
+}
+
+std::string left_behind(const QuietDrive& drive) {
+  return fmt::format(
+      "with {}, {} keeps it quiet in {:g} carrier periods and leaves {:.2g} % of free vibration for "
+      "a change of the amplitude, a swing of the ratio of ±{:.2g}",
+      word(drive), means(drive), drive.changing_periods, 100.0 * drive.left.left,
+      drive.left.ratio_swing);
+}
+
+/// The number of a multiple of the carrier, as a place.
+std::string multiple(const CarrierPoint& point) {
+  const double whole = std::round(point.mode_per_carrier);
+  return whole == 0.0   ? std::string("0")
+         : whole == 1.0 ? std::string("the carrier itself")
+                        : fmt::format("{:g} times the carrier", whole);
+}
+
+std::string tried(const NaturalModeStudy& mode) {
+  return fmt::format("{} plants with the stiffness off by up to {:.2g} %{}", mode.plants,
+                     100.0 * mode.stiffness_range,
+                     mode.assumed_range ? ", as the scene tells of no [tolerance]" : "");
+}
+
+Advice mode_advice(const NaturalModeStudy& mode) {
+  const CarrierPoint& own = mode.carriers[mode.own];
+  return {
+      "Natural mode",
+      fmt::format("{} is {:.4g} times the carrier, {:.3g} carrier frequencies from {}. Where it is "
+                  "off by up to {:.2g} %: {}; {}.",
+                  output::quantity(mode.natural_Hz, "Hz"), own.mode_per_carrier, own.from_multiple,
+                  multiple(own), 100.0 * mode.range, left_behind(mode.drives.front()),
+                  left_behind(mode.drives.back()))};
+}
+
+std::string tally_text(const Tally& tally) {
+  return fmt::format("{} settle within {} carrier periods, {} later, {} never", tally.settled,
+                     prompt_periods, tally.late, tally.never);
+}
+
+Advice controller_advice(const NaturalModeStudy& mode) {
+  const QuietDrive& best = mode.drives[mode.best_drive];
+  const std::string found = fmt::format("{} ({}): of {}, {}.", word(best), means(best), tried(mode),
+                                        tally_text(best.plants));
+  if (best.plants.never == 0) {
+    return {
+        "Controller",
+        fmt::format("The cheapest that holds this plant feeds the drive forward with {} It needs "
+                    "no observer of the mode (controller.vibration = \"damped\", 1158 to 2633 "
+                    "instructions a period and 26 kB without a vibration sensor).",
+                    found)};
+  }
+  return {
+      "Controller",
+      fmt::format("The best that feeds the drive forward has {} For the others use another "
+                  "carrier, or controller.vibration = \"damped\", best with a vibration sensor; "
+                  "without one its observer takes 1158 to 2633 instructions a period and 26 kB.",
+                  found)};
+}
+
+Advice carrier_advice(const NaturalModeStudy& mode) {
+  const CarrierPoint& own = mode.carriers[mode.own];
+  const auto settled = [&](const CarrierPoint& point) {
+    return fmt::format("{} of {} settle within {} carrier periods", point.plants.settled,
+                       mode.plants, prompt_periods);
+  };
+  if (!mode.recommended) {
+    return {"Carrier",
+            fmt::format("Of {}, none settles within {} carrier periods at any carrier from "
+                        "{} to {}.",
+                        tried(mode), prompt_periods,
+                        output::quantity(mode.carriers.front().frequency_Hz, "Hz"),
+                        output::quantity(mode.carriers.back().frequency_Hz, "Hz"))};
+  }
+  const CarrierPoint& best = mode.carriers[*mode.recommended];
+  // The range moves the mode by so many carrier frequencies.
+  const double moved = 0.5 * mode.stiffness_range * best.mode_per_carrier;
+  const std::string far = fmt::format(
+      "the mode is {:.3g} carrier frequencies from {} there, {:.2g} times as far as the range moves "
+      "it",
+      best.from_multiple, multiple(best), best.from_multiple / moved);
+  if (*mode.recommended == mode.own) {
+    return {"Carrier",
+            fmt::format("Keep {}: of {}, {}; {}.", output::quantity(own.frequency_Hz, "Hz"),
+                        tried(mode), settled(best), far)};
+  }
+  return {"Carrier", fmt::format("Use {} in place of {}: of {}, {} (here {}); {}.",
+                                 output::quantity(best.frequency_Hz, "Hz"),
+                                 output::quantity(own.frequency_Hz, "Hz"), tried(mode),
+                                 settled(best), own.plants.settled, far)};
+}
+
+output::Chart carrier_chart(const NaturalModeStudy& mode) {
+  output::Chart chart{"Plants that settle at carriers around the scene's",
+                      fmt::format("{} at each carrier. Prompt: every target within {} carrier "
+                                  "periods. Without a mark the drive has not the force.",
+                                  tried(mode), prompt_periods),
+                      {"Carrier frequency [Hz]"},
+                      {"Plants [-]"},
+                      {},
+                      {}};
+  chart.y_axis.has_zero = true;
+  chart.y_axis.whole_numbers = true;
+  output::Curve settled{"settled", {}};
+  output::Curve late{"late", {}};
+  output::Curve never{"never", {}};
+  for (const CarrierPoint& point : mode.carriers) {
+    const auto count = [&](std::size_t plants) {
+      return point.reachable ? static_cast<double>(plants) : undefined;
+    };
+    chart.x.push_back(point.frequency_Hz);
+    settled.y.push_back(count(point.plants.settled));
+    late.y.push_back(count(point.plants.late));
+    never.y.push_back(count(point.plants.never));
+  }
+  chart.curves = {std::move(settled), std::move(late), std::move(never)};
+  chart.curves.push_back(
+      {"the scene", {1.0}, output::Line::full_height, {mode.carriers[mode.own].frequency_Hz}});
+  return chart;
+}
+
+output::Table drives_table(const NaturalModeStudy& mode) {
+  output::Table table{"What keeps the natural mode quiet",
+                      {"Drive", "Quieted by", "Taps", "Complete after", "Free vibration left",
+                       "Swing of the ratio", "Settled", "Late", "Never"},
+                      {}};
+  for (const QuietDrive& drive : mode.drives) {
+    table.rows.push_back(
+        {std::string(scene::name_of(scene::interpolations, drive.interpolation)), means(drive),
+         fmt::format("{}", drive.tap_count), fmt::format("{:g} periods", drive.changing_periods),
+         fmt::format("{:.3g} %", 100.0 * drive.left.left),
+         fmt::format("±{:.3g}", drive.left.ratio_swing), fmt::format("{}", drive.plants.settled),
+         fmt::format("{}", drive.plants.late), fmt::format("{}", drive.plants.never)});
+  }
+  return table;
+}
+
+}  // namespace
+
+std::vector<Advice> natural_mode_advice(const NaturalModeStudy& mode) {
+  return {mode_advice(mode), controller_advice(mode), carrier_advice(mode)};
+}
+
+output::Section natural_mode_section(const DesignStudy& study, const NaturalModeStudy& mode) {
+  output::Section section;
+  section.title = "The natural mode and the carrier";
+  section.text = fmt::format(
+      "Each change of the amplitude excites the natural mode. Free vibration left: of a change, over "
+      "the forced vibration, in displacement, at the worst natural frequency within the range. Swing "
+      "of the ratio: half of it, from rest to the target that swings most; the settling band is {:g}. "
+      "Settled, late and never are closed loops of {} targets of {} carrier periods each; in the chart "
+      "with {}.",
+      study.task.scene.run.settling_band, mode.targets, step_periods,
+      word(mode.drives[mode.best_drive]));
+  section.tables = {drives_table(mode)};
+  section.charts = {carrier_chart(mode)};
+  return section;
+}
+
+ordered_json to_json(const NaturalModeStudy& mode) {
+  ordered_json json = {
+      {"frequency_Hz", mode.natural_Hz},         {"frequency_range", mode.range},
+      {"drives", ordered_json::array()},         {"plants", mode.plants},
+      {"stiffness_range", mode.stiffness_range}, {"prompt_periods", prompt_periods},
+      {"carriers", ordered_json::array()}};
+  for (const QuietDrive& drive : mode.drives) {
+    json["drives"].push_back(
+        {{"interpolation", scene::name_of(scene::interpolations, drive.interpolation)},
+         {"quieted_by", name(drive.quieting)},
+         {"taps", drive.tap_count},
+         {"changing_periods", drive.changing_periods},
+         {"free_vibration_left", drive.left.left},
+         {"ratio_swing", drive.left.ratio_swing},
+         {"settled", drive.plants.settled},
+         {"late", drive.plants.late},
+         {"never", drive.plants.never}});
+  }
+  for (const CarrierPoint& point : mode.carriers) {
+    json["carriers"].push_back({{"frequency_Hz", point.frequency_Hz},
+                                {"mode_per_carrier", point.mode_per_carrier},
+                                {"from_multiple", point.from_multiple},
+                                {"within_reach", point.reachable},
+                                {"settled", point.plants.settled},
+                                {"late", point.plants.late},
+                                {"never", point.plants.never}});
+  }
+  json["best_interpolation"] =
+      scene::name_of(scene::interpolations, mode.drives[mode.best_drive].interpolation);
+  json["recommended_frequency_Hz"] =
+      mode.recommended ? ordered_json(mode.carriers[*mode.recommended].frequency_Hz)
+                       : ordered_json(nullptr);
+  return json;
+}
+
+}  // namespace sonoglide::design

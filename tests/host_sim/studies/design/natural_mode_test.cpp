@@ -1,0 +1,109 @@
+/// What a design tells of the natural mode, of the controller that holds it, and of the carrier.
+
+#include "host_sim/studies/design/natural_mode.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "design_scenes.hpp"
+#include "host_sim/studies/design/report.hpp"
+#include "host_sim/studies/design/study.hpp"
+
+namespace sonoglide::design::natural_mode_test {
+namespace {
+
+constexpr double sliding_m_per_s = 0.02672;
+
+/// Table 1 on a spring that puts the natural mode 0.010 carrier frequencies above twice the carrier.
+scene::Scene beside_a_multiple() {
+  scene::Scene scene = table_1();
+  scene.plant.stiffness_N_per_m = 11.484e9;
+  scene.drive->max_force_amplitude_N = 6000.0;
+  scene.drive->codes_per_period = 8;
+  return scene;
+}
+
+NaturalModeStudy study_of(const scene::Scene& scene) {
+  return *natural_mode_study(scene, {0.4, 0.6}, sliding_m_per_s);
+}
+
+TEST(NaturalModeTest, TellsWhereTheModeIsAndWhatKeepsItQuiet) {
+  const NaturalModeStudy found = study_of(beside_a_multiple());
+  EXPECT_NEAR(found.natural_Hz, std::sqrt(11.484e9 / 0.02) / (2.0 * tests::pi), 1e-6);
+  EXPECT_NEAR(found.carriers[found.own].from_multiple, 0.010, 5e-4);
+  ASSERT_EQ(found.drives.size(), 2U);
+  EXPECT_EQ(found.drives[0].interpolation, scene::Interpolation::step);
+  EXPECT_EQ(found.drives[1].quieting, configure::Quieting::ramp);
+  EXPECT_LT(found.drives[1].left.left, 0.05);
+  EXPECT_EQ(found.drives[0].plants.never, found.plants);
+  EXPECT_GT(found.drives[1].plants.settled, 2U);
+  EXPECT_EQ(found.best_drive, 1U);
+}
+
+TEST(NaturalModeTest, RecommendsACarrierAtWhichEveryPlantSettles) {
+  const NaturalModeStudy found = study_of(beside_a_multiple());
+  EXPECT_TRUE(found.assumed_range);
+  EXPECT_NEAR(found.stiffness_range, 0.05, 1e-12);
+  EXPECT_GT(found.carriers[found.own].plants.never, 0U);
+  ASSERT_TRUE(found.recommended);
+  const CarrierPoint& best = found.carriers[*found.recommended];
+  EXPECT_GT(best.plants.settled, found.carriers[found.own].plants.settled);
+  EXPECT_GT(best.from_multiple, 0.05);
+  for (const CarrierPoint& point : found.carriers) {
+    EXPECT_EQ(point.plants.settled + point.plants.late + point.plants.never,
+              point.reachable ? found.plants : 0U);
+  }
+}
+
+TEST(NaturalModeTest, KeepsACarrierThatIsFarFromTrouble) {
+  const NaturalModeStudy found = study_of(table_1());
+  ASSERT_TRUE(found.recommended);
+  EXPECT_EQ(*found.recommended, found.own);
+  EXPECT_GE(found.carriers[found.own].plants.settled, found.plants - 1);
+  EXPECT_EQ(found.drives[0].quieting, configure::Quieting::notch);
+}
+
+TEST(NaturalModeTest, TakesTheToleranceOfTheScene) {
+  scene::Scene scene = table_1();
+  const double stiffness = scene.plant.stiffness_N_per_m;
+  scene.tolerances.push_back({"plant.stiffness_N_per_m", scene::Spread::half_width, 0.02, stiffness,
+                              0.98 * stiffness, 1.02 * stiffness});
+  const NaturalModeStudy found = study_of(scene);
+  EXPECT_FALSE(found.assumed_range);
+  EXPECT_NEAR(found.stiffness_range, 0.02, 3e-4);
+}
+
+TEST(NaturalModeTest, IsOfNoLoopAtResonanceAndOfNoVibrationAcrossTheSliding) {
+  scene::Scene followed = table_1();
+  followed.controller->vibration = scene::VibrationControl::resonant;
+  EXPECT_FALSE(natural_mode_study(followed, {0.5}, sliding_m_per_s));
+  EXPECT_FALSE(natural_mode_study(transverse(), {0.5}, sliding_m_per_s));
+}
+
+TEST(NaturalModeTest, SaysSoInWordsAndInJson) {
+  const DesignStudy study =
+      design::study(make_task(configure::make_experiment(beside_a_multiple()), {0.4, 0.6},
+                              SpeedRange{sliding_m_per_s, sliding_m_per_s}),
+                    [](double) {});
+  std::string text;
+  for (const Advice& each : advice(study)) {
+    text += each.topic + ": " + each.sentence + '\n';
+  }
+  const auto says = [&](const char* part) { return text.find(part) != std::string::npos; };
+  EXPECT_TRUE(says("is 2.01 times the carrier, 0.01 carrier frequencies from 2 times the carrier"))
+      << text;
+  EXPECT_TRUE(says("with drive.interpolation = \"linear\", the ramp alone keeps it quiet")) << text;
+  EXPECT_TRUE(
+      says("Controller: The best that feeds the drive forward has drive.interpolation = "
+           "\"linear\" (the ramp alone): of 8 plants"))
+      << text;
+  EXPECT_TRUE(says("Carrier: Use ")) << text;
+  const auto json = to_json(study)["natural_mode"];
+  EXPECT_EQ(json["drives"][1]["quieted_by"], "ramp");
+  EXPECT_EQ(json["carriers"].size(), study.natural_mode->carriers.size());
+}
+
+}  // namespace
+}  // namespace sonoglide::design::natural_mode_test
