@@ -24,7 +24,7 @@ constexpr double carrier_step = 0.015;  // relative
 constexpr int plants_a_carrier = 8;
 constexpr std::size_t most_targets = 3;
 
-/// The loop of a scene, fed forward, on a friction that it knows.
+/// The loop of a scene, fed forward from rest, on a friction that it knows.
 scene::Scene fed_forward(scene::Scene scene) {
   scene.controller->vibration.reset();
   scene.controller->calibration_s = 0.0;
@@ -32,6 +32,9 @@ scene::Scene fed_forward(scene::Scene scene) {
   scene.sensor.vibration.reset();
   scene.sensor.force = true;
   scene.drive->bias_limit_N = 0.0;
+  scene.plant.initial_displacement_m = 0.0;
+  scene.plant.initial_velocity_m_per_s = 0.0;
+  scene.friction.initial_force_N = 0.0;
   return scene;
 }
 
