@@ -47,6 +47,7 @@ void keep_what_follows(scene::Scene& truth, const scene::Scene& stated) {
     truth.friction.normal_force_N = stated.friction.normal_force_N;
   }
   truth.sensor.force_full_scale_N = stated.sensor.force_full_scale_N;
+  truth.solver = stated.solver;
   truth.run = stated.run;
   truth.controller = stated.controller;
 }

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "host_sim/experiment/experiment.hpp"
 #include "host_sim/scene/solver_facts.hpp"
 #include "host_sim/scene_file/reader.hpp"
 #include "host_sim/scene_file/to_json.hpp"
@@ -49,6 +50,16 @@ TEST(FastestMethodTest, IsTheOneThatTheSceneNames) {
 TEST(FastestMethodTest, IsNamedInTheEcho) {
   const scene::Scene scene = read_file(std::string(SONOGLIDE_SCENES) + "/target_step.toml");
   EXPECT_EQ(to_json(scene).at("solver").at("method"), "event_gauss");
+}
+
+/// So that the worst plant of robust runs again as it ran there.
+TEST(FastestMethodTest, IsThatOfTheSceneForATruePlantToo) {
+  const scene::Scene plant =
+      experiment::read_file(std::string(SONOGLIDE_SCENES) + "/target_step.toml",
+                            {"true_values.\"friction.contact_stiffness_N_per_m\"=1e9"})
+          .plant;
+  ASSERT_EQ(plant.friction.contact_stiffness_N_per_m, 1e9);
+  EXPECT_EQ(scene::name_of(plant.solver.method), "event_gauss");
 }
 
 TEST(FastestMethodTest, IsEventTaylorWhereEventGaussDoesNotServe) {
